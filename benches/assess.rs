@@ -66,7 +66,7 @@ fn cue_latency(scenario: &Scenario, datagrams: &[Vec<u8>]) -> (Duration, Duratio
         started_unix_us: 0,
         system_id: 1,
         seed: None,
-        build: fence_of_ten,
+        survey_builder: fence_of_ten,
     });
     let (mut slowest, mut slowest_change) = (Duration::ZERO, Duration::ZERO);
     for datagram in datagrams {

@@ -5,8 +5,8 @@ mod best;
 
 use best::best;
 use spandrel_training::cohort::{Selection, cohort};
-use spandrel_training::record::Incomplete;
-use spandrel_training::record::Record;
+use spandrel_training::record::IncompletePolicy;
+use spandrel_training::record::SessionRecord;
 use std::time::Duration;
 
 const RECORDS: &str = include_str!("../examples/cohort/records.jsonl");
@@ -16,7 +16,7 @@ const CEILING: Duration = Duration::from_secs(2);
 const ROUNDS: usize = 5;
 
 fn main() {
-    let originals: Vec<Record> = RECORDS.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
+    let originals: Vec<SessionRecord> = RECORDS.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
     let renamed = |k: usize| {
         let mut record = originals[k % originals.len()].clone();
         record.trainee = format!("{}-{}", record.trainee, k / originals.len());
@@ -25,8 +25,8 @@ fn main() {
     };
     let lines: Vec<String> = (0..SESSIONS).map(renamed).collect();
     let took = best(ROUNDS, || {
-        let records: Vec<Record> = lines.iter().filter_map(|line| serde_json::from_str(line).ok()).collect();
-        cohort(&records, &Selection { scenarios: Vec::new(), repetitions: 3, incomplete: Incomplete::LeaveOut })
+        let records: Vec<SessionRecord> = lines.iter().filter_map(|line| serde_json::from_str(line).ok()).collect();
+        cohort(&records, &Selection { scenarios: Vec::new(), repetitions: 3, incomplete: IncompletePolicy::LeaveOut })
     });
     println!("a cohort of {SESSIONS} sessions: {:.2} s (ceiling {} s)", took.as_secs_f64(), CEILING.as_secs());
     assert!(took < CEILING, "the ceiling is broken");

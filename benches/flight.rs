@@ -6,7 +6,7 @@ mod best;
 
 use best::best;
 use spandrel_model::time::SimTime;
-use spandrel_sitl::sensors::{BatteryReading, Readings, Truth};
+use spandrel_sitl::sensors::{BatteryReading, Readings, SensorInputs};
 use spandrel_testkit::bench::Bench;
 use spandrel_testkit::shipped::vehicle;
 use std::hint::black_box;
@@ -25,11 +25,11 @@ fn say(what: &str, taken: Duration) {
 fn tape(start: &Bench) -> Vec<(SimTime, Readings)> {
     let mut sensors = start.sensors.clone();
     let battery = BatteryReading { voltage_v: 11.5, current_a: 12.0, remaining_pct: 80.0 };
-    let truth = Truth { rigid: &start.state.rigid, battery, lamp_on: false };
+    let truth = SensorInputs { rigid: &start.state.rigid, battery, lamp_on: false };
     let mut now = start.now;
     (0..(SECONDS * 400.0) as usize)
         .map(|_| {
-            sensors.feel(&start.state.rigid, start.state.specific_force_m_s2, TICK);
+            sensors.integrate_imu(&start.state.rigid, start.state.specific_force_m_s2, TICK);
             now += TICK;
             (now, sensors.sample(&truth, &start.site, now))
         })

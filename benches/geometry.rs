@@ -7,7 +7,7 @@ use best::best;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::{Scenario, TaskKind};
-use spandrel_model::site::Probe;
+use spandrel_model::site::HullProbe;
 use spandrel_model::site::geometry::Geometry;
 use std::hint::black_box;
 
@@ -58,7 +58,7 @@ fn main() {
         let taken = best(ROUNDS, || {
             for p in points {
                 found.clear();
-                let probe = Probe::Capsule { a_m: *p, b_m: *p + Vec3::new(0.15, 0.1, 0.02), radius_m: 0.03 };
+                let probe = HullProbe::Capsule { a_m: *p, b_m: *p + Vec3::new(0.15, 0.1, 0.02), radius_m: 0.03 };
                 geometry.contacts(&probe, 0.05, &mut found);
                 black_box(&found);
             }
@@ -68,7 +68,8 @@ fn main() {
     let deck = around(&[Vec3::new(10.0, 1.0, 34.0)], 0.005, 7);
     say("contacts of a capsule on the deck", &deck, |p| {
         let mut found = Vec::new();
-        let probe = Probe::Capsule { a_m: p + Vec3::new(0.0, 0.0, 0.03), b_m: p + Vec3::new(0.15, 0.1, 0.03), radius_m: 0.03 };
+        let probe =
+            HullProbe::Capsule { a_m: p + Vec3::new(0.0, 0.0, 0.03), b_m: p + Vec3::new(0.15, 0.1, 0.03), radius_m: 0.03 };
         geometry.contacts(&probe, 0.05, &mut found);
         found
     });

@@ -7,7 +7,7 @@ use spandrel_model::scenario::{BatteryModel, Scenario};
 use spandrel_model::site::{Site, Surface};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
-use spandrel_sitl::physics::{Actuators, Air, Load, MAX_ROTORS, Model, State};
+use spandrel_sitl::physics::{Actuators, AirState, AirframeModel, MAX_ROTORS, PhysicsState, PowerLoad};
 use std::hint::black_box;
 use std::path::Path;
 use std::process::ExitCode;
@@ -80,7 +80,7 @@ struct Case {
     name: &'static str,
     /// Largest median, in floors.
     limit: f64,
-    start: State,
+    start: PhysicsState,
     /// The instant that the state is of.
     since: SimTime,
     actuators: Actuators,
@@ -90,21 +90,21 @@ struct Case {
 }
 
 impl Case {
-    fn new(name: &'static str, limit: f64, start: State, actuators: Actuators) -> Self {
+    fn new(name: &'static str, limit: f64, start: PhysicsState, actuators: Actuators) -> Self {
         Self { name, limit, start, since: SimTime::ZERO, actuators, touches: false, samples: Vec::new() }
     }
 
     /// On the deck, from a state of [`SETTLED`] on.
-    fn on_deck(name: &'static str, limit: f64, start: State) -> Self {
+    fn on_deck(name: &'static str, limit: f64, start: PhysicsState) -> Self {
         Self { since: SETTLED, touches: true, ..Self::new(name, limit, start, Actuators::default()) }
     }
 
-    fn fly(&self, model: &Model, site: &Site) -> State {
+    fn fly(&self, model: &AirframeModel, site: &Site) -> PhysicsState {
         let (mut state, mut now) = (self.start.clone(), self.since);
-        let load = Load { lamp_on: true, airborne: true };
+        let load = PowerLoad { lamp_on: true, airborne: true };
         let mut touched = 0;
         for _ in 0..STEPS {
-            model.advance(&mut state, &self.actuators, &Air::STILL, site, load, now, STEP);
+            model.advance(&mut state, &self.actuators, &AirState::STILL, site, load, now, STEP);
             now += STEP;
             touched += i64::from(state.contact.touching());
         }
@@ -139,11 +139,11 @@ fn deck(site: &Site) -> Vec3<Enu> {
     above - Vec3::new(0.0, 0.0, hit.distance_m)
 }
 
-fn at(place: Vec3<Enu>) -> State {
-    State::at_rest(place.ned(), 0.3)
+fn at(place: Vec3<Enu>) -> PhysicsState {
+    PhysicsState::at_rest(place.ned(), 0.3)
 }
 
-fn hovering(model: &Model, place: Vec3<Enu>) -> State {
+fn hovering(model: &AirframeModel, place: Vec3<Enu>) -> PhysicsState {
     let mut state = at(place);
     state.rigid.rotor_rad_s = [model.hover_rotor_rad_s(); MAX_ROTORS];
     state
@@ -153,19 +153,19 @@ fn hovering(model: &Model, place: Vec3<Enu>) -> State {
 const SETTLED: SimTime = SimTime::from_ms(2000);
 
 /// Settled on its feet at [`SETTLED`].
-fn standing(model: &Model, site: &Site, vehicle: &Vehicle, deck: Vec3<Enu>) -> State {
+fn standing(model: &AirframeModel, site: &Site, vehicle: &Vehicle, deck: Vec3<Enu>) -> PhysicsState {
     let feet = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max);
     let mut state = at(deck + Vec3::new(0.0, 0.0, feet + 0.03));
     let mut now = SimTime::ZERO;
     while now < SETTLED {
-        model.advance(&mut state, &Actuators::default(), &Air::STILL, site, Load::default(), now, STEP);
+        model.advance(&mut state, &Actuators::default(), &AirState::STILL, site, PowerLoad::default(), now, STEP);
         now += STEP;
     }
     assert!(state.contact.touching(), "it stands");
     state
 }
 
-fn cases(model: &Model, site: &Site, vehicle: &Vehicle) -> Vec<Case> {
+fn cases(model: &AirframeModel, site: &Site, vehicle: &Vehicle) -> Vec<Case> {
     let hover = Actuators { motors: [model.hover_command(); MAX_ROTORS], armed: true };
     let deck = deck(site);
     let up = |m: f64| Vec3::new(0.0, 0.0, m);
@@ -205,7 +205,7 @@ fn fly_floor() {
 fn main() -> ExitCode {
     let (vehicle, scenario) = (vehicle(), scenario());
     let site = Site::build(&scenario, 1);
-    let model = Model::new(&vehicle, BatteryModel::Physical);
+    let model = AirframeModel::new(&vehicle, BatteryModel::Physical);
     let mut cases = cases(&model, &site, &vehicle);
     let mut floors = Vec::new();
     for _ in 0..SAMPLES {

@@ -1,7 +1,7 @@
 //! The report of a 25-minute session: how long reading, working out and writing take, and how large the page is. Prints against the ceilings.
 
 use spandrel_testkit::inspection;
-use spandrel_training::report::{About, Review, page};
+use spandrel_training::report::{Review, SessionFacts, page};
 use std::process::ExitCode;
 use std::time::Duration;
 
@@ -18,7 +18,8 @@ fn main() -> ExitCode {
     let mut best = (Duration::MAX, Duration::MAX, 0, 0);
     for _ in 0..ROUNDS {
         let start = std::time::Instant::now();
-        let review = Review::of(&log, &scenario, &vehicle, About::default()).expect("a flight of the bench can be reviewed");
+        let review =
+            Review::of(&log, &scenario, &vehicle, SessionFacts::default()).expect("a flight of the bench can be reviewed");
         let worked_out = start.elapsed();
         let page = page::session(&review);
         if start.elapsed() < best.1 {

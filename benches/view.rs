@@ -6,12 +6,12 @@
 mod running;
 
 use running::{Client, Lateness, now, start};
-use spandrel::aside::Aside;
+use spandrel::secondary_renderer::SecondaryRenderer;
 use spandrel_mavlink::dialect::{HEARTBEAT_DATA, MavMessage};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, two_bridges};
-use spandrel_view::gpu::{Counts, Gpu, fill, picture_texture};
+use spandrel_view::gpu::{DrawCounts, Gpu, fill, picture_texture};
 use spandrel_view::quality::Quality;
 use spandrel_view::shot::Shot;
 use std::sync::Arc;
@@ -51,13 +51,13 @@ const PACE_OVER: Duration = Duration::from_secs(10);
 
 struct Cost {
     frame: Duration,
-    counts: Counts,
+    counts: DrawCounts,
 }
 
 /// What draws both views as the window does: the camera's aside where there is no graphics card.
 struct Views {
     studio: Studio,
-    aside: Option<Aside>,
+    aside: Option<SecondaryRenderer>,
     /// The inspector's, the camera's.
     textures: [wgpu::Texture; 2],
 }
@@ -67,7 +67,7 @@ impl Views {
         let software = gpu.software;
         let studio = Studio::on(gpu, two_bridges(), 7, preset, SimTime::ZERO);
         let quality = Quality::named(preset).expect("a preset");
-        let aside = software.then(|| Aside::open(quality, Arc::clone(&studio.scene)).expect("a second device"));
+        let aside = software.then(|| SecondaryRenderer::open(quality, Arc::clone(&studio.scene)).expect("a second device"));
         let textures = [(); 2].map(|()| picture_texture(&studio.gpu, (1, 1)));
         Self { studio, aside, textures }
     }
@@ -78,7 +78,7 @@ impl Views {
         let moment = self.studio.moment(from, look, false, at(1.0, 0.5, 0.0));
         let camera = self.studio.stage().camera(&moment, size_px);
         if let Some(aside) = &self.aside {
-            aside.begin(camera.clone()).expect("the second device works");
+            aside.start(camera.clone()).expect("the second device works");
         }
         let inspector = self.studio.stage().inspector(&moment, size_px);
         let (gpu, renderer) = self.studio.renderer();

@@ -1,7 +1,7 @@
 //! The pages of a database with 10,000 sessions, made from the example study under new names, as `spandrel serve` answers them over its
 //! socket: list, last page of the list, one session, one trainee, and the cohort. The cohort's page stays small.
 
-use spandrel_training::record::Record;
+use spandrel_training::record::SessionRecord;
 use sqlx::{Connection, Row, SqliteConnection};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
@@ -73,7 +73,7 @@ impl Drop for Server {
 
 /// Copies of the study's records; the tables are there already.
 async fn fill(file: &Path) -> Result<String, sqlx::Error> {
-    let originals: Vec<Record> = RECORDS.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
+    let originals: Vec<SessionRecord> = RECORDS.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
     let mut database = SqliteConnection::connect(&format!("sqlite://{}", file.display())).await?;
     let columns = "id, trainee, started_unix_us, scenario, scenario_sha256, vehicle, vehicle_sha256, telemetry_sha256, spandrel_version, \
         scorer_version, end_reason, seconds, conformity, efficiency, safety, accuracy, overall, overall_max, fingerprint, record";
@@ -109,8 +109,12 @@ fn main() {
     let empty = server.median("/sessions", ROUNDS).0;
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
     let last = runtime.block_on(fill(&folder.path().join("records.sqlite"))).expect("the records go in");
-    let trainee =
-        RECORDS.lines().next().and_then(|line| serde_json::from_str::<Record>(line).ok()).map(|r| r.trainee).unwrap_or_default();
+    let trainee = RECORDS
+        .lines()
+        .next()
+        .and_then(|line| serde_json::from_str::<SessionRecord>(line).ok())
+        .map(|r| r.trainee)
+        .unwrap_or_default();
     let pages = [
         ("list of sessions", "/sessions".to_owned(), ROUNDS, PAGE),
         ("its last page", "/sessions?page=1000000".to_owned(), ROUNDS, PAGE),

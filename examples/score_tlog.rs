@@ -3,7 +3,7 @@
 
 use spandrel_model::{scenario, vehicle};
 use spandrel_monitor::assess_log;
-use spandrel_monitor::watch::build_site;
+use spandrel_monitor::sidecar::build_site;
 use std::error::Error;
 use std::fs;
 use std::path::Path;

@@ -11,22 +11,22 @@ const PENDING_MOST: usize = 64 * 1024 * 1024;
 /// The disk did not take a write.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: cannot be written: {error}", path.display())]
-pub struct Refused {
+pub struct WriteRefused {
     /// The file.
     pub path: PathBuf,
     /// The reason.
     pub error: std::io::Error,
 }
 
-impl Refused {
+impl WriteRefused {
     /// Returns true when space is missing, and not the disk itself at fault.
     pub fn is_full(&self) -> bool {
         matches!(self.error.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded)
     }
 }
 
-impl From<Refused> for AppError {
-    fn from(refused: Refused) -> Self {
+impl From<WriteRefused> for AppError {
+    fn from(refused: WriteRefused) -> Self {
         Self::failed(refused.to_string())
     }
 }
@@ -50,7 +50,7 @@ impl AppendFile {
     ///
     /// # Errors
     /// When it cannot be opened.
-    pub fn open(path: PathBuf, whole: fn(&[u8]) -> usize) -> Result<Self, Refused> {
+    pub fn open(path: PathBuf, whole: fn(&[u8]) -> usize) -> Result<Self, WriteRefused> {
         let open = || {
             let file = OpenOptions::new().create(true).append(true).open(&path)?;
             let len = file.metadata()?.len();
@@ -58,7 +58,7 @@ impl AppendFile {
         };
         match open() {
             Ok((file, len)) => Ok(Self { file, path, len, torn: false, pending: Vec::new(), dropped: 0, whole }),
-            Err(error) => Err(Refused { path, error }),
+            Err(error) => Err(WriteRefused { path, error }),
         }
     }
 
@@ -89,7 +89,7 @@ impl AppendFile {
     ///
     /// # Errors
     /// When the disk refuses.
-    pub fn cut(&mut self, len: u64) -> Result<(), Refused> {
+    pub fn cut(&mut self, len: u64) -> Result<(), WriteRefused> {
         self.file.set_len(len).map_err(|error| self.refused(error))?;
         self.len = len;
         self.torn = false;
@@ -119,11 +119,11 @@ impl AppendFile {
     ///
     /// # Errors
     /// When the disk refuses.
-    pub fn flush(&mut self) -> Result<(), Refused> {
+    pub fn flush(&mut self) -> Result<(), WriteRefused> {
         if self.torn {
             self.cut(self.len)?;
         }
-        let (written, result) = write_most(&mut self.file, &self.pending);
+        let (written, result) = write_available(&mut self.file, &self.pending);
         let kept = if result.is_ok() { written } else { (self.whole)(&self.pending[..written]) };
         self.len += kept as u64;
         self.pending.drain(..kept);
@@ -144,17 +144,17 @@ impl AppendFile {
     ///
     /// # Errors
     /// When the disk refuses.
-    pub fn sync(&self) -> Result<(), Refused> {
+    pub fn sync(&self) -> Result<(), WriteRefused> {
         self.file.sync_all().map_err(|error| self.refused(error))
     }
 
-    fn refused(&self, error: std::io::Error) -> Refused {
-        Refused { path: self.path.clone(), error }
+    fn refused(&self, error: std::io::Error) -> WriteRefused {
+        WriteRefused { path: self.path.clone(), error }
     }
 }
 
 /// Writes until the end or an error, and returns how many bytes were taken.
-fn write_most(file: &mut impl Write, bytes: &[u8]) -> (usize, std::io::Result<()>) {
+fn write_available(file: &mut impl Write, bytes: &[u8]) -> (usize, std::io::Result<()>) {
     let mut written = 0;
     while written < bytes.len() {
         match file.write(&bytes[written..]) {
@@ -171,9 +171,9 @@ fn write_most(file: &mut impl Write, bytes: &[u8]) -> (usize, std::io::Result<()
 ///
 /// # Errors
 /// When the disk refuses; files that do not exist are skipped.
-pub fn sync_folder(folder: &Path, names: &[&str]) -> Result<(), Refused> {
+pub fn sync_folder(folder: &Path, names: &[&str]) -> Result<(), WriteRefused> {
     let sync = |path: PathBuf| match File::open(&path).and_then(|file| file.sync_all()) {
-        Err(error) if error.kind() != ErrorKind::NotFound => Err(Refused { path, error }),
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(WriteRefused { path, error }),
         Ok(()) | Err(_) => Ok(()),
     };
     names.iter().try_for_each(|name| sync(folder.join(name)))?;

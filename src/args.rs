@@ -27,7 +27,7 @@ pub struct JobArgs {
 impl JobArgs {
     /// The seed asked for, else the scenario's, else a new one.
     pub fn seed_for(&self, scenario: &Scenario) -> u64 {
-        self.seed.or(scenario.seed).unwrap_or_else(fresh_seed)
+        self.seed.or(scenario.seed).unwrap_or_else(random_seed)
     }
 }
 
@@ -37,7 +37,7 @@ pub fn seed(text: &str) -> Result<u64, String> {
 }
 
 /// A seed that differs from session to session, from the wall clock.
-pub fn fresh_seed() -> u64 {
+pub fn random_seed() -> u64 {
     spandrel_model::random::RandomStream::new(clock::unix_us(), "session seed").bits() & SEED_MAX
 }
 
@@ -54,7 +54,7 @@ pub enum Flavour {
 
 impl Flavour {
     /// The interface itself.
-    pub fn spoken(self) -> &'static endpoint::Flavour {
+    pub fn display_name(self) -> &'static endpoint::Flavour {
         match self {
             Self::Px4 => &endpoint::px4::FLAVOUR,
             Self::Ardupilot => &endpoint::ardupilot::FLAVOUR,
@@ -64,7 +64,7 @@ impl Flavour {
 
     /// As arguments of a child process.
     pub fn to_args(self) -> Vec<String> {
-        vec!["--flavour".to_owned(), self.spoken().name.to_owned()]
+        vec!["--flavour".to_owned(), self.display_name().name.to_owned()]
     }
 }
 
@@ -79,7 +79,7 @@ pub enum Purpose {
 
 impl Purpose {
     /// As the window and the session's files say it.
-    pub fn said(self) -> pipe::Purpose {
+    pub fn display_name(self) -> pipe::Purpose {
         match self {
             Self::Practice => pipe::Purpose::Practice,
             Self::Assessment => pipe::Purpose::Assessment,
@@ -88,20 +88,20 @@ impl Purpose {
 
     /// In a word.
     pub fn word(self) -> &'static str {
-        self.said().word()
+        self.display_name().word()
     }
 }
 
 /// An address to send to, or nowhere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Target {
+pub enum Destination {
     /// Nobody.
     None,
     /// This address.
     Address(SocketAddr),
 }
 
-impl FromStr for Target {
+impl FromStr for Destination {
     type Err = String;
     fn from_str(text: &str) -> Result<Self, String> {
         if text == "none" { Ok(Self::None) } else { address(text).map(Self::Address) }
@@ -118,14 +118,14 @@ pub fn address(text: &str) -> Result<SocketAddr, String> {
 
 /// A port, or none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Port {
+pub enum PortChoice {
     /// Not opened.
     None,
     /// This one; 0 lets the system choose.
     Number(u16),
 }
 
-impl FromStr for Port {
+impl FromStr for PortChoice {
     type Err = String;
     fn from_str(text: &str) -> Result<Self, String> {
         if text == "none" {
@@ -179,13 +179,13 @@ mod tests {
 
     #[test]
     fn exact_targets_and_ports_parse() {
-        assert_eq!("none".parse(), Ok(Target::None));
-        assert_eq!("127.0.0.1:14550".parse(), Ok(Target::Address(SocketAddr::from(([127, 0, 0, 1], 14550)))));
-        assert!("14550".parse::<Target>().is_err());
-        assert!("127.0.0.1:0".parse::<Target>().is_err());
-        assert_eq!("0".parse(), Ok(Port::Number(0)));
-        assert_eq!("none".parse(), Ok(Port::None));
-        assert!("70000".parse::<Port>().is_err());
+        assert_eq!("none".parse(), Ok(Destination::None));
+        assert_eq!("127.0.0.1:14550".parse(), Ok(Destination::Address(SocketAddr::from(([127, 0, 0, 1], 14550)))));
+        assert!("14550".parse::<Destination>().is_err());
+        assert!("127.0.0.1:0".parse::<Destination>().is_err());
+        assert_eq!("0".parse(), Ok(PortChoice::Number(0)));
+        assert_eq!("none".parse(), Ok(PortChoice::None));
+        assert!("70000".parse::<PortChoice>().is_err());
     }
 
     #[test]
@@ -193,6 +193,6 @@ mod tests {
         assert_eq!(seed("2147483647"), Ok(2_147_483_647));
         assert!(seed("2147483648").is_err());
         assert!(seed("-1").is_err());
-        assert!(fresh_seed() <= SEED_MAX);
+        assert!(random_seed() <= SEED_MAX);
     }
 }

@@ -3,15 +3,15 @@
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
 use super::log_file::LogFile;
-use super::session_folder::Stored;
+use super::session_folder::StoredSession;
 use super::table;
 use serde_json::json;
-use spandrel_mavlink::telemetry::log_stream::Log;
+use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_monitor::export::FrameRow;
-use spandrel_monitor::watch::build_site;
-use spandrel_monitor::{AssessError, Graded, assess_log, export};
+use spandrel_monitor::sidecar::build_site;
+use spandrel_monitor::{AssessError, AssessedSession, assess_log, export};
 use std::path::PathBuf;
 
 /// Score a stored flight again
@@ -58,7 +58,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 ///
 /// # Errors
 /// When there is nothing to score.
-pub fn grade(log: &(impl Log + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> Result<Graded, AppError> {
+pub fn grade(log: &(impl TelemetryLog + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> Result<AssessedSession, AppError> {
     assess_log(log, scenario, vehicle, build_site).map_err(|error| refused(&error))
 }
 
@@ -66,7 +66,7 @@ pub fn grade(log: &(impl Log + ?Sized), scenario: &Scenario, vehicle: &Vehicle) 
 ///
 /// # Errors
 /// When there is nothing to score.
-pub fn frame_rows(stored: &Stored) -> Result<Vec<FrameRow>, AppError> {
+pub fn frame_rows(stored: &StoredSession) -> Result<Vec<FrameRow>, AppError> {
     let rows = export::frame_rows(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle);
     rows.map_err(|error| refused(&error))
 }
@@ -82,7 +82,7 @@ fn refused(error: &AssessError) -> AppError {
 
 fn inputs(args: &Args) -> Result<(Scenario, Vehicle, LogFile), AppError> {
     if args.flight.is_dir() {
-        let stored = Stored::read(&args.flight)?;
+        let stored = StoredSession::read(&args.flight)?;
         let scenario = match &args.scenario {
             Some(other) => files::scenario(other)?.scenario,
             None => stored.scenario.scenario,

@@ -1,11 +1,11 @@
 //! `spandrel check`: everything that is wrong with scenario and vehicle files, at once.
 
 use super::errors::{AppError, EXIT_CODES};
-use super::files::{self, Source};
+use super::files::{self, SourceFile};
 use serde_json::json;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{self, Scenario, Task};
-use spandrel_model::site::{Nearest, Site, defects};
+use spandrel_model::site::{NearestPoint, Site, defects};
 use spandrel_model::toml::{Problem, listed};
 use spandrel_model::vehicle::{self, Vehicle};
 
@@ -56,7 +56,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let mut findings = Findings::default();
     for file in &args.files {
         match files::any_source(file) {
-            Ok(source) => look(&source, &aircraft, &mut findings),
+            Ok(source) => check_scenario(&source, &aircraft, &mut findings),
             Err(error) => findings.problems.push(unreadable(file, &error)),
         }
     }
@@ -96,11 +96,11 @@ fn unreadable(file: &str, error: &AppError) -> Problem {
     Problem { file: file.into(), line: 0, key: text(), value: text(), allowed: text(), message: error.to_string() }
 }
 
-fn look(source: &Source, aircraft: &Vehicle, findings: &mut Findings) {
+fn check_scenario(source: &SourceFile, aircraft: &Vehicle, findings: &mut Findings) {
     if is_vehicle(&source.text) {
         match vehicle::read(&source.file, &source.text) {
             Ok(vehicle) => {
-                let short = defects::short_of_reference(&vehicle.camera, &vehicle.lamp);
+                let short = defects::reference_shortfalls(&vehicle.camera, &vehicle.lamp);
                 findings.notes.extend(short.into_iter().map(|what| format!("{}: {what}", source.file)));
             }
             Err(wrong) => findings.problems.extend(wrong.0),
@@ -109,7 +109,7 @@ fn look(source: &Source, aircraft: &Vehicle, findings: &mut Findings) {
     }
     match scenario::read(&source.file, &source.text, &|name| source.sibling(name)) {
         Ok(scenario) => {
-            findings.problems.extend(too_tight(source, &scenario, aircraft));
+            findings.problems.extend(tight_passages(source, &scenario, aircraft));
             findings.warnings.extend(too_few_defects(source, &scenario));
         }
         Err(wrong) => findings.problems.extend(wrong.0),
@@ -148,10 +148,10 @@ fn is_vehicle(text: &str) -> bool {
     words.map(weigh).sum::<i32>() > 0
 }
 
-fn too_tight(source: &Source, scenario: &Scenario, aircraft: &Vehicle) -> Vec<Problem> {
+fn tight_passages(source: &SourceFile, scenario: &Scenario, aircraft: &Vehicle) -> Vec<Problem> {
     let needed_m = 0.5 * aircraft.hull.tip_to_tip_m + MARGIN_M;
     // Defects and traffic are not asked about, so any seed does.
-    let site = Site::build(&Scenario { defects: none_placed(scenario), ..scenario.clone() }, 0);
+    let site = Site::build(&Scenario { defects: defects_not_placed(scenario), ..scenario.clone() }, 0);
     let lines: Vec<usize> = task_lines(&source.text);
     let tight = |(k, task): (usize, &Task)| {
         let (at_m, clearance_m, object) = tightest(task, &site, needed_m)?;
@@ -175,7 +175,7 @@ fn too_tight(source: &Source, scenario: &Scenario, aircraft: &Vehicle) -> Vec<Pr
 }
 
 /// Fewer defects than asked for: the scenario's own seed is tried, else the first few.
-fn too_few_defects(source: &Source, scenario: &Scenario) -> Option<String> {
+fn too_few_defects(source: &SourceFile, scenario: &Scenario) -> Option<String> {
     let wanted = scenario.defects.count;
     if wanted == 0 || scenario.defects.placed.is_some() {
         return None;
@@ -194,8 +194,8 @@ fn too_few_defects(source: &Source, scenario: &Scenario) -> Option<String> {
     })
 }
 
-fn none_placed(scenario: &Scenario) -> scenario::Defects {
-    scenario::Defects { count: 0, placed: Some(Vec::new()), ..scenario.defects.clone() }
+fn defects_not_placed(scenario: &Scenario) -> scenario::DefectSpec {
+    scenario::DefectSpec { count: 0, placed: Some(Vec::new()), ..scenario.defects.clone() }
 }
 
 /// The place with the least room, when that is less than needed, anywhere along the straight pieces between the path's points.
@@ -203,7 +203,7 @@ fn tightest(task: &Task, site: &Site, needed_m: f64) -> Option<(Vec3<Enu>, f64, 
     let points = &task.path_m;
     let wrap = if task.closed { points.first() } else { points.last() };
     let pieces = points.iter().zip(points.iter().skip(1).chain(wrap));
-    let (at_m, near) = pieces.fold(None, |best: Option<(Vec3<Enu>, Nearest)>, (from, to)| {
+    let (at_m, near) = pieces.fold(None, |best: Option<(Vec3<Enu>, NearestPoint)>, (from, to)| {
         site.geometry().tightest(*from, *to, best.map_or(needed_m, |b| b.1.distance_m)).or(best)
     })?;
     Some((at_m, near.distance_m, site.object_name(near.object)))
@@ -232,7 +232,7 @@ mod tests {
         let aircraft = files::vehicle("phantom2").unwrap().vehicle;
         for name in files::scenario_names() {
             let mut findings = Findings::default();
-            look(&files::any_source(name).unwrap(), &aircraft, &mut findings);
+            check_scenario(&files::any_source(name).unwrap(), &aircraft, &mut findings);
             assert_eq!(findings.problems, [], "{name}");
         }
     }
@@ -241,9 +241,9 @@ mod tests {
     fn regress_fewer_defects_than_asked_for_are_a_warning() {
         let aircraft = files::vehicle("phantom2").unwrap().vehicle;
         let mut source = files::any_source("drill-straight-line").unwrap();
-        let found = |source: &Source| {
+        let found = |source: &SourceFile| {
             let mut findings = Findings::default();
-            look(source, &aircraft, &mut findings);
+            check_scenario(source, &aircraft, &mut findings);
             assert_eq!(findings.problems, []);
             findings.warnings
         };
@@ -274,7 +274,7 @@ mod tests {
         let mut aircraft = files::vehicle("phantom2").unwrap().vehicle;
         aircraft.hull.tip_to_tip_m = 30.0;
         let mut findings = Findings::default();
-        look(&files::any_source("two-bridges").unwrap(), &aircraft, &mut findings);
+        check_scenario(&files::any_source("two-bridges").unwrap(), &aircraft, &mut findings);
         assert_eq!(findings.problems.len(), 4, "{:?}", findings.problems);
         let problem = findings.problems[2].to_string();
         assert!(problem.contains("interlayer") || problem.contains("task 3"), "{problem}");
@@ -295,7 +295,7 @@ mod tests {
         let problems = |tip_to_tip_m: f64| {
             let mut aircraft = files::vehicle("phantom2").unwrap().vehicle;
             aircraft.hull.tip_to_tip_m = tip_to_tip_m;
-            too_tight(&source, &scenario, &aircraft)
+            tight_passages(&source, &scenario, &aircraft)
         };
         let fits_m = 2.0 * (tightest_m - MARGIN_M);
         assert_eq!(problems(fits_m - CLOSE_M), []);

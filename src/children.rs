@@ -21,7 +21,7 @@ const LOOK: Duration = Duration::from_millis(20);
 pub struct Child {
     name: &'static str,
     process: std::process::Child,
-    leash: Option<ChildStdin>,
+    stdin: Option<ChildStdin>,
     lines: Receiver<String>,
 }
 
@@ -31,14 +31,14 @@ impl Child {
     /// # Errors
     /// When it cannot be started.
     pub fn start(name: &'static str, args: &[String]) -> Result<Self, AppError> {
-        Self::start_beside(name, args, &[])
+        Self::start_sibling(name, args, &[])
     }
 
     /// Starts it with further variables in its environment.
     ///
     /// # Errors
     /// When it cannot be started.
-    pub fn start_beside(name: &'static str, args: &[String], environment: &[(&str, String)]) -> Result<Self, AppError> {
+    pub fn start_sibling(name: &'static str, args: &[String], environment: &[(&str, String)]) -> Result<Self, AppError> {
         let failed = |error: std::io::Error| AppError::failed(format!("cannot start the {name}: {error}"));
         let program = std::env::current_exe().map_err(failed)?;
         let mut process = Command::new(program)
@@ -60,7 +60,7 @@ impl Child {
                 }
             });
         }
-        Ok(Self { name, process, leash, lines })
+        Ok(Self { name, process, stdin: leash, lines })
     }
 
     /// Waits for the line that announces ports and places.
@@ -94,8 +94,8 @@ impl Child {
     }
 
     /// Says a line to it. One that has ended, or that has been asked to finish, hears nothing: that is told elsewhere.
-    pub fn tell(&mut self, line: &str) {
-        let told = self.leash.as_mut().map(|leash| writeln!(leash, "{line}").and_then(|()| leash.flush()));
+    pub fn send_line(&mut self, line: &str) {
+        let told = self.stdin.as_mut().map(|leash| writeln!(leash, "{line}").and_then(|()| leash.flush()));
         if let Some(Err(error)) = told {
             tracing::debug!("the {} does not hear '{line}': {error}", self.name);
         }
@@ -107,13 +107,13 @@ impl Child {
     }
 
     /// Asks it to finish.
-    pub fn release(&mut self) {
-        self.leash = None;
+    pub fn detach(&mut self) {
+        self.stdin = None;
     }
 
     /// Asks it to finish and waits; a child that does not is ended.
     pub fn finish(&mut self) -> Option<ExitStatus> {
-        self.release();
+        self.detach();
         let watch = Stopwatch::start();
         while watch.elapsed() < END_LIMIT {
             if let Some(status) = self.ended() {
@@ -141,7 +141,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_child_that_does_not_start_is_told_of_and_where_its_message_is() {
+    fn exact_a_child_that_does_not_start_is_reported_and_where_its_message_is() {
         // The tests' own program knows no --announce: it says so, and ends.
         let mut child = Child::start("view", &[]).unwrap();
         let told = child.announced().unwrap_err().to_string();

@@ -2,10 +2,10 @@
 
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
-use super::records::{Place, from_lines};
+use super::records::{RecordsLocation, from_lines};
 use spandrel_monitor::export::json_text;
 use spandrel_training::cohort::{Cohort, Selection, cohort, tables};
-use spandrel_training::record::{Incomplete, left_out_words};
+use spandrel_training::record::{IncompletePolicy, omitted_summary};
 use spandrel_training::report::page::cohort as page;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -30,7 +30,7 @@ Examples:
 {EXIT_CODES}"))]
 pub struct Args {
     #[command(flatten)]
-    place: Place,
+    place: RecordsLocation,
     /// Records as `spandrel records export` writes them, instead of a database
     #[arg(long, value_name = "FILE")]
     records: Option<PathBuf>,
@@ -66,11 +66,11 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let selection = Selection {
         scenarios: args.scenario.clone(),
         repetitions: usize::from(args.repetitions),
-        incomplete: Incomplete::included(args.include_incomplete),
+        incomplete: IncompletePolicy::included(args.include_incomplete),
     };
     let cohort = cohort(&records, &selection);
     if cohort.sessions == 0
-        && let Some(words) = left_out_words(cohort.left_out)
+        && let Some(words) = omitted_summary(cohort.left_out)
     {
         return Err(AppError::wrong(format!(
             "there is no complete session of the job: {words} (--include-incomplete counts them)"
@@ -98,7 +98,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 /// Who flew what, and the first sessions in numbers.
 fn first_sessions(cohort: &Cohort) -> String {
     let mut out = format!("{} trainees, {} sessions of {}\n", cohort.trainees, cohort.sessions, cohort.scenarios.join(", "));
-    if let Some(words) = left_out_words(cohort.left_out) {
+    if let Some(words) = omitted_summary(cohort.left_out) {
         let _ = writeln!(out, "{words} (--include-incomplete counts them)");
     }
     out.push('\n');

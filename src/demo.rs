@@ -5,9 +5,9 @@ use super::children::Child;
 use super::clock::Stopwatch;
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
-use super::pace::Speed;
+use super::pacing::SimulationSpeed;
 use super::pilot::SkillArgs;
-use super::stop::Stop;
+use super::stop::StopRequest;
 use super::train;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -40,7 +40,7 @@ pub struct Args {
     trainee: Option<args::TraineeId>,
     /// Simulation speed: a multiple of real time (0.1 to 100), or max
     #[arg(long, value_name = "X|max", default_value = "5")]
-    speed: Speed,
+    speed: SimulationSpeed,
     /// Autopilot protocol; the flight dynamics are the same in all of them
     #[arg(long, value_name = "NAME", default_value = "px4")]
     flavour: args::Flavour,
@@ -49,7 +49,7 @@ pub struct Args {
     sessions: PathBuf,
     /// Ground station to send telemetry to, or none; may be repeated
     #[arg(long, value_name = "HOST:PORT|none", default_value = "none")]
-    gcs: Vec<args::Target>,
+    gcs: Vec<args::Destination>,
 }
 
 /// Runs the subcommand.
@@ -59,18 +59,18 @@ pub struct Args {
 pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     let scenario = files::scenario(&args.job.scenario)?.scenario;
     files::vehicle(&args.job.vehicle)?;
-    let stop = Stop::install(false)?;
+    let stop = StopRequest::install(false)?;
     let seed = args.job.seed_for(&scenario);
     let job = JobArgs { seed: Some(seed), ..args.job.clone() };
     let quiet = if log == tracing::Level::INFO { tracing::Level::WARN } else { log };
-    let mut monitor = Child::start("monitor", &[train::common(&job, log), monitor_args(args)].concat())?;
+    let mut monitor = Child::start("monitor", &[train::common_args(&job, log), monitor_args(args)].concat())?;
     let announced = monitor.announced()?;
     let session = PathBuf::from(announced["session"].as_str().unwrap_or_default());
-    let pilot_args = [train::common(&job, quiet), args.skill.to_args(), vec!["--port".to_owned(), "0".to_owned()]];
+    let pilot_args = [train::common_args(&job, quiet), args.skill.to_args(), vec!["--port".to_owned(), "0".to_owned()]];
     let mut pilot = Child::start("pilot", &pilot_args.concat())?;
     let pilot_port = pilot.announced()?["port"].as_u64().unwrap_or_default();
     let monitor_port = announced["port"].as_u64().unwrap_or_default();
-    let sim_args = [train::common(&job, quiet), args.flavour.to_args(), sim_args(args, monitor_port, pilot_port)];
+    let sim_args = [train::common_args(&job, quiet), args.flavour.to_args(), sim_args(args, monitor_port, pilot_port)];
     let mut sim = Child::start("sim", &sim_args.concat())?;
     sim.announced()?;
     tracing::info!("seed {seed}, {} pilot, speed {}", args.skill.skill, args.speed);
@@ -78,7 +78,7 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     monitor.finish();
     sim.finish();
     pilot.finish();
-    let told = train::tell(&session);
+    let told = train::report_outcome(&session);
     match lost {
         Some(error) => Err(error),
         None => told,
@@ -98,7 +98,7 @@ fn sim_args(args: &Args, monitor_port: u64, pilot_port: u64) -> Vec<String> {
     out.extend(["--after-crash", "scenario"].map(str::to_owned));
     out.extend(["--lockstep".to_owned(), pilot, "--lockstep".to_owned(), format!("127.0.0.1:{monitor}")]);
     for target in &args.gcs {
-        if let args::Target::Address(address) = target {
+        if let args::Destination::Address(address) = target {
             out.extend(["--gcs".to_owned(), address.to_string()]);
         }
     }
@@ -106,10 +106,10 @@ fn sim_args(args: &Args, monitor_port: u64, pilot_port: u64) -> Vec<String> {
 }
 
 /// Waits until the session is over. A pilot that is done and no end in sight, or a process that ends too early, ends it.
-fn wait(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &Stop) -> Option<AppError> {
+fn wait(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &StopRequest) -> Option<AppError> {
     let mut pilot_done: Option<Stopwatch> = None;
     loop {
-        if monitor.ended().is_some() || stop.asked() {
+        if monitor.ended().is_some() || stop.is_requested() {
             return None;
         }
         if let Some(report) = pilot.line() {

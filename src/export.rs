@@ -4,13 +4,13 @@ use super::args;
 use super::assess;
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
-use super::mcap::{self, Recording};
-use super::progress::Progress;
+use super::mcap::{self, McapRecording};
+use super::progress::ProgressLog;
 use super::records::read_session;
 use super::report;
-use super::session_folder::Stored;
+use super::session_folder::StoredSession;
 use spandrel_clients::pilot::flight_plan;
-use spandrel_clients::pilot::job::Map;
+use spandrel_clients::pilot::goals::PlanningContext;
 use spandrel_mavlink::telemetry::Timeline;
 use spandrel_model::foxglove;
 use spandrel_model::geodesy::LocalPlane;
@@ -94,7 +94,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     {
         return recover(path, target);
     }
-    let stored = if path.is_dir() { Some(Stored::read(path)?) } else { None };
+    let stored = if path.is_dir() { Some(StoredSession::read(path)?) } else { None };
     if let Some(target) = &args.frames {
         let Some(stored) = &stored else {
             return Err(AppError::wrong(format!("--frames needs a session folder, and '{}' is none", args.from)));
@@ -125,7 +125,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             args.from
         )));
     }
-    let progress = Progress::start("building the site");
+    let progress = ProgressLog::start("building the site");
     // Without a seed only the geometry is asked for, and no seed moves that.
     let site = Site::build(&scenario, seed.unwrap_or_default());
     progress.end();
@@ -137,8 +137,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             Some(vehicle) => vehicle,
             None => files::vehicle(&args.vehicle)?.vehicle,
         };
-        let map = Map { scenario: &scenario, site: &site, vehicle: &vehicle, at: SimTime::ZERO, keep_clear_m: None };
-        files::write(target, json_text(&flight_plan::plan(&map, args.flavour.spoken().autopilot)).as_bytes())?;
+        let map = PlanningContext { scenario: &scenario, site: &site, vehicle: &vehicle, at: SimTime::ZERO, keep_clear_m: None };
+        files::write(target, json_text(&flight_plan::plan(&map, args.flavour.display_name().autopilot)).as_bytes())?;
     }
     if let Some(target) = &args.glb {
         files::write(target, &gltf::glb(&site))?;
@@ -147,7 +147,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 }
 
 /// What other systems take of a session.
-fn exchanged(args: &Args, stored: Option<&Stored>) -> Result<(), AppError> {
+fn exchanged(args: &Args, stored: Option<&StoredSession>) -> Result<(), AppError> {
     let needed =
         |flag: &str| stored.ok_or_else(|| AppError::wrong(format!("{flag} needs a session folder, and '{}' is none", args.from)));
     if let Some(target) = &args.parquet {
@@ -184,7 +184,7 @@ fn zipped(files: &[(&str, String)]) -> Result<Vec<u8>, AppError> {
 }
 
 /// A session's flight as a recording.
-fn recorded(stored: &Stored) -> Result<Vec<u8>, AppError> {
+fn recorded(stored: &StoredSession) -> Result<Vec<u8>, AppError> {
     let (scenario, vehicle) = (&stored.scenario.scenario, &stored.vehicle.vehicle);
     let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
     timeline.push_log(&stored.log).map_err(|error| AppError::failed(format!("the telemetry cannot be read: {error}")))?;
@@ -196,7 +196,7 @@ fn recorded(stored: &Stored) -> Result<Vec<u8>, AppError> {
     // No seed moves the geometry.
     let glb = gltf::glb(&Site::build(scenario, 0));
     let write = || {
-        let mut out = Recording::begin(Cursor::new(Vec::new()))?;
+        let mut out = McapRecording::begin(Cursor::new(Vec::new()))?;
         out.write(&foxglove::site(first.unix_ns, &mcap::base64(&glb)))?;
         messages.iter().try_for_each(|message| out.write(message))?;
         out.end().map(Cursor::into_inner)

@@ -29,7 +29,7 @@ pub struct VehicleFile {
 }
 
 /// A file's text and where it lies.
-pub struct Source {
+pub struct SourceFile {
     /// Name for messages.
     pub file: String,
     /// The text.
@@ -81,7 +81,7 @@ pub fn vehicle_named(path: &Path, id: &str) -> Result<VehicleFile, AppError> {
 ///
 /// # Errors
 /// Everything that is wrong with it.
-pub fn scenario_from(source: Source) -> Result<ScenarioFile, AppError> {
+pub fn scenario_from(source: SourceFile) -> Result<ScenarioFile, AppError> {
     let seen = RefCell::new(BTreeMap::new());
     let sibling = |name: &str| {
         let text = source.sibling(name)?;
@@ -96,25 +96,25 @@ pub fn scenario_from(source: Source) -> Result<ScenarioFile, AppError> {
 ///
 /// # Errors
 /// When there is no such file and no such name.
-pub fn source(argument: &str, what: &str, library: &[(&'static str, &'static str)]) -> Result<Source, AppError> {
+pub fn source(argument: &str, what: &str, library: &[(&'static str, &'static str)]) -> Result<SourceFile, AppError> {
     let path = Path::new(argument);
     let looks_like_a_path = argument.contains(['/', '\\']) || path.extension().is_some_and(|end| end == "toml");
     if looks_like_a_path || path.is_file() {
         let folder = path.parent().map(Path::to_path_buf);
-        return Ok(Source { file: argument.to_owned(), text: read(path)?, folder });
+        return Ok(SourceFile { file: argument.to_owned(), text: read(path)?, folder });
     }
     let names: Vec<&str> = library.iter().map(|(name, _)| *name).collect();
     let (name, text) = library.iter().find(|(name, _)| *name == argument).ok_or_else(|| {
         AppError::wrong(format!("there is no {what} '{argument}': give a file, or one of {}", names.join(", ")))
     })?;
-    Ok(Source { file: format!("{name}.toml"), text: (*text).to_owned(), folder: None })
+    Ok(SourceFile { file: format!("{name}.toml"), text: (*text).to_owned(), folder: None })
 }
 
 /// Any file for `check`: shipped names of both kinds are looked up too.
 ///
 /// # Errors
 /// When there is no such file and no such name.
-pub fn any_source(argument: &str) -> Result<Source, AppError> {
+pub fn any_source(argument: &str) -> Result<SourceFile, AppError> {
     let library: Vec<_> = shipped::SCENARIOS.iter().chain(shipped::VEHICLES).copied().collect();
     source(argument, "scenario or vehicle", &library)
 }
@@ -147,7 +147,7 @@ pub fn write(target: &str, bytes: &[u8]) -> Result<(), AppError> {
     done.map_err(|error| AppError::failed(format!("{target}: cannot be written: {error}")))
 }
 
-impl Source {
+impl SourceFile {
     /// Reads a file that this one names. Only names beside or below it are followed.
     pub fn sibling(&self, name: &str) -> Result<String, String> {
         let Some(folder) = &self.folder else { return Err("a shipped scenario has no files beside it".into()) };
@@ -182,7 +182,7 @@ mod tests {
     fn exact_files_beside_a_scenario_stay_beside_it() {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("heights.csv"), "1,2").unwrap();
-        let source = Source { file: "s.toml".into(), text: String::new(), folder: Some(folder.path().into()) };
+        let source = SourceFile { file: "s.toml".into(), text: String::new(), folder: Some(folder.path().into()) };
         assert_eq!(source.sibling("heights.csv"), Ok("1,2".into()));
         for bad in ["../heights.csv", "/etc/hostname"] {
             assert!(source.sibling(bad).is_err(), "{bad}");

@@ -29,15 +29,15 @@ pub fn make_room(root: &Dir, folder: &str, most: u64) -> std::io::Result<usize> 
 }
 
 #[derive(Debug, Default)]
-struct Flight {
+struct LoggedFlight {
     day: String,
     files: Vec<String>,
     bytes: u64,
 }
 
 /// The flights by day and time, the oldest first: names sort as times do, and the second flight of a second, `-1`, follows the first.
-fn flights(root: &Dir, folder: &str) -> std::io::Result<BTreeMap<(String, String, u32), Flight>> {
-    let mut flights: BTreeMap<(String, String, u32), Flight> = BTreeMap::new();
+fn flights(root: &Dir, folder: &str) -> std::io::Result<BTreeMap<(String, String, u32), LoggedFlight>> {
+    let mut flights: BTreeMap<(String, String, u32), LoggedFlight> = BTreeMap::new();
     for day in root.read_dir(folder)? {
         let day = day?;
         let Ok(date) = day.file_name().into_string() else { continue };

@@ -1,7 +1,7 @@
 //! The MAVLink signing key from its file.
 
 use super::errors::AppError;
-use spandrel_mavlink::signing::Key;
+use spandrel_mavlink::signing::SigningKey;
 use std::path::Path;
 
 /// A passphrase is at least this long, characters.
@@ -11,7 +11,7 @@ const SHORTEST: usize = 8;
 ///
 /// # Errors
 /// When the file cannot be read, others may read it, or it holds no key. The message never shows what it holds.
-pub fn read(path: &Path) -> Result<Key, AppError> {
+pub fn read(path: &Path) -> Result<SigningKey, AppError> {
     let wrong = |what: &str| AppError::wrong(format!("--signing-key {}: {what}", path.display()));
     let text = std::fs::read_to_string(path).map_err(|error| wrong(&error.to_string()))?;
     if let Some(mode) = open_to_others(path) {
@@ -22,8 +22,8 @@ pub fn read(path: &Path) -> Result<Key, AppError> {
         return Err(wrong("it has several lines; allowed: one"));
     }
     match hex(text) {
-        Some(key) => Ok(Key(key)),
-        None if text.chars().count() >= SHORTEST => Ok(Key::of_passphrase(text)),
+        Some(key) => Ok(SigningKey(key)),
+        None if text.chars().count() >= SHORTEST => Ok(SigningKey::from_passphrase(text)),
         None => Err(wrong(&format!(
             "its line is too short; allowed: 64 hexadecimal digits, or a passphrase of {SHORTEST} characters or more"
         ))),
@@ -64,9 +64,9 @@ mod tests {
     fn exact_digits_are_the_key_and_words_are_hashed() {
         assert_eq!(
             read(&file(&format!("{}\n", "0aFf".repeat(16)), 0o600)).unwrap(),
-            Key([0x0a, 0xff].repeat(16).try_into().unwrap())
+            SigningKey([0x0a, 0xff].repeat(16).try_into().unwrap())
         );
-        assert_eq!(read(&file("bridge over water", 0o400)).unwrap(), Key::of_passphrase("bridge over water"));
+        assert_eq!(read(&file("bridge over water", 0o400)).unwrap(), SigningKey::from_passphrase("bridge over water"));
     }
 
     #[test]

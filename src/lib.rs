@@ -3,8 +3,6 @@
 
 mod append_file;
 mod args;
-#[cfg(feature = "view")]
-pub mod aside;
 mod assess;
 mod check;
 mod children;
@@ -16,7 +14,6 @@ mod errors;
 mod export;
 mod files;
 mod flight_logs;
-mod heard;
 mod key;
 mod links;
 mod log_file;
@@ -24,9 +21,10 @@ mod logging;
 pub mod mcap;
 mod monitor;
 mod net;
-mod pace;
+mod pacing;
 mod params;
 mod parquet;
+mod pause;
 mod pilot;
 mod plan;
 mod ports;
@@ -38,11 +36,13 @@ mod rc;
 mod records;
 mod render;
 mod report;
+#[cfg(feature = "view")]
+pub mod secondary_renderer;
 mod serial;
 mod session_folder;
 mod shell;
+mod signing_store;
 mod sim;
-mod standstill;
 mod stop;
 mod store;
 mod table;

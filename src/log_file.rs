@@ -2,8 +2,8 @@
 
 use super::errors::AppError;
 use sha2::{Digest, Sha256};
-use spandrel_mavlink::telemetry::log_stream::{Log, Splitter};
-use spandrel_mavlink::telemetry::tlog::{self, Record};
+use spandrel_mavlink::telemetry::log_stream::{RecordSplitter, TelemetryLog};
+use spandrel_mavlink::telemetry::tlog::{self, TlogRecord};
 use std::fs::File;
 use std::io::Read;
 use std::ops::ControlFlow;
@@ -41,8 +41,8 @@ impl LogFile {
     /// # Errors
     /// When it cannot be read.
     pub fn whole_len(&self) -> Result<u64, AppError> {
-        let mut splitter = Splitter::default();
-        let mut skip = |_: Record<'_>| ControlFlow::Continue(());
+        let mut splitter = RecordSplitter::default();
+        let mut skip = |_: TlogRecord<'_>| ControlFlow::Continue(());
         self.pieces(&mut |piece| splitter.feed(piece, &mut skip)).map_err(|error| unreadable(&self.path, &error))?;
         // The end of the file completes the last records.
         let _ = splitter.end(&mut skip);
@@ -101,9 +101,9 @@ impl LogFile {
     }
 }
 
-impl Log for LogFile {
-    fn each(&self, take: &mut dyn FnMut(Record<'_>) -> ControlFlow<()>) -> std::io::Result<()> {
-        let mut splitter = Splitter::default();
+impl TelemetryLog for LogFile {
+    fn for_each_record(&self, take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> std::io::Result<()> {
+        let mut splitter = RecordSplitter::default();
         let mut broken = false;
         self.pieces(&mut |piece| {
             let flow = splitter.feed(piece, take);

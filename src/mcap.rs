@@ -7,7 +7,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use mcap::records::MessageHeader;
 use mcap::{MAGIC, McapError, McapResult, MessageStream, WriteOptions, Writer};
-use spandrel_model::foxglove::{CHANNELS, Message};
+use spandrel_model::foxglove::{CHANNELS, ChannelMessage};
 use std::collections::BTreeMap;
 use std::io::{Seek, Write};
 
@@ -22,20 +22,20 @@ fn options() -> WriteOptions {
 }
 
 /// A recording under way.
-pub struct Recording<W: Write + Seek> {
+pub struct McapRecording<W: Write + Seek> {
     writer: Writer<W>,
     channels: Vec<u16>,
     sequences: Vec<u32>,
     flushed_ns: u64,
 }
 
-impl<W: Write + Seek> std::fmt::Debug for Recording<W> {
+impl<W: Write + Seek> std::fmt::Debug for McapRecording<W> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Recording").field("sequences", &self.sequences).finish_non_exhaustive()
     }
 }
 
-impl<W: Write + Seek> Recording<W> {
+impl<W: Write + Seek> McapRecording<W> {
     /// Begins a file with all schemas and channels.
     ///
     /// # Errors
@@ -54,7 +54,7 @@ impl<W: Write + Seek> Recording<W> {
     ///
     /// # Errors
     /// When the disk does not take it.
-    pub fn write(&mut self, message: &Message) -> McapResult<()> {
+    pub fn write(&mut self, message: &ChannelMessage) -> McapResult<()> {
         let topic = message.topic as usize;
         let at = message.unix_ns;
         let header =
@@ -86,7 +86,7 @@ pub fn base64(bytes: &[u8]) -> String {
 
 /// What came of a recovery.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Recovered {
+pub struct RecoveryResult {
     /// The whole file.
     pub bytes: Vec<u8>,
     /// Messages in it.
@@ -99,7 +99,7 @@ pub struct Recovered {
 ///
 /// # Errors
 /// When it is no MCAP file.
-pub fn recover(file: &[u8]) -> McapResult<Recovered> {
+pub fn recover(file: &[u8]) -> McapResult<RecoveryResult> {
     if !file.starts_with(MAGIC) {
         return Err(McapError::BadMagic);
     }
@@ -119,7 +119,7 @@ pub fn recover(file: &[u8]) -> McapResult<Recovered> {
         }
     }
     writer.finish()?;
-    Ok(Recovered { bytes: writer.into_inner().into_inner(), messages, broken })
+    Ok(RecoveryResult { bytes: writer.into_inner().into_inner(), messages, broken })
 }
 
 #[cfg(test)]
@@ -132,14 +132,14 @@ mod tests {
     const STEP_NS: u64 = 10_000_000;
 
     fn recorded(messages: u64) -> Vec<u8> {
-        let mut recording = Recording::begin(Cursor::new(Vec::new())).unwrap();
+        let mut recording = McapRecording::begin(Cursor::new(Vec::new())).unwrap();
         for k in 0..messages {
             recording.write(&foxglove::log(START_NS + k * STEP_NS, 6, &format!("message {k}"))).unwrap();
         }
         recording.end().unwrap().into_inner()
     }
 
-    fn texts(file: &[u8]) -> Vec<String> {
+    fn status_texts(file: &[u8]) -> Vec<String> {
         let text = |m: mcap::Message| {
             serde_json::from_slice::<serde_json::Value>(&m.data).unwrap()["message"].as_str().unwrap().to_owned()
         };
@@ -150,7 +150,7 @@ mod tests {
     fn exact_what_is_written_is_read_and_its_index_counts_it() {
         let file = recorded(2_000);
         let expected: Vec<_> = (0..2_000).map(|k| format!("message {k}")).collect();
-        assert_eq!(texts(&file), expected);
+        assert_eq!(status_texts(&file), expected);
         let summary = mcap::Summary::read(&file).unwrap().unwrap();
         assert_eq!(summary.stats.unwrap().message_count, 2_000);
         assert!(summary.chunk_indexes.len() >= 20, "small chunks: {}", summary.chunk_indexes.len());
@@ -171,7 +171,7 @@ mod tests {
             let whole: usize = chunks.iter().filter(|(end, _)| *end <= cut).map(|(_, messages)| messages).sum();
             match recover(&file[..cut]) {
                 Ok(recovered) => {
-                    let read = texts(&recovered.bytes);
+                    let read = status_texts(&recovered.bytes);
                     let expected: Vec<_> = (0..read.len()).map(|k| format!("message {k}")).collect();
                     assert_eq!(read, expected, "cut at {cut}");
                     assert_eq!(read.len(), recovered.messages);

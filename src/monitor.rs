@@ -1,22 +1,22 @@
 //! `spandrel monitor`: sockets, clock and session folder around the sans-IO sidecar.
 
-use super::append_file::Refused;
+use super::append_file::WriteRefused;
 use super::args::{self, JobArgs, TraineeId};
 use super::clock::{self, Stopwatch};
 use super::errors::{AppError, EXIT_CODES};
 use super::files::{self, ScenarioFile, VehicleFile};
-use super::net::{Arrival, Hub, SocketId};
-use super::pace::Speed;
-use super::progress::Progress;
+use super::net::{NetEvent, SocketHub, SocketId};
+use super::pacing::SimulationSpeed;
+use super::progress::ProgressLog;
 use super::report;
-use super::session_folder::{SessionFolder, Stored};
-use super::stop::Stop;
+use super::session_folder::{SessionFolder, StoredSession};
+use super::stop::StopRequest;
 use super::table;
 use serde_json::json;
 use spandrel_mavlink::dialect::MavSeverity;
 use spandrel_model::time::SimTime;
-use spandrel_monitor::watch::build_site;
-use spandrel_monitor::{AssessError, Graded, Monitor, MonitorConfig, export};
+use spandrel_monitor::sidecar::build_site;
+use spandrel_monitor::{AssessError, AssessedSession, Monitor, MonitorConfig, export};
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -62,7 +62,7 @@ pub struct Args {
     purpose: Option<args::Purpose>,
     /// Accepted for compatibility with train and demo; has no effect, because the monitor takes its clock from the telemetry
     #[arg(long, value_name = "X|max")]
-    speed: Option<Speed>,
+    speed: Option<SimulationSpeed>,
     /// Continue this session after its monitor was killed (scenario, vehicle and trainee come from the folder)
     #[arg(long, value_name = "DIR")]
     session: Option<PathBuf>,
@@ -91,10 +91,10 @@ pub struct Args {
 /// # Errors
 /// When files or ports are wrong, or the session cannot be scored.
 pub fn run(args: &Args) -> Result<(), AppError> {
-    let stop = Stop::install(args.leash)?;
+    let stop = StopRequest::install(args.leash)?;
     // Files first, then the port, then the folder: what is refused leaves nothing behind.
-    let start = Start::read(args)?;
-    let mut hub = Hub::new();
+    let start = SessionStart::read(args)?;
+    let mut hub = SocketHub::new();
     let port = args.port.unwrap_or(FIRST_PORT + u16::from(args.instance));
     let socket = hub.bind(args.listen, port, "--port")?;
     let (config, monitor, folder) = start.open(args)?;
@@ -104,44 +104,44 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     tracing::info!("listening on UDP {}, writing {}", hub.port(socket), folder.path().display());
     let watch = Stopwatch::start();
     let resolved = config.scenario.defects.placed.is_some();
-    let mut shell = Shell {
+    let mut shell = MonitorProcess {
         hub,
         socket,
         peer: args.connect,
-        heard: Duration::ZERO,
+        last_heard: Duration::ZERO,
         monitor,
         folder,
         resolved,
         described: false,
         flushed: Duration::ZERO,
         warned: None,
-        watch,
+        stopwatch: watch,
     };
     shell.save_and_report();
-    let mut progress = Progress::start("waiting for the vehicle");
+    let mut progress = ProgressLog::start("waiting for the vehicle");
     while shell.monitor.finished().is_none() {
-        if stop.asked() || shell.monitor.refused().is_some() {
+        if stop.is_requested() || shell.monitor.refused().is_some() {
             shell.monitor.close();
         } else {
-            shell.turn();
+            shell.step();
         }
-        progress.tell(|| shell.where_it_stands());
+        progress.report(|| shell.status_line());
     }
     progress.end();
     shell.end(args.announce, &stop)
 }
 
 /// What is started: a new session, or an old one taken up again.
-enum Start {
+enum SessionStart {
     New(Box<(ScenarioFile, VehicleFile)>),
-    Again(PathBuf, Box<Stored>),
+    Again(PathBuf, Box<StoredSession>),
 }
 
-impl Start {
+impl SessionStart {
     /// Reads the files; nothing is written yet.
     fn read(args: &Args) -> Result<Self, AppError> {
         match &args.session {
-            Some(path) => Ok(Self::Again(path.clone(), Box::new(Stored::read(path)?))),
+            Some(path) => Ok(Self::Again(path.clone(), Box::new(StoredSession::read(path)?))),
             None => Ok(Self::New(Box::new((files::scenario(&args.job.scenario)?, files::vehicle(&args.job.vehicle)?)))),
         }
     }
@@ -155,7 +155,7 @@ impl Start {
             started_unix_us,
             system_id: args.instance + 1,
             seed: args.job.seed,
-            build: build_site,
+            survey_builder: build_site,
         };
         match self {
             Self::New(files) => {
@@ -178,11 +178,11 @@ impl Start {
     }
 }
 
-struct Shell {
-    hub: Hub,
+struct MonitorProcess {
+    hub: SocketHub,
     socket: SocketId,
     peer: Option<SocketAddr>,
-    heard: Duration,
+    last_heard: Duration,
     monitor: Monitor,
     folder: SessionFolder,
     /// `scenario.toml` holds the seed and the placed defects.
@@ -192,30 +192,30 @@ struct Shell {
     flushed: Duration,
     /// When the pilot was last warned of a disk that refuses; `None` while it takes everything.
     warned: Option<Duration>,
-    watch: Stopwatch,
+    stopwatch: Stopwatch,
 }
 
-impl Shell {
+impl MonitorProcess {
     /// Takes in what has come, lets the core answer, writes what is to be kept.
-    fn turn(&mut self) {
+    fn step(&mut self) {
         let mut wait = WAIT;
         for _ in 0..BATCH {
             let Some(arrival) = self.hub.next(wait) else { break };
             wait = Duration::ZERO;
             self.take(&arrival);
         }
-        let wall = self.watch.elapsed();
+        let wall = self.stopwatch.elapsed();
         self.monitor.handle_timeout(SimTime::from_s(wall.as_secs_f64()));
-        self.keep();
+        self.write_records();
         self.save_when_due();
         self.send();
     }
 
-    fn take(&mut self, arrival: &Arrival) {
-        let Arrival::Datagram { from, bytes, .. } = arrival else { return };
-        let wall = self.watch.elapsed();
+    fn take(&mut self, arrival: &NetEvent) {
+        let NetEvent::Datagram { from, bytes, .. } = arrival else { return };
+        let wall = self.stopwatch.elapsed();
         if self.peer != Some(*from) {
-            let current_is_alive = self.peer.is_some() && wall.saturating_sub(self.heard) < SILENT;
+            let current_is_alive = self.peer.is_some() && wall.saturating_sub(self.last_heard) < SILENT;
             if current_is_alive {
                 tracing::debug!("a datagram from the stranger {from} is left alone");
                 return;
@@ -227,7 +227,7 @@ impl Shell {
             tracing::info!("hearing {from}");
             self.peer = Some(*from);
         }
-        self.heard = wall;
+        self.last_heard = wall;
         self.monitor.handle_datagram(bytes);
     }
 
@@ -240,26 +240,26 @@ impl Shell {
     }
 
     /// Hands the core's records to the folder.
-    fn keep(&mut self) {
+    fn write_records(&mut self) {
         while let Some(record) = self.monitor.poll_record() {
             self.folder.record(record);
         }
     }
 
     fn save_when_due(&mut self) {
-        if self.watch.elapsed().saturating_sub(self.flushed) >= FLUSH_EVERY {
+        if self.stopwatch.elapsed().saturating_sub(self.flushed) >= FLUSH_EVERY {
             self.save_and_report();
         }
     }
 
     fn save_and_report(&mut self) {
-        self.flushed = self.watch.elapsed();
+        self.flushed = self.stopwatch.elapsed();
         let saved = self.save();
         self.report_disk(saved.err());
     }
 
     /// Writes everything that is pending.
-    fn save(&mut self) -> Result<(), Refused> {
+    fn save(&mut self) -> Result<(), WriteRefused> {
         self.folder.flush()?;
         if !self.resolved
             && let (Some(seed), Some(survey)) = (self.monitor.seed(), self.monitor.survey())
@@ -276,8 +276,8 @@ impl Shell {
     }
 
     /// Warns log and pilot when the disk begins to refuse, now and then while it does, and when it no longer does.
-    fn report_disk(&mut self, refused: Option<Refused>) {
-        let wall = self.watch.elapsed();
+    fn report_disk(&mut self, refused: Option<WriteRefused>) {
+        let wall = self.stopwatch.elapsed();
         match refused {
             None if self.warned.take().is_some() => {
                 tracing::info!("the disk takes the session again");
@@ -295,13 +295,13 @@ impl Shell {
     }
 
     /// Writes the whole session; while the disk refuses, until somebody asks to stop.
-    fn complete(&mut self, json: Option<&str>, stop: &Stop) -> Result<(), AppError> {
+    fn complete(&mut self, json: Option<&str>, stop: &StopRequest) -> Result<(), AppError> {
         loop {
-            self.keep();
+            self.write_records();
             self.described = false;
             let saved = self.save().and_then(|()| json.map_or(Ok(()), |json| self.folder.assessment(json)));
             match saved {
-                Err(refused) if stop.asked() => return Err(refused.into()),
+                Err(refused) if stop.is_requested() => return Err(refused.into()),
                 saved => {
                     let done = saved.is_ok();
                     self.report_disk(saved.err());
@@ -312,11 +312,11 @@ impl Shell {
                 }
             }
             // The vehicle goes on talking: its queue is emptied, and heartbeats go out.
-            self.turn();
+            self.step();
         }
     }
 
-    fn end(&mut self, announce: bool, stop: &Stop) -> Result<(), AppError> {
+    fn end(&mut self, announce: bool, stop: &StopRequest) -> Result<(), AppError> {
         if self.hub.dropped() > 0 {
             tracing::warn!("{} datagrams found the queue full", self.hub.dropped());
         }
@@ -342,7 +342,7 @@ impl Shell {
         Ok(())
     }
 
-    fn outcome(&self) -> Result<&Graded, AppError> {
+    fn outcome(&self) -> Result<&AssessedSession, AppError> {
         let place = self.folder.path().display();
         match self.monitor.finished() {
             Some(Ok(graded)) => Ok(graded),
@@ -354,9 +354,9 @@ impl Shell {
         }
     }
 
-    fn where_it_stands(&self) -> String {
+    fn status_line(&self) -> String {
         let monitor = &self.monitor;
-        let Some(flown) = monitor.flown() else {
+        let Some(flown) = monitor.flight_time() else {
             return if self.peer.is_some() { "connected, on the ground".into() } else { "waiting for the vehicle".into() };
         };
         let seconds = flown.ms() / 1000;

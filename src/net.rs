@@ -2,7 +2,7 @@
 //! bounded, and what does not fit is counted. A bad peer never ends a reader.
 
 use super::errors::AppError;
-use super::serial::{self, Device};
+use super::serial::{self, SerialDevice};
 use std::collections::BTreeMap;
 use std::io::{ErrorKind, Read, Write};
 use std::net::{IpAddr, Shutdown, SocketAddr, TcpListener, TcpStream, UdpSocket};
@@ -30,14 +30,14 @@ pub struct StreamId(u32);
 
 /// Where a stream of bytes comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Origin {
+pub enum StreamOrigin {
     /// A client over TCP.
     Tcp(SocketAddr),
     /// Whoever is at the other end of a serial port.
-    Serial(Device),
+    Serial(SerialDevice),
 }
 
-impl std::fmt::Display for Origin {
+impl std::fmt::Display for StreamOrigin {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Tcp(from) => write!(f, "TCP client {from}"),
@@ -48,7 +48,7 @@ impl std::fmt::Display for Origin {
 
 /// Something came in.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Arrival {
+pub enum NetEvent {
     /// A datagram.
     Datagram {
         /// On which socket.
@@ -59,7 +59,7 @@ pub enum Arrival {
         bytes: Vec<u8>,
     },
     /// A client connected, or a serial port was opened.
-    Connected(StreamId, Origin),
+    Connected(StreamId, StreamOrigin),
     /// Bytes of one.
     Bytes(StreamId, Vec<u8>),
     /// It is gone.
@@ -67,9 +67,9 @@ pub enum Arrival {
 }
 
 /// What the threads put into the queue.
-enum Inner {
-    Plain(Arrival),
-    Client(StreamId, Origin, StreamWriter),
+enum QueuedEvent {
+    Plain(NetEvent),
+    Client(StreamId, StreamOrigin, StreamWriter),
 }
 
 /// The sending side of a stream.
@@ -87,25 +87,30 @@ impl Drop for StreamWriter {
 }
 
 /// Hands the sending side of a stream to the core and gives what it wants sent; `None` when the core is gone.
-fn announce(stream: StreamId, origin: Origin, socket: Option<TcpStream>, queue: &SyncSender<Inner>) -> Option<Receiver<Vec<u8>>> {
+fn announce(
+    stream: StreamId,
+    origin: StreamOrigin,
+    socket: Option<TcpStream>,
+    queue: &SyncSender<QueuedEvent>,
+) -> Option<Receiver<Vec<u8>>> {
     let (sender, frames) = sync_channel(STREAM_QUEUE);
-    queue.send(Inner::Client(stream, origin, StreamWriter { queue: sender, socket })).ok()?;
+    queue.send(QueuedEvent::Client(stream, origin, StreamWriter { queue: sender, socket })).ok()?;
     Some(frames)
 }
 
 /// All sockets of one process.
 #[derive(Debug)]
-pub struct Hub {
-    sender: SyncSender<Inner>,
-    receiver: Receiver<Inner>,
+pub struct SocketHub {
+    sender: SyncSender<QueuedEvent>,
+    receiver: Receiver<QueuedEvent>,
     sockets: Vec<UdpSocket>,
     streams: BTreeMap<StreamId, StreamWriter>,
     devices: u32,
     dropped: Arc<AtomicU64>,
-    told: BTreeMap<SocketAddr, ErrorKind>,
+    reported_errors: BTreeMap<SocketAddr, ErrorKind>,
 }
 
-impl std::fmt::Debug for Inner {
+impl std::fmt::Debug for QueuedEvent {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Plain(arrival) => arrival.fmt(f),
@@ -114,12 +119,20 @@ impl std::fmt::Debug for Inner {
     }
 }
 
-impl Hub {
+impl SocketHub {
     /// No sockets yet.
     pub fn new() -> Self {
         let (sender, receiver) = sync_channel(QUEUE);
         let dropped = Arc::new(AtomicU64::new(0));
-        Self { sender, receiver, sockets: Vec::new(), streams: BTreeMap::new(), devices: 0, dropped, told: BTreeMap::new() }
+        Self {
+            sender,
+            receiver,
+            sockets: Vec::new(),
+            streams: BTreeMap::new(),
+            devices: 0,
+            dropped,
+            reported_errors: BTreeMap::new(),
+        }
     }
 
     /// Binds a UDP port (0: any free one). `flag` is named in the message when the port is taken.
@@ -127,7 +140,7 @@ impl Hub {
     /// # Errors
     /// When it cannot be bound.
     pub fn bind(&mut self, ip: IpAddr, port: u16, flag: &str) -> Result<SocketId, AppError> {
-        let socket = UdpSocket::bind((ip, port)).map_err(|error| taken("UDP", ip, port, flag, &error))?;
+        let socket = UdpSocket::bind((ip, port)).map_err(|error| port_in_use("UDP", ip, port, flag, &error))?;
         let reader = socket.try_clone().map_err(|error| AppError::failed(format!("UDP port {port}: {error}")))?;
         let id = SocketId(self.sockets.len());
         self.sockets.push(socket);
@@ -141,7 +154,7 @@ impl Hub {
     /// # Errors
     /// When it cannot be bound.
     pub fn serve(&self, ip: IpAddr, port: u16, flag: &str) -> Result<u16, AppError> {
-        let listener = TcpListener::bind((ip, port)).map_err(|error| taken("TCP", ip, port, flag, &error))?;
+        let listener = TcpListener::bind((ip, port)).map_err(|error| port_in_use("TCP", ip, port, flag, &error))?;
         let bound = listener.local_addr().map_or(port, |address| address.port());
         let queue = self.sender.clone();
         std::thread::spawn(move || accept_clients(&listener, &queue));
@@ -152,16 +165,16 @@ impl Hub {
     ///
     /// # Errors
     /// When it cannot be opened.
-    pub fn serve_serial(&mut self, device: &Device) -> Result<(), AppError> {
+    pub fn serve_serial(&mut self, device: &SerialDevice) -> Result<(), AppError> {
         let port = device.open().map_err(|error| AppError::failed(format!("--serial {device}: {error}")))?;
         // Numbered from the other end, so that they never meet those of TCP clients.
         let stream = StreamId(u32::MAX - self.devices);
         self.devices += 1;
         let (queue, device) = (self.sender.clone(), device.clone());
         std::thread::spawn(move || {
-            let give = |bytes: &[u8]| queue.send(Inner::Plain(Arrival::Bytes(stream, bytes.to_vec()))).is_ok();
-            let begin = || announce(stream, Origin::Serial(device.clone()), None, &queue);
-            let end = || queue.send(Inner::Plain(Arrival::Closed(stream))).is_ok();
+            let give = |bytes: &[u8]| queue.send(QueuedEvent::Plain(NetEvent::Bytes(stream, bytes.to_vec()))).is_ok();
+            let begin = || announce(stream, StreamOrigin::Serial(device.clone()), None, &queue);
+            let end = || queue.send(QueuedEvent::Plain(NetEvent::Closed(stream))).is_ok();
             serial::keep(&device, port, begin, give, end);
         });
         Ok(())
@@ -178,18 +191,18 @@ impl Hub {
     }
 
     /// The next arrival, waiting at most so long.
-    pub fn next(&mut self, wait: Duration) -> Option<Arrival> {
+    pub fn next(&mut self, wait: Duration) -> Option<NetEvent> {
         let inner = if wait.is_zero() { self.receiver.try_recv().ok() } else { self.receiver.recv_timeout(wait).ok() };
         match inner? {
-            Inner::Plain(arrival) => {
-                if let Arrival::Closed(stream) = arrival {
+            QueuedEvent::Plain(arrival) => {
+                if let NetEvent::Closed(stream) = arrival {
                     self.streams.remove(&stream);
                 }
                 Some(arrival)
             }
-            Inner::Client(stream, from, writer) => {
+            QueuedEvent::Client(stream, from, writer) => {
                 self.streams.insert(stream, writer);
-                Some(Arrival::Connected(stream, from))
+                Some(NetEvent::Connected(stream, from))
             }
         }
     }
@@ -199,7 +212,7 @@ impl Hub {
         let Some(socket) = self.sockets.get(socket.0) else { return };
         let Err(error) = socket.send_to(bytes, to) else { return };
         let kind = error.kind();
-        if kind != ErrorKind::ConnectionRefused && self.told.insert(to, kind) != Some(kind) {
+        if kind != ErrorKind::ConnectionRefused && self.reported_errors.insert(to, kind) != Some(kind) {
             tracing::warn!("cannot send to {to}: {error} (only this machine can be reached unless --listen says otherwise)");
         }
     }
@@ -218,7 +231,7 @@ impl Hub {
     }
 }
 
-fn taken(kind: &str, ip: IpAddr, port: u16, flag: &str, error: &std::io::Error) -> AppError {
+fn port_in_use(kind: &str, ip: IpAddr, port: u16, flag: &str, error: &std::io::Error) -> AppError {
     match error.kind() {
         ErrorKind::AddrInUse => AppError::failed(format!(
             "{kind} port {port} on {ip} is in use: does another simulator or ground station run? Choose another with {flag} or \
@@ -230,13 +243,13 @@ fn taken(kind: &str, ip: IpAddr, port: u16, flag: &str, error: &std::io::Error) 
     }
 }
 
-fn read_datagrams(socket: &UdpSocket, id: SocketId, queue: &SyncSender<Inner>, dropped: &AtomicU64) {
+fn read_datagrams(socket: &UdpSocket, id: SocketId, queue: &SyncSender<QueuedEvent>, dropped: &AtomicU64) {
     let mut buffer = vec![0u8; DATAGRAM_MAX];
     loop {
         match socket.recv_from(&mut buffer) {
             Ok((len, from)) => {
-                let arrival = Arrival::Datagram { socket: id, from, bytes: buffer[..len].to_vec() };
-                match queue.try_send(Inner::Plain(arrival)) {
+                let arrival = NetEvent::Datagram { socket: id, from, bytes: buffer[..len].to_vec() };
+                match queue.try_send(QueuedEvent::Plain(arrival)) {
                     Ok(()) => {}
                     Err(TrySendError::Full(_)) => {
                         dropped.fetch_add(1, Ordering::Relaxed);
@@ -252,7 +265,7 @@ fn read_datagrams(socket: &UdpSocket, id: SocketId, queue: &SyncSender<Inner>, d
     }
 }
 
-fn accept_clients(listener: &TcpListener, queue: &SyncSender<Inner>) {
+fn accept_clients(listener: &TcpListener, queue: &SyncSender<QueuedEvent>) {
     for number in 0.. {
         let Ok((socket, from)) = listener.accept() else {
             std::thread::sleep(REST);
@@ -264,10 +277,10 @@ fn accept_clients(listener: &TcpListener, queue: &SyncSender<Inner>) {
     }
 }
 
-fn serve_client(stream: StreamId, socket: TcpStream, from: SocketAddr, queue: &SyncSender<Inner>) -> std::io::Result<()> {
+fn serve_client(stream: StreamId, socket: TcpStream, from: SocketAddr, queue: &SyncSender<QueuedEvent>) -> std::io::Result<()> {
     socket.set_nodelay(true)?;
     let (mut to_read, mut to_write) = (socket.try_clone()?, socket.try_clone()?);
-    let Some(frames) = announce(stream, Origin::Tcp(from), Some(socket), queue) else { return Ok(()) };
+    let Some(frames) = announce(stream, StreamOrigin::Tcp(from), Some(socket), queue) else { return Ok(()) };
     std::thread::spawn(move || {
         for frame in frames {
             if to_write.write_all(&frame).is_err() {
@@ -279,12 +292,12 @@ fn serve_client(stream: StreamId, socket: TcpStream, from: SocketAddr, queue: &S
     std::thread::spawn(move || {
         let mut buffer = [0u8; 4096];
         while let Ok(len @ 1..) = to_read.read(&mut buffer) {
-            if queue.send(Inner::Plain(Arrival::Bytes(stream, buffer[..len].to_vec()))).is_err() {
+            if queue.send(QueuedEvent::Plain(NetEvent::Bytes(stream, buffer[..len].to_vec()))).is_err() {
                 return;
             }
         }
         // When the main thread is gone there is nobody to tell.
-        let _ = queue.send(Inner::Plain(Arrival::Closed(stream)));
+        let _ = queue.send(QueuedEvent::Plain(NetEvent::Closed(stream)));
     });
     Ok(())
 }
@@ -300,16 +313,16 @@ mod tests {
 
     #[test]
     fn wire_datagrams_pass_between_two_hubs() {
-        let (mut a, mut b) = (Hub::new(), Hub::new());
+        let (mut a, mut b) = (SocketHub::new(), SocketHub::new());
         let (from, to) = (a.bind(LOOPBACK, 0, "--a").unwrap(), b.bind(LOOPBACK, 0, "--b").unwrap());
         a.send(from, (LOOPBACK, b.port(to)).into(), b"hello");
-        let expected = Arrival::Datagram { socket: to, from: (LOOPBACK, a.port(from)).into(), bytes: b"hello".to_vec() };
+        let expected = NetEvent::Datagram { socket: to, from: (LOOPBACK, a.port(from)).into(), bytes: b"hello".to_vec() };
         assert_eq!(b.next(LONG), Some(expected));
     }
 
     #[test]
     fn wire_a_port_in_use_is_named_with_its_flag() {
-        let mut hub = Hub::new();
+        let mut hub = SocketHub::new();
         let first = hub.bind(LOOPBACK, 0, "--a").unwrap();
         let port = hub.port(first);
         let Err(error) = hub.bind(LOOPBACK, port, "--payload-port") else { panic!("bound twice") };
@@ -319,7 +332,7 @@ mod tests {
 
     #[test]
     fn wire_sending_to_nobody_is_no_error_and_the_socket_lives_on() {
-        let mut hub = Hub::new();
+        let mut hub = SocketHub::new();
         let gone = { UdpSocket::bind((LOOPBACK, 0)).unwrap().local_addr().unwrap() };
         let socket = hub.bind(LOOPBACK, 0, "--a").unwrap();
         for _ in 0..10 {
@@ -327,22 +340,22 @@ mod tests {
         }
         let itself = (LOOPBACK, hub.port(socket)).into();
         hub.send(socket, itself, b"still here");
-        assert!(matches!(hub.next(LONG), Some(Arrival::Datagram { bytes, .. }) if bytes == b"still here"));
+        assert!(matches!(hub.next(LONG), Some(NetEvent::Datagram { bytes, .. }) if bytes == b"still here"));
     }
 
     #[test]
-    fn wire_a_tcp_client_comes_speaks_hears_and_goes() {
-        let mut hub = Hub::new();
+    fn wire_a_tcp_client_comes_speaks_receives_and_goes() {
+        let mut hub = SocketHub::new();
         let port = hub.serve(LOOPBACK, 0, "--tcp-port").unwrap();
         let mut client = TcpStream::connect((LOOPBACK, port)).unwrap();
-        let Some(Arrival::Connected(stream, Origin::Tcp(_))) = hub.next(LONG) else { panic!("nobody connected") };
+        let Some(NetEvent::Connected(stream, StreamOrigin::Tcp(_))) = hub.next(LONG) else { panic!("nobody connected") };
         client.write_all(b"in").unwrap();
-        assert_eq!(hub.next(LONG), Some(Arrival::Bytes(stream, b"in".to_vec())));
+        assert_eq!(hub.next(LONG), Some(NetEvent::Bytes(stream, b"in".to_vec())));
         hub.send_stream(stream, b"out".to_vec());
         let mut heard = [0u8; 3];
         client.read_exact(&mut heard).unwrap();
         assert_eq!(&heard, b"out");
         drop(client);
-        assert_eq!(hub.next(LONG), Some(Arrival::Closed(stream)));
+        assert_eq!(hub.next(LONG), Some(NetEvent::Closed(stream)));
     }
 }

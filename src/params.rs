@@ -1,7 +1,7 @@
 //! The file that keeps a vehicle's parameters.
 
 use super::errors::AppError;
-use spandrel_sitl::endpoint::params::text::Problem;
+use spandrel_sitl::endpoint::params::text::ParamFileProblem;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
@@ -10,13 +10,13 @@ use std::path::{Path, PathBuf};
 pub struct ParamFile {
     path: PathBuf,
     /// Changes of parameters that it holds.
-    pub holds: u64,
+    pub saved_changes: u64,
 }
 
 impl ParamFile {
     /// A file that may not be there yet.
     pub fn new(path: PathBuf) -> Self {
-        Self { path, holds: 0 }
+        Self { path, saved_changes: 0 }
     }
 
     /// What it says; `None` when it is not there.
@@ -32,7 +32,7 @@ impl ParamFile {
     }
 
     /// What is wrong with it, as one message.
-    pub fn wrong(&self, problems: &[Problem]) -> AppError {
+    pub fn wrong(&self, problems: &[ParamFileProblem]) -> AppError {
         let lines: Vec<String> =
             problems.iter().map(|problem| format!("{}:{}: {}", self.path.display(), problem.line, problem.what)).collect();
         AppError::wrong(lines.join("\n"))

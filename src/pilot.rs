@@ -4,11 +4,11 @@ use super::args::{self, JobArgs};
 use super::clock::Stopwatch;
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
-use super::net::{Arrival, Hub};
-use super::progress::Progress;
-use super::stop::Stop;
+use super::net::{NetEvent, SocketHub};
+use super::progress::ProgressLog;
+use super::stop::StopRequest;
 use serde_json::json;
-use spandrel_clients::pilot::{Factor, Pilot, PilotConfig, Skill};
+use spandrel_clients::pilot::{Pilot, PilotConfig, Skill, SkillFactor};
 use spandrel_model::time::SimTime;
 use std::net::{IpAddr, SocketAddr};
 use std::str::FromStr;
@@ -27,8 +27,8 @@ pub struct SkillArgs {
     #[arg(long, value_name = "SKILL", default_value = "trained", value_parser = ["novice", "trained", "expert"])]
     pub skill: String,
     /// Take these numbers from the expert instead, to see what each is worth: delay, gain, noise, preview, lapses
-    #[arg(long, value_name = "FACTOR,...", value_delimiter = ',', value_parser = Factor::from_str)]
-    pub expert_in: Vec<Factor>,
+    #[arg(long, value_name = "FACTOR,...", value_delimiter = ',', value_parser = SkillFactor::from_str)]
+    pub expert_in: Vec<SkillFactor>,
 }
 
 impl SkillArgs {
@@ -94,7 +94,7 @@ pub struct Args {
 /// # Errors
 /// When files or ports are wrong, the vehicle never answers or vanishes, or the flight could not begin.
 pub fn run(args: &Args) -> Result<(), AppError> {
-    let stop = Stop::install(args.leash)?;
+    let stop = StopRequest::install(args.leash)?;
     let scenario = files::scenario(&args.job.scenario)?.scenario;
     let config = PilotConfig {
         seed: args.job.seed_for(&scenario),
@@ -102,7 +102,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         vehicle: Arc::new(files::vehicle(&args.job.vehicle)?.vehicle),
         skill: args.skill.skill()?,
     };
-    let mut hub = Hub::new();
+    let mut hub = SocketHub::new();
     let socket = hub.bind(args.listen, args.port.unwrap_or(0), "--port")?;
     if args.announce {
         println!("{}", json!({ "port": hub.port(socket) }));
@@ -110,10 +110,10 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let mut pilot = Pilot::new(config);
     let mut peer = args.port.is_none().then_some(args.connect);
     let (watch, mut heard, mut reported) = (Stopwatch::start(), None, false);
-    let mut progress = Progress::start("waiting for the vehicle");
-    while !stop.asked() {
+    let mut progress = ProgressLog::start("waiting for the vehicle");
+    while !stop.is_requested() {
         let arrival = hub.next(WAIT);
-        if let Some(Arrival::Datagram { from, bytes, .. }) = arrival
+        if let Some(NetEvent::Datagram { from, bytes, .. }) = arrival
             && *peer.get_or_insert(from) == from
         {
             heard = Some(watch.elapsed());
@@ -128,7 +128,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
                 hub.send(socket, peer, &bytes);
             }
         }
-        progress.tell(|| format!("pilot: {}", pilot.doing()));
+        progress.report(|| format!("pilot: {}", pilot.status_text()));
         if let Some(report) = pilot.finished()
             && !reported
         {
@@ -156,7 +156,7 @@ fn ended(pilot: &Pilot) -> Result<(), AppError> {
     match pilot.finished() {
         Some(report) if report.reason == "landed" => Ok(()),
         Some(report) => Err(AppError::failed(report.reason.clone())),
-        None => Err(AppError::failed(format!("stopped in mid-flight ({})", pilot.doing()))),
+        None => Err(AppError::failed(format!("stopped in mid-flight ({})", pilot.status_text()))),
     }
 }
 
@@ -166,7 +166,7 @@ mod tests {
 
     #[test]
     fn exact_borrowed_numbers_reach_the_child_and_come_back() {
-        let args = SkillArgs { skill: "novice".into(), expert_in: vec![Factor::Delay, Factor::Lapses] };
+        let args = SkillArgs { skill: "novice".into(), expert_in: vec![SkillFactor::Delay, SkillFactor::Lapses] };
         assert_eq!(args.to_args(), ["--skill", "novice", "--expert-in", "delay,lapses"]);
         let skill = args.skill().unwrap();
         assert_eq!((skill.delay_s, skill.lapses_per_min), (Skill::EXPERT.delay_s, Skill::EXPERT.lapses_per_min));

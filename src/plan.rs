@@ -4,10 +4,10 @@ use super::args::TraineeId;
 use super::clock;
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
-use super::records::{Place, from_lines};
+use super::records::{RecordsLocation, from_lines};
 use spandrel_monitor::export::json_text;
-use spandrel_training::plan::{Change, Plan, RULES, Rules, plan_counting, read_rules};
-use spandrel_training::record::{Incomplete, left_out_words};
+use spandrel_training::plan::{MeasureChange, PlanRules, RULES, TrainingPlan, plan_counting, read_rules};
+use spandrel_training::record::{IncompletePolicy, omitted_summary};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -28,7 +28,7 @@ pub struct Args {
     #[arg(value_name = "ID")]
     trainee: TraineeId,
     #[command(flatten)]
-    place: Place,
+    place: RecordsLocation,
     /// Records as `spandrel records export` writes them, instead of a database
     #[arg(long, value_name = "FILE")]
     records: Option<PathBuf>,
@@ -56,7 +56,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     records.retain(|record| record.trainee == trainee);
     records.sort_by(|a, b| (a.started_unix_us, &a.id).cmp(&(b.started_unix_us, &b.id)));
     let rules = rules(args.rules.as_deref())?;
-    let incomplete = Incomplete::included(args.include_incomplete);
+    let incomplete = IncompletePolicy::included(args.include_incomplete);
     let Some(plan) = plan_counting(records, incomplete, &rules, clock::unix_us()) else {
         return Err(AppError::wrong(format!(
             "there is no session of '{trainee}' in the records; spandrel records import takes them in"
@@ -69,14 +69,14 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 ///
 /// # Errors
 /// When the file cannot be read or is wrong.
-pub fn rules(file: Option<&Path>) -> Result<Rules, AppError> {
+pub fn rules(file: Option<&Path>) -> Result<PlanRules, AppError> {
     match file {
         Some(path) => Ok(read_rules(&path.display().to_string(), &files::read(path)?)?),
         None => Ok(read_rules("rules.toml", RULES)?),
     }
 }
 
-fn words(plan: &Plan) -> String {
+fn words(plan: &TrainingPlan) -> String {
     let day = |unix_us: u64| clock::utc(unix_us).0.chars().take(10).collect::<String>();
     let mut out = format!("After {}, fly between {} and {}:\n", plan.session, day(plan.from_unix_us), day(plan.until_unix_us));
     for (k, step) in plan.steps.iter().enumerate() {
@@ -85,12 +85,12 @@ fn words(plan: &Plan) -> String {
             let _ = writeln!(out, "   {}", reason.words);
         }
     }
-    if let Some(words) = left_out_words(plan.left_out) {
+    if let Some(words) = omitted_summary(plan.left_out) {
         let _ = writeln!(out, "{words} (--include-incomplete counts them)");
     }
     if let Some(changes) = &plan.changes {
         let _ = writeln!(out, "Since {}:", changes.since);
-        let told = |change: &&Change| change.better.is_some();
+        let told = |change: &&MeasureChange| change.better.is_some();
         for change in changes.changes.iter().filter(told) {
             let better = if change.better == Some(true) { "better" } else { "worse" };
             let _ = writeln!(out, "   {}: {:.1} -> {:.1}, {better}", change.what, change.before, change.now);

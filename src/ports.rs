@@ -1,7 +1,7 @@
 //! The vehicle's ports, as asked for on the command line.
 
-use super::args::{self, Port, Target};
-use super::serial::Device;
+use super::args::{self, Destination, PortChoice};
+use super::serial::SerialDevice;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 
 const GCS_TARGET: u16 = 14550;
@@ -18,25 +18,25 @@ pub struct PortArgs {
     pub instance: u8,
     /// Ground station to send to without being asked, or none; may be repeated [default: 127.0.0.1:14550]
     #[arg(long, value_name = "HOST:PORT|none")]
-    pub gcs: Vec<Target>,
+    pub gcs: Vec<Destination>,
     /// SDK to send to without being asked, or none [default: 127.0.0.1:14540 + instance]
     #[arg(long, value_name = "HOST:PORT|none")]
-    pub sdk: Option<Target>,
+    pub sdk: Option<Destination>,
     /// UDP port for incoming ground stations, or none [default: 18570 + instance]
     #[arg(long, value_name = "PORT|none")]
-    pub gcs_port: Option<Port>,
+    pub gcs_port: Option<PortChoice>,
     /// UDP port for incoming payload clients (monitors, recorders), or none [default: 14280 + instance]
     #[arg(long, value_name = "PORT|none")]
-    pub payload_port: Option<Port>,
+    pub payload_port: Option<PortChoice>,
     /// UDP port on this machine where the monitor listens, or none [default: 14030 + instance]
     #[arg(long, value_name = "PORT|none")]
-    pub monitor_port: Option<Port>,
+    pub monitor_port: Option<PortChoice>,
     /// TCP port for ground stations, or none [default: 5760 + 10 x instance]
     #[arg(long, value_name = "PORT|none")]
-    pub tcp_port: Option<Port>,
+    pub tcp_port: Option<PortChoice>,
     /// Serial port with a radio or cable, such as /dev/ttyUSB0:57600; may be repeated. Its capacity is its baud rate / 10 bytes/s
     #[arg(long, value_name = "DEVICE:BAUD")]
-    pub serial: Vec<Device>,
+    pub serial: Vec<SerialDevice>,
     /// Data rate limit of each UDP or TCP link to a ground station, bytes/s: streams slow down, parameter lists take longer [default: no
     /// limit]
     #[arg(long, value_name = "BYTES_S", value_parser = clap::value_parser!(u32).range(500..=100_000_000))]
@@ -61,16 +61,16 @@ impl PortArgs {
     /// The ports of the vehicle `more` places further on in one process: every number that is not chosen by the system moves. Serial ports
     /// belong to the first.
     pub fn of(&self, more: u8) -> Self {
-        let port = |port: Port, step: u16| match port {
-            Port::Number(number @ 1..) => Port::Number(number.saturating_add(step * u16::from(more))),
-            Port::Number(0) | Port::None => port,
+        let port = |port: PortChoice, step: u16| match port {
+            PortChoice::Number(number @ 1..) => PortChoice::Number(number.saturating_add(step * u16::from(more))),
+            PortChoice::Number(0) | PortChoice::None => port,
         };
-        let sdk = |target: Target| match target {
-            Target::Address(mut address) => {
+        let sdk = |target: Destination| match target {
+            Destination::Address(mut address) => {
                 address.set_port(address.port().saturating_add(u16::from(more)));
-                Target::Address(address)
+                Destination::Address(address)
             }
-            Target::None => Target::None,
+            Destination::None => Destination::None,
         };
         Self {
             instance: self.instance + more,
@@ -84,10 +84,10 @@ impl PortArgs {
         }
     }
 
-    pub(super) fn port(&self, given: Option<Port>, first: u16) -> Option<u16> {
+    pub(super) fn port(&self, given: Option<PortChoice>, first: u16) -> Option<u16> {
         match given {
-            Some(Port::None) => None,
-            Some(Port::Number(port)) => Some(port),
+            Some(PortChoice::None) => None,
+            Some(PortChoice::Number(port)) => Some(port),
             None if self.ephemeral() => Some(0),
             None => Some(self.moved(first)),
         }
@@ -96,8 +96,8 @@ impl PortArgs {
     /// Ground stations that are called.
     pub fn ground_stations(&self) -> Vec<SocketAddr> {
         let given = self.gcs.iter().filter_map(|target| match target {
-            Target::None => None,
-            Target::Address(address) => Some(*address),
+            Destination::None => None,
+            Destination::Address(address) => Some(*address),
         });
         if self.gcs.is_empty() && !self.ephemeral() { vec![local(GCS_TARGET)] } else { given.collect() }
     }
@@ -105,8 +105,8 @@ impl PortArgs {
     /// The SDK that is called.
     pub fn sdk(&self) -> Option<SocketAddr> {
         match self.sdk {
-            Some(Target::Address(address)) => Some(address),
-            Some(Target::None) => None,
+            Some(Destination::Address(address)) => Some(address),
+            Some(Destination::None) => None,
             None if self.ephemeral() => None,
             None => Some(local(self.moved(SDK_TARGET))),
         }
@@ -115,8 +115,8 @@ impl PortArgs {
     /// Where the monitor listens.
     pub fn monitor_port(&self) -> u16 {
         match self.monitor_port {
-            Some(Port::Number(port)) => port,
-            Some(Port::None) => 0,
+            Some(PortChoice::Number(port)) => port,
+            Some(PortChoice::None) => 0,
             None if self.ephemeral() => 0,
             None => self.moved(super::monitor::FIRST_PORT),
         }
@@ -124,8 +124,8 @@ impl PortArgs {
 
     pub(super) fn tcp(&self) -> Option<u16> {
         match self.tcp_port {
-            Some(Port::None) => None,
-            Some(Port::Number(port)) => Some(port),
+            Some(PortChoice::None) => None,
+            Some(PortChoice::Number(port)) => Some(port),
             None if self.ephemeral() => None,
             None => Some(TCP_PORT + 10 * u16::from(self.instance)),
         }
@@ -135,13 +135,13 @@ impl PortArgs {
     pub fn to_args(&self) -> Vec<String> {
         let mut out = vec!["--instance".to_owned(), self.instance.to_string(), "--listen".to_owned(), self.listen.to_string()];
         out.extend(["--ports".to_owned(), self.ports.clone()]);
-        let target = |target: &Target| match target {
-            Target::None => "none".to_owned(),
-            Target::Address(address) => address.to_string(),
+        let target = |target: &Destination| match target {
+            Destination::None => "none".to_owned(),
+            Destination::Address(address) => address.to_string(),
         };
-        let port = |port: &Port| match port {
-            Port::None => "none".to_owned(),
-            Port::Number(number) => number.to_string(),
+        let port = |port: &PortChoice| match port {
+            PortChoice::None => "none".to_owned(),
+            PortChoice::Number(number) => number.to_string(),
         };
         let mut flag = |name: &str, value: String| out.extend([name.to_owned(), value]);
         self.gcs.iter().for_each(|gcs| flag("--gcs", target(gcs)));

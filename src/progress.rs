@@ -10,13 +10,13 @@ const LINE_EVERY: Duration = Duration::from_secs(15);
 
 /// Something that takes longer than a second.
 #[derive(Debug)]
-pub struct Progress {
+pub struct ProgressLog {
     bar: Option<ProgressBar>,
-    watch: Stopwatch,
+    stopwatch: Stopwatch,
     lines: u32,
 }
 
-impl Progress {
+impl ProgressLog {
     /// Starts with a first word.
     pub fn start(what: &str) -> Self {
         let bar = stderr().is_terminal().then(|| {
@@ -28,14 +28,14 @@ impl Progress {
             bar.set_message(what.to_owned());
             bar
         });
-        Self { bar, watch: Stopwatch::start(), lines: 0 }
+        Self { bar, stopwatch: Stopwatch::start(), lines: 0 }
     }
 
     /// Tells where things stand; call as often as you like.
-    pub fn tell(&mut self, message: impl FnOnce() -> String) {
+    pub fn report(&mut self, message: impl FnOnce() -> String) {
         match &self.bar {
             Some(bar) => bar.set_message(message()),
-            None if self.watch.elapsed() >= LINE_EVERY * (self.lines + 1) => {
+            None if self.stopwatch.elapsed() >= LINE_EVERY * (self.lines + 1) => {
                 self.lines += 1;
                 tracing::info!("{}", message());
             }

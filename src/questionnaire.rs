@@ -2,12 +2,12 @@
 
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
-use super::session_folder::{self, Stored};
+use super::session_folder::{self, StoredSession};
 use spandrel_model::scenario::Scenario;
 use spandrel_monitor::export::json_text;
 use spandrel_training::questionnaire::{
-    ANSWERS, Answers, Form, Item, Languages, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, Tlx, Wording, read_answers,
-    read_wording,
+    ANSWERS, Answers, FormWording, Languages, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, TlxScale,
+    Wording, read_answers, read_wording,
 };
 use std::io::{BufRead, Write};
 use std::path::{Path, PathBuf};
@@ -45,14 +45,14 @@ pub struct Args {
 
 /// One thing to ask.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Question {
-    Likert(Item),
-    Tlx(Tlx),
+enum PromptQuestion {
+    Likert(QuestionnaireItem),
+    Tlx(TlxScale),
 }
 
 /// What a person typed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Typed {
+enum TypedInput {
     Answer(u8),
     Keep,
     Back,
@@ -65,7 +65,7 @@ enum Typed {
 /// # Errors
 /// When the session or a file is wrong, or answers cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
-    let scenario = Stored::scenario_of(&args.session)?.scenario;
+    let scenario = StoredSession::scenario_of(&args.session)?.scenario;
     let mut answers = stored(&args.session, &scenario)?.unwrap_or_default();
     let languages = languages(args.wording.as_slice())?;
     let wording = chosen(args, &languages, &answers)?;
@@ -73,9 +73,9 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let questions = questions(args, &scenario, &answers);
     let (mut input, mut output) = (std::io::stdin().lock(), std::io::stdout().lock());
     let mut save = |answers: &Answers| session_folder::replace(&args.session.join(ANSWERS), json_text(answers).as_bytes());
-    ask(&questions, wording, &scenario, &mut answers, (&mut input, &mut output), &mut save)?;
+    ask_questions(&questions, wording, &scenario, &mut answers, (&mut input, &mut output), &mut save)?;
     let tasks = task_ids(&scenario);
-    let (all, open) = (Item::all(&tasks).len(), answers.open(&tasks).len());
+    let (all, open) = (QuestionnaireItem::all(&tasks).len(), answers.open(&tasks).len());
     let again = if open > 0 { format!("; {}", wording.form.later) } else { String::new() };
     let _ = writeln!(output, "\n{}{again}", wording.form.answered(all - open, all));
     Ok(())
@@ -116,25 +116,26 @@ fn chosen<'a>(args: &Args, languages: &'a Languages, answers: &Answers) -> Resul
     }
     let begun = || languages.of(&answers.language).filter(|_| !answers.language.is_empty());
     let first = &languages.all()[0];
-    Ok(if args.wording.is_some() { first } else { begun().or_else(|| languages.of(&of_terminal()?)).unwrap_or(first) })
+    Ok(if args.wording.is_some() { first } else { begun().or_else(|| languages.of(&terminal_language()?)).unwrap_or(first) })
 }
 
 /// The language of the terminal: `de_CH.UTF-8` is de-CH.
-fn of_terminal() -> Option<String> {
+fn terminal_language() -> Option<String> {
     let set = |name: &&str| std::env::var(name).ok().filter(|value| !value.is_empty());
     let value = ["LC_ALL", "LC_MESSAGES", "LANG"].iter().find_map(set)?;
     Some(value.split(['.', '@']).next().unwrap_or_default().replace('_', "-"))
 }
 
-fn questions(args: &Args, scenario: &Scenario, answers: &Answers) -> Vec<Question> {
-    let likert = Item::all(&task_ids(scenario)).into_iter().filter(|item| args.again || !answers.given.contains_key(item));
-    let tlx = Tlx::ALL.into_iter().filter(|scale| args.tlx && (args.again || !answers.tlx.contains_key(scale)));
-    likert.map(Question::Likert).chain(tlx.map(Question::Tlx)).collect()
+fn questions(args: &Args, scenario: &Scenario, answers: &Answers) -> Vec<PromptQuestion> {
+    let likert =
+        QuestionnaireItem::all(&task_ids(scenario)).into_iter().filter(|item| args.again || !answers.given.contains_key(item));
+    let tlx = TlxScale::ALL.into_iter().filter(|scale| args.tlx && (args.again || !answers.tlx.contains_key(scale)));
+    likert.map(PromptQuestion::Likert).chain(tlx.map(PromptQuestion::Tlx)).collect()
 }
 
 /// Asks one question after the other until all are answered or the person leaves.
-fn ask(
-    questions: &[Question],
+fn ask_questions(
+    questions: &[PromptQuestion],
     wording: &Wording,
     scenario: &Scenario,
     answers: &mut Answers,
@@ -154,19 +155,19 @@ fn ask(
         if input.read_line(&mut line).map_err(told)? == 0 {
             return Ok(());
         }
-        match typed(&line, *question) {
-            Typed::Answer(value) => {
+        match parse_input(&line, *question) {
+            TypedInput::Answer(value) => {
                 match question {
-                    Question::Likert(item) => answers.given.insert(*item, value),
-                    Question::Tlx(scale) => answers.tlx.insert(*scale, value),
+                    PromptQuestion::Likert(item) => answers.given.insert(*item, value),
+                    PromptQuestion::Tlx(scale) => answers.tlx.insert(*scale, value),
                 };
                 save(answers)?;
                 at += 1;
             }
-            Typed::Keep => at += 1,
-            Typed::Back => at = at.saturating_sub(1),
-            Typed::Leave => return Ok(()),
-            Typed::Nonsense => writeln!(output, "{}", allowed(*question, &wording.form)).map_err(told)?,
+            TypedInput::Keep => at += 1,
+            TypedInput::Back => at = at.saturating_sub(1),
+            TypedInput::Leave => return Ok(()),
+            TypedInput::Nonsense => writeln!(output, "{}", allowed(*question, &wording.form)).map_err(told)?,
         }
     }
     Ok(())
@@ -177,15 +178,15 @@ fn help(wording: &Wording) -> String {
     format!("{}\n{}", scale.join("   "), wording.form.keys)
 }
 
-fn asked(question: Question, wording: &Wording, scenario: &Scenario, answers: &Answers) -> String {
+fn asked(question: PromptQuestion, wording: &Wording, scenario: &Scenario, answers: &Answers) -> String {
     let name = |id: u32| scenario.tasks.iter().find(|task| task.id == id).map_or(String::new(), |task| task.name.clone());
     let before = |given: Option<&u8>| given.map_or(String::new(), |value| format!(" [{value}]"));
     match question {
-        Question::Likert(item) => {
+        PromptQuestion::Likert(item) => {
             let (heading, statement) = (wording.heading(item, name), wording.statement(item));
             format!("{heading}\n  {statement}\n  {STRONGLY_AGREE}-{STRONGLY_DISAGREE}{}: ", before(answers.given.get(&item)))
         }
-        Question::Tlx(scale) => {
+        PromptQuestion::Tlx(scale) => {
             let (question, low, high) = wording.tlx(scale);
             let given = before(answers.tlx.get(&scale));
             format!("{}\n  {question}\n  0 {low} - {TLX_MAX} {high}, steps of {TLX_STEP}{given}: ", wording.tlx_title)
@@ -193,46 +194,53 @@ fn asked(question: Question, wording: &Wording, scenario: &Scenario, answers: &A
     }
 }
 
-fn allowed(question: Question, form: &Form) -> String {
+fn allowed(question: PromptQuestion, form: &FormWording) -> String {
     match question {
-        Question::Likert(_) => form.please_whole(),
-        Question::Tlx(_) => form.please_steps(),
+        PromptQuestion::Likert(_) => form.integer_instruction(),
+        PromptQuestion::Tlx(_) => form.step_instruction(),
     }
 }
 
-fn typed(line: &str, question: Question) -> Typed {
+fn parse_input(line: &str, question: PromptQuestion) -> TypedInput {
     let fits = |value: &u8| match question {
-        Question::Likert(_) => (STRONGLY_AGREE..=STRONGLY_DISAGREE).contains(value),
-        Question::Tlx(_) => *value <= TLX_MAX && value.is_multiple_of(TLX_STEP),
+        PromptQuestion::Likert(_) => (STRONGLY_AGREE..=STRONGLY_DISAGREE).contains(value),
+        PromptQuestion::Tlx(_) => *value <= TLX_MAX && value.is_multiple_of(TLX_STEP),
     };
     match line.trim() {
-        "" => Typed::Keep,
-        "b" | "B" => Typed::Back,
-        "q" | "Q" => Typed::Leave,
-        number => number.parse().ok().filter(fits).map_or(Typed::Nonsense, Typed::Answer),
+        "" => TypedInput::Keep,
+        "b" | "B" => TypedInput::Back,
+        "q" | "Q" => TypedInput::Leave,
+        number => number.parse().ok().filter(fits).map_or(TypedInput::Nonsense, TypedInput::Answer),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spandrel_training::questionnaire::{Aspect, Overall, Phase};
+    use spandrel_training::questionnaire::{InspectionPhase, OverallItem, PhaseAspect};
 
     /// Types lines into a questionnaire of the paper's job; returns the answers, what was shown, how often it was saved.
-    fn type_in(questions: &[Question], answers: &mut Answers, lines: &str) -> (String, usize) {
+    fn type_in(questions: &[PromptQuestion], answers: &mut Answers, lines: &str) -> (String, usize) {
         let scenario = files::scenario("two-bridges").unwrap().scenario;
         let (mut shown, mut saved) = (Vec::new(), 0);
         let mut save = |_: &Answers| {
             saved += 1;
             Ok(())
         };
-        ask(questions, &languages(&[]).unwrap().all()[0], &scenario, answers, (&mut lines.as_bytes(), &mut shown), &mut save)
-            .unwrap();
+        ask_questions(
+            questions,
+            &languages(&[]).unwrap().all()[0],
+            &scenario,
+            answers,
+            (&mut lines.as_bytes(), &mut shown),
+            &mut save,
+        )
+        .unwrap();
         (String::from_utf8(shown).unwrap(), saved)
     }
 
-    fn all() -> Vec<Question> {
-        Item::all(&[1, 2, 3, 4]).into_iter().map(Question::Likert).collect()
+    fn all() -> Vec<PromptQuestion> {
+        QuestionnaireItem::all(&[1, 2, 3, 4]).into_iter().map(PromptQuestion::Likert).collect()
     }
 
     #[test]
@@ -245,11 +253,11 @@ mod tests {
     }
 
     #[test]
-    fn exact_leaving_keeps_what_was_said_and_nonsense_is_asked_again() {
+    fn exact_leaving_keeps_the_answers_and_nonsense_is_asked_again() {
         let mut answers = Answers::default();
         let (shown, saved) = type_in(&all(), &mut answers, "1\n6\nfive\n0\n4\nq\n3\n");
         assert_eq!((answers.given.len(), saved), (2, 2));
-        assert_eq!(answers.given[&Item::Overall(Overall::Frustration)], 4);
+        assert_eq!(answers.given[&QuestionnaireItem::Overall(OverallItem::Frustration)], 4);
         assert_eq!(shown.matches("Please a whole number from 1 to 5").count(), 3);
         // The end of the input is a way to leave, too.
         assert_eq!(type_in(&all(), &mut answers, "").1, 0);
@@ -259,15 +267,15 @@ mod tests {
     fn exact_one_goes_back_and_enter_keeps() {
         let mut answers = Answers::default();
         type_in(&all(), &mut answers, "1\n1\nb\n5\n\n3\nq\n");
-        assert_eq!(answers.given[&Item::Overall(Overall::Frustration)], 5);
-        assert_eq!(answers.given.get(&Item::Overall(Overall::Feedback)), None);
-        assert_eq!(answers.given[&Item::Phase(Phase::Calibration, Aspect::Performance)], 3);
+        assert_eq!(answers.given[&QuestionnaireItem::Overall(OverallItem::Frustration)], 5);
+        assert_eq!(answers.given.get(&QuestionnaireItem::Overall(OverallItem::Feedback)), None);
+        assert_eq!(answers.given[&QuestionnaireItem::Phase(InspectionPhase::Calibration, PhaseAspect::Performance)], 3);
     }
 
     #[test]
     fn exact_workload_scales_go_in_fives() {
         let mut answers = Answers::default();
-        let questions: Vec<Question> = Tlx::ALL.into_iter().map(Question::Tlx).collect();
+        let questions: Vec<PromptQuestion> = TlxScale::ALL.into_iter().map(PromptQuestion::Tlx).collect();
         type_in(&questions, &mut answers, "7\n105\n35\n100\n0\n5\n10\n15\n");
         assert_eq!(answers.tlx.values().copied().collect::<Vec<u8>>(), [35, 100, 0, 5, 10, 15]);
     }

@@ -2,16 +2,16 @@
 
 use super::args;
 use super::clock::Stopwatch;
-use super::controller::{self, Hand, Look, Profiles, Source, Terminal};
+use super::controller::{self, CalibratedController, ControllerReading, EventSource, ProfileFolder, RawTerminal};
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
-use super::net::{Arrival, Hub, SocketId};
-use super::stop::Stop;
-use spandrel_clients::rc::keyboard::Keyboard;
-use spandrel_clients::rc::link::Link;
-use spandrel_clients::rc::record::Record;
-use spandrel_clients::rc::wizard::Wizard;
-use spandrel_clients::rc::{Profile, StickMode};
+use super::net::{NetEvent, SocketHub, SocketId};
+use super::stop::StopRequest;
+use spandrel_clients::rc::controller_link::ControllerLink;
+use spandrel_clients::rc::input_recording::InputRecording;
+use spandrel_clients::rc::keyboard::KeyboardState;
+use spandrel_clients::rc::wizard::CalibrationWizard;
+use spandrel_clients::rc::{ControllerProfile, StickMode};
 use spandrel_model::time::SimTime;
 use std::io::BufRead;
 use std::net::{IpAddr, SocketAddr};
@@ -90,23 +90,23 @@ pub struct Args {
 /// # Errors
 /// When there is no device or terminal, it is not calibrated, files are wrong, or the vehicle vanishes.
 pub fn run(args: &Args) -> Result<(), AppError> {
-    let profiles = Profiles::at(args.profiles.clone());
+    let profiles = ProfileFolder::at(args.profiles.clone());
     if args.list {
         return list(&profiles);
     }
-    let stop = Stop::install(false)?;
+    let stop = StopRequest::install(false)?;
     if args.calibrate {
         return calibrate(args, &profiles, &stop);
     }
     let mut pilot = pilot(args, &profiles)?;
-    let mut hub = Hub::new();
+    let mut hub = SocketHub::new();
     let socket = hub.bind(args.listen, 0, "--listen")?;
     let flown = fly(&mut pilot, &mut hub, socket, args.connect, &stop);
     drop(pilot);
     flown
 }
 
-fn list(profiles: &Profiles) -> Result<(), AppError> {
+fn list(profiles: &ProfileFolder) -> Result<(), AppError> {
     let devices = controller::connected()?;
     for device in &devices {
         let known = if profiles.find(device)?.is_some() { "calibrated" } else { "not calibrated" };
@@ -119,96 +119,109 @@ fn list(profiles: &Profiles) -> Result<(), AppError> {
 }
 
 /// Who holds the sticks.
-enum Pilot {
-    Device(Box<Hand>),
-    Keyboard { terminal: Terminal, board: Keyboard },
+enum StickSource {
+    Device(Box<CalibratedController>),
+    Keyboard { terminal: RawTerminal, board: KeyboardState },
 }
 
-fn pilot(args: &Args, profiles: &Profiles) -> Result<Pilot, AppError> {
+fn pilot(args: &Args, profiles: &ProfileFolder) -> Result<StickSource, AppError> {
     if args.keyboard {
         let keys = controller::keys(args.keys.as_deref())?;
-        if let Some(duty) = keys.duty(ENDS) {
+        if let Some(duty) = keys.binding_name(ENDS) {
             let file = args.keys.as_ref().map_or(String::new(), |path| format!("{}: ", path.display()));
             return Err(AppError::wrong(format!("{file}{duty} = \"{ENDS}\": in the terminal this key ends; give another one")));
         }
-        let words = keys.explain();
-        let terminal = Terminal::take()?;
-        say(&format!("{words}\n{ENDS:10} end"));
+        let words = keys.help_text();
+        let terminal = RawTerminal::take()?;
+        print_line(&format!("{words}\n{ENDS:10} end"));
         if !terminal.tells_releases {
-            say(
+            print_line(
                 "this terminal does not tell when a key comes up: sticks let go by themselves, and what a key does once it does again after a rest of 0.7 s",
             );
         }
-        return Ok(Pilot::Keyboard { terminal, board: Keyboard::new(keys) });
+        return Ok(StickSource::Keyboard { terminal, board: KeyboardState::new(keys) });
     }
     let source = match &args.replay {
-        Some(path) => Source::Record(Record::read(&path.display().to_string(), &files::read(path)?).map_err(AppError::wrong)?),
-        None => Source::device(args.device.as_deref())?,
+        Some(path) => {
+            EventSource::Record(InputRecording::read(&path.display().to_string(), &files::read(path)?).map_err(AppError::wrong)?)
+        }
+        None => EventSource::device(args.device.as_deref())?,
     };
-    Ok(Pilot::Device(Box::new(Hand::take(source, profiles, args.profile.as_deref(), args.record.as_deref())?)))
+    Ok(StickSource::Device(Box::new(CalibratedController::take(
+        source,
+        profiles,
+        args.profile.as_deref(),
+        args.record.as_deref(),
+    )?)))
 }
 
 /// A line on standard error that also begins at the left when the terminal gives single keys.
-fn say(text: &str) {
+fn print_line(text: &str) {
     eprint!("{}\r\n", text.replace('\n', "\r\n"));
 }
 
-impl Pilot {
-    fn look(&mut self, link: &mut Link, flown: SimTime, now: SimTime) -> Result<Look, AppError> {
+impl StickSource {
+    fn show_axes(&mut self, link: &mut ControllerLink, flown: SimTime, now: SimTime) -> Result<ControllerReading, AppError> {
         match self {
-            Self::Device(hand) => Ok(hand.look(link, flown, now)),
+            Self::Device(hand) => Ok(hand.poll(link, flown, now)),
             Self::Keyboard { terminal, board } => {
                 let mut over = false;
                 while let Some(key) = terminal.next() {
                     match key {
-                        controller::Key::Down(key) => {
+                        controller::TerminalKey::Down(key) => {
                             board.press(&key, terminal.tells_releases, now).into_iter().for_each(|action| link.act(action, now))
                         }
-                        controller::Key::Up(key) => board.release(&key),
-                        controller::Key::LetGo => board.let_go(),
-                        controller::Key::End => over = true,
+                        controller::TerminalKey::Up(key) => board.release(&key),
+                        controller::TerminalKey::LetGo => board.release_all(),
+                        controller::TerminalKey::End => over = true,
                     }
                 }
-                Ok(Look { sticks: Some(board.sticks(now)), over })
+                Ok(ControllerReading { sticks: Some(board.sticks(now)), over })
             }
         }
     }
 }
 
-fn fly(pilot: &mut Pilot, hub: &mut Hub, socket: SocketId, vehicle: SocketAddr, stop: &Stop) -> Result<(), AppError> {
-    let (watch, mut link, mut heard) = (Stopwatch::start(), Link::default(), None);
+fn fly(
+    pilot: &mut StickSource,
+    hub: &mut SocketHub,
+    socket: SocketId,
+    vehicle: SocketAddr,
+    stop: &StopRequest,
+) -> Result<(), AppError> {
+    let (watch, mut link, mut heard) = (Stopwatch::start(), ControllerLink::default(), None);
     // A record begins when the vehicle is there.
     let (mut begin, mut told) = (None, false);
-    if let Pilot::Keyboard { board, .. } = pilot {
+    if let StickSource::Keyboard { board, .. } = pilot {
         link.set_arm_key(&board.keys().label("arm"));
     }
-    while !stop.asked() {
-        if let Some(Arrival::Datagram { from, bytes, .. }) = hub.next(WAIT)
+    while !stop.is_requested() {
+        if let Some(NetEvent::Datagram { from, bytes, .. }) = hub.next(WAIT)
             && from == vehicle
         {
             if heard.is_none() {
-                say(&format!("the vehicle at {vehicle} answers"));
+                print_line(&format!("the vehicle at {vehicle} answers"));
             }
             heard = Some(watch.elapsed());
             link.receive(&bytes);
         }
         if heard.is_none() && !told && watch.elapsed() > PATIENCE {
-            say(&format!("no vehicle on {vehicle} yet; waiting"));
+            print_line(&format!("no vehicle on {vehicle} yet; waiting"));
             told = true;
         }
         let now = SimTime::from_s(watch.elapsed().as_secs_f64());
-        if link.heard.system.is_some() {
+        if link.vehicle.system.is_some() {
             begin.get_or_insert(now);
         }
         let flown = begin.map_or(SimTime::ZERO, |begin| now - begin);
-        let look = pilot.look(&mut link, flown, now)?;
+        let look = pilot.show_axes(&mut link, flown, now)?;
         link.set_sticks(look.sticks, now);
         link.handle_timeout(now);
         while let Some(bytes) = link.poll_transmit() {
             hub.send(socket, vehicle, &bytes);
         }
-        while let Some(text) = link.poll_told() {
-            say(&text);
+        while let Some(text) = link.poll_message() {
+            print_line(&text);
         }
         if look.over {
             return Ok(());
@@ -220,21 +233,26 @@ fn fly(pilot: &mut Pilot, hub: &mut Hub, socket: SocketId, vehicle: SocketAddr, 
     Ok(())
 }
 
-fn calibrate(args: &Args, profiles: &Profiles, stop: &Stop) -> Result<(), AppError> {
+fn calibrate(args: &Args, profiles: &ProfileFolder, stop: &StopRequest) -> Result<(), AppError> {
     // What cannot be kept is not asked for.
     profiles.folder()?;
-    let mut source = Source::device(args.device.as_deref())?;
+    let mut source = EventSource::device(args.device.as_deref())?;
     let mode = StickMode::numbered(args.stick_mode).unwrap_or(StickMode::Two);
-    let profile = ask(&mut source, mode, &enters(), stop)?;
+    let profile = run_wizard(&mut source, mode, &is_enter(), stop)?;
     println!("{}", profiles.keep(&profile)?.display());
     Ok(())
 }
 
-fn ask(source: &mut Source, mode: StickMode, enters: &Receiver<()>, stop: &Stop) -> Result<Profile, AppError> {
-    let mut wizard = Wizard::new(source.of().clone(), mode);
+fn run_wizard(
+    source: &mut EventSource,
+    mode: StickMode,
+    enters: &Receiver<()>,
+    stop: &StopRequest,
+) -> Result<ControllerProfile, AppError> {
+    let mut wizard = CalibrationWizard::new(source.of().clone(), mode);
     let watch = Stopwatch::start();
     let mut told = String::new();
-    while !stop.asked() {
+    while !stop.is_requested() {
         let now = SimTime::from_s(watch.elapsed().as_secs_f64());
         while let Some(event) = source.next(now) {
             wizard.handle(event, now);
@@ -250,7 +268,7 @@ fn ask(source: &mut Source, mode: StickMode, enters: &Receiver<()>, stop: &Stop)
         }
         let prompt = wizard.prompt();
         if prompt != told {
-            say(&prompt);
+            print_line(&prompt);
             told = prompt;
         }
     }
@@ -258,7 +276,7 @@ fn ask(source: &mut Source, mode: StickMode, enters: &Receiver<()>, stop: &Stop)
 }
 
 /// Lines of standard input, for Enter.
-fn enters() -> Receiver<()> {
+fn is_enter() -> Receiver<()> {
     let (sender, receiver) = channel();
     std::thread::spawn(move || {
         for _ in std::io::stdin().lock().lines().map_while(Result::ok) {
@@ -284,15 +302,17 @@ mod tests {
     #[test]
     fn exact_a_calibration_that_cannot_be_kept_is_not_begun() {
         let args = Line::parse_from(["rc", "--calibrate"]).args;
-        let told = calibrate(&args, &Profiles::default(), &Stop::default()).unwrap_err().to_string();
+        let told = calibrate(&args, &ProfileFolder::default(), &StopRequest::default()).unwrap_err().to_string();
         assert!(told.contains("name a folder with --profiles"), "{told}");
     }
 
     #[test]
     fn exact_a_calibration_whose_input_has_ended_ends() {
-        let record = Record::read("r", "{\"format\":1,\"device\":\"Pad\",\"id\":\"1:2\"}").unwrap();
+        let record = InputRecording::read("r", "{\"format\":1,\"device\":\"Pad\",\"id\":\"1:2\"}").unwrap();
         let (_, enters) = channel();
-        let told = ask(&mut Source::Record(record), StickMode::Two, &enters, &Stop::default()).unwrap_err().to_string();
+        let told = run_wizard(&mut EventSource::Record(record), StickMode::Two, &enters, &StopRequest::default())
+            .unwrap_err()
+            .to_string();
         assert!(told.starts_with("nothing was kept") && told.contains("standard input has ended"), "{told}");
     }
 }

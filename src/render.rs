@@ -110,7 +110,7 @@ pub struct Args {
 #[cfg(feature = "view")]
 pub fn run(args: &Args) -> Result<(), AppError> {
     if args.nice {
-        super::priority::stand_back();
+        super::priority::lower_priority();
     }
     draw::run(args)
 }

@@ -3,11 +3,11 @@
 use super::clock;
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
-use super::progress::Progress;
-use super::session_folder::{Stored, replace};
+use super::progress::ProgressLog;
+use super::session_folder::{StoredSession, replace};
 use spandrel_monitor::AssessError;
 use spandrel_monitor::folder::{REPORT, SMALL, SNAPSHOTS, sha256_hex};
-use spandrel_training::report::{About, Jpeg, Review, page, scorm};
+use spandrel_training::report::{Jpeg, Review, SessionFacts, page, scorm};
 use std::path::{Path, PathBuf};
 
 /// A photograph larger than this is a sketch in the page, bytes.
@@ -45,7 +45,7 @@ pub struct Args {
 /// # Errors
 /// When files are wrong, there is nothing to report, or the page cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
-    let progress = Progress::start("writing the report");
+    let progress = ProgressLog::start("writing the report");
     let text = match &args.other {
         Some(other) => compared(&args.session, other)?,
         None => page::session(&review(&args.session)?),
@@ -92,14 +92,14 @@ pub fn compared(first: &Path, second: &Path) -> Result<String, AppError> {
 /// # Errors
 /// As [`run`].
 #[cfg(feature = "view")]
-pub fn pictures(session: &Path) -> Result<Vec<spandrel_training::report::pictures::Picture>, AppError> {
+pub fn pictures(session: &Path) -> Result<Vec<spandrel_training::report::pictures::ReviewedPicture>, AppError> {
     // Who asks is about to draw the photographs.
     Ok(reviewed(session, Vec::new())?.pictures)
 }
 
 /// Largest file, bytes, of each of so many photographs, if the page is to hold all of them.
 #[cfg(feature = "view")]
-pub fn picture_most(count: usize) -> usize {
+pub fn max_pictures(count: usize) -> usize {
     let share = PICTURES_MOST / (count.max(1) as u64);
     share.min(PICTURE_MOST) as usize
 }
@@ -123,18 +123,18 @@ fn review(session: &Path) -> Result<Review, AppError> {
 }
 
 fn reviewed(session: &Path, pictures: Vec<(u32, Jpeg)>) -> Result<Review, AppError> {
-    let stored = Stored::read(session)?;
-    let about = About { pictures, ..about(session, &stored)? };
+    let stored = StoredSession::read(session)?;
+    let about = SessionFacts { pictures, ..session_facts(session, &stored)? };
     Review::of(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle, about).map_err(|error| match error {
         AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => AppError::wrong(error.to_string()),
         _ => AppError::failed(error.to_string()),
     })
 }
 
-fn about(session: &Path, stored: &Stored) -> Result<About, AppError> {
+fn session_facts(session: &Path, stored: &StoredSession) -> Result<SessionFacts, AppError> {
     let name =
         std::path::absolute(session).ok().and_then(|path| path.file_name().map(|name| name.to_string_lossy().into_owned()));
-    Ok(About {
+    Ok(SessionFacts {
         trainee: stored.trainee.clone(),
         started_unix_us: stored.started_unix_us,
         purpose: stored.purpose.clone(),
@@ -222,7 +222,7 @@ mod tests {
     #[test]
     #[cfg(feature = "view")]
     fn exact_every_photograph_has_its_share() {
-        assert_eq!([0, 1, 10, 100].map(picture_most), [400_000, 400_000, 400_000, 40_000]);
+        assert_eq!([0, 1, 10, 100].map(max_pictures), [400_000, 400_000, 400_000, 40_000]);
     }
 
     #[test]

@@ -17,12 +17,12 @@ const BAUD: std::ops::RangeInclusive<u32> = 1_200..=4_000_000;
 
 /// A serial port and its speed.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Device {
+pub struct SerialDevice {
     path: String,
     baud: u32,
 }
 
-impl Device {
+impl SerialDevice {
     /// What it carries, bytes a second.
     pub fn bytes_s(&self) -> f64 {
         f64::from(self.baud) / BITS_A_BYTE
@@ -37,13 +37,13 @@ impl Device {
     }
 }
 
-impl fmt::Display for Device {
+impl fmt::Display for SerialDevice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}", self.path, self.baud)
     }
 }
 
-impl FromStr for Device {
+impl FromStr for SerialDevice {
     type Err = String;
     fn from_str(text: &str) -> Result<Self, String> {
         let wrong = || {
@@ -58,7 +58,7 @@ impl FromStr for Device {
 /// Reads a port until nobody wants its bytes any more: `begin` gives what is to be written, `give` takes what was read, `end` is told
 /// when the port vanishes; then it is looked for until it is back.
 pub fn keep(
-    device: &Device,
+    device: &SerialDevice,
     mut port: SerialPort,
     begin: impl Fn() -> Option<Receiver<Vec<u8>>>,
     give: impl Fn(&[u8]) -> bool,
@@ -107,10 +107,10 @@ mod tests {
 
     #[test]
     fn exact_a_device_has_a_name_and_a_speed() {
-        let radio: Device = "/dev/ttyUSB0:57600".parse().unwrap();
+        let radio: SerialDevice = "/dev/ttyUSB0:57600".parse().unwrap();
         assert_eq!((radio.to_string().as_str(), radio.bytes_s()), ("/dev/ttyUSB0:57600", 5_760.0));
         for bad in ["/dev/ttyUSB0", ":57600", "/dev/ttyUSB0:fast", "/dev/ttyUSB0:5", "/dev/ttyUSB0:99999999"] {
-            assert!(bad.parse::<Device>().unwrap_err().contains("1200 to 4000000"), "{bad}");
+            assert!(bad.parse::<SerialDevice>().unwrap_err().contains("1200 to 4000000"), "{bad}");
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The session folder on disk: created once, appended to, flushed; a killed monitor finds its place again.
 
-use super::append_file::{AppendFile, Refused, sync_folder, whole_lines};
+use super::append_file::{AppendFile, WriteRefused, sync_folder, whole_lines};
 use super::clock;
 use super::errors::AppError;
 use super::files::{self, ScenarioFile, VehicleFile};
@@ -8,7 +8,7 @@ use super::log_file::LogFile;
 use spandrel_mavlink::telemetry::tlog;
 use spandrel_model::scenario::{self, PlacedDefect};
 use spandrel_monitor::folder::{ASSESSMENT, EVENTS, REPORT, SCENARIO, SESSION, SessionInfo, TELEMETRY, VEHICLE, sha256_hex};
-use spandrel_monitor::{Record, export};
+use spandrel_monitor::{SessionOutput, export};
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -29,7 +29,7 @@ pub struct SessionFolder {
 
 /// What a session folder holds, read back.
 #[derive(Debug)]
-pub struct Stored {
+pub struct StoredSession {
     /// The job as resolved.
     pub scenario: ScenarioFile,
     /// The aircraft.
@@ -61,13 +61,13 @@ impl SessionFolder {
         vehicle: &VehicleFile,
     ) -> Result<Self, AppError> {
         let (readable, compact) = clock::utc(started_unix_us);
-        std::fs::create_dir_all(sessions).map_err(|error| cannot(sessions, &error))?;
+        std::fs::create_dir_all(sessions).map_err(|error| io_error(sessions, &error))?;
         let stem = format!("{compact}-{trainee}-{}", scenario.scenario.name);
         let path = new_folder(sessions, &stem, started_unix_us)?;
         for (name, text) in &scenario.siblings {
             let file = path.join(name);
             if let Some(folder) = file.parent() {
-                std::fs::create_dir_all(folder).map_err(|error| cannot(folder, &error))?;
+                std::fs::create_dir_all(folder).map_err(|error| io_error(folder, &error))?;
             }
             replace_durably(&file, text.as_bytes())?;
         }
@@ -80,7 +80,7 @@ impl SessionFolder {
     ///
     /// # Errors
     /// When it is no session folder, another monitor records it, or it cannot be written.
-    pub fn resume(path: &Path, stored: &Stored) -> Result<Self, AppError> {
+    pub fn resume(path: &Path, stored: &StoredSession) -> Result<Self, AppError> {
         let (readable, _) = clock::utc(stored.started_unix_us);
         let (scenario, vehicle) = (stored.scenario.text.clone(), stored.vehicle.text.clone());
         let mut folder = Self::open(path.to_path_buf(), scenario, vehicle, readable, stored.starts + 1)?;
@@ -90,7 +90,7 @@ impl SessionFolder {
         }
         folder.telemetry.cut(stored.log.whole_len()?)?;
         let events_path = path.join(EVENTS);
-        let events = std::fs::read(&events_path).map_err(|error| cannot(&events_path, &error))?;
+        let events = std::fs::read(&events_path).map_err(|error| io_error(&events_path, &error))?;
         folder.events.cut(whole_lines(&events) as u64)?;
         Ok(folder)
     }
@@ -102,7 +102,7 @@ impl SessionFolder {
         started_utc: String,
         starts: u32,
     ) -> Result<Self, AppError> {
-        let telemetry = AppendFile::open(path.join(TELEMETRY), tlog::whole_len)?;
+        let telemetry = AppendFile::open(path.join(TELEMETRY), tlog::complete_len)?;
         telemetry.lock()?;
         let events = AppendFile::open(path.join(EVENTS), whole_lines)?;
         Ok(Self { path, telemetry, events, scenario_toml, vehicle_toml, started_utc, starts })
@@ -114,10 +114,10 @@ impl SessionFolder {
     }
 
     /// Takes a record; it reaches the disk with the next [`Self::flush`].
-    pub fn record(&mut self, record: Record) {
+    pub fn record(&mut self, record: SessionOutput) {
         match record {
-            Record::Telemetry(bytes) => self.telemetry.push(&bytes),
-            Record::Event(line) => self.events.push(line.as_bytes()),
+            SessionOutput::Telemetry(bytes) => self.telemetry.push(&bytes),
+            SessionOutput::Event(line) => self.events.push(line.as_bytes()),
         }
     }
 
@@ -125,7 +125,7 @@ impl SessionFolder {
     ///
     /// # Errors
     /// When the disk refuses; the files then hold whole records, and the next call tries again.
-    pub fn flush(&mut self) -> Result<(), Refused> {
+    pub fn flush(&mut self) -> Result<(), WriteRefused> {
         let telemetry = self.telemetry.flush();
         self.events.flush().and(telemetry)
     }
@@ -144,7 +144,7 @@ impl SessionFolder {
     ///
     /// # Errors
     /// When the disk refuses.
-    pub fn sync(&self) -> Result<(), Refused> {
+    pub fn sync(&self) -> Result<(), WriteRefused> {
         self.telemetry.sync()?;
         self.events.sync()?;
         sync_folder(&self.path, &[SCENARIO, VEHICLE, SESSION, ASSESSMENT, REPORT])?;
@@ -155,7 +155,7 @@ impl SessionFolder {
     ///
     /// # Errors
     /// When the disk refuses; the next call tries again.
-    pub fn resolve(&mut self, seed: u64, placed: &[PlacedDefect]) -> Result<(), Refused> {
+    pub fn resolve(&mut self, seed: u64, placed: &[PlacedDefect]) -> Result<(), WriteRefused> {
         let resolved = scenario::resolve(&self.scenario_toml, seed, placed);
         replace_durably(&self.path.join(SCENARIO), resolved.as_bytes())?;
         self.scenario_toml = resolved;
@@ -166,7 +166,7 @@ impl SessionFolder {
     ///
     /// # Errors
     /// When the disk refuses.
-    pub fn describe(&self, info: impl FnOnce(&[u8], &[u8], String, u32) -> SessionInfo) -> Result<(), Refused> {
+    pub fn describe(&self, info: impl FnOnce(&[u8], &[u8], String, u32) -> SessionInfo) -> Result<(), WriteRefused> {
         let (scenario, vehicle) = (self.scenario_toml.as_bytes(), self.vehicle_toml.as_bytes());
         let info = info(scenario, vehicle, self.started_utc.clone(), self.starts);
         replace_durably(&self.path.join(SESSION), export::json_text(&info).as_bytes())
@@ -176,12 +176,12 @@ impl SessionFolder {
     ///
     /// # Errors
     /// When the disk refuses.
-    pub fn assessment(&self, json: &str) -> Result<(), Refused> {
+    pub fn assessment(&self, json: &str) -> Result<(), WriteRefused> {
         replace_durably(&self.path.join(ASSESSMENT), json.as_bytes())
     }
 }
 
-impl Stored {
+impl StoredSession {
     /// The job of a session folder alone.
     ///
     /// # Errors
@@ -231,11 +231,11 @@ impl Stored {
 ///
 /// # Errors
 /// When it is no session folder or a file is wrong.
-pub fn whose(path: &Path) -> Result<(String, u64), AppError> {
+pub fn session_owner(path: &Path) -> Result<(String, u64), AppError> {
     let session = described(&path.join(SESSION))?;
     match (session["trainee"].as_str(), session["started_unix_us"].as_u64()) {
         (Some(trainee), Some(started_unix_us)) => Ok((trainee.to_owned(), started_unix_us)),
-        (_, _) => Stored::read(path).map(|stored| (stored.trainee, stored.started_unix_us)),
+        (_, _) => StoredSession::read(path).map(|stored| (stored.trainee, stored.started_unix_us)),
     }
 }
 
@@ -246,7 +246,7 @@ pub fn purpose(path: &Path) -> Option<String> {
 
 /// A session that is being flown.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Underway {
+pub struct OngoingSession {
     /// Who flies.
     pub trainee: String,
     /// CRC of the job.
@@ -256,7 +256,7 @@ pub struct Underway {
 }
 
 /// What a session says of itself that has not ended, and whose telemetry has grown within this time; `None` of any other.
-pub fn underway(path: &Path, within: Duration) -> Option<Underway> {
+pub fn ongoing_session(path: &Path, within: Duration) -> Option<OngoingSession> {
     let grown = path.join(TELEMETRY).metadata().and_then(|about| about.modified()).ok()?;
     // A clock that was put back makes nothing old.
     if path.join(ASSESSMENT).exists() || grown.elapsed().unwrap_or_default() > within {
@@ -264,7 +264,7 @@ pub fn underway(path: &Path, within: Duration) -> Option<Underway> {
     }
     let session = described(&path.join(SESSION)).ok()?;
     let crc = u32::from_str_radix(session["scenario_crc"].as_str()?, 16).ok()?;
-    Some(Underway { trainee: session["trainee"].as_str()?.to_owned(), crc, seed: session["seed"].as_u64()? })
+    Some(OngoingSession { trainee: session["trainee"].as_str()?.to_owned(), crc, seed: session["seed"].as_u64()? })
 }
 
 /// True for a folder that holds a session's telemetry.
@@ -301,7 +301,7 @@ fn new_folder(sessions: &Path, stem: &str, started_unix_us: u64) -> Result<PathB
         match std::fs::create_dir(&path) {
             Ok(()) => return Ok(path),
             Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
-            Err(error) => return Err(cannot(&path, &error)),
+            Err(error) => return Err(io_error(&path, &error)),
         }
     }
     Err(AppError::failed(format!("{}: no free folder name for {stem}", sessions.display())))
@@ -319,11 +319,11 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
 ///
 /// # Errors
 /// When the disk refuses.
-pub fn replace_durably(path: &Path, bytes: &[u8]) -> Result<(), Refused> {
+pub fn replace_durably(path: &Path, bytes: &[u8]) -> Result<(), WriteRefused> {
     replaced(path, bytes, File::sync_data)
 }
 
-fn replaced(path: &Path, bytes: &[u8], settle: fn(&File) -> std::io::Result<()>) -> Result<(), Refused> {
+fn replaced(path: &Path, bytes: &[u8], settle: fn(&File) -> std::io::Result<()>) -> Result<(), WriteRefused> {
     // A name of its own: two who write the same file at once must not rename each other's half.
     static WRITTEN: AtomicU64 = AtomicU64::new(0);
     let mut beside = path.to_path_buf().into_os_string();
@@ -338,11 +338,11 @@ fn replaced(path: &Path, bytes: &[u8], settle: fn(&File) -> std::io::Result<()>)
     write().map_err(|error| {
         // Nobody else would ever write over it.
         let _ = std::fs::remove_file(&beside);
-        Refused { path: path.to_path_buf(), error }
+        WriteRefused { path: path.to_path_buf(), error }
     })
 }
 
-fn cannot(path: &Path, error: &std::io::Error) -> AppError {
+fn io_error(path: &Path, error: &std::io::Error) -> AppError {
     AppError::failed(format!("{}: cannot be written: {error}", path.display()))
 }
 
@@ -360,7 +360,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_a_session_was_for_is_told_where_somebody_chose() {
+    fn exact_a_chosen_purpose_is_reported() {
         let folder = tempfile::tempdir().unwrap();
         assert_eq!(purpose(folder.path()), None, "nothing describes it");
         for (text, told) in
@@ -374,7 +374,7 @@ mod tests {
     #[test]
     fn exact_what_is_no_session_is_refused_by_name() {
         let folder = tempfile::tempdir().unwrap();
-        let Err(error) = Stored::read(folder.path()) else { panic!("read it") };
+        let Err(error) = StoredSession::read(folder.path()) else { panic!("read it") };
         assert!(error.to_string().contains("is no session folder"));
     }
 }

@@ -2,16 +2,16 @@
 
 use super::clock::{self, Stopwatch};
 use super::errors::AppError;
-use super::heard::HeardFile;
-use super::links::{Change, Links};
-use super::pace::{FirstAnswer, Lateness, Owed, PATIENCE, Pace, Patience, Speed};
+use super::links::{LinkChange, Links};
+use super::pacing::{FirstAnswerAction, FirstAnswerWait, Lateness, LockstepTimeout, PATIENCE, SimulationSpeed, WallPacer};
 use super::params::ParamFile;
-use super::standstill::Standstill;
-use super::store::Store;
-use spandrel_mavlink::signing::{Key, stamp};
+use super::pause::PauseSwitch;
+use super::signing_store::SigningStore;
+use super::store::FileStore;
+use spandrel_mavlink::signing::{SigningKey, stamp};
 use spandrel_model::time::SimTime;
 use spandrel_sitl::endpoint::files::job::FileError;
-use spandrel_sitl::endpoint::{LinkId, LinkKind, Wish};
+use spandrel_sitl::endpoint::{LinkId, LinkKind, StorageRequest};
 use spandrel_sitl::sim::{Sim, SimEvent};
 use std::time::Duration;
 
@@ -24,108 +24,114 @@ const BEAT: Duration = Duration::from_secs(1);
 
 /// What a vehicle keeps on disk.
 #[derive(Debug)]
-pub struct Kept {
+pub struct VehicleFiles {
     /// Files for clients, and flight logs.
-    pub store: Option<Store>,
+    pub store: Option<FileStore>,
     /// Parameters.
     pub params: Option<ParamFile>,
     /// What was heard with the signing key.
-    pub heard: Option<HeardFile>,
+    pub signing_store: Option<SigningStore>,
 }
 
 /// Signatures that are demanded.
 #[derive(Debug, Clone)]
-pub struct Signing {
+pub struct SigningConfig {
     /// The key.
-    pub key: Key,
+    pub key: SigningKey,
     /// Kinds of links whose frames act without one.
     pub unsigned: Vec<LinkKind>,
 }
 
 /// One vehicle between its sockets, its files and the clock.
-pub struct Shell {
+pub struct VehicleShell {
     /// The vehicle.
     pub core: Sim,
     links: Links,
-    pace: Pace,
-    watch: Stopwatch,
-    patience: Patience,
-    first_answer: FirstAnswer,
-    speed: Speed,
-    store: Option<Store>,
+    pacer: WallPacer,
+    stopwatch: Stopwatch,
+    lockstep_timeout: LockstepTimeout,
+    first_answer: FirstAnswerWait,
+    speed: SimulationSpeed,
+    store: Option<FileStore>,
     params: Option<ParamFile>,
-    heard: Option<HeardFile>,
-    still: Standstill,
-    stands: Option<Duration>,
+    signing_store: Option<SigningStore>,
+    pause: PauseSwitch,
+    paused_for: Option<Duration>,
 }
 
-impl Shell {
+impl VehicleShell {
     /// Time begins now.
     ///
     /// # Errors
     /// When a file that is kept is wrong.
-    pub fn new(mut core: Sim, links: Links, speed: Speed, kept: Kept, signing: Option<Signing>) -> Result<Self, AppError> {
-        let Kept { store, mut params, heard } = kept;
+    pub fn new(
+        mut core: Sim,
+        links: Links,
+        speed: SimulationSpeed,
+        kept: VehicleFiles,
+        signing: Option<SigningConfig>,
+    ) -> Result<Self, AppError> {
+        let VehicleFiles { store, mut params, signing_store: heard } = kept;
         let watch = Stopwatch::start();
-        core.set_pace(speed.client_pace());
+        core.set_speed_factor(speed.client_speed_factor());
         if store.is_some() {
-            core.serve_files();
-            core.record();
+            core.enable_file_jobs();
+            core.enable_flight_log();
         }
         if let Some(file) = &mut params {
-            core.keep_parameters();
+            core.enable_param_storage();
             if let Some(text) = file.text()? {
                 core.read_parameters(&text).map_err(|problems| file.wrong(&problems))?;
             }
-            file.holds = core.parameter_changes();
+            file.saved_changes = core.parameter_changes();
         }
-        if let Some(Signing { key, unsigned }) = signing {
+        if let Some(SigningConfig { key, unsigned }) = signing {
             core.demand_signatures(key, stamp(clock::unix_us()), &unsigned);
         }
         if let Some(file) = &heard
             && let Some(memory) = file.text()?
         {
-            core.recall_signing(&memory).map_err(|line| file.wrong(line))?;
+            core.restore_signing(&memory).map_err(|line| file.parse_error(line))?;
         }
-        let pace = Pace::new(speed, watch.elapsed());
+        let pace = WallPacer::new(speed, watch.elapsed());
         Ok(Self {
             core,
             links,
-            pace,
-            watch,
-            patience: Patience::default(),
-            first_answer: FirstAnswer::default(),
+            pacer: pace,
+            stopwatch: watch,
+            lockstep_timeout: LockstepTimeout::default(),
+            first_answer: FirstAnswerWait::default(),
             speed,
             store,
             params,
-            heard,
-            still: Standstill::default(),
-            stands: None,
+            signing_store: heard,
+            pause: PauseSwitch::default(),
+            paused_for: None,
         })
     }
 
     /// Time stands still whenever this says so.
-    pub fn obey(&mut self, still: Standstill) {
-        self.still = still;
+    pub fn set_pause_switch(&mut self, still: PauseSwitch) {
+        self.pause = still;
     }
 
     /// Time stands still: heartbeats go out, and what comes in does nothing.
-    fn stand(&mut self) {
+    fn run_paused(&mut self) {
         while let Some(change) = self.links.poll() {
-            if !matches!(change, Change::Bytes { .. }) {
+            if !matches!(change, LinkChange::Bytes { .. }) {
                 self.apply(change);
             }
         }
-        self.links.forget_silent();
-        let wall = self.watch.elapsed();
-        if self.stands.is_none_or(|last| wall.saturating_sub(last) >= BEAT) {
-            self.core.stand_still(self.stands.is_none());
-            self.stands = Some(wall);
+        self.links.drop_silent_peers();
+        let wall = self.stopwatch.elapsed();
+        if self.paused_for.is_none_or(|last| wall.saturating_sub(last) >= BEAT) {
+            self.core.pause(self.paused_for.is_none());
+            self.paused_for = Some(wall);
         }
         while let Some(datagram) = self.core.poll_transmit() {
             self.links.send(datagram.link.0, datagram.bytes);
         }
-        self.pace.hold(wall, self.core.now());
+        self.pacer.hold(wall, self.core.now());
         self.links.wait(LOOK);
     }
 
@@ -133,53 +139,53 @@ impl Shell {
     ///
     /// # Errors
     /// When a peer in step is gone.
-    pub fn turn(&mut self, end: SimTime) -> Result<(), AppError> {
-        if self.still.is_on() {
-            self.stand();
+    pub fn run_until(&mut self, end: SimTime) -> Result<(), AppError> {
+        if self.pause.is_paused() {
+            self.run_paused();
             return Ok(());
         }
-        if self.stands.take().is_some() {
-            self.core.run_again();
+        if self.paused_for.take().is_some() {
+            self.core.resume();
         }
         while let Some(change) = self.links.poll() {
             self.apply(change);
         }
-        self.links.forget_silent();
-        if self.heard.is_some() {
-            self.core.tell_stamp(stamp(clock::unix_us()));
+        self.links.drop_silent_peers();
+        if self.signing_store.is_some() {
+            self.core.set_signing_time(stamp(clock::unix_us()));
         }
-        let wall = self.watch.elapsed();
+        let wall = self.stopwatch.elapsed();
         if !self.core.waiting() {
-            let speed = if self.core.serves_in_real_time() { Speed::Times(1.0) } else { self.speed };
-            self.pace.run_at(speed, wall, self.core.now());
-            let target = self.pace.target(wall, self.core.now()).min(end);
-            self.pass_time(target);
+            let speed = if self.core.runs_in_real_time() { SimulationSpeed::Times(1.0) } else { self.speed };
+            self.pacer.set_speed(speed, wall, self.core.now());
+            let target = self.pacer.target(wall, self.core.now()).min(end);
+            self.advance_to(target);
         }
-        self.keep_files();
-        self.keep_parameters();
-        self.keep_heard(false);
+        self.serve_file_jobs();
+        self.save_parameters();
+        self.save_signing_state(false);
         while let Some(datagram) = self.core.poll_transmit() {
             self.links.send(datagram.link.0, datagram.bytes);
         }
         while let Some(event) = self.core.poll_event() {
-            self.tell(&event);
+            self.log_event(&event);
         }
-        self.rest()
+        self.wait_for_next_tick()
     }
 
     /// Runs the ticks up to a time, and what clients ask of files between them.
-    fn pass_time(&mut self, target: SimTime) {
+    fn advance_to(&mut self, target: SimTime) {
         loop {
             self.core.handle_timeout(target);
             if !self.core.has_file_job() {
                 return;
             }
-            self.keep_files();
+            self.serve_file_jobs();
         }
     }
 
     /// Does what clients ask of files, and writes the log.
-    fn keep_files(&mut self) {
+    fn serve_file_jobs(&mut self) {
         while let Some(job) = self.core.poll_file_job() {
             let outcome = self.store.as_mut().map_or(Err(FileError::NotFound), |store| store.work(&job.action));
             self.core.file_job_done(job.ticket, outcome);
@@ -192,37 +198,37 @@ impl Shell {
     }
 
     /// Writes parameters that have changed, and reads the file again when a client asks for it.
-    fn keep_parameters(&mut self) {
+    fn save_parameters(&mut self) {
         let Some(file) = &mut self.params else { return };
         let wish = self.core.poll_storage();
         let told = match wish {
-            Some(Wish::Load) => file
+            Some(StorageRequest::Load) => file
                 .text()
                 .and_then(|text| self.core.read_parameters(&text.unwrap_or_default()).map_err(|problems| file.wrong(&problems))),
-            _ if wish == Some(Wish::Save) || self.core.parameter_changes() != file.holds => {
+            _ if wish == Some(StorageRequest::Save) || self.core.parameter_changes() != file.saved_changes => {
                 file.write(&self.core.parameter_text())
             }
             _ => return,
         };
-        file.holds = self.core.parameter_changes();
+        file.saved_changes = self.core.parameter_changes();
         if let Err(error) = told {
             tracing::warn!("the parameters are not kept: {error}");
         }
     }
 
     /// Writes what was heard with the signing key, now and then or at the end.
-    fn keep_heard(&mut self, at_once: bool) {
-        let wall = self.watch.elapsed();
-        if let Some(file) = self.heard.as_mut().filter(|file| at_once || file.is_due(wall))
+    fn save_signing_state(&mut self, at_once: bool) {
+        let wall = self.stopwatch.elapsed();
+        if let Some(file) = self.signing_store.as_mut().filter(|file| at_once || file.is_due(wall))
             && let Some(memory) = self.core.signing_memory()
         {
-            file.keep(memory, wall);
+            file.save(memory, wall);
         }
     }
 
-    fn apply(&mut self, change: Change) {
+    fn apply(&mut self, change: LinkChange) {
         match change {
-            Change::Opened { link, kind, lockstep, learned, limit } => {
+            LinkChange::Opened { link, kind, lockstep, learned, limit } => {
                 self.core.open_link(LinkId(link), kind, lockstep);
                 if learned {
                     self.core.await_heartbeat(LinkId(link));
@@ -231,20 +237,20 @@ impl Shell {
                     self.core.limit_link(LinkId(link), bytes_s);
                 }
             }
-            Change::Bytes { link, bytes } => self.core.handle_datagram(LinkId(link), &bytes),
-            Change::Closed { link } => self.core.close_link(LinkId(link)),
+            LinkChange::Bytes { link, bytes } => self.core.handle_datagram(LinkId(link), &bytes),
+            LinkChange::Closed { link } => self.core.close_link(LinkId(link)),
         }
     }
 
     /// Waits for the next tick, or for the peers that time waits for.
-    fn rest(&mut self) -> Result<(), AppError> {
-        let wall = self.watch.elapsed();
-        if let Some(heard) = self.core.first_answer() {
+    fn wait_for_next_tick(&mut self) -> Result<(), AppError> {
+        let wall = self.stopwatch.elapsed();
+        if let Some(heard) = self.core.awaits_first_answer() {
             self.await_first_answer(heard, wall);
             return Ok(());
         }
         if self.core.waiting() {
-            if self.patience.is_over(self.core.now(), wall) {
+            if self.lockstep_timeout.is_over(self.core.now(), wall) {
                 return Err(AppError::failed(format!(
                     "a peer in lockstep has not answered TIMESYNC for {} s at {} and seems to be gone",
                     PATIENCE.as_secs(),
@@ -254,7 +260,7 @@ impl Shell {
             self.links.wait(LOOK);
             return Ok(());
         }
-        let sleep = self.pace.sleep(wall, self.core.poll_timeout());
+        let sleep = self.pacer.sleep(wall, self.core.poll_timeout());
         if !sleep.is_zero() {
             self.links.wait(sleep.clamp(REST, LOOK));
         }
@@ -263,13 +269,13 @@ impl Shell {
 
     /// Lockstep begins with a peer's first answer: it must find the vehicle to give one.
     fn await_first_answer(&mut self, heard: bool, wall: Duration) {
-        self.pace.hold(wall, self.core.now());
-        match self.first_answer.owed(heard, wall, BEAT) {
-            Owed::Wait => {}
-            Owed::Knock => self.core.knock(),
-            Owed::GoOn => {
+        self.pacer.hold(wall, self.core.now());
+        match self.first_answer.action_due(heard, wall, BEAT) {
+            FirstAnswerAction::Wait => {}
+            FirstAnswerAction::Announce => self.core.send_first_contact(),
+            FirstAnswerAction::Proceed => {
                 tracing::info!("a peer in lockstep has not answered TIMESYNC yet: it is served in real time until it does");
-                self.core.go_without_first_answers();
+                self.core.skip_first_answers();
                 return;
             }
         }
@@ -279,7 +285,7 @@ impl Shell {
         self.links.wait(LOOK);
     }
 
-    fn tell(&self, event: &SimEvent) {
+    fn log_event(&self, event: &SimEvent) {
         let now = self.core.now();
         match event {
             SimEvent::LiftOff => tracing::info!("{now}: lift-off"),
@@ -291,16 +297,16 @@ impl Shell {
     }
 
     /// How late the machine has been.
-    pub fn late(&self) -> Lateness {
-        self.pace.late()
+    pub fn lateness(&self) -> Lateness {
+        self.pacer.lateness()
     }
 
     /// Finishes the log and tells what was lost.
-    pub fn farewell(&mut self) {
-        self.core.stop_recording();
-        self.keep_files();
-        self.keep_heard(true);
-        let slipped = self.late().slipped;
+    pub fn finish(&mut self) {
+        self.core.close_flight_log();
+        self.serve_file_jobs();
+        self.save_signing_state(true);
+        let slipped = self.lateness().slipped;
         if slipped >= Duration::from_secs(1) {
             tracing::warn!("the machine could not keep up: {:.1} s of wall time were lost", slipped.as_secs_f64());
         }
@@ -308,10 +314,10 @@ impl Shell {
         if bad > 0 {
             tracing::warn!("{bad} bytes belonged to no MAVLink frame and were skipped");
         }
-        if self.core.refused() > 0 {
-            tracing::warn!("{} frames without a good signature did nothing", self.core.refused());
+        if self.core.rejected_frames() > 0 {
+            tracing::warn!("{} frames without a good signature did nothing", self.core.rejected_frames());
         }
-        let dropped = self.core.dropped() + self.links.dropped();
+        let dropped = self.core.dropped() + self.links.take_dropped();
         if dropped > 0 {
             tracing::warn!("{dropped} datagrams came faster than they may, or were more than a link carries, and were dropped");
         }

@@ -3,17 +3,17 @@
 use super::args::{self, JobArgs};
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
-use super::heard::HeardFile;
 use super::key;
 use super::links::Links;
-use super::pace::{Lateness, Speed};
+use super::pacing::{Lateness, SimulationSpeed};
 use super::params::ParamFile;
+use super::pause::PauseSwitch;
 use super::ports::PortArgs;
-use super::progress::Progress;
-use super::shell::{Kept, Shell, Signing};
-use super::standstill::Standstill;
-use super::stop::Stop;
-use super::store::Store;
+use super::progress::ProgressLog;
+use super::shell::{SigningConfig, VehicleFiles, VehicleShell};
+use super::signing_store::SigningStore;
+use super::stop::StopRequest;
+use super::store::FileStore;
 use spandrel_model::scenario::AfterCrash;
 use spandrel_model::site::{Site, gltf};
 use spandrel_model::time::SimTime;
@@ -47,7 +47,7 @@ pub struct Args {
     job: JobArgs,
     /// Simulation speed: a multiple of real time (0.1 to 100), or max for as fast as possible
     #[arg(long, value_name = "X|max", default_value = "1")]
-    speed: Speed,
+    speed: SimulationSpeed,
     /// Run in lockstep with this peer (one that the vehicle sends to, such as --gcs): every 20 ms of simulation time the simulator sends
     /// TIMESYNC and waits for the answer. At startup the simulation waits up to 10 s for the first answer, sending heartbeats only; after
     /// that it runs unsynchronized until the peer answers. May be repeated
@@ -59,7 +59,7 @@ pub struct Args {
     /// Heartbeats of the camera component (100). Turn them off for simple clients that take every heartbeat for the vehicle's (DroneKit,
     /// mavpilot); the camera still takes pictures. The parameter SPAN_CAMERA changes this in flight
     #[arg(long, value_name = "on|off", default_value = "on")]
-    camera: Announced,
+    camera: AnnouncedComponents,
     /// Action after a crash. Use `scenario` when a monitor scores the flight, as train and demo do
     #[arg(long, value_name = "RULE", default_value = "continue")]
     after_crash: AfterCrashArg,
@@ -88,7 +88,7 @@ pub struct Args {
     signing_key: Option<PathBuf>,
     /// Kind of link that needs no signature; may be repeated. Use it only for links that nobody else can reach
     #[arg(long, value_name = "KIND", requires = "signing_key")]
-    unsigned: Vec<Trusted>,
+    unsigned: Vec<TrustedLink>,
     /// Stop after this much simulation time, s
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     end_after: Option<SimTime>,
@@ -118,7 +118,7 @@ fn seconds(text: &str) -> Result<SimTime, String> {
 
 /// Whether heartbeats are sent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-enum Announced {
+enum AnnouncedComponents {
     /// Send heartbeats
     On,
     /// Send no heartbeats
@@ -152,7 +152,7 @@ impl AfterCrashArg {
 
 /// A kind of link, as named on the command line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-enum Trusted {
+enum TrustedLink {
     /// Ground stations over UDP
     Gcs,
     /// The SDK of --sdk
@@ -165,7 +165,7 @@ enum Trusted {
     Serial,
 }
 
-impl Trusted {
+impl TrustedLink {
     fn kind(self) -> LinkKind {
         match self {
             Self::Gcs => LinkKind::GroundStation,
@@ -182,18 +182,18 @@ impl Trusted {
 /// # Errors
 /// When files or ports are wrong, or a lockstep peer vanishes.
 pub fn run(args: &Args) -> Result<(), AppError> {
-    let stop = Stop::install(false)?;
-    let still = if args.leash { Standstill::heed(&stop) } else { Standstill::default() };
+    let stop = StopRequest::install(false)?;
+    let still = if args.leash { PauseSwitch::listen(&stop) } else { PauseSwitch::default() };
     let scenario = Arc::new(files::scenario(&args.job.scenario)?.scenario);
     let vehicle = Arc::new(files::vehicle(&args.job.vehicle)?.vehicle);
     let seed = args.job.seed_for(&scenario);
     let signing = signing(args)?;
-    let mut doors = (0..args.instances).map(|more| Door::open(args, more)).collect::<Result<Vec<_>, _>>()?;
-    let progress = Progress::start("building the site");
+    let mut doors = (0..args.instances).map(|more| VehicleIo::open(args, more)).collect::<Result<Vec<_>, _>>()?;
+    let progress = ProgressLog::start("building the site");
     let site = Arc::new(Site::build(&scenario, seed));
     let glb = args.files.is_some().then(|| gltf::glb(&site));
     for door in &mut doors {
-        if let (Some(store), Some(glb)) = (&mut door.kept.store, &glb) {
+        if let (Some(store), Some(glb)) = (&mut door.files.store, &glb) {
             store.show_site(glb);
         }
         door.links.bound["seed"] = seed.into();
@@ -202,27 +202,27 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         }
         tracing::info!("{} with {}, seed {seed}, ports {}", scenario.name, vehicle.name, door.links.bound);
     }
-    let shells: Vec<Shell> = doors
+    let shells: Vec<VehicleShell> = doors
         .into_iter()
-        .map(|Door { links, kept, instance }| {
+        .map(|VehicleIo { links, files: kept, instance }| {
             let config = SimConfig {
                 scenario: scenario.clone(),
                 vehicle: vehicle.clone(),
                 seed,
                 instance,
-                flavour: args.flavour.spoken(),
+                flavour: args.flavour.display_name(),
                 after_crash: args.after_crash.rule(),
             };
-            let mut shell = Shell::new(Sim::new(config, site.clone()), links, args.speed, kept, signing.clone())?;
-            shell.obey(still.clone());
-            if args.camera == Announced::Off {
-                shell.core.silence_camera();
+            let mut shell = VehicleShell::new(Sim::new(config, site.clone()), links, args.speed, kept, signing.clone())?;
+            shell.set_pause_switch(still.clone());
+            if args.camera == AnnouncedComponents::Off {
+                shell.core.mute_camera_heartbeat();
             }
             Ok(shell)
         })
         .collect::<Result<_, AppError>>()?;
     let flown = fly(shells, args.end_after.unwrap_or(SimTime::NEVER), &stop, progress)?;
-    for Flown { digest, late } in flown {
+    for VehicleResult { digest, late } in flown {
         if args.digest {
             println!("{}", digest.iter().map(|byte| format!("{byte:02x}")).collect::<String>());
         }
@@ -239,12 +239,12 @@ fn told(late: Lateness) -> serde_json::Value {
 }
 
 /// What is left of a vehicle at the end.
-struct Flown {
+struct VehicleResult {
     digest: [u8; 32],
     late: Lateness,
 }
 
-fn signing(args: &Args) -> Result<Option<Signing>, AppError> {
+fn signing(args: &Args) -> Result<Option<SigningConfig>, AppError> {
     let listen = args.ports.listen;
     let key = args.signing_key.as_deref().map(key::read).transpose()?;
     if key.is_none() && !listen.is_loopback() {
@@ -254,27 +254,28 @@ fn signing(args: &Args) -> Result<Option<Signing>, AppError> {
     if !unsigned.is_empty() && !listen.is_loopback() {
         tracing::warn!("--listen {listen} with --unsigned: whoever reaches these ports can fly the vehicle");
     }
-    Ok(key.map(|key| Signing { key, unsigned }))
+    Ok(key.map(|key| SigningConfig { key, unsigned }))
 }
 
 /// What one vehicle has of the outside world.
-struct Door {
+struct VehicleIo {
     links: Links,
-    kept: Kept,
+    files: VehicleFiles,
     instance: u8,
 }
 
-impl Door {
+impl VehicleIo {
     fn open(args: &Args, more: u8) -> Result<Self, AppError> {
         let ports = args.ports.of(more);
         let instance = ports.instance;
         let folder = |root: &PathBuf| if args.instances == 1 { root.clone() } else { root.join((instance + 1).to_string()) };
-        let store = args.files.as_ref().map(folder).map(|folder| Store::open(&folder, args.log_space * 1_000_000)).transpose()?;
+        let store =
+            args.files.as_ref().map(folder).map(|folder| FileStore::open(&folder, args.log_space * 1_000_000)).transpose()?;
         let params =
             args.params.as_ref().map(|path| if args.instances == 1 { path.clone() } else { numbered(path, instance + 1) });
-        let heard = args.signing_key.as_ref().map(|key| HeardFile::of(key, instance + 1));
-        let kept = Kept { store, params: params.map(ParamFile::new), heard };
-        Ok(Self { links: Links::open(&ports, &args.lockstep)?, kept, instance })
+        let heard = args.signing_key.as_ref().map(|key| SigningStore::of(key, instance + 1));
+        let kept = VehicleFiles { store, params: params.map(ParamFile::new), signing_store: heard };
+        Ok(Self { links: Links::open(&ports, &args.lockstep)?, files: kept, instance })
     }
 }
 
@@ -285,7 +286,12 @@ fn numbered(path: &Path, system_id: u8) -> PathBuf {
 }
 
 /// Every vehicle in a thread of its own until the end; what goes wrong with one ends all.
-fn fly(shells: Vec<Shell>, end: SimTime, stop: &Stop, progress: Progress) -> Result<Vec<Flown>, AppError> {
+fn fly(
+    shells: Vec<VehicleShell>,
+    end: SimTime,
+    stop: &StopRequest,
+    progress: ProgressLog,
+) -> Result<Vec<VehicleResult>, AppError> {
     let mut progress = Some(progress);
     std::thread::scope(|scope| {
         let threads: Vec<_> = shells
@@ -304,19 +310,24 @@ fn fly(shells: Vec<Shell>, end: SimTime, stop: &Stop, progress: Progress) -> Res
     })
 }
 
-fn fly_one(mut shell: Shell, end: SimTime, stop: &Stop, mut progress: Option<Progress>) -> Result<Flown, AppError> {
-    while !stop.asked() && shell.core.now() < end {
-        if let Err(error) = shell.turn(end) {
-            stop.ask();
+fn fly_one(
+    mut shell: VehicleShell,
+    end: SimTime,
+    stop: &StopRequest,
+    mut progress: Option<ProgressLog>,
+) -> Result<VehicleResult, AppError> {
+    while !stop.is_requested() && shell.core.now() < end {
+        if let Err(error) = shell.run_until(end) {
+            stop.request();
             return Err(error);
         }
         if let Some(progress) = &mut progress {
-            progress.tell(|| format!("simulation time {}", shell.core.now()));
+            progress.report(|| format!("simulation time {}", shell.core.now()));
         }
     }
     if let Some(progress) = progress {
         progress.end();
     }
-    shell.farewell();
-    Ok(Flown { digest: shell.core.digest(), late: shell.late() })
+    shell.finish();
+    Ok(VehicleResult { digest: shell.core.digest(), late: shell.lateness() })
 }

@@ -8,9 +8,9 @@ use std::sync::mpsc::{Receiver, channel};
 
 /// A request to finish, shared by all threads of the process.
 #[derive(Debug, Clone, Default)]
-pub struct Stop(Arc<AtomicBool>);
+pub struct StopRequest(Arc<AtomicBool>);
 
-impl Stop {
+impl StopRequest {
     /// Listens for SIGINT and SIGTERM, and with `leash` for the end of standard input: a parent that dies in whatever way closes it,
     /// so no child outlives its parent.
     ///
@@ -30,7 +30,7 @@ impl Stop {
                 let mut sink = [0u8; 64];
                 let mut stdin = std::io::stdin();
                 while matches!(stdin.read(&mut sink), Ok(1..)) {}
-                on_end.ask();
+                on_end.request();
             });
         }
         Ok(stop)
@@ -51,25 +51,25 @@ impl Stop {
                     break;
                 }
             }
-            on_end.ask();
+            on_end.request();
         });
         lines
     }
 
     /// True once somebody has asked.
-    pub fn asked(&self) -> bool {
+    pub fn is_requested(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 
     /// Asks everybody who looks to end.
-    pub fn ask(&self) {
+    pub fn request(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
     async fn signals(self) {
         // The first asks, the second insists.
         if one_signal().await.is_ok() {
-            self.ask();
+            self.request();
             if one_signal().await.is_ok() {
                 std::process::exit(1);
             }

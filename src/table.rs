@@ -43,7 +43,7 @@ pub fn scores(assessment: &Value) -> String {
     }
     tasks(&mut out, assessment);
     crashes(&mut out, &assessment["crashes"]);
-    pictures(&mut out, &assessment["snapshots"]);
+    picture_table(&mut out, &assessment["snapshots"]);
     end(&mut out, assessment);
     out
 }
@@ -85,7 +85,7 @@ fn crashes(out: &mut String, crashes: &Value) {
         writeln!(out, "crashes       {other} with structures or ground, {person} with persons, {vehicle} with vehicles{places}");
 }
 
-fn pictures(out: &mut String, snapshots: &Value) {
+fn picture_table(out: &mut String, snapshots: &Value) {
     let count = |key: &str| snapshots[key].as_u64().unwrap_or_default();
     let (taken, hits, found, placed) = (count("taken"), count("hits"), count("defects_found"), count("defects_placed"));
     let _ = writeln!(out, "snapshots     {taken} taken, {hits} of them hits; {found} of {placed} defects found");

@@ -1,23 +1,23 @@
 //! `spandrel train`: simulator and monitor for a person's ground station, and a window that leads from one flight to the next.
 
-mod course;
-mod flight;
+mod flight_processes;
 mod offers;
 mod photographs;
 mod prompt;
-mod questions;
+mod questionnaire_state;
+mod train_run;
 mod window;
 
 use super::args::{self, JobArgs, TraineeId};
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
-use super::pace::Speed;
+use super::pacing::SimulationSpeed;
 use super::ports::PortArgs;
-use super::stop::Stop;
+use super::stop::StopRequest;
 use super::table;
-use course::Course;
 use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
+use train_run::TrainRun;
 
 /// The job that is flown unless another one is asked for: the paper's.
 const USUAL: &str = "two-bridges";
@@ -62,13 +62,13 @@ pub struct Args {
     sessions: PathBuf,
     /// Simulation speed: a multiple of real time (0.1 to 100), or max; use 1 to fly by hand
     #[arg(long, value_name = "X|max", default_value = "1")]
-    speed: Speed,
+    speed: SimulationSpeed,
     /// Autopilot protocol; the flight dynamics are the same in all of them
     #[arg(long, value_name = "NAME", default_value = "px4")]
     flavour: args::Flavour,
     /// Local port for web pages of the sessions and the live flight, 0 for any free one, or none
     #[arg(long, value_name = "PORT|none", default_value = "0")]
-    web: args::Port,
+    web: args::PortChoice,
     /// Don't open the window
     #[arg(long)]
     no_view: bool,
@@ -108,7 +108,7 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     files::vehicle(&args.vehicle)?;
     super::controller::keys(args.keys.as_deref())?;
     check_quality(&args.quality)?;
-    Course::new(args, log, Stop::install(false)?).run()
+    TrainRun::new(args, log, StopRequest::install(false)?).run()
 }
 
 /// Refuses a preset that there is not; a build without the window has none.
@@ -125,7 +125,7 @@ fn camera(args: &Args) -> PathBuf {
 }
 
 /// Arguments that all children share.
-pub fn common(job: &JobArgs, log: tracing::Level) -> Vec<String> {
+pub fn common_args(job: &JobArgs, log: tracing::Level) -> Vec<String> {
     let mut args = vec!["--log".to_owned(), log.to_string().to_lowercase()];
     args.extend(["--scenario", &job.scenario, "--vehicle", &job.vehicle].map(str::to_owned));
     if let Some(seed) = job.seed {
@@ -138,7 +138,7 @@ pub fn common(job: &JobArgs, log: tracing::Level) -> Vec<String> {
 ///
 /// # Errors
 /// When it holds no assessment.
-pub fn tell(session: &Path) -> Result<(), AppError> {
+pub fn report_outcome(session: &Path) -> Result<(), AppError> {
     let path = session.join(spandrel_monitor::folder::ASSESSMENT);
     let text = std::fs::read_to_string(&path)
         .map_err(|_| AppError::failed(format!("the session was not scored; what was recorded is in {}", session.display())))?;
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_window_is_told_of_only_where_there_is_one() {
+    fn exact_a_window_is_reported_only_where_there_is_one() {
         let ports = parsed(&[]).ports;
         let told = |window| how_to_connect("Drill", &ports, &serde_json::Value::Null, Path::new("s"), (None, window));
         assert!(told(true).contains("A window shows") && !told(true).contains("No window"), "{}", told(true));

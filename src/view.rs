@@ -97,7 +97,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 /// When there is none of this name.
 #[cfg(feature = "view")]
 pub fn check_quality(name: &str) -> Result<(), AppError> {
-    cockpit::plan::quality(name).map(|_| ())
+    cockpit::window_config::quality(name).map(|_| ())
 }
 
 /// Says what is missing.

@@ -6,7 +6,7 @@ use mavlink::Message;
 use spandrel_mavlink::codec::Decoder;
 use spandrel_mavlink::dialect::MavMessage;
 use spandrel_model::time::SimTime;
-use spandrel_monitor::{Monitor, MonitorConfig, watch::build_site};
+use spandrel_monitor::{Monitor, MonitorConfig, sidecar::build_site};
 use std::sync::LazyLock;
 
 static MONITOR: LazyLock<Monitor> = LazyLock::new(|| {
@@ -20,7 +20,7 @@ static MONITOR: LazyLock<Monitor> = LazyLock::new(|| {
         started_unix_us: 0,
         system_id: 1,
         seed: None,
-        build: build_site,
+        survey_builder: build_site,
     })
 });
 

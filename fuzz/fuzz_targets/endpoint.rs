@@ -7,7 +7,7 @@ use spandrel_mavlink::codec::Encoder;
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage};
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
-use spandrel_sitl::endpoint::files::job::{Action, Done, Entry, FileError};
+use spandrel_sitl::endpoint::files::job::{DirectoryEntry, FileAction, FileError, FileJobResult};
 use spandrel_sitl::endpoint::flavour::px4;
 use spandrel_sitl::endpoint::{HANDLED, LinkId, LinkKind};
 use spandrel_sitl::sim::{Sim, SimConfig};
@@ -54,7 +54,7 @@ fn framed(choice: u8, payload: &[u8]) -> Vec<u8> {
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let mut sim = FLYING.clone();
-    sim.serve_files();
+    sim.enable_file_jobs();
     let mut rest = bytes;
     while let [len, tail @ ..] = rest {
         let (chunk, after) = tail.split_at(usize::from(*len).min(tail.len()));
@@ -68,12 +68,13 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
         sim.handle_timeout(until);
         while let Some(job) = sim.poll_file_job() {
             let outcome = match job.action {
-                Action::Read(_, _, most) => Ok(Done::Bytes(vec![7; most.min(40_000) as usize])),
-                Action::List(_) => {
-                    Ok(Done::Entries(vec![Entry::Directory("d".repeat(300)), Entry::File(String::new(), u64::MAX)]))
-                }
-                Action::Size(_) => Ok(Done::Size(u32::MAX)),
-                Action::Checksum { .. } => Ok(Done::Checksum { sum: u32::MAX, bytes: 5 }),
+                FileAction::Read(_, _, most) => Ok(FileJobResult::Bytes(vec![7; most.min(40_000) as usize])),
+                FileAction::List(_) => Ok(FileJobResult::Entries(vec![
+                    DirectoryEntry::Directory("d".repeat(300)),
+                    DirectoryEntry::File(String::new(), u64::MAX),
+                ])),
+                FileAction::Size(_) => Ok(FileJobResult::Size(u32::MAX)),
+                FileAction::Checksum { .. } => Ok(FileJobResult::Checksum { sum: u32::MAX, bytes: 5 }),
                 _ => Err(FileError::Other),
             };
             sim.file_job_done(job.ticket, outcome);

@@ -2,7 +2,7 @@
 #![no_main]
 
 use spandrel_model::{scenario::Scenario, vehicle::Vehicle};
-use spandrel_monitor::{assess_log, watch::build_site};
+use spandrel_monitor::{assess_log, sidecar::build_site};
 use std::sync::LazyLock;
 
 static JOB: LazyLock<(Scenario, Vehicle)> = LazyLock::new(|| {

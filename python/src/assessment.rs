@@ -4,7 +4,7 @@ use crate::errors::AssessmentError;
 use crate::job;
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
-use spandrel_monitor::watch::build_site;
+use spandrel_monitor::sidecar::build_site;
 use spandrel_monitor::{assess_log, export};
 use std::fs;
 use std::path::PathBuf;

@@ -6,7 +6,7 @@ use crate::job;
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use spandrel_sitl::testing::Failure;
+use spandrel_sitl::testing::MissedExpectation;
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 use std::thread;
 
@@ -27,7 +27,7 @@ struct SlotResult {
     reward: f64,
     terminated: bool,
     measures: [f64; 2],
-    failure: Option<Failure>,
+    failure: Option<MissedExpectation>,
 }
 
 impl Slot {
@@ -54,7 +54,7 @@ impl Slot {
         }
     }
 
-    fn begin(&mut self, world: &Arc<World>, seed: u64) -> Result<Episode, Failure> {
+    fn begin(&mut self, world: &Arc<World>, seed: u64) -> Result<Episode, MissedExpectation> {
         match &self.started {
             Some((before, episode)) if *before == seed => Ok(episode.clone()),
             _ => {

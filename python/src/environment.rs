@@ -14,7 +14,7 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle as Aircraft;
 use spandrel_sitl::endpoint::{LinkId, LinkKind};
 use spandrel_sitl::sim::Sim;
-use spandrel_sitl::testing::{Failure, Vehicle};
+use spandrel_sitl::testing::{MissedExpectation, Vehicle};
 use std::sync::Arc;
 
 /// The link that setpoints come over. It gets answers and no streams: nobody reads them.
@@ -132,7 +132,7 @@ pub struct Episode {
 
 impl Episode {
     /// A vehicle in the air over the pad, in mode Offboard.
-    pub fn start(world: &Arc<World>, seed: u64) -> Result<Self, Failure> {
+    pub fn start(world: &Arc<World>, seed: u64) -> Result<Self, MissedExpectation> {
         let builder = Vehicle::builder().seed(seed).after_crash(AfterCrash::End);
         let mut vehicle = builder.build_from(world.job.clone(), world.aircraft.clone());
         let (task, height_m) = match world.kind {

@@ -3,7 +3,7 @@
 use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
 use spandrel_model::toml::Problems;
-use spandrel_sitl::testing::Failure;
+use spandrel_sitl::testing::MissedExpectation;
 
 pyo3::create_exception!(spandrel, SpandrelError, PyException, "Any failure that this package reports.");
 pyo3::create_exception!(spandrel, JobError, SpandrelError, "A scenario or vehicle file is missing or wrong.");
@@ -27,9 +27,9 @@ pub fn problems(problems: &Problems) -> PyErr {
 }
 
 /// What the vehicle did not do.
-pub fn failure(failure: &Failure) -> PyErr {
+pub fn failure(failure: &MissedExpectation) -> PyErr {
     match failure {
-        Failure::Refused { .. } | Failure::Silent(_) => RefusedError::new_err(failure.to_string()),
-        Failure::Late { .. } => LateError::new_err(failure.to_string()),
+        MissedExpectation::Refused { .. } | MissedExpectation::Silent(_) => RefusedError::new_err(failure.to_string()),
+        MissedExpectation::Late { .. } => LateError::new_err(failure.to_string()),
     }
 }

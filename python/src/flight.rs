@@ -118,7 +118,7 @@ impl Flight {
                 }
                 None => commands::long(command, &params),
             };
-            inner.asked = Some((command, inner.vehicle.heard.len()));
+            inner.asked = Some((command, inner.vehicle.received.len()));
             inner.vehicle.send(&message);
         });
         Ok(())
@@ -129,7 +129,7 @@ impl Flight {
         py.detach(|| {
             let inner = self.lock();
             let (command, before) = inner.asked?;
-            let heard = inner.vehicle.heard;
+            let heard = inner.vehicle.received;
             heard.get(before..).unwrap_or(heard).iter().rev().find_map(|frame| match &frame.message {
                 Some(MavMessage::COMMAND_ACK(ack)) if ack.command == command => Some(ack.result as u32),
                 _ => None,
@@ -214,7 +214,7 @@ impl Flight {
     fn refusal(&self, py: Python<'_>, result: Option<u32>) -> PyErr {
         let (asked, said) = py.detach(|| {
             let inner = self.lock();
-            (inner.asked, inner.vehicle.said())
+            (inner.asked, inner.vehicle.status_texts())
         });
         let Some((command, _)) = asked else { return SpandrelError::new_err("no command was sent") };
         match result.and_then(spandrel_mavlink::dialect::MavResult::from_u32) {

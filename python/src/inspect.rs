@@ -5,9 +5,9 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::CameraPose;
 use spandrel_model::vehicle::Vehicle as Aircraft;
-use spandrel_monitor::measures::attention::Survey;
+use spandrel_monitor::measures::attention::SiteSurvey;
 use spandrel_monitor::measures::coverage::FlownPath;
-use spandrel_monitor::measures::on_path::Paths;
+use spandrel_monitor::measures::on_path::ReferencePaths;
 use spandrel_sitl::sim::Sim;
 use std::collections::BTreeSet;
 
@@ -17,7 +17,7 @@ const REACH_M: f64 = 30.0;
 /// How far an inspection is.
 #[derive(Debug, Clone)]
 pub struct Inspect {
-    paths: Paths,
+    paths: ReferencePaths,
     look: Vec<Vec<Vec3<Enu>>>,
     flown: Vec<FlownPath>,
     on: Option<usize>,
@@ -34,7 +34,7 @@ impl Inspect {
 
     /// Nothing flown, nothing found.
     pub fn new(job: &Scenario) -> Self {
-        let paths = Paths::new(job);
+        let paths = ReferencePaths::new(job);
         let flown = (0..paths.len()).map(|task| FlownPath::new(paths.path(task), paths.threshold_m(task))).collect();
         let look = job.tasks.iter().map(|task| task.look.clone()).collect();
         Self { paths, look, flown, on: None, found: BTreeSet::new(), before: 0.0 }
@@ -92,7 +92,7 @@ impl Inspect {
         let payload = sim.payload();
         let here = (rigid.position_m.enu(), rigid.attitude);
         let pose = CameraPose::on(&aircraft.camera, here, payload.gimbal.pitch_rad, payload.lamp.on);
-        let shown = Survey::look(sim.site(), &pose, &aircraft.camera, &aircraft.lamp, sim.now());
+        let shown = SiteSurvey::view_defects(sim.site(), &pose, &aircraft.camera, &aircraft.lamp, sim.now());
         self.found.extend(shown.iter().filter(|view| view.hit).map(|view| view.defect_id));
     }
 

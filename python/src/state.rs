@@ -63,7 +63,7 @@ impl State {
             pictures: payload.camera.summary(sim.now()).pictures,
             hits: sim.hits(),
             ended: sim.ended().map(str::to_owned),
-            text: vehicle.said(),
+            text: vehicle.status_texts(),
         }
     }
 }

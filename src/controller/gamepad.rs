@@ -2,7 +2,7 @@
 
 use crate::errors::AppError;
 use gilrs::{EventType, GamepadId, Gilrs, GilrsBuilder};
-use spandrel_clients::rc::{Device, Event};
+use spandrel_clients::rc::{Device, DeviceEvent};
 
 /// Linux packs the kind of an event above its number; this one is an absolute axis (linux/input-event-codes.h, EV_ABS).
 const ABSOLUTE: u32 = 3;
@@ -32,17 +32,17 @@ fn describe(gamepad: gilrs::Gamepad) -> Device {
 /// Waits for a device while there is none: the system is asked once and tells from then on.
 #[cfg(feature = "view")]
 #[derive(Debug)]
-pub struct Watch(Gilrs);
+pub struct GamepadWatcher(Gilrs);
 
 #[cfg(feature = "view")]
-impl Watch {
+impl GamepadWatcher {
     /// Begins.
     pub fn start() -> Result<Self, AppError> {
         system().map(Self)
     }
 
     /// A device has come since the last look.
-    pub fn has_come(&mut self) -> bool {
+    pub fn is_available(&mut self) -> bool {
         std::iter::from_fn(|| self.0.next_event()).filter(|event| event.event == EventType::Connected).count() > 0
     }
 }
@@ -76,23 +76,25 @@ impl Gamepad {
     }
 
     /// The next thing that it reported.
-    pub fn next(&mut self) -> Option<Event> {
+    pub fn next(&mut self) -> Option<DeviceEvent> {
         while let Some(event) = self.system.next_event() {
             if event.id != self.id {
                 continue;
             }
             match event.event {
                 EventType::AxisChanged(_, value, code) => {
-                    return Some(Event::Axis { axis: code.into_u32(), value: f64::from(value) });
+                    return Some(DeviceEvent::Axis { axis: code.into_u32(), value: f64::from(value) });
                 }
                 // A trigger that is an axis: 0 to 1.
                 EventType::ButtonChanged(_, value, code) if code.into_u32() >> 16 == ABSOLUTE => {
-                    return Some(Event::Axis { axis: code.into_u32(), value: 2.0 * f64::from(value) - 1.0 });
+                    return Some(DeviceEvent::Axis { axis: code.into_u32(), value: 2.0 * f64::from(value) - 1.0 });
                 }
-                EventType::ButtonPressed(_, code) => return Some(Event::Button { button: code.into_u32(), pressed: true }),
-                EventType::ButtonReleased(_, code) => return Some(Event::Button { button: code.into_u32(), pressed: false }),
-                EventType::Connected => return Some(Event::Found),
-                EventType::Disconnected => return Some(Event::Lost),
+                EventType::ButtonPressed(_, code) => return Some(DeviceEvent::Button { button: code.into_u32(), pressed: true }),
+                EventType::ButtonReleased(_, code) => {
+                    return Some(DeviceEvent::Button { button: code.into_u32(), pressed: false });
+                }
+                EventType::Connected => return Some(DeviceEvent::Found),
+                EventType::Disconnected => return Some(DeviceEvent::Lost),
                 _ => {}
             }
         }

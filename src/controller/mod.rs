@@ -1,34 +1,34 @@
 //! Where sticks come from: a gamepad or transmitter (feature `gamepad`), the terminal's keyboard, a record.
 
+mod calibrated;
 #[cfg(feature = "gamepad")]
 mod gamepad;
-mod hand;
 mod profiles;
 mod terminal;
 
-pub use hand::{Hand, Look};
-pub use profiles::{Profiles, read as read_profile};
-pub use terminal::{Key, Terminal};
+pub use calibrated::{CalibratedController, ControllerReading};
+pub use profiles::{ProfileFolder, read as read_profile};
+pub use terminal::{RawTerminal, TerminalKey};
 
 use super::errors::AppError;
 use super::files;
-use spandrel_clients::rc::keyboard::Keys;
-use spandrel_clients::rc::record::Record;
-use spandrel_clients::rc::{Device, Event};
+use spandrel_clients::rc::input_recording::InputRecording;
+use spandrel_clients::rc::keyboard::KeyBindings;
+use spandrel_clients::rc::{Device, DeviceEvent};
 use spandrel_model::time::SimTime;
 use std::path::Path;
 
 /// A source of raw events.
 #[derive(Debug)]
-pub enum Source {
+pub enum EventSource {
     /// A device on this machine.
     #[cfg(feature = "gamepad")]
     Gamepad(Box<gamepad::Gamepad>),
     /// What one reported earlier.
-    Record(Record),
+    Record(InputRecording),
 }
 
-impl Source {
+impl EventSource {
     /// The device with this name or id, or the only one.
     ///
     /// # Errors
@@ -50,7 +50,7 @@ impl Source {
     }
 
     /// The next event by now.
-    pub fn next(&mut self, now: SimTime) -> Option<Event> {
+    pub fn next(&mut self, now: SimTime) -> Option<DeviceEvent> {
         match self {
             #[cfg(feature = "gamepad")]
             Self::Gamepad(gamepad) => gamepad.next(),
@@ -74,26 +74,26 @@ const NO_GAMEPADS: &str = "this build reads no gamepads (build with --features g
 /// Waits for a device while there is none.
 #[derive(Debug, Default)]
 #[cfg(feature = "view")]
-pub struct Watch {
+pub struct DeviceWatcher {
     #[cfg(feature = "gamepad")]
-    system: Option<gamepad::Watch>,
+    system: Option<gamepad::GamepadWatcher>,
 }
 
 #[cfg(feature = "view")]
-impl Watch {
+impl DeviceWatcher {
     /// Begins to wait, where the system can tell.
     pub fn start() -> Self {
         Self {
             // Why it cannot was told when a device was looked for.
             #[cfg(feature = "gamepad")]
-            system: gamepad::Watch::start().ok(),
+            system: gamepad::GamepadWatcher::start().ok(),
         }
     }
 
     /// A device has come since the last look.
-    pub fn has_come(&mut self) -> bool {
+    pub fn is_available(&mut self) -> bool {
         #[cfg(feature = "gamepad")]
-        return self.system.as_mut().is_some_and(gamepad::Watch::has_come);
+        return self.system.as_mut().is_some_and(gamepad::GamepadWatcher::is_available);
         #[cfg(not(feature = "gamepad"))]
         false
     }
@@ -103,10 +103,10 @@ impl Watch {
 ///
 /// # Errors
 /// When the file cannot be read or is wrong.
-pub fn keys(file: Option<&Path>) -> Result<Keys, AppError> {
+pub fn keys(file: Option<&Path>) -> Result<KeyBindings, AppError> {
     match file {
-        Some(path) => Ok(Keys::read(&path.display().to_string(), &files::read(path)?)?),
-        None => Ok(Keys::default()),
+        Some(path) => Ok(KeyBindings::read(&path.display().to_string(), &files::read(path)?)?),
+        None => Ok(KeyBindings::default()),
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::errors::AppError;
 use crate::files;
 use crate::session_folder::replace;
-use spandrel_clients::rc::{Device, Profile};
+use spandrel_clients::rc::{ControllerProfile, Device};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -11,9 +11,9 @@ const NO_HOME: &str = "no home folder is known: name a folder with --profiles";
 
 /// The folder of profiles, where one is known: without one, devices have no profiles, and all else goes on.
 #[derive(Debug, Clone, Default)]
-pub struct Profiles(Option<PathBuf>);
+pub struct ProfileFolder(Option<PathBuf>);
 
-impl Profiles {
+impl ProfileFolder {
     /// This folder, or the user's own (`$XDG_CONFIG_HOME` or `~/.config`, below `spandrel/controllers`).
     pub fn at(folder: Option<PathBuf>) -> Self {
         Self(folder.or_else(|| usual(std::env::var_os("XDG_CONFIG_HOME"), std::env::var_os("HOME"))))
@@ -41,7 +41,7 @@ impl Profiles {
     ///
     /// # Errors
     /// When the file cannot be read or is wrong.
-    pub fn find(&self, device: &Device) -> Result<Option<Profile>, AppError> {
+    pub fn find(&self, device: &Device) -> Result<Option<ControllerProfile>, AppError> {
         self.path(device).filter(|path| path.exists()).map(|path| read(&path)).transpose()
     }
 
@@ -49,7 +49,7 @@ impl Profiles {
     ///
     /// # Errors
     /// When there is no folder, or it cannot be written.
-    pub fn keep(&self, profile: &Profile) -> Result<PathBuf, AppError> {
+    pub fn keep(&self, profile: &ControllerProfile) -> Result<PathBuf, AppError> {
         let folder = self.folder()?;
         let path = folder.join(file_of(&profile.device));
         std::fs::create_dir_all(folder).map_err(|error| AppError::failed(format!("{}: {error}", folder.display())))?;
@@ -75,27 +75,27 @@ fn file_of(device: &Device) -> String {
 ///
 /// # Errors
 /// When the file cannot be read or is wrong: everything that is wrong with it.
-pub fn read(path: &Path) -> Result<Profile, AppError> {
-    Ok(Profile::read(&path.display().to_string(), &files::read(path)?)?)
+pub fn read(path: &Path) -> Result<ControllerProfile, AppError> {
+    Ok(ControllerProfile::read(&path.display().to_string(), &files::read(path)?)?)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use spandrel_clients::rc::StickMode;
-    use spandrel_clients::rc::axis::Axis;
+    use spandrel_clients::rc::axis::AxisCalibration;
     use spandrel_clients::rc::profile::WAYS;
 
-    fn profile(device: &Device) -> Profile {
-        let axis = |axis| Axis { axis, low: -1.0, centre: 0.0, high: 1.0, dead_band: 0.05, expo: 0.3 };
+    fn profile(device: &Device) -> ControllerProfile {
+        let axis = |axis| AxisCalibration { axis, low: -1.0, centre: 0.0, high: 1.0, dead_band: 0.05, expo: 0.3 };
         let ways = WAYS.iter().zip(0..).map(|((_, way, _), n)| (*way, axis(n))).collect();
-        Profile { device: device.clone(), mode: StickMode::Four, ways, buttons: [].into() }
+        ControllerProfile { device: device.clone(), mode: StickMode::Four, axes: ways, buttons: [].into() }
     }
 
     #[test]
-    fn exact_a_profile_outlives_the_program_and_a_broken_one_is_told() {
+    fn exact_a_profile_outlives_the_program_and_a_broken_one_is_reported() {
         let folder = tempfile::tempdir().unwrap();
-        let profiles = Profiles::at(Some(folder.path().join("deep")));
+        let profiles = ProfileFolder::at(Some(folder.path().join("deep")));
         let device = Device { name: "../Odd/Näme".into(), id: "1:2".into() };
         assert_eq!(profiles.find(&device).unwrap(), None);
         let profile = profile(&device);
@@ -108,9 +108,9 @@ mod tests {
     }
 
     #[test]
-    fn exact_without_a_home_nothing_is_found_and_what_is_kept_is_told() {
+    fn exact_without_a_home_nothing_is_found_and_what_is_kept_is_reported() {
         let device = Device { name: "Pad".into(), id: "1:2".into() };
-        let nowhere = Profiles::default();
+        let nowhere = ProfileFolder::default();
         assert_eq!((nowhere.find(&device).unwrap(), nowhere.path(&device)), (None, None));
         for told in [nowhere.keep(&profile(&device)).unwrap_err().to_string(), nowhere.missing(&device)] {
             assert_eq!(told, "no home folder is known: name a folder with --profiles");

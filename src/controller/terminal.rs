@@ -11,7 +11,7 @@ use std::time::Duration;
 
 /// What was done with a key.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Key {
+pub enum TerminalKey {
     /// Down; again while it is held where the terminal does not tell a press from its repetition.
     Down(String),
     /// Up.
@@ -24,13 +24,13 @@ pub enum Key {
 
 /// A terminal that gives every key at once. Dropped, it is an ordinary one again.
 #[derive(Debug)]
-pub struct Terminal {
+pub struct RawTerminal {
     asked: bool,
     /// The terminal tells when a key comes up.
     pub tells_releases: bool,
 }
 
-impl Terminal {
+impl RawTerminal {
     /// Takes the terminal.
     ///
     /// # Errors
@@ -58,9 +58,9 @@ impl Terminal {
     }
 
     /// The next key, if there is one.
-    pub fn next(&self) -> Option<Key> {
+    pub fn next(&self) -> Option<TerminalKey> {
         while event::poll(Duration::ZERO).unwrap_or(false) {
-            if let Some(key) = event::read().ok().and_then(|event| meaning(&event)) {
+            if let Some(key) = event::read().ok().and_then(|event| parse_escape(&event)) {
                 return Some(key);
             }
         }
@@ -68,7 +68,7 @@ impl Terminal {
     }
 }
 
-impl Drop for Terminal {
+impl Drop for RawTerminal {
     fn drop(&mut self) {
         // The program ends: there is nobody left to tell.
         if self.tells_releases {
@@ -81,23 +81,23 @@ impl Drop for Terminal {
     }
 }
 
-fn meaning(event: &Event) -> Option<Key> {
+fn parse_escape(event: &Event) -> Option<TerminalKey> {
     match event {
         Event::Key(key) => pressed(key),
-        Event::FocusLost => Some(Key::LetGo),
+        Event::FocusLost => Some(TerminalKey::LetGo),
         _ => None,
     }
 }
 
-fn pressed(key: &KeyEvent) -> Option<Key> {
+fn pressed(key: &KeyEvent) -> Option<TerminalKey> {
     let ctrl_c = key.code == KeyCode::Char('c') && key.modifiers.contains(KeyModifiers::CONTROL);
     if ctrl_c || key.code == KeyCode::Esc {
-        return Some(Key::End);
+        return Some(TerminalKey::End);
     }
     match key.kind {
-        KeyEventKind::Press => name(key.code).map(Key::Down),
+        KeyEventKind::Press => name(key.code).map(TerminalKey::Down),
         KeyEventKind::Repeat => None,
-        KeyEventKind::Release => name(key.code).map(Key::Up),
+        KeyEventKind::Release => name(key.code).map(TerminalKey::Up),
     }
 }
 
@@ -123,12 +123,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_key_that_is_told_to_repeat_is_pressed_once_and_lost_focus_lets_go() {
+    fn exact_a_key_that_repeats_is_pressed_once_and_lost_focus_releases() {
         let key = |kind| Event::Key(KeyEvent::new_with_kind(KeyCode::Char('P'), KeyModifiers::NONE, kind));
-        let told = [KeyEventKind::Press, KeyEventKind::Repeat, KeyEventKind::Release].map(|kind| meaning(&key(kind)));
-        assert_eq!(told, [Some(Key::Down("p".into())), None, Some(Key::Up("p".into()))]);
-        assert_eq!([Event::FocusLost, Event::FocusGained].map(|event| meaning(&event)), [Some(Key::LetGo), None]);
+        let told = [KeyEventKind::Press, KeyEventKind::Repeat, KeyEventKind::Release].map(|kind| parse_escape(&key(kind)));
+        assert_eq!(told, [Some(TerminalKey::Down("p".into())), None, Some(TerminalKey::Up("p".into()))]);
+        assert_eq!([Event::FocusLost, Event::FocusGained].map(|event| parse_escape(&event)), [Some(TerminalKey::LetGo), None]);
         let end = KeyEvent::new(KeyCode::Char('c'), KeyModifiers::CONTROL);
-        assert_eq!(meaning(&Event::Key(end)), Some(Key::End));
+        assert_eq!(parse_escape(&Event::Key(end)), Some(TerminalKey::End));
     }
 }

@@ -5,7 +5,7 @@ use super::trainees::{set_given, trainee};
 use crate::errors::AppError;
 use sha2::{Digest, Sha256};
 use spandrel_training::trainee::{Role, Trainee};
-use spandrel_training::web::visits::Credential;
+use spandrel_training::web::visits::CredentialHash;
 use sqlx::Row;
 
 const ACCOUNT: &str = "SELECT trainees.pseudonym, role, age_band, drone_experience, gaming_experience, hash FROM trainees \
@@ -25,7 +25,7 @@ pub struct Account {
 impl Account {
     /// What a visit rests on: another password or role is another one. `None` for who may not log in.
     #[must_use]
-    pub fn credential(&self) -> Option<Credential> {
+    pub fn credential(&self) -> Option<CredentialHash> {
         let hash = self.hash.as_ref()?;
         Some(Sha256::digest(format!("{}\0{hash}", self.person.role.word()).as_bytes()).into())
     }

@@ -66,7 +66,7 @@ fn certificates(key: &str, file: &str) -> Result<(), String> {
 }
 
 /// An error of the connection, and what can be done where the driver's words leave it open.
-pub fn explained(error: &sqlx::Error) -> String {
+pub fn connection_error(error: &sqlx::Error) -> String {
     let said = error.to_string();
     let advice = [
         (

@@ -20,7 +20,7 @@ const WRITE_LOCK: &str = "SELECT pg_advisory_xact_lock(7301420226)";
 
 /// Whose dialect is spoken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum SqlDialect {
     Sqlite,
     Postgres,
 }
@@ -31,7 +31,7 @@ pub struct Database {
     /// Taken out when it ends.
     runtime: Option<tokio::runtime::Runtime>,
     pub(super) pool: AnyPool,
-    pub(super) kind: Kind,
+    pub(super) kind: SqlDialect,
     name: String,
 }
 
@@ -42,10 +42,10 @@ impl Database {
     /// When the URL is wrong, or it cannot be opened or is of a newer version.
     pub fn open(target: &str) -> Result<Self, AppError> {
         sqlx::any::install_default_drivers();
-        let kind = if address::is_url(target) { Kind::Postgres } else { Kind::Sqlite };
+        let kind = if address::is_url(target) { SqlDialect::Postgres } else { SqlDialect::Sqlite };
         let name = without_password(target);
         address::check(target).map_err(|wrong| AppError::wrong(format!("{name}: {wrong}")))?;
-        if let (Kind::Sqlite, Some(folder)) = (kind, Path::new(target).parent()) {
+        if let (SqlDialect::Sqlite, Some(folder)) = (kind, Path::new(target).parent()) {
             std::fs::create_dir_all(folder)
                 .map_err(|error| AppError::failed(format!("{}: cannot be made: {error}", folder.display())))?;
         }
@@ -53,18 +53,21 @@ impl Database {
             .enable_all()
             .build()
             .map_err(|error| AppError::failed(format!("{name}: no runtime for the database: {error}")))?;
-        let url = if kind == Kind::Sqlite { sqlite_url(target) } else { target.to_owned() };
+        let url = if kind == SqlDialect::Sqlite { sqlite_url(target) } else { target.to_owned() };
         // SQLite's version of its data counts within one connection: it stays open.
-        let lives = |seconds| (kind == Kind::Postgres).then(|| Duration::from_secs(seconds));
+        let lives = |seconds| (kind == SqlDialect::Postgres).then(|| Duration::from_secs(seconds));
         let options = AnyPoolOptions::new().max_connections(1).idle_timeout(lives(600)).max_lifetime(lives(1800)).after_connect(
-            move |connection, _| Box::pin(async move { if kind == Kind::Sqlite { prepare(connection).await } else { Ok(()) } }),
+            move |connection, _| {
+                Box::pin(async move { if kind == SqlDialect::Sqlite { prepare(connection).await } else { Ok(()) } })
+            },
         );
         // The pool would try a server that refuses again and again; one that does not answer at once is told at once.
         let open = async {
             AnyConnection::connect(&url).await?.close().await?;
             options.connect(&url).await
         };
-        let refused = |error: sqlx::Error| AppError::failed(format!("{name}: cannot be opened: {}", address::explained(&error)));
+        let refused =
+            |error: sqlx::Error| AppError::failed(format!("{name}: cannot be opened: {}", address::connection_error(&error)));
         let pool = runtime.block_on(open).map_err(refused)?;
         let database = Self { runtime: Some(runtime), pool, kind, name };
         database.run(database.migrate())?;
@@ -85,8 +88,8 @@ impl Database {
     pub fn keep_writing(&self) -> Result<(), AppError> {
         self.run(async {
             match self.kind {
-                Kind::Sqlite => self.pool.execute("BEGIN IMMEDIATE").await.map(|_| ()),
-                Kind::Postgres => {
+                SqlDialect::Sqlite => self.pool.execute("BEGIN IMMEDIATE").await.map(|_| ()),
+                SqlDialect::Postgres => {
                     self.pool.execute("BEGIN").await?;
                     self.pool.execute(WRITE_LOCK).await?;
                     self.pool.execute("UPDATE sessions SET fingerprint = ''").await.map(|_| ())
@@ -113,20 +116,22 @@ impl Database {
     pub fn version(&self) -> Result<String, AppError> {
         self.run(async {
             match self.kind {
-                Kind::Sqlite => {
+                SqlDialect::Sqlite => {
                     let version: i64 = sqlx::query("PRAGMA data_version").fetch_one(&self.pool).await?.try_get(0)?;
                     Ok(version.to_string())
                 }
                 // Any transaction of the server that writes changes it: figures are computed too often rather than too seldom.
-                Kind::Postgres => sqlx::query("SELECT txid_current_snapshot()::text").fetch_one(&self.pool).await?.try_get(0),
+                SqlDialect::Postgres => {
+                    sqlx::query("SELECT txid_current_snapshot()::text").fetch_one(&self.pool).await?.try_get(0)
+                }
             }
         })
     }
 
     pub(super) async fn begin(&self) -> Result<Transaction<'static, Any>, sqlx::Error> {
         match self.kind {
-            Kind::Sqlite => self.pool.begin_with("BEGIN IMMEDIATE").await,
-            Kind::Postgres => {
+            SqlDialect::Sqlite => self.pool.begin_with("BEGIN IMMEDIATE").await,
+            SqlDialect::Postgres => {
                 let mut change = self.pool.begin().await?;
                 change.execute(WRITE_LOCK).await?;
                 Ok(change)
@@ -137,8 +142,8 @@ impl Database {
     /// What was deleted leaves SQLite's journal, too.
     pub(super) async fn forget(&self) -> Result<(), sqlx::Error> {
         match self.kind {
-            Kind::Sqlite => self.pool.execute("PRAGMA wal_checkpoint(TRUNCATE)").await.map(|_| ()),
-            Kind::Postgres => Ok(()),
+            SqlDialect::Sqlite => self.pool.execute("PRAGMA wal_checkpoint(TRUNCATE)").await.map(|_| ()),
+            SqlDialect::Postgres => Ok(()),
         }
     }
 }

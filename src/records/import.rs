@@ -1,15 +1,15 @@
 //! From session folders to records.
 
-use super::erased::Erased;
+use super::erasure_marks::ErasureMarks;
 use crate::assess;
 use crate::errors::AppError;
 use crate::log_file::LogFile;
 use crate::questionnaire;
-use crate::session_folder::{Stored, is_session, whose};
+use crate::session_folder::{StoredSession, is_session, session_owner};
 use spandrel_monitor::folder::{SCENARIO, TELEMETRY, VEHICLE};
-use spandrel_monitor::watch::build_site;
+use spandrel_monitor::sidecar::build_site;
 use spandrel_training::questionnaire::ANSWERS;
-use spandrel_training::record::{Hashes, Record, Source, record};
+use spandrel_training::record::{RecordSource, SessionRecord, SourceHashes, record};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -47,13 +47,13 @@ pub fn id(session: &Path) -> Result<String, AppError> {
 ///
 /// # Errors
 /// When the folder is wrong or holds nothing to score.
-pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<Record>, AppError> {
+pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<SessionRecord>, AppError> {
     let id = id(session)?;
     let hashes = hashes(session)?;
     if known.get(&id).is_some_and(|fingerprint| *fingerprint == hashes.fingerprint()) {
         return Ok(None);
     }
-    let stored = Stored::read(session)?;
+    let stored = StoredSession::read(session)?;
     let scenario = &stored.scenario.scenario;
     let graded = assess::grade(&stored.log, scenario, &stored.vehicle.vehicle)
         .map_err(|error| AppError::failed(format!("{}: {error}", session.display())))?;
@@ -61,7 +61,7 @@ pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<R
     let survey = scenario.defects.placed.is_none().then(|| build_site(scenario, graded.seed));
     let placed = scenario.defects.placed.as_deref().or_else(|| survey.as_ref().map(|survey| survey.defects()));
     let answers = questionnaire::stored(session, scenario)?;
-    Ok(Some(record(&Source {
+    Ok(Some(record(&RecordSource {
         id: &id,
         trainee: &stored.trainee,
         purpose: stored.purpose.as_deref(),
@@ -77,17 +77,17 @@ pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<R
 }
 
 /// A folder's session was erased, or its trainee after it had begun: it does not come back. One that cannot be read is told by [`read`].
-pub fn is_erased(session: &Path, erased: &Erased) -> bool {
-    let (Ok(id), Ok((trainee, started_unix_us))) = (id(session), whose(session)) else { return false };
-    erased.holds(&id, &trainee, started_unix_us)
+pub fn is_erased(session: &Path, erased: &ErasureMarks) -> bool {
+    let (Ok(id), Ok((trainee, started_unix_us))) = (id(session), session_owner(session)) else { return false };
+    erased.contains(&id, &trainee, started_unix_us)
 }
 
-fn hashes(session: &Path) -> Result<Hashes, AppError> {
+fn hashes(session: &Path) -> Result<SourceHashes, AppError> {
     let bytes = |name: &str| {
         let path = session.join(name);
         std::fs::read(&path).map_err(|error| AppError::wrong(format!("{}: cannot be read: {error}", path.display())))
     };
     let telemetry = LogFile::open(&session.join(TELEMETRY))?.sha256()?;
     let answers = if session.join(ANSWERS).is_file() { bytes(ANSWERS)? } else { Vec::new() };
-    Ok(Hashes { telemetry, ..Hashes::of(&bytes(SCENARIO)?, &bytes(VEHICLE)?, &[], &answers) })
+    Ok(SourceHashes { telemetry, ..SourceHashes::of(&bytes(SCENARIO)?, &bytes(VEHICLE)?, &[], &answers) })
 }

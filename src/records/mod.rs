@@ -4,8 +4,8 @@
 mod accounts;
 mod address;
 mod database;
-mod erased;
-mod erasing;
+mod erasure;
+mod erasure_marks;
 mod import;
 mod migrate;
 mod people;
@@ -18,16 +18,16 @@ mod trainees;
 pub use accounts::Account;
 pub use database::Database;
 pub use import::{id as session_id, is_erased, read as read_session, session_folders};
-pub use people::{forget, forget_older, kept};
+pub use people::{erase_older, erase_person, kept};
 
 use super::args::TraineeId;
 use super::clock;
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
-use super::progress::Progress;
-use erased::Erased;
+use super::progress::ProgressLog;
+use erasure_marks::ErasureMarks;
 use people::PersonArgs;
-use spandrel_training::record::{Outcome, Record};
+use spandrel_training::record::{SessionOutcome, SessionRecord};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -61,14 +61,14 @@ Examples:
 {EXIT_CODES}"))]
 pub struct Args {
     #[command(flatten)]
-    place: Place,
+    place: RecordsLocation,
     #[command(subcommand)]
-    what: What,
+    what: RecordsCommand,
 }
 
 /// Where records and sessions are.
 #[derive(Debug, Clone, clap::Args)]
-pub struct Place {
+pub struct RecordsLocation {
     /// Folder with session folders; may be repeated
     #[arg(long, global = true, value_name = "DIR", default_value = "sessions")]
     pub sessions: Vec<PathBuf>,
@@ -83,7 +83,7 @@ pub struct Place {
 }
 
 #[derive(Debug, clap::Subcommand)]
-enum What {
+enum RecordsCommand {
     /// Take sessions in; what is there unchanged stays untouched (every folder is read to know; name a session to be quick)
     Import {
         /// Session folders [default: all of --sessions]
@@ -148,25 +148,25 @@ enum What {
 pub fn run(args: &Args) -> Result<(), AppError> {
     let place = &args.place;
     match &args.what {
-        What::Import { folders } => take_in(place, folders),
-        What::Rebuild { yes } => rebuild(place, *yes),
-        What::List { trainee, json: true, .. } => {
+        RecordsCommand::Import { folders } => import_folders(place, folders),
+        RecordsCommand::Rebuild { yes } => rebuild(place, *yes),
+        RecordsCommand::List { trainee, json: true, .. } => {
             let records = place.open()?.records(trainee.as_ref().map(TraineeId::as_str))?;
             files::write("-", spandrel_monitor::export::json_text(&records).as_bytes())
         }
-        What::List { trainee, last, .. } => list(&place.open()?, trainee.as_ref().map(TraineeId::as_str), *last),
-        What::Export { trainee, out } => match trainee {
+        RecordsCommand::List { trainee, last, .. } => list(&place.open()?, trainee.as_ref().map(TraineeId::as_str), *last),
+        RecordsCommand::Export { trainee, out } => match trainee {
             Some(trainee) => people::export(place, trainee.as_str(), out),
             None => files::write(out, lines(&place.open()?.records(None)?)?.as_bytes()),
         },
-        What::Erase { trainee, yes } => people::erase(place, trainee.as_str(), *yes),
-        What::Retention { days, yes } => retention(place, days.unsigned_abs(), *yes),
-        What::Push(args) => push::push(place, &place.open()?, args),
-        What::Trainee(person) => people::set(&place.open()?, person),
+        RecordsCommand::Erase { trainee, yes } => people::erase(place, trainee.as_str(), *yes),
+        RecordsCommand::Retention { days, yes } => retention(place, days.unsigned_abs(), *yes),
+        RecordsCommand::Push(args) => push::push(place, &place.open()?, args),
+        RecordsCommand::Trainee(person) => people::set(&place.open()?, person),
     }
 }
 
-impl Place {
+impl RecordsLocation {
     /// Opens the database, and finishes erasures that a kill has cut off.
     ///
     /// # Errors
@@ -179,7 +179,7 @@ impl Place {
                 Database::open(&folder.join("records.sqlite").display().to_string())
             }
         }?;
-        if let Err(error) = erasing::finish(&database, &self.sessions) {
+        if let Err(error) = erasure::finish(&database, &self.sessions) {
             tracing::warn!("an erasure is not finished: {error}");
         }
         Ok(database)
@@ -190,18 +190,18 @@ impl Place {
 ///
 /// # Errors
 /// Never in practice: every record can be written as JSON.
-pub fn lines(records: &[Record]) -> Result<String, AppError> {
-    let line = |record: &Record| serde_json::to_string(record).map(|text| text + "\n");
+pub fn lines(records: &[SessionRecord]) -> Result<String, AppError> {
+    let line = |record: &SessionRecord| serde_json::to_string(record).map(|text| text + "\n");
     records.iter().map(line).collect::<Result<String, _>>().map_err(|error| AppError::failed(error.to_string()))
 }
 
 /// Takes in what is new or changed; what cannot be scored is told and left out.
-fn take_in(place: &Place, named: &[PathBuf]) -> Result<(), AppError> {
+fn import_folders(place: &RecordsLocation, named: &[PathBuf]) -> Result<(), AppError> {
     let folders = if named.is_empty() { import::session_folders(&place.sessions)? } else { named.to_vec() };
     let database = place.open()?;
-    let Taken { changed, left_out, erased } = import_into(&database, &folders)?;
+    let ImportCounts { changed, left_out, erased } = import_into(&database, &folders)?;
     let unchanged = folders.len() - changed - left_out - erased;
-    let note = erased_note(erased);
+    let note = erasure_note(erased);
     println!("{}: {changed} new or changed, {unchanged} unchanged, {left_out} left out{note}", database.name());
     if left_out + erased > 0 && !named.is_empty() {
         return Err(AppError::failed(format!("{} of the sessions named were left out", left_out + erased)));
@@ -209,7 +209,7 @@ fn take_in(place: &Place, named: &[PathBuf]) -> Result<(), AppError> {
     Ok(())
 }
 
-fn erased_note(erased: usize) -> String {
+fn erasure_note(erased: usize) -> String {
     if erased == 0 {
         return String::new();
     }
@@ -218,7 +218,7 @@ fn erased_note(erased: usize) -> String {
 
 /// What became of some folders.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-struct Taken {
+struct ImportCounts {
     /// New or changed.
     changed: usize,
     /// Not to be read.
@@ -227,9 +227,14 @@ struct Taken {
     erased: usize,
 }
 
-impl Taken {
+impl ImportCounts {
     /// The record of a folder, unless it was erased, `known` holds it unchanged, or it cannot be read: `otherwise` says what becomes of it then.
-    fn read(&mut self, folder: &Path, (known, erased): (&BTreeMap<String, String>, &Erased), otherwise: &str) -> Option<Record> {
+    fn read(
+        &mut self,
+        folder: &Path,
+        (known, erased): (&BTreeMap<String, String>, &ErasureMarks),
+        otherwise: &str,
+    ) -> Option<SessionRecord> {
         if import::is_erased(folder, erased) {
             self.erased += 1;
             return None;
@@ -242,14 +247,14 @@ impl Taken {
     }
 }
 
-fn import_into(database: &Database, folders: &[PathBuf]) -> Result<Taken, AppError> {
+fn import_into(database: &Database, folders: &[PathBuf]) -> Result<ImportCounts, AppError> {
     let (known, erased) = (database.fingerprints()?, database.erased()?);
-    let mut taken = Taken::default();
-    let mut progress = Progress::start("reading sessions");
+    let mut taken = ImportCounts::default();
+    let mut progress = ProgressLog::start("reading sessions");
     for (parcel, part) in folders.chunks(PARCEL).enumerate() {
         let mut records = Vec::new();
         for (k, folder) in part.iter().enumerate() {
-            progress.tell(|| format!("session {} of {}", parcel * PARCEL + k + 1, folders.len()));
+            progress.report(|| format!("session {} of {}", parcel * PARCEL + k + 1, folders.len()));
             records.extend(taken.read(folder, (&known, &erased), "left out"));
         }
         taken.changed += database.put(&records)?;
@@ -258,7 +263,7 @@ fn import_into(database: &Database, folders: &[PathBuf]) -> Result<Taken, AppErr
     Ok(taken)
 }
 
-fn rebuild(place: &Place, yes: bool) -> Result<(), AppError> {
+fn rebuild(place: &RecordsLocation, yes: bool) -> Result<(), AppError> {
     let folders = import::session_folders(&place.sessions)?;
     let here = folders.iter().map(|folder| import::id(folder)).collect::<Result<BTreeSet<String>, _>>()?;
     let database = place.open()?;
@@ -274,17 +279,17 @@ fn rebuild(place: &Place, yes: bool) -> Result<(), AppError> {
     }
     // As if it knew nothing: all are read.
     let (none, erased) = (BTreeMap::new(), database.erased()?);
-    let mut progress = Progress::start("reading sessions");
+    let mut progress = ProgressLog::start("reading sessions");
     let mut records = Vec::new();
-    let mut taken = Taken::default();
+    let mut taken = ImportCounts::default();
     for (k, folder) in folders.iter().enumerate() {
-        progress.tell(|| format!("session {} of {}", k + 1, folders.len()));
+        progress.report(|| format!("session {} of {}", k + 1, folders.len()));
         records.extend(taken.read(folder, (&none, &erased), "left as it was"));
     }
     progress.end();
     let made = database.rebuild(&records, &gone)?;
     let deleted = if gone.is_empty() { String::new() } else { format!(", {} without a folder here deleted", gone.len()) };
-    println!("{}: {made} sessions, {} left out{deleted}{}", database.name(), taken.left_out, erased_note(taken.erased));
+    println!("{}: {made} sessions, {} left out{deleted}{}", database.name(), taken.left_out, erasure_note(taken.erased));
     Ok(())
 }
 
@@ -300,13 +305,13 @@ fn list(database: &Database, trainee: Option<&str>, last: u32) -> Result<(), App
             true => (format!("{:.1}", one.overall), format!("{:.0}", one.overall_max)),
             false => ("-".to_owned(), "-".to_owned()),
         };
-        let result = format!("{}. {}", one.headline(), one.verdict());
+        let result = format!("{}. {}", one.completion_summary(), one.verdict());
         table.push_str(&format!("{started:<22}{who:<16}{job:<22}{overall:>8}{most:>6}  {end:<12}{id}  {result}\n"));
     }
     files::write("-", table.as_bytes())
 }
 
-fn retention(place: &Place, days: u64, yes: bool) -> Result<(), AppError> {
+fn retention(place: &RecordsLocation, days: u64, yes: bool) -> Result<(), AppError> {
     let limit_us = clock::unix_us().saturating_sub(days.saturating_mul(DAY_US));
     let database = place.open()?;
     let before = clock::utc(limit_us).0;
@@ -315,7 +320,7 @@ fn retention(place: &Place, days: u64, yes: bool) -> Result<(), AppError> {
         println!("{} sessions and {} folders are from before {before}; --yes erases them", old.len(), folders.len());
         return Ok(());
     }
-    let (deleted, folders) = people::forget_older(&database, place, limit_us)?;
+    let (deleted, folders) = people::erase_older(&database, place, limit_us)?;
     println!("{deleted} sessions and {folders} folders from before {before} are erased");
     Ok(())
 }
@@ -324,12 +329,12 @@ fn retention(place: &Place, days: u64, yes: bool) -> Result<(), AppError> {
 ///
 /// # Errors
 /// When it cannot be read or a line is no record.
-pub fn from_lines(path: &Path) -> Result<Vec<Record>, AppError> {
+pub fn from_lines(path: &Path) -> Result<Vec<SessionRecord>, AppError> {
     let text = files::read(path)?;
     let numbered = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let read = |(k, line): (usize, &str)| {
         let wrong = |message: String| AppError::wrong(format!("{}:{}: {message}", path.display(), k + 1));
-        let record: Record = serde_json::from_str(line).map_err(|error| wrong(format!("no record: {error}")))?;
+        let record: SessionRecord = serde_json::from_str(line).map_err(|error| wrong(format!("no record: {error}")))?;
         record.check().map_err(wrong)?;
         Ok(record)
     };

@@ -1,13 +1,13 @@
 //! Trainees: what is known of them, everything that is kept of one, and erasing it.
 
-use super::{Database, Place, erasing, import};
+use super::{Database, RecordsLocation, erasure, import};
 use crate::args::TraineeId;
 use crate::errors::AppError;
 use crate::files;
-use crate::session_folder::whose;
+use crate::session_folder::session_owner;
 use serde::Serialize;
 use spandrel_monitor::export::json_text;
-use spandrel_training::record::Record;
+use spandrel_training::record::SessionRecord;
 use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE, Role, Trainee};
 use std::path::{Path, PathBuf};
 
@@ -33,13 +33,13 @@ pub struct PersonArgs {
 
 /// Everything that is kept of one trainee.
 #[derive(Debug, Serialize)]
-pub struct Kept {
+pub struct TraineeData {
     trainee: Trainee,
-    sessions: Vec<Record>,
+    sessions: Vec<SessionRecord>,
     folders: Vec<String>,
 }
 
-impl Kept {
+impl TraineeData {
     /// The same with the folders' names alone: where they are on a server is nobody's business who asks by the web.
     #[must_use]
     pub fn without_places(mut self) -> Self {
@@ -70,7 +70,7 @@ pub fn set(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
 ///
 /// # Errors
 /// When the database or a folder cannot be read.
-pub fn kept(database: &Database, place: &Place, trainee: &str) -> Result<Option<Kept>, AppError> {
+pub fn kept(database: &Database, place: &RecordsLocation, trainee: &str) -> Result<Option<TraineeData>, AppError> {
     let sessions = database.records(Some(trainee))?;
     let folders = folders_of(place, trainee)?;
     let known = find(database, trainee)?;
@@ -78,14 +78,14 @@ pub fn kept(database: &Database, place: &Place, trainee: &str) -> Result<Option<
         return Ok(None);
     }
     let folders = folders.iter().map(|path| path.display().to_string()).collect();
-    Ok(Some(Kept { trainee: known.unwrap_or_else(|| Trainee::new(trainee)), sessions, folders }))
+    Ok(Some(TraineeData { trainee: known.unwrap_or_else(|| Trainee::new(trainee)), sessions, folders }))
 }
 
 /// Writes everything that is kept of a trainee.
 ///
 /// # Errors
 /// When nothing is kept, or the database or the target refuses.
-pub fn export(place: &Place, trainee: &str, out: &str) -> Result<(), AppError> {
+pub fn export(place: &RecordsLocation, trainee: &str, out: &str) -> Result<(), AppError> {
     let database = place.open()?;
     let kept = kept(&database, place, trainee)?;
     let kept = kept.ok_or_else(|| AppError::wrong(format!("{}: nothing is kept of '{trainee}'", database.name())))?;
@@ -96,7 +96,7 @@ pub fn export(place: &Place, trainee: &str, out: &str) -> Result<(), AppError> {
 ///
 /// # Errors
 /// When a folder or the database refuses.
-pub fn erase(place: &Place, trainee: &str, yes: bool) -> Result<(), AppError> {
+pub fn erase(place: &RecordsLocation, trainee: &str, yes: bool) -> Result<(), AppError> {
     let database = place.open()?;
     let folders = folders_of(place, trainee)?;
     if !yes {
@@ -109,7 +109,7 @@ pub fn erase(place: &Place, trainee: &str, yes: bool) -> Result<(), AppError> {
         );
         return Ok(());
     }
-    let (known, sessions) = forget(&database, place, trainee)?;
+    let (known, sessions) = erase_person(&database, place, trainee)?;
     if !known {
         return Err(AppError::wrong(format!("{}: nothing was kept of '{trainee}'", database.name())));
     }
@@ -121,10 +121,10 @@ pub fn erase(place: &Place, trainee: &str, yes: bool) -> Result<(), AppError> {
 ///
 /// # Errors
 /// When a folder or the database refuses.
-pub fn forget(database: &Database, place: &Place, trainee: &str) -> Result<(bool, u64), AppError> {
+pub fn erase_person(database: &Database, place: &RecordsLocation, trainee: &str) -> Result<(bool, u64), AppError> {
     let folders = folders_of(place, trainee)?;
     let (known, sessions) = database.erase(trainee, &folders)?;
-    erasing::remove(database, &folders)?;
+    erasure::remove_folders(database, &folders)?;
     Ok((known || !folders.is_empty(), sessions))
 }
 
@@ -132,7 +132,7 @@ fn find(database: &Database, trainee: &str) -> Result<Option<Trainee>, AppError>
     Ok(database.account(trainee)?.map(|account| account.person))
 }
 
-fn folders_of(place: &Place, trainee: &str) -> Result<Vec<PathBuf>, AppError> {
+fn folders_of(place: &RecordsLocation, trainee: &str) -> Result<Vec<PathBuf>, AppError> {
     folders_where(&place.sessions, |owner, _| owner == trainee)
 }
 
@@ -144,7 +144,7 @@ fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result
     let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
     let mut found = Vec::new();
     for path in import::session_folders(&here)? {
-        match whose(&path) {
+        match session_owner(&path) {
             Ok((trainee, started_unix_us)) if is(&trainee, started_unix_us) => found.push(path),
             Ok(_) => {}
             Err(error) => tracing::warn!("cannot tell whose this is: {error}"),
@@ -158,11 +158,11 @@ fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result
 ///
 /// # Errors
 /// When a folder or the database refuses.
-pub fn forget_older(database: &Database, place: &Place, limit_us: u64) -> Result<(u64, usize), AppError> {
+pub fn erase_older(database: &Database, place: &RecordsLocation, limit_us: u64) -> Result<(u64, usize), AppError> {
     let folders = folders_older(place, limit_us)?;
     let ids: Vec<String> = database.older_than(limit_us)?.into_iter().map(|(id, _)| id).collect();
     let deleted = database.delete_sessions(&ids, &folders)?;
-    erasing::remove(database, &folders)?;
+    erasure::remove_folders(database, &folders)?;
     Ok((deleted, folders.len()))
 }
 
@@ -170,6 +170,6 @@ pub fn forget_older(database: &Database, place: &Place, limit_us: u64) -> Result
 ///
 /// # Errors
 /// When the folder of sessions cannot be read.
-pub fn folders_older(place: &Place, limit_us: u64) -> Result<Vec<PathBuf>, AppError> {
+pub fn folders_older(place: &RecordsLocation, limit_us: u64) -> Result<Vec<PathBuf>, AppError> {
     folders_where(&place.sessions, |_, started_unix_us| started_unix_us < limit_us)
 }

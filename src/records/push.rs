@@ -1,12 +1,12 @@
 //! `spandrel records push`: sessions as xAPI statements to a learning record store. What is there already is not sent twice: a statement's
 //! id is made from what it says.
 
-use super::{Database, Place};
+use super::{Database, RecordsLocation};
 use crate::errors::AppError;
-use crate::progress::Progress;
+use crate::progress::ProgressLog;
 use crate::session_folder::replace;
 use serde_json::Value;
-use spandrel_training::record::Record;
+use spandrel_training::record::SessionRecord;
 use spandrel_training::xapi::{self, HOME};
 use std::path::Path;
 use std::time::Duration;
@@ -46,7 +46,7 @@ pub struct PushArgs {
 
 /// What a store did with statements.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-struct Done {
+struct PushCounts {
     sent: usize,
     there_already: usize,
 }
@@ -63,18 +63,18 @@ fn endpoint(text: &str) -> Result<String, String> {
 ///
 /// # Errors
 /// When the store refuses, or is not to be reached; what it has taken until then it has.
-pub fn push(place: &Place, database: &Database, args: &PushArgs) -> Result<(), AppError> {
+pub fn push(place: &RecordsLocation, database: &Database, args: &PushArgs) -> Result<(), AppError> {
     let records = database.records(args.trainee.as_ref().map(crate::args::TraineeId::as_str))?;
-    let store = Store::new(&args.url)?;
-    let mut progress = Progress::start("sending statements");
-    let mut all = Done::default();
+    let store = LearningRecordStore::new(&args.url)?;
+    let mut progress = ProgressLog::start("sending statements");
+    let mut all = PushCounts::default();
     for (k, record) in records.iter().enumerate() {
-        progress.tell(|| format!("session {} of {}", k + 1, records.len()));
+        progress.report(|| format!("session {} of {}", k + 1, records.len()));
         let statements = xapi::statements(record, &args.home);
         keep(place, record, &statements)?;
         for parcel in statements.chunks(PARCEL) {
             let done = store.take(parcel)?;
-            all = Done { sent: all.sent + done.sent, there_already: all.there_already + done.there_already };
+            all = PushCounts { sent: all.sent + done.sent, there_already: all.there_already + done.there_already };
         }
     }
     progress.end();
@@ -83,7 +83,7 @@ pub fn push(place: &Place, database: &Database, args: &PushArgs) -> Result<(), A
 }
 
 /// Writes the statements beside a session whose folder is here.
-fn keep(place: &Place, record: &Record, statements: &[Value]) -> Result<(), AppError> {
+fn keep(place: &RecordsLocation, record: &SessionRecord, statements: &[Value]) -> Result<(), AppError> {
     let here = |folder: &Path| crate::session_folder::is_session(&folder.join(&record.id));
     match place.sessions.iter().find(|folder| here(folder)) {
         Some(folder) => replace(&folder.join(&record.id).join(STATEMENTS), xapi::lines(statements).as_bytes()),
@@ -92,13 +92,13 @@ fn keep(place: &Place, record: &Record, statements: &[Value]) -> Result<(), AppE
 }
 
 /// A learning record store.
-struct Store {
+struct LearningRecordStore {
     agent: ureq::Agent,
     url: String,
     authorization: Option<String>,
 }
 
-impl Store {
+impl LearningRecordStore {
     fn new(url: &str) -> Result<Self, AppError> {
         let config =
             ureq::Agent::config_builder().http_status_as_error(false).timeout_global(Some(PATIENCE)).max_redirects(0).build();
@@ -115,26 +115,26 @@ impl Store {
     }
 
     /// Sends statements. A conflict says that one of them is there, then each is sent by itself.
-    fn take(&self, statements: &[Value]) -> Result<Done, AppError> {
+    fn take(&self, statements: &[Value]) -> Result<PushCounts, AppError> {
         match self.send(statements)? {
-            Sent::Taken => Ok(Done { sent: statements.len(), there_already: 0 }),
-            Sent::Conflict if statements.len() == 1 => Ok(Done { sent: 0, there_already: 1 }),
-            Sent::Conflict => statements.iter().try_fold(Done::default(), |sum, one| {
+            SentCount::Taken => Ok(PushCounts { sent: statements.len(), there_already: 0 }),
+            SentCount::Conflict if statements.len() == 1 => Ok(PushCounts { sent: 0, there_already: 1 }),
+            SentCount::Conflict => statements.iter().try_fold(PushCounts::default(), |sum, one| {
                 let done = self.take(std::slice::from_ref(one))?;
-                Ok(Done { sent: sum.sent + done.sent, there_already: sum.there_already + done.there_already })
+                Ok(PushCounts { sent: sum.sent + done.sent, there_already: sum.there_already + done.there_already })
             }),
         }
     }
 
-    fn send(&self, statements: &[Value]) -> Result<Sent, AppError> {
+    fn send(&self, statements: &[Value]) -> Result<SentCount, AppError> {
         let address = format!("{}/statements", self.url);
         let body = Value::from(statements.to_vec()).to_string();
         let mut waits = WAITS.iter();
         loop {
             let why = match self.once(&address, &body) {
-                Ok(Outcome::Done(sent)) => return Ok(sent),
-                Ok(Outcome::Refused(words)) => return Err(AppError::failed(format!("{address}: {words}"))),
-                Ok(Outcome::Later(words)) | Err(words) => words,
+                Ok(PushOutcome::Done(sent)) => return Ok(sent),
+                Ok(PushOutcome::Refused(words)) => return Err(AppError::failed(format!("{address}: {words}"))),
+                Ok(PushOutcome::Later(words)) | Err(words) => words,
             };
             let Some(wait) = waits.next() else {
                 return Err(AppError::failed(format!("{address}: {why}, after {} tries", WAITS.len() + 1)));
@@ -145,7 +145,7 @@ impl Store {
     }
 
     /// One request. An error of the line is worth another try.
-    fn once(&self, address: &str, body: &str) -> Result<Outcome, String> {
+    fn once(&self, address: &str, body: &str) -> Result<PushOutcome, String> {
         let mut request =
             self.agent.post(address).header("Content-Type", "application/json").header("X-Experience-API-Version", xapi::VERSION);
         if let Some(authorization) = &self.authorization {
@@ -159,22 +159,22 @@ impl Store {
             format!("status {status} {short}")
         };
         Ok(match status {
-            200..=299 => Outcome::Done(Sent::Taken),
-            409 => Outcome::Done(Sent::Conflict),
-            408 | 425 | 429 | 500..=599 => Outcome::Later(words()),
-            _ => Outcome::Refused(words()),
+            200..=299 => PushOutcome::Done(SentCount::Taken),
+            409 => PushOutcome::Done(SentCount::Conflict),
+            408 | 425 | 429 | 500..=599 => PushOutcome::Later(words()),
+            _ => PushOutcome::Refused(words()),
         })
     }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Sent {
+enum SentCount {
     Taken,
     Conflict,
 }
 
-enum Outcome {
-    Done(Sent),
+enum PushOutcome {
+    Done(SentCount),
     Later(String),
     Refused(String),
 }

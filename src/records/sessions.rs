@@ -1,11 +1,11 @@
 //! Sessions in the database: taken in, listed, deleted.
 
 use super::database::Database;
-use super::erased::{self, What};
-use super::erasing::name_of;
+use super::erasure::name_of;
+use super::erasure_marks::{self, ErasedKind};
 use crate::errors::AppError;
 use spandrel_monitor::score::completion::Completion;
-use spandrel_training::record::{Listed, Record};
+use spandrel_training::record::{SessionListEntry, SessionRecord};
 use spandrel_training::trainee::Role;
 use sqlx::any::{AnyArguments, AnyRow};
 use sqlx::query::Query;
@@ -38,7 +38,7 @@ impl Database {
     ///
     /// # Errors
     /// When the database refuses; then nothing is taken in.
-    pub fn put(&self, records: &[Record]) -> Result<usize, AppError> {
+    pub fn put(&self, records: &[SessionRecord]) -> Result<usize, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
             let changed = put_all(&mut change, records).await?;
@@ -51,7 +51,7 @@ impl Database {
     ///
     /// # Errors
     /// When the database refuses; then all stays as it was.
-    pub fn rebuild(&self, records: &[Record], gone: &[String]) -> Result<usize, AppError> {
+    pub fn rebuild(&self, records: &[SessionRecord], gone: &[String]) -> Result<usize, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
             for id in records.iter().map(|record| &record.id).chain(gone) {
@@ -89,7 +89,7 @@ impl Database {
     ///
     /// # Errors
     /// When the database refuses or holds what is no record.
-    pub fn records(&self, trainee: Option<&str>) -> Result<Vec<Record>, AppError> {
+    pub fn records(&self, trainee: Option<&str>) -> Result<Vec<SessionRecord>, AppError> {
         let rows: Vec<(String, String)> = self.run(async {
             let rows = match trainee {
                 Some(trainee) => {
@@ -110,7 +110,7 @@ impl Database {
     ///
     /// # Errors
     /// When the database refuses or holds what is no record.
-    pub fn record(&self, id: &str) -> Result<Option<Record>, AppError> {
+    pub fn record(&self, id: &str) -> Result<Option<SessionRecord>, AppError> {
         let text: Option<String> = self.run(async {
             let query = sqlx::query("SELECT record FROM sessions WHERE id = $1").bind(id.to_owned());
             query.fetch_optional(&self.pool).await?.map(|row| row.try_get(0)).transpose()
@@ -138,7 +138,7 @@ impl Database {
     ///
     /// # Errors
     /// When the database refuses.
-    pub fn list(&self, trainee: Option<&str>, most: u32, skip: u32) -> Result<Vec<Listed>, AppError> {
+    pub fn list(&self, trainee: Option<&str>, most: u32, skip: u32) -> Result<Vec<SessionListEntry>, AppError> {
         let query = if trainee.is_some() { LIST_OF_ONE } else { LIST };
         self.run(async {
             let query = sqlx::query(query).bind(i64::from(most)).bind(i64::from(skip));
@@ -159,7 +159,7 @@ impl Database {
         })
     }
 
-    /// Erases sessions: they do not come back from a folder elsewhere. Marks `folders` for [`super::erasing::remove`]. Returns how many
+    /// Erases sessions: they do not come back from a folder elsewhere. Marks `folders` for [`super::erasing::remove_folders`]. Returns how many
     /// sessions there were.
     ///
     /// # Errors
@@ -170,7 +170,7 @@ impl Database {
             mark_folders(&mut change, folders).await?;
             let mut deleted = 0;
             for id in ids {
-                erased::mark(&mut change, What::Session, id).await?;
+                erasure_marks::mark(&mut change, ErasedKind::Session, id).await?;
                 deleted += delete(&mut change, id).await?;
             }
             change.commit().await?;
@@ -179,7 +179,7 @@ impl Database {
     }
 
     /// Erases a trainee with everything: sessions flown so far do not come back from a folder elsewhere. Marks `folders` for
-    /// [`super::erasing::remove`]. Returns whether the trainee was known, and how many sessions there were.
+    /// [`super::erasing::remove_folders`]. Returns whether the trainee was known, and how many sessions there were.
     ///
     /// # Errors
     /// When the database refuses; then all stays as it was.
@@ -187,7 +187,7 @@ impl Database {
         self.run(async {
             let mut change = self.begin().await?;
             mark_folders(&mut change, folders).await?;
-            erased::mark(&mut change, What::Trainee, trainee).await?;
+            erasure_marks::mark(&mut change, ErasedKind::Trainee, trainee).await?;
             let answers = "DELETE FROM answers WHERE session IN (SELECT id FROM sessions WHERE trainee = $1)";
             sqlx::query(answers).bind(trainee.to_owned()).execute(&mut *change).await?;
             let by = |query: &'static str| sqlx::query(query).bind(trainee.to_owned());
@@ -202,12 +202,12 @@ impl Database {
 
 async fn mark_folders(change: &mut Transaction<'static, Any>, folders: &[PathBuf]) -> Result<(), sqlx::Error> {
     for folder in folders {
-        erased::mark(change, What::Folder, &name_of(folder)).await?;
+        erasure_marks::mark(change, ErasedKind::Folder, &name_of(folder)).await?;
     }
     Ok(())
 }
 
-async fn put_all(change: &mut Transaction<'static, Any>, records: &[Record]) -> Result<usize, sqlx::Error> {
+async fn put_all(change: &mut Transaction<'static, Any>, records: &[SessionRecord]) -> Result<usize, sqlx::Error> {
     let mut changed = 0;
     for record in records {
         changed += usize::from(put(change, record).await?);
@@ -222,9 +222,9 @@ async fn delete(change: &mut Transaction<'static, Any>, id: &str) -> Result<u64,
     Ok(done.rows_affected())
 }
 
-async fn put(change: &mut Transaction<'static, Any>, record: &Record) -> Result<bool, sqlx::Error> {
+async fn put(change: &mut Transaction<'static, Any>, record: &SessionRecord) -> Result<bool, sqlx::Error> {
     record.check().map_err(|wrong| sqlx::Error::Encode(format!("session {}: {wrong}", record.id).into()))?;
-    if erased::holds(change, record).await? {
+    if erasure_marks::contains(change, record).await? {
         return Ok(false);
     }
     let trainee = sqlx::query(ADD_TRAINEE).bind(record.trainee.clone()).bind(Role::Trainee.word().to_owned());
@@ -245,7 +245,7 @@ async fn put(change: &mut Transaction<'static, Any>, record: &Record) -> Result<
     Ok(true)
 }
 
-fn bind<'q>(query: Query<'q, Any, AnyArguments<'q>>, record: &Record, text: String) -> Query<'q, Any, AnyArguments<'q>> {
+fn bind<'q>(query: Query<'q, Any, AnyArguments<'q>>, record: &SessionRecord, text: String) -> Query<'q, Any, AnyArguments<'q>> {
     let scores = &record.scores;
     query
         .bind(record.id.clone())
@@ -273,7 +273,7 @@ fn bind<'q>(query: Query<'q, Any, AnyArguments<'q>>, record: &Record, text: Stri
 
 /// Fields of a record that lists show besides its columns.
 #[derive(serde::Deserialize)]
-struct Shown {
+struct ListFields {
     #[serde(default)]
     completion: Option<Completion>,
     certified: bool,
@@ -281,11 +281,11 @@ struct Shown {
     unmet: Vec<String>,
 }
 
-fn listed(row: &AnyRow) -> Result<Listed, sqlx::Error> {
+fn listed(row: &AnyRow) -> Result<SessionListEntry, sqlx::Error> {
     let started: i64 = row.try_get(2)?;
     let text: String = row.try_get(8)?;
-    let shown: Shown = serde_json::from_str(&text).map_err(|error| sqlx::Error::Decode(error.into()))?;
-    Ok(Listed {
+    let shown: ListFields = serde_json::from_str(&text).map_err(|error| sqlx::Error::Decode(error.into()))?;
+    Ok(SessionListEntry {
         id: row.try_get(0)?,
         trainee: row.try_get(1)?,
         started_unix_us: u64::try_from(started).unwrap_or_default(),

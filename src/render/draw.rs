@@ -2,26 +2,26 @@
 
 use super::super::errors::AppError;
 use super::super::files;
-use super::super::progress::Progress;
+use super::super::progress::ProgressLog;
 use super::Args;
-use super::recorded::Recorded;
+use super::recorded::RecordedFlight;
 use super::{masks, snapshots, video};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{PlacedDefect, Scenario};
 use spandrel_model::site::Site;
-use spandrel_model::site::gates::Gates;
+use spandrel_model::site::bridge_closures::BridgeClosures;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 use spandrel_view::arrange::fitted_px;
-use spandrel_view::camera::Eye;
+use spandrel_view::camera::PinholeCamera;
 use spandrel_view::gpu::{Gpu, GpuError, Overlay, Renderer};
 use spandrel_view::hud;
-use spandrel_view::masks::Masks;
+use spandrel_view::masks::LabelMask;
 use spandrel_view::picture::Picture;
 use spandrel_view::quality::{PRESETS, Quality};
 use spandrel_view::scene::Scene;
 use spandrel_view::shot::Shot;
-use spandrel_view::stage::{self, Stage, aimed, parked};
+use spandrel_view::stage::{self, Stage, camera_aimed_at, drone_on_pad};
 
 /// Largest side of a picture, px.
 const LARGEST_PX: u32 = 8192;
@@ -128,32 +128,32 @@ fn of_scenario(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pictur
         Some(deg) => return Err(AppError::wrong(format!("--fov {deg}: give degrees, 1 to 150"))),
         None => vehicle.camera,
     };
-    let drawing = Drawing::new(&scenario, &vehicle, args.seed.or(scenario.seed).unwrap_or_default(), quality, at)?;
+    let drawing = SceneDrawing::new(&scenario, &vehicle, args.seed.or(scenario.seed).unwrap_or_default(), quality, at)?;
     let stage = drawing.stage(&scenario, &vehicle);
-    let pose = aimed(from, look, args.lamp);
-    let standing = parked(&scenario, &vehicle);
-    let shot = stage.through(Eye::of(&pose, &lens), Some(&pose), &lens, Some(&standing), (at, size));
+    let pose = camera_aimed_at(from, look, args.lamp);
+    let standing = drone_on_pad(&scenario, &vehicle);
+    let shot = stage.through(PinholeCamera::of(&pose, &lens), Some(&pose), &lens, Some(&standing), (at, size));
     drawing.draw(args, &[(shot, Vec::new())])
 }
 
 /// A moment of a session.
 fn of_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture, AppError> {
-    let recorded = Recorded::read(std::path::Path::new(&args.what))?;
+    let recorded = RecordedFlight::read(std::path::Path::new(&args.what))?;
     let (scenario, vehicle) = (recorded.scenario(), recorded.vehicle());
     let (first, last) = recorded.span();
     let at = instant("at", args.at.unwrap_or(0.5 * (first.s() + last.s())))?;
     let moment = recorded.moment(at)?;
-    let drawing = Drawing::new(scenario, vehicle, recorded.seed(), quality, at)?.with_gates(recorded.gates());
+    let drawing = SceneDrawing::new(scenario, vehicle, recorded.seed(), quality, at)?.with_gates(recorded.gates());
     let stage = drawing.stage(scenario, vehicle);
     let mut views = Vec::new();
     if args.view != "camera" {
         let shot = stage.inspector(&moment, size);
-        let mark = stage.marked(&shot, &moment);
+        let mark = stage.drone_marker(&shot, &moment);
         views.push((shot, if args.no_hud { Vec::new() } else { mark }));
     }
     if args.view != "inspector" {
         let mut heard = recorded.heard();
-        let display = stage::hud(&stage, &moment, &recorded.flight, (heard.until(at), true), true);
+        let display = stage::hud(&stage, &moment, &recorded.flight, (heard.advance_to(at), true), true);
         let size = fitted_px(size, vehicle.camera.aspect());
         views.push((stage.camera(&moment, size), if args.no_hud { Vec::new() } else { hud::layout(&display, aspect(size)) }));
     }
@@ -166,7 +166,7 @@ pub fn aspect((width, height): (u32, u32)) -> f64 {
 }
 
 /// A site and what draws it.
-pub struct Drawing {
+pub struct SceneDrawing {
     /// The device.
     pub gpu: Gpu,
     site: Site,
@@ -174,12 +174,12 @@ pub struct Drawing {
     quality: Quality,
 }
 
-impl Drawing {
+impl SceneDrawing {
     /// Opens a device and builds the site: seconds of work.
     pub fn new(scenario: &Scenario, vehicle: &Vehicle, seed: u64, quality: Quality, at: SimTime) -> Result<Self, AppError> {
         let gpu = Gpu::open()?;
         tracing::info!("drawing with {}", gpu.name);
-        let progress = Progress::start("building the site and its light");
+        let progress = ProgressLog::start("building the site and its light");
         let site = Site::build(scenario, seed);
         let scene = Scene::build(scenario, &site, vehicle, &quality, at);
         progress.end();
@@ -187,8 +187,8 @@ impl Drawing {
     }
 
     /// The same where traffic was stopped and let go so.
-    pub fn with_gates(self, gates: Gates) -> Self {
-        Self { site: self.site.with_gates(gates), ..self }
+    pub fn with_gates(self, gates: BridgeClosures) -> Self {
+        Self { site: self.site.with_closures(gates), ..self }
     }
 
     /// What does not change during a session.
@@ -197,8 +197,12 @@ impl Drawing {
     }
 
     /// What draws one picture after the other.
-    pub fn brush(&self) -> Brush<'_> {
-        Brush { gpu: &self.gpu, renderer: Renderer::new(&self.gpu, self.quality, &self.scene), overlay: Overlay::new(&self.gpu) }
+    pub fn brush(&self) -> SceneRenderer<'_> {
+        SceneRenderer {
+            gpu: &self.gpu,
+            renderer: Renderer::new(&self.gpu, self.quality, &self.scene),
+            overlay: Overlay::new(&self.gpu),
+        }
     }
 
     /// The defects of the site.
@@ -207,7 +211,7 @@ impl Drawing {
     }
 
     /// Shots side by side, each with what lies over it; and the labels of the one that there is, if they are wanted.
-    fn draw(&self, args: &Args, views: &[(Shot, Vec<hud::Item>)]) -> Result<Picture, AppError> {
+    fn draw(&self, args: &Args, views: &[(Shot, Vec<hud::DrawItem>)]) -> Result<Picture, AppError> {
         let mut brush = self.brush();
         if let (true, [(shot, _)]) = (args.masks, views) {
             masks::write(&mut brush, shot, self.defects(), std::path::Path::new(&args.out))?;
@@ -218,20 +222,20 @@ impl Drawing {
 }
 
 /// A scene on the device.
-pub struct Brush<'a> {
+pub struct SceneRenderer<'a> {
     gpu: &'a Gpu,
     renderer: Renderer,
     overlay: Overlay,
 }
 
-impl Brush<'_> {
+impl SceneRenderer<'_> {
     /// A picture with what lies over it.
-    pub fn draw(&mut self, shot: &Shot, items: &[hud::Item]) -> Result<Picture, AppError> {
+    pub fn draw(&mut self, shot: &Shot, items: &[hud::DrawItem]) -> Result<Picture, AppError> {
         Ok(self.renderer.picture_with(self.gpu, shot, &mut self.overlay, items)?)
     }
 
     /// What its pixels show.
-    pub fn labels(&mut self, shot: &Shot) -> Result<Masks, AppError> {
+    pub fn labels(&mut self, shot: &Shot) -> Result<LabelMask, AppError> {
         Ok(self.renderer.labels(self.gpu, shot)?)
     }
 }

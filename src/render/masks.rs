@@ -3,7 +3,7 @@
 use super::super::errors::AppError;
 use super::super::session_folder::replace;
 use super::Args;
-use super::draw::Brush;
+use super::draw::SceneRenderer;
 use spandrel_model::scenario::PlacedDefect;
 use spandrel_view::shot::Shot;
 use std::path::Path;
@@ -21,16 +21,16 @@ pub fn check(args: &Args) -> Result<(), AppError> {
 }
 
 /// Writes the labels of a shot beside its picture: NAME.elements.png, NAME.defects.png (16 bits grey), NAME.masks.json.
-pub fn write(brush: &mut Brush, shot: &Shot, placed: &[PlacedDefect], picture: &Path) -> Result<(), AppError> {
+pub fn write(brush: &mut SceneRenderer, shot: &Shot, placed: &[PlacedDefect], picture: &Path) -> Result<(), AppError> {
     let masks = brush.labels(shot)?;
     let size_px = (masks.width, masks.height);
-    replace(&picture.with_extension("elements.png"), &grey(&masks.elements, size_px)?)?;
-    replace(&picture.with_extension("defects.png"), &grey(&masks.defects, size_px)?)?;
+    replace(&picture.with_extension("elements.png"), &grayscale(&masks.elements, size_px)?)?;
+    replace(&picture.with_extension("defects.png"), &grayscale(&masks.defects, size_px)?)?;
     replace(&picture.with_extension("masks.json"), format!("{:#}\n", masks.legend(placed)).as_bytes())
 }
 
 /// Numbers as a PNG file with 16 bits a pixel.
-fn grey(labels: &[u16], (width, height): (u32, u32)) -> Result<Vec<u8>, AppError> {
+fn grayscale(labels: &[u16], (width, height): (u32, u32)) -> Result<Vec<u8>, AppError> {
     let failed = |error: png::EncodingError| AppError::failed(error.to_string());
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);

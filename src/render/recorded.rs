@@ -2,31 +2,31 @@
 
 use super::super::errors::AppError;
 use super::super::files;
-use super::super::session_folder::Stored;
-use spandrel_mavlink::telemetry::sample::{Header, truth_time};
-use spandrel_mavlink::telemetry::timeline::Pushed;
+use super::super::session_folder::StoredSession;
+use spandrel_mavlink::telemetry::sample::{FrameHeader, truth_time};
+use spandrel_mavlink::telemetry::timeline::FrameDisposition;
 use spandrel_mavlink::telemetry::{Flight, Timeline, tlog};
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::CameraPose;
-use spandrel_model::site::gates::Gates;
+use spandrel_model::site::bridge_closures::BridgeClosures;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 use spandrel_monitor::assessment::scored_epoch;
 use spandrel_monitor::folder::{EVENTS, SIMULATOR_RESTARTED};
 use spandrel_monitor::measures::attention;
 use spandrel_view::feed::Feed;
-use spandrel_view::live::Trace;
+use spandrel_view::live::MotionHistory;
 use spandrel_view::scene::DronePose;
-use spandrel_view::stage::Moment;
+use spandrel_view::stage::SceneMoment;
 use std::path::{Path, PathBuf};
 
 /// A session folder that holds a flight.
-pub struct Recorded {
+pub struct RecordedFlight {
     /// Where it is.
     pub folder: PathBuf,
     /// What it holds.
-    pub stored: Stored,
+    pub stored: StoredSession,
     /// Wall time of simulation time zero, microseconds since 1970.
     zero_unix_us: u64,
     /// Its telemetry: pictures look at the records in any order.
@@ -36,36 +36,36 @@ pub struct Recorded {
     /// So many flights before it are in the log: the simulator has begun anew.
     before: usize,
     /// How long these took.
-    passed: SimTime,
+    current_time: SimTime,
     /// So many records of the log are theirs.
     records_before: usize,
 }
 
-impl Recorded {
+impl RecordedFlight {
     /// Reads a session folder.
     ///
     /// # Errors
     /// When it is none, a file is wrong, or it holds no flight.
     pub fn read(folder: &Path) -> Result<Self, AppError> {
-        let stored = Stored::read(folder)?;
+        let stored = StoredSession::read(folder)?;
         let mut timeline = Timeline::new(LocalPlane::new(stored.scenario.scenario.origin));
         let log = stored.log.bytes()?;
-        let begun: Vec<usize> = tlog::Reader::new(&log)
+        let begun: Vec<usize> = tlog::TlogReader::new(&log)
             .enumerate()
-            .filter_map(|(k, record)| matches!(timeline.push(record.frame), Pushed::Restarted(_)).then_some(k))
+            .filter_map(|(k, record)| matches!(timeline.push(record.frame), FrameDisposition::Restarted(_)).then_some(k))
             .collect();
         let (before, flight) = scored_epoch(&timeline, &stored.scenario.scenario, &stored.vehicle.vehicle);
         if flight.truths.is_empty() {
             return Err(AppError::failed("the session holds no flight to draw"));
         }
         let zero_unix_us = tlog::simulation_zero_us(&log).unwrap_or(stored.started_unix_us);
-        let (passed, records_before) = (timeline.passed(before), before.checked_sub(1).map_or(0, |k| begun[k]));
-        Ok(Self { folder: folder.to_owned(), stored, log, zero_unix_us, flight, before, passed, records_before })
+        let (passed, records_before) = (timeline.apply_pushed(before), before.checked_sub(1).map_or(0, |k| begun[k]));
+        Ok(Self { folder: folder.to_owned(), stored, log, zero_unix_us, flight, before, current_time: passed, records_before })
     }
 
     /// A simulation time of the flight as the clock of the world had it, microseconds since 1970.
     pub fn unix_us(&self, at: SimTime) -> u64 {
-        self.zero_unix_us + u64::try_from((self.passed + at).us()).unwrap_or(0)
+        self.zero_unix_us + u64::try_from((self.current_time + at).us()).unwrap_or(0)
     }
 
     /// The job.
@@ -90,7 +90,7 @@ impl Recorded {
     }
 
     /// When traffic was stopped and let go.
-    pub fn gates(&self) -> Gates {
+    pub fn gates(&self) -> BridgeClosures {
         attention::gates(&self.flight)
     }
 
@@ -98,7 +98,7 @@ impl Recorded {
     ///
     /// # Errors
     /// Where the telemetry says nothing.
-    pub fn moment(&self, at: SimTime) -> Result<Moment, AppError> {
+    pub fn moment(&self, at: SimTime) -> Result<SceneMoment, AppError> {
         let (first, last) = self.span();
         moment(&self.flight, at, self.vehicle()).ok_or_else(|| {
             let (at, first, last) = (at.s(), first.s(), last.s());
@@ -107,7 +107,7 @@ impl Recorded {
     }
 
     /// What the display tells besides the flight, from the beginning on.
-    pub fn heard(&self) -> Heard<'_> {
+    pub fn heard(&self) -> RecordedFeed<'_> {
         // A session without its record of events is drawn without cues.
         let events = files::read(&self.folder.join(EVENTS)).unwrap_or_default();
         let mut events = events.lines().filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok());
@@ -119,23 +119,23 @@ impl Recorded {
         // Taken from the end; those of one time stay in their order.
         events.sort_by_key(|event| event.0);
         events.reverse();
-        let records = tlog::Reader::new(&self.log).skip(self.records_before);
-        Heard { feed: Feed::default(), now: SimTime::ZERO, records, next: None, events }
+        let records = tlog::TlogReader::new(&self.log).skip(self.records_before);
+        RecordedFeed { feed: Feed::default(), now: SimTime::ZERO, records, next: None, events }
     }
 }
 
 /// Mode, satellites, cues and words as they were told, up to a time that only goes on.
-pub struct Heard<'a> {
+pub struct RecordedFeed<'a> {
     feed: Feed,
     now: SimTime,
-    records: std::iter::Skip<tlog::Reader<'a>>,
+    records: std::iter::Skip<tlog::TlogReader<'a>>,
     next: Option<&'a [u8]>,
     events: Vec<(SimTime, serde_json::Value)>,
 }
 
-impl Heard<'_> {
+impl RecordedFeed<'_> {
     /// What had been told by then: the telemetry's part, and the monitor's own cues and words from its record.
-    pub fn until(&mut self, at: SimTime) -> &Feed {
+    pub fn advance_to(&mut self, at: SimTime) -> &Feed {
         while let Some(frame) = self.next.take().or_else(|| self.records.next().map(|record| record.frame)) {
             let now = truth_time(frame).unwrap_or(self.now);
             if now > at {
@@ -143,16 +143,16 @@ impl Heard<'_> {
                 break;
             }
             self.now = now;
-            if Header::peek(frame).is_some_and(|header| Feed::listens(header.message_id)) {
-                self.feed.hear(frame, now);
+            if FrameHeader::peek(frame).is_some_and(|header| Feed::is_relevant(header.message_id)) {
+                self.feed.handle_datagram(frame, now);
             }
         }
         while let Some((time, event)) = self.events.pop_if(|(time, _)| *time <= at) {
             if let Some(mask) = event["cues"].as_i64() {
-                self.feed.cue(i32::try_from(mask).unwrap_or(0), time);
+                self.feed.set_cues(i32::try_from(mask).unwrap_or(0), time);
             }
             if let Some(words) = event["text"].as_str() {
-                self.feed.words(words);
+                self.feed.handle_text(words);
             }
         }
         &self.feed
@@ -161,26 +161,26 @@ impl Heard<'_> {
 
 /// Where everything was, `None` where the telemetry says nothing. Attitude, gimbal and zoom go evenly between what was told, as in the live view; the
 /// measures take what was told last.
-fn moment(flight: &Flight, at: SimTime, vehicle: &Vehicle) -> Option<Moment> {
+fn moment(flight: &Flight, at: SimTime, vehicle: &Vehicle) -> Option<SceneMoment> {
     let state = flight.between(at)?;
     let trace = trace(flight, at);
     let ned_from_frd = trace.at(at).filter(|_| !state.missing).map_or(state.ned_from_frd, |pose| pose.ned_from_frd);
     let lamp_on = flight.light.at(at).unwrap_or(false);
-    Some(Moment {
+    Some(SceneMoment {
         at,
         drone: DronePose { position_m: state.position_m, ned_from_frd, spinning: flight.armed.at(at).unwrap_or(false) },
         velocity_m_s: state.velocity_m_s,
         camera: CameraPose::on(&vehicle.camera, (state.position_m, ned_from_frd), trace.gimbal_at(at), lamp_on),
-        lens: trace.lens_told_at(at).map_or(vehicle.camera, |hfov_rad| Camera { hfov_rad, ..vehicle.camera }),
+        lens: trace.reported_lens_at(at).map_or(vehicle.camera, |hfov_rad| Camera { hfov_rad, ..vehicle.camera }),
         turn: trace.turn_at(at),
     })
 }
 
 /// What was told last by a time, and next.
-fn trace(flight: &Flight, at: SimTime) -> Trace {
+fn trace(flight: &Flight, at: SimTime) -> MotionHistory {
     let near = |after: usize, count: usize| after.saturating_sub(1)..count.min(after + 1);
     let (truths, pitches) = (&flight.truths, flight.gimbal.all());
-    let mut trace = Trace::default();
+    let mut trace = MotionHistory::default();
     let around = near(truths.partition_point(|truth| truth.time <= at), truths.len());
     truths[around].iter().for_each(|truth| trace.push(*truth));
     let around = near(pitches.partition_point(|told| told.0 <= at), pitches.len());
@@ -200,15 +200,15 @@ mod tests {
     use spandrel_mavlink::contract::truth::Truth;
     use spandrel_mavlink::dialect::{HEARTBEAT_DATA, HIL_STATE_QUATERNION_DATA, MavMessage, MavModeFlag};
     use spandrel_model::frames::{Rotation, Vec3};
-    use spandrel_monitor::Record;
-    use spandrel_view::stage::Turn;
+    use spandrel_monitor::SessionOutput;
+    use spandrel_view::stage::CameraTurnRate;
 
     const STARTED_US: u64 = 1_700_000_000_000_000;
     /// Between two truths, ms: 50 Hz.
     const STEP_MS: i64 = 20;
 
     /// A session's records as a vehicle and a monitor would make them.
-    struct Tape {
+    struct ReplayTelemetry {
         folder: SessionFolder,
         vehicle: Encoder,
         other: Encoder,
@@ -216,13 +216,13 @@ mod tests {
         newest: Option<SimTime>,
     }
 
-    impl Tape {
+    impl ReplayTelemetry {
         fn hear(&mut self, frame: &[u8]) {
-            self.folder.record(Record::Telemetry(tlog::record(STARTED_US, frame)));
+            self.folder.record(SessionOutput::Telemetry(tlog::record(STARTED_US, frame)));
         }
 
         fn event(&mut self, value: &serde_json::Value) {
-            self.folder.record(Record::Event(format!("{value}\n")));
+            self.folder.record(SessionOutput::Event(format!("{value}\n")));
         }
 
         /// One truth, so high over the pad.
@@ -265,33 +265,33 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_simulator_that_began_anew_shows_the_flight_that_counts_with_its_own_words_and_clock() {
+    fn exact_a_simulator_that_restarted_shows_the_flight_that_counts_with_its_own_words_and_clock() {
         let sessions = tempfile::tempdir().unwrap();
         let shipped = |path: &str| format!("{}/{path}", env!("CARGO_MANIFEST_DIR"));
         let scenario = files::scenario(&shipped("scenarios/two-bridges.toml")).unwrap();
         let vehicle = files::vehicle(&shipped("vehicle-params/phantom2.toml")).unwrap();
         let folder = SessionFolder::create(sessions.path(), "anna", STARTED_US, &scenario, &vehicle).unwrap();
         let (vehicle, other) = (Encoder::new(1, 1), Encoder::new(2, 1));
-        let mut tape = Tape { folder, vehicle, other, scenario: scenario.scenario, newest: None };
+        let mut tape = ReplayTelemetry { folder, vehicle, other, scenario: scenario.scenario, newest: None };
         // On the ground; three late truths of another system begin nothing.
         tape.flight(30_000, 0.0, 2, "Crash: simulator_restarted");
         (0..3).for_each(|k| tape.truth(STEP_MS * k, 0.0, true));
         tape.flight(20_000, 10.0, 3, "Crash: the second");
         tape.folder.flush().unwrap();
 
-        let recorded = Recorded::read(tape.folder.path()).unwrap();
+        let recorded = RecordedFlight::read(tape.folder.path()).unwrap();
         assert_eq!(recorded.span(), (SimTime::ZERO, SimTime::from_ms(20_000)));
         let second = SimTime::from_ms(1_000);
         assert_eq!(recorded.unix_us(second), STARTED_US + 31_000_000);
         assert!(recorded.moment(second).unwrap().drone.position_m.up() > 5.0 + tape.scenario.ground_team.pad_m.up());
         let mut heard = recorded.heard();
-        let early = heard.until(SimTime::from_ms(40)).clone();
+        let early = heard.advance_to(SimTime::from_ms(40)).clone();
         assert_eq!(
             (early.mode(), early.cues(SimTime::from_ms(40), true), early.hit()),
             ("no mode", 0, None),
             "nothing of the first flight"
         );
-        let later = heard.until(second);
+        let later = heard.advance_to(second);
         assert_eq!((later.mode(), later.cues(second, true), later.hit()), ("Position", 3, Some("the second")));
     }
 
@@ -304,7 +304,7 @@ mod tests {
             ned_from_frd: Rotation::from_euler(0.0, 0.0, yaw_deg.to_radians()),
         };
         let mut flight = Flight::default();
-        assert_eq!(trace(&flight, SimTime::ZERO).turn_at(SimTime::ZERO), Turn::default());
+        assert_eq!(trace(&flight, SimTime::ZERO).turn_at(SimTime::ZERO), CameraTurnRate::default());
         flight.truths = [(0, 0.0), (20, 2.0), (40, 2.0), (60, 1.0)].map(|(ms, yaw_deg)| truth(ms, yaw_deg)).to_vec();
         for (ms, pitch_rad) in [(0, 0.0), (50, 0.05), (100, 0.0)] {
             flight.gimbal.push(SimTime::from_ms(ms), ms, pitch_rad);

@@ -2,19 +2,19 @@
 
 use super::super::clock;
 use super::super::errors::AppError;
-use super::super::progress::Progress;
+use super::super::progress::ProgressLog;
 use super::super::report;
 use super::super::session_folder::replace;
-use super::draw::{Drawing, quality, size};
-use super::recorded::Recorded;
+use super::draw::{SceneDrawing, quality, size};
+use super::recorded::RecordedFlight;
 use super::{Args, masks};
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_monitor::folder::{SMALL, SNAPSHOTS};
-use spandrel_training::report::pictures::Picture;
+use spandrel_training::report::pictures::ReviewedPicture;
 use spandrel_view::arrange::{drawn_px, fitted_px};
-use spandrel_view::photo::{self, About, PhotoError};
+use spandrel_view::photo::{self, PhotoError, PhotoInfo};
 use spandrel_view::shot::Shot;
-use spandrel_view::stage::Moment;
+use spandrel_view::stage::SceneMoment;
 
 /// Without a graphics card pictures have at most so many pixels unless a size is asked for: a second each, not a minute.
 const SOFTWARE_PX: f64 = 1280.0 * 960.0;
@@ -29,13 +29,13 @@ impl From<PhotoError> for AppError {
 pub fn run(args: &Args) -> Result<(), AppError> {
     let preset = quality(&args.quality)?;
     let asked = args.size.as_deref().map(size).transpose()?;
-    let recorded = Recorded::read(std::path::Path::new(&args.what))?;
+    let recorded = RecordedFlight::read(std::path::Path::new(&args.what))?;
     let taken = report::pictures(&recorded.folder)?;
     if taken.is_empty() {
         tracing::info!("no picture was taken");
         return Ok(());
     }
-    let drawing = Drawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, taken[0].time)?;
+    let drawing = SceneDrawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, taken[0].time)?;
     let drawing = drawing.with_gates(recorded.gates());
     let camera = &recorded.vehicle().camera;
     let most = drawing.gpu.software.then_some(SOFTWARE_PX);
@@ -50,16 +50,16 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let copies = folder.join(SMALL);
     std::fs::create_dir_all(&copies).map_err(|error| AppError::failed(format!("{}: {error}", copies.display())))?;
     let mut brush = drawing.brush();
-    let mut progress = Progress::start("drawing pictures");
+    let mut progress = ProgressLog::start("drawing pictures");
     for (k, picture) in taken.iter().enumerate() {
-        progress.tell(|| format!("picture {} of {}", k + 1, taken.len()));
+        progress.report(|| format!("picture {} of {}", k + 1, taken.len()));
         let moment = recorded.moment(picture.time)?;
         let shot = drawing.stage(recorded.scenario(), recorded.vehicle()).camera(&moment, size_px);
         let drawn = brush.draw(&shot, &[])?;
         let name = format!("{:04}.jpg", picture.index.max(0));
         let path = folder.join(&name);
         replace(&path, &photo::jpeg(&drawn, &about(&recorded, picture, &moment, &shot))?)?;
-        replace(&copies.join(&name), &photo::copy(&drawn, report::picture_most(taken.len()))?)?;
+        replace(&copies.join(&name), &photo::copy(&drawn, report::max_pictures(taken.len()))?)?;
         if args.masks {
             masks::write(&mut brush, &shot, drawing.defects(), &path)?;
         }
@@ -71,7 +71,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 }
 
 /// What is known of a photograph: as it was drawn, with attitude and gimbal between what was told.
-fn about(recorded: &Recorded, picture: &Picture, moment: &Moment, shot: &Shot) -> About {
+fn about(recorded: &RecordedFlight, picture: &ReviewedPicture, moment: &SceneMoment, shot: &Shot) -> PhotoInfo {
     let (scenario, vehicle) = (recorded.scenario(), recorded.vehicle());
     let taken_unix_us = recorded.unix_us(picture.time);
     let (utc, _) = clock::utc(taken_unix_us);
@@ -79,7 +79,7 @@ fn about(recorded: &Recorded, picture: &Picture, moment: &Moment, shot: &Shot) -
     let pose = &moment.camera;
     let (yaw_deg, pitch_deg) = photo::direction_deg(pose);
     let (roll, pitch, yaw) = moment.drone.ned_from_frd.euler();
-    About {
+    PhotoInfo {
         number: picture.number,
         taken_unix_us,
         taken_utc: (date.replace('-', ":"), time.to_owned()),

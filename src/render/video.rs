@@ -1,19 +1,19 @@
 //! A session's camera view as a film, with its photographs as chapters.
 
 use super::super::errors::AppError;
-use super::super::progress::Progress;
+use super::super::progress::ProgressLog;
 use super::super::report;
 use super::super::session_folder::replace;
 use super::Args;
-use super::draw::{Drawing, aspect, instant, quality, size};
-use super::recorded::Recorded;
+use super::draw::{SceneDrawing, aspect, instant, quality, size};
+use super::recorded::RecordedFlight;
 use spandrel_model::time::SimTime;
-use spandrel_training::report::pictures::Picture;
+use spandrel_training::report::pictures::ReviewedPicture;
 use spandrel_view::arrange::fitted_px;
-use spandrel_view::exposure::Adaptation;
+use spandrel_view::exposure::ExposureMeter;
 use spandrel_view::hud;
 use spandrel_view::stage;
-use spandrel_view::video::{Encoder, Mp4, Piece, VideoError, webvtt};
+use spandrel_view::video::{H264Encoder, Mp4Chunk, Mp4Writer, VideoError, webvtt};
 use std::fs::File;
 use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -45,31 +45,31 @@ pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
             path.display()
         )));
     }
-    let recorded = Recorded::read(Path::new(&args.what))?;
+    let recorded = RecordedFlight::read(Path::new(&args.what))?;
     let (from, to) = span(args, &recorded)?;
     let size_px = fitted_px(within_px, recorded.vehicle().camera.aspect());
-    let drawing = Drawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, from)?;
+    let drawing = SceneDrawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, from)?;
     let drawing = drawing.with_gates(recorded.gates());
     let bits_s = BITS_PX * f64::from(size_px.0) * f64::from(size_px.1) * args.fps;
-    let mut encoder = Encoder::new(size_px, args.fps, bits_s as u32, (KEY_EVERY_S * args.fps).ceil() as u32)?;
-    let (mut film, head) = Mp4::new(size_px, args.fps)?;
-    let mut file = Film::create(path)?;
+    let mut encoder = H264Encoder::new(size_px, args.fps, bits_s as u32, (KEY_EVERY_S * args.fps).ceil() as u32)?;
+    let (mut film, head) = Mp4Writer::new(size_px, args.fps)?;
+    let mut file = VideoFile::create(path)?;
     file.write(&head)?;
-    let (mut brush, mut heard, mut progress) = (drawing.brush(), recorded.heard(), Progress::start("drawing the film"));
-    let mut meter = Adaptation::default();
+    let (mut brush, mut heard, mut progress) = (drawing.brush(), recorded.heard(), ProgressLog::start("drawing the film"));
+    let mut meter = ExposureMeter::default();
     let count = ((to - from).s() * args.fps).floor() as u32 + 1;
     let picture_s = 1.0 / args.fps;
     for k in 0..count {
         let at = from + SimTime::from_s(f64::from(k) / args.fps);
-        progress.tell(|| format!("{:.1} of {:.1} s", (at - from).s(), (to - from).s()));
+        progress.report(|| format!("{:.1} of {:.1} s", (at - from).s(), (to - from).s()));
         let moment = recorded.moment(at)?;
         let stage = drawing.stage(recorded.scenario(), recorded.vehicle());
         let items = if args.no_hud {
             Vec::new()
         } else {
-            hud::layout(&stage::hud(&stage, &moment, &recorded.flight, (heard.until(at), true), true), aspect(size_px))
+            hud::layout(&stage::hud(&stage, &moment, &recorded.flight, (heard.advance_to(at), true), true), aspect(size_px))
         };
-        let picture = brush.draw(&stage.filmed(&moment, size_px, &mut meter), &items)?;
+        let picture = brush.draw(&stage.camera_frame(&moment, size_px, &mut meter), &items)?;
         file.write(&film.push(&encoder.encode(&picture)?)?)?;
     }
     for piece in film.finish()? {
@@ -83,7 +83,7 @@ pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
 }
 
 /// From when to when, of the flight.
-fn span(args: &Args, recorded: &Recorded) -> Result<(SimTime, SimTime), AppError> {
+fn span(args: &Args, recorded: &RecordedFlight) -> Result<(SimTime, SimTime), AppError> {
     let (first, last) = recorded.span();
     let Some(text) = &args.span else { return Ok((first, last)) };
     let wrong = || {
@@ -97,9 +97,9 @@ fn span(args: &Args, recorded: &Recorded) -> Result<(SimTime, SimTime), AppError
 }
 
 /// A chapter for each photograph of the span, named by its verdict; one that would have no length has a picture's, s.
-fn chapters(taken: &[Picture], (from, to): (SimTime, SimTime), picture_s: f64) -> Vec<webvtt::Chapter> {
-    let within: Vec<&Picture> = taken.iter().filter(|picture| (from..=to).contains(&picture.time)).collect();
-    let next = |k: usize| within.get(k + 1).map_or(to, |next: &&Picture| next.time);
+fn chapters(taken: &[ReviewedPicture], (from, to): (SimTime, SimTime), picture_s: f64) -> Vec<webvtt::Chapter> {
+    let within: Vec<&ReviewedPicture> = taken.iter().filter(|picture| (from..=to).contains(&picture.time)).collect();
+    let next = |k: usize| within.get(k + 1).map_or(to, |next: &&ReviewedPicture| next.time);
     within
         .iter()
         .enumerate()
@@ -115,13 +115,13 @@ fn chapters(taken: &[Picture], (from, to): (SimTime, SimTime), picture_s: f64) -
 }
 
 /// The file, under another name until it is whole: a film that was there before stays until then.
-struct Film<'a> {
+struct VideoFile<'a> {
     path: &'a Path,
     part: PathBuf,
     file: File,
 }
 
-impl<'a> Film<'a> {
+impl<'a> VideoFile<'a> {
     fn create(path: &'a Path) -> Result<Self, AppError> {
         let mut part = path.to_path_buf().into_os_string();
         part.push(".part");
@@ -130,7 +130,7 @@ impl<'a> Film<'a> {
         Ok(Self { path, part, file })
     }
 
-    fn write(&mut self, piece: &Piece) -> Result<(), AppError> {
+    fn write(&mut self, piece: &Mp4Chunk) -> Result<(), AppError> {
         let written = self.file.seek(SeekFrom::Start(piece.at)).and_then(|_| self.file.write_all(&piece.bytes));
         written.map_err(|error| AppError::failed(format!("{}: {error}", self.part.display())))
     }
@@ -140,7 +140,7 @@ impl<'a> Film<'a> {
     }
 }
 
-impl Drop for Film<'_> {
+impl Drop for VideoFile<'_> {
     fn drop(&mut self) {
         // Finished, it is there no longer; otherwise it is half a film.
         let _ = std::fs::remove_file(&self.part);

@@ -3,28 +3,30 @@
 use crate::files;
 use crate::records::session_folders;
 use crate::report;
-use crate::session_folder::{purpose, whose};
+use crate::session_folder::{purpose, session_owner};
 use serde::Deserialize;
 use serde_json::Value;
 use spandrel_model::scenario::Scenario;
 use spandrel_monitor::folder::{ASSESSMENT, REPORT};
 use spandrel_monitor::score::completion::{Completion, verdict};
-use spandrel_view::flow::pipe::{Choice, Ended, Job, Offers, Person, Purpose, SCORES, Score};
+use spandrel_view::flow::pipe::{
+    FinalScore, FlightChoice, FlightOptions, FlightSummary, JobOffer, Purpose, SCORES, TraineeSummary,
+};
 use std::collections::BTreeMap;
 use std::path::Path;
 
 /// What can be chosen here.
-pub fn offers(sessions: &Path, choice: &Choice, web: Option<&str>) -> Offers {
+pub fn offers(sessions: &Path, choice: &FlightChoice, web: Option<&str>) -> FlightOptions {
     let mut names: Vec<String> = files::scenario_names().into_iter().map(str::to_owned).collect();
     if !names.contains(&choice.scenario) {
         names.push(choice.scenario.clone());
     }
     let job = |name: String| {
         let scenario = files::scenario(&name).ok()?.scenario;
-        Some(Job { name, title: scenario.title.clone(), kind: kind(&scenario) })
+        Some(JobOffer { name, title: scenario.title.clone(), kind: job_kind(&scenario) })
     };
-    Offers {
-        trainees: people(sessions),
+    FlightOptions {
+        trainees: trainee_summaries(sessions),
         scenarios: names.into_iter().filter_map(job).collect(),
         choice: choice.clone(),
         web: web.map(str::to_owned),
@@ -32,20 +34,20 @@ pub fn offers(sessions: &Path, choice: &Choice, web: Option<&str>) -> Offers {
 }
 
 /// Who has flown here, how often, and how often for practice.
-fn people(sessions: &Path) -> Vec<Person> {
+fn trainee_summaries(sessions: &Path) -> Vec<TraineeSummary> {
     // A folder that is not there yet holds nobody.
     let folders = session_folders(&[sessions.to_path_buf()]).unwrap_or_default();
     let mut count: BTreeMap<String, (u32, u32)> = BTreeMap::new();
     for folder in &folders {
-        let Ok((trainee, _)) = whose(folder) else { continue };
+        let Ok((trainee, _)) = session_owner(folder) else { continue };
         let practice = purpose(folder).as_deref() == Some(Purpose::Practice.word());
         let (sessions, practices) = count.entry(trainee).or_default();
         (*sessions, *practices) = (*sessions + 1, *practices + u32::from(practice));
     }
-    count.into_iter().map(|(name, (sessions, practices))| Person { name, sessions, practices }).collect()
+    count.into_iter().map(|(name, (sessions, practices))| TraineeSummary { name, sessions, practices }).collect()
 }
 
-fn kind(scenario: &Scenario) -> String {
+fn job_kind(scenario: &Scenario) -> String {
     let some = |count: usize, one: &str, many: &str| match count {
         1 => format!("1 {one}"),
         n => format!("{n} {many}"),
@@ -61,24 +63,24 @@ fn kind(scenario: &Scenario) -> String {
 }
 
 /// How a session ended. `trouble`: why it has no scores, where somebody knows.
-pub fn ended(session: &Path, web: Option<&str>, trouble: Option<String>) -> Ended {
+pub fn ended(session: &Path, web: Option<&str>, trouble: Option<String>) -> FlightSummary {
     let text = std::fs::read_to_string(session.join(ASSESSMENT)).unwrap_or_default();
     let assessment: Value = serde_json::from_str(&text).unwrap_or_default();
     let scores = &assessment["scores"];
-    let one = |name: &str| Some(Score { raw: scores[name]["raw"].as_f64()?, pct: scores[name]["pct"].as_f64()? });
+    let one = |name: &str| Some(FinalScore { raw: scores[name]["raw"].as_f64()?, pct: scores[name]["pct"].as_f64()? });
     let page = session.join(REPORT);
     let id = session.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let completion = Completion::deserialize(&assessment["completion"]).ok();
     let complete = completion.is_none_or(|completion| completion.complete);
     let certification = &assessment["certification"];
     let unmet = Vec::<String>::deserialize(&certification["unmet"]).unwrap_or_default();
-    Ended {
+    FlightSummary {
         scores: SCORES.map(one),
         overall: scores["overall"].as_f64().zip(scores["overall_max"].as_f64()).filter(|_| complete),
         completion: completion.map(|completion| completion.headline()),
         complete,
         verdict: certification["passed"].as_bool().map(|passed| verdict(passed, &unmet)),
-        why: trouble.unwrap_or_else(|| why(&assessment["end"], session)),
+        why: trouble.unwrap_or_else(|| end_reason_text(&assessment["end"], session)),
         report: page.is_file().then(|| report::address(&page)),
         questionnaire: match web {
             Some(web) => format!("{web}/sessions/{id}/questions"),
@@ -87,7 +89,7 @@ pub fn ended(session: &Path, web: Option<&str>, trouble: Option<String>) -> Ende
     }
 }
 
-fn why(end: &Value, session: &Path) -> String {
+fn end_reason_text(end: &Value, session: &Path) -> String {
     match (end["reason"].as_str(), end["seconds"].as_f64()) {
         (Some(reason), Some(seconds)) => {
             format!("{reason} after {:.0} min {:.0} s of flight", (seconds / 60.0).floor(), (seconds % 60.0).floor())
@@ -101,8 +103,8 @@ mod tests {
     use super::*;
     use spandrel_monitor::folder::{SESSION, TELEMETRY};
 
-    fn choice() -> Choice {
-        Choice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice }
+    fn choice() -> FlightChoice {
+        FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice }
     }
 
     #[test]
@@ -129,12 +131,12 @@ mod tests {
             let session = serde_json::json!({ "trainee": trainee, "started_unix_us": 1, "purpose": purpose });
             std::fs::write(folder.join(SESSION), session.to_string()).unwrap();
         }
-        let person = |name: &str, sessions, practices| Person { name: name.into(), sessions, practices };
-        assert_eq!(people(sessions.path()), [person("anna", 3, 1), person("bert", 1, 0)]);
+        let person = |name: &str, sessions, practices| TraineeSummary { name: name.into(), sessions, practices };
+        assert_eq!(trainee_summaries(sessions.path()), [person("anna", 3, 1), person("bert", 1, 0)]);
     }
 
     #[test]
-    fn exact_the_end_tells_scores_and_places_and_what_is_missing() {
+    fn exact_the_end_reports_scores_and_places_and_what_is_missing() {
         let folder = tempfile::tempdir().unwrap();
         let none = ended(folder.path(), None, None);
         assert!(none.overall.is_none() && none.report.is_none() && none.why.contains("not scored"), "{none:?}");

@@ -1,7 +1,7 @@
 //! The photographs of a flight, drawn into its folder and its report while nobody waits for them.
 
 use super::window::spare_threads;
-use crate::stop::Stop;
+use crate::stop::StopRequest;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
@@ -11,9 +11,9 @@ const LOOK: Duration = Duration::from_millis(50);
 
 /// Drawings that have not been finished.
 #[derive(Default)]
-pub struct Photographs(Vec<Child>);
+pub struct PhotographJobs(Vec<Child>);
 
-impl Photographs {
+impl PhotographJobs {
     /// Begins with a session's. Where nothing can be drawn its report has places instead of pictures, as without a window.
     pub fn draw(&mut self, session: &Path) {
         let started = std::env::current_exe().and_then(|program| {
@@ -29,12 +29,12 @@ impl Photographs {
     }
 
     /// Waits until all are drawn; who interrupts leaves the rest undrawn.
-    pub fn finish(&mut self, stop: &Stop) {
+    pub fn finish(&mut self, stop: &StopRequest) {
         self.0.retain_mut(|child| matches!(child.try_wait(), Ok(None)));
-        if !self.0.is_empty() && !stop.asked() {
+        if !self.0.is_empty() && !stop.is_requested() {
             tracing::info!("the photographs are being drawn into the report; Ctrl-C leaves them");
         }
-        while !self.0.is_empty() && !stop.asked() {
+        while !self.0.is_empty() && !stop.is_requested() {
             std::thread::sleep(LOOK);
             self.0.retain_mut(|child| matches!(child.try_wait(), Ok(None)));
         }

@@ -8,7 +8,7 @@ const AGAIN: &str = "again";
 
 /// A line typed at the terminal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Answer {
+pub enum PromptAnswer {
     /// Fly the same job again.
     Again,
     /// Quit.
@@ -17,20 +17,20 @@ pub enum Answer {
 
 /// The terminal. Without one nobody can answer, and only a signal ends the run.
 #[derive(Debug, Default)]
-pub struct Prompt {
+pub struct TerminalPrompt {
     lines: Option<Receiver<String>>,
     /// Somebody has quit at the terminal.
     pub answered: bool,
 }
 
-impl Prompt {
+impl TerminalPrompt {
     /// Returns true when standard input is a terminal.
     pub fn is_open(&self) -> bool {
         std::io::stdin().is_terminal()
     }
 
     /// Explains what keeps the vehicle connected.
-    pub fn words(&self) -> &'static str {
+    pub fn help_text(&self) -> &'static str {
         if self.is_open() {
             "The vehicle stays connected: download its logs, or keep flying. Press Enter to quit; type 'again' and press Enter for another session."
         } else {
@@ -39,22 +39,22 @@ impl Prompt {
     }
 
     /// Returns the next answer, if one was typed. The end of the input quits.
-    pub fn answer(&mut self) -> Option<Answer> {
+    pub fn answer(&mut self) -> Option<PromptAnswer> {
         if !self.is_open() {
             return None;
         }
         let answer = match self.lines.get_or_insert_with(read_lines).try_recv() {
             Ok(line) => read(&line),
-            Err(TryRecvError::Disconnected) => Answer::Quit,
+            Err(TryRecvError::Disconnected) => PromptAnswer::Quit,
             Err(TryRecvError::Empty) => return None,
         };
-        self.answered |= answer == Answer::Quit;
+        self.answered |= answer == PromptAnswer::Quit;
         Some(answer)
     }
 }
 
-fn read(line: &str) -> Answer {
-    if line.trim().eq_ignore_ascii_case(AGAIN) { Answer::Again } else { Answer::Quit }
+fn read(line: &str) -> PromptAnswer {
+    if line.trim().eq_ignore_ascii_case(AGAIN) { PromptAnswer::Again } else { PromptAnswer::Quit }
 }
 
 /// A thread of its own reads: a terminal blocks.
@@ -76,7 +76,12 @@ mod tests {
 
     #[test]
     fn exact_enter_quits_and_the_word_flies_again() {
-        for (line, answer) in [("", Answer::Quit), ("again", Answer::Again), (" Again \n", Answer::Again), ("q", Answer::Quit)] {
+        for (line, answer) in [
+            ("", PromptAnswer::Quit),
+            ("again", PromptAnswer::Again),
+            (" Again \n", PromptAnswer::Again),
+            ("q", PromptAnswer::Quit),
+        ] {
             assert_eq!(read(line), answer, "{line:?}");
         }
     }

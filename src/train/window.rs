@@ -1,10 +1,10 @@
 //! The window as a process of its own, and the pipe to it. The session depends on neither.
 
 use super::Args;
-use crate::args::Port;
+use crate::args::PortChoice;
 use crate::children::Child;
 use crate::clock::Stopwatch;
-use crate::stop::Stop;
+use crate::stop::StopRequest;
 use spandrel_view::flow::pipe::{self, FromWindow, ToWindow};
 use std::time::Duration;
 
@@ -14,7 +14,7 @@ const LOOK: Duration = Duration::from_millis(20);
 const OPEN_LIMIT: Duration = Duration::from_secs(60);
 
 /// The window's process.
-pub struct Window {
+pub struct WindowProcess {
     child: Child,
     over: bool,
     /// It has said that it stands on a display.
@@ -22,33 +22,33 @@ pub struct Window {
     /// It was closed, and did not break off.
     pub closed: bool,
     flies: bool,
-    complained: bool,
+    bad_line_reported: bool,
 }
 
-impl Window {
+impl WindowProcess {
     /// Opens it, unless it is not wanted or there is nothing that it could listen to.
     pub fn open(args: &Args, log: tracing::Level) -> Option<Self> {
         if args.no_view || !cfg!(feature = "view") {
             return None;
         }
-        if args.ports.payload_port == Some(Port::None) {
+        if args.ports.payload_port == Some(PortChoice::None) {
             tracing::warn!("no window: it listens at the payload port, and --payload-port is none");
             return None;
         }
-        let opened = Child::start_beside("view", &words(args, log), &[spare_threads()]);
+        let opened = Child::start_sibling("view", &window_args(args, log), &[spare_threads()]);
         let child = opened.inspect_err(|error| tracing::warn!("no window: {error}")).ok()?;
         Some(Self::of(child))
     }
 
     fn of(child: Child) -> Self {
-        Self { child, over: false, ready: false, closed: false, flies: false, complained: false }
+        Self { child, over: false, ready: false, closed: false, flies: false, bad_line_reported: false }
     }
 
     /// Waits until it stands on a display; false when it does not, or somebody interrupts.
-    pub fn is_ready(&mut self, stop: &Stop) -> bool {
+    pub fn is_ready(&mut self, stop: &StopRequest) -> bool {
         let watch = Stopwatch::start();
-        while self.is_open() && !stop.asked() {
-            if self.hear() == Some(FromWindow::Ready) {
+        while self.is_open() && !stop.is_requested() {
+            if self.receive() == Some(FromWindow::Ready) {
                 return true;
             }
             if watch.elapsed() > OPEN_LIMIT {
@@ -61,25 +61,25 @@ impl Window {
     }
 
     /// Says something to it.
-    pub fn tell(&mut self, message: &ToWindow) {
+    pub fn send(&mut self, message: &ToWindow) {
         match message {
             ToWindow::Flying(_) => self.flies = true,
             ToWindow::Ended(_) => self.flies = false,
             ToWindow::Offers(_) | ToWindow::Paused { .. } | ToWindow::Refused { .. } => {}
         }
-        self.child.tell(&pipe::line(message));
+        self.child.send_line(&pipe::line(message));
     }
 
     /// The next thing that it says. A bad line is named once and left alone.
-    pub fn hear(&mut self) -> Option<FromWindow> {
+    pub fn receive(&mut self) -> Option<FromWindow> {
         while let Some(line) = self.child.line() {
             match pipe::read(&line) {
                 Ok(message) => {
                     self.ready |= message == FromWindow::Ready;
                     return Some(message);
                 }
-                Err(error) if !self.complained => {
-                    self.complained = true;
+                Err(error) if !self.bad_line_reported => {
+                    self.bad_line_reported = true;
                     tracing::warn!("from the window: {error}; such lines are left alone");
                 }
                 Err(_) => {}
@@ -94,7 +94,7 @@ impl Window {
         if let Some(status) = ended.filter(|_| !self.over) {
             self.over = true;
             self.closed = status.success();
-            tracing::info!("{}", farewell(self.closed, self.flies));
+            tracing::info!("{}", exit_message(self.closed, self.flies));
         }
         !self.over
     }
@@ -107,7 +107,7 @@ impl Window {
 }
 
 /// The window's command line.
-fn words(args: &Args, log: tracing::Level) -> Vec<String> {
+fn window_args(args: &Args, log: tracing::Level) -> Vec<String> {
     let mut words = ["--led", "--log", &log.to_string().to_lowercase(), "--quality", &args.quality].map(str::to_owned).to_vec();
     let given = [
         ("--keys", args.keys.as_ref().map(|file| file.display().to_string())),
@@ -125,7 +125,7 @@ fn words(args: &Args, log: tracing::Level) -> Vec<String> {
     words
 }
 
-fn farewell(closed: bool, flies: bool) -> &'static str {
+fn exit_message(closed: bool, flies: bool) -> &'static str {
     match (closed, flies) {
         (true, false) => "the window is closed",
         (true, true) => "the window is closed: the session goes on without",
@@ -140,9 +140,9 @@ pub fn spare_threads() -> (&'static str, String) {
 }
 
 #[cfg(test)]
-impl Window {
+impl WindowProcess {
     /// One that breaks off at once: the tests' own program knows no --announce.
-    pub fn broken() -> Self {
+    pub fn failing() -> Self {
         Self::of(Child::start("view", &[]).unwrap())
     }
 }
@@ -152,9 +152,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_what_train_is_told_of_the_window_reaches_it_once() {
+    fn exact_window_events_reach_train_once() {
         let told = ["--stream", "127.0.0.1:5600", "--device", "Pad", "--no-sound", "--quality", "low"];
-        let words = words(&super::super::tests::parsed(&told), tracing::Level::WARN);
+        let words = window_args(&super::super::tests::parsed(&told), tracing::Level::WARN);
         for pair in [["--stream", "127.0.0.1:5600"], ["--device", "Pad"], ["--quality", "low"], ["--log", "warn"]] {
             assert_eq!(words.windows(2).filter(|two| *two == pair).count(), 1, "{pair:?}: {words:?}");
         }
@@ -164,10 +164,10 @@ mod tests {
 
     #[test]
     fn exact_a_window_that_breaks_off_is_neither_ready_nor_closed() {
-        let mut window = Window::broken();
-        assert!(!window.is_ready(&Stop::default()) && !window.is_open());
+        let mut window = WindowProcess::failing();
+        assert!(!window.is_ready(&StopRequest::default()) && !window.is_open());
         assert!(!window.ready && !window.closed);
-        assert!(farewell(window.closed, true).contains("its message is in the terminal"));
-        assert!(!farewell(true, false).contains("message"), "who closes a window needs no reason");
+        assert!(exit_message(window.closed, true).contains("its message is in the terminal"));
+        assert!(!exit_message(true, false).contains("message"), "who closes a window needs no reason");
     }
 }

@@ -1,22 +1,22 @@
 //! The window and what stands behind it: a thread that listens, a thread that builds the scene, a thread that flies, the pipe to whoever
 //! leads it, and the loop that draws.
 
-mod desk;
+mod controller_slot;
 mod display;
-mod flight;
+mod flight_view;
 mod frame;
-mod keeper;
 mod keys;
-mod lead;
 mod listener;
 mod panes;
+mod picture_writer;
 mod pilot;
-pub mod plan;
 mod screen;
 mod sound;
 mod stream;
+mod train_pipe;
 mod window;
-mod words;
+pub mod window_config;
+mod window_text;
 
 use super::Args;
 use crate::clock;
@@ -25,15 +25,15 @@ use crate::errors::AppError;
 use crate::files;
 use crate::priority;
 use crate::render::size;
-use crate::stop::Stop;
-use flight::Flight;
-use lead::Lead;
-use pilot::{Ask, Pilot};
-use sound::Speaker;
-use spandrel_view::flow::{Flow, Names};
+use crate::stop::StopRequest;
+use flight_view::FlightView;
+use pilot::{PilotCommand, PilotThread};
+use sound::AudioOutput;
+use spandrel_view::flow::{KeyNames, WindowFlow};
 use std::time::Duration;
-use stream::Stream;
-use window::{Cockpit, Crew};
+use stream::StreamSender;
+use train_pipe::TrainPipe;
+use window::{Cockpit, WindowThreads};
 
 /// Longest time to the picture that can be asked for, s.
 const AFTER_MAX_S: f64 = 3_600.0;
@@ -43,9 +43,9 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let scenario = files::scenario(&args.job.scenario)?.scenario;
     let vehicle = files::vehicle(&args.job.vehicle)?.vehicle;
     let keys = controller::keys(args.keys.as_deref())?;
-    let plan = plan::Plan {
+    let plan = window_config::WindowConfig {
         listen: args.listen,
-        quality: plan::quality(&args.quality)?,
+        quality: window_config::quality(&args.quality)?,
         size_px: size(&args.size)?,
         map: !args.no_map,
         picture: picture(args)?,
@@ -53,26 +53,26 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         // Led, its standard output belongs to the pipe.
         announce: args.announce && !args.led,
     };
-    let stop = Stop::install(args.leash && !args.led)?;
-    let mut crew = Crew { pilot: None, lead: None, flight: None, stream: None };
+    let stop = StopRequest::install(args.leash && !args.led)?;
+    let mut crew = WindowThreads { pilot: None, lead: None, flight: None, stream: None };
     if args.led || args.fly.is_some() {
-        crew.pilot = Some(Pilot::start(args, keys.clone())?);
+        crew.pilot = Some(PilotThread::start(args, keys.clone())?);
     }
-    let names = Names::new(keys.labels());
+    let names = KeyNames::new(keys.labels());
     let flow = if args.led {
-        crew.lead = Some(Lead::listen(&stop));
-        Flow::new(!args.no_sound, names)
+        crew.lead = Some(TrainPipe::listen(&stop));
+        WindowFlow::new(!args.no_sound, names)
     } else {
-        crew.flight = Some(Flight::begin(args.listen, args.connect, (scenario, vehicle), args.job.seed)?);
-        Flow::watching(!args.no_sound, names)
+        crew.flight = Some(FlightView::begin(args.listen, args.connect, (scenario, vehicle), args.job.seed)?);
+        WindowFlow::watch_only(!args.no_sound, names)
     };
     if let (Some(pilot), Some(vehicle)) = (&crew.pilot, args.fly) {
-        pilot.ask(Ask::Fly(vehicle));
+        pilot.send_command(PilotCommand::Fly(vehicle));
     }
     // On Linux every thread has a niceness of its own, that of the thread which began it: sticks are sent by one that began before, pictures
     // are encoded by one that begins after.
-    priority::stand_back();
-    crew.stream = match args.stream.map(|to| Stream::open(to, clock::unix_us())).transpose() {
+    priority::lower_priority();
+    crew.stream = match args.stream.map(|to| StreamSender::open(to, clock::unix_us())).transpose() {
         // A trainee's window is worth more than what it sends elsewhere.
         Err(error) if args.led => {
             tracing::warn!("no stream: {error}");
@@ -80,14 +80,14 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         }
         opened => opened?,
     };
-    let speaker = Speaker::new(keys.sounds, !args.no_sound);
+    let speaker = AudioOutput::new(keys.sounds, !args.no_sound);
     Cockpit::new(plan, keys, flow, crew, speaker, stop).run()
 }
 
-fn picture(args: &Args) -> Result<Option<plan::Picture>, AppError> {
+fn picture(args: &Args) -> Result<Option<window_config::CaptureRequest>, AppError> {
     let (Some(path), Some(after)) = (&args.screenshot, args.after) else { return Ok(None) };
     if !(0.0..=AFTER_MAX_S).contains(&after) {
         return Err(AppError::wrong(format!("--after {after}: give seconds, 0 to {AFTER_MAX_S}")));
     }
-    Ok(Some(plan::Picture { path: path.clone(), after: Duration::from_secs_f64(after) }))
+    Ok(Some(window_config::CaptureRequest { path: path.clone(), after: Duration::from_secs_f64(after) }))
 }

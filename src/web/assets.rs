@@ -1,12 +1,12 @@
 //! Style and scripts.
 
-use super::answer::{Answer, Answered, Refusal};
-use super::asked::Asked;
-use super::state::State;
+use super::request::WebRequest;
+use super::response::{HandlerResult, WebError, WebResponse};
+use super::state::ServerState;
 use spandrel_training::web::assets;
 
 /// A file of ours.
-pub fn file(_: &State, asked: &Asked) -> Answered {
-    let (text, kind) = assets::file(asked.part("name")).ok_or(Refusal::NotFound)?;
-    Ok(Answer::asset(kind, text))
+pub fn file(_: &ServerState, asked: &WebRequest) -> HandlerResult {
+    let (text, kind) = assets::file(asked.path_part("name")).ok_or(WebError::NotFound)?;
+    Ok(WebResponse::asset(kind, text))
 }

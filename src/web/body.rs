@@ -1,10 +1,10 @@
 //! What a request brings: the fields of a form, or a file with them.
 
-use super::answer::Refusal;
-use super::asked::{Asked, Upload};
-use super::guard::Guard;
-use super::routes::{FORM_MOST, How};
-use super::spool::{Spool, Spooled};
+use super::auth::Authenticator;
+use super::request::{UploadedFile, WebRequest};
+use super::response::WebError;
+use super::routes::{FORM_MOST, RouteKind};
+use super::spool::{SpooledUpload, UploadSpool};
 use axum::body::to_bytes;
 use axum::extract::multipart::{Field, MultipartError};
 use axum::extract::{FromRequest, Multipart, Request};
@@ -20,47 +20,51 @@ const UPLOAD_WAIT: Duration = Duration::from_secs(600);
 ///
 /// # Errors
 /// When it is too large, too slow, no form, or not of this visit.
-pub async fn read(asked: &mut Asked, how: How, request: Request, spool: &Path) -> Result<(), Refusal> {
-    let late = |_| Refusal::Wrong("the form came too slowly".into());
+pub async fn read(asked: &mut WebRequest, how: RouteKind, request: Request, spool: &Path) -> Result<(), WebError> {
+    let late = |_| WebError::BadRequest("the form came too slowly".into());
     match how {
-        How::File | How::Show | How::Compute => Ok(()),
-        How::Change => {
+        RouteKind::File | RouteKind::Show | RouteKind::Compute => Ok(()),
+        RouteKind::Change => {
             let bytes = tokio::time::timeout(FORM_WAIT, to_bytes(request.into_body(), FORM_MOST)).await.map_err(late)?;
-            let bytes = bytes.map_err(|_| Refusal::TooLarge(FORM_MOST))?;
+            let bytes = bytes.map_err(|_| WebError::TooLarge(FORM_MOST))?;
             asked.form = form_urlencoded::parse(&bytes).into_owned().collect();
-            Guard::check_token(&asked.visitor, asked.field("token"))
+            Authenticator::check_token(&asked.visitor, asked.form_field("token"))
         }
-        How::Upload(most) => tokio::time::timeout(UPLOAD_WAIT, read_parts(asked, most, request, spool)).await.map_err(late)?,
+        RouteKind::Upload(most) => {
+            tokio::time::timeout(UPLOAD_WAIT, read_parts(asked, most, request, spool)).await.map_err(late)?
+        }
     }
 }
 
 /// Reads a form with a file. The token comes first: without it nothing more is read.
-async fn read_parts(asked: &mut Asked, most: usize, request: Request, spool: &Path) -> Result<(), Refusal> {
+async fn read_parts(asked: &mut WebRequest, most: usize, request: Request, spool: &Path) -> Result<(), WebError> {
     let mut parts = Multipart::from_request(request, &()).await.map_err(|_| no_form())?;
     let too_large = |error: MultipartError| unreadable(&error, most);
     while let Some(mut part) = parts.next_field().await.map_err(too_large)? {
         let name = part.name().unwrap_or_default().to_owned();
         let file = part.file_name().map(str::to_owned);
         if name != "token" {
-            Guard::check_token(&asked.visitor, asked.field("token"))?;
+            Authenticator::check_token(&asked.visitor, asked.form_field("token"))?;
         }
         match file {
-            Some(_) if asked.upload.is_some() => return Err(Refusal::Wrong("one file at a time".into())),
-            Some(file) => asked.upload = Some(Upload { name: file, file: arrive(&mut part, Spool::new(spool, most)).await? }),
+            Some(_) if asked.upload.is_some() => return Err(WebError::BadRequest("one file at a time".into())),
+            Some(file) => {
+                asked.upload = Some(UploadedFile { name: file, file: arrive(&mut part, UploadSpool::new(spool, most)).await? })
+            }
             None => {
                 let bytes = part.bytes().await.map_err(too_large)?;
                 if bytes.len() > FORM_MOST {
-                    return Err(Refusal::TooLarge(FORM_MOST));
+                    return Err(WebError::TooLarge(FORM_MOST));
                 }
                 asked.form.push((name, String::from_utf8_lossy(&bytes).into_owned()));
             }
         }
     }
-    Guard::check_token(&asked.visitor, asked.field("token"))
+    Authenticator::check_token(&asked.visitor, asked.form_field("token"))
 }
 
 /// Reads a file as it arrives.
-async fn arrive(part: &mut Field<'_>, mut spool: Spool<'_>) -> Result<Spooled, Refusal> {
+async fn arrive(part: &mut Field<'_>, mut spool: UploadSpool<'_>) -> Result<SpooledUpload, WebError> {
     let begun = tokio::time::Instant::now();
     let most = spool.most();
     while let Some(chunk) = part.chunk().await.map_err(|error| unreadable(&error, most))? {
@@ -70,10 +74,10 @@ async fn arrive(part: &mut Field<'_>, mut spool: Spool<'_>) -> Result<Spooled, R
     Ok(spool.end())
 }
 
-fn no_form() -> Refusal {
-    Refusal::Wrong("this is no form with a file".into())
+fn no_form() -> WebError {
+    WebError::BadRequest("this is no form with a file".into())
 }
 
-fn unreadable(error: &MultipartError, most: usize) -> Refusal {
-    if error.status() == axum::http::StatusCode::PAYLOAD_TOO_LARGE { Refusal::TooLarge(most) } else { no_form() }
+fn unreadable(error: &MultipartError, most: usize) -> WebError {
+    if error.status() == axum::http::StatusCode::PAYLOAD_TOO_LARGE { WebError::TooLarge(most) } else { no_form() }
 }

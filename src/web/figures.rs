@@ -4,9 +4,9 @@
 
 use super::state::lock;
 use crate::errors::AppError;
-use crate::records::{Database, Place};
+use crate::records::{Database, RecordsLocation};
 use spandrel_training::cohort::{Cohort, Selection, cohort};
-use spandrel_training::record::Record;
+use spandrel_training::record::SessionRecord;
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex};
 
@@ -15,66 +15,66 @@ const SELECTIONS: usize = 8;
 
 /// The figures of one selection.
 #[derive(Debug)]
-pub struct Figured {
+pub struct CohortFigures {
     /// The cohort, which may hold no session that counts.
     pub cohort: Cohort,
     /// The scenarios that were flown at all.
-    pub flown: Vec<String>,
+    pub flown_scenarios: Vec<String>,
 }
 
-impl Figured {
+impl CohortFigures {
     /// The cohort, if any session counts.
-    pub fn counted(&self) -> Option<&Cohort> {
+    pub fn non_empty(&self) -> Option<&Cohort> {
         (self.cohort.sessions > 0).then_some(&self.cohort)
     }
 }
 
 /// Computes figures, and keeps them while the database stays as it is.
 #[derive(Debug)]
-pub struct Figures {
+pub struct FigureCache {
     database: Database,
-    kept: Mutex<Kept<Selection, Figured>>,
+    cache: Mutex<VersionedCache<Selection, CohortFigures>>,
 }
 
-impl Figures {
+impl FigureCache {
     /// Opens a connection of its own.
     ///
     /// # Errors
     /// When the database cannot be opened.
-    pub fn open(place: &Place) -> Result<Self, AppError> {
-        Ok(Self { database: place.open()?, kept: Mutex::default() })
+    pub fn open(place: &RecordsLocation) -> Result<Self, AppError> {
+        Ok(Self { database: place.open()?, cache: Mutex::default() })
     }
 
     /// Returns the figures of a selection.
     ///
     /// # Errors
     /// When the database refuses or holds what is no record.
-    pub fn of(&self, selection: &Selection) -> Result<Arc<Figured>, AppError> {
-        let mut kept = lock(&self.kept);
+    pub fn of(&self, selection: &Selection) -> Result<Arc<CohortFigures>, AppError> {
+        let mut kept = lock(&self.cache);
         let version = self.database.version()?;
         kept.get(&version, selection, || Ok(figured(&self.database.records(None)?, selection)))
     }
 }
 
-fn figured(records: &[Record], selection: &Selection) -> Figured {
+fn figured(records: &[SessionRecord], selection: &Selection) -> CohortFigures {
     let flown: BTreeSet<&str> = records.iter().map(|record| record.scenario.as_str()).collect();
-    Figured { cohort: cohort(records, selection), flown: flown.into_iter().map(str::to_owned).collect() }
+    CohortFigures { cohort: cohort(records, selection), flown_scenarios: flown.into_iter().map(str::to_owned).collect() }
 }
 
 /// Values of one version of their source, by what they were computed for.
 #[derive(Debug)]
-struct Kept<K, V> {
+struct VersionedCache<K, V> {
     version: String,
     values: Vec<(K, Arc<V>)>,
 }
 
-impl<K, V> Default for Kept<K, V> {
+impl<K, V> Default for VersionedCache<K, V> {
     fn default() -> Self {
         Self { version: String::new(), values: Vec::new() }
     }
 }
 
-impl<K: Clone + PartialEq, V> Kept<K, V> {
+impl<K: Clone + PartialEq, V> VersionedCache<K, V> {
     fn get(&mut self, version: &str, key: &K, compute: impl FnOnce() -> Result<V, AppError>) -> Result<Arc<V>, AppError> {
         if self.version != version {
             self.values.clear();
@@ -98,7 +98,7 @@ mod tests {
 
     #[test]
     fn regress_figures_are_computed_once_for_each_version_and_selection() {
-        let mut kept = Kept::<u32, u32>::default();
+        let mut kept = VersionedCache::<u32, u32>::default();
         let mut computed = 0;
         let mut ask = |version: &str, key: u32| {
             let value = kept.get(version, &key, || {
@@ -121,7 +121,7 @@ mod tests {
 
     #[test]
     fn regress_a_failure_is_not_kept() {
-        let mut kept = Kept::<u32, u32>::default();
+        let mut kept = VersionedCache::<u32, u32>::default();
         assert!(kept.get("1", &1, || Err(AppError::failed("no"))).is_err());
         assert_eq!(kept.get("1", &1, || Ok(5)).map(|value| *value), Ok(5));
     }

@@ -1,8 +1,8 @@
 //! A bounded queue for password hashing. Each hash costs 19 MiB and some 50 ms of one core, and anyone who reaches the server can ask for one:
 //! without a bound a flood of logins takes all memory and every thread that pages need.
 
-use super::answer::Refusal;
-use super::passwords::{self, Memory};
+use super::passwords::{self, HashingMemory};
+use super::response::WebError;
 use super::state::lock;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -15,17 +15,17 @@ const RETRY_AFTER_S: u64 = 2;
 
 /// The queue and its working memory.
 #[derive(Debug)]
-pub struct Hashing {
-    lanes: Vec<Mutex<Memory>>,
+pub struct HashingQueue {
+    lanes: Vec<Mutex<HashingMemory>>,
     next: AtomicUsize,
     waiting: AtomicUsize,
 }
 
 /// A place in the queue; leaving it is dropping it.
 #[derive(Debug)]
-pub struct Turn<'a>(&'a Hashing);
+pub struct HashingSlot<'a>(&'a HashingQueue);
 
-impl Default for Hashing {
+impl Default for HashingQueue {
     fn default() -> Self {
         // One core stays free for pages.
         let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
@@ -34,39 +34,39 @@ impl Default for Hashing {
     }
 }
 
-impl Hashing {
+impl HashingQueue {
     /// Enters the queue.
     ///
     /// # Errors
-    /// [`Refusal::Busy`] when the queue is full.
-    pub fn enter(&self) -> Result<Turn<'_>, Refusal> {
+    /// [`WebError::Busy`] when the queue is full.
+    pub fn acquire(&self) -> Result<HashingSlot<'_>, WebError> {
         let enter = |waiting| (waiting < MOST_WAITING).then_some(waiting + 1);
         let entered = self.waiting.fetch_update(Ordering::AcqRel, Ordering::Acquire, enter);
-        entered.map(|_| Turn(self)).map_err(|_| Refusal::Busy(RETRY_AFTER_S))
+        entered.map(|_| HashingSlot(self)).map_err(|_| WebError::Busy(RETRY_AFTER_S))
     }
 }
 
-impl Turn<'_> {
-    fn with_memory<T>(&self, work: impl FnOnce(&mut Memory) -> T) -> T {
+impl HashingSlot<'_> {
+    fn with_memory<T>(&self, work: impl FnOnce(&mut HashingMemory) -> T) -> T {
         let lane = self.0.next.fetch_add(1, Ordering::Relaxed) % self.0.lanes.len();
         work(&mut lock(&self.0.lanes[lane]))
     }
 
     /// Returns whether the password has this hash.
-    pub fn fits(&self, password: &str, hash: Option<&str>) -> bool {
-        self.with_memory(|memory| passwords::fits(password, hash, memory))
+    pub fn verify(&self, password: &str, hash: Option<&str>) -> bool {
+        self.with_memory(|memory| passwords::verify(password, hash, memory))
     }
 
     /// Returns the password's hash.
     ///
     /// # Errors
     /// When the system has no randomness.
-    pub fn hash(&self, password: &str) -> Result<String, Refusal> {
+    pub fn hash(&self, password: &str) -> Result<String, WebError> {
         Ok(self.with_memory(|memory| passwords::hash(password, memory))?)
     }
 }
 
-impl Drop for Turn<'_> {
+impl Drop for HashingSlot<'_> {
     fn drop(&mut self) {
         self.0.waiting.fetch_sub(1, Ordering::AcqRel);
     }
@@ -78,10 +78,10 @@ mod tests {
 
     #[test]
     fn regress_a_full_queue_refuses_and_a_turn_that_ends_makes_room() {
-        let hashing = Hashing::default();
-        let mut turns: Vec<_> = (0..MOST_WAITING).map(|_| hashing.enter().unwrap()).collect();
-        assert_eq!(hashing.enter().err(), Some(Refusal::Busy(RETRY_AFTER_S)));
+        let hashing = HashingQueue::default();
+        let mut turns: Vec<_> = (0..MOST_WAITING).map(|_| hashing.acquire().unwrap()).collect();
+        assert_eq!(hashing.acquire().err(), Some(WebError::Busy(RETRY_AFTER_S)));
         turns.pop();
-        assert!(hashing.enter().is_ok());
+        assert!(hashing.acquire().is_ok());
     }
 }

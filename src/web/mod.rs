@@ -1,39 +1,39 @@
 //! `spandrel serve`: records, reports, questionnaires and live flights in a browser. One table of routes says who may do what; pages are
 //! made by `spandrel_training::web`, which knows no socket.
 
-mod answer;
-mod asked;
 mod assets;
+mod auth;
 mod body;
-mod door;
 mod figures;
-mod guard;
 mod hashing;
-mod leftovers;
 mod live;
 mod passwords;
-mod people;
 mod questions;
+mod request;
+mod request_pipeline;
+mod response;
 mod routes;
 mod scenarios;
 mod server;
+mod session_importer;
 mod sessions;
 mod settings;
 mod spool;
 mod state;
-mod taking_in;
+mod temp_files;
 mod tls;
+mod trainees;
 mod uploads;
 
-pub use live::Watched;
-pub use server::Server;
-pub use state::Setup;
+pub use live::WatchedVehicle;
+pub use server::WebServer;
+pub use state::ServerSetup;
 
 use super::args::{self, TraineeId};
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
-use super::records::Place;
-use super::stop::Stop;
+use super::records::RecordsLocation;
+use super::stop::StopRequest;
 use ipnet::IpNet;
 use spandrel_training::trainee::Role;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
@@ -58,7 +58,7 @@ Examples:
 {EXIT_CODES}"))]
 pub struct Args {
     #[command(flatten)]
-    place: Place,
+    place: RecordsLocation,
     #[command(flatten)]
     listen: ListenArgs,
     /// Folder of uploaded scenarios [default: scenarios in the first folder of sessions]
@@ -72,7 +72,7 @@ pub struct Args {
     wording: Vec<PathBuf>,
     /// Vehicle that the live page watches: its payload port; or none; may be repeated
     #[arg(long, value_name = "HOST:PORT|none", default_value = "127.0.0.1:14280")]
-    vehicle: Vec<args::Target>,
+    vehicle: Vec<args::Destination>,
     /// Where `spandrel view --picture FILE` keeps the camera's view, for the live page; may be repeated in the order of --vehicle
     #[arg(long, value_name = "FILE")]
     picture: Vec<PathBuf>,
@@ -129,7 +129,7 @@ fn proxy(text: &str) -> Result<IpNet, String> {
 
 fn host_name(text: &str) -> Result<String, String> {
     let wrong = || format!("'{text}' is no host name (allowed: letters, digits, hyphens and dots, without a port)");
-    guard::is_host_name(text).then(|| text.to_owned()).ok_or_else(wrong)
+    auth::is_host_name(text).then(|| text.to_owned()).ok_or_else(wrong)
 }
 
 fn listen(text: &str) -> Result<SocketAddr, String> {
@@ -144,25 +144,25 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     if let (Some(name), Some(role)) = (&args.set_password, args.role.as_deref().and_then(Role::from_word)) {
         return passwords::set(&args.place, name.as_str(), role);
     }
-    let stop = Stop::install(args.leash)?;
+    let stop = StopRequest::install(args.leash)?;
     let watched = watched(&args.vehicle, &args.picture)?;
     let scenarios = args.scenarios.clone();
     let (place, wordings) = (args.place.clone(), args.wording.clone());
-    let server = Server::start(&args.listen, state::Setup { place, scenarios, watched, wordings })?;
+    let server = WebServer::start(&args.listen, state::ServerSetup { place, scenarios, watched, wordings })?;
     if args.announce {
         files::write("-", format!("{}\n", serde_json::json!({ "address": server.address() })).as_bytes())?;
     } else {
         files::write("-", format!("web           {}\n", server.address()).as_bytes())?;
     }
-    server.until(&stop);
+    server.serve_until(&stop);
     Ok(())
 }
 
 /// Each vehicle with its picture.
-fn watched(vehicles: &[args::Target], pictures: &[PathBuf]) -> Result<Vec<Watched>, AppError> {
+fn watched(vehicles: &[args::Destination], pictures: &[PathBuf]) -> Result<Vec<WatchedVehicle>, AppError> {
     let addresses = vehicles.iter().filter_map(|target| match target {
-        args::Target::None => None,
-        args::Target::Address(address) => Some(*address),
+        args::Destination::None => None,
+        args::Destination::Address(address) => Some(*address),
     });
     let addresses: Vec<SocketAddr> = addresses.collect();
     if pictures.len() > addresses.len() {
@@ -172,5 +172,5 @@ fn watched(vehicles: &[args::Target], pictures: &[PathBuf]) -> Result<Vec<Watche
         )));
     }
     let mut pictures = pictures.iter().cloned();
-    Ok(addresses.into_iter().map(|vehicle| Watched { vehicle, picture: pictures.next() }).collect())
+    Ok(addresses.into_iter().map(|vehicle| WatchedVehicle { vehicle, picture: pictures.next() }).collect())
 }

@@ -1,7 +1,7 @@
 //! Password hashing: argon2id with the parameters that OWASP recommends (19 MiB, 2 passes, 1 lane), the library's defaults.
 
 use crate::errors::AppError;
-use crate::records::Place;
+use crate::records::RecordsLocation;
 use argon2::password_hash::{Output, PasswordHash, SaltString};
 use argon2::{ARGON2ID_IDENT, Algorithm, Argon2, Block, Params, Version};
 use spandrel_training::trainee::Role;
@@ -17,9 +17,9 @@ const MOST_PASSES: u32 = 10;
 
 /// Working memory of one hash at a time, allocated once and used again.
 #[derive(Debug, Default)]
-pub struct Memory(Vec<Block>);
+pub struct HashingMemory(Vec<Block>);
 
-impl Memory {
+impl HashingMemory {
     fn output(&mut self, argon2: &Argon2<'_>, password: &str, salt: &[u8], out: &mut [u8]) -> argon2::Result<()> {
         let needed = argon2.params().block_count();
         if self.0.len() < needed {
@@ -33,7 +33,7 @@ impl Memory {
 ///
 /// # Errors
 /// When the system has no randomness.
-pub fn hash(password: &str, memory: &mut Memory) -> Result<String, AppError> {
+pub fn hash(password: &str, memory: &mut HashingMemory) -> Result<String, AppError> {
     let failed = |error: &dyn std::fmt::Display| AppError::failed(format!("the password cannot be hashed: {error}"));
     let mut salt = [0; 16];
     getrandom::fill(&mut salt).map_err(|error| failed(&error))?;
@@ -53,14 +53,14 @@ pub fn hash(password: &str, memory: &mut Memory) -> Result<String, AppError> {
 }
 
 /// Returns whether the password has this hash. Without a hash it takes as long and returns false.
-pub fn fits(password: &str, hash: Option<&str>, memory: &mut Memory) -> bool {
+pub fn verify(password: &str, hash: Option<&str>, memory: &mut HashingMemory) -> bool {
     let stored = PasswordHash::new(hash.unwrap_or(NOBODY));
     let fits = stored.ok().and_then(|stored| matches(password, &stored, memory)).unwrap_or(false);
     fits && hash.is_some()
 }
 
 /// `None` for a hash that cannot be computed here.
-fn matches(password: &str, stored: &PasswordHash<'_>, memory: &mut Memory) -> Option<bool> {
+fn matches(password: &str, stored: &PasswordHash<'_>, memory: &mut HashingMemory) -> Option<bool> {
     let params = Params::try_from(stored).ok().filter(|p| p.m_cost() <= MOST_MEMORY_KIB && p.t_cost() <= MOST_PASSES)?;
     let algorithm = Algorithm::try_from(stored.algorithm).ok()?;
     let version = stored.version.map_or(Ok(Version::default()), Version::try_from).ok()?;
@@ -78,16 +78,16 @@ fn matches(password: &str, stored: &PasswordHash<'_>, memory: &mut Memory) -> Op
 ///
 /// # Errors
 /// When the password is refused, or the database refuses.
-pub fn set(place: &Place, name: &str, role: Role) -> Result<(), AppError> {
-    let password = ask(name)?;
+pub fn set(place: &RecordsLocation, name: &str, role: Role) -> Result<(), AppError> {
+    let password = prompt_password(name)?;
     login::check(&password, name).map_err(|wrong| AppError::wrong(format!("--set-password {name}: {wrong}")))?;
     let database = place.open()?;
-    database.set_login(name, role, &hash(&password, &mut Memory::default())?)?;
+    database.set_login(name, role, &hash(&password, &mut HashingMemory::default())?)?;
     println!("{}: '{name}' may log in as {}", database.name(), role.word());
     Ok(())
 }
 
-fn ask(name: &str) -> Result<String, AppError> {
+fn prompt_password(name: &str) -> Result<String, AppError> {
     let failed = |error: std::io::Error| AppError::failed(format!("no password was read: {error}"));
     if std::io::stdin().is_terminal() {
         let first = rpassword::prompt_password(format!("Password for {name}: ")).map_err(failed)?;
@@ -106,21 +106,21 @@ mod tests {
 
     #[test]
     fn exact_a_hash_fits_its_password_alone_and_never_twice_the_same() {
-        let memory = &mut Memory::default();
+        let memory = &mut HashingMemory::default();
         let first = hash("correct horse battery", memory).unwrap();
         assert!(first.starts_with("$argon2id$v=19$m=19456,t=2,p=1$"), "{first}");
         assert_ne!(first, hash("correct horse battery", memory).unwrap());
-        assert!(fits("correct horse battery", Some(&first), memory));
-        assert!(!fits("correct horse batterz", Some(&first), memory));
-        assert!(!fits("correct horse battery", None, memory));
-        assert!(!fits("x", Some("no hash"), memory));
+        assert!(verify("correct horse battery", Some(&first), memory));
+        assert!(!verify("correct horse batterz", Some(&first), memory));
+        assert!(!verify("correct horse battery", None, memory));
+        assert!(!verify("x", Some("no hash"), memory));
         // The stand-in is a hash like any other, so that the time taken tells nobody whether a name exists.
         assert!(PasswordHash::new(NOBODY).is_ok());
     }
 
     #[test]
     fn val_the_library_s_own_hasher_and_verifier_agree() {
-        let memory = &mut Memory::default();
+        let memory = &mut HashingMemory::default();
         let ours = hash("correct horse battery", memory).unwrap();
         let parsed = PasswordHash::new(&ours).unwrap();
         assert!(Argon2::default().verify_password(b"correct horse battery", &parsed).is_ok());
@@ -128,9 +128,9 @@ mod tests {
         // Another cost than ours, as an older database may hold.
         let other = Argon2::new(Algorithm::Argon2id, Version::V0x13, Params::new(8_192, 3, 2, None).unwrap());
         let theirs = other.hash_password(b"correct horse battery", &salt).unwrap().to_string();
-        assert!(fits("correct horse battery", Some(&theirs), memory) && !fits("another", Some(&theirs), memory));
+        assert!(verify("correct horse battery", Some(&theirs), memory) && !verify("another", Some(&theirs), memory));
         let greedy = theirs.replace("m=8192", "m=4194304");
-        assert!(!fits("correct horse battery", Some(&greedy), memory));
+        assert!(!verify("correct horse battery", Some(&greedy), memory));
         assert!(memory.0.len() <= MOST_MEMORY_KIB as usize);
     }
 }

@@ -1,15 +1,15 @@
 //! Scenarios: shipped and uploaded.
 
-use super::answer::{Answer, Answered, Refusal};
-use super::asked::Asked;
-use super::state::{State, is_plain};
+use super::request::WebRequest;
+use super::response::{HandlerResult, WebError, WebResponse};
+use super::state::{ServerState, is_plain};
 use crate::errors::AppError;
 use crate::files;
 use crate::session_folder::replace;
 use axum::http::StatusCode;
 use spandrel_model::scenario::{self, Scenario};
 use spandrel_model::site::Site;
-use spandrel_training::web::job::{self as pages, Named};
+use spandrel_training::web::job::{self as pages, ScenarioEntry};
 use std::path::{Path, PathBuf};
 
 /// Uploaded scenarios that are kept at once.
@@ -18,9 +18,9 @@ const UPLOADS_MOST: usize = 200;
 const ANY_SEED: u64 = 0;
 
 /// A scenario with its text.
-pub struct Job {
+pub struct StoredScenario {
     /// Name, title, origin.
-    pub named: Named,
+    pub named: ScenarioEntry,
     /// The job.
     pub scenario: Scenario,
     /// Its file.
@@ -28,29 +28,29 @@ pub struct Job {
 }
 
 /// All of them: shipped, then uploaded.
-pub fn all(folder: &Path) -> Vec<Job> {
+pub fn all(folder: &Path) -> Vec<StoredScenario> {
     let shipped = files::scenario_names().into_iter().filter_map(|name| {
         let file = files::scenario(name).ok()?;
-        Some(Job { named: named(&file.scenario, false), scenario: file.scenario, text: file.text })
+        Some(StoredScenario { named: named(&file.scenario, false), scenario: file.scenario, text: file.text })
     });
     let uploaded = uploaded(folder).into_iter().filter_map(|path| {
         let text = files::read(&path).ok()?;
         let scenario = read(&path.display().to_string(), &text).ok()?;
-        Some(Job { named: named(&scenario, true), scenario, text })
+        Some(StoredScenario { named: named(&scenario, true), scenario, text })
     });
     shipped.chain(uploaded).collect()
 }
 
 /// One by its name.
-fn find(folder: &Path, name: &str) -> Option<Job> {
+fn find(folder: &Path, name: &str) -> Option<StoredScenario> {
     if !is_plain(name) {
         return None;
     }
     all(folder).into_iter().find(|job| job.named.name == name)
 }
 
-fn named(scenario: &Scenario, uploaded: bool) -> Named {
-    Named { name: scenario.name.clone(), title: scenario.title.clone(), uploaded }
+fn named(scenario: &Scenario, uploaded: bool) -> ScenarioEntry {
+    ScenarioEntry { name: scenario.name.clone(), title: scenario.title.clone(), uploaded }
 }
 
 fn uploaded(folder: &Path) -> Vec<PathBuf> {
@@ -68,8 +68,8 @@ fn read(file: &str, text: &str) -> Result<Scenario, AppError> {
 }
 
 /// The argument that names an uploaded scenario for the rest of the program, else the name itself.
-pub fn argument(folder: &Path, name: &str) -> Result<String, Refusal> {
-    let job = find(folder, name).ok_or_else(|| Refusal::Wrong("scenario: there is none of this name".into()))?;
+pub fn argument(folder: &Path, name: &str) -> Result<String, WebError> {
+    let job = find(folder, name).ok_or_else(|| WebError::BadRequest("scenario: there is none of this name".into()))?;
     Ok(if job.named.uploaded { place(folder, name).display().to_string() } else { job.named.name })
 }
 
@@ -78,34 +78,34 @@ fn place(folder: &Path, name: &str) -> PathBuf {
 }
 
 /// The list.
-pub fn list(state: &State, asked: &Asked) -> Answered {
-    listed(state, asked, None)
+pub fn scenario_list(state: &ServerState, asked: &WebRequest) -> HandlerResult {
+    render_list(state, asked, None)
 }
 
-fn listed(state: &State, asked: &Asked, told: Option<(&str, &str)>) -> Answered {
-    let named: Vec<Named> = all(&state.scenarios).into_iter().map(|job| job.named).collect();
-    Ok(Answer::page(pages::list(&asked.visitor, &named, told)))
+fn render_list(state: &ServerState, asked: &WebRequest, told: Option<(&str, &str)>) -> HandlerResult {
+    let named: Vec<ScenarioEntry> = all(&state.scenarios).into_iter().map(|job| job.named).collect();
+    Ok(WebResponse::page(pages::list(&asked.visitor, &named, told)))
 }
 
 /// One.
-pub fn one(state: &State, asked: &Asked) -> Answered {
-    let job = find(&state.scenarios, asked.part("name")).ok_or(Refusal::NotFound)?;
+pub fn scenario_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
+    let job = find(&state.scenarios, asked.path_part("name")).ok_or(WebError::NotFound)?;
     let site = Site::build(&job.scenario, ANY_SEED);
-    Ok(Answer::page(pages::one(&asked.visitor, &job.named, &job.scenario, &site, &job.text)))
+    Ok(WebResponse::page(pages::scenario_page(&asked.visitor, &job.named, &job.scenario, &site, &job.text)))
 }
 
 /// Takes one in, after all of it was checked.
-pub fn upload(state: &State, asked: &Asked) -> Answered {
-    match keep(state, asked) {
-        Ok(name) => listed(state, asked, Some(("good", &format!("{name} is kept.")))),
+pub fn upload(state: &ServerState, asked: &WebRequest) -> HandlerResult {
+    match save_upload(state, asked) {
+        Ok(name) => render_list(state, asked, Some(("good", &format!("{name} is kept.")))),
         Err(AppError::Wrong(words)) => {
-            Ok(listed(state, asked, Some(("bad", &words)))?.with_status(StatusCode::UNPROCESSABLE_ENTITY))
+            Ok(render_list(state, asked, Some(("bad", &words)))?.with_status(StatusCode::UNPROCESSABLE_ENTITY))
         }
         Err(error @ AppError::Failed(_)) => Err(error.into()),
     }
 }
 
-fn keep(state: &State, asked: &Asked) -> Result<String, AppError> {
+fn save_upload(state: &ServerState, asked: &WebRequest) -> Result<String, AppError> {
     let upload = asked.upload.as_ref().ok_or_else(|| AppError::wrong("file: missing"))?;
     let shown: String = upload.name.chars().filter(|c| !c.is_control()).take(60).collect();
     let bytes = upload.file.bytes()?;
@@ -130,9 +130,9 @@ fn keep(state: &State, asked: &Asked) -> Result<String, AppError> {
 }
 
 /// Takes an upload away.
-pub fn remove(state: &State, asked: &Asked) -> Answered {
-    let job = find(&state.scenarios, asked.part("name")).filter(|job| job.named.uploaded).ok_or(Refusal::NotFound)?;
+pub fn remove(state: &ServerState, asked: &WebRequest) -> HandlerResult {
+    let job = find(&state.scenarios, asked.path_part("name")).filter(|job| job.named.uploaded).ok_or(WebError::NotFound)?;
     let path = place(&state.scenarios, &job.named.name);
-    std::fs::remove_file(&path).map_err(|error| Refusal::Failed(format!("{}: cannot be removed: {error}", path.display())))?;
-    Ok(Answer::to("/scenarios"))
+    std::fs::remove_file(&path).map_err(|error| WebError::Failed(format!("{}: cannot be removed: {error}", path.display())))?;
+    Ok(WebResponse::redirect("/scenarios"))
 }

@@ -1,12 +1,12 @@
 //! The server: its port, its threads, and the table of routes as axum takes it.
 
-use super::door::{self, Shared};
-use super::guard::Reach;
-use super::routes::{FORM_MOST, How, ROUTES, Route, STREAM};
-use super::state::{Setup, State};
+use super::auth::AllowedOrigins;
+use super::request_pipeline::{self, PipelineState};
+use super::routes::{FORM_MOST, ROUTES, Route, RouteKind, STREAM};
+use super::state::{ServerSetup, ServerState};
 use super::{ListenArgs, tls};
 use crate::errors::AppError;
-use crate::stop::Stop;
+use crate::stop::StopRequest;
 use axum::Router;
 use axum::extract::{DefaultBodyLimit, Request};
 use axum::routing::{MethodRouter, get, post};
@@ -30,26 +30,26 @@ const WAITING_THREADS: usize = 16;
 
 /// A running server; it ends when it is dropped.
 #[derive(Debug)]
-pub struct Server {
+pub struct WebServer {
     address: String,
     handle: Handle<SocketAddr>,
     thread: Option<JoinHandle<()>>,
 }
 
-impl Server {
+impl WebServer {
     /// Opens the port and serves.
     ///
     /// # Errors
     /// When arguments, files, the port or the database are wrong.
-    pub fn start(args: &ListenArgs, setup: Setup) -> Result<Self, AppError> {
+    pub fn start(args: &ListenArgs, setup: ServerSetup) -> Result<Self, AppError> {
         let secure = args.tls_cert.is_some() || args.behind_proxy;
         let tls = tls::config(args)?;
         let reach = if args.behind_proxy {
-            Reach::behind(&args.trusted_proxy, &args.host)
+            AllowedOrigins::behind(&args.trusted_proxy, &args.host)
         } else {
-            Reach { hosts: args.host.clone(), ..Reach::default() }
+            AllowedOrigins { hosts: args.host.clone(), ..AllowedOrigins::default() }
         };
-        let state = State::open(setup, secure, reach)?;
+        let state = ServerState::open(setup, secure, reach)?;
         tls::check(args, !state.database.with_password()?.is_empty())?;
         let taken = |error: std::io::Error| AppError::failed(format!("--listen {}: cannot be opened: {error}", args.listen));
         let listener = TcpListener::bind(args.listen).map_err(taken)?;
@@ -63,8 +63,11 @@ impl Server {
             .build()
             .map_err(|error| AppError::failed(format!("no runtime for the server: {error}")))?;
         let handle = Handle::new();
-        let shared =
-            Shared { state: Arc::new(state), uploads: Arc::new(Semaphore::new(UPLOADS)), working: Arc::new(Semaphore::new(1)) };
+        let shared = PipelineState {
+            state: Arc::new(state),
+            uploads: Arc::new(Semaphore::new(UPLOADS)),
+            working: Arc::new(Semaphore::new(1)),
+        };
         let (router, own) = (router(&shared), handle.clone());
         let thread = std::thread::spawn(move || {
             let ended = runtime.block_on(serve(listener, tls, own, router));
@@ -83,14 +86,14 @@ impl Server {
     }
 
     /// Serves until somebody asks to stop.
-    pub fn until(&self, stop: &Stop) {
-        while !stop.asked() && self.thread.as_ref().is_some_and(|thread| !thread.is_finished()) {
+    pub fn serve_until(&self, stop: &StopRequest) {
+        while !stop.is_requested() && self.thread.as_ref().is_some_and(|thread| !thread.is_finished()) {
             std::thread::sleep(LOOK);
         }
     }
 }
 
-impl Drop for Server {
+impl Drop for WebServer {
     fn drop(&mut self) {
         self.handle.graceful_shutdown(Some(FAREWELL));
         if let Some(thread) = self.thread.take()
@@ -127,26 +130,26 @@ fn limit(builder: &mut hyper_util::server::conn::auto::Builder<hyper_util::rt::T
     builder.http1().timer(hyper_util::rt::TokioTimer::new()).header_read_timeout(HEAD_WAIT);
 }
 
-fn router(shared: &Shared) -> Router {
+fn router(shared: &PipelineState) -> Router {
     let mut router = Router::new();
     for route in ROUTES {
         router = router.route(route.path, method(route, shared));
     }
     let stream = shared.clone();
-    router = router.route(STREAM, get(move |request: Request| door::live_stream(stream.clone(), request)));
+    router = router.route(STREAM, get(move |request: Request| request_pipeline::live_stream(stream.clone(), request)));
     let (lost, wrong) = (shared.clone(), shared.clone());
     router
-        .fallback(move |request: Request| door::nothing(lost.clone(), request))
-        .method_not_allowed_fallback(move |request: Request| door::nothing(wrong.clone(), request))
+        .fallback(move |request: Request| request_pipeline::nothing(lost.clone(), request))
+        .method_not_allowed_fallback(move |request: Request| request_pipeline::nothing(wrong.clone(), request))
 }
 
-fn method(route: &'static Route, shared: &Shared) -> MethodRouter {
+fn method(route: &'static Route, shared: &PipelineState) -> MethodRouter {
     let shared = shared.clone();
-    let handle = move |request: Request| door::through(shared.clone(), route, request);
+    let handle = move |request: Request| request_pipeline::through(shared.clone(), route, request);
     match route.how {
-        How::File | How::Show | How::Compute => get(handle),
-        How::Change => post(handle),
+        RouteKind::File | RouteKind::Show | RouteKind::Compute => get(handle),
+        RouteKind::Change => post(handle),
         // The fields beside the file need room, too.
-        How::Upload(most) => post(handle).layer(DefaultBodyLimit::max(most + FORM_MOST)),
+        RouteKind::Upload(most) => post(handle).layer(DefaultBodyLimit::max(most + FORM_MOST)),
     }
 }

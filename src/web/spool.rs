@@ -1,7 +1,7 @@
 //! Files of forms. A small one stays in memory; a large one goes to disk while it arrives, so that slow senders hold neither memory nor a place
 //! in a queue, and a sender that is too slow is put out.
 
-use super::answer::Refusal;
+use super::response::WebError;
 use crate::errors::AppError;
 use std::borrow::Cow;
 use std::fs::File;
@@ -19,18 +19,18 @@ const LEAST_RATE: u64 = 8 * 1024;
 
 /// A file of a form, complete.
 #[derive(Debug)]
-pub enum Spooled {
+pub enum SpooledUpload {
     /// In memory.
     Memory(Vec<u8>),
     /// On disk, removed when this is dropped.
-    Disk(OnDisk),
+    Disk(SpoolFile),
 }
 
 /// A file that is removed when this is dropped.
 #[derive(Debug)]
-pub struct OnDisk(PathBuf);
+pub struct SpoolFile(PathBuf);
 
-impl Drop for OnDisk {
+impl Drop for SpoolFile {
     fn drop(&mut self) {
         if let Err(error) = std::fs::remove_file(&self.0) {
             tracing::warn!("{}: cannot be removed: {error}", self.0.display());
@@ -38,7 +38,7 @@ impl Drop for OnDisk {
     }
 }
 
-impl Spooled {
+impl SpooledUpload {
     /// Returns the whole file.
     ///
     /// # Errors
@@ -53,36 +53,36 @@ impl Spooled {
 
 /// A file that is arriving.
 #[derive(Debug)]
-pub struct Spool<'a> {
+pub struct UploadSpool<'a> {
     folder: &'a Path,
-    most: usize,
+    max_bytes: usize,
     size: usize,
     head: Vec<u8>,
-    disk: Option<(File, OnDisk)>,
+    disk: Option<(File, SpoolFile)>,
 }
 
-impl<'a> Spool<'a> {
-    /// An empty file of at most `most` bytes, which may be kept in this folder meanwhile.
+impl<'a> UploadSpool<'a> {
+    /// An empty file of at most `max_bytes` bytes, which may be kept in this folder meanwhile.
     pub fn new(folder: &'a Path, most: usize) -> Self {
-        Self { folder, most, size: 0, head: Vec::new(), disk: None }
+        Self { folder, max_bytes: most, size: 0, head: Vec::new(), disk: None }
     }
 
     /// Largest size, bytes.
     pub fn most(&self) -> usize {
-        self.most
+        self.max_bytes
     }
 
     /// Takes what has arrived after this time.
     ///
     /// # Errors
     /// When the file is too large or its sender too slow, or the disk refuses.
-    pub fn take(&mut self, bytes: &[u8], elapsed: Duration) -> Result<(), Refusal> {
+    pub fn take(&mut self, bytes: &[u8], elapsed: Duration) -> Result<(), WebError> {
         self.size += bytes.len();
-        if self.size > self.most {
-            return Err(Refusal::TooLarge(self.most));
+        if self.size > self.max_bytes {
+            return Err(WebError::TooLarge(self.max_bytes));
         }
-        if is_too_slow(self.size, elapsed) {
-            return Err(Refusal::Wrong(format!("the file came too slowly (allowed: {} KiB/s or more)", LEAST_RATE / 1024)));
+        if is_below_min_rate(self.size, elapsed) {
+            return Err(WebError::BadRequest(format!("the file came too slowly (allowed: {} KiB/s or more)", LEAST_RATE / 1024)));
         }
         if self.disk.is_none() && self.head.len() + bytes.len() > IN_MEMORY {
             self.disk = Some(self.begin()?);
@@ -96,26 +96,26 @@ impl<'a> Spool<'a> {
         }
     }
 
-    fn begin(&mut self) -> Result<(File, OnDisk), Refusal> {
+    fn begin(&mut self) -> Result<(File, SpoolFile), WebError> {
         static BEGUN: AtomicU64 = AtomicU64::new(0);
         let name = format!("upload-{}-{}", std::process::id(), BEGUN.fetch_add(1, Ordering::Relaxed));
         let path = self.folder.join(name);
         let begun = std::fs::create_dir_all(self.folder).and_then(|()| File::create(&path));
-        let (mut file, on_disk) = (begun.map_err(|error| failed(&path, &error))?, OnDisk(path));
+        let (mut file, on_disk) = (begun.map_err(|error| failed(&path, &error))?, SpoolFile(path));
         file.write_all(&std::mem::take(&mut self.head)).map_err(|error| failed(&on_disk.0, &error))?;
         Ok((file, on_disk))
     }
 
     /// The file is complete.
-    pub fn end(self) -> Spooled {
+    pub fn end(self) -> SpooledUpload {
         match self.disk {
-            Some((_, on_disk)) => Spooled::Disk(on_disk),
-            None => Spooled::Memory(self.head),
+            Some((_, on_disk)) => SpooledUpload::Disk(on_disk),
+            None => SpooledUpload::Memory(self.head),
         }
     }
 }
 
-fn is_too_slow(size: usize, elapsed: Duration) -> bool {
+fn is_below_min_rate(size: usize, elapsed: Duration) -> bool {
     let counted_s = elapsed.saturating_sub(GRACE).as_secs();
     (size as u64) < counted_s.saturating_mul(LEAST_RATE)
 }
@@ -124,7 +124,7 @@ fn unreadable(path: &Path, error: &std::io::Error) -> AppError {
     AppError::failed(format!("{}: {error}", path.display()))
 }
 
-fn failed(path: &Path, error: &std::io::Error) -> Refusal {
+fn failed(path: &Path, error: &std::io::Error) -> WebError {
     unreadable(path, error).into()
 }
 
@@ -137,17 +137,17 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let files = || std::fs::read_dir(folder.path()).unwrap().count();
         let chunk: Vec<u8> = (0..100_000u32).map(|k| k as u8).collect();
-        let mut spool = Spool::new(folder.path(), 10 * chunk.len());
+        let mut spool = UploadSpool::new(folder.path(), 10 * chunk.len());
         for _ in 0..10 {
             spool.take(&chunk, Duration::ZERO).unwrap();
         }
         assert_eq!(files(), 1);
         assert_eq!(spool.end().bytes().as_deref(), Ok(&chunk.repeat(10)[..]));
         assert_eq!(files(), 0);
-        let mut small = Spool::new(folder.path(), 10);
+        let mut small = UploadSpool::new(folder.path(), 10);
         small.take(b"0123456789", Duration::ZERO).unwrap();
-        assert_eq!(small.take(b"x", Duration::ZERO), Err(Refusal::TooLarge(10)));
-        let mut dropped = Spool::new(folder.path(), usize::MAX);
+        assert_eq!(small.take(b"x", Duration::ZERO), Err(WebError::TooLarge(10)));
+        let mut dropped = UploadSpool::new(folder.path(), usize::MAX);
         dropped.take(&vec![0; 2 * IN_MEMORY], Duration::ZERO).unwrap();
         drop(dropped);
         assert_eq!(files(), 0);
@@ -155,8 +155,8 @@ mod tests {
 
     #[test]
     fn regress_a_sender_that_trickles_is_put_out() {
-        assert!(!is_too_slow(1, GRACE), "the grace");
-        assert!(is_too_slow(1, GRACE + Duration::from_secs(1)));
-        assert!(!is_too_slow(96 * 1024 * 1024, Duration::from_secs(600)), "a recording over a slow line");
+        assert!(!is_below_min_rate(1, GRACE), "the grace");
+        assert!(is_below_min_rate(1, GRACE + Duration::from_secs(1)));
+        assert!(!is_below_min_rate(96 * 1024 * 1024, Duration::from_secs(600)), "a recording over a slow line");
     }
 }

@@ -1,84 +1,84 @@
 //! What all requests share.
 
-use super::figures::Figures;
-use super::guard::{Guard, Reach};
-use super::live::{Live, Watched};
-use super::taking_in::TakingIn;
+use super::auth::{AllowedOrigins, Authenticator};
+use super::figures::FigureCache;
+use super::live::{LiveVehicle, WatchedVehicle};
+use super::session_importer::SessionImporter;
 use crate::errors::AppError;
 use crate::questionnaire;
-use crate::records::{Database, Place};
+use crate::records::{Database, RecordsLocation};
 use spandrel_training::questionnaire::Languages;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// What a server is made from.
 #[derive(Debug, Clone)]
-pub struct Setup {
+pub struct ServerSetup {
     /// Records and sessions.
-    pub place: Place,
+    pub place: RecordsLocation,
     /// Folder of uploaded scenarios; `None` for the usual one.
     pub scenarios: Option<PathBuf>,
     /// Vehicles that are watched.
-    pub watched: Vec<Watched>,
+    pub watched: Vec<WatchedVehicle>,
     /// Wordings of the questionnaire beside the shipped ones.
     pub wordings: Vec<PathBuf>,
 }
 
 /// What all requests share.
 #[derive(Debug)]
-pub struct State {
+pub struct ServerState {
     /// Records.
     pub database: Database,
     /// Figures of cohorts.
-    pub figures: Figures,
+    pub figures: FigureCache,
     /// Where they and the sessions are.
-    pub place: Place,
+    pub place: RecordsLocation,
     /// Folder of uploaded scenarios.
     pub scenarios: PathBuf,
     /// Who is who.
-    pub guard: Guard,
+    pub auth: Authenticator,
     /// Languages of the questionnaire.
     pub languages: Languages,
     /// The flights that are watched.
-    pub live: Vec<Live>,
+    pub live: Vec<LiveVehicle>,
     /// Takes new sessions in.
-    pub taking_in: TakingIn,
+    pub importer: SessionImporter,
     /// Held while a file of answers is read, changed and written.
     pub answers: Mutex<()>,
     /// Held while a recording is scored: one at a time costs enough.
     pub scoring: Mutex<()>,
 }
 
-impl State {
+impl ServerState {
     /// Opens everything.
     ///
     /// # Errors
     /// When a wording is wrong, or the database or a link to a vehicle cannot be opened.
-    pub fn open(setup: Setup, secure: bool, reach: Reach) -> Result<Self, AppError> {
-        let Setup { place, scenarios, watched, wordings } = setup;
+    pub fn open(setup: ServerSetup, secure: bool, reach: AllowedOrigins) -> Result<Self, AppError> {
+        let ServerSetup { place, scenarios, watched, wordings } = setup;
         let languages = questionnaire::languages(&wordings)?;
         let first = place.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"));
         std::fs::create_dir_all(&first)
             .map_err(|error| AppError::failed(format!("{}: cannot be made: {error}", first.display())))?;
-        super::uploads::clear(&first)?;
+        super::uploads::remove_partial_imports(&first)?;
         let scenarios = scenarios.unwrap_or_else(|| first.join("scenarios"));
-        super::leftovers::sweep(&place.sessions, &scenarios);
-        let (database, figures) = (place.open()?, Figures::open(&place)?);
-        let guard = Guard::new(!database.with_password()?.is_empty(), secure, reach);
-        let start = |watched: &Watched| Live::start(watched, &place.sessions, &scenarios);
+        super::temp_files::remove_stale(&place.sessions, &scenarios);
+        let (database, figures) = (place.open()?, FigureCache::open(&place)?);
+        let guard = Authenticator::new(!database.with_password()?.is_empty(), secure, reach);
+        let start = |watched: &WatchedVehicle| LiveVehicle::start(watched, &place.sessions, &scenarios);
         let live = watched.iter().map(start).collect::<Result<Vec<_>, _>>()?;
-        let taking_in = TakingIn::start(&place)?;
+        let taking_in = SessionImporter::start(&place)?;
         let (answers, scoring) = (Mutex::new(()), Mutex::new(()));
-        Ok(Self { database, figures, place, scenarios, guard, languages, live, taking_in, answers, scoring })
+        Ok(Self { database, figures, place, scenarios, auth: guard, languages, live, importer: taking_in, answers, scoring })
     }
 
     /// Where uploads lie while they arrive and sessions while they are made.
     pub fn spool(&self) -> PathBuf {
-        self.first().join(super::uploads::ASIDE)
+        self.default_folder().join(super::uploads::ASIDE)
     }
 
     /// The folder of sessions that new ones go into.
-    pub fn first(&self) -> PathBuf {
+    pub fn default_folder(&self) -> PathBuf {
         self.place.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"))
     }
 

@@ -67,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_beyond_this_machine_wants_a_password_and_tls() {
+    fn exact_remote_access_requires_a_password_and_tls() {
         assert_eq!(check(&args("127.0.0.1:0", false), false), Ok(()));
         assert_eq!(check(&args("[::1]:0", false), false), Ok(()));
         assert_eq!(check(&args("0.0.0.0:0", true), true), Ok(()));

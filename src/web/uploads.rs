@@ -1,9 +1,9 @@
 //! A recorded flight becomes a session: scored first, kept only when it can be.
 
-use super::answer::{Answer, Answered, Refusal};
-use super::asked::Asked;
+use super::request::WebRequest;
+use super::response::{HandlerResult, WebError, WebResponse};
 use super::scenarios;
-use super::state::{State, lock};
+use super::state::{ServerState, lock};
 use crate::args::TraineeId;
 use crate::errors::AppError;
 use crate::session_folder::SessionFolder;
@@ -12,8 +12,8 @@ use axum::http::StatusCode;
 use spandrel_mavlink::telemetry::tlog;
 use spandrel_monitor::export::json_text;
 use spandrel_monitor::folder::sha256_hex;
-use spandrel_monitor::watch::build_site;
-use spandrel_monitor::{Monitor, MonitorConfig, Record};
+use spandrel_monitor::sidecar::build_site;
+use spandrel_monitor::{Monitor, MonitorConfig, SessionOutput};
 use spandrel_training::web::job as pages;
 use std::path::{Path, PathBuf};
 
@@ -21,18 +21,18 @@ use std::path::{Path, PathBuf};
 pub const ASIDE: &str = ".taking-in";
 
 /// The form.
-pub fn page(state: &State, asked: &Asked) -> Answered {
+pub fn page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     shown(state, asked, None)
 }
 
-fn shown(state: &State, asked: &Asked, told: Option<pages::Told<'_>>) -> Answered {
+fn shown(state: &ServerState, asked: &WebRequest, told: Option<pages::UploadMessage<'_>>) -> HandlerResult {
     let named: Vec<_> = scenarios::all(&state.scenarios).into_iter().map(|job| job.named).collect();
     let vehicles: Vec<String> = files::vehicle_names().into_iter().map(str::to_owned).collect();
-    Ok(Answer::page(pages::recorded(&asked.visitor, &named, &vehicles, told)))
+    Ok(WebResponse::page(pages::recorded(&asked.visitor, &named, &vehicles, told)))
 }
 
 /// What became of an upload.
-enum Taken {
+enum UploadOutcome {
     /// It is a session now.
     Session(PathBuf),
     /// It is one already: its id and trainee.
@@ -40,50 +40,51 @@ enum Taken {
 }
 
 /// Takes a recording in.
-pub fn recording(state: &State, asked: &Asked) -> Answered {
+pub fn recording(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     // The same recording twice at once is one session, too.
     let _one_at_a_time = lock(&state.scoring);
-    match take(state, asked) {
-        Ok(Taken::Session(folder)) => {
+    match import_recording(state, asked) {
+        Ok(UploadOutcome::Session(folder)) => {
             let id = folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
             let record = crate::records::read_session(&folder, &std::collections::BTreeMap::new())?;
             state.database.put(&Vec::from_iter(record))?;
-            Ok(Answer::to(&format!("/sessions/{id}")))
+            Ok(WebResponse::redirect(&format!("/sessions/{id}")))
         }
-        Ok(Taken::There(id, trainee)) => {
-            let told = pages::Told::There { id: &id, trainee: &trainee };
+        Ok(UploadOutcome::There(id, trainee)) => {
+            let told = pages::UploadMessage::There { id: &id, trainee: &trainee };
             Ok(shown(state, asked, Some(told))?.with_status(StatusCode::CONFLICT))
         }
-        Err(Refusal::Wrong(words)) => {
-            Ok(shown(state, asked, Some(pages::Told::Wrong(&words)))?.with_status(StatusCode::UNPROCESSABLE_ENTITY))
+        Err(WebError::BadRequest(words)) => {
+            Ok(shown(state, asked, Some(pages::UploadMessage::Wrong(&words)))?.with_status(StatusCode::UNPROCESSABLE_ENTITY))
         }
         Err(other) => Err(other),
     }
 }
 
-fn take(state: &State, asked: &Asked) -> Result<Taken, Refusal> {
-    let trainee: TraineeId = asked.needed("trainee")?.parse().map_err(|wrong| Refusal::Wrong(format!("trainee: {wrong}")))?;
-    let scenario = files::scenario(&scenarios::argument(&state.scenarios, asked.needed("scenario")?)?)?;
-    let vehicle = asked.needed("vehicle")?;
+fn import_recording(state: &ServerState, asked: &WebRequest) -> Result<UploadOutcome, WebError> {
+    let trainee: TraineeId =
+        asked.required_field("trainee")?.parse().map_err(|wrong| WebError::BadRequest(format!("trainee: {wrong}")))?;
+    let scenario = files::scenario(&scenarios::argument(&state.scenarios, asked.required_field("scenario")?)?)?;
+    let vehicle = asked.required_field("vehicle")?;
     if !files::vehicle_names().contains(&vehicle) {
-        return Err(Refusal::Wrong("vehicle: there is none of this name".into()));
+        return Err(WebError::BadRequest("vehicle: there is none of this name".into()));
     }
     let vehicle = files::vehicle(vehicle)?;
-    let log = &*asked.upload.as_ref().ok_or_else(|| Refusal::Wrong("file: missing".into()))?.file.bytes()?;
+    let log = &*asked.upload.as_ref().ok_or_else(|| WebError::BadRequest("file: missing".into()))?.file.bytes()?;
     // The telemetry is kept as it came, to its last whole record.
-    let kept = &log[..tlog::whole_len(log)];
+    let kept = &log[..tlog::complete_len(log)];
     if let Some((id, trainee)) = state.database.of_telemetry(&sha256_hex(kept))? {
-        return Ok(Taken::There(id, trainee));
+        return Ok(UploadOutcome::There(id, trainee));
     }
     // What cannot be scored is the file's fault, whatever the scorer calls it.
-    let unfit = |error: AppError| Refusal::Wrong(format!("this recording cannot be taken in: {error}"));
+    let unfit = |error: AppError| WebError::BadRequest(format!("this recording cannot be taken in: {error}"));
     let graded = assess::grade(log, &scenario.scenario, &vehicle.vehicle).map_err(unfit)?;
     let started_unix_us = tlog::session_start_us(log).unwrap_or_else(clock::unix_us);
-    if state.database.erased()?.holds("", trainee.as_str(), started_unix_us) {
+    if state.database.erased()?.contains("", trainee.as_str(), started_unix_us) {
         let words = format!("trainee = {}: was erased after this flight; it is not taken in again", trainee.as_str());
-        return Err(Refusal::Wrong(words));
+        return Err(WebError::BadRequest(words));
     }
-    let first = state.first();
+    let first = state.default_folder();
     let aside = state.spool();
     let mut folder = SessionFolder::create(&aside, trainee.as_str(), started_unix_us, &scenario, &vehicle)?;
     let config = MonitorConfig {
@@ -94,20 +95,20 @@ fn take(state: &State, asked: &Asked) -> Result<Taken, Refusal> {
         started_unix_us,
         system_id: 1,
         seed: None,
-        build: build_site,
+        survey_builder: build_site,
     };
     // The sidecar hears the recording as it would have heard the flight, so that the folder says the same of it.
     let mut monitor = Monitor::new(config);
-    for record in tlog::Reader::new(log) {
+    for record in tlog::TlogReader::new(log) {
         monitor.handle_datagram(record.frame);
         while let Some(event) = monitor.poll_record() {
-            if matches!(event, Record::Event(_)) {
+            if matches!(event, SessionOutput::Event(_)) {
                 folder.record(event);
             }
         }
         while monitor.poll_transmit().is_some() {}
     }
-    folder.record(Record::Telemetry(kept.to_vec()));
+    folder.record(SessionOutput::Telemetry(kept.to_vec()));
     folder.flush()?;
     if let Some(survey) = monitor.survey() {
         folder.resolve(graded.seed, survey.defects())?;
@@ -118,14 +119,14 @@ fn take(state: &State, asked: &Asked) -> Result<Taken, Refusal> {
     }
     folder.assessment(&json_text(&graded.assessment))?;
     // Whole, it takes its place among the others; a kill before leaves nothing there.
-    let place = free(&first, &folder.path().file_name().unwrap_or_default().to_string_lossy());
+    let place = free_folder(&first, &folder.path().file_name().unwrap_or_default().to_string_lossy());
     let moved = std::fs::rename(folder.path(), &place);
-    moved.map_err(|error| Refusal::Failed(format!("{}: cannot be moved: {error}", place.display())))?;
-    Ok(Taken::Session(place))
+    moved.map_err(|error| WebError::Failed(format!("{}: cannot be moved: {error}", place.display())))?;
+    Ok(UploadOutcome::Session(place))
 }
 
 /// A place of this name, or of one like it: another recording of the same instant may be there.
-fn free(sessions: &Path, name: &str) -> PathBuf {
+fn free_folder(sessions: &Path, name: &str) -> PathBuf {
     let stem = name.rsplit_once('-').map_or(name, |(stem, _)| stem);
     let others = (1..).map(|k: u32| format!("{stem}-{}", &sha256_hex(format!("{name} {k}").as_bytes())[..6]));
     let mut places = std::iter::once(name.to_owned()).chain(others).map(|name| sessions.join(name));
@@ -136,7 +137,7 @@ fn free(sessions: &Path, name: &str) -> PathBuf {
 ///
 /// # Errors
 /// When the disk refuses.
-pub fn clear(sessions: &Path) -> Result<(), AppError> {
+pub fn remove_partial_imports(sessions: &Path) -> Result<(), AppError> {
     let aside = sessions.join(ASIDE);
     match std::fs::remove_dir_all(&aside) {
         Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
@@ -154,10 +155,10 @@ mod tests {
     fn exact_a_taken_name_gives_way_to_one_like_it() {
         let sessions = tempfile::tempdir().unwrap();
         let name = "20231114T221320Z-anna-two-bridges-1a2b3c";
-        assert_eq!(free(sessions.path(), name), sessions.path().join(name));
+        assert_eq!(free_folder(sessions.path(), name), sessions.path().join(name));
         let mut seen = std::collections::BTreeSet::new();
         for _ in 0..3 {
-            let place = free(sessions.path(), name);
+            let place = free_folder(sessions.path(), name);
             std::fs::create_dir(&place).unwrap();
             let name = place.file_name().unwrap().to_string_lossy().into_owned();
             assert!(name.starts_with("20231114T221320Z-anna-two-bridges-") && seen.insert(name));

@@ -150,7 +150,7 @@ fn wire_a_killed_monitor_goes_on_where_it_stopped() {
     let session_text = session.display().to_string();
     let again = Process::start(&["monitor", "--port", &monitor_port, "--session", &session_text]);
     assert!(again.by_itself(), "the second monitor failed");
-    let whole = spandrel_mavlink::telemetry::tlog::whole_len(&before);
+    let whole = spandrel_mavlink::telemetry::tlog::complete_len(&before);
     assert_eq!(std::fs::read(&log).unwrap()[..whole], before[..whole], "what was received is lost");
     assert_eq!(json(&session.join("session.json"))["monitor_starts"], 2);
     assert_eq!(json(&session.join("assessment.json"))["end"]["reason"], "landed");

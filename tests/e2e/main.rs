@@ -1,8 +1,8 @@
 //! The program as a process of its own, and what it draws beside.
 
-#[cfg(feature = "view")]
-mod aside;
 mod flights;
 mod help;
 mod noise;
 mod program;
+#[cfg(feature = "view")]
+mod secondary_renderer;

@@ -13,7 +13,7 @@ fn told(output: &Output) -> (Option<i32>, String, String) {
 }
 
 #[test]
-fn wire_wrong_arguments_and_files_end_with_two_and_say_what_is_allowed() {
+fn wire_wrong_arguments_and_files_end_with_two_and_report_what_is_allowed() {
     for (args, needle) in [
         (vec!["train", "--trainee", "../up"], "letters, digits"),
         (vec!["demo", "--speed", "0"], "0.1 to 100, or max"),
@@ -125,7 +125,7 @@ fn wire_the_program_works_from_any_folder() {
 }
 
 #[test]
-fn wire_a_port_in_use_is_told_plainly() {
+fn wire_a_port_in_use_is_reported_plainly() {
     let taken = std::net::UdpSocket::bind("127.0.0.1:0").unwrap();
     let port = taken.local_addr().unwrap().port().to_string();
     let sessions = tempfile::tempdir().unwrap();
@@ -156,7 +156,7 @@ fn wire_a_vehicle_file_is_read_as_one_whatever_it_lacks() {
 }
 
 #[test]
-fn wire_what_does_not_fit_other_keys_is_told_with_its_value() {
+fn wire_what_does_not_fit_other_keys_is_reported_with_its_value() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("job.toml");
     let limits = "[scoring]\nspeed_limit_mph = 20.0\nmax_speed_mph = 15.0\ntime_best_min = 30.0\n";

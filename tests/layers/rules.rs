@@ -192,7 +192,7 @@ mod tests {
 
     #[test]
     fn exact_the_wings_never_import_each_other() {
-        assert_eq!(check("crates/monitor/src/watch.rs", "use spandrel_sitl::sim::Sim;"), 1);
+        assert_eq!(check("crates/monitor/src/sidecar.rs", "use spandrel_sitl::sim::Sim;"), 1);
         assert_eq!(check("crates/training/src/report/mod.rs", "use spandrel_sitl::{sim::Sim, endpoint};"), 2);
         assert_eq!(check("crates/sitl/src/sim.rs", "fn f() { spandrel_monitor::assess(); }"), 1);
         assert_eq!(check("crates/clients/src/pilot/mod.rs", "use spandrel_sitl::physics::RigidState;"), 1);
@@ -233,11 +233,11 @@ mod tests {
             "let now = Timestamp::now();",
             "std::env::var(name)",
         ] {
-            assert_eq!(check("crates/monitor/src/watch.rs", outside), 1, "{outside}");
+            assert_eq!(check("crates/monitor/src/sidecar.rs", outside), 1, "{outside}");
             assert_eq!(check("crates/sitl/src/sim.rs", outside), 1, "{outside}");
             assert_eq!(check("src/net.rs", outside), 0, "{outside}");
         }
-        assert_eq!(check("crates/monitor/src/watch.rs", "use std::time::Duration; use std::collections::BTreeMap;"), 0);
+        assert_eq!(check("crates/monitor/src/sidecar.rs", "use std::time::Duration; use std::collections::BTreeMap;"), 0);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The contract's page says what the code says.
 
-use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::modes::ControlSource;
 use spandrel_mavlink::contract::named::Named;
 use spandrel_mavlink::contract::{VERSION, cue};
@@ -16,7 +16,7 @@ fn exact_the_contracts_page_has_every_name_code_and_bit() {
     let has = |row: &str| assert!(page.contains(row), "docs/src/reference/contract.md lacks {row:?}");
     has(&format!("Version {VERSION}."));
     let named = [
-        Named::Contact(Contact::None),
+        Named::Contact(ContactKind::None),
         Named::Hits(0),
         Named::Respawns(0),
         Named::Traffic(0),
@@ -31,8 +31,8 @@ fn exact_the_contracts_page_has_every_name_code_and_bit() {
         let kind = if matches!(value.message(0), MavMessage::NAMED_VALUE_INT(_)) { "int" } else { "float" };
         has(&format!("| `{}` | {kind} |", value.name()));
     }
-    for contact in Contact::ALL {
-        has(&format!("| {} | {} | {} |", contact.code(), contact.word(), contact.severity()));
+    for contact in ContactKind::ALL {
+        has(&format!("| {} | {} | {} |", contact.code(), contact.label(), contact.severity()));
     }
     for (bit, name) in cue::ALL {
         has(&format!("| {bit} | {name} |"));
@@ -48,7 +48,7 @@ fn exact_the_contracts_table_of_modes_is_the_codes() {
         format!("{} |", numbers.join(", "))
     };
     for source in [ControlSource::Mission, ControlSource::Script, ControlSource::Autopilot] {
-        let row = page.lines().find(|line| line.starts_with(&format!("| {} |", source.word()))).expect("a row for each");
+        let row = page.lines().find(|line| line.starts_with(&format!("| {} |", source.label()))).expect("a row for each");
         assert!(row.ends_with(&copter(source)), "{row}");
     }
     let px4 = |main: u32, sub: u32| ControlSource::of(12, main << 16 | sub << 24);

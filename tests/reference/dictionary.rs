@@ -10,7 +10,7 @@ use spandrel_monitor::export::fields::FIELDS;
 use spandrel_testkit::job::*;
 use spandrel_training::cohort::columns::definition;
 use spandrel_training::cohort::{Selection, cohort, tables};
-use spandrel_training::record::Incomplete;
+use spandrel_training::record::IncompletePolicy;
 use std::collections::BTreeSet;
 
 fn frames() -> String {
@@ -35,7 +35,7 @@ fn assessment() -> String {
 
 /// Header of every table of an empty cohort.
 fn cohort_tables() -> String {
-    let selection = Selection { scenarios: Vec::new(), repetitions: 3, incomplete: Incomplete::LeaveOut };
+    let selection = Selection { scenarios: Vec::new(), repetitions: 3, incomplete: IncompletePolicy::LeaveOut };
     let cohort = cohort(&[], &selection);
     let mut out = String::new();
     for (name, text) in tables(&cohort) {

@@ -6,7 +6,7 @@ use mavlink::Message;
 use spandrel_mavlink::ardupilotmega;
 use spandrel_mavlink::dialect::MavMessage;
 use spandrel_sitl::endpoint::flavour::{Flavour, ardupilot, generic, px4};
-use spandrel_sitl::endpoint::streams::{CAMERA, STREAMS, Stream};
+use spandrel_sitl::endpoint::streams::{CAMERA, STREAMS, StreamSpec};
 use spandrel_sitl::endpoint::{HANDLED, LinkKind};
 
 fn name(id: u32) -> String {
@@ -22,16 +22,16 @@ fn name(id: u32) -> String {
     known.or_else(theirs).unwrap_or_else(|| panic!("message {id} has no name"))
 }
 
-fn rate(stream: &Stream, kind: LinkKind) -> String {
+fn rate(stream: &StreamSpec, kind: LinkKind) -> String {
     match stream.rate_hz(kind) {
         0.0 => "on request".to_owned(),
         hz => hz.to_string(),
     }
 }
 
-fn flavours(stream: &Stream) -> String {
+fn flavours(stream: &StreamSpec) -> String {
     let all: [&Flavour; 3] = [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR];
-    let spoken: Vec<&str> = all.iter().filter(|flavour| stream.is_spoken(flavour)).map(|flavour| flavour.name).collect();
+    let spoken: Vec<&str> = all.iter().filter(|flavour| stream.is_sent(flavour)).map(|flavour| flavour.name).collect();
     if spoken.len() == all.len() { "all".to_owned() } else { spoken.join(", ") }
 }
 

@@ -3,11 +3,11 @@
 use crate::table::{code, table};
 use crate::{check, head};
 use serde_json::Value;
-use spandrel_sitl::endpoint::params::face::{COPTER, PX4};
-use spandrel_sitl::endpoint::params::{Face, metadata};
+use spandrel_sitl::endpoint::params::param_view::{COPTER, PX4};
+use spandrel_sitl::endpoint::params::{ParamView, metadata};
 use std::io::Cursor;
 
-fn described(face: &Face) -> Vec<Value> {
+fn described(face: &ParamView) -> Vec<Value> {
     let mut text = Vec::new();
     lzma_rs::xz_decompress(&mut Cursor::new(&metadata::files(face).parameter.bytes), &mut text).unwrap();
     let file: Value = serde_json::from_slice(&text).unwrap();

@@ -3,14 +3,14 @@
 
 use serde_json::Value;
 use spandrel_clients::pilot::flight_plan;
-use spandrel_clients::pilot::job::Map;
+use spandrel_clients::pilot::goals::PlanningContext;
 use spandrel_mavlink::contract::cue;
 use spandrel_mavlink::dialect::*;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
-use spandrel_monitor::watch::build_site;
-use spandrel_monitor::{Monitor, MonitorConfig, Record};
+use spandrel_monitor::sidecar::build_site;
+use spandrel_monitor::{Monitor, MonitorConfig, SessionOutput};
 use spandrel_sitl::endpoint::{LinkId, LinkKind};
 use spandrel_testkit::plans::{ACCEPTED, upload};
 use spandrel_testkit::shipped::{scenario, vehicle};
@@ -25,7 +25,7 @@ const LIMIT_S: f64 = 1_500.0;
 fn plan_for(name: &str, autopilot: MavAutopilot) -> Value {
     let (scenario, vehicle) = (scenario(name), vehicle("phantom2"));
     let site = Site::build(&scenario, 7);
-    let map = Map { scenario: &scenario, site: &site, vehicle: &vehicle, at: SimTime::ZERO, keep_clear_m: None };
+    let map = PlanningContext { scenario: &scenario, site: &site, vehicle: &vehicle, at: SimTime::ZERO, keep_clear_m: None };
     flight_plan::plan(&map, autopilot)
 }
 
@@ -88,13 +88,13 @@ fn flight_the_exported_plan_flies_every_task_on_its_path_and_touches_nothing() {
     let mut passed: Vec<Vec<bool>> = job.tasks.iter().map(|task| vec![false; task.path_m.len()]).collect();
     let (mut hits, mut pictures, mut landed) = (0, 0, false);
     for _ in 0..(LIMIT_S * 10.0) as usize {
-        station.heard.clear();
+        station.received.clear();
         station.run_ms(100);
         let here = station.sim.truth().rigid.position_m.enu();
         for (task, passed) in job.tasks.iter().zip(&mut passed) {
             task.path_m.iter().zip(passed).for_each(|(point, seen)| *seen |= (*point - here).norm() <= task.threshold_m);
         }
-        for frame in &station.heard {
+        for frame in &station.received {
             match &frame.message {
                 Some(MavMessage::NAMED_VALUE_INT(v)) if v.name.to_str() == Ok("hits") => hits = v.value,
                 Some(MavMessage::CAMERA_IMAGE_CAPTURED(_)) => pictures += 1,
@@ -181,7 +181,7 @@ impl Observed {
             started_unix_us: 0,
             system_id: 1,
             seed: None,
-            build: build_site,
+            survey_builder: build_site,
         });
         station.run_ms(2_500);
         assert_eq!(upload(&mut station, &items), ACCEPTED);
@@ -211,7 +211,7 @@ impl Observed {
             self.station.sim.handle_datagram(SIDECAR, &bytes);
         }
         while let Some(record) = self.monitor.poll_record() {
-            if let Record::Event(line) = record
+            if let SessionOutput::Event(line) = record
                 && !line.contains("\"snapshot\"")
             {
                 self.flown.log.push(line);
@@ -292,7 +292,7 @@ fn prop_traffic_never_comes_nearer_than_the_least_distance_of_its_lanes() {
         let site = Site::build(&job, seed);
         for (east, north, over) in (0..60).map(|k| (f64::from(k) * 2.0 - 60.0, f64::from(k % 7) * 2.0 - 6.0, f64::from(k % 5))) {
             let point: Vec3<Enu> = Vec3::new(east, north, 36.0 + over);
-            let least_m = site.traffic().nearest_ever_m(point, REACH_M);
+            let least_m = site.traffic().min_distance_ever_m(point, REACH_M);
             for ms in (0..WATCHED_S * 1_000).step_by(100) {
                 let Some(near) = site.traffic().nearest(point, REACH_M, SimTime::from_ms(ms)) else { continue };
                 met += 1;

@@ -23,17 +23,17 @@ fn exact_a_picture_is_judged_by_the_field_of_view_that_it_was_taken_with() {
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_ZOOM, p(&[1.0, 1.0])), accepted);
     for _ in 0..5 {
         station.run_ms(430);
-        station.heard.clear();
+        station.received.clear();
         assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, p(&[0.0, 0.0, 1.0])), accepted);
         station.run_ms(20);
         let mut timeline = Timeline::new(LocalPlane::new(origin));
-        for frame in &station.heard {
+        for frame in &station.received {
             timeline.push(&frame.bytes);
         }
         let flight = timeline.flight(0);
         let [(time, _, _)] = flight.snapshots.all() else { panic!("one picture") };
         let judged_deg = camera(&flight, *time, &vehicle(ZOOMS).camera).hfov_rad.to_degrees() as f32;
-        let sent_deg = station.last(|m| if let MavMessage::CAMERA_FOV_STATUS(f) = m { Some(f.hfov) } else { None });
+        let sent_deg = station.last_message(|m| if let MavMessage::CAMERA_FOV_STATUS(f) = m { Some(f.hfov) } else { None });
         assert!((judged_deg - sent_deg.unwrap()).abs() < WIRE_DEG, "{judged_deg} for {sent_deg:?}");
     }
 }

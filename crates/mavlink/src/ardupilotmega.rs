@@ -1,11 +1,11 @@
 //! Messages of ArduPilot's own dialect that the codec does not know: number, name and fields as data. Order on the wire and checksum seed follow
 //! from them (MAVLink guide, serialization).
 
-use super::codec::{Encoder, Framed};
+use super::codec::{Encodable, Encoder};
 
 /// Type of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum FieldType {
     /// uint16_t.
     U16,
     /// uint32_t.
@@ -16,7 +16,7 @@ pub enum Kind {
     F32,
 }
 
-impl Kind {
+impl FieldType {
     fn name(self) -> &'static str {
         match self {
             Self::U16 => "uint16_t",
@@ -42,24 +42,28 @@ impl Kind {
 
 /// A message's definition, its fields in the order of `ardupilotmega.xml`.
 #[derive(Debug, PartialEq)]
-pub struct Definition {
+pub struct MessageDefinition {
     /// Number.
     pub id: u32,
     /// Name.
     pub name: &'static str,
     /// Fields.
-    pub fields: &'static [(&'static str, Kind)],
+    pub fields: &'static [(&'static str, FieldType)],
     /// Fields after the extension mark.
-    pub extensions: &'static [(&'static str, Kind)],
+    pub extensions: &'static [(&'static str, FieldType)],
 }
 
-use Kind::{F32, I32, U16, U32};
+use FieldType::{F32, I32, U16, U32};
 
 /// MEMINFO.
-pub const MEMINFO: Definition =
-    Definition { id: 152, name: "MEMINFO", fields: &[("brkval", U16), ("freemem", U16)], extensions: &[("freemem32", U32)] };
+pub const MEMINFO: MessageDefinition = MessageDefinition {
+    id: 152,
+    name: "MEMINFO",
+    fields: &[("brkval", U16), ("freemem", U16)],
+    extensions: &[("freemem32", U32)],
+};
 /// AHRS.
-pub const AHRS: Definition = Definition {
+pub const AHRS: MessageDefinition = MessageDefinition {
     id: 163,
     name: "AHRS",
     fields: &[
@@ -74,7 +78,7 @@ pub const AHRS: Definition = Definition {
     extensions: &[],
 };
 /// SIMSTATE.
-pub const SIMSTATE: Definition = Definition {
+pub const SIMSTATE: MessageDefinition = MessageDefinition {
     id: 164,
     name: "SIMSTATE",
     fields: &[
@@ -93,10 +97,10 @@ pub const SIMSTATE: Definition = Definition {
     extensions: &[],
 };
 /// WIND.
-pub const WIND: Definition =
-    Definition { id: 168, name: "WIND", fields: &[("direction", F32), ("speed", F32), ("speed_z", F32)], extensions: &[] };
+pub const WIND: MessageDefinition =
+    MessageDefinition { id: 168, name: "WIND", fields: &[("direction", F32), ("speed", F32), ("speed_z", F32)], extensions: &[] };
 /// EKF_STATUS_REPORT.
-pub const EKF_STATUS_REPORT: Definition = Definition {
+pub const EKF_STATUS_REPORT: MessageDefinition = MessageDefinition {
     id: 193,
     name: "EKF_STATUS_REPORT",
     fields: &[
@@ -110,7 +114,7 @@ pub const EKF_STATUS_REPORT: Definition = Definition {
     extensions: &[("airspeed_variance", F32)],
 };
 
-impl Definition {
+impl MessageDefinition {
     /// Places of the fields in the order of the wire: the larger types first, otherwise as they are listed.
     fn order(&self) -> impl Iterator<Item = usize> {
         let places = |long: bool| (0..self.fields.len()).filter(move |k| self.fields[*k].1.is_long() == long);
@@ -129,19 +133,19 @@ impl Definition {
 
     /// A message of this definition, its values in the order of the fields, those of extensions last.
     #[must_use]
-    pub fn message(&'static self, values: &[f64]) -> Message {
-        Message { definition: self, values: values.to_vec() }
+    pub fn message(&'static self, values: &[f64]) -> DialectMessage {
+        DialectMessage { definition: self, values: values.to_vec() }
     }
 }
 
 /// A message with its values.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Message {
-    definition: &'static Definition,
+pub struct DialectMessage {
+    definition: &'static MessageDefinition,
     values: Vec<f64>,
 }
 
-impl Framed for Message {
+impl Encodable for DialectMessage {
     fn frame(&self, encoder: &mut Encoder) -> Vec<u8> {
         let (fields, extensions) = (self.definition.fields, self.definition.extensions);
         let value = |k: usize| self.values.get(k).copied().unwrap_or(0.0);

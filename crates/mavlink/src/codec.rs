@@ -10,7 +10,7 @@ const SIGNATURE_LEN: usize = 13;
 
 /// A message with its sender, and the bytes it came in.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Received {
+pub struct ReceivedFrame {
     /// Sender's system id (1..=255).
     pub system_id: u8,
     /// Sender's component id.
@@ -25,7 +25,7 @@ pub struct Received {
     pub bytes: Vec<u8>,
 }
 
-impl Received {
+impl ReceivedFrame {
     /// The payload padded with zeros to `len` bytes (MAVLink 2 cuts trailing zeros).
     #[must_use]
     pub fn payload(&self, len: usize) -> Vec<u8> {
@@ -44,8 +44,8 @@ pub struct Decoder {
     bad_bytes: u64,
 }
 
-enum Step {
-    Frame(usize, Box<Received>),
+enum ParseStep {
+    Frame(usize, Box<ReceivedFrame>),
     Skip(usize),
     NeedMore,
 }
@@ -64,18 +64,18 @@ impl Decoder {
     }
 
     /// Feeds bytes of a stream; incomplete tails are kept for the next call.
-    pub fn push(&mut self, bytes: &[u8]) -> Vec<Received> {
+    pub fn push(&mut self, bytes: &[u8]) -> Vec<ReceivedFrame> {
         self.buffer.extend_from_slice(bytes);
         let mut frames = Vec::new();
         let mut at = 0;
         loop {
             match next(&self.buffer[at..]) {
-                Step::Frame(len, frame) => {
+                ParseStep::Frame(len, frame) => {
                     frames.push(*frame);
                     at += len;
                 }
-                Step::Skip(len) => at += self.bad(len),
-                Step::NeedMore => break,
+                ParseStep::Skip(len) => at += self.count_bad(len),
+                ParseStep::NeedMore => break,
             }
         }
         self.buffer.drain(..at);
@@ -84,65 +84,65 @@ impl Decoder {
 
     /// Feeds one datagram: whole frames only; an incomplete tail counts as bad and is dropped. One look at each byte, and one checksum of
     /// at most 267 bytes for each that could begin a frame: the cost is linear in the datagram's length, whatever it holds.
-    pub fn datagram(&mut self, bytes: &[u8]) -> Vec<Received> {
+    pub fn datagram(&mut self, bytes: &[u8]) -> Vec<ReceivedFrame> {
         self.buffer.clear();
         let mut frames = Vec::new();
         let mut at = 0;
         while at < bytes.len() {
             let step = next(&bytes[at..]);
             at += match step {
-                Step::Frame(len, frame) => {
+                ParseStep::Frame(len, frame) => {
                     frames.push(*frame);
                     len
                 }
-                Step::Skip(len) => self.bad(len),
+                ParseStep::Skip(len) => self.count_bad(len),
                 // The start of a frame that does not end here: a frame may still begin within it.
-                Step::NeedMore => self.bad(1),
+                ParseStep::NeedMore => self.count_bad(1),
             };
         }
         frames
     }
 
-    fn bad(&mut self, len: usize) -> usize {
+    fn count_bad(&mut self, len: usize) -> usize {
         self.bad_bytes += len as u64;
         len
     }
 }
 
 /// What stands at the start of `bytes`.
-fn next(bytes: &[u8]) -> Step {
+fn next(bytes: &[u8]) -> ParseStep {
     let Some(start) = bytes.iter().position(|b| *b == STX_V1 || *b == STX_V2) else {
-        return if bytes.is_empty() { Step::NeedMore } else { Step::Skip(bytes.len()) };
+        return if bytes.is_empty() { ParseStep::NeedMore } else { ParseStep::Skip(bytes.len()) };
     };
     if start > 0 {
-        return Step::Skip(start);
+        return ParseStep::Skip(start);
     }
     if bytes[0] == STX_V2 { next_v2(bytes) } else { next_v1(bytes) }
 }
 
-fn next_v2(bytes: &[u8]) -> Step {
+fn next_v2(bytes: &[u8]) -> ParseStep {
     if bytes.len() < 10 {
-        return Step::NeedMore;
+        return ParseStep::NeedMore;
     }
     let flags = bytes[2];
     // Frames with an incompatibility flag that we do not know must not be read (MAVLink guide, serialization).
     if flags & !FLAG_SIGNED != 0 {
-        return Step::Skip(1);
+        return ParseStep::Skip(1);
     }
     let body_end = 10 + bytes[1] as usize;
     let total = body_end + 2 + if flags & FLAG_SIGNED != 0 { SIGNATURE_LEN } else { 0 };
     if bytes.len() < total {
-        return Step::NeedMore;
+        return ParseStep::NeedMore;
     }
     let message_id = u32::from_le_bytes([bytes[7], bytes[8], bytes[9], 0]);
     let crc = u16::from_le_bytes([bytes[body_end], bytes[body_end + 1]]);
     let extra = known(message_id).then(|| MavMessage::extra_crc(message_id));
     // A message outside the dialect cannot be checked; it is passed on for routing only.
     if extra.is_some_and(|extra| mavlink::calculate_crc(&bytes[1..body_end], extra) != crc) {
-        return Step::Skip(1);
+        return ParseStep::Skip(1);
     }
     let message = extra.and_then(|_| MavMessage::parse(MavlinkVersion::V2, message_id, &bytes[10..body_end]).ok());
-    let frame = Received {
+    let frame = ReceivedFrame {
         system_id: bytes[5],
         component_id: bytes[6],
         sequence: bytes[4],
@@ -150,26 +150,26 @@ fn next_v2(bytes: &[u8]) -> Step {
         message,
         bytes: bytes[..total].to_vec(),
     };
-    Step::Frame(total, Box::new(frame))
+    ParseStep::Frame(total, Box::new(frame))
 }
 
-fn next_v1(bytes: &[u8]) -> Step {
+fn next_v1(bytes: &[u8]) -> ParseStep {
     if bytes.len() < 8 {
-        return Step::NeedMore;
+        return ParseStep::NeedMore;
     }
     let body_end = 6 + bytes[1] as usize;
     let total = body_end + 2;
     if bytes.len() < total {
-        return Step::NeedMore;
+        return ParseStep::NeedMore;
     }
     let message_id = u32::from(bytes[5]);
     let crc = u16::from_le_bytes([bytes[body_end], bytes[body_end + 1]]);
     let extra = known(message_id).then(|| MavMessage::extra_crc(message_id));
     if extra.is_none_or(|extra| mavlink::calculate_crc(&bytes[1..body_end], extra) != crc) {
-        return Step::Skip(1);
+        return ParseStep::Skip(1);
     }
     let message = MavMessage::parse(MavlinkVersion::V1, message_id, &bytes[6..body_end]).ok();
-    let frame = Received {
+    let frame = ReceivedFrame {
         system_id: bytes[3],
         component_id: bytes[4],
         sequence: bytes[2],
@@ -177,7 +177,7 @@ fn next_v1(bytes: &[u8]) -> Step {
         message,
         bytes: bytes[..total].to_vec(),
     };
-    Step::Frame(total, Box::new(frame))
+    ParseStep::Frame(total, Box::new(frame))
 }
 
 fn known(message_id: u32) -> bool {
@@ -185,12 +185,12 @@ fn known(message_id: u32) -> bool {
 }
 
 /// Content that an encoder can frame.
-pub trait Framed {
+pub trait Encodable {
     /// The whole frame.
     fn frame(&self, encoder: &mut Encoder) -> Vec<u8>;
 }
 
-impl Framed for MavMessage {
+impl Encodable for MavMessage {
     fn frame(&self, encoder: &mut Encoder) -> Vec<u8> {
         encoder.encode(self)
     }

@@ -80,7 +80,7 @@ impl Opcode {
 /// Why a request is refused. Numbers as on the wire.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
-pub enum Refusal {
+pub enum FtpError {
     /// For a reason without a number.
     Fail = 1,
     /// The size field is larger than the data.
@@ -103,7 +103,7 @@ pub enum Refusal {
 
 /// One packet.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Packet {
+pub struct FtpPacket {
     /// Counts up with every packet of a conversation.
     pub sequence: u16,
     /// Which open file.
@@ -122,7 +122,7 @@ pub struct Packet {
     pub data: [u8; DATA_MAX],
 }
 
-impl Packet {
+impl FtpPacket {
     /// Reads a payload; every 251 bytes are a packet.
     #[must_use]
     pub fn read(bytes: &[u8; PAYLOAD]) -> Self {
@@ -165,20 +165,20 @@ impl Packet {
     #[must_use]
     pub fn acknowledge(&self, data: &[u8]) -> Self {
         let length = data.len().min(DATA_MAX);
-        let mut out = Self { opcode: ACK, size: length as u8, data: [0; DATA_MAX], ..self.answer() };
+        let mut out = Self { opcode: ACK, size: length as u8, data: [0; DATA_MAX], ..self.reply() };
         out.data[..length].copy_from_slice(&data[..length]);
         out
     }
 
     /// The refusal of this request.
     #[must_use]
-    pub fn refuse(&self, why: Refusal) -> Self {
-        let mut out = Self { opcode: NAK, size: 1, data: [0; DATA_MAX], ..self.answer() };
+    pub fn error_reply(&self, why: FtpError) -> Self {
+        let mut out = Self { opcode: NAK, size: 1, data: [0; DATA_MAX], ..self.reply() };
         out.data[0] = why as u8;
         out
     }
 
-    fn answer(&self) -> Self {
+    fn reply(&self) -> Self {
         Self { sequence: self.sequence.wrapping_add(1), request: self.opcode, burst_complete: false, ..self.clone() }
     }
 }
@@ -203,7 +203,7 @@ mod tests {
             *byte = (k * 7 + 3) as u8;
         }
         (bytes[6], bytes[7]) = (1, 0);
-        assert_eq!(Packet::read(&bytes).write(), bytes);
+        assert_eq!(FtpPacket::read(&bytes).write(), bytes);
     }
 
     #[test]
@@ -216,7 +216,7 @@ mod tests {
 
     #[test]
     fn exact_a_size_that_no_packet_holds_is_no_data() {
-        let mut packet = Packet::read(&[0; PAYLOAD]);
+        let mut packet = FtpPacket::read(&[0; PAYLOAD]);
         packet.size = DATA_MAX as u8;
         assert_eq!(packet.sized().map(<[u8]>::len), Some(DATA_MAX));
         packet.size += 1;

@@ -1,7 +1,7 @@
 //! An instructor's note to the sidecar: a TUNNEL message with a type of our own, so that it goes to the sidecar alone and shows on no
 //! trainee's screen. It is part of the telemetry, as all that is said on the wire.
 
-use super::codec::{Encoder, Received};
+use super::codec::{Encoder, ReceivedFrame};
 
 /// Message id of TUNNEL.
 const TUNNEL: u32 = 385;
@@ -25,7 +25,7 @@ pub fn encode(encoder: &mut Encoder, system: u8, component: u8, text: &str) -> V
 
 /// Target and text of a frame that is a note.
 #[must_use]
-pub fn decode(frame: &Received) -> Option<((u8, u8), String)> {
+pub fn decode(frame: &ReceivedFrame) -> Option<((u8, u8), String)> {
     if frame.message_id != TUNNEL {
         return None;
     }
@@ -45,7 +45,7 @@ mod tests {
     use crate::codec::Decoder;
     use crate::router::target;
 
-    fn sent(text: &str) -> Received {
+    fn sent(text: &str) -> ReceivedFrame {
         Decoder::new().datagram(&encode(&mut Encoder::new(252, 192), 1, 191, text)).remove(0)
     }
 

@@ -1,7 +1,7 @@
 //! Which links a frame goes on to (MAVLink guide, routing): broadcasts to all others, addressed frames to where their target was heard,
 //! never back where they came from, key exchange to nobody.
 
-use super::codec::Received;
+use super::codec::ReceivedFrame;
 use super::dialect::MavMessage;
 use mavlink::{MavlinkVersion, Message};
 use std::collections::BTreeMap;
@@ -14,23 +14,23 @@ const MOST_SENDERS: usize = 1_024;
 /// Who has been heard on which link. `L` names a link.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Router<L> {
-    heard: BTreeMap<(u8, u8), Vec<L>>,
+    links_by_sender: BTreeMap<(u8, u8), Vec<L>>,
 }
 
 impl<L: Copy + Ord> Router<L> {
     /// Nobody heard yet.
     #[must_use]
     pub fn new() -> Self {
-        Self { heard: BTreeMap::new() }
+        Self { links_by_sender: BTreeMap::new() }
     }
 
     /// Notes the sender of a frame.
-    pub fn note(&mut self, link: L, frame: &Received) {
+    pub fn note(&mut self, link: L, frame: &ReceivedFrame) {
         let sender = (frame.system_id, frame.component_id);
-        if self.heard.len() >= MOST_SENDERS && !self.heard.contains_key(&sender) {
+        if self.links_by_sender.len() >= MOST_SENDERS && !self.links_by_sender.contains_key(&sender) {
             return;
         }
-        let links = self.heard.entry(sender).or_default();
+        let links = self.links_by_sender.entry(sender).or_default();
         if !links.contains(&link) {
             links.push(link);
         }
@@ -38,25 +38,26 @@ impl<L: Copy + Ord> Router<L> {
 
     /// True when a system's component has been heard on a link.
     #[must_use]
-    pub fn heard_on(&self, peer: (u8, u8), link: L) -> bool {
-        self.heard.get(&peer).is_some_and(|links| links.contains(&link))
+    pub fn note_sender(&self, peer: (u8, u8), link: L) -> bool {
+        self.links_by_sender.get(&peer).is_some_and(|links| links.contains(&link))
     }
 
     /// Forgets a link.
-    pub fn close(&mut self, link: L) {
-        self.heard.values_mut().for_each(|links| links.retain(|l| *l != link));
-        self.heard.retain(|_, links| !links.is_empty());
+    pub fn forget_link(&mut self, link: L) {
+        self.links_by_sender.values_mut().for_each(|links| links.retain(|l| *l != link));
+        self.links_by_sender.retain(|_, links| !links.is_empty());
     }
 
     /// Links among `all` that the frame goes on to.
     #[must_use]
-    pub fn onward(&self, from: L, frame: &Received, all: &[L]) -> Vec<L> {
+    pub fn targets_of(&self, from: L, frame: &ReceivedFrame, all: &[L]) -> Vec<L> {
         if frame.message_id == SETUP_SIGNING {
             return Vec::new();
         }
         let (system, component) = target(frame);
         let components = if component == 0 { (system, 0)..=(system, u8::MAX) } else { (system, component)..=(system, component) };
-        let reaches = |link: &L| system == 0 || self.heard.range(components.clone()).any(|(_, links)| links.contains(link));
+        let reaches =
+            |link: &L| system == 0 || self.links_by_sender.range(components.clone()).any(|(_, links)| links.contains(link));
         all.iter().copied().filter(|l| *l != from).filter(reaches).collect()
     }
 }
@@ -69,7 +70,7 @@ impl<L: Copy + Ord> Default for Router<L> {
 
 /// Target system and component of a frame; 0 for everybody. A frame of an unknown message counts as a broadcast.
 #[must_use]
-pub fn target(frame: &Received) -> (u8, u8) {
+pub fn target(frame: &ReceivedFrame) -> (u8, u8) {
     if let Some(message) = &frame.message {
         let system = message.target_system_id().unwrap_or(0);
         return (system, message.target_component_id().unwrap_or(0));
@@ -103,7 +104,7 @@ mod tests {
     use crate::codec::{Decoder, Encoder};
     use crate::dialect::{COMMAND_ACK_DATA, HEARTBEAT_DATA, MavMessage};
 
-    fn frame(system: u8, component: u8, message: &MavMessage) -> Received {
+    fn frame(system: u8, component: u8, message: &MavMessage) -> ReceivedFrame {
         Decoder::new().datagram(&Encoder::new(system, component).encode(message)).remove(0)
     }
 
@@ -113,11 +114,11 @@ mod tests {
         let beat = MavMessage::HEARTBEAT(HEARTBEAT_DATA::default());
         router.note(1, &frame(255, 190, &beat));
         router.note(2, &frame(254, 190, &beat));
-        assert_eq!(router.onward(3, &frame(1, 191, &beat), &[1, 2, 3]), [1, 2]);
+        assert_eq!(router.targets_of(3, &frame(1, 191, &beat), &[1, 2, 3]), [1, 2]);
         let ack = MavMessage::COMMAND_ACK(COMMAND_ACK_DATA { target_system: 254, target_component: 190, ..Default::default() });
-        assert_eq!(router.onward(3, &frame(1, 191, &ack), &[1, 2, 3]), [2]);
-        router.close(2);
-        assert!(router.onward(3, &frame(1, 191, &ack), &[1, 3]).is_empty());
+        assert_eq!(router.targets_of(3, &frame(1, 191, &ack), &[1, 2, 3]), [2]);
+        router.forget_link(2);
+        assert!(router.targets_of(3, &frame(1, 191, &ack), &[1, 3]).is_empty());
     }
 
     #[test]
@@ -140,6 +141,6 @@ mod tests {
             [beat.system_id, beat.component_id] = k.to_be_bytes();
             router.note(1, &beat);
         }
-        assert_eq!(router.heard.len(), MOST_SENDERS);
+        assert_eq!(router.links_by_sender.len(), MOST_SENDERS);
     }
 }

@@ -1,6 +1,6 @@
 //! MAVLink 2 message signing (<https://mavlink.io/en/guide/message_signing.html>): sign, verify, refuse what was heard before.
 
-use super::codec::Received;
+use super::codec::ReceivedFrame;
 use super::dialect::MavMessage;
 use mavlink::Message;
 use sha2::{Digest, Sha256};
@@ -31,18 +31,18 @@ const EPOCH_UNIX_US: u64 = 1_420_070_400_000_000;
 
 /// A secret shared by both ends.
 #[derive(Clone, PartialEq, Eq)]
-pub struct Key(pub [u8; 32]);
+pub struct SigningKey(pub [u8; 32]);
 
-impl std::fmt::Debug for Key {
+impl std::fmt::Debug for SigningKey {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str("Key(secret)")
     }
 }
 
-impl Key {
+impl SigningKey {
     /// The key of a passphrase: its SHA-256, as MAVProxy, Mission Planner and QGroundControl make it.
     #[must_use]
-    pub fn of_passphrase(text: &str) -> Self {
+    pub fn from_passphrase(text: &str) -> Self {
         Self(Sha256::digest(text.as_bytes()).into())
     }
 
@@ -63,13 +63,13 @@ pub fn stamp(unix_us: u64) -> u64 {
 /// The largest timestamp of 48 bits.
 const STAMP_MAX: u64 = (1 << 48) - 1;
 
-fn is_stamp(stamp: &u64) -> bool {
+fn is_valid_timestamp(stamp: &u64) -> bool {
     *stamp <= STAMP_MAX
 }
 
 /// What a frame is worth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
+pub enum SignatureVerdict {
     /// Signed with our key, and new.
     Good,
     /// Not signed.
@@ -85,20 +85,20 @@ pub enum Verdict {
 /// Signs and verifies for one end of one link.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Signing {
-    key: Key,
+    key: SigningKey,
     link_id: u8,
     /// Newest timestamp sent or heard.
     newest: u64,
     /// Newest timestamp of our own clock.
     clock: u64,
-    heard: BTreeMap<(u8, u8, u8), u64>,
+    last_timestamps: BTreeMap<(u8, u8, u8), u64>,
 }
 
 impl Signing {
     /// Begins with a timestamp that must not lie before the last one used with this key.
     #[must_use]
-    pub fn new(key: Key, link_id: u8, stamp: u64) -> Self {
-        Self { key, link_id, newest: stamp, clock: stamp, heard: BTreeMap::new() }
+    pub fn new(key: SigningKey, link_id: u8, stamp: u64) -> Self {
+        Self { key, link_id, newest: stamp, clock: stamp, last_timestamps: BTreeMap::new() }
     }
 
     /// Signs a whole MAVLink 2 frame of the dialect; every call has a newer timestamp. What is signed already, or is no such frame, is
@@ -142,8 +142,9 @@ impl Signing {
     /// What the next start with this key must know, so that nothing heard until now is taken once more: the newest timestamp, then system,
     /// component, link id and newest timestamp of each stream. One line each.
     #[must_use]
-    pub fn memory(&self) -> String {
-        let lines = self.heard.iter().map(|((system, component, link), last)| format!("{system} {component} {link} {last}\n"));
+    pub fn save(&self) -> String {
+        let lines =
+            self.last_timestamps.iter().map(|((system, component, link), last)| format!("{system} {component} {link} {last}\n"));
         std::iter::once(format!("{}\n", self.newest)).chain(lines).collect()
     }
 
@@ -152,62 +153,65 @@ impl Signing {
     ///
     /// # Errors
     /// The number of the first line that is no such line, from 1; then nothing is taken up.
-    pub fn recall(&mut self, memory: &str) -> Result<(), usize> {
+    pub fn restore(&mut self, memory: &str) -> Result<(), usize> {
         let stream = |line: &str| -> Option<((u8, u8, u8), u64)> {
             let words: Vec<&str> = line.split(' ').collect();
             let [system, component, link, last] = words.as_slice() else { return None };
-            Some(((system.parse().ok()?, component.parse().ok()?, link.parse().ok()?), last.parse().ok().filter(is_stamp)?))
+            Some((
+                (system.parse().ok()?, component.parse().ok()?, link.parse().ok()?),
+                last.parse().ok().filter(is_valid_timestamp)?,
+            ))
         };
         let mut lines = memory.lines();
-        let newest = lines.next().and_then(|line| line.parse().ok()).filter(is_stamp).ok_or(1usize)?;
+        let newest = lines.next().and_then(|line| line.parse().ok()).filter(is_valid_timestamp).ok_or(1usize)?;
         let streams = lines.enumerate().map(|(k, line)| stream(line).ok_or(k + 2));
         let heard = streams.take(STREAMS_MAX).collect::<Result<BTreeMap<_, _>, _>>()?;
         let latest = self.latest();
         self.newest = self.newest.max(Some(newest).filter(|newest| *newest <= latest).unwrap_or(0));
-        self.heard.extend(heard.into_iter().filter(|(_, last)| *last <= latest));
+        self.last_timestamps.extend(heard.into_iter().filter(|(_, last)| *last <= latest));
         Ok(())
     }
 
     /// Judges a frame and remembers its timestamp if it is good.
-    pub fn verify(&mut self, frame: &Received, stamp: u64) -> Verdict {
+    pub fn verify(&mut self, frame: &ReceivedFrame, stamp: u64) -> SignatureVerdict {
         let bytes = &frame.bytes;
         if bytes.first() != Some(&STX) || bytes.get(FLAGS).is_none_or(|flags| flags & SIGNED == 0) || bytes.len() < SIGNATURE {
-            return Verdict::Unsigned;
+            return SignatureVerdict::Unsigned;
         }
         self.clock = self.clock.max(stamp);
         self.newest = self.newest.max(stamp);
         let (signed, signature) = bytes.split_at(bytes.len() - 6);
         let (body, tail) = signed.split_at(signed.len() - 7);
         if self.key.signature(body, tail) != signature {
-            return Verdict::Forged;
+            return SignatureVerdict::Forged;
         }
         let stamp = tail[1..].iter().rev().fold(0, |stamp, byte| (stamp << 8) | u64::from(*byte));
         if stamp > self.latest() {
-            return Verdict::Ahead;
+            return SignatureVerdict::Ahead;
         }
         let present = self.present();
         let stream = (frame.system_id, frame.component_id, tail[0]);
-        if self.heard.len() >= STREAMS_MAX {
+        if self.last_timestamps.len() >= STREAMS_MAX {
             // Frames of these are too old for a new stream as well: nothing is taken twice.
-            self.heard.retain(|_, last| *last + SLACK >= present);
+            self.last_timestamps.retain(|_, last| *last + SLACK >= present);
         }
-        let new = match self.heard.get(&stream) {
+        let new = match self.last_timestamps.get(&stream) {
             Some(last) => stamp > *last,
-            None => stamp + SLACK >= present && self.heard.len() < STREAMS_MAX,
+            None => stamp + SLACK >= present && self.last_timestamps.len() < STREAMS_MAX,
         };
         if !new {
-            return Verdict::Replayed;
+            return SignatureVerdict::Replayed;
         }
-        self.heard.insert(stream, stamp);
+        self.last_timestamps.insert(stream, stamp);
         self.newest = self.newest.max(stamp);
-        Verdict::Good
+        SignatureVerdict::Good
     }
 }
 
 /// Whether a link that demands signatures lets a frame pass.
 #[must_use]
-pub fn passes(frame: &Received, verdict: Verdict) -> bool {
-    verdict == Verdict::Good || (verdict == Verdict::Unsigned && frame.message_id == RADIO_STATUS)
+pub fn is_newer(frame: &ReceivedFrame, verdict: SignatureVerdict) -> bool {
+    verdict == SignatureVerdict::Good || (verdict == SignatureVerdict::Unsigned && frame.message_id == RADIO_STATUS)
 }
 
 #[cfg(test)]
@@ -222,14 +226,14 @@ mod tests {
         Encoder::new(system, 1).encode(&MavMessage::HEARTBEAT(HEARTBEAT_DATA { custom_mode: 7, ..HEARTBEAT_DATA::default() }))
     }
 
-    fn read(bytes: &[u8]) -> Received {
+    fn read(bytes: &[u8]) -> ReceivedFrame {
         let mut frames = Decoder::new().datagram(bytes);
         assert_eq!(frames.len(), 1);
         frames.remove(0)
     }
 
     fn pair() -> (Signing, Signing) {
-        let key = Key::of_passphrase("bridge");
+        let key = SigningKey::from_passphrase("bridge");
         (Signing::new(key.clone(), 3, NOW), Signing::new(key, 0, NOW))
     }
 
@@ -239,89 +243,89 @@ mod tests {
         let first = read(&ours.sign(frame(1), NOW));
         let second = read(&ours.sign(frame(1), NOW));
         assert_eq!(first.message, read(&frame(1)).message);
-        assert_eq!(theirs.verify(&first, NOW), Verdict::Good);
-        assert_eq!(theirs.verify(&first, NOW), Verdict::Replayed);
-        assert_eq!(theirs.verify(&second, NOW), Verdict::Good, "the clock stood still, the timestamp did not");
-        assert_eq!(theirs.verify(&first, NOW), Verdict::Replayed);
+        assert_eq!(theirs.verify(&first, NOW), SignatureVerdict::Good);
+        assert_eq!(theirs.verify(&first, NOW), SignatureVerdict::Replayed);
+        assert_eq!(theirs.verify(&second, NOW), SignatureVerdict::Good, "the clock stood still, the timestamp did not");
+        assert_eq!(theirs.verify(&first, NOW), SignatureVerdict::Replayed);
     }
 
     #[test]
     fn exact_another_key_an_altered_byte_and_no_signature_do_not_pass() {
         let (mut ours, mut theirs) = pair();
         let good = ours.sign(frame(1), NOW);
-        let mut stranger = Signing::new(Key::of_passphrase("brigde"), 3, NOW);
-        assert_eq!(theirs.verify(&read(&stranger.sign(frame(1), NOW)), NOW), Verdict::Forged);
+        let mut stranger = Signing::new(SigningKey::from_passphrase("brigde"), 3, NOW);
+        assert_eq!(theirs.verify(&read(&stranger.sign(frame(1), NOW)), NOW), SignatureVerdict::Forged);
         for k in good.len() - SIGNATURE..good.len() {
             let mut altered = good.clone();
             altered[k] ^= 1;
-            assert_eq!(theirs.verify(&read(&altered), NOW), Verdict::Forged, "byte {k}");
+            assert_eq!(theirs.verify(&read(&altered), NOW), SignatureVerdict::Forged, "byte {k}");
         }
         let bare = read(&frame(1));
-        assert_eq!(theirs.verify(&bare, NOW), Verdict::Unsigned);
-        assert!(!passes(&bare, Verdict::Unsigned));
-        assert_eq!(theirs.verify(&read(&good), NOW), Verdict::Good, "what failed before has not used up the timestamp");
+        assert_eq!(theirs.verify(&bare, NOW), SignatureVerdict::Unsigned);
+        assert!(!is_newer(&bare, SignatureVerdict::Unsigned));
+        assert_eq!(theirs.verify(&read(&good), NOW), SignatureVerdict::Good, "what failed before has not used up the timestamp");
     }
 
     #[test]
     fn exact_a_new_stream_may_lag_a_minute_and_no_more() {
         let (mut ours, _) = pair();
         let old = read(&ours.sign(frame(1), NOW));
-        let verdict = |late: u64| Signing::new(Key::of_passphrase("bridge"), 0, NOW + 1 + late).verify(&old, NOW);
-        assert_eq!((verdict(SLACK), verdict(SLACK + 1)), (Verdict::Good, Verdict::Replayed));
+        let verdict = |late: u64| Signing::new(SigningKey::from_passphrase("bridge"), 0, NOW + 1 + late).verify(&old, NOW);
+        assert_eq!((verdict(SLACK), verdict(SLACK + 1)), (SignatureVerdict::Good, SignatureVerdict::Replayed));
     }
 
     #[test]
-    fn exact_streams_are_told_apart_and_their_number_is_bounded() {
+    fn exact_streams_are_distinguished_and_their_number_is_bounded() {
         let (mut ours, mut theirs) = pair();
         let early = ours.sign(frame(1), NOW);
         let late = ours.sign(frame(2), NOW + 500);
-        assert_eq!(theirs.verify(&read(&late), NOW), Verdict::Good);
-        assert_eq!(theirs.verify(&read(&early), NOW), Verdict::Good, "another system has its own order");
+        assert_eq!(theirs.verify(&read(&late), NOW), SignatureVerdict::Good);
+        assert_eq!(theirs.verify(&read(&early), NOW), SignatureVerdict::Good, "another system has its own order");
         for link in 0..=255 {
             for system in 10..14 {
-                let mut one = Signing::new(Key::of_passphrase("bridge"), link, NOW);
+                let mut one = Signing::new(SigningKey::from_passphrase("bridge"), link, NOW);
                 theirs.verify(&read(&one.sign(frame(system), NOW)), NOW);
             }
         }
-        assert_eq!(theirs.heard.len(), STREAMS_MAX);
+        assert_eq!(theirs.last_timestamps.len(), STREAMS_MAX);
     }
 
     #[test]
     fn exact_streams_that_have_long_been_silent_make_room_and_their_frames_stay_too_old() {
-        let mut guard = Signing::new(Key::of_passphrase("bridge"), 0, NOW);
-        let mut first = Signing::new(Key::of_passphrase("bridge"), 0, NOW);
+        let mut guard = Signing::new(SigningKey::from_passphrase("bridge"), 0, NOW);
+        let mut first = Signing::new(SigningKey::from_passphrase("bridge"), 0, NOW);
         let old = read(&first.sign(frame(9), NOW));
-        assert_eq!(guard.verify(&old, NOW), Verdict::Good);
+        assert_eq!(guard.verify(&old, NOW), SignatureVerdict::Good);
         for link in 0..=255 {
             for system in 10..12 {
-                let mut one = Signing::new(Key::of_passphrase("bridge"), link, NOW);
+                let mut one = Signing::new(SigningKey::from_passphrase("bridge"), link, NOW);
                 guard.verify(&read(&one.sign(frame(system), NOW)), NOW);
             }
         }
         let later = NOW + 2 * SLACK;
-        let newcomer = read(&Signing::new(Key::of_passphrase("bridge"), 7, later).sign(frame(77), later));
-        assert_eq!(guard.verify(&newcomer, later), Verdict::Good);
-        assert_eq!((guard.heard.len(), guard.verify(&old, later)), (1, Verdict::Replayed));
+        let newcomer = read(&Signing::new(SigningKey::from_passphrase("bridge"), 7, later).sign(frame(77), later));
+        assert_eq!(guard.verify(&newcomer, later), SignatureVerdict::Good);
+        assert_eq!((guard.last_timestamps.len(), guard.verify(&old, later)), (1, SignatureVerdict::Replayed));
     }
 
     #[test]
-    fn exact_what_was_heard_before_a_restart_is_not_taken_after_it() {
+    fn exact_what_was_received_before_a_restart_is_not_taken_after_it() {
         let (mut ours, mut theirs) = pair();
         let before = read(&ours.sign(frame(1), NOW));
-        assert_eq!(theirs.verify(&before, NOW), Verdict::Good);
+        assert_eq!(theirs.verify(&before, NOW), SignatureVerdict::Good);
         let soon = NOW + SLACK / 2;
-        let mut forgetful = Signing::new(Key::of_passphrase("bridge"), 0, soon);
-        assert_eq!(forgetful.verify(&before, soon), Verdict::Good, "which is why there is a memory");
-        let mut again = Signing::new(Key::of_passphrase("bridge"), 0, soon);
-        again.recall(&theirs.memory()).unwrap();
-        assert_eq!(again.verify(&before, soon), Verdict::Replayed);
+        let mut forgetful = Signing::new(SigningKey::from_passphrase("bridge"), 0, soon);
+        assert_eq!(forgetful.verify(&before, soon), SignatureVerdict::Good, "which is why there is a memory");
+        let mut again = Signing::new(SigningKey::from_passphrase("bridge"), 0, soon);
+        again.restore(&theirs.save()).unwrap();
+        assert_eq!(again.verify(&before, soon), SignatureVerdict::Replayed);
         let after = read(&ours.sign(frame(1), NOW));
-        assert_eq!(again.verify(&after, soon), Verdict::Good, "who has a slow clock goes on");
-        let other = read(&Signing::new(Key::of_passphrase("bridge"), 5, NOW).sign(frame(2), NOW));
-        assert_eq!(again.verify(&other, soon), Verdict::Good, "and a new stream may lag as ever");
+        assert_eq!(again.verify(&after, soon), SignatureVerdict::Good, "who has a slow clock goes on");
+        let other = read(&Signing::new(SigningKey::from_passphrase("bridge"), 5, NOW).sign(frame(2), NOW));
+        assert_eq!(again.verify(&other, soon), SignatureVerdict::Good, "and a new stream may lag as ever");
         // A clock that was set back does not make our own frames older than they were.
-        let mut set_back = Signing::new(Key::of_passphrase("bridge"), 0, 5);
-        set_back.recall(&again.memory()).unwrap();
+        let mut set_back = Signing::new(SigningKey::from_passphrase("bridge"), 0, 5);
+        set_back.restore(&again.save()).unwrap();
         assert!(set_back.newest() >= soon);
     }
 
@@ -329,29 +333,29 @@ mod tests {
     #[test]
     fn regress_a_frame_from_the_far_future_is_refused_and_leaves_nothing_behind() {
         let (mut ours, mut theirs) = pair();
-        let far = |stamp: u64| read(&Signing::new(Key::of_passphrase("bridge"), 9, stamp - 1).sign(frame(7), stamp));
+        let far = |stamp: u64| read(&Signing::new(SigningKey::from_passphrase("bridge"), 9, stamp - 1).sign(frame(7), stamp));
         for stamp in [NOW + AHEAD_MAX + 1, STAMP_MAX] {
-            assert_eq!(theirs.verify(&far(stamp), NOW), Verdict::Ahead);
+            assert_eq!(theirs.verify(&far(stamp), NOW), SignatureVerdict::Ahead);
         }
-        assert_eq!((theirs.newest(), theirs.heard.len()), (NOW, 0));
-        assert_eq!(theirs.verify(&far(NOW + AHEAD_MAX), NOW), Verdict::Good, "a clock a day ahead");
+        assert_eq!((theirs.newest(), theirs.last_timestamps.len()), (NOW, 0));
+        assert_eq!(theirs.verify(&far(NOW + AHEAD_MAX), NOW), SignatureVerdict::Good, "a clock a day ahead");
         let honest = read(&ours.sign(frame(1), NOW));
-        assert_eq!(theirs.verify(&honest, NOW), Verdict::Good, "beside it, one that is right");
+        assert_eq!(theirs.verify(&honest, NOW), SignatureVerdict::Good, "beside it, one that is right");
         // A memory that has been poisoned before: it heals.
-        let mut again = Signing::new(Key::of_passphrase("bridge"), 0, NOW);
-        again.recall(&format!("{STAMP_MAX}\n7 1 9 {STAMP_MAX}\n1 1 3 {NOW}\n")).unwrap();
-        assert_eq!((again.newest(), again.heard.len()), (NOW, 1));
+        let mut again = Signing::new(SigningKey::from_passphrase("bridge"), 0, NOW);
+        again.restore(&format!("{STAMP_MAX}\n7 1 9 {STAMP_MAX}\n1 1 3 {NOW}\n")).unwrap();
+        assert_eq!((again.newest(), again.last_timestamps.len()), (NOW, 1));
         let next = read(&ours.sign(frame(1), NOW));
-        assert_eq!(again.verify(&next, NOW), Verdict::Good);
-        assert_eq!(again.verify(&next, NOW), Verdict::Replayed);
+        assert_eq!(again.verify(&next, NOW), SignatureVerdict::Good);
+        assert_eq!(again.verify(&next, NOW), SignatureVerdict::Replayed);
         // A machine whose clock was never set believes what it hears.
-        let mut clockless = Signing::new(Key::of_passphrase("bridge"), 0, 5);
-        assert_eq!(clockless.verify(&honest, 5), Verdict::Good);
+        let mut clockless = Signing::new(SigningKey::from_passphrase("bridge"), 0, 5);
+        assert_eq!(clockless.verify(&honest, 5), SignatureVerdict::Good);
     }
 
     #[test]
     fn exact_a_memory_that_is_none_is_refused_by_its_line() {
-        let mut guard = Signing::new(Key::of_passphrase("bridge"), 0, NOW);
+        let mut guard = Signing::new(SigningKey::from_passphrase("bridge"), 0, NOW);
         let begin = guard.clone();
         for (text, line) in [
             ("", 1),
@@ -361,7 +365,7 @@ mod tests {
             ("5\n1 1 0 6\n1 1 256 6\n", 3),
             ("5\n1 1 0 281474976710656\n", 2),
         ] {
-            assert_eq!(guard.recall(text), Err(line), "{text:?}");
+            assert_eq!(guard.restore(text), Err(line), "{text:?}");
         }
         assert_eq!(guard, begin);
     }
@@ -377,12 +381,12 @@ mod tests {
     fn val_pymavlink_makes_the_same_signature() {
         // pymavlink 2.4: HEARTBEAT(6, 8, 0, 0, 4) from 255/190, sequence 0, key sha256("bridge"), link 5, timestamp 30000000000000.
         let theirs: Vec<u8> = PYMAVLINK.split_whitespace().map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect();
-        let mut ours = Signing::new(Key::of_passphrase("bridge"), 5, NOW - 1);
+        let mut ours = Signing::new(SigningKey::from_passphrase("bridge"), 5, NOW - 1);
         let mut plain = theirs[..theirs.len() - SIGNATURE].to_vec();
         plain[FLAGS] = 0;
         assert_eq!(ours.sign(plain, NOW), theirs);
-        let mut guard = Signing::new(Key::of_passphrase("bridge"), 0, NOW);
-        assert_eq!(guard.verify(&read(&theirs), NOW), Verdict::Good);
+        let mut guard = Signing::new(SigningKey::from_passphrase("bridge"), 0, NOW);
+        assert_eq!(guard.verify(&read(&theirs), NOW), SignatureVerdict::Good);
     }
 
     const PYMAVLINK: &str =

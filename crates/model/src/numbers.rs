@@ -5,7 +5,7 @@ const MOST_DIGITS: usize = 6;
 
 /// A value with at least `digits` after the point, and as many more as it takes to show on which side of `limit` it lies.
 #[must_use]
-pub fn beside_limit(value: f64, limit: f64, digits: usize) -> String {
+pub fn format_beside_limit(value: f64, limit: f64, digits: usize) -> String {
     let text = |digits: usize| format!("{value:.digits$}");
     // Against the limit as it is shown: one that was converted from another unit is a rounding off.
     let limit = self::limit(limit).parse::<f64>().unwrap_or(limit);
@@ -27,13 +27,13 @@ mod tests {
 
     #[test]
     fn exact_as_many_digits_are_shown_as_decide() {
-        assert_eq!(beside_limit(60.3, 60.0, 0), "60.3");
-        assert_eq!(beside_limit(60.004, 60.0, 0), "60.004");
-        assert_eq!(beside_limit(60.3, 59.999_999_999_999_99, 0), "60.3");
-        assert_eq!(beside_limit(61.7, 60.0, 0), "62");
-        assert_eq!(beside_limit(79.96, 80.0, 0), "79.96");
-        assert_eq!(beside_limit(4.5, 4.5, 1), "4.5");
-        assert_eq!(beside_limit(2.5, 2.5, 0), "2.5");
+        assert_eq!(format_beside_limit(60.3, 60.0, 0), "60.3");
+        assert_eq!(format_beside_limit(60.004, 60.0, 0), "60.004");
+        assert_eq!(format_beside_limit(60.3, 59.999_999_999_999_99, 0), "60.3");
+        assert_eq!(format_beside_limit(61.7, 60.0, 0), "62");
+        assert_eq!(format_beside_limit(79.96, 80.0, 0), "79.96");
+        assert_eq!(format_beside_limit(4.5, 4.5, 1), "4.5");
+        assert_eq!(format_beside_limit(2.5, 2.5, 0), "2.5");
         assert_eq!(
             (limit(60.000_000_000_01), limit(2.54), limit(0.0), limit(10.0)),
             ("60".into(), "2.54".into(), "0".into(), "10".into())

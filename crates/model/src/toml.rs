@@ -68,7 +68,7 @@ impl std::error::Error for Problems {}
 
 /// What the code asks of a key: for the documentation test.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Asked {
+pub struct DocumentedKey {
     /// What is allowed, in words.
     pub allowed: String,
     /// Default as written, or `required`.
@@ -83,7 +83,7 @@ pub struct Reader<'a> {
     /// What is wrong so far.
     pub problems: Vec<Problem>,
     /// Every key asked for; repeated tables count once.
-    pub asked: BTreeMap<String, Asked>,
+    pub documented_keys: BTreeMap<String, DocumentedKey>,
 }
 
 /// A table of the file and the keys asked of it so far.
@@ -91,14 +91,14 @@ pub struct Section<'d> {
     path: String,
     table: Option<&'d dyn TableLike>,
     line: usize,
-    seen: Vec<&'static str>,
+    read_keys: Vec<&'static str>,
 }
 
 impl<'a> Reader<'a> {
     /// A reader of one file.
     #[must_use]
     pub fn new(file: &'a str, text: &'a str) -> Self {
-        Self { file, text, problems: Vec::new(), asked: BTreeMap::new() }
+        Self { file, text, problems: Vec::new(), documented_keys: BTreeMap::new() }
     }
 
     /// Parses the text; a syntax error becomes a problem.
@@ -134,21 +134,21 @@ impl<'a> Reader<'a> {
     }
 
     /// Notes what is wrong with a key beyond its own range, at the key's line, or the table's when it is missing.
-    pub fn complain(&mut self, section: &Section, key: &str, value: &str, allowed: &str, message: &str) {
+    pub fn add_problem(&mut self, section: &Section, key: &str, value: &str, allowed: &str, message: &str) {
         let line = section.table.and_then(|t| t.get(key)).and_then(|i| self.line_of(i)).unwrap_or(section.line);
         self.problem(line, &section.full(key), value, allowed, message);
     }
 
     /// Says in words what the default of a key asked for depends on.
     pub fn default_depends(&mut self, section: &Section, key: &str, words: &str) {
-        if let Some(asked) = self.asked.get_mut(&section.full(key)) {
+        if let Some(asked) = self.documented_keys.get_mut(&section.full(key)) {
             asked.default = words.into();
         }
     }
 
     /// The file's top.
     pub fn root<'d>(&self, document: &'d Document<&'a str>) -> Section<'d> {
-        Section { path: String::new(), table: Some(document.as_table()), line: 1, seen: Vec::new() }
+        Section { path: String::new(), table: Some(document.as_table()), line: 1, read_keys: Vec::new() }
     }
 
     /// A table inside another; when it is missing, its keys take their defaults.
@@ -157,9 +157,9 @@ impl<'a> Reader<'a> {
         let (item, line) = self.item(parent, key);
         let table = item.and_then(Item::as_table_like);
         if let (Some(item), None) = (item, table) {
-            self.problem(line, &path, &shown(item), "a table", "not a table");
+            self.problem(line, &path, &displayed(item), "a table", "not a table");
         }
-        Section { path, table, line, seen: Vec::new() }
+        Section { path, table, line, read_keys: Vec::new() }
     }
 
     /// The tables of an array of tables.
@@ -171,7 +171,7 @@ impl<'a> Reader<'a> {
             let line_of = |table: &toml_edit::Table| table.span().map_or(line, |span| self.line_at(span.start));
             return array
                 .iter()
-                .map(|t| Section { path: format!("{path}[]"), table: Some(t), line: line_of(t), seen: Vec::new() })
+                .map(|t| Section { path: format!("{path}[]"), table: Some(t), line: line_of(t), read_keys: Vec::new() })
                 .collect();
         }
         let inline = item.as_array().map(|a| a.iter().map(|v| v.as_inline_table().zip(v.span())).collect::<Option<Vec<_>>>());
@@ -180,16 +180,16 @@ impl<'a> Reader<'a> {
                 path: format!("{path}[]"),
                 table: Some(t),
                 line: self.line_at(span.start),
-                seen: Vec::new(),
+                read_keys: Vec::new(),
             };
             return tables.into_iter().map(section).collect();
         }
-        self.problem(line, &path, &shown(item), "an array of tables", "not an array of tables");
+        self.problem(line, &path, &displayed(item), "an array of tables", "not an array of tables");
         Vec::new()
     }
 
     fn item<'d>(&mut self, section: &mut Section<'d>, key: &'static str) -> (Option<&'d Item>, usize) {
-        section.seen.push(key);
+        section.read_keys.push(key);
         let item = section.table.and_then(|t| t.get(key));
         let line = item.and_then(|i| self.line_of(i)).unwrap_or(section.line);
         (item, line)
@@ -197,7 +197,7 @@ impl<'a> Reader<'a> {
 
     fn record(&mut self, path: &str, allowed: &str, default: String) {
         let path = path.to_string();
-        self.asked.entry(path).or_insert_with(|| Asked { allowed: allowed.into(), default });
+        self.documented_keys.entry(path).or_insert_with(|| DocumentedKey { allowed: allowed.into(), default });
     }
 
     /// A number within [min, max]. Without a default it is required.
@@ -215,11 +215,11 @@ impl<'a> Reader<'a> {
         match as_number(item) {
             Some(value) if value >= min && value <= max => value,
             Some(_) => {
-                self.problem(line, &path, &shown(item), &allowed, "out of range");
+                self.problem(line, &path, &displayed(item), &allowed, "out of range");
                 default.unwrap_or(min)
             }
             None => {
-                self.problem(line, &path, &shown(item), &allowed, "not a number");
+                self.problem(line, &path, &displayed(item), &allowed, "not a number");
                 default.unwrap_or(min)
             }
         }
@@ -235,7 +235,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A whole number within [min, max].
-    pub fn whole(&mut self, section: &mut Section, key: &'static str, (min, max): (i64, i64), default: Option<i64>) -> i64 {
+    pub fn integer(&mut self, section: &mut Section, key: &'static str, (min, max): (i64, i64), default: Option<i64>) -> i64 {
         let path = section.full(key);
         let allowed = format!("whole number {min} to {max}");
         self.record(&path, &allowed, default.map_or("required".into(), |d| d.to_string()));
@@ -249,20 +249,20 @@ impl<'a> Reader<'a> {
         match item.as_integer() {
             Some(value) if (min..=max).contains(&value) => value,
             Some(_) => {
-                self.problem(line, &path, &shown(item), &allowed, "out of range");
+                self.problem(line, &path, &displayed(item), &allowed, "out of range");
                 default.unwrap_or(min)
             }
             None => {
-                self.problem(line, &path, &shown(item), &allowed, "not a whole number");
+                self.problem(line, &path, &displayed(item), &allowed, "not a whole number");
                 default.unwrap_or(min)
             }
         }
     }
 
     /// A whole number that may be left out.
-    pub fn optional_whole(&mut self, section: &mut Section, key: &'static str, range: (i64, i64)) -> Option<i64> {
+    pub fn optional_integer(&mut self, section: &mut Section, key: &'static str, range: (i64, i64)) -> Option<i64> {
         let present = section.has(key);
-        let value = self.whole(section, key, range, Some(range.0));
+        let value = self.integer(section, key, range, Some(range.0));
         self.default_depends(section, key, "none");
         present.then_some(value)
     }
@@ -274,7 +274,7 @@ impl<'a> Reader<'a> {
         let (item, line) = self.item(section, key);
         let Some(item) = item else { return default };
         item.as_bool().unwrap_or_else(|| {
-            self.problem(line, &path, &shown(item), "true or false", "not true or false");
+            self.problem(line, &path, &displayed(item), "true or false", "not true or false");
             default
         })
     }
@@ -287,7 +287,7 @@ impl<'a> Reader<'a> {
         match (item, item.and_then(Item::as_str)) {
             (_, Some(value)) => value.to_string(),
             (Some(item), None) => {
-                self.problem(line, &path, &shown(item), "text", "not a text");
+                self.problem(line, &path, &displayed(item), "text", "not a text");
                 default.unwrap_or_default().to_string()
             }
             (None, None) => {
@@ -321,7 +321,7 @@ impl<'a> Reader<'a> {
         let found = item.as_str().and_then(|text| words.iter().find(|(w, _)| *w == text));
         found.map_or_else(
             || {
-                self.problem(line, &path, &shown(item), &allowed, "not one of these");
+                self.problem(line, &path, &displayed(item), &allowed, "not one of these");
                 fallback
             },
             |(_, value)| *value,
@@ -349,7 +349,7 @@ impl<'a> Reader<'a> {
         };
         let values = item.as_value().and_then(|v| list(v, range)).and_then(|v| <[f64; N]>::try_from(v).ok());
         values.unwrap_or_else(|| {
-            self.problem(line, &path, &shown(item), &allowed, "not such a list");
+            self.problem(line, &path, &displayed(item), &allowed, "not such a list");
             fallback
         })
     }
@@ -364,13 +364,13 @@ impl<'a> Reader<'a> {
         let point = |v: &Value| list(v, range).and_then(|p| <[f64; 3]>::try_from(p).ok());
         let points = item.as_array().map(|array| array.iter().map(point).collect::<Option<Vec<_>>>());
         points.flatten().unwrap_or_else(|| {
-            self.problem(line, &path, &shown(item), &allowed, "not such a list");
+            self.problem(line, &path, &displayed(item), &allowed, "not such a list");
             Vec::new()
         })
     }
 
     /// A list of whole numbers; empty when left out.
-    pub fn wholes(&mut self, section: &mut Section, key: &'static str, (min, max): (i64, i64)) -> Vec<i64> {
+    pub fn integers(&mut self, section: &mut Section, key: &'static str, (min, max): (i64, i64)) -> Vec<i64> {
         let path = section.full(key);
         let allowed = format!("list of whole numbers, each {min} to {max}");
         self.record(&path, &allowed, "none".into());
@@ -379,7 +379,7 @@ impl<'a> Reader<'a> {
         let one = |v: &Value| v.as_integer().filter(|i| (min..=max).contains(i));
         let values = item.as_array().map(|array| array.iter().map(one).collect::<Option<Vec<_>>>());
         values.flatten().unwrap_or_else(|| {
-            self.problem(line, &path, &shown(item), &allowed, "not such a list");
+            self.problem(line, &path, &displayed(item), &allowed, "not such a list");
             Vec::new()
         })
     }
@@ -388,15 +388,15 @@ impl<'a> Reader<'a> {
     pub fn finish(&mut self, section: &Section) {
         let Some(table) = section.table else { return };
         for (key, item) in table.iter() {
-            if section.seen.contains(&key) {
+            if section.read_keys.contains(&key) {
                 continue;
             }
             let line = self.line_of(item).unwrap_or(section.line);
-            let near = |s: &&&str| is_slip(s, key);
-            let known = section.seen.iter().filter(near).min_by_key(|s| difference(s, key));
+            let near = |s: &&&str| is_near_miss(s, key);
+            let known = section.read_keys.iter().filter(near).min_by_key(|s| difference(s, key));
             let message = known.map_or("unknown key".to_string(), |k| format!("unknown key; did you mean {k}?"));
-            let allowed = section.seen.join(", ");
-            self.problem(line, &section.full(key), &shown(item), &allowed, &message);
+            let allowed = section.read_keys.join(", ");
+            self.problem(line, &section.full(key), &displayed(item), &allowed, &message);
         }
     }
 }
@@ -436,14 +436,14 @@ fn one_line(text: &str) -> String {
 }
 
 /// The value as written, cut short.
-fn shown(item: &Item) -> String {
+fn displayed(item: &Item) -> String {
     const LONGEST: usize = 60;
     let text: String = item.to_string().trim().replace('\n', " ").chars().take(LONGEST + 1).collect();
     if text.chars().count() > LONGEST { format!("{}…", text.chars().take(LONGEST).collect::<String>()) } else { text }
 }
 
 /// Two keys that differ by a slip of the pen: at most two edits in five characters.
-fn is_slip(known: &str, key: &str) -> bool {
+fn is_near_miss(known: &str, key: &str) -> bool {
     5 * difference(known, key) <= 2 * known.chars().count().max(key.chars().count())
 }
 

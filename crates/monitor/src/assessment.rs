@@ -1,20 +1,20 @@
 //! The assessment: the names of its parts are the names in `assessment.json`, which other tools read.
 
-use super::measures::attention::{self, Snapshot, Survey};
+use super::measures::attention::{self, SiteSurvey, Snapshot};
 use super::measures::coverage::{self, PathCoverage};
 use super::measures::crash::{self, Crash};
-use super::measures::on_path::{OnPath, Paths};
+use super::measures::on_path::{OnPath, ReferencePaths};
 use super::measures::on_speed;
-use super::score::accuracy::Counts;
-use super::score::certification::{self, Certification, Evidence};
+use super::score::accuracy::MatchCounts;
+use super::score::certification::{self, Certification, CertificationInputs};
 use super::score::completion::{Completion, TaskState};
 use super::score::conformity::TaskShares;
 use super::score::{Score, conformity, efficiency, safety};
 use super::session::{EndReason, Session, lift_off_height_m};
 use serde::Serialize;
-use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::modes::ControlSource;
-use spandrel_mavlink::telemetry::log_stream::Log;
+use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
 use spandrel_mavlink::telemetry::{Flight, Frame, Timeline};
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::scenario::Scenario;
@@ -23,13 +23,13 @@ use std::collections::BTreeSet;
 
 /// What is scored against.
 #[derive(Debug, Clone, Copy)]
-pub struct Job<'a> {
+pub struct ScoringJob<'a> {
     /// Scenario.
     pub scenario: &'a Scenario,
     /// Aircraft.
     pub vehicle: &'a Vehicle,
     /// Site of this session's seed.
-    pub survey: &'a dyn Survey,
+    pub survey: &'a dyn SiteSurvey,
 }
 
 /// Why there is nothing to score.
@@ -89,18 +89,18 @@ pub struct Assessment {
     /// Pictures.
     pub snapshots: SnapshotCounts,
     /// The end.
-    pub end: End,
+    pub end: SessionEnd,
     /// How much was seen.
-    pub telemetry: Coverage,
+    pub telemetry: TelemetryCoverage,
     /// Who flew when; it changes no score.
-    pub flown_by: Vec<Stretch>,
+    pub flown_by: Vec<ControlStretch>,
     /// The other profile.
     pub certification: Certification,
 }
 
 /// Frames in a row that one hand flew.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct Stretch {
+pub struct ControlStretch {
     /// First frame.
     pub from_frame: u32,
     /// Last frame, included.
@@ -183,7 +183,7 @@ pub struct SnapshotCounts {
 
 /// The end.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct End {
+pub struct SessionEnd {
     /// Why.
     pub reason: EndReason,
     /// N.
@@ -196,7 +196,7 @@ pub struct End {
 
 /// How much of the session telemetry covers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Coverage {
+pub struct TelemetryCoverage {
     /// Frames in gaps over 1 s: held.
     pub missing_frames: usize,
     /// Frames in gaps of 0.2 to 1 s: interpolated.
@@ -209,7 +209,7 @@ pub struct Coverage {
 
 /// An assessment with the frames behind it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Graded {
+pub struct AssessedSession {
     /// Scores.
     pub assessment: Assessment,
     /// Frames 1 to N.
@@ -222,18 +222,18 @@ pub struct Graded {
 ///
 /// # Errors
 /// When there is no session in it.
-pub fn assess(flight: &Flight, job: &Job<'_>) -> Result<(Assessment, Vec<Frame>), AssessError> {
+pub fn assess(flight: &Flight, job: &ScoringJob<'_>) -> Result<(Assessment, Vec<Frame>), AssessError> {
     if flight.truths.is_empty() {
         return Err(AssessError::NoTruth);
     }
     let scenario = job.scenario;
-    let session = Session::cut(flight, scenario, job.vehicle).ok_or(AssessError::NeverFlown)?;
-    let paths = Paths::new(scenario);
+    let session = Session::truncate(flight, scenario, job.vehicle).ok_or(AssessError::NeverFlown)?;
+    let paths = ReferencePaths::new(scenario);
     let on_path = OnPath::measure(&paths, session.frames.iter().map(|frame| frame.position_m));
     let crashes = crash::crashes(&session.frames, &on_path);
     let pictures = attention::snapshots(flight, &session.frames, job.vehicle, job.survey);
     let found: BTreeSet<u32> = pictures.iter().flat_map(|picture| picture.found.iter().copied()).collect();
-    let counts = Counts {
+    let counts = MatchCounts {
         taken: pictures.len(),
         hits: pictures.iter().filter(|picture| picture.hit).count(),
         found: found.len(),
@@ -246,7 +246,7 @@ pub fn assess(flight: &Flight, job: &Job<'_>) -> Result<(Assessment, Vec<Frame>)
     let states: Vec<TaskState> =
         attempted.zip(&covered).map(|(attempted, covered)| TaskState::of(attempted, covered.share, done_share)).collect();
     let completion = Completion::of(&states, &covered, session.reason == EndReason::Landed, done_share);
-    let evidence = Evidence {
+    let evidence = CertificationInputs {
         scenario,
         paths: &paths,
         session: &session,
@@ -270,7 +270,7 @@ pub fn assess(flight: &Flight, job: &Job<'_>) -> Result<(Assessment, Vec<Frame>)
         snapshots: snapshot_counts(scenario, counts, pictures),
         end,
         telemetry: telemetry_coverage(&session.frames),
-        flown_by: flown_by(flight, &session.frames),
+        flown_by: control_stretches(flight, &session.frames),
         certification,
     };
     Ok((assessment, session.frames))
@@ -281,19 +281,19 @@ pub fn assess(flight: &Flight, job: &Job<'_>) -> Result<(Assessment, Vec<Frame>)
 /// # Errors
 /// When the log cannot be read, is of another scenario or seed, or holds no session.
 pub fn assess_log(
-    log: &(impl Log + ?Sized),
+    log: &(impl TelemetryLog + ?Sized),
     scenario: &Scenario,
     vehicle: &Vehicle,
-    build: impl FnOnce(&Scenario, u64) -> std::sync::Arc<dyn Survey>,
-) -> Result<Graded, AssessError> {
+    build: impl FnOnce(&Scenario, u64) -> std::sync::Arc<dyn SiteSurvey>,
+) -> Result<AssessedSession, AssessError> {
     let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
     timeline.push_log(log)?;
     let (flight, seed) = identified_flight(&timeline, scenario, vehicle)?;
     // The flight holds all that counts: two copies would double the memory.
     drop(timeline);
-    let survey = attention::gated(build(scenario, seed), &flight);
-    let (assessment, frames) = assess(&flight, &Job { scenario, vehicle, survey: survey.as_ref() })?;
-    Ok(Graded { assessment, frames, seed })
+    let survey = attention::with_traffic_at(build(scenario, seed), &flight);
+    let (assessment, frames) = assess(&flight, &ScoringJob { scenario, vehicle, survey: survey.as_ref() })?;
+    Ok(AssessedSession { assessment, frames, seed })
 }
 
 /// The flight that counts, and its seed.
@@ -320,7 +320,7 @@ pub fn scored_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle
 pub fn scored_epoch(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> (usize, Flight) {
     let height_m = lift_off_height_m(vehicle);
     let mut last = (0, Flight::default());
-    for epoch in 0..timeline.epochs() {
+    for epoch in 0..timeline.simulator_runs() {
         last = (epoch, timeline.flight(epoch));
         if last.1.lift_off(scenario.ground_team.pad_m.up(), height_m).is_some() {
             break;
@@ -380,13 +380,13 @@ fn shares(scenario: &Scenario, session: &Session, on_path: &OnPath) -> Vec<TaskS
 
 /// The paper's scores from what they are made of.
 #[must_use]
-pub fn scores(scenario: &Scenario, shares: &[TaskShares], end: &End, crashes: &[Crash], counts: Counts) -> Scores {
+pub fn scores(scenario: &Scenario, shares: &[TaskShares], end: &SessionEnd, crashes: &[Crash], counts: MatchCounts) -> Scores {
     let scoring = &scenario.scoring;
-    let hit = |with: Contact| crashes.iter().any(|crash| crash.with == with);
+    let hit = |with: ContactKind| crashes.iter().any(|crash| crash.with == with);
     let others = crashes.iter().filter(|crash| crash.with.is_other_crash()).count();
     let conformity = conformity::score(shares, scoring.speed_limit_m_s, scoring.max_speed_m_s);
     let efficiency = efficiency::score(end.seconds, end.battery_failed, scoring.time_best_s, scoring.time_max_s);
-    let safety = safety::score(hit(Contact::Person), hit(Contact::Vehicle), others);
+    let safety = safety::score(hit(ContactKind::Person), hit(ContactKind::Vehicle), others);
     let accuracy = counts.score(scoring.beta);
     let applying = [conformity, Some(efficiency), Some(safety), accuracy];
     let overall = applying.iter().flatten().map(|score| score.pct).sum();
@@ -419,17 +419,17 @@ fn tasks(
 
 fn crash_counts(scenario: &Scenario, crashes: &[Crash]) -> CrashCounts {
     let among = |task: Option<usize>| crashes.iter().filter(|crash| crash.task == task).count();
-    let of = |with: Contact| usize::from(crashes.iter().any(|crash| crash.with == with));
+    let of = |with: ContactKind| usize::from(crashes.iter().any(|crash| crash.with == with));
     let tasks = scenario.tasks.iter().enumerate().map(|(t, task)| (task.id.to_string(), among(Some(t)).into()));
     CrashCounts {
         other: crashes.iter().filter(|crash| crash.with.is_other_crash()).count(),
-        person: of(Contact::Person),
-        vehicle: of(Contact::Vehicle),
+        person: of(ContactKind::Person),
+        vehicle: of(ContactKind::Vehicle),
         by_task: tasks.chain([("outside".to_owned(), among(None).into())]).collect(),
     }
 }
 
-fn snapshot_counts(scenario: &Scenario, counts: Counts, each: Vec<Snapshot>) -> SnapshotCounts {
+fn snapshot_counts(scenario: &Scenario, counts: MatchCounts, each: Vec<Snapshot>) -> SnapshotCounts {
     SnapshotCounts {
         taken: counts.taken,
         hits: counts.hits,
@@ -442,8 +442,8 @@ fn snapshot_counts(scenario: &Scenario, counts: Counts, each: Vec<Snapshot>) -> 
     }
 }
 
-fn end(scenario: &Scenario, session: &Session) -> End {
-    End {
+fn end(scenario: &Scenario, session: &Session) -> SessionEnd {
+    SessionEnd {
         reason: session.reason,
         frames: session.frames.len(),
         seconds: session.seconds(scenario.scoring.frame_rate_hz),
@@ -451,23 +451,23 @@ fn end(scenario: &Scenario, session: &Session) -> End {
     }
 }
 
-fn flown_by(flight: &Flight, frames: &[Frame]) -> Vec<Stretch> {
-    let mut stretches: Vec<Stretch> = Vec::new();
+fn control_stretches(flight: &Flight, frames: &[Frame]) -> Vec<ControlStretch> {
+    let mut stretches: Vec<ControlStretch> = Vec::new();
     for frame in frames {
         let by = flight.flown_by.at(frame.time);
         match stretches.last_mut() {
             Some(last) if last.by == by => last.to_frame = frame.index,
-            Some(_) | None => stretches.push(Stretch { from_frame: frame.index, to_frame: frame.index, by }),
+            Some(_) | None => stretches.push(ControlStretch { from_frame: frame.index, to_frame: frame.index, by }),
         }
     }
     stretches
 }
 
-fn telemetry_coverage(frames: &[Frame]) -> Coverage {
+fn telemetry_coverage(frames: &[Frame]) -> TelemetryCoverage {
     let gap = |frame: &Frame| frame.missing || frame.interpolated;
     let starts = frames.iter().enumerate().filter(|(i, frame)| gap(frame) && (*i == 0 || !gap(&frames[i - 1]))).count();
     let missing = frames.iter().filter(|frame| frame.missing).count();
-    Coverage {
+    TelemetryCoverage {
         missing_frames: missing,
         interpolated_frames: frames.iter().filter(|frame| frame.interpolated).count(),
         gaps: starts,

@@ -30,7 +30,7 @@ pub mod measures;
 pub mod recording;
 pub mod score;
 pub mod session;
-pub mod watch;
+pub mod sidecar;
 
-pub use assessment::{AssessError, Assessment, Graded, Job, assess, assess_log};
-pub use watch::{Monitor, MonitorConfig, Record};
+pub use assessment::{AssessError, AssessedSession, Assessment, ScoringJob, assess, assess_log};
+pub use sidecar::{Monitor, MonitorConfig, SessionOutput};

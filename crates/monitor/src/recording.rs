@@ -1,9 +1,9 @@
 //! A flight that was heard over MAVLink, for Foxglove: frames of drone and camera, battery, what the scores are made of, and in words
 //! what happened.
 
-use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::telemetry::Flight;
-use spandrel_model::foxglove::{self, Message, Pose};
+use spandrel_model::foxglove::{self, ChannelMessage, FramePose};
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::scenario::Scenario;
 use spandrel_model::time::SimTime;
@@ -19,9 +19,9 @@ const INFO: u8 = 6;
 
 /// All messages in the order of their time.
 #[must_use]
-pub fn messages(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Vec<Message> {
+pub fn messages(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Vec<ChannelMessage> {
     let unix_ns = |time: SimTime| (scenario.light.start_unix_s * 1_000_000_000 + time.ns()).max(0).cast_unsigned();
-    let mut out = words(flight, unix_ns);
+    let mut out = status_texts(flight, unix_ns);
     let mut due = SimTime::ZERO;
     let mut frames = 0;
     for truth in &flight.truths {
@@ -32,17 +32,17 @@ pub fn messages(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Vec<
         let (at, now) = (unix_ns(truth.time), truth.time);
         let here: Vec3<Ned> = truth.position_m.ned();
         let pitch_rad = flight.gimbal.at(now).unwrap_or(0.0);
-        let camera = Pose::camera(here, truth.ned_from_frd, vehicle.camera.position_m, pitch_rad);
+        let camera = FramePose::camera(here, truth.ned_from_frd, vehicle.camera.position_m, pitch_rad);
         out.push(foxglove::transforms(
             at,
-            &[(foxglove::DRONE, Pose::drone(here, truth.ned_from_frd)), (foxglove::CAMERA, camera)],
+            &[(foxglove::DRONE, FramePose::drone(here, truth.ned_from_frd)), (foxglove::CAMERA, camera)],
         ));
         out.push(foxglove::scoring(
             at,
-            &foxglove::Scoring {
+            &foxglove::ScoringSignals {
                 clearance_m: flight.clearance.at(now).unwrap_or(f64::INFINITY),
                 lux: None,
-                contact: flight.contact.at(now).unwrap_or_default().word(),
+                contact: flight.contact.at(now).unwrap_or_default().label(),
                 hits: flight.hits.at(now).unwrap_or(0),
                 respawns: flight.respawns.at(now).unwrap_or(0),
                 lamp_on: flight.light.at(now).unwrap_or(false),
@@ -61,12 +61,12 @@ pub fn messages(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Vec<
     out
 }
 
-fn words(flight: &Flight, unix_ns: impl Fn(SimTime) -> u64) -> Vec<Message> {
+fn status_texts(flight: &Flight, unix_ns: impl Fn(SimTime) -> u64) -> Vec<ChannelMessage> {
     let mut out = Vec::new();
-    let mut touched = Contact::None;
+    let mut touched = ContactKind::None;
     for (time, _, contact) in flight.contact.all() {
-        if *contact != touched && *contact != Contact::None {
-            out.push(foxglove::log(unix_ns(*time), CRITICAL, &format!("contact: {}", contact.word())));
+        if *contact != touched && *contact != ContactKind::None {
+            out.push(foxglove::log(unix_ns(*time), CRITICAL, &format!("contact: {}", contact.label())));
         }
         touched = *contact;
     }
@@ -76,7 +76,7 @@ fn words(flight: &Flight, unix_ns: impl Fn(SimTime) -> u64) -> Vec<Message> {
     let mut hand = None;
     for (time, _, by) in flight.flown_by.all() {
         if hand != Some(*by) {
-            out.push(foxglove::log(unix_ns(*time), INFO, &format!("flown by: {}", by.word())));
+            out.push(foxglove::log(unix_ns(*time), INFO, &format!("flown by: {}", by.label())));
         }
         hand = Some(*by);
     }

@@ -2,7 +2,7 @@
 
 use super::measures::crash;
 use serde::Serialize;
-use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::continuity::is_jump;
 use spandrel_mavlink::telemetry::{Flight, Frame};
 use spandrel_model::frames::{Enu, Vec3};
@@ -46,14 +46,14 @@ pub enum EndReason {
 
 impl From<EndReason> for &'static str {
     fn from(reason: EndReason) -> Self {
-        reason.word()
+        reason.label()
     }
 }
 
 impl EndReason {
     /// The word of `assessment.json`.
     #[must_use]
-    pub fn word(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
             Self::Landed => "landed",
             Self::Battery => "battery",
@@ -69,7 +69,7 @@ impl EndReason {
 
 /// What the end rule looks at.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Moment {
+pub struct EndRuleInput {
     /// Simulation time.
     pub time: SimTime,
     /// Flight time that this moment completes, s.
@@ -79,7 +79,7 @@ pub struct Moment {
     /// Speed, m/s.
     pub speed_m_s: f64,
     /// Contact after the pad rule.
-    pub contact: Contact,
+    pub contact: ContactKind,
     /// Battery, %.
     pub battery_pct: f64,
     /// Armed, if known.
@@ -100,7 +100,7 @@ pub struct EndRule {
     seen_armed: bool,
     rest_since: Option<SimTime>,
     pending: Option<(SimTime, EndReason)>,
-    last: Option<Moment>,
+    last: Option<EndRuleInput>,
     put_back: Option<SimTime>,
 }
 
@@ -123,7 +123,7 @@ impl EndRule {
     }
 
     /// Once the drone has been put back elsewhere, what was said of it before says nothing about there.
-    fn without_old_words(&mut self, moment: &Moment) -> Moment {
+    fn strip_legacy_fields(&mut self, moment: &EndRuleInput) -> EndRuleInput {
         let jumped = self.last.is_some_and(|last| {
             let step_m = (moment.position_m - last.position_m).norm();
             is_jump(step_m, moment.speed_m_s.max(last.speed_m_s), moment.time - last.time)
@@ -135,24 +135,24 @@ impl EndRule {
         if self.put_back.is_none_or(|since| moment.time - since >= WORDS_OLD) {
             return *moment;
         }
-        let down = matches!(moment.contact, Contact::Terrain);
-        Moment { armed: moment.armed.filter(|armed| *armed), on_ground: moment.on_ground && down, ..*moment }
+        let down = matches!(moment.contact, ContactKind::Terrain);
+        EndRuleInput { armed: moment.armed.filter(|armed| *armed), on_ground: moment.on_ground && down, ..*moment }
     }
 
     /// The end, when this moment decides it; the time is that of the last frame.
-    pub fn see(&mut self, moment: &Moment) -> Option<(SimTime, EndReason)> {
-        let moment = &self.without_old_words(moment);
+    pub fn update(&mut self, moment: &EndRuleInput) -> Option<(SimTime, EndReason)> {
+        let moment = &self.strip_legacy_fields(moment);
         match moment.contact {
-            Contact::Person => return Some((moment.time, EndReason::Person)),
-            Contact::Vehicle => return Some((moment.time, EndReason::Vehicle)),
-            Contact::Bridge | Contact::Terrain | Contact::Water | Contact::Other if self.crash_ends => {
+            ContactKind::Person => return Some((moment.time, EndReason::Person)),
+            ContactKind::Vehicle => return Some((moment.time, EndReason::Vehicle)),
+            ContactKind::Bridge | ContactKind::Terrain | ContactKind::Water | ContactKind::Other if self.crash_ends => {
                 return Some((moment.time, EndReason::Crash));
             }
-            Contact::None | Contact::Bridge | Contact::Terrain | Contact::Water | Contact::Other => {}
+            ContactKind::None | ContactKind::Bridge | ContactKind::Terrain | ContactKind::Water | ContactKind::Other => {}
         }
         // The word `disarmed` is a second old at most, and means a landing only after the word `armed`.
         self.seen_armed |= moment.armed == Some(true);
-        self.rest_since = self.rests_at_home(moment).then(|| self.rest_since.unwrap_or(moment.time));
+        self.rest_since = self.has_landed_at_home(moment).then(|| self.rest_since.unwrap_or(moment.time));
         if let Some(since) = self.rest_since
             && (self.seen_armed && moment.armed == Some(false) || moment.time - since >= REST_FOR)
         {
@@ -173,9 +173,9 @@ impl EndRule {
         self.pending
     }
 
-    fn rests_at_home(&self, moment: &Moment) -> bool {
+    fn has_landed_at_home(&self, moment: &EndRuleInput) -> bool {
         let from_pad = moment.position_m - self.pad_m;
-        let down = moment.on_ground || from_pad.up() < self.lift_off_m || moment.contact == Contact::Terrain;
+        let down = moment.on_ground || from_pad.up() < self.lift_off_m || moment.contact == ContactKind::Terrain;
         down && moment.speed_m_s < REST_M_S && from_pad.horizontal_norm() <= self.home_radius_m
     }
 }
@@ -202,7 +202,7 @@ pub struct Session {
 impl Session {
     /// Cuts a flight into its session; `None` when it never lifted off.
     #[must_use]
-    pub fn cut(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Option<Self> {
+    pub fn truncate(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Option<Self> {
         let start = flight.lift_off(scenario.ground_team.pad_m.up(), lift_off_height_m(vehicle))?;
         // The time limit ends every session; a broken clock must not make frames without end.
         let end = flight.end()?.min(start + SimTime::from_s(scenario.scoring.time_max_s) + OVERTIME);
@@ -210,7 +210,7 @@ impl Session {
         let mut frames = all_frames(flight, start, end, rate);
         crash::settle_contacts(&mut frames, flight, &scenario.ground_team);
         let mut rule = EndRule::new(scenario, vehicle);
-        let decided = frames.iter().find_map(|frame| rule.see(&moment(frame, rate)));
+        let decided = frames.iter().find_map(|frame| rule.update(&moment(frame, rate)));
         let none = if flight.ended_by_restart { EndReason::Restart } else { EndReason::Abort };
         let (last, reason) = decided.or(rule.pending()).unwrap_or((end, none));
         frames.truncate(frames.partition_point(|frame| frame.time <= last).max(1));
@@ -234,8 +234,8 @@ fn all_frames(flight: &Flight, start: SimTime, end: SimTime, rate: f64) -> Vec<F
         .collect()
 }
 
-fn moment(frame: &Frame, rate: f64) -> Moment {
-    Moment {
+fn moment(frame: &Frame, rate: f64) -> EndRuleInput {
+    EndRuleInput {
         time: frame.time,
         flown_s: f64::from(frame.index) / rate,
         position_m: frame.position_m,
@@ -263,8 +263,8 @@ mod tests {
         (0..240).find_map(|k| {
             let (armed, on_ground) = words(k);
             let time = SimTime::from_ms(from_ms + k * 33);
-            let contact = Contact::None;
-            let still = Moment {
+            let contact = ContactKind::None;
+            let still = EndRuleInput {
                 time,
                 flown_s: time.s(),
                 position_m,
@@ -274,12 +274,12 @@ mod tests {
                 armed: Some(armed),
                 on_ground,
             };
-            rule.see(&still).map(|(_, reason)| reason)
+            rule.update(&still).map(|(_, reason)| reason)
         })
     }
 
     #[test]
-    fn exact_put_back_over_home_is_no_landing_however_old_the_words_are() {
+    fn exact_respawned_over_home_is_no_landing_however_old_the_words_are() {
         let mut rule = rule();
         let pad_m = rule.pad_m;
         let over_home = pad_m + Vec3::new(1.0, 0.0, 5.0);

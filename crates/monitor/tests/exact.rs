@@ -1,6 +1,6 @@
 //! The numbers that a scorer must reproduce (shared assessment, the pilot study's figures), from the formulas alone.
 
-use spandrel_monitor::score::accuracy::Counts;
+use spandrel_monitor::score::accuracy::MatchCounts;
 use spandrel_monitor::score::conformity::{self, TaskShares};
 use spandrel_monitor::score::{efficiency, safety};
 
@@ -66,7 +66,7 @@ fn exact_the_weights_are_25_and_minus_25_thirds_in_the_papers_job() {
 }
 
 fn accuracy(found: usize, taken: usize, beta: f64) -> f64 {
-    Counts { taken, hits: found, found, placed: 10 }.score(beta).unwrap().pct
+    MatchCounts { taken, hits: found, found, placed: 10 }.score(beta).unwrap().pct
 }
 
 #[test]
@@ -83,12 +83,12 @@ fn exact_the_f_measure_at_its_ends() {
     check(accuracy(0, 5, 1.0), 0.0);
     check(accuracy(0, 0, 1.0), 0.0);
     check(accuracy(0, 0, 0.0), 0.0);
-    assert!(Counts { taken: 3, hits: 0, found: 0, placed: 0 }.score(1.0).is_none());
+    assert!(MatchCounts { taken: 3, hits: 0, found: 0, placed: 0 }.score(1.0).is_none());
 }
 
 #[test]
 fn exact_one_picture_of_two_defects_is_one_hit_and_two_finds() {
-    let counts = Counts { taken: 2, hits: 1, found: 2, placed: 4 };
+    let counts = MatchCounts { taken: 2, hits: 1, found: 2, placed: 4 };
     check(counts.precision(), 0.5);
     check(counts.recall().unwrap(), 0.5);
     check(counts.f_beta(1.0).unwrap(), 0.5);

@@ -9,7 +9,7 @@ use spandrel_model::time::SimTime;
 
 /// What fails, by MAVLink's FAILURE_UNIT.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Unit {
+pub enum FailureUnit {
     /// 2.
     Magnetometer,
     /// 3.
@@ -30,7 +30,7 @@ pub enum Unit {
 
 /// How it fails, by MAVLink's FAILURE_TYPE.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum FailureType {
     /// Nothing comes (1).
     Off,
     /// The last value again and again (2).
@@ -43,7 +43,7 @@ pub enum Kind {
     Intermittent,
 }
 
-impl Unit {
+impl FailureUnit {
     /// From MAVLink's number.
     #[must_use]
     pub fn from_number(n: i64) -> Option<Self> {
@@ -61,17 +61,17 @@ impl Unit {
     }
 
     /// Faults that it can have.
-    fn has(self, kind: Kind) -> bool {
+    fn has(self, kind: FailureType) -> bool {
         match self {
             Self::Magnetometer | Self::Barometer | Self::Gnss | Self::Ranges => true,
-            Self::Flow => matches!(kind, Kind::Off | Kind::Intermittent),
-            Self::Battery | Self::Motor => kind == Kind::Off,
-            Self::Sticks => matches!(kind, Kind::Off | Kind::Intermittent),
+            Self::Flow => matches!(kind, FailureType::Off | FailureType::Intermittent),
+            Self::Battery | Self::Motor => kind == FailureType::Off,
+            Self::Sticks => matches!(kind, FailureType::Off | FailureType::Intermittent),
         }
     }
 }
 
-impl Kind {
+impl FailureType {
     /// From MAVLink's number; `Some(None)` for 0, all is well.
     #[must_use]
     pub fn from_number(n: i64) -> Option<Option<Self>> {
@@ -102,9 +102,9 @@ const CHARGE_LEFT: f64 = 0.05;
 /// All faults of now.
 #[derive(Debug, Clone)]
 pub struct Faults {
-    sensors: [Option<Kind>; 5],
+    sensors: [Option<FailureType>; 5],
     motors: [bool; MAX_ROTORS],
-    sticks: Option<Kind>,
+    sticks: Option<FailureType>,
     held: Readings,
     stream: RandomStream,
 }
@@ -123,20 +123,20 @@ impl Faults {
     }
 
     /// Puts a fault in, or takes it out again (`None`). `instance` counts from 1, 0 is all. False for a fault that there is not.
-    pub fn inject(&mut self, unit: Unit, kind: Option<Kind>, instance: usize, rotors: usize) -> bool {
+    pub fn inject(&mut self, unit: FailureUnit, kind: Option<FailureType>, instance: usize, rotors: usize) -> bool {
         if kind.is_some_and(|kind| !unit.has(kind)) {
             return false;
         }
         match unit {
-            Unit::Motor => {
+            FailureUnit::Motor => {
                 if instance > rotors {
                     return false;
                 }
                 let all = instance == 0;
                 (0..rotors).filter(|k| all || k + 1 == instance).for_each(|k| self.motors[k] = kind.is_some());
             }
-            Unit::Sticks => self.sticks = kind,
-            Unit::Battery => {}
+            FailureUnit::Sticks => self.sticks = kind,
+            FailureUnit::Battery => {}
             sensor => self.sensors[place(sensor)] = kind,
         }
         true
@@ -150,22 +150,23 @@ impl Faults {
 
     /// Whether manual control gets through now.
     #[must_use]
-    pub fn sticks_pass(&self, now: SimTime) -> bool {
+    pub fn passes_sticks(&self, now: SimTime) -> bool {
         match self.sticks {
-            Some(Kind::Intermittent) => !gone(now),
+            Some(FailureType::Intermittent) => !is_silent(now),
             Some(_) => false,
             None => true,
         }
     }
 
     /// Keeps the last good reading of every sensor that is not stuck.
-    fn hold(&mut self, fresh: &Readings) {
+    fn freeze(&mut self, fresh: &Readings) {
         let before = self.held;
-        let stuck = |unit| self.sensors[place(unit)] == Some(Kind::Stuck);
+        let stuck = |unit| self.sensors[place(unit)] == Some(FailureType::Stuck);
         let [mag, baro, gnss, flow, ranges] =
-            [Unit::Magnetometer, Unit::Barometer, Unit::Gnss, Unit::Flow, Unit::Ranges].map(stuck);
+            [FailureUnit::Magnetometer, FailureUnit::Barometer, FailureUnit::Gnss, FailureUnit::Flow, FailureUnit::Ranges]
+                .map(stuck);
         let held = &mut self.held;
-        held.keep(fresh);
+        held.update_latest(fresh);
         if mag {
             held.mag_gauss = before.mag_gauss;
         }
@@ -186,62 +187,63 @@ impl Faults {
     }
 
     /// Spoils fresh readings.
-    pub fn spoil(&mut self, fresh: &mut Readings, now: SimTime) {
+    pub fn corrupt_readings(&mut self, fresh: &mut Readings, now: SimTime) {
         if self.sensors.iter().all(Option::is_none) {
-            self.held.keep(fresh);
+            self.held.update_latest(fresh);
             return;
         }
         let kinds = self.sensors;
-        self.hold(fresh);
+        self.freeze(fresh);
         let held = self.held;
         let noise = |stream: &mut RandomStream, scale: f64| stream.normal3().map(|x| x * scale);
-        if let Some(kind) = kinds[place(Unit::Gnss)]
+        if let Some(kind) = kinds[place(FailureUnit::Gnss)]
             && let Some(fix) = &mut fresh.gnss
         {
             let [n, e, d] = match kind {
-                Kind::Wrong => [JUMP_M, JUMP_M, 0.0],
-                Kind::Garbage => noise(&mut self.stream, GARBAGE_M),
+                FailureType::Wrong => [JUMP_M, JUMP_M, 0.0],
+                FailureType::Garbage => noise(&mut self.stream, GARBAGE_M),
                 _ => [0.0; 3],
             };
             fix.position_m += Vec3::<Ned>::new(n, e, d);
             // A receiver that hears nothing still says so.
-            if kind == Kind::Off || (kind == Kind::Intermittent && gone(now)) {
+            if kind == FailureType::Off || (kind == FailureType::Intermittent && is_silent(now)) {
                 (fix.fix, fix.satellites) = (0, 0);
             }
-            if kind == Kind::Stuck {
+            if kind == FailureType::Stuck {
                 fresh.gnss = held.gnss;
             }
         }
-        if let Some(kind) = kinds[place(Unit::Barometer)] {
+        if let Some(kind) = kinds[place(FailureUnit::Barometer)] {
             let rise = match kind {
-                Kind::Wrong => RISE_M,
-                Kind::Garbage => self.stream.normal() * GARBAGE_UP_M,
+                FailureType::Wrong => RISE_M,
+                FailureType::Garbage => self.stream.normal() * GARBAGE_UP_M,
                 _ => 0.0,
             };
-            fresh.baro_up_m = kept(kind, fresh.baro_up_m.map(|up| up + rise), held.baro_up_m, now);
+            fresh.baro_up_m = frozen(kind, fresh.baro_up_m.map(|up| up + rise), held.baro_up_m, now);
         }
-        if let Some(kind) = kinds[place(Unit::Magnetometer)] {
+        if let Some(kind) = kinds[place(FailureUnit::Magnetometer)] {
             let turned = |field: Vec3<Frd>, [x, y, z]: [f64; 3]| match kind {
                 // Turned by a right angle, as a magnet beside the sensor would.
-                Kind::Wrong => Vec3::new(-field.right(), field.forward(), field.down()),
+                FailureType::Wrong => Vec3::new(-field.right(), field.forward(), field.down()),
                 _ => field + Vec3::new(x, y, z),
             };
-            let scale = if kind == Kind::Garbage { GARBAGE_GAUSS } else { 0.0 };
+            let scale = if kind == FailureType::Garbage { GARBAGE_GAUSS } else { 0.0 };
             let spoilt = fresh.mag_gauss.map(|field| turned(field, noise(&mut self.stream, scale)));
-            fresh.mag_gauss = kept(kind, spoilt, held.mag_gauss, now);
+            fresh.mag_gauss = frozen(kind, spoilt, held.mag_gauss, now);
         }
-        if let Some(kind) = kinds[place(Unit::Flow)] {
-            fresh.flow = kept(kind, fresh.flow, held.flow, now);
+        if let Some(kind) = kinds[place(FailureUnit::Flow)] {
+            fresh.flow = frozen(kind, fresh.flow, held.flow, now);
         }
-        if let Some(kind) = kinds[place(Unit::Ranges)] {
+        if let Some(kind) = kinds[place(FailureUnit::Ranges)] {
             let factor = match kind {
-                Kind::Wrong => RANGE_FACTOR,
-                Kind::Garbage => 0.2 + self.stream.uniform(),
+                FailureType::Wrong => RANGE_FACTOR,
+                FailureType::Garbage => 0.2 + self.stream.uniform(),
                 _ => 1.0,
             };
-            fresh.range_down_m = kept(kind, fresh.range_down_m.map(|m| m * factor), held.range_down_m, now);
-            fresh.range_up_m = kept(kind, fresh.range_up_m.map(|m| m * factor), held.range_up_m, now);
-            fresh.range_around_m = kept(kind, fresh.range_around_m.map(|all| all.map(|m| m * factor)), held.range_around_m, now);
+            fresh.range_down_m = frozen(kind, fresh.range_down_m.map(|m| m * factor), held.range_down_m, now);
+            fresh.range_up_m = frozen(kind, fresh.range_up_m.map(|m| m * factor), held.range_up_m, now);
+            fresh.range_around_m =
+                frozen(kind, fresh.range_around_m.map(|all| all.map(|m| m * factor)), held.range_around_m, now);
         }
     }
 
@@ -255,27 +257,27 @@ impl Faults {
     }
 }
 
-fn place(sensor: Unit) -> usize {
+fn place(sensor: FailureUnit) -> usize {
     match sensor {
-        Unit::Magnetometer => 0,
-        Unit::Barometer => 1,
-        Unit::Gnss => 2,
-        Unit::Flow => 3,
+        FailureUnit::Magnetometer => 0,
+        FailureUnit::Barometer => 1,
+        FailureUnit::Gnss => 2,
+        FailureUnit::Flow => 3,
         _ => 4,
     }
 }
 
-fn gone(now: SimTime) -> bool {
+fn is_silent(now: SimTime) -> bool {
     now.ms().rem_euclid(2_000) >= 1_000
 }
 
 /// A reading under a fault, when one is due.
-fn kept<T: Copy>(kind: Kind, fresh: Option<T>, held: Option<T>, now: SimTime) -> Option<T> {
+fn frozen<T: Copy>(kind: FailureType, fresh: Option<T>, held: Option<T>, now: SimTime) -> Option<T> {
     match kind {
-        Kind::Off => None,
-        Kind::Stuck => fresh.and(held),
-        Kind::Intermittent if gone(now) => None,
-        Kind::Garbage | Kind::Wrong | Kind::Intermittent => fresh,
+        FailureType::Off => None,
+        FailureType::Stuck => fresh.and(held),
+        FailureType::Intermittent if is_silent(now) => None,
+        FailureType::Garbage | FailureType::Wrong | FailureType::Intermittent => fresh,
     }
 }
 
@@ -283,36 +285,39 @@ fn kept<T: Copy>(kind: Kind, fresh: Option<T>, held: Option<T>, now: SimTime) ->
 mod tests {
     use super::*;
 
-    fn spoilt(kind: Kind, ms: i64) -> Option<f64> {
+    fn is_corrupted(kind: FailureType, ms: i64) -> Option<f64> {
         let mut faults = Faults::new(1);
         let reading = |up| Readings { baro_up_m: Some(up), ..Readings::default() };
-        faults.spoil(&mut reading(3.0), SimTime::ZERO);
-        assert!(faults.inject(Unit::Barometer, Some(kind), 0, 4));
+        faults.corrupt_readings(&mut reading(3.0), SimTime::ZERO);
+        assert!(faults.inject(FailureUnit::Barometer, Some(kind), 0, 4));
         let mut fresh = reading(5.0);
-        faults.spoil(&mut fresh, SimTime::from_ms(ms));
+        faults.corrupt_readings(&mut fresh, SimTime::from_ms(ms));
         fresh.baro_up_m
     }
 
     #[test]
     fn exact_each_kind_of_fault_spoils_a_reading_in_its_way() {
-        assert_eq!(spoilt(Kind::Off, 0), None);
-        assert_eq!(spoilt(Kind::Stuck, 0), Some(3.0));
-        assert_eq!(spoilt(Kind::Wrong, 0), Some(5.0 + RISE_M));
-        assert_eq!((spoilt(Kind::Intermittent, 500), spoilt(Kind::Intermittent, 1_500)), (Some(5.0), None));
-        assert!(spoilt(Kind::Garbage, 0).is_some_and(|up| up != 5.0));
+        assert_eq!(is_corrupted(FailureType::Off, 0), None);
+        assert_eq!(is_corrupted(FailureType::Stuck, 0), Some(3.0));
+        assert_eq!(is_corrupted(FailureType::Wrong, 0), Some(5.0 + RISE_M));
+        assert_eq!(
+            (is_corrupted(FailureType::Intermittent, 500), is_corrupted(FailureType::Intermittent, 1_500)),
+            (Some(5.0), None)
+        );
+        assert!(is_corrupted(FailureType::Garbage, 0).is_some_and(|up| up != 5.0));
     }
 
     #[test]
     fn exact_a_sensor_that_sticks_after_another_has_failed_sticks_at_its_last_reading() {
         let mut faults = Faults::new(1);
         let reading = |up| Readings { baro_up_m: Some(up), ..Readings::default() };
-        faults.spoil(&mut reading(3.0), SimTime::ZERO);
-        faults.inject(Unit::Magnetometer, Some(Kind::Wrong), 0, 4);
-        faults.spoil(&mut reading(50.0), SimTime::from_ms(60_000));
-        faults.inject(Unit::Barometer, Some(Kind::Stuck), 0, 4);
+        faults.corrupt_readings(&mut reading(3.0), SimTime::ZERO);
+        faults.inject(FailureUnit::Magnetometer, Some(FailureType::Wrong), 0, 4);
+        faults.corrupt_readings(&mut reading(50.0), SimTime::from_ms(60_000));
+        faults.inject(FailureUnit::Barometer, Some(FailureType::Stuck), 0, 4);
         for ms in [60_010, 90_000] {
             let mut fresh = reading(70.0);
-            faults.spoil(&mut fresh, SimTime::from_ms(ms));
+            faults.corrupt_readings(&mut fresh, SimTime::from_ms(ms));
             assert_eq!(fresh.baro_up_m, Some(50.0));
         }
     }
@@ -320,13 +325,13 @@ mod tests {
     #[test]
     fn exact_faults_that_there_are_not_are_refused_and_motors_are_counted_from_one() {
         let mut faults = Faults::new(1);
-        assert!(!faults.inject(Unit::Motor, Some(Kind::Stuck), 1, 4));
-        assert!(!faults.inject(Unit::Motor, Some(Kind::Off), 5, 4));
-        assert!(faults.inject(Unit::Motor, Some(Kind::Off), 2, 4));
+        assert!(!faults.inject(FailureUnit::Motor, Some(FailureType::Stuck), 1, 4));
+        assert!(!faults.inject(FailureUnit::Motor, Some(FailureType::Off), 5, 4));
+        assert!(faults.inject(FailureUnit::Motor, Some(FailureType::Off), 2, 4));
         let mut actuators = Actuators { motors: [0.5; MAX_ROTORS], armed: true };
         faults.stop_motors(&mut actuators);
         assert_eq!(actuators.motors[..3], [0.5, 0.0, 0.5]);
-        assert!(faults.inject(Unit::Motor, None, 0, 4));
+        assert!(faults.inject(FailureUnit::Motor, None, 0, 4));
         let mut again = Actuators { motors: [0.5; MAX_ROTORS], armed: true };
         faults.stop_motors(&mut again);
         assert_eq!(again.motors[1], 0.5);

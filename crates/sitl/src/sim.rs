@@ -1,8 +1,8 @@
 //! One simulation step, in a written order (docs/src/reference/wire.md, "One simulation step"). Sans-IO: datagrams and times come
 //! in, datagrams go out.
 
-mod consequences;
-mod doors;
+mod crash_handling;
+mod host_api;
 pub mod inbox;
 mod instructor;
 mod radio;
@@ -11,22 +11,22 @@ mod tick;
 use super::autopilot::{Autopilot, CONTROL_HZ};
 use super::backend::Backend;
 use super::endpoint::flavour::Flavour;
-use super::endpoint::params::{Pack, Thresholds, World};
-use super::endpoint::view::{Scoring, View};
-use super::endpoint::{Endpoint, LinkId, LinkKind, Step, Transmit};
+use super::endpoint::params::{AircraftValues, BatteryThresholds, InstructorSettings};
+use super::endpoint::snapshot::{ScoringTruth, VehicleSnapshot};
+use super::endpoint::{Endpoint, LinkId, LinkKind, LockstepState, Transmit};
 use super::faults::Faults;
-use super::log::Recorder;
-use super::physics::{self, Actuators, Air, Model};
+use super::log::FlightRecorder;
+use super::physics::{self, Actuators, AirState, AirframeModel};
 use super::sensors::{Readings, Sensors};
-use doors::FileWork;
+use host_api::FileJobScheduler;
 use inbox::Inbox;
-use radio::Radio;
+use radio::RadioLink;
 use sha2::{Digest, Sha256};
 use spandrel_mavlink::dialect::MavSeverity;
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::scenario::{AfterCrash, Scenario};
 use spandrel_model::site::Site;
-use spandrel_model::site::gates::Gates;
+use spandrel_model::site::bridge_closures::BridgeClosures;
 use spandrel_model::site::wind::WindField;
 use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle::Vehicle;
@@ -91,8 +91,8 @@ pub enum SimEvent {
 pub struct Sim {
     config: SimConfig,
     site: Arc<Site>,
-    model: Arc<Model>,
-    state: physics::State,
+    model: Arc<AirframeModel>,
+    state: physics::PhysicsState,
     sensors: Sensors,
     backend: Backend,
     endpoint: Endpoint,
@@ -102,43 +102,43 @@ pub struct Sim {
     booted: SimTime,
     readings: Readings,
     actuators: Actuators,
-    scoring: Scoring,
+    scoring: ScoringTruth,
     control_due: Schedule,
     wind_due: Schedule,
     clearance_due: Schedule,
     lux_due: Schedule,
-    air: Air,
-    safe: (Vec3<Ned>, f64),
+    air: AirState,
+    last_safe_hover: (Vec3<Ned>, f64),
     crashed_since: Option<SimTime>,
     /// The running contact began, or went on, with a crash's speed.
-    hit_hard: bool,
+    hard_contact: bool,
     touched_at: SimTime,
     standing_up_m: f64,
-    lifted: bool,
-    ended: Option<String>,
-    battery_told: bool,
-    pace: f64,
-    waiting: BTreeMap<LinkId, i64>,
+    has_lifted_off: bool,
+    end_reason: Option<String>,
+    battery_empty_reported: bool,
+    speed_factor: f64,
+    pending_answers: BTreeMap<LinkId, i64>,
     inbox: Inbox,
-    radio: Radio,
+    radio: RadioLink,
     faults: Faults,
-    file_work: FileWork,
-    world: World,
+    file_work: FileJobScheduler,
+    instructor_settings: InstructorSettings,
     /// When traffic was stopped and let go.
-    gates: Gates,
+    closures: BridgeClosures,
     /// Changes of parameters that the world has followed.
-    heeded: u64,
+    applied_changes: u64,
     events: VecDeque<SimEvent>,
     digest: Sha256,
-    recorder: Recorder,
+    recorder: FlightRecorder,
 }
 
 /// One instant of the vehicle, borrowing each of its parts on its own, so that endpoint and autopilot stay free to change.
 macro_rules! view {
     ($sim:expr, $estimate:expr, $status:expr, $fence_enabled:expr) => {
-        View {
+        VehicleSnapshot {
             now: $sim.now,
-            booted: $sim.booted,
+            autopilot_booted: $sim.booted,
             start_unix_s: $sim.config.scenario.light.start_unix_s,
             vehicle: &$sim.config.vehicle,
             plane: $sim.site.plane(),
@@ -154,13 +154,13 @@ macro_rules! view {
             sticks: $sim.endpoint.sticks($sim.now),
             pulses_us: $sim.endpoint.pulses_us($sim.now),
             aux_us: $sim.endpoint.aux_us(),
-            to: LinkKind::GroundStation,
+            link_kind: LinkKind::GroundStation,
             gimbal: $sim.endpoint.payload.gimbal,
             lamp: $sim.endpoint.payload.lamp,
             camera: $sim.endpoint.payload.camera.summary($sim.now),
             plans: $sim.endpoint.plans(),
             flavour: $sim.endpoint.flavour(),
-            chosen: $sim.endpoint.chosen(),
+            requested_mode: $sim.endpoint.requested_mode(),
             system_id: $sim.endpoint.system_id(),
             flight: $sim.endpoint.flight(),
             fence_enabled: $fence_enabled,
@@ -177,21 +177,21 @@ impl Sim {
         let team = &scenario.ground_team;
         let start = (team.pad_m + Vec3::new(0.0, 0.0, feet_m)).ned();
         let yaw = spandrel_model::math::wrap_pi(team.pad_heading_deg.to_radians());
-        let mut autopilot = fresh_autopilot(&config);
+        let mut autopilot = new_autopilot(&config);
         let at = |hz| Schedule::new(SimTime::ZERO, hz);
         let rules = &scenario.rules;
-        let pack = Pack {
+        let pack = AircraftValues {
             cells: vehicle.battery.cells,
             capacity_mah: 1000.0 * vehicle.battery.capacity_ah,
-            thresholds: Thresholds { low_pct: rules.low_battery_pct, critical_pct: rules.critical_battery_pct },
+            thresholds: BatteryThresholds { low_pct: rules.low_battery_pct, critical_pct: rules.critical_battery_pct },
             returns_when_low: rules.low_battery_return,
             frame: autopilot.airframe_envelope(),
         };
         let mut endpoint = Endpoint::new(config.instance + 1, pack, config.flavour);
         endpoint.prepare(&mut autopilot);
         Self {
-            model: Arc::new(Model::new(vehicle, scenario.rules.battery)),
-            state: physics::State::at_rest(start, yaw),
+            model: Arc::new(AirframeModel::new(vehicle, scenario.rules.battery)),
+            state: physics::PhysicsState::at_rest(start, yaw),
             sensors: Sensors::new(vehicle, scenario.rules.gnss_shadow, scenario.origin, seed),
             backend: Backend::Builtin(Box::new(autopilot)),
             endpoint,
@@ -200,37 +200,37 @@ impl Sim {
             booted: SimTime::ZERO,
             readings: Readings::default(),
             actuators: Actuators::default(),
-            scoring: Scoring {
+            scoring: ScoringTruth {
                 seed: i32::try_from(seed & 0x7fff_ffff).unwrap_or(0),
                 scenario_crc: scenario.crc,
                 clearance_m: CLEARANCE_REACH_M,
-                ..Scoring::default()
+                ..ScoringTruth::default()
             },
             control_due: at(CONTROL_HZ),
             wind_due: at(100.0),
             clearance_due: at(30.0),
             lux_due: at(5.0),
-            air: Air::STILL,
-            safe: (start, yaw),
+            air: AirState::STILL,
+            last_safe_hover: (start, yaw),
             crashed_since: None,
-            hit_hard: false,
+            hard_contact: false,
             touched_at: SimTime::ZERO,
             standing_up_m: -start.down(),
-            lifted: false,
-            ended: None,
-            battery_told: false,
-            pace: 1.0,
-            waiting: BTreeMap::new(),
+            has_lifted_off: false,
+            end_reason: None,
+            battery_empty_reported: false,
+            speed_factor: 1.0,
+            pending_answers: BTreeMap::new(),
             inbox: Inbox::default(),
-            radio: Radio::new(seed),
+            radio: RadioLink::new(seed),
             faults: Faults::new(seed),
-            file_work: FileWork::default(),
-            heeded: 0,
-            world: World { wind: None, loss: 0.0, delay: SimTime::ZERO, open: true },
-            gates: Gates::default(),
+            file_work: FileJobScheduler::default(),
+            applied_changes: 0,
+            instructor_settings: InstructorSettings { wind: None, loss: 0.0, delay: SimTime::ZERO, open: true },
+            closures: BridgeClosures::default(),
             events: VecDeque::new(),
             digest: Sha256::new(),
-            recorder: Recorder::default(),
+            recorder: FlightRecorder::default(),
             site,
             config,
         }
@@ -239,7 +239,7 @@ impl Sim {
     /// A peer is there.
     pub fn open_link(&mut self, link: LinkId, kind: LinkKind, lockstep: bool) {
         self.endpoint.open(link, kind, lockstep, self.now);
-        self.keep_pace();
+        self.scale_timeouts();
     }
 
     /// Nothing but answers goes out on a link until a heartbeat has come over it.
@@ -256,23 +256,23 @@ impl Sim {
     pub fn close_link(&mut self, link: LinkId) {
         self.endpoint.close(link);
         self.inbox.close(link);
-        self.waiting.remove(&link);
-        self.keep_pace();
+        self.pending_answers.remove(&link);
+        self.scale_timeouts();
     }
 
     /// Simulation runs this many times faster than its clients' clocks: with no peer in step, the limits after which a client counts as
     /// lost grow by it (never below 1).
-    pub fn set_pace(&mut self, pace: f64) {
-        self.pace = if pace.is_finite() { pace.max(1.0) } else { 1.0 };
-        self.keep_pace();
+    pub fn set_speed_factor(&mut self, pace: f64) {
+        self.speed_factor = if pace.is_finite() { pace.max(1.0) } else { 1.0 };
+        self.scale_timeouts();
     }
 
     /// Clients in step live in simulation time; without any, clients live in their own.
-    fn keep_pace(&mut self) {
+    fn scale_timeouts(&mut self) {
         let in_step = self.endpoint.stepped().next().is_some();
-        let pace = if in_step { 1.0 } else { self.pace };
+        let pace = if in_step { 1.0 } else { self.speed_factor };
         let Backend::Builtin(autopilot) = &mut self.backend;
-        self.endpoint.set_pace(pace, autopilot);
+        self.endpoint.set_speed_factor(pace, autopilot);
     }
 
     /// Bytes from clients that belonged to no frame.
@@ -295,14 +295,14 @@ impl Sim {
 
     /// The truth, for tools and tests.
     #[must_use]
-    pub fn truth(&self) -> &physics::State {
+    pub fn truth(&self) -> &physics::PhysicsState {
         &self.state
     }
 
     /// Why the flight is over, once it is.
     #[must_use]
     pub fn ended(&self) -> Option<&str> {
-        self.ended.as_deref()
+        self.end_reason.as_deref()
     }
 
     /// Takes in a datagram. It acts at the next tick, or a later one when its link sends more than [`inbox`] lets act in one; in step,
@@ -313,16 +313,16 @@ impl Sim {
             return;
         }
         self.inbox.push(link, bytes);
-        self.endpoint.note_heard(link);
-        if !self.waiting.is_empty() {
-            self.look_for_answers(link, bytes);
+        self.endpoint.note_station_heard(link);
+        if !self.pending_answers.is_empty() {
+            self.note_lockstep_answers(link, bytes);
         }
     }
 
-    fn look_for_answers(&mut self, link: LinkId, bytes: &[u8]) {
-        let Some(token) = self.waiting.get(&link) else { return };
-        if self.endpoint.answers(link, bytes).contains(token) {
-            self.waiting.remove(&link);
+    fn note_lockstep_answers(&mut self, link: LinkId, bytes: &[u8]) {
+        let Some(token) = self.pending_answers.get(&link) else { return };
+        if self.endpoint.lockstep_answers(link, bytes).contains(token) {
+            self.pending_answers.remove(&link);
             self.endpoint.join(link);
         }
     }
@@ -330,38 +330,38 @@ impl Sim {
     /// True while a peer in step owes its answer: time stands still.
     #[must_use]
     pub fn waiting(&self) -> bool {
-        !self.waiting.is_empty()
+        !self.pending_answers.is_empty()
     }
 
     /// Whether time waits for a peer that has never answered, and if so, whether anything has come from it.
     #[must_use]
-    pub fn first_answer(&self) -> Option<bool> {
-        let owing = |(link, step, heard): (LinkId, Step, bool)| {
-            (step == Step::Awaited && self.waiting.contains_key(&link)).then_some(heard)
+    pub fn awaits_first_answer(&self) -> Option<bool> {
+        let owing = |(link, step, heard): (LinkId, LockstepState, bool)| {
+            (step == LockstepState::Awaited && self.pending_answers.contains_key(&link)).then_some(heard)
         };
         self.endpoint.stepped().filter_map(owing).reduce(|a, b| a && b)
     }
 
     /// Shows peers that have never answered that the vehicle is there: heartbeats, and the question again. Nothing else changes.
-    pub fn knock(&mut self) {
-        self.stand_still(false);
-        self.endpoint.ask_step(self.now);
+    pub fn send_first_contact(&mut self) {
+        self.pause(false);
+        self.endpoint.request_lockstep(self.now);
     }
 
     /// Waits no longer for first answers: lockstep begins with them.
-    pub fn go_without_first_answers(&mut self) {
-        let owing: Vec<LinkId> = self.waiting.keys().copied().collect();
+    pub fn skip_first_answers(&mut self) {
+        let owing: Vec<LinkId> = self.pending_answers.keys().copied().collect();
         for link in owing {
             self.endpoint.serve_in_real_time(link);
         }
-        let kept: Vec<LinkId> = self.endpoint.in_step().collect();
-        self.waiting.retain(|link, _| kept.contains(link));
+        let kept: Vec<LinkId> = self.endpoint.all_in_step().collect();
+        self.pending_answers.retain(|link, _| kept.contains(link));
     }
 
     /// A peer that is to be kept in step has not answered yet: time runs with the wall's until it does.
     #[must_use]
-    pub fn serves_in_real_time(&self) -> bool {
-        self.endpoint.stepped().any(|(_, step, _)| step == Step::Late)
+    pub fn runs_in_real_time(&self) -> bool {
+        self.endpoint.stepped().any(|(_, step, _)| step == LockstepState::Late)
     }
 
     /// When the next tick is due.
@@ -398,31 +398,31 @@ impl Sim {
         if self.waiting() {
             return;
         }
-        self.take_inbox();
+        self.process_inbox();
         while self.now + STEP <= until && !self.has_file_job() {
             self.tick();
             if self.now.ns() % LOCKSTEP.ns() == 0 && self.ask_peers() {
                 return;
             }
-            self.take_inbox();
+            self.process_inbox();
         }
     }
 
     /// True when there is somebody to wait for.
     fn ask_peers(&mut self) -> bool {
-        self.endpoint.ask_step(self.now);
-        self.waiting = self.endpoint.in_step().map(|link| (link, self.now.ns())).collect();
-        !self.waiting.is_empty()
+        self.endpoint.request_lockstep(self.now);
+        self.pending_answers = self.endpoint.all_in_step().map(|link| (link, self.now.ns())).collect();
+        !self.pending_answers.is_empty()
     }
 
     /// What has arrived acts now, as far as this tick's share of each link goes.
-    fn take_inbox(&mut self) {
+    fn process_inbox(&mut self) {
         while let Some((link, bytes)) = self.radio.received(self.now) {
             self.inbox.push(link, &bytes);
         }
         for (link, bytes) in self.inbox.take(self.now) {
             self.read(link, &bytes);
-            self.digest.update(self.endpoint.take_acted());
+            self.digest.update(self.endpoint.take_digest_input());
         }
     }
 
@@ -439,41 +439,41 @@ impl Sim {
     /// The autopilot's software starts again on the ground; the world goes on.
     fn restart_autopilot(&mut self) {
         let Backend::Builtin(autopilot) = &mut self.backend;
-        **autopilot = fresh_autopilot(&self.config);
+        **autopilot = new_autopilot(&self.config);
         self.booted = self.now;
         let (estimate, status) = (*autopilot.estimate(), autopilot.status().clone());
         let view = view!(self, &estimate, &status, autopilot.tuning.fence_enabled);
         self.endpoint.boot(&view, autopilot);
-        self.keep_pace();
+        self.scale_timeouts();
     }
 
     /// Time stands still, and clients hear that the vehicle is there: a heartbeat on every link, and at the beginning a word. Call it once
     /// a second of wall time; nothing else of the vehicle changes.
-    pub fn stand_still(&mut self, begins: bool) {
+    pub fn pause(&mut self, begins: bool) {
         if begins {
-            self.endpoint.tell(MavSeverity::MAV_SEVERITY_INFO, "Time stands still");
+            self.endpoint.push_text(MavSeverity::MAV_SEVERITY_INFO, "Time stands still");
         }
         let Backend::Builtin(autopilot) = &mut self.backend;
         let view = view!(self, autopilot.estimate(), autopilot.status(), autopilot.tuning.fence_enabled);
-        self.endpoint.beat(&view);
+        self.endpoint.send_heartbeats(&view);
     }
 
     /// Time runs again; clients are told with the next tick.
-    pub fn run_again(&mut self) {
-        self.endpoint.tell(MavSeverity::MAV_SEVERITY_INFO, "Time runs again");
+    pub fn resume(&mut self) {
+        self.endpoint.push_text(MavSeverity::MAV_SEVERITY_INFO, "Time runs again");
     }
 
-    fn speak(&mut self) {
+    fn publish(&mut self) {
         let Backend::Builtin(autopilot) = &mut self.backend;
         let (events, reached) = (autopilot.drain_events(), autopilot.drain_reached());
         let view = view!(self, autopilot.estimate(), autopilot.status(), autopilot.tuning.fence_enabled);
         let texts: Vec<(u8, &str)> = events.iter().map(|event| (event.severity.number(), event.text.as_str())).collect();
         self.recorder.observe(&view, &texts, || self.endpoint.parameters().map(|(name, value)| (name, value.into())));
-        self.endpoint.observe(&view, events, reached);
+        self.endpoint.publish(&view, events, reached);
     }
 }
 
-fn fresh_autopilot(config: &SimConfig) -> Autopilot {
+fn new_autopilot(config: &SimConfig) -> Autopilot {
     let scenario = &config.scenario;
     let mut tuning = Autopilot::tuning_for(&scenario.rules);
     tuning.start_unix_s = scenario.light.start_unix_s;

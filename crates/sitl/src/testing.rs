@@ -20,7 +20,7 @@
 use crate::endpoint::flavour::{Flavour, px4};
 use crate::endpoint::{LinkId, LinkKind, Transmit};
 use crate::sim::{Sim, SimConfig};
-use spandrel_mavlink::codec::{Decoder, Encoder, Received};
+use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
 use spandrel_mavlink::dialect::{
     COMMAND_INT_DATA, COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavFrame, MavMessage, MavModeFlag, MavResult,
 };
@@ -39,12 +39,12 @@ pub const STATION: LinkId = LinkId(1);
 const STATION_ID: (u8, u8) = (255, 190);
 /// A condition is looked at this often.
 const LOOK: SimTime = SimTime::from_ms(20);
-/// Frames kept for [`Vehicle::last`]: some twenty seconds of all streams.
+/// Frames kept for [`Vehicle::last_message`]: some twenty seconds of all streams.
 const KEPT_FRAMES: usize = 20_000;
 
 /// Something that the vehicle did not do.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum Failure {
+pub enum MissedExpectation {
     /// A command's answer was not "accepted".
     #[error("{command:?} was answered {result:?}; the vehicle said: {said}")]
     Refused {
@@ -70,7 +70,7 @@ pub enum Failure {
 
 /// What a vehicle is made from. Without anything: the hover drill, the phantom2, seed 1, PX4's interface.
 #[derive(Debug, Clone)]
-pub struct Builder {
+pub struct VehicleBuilder {
     scenario: String,
     vehicle: String,
     seed: u64,
@@ -79,7 +79,7 @@ pub struct Builder {
     after_crash: Option<AfterCrash>,
 }
 
-impl Default for Builder {
+impl Default for VehicleBuilder {
     fn default() -> Self {
         Self {
             scenario: shipped::DRILL_HOVER.to_owned(),
@@ -92,7 +92,7 @@ impl Default for Builder {
     }
 }
 
-impl Builder {
+impl VehicleBuilder {
     /// The job, as the text of a scenario file: one of [`shipped`] or one's own. A height field that it names is not read here.
     #[must_use]
     pub fn scenario(mut self, text: impl Into<String>) -> Self {
@@ -166,7 +166,7 @@ impl Builder {
             pad_up_m,
             encoder: Encoder::new(STATION_ID.0, STATION_ID.1),
             decoder: Decoder::new(),
-            heard: Vec::new(),
+            received: Vec::new(),
             others: VecDeque::new(),
         }
     }
@@ -180,7 +180,7 @@ pub struct Vehicle {
     /// What the harness sends is encoded by this: another system or component id is another sender on the same link.
     pub encoder: Encoder,
     /// Everything received and not yet dropped, oldest first.
-    pub heard: Vec<Received>,
+    pub received: Vec<ReceivedFrame>,
     flavour: &'static Flavour,
     pad_up_m: f64,
     decoder: Decoder,
@@ -190,8 +190,8 @@ pub struct Vehicle {
 impl Vehicle {
     /// Begins one.
     #[must_use]
-    pub fn builder() -> Builder {
-        Builder::default()
+    pub fn builder() -> VehicleBuilder {
+        VehicleBuilder::default()
     }
 
     /// Returns the simulator without its ground station; the station's link is closed.
@@ -213,23 +213,23 @@ impl Vehicle {
     }
 
     /// The newest message that a filter likes.
-    pub fn last<T>(&self, pick: impl Fn(&MavMessage) -> Option<T>) -> Option<T> {
-        self.heard.iter().rev().filter_map(|frame| frame.message.as_ref()).find_map(pick)
+    pub fn last_message<T>(&self, pick: impl Fn(&MavMessage) -> Option<T>) -> Option<T> {
+        self.received.iter().rev().filter_map(|frame| frame.message.as_ref()).find_map(pick)
     }
 
     /// The vehicle's newest text; empty while it has said nothing.
     #[must_use]
-    pub fn said(&self) -> String {
+    pub fn status_texts(&self) -> String {
         let text =
             |m: &MavMessage| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None };
-        self.last(text).unwrap_or_default()
+        self.last_message(text).unwrap_or_default()
     }
 
     /// Armed, by the autopilot's heartbeat.
     #[must_use]
     pub fn armed(&self) -> bool {
-        let beats = self.heard.iter().rev().filter(|frame| frame.component_id == 1);
-        let armed = |frame: &Received| match &frame.message {
+        let beats = self.received.iter().rev().filter(|frame| frame.component_id == 1);
+        let armed = |frame: &ReceivedFrame| match &frame.message {
             Some(MavMessage::HEARTBEAT(beat)) => Some(beat.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED)),
             _ => None,
         };
@@ -254,18 +254,18 @@ impl Vehicle {
         self.sim.handle_datagram(STATION, &bytes);
     }
 
-    /// Lets simulation time pass. With a link in lockstep it stops where the peer must answer; [`Sim::waiting`] is then true.
+    /// Lets simulation time pass. With a link in lockstep it stops where the peer must answer; [`Sim::pending_answers`] is then true.
     pub fn run(&mut self, time: SimTime) {
         self.sim.handle_timeout(self.sim.now() + time);
         while let Some(transmit) = self.sim.poll_transmit() {
             if transmit.link == STATION {
-                self.heard.extend(self.decoder.datagram(&transmit.bytes));
+                self.received.extend(self.decoder.datagram(&transmit.bytes));
             } else {
                 self.others.push_back(transmit);
             }
         }
-        if self.heard.len() > 2 * KEPT_FRAMES {
-            self.heard.drain(..self.heard.len() - KEPT_FRAMES);
+        if self.received.len() > 2 * KEPT_FRAMES {
+            self.received.drain(..self.received.len() - KEPT_FRAMES);
         }
     }
 
@@ -273,11 +273,11 @@ impl Vehicle {
     ///
     /// # Errors
     /// When it does not hold in time.
-    pub fn run_until(&mut self, mut holds: impl FnMut(&Self) -> bool, limit: SimTime) -> Result<SimTime, Failure> {
+    pub fn run_until(&mut self, mut holds: impl FnMut(&Self) -> bool, limit: SimTime) -> Result<SimTime, MissedExpectation> {
         let start = self.now();
         while !holds(self) {
             if self.now() - start >= limit {
-                return Err(Failure::Late { limit_s: limit.ms() / 1000, said: self.said() });
+                return Err(MissedExpectation::Late { limit_s: limit.ms() / 1000, said: self.status_texts() });
             }
             self.run(LOOK);
         }
@@ -288,9 +288,9 @@ impl Vehicle {
     ///
     /// # Errors
     /// When it is refused, or not answered within a second.
-    pub fn command(&mut self, command: MavCmd, params: &[f32]) -> Result<(), Failure> {
+    pub fn command(&mut self, command: MavCmd, params: &[f32]) -> Result<(), MissedExpectation> {
         let p = |k: usize| params.get(k).copied().unwrap_or(0.0);
-        self.ask(
+        self.request(
             command,
             &MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
                 command,
@@ -308,10 +308,10 @@ impl Vehicle {
         )
     }
 
-    fn ask(&mut self, command: MavCmd, message: &MavMessage) -> Result<(), Failure> {
-        let before = self.heard.len();
+    fn request(&mut self, command: MavCmd, message: &MavMessage) -> Result<(), MissedExpectation> {
+        let before = self.received.len();
         self.send(message);
-        let answer = |heard: &[Received]| {
+        let answer = |heard: &[ReceivedFrame]| {
             heard.iter().find_map(|frame| match &frame.message {
                 Some(MavMessage::COMMAND_ACK(ack)) if ack.command == command => Some(ack.result),
                 _ => None,
@@ -320,20 +320,20 @@ impl Vehicle {
         let limit = self.now() + SimTime::from_ms(1_000);
         while self.now() < limit {
             self.run(SimTime::from_ms(1));
-            match answer(self.heard.get(before..).unwrap_or(&self.heard)) {
+            match answer(self.received.get(before..).unwrap_or(&self.received)) {
                 None | Some(MavResult::MAV_RESULT_IN_PROGRESS) => {}
                 Some(MavResult::MAV_RESULT_ACCEPTED) => return Ok(()),
-                Some(result) => return Err(Failure::Refused { command, result, said: self.said() }),
+                Some(result) => return Err(MissedExpectation::Refused { command, result, said: self.status_texts() }),
             }
         }
-        Err(Failure::Silent(command))
+        Err(MissedExpectation::Silent(command))
     }
 
     /// Arms as soon as the vehicle lets it.
     ///
     /// # Errors
     /// The last refusal, when it does not within the limit.
-    pub fn arm(&mut self, limit: SimTime) -> Result<(), Failure> {
+    pub fn arm(&mut self, limit: SimTime) -> Result<(), MissedExpectation> {
         let end = self.now() + limit;
         loop {
             let result = self.command(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, &[1.0]);
@@ -348,32 +348,32 @@ impl Vehicle {
     ///
     /// # Errors
     /// When it is refused.
-    pub fn take_off(&mut self, height_m: f64) -> Result<(), Failure> {
+    pub fn take_off(&mut self, height_m: f64) -> Result<(), MissedExpectation> {
         if let Some(guided) = self.flavour.errands {
             self.command(MavCmd::MAV_CMD_DO_SET_MODE, &[1.0, guided as f32])?;
             return self.command(MavCmd::MAV_CMD_NAV_TAKEOFF, &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, height_m as f32]);
         }
         let place = self.place_at(self.position_m() + Vec3::new(0.0, 0.0, height_m - self.height_m()));
         let command = MavCmd::MAV_CMD_NAV_TAKEOFF;
-        self.ask(command, &at(command, place, [0.0, 0.0, 0.0, f32::NAN]))
+        self.request(command, &at(command, place, [0.0, 0.0, 0.0, f32::NAN]))
     }
 
     /// Flies to a place of the scenario's frame, m, and stays there.
     ///
     /// # Errors
     /// When it is refused.
-    pub fn go_to(&mut self, place_m: Vec3<Enu>) -> Result<(), Failure> {
+    pub fn go_to(&mut self, place_m: Vec3<Enu>) -> Result<(), MissedExpectation> {
         let command = MavCmd::MAV_CMD_DO_REPOSITION;
         let place = self.place_at(place_m);
         // Parameter 2, bit 0: change to the mode that flies there.
-        self.ask(command, &at(command, place, [-1.0, 1.0, 0.0, f32::NAN]))
+        self.request(command, &at(command, place, [-1.0, 1.0, 0.0, f32::NAN]))
     }
 
     /// Lands where it is.
     ///
     /// # Errors
     /// When it is refused.
-    pub fn land(&mut self) -> Result<(), Failure> {
+    pub fn land(&mut self) -> Result<(), MissedExpectation> {
         self.command(MavCmd::MAV_CMD_NAV_LAND, &[0.0, 0.0, 0.0, f32::NAN])
     }
 

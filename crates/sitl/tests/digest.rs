@@ -77,7 +77,7 @@ fn flight_a_pause_changes_no_bit_and_heartbeats_go_on() {
     fly(&mut paused, &first.to_vec(), middle, |_, _| {});
     let mut messages = Vec::new();
     for k in 0..100 {
-        paused.stand_still(k == 0);
+        paused.pause(k == 0);
         let bytes: Vec<u8> =
             std::iter::from_fn(|| paused.poll_transmit()).filter(|t| t.link == GCS).flat_map(|t| t.bytes).collect();
         messages
@@ -90,13 +90,13 @@ fn flight_a_pause_changes_no_bit_and_heartbeats_go_on() {
         messages.iter().filter(|(_, m)| matches!(m, MavMessage::STATUSTEXT(t) if t.text.to_str() == Ok("Time stands still")));
     assert_eq!(words.count(), 1);
     assert!(messages.iter().all(|(_, m)| matches!(m, MavMessage::HEARTBEAT(_) | MavMessage::STATUSTEXT(_))), "{messages:?}");
-    paused.run_again();
+    paused.resume();
     fly(&mut paused, &second.to_vec(), end, |_, _| {});
     assert_eq!(hex(&paused), hex(&through));
 }
 
 #[test]
-fn flight_the_same_inputs_give_the_same_bits_through_wind_collision_and_being_put_back() {
+fn flight_the_same_inputs_give_the_same_bits_through_wind_collision_and_being_respawned() {
     let start = Station::airborne("two-bridges", SEED).vehicle.sim;
     let (inputs, end) = inputs(start.now());
     let (mut crashes, mut respawns, mut snapshots) = (0, 0, vec![start.clone()]);

@@ -1,14 +1,14 @@
 //! Made-up sessions for tests.
 
-use super::questionnaire::{Answers, Item};
-use super::record::{Crashes, DefectRecord, FORMAT, Record, Scores, TaskRecord};
+use super::questionnaire::{Answers, QuestionnaireItem};
+use super::record::{Crashes, DefectRecord, FORMAT, Scores, SessionRecord, TaskRecord};
 use spandrel_monitor::score::completion::{Completion, TaskState};
 
 /// The paper's job flown without a fault, with all 24 answers "agree".
-pub fn faultless(trainee: &str, number: usize) -> Record {
+pub fn faultless(trainee: &str, number: usize) -> SessionRecord {
     let mut answers = Answers { language: "en".into(), ..Answers::default() };
-    answers.given.extend(Item::all(&[1, 2, 3, 4]).into_iter().map(|item| (item, 2)));
-    Record {
+    answers.given.extend(QuestionnaireItem::all(&[1, 2, 3, 4]).into_iter().map(|item| (item, 2)));
+    SessionRecord {
         format: FORMAT,
         id: format!("session-{trainee}-{number:03}"),
         fingerprint: format!("f{number}"),
@@ -60,7 +60,7 @@ pub fn faultless(trainee: &str, number: usize) -> Record {
 }
 
 /// The same, but only the first task was flown, and to 60 % of its path; then the attempt was ended.
-pub fn broken_off(trainee: &str, number: usize) -> Record {
+pub fn broken_off(trainee: &str, number: usize) -> SessionRecord {
     let mut record = faultless(trainee, number);
     record.completion =
         Some(Completion { complete: false, tasks_done: 0, tasks: 4, path_share: 0.15, landed_at_home: false, done_share: 0.8 });

@@ -1,7 +1,7 @@
 //! A session as xAPI statements (Experience API 1.0.3) for a learning record store. A statement's id is made from what it says, so that
 //! one that is sent twice is stored once, and another flight is another statement.
 
-use super::record::{Outcome, Record, TaskRecord};
+use super::record::{SessionOutcome, SessionRecord, TaskRecord};
 use serde_json::{Value, json};
 use spandrel_model::calendar::utc;
 use spandrel_monitor::score::completion::TaskState;
@@ -22,7 +22,7 @@ const VERBS: &str = "http://adlnet.gov/expapi/verbs/";
 
 /// All statements of a session: the flight itself, its scores, the tasks that were flown, and the answers.
 #[must_use]
-pub fn statements(record: &Record, home: &str) -> Vec<Value> {
+pub fn statements(record: &SessionRecord, home: &str) -> Vec<Value> {
     let mut out = vec![flight(record, home)];
     let scores = &record.scores;
     for (name, pct) in [
@@ -46,13 +46,13 @@ pub fn statements(record: &Record, home: &str) -> Vec<Value> {
     out
 }
 
-fn flight(record: &Record, home: &str) -> Value {
+fn flight(record: &SessionRecord, home: &str) -> Value {
     let complete = record.is_complete();
     let mut result = json!({
         "completion": complete,
         "success": complete && record.certified,
         "duration": format!("PT{:.2}S", record.seconds),
-        "response": if complete { record.verdict() } else { record.headline() },
+        "response": if complete { record.verdict() } else { record.completion_summary() },
     });
     // The sum says something of the whole job alone.
     if complete {
@@ -65,7 +65,7 @@ fn flight(record: &Record, home: &str) -> Value {
     statement(record, home, "", (verb, &record.scenario), result)
 }
 
-fn of_task(record: &Record, home: &str, task: &TaskRecord) -> Value {
+fn of_task(record: &SessionRecord, home: &str, task: &TaskRecord) -> Value {
     let mut result = json!({
         "score": score(100.0 * task.on_path, 100.0),
         "duration": format!("PT{:.2}S", task.seconds),
@@ -84,7 +84,7 @@ fn score(raw: f64, max: f64) -> Value {
 }
 
 /// One statement about the job (`below` empty) or a part of it.
-fn statement(record: &Record, home: &str, below: &str, (verb, name): (&str, &str), result: Value) -> Value {
+fn statement(record: &SessionRecord, home: &str, below: &str, (verb, name): (&str, &str), result: Value) -> Value {
     let slash = if below.is_empty() { "" } else { "/" };
     let activity = format!("urn:spandrel:scenario:{}{slash}{below}", record.scenario);
     let mut statement = json!({
@@ -128,7 +128,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn exact_a_session_says_flight_scores_tasks_and_answers() {
+    fn exact_a_session_reports_flight_scores_tasks_and_answers() {
         let record = faultless("anna", 1);
         let all = statements(&record, HOME);
         assert_eq!(all.len(), 1 + 4 + 4 + 24);

@@ -1,10 +1,10 @@
 //! From a flight to its record: what it suffered from, task by task, against flights whose faults were put in by hand.
 
 use spandrel_model::scenario::Scenario;
-use spandrel_monitor::assessment::Graded;
-use spandrel_monitor::measures::attention::Survey;
+use spandrel_monitor::assessment::AssessedSession;
+use spandrel_monitor::measures::attention::SiteSurvey;
 use spandrel_testkit::job::*;
-use spandrel_training::record::{Hashes, Record, Source, record};
+use spandrel_training::record::{RecordSource, SessionRecord, SourceHashes, record};
 
 /// A fault begins and ends within a frame (40 ms at 25 Hz), at both its ends, s.
 const TWO_FRAMES_S: f64 = 0.081;
@@ -50,8 +50,8 @@ fn faulty_flight() -> Tape {
     tape
 }
 
-fn recorded(graded: &Graded, scenario: &Scenario) -> Record {
-    record(&Source {
+fn recorded(graded: &AssessedSession, scenario: &Scenario) -> SessionRecord {
+    record(&RecordSource {
         id: "20231114T221320Z-anna-test-job-000000",
         trainee: "anna",
         purpose: None,
@@ -59,7 +59,7 @@ fn recorded(graded: &Graded, scenario: &Scenario) -> Record {
         spandrel_version: "0.1.0",
         scenario,
         vehicle: "test",
-        hashes: &Hashes::of(b"s", b"v", b"t", b""),
+        hashes: &SourceHashes::of(b"s", b"v", b"t", b""),
         graded,
         placed: Fence::of(10).defects(),
         answers: None,
@@ -88,7 +88,7 @@ fn exact_faults_of_a_flight_stand_in_its_record() {
 }
 
 #[test]
-fn exact_defects_belong_to_the_nearest_task_and_say_what_their_picture_lacked() {
+fn exact_defects_belong_to_the_nearest_task_and_report_what_their_picture_lacked() {
     let job = two_tasks();
     let record = recorded(&grade(&faulty_flight(), &job), &job);
     assert_eq!(record.defects.iter().map(|defect| defect.task.unwrap()).collect::<Vec<_>>(), [1, 1, 1, 1, 1, 1, 2, 2, 2, 2]);
@@ -104,7 +104,7 @@ fn exact_a_record_reads_back_to_the_same_bits() {
     let job = two_tasks();
     let record = recorded(&grade(&faulty_flight(), &job), &job);
     assert_eq!(record.check(), Ok(()));
-    let again: Record = serde_json::from_str(&serde_json::to_string(&record).unwrap()).unwrap();
+    let again: SessionRecord = serde_json::from_str(&serde_json::to_string(&record).unwrap()).unwrap();
     assert_eq!(again, record);
 }
 

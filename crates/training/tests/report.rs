@@ -3,14 +3,14 @@
 use spandrel_mavlink::codec::Encoder;
 use spandrel_mavlink::note;
 use spandrel_model::scenario::Scenario;
-use spandrel_model::site::look::INCIDENCE_MAX_RAD;
+use spandrel_model::site::visibility::INCIDENCE_MAX_RAD;
 use spandrel_monitor::assess_log;
-use spandrel_monitor::watch::{COMPONENT, build_site};
+use spandrel_monitor::sidecar::{COMPONENT, build_site};
 use spandrel_testkit::inspection::{flown, phantom, two_bridges};
 use spandrel_testkit::job::*;
-use spandrel_training::report::coverage::{Fate, REQUIRED_GSD_M};
+use spandrel_training::report::coverage::{REQUIRED_GSD_M, SurfaceOutcome};
 use spandrel_training::report::cues::KINDS;
-use spandrel_training::report::{About, Review, page};
+use spandrel_training::report::{Review, SessionFacts, page};
 use std::sync::OnceLock;
 
 /// The ceiling for a page, bytes.
@@ -18,8 +18,13 @@ const LARGEST: usize = 10_000_000;
 /// Longest flight that the paper's job allows, s.
 const LONGEST_S: f64 = 1500.0;
 
-fn about() -> About {
-    About { trainee: "anna".into(), started_utc: "2026-08-01T10:00:00Z".into(), folder: "a-session".into(), ..About::default() }
+fn about() -> SessionFacts {
+    SessionFacts {
+        trainee: "anna".into(),
+        started_utc: "2026-08-01T10:00:00Z".into(),
+        folder: "a-session".into(),
+        ..SessionFacts::default()
+    }
 }
 
 fn review(tape: &Tape, job: &Scenario) -> Review {
@@ -80,8 +85,11 @@ fn exact_the_review_holds_the_scorers_own_assessment() {
     assert_eq!((&review.assessment, &review.frames, review.seed), (&graded.assessment, &graded.frames, graded.seed));
     let each = &graded.assessment.snapshots.each;
     assert!(each.len() > 5, "pictures to judge");
-    let verdicts: Vec<bool> =
-        review.pictures.iter().map(|picture| picture.verdict == spandrel_training::report::pictures::Verdict::Hit).collect();
+    let verdicts: Vec<bool> = review
+        .pictures
+        .iter()
+        .map(|picture| picture.verdict == spandrel_training::report::pictures::PictureVerdict::Hit)
+        .collect();
     assert_eq!(verdicts, each.iter().map(|picture| picture.hit).collect::<Vec<_>>());
     let found = review.defects.iter().filter(|fate| fate.found_by.is_some()).count();
     assert_eq!(found, graded.assessment.snapshots.defects_found);
@@ -99,7 +107,7 @@ fn exact_the_same_session_makes_the_same_page() {
 }
 
 #[test]
-fn exact_the_page_asks_nobody_for_anything() {
+fn exact_the_page_makes_no_network_requests() {
     let page = own(&page::session(short()));
     for value in fetched(&page) {
         let inside = value.starts_with('#') || value.starts_with("data:");
@@ -118,12 +126,12 @@ fn exact_what_users_wrote_is_escaped_everywhere() {
     for task in &mut job.tasks {
         task.name = EVIL.into();
     }
-    let about = About {
+    let about = SessionFacts {
         trainee: EVIL.into(),
         purpose: Some(EVIL.into()),
         started_utc: EVIL.into(),
         folder: EVIL.into(),
-        ..About::default()
+        ..SessionFacts::default()
     };
     let mut vehicle = phantom();
     vehicle.name = EVIL.into();
@@ -145,11 +153,13 @@ fn exact_what_users_wrote_is_escaped_everywhere() {
 #[test]
 fn exact_every_square_metre_has_one_fate() {
     let coverage = &short().coverage;
-    assert!(coverage.elements.len() > 3 && coverage.total().area_m2(Fate::Shown) > 0.0);
+    assert!(coverage.elements.len() > 3 && coverage.total().area_m2(SurfaceOutcome::Shown) > 0.0);
     for element in coverage.elements.iter().chain([&coverage.total()]) {
-        let sum: f64 = Fate::ALL.iter().map(|fate| element.area_m2(*fate)).sum();
+        let sum: f64 = SurfaceOutcome::ALL.iter().map(|fate| element.area_m2(*fate)).sum();
         assert!((sum - element.inspectable_m2).abs() < 1e-6 * element.inspectable_m2, "{element:?}");
-        assert!(element.pictured_m2() <= element.inspectable_m2 && element.area_m2(Fate::Shown) <= element.pictured_m2());
+        assert!(
+            element.pictured_m2() <= element.inspectable_m2 && element.area_m2(SurfaceOutcome::Shown) <= element.pictured_m2()
+        );
         assert_eq!(element.typical().is_some(), element.pictured_m2() > 0.0);
         if let Some(like) = element.typical() {
             assert!(like.gsd_m <= REQUIRED_GSD_M && like.incidence_rad <= INCIDENCE_MAX_RAD && like.lux > 0.0, "{like:?}");
@@ -165,18 +175,18 @@ fn exact_the_same_pictures_at_night_lack_light_and_nothing_else() {
     let mut job = two_bridges();
     job.light.start_unix_s += 10 * 3600;
     let (day, night) = (short().coverage.total(), review(&flown(&job, 240.0, 6), &job).coverage.total());
-    for fate in [Fate::TooOblique, Fate::TooFar, Fate::Unpictured, Fate::Unseen] {
+    for fate in [SurfaceOutcome::TooOblique, SurfaceOutcome::TooFar, SurfaceOutcome::Unpictured, SurfaceOutcome::Unseen] {
         assert!((night.area_m2(fate) - day.area_m2(fate)).abs() < 1e-6 * day.inspectable_m2, "{fate:?}");
     }
     // What stays is lit by the lamp, which is on in the dark task alone.
-    assert!(night.area_m2(Fate::Shown) < day.area_m2(Fate::Shown));
-    assert!(night.area_m2(Fate::DarkLampOff) > day.area_m2(Fate::DarkLampOff));
+    assert!(night.area_m2(SurfaceOutcome::Shown) < day.area_m2(SurfaceOutcome::Shown));
+    assert!(night.area_m2(SurfaceOutcome::DarkLampOff) > day.area_m2(SurfaceOutcome::DarkLampOff));
     assert!(night.typical().unwrap().lux < day.typical().unwrap().lux);
 }
 
 /// The tape's forward stick creeps by a hundredth of its travel in 100 ms: a tenth takes 200 ms and, where it falls back, no time at all.
 #[test]
-fn exact_a_speeding_cue_is_told_with_its_time_and_the_answer() {
+fn exact_a_speeding_cue_is_reported_with_its_time_and_the_answer() {
     let job = scenario(vec![task(1, line((0.0, 0.0, 10.0), (90.0, 0.0, 10.0)), 3.0)]);
     let mut tape = Tape::of(&job);
     tape.fly((0.0, 0.0, 10.0), 2.0);

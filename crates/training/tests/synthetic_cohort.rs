@@ -3,19 +3,19 @@
 
 use spandrel_training::cohort::{Cohort, Selection, cohort, tables};
 use spandrel_training::plan::{RULES, plan, read_rules};
-use spandrel_training::record::{Incomplete, Record};
+use spandrel_training::record::{IncompletePolicy, SessionRecord};
 
 const RECORDS: &str = include_str!("../../../examples/cohort/records.jsonl");
 /// Off the path or over the speed limit for a larger share of the time, or a crash, is not holding the interlayer (the shipped limits).
 const OFF_PATH: f64 = 0.1;
 const SPEEDING: f64 = 0.02;
 
-fn records() -> Vec<Record> {
+fn records() -> Vec<SessionRecord> {
     RECORDS.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
 }
 
 fn study() -> Cohort {
-    cohort(&records(), &Selection { scenarios: Vec::new(), repetitions: 3, incomplete: Incomplete::Include })
+    cohort(&records(), &Selection { scenarios: Vec::new(), repetitions: 3, incomplete: IncompletePolicy::Include })
 }
 
 #[test]
@@ -35,7 +35,7 @@ fn val_the_pilots_design_gives_its_tables_and_figures() {
 }
 
 #[test]
-fn val_repetition_with_a_steadier_hand_is_seen_as_progress() {
+fn val_repetition_with_less_stick_noise_is_measured_as_progress() {
     let study = study();
     let safety = study.tests.iter().find(|test| test.score == "safety" && (test.earlier, test.later) == (1, 3)).unwrap();
     assert!(safety.test.mean_difference > 0.0);
@@ -47,14 +47,14 @@ fn val_repetition_with_a_steadier_hand_is_seen_as_progress() {
 }
 
 #[test]
-fn val_who_does_not_hold_the_interlayer_is_sent_to_the_gap_drill_and_nobody_else() {
+fn val_only_poor_interlayer_flights_lead_to_the_gap_drill() {
     let rules = read_rules("rules.toml", RULES).unwrap();
     let (mut sent, mut spared) = (0, 0);
     for record in records() {
         let task = record.tasks.iter().find(|task| task.kind == "interlayer").unwrap();
         let steady = 1.0 - task.on_path <= OFF_PATH && task.speeding_s / task.seconds <= SPEEDING;
         let holds = task.attempted && steady && task.crashes.total() == 0;
-        let whole = spandrel_training::plan::Rules { steps: 20, ..rules.clone() };
+        let whole = spandrel_training::plan::PlanRules { steps: 20, ..rules.clone() };
         let plan = plan(std::slice::from_ref(&record), &whole, record.started_unix_us).unwrap();
         let gap = plan.steps.iter().find(|step| step.scenario == "drill-gap");
         assert_eq!(gap.is_some(), !holds, "{}: {task:?}", record.id);

@@ -2,7 +2,7 @@
 
 /// A view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Which {
+pub enum ViewKind {
     /// The inspector's.
     Inspector,
     /// The camera's.
@@ -11,7 +11,7 @@ pub enum Which {
 
 /// How the views share the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Arrangement {
+pub enum ViewLayout {
     /// The inspector's left, the camera's right, as the paper has them.
     #[default]
     Beside,
@@ -23,9 +23,9 @@ pub enum Arrangement {
 
 /// A view's place in the window: shares of its width and height.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct ViewRect {
     /// Which view.
-    pub which: Which,
+    pub which: ViewKind,
     /// Left edge.
     pub left: f64,
     /// Upper edge.
@@ -38,9 +38,9 @@ pub struct Place {
 
 /// Where words stand, shares of the window's width and height.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Words {
+pub struct TextAnchor {
     /// Left edge.
-    pub left: f64,
+    pub left_aligned: f64,
     /// Lower edge, or the upper one.
     pub edge: f64,
     /// Greatest width.
@@ -54,11 +54,11 @@ const SMALL: f64 = 0.3;
 /// From the upper edge to the small view below the display's speed, a share of the window's height; enough for a wide picture in a narrow window.
 const UNDER_SPEED: f64 = 0.23;
 
-impl Place {
+impl ViewRect {
     /// The largest place of this shape (width over height) in the middle of this one, in a window of that shape: what a camera's sensor does
     /// not see is not shown as if it did.
     #[must_use]
-    pub fn fitted(self, aspect: f64, window: f64) -> Self {
+    pub fn fit_aspect(self, aspect: f64, window: f64) -> Self {
         let own = self.width / self.height * window;
         let (width, height) =
             if own > aspect { (self.width * aspect / own, self.height) } else { (self.width, self.height * own / aspect) };
@@ -76,7 +76,7 @@ pub fn fitted_px((width, height): (u32, u32), aspect: f64) -> (u32, u32) {
     if w / h > aspect { (even(h * aspect, width), height) } else { (width, even(w / aspect, height)) }
 }
 
-impl Arrangement {
+impl ViewLayout {
     /// The one that Tab gives next.
     #[must_use]
     pub fn next(self) -> Self {
@@ -89,13 +89,13 @@ impl Arrangement {
 
     /// Where the window's own words stand. Never over the display's warnings.
     #[must_use]
-    pub fn words(self) -> Words {
+    pub fn words(self) -> TextAnchor {
         match self {
-            Self::Beside => Words { left: 0.0, edge: 1.0, width: 0.5, hang: false },
+            Self::Beside => TextAnchor { left_aligned: 0.0, edge: 1.0, width: 0.5, hang: false },
             // Between the small view and what the display tells at the right, over the middle of the picture.
-            Self::Camera => Words { left: SMALL, edge: UNDER_SPEED, width: 0.35, hang: true },
+            Self::Camera => TextAnchor { left_aligned: SMALL, edge: UNDER_SPEED, width: 0.35, hang: true },
             // Left of the small view.
-            Self::Inspector => Words { left: 0.0, edge: 1.0, width: 0.5 - 0.5 * SMALL, hang: false },
+            Self::Inspector => TextAnchor { left_aligned: 0.0, edge: 1.0, width: 0.5 - 0.5 * SMALL, hang: false },
         }
     }
 
@@ -111,16 +111,16 @@ impl Arrangement {
 
     /// Both views in the order of drawing.
     #[must_use]
-    pub fn places(self) -> [Place; 2] {
-        let half = |which, left| Place { which, left, top: 0.0, width: 0.5, height: 1.0 };
-        let whole = |which| Place { which, left: 0.0, top: 0.0, width: 1.0, height: 1.0 };
-        let small = |which, (left, top)| Place { which, left, top, width: SMALL, height: SMALL };
+    pub fn places(self) -> [ViewRect; 2] {
+        let half = |which, left| ViewRect { which, left, top: 0.0, width: 0.5, height: 1.0 };
+        let whole = |which| ViewRect { which, left: 0.0, top: 0.0, width: 1.0, height: 1.0 };
+        let small = |which, (left, top)| ViewRect { which, left, top, width: SMALL, height: SMALL };
         match self {
-            Self::Beside => [half(Which::Inspector, 0.0), half(Which::Camera, 0.5)],
+            Self::Beside => [half(ViewKind::Inspector, 0.0), half(ViewKind::Camera, 0.5)],
             // The display has words in all corners and at the upper edge, and its warnings reach far along the lower one: the small view
             // stands between speed and warnings.
-            Self::Camera => [whole(Which::Camera), small(Which::Inspector, (0.0, UNDER_SPEED))],
-            Self::Inspector => [whole(Which::Inspector), small(Which::Camera, (0.5 - 0.5 * SMALL, 1.0 - SMALL))],
+            Self::Camera => [whole(ViewKind::Camera), small(ViewKind::Inspector, (0.0, UNDER_SPEED))],
+            Self::Inspector => [whole(ViewKind::Inspector), small(ViewKind::Camera, (0.5 - 0.5 * SMALL, 1.0 - SMALL))],
         }
     }
 }
@@ -140,7 +140,7 @@ mod tests {
 
     #[test]
     fn exact_tab_goes_round_and_both_views_are_always_there() {
-        let mut seen = Arrangement::default();
+        let mut seen = ViewLayout::default();
         for _ in 0..3 {
             let [a, b] = seen.places();
             assert_ne!(a.which, b.which);
@@ -149,21 +149,21 @@ mod tests {
             }
             seen = seen.next();
         }
-        assert_eq!(seen, Arrangement::Beside);
+        assert_eq!(seen, ViewLayout::Beside);
         let [left, right] = seen.places();
-        assert_eq!((left.which, left.left, right.left), (Which::Inspector, 0.0, 0.5));
+        assert_eq!((left.which, left.left, right.left), (ViewKind::Inspector, 0.0, 0.5));
     }
 
     #[test]
     fn exact_a_camera_keeps_the_shape_of_its_sensor() {
-        let whole = Place { which: Which::Camera, left: 0.5, top: 0.0, width: 0.5, height: 1.0 };
-        let near = |place: Place, left: f64, top: f64, width: f64, height: f64| {
+        let whole = ViewRect { which: ViewKind::Camera, left: 0.5, top: 0.0, width: 0.5, height: 1.0 };
+        let near = |place: ViewRect, left: f64, top: f64, width: f64, height: f64| {
             let off = [place.left - left, place.top - top, place.width - width, place.height - height];
             assert!(off.iter().all(|off| off.abs() < 1e-12), "{place:?}");
         };
         // Half of a window of 1920 x 1080 px is higher than 4:3, a whole one is wider.
-        near(whole.fitted(4.0 / 3.0, 16.0 / 9.0), 0.5, 1.0 / 6.0, 0.5, 2.0 / 3.0);
-        near(Place { left: 0.0, width: 1.0, ..whole }.fitted(4.0 / 3.0, 16.0 / 9.0), 0.125, 0.0, 0.75, 1.0);
+        near(whole.fit_aspect(4.0 / 3.0, 16.0 / 9.0), 0.5, 1.0 / 6.0, 0.5, 2.0 / 3.0);
+        near(ViewRect { left: 0.0, width: 1.0, ..whole }.fit_aspect(4.0 / 3.0, 16.0 / 9.0), 0.125, 0.0, 0.75, 1.0);
         assert_eq!(fitted_px((1280, 720), 4.0 / 3.0), (960, 720));
         assert_eq!(fitted_px((640, 1001), 16.0 / 9.0), (640, 360));
         assert_eq!(fitted_px((4000, 3000), 4.0 / 3.0), (4000, 3000));

@@ -16,7 +16,7 @@ pub const EYE_HEIGHT_M: f64 = 1.65;
 
 /// An eye: a level or tilted pinhole.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Eye {
+pub struct PinholeCamera {
     /// Where, m.
     pub position_m: Vec3<Enu>,
     /// Unit vector of the optical axis.
@@ -27,7 +27,7 @@ pub struct Eye {
     pub hfov_rad: f64,
 }
 
-impl Eye {
+impl PinholeCamera {
     /// Looks from one point at another, level, with this vertical field of view in a picture of `aspect` (width over height).
     #[must_use]
     pub fn at(position_m: Vec3<Enu>, target_m: Vec3<Enu>, vfov_rad: f64, aspect: f64) -> Self {
@@ -79,7 +79,7 @@ mod tests {
 
     #[test]
     fn exact_the_target_is_in_the_middle_and_above_is_up() {
-        let eye = Eye::at(Vec3::new(10.0, -20.0, 5.0), Vec3::new(0.0, 30.0, 12.0), 1.0, 1.6);
+        let eye = PinholeCamera::at(Vec3::new(10.0, -20.0, 5.0), Vec3::new(0.0, 30.0, 12.0), 1.0, 1.6);
         let clip = eye.view_projection(1.6).apply(Vec3::new(0.0, 30.0, 12.0));
         assert!(clip[0].abs() < 1e-9 && clip[1].abs() < 1e-9 && clip[3] > 0.0);
         assert!(eye.view_projection(1.6).apply(Vec3::new(0.0, 30.0, 13.0))[1] > 0.0);

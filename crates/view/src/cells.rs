@@ -17,14 +17,14 @@ const SECTORS: f64 = 16.0;
 
 /// A ball around everything in a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ball {
+pub struct BoundingSphere {
     /// Centre, m.
     pub centre_m: Vec3<Enu>,
     /// Radius, m.
     pub radius_m: f64,
 }
 
-impl Ball {
+impl BoundingSphere {
     /// Around points, each with room of its own.
     #[must_use]
     pub fn around(points: &[(Vec3<Enu>, f64)]) -> Self {
@@ -61,48 +61,48 @@ fn position(v: &Vertex) -> Vec3<Enu> {
 
 /// What lies in a cell, for a picture's edges to decide whether it shows.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Bounds {
+pub struct CellBounds {
     /// Around it.
-    pub ball: Ball,
+    pub ball: BoundingSphere,
     /// Its corners; none where the ball alone is known.
     corners_m: Vec<Vec3<Enu>>,
 }
 
-impl Bounds {
+impl CellBounds {
     /// Of a mesh.
     #[must_use]
     pub fn of(mesh: &Mesh) -> Self {
-        Self { ball: Ball::of(mesh), corners_m: mesh.vertices.iter().map(position).collect() }
+        Self { ball: BoundingSphere::of(mesh), corners_m: mesh.vertices.iter().map(position).collect() }
     }
 }
 
-impl From<Ball> for Bounds {
-    fn from(ball: Ball) -> Self {
+impl From<BoundingSphere> for CellBounds {
+    fn from(ball: BoundingSphere) -> Self {
         Self { ball, corners_m: Vec::new() }
     }
 }
 
 /// A square's column and row, or a sector of the backdrop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Cell {
+enum SceneCell {
     Square(i64, i64),
     Sector(i64),
 }
 
-fn cell(p: Vec3<Enu>, backdrop: bool) -> Cell {
+fn cell(p: Vec3<Enu>, backdrop: bool) -> SceneCell {
     if backdrop || p.east().abs().max(p.north().abs()) > BACKDROP_M {
-        return Cell::Sector((math::atan2(p.east(), p.north()) / math::TAU * SECTORS).floor() as i64);
+        return SceneCell::Sector((math::atan2(p.east(), p.north()) / math::TAU * SECTORS).floor() as i64);
     }
-    Cell::Square((p.east() / CELL_M).floor() as i64, (p.north() / CELL_M).floor() as i64)
+    SceneCell::Square((p.east() / CELL_M).floor() as i64, (p.north() / CELL_M).floor() as i64)
 }
 
 /// Numbers of corners in a cell by those in the whole.
-type Numbers = BTreeMap<u32, u32>;
+type VertexRemap = BTreeMap<u32, u32>;
 
 /// A mesh's triangles by cell; a `backdrop` has sectors alone.
 #[must_use]
 pub fn cut(mesh: &Mesh, backdrop: bool) -> Vec<Mesh> {
-    let mut cells: BTreeMap<Cell, (Mesh, Numbers)> = BTreeMap::new();
+    let mut cells: BTreeMap<SceneCell, (Mesh, VertexRemap)> = BTreeMap::new();
     for triangle in mesh.indices.chunks_exact(3) {
         let Some(first) = mesh.vertices.get(triangle[0] as usize) else { continue };
         let (part, known) = cells.entry(cell(position(first), backdrop)).or_default();
@@ -126,20 +126,20 @@ pub fn reach_m(mesh: &Mesh) -> f64 {
 
 /// Copies of a mesh by cell, each with the ball around them.
 #[must_use]
-pub fn grouped(mesh: &Mesh, instances: &[Instance]) -> Vec<(Vec<Instance>, Ball)> {
+pub fn grouped(mesh: &Mesh, instances: &[Instance]) -> Vec<(Vec<Instance>, BoundingSphere)> {
     let reach_m = reach_m(mesh);
     let origin = |i: &Instance| Vec3::new(f64::from(i.rows[0][3]), f64::from(i.rows[1][3]), f64::from(i.rows[2][3]));
     let size = |i: &Instance| {
         let column = |k: usize| i.rows.iter().map(|row| f64::from(row[k]) * f64::from(row[k])).sum::<f64>().sqrt();
         column(0).max(column(1)).max(column(2))
     };
-    let mut cells: BTreeMap<Cell, Vec<Instance>> = BTreeMap::new();
+    let mut cells: BTreeMap<SceneCell, Vec<Instance>> = BTreeMap::new();
     for instance in instances {
         cells.entry(cell(origin(instance), false)).or_default().push(*instance);
     }
     let balled = |all: Vec<Instance>| {
         let points: Vec<_> = all.iter().map(|i| (origin(i), reach_m * size(i))).collect();
-        let ball = Ball::around(&points);
+        let ball = BoundingSphere::around(&points);
         (all, ball)
     };
     cells.into_values().map(balled).collect()
@@ -160,7 +160,7 @@ impl Frustum {
 
     /// False where a ball is certainly outside.
     #[must_use]
-    pub fn may_show(&self, ball: &Ball) -> bool {
+    pub fn may_show(&self, ball: &BoundingSphere) -> bool {
         self.0.iter().all(|plane| {
             let [a, b, c, _] = plane;
             let length = (a * a + b * b + c * c).sqrt();
@@ -171,7 +171,7 @@ impl Frustum {
 
     /// False where a cell is certainly outside: all of it beyond one of the picture's edges.
     #[must_use]
-    pub fn may_show_cell(&self, bounds: &Bounds) -> bool {
+    pub fn may_show_cell(&self, bounds: &CellBounds) -> bool {
         let corners = &bounds.corners_m;
         let reaches = |plane: &[f64; 4]| corners.is_empty() || corners.iter().any(|corner| inside(plane, *corner) >= 0.0);
         self.may_show(&bounds.ball) && self.0.iter().all(reaches)
@@ -186,63 +186,63 @@ fn inside([a, b, c, d]: &[f64; 4], p: Vec3<Enu>) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::camera::Eye;
-    use super::super::mesh::{Finish, Material};
+    use super::super::camera::PinholeCamera;
+    use super::super::mesh::{Material, SurfaceFinish};
     use super::*;
 
     #[test]
     fn exact_nothing_is_lost_in_cutting() {
         let mut mesh = Mesh::default();
-        mesh.block([-300.0, -5.0, 0.0], [-20.0, 5.0, 2.0], [0.0; 3], Finish::new(Material::Rock, [9, 9, 9]));
-        mesh.block([100.0, 100.0, 0.0], [101.0, 101.0, 2.0], [0.0; 3], Finish::new(Material::Rock, [9, 9, 9]));
+        mesh.block([-300.0, -5.0, 0.0], [-20.0, 5.0, 2.0], [0.0; 3], SurfaceFinish::new(Material::Rock, [9, 9, 9]));
+        mesh.block([100.0, 100.0, 0.0], [101.0, 101.0, 2.0], [0.0; 3], SurfaceFinish::new(Material::Rock, [9, 9, 9]));
         let parts = cut(&mesh, false);
         assert!(parts.len() > 2);
         assert_eq!(parts.iter().map(Mesh::triangles).sum::<usize>(), mesh.triangles());
         for part in &parts {
-            let ball = Ball::of(part);
+            let ball = BoundingSphere::of(part);
             assert!(part.vertices.iter().all(|v| (position(v) - ball.centre_m).norm() <= ball.radius_m + 1e-6));
         }
     }
 
     #[test]
     fn exact_what_is_behind_or_beside_is_left_out_and_what_is_seen_is_not() {
-        let eye = Eye::at(Vec3::new(0.0, 0.0, 10.0), Vec3::new(0.0, 100.0, 10.0), 1.0, 1.5);
+        let eye = PinholeCamera::at(Vec3::new(0.0, 0.0, 10.0), Vec3::new(0.0, 100.0, 10.0), 1.0, 1.5);
         let frustum = Frustum::of(&eye.view_projection(1.5));
-        let ball = |east: f64, north: f64| Ball { centre_m: Vec3::new(east, north, 10.0), radius_m: 5.0 };
+        let ball = |east: f64, north: f64| BoundingSphere { centre_m: Vec3::new(east, north, 10.0), radius_m: 5.0 };
         assert!(
             frustum.may_show(&ball(0.0, 50.0)) && frustum.may_show(&ball(0.0, 9_000.0)) && frustum.may_show(&ball(0.0, -4.0))
         );
         assert!(!frustum.may_show(&ball(0.0, -20.0)) && !frustum.may_show(&ball(100.0, 50.0)));
         // In the lake's mirror what is above shows below.
         let mirrored = Frustum::of(&eye.view_projection(1.5).after(&Matrix::mirror(0.0)));
-        let high = Ball { centre_m: Vec3::new(0.0, 40.0, 60.0), radius_m: 5.0 };
+        let high = BoundingSphere { centre_m: Vec3::new(0.0, 40.0, 60.0), radius_m: 5.0 };
         assert!(!frustum.may_show(&high) && !mirrored.may_show(&high));
-        let low = Ball { centre_m: Vec3::new(0.0, 40.0, 6.0), radius_m: 1.0 };
+        let low = BoundingSphere { centre_m: Vec3::new(0.0, 40.0, 6.0), radius_m: 1.0 };
         assert!(frustum.may_show(&low) && mirrored.may_show(&low));
     }
 
     #[test]
     fn exact_a_long_wall_beside_the_picture_is_left_out_though_its_ball_is_not() {
-        let eye = Eye::at(Vec3::new(0.0, 0.0, 10.0), Vec3::new(0.0, 100.0, 10.0), 1.0, 1.5);
+        let eye = PinholeCamera::at(Vec3::new(0.0, 0.0, 10.0), Vec3::new(0.0, 100.0, 10.0), 1.0, 1.5);
         let frustum = Frustum::of(&eye.view_projection(1.5));
         let wall = |east: f64| {
             let mut mesh = Mesh::default();
-            mesh.block([east, -50.0, 0.0], [east + 1.0, 250.0, 20.0], [0.0; 3], Finish::new(Material::Rock, [9, 9, 9]));
-            Bounds::of(&mesh)
+            mesh.block([east, -50.0, 0.0], [east + 1.0, 250.0, 20.0], [0.0; 3], SurfaceFinish::new(Material::Rock, [9, 9, 9]));
+            CellBounds::of(&mesh)
         };
         let (beside, across) = (wall(-260.0), wall(-60.0));
         assert!(frustum.may_show(&beside.ball) && !frustum.may_show_cell(&beside));
-        assert!(frustum.may_show_cell(&across) && frustum.may_show_cell(&Bounds::from(across.ball)));
+        assert!(frustum.may_show_cell(&across) && frustum.may_show_cell(&CellBounds::from(across.ball)));
         // From within a cell no corner needs to be in the picture.
         let mut hall = Mesh::default();
-        hall.block([-500.0, -500.0, -500.0], [500.0, 500.0, 500.0], [0.0; 3], Finish::new(Material::Rock, [9, 9, 9]));
-        assert!(frustum.may_show_cell(&Bounds::of(&hall)));
+        hall.block([-500.0, -500.0, -500.0], [500.0, 500.0, 500.0], [0.0; 3], SurfaceFinish::new(Material::Rock, [9, 9, 9]));
+        assert!(frustum.may_show_cell(&CellBounds::of(&hall)));
     }
 
     #[test]
     fn exact_copies_lie_in_the_balls_of_their_cells() {
         let mut mesh = Mesh::default();
-        mesh.ball(Vec3::zero(), [1.0; 3], 0.0, Finish::new(Material::Rock, [9, 9, 9]));
+        mesh.ball(Vec3::zero(), [1.0; 3], 0.0, SurfaceFinish::new(Material::Rock, [9, 9, 9]));
         let at = |east: f64| {
             let axes = [Vec3::new(3.0, 0.0, 0.0), Vec3::new(0.0, 3.0, 0.0), Vec3::new(0.0, 0.0, 3.0)];
             Instance::placed(Vec3::new(east, 0.0, 0.0), axes, [1.0; 4])

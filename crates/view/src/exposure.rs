@@ -1,10 +1,10 @@
 //! How bright the picture comes out: what a meter in the camera sees, within what the camera can.
 
-use super::camera::Eye;
+use super::camera::PinholeCamera;
 use super::sky::Sky;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
-use spandrel_model::site::{At, CameraPose, Site, Surface, look};
+use spandrel_model::site::{CameraPose, QueryTime, Site, Surface, visibility};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Lamp};
 
@@ -42,14 +42,14 @@ pub struct Lighting<'a> {
     /// The aircraft's lamp and where it is, if it is on.
     pub lamp: Option<(&'a Lamp, &'a CameraPose)>,
     /// When.
-    pub at: At,
+    pub ambient_at: QueryTime,
 }
 
 impl Exposure {
     /// For the aircraft's camera: never brighter than its longest exposure at its highest sensitivity allows.
     #[must_use]
     pub fn camera(metered_lux: f64, camera: &Camera) -> Self {
-        let limit = look::needed_lux(camera);
+        let limit = visibility::needed_lux(camera);
         let lux = metered_lux.max(limit);
         // limit = C N²/(t_max S_max), so t S = t_max S_max limit / lux.
         let product = camera.exposure_max_s * camera.iso_max * limit / lux;
@@ -71,9 +71,9 @@ const BREAK_S: f64 = 2.0;
 
 /// A meter from picture to picture: what passes the lens does not make the whole picture flicker.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Adaptation(Option<(SimTime, f64)>);
+pub struct ExposureMeter(Option<(SimTime, f64)>);
 
-impl Adaptation {
+impl ExposureMeter {
     /// What the picture at a time is exposed for, lx, when so much is metered. The first one, and one after a jump in time, for just that.
     pub fn follow(&mut self, metered_lux: f64, at: SimTime) -> f64 {
         let before = self.0.filter(|(then, lux)| *then <= at && (at - *then).s() <= BREAK_S && *lux > 0.0 && metered_lux > 0.0);
@@ -88,13 +88,13 @@ impl Adaptation {
 
 /// What the meter finds: the illuminance, lx, under which the picture comes out right.
 #[must_use]
-pub fn meter(site: &Site, eye: &Eye, aspect: f64, light: &Lighting) -> f64 {
+pub fn meter(site: &Site, eye: &PinholeCamera, aspect: f64, light: &Lighting) -> f64 {
     let mut seen: Vec<f64> = Vec::new();
     for row in 0..GRID.1 {
         for column in 0..GRID.0 {
             let place = |k: u32, of: u32| (f64::from(2 * k + 1) / f64::from(of) - 1.0) * 0.9;
             let ray = eye.ray(place(column, GRID.0), place(row, GRID.1), aspect);
-            seen.push(seen_lux(site, eye.position_m, ray, light));
+            seen.push(visible_lux(site, eye.position_m, ray, light));
         }
     }
     metered(seen)
@@ -113,9 +113,9 @@ fn metered(mut seen: Vec<f64>) -> f64 {
 }
 
 /// π times the luminance along a ray, lx.
-fn seen_lux(site: &Site, from: Vec3<Enu>, ray: Vec3<Enu>, light: &Lighting) -> f64 {
-    let Some(hit) = site.ray(from, ray, REACH_M, light.at) else {
-        return light.sky.seen_lux(Vec3::new(ray.east(), ray.north(), ray.up().max(0.0)));
+fn visible_lux(site: &Site, from: Vec3<Enu>, ray: Vec3<Enu>, light: &Lighting) -> f64 {
+    let Some(hit) = site.ray(from, ray, REACH_M, light.ambient_at) else {
+        return light.sky.visible_lux(Vec3::new(ray.east(), ray.north(), ray.up().max(0.0)));
     };
     let point = from + ray * hit.distance_m;
     if hit.surface == Surface::Water {
@@ -123,10 +123,10 @@ fn seen_lux(site: &Site, from: Vec3<Enu>, ray: Vec3<Enu>, light: &Lighting) -> f
         let mirrored = Vec3::new(ray.east(), ray.north(), ray.up().abs());
         let glance = 1.0 - ray.up().abs();
         let fresnel = 0.02 + 0.98 * glance * glance * glance * glance * glance;
-        return fresnel * light.sky.seen_lux(mirrored) + 0.04 * site.ambient_lux(point, Some(hit.normal), light.at);
+        return fresnel * light.sky.visible_lux(mirrored) + 0.04 * site.ambient_lux(point, Some(hit.normal), light.ambient_at);
     }
-    let lamp = light.lamp.map_or(0.0, |(lamp, pose)| look::lamp_lux(lamp, pose, point, hit.normal));
-    ALBEDO * (site.ambient_lux(point, Some(hit.normal), light.at) + lamp)
+    let lamp = light.lamp.map_or(0.0, |(lamp, pose)| visibility::lamp_lux(lamp, pose, point, hit.normal));
+    ALBEDO * (site.ambient_lux(point, Some(hit.normal), light.ambient_at) + lamp)
 }
 
 #[cfg(test)]
@@ -195,7 +195,7 @@ mod tests {
     #[test]
     fn exact_a_picture_follows_the_light_evenly_whatever_its_rate() {
         let end = |steps: i64| {
-            let mut meter = Adaptation::default();
+            let mut meter = ExposureMeter::default();
             assert_eq!(meter.follow(100.0, SimTime::ZERO), 100.0);
             (1..=steps).fold(0.0, |_, k| meter.follow(1e4, SimTime::from_ms(k * 700 / steps)))
         };
@@ -206,7 +206,7 @@ mod tests {
 
     #[test]
     fn exact_a_picture_after_a_jump_is_exposed_for_itself() {
-        let mut meter = Adaptation::default();
+        let mut meter = ExposureMeter::default();
         meter.follow(100.0, SimTime::from_ms(5_000));
         assert_eq!(meter.follow(9.0, SimTime::from_ms(4_000)), 9.0);
         assert_eq!(meter.follow(700.0, SimTime::from_ms(6_001)), 700.0);
@@ -214,7 +214,7 @@ mod tests {
 
     #[test]
     fn exact_the_camera_opens_up_to_its_limit_and_no_further() {
-        let limit = look::needed_lux(&REFERENCE_CAMERA);
+        let limit = visibility::needed_lux(&REFERENCE_CAMERA);
         let dark = Exposure::camera(0.1 * limit, &REFERENCE_CAMERA);
         assert_eq!((dark.white_lux, dark.time_s), (limit, REFERENCE_CAMERA.exposure_max_s));
         assert!((dark.iso - REFERENCE_CAMERA.iso_max).abs() < 1e-6);

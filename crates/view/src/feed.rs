@@ -1,8 +1,8 @@
 //! What the head-up display tells besides the flight itself: mode, satellites, cues, words. Read from the same frames as everything else.
 
-use super::hud::Gnss;
+use super::hud::GnssStatus;
 use mavlink::MessageData;
-use spandrel_mavlink::codec::{Decoder, Received};
+use spandrel_mavlink::codec::{Decoder, ReceivedFrame};
 use spandrel_mavlink::contract::modes;
 use spandrel_mavlink::contract::named::Named;
 use spandrel_mavlink::dialect::{
@@ -19,27 +19,27 @@ const SHUTTER: SimTime = SimTime::from_ms(300);
 #[derive(Debug, Clone, Default)]
 pub struct Feed {
     mode: Option<String>,
-    gnss: Option<Gnss>,
+    gnss: Option<GnssStatus>,
     cues: Option<(SimTime, i32)>,
     hit: Option<String>,
 }
 
 impl Feed {
-    /// True for messages that [`Self::hear`] listens to: the rest need no decoding.
+    /// True for messages that [`Self::handle_datagram`] listens to: the rest need no decoding.
     #[must_use]
-    pub fn listens(message_id: u32) -> bool {
+    pub fn is_relevant(message_id: u32) -> bool {
         matches!(message_id, HEARTBEAT_DATA::ID | GPS_RAW_INT_DATA::ID | NAMED_VALUE_INT_DATA::ID | STATUSTEXT_DATA::ID)
     }
 
     /// Takes what a datagram holds, heard at this simulation time.
-    pub fn hear(&mut self, bytes: &[u8], now: SimTime) {
+    pub fn handle_datagram(&mut self, bytes: &[u8], now: SimTime) {
         for received in Decoder::new().datagram(bytes) {
-            self.take(&received, now);
+            self.handle_frame(&received, now);
         }
     }
 
     /// Takes a frame, heard at this simulation time.
-    pub fn take(&mut self, received: &Received, now: SimTime) {
+    pub fn handle_frame(&mut self, received: &ReceivedFrame, now: SimTime) {
         if let Some(message) = &received.message {
             self.message(message, received.component_id, now);
         }
@@ -55,16 +55,16 @@ impl Feed {
                     gps.fix_type,
                     GpsFixType::GPS_FIX_TYPE_NO_GPS | GpsFixType::GPS_FIX_TYPE_NO_FIX | GpsFixType::GPS_FIX_TYPE_2D_FIX
                 );
-                self.gnss = Some(Gnss { fixed, satellites: gps.satellites_visible });
+                self.gnss = Some(GnssStatus { fixed, satellites: gps.satellites_visible });
             }
             MavMessage::NAMED_VALUE_INT(named) => {
                 if let Some(Named::Cues(cues)) = Named::from_int(named) {
-                    self.cue(cues, now);
+                    self.set_cues(cues, now);
                 }
             }
             MavMessage::STATUSTEXT(text) if component != 1 => {
                 if let Ok(words) = text.text.to_str() {
-                    self.words(words);
+                    self.handle_text(words);
                 }
             }
             _ => {}
@@ -72,12 +72,12 @@ impl Feed {
     }
 
     /// A mask of cues, from the wire or from a record.
-    pub fn cue(&mut self, mask: i32, now: SimTime) {
+    pub fn set_cues(&mut self, mask: i32, now: SimTime) {
         self.cues = Some((now, mask));
     }
 
     /// The monitor's words: those of a crash name what was hit.
-    pub fn words(&mut self, words: &str) {
+    pub fn handle_text(&mut self, words: &str) {
         if let Some(what) = words.strip_prefix("Crash: ") {
             self.hit = Some(what.to_owned());
         }
@@ -91,7 +91,7 @@ impl Feed {
 
     /// Satellite navigation, if it has been heard of.
     #[must_use]
-    pub fn gnss(&self) -> Option<Gnss> {
+    pub fn gnss(&self) -> Option<GnssStatus> {
         self.gnss
     }
 
@@ -126,15 +126,18 @@ mod tests {
         let mut monitor = Encoder::new(1, 191);
         let mut feed = Feed::default();
         let now = SimTime::from_ms(5_000);
-        feed.hear(&vehicle.encode(&MavMessage::HEARTBEAT(HEARTBEAT_DATA { custom_mode: 3 << 16, ..Default::default() })), now);
+        feed.handle_datagram(
+            &vehicle.encode(&MavMessage::HEARTBEAT(HEARTBEAT_DATA { custom_mode: 3 << 16, ..Default::default() })),
+            now,
+        );
         let gps = GPS_RAW_INT_DATA { fix_type: GpsFixType::GPS_FIX_TYPE_3D_FIX, satellites_visible: 11, ..Default::default() };
-        feed.hear(&vehicle.encode(&MavMessage::GPS_RAW_INT(gps)), now);
+        feed.handle_datagram(&vehicle.encode(&MavMessage::GPS_RAW_INT(gps)), now);
         let cues = NAMED_VALUE_INT_DATA { name: "cues".into(), value: 12, ..Default::default() };
-        feed.hear(&monitor.encode(&MavMessage::NAMED_VALUE_INT(cues)), now);
-        assert_eq!((feed.mode(), feed.gnss()), ("Position", Some(Gnss { fixed: true, satellites: 11 })));
+        feed.handle_datagram(&monitor.encode(&MavMessage::NAMED_VALUE_INT(cues)), now);
+        assert_eq!((feed.mode(), feed.gnss()), ("Position", Some(GnssStatus { fixed: true, satellites: 11 })));
         assert_eq!(feed.cues(now + SimTime::from_ms(1_000), false), 12);
         assert_eq!(feed.cues(now + SimTime::from_ms(2_000), false), 0, "the monitor has fallen silent");
-        feed.words("Crash: bridge member arch/rib-left/07");
+        feed.handle_text("Crash: bridge member arch/rib-left/07");
         assert_eq!(feed.hit(), Some("bridge member arch/rib-left/07"));
     }
 
@@ -146,8 +149,8 @@ mod tests {
             MavMessage::GPS_RAW_INT(GPS_RAW_INT_DATA { fix_type, satellites_visible, ..Default::default() })
         };
         let mut known = |count| {
-            feed.hear(&Encoder::new(1, 1).encode(&gps(count)), SimTime::ZERO);
-            feed.gnss().and_then(Gnss::known)
+            feed.handle_datagram(&Encoder::new(1, 1).encode(&gps(count)), SimTime::ZERO);
+            feed.gnss().and_then(GnssStatus::known)
         };
         assert_eq!([known(0), known(11), known(u8::MAX)], [Some(0), Some(11), None]);
     }

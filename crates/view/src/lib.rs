@@ -20,10 +20,10 @@ pub mod cells;
 pub mod exposure;
 pub mod feed;
 pub mod flow;
-pub mod gaze;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod hud;
+pub mod inspector_camera;
 pub mod live;
 pub mod looks;
 pub mod masks;

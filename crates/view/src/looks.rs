@@ -6,7 +6,7 @@ use super::mesh::Material;
 /// Materials that are drawn by the same pipeline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u32)]
-pub enum Look {
+pub enum MaterialGroup {
     /// Cast concrete.
     Concrete = 0,
     /// The road.
@@ -19,7 +19,7 @@ pub enum Look {
     Ground = 4,
 }
 
-impl Look {
+impl MaterialGroup {
     /// In the order of drawing: the ground hides little and is hidden by much.
     pub const ALL: [Self; 5] = [Self::Concrete, Self::Deck, Self::Steel, Self::Simple, Self::Ground];
 
@@ -51,10 +51,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_every_look_has_materials_and_the_shader_knows_it() {
+    fn exact_every_material_group_has_materials_and_a_shader_constant() {
         let shader = super::super::shaders::source("surface");
-        for look in Look::ALL {
-            assert!((0..16).any(|material| Look::of(material) == look), "{look:?}");
+        for look in MaterialGroup::ALL {
+            assert!((0..16).any(|material| MaterialGroup::of(material) == look), "{look:?}");
             assert!(shader.contains(&format!("LOOK == {}u", look as u32)), "{look:?}");
         }
     }

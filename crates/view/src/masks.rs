@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 /// Labels of a picture, row by row from its upper left; 0 where there is none.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Masks {
+pub struct LabelMask {
     /// Width, px.
     pub width: u32,
     /// Height, px.
@@ -21,13 +21,13 @@ pub struct Masks {
 
 /// Where a label lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Extent {
+struct LabelBounds {
     pixels: u64,
     low: (u32, u32),
     high: (u32, u32),
 }
 
-impl Masks {
+impl LabelMask {
     /// The whole number that a half float (IEEE 754 binary16, not negative) holds.
     #[must_use]
     pub fn whole(half: u16) -> u16 {
@@ -52,11 +52,11 @@ impl Masks {
         json!({ "format": 1, "width": self.width, "height": self.height, "elements": elements, "defects": defects })
     }
 
-    fn extents(&self, labels: &[u16]) -> BTreeMap<u16, Extent> {
-        let mut all: BTreeMap<u16, Extent> = BTreeMap::new();
+    fn extents(&self, labels: &[u16]) -> BTreeMap<u16, LabelBounds> {
+        let mut all: BTreeMap<u16, LabelBounds> = BTreeMap::new();
         for (k, label) in labels.iter().enumerate().filter(|(_, label)| **label != 0) {
             let at = (k as u32 % self.width, k as u32 / self.width);
-            let extent = all.entry(*label).or_insert(Extent { pixels: 0, low: at, high: at });
+            let extent = all.entry(*label).or_insert(LabelBounds { pixels: 0, low: at, high: at });
             extent.pixels += 1;
             extent.low = (extent.low.0.min(at.0), extent.low.1.min(at.1));
             extent.high = (extent.high.0.max(at.0), extent.high.1.max(at.1));
@@ -65,7 +65,7 @@ impl Masks {
     }
 }
 
-fn defect(placed: &[PlacedDefect], id: u16, extent: Extent) -> Option<Value> {
+fn defect(placed: &[PlacedDefect], id: u16, extent: LabelBounds) -> Option<Value> {
     let defect = placed.iter().find(|defect| defect.id == u32::from(id))?;
     let (low, high) = (extent.low, extent.high);
     Some(json!({
@@ -91,7 +91,7 @@ mod tests {
         for (half, whole) in
             [(0x0000, 0), (0x3C00, 1), (0x4000, 2), (0x4200, 3), (0x4A00, 12), (0x5880, 144), (0x5D2C, 331), (0x6800, 2048)]
         {
-            assert_eq!(Masks::whole(half), whole, "{half:#06x}");
+            assert_eq!(LabelMask::whole(half), whole, "{half:#06x}");
         }
     }
 
@@ -110,7 +110,7 @@ mod tests {
             width_m: 0.002,
             line: true,
         };
-        let masks = Masks {
+        let masks = LabelMask {
             width: 4,
             height: 3,
             elements: vec![0, 144, 144, 0, 0, 144, 144, 0, 0, 0, 12, 0],

@@ -73,14 +73,14 @@ pub struct Mesh {
 
 /// How a face looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Finish {
+pub struct SurfaceFinish {
     /// Material.
     pub material: Material,
     /// Colour, linear, 0..255.
     pub tint: [u8; 3],
 }
 
-impl Finish {
+impl SurfaceFinish {
     /// A finish.
     #[must_use]
     pub const fn new(material: Material, tint: [u8; 3]) -> Self {
@@ -109,7 +109,7 @@ impl Mesh {
     }
 
     /// A flat convex polygon, corners counter-clockwise from outside; coordinates in the surface run along its first side.
-    pub fn polygon(&mut self, corners: &[Vec3<Enu>], finish: Finish) {
+    pub fn polygon(&mut self, corners: &[Vec3<Enu>], finish: SurfaceFinish) {
         if corners.len() < 3 {
             return;
         }
@@ -132,7 +132,7 @@ impl Mesh {
     }
 
     /// A block whose upper face may be smaller than its lower: `inset` is taken off its front, rear and both sides.
-    pub fn block(&mut self, low: [f64; 3], high: [f64; 3], inset: [f64; 3], finish: Finish) {
+    pub fn block(&mut self, low: [f64; 3], high: [f64; 3], inset: [f64; 3], finish: SurfaceFinish) {
         let [front, rear, side] = inset;
         let p = |x: f64, y: f64, z: f64| Vec3::new(x, y, z);
         let bottom =
@@ -152,7 +152,7 @@ impl Mesh {
     }
 
     /// A round solid about the line from `a` to `b` with a radius at each end, smooth around, closed by flat ends.
-    pub fn round(&mut self, (a, radius_a): (Vec3<Enu>, f64), (b, radius_b): (Vec3<Enu>, f64), sides: u32, finish: Finish) {
+    pub fn round(&mut self, (a, radius_a): (Vec3<Enu>, f64), (b, radius_b): (Vec3<Enu>, f64), sides: u32, finish: SurfaceFinish) {
         let axis = (b - a).unit();
         let helper = if axis.up().abs() < 0.9 { Vec3::new(0.0, 0.0, 1.0) } else { Vec3::new(1.0, 0.0, 0.0) };
         let u = helper.cross(axis).unit();
@@ -186,12 +186,12 @@ impl Mesh {
     }
 
     /// A ball squeezed to three half axes; `dent` in 0..1 makes it a boulder.
-    pub fn ball(&mut self, centre: Vec3<Enu>, half: [f64; 3], dent: f64, finish: Finish) {
+    pub fn ball(&mut self, centre: Vec3<Enu>, half: [f64; 3], dent: f64, finish: SurfaceFinish) {
         self.ball_of((8, 12), centre, half, dent, finish);
     }
 
     /// The same with so many rings and sides.
-    pub fn ball_of(&mut self, (rings, sides): (u32, u32), centre: Vec3<Enu>, half: [f64; 3], dent: f64, finish: Finish) {
+    pub fn ball_of(&mut self, (rings, sides): (u32, u32), centre: Vec3<Enu>, half: [f64; 3], dent: f64, finish: SurfaceFinish) {
         let first = self.vertices.len() as u32;
         for ring in 0..=rings {
             let (sr, cr) = math::sin_cos(math::PI * f64::from(ring) / f64::from(rings));
@@ -216,7 +216,7 @@ impl Mesh {
 }
 
 /// A corner that sees all of the day's indirect light; what is placed by instances brings its own.
-fn vertex(position: Vec3<Enu>, normal: Vec3<Enu>, uv: [f32; 2], finish: Finish) -> Vertex {
+fn vertex(position: Vec3<Enu>, normal: Vec3<Enu>, uv: [f32; 2], finish: SurfaceFinish) -> Vertex {
     let [r, g, b] = finish.tint;
     Vertex {
         position: single(position),
@@ -233,7 +233,7 @@ fn vertex(position: Vec3<Enu>, normal: Vec3<Enu>, uv: [f32; 2], finish: Finish) 
 mod tests {
     use super::*;
 
-    const FINISH: Finish = Finish::new(Material::Paint, [128, 128, 128]);
+    const FINISH: SurfaceFinish = SurfaceFinish::new(Material::Paint, [128, 128, 128]);
 
     /// Volume by the divergence theorem: positive when the triangles face outward.
     fn volume(mesh: &Mesh) -> f64 {

@@ -15,7 +15,7 @@ pub const FARTHEST: f64 = 1.28;
 /// One level: texels row by row, four channels: several octaves of noise, one octave, distance to the nearest of scattered points, a number
 /// of that point.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Level {
+pub struct NoiseLevel {
     /// Texels along a side.
     pub side: usize,
     /// Four bytes each.
@@ -24,13 +24,13 @@ pub struct Level {
 
 /// The tile and its means, finest first.
 #[must_use]
-pub fn levels() -> Vec<Level> {
+pub fn levels() -> Vec<NoiseLevel> {
     let mut values = tile();
     let mut side = SIDE;
     let mut all = Vec::new();
     loop {
         let rgba = values.iter().flatten().map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8).collect();
-        all.push(Level { side, rgba });
+        all.push(NoiseLevel { side, rgba });
         if side == 1 {
             return all;
         }

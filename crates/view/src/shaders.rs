@@ -8,7 +8,7 @@ pub const DEVELOP_SAMPLED: &str = "develop, sampled";
 
 /// A shader: name and source.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Source {
+pub struct ShaderSource {
     /// Name, for messages.
     pub name: &'static str,
     /// WGSL.
@@ -17,21 +17,22 @@ pub struct Source {
 
 /// Every shader.
 #[must_use]
-pub fn all() -> Vec<Source> {
+pub fn all() -> Vec<ShaderSource> {
     let drawn = [
         ("surface", include_str!("shaders/surface.wgsl")),
         ("defect", include_str!("shaders/defect.wgsl")),
         ("water", include_str!("shaders/water.wgsl")),
         ("sky", include_str!("shaders/sky.wgsl")),
     ];
-    let mut sources: Vec<Source> = drawn.iter().map(|(name, own)| Source { name, text: format!("{COMMON}\n{own}") }).collect();
+    let mut sources: Vec<ShaderSource> =
+        drawn.iter().map(|(name, own)| ShaderSource { name, text: format!("{COMMON}\n{own}") }).collect();
     let lean = [COMMON, include_str!("shaders/surface.wgsl"), include_str!("shaders/lean.wgsl")].join("\n");
-    sources.push(Source { name: "lean", text: lean });
-    sources.push(Source { name: "shadow", text: include_str!("shaders/shadow.wgsl").to_owned() });
+    sources.push(ShaderSource { name: "lean", text: lean });
+    sources.push(ShaderSource { name: "shadow", text: include_str!("shaders/shadow.wgsl").to_owned() });
     let develop = include_str!("shaders/develop.wgsl");
-    sources.push(Source { name: "develop", text: develop.to_owned() });
+    sources.push(ShaderSource { name: "develop", text: develop.to_owned() });
     let sampled = develop.replace("texture_depth_2d;", "texture_depth_multisampled_2d;");
-    sources.push(Source { name: DEVELOP_SAMPLED, text: sampled });
+    sources.push(ShaderSource { name: DEVELOP_SAMPLED, text: sampled });
     sources
 }
 

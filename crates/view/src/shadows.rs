@@ -1,9 +1,9 @@
 //! Where shadow maps look: the sun's, over the whole site or in steps ahead of the eye, and the lamp's.
 
-use super::camera::Eye;
+use super::camera::PinholeCamera;
 use super::matrix::Matrix;
 use super::quality::Quality;
-use super::shot::Beam;
+use super::shot::LampBeam;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
@@ -21,7 +21,7 @@ const LAMP_MARGIN: f64 = 1.08;
 
 /// One map.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Map {
+pub struct ShadowMap {
     /// World to clip space.
     pub projection: Matrix,
     /// Size of a texel, m (of the lamp's: at 1 m).
@@ -30,7 +30,7 @@ pub struct Map {
 
 /// Maps of the sun, finest first.
 #[must_use]
-pub fn sun_maps(quality: &Quality, eye: &Eye, bounds_m: (Vec3<Enu>, f64), sun: Vec3<Enu>) -> Vec<Map> {
+pub fn sun_maps(quality: &Quality, eye: &PinholeCamera, bounds_m: (Vec3<Enu>, f64), sun: Vec3<Enu>) -> Vec<ShadowMap> {
     let ahead = |radius: f64| sun_map(eye.position_m + eye.forward * (0.75 * radius), radius, quality.shadow_px, sun);
     match quality.cascades {
         0 | 1 => vec![sun_map(bounds_m.0, bounds_m.1, quality.shadow_px, sun)],
@@ -39,7 +39,7 @@ pub fn sun_maps(quality: &Quality, eye: &Eye, bounds_m: (Vec3<Enu>, f64), sun: V
     }
 }
 
-fn sun_map(centre_m: Vec3<Enu>, radius_m: f64, side_px: u32, sun: Vec3<Enu>) -> Map {
+fn sun_map(centre_m: Vec3<Enu>, radius_m: f64, side_px: u32, sun: Vec3<Enu>) -> ShadowMap {
     let helper = if sun.up().abs() < 0.95 { Vec3::new(0.0, 0.0, 1.0) } else { Vec3::new(0.0, 1.0, 0.0) };
     let right = helper.cross(sun).unit();
     let up = sun.cross(right);
@@ -49,16 +49,16 @@ fn sun_map(centre_m: Vec3<Enu>, radius_m: f64, side_px: u32, sun: Vec3<Enu>) -> 
     let (x, y) = (snap(centre_m.dot(right)), snap(centre_m.dot(up)));
     let middle = right * x + up * y + sun * centre_m.dot(sun);
     let projection = Matrix::box_of(radius_m, -TOWARDS_M, BEYOND_M).after(&Matrix::view(middle, right, up, sun));
-    Map { projection, texel_m }
+    ShadowMap { projection, texel_m }
 }
 
 /// The lamp's map.
 #[must_use]
-pub fn lamp_map(beam: &Beam, side_px: u32) -> Map {
+pub fn lamp_map(beam: &LampBeam, side_px: u32) -> ShadowMap {
     let half = math::tan(beam.half_rad) * LAMP_MARGIN;
     let up = beam.right.cross(beam.forward);
     let view = Matrix::view(beam.position_m, beam.right, up, -beam.forward);
-    Map { projection: Matrix::perspective(half, half, LAMP_NEAR_M).after(&view), texel_m: 2.0 * half / f64::from(side_px) }
+    ShadowMap { projection: Matrix::perspective(half, half, LAMP_NEAR_M).after(&view), texel_m: 2.0 * half / f64::from(side_px) }
 }
 
 #[cfg(test)]

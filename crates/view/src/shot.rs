@@ -1,8 +1,8 @@
 //! Everything that one picture needs besides the scene: plain data, made from telemetry and the scenario.
 
-use super::camera::Eye;
+use super::camera::PinholeCamera;
 use super::exposure::Exposure;
-use super::scene::{Instance, Model};
+use super::scene::{Instance, MoverModel};
 use super::sky::Sky;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
@@ -16,7 +16,7 @@ const VIGNETTE: f64 = 0.45;
 
 /// A lamp's beam.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Beam {
+pub struct LampBeam {
     /// Where, m.
     pub position_m: Vec3<Enu>,
     /// Unit vector of its axis.
@@ -29,7 +29,7 @@ pub struct Beam {
     pub candela: f64,
 }
 
-impl Beam {
+impl LampBeam {
     /// The aircraft's lamp; `None` when it is off or there is none. Its intensity is the one of `site::look`.
     #[must_use]
     pub fn of(lamp: &Lamp, pose: &CameraPose) -> Option<Self> {
@@ -46,7 +46,7 @@ impl Beam {
 
 /// How the sensor or the eye turns light into a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Finish {
+pub struct FilmResponse {
     /// Exposure.
     pub exposure: Exposure,
     /// Noise at mid grey, as a share of white.
@@ -54,13 +54,13 @@ pub struct Finish {
     /// Darkening of the corners.
     pub vignette: f64,
     /// Where the eye was when the shutter opened, if that was elsewhere.
-    pub before: Option<Eye>,
+    pub before: Option<PinholeCamera>,
 }
 
-impl Finish {
+impl FilmResponse {
     /// The aircraft's camera. `moved` is the eye at the shutter's opening.
     #[must_use]
-    pub fn camera(exposure: Exposure, moved: Option<Eye>) -> Self {
+    pub fn camera(exposure: Exposure, moved: Option<PinholeCamera>) -> Self {
         Self { exposure, noise: NOISE_AT_100 * (exposure.iso / 100.0).sqrt(), vignette: VIGNETTE, before: moved }
     }
 
@@ -81,21 +81,21 @@ impl Finish {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shot {
     /// From where.
-    pub eye: Eye,
+    pub eye: PinholeCamera,
     /// Size, px.
     pub size_px: (u32, u32),
     /// Sun and sky.
     pub sky: Sky,
     /// The lamp, when it is on.
-    pub beam: Option<Beam>,
+    pub beam: Option<LampBeam>,
     /// Sensor or eye.
-    pub finish: Finish,
+    pub finish: FilmResponse,
     /// Simulation time, s: waves, clouds.
     pub time_s: f64,
     /// The wind over the water blows towards here: east and north, m/s.
     pub wind_m_s: (f64, f64),
     /// What moves.
-    pub moving: Vec<(Model, Instance)>,
+    pub moving: Vec<(MoverModel, Instance)>,
 }
 
 impl Shot {

@@ -95,7 +95,7 @@ impl Sky {
 
     /// π times the luminance towards a direction, lx.
     #[must_use]
-    pub fn seen_lux(&self, direction: Vec3<Enu>) -> f64 {
+    pub fn visible_lux(&self, direction: Vec3<Enu>) -> f64 {
         self.scale * luminance(relative(direction, self.sun, self.cloud))
     }
 }
@@ -120,7 +120,7 @@ mod tests {
                     let (s, c) = math::sin_cos(math::TAU * f64::from(turn) / f64::from(turns));
                     // dω = dup dφ, and seen_lux is π L.
                     let share = 2.0 / f64::from(bands * turns);
-                    lux += sky.seen_lux(Vec3::new(out * c, out * s, up)) * up * share;
+                    lux += sky.visible_lux(Vec3::new(out * c, out * s, up)) * up * share;
                 }
             }
             assert!((lux / sky.sky_lux - 1.0).abs() < TOLERANCE, "{lux} against {}", sky.sky_lux);

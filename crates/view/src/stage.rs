@@ -1,12 +1,12 @@
 //! From a moment of a flight to the shots of both views.
 
-use super::camera::Eye;
-use super::exposure::{Adaptation, Exposure, Lighting, meter};
+use super::camera::PinholeCamera;
+use super::exposure::{Exposure, ExposureMeter, Lighting, meter};
 use super::feed::{Feed, shutter};
-use super::gaze::Gaze;
-use super::hud::{Hud, Item, Track, marker};
+use super::hud::{DrawItem, Hud, MapPath, marker};
+use super::inspector_camera::InspectorCamera;
 use super::scene::{DronePose, Scene};
-use super::shot::{Beam, Finish, Shot, wind};
+use super::shot::{FilmResponse, LampBeam, Shot, wind};
 use super::sky::Sky;
 use spandrel_mavlink::telemetry::Flight;
 use spandrel_model::frames::{Enu, Rotation, Vec3};
@@ -34,7 +34,7 @@ pub struct Stage<'a> {
 
 /// Where the aircraft is and what its camera does.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Moment {
+pub struct SceneMoment {
     /// When.
     pub at: SimTime,
     /// The aircraft.
@@ -46,19 +46,19 @@ pub struct Moment {
     /// The camera's lens as it is zoomed.
     pub lens: Camera,
     /// How fast the camera turns.
-    pub turn: Turn,
+    pub turn: CameraTurnRate,
 }
 
 /// How fast a camera on a gimbal turns; by default it does not.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Turn {
+pub struct CameraTurnRate {
     /// Its heading, rad/s, clockwise from above.
     pub heading_rad_s: f64,
     /// Its pitch over the horizon, rad/s, up positive.
     pub pitch_rad_s: f64,
 }
 
-impl Turn {
+impl CameraTurnRate {
     /// The angular velocity, rad/s, of a camera whose right is there: the gimbal keeps that level.
     #[must_use]
     pub fn angular_rad_s(&self, right: Vec3<Enu>) -> Vec3<Enu> {
@@ -75,38 +75,44 @@ impl Stage<'_> {
 
     /// What the aircraft's camera sees; the aircraft itself is not in it.
     #[must_use]
-    pub fn camera(&self, moment: &Moment, size_px: (u32, u32)) -> Shot {
-        self.filmed(moment, size_px, &mut Adaptation::default())
+    pub fn camera(&self, moment: &SceneMoment, size_px: (u32, u32)) -> Shot {
+        self.camera_frame(moment, size_px, &mut ExposureMeter::default())
     }
 
     /// The same as the next picture of a film.
     #[must_use]
-    pub fn filmed(&self, moment: &Moment, size_px: (u32, u32), meter: &mut Adaptation) -> Shot {
-        let eye = Eye::of(&moment.camera, &moment.lens);
+    pub fn camera_frame(&self, moment: &SceneMoment, size_px: (u32, u32), meter: &mut ExposureMeter) -> Shot {
+        let eye = PinholeCamera::of(&moment.camera, &moment.lens);
         let shot = self.shot(eye, Some(&moment.camera), None, (moment.at, size_px), |metered| {
-            Finish::camera(Exposure::camera(meter.follow(metered, moment.at), &moment.lens), None)
+            FilmResponse::camera(Exposure::camera(meter.follow(metered, moment.at), &moment.lens), None)
         });
-        let before = opened(&eye, moment, shot.finish.exposure.time_s);
-        Shot { finish: Finish::camera(shot.finish.exposure, Some(before)), ..shot }
+        let before = camera_at_shutter_open(&eye, moment, shot.finish.exposure.time_s);
+        Shot { finish: FilmResponse::camera(shot.finish.exposure, Some(before)), ..shot }
     }
 
     /// What the inspector at the pad sees, looking at the aircraft.
     #[must_use]
-    pub fn inspector(&self, moment: &Moment, size_px: (u32, u32)) -> Shot {
-        self.looking(&Gaze::default(), moment, size_px, &mut Adaptation::default())
+    pub fn inspector(&self, moment: &SceneMoment, size_px: (u32, u32)) -> Shot {
+        self.inspector_view(&InspectorCamera::default(), moment, size_px, &mut ExposureMeter::default())
     }
 
     /// What the inspector sees who looks where they want, with eyes that follow the light.
     #[must_use]
-    pub fn looking(&self, gaze: &Gaze, moment: &Moment, size_px: (u32, u32), eyes: &mut Adaptation) -> Shot {
+    pub fn inspector_view(
+        &self,
+        gaze: &InspectorCamera,
+        moment: &SceneMoment,
+        size_px: (u32, u32),
+        eyes: &mut ExposureMeter,
+    ) -> Shot {
         let stands = self.scenario.ground_team.inspector_m;
         let aspect = f64::from(size_px.0) / f64::from(size_px.1.max(1));
-        self.seen(gaze.eye(stands, moment.drone.position_m, aspect), moment, size_px, eyes)
+        self.eye_shot(gaze.eye(stands, moment.drone.position_m, aspect), moment, size_px, eyes)
     }
 
     /// The bracket round the aircraft over a person's view.
     #[must_use]
-    pub fn marked(&self, shot: &Shot, moment: &Moment) -> Vec<Item> {
+    pub fn drone_marker(&self, shot: &Shot, moment: &SceneMoment) -> Vec<DrawItem> {
         let (from, to) = (shot.eye.position_m, moment.drone.position_m - shot.eye.position_m);
         let clear_m = (to.norm() - BESIDE_M).max(0.0);
         let hidden = clear_m > 0.0 && self.site.ray(from, to.unit(), clear_m, moment.at).is_some();
@@ -116,13 +122,13 @@ impl Stage<'_> {
 
     /// What a person sees from anywhere.
     #[must_use]
-    pub fn person(&self, eye: Eye, moment: &Moment, size_px: (u32, u32)) -> Shot {
-        self.seen(eye, moment, size_px, &mut Adaptation::default())
+    pub fn inspector_shot(&self, eye: PinholeCamera, moment: &SceneMoment, size_px: (u32, u32)) -> Shot {
+        self.eye_shot(eye, moment, size_px, &mut ExposureMeter::default())
     }
 
-    fn seen(&self, eye: Eye, moment: &Moment, size_px: (u32, u32), eyes: &mut Adaptation) -> Shot {
+    fn eye_shot(&self, eye: PinholeCamera, moment: &SceneMoment, size_px: (u32, u32), eyes: &mut ExposureMeter) -> Shot {
         self.shot(eye, Some(&moment.camera), Some(&moment.drone), (moment.at, size_px), |metered| {
-            Finish::eyes(Exposure::eyes(eyes.follow(metered, moment.at)))
+            FilmResponse::eyes(Exposure::eyes(eyes.follow(metered, moment.at)))
         })
     }
 
@@ -130,29 +136,29 @@ impl Stage<'_> {
     #[must_use]
     pub fn through(
         &self,
-        eye: Eye,
+        eye: PinholeCamera,
         lamp: Option<&CameraPose>,
         lens: &Camera,
         drone: Option<&DronePose>,
         (at, size_px): (SimTime, (u32, u32)),
     ) -> Shot {
-        self.shot(eye, lamp, drone, (at, size_px), |metered| Finish::camera(Exposure::camera(metered, lens), None))
+        self.shot(eye, lamp, drone, (at, size_px), |metered| FilmResponse::camera(Exposure::camera(metered, lens), None))
     }
 
     fn shot(
         &self,
-        eye: Eye,
+        eye: PinholeCamera,
         lamp: Option<&CameraPose>,
         drone: Option<&DronePose>,
         (at, size_px): (SimTime, (u32, u32)),
-        finish: impl FnOnce(f64) -> Finish,
+        finish: impl FnOnce(f64) -> FilmResponse,
     ) -> Shot {
         let sky = self.sky(at);
         Shot {
             eye,
             size_px,
-            beam: lamp.and_then(|pose| Beam::of(&self.vehicle.lamp, pose)),
-            finish: finish(self.metered(&eye, lamp, &sky, (at, size_px))),
+            beam: lamp.and_then(|pose| LampBeam::of(&self.vehicle.lamp, pose)),
+            finish: finish(self.metered_luminance(&eye, lamp, &sky, (at, size_px))),
             time_s: at.s(),
             wind_m_s: wind(self.scenario),
             moving: self.scene.moving(self.scenario, self.site, drone, at),
@@ -160,38 +166,44 @@ impl Stage<'_> {
         }
     }
 
-    fn metered(&self, eye: &Eye, lamp: Option<&CameraPose>, sky: &Sky, (at, size_px): (SimTime, (u32, u32))) -> f64 {
+    fn metered_luminance(
+        &self,
+        eye: &PinholeCamera,
+        lamp: Option<&CameraPose>,
+        sky: &Sky,
+        (at, size_px): (SimTime, (u32, u32)),
+    ) -> f64 {
         let aspect = f64::from(size_px.0) / f64::from(size_px.1.max(1));
         let lamp = lamp.filter(|pose| pose.lamp_on).map(|pose| (&self.vehicle.lamp, pose));
-        meter(self.site, eye, aspect, &Lighting { sky, lamp, at })
+        meter(self.site, eye, aspect, &Lighting { sky, lamp, ambient_at: at })
     }
 }
 
 /// The eye when the shutter opened, so many s before it closed: it moved and turned since.
-fn opened(eye: &Eye, moment: &Moment, time_s: f64) -> Eye {
+fn camera_at_shutter_open(eye: &PinholeCamera, moment: &SceneMoment, time_s: f64) -> PinholeCamera {
     let back = Rotation::<Enu, Enu>::identity().turned_by(moment.turn.angular_rad_s(eye.right) * -time_s);
     let position_m = eye.position_m - moment.velocity_m_s * time_s;
-    Eye { position_m, forward: back * eye.forward, right: back * eye.right, ..*eye }
+    PinholeCamera { position_m, forward: back * eye.forward, right: back * eye.right, ..*eye }
 }
 
 /// What the display tells besides the moment itself and the feed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Told {
+pub struct HudInputs {
     /// Battery, %, once it has been heard of.
     pub battery_pct: Option<f64>,
     /// Lift-off.
-    pub begun: Option<SimTime>,
+    pub lift_off: Option<SimTime>,
     /// Age of the newest telemetry, s.
     pub silent_s: f64,
     /// Pictures taken.
     pub pictures: usize,
     /// When the last one was taken.
-    pub taken: Option<SimTime>,
+    pub last_picture: Option<SimTime>,
     /// What flashes does so by this, s: the wall's time where the flight is live, for simulation time may stand or run fast; else the film's.
     pub flash_s: f64,
 }
 
-impl Told {
+impl HudInputs {
     /// From a recorded flight.
     #[must_use]
     pub fn of(flight: &Flight, pad_up_m: f64, at: SimTime) -> Self {
@@ -199,10 +211,10 @@ impl Told {
         let taken = flight.snapshots.all().iter().filter(|shot| shot.0 <= at);
         Self {
             battery_pct: flight.battery.at(at),
-            begun: flight.lift_off(pad_up_m, LIFT_OFF_M).filter(|begun| *begun <= at),
+            lift_off: flight.lift_off(pad_up_m, LIFT_OFF_M).filter(|begun| *begun <= at),
             silent_s: newest.map_or(0.0, |newest| (at - newest).s()),
             pictures: taken.clone().count(),
-            taken: taken.map(|shot| shot.0).max(),
+            last_picture: taken.map(|shot| shot.0).max(),
             flash_s: at.s(),
         }
     }
@@ -211,14 +223,14 @@ impl Told {
 /// What a flight's telemetry tells the display at a moment. `feed` tells the rest; `held`: its cues come from a record that tells changes
 /// only. `map`: the reference paths may be shown.
 #[must_use]
-pub fn hud(stage: &Stage, moment: &Moment, flight: &Flight, feed: (&Feed, bool), map: bool) -> Hud {
-    let told = Told::of(flight, stage.scenario.ground_team.pad_m.up(), moment.at);
+pub fn hud(stage: &Stage, moment: &SceneMoment, flight: &Flight, feed: (&Feed, bool), map: bool) -> Hud {
+    let told = HudInputs::of(flight, stage.scenario.ground_team.pad_m.up(), moment.at);
     display(stage, moment, &told, feed, map)
 }
 
 /// The same from what has been told, by whomever.
 #[must_use]
-pub fn display(stage: &Stage, moment: &Moment, told: &Told, (feed, held): (&Feed, bool), map: bool) -> Hud {
+pub fn display(stage: &Stage, moment: &SceneMoment, told: &HudInputs, (feed, held): (&Feed, bool), map: bool) -> Hud {
     let (scenario, at) = (stage.scenario, moment.at);
     let pad_m = scenario.ground_team.pad_m;
     let from_pad = moment.drone.position_m - pad_m;
@@ -239,9 +251,9 @@ pub fn display(stage: &Stage, moment: &Moment, told: &Told, (feed, held): (&Feed
         gimbal_rad: math::asin(moment.camera.forward.up().clamp(-1.0, 1.0)),
         zoom: wide / math::tan(0.5 * moment.lens.hfov_rad),
         lamp: moment.camera.lamp_on,
-        left_s: scenario.scoring.time_max_s - told.begun.map_or(0.0, |begun| (at - begun).s()),
+        left_s: scenario.scoring.time_max_s - told.lift_off.map_or(0.0, |begun| (at - begun).s()),
         pictures: told.pictures,
-        shutter: shutter(told.taken, at),
+        shutter: shutter(told.last_picture, at),
         time_s: told.flash_s,
         position_m: moment.drone.position_m,
         heading_rad: moment.drone.ned_from_frd.yaw_rad(),
@@ -253,21 +265,21 @@ pub fn display(stage: &Stage, moment: &Moment, told: &Told, (feed, held): (&Feed
 /// Flight time counts from this height over the pad, m (docs/src/reference/assessment.md, "Frames").
 pub const LIFT_OFF_M: f64 = 0.3;
 
-fn tracks(scenario: &Scenario) -> Vec<Track> {
-    let track = |task: &spandrel_model::scenario::Task| Track { id: task.id, path_m: task.path_m.clone(), closed: task.closed };
+fn tracks(scenario: &Scenario) -> Vec<MapPath> {
+    let track = |task: &spandrel_model::scenario::Task| MapPath { id: task.id, path_m: task.path_m.clone(), closed: task.closed };
     scenario.tasks.iter().filter(|task| !task.path_m.is_empty()).map(track).collect()
 }
 
 /// A camera that looks from one point at another, level.
 #[must_use]
-pub fn aimed(position_m: Vec3<Enu>, target_m: Vec3<Enu>, lamp_on: bool) -> CameraPose {
-    let eye = Eye::at(position_m, target_m, 1.0, 1.0);
+pub fn camera_aimed_at(position_m: Vec3<Enu>, target_m: Vec3<Enu>, lamp_on: bool) -> CameraPose {
+    let eye = PinholeCamera::at(position_m, target_m, 1.0, 1.0);
     CameraPose { position_m, forward: eye.forward, right: eye.right, lamp_on }
 }
 
 /// The aircraft on its pad with its motors off.
 #[must_use]
-pub fn parked(scenario: &Scenario, vehicle: &Vehicle) -> DronePose {
+pub fn drone_on_pad(scenario: &Scenario, vehicle: &Vehicle) -> DronePose {
     let feet = vehicle.hull.feet_m.iter().map(|foot| foot.down()).fold(0.0, f64::max);
     let team = &scenario.ground_team;
     DronePose {
@@ -285,27 +297,27 @@ mod tests {
     const ROUNDING: f64 = 1e-12;
 
     /// A camera that looks from the origin to the north, so steeply up.
-    fn moment(pitch_deg: f64, turn: Turn) -> Moment {
+    fn moment(pitch_deg: f64, turn: CameraTurnRate) -> SceneMoment {
         let (up, north) = math::sin_cos(pitch_deg.to_radians());
         let zero = Vec3::new(0.0, 0.0, 0.0);
-        Moment {
+        SceneMoment {
             at: SimTime::ZERO,
             drone: DronePose { position_m: zero, ned_from_frd: Rotation::identity(), spinning: true },
             velocity_m_s: Vec3::new(3.0, 0.0, -2.0),
-            camera: aimed(zero, Vec3::new(0.0, north, up), false),
+            camera: camera_aimed_at(zero, Vec3::new(0.0, north, up), false),
             lens: REFERENCE_CAMERA,
             turn,
         }
     }
 
-    fn before(moment: &Moment, time_s: f64) -> Eye {
-        opened(&Eye::of(&moment.camera, &moment.lens), moment, time_s)
+    fn before(moment: &SceneMoment, time_s: f64) -> PinholeCamera {
+        camera_at_shutter_open(&PinholeCamera::of(&moment.camera, &moment.lens), moment, time_s)
     }
 
     #[test]
     fn exact_a_turning_camera_looked_elsewhere_when_its_shutter_opened() {
         let (degree, fast) = (1.0_f64.to_radians(), 100.0_f64.to_radians());
-        let yawed = before(&moment(0.0, Turn { heading_rad_s: fast, pitch_rad_s: 0.0 }), 0.01);
+        let yawed = before(&moment(0.0, CameraTurnRate { heading_rad_s: fast, pitch_rad_s: 0.0 }), 0.01);
         // Clockwise it came from the west, by a degree.
         assert!((math::atan2(yawed.forward.east(), yawed.forward.north()) + degree).abs() < ROUNDING, "{yawed:?}");
         assert!(yawed.forward.up().abs() < ROUNDING && yawed.right.up().abs() < ROUNDING);
@@ -315,18 +327,18 @@ mod tests {
         );
         // Upwards it came from below, whatever its pitch.
         for pitch_deg in [0.0, -60.0, 60.0] {
-            let tilted = before(&moment(pitch_deg, Turn { heading_rad_s: 0.0, pitch_rad_s: fast }), 0.01);
+            let tilted = before(&moment(pitch_deg, CameraTurnRate { heading_rad_s: 0.0, pitch_rad_s: fast }), 0.01);
             assert!((math::asin(tilted.forward.up()).to_degrees() - (pitch_deg - 1.0)).abs() < 1e-9, "{tilted:?}");
             assert!((tilted.right - Vec3::new(1.0, 0.0, 0.0)).norm() < ROUNDING);
         }
-        let steep = before(&moment(60.0, Turn { heading_rad_s: fast, pitch_rad_s: 0.0 }), 0.01);
+        let steep = before(&moment(60.0, CameraTurnRate { heading_rad_s: fast, pitch_rad_s: 0.0 }), 0.01);
         assert!((steep.forward.up() - math::sin(60.0_f64.to_radians())).abs() < ROUNDING, "its pitch stays");
     }
 
     #[test]
     fn exact_a_camera_that_does_not_turn_looked_the_same_way() {
-        let still = moment(-20.0, Turn::default());
-        let (eye, opened) = (Eye::of(&still.camera, &still.lens), before(&still, 0.01));
+        let still = moment(-20.0, CameraTurnRate::default());
+        let (eye, opened) = (PinholeCamera::of(&still.camera, &still.lens), before(&still, 0.01));
         assert!((opened.forward - eye.forward).norm() < ROUNDING && (opened.right - eye.right).norm() < ROUNDING);
     }
 }

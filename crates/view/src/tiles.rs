@@ -17,13 +17,13 @@ const SPLASH_CELL_M: f64 = 1.6;
 const SPLASHES: (f64, f64) = (0.07, 0.045);
 
 /// A tile and its means over larger and larger squares, finest first: side and four bytes for each texel.
-pub type Levels = Vec<(usize, Vec<u8>)>;
+pub type MipLevels = Vec<(usize, Vec<u8>)>;
 
 /// One pattern over the tile, row by row.
-type Field = Vec<f32>;
+type TilePattern = Vec<f32>;
 
 /// Noise with so many cells across and down in its first octave, each octave twice as fine and half as strong; about 0.5.
-fn noise(stream: &mut RandomStream, (columns, rows): (usize, usize), octaves: u32) -> Field {
+fn noise(stream: &mut RandomStream, (columns, rows): (usize, usize), octaves: u32) -> TilePattern {
     let mut field = vec![0.5; SIDE * SIDE];
     for octave in 0..octaves {
         let (columns, rows) = (columns << octave, rows << octave);
@@ -44,7 +44,7 @@ fn between(cells: usize) -> Vec<(usize, usize, f32)> {
     (0..SIDE).map(of).collect()
 }
 
-fn add(field: &mut Field, lattice: &[f32], (columns, rows): (usize, usize), share: f32) {
+fn add(field: &mut TilePattern, lattice: &[f32], (columns, rows): (usize, usize), share: f32) {
     let across = between(columns);
     for ((above, below, t), line) in between(rows).into_iter().zip(field.chunks_exact_mut(SIDE)) {
         let (above, below) = (&lattice[above * columns..][..columns], &lattice[below * columns..][..columns]);
@@ -62,7 +62,7 @@ fn step(low: f32, high: f32, x: f32) -> f32 {
 
 /// Of the ground: patches two metres wide, blocks of rock, its beds, what is fine.
 #[must_use]
-pub fn ground() -> Levels {
+pub fn ground() -> MipLevels {
     let mut stream = RandomStream::new(0, "view.tiles.ground");
     let (near, block) = (noise(&mut stream, (16, 16), 5), noise(&mut stream, (26, 26), 5));
     let (straight, fine) = (noise(&mut stream, (4, 22), 4), noise(&mut stream, (128, 128), 3));
@@ -77,7 +77,7 @@ pub fn ground() -> Levels {
 
 /// Of concrete: its tone about 0.5 (blotches and boards), streaks of rain, soot, birds' splashes; the last three as shares.
 #[must_use]
-pub fn concrete() -> Levels {
+pub fn concrete() -> MipLevels {
     let mut stream = RandomStream::new(0, "view.tiles.concrete");
     let (blotch, streak) = (noise(&mut stream, (17, 17), 5), noise(&mut stream, (119, 9), 3));
     let soot = noise(&mut stream, (7, 7), 5);
@@ -100,7 +100,7 @@ fn whole(x: f64) -> usize {
 }
 
 /// White splashes, drawn out downwards.
-fn splashes(stream: &mut RandomStream) -> Field {
+fn splashes(stream: &mut RandomStream) -> TilePattern {
     let mut field = vec![0.0; SIDE * SIDE];
     let (cells, texel_m) = (whole(CONCRETE_M / SPLASH_CELL_M), CONCRETE_M / SIDE as f64);
     for cell in 0..cells * cells {
@@ -124,7 +124,7 @@ fn byte(x: f32) -> u8 {
     (255.0 * x.clamp(0.0, 1.0)).round() as u8
 }
 
-fn levels(finest: Vec<[u8; 4]>) -> Levels {
+fn levels(finest: Vec<[u8; 4]>) -> MipLevels {
     let (mut side, mut texels, mut all) = (SIDE, finest, Vec::new());
     loop {
         all.push((side, texels.iter().flatten().copied().collect()));
@@ -147,7 +147,7 @@ mod tests {
     use super::*;
 
     /// Value of a channel at a texel of the finest level.
-    fn at(levels: &Levels, x: usize, y: usize, channel: usize) -> f64 {
+    fn at(levels: &MipLevels, x: usize, y: usize, channel: usize) -> f64 {
         f64::from(levels[0].1[4 * (y * SIDE + x) + channel]) / 255.0
     }
 

@@ -3,7 +3,7 @@
 
 use super::record;
 use crate::records::database::Database;
-use spandrel_training::record::Record;
+use spandrel_training::record::SessionRecord;
 use spandrel_training::trainee::Role;
 
 /// Long after every erasure of these tests, µs since the Unix epoch (2100).
@@ -37,9 +37,9 @@ fn what_is_erased_does_not_come_back(target: &str) {
     assert_eq!(there.rebuild(&flown, &[]), Ok(0), "a rebuild");
     assert!(gone(&there, &flown[0].id) && !there.trainees().unwrap().iter().any(|one| one.pseudonym == "erna"));
     let erased = there.erased().unwrap();
-    assert!(erased.holds(&flown[0].id, "erna", flown[0].started_unix_us) && !erased.holds("x", "erna", LATER_US));
+    assert!(erased.contains(&flown[0].id, "erna", flown[0].started_unix_us) && !erased.contains("x", "erna", LATER_US));
     // Who begins anew under the same name is somebody else.
-    let anew = Record { started_unix_us: LATER_US, ..record("erna", 3) };
+    let anew = SessionRecord { started_unix_us: LATER_US, ..record("erna", 3) };
     assert_eq!(there.put(std::slice::from_ref(&anew)), Ok(1));
     assert_eq!(there.erase("erna", &[]), Ok((true, 1)));
     // One session that retention took away stays away, the person's others do not.
@@ -100,7 +100,7 @@ fn nobodys_change_of_a_person_is_lost(target: &str) {
 
 fn a_telemetry_is_found_again(target: &str) {
     let database = Database::open(target).unwrap();
-    let flown = Record { telemetry_sha256: "'; --".into(), ..record("ines", 1) };
+    let flown = SessionRecord { telemetry_sha256: "'; --".into(), ..record("ines", 1) };
     database.put(std::slice::from_ref(&flown)).unwrap();
     assert_eq!(database.of_telemetry("'; --"), Ok(Some((flown.id, "ines".into()))));
     assert_eq!(database.of_telemetry("of nobody"), Ok(None));
@@ -109,11 +109,12 @@ fn a_telemetry_is_found_again(target: &str) {
 /// Every session stands on one page, the newest first, also those of one instant.
 fn lists_go_on_from_page_to_page(target: &str) {
     let database = Database::open(target).unwrap();
-    let flown: Vec<Record> = (0..7).map(|k| Record { started_unix_us: LATER_US + k / 3, ..record("jana", k as usize) }).collect();
+    let flown: Vec<SessionRecord> =
+        (0..7).map(|k| SessionRecord { started_unix_us: LATER_US + k / 3, ..record("jana", k as usize) }).collect();
     database.put(&flown).unwrap();
     let page =
         |trainee, skip| -> Vec<String> { database.list(trainee, 3, skip).unwrap().into_iter().map(|one| one.id).collect() };
-    let mut expected: Vec<&Record> = flown.iter().collect();
+    let mut expected: Vec<&SessionRecord> = flown.iter().collect();
     expected.sort_by(|a, b| b.started_unix_us.cmp(&a.started_unix_us).then(a.id.cmp(&b.id)));
     let expected: Vec<&str> = expected.into_iter().map(|one| one.id.as_str()).collect();
     assert_eq!([page(Some("jana"), 0), page(Some("jana"), 3), page(Some("jana"), 6)].concat(), expected);

@@ -5,9 +5,9 @@ mod server;
 mod tls;
 
 use super::database::Database;
-use server::Server;
-use spandrel_training::questionnaire::Tlx;
-use spandrel_training::record::Record;
+use server::PostgresServer;
+use spandrel_training::questionnaire::TlxScale;
+use spandrel_training::record::SessionRecord;
 use spandrel_training::testing::faultless;
 use spandrel_training::trainee::{Role, Trainee};
 use std::path::PathBuf;
@@ -18,14 +18,14 @@ const STATIONS: usize = 20;
 const EACH: usize = 8;
 
 /// A made-up session.
-fn record(trainee: &str, number: usize) -> Record {
+fn record(trainee: &str, number: usize) -> SessionRecord {
     let mut record = faultless(trainee, number);
     record.started_unix_us = 1_700_000_000_000_000 + 1_000_000 * number as u64;
     record.scores.conformity = Some(81.25 + (number % 7) as f64 / 3.0);
     record.scores.accuracy = None;
     record.tasks[0].name = "Slab; DROP TABLE sessions --'".into();
     if let Some(answers) = &mut record.answers {
-        answers.tlx.insert(Tlx::Effort, 45);
+        answers.tlx.insert(TlxScale::Effort, 45);
     }
     record
 }
@@ -111,7 +111,7 @@ fn lets_people_in_and_forgets_them(target: &str) {
 
 fn counts_and_finds_sessions(target: &str) {
     let database = Database::open(target).unwrap();
-    let assessed = Record { purpose: Some("assessment".into()), ..record("dan", 3) };
+    let assessed = SessionRecord { purpose: Some("assessment".into()), ..record("dan", 3) };
     database.put(&[record("cleo", 1), record("cleo", 2), assessed.clone()]).unwrap();
     let listed = database.list(None, 10, 0).unwrap();
     assert_eq!(listed.iter().map(|one| one.purpose.as_deref()).collect::<Vec<_>>(), [Some("assessment"), None, None]);
@@ -126,8 +126,8 @@ fn counts_and_finds_sessions(target: &str) {
 
 /// Two stations that take in the same new people in opposite orders do not wait for each other for ever.
 fn takes_strangers_in_any_order(target: &str) {
-    let people: Vec<Record> = (0..STATIONS).map(|k| record(&format!("new{k}"), k)).collect();
-    let backwards: Vec<Record> = people.iter().rev().cloned().collect();
+    let people: Vec<SessionRecord> = (0..STATIONS).map(|k| record(&format!("new{k}"), k)).collect();
+    let backwards: Vec<SessionRecord> = people.iter().rev().cloned().collect();
     std::thread::scope(|scope| {
         for order in [&people, &backwards] {
             scope.spawn(|| {
@@ -235,7 +235,7 @@ fn exact_what_is_erased_is_gone_from_the_file() {
 
 /// The web server's last task lets go of the database while it may not wait.
 #[test]
-fn exact_a_database_may_be_let_go_of_where_nobody_may_wait() {
+fn exact_a_database_may_be_released_where_nobody_may_wait() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("records.sqlite").display().to_string();
     let database = Database::open(&file).unwrap();
@@ -259,7 +259,7 @@ fn exact_no_message_shows_a_password() {
 
 #[test]
 fn val_records_live_in_postgresql() {
-    let server = Server::start();
+    let server = PostgresServer::start();
     let url = server.url();
     every_behaviour(&url);
     readers_do_not_wait_for_a_writer(&url);

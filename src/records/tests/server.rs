@@ -12,12 +12,12 @@ const NOBODY: u32 = 65_534;
 const DEFAULT_PORT: u16 = 5432;
 
 /// A PostgreSQL of our own.
-pub struct Server {
+pub struct PostgresServer {
     process: Child,
     folder: tempfile::TempDir,
 }
 
-impl Server {
+impl PostgresServer {
     /// Starts one that no port leads to.
     pub fn start() -> Self {
         Self::with(DEFAULT_PORT, &["listen_addresses=".to_owned()])
@@ -73,7 +73,7 @@ impl Server {
     }
 }
 
-impl Drop for Server {
+impl Drop for PostgresServer {
     fn drop(&mut self) {
         // PostgreSQL ends its children before itself when its own program asks; killed, it would leave them.
         let data = self.folder.path().join("run/data").display().to_string();

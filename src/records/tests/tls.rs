@@ -1,6 +1,6 @@
 //! TLS to a real PostgreSQL, with certificates made by OpenSSL.
 
-use super::server::{Server, hand_over};
+use super::server::{PostgresServer, hand_over};
 use crate::records::database::Database;
 use sqlx::Row;
 use std::net::TcpListener;
@@ -51,7 +51,7 @@ fn val_tls_to_postgresql_by_its_url() {
     let files = [("ssl_cert_file", "server.pem"), ("ssl_key_file", "server.key"), ("ssl_ca_file", "ours.pem")];
     let mut settings = vec!["ssl=on".to_owned()];
     settings.extend(files.map(|(name, file)| format!("{name}={}", at(file))));
-    let _server = Server::on_port(port, &settings);
+    let _server = PostgresServer::on_port(port, &settings);
 
     let url = |host: &str, words: &str| format!("postgres://spandrel@{host}:{port}/postgres?{words}");
     let (ours, other) = (at("ours.pem"), at("other.pem"));
@@ -73,8 +73,8 @@ fn val_tls_to_postgresql_by_its_url() {
 }
 
 #[test]
-fn val_a_postgresql_without_tls_is_not_spoken_to_in_the_clear_when_tls_is_asked_for() {
-    let server = Server::start();
+fn val_a_postgresql_without_tls_is_not_spoken_to_in_the_clear_when_tls_is_requested() {
+    let server = PostgresServer::start();
     let error = Database::open(&format!("{}&sslmode=require", server.url())).unwrap_err().to_string();
     assert!(error.contains("ssl = on") && error.contains("sslmode=disable"), "{error}");
     assert!(Database::open(&format!("{}&sslmode=prefer", server.url())).is_ok());

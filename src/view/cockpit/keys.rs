@@ -1,36 +1,36 @@
 //! Keys of the window by the names that files of keys use.
 
-use spandrel_view::flow::Press;
+use spandrel_view::flow::KeyPress;
 use std::collections::{BTreeMap, BTreeSet};
 use winit::event::{ElementState, KeyEvent};
 use winit::keyboard::{Key, NamedKey, PhysicalKey};
 
 /// What a key does on a page. Held keys repeat where they move or type; what they do once is not done again on a page that comes meanwhile.
-pub fn press(event: &KeyEvent) -> Option<Press> {
+pub fn press(event: &KeyEvent) -> Option<KeyPress> {
     if event.state != ElementState::Pressed {
         return None;
     }
-    let press = meant(event)?;
-    (!event.repeat || !matches!(press, Press::Enter | Press::Escape)).then_some(press)
+    let press = key_name(event)?;
+    (!event.repeat || !matches!(press, KeyPress::Enter | KeyPress::Escape)).then_some(press)
 }
 
-fn meant(event: &KeyEvent) -> Option<Press> {
+fn key_name(event: &KeyEvent) -> Option<KeyPress> {
     Some(match &event.logical_key {
-        Key::Named(NamedKey::ArrowUp) => Press::Up,
-        Key::Named(NamedKey::ArrowDown | NamedKey::Tab) => Press::Down,
-        Key::Named(NamedKey::ArrowLeft) => Press::Left,
-        Key::Named(NamedKey::ArrowRight) => Press::Right,
-        Key::Named(NamedKey::Enter) => Press::Enter,
-        Key::Named(NamedKey::Escape) => Press::Escape,
-        Key::Named(NamedKey::Backspace) => Press::Backspace,
-        Key::Character(signs) => Press::Sign(signs.chars().next()?),
+        Key::Named(NamedKey::ArrowUp) => KeyPress::Up,
+        Key::Named(NamedKey::ArrowDown | NamedKey::Tab) => KeyPress::Down,
+        Key::Named(NamedKey::ArrowLeft) => KeyPress::Left,
+        Key::Named(NamedKey::ArrowRight) => KeyPress::Right,
+        Key::Named(NamedKey::Enter) => KeyPress::Enter,
+        Key::Named(NamedKey::Escape) => KeyPress::Escape,
+        Key::Named(NamedKey::Backspace) => KeyPress::Backspace,
+        Key::Character(signs) => KeyPress::Sign(signs.chars().next()?),
         _ => return None,
     })
 }
 
 /// A key that changed.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Change {
+pub enum KeyChange {
     /// Down; not told again while it is held.
     Down(String),
     /// Up, by the name that it went down with.
@@ -40,13 +40,13 @@ pub enum Change {
 /// Which keys are down, and which were down already when the window came to the front: these were pressed for somebody else, and do nothing
 /// until they come up. A key that comes up while Shift is held has another sign than when it went down: the place on the keyboard tells.
 #[derive(Debug, Default)]
-pub struct Held {
+pub struct HeldKeys {
     names: BTreeMap<String, String>,
     others: BTreeSet<String>,
 }
 
-impl Held {
-    /// A key that was pressed for somebody else. `made_up`: the window system tells of a key that was down already.
+impl HeldKeys {
+    /// A key that was pressed for somebody else. `generated`: the window system tells of a key that was down already.
     pub fn pressed_elsewhere(&mut self, event: &KeyEvent, made_up: bool) -> bool {
         self.elsewhere(place(&event.physical_key), event.state, made_up)
     }
@@ -64,16 +64,16 @@ impl Held {
     }
 
     /// Takes an event of the window.
-    pub fn take(&mut self, event: &KeyEvent) -> Option<Change> {
+    pub fn take(&mut self, event: &KeyEvent) -> Option<KeyChange> {
         let place = place(&event.physical_key);
         match event.state {
             ElementState::Pressed if event.repeat => None,
             ElementState::Pressed => {
                 let name = name(&event.logical_key)?;
                 self.names.insert(place, name.clone());
-                Some(Change::Down(name))
+                Some(KeyChange::Down(name))
             }
-            ElementState::Released => self.names.remove(&place).map(Change::Up),
+            ElementState::Released => self.names.remove(&place).map(KeyChange::Up),
         }
     }
 
@@ -118,7 +118,7 @@ mod tests {
 
     #[test]
     fn exact_a_key_that_was_down_before_the_window_had_it_does_nothing_until_it_comes_up() {
-        let mut held = Held::default();
+        let mut held = HeldKeys::default();
         let mut told = |state, made_up| held.elsewhere("w".into(), state, made_up);
         assert!(told(Pressed, true) && told(Pressed, false), "made up, then its first repetition");
         assert!(told(Released, false) && !told(Pressed, false) && !told(Released, false), "then it is a key as any other");

@@ -2,10 +2,10 @@
 
 use crate::clock::Stopwatch;
 use crate::errors::AppError;
-use crate::net::{Arrival, Hub};
+use crate::net::{NetEvent, SocketHub};
 use spandrel_model::scenario::Scenario;
 use spandrel_model::time::SimTime;
-use spandrel_view::live::Live;
+use spandrel_view::live::LiveFlight;
 use std::net::{IpAddr, SocketAddr};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -15,21 +15,21 @@ const WAIT: Duration = Duration::from_millis(50);
 
 /// What is heard, shared with whoever draws.
 #[derive(Debug, Clone)]
-pub struct Listener {
-    live: Arc<Mutex<Live>>,
-    watch: Stopwatch,
+pub struct TelemetryListener {
+    live: Arc<Mutex<LiveFlight>>,
+    stopwatch: Stopwatch,
     vehicle: SocketAddr,
 }
 
-impl Listener {
+impl TelemetryListener {
     /// Dials the vehicle and listens from now on.
     ///
     /// # Errors
     /// When no socket can be opened.
     pub fn dial(listen: IpAddr, vehicle: SocketAddr, scenario: &Scenario) -> Result<Self, AppError> {
-        let mut hub = Hub::new();
+        let mut hub = SocketHub::new();
         let socket = hub.bind(listen, 0, "--listen")?;
-        let listener = Self { live: Arc::new(Mutex::new(Live::new(scenario))), watch: Stopwatch::start(), vehicle };
+        let listener = Self { live: Arc::new(Mutex::new(LiveFlight::new(scenario))), stopwatch: Stopwatch::start(), vehicle };
         let heard = listener.clone();
         std::thread::spawn(move || {
             // Ends when nobody but this thread holds what is heard.
@@ -37,7 +37,7 @@ impl Listener {
                 let arrival = hub.next(WAIT);
                 let wall = heard.wall();
                 let mut live = heard.live();
-                if let Some(Arrival::Datagram { from, bytes, .. }) = arrival
+                if let Some(NetEvent::Datagram { from, bytes, .. }) = arrival
                     && from == vehicle
                 {
                     live.handle_datagram(&bytes, wall);
@@ -60,11 +60,11 @@ impl Listener {
 
     /// Wall time since it began.
     pub fn wall(&self) -> SimTime {
-        SimTime::from_s(self.watch.elapsed().as_secs_f64())
+        SimTime::from_s(self.stopwatch.elapsed().as_secs_f64())
     }
 
     /// What has been heard.
-    pub fn live(&self) -> MutexGuard<'_, Live> {
+    pub fn live(&self) -> MutexGuard<'_, LiveFlight> {
         // A thread that broke off in the middle leaves plain data behind.
         self.live.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -1,16 +1,16 @@
 //! Flying from the window, in a thread of its own: sticks go out fifty times a second, however long a picture takes.
 
 use super::super::Args;
-use super::desk::Desk;
+use super::controller_slot::ControllerSlot;
 use crate::clock::Stopwatch;
-use crate::controller::Profiles;
+use crate::controller::ProfileFolder;
 use crate::errors::AppError;
-use crate::net::{Arrival, Hub, SocketId};
-use spandrel_clients::rc::keyboard::{Keyboard, Keys};
-use spandrel_clients::rc::link::Link;
-use spandrel_clients::rc::{Action, Sticks};
+use crate::net::{NetEvent, SocketHub, SocketId};
+use spandrel_clients::rc::controller_link::ControllerLink;
+use spandrel_clients::rc::keyboard::{KeyBindings, KeyboardState};
+use spandrel_clients::rc::{ControllerAction, Sticks};
 use spandrel_model::time::SimTime;
-use spandrel_view::flow::{Controls, Tune};
+use spandrel_view::flow::{ControllerStatus, ProfileChange};
 use std::net::SocketAddr;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -23,7 +23,7 @@ const SHOW: SimTime = SimTime::from_ms(30);
 
 /// What the window asks of the pilot.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Ask {
+pub enum PilotCommand {
     /// A key went down.
     Down(String),
     /// A key came up.
@@ -45,71 +45,71 @@ pub enum Ask {
     /// Leave the wizard.
     Cancel,
     /// Change this of its profile, and keep it.
-    Tune(Tune),
+    Tune(ProfileChange),
 }
 
 /// The window's end of the pilot.
 #[derive(Debug)]
-pub struct Pilot {
-    asks: Sender<Ask>,
-    told: Receiver<String>,
-    controls: Arc<Mutex<Controls>>,
+pub struct PilotThread {
+    commands: Sender<PilotCommand>,
+    messages: Receiver<String>,
+    controls: Arc<Mutex<ControllerStatus>>,
 }
 
-impl Pilot {
+impl PilotThread {
     /// Sits down. Without a controller the keyboard flies; why there is none is told once.
     ///
     /// # Errors
     /// When no socket can be opened, or a file is wrong.
-    pub fn start(args: &Args, keys: Keys) -> Result<Self, AppError> {
-        let mut hub = Hub::new();
+    pub fn start(args: &Args, keys: KeyBindings) -> Result<Self, AppError> {
+        let mut hub = SocketHub::new();
         let socket = hub.bind(args.listen, 0, "--listen")?;
-        let profiles = Profiles::at(args.profiles.clone());
+        let profiles = ProfileFolder::at(args.profiles.clone());
         let device = args.device.clone();
         let (asks, asked) = channel();
         let (teller, told) = channel();
-        let controls = Arc::new(Mutex::new(Controls::default()));
+        let controls = Arc::new(Mutex::new(ControllerStatus::default()));
         let shown = controls.clone();
         std::thread::spawn(move || {
             // A device is opened where it is used: some systems' devices may not change threads.
-            let desk = Desk::new(device, profiles);
-            if let Some(why) = desk.why_keys() {
+            let desk = ControllerSlot::new(device, profiles);
+            if let Some(why) = desk.keyboard_reason() {
                 tracing::info!("{why} The window's keys fly.");
             }
-            let words = keys.explain();
-            let board = Keyboard::new(keys);
-            let mut seat = Seat {
+            let words = keys.help_text();
+            let board = KeyboardState::new(keys);
+            let mut seat = PilotLoop {
                 hub,
                 socket,
                 vehicle: None,
-                link: Link::default(),
-                board,
-                desk,
+                link: ControllerLink::default(),
+                keyboard: board,
+                controller: desk,
                 touched: false,
-                stands: false,
+                paused: false,
                 lost: false,
                 shown,
-                words,
+                status_text: words,
                 next: SimTime::ZERO,
             };
             seat.fly(&asked, &teller);
         });
-        Ok(Self { asks, told, controls })
+        Ok(Self { commands: asks, messages: told, controls })
     }
 
     /// Asks for something.
-    pub fn ask(&self, ask: Ask) {
+    pub fn send_command(&self, ask: PilotCommand) {
         // The thread lives as long as the window.
-        let _ = self.asks.send(ask);
+        let _ = self.commands.send(ask);
     }
 
     /// The next thing to tell the person.
-    pub fn poll_told(&self) -> Option<String> {
-        self.told.try_recv().ok()
+    pub fn poll_message(&self) -> Option<String> {
+        self.messages.try_recv().ok()
     }
 
     /// How the controller stands.
-    pub fn controls(&self) -> Controls {
+    pub fn controls(&self) -> ControllerStatus {
         self.controls.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 }
@@ -119,26 +119,26 @@ fn tell(teller: &Sender<String>, words: String) {
     let _ = teller.send(words);
 }
 
-struct Seat {
-    hub: Hub,
+struct PilotLoop {
+    hub: SocketHub,
     socket: SocketId,
     vehicle: Option<SocketAddr>,
-    link: Link,
-    board: Keyboard,
-    desk: Desk,
+    link: ControllerLink,
+    keyboard: KeyboardState,
+    controller: ControllerSlot,
     touched: bool,
-    stands: bool,
+    paused: bool,
     lost: bool,
-    shown: Arc<Mutex<Controls>>,
-    words: String,
+    shown: Arc<Mutex<ControllerStatus>>,
+    status_text: String,
     next: SimTime,
 }
 
-impl Seat {
-    fn fly(&mut self, asked: &Receiver<Ask>, teller: &Sender<String>) {
+impl PilotLoop {
+    fn fly(&mut self, asked: &Receiver<PilotCommand>, teller: &Sender<String>) {
         let watch = Stopwatch::start();
         loop {
-            if let Some(Arrival::Datagram { from, bytes, .. }) = self.hub.next(WAIT)
+            if let Some(NetEvent::Datagram { from, bytes, .. }) = self.hub.next(WAIT)
                 && Some(from) == self.vehicle
             {
                 self.link.receive(&bytes);
@@ -151,10 +151,10 @@ impl Seat {
                     Err(TryRecvError::Disconnected) => return,
                 }
             }
-            if self.desk.welcome() {
+            if self.controller.load_profile() {
                 self.lost = false;
-                let flies = if self.desk.flies() { "It flies." } else { "Keys fly until it is calibrated." };
-                tell(teller, format!("A controller is there. {} {flies}", self.desk.note()));
+                let flies = if self.controller.flies() { "It flies." } else { "Keys fly until it is calibrated." };
+                tell(teller, format!("A controller is there. {} {flies}", self.controller.note()));
             }
             let (sticks, news) = self.sticks(now);
             // On the ground the page of the controller says it.
@@ -165,7 +165,7 @@ impl Seat {
                 Some(vehicle) => {
                     self.link.set_sticks(sticks, now);
                     self.send(vehicle, now);
-                    std::iter::from_fn(|| self.link.poll_told()).for_each(|text| tell(teller, text));
+                    std::iter::from_fn(|| self.link.poll_message()).for_each(|text| tell(teller, text));
                 }
                 None => self.show(now),
             }
@@ -181,60 +181,61 @@ impl Seat {
 
     /// On the ground: how the controller stands; buttons have nobody to act on.
     fn show(&mut self, now: SimTime) {
-        while self.link.poll_told().is_some() {}
+        while self.link.poll_message().is_some() {}
         if now >= self.next {
             self.next = now + SHOW;
-            let controls = self.desk.controls(self.board.sticks(now), &self.words);
+            let controls = self.controller.controls(self.keyboard.sticks(now), &self.status_text);
             *self.shown.lock().unwrap_or_else(PoisonError::into_inner) = controls;
         }
     }
 
-    fn take(&mut self, ask: Ask, now: SimTime, teller: &Sender<String>) {
+    fn take(&mut self, ask: PilotCommand, now: SimTime, teller: &Sender<String>) {
         match ask {
-            Ask::Down(key) => {
-                let action = self.board.press(&key, true, now);
+            PilotCommand::Down(key) => {
+                let action = self.keyboard.press(&key, true, now);
                 if let Some(action) = action.filter(|_| self.vehicle.is_some()) {
                     self.link.act(action, now);
                 }
                 // Who has asked for no flight holds no sticks: another ground station may fly, and a script keeps its aircraft. Who arms
                 // does, or the vehicle would count as left alone.
-                let flies = matches!(action, Some(Action::Arm | Action::TakeOff | Action::Position));
-                self.touched |= self.vehicle.is_some() && (flies || self.board.sticks(now) != Sticks::default());
+                let flies =
+                    matches!(action, Some(ControllerAction::Arm | ControllerAction::TakeOff | ControllerAction::Position));
+                self.touched |= self.vehicle.is_some() && (flies || self.keyboard.sticks(now) != Sticks::default());
             }
-            Ask::Up(key) => self.board.release(&key),
-            Ask::LetGo => self.board.let_go(),
-            Ask::Fly(vehicle) => {
-                (self.vehicle, self.link, self.touched) = (Some(vehicle), Link::default(), false);
-                self.link.set_arm_key(&self.board.keys().label("arm"));
-                self.stands = false;
-                if let Some(why) = self.desk.why_keys() {
+            PilotCommand::Up(key) => self.keyboard.release(&key),
+            PilotCommand::LetGo => self.keyboard.release_all(),
+            PilotCommand::Fly(vehicle) => {
+                (self.vehicle, self.link, self.touched) = (Some(vehicle), ControllerLink::default(), false);
+                self.link.set_arm_key(&self.keyboard.keys().label("arm"));
+                self.paused = false;
+                if let Some(why) = self.controller.keyboard_reason() {
                     tell(teller, format!("{why} Keys fly."));
                 }
             }
-            Ask::Stand(stands) => self.stands = stands,
-            Ask::Land => (self.vehicle, self.link) = (None, Link::default()),
-            Ask::Look => self.desk.look(),
-            Ask::Calibrate => self.desk.calibrate(),
-            Ask::Confirm => self.desk.confirm(now),
-            Ask::Cancel => self.desk.cancel(),
-            Ask::Tune(tune) => self.desk.tune(tune),
+            PilotCommand::Stand(stands) => self.paused = stands,
+            PilotCommand::Land => (self.vehicle, self.link) = (None, ControllerLink::default()),
+            PilotCommand::Look => self.controller.find_device(),
+            PilotCommand::Calibrate => self.controller.calibrate(),
+            PilotCommand::Confirm => self.controller.confirm(now),
+            PilotCommand::Cancel => self.controller.cancel(),
+            PilotCommand::Tune(tune) => self.controller.adjust_profile(tune),
         }
     }
 
     /// A controller's sticks, unless keys are held; the keys' once they have been touched. With it, what a person must know of the
     /// controller.
     fn sticks(&mut self, now: SimTime) -> (Option<Sticks>, Option<String>) {
-        let keys = self.board.sticks(now);
+        let keys = self.keyboard.sticks(now);
         // While time stands still a button would act late, or never: it has nobody to act on.
         let (mut nobody, flown);
-        if self.stands {
-            nobody = Link::default();
-            flown = self.desk.sticks(&mut nobody, now);
+        if self.paused {
+            nobody = ControllerLink::default();
+            flown = self.controller.sticks(&mut nobody, now);
         } else {
-            flown = self.desk.sticks(&mut self.link, now);
+            flown = self.controller.sticks(&mut self.link, now);
         }
-        let lost = matches!(flown, Ok(None)) && self.desk.flies() || flown.is_err();
-        let news = self.turn(lost);
+        let lost = matches!(flown, Ok(None)) && self.controller.flies() || flown.is_err();
+        let news = self.set_device_lost(lost);
         let own = self.touched.then_some(keys);
         match flown {
             Ok(Some(sticks)) if keys == Sticks::default() => (Some(sticks), news),
@@ -242,16 +243,16 @@ impl Seat {
             Ok(None) => (own, news),
             Err(error) => {
                 tracing::warn!("the controller is given up: {error}");
-                self.desk.give_up(&error);
-                (None, Some(self.desk.note().to_owned()))
+                self.controller.cancel_wizard(&error);
+                (None, Some(self.controller.note().to_owned()))
             }
         }
     }
 
     /// The controller is lost now, or is not; says so when it was not, or was.
-    fn turn(&mut self, lost: bool) -> Option<String> {
+    fn set_device_lost(&mut self, lost: bool) -> Option<String> {
         let before = std::mem::replace(&mut self.lost, lost);
-        let name = self.desk.name().unwrap_or("the controller");
+        let name = self.controller.name().unwrap_or("the controller");
         match (before, lost) {
             (false, true) => {
                 // Whose controller is gone holds no sticks, whatever keys were pressed before: the vehicle's failsafe acts, until a key flies
@@ -259,7 +260,7 @@ impl Seat {
                 self.touched = false;
                 Some(format!("'{name}' is lost: its sticks are centred, then silent. A key takes over."))
             }
-            (true, false) if self.desk.flies() => Some(format!("'{name}' flies again.")),
+            (true, false) if self.controller.flies() => Some(format!("'{name}' flies again.")),
             _ => None,
         }
     }

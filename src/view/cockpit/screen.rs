@@ -9,7 +9,7 @@ use winit::event_loop::ActiveEventLoop;
 use winit::window::Window;
 
 /// The window and the device behind it.
-pub struct Screen {
+pub struct WindowSurface {
     /// The window.
     pub window: Arc<Window>,
     /// The device.
@@ -22,7 +22,7 @@ pub struct Screen {
     freed: Vec<egui::TextureId>,
 }
 
-impl Screen {
+impl WindowSurface {
     /// Opens a window of a size in px, larger where the display is to be read at a larger scale.
     ///
     /// # Errors

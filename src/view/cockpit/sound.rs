@@ -2,8 +2,8 @@
 //! headers of the system to build.
 
 use crate::clock::Stopwatch;
-use spandrel_clients::rc::keyboard::Sounds;
-use spandrel_view::sound::{Heard, RATE_HZ, Settings, Sound, spoken};
+use spandrel_clients::rc::keyboard::SoundPreferences;
+use spandrel_view::sound::{FlightSound, RATE_HZ, SoundInputs, SoundSettings, spoken};
 use std::io::Write;
 use std::process::{Child, Command, Stdio};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -24,19 +24,19 @@ const AHEAD: Duration = Duration::from_millis(80);
 const REST: Duration = Duration::from_millis(5);
 
 /// The loudspeaker of the window; its thread begins with the first sound.
-pub struct Speaker {
-    settings: Settings,
+pub struct AudioOutput {
+    settings: SoundSettings,
     on: bool,
     started: bool,
-    heard: Arc<Mutex<Heard>>,
+    inputs: Arc<Mutex<SoundInputs>>,
 }
 
-impl Speaker {
+impl AudioOutput {
     /// `on`: it is not switched off from the beginning.
-    pub fn new(sounds: Sounds, on: bool) -> Self {
-        let Sounds { propellers, warnings, speech, volume } = sounds;
-        let heard = Arc::new(Mutex::new(Heard { silent: true, ..Heard::default() }));
-        Self { settings: Settings { propellers, warnings, speech, volume }, on, started: false, heard }
+    pub fn new(sounds: SoundPreferences, on: bool) -> Self {
+        let SoundPreferences { propellers, warnings, speech, volume } = sounds;
+        let heard = Arc::new(Mutex::new(SoundInputs { silent: true, ..SoundInputs::default() }));
+        Self { settings: SoundSettings { propellers, warnings, speech, volume }, on, started: false, inputs: heard }
     }
 
     /// Something may be heard.
@@ -45,41 +45,41 @@ impl Speaker {
     }
 
     /// Switches it on or off.
-    pub fn turn(&mut self, on: bool) {
+    pub fn set_on(&mut self, on: bool) {
         self.on = on;
         if !on {
-            self.hush();
+            self.stop_speech();
         }
     }
 
     /// Nothing is to be heard now.
-    pub fn hush(&self) {
-        locked(&self.heard).silent = true;
+    pub fn stop_speech(&self) {
+        locked(&self.inputs).silent = true;
     }
 
     /// What there is to hear now.
-    pub fn set(&mut self, heard: Heard) {
+    pub fn set(&mut self, heard: SoundInputs) {
         if !self.on {
             return;
         }
-        *locked(&self.heard) = heard;
+        *locked(&self.inputs) = heard;
         if !self.started {
             self.started = true;
-            let (heard, settings) = (self.heard.clone(), self.settings);
+            let (heard, settings) = (self.inputs.clone(), self.settings);
             std::thread::spawn(move || play(&heard, settings));
         }
     }
 }
 
-fn locked(heard: &Mutex<Heard>) -> MutexGuard<'_, Heard> {
+fn locked(heard: &Mutex<SoundInputs>) -> MutexGuard<'_, SoundInputs> {
     heard.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Plays until the window is gone, by the first player that can.
-fn play(heard: &Arc<Mutex<Heard>>, settings: Settings) {
+fn play(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
     let mut tried = Vec::new();
     for (name, args) in PLAYERS {
-        match play_by(name, args, heard, settings) {
+        match run_output(name, args, heard, settings) {
             Ok(()) => return,
             Err(why) => tried.push(format!("{name}: {why}")),
         }
@@ -92,10 +92,10 @@ fn play(heard: &Arc<Mutex<Heard>>, settings: Settings) {
 }
 
 /// Speaks until the window is gone: a voice needs no player.
-fn speak(heard: &Arc<Mutex<Heard>>, settings: Settings) {
-    let mut voice = Voice::new(settings.speech);
+fn speak(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
+    let mut voice = SpeechVoice::new(settings.speech);
     while Arc::strong_count(heard) > 1 && voice.on {
-        voice.hear(&locked(heard).clone());
+        voice.update_inputs(&locked(heard).clone());
         std::thread::sleep(REST);
     }
 }
@@ -104,15 +104,15 @@ fn speak(heard: &Arc<Mutex<Heard>>, settings: Settings) {
 ///
 /// # Errors
 /// Why this player cannot.
-fn play_by(name: &str, args: &[&str], heard: &Arc<Mutex<Heard>>, settings: Settings) -> std::io::Result<()> {
+fn run_output(name: &str, args: &[&str], heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) -> std::io::Result<()> {
     let mut command = Command::new(name);
     let mut player = command.args(args).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn()?;
     let Some(mut stdin) = player.stdin.take() else { return Err(std::io::ErrorKind::BrokenPipe.into()) };
-    let (mut sound, mut voice) = (Sound::new(settings), Voice::new(settings.speech));
+    let (mut sound, mut voice) = (FlightSound::new(settings), SpeechVoice::new(settings.speech));
     let (watch, mut made) = (Stopwatch::start(), Duration::ZERO);
     while Arc::strong_count(heard) > 1 {
         let now = locked(heard).clone();
-        voice.hear(&now);
+        voice.update_inputs(&now);
         sound.set(now);
         // A machine that stood still does not make up for the silence.
         made = made.max(watch.elapsed());
@@ -129,25 +129,25 @@ fn play_by(name: &str, args: &[&str], heard: &Arc<Mutex<Heard>>, settings: Setti
     player.wait().map(|_| ())
 }
 
-fn piece(sound: &mut Sound) -> Vec<u8> {
+fn piece(sound: &mut FlightSound) -> Vec<u8> {
     let mut samples = [0.0_f32; PIECE];
     sound.fill(&mut samples);
     samples.iter().flat_map(|sample| ((sample * f32::from(i16::MAX)) as i16).to_le_bytes()).collect()
 }
 
 /// Says what has come up, one thing at a time.
-struct Voice {
+struct SpeechVoice {
     on: bool,
     cues: i32,
     speaking: Option<Child>,
 }
 
-impl Voice {
+impl SpeechVoice {
     fn new(on: bool) -> Self {
         Self { on, cues: 0, speaking: None }
     }
 
-    fn hear(&mut self, now: &Heard) {
+    fn update_inputs(&mut self, now: &SoundInputs) {
         self.follow(if now.silent { 0 } else { now.cues });
     }
 

@@ -5,10 +5,10 @@ use crate::clock::Stopwatch;
 use crate::errors::AppError;
 use spandrel_model::time::SimTime;
 use spandrel_sitl::endpoint::camera::stream::PORT;
-use spandrel_view::live::Video;
+use spandrel_view::live::VideoStatus;
 use spandrel_view::picture::Picture;
-use spandrel_view::video::rtp::Packets;
-use spandrel_view::video::{Encoded, Encoder, Rate, VideoError};
+use spandrel_view::video::rtp::RtpPacketizer;
+use spandrel_view::video::{EncodedPicture, H264Encoder, PictureRate, VideoError};
 use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr, UdpSocket};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -25,26 +25,26 @@ const KEY_EVERY: u32 = 25;
 const LEAST: Duration = Duration::from_nanos(33_000_000);
 
 /// A stream of pictures to somebody.
-pub struct Stream {
+pub struct StreamSender {
     /// Taken when the stream ends.
     pictures: Option<SyncSender<Picture>>,
-    sender: Option<JoinHandle<Sent>>,
+    sender: Option<JoinHandle<StreamReportItem>>,
     /// The last picture could not be encoded.
     fails: Arc<AtomicBool>,
-    watch: Stopwatch,
-    rate: Rate,
+    stopwatch: Stopwatch,
+    rate: PictureRate,
     last: Option<Stopwatch>,
 }
 
 /// What went out.
 #[derive(Debug, Clone, Copy, Default)]
-struct Sent {
+struct StreamReportItem {
     pictures: u64,
     /// Wall time of encoding, all pictures together.
     encoding: Duration,
 }
 
-impl Stream {
+impl StreamSender {
     /// Opens a stream to a receiver; its numbers come from a seed, another one for each stream.
     ///
     /// # Errors
@@ -57,13 +57,13 @@ impl Stream {
         // One waits while one is encoded; a third comes too late to be worth it.
         let (pictures, wanted) = sync_channel(1);
         let fails = Arc::new(AtomicBool::new(false));
-        let line = Line { socket, to, packets: Packets::new(seed), watch: Stopwatch::start(), told: false };
+        let line = Line { socket, to, packets: RtpPacketizer::new(seed), watch: Stopwatch::start(), told: false };
         let sender = std::thread::spawn({
             let fails = Arc::clone(&fails);
             move || send(&wanted, line, &fails)
         });
-        let (watch, rate) = (Stopwatch::start(), Rate::default());
-        Ok(Self { pictures: Some(pictures), sender: Some(sender), fails, watch, rate, last: None })
+        let (watch, rate) = (Stopwatch::start(), PictureRate::default());
+        Ok(Self { pictures: Some(pictures), sender: Some(sender), fails, stopwatch: watch, rate, last: None })
     }
 
     /// Whether it is time for another picture.
@@ -73,22 +73,22 @@ impl Stream {
 
     /// Hands a picture on, if the encoder has time for it, and says what the stream is like, once there is more than one picture of it and
     /// while it can be encoded.
-    pub fn push(&mut self, picture: Picture) -> Option<Video> {
+    pub fn push(&mut self, picture: Picture) -> Option<VideoStatus> {
         let (width_px, height_px) = (picture.width, picture.height);
         self.last = Some(Stopwatch::start());
         match self.pictures.as_ref()?.try_send(picture) {
-            Ok(()) => self.rate.count(SimTime::from_s(self.watch.elapsed().as_secs_f64())),
+            Ok(()) => self.rate.count(SimTime::from_s(self.stopwatch.elapsed().as_secs_f64())),
             Err(TrySendError::Full(_)) => {}
             Err(TrySendError::Disconnected(_)) => return None,
         }
         if self.fails.load(Ordering::Relaxed) {
             return None;
         }
-        Some(Video { width_px, height_px, rate_hz: self.rate.hz()?, bits_s: bits_s((width_px, height_px)) })
+        Some(VideoStatus { width_px, height_px, rate_hz: self.rate.hz()?, bits_s: bits_s((width_px, height_px)) })
     }
 }
 
-impl Drop for Stream {
+impl Drop for StreamSender {
     fn drop(&mut self) {
         drop(self.pictures.take());
         // A sender that panicked has nothing to tell.
@@ -116,7 +116,7 @@ fn bits_s((width, height): (u32, u32)) -> u32 {
 struct Line {
     socket: UdpSocket,
     to: SocketAddr,
-    packets: Packets,
+    packets: RtpPacketizer,
     watch: Stopwatch,
     /// It has been told that packets are lost.
     told: bool,
@@ -139,14 +139,14 @@ impl Line {
 
 /// An encoder for pictures of whatever size comes.
 #[derive(Default)]
-struct Fitting(Option<(Encoder, (u32, u32))>);
+struct StreamSize(Option<(H264Encoder, (u32, u32))>);
 
-impl Fitting {
-    fn encode(&mut self, picture: &Picture) -> Result<Encoded, VideoError> {
+impl StreamSize {
+    fn encode(&mut self, picture: &Picture) -> Result<EncodedPicture, VideoError> {
         let size = (picture.width, picture.height);
         let (mut encoder, of) = match self.0.take().filter(|(_, of)| *of == size) {
             Some(made) => made,
-            None => (Encoder::new(size, f64::from(KEY_EVERY), bits_s(size), KEY_EVERY)?, size),
+            None => (H264Encoder::new(size, f64::from(KEY_EVERY), bits_s(size), KEY_EVERY)?, size),
         };
         let encoded = encoder.encode(picture);
         self.0 = Some((encoder, of));
@@ -156,11 +156,11 @@ impl Fitting {
 
 /// What has been told to be wrong.
 #[derive(Debug, Default)]
-struct Complaint(Option<VideoError>);
+struct LastError(Option<VideoError>);
 
-impl Complaint {
+impl LastError {
     /// What is wrong now, if that is news; what went well in between makes it news again.
-    fn news(&mut self, wrong: Option<VideoError>) -> Option<&VideoError> {
+    fn new_error(&mut self, wrong: Option<VideoError>) -> Option<&VideoError> {
         if self.0 == wrong {
             return None;
         }
@@ -170,13 +170,13 @@ impl Complaint {
 }
 
 /// Encodes and sends until the window is closed.
-fn send(wanted: &Receiver<Picture>, mut line: Line, fails: &AtomicBool) -> Sent {
-    let (mut encoder, mut complaint, mut sent) = (Fitting::default(), Complaint::default(), Sent::default());
+fn send(wanted: &Receiver<Picture>, mut line: Line, fails: &AtomicBool) -> StreamReportItem {
+    let (mut encoder, mut complaint, mut sent) = (StreamSize::default(), LastError::default(), StreamReportItem::default());
     while let Ok(picture) = wanted.recv() {
         let began = Stopwatch::start();
         let encoded = encoder.encode(&picture);
         fails.store(encoded.is_err(), Ordering::Relaxed);
-        if let Some(error) = complaint.news(encoded.as_ref().err().cloned()) {
+        if let Some(error) = complaint.new_error(encoded.as_ref().err().cloned()) {
             tracing::warn!("pictures are missing in the stream: {error}");
         }
         if let Ok(encoded) = encoded {
@@ -193,18 +193,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_fault_is_told_once_until_it_is_another_or_comes_again() {
+    fn exact_a_fault_is_reported_once_until_it_is_another_or_comes_again() {
         let (odd, even) = (VideoError::Encoder("odd".into()), VideoError::Encoder("even".into()));
-        let mut complaint = Complaint::default();
-        let told =
-            [Some(&odd), Some(&odd), Some(&even), None, None, Some(&even)].map(|wrong| complaint.news(wrong.cloned()).cloned());
+        let mut complaint = LastError::default();
+        let told = [Some(&odd), Some(&odd), Some(&even), None, None, Some(&even)]
+            .map(|wrong| complaint.new_error(wrong.cloned()).cloned());
         assert_eq!(told, [Some(odd.clone()), None, Some(even.clone()), None, None, Some(even.clone())]);
     }
 
     #[test]
     fn exact_pictures_of_another_size_have_an_encoder_of_their_own() {
         let grey = |width, height| Picture { width, height, rgba: vec![90; 4 * (width * height) as usize] };
-        let mut encoder = Fitting::default();
+        let mut encoder = StreamSize::default();
         let keys =
             [(64, 48), (64, 48), (96, 64), (95, 64), (96, 64)].map(|(w, h)| encoder.encode(&grey(w, h)).map(|one| one.key).ok());
         assert_eq!(keys, [Some(true), Some(false), Some(true), None, Some(true)], "a receiver can begin at each size");

@@ -1,25 +1,25 @@
 //! The window's loop: events in, pages and views out.
 
 use super::display;
-use super::flight::Flight;
-use super::keeper::Keeper;
-use super::keys::{self, Change, Held};
-use super::lead::Lead;
-use super::pilot::{Ask, Pilot};
-use super::plan::Plan;
-use super::screen::Screen;
-use super::sound::Speaker;
-use super::stream::Stream;
+use super::flight_view::FlightView;
+use super::keys::{self, HeldKeys, KeyChange};
+use super::picture_writer::PictureWriter;
+use super::pilot::{PilotCommand, PilotThread};
+use super::screen::WindowSurface;
+use super::sound::AudioOutput;
+use super::stream::StreamSender;
+use super::train_pipe::TrainPipe;
+use super::window_config::WindowConfig;
 use crate::clock::Stopwatch;
 use crate::errors::AppError;
-use crate::stop::Stop;
-use spandrel_clients::rc::keyboard::{Keys, Wish};
-use spandrel_view::arrange::Which;
+use crate::stop::StopRequest;
+use spandrel_clients::rc::keyboard::{KeyBindings, WindowAction};
+use spandrel_view::arrange::ViewKind;
 use spandrel_view::flow::pipe::FromWindow;
-use spandrel_view::flow::{Flow, Page};
-use spandrel_view::gaze::Gaze;
-use spandrel_view::gpu::Pictures;
+use spandrel_view::flow::{Page, WindowFlow};
+use spandrel_view::gpu::PageTextures;
 use spandrel_view::hud;
+use spandrel_view::inspector_camera::InspectorCamera;
 use spandrel_view::quality::{PRESETS, Quality};
 use std::time::Duration;
 use winit::application::ApplicationHandler;
@@ -37,37 +37,37 @@ const REST: f64 = 0.25;
 const ZOOM_NOTCH: f64 = 1.15;
 
 /// Who stands behind the window.
-pub struct Crew {
+pub struct WindowThreads {
     /// Whoever flies from it.
-    pub pilot: Option<Pilot>,
+    pub pilot: Option<PilotThread>,
     /// Whoever says what is flown.
-    pub lead: Option<Lead>,
+    pub lead: Option<TrainPipe>,
     /// The flight that is shown from the beginning.
-    pub flight: Option<Flight>,
+    pub flight: Option<FlightView>,
     /// Whoever hands the camera's view on.
-    pub stream: Option<Stream>,
+    pub stream: Option<StreamSender>,
 }
 
 /// The window with everything behind it.
 pub struct Cockpit {
-    pub(super) plan: Plan,
-    pub(super) keys: Keys,
-    pub(super) flow: Flow,
-    pub(super) crew: Crew,
-    pub(super) keeper: Option<Keeper>,
-    pub(super) speaker: Speaker,
-    pub(super) stop: Stop,
-    pub(super) screen: Option<Screen>,
-    pub(super) pictures: Pictures,
-    pub(super) gaze: Gaze,
+    pub(super) plan: WindowConfig,
+    pub(super) keys: KeyBindings,
+    pub(super) flow: WindowFlow,
+    pub(super) crew: WindowThreads,
+    pub(super) keeper: Option<PictureWriter>,
+    pub(super) speaker: AudioOutput,
+    pub(super) stop: StopRequest,
+    pub(super) screen: Option<WindowSurface>,
+    pub(super) pictures: PageTextures,
+    pub(super) gaze: InspectorCamera,
     pub(super) map: bool,
-    pub(super) held: Held,
+    pub(super) held: HeldKeys,
     /// The pilot has been told that time stands still.
     pub(super) stood: bool,
     mouse: Option<(f64, f64)>,
     dragging: bool,
-    pub(super) words: Vec<(String, Duration)>,
-    pub(super) watch: Stopwatch,
+    pub(super) notices: Vec<(String, Duration)>,
+    pub(super) stopwatch: Stopwatch,
     pub(super) frame_at: Duration,
     due: Duration,
     failed: Option<AppError>,
@@ -75,10 +75,17 @@ pub struct Cockpit {
 
 impl Cockpit {
     /// Nothing is open yet.
-    pub fn new(plan: Plan, keys: Keys, flow: Flow, crew: Crew, speaker: Speaker, stop: Stop) -> Self {
+    pub fn new(
+        plan: WindowConfig,
+        keys: KeyBindings,
+        flow: WindowFlow,
+        crew: WindowThreads,
+        speaker: AudioOutput,
+        stop: StopRequest,
+    ) -> Self {
         Self {
             map: plan.map,
-            keeper: crew.flight.as_ref().and(plan.keep.clone()).map(Keeper::start),
+            keeper: crew.flight.as_ref().and(plan.keep.clone()).map(PictureWriter::start),
             plan,
             keys,
             flow,
@@ -86,14 +93,14 @@ impl Cockpit {
             speaker,
             stop,
             screen: None,
-            pictures: Pictures::default(),
-            gaze: Gaze::default(),
-            held: Held::default(),
+            pictures: PageTextures::default(),
+            gaze: InspectorCamera::default(),
+            held: HeldKeys::default(),
             stood: false,
             mouse: None,
             dragging: false,
-            words: Vec::new(),
-            watch: Stopwatch::start(),
+            notices: Vec::new(),
+            stopwatch: Stopwatch::start(),
             frame_at: Duration::ZERO,
             due: Duration::ZERO,
             failed: None,
@@ -104,22 +111,22 @@ impl Cockpit {
     pub fn run(mut self) -> Result<(), AppError> {
         let events = display::open()?;
         events.run_app(&mut self).map_err(|error| AppError::failed(format!("the window broke off: {error}")))?;
-        self.land();
+        self.handle_release();
         self.failed.map_or(Ok(()), Err)
     }
 
-    pub(super) fn quality(&self, screen: &Screen) -> Quality {
+    pub(super) fn quality(&self, screen: &WindowSurface) -> Quality {
         let usual = if screen.gpu.software { "low" } else { "high" };
         self.plan.quality.or_else(|| Quality::named(usual)).unwrap_or(PRESETS[0])
     }
 
     /// Lets go of the flight that is shown.
-    pub(super) fn land(&mut self) {
+    pub(super) fn handle_release(&mut self) {
         self.keeper = None;
         if let Some(flight) = self.crew.flight.take() {
             let wall = flight.listener.wall();
-            flight.listener.live().streams(None, wall);
-            let watch = self.watch;
+            flight.listener.live().set_video_status(None, wall);
+            let watch = self.stopwatch;
             flight.end(self.screen.as_mut(), |first| watch.elapsed().saturating_sub(first));
         }
     }
@@ -139,51 +146,59 @@ impl Cockpit {
             return;
         }
         match change {
-            Some(Change::Down(key)) => {
-                self.wish(&key);
+            Some(KeyChange::Down(key)) => {
+                self.handle_action(&key);
                 if self.flies() {
-                    self.hand_on(Ask::Down(key));
+                    self.forward_key(PilotCommand::Down(key));
                 }
             }
-            Some(Change::Up(key)) => self.hand_on(Ask::Up(key)),
+            Some(KeyChange::Up(key)) => self.forward_key(PilotCommand::Up(key)),
             None => {}
         }
     }
 
-    fn key_on_page(&mut self, event: &KeyEvent, change: Option<Change>) {
+    fn key_on_page(&mut self, event: &KeyEvent, change: Option<KeyChange>) {
         let trying = self.flow.page() == Page::Controls;
         match change {
-            Some(Change::Down(key)) if self.flow.asks() && self.keys.wish(&key) == Some(Wish::Pause) => {
+            Some(KeyChange::Down(key)) if self.flow.is_asking() && self.keys.window_action(&key) == Some(WindowAction::Pause) => {
                 self.flow.pause();
                 return;
             }
             // On the page of the controller the keys' sticks are seen.
-            Some(Change::Down(key)) if trying => self.hand_on(Ask::Down(key)),
-            Some(Change::Up(key)) => self.hand_on(Ask::Up(key)),
+            Some(KeyChange::Down(key)) if trying => self.forward_key(PilotCommand::Down(key)),
+            Some(KeyChange::Up(key)) => self.forward_key(PilotCommand::Up(key)),
             _ => {}
         }
         // Keys that are tried there do nothing else.
-        let tried = self.flow.tries_keys() && keys::name(&event.logical_key).is_some_and(|key| self.keys.is_stick(&key));
+        let tried = self.flow.is_key_test() && keys::name(&event.logical_key).is_some_and(|key| self.keys.is_stick(&key));
         if let Some(press) = keys::press(event).filter(|_| !tried) {
             self.flow.press(press);
         }
     }
 
-    fn wish(&mut self, key: &str) {
-        match self.keys.wish(key) {
-            Some(Wish::Swap) => self.flow.arrangement = self.flow.arrangement.next(),
-            Some(Wish::Map) => self.map = !self.map,
-            Some(Wish::Follow) => self.gaze = Gaze::default(),
-            Some(Wish::Pause) => self.flow.pause(),
-            Some(Wish::Restart) => self.flow.restart(),
-            Some(Wish::Sound) => self.flow.toggle_sound(),
-            Some(Wish::LookLeft | Wish::LookRight | Wish::LookUp | Wish::LookDown | Wish::ZoomIn | Wish::ZoomOut) | None => {}
+    fn handle_action(&mut self, key: &str) {
+        match self.keys.window_action(key) {
+            Some(WindowAction::Swap) => self.flow.arrangement = self.flow.arrangement.next(),
+            Some(WindowAction::Map) => self.map = !self.map,
+            Some(WindowAction::Follow) => self.gaze = InspectorCamera::default(),
+            Some(WindowAction::Pause) => self.flow.pause(),
+            Some(WindowAction::Restart) => self.flow.restart(),
+            Some(WindowAction::Sound) => self.flow.toggle_sound(),
+            Some(
+                WindowAction::LookLeft
+                | WindowAction::LookRight
+                | WindowAction::LookUp
+                | WindowAction::LookDown
+                | WindowAction::ZoomIn
+                | WindowAction::ZoomOut,
+            )
+            | None => {}
         }
     }
 
-    pub(super) fn hand_on(&self, ask: Ask) {
+    pub(super) fn forward_key(&self, ask: PilotCommand) {
         if let Some(pilot) = &self.crew.pilot {
-            pilot.ask(ask);
+            pilot.send_command(ask);
         }
     }
 
@@ -211,18 +226,18 @@ impl Cockpit {
     /// Height of the inspector's view on the screen, px.
     fn eyes_px(&self) -> f64 {
         let window = self.screen.as_ref().map_or(1.0, |screen| f64::from(screen.window.inner_size().height.max(1)));
-        let eyes = self.flow.arrangement.places().into_iter().find(|place| place.which == Which::Inspector);
+        let eyes = self.flow.arrangement.places().into_iter().find(|place| place.which == ViewKind::Inspector);
         window * eyes.map_or(1.0, |place| place.height)
     }
 
     fn redraw(&mut self, events: &ActiveEventLoop) {
-        let started = self.watch.elapsed();
+        let started = self.stopwatch.elapsed();
         if let Err(error) = self.frame() {
             self.failed = Some(error);
             events.exit();
         }
         let software = self.screen.as_ref().is_some_and(|screen| screen.gpu.software);
-        let took = self.watch.elapsed().saturating_sub(started);
+        let took = self.stopwatch.elapsed().saturating_sub(started);
         let shown = if software { MOST_HZ.1 } else { MOST_HZ.0 };
         let most_hz = if self.flies() { shown } else { PAGES_HZ };
         let rest = if software { took.mul_f64(REST) } else { Duration::ZERO };
@@ -236,11 +251,11 @@ impl ApplicationHandler for Cockpit {
             return;
         }
         let title = self.crew.flight.as_ref().map_or("Spandrel".to_owned(), |flight| format!("Spandrel: {}", flight.job.0.title));
-        match Screen::open(events, &title, self.plan.size_px) {
+        match WindowSurface::open(events, &title, self.plan.size_px) {
             Ok(screen) => {
                 self.screen = Some(screen);
                 if let Some(lead) = &self.crew.lead {
-                    lead.tell(&FromWindow::Ready);
+                    lead.send(&FromWindow::Ready);
                 }
             }
             Err(error) => {
@@ -260,7 +275,7 @@ impl ApplicationHandler for Cockpit {
             WindowEvent::KeyboardInput { event, is_synthetic, .. } => self.key(&event, is_synthetic),
             WindowEvent::Focused(false) => {
                 self.held.let_go();
-                self.hand_on(Ask::LetGo);
+                self.forward_key(PilotCommand::LetGo);
             }
             WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => self.click(state == ElementState::Pressed),
             WindowEvent::CursorMoved { position, .. } => self.moved(position.x, position.y),
@@ -277,11 +292,11 @@ impl ApplicationHandler for Cockpit {
     }
 
     fn about_to_wait(&mut self, events: &ActiveEventLoop) {
-        if self.stop.asked() {
+        if self.stop.is_requested() {
             events.exit();
             return;
         }
-        let now = self.watch.elapsed();
+        let now = self.stopwatch.elapsed();
         if now >= self.due {
             if let Some(screen) = &self.screen {
                 screen.window.request_redraw();

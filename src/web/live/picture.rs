@@ -1,9 +1,9 @@
 //! The camera's view, as a window keeps it in a file about once a second.
 
-use super::Live;
-use crate::web::answer::{Answer, Answered, Refusal};
-use crate::web::asked::Asked;
-use crate::web::state::State;
+use super::LiveVehicle;
+use crate::web::request::WebRequest;
+use crate::web::response::{HandlerResult, WebError, WebResponse};
+use crate::web::state::ServerState;
 use std::path::Path;
 use std::time::{Duration, UNIX_EPOCH};
 
@@ -25,8 +25,8 @@ pub fn version(path: &Path) -> Option<u64> {
 }
 
 /// The picture, for those who may watch the flight.
-pub fn show(state: &State, asked: &Asked) -> Answered {
-    let (_, live) = super::chosen(state, asked.word("vehicle"))?;
+pub fn show(state: &ServerState, asked: &WebRequest) -> HandlerResult {
+    let (_, live) = super::chosen(state, asked.query_value("vehicle"))?;
     of(live)
 }
 
@@ -34,14 +34,14 @@ pub fn show(state: &State, asked: &Asked) -> Answered {
 ///
 /// # Errors
 /// When there is none of now.
-pub fn of(live: &Live) -> Answered {
-    let path = live.picture.as_deref().filter(|path| version(path).is_some()).ok_or(Refusal::NotFound)?;
-    let bytes = std::fs::read(path).map_err(|_| Refusal::NotFound)?;
+pub fn of(live: &LiveVehicle) -> HandlerResult {
+    let path = live.picture.as_deref().filter(|path| version(path).is_some()).ok_or(WebError::NotFound)?;
+    let bytes = std::fs::read(path).map_err(|_| WebError::NotFound)?;
     // Whatever else the file may hold, a browser gets pictures from here alone.
     if !bytes.starts_with(&JPEG) {
-        return Err(Refusal::NotFound);
+        return Err(WebError::NotFound);
     }
-    Ok(Answer::picture(bytes))
+    Ok(WebResponse::picture(bytes))
 }
 
 #[cfg(test)]

@@ -1,12 +1,12 @@
 //! Values as they come, as server-sent events.
 
-use super::Live;
-use crate::web::state::State;
+use super::LiveVehicle;
+use crate::web::state::ServerState;
 use axum::body::Body;
 use axum::http::{Response, header};
 use axum::response::IntoResponse;
 use axum::response::sse::{Event, KeepAlive, Sse};
-use spandrel_training::web::access::Needs;
+use spandrel_training::web::access::AccessLevel;
 use std::convert::Infallible;
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use std::sync::Arc;
 const LOOK_AGAIN: u32 = 50;
 
 /// Values as they come, until the browser goes or the visitor may no more.
-pub fn stream(state: Arc<State>, live: &Live, cookie: Option<String>) -> Response<Body> {
+pub fn stream(state: Arc<ServerState>, live: &LiveVehicle, cookie: Option<String>) -> Response<Body> {
     let moments = live.moments.clone();
     let events = futures_util::stream::unfold((moments, state, cookie, 0u32), |(mut moments, state, cookie, count)| async move {
         // The first moment is there already.
@@ -32,10 +32,10 @@ pub fn stream(state: Arc<State>, live: &Live, cookie: Option<String>) -> Respons
     response
 }
 
-async fn still_may(state: &Arc<State>, cookie: Option<String>) -> bool {
+async fn still_may(state: &Arc<ServerState>, cookie: Option<String>) -> bool {
     let state = state.clone();
-    let looked = tokio::task::spawn_blocking(move || state.guard.recognise(&state.database, cookie)).await;
+    let looked = tokio::task::spawn_blocking(move || state.auth.identify(&state.database, cookie)).await;
     looked.is_ok_and(|recognised| {
-        recognised.is_ok_and(|recognised| !recognised.fresh && recognised.visitor.meets(Needs::Instructor))
+        recognised.is_ok_and(|recognised| !recognised.fresh && recognised.visitor.satisfies(AccessLevel::Instructor))
     })
 }

@@ -2,7 +2,7 @@
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::math;
-use spandrel_model::vehicle::{Battery, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, Sensors, Vehicle};
+use spandrel_model::vehicle::{BatterySpec, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, SensorSpec, Vehicle};
 
 /// A 1.3 kg quadrotor of Phantom size.
 pub fn quad() -> Vehicle {
@@ -34,7 +34,7 @@ pub fn quad() -> Vehicle {
             restitution: 0.3,
             friction: 0.6,
         },
-        battery: Battery {
+        battery: BatterySpec {
             cells: 3,
             capacity_ah: 5.2,
             internal_resistance_ohm: 0.03,
@@ -53,7 +53,7 @@ pub fn quad() -> Vehicle {
             rate_rad_s: 3.8,
             slow_down_time_s: 1.5,
         },
-        sensors: Sensors {
+        sensors: SensorSpec {
             imu_rate_hz: 400.0,
             accel_noise_density: 0.002,
             accel_bias_m_s2: 0.05,

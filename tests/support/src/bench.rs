@@ -2,25 +2,27 @@
 
 use crate::shipped::scenario;
 use spandrel_model::frames::{Ned, Vec3};
-use spandrel_model::scenario::{BatteryModel, Rules};
+use spandrel_model::scenario::{BatteryModel, SessionRules};
 use spandrel_model::site::Site;
 use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle::Vehicle;
-use spandrel_sitl::autopilot::{Autopilot, CONTROL_HZ, Landed, Mode, Outcome, Request, Sticks, Tuning};
+use spandrel_sitl::autopilot::{
+    Autopilot, AutopilotRequest, CONTROL_HZ, FlightMode, LandedState, RequestOutcome, Sticks, Tuning,
+};
 use spandrel_sitl::faults::Faults;
-use spandrel_sitl::physics::{Actuators, Air, Load, Model, State};
-use spandrel_sitl::sensors::{BatteryReading, Readings, Sensors, Truth};
+use spandrel_sitl::physics::{Actuators, AirState, AirframeModel, PhysicsState, PowerLoad};
+use spandrel_sitl::sensors::{BatteryReading, Readings, SensorInputs, Sensors};
 
 pub const VEHICLES: [&str; 4] = ["phantom2", "f450", "m30", "elios3"];
 const STEP: SimTime = SimTime::from_ms(1);
 
 pub struct Bench {
     pub site: Site,
-    pub model: Model,
-    pub state: State,
+    pub model: AirframeModel,
+    pub state: PhysicsState,
     pub sensors: Sensors,
     pub autopilot: Autopilot,
-    pub air: Air,
+    pub air: AirState,
     pub now: SimTime,
     pub sticks: Option<Sticks>,
     pub actuators: Actuators,
@@ -41,17 +43,17 @@ impl Bench {
         Self::with_rules(vehicle, seed, |_| ())
     }
 
-    pub fn with_rules(vehicle: &Vehicle, seed: u64, change: impl Fn(&mut Rules)) -> Self {
+    pub fn with_rules(vehicle: &Vehicle, seed: u64, change: impl Fn(&mut SessionRules)) -> Self {
         let mut scenario = scenario("drill-hover");
         change(&mut scenario.rules);
         let feet = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max);
         Self {
             site: Site::build(&scenario, seed),
-            model: Model::new(vehicle, BatteryModel::Physical),
-            state: State::at_rest(Vec3::new(0.0, 0.0, -feet - 0.02), 0.0),
+            model: AirframeModel::new(vehicle, BatteryModel::Physical),
+            state: PhysicsState::at_rest(Vec3::new(0.0, 0.0, -feet - 0.02), 0.0),
             sensors: Sensors::new(vehicle, false, scenario.origin, seed),
             autopilot: Autopilot::new(vehicle, &scenario.rules, scenario.origin, Tuning::default()),
-            air: Air::STILL,
+            air: AirState::STILL,
             now: SimTime::ZERO,
             sticks: None,
             actuators: Actuators::default(),
@@ -75,26 +77,26 @@ impl Bench {
             if self.control.fire(self.now) {
                 let b = &self.state.battery;
                 let battery = BatteryReading { voltage_v: b.voltage_v, current_a: b.current_a, remaining_pct: b.remaining_pct() };
-                let truth = Truth { rigid: &self.state.rigid, battery, lamp_on: false };
+                let truth = SensorInputs { rigid: &self.state.rigid, battery, lamp_on: false };
                 let mut readings = self.sensors.sample(&truth, &self.site, self.now);
                 readings.gnss = readings.gnss.filter(|_| !self.jammed);
                 readings.flow = readings.flow.filter(|_| !self.dark);
                 if let Some(tamper) = self.tamper {
                     tamper(&mut readings, self.now);
                 }
-                self.faults.spoil(&mut readings, self.now);
+                self.faults.corrupt_readings(&mut readings, self.now);
                 self.actuators = self.autopilot.step(&readings, self.now);
             }
-            let load = Load { lamp_on: false, airborne: true };
+            let load = PowerLoad { lamp_on: false, airborne: true };
             self.model.advance(&mut self.state, &self.actuators, &self.air, &self.site, load, self.now, STEP);
-            self.sensors.feel(&self.state.rigid, self.state.specific_force_m_s2, STEP);
+            self.sensors.integrate_imu(&self.state.rigid, self.state.specific_force_m_s2, STEP);
             self.now += STEP;
             each(self);
         }
     }
 
-    pub fn ask(&mut self, request: Request) {
-        assert_eq!(self.autopilot.request(request, self.now), Outcome::Accepted, "{request:?}");
+    pub fn ask(&mut self, request: AutopilotRequest) {
+        assert_eq!(self.autopilot.request(request, self.now), RequestOutcome::Accepted, "{request:?}");
     }
 
     pub fn position(&self) -> Vec3<Ned> {
@@ -110,11 +112,11 @@ impl Bench {
 
     pub fn take_off(&mut self, height_m: f64) {
         self.run(2.0, |_| ());
-        self.ask(Request::Arm { force: false });
-        self.ask(Request::Takeoff { height_m: Some(height_m) });
+        self.ask(AutopilotRequest::Arm { force: false });
+        self.ask(AutopilotRequest::Takeoff { height_m: Some(height_m) });
         self.run(6.0 + height_m, |_| ());
         let status = self.autopilot.status();
-        assert_eq!((status.mode, status.landed), (Mode::Hold, Landed::InAir), "{:?}", self.position());
+        assert_eq!((status.mode, status.landed), (FlightMode::Hold, LandedState::InAir), "{:?}", self.position());
     }
 
     /// Hovering with centred sticks in position mode.
@@ -122,7 +124,7 @@ impl Bench {
         let mut bench = Self::airborne(vehicle, seed, height_m);
         bench.sticks = Some(Sticks::default());
         bench.run(0.1, |_| ());
-        bench.ask(Request::SetMode(Mode::Position));
+        bench.ask(AutopilotRequest::SetMode(FlightMode::Position));
         bench.run(2.0, |_| ());
         bench
     }

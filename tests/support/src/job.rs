@@ -9,8 +9,8 @@ use spandrel_model::scenario::*;
 use spandrel_model::site::{CameraPose, DefectView};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::*;
-use spandrel_monitor::assessment::{Graded, assess_log};
-use spandrel_monitor::measures::attention::Survey;
+use spandrel_monitor::assessment::{AssessedSession, assess_log};
+use spandrel_monitor::measures::attention::SiteSurvey;
 use std::sync::Arc;
 
 /// Frames per second of the test job; a divisor of the truth's 50 Hz, so that frames fall on samples.
@@ -48,7 +48,12 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
         title: "A job for tests".to_owned(),
         seed: None,
         origin: Geo { latitude_deg: 46.0, longitude_deg: 8.0, altitude_m: 400.0 },
-        terrain: Terrain { size_m: 400.0, spacing_m: 10.0, water_level_m: -20.0, source: TerrainSource::Flat { height_m: 0.0 } },
+        terrain: TerrainSpec {
+            size_m: 400.0,
+            spacing_m: 10.0,
+            water_level_m: -20.0,
+            source: TerrainSource::Flat { height_m: 0.0 },
+        },
         ground_team: GroundTeam {
             pad_m: Vec3::new(0.0, 0.0, 0.0),
             pad_heading_deg: 0.0,
@@ -60,9 +65,9 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
         },
         bridges: Vec::new(),
         tasks,
-        defects: Defects { count: 0, size_factor: 1.0, elements: Vec::new(), kinds: Vec::new(), placed: None },
-        traffic: Traffic { cars: 0, trucks: 0, pedestrians: 0, car_speed_m_s: 15.0 },
-        wind: Wind {
+        defects: DefectSpec { count: 0, size_factor: 1.0, elements: Vec::new(), kinds: Vec::new(), placed: None },
+        traffic: TrafficSpec { cars: 0, trucks: 0, pedestrians: 0, car_speed_m_s: 15.0 },
+        wind: WindSpec {
             model: WindModel::Paper,
             speed_m_s: 0.0,
             paper_force_n: 0.0,
@@ -71,8 +76,8 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
             turbulence: 0.0,
             events: Vec::new(),
         },
-        light: Light { start_unix_s: 0, cloud_cover: 0.0, water_albedo: 0.1, ground_albedo: 0.2 },
-        rules: Rules {
+        light: LightSpec { start_unix_s: 0, cloud_cover: 0.0, water_albedo: 0.1, ground_albedo: 0.2 },
+        rules: SessionRules {
             after_crash: AfterCrash::Respawn,
             battery: BatteryModel::Paper,
             low_battery_return: false,
@@ -81,7 +86,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
             gnss_shadow: false,
             respawn_after: SimTime::from_ms(3_000),
         },
-        feedback: Feedback {
+        feedback: FeedbackThresholds {
             too_close_m: 2.5,
             too_close_clear_m: 2.8,
             off_path_max_m: 8.0,
@@ -91,7 +96,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
             battery_yellow_pct: 30.0,
             text_interval: SimTime::from_ms(5_000),
         },
-        scoring: Scoring {
+        scoring: ScoringParams {
             frame_rate_hz: RATE_HZ,
             speed_limit_m_s: 4.4704,
             max_speed_m_s: 13.4112,
@@ -133,7 +138,7 @@ pub fn vehicle() -> Vehicle {
             restitution: 0.3,
             friction: 0.5,
         },
-        battery: Battery {
+        battery: BatterySpec {
             cells: 3,
             capacity_ah: 5.2,
             internal_resistance_ohm: 0.02,
@@ -152,7 +157,7 @@ pub fn vehicle() -> Vehicle {
             rate_rad_s: 3.0,
             slow_down_time_s: 1.0,
         },
-        sensors: Sensors {
+        sensors: SensorSpec {
             imu_rate_hz: 400.0,
             accel_noise_density: 0.0,
             accel_bias_m_s2: 0.0,
@@ -216,11 +221,11 @@ impl Fence {
     }
 }
 
-impl Survey for Fence {
+impl SiteSurvey for Fence {
     fn defects(&self) -> &[PlacedDefect] {
         &self.defects
     }
-    fn look(&self, pose: &CameraPose, _: &Camera, _: &Lamp, _: SimTime) -> Vec<DefectView> {
+    fn view_defects(&self, pose: &CameraPose, _: &Camera, _: &Lamp, _: SimTime) -> Vec<DefectView> {
         let near = |defect: &&PlacedDefect| (defect.position_m.east() - pose.position_m.east()).abs() < 1.0;
         let seen = |defect: &PlacedDefect| DefectView {
             defect_id: defect.id,
@@ -243,7 +248,7 @@ impl Survey for Fence {
     }
 }
 
-pub fn fence_of_ten(_: &Scenario, _: u64) -> Arc<dyn Survey> {
+pub fn fence_of_ten(_: &Scenario, _: u64) -> Arc<dyn SiteSurvey> {
     Arc::new(Fence::of(10))
 }
 
@@ -458,6 +463,6 @@ pub fn clean_flight() -> Tape {
 }
 
 /// What the scorer makes of a tape.
-pub fn grade(tape: &Tape, scenario: &Scenario) -> Graded {
+pub fn grade(tape: &Tape, scenario: &Scenario) -> AssessedSession {
     assess_log(&tape.log(1_000_000), scenario, &vehicle(), fence_of_ten).unwrap()
 }

@@ -59,12 +59,12 @@ pub fn upload(station: &mut Station, items: &[MISSION_ITEM_INT_DATA]) -> MavMiss
     let kind = items.first().map_or(PLAN, |i| i.mission_type);
     let mut wanted = station.ask(&count(items.len() as u16, kind), asked);
     while let Some(seq) = wanted {
-        station.heard.clear();
+        station.received.clear();
         station.send(&MavMessage::MISSION_ITEM_INT(items[usize::from(seq)].clone()));
         station.run_ms(1);
-        wanted = station.last(asked);
+        wanted = station.last_message(asked);
     }
-    station.last(result).expect("every upload ends with an acknowledgement")
+    station.last_message(result).expect("every upload ends with an acknowledgement")
 }
 
 pub fn ready(seed: u64) -> Station {

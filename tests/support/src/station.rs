@@ -1,7 +1,7 @@
 //! A ground station and a monitor's place on an in-process vehicle: no sockets, no clock.
 
 use crate::shipped;
-use spandrel_mavlink::codec::{Decoder, Encoder, Received};
+use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
 use spandrel_mavlink::dialect::{
     COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage, MavParamType, MavResult, PARAM_SET_DATA,
 };
@@ -99,18 +99,18 @@ impl Station {
         while let Some(transmit) = self.vehicle.sim.poll_transmit() {
             let frames = self.decoder.datagram(&transmit.bytes);
             assert_eq!(self.decoder.bad_bytes(), 0, "whole frames only");
-            self.vehicle.heard.extend(frames);
+            self.vehicle.received.extend(frames);
         }
     }
 
     /// The frames of one of the vehicle's datagrams.
-    pub fn read(&mut self, bytes: &[u8]) -> Vec<Received> {
+    pub fn read(&mut self, bytes: &[u8]) -> Vec<ReceivedFrame> {
         self.decoder.datagram(bytes)
     }
 
     /// All messages that a filter likes, in order.
     pub fn all<T>(&self, pick: impl Fn(&MavMessage) -> Option<T>) -> Vec<T> {
-        self.heard.iter().filter_map(|f| f.message.as_ref()).filter_map(pick).collect()
+        self.received.iter().filter_map(|f| f.message.as_ref()).filter_map(pick).collect()
     }
 
     /// What the vehicle has said in words.
@@ -125,21 +125,22 @@ impl Station {
 
     /// How fast it is over the ground, m/s.
     pub fn speed(&self) -> f32 {
-        self.last(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some(p.vx.hypot(p.vy)) } else { None }).unwrap()
+        self.last_message(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some(p.vx.hypot(p.vy)) } else { None }).unwrap()
     }
 
     /// The gimbal's pitch, deg.
     pub fn gimbal_deg(&self) -> f32 {
-        let q = self.last(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(g.q) } else { None }).unwrap();
+        let q =
+            self.last_message(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(g.q) } else { None }).unwrap();
         (2.0 * q[2].atan2(q[0])).to_degrees()
     }
 
     /// Sends a message and returns the first answer that a filter likes, which must come at once.
     pub fn ask<T>(&mut self, message: &MavMessage, pick: impl Fn(&MavMessage) -> Option<T>) -> Option<T> {
-        self.heard.clear();
+        self.received.clear();
         self.send(message);
         self.run_ms(1);
-        self.heard.iter().filter_map(|f| f.message.as_ref()).find_map(pick)
+        self.received.iter().filter_map(|f| f.message.as_ref()).find_map(pick)
     }
 
     /// Sets a parameter, whose value travels as these bits; the value shown in the answer.
@@ -161,8 +162,8 @@ impl Station {
             if done(self) {
                 return true;
             }
-            if self.heard.len() > 100_000 {
-                self.heard.drain(..50_000);
+            if self.received.len() > 100_000 {
+                self.received.drain(..50_000);
             }
         }
         false
@@ -170,7 +171,7 @@ impl Station {
 
     /// The vehicle's mode as its heartbeat names it.
     pub fn mode(&self) -> Option<u32> {
-        self.heard.iter().rev().filter(|f| f.component_id == 1).find_map(|f| match &f.message {
+        self.received.iter().rev().filter(|f| f.component_id == 1).find_map(|f| match &f.message {
             Some(MavMessage::HEARTBEAT(beat)) => Some(beat.custom_mode),
             _ => None,
         })
@@ -178,7 +179,7 @@ impl Station {
 
     /// The place as the vehicle reports it: north, east, down, m.
     pub fn place(&self) -> [f32; 3] {
-        self.last(|m| match m {
+        self.last_message(|m| match m {
             MavMessage::LOCAL_POSITION_NED(p) => Some([p.x, p.y, p.z]),
             _ => None,
         })
@@ -187,7 +188,7 @@ impl Station {
 
     /// The place as the vehicle reports it on the globe, m north, east, down of the scenario's origin.
     pub fn site_place(&self) -> [f64; 3] {
-        let place = self.last(|m| match m {
+        let place = self.last_message(|m| match m {
             MavMessage::GLOBAL_POSITION_INT(g) => Some(Geo {
                 latitude_deg: f64::from(g.lat) * 1e-7,
                 longitude_deg: f64::from(g.lon) * 1e-7,
@@ -206,7 +207,7 @@ impl Station {
 
     /// Sends a command and returns the result of its acknowledgement, which must come at once.
     pub fn command(&mut self, component: u8, command: MavCmd, p: [f32; 7]) -> MavResult {
-        self.heard.clear();
+        self.received.clear();
         self.send(&MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
             command,
             param1: p[0],
@@ -221,7 +222,7 @@ impl Station {
             confirmation: 0,
         }));
         self.run_ms(2);
-        self.last(|m| match m {
+        self.last_message(|m| match m {
             MavMessage::COMMAND_ACK(ack) if ack.command == command && ack.target_system == 255 => Some(ack.result),
             _ => None,
         })

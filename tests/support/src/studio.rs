@@ -6,14 +6,14 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
-use spandrel_view::camera::Eye;
+use spandrel_view::camera::PinholeCamera;
 use spandrel_view::gpu::{Gpu, Overlay, Renderer};
-use spandrel_view::hud::Item;
+use spandrel_view::hud::DrawItem;
 use spandrel_view::picture::Picture;
 use spandrel_view::quality::Quality;
 use spandrel_view::scene::{DronePose, Scene};
 use spandrel_view::shot::Shot;
-use spandrel_view::stage::{Moment, Stage, aimed, parked};
+use spandrel_view::stage::{SceneMoment, Stage, camera_aimed_at, drone_on_pad};
 use std::sync::Arc;
 
 /// A midsummer forenoon, 2026-06-21 09:00 UTC: high sun in the south-east.
@@ -86,7 +86,7 @@ impl Studio {
         self.renderer.picture(&self.gpu, shot).unwrap()
     }
 
-    pub fn draw_with(&mut self, shot: &Shot, items: &[Item]) -> Picture {
+    pub fn draw_with(&mut self, shot: &Shot, items: &[DrawItem]) -> Picture {
         self.renderer.picture_with(&self.gpu, shot, &mut self.overlay, items).unwrap()
     }
 
@@ -102,17 +102,17 @@ impl Studio {
     /// What the aircraft's camera sees from one point towards another; `hfov_deg` instead of its own lens.
     pub fn seen(&self, from: Vec3<Enu>, look: Vec3<Enu>, hfov_deg: f64, lamp: bool, size_px: (u32, u32)) -> Shot {
         let lens = Camera { hfov_rad: hfov_deg.to_radians(), ..self.vehicle.camera };
-        let pose = aimed(from, look, lamp);
-        let standing = parked(&self.scenario, &self.vehicle);
-        self.stage().through(Eye::of(&pose, &lens), Some(&pose), &lens, Some(&standing), (self.at, size_px))
+        let pose = camera_aimed_at(from, look, lamp);
+        let standing = drone_on_pad(&self.scenario, &self.vehicle);
+        self.stage().through(PinholeCamera::of(&pose, &lens), Some(&pose), &lens, Some(&standing), (self.at, size_px))
     }
 
     /// The aircraft in flight here, looking there.
-    pub fn moment(&self, from: Vec3<Enu>, look: Vec3<Enu>, lamp: bool, velocity_m_s: Vec3<Enu>) -> Moment {
+    pub fn moment(&self, from: Vec3<Enu>, look: Vec3<Enu>, lamp: bool, velocity_m_s: Vec3<Enu>) -> SceneMoment {
         let to = look - from;
         let yaw = math::atan2(to.east(), to.north());
         let drone = DronePose { position_m: from, ned_from_frd: Rotation::from_euler(0.02, -0.05, yaw), spinning: true };
-        let camera = aimed(from + to.unit() * 0.1, look, lamp);
-        Moment { at: self.at, drone, velocity_m_s, camera, lens: self.vehicle.camera, turn: Default::default() }
+        let camera = camera_aimed_at(from + to.unit() * 0.1, look, lamp);
+        SceneMoment { at: self.at, drone, velocity_m_s, camera, lens: self.vehicle.camera, turn: Default::default() }
     }
 }

@@ -1,8 +1,8 @@
 //! The job as a plan file of QGroundControl (<https://docs.qgroundcontrol.com/master/en/qgc-dev-user-guide/file_formats/plan.html>): the
 //! tasks' reference paths with the transits between them, speeds, gimbal, lamp and pictures.
 
-use super::job::{Job, Map, over_pad};
-use super::track::Leg;
+use super::goals::{FlightGoal, PlanningContext, hover_point_over_pad};
+use super::track::TrackLeg;
 use serde_json::{Value, json};
 use spandrel_mavlink::dialect::{MavAutopilot, MavType};
 use spandrel_model::frames::{Enu, Vec3};
@@ -42,7 +42,7 @@ const STOP_CAPTURE: u16 = 2001;
 const TARGETING: f64 = 2.0;
 
 /// Writes items one after the other.
-struct Writer {
+struct PlanWriter {
     plane: LocalPlane,
     pad_up_m: f64,
     items: Vec<Value>,
@@ -51,7 +51,7 @@ struct Writer {
     pitch_deg: f64,
 }
 
-impl Writer {
+impl PlanWriter {
     fn item(&mut self, command: u16, frame: u8, params: [Option<f64>; 7]) {
         let mut item = json!({
             "autoContinue": true,
@@ -70,32 +70,32 @@ impl Writer {
         self.items.push(item);
     }
 
-    fn act(&mut self, command: u16, params: [f64; 7]) {
+    fn command_item(&mut self, command: u16, params: [f64; 7]) {
         self.item(command, NO_PLACE, params.map(Some));
     }
 
-    fn place(&self, point_m: Vec3<Enu>) -> [f64; 3] {
+    fn geo_position(&self, point_m: Vec3<Enu>) -> [f64; 3] {
         let geo = self.plane.geo_from_enu(point_m);
         [geo.latitude_deg, geo.longitude_deg, point_m.up() - self.pad_up_m]
     }
 
     fn waypoint(&mut self, point_m: Vec3<Enu>, accept_m: f64, yaw_deg: Option<f64>) {
-        let [lat, lon, height] = self.place(point_m).map(Some);
+        let [lat, lon, height] = self.geo_position(point_m).map(Some);
         self.item(WAYPOINT, RELATIVE, [Some(0.0), Some(accept_m), Some(0.0), yaw_deg, lat, lon, height]);
     }
 
-    fn fly_at(&mut self, speed_m_s: f64) {
+    fn set_speed(&mut self, speed_m_s: f64) {
         let speed_m_s = speed_m_s.min(self.fastest_m_s);
         if (self.speed_m_s - speed_m_s).abs() > 0.05 {
             self.speed_m_s = speed_m_s;
-            self.act(CHANGE_SPEED, [1.0, speed_m_s, -1.0, 0.0, 0.0, 0.0, 0.0]);
+            self.command_item(CHANGE_SPEED, [1.0, speed_m_s, -1.0, 0.0, 0.0, 0.0, 0.0]);
         }
     }
 
     fn tilt_gimbal(&mut self, pitch_deg: f64) {
         if (self.pitch_deg - pitch_deg).abs() > GIMBAL_STEP_DEG {
             self.pitch_deg = pitch_deg;
-            self.act(MOUNT_CONTROL, [pitch_deg, 0.0, 0.0, 0.0, 0.0, 0.0, TARGETING]);
+            self.command_item(MOUNT_CONTROL, [pitch_deg, 0.0, 0.0, 0.0, 0.0, 0.0, TARGETING]);
         }
     }
 
@@ -104,11 +104,11 @@ impl Writer {
         self.item(SET_ACTUATOR, NO_PLACE, [Some(value), None, None, None, None, None, Some(0.0)]);
     }
 
-    fn leg(&mut self, leg: &Leg) {
-        for k in kept(leg) {
+    fn leg(&mut self, leg: &TrackLeg) {
+        for k in waypoint_indices(leg) {
             let task = leg.task[k].is_some();
-            self.fly_at(leg.speed_m_s[k]);
-            let look = leg.look[k];
+            self.set_speed(leg.speed_m_s[k]);
+            let look = leg.line_of_sight[k];
             if let Some(look) = look {
                 self.tilt_gimbal(math::atan2(look.up(), look.horizontal_norm()).to_degrees());
             }
@@ -120,63 +120,64 @@ impl Writer {
 }
 
 /// Points of a leg that become waypoints: its ends, its turns, and one at every stride.
-fn kept(leg: &Leg) -> Vec<usize> {
+fn waypoint_indices(leg: &TrackLeg) -> Vec<usize> {
     let mut kept: Vec<usize> = Vec::new();
     for k in 0..leg.points_m.len() {
         let last = kept.last().copied();
         let stride = if leg.task[k].is_some() { TASK_STRIDE_M } else { TRANSIT_STRIDE_M };
         let end = k == 0 || k + 1 == leg.points_m.len();
         let far = last.is_none_or(|last| (leg.points_m[k] - leg.points_m[last]).norm() >= stride);
-        if end || far || turns(leg, k) || leg.task[k] != leg.task[k - 1] || leg.speed_m_s[k] != leg.speed_m_s[k - 1] {
+        if end || far || is_turn(leg, k) || leg.task[k] != leg.task[k - 1] || leg.speed_m_s[k] != leg.speed_m_s[k - 1] {
             kept.push(k);
         }
     }
     kept
 }
 
-fn turns(leg: &Leg, k: usize) -> bool {
+fn is_turn(leg: &TrackLeg, k: usize) -> bool {
     let way = |a: usize, b: usize| (leg.points_m[b] - leg.points_m[a]).unit();
     let angle = |a: Vec3<Enu>, b: Vec3<Enu>| math::acos(a.dot(b).clamp(-1.0, 1.0));
     let bent = angle(way(k - 1, k), way(k, k + 1)) > TURN_RAD;
-    bent || matches!((leg.look[k - 1], leg.look[k]), (Some(before), Some(now)) if angle(before, now) > TURN_RAD)
+    bent || matches!((leg.line_of_sight[k - 1], leg.line_of_sight[k]), (Some(before), Some(now)) if angle(before, now) > TURN_RAD)
 }
 
 /// The plan file: take-off, every task in order with pictures, return. Heights count from the pad, where home will be. `firmware` is the
 /// autopilot that it is for.
 #[must_use]
-pub fn plan(map: &Map, firmware: MavAutopilot) -> Value {
+pub fn plan(map: &PlanningContext, firmware: MavAutopilot) -> Value {
     let scenario = map.scenario;
-    let map = &Map { keep_clear_m: Some(scenario.feedback.too_close_m + CLEAR_BY_M), ..*map };
+    let map = &PlanningContext { keep_clear_m: Some(scenario.feedback.too_close_m + CLEAR_BY_M), ..*map };
     let pad = scenario.ground_team.pad_m;
     let plane = LocalPlane::new(scenario.origin);
     let home = plane.geo_from_enu(pad);
     let fastest_m_s = SPEED_SHARE * scenario.scoring.speed_limit_m_s;
-    let mut w = Writer { plane, pad_up_m: pad.up(), items: Vec::new(), speed_m_s: 0.0, fastest_m_s, pitch_deg: f64::INFINITY };
-    let mut here = over_pad(scenario);
-    let [lat, lon, height] = w.place(here).map(Some);
+    let mut w =
+        PlanWriter { plane, pad_up_m: pad.up(), items: Vec::new(), speed_m_s: 0.0, fastest_m_s, pitch_deg: f64::INFINITY };
+    let mut here = hover_point_over_pad(scenario);
+    let [lat, lon, height] = w.geo_position(here).map(Some);
     w.item(TAKEOFF, RELATIVE, [Some(0.0), Some(0.0), Some(0.0), None, lat, lon, height]);
     for (index, task) in scenario.tasks.iter().enumerate() {
-        let leg = map.leg(Job::Task(index), here);
+        let leg = map.leg(FlightGoal::Task(index), here);
         let start = leg.task.iter().position(Option::is_some).unwrap_or(0);
         let (way, path) = leg.split_at(start);
         w.leg(&way);
         if task.dark {
             w.lamp(true);
         }
-        w.act(START_CAPTURE, [0.0, PICTURE_EVERY_S, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        w.command_item(START_CAPTURE, [0.0, PICTURE_EVERY_S, 0.0, 0.0, 0.0, 0.0, 0.0]);
         w.leg(&path);
-        w.act(STOP_CAPTURE, [0.0; 7]);
+        w.command_item(STOP_CAPTURE, [0.0; 7]);
         if task.dark {
             w.lamp(false);
         }
         here = path.points_m.last().copied().unwrap_or(here);
     }
-    w.leg(&map.leg(Job::Home, here));
+    w.leg(&map.leg(FlightGoal::Home, here));
     w.item(RETURN, NO_PLACE, [Some(0.0); 7]);
-    file(w.items, home, firmware, fastest_m_s)
+    plan_file(w.items, home, firmware, fastest_m_s)
 }
 
-fn file(items: Vec<Value>, home: Geo, firmware: MavAutopilot, speed_m_s: f64) -> Value {
+fn plan_file(items: Vec<Value>, home: Geo, firmware: MavAutopilot, speed_m_s: f64) -> Value {
     json!({
         "fileType": "Plan",
         "version": 1,

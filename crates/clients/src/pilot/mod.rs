@@ -2,25 +2,23 @@
 //! commands alone. It knows the job (scenario, reference paths, where it would look) and sees the world late and with error; it never
 //! errs by type. Sans-IO: datagrams in, datagrams out, the vehicle's own clock.
 
-pub mod eye;
-pub mod hand;
-pub mod job;
+pub mod goals;
 pub mod perception;
-pub mod plan;
+pub mod route_search;
 pub mod skill;
+pub mod stick_response;
 pub mod track;
-pub mod wire;
+pub mod vehicle_link;
+pub mod visual_search;
 
-mod flight;
 pub mod flight_plan;
+mod guidance;
 
-pub use skill::{Factor, Skill};
+pub use skill::{Skill, SkillFactor};
 
-use eye::Eye;
-use flight::Flight;
-use hand::Hand;
-use job::Job;
-use perception::{Motion, Perception};
+use goals::FlightGoal;
+use guidance::Guidance;
+use perception::{MotionState, Perception};
 use spandrel_mavlink::dialect::MavCmd;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
@@ -28,7 +26,9 @@ use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle::Vehicle;
 use std::collections::VecDeque;
 use std::sync::Arc;
-use wire::{News, Wire};
+use stick_response::StickResponse;
+use vehicle_link::{VehicleLink, VehicleUpdate};
+use visual_search::VisualSearch;
 
 /// Between two tries of a command that has not had its effect, s.
 const RETRY_S: f64 = 1.5;
@@ -67,7 +67,7 @@ pub struct PilotReport {
 
 /// What the pilot is doing.
 #[derive(Debug, Clone, PartialEq)]
-enum Phase {
+enum PilotPhase {
     /// Waiting for the vehicle to be ready, then arming.
     Prepare,
     /// Climbing off the pad.
@@ -85,16 +85,16 @@ enum Phase {
 pub struct Pilot {
     config: PilotConfig,
     site: Option<Site>,
-    wire: Wire,
-    eyes: Perception,
-    hand: Hand,
-    eye: Eye,
-    jobs: VecDeque<Job>,
-    flight: Flight,
-    phase: Phase,
+    link: VehicleLink,
+    perception: Perception,
+    stick_response: StickResponse,
+    visual_search: VisualSearch,
+    goals: VecDeque<FlightGoal>,
+    guidance: Guidance,
+    phase: PilotPhase,
     now: SimTime,
     heartbeat: Schedule,
-    last_try: SimTime,
+    last_attempt: SimTime,
     phase_since: SimTime,
     respawns: i32,
     lamp: bool,
@@ -109,19 +109,19 @@ impl Pilot {
     /// A pilot who has read the job.
     #[must_use]
     pub fn new(config: PilotConfig) -> Self {
-        let jobs = (0..config.scenario.tasks.len()).map(Job::Task).chain([Job::Home]).collect();
+        let jobs = (0..config.scenario.tasks.len()).map(FlightGoal::Task).chain([FlightGoal::Home]).collect();
         Self {
             site: None,
-            wire: Wire::new(),
-            eyes: Perception::new(config.seed),
-            hand: Hand::new(config.seed),
-            eye: Eye::new(config.seed),
-            jobs,
-            flight: Flight::new(),
-            phase: Phase::Prepare,
+            link: VehicleLink::new(),
+            perception: Perception::new(config.seed),
+            stick_response: StickResponse::new(config.seed),
+            visual_search: VisualSearch::new(config.seed),
+            goals: jobs,
+            guidance: Guidance::new(),
+            phase: PilotPhase::Prepare,
             now: SimTime::ZERO,
             heartbeat: Schedule::new(SimTime::ZERO, 1.0),
-            last_try: SimTime::ZERO,
+            last_attempt: SimTime::ZERO,
             phase_since: SimTime::ZERO,
             respawns: 0,
             lamp: false,
@@ -137,17 +137,17 @@ impl Pilot {
     /// Reads one datagram and acts on it.
     pub fn handle_datagram(&mut self, bytes: &[u8]) {
         let plane = spandrel_model::geodesy::LocalPlane::new(self.config.scenario.origin);
-        for news in self.wire.receive(bytes, &plane) {
+        for news in self.link.receive(bytes, &plane) {
             match news {
-                News::Truth(motion) => self.see(motion),
-                News::Timesync(token) => {
-                    self.beat(SimTime::from_ns(token));
-                    self.wire.timesync(token, self.now);
+                VehicleUpdate::Truth(motion) => self.observe(motion),
+                VehicleUpdate::Timesync(token) => {
+                    self.send_heartbeat(SimTime::from_ns(token));
+                    self.link.answer_timesync(token, self.now);
                 }
             }
         }
         if self.site.is_none()
-            && let Some(seed) = self.wire.heard.seed
+            && let Some(seed) = self.link.status.seed
         {
             self.site = Some(Site::build(&self.config.scenario, seed));
         }
@@ -157,13 +157,13 @@ impl Pilot {
     /// dialled learns of it.
     pub fn handle_timeout(&mut self, now: SimTime) {
         if self.now == SimTime::ZERO {
-            self.beat(now);
+            self.send_heartbeat(now);
         }
     }
 
     /// The next datagram to send.
     pub fn poll_transmit(&mut self) -> Option<Vec<u8>> {
-        self.wire.poll_transmit()
+        self.link.poll_transmit()
     }
 
     /// How it ended, once it has.
@@ -174,106 +174,106 @@ impl Pilot {
 
     /// What the pilot is doing, in words, for progress lines.
     #[must_use]
-    pub fn doing(&self) -> String {
-        match (&self.phase, self.flight.task()) {
-            (Phase::Prepare, _) => "preparing".into(),
-            (Phase::Climb, _) => "taking off".into(),
-            (Phase::Fly, Some(task)) => format!("task {}", self.config.scenario.tasks[task].id),
-            (Phase::Fly, None) => "in transit".into(),
-            (Phase::Descend, _) => "landing".into(),
-            (Phase::Done, _) => "done".into(),
+    pub fn status_text(&self) -> String {
+        match (&self.phase, self.guidance.task()) {
+            (PilotPhase::Prepare, _) => "preparing".into(),
+            (PilotPhase::Climb, _) => "taking off".into(),
+            (PilotPhase::Fly, Some(task)) => format!("task {}", self.config.scenario.tasks[task].id),
+            (PilotPhase::Fly, None) => "in transit".into(),
+            (PilotPhase::Descend, _) => "landing".into(),
+            (PilotPhase::Done, _) => "done".into(),
         }
     }
 
-    fn beat(&mut self, now: SimTime) {
+    fn send_heartbeat(&mut self, now: SimTime) {
         if self.heartbeat.fire(now) {
-            self.wire.heartbeat();
+            self.link.send_heartbeat();
         }
     }
 
     /// One look at the world: 50 times a second.
-    fn see(&mut self, motion: Motion) {
-        let put_back = self.wire.heard.respawns != self.respawns;
-        if motion.time <= self.now || (self.phase == Phase::Done && !(put_back && self.landed())) {
+    fn observe(&mut self, motion: MotionState) {
+        let put_back = self.link.status.respawns != self.respawns;
+        if motion.time <= self.now || (self.phase == PilotPhase::Done && !(put_back && self.landed())) {
             return;
         }
         let dt_s = (motion.time - self.now).s().min(0.1);
         self.now = motion.time;
-        self.beat(motion.time);
+        self.send_heartbeat(motion.time);
         if put_back {
-            self.respawns = self.wire.heard.respawns;
-            if self.phase == Phase::Done {
+            self.respawns = self.link.status.respawns;
+            if self.phase == PilotPhase::Done {
                 // It stood beside its home and is in the air again.
                 self.report = None;
-                self.enter(Phase::Descend);
+                self.enter(PilotPhase::Descend);
             }
-            self.eyes.forget();
-            self.hand.release();
-            self.flight.replan();
+            self.perception.reset();
+            self.stick_response.release();
+            self.guidance.replan();
         }
-        self.eyes.show(motion);
+        self.perception.observe(motion);
         let skill = self.config.skill;
-        let Some(belief) = self.eyes.believe(&skill, dt_s) else { return };
-        let axes = self.act(&belief);
-        let axes = self.hand.step(axes, &skill, self.now, dt_s);
-        self.wire.sticks(axes);
+        let Some(belief) = self.perception.estimate(&skill, dt_s) else { return };
+        let axes = self.fly_phase(&belief);
+        let axes = self.stick_response.step(axes, &skill, self.now, dt_s);
+        self.link.send_sticks(axes);
     }
 
-    fn enter(&mut self, phase: Phase) {
+    fn enter(&mut self, phase: PilotPhase) {
         self.phase = phase;
         self.phase_since = self.now;
     }
 
-    fn in_phase_s(&self) -> f64 {
+    fn phase_time_s(&self) -> f64 {
         (self.now - self.phase_since).s()
     }
 
-    fn act(&mut self, belief: &Motion) -> hand::Axes {
+    fn fly_phase(&mut self, belief: &MotionState) -> stick_response::StickAxes {
         match self.phase {
-            Phase::Prepare => self.prepare(),
-            Phase::Climb => self.climb(belief),
-            Phase::Fly => self.fly(belief),
-            Phase::Descend => self.descend(belief),
-            Phase::Done => [0.0; 4],
+            PilotPhase::Prepare => self.prepare(),
+            PilotPhase::Climb => self.climb(belief),
+            PilotPhase::Fly => self.fly(belief),
+            PilotPhase::Descend => self.descend(belief),
+            PilotPhase::Done => [0.0; 4],
         }
     }
 
     /// True when a command may be tried again.
-    fn may_try(&mut self) -> bool {
-        let may = (self.now - self.last_try).s() > RETRY_S;
+    fn may_retry(&mut self) -> bool {
+        let may = (self.now - self.last_attempt).s() > RETRY_S;
         if may {
-            self.last_try = self.now;
+            self.last_attempt = self.now;
         }
         may
     }
 
     fn arm(&mut self) {
-        if self.may_try() {
-            self.wire.position_mode();
-            self.wire.command(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        if self.may_retry() {
+            self.link.set_position_mode();
+            self.link.send_command(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         }
     }
 
-    fn prepare(&mut self) -> hand::Axes {
-        if self.wire.heard.armed && self.site.is_some() {
-            self.enter(Phase::Climb);
-        } else if self.wire.heard.ready && self.site.is_some() && self.in_phase_s() > 1.0 {
+    fn prepare(&mut self) -> stick_response::StickAxes {
+        if self.link.status.armed && self.site.is_some() {
+            self.enter(PilotPhase::Climb);
+        } else if self.link.status.ready && self.site.is_some() && self.phase_time_s() > 1.0 {
             self.arm();
         }
-        if self.in_phase_s() > PATIENCE_S {
+        if self.phase_time_s() > PATIENCE_S {
             self.finish("the vehicle never became ready");
         }
         [0.0; 4]
     }
 
-    fn climb(&mut self, belief: &Motion) -> hand::Axes {
-        let up = job::over_pad(&self.config.scenario).up();
-        if !self.wire.heard.armed && self.in_phase_s() > 2.0 {
+    fn climb(&mut self, belief: &MotionState) -> stick_response::StickAxes {
+        let up = goals::hover_point_over_pad(&self.config.scenario).up();
+        if !self.link.status.armed && self.phase_time_s() > 2.0 {
             self.arm();
         }
         if belief.position_m.up() > up - 1.0 {
-            self.enter(Phase::Fly);
-        } else if self.in_phase_s() > PATIENCE_S {
+            self.enter(PilotPhase::Fly);
+        } else if self.phase_time_s() > PATIENCE_S {
             self.finish("the aircraft did not climb");
         }
         let rate = if belief.position_m.up() > up - 3.0 { 0.8 } else { 1.8 };
@@ -282,22 +282,22 @@ impl Pilot {
 
     /// The whole way down is by hand: first over the pad, slower near the ground, then the stick stays down until the vehicle says that
     /// it stands. Whoever stands beside the home circle takes off again.
-    fn descend(&mut self, belief: &Motion) -> hand::Axes {
+    fn descend(&mut self, belief: &MotionState) -> stick_response::StickAxes {
         let team = &self.config.scenario.ground_team;
         let off = team.pad_m - belief.position_m;
         let level = spandrel_model::frames::Vec3::new(off.east(), off.north(), 0.0);
         let (height_m, aside_m) = (-off.up(), level.norm());
-        if self.wire.heard.on_ground && self.in_phase_s() > 2.0 {
+        if self.link.status.on_ground && self.phase_time_s() > 2.0 {
             let home = aside_m <= team.home_radius_m;
-            match (home, self.wire.heard.armed) {
+            match (home, self.link.status.armed) {
                 (true, false) => self.finish("landed"),
-                (true, true) if self.may_try() => {
-                    self.wire.command(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [0.0; 7]);
+                (true, true) if self.may_retry() => {
+                    self.link.send_command(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [0.0; 7]);
                 }
                 (false, false) => self.arm(),
                 _ => {}
             }
-            return [0.0, 0.0, if home || !self.wire.heard.armed { -1.0 } else { 0.5 }, 0.0];
+            return [0.0, 0.0, if home || !self.link.status.armed { -1.0 } else { 0.5 }, 0.0];
         }
         let rate = match (aside_m > OVER_PAD_M, height_m) {
             (true, ..APPROACH_M) => -0.8,
@@ -308,7 +308,7 @@ impl Pilot {
         let speed_m_s = if aside_m > OVER_PAD_M { 2.0 } else { 1.0 };
         let wish =
             (level * (0.6 * self.config.skill.gain)).limited(speed_m_s) + spandrel_model::frames::Vec3::new(0.0, 0.0, -rate);
-        let mut axes = flight::sticks(wish, belief, None, &self.config);
+        let mut axes = guidance::sticks(wish, belief, None, &self.config);
         if height_m < 0.5 && aside_m <= OVER_PAD_M {
             axes[2] = -1.0_f64.min(0.5 / self.config.vehicle.limits.descend_m_s).abs();
         }
@@ -322,6 +322,6 @@ impl Pilot {
     fn finish(&mut self, reason: &str) {
         self.report =
             Some(PilotReport { reason: reason.into(), at: self.now, tasks_flown: self.tasks_flown, pictures: self.pictures });
-        self.enter(Phase::Done);
+        self.enter(PilotPhase::Done);
     }
 }

@@ -20,7 +20,7 @@ const HEADING_ERROR_RAD: f64 = 0.03;
 
 /// Motion of the aircraft at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Motion {
+pub struct MotionState {
     /// When.
     pub time: SimTime,
     /// Where, m.
@@ -33,12 +33,12 @@ pub struct Motion {
 
 /// An Ornstein-Uhlenbeck process of unit variance.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Drift {
+pub struct DriftProcess {
     value: f64,
     tau_s: f64,
 }
 
-impl Drift {
+impl DriftProcess {
     /// Starts at a draw from its own distribution.
     pub fn new(tau_s: f64, random: &mut RandomStream) -> Self {
         Self { value: random.normal(), tau_s }
@@ -55,11 +55,11 @@ impl Drift {
 /// Delay line and drifting errors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Perception {
-    seen: VecDeque<Motion>,
+    history: VecDeque<MotionState>,
     random: RandomStream,
-    position: [Drift; 3],
-    speed: Drift,
-    heading: Drift,
+    position: [DriftProcess; 3],
+    speed: DriftProcess,
+    heading: DriftProcess,
     speed_sense: f64,
 }
 
@@ -68,31 +68,31 @@ impl Perception {
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let mut random = RandomStream::new(seed, "pilot perception");
-        let position = [(); 3].map(|()| Drift::new(POSITION_TAU_S, &mut random));
-        let speed = Drift::new(SPEED_TAU_S, &mut random);
-        let heading = Drift::new(SPEED_TAU_S, &mut random);
-        Self { seen: VecDeque::new(), random, position, speed, heading, speed_sense: 1.0 }
+        let position = [(); 3].map(|()| DriftProcess::new(POSITION_TAU_S, &mut random));
+        let speed = DriftProcess::new(SPEED_TAU_S, &mut random);
+        let heading = DriftProcess::new(SPEED_TAU_S, &mut random);
+        Self { history: VecDeque::new(), random, position, speed, heading, speed_sense: 1.0 }
     }
 
     /// What happens now; it reaches the mind after the delay.
-    pub fn show(&mut self, motion: Motion) {
-        self.seen.push_back(motion);
-        while self.seen.len() > 2 && self.seen[1].time + SimTime::from_s(1.0) < motion.time {
-            self.seen.pop_front();
+    pub fn observe(&mut self, motion: MotionState) {
+        self.history.push_back(motion);
+        while self.history.len() > 2 && self.history[1].time + SimTime::from_s(1.0) < motion.time {
+            self.history.pop_front();
         }
     }
 
     /// What was, `delay_s` ago, without error (a picture on the screen).
     #[must_use]
-    pub fn picture(&self, delay_s: f64) -> Option<Motion> {
-        let last = self.seen.back()?;
+    pub fn delayed_view(&self, delay_s: f64) -> Option<MotionState> {
+        let last = self.history.back()?;
         let wanted = last.time - SimTime::from_s(delay_s);
-        self.seen.iter().rev().find(|m| m.time <= wanted).or_else(|| self.seen.front()).copied()
+        self.history.iter().rev().find(|m| m.time <= wanted).or_else(|| self.history.front()).copied()
     }
 
     /// What the pilot believes: late, extrapolated by nothing, and wrong by the drifting errors.
-    pub fn believe(&mut self, skill: &Skill, dt_s: f64) -> Option<Motion> {
-        let truth = self.picture(skill.delay_s)?;
+    pub fn estimate(&mut self, skill: &Skill, dt_s: f64) -> Option<MotionState> {
+        let truth = self.delayed_view(skill.delay_s)?;
         let mut offset = [0.0; 3];
         for (axis, drift) in self.position.iter_mut().enumerate() {
             offset[axis] = drift.step(dt_s, &mut self.random) * POSITION_ERROR_M * skill.noise;
@@ -100,7 +100,7 @@ impl Perception {
         let speed_error = self.speed.step(dt_s, &mut self.random) * SPEED_ERROR * skill.noise;
         let heading_error = self.heading.step(dt_s, &mut self.random) * HEADING_ERROR_RAD * skill.noise;
         self.speed_sense = (1.0 + speed_error).clamp(0.4, 2.0);
-        Some(Motion {
+        Some(MotionState {
             time: truth.time,
             position_m: truth.position_m + Vec3::new(offset[0], offset[1], offset[2]),
             velocity_m_s: truth.velocity_m_s * self.speed_sense,
@@ -110,13 +110,13 @@ impl Perception {
 
     /// Judged over true speed at present: who judges the speed too high flies too slowly, and the other way round.
     #[must_use]
-    pub fn speed_sense(&self) -> f64 {
+    pub fn speed_scale(&self) -> f64 {
         self.speed_sense
     }
 
     /// Forgets the past, after a jump (the aircraft was put back).
-    pub fn forget(&mut self) {
-        self.seen.clear();
+    pub fn reset(&mut self) {
+        self.history.clear();
     }
 }
 
@@ -129,9 +129,14 @@ mod tests {
         let mut eyes = Perception::new(1);
         for ms in (0..=1000).step_by(20) {
             let t = SimTime::from_ms(ms);
-            eyes.show(Motion { time: t, position_m: Vec3::new(t.s(), 0.0, 0.0), velocity_m_s: Vec3::zero(), yaw_rad: 0.0 });
+            eyes.observe(MotionState {
+                time: t,
+                position_m: Vec3::new(t.s(), 0.0, 0.0),
+                velocity_m_s: Vec3::zero(),
+                yaw_rad: 0.0,
+            });
         }
-        assert_eq!(eyes.picture(0.35).map(|m| m.time), Some(SimTime::from_ms(640)));
+        assert_eq!(eyes.delayed_view(0.35).map(|m| m.time), Some(SimTime::from_ms(640)));
     }
 
     #[test]
@@ -139,7 +144,7 @@ mod tests {
         // Correlated samples: 40 000 s at 0.2 s with tau 4 s are about 5 000 independent ones; five standard errors.
         const TOLERANCE: f64 = 0.1;
         let mut random = RandomStream::new(3, "drift");
-        let mut drift = Drift::new(4.0, &mut random);
+        let mut drift = DriftProcess::new(4.0, &mut random);
         let values: Vec<f64> = (0..200_000).map(|_| drift.step(0.2, &mut random)).collect();
         let variance = values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64;
         assert!((variance - 1.0).abs() < TOLERANCE, "{variance}");

@@ -20,7 +20,7 @@ pub struct Skill {
 
 /// One of the five numbers, for trading them between pilots.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Factor {
+pub enum SkillFactor {
     /// [`Skill::delay_s`]
     Delay,
     /// [`Skill::gain`]
@@ -33,12 +33,12 @@ pub enum Factor {
     Lapses,
 }
 
-impl Factor {
+impl SkillFactor {
     /// All five.
     pub const ALL: [Self; 5] = [Self::Delay, Self::Gain, Self::Noise, Self::Preview, Self::Lapses];
 }
 
-impl FromStr for Factor {
+impl FromStr for SkillFactor {
     type Err = String;
     fn from_str(text: &str) -> Result<Self, String> {
         match text {
@@ -62,13 +62,13 @@ impl Skill {
 
     /// The same pilot with one number taken from another.
     #[must_use]
-    pub fn with(mut self, factor: Factor, from: Self) -> Self {
+    pub fn with(mut self, factor: SkillFactor, from: Self) -> Self {
         match factor {
-            Factor::Delay => self.delay_s = from.delay_s,
-            Factor::Gain => self.gain = from.gain,
-            Factor::Noise => self.noise = from.noise,
-            Factor::Preview => self.preview_s = from.preview_s,
-            Factor::Lapses => self.lapses_per_min = from.lapses_per_min,
+            SkillFactor::Delay => self.delay_s = from.delay_s,
+            SkillFactor::Gain => self.gain = from.gain,
+            SkillFactor::Noise => self.noise = from.noise,
+            SkillFactor::Preview => self.preview_s = from.preview_s,
+            SkillFactor::Lapses => self.lapses_per_min = from.lapses_per_min,
         }
         self
     }
@@ -99,8 +99,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_five_gifts_make_the_novice_an_expert() {
-        let gifted = Factor::ALL.into_iter().fold(Skill::NOVICE, |pilot, factor| pilot.with(factor, Skill::EXPERT));
+    fn exact_raising_all_five_skills_makes_the_novice_an_expert() {
+        let gifted = SkillFactor::ALL.into_iter().fold(Skill::NOVICE, |pilot, factor| pilot.with(factor, Skill::EXPERT));
         assert_eq!(gifted, Skill::EXPERT);
     }
 }

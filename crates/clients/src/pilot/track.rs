@@ -1,6 +1,6 @@
 //! Following a line by eye: aim at a point that runs ahead, brake for what the preview shows, pull back what has drifted off.
 
-use super::perception::Motion;
+use super::perception::MotionState;
 use super::skill::Skill;
 use spandrel_model::frames::{Enu, Vec3};
 
@@ -14,20 +14,20 @@ const MIN_AIM_M: f64 = 1.0;
 
 /// A line to fly with a wanted speed and a wanted line of sight at each point.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Leg {
+pub struct TrackLeg {
     /// Points, m; two or more.
     pub points_m: Vec<Vec3<Enu>>,
     /// Wanted speed towards each point, m/s.
     pub speed_m_s: Vec<f64>,
     /// Where to look at each point, unit vectors; `None`: along the line.
-    pub look: Vec<Option<Vec3<Enu>>>,
+    pub line_of_sight: Vec<Option<Vec3<Enu>>>,
     /// Which task each point belongs to.
     pub task: Vec<Option<usize>>,
 }
 
 /// Where on a leg: the segment that ends at `next`, and how far along the whole leg.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Progress {
+pub struct LegProgress {
     /// Index of the segment's end point.
     pub next: usize,
     /// Distance from the leg's start, m.
@@ -36,22 +36,22 @@ pub struct Progress {
 
 /// What the pilot wants at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wish {
+pub struct TrackCommand {
     /// Velocity over ground, m/s.
     pub velocity_m_s: Vec3<Enu>,
     /// Line of sight; `None`: keep.
-    pub look: Option<Vec3<Enu>>,
+    pub line_of_sight: Option<Vec3<Enu>>,
     /// Task being worked.
     pub task: Option<usize>,
     /// The end of the leg is reached.
     pub done: bool,
 }
 
-impl Leg {
+impl TrackLeg {
     /// An empty leg.
     #[must_use]
     pub fn new() -> Self {
-        Self { points_m: Vec::new(), speed_m_s: Vec::new(), look: Vec::new(), task: Vec::new() }
+        Self { points_m: Vec::new(), speed_m_s: Vec::new(), line_of_sight: Vec::new(), task: Vec::new() }
     }
 
     /// The leg before a point, and the leg from there on.
@@ -60,7 +60,7 @@ impl Leg {
         let part = |from: usize, to: usize| Self {
             points_m: self.points_m[from..to].to_vec(),
             speed_m_s: self.speed_m_s[from..to].to_vec(),
-            look: self.look[from..to].to_vec(),
+            line_of_sight: self.line_of_sight[from..to].to_vec(),
             task: self.task[from..to].to_vec(),
         };
         let k = k.min(self.points_m.len());
@@ -74,7 +74,7 @@ impl Leg {
         }
         self.points_m.push(point_m);
         self.speed_m_s.push(speed_m_s);
-        self.look.push(look);
+        self.line_of_sight.push(look);
         self.task.push(task);
     }
 
@@ -83,7 +83,7 @@ impl Leg {
     }
 
     /// The point `distance_m` ahead of `progress`.
-    fn ahead(&self, progress: Progress, distance_m: f64) -> Vec3<Enu> {
+    fn ahead(&self, progress: LegProgress, distance_m: f64) -> Vec3<Enu> {
         let start: f64 = (1..progress.next).map(|k| self.segment_m(k)).sum();
         let mut left = progress.along_m - start + distance_m;
         for next in progress.next..self.points_m.len() {
@@ -97,7 +97,7 @@ impl Leg {
     }
 
     /// Moves the progress to the nearest place not far behind or ahead of it.
-    pub fn advance(&self, progress: &mut Progress, position_m: Vec3<Enu>) {
+    pub fn advance(&self, progress: &mut LegProgress, position_m: Vec3<Enu>) {
         const WINDOW_M: f64 = 6.0;
         let mut start: f64 = (1..progress.next.max(1)).map(|k| self.segment_m(k)).sum();
         let mut best = (f64::INFINITY, *progress);
@@ -112,7 +112,7 @@ impl Leg {
             // A little dearer the farther ahead, so that a bend is not cut by jumping over it.
             let cost = (position_m - a.lerp(b, t)).norm() + 0.15 * (along_m - progress.along_m);
             if cost < best.0 {
-                best = (cost, Progress { next, along_m });
+                best = (cost, LegProgress { next, along_m });
             }
             start += length;
         }
@@ -120,7 +120,7 @@ impl Leg {
     }
 
     /// Speed that the pilot dares: the wanted one, less what the eyes see coming within the preview.
-    fn speed(&self, progress: Progress, skill: &Skill, now_m_s: f64) -> f64 {
+    fn speed(&self, progress: LegProgress, skill: &Skill, now_m_s: f64) -> f64 {
         let start: f64 = (1..progress.next).map(|k| self.segment_m(k)).sum();
         let mut ahead_m = start - progress.along_m;
         let mut speed = self.speed_m_s[progress.next];
@@ -148,7 +148,7 @@ impl Leg {
     }
 
     /// What the pilot wants, believing `motion`.
-    pub fn wish(&self, progress: &mut Progress, motion: &Motion, skill: &Skill) -> Wish {
+    pub fn command(&self, progress: &mut LegProgress, motion: &MotionState, skill: &Skill) -> TrackCommand {
         self.advance(progress, motion.position_m);
         let speed = self.speed(*progress, skill, motion.velocity_m_s.norm());
         let here = self.ahead(*progress, 0.0);
@@ -160,22 +160,22 @@ impl Leg {
         let total: f64 = (1..self.points_m.len()).map(|k| self.segment_m(k)).sum();
         let left_m = total - progress.along_m;
         let run = if left_m < 0.5 { Vec3::zero() } else { run };
-        Wish {
+        TrackCommand {
             velocity_m_s: run + pull.limited(2.0),
-            look: self.look[progress.next].or_else(|| self.heading_ahead(*progress)),
+            line_of_sight: self.line_of_sight[progress.next].or_else(|| self.heading_ahead(*progress)),
             task: self.task[progress.next],
             done: left_m < 1.0 && (motion.position_m - end).norm() < 2.5,
         }
     }
 
-    fn heading_ahead(&self, progress: Progress) -> Option<Vec3<Enu>> {
+    fn heading_ahead(&self, progress: LegProgress) -> Option<Vec3<Enu>> {
         let ahead = self.ahead(progress, 4.0) - self.ahead(progress, 0.0);
         let level = Vec3::new(ahead.east(), ahead.north(), 0.0);
         (level.norm() > 0.5).then(|| level.unit())
     }
 }
 
-impl Default for Leg {
+impl Default for TrackLeg {
     fn default() -> Self {
         Self::new()
     }
@@ -186,34 +186,34 @@ mod tests {
     use super::*;
     use spandrel_model::time::SimTime;
 
-    fn straight() -> Leg {
-        let mut leg = Leg::new();
+    fn straight() -> TrackLeg {
+        let mut leg = TrackLeg::new();
         for k in 0..=20 {
             leg.push(Vec3::new(f64::from(k), 0.0, 5.0), 3.0, None, None);
         }
         leg
     }
 
-    fn at(east: f64, north: f64) -> Motion {
+    fn at(east: f64, north: f64) -> MotionState {
         let position_m = Vec3::new(east, north, 5.0);
-        Motion { time: SimTime::ZERO, position_m, velocity_m_s: Vec3::new(3.0, 0.0, 0.0), yaw_rad: 0.0 }
+        MotionState { time: SimTime::ZERO, position_m, velocity_m_s: Vec3::new(3.0, 0.0, 0.0), yaw_rad: 0.0 }
     }
 
     #[test]
-    fn exact_off_the_line_the_wish_leads_back_to_it() {
+    fn exact_off_the_line_the_command_leads_back_to_it() {
         let leg = straight();
-        let mut progress = Progress { next: 1, along_m: 0.0 };
-        let wish = leg.wish(&mut progress, &at(2.0, 1.0), &Skill::TRAINED);
+        let mut progress = LegProgress { next: 1, along_m: 0.0 };
+        let wish = leg.command(&mut progress, &at(2.0, 1.0), &Skill::TRAINED);
         assert!(wish.velocity_m_s.north() < -0.5 && wish.velocity_m_s.east() > 2.0, "{wish:?}");
     }
 
     #[test]
-    fn exact_short_eyes_brake_later_than_long_ones() {
+    fn exact_a_short_preview_brakes_later_than_a_long_one() {
         let leg = straight();
-        let mut a = Progress { next: 17, along_m: 16.5 };
+        let mut a = LegProgress { next: 17, along_m: 16.5 };
         let mut b = a;
-        let novice = leg.wish(&mut a, &at(16.5, 0.0), &Skill::NOVICE).velocity_m_s.east();
-        let expert = leg.wish(&mut b, &at(16.5, 0.0), &Skill::EXPERT).velocity_m_s.east();
+        let novice = leg.command(&mut a, &at(16.5, 0.0), &Skill::NOVICE).velocity_m_s.east();
+        let expert = leg.command(&mut b, &at(16.5, 0.0), &Skill::EXPERT).velocity_m_s.east();
         assert!(novice > expert, "{novice} {expert}");
     }
 }

@@ -2,7 +2,7 @@
 
 /// A wish that is no stick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Action {
+pub enum ControllerAction {
     /// The lamp on, or off when it is on.
     Lamp,
     /// A picture.
@@ -32,23 +32,23 @@ pub enum Action {
 }
 
 /// All actions with their names in files.
-pub const ALL: [(&str, Action); 13] = [
-    ("lamp", Action::Lamp),
-    ("snapshot", Action::Snapshot),
-    ("arm", Action::Arm),
-    ("disarm", Action::Disarm),
-    ("take_off", Action::TakeOff),
-    ("land", Action::Land),
-    ("return", Action::Return),
-    ("hold", Action::Hold),
-    ("position", Action::Position),
-    ("gimbal_up", Action::GimbalUp),
-    ("gimbal_down", Action::GimbalDown),
-    ("camera_zoom_in", Action::CameraZoomIn),
-    ("camera_zoom_out", Action::CameraZoomOut),
+pub const ALL: [(&str, ControllerAction); 13] = [
+    ("lamp", ControllerAction::Lamp),
+    ("snapshot", ControllerAction::Snapshot),
+    ("arm", ControllerAction::Arm),
+    ("disarm", ControllerAction::Disarm),
+    ("take_off", ControllerAction::TakeOff),
+    ("land", ControllerAction::Land),
+    ("return", ControllerAction::Return),
+    ("hold", ControllerAction::Hold),
+    ("position", ControllerAction::Position),
+    ("gimbal_up", ControllerAction::GimbalUp),
+    ("gimbal_down", ControllerAction::GimbalDown),
+    ("camera_zoom_in", ControllerAction::CameraZoomIn),
+    ("camera_zoom_out", ControllerAction::CameraZoomOut),
 ];
 
-impl Action {
+impl ControllerAction {
     /// Its name in files.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -57,7 +57,7 @@ impl Action {
 
     /// It moves something by a step, and is meant to be asked for several times.
     #[must_use]
-    pub fn is_step(self) -> bool {
+    pub fn is_repeatable(self) -> bool {
         matches!(self, Self::GimbalUp | Self::GimbalDown | Self::CameraZoomIn | Self::CameraZoomOut)
     }
 }

@@ -5,7 +5,7 @@ pub const LEAST_WAY: f64 = 0.1;
 
 /// How an axis is read.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Axis {
+pub struct AxisCalibration {
     /// Number of the axis at its device.
     pub axis: u32,
     /// Raw reading with the stick fully left or down. Above `high`: the axis counts the other way round.
@@ -20,7 +20,7 @@ pub struct Axis {
     pub expo: f64,
 }
 
-impl Axis {
+impl AxisCalibration {
     /// The direction in [-1, 1]: 0 within the dead band, without a step at its edge, ±1 at the ends and beyond.
     #[must_use]
     pub fn read(&self, raw: f64) -> f64 {
@@ -40,13 +40,13 @@ mod tests {
     /// Rounding of a few products of numbers below 1.
     const ROUNDING: f64 = 1e-15;
 
-    fn plain() -> Axis {
-        Axis { axis: 0, low: -1.0, centre: 0.0, high: 1.0, dead_band: 0.0, expo: 0.0 }
+    fn plain() -> AxisCalibration {
+        AxisCalibration { axis: 0, low: -1.0, centre: 0.0, high: 1.0, dead_band: 0.0, expo: 0.0 }
     }
 
     #[test]
     fn exact_ends_and_centre_wherever_they_are() {
-        let axis = Axis { low: -0.8, centre: 0.1, high: 0.9, ..plain() };
+        let axis = AxisCalibration { low: -0.8, centre: 0.1, high: 0.9, ..plain() };
         for (raw, read) in [(-0.8, -1.0), (-1.0, -1.0), (0.1, 0.0), (0.5, 0.5), (0.9, 1.0), (1.0, 1.0), (-0.35, -0.5)] {
             assert!((axis.read(raw) - read).abs() < ROUNDING, "{raw}");
         }
@@ -54,13 +54,13 @@ mod tests {
 
     #[test]
     fn exact_an_axis_that_counts_down_is_turned_round() {
-        let axis = Axis { low: 1.0, centre: 0.0, high: -1.0, ..plain() };
+        let axis = AxisCalibration { low: 1.0, centre: 0.0, high: -1.0, ..plain() };
         assert_eq!([axis.read(1.0), axis.read(0.5), axis.read(-0.25), axis.read(-1.0)], [-1.0, -0.5, 0.25, 1.0]);
     }
 
     #[test]
     fn exact_the_dead_band_has_no_step_and_expo_keeps_the_ends() {
-        let axis = Axis { dead_band: 0.2, expo: 0.5, ..plain() };
+        let axis = AxisCalibration { dead_band: 0.2, expo: 0.5, ..plain() };
         assert_eq!((axis.read(0.2), axis.read(-0.2), axis.read(1.0), axis.read(-1.0)), (0.0, 0.0, 1.0, -1.0));
         let just = axis.read(0.2 + 1e-9);
         assert!(just > 0.0 && just < 1e-8);

@@ -27,11 +27,11 @@ pub fn label(name: &str) -> String {
         "escape" => "Esc".to_owned(),
         "pageup" => "Page up".to_owned(),
         "pagedown" => "Page down".to_owned(),
-        name => capitalised(name),
+        name => capitalized(name),
     }
 }
 
-fn capitalised(name: &str) -> String {
+fn capitalized(name: &str) -> String {
     let mut signs = name.chars();
     let mut upper = signs.next().into_iter().flat_map(char::to_uppercase);
     match (upper.next(), upper.next()) {
@@ -57,7 +57,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_people_call_keys_otherwise_than_files_do() {
+    fn exact_key_labels_differ_from_key_names() {
         let called = ["escape", "pageup", "pagedown", "up", "space", "backspace", "w", "ü", "ß", "[", "7", ""].map(label);
         assert_eq!(called, ["Esc", "Page up", "Page down", "Up", "Space", "Backspace", "W", "Ü", "ß", "[", "7", ""]);
     }

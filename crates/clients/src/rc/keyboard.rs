@@ -1,6 +1,6 @@
 //! Keys in place of sticks: a key held is a stick pushed.
 
-use super::{Action, Sticks, key};
+use super::{ControllerAction, Sticks, key};
 use spandrel_model::time::SimTime;
 use spandrel_model::toml::{Problems, Reader, Section};
 use std::collections::BTreeMap;
@@ -16,7 +16,7 @@ const TAP_S: f64 = 0.12;
 
 /// Which way a key pushes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Push {
+pub enum StickDirection {
     /// Forward.
     Forward,
     /// Backward.
@@ -35,36 +35,36 @@ pub enum Push {
     TurnRight,
 }
 
-const PUSHES: [(&str, Push, &str); 8] = [
-    ("forward", Push::Forward, "up"),
-    ("back", Push::Back, "down"),
-    ("left", Push::Left, "left"),
-    ("right", Push::Right, "right"),
-    ("up", Push::Up, "w"),
-    ("down", Push::Down, "s"),
-    ("turn_left", Push::TurnLeft, "a"),
-    ("turn_right", Push::TurnRight, "d"),
+const PUSHES: [(&str, StickDirection, &str); 8] = [
+    ("forward", StickDirection::Forward, "up"),
+    ("back", StickDirection::Back, "down"),
+    ("left", StickDirection::Left, "left"),
+    ("right", StickDirection::Right, "right"),
+    ("up", StickDirection::Up, "w"),
+    ("down", StickDirection::Down, "s"),
+    ("turn_left", StickDirection::TurnLeft, "a"),
+    ("turn_right", StickDirection::TurnRight, "d"),
 ];
 
-const KEYS: [(Action, &str); 13] = [
-    (Action::Lamp, "b"),
-    (Action::Snapshot, "p"),
-    (Action::Arm, "1"),
-    (Action::Disarm, "0"),
-    (Action::TakeOff, "t"),
-    (Action::Land, "l"),
-    (Action::Return, "r"),
-    (Action::Hold, "h"),
-    (Action::Position, "o"),
-    (Action::GimbalUp, "pageup"),
-    (Action::GimbalDown, "pagedown"),
-    (Action::CameraZoomIn, "]"),
-    (Action::CameraZoomOut, "["),
+const KEYS: [(ControllerAction, &str); 13] = [
+    (ControllerAction::Lamp, "b"),
+    (ControllerAction::Snapshot, "p"),
+    (ControllerAction::Arm, "1"),
+    (ControllerAction::Disarm, "0"),
+    (ControllerAction::TakeOff, "t"),
+    (ControllerAction::Land, "l"),
+    (ControllerAction::Return, "r"),
+    (ControllerAction::Hold, "h"),
+    (ControllerAction::Position, "o"),
+    (ControllerAction::GimbalUp, "pageup"),
+    (ControllerAction::GimbalDown, "pagedown"),
+    (ControllerAction::CameraZoomIn, "]"),
+    (ControllerAction::CameraZoomOut, "["),
 ];
 
 /// What a key does in the window of the view; a terminal has none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Wish {
+pub enum WindowAction {
     /// Both views side by side, the camera's large, the inspector's large.
     Swap,
     /// The map on or off.
@@ -91,24 +91,24 @@ pub enum Wish {
     Sound,
 }
 
-const WISHES: [(&str, Wish, &str); 12] = [
-    ("swap", Wish::Swap, "tab"),
-    ("map", Wish::Map, "m"),
-    ("follow", Wish::Follow, "f"),
-    ("look_left", Wish::LookLeft, ","),
-    ("look_right", Wish::LookRight, "."),
-    ("look_up", Wish::LookUp, "i"),
-    ("look_down", Wish::LookDown, "k"),
-    ("zoom_in", Wish::ZoomIn, "+"),
-    ("zoom_out", Wish::ZoomOut, "-"),
-    ("pause", Wish::Pause, "escape"),
-    ("restart", Wish::Restart, "backspace"),
-    ("sound", Wish::Sound, "n"),
+const WISHES: [(&str, WindowAction, &str); 12] = [
+    ("swap", WindowAction::Swap, "tab"),
+    ("map", WindowAction::Map, "m"),
+    ("follow", WindowAction::Follow, "f"),
+    ("look_left", WindowAction::LookLeft, ","),
+    ("look_right", WindowAction::LookRight, "."),
+    ("look_up", WindowAction::LookUp, "i"),
+    ("look_down", WindowAction::LookDown, "k"),
+    ("zoom_in", WindowAction::ZoomIn, "+"),
+    ("zoom_out", WindowAction::ZoomOut, "-"),
+    ("pause", WindowAction::Pause, "escape"),
+    ("restart", WindowAction::Restart, "backspace"),
+    ("sound", WindowAction::Sound, "n"),
 ];
 
 /// What the window plays.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sounds {
+pub struct SoundPreferences {
     /// Propellers.
     pub propellers: bool,
     /// Tones for warnings.
@@ -119,7 +119,7 @@ pub struct Sounds {
     pub volume: f64,
 }
 
-impl Default for Sounds {
+impl Default for SoundPreferences {
     fn default() -> Self {
         Self { propellers: true, warnings: true, speech: false, volume: 0.7 }
     }
@@ -127,28 +127,28 @@ impl Default for Sounds {
 
 /// Which key does what. Keys by their names, as [`key`] has them.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Keys {
+pub struct KeyBindings {
     push: f64,
-    pushes: BTreeMap<String, Push>,
-    actions: BTreeMap<String, Action>,
-    wishes: BTreeMap<String, Wish>,
+    pushes: BTreeMap<String, StickDirection>,
+    actions: BTreeMap<String, ControllerAction>,
+    window_actions: BTreeMap<String, WindowAction>,
     /// What the window plays.
-    pub sounds: Sounds,
+    pub sounds: SoundPreferences,
 }
 
-impl Default for Keys {
+impl Default for KeyBindings {
     fn default() -> Self {
         Self {
             push: PUSH,
             pushes: PUSHES.iter().map(|(_, push, key)| ((*key).to_owned(), *push)).collect(),
             actions: KEYS.iter().map(|(action, key)| ((*key).to_owned(), *action)).collect(),
-            wishes: WISHES.iter().map(|(_, wish, key)| ((*key).to_owned(), *wish)).collect(),
-            sounds: Sounds::default(),
+            window_actions: WISHES.iter().map(|(_, wish, key)| ((*key).to_owned(), *wish)).collect(),
+            sounds: SoundPreferences::default(),
         }
     }
 }
 
-impl Keys {
+impl KeyBindings {
     /// Reads a file of keys; what it leaves out stays as usual. `file` is its name for messages.
     ///
     /// # Errors
@@ -157,28 +157,28 @@ impl Keys {
         let mut r = Reader::new(file, text);
         let keys = r.parse().map(|document| {
             let mut root = r.root(&document);
-            r.whole(&mut root, "format", (1, 1), None);
+            r.integer(&mut root, "format", (1, 1), None);
             let mut keys = Self {
                 push: r.number(&mut root, "push", (0.05, 1.0), Some(PUSH)),
                 pushes: BTreeMap::new(),
                 actions: BTreeMap::new(),
-                wishes: BTreeMap::new(),
-                sounds: Sounds::default(),
+                window_actions: BTreeMap::new(),
+                sounds: SoundPreferences::default(),
             };
             let mut taken = BTreeMap::new();
             let mut s = r.section(&mut root, "sticks");
             for (name, push, usual) in PUSHES {
-                keys.pushes.insert(bound(&mut r, &mut s, (name, usual), &mut taken), push);
+                keys.pushes.insert(read_binding(&mut r, &mut s, (name, usual), &mut taken), push);
             }
             r.finish(&s);
             let mut s = r.section(&mut root, "actions");
             for (action, usual) in KEYS {
-                keys.actions.insert(bound(&mut r, &mut s, (action.name(), usual), &mut taken), action);
+                keys.actions.insert(read_binding(&mut r, &mut s, (action.name(), usual), &mut taken), action);
             }
             r.finish(&s);
             let mut s = r.section(&mut root, "window");
             for (name, wish, usual) in WISHES {
-                keys.wishes.insert(bound(&mut r, &mut s, (name, usual), &mut taken), wish);
+                keys.window_actions.insert(read_binding(&mut r, &mut s, (name, usual), &mut taken), wish);
             }
             r.finish(&s);
             keys.sounds = sounds(&mut r, &mut root);
@@ -193,8 +193,8 @@ impl Keys {
 
     /// What a key does in the window.
     #[must_use]
-    pub fn wish(&self, key: &str) -> Option<Wish> {
-        self.wishes.get(&key.to_lowercase()).copied()
+    pub fn window_action(&self, key: &str) -> Option<WindowAction> {
+        self.window_actions.get(&key.to_lowercase()).copied()
     }
 
     /// A key that flies: one of the sticks'.
@@ -205,7 +205,7 @@ impl Keys {
 
     /// What a key flies or does at the vehicle, by its name in files.
     #[must_use]
-    pub fn duty(&self, key: &str) -> Option<&'static str> {
+    pub fn binding_name(&self, key: &str) -> Option<&'static str> {
         let push = self.pushes.get(key).and_then(|push| PUSHES.iter().find(|p| p.1 == *push)).map(|p| p.0);
         push.or_else(|| self.actions.get(key).map(|action| action.name()))
     }
@@ -231,14 +231,14 @@ impl Keys {
         let push = PUSHES.iter().find(|p| p.0 == name).map(|p| p.1);
         let wish = WISHES.iter().find(|w| w.0 == name).map(|w| w.1);
         let pushes = self.pushes.iter().filter(|(_, p)| Some(**p) == push).map(|(key, _)| key);
-        let wishes = self.wishes.iter().filter(|(_, w)| Some(**w) == wish).map(|(key, _)| key);
+        let wishes = self.window_actions.iter().filter(|(_, w)| Some(**w) == wish).map(|(key, _)| key);
         let actions = self.actions.iter().filter(|(_, a)| a.name() == name).map(|(key, _)| key);
         pushes.chain(wishes).chain(actions).next().map(String::as_str)
     }
 
     /// The keys of the sticks and of the vehicle in words, a line each.
     #[must_use]
-    pub fn explain(&self) -> String {
+    pub fn help_text(&self) -> String {
         let pushes = self
             .pushes
             .iter()
@@ -248,10 +248,10 @@ impl Keys {
     }
 }
 
-fn sounds(r: &mut Reader, root: &mut Section) -> Sounds {
-    let usual = Sounds::default();
+fn sounds(r: &mut Reader, root: &mut Section) -> SoundPreferences {
+    let usual = SoundPreferences::default();
     let mut s = r.section(root, "sound");
-    let sounds = Sounds {
+    let sounds = SoundPreferences {
         propellers: r.flag(&mut s, "propellers", usual.propellers),
         warnings: r.flag(&mut s, "warnings", usual.warnings),
         speech: r.flag(&mut s, "speech", usual.speech),
@@ -262,7 +262,7 @@ fn sounds(r: &mut Reader, root: &mut Section) -> Sounds {
 }
 
 /// The key of a duty: one that there is, and that does nothing else.
-fn bound(
+fn read_binding(
     r: &mut Reader,
     s: &mut Section,
     (name, usual): (&'static str, &str),
@@ -270,45 +270,45 @@ fn bound(
 ) -> String {
     let key = r.text(s, name, Some(usual)).to_lowercase();
     if !key::is_key(&key) {
-        r.complain(s, name, &key, &key::allowed(), "no such key");
+        r.add_problem(s, name, &key, &key::allowed(), "no such key");
     } else if let Some(before) = taken.insert(key.clone(), name) {
-        r.complain(s, name, &key, "a key of its own", &format!("does {before} already"));
+        r.add_problem(s, name, &key, "a key of its own", &format!("does {before} already"));
     }
     key
 }
 
 /// Keys that are held now.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Keyboard {
-    keys: Keys,
-    held: BTreeMap<Push, Option<SimTime>>,
-    acted: BTreeMap<Action, SimTime>,
+pub struct KeyboardState {
+    keys: KeyBindings,
+    held: BTreeMap<StickDirection, Option<SimTime>>,
+    last_repeats: BTreeMap<ControllerAction, SimTime>,
 }
 
-impl Keyboard {
+impl KeyboardState {
     /// Nothing is held.
     #[must_use]
-    pub fn new(keys: Keys) -> Self {
-        Self { keys, held: BTreeMap::new(), acted: BTreeMap::new() }
+    pub fn new(keys: KeyBindings) -> Self {
+        Self { keys, held: BTreeMap::new(), last_repeats: BTreeMap::new() }
     }
 
     /// Which key does what.
     #[must_use]
-    pub fn keys(&self) -> &Keys {
+    pub fn keys(&self) -> &KeyBindings {
         &self.keys
     }
 
     /// A key went down. Where releases are told (`until_released`), a held key must not be told again. Elsewhere a stick's key counts as
     /// held for [`HELD_S`], and what a held key repeats does nothing: an action must have rested for that long, a step of gimbal or zoom
     /// for `TAP_S`. Returns what it does when it is no stick.
-    pub fn press(&mut self, key: &str, until_released: bool, now: SimTime) -> Option<Action> {
+    pub fn press(&mut self, key: &str, until_released: bool, now: SimTime) -> Option<ControllerAction> {
         let key = key.to_lowercase();
         if let Some(push) = self.keys.pushes.get(&key) {
             self.held.insert(*push, (!until_released).then(|| now + SimTime::from_s(HELD_S)));
         }
         let action = self.keys.actions.get(&key).copied()?;
-        let rest_s = if action.is_step() { TAP_S } else { HELD_S };
-        let before = self.acted.insert(action, now);
+        let rest_s = if action.is_repeatable() { TAP_S } else { HELD_S };
+        let before = self.last_repeats.insert(action, now);
         let repeated = before.is_some_and(|before| (now - before).s() < rest_s);
         (until_released || !repeated).then_some(action)
     }
@@ -321,19 +321,19 @@ impl Keyboard {
     }
 
     /// All keys count as up: the window lost the focus.
-    pub fn let_go(&mut self) {
+    pub fn release_all(&mut self) {
         self.held.clear();
     }
 
     /// The sticks; opposite keys cancel.
     pub fn sticks(&mut self, now: SimTime) -> Sticks {
         self.held.retain(|_, until| until.is_none_or(|until| now < until));
-        let one = |push: Push| if self.held.contains_key(&push) { self.keys.push } else { 0.0 };
+        let one = |push: StickDirection| if self.held.contains_key(&push) { self.keys.push } else { 0.0 };
         Sticks {
-            forward: one(Push::Forward) - one(Push::Back),
-            right: one(Push::Right) - one(Push::Left),
-            up: one(Push::Up) - one(Push::Down),
-            yaw: one(Push::TurnRight) - one(Push::TurnLeft),
+            forward: one(StickDirection::Forward) - one(StickDirection::Back),
+            right: one(StickDirection::Right) - one(StickDirection::Left),
+            up: one(StickDirection::Up) - one(StickDirection::Down),
+            yaw: one(StickDirection::TurnRight) - one(StickDirection::TurnLeft),
         }
     }
 }
@@ -348,7 +348,7 @@ mod tests {
 
     #[test]
     fn exact_held_keys_push_and_opposite_ones_cancel() {
-        let mut board = Keyboard::default();
+        let mut board = KeyboardState::default();
         assert_eq!(board.press("w", true, at(0.0)), None);
         board.press("Up", true, at(0.0));
         board.press("d", true, at(0.0));
@@ -356,17 +356,17 @@ mod tests {
         board.press("a", true, at(100.0));
         board.release("up");
         assert_eq!(board.sticks(at(100.0)), Sticks { up: PUSH, ..Sticks::default() });
-        board.let_go();
+        board.release_all();
         assert_eq!(board.sticks(at(100.0)), Sticks::default());
         assert_eq!(
             (board.press("B", true, at(0.0)), board.press("p", true, at(0.0))),
-            (Some(Action::Lamp), Some(Action::Snapshot))
+            (Some(ControllerAction::Lamp), Some(ControllerAction::Snapshot))
         );
     }
 
     #[test]
-    fn exact_where_releases_are_not_told_a_key_lets_go_by_itself() {
-        let mut board = Keyboard::default();
+    fn exact_keys_time_out_without_release_events() {
+        let mut board = KeyboardState::default();
         board.press("w", false, at(0.0));
         board.press("w", false, at(0.5));
         assert_eq!(board.sticks(at(0.5 + HELD_S - 0.01)).up, PUSH);
@@ -375,48 +375,49 @@ mod tests {
 
     #[test]
     fn exact_what_a_held_key_repeats_does_nothing_and_steps_may_be_tapped() {
-        let mut board = Keyboard::default();
+        let mut board = KeyboardState::default();
         // A second: 0.5 s before the first repeat, then 30 a second.
         let held: Vec<f64> = std::iter::once(0.0).chain((0..15).map(|k| 0.5 + f64::from(k) / 30.0)).collect();
-        let done = |board: &mut Keyboard, key: &str, times: &[f64]| {
+        let done = |board: &mut KeyboardState, key: &str, times: &[f64]| {
             times.iter().filter_map(|s| board.press(key, false, at(*s))).collect::<Vec<_>>()
         };
-        assert_eq!(done(&mut board, "p", &held), [Action::Snapshot]);
-        assert_eq!(done(&mut board, "b", &held), [Action::Lamp], "every action for itself");
-        assert_eq!(done(&mut board, "p", &[1.0, 1.0 + HELD_S]), [Action::Snapshot], "let go and pressed again");
-        assert_eq!(done(&mut board, "pagedown", &[0.0, 0.2, 0.4]), [Action::GimbalDown; 3]);
-        assert_eq!(done(&mut board, "]", &[0.0, 0.03, 0.06]), [Action::CameraZoomIn]);
+        assert_eq!(done(&mut board, "p", &held), [ControllerAction::Snapshot]);
+        assert_eq!(done(&mut board, "b", &held), [ControllerAction::Lamp], "every action for itself");
+        assert_eq!(done(&mut board, "p", &[1.0, 1.0 + HELD_S]), [ControllerAction::Snapshot], "let go and pressed again");
+        assert_eq!(done(&mut board, "pagedown", &[0.0, 0.2, 0.4]), [ControllerAction::GimbalDown; 3]);
+        assert_eq!(done(&mut board, "]", &[0.0, 0.03, 0.06]), [ControllerAction::CameraZoomIn]);
         let told = [2.0, 2.1].map(|s| board.press("p", true, at(s)));
-        assert_eq!(told, [Some(Action::Snapshot); 2], "where releases are told, every press is one");
+        assert_eq!(told, [Some(ControllerAction::Snapshot); 2], "where releases are told, every press is one");
     }
 
     #[test]
     fn exact_keys_come_from_a_file_and_a_key_has_one_duty() {
-        let keys = Keys::read("keys.toml", "format = 1\npush = 1.0\n[sticks]\nup = \"space\"\n").unwrap();
-        let mut board = Keyboard::new(keys);
+        let keys = KeyBindings::read("keys.toml", "format = 1\npush = 1.0\n[sticks]\nup = \"space\"\n").unwrap();
+        let mut board = KeyboardState::new(keys);
         board.press("space", true, at(0.0));
         assert_eq!(board.sticks(at(0.0)).up, 1.0);
         assert_eq!((board.keys().of("up"), board.keys().of("lamp")), (Some("space"), Some("b")));
-        let quiet = Keys::read("keys.toml", "format = 1\n[sound]\nspeech = true\nvolume = 0.2\n").unwrap();
-        assert_eq!(quiet.sounds, Sounds { speech: true, volume: 0.2, ..Sounds::default() });
-        let told = Keys::read("keys.toml", "format = 1\n[sound]\nvolume = 7\nbells = true\n").unwrap_err().to_string();
+        let quiet = KeyBindings::read("keys.toml", "format = 1\n[sound]\nspeech = true\nvolume = 0.2\n").unwrap();
+        assert_eq!(quiet.sounds, SoundPreferences { speech: true, volume: 0.2, ..SoundPreferences::default() });
+        let told = KeyBindings::read("keys.toml", "format = 1\n[sound]\nvolume = 7\nbells = true\n").unwrap_err().to_string();
         assert!(told.contains("keys.toml:3") && told.contains("0 to 1") && told.contains("bells"), "{told}");
-        assert_eq!((board.keys().wish("Tab"), board.keys().wish("w")), (Some(Wish::Swap), None));
-        let told = Keys::read("keys.toml", "format = 1\n[sticks]\nup = \"b\"\n[actions]\nfly = \"f\"\n").unwrap_err().to_string();
+        assert_eq!((board.keys().window_action("Tab"), board.keys().window_action("w")), (Some(WindowAction::Swap), None));
+        let told =
+            KeyBindings::read("keys.toml", "format = 1\n[sticks]\nup = \"b\"\n[actions]\nfly = \"f\"\n").unwrap_err().to_string();
         assert!(told.contains("does up already") && told.contains("fly"), "{told}");
     }
 
     #[test]
-    fn exact_a_key_that_no_keyboard_has_is_told_with_its_line() {
+    fn exact_a_key_that_no_keyboard_has_is_reported_with_its_line() {
         let text = "format = 1\n[actions]\nlamp = \"F5\"\n[window]\nmap = \"shift\"\n";
-        let told = Keys::read("keys.toml", text).unwrap_err().to_string();
+        let told = KeyBindings::read("keys.toml", text).unwrap_err().to_string();
         assert!(told.contains("keys.toml:3: actions.lamp = f5: no such key (allowed: one sign, or up, "), "{told}");
         assert!(told.contains("keys.toml:5: window.map = shift: no such key"), "{told}");
     }
 
     #[test]
     fn exact_every_duty_has_a_key_that_people_can_read() {
-        let (usual, every) = (Keys::default(), PUSHES.len() + KEYS.len() + WISHES.len());
+        let (usual, every) = (KeyBindings::default(), PUSHES.len() + KEYS.len() + WISHES.len());
         let labels = usual.labels();
         let keys: std::collections::BTreeSet<&str> = labels.keys().filter_map(|name| usual.of(name)).collect();
         assert_eq!((labels.len(), keys.len()), (every, every), "one key each");

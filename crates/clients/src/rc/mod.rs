@@ -7,17 +7,17 @@
 
 pub mod action;
 pub mod axis;
+pub mod controller_link;
+pub mod input_recording;
 pub mod key;
 pub mod keyboard;
-pub mod link;
 pub mod profile;
-pub mod raw;
-pub mod record;
+pub mod raw_input;
 pub mod wizard;
 
-pub use action::Action;
-pub use profile::{Profile, StickMode};
-pub use raw::{Device, Event, Raw};
+pub use action::ControllerAction;
+pub use profile::{ControllerProfile, StickMode};
+pub use raw_input::{Device, DeviceEvent, RawInput};
 
 /// What the sticks ask of the vehicle, each in [-1, 1]: forward, right, up, clockwise seen from above.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -1,8 +1,8 @@
 //! What is known of a device: which axis is which stick, which button does what; as a file that outlives the program.
 
-use super::action::{self, Action};
-use super::axis::{Axis, LEAST_WAY};
-use super::{Device, Raw, Sticks};
+use super::action::{self, ControllerAction};
+use super::axis::{AxisCalibration, LEAST_WAY};
+use super::{Device, RawInput, Sticks};
 use spandrel_model::toml::{Problems, Reader, Section};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -18,7 +18,7 @@ const MOST: i64 = u32::MAX as i64;
 
 /// Where a stick moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Way {
+pub enum StickMotion {
     /// Left stick, up positive.
     LeftVertical,
     /// Left stick, right positive.
@@ -30,11 +30,11 @@ pub enum Way {
 }
 
 /// All four, with their names in files and for people.
-pub const WAYS: [(&str, Way, &str); 4] = [
-    ("left_vertical", Way::LeftVertical, "the LEFT stick fully UP"),
-    ("left_horizontal", Way::LeftHorizontal, "the LEFT stick fully to the RIGHT"),
-    ("right_vertical", Way::RightVertical, "the RIGHT stick fully UP"),
-    ("right_horizontal", Way::RightHorizontal, "the RIGHT stick fully to the RIGHT"),
+pub const WAYS: [(&str, StickMotion, &str); 4] = [
+    ("left_vertical", StickMotion::LeftVertical, "the LEFT stick fully UP"),
+    ("left_horizontal", StickMotion::LeftHorizontal, "the LEFT stick fully to the RIGHT"),
+    ("right_vertical", StickMotion::RightVertical, "the RIGHT stick fully UP"),
+    ("right_horizontal", StickMotion::RightHorizontal, "the RIGHT stick fully to the RIGHT"),
 ];
 
 /// Which stick does what, as transmitters number it.
@@ -70,7 +70,7 @@ impl StickMode {
 
     /// Where the sticks of a person in this mode stand for these wishes: left up, left right, right up, right right.
     #[must_use]
-    pub fn hands(self, sticks: Sticks) -> [f64; 4] {
+    pub fn sticks_by_hand(self, sticks: Sticks) -> [f64; 4] {
         let Sticks { forward, right, up, yaw } = sticks;
         match self {
             Self::One => [forward, yaw, up, right],
@@ -82,7 +82,7 @@ impl StickMode {
 
     /// The sticks' directions as wishes: each is a wish of its own, so modes are permutations.
     #[must_use]
-    pub fn sticks(self, read: impl Fn(Way) -> f64) -> Sticks {
+    pub fn sticks(self, read: impl Fn(StickMotion) -> f64) -> Sticks {
         let [lv, lh, rv, rh] = WAYS.map(|(_, way, _)| read(way));
         match self {
             Self::One => Sticks { forward: lv, yaw: lh, up: rv, right: rh },
@@ -95,23 +95,23 @@ impl StickMode {
 
 /// A device with a meaning.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Profile {
+pub struct ControllerProfile {
     /// Whose it is.
     pub device: Device,
     /// Which stick does what.
     pub mode: StickMode,
     /// How each way of the sticks is read.
-    pub ways: BTreeMap<Way, Axis>,
+    pub axes: BTreeMap<StickMotion, AxisCalibration>,
     /// Buttons that do something.
-    pub buttons: BTreeMap<u32, Action>,
+    pub buttons: BTreeMap<u32, ControllerAction>,
 }
 
-impl Profile {
+impl ControllerProfile {
     /// The sticks as the device stands; a way that has not been heard of yet is centred.
     #[must_use]
-    pub fn sticks(&self, raw: &Raw) -> Sticks {
+    pub fn sticks(&self, raw: &RawInput) -> Sticks {
         self.mode.sticks(|way| {
-            let axis = self.ways.get(&way);
+            let axis = self.axes.get(&way);
             axis.and_then(|axis| raw.axes.get(&axis.axis).map(|value| axis.read(*value))).unwrap_or(0.0)
         })
     }
@@ -126,7 +126,7 @@ impl Profile {
             self.mode.number(),
         );
         for (name, way, _) in WAYS {
-            if let Some(a) = self.ways.get(&way) {
+            if let Some(a) = self.axes.get(&way) {
                 let _ = write!(
                     text,
                     "\n[{name}]\naxis = {}\nlow = {:?}\ncentre = {:?}\nhigh = {:?}\ndead_band = {:?}\nexpo = {:?}\n",
@@ -167,17 +167,17 @@ fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }
 
-fn whole(r: &mut Reader, root: &mut Section) -> Profile {
-    r.whole(root, "format", (1, FORMAT), None);
+fn whole(r: &mut Reader, root: &mut Section) -> ControllerProfile {
+    r.integer(root, "format", (1, FORMAT), None);
     let device = Device { name: r.text(root, "device", None), id: r.text(root, "id", None) };
-    let mode = StickMode::numbered(r.whole(root, "stick_mode", (1, 4), Some(2))).unwrap_or(StickMode::Two);
-    let mut ways: BTreeMap<Way, Axis> = BTreeMap::new();
+    let mode = StickMode::numbered(r.integer(root, "stick_mode", (1, 4), Some(2))).unwrap_or(StickMode::Two);
+    let mut ways: BTreeMap<StickMotion, AxisCalibration> = BTreeMap::new();
     for (name, way, _) in WAYS {
         let mut section = r.section(root, name);
         let axis = axis(r, &mut section);
         if let Some((other, _)) = ways.iter().find(|(_, known)| known.axis == axis.axis) {
             let other = WAYS.iter().find(|(_, way, _)| way == other).map_or("", |(name, ..)| name);
-            r.complain(&section, "axis", &axis.axis.to_string(), "an axis of its own", &format!("is {other}'s already"));
+            r.add_problem(&section, "axis", &axis.axis.to_string(), "an axis of its own", &format!("is {other}'s already"));
         }
         r.finish(&section);
         ways.insert(way, axis);
@@ -185,10 +185,10 @@ fn whole(r: &mut Reader, root: &mut Section) -> Profile {
     let mut section = r.section(root, "buttons");
     let mut buttons = BTreeMap::new();
     for (name, action) in action::ALL {
-        for number in r.wholes(&mut section, name, (0, MOST)) {
+        for number in r.integers(&mut section, name, (0, MOST)) {
             let number = u32::try_from(number).unwrap_or(u32::MAX);
             if let Some(before) = buttons.insert(number, action) {
-                r.complain(
+                r.add_problem(
                     &section,
                     name,
                     &number.to_string(),
@@ -199,12 +199,12 @@ fn whole(r: &mut Reader, root: &mut Section) -> Profile {
         }
     }
     r.finish(&section);
-    Profile { device, mode, ways, buttons }
+    ControllerProfile { device, mode, axes: ways, buttons }
 }
 
-fn axis(r: &mut Reader, s: &mut Section) -> Axis {
-    let axis = Axis {
-        axis: u32::try_from(r.whole(s, "axis", (0, MOST), None)).unwrap_or(u32::MAX),
+fn axis(r: &mut Reader, s: &mut Section) -> AxisCalibration {
+    let axis = AxisCalibration {
+        axis: u32::try_from(r.integer(s, "axis", (0, MOST), None)).unwrap_or(u32::MAX),
         low: r.number(s, "low", (-1.0, 1.0), None),
         centre: r.number(s, "centre", (-1.0, 1.0), None),
         high: r.number(s, "high", (-1.0, 1.0), None),
@@ -214,7 +214,7 @@ fn axis(r: &mut Reader, s: &mut Section) -> Axis {
     let (below, above) = (axis.centre - axis.low, axis.high - axis.centre);
     if below * above <= 0.0 || below.abs() < LEAST_WAY || above.abs() < LEAST_WAY {
         let allowed = format!("between low and high, at least {LEAST_WAY} from both");
-        r.complain(s, "centre", &axis.centre.to_string(), &allowed, "no axis of a stick");
+        r.add_problem(s, "centre", &axis.centre.to_string(), &allowed, "no axis of a stick");
     }
     axis
 }
@@ -222,55 +222,61 @@ fn axis(r: &mut Reader, s: &mut Section) -> Axis {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rc::Event;
+    use crate::rc::DeviceEvent;
 
-    fn profile() -> Profile {
-        let axis = |axis, high: f64| Axis { axis, low: -high, centre: 0.02, high, dead_band: 0.0, expo: 0.0 };
-        Profile {
+    fn profile() -> ControllerProfile {
+        let axis = |axis, high: f64| AxisCalibration { axis, low: -high, centre: 0.02, high, dead_band: 0.0, expo: 0.0 };
+        ControllerProfile {
             device: Device { name: "A \"quoted\" transmitter".into(), id: "0483:5710".into() },
             mode: StickMode::Two,
-            ways: WAYS
+            axes: WAYS
                 .iter()
                 .enumerate()
                 .map(|(k, (_, way, _))| (*way, axis(k as u32 + 3, if k == 1 { -1.0 } else { 1.0 })))
                 .collect(),
-            buttons: [(0, Action::Lamp), (7, Action::Snapshot), (9, Action::Snapshot), (11, Action::CameraZoomIn)].into(),
+            buttons: [
+                (0, ControllerAction::Lamp),
+                (7, ControllerAction::Snapshot),
+                (9, ControllerAction::Snapshot),
+                (11, ControllerAction::CameraZoomIn),
+            ]
+            .into(),
         }
     }
 
     #[test]
     fn exact_what_is_written_is_read_again() {
         let profile = profile();
-        assert_eq!(Profile::read("p.toml", &profile.write()).unwrap(), profile);
+        assert_eq!(ControllerProfile::read("p.toml", &profile.write()).unwrap(), profile);
     }
 
     #[test]
     fn exact_modes_are_what_transmitters_call_them() {
-        let mut raw = Raw::default();
+        let mut raw = RawInput::default();
         for (axis, value) in [(3, 1.0), (4, 1.0), (5, -1.0), (6, 1.0)] {
-            raw.take(Event::Axis { axis, value });
+            raw.apply(DeviceEvent::Axis { axis, value });
         }
-        let flown = |mode| Profile { mode, ..profile() }.sticks(&raw);
+        let flown = |mode| ControllerProfile { mode, ..profile() }.sticks(&raw);
         // Left up, left fully left (its axis counts down), right down, right fully right.
         assert_eq!(flown(StickMode::One), Sticks { forward: 1.0, yaw: -1.0, up: -1.0, right: 1.0 });
         assert_eq!(flown(StickMode::Two), Sticks { up: 1.0, yaw: -1.0, forward: -1.0, right: 1.0 });
         assert_eq!(flown(StickMode::Three), Sticks { forward: 1.0, right: -1.0, up: -1.0, yaw: 1.0 });
         assert_eq!(flown(StickMode::Four), Sticks { up: 1.0, right: -1.0, forward: -1.0, yaw: 1.0 });
-        assert_eq!(profile().sticks(&Raw::default()), Sticks::default(), "nothing heard, nothing asked");
+        assert_eq!(profile().sticks(&RawInput::default()), Sticks::default(), "nothing heard, nothing asked");
         for mode in [StickMode::One, StickMode::Two, StickMode::Three, StickMode::Four] {
-            assert_eq!(mode.hands(flown(mode)), [1.0, -1.0, -1.0, 1.0], "hands stand where they push");
+            assert_eq!(mode.sticks_by_hand(flown(mode)), [1.0, -1.0, -1.0, 1.0], "hands stand where they push");
         }
     }
 
     #[test]
-    fn exact_a_wrong_file_is_told_line_by_line() {
+    fn exact_a_wrong_file_is_reported_line_by_line() {
         let text = profile()
             .write()
             .replace("axis = 4", "axis = 3")
             .replace("high = 1.0", "high = 0.05")
             .replace("stick_mode = 2", "stick_mode = 5");
         let text = text.replace("snapshot = [7, 9]", "snapshot = [0, 9]\nloop = [1]");
-        let told = Profile::read("mine.toml", &text).unwrap_err().to_string();
+        let told = ControllerProfile::read("mine.toml", &text).unwrap_err().to_string();
         for part in [
             "stick_mode",
             "allowed: whole number 1 to 4",

@@ -1,8 +1,8 @@
 //! Calibration by asking: centre, range, which stick is which axis and which way round, buttons. The same steps serve a window and a terminal.
 
-use super::axis::{Axis, LEAST_WAY};
-use super::profile::{DEAD_BAND, EXPO, Profile, StickMode, WAYS, Way};
-use super::{Action, Device, Event, Raw};
+use super::axis::{AxisCalibration, LEAST_WAY};
+use super::profile::{ControllerProfile, DEAD_BAND, EXPO, StickMode, StickMotion, WAYS};
+use super::{ControllerAction, Device, DeviceEvent, RawInput};
 use spandrel_model::time::SimTime;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -31,7 +31,7 @@ const OFF_CENTRE: f64 = 0.25;
 
 /// What a person is asked to do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Step {
+enum WizardStep {
     /// Let go of everything, and say so.
     LetGo,
     /// Measuring at rest.
@@ -49,87 +49,87 @@ enum Step {
 }
 
 /// Buttons that are asked for.
-const BUTTONS: [(Action, &str); 7] = [
-    (Action::Lamp, "the lamp"),
-    (Action::Snapshot, "a snapshot"),
-    (Action::Arm, "arming"),
-    (Action::TakeOff, "take-off"),
-    (Action::Land, "landing"),
-    (Action::GimbalUp, "the camera up"),
-    (Action::GimbalDown, "the camera down"),
+const BUTTONS: [(ControllerAction, &str); 7] = [
+    (ControllerAction::Lamp, "the lamp"),
+    (ControllerAction::Snapshot, "a snapshot"),
+    (ControllerAction::Arm, "arming"),
+    (ControllerAction::TakeOff, "take-off"),
+    (ControllerAction::Land, "landing"),
+    (ControllerAction::GimbalUp, "the camera up"),
+    (ControllerAction::GimbalDown, "the camera down"),
 ];
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Seen {
+struct AxisStatistics {
     /// Reading at rest: sum and count, then their mean.
     sum: f64,
     count: u32,
     /// At rest.
-    quiet: (f64, f64),
+    rest_range: (f64, f64),
     /// Measured while nobody touched it, and not only between two pushes.
     rested: bool,
     /// Over everything.
     ends: (f64, f64),
     /// Where it stands, and since when.
-    stands: (f64, SimTime),
+    steady: (f64, SimTime),
 }
 
-impl Seen {
+impl AxisStatistics {
     fn at(value: f64, now: SimTime) -> Self {
         let one = (value, value);
-        Self { sum: 0.0, count: 0, quiet: one, rested: false, ends: one, stands: (value, now) }
+        Self { sum: 0.0, count: 0, rest_range: one, rested: false, ends: one, steady: (value, now) }
     }
 
     fn take(&mut self, value: f64, now: SimTime) {
         self.ends = (self.ends.0.min(value), self.ends.1.max(value));
-        if (value - self.stands.0).abs() > STILL {
-            self.stands = (value, now);
+        if (value - self.steady.0).abs() > STILL {
+            self.steady = (value, now);
         }
     }
 
     fn measure(&mut self, value: f64) {
-        let quiet = if self.count == 0 { (value, value) } else { self.quiet };
-        self.quiet = (quiet.0.min(value), quiet.1.max(value));
+        let quiet = if self.count == 0 { (value, value) } else { self.rest_range };
+        self.rest_range = (quiet.0.min(value), quiet.1.max(value));
         (self.sum, self.count) = (self.sum + value, self.count + 1);
     }
 
     fn is_still(&self, seconds: f64, now: SimTime) -> bool {
-        (now - self.stands.1).s() >= seconds
+        (now - self.steady.1).s() >= seconds
     }
 }
 
 /// The wizard.
 #[derive(Debug, Clone)]
-pub struct Wizard {
+pub struct CalibrationWizard {
     device: Device,
     mode: StickMode,
-    step: Step,
-    raw: Raw,
+    step: WizardStep,
+    raw: RawInput,
     since: SimTime,
-    seen: BTreeMap<u32, Seen>,
+    statistics: BTreeMap<u32, AxisStatistics>,
     /// Axes that have been moved along their ends.
-    full: BTreeSet<u32>,
+    fully_moved: BTreeSet<u32>,
     /// Where axes stood when a push was asked for.
-    from: BTreeMap<u32, f64>,
+    push_start: BTreeMap<u32, f64>,
     pushed: Option<(u32, bool)>,
-    found: BTreeMap<Way, (u32, bool)>,
-    buttons: BTreeMap<u32, Action>,
+    found: BTreeMap<StickMotion, (u32, bool)>,
+    buttons: BTreeMap<u32, ControllerAction>,
     note: Option<&'static str>,
 }
 
-impl Wizard {
+impl CalibrationWizard {
     /// Asks for a device, for a person who flies in this stick mode.
     #[must_use]
     pub fn new(device: Device, mode: StickMode) -> Self {
         Self {
             device,
             mode,
-            step: Step::LetGo,
-            raw: Raw::default(),
+            step: WizardStep::LetGo,
+            raw: RawInput::default(),
             since: SimTime::ZERO,
-            seen: BTreeMap::new(),
-            full: BTreeSet::new(),
-            from: BTreeMap::new(),
+            statistics: BTreeMap::new(),
+            fully_moved: BTreeSet::new(),
+            push_start: BTreeMap::new(),
             pushed: None,
             found: BTreeMap::new(),
             buttons: BTreeMap::new(),
@@ -141,18 +141,18 @@ impl Wizard {
     #[must_use]
     pub fn prompt(&self) -> String {
         let asked = match self.step {
-            Step::LetGo => {
+            WizardStep::LetGo => {
                 "Let go of both sticks (a throttle that stays where it is put: into its middle), then press Enter.".to_owned()
             }
-            Step::Rest => "Leave the sticks alone ...".to_owned(),
-            Step::Range => format!(
+            WizardStep::Rest => "Leave the sticks alone ...".to_owned(),
+            WizardStep::Range => format!(
                 "Move both sticks along their ends, all the way round, then press Enter. Axes found: {} of 4.",
-                self.seen.values().filter(|seen| moved(seen)).count().min(4)
+                self.statistics.values().filter(|seen| moved(seen)).count().min(4)
             ),
-            Step::Middle(_) => "Back to the middle ...".to_owned(),
-            Step::Push(k) => format!("Push {} and hold it there.", WAYS[k].2),
-            Step::Button(k) => format!("Press the button for {}, or Enter for none.", BUTTONS[k].1),
-            Step::Done => "Done.".to_owned(),
+            WizardStep::Middle(_) => "Back to the middle ...".to_owned(),
+            WizardStep::Push(k) => format!("Push {} and hold it there.", WAYS[k].2),
+            WizardStep::Button(k) => format!("Press the button for {}, or Enter for none.", BUTTONS[k].1),
+            WizardStep::Done => "Done.".to_owned(),
         };
         match self.note {
             Some(note) => format!("{note} {asked}"),
@@ -168,19 +168,19 @@ impl Wizard {
 
     /// How far each axis stands, for a display: number, reading, ends.
     pub fn axes(&self) -> impl Iterator<Item = (u32, f64, (f64, f64))> + '_ {
-        self.raw.axes.iter().filter_map(|(axis, value)| Some((*axis, *value, self.seen.get(axis)?.ends)))
+        self.raw.axes.iter().filter_map(|(axis, value)| Some((*axis, *value, self.statistics.get(axis)?.ends)))
     }
 
     /// The device reported something.
-    pub fn handle(&mut self, event: Event, now: SimTime) {
-        self.raw.take(event);
-        if let Event::Axis { axis, .. } = event
+    pub fn handle(&mut self, event: DeviceEvent, now: SimTime) {
+        self.raw.apply(event);
+        if let DeviceEvent::Axis { axis, .. } = event
             && let Some(value) = self.raw.axes.get(&axis).copied()
         {
-            self.seen.entry(axis).or_insert_with(|| Seen::at(value, now)).take(value, now);
-            self.from.entry(axis).or_insert(value);
+            self.statistics.entry(axis).or_insert_with(|| AxisStatistics::at(value, now)).take(value, now);
+            self.push_start.entry(axis).or_insert(value);
         }
-        if let (Step::Button(k), Event::Button { button, pressed: true }) = (self.step, event) {
+        if let (WizardStep::Button(k), DeviceEvent::Button { button, pressed: true }) = (self.step, event) {
             if let std::collections::btree_map::Entry::Vacant(free) = self.buttons.entry(button) {
                 free.insert(BUTTONS[k].0);
                 self.next_button(k);
@@ -188,9 +188,9 @@ impl Wizard {
                 self.note = Some("That button is taken.");
             }
         }
-        if event == Event::Lost {
+        if event == DeviceEvent::Lost {
             self.note = Some("The device was lost; plug it in again.");
-            self.begin(Step::LetGo, now);
+            self.start_step(WizardStep::LetGo, now);
         }
     }
 
@@ -198,66 +198,66 @@ impl Wizard {
     pub fn confirm(&mut self, now: SimTime) {
         self.note = None;
         match self.step {
-            Step::LetGo => {
+            WizardStep::LetGo => {
                 // An axis that has not been heard of stands nobody knows where: it is measured when it comes back to its middle.
-                self.seen = self.raw.axes.iter().map(|(axis, value)| (*axis, Seen::at(*value, now))).collect();
+                self.statistics = self.raw.axes.iter().map(|(axis, value)| (*axis, AxisStatistics::at(*value, now))).collect();
                 self.buttons.clear();
-                self.begin(Step::Rest, now);
+                self.start_step(WizardStep::Rest, now);
             }
-            Step::Range => self.end_range(now),
-            Step::Button(k) => self.next_button(k),
-            Step::Rest | Step::Middle(_) | Step::Push(_) | Step::Done => {}
+            WizardStep::Range => self.end_range(now),
+            WizardStep::Button(k) => self.next_button(k),
+            WizardStep::Rest | WizardStep::Middle(_) | WizardStep::Push(_) | WizardStep::Done => {}
         }
     }
 
     fn end_range(&mut self, now: SimTime) {
-        self.full = self.seen.iter().filter(|(_, seen)| moved(seen)).map(|(axis, _)| *axis).collect();
+        self.fully_moved = self.statistics.iter().filter(|(_, seen)| moved(seen)).map(|(axis, _)| *axis).collect();
         self.found.clear();
-        if self.full.len() < WAYS.len() {
+        if self.fully_moved.len() < WAYS.len() {
             self.note = Some("Fewer than four axes have moved.");
         } else {
-            self.begin(Step::Middle(0), now);
+            self.start_step(WizardStep::Middle(0), now);
         }
     }
 
-    fn begin(&mut self, step: Step, now: SimTime) {
+    fn start_step(&mut self, step: WizardStep, now: SimTime) {
         (self.step, self.since, self.pushed) = (step, now, None);
     }
 
     fn next_button(&mut self, k: usize) {
         self.note = None;
-        self.step = if k + 1 < BUTTONS.len() { Step::Button(k + 1) } else { Step::Done };
+        self.step = if k + 1 < BUTTONS.len() { WizardStep::Button(k + 1) } else { WizardStep::Done };
     }
 
     /// Time passes: call it every few milliseconds.
     pub fn handle_timeout(&mut self, now: SimTime) {
         match self.step {
-            Step::Rest => self.rest(now),
-            Step::Middle(k) if self.is_middle(now) => {
+            WizardStep::Rest => self.rest(now),
+            WizardStep::Middle(k) if self.is_middle(now) => {
                 self.measure_middle();
-                self.from.clone_from(&self.raw.axes);
-                self.begin(Step::Push(k), now);
+                self.push_start.clone_from(&self.raw.axes);
+                self.start_step(WizardStep::Push(k), now);
             }
-            Step::Push(k) => self.push(k, now),
+            WizardStep::Push(k) => self.push(k, now),
             _ => {}
         }
     }
 
     fn rest(&mut self, now: SimTime) {
-        for (axis, seen) in &mut self.seen {
+        for (axis, seen) in &mut self.statistics {
             if let Some(value) = self.raw.axes.get(axis) {
                 seen.measure(*value);
                 seen.rested = true;
             }
         }
         if (now - self.since).s() >= REST_S {
-            self.begin(Step::Range, now);
+            self.start_step(WizardStep::Range, now);
         }
     }
 
     /// Where an axis stands, and how far that is out, -1 to 1 of its ends.
     fn deflection(&self, axis: u32) -> Option<(f64, f64)> {
-        let (value, seen) = (*self.raw.axes.get(&axis)?, self.seen.get(&axis)?);
+        let (value, seen) = (*self.raw.axes.get(&axis)?, self.statistics.get(&axis)?);
         let centre = centre(seen);
         let way = if value >= centre { seen.ends.1 - centre } else { centre - seen.ends.0 };
         Some((value, if way == 0.0 { 0.0 } else { (value - centre) / way }))
@@ -268,8 +268,8 @@ impl Wizard {
     }
 
     fn is_middle(&self, now: SimTime) -> bool {
-        let still = |axis: u32, seconds: f64| self.seen.get(&axis).is_none_or(|seen| seen.is_still(seconds, now));
-        self.full.iter().all(|axis| match self.deflection(*axis) {
+        let still = |axis: u32, seconds: f64| self.statistics.get(&axis).is_none_or(|seen| seen.is_still(seconds, now));
+        self.fully_moved.iter().all(|axis| match self.deflection(*axis) {
             Some((_, part)) if part.abs() < LET_GO => still(*axis, STILL_S),
             Some(_) => !self.is_known(*axis) && still(*axis, ASIDE_S),
             None => true,
@@ -278,63 +278,64 @@ impl Wizard {
 
     /// Some systems say nothing of an axis before it moves: its centre is where it comes back to.
     fn measure_middle(&mut self) {
-        for axis in self.full.clone() {
+        for axis in self.fully_moved.clone() {
             let Some((value, part)) = self.deflection(axis) else { continue };
-            if let Some(seen) = self.seen.get_mut(&axis).filter(|seen| !seen.rested && part.abs() < LET_GO) {
+            if let Some(seen) = self.statistics.get_mut(&axis).filter(|seen| !seen.rested && part.abs() < LET_GO) {
                 seen.measure(value);
             }
         }
     }
 
     fn push(&mut self, k: usize, now: SimTime) {
-        self.follow(now);
-        let now_pushed = self.only_pushed();
+        self.track_released_sticks(now);
+        let now_pushed = self.single_pushed_axis();
         if now_pushed != self.pushed {
             (self.pushed, self.since) = (now_pushed, now);
         }
         let Some((axis, up)) = self.pushed.filter(|_| (now - self.since).s() >= PUSHED_S) else { return };
-        if !self.full.contains(&axis) {
+        if !self.fully_moved.contains(&axis) {
             self.note = Some("That stick had not been moved along its ends.");
-            return self.begin(Step::Range, now);
+            return self.start_step(WizardStep::Range, now);
         }
         if self.is_known(axis) {
             self.note = Some("That way is known already: push the other one.");
-            return self.begin(Step::Middle(k), now);
+            return self.start_step(WizardStep::Middle(k), now);
         }
         self.note = None;
         self.found.insert(WAYS[k].1, (axis, up));
         if k + 1 < WAYS.len() {
-            self.begin(Step::Middle(k + 1), now);
+            self.start_step(WizardStep::Middle(k + 1), now);
         } else {
-            self.begin(Step::Button(0), now);
+            self.start_step(WizardStep::Button(0), now);
         }
     }
 
     /// A stick that was still held when a push was asked for, and has been let go since, may answer.
-    fn follow(&mut self, now: SimTime) {
-        for axis in &self.full {
+    fn track_released_sticks(&mut self, now: SimTime) {
+        for axis in &self.fully_moved {
             let Some((value, part)) = self.deflection(*axis) else { continue };
-            if part.abs() < LET_GO && self.seen.get(axis).is_some_and(|seen| seen.is_still(PUSHED_S, now)) {
-                self.from.insert(*axis, value);
+            if part.abs() < LET_GO && self.statistics.get(axis).is_some_and(|seen| seen.is_still(PUSHED_S, now)) {
+                self.push_start.insert(*axis, value);
             }
         }
     }
 
     /// How far an axis has come since the push was asked for, of the raw range of 2.
-    fn come(&self, axis: u32) -> f64 {
-        let ends = self.from.get(&axis).zip(self.raw.axes.get(&axis));
+    fn displacement(&self, axis: u32) -> f64 {
+        let ends = self.push_start.get(&axis).zip(self.raw.axes.get(&axis));
         ends.map_or(0.0, |(from, value)| (value - from).abs())
     }
 
     /// The axis that has come to an end since the push was asked for, and whether to its upper one; none while there are two.
-    fn only_pushed(&self) -> Option<(u32, bool)> {
+    fn single_pushed_axis(&self) -> Option<(u32, bool)> {
         let pushed = |axis: &u32| {
-            let ends = self.seen.get(axis)?.ends;
+            let ends = self.statistics.get(axis)?.ends;
             let (_, part) = self.deflection(*axis)?;
-            (part.abs() >= PUSHED && self.come(*axis) >= COME * (ends.1 - ends.0) / 2.0).then_some((*axis, part > 0.0))
+            (part.abs() >= PUSHED && self.displacement(*axis) >= COME * (ends.1 - ends.0) / 2.0).then_some((*axis, part > 0.0))
         };
-        let sticks: Vec<(u32, bool)> = self.full.iter().filter_map(pushed).collect();
-        let mut others = self.seen.keys().filter(|axis| !self.full.contains(axis) && self.come(**axis) >= MOVED);
+        let sticks: Vec<(u32, bool)> = self.fully_moved.iter().filter_map(pushed).collect();
+        let mut others =
+            self.statistics.keys().filter(|axis| !self.fully_moved.contains(axis) && self.displacement(**axis) >= MOVED);
         match sticks.as_slice() {
             [] => others.next().map(|axis| (*axis, true)),
             [one] => Some(*one),
@@ -344,51 +345,54 @@ impl Wizard {
 
     /// The profile, when all has been asked.
     #[must_use]
-    pub fn profile(&self) -> Option<Profile> {
-        if self.step != Step::Done {
+    pub fn profile(&self) -> Option<ControllerProfile> {
+        if self.step != WizardStep::Done {
             return None;
         }
-        let ways =
-            self.found.iter().filter_map(|(way, (axis, up))| Some((*way, read_as(*axis, *up, self.seen.get(axis)?)))).collect();
-        Some(Profile { device: self.device.clone(), mode: self.mode, ways, buttons: self.buttons.clone() })
+        let ways = self
+            .found
+            .iter()
+            .filter_map(|(way, (axis, up))| Some((*way, axis_calibration(*axis, *up, self.statistics.get(axis)?))))
+            .collect();
+        Some(ControllerProfile { device: self.device.clone(), mode: self.mode, axes: ways, buttons: self.buttons.clone() })
     }
 }
 
-fn moved(seen: &Seen) -> bool {
+fn moved(seen: &AxisStatistics) -> bool {
     seen.ends.1 - seen.ends.0 >= MOVED
 }
 
 /// Where the stick rests: measured, unless it rests near an end, as a throttle without a spring may.
-fn centre(seen: &Seen) -> f64 {
+fn centre(seen: &AxisStatistics) -> f64 {
     let middle = f64::midpoint(seen.ends.0, seen.ends.1);
     let rest = if seen.count > 0 { seen.sum / f64::from(seen.count) } else { middle };
     let off = (rest - middle).abs() > OFF_CENTRE * (seen.ends.1 - seen.ends.0) / 2.0;
     if off { middle } else { rest }
 }
 
-fn read_as(axis: u32, up: bool, seen: &Seen) -> Axis {
+fn axis_calibration(axis: u32, up: bool, seen: &AxisStatistics) -> AxisCalibration {
     let centre = centre(seen);
     let way = (seen.ends.1 - centre).min(centre - seen.ends.0).max(LEAST_WAY);
-    let noise = (seen.quiet.1 - seen.quiet.0) / 2.0 / way;
+    let noise = (seen.rest_range.1 - seen.rest_range.0) / 2.0 / way;
     let (low, high) = if up { seen.ends } else { (seen.ends.1, seen.ends.0) };
-    Axis { axis, low, centre, high, dead_band: (NOISES * noise).clamp(DEAD_BAND, MOST_DEAD), expo: EXPO }
+    AxisCalibration { axis, low, centre, high, dead_band: (NOISES * noise).clamp(DEAD_BAND, MOST_DEAD), expo: EXPO }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rc::record;
+    use crate::rc::input_recording;
 
     /// A person at a transmitter: axes 0 roll, 1 pitch (counts down), 2 throttle (no spring), 3 yaw; 5 is a knob.
-    struct Person {
-        wizard: Wizard,
+    struct SimulatedUser {
+        wizard: CalibrationWizard,
         now: SimTime,
     }
 
-    impl Person {
+    impl SimulatedUser {
         fn new() -> Self {
             let device = Device { name: "Transmitter".into(), id: "1:2".into() };
-            let mut person = Self { wizard: Wizard::new(device, StickMode::Two), now: SimTime::ZERO };
+            let mut person = Self { wizard: CalibrationWizard::new(device, StickMode::Two), now: SimTime::ZERO };
             for axis in [0, 1, 2, 3, 5] {
                 person.axis(axis, 0.01);
             }
@@ -397,7 +401,7 @@ mod tests {
         }
 
         fn axis(&mut self, axis: u32, value: f64) {
-            self.wizard.handle(Event::Axis { axis, value }, self.now);
+            self.wizard.handle(DeviceEvent::Axis { axis, value }, self.now);
             self.wait(0.01);
         }
 
@@ -413,7 +417,7 @@ mod tests {
             self.wizard.confirm(self.now);
         }
 
-        fn stir(&mut self) {
+        fn jitter_axes(&mut self) {
             self.confirm();
             self.wait(2.0);
             for (axis, low, high) in [(0, -0.9, 0.95), (1, -1.0, 1.0), (2, -0.9, 0.9), (3, -0.7, 0.8)] {
@@ -433,48 +437,51 @@ mod tests {
 
     #[test]
     fn exact_the_wizard_finds_axes_ends_and_directions() {
-        let mut person = Person::new();
-        person.stir();
+        let mut person = SimulatedUser::new();
+        person.jitter_axes();
         person.confirm();
         person.wait(0.4);
         // Left up: throttle; left right: yaw; right up: pitch, which counts down; right right: roll.
         for (axis, value) in [(2, 0.9), (3, 0.8), (1, -1.0), (0, 0.95)] {
             person.hold(axis, value);
         }
-        person.wizard.handle(Event::Button { button: 4, pressed: true }, person.now);
-        person.wizard.handle(Event::Button { button: 4, pressed: true }, person.now);
+        person.wizard.handle(DeviceEvent::Button { button: 4, pressed: true }, person.now);
+        person.wizard.handle(DeviceEvent::Button { button: 4, pressed: true }, person.now);
         assert!(person.wizard.prompt().starts_with("That button is taken."), "{}", person.wizard.prompt());
         for _ in 1..BUTTONS.len() {
             assert_eq!(person.wizard.profile(), None);
             person.confirm();
         }
         let profile = person.wizard.profile().expect("all asked");
-        let axis = |way| profile.ways[&way];
-        assert_eq!(axis(Way::LeftVertical).axis, 2);
-        assert!(axis(Way::LeftVertical).centre.abs() < 1e-12, "a throttle without a spring rests nowhere: its middle is taken");
-        assert_eq!((axis(Way::RightVertical).low, axis(Way::RightVertical).high), (1.0, -1.0));
-        assert_eq!((axis(Way::LeftHorizontal).low, axis(Way::LeftHorizontal).high), (-0.7, 0.8));
-        assert_eq!(axis(Way::RightHorizontal).axis, 0);
-        assert_eq!(profile.buttons, [(4, Action::Lamp)].into());
-        let again = Profile::read("p", &profile.write()).unwrap();
+        let axis = |way| profile.axes[&way];
+        assert_eq!(axis(StickMotion::LeftVertical).axis, 2);
+        assert!(
+            axis(StickMotion::LeftVertical).centre.abs() < 1e-12,
+            "a throttle without a spring rests nowhere: its middle is taken"
+        );
+        assert_eq!((axis(StickMotion::RightVertical).low, axis(StickMotion::RightVertical).high), (1.0, -1.0));
+        assert_eq!((axis(StickMotion::LeftHorizontal).low, axis(StickMotion::LeftHorizontal).high), (-0.7, 0.8));
+        assert_eq!(axis(StickMotion::RightHorizontal).axis, 0);
+        assert_eq!(profile.buttons, [(4, ControllerAction::Lamp)].into());
+        let again = ControllerProfile::read("p", &profile.write()).unwrap();
         assert_eq!(again, profile);
     }
 
     #[test]
-    fn exact_what_is_done_wrong_is_said_and_asked_again() {
-        let mut person = Person::new();
+    fn exact_what_is_done_wrong_is_reported_and_asked_again() {
+        let mut person = SimulatedUser::new();
         person.confirm();
         person.wait(2.0);
         person.confirm();
         assert!(person.wizard.prompt().starts_with("Fewer than four axes have moved."));
-        let mut person = Person::new();
-        person.stir();
+        let mut person = SimulatedUser::new();
+        person.jitter_axes();
         person.confirm();
         person.wait(0.4);
         person.hold(2, 0.9);
         person.hold(2, 0.9);
         assert!(person.wizard.prompt().contains("known already"), "{}", person.wizard.prompt());
-        person.wizard.handle(Event::Lost, person.now);
+        person.wizard.handle(DeviceEvent::Lost, person.now);
         assert!(person.wizard.prompt().contains("plug it in again"));
     }
 
@@ -529,10 +536,10 @@ mod tests {
     #[test]
     fn exact_triggers_that_were_touched_first_are_no_sticks_and_an_axis_unheard_of_is_measured_where_it_comes_back_to() {
         let device = Device { name: "Pad".into(), id: "1:2".into() };
-        let lines = PAD.map(|(s, axis, value)| record::line(SimTime::from_s(s), Event::Axis { axis, value }));
-        let text: Vec<String> = std::iter::once(record::head(&device)).chain(lines).collect();
-        let mut record = record::Record::read("pad.jsonl", &text.join("\n")).unwrap();
-        let mut wizard = Wizard::new(device, StickMode::Two);
+        let lines = PAD.map(|(s, axis, value)| input_recording::line(SimTime::from_s(s), DeviceEvent::Axis { axis, value }));
+        let text: Vec<String> = std::iter::once(input_recording::head(&device)).chain(lines).collect();
+        let mut record = input_recording::InputRecording::read("pad.jsonl", &text.join("\n")).unwrap();
+        let mut wizard = CalibrationWizard::new(device, StickMode::Two);
         let enters = [0.4, 4.3].map(SimTime::from_s).into_iter().chain((0..7).map(|k| SimTime::from_s(f64::from(k) + 20.0)));
         let mut enters = enters.peekable();
         let mut now = SimTime::ZERO;
@@ -545,18 +552,19 @@ mod tests {
             now += SimTime::from_ms(5);
         }
         let profile = wizard.profile().unwrap_or_else(|| panic!("stands at: {}", wizard.prompt()));
-        let ways = [Way::LeftVertical, Way::LeftHorizontal, Way::RightVertical, Way::RightHorizontal];
-        assert_eq!(ways.map(|way| profile.ways[&way].axis), [1, 0, 4, 3]);
-        let across = profile.ways[&Way::LeftHorizontal];
+        let ways =
+            [StickMotion::LeftVertical, StickMotion::LeftHorizontal, StickMotion::RightVertical, StickMotion::RightHorizontal];
+        assert_eq!(ways.map(|way| profile.axes[&way].axis), [1, 0, 4, 3]);
+        let across = profile.axes[&StickMotion::LeftHorizontal];
         assert!((across.centre - 0.065).abs() < 0.006, "{across:?}: its ends' middle is 0");
-        assert!(across.low < across.high && profile.ways[&Way::LeftVertical].low > 0.0, "a pad's up counts down");
-        assert_eq!(Profile::read("p", &profile.write()).unwrap(), profile);
+        assert!(across.low < across.high && profile.axes[&StickMotion::LeftVertical].low > 0.0, "a pad's up counts down");
+        assert_eq!(ControllerProfile::read("p", &profile.write()).unwrap(), profile);
     }
 
     #[test]
     fn exact_a_stick_that_was_not_moved_along_its_ends_is_sent_back_there() {
-        let mut person = Person::new();
-        person.stir();
+        let mut person = SimulatedUser::new();
+        person.jitter_axes();
         person.confirm();
         person.wait(0.4);
         person.axis(5, 1.0);

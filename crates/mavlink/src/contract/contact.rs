@@ -5,7 +5,7 @@ use serde::Serialize;
 /// What the aircraft touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Default)]
 #[serde(rename_all = "lowercase")]
-pub enum Contact {
+pub enum ContactKind {
     /// Nothing.
     #[default]
     None,
@@ -23,7 +23,7 @@ pub enum Contact {
     Other,
 }
 
-impl Contact {
+impl ContactKind {
     /// All of them, by code.
     pub const ALL: [Self; 7] = [Self::None, Self::Bridge, Self::Terrain, Self::Water, Self::Vehicle, Self::Person, Self::Other];
 
@@ -49,7 +49,7 @@ impl Contact {
 
     /// The word in exported files.
     #[must_use]
-    pub fn word(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
             Self::None => "none",
             Self::Bridge => "bridge",
@@ -88,9 +88,9 @@ mod tests {
 
     #[test]
     fn exact_codes_come_back_and_unknown_ones_are_other() {
-        for contact in Contact::ALL {
-            assert_eq!(Contact::from_code(contact.code()), contact);
+        for contact in ContactKind::ALL {
+            assert_eq!(ContactKind::from_code(contact.code()), contact);
         }
-        assert_eq!([7, -1].map(Contact::from_code), [Contact::Other; 2]);
+        assert_eq!([7, -1].map(ContactKind::from_code), [ContactKind::Other; 2]);
     }
 }

@@ -84,7 +84,7 @@ impl ControlSource {
 
     /// The word in records.
     #[must_use]
-    pub fn word(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
             Self::Pilot => "pilot",
             Self::Mission => "mission",

@@ -2,14 +2,14 @@
 //!
 //! Whole numbers travel as NAMED_VALUE_INT, others as NAMED_VALUE_FLOAT. `time_boot_ms` is simulation time.
 
-use super::contact::Contact;
+use super::contact::ContactKind;
 use crate::dialect::{MavMessage, NAMED_VALUE_FLOAT_DATA, NAMED_VALUE_INT_DATA};
 
 /// A named value and what it says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Named {
     /// `contact`: what is touched from now on, the most severe of several. On change and at 10 Hz.
-    Contact(Contact),
+    Contact(ContactKind),
     /// `hits`: onsets of contact since simulation start, so that none is lost between two `contact`s. On change and every 5 s.
     Hits(i32),
     /// `respawns`: how often the aircraft was put back. On change and every 5 s.
@@ -77,7 +77,7 @@ impl Named {
     pub fn from_int(named: &NAMED_VALUE_INT_DATA) -> Option<Self> {
         let value = named.value;
         Some(match named.name.to_str().ok()? {
-            "contact" => Self::Contact(Contact::from_code(value)),
+            "contact" => Self::Contact(ContactKind::from_code(value)),
             "hits" => Self::Hits(value),
             "respawns" => Self::Respawns(value),
             "traffic" => Self::Traffic(value),
@@ -119,7 +119,7 @@ mod tests {
     #[test]
     fn exact_every_named_value_comes_back() {
         let all = [
-            Named::Contact(Contact::Person),
+            Named::Contact(ContactKind::Person),
             Named::Hits(3),
             Named::Respawns(-1),
             Named::Traffic(-95_000),

@@ -1,7 +1,7 @@
 //! A flight read at the scorer's rate. Frame i stands for the 1/f s that end at its time; frame 1 is lift-off.
 
 use super::timeline::Flight;
-use crate::contract::contact::Contact;
+use crate::contract::contact::ContactKind;
 use crate::contract::truth::Truth;
 use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use spandrel_model::time::SimTime;
@@ -33,7 +33,7 @@ pub struct Frame {
     /// Battery, %.
     pub battery_pct: f64,
     /// Most severe contact since the frame before, as the wire said it.
-    pub contact: Contact,
+    pub contact: ContactKind,
     /// In a gap too long to interpolate.
     pub missing: bool,
     /// In a shorter gap.
@@ -56,7 +56,7 @@ impl Frame {
 
 /// State between samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Between {
+pub struct FrameAccumulator {
     /// Position, m.
     pub position_m: Vec3<Enu>,
     /// Velocity, m/s.
@@ -84,11 +84,11 @@ impl Flight {
 
     /// Where the drone was at `time`; before the first sample as at the first, after the last as at the last.
     #[must_use]
-    pub fn between(&self, time: SimTime) -> Option<Between> {
+    pub fn between(&self, time: SimTime) -> Option<FrameAccumulator> {
         let after = self.truths.partition_point(|truth| truth.time <= time);
         let before = self.truths[after.saturating_sub(1)..].first()?;
         let next = self.truths.get(after).filter(|_| after > 0);
-        let held = |missing| Between {
+        let held = |missing| FrameAccumulator {
             position_m: before.position_m,
             velocity_m_s: before.velocity_m_s,
             ned_from_frd: before.ned_from_frd,
@@ -107,7 +107,7 @@ impl Flight {
             return Some(held(false));
         }
         let t = (time - before.time).ns() as f64 / span.ns() as f64;
-        Some(Between {
+        Some(FrameAccumulator {
             position_m: before.position_m.lerp(next.position_m, t),
             velocity_m_s: before.velocity_m_s.lerp(next.velocity_m_s, t),
             interpolated: span > GAP_AFTER,
@@ -137,7 +137,7 @@ impl Flight {
             velocity_m_s: between.velocity_m_s,
             // A vehicle that has not spoken of its battery yet is taken as full.
             battery_pct: self.battery.at(time).unwrap_or(100.0),
-            contact: if between.missing { Contact::None } else { self.contact_in(since, time) },
+            contact: if between.missing { ContactKind::None } else { self.contact_in(since, time) },
             missing: between.missing,
             interpolated: between.interpolated,
             clearance_m: self.clearance.at(time),
@@ -147,7 +147,7 @@ impl Flight {
     }
 
     /// The contact that holds at `time`, or the most severe that came and went since `since`.
-    fn contact_in(&self, since: SimTime, time: SimTime) -> Contact {
+    fn contact_in(&self, since: SimTime, time: SimTime) -> ContactKind {
         let changes = self.contact.between(since, time);
         let now = self.contact.at(time).unwrap_or_default();
         changes.iter().map(|change| change.2).chain([now]).max_by_key(|contact| contact.severity()).unwrap_or_default()
@@ -155,10 +155,10 @@ impl Flight {
 
     /// Instants at which the count of onsets rose although no contact was reported for it: contacts whose messages were lost.
     #[must_use]
-    pub fn unreported_hits(&self) -> Vec<SimTime> {
+    pub fn missed_contacts(&self) -> Vec<SimTime> {
         let mut lost = Vec::new();
         let mut accounted = None;
-        let mut onsets = Onsets::default();
+        let mut onsets = ContactOnsets::default();
         for (time, _, count) in self.hits.all() {
             let surplus = i64::from(*count) - onsets.until(self, *time + HIT_REPORT_WITHIN);
             match accounted {
@@ -177,16 +177,16 @@ impl Flight {
 
 /// Onsets in the contact signal, counted as time goes on.
 #[derive(Default)]
-struct Onsets {
+struct ContactOnsets {
     read: usize,
     touching: bool,
     count: i64,
 }
 
-impl Onsets {
+impl ContactOnsets {
     fn until(&mut self, flight: &Flight, time: SimTime) -> i64 {
         while let Some((_, _, now)) = flight.contact.all().get(self.read).filter(|point| point.0 <= time) {
-            let touching = *now != Contact::None;
+            let touching = *now != ContactKind::None;
             self.count += i64::from(touching && !self.touching);
             self.touching = touching;
             self.read += 1;

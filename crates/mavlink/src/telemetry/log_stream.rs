@@ -1,37 +1,37 @@
 //! A telemetry log that arrives in pieces: a log of any length is read in bounded memory.
 
-use super::sample::Header;
-use super::tlog::{Reader, Record, STAMP_BYTES, record_at};
+use super::sample::FrameHeader;
+use super::tlog::{STAMP_BYTES, TlogReader, TlogRecord, record_at};
 use std::ops::ControlFlow;
 
 /// Longest record: stamp, and a MAVLink 2 frame with the largest payload and a signature (MAVLink guide, "Serialization").
 const RECORD_MOST: usize = STAMP_BYTES + 10 + 255 + 2 + 13;
 
 /// A telemetry log that can be read more than once.
-pub trait Log {
+pub trait TelemetryLog {
     /// Calls `take` with each whole record in file order, until it breaks or the log ends.
     ///
     /// # Errors
     /// When the log cannot be read.
-    fn each(&self, take: &mut dyn FnMut(Record<'_>) -> ControlFlow<()>) -> std::io::Result<()>;
+    fn for_each_record(&self, take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> std::io::Result<()>;
 }
 
-impl Log for [u8] {
-    fn each(&self, take: &mut dyn FnMut(Record<'_>) -> ControlFlow<()>) -> std::io::Result<()> {
-        let _ = Reader::new(self).try_for_each(take);
+impl TelemetryLog for [u8] {
+    fn for_each_record(&self, take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> std::io::Result<()> {
+        let _ = TlogReader::new(self).try_for_each(take);
         Ok(())
     }
 }
 
-impl Log for Vec<u8> {
-    fn each(&self, take: &mut dyn FnMut(Record<'_>) -> ControlFlow<()>) -> std::io::Result<()> {
-        self.as_slice().each(take)
+impl TelemetryLog for Vec<u8> {
+    fn for_each_record(&self, take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> std::io::Result<()> {
+        self.as_slice().for_each_record(take)
     }
 }
 
-/// Splits pieces of a log into records, by the same rules as [`Reader`].
+/// Splits pieces of a log into records, by the same rules as [`TlogReader`].
 #[derive(Debug, Clone, Default)]
-pub struct Splitter {
+pub struct RecordSplitter {
     bytes: Vec<u8>,
     at: usize,
     /// Bytes of the log before `bytes`.
@@ -41,9 +41,9 @@ pub struct Splitter {
     searching: bool,
 }
 
-impl Splitter {
+impl RecordSplitter {
     /// Takes the next piece and hands out the records that it completes.
-    pub fn feed(&mut self, piece: &[u8], take: &mut dyn FnMut(Record<'_>) -> ControlFlow<()>) -> ControlFlow<()> {
+    pub fn feed(&mut self, piece: &[u8], take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> ControlFlow<()> {
         self.bytes.drain(..self.at);
         self.before += self.at as u64;
         self.at = 0;
@@ -52,7 +52,7 @@ impl Splitter {
     }
 
     /// Hands out the last records: the log has ended.
-    pub fn end(&mut self, take: &mut dyn FnMut(Record<'_>) -> ControlFlow<()>) -> ControlFlow<()> {
+    pub fn end(&mut self, take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> ControlFlow<()> {
         self.split(1, take)
     }
 
@@ -63,10 +63,10 @@ impl Splitter {
     }
 
     /// Splits while `least` bytes are left: with fewer a record might go on in the next piece.
-    fn split(&mut self, least: usize, take: &mut dyn FnMut(Record<'_>) -> ControlFlow<()>) -> ControlFlow<()> {
+    fn split(&mut self, least: usize, take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> ControlFlow<()> {
         let Self { bytes, at, before, end_of_whole, searching } = self;
         while bytes.len() - *at >= least {
-            let good = if *searching { Header::verified } else { Header::plausible };
+            let good = if *searching { FrameHeader::verified } else { FrameHeader::is_plausible };
             match record_at(bytes, *at).filter(|(record, _)| good(record.frame)) {
                 Some((record, end)) => {
                     *at = end;

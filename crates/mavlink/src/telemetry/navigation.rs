@@ -2,7 +2,7 @@
 //! alone.
 
 use super::frame::INTERPOLATED_UP_TO;
-use super::sample::Header;
+use super::sample::FrameHeader;
 use super::signal::Signal;
 use super::{Flight, Timeline};
 use crate::dialect::{GLOBAL_POSITION_INT_DATA, WIND_COV_DATA};
@@ -68,15 +68,15 @@ impl NavigationReader {
 
     /// Takes a frame that `timeline` has just taken. Ignores all but GLOBAL_POSITION_INT and WIND_COV of the vehicle's autopilot.
     pub fn take(&mut self, frame: &[u8], timeline: &Timeline) {
-        let Some(header) = Header::peek(frame) else { return };
+        let Some(header) = FrameHeader::peek(frame) else { return };
         let wanted = matches!(header.message_id, GLOBAL_POSITION_INT_DATA::ID | WIND_COV_DATA::ID);
         let ours = header.sender.1 == AUTOPILOT && timeline.system() == Some(header.sender.0);
-        let Some(newest) = timeline.newest().filter(|_| wanted && ours && Header::verified(frame)) else { return };
+        let Some(newest) = timeline.newest().filter(|_| wanted && ours && FrameHeader::verified(frame)) else { return };
         let Some(payload) = frame.get(header.payload_at..header.payload_end) else { return };
         self.count += 1;
         let order = self.count;
-        self.epochs.resize_with(timeline.epochs().max(self.epochs.len()), Navigation::default);
-        let Some(epoch) = self.epochs.get_mut(timeline.epochs() - 1) else { return };
+        self.epochs.resize_with(timeline.simulator_runs().max(self.epochs.len()), Navigation::default);
+        let Some(epoch) = self.epochs.get_mut(timeline.simulator_runs() - 1) else { return };
         if let Some((own, position_m)) = position(&header, payload, &self.plane) {
             epoch.estimate_m.push(time(own, newest), order, position_m);
         } else if let Some((own, wind_m_s)) = wind(&header, payload) {
@@ -99,7 +99,7 @@ fn time(own: SimTime, newest: SimTime) -> SimTime {
     if apart <= OWN_CLOCK_WITHIN { own } else { newest }
 }
 
-fn position(header: &Header, payload: &[u8], plane: &LocalPlane) -> Option<(SimTime, Vec3<Enu>)> {
+fn position(header: &FrameHeader, payload: &[u8], plane: &LocalPlane) -> Option<(SimTime, Vec3<Enu>)> {
     if header.message_id != GLOBAL_POSITION_INT_DATA::ID {
         return None;
     }
@@ -112,7 +112,7 @@ fn position(header: &Header, payload: &[u8], plane: &LocalPlane) -> Option<(SimT
     Some((SimTime::from_ms(i64::from(wire.time_boot_ms)), plane.enu_from_geo(geo)))
 }
 
-fn wind(header: &Header, payload: &[u8]) -> Option<(SimTime, Vec3<Enu>)> {
+fn wind(header: &FrameHeader, payload: &[u8]) -> Option<(SimTime, Vec3<Enu>)> {
     if header.message_id != WIND_COV_DATA::ID {
         return None;
     }

@@ -1,7 +1,7 @@
 //! One MAVLink frame -> one [`Sample`], if it says anything that the timeline keeps. The header is looked at first, so that the
 //! many frames of no interest cost a few nanoseconds. Wire units (degE7, mm, cm/s, µs, permille) stop here.
 
-use crate::contract::contact::Contact;
+use crate::contract::contact::ContactKind;
 use crate::contract::modes::ControlSource;
 use crate::contract::named::Named;
 use crate::contract::sticks::Sticks;
@@ -19,7 +19,7 @@ use spandrel_model::time::SimTime;
 
 /// Content of a sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Said {
+pub enum SampleContent {
     /// Truth; its clock is the one clock.
     Truth(Truth),
     /// Anything else.
@@ -36,7 +36,7 @@ pub enum SampleValue {
     /// Battery, %.
     Battery(f64),
     /// What is touched from now on.
-    Contact(Contact),
+    Contact(ContactKind),
     /// Onsets of contact since simulation start.
     Hits(i32),
     /// How often the drone was put back.
@@ -78,12 +78,12 @@ pub struct Sample {
     /// The time that the message itself carries.
     pub own_time: Option<SimTime>,
     /// What it says.
-    pub said: Said,
+    pub content: SampleContent,
 }
 
 /// The part of a frame's header that routing and reading need.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Header {
+pub struct FrameHeader {
     /// Message id.
     pub message_id: u32,
     /// System and component id.
@@ -98,7 +98,7 @@ pub struct Header {
     pub total: usize,
 }
 
-impl Header {
+impl FrameHeader {
     /// Reads the header of the frame that `bytes` start with; the frame itself may be longer than `bytes`.
     #[must_use]
     pub fn peek(bytes: &[u8]) -> Option<Self> {
@@ -135,16 +135,16 @@ impl Header {
 
     /// False only when the frame is of a kind that we keep and its checksum is wrong.
     #[must_use]
-    pub fn plausible(frame: &[u8]) -> bool {
+    pub fn is_plausible(frame: &[u8]) -> bool {
         match Self::peek(frame) {
-            Some(header) => !kept(header.message_id) || Self::verified(frame),
+            Some(header) => !is_of_interest(header.message_id) || Self::verified(frame),
             None => false,
         }
     }
 }
 
 /// Messages that the timeline keeps.
-fn kept(message_id: u32) -> bool {
+fn is_of_interest(message_id: u32) -> bool {
     matches!(
         message_id,
         HEARTBEAT_DATA::ID
@@ -164,7 +164,7 @@ fn kept(message_id: u32) -> bool {
 /// The clock of a truth frame, since simulation start; `None` for other frames.
 #[must_use]
 pub fn truth_time(frame: &[u8]) -> Option<SimTime> {
-    let header = Header::peek(frame)?;
+    let header = FrameHeader::peek(frame)?;
     if header.message_id != HIL_STATE_QUATERNION_DATA::ID {
         return None;
     }
@@ -175,13 +175,13 @@ pub fn truth_time(frame: &[u8]) -> Option<SimTime> {
 /// Reads one frame whose checksum has been checked. `None` when it says nothing that the timeline keeps.
 #[must_use]
 pub fn read(frame: &[u8], plane: &LocalPlane) -> Option<Sample> {
-    let header = Header::peek(frame)?;
-    if !kept(header.message_id) {
+    let header = FrameHeader::peek(frame)?;
+    if !is_of_interest(header.message_id) {
         return None;
     }
     let payload = frame.get(header.payload_at..header.payload_end)?;
     let (own_time, said) = decode(&header, payload, plane)?;
-    Some(Sample { sender: header.sender, sequence: header.sequence, checksum: header.checksum(frame)?, own_time, said })
+    Some(Sample { sender: header.sender, sequence: header.sequence, checksum: header.checksum(frame)?, own_time, content: said })
 }
 
 fn body<T: MessageData>(payload: &[u8]) -> Option<T> {
@@ -192,16 +192,16 @@ fn boot(ms: u32) -> Option<SimTime> {
     Some(SimTime::from_ms(i64::from(ms)))
 }
 
-fn decode(header: &Header, payload: &[u8], plane: &LocalPlane) -> Option<(Option<SimTime>, Said)> {
+fn decode(header: &FrameHeader, payload: &[u8], plane: &LocalPlane) -> Option<(Option<SimTime>, SampleContent)> {
     if header.message_id == HIL_STATE_QUATERNION_DATA::ID {
         let truth = truth::read(&body(payload)?, plane)?;
-        return Some((Some(truth.time), Said::Truth(truth)));
+        return Some((Some(truth.time), SampleContent::Truth(truth)));
     }
     let (own_time, value) = decode_value(header, payload)?;
-    Some((own_time, Said::Value(value)))
+    Some((own_time, SampleContent::Value(value)))
 }
 
-fn decode_value(header: &Header, payload: &[u8]) -> Option<(Option<SimTime>, SampleValue)> {
+fn decode_value(header: &FrameHeader, payload: &[u8]) -> Option<(Option<SimTime>, SampleValue)> {
     match header.message_id {
         RC_CHANNELS_DATA::ID => {
             let rc: RC_CHANNELS_DATA = body(payload)?;

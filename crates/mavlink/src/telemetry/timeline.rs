@@ -4,11 +4,11 @@
 //! time of the truth sample before it in its sender's numbering, so that shuffled or doubled datagrams change nothing. A clock that
 //! goes back is a restarted simulator: a new epoch begins, and the old one stays.
 
-use super::log_stream::Log;
+use super::log_stream::TelemetryLog;
 use super::rows::Rows;
-use super::sample::{self, Header, Said, Sample, SampleValue};
+use super::sample::{self, FrameHeader, Sample, SampleContent, SampleValue};
 use super::signal::Signal;
-use crate::contract::contact::Contact;
+use crate::contract::contact::ContactKind;
 use crate::contract::continuity::{RESTART_AFTER, RESTART_CONFIRM};
 use crate::contract::modes::ControlSource;
 use crate::contract::truth::Truth;
@@ -52,34 +52,34 @@ pub struct LinkCounts {
 
 /// One sender's numbering, unrolled.
 #[derive(Debug, Clone, PartialEq)]
-struct Sequencer {
+struct SequenceUnwrapper {
     sender: (u8, u8),
     newest: i64,
     newest_truth: i64,
-    seen: Vec<(i64, u16)>,
+    epochs: Vec<(i64, u16)>,
 }
 
-enum Arrival {
+enum FrameOrder {
     New { order: i64, late: bool, skipped: i64 },
     Duplicate,
 }
 
-impl Sequencer {
+impl SequenceUnwrapper {
     fn new(sender: (u8, u8), sequence: u8) -> Self {
         // High enough that late frames before the first keep positive numbers.
         let newest = 256 * 1_000 + i64::from(sequence) - 1;
-        Self { sender, newest, newest_truth: -1, seen: vec![(-1, 0); 256] }
+        Self { sender, newest, newest_truth: -1, epochs: vec![(-1, 0); 256] }
     }
 
     /// `ahead`: the frame is a truth later than all before; a number before the newest truth's cannot be its own.
-    fn place(&mut self, sequence: u8, checksum: u16, ahead: bool) -> Arrival {
+    fn place(&mut self, sequence: u8, checksum: u16, ahead: bool) -> FrameOrder {
         let difference = i64::from((i64::from(sequence) - self.newest).rem_euclid(256) as u8 as i8);
         let mut order = self.newest + difference;
         let slot = usize::from(sequence);
-        if self.seen[slot] == (order, checksum) {
-            return Arrival::Duplicate;
+        if self.epochs[slot] == (order, checksum) {
+            return FrameOrder::Duplicate;
         }
-        let taken = self.seen[slot].0 == order;
+        let taken = self.epochs[slot].0 == order;
         if taken || difference < -LATE_WITHIN || (ahead && order < self.newest_truth) {
             order += 256;
         }
@@ -89,28 +89,28 @@ impl Sequencer {
         if ahead {
             self.newest_truth = order;
         }
-        self.seen[slot] = (order, checksum);
-        Arrival::New { order, late, skipped }
+        self.epochs[slot] = (order, checksum);
+        FrameOrder::New { order, late, skipped }
     }
 }
 
 /// One sample with what is known of its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Entry {
+struct TimedSample {
     value: SampleValue,
     order: i64,
     /// Newest truth when it arrived.
-    arrival: Stamp,
-    own_time: Stamp,
+    arrival: OptionalTime,
+    own_time: OptionalTime,
     epoch: u32,
     sender: (u8, u8),
 }
 
 /// A time that may be unknown, in 8 bytes instead of the 16 of an `Option`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Stamp(i64);
+struct OptionalTime(i64);
 
-impl Stamp {
+impl OptionalTime {
     /// No clock on the wire reaches this: times begin at zero.
     const UNKNOWN: i64 = i64::MIN;
 
@@ -135,9 +135,9 @@ struct TruthEntry {
 #[derive(Debug, Clone)]
 pub struct Timeline {
     plane: LocalPlane,
-    sequencers: Vec<Sequencer>,
+    sequencers: Vec<SequenceUnwrapper>,
     truths: Rows<TruthEntry>,
-    entries: Rows<Entry>,
+    entries: Rows<TimedSample>,
     suspects: Vec<TruthEntry>,
     newest: Option<SimTime>,
     /// Last truth times of the epochs before.
@@ -149,7 +149,7 @@ pub struct Timeline {
 
 /// What a pushed frame turned out to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Pushed {
+pub enum FrameDisposition {
     /// Nothing that is kept, or a duplicate.
     Nothing,
     /// A sample of the running epoch.
@@ -195,13 +195,13 @@ impl Timeline {
 
     /// Epochs so far: one more than the simulator's restarts.
     #[must_use]
-    pub fn epochs(&self) -> usize {
+    pub fn simulator_runs(&self) -> usize {
         self.ended.len() + 1
     }
 
     /// How long the epochs before this one took together, each from its clock's zero to its last truth.
     #[must_use]
-    pub fn passed(&self, epoch: usize) -> SimTime {
+    pub fn apply_pushed(&self, epoch: usize) -> SimTime {
         self.ended.iter().take(epoch).fold(SimTime::ZERO, |sum, last| sum + *last)
     }
 
@@ -209,47 +209,46 @@ impl Timeline {
     ///
     /// # Errors
     /// When the log cannot be read.
-    pub fn push_log(&mut self, log: &(impl Log + ?Sized)) -> std::io::Result<()> {
-        log.each(&mut |record| {
+    pub fn push_log(&mut self, log: &(impl TelemetryLog + ?Sized)) -> std::io::Result<()> {
+        log.for_each_record(&mut |record| {
             self.push(record.frame);
             ControlFlow::Continue(())
         })
     }
 
     /// Takes one whole frame.
-    pub fn push(&mut self, frame: &[u8]) -> Pushed {
-        let Some(header) = Header::peek(frame) else { return Pushed::Nothing };
+    pub fn push(&mut self, frame: &[u8]) -> FrameDisposition {
+        let Some(header) = FrameHeader::peek(frame) else { return FrameDisposition::Nothing };
         if header.sender.1 == MONITOR_COMPONENT || frame.len() < header.payload_end + 2 {
-            return Pushed::Nothing;
+            return FrameDisposition::Nothing;
         }
         // Other systems' words are routed here too; once the vehicle is known they are nothing to the flight.
         let sample = sample::read(frame, &self.plane).filter(|s| self.system.is_none_or(|system| system == s.sender.0));
         let checksum = u16::from_le_bytes([frame[header.payload_end], frame[header.payload_end + 1]]);
-        let ahead =
-            matches!(sample.map(|s| s.said), Some(Said::Truth(truth)) if self.newest.is_none_or(|newest| truth.time > newest));
+        let ahead = matches!(sample.map(|s| s.content), Some(SampleContent::Truth(truth)) if self.newest.is_none_or(|newest| truth.time > newest));
         if ahead {
             self.system = self.system.or(Some(header.sender.0));
         }
-        let Some(order) = self.place(&header, checksum, ahead) else { return Pushed::Nothing };
+        let Some(order) = self.place(&header, checksum, ahead) else { return FrameDisposition::Nothing };
         match sample {
-            None => Pushed::Nothing,
+            None => FrameDisposition::Nothing,
             Some(sample) => self.keep(sample, order),
         }
     }
 
-    fn place(&mut self, header: &Header, checksum: u16, ahead: bool) -> Option<i64> {
+    fn place(&mut self, header: &FrameHeader, checksum: u16, ahead: bool) -> Option<i64> {
         let index = self.sequencers.iter().position(|s| s.sender == header.sender).unwrap_or_else(|| {
-            self.sequencers.push(Sequencer::new(header.sender, header.sequence));
+            self.sequencers.push(SequenceUnwrapper::new(header.sender, header.sequence));
             self.sequencers.len() - 1
         });
         // Ground stations reach the monitor in part only; their numbers have gaps that are no loss.
         let counted = self.system == Some(header.sender.0);
         match self.sequencers[index].place(header.sequence, checksum, ahead) {
-            Arrival::Duplicate => {
+            FrameOrder::Duplicate => {
                 self.counts.duplicated += u64::from(counted);
                 None
             }
-            Arrival::New { order, late, skipped } => {
+            FrameOrder::New { order, late, skipped } => {
                 if counted {
                     self.counts.frames += 1;
                     self.counts.reordered += u64::from(late);
@@ -261,27 +260,27 @@ impl Timeline {
         }
     }
 
-    fn keep(&mut self, sample: Sample, order: i64) -> Pushed {
+    fn keep(&mut self, sample: Sample, order: i64) -> FrameDisposition {
         let (epoch, sender) = (self.epoch(), sample.sender);
-        let truth = match sample.said {
-            Said::Truth(truth) => truth,
-            Said::Value(value) => {
+        let truth = match sample.content {
+            SampleContent::Truth(truth) => truth,
+            SampleContent::Value(value) => {
                 let own_time = sample.own_time.map(|own| self.newest.map_or(own, |newest| unwrapped(own, newest)));
-                let (arrival, stamp) = (Stamp::of(self.newest), Stamp::of(own_time));
-                self.entries.push(Entry { value, order, arrival, own_time: stamp, epoch, sender });
-                return Pushed::Kept(Sample { own_time, ..sample });
+                let (arrival, stamp) = (OptionalTime::of(self.newest), OptionalTime::of(own_time));
+                self.entries.push(TimedSample { value, order, arrival, own_time: stamp, epoch, sender });
+                return FrameDisposition::Kept(Sample { own_time, ..sample });
             }
         };
         let entry = TruthEntry { truth, order, epoch, sender };
         if self.newest.is_some_and(|newest| truth.time + RESTART_AFTER < newest) {
             self.suspects.push(entry);
-            return if self.suspects.len() < RESTART_CONFIRM { Pushed::Kept(sample) } else { self.restart(sample) };
+            return if self.suspects.len() < RESTART_CONFIRM { FrameDisposition::Kept(sample) } else { self.restart(sample) };
         }
         // Stragglers after all: they belong where their time says.
         self.truths.extend(self.suspects.drain(..));
         self.truths.push(entry);
         self.newest = Some(self.newest.map_or(truth.time, |newest| newest.max(truth.time)));
-        Pushed::Kept(sample)
+        FrameDisposition::Kept(sample)
     }
 
     fn epoch(&self) -> u32 {
@@ -289,13 +288,13 @@ impl Timeline {
         u32::try_from(self.ended.len()).unwrap_or(u32::MAX)
     }
 
-    fn restart(&mut self, sample: Sample) -> Pushed {
+    fn restart(&mut self, sample: Sample) -> FrameDisposition {
         self.ended.extend(self.newest);
         self.counts.restarts += 1;
         self.newest = self.suspects.iter().map(|entry| entry.truth.time).max();
         let epoch = self.epoch();
         self.truths.extend(self.suspects.drain(..).map(|entry| TruthEntry { epoch, ..entry }));
-        Pushed::Restarted(sample)
+        FrameDisposition::Restarted(sample)
     }
 
     /// The flight of one epoch, in the order of time.
@@ -322,7 +321,7 @@ fn numbering(entry: &TruthEntry) -> ((u8, u8), i64, SimTime) {
 }
 
 /// Returns the time of a sample; `numbered` are the flight's truths by [`numbering`].
-fn time_of(entry: &Entry, numbered: &[&TruthEntry]) -> SimTime {
+fn time_of(entry: &TimedSample, numbered: &[&TruthEntry]) -> SimTime {
     let near = |a: SimTime, b: SimTime, within: SimTime| a.saturating_sub(b) <= within && b.saturating_sub(a) <= within;
     let arrival = entry.arrival.get();
     if let Some(own) = entry.own_time.get() {
@@ -352,7 +351,7 @@ pub struct Flight {
     /// Battery, %.
     pub battery: Signal<f64>,
     /// Contact.
-    pub contact: Signal<Contact>,
+    pub contact: Signal<ContactKind>,
     /// Cumulative onsets.
     pub hits: Signal<i32>,
     /// Cumulative respawns.
@@ -382,7 +381,7 @@ pub struct Flight {
 }
 
 impl Flight {
-    fn take(&mut self, entry: &Entry, time: SimTime) {
+    fn take(&mut self, entry: &TimedSample, time: SimTime) {
         let order = entry.order;
         match entry.value {
             SampleValue::Sticks(v) => self.sticks.push(time, order, v.axes()),

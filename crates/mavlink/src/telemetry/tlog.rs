@@ -4,14 +4,14 @@
 //! A file may end anywhere (a killed monitor): every whole record is read and the rest is left alone. Damage in the middle costs
 //! the damaged records only.
 
-use super::sample::Header;
+use super::sample::FrameHeader;
 
 /// Bytes before each frame.
 pub const STAMP_BYTES: usize = 8;
 
 /// One record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Record<'a> {
+pub struct TlogRecord<'a> {
     /// Microseconds since the Unix epoch: session start plus simulation time.
     pub stamp_us: u64,
     /// The MAVLink frame.
@@ -29,14 +29,14 @@ pub fn record(stamp_us: u64, frame: &[u8]) -> Vec<u8> {
 
 /// Reads the whole records of a log, in file order.
 #[derive(Debug, Clone)]
-pub struct Reader<'a> {
+pub struct TlogReader<'a> {
     bytes: &'a [u8],
     at: usize,
     end_of_whole: usize,
     skipped: usize,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> TlogReader<'a> {
     /// A reader at the start of `bytes`.
     #[must_use]
     pub fn new(bytes: &'a [u8]) -> Self {
@@ -55,30 +55,31 @@ impl<'a> Reader<'a> {
         self.skipped
     }
 
-    fn record_at(&self, at: usize) -> Option<(Record<'a>, usize)> {
+    fn record_at(&self, at: usize) -> Option<(TlogRecord<'a>, usize)> {
         record_at(self.bytes, at)
     }
 
     /// Where the next record starts: here, or after damage at the next place whose frame carries a right checksum.
     fn resynchronise(&self) -> Option<usize> {
-        (self.at + 1..self.bytes.len()).find(|at| self.record_at(*at).is_some_and(|(record, _)| Header::verified(record.frame)))
+        (self.at + 1..self.bytes.len())
+            .find(|at| self.record_at(*at).is_some_and(|(record, _)| FrameHeader::verified(record.frame)))
     }
 }
 
 /// The record that starts at `at`, and where it ends.
-pub(super) fn record_at(bytes: &[u8], at: usize) -> Option<(Record<'_>, usize)> {
+pub(super) fn record_at(bytes: &[u8], at: usize) -> Option<(TlogRecord<'_>, usize)> {
     let stamp = bytes.get(at..at + STAMP_BYTES)?;
     let rest = &bytes[at + STAMP_BYTES..];
-    let header = Header::peek(rest)?;
+    let header = FrameHeader::peek(rest)?;
     let frame = rest.get(..header.total)?;
     let stamp_us = stamp.iter().fold(0u64, |sum, byte| sum << 8 | u64::from(*byte));
-    Some((Record { stamp_us, frame }, at + STAMP_BYTES + header.total))
+    Some((TlogRecord { stamp_us, frame }, at + STAMP_BYTES + header.total))
 }
 
-impl<'a> Iterator for Reader<'a> {
-    type Item = Record<'a>;
+impl<'a> Iterator for TlogReader<'a> {
+    type Item = TlogRecord<'a>;
 
-    fn next(&mut self) -> Option<Record<'a>> {
+    fn next(&mut self) -> Option<TlogRecord<'a>> {
         if self.record_at(self.at).is_none() {
             let next = self.resynchronise()?;
             self.skipped += next - self.at;
@@ -86,7 +87,7 @@ impl<'a> Iterator for Reader<'a> {
         }
         let (record, end) = self.record_at(self.at)?;
         // A right magic byte after a wrong length leads into the middle of a record; the checksum of what is known tells.
-        if !Header::plausible(record.frame) {
+        if !FrameHeader::is_plausible(record.frame) {
             let next = self.resynchronise()?;
             self.skipped += next - self.at;
             self.at = next;
@@ -100,8 +101,8 @@ impl<'a> Iterator for Reader<'a> {
 
 /// Length of the part of a log that holds whole records: cut here before appending.
 #[must_use]
-pub fn whole_len(bytes: &[u8]) -> usize {
-    let mut reader = Reader::new(bytes);
+pub fn complete_len(bytes: &[u8]) -> usize {
+    let mut reader = TlogReader::new(bytes);
     while reader.next().is_some() {}
     reader.end_of_whole()
 }
@@ -109,18 +110,18 @@ pub fn whole_len(bytes: &[u8]) -> usize {
 /// Unix time of a log's beginning, µs; `None` for an empty log.
 #[must_use]
 pub fn session_start_us(bytes: &[u8]) -> Option<u64> {
-    Reader::new(bytes).next().map(|first| first.stamp_us)
+    TlogReader::new(bytes).next().map(|first| first.stamp_us)
 }
 
 /// Unix time of simulation time zero, µs: the stamp of a log's first truth less the truth's own time; `None` for a log without one.
 #[must_use]
 pub fn simulation_zero_us(bytes: &[u8]) -> Option<u64> {
-    Reader::new(bytes).find_map(|record| zero_us(&record))
+    TlogReader::new(bytes).find_map(|record| zero_us(&record))
 }
 
 /// Unix time of simulation time zero, µs, by one record: its stamp less the truth's own time; `None` unless it is a truth.
 #[must_use]
-pub fn zero_us(record: &Record<'_>) -> Option<u64> {
+pub fn zero_us(record: &TlogRecord<'_>) -> Option<u64> {
     let time = super::sample::truth_time(record.frame)?;
     Some(record.stamp_us.saturating_sub(u64::try_from(time.us()).unwrap_or(0)))
 }
@@ -148,8 +149,8 @@ mod tests {
         let (bytes, ends) = log(6);
         for cut in 0..=bytes.len() {
             let whole = ends.iter().rposition(|end| *end <= cut).unwrap();
-            assert_eq!(Reader::new(&bytes[..cut]).count(), whole, "cut at {cut}");
-            assert_eq!(whole_len(&bytes[..cut]), ends[whole], "cut at {cut}");
+            assert_eq!(TlogReader::new(&bytes[..cut]).count(), whole, "cut at {cut}");
+            assert_eq!(complete_len(&bytes[..cut]), ends[whole], "cut at {cut}");
         }
     }
 
@@ -159,7 +160,7 @@ mod tests {
         for at in ends[2]..ends[3] {
             let mut damaged = bytes.clone();
             damaged[at] ^= 0xFF;
-            let read = Reader::new(&damaged).count();
+            let read = TlogReader::new(&damaged).count();
             assert!(read >= 5, "byte {at}: {read} records");
         }
     }
@@ -167,7 +168,7 @@ mod tests {
     #[test]
     fn exact_stamps_come_back() {
         let (bytes, _) = log(3);
-        assert_eq!(Reader::new(&bytes).map(|r| r.stamp_us).collect::<Vec<_>>(), [1_000, 1_001, 1_002]);
+        assert_eq!(TlogReader::new(&bytes).map(|r| r.stamp_us).collect::<Vec<_>>(), [1_000, 1_001, 1_002]);
         assert_eq!(session_start_us(&bytes), Some(1_000));
     }
 }

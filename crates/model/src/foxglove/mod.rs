@@ -71,7 +71,7 @@ pub const CHANNELS: [Channel; 7] = [
 
 /// One message.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Message {
+pub struct ChannelMessage {
     /// What it is about.
     pub topic: Topic,
     /// UTC, nanoseconds since the Unix epoch.
@@ -80,7 +80,7 @@ pub struct Message {
     pub json: String,
 }
 
-impl Message {
+impl ChannelMessage {
     fn new(topic: Topic, unix_ns: u64, value: &Value) -> Self {
         Self { topic, unix_ns, json: value.to_string() }
     }
@@ -88,7 +88,7 @@ impl Message {
 
 /// A pose of a frame in `site`: position, m, and orientation.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pose {
+pub struct FramePose {
     position_m: [f64; 3],
     rotation: UnitQuaternion<f64>,
 }
@@ -98,7 +98,7 @@ fn enu_from_ned() -> UnitQuaternion<f64> {
     UnitQuaternion::new_unchecked(Quaternion::new(0.0, half, half, 0.0))
 }
 
-impl Pose {
+impl FramePose {
     /// Of a drone.
     #[must_use]
     pub fn drone(position_m: Vec3<Ned>, attitude: Rotation<Frd, Ned>) -> Self {
@@ -129,8 +129,8 @@ fn xyz([x, y, z]: [f64; 3]) -> Value {
 
 /// Frames in `site`.
 #[must_use]
-pub fn transforms(unix_ns: u64, frames: &[(&str, Pose)]) -> Message {
-    let one = |(name, pose): &(&str, Pose)| {
+pub fn transforms(unix_ns: u64, frames: &[(&str, FramePose)]) -> ChannelMessage {
+    let one = |(name, pose): &(&str, FramePose)| {
         let q = pose.rotation.coords;
         json!({
             "timestamp": time(unix_ns),
@@ -140,12 +140,12 @@ pub fn transforms(unix_ns: u64, frames: &[(&str, Pose)]) -> Message {
             "rotation": { "x": q.x, "y": q.y, "z": q.z, "w": q.w },
         })
     };
-    Message::new(Topic::Transforms, unix_ns, &json!({ "transforms": frames.iter().map(one).collect::<Vec<_>>() }))
+    ChannelMessage::new(Topic::Transforms, unix_ns, &json!({ "transforms": frames.iter().map(one).collect::<Vec<_>>() }))
 }
 
 /// A place on the globe with its accuracy, m (1 sigma).
 #[must_use]
-pub fn fix(unix_ns: u64, geo: Geo, horizontal_m: f64, vertical_m: f64) -> Message {
+pub fn fix(unix_ns: u64, geo: Geo, horizontal_m: f64, vertical_m: f64) -> ChannelMessage {
     let (h, v) = (horizontal_m * horizontal_m, vertical_m * vertical_m);
     let value = json!({
         "timestamp": time(unix_ns),
@@ -157,12 +157,12 @@ pub fn fix(unix_ns: u64, geo: Geo, horizontal_m: f64, vertical_m: f64) -> Messag
         // DIAGONAL_KNOWN
         "position_covariance_type": 2,
     });
-    Message::new(Topic::Fix, unix_ns, &value)
+    ChannelMessage::new(Topic::Fix, unix_ns, &value)
 }
 
 /// A text with MAVLink's severity (0 emergency to 7 debug).
 #[must_use]
-pub fn log(unix_ns: u64, severity: u8, text: &str) -> Message {
+pub fn log(unix_ns: u64, severity: u8, text: &str) -> ChannelMessage {
     // FATAL 5, ERROR 4, WARNING 3, INFO 2, DEBUG 1
     let level = match severity {
         0 | 1 => 5,
@@ -172,12 +172,12 @@ pub fn log(unix_ns: u64, severity: u8, text: &str) -> Message {
         _ => 1,
     };
     let value = json!({ "timestamp": time(unix_ns), "level": level, "message": text, "name": "vehicle", "file": "", "line": 0 });
-    Message::new(Topic::Log, unix_ns, &value)
+    ChannelMessage::new(Topic::Log, unix_ns, &value)
 }
 
 /// An ideal pinhole: focal length, width and height of its picture, px.
 #[must_use]
-pub fn camera(unix_ns: u64, focal_px: f64, (width_px, height_px): (u32, u32)) -> Message {
+pub fn camera(unix_ns: u64, focal_px: f64, (width_px, height_px): (u32, u32)) -> ChannelMessage {
     let (f, w, h) = (focal_px, width_px, height_px);
     let (cx, cy) = (0.5 * f64::from(w), 0.5 * f64::from(h));
     let value = json!({
@@ -191,12 +191,12 @@ pub fn camera(unix_ns: u64, focal_px: f64, (width_px, height_px): (u32, u32)) ->
         "R": [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
         "P": [f, 0.0, cx, 0.0, 0.0, f, cy, 0.0, 0.0, 0.0, 1.0, 0.0],
     });
-    Message::new(Topic::Camera, unix_ns, &value)
+    ChannelMessage::new(Topic::Camera, unix_ns, &value)
 }
 
 /// The site as a model that is shown for good; `glb_base64` is binary glTF.
 #[must_use]
-pub fn site(unix_ns: u64, glb_base64: &str) -> Message {
+pub fn site(unix_ns: u64, glb_base64: &str) -> ChannelMessage {
     let none: [Value; 0] = [];
     let value = json!({
         "deletions": none,
@@ -219,24 +219,24 @@ pub fn site(unix_ns: u64, glb_base64: &str) -> Message {
             }],
         }],
     });
-    Message::new(Topic::Site, unix_ns, &value)
+    ChannelMessage::new(Topic::Site, unix_ns, &value)
 }
 
 /// Battery: V and A where they are known, and what is left, %.
 #[must_use]
-pub fn battery(unix_ns: u64, volts_amperes: Option<(f64, f64)>, remaining_pct: f64) -> Message {
+pub fn battery(unix_ns: u64, volts_amperes: Option<(f64, f64)>, remaining_pct: f64) -> ChannelMessage {
     let value = json!({
         "timestamp": time(unix_ns),
         "voltage_v": volts_amperes.map(|(v, _)| v),
         "current_a": volts_amperes.map(|(_, a)| a),
         "remaining_pct": remaining_pct,
     });
-    Message::new(Topic::Battery, unix_ns, &value)
+    ChannelMessage::new(Topic::Battery, unix_ns, &value)
 }
 
 /// What the scores are made of.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Scoring {
+pub struct ScoringSignals {
     /// Nearest surface to the drone's centre, m.
     pub clearance_m: f64,
     /// Light at the drone, lux, if known.
@@ -255,7 +255,7 @@ pub struct Scoring {
 
 /// What the scores are made of, as a message.
 #[must_use]
-pub fn scoring(unix_ns: u64, s: &Scoring) -> Message {
+pub fn scoring(unix_ns: u64, s: &ScoringSignals) -> ChannelMessage {
     // JSON has no infinity; nothing within reach is no distance.
     let clearance = if s.clearance_m.is_finite() { json!(s.clearance_m) } else { Value::Null };
     let value = json!({
@@ -268,7 +268,7 @@ pub fn scoring(unix_ns: u64, s: &Scoring) -> Message {
         "lamp_on": s.lamp_on,
         "speed_m_s": s.speed_m_s,
     });
-    Message::new(Topic::Scoring, unix_ns, &value)
+    ChannelMessage::new(Topic::Scoring, unix_ns, &value)
 }
 
 #[cfg(test)]
@@ -279,7 +279,7 @@ mod tests {
     /// Rounding of unit quaternions.
     const ROUNDING: f64 = 1e-12;
 
-    fn turned(pose: &Pose, axis: [f64; 3]) -> [f64; 3] {
+    fn turned(pose: &FramePose, axis: [f64; 3]) -> [f64; 3] {
         (pose.rotation * Vector3::from(axis)).into()
     }
 
@@ -290,17 +290,17 @@ mod tests {
     #[test]
     fn exact_frames_point_where_they_say() {
         let east = Rotation::from_euler(0.0, 0.0, std::f64::consts::FRAC_PI_2);
-        let drone = Pose::drone(Vec3::new(1.0, 2.0, -3.0), east);
+        let drone = FramePose::drone(Vec3::new(1.0, 2.0, -3.0), east);
         assert_eq!(drone.position_m, [2.0, 1.0, 3.0]);
         same(turned(&drone, [1.0, 0.0, 0.0]), [1.0, 0.0, 0.0]);
         same(turned(&drone, [0.0, 1.0, 0.0]), [0.0, 1.0, 0.0]);
         same(turned(&drone, [0.0, 0.0, 1.0]), [0.0, 0.0, 1.0]);
         // Straight up at a soffit: ahead is up, the picture's top is behind.
-        let up = Pose::camera(Vec3::zero(), east, Vec3::new(0.1, 0.0, 0.0), std::f64::consts::FRAC_PI_2);
+        let up = FramePose::camera(Vec3::zero(), east, Vec3::new(0.1, 0.0, 0.0), std::f64::consts::FRAC_PI_2);
         same(up.position_m, [0.1, 0.0, 0.0]);
         same(turned(&up, [0.0, 0.0, 1.0]), [0.0, 0.0, 1.0]);
         same(turned(&up, [1.0, 0.0, 0.0]), [0.0, -1.0, 0.0]);
-        let level = Pose::camera(Vec3::zero(), east, Vec3::zero(), 0.0);
+        let level = FramePose::camera(Vec3::zero(), east, Vec3::zero(), 0.0);
         same(turned(&level, [0.0, 0.0, 1.0]), [1.0, 0.0, 0.0]);
         same(turned(&level, [0.0, 1.0, 0.0]), [0.0, 0.0, -1.0]);
     }
@@ -322,7 +322,7 @@ mod tests {
 
     #[test]
     fn exact_messages_have_the_fields_of_their_schemas() {
-        let pose = Pose::drone(Vec3::zero(), Rotation::identity());
+        let pose = FramePose::drone(Vec3::zero(), Rotation::identity());
         let geo = Geo { latitude_deg: 1.0, longitude_deg: 2.0, altitude_m: 3.0 };
         let at = 1_700_000_000_123_456_789;
         let all = [
@@ -332,7 +332,7 @@ mod tests {
             camera(at, 1000.0, (1920, 1080)),
             site(at, "AAAA"),
             battery(at, Some((11.1, 5.0)), 88.0),
-            scoring(at, &Scoring { lux: Some(9.0), ..Scoring::default() }),
+            scoring(at, &ScoringSignals { lux: Some(9.0), ..ScoringSignals::default() }),
         ];
         for (number, message) in all.iter().enumerate() {
             assert_eq!(message.topic as usize, number);
@@ -341,7 +341,9 @@ mod tests {
         }
         assert!(all[2].json.contains(r#""sec":1700000000,"nsec":123456789"#));
         assert!(
-            scoring(at, &Scoring { clearance_m: f64::INFINITY, ..Scoring::default() }).json.contains(r#""clearance_m":null"#)
+            scoring(at, &ScoringSignals { clearance_m: f64::INFINITY, ..ScoringSignals::default() })
+                .json
+                .contains(r#""clearance_m":null"#)
         );
     }
 }

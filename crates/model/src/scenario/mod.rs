@@ -8,7 +8,7 @@ mod resolve;
 pub mod tasks;
 mod weather;
 
-pub use read::{FORMAT, Siblings, read, read_asked};
+pub use read::{FORMAT, SiblingLoader, read, read_asked};
 pub use resolve::resolve;
 
 use crate::frames::{Enu, Vec3};
@@ -27,7 +27,7 @@ pub struct Scenario {
     /// Where the local frame sits on the earth.
     pub origin: Geo,
     /// Ground and water.
-    pub terrain: Terrain,
+    pub terrain: TerrainSpec,
     /// Inspector, truck and pad.
     pub ground_team: GroundTeam,
     /// The bridges, in file order.
@@ -35,26 +35,26 @@ pub struct Scenario {
     /// The tasks, in file order; their index is the scorer's t.
     pub tasks: Vec<Task>,
     /// Defects to place.
-    pub defects: Defects,
+    pub defects: DefectSpec,
     /// Cars, trucks, pedestrians.
-    pub traffic: Traffic,
+    pub traffic: TrafficSpec,
     /// Wind.
-    pub wind: Wind,
+    pub wind: WindSpec,
     /// Sun, sky and water light.
-    pub light: Light,
+    pub light: LightSpec,
     /// Session rules.
-    pub rules: Rules,
+    pub rules: SessionRules,
     /// Feedback thresholds.
-    pub feedback: Feedback,
+    pub feedback: FeedbackThresholds,
     /// Scoring parameters.
-    pub scoring: Scoring,
+    pub scoring: ScoringParams,
     /// CRC-32 (IEEE) of the file's bytes without the seed and placed defects: the wire's `scn_crc`.
     pub crc: u32,
 }
 
 /// Height field and water level.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Terrain {
+pub struct TerrainSpec {
     /// Side length of the square field centred on the origin, m.
     pub size_m: f64,
     /// Grid spacing, m.
@@ -176,7 +176,7 @@ pub enum TaskKind {
 
 /// How many defects of what size, or where they are (a resolved file).
 #[derive(Debug, Clone, PartialEq)]
-pub struct Defects {
+pub struct DefectSpec {
     /// How many to place.
     pub count: usize,
     /// Factor on the catalogue's sizes (smaller is harder).
@@ -218,7 +218,7 @@ pub struct PlacedDefect {
 
 /// Traffic on the decks.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Traffic {
+pub struct TrafficSpec {
     /// Cars on all bridges together.
     pub cars: usize,
     /// Trucks.
@@ -231,7 +231,7 @@ pub struct Traffic {
 
 /// Wind.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Wind {
+pub struct WindSpec {
     /// Force or field.
     pub model: WindModel,
     /// Mean speed at 20 ft (6.096 m) over the water, m/s. Levels: light 2.2 mph, gentle 11 mph, medium 22 mph.
@@ -286,7 +286,7 @@ pub enum WindEvent {
 
 /// Sun and sky.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Light {
+pub struct LightSpec {
     /// UTC date and time at simulation start, seconds since the Unix epoch.
     pub start_unix_s: i64,
     /// Share of the sky under cloud, 0..1.
@@ -299,7 +299,7 @@ pub struct Light {
 
 /// Session rules.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Rules {
+pub struct SessionRules {
     /// What a survivable crash leads to.
     pub after_crash: AfterCrash,
     /// Which battery model flies.
@@ -338,7 +338,7 @@ pub enum BatteryModel {
 
 /// Feedback thresholds (docs/src/reference/assessment.md, "Feedback during the flight").
 #[derive(Debug, Clone, PartialEq)]
-pub struct Feedback {
+pub struct FeedbackThresholds {
     /// Anything nearer than this to the drone's centre, m.
     pub too_close_m: f64,
     /// The warning clears beyond this, m.
@@ -359,7 +359,7 @@ pub struct Feedback {
 
 /// Scoring parameters.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Scoring {
+pub struct ScoringParams {
     /// Frame rate f, Hz.
     pub frame_rate_hz: f64,
     /// Speed limit during inspection, m/s.

@@ -1,15 +1,15 @@
 //! Scenario files into [`Scenario`]: every key with its unit, range and default.
 
-use super::bridges::{Field, Misfit};
+use super::bridges::{BridgeField, Inconsistency};
 use super::{
-    AfterCrash, BatteryModel, Bridge, BridgeKind, Defects, Feedback, GroundTeam, Light, Rules, Scenario, Scoring, Terrain,
-    TerrainSource, Traffic, bridges,
+    AfterCrash, BatteryModel, Bridge, BridgeKind, DefectSpec, FeedbackThresholds, GroundTeam, LightSpec, Scenario, ScoringParams,
+    SessionRules, TerrainSource, TerrainSpec, TrafficSpec, bridges,
 };
 use crate::frames::{Enu, Vec3};
 use crate::geodesy::Geo;
 use crate::math::M_S_PER_MPH;
 use crate::time::SimTime;
-use crate::toml::{Asked, Problems, Reader, Section};
+use crate::toml::{DocumentedKey, Problems, Reader, Section};
 use std::collections::BTreeMap;
 
 /// Newest format that this program reads.
@@ -22,22 +22,26 @@ const MOST_CELLS: f64 = 2_000.0;
 const MOST_BRIDGES: usize = 16;
 
 /// Loads a file that lies beside the scenario, by name.
-pub type Siblings<'a> = &'a dyn Fn(&str) -> Result<String, String>;
+pub type SiblingLoader<'a> = &'a dyn Fn(&str) -> Result<String, String>;
 
 /// Reads a scenario file. `file` is its name for messages.
 ///
 /// # Errors
 /// Everything that is wrong with the file, each with line, key, value and allowed range.
-pub fn read(file: &str, text: &str, siblings: Siblings) -> Result<Scenario, Problems> {
+pub fn read(file: &str, text: &str, siblings: SiblingLoader) -> Result<Scenario, Problems> {
     read_asked(file, text, siblings).0
 }
 
 /// Reads a scenario file and tells which keys were asked for (for the documentation test).
-pub fn read_asked(file: &str, text: &str, siblings: Siblings) -> (Result<Scenario, Problems>, BTreeMap<String, Asked>) {
+pub fn read_asked(
+    file: &str,
+    text: &str,
+    siblings: SiblingLoader,
+) -> (Result<Scenario, Problems>, BTreeMap<String, DocumentedKey>) {
     let mut reader = Reader::new(file, text);
     let scenario = reader.parse().map(|document| {
         let mut root = reader.root(&document);
-        let mut scenario = whole(&mut reader, &mut root, siblings);
+        let mut scenario = as_integer(&mut reader, &mut root, siblings);
         reader.finish(&root);
         scenario.crc = super::resolve::crc(text);
         scenario
@@ -46,21 +50,21 @@ pub fn read_asked(file: &str, text: &str, siblings: Siblings) -> (Result<Scenari
         Some(scenario) if reader.problems.is_empty() => Ok(scenario),
         _ => Err(Problems(reader.problems)),
     };
-    (result, reader.asked)
+    (result, reader.documented_keys)
 }
 
-fn whole(r: &mut Reader, root: &mut Section, siblings: Siblings) -> Scenario {
-    r.whole(root, "format", (1, FORMAT), None);
+fn as_integer(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) -> Scenario {
+    r.integer(root, "format", (1, FORMAT), None);
     let name = name(r, root, "name");
     let title = r.text(root, "title", None);
     // The seed travels in a signed 32-bit wire field.
-    let seed = r.optional_whole(root, "seed", (0, i64::from(i32::MAX))).map(|seed| seed as u64);
+    let seed = r.optional_integer(root, "seed", (0, i64::from(i32::MAX))).map(|seed| seed as u64);
     let origin = origin(r, root);
     let terrain = terrain(r, root, siblings);
     let ground_team = ground_team(r, root);
     let bridges = bridges_of(r, root);
     if bridges.len() > MOST_BRIDGES {
-        r.complain(root, "bridges", &bridges.len().to_string(), "at most 16 [[bridges]]", "too many");
+        r.add_problem(root, "bridges", &bridges.len().to_string(), "at most 16 [[bridges]]", "too many");
     }
     let tasks = super::tasks::read(r, root, &bridges);
     Scenario {
@@ -90,7 +94,7 @@ fn name(r: &mut Reader, s: &mut Section, key: &'static str) -> String {
     let legal =
         !name.is_empty() && name.len() <= 40 && name.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-');
     if !legal && r.problems.len() == before {
-        r.complain(s, key, &name, "1 to 40 of a-z, 0-9 and -", "not a machine name");
+        r.add_problem(s, key, &name, "1 to 40 of a-z, 0-9 and -", "not a machine name");
     }
     name
 }
@@ -118,13 +122,13 @@ enum Source {
     File,
 }
 
-fn terrain(r: &mut Reader, root: &mut Section, siblings: Siblings) -> Terrain {
+fn terrain(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) -> TerrainSpec {
     let mut s = r.section(root, "terrain");
     let size_m = r.number(&mut s, "size_m", (50.0, 4_000.0), Some(800.0));
     let spacing_m = r.number(&mut s, "spacing_m", (1.0, 50.0), Some(4.0));
     if size_m / spacing_m > MOST_CELLS {
         let allowed = format!("at least {} for this size_m", size_m / MOST_CELLS);
-        r.complain(&s, "spacing_m", &spacing_m.to_string(), &allowed, "more than 2000 cells a side");
+        r.add_problem(&s, "spacing_m", &spacing_m.to_string(), &allowed, "more than 2000 cells a side");
     }
     let water_level_m = r.number(&mut s, "water_level_m", (-500.0, 500.0), Some(-100.0));
     let source =
@@ -132,7 +136,7 @@ fn terrain(r: &mut Reader, root: &mut Section, siblings: Siblings) -> Terrain {
     let source = match source {
         Source::Flat => TerrainSource::Flat { height_m: r.number(&mut s, "height_m", (-500.0, 500.0), Some(0.0)) },
         Source::Valley => TerrainSource::Valley {
-            seed: r.whole(&mut s, "seed", (0, i64::from(i32::MAX)), Some(1)) as u64,
+            seed: r.integer(&mut s, "seed", (0, i64::from(i32::MAX)), Some(1)) as u64,
             lake_width_m: r.number(&mut s, "lake_width_m", (20.0, 2_000.0), Some(180.0)),
             axis_deg: r.number(&mut s, "axis_deg", (0.0, 360.0), Some(0.0)),
             relief_m: r.number(&mut s, "relief_m", (0.0, 1_000.0), Some(120.0)),
@@ -141,10 +145,10 @@ fn terrain(r: &mut Reader, root: &mut Section, siblings: Siblings) -> Terrain {
         Source::File => height_file(r, &mut s, siblings),
     };
     r.finish(&s);
-    Terrain { size_m, spacing_m, water_level_m, source }
+    TerrainSpec { size_m, spacing_m, water_level_m, source }
 }
 
-fn height_file(r: &mut Reader, s: &mut Section, siblings: Siblings) -> TerrainSource {
+fn height_file(r: &mut Reader, s: &mut Section, siblings: SiblingLoader) -> TerrainSource {
     let before = r.problems.len();
     let file = r.text(s, "file", None);
     if r.problems.len() > before {
@@ -152,7 +156,7 @@ fn height_file(r: &mut Reader, s: &mut Section, siblings: Siblings) -> TerrainSo
     }
     let rows = siblings(&file).and_then(|text| heights(&text));
     let heights_m = rows.unwrap_or_else(|problem| {
-        r.complain(s, "file", &file, "rows of comma-separated heights in metres", &problem);
+        r.add_problem(s, "file", &file, "rows of comma-separated heights in metres", &problem);
         vec![vec![0.0]]
     });
     TerrainSource::File { heights_m }
@@ -200,7 +204,7 @@ fn bridges_of(r: &mut Reader, root: &mut Section) -> Vec<Bridge> {
     for mut s in r.sections(root, "bridges") {
         let bridge_name = name(r, &mut s, "name");
         if out.iter().any(|b| b.name == bridge_name) {
-            r.complain(&s, "name", &bridge_name, "a name of its own", "this name is taken");
+            r.add_problem(&s, "name", &bridge_name, "a name of its own", "this name is taken");
         }
         let centre_m = point(r, &mut s, "centre_m", None);
         let heading_deg = r.number(&mut s, "heading_deg", (0.0, 360.0), Some(90.0));
@@ -226,52 +230,52 @@ fn fields(
     r: &mut Reader,
     s: &mut Section,
     table: &'static str,
-    fields: &'static [Field],
-    misfits: impl Fn(&[f64]) -> Vec<Misfit>,
+    fields: &'static [BridgeField],
+    misfits: impl Fn(&[f64]) -> Vec<Inconsistency>,
 ) -> Vec<f64> {
     let mut s = r.section(s, table);
     let values: Vec<f64> = fields.iter().map(|f| r.number(&mut s, f.key, (f.min, f.max), Some(f.default))).collect();
     for misfit in misfits(&values) {
-        r.complain(&s, misfit.key, &misfit.value.to_string(), &misfit.allowed, "does not fit the other numbers");
+        r.add_problem(&s, misfit.key, &misfit.value.to_string(), &misfit.allowed, "does not fit the other numbers");
     }
     r.finish(&s);
     values
 }
 
-fn defects(r: &mut Reader, root: &mut Section) -> Defects {
+fn defects(r: &mut Reader, root: &mut Section) -> DefectSpec {
     let mut s = r.section(root, "defects");
     let whole = |v: Vec<i64>| v.into_iter().map(|i| i as u32).collect();
-    let defects = Defects {
-        count: r.whole(&mut s, "count", (0, 200), Some(10)) as usize,
+    let defects = DefectSpec {
+        count: r.integer(&mut s, "count", (0, 200), Some(10)) as usize,
         size_factor: r.number(&mut s, "size_factor", (0.2, 5.0), Some(1.0)),
-        elements: whole(r.wholes(&mut s, "elements", (1, 999))),
-        kinds: whole(r.wholes(&mut s, "kinds", (1000, 9999))),
-        placed: super::resolve::placed(r, &mut s),
+        elements: whole(r.integers(&mut s, "elements", (1, 999))),
+        kinds: whole(r.integers(&mut s, "kinds", (1000, 9999))),
+        placed: super::resolve::with_placed_defects(r, &mut s),
     };
     r.finish(&s);
     defects
 }
 
-fn traffic(r: &mut Reader, root: &mut Section) -> Traffic {
+fn traffic(r: &mut Reader, root: &mut Section) -> TrafficSpec {
     let mut s = r.section(root, "traffic");
-    let traffic = Traffic {
-        cars: r.whole(&mut s, "cars", (0, 400), Some(0)) as usize,
-        trucks: r.whole(&mut s, "trucks", (0, 200), Some(0)) as usize,
-        pedestrians: r.whole(&mut s, "pedestrians", (0, 400), Some(0)) as usize,
+    let traffic = TrafficSpec {
+        cars: r.integer(&mut s, "cars", (0, 400), Some(0)) as usize,
+        trucks: r.integer(&mut s, "trucks", (0, 200), Some(0)) as usize,
+        pedestrians: r.integer(&mut s, "pedestrians", (0, 400), Some(0)) as usize,
         car_speed_m_s: r.number(&mut s, "car_speed_m_s", (1.0, 35.0), Some(13.4)),
     };
     r.finish(&s);
     traffic
 }
 
-fn light(r: &mut Reader, root: &mut Section) -> Light {
+fn light(r: &mut Reader, root: &mut Section) -> LightSpec {
     let mut s = r.section(root, "light");
     let start = r.text(&mut s, "start_utc", Some("2026-06-21T10:00:00Z"));
     let start_unix_s = super::weather::unix_s(&start).unwrap_or_else(|| {
-        r.complain(&s, "start_utc", &start, "YYYY-MM-DDTHH:MM:SSZ", "not a UTC time");
+        r.add_problem(&s, "start_utc", &start, "YYYY-MM-DDTHH:MM:SSZ", "not a UTC time");
         0
     });
-    let light = Light {
+    let light = LightSpec {
         start_unix_s,
         cloud_cover: r.number(&mut s, "cloud_cover", (0.0, 1.0), Some(0.2)),
         water_albedo: r.number(&mut s, "water_albedo", (0.0, 1.0), Some(0.08)),
@@ -281,10 +285,10 @@ fn light(r: &mut Reader, root: &mut Section) -> Light {
     light
 }
 
-fn rules(r: &mut Reader, root: &mut Section) -> Rules {
+fn rules(r: &mut Reader, root: &mut Section) -> SessionRules {
     let mut s = r.section(root, "rules");
     let after = [("continue", AfterCrash::Continue), ("respawn", AfterCrash::Respawn), ("end", AfterCrash::End)];
-    let rules = Rules {
+    let rules = SessionRules {
         after_crash: r.choice(&mut s, "after_crash", &after, Some(1)),
         battery: r.choice(&mut s, "battery", &[("paper", BatteryModel::Paper), ("physical", BatteryModel::Physical)], Some(0)),
         low_battery_return: r.flag(&mut s, "low_battery_return", false),
@@ -295,16 +299,16 @@ fn rules(r: &mut Reader, root: &mut Section) -> Rules {
     };
     if rules.critical_battery_pct > rules.low_battery_pct {
         let critical = rules.critical_battery_pct.to_string();
-        r.complain(&s, "critical_battery_pct", &critical, "at most low_battery_pct", "too large");
+        r.add_problem(&s, "critical_battery_pct", &critical, "at most low_battery_pct", "too large");
     }
     r.finish(&s);
     rules
 }
 
-fn feedback(r: &mut Reader, root: &mut Section) -> Feedback {
+fn feedback(r: &mut Reader, root: &mut Section) -> FeedbackThresholds {
     let mut s = r.section(root, "feedback");
     let mut n = |key: &'static str, range: (f64, f64), default: f64| r.number(&mut s, key, range, Some(default));
-    let feedback = Feedback {
+    let feedback = FeedbackThresholds {
         too_close_m: n("too_close_m", (0.2, 20.0), 2.5),
         too_close_clear_m: n("too_close_clear_m", (0.2, 25.0), 2.8),
         off_path_max_m: n("off_path_max_m", (1.0, 50.0), 8.0),
@@ -315,7 +319,7 @@ fn feedback(r: &mut Reader, root: &mut Section) -> Feedback {
         text_interval: SimTime::from_s(n("text_interval_s", (0.5, 60.0), 2.0)),
     };
     if feedback.too_close_clear_m < feedback.too_close_m {
-        r.complain(
+        r.add_problem(
             &s,
             "too_close_clear_m",
             &feedback.too_close_clear_m.to_string(),
@@ -325,19 +329,19 @@ fn feedback(r: &mut Reader, root: &mut Section) -> Feedback {
     }
     if feedback.battery_yellow_pct > feedback.battery_green_pct {
         let yellow = feedback.battery_yellow_pct.to_string();
-        r.complain(&s, "battery_yellow_pct", &yellow, "at most battery_green_pct", "too large");
+        r.add_problem(&s, "battery_yellow_pct", &yellow, "at most battery_green_pct", "too large");
     }
     r.finish(&s);
     feedback
 }
 
-fn scoring(r: &mut Reader, root: &mut Section) -> Scoring {
+fn scoring(r: &mut Reader, root: &mut Section) -> ScoringParams {
     let mut s = r.section(root, "scoring");
     let mut n = |key: &'static str, range: (f64, f64), default: f64| r.number(&mut s, key, range, Some(default));
     let frame_rate_hz = n("frame_rate_hz", (10.0, 120.0), 30.0);
     let (speed_limit_mph, max_speed_mph) = (n("speed_limit_mph", (1.0, 60.0), 10.0), n("max_speed_mph", (2.0, 100.0), 30.0));
     let (time_best_min, time_max_min) = (n("time_best_min", (0.1, 120.0), 15.0), n("time_max_min", (0.2, 240.0), 25.0));
-    let scoring = Scoring {
+    let scoring = ScoringParams {
         frame_rate_hz,
         speed_limit_m_s: speed_limit_mph * M_S_PER_MPH,
         max_speed_m_s: max_speed_mph * M_S_PER_MPH,
@@ -353,7 +357,7 @@ fn scoring(r: &mut Reader, root: &mut Section) -> Scoring {
         (time_best_min, time_max_min, "time_max_min", "time_best_min"),
     ] {
         if value <= least {
-            r.complain(&s, key, &value.to_string(), &format!("more than {than}, which is {least}"), "too small");
+            r.add_problem(&s, key, &value.to_string(), &format!("more than {than}, which is {least}"), "too small");
         }
     }
     r.finish(&s);

@@ -48,7 +48,7 @@ fn table(defect: &PlacedDefect) -> Table {
 }
 
 /// The defects of a resolved file; `None` in a source file.
-pub(super) fn placed(r: &mut Reader, s: &mut Section) -> Option<Vec<PlacedDefect>> {
+pub(super) fn with_placed_defects(r: &mut Reader, s: &mut Section) -> Option<Vec<PlacedDefect>> {
     let none_placed = r.flag(s, "none_placed", false);
     let mut out = Vec::new();
     for mut t in r.sections(s, "placed") {
@@ -63,16 +63,16 @@ fn one(r: &mut Reader, t: &mut Section) -> PlacedDefect {
         let [e, n, u] = r.numbers(t, key, (-1.0, 1.0), None);
         let v = Vec3::new(e, n, u);
         if t.has(key) && (v.norm() - 1.0).abs() > UNIT_TOLERANCE {
-            r.complain(t, key, &format!("length {:.4}", v.norm()), "a vector of length 1", "not a unit vector");
+            r.add_problem(t, key, &format!("length {:.4}", v.norm()), "a vector of length 1", "not a unit vector");
         }
         v
     };
     PlacedDefect {
-        id: r.whole(t, "id", (1, 10_000), None) as u32,
-        element: r.whole(t, "element", (1, 999), None) as u32,
+        id: r.integer(t, "id", (1, 10_000), None) as u32,
+        element: r.integer(t, "element", (1, 999), None) as u32,
         member: r.text(t, "member", None),
-        kind: r.whole(t, "kind", (1000, 9999), None) as u32,
-        condition_state: r.whole(t, "condition_state", (1, 4), None) as u8,
+        kind: r.integer(t, "kind", (1000, 9999), None) as u32,
+        condition_state: r.integer(t, "condition_state", (1, 4), None) as u8,
         position_m: point(r, t, "position_m", None),
         normal: unit(r, t, "normal"),
         along: unit(r, t, "along"),

@@ -44,7 +44,7 @@ pub(super) fn read(r: &mut Reader, root: &mut Section, bridges: &[Bridge]) -> Ve
         r.problem(1, "tasks", "", "at least one [[tasks]]", "no task");
     }
     if out.len() > MOST_TASKS {
-        r.complain(root, "tasks", &out.len().to_string(), "at most 64 [[tasks]]", "too many");
+        r.add_problem(root, "tasks", &out.len().to_string(), "at most 64 [[tasks]]", "too many");
     }
     out
 }
@@ -61,7 +61,7 @@ fn task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Task {
     let look_at = r.points(s, "look_at_m", (-5_000.0, 5_000.0));
     let path = match bridge {
         Some(index) => bridges[index].task_path(kind, stand_off_m).unwrap_or_else(|problem| {
-            r.complain(s, "kind", "", &problem, "this bridge has no such path");
+            r.add_problem(s, "kind", "", &problem, "this bridge has no such path");
             TaskPath { path_m: Vec::new(), look: Vec::new(), closed }
         }),
         None => free(r, s, kind, &points, &look_at, closed),
@@ -90,7 +90,7 @@ fn bridge_of(r: &mut Reader, s: &mut Section, kind: TaskKind, bridges: &[Bridge]
     let found = bridges.iter().position(|b| b.name == wanted);
     if found.is_none() {
         let names = bridges.iter().map(|b| b.name.as_str()).collect::<Vec<_>>().join(", ");
-        r.complain(s, "bridge", &wanted, &format!("a bridge of this file: {names}"), "no such bridge");
+        r.add_problem(s, "bridge", &wanted, &format!("a bridge of this file: {names}"), "no such bridge");
     }
     found
 }
@@ -99,11 +99,11 @@ fn bridge_of(r: &mut Reader, s: &mut Section, kind: TaskKind, bridges: &[Bridge]
 fn free(r: &mut Reader, s: &mut Section, kind: TaskKind, points: &[[f64; 3]], look_at: &[[f64; 3]], closed: bool) -> TaskPath {
     let points: Vec<Vec3<Enu>> = points.iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
     if points.is_empty() && kind == TaskKind::Free {
-        r.complain(s, "points_m", "", "one or more [east, north, up]", "a free path needs points");
+        r.add_problem(s, "points_m", "", "one or more [east, north, up]", "a free path needs points");
     }
     let length_m: f64 = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
     if length_m > LONGEST_PATH_M {
-        r.complain(s, "points_m", &format!("{length_m:.0} m long"), "at most 20000 m of path", "too long");
+        r.add_problem(s, "points_m", &format!("{length_m:.0} m long"), "at most 20000 m of path", "too long");
         return TaskPath { path_m: Vec::new(), look: Vec::new(), closed };
     }
     let path_m = resample(&points, closed);

@@ -1,6 +1,6 @@
 //! Wind and time of day.
 
-use super::{Wind, WindEvent, WindModel};
+use super::{WindEvent, WindModel, WindSpec};
 use crate::math::M_S_PER_MPH;
 use crate::time::SimTime;
 use crate::toml::{Reader, Section};
@@ -9,7 +9,7 @@ use crate::toml::{Reader, Section};
 const LEVELS: [(&str, (f64, f64)); 4] =
     [("calm", (0.0, 0.0)), ("light", (2.2, 0.12)), ("gentle", (11.0, 3.0)), ("medium", (22.0, 12.0))];
 
-pub(super) fn read(r: &mut Reader, root: &mut Section) -> Wind {
+pub(super) fn read(r: &mut Reader, root: &mut Section) -> WindSpec {
     let mut s = r.section(root, "wind");
     let model = r.choice(&mut s, "model", &[("physical", WindModel::Physical), ("paper", WindModel::Paper)], Some(0));
     let (mph, force_n) = r.choice(&mut s, "level", &LEVELS, Some(0));
@@ -17,7 +17,7 @@ pub(super) fn read(r: &mut Reader, root: &mut Section) -> Wind {
     let paper_force_n = r.number(&mut s, "paper_force_n", (0.0, 100.0), Some(force_n));
     r.default_depends(&s, "speed_m_s", "by level: 0, 0.98, 4.92, 9.83");
     r.default_depends(&s, "paper_force_n", "by level: 0, 0.12, 3, 12");
-    let mut wind = Wind {
+    let mut wind = WindSpec {
         model,
         speed_m_s,
         paper_force_n,

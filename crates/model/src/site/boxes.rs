@@ -1,6 +1,6 @@
 //! Oriented boxes: the solids of everything that moves or is parked, with their exact distance, ray and contact queries.
 
-use super::Probe;
+use super::HullProbe;
 use crate::frames::{Enu, Vec3};
 
 /// A box with any orientation.
@@ -78,7 +78,7 @@ impl OrientedBox {
 
     /// Calls `found` with gap, surface point and normal of every near-contact of a convex probe: for a ball one, for a capsule the
     /// deepest and both ends (so that a capsule lying on a face rests on two points).
-    pub fn contacts(&self, probe: &Probe, margin_m: f64, mut found: impl FnMut(f64, Vec3<Enu>, Vec3<Enu>)) {
+    pub fn contacts(&self, probe: &HullProbe, margin_m: f64, mut found: impl FnMut(f64, Vec3<Enu>, Vec3<Enu>)) {
         let mut test = |centre: Vec3<Enu>, radius: f64| {
             let (distance, point, normal) = self.nearest(centre);
             if distance - radius <= margin_m {
@@ -86,8 +86,8 @@ impl OrientedBox {
             }
         };
         match *probe {
-            Probe::Ball { centre_m, radius_m } => test(centre_m, radius_m),
-            Probe::Capsule { a_m, b_m, radius_m } => {
+            HullProbe::Ball { centre_m, radius_m } => test(centre_m, radius_m),
+            HullProbe::Capsule { a_m, b_m, radius_m } => {
                 test(a_m, radius_m);
                 if (b_m - a_m).norm() < AXIS_MIN_M {
                     return;
@@ -125,10 +125,10 @@ impl OrientedBox {
 
 /// Distance from a probe's centre line to its farthest point from `centre`, and that centre: a ball around the probe.
 #[must_use]
-pub fn bounding_ball(probe: &Probe) -> (Vec3<Enu>, f64) {
+pub fn bounding_ball(probe: &HullProbe) -> (Vec3<Enu>, f64) {
     match *probe {
-        Probe::Ball { centre_m, radius_m } => (centre_m, radius_m),
-        Probe::Capsule { a_m, b_m, radius_m } => ((a_m + b_m) * 0.5, (b_m - a_m).norm() * 0.5 + radius_m),
+        HullProbe::Ball { centre_m, radius_m } => (centre_m, radius_m),
+        HullProbe::Capsule { a_m, b_m, radius_m } => ((a_m + b_m) * 0.5, (b_m - a_m).norm() * 0.5 + radius_m),
     }
 }
 
@@ -175,11 +175,11 @@ mod tests {
     fn exact_a_capsule_over_a_face_touches_with_both_ends_and_across_an_edge_in_between() {
         let b = cube();
         let mut gaps = Vec::new();
-        let flat = Probe::Capsule { a_m: Vec3::new(9.5, 0.0, 2.1), b_m: Vec3::new(10.5, 0.0, 2.1), radius_m: 0.05 };
+        let flat = HullProbe::Capsule { a_m: Vec3::new(9.5, 0.0, 2.1), b_m: Vec3::new(10.5, 0.0, 2.1), radius_m: 0.05 };
         b.contacts(&flat, 0.1, |gap, _, _| gaps.push(gap));
         assert!(gaps.len() >= 2 && gaps.iter().all(|g| (g - 0.05).abs() < 1e-9), "{gaps:?}");
         gaps.clear();
-        let across = Probe::Capsule { a_m: Vec3::new(8.5, -3.0, 1.0), b_m: Vec3::new(8.5, 3.0, 1.0), radius_m: 0.05 };
+        let across = HullProbe::Capsule { a_m: Vec3::new(8.5, -3.0, 1.0), b_m: Vec3::new(8.5, 3.0, 1.0), radius_m: 0.05 };
         b.contacts(&across, 0.1, |gap, _, _| gaps.push(gap));
         // The edge at east 10 - √2 = 8.586 lies 0.086 from the axis.
         assert_eq!(gaps.len(), 1);

@@ -75,7 +75,7 @@ pub fn kind_name(kind: u32) -> &'static str {
 
 /// Ranges of one kind in one condition state: length in m; width in m for lines, else as a share of the length.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sizes {
+pub struct SizeRanges {
     /// Shortest and longest extent, m.
     pub length_m: (f64, f64),
     /// Narrowest and widest: m for lines, a share of the length for areas.
@@ -84,7 +84,7 @@ pub struct Sizes {
 
 /// Sizes by kind and condition state (2 or 3).
 #[must_use]
-pub fn sizes(kind: u32, condition_state: u8) -> Sizes {
+pub fn sizes(kind: u32, condition_state: u8) -> SizeRanges {
     let poor = condition_state >= 3;
     let (length_m, width) = match (kind, poor) {
         // 6 in = 0.152 m divides the states.
@@ -109,7 +109,7 @@ pub fn sizes(kind: u32, condition_state: u8) -> Sizes {
         (_, false) => ((0.08, 0.30), (0.3, 0.7)),
         (_, true) => ((0.15, 0.80), (0.3, 0.7)),
     };
-    Sizes { length_m, width }
+    SizeRanges { length_m, width }
 }
 
 /// Draws length and width in m, both times `factor`.

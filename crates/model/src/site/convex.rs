@@ -16,7 +16,7 @@ const SQUARE: f64 = 1e-12;
 /// A convex polyhedron ready for queries.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Convex {
-    shape: Shape,
+    shape: ConvexShape,
     low_m: Vec3<Enu>,
     high_m: Vec3<Enu>,
 }
@@ -33,26 +33,26 @@ pub struct SurfacePoint {
 }
 
 #[derive(Debug, Clone, PartialEq)]
-enum Shape {
+enum ConvexShape {
     /// A box: the same six faces as a hull would have, three at a time.
     Box {
         centre: Vec3<Enu>,
         axes: [Vec3<Enu>; 3],
         half: [f64; 3],
     },
-    Hull(Vec<Face>),
+    Hull(Vec<HullFace>),
 }
 
 /// One face: its plane and its edges, counter-clockwise seen from outside.
 #[derive(Debug, Clone, PartialEq)]
-struct Face {
+struct HullFace {
     normal: Vec3<Enu>,
     offset: f64,
-    edges: Vec<Edge>,
+    edges: Vec<HullEdge>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-struct Edge {
+struct HullEdge {
     start: Vec3<Enu>,
     along: Vec3<Enu>,
     /// In the face's plane, square to the edge, away from the face; not of unit length.
@@ -65,7 +65,7 @@ impl Convex {
     #[must_use]
     pub fn new(solid: &Solid) -> Self {
         let corners = |face: &Vec<u32>| face.iter().map(|k| solid.vertices_m[*k as usize]).collect::<Vec<_>>();
-        let faces: Vec<Face> = solid.faces.iter().map(|face| Face::new(&corners(face))).collect();
+        let faces: Vec<HullFace> = solid.faces.iter().map(|face| HullFace::new(&corners(face))).collect();
         let fold = |pick: fn(f64, f64) -> f64, start: f64| {
             let a = solid.vertices_m.iter().fold([start; 3], |a, v| {
                 let v = v.array();
@@ -74,7 +74,7 @@ impl Convex {
             Vec3::new(a[0], a[1], a[2])
         };
         let (low_m, high_m) = (fold(f64::min, f64::INFINITY), fold(f64::max, f64::NEG_INFINITY));
-        let shape = as_box(&faces).unwrap_or(Shape::Hull(faces));
+        let shape = as_box(&faces).unwrap_or(ConvexShape::Hull(faces));
         Self { shape, low_m, high_m }
     }
 
@@ -88,24 +88,24 @@ impl Convex {
     #[must_use]
     pub fn nearest(&self, p: Vec3<Enu>) -> SurfacePoint {
         match &self.shape {
-            Shape::Box { centre, axes, half } => nearest_of_box(p, *centre, axes, half),
-            Shape::Hull(faces) => nearest_of_hull(p, faces),
+            ConvexShape::Box { centre, axes, half } => nearest_of_box(p, *centre, axes, half),
+            ConvexShape::Hull(faces) => nearest_of_hull(p, faces),
         }
     }
 
     /// Distance along a ray to the surface and the normal there; a ray that starts inside hits at once.
     #[must_use]
     pub fn ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<(f64, Vec3<Enu>)> {
-        let mut clip = Clip { enter: f64::NEG_INFINITY, leave: max_m, normal: -direction };
+        let mut clip = RayInterval { enter: f64::NEG_INFINITY, leave: max_m, normal: -direction };
         match &self.shape {
-            Shape::Box { centre, axes, half } => {
+            ConvexShape::Box { centre, axes, half } => {
                 for k in 0..3 {
                     let (at, rate) = (axes[k].dot(origin - *centre), axes[k].dot(direction));
                     clip.plane(at - half[k], rate, || axes[k]);
                     clip.plane(-at - half[k], -rate, || -axes[k]);
                 }
             }
-            Shape::Hull(faces) => {
+            ConvexShape::Hull(faces) => {
                 for face in faces {
                     clip.plane(face.normal.dot(origin) - face.offset, face.normal.dot(direction), || face.normal);
                     if clip.enter > clip.leave {
@@ -182,13 +182,13 @@ impl Convex {
 }
 
 /// The part of a ray that lies behind all planes so far.
-struct Clip {
+struct RayInterval {
     enter: f64,
     leave: f64,
     normal: Vec3<Enu>,
 }
 
-impl Clip {
+impl RayInterval {
     /// One more plane: height of the origin over it and how fast the ray climbs from it.
     fn plane(&mut self, height: f64, rate: f64, normal: impl Fn() -> Vec3<Enu>) {
         if rate == 0.0 {
@@ -228,7 +228,7 @@ fn nearest_of_box(p: Vec3<Enu>, centre: Vec3<Enu>, axes: &[Vec3<Enu>; 3], half: 
     SurfacePoint { distance_m, point_m: p - away, normal }
 }
 
-fn nearest_of_hull(p: Vec3<Enu>, faces: &[Face]) -> SurfacePoint {
+fn nearest_of_hull(p: Vec3<Enu>, faces: &[HullFace]) -> SurfacePoint {
     let mut highest = (f64::NEG_INFINITY, 0);
     let mut best = (f64::INFINITY, Vec3::zero());
     for (k, face) in faces.iter().enumerate() {
@@ -255,7 +255,7 @@ fn nearest_of_hull(p: Vec3<Enu>, faces: &[Face]) -> SurfacePoint {
 }
 
 /// Six faces in three square pairs are a box.
-fn as_box(faces: &[Face]) -> Option<Shape> {
+fn as_box(faces: &[HullFace]) -> Option<ConvexShape> {
     if faces.len() != 6 || faces.iter().any(|f| f.edges.len() != 4) {
         return None;
     }
@@ -274,10 +274,10 @@ fn as_box(faces: &[Face]) -> Option<Shape> {
     }
     let square =
         axes[0].dot(axes[1]).abs() < SQUARE && axes[1].dot(axes[2]).abs() < SQUARE && axes[2].dot(axes[0]).abs() < SQUARE;
-    square.then_some(Shape::Box { centre, axes, half })
+    square.then_some(ConvexShape::Box { centre, axes, half })
 }
 
-impl Face {
+impl HullFace {
     fn new(corners: &[Vec3<Enu>]) -> Self {
         // Newell's sum: exact for planar polygons whatever corners are close together.
         let n = corners.len();
@@ -289,7 +289,12 @@ impl Face {
         let offset = corners.iter().map(|c| normal.dot(*c)).sum::<f64>() / n as f64;
         let edge = |k: usize| {
             let along = corners[(k + 1) % n] - corners[k];
-            Edge { start: corners[k], along, outward: along.cross(normal), inverse_length_squared: 1.0 / along.norm_squared() }
+            HullEdge {
+                start: corners[k],
+                along,
+                outward: along.cross(normal),
+                inverse_length_squared: 1.0 / along.norm_squared(),
+            }
         };
         Self { normal, offset, edges: (0..n).map(edge).collect() }
     }
@@ -318,20 +323,20 @@ impl Face {
 mod tests {
     use super::*;
     use crate::random::RandomStream;
-    use crate::scenario::bridges::solid::{Builder, Placement};
+    use crate::scenario::bridges::solid::{MemberBuilder, Placement};
 
     /// m; rounding at the scale of the test shapes.
     const ROUNDING_M: f64 = 1e-12;
 
     fn cube() -> Convex {
-        let mut b = Builder::new("t", Placement::new(Vec3::zero(), 90.0));
+        let mut b = MemberBuilder::new("t", Placement::new(Vec3::zero(), 90.0));
         b.block("cube", 12, [-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]);
         Convex::new(&b.finish()[0].solid)
     }
 
     /// The same solids as boxes and as hulls, and an eight-sided rod.
     fn shapes() -> Vec<Convex> {
-        let mut b = Builder::new("t", Placement::new(Vec3::new(0.3, -0.2, 0.1), 37.0));
+        let mut b = MemberBuilder::new("t", Placement::new(Vec3::new(0.3, -0.2, 0.1), 37.0));
         b.block("block", 12, [-1.0, -0.5, -0.2], [1.3, 0.4, 0.1]);
         b.across("wedge", 144, &[[-1.0, -0.5], [1.0, -0.3], [0.9, 0.4], [-1.0, 0.1]], -0.4, 0.3);
         b.rod("rod", 147, [-1.0, 0.2, -0.4], [0.8, -0.1, 0.6], 0.3, 8);
@@ -353,14 +358,14 @@ mod tests {
     fn prop_a_box_answers_as_its_faces_do() {
         // m; the corners of a turned box are rounded at 1e-16 of its size.
         const SAME_M: f64 = 1e-9;
-        let mut b = Builder::new("t", Placement::new(Vec3::new(11.0, -40.0, 7.0), 71.0));
+        let mut b = MemberBuilder::new("t", Placement::new(Vec3::new(11.0, -40.0, 7.0), 71.0));
         b.block("block", 12, [-3.0, -0.5, -0.2], [1.3, 0.4, 0.1]);
         let solid = &b.finish()[0].solid;
         let boxed = Convex::new(solid);
-        assert!(matches!(boxed.shape, Shape::Box { .. }));
+        assert!(matches!(boxed.shape, ConvexShape::Box { .. }));
         let corners = |face: &Vec<u32>| face.iter().map(|k| solid.vertices_m[*k as usize]).collect::<Vec<_>>();
-        let faces: Vec<Face> = solid.faces.iter().map(|f| Face::new(&corners(f))).collect();
-        let hull = Convex { shape: Shape::Hull(faces), ..boxed.clone() };
+        let faces: Vec<HullFace> = solid.faces.iter().map(|f| HullFace::new(&corners(f))).collect();
+        let hull = Convex { shape: ConvexShape::Hull(faces), ..boxed.clone() };
         let mut random = RandomStream::new(2, "points");
         for _ in 0..3000 {
             let p = Vec3::new(11.0, -40.0, 7.0)

@@ -3,15 +3,15 @@
 //! task's threshold. Other places for every seed.
 
 use super::catalogue;
-use super::faces::{Face, face_at};
-use super::light::{Cast, tangents};
-use super::look;
+use super::faces::{MemberFace, face_at};
+use super::light::{RayCast, tangents};
+use super::visibility;
 use super::{CameraPose, Surface};
 use crate::frames::{Enu, Vec3};
 use crate::math;
 use crate::random::RandomStream;
 use crate::scenario::bridges::Member;
-use crate::scenario::{Defects, PlacedDefect, Task, TaskKind};
+use crate::scenario::{DefectSpec, PlacedDefect, Task, TaskKind};
 use crate::vehicle::{Camera, Lamp};
 
 /// The camera for which every placed defect is photographable: coarser than those shipped (3000 px over 100 degrees; estimate
@@ -57,13 +57,13 @@ const PLACES: usize = 5;
 /// In what an aircraft's camera or lamp falls short of the reference for which placed defects are photographable, in words with
 /// both numbers; empty when it covers the reference.
 #[must_use]
-pub fn short_of_reference(camera: &Camera, lamp: &Lamp) -> Vec<String> {
+pub fn reference_shortfalls(camera: &Camera, lamp: &Lamp) -> Vec<String> {
     let candela = |l: &Lamp| l.flux_lm / (math::TAU * (1.0 - math::cos(0.5 * l.beam_rad)));
     let wanting = [
         ("focal length, px", camera.focal_px(), REFERENCE_CAMERA.focal_px()),
         ("lamp intensity, cd", candela(lamp), candela(&REFERENCE_LAMP)),
         // As sensitivity, so that more is better in all lines.
-        ("1/light needed, 1/lx", 1.0 / look::needed_lux(camera), 1.0 / look::needed_lux(&REFERENCE_CAMERA)),
+        ("1/light needed, 1/lx", 1.0 / visibility::needed_lux(camera), 1.0 / visibility::needed_lux(&REFERENCE_CAMERA)),
         ("gimbal up, rad", camera.gimbal_pitch_max_rad, REFERENCE_CAMERA.gimbal_pitch_max_rad),
         ("gimbal down, rad", -camera.gimbal_pitch_min_rad, -REFERENCE_CAMERA.gimbal_pitch_min_rad),
     ];
@@ -78,15 +78,15 @@ pub fn short_of_reference(camera: &Camera, lamp: &Lamp) -> Vec<String> {
 
 /// What placing needs of the site.
 #[derive(Clone, Copy)]
-pub struct Ground<'a> {
+pub struct PlacementContext<'a> {
     /// All bridge members; a hit's object number is an index into them.
     pub members: &'a [Member],
     /// The job's tasks.
     pub tasks: &'a [Task],
     /// Rays against what stands still.
-    pub cast: Cast<'a>,
+    pub cast: RayCast<'a>,
     /// Ambient light at the start of the session by position and normal, lx.
-    pub ambient: look::Ambient<'a>,
+    pub ambient: visibility::AmbientLight<'a>,
     /// Distance to the nearest surface up to [`CLEARANCE_M`], else infinity, m.
     pub clearance_m: &'a dyn Fn(Vec3<Enu>) -> f64,
 }
@@ -94,7 +94,7 @@ pub struct Ground<'a> {
 /// The defects of a session: those of a resolved file, else drawn from the seed. Fewer than asked come back only where the
 /// settings leave no photographable place (no bridge within reach of a task, say, or kinds that no element in reach may carry).
 #[must_use]
-pub fn place(settings: &Defects, ground: &Ground, seed: u64) -> Vec<PlacedDefect> {
+pub fn place(settings: &DefectSpec, ground: &PlacementContext, seed: u64) -> Vec<PlacedDefect> {
     if let Some(placed) = &settings.placed {
         return placed.clone();
     }
@@ -108,7 +108,7 @@ pub fn place(settings: &Defects, ground: &Ground, seed: u64) -> Vec<PlacedDefect
     for k in 0..settings.count {
         let found = (0..tasks.len()).find_map(|turn| {
             let task = tasks[(first + k + turn) % tasks.len()];
-            (0..ATTEMPTS).find_map(|attempt| try_once(settings, ground, task, (attempt, &defects), &mut stream))
+            (0..ATTEMPTS).find_map(|attempt| try_place(settings, ground, task, (attempt, &defects), &mut stream))
         });
         if let Some(mut defect) = found {
             defect.id = defects.len() as u32 + 1;
@@ -119,9 +119,9 @@ pub fn place(settings: &Defects, ground: &Ground, seed: u64) -> Vec<PlacedDefect
 }
 
 /// One draw: sight line, kind, size, then every check; `None` when any fails.
-fn try_once(
-    settings: &Defects,
-    ground: &Ground,
+fn try_place(
+    settings: &DefectSpec,
+    ground: &PlacementContext,
     task: &Task,
     (attempt, others): (usize, &[PlacedDefect]),
     stream: &mut RandomStream,
@@ -157,11 +157,11 @@ fn try_once(
     };
     let separation = SEPARATION_M * (1.5 - 1.5 * attempt as f64 / ATTEMPTS as f64).min(1.0);
     let apart = others.iter().all(|o| (o.position_m - defect.position_m).norm() >= separation);
-    (apart && fits(&defect, &face) && exposed(&defect, hit.object.0, ground) && best_view(&defect, task, ground).is_some())
+    (apart && has_room(&defect, &face) && exposed(&defect, hit.object.0, ground) && best_view(&defect, task, ground).is_some())
         .then_some(defect)
 }
 
-fn choose_kind(settings: &Defects, element: u32, draw: f64) -> Option<u32> {
+fn choose_kind(settings: &DefectSpec, element: u32, draw: f64) -> Option<u32> {
     if !settings.elements.is_empty() && !settings.elements.contains(&element) {
         return None;
     }
@@ -171,7 +171,7 @@ fn choose_kind(settings: &Defects, element: u32, draw: f64) -> Option<u32> {
 }
 
 /// Stains run downward on walls; corrosion and rebar follow the member; all else lies at a random angle.
-fn along(kind: u32, face: &Face, roll_rad: f64) -> Vec3<Enu> {
+fn along(kind: u32, face: &MemberFace, roll_rad: f64) -> Vec3<Enu> {
     let down = Vec3::new(0.0, 0.0, -1.0);
     let downhill = down - face.normal * face.normal.dot(down);
     let long = face.long_axis();
@@ -194,12 +194,12 @@ fn ends(defect: &PlacedDefect, margin_m: f64) -> [Vec3<Enu>; 4] {
 }
 
 /// The whole defect lies inside its face.
-fn fits(defect: &PlacedDefect, face: &Face) -> bool {
+fn has_room(defect: &PlacedDefect, face: &MemberFace) -> bool {
     ends(defect, MARGIN_M).iter().all(|p| face.inset_m(*p) > 0.0)
 }
 
 /// No other member covers it or touches its surroundings: looking back from a little above, every end shows this member first.
-fn exposed(defect: &PlacedDefect, object: u32, ground: &Ground) -> bool {
+fn exposed(defect: &PlacedDefect, object: u32, ground: &PlacementContext) -> bool {
     let mut points = ends(defect, MARGIN_M).to_vec();
     points.push(defect.position_m);
     points.iter().all(|p| {
@@ -213,7 +213,7 @@ fn exposed(defect: &PlacedDefect, object: u32, ground: &Ground) -> bool {
 /// A pose within the task's threshold of its path, with air around, from which the reference camera takes a picture that hits
 /// the defect; `None` when there is none among those tried.
 #[must_use]
-pub fn best_view(defect: &PlacedDefect, task: &Task, ground: &Ground) -> Option<CameraPose> {
+pub fn best_view(defect: &PlacedDefect, task: &Task, ground: &PlacementContext) -> Option<CameraPose> {
     let mut order: Vec<usize> = (0..task.path_m.len()).collect();
     order.sort_by(|a, b| {
         let d = |k: usize| (task.path_m[k] - defect.position_m).norm_squared();
@@ -223,13 +223,13 @@ pub fn best_view(defect: &PlacedDefect, task: &Task, ground: &Ground) -> Option<
         APPROACH.iter().find_map(|share| {
             let to = defect.position_m - task.path_m[*k];
             let step = (share * task.threshold_m).min(to.norm() - CLEARANCE_M).max(0.0);
-            let pose = aimed(task.path_m[*k] + to.unit() * step, defect.position_m);
+            let pose = camera_aimed_at(task.path_m[*k] + to.unit() * step, defect.position_m);
             // Cheap conditions first: the sight line and the pixels, then the air around, then the light.
-            let bright = look::judge(defect, &pose, (&REFERENCE_CAMERA, &REFERENCE_LAMP), ground.cast, &|_, _| 1e9);
+            let bright = visibility::judge(defect, &pose, (&REFERENCE_CAMERA, &REFERENCE_LAMP), ground.cast, &|_, _| 1e9);
             let air = || (ground.clearance_m)(pose.position_m) >= CLEARANCE_M;
             let lit = || {
-                let lamp = look::lamp_lux(&REFERENCE_LAMP, &pose, defect.position_m, defect.normal);
-                let needed = look::needed_lux(&REFERENCE_CAMERA);
+                let lamp = visibility::lamp_lux(&REFERENCE_LAMP, &pose, defect.position_m, defect.normal);
+                let needed = visibility::needed_lux(&REFERENCE_CAMERA);
                 lamp >= needed || lamp + (ground.ambient)(defect.position_m, defect.normal) >= needed
             };
             (bright.is_some_and(|v| v.hit) && air() && lit()).then_some(pose)
@@ -238,7 +238,7 @@ pub fn best_view(defect: &PlacedDefect, task: &Task, ground: &Ground) -> Option<
 }
 
 /// A level camera with the lamp on that looks at a point.
-fn aimed(position_m: Vec3<Enu>, at_m: Vec3<Enu>) -> CameraPose {
+fn camera_aimed_at(position_m: Vec3<Enu>, at_m: Vec3<Enu>) -> CameraPose {
     let forward = (at_m - position_m).unit();
     let level = forward.cross(Vec3::new(0.0, 0.0, 1.0));
     let right = if level.norm() > 1e-9 { level.unit() } else { Vec3::new(1.0, 0.0, 0.0) };
@@ -312,12 +312,12 @@ mod tests {
             .collect()
     }
 
-    fn settings() -> Defects {
-        Defects { count: 10, size_factor: 1.0, elements: vec![], kinds: vec![], placed: None }
+    fn settings() -> DefectSpec {
+        DefectSpec { count: 10, size_factor: 1.0, elements: vec![], kinds: vec![], placed: None }
     }
 
     /// Runs `with` on the test ground.
-    fn on_ground<T>(lux: f64, with: impl FnOnce(&Ground, &[OrientedBox]) -> T) -> T {
+    fn on_ground<T>(lux: f64, with: impl FnOnce(&PlacementContext, &[OrientedBox]) -> T) -> T {
         let (members, tasks) = (members(), [task()]);
         let solids = solids(&members);
         let cast = |o: Vec3<Enu>, d: Vec3<Enu>, max: f64| {
@@ -335,7 +335,8 @@ mod tests {
         };
         let clearance = |p: Vec3<Enu>| solids.iter().map(|s| s.nearest(p).0).fold(f64::INFINITY, f64::min);
         let ambient = move |_: Vec3<Enu>, _: Vec3<Enu>| lux;
-        let ground = Ground { members: &members, tasks: &tasks, cast: &cast, ambient: &ambient, clearance_m: &clearance };
+        let ground =
+            PlacementContext { members: &members, tasks: &tasks, cast: &cast, ambient: &ambient, clearance_m: &clearance };
         with(&ground, &solids)
     }
 
@@ -379,13 +380,13 @@ mod tests {
     #[test]
     fn prop_elements_and_kinds_are_respected_and_a_resolved_file_is_kept() {
         on_ground(1000.0, |ground, _| {
-            let cracks = Defects { elements: vec![210], kinds: vec![catalogue::CRACK], ..settings() };
+            let cracks = DefectSpec { elements: vec![210], kinds: vec![catalogue::CRACK], ..settings() };
             let placed = place(&cracks, ground, 3);
             assert_eq!(placed.len(), 10);
             assert!(placed.iter().all(|d| d.element == 210 && d.kind == catalogue::CRACK && d.line));
-            let resolved = Defects { placed: Some(placed[..2].to_vec()), ..settings() };
+            let resolved = DefectSpec { placed: Some(placed[..2].to_vec()), ..settings() };
             assert_eq!(place(&resolved, ground, 99), placed[..2].to_vec());
-            let illegal = Defects { elements: vec![107], kinds: vec![catalogue::CRACK], ..settings() };
+            let illegal = DefectSpec { elements: vec![107], kinds: vec![catalogue::CRACK], ..settings() };
             assert!(place(&illegal, ground, 3).is_empty());
         });
     }
@@ -397,18 +398,18 @@ mod tests {
             assert_eq!(placed.len(), 10);
             for d in &placed {
                 let pose = best_view(d, &ground.tasks[0], ground).expect("photographable");
-                let lamp = look::lamp_lux(&REFERENCE_LAMP, &pose, d.position_m, d.normal);
-                assert!(lamp >= look::needed_lux(&REFERENCE_CAMERA), "{lamp} lx");
+                let lamp = visibility::lamp_lux(&REFERENCE_LAMP, &pose, d.position_m, d.normal);
+                assert!(lamp >= visibility::needed_lux(&REFERENCE_CAMERA), "{lamp} lx");
             }
         });
     }
 
     #[test]
     fn exact_the_reference_covers_itself_and_each_shortfall_is_named() {
-        assert!(short_of_reference(&REFERENCE_CAMERA, &REFERENCE_LAMP).is_empty());
+        assert!(reference_shortfalls(&REFERENCE_CAMERA, &REFERENCE_LAMP).is_empty());
         let coarse = Camera { width_px: 1920, gimbal_pitch_max_rad: 0.5, ..REFERENCE_CAMERA };
         let dark = Lamp { flux_lm: 0.0, ..REFERENCE_LAMP };
-        let words = short_of_reference(&coarse, &dark).join("; ");
+        let words = reference_shortfalls(&coarse, &dark).join("; ");
         assert!(words.contains("focal") && words.contains("lamp") && words.contains("gimbal up"), "{words}");
         assert!(!words.contains("light needed") && !words.contains("gimbal down"), "{words}");
     }

@@ -1,11 +1,11 @@
 //! What a session adds to the standing structure: traffic and crew, defects, light. Every question takes the static geometry's
 //! own answer as an argument, so that this file knows nothing of how that is found.
 
-use super::defects::{self, Ground};
-use super::light::{Cast, LightModel};
-use super::look;
+use super::defects::{self, PlacementContext};
+use super::light::{LightModel, RayCast};
 use super::traffic::TrafficPlan;
-use super::{At, CameraPose, DefectView, Nearest, RayHit};
+use super::visibility;
+use super::{CameraPose, DefectView, NearestPoint, QueryTime, RayHit};
 use crate::frames::{Enu, Vec3};
 use crate::scenario::bridges::{Lane, Member};
 use crate::scenario::{PlacedDefect, Scenario};
@@ -27,9 +27,9 @@ pub struct Dynamics {
 #[derive(Clone, Copy)]
 pub struct StaticQueries<'a> {
     /// First hit of a ray.
-    pub cast: Cast<'a>,
+    pub cast: RayCast<'a>,
     /// Nearest surface of a point within a reach, m.
-    pub nearest: &'a dyn Fn(Vec3<Enu>, f64) -> Option<Nearest>,
+    pub nearest: &'a dyn Fn(Vec3<Enu>, f64) -> Option<NearestPoint>,
 }
 
 impl Dynamics {
@@ -39,21 +39,29 @@ impl Dynamics {
         let light = LightModel::new(&scenario.light, scenario.origin);
         let ambient = |p, n| light.ambient_lux(p, Some(n), SimTime::ZERO, still.cast);
         let clearance = |p| (still.nearest)(p, defects::CLEARANCE_M).map_or(f64::INFINITY, |n| n.distance_m);
-        let ground = Ground { members, tasks: &scenario.tasks, cast: still.cast, ambient: &ambient, clearance_m: &clearance };
+        let ground =
+            PlacementContext { members, tasks: &scenario.tasks, cast: still.cast, ambient: &ambient, clearance_m: &clearance };
         let placed = defects::place(&scenario.defects, &ground, seed);
         Self { traffic: TrafficPlan::new(lanes, &scenario.traffic, &scenario.ground_team, seed), light, defects: placed }
     }
 
     /// The nearer of the static answer and traffic or crew within `max_m`.
     #[must_use]
-    pub fn nearest(&self, still: Option<Nearest>, position_m: Vec3<Enu>, max_m: f64, at: At) -> Option<Nearest> {
+    pub fn nearest(&self, still: Option<NearestPoint>, position_m: Vec3<Enu>, max_m: f64, at: QueryTime) -> Option<NearestPoint> {
         let reach = still.map_or(max_m, |s| s.distance_m);
         self.traffic.nearest(position_m, reach, at).or(still)
     }
 
     /// The nearer of the static hit and traffic or crew within `max_m`.
     #[must_use]
-    pub fn ray(&self, still: Option<RayHit>, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: At) -> Option<RayHit> {
+    pub fn ray(
+        &self,
+        still: Option<RayHit>,
+        origin_m: Vec3<Enu>,
+        direction: Vec3<Enu>,
+        max_m: f64,
+        at: QueryTime,
+    ) -> Option<RayHit> {
         let reach = still.map_or(max_m, |s| s.distance_m);
         self.traffic.ray(origin_m, direction, reach, at).or(still)
     }
@@ -61,10 +69,10 @@ impl Dynamics {
     /// How every defect within [`look::REACH_M`] and in front shows in a picture; traffic may stand in the way, but throws no
     /// shadow.
     #[must_use]
-    pub fn look(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: At, still: Cast) -> Vec<DefectView> {
+    pub fn look(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: QueryTime, still: RayCast) -> Vec<DefectView> {
         let cast = |o, d, max| self.ray(still(o, d, max), o, d, max, at);
         let ambient = |p, n| self.light.ambient_lux(p, Some(n), at, still);
-        self.defects.iter().filter_map(|d| look::judge(d, pose, (camera, lamp), &cast, &ambient)).collect()
+        self.defects.iter().filter_map(|d| visibility::judge(d, pose, (camera, lamp), &cast, &ambient)).collect()
     }
 }
 
@@ -118,8 +126,8 @@ mod tests {
         kinds.into_iter().enumerate().map(task).collect()
     }
 
-    fn rules() -> (Rules, Feedback, Scoring) {
-        let rules = Rules {
+    fn rules() -> (SessionRules, FeedbackThresholds, ScoringParams) {
+        let rules = SessionRules {
             after_crash: AfterCrash::Continue,
             battery: BatteryModel::Paper,
             low_battery_return: false,
@@ -128,7 +136,7 @@ mod tests {
             gnss_shadow: false,
             respawn_after: SimTime::from_s(3.0),
         };
-        let feedback = Feedback {
+        let feedback = FeedbackThresholds {
             too_close_m: 2.5,
             too_close_clear_m: 2.8,
             off_path_max_m: 8.0,
@@ -138,7 +146,7 @@ mod tests {
             battery_yellow_pct: 30.0,
             text_interval: SimTime::from_s(5.0),
         };
-        let scoring = Scoring {
+        let scoring = ScoringParams {
             frame_rate_hz: 30.0,
             speed_limit_m_s: 4.4704,
             max_speed_m_s: 13.4112,
@@ -162,7 +170,7 @@ mod tests {
             title: "test".into(),
             seed: None,
             origin: Geo { latitude_deg: 46.5, longitude_deg: 0.0, altitude_m: 400.0 },
-            terrain: Terrain {
+            terrain: TerrainSpec {
                 size_m: 1600.0,
                 spacing_m: 10.0,
                 water_level_m: 0.0,
@@ -179,9 +187,9 @@ mod tests {
             },
             bridges,
             tasks,
-            defects: Defects { count: 10, size_factor: 1.0, elements: vec![], kinds: vec![], placed: None },
-            traffic: Traffic { cars: 12, trucks: 4, pedestrians: 8, car_speed_m_s: 13.4 },
-            wind: Wind {
+            defects: DefectSpec { count: 10, size_factor: 1.0, elements: vec![], kinds: vec![], placed: None },
+            traffic: TrafficSpec { cars: 12, trucks: 4, pedestrians: 8, car_speed_m_s: 13.4 },
+            wind: WindSpec {
                 model: WindModel::Physical,
                 speed_m_s: 4.9,
                 paper_force_n: 3.0,
@@ -190,7 +198,7 @@ mod tests {
                 turbulence: 1.0,
                 events: vec![],
             },
-            light: Light { start_unix_s: 1_718_884_800, cloud_cover, water_albedo: 0.08, ground_albedo: 0.2 },
+            light: LightSpec { start_unix_s: 1_718_884_800, cloud_cover, water_albedo: 0.08, ground_albedo: 0.2 },
             rules,
             feedback,
             scoring,
@@ -209,7 +217,7 @@ mod tests {
             let still = site.cast();
             let ambient = |p, n| site.ambient_lux(p, Some(n), SimTime::ZERO);
             let clearance = |p| site.geometry().nearest(p, defects::CLEARANCE_M).map_or(f64::INFINITY, |n| n.distance_m);
-            let ground = Ground {
+            let ground = PlacementContext {
                 members: site.members(),
                 tasks: &scenario.tasks,
                 cast: &still,
@@ -231,7 +239,7 @@ mod tests {
                 });
                 let task = &scenario.tasks[first.expect("photographable from a task's path")];
                 let pose = defects::best_view(d, task, &ground).expect("found above");
-                let shown = site.look(&pose, &defects::REFERENCE_CAMERA, &defects::REFERENCE_LAMP, SimTime::ZERO);
+                let shown = site.view_defects(&pose, &defects::REFERENCE_CAMERA, &defects::REFERENCE_LAMP, SimTime::ZERO);
                 let view = shown.iter().find(|v| v.defect_id == d.id).expect("listed");
                 let traffic = site.ray(pose.position_m, pose.forward, view.distance_m - 0.05, SimTime::ZERO);
                 assert!(view.hit || traffic.is_some_and(|h| h.surface != Surface::Bridge), "{d:?} {:?}", view.reasons());

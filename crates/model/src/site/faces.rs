@@ -4,7 +4,7 @@ use crate::frames::{Enu, Vec3};
 use crate::scenario::bridges::Solid;
 
 /// A planar face of a member and a point on it.
-pub(super) struct Face {
+pub(super) struct MemberFace {
     /// The point, m.
     pub(super) point_m: Vec3<Enu>,
     /// Outward unit normal.
@@ -13,16 +13,16 @@ pub(super) struct Face {
 }
 
 /// The face of a solid that a point lies on, with the point moved exactly onto its plane.
-pub(super) fn face_at(solid: &Solid, point_m: Vec3<Enu>) -> Option<Face> {
+pub(super) fn face_at(solid: &Solid, point_m: Vec3<Enu>) -> Option<MemberFace> {
     /// Farther from every face than this the point is not on the solid, m.
     const ON_FACE_M: f64 = 0.002;
-    let mut best: Option<(f64, Face)> = None;
+    let mut best: Option<(f64, MemberFace)> = None;
     for indices in &solid.faces {
         let corners_m: Vec<Vec3<Enu>> = indices.iter().filter_map(|k| solid.vertices_m.get(*k as usize).copied()).collect();
         let normal = newell(&corners_m);
         let Some(corner) = corners_m.first() else { continue };
         let off = (point_m - *corner).dot(normal);
-        let face = Face { point_m: point_m - normal * off, normal, corners_m };
+        let face = MemberFace { point_m: point_m - normal * off, normal, corners_m };
         let apart = off.abs().max(-face.inset_m(face.point_m));
         if apart < best.as_ref().map_or(ON_FACE_M, |b| b.0) {
             best = Some((apart, face));
@@ -37,7 +37,7 @@ fn newell(corners_m: &[Vec3<Enu>]) -> Vec3<Enu> {
     (0..count).fold(Vec3::zero(), |sum, k| sum + corners_m[k].cross(corners_m[(k + 1) % count])).unit()
 }
 
-impl Face {
+impl MemberFace {
     /// Distance from a point in the plane to the nearest edge, m; negative outside.
     pub(super) fn inset_m(&self, point_m: Vec3<Enu>) -> f64 {
         let count = self.corners_m.len();

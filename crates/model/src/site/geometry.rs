@@ -3,10 +3,10 @@
 
 use super::convex::{Convex, SurfacePoint};
 use super::terrain::Terrain;
-use super::{Contact, Nearest, ObjectId, Probe, RayHit, Surface};
+use super::{Contact, HullProbe, NearestPoint, ObjectId, RayHit, Surface};
 use crate::frames::{Enu, Vec3};
 use crate::scenario::bridges::Member;
-use crate::scenario::bridges::solid::{Builder, Placement};
+use crate::scenario::bridges::solid::{MemberBuilder, Placement};
 use crate::scenario::{GroundTeam, Scenario};
 use rapier3d::parry::bounding_volume::Aabb;
 use rapier3d::parry::math::Vector;
@@ -42,12 +42,12 @@ fn vector(v: Vec3<Enu>) -> Vector {
 }
 
 /// A leaf of the tree that was found, in order of its distance.
-struct Found<T> {
+struct LeafHit<T> {
     distance_m: f64,
     what: T,
 }
 
-impl<T> BvhLeafCost for Found<T> {
+impl<T> BvhLeafCost for LeafHit<T> {
     fn cost(&self) -> f64 {
         self.distance_m
     }
@@ -104,7 +104,7 @@ impl Geometry {
 
     /// The nearest member within `max_m`.
     #[must_use]
-    pub fn nearest_member(&self, p: Vec3<Enu>, max_m: f64) -> Option<Nearest> {
+    pub fn nearest_member(&self, p: Vec3<Enu>, max_m: f64) -> Option<NearestPoint> {
         let at = vector(p);
         // The tree looks for costs below the limit; a member at the limit itself counts.
         let limit = max_m.next_up();
@@ -115,23 +115,23 @@ impl Geometry {
         };
         let to_member = |leaf: u32, best_m: f64| {
             let near = self.shapes[leaf as usize].nearest(p);
-            (near.distance_m < best_m).then_some(Found { distance_m: near.distance_m, what: near })
+            (near.distance_m < best_m).then_some(LeafHit { distance_m: near.distance_m, what: near })
         };
         let (leaf, found) = self.tree.find_best(limit, to_box, to_member)?;
         let SurfacePoint { distance_m, point_m, normal } = found.what;
-        Some(Nearest { distance_m, point_m, normal, surface: Surface::Bridge, object: ObjectId(leaf) })
+        Some(NearestPoint { distance_m, point_m, normal, surface: Surface::Bridge, object: ObjectId(leaf) })
     }
 
     /// The nearest of members, ground and water within `max_m`; over the pad the ground does not count.
     #[must_use]
-    pub fn nearest(&self, p: Vec3<Enu>, max_m: f64) -> Option<Nearest> {
-        let mut best: Option<Nearest> = None;
+    pub fn nearest(&self, p: Vec3<Enu>, max_m: f64) -> Option<NearestPoint> {
+        let mut best: Option<NearestPoint> = None;
         let mut offer = |found: Option<SurfacePoint>, surface: Surface, object: ObjectId| {
             if let Some(SurfacePoint { distance_m, point_m, normal }) = found
                 && distance_m <= max_m
                 && best.is_none_or(|b| distance_m < b.distance_m)
             {
-                best = Some(Nearest { distance_m, point_m, normal, surface, object });
+                best = Some(NearestPoint { distance_m, point_m, normal, surface, object });
             }
             best.map_or(max_m, |b| b.distance_m)
         };
@@ -152,7 +152,7 @@ impl Geometry {
 
     /// The nearest thing along a straight piece of a path, and where, if it comes nearer than `less_than_m`; to within a millimetre.
     #[must_use]
-    pub fn tightest(&self, from: Vec3<Enu>, to: Vec3<Enu>, less_than_m: f64) -> Option<(Vec3<Enu>, Nearest)> {
+    pub fn tightest(&self, from: Vec3<Enu>, to: Vec3<Enu>, less_than_m: f64) -> Option<(Vec3<Enu>, NearestPoint)> {
         const CLOSE_M: f64 = 1e-3;
         let middle = (from + to) * 0.5;
         let half_m = 0.5 * (to - from).norm();
@@ -165,7 +165,7 @@ impl Geometry {
         if half_m <= CLOSE_M {
             return here;
         }
-        let limit = |best: &Option<(Vec3<Enu>, Nearest)>| best.map_or(less_than_m, |b| b.1.distance_m);
+        let limit = |best: &Option<(Vec3<Enu>, NearestPoint)>| best.map_or(less_than_m, |b| b.1.distance_m);
         let first = self.tightest(from, middle, limit(&here)).or(here);
         self.tightest(middle, to, limit(&first)).or(first)
     }
@@ -208,14 +208,14 @@ impl Geometry {
         };
         let to_member = |leaf: u32, best_m: f64| {
             let (distance_m, normal) = self.shapes[leaf as usize].ray(origin, direction, best_m)?;
-            Some(Found { distance_m, what: normal })
+            Some(LeafHit { distance_m, what: normal })
         };
         let (leaf, found) = self.tree.find_best(max_m.next_up(), to_box, to_member)?;
         Some(RayHit { distance_m: found.distance_m, normal: found.what, surface: Surface::Bridge, object: ObjectId(leaf) })
     }
 
     /// Appends contacts of a probe with members, ground, pad and water.
-    pub fn contacts(&self, probe: &Probe, margin_m: f64, out: &mut Vec<Contact>) {
+    pub fn contacts(&self, probe: &HullProbe, margin_m: f64, out: &mut Vec<Contact>) {
         let (low, high) = probe_bounds(probe, margin_m);
         let around = Aabb::new(vector(low), vector(high));
         let first = out.len();
@@ -230,7 +230,7 @@ impl Geometry {
         self.floor_contacts(probe, margin_m, (low, high), out);
     }
 
-    fn floor_contacts(&self, probe: &Probe, margin_m: f64, (low, high): (Vec3<Enu>, Vec3<Enu>), out: &mut Vec<Contact>) {
+    fn floor_contacts(&self, probe: &HullProbe, margin_m: f64, (low, high): (Vec3<Enu>, Vec3<Enu>), out: &mut Vec<Contact>) {
         if !self.terrain.ground.lies_under(low, high, low.up()) {
             self.ground_contacts(probe, margin_m, out);
         }
@@ -247,7 +247,7 @@ impl Geometry {
     }
 
     /// Contacts at a probe's ends, and between them where it lies across a ridge.
-    fn ground_contacts(&self, probe: &Probe, margin_m: f64, out: &mut Vec<Contact>) {
+    fn ground_contacts(&self, probe: &HullProbe, margin_m: f64, out: &mut Vec<Contact>) {
         let mut ends_m = f64::INFINITY;
         for (p, radius) in probe_ends(probe) {
             if let Some(near) = self.terrain.ground.nearest(p, radius + margin_m) {
@@ -255,7 +255,7 @@ impl Geometry {
                 out.push(contact(near, radius, Surface::Terrain, GROUND));
             }
         }
-        if let Probe::Capsule { a_m, b_m, radius_m } = *probe
+        if let HullProbe::Capsule { a_m, b_m, radius_m } = *probe
             && let Some(near) = self.terrain.ground.between(a_m, b_m, ends_m, radius_m + margin_m)
         {
             out.push(contact(near, radius_m, Surface::Terrain, GROUND));
@@ -264,7 +264,7 @@ impl Geometry {
 }
 
 fn pad_slab(centre_m: Vec3<Enu>, half_m: f64) -> Member {
-    let mut builder = Builder::new("site", Placement::new(centre_m, 90.0));
+    let mut builder = MemberBuilder::new("site", Placement::new(centre_m, 90.0));
     builder.block("pad", 0, [-half_m, -half_m, -PAD_THICK_M], [half_m, half_m, 0.0]);
     builder.finish().swap_remove(0)
 }
@@ -286,19 +286,19 @@ fn contact(near: SurfacePoint, radius_m: f64, surface: Surface, object: ObjectId
     }
 }
 
-fn probe_ends(probe: &Probe) -> impl Iterator<Item = (Vec3<Enu>, f64)> {
+fn probe_ends(probe: &HullProbe) -> impl Iterator<Item = (Vec3<Enu>, f64)> {
     let (ends, count, radius) = match *probe {
-        Probe::Ball { centre_m, radius_m } => ([centre_m, centre_m], 1, radius_m),
-        Probe::Capsule { a_m, b_m, radius_m } => ([a_m, b_m], 2, radius_m),
+        HullProbe::Ball { centre_m, radius_m } => ([centre_m, centre_m], 1, radius_m),
+        HullProbe::Capsule { a_m, b_m, radius_m } => ([a_m, b_m], 2, radius_m),
     };
     ends.into_iter().take(count).map(move |p| (p, radius))
 }
 
 /// Corners of the axis-aligned box around a probe and its margin.
-fn probe_bounds(probe: &Probe, margin_m: f64) -> (Vec3<Enu>, Vec3<Enu>) {
+fn probe_bounds(probe: &HullProbe, margin_m: f64) -> (Vec3<Enu>, Vec3<Enu>) {
     let (a, b, radius) = match *probe {
-        Probe::Ball { centre_m, radius_m } => (centre_m.array(), centre_m.array(), radius_m),
-        Probe::Capsule { a_m, b_m, radius_m } => (a_m.array(), b_m.array(), radius_m),
+        HullProbe::Ball { centre_m, radius_m } => (centre_m.array(), centre_m.array(), radius_m),
+        HullProbe::Capsule { a_m, b_m, radius_m } => (a_m.array(), b_m.array(), radius_m),
     };
     let reach = radius + margin_m;
     let pick = |f: fn(f64, f64) -> f64, by: f64| Vec3::new(f(a[0], b[0]) + by, f(a[1], b[1]) + by, f(a[2], b[2]) + by);
@@ -306,15 +306,15 @@ fn probe_bounds(probe: &Probe, margin_m: f64) -> (Vec3<Enu>, Vec3<Enu>) {
 }
 
 /// Contacts of a probe with one convex thing: at a ball's centre; at a capsule's ends, and between them where it lies across an edge.
-fn touch(probe: &Probe, margin_m: f64, shape: &Convex, (surface, object): (Surface, ObjectId), out: &mut Vec<Contact>) {
+fn touch(probe: &HullProbe, margin_m: f64, shape: &Convex, (surface, object): (Surface, ObjectId), out: &mut Vec<Contact>) {
     let mut offer = |near: SurfacePoint, radius_m: f64| {
         if near.distance_m - radius_m <= margin_m {
             out.push(contact(near, radius_m, surface, object));
         }
     };
     match *probe {
-        Probe::Ball { centre_m, radius_m } => offer(shape.nearest(centre_m), radius_m),
-        Probe::Capsule { a_m, b_m, radius_m } => {
+        HullProbe::Ball { centre_m, radius_m } => offer(shape.nearest(centre_m), radius_m),
+        HullProbe::Capsule { a_m, b_m, radius_m } => {
             let ends = [shape.nearest(a_m), shape.nearest(b_m)];
             ends.into_iter().for_each(|near| offer(near, radius_m));
             if let Some(near) = shape.between(a_m, b_m, [&ends[0], &ends[1]], radius_m + margin_m) {

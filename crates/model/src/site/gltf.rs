@@ -18,7 +18,7 @@ const MATERIALS: [(&str, f64, f64, f64); 4] =
 
 /// The parts of a binary glTF file while it grows.
 #[derive(Default)]
-struct Parts {
+struct GlbWriter {
     positions: Vec<u8>,
     indices: Vec<u8>,
     accessors: Vec<Value>,
@@ -29,7 +29,7 @@ struct Parts {
 /// Writes the whole site.
 #[must_use]
 pub fn glb(site: &Site) -> Vec<u8> {
-    let mut parts = Parts::default();
+    let mut parts = GlbWriter::default();
     for member in site.members() {
         parts.add(&member.name, &member.solid.vertices_m, &member.solid.triangles(), 0, &json!({ "element": member.element }));
     }
@@ -58,7 +58,7 @@ fn axes(point: &Vec3<Enu>) -> [f32; 3] {
     [point.east() as f32, point.up() as f32, -point.north() as f32]
 }
 
-impl Parts {
+impl GlbWriter {
     fn add(&mut self, name: &str, corners: &[Vec3<Enu>], triangles: &[[u32; 3]], material: usize, extras: &Value) {
         let points: Vec<[f32; 3]> = corners.iter().map(axes).collect();
         let bound = |start: f32, pick: fn(f32, f32) -> f32| {

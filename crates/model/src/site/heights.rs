@@ -27,7 +27,7 @@ pub struct HeightGrid {
 }
 
 /// A cell's south-west corner in grid steps and the heights of its corners.
-struct Cell {
+struct TerrainCell {
     column: i64,
     row: i64,
     sw: f64,
@@ -36,7 +36,7 @@ struct Cell {
     ne: f64,
 }
 
-impl Cell {
+impl TerrainCell {
     fn lowest(&self) -> f64 {
         self.sw.min(self.se).min(self.nw.min(self.ne))
     }
@@ -52,21 +52,21 @@ impl Cell {
 }
 
 /// Where a ray is once it has passed over a block.
-struct Passed {
+struct RayClearance {
     column: i64,
     row: i64,
     t: f64,
 }
 
 /// Distance along a ray at which it leaves a column or row of cells, through the side that it moves towards.
-fn leaves(cell: i64, from: f64, rate: f64) -> f64 {
+fn exit_distance(cell: i64, from: f64, rate: f64) -> f64 {
     if rate == 0.0 { f64::INFINITY } else { ((cell + i64::from(rate > 0.0)) as f64 - from) / rate }
 }
 
 /// The row or column in which a ray is after it has crossed all the sides that it crosses before something else.
 fn lane(mut cell: i64, from: f64, rate: f64, before: impl Fn(f64) -> bool) -> i64 {
     let forward = if rate > 0.0 { 1 } else { -1 };
-    while before(leaves(cell, from, rate)) {
+    while before(exit_distance(cell, from, rate)) {
         cell += forward;
     }
     cell
@@ -103,13 +103,13 @@ impl HeightGrid {
         self.blocks[row.clamp(0, last) as usize * self.blocks_a_side + column.clamp(0, last) as usize]
     }
 
-    fn cell(&self, column: i64, row: i64) -> Cell {
+    fn cell(&self, column: i64, row: i64) -> TerrainCell {
         let last = self.side as i64 - 1;
         let (west, east) = (column.clamp(0, last) as usize, (column + 1).clamp(0, last) as usize);
         let south = row.clamp(0, last) as usize * self.side;
         let north = (row + 1).clamp(0, last) as usize * self.side;
         let h = &self.heights_m;
-        Cell { column, row, sw: h[south + west], se: h[south + east], nw: h[north + west], ne: h[north + east] }
+        TerrainCell { column, row, sw: h[south + west], se: h[south + east], nw: h[north + west], ne: h[north + east] }
     }
 
     /// A point in grid steps from the south-west corner.
@@ -222,7 +222,7 @@ impl HeightGrid {
         e * e + n * n + u * u
     }
 
-    fn search_cell(&self, p: Vec3<Enu>, cell: &Cell, best: &mut (f64, Vec3<Enu>), found: &mut bool) {
+    fn search_cell(&self, p: Vec3<Enu>, cell: &TerrainCell, best: &mut (f64, Vec3<Enu>), found: &mut bool) {
         if self.gap_squared(p, (cell.column, cell.row, 1), (cell.lowest(), cell.highest())) >= best.0 {
             return;
         }
@@ -258,16 +258,16 @@ impl HeightGrid {
         };
         let (start, end) = (start.max(0.0), end.min(FARTHEST_M));
         // What all but runs level comes down to the highest ground farther away than cells can be counted.
-        if start < end { self.walk(origin, direction, start, end) } else { None }
+        if start < end { self.walk_cells(origin, direction, start, end) } else { None }
     }
 
     /// Follows the cells under a ray.
-    fn walk(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, start: f64, end: f64) -> Option<(f64, Vec3<Enu>)> {
+    fn walk_cells(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, start: f64, end: f64) -> Option<(f64, Vec3<Enu>)> {
         let (x0, y0) = self.steps(origin);
         let (dx, dy) = (direction.east() / self.spacing_m, direction.north() / self.spacing_m);
         let mut column = (x0 + dx * start).floor() as i64;
         let mut row = (y0 + dy * start).floor() as i64;
-        let (mut next_x, mut next_y) = (leaves(column, x0, dx), leaves(row, y0, dy));
+        let (mut next_x, mut next_y) = (exit_distance(column, x0, dx), exit_distance(row, y0, dy));
         let mut t = start;
         while t < end {
             if let Some(over) = self.over_block((origin, direction), (x0, y0), (dx, dy), (column, row), (t, end)) {
@@ -275,7 +275,7 @@ impl HeightGrid {
                     return None;
                 }
                 (column, row, t) = (over.column, over.row, over.t);
-                (next_x, next_y) = (leaves(column, x0, dx), leaves(row, y0, dy));
+                (next_x, next_y) = (exit_distance(column, x0, dx), exit_distance(row, y0, dy));
                 continue;
             }
             // Rounding may put a cell's side a hair behind.
@@ -289,10 +289,10 @@ impl HeightGrid {
             }
             if next_x <= next_y {
                 column += if dx > 0.0 { 1 } else { -1 };
-                next_x = leaves(column, x0, dx);
+                next_x = exit_distance(column, x0, dx);
             } else {
                 row += if dy > 0.0 { 1 } else { -1 };
-                next_y = leaves(row, y0, dy);
+                next_y = exit_distance(row, y0, dy);
             }
             t = leave;
         }
@@ -307,12 +307,12 @@ impl HeightGrid {
         rate: (f64, f64),
         cell: (i64, i64),
         (t, end): (f64, f64),
-    ) -> Option<Passed> {
+    ) -> Option<RayClearance> {
         let block = (cell.0.div_euclid(BLOCK), cell.1.div_euclid(BLOCK));
         // The cell of the block that the ray leaves it by, along one axis.
         let last = |block: i64, rate: f64| block * BLOCK + if rate > 0.0 { BLOCK - 1 } else { 0 };
         let (last_column, last_row) = (last(block.0, rate.0), last(block.1, rate.1));
-        let (out_x, out_y) = (leaves(last_column, from.0, rate.0), leaves(last_row, from.1, rate.1));
+        let (out_x, out_y) = (exit_distance(last_column, from.0, rate.0), exit_distance(last_row, from.1, rate.1));
         let leave = out_x.min(out_y).min(end).max(t);
         let low = (origin.up() + direction.up() * t).min(origin.up() + direction.up() * leave);
         if low <= self.block(block.1, block.0).1 {
@@ -325,11 +325,17 @@ impl HeightGrid {
         } else {
             (lane(cell.0, from.0, rate.0, |side| side <= out_y), last_row + forward(rate.1))
         };
-        Some(Passed { column, row, t: leave })
+        Some(RayClearance { column, row, t: leave })
     }
 
     /// The first point at which the ray is no longer over the cell's two triangles, between two distances.
-    fn hit_in_cell(&self, cell: &Cell, from: [f64; 3], rate: [f64; 3], (enter, leave): (f64, f64)) -> Option<(f64, Vec3<Enu>)> {
+    fn hit_in_cell(
+        &self,
+        cell: &TerrainCell,
+        from: [f64; 3],
+        rate: [f64; 3],
+        (enter, leave): (f64, f64),
+    ) -> Option<(f64, Vec3<Enu>)> {
         let at = |t: f64| (from[0] + rate[0] * t - cell.column as f64, from[1] + rate[1] * t - cell.row as f64);
         let turn = rate[0] - rate[1];
         let (u, v) = at(0.0);

@@ -9,11 +9,11 @@ use super::{RayHit, Surface};
 use crate::frames::{Enu, Vec3};
 use crate::geodesy::Geo;
 use crate::math;
-use crate::scenario::Light;
+use crate::scenario::LightSpec;
 use crate::time::SimTime;
 
 /// A ray query against what stands still: origin, unit direction, reach in m.
-pub type Cast<'a> = &'a dyn Fn(Vec3<Enu>, Vec3<Enu>, f64) -> Option<RayHit>;
+pub type RayCast<'a> = &'a dyn Fn(Vec3<Enu>, Vec3<Enu>, f64) -> Option<RayHit>;
 
 /// Rays of one estimate. 64 keep the error of a half-open sky at a few per cent and the cost below 200 us.
 const RAYS: usize = 64;
@@ -76,7 +76,7 @@ impl Daylight {
 /// The light of one job: plain data, made once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LightModel {
-    light: Light,
+    light: LightSpec,
     place: Geo,
     sphere: Vec<Vec3<Enu>>,
     upper: Vec<Vec3<Enu>>,
@@ -85,7 +85,7 @@ pub struct LightModel {
 
 /// What one ray meets.
 #[derive(Debug, Clone, Copy)]
-enum Met {
+enum RayOutcome {
     /// The sky.
     Sky,
     /// Land or water beyond the ray's reach.
@@ -98,7 +98,7 @@ enum Met {
 
 /// Sums over one bundle of rays: mean luminance share by what the rays met, times π.
 #[derive(Debug, Clone, Copy, Default)]
-struct Gathered {
+struct LightSums {
     outside_lux: f64,
     structure_lux: f64,
     structure_share: f64,
@@ -107,7 +107,7 @@ struct Gathered {
 impl LightModel {
     /// For a scenario's light at the place of its origin.
     #[must_use]
-    pub fn new(light: &Light, place: Geo) -> Self {
+    pub fn new(light: &LightSpec, place: Geo) -> Self {
         Self { light: light.clone(), place, sphere: fibonacci(RAYS, -1.0), upper: fibonacci(SKY_RAYS, 0.0), disc: spiral(RAYS) }
     }
 
@@ -119,7 +119,7 @@ impl LightModel {
 
     /// Share of the upper hemisphere (by solid angle) that is open sky, 0..1.
     #[must_use]
-    pub fn sky_view(&self, position_m: Vec3<Enu>, cast: Cast) -> f64 {
+    pub fn sky_view(&self, position_m: Vec3<Enu>, cast: RayCast) -> f64 {
         let open = self.upper.iter().filter(|d| cast(position_m, **d, SKY_REACH_M).is_none()).count();
         open as f64 / self.upper.len() as f64
     }
@@ -127,15 +127,15 @@ impl LightModel {
     /// Illuminance, lx, on a surface with this outward normal, or for `None` the mean over all orientations (a quarter of what a
     /// ball receives). No lamp.
     #[must_use]
-    pub fn ambient_lux(&self, position_m: Vec3<Enu>, normal: Option<Vec3<Enu>>, at: SimTime, cast: Cast) -> f64 {
+    pub fn ambient_lux(&self, position_m: Vec3<Enu>, normal: Option<Vec3<Enu>>, at: SimTime, cast: RayCast) -> f64 {
         let day = self.daylight(at);
         let origin = position_m + normal.unwrap_or_else(Vec3::zero) * LIFT_M;
         let facing = normal.map_or(0.25, |n| n.dot(day.sun).max(0.0));
         let lit = facing > 0.0 && day.direct_normal_lux > 0.0 && is_sunlit(origin, day.sun, cast);
         let direct = if lit { facing * day.direct_normal_lux } else { 0.0 };
         let gathered = match normal {
-            Some(n) => self.gather(origin, over(n, &self.disc), &day, cast),
-            None => self.gather(origin, self.sphere.iter().copied(), &day, cast),
+            Some(n) => self.cast_bundle(origin, over(n, &self.disc), &day, cast),
+            None => self.cast_bundle(origin, self.sphere.iter().copied(), &day, cast),
         };
         direct + gathered.indirect_lux()
     }
@@ -150,11 +150,12 @@ impl LightModel {
         normal: Vec3<Enu>,
         sun: Vec3<Enu>,
         rays: &[(f64, f64)],
-        cast: Cast,
+        cast: RayCast,
     ) -> (f64, f64) {
         let origin = position_m + normal * LIFT_M;
         let shines = sun.up() > 0.0;
-        let met: Vec<Met> = over(normal, rays).map(|direction| self.meet(origin, direction, (sun, shines), cast)).collect();
+        let met: Vec<RayOutcome> =
+            over(normal, rays).map(|direction| self.trace_ray(origin, direction, (sun, shines), cast)).collect();
         let under = |direct_normal_lux: f64, sky_lux: f64| {
             let day = Daylight { sun, direct_normal_lux, sky_lux };
             self.sum(met.iter().copied(), &day).indirect_lux()
@@ -162,37 +163,43 @@ impl LightModel {
         (under(0.0, 1.0), if shines { under(1.0, 0.0) } else { 0.0 })
     }
 
-    fn gather(&self, origin: Vec3<Enu>, rays: impl ExactSizeIterator<Item = Vec3<Enu>>, day: &Daylight, cast: Cast) -> Gathered {
+    fn cast_bundle(
+        &self,
+        origin: Vec3<Enu>,
+        rays: impl ExactSizeIterator<Item = Vec3<Enu>>,
+        day: &Daylight,
+        cast: RayCast,
+    ) -> LightSums {
         let sun = (day.sun, day.direct_normal_lux > 0.0);
-        self.sum(rays.map(|direction| self.meet(origin, direction, sun, cast)), day)
+        self.sum(rays.map(|direction| self.trace_ray(origin, direction, sun, cast)), day)
     }
 
     /// What a ray meets; where the sun does not shine, no shadow is looked for.
-    fn meet(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, (sun, shines): (Vec3<Enu>, bool), cast: Cast) -> Met {
+    fn trace_ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, (sun, shines): (Vec3<Enu>, bool), cast: RayCast) -> RayOutcome {
         let Some(hit) = cast(origin, direction, SKY_REACH_M) else {
-            return if direction.up() > 0.0 { Met::Sky } else { Met::Far };
+            return if direction.up() > 0.0 { RayOutcome::Sky } else { RayOutcome::Far };
         };
         let point = origin + direction * hit.distance_m + hit.normal * LIFT_M;
         let facing = hit.normal.dot(sun).max(0.0);
         let sun = if shines && facing > 0.0 && is_sunlit(point, sun, cast) { facing } else { 0.0 };
         match self.outdoor_albedo(hit.surface) {
-            Some(albedo) => Met::Outdoors { albedo, sun, up: hit.normal.up() },
-            None => Met::Structure { sun },
+            Some(albedo) => RayOutcome::Outdoors { albedo, sun, up: hit.normal.up() },
+            None => RayOutcome::Structure { sun },
         }
     }
 
-    fn sum(&self, met: impl ExactSizeIterator<Item = Met>, day: &Daylight) -> Gathered {
+    fn sum(&self, met: impl ExactSizeIterator<Item = RayOutcome>, day: &Daylight) -> LightSums {
         let share = 1.0 / met.len() as f64;
-        let mut sum = Gathered::default();
+        let mut sum = LightSums::default();
         for met in met {
             match met {
-                Met::Sky => sum.outside_lux += share * day.sky_lux,
-                Met::Far => sum.outside_lux += share * self.far_lux(day),
-                Met::Outdoors { albedo, sun, up } => {
+                RayOutcome::Sky => sum.outside_lux += share * day.sky_lux,
+                RayOutcome::Far => sum.outside_lux += share * self.far_lux(day),
+                RayOutcome::Outdoors { albedo, sun, up } => {
                     // Ground and water see most of the sky wherever they are seen from (estimate: the share above the horizon).
                     sum.outside_lux += share * albedo * (sun * day.direct_normal_lux + day.sky_lux * 0.5 * (1.0 + up));
                 }
-                Met::Structure { sun } => {
+                RayOutcome::Structure { sun } => {
                     sum.structure_lux += share * STRUCTURE_ALBEDO * (sun * day.direct_normal_lux);
                     sum.structure_share += share;
                 }
@@ -216,7 +223,7 @@ impl LightModel {
     }
 }
 
-impl Gathered {
+impl LightSums {
     /// Enclosure: what is seen of the structure receives, beside its own direct sun, the same indirect light as this point.
     fn indirect_lux(&self) -> f64 {
         (self.outside_lux + self.structure_lux) / (1.0 - STRUCTURE_ALBEDO * self.structure_share)
@@ -224,7 +231,7 @@ impl Gathered {
 }
 
 /// Nothing shades a point from the sun.
-fn is_sunlit(point: Vec3<Enu>, sun: Vec3<Enu>, cast: Cast) -> bool {
+fn is_sunlit(point: Vec3<Enu>, sun: Vec3<Enu>, cast: RayCast) -> bool {
     cast(point, sun, SHADOW_REACH_M).is_none()
 }
 
@@ -284,7 +291,7 @@ mod tests {
 
     fn model(cloud_cover: f64) -> LightModel {
         // 2024-06-20 12:00 UTC: within a minute of local noon, sun 67 deg high.
-        let light = Light { start_unix_s: 1_718_884_800, cloud_cover, water_albedo: 0.08, ground_albedo: 0.2 };
+        let light = LightSpec { start_unix_s: 1_718_884_800, cloud_cover, water_albedo: 0.08, ground_albedo: 0.2 };
         LightModel::new(&light, PLACE)
     }
 
@@ -316,7 +323,7 @@ mod tests {
         }
     }
 
-    fn nothing(_: Vec3<Enu>, _: Vec3<Enu>, _: f64) -> Option<RayHit> {
+    fn no_hit(_: Vec3<Enu>, _: Vec3<Enu>, _: f64) -> Option<RayHit> {
         None
     }
 
@@ -325,8 +332,8 @@ mod tests {
         let m = model(0.0);
         let day = m.daylight(SimTime::ZERO);
         let expected = day.sky_lux + day.direct_normal_lux * day.sun.up();
-        assert!((m.ambient_lux(Vec3::zero(), Some(UP), SimTime::ZERO, &nothing) - expected).abs() < 1e-6 * expected);
-        assert_eq!(m.sky_view(Vec3::zero(), &nothing), 1.0);
+        assert!((m.ambient_lux(Vec3::zero(), Some(UP), SimTime::ZERO, &no_hit) - expected).abs() < 1e-6 * expected);
+        assert_eq!(m.sky_view(Vec3::zero(), &no_hit), 1.0);
     }
 
     #[test]
@@ -334,7 +341,7 @@ mod tests {
         // docs/src/reference/domain.md, "Light levels": sun 50 to 100 klx, overcast 5 to 20 klx, under a 12 m deck with water
         // reflection 200 to 2000 lx.
         let at = SimTime::ZERO;
-        let open = |m: &LightModel| m.ambient_lux(Vec3::zero(), Some(UP), at, &nothing);
+        let open = |m: &LightModel| m.ambient_lux(Vec3::zero(), Some(UP), at, &no_hit);
         assert!((50e3..=125e3).contains(&open(&model(0.0))), "{}", open(&model(0.0)));
         assert!((5e3..=20.5e3).contains(&open(&model(1.0))), "{}", open(&model(1.0)));
         let soffit = |cloud| model(cloud).ambient_lux(Vec3::new(0.0, 0.0, 20.0), Some(DOWN), at, &deck(12.0));
@@ -397,7 +404,7 @@ mod tests {
         m.light.ground_albedo = 0.0;
         let day = m.daylight(SimTime::ZERO);
         let expected = 0.25 * day.direct_normal_lux + 0.5 * day.sky_lux;
-        let got = m.ambient_lux(Vec3::new(0.0, 0.0, 50.0), None, SimTime::ZERO, &nothing);
+        let got = m.ambient_lux(Vec3::new(0.0, 0.0, 50.0), None, SimTime::ZERO, &no_hit);
         assert!((got - expected).abs() < 1e-6 * expected, "{got} against {expected}");
     }
 }

@@ -7,16 +7,16 @@ pub mod defects;
 pub mod dynamics;
 mod faces;
 pub mod light;
-pub mod look;
 pub mod movers;
 pub mod sun;
 mod tracks;
 pub mod traffic;
 pub mod turbulence;
+pub mod visibility;
 pub mod wind;
 
+pub mod bridge_closures;
 pub mod convex;
-pub mod gates;
 pub mod geometry;
 pub mod gltf;
 pub mod heights;
@@ -29,8 +29,8 @@ use crate::scenario::bridges::{Lane, Member};
 use crate::scenario::{PlacedDefect, Scenario};
 use crate::time::SimTime;
 use crate::vehicle::{Camera, Lamp};
+use bridge_closures::BridgeClosures;
 use dynamics::{Dynamics, StaticQueries};
-use gates::Gates;
 use geometry::Geometry;
 use std::sync::Arc;
 
@@ -60,7 +60,7 @@ pub struct ObjectId(pub u32);
 
 /// The nearest point of the site to a query point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Nearest {
+pub struct NearestPoint {
     /// Distance from the query point to the surface, m; negative inside a solid.
     pub distance_m: f64,
     /// The surface point, m.
@@ -105,7 +105,7 @@ pub struct Contact {
 
 /// Convex parts that the aircraft's hull is made of, placed in site coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Probe {
+pub enum HullProbe {
     /// A ball.
     Ball {
         /// Centre, m.
@@ -125,7 +125,7 @@ pub enum Probe {
 }
 
 /// The instant of a query: what moves is where it is at this simulation time.
-pub type At = SimTime;
+pub type QueryTime = SimTime;
 
 /// Where a camera is and how it looks at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -249,9 +249,9 @@ impl Site {
 
     /// The same site whose traffic was stopped and let go so; what stands still is shared.
     #[must_use]
-    pub fn with_gates(&self, gates: Gates) -> Self {
+    pub fn with_closures(&self, closures: BridgeClosures) -> Self {
         let mut other = self.clone();
-        other.dynamics.traffic.set_gates(gates);
+        other.dynamics.traffic.set_closures(closures);
         other
     }
 
@@ -263,27 +263,27 @@ impl Site {
 
     /// The nearest surface within `max_m` (bridges, terrain, water, traffic, crew, truck; never the pad).
     #[must_use]
-    pub fn nearest(&self, position_m: Vec3<Enu>, max_m: f64, at: At) -> Option<Nearest> {
+    pub fn nearest(&self, position_m: Vec3<Enu>, max_m: f64, at: QueryTime) -> Option<NearestPoint> {
         self.dynamics.nearest(self.geometry.nearest(position_m, max_m), position_m, max_m, at)
     }
 
     /// Distance to the nearest solid thing within `max_m`, whatever it is (the pad too): what keeps inside a ball of this radius touches
     /// nothing now.
     #[must_use]
-    pub fn free_radius(&self, position_m: Vec3<Enu>, max_m: f64, at: At) -> Option<f64> {
+    pub fn free_radius(&self, position_m: Vec3<Enu>, max_m: f64, at: QueryTime) -> Option<f64> {
         let still = self.geometry.free_radius(position_m, max_m);
         self.dynamics.traffic.nearest(position_m, still.unwrap_or(max_m), at).map(|n| n.distance_m).or(still)
     }
 
     /// The first hit of a ray within `max_m`, everything included (the pad and the water too). `direction` is a unit vector.
     #[must_use]
-    pub fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: At) -> Option<RayHit> {
+    pub fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: QueryTime) -> Option<RayHit> {
         self.dynamics.ray(self.geometry.ray(origin_m, direction, max_m), origin_m, direction, max_m, at)
     }
 
     /// Appends every contact or near-contact (gap <= `margin_m`) of a convex probe with the site, the pad included.
     #[allow(clippy::ptr_arg, reason = "it appends")]
-    pub fn contacts(&self, probe: &Probe, margin_m: f64, at: At, out: &mut Vec<Contact>) {
+    pub fn contacts(&self, probe: &HullProbe, margin_m: f64, at: QueryTime, out: &mut Vec<Contact>) {
         self.geometry.contacts(probe, margin_m, out);
         self.dynamics.traffic.contacts(probe, margin_m, at, out);
     }
@@ -303,13 +303,13 @@ impl Site {
     /// Ambient illuminance (sun, sky, water, ground bounce; no lamp), lux, on a surface with this outward normal, or for `None`
     /// the mean over all directions at a point in the air.
     #[must_use]
-    pub fn ambient_lux(&self, position_m: Vec3<Enu>, normal: Option<Vec3<Enu>>, at: At) -> f64 {
+    pub fn ambient_lux(&self, position_m: Vec3<Enu>, normal: Option<Vec3<Enu>>, at: QueryTime) -> f64 {
         self.dynamics.light.ambient_lux(position_m, normal, at, &self.cast())
     }
 
     /// How every defect within reach shows in a picture taken from `pose`; only defects within 60 m and in front are listed.
     #[must_use]
-    pub fn look(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: At) -> Vec<DefectView> {
+    pub fn view_defects(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: QueryTime) -> Vec<DefectView> {
         self.dynamics.look(pose, camera, lamp, at, &self.cast())
     }
 

@@ -6,7 +6,7 @@ use crate::frames::{Enu, Vec3};
 
 /// What an object on the deck is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum MoverKind {
     /// 4.5 x 1.8 x 1.5 m, body and cabin.
     Car,
     /// 10 x 2.5 x 3.5 m, cab and box.
@@ -16,25 +16,29 @@ pub enum Kind {
 }
 
 /// One solid of an object: where its centre is relative to the object's place on the road (along, up) and its half extents, m.
-struct Part {
+struct MoverPart {
     along_m: f64,
     up_m: f64,
     half_m: [f64; 3],
 }
 
-const CAR: &[Part] =
-    &[Part { along_m: 0.0, up_m: 0.5, half_m: [2.25, 0.9, 0.5] }, Part { along_m: -0.3, up_m: 1.25, half_m: [1.2, 0.8, 0.25] }];
-const TRUCK: &[Part] =
-    &[Part { along_m: 3.9, up_m: 1.4, half_m: [1.1, 1.2, 1.4] }, Part { along_m: -1.2, up_m: 1.75, half_m: [3.8, 1.25, 1.75] }];
-const PERSON: &[Part] = &[Part { along_m: 0.0, up_m: 0.875, half_m: [0.15, 0.25, 0.875] }];
+const CAR: &[MoverPart] = &[
+    MoverPart { along_m: 0.0, up_m: 0.5, half_m: [2.25, 0.9, 0.5] },
+    MoverPart { along_m: -0.3, up_m: 1.25, half_m: [1.2, 0.8, 0.25] },
+];
+const TRUCK: &[MoverPart] = &[
+    MoverPart { along_m: 3.9, up_m: 1.4, half_m: [1.1, 1.2, 1.4] },
+    MoverPart { along_m: -1.2, up_m: 1.75, half_m: [3.8, 1.25, 1.75] },
+];
+const PERSON: &[MoverPart] = &[MoverPart { along_m: 0.0, up_m: 0.875, half_m: [0.15, 0.25, 0.875] }];
 
-impl Kind {
+impl MoverKind {
     /// All kinds.
     pub(super) const ALL: [Self; 3] = [Self::Car, Self::Truck, Self::Pedestrian];
     /// The longest reach of a kind and half its length, m.
     pub(super) const LARGEST_REACH_M: f64 = 6.3 + 5.0;
 
-    fn parts(self) -> &'static [Part] {
+    fn parts(self) -> &'static [MoverPart] {
         match self {
             Self::Car => CAR,
             Self::Truck => TRUCK,
@@ -71,7 +75,7 @@ impl Kind {
 
 /// Where an object is at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Placed {
+pub struct MoverPlacement {
     /// Its place on the road, m.
     pub position_m: Vec3<Enu>,
     /// Unit vector of travel.
@@ -81,11 +85,11 @@ pub struct Placed {
 }
 
 /// The solids of an object.
-pub(super) fn boxes(kind: Kind, placed: Placed) -> impl Iterator<Item = OrientedBox> {
+pub(super) fn boxes(kind: MoverKind, placed: MoverPlacement) -> impl Iterator<Item = OrientedBox> {
     kind.parts().iter().map(move |part| upright(&placed, part))
 }
 
-fn upright(placed: &Placed, part: &Part) -> OrientedBox {
+fn upright(placed: &MoverPlacement, part: &MoverPart) -> OrientedBox {
     let left = Vec3::new(0.0, 0.0, 1.0).cross(placed.forward).unit();
     let up = placed.forward.cross(left);
     OrientedBox {

@@ -5,7 +5,7 @@ use super::heights::HeightGrid;
 use crate::frames::Vec3;
 use crate::math;
 use crate::random::RandomStream;
-use crate::scenario::{Bridge, GroundTeam, Scenario, Terrain as Settings, TerrainSource};
+use crate::scenario::{Bridge, GroundTeam, Scenario, TerrainSource, TerrainSpec as Settings};
 
 /// Level ground around the pad, m from its centre.
 const LEVEL_M: f64 = 16.0;
@@ -34,14 +34,14 @@ impl Terrain {
         let settings = &scenario.terrain;
         let side = (settings.size_m / settings.spacing_m).round().max(1.0) as usize + 1;
         let origin_m = -0.5 * settings.spacing_m * (side - 1) as f64;
-        let raw = Raw::new(settings);
+        let raw = HeightSource::new(settings);
         let mut heights_m = Vec::with_capacity(side * side);
         for row in 0..side {
             for column in 0..side {
                 let east = origin_m + column as f64 * settings.spacing_m;
                 let north = origin_m + row as f64 * settings.spacing_m;
                 let natural = raw.height_m(row, column, east, north);
-                heights_m.push(worked(natural, east, north, scenario));
+                heights_m.push(apply_earthworks(natural, east, north, scenario));
             }
         }
         Self { ground: HeightGrid::new(heights_m, settings.spacing_m), water_m: settings.water_level_m }
@@ -49,13 +49,13 @@ impl Terrain {
 }
 
 /// Heights before earthworks.
-enum Raw<'a> {
+enum HeightSource<'a> {
     Flat(f64),
     Valley { noise: ValueNoise, settings: &'a Settings, axis: (f64, f64), lake_half_m: f64, relief_m: f64, depth_m: f64 },
     File(&'a [Vec<f64>]),
 }
 
-impl<'a> Raw<'a> {
+impl<'a> HeightSource<'a> {
     fn new(settings: &'a Settings) -> Self {
         match &settings.source {
             TerrainSource::Flat { height_m } => Self::Flat(*height_m),
@@ -97,7 +97,7 @@ impl<'a> Raw<'a> {
 }
 
 /// The height after earthworks: openings under bridges, approaches to their ends, level ground around the pad.
-fn worked(natural: f64, east: f64, north: f64, scenario: &Scenario) -> f64 {
+fn apply_earthworks(natural: f64, east: f64, north: f64, scenario: &Scenario) -> f64 {
     let spacing_m = scenario.terrain.spacing_m;
     let height = scenario.bridges.iter().fold(natural, |h, bridge| bridge_earthworks(h, east, north, bridge, spacing_m));
     level_pad(height, east, north, &scenario.ground_team)

@@ -1,11 +1,11 @@
 //! Lanes as polylines with arc length, for what moves along them.
 
-use super::movers::Placed;
+use super::movers::MoverPlacement;
 use crate::frames::{Enu, Vec3};
 
 /// A lane with its arc length.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Track {
+pub(super) struct LaneTrack {
     pub(super) points_m: Vec<Vec3<Enu>>,
     pub(super) arc_m: Vec<f64>,
     pub(super) length_m: f64,
@@ -17,18 +17,18 @@ pub(super) struct Track {
     pub(super) band_m: (f64, f64),
 }
 
-impl Track {
+impl LaneTrack {
     /// Place at an arc length; beyond the ends it goes straight on.
-    pub(super) fn at(&self, s_m: f64) -> Placed {
+    pub(super) fn at(&self, s_m: f64) -> MoverPlacement {
         let last = self.points_m.len() - 2;
         let k = self.arc_m[1..=last].partition_point(|arc| *arc <= s_m).min(last);
         let forward = (self.points_m[k + 1] - self.points_m[k]).unit();
         let position_m = self.points_m[k] + forward * (s_m - self.arc_m[k]);
-        Placed { position_m, forward, velocity_m_s: forward * self.speed_m_s }
+        MoverPlacement { position_m, forward, velocity_m_s: forward * self.speed_m_s }
     }
 
     /// Arc length of the place that is nearest to a point, m; up to `beyond_m` off the ends.
-    pub(super) fn beside_m(&self, point_m: Vec3<Enu>, beyond_m: f64) -> f64 {
+    pub(super) fn lateral_distance_m(&self, point_m: Vec3<Enu>, beyond_m: f64) -> f64 {
         let last = self.points_m.len() - 2;
         let place = |k: usize| {
             let (line, to) = (self.points_m[k + 1] - self.points_m[k], point_m - self.points_m[k]);

@@ -3,15 +3,15 @@
 //! lane: objects come and go beyond the bridge's ends.
 
 use super::boxes::{OrientedBox, bounding_ball};
-use super::gates::Gates;
-use super::movers::{Kind, Placed, boxes};
-use super::tracks::{Track, arc_lengths, simplified};
-use super::{Contact, Nearest, ObjectId, Probe, RayHit, Surface};
+use super::bridge_closures::BridgeClosures;
+use super::movers::{MoverKind, MoverPlacement, boxes};
+use super::tracks::{LaneTrack, arc_lengths, simplified};
+use super::{Contact, HullProbe, NearestPoint, ObjectId, RayHit, Surface};
 use crate::frames::{Enu, Vec3};
 use crate::math;
 use crate::random::RandomStream;
 use crate::scenario::bridges::Lane;
-use crate::scenario::{GroundTeam, Traffic as TrafficSettings};
+use crate::scenario::{GroundTeam, TrafficSpec as TrafficSettings};
 use crate::time::SimTime;
 
 /// Object numbers of traffic and crew start here; below are bridge members and the rest of the static site.
@@ -38,7 +38,7 @@ const LANE_SPEED_SPREAD: f64 = 0.1;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mover {
     /// What it is.
-    pub kind: Kind,
+    pub kind: MoverKind,
     /// Number within its kind, from 1.
     pub number: u32,
     track: usize,
@@ -48,10 +48,10 @@ pub struct Mover {
 /// The plan of a session; it keeps no state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrafficPlan {
-    tracks: Vec<Track>,
+    tracks: Vec<LaneTrack>,
     movers: Vec<Mover>,
     crew: Vec<(ObjectId, Surface, OrientedBox)>,
-    gates: Gates,
+    closures: BridgeClosures,
 }
 
 impl TrafficPlan {
@@ -59,21 +59,22 @@ impl TrafficPlan {
     #[must_use]
     pub fn new(lanes: &[Lane], settings: &TrafficSettings, team: &GroundTeam, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "site.traffic");
-        let mut plan = Self { tracks: Vec::new(), movers: Vec::new(), crew: crew(team), gates: Gates::default() };
+        let mut plan =
+            Self { tracks: Vec::new(), movers: Vec::new(), crew: ground_crew(team), closures: BridgeClosures::default() };
         let roads: Vec<&Lane> = lanes.iter().filter(|l| !l.walkway && l.points_m.len() >= 2).collect();
         let walkways: Vec<&Lane> = lanes.iter().filter(|l| l.walkway && l.points_m.len() >= 2).collect();
-        let mut vehicles = vec![Kind::Car; settings.cars];
-        vehicles.extend(vec![Kind::Truck; settings.trucks]);
+        let mut vehicles = vec![MoverKind::Car; settings.cars];
+        vehicles.extend(vec![MoverKind::Truck; settings.trucks]);
         // Fisher-Yates: trucks land anywhere in the row of cars.
         for k in (1..vehicles.len()).rev() {
             vehicles.swap(k, stream.below(k + 1));
         }
         let mut numbers = [0; 3];
-        for (lane, kinds) in deal(&roads, &vehicles) {
+        for (lane, kinds) in assign_lanes(&roads, &vehicles) {
             let speed = settings.car_speed_m_s * (1.0 + stream.range(-LANE_SPEED_SPREAD, LANE_SPEED_SPREAD));
             plan.fill(lane, &kinds, (speed, VEHICLE_SPACING_M), &mut numbers, &mut stream);
         }
-        for (lane, kinds) in deal(&walkways, &vec![Kind::Pedestrian; settings.pedestrians]) {
+        for (lane, kinds) in assign_lanes(&walkways, &vec![MoverKind::Pedestrian; settings.pedestrians]) {
             let speed = (WALKING_M_S.0 + WALKING_M_S.1 * stream.normal()).clamp(0.8, 1.9);
             plan.fill(lane, &kinds, (speed, PEDESTRIAN_SPACING_M), &mut numbers, &mut stream);
         }
@@ -83,7 +84,7 @@ impl TrafficPlan {
     fn fill(
         &mut self,
         lane: &Lane,
-        kinds: &[Kind],
+        kinds: &[MoverKind],
         (speed_m_s, spacing_m): (f64, f64),
         numbers: &mut [u32; 3],
         stream: &mut RandomStream,
@@ -107,18 +108,18 @@ impl TrafficPlan {
         }
         let reach_m = kinds.iter().map(|k| k.reach_m() + k.half_length_m()).fold(0.0, f64::max);
         let band_m = points_m.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |b, p| (b.0.min(p.up()), b.1.max(p.up())));
-        self.tracks.push(Track { band_m, points_m, arc_m, length_m, loop_m, speed_m_s, first, count: kinds.len(), reach_m });
+        self.tracks.push(LaneTrack { band_m, points_m, arc_m, length_m, loop_m, speed_m_s, first, count: kinds.len(), reach_m });
     }
 
     /// Traffic was stopped and let go so.
-    pub fn set_gates(&mut self, gates: Gates) {
-        self.gates = gates;
+    pub fn set_closures(&mut self, gates: BridgeClosures) {
+        self.closures = gates;
     }
 
     /// When it was stopped and let go.
     #[must_use]
-    pub fn gates(&self) -> &Gates {
-        &self.gates
+    pub fn gates(&self) -> &BridgeClosures {
+        &self.closures
     }
 
     /// The objects on the decks.
@@ -129,12 +130,12 @@ impl TrafficPlan {
 
     /// Where a mover is; `None` while it is beyond the bridge's ends, and on a round that it could not begin because the bridge was closed.
     #[must_use]
-    pub fn place(&self, mover: &Mover, at: SimTime) -> Option<Placed> {
+    pub fn place(&self, mover: &Mover, at: SimTime) -> Option<MoverPlacement> {
         let track = &self.tracks[mover.track];
         let half = mover.kind.half_length_m();
         let driven_m = (mover.phase_m + track.speed_m_s * at.s()).rem_euclid(track.loop_m);
         let s = driven_m - half;
-        let entered = s <= track.length_m + half && self.gates.are_open_at(at.s() - driven_m / track.speed_m_s);
+        let entered = s <= track.length_m + half && self.closures.is_open_at(at.s() - driven_m / track.speed_m_s);
         entered.then(|| track.at(s))
     }
 
@@ -151,12 +152,12 @@ impl TrafficPlan {
 
     /// Nearest traffic or crew within `max_m`.
     #[must_use]
-    pub fn nearest(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<Nearest> {
-        let mut best: Option<Nearest> = None;
+    pub fn nearest(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<NearestPoint> {
+        let mut best: Option<NearestPoint> = None;
         self.near(position_m, max_m, at, |object, surface, solid, _| {
             let (distance_m, point_m, normal) = solid.nearest(position_m);
             if distance_m <= best.map_or(max_m, |b| b.distance_m) {
-                best = Some(Nearest { distance_m, point_m, normal, surface, object });
+                best = Some(NearestPoint { distance_m, point_m, normal, surface, object });
             }
         });
         best
@@ -165,13 +166,13 @@ impl TrafficPlan {
     /// Least distance within `max_m` that anything on the decks may ever come to a point, m: every lane carries all vehicles of the plan, or all
     /// who walk.
     #[must_use]
-    pub fn nearest_ever_m(&self, position_m: Vec3<Enu>, max_m: f64) -> Option<f64> {
+    pub fn min_distance_ever_m(&self, position_m: Vec3<Enu>, max_m: f64) -> Option<f64> {
         let mut least: Option<f64> = None;
         let tracks = self.tracks.iter().filter(|track| track.count > 0);
-        for track in tracks.filter(|track| track.distance_m(position_m) <= max_m + Kind::LARGEST_REACH_M) {
+        for track in tracks.filter(|track| track.distance_m(position_m) <= max_m + MoverKind::LARGEST_REACH_M) {
             let surface = self.movers[track.first].kind.surface();
-            for kind in Kind::ALL.into_iter().filter(|kind| kind.surface() == surface && self.has(*kind)) {
-                let placed = track.at(track.beside_m(position_m, kind.half_length_m()));
+            for kind in MoverKind::ALL.into_iter().filter(|kind| kind.surface() == surface && self.has(*kind)) {
+                let placed = track.at(track.lateral_distance_m(position_m, kind.half_length_m()));
                 let distance_m = boxes(kind, placed).map(|solid| solid.nearest(position_m).0).fold(max_m, f64::min);
                 least = Some(distance_m).filter(|d| *d < least.unwrap_or(max_m)).or(least);
             }
@@ -179,7 +180,7 @@ impl TrafficPlan {
         least
     }
 
-    fn has(&self, kind: Kind) -> bool {
+    fn has(&self, kind: MoverKind) -> bool {
         self.movers.iter().any(|mover| mover.kind == kind)
     }
 
@@ -215,7 +216,7 @@ impl TrafficPlan {
     }
 
     /// Appends contacts of a probe with traffic and crew; a mover's velocity is the contact's.
-    pub fn contacts(&self, probe: &Probe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>) {
+    pub fn contacts(&self, probe: &HullProbe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>) {
         let (centre_m, radius_m) = bounding_ball(probe);
         self.near(centre_m, radius_m + margin_m, at, |object, surface, solid, velocity_m_s| {
             solid.contacts(probe, margin_m, |gap_m, point_m, normal| {
@@ -235,9 +236,9 @@ impl TrafficPlan {
         }
         let mover = self.movers.get(object.0.checked_sub(FIRST_OBJECT)? as usize)?;
         let kind = match mover.kind {
-            Kind::Car => "car",
-            Kind::Truck => "truck",
-            Kind::Pedestrian => "pedestrian",
+            MoverKind::Car => "car",
+            MoverKind::Truck => "truck",
+            MoverKind::Pedestrian => "pedestrian",
         };
         Some(format!("{kind} {}", mover.number))
     }
@@ -274,22 +275,22 @@ impl TrafficPlan {
 }
 
 /// Deals objects to lanes in turn.
-fn deal<'a>(lanes: &[&'a Lane], kinds: &[Kind]) -> Vec<(&'a Lane, Vec<Kind>)> {
-    let mut dealt: Vec<(&Lane, Vec<Kind>)> = lanes.iter().map(|l| (*l, Vec::new())).collect();
+fn assign_lanes<'a>(lanes: &[&'a Lane], kinds: &[MoverKind]) -> Vec<(&'a Lane, Vec<MoverKind>)> {
+    let mut dealt: Vec<(&Lane, Vec<MoverKind>)> = lanes.iter().map(|l| (*l, Vec::new())).collect();
     for (k, kind) in kinds.iter().enumerate().take(if lanes.is_empty() { 0 } else { usize::MAX }) {
         dealt[k % lanes.len()].1.push(*kind);
     }
     dealt
 }
 
-fn crew(team: &GroundTeam) -> Vec<(ObjectId, Surface, OrientedBox)> {
+fn ground_crew(team: &GroundTeam) -> Vec<(ObjectId, Surface, OrientedBox)> {
     let towards = |heading_deg: f64, feet: Vec3<Enu>| {
         let (s, c) = math::sin_cos(heading_deg.to_radians());
-        Placed { position_m: feet, forward: Vec3::new(s, c, 0.0), velocity_m_s: Vec3::zero() }
+        MoverPlacement { position_m: feet, forward: Vec3::new(s, c, 0.0), velocity_m_s: Vec3::zero() }
     };
     let inspector =
-        boxes(Kind::Pedestrian, towards(team.pad_heading_deg, team.inspector_m)).map(|b| (INSPECTOR, Surface::Person, b));
-    let truck = boxes(Kind::Truck, towards(team.truck_heading_deg, team.truck_m)).map(|b| (CREW_TRUCK, Surface::Vehicle, b));
+        boxes(MoverKind::Pedestrian, towards(team.pad_heading_deg, team.inspector_m)).map(|b| (INSPECTOR, Surface::Person, b));
+    let truck = boxes(MoverKind::Truck, towards(team.truck_heading_deg, team.truck_m)).map(|b| (CREW_TRUCK, Surface::Vehicle, b));
     inspector.chain(truck).collect()
 }
 
@@ -357,8 +358,8 @@ mod tests {
             for mover in plan.movers() {
                 let Some(p) = plan.place(mover, SimTime::from_ms(ms)) else { continue };
                 let lane = match mover.kind {
-                    Kind::Pedestrian => 4.5,
-                    Kind::Car | Kind::Truck => 1.8,
+                    MoverKind::Pedestrian => 4.5,
+                    MoverKind::Car | MoverKind::Truck => 1.8,
                 };
                 assert!((p.position_m.north().abs() - lane).abs() < 1e-6, "{mover:?}");
                 let half = mover.kind.half_length_m() + 1e-6;
@@ -368,11 +369,11 @@ mod tests {
     }
 
     #[test]
-    fn prop_who_has_entered_drives_on_and_nobody_enters_a_closed_bridge() {
+    fn prop_vehicles_leave_and_none_enter_a_closed_bridge() {
         let open = plan(3);
         let (closed_s, opened_s) = (40.0, 130.0);
         let mut gated = open.clone();
-        gated.set_gates(Gates::from_codes([-40_000, 130_000]));
+        gated.set_closures(BridgeClosures::from_codes([-40_000, 130_000]));
         // The slowest walker needs so long for 200 m, and then the decks are empty; half a lane later they are full again.
         let (mut least, mut shown) = (usize::MAX, [None; 17]);
         for tenth in 0..4_000 {
@@ -391,7 +392,7 @@ mod tests {
                 let vanished = held.is_none() && shown[k] == Some(true);
                 assert!(!vanished || free.is_none(), "{mover:?} vanishes at {t_s} s");
                 shown[k] = Some(held.is_some());
-                vehicles += usize::from(held.is_some() && mover.kind != Kind::Pedestrian);
+                vehicles += usize::from(held.is_some() && mover.kind != MoverKind::Pedestrian);
             }
             if (closed_s..opened_s).contains(&t_s) {
                 least = least.min(vehicles);
@@ -440,11 +441,11 @@ mod tests {
             .movers()
             .iter()
             .enumerate()
-            .find_map(|(k, m)| plan.place(m, at).filter(|_| m.kind == Kind::Truck).map(|p| (k, p)))
+            .find_map(|(k, m)| plan.place(m, at).filter(|_| m.kind == MoverKind::Truck).map(|p| (k, p)))
             .expect("a truck is on the deck at 12 s");
         let over = placed.position_m - placed.forward * 1.2 + Vec3::new(0.0, 0.0, 3.7);
         let mut out = Vec::new();
-        plan.contacts(&Probe::Ball { centre_m: over, radius_m: 0.25 }, 0.01, at, &mut out);
+        plan.contacts(&HullProbe::Ball { centre_m: over, radius_m: 0.25 }, 0.01, at, &mut out);
         assert_eq!(out.len(), 1, "{out:?}");
         assert_eq!(out[0].surface, Surface::Vehicle);
         assert_eq!(out[0].velocity_m_s, placed.velocity_m_s);

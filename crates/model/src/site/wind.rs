@@ -7,7 +7,7 @@ use super::turbulence::{Dryden, FirstOrder, SecondOrder};
 use crate::frames::{Ned, Vec3};
 use crate::math;
 use crate::random::RandomStream;
-use crate::scenario::{Wind, WindEvent, WindModel};
+use crate::scenario::{WindEvent, WindModel, WindSpec};
 use crate::time::SimTime;
 
 /// Rate at which the air is sampled; in between it is interpolated linearly, one sample late (10 ms).
@@ -29,7 +29,7 @@ const LOWEST_DRIFT_M_S: f64 = 0.1;
 
 /// Mean wind at one instant: speed at 20 ft and where it comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mean {
+pub struct MeanWind {
     /// Speed at 20 ft over the water, m/s.
     pub speed_m_s: f64,
     /// Comes from, rad clockwise from north.
@@ -40,7 +40,7 @@ pub struct Mean {
 /// as the physics likes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WindField {
-    wind: Wind,
+    wind: WindSpec,
     stream: RandomStream,
     along: FirstOrder,
     across: SecondOrder,
@@ -54,7 +54,7 @@ pub struct WindField {
 impl WindField {
     /// The air of a scenario under the session's seed.
     #[must_use]
-    pub fn new(wind: &Wind, seed: u64) -> Self {
+    pub fn new(wind: &WindSpec, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "wind.turbulence");
         let along = FirstOrder::start(&mut stream);
         let across = SecondOrder::start(&mut stream);
@@ -116,7 +116,7 @@ impl WindField {
         if self.wind.model == WindModel::Physical {
             return Vec3::zero();
         }
-        let horizontal = blowing_to(self.wind.from_deg.to_radians());
+        let horizontal = direction_towards(self.wind.from_deg.to_radians());
         let tilted = horizontal * self.wind.speed_m_s + Vec3::new(0.0, 0.0, -self.wind.up_m_s);
         let direction = if tilted.norm() > 0.0 { tilted.unit() } else { horizontal };
         direction * self.wind.paper_force_n
@@ -126,7 +126,7 @@ impl WindField {
     #[must_use]
     pub fn mean_velocity(&self, at: SimTime, height_m: f64) -> Vec3<Ned> {
         let mean = mean_at(&self.wind, at);
-        blowing_to(mean.from_rad) * (mean.speed_m_s * self.profile(height_m))
+        direction_towards(mean.from_rad) * (mean.speed_m_s * self.profile(height_m))
             + gusts_at(&self.wind, at)
             + Vec3::new(0.0, 0.0, -self.wind.up_m_s)
     }
@@ -150,7 +150,7 @@ impl WindField {
         let u = self.along.step(travelled_m / dryden.length_horizontal_m, &mut self.stream);
         let v = self.across.step(travelled_m / dryden.length_horizontal_m, &mut self.stream);
         let w = self.vertical.step(travelled_m / dryden.length_vertical_m, &mut self.stream);
-        let along = blowing_to(mean.from_rad);
+        let along = direction_towards(mean.from_rad);
         let across = Vec3::new(-along.east(), along.north(), 0.0);
         let near_surface = (self.profile(height_m) / self.profile(LOWEST_TURBULENCE_M)).min(1.0);
         let horizontal = dryden.sigma_horizontal_m_s * self.wind.turbulence * near_surface;
@@ -160,7 +160,7 @@ impl WindField {
 }
 
 /// Unit vector along which air moves that comes from `from_rad` (clockwise from north).
-fn blowing_to(from_rad: f64) -> Vec3<Ned> {
+fn direction_towards(from_rad: f64) -> Vec3<Ned> {
     let (s, c) = math::sin_cos(from_rad);
     Vec3::new(-c, -s, 0.0)
 }
@@ -177,8 +177,8 @@ fn log_profile(height_m: f64, roughness_m: f64) -> f64 {
 
 /// The mean at an instant: each change moves speed and direction linearly (direction the shorter way round).
 #[must_use]
-pub fn mean_at(wind: &Wind, at: SimTime) -> Mean {
-    let mut mean = Mean { speed_m_s: wind.speed_m_s, from_rad: wind.from_deg.to_radians() };
+pub fn mean_at(wind: &WindSpec, at: SimTime) -> MeanWind {
+    let mut mean = MeanWind { speed_m_s: wind.speed_m_s, from_rad: wind.from_deg.to_radians() };
     for event in &wind.events {
         let WindEvent::Change { at: start, over, speed_m_s, from_deg } = event else { continue };
         let since = (at - *start).s();
@@ -193,13 +193,13 @@ pub fn mean_at(wind: &Wind, at: SimTime) -> Mean {
 }
 
 /// Sum of the 1-cosine gusts at an instant: peak/2 (1 - cos(2 pi t/duration)), zero outside.
-fn gusts_at(wind: &Wind, at: SimTime) -> Vec3<Ned> {
+fn gusts_at(wind: &WindSpec, at: SimTime) -> Vec3<Ned> {
     wind.events.iter().fold(Vec3::zero(), |sum, event| match event {
         WindEvent::Gust { at: start, duration, peak_m_s, from_deg } => {
             let since = (at - *start).s();
             let inside = since > 0.0 && since < duration.s();
             let speed = if inside { 0.5 * peak_m_s * (1.0 - math::cos(math::TAU * since / duration.s())) } else { 0.0 };
-            sum + blowing_to(from_deg.to_radians()) * speed
+            sum + direction_towards(from_deg.to_radians()) * speed
         }
         WindEvent::Change { .. } => sum,
     })
@@ -209,8 +209,8 @@ fn gusts_at(wind: &Wind, at: SimTime) -> Vec3<Ned> {
 mod tests {
     use super::*;
 
-    fn wind() -> Wind {
-        Wind {
+    fn wind() -> WindSpec {
+        WindSpec {
             model: WindModel::Physical,
             speed_m_s: 4.917,
             paper_force_n: 3.0,
@@ -222,7 +222,7 @@ mod tests {
     }
 
     /// Turbulence alone for `seconds`, sampled at the model's own rate.
-    fn turbulence(wind: &Wind, seconds: i64, height_m: f64, airspeed_m_s: f64) -> Vec<Vec3<Ned>> {
+    fn turbulence(wind: &WindSpec, seconds: i64, height_m: f64, airspeed_m_s: f64) -> Vec<Vec3<Ned>> {
         let mut field = WindField::new(wind, 11);
         let mean = field.mean_velocity(SimTime::ZERO, height_m);
         let velocity = mean + Vec3::new(airspeed_m_s, 0.0, 0.0);
@@ -270,7 +270,7 @@ mod tests {
     fn exact_wind_from_north_moves_air_south_and_from_east_moves_it_west() {
         let mut w = wind();
         w.turbulence = 0.0;
-        let at_reference = |w: &Wind| WindField::new(w, 1).mean_velocity(SimTime::ZERO, REFERENCE_HEIGHT_M);
+        let at_reference = |w: &WindSpec| WindField::new(w, 1).mean_velocity(SimTime::ZERO, REFERENCE_HEIGHT_M);
         assert!((at_reference(&w) - Vec3::new(-4.917, 0.0, 0.0)).norm() < 1e-12);
         w.from_deg = 90.0;
         assert!((at_reference(&w) - Vec3::new(0.0, -4.917, 0.0)).norm() < 1e-12);

@@ -10,7 +10,7 @@ const LEAST_SHARE: f64 = 0.05;
 
 /// What is wrong, or `None`.
 #[must_use]
-pub fn lacking(rotors: &[Rotor], model: &RotorModel, mass_kg: f64) -> Option<&'static str> {
+pub fn missing_axes(rotors: &[Rotor], model: &RotorModel, mass_kg: f64) -> Option<&'static str> {
     let arm_m = rotors.iter().map(|rotor| math::hypot(rotor.position_m.forward(), rotor.position_m.right())).fold(0.0, f64::max);
     if rotors.len() < 4 || arm_m <= 0.0 {
         return Some("four rotors at least, away from the centre of mass, lift and turn about three axes");
@@ -56,7 +56,7 @@ mod tests {
     #[test]
     fn exact_a_square_and_a_hexagon_have_authority() {
         assert_eq!(
-            lacking(&rotors(&[(0.2, 0.2, 1.0), (-0.2, -0.2, 1.0), (0.2, -0.2, -1.0), (-0.2, 0.2, -1.0)]), &MODEL, 1.2),
+            missing_axes(&rotors(&[(0.2, 0.2, 1.0), (-0.2, -0.2, 1.0), (0.2, -0.2, -1.0), (-0.2, 0.2, -1.0)]), &MODEL, 1.2),
             None
         );
         let hexagon: Vec<(f64, f64, f64)> = (0..6)
@@ -65,19 +65,21 @@ mod tests {
                 (0.3 * cosine, 0.3 * sine, if k % 2 == 0 { 1.0 } else { -1.0 })
             })
             .collect();
-        assert_eq!(lacking(&rotors(&hexagon), &MODEL, 1.2), None);
+        assert_eq!(missing_axes(&rotors(&hexagon), &MODEL, 1.2), None);
     }
 
     #[test]
     fn exact_three_rotors_a_line_one_spin_and_a_heap_on_one_side_have_none() {
-        assert!(lacking(&rotors(&[(0.2, 0.2, 1.0), (-0.2, 0.0, -1.0), (0.2, -0.2, -1.0)]), &MODEL, 1.2).is_some());
+        assert!(missing_axes(&rotors(&[(0.2, 0.2, 1.0), (-0.2, 0.0, -1.0), (0.2, -0.2, -1.0)]), &MODEL, 1.2).is_some());
         assert!(
-            lacking(&rotors(&[(0.3, 0.0, 1.0), (0.1, 0.0, -1.0), (-0.1, 0.0, 1.0), (-0.3, 0.0, -1.0)]), &MODEL, 1.2).is_some()
+            missing_axes(&rotors(&[(0.3, 0.0, 1.0), (0.1, 0.0, -1.0), (-0.1, 0.0, 1.0), (-0.3, 0.0, -1.0)]), &MODEL, 1.2)
+                .is_some()
         );
         assert!(
-            lacking(&rotors(&[(0.2, 0.2, 1.0), (-0.2, -0.2, 1.0), (0.2, -0.2, 1.0), (-0.2, 0.2, 1.0)]), &MODEL, 1.2).is_some()
+            missing_axes(&rotors(&[(0.2, 0.2, 1.0), (-0.2, -0.2, 1.0), (0.2, -0.2, 1.0), (-0.2, 0.2, 1.0)]), &MODEL, 1.2)
+                .is_some()
         );
         let aside = [(0.5, 0.2, 1.0), (0.1, -0.2, 1.0), (0.5, -0.2, -1.0), (0.1, 0.2, -1.0)];
-        assert!(lacking(&rotors(&aside), &MODEL, 1.2).is_some());
+        assert!(missing_axes(&rotors(&aside), &MODEL, 1.2).is_some());
     }
 }

@@ -29,11 +29,11 @@ pub struct Vehicle {
     /// Collision hull and contact behaviour.
     pub hull: Hull,
     /// Battery.
-    pub battery: Battery,
+    pub battery: BatterySpec,
     /// What the flight controller allows.
     pub limits: FlightLimits,
     /// Sensor errors and rates.
-    pub sensors: Sensors,
+    pub sensors: SensorSpec,
     /// Camera and gimbal.
     pub camera: Camera,
     /// Lamp.
@@ -100,7 +100,7 @@ pub struct Hull {
 
 /// Lithium-polymer battery.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Battery {
+pub struct BatterySpec {
     /// Cells in series.
     pub cells: u32,
     /// Capacity, A h.
@@ -140,7 +140,7 @@ pub struct FlightLimits {
 
 /// Sensor rates and errors: white noise as standard deviation per sample, bias as standard deviation at start.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sensors {
+pub struct SensorSpec {
     /// Accelerometer and gyroscope rate, Hz.
     pub imu_rate_hz: f64,
     /// Accelerometer noise density, m/s²/sqrt(Hz).

@@ -1,9 +1,9 @@
 //! Vehicle files into [`Vehicle`]: every key with its unit, range and default.
 
-use super::{Battery, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, Sensors, Vehicle};
+use super::{BatterySpec, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, SensorSpec, Vehicle};
 use crate::frames::Vec3;
 use crate::math::{self, GRAVITY_M_S2};
-use crate::toml::{Asked, Problems, Reader, Section};
+use crate::toml::{DocumentedKey, Problems, Reader, Section};
 use std::collections::BTreeMap;
 
 /// Newest format that this program reads.
@@ -21,7 +21,7 @@ pub fn read(file: &str, text: &str) -> Result<Vehicle, Problems> {
 }
 
 /// Reads a vehicle file and tells which keys were asked for (for the documentation test).
-pub fn read_asked(file: &str, text: &str) -> (Result<Vehicle, Problems>, BTreeMap<String, Asked>) {
+pub fn read_asked(file: &str, text: &str) -> (Result<Vehicle, Problems>, BTreeMap<String, DocumentedKey>) {
     let mut reader = Reader::new(file, text);
     let vehicle = reader.parse().map(|document| {
         let mut root = reader.root(&document);
@@ -33,7 +33,7 @@ pub fn read_asked(file: &str, text: &str) -> (Result<Vehicle, Problems>, BTreeMa
         Some(vehicle) if reader.problems.is_empty() => Ok(vehicle),
         _ => Err(Problems(reader.problems)),
     };
-    (result, reader.asked)
+    (result, reader.documented_keys)
 }
 
 fn stem(file: &str) -> String {
@@ -42,7 +42,7 @@ fn stem(file: &str) -> String {
 }
 
 fn whole(r: &mut Reader, root: &mut Section, file: &str) -> Vehicle {
-    r.whole(root, "format", (1, FORMAT), None);
+    r.integer(root, "format", (1, FORMAT), None);
     let name = r.text(root, "name", None);
     let mass_kg = r.number(root, "mass_kg", (0.05, 50.0), None);
     let inertia_kg_m2 = r.numbers(root, "inertia_kg_m2", (1e-6, 50.0), None);
@@ -51,13 +51,13 @@ fn whole(r: &mut Reader, root: &mut Section, file: &str) -> Vehicle {
         rotors.len() as f64 * rotor.thrust_coefficient_n_s2 * rotor.max_speed_rad_s * rotor.max_speed_rad_s / GRAVITY_M_S2;
     if lift_kg < LEAST_LIFT * mass_kg && r.problems.is_empty() {
         let most = format!("at most {:.3}: the rotors lift {lift_kg:.3} kg", lift_kg / LEAST_LIFT);
-        r.complain(root, "mass_kg", &mass_kg.to_string(), &most, "too heavy to fly");
+        r.add_problem(root, "mass_kg", &mass_kg.to_string(), &most, "too heavy to fly");
     }
     if r.problems.is_empty()
-        && let Some(allowed) = super::authority::lacking(&rotors, &rotor, mass_kg)
+        && let Some(allowed) = super::authority::missing_axes(&rotors, &rotor, mass_kg)
     {
         let places = rotors.iter().map(|rotor| format!("{:?}", rotor.position_m.array())).collect::<Vec<_>>().join(", ");
-        r.complain(root, "rotors.position_m", &places, allowed, "the rotors cannot hold and turn it");
+        r.add_problem(root, "rotors.position_m", &places, allowed, "the rotors cannot hold and turn it");
     }
     Vehicle {
         id: stem(file),
@@ -79,9 +79,9 @@ fn whole(r: &mut Reader, root: &mut Section, file: &str) -> Vehicle {
 fn rotors(r: &mut Reader, root: &mut Section) -> (Vec<Rotor>, RotorModel) {
     let mut s = r.section(root, "rotors");
     let places = r.points(&mut s, "position_m", (-5.0, 5.0));
-    let spins = r.wholes(&mut s, "spin", (-1, 1));
+    let spins = r.integers(&mut s, "spin", (-1, 1));
     if places.len() < 4 || places.len() > MOST_ROTORS || places.len() != spins.len() || spins.contains(&0) {
-        r.complain(&s, "spin", "", "4 to 8 rotors, one spin of -1 or 1 each", "rotors and spins do not match");
+        r.add_problem(&s, "spin", "", "4 to 8 rotors, one spin of -1 or 1 each", "rotors and spins do not match");
     }
     let model = RotorModel {
         radius_m: r.number(&mut s, "radius_m", (0.01, 1.0), None),
@@ -95,7 +95,7 @@ fn rotors(r: &mut Reader, root: &mut Section) -> (Vec<Rotor>, RotorModel) {
         efficiency: r.number(&mut s, "efficiency", (0.1, 1.0), None),
     };
     if model.idle_speed_rad_s >= model.max_speed_rad_s {
-        r.complain(&s, "idle_speed_rad_s", &model.idle_speed_rad_s.to_string(), "less than max_speed_rad_s", "too fast");
+        r.add_problem(&s, "idle_speed_rad_s", &model.idle_speed_rad_s.to_string(), "less than max_speed_rad_s", "too fast");
     }
     r.finish(&s);
     let rotors = places.iter().zip(&spins).map(|(p, spin)| Rotor { position_m: Vec3::new(p[0], p[1], p[2]), spin: *spin as f64 });
@@ -130,16 +130,16 @@ fn hull(r: &mut Reader, root: &mut Section) -> Hull {
     let carrying = hull.feet_m.iter().filter(|foot| foot.down() >= cage_m).count();
     if hull.caged && carrying < LEAST_FEET {
         let allowed = format!("at least {LEAST_FEET} feet {cage_m} m or more below the center");
-        r.complain(&s, "feet_m", "", &allowed, "the aircraft would stand on its round cage and roll");
+        r.add_problem(&s, "feet_m", "", &allowed, "the aircraft would stand on its round cage and roll");
     }
     r.finish(&s);
     hull
 }
 
-fn battery(r: &mut Reader, root: &mut Section) -> Battery {
+fn battery(r: &mut Reader, root: &mut Section) -> BatterySpec {
     let mut s = r.section(root, "battery");
-    let battery = Battery {
-        cells: r.whole(&mut s, "cells", (1, 14), None) as u32,
+    let battery = BatterySpec {
+        cells: r.integer(&mut s, "cells", (1, 14), None) as u32,
         capacity_ah: r.number(&mut s, "capacity_ah", (0.1, 100.0), None),
         internal_resistance_ohm: r.number(&mut s, "internal_resistance_ohm", (0.0, 1.0), None),
         ocv_cell_v: r.numbers(&mut s, "ocv_cell_v", (2.5, 4.5), None),
@@ -148,7 +148,7 @@ fn battery(r: &mut Reader, root: &mut Section) -> Battery {
         paper_endurance_s: r.number(&mut s, "paper_endurance_s", (10.0, 10_000.0), Some(1500.0)),
     };
     if battery.ocv_cell_v.windows(2).any(|w| w[1] < w[0]) {
-        r.complain(&s, "ocv_cell_v", "", "11 rising values", "the open-circuit voltage falls with charge");
+        r.add_problem(&s, "ocv_cell_v", "", "11 rising values", "the open-circuit voltage falls with charge");
     }
     r.finish(&s);
     battery
@@ -170,16 +170,16 @@ fn limits(r: &mut Reader, root: &mut Section) -> FlightLimits {
     let least_s = limits.forward_m_s.max(limits.sideward_m_s) / (GRAVITY_M_S2 * math::tan(limits.tilt_rad));
     if limits.slow_down_time_s < least_s && r.problems.is_empty() {
         let allowed = format!("at least {least_s:.2}: full speed over g tan(tilt_deg)");
-        r.complain(&s, "slow_down_time_s", &limits.slow_down_time_s.to_string(), &allowed, "no tilt stops it so soon");
+        r.add_problem(&s, "slow_down_time_s", &limits.slow_down_time_s.to_string(), &allowed, "no tilt stops it so soon");
     }
     r.finish(&s);
     limits
 }
 
-fn sensors(r: &mut Reader, root: &mut Section) -> Sensors {
+fn sensors(r: &mut Reader, root: &mut Section) -> SensorSpec {
     let mut s = r.section(root, "sensors");
     let mut n = |key: &'static str, range: (f64, f64), default: f64| r.number(&mut s, key, range, Some(default));
-    let sensors = Sensors {
+    let sensors = SensorSpec {
         imu_rate_hz: n("imu_rate_hz", (100.0, 1000.0), 400.0),
         accel_noise_density: n("accel_noise_density_m_s2_sqrt_hz", (0.0, 1.0), 0.002),
         accel_bias_m_s2: n("accel_bias_m_s2", (0.0, 2.0), 0.05),
@@ -210,8 +210,8 @@ fn camera(r: &mut Reader, root: &mut Section) -> Camera {
     let [x, y, z] = r.numbers(&mut s, "position_m", (-2.0, 2.0), None);
     let camera = Camera {
         position_m: Vec3::new(x, y, z),
-        width_px: r.whole(&mut s, "width_px", (160, 20_000), None) as u32,
-        height_px: r.whole(&mut s, "height_px", (120, 20_000), None) as u32,
+        width_px: r.integer(&mut s, "width_px", (160, 20_000), None) as u32,
+        height_px: r.integer(&mut s, "height_px", (120, 20_000), None) as u32,
         hfov_rad: r.number(&mut s, "hfov_deg", (5.0, 150.0), None).to_radians(),
         zoom_max: r.number(&mut s, "zoom_max", (1.0, 30.0), Some(1.0)),
         f_number: r.number(&mut s, "f_number", (0.9, 22.0), None),

@@ -4,7 +4,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::bridges::arch::Arch;
 use spandrel_model::scenario::bridges::suspension::Suspension;
-use spandrel_model::scenario::bridges::{Field, Member, Solid, TaskPath};
+use spandrel_model::scenario::bridges::{BridgeField, Member, Solid, TaskPath};
 use spandrel_model::scenario::{Bridge, BridgeKind, TaskKind};
 use spandrel_model::site::convex::Convex;
 use std::collections::{BTreeMap, BTreeSet};
@@ -27,8 +27,8 @@ fn suspension() -> Bridge {
 }
 
 /// Values strewn around the defaults, within their ranges.
-fn strewn(fields: &[Field], random: &mut RandomStream) -> Vec<f64> {
-    let strewn = |f: &Field| (f.default * random.range(0.6, 1.7)).clamp(f.min, f.max);
+fn strewn(fields: &[BridgeField], random: &mut RandomStream) -> Vec<f64> {
+    let strewn = |f: &BridgeField| (f.default * random.range(0.6, 1.7)).clamp(f.min, f.max);
     fields
         .iter()
         .map(strewn)

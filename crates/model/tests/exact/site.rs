@@ -4,7 +4,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::{Scenario, TaskKind};
 use spandrel_model::site::geometry::Geometry;
-use spandrel_model::site::{Contact, Probe, Surface};
+use spandrel_model::site::{Contact, HullProbe, Surface};
 
 /// m; rounding of positions some hundred metres from the origin.
 const ROUNDING_M: f64 = 1e-9;
@@ -130,7 +130,7 @@ fn prop_no_part_of_a_capsule_lies_deeper_than_its_deepest_contact() {
     for p in points(&geometry, 1500) {
         let (a_m, b_m, radius_m) = capsule(p, &mut random);
         let mut contacts: Vec<Contact> = Vec::new();
-        geometry.contacts(&Probe::Capsule { a_m, b_m, radius_m }, MARGIN_M, &mut contacts);
+        geometry.contacts(&HullProbe::Capsule { a_m, b_m, radius_m }, MARGIN_M, &mut contacts);
         contacts.retain(|c| c.surface == Surface::Bridge);
         let member = |k: usize| {
             let shape = geometry.shape(k).unwrap();
@@ -160,7 +160,7 @@ fn exact_a_capsule_on_the_deck_rests_on_both_ends() {
     // The middle of a panel of the arch's deck, 34 m up.
     let (a_m, b_m) = (Vec3::new(3.2, 0.3, 34.05), Vec3::new(3.5, 0.5, 34.05));
     let mut contacts = Vec::new();
-    geometry.contacts(&Probe::Capsule { a_m, b_m, radius_m: 0.05 }, 0.01, &mut contacts);
+    geometry.contacts(&HullProbe::Capsule { a_m, b_m, radius_m: 0.05 }, 0.01, &mut contacts);
     assert_eq!(contacts.len(), 2, "{contacts:?}");
     for (contact, end) in contacts.iter().zip([a_m, b_m]) {
         assert!(contact.gap_m.abs() < ROUNDING_M && (contact.normal - Vec3::new(0.0, 0.0, 1.0)).norm() < ROUNDING_M);
@@ -183,7 +183,7 @@ fn prop_nothing_stands_within_the_free_radius() {
             let q = p + Vec3::new(random.normal(), random.normal(), random.normal()).unit() * free * random.range(0.0, 0.999);
             let mut contacts = Vec::new();
             if free > 0.0 {
-                geometry.contacts(&Probe::Ball { centre_m: q, radius_m: 0.0 }, 0.0, &mut contacts);
+                geometry.contacts(&HullProbe::Ball { centre_m: q, radius_m: 0.0 }, 0.0, &mut contacts);
             }
             assert_eq!(contacts, [], "{p:?} is free for {free} m but not at {q:?}");
         }
@@ -387,7 +387,7 @@ fn prop_a_capsule_over_the_ground_touches_it_where_it_is_nearest() {
             continue;
         }
         let mut contacts: Vec<Contact> = Vec::new();
-        geometry.contacts(&Probe::Capsule { a_m, b_m, radius_m }, 0.2, &mut contacts);
+        geometry.contacts(&HullProbe::Capsule { a_m, b_m, radius_m }, 0.2, &mut contacts);
         let gaps = contacts.iter().filter(|c| c.surface == Surface::Terrain).map(|c| c.gap_m);
         let deepest = gaps.fold(f64::INFINITY, f64::min);
         if tried < 0.2 - COARSE_M {

@@ -2,10 +2,10 @@
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::random::RandomStream;
-use spandrel_model::scenario::bridges::Field;
+use spandrel_model::scenario::bridges::BridgeField;
 use spandrel_model::scenario::bridges::arch::Arch;
 use spandrel_model::scenario::bridges::suspension::Suspension;
-use spandrel_model::scenario::{Defects, Scenario, Terrain};
+use spandrel_model::scenario::{DefectSpec, Scenario, TerrainSpec};
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 use spandrel_model::toml::Problems;
@@ -122,8 +122,8 @@ fn quick(scenario: Scenario) -> Scenario {
     let spacing_m = scenario.terrain.spacing_m.max(scenario.terrain.size_m / 25.0);
     let count = scenario.defects.count.min(1);
     Scenario {
-        terrain: Terrain { spacing_m, ..scenario.terrain.clone() },
-        defects: Defects { count, ..scenario.defects.clone() },
+        terrain: TerrainSpec { spacing_m, ..scenario.terrain.clone() },
+        defects: DefectSpec { count, ..scenario.defects.clone() },
         ..scenario
     }
 }
@@ -197,12 +197,12 @@ fn bridge_text(kind: &str, values: &[(&str, f64)]) -> String {
 }
 
 /// Every number at either end of its range, then many drawn together (whole where the code asks for it).
-fn number_sets(fields: &'static [Field]) -> Vec<Vec<(&'static str, f64)>> {
+fn number_sets(fields: &'static [BridgeField]) -> Vec<Vec<(&'static str, f64)>> {
     let mut random = RandomStream::new(2, "prop.bridges");
     let mut sets: Vec<Vec<(&str, f64)>> = fields.iter().flat_map(|f| [vec![(f.key, f.min)], vec![(f.key, f.max)]]).collect();
     for _ in 0..BRIDGES {
         // A cubed draw stays near the default often enough that a good share of the sets fits together.
-        let mut near = |f: &Field| {
+        let mut near = |f: &BridgeField| {
             let draw = random.range(-1.0, 1.0);
             let towards = if draw < 0.0 { f.min } else { f.max };
             let value = f.default + (towards - f.default) * (draw * draw * draw).abs();
@@ -225,7 +225,7 @@ fn closed(scenario: &Scenario) {
     }
 }
 
-fn any_bridge_builds(kind: &str, fields: &'static [Field]) {
+fn any_bridge_builds(kind: &str, fields: &'static [BridgeField]) {
     let mut accepted = 0;
     let sets = number_sets(fields);
     for values in &sets {

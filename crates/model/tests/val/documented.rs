@@ -1,11 +1,11 @@
 //! The READMEs beside the files document exactly the keys, ranges and defaults that the code asks for.
 
 use crate::shipped::files;
-use spandrel_model::toml::Asked;
+use spandrel_model::toml::DocumentedKey;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-type Keys = BTreeMap<String, Asked>;
+type Keys = BTreeMap<String, DocumentedKey>;
 
 /// Reaches the branches that no shipped scenario takes. It need not be a legal job: keys are recorded before values are judged.
 const OTHER_BRANCHES: [&str; 3] = [
@@ -41,13 +41,13 @@ fn vehicle_keys() -> Keys {
 const HEADER: &str = "| key | allowed | default | meaning |";
 
 /// Rows of every table of keys.
-fn documented(readme: &str) -> Vec<(String, Asked, String)> {
+fn documented(readme: &str) -> Vec<(String, DocumentedKey, String)> {
     let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(readme);
     let text = std::fs::read_to_string(path).unwrap();
     let row = |line: &str| {
         let cells: Vec<&str> = line.strip_prefix("| `")?.strip_suffix(" |")?.splitn(4, " | ").collect();
         let [key, allowed, default, meaning] = cells[..] else { panic!("{readme}: not four columns: {line}") };
-        let asked = Asked { allowed: allowed.into(), default: default.into() };
+        let asked = DocumentedKey { allowed: allowed.into(), default: default.into() };
         Some((key.trim_end_matches('`').to_string(), asked, meaning.to_string()))
     };
     let tables = text.split(HEADER).skip(1).flat_map(|rest| rest.lines().skip(1).take_while(|line| !line.is_empty()));

@@ -31,7 +31,7 @@ pub fn vehicle(path: &Path) -> Vehicle {
 fn val_every_shipped_aircraft_reads_and_covers_the_reference_camera() {
     for path in files("vehicle-params") {
         let vehicle = vehicle(&path);
-        let short = spandrel_model::site::defects::short_of_reference(&vehicle.camera, &vehicle.lamp);
+        let short = spandrel_model::site::defects::reference_shortfalls(&vehicle.camera, &vehicle.lamp);
         assert!(short.is_empty(), "{}: {short:?}", path.display());
     }
 }
@@ -55,7 +55,7 @@ fn val_every_shipped_path_is_flyable_with_the_default_aircraft() {
         let scenario = scenario(&path);
         let site = Site::build(
             &Scenario {
-                traffic: spandrel_model::scenario::Traffic { cars: 0, trucks: 0, pedestrians: 0, ..scenario.traffic.clone() },
+                traffic: spandrel_model::scenario::TrafficSpec { cars: 0, trucks: 0, pedestrians: 0, ..scenario.traffic.clone() },
                 ..scenario.clone()
             },
             7,
@@ -111,7 +111,7 @@ const NEEDED_LX: f64 = 122.5;
 fn val_in_the_papers_job_it_takes_the_lamp_between_deck_and_arch_and_nowhere_else() {
     let scenario = scenario(&Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("scenarios/two-bridges.toml"));
     let phantom = vehicle(&Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("vehicle-params/phantom2.toml"));
-    assert!((spandrel_model::site::look::needed_lux(&phantom.camera) - NEEDED_LX).abs() < 0.1);
+    assert!((spandrel_model::site::visibility::needed_lux(&phantom.camera) - NEEDED_LX).abs() < 0.1);
     let (mut dark, mut inside) = (0, 0);
     for seed in 1..=10 {
         let site = Site::build(&scenario, seed);

@@ -90,7 +90,7 @@ pub const COLUMNS: &[Column] = &[
         "",
         "Most severe contact since the frame before: none, bridge, terrain, water, vehicle, person or other. Touch-down and \
          take-off at home count as none.",
-        Read::Word(|r| r.frame.contact.word()),
+        Read::Word(|r| r.frame.contact.label()),
     ),
     column(
         "missing",

@@ -1,9 +1,9 @@
 //! A frame with what stands beside it in the export: attitude, gimbal, task, path, wind and estimate.
 
 use crate::assessment::{AssessError, check_identity, scored_epoch};
-use crate::measures::on_path::{OnPath, Paths};
+use crate::measures::on_path::{OnPath, ReferencePaths};
 use crate::session::Session;
-use spandrel_mavlink::telemetry::log_stream::Log;
+use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
 use spandrel_mavlink::telemetry::{Flight, Frame, Navigation, NavigationReader, Timeline};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::geodesy::LocalPlane;
@@ -47,11 +47,15 @@ pub struct FrameRow {
 ///
 /// # Errors
 /// When the log cannot be read, is of another scenario or seed, or holds no session.
-pub fn frame_rows(log: &(impl Log + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> Result<Vec<FrameRow>, AssessError> {
+pub fn frame_rows(
+    log: &(impl TelemetryLog + ?Sized),
+    scenario: &Scenario,
+    vehicle: &Vehicle,
+) -> Result<Vec<FrameRow>, AssessError> {
     let plane = LocalPlane::new(scenario.origin);
     let mut timeline = Timeline::new(plane.clone());
     let mut navigation = NavigationReader::new(plane);
-    log.each(&mut |record| {
+    log.for_each_record(&mut |record| {
         timeline.push(record.frame);
         navigation.take(record.frame, &timeline);
         ControlFlow::Continue(())
@@ -61,7 +65,7 @@ pub fn frame_rows(log: &(impl Log + ?Sized), scenario: &Scenario, vehicle: &Vehi
         return Err(AssessError::NoTruth);
     }
     check_identity(&flight, scenario, None)?;
-    let session = Session::cut(&flight, scenario, vehicle).ok_or(AssessError::NeverFlown)?;
+    let session = Session::truncate(&flight, scenario, vehicle).ok_or(AssessError::NeverFlown)?;
     Ok(rows(session.frames, &flight, &navigation.of(epoch), scenario))
 }
 
@@ -69,7 +73,7 @@ pub fn frame_rows(log: &(impl Log + ?Sized), scenario: &Scenario, vehicle: &Vehi
 #[must_use]
 pub fn rows(frames: Vec<Frame>, flight: &Flight, navigation: &Navigation, scenario: &Scenario) -> Vec<FrameRow> {
     let Some(start) = frames.first().map(|frame| frame.time) else { return Vec::new() };
-    let paths = Paths::new(scenario);
+    let paths = ReferencePaths::new(scenario);
     let on_path = OnPath::measure(&paths, frames.iter().map(|frame| frame.position_m));
     let mut entered: Option<usize> = None;
     let row = |(frame, on): (Frame, &Option<(usize, usize)>)| {

@@ -1,12 +1,12 @@
 //! Battery: green, yellow, red. A text only when the colour gets worse.
 
-use super::{Moment, Text};
+use super::{FeedbackInput, PilotText};
 use spandrel_mavlink::contract::cue;
-use spandrel_model::scenario::Feedback;
+use spandrel_model::scenario::FeedbackThresholds;
 
 /// Colour of the display.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub enum Colour {
+pub enum BatteryColor {
     /// From `battery_green_pct`.
     #[default]
     Green,
@@ -18,34 +18,35 @@ pub enum Colour {
 
 /// Colour of a charge, %.
 #[must_use]
-pub fn colour(battery_pct: f64, limits: &Feedback) -> Colour {
+pub fn color(battery_pct: f64, limits: &FeedbackThresholds) -> BatteryColor {
     if battery_pct >= limits.battery_green_pct {
-        Colour::Green
+        BatteryColor::Green
     } else if battery_pct >= limits.battery_yellow_pct {
-        Colour::Yellow
+        BatteryColor::Yellow
     } else {
-        Colour::Red
+        BatteryColor::Red
     }
 }
 
 /// The rule. It never goes back to a better colour within a session: batteries do not charge in the air.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Battery {
-    worst: Colour,
+pub struct BatteryCue {
+    worst: BatteryColor,
 }
 
-impl Battery {
+impl BatteryCue {
     /// Cue and text at one instant.
-    pub fn see(&mut self, moment: &Moment, limits: &Feedback) -> (i32, Option<Text>) {
-        let now = moment.battery_pct.map_or(Colour::Green, |pct| colour(pct, limits));
+    pub fn update(&mut self, moment: &FeedbackInput, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
+        let now = moment.battery_pct.map_or(BatteryColor::Green, |pct| color(pct, limits));
         let worse = now > self.worst;
         self.worst = self.worst.max(now);
         let bit = match self.worst {
-            Colour::Green => 0,
-            Colour::Yellow => cue::BATTERY_YELLOW,
-            Colour::Red => cue::BATTERY_RED,
+            BatteryColor::Green => 0,
+            BatteryColor::Yellow => cue::BATTERY_YELLOW,
+            BatteryColor::Red => cue::BATTERY_RED,
         };
-        let text = worse.then(|| Text { cue: bit, words: format!("Battery {:.0} %", moment.battery_pct.unwrap_or_default()) });
+        let text =
+            worse.then(|| PilotText { cue: bit, text: format!("Battery {:.0} %", moment.battery_pct.unwrap_or_default()) });
         (bit, text)
     }
 }

@@ -1,4 +1,4 @@
-//! In-task feedback: one rule per file, all fed with the same [`Moment`], each answering whether its cue is on and what to say when
+//! In-task feedback: one rule per file, all fed with the same [`FeedbackInput`], each answering whether its cue is on and what to say when
 //! that begins. Thresholds come from the scenario. Everything runs on simulation time.
 
 pub mod battery;
@@ -9,13 +9,13 @@ pub mod speeding;
 pub mod texts;
 pub mod too_close;
 
-use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::time::SimTime;
 
 /// One task as the drone stands to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TaskNow {
+pub struct TaskProximity {
     /// l*, m.
     pub distance_m: f64,
     /// Threshold, m.
@@ -30,7 +30,7 @@ pub struct TaskNow {
 
 /// What the rules see, at one instant.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Moment {
+pub struct FeedbackInput {
     /// Simulation time.
     pub time: SimTime,
     /// Between lift-off and the end.
@@ -44,66 +44,66 @@ pub struct Moment {
     /// Nearest surface, m.
     pub clearance_m: Option<f64>,
     /// Contact after the pad rule.
-    pub contact: Contact,
+    pub contact: ContactKind,
     /// Name of what is touched, if the site knows.
     pub touched: Option<String>,
     /// All tasks.
-    pub tasks: Vec<TaskNow>,
+    pub tasks: Vec<TaskProximity>,
     /// Task whose path the drone is on.
-    pub on: Option<usize>,
+    pub current_task: Option<usize>,
     /// Task entered last.
     pub last: Option<usize>,
 }
 
 /// What to say, and how urgent it is: lower goes first.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Text {
+pub struct PilotText {
     /// Bit of the rule that says it.
     pub cue: i32,
     /// At most 50 bytes.
-    pub words: String,
+    pub text: String,
 }
 
 /// All rules.
 #[derive(Debug, Clone)]
-pub struct Feedback {
+pub struct FeedbackRules {
     speed_limit_m_s: f64,
-    limits: spandrel_model::scenario::Feedback,
-    battery: battery::Battery,
-    speeding: speeding::Speeding,
-    off_path: off_path::OffPath,
-    too_close: too_close::TooClose,
-    crash: crash::Crash,
+    limits: spandrel_model::scenario::FeedbackThresholds,
+    battery: battery::BatteryCue,
+    speeding: speeding::SpeedingCue,
+    off_path: off_path::OffPathCue,
+    too_close: too_close::TooCloseCue,
+    crash: crash::CrashCue,
 }
 
-impl Feedback {
+impl FeedbackRules {
     /// Rules with the scenario's thresholds.
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         Self {
             speed_limit_m_s: scenario.scoring.speed_limit_m_s,
             limits: scenario.feedback.clone(),
-            battery: battery::Battery::default(),
-            speeding: speeding::Speeding::default(),
-            off_path: off_path::OffPath::default(),
-            too_close: too_close::TooClose::default(),
-            crash: crash::Crash::default(),
+            battery: battery::BatteryCue::default(),
+            speeding: speeding::SpeedingCue::default(),
+            off_path: off_path::OffPathCue::default(),
+            too_close: too_close::TooCloseCue::default(),
+            crash: crash::CrashCue::default(),
         }
     }
 
     /// Runs all rules: the mask of cues that are on, and texts in order of urgency.
-    pub fn see(&mut self, moment: &Moment) -> (i32, Vec<Text>) {
+    pub fn update(&mut self, moment: &FeedbackInput) -> (i32, Vec<PilotText>) {
         let mut mask = 0;
         let mut texts = Vec::new();
-        let mut put = |(bits, text): (i32, Option<Text>)| {
+        let mut put = |(bits, text): (i32, Option<PilotText>)| {
             mask |= bits;
             texts.extend(text);
         };
-        put(self.crash.see(moment, &self.limits));
-        put(self.too_close.see(moment, &self.limits));
-        put(self.speeding.see(moment, self.speed_limit_m_s, &self.limits));
-        put(self.off_path.see(moment, &self.limits));
-        put(self.battery.see(moment, &self.limits));
+        put(self.crash.update(moment, &self.limits));
+        put(self.too_close.update(moment, &self.limits));
+        put(self.speeding.update(moment, self.speed_limit_m_s, &self.limits));
+        put(self.off_path.update(moment, &self.limits));
+        put(self.battery.update(moment, &self.limits));
         (mask, texts)
     }
 }
@@ -111,15 +111,21 @@ impl Feedback {
 /// Text of a rule with a cool-down of its own: said when the cue begins, and not again within the interval.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct CoolDown {
-    said: Option<SimTime>,
+    last_sent: Option<SimTime>,
 }
 
 impl CoolDown {
-    pub(super) fn say(&mut self, now: SimTime, interval: SimTime, cue: i32, words: impl FnOnce() -> String) -> Option<Text> {
-        if self.said.is_some_and(|said| now - said < interval) {
+    pub(super) fn cue_text(
+        &mut self,
+        now: SimTime,
+        interval: SimTime,
+        cue: i32,
+        words: impl FnOnce() -> String,
+    ) -> Option<PilotText> {
+        if self.last_sent.is_some_and(|said| now - said < interval) {
             return None;
         }
-        self.said = Some(now);
-        Some(Text { cue, words: words() })
+        self.last_sent = Some(now);
+        Some(PilotText { cue, text: words() })
     }
 }

@@ -1,9 +1,9 @@
 //! Off path: beyond the threshold but still within reach of the task last entered. Who has not entered a task yet, or leaves one by its end
 //! or when it is flown, is between tasks (docs/src/reference/assessment.md, "Feedback during the flight").
 
-use super::{CoolDown, Moment, TaskNow, Text};
+use super::{CoolDown, FeedbackInput, PilotText, TaskProximity};
 use spandrel_mavlink::contract::cue;
-use spandrel_model::scenario::Feedback;
+use spandrel_model::scenario::FeedbackThresholds;
 use spandrel_model::time::SimTime;
 
 /// Leaving counts as done after this much time of moving away (docs/src/reference/assessment.md, "Feedback during the flight").
@@ -14,9 +14,9 @@ const CHANGE_WITHIN: SimTime = SimTime::from_ms(600);
 
 /// The rule: shows after the state has lasted, and is held for a while.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct OffPath {
+pub struct OffPathCue {
     since: Option<SimTime>,
-    shown: Option<SimTime>,
+    shown_since: Option<SimTime>,
     cool_down: CoolDown,
     transit: Transit,
 }
@@ -34,7 +34,7 @@ struct Transit {
 
 impl Transit {
     /// Whether the drone leaves the task or has left it.
-    fn see(&mut self, now: SimTime, task: &TaskNow) -> bool {
+    fn update(&mut self, now: SimTime, task: &TaskProximity) -> bool {
         let kept = self.change.filter(|(id, ..)| *id == task.id);
         if kept.is_none() || task.distance_m <= task.threshold_m {
             *self = Self::default();
@@ -55,37 +55,37 @@ impl Transit {
     }
 }
 
-impl OffPath {
+impl OffPathCue {
     /// Cue and text at one instant.
-    pub fn see(&mut self, moment: &Moment, limits: &Feedback) -> (i32, Option<Text>) {
+    pub fn update(&mut self, moment: &FeedbackInput, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let now = moment.time;
         if !moment.in_session {
             *self = Self { cool_down: self.cool_down, ..Self::default() };
             return (0, None);
         }
-        let off = self.off(moment, limits.off_path_max_m);
+        let off = self.off_path_distance(moment, limits.off_path_max_m);
         self.since = off.and(self.since.or(Some(now)));
         let due = self.since.is_some_and(|since| now - since >= limits.off_path_after);
         let mut text = None;
         if due && let Some((id, distance_m)) = off {
-            if self.shown.is_none() {
-                self.shown = Some(now);
+            if self.shown_since.is_none() {
+                self.shown_since = Some(now);
             }
             let words = || format!("Off path of task {id}: {distance_m:.1} m away");
-            text = self.cool_down.say(now, limits.text_interval, cue::OFF_PATH, words);
+            text = self.cool_down.cue_text(now, limits.text_interval, cue::OFF_PATH, words);
         }
-        let held = self.shown.is_some_and(|shown| now - shown < limits.off_path_hold);
+        let held = self.shown_since.is_some_and(|shown| now - shown < limits.off_path_hold);
         if !due && !held {
-            self.shown = None;
+            self.shown_since = None;
         }
-        (if self.shown.is_some() { cue::OFF_PATH } else { 0 }, text)
+        (if self.shown_since.is_some() { cue::OFF_PATH } else { 0 }, text)
     }
 
     /// Task and distance when off path.
-    fn off(&mut self, moment: &Moment, reach_m: f64) -> Option<(u32, f64)> {
+    fn off_path_distance(&mut self, moment: &FeedbackInput, reach_m: f64) -> Option<(u32, f64)> {
         let task = &moment.tasks[moment.last?];
-        let between = self.transit.see(moment.time, task);
-        let off = moment.on.is_none() && task.distance_m > task.threshold_m && task.distance_m <= reach_m;
+        let between = self.transit.update(moment.time, task);
+        let off = moment.current_task.is_none() && task.distance_m > task.threshold_m && task.distance_m <= reach_m;
         (off && !between).then_some((task.id, task.distance_m))
     }
 }

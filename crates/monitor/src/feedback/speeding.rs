@@ -1,35 +1,35 @@
 //! Speeding: over the limit while on any path, or near the one last entered. (The score knows a window's end, this cannot.)
 
-use super::{CoolDown, Moment, Text};
+use super::{CoolDown, FeedbackInput, PilotText};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::math::M_S_PER_MPH;
-use spandrel_model::numbers::{beside_limit, limit};
-use spandrel_model::scenario::Feedback;
+use spandrel_model::numbers::{format_beside_limit, limit};
+use spandrel_model::scenario::FeedbackThresholds;
 
 /// The rule. It clears only after the speed was at or under the limit for `CLEAR_MS`, so that it does not chatter.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Speeding {
-    over: Option<spandrel_model::time::SimTime>,
+pub struct SpeedingCue {
+    over_limit_since: Option<spandrel_model::time::SimTime>,
     cool_down: CoolDown,
 }
 
 /// Longest time that the cue outlives the speeding, ms (estimate: half a second is read as "now").
 const CLEAR_MS: i64 = 500;
 
-impl Speeding {
+impl SpeedingCue {
     /// Cue and text at one instant.
-    pub fn see(&mut self, moment: &Moment, limit_m_s: f64, limits: &Feedback) -> (i32, Option<Text>) {
+    pub fn update(&mut self, moment: &FeedbackInput, limit_m_s: f64, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let near_last = moment.last.is_some_and(|task| moment.tasks[task].distance_m <= limits.off_path_max_m);
-        let speeding = moment.in_session && moment.speed_m_s > limit_m_s && (moment.on.is_some() || near_last);
+        let speeding = moment.in_session && moment.speed_m_s > limit_m_s && (moment.current_task.is_some() || near_last);
         if speeding {
-            self.over = Some(moment.time);
+            self.over_limit_since = Some(moment.time);
             let words = || {
                 let (speed_mph, limit_mph) = (moment.speed_m_s / M_S_PER_MPH, limit_m_s / M_S_PER_MPH);
-                format!("Too fast: {} mph, limit {} mph", beside_limit(speed_mph, limit_mph, 0), limit(limit_mph))
+                format!("Too fast: {} mph, limit {} mph", format_beside_limit(speed_mph, limit_mph, 0), limit(limit_mph))
             };
-            return (cue::SPEEDING, self.cool_down.say(moment.time, limits.text_interval, cue::SPEEDING, words));
+            return (cue::SPEEDING, self.cool_down.cue_text(moment.time, limits.text_interval, cue::SPEEDING, words));
         }
-        let fresh = self.over.is_some_and(|over| (moment.time - over).ms() < CLEAR_MS);
+        let fresh = self.over_limit_since.is_some_and(|over| (moment.time - over).ms() < CLEAR_MS);
         (if fresh && moment.in_session { cue::SPEEDING } else { 0 }, None)
     }
 }

@@ -1,6 +1,6 @@
 //! The way of texts to the wire: one at a time, a crash before all else, nothing stale.
 
-use super::Text;
+use super::PilotText;
 use spandrel_mavlink::contract::cue;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
@@ -15,14 +15,14 @@ const WAITING: usize = 4;
 
 /// Texts that wait.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Texts {
-    waiting: VecDeque<(SimTime, Text)>,
+pub struct TextQueue {
+    waiting: VecDeque<(SimTime, PilotText)>,
     last: Option<SimTime>,
 }
 
-impl Texts {
+impl TextQueue {
     /// Takes texts in order of urgency; a newer one of the same rule replaces the older.
-    pub fn put(&mut self, now: SimTime, texts: Vec<Text>) {
+    pub fn put(&mut self, now: SimTime, texts: Vec<PilotText>) {
         for text in texts {
             self.waiting.retain(|(_, waiting)| waiting.cue != text.cue);
             if text.cue == cue::CRASH {
@@ -35,7 +35,7 @@ impl Texts {
     }
 
     /// The next text that is due.
-    pub fn next(&mut self, now: SimTime) -> Option<Text> {
+    pub fn next(&mut self, now: SimTime) -> Option<PilotText> {
         self.waiting.retain(|(put, _)| now - *put < STALE);
         let crash = self.waiting.front()?.1.cue == cue::CRASH;
         if !crash && self.last.is_some_and(|last| now - last < APART) {

@@ -1,27 +1,27 @@
 //! Too close: anything nearer to the drone's centre than the limit, with a gap between on and off.
 
-use super::{CoolDown, Moment, Text};
+use super::{CoolDown, FeedbackInput, PilotText};
 use spandrel_mavlink::contract::cue;
-use spandrel_model::numbers::beside_limit;
-use spandrel_model::scenario::Feedback;
+use spandrel_model::numbers::format_beside_limit;
+use spandrel_model::scenario::FeedbackThresholds;
 
 /// The rule.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct TooClose {
+pub struct TooCloseCue {
     on: bool,
     cool_down: CoolDown,
 }
 
-impl TooClose {
+impl TooCloseCue {
     /// Cue and text at one instant.
-    pub fn see(&mut self, moment: &Moment, limits: &Feedback) -> (i32, Option<Text>) {
+    pub fn update(&mut self, moment: &FeedbackInput, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let Some(clearance) = moment.clearance_m.filter(|_| moment.in_session && moment.airborne) else {
             self.on = false;
             return (0, None);
         };
         // A task's own limit holds on its path, and near it while no path is flown: who enters or leaves a cramped place is not warned.
         let near = moment.tasks.iter().filter(|task| task.distance_m <= limits.off_path_max_m);
-        let own = match moment.on {
+        let own = match moment.current_task {
             Some(task) => moment.tasks[task].too_close_m,
             None => near.filter_map(|task| task.too_close_m).reduce(f64::min),
         };
@@ -29,8 +29,8 @@ impl TooClose {
         let clear = limit + (limits.too_close_clear_m - limits.too_close_m);
         let began = !self.on && clearance < limit;
         self.on = if self.on { clearance < clear } else { began };
-        let words = || format!("Too close: {} m", beside_limit(clearance, limit, 1));
-        let text = began.then(|| self.cool_down.say(moment.time, limits.text_interval, cue::TOO_CLOSE, words)).flatten();
+        let words = || format!("Too close: {} m", format_beside_limit(clearance, limit, 1));
+        let text = began.then(|| self.cool_down.cue_text(moment.time, limits.text_interval, cue::TOO_CLOSE, words)).flatten();
         (if self.on { cue::TOO_CLOSE } else { 0 }, text)
     }
 }

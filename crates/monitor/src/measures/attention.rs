@@ -4,7 +4,7 @@ use serde::Serialize;
 use spandrel_mavlink::telemetry::{Flight, Frame};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::PlacedDefect;
-use spandrel_model::site::gates::Gates;
+use spandrel_model::site::bridge_closures::BridgeClosures;
 use spandrel_model::site::{CameraPose, DefectView, Site};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Lamp, Vehicle};
@@ -12,44 +12,44 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// What the scorer asks of the site; the site itself answers, and tests answer with what they have built.
-pub trait Survey: std::fmt::Debug + Send + Sync {
+pub trait SiteSurvey: std::fmt::Debug + Send + Sync {
     /// The session's defects.
     fn defects(&self) -> &[PlacedDefect];
     /// How each defect within reach shows in a picture.
-    fn look(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: SimTime) -> Vec<DefectView>;
+    fn view_defects(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: SimTime) -> Vec<DefectView>;
     /// Name of the nearest thing within `max_m`, for messages.
     fn name_near(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<String>;
     /// The same where traffic was stopped and let go so; `None` where none moves.
-    fn with_gates(&self, _: Gates) -> Option<Arc<dyn Survey>> {
+    fn with_closures(&self, _: BridgeClosures) -> Option<Arc<dyn SiteSurvey>> {
         None
     }
 }
 
 /// A survey that knows when traffic was stopped and let go in a flight.
 #[must_use]
-pub fn gated(survey: Arc<dyn Survey>, flight: &Flight) -> Arc<dyn Survey> {
+pub fn with_traffic_at(survey: Arc<dyn SiteSurvey>, flight: &Flight) -> Arc<dyn SiteSurvey> {
     let gates = gates(flight);
-    if gates.are_untouched() { survey } else { survey.with_gates(gates).unwrap_or(survey) }
+    if gates.is_empty() { survey } else { survey.with_closures(gates).unwrap_or(survey) }
 }
 
 /// When traffic was stopped and let go in a flight.
 #[must_use]
-pub fn gates(flight: &Flight) -> Gates {
-    Gates::from_codes(flight.traffic.all().iter().map(|said| said.2))
+pub fn gates(flight: &Flight) -> BridgeClosures {
+    BridgeClosures::from_codes(flight.traffic.all().iter().map(|said| said.2))
 }
 
-impl Survey for Site {
+impl SiteSurvey for Site {
     fn defects(&self) -> &[PlacedDefect] {
         Self::defects(self)
     }
-    fn look(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: SimTime) -> Vec<DefectView> {
-        Self::look(self, pose, camera, lamp, at)
+    fn view_defects(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: SimTime) -> Vec<DefectView> {
+        Self::view_defects(self, pose, camera, lamp, at)
     }
     fn name_near(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<String> {
         self.nearest(position_m, max_m, at).map(|nearest| self.object_name(nearest.object))
     }
-    fn with_gates(&self, gates: Gates) -> Option<Arc<dyn Survey>> {
-        Some(Arc::new(Self::with_gates(self, gates)))
+    fn with_closures(&self, gates: BridgeClosures) -> Option<Arc<dyn SiteSurvey>> {
+        Some(Arc::new(Self::with_closures(self, gates)))
     }
 }
 
@@ -68,12 +68,12 @@ pub struct Snapshot {
     /// Defects that it is the first to show.
     pub found: Vec<u32>,
     /// What it was pointed at and how that failed or not.
-    pub views: Vec<View>,
+    pub views: Vec<DefectSighting>,
 }
 
 /// One defect in one picture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct View {
+pub struct DefectSighting {
     /// Defect.
     pub defect: u32,
     /// All conditions hold.
@@ -84,13 +84,13 @@ pub struct View {
 
 /// Judges every picture taken in `frames`. A frame holds one press at most: pictures of one frame are one press.
 #[must_use]
-pub fn snapshots(flight: &Flight, frames: &[Frame], vehicle: &Vehicle, survey: &dyn Survey) -> Vec<Snapshot> {
+pub fn snapshots(flight: &Flight, frames: &[Frame], vehicle: &Vehicle, survey: &dyn SiteSurvey) -> Vec<Snapshot> {
     let Some(first) = frames.first() else { return Vec::new() };
     let mut hit_before = BTreeSet::new();
     let mut judged = Vec::new();
     for (i, frame) in frames.iter().enumerate().filter(|(_, frame)| frame.snapshot) {
         let since = i.checked_sub(1).map_or(SimTime::from_ns(frame.time.ns() - 1), |k| frames[k].time);
-        let views: Vec<View> = flight
+        let views: Vec<DefectSighting> = flight
             .snapshots
             .between(since, frame.time)
             .iter()
@@ -104,9 +104,9 @@ pub fn snapshots(flight: &Flight, frames: &[Frame], vehicle: &Vehicle, survey: &
     judged
 }
 
-fn views(flight: &Flight, time: SimTime, vehicle: &Vehicle, survey: &dyn Survey) -> Vec<View> {
+fn views(flight: &Flight, time: SimTime, vehicle: &Vehicle, survey: &dyn SiteSurvey) -> Vec<DefectSighting> {
     let Some(pose) = pose(flight, time, vehicle) else { return Vec::new() };
-    let looks = survey.look(&pose, &camera(flight, time, &vehicle.camera), &vehicle.lamp, time);
+    let looks = survey.view_defects(&pose, &camera(flight, time, &vehicle.camera), &vehicle.lamp, time);
     looks.iter().filter(|look| look.in_frame || look.hit).map(view).collect()
 }
 
@@ -128,6 +128,6 @@ pub fn pose(flight: &Flight, time: SimTime, vehicle: &Vehicle) -> Option<CameraP
     Some(CameraPose::on(&vehicle.camera, (state.position_m, state.ned_from_frd), gimbal_rad, lamp_on))
 }
 
-fn view(look: &DefectView) -> View {
-    View { defect: look.defect_id, shown: look.hit, fails: look.reasons() }
+fn view(look: &DefectView) -> DefectSighting {
+    DefectSighting { defect: look.defect_id, shown: look.hit, fails: look.reasons() }
 }

@@ -1,6 +1,6 @@
 //! How much of each task's reference path was flown, by length: the one measure of coverage.
 
-use super::on_path::{OnPath, Path, Paths};
+use super::on_path::{OnPath, ReferencePath, ReferencePaths};
 
 /// Between two frames in a row, the path between their nearest points counts as flown up to this length, m (estimate: frames are at most
 /// 1.4 m apart at 13.4 m/s and 10 Hz; the nearest point jumps farther where the drone cuts a corner within the threshold).
@@ -17,11 +17,11 @@ pub struct PathCoverage {
 
 /// Coverage of every path, in the order of the tasks.
 #[must_use]
-pub fn coverage(paths: &Paths, on_path: &OnPath) -> Vec<PathCoverage> {
+pub fn coverage(paths: &ReferencePaths, on_path: &OnPath) -> Vec<PathCoverage> {
     (0..paths.len()).map(|task| of_task(paths.path(task), paths.threshold_m(task), task, on_path)).collect()
 }
 
-fn of_task(path: &Path, threshold_m: f64, task: usize, on_path: &OnPath) -> PathCoverage {
+fn of_task(path: &ReferencePath, threshold_m: f64, task: usize, on_path: &OnPath) -> PathCoverage {
     let mut flown = FlownPath::new(path, threshold_m);
     for on in &on_path.task {
         flown.note(on.and_then(|(t, point)| (t == task).then_some(point)));
@@ -45,7 +45,7 @@ pub struct FlownPath {
 impl FlownPath {
     /// Starts with no part of the path flown.
     #[must_use]
-    pub fn new(path: &Path, threshold_m: f64) -> Self {
+    pub fn new(path: &ReferencePath, threshold_m: f64) -> Self {
         let covered = vec![false; path.points_m().len()];
         Self { along_m: path.along_m(), weights_m: path.lengths_by_point_m(), threshold_m, covered, before: None }
     }

@@ -1,7 +1,7 @@
 //! Crash analysis: the pad rule, lost contacts, onsets, and which task a crash belongs to.
 
 use super::on_path::OnPath;
-use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::telemetry::{Flight, Frame};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::GroundTeam;
@@ -21,7 +21,7 @@ pub struct Crash {
     /// Index of the last frame of the same contact.
     pub last: usize,
     /// What was hit.
-    pub with: Contact,
+    pub with: ContactKind,
     /// Fastest speed around the onset, m/s.
     pub speed_m_s: f64,
     /// Task in whose window it lies.
@@ -30,22 +30,22 @@ pub struct Crash {
 
 /// Fills in contacts whose messages were lost, then clears touch-downs and lift-offs on the pad. Touches frames' `contact` only.
 pub fn settle_contacts(frames: &mut [Frame], flight: &Flight, team: &GroundTeam) {
-    for time in flight.unreported_hits() {
+    for time in flight.missed_contacts() {
         let i = frames.partition_point(|frame| frame.time < time);
-        let free = |k: usize| frames.get(k).is_none_or(|frame| frame.contact == Contact::None);
+        let free = |k: usize| frames.get(k).is_none_or(|frame| frame.contact == ContactKind::None);
         if i < frames.len() && !frames[i].missing && free(i) && (i == 0 || free(i - 1)) && free(i + 1) {
-            frames[i].contact = Contact::Other;
+            frames[i].contact = ContactKind::Other;
         }
     }
     let mut run: Option<bool> = None;
     for i in 0..frames.len() {
-        if !matches!(frames[i].contact, Contact::Terrain | Contact::Other) {
+        if !matches!(frames[i].contact, ContactKind::Terrain | ContactKind::Other) {
             run = None;
             continue;
         }
         let soft = *run.get_or_insert_with(|| is_soft_touch(frames, i, team));
         if soft && (frames[i].position_m - team.pad_m).horizontal_norm() <= team.home_radius_m {
-            frames[i].contact = Contact::None;
+            frames[i].contact = ContactKind::None;
         }
     }
 }
@@ -66,14 +66,14 @@ pub fn may_touch_pad(position_m: Vec3<Enu>, vertical_m_s: f64, team: &GroundTeam
 #[must_use]
 pub fn crashes(frames: &[Frame], on_path: &OnPath) -> Vec<Crash> {
     let mut found: Vec<Crash> = Vec::new();
-    let mut before = Contact::None;
+    let mut before = ContactKind::None;
     for (i, frame) in frames.iter().enumerate() {
-        let worse = matches!(frame.contact, Contact::Person | Contact::Vehicle) && before != frame.contact;
-        if frame.contact != Contact::None && (before == Contact::None || worse) {
+        let worse = matches!(frame.contact, ContactKind::Person | ContactKind::Vehicle) && before != frame.contact;
+        if frame.contact != ContactKind::None && (before == ContactKind::None || worse) {
             let around = &frames[i.saturating_sub(LOOK_BACK_FRAMES)..=i];
             let speed_m_s = around.iter().map(Frame::speed_m_s).fold(0.0, f64::max);
             found.push(Crash { frame: i, last: i, with: frame.contact, speed_m_s, task: task_of(i, on_path) });
-        } else if frame.contact != Contact::None
+        } else if frame.contact != ContactKind::None
             && let Some(crash) = found.last_mut()
         {
             crash.last = i;

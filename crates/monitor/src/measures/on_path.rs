@@ -10,7 +10,7 @@ const BOX_SLACK: f64 = 1.0 + 1e-9;
 
 /// A reference path, ready for nearest-point queries.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Path {
+pub struct ReferencePath {
     points_m: Vec<Vec3<Enu>>,
     closed: bool,
     blocks: Vec<Aabb>,
@@ -41,14 +41,14 @@ impl Aabb {
 
 /// The nearest place of a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Nearest {
+pub struct NearestOnPath {
     /// n*: index of the nearest reference point; in `exact` mode of the nearest segment's first point.
     pub point: usize,
     /// l*, m.
     pub distance_m: f64,
 }
 
-impl Path {
+impl ReferencePath {
     /// A path of at least one point.
     #[must_use]
     pub fn new(points_m: &[Vec3<Enu>], closed: bool) -> Self {
@@ -66,30 +66,30 @@ impl Path {
 
     /// The paper's rule: the nearest reference point (lowest index on ties), then the segments that touch it.
     #[must_use]
-    pub fn paper(&self, position_m: Vec3<Enu>) -> Option<Nearest> {
+    pub fn paper(&self, position_m: Vec3<Enu>) -> Option<NearestOnPath> {
         let point = self.search(position_m, |k| (position_m - self.points_m[k]).norm_squared())?;
         let count = self.points_m.len();
         let before = if point > 0 { Some(point - 1) } else { self.closed.then_some(count - 1) };
         let segments = [before, Some(point)].into_iter().flatten().filter_map(|k| self.segment(k));
         let own = (position_m - self.points_m[point]).norm_squared();
         let squared = segments.map(|(a, b)| to_segment_squared(position_m, a, b)).fold(own, f64::min);
-        Some(Nearest { point, distance_m: squared.sqrt() })
+        Some(NearestOnPath { point, distance_m: squared.sqrt() })
     }
 
     /// The distance to the whole polyline.
     #[must_use]
-    pub fn exact(&self, position_m: Vec3<Enu>) -> Option<Nearest> {
+    pub fn exact(&self, position_m: Vec3<Enu>) -> Option<NearestOnPath> {
         let to_segment = |k: usize| {
             let (a, b) = self.segment(k).unwrap_or((self.points_m[k], self.points_m[k]));
             to_segment_squared(position_m, a, b)
         };
         let point = self.search(position_m, to_segment)?;
-        Some(Nearest { point, distance_m: to_segment(point).sqrt() })
+        Some(NearestOnPath { point, distance_m: to_segment(point).sqrt() })
     }
 
     /// The nearest place on the whole polyline, m.
     #[must_use]
-    pub fn foot(&self, position_m: Vec3<Enu>) -> Option<Vec3<Enu>> {
+    pub fn closest_on_segment(&self, position_m: Vec3<Enu>) -> Option<Vec3<Enu>> {
         let point = self.exact(position_m)?.point;
         let (a, b) = self.segment(point).unwrap_or((self.points_m[point], self.points_m[point]));
         Some(a.lerp(b, along(position_m, a, b)))
@@ -165,18 +165,18 @@ fn along(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>) -> f64 {
 
 /// The paths of all tasks.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Paths {
-    paths: Vec<Path>,
+pub struct ReferencePaths {
+    paths: Vec<ReferencePath>,
     thresholds_m: Vec<f64>,
     exact: bool,
 }
 
-impl Paths {
+impl ReferencePaths {
     /// From a scenario's tasks.
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         Self {
-            paths: scenario.tasks.iter().map(|task| Path::new(&task.path_m, task.closed)).collect(),
+            paths: scenario.tasks.iter().map(|task| ReferencePath::new(&task.path_m, task.closed)).collect(),
             thresholds_m: scenario.tasks.iter().map(|task| task.threshold_m).collect(),
             exact: scenario.scoring.exact_path,
         }
@@ -196,7 +196,7 @@ impl Paths {
 
     /// Path of a task.
     #[must_use]
-    pub fn path(&self, task: usize) -> &Path {
+    pub fn path(&self, task: usize) -> &ReferencePath {
         &self.paths[task]
     }
 
@@ -208,15 +208,15 @@ impl Paths {
 
     /// l* and n* of a task.
     #[must_use]
-    pub fn nearest(&self, task: usize, position_m: Vec3<Enu>) -> Option<Nearest> {
+    pub fn nearest(&self, task: usize, position_m: Vec3<Enu>) -> Option<NearestOnPath> {
         if self.exact { self.paths[task].exact(position_m) } else { self.paths[task].paper(position_m) }
     }
 
     /// The task whose path the drone is on: of those within their threshold the one with the smallest l*/threshold; a tie keeps
     /// `current`, else the lowest index.
     #[must_use]
-    pub fn on(&self, position_m: Vec3<Enu>, current: Option<usize>) -> Option<(usize, Nearest)> {
-        let mut best: Option<(f64, usize, Nearest)> = None;
+    pub fn on(&self, position_m: Vec3<Enu>, current: Option<usize>) -> Option<(usize, NearestOnPath)> {
+        let mut best: Option<(f64, usize, NearestOnPath)> = None;
         for task in 0..self.len() {
             let threshold = self.thresholds_m[task];
             if self.paths[task].is_beyond(position_m, threshold) {
@@ -240,14 +240,14 @@ impl Paths {
 
 /// First and last on-path frame of a task, as indices from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Window {
+pub struct OnPathWindow {
     /// First.
     pub first: usize,
     /// Last, included.
     pub last: usize,
 }
 
-impl Window {
+impl OnPathWindow {
     /// Frames in it.
     #[must_use]
     pub fn frames(&self) -> usize {
@@ -267,13 +267,13 @@ pub struct OnPath {
     /// Per frame the task and the nearest point of its path.
     pub task: Vec<Option<(usize, usize)>>,
     /// Per task its window; `None` when its path was never entered.
-    pub windows: Vec<Option<Window>>,
+    pub windows: Vec<Option<OnPathWindow>>,
 }
 
 impl OnPath {
     /// Runs over positions in frame order.
-    pub fn measure(paths: &Paths, positions_m: impl Iterator<Item = Vec3<Enu>>) -> Self {
-        let mut windows: Vec<Option<Window>> = vec![None; paths.len()];
+    pub fn measure(paths: &ReferencePaths, positions_m: impl Iterator<Item = Vec3<Enu>>) -> Self {
+        let mut windows: Vec<Option<OnPathWindow>> = vec![None; paths.len()];
         let mut current = None;
         let mut task = Vec::new();
         for (i, position_m) in positions_m.enumerate() {
@@ -281,7 +281,7 @@ impl OnPath {
             if let Some((t, _)) = on {
                 current = Some(t);
                 let first = windows[t].map_or(i, |window| window.first);
-                windows[t] = Some(Window { first, last: i });
+                windows[t] = Some(OnPathWindow { first, last: i });
             }
             task.push(on.map(|(t, nearest)| (t, nearest.point)));
         }
@@ -305,7 +305,7 @@ mod tests {
     #[test]
     fn exact_the_papers_rule_and_the_true_distance_differ_on_a_folded_path() {
         let points = [(0.0, 0.0), (40.0, 0.0), (40.0, 10.0), (20.0, 10.0)].map(|(e, n)| Vec3::new(e, n, 0.0));
-        let path = Path::new(&points, false);
+        let path = ReferencePath::new(&points, false);
         let drone = Vec3::new(20.0, 3.0, 0.0);
         assert_eq!(path.paper(drone).unwrap().distance_m, 7.0);
         assert_eq!(path.exact(drone).unwrap().distance_m, 3.0);
@@ -315,16 +315,16 @@ mod tests {
     fn exact_a_closed_path_wraps_and_an_open_one_does_not() {
         let square = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(|(e, n)| Vec3::new(e, n, 0.0));
         let drone = Vec3::new(0.0, 4.0, 0.0);
-        assert_eq!(Path::new(&square, true).paper(drone).unwrap().distance_m, 0.0);
-        assert_eq!(Path::new(&square, true).exact(drone).unwrap().distance_m, 0.0);
-        assert_eq!(Path::new(&square, false).paper(drone).unwrap().distance_m, 4.0);
-        assert_eq!(Path::new(&square, true).paper(Vec3::new(-1.0, 6.0, 0.0)).unwrap().point, 3);
+        assert_eq!(ReferencePath::new(&square, true).paper(drone).unwrap().distance_m, 0.0);
+        assert_eq!(ReferencePath::new(&square, true).exact(drone).unwrap().distance_m, 0.0);
+        assert_eq!(ReferencePath::new(&square, false).paper(drone).unwrap().distance_m, 4.0);
+        assert_eq!(ReferencePath::new(&square, true).paper(Vec3::new(-1.0, 6.0, 0.0)).unwrap().point, 3);
     }
 
     #[test]
     fn exact_ties_take_the_lowest_point() {
         let line: Vec<Vec3<Enu>> = (0..40).map(|k| Vec3::new(f64::from(k), 0.0, 0.0)).collect();
-        assert_eq!(Path::new(&line, false).paper(Vec3::new(20.5, 1.0, 0.0)).unwrap().point, 20);
+        assert_eq!(ReferencePath::new(&line, false).paper(Vec3::new(20.5, 1.0, 0.0)).unwrap().point, 20);
     }
 
     #[test]
@@ -337,7 +337,7 @@ mod tests {
                     Vec3::new(stream.range(-9.0, 9.0).round(), stream.range(-9.0, 9.0).round(), stream.range(0.0, 3.0).round())
                 })
                 .collect();
-            let path = Path::new(&points, stream.below(2) == 0);
+            let path = ReferencePath::new(&points, stream.below(2) == 0);
             for _ in 0..20 {
                 let p = Vec3::new(stream.range(-12.0, 12.0).round(), stream.range(-12.0, 12.0).round(), stream.range(0.0, 3.0));
                 let least = points.iter().map(|q| (p - *q).norm_squared()).fold(f64::INFINITY, f64::min);
@@ -346,7 +346,7 @@ mod tests {
                 let exact = (0..count).filter_map(|k| path.segment(k)).map(|(a, b)| to_segment_squared(p, a, b));
                 let exact = exact.fold(least, f64::min).sqrt();
                 assert_eq!(path.exact(p).unwrap().distance_m, exact);
-                assert!(((p - path.foot(p).unwrap()).norm() - exact).abs() < 1e-12);
+                assert!(((p - path.closest_on_segment(p).unwrap()).norm() - exact).abs() < 1e-12);
             }
         }
     }

@@ -1,10 +1,10 @@
 //! On-speed analysis (the paper's equation 5 and P_s).
 
-use super::on_path::Window;
+use super::on_path::OnPathWindow;
 
 /// X_s,i: over the limit (strictly) inside the union of the windows.
 #[must_use]
-pub fn speeding(speeds_m_s: &[f64], windows: &[Option<Window>], limit_m_s: f64) -> Vec<bool> {
+pub fn speeding(speeds_m_s: &[f64], windows: &[Option<OnPathWindow>], limit_m_s: f64) -> Vec<bool> {
     let mut inside = vec![false; speeds_m_s.len()];
     for window in windows.iter().flatten() {
         inside[window.first..=window.last].fill(true);
@@ -14,7 +14,7 @@ pub fn speeding(speeds_m_s: &[f64], windows: &[Option<Window>], limit_m_s: f64) 
 
 /// P_s,t: the sum of v/limit over speeding frames, divided by all frames of the window; 0 without a window.
 #[must_use]
-pub fn loss(speeds_m_s: &[f64], speeding: &[bool], window: Option<Window>, limit_m_s: f64) -> f64 {
+pub fn loss(speeds_m_s: &[f64], speeding: &[bool], window: Option<OnPathWindow>, limit_m_s: f64) -> f64 {
     let Some(window) = window else { return 0.0 };
     let range = window.first..=window.last;
     let weights = speeds_m_s[range.clone()].iter().zip(&speeding[range]).filter(|(_, on)| **on).map(|(v, _)| v / limit_m_s);
@@ -29,7 +29,7 @@ mod tests {
     #[test]
     fn exact_the_limit_itself_is_no_speeding_and_all_frames_divide() {
         let speeds = [5.0, 4.0, 8.0, 4.0, 8.0];
-        let windows = [Some(Window { first: 1, last: 4 }), None];
+        let windows = [Some(OnPathWindow { first: 1, last: 4 }), None];
         let speeding = speeding(&speeds, &windows, 4.0);
         assert_eq!(speeding, [false, false, true, false, true]);
         assert_eq!(loss(&speeds, &speeding, windows[0], 4.0), 1.0);
@@ -38,7 +38,7 @@ mod tests {
 
     #[test]
     fn exact_speeding_between_tasks_does_not_count_but_in_any_tasks_window_does() {
-        let windows = [Some(Window { first: 0, last: 0 }), Some(Window { first: 2, last: 2 })];
+        let windows = [Some(OnPathWindow { first: 0, last: 0 }), Some(OnPathWindow { first: 2, last: 2 })];
         assert_eq!(speeding(&[9.0, 9.0, 9.0], &windows, 4.0), [true, false, true]);
     }
 }

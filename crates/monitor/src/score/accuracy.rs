@@ -4,7 +4,7 @@ use super::Score;
 
 /// Counts behind the F-measure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Counts {
+pub struct MatchCounts {
     /// Pictures taken.
     pub taken: usize,
     /// Pictures that show at least one defect for the first time.
@@ -15,7 +15,7 @@ pub struct Counts {
     pub placed: usize,
 }
 
-impl Counts {
+impl MatchCounts {
     /// Hits per picture; 0 without a picture.
     #[must_use]
     pub fn precision(&self) -> f64 {

@@ -4,14 +4,14 @@
 
 use crate::measures::coverage::PathCoverage;
 use crate::measures::crash::{self, Crash};
-use crate::measures::on_path::{OnPath, Paths};
+use crate::measures::on_path::{OnPath, ReferencePaths};
 use crate::score::completion::{Completion, TaskState, missing};
 use crate::score::{Score, accuracy, conformity, efficiency};
 use crate::session::{EndReason, Session};
 use serde::Serialize;
-use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::telemetry::Frame;
-use spandrel_model::numbers::{beside_limit, limit};
+use spandrel_model::numbers::{format_beside_limit, limit};
 use spandrel_model::scenario::{PlacedDefect, Scenario};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -38,7 +38,7 @@ pub struct Certification {
     /// All requirements are met.
     pub passed: bool,
     /// Gates.
-    pub gates: Gates,
+    pub gates: Requirements,
     /// Each requirement that failed, in words, with what was reached and what is needed.
     pub unmet: Vec<String>,
     /// Scores, 0 to 100; conformity is absent when there is no evidence (no path entered), accuracy when no defect was placed.
@@ -61,7 +61,7 @@ pub struct Certification {
 
 /// What must hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct Gates {
+pub struct Requirements {
     /// Every task is done, and the session ended by landing at home.
     pub session_complete: bool,
     /// Every task's path was entered.
@@ -110,7 +110,7 @@ pub struct MergedCrash {
     /// Since lift-off, s.
     pub t_s: f64,
     /// What was hit.
-    pub with: Contact,
+    pub with: ContactKind,
     /// Fastest speed around the onset, m/s.
     pub speed_m_s: f64,
     /// Points lost.
@@ -121,7 +121,7 @@ pub struct MergedCrash {
 
 /// Found and placed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
-pub struct Found {
+pub struct DetectionCounts {
     /// Found.
     pub found: usize,
     /// Placed.
@@ -134,20 +134,20 @@ pub struct Detection {
     /// True: trainees give no labels in this version, so only detection is graded, not the naming of kind or condition state.
     pub detection_only: bool,
     /// By AASHTO MBEI element.
-    pub by_element: BTreeMap<u32, Found>,
+    pub by_element: BTreeMap<u32, DetectionCounts>,
     /// By AASHTO MBEI defect code.
-    pub by_kind: BTreeMap<u32, Found>,
+    pub by_kind: BTreeMap<u32, DetectionCounts>,
     /// By condition state.
-    pub by_condition_state: BTreeMap<u8, Found>,
+    pub by_condition_state: BTreeMap<u8, DetectionCounts>,
 }
 
 /// Everything the profile looks at.
 #[derive(Debug)]
-pub struct Evidence<'a> {
+pub struct CertificationInputs<'a> {
     /// The job.
     pub scenario: &'a Scenario,
     /// Its paths.
-    pub paths: &'a Paths,
+    pub paths: &'a ReferencePaths,
     /// The session.
     pub session: &'a Session,
     /// On-path measure.
@@ -161,7 +161,7 @@ pub struct Evidence<'a> {
     /// Crashes.
     pub crashes: &'a [Crash],
     /// Counts of the pictures.
-    pub counts: accuracy::Counts,
+    pub counts: accuracy::MatchCounts,
     /// Defects placed.
     pub defects: &'a [PlacedDefect],
     /// Defects found.
@@ -170,7 +170,7 @@ pub struct Evidence<'a> {
 
 /// Grades.
 #[must_use]
-pub fn grade(evidence: &Evidence<'_>) -> Certification {
+pub fn grade(evidence: &CertificationInputs<'_>) -> Certification {
     let scenario = evidence.scenario;
     let frames = &evidence.session.frames;
     let tasks = visits(evidence);
@@ -203,10 +203,10 @@ pub fn grade(evidence: &Evidence<'_>) -> Certification {
     }
 }
 
-fn gates(evidence: &Evidence<'_>, all_tasks_attempted: bool, battery_pct: f64) -> Gates {
+fn gates(evidence: &CertificationInputs<'_>, all_tasks_attempted: bool, battery_pct: f64) -> Requirements {
     let landed = evidence.session.reason == EndReason::Landed;
-    let traffic = |crash: &Crash| matches!(crash.with, Contact::Person | Contact::Vehicle);
-    Gates {
+    let traffic = |crash: &Crash| matches!(crash.with, ContactKind::Person | ContactKind::Vehicle);
+    Requirements {
         session_complete: evidence.completion.complete,
         all_tasks_attempted,
         no_person_or_vehicle_hit: !evidence.crashes.iter().any(traffic),
@@ -216,7 +216,7 @@ fn gates(evidence: &Evidence<'_>, all_tasks_attempted: bool, battery_pct: f64) -
 }
 
 /// The requirements that failed. A battery that was not landed with is not one by itself, nor is a skipped task beside its own line.
-fn unmet(evidence: &Evidence<'_>, gates: &Gates, battery_pct: f64) -> Vec<String> {
+fn unmet(evidence: &CertificationInputs<'_>, gates: &Requirements, battery_pct: f64) -> Vec<String> {
     let done_share = evidence.completion.done_share;
     let tasks = evidence.scenario.tasks.iter().zip(evidence.states).zip(evidence.covered);
     let mut unmet = Vec::new();
@@ -227,7 +227,7 @@ fn unmet(evidence: &Evidence<'_>, gates: &Gates, battery_pct: f64) -> Vec<String
     if !gates.landed_at_home {
         unmet.push("not landed at home".to_owned());
     } else if !gates.battery_reserve {
-        let reached = beside_limit(battery_pct, BATTERY_AT_HOME_PCT, 0);
+        let reached = format_beside_limit(battery_pct, BATTERY_AT_HOME_PCT, 0);
         unmet.push(format!("{reached} % battery at landing, {} % needed", limit(BATTERY_AT_HOME_PCT)));
     }
     unmet
@@ -242,7 +242,7 @@ fn flags(scenario: &Scenario, attempted: &[bool], none_entered: bool) -> Vec<Str
     flags
 }
 
-fn paper_efficiency(evidence: &Evidence<'_>) -> f64 {
+fn paper_efficiency(evidence: &CertificationInputs<'_>) -> f64 {
     let scoring = &evidence.scenario.scoring;
     efficiency::score(evidence.session.seconds(scoring.frame_rate_hz), false, scoring.time_best_s, scoring.time_max_s).pct
 }
@@ -259,7 +259,7 @@ fn visit_ranges(on_path: &OnPath, task: usize, apart_frames: f64) -> Vec<(usize,
     ranges
 }
 
-fn visits(evidence: &Evidence<'_>) -> Vec<TaskVisits> {
+fn visits(evidence: &CertificationInputs<'_>) -> Vec<TaskVisits> {
     let scenario = evidence.scenario;
     let apart = VISIT_APART_S * scenario.scoring.frame_rate_hz;
     let limit = scenario.scoring.speed_limit_m_s;
@@ -296,7 +296,7 @@ fn crash_loss(speed_m_s: f64) -> f64 {
     (CRASH_LOSS * (1.0 + ratio * ratio)).min(CRASH_LOSS_MAX)
 }
 
-fn merged(evidence: &Evidence<'_>) -> Vec<MergedCrash> {
+fn merged(evidence: &CertificationInputs<'_>) -> Vec<MergedCrash> {
     let rate = evidence.scenario.scoring.frame_rate_hz;
     crash::merged(evidence.crashes, CRASH_APART_S * rate)
         .iter()
@@ -312,7 +312,7 @@ fn merged(evidence: &Evidence<'_>) -> Vec<MergedCrash> {
 }
 
 /// Frames closer than the scenario's clearance, or than the smaller distance of the task last entered, as the feedback has it.
-fn exposure_s(evidence: &Evidence<'_>) -> f64 {
+fn exposure_s(evidence: &CertificationInputs<'_>) -> f64 {
     let scenario = evidence.scenario;
     let mut current: Option<usize> = None;
     let mut frames = 0usize;
@@ -327,7 +327,7 @@ fn exposure_s(evidence: &Evidence<'_>) -> f64 {
     frames as f64 / scenario.scoring.frame_rate_hz
 }
 
-fn safety(gates: &Gates, crashes: &[MergedCrash], exposure_s: f64) -> f64 {
+fn safety(gates: &Requirements, crashes: &[MergedCrash], exposure_s: f64) -> f64 {
     if !gates.no_person_or_vehicle_hit {
         return 0.0;
     }
@@ -336,7 +336,7 @@ fn safety(gates: &Gates, crashes: &[MergedCrash], exposure_s: f64) -> f64 {
     Score::on_scale(-crashes - closeness, -100.0, 0.0).pct
 }
 
-fn detection(evidence: &Evidence<'_>) -> Detection {
+fn detection(evidence: &CertificationInputs<'_>) -> Detection {
     let mut detection = Detection {
         detection_only: true,
         by_element: BTreeMap::new(),
@@ -345,7 +345,7 @@ fn detection(evidence: &Evidence<'_>) -> Detection {
     };
     for defect in evidence.defects {
         let found = usize::from(evidence.found.contains(&defect.id));
-        let add = |entry: &mut Found| {
+        let add = |entry: &mut DetectionCounts| {
             entry.placed += 1;
             entry.found += found;
         };

@@ -2,7 +2,7 @@
 
 use crate::measures::coverage::PathCoverage;
 use serde::{Deserialize, Serialize};
-use spandrel_model::numbers::{beside_limit, limit};
+use spandrel_model::numbers::{format_beside_limit, limit};
 
 /// How far a task got.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -97,7 +97,7 @@ impl Completion {
 /// A share as a percentage with the digits that show on which side of the limit it lies.
 #[must_use]
 pub fn percent(share: f64, done_share: f64) -> String {
-    beside_limit(100.0 * share, 100.0 * done_share, 0)
+    format_beside_limit(100.0 * share, 100.0 * done_share, 0)
 }
 
 /// A task that is not done, in words; `None` for one that is.

@@ -3,7 +3,7 @@
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::Scenario;
 use spandrel_monitor::measures::coverage::coverage;
-use spandrel_monitor::measures::on_path::{OnPath, Paths};
+use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths};
 use spandrel_monitor::score::completion::TaskState;
 use spandrel_monitor::session::EndReason;
 use spandrel_testkit::job::*;
@@ -115,7 +115,7 @@ fn prop_whoever_flies_every_shipped_path_has_done_every_task() {
     for file in files.filter(|file| file.extension().is_some_and(|ending| ending == "toml")) {
         let name = file.file_name().unwrap().to_string_lossy().into_owned();
         let scenario = spandrel_model::scenario::read(&name, &std::fs::read_to_string(&file).unwrap(), &beside).unwrap();
-        let paths = Paths::new(&scenario);
+        let paths = ReferencePaths::new(&scenario);
         let along = |task: &spandrel_model::scenario::Task| {
             let wrap = task.closed.then(|| task.path_m[0]);
             let points: Vec<Vec3<Enu>> = task.path_m.iter().copied().chain(wrap).collect();

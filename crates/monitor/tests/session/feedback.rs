@@ -84,7 +84,7 @@ fn exact_a_short_swerve_and_a_far_away_drone_are_not_off_path() {
 }
 
 #[test]
-fn regress_who_comes_to_a_task_or_leaves_it_by_its_end_is_not_off_path() {
+fn regress_entering_or_leaving_a_task_by_its_end_is_not_off_path() {
     // The path leads from 10 to 60 m east, its threshold is 3 m.
     let mut watch = Watch::airborne();
     watch.tape.fly((-20.0, 20.0, 10.0), 4.0);
@@ -100,7 +100,7 @@ fn regress_who_comes_to_a_task_or_leaves_it_by_its_end_is_not_off_path() {
 }
 
 #[test]
-fn regress_who_stays_beside_the_end_or_strays_from_the_middle_is_off_path() {
+fn regress_staying_beside_the_end_or_leaving_the_middle_is_off_path() {
     for (from_m, to_m) in [((60.0, 0.0), (64.0, 0.0)), ((40.0, 0.0), (40.0, 4.0))] {
         let mut watch = Watch::airborne();
         watch.tape.fly((30.0, 0.0, 10.0), 4.0);
@@ -164,7 +164,7 @@ fn exact_the_ground_is_not_too_close_before_lift_off() {
 }
 
 #[test]
-fn exact_speeding_is_said_on_the_path_and_not_far_from_it() {
+fn exact_speeding_is_reported_on_the_path_and_not_far_from_it() {
     let mut watch = Watch::airborne();
     watch.tape.fly((30.0, 0.0, 10.0), 4.4);
     watch.run();
@@ -197,7 +197,7 @@ fn exact_one_rule_speaks_once_per_interval_however_it_chatters() {
 }
 
 #[test]
-fn exact_a_crash_is_said_at_once_and_before_all_else() {
+fn exact_a_crash_is_reported_at_once_and_before_all_else() {
     let mut watch = Watch::airborne();
     watch.tape.clearance(2.0);
     watch.tape.hold(0.02);
@@ -239,7 +239,7 @@ fn exact_cues_are_repeated_at_five_hertz() {
 }
 
 #[test]
-fn exact_too_close_is_told_below_the_pads_height_too() {
+fn exact_too_close_is_reported_below_the_pads_height_too() {
     // The pier of the paper's job is circled 2 m lower than the pad lies.
     let mut watch = Watch::of(one_task());
     watch.tape.fly((30.0, 0.0, 10.0), 10.0);
@@ -262,7 +262,7 @@ fn exact_a_drone_that_comes_down_on_its_pad_is_not_too_close() {
 }
 
 #[test]
-fn exact_a_person_hit_is_told_even_right_after_another_bump() {
+fn exact_hitting_a_person_is_reported_right_after_another_contact() {
     let mut watch = Watch::airborne();
     for code in [1, 5] {
         watch.tape.contact(code);
@@ -273,7 +273,7 @@ fn exact_a_person_hit_is_told_even_right_after_another_bump() {
 }
 
 #[test]
-fn exact_texts_go_on_after_the_simulator_starts_anew_on_the_ground() {
+fn exact_texts_go_on_after_the_simulator_restarts_on_the_ground() {
     let mut watch = Watch { monitor: monitor_of(one_task()), tape: Tape::new(), texts: Vec::new() };
     for seconds in [20.0, 0.2] {
         watch.tape.hold(seconds);

@@ -3,10 +3,10 @@
 use spandrel_mavlink::telemetry::{Timeline, tlog};
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::random::RandomStream;
-use spandrel_monitor::assessment::{AssessError, Graded, assess_log};
+use spandrel_monitor::assessment::{AssessError, AssessedSession, assess_log};
 use spandrel_testkit::job::*;
 
-fn grade(datagrams: &[Vec<u8>]) -> Graded {
+fn grade(datagrams: &[Vec<u8>]) -> AssessedSession {
     assess_log(&log_of(datagrams, 5_000_000), &one_task(), &vehicle(), fence_of_ten).unwrap()
 }
 
@@ -58,7 +58,7 @@ fn regress_a_flight_across_the_end_of_32_bit_milliseconds_is_the_same_flight() {
         let pictures = ms(flight.snapshots.all().iter().map(|picture| picture.0.ms()).collect());
         let lamp = ms(flight.light.all().iter().map(|lamp| lamp.0.ms()).collect());
         let sticks = ms(flight.sticks.all().iter().map(|sticks| sticks.0.ms()).collect());
-        (pictures, lamp, sticks, timeline.epochs())
+        (pictures, lamp, sticks, timeline.simulator_runs())
     });
     assert_eq!(flights[0].0.len(), 10, "every picture once");
     assert_eq!(flights[1], flights[0]);
@@ -128,7 +128,7 @@ fn exact_a_long_silence_is_no_reordering() {
 fn exact_a_log_cut_anywhere_near_its_end_still_scores_its_whole_records() {
     let log = busy_flight().log(5_000_000);
     for cut in log.len() - 120..log.len() {
-        let whole = tlog::whole_len(&log[..cut]);
+        let whole = tlog::complete_len(&log[..cut]);
         let a = assess_log(&log[..cut], &one_task(), &vehicle(), fence_of_ten).unwrap();
         let b = assess_log(&log[..whole], &one_task(), &vehicle(), fence_of_ten).unwrap();
         assert!(a == b, "cut at {cut}");
@@ -159,7 +159,7 @@ fn exact_an_empty_log_and_one_without_a_flight_are_named() {
 }
 
 #[test]
-fn exact_what_other_systems_say_does_not_touch_the_session() {
+fn exact_messages_of_other_systems_does_not_touch_the_session() {
     use spandrel_mavlink::codec::Encoder;
     use spandrel_mavlink::dialect::*;
     let mut monitor = crate::live::monitor_of(one_task());

@@ -5,7 +5,7 @@ use spandrel_mavlink::dialect::*;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::time::SimTime;
 use spandrel_monitor::assessment::{AssessError, assess_log};
-use spandrel_monitor::{Monitor, MonitorConfig, Record, export};
+use spandrel_monitor::{Monitor, MonitorConfig, SessionOutput, export};
 use spandrel_testkit::job::*;
 
 const START_US: u64 = 1_700_000_000_000_000;
@@ -23,7 +23,7 @@ fn config(scenario: Scenario) -> MonitorConfig {
         started_unix_us: START_US,
         system_id: 1,
         seed: None,
-        build: fence_of_ten,
+        survey_builder: fence_of_ten,
     }
 }
 
@@ -43,8 +43,8 @@ fn written(monitor: &mut Monitor) -> (Vec<u8>, Vec<String>) {
     let (mut log, mut events) = (Vec::new(), Vec::new());
     while let Some(record) = monitor.poll_record() {
         match record {
-            Record::Telemetry(bytes) => log.extend(bytes),
-            Record::Event(line) => events.push(line),
+            SessionOutput::Telemetry(bytes) => log.extend(bytes),
+            SessionOutput::Event(line) => events.push(line),
         }
     }
     (log, events)
@@ -77,7 +77,7 @@ fn exact_stamps_are_session_start_plus_simulation_time() {
     tape.hold(2.0);
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     let (log, _) = written(&mut monitor);
-    let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::Reader::new(&log).map(|record| record.stamp_us).collect();
+    let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::TlogReader::new(&log).map(|record| record.stamp_us).collect();
     assert_eq!(stamps.first(), Some(&START_US));
     assert_eq!(stamps.last(), Some(&(START_US + 2_000_000)));
     assert!(stamps.windows(2).all(|pair| pair[0] <= pair[1]));
@@ -93,8 +93,9 @@ fn regress_stamps_of_a_monitor_that_joins_late_begin_at_the_sessions_start() {
     let mut monitor = monitor_of(one_task());
     tape.datagrams[late..].iter().for_each(|datagram| monitor.handle_datagram(datagram));
     let (mut log, _) = written(&mut monitor);
-    let stamps =
-        |log: &[u8]| -> Vec<u64> { spandrel_mavlink::telemetry::tlog::Reader::new(log).map(|record| record.stamp_us).collect() };
+    let stamps = |log: &[u8]| -> Vec<u64> {
+        spandrel_mavlink::telemetry::tlog::TlogReader::new(log).map(|record| record.stamp_us).collect()
+    };
     let (first, last) = (stamps(&log)[0], *stamps(&log).last().unwrap());
     assert_eq!(first, START_US);
     assert!((START_US + 1_900_000..=START_US + 2_100_000).contains(&last), "{} us", last - START_US);
@@ -139,7 +140,7 @@ fn regress_the_monitor_belongs_to_one_vehicle() {
 }
 
 #[test]
-fn exact_stamps_go_on_rising_after_the_simulator_starts_anew() {
+fn exact_stamps_go_on_rising_after_the_simulator_restarts() {
     let mut monitor = monitor_of(one_task());
     for seconds in [20.0, 2.0] {
         let mut tape = Tape::new();
@@ -147,7 +148,7 @@ fn exact_stamps_go_on_rising_after_the_simulator_starts_anew() {
         tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     }
     let (log, _) = written(&mut monitor);
-    let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::Reader::new(&log).map(|record| record.stamp_us).collect();
+    let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::TlogReader::new(&log).map(|record| record.stamp_us).collect();
     assert_eq!(stamps.last(), Some(&(START_US + 22_000_000)));
     assert!(stamps.windows(2).all(|pair| pair[0] <= pair[1]));
 }
@@ -160,9 +161,9 @@ fn exact_a_killed_monitor_goes_on_where_its_log_stops() {
     tape.datagrams[..half].iter().for_each(|datagram| first.handle_datagram(datagram));
     let (mut log, _) = written(&mut first);
     log.truncate(log.len() - 5);
-    log.truncate(spandrel_mavlink::telemetry::tlog::whole_len(&log));
+    log.truncate(spandrel_mavlink::telemetry::tlog::complete_len(&log));
     let mut second = Monitor::resume(config(one_task()), &log).unwrap();
-    assert!(second.flown().is_some());
+    assert!(second.flight_time().is_some());
     tape.datagrams[half..].iter().for_each(|datagram| second.handle_datagram(datagram));
     let outcome = second.finished().expect("landed").clone().unwrap();
     let (rest, events) = written(&mut second);

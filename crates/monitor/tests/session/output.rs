@@ -44,7 +44,7 @@ fn exact_the_assessment_has_the_names_of_the_design() {
 
 /// Each frame once, in order, under the hand that the heartbeat before it names.
 #[test]
-fn exact_the_assessment_says_who_flew_when() {
+fn exact_the_assessment_reports_who_flew_when() {
     let mut tape = Tape::new();
     tape.beat(true, 3 << 16);
     tape.fly((0.0, 0.0, 10.0), 2.0);
@@ -68,9 +68,10 @@ fn exact_the_assessment_says_who_flew_when() {
 
 #[test]
 fn exact_without_defects_accuracy_does_not_apply_and_the_sum_is_out_of_300() {
-    let empty = |_: &spandrel_model::scenario::Scenario,
-                 _: u64|
-     -> std::sync::Arc<dyn spandrel_monitor::measures::attention::Survey> { std::sync::Arc::new(Fence::of(0)) };
+    let empty =
+        |_: &spandrel_model::scenario::Scenario,
+         _: u64|
+         -> std::sync::Arc<dyn spandrel_monitor::measures::attention::SiteSurvey> { std::sync::Arc::new(Fence::of(0)) };
     let log = clean_flight().log(0);
     let graded = spandrel_monitor::assess_log(&log, &one_task(), &vehicle(), empty).unwrap();
     let value = serde_json::to_value(&graded.assessment).unwrap();

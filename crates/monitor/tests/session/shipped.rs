@@ -5,8 +5,8 @@ use spandrel_model::math;
 use spandrel_model::scenario::{PlacedDefect, Scenario};
 use spandrel_model::site::CameraPose;
 use spandrel_model::vehicle::Vehicle;
-use spandrel_monitor::measures::attention::Survey;
-use spandrel_monitor::watch::build_site;
+use spandrel_monitor::measures::attention::SiteSurvey;
+use spandrel_monitor::sidecar::build_site;
 use spandrel_monitor::{assess_log, export};
 use spandrel_testkit::job::Tape;
 
@@ -19,7 +19,7 @@ fn shipped() -> (Scenario, Vehicle) {
 }
 
 /// Where to stand (m), heading and gimbal pitch (rad) to photograph a defect from within a task's threshold of its path.
-fn stand(defect: &PlacedDefect, scenario: &Scenario, vehicle: &Vehicle, site: &dyn Survey) -> Option<(Vec3<Enu>, f64, f64)> {
+fn stand(defect: &PlacedDefect, scenario: &Scenario, vehicle: &Vehicle, site: &dyn SiteSurvey) -> Option<(Vec3<Enu>, f64, f64)> {
     let mut points: Vec<(Vec3<Enu>, f64)> =
         scenario.tasks.iter().flat_map(|task| task.path_m.iter().map(|point| (*point, task.threshold_m))).collect();
     points.sort_by(|a, b| (a.0 - defect.position_m).norm().total_cmp(&(b.0 - defect.position_m).norm()));
@@ -32,7 +32,7 @@ fn stand(defect: &PlacedDefect, scenario: &Scenario, vehicle: &Vehicle, site: &d
         let (yaw, pitch) = (math::atan2(to.east(), to.north()), math::asin(to.up()));
         let right = Vec3::new(math::cos(yaw), -math::sin(yaw), 0.0);
         let pose = CameraPose { position_m: place, forward: to, right, lamp_on: true };
-        let views = site.look(&pose, &vehicle.camera, &vehicle.lamp, spandrel_model::time::SimTime::from_ms(60_000));
+        let views = site.view_defects(&pose, &vehicle.camera, &vehicle.lamp, spandrel_model::time::SimTime::from_ms(60_000));
         views.iter().any(|view| view.defect_id == defect.id && view.hit).then_some((place, yaw, pitch))
     })
 }

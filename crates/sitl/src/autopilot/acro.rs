@@ -1,7 +1,7 @@
 //! Acro: the sticks command body rates. As ArduCopter's default trainer has it, released sticks level the vehicle and the lean angle is limited.
 
 use super::core::Autopilot;
-use super::modes::Wanted;
+use super::modes::Setpoint;
 use spandrel_model::frames::Vec3;
 use spandrel_model::math;
 
@@ -12,7 +12,7 @@ const LEVEL_MOST_RAD: f64 = 0.524;
 const LIMIT_PER_S: f64 = 4.0;
 
 impl Autopilot {
-    pub(super) fn acro(&mut self) -> Wanted {
+    pub(super) fn acro(&mut self) -> Setpoint {
         let (s, l) = (self.links.sticks, self.airframe.limits);
         let (roll, pitch, yaw) = self.estimate.attitude.euler();
         let most = self.gains.tilt_rad;
@@ -23,10 +23,10 @@ impl Autopilot {
         let rates_rad_s = Vec3::new(lean_rate(s.right, roll), lean_rate(-s.forward, pitch), s.yaw * l.yaw_rate_rad_s);
         let low = math::lerp(self.gains.hover_n, self.gains.thrust_min_n, (-s.up).clamp(0.0, 1.0));
         let thrust_n = if s.up > 0.0 { math::lerp(self.gains.hover_n, self.gains.thrust_max_n, s.up) } else { low };
-        self.contact.wanted_down_m_s = if s.up < -0.5 { l.descend_m_s } else { 0.0 };
+        self.landing_detector.wanted_down_m_s = if s.up < -0.5 { l.descend_m_s } else { 0.0 };
         // A mode that holds the heading continues from this one.
-        self.course.yaw_rad = yaw;
-        self.course.yaw_rate_rad_s = 0.0;
-        Wanted::Spin { rates_rad_s, thrust_n }
+        self.navigator.yaw_rad = yaw;
+        self.navigator.yaw_rate_rad_s = 0.0;
+        Setpoint::Spin { rates_rad_s, thrust_n }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Estimate;
 use super::gains::Gains;
-use super::mixer::Given;
+use super::mixer::AllocationStatus;
 use nalgebra::{UnitQuaternion, Vector3};
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::math;
@@ -33,7 +33,7 @@ impl AttitudeLoop {
         now: &Estimate,
         wanted: Rotation<Frd, Ned>,
         yaw_rate: f64,
-        given: Given,
+        given: AllocationStatus,
         dt_s: f64,
     ) -> Vec3<Frd> {
         let rates = wanted_rates(gains, now.attitude, wanted, yaw_rate);
@@ -41,7 +41,14 @@ impl AttitudeLoop {
     }
 
     /// Torque for wanted body rates.
-    pub fn rate_torque(&mut self, gains: &Gains, now: &Estimate, rates: Vec3<Frd>, given: Given, dt_s: f64) -> Vec3<Frd> {
+    pub fn rate_torque(
+        &mut self,
+        gains: &Gains,
+        now: &Estimate,
+        rates: Vec3<Frd>,
+        given: AllocationStatus,
+        dt_s: f64,
+    ) -> Vec3<Frd> {
         let error = rates - now.rates_rad_s;
         // A motor at its limit must not wind the integral up.
         if given.tilt > 0.99 {

@@ -2,11 +2,11 @@
 
 use super::core::{Autopilot, Severity};
 use super::manual::LOCK_SPEED_M_S;
-use super::modes::{ReturnPhase, Wanted};
-use super::operator_rules::Heading;
-use super::shaper::{CALM_JERK_S, JERK_S, Limits, heading_of, towards};
-use super::velocity::{Motion, Pull};
-use super::{Landed, MissionStep, Mode, OffboardSetpoint, Turn};
+use super::modes::{ReturnPhase, Setpoint};
+use super::operator_rules::HeadingRule;
+use super::shaper::{CALM_JERK_S, JERK_S, MotionLimits, heading_of, towards};
+use super::velocity::{AttitudeThrustSetpoint, VelocitySetpoint};
+use super::{FlightMode, LandedState, MissionStep, OffboardSetpoint, TurnCommand};
 use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
@@ -30,15 +30,16 @@ const TURN_ABOVE_M_S: f64 = 1.0;
 impl Autopilot {
     /// The yaw stick turns the nose in GUIDED (ArduCopter, unless `GUID_OPTIONS` says otherwise); false where something else turns it.
     fn pilot_turns(&mut self, dt_s: f64) -> bool {
-        let guided = self.links.guided && matches!(self.status.mode, Mode::Hold | Mode::Takeoff | Mode::Offboard);
-        let fresh = self.links.sticks_fresh(self.tuning.manual_patience_s(), self.last_step);
+        let guided =
+            self.links.guided && matches!(self.status.mode, FlightMode::Hold | FlightMode::Takeoff | FlightMode::Offboard);
+        let fresh = self.links.sticks_fresh(self.tuning.manual_timeout_s(), self.last_step);
         if guided && self.tuning.rules.guided.pilot_yaw && fresh && self.links.sticks.yaw != 0.0 {
-            (self.course.target_yaw_rad, self.course.turn, self.course.turned_by_pilot) = (None, None, true);
+            (self.navigator.target_yaw_rad, self.navigator.turn, self.navigator.turned_by_pilot) = (None, None, true);
             self.stick_yaw(dt_s);
-        } else if self.course.turned_by_pilot {
+        } else if self.navigator.turned_by_pilot {
             self.turn_at(0.0, dt_s);
         }
-        self.course.turned_by_pilot
+        self.navigator.turned_by_pilot
     }
 
     pub(super) fn turn_to(&mut self, yaw: Option<f64>, dt_s: f64) {
@@ -46,141 +47,141 @@ impl Autopilot {
             return;
         }
         let own = AUTO_YAW_SHARE * self.airframe.limits.yaw_rate_rad_s;
-        let turn = self.course.turn.filter(|turn| yaw == Some(turn.yaw_rad));
+        let turn = self.navigator.turn.filter(|turn| yaw == Some(turn.yaw_rad));
         let Some(yaw) = yaw else {
             self.turn_at(0.0, dt_s);
             return;
         };
         let limit = turn.and_then(|turn| turn.rate_rad_s).map_or(own, |rate| rate.min(self.airframe.limits.yaw_rate_rad_s));
-        let left = math::wrap_pi(yaw - self.course.yaw_rad);
-        let left = turn.map_or(left, |turn| self.the_way_round(turn, left));
-        self.course.heading_free = false;
+        let left = math::wrap_pi(yaw - self.navigator.yaw_rad);
+        let left = turn.map_or(left, |turn| self.detour(turn, left));
+        self.navigator.heading_free = false;
         self.advance_heading((AUTO_YAW_GAIN * left).clamp(-limit, limit), dt_s);
     }
 
     /// The rest of a turn in the commanded direction, rad. Close to the goal the direction no longer matters.
-    fn the_way_round(&mut self, turn: Turn, left: f64) -> f64 {
+    fn detour(&mut self, turn: TurnCommand, left: f64) -> f64 {
         let long_way = turn.clockwise.is_some_and(|clockwise| clockwise != (left > 0.0));
         if left.abs() < NEARLY_TURNED_RAD {
-            self.course.turn = Some(Turn { clockwise: None, ..turn });
+            self.navigator.turn = Some(TurnCommand { clockwise: None, ..turn });
             return left;
         }
         if long_way { left - 2.0 * math::PI * left.signum() } else { left }
     }
 
-    pub(super) fn motion(&self, velocity_m_s: Vec3<Ned>) -> Motion {
-        Motion { velocity_m_s, acceleration_m_s2: self.shaper.acceleration_m_s2, yaw_rad: self.course.yaw_rad }
+    pub(super) fn motion(&self, velocity_m_s: Vec3<Ned>) -> VelocitySetpoint {
+        VelocitySetpoint { velocity_m_s, acceleration_m_s2: self.shaper.acceleration_m_s2, yaw_rad: self.navigator.yaw_rad }
     }
 
-    pub(super) fn auto_limits(&self) -> Limits {
+    pub(super) fn auto_limits(&self) -> MotionLimits {
         let (own, set) = (self.airframe_auto_limits(), &self.tuning.rules.envelope);
-        Limits {
+        MotionLimits {
             horizontal_m_s2: own.horizontal_m_s2.min(set.acceleration_m_s2),
             vertical_m_s2: own.vertical_m_s2.min(set.climb_acceleration_m_s2),
             ..own
         }
     }
 
-    pub(super) fn airframe_auto_limits(&self) -> Limits {
+    pub(super) fn airframe_auto_limits(&self) -> MotionLimits {
         let (horizontal_m_s2, vertical_m_s2) = (0.7 * self.gains.acceleration_m_s2, 0.7 * self.gains.climb_acceleration_m_s2);
-        Limits { horizontal_m_s2, vertical_m_s2, build_up_s: JERK_S }
+        MotionLimits { horizontal_m_s2, vertical_m_s2, build_up_s: JERK_S }
     }
 
     /// Nobody waits for a mission or a return to react: they accelerate calmly. A pause brakes as `stopping_point` assumes.
-    fn travel_limits(&self) -> Limits {
-        let calm = matches!(self.status.mode, Mode::Mission | Mode::Return) && self.course.paused.is_none();
-        Limits { build_up_s: if calm { CALM_JERK_S } else { JERK_S }, ..self.auto_limits() }
+    fn travel_limits(&self) -> MotionLimits {
+        let calm = matches!(self.status.mode, FlightMode::Mission | FlightMode::Return) && self.navigator.paused.is_none();
+        MotionLimits { build_up_s: if calm { CALM_JERK_S } else { JERK_S }, ..self.auto_limits() }
     }
 
     /// Flies to the course's target and stays.
-    pub(super) fn go(&mut self, speed: Option<f64>, dt_s: f64) -> Wanted {
+    pub(super) fn go(&mut self, speed: Option<f64>, dt_s: f64) -> Setpoint {
         let (up, down) = (self.tuning.climb_m_s, self.tuning.descend_m_s);
-        self.go_within(speed, up, down, dt_s)
+        self.fly_within_limits(speed, up, down, dt_s)
     }
 
-    pub(super) fn go_within(&mut self, speed: Option<f64>, up: f64, down: f64, dt_s: f64) -> Wanted {
+    pub(super) fn fly_within_limits(&mut self, speed: Option<f64>, up: f64, down: f64, dt_s: f64) -> Setpoint {
         let l = &self.airframe.limits;
         let cruise = speed.unwrap_or(self.cruise_m_s()).min(self.tuning.horizontal_speed_max_m_s).min(l.forward_m_s).max(0.1);
         let (up, down) = (up.min(l.climb_m_s), down.min(l.descend_m_s));
-        let target = self.course.target_m;
+        let target = self.navigator.target_m;
         let here = self.estimate.position_m;
         self.status.target_m = Some(target);
-        let way = self.nose_by_rule(target);
-        let turns = speed.is_some() || self.status.mode != Mode::Hold;
-        let yaw = self.look_rad().or(self.course.target_yaw_rad).or(way.filter(|_| turns));
+        let way = self.heading_by_rule(target);
+        let turns = speed.is_some() || self.status.mode != FlightMode::Hold;
+        let yaw = self.look_rad().or(self.navigator.target_yaw_rad).or(way.filter(|_| turns));
         self.turn_to(yaw, dt_s);
         let wish = towards(&self.gains, here, target, cruise, up, down);
         self.shaper.advance(wish, &self.travel_limits(), dt_s);
-        Wanted::Fly(self.motion(self.shaper.velocity_m_s))
+        Setpoint::Velocity(self.motion(self.shaper.velocity_m_s))
     }
 
     /// Where the nose points when nothing else says so.
-    fn nose_by_rule(&self, target_m: Vec3<Ned>) -> Option<f64> {
+    fn heading_by_rule(&self, target_m: Vec3<Ned>) -> Option<f64> {
         let here = self.estimate.position_m;
         let home = self.status.home_m.unwrap_or(here);
-        let returning = self.status.mode == Mode::Return
-            || self.status.mode == Mode::Mission && self.mission.step() == Some(MissionStep::Return);
+        let returning = self.status.mode == FlightMode::Return
+            || self.status.mode == FlightMode::Mission && self.mission.step() == Some(MissionStep::Return);
         match self.tuning.rules.heading {
-            Heading::TargetExceptReturn if returning => None,
-            Heading::Target | Heading::TargetExceptReturn => heading_of(target_m - here, TURN_BEYOND_M),
-            Heading::Home => heading_of(home - here, TURN_BEYOND_M),
-            Heading::AwayFromHome => heading_of(here - home, TURN_BEYOND_M),
-            Heading::Path => heading_of(self.estimate.velocity_m_s, TURN_ABOVE_M_S),
-            Heading::Fixed => None,
+            HeadingRule::TargetExceptReturn if returning => None,
+            HeadingRule::Target | HeadingRule::TargetExceptReturn => heading_of(target_m - here, TURN_BEYOND_M),
+            HeadingRule::Home => heading_of(home - here, TURN_BEYOND_M),
+            HeadingRule::AwayFromHome => heading_of(here - home, TURN_BEYOND_M),
+            HeadingRule::Path => heading_of(self.estimate.velocity_m_s, TURN_ABOVE_M_S),
+            HeadingRule::Fixed => None,
         }
     }
 
-    pub(super) fn take_off(&mut self, now: SimTime, dt_s: f64) -> Wanted {
-        let left = self.estimate.position_m.down() - self.course.target_m.down();
-        if left < HEIGHT_REACHED_M && self.status.landed == Landed::InAir {
-            let target = self.course.target_m;
-            self.watch.intended = Mode::Hold;
-            self.enter(Mode::Hold, now);
-            self.course.target_m = target;
-            self.course.takeoff_up_m = None;
+    pub(super) fn take_off(&mut self, now: SimTime, dt_s: f64) -> Setpoint {
+        let left = self.estimate.position_m.down() - self.navigator.target_m.down();
+        if left < HEIGHT_REACHED_M && self.status.landed == LandedState::InAir {
+            let target = self.navigator.target_m;
+            self.failsafe.intended = FlightMode::Hold;
+            self.enter(FlightMode::Hold, now);
+            self.navigator.target_m = target;
+            self.navigator.takeoff_up_m = None;
         }
         let wanted = self.climb_away(None, dt_s);
-        self.status.climbing_out = self.status.mode == Mode::Takeoff;
+        self.status.climbing_out = self.status.mode == FlightMode::Takeoff;
         wanted
     }
 
     /// Climbs to a take-off's height at the take-off's rate.
-    pub(super) fn climb_away(&mut self, speed: Option<f64>, dt_s: f64) -> Wanted {
+    pub(super) fn climb_away(&mut self, speed: Option<f64>, dt_s: f64) -> Setpoint {
         self.status.climbing_out = true;
-        let up = self.course.ground_down_m - self.estimate.position_m.down();
+        let up = self.navigator.ground_down_m - self.estimate.position_m.down();
         let slow = !self.tuning.takeoff_at_climb_speed && up < TAKEOFF_SLOW_BELOW_M;
         let rate = if slow { self.tuning.takeoff_speed_m_s.min(self.tuning.climb_m_s) } else { self.tuning.climb_m_s };
-        self.go_within(speed, rate, self.tuning.descend_m_s, dt_s)
+        self.fly_within_limits(speed, rate, self.tuning.descend_m_s, dt_s)
     }
 
     /// A take-off leads up: from the ground at least so far that the vehicle leaves it.
     pub(super) fn above_ground(&self, up_m: f64) -> f64 {
-        let standing = matches!(self.status.landed, Landed::OnGround | Landed::TakingOff);
+        let standing = matches!(self.status.landed, LandedState::OnGround | LandedState::TakingOff);
         if standing { up_m.max(TAKEOFF_LEAST_M - self.estimate.position_m.down()) } else { up_m }
     }
 
-    pub(super) fn land(&mut self, dt_s: f64) -> Wanted {
-        if self.status.landed == Landed::InAir {
-            self.status.landed = Landed::Landing;
+    pub(super) fn land(&mut self, dt_s: f64) -> Setpoint {
+        if self.status.landed == LandedState::InAir {
+            self.status.landed = LandedState::Landing;
         }
         if !self.estimate.position_valid {
-            return self.sink_blind(dt_s);
+            return self.descend_without_position(dt_s);
         }
         let here = self.estimate.position_m;
         let speed = self.landing_speed();
-        self.turn_to(self.course.target_yaw_rad, dt_s);
-        let over = Vec3::new(self.course.target_m.north(), self.course.target_m.east(), here.down());
+        self.turn_to(self.navigator.target_yaw_rad, dt_s);
+        let over = Vec3::new(self.navigator.target_m.north(), self.navigator.target_m.east(), here.down());
         let flat = towards(&self.gains, here, over, LOCK_SPEED_M_S, 0.0, 0.0);
         let wish = Vec3::new(flat.north(), flat.east(), speed);
         self.shaper.advance(wish, &self.travel_limits(), dt_s);
         self.status.target_m = Some(over);
-        Wanted::Fly(self.motion(self.shaper.velocity_m_s))
+        Setpoint::Velocity(self.motion(self.shaper.velocity_m_s))
     }
 
     pub(super) fn landing_speed(&self) -> f64 {
         let home = self.status.home_m.map_or(0.0, |h| h.down());
         let over_home = home - self.estimate.position_m.down();
-        let below = self.seen.range_down_m.unwrap_or(over_home) - self.airframe.standing_m;
+        let below = self.unfused.range_down_m.unwrap_or(over_home) - self.airframe.standing_m;
         let slow = below < self.tuning.land_slow_below_m;
         if slow {
             return self.tuning.land_speed_m_s;
@@ -191,28 +192,28 @@ impl Autopilot {
     }
 
     /// Level and down: all that is left without position.
-    pub(super) fn sink_blind(&mut self, dt_s: f64) -> Wanted {
-        if self.status.landed == Landed::InAir {
-            self.status.landed = Landed::Landing;
+    pub(super) fn descend_without_position(&mut self, dt_s: f64) -> Setpoint {
+        if self.status.landed == LandedState::InAir {
+            self.status.landed = LandedState::Landing;
         }
         self.turn_to(None, dt_s);
         let wish = Vec3::new(0.0, 0.0, self.landing_speed());
         self.shaper.advance(wish, &self.auto_limits(), dt_s);
         let motion = self.motion(self.shaper.velocity_m_s);
-        Wanted::Level { motion, tilt: (0.0, 0.0) }
+        Setpoint::Level { motion, tilt: (0.0, 0.0) }
     }
 
-    pub(super) fn go_home(&mut self, dt_s: f64) -> Wanted {
+    pub(super) fn go_home(&mut self, dt_s: f64) -> Setpoint {
         let here = self.estimate.position_m;
-        let home = self.course.refuge_m.or(self.status.home_m).unwrap_or(here);
-        match self.course.phase {
+        let home = self.navigator.return_target_m.or(self.status.home_m).unwrap_or(here);
+        match self.navigator.phase {
             ReturnPhase::Climb => {
-                if (self.course.target_m.down() - here.down()).abs() < HEIGHT_REACHED_M {
-                    self.course.phase = ReturnPhase::Cruise;
+                if (self.navigator.target_m.down() - here.down()).abs() < HEIGHT_REACHED_M {
+                    self.navigator.phase = ReturnPhase::Cruise;
                 }
             }
             ReturnPhase::Cruise => {
-                self.course.target_m = Vec3::new(home.north(), home.east(), self.course.target_m.down());
+                self.navigator.target_m = Vec3::new(home.north(), home.east(), self.navigator.target_m.down());
                 let speed = self.estimate.velocity_m_s.horizontal_norm();
                 if (here - home).horizontal_norm() < 0.5 && speed < 0.5 {
                     self.arrive_home(home);
@@ -221,7 +222,7 @@ impl Autopilot {
             ReturnPhase::Wait => self.wait_over_home(home),
             ReturnPhase::Stay => {}
             ReturnPhase::Land => {
-                self.course.target_m = home;
+                self.navigator.target_m = home;
                 return self.land(dt_s);
             }
         }
@@ -233,47 +234,47 @@ impl Autopilot {
         let rules = self.tuning.rules.homeward;
         let waits = rules.wait_s != 0.0 || rules.final_height_m > 0.0;
         let place = if self.status.home_m == Some(home) { "Home" } else { "Rally point" };
-        self.say(Severity::Info, format!("{place} reached, {}", if waits { "waiting" } else { "landing" }));
-        self.course.phase = if waits { ReturnPhase::Wait } else { ReturnPhase::Land };
-        self.course.wait_until = None;
+        self.push_event(Severity::Info, format!("{place} reached, {}", if waits { "waiting" } else { "landing" }));
+        self.navigator.phase = if waits { ReturnPhase::Wait } else { ReturnPhase::Land };
+        self.navigator.wait_until = None;
         if let Some(height_m) = rules.wait_height_m.filter(|_| waits) {
             let down = self.estimate.position_m.down().max(home.down() - height_m);
-            self.course.target_m = Vec3::new(home.north(), home.east(), down);
+            self.navigator.target_m = Vec3::new(home.north(), home.east(), down);
         }
     }
 
     fn wait_over_home(&mut self, home: Vec3<Ned>) {
         let rules = self.tuning.rules.homeward;
         if rules.turns_back {
-            self.course.target_yaw_rad = self.watch.armed_yaw_rad;
+            self.navigator.target_yaw_rad = self.failsafe.armed_yaw_rad;
         }
-        if (self.course.target_m.down() - self.estimate.position_m.down()).abs() > HEIGHT_REACHED_M || rules.wait_s < 0.0 {
+        if (self.navigator.target_m.down() - self.estimate.position_m.down()).abs() > HEIGHT_REACHED_M || rules.wait_s < 0.0 {
             return;
         }
-        let until = *self.course.wait_until.get_or_insert(self.last_step + SimTime::from_s(rules.wait_s));
+        let until = *self.navigator.wait_until.get_or_insert(self.last_step + SimTime::from_s(rules.wait_s));
         if self.last_step < until {
             return;
         }
         if rules.final_height_m > 0.0 {
-            self.course.phase = ReturnPhase::Stay;
+            self.navigator.phase = ReturnPhase::Stay;
             let down = self.estimate.position_m.down().max(home.down() - rules.final_height_m);
-            self.course.target_m = Vec3::new(home.north(), home.east(), down);
-            self.say(Severity::Info, "Staying at the final height");
+            self.navigator.target_m = Vec3::new(home.north(), home.east(), down);
+            self.push_event(Severity::Info, "Staying at the final height");
         } else {
-            self.course.phase = ReturnPhase::Land;
-            self.say(Severity::Info, "Landing");
+            self.navigator.phase = ReturnPhase::Land;
+            self.push_event(Severity::Info, "Landing");
         }
     }
 
     /// The external setpoint, while one is flown and as long as it counts.
     pub(super) fn setpoint_flown(&self, now: SimTime) -> Option<OffboardSetpoint> {
-        let fresh = self.status.mode == Mode::Offboard && self.links.offboard_fresh(self.tuning.offboard_patience_s(), now);
+        let fresh = self.status.mode == FlightMode::Offboard && self.links.offboard_fresh(self.tuning.offboard_timeout_s(), now);
         self.links.offboard.filter(|_| fresh).map(|(setpoint, _)| setpoint)
     }
 
-    pub(super) fn fly_setpoint(&mut self, now: SimTime, dt_s: f64) -> Wanted {
+    pub(super) fn fly_setpoint(&mut self, now: SimTime, dt_s: f64) -> Setpoint {
         let Some(setpoint) = self.setpoint_flown(now) else {
-            return if self.estimate.position_valid { self.go(None, dt_s) } else { self.sink_blind(dt_s) };
+            return if self.estimate.position_valid { self.go(None, dt_s) } else { self.descend_without_position(dt_s) };
         };
         match setpoint.yaw_rate_rad_s {
             Some(rate) if setpoint.yaw_rad.is_none() => {
@@ -283,7 +284,7 @@ impl Autopilot {
             }
             // Where a set-point leaves the heading open, a command may say it, as in ArduPilot's GUIDED.
             _ => {
-                let wanted = setpoint.yaw_rad.or(self.course.target_yaw_rad).or_else(|| self.nose_of(&setpoint));
+                let wanted = setpoint.yaw_rad.or(self.navigator.target_yaw_rad).or_else(|| self.heading_towards(&setpoint));
                 self.turn_to(wanted, dt_s);
             }
         }
@@ -292,62 +293,62 @@ impl Autopilot {
         }
         if let Some((attitude, thrust)) = setpoint.attitude {
             let thrust_n = self.direct_thrust_n(thrust);
-            self.course.yaw_rate_rad_s = 0.0;
-            return Wanted::Direct(Pull { attitude, thrust_n });
+            self.navigator.yaw_rate_rad_s = 0.0;
+            return Setpoint::AttitudeThrust(AttitudeThrustSetpoint { attitude, thrust_n });
         }
         if let Some((rates_rad_s, thrust)) = setpoint.rates {
             return self.spin(rates_rad_s, thrust);
         }
         if !self.estimate.position_valid {
-            return self.sink_blind(dt_s);
+            return self.descend_without_position(dt_s);
         }
         let wish = self.offboard_velocity(&setpoint);
         self.shaper.advance(wish, &self.auto_limits(), dt_s);
         let mut motion = self.motion(self.shaper.velocity_m_s);
         self.accelerate(&setpoint, &mut motion);
-        Wanted::Fly(motion)
+        Setpoint::Velocity(motion)
     }
 
     /// Where the nose points on the way to a place that comes as an errand, without a heading.
-    fn nose_of(&self, setpoint: &OffboardSetpoint) -> Option<f64> {
+    fn heading_towards(&self, setpoint: &OffboardSetpoint) -> Option<f64> {
         let [Some(n), Some(e), Some(d)] = setpoint.position_m else { return None };
         let errand = self.tuning.setpoints_end && setpoint.velocity_m_s == [None; 3];
-        errand.then(|| self.nose_by_rule(Vec3::new(n, e, d))).flatten()
+        errand.then(|| self.heading_by_rule(Vec3::new(n, e, d))).flatten()
     }
 
     /// An attitude or body rates with a climb rate in place of the thrust (ArduCopter).
-    fn climb_at(&mut self, setpoint: &OffboardSetpoint, up_m_s: f64, dt_s: f64) -> Wanted {
+    fn climb_at(&mut self, setpoint: &OffboardSetpoint, up_m_s: f64, dt_s: f64) -> Setpoint {
         let wish = Vec3::new(0.0, 0.0, -up_m_s);
         self.shaper.advance(wish, &self.auto_limits(), dt_s);
         let motion = self.motion(self.shaper.velocity_m_s);
         if let Some((attitude, _)) = setpoint.attitude {
             let (roll, pitch, yaw) = attitude.euler();
-            self.course.yaw_rad = yaw;
-            let motion = Motion { yaw_rad: yaw, ..motion };
-            return Wanted::Level { motion, tilt: (roll, pitch) };
+            self.navigator.yaw_rad = yaw;
+            let motion = VelocitySetpoint { yaw_rad: yaw, ..motion };
+            return Setpoint::Level { motion, tilt: (roll, pitch) };
         }
         let (mass_kg, rates) = (self.airframe.mass_kg, setpoint.rates.map_or(Vec3::zero(), |(rates, _)| rates));
         let level = self.velocity_loop.fly_level(&self.gains, mass_kg, &self.estimate, &motion, (0.0, 0.0), dt_s);
-        self.contact.wanted_down_m_s = -up_m_s;
-        self.course.yaw_rad = self.estimate.attitude.yaw_rad();
-        Wanted::Spin { rates_rad_s: rates, thrust_n: level.thrust_n }
+        self.landing_detector.wanted_down_m_s = -up_m_s;
+        self.navigator.yaw_rad = self.estimate.attitude.yaw_rad();
+        Setpoint::Spin { rates_rad_s: rates, thrust_n: level.thrust_n }
     }
 
     /// Thrust of a set-point that gives its share of the largest, N; hardly any of it means that the vehicle is to come down.
     fn direct_thrust_n(&mut self, share: f64) -> f64 {
-        self.contact.wanted_down_m_s = if share < 0.1 { self.airframe.limits.descend_m_s } else { 0.0 };
+        self.landing_detector.wanted_down_m_s = if share < 0.1 { self.airframe.limits.descend_m_s } else { 0.0 };
         (share.clamp(0.0, 1.0) * self.gains.thrust_max_n).max(self.gains.thrust_min_n)
     }
 
-    fn spin(&mut self, rates_rad_s: Vec3<Frd>, thrust: f64) -> Wanted {
+    fn spin(&mut self, rates_rad_s: Vec3<Frd>, thrust: f64) -> Setpoint {
         let thrust_n = self.direct_thrust_n(thrust);
         // Whatever comes after goes on from the nose as it is then.
-        self.course.yaw_rad = self.estimate.attitude.yaw_rad();
-        Wanted::Spin { rates_rad_s, thrust_n }
+        self.navigator.yaw_rad = self.estimate.attitude.yaw_rad();
+        Setpoint::Spin { rates_rad_s, thrust_n }
     }
 
     /// Accelerations of a set-point: alone on an axis they are flown, beside a velocity they are fed forward.
-    fn accelerate(&mut self, s: &OffboardSetpoint, motion: &mut Motion) {
+    fn accelerate(&mut self, s: &OffboardSetpoint, motion: &mut VelocitySetpoint) {
         let free = |i: usize| s.position_m[i].is_none() && s.velocity_m_s[i].is_none();
         let flat = |i: usize| s.acceleration_m_s2[i].unwrap_or(0.0);
         let level = Vec3::<Ned>::new(flat(0), flat(1), 0.0).limited(self.gains.acceleration_m_s2);

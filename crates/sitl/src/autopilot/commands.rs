@@ -2,7 +2,7 @@
 
 use super::core::{Autopilot, Severity};
 use super::operator_rules::{FenceSwitching, MissionNeeds};
-use super::{Landed, MissionStep, Mode, Outcome, Request, Turn};
+use super::{AutopilotRequest, FlightMode, LandedState, MissionStep, RequestOutcome, TurnCommand};
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::time::SimTime;
 
@@ -14,141 +14,143 @@ const LEAP: f64 = -0.5;
 
 impl Autopilot {
     /// Asks for something; the answer comes at once.
-    pub fn request(&mut self, request: Request, now: SimTime) -> Outcome {
+    pub fn request(&mut self, request: AutopilotRequest, now: SimTime) -> RequestOutcome {
         match request {
-            Request::Arm { force } => self.arm(force, now),
-            Request::Disarm { force } => self.disarm_on_request(force),
-            Request::SetMode(mode) => self.set_mode(mode, now),
-            Request::Takeoff { height_m } => self.request_takeoff(height_m, now),
-            Request::Land => self.set_mode(Mode::Land, now),
-            Request::GoTo { north_east_m, up_m, yaw_rad, speed_m_s } => self.go_to(north_east_m, up_m, yaw_rad, speed_m_s, now),
-            Request::Turn(turn) => self.turn_by_command(turn),
-            Request::StartMission { first } => self.start_mission(first, now),
-            Request::SetSpeed(speed) => self.set_speed(speed),
-            Request::SetHome(home) => self.set_home(home),
-            Request::EnableFence(on) => self.enable_fence(on),
-            Request::Orbit(wish) => self.request_orbit(wish, now),
-            Request::CircleAhead => self.request_circle_ahead(now),
-            Request::LandingSequence => self.request_landing_sequence(now),
-            Request::Pause(pause) => self.pause(pause, now),
-            Request::LookAt(place) => {
+            AutopilotRequest::Arm { force } => self.arm(force, now),
+            AutopilotRequest::Disarm { force } => self.disarm_on_request(force),
+            AutopilotRequest::SetMode(mode) => self.set_mode(mode, now),
+            AutopilotRequest::Takeoff { height_m } => self.request_takeoff(height_m, now),
+            AutopilotRequest::Land => self.set_mode(FlightMode::Land, now),
+            AutopilotRequest::GoTo { north_east_m, up_m, yaw_rad, speed_m_s } => {
+                self.go_to(north_east_m, up_m, yaw_rad, speed_m_s, now)
+            }
+            AutopilotRequest::Turn(turn) => self.turn_by_command(turn),
+            AutopilotRequest::StartMission { first } => self.start_mission(first, now),
+            AutopilotRequest::SetSpeed(speed) => self.set_speed(speed),
+            AutopilotRequest::SetHome(home) => self.set_home(home),
+            AutopilotRequest::EnableFence(on) => self.enable_fence(on),
+            AutopilotRequest::Orbit(wish) => self.request_orbit(wish, now),
+            AutopilotRequest::CircleAhead => self.request_circle_ahead(now),
+            AutopilotRequest::LandingSequence => self.request_landing_sequence(now),
+            AutopilotRequest::Pause(pause) => self.pause(pause, now),
+            AutopilotRequest::LookAt(place) => {
                 self.look_at_m = place;
-                Outcome::Accepted
+                RequestOutcome::Accepted
             }
         }
     }
 
-    fn arm(&mut self, force: bool, now: SimTime) -> Outcome {
+    fn arm(&mut self, force: bool, now: SimTime) -> RequestOutcome {
         if self.status.armed {
-            return Outcome::Accepted;
+            return RequestOutcome::Accepted;
         }
         let reasons = self.arming_reasons(now);
         if !force && !reasons.is_empty() {
-            return Outcome::TemporarilyRejected(format!("Arming denied: {}", reasons.join(", ")));
+            return RequestOutcome::TemporarilyRejected(format!("Arming denied: {}", reasons.join(", ")));
         }
         self.status.armed = true;
-        self.mission.begin_anew();
-        if self.watch.intended == Mode::Mission {
+        self.mission.reset();
+        if self.failsafe.intended == FlightMode::Mission {
             self.restart_finished_mission();
         }
-        self.watch.armed_yaw_rad = Some(self.estimate.attitude.yaw_rad());
+        self.failsafe.armed_yaw_rad = Some(self.estimate.attitude.yaw_rad());
         self.tuning.fence_enabled |= self.tuning.rules.fence.auto == FenceSwitching::AtArming;
         self.status.mission_paused = false;
-        self.status.landed = Landed::OnGround;
-        self.watch.standing_since = now;
-        self.watch.flown = false;
-        self.watch.begin_flight();
-        self.watch.upset_since = None;
-        self.watch.aim_cosine = 1.0;
-        self.status.health.obeys = true;
+        self.status.landed = LandedState::OnGround;
+        self.failsafe.standing_since = now;
+        self.failsafe.flown = false;
+        self.failsafe.begin_flight();
+        self.failsafe.upset_since = None;
+        self.failsafe.attitude_error_cosine = 1.0;
+        self.status.health.tracks_attitude = true;
         if self.estimate.position_valid && !self.home_is_set {
             self.move_home(self.estimate.position_m);
         }
         // Nobody at the sticks: what flies by itself flies.
-        if self.watch.intended.is_manual() && !self.links.sticks_fresh(self.tuning.manual_patience_s(), now) {
-            self.watch.intended = Mode::Hold;
+        if self.failsafe.intended.is_manual() && !self.links.sticks_fresh(self.tuning.manual_timeout_s(), now) {
+            self.failsafe.intended = FlightMode::Hold;
         }
-        self.enter(self.watch.intended, now);
-        self.say(Severity::Info, "Armed");
-        Outcome::Accepted
+        self.enter(self.failsafe.intended, now);
+        self.push_event(Severity::Info, "Armed");
+        RequestOutcome::Accepted
     }
 
-    fn disarm_on_request(&mut self, force: bool) -> Outcome {
-        if self.status.armed && self.status.landed != Landed::OnGround && !force {
-            return Outcome::TemporarilyRejected("Disarming denied: not landed".into());
+    fn disarm_on_request(&mut self, force: bool) -> RequestOutcome {
+        if self.status.armed && self.status.landed != LandedState::OnGround && !force {
+            return RequestOutcome::TemporarilyRejected("Disarming denied: not landed".into());
         }
         if self.status.armed {
             self.disarm("Disarmed");
         }
-        Outcome::Accepted
+        RequestOutcome::Accepted
     }
 
-    fn set_mode(&mut self, mode: Mode, now: SimTime) -> Outcome {
+    fn set_mode(&mut self, mode: FlightMode, now: SimTime) -> RequestOutcome {
         if let Some(refusal) = self.refusal(mode, now) {
             return refusal;
         }
-        let again = self.watch.intended == mode && self.status.mode == mode;
-        if mode == Mode::Mission && !again && self.tuning.rules.mission_restarts {
+        let again = self.failsafe.intended == mode && self.status.mode == mode;
+        if mode == FlightMode::Mission && !again && self.tuning.rules.mission_restarts {
             self.mission.restart();
         }
-        self.watch.intended = mode;
-        self.watch.overridden = false;
-        if mode == Mode::Mission {
+        self.failsafe.intended = mode;
+        self.failsafe.overridden = false;
+        if mode == FlightMode::Mission {
             self.restart_finished_mission();
         }
         if !again {
             self.enter(mode, now);
-        } else if mode == Mode::Mission {
+        } else if mode == FlightMode::Mission {
             self.resume(now);
         }
-        Outcome::Accepted
+        RequestOutcome::Accepted
     }
 
-    fn refusal(&self, mode: Mode, now: SimTime) -> Option<Outcome> {
-        let flying = self.status.armed && self.status.landed != Landed::OnGround;
-        if mode == Mode::Mission && self.mission.is_empty() {
-            return Some(Outcome::Denied("No mission to fly".into()));
+    fn refusal(&self, mode: FlightMode, now: SimTime) -> Option<RequestOutcome> {
+        let flying = self.status.armed && self.status.landed != LandedState::OnGround;
+        if mode == FlightMode::Mission && self.mission.is_empty() {
+            return Some(RequestOutcome::Denied("No mission to fly".into()));
         }
-        if mode == Mode::Mission
-            && let Some(why) = self.mission_leaves_fence().or_else(|| self.mission_lacks())
+        if mode == FlightMode::Mission
+            && let Some(why) = self.mission_leaves_fence().or_else(|| self.missing_mission_parts())
         {
-            return Some(Outcome::Denied(why));
+            return Some(RequestOutcome::Denied(why));
         }
-        if self.would_leap(mode, now) {
-            return Some(Outcome::Denied("throttle too high".into()));
+        if self.throttle_too_high(mode, now) {
+            return Some(RequestOutcome::Denied("throttle too high".into()));
         }
-        if mode == Mode::Orbit && self.orbit.is_none() {
-            return Some(Outcome::Denied("Nothing to circle: DO_ORBIT says what".into()));
+        if mode == FlightMode::Orbit && self.orbit.is_none() {
+            return Some(RequestOutcome::Denied("Nothing to circle: DO_ORBIT says what".into()));
         }
-        if mode == Mode::Offboard && !self.links.offboard_fresh(self.tuning.offboard_patience_s(), now) {
-            return Some(Outcome::TemporarilyRejected("Offboard needs external set-points first".into()));
+        if mode == FlightMode::Offboard && !self.links.offboard_fresh(self.tuning.offboard_timeout_s(), now) {
+            return Some(RequestOutcome::TemporarilyRejected("Offboard needs external set-points first".into()));
         }
         let counts = flying || self.status.armed && self.tuning.arms_by_mode;
         if counts && mode.needs_position() && !self.estimate.position_valid {
-            return Some(Outcome::TemporarilyRejected("No position estimate".into()));
+            return Some(RequestOutcome::TemporarilyRejected("No position estimate".into()));
         }
-        if mode == Mode::SmartReturn && flying && self.trail.is_empty() {
-            return Some(Outcome::Denied("No path recorded since take-off".into()));
+        if mode == FlightMode::SmartReturn && flying && self.flown_path.is_empty() {
+            return Some(RequestOutcome::Denied("No path recorded since take-off".into()));
         }
-        if mode == Mode::Follow && !self.tuning.follow.enabled {
-            return Some(Outcome::Denied("Set FOLL_ENABLE = 1".into()));
+        if mode == FlightMode::Follow && !self.tuning.follow.enabled {
+            return Some(RequestOutcome::Denied("Set FOLL_ENABLE = 1".into()));
         }
-        if mode == Mode::Return && self.status.home_m.is_none() {
-            return Some(Outcome::TemporarilyRejected("No home position".into()));
+        if mode == FlightMode::Return && self.status.home_m.is_none() {
+            return Some(RequestOutcome::TemporarilyRejected("No home position".into()));
         }
         None
     }
 
     /// On the ground the throttle stick is so high that a mode in which it is the thrust would take off at once.
-    fn would_leap(&self, mode: Mode, now: SimTime) -> bool {
-        let direct = |mode: Mode| matches!(mode, Mode::Stabilized | Mode::Acro);
-        let high = self.links.sticks.up > LEAP && self.links.sticks_fresh(self.tuning.manual_patience_s(), now);
-        let standing = !self.status.armed || self.status.landed == Landed::OnGround;
-        self.tuning.arms_by_mode && standing && high && direct(mode) && !direct(self.watch.intended)
+    fn throttle_too_high(&self, mode: FlightMode, now: SimTime) -> bool {
+        let direct = |mode: FlightMode| matches!(mode, FlightMode::Stabilized | FlightMode::Acro);
+        let high = self.links.sticks.up > LEAP && self.links.sticks_fresh(self.tuning.manual_timeout_s(), now);
+        let standing = !self.status.armed || self.status.landed == LandedState::OnGround;
+        self.tuning.arms_by_mode && standing && high && direct(mode) && !direct(self.failsafe.intended)
     }
 
     /// What the mission lacks of what the operator asks of one.
-    fn mission_lacks(&self) -> Option<String> {
+    fn missing_mission_parts(&self) -> Option<String> {
         let rules = &self.tuning.rules;
         let takeoff = self.mission.all().any(|(_, step)| matches!(step, MissionStep::Takeoff { .. }));
         let landing = self.mission.all().any(|(_, step)| matches!(step, MissionStep::Land { .. } | MissionStep::Return));
@@ -166,7 +168,7 @@ impl Autopilot {
             return Some("Mission has no landing item".into());
         }
         let home = self.status.home_m?;
-        let away_m = (self.mission.first_place()? - home).horizontal_norm();
+        let away_m = (self.mission.first_position()? - home).horizontal_norm();
         let too_far = rules.first_waypoint_m > 0.0 && away_m > rules.first_waypoint_m;
         too_far.then(|| format!("First waypoint too far from home: {away_m:.0} m, limit {:.0} m", rules.first_waypoint_m))
     }
@@ -179,9 +181,9 @@ impl Autopilot {
         self.status.mission_current = self.mission.current;
     }
 
-    fn request_takeoff(&mut self, height_m: Option<f64>, now: SimTime) -> Outcome {
+    fn request_takeoff(&mut self, height_m: Option<f64>, now: SimTime) -> RequestOutcome {
         if height_m.is_some_and(|h| !h.is_finite() || h.abs() > FAR_M) {
-            return Outcome::Denied("Take-off height out of range".into());
+            return RequestOutcome::Denied("Take-off height out of range".into());
         }
         let here = self.estimate.position_m;
         let home_up = self.status.home_m.map_or(0.0, |h| -h.down());
@@ -192,18 +194,18 @@ impl Autopilot {
         {
             return refusal;
         }
-        let before = self.course.takeoff_up_m.replace(wanted_up);
-        let in_air = self.status.armed && self.status.landed != Landed::OnGround;
-        if in_air && self.course.takeoff_up_m.is_some_and(|wanted| up >= wanted) {
-            self.say(Severity::Info, "Already higher than takeoff altitude");
-            return self.set_mode(Mode::Hold, now);
+        let before = self.navigator.takeoff_up_m.replace(wanted_up);
+        let in_air = self.status.armed && self.status.landed != LandedState::OnGround;
+        if in_air && self.navigator.takeoff_up_m.is_some_and(|wanted| up >= wanted) {
+            self.push_event(Severity::Info, "Already higher than takeoff altitude");
+            return self.set_mode(FlightMode::Hold, now);
         }
-        let outcome = self.set_mode(Mode::Takeoff, now);
-        if outcome != Outcome::Accepted {
-            self.course.takeoff_up_m = before;
+        let outcome = self.set_mode(FlightMode::Takeoff, now);
+        if outcome != RequestOutcome::Accepted {
+            self.navigator.takeoff_up_m = before;
         }
-        if self.status.mode == Mode::Takeoff {
-            self.enter(Mode::Takeoff, now);
+        if self.status.mode == FlightMode::Takeoff {
+            self.enter(FlightMode::Takeoff, now);
         }
         outcome
     }
@@ -215,16 +217,16 @@ impl Autopilot {
         yaw_rad: Option<f64>,
         speed_m_s: Option<f64>,
         now: SimTime,
-    ) -> Outcome {
+    ) -> RequestOutcome {
         let given = [north_east_m.map(|p| p.0), north_east_m.map(|p| p.1), up_m, yaw_rad, speed_m_s];
         if given.iter().flatten().any(|v| !v.is_finite() || v.abs() > FAR_M) {
-            return Outcome::Denied("Target out of range".into());
+            return RequestOutcome::Denied("Target out of range".into());
         }
-        if !self.status.armed || self.status.landed == Landed::OnGround {
-            return Outcome::TemporarilyRejected("Not flying".into());
+        if !self.status.armed || self.status.landed == LandedState::OnGround {
+            return RequestOutcome::TemporarilyRejected("Not flying".into());
         }
         if !self.estimate.position_valid {
-            return Outcome::TemporarilyRejected("No position estimate".into());
+            return RequestOutcome::TemporarilyRejected("No position estimate".into());
         }
         let here = self.estimate.position_m;
         let (n, e) = north_east_m.unwrap_or((here.north(), here.east()));
@@ -234,81 +236,84 @@ impl Autopilot {
                 return refusal;
             }
         }
-        self.watch.intended = Mode::Hold;
-        self.watch.overridden = false;
-        self.enter(Mode::Hold, now);
-        let held = self.course.target_m;
+        self.failsafe.intended = FlightMode::Hold;
+        self.failsafe.overridden = false;
+        self.enter(FlightMode::Hold, now);
+        let held = self.navigator.target_m;
         let (n, e) = north_east_m.unwrap_or((held.north(), held.east()));
-        self.course.target_m = Vec3::new(n, e, up_m.map_or(held.down(), |u| -u));
-        self.course.target_yaw_rad = yaw_rad;
-        self.course.speed_m_s = Some(speed_m_s.filter(|s| *s > 0.0).unwrap_or(self.cruise_m_s()));
-        Outcome::Accepted
+        self.navigator.target_m = Vec3::new(n, e, up_m.map_or(held.down(), |u| -u));
+        self.navigator.target_yaw_rad = yaw_rad;
+        self.navigator.speed_m_s = Some(speed_m_s.filter(|s| *s > 0.0).unwrap_or(self.cruise_m_s()));
+        RequestOutcome::Accepted
     }
 
     /// The mode stays: a mission flies on, a person keeps the sticks.
-    fn turn_by_command(&mut self, turn: Turn) -> Outcome {
-        let automatic = matches!(self.status.mode, Mode::Hold | Mode::Takeoff | Mode::Land | Mode::Mission | Mode::Offboard);
-        if !self.status.armed || self.status.landed == Landed::OnGround || !automatic {
-            return Outcome::TemporarilyRejected("Not flying by itself".into());
+    fn turn_by_command(&mut self, turn: TurnCommand) -> RequestOutcome {
+        let automatic = matches!(
+            self.status.mode,
+            FlightMode::Hold | FlightMode::Takeoff | FlightMode::Land | FlightMode::Mission | FlightMode::Offboard
+        );
+        if !self.status.armed || self.status.landed == LandedState::OnGround || !automatic {
+            return RequestOutcome::TemporarilyRejected("Not flying by itself".into());
         }
         self.look_at_m = None;
-        self.course.target_yaw_rad = Some(turn.yaw_rad);
-        self.course.turn = Some(turn);
-        self.course.turned_by_pilot = false;
-        Outcome::Accepted
+        self.navigator.target_yaw_rad = Some(turn.yaw_rad);
+        self.navigator.turn = Some(turn);
+        self.navigator.turned_by_pilot = false;
+        RequestOutcome::Accepted
     }
 
-    fn start_mission(&mut self, first: Option<usize>, now: SimTime) -> Outcome {
+    fn start_mission(&mut self, first: Option<usize>, now: SimTime) -> RequestOutcome {
         if self.mission.is_empty() {
-            return Outcome::Denied("Mission start denied: no mission".into());
+            return RequestOutcome::Denied("Mission start denied: no mission".into());
         }
         if first.is_some_and(|index| !self.set_mission_current(index, false)) {
-            return Outcome::Denied("No such mission item".into());
+            return RequestOutcome::Denied("No such mission item".into());
         }
-        let outcome = self.set_mode(Mode::Mission, now);
-        self.watch.mission_started = outcome == Outcome::Accepted;
+        let outcome = self.set_mode(FlightMode::Mission, now);
+        self.failsafe.mission_started = outcome == RequestOutcome::Accepted;
         outcome
     }
 
     /// The landing sequence nearest to here.
-    fn request_landing_sequence(&mut self, now: SimTime) -> Outcome {
+    fn request_landing_sequence(&mut self, now: SimTime) -> RequestOutcome {
         let here = self.estimate.position_m;
         let Some(index) = self.mission.landing_sequence(here) else {
-            return Outcome::Failed("No return path or landing sequence found".into());
+            return RequestOutcome::Failed("No return path or landing sequence found".into());
         };
         self.set_mission_current(index, false);
-        let outcome = self.set_mode(Mode::Mission, now);
-        if outcome == Outcome::Accepted {
-            self.enter(Mode::Mission, now);
+        let outcome = self.set_mode(FlightMode::Mission, now);
+        if outcome == RequestOutcome::Accepted {
+            self.enter(FlightMode::Mission, now);
         }
         outcome
     }
 
-    fn set_speed(&mut self, speed_m_s: Option<f64>) -> Outcome {
+    fn set_speed(&mut self, speed_m_s: Option<f64>) -> RequestOutcome {
         if speed_m_s.is_some_and(|speed| !(speed.is_finite() && speed > 0.0)) {
-            return Outcome::Denied("Speed out of range".into());
+            return RequestOutcome::Denied("Speed out of range".into());
         }
         self.commanded_m_s = speed_m_s;
-        if self.course.speed_m_s.is_some() {
-            self.course.speed_m_s = Some(self.cruise_m_s());
+        if self.navigator.speed_m_s.is_some() {
+            self.navigator.speed_m_s = Some(self.cruise_m_s());
         }
-        Outcome::Accepted
+        RequestOutcome::Accepted
     }
 
-    fn set_home(&mut self, home_m: Vec3<Ned>) -> Outcome {
+    fn set_home(&mut self, home_m: Vec3<Ned>) -> RequestOutcome {
         if !home_m.is_finite() || home_m.norm() > FAR_M {
-            return Outcome::Denied("Home out of range".into());
+            return RequestOutcome::Denied("Home out of range".into());
         }
         self.move_home(home_m);
         self.home_is_set = true;
-        Outcome::Accepted
+        RequestOutcome::Accepted
     }
 
     pub(super) fn move_home(&mut self, home_m: Vec3<Ned>) {
         let before_down_m = self.status.home_m.map_or(0.0, |h| h.down());
         let up_m = before_down_m - home_m.down();
         self.mission.raise_home(up_m);
-        for refuge in self.refuges.iter_mut().filter(|refuge| refuge.over_home) {
+        for refuge in self.rally_points.iter_mut().filter(|refuge| refuge.over_home) {
             refuge.place_m -= Vec3::new(0.0, 0.0, up_m);
         }
         self.status.home_m = Some(home_m);

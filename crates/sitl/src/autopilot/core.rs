@@ -2,28 +2,28 @@
 
 use super::attitude::{AttitudeLoop, within_limits};
 use super::estimator::Estimator;
-use super::fence::{Fence, FenceState, Refuge};
+use super::failsafe::FailsafeState;
+use super::fence::{Fence, FenceState, RallyPoint};
 use super::follow::Follower;
 use super::gains::Gains;
-use super::landed::GroundContact;
-use super::link::Links;
-use super::mission::{Mission, Unnamed};
-use super::mixer::{Demand, Given, Mixer};
-use super::modes::{Course, Wanted};
-use super::operator_rules::{Envelope, JOB_BATTERY};
+use super::landed::LandingDetector;
+use super::link_status::LinkStatus;
+use super::mission::{DeferredFields, Mission};
+use super::mixer::{AllocationStatus, Mixer, TorqueThrustSetpoint};
+use super::modes::{NavigatorState, Setpoint};
+use super::operator_rules::{FlightEnvelope, JOB_BATTERY};
 use super::orbit::Orbit;
-use super::senses::{Health, Senses, SensorChange};
-use super::shaper::Shaper;
-use super::smart_return::Trail;
-use super::supervise::Watch;
+use super::sensor_health::{SensorChange, SensorHealth, SensorStatus};
+use super::shaper::MotionShaper;
+use super::smart_return::FlownPath;
 use super::trajectory::Trajectory;
-use super::velocity::{Motion, Pull, VelocityLoop};
-use super::{Estimate, Landed, MissionStep, Mode, OffboardSetpoint, Status, Sticks, Tuning};
+use super::velocity::{AttitudeThrustSetpoint, VelocityLoop, VelocitySetpoint};
+use super::{AutopilotStatus, Estimate, FlightMode, LandedState, MissionStep, OffboardSetpoint, Sticks, Tuning};
 use crate::physics::Actuators;
 use crate::sensors::{BatteryReading, Readings};
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::geodesy::Geo;
-use spandrel_model::scenario::{BatteryModel, Rules};
+use spandrel_model::scenario::{BatteryModel, SessionRules};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{FlightLimits, Vehicle};
 
@@ -59,7 +59,7 @@ impl Severity {
 
 /// Something that people should read.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Event {
+pub struct AutopilotEvent {
     /// Gravity.
     pub severity: Severity,
     /// Words.
@@ -75,14 +75,14 @@ pub(super) struct Airframe {
     pub limits: FlightLimits,
     pub full_v: f64,
     /// The voltage's sag reaches the motors.
-    pub sags: bool,
+    pub voltage_sags: bool,
     /// Height of the centre over the ground when standing, m.
     pub standing_m: f64,
 }
 
 /// The latest of the sensors that are not fused.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Seen {
+pub(super) struct UnfusedReadings {
     pub battery: Option<BatteryReading>,
     pub range_down_m: Option<f64>,
     pub range_up_m: Option<f64>,
@@ -100,16 +100,16 @@ pub struct Autopilot {
     pub(super) velocity_loop: VelocityLoop,
     pub(super) attitude_loop: AttitudeLoop,
     pub(super) mixer: Mixer,
-    pub(super) given: Given,
-    pub(super) shaper: Shaper,
-    pub(super) course: Course,
+    pub(super) allocation: AllocationStatus,
+    pub(super) shaper: MotionShaper,
+    pub(super) navigator: NavigatorState,
     pub(super) mission: Mission,
     /// The planned way through the mission's waypoints, while one is flown.
-    pub(super) way: Option<Trajectory>,
+    pub(super) trajectory: Option<Trajectory>,
     pub(super) fence: Fence,
     pub(super) orbit: Option<Orbit>,
     /// The path flown since take-off.
-    pub(super) trail: Trail,
+    pub(super) flown_path: FlownPath,
     /// The target that is followed.
     pub(super) follower: Follower,
     /// Automatic modes turn towards this place, m.
@@ -119,21 +119,21 @@ pub struct Autopilot {
     /// Home was put where it is by a command: arming leaves it there.
     pub(super) home_is_set: bool,
     /// Places to return to beside home.
-    pub(super) refuges: Vec<Refuge>,
-    pub(super) links: Links,
-    pub(super) seen: Seen,
-    pub(super) senses: Senses,
-    pub(super) watch: Watch,
-    pub(super) contact: GroundContact,
-    pub(super) status: Status,
-    pub(super) events: Vec<Event>,
+    pub(super) rally_points: Vec<RallyPoint>,
+    pub(super) links: LinkStatus,
+    pub(super) unfused: UnfusedReadings,
+    pub(super) sensor_health: SensorHealth,
+    pub(super) failsafe: FailsafeState,
+    pub(super) landing_detector: LandingDetector,
+    pub(super) status: AutopilotStatus,
+    pub(super) events: Vec<AutopilotEvent>,
     pub(super) last_step: SimTime,
 }
 
 impl Autopilot {
     /// Boots on the ground. `origin` is where the local frame lies (for the magnetic model).
     #[must_use]
-    pub fn new(vehicle: &Vehicle, rules: &Rules, origin: Geo, mut tuning: Tuning) -> Self {
+    pub fn new(vehicle: &Vehicle, rules: &SessionRules, origin: Geo, mut tuning: Tuning) -> Self {
         if rules.low_battery_return {
             tuning.rules.responses.battery = JOB_BATTERY;
         }
@@ -148,7 +148,7 @@ impl Autopilot {
                 mass_kg: vehicle.mass_kg,
                 limits: vehicle.limits,
                 full_v: f64::from(battery.cells) * battery.ocv_cell_v[10],
-                sags: rules.battery == BatteryModel::Physical,
+                voltage_sags: rules.battery == BatteryModel::Physical,
                 standing_m,
             },
             estimate: estimator.estimate(),
@@ -156,24 +156,24 @@ impl Autopilot {
             velocity_loop: VelocityLoop::default(),
             attitude_loop: AttitudeLoop::default(),
             mixer: Mixer::new(vehicle, gains.lead),
-            given: Given { tilt: 1.0, yaw: 1.0 },
-            shaper: Shaper::default(),
-            course: Course::default(),
+            allocation: AllocationStatus { tilt: 1.0, yaw: 1.0 },
+            shaper: MotionShaper::default(),
+            navigator: NavigatorState::default(),
             mission: Mission::default(),
-            way: None,
+            trajectory: None,
             fence: Fence::default(),
             orbit: None,
-            trail: Trail::default(),
+            flown_path: FlownPath::default(),
             follower: Follower::default(),
             look_at_m: None,
             commanded_m_s: None,
             home_is_set: false,
-            refuges: Vec::new(),
-            links: Links::default(),
-            seen: Seen::default(),
-            senses: Senses::new(&vehicle.sensors),
-            watch: Watch::default(),
-            contact: GroundContact::default(),
+            rally_points: Vec::new(),
+            links: LinkStatus::default(),
+            unfused: UnfusedReadings::default(),
+            sensor_health: SensorHealth::new(&vehicle.sensors),
+            failsafe: FailsafeState::default(),
+            landing_detector: LandingDetector::default(),
             status: boot_status(),
             events: Vec::new(),
             last_step: SimTime::ZERO,
@@ -182,20 +182,20 @@ impl Autopilot {
 
     /// The tuning that goes with a job's rules: battery thresholds come from there.
     #[must_use]
-    pub fn tuning_for(rules: &Rules) -> Tuning {
+    pub fn tuning_for(rules: &SessionRules) -> Tuning {
         Tuning { battery_low_pct: rules.low_battery_pct, battery_critical_pct: rules.critical_battery_pct, ..Tuning::default() }
     }
 
     /// Armed with no sticks coming in.
     #[must_use]
     pub fn is_unattended(&self, now: SimTime) -> bool {
-        self.status.armed && !self.links.sticks_fresh(self.tuning.manual_patience_s(), now)
+        self.status.armed && !self.links.sticks_fresh(self.tuning.manual_timeout_s(), now)
     }
 
     /// The pilot's sticks, as often as they come. Values beyond [-1, 1] are limited, not-a-numbers are centred.
     pub fn sticks(&mut self, sticks: Sticks, now: SimTime) {
         self.links.take_sticks(sticks, self.tuning.stick_deadband, now);
-        self.take_over(now);
+        self.check_stick_takeover(now);
     }
 
     /// Whether the sticks come in the mode that flies errands: there the yaw stick turns the nose and takes nothing over.
@@ -204,18 +204,18 @@ impl Autopilot {
     }
 
     /// The sticks were let go of on purpose: that is no loss.
-    pub fn let_go_of_sticks(&mut self) {
-        self.watch.sticks_seen = false;
-        if !self.watch.intended.is_manual() {
+    pub fn release_sticks(&mut self) {
+        self.failsafe.sticks_seen = false;
+        if !self.failsafe.intended.is_manual() {
             self.links.sticks_at = None;
         }
     }
 
     /// The limits of the airframe itself, where the parameters leave them alone.
     #[must_use]
-    pub fn airframe_envelope(&self) -> Envelope {
+    pub fn airframe_envelope(&self) -> FlightEnvelope {
         let (limits, automatic) = (&self.airframe.limits, self.airframe_auto_limits());
-        Envelope {
+        FlightEnvelope {
             manual_m_s: limits.forward_m_s,
             manual_up_m_s: limits.climb_m_s,
             manual_down_m_s: limits.descend_m_s,
@@ -230,7 +230,7 @@ impl Autopilot {
     /// An external set-point.
     pub fn offboard(&mut self, setpoint: OffboardSetpoint, now: SimTime) {
         self.links.offboard = Some((setpoint, now));
-        self.course.turned_by_pilot = false;
+        self.navigator.turned_by_pilot = false;
     }
 
     /// A ground station's heartbeat has come.
@@ -245,25 +245,25 @@ impl Autopilot {
         self.status.mission_current = 0;
         self.status.mission_finished = false;
         self.status.mission_paused = false;
-        if self.status.mode == Mode::Mission {
-            self.enter(Mode::Hold, self.last_step);
-            self.watch.intended = Mode::Hold;
+        if self.status.mode == FlightMode::Mission {
+            self.enter(FlightMode::Hold, self.last_step);
+            self.failsafe.intended = FlightMode::Hold;
         }
     }
 
     /// Replaces the rally points: a return goes to the nearest of them and home.
-    pub fn set_refuges(&mut self, refuges: Vec<Refuge>) {
-        self.refuges = refuges;
+    pub fn set_rally_points(&mut self, refuges: Vec<RallyPoint>) {
+        self.rally_points = refuges;
     }
 
     /// Names the mission's steps whose heights count from home; given right after the mission, with the home of that moment in them.
-    pub fn hang_mission_on_home(&mut self, over_home: Vec<bool>) {
-        self.mission.hang_on_home(over_home);
+    pub fn set_home_relative_steps(&mut self, over_home: Vec<bool>) {
+        self.mission.set_home_relative(over_home);
     }
 
     /// Names what steps of the mission take from where the vehicle is when they begin; given right after the mission.
-    pub fn leave_mission_open(&mut self, unnamed: Vec<Unnamed>) {
-        self.mission.leave_open(unnamed);
+    pub fn set_deferred_fields(&mut self, unnamed: Vec<DeferredFields>) {
+        self.mission.set_deferred(unnamed);
     }
 
     /// Jumps to a mission item, with `anew` as if nothing had been flown before it; false when there is none.
@@ -286,15 +286,15 @@ impl Autopilot {
         self.last_step = now;
         self.estimator.no_aid_s = self.tuning.rules.no_aid_s;
         self.estimator.wanted_reference = self.tuning.rules.height_reference;
-        let readings = &self.senses.screen(readings, now);
+        let readings = &self.sensor_health.filter(readings, now);
         self.estimator.set_parked(!self.status.armed);
         self.estimator.step(readings, now);
         self.estimate = self.estimator.estimate();
         self.follow_place_step();
-        self.see(readings);
-        self.watch_sensors(now);
-        self.supervise(now);
-        self.status.intended = self.watch.intended;
+        self.store_unfused(readings);
+        self.check_sensors(now);
+        self.run_failsafes(now);
+        self.status.intended = self.failsafe.intended;
         let t = &self.tuning;
         (self.status.battery_low_pct, self.status.battery_critical_pct) = (t.battery_low_pct, t.battery_critical_pct);
         if !self.status.armed {
@@ -302,83 +302,83 @@ impl Autopilot {
             self.status.attitude_target = self.estimate.attitude;
             return self.mixer.stop();
         }
-        self.watch_ground(now, dt_s);
+        self.update_landed_state(now, dt_s);
         if !self.status.armed {
             return self.mixer.stop();
         }
-        self.record_trail();
-        let wanted = self.wanted(now, dt_s);
-        self.drive(wanted, now, dt_s)
+        self.record_path();
+        let wanted = self.setpoint(now, dt_s);
+        self.track_setpoint(wanted, now, dt_s)
     }
 
-    fn see(&mut self, readings: &Readings) {
-        let seen = &mut self.seen;
+    fn store_unfused(&mut self, readings: &Readings) {
+        let seen = &mut self.unfused;
         seen.battery = readings.battery.or(seen.battery);
         seen.range_down_m = readings.range_down_m.or(seen.range_down_m);
         seen.range_up_m = readings.range_up_m.or(seen.range_up_m);
     }
 
-    fn drive(&mut self, wanted: Wanted, now: SimTime, dt_s: f64) -> Actuators {
+    fn track_setpoint(&mut self, wanted: Setpoint, now: SimTime, dt_s: f64) -> Actuators {
         let pull = match wanted {
-            Wanted::Rest => {
+            Setpoint::Idle => {
                 self.status.thrust = 0.0;
                 self.status.attitude_target = self.estimate.attitude;
                 return self.mixer.idle(dt_s);
             }
-            Wanted::Fly(motion) => {
-                self.contact.wanted_down_m_s = motion.velocity_m_s.down();
+            Setpoint::Velocity(motion) => {
+                self.landing_detector.wanted_down_m_s = motion.velocity_m_s.down();
                 self.velocity_loop.fly(&self.gains, self.airframe.mass_kg, &self.estimate, &motion, dt_s)
             }
-            Wanted::Level { motion, tilt } => {
-                self.contact.wanted_down_m_s = motion.velocity_m_s.down();
-                self.level(&motion, tilt, dt_s)
+            Setpoint::Level { motion, tilt } => {
+                self.landing_detector.wanted_down_m_s = motion.velocity_m_s.down();
+                self.hold_tilt(&motion, tilt, dt_s)
             }
-            Wanted::Direct(pull) => pull,
-            Wanted::Spin { rates_rad_s, thrust_n } => return self.spin_rotors(rates_rad_s, thrust_n, now, dt_s),
+            Setpoint::AttitudeThrust(pull) => pull,
+            Setpoint::Spin { rates_rad_s, thrust_n } => return self.run_rate_loop(rates_rad_s, thrust_n, now, dt_s),
         };
-        self.turn_rotors(&pull, now, dt_s)
+        self.run_attitude_loop(&pull, now, dt_s)
     }
 
-    fn level(&mut self, motion: &Motion, tilt: (f64, f64), dt_s: f64) -> Pull {
+    fn hold_tilt(&mut self, motion: &VelocitySetpoint, tilt: (f64, f64), dt_s: f64) -> AttitudeThrustSetpoint {
         self.velocity_loop.reset_horizontal();
         self.velocity_loop.fly_level(&self.gains, self.airframe.mass_kg, &self.estimate, motion, tilt, dt_s)
     }
 
-    fn turn_rotors(&mut self, pull: &Pull, now: SimTime, dt_s: f64) -> Actuators {
-        let thrust_n = self.eased(pull.thrust_n, now);
+    fn run_attitude_loop(&mut self, pull: &AttitudeThrustSetpoint, now: SimTime, dt_s: f64) -> Actuators {
+        let thrust_n = self.ramp_thrust(pull.thrust_n, now);
         self.status.attitude_target = pull.attitude;
-        self.watch.aim_cosine = alignment(self.estimate.attitude, pull.attitude);
-        let (g, feed) = (&self.gains, self.course.yaw_rate_rad_s + self.course.yaw_brake_rad_s);
-        let torque_n_m = self.attitude_loop.torque(g, &self.estimate, pull.attitude, feed, self.given, dt_s);
-        self.mix(&Demand { torque_n_m, thrust_n }, dt_s)
+        self.failsafe.attitude_error_cosine = thrust_cosine(self.estimate.attitude, pull.attitude);
+        let (g, feed) = (&self.gains, self.navigator.yaw_rate_rad_s + self.navigator.yaw_brake_rad_s);
+        let torque_n_m = self.attitude_loop.torque(g, &self.estimate, pull.attitude, feed, self.allocation, dt_s);
+        self.mix(&TorqueThrustSetpoint { torque_n_m, thrust_n }, dt_s)
     }
 
-    fn spin_rotors(&mut self, rates_rad_s: Vec3<Frd>, thrust_n: f64, now: SimTime, dt_s: f64) -> Actuators {
-        let thrust_n = self.eased(thrust_n, now);
+    fn run_rate_loop(&mut self, rates_rad_s: Vec3<Frd>, thrust_n: f64, now: SimTime, dt_s: f64) -> Actuators {
+        let thrust_n = self.ramp_thrust(thrust_n, now);
         self.status.attitude_target = self.estimate.attitude;
-        self.watch.aim_cosine = 1.0;
+        self.failsafe.attitude_error_cosine = 1.0;
         let rates = within_limits(&self.gains, rates_rad_s);
-        let torque_n_m = self.attitude_loop.rate_torque(&self.gains, &self.estimate, rates, self.given, dt_s);
-        self.mix(&Demand { torque_n_m, thrust_n }, dt_s)
+        let torque_n_m = self.attitude_loop.rate_torque(&self.gains, &self.estimate, rates, self.allocation, dt_s);
+        self.mix(&TorqueThrustSetpoint { torque_n_m, thrust_n }, dt_s)
     }
 
     /// Thrust comes up at take-off and fades out on the ground.
-    fn eased(&mut self, thrust_n: f64, now: SimTime) -> f64 {
-        let spool = ((now - self.course.left_ground).s() / SPOOL_UP_S).clamp(0.0, 1.0);
-        let thrust_n = thrust_n.min(self.gains.thrust_max_n * spool) * self.contact.thrust_share();
+    fn ramp_thrust(&mut self, thrust_n: f64, now: SimTime) -> f64 {
+        let spool = ((now - self.navigator.left_ground).s() / SPOOL_UP_S).clamp(0.0, 1.0);
+        let thrust_n = thrust_n.min(self.gains.thrust_max_n * spool) * self.landing_detector.thrust_share();
         self.status.thrust = thrust_n / self.gains.thrust_max_n;
         thrust_n
     }
 
-    fn mix(&mut self, demand: &Demand, dt_s: f64) -> Actuators {
+    fn mix(&mut self, demand: &TorqueThrustSetpoint, dt_s: f64) -> Actuators {
         let (actuators, given) = self.mixer.mix(demand, self.voltage_share(), dt_s);
-        self.given = given;
+        self.allocation = given;
         actuators
     }
 
     fn voltage_share(&self) -> f64 {
-        match self.seen.battery {
-            Some(b) if self.airframe.sags => (b.voltage_v / self.airframe.full_v).clamp(VOLTAGE_SHARE_MIN, 1.0),
+        match self.unfused.battery {
+            Some(b) if self.airframe.voltage_sags => (b.voltage_v / self.airframe.full_v).clamp(VOLTAGE_SHARE_MIN, 1.0),
             _ => 1.0,
         }
     }
@@ -389,30 +389,30 @@ impl Autopilot {
         self.estimator.reinitialise(position_m, velocity_m_s, attitude, now);
         self.estimate = self.estimator.estimate();
         self.status.armed = true;
-        self.status.landed = Landed::InAir;
-        self.contact = GroundContact::default();
-        self.watch.upset_since = None;
+        self.status.landed = LandedState::InAir;
+        self.landing_detector = LandingDetector::default();
+        self.failsafe.upset_since = None;
         // It is in the air: its next landing is one.
-        self.watch.flown = true;
-        self.status.health.obeys = true;
-        self.trail.cut_back_to(position_m);
-        let mode = if self.watch.intended.is_manual() { self.watch.intended } else { Mode::Hold };
+        self.failsafe.flown = true;
+        self.status.health.tracks_attitude = true;
+        self.flown_path.truncate_to(position_m);
+        let mode = if self.failsafe.intended.is_manual() { self.failsafe.intended } else { FlightMode::Hold };
         self.reset_loops();
-        self.course.left_ground = now - SimTime::from_s(SPOOL_UP_S);
-        self.watch.intended = mode;
+        self.navigator.left_ground = now - SimTime::from_s(SPOOL_UP_S);
+        self.failsafe.intended = mode;
         self.enter(mode, now);
-        self.say(Severity::Warning, "Put back at the last safe hover");
+        self.push_event(Severity::Warning, "Put back at the last safe hover");
     }
 
     pub(super) fn reset_loops(&mut self) {
         self.velocity_loop.reset();
         self.attitude_loop.reset();
         self.shaper.start(self.estimate.velocity_m_s);
-        self.given = Given { tilt: 1.0, yaw: 1.0 };
+        self.allocation = AllocationStatus { tilt: 1.0, yaw: 1.0 };
     }
 
-    pub(super) fn say(&mut self, severity: Severity, text: impl Into<String>) {
-        self.events.push(Event { severity, text: text.into(), sensor: None });
+    pub(super) fn push_event(&mut self, severity: Severity, text: impl Into<String>) {
+        self.events.push(AutopilotEvent { severity, text: text.into(), sensor: None });
     }
 
     /// What the estimator believes.
@@ -440,12 +440,12 @@ impl Autopilot {
 
     /// What the autopilot tells the world.
     #[must_use]
-    pub fn status(&self) -> &Status {
+    pub fn status(&self) -> &AutopilotStatus {
         &self.status
     }
 
     /// Events since the last call, in order.
-    pub fn drain_events(&mut self) -> Vec<Event> {
+    pub fn drain_events(&mut self) -> Vec<AutopilotEvent> {
         std::mem::take(&mut self.events)
     }
 
@@ -456,14 +456,14 @@ impl Autopilot {
     }
 }
 
-fn boot_status() -> Status {
-    Status {
+fn boot_status() -> AutopilotStatus {
+    AutopilotStatus {
         armed: false,
-        mode: Mode::Position,
-        intended: Mode::Position,
+        mode: FlightMode::Position,
+        intended: FlightMode::Position,
         battery_low_pct: 0.0,
         battery_critical_pct: 0.0,
-        landed: Landed::OnGround,
+        landed: LandedState::OnGround,
         climbing_out: false,
         arming_reasons: vec!["Booting".into()],
         failsafe: None,
@@ -479,12 +479,12 @@ fn boot_status() -> Status {
         fence: FenceState::default(),
         orbit: None,
         position_resets: 0,
-        health: Health::GOOD,
+        health: SensorStatus::GOOD,
     }
 }
 
 /// Cosine of the angle between two attitudes' thrust directions.
-fn alignment(a: Rotation<Frd, Ned>, b: Rotation<Frd, Ned>) -> f64 {
+fn thrust_cosine(a: Rotation<Frd, Ned>, b: Rotation<Frd, Ned>) -> f64 {
     let z = Vec3::<Frd>::new(0.0, 0.0, 1.0);
     (a * z).dot(b * z)
 }

@@ -1,7 +1,7 @@
 //! The geofence: where flight is allowed, and what its breach leads to.
 
 use super::core::{Autopilot, Severity};
-use super::{Landed, MissionStep, Mode, Outcome};
+use super::{FlightMode, LandedState, MissionStep, RequestOutcome};
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
@@ -11,7 +11,7 @@ const RING_SIDES: usize = 36;
 
 /// An area's outline, north and east about the origin, m.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Outline {
+pub enum FenceOutline {
     /// Corners in order; the last joins the first.
     Polygon(Vec<(f64, f64)>),
     /// A circle.
@@ -23,7 +23,7 @@ pub enum Outline {
     },
 }
 
-impl Outline {
+impl FenceOutline {
     /// Whether a place lies within.
     #[must_use]
     pub fn holds(&self, (n, e): (f64, f64)) -> bool {
@@ -70,16 +70,16 @@ impl Outline {
 
 /// One area of a fence.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Zone {
+pub struct FenceZone {
     /// Where.
-    pub outline: Outline,
+    pub outline: FenceOutline,
     /// Flight is allowed within some inclusion, and within no exclusion.
     pub inclusion: bool,
 }
 
 /// A place to return to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Refuge {
+pub struct RallyPoint {
     /// Where, m about the origin.
     pub place_m: Vec3<Ned>,
     /// Its height counts from home and moves with it.
@@ -141,7 +141,7 @@ pub struct FenceState {
 /// The areas.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Fence {
-    zones: Vec<Zone>,
+    zones: Vec<FenceZone>,
 }
 
 impl Fence {
@@ -155,7 +155,7 @@ impl Fence {
 
     /// Whether the whole of a straight way is within the areas.
     #[must_use]
-    pub fn allows_way(&self, from_m: (f64, f64), to_m: (f64, f64)) -> bool {
+    pub fn allows_path(&self, from_m: (f64, f64), to_m: (f64, f64)) -> bool {
         let mut cuts: Vec<f64> = self.zones.iter().flat_map(|zone| zone.outline.crossings(from_m, to_m)).collect();
         cuts.retain(|cut| (0.0..1.0).contains(cut));
         cuts.extend([0.0, 1.0]);
@@ -171,21 +171,21 @@ impl Fence {
 
 impl Autopilot {
     /// Replaces the fence's areas.
-    pub fn set_fence(&mut self, zones: Vec<Zone>) {
+    pub fn set_fence(&mut self, zones: Vec<FenceZone>) {
         self.fence.zones = zones;
     }
 
     /// Switches the fence on or off.
-    pub(super) fn enable_fence(&mut self, on: bool) -> Outcome {
+    pub(super) fn enable_fence(&mut self, on: bool) -> RequestOutcome {
         self.tuning.fence_enabled = on;
-        self.say(Severity::Info, if on { "Geofence on" } else { "Geofence off" });
-        Outcome::Accepted
+        self.push_event(Severity::Info, if on { "Geofence on" } else { "Geofence off" });
+        RequestOutcome::Accepted
     }
 
     /// What a place breaches, if anything.
     pub(super) fn breach_at(&self, place_m: Vec3<Ned>) -> Option<Breach> {
         let t = &self.tuning;
-        if !self.acts() {
+        if !self.is_active() {
             return None;
         }
         let home = self.status.home_m.unwrap_or_default();
@@ -199,32 +199,32 @@ impl Autopilot {
     }
 
     /// Why a target is refused, if it is.
-    pub(super) fn fence_refusal(&self, target_m: Vec3<Ned>) -> Option<Outcome> {
+    pub(super) fn fence_refusal(&self, target_m: Vec3<Ned>) -> Option<RequestOutcome> {
         let here = self.estimate.position_m;
         if self.breach_at(target_m).is_some() || self.below_floor(target_m) {
-            return Some(Outcome::Denied("Target lies outside the geofence".into()));
+            return Some(RequestOutcome::Denied("Target lies outside the geofence".into()));
         }
         // Who is out may come back in.
         let out = self.estimate.position_valid && self.breach_at(here).is_none() && self.leaves_between(here, target_m);
-        out.then(|| Outcome::Denied("The way there leaves the geofence".into()))
+        out.then(|| RequestOutcome::Denied("The way there leaves the geofence".into()))
     }
 
     /// Lower over home than the fence allows.
     fn below_floor(&self, place_m: Vec3<Ned>) -> bool {
         let home = self.status.home_m.unwrap_or_default();
-        self.acts() && self.tuning.rules.fence.floor_m.is_some_and(|floor_m| home.down() - place_m.down() < floor_m)
+        self.is_active() && self.tuning.rules.fence.floor_m.is_some_and(|floor_m| home.down() - place_m.down() < floor_m)
     }
 
     /// Why a circle is refused, if it is.
-    pub(super) fn ring_refusal(&self, centre_m: Vec3<Ned>, radius_m: f64) -> Option<Outcome> {
-        self.ring_leaves(centre_m, radius_m).then(|| Outcome::Denied("The circle leaves the geofence".into()))
+    pub(super) fn ring_refusal(&self, centre_m: Vec3<Ned>, radius_m: f64) -> Option<RequestOutcome> {
+        self.ring_leaves(centre_m, radius_m).then(|| RequestOutcome::Denied("The circle leaves the geofence".into()))
     }
 
     /// A straight way between two places that are within leads out between them.
     fn leaves_between(&self, from: Vec3<Ned>, to: Vec3<Ned>) -> bool {
-        self.acts()
+        self.is_active()
             && self.tuning.rules.fence.areas
-            && !self.fence.allows_way((from.north(), from.east()), (to.north(), to.east()))
+            && !self.fence.allows_path((from.north(), from.east()), (to.north(), to.east()))
     }
 
     fn ring_leaves(&self, centre_m: Vec3<Ned>, radius_m: f64) -> bool {
@@ -237,7 +237,7 @@ impl Autopilot {
 
     /// Why the mission is refused: the first step that lies outside, or whose straight way from the one before does.
     pub(super) fn mission_leaves_fence(&self) -> Option<String> {
-        let flying = self.status.armed && self.status.landed != Landed::OnGround;
+        let flying = self.status.armed && self.status.landed != LandedState::OnGround;
         let home = self.status.home_m.unwrap_or_default();
         let start = if flying { self.estimate.position_m } else { home };
         let mut from = (self.mission.current == 0 && self.breach_at(start).is_none()).then_some(start);
@@ -252,7 +252,7 @@ impl Autopilot {
                 MissionStep::Circle { centre_m, .. } => centre_m,
                 MissionStep::Takeoff { up_m } => {
                     let over = from.unwrap_or(home);
-                    Vec3::new(over.north(), over.east(), -up_m.unwrap_or_else(|| self.usual_takeoff_up_m()))
+                    Vec3::new(over.north(), over.east(), -up_m.unwrap_or_else(|| self.default_takeoff_up_m()))
                 }
                 _ => continue,
             };
@@ -269,36 +269,37 @@ impl Autopilot {
         cut_off.then(|| "The way back to where the mission was left leaves the geofence".into())
     }
 
-    fn acts(&self) -> bool {
+    fn is_active(&self) -> bool {
         self.tuning.fence_enabled && self.tuning.fence_action != FenceAction::None
     }
 
     /// Whether there is a fence at all.
-    pub(super) fn note_fence(&mut self) {
+    pub(super) fn update_fence_state(&mut self) {
         let t = &self.tuning;
         let parts = t.rules.fence;
         let limits = parts.height && t.fence_height_m > 0.0 || parts.distance && t.fence_distance_m > 0.0;
         let areas = parts.areas && !self.fence.zones.is_empty();
-        self.status.fence.set = self.acts() && (limits || areas || parts.floor_m.is_some());
+        self.status.fence.set = self.is_active() && (limits || areas || parts.floor_m.is_some());
     }
 
     /// Acts when a breach begins: once, so that the pilot can fly back in by hand.
-    pub(super) fn keep_fence(&mut self, now: SimTime) {
+    pub(super) fn enforce_fence(&mut self, now: SimTime) {
         if !self.estimate.position_valid {
             return;
         }
         let here = self.estimate.position_m;
         // The floor counts from when it was first above it, and not on the way down to land.
         let low = self.below_floor(here);
-        self.watch.above_floor |= !low && self.acts();
-        let coming_down = matches!(self.status.mode, Mode::Land | Mode::Return) || self.status.landed == Landed::Landing;
-        self.watch.above_floor &= !(low && coming_down);
-        let floor = (low && self.watch.above_floor && !coming_down).then_some(Breach::Floor);
+        self.failsafe.above_floor |= !low && self.is_active();
+        let coming_down =
+            matches!(self.status.mode, FlightMode::Land | FlightMode::Return) || self.status.landed == LandedState::Landing;
+        self.failsafe.above_floor &= !(low && coming_down);
+        let floor = (low && self.failsafe.above_floor && !coming_down).then_some(Breach::Floor);
         let breach = self.breach_at(here).or(floor);
         let before = std::mem::replace(&mut self.status.fence.breach, breach);
         match (before, breach) {
             (None, Some(breach)) => self.breached(breach, now),
-            (Some(_), None) => self.say(Severity::Info, "Within the geofence again"),
+            (Some(_), None) => self.push_event(Severity::Info, "Within the geofence again"),
             (None, None) | (Some(_), Some(_)) => {}
         }
     }
@@ -309,9 +310,9 @@ impl Autopilot {
         let (consequence, mode) = match self.tuning.fence_action {
             FenceAction::None => return,
             FenceAction::Warning => ("", None),
-            FenceAction::Hold => (", holding", Some(Mode::Hold)),
-            FenceAction::Return => (", returning", Some(Mode::Return)),
-            FenceAction::Land => (", landing", Some(Mode::Land)),
+            FenceAction::Hold => (", holding", Some(FlightMode::Hold)),
+            FenceAction::Return => (", returning", Some(FlightMode::Return)),
+            FenceAction::Land => (", landing", Some(FlightMode::Land)),
             FenceAction::Terminate => (", motors off", None),
         };
         let what = match breach {
@@ -319,13 +320,13 @@ impl Autopilot {
             Breach::Height => "too high",
             Breach::Boundary => "out of bounds",
         };
-        self.say(Severity::Critical, format!("Geofence breached: {what}{consequence}"));
+        self.push_event(Severity::Critical, format!("Geofence breached: {what}{consequence}"));
         if self.tuning.fence_action == FenceAction::Terminate {
             self.disarm("Disarmed: geofence");
         } else if let Some(mode) = mode {
             self.status.fence.taken = self.status.fence.taken.saturating_add(1);
-            self.watch.intended = mode;
-            self.watch.overridden = false;
+            self.failsafe.intended = mode;
+            self.failsafe.overridden = false;
             self.enter(mode, now);
         }
     }
@@ -335,26 +336,26 @@ impl Autopilot {
 mod tests {
     use super::*;
 
-    fn square(half: f64) -> Outline {
-        Outline::Polygon(vec![(-half, -half), (-half, half), (half, half), (half, -half)])
+    fn square(half: f64) -> FenceOutline {
+        FenceOutline::Polygon(vec![(-half, -half), (-half, half), (half, half), (half, -half)])
     }
 
     #[test]
     fn exact_areas_hold_what_lies_within() {
-        let notched = Outline::Polygon(vec![(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (5.0, 5.0), (0.0, 10.0)]);
+        let notched = FenceOutline::Polygon(vec![(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (5.0, 5.0), (0.0, 10.0)]);
         for (place, within) in
             [((2.0, 2.0), true), ((5.0, 4.0), true), ((5.0, 6.0), false), ((-1.0, 5.0), false), ((11.0, 1.0), false)]
         {
             assert_eq!(notched.holds(place), within, "{place:?}");
         }
-        let circle = Outline::Circle { centre_m: (3.0, 4.0), radius_m: 5.0 };
+        let circle = FenceOutline::Circle { centre_m: (3.0, 4.0), radius_m: 5.0 };
         assert!(circle.holds((0.0, 0.0)) && !circle.holds((-0.01, 0.0)));
     }
 
     #[test]
     fn exact_a_way_is_allowed_only_where_all_of_it_is() {
-        let zone = |outline, inclusion| Zone { outline, inclusion };
-        let circle = |n, radius_m| Outline::Circle { centre_m: (n, 0.0), radius_m };
+        let zone = |outline, inclusion| FenceZone { outline, inclusion };
+        let circle = |n, radius_m| FenceOutline::Circle { centre_m: (n, 0.0), radius_m };
         let fence = Fence {
             // Two areas that overlap, a hole in one of them, and a third area on its own.
             zones: vec![
@@ -373,15 +374,15 @@ mod tests {
             ((5.0, 5.0), (5.0, 5.0), true),
             ((0.0, 0.0), (0.0, 0.0), false),
         ] {
-            assert_eq!(fence.allows_way(from, to), allowed, "{from:?} to {to:?}");
+            assert_eq!(fence.allows_path(from, to), allowed, "{from:?} to {to:?}");
         }
-        assert!(Fence::default().allows_way((0.0, 0.0), (1e6, 0.0)));
+        assert!(Fence::default().allows_path((0.0, 0.0), (1e6, 0.0)));
     }
 
     #[test]
     fn exact_flight_is_allowed_in_any_inclusion_and_in_no_exclusion() {
-        let zone = |outline, inclusion| Zone { outline, inclusion };
-        let circle = |n, radius_m| Outline::Circle { centre_m: (n, 0.0), radius_m };
+        let zone = |outline, inclusion| FenceZone { outline, inclusion };
+        let circle = |n, radius_m| FenceOutline::Circle { centre_m: (n, 0.0), radius_m };
         let fence =
             Fence { zones: vec![zone(square(10.0), true), zone(circle(100.0, 5.0), true), zone(circle(0.0, 2.0), false)] };
         for (place, allowed) in [((5.0, 5.0), true), ((0.0, 0.0), false), ((50.0, 0.0), false), ((100.0, 0.0), true)] {

@@ -2,7 +2,7 @@
 
 use super::OffboardSetpoint;
 use super::core::Autopilot;
-use super::modes::Wanted;
+use super::modes::Setpoint;
 use super::shaper::heading_of;
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math;
@@ -19,7 +19,7 @@ const TOO_NEAR_M: f64 = 0.5;
 
 /// Where the vehicle flies, seen from the target.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum FollowPlace {
+pub enum FollowPosition {
     /// At a distance, m, and an angle from the target's course, rad clockwise (PX4).
     Around {
         /// Horizontal distance, m.
@@ -46,7 +46,7 @@ pub struct FollowRule {
     /// The mode may be entered (`FOLL_ENABLE`).
     pub enabled: bool,
     /// Position relative to the target.
-    pub place: FollowPlace,
+    pub place: FollowPosition,
     /// Targets farther away are not followed, m (`FOLL_DIST_MAX`).
     pub farthest_m: f64,
     /// Largest speed, m/s (`FLW_TGT_MAX_VEL`).
@@ -57,14 +57,14 @@ pub struct FollowRule {
 
 impl Default for FollowRule {
     fn default() -> Self {
-        let place = FollowPlace::Around { distance_m: 8.0, angle_rad: math::PI, height_m: 8.0, over_target: false };
+        let place = FollowPosition::Around { distance_m: 8.0, angle_rad: math::PI, height_m: 8.0, over_target: false };
         Self { enabled: true, place, farthest_m: f64::INFINITY, fastest_m_s: 5.0, smoothing: 0.1 }
     }
 }
 
 /// A target as it reports itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Target {
+pub struct FollowTarget {
     /// Position about the origin, m.
     pub position_m: Vec3<Ned>,
     /// Velocity, m/s.
@@ -76,7 +76,7 @@ pub struct Target {
 /// The target and what is remembered of it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Follower {
-    seen: Option<(Target, SimTime)>,
+    latest: Option<(FollowTarget, SimTime)>,
     course_rad: Option<f64>,
     offset_m: Option<Vec3<Ned>>,
 }
@@ -85,7 +85,7 @@ impl Autopilot {
     /// Velocity of a target that reports positions alone, by its last two, m/s.
     #[must_use]
     pub fn target_velocity(&self, position_m: Vec3<Ned>, now: SimTime) -> Vec3<Ned> {
-        let recent = self.follower.seen.map(|(before, at)| (before, (now - at).s())).filter(|(_, age_s)| *age_s <= LOST_S);
+        let recent = self.follower.latest.map(|(before, at)| (before, (now - at).s())).filter(|(_, age_s)| *age_s <= LOST_S);
         match recent {
             Some((before, age_s)) if age_s >= LEAST_APART_S => (position_m - before.position_m) * (1.0 / age_s),
             Some((before, _)) => before.velocity_m_s,
@@ -94,12 +94,12 @@ impl Autopilot {
     }
 
     /// A report of the target.
-    pub fn report_target(&mut self, target: Target, now: SimTime) {
-        let known = self.follower.seen.filter(|(_, at)| (now - *at).s() <= LOST_S).map(|(known, _)| known.velocity_m_s);
+    pub fn report_target(&mut self, target: FollowTarget, now: SimTime) {
+        let known = self.follower.latest.filter(|(_, at)| (now - *at).s() <= LOST_S).map(|(known, _)| known.velocity_m_s);
         let before = known.unwrap_or(target.velocity_m_s);
         let smooth = self.tuning.follow.smoothing.clamp(0.0, 0.99);
         let velocity_m_s = before * smooth + target.velocity_m_s * (1.0 - smooth);
-        self.follower.seen = Some((Target { velocity_m_s, ..target }, now));
+        self.follower.latest = Some((FollowTarget { velocity_m_s, ..target }, now));
         let moving = target.velocity_m_s.horizontal_norm() > MOVES_M_S;
         let course = moving.then(|| heading_of(target.velocity_m_s, 0.0)).flatten();
         self.follower.course_rad = target.heading_rad.or(course).or(self.follower.course_rad);
@@ -110,23 +110,23 @@ impl Autopilot {
     }
 
     /// Where the target is now, if it still reports.
-    fn followed(&self, now: SimTime) -> Option<Target> {
-        let (target, at) = self.follower.seen?;
+    fn followed(&self, now: SimTime) -> Option<FollowTarget> {
+        let (target, at) = self.follower.latest?;
         let age_s = (now - at).s();
         let position_m = target.position_m + target.velocity_m_s * age_s;
         let far = (position_m - self.estimate.position_m).norm() > self.tuning.follow.farthest_m;
-        (age_s <= LOST_S * self.tuning.client_pace && !far).then_some(Target { position_m, ..target })
+        (age_s <= LOST_S * self.tuning.client_pace && !far).then_some(FollowTarget { position_m, ..target })
     }
 
     /// The vehicle's place about a target, m.
-    fn place_about(&mut self, target: &Target) -> Vec3<Ned> {
+    fn position_around(&mut self, target: &FollowTarget) -> Vec3<Ned> {
         let (here, there) = (self.estimate.position_m, target.position_m);
         let turned = |angle: f64, [forward, right, down]: [f64; 3]| {
             let (s, c) = math::sin_cos(angle);
             Vec3::<Ned>::new(c * forward - s * right, s * forward + c * right, down)
         };
         match self.tuning.follow.place {
-            FollowPlace::Around { distance_m, angle_rad, height_m, over_target } => {
+            FollowPosition::Around { distance_m, angle_rad, height_m, over_target } => {
                 // Before the target moves, the vehicle already is at its angle.
                 let bearing = heading_of(here - there, TOO_NEAR_M).unwrap_or(0.0);
                 let course = *self.follower.course_rad.get_or_insert(math::wrap_pi(bearing - angle_rad));
@@ -134,21 +134,21 @@ impl Autopilot {
                 let ground = if over_target { there } else { self.status.home_m.unwrap_or(there) };
                 Vec3::new(there.north() + flat.north(), there.east() + flat.east(), ground.down() - height_m)
             }
-            FollowPlace::Offset { offset_m: Some(offset), along_course } => {
+            FollowPosition::Offset { offset_m: Some(offset), along_course } => {
                 let course = self.follower.course_rad.filter(|_| along_course).unwrap_or(0.0);
                 there + turned(course, offset)
             }
-            FollowPlace::Offset { offset_m: None, .. } => there + *self.follower.offset_m.get_or_insert(here - there),
+            FollowPosition::Offset { offset_m: None, .. } => there + *self.follower.offset_m.get_or_insert(here - there),
         }
     }
 
     /// Keeps its place about the target, the nose to it; without a target it holds.
-    pub(super) fn follow_target(&mut self, now: SimTime, dt_s: f64) -> Wanted {
+    pub(super) fn follow_target(&mut self, now: SimTime, dt_s: f64) -> Setpoint {
         let Some(target) = self.followed(now) else { return self.go(None, dt_s) };
         let here = self.estimate.position_m;
-        let place = self.place_about(&target);
+        let place = self.position_around(&target);
         // Where the target is lost, it holds.
-        self.course.target_m = here;
+        self.navigator.target_m = here;
         let yaw = self.look_rad().or_else(|| heading_of(target.position_m - here, TOO_NEAR_M));
         self.turn_to(yaw, dt_s);
         let setpoint = OffboardSetpoint {
@@ -159,6 +159,6 @@ impl Autopilot {
         let wish = self.offboard_velocity(&setpoint);
         let flat = Vec3::<Ned>::new(wish.north(), wish.east(), 0.0).limited(self.tuning.follow.fastest_m_s);
         self.shaper.advance(Vec3::new(flat.north(), flat.east(), wish.down()), &self.auto_limits(), dt_s);
-        Wanted::Fly(self.motion(self.shaper.velocity_m_s))
+        Setpoint::Velocity(self.motion(self.shaper.velocity_m_s))
     }
 }

@@ -2,7 +2,7 @@
 
 use super::core::{Autopilot, Severity};
 use super::operator_rules::FenceSwitching;
-use super::{Landed, Mode};
+use super::{FlightMode, LandedState};
 use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::time::SimTime;
 
@@ -25,7 +25,7 @@ const GIVEN_UP_S: f64 = 1.0;
 
 /// What the detector remembers.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct GroundContact {
+pub struct LandingDetector {
     /// Sinking that the guidance asks for, m/s down.
     pub wanted_down_m_s: f64,
     stopped_s: f64,
@@ -33,7 +33,7 @@ pub struct GroundContact {
     given_up_s: f64,
 }
 
-impl GroundContact {
+impl LandingDetector {
     /// Share of the thrust that is left while the ground takes the weight.
     #[must_use]
     pub fn thrust_share(&self) -> f64 {
@@ -43,26 +43,26 @@ impl GroundContact {
 
 impl Autopilot {
     /// Follows take-off and landing for one tick while armed.
-    pub(super) fn watch_ground(&mut self, now: SimTime, dt_s: f64) {
+    pub(super) fn update_landed_state(&mut self, now: SimTime, dt_s: f64) {
         match self.status.landed {
-            Landed::OnGround => self.stand(now),
-            Landed::TakingOff if !self.off_ground() => self.wait_for_lift(now, dt_s),
-            Landed::TakingOff => {
-                self.status.landed = Landed::InAir;
+            LandedState::OnGround => self.settle_on_ground(now),
+            LandedState::TakingOff if !self.has_left_ground() => self.wait_for_lift(now, dt_s),
+            LandedState::TakingOff => {
+                self.status.landed = LandedState::InAir;
                 self.tuning.fence_enabled |= self.tuning.rules.fence.auto == FenceSwitching::InTheAir;
-                self.say(Severity::Info, "Takeoff detected");
+                self.push_event(Severity::Info, "Takeoff detected");
             }
-            Landed::InAir | Landed::Landing => self.feel_for_ground(now, dt_s),
+            LandedState::InAir | LandedState::Landing => self.detect_landing(now, dt_s),
         }
     }
 
-    fn off_ground(&self) -> bool {
-        let up = self.course.ground_down_m - self.estimate.position_m.down();
+    fn has_left_ground(&self) -> bool {
+        let up = self.navigator.ground_down_m - self.estimate.position_m.down();
         up > OFF_GROUND_M || (up > 0.5 * OFF_GROUND_M && self.estimate.velocity_m_s.down() < -OFF_GROUND_M_S)
     }
 
-    fn stand(&mut self, now: SimTime) {
-        if self.status.mode == Mode::Mission {
+    fn settle_on_ground(&mut self, now: SimTime) {
+        if self.status.mode == FlightMode::Mission {
             self.wait_on_ground(now);
         }
         if self.wants_to_fly(now) {
@@ -70,7 +70,7 @@ impl Autopilot {
             return;
         }
         let t = &self.tuning;
-        let (since, flown) = (self.watch.standing_since, self.watch.flown);
+        let (since, flown) = (self.failsafe.standing_since, self.failsafe.flown);
         let limit_s = if flown { t.disarm_after_landing_s } else { t.disarm_before_flight_s };
         if limit_s > 0.0 && (now - since).s() > limit_s {
             self.disarm(if flown { "Disarmed by landing" } else { "Disarmed: no take-off" });
@@ -79,73 +79,73 @@ impl Autopilot {
 
     fn leave_ground(&mut self, now: SimTime) {
         self.reset_loops();
-        self.status.landed = Landed::TakingOff;
-        self.course.left_ground = now;
-        self.course.ground_down_m = self.estimate.position_m.down();
-        self.contact = GroundContact::default();
-        self.watch.flown = true;
-        self.trail.begin(self.estimate.position_m);
-        self.begin_course(now);
+        self.status.landed = LandedState::TakingOff;
+        self.navigator.left_ground = now;
+        self.navigator.ground_down_m = self.estimate.position_m.down();
+        self.landing_detector = LandingDetector::default();
+        self.failsafe.flown = true;
+        self.flown_path.begin(self.estimate.position_m);
+        self.begin_mode(now);
     }
 
     fn wait_for_lift(&mut self, now: SimTime, dt_s: f64) {
         if self.wants_to_fly(now) {
-            self.contact.given_up_s = 0.0;
+            self.landing_detector.given_up_s = 0.0;
             return;
         }
-        self.contact.given_up_s += dt_s;
-        if self.contact.given_up_s > GIVEN_UP_S {
+        self.landing_detector.given_up_s += dt_s;
+        if self.landing_detector.given_up_s > GIVEN_UP_S {
             self.touch_down(now);
         }
     }
 
-    fn feel_for_ground(&mut self, now: SimTime, dt_s: f64) {
+    fn detect_landing(&mut self, now: SimTime, dt_s: f64) {
         let upright = (self.estimate.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down();
-        let near = self.seen.range_down_m.is_none_or(|r| r * upright < self.airframe.standing_m + RANGE_MARGIN_M);
+        let near = self.unfused.range_down_m.is_none_or(|r| r * upright < self.airframe.standing_m + RANGE_MARGIN_M);
         let still = self.estimate.velocity_m_s.down().abs() < STOPPED_M_S;
-        let asked = self.contact.wanted_down_m_s > ASKED_M_S;
+        let asked = self.landing_detector.wanted_down_m_s > ASKED_M_S;
         if !(near && still && asked && upright > UPRIGHT) {
-            self.contact.stopped_s = 0.0;
-            self.contact.fade_s = (self.contact.fade_s - dt_s).max(0.0);
+            self.landing_detector.stopped_s = 0.0;
+            self.landing_detector.fade_s = (self.landing_detector.fade_s - dt_s).max(0.0);
             return;
         }
-        self.contact.stopped_s += dt_s;
-        if self.contact.stopped_s > STOPPED_S {
-            self.contact.fade_s = (self.contact.fade_s + dt_s).min(FADE_S);
+        self.landing_detector.stopped_s += dt_s;
+        if self.landing_detector.stopped_s > STOPPED_S {
+            self.landing_detector.fade_s = (self.landing_detector.fade_s + dt_s).min(FADE_S);
         }
-        if self.contact.fade_s >= FADE_S {
-            self.say(Severity::Info, "Landing detected");
+        if self.landing_detector.fade_s >= FADE_S {
+            self.push_event(Severity::Info, "Landing detected");
             self.touch_down(now);
         }
     }
 
     fn touch_down(&mut self, now: SimTime) {
-        self.status.landed = Landed::OnGround;
-        self.watch.standing_since = now;
-        self.contact = GroundContact::default();
+        self.status.landed = LandedState::OnGround;
+        self.failsafe.standing_since = now;
+        self.landing_detector = LandingDetector::default();
         self.reset_loops();
-        if matches!(self.status.mode, Mode::Return | Mode::Mission) {
-            self.mission_landed(now);
+        if matches!(self.status.mode, FlightMode::Return | FlightMode::Mission) {
+            self.finish_landing(now);
         }
     }
 
     pub(super) fn disarm(&mut self, why: &str) {
         self.status.armed = false;
-        self.status.landed = Landed::OnGround;
-        self.contact = GroundContact::default();
-        self.watch.flown = false;
-        self.watch.upset_since = None;
+        self.status.landed = LandedState::OnGround;
+        self.landing_detector = LandingDetector::default();
+        self.failsafe.flown = false;
+        self.failsafe.upset_since = None;
         // What was asked for in a flight ends with it.
         self.look_at_m = None;
         self.commanded_m_s = None;
-        self.course.takeoff_up_m = None;
+        self.navigator.takeoff_up_m = None;
         self.tuning.fence_enabled |= !self.tuning.fence_switch_stays;
         self.tuning.fence_enabled &= self.tuning.rules.fence.auto == FenceSwitching::Never;
-        self.say(Severity::Info, why);
-        let stays = self.watch.intended == Mode::Mission && self.tuning.mission_mode_stays;
-        if !self.watch.intended.is_manual() && !stays {
-            self.watch.intended = Mode::Hold;
-            self.status.mode = Mode::Hold;
+        self.push_event(Severity::Info, why);
+        let stays = self.failsafe.intended == FlightMode::Mission && self.tuning.mission_mode_stays;
+        if !self.failsafe.intended.is_manual() && !stays {
+            self.failsafe.intended = FlightMode::Hold;
+            self.status.mode = FlightMode::Hold;
         }
     }
 }

@@ -1,10 +1,10 @@
 //! What the sticks want: attitude, height or velocity, and the locks that hold the place once they are let go.
 
 use super::core::Autopilot;
-use super::modes::Wanted;
-use super::shaper::{JERK_S, Limits, stopping_point};
-use super::velocity::Pull;
-use super::{Mode, Sticks};
+use super::modes::Setpoint;
+use super::shaper::{JERK_S, MotionLimits, stopping_point};
+use super::velocity::AttitudeThrustSetpoint;
+use super::{FlightMode, Sticks};
 use spandrel_model::frames::{Ned, Rotation, Vec3};
 use spandrel_model::math;
 
@@ -38,26 +38,26 @@ impl Autopilot {
     /// behind the nose, which then swings back.
     pub(super) fn turn_at(&mut self, rate: f64, dt_s: f64) {
         let turning = (self.estimate.attitude * self.estimate.rates_rad_s).down();
-        let c = &mut self.course;
+        let c = &mut self.navigator;
         if rate != 0.0 {
             c.heading_free = true;
         } else if turning.abs() < CAPTURED_RAD_S && c.yaw_rate_rad_s.abs() < CAPTURED_RAD_S {
             c.heading_free = false;
         }
-        let before = self.course.yaw_rate_rad_s;
+        let before = self.navigator.yaw_rate_rad_s;
         self.advance_heading(rate, dt_s);
-        if rate == 0.0 && self.course.heading_free {
-            self.course.yaw_rad = self.estimate.attitude.yaw_rad();
+        if rate == 0.0 && self.navigator.heading_free {
+            self.navigator.yaw_rad = self.estimate.attitude.yaw_rad();
             // The rate loop lags by the inverse of its gain: ahead by that, the nose brakes as planned.
-            let braking = if dt_s > 0.0 { (self.course.yaw_rate_rad_s - before) / dt_s } else { 0.0 };
-            self.course.yaw_brake_rad_s = braking / self.gains.yaw_rate;
+            let braking = if dt_s > 0.0 { (self.navigator.yaw_rate_rad_s - before) / dt_s } else { 0.0 };
+            self.navigator.yaw_brake_rad_s = braking / self.gains.yaw_rate;
         }
     }
 
     /// Moves the wanted heading on at a rate that builds up gradually, rad/s.
     pub(super) fn advance_heading(&mut self, rate: f64, dt_s: f64) {
         let step = self.airframe.limits.yaw_rate_rad_s / YAW_SPOOL_S * dt_s;
-        let c = &mut self.course;
+        let c = &mut self.navigator;
         c.yaw_brake_rad_s = 0.0;
         c.yaw_rate_rad_s += (rate - c.yaw_rate_rad_s).clamp(-step, step);
         let nose = self.estimate.attitude.yaw_rad();
@@ -79,7 +79,7 @@ impl Autopilot {
         (right * most, -forward * most)
     }
 
-    pub(super) fn stabilized(&mut self, dt_s: f64) -> Wanted {
+    pub(super) fn stabilized(&mut self, dt_s: f64) -> Setpoint {
         self.stick_yaw(dt_s);
         let up = self.links.sticks.up;
         let tilt = self.stick_tilt(1.0);
@@ -89,23 +89,23 @@ impl Autopilot {
         } else {
             math::lerp(hover, self.gains.thrust_min_n, -up)
         };
-        self.contact.wanted_down_m_s = if up < -0.5 { self.airframe.limits.descend_m_s } else { 0.0 };
-        let attitude = Rotation::from_euler(tilt.0, tilt.1, self.course.yaw_rad);
-        Wanted::Direct(Pull { attitude, thrust_n })
+        self.landing_detector.wanted_down_m_s = if up < -0.5 { self.airframe.limits.descend_m_s } else { 0.0 };
+        let attitude = Rotation::from_euler(tilt.0, tilt.1, self.navigator.yaw_rad);
+        Setpoint::AttitudeThrust(AttitudeThrustSetpoint { attitude, thrust_n })
     }
 
-    pub(super) fn altitude(&mut self, dt_s: f64) -> Wanted {
+    pub(super) fn altitude(&mut self, dt_s: f64) -> Setpoint {
         self.stick_yaw(dt_s);
-        let share = if self.status.mode == Mode::Altitude { 1.0 } else { BLIND_TILT_SHARE };
+        let share = if self.status.mode == FlightMode::Altitude { 1.0 } else { BLIND_TILT_SHARE };
         let tilt = self.stick_tilt(share);
         let limits = self.stick_limits();
         let velocity =
             self.with_locks(Vec3::new(0.0, 0.0, self.stick_climb()), false, self.links.sticks.up == 0.0, &limits, dt_s);
-        self.course.lock_flat = None;
-        Wanted::Level { motion: self.motion(velocity), tilt }
+        self.navigator.horizontal_lock = None;
+        Setpoint::Level { motion: self.motion(velocity), tilt }
     }
 
-    pub(super) fn position(&mut self, dt_s: f64) -> Wanted {
+    pub(super) fn position(&mut self, dt_s: f64) -> Setpoint {
         self.stick_yaw(dt_s);
         let (s, l) = (self.links.sticks, self.airframe.limits);
         let (sine, cosine) = math::sin_cos(self.estimate.attitude.yaw_rad());
@@ -115,16 +115,16 @@ impl Autopilot {
         let limits = self.stick_limits();
         let centred = s.forward == 0.0 && s.right == 0.0;
         let velocity = self.with_locks(wish, centred, s.up == 0.0, &limits, dt_s);
-        if let (Some((n, e)), Some(d)) = (self.course.lock_flat, self.course.lock_down) {
+        if let (Some((n, e)), Some(d)) = (self.navigator.horizontal_lock, self.navigator.height_lock_down_m) {
             self.status.target_m = Some(Vec3::new(n, e, d));
         }
-        Wanted::Fly(self.motion(velocity))
+        Setpoint::Velocity(self.motion(velocity))
     }
 
-    pub(super) fn stick_limits(&self) -> Limits {
+    pub(super) fn stick_limits(&self) -> MotionLimits {
         let l = &self.airframe.limits;
         let plan_s = (SLOW_DOWN_SHARE * l.slow_down_time_s).max(0.1);
-        Limits {
+        MotionLimits {
             horizontal_m_s2: (l.forward_m_s.max(l.sideward_m_s) / plan_s).min(self.gains.acceleration_m_s2),
             vertical_m_s2: (l.climb_m_s.max(l.descend_m_s) / plan_s).min(self.gains.climb_acceleration_m_s2),
             build_up_s: JERK_S,
@@ -137,30 +137,30 @@ impl Autopilot {
         wish: Vec3<Ned>,
         flat_free: bool,
         down_free: bool,
-        limits: &Limits,
+        limits: &MotionLimits,
         dt_s: f64,
     ) -> Vec3<Ned> {
         let planned = self.shaper.velocity_m_s;
         self.shaper.advance(wish, limits, dt_s);
         let e = &self.estimate;
         let rest = stopping_point(&self.gains, e.position_m, e.velocity_m_s);
-        let c = &mut self.course;
+        let c = &mut self.navigator;
         if !flat_free {
-            c.lock_flat = None;
-        } else if c.lock_flat.is_none() && planned.horizontal_norm() < LOCK_M_S {
-            c.lock_flat = Some((rest.north(), rest.east()));
+            c.horizontal_lock = None;
+        } else if c.horizontal_lock.is_none() && planned.horizontal_norm() < LOCK_M_S {
+            c.horizontal_lock = Some((rest.north(), rest.east()));
         }
         if !down_free {
-            c.lock_down = None;
-        } else if c.lock_down.is_none() && planned.down().abs() < LOCK_M_S {
-            c.lock_down = Some(rest.down());
+            c.height_lock_down_m = None;
+        } else if c.height_lock_down_m.is_none() && planned.down().abs() < LOCK_M_S {
+            c.height_lock_down_m = Some(rest.down());
         }
         let mut velocity = self.shaper.velocity_m_s;
-        if let Some((n, e_)) = c.lock_flat {
+        if let Some((n, e_)) = c.horizontal_lock {
             let way = Vec3::<Ned>::new(n - e.position_m.north(), e_ - e.position_m.east(), 0.0);
             velocity += (way * self.gains.position).limited(LOCK_SPEED_M_S);
         }
-        if let Some(d) = c.lock_down {
+        if let Some(d) = c.height_lock_down_m {
             let speed = self.gains.height * (d - e.position_m.down());
             velocity += Vec3::new(0.0, 0.0, speed.clamp(-LOCK_SPEED_M_S, LOCK_SPEED_M_S));
         }

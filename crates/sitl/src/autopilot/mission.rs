@@ -14,7 +14,7 @@ const AHEAD_MOST: usize = 24;
 
 /// The course of a step that was left: take-off, landing and return go on with it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LeftCourse {
+pub struct SuspendedStep {
     /// Where it flew to, m.
     pub target_m: Vec3<Ned>,
     /// How far it had come.
@@ -25,17 +25,17 @@ pub struct LeftCourse {
 
 /// What a step takes from where the vehicle is when it begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Unnamed {
+pub struct DeferredFields {
     /// Its place.
     pub place: bool,
     /// Its height.
     pub height: bool,
 }
 
-impl Unnamed {
+impl DeferredFields {
     /// A place with what is open taken from another, m.
     #[must_use]
-    pub fn filled(self, place_m: Vec3<Ned>, from_m: Vec3<Ned>) -> Vec3<Ned> {
+    pub fn resolve_deferred(self, place_m: Vec3<Ned>, from_m: Vec3<Ned>) -> Vec3<Ned> {
         let over = if self.place { from_m } else { place_m };
         Vec3::new(over.north(), over.east(), if self.height { from_m.down() } else { place_m.down() })
     }
@@ -48,7 +48,7 @@ pub struct Mission {
     /// Steps whose heights count from home; the others' from the origin.
     over_home: Vec<bool>,
     /// What steps leave open.
-    unnamed: Vec<Unnamed>,
+    unnamed: Vec<DeferredFields>,
     /// Where the vehicle was when the current step began that leaves something open, m.
     began_m: Option<Vec3<Ned>>,
     /// Home has risen by this much since the list came, m.
@@ -75,12 +75,12 @@ pub struct Mission {
     /// What was left then of the current step's circle, rad.
     pub left_rad: Option<f64>,
     /// The course of the current step then.
-    pub left_course: Option<LeftCourse>,
+    pub left_course: Option<SuspendedStep>,
 }
 
 impl MissionStep {
     /// Where it flies to, m, if it names a place.
-    pub fn place_mut(&mut self) -> Option<&mut Vec3<Ned>> {
+    pub fn position_mut(&mut self) -> Option<&mut Vec3<Ned>> {
         match self {
             Self::Waypoint { position_m, .. } | Self::Land { position_m: Some(position_m) } => Some(position_m),
             Self::Circle { centre_m, .. } => Some(centre_m),
@@ -89,12 +89,12 @@ impl MissionStep {
     }
 
     /// It flies along the planned way, or waits at its end.
-    pub(super) fn rests_on_way(&self) -> bool {
+    pub(super) fn stops_before_end(&self) -> bool {
         matches!(self, Self::Waypoint { .. } | Self::Near(_) | Self::Delay(_) | Self::Turn { .. })
     }
 
     /// It takes its time: left in the middle it goes on there.
-    pub(super) fn goes_on(&self) -> bool {
+    pub(super) fn continues(&self) -> bool {
         use MissionStep as S;
         match self {
             S::Waypoint { .. } | S::Takeoff { .. } | S::Land { .. } | S::Return | S::Delay(_) | S::DelayUntil(_) => true,
@@ -113,12 +113,12 @@ impl Mission {
     }
 
     /// Names the steps whose heights count from home: they rise and sink with it.
-    pub fn hang_on_home(&mut self, over_home: Vec<bool>) {
+    pub fn set_home_relative(&mut self, over_home: Vec<bool>) {
         self.over_home = over_home;
     }
 
     /// Names what steps take from where the vehicle is when they begin.
-    pub fn leave_open(&mut self, unnamed: Vec<Unnamed>) {
+    pub fn set_deferred(&mut self, unnamed: Vec<DeferredFields>) {
         self.unnamed = unnamed;
     }
 
@@ -139,7 +139,7 @@ impl Mission {
     }
 
     /// It is left in the middle of a step, and will go on here.
-    pub fn leave(&mut self, place_m: Vec3<Ned>, course: LeftCourse, left_rad: Option<f64>, now: SimTime) {
+    pub fn suspend_at(&mut self, place_m: Vec3<Ned>, course: SuspendedStep, left_rad: Option<f64>, now: SimTime) {
         self.left_at = Some(place_m);
         self.left_course = Some(course);
         self.left_wait = self.wait_until.map(|until| until.saturating_sub(now));
@@ -147,7 +147,7 @@ impl Mission {
     }
 
     /// What was left of the current step counts no more.
-    pub fn begin_anew(&mut self) {
+    pub fn reset(&mut self) {
         (self.left_at, self.left_wait, self.left_rad, self.left_course) = (None, None, None, None);
         self.lift_to = None;
     }
@@ -156,16 +156,16 @@ impl Mission {
     #[must_use]
     pub fn landing(&self) -> Option<Vec3<Ned>> {
         let lands = |k: &usize| matches!(self.step_at(*k), Some(MissionStep::Land { position_m: Some(_) }));
-        (0..self.steps.len()).rev().find(lands).and_then(|k| self.place_at(k))
+        (0..self.steps.len()).rev().find(lands).and_then(|k| self.position_at(k))
     }
 
     /// The first place on the way, m.
     #[must_use]
-    pub fn first_place(&self) -> Option<Vec3<Ned>> {
-        (0..self.steps.len()).find_map(|k| self.place_at(k))
+    pub fn first_position(&self) -> Option<Vec3<Ned>> {
+        (0..self.steps.len()).find_map(|k| self.position_at(k))
     }
 
-    fn place_at(&self, index: usize) -> Option<Vec3<Ned>> {
+    fn position_at(&self, index: usize) -> Option<Vec3<Ned>> {
         match self.step_at(index)? {
             MissionStep::Waypoint { position_m, .. } => Some(position_m),
             MissionStep::Circle { centre_m, .. } => Some(centre_m),
@@ -176,8 +176,8 @@ impl Mission {
 
     /// The next place behind the current step, m.
     #[must_use]
-    pub fn next_place(&self) -> Option<Vec3<Ned>> {
-        (self.current + 1..self.steps.len()).find_map(|k| self.place_at(k))
+    pub fn next_position(&self) -> Option<Vec3<Ned>> {
+        (self.current + 1..self.steps.len()).find_map(|k| self.position_at(k))
     }
 
     /// The waypoints that are flown through from the current step on, up to the first at which the vehicle stops. `accept_m` is the
@@ -218,7 +218,7 @@ impl Mission {
     #[must_use]
     pub fn landing_sequence(&self, here_m: Vec3<Ned>) -> Option<usize> {
         let away = |start: &usize| {
-            let first = (*start + 1..self.steps.len()).find_map(|k| self.place_at(k));
+            let first = (*start + 1..self.steps.len()).find_map(|k| self.position_at(k));
             first.map_or(f64::INFINITY, |place| (place - here_m).horizontal_norm())
         };
         let starts = (0..self.steps.len()).filter(|k| self.steps[*k] == MissionStep::LandingSequence);
@@ -265,8 +265,8 @@ impl Mission {
             other => other,
         };
         let open = self.unnamed.get(index).copied().unwrap_or_default();
-        if let (Some(place_m), Some(began_m)) = (step.place_mut(), self.began_m.filter(|_| index == self.current)) {
-            *place_m = open.filled(*place_m, began_m);
+        if let (Some(place_m), Some(began_m)) = (step.position_mut(), self.began_m.filter(|_| index == self.current)) {
+            *place_m = open.resolve_deferred(*place_m, began_m);
         }
         Some(step)
     }
@@ -279,7 +279,7 @@ impl Mission {
             self.began_m = None;
             self.wait_until = None;
             self.begun = false;
-            self.begin_anew();
+            self.reset();
         }
         known
     }
@@ -321,7 +321,7 @@ impl Mission {
         self.began_m = None;
         self.wait_until = None;
         self.begun = false;
-        self.begin_anew();
+        self.reset();
     }
 
     fn repeat(&mut self, to: usize, times: u32) {
@@ -363,7 +363,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_long_row_of_steps_without_flight_is_passed_in_several_ticks_and_started_anew_as_it_was() {
+    fn exact_a_long_row_of_steps_without_flight_is_passed_in_several_ticks_and_restarted_as_it_was() {
         let mut steps = vec![MissionStep::Payload; 3 * GO_ON_MAX];
         steps[5] = MissionStep::Speed(Some(7.0));
         steps.push(MissionStep::Delay(1.0));

@@ -9,7 +9,7 @@ use spandrel_model::vehicle::Vehicle;
 
 /// What the attitude loops want of the rotors.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Demand {
+pub struct TorqueThrustSetpoint {
     /// Torque about the body axes, N m.
     pub torque_n_m: Vec3<Frd>,
     /// Collective thrust, N.
@@ -18,7 +18,7 @@ pub struct Demand {
 
 /// How much of a demand was given.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Given {
+pub struct AllocationStatus {
     /// Share of the roll and pitch torque, 0..1.
     pub tilt: f64,
     /// Share of the yaw torque, 0..1.
@@ -81,11 +81,11 @@ impl Mixer {
     }
 
     /// Motor commands for a demand. `voltage_share` is the battery's voltage over its full one: a sagging pack turns the motors slower.
-    pub fn mix(&mut self, demand: &Demand, voltage_share: f64, dt_s: f64) -> (Actuators, Given) {
+    pub fn mix(&mut self, demand: &TorqueThrustSetpoint, voltage_share: f64, dt_s: f64) -> (Actuators, AllocationStatus) {
         let top = (self.max_rad_s * voltage_share).max(self.idle_rad_s + 1.0);
         let low = self.thrust_coefficient * self.idle_rad_s * self.idle_rad_s;
         let high = self.thrust_coefficient * top * top;
-        let demand = Demand { torque_n_m: self.without_spin(demand.torque_n_m, dt_s), ..*demand };
+        let demand = TorqueThrustSetpoint { torque_n_m: self.compensate_rotor_spin(demand.torque_n_m, dt_s), ..*demand };
         let (thrusts, given) = self.allocate(&demand, low, high);
         let mut out = Actuators { armed: true, ..Actuators::default() };
         for (i, thrust) in thrusts.iter().enumerate().take(self.count) {
@@ -101,7 +101,7 @@ impl Mixer {
 
     /// A rotor that speeds up turns the body at once by its own inertia, and lastingly by its drag. The yaw torque is passed through the
     /// lag that makes the two together follow the demand.
-    fn without_spin(&mut self, torque: Vec3<Frd>, dt_s: f64) -> Vec3<Frd> {
+    fn compensate_rotor_spin(&mut self, torque: Vec3<Frd>, dt_s: f64) -> Vec3<Frd> {
         self.yaw_n_m += (torque.down() - self.yaw_n_m) * dt_s / (dt_s + self.spin_time_s);
         Vec3::new(torque.forward(), torque.right(), self.yaw_n_m)
     }
@@ -121,7 +121,7 @@ impl Mixer {
         Actuators::default()
     }
 
-    fn allocate(&self, demand: &Demand, low: f64, high: f64) -> ([f64; MAX_ROTORS], Given) {
+    fn allocate(&self, demand: &TorqueThrustSetpoint, low: f64, high: f64) -> ([f64; MAX_ROTORS], AllocationStatus) {
         let t = demand.torque_n_m;
         let mut tilt = [0.0; MAX_ROTORS];
         let mut yaw = [0.0; MAX_ROTORS];
@@ -148,7 +148,7 @@ impl Mixer {
         for i in 0..self.count {
             out[i] = (out[i] + yaw[i] * yaw_share).clamp(low, high);
         }
-        (out, Given { tilt: tilt_share, yaw: yaw_share })
+        (out, AllocationStatus { tilt: tilt_share, yaw: yaw_share })
     }
 }
 
@@ -177,20 +177,20 @@ mod tests {
     fn exact_a_modest_demand_is_given_exactly() {
         let v = vehicle_with(perfect());
         let (low, high) = limits(&v);
-        let demand = Demand { torque_n_m: Vec3::new(0.1, -0.2, 0.03), thrust_n: 13.0 };
+        let demand = TorqueThrustSetpoint { torque_n_m: Vec3::new(0.1, -0.2, 0.03), thrust_n: 13.0 };
         let (thrusts, given) = Mixer::new(&v, 2.0).allocate(&demand, low, high);
         let got = wrench(&v, &thrusts);
         for (got, wanted) in got.iter().zip([0.1, -0.2, 0.03, 13.0]) {
             assert!((got - wanted).abs() < ROUNDING, "{got} {wanted}");
         }
-        assert_eq!(given, Given { tilt: 1.0, yaw: 1.0 });
+        assert_eq!(given, AllocationStatus { tilt: 1.0, yaw: 1.0 });
     }
 
     #[test]
     fn prop_yaw_gives_way_before_roll_and_pitch() {
         let v = vehicle_with(perfect());
         let (low, high) = limits(&v);
-        let demand = Demand { torque_n_m: Vec3::new(1.0, 0.0, 2.0), thrust_n: 20.0 };
+        let demand = TorqueThrustSetpoint { torque_n_m: Vec3::new(1.0, 0.0, 2.0), thrust_n: 20.0 };
         let (thrusts, given) = Mixer::new(&v, 2.0).allocate(&demand, low, high);
         let got = wrench(&v, &thrusts);
         assert!((got[0] - 1.0).abs() < ROUNDING && got[1].abs() < ROUNDING, "{got:?}");
@@ -202,7 +202,7 @@ mod tests {
     fn prop_full_thrust_leaves_room_for_roll() {
         let v = vehicle_with(perfect());
         let (low, high) = limits(&v);
-        let demand = Demand { torque_n_m: Vec3::new(0.5, 0.5, 0.0), thrust_n: 1e3 };
+        let demand = TorqueThrustSetpoint { torque_n_m: Vec3::new(0.5, 0.5, 0.0), thrust_n: 1e3 };
         let (thrusts, _) = Mixer::new(&v, 2.0).allocate(&demand, low, high);
         let got = wrench(&v, &thrusts);
         assert!((got[0] - 0.5).abs() < ROUNDING && (got[1] - 0.5).abs() < ROUNDING, "{got:?}");

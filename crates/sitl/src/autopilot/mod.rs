@@ -6,40 +6,40 @@ pub mod attitude;
 mod automatic;
 mod commands;
 pub mod core;
-mod errand;
 pub mod estimator;
+pub mod failsafe;
 pub mod fence;
 pub mod follow;
 pub mod gains;
 pub mod landed;
-pub mod link;
+pub mod link_status;
 mod manual;
 pub mod mission;
+mod mission_executor;
 pub mod mixer;
 pub mod modes;
 pub mod operator_rules;
 pub mod orbit;
 mod pause;
-pub mod senses;
+pub mod sensor_health;
 pub mod shaper;
 pub mod smart_return;
-pub mod supervise;
 #[cfg(test)]
 pub(crate) mod testing;
 pub mod trajectory;
 pub mod tuning;
 pub mod velocity;
 
-pub use self::core::{Autopilot, CONTROL_HZ, Event, Severity};
+pub use self::core::{Autopilot, AutopilotEvent, CONTROL_HZ, Severity};
 pub use self::fence::FenceAction;
 pub use self::operator_rules::OperatorRules;
-pub use self::tuning::{LinkLoss, Tuning};
+pub use self::tuning::{LinkLossAction, Tuning};
 
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 
 /// Flight modes; the MAVLink numbers of each flavour live in the endpoint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Mode {
+pub enum FlightMode {
     /// Sticks command roll, pitch, yaw rate and thrust.
     Stabilized,
     /// As stabilized, height held by the autopilot.
@@ -83,7 +83,7 @@ pub struct Sticks {
 
 /// What the endpoint (or a failsafe) asks of the autopilot.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Request {
+pub enum AutopilotRequest {
     /// Arm; `force` skips the checks.
     Arm {
         /// Skip the checks.
@@ -95,7 +95,7 @@ pub enum Request {
         force: bool,
     },
     /// Change the mode.
-    SetMode(Mode),
+    SetMode(FlightMode),
     /// Take off to a height above home, m (`None`: the parameter's), arming is not implied.
     Takeoff {
         /// Height above home, m.
@@ -115,7 +115,7 @@ pub enum Request {
         speed_m_s: Option<f64>,
     },
     /// Turn to a heading in the automatic mode that is flown.
-    Turn(Turn),
+    Turn(TurnCommand),
     /// Start or go on with the mission at an item.
     StartMission {
         /// First item, or `None` to go on.
@@ -126,7 +126,7 @@ pub enum Request {
     /// Home position about the origin, m.
     SetHome(Vec3<Ned>),
     /// Circle a place.
-    Orbit(orbit::OrbitWish),
+    Orbit(orbit::OrbitRequest),
     /// Turn towards a place in automatic modes, m about the origin; `None`: no more.
     LookAt(Option<Vec3<Ned>>),
     /// The geofence on or off.
@@ -141,7 +141,7 @@ pub enum Request {
 
 /// A turn to a heading.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Turn {
+pub struct TurnCommand {
     /// Heading, rad.
     pub yaw_rad: f64,
     /// Turn rate, rad/s; `None`: the vehicle's own.
@@ -171,9 +171,9 @@ pub struct OffboardSetpoint {
     pub climb_m_s: Option<f64>,
 }
 
-/// The answer to a [`Request`]; maps one to one to MAV_RESULT.
+/// The answer to a [`AutopilotRequest`]; maps one to one to MAV_RESULT.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Outcome {
+pub enum RequestOutcome {
     /// Done or begun.
     Accepted,
     /// Not now; the reason in words.
@@ -213,7 +213,7 @@ pub struct Estimate {
 
 /// Ground or air, as EXTENDED_SYS_STATE.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Landed {
+pub enum LandedState {
     /// On the ground.
     OnGround,
     /// Climbing away in take-off mode.
@@ -226,19 +226,19 @@ pub enum Landed {
 
 /// What the autopilot tells the world.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Status {
+pub struct AutopilotStatus {
     /// Motors may turn.
     pub armed: bool,
     /// Mode.
-    pub mode: Mode,
+    pub mode: FlightMode,
     /// The mode that was asked for; a failsafe may fly another meanwhile.
-    pub intended: Mode,
+    pub intended: FlightMode,
     /// Charge below which it warns, and below which it is critical, percent.
     pub battery_low_pct: f64,
     /// See `battery_low_pct`.
     pub battery_critical_pct: f64,
     /// Ground or air.
-    pub landed: Landed,
+    pub landed: LandedState,
     /// A take-off climbs to its height, as a mode or as a mission's step.
     pub climbing_out: bool,
     /// Why arming would be refused now; empty when it would not.
@@ -270,7 +270,7 @@ pub struct Status {
     /// How often the position was set to the receiver's.
     pub position_resets: u32,
     /// What works.
-    pub health: senses::Health,
+    pub health: sensor_health::SensorStatus,
 }
 
 /// One mission step as the autopilot flies it; the endpoint keeps the MAVLink items beside it.

@@ -1,11 +1,11 @@
 //! What an operator sets beyond speeds and thresholds: reactions to failures, the way home, limits of sticks and automatic flight. The endpoint maps
 //! parameters to these; each doc line names them (PX4; ArduPilot).
 
-use super::Mode;
+use super::FlightMode;
 
 /// A reaction to a failure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Response {
+pub enum FailsafeResponse {
     /// A text.
     Warn,
     /// Stop and hold.
@@ -20,7 +20,7 @@ pub enum Response {
 
 /// Modes in which a lost link changes nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Exceptions {
+pub struct LinkLossExceptions {
     /// Missions.
     pub mission: bool,
     /// Hold, take-off and go-to.
@@ -31,7 +31,7 @@ pub struct Exceptions {
     pub manual: bool,
 }
 
-impl Exceptions {
+impl LinkLossExceptions {
     /// From PX4's mask: 1 mission, 2 hold, 4 offboard.
     #[must_use]
     pub fn from_bits(bits: i32) -> Self {
@@ -40,13 +40,13 @@ impl Exceptions {
 
     /// Whether a lost link changes nothing in a mode. Landing and returning go on in any case.
     #[must_use]
-    pub fn cover(&self, mode: Mode) -> bool {
+    pub fn cover(&self, mode: FlightMode) -> bool {
         match mode {
-            Mode::Mission => self.mission,
-            Mode::Hold | Mode::Takeoff | Mode::Orbit | Mode::Follow => self.hold,
-            Mode::Offboard => self.offboard,
-            Mode::Stabilized | Mode::Altitude | Mode::Position | Mode::Acro => self.manual,
-            Mode::Land | Mode::Return | Mode::SmartReturn => true,
+            FlightMode::Mission => self.mission,
+            FlightMode::Hold | FlightMode::Takeoff | FlightMode::Orbit | FlightMode::Follow => self.hold,
+            FlightMode::Offboard => self.offboard,
+            FlightMode::Stabilized | FlightMode::Altitude | FlightMode::Position | FlightMode::Acro => self.manual,
+            FlightMode::Land | FlightMode::Return | FlightMode::SmartReturn => true,
         }
     }
 }
@@ -55,9 +55,9 @@ impl Exceptions {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OffboardLoss {
     /// A stick mode where somebody has the sticks, else the reaction to lost manual control.
-    Sticks(Mode),
+    Sticks(FlightMode),
     /// A fixed reaction.
-    Fixed(Response),
+    Fixed(FailsafeResponse),
 }
 
 impl OffboardLoss {
@@ -65,34 +65,34 @@ impl OffboardLoss {
     #[must_use]
     pub fn from_number(number: i32) -> Option<Self> {
         Some(match number {
-            0 => Self::Sticks(Mode::Position),
-            1 => Self::Sticks(Mode::Altitude),
-            2 => Self::Sticks(Mode::Stabilized),
-            3 => Self::Fixed(Response::Return),
-            4 => Self::Fixed(Response::Land),
-            5 => Self::Fixed(Response::Hold),
-            6 | 7 => Self::Fixed(Response::Terminate),
+            0 => Self::Sticks(FlightMode::Position),
+            1 => Self::Sticks(FlightMode::Altitude),
+            2 => Self::Sticks(FlightMode::Stabilized),
+            3 => Self::Fixed(FailsafeResponse::Return),
+            4 => Self::Fixed(FailsafeResponse::Land),
+            5 => Self::Fixed(FailsafeResponse::Hold),
+            6 | 7 => Self::Fixed(FailsafeResponse::Terminate),
             _ => return None,
         })
     }
 }
 
 /// Reactions to the battery: when it is low, critical, and an emergency.
-pub type BatteryResponses = [Option<Response>; 3];
+pub type BatteryResponses = [Option<FailsafeResponse>; 3];
 /// The job's rule: back when low, down when critical.
-pub const JOB_BATTERY: BatteryResponses = [Some(Response::Return), Some(Response::Land), None];
+pub const JOB_BATTERY: BatteryResponses = [Some(FailsafeResponse::Return), Some(FailsafeResponse::Land), None];
 
 /// Reactions to failures.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Responses {
+pub struct FailsafeResponses {
     /// `COM_RCL_EXCEPT`; `FS_OPTIONS`: where lost sticks change nothing.
-    pub manual_loss_except: Exceptions,
+    pub manual_loss_except: LinkLossExceptions,
     /// `COM_DLL_EXCEPT`; `FS_OPTIONS`: where a lost ground station changes nothing.
-    pub data_link_loss_except: Exceptions,
+    pub data_link_loss_except: LinkLossExceptions,
     /// `COM_OBL_RC_ACT`: lost external set-points.
     pub offboard_loss: OffboardLoss,
     /// `COM_ACT_FAIL_ACT` with `FD_ACT_EN`: a failed motor.
-    pub motor_failure: Response,
+    pub motor_failure: FailsafeResponse,
     /// `COM_LOW_BAT_ACT`; `BATT_FS_LOW_ACT`, `BATT_FS_CRT_ACT`: the battery.
     pub battery: BatteryResponses,
     /// `BAT_EMERGEN_THR`: emergency, %.
@@ -143,7 +143,7 @@ impl FenceSwitching {
 
 /// Where a return goes, by the number of `RTL_TYPE`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct ReturnPlaces {
+pub struct ReturnTargets {
     /// Home is one of the places; it is the last resort in any case.
     pub home: bool,
     /// Rally points.
@@ -152,7 +152,7 @@ pub struct ReturnPlaces {
     pub mission_landing: bool,
 }
 
-impl ReturnPlaces {
+impl ReturnTargets {
     /// From the parameter's number.
     #[must_use]
     pub fn from_number(number: i32) -> Option<Self> {
@@ -172,7 +172,7 @@ impl ReturnPlaces {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReturnRules {
     /// `RTL_TYPE`; `RALLY_INCL_HOME`: where to.
-    pub places: ReturnPlaces,
+    pub places: ReturnTargets,
     /// `RTL_SPEED`: horizontal speed, m/s; `None`: the cruise speed.
     pub speed_m_s: Option<f64>,
     /// `RTL_CLIMB_MIN`: it climbs at least this much, m.
@@ -195,7 +195,7 @@ pub struct ReturnRules {
 
 /// Where the nose points in automatic modes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Heading {
+pub enum HeadingRule {
     /// To the target.
     Target,
     /// To the target, but not on the way home.
@@ -210,7 +210,7 @@ pub enum Heading {
     Fixed,
 }
 
-impl Heading {
+impl HeadingRule {
     /// From the number of `MPC_YAW_MODE`.
     #[must_use]
     pub fn from_number(number: i32) -> Option<Self> {
@@ -221,7 +221,7 @@ impl Heading {
 
 /// Limits within the airframe's own; infinite: those alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Envelope {
+pub struct FlightEnvelope {
     /// `MPC_VEL_MANUAL`; `LOIT_SPEED`: horizontal speed by the sticks, m/s.
     pub manual_m_s: f64,
     /// `PILOT_SPEED_UP`: climb by the stick, m/s.
@@ -240,7 +240,7 @@ pub struct Envelope {
     pub landing_m_s: f64,
 }
 
-impl Envelope {
+impl FlightEnvelope {
     /// The airframe's limits alone.
     pub const OPEN: Self = Self {
         manual_m_s: f64::INFINITY,
@@ -342,13 +342,13 @@ impl GuidedOptions {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OperatorRules {
     /// Reactions to failures.
-    pub responses: Responses,
+    pub responses: FailsafeResponses,
     /// The way home.
     pub homeward: ReturnRules,
     /// `MPC_YAW_MODE`; `WP_YAW_BEHAVIOR`: the nose.
-    pub heading: Heading,
+    pub heading: HeadingRule,
     /// Limits.
-    pub envelope: Envelope,
+    pub envelope: FlightEnvelope,
     /// `MIS_TKO_LAND_REQ`: what a mission must have.
     pub mission_needs: MissionNeeds,
     /// `MIS_DIST_1WP`: farthest first waypoint from home, m; not above zero: any.
@@ -376,11 +376,11 @@ pub const NO_AID_S: f64 = 60.0;
 impl Default for OperatorRules {
     fn default() -> Self {
         Self {
-            responses: Responses {
-                manual_loss_except: Exceptions::from_bits(7),
-                data_link_loss_except: Exceptions::default(),
-                offboard_loss: OffboardLoss::Sticks(Mode::Position),
-                motor_failure: Response::Warn,
+            responses: FailsafeResponses {
+                manual_loss_except: LinkLossExceptions::from_bits(7),
+                data_link_loss_except: LinkLossExceptions::default(),
+                offboard_loss: OffboardLoss::Sticks(FlightMode::Position),
+                motor_failure: FailsafeResponse::Warn,
                 battery: [None; 3],
                 battery_emergency_pct: 5.0,
                 battery_low_v: [0.0; 2],
@@ -394,7 +394,7 @@ impl Default for OperatorRules {
                 arm_needs_mission: false,
             },
             homeward: ReturnRules {
-                places: ReturnPlaces { home: true, rally: true, mission_landing: false },
+                places: ReturnTargets { home: true, rally: true, mission_landing: false },
                 speed_m_s: None,
                 climb_min_m: 0.0,
                 cone_slope: 0.0,
@@ -405,8 +405,8 @@ impl Default for OperatorRules {
                 turns_back: false,
                 final_height_m: 0.0,
             },
-            heading: Heading::Target,
-            envelope: Envelope::OPEN,
+            heading: HeadingRule::Target,
+            envelope: FlightEnvelope::OPEN,
             mission_needs: MissionNeeds::Nothing,
             first_waypoint_m: 10_000.0,
             mission_restarts: false,

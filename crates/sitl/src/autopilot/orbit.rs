@@ -1,9 +1,9 @@
 //! Circling a place, and looking at one.
 
 use super::core::{Autopilot, Severity};
-use super::modes::Wanted;
+use super::modes::Setpoint;
 use super::shaper::stopping_point;
-use super::{Landed, Mode, Outcome};
+use super::{FlightMode, LandedState, RequestOutcome};
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
@@ -63,7 +63,7 @@ pub struct Orbit {
 
 /// A circle as a command asks for it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct OrbitWish {
+pub struct OrbitRequest {
     /// North, east of its middle, m; here where none is given.
     pub centre_m: Option<(f64, f64)>,
     /// Height, m up about the origin.
@@ -79,25 +79,26 @@ pub struct OrbitWish {
 }
 
 impl Autopilot {
-    pub(super) fn request_orbit(&mut self, wish: OrbitWish, now: SimTime) -> Outcome {
-        if !self.status.armed || self.status.landed == Landed::OnGround {
-            return Outcome::TemporarilyRejected("Not flying".into());
+    pub(super) fn request_orbit(&mut self, wish: OrbitRequest, now: SimTime) -> RequestOutcome {
+        if !self.status.armed || self.status.landed == LandedState::OnGround {
+            return RequestOutcome::TemporarilyRejected("Not flying".into());
         }
         if !self.estimate.position_valid {
-            return Outcome::TemporarilyRejected("No position estimate".into());
+            return RequestOutcome::TemporarilyRejected("No position estimate".into());
         }
         let here = self.estimate.position_m;
         let before =
             self.orbit.map_or((self.tuning.rules.orbit_radius_m, SPEED_M_S), |orbit| (orbit.radius_m, orbit.speed_m_s.abs()));
         let radius = wish.radius_m.unwrap_or(before.0);
         if !RADII_M.contains(&radius.abs()) {
-            return Outcome::Denied(format!("Orbit radius out of range ({} to {} m)", RADII_M.start(), RADII_M.end()));
+            return RequestOutcome::Denied(format!("Orbit radius out of range ({} to {} m)", RADII_M.start(), RADII_M.end()));
         }
-        let yaw = wish.yaw.or(self.orbit.filter(|_| self.status.mode == Mode::Orbit).map(|orbit| orbit.yaw)).unwrap_or_default();
-        let top = self.fastest_on(radius.abs());
+        let yaw =
+            wish.yaw.or(self.orbit.filter(|_| self.status.mode == FlightMode::Orbit).map(|orbit| orbit.yaw)).unwrap_or_default();
+        let top = self.max_speed_on(radius.abs());
         let speed = wish.speed_m_s.unwrap_or(before.1);
         if !speed.is_finite() || speed == 0.0 {
-            return Outcome::Denied("Orbit speed out of range".into());
+            return RequestOutcome::Denied("Orbit speed out of range".into());
         }
         let (n, e) = wish.centre_m.unwrap_or((here.north(), here.east()));
         let centre_m = Vec3::new(n, e, wish.up_m.map_or(here.down(), |up| -up));
@@ -107,25 +108,25 @@ impl Autopilot {
         let signed = speed.abs().min(top) * radius.signum() * speed.signum();
         let left_rad = if wish.arc_rad > 0.0 { wish.arc_rad } else { f64::INFINITY };
         self.orbit = Some(Orbit { centre_m, radius_m: radius.abs(), speed_m_s: signed, yaw, left_rad, trim_m_s: 0.0 });
-        self.watch.intended = Mode::Orbit;
-        self.watch.overridden = false;
-        self.enter(Mode::Orbit, now);
-        Outcome::Accepted
+        self.failsafe.intended = FlightMode::Orbit;
+        self.failsafe.overridden = false;
+        self.enter(FlightMode::Orbit, now);
+        RequestOutcome::Accepted
     }
 
     /// A circle ahead of the nose, at once where it flies; on the ground the mode alone is taken.
-    pub(super) fn request_circle_ahead(&mut self, now: SimTime) -> Outcome {
-        if !self.status.armed || self.status.landed == Landed::OnGround {
-            (self.watch.intended, self.orbit) = (Mode::Orbit, None);
-            self.enter(Mode::Orbit, now);
-            return Outcome::Accepted;
+    pub(super) fn request_circle_ahead(&mut self, now: SimTime) -> RequestOutcome {
+        if !self.status.armed || self.status.landed == LandedState::OnGround {
+            (self.failsafe.intended, self.orbit) = (FlightMode::Orbit, None);
+            self.enter(FlightMode::Orbit, now);
+            return RequestOutcome::Accepted;
         }
         let radius = self.tuning.rules.orbit_radius_m.abs().clamp(*RADII_M.start(), *RADII_M.end());
         let rest = stopping_point(&self.gains, self.estimate.position_m, self.estimate.velocity_m_s);
         let (s, c) = math::sin_cos(self.estimate.attitude.yaw_rad());
         let rate = self.tuning.circle_rate_rad_s;
         self.request_orbit(
-            OrbitWish {
+            OrbitRequest {
                 centre_m: Some((rest.north() + radius * c, rest.east() + radius * s)),
                 up_m: Some(-rest.down()),
                 radius_m: Some(radius),
@@ -137,33 +138,33 @@ impl Autopilot {
         )
     }
 
-    fn fastest_on(&self, radius_m: f64) -> f64 {
+    fn max_speed_on(&self, radius_m: f64) -> f64 {
         let turn = (TURN_SHARE * self.gains.acceleration_m_s2 * radius_m).sqrt();
         turn.min(self.tuning.horizontal_speed_max_m_s).min(self.airframe.limits.forward_m_s)
     }
 
-    pub(super) fn fly_orbit(&mut self, now: SimTime, dt_s: f64) -> Wanted {
+    pub(super) fn fly_orbit(&mut self, now: SimTime, dt_s: f64) -> Setpoint {
         let Some(wanted) = self.circle(dt_s) else { return self.go(None, dt_s) };
         if self.orbit.is_some_and(|orbit| orbit.left_rad <= 0.0) {
-            self.say(Severity::Info, "Orbit finished");
-            self.watch.intended = Mode::Hold;
-            self.enter(Mode::Hold, now);
+            self.push_event(Severity::Info, "Orbit finished");
+            self.failsafe.intended = FlightMode::Hold;
+            self.enter(FlightMode::Hold, now);
         }
         wanted
     }
 
     /// Sets up a circle of a mission: as fast as the mission flies, the nose to the middle or to what is looked at.
     pub(super) fn begin_circle(&mut self, centre_m: Vec3<Ned>, radius_m: f64, turns: f64) {
-        let speed = self.mission.speed_m_s.unwrap_or(self.cruise_m_s()).min(self.fastest_on(radius_m.abs()));
+        let speed = self.mission.speed_m_s.unwrap_or(self.cruise_m_s()).min(self.max_speed_on(radius_m.abs()));
         let speed_m_s = speed * radius_m.signum();
         let left_rad = self.mission.left_rad.take().unwrap_or(turns * 2.0 * math::PI);
         self.orbit =
             Some(Orbit { centre_m, radius_m: radius_m.abs(), speed_m_s, yaw: OrbitYaw::Centre, left_rad, trim_m_s: 0.0 });
-        self.course.target_m = centre_m;
+        self.navigator.target_m = centre_m;
     }
 
     /// Flies round; `None` where there is nothing to circle.
-    pub(super) fn circle(&mut self, dt_s: f64) -> Option<Wanted> {
+    pub(super) fn circle(&mut self, dt_s: f64) -> Option<Setpoint> {
         let mut orbit = self.orbit?;
         let here = self.estimate.position_m;
         let out = Vec3::<Ned>::new(here.north() - orbit.centre_m.north(), here.east() - orbit.centre_m.east(), 0.0);
@@ -191,7 +192,7 @@ impl Autopilot {
             orbit.left_rad -= orbit.speed_m_s.abs() * dt_s / orbit.radius_m;
             self.orbit = Some(orbit);
         }
-        Some(Wanted::Fly(self.motion(self.shaper.velocity_m_s)))
+        Some(Setpoint::Velocity(self.motion(self.shaper.velocity_m_s)))
     }
 
     /// Heading towards the place that is looked at, if there is one and it is not underneath, rad.

@@ -13,7 +13,7 @@ pub const CALM_JERK_S: f64 = 0.5;
 
 /// Limits of a shaped motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limits {
+pub struct MotionLimits {
     /// Horizontal acceleration, m/s².
     pub horizontal_m_s2: f64,
     /// Vertical acceleration, m/s².
@@ -24,21 +24,21 @@ pub struct Limits {
 
 /// Velocity and acceleration that are asked of the velocity loop.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Shaper {
+pub struct MotionShaper {
     /// Velocity, m/s.
     pub velocity_m_s: Vec3<Ned>,
     /// Acceleration, m/s².
     pub acceleration_m_s2: Vec3<Ned>,
 }
 
-impl Shaper {
+impl MotionShaper {
     /// Starts from a velocity.
     pub fn start(&mut self, velocity_m_s: Vec3<Ned>) {
         *self = Self { velocity_m_s, acceleration_m_s2: Vec3::zero() };
     }
 
     /// Moves towards a wanted velocity for one step.
-    pub fn advance(&mut self, wanted_m_s: Vec3<Ned>, limits: &Limits, dt_s: f64) {
+    pub fn advance(&mut self, wanted_m_s: Vec3<Ned>, limits: &MotionLimits, dt_s: f64) {
         let wish = (wanted_m_s - self.velocity_m_s) / APPROACH_S;
         let flat = Vec3::<Ned>::new(wish.north(), wish.east(), 0.0).limited(limits.horizontal_m_s2);
         let down = wish.down().clamp(-limits.vertical_m_s2, limits.vertical_m_s2);
@@ -111,8 +111,8 @@ mod tests {
 
     #[test]
     fn prop_a_shaped_stop_has_no_overshoot() {
-        let limits = Limits { horizontal_m_s2: 4.0, vertical_m_s2: 2.0, build_up_s: JERK_S };
-        let mut shaper = Shaper::default();
+        let limits = MotionLimits { horizontal_m_s2: 4.0, vertical_m_s2: 2.0, build_up_s: JERK_S };
+        let mut shaper = MotionShaper::default();
         shaper.start(Vec3::new(8.0, 0.0, 0.0));
         let mut least: f64 = 8.0;
         for _ in 0..2000 {

@@ -1,8 +1,8 @@
 //! Smart return: back to the take-off point along the path flown (ArduCopter's Smart RTL).
 
 use super::core::{Autopilot, Severity};
-use super::modes::{ReturnPhase, Wanted};
-use super::{Landed, Mode};
+use super::modes::{ReturnPhase, Setpoint};
+use super::{FlightMode, LandedState};
 use spandrel_model::frames::{Ned, Vec3};
 
 /// Distance between recorded points; two parts of the path nearer to each other are one, m (ArduCopter: SRTL_ACCURACY).
@@ -21,11 +21,11 @@ const SLOW_M_S: f64 = 0.5;
 
 /// The path flown since take-off.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Trail {
+pub struct FlownPath {
     points: Vec<Vec3<Ned>>,
 }
 
-impl Trail {
+impl FlownPath {
     /// Starts a new path.
     pub fn begin(&mut self, place_m: Vec3<Ned>) {
         self.points = vec![place_m];
@@ -57,7 +57,7 @@ impl Trail {
     }
 
     /// The vehicle was moved to a place on its path: what was flown after it no longer counts.
-    pub fn cut_back_to(&mut self, place_m: Vec3<Ned>) {
+    pub fn truncate_to(&mut self, place_m: Vec3<Ned>) {
         let distance = |k: &usize| (self.points[*k] - place_m).norm();
         let nearest = (0..self.points.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
         if let Some(nearest) = nearest {
@@ -94,37 +94,37 @@ fn distance_to_leg(place: Vec3<Ned>, from: Vec3<Ned>, to: Vec3<Ned>) -> f64 {
 
 impl Autopilot {
     /// Records the path in flight.
-    pub(super) fn record_trail(&mut self) {
-        let flying = self.status.armed && self.status.landed == Landed::InAir;
-        if flying && self.estimate.position_valid && self.status.mode != Mode::SmartReturn {
-            self.trail.record(self.estimate.position_m);
+    pub(super) fn record_path(&mut self) {
+        let flying = self.status.armed && self.status.landed == LandedState::InAir;
+        if flying && self.estimate.position_valid && self.status.mode != FlightMode::SmartReturn {
+            self.flown_path.record(self.estimate.position_m);
         }
     }
 
     pub(super) fn begin_smart_return(&mut self) {
-        self.trail.simplify(SIMPLIFIED_WITHIN_M);
-        self.course.phase = ReturnPhase::Cruise;
+        self.flown_path.simplify(SIMPLIFIED_WITHIN_M);
+        self.navigator.phase = ReturnPhase::Cruise;
     }
 
     /// Point by point back; above the take-off point it lands.
-    pub(super) fn fly_trail_back(&mut self, dt_s: f64) -> Wanted {
-        if self.course.phase == ReturnPhase::Land {
+    pub(super) fn retrace_path(&mut self, dt_s: f64) -> Setpoint {
+        if self.navigator.phase == ReturnPhase::Land {
             return self.land(dt_s);
         }
         let here = self.estimate.position_m;
-        let points = &mut self.trail.points;
+        let points = &mut self.flown_path.points;
         if points.len() > 1 && points.last().is_some_and(|next| (*next - here).norm() < REACHED_M) {
             points.pop();
         }
         let Some(next) = points.last().copied() else { return self.go(None, dt_s) };
         let last = points.len() == 1;
-        self.course.target_m = if last { next - Vec3::new(0.0, 0.0, LANDING_FROM_M) } else { next };
-        let left = self.course.target_m - here;
+        self.navigator.target_m = if last { next - Vec3::new(0.0, 0.0, LANDING_FROM_M) } else { next };
+        let left = self.navigator.target_m - here;
         let slow = self.estimate.velocity_m_s.norm() < SLOW_M_S;
         if last && left.norm() < OVER_M && slow {
-            self.course.phase = ReturnPhase::Land;
-            self.course.target_m = next;
-            self.say(Severity::Info, "Take-off point reached, landing");
+            self.navigator.phase = ReturnPhase::Land;
+            self.navigator.target_m = next;
+            self.push_event(Severity::Info, "Take-off point reached, landing");
         }
         self.go(None, dt_s)
     }
@@ -140,7 +140,7 @@ mod tests {
 
     #[test]
     fn exact_straight_legs_keep_their_ends_and_loops_are_cut_out() {
-        let mut trail = Trail::default();
+        let mut trail = FlownPath::default();
         trail.begin(at(0.0, 0.0, 0.0));
         // North 40 m, east 40 m, and back to the middle of the first leg.
         (1..=20).for_each(|k| trail.record(at(2.0 * f64::from(k), 0.0, 0.0)));
@@ -153,7 +153,7 @@ mod tests {
 
     #[test]
     fn exact_a_path_of_any_length_stays_within_its_points() {
-        let mut trail = Trail::default();
+        let mut trail = FlownPath::default();
         trail.begin(at(0.0, 0.0, 0.0));
         // A rising spiral has no straight legs and never meets itself.
         for k in 1..20_000 {

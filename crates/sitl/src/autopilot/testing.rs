@@ -1,11 +1,11 @@
 //! An aircraft for tests: a Phantom-sized quadrotor with round numbers (estimates).
 
 use spandrel_model::frames::Vec3;
-use spandrel_model::vehicle::{Battery, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, Sensors, Vehicle};
+use spandrel_model::vehicle::{BatterySpec, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, SensorSpec, Vehicle};
 
 /// The test aircraft with these sensors.
 #[must_use]
-pub fn vehicle_with(sensors: Sensors) -> Vehicle {
+pub fn vehicle_with(sensors: SensorSpec) -> Vehicle {
     let arm = |x: f64, y: f64, spin: f64| Rotor { position_m: Vec3::new(x, y, -0.02), spin };
     Vehicle {
         id: "test".into(),
@@ -38,7 +38,7 @@ pub fn vehicle_with(sensors: Sensors) -> Vehicle {
             restitution: 0.2,
             friction: 0.6,
         },
-        battery: Battery {
+        battery: BatterySpec {
             cells: 3,
             capacity_ah: 5.2,
             internal_resistance_ohm: 0.03,

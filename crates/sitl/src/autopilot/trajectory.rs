@@ -42,11 +42,11 @@ pub struct Waypoint {
 
 /// How fast the aircraft may go.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Speeds {
+pub struct SpeedLimits {
     /// Where a leg names none, m/s.
-    pub usual_m_s: f64,
+    pub default_m_s: f64,
     /// At most, m/s.
-    pub most_m_s: f64,
+    pub max_m_s: f64,
     /// Climb, m/s.
     pub up_m_s: f64,
     /// Descent, m/s.
@@ -55,12 +55,12 @@ pub struct Speeds {
 
 /// Accelerations that a plan may ask for.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bounds {
+pub struct AccelerationLimits {
     horizontal_m_s2: f64,
     vertical_m_s2: f64,
 }
 
-impl Bounds {
+impl AccelerationLimits {
     /// For an aircraft that can accelerate this much: the plan leaves half of it, and most of the climb's, to wind and errors.
     #[must_use]
     pub fn within(horizontal_m_s2: f64, vertical_m_s2: f64) -> Self {
@@ -79,7 +79,7 @@ impl Bounds {
 
 /// Position, velocity and acceleration of the plan at one instant.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Planned {
+pub struct TrajectoryPoint {
     /// m.
     pub position_m: Vec3<Ned>,
     /// m/s.
@@ -90,7 +90,7 @@ pub struct Planned {
 
 /// A straight part of the way.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Leg {
+struct Segment {
     from_m: Vec3<Ned>,
     to: Waypoint,
     unit: Vec3<Ned>,
@@ -101,29 +101,29 @@ struct Leg {
     /// Speed that this corner allows, m/s; 0 at the last.
     corner_m_s: f64,
     /// Largest acceleration along it, m/s².
-    most_m_s2: f64,
+    max_m_s2: f64,
 }
 
 /// The way with the progress on it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
-    bounds: Bounds,
-    legs: Vec<Leg>,
+    bounds: AccelerationLimits,
+    legs: Vec<Segment>,
     along_m: f64,
     speed_m_s: f64,
     push_m_s2: f64,
     /// What is left of the state that the way was joined with.
-    joining: Planned,
+    joining: TrajectoryPoint,
 }
 
 impl Trajectory {
     /// A way from a state of motion through waypoints; it ends at rest at the last. `None` without any.
     #[must_use]
-    pub fn join(from: Planned, waypoints: &[Waypoint], bounds: Bounds) -> Option<Self> {
+    pub fn join(from: TrajectoryPoint, waypoints: &[Waypoint], bounds: AccelerationLimits) -> Option<Self> {
         let legs = legs(from.position_m, waypoints, &bounds);
         let first = legs.first()?;
         let speed_m_s = from.velocity_m_s.dot(first.unit).max(0.0);
-        let joining = Planned {
+        let joining = TrajectoryPoint {
             position_m: Vec3::zero(),
             velocity_m_s: from.velocity_m_s - first.unit * speed_m_s,
             acceleration_m_s2: from.acceleration_m_s2,
@@ -137,7 +137,7 @@ impl Trajectory {
         let now = self.leg_at(self.along_m);
         // A corner that is being flown still needs the leg before it.
         let keep = if now > 0 && self.along_m < self.legs[now].start_m + self.legs[now - 1].reach_m { now - 1 } else { now };
-        let leads_there = |leg: &Leg| (leg.to.position_m - first.position_m).norm() < SAME_PLACE_M;
+        let leads_there = |leg: &Segment| (leg.to.position_m - first.position_m).norm() < SAME_PLACE_M;
         let Some(next) = (keep..self.legs.len()).find(|k| leads_there(&self.legs[*k])) else { return false };
         let start = self.legs[keep];
         let kept = self.legs[keep..next].iter().map(|leg| leg.to);
@@ -155,10 +155,10 @@ impl Trajectory {
     }
 
     /// Goes on for one step. `behind_m` is how far the aircraft is from where it should be.
-    pub fn advance(&mut self, speeds: &Speeds, behind_m: f64, dt_s: f64) -> Planned {
+    pub fn advance(&mut self, speeds: &SpeedLimits, behind_m: f64, dt_s: f64) -> TrajectoryPoint {
         let waits = ((WAITS_M - behind_m) / (WAITS_M - FREE_M)).clamp(0.0, 1.0);
         let allowed = self.allowed_m_s(speeds) * waits;
-        let most = self.legs[self.leg_at(self.along_m)].most_m_s2;
+        let most = self.legs[self.leg_at(self.along_m)].max_m_s2;
         let wish = ((allowed - self.speed_m_s) / APPROACH_S).clamp(-most, most);
         self.push_m_s2 += (wish - self.push_m_s2).clamp(-JERK_M_S3 * dt_s, JERK_M_S3 * dt_s);
         self.speed_m_s += self.push_m_s2 * dt_s;
@@ -181,9 +181,9 @@ impl Trajectory {
 
     /// Where the plan is now.
     #[must_use]
-    pub fn planned(&self) -> Planned {
+    pub fn planned(&self) -> TrajectoryPoint {
         let (place, along, bend) = self.shape(self.along_m);
-        Planned {
+        TrajectoryPoint {
             position_m: place + self.joining.position_m,
             velocity_m_s: along * self.speed_m_s + self.joining.velocity_m_s,
             acceleration_m_s2: along * self.push_m_s2 + bend * (self.speed_m_s * self.speed_m_s) + self.joining.acceleration_m_s2,
@@ -191,7 +191,7 @@ impl Trajectory {
     }
 
     fn length_m(&self) -> f64 {
-        self.legs.last().map_or(0.0, Leg::end_m)
+        self.legs.last().map_or(0.0, Segment::end_m)
     }
 
     fn leg_at(&self, along_m: f64) -> usize {
@@ -212,7 +212,7 @@ impl Trajectory {
     }
 
     /// Speed that leg and corners ahead allow here, m/s.
-    fn allowed_m_s(&self, speeds: &Speeds) -> f64 {
+    fn allowed_m_s(&self, speeds: &SpeedLimits) -> f64 {
         let now = self.leg_at(self.along_m);
         let mut allowed = self.legs[now].speed_m_s(speeds);
         if let Some(before) = now.checked_sub(1).map(|k| &self.legs[k])
@@ -225,22 +225,22 @@ impl Trajectory {
         for (k, leg) in self.legs.iter().enumerate().skip(now) {
             let after = self.legs.get(k + 1).map_or(0.0, |next| next.speed_m_s(speeds).min(leg.corner_m_s));
             let left_m = (leg.end_m() - leg.reach_m - self.along_m - lead_m).max(0.0);
-            allowed = allowed.min(braking_speed(left_m, leg.most_m_s2, after));
+            allowed = allowed.min(braking_speed(left_m, leg.max_m_s2, after));
         }
         allowed
     }
 }
 
-impl Leg {
+impl Segment {
     fn end_m(&self) -> f64 {
         self.start_m + self.length_m
     }
 
-    fn speed_m_s(&self, speeds: &Speeds) -> f64 {
+    fn speed_m_s(&self, speeds: &SpeedLimits) -> f64 {
         let (flat, down) = (self.unit.horizontal_norm(), self.unit.down());
         let vertical = if down < 0.0 { speeds.up_m_s } else { speeds.down_m_s };
         let climb = vertical / down.abs().max(1e-9);
-        let wanted = self.to.speed_m_s.unwrap_or(speeds.usual_m_s).min(speeds.most_m_s).max(0.1);
+        let wanted = self.to.speed_m_s.unwrap_or(speeds.default_m_s).min(speeds.max_m_s).max(0.1);
         if down.abs() > STEEP { climb.min(wanted / flat.max(1e-9)) } else { climb.min(wanted) }
     }
 
@@ -264,8 +264,8 @@ fn braking_speed(left_m: f64, most_m_s2: f64, after_m_s: f64) -> f64 {
 }
 
 /// Legs from a place through waypoints, with their corners.
-fn legs(from_m: Vec3<Ned>, waypoints: &[Waypoint], bounds: &Bounds) -> Vec<Leg> {
-    let mut legs: Vec<Leg> = Vec::with_capacity(waypoints.len());
+fn legs(from_m: Vec3<Ned>, waypoints: &[Waypoint], bounds: &AccelerationLimits) -> Vec<Segment> {
+    let mut legs: Vec<Segment> = Vec::with_capacity(waypoints.len());
     let mut at = from_m;
     for (k, to) in waypoints.iter().enumerate() {
         let way = to.position_m - at;
@@ -274,9 +274,9 @@ fn legs(from_m: Vec3<Ned>, waypoints: &[Waypoint], bounds: &Bounds) -> Vec<Leg> 
         if length_m < SAME_PLACE_M && (!legs.is_empty() || k + 1 < waypoints.len()) {
             continue;
         }
-        let start_m = legs.last().map_or(0.0, Leg::end_m);
+        let start_m = legs.last().map_or(0.0, Segment::end_m);
         let unit = if length_m > 0.0 { way / length_m } else { Vec3::new(1.0, 0.0, 0.0) };
-        legs.push(Leg {
+        legs.push(Segment {
             from_m: at,
             to: *to,
             unit,
@@ -284,7 +284,7 @@ fn legs(from_m: Vec3<Ned>, waypoints: &[Waypoint], bounds: &Bounds) -> Vec<Leg> 
             length_m,
             reach_m: 0.0,
             corner_m_s: 0.0,
-            most_m_s2: bounds.along(unit),
+            max_m_s2: bounds.along(unit),
         });
         at = to.position_m;
     }
@@ -296,7 +296,7 @@ fn legs(from_m: Vec3<Ned>, waypoints: &[Waypoint], bounds: &Bounds) -> Vec<Leg> 
 }
 
 /// Half the length of the corner between two legs, m, and the speed that its acceleration and jerk allow, m/s.
-fn corner(leg: &Leg, next: &Leg, bounds: &Bounds) -> (f64, f64) {
+fn corner(leg: &Segment, next: &Segment, bounds: &AccelerationLimits) -> (f64, f64) {
     let turn = next.unit - leg.unit;
     let bend = turn.norm();
     let room = 0.5 * leg.length_m.min(next.length_m);

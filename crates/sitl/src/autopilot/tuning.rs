@@ -2,7 +2,7 @@
 
 /// What a lost link leads to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LinkLoss {
+pub enum LinkLossAction {
     /// Nothing but a warning.
     Ignore,
     /// Stop and hold.
@@ -15,7 +15,7 @@ pub enum LinkLoss {
     Terminate,
 }
 
-impl LinkLoss {
+impl LinkLossAction {
     /// From a parameter's number: 0 nothing, 1 hold, 2 return, 3 land, 5 and 6 motors off.
     #[must_use]
     pub fn from_number(n: i32) -> Option<Self> {
@@ -72,11 +72,11 @@ pub struct Tuning {
     /// `COM_FAIL_ACT_T`: it holds this long before the failsafe's action, s.
     pub failsafe_delay_s: f64,
     /// `NAV_RCL_ACT`: what lost manual control leads to.
-    pub manual_loss: LinkLoss,
+    pub manual_loss: LinkLossAction,
     /// `COM_DL_LOSS_T`: the ground station is lost after, s.
     pub data_link_loss_s: f64,
     /// `NAV_DLL_ACT`: what a lost ground station leads to.
-    pub data_link_loss: LinkLoss,
+    pub data_link_loss: LinkLossAction,
     /// `COM_OF_LOSS_T`: external set-points are lost after, s.
     pub offboard_loss_s: f64,
     /// Seconds of simulation time in a second of the clients' time, where they are not kept in step: their time-outs grow by it.
@@ -125,19 +125,19 @@ pub struct Tuning {
 impl Tuning {
     /// After this much silence manual control is lost, s of simulation time.
     #[must_use]
-    pub fn manual_patience_s(&self) -> f64 {
+    pub fn manual_timeout_s(&self) -> f64 {
         self.manual_loss_s * self.client_pace
     }
 
     /// After this much silence external set-points are lost, s of simulation time.
     #[must_use]
-    pub fn offboard_patience_s(&self) -> f64 {
+    pub fn offboard_timeout_s(&self) -> f64 {
         self.offboard_loss_s * self.client_pace
     }
 
     /// After this much silence the ground station is lost, s of simulation time.
     #[must_use]
-    pub fn data_link_patience_s(&self) -> f64 {
+    pub fn data_link_timeout_s(&self) -> f64 {
         self.data_link_loss_s * self.client_pace
     }
 }
@@ -158,9 +158,9 @@ impl Default for Tuning {
             accept_radius_m: 2.0,
             manual_loss_s: 0.5,
             failsafe_delay_s: 5.0,
-            manual_loss: LinkLoss::Hold,
+            manual_loss: LinkLossAction::Hold,
             data_link_loss_s: 10.0,
-            data_link_loss: LinkLoss::Ignore,
+            data_link_loss: LinkLossAction::Ignore,
             offboard_loss_s: 1.0,
             client_pace: 1.0,
             battery_low_pct: 15.0,

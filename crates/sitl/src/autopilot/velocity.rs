@@ -8,7 +8,7 @@ use spandrel_model::math::{self, GRAVITY_M_S2};
 
 /// What the velocity loop is to fly.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Motion {
+pub struct VelocitySetpoint {
     /// Velocity, m/s.
     pub velocity_m_s: Vec3<Ned>,
     /// Acceleration fed forward, m/s².
@@ -19,7 +19,7 @@ pub struct Motion {
 
 /// Attitude and collective thrust.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pull {
+pub struct AttitudeThrustSetpoint {
     /// Attitude.
     pub attitude: Rotation<Frd, Ned>,
     /// Collective thrust, N.
@@ -44,7 +44,14 @@ impl VelocityLoop {
     }
 
     /// All three axes.
-    pub fn fly(&mut self, gains: &Gains, mass_kg: f64, now: &Estimate, motion: &Motion, dt_s: f64) -> Pull {
+    pub fn fly(
+        &mut self,
+        gains: &Gains,
+        mass_kg: f64,
+        now: &Estimate,
+        motion: &VelocitySetpoint,
+        dt_s: f64,
+    ) -> AttitudeThrustSetpoint {
         // The attitude follows late: the velocity is compared with where the plan was that long ago.
         let late = motion.acceleration_m_s2 * gains.attitude_lag_s;
         let planned = motion.velocity_m_s - Vec3::new(late.north(), late.east(), 0.0);
@@ -53,13 +60,13 @@ impl VelocityLoop {
             + drag(gains, motion.velocity_m_s)
             + Vec3::new(gains.velocity * error.north(), gains.velocity * error.east(), gains.climb * error.down())
             + self.integral;
-        let (force, horizontal_free, vertical_free) = limited(gains, mass_kg, wish);
+        let (force, horizontal_free, vertical_free) = limit_acceleration(gains, mass_kg, wish);
         if horizontal_free {
             self.integral += Vec3::new(error.north(), error.east(), 0.0) * (gains.velocity_integral * dt_s);
         }
         self.climb(gains, error.down(), vertical_free, dt_s);
-        self.bound(gains);
-        pull(mass_kg, now, force, motion.yaw_rad, gains)
+        self.clamp_integral(gains);
+        attitude_thrust(mass_kg, now, force, motion.yaw_rad, gains)
     }
 
     /// Height alone; roll and pitch (rad) are the pilot's.
@@ -68,16 +75,19 @@ impl VelocityLoop {
         gains: &Gains,
         mass_kg: f64,
         now: &Estimate,
-        motion: &Motion,
+        motion: &VelocitySetpoint,
         tilt: (f64, f64),
         dt_s: f64,
-    ) -> Pull {
+    ) -> AttitudeThrustSetpoint {
         let error = motion.velocity_m_s.down() - now.velocity_m_s.down();
         let wish = motion.acceleration_m_s2.down() + gains.climb * error + self.integral.down();
-        let (force, _, free) = limited(gains, mass_kg, Vec3::new(0.0, 0.0, wish));
+        let (force, _, free) = limit_acceleration(gains, mass_kg, Vec3::new(0.0, 0.0, wish));
         self.climb(gains, error, free, dt_s);
-        self.bound(gains);
-        Pull { attitude: Rotation::from_euler(tilt.0, tilt.1, motion.yaw_rad), thrust_n: thrust(mass_kg, now, force, gains) }
+        self.clamp_integral(gains);
+        AttitudeThrustSetpoint {
+            attitude: Rotation::from_euler(tilt.0, tilt.1, motion.yaw_rad),
+            thrust_n: thrust(mass_kg, now, force, gains),
+        }
     }
 
     fn climb(&mut self, gains: &Gains, error: f64, free: bool, dt_s: f64) {
@@ -87,7 +97,7 @@ impl VelocityLoop {
         }
     }
 
-    fn bound(&mut self, gains: &Gains) {
+    fn clamp_integral(&mut self, gains: &Gains) {
         let flat = Vec3::<Ned>::new(self.integral.north(), self.integral.east(), 0.0).limited(gains.acceleration_m_s2);
         let down = self.integral.down().clamp(-0.8 * GRAVITY_M_S2, 0.8 * GRAVITY_M_S2);
         self.integral = Vec3::new(flat.north(), flat.east(), down);
@@ -102,7 +112,7 @@ fn drag(gains: &Gains, velocity_m_s: Vec3<Ned>) -> Vec3<Ned> {
 
 /// Specific force for a wanted acceleration within tilt and thrust limits, height before horizontal; and whether the horizontal and
 /// vertical parts were left as wished.
-fn limited(gains: &Gains, mass_kg: f64, wish_m_s2: Vec3<Ned>) -> (Vec3<Ned>, bool, bool) {
+fn limit_acceleration(gains: &Gains, mass_kg: f64, wish_m_s2: Vec3<Ned>) -> (Vec3<Ned>, bool, bool) {
     let (low, high) = (gains.thrust_min_n / mass_kg, gains.thrust_max_n / mass_kg);
     let lift = GRAVITY_M_S2 - wish_m_s2.down();
     let up = lift.clamp(low, high);
@@ -113,7 +123,7 @@ fn limited(gains: &Gains, mass_kg: f64, wish_m_s2: Vec3<Ned>) -> (Vec3<Ned>, boo
     (Vec3::new(held.north(), held.east(), -up), held == flat, up == lift)
 }
 
-fn pull(mass_kg: f64, now: &Estimate, force: Vec3<Ned>, yaw_rad: f64, gains: &Gains) -> Pull {
+fn attitude_thrust(mass_kg: f64, now: &Estimate, force: Vec3<Ned>, yaw_rad: f64, gains: &Gains) -> AttitudeThrustSetpoint {
     let down = (-force).unit();
     let (s, c) = math::sin_cos(yaw_rad);
     let right = down.cross(Vec3::new(c, s, 0.0)).unit();
@@ -121,7 +131,7 @@ fn pull(mass_kg: f64, now: &Estimate, force: Vec3<Ned>, yaw_rad: f64, gains: &Ga
     let matrix = Matrix3::from_columns(&[forward.raw(), right.raw(), down.raw()]);
     // FRAME: the columns are the body's axes in NED.
     let attitude = Rotation::assume(UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix)));
-    Pull { attitude, thrust_n: thrust(mass_kg, now, force, gains) }
+    AttitudeThrustSetpoint { attitude, thrust_n: thrust(mass_kg, now, force, gains) }
 }
 
 /// Collective thrust whose vertical part is right at the tilt of this instant.

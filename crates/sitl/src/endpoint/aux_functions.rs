@@ -1,10 +1,10 @@
 //! Auxiliary functions by ArduPilot's numbers: switches on a transmitter's channels (RCn_OPTION) and DO_AUX_FUNCTION.
 
-use super::arrival::Arrival;
-use super::commands::{self, Command};
+use super::commands::{self, VehicleCommand};
+use super::inbound::InboundMessage;
 use super::streams::AUTOPILOT;
-use super::{Endpoint, control, exchange, manual};
-use crate::autopilot::{Mode, Request};
+use super::{Endpoint, control, manual, param_and_mission_services};
+use crate::autopilot::{AutopilotRequest, FlightMode};
 use mavlink::MessageData;
 use spandrel_mavlink::dialect::{
     MISSION_CURRENT_DATA, MISSION_ITEM_INT_DATA, MavCmd, MavFrame, MavMissionType, MavResult, RC_CHANNELS_OVERRIDE_DATA,
@@ -43,14 +43,14 @@ const MODES: &[(u16, u32)] = &[
 
 /// Where a switch stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Level {
+pub(super) enum SwitchPosition {
     Low,
     Middle,
     High,
 }
 
-impl Level {
-    fn of_pulse(us: u16) -> Self {
+impl SwitchPosition {
+    fn from_pulse(us: u16) -> Self {
         match us {
             us if us < LOW_BELOW_US => Self::Low,
             us if us > HIGH_ABOVE_US => Self::High,
@@ -58,18 +58,18 @@ impl Level {
         }
     }
 
-    fn of_number(number: f64) -> Option<Self> {
+    fn from_number(number: f64) -> Option<Self> {
         [Self::Low, Self::Middle, Self::High].into_iter().find(|level| (number - f64::from(*level as u8)).abs() < 0.5)
     }
 }
 
 /// Runs the function of every switch that has moved. Where a switch stands when it is first heard is no movement.
-pub(super) fn read_switches(e: &mut Endpoint, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut Arrival) {
+pub(super) fn read_switches(e: &mut Endpoint, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut InboundMessage) {
     for (k, us) in manual::aux_of(c).into_iter().enumerate() {
         if !manual::PULSES_US.contains(&us) {
             continue;
         }
-        let level = Level::of_pulse(us);
+        let level = SwitchPosition::from_pulse(us);
         let moved = e.switches[k].replace(level).is_some_and(|before| before != level);
         let function = e.params.switch_function(FIRST_CHANNEL + k).filter(|function| moved && *function > 0);
         if let Some(function) = function {
@@ -79,19 +79,19 @@ pub(super) fn read_switches(e: &mut Endpoint, c: &RC_CHANNELS_OVERRIDE_DATA, a: 
 }
 
 /// DO_AUX_FUNCTION: parameter 1 the function, 2 the level. `None` for another command, and where the flavour has no switches.
-pub(super) fn command(e: &mut Endpoint, c: &Command, a: &mut Arrival) -> Option<MavResult> {
+pub(super) fn command(e: &mut Endpoint, c: &VehicleCommand, a: &mut InboundMessage) -> Option<MavResult> {
     if c.number != DO_AUX_FUNCTION || e.params.switch_function(FIRST_CHANNEL).is_none() {
         return None;
     }
-    let Some(level) = c.given(1).and_then(Level::of_number) else { return Some(MavResult::MAV_RESULT_DENIED) };
-    let function = c.given(0).filter(|function| (0.0..=f64::from(u16::MAX)).contains(function));
+    let Some(level) = c.finite_param(1).and_then(SwitchPosition::from_number) else { return Some(MavResult::MAV_RESULT_DENIED) };
+    let function = c.finite_param(0).filter(|function| (0.0..=f64::from(u16::MAX)).contains(function));
     let done = function.is_some_and(|function| run(e, function as u16, level, a));
     Some(if done { MavResult::MAV_RESULT_ACCEPTED } else { MavResult::MAV_RESULT_FAILED })
 }
 
 /// False for a function that this vehicle doesn't have.
-fn run(e: &mut Endpoint, function: u16, level: Level, a: &mut Arrival) -> bool {
-    let high = level == Level::High;
+fn run(e: &mut Endpoint, function: u16, level: SwitchPosition, a: &mut InboundMessage) -> bool {
+    let high = level == SwitchPosition::High;
     if let Some((_, mode)) = MODES.iter().find(|(known, _)| *known == function) {
         switch_mode(e, *mode, high, a);
         return true;
@@ -101,14 +101,14 @@ fn run(e: &mut Endpoint, function: u16, level: Level, a: &mut Arrival) -> bool {
         7 if high => save_waypoint(e, a),
         9 if high => payload(e, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, [0.0, 0.0, 1.0], a),
         11 => {
-            a.autopilot.request(Request::EnableFence(high), a.view.now);
+            a.autopilot.request(AutopilotRequest::EnableFence(high), a.view.now);
         }
         24 if high => restart_mission(e, a),
-        28 if level != Level::Middle => payload(e, MavCmd::MAV_CMD_DO_SET_RELAY, [0.0, on, 0.0], a),
-        41 | 153 if level != Level::Middle => arm(e, high, a),
+        28 if level != SwitchPosition::Middle => payload(e, MavCmd::MAV_CMD_DO_SET_RELAY, [0.0, on, 0.0], a),
+        41 | 153 if level != SwitchPosition::Middle => arm(e, high, a),
         58 if high => {
             e.plans.drop_mission();
-            exchange::hand_over(e, MavMissionType::MAV_MISSION_TYPE_MISSION, a.view, a.autopilot);
+            param_and_mission_services::update_autopilot_plan(e, MavMissionType::MAV_MISSION_TYPE_MISSION, a.view, a.autopilot);
         }
         7 | 9 | 24 | 28 | 41 | 58 | 153 => {}
         _ => return false,
@@ -117,42 +117,43 @@ fn run(e: &mut Endpoint, function: u16, level: Level, a: &mut Arrival) -> bool {
 }
 
 /// Up enters the mode; back from it the mode switch decides again.
-fn switch_mode(e: &mut Endpoint, mode: u32, high: bool, a: &mut Arrival) {
+fn switch_mode(e: &mut Endpoint, mode: u32, high: bool, a: &mut InboundMessage) {
     let shown = e.flavour.row_of(a.autopilot.status().mode, e.chosen).number;
     if high {
         control::enter_mode(e, mode, a);
     } else if shown == mode
-        && let Some(mode) = e.mode_switch.and_then(|position| control::switched_mode(e, position))
+        && let Some(mode) = e.mode_switch.and_then(|position| control::mode_for_switch(e, position))
     {
         control::enter_mode(e, mode, a);
     }
 }
 
-fn arm(e: &mut Endpoint, arms: bool, a: &mut Arrival) {
+fn arm(e: &mut Endpoint, arms: bool, a: &mut InboundMessage) {
     let p = [f64::from(u8::from(arms)), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-    e.obey(&own(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, p, e.system_id), a);
+    e.execute(&own(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, p, e.system_id), a);
 }
 
-fn payload(e: &mut Endpoint, command: MavCmd, [p1, p2, p3]: [f64; 3], a: &Arrival) {
+fn payload(e: &mut Endpoint, command: MavCmd, [p1, p2, p3]: [f64; 3], a: &InboundMessage) {
     let command = own(command, [p1, p2, p3, 0.0, 0.0, 0.0, 0.0], e.system_id);
     commands::payload::handle(&command, a.view, &mut e.payload);
 }
 
-fn own(command: MavCmd, p: [f64; 7], system: u8) -> Command {
+fn own(command: MavCmd, p: [f64; 7], system: u8) -> VehicleCommand {
     let from = (system, AUTOPILOT);
-    Command { number: command as u16, p, frame: 0, component: AUTOPILOT, system, from, whole: false, own: true }
+    VehicleCommand { number: command as u16, p, frame: 0, component: AUTOPILOT, system, from, whole: false, own: true }
 }
 
-fn restart_mission(e: &mut Endpoint, a: &mut Arrival) {
+fn restart_mission(e: &mut Endpoint, a: &mut InboundMessage) {
     a.autopilot.set_mission_current(0, true);
-    e.payload.news.say(MISSION_CURRENT_DATA::ID);
+    e.payload.changes.add_message(MISSION_CURRENT_DATA::ID);
 }
 
 /// Adds the vehicle's place to the mission, as a landing while the throttle is down; a take-off goes before the first one. Not in AUTO and not
 /// before the motors are armed.
-fn save_waypoint(e: &mut Endpoint, a: &mut Arrival) {
+fn save_waypoint(e: &mut Endpoint, a: &mut InboundMessage) {
     let status = a.autopilot.status();
-    let Some(home) = status.home_m.filter(|_| status.armed && status.mode != Mode::Mission && a.view.estimate.position_valid)
+    let Some(home) =
+        status.home_m.filter(|_| status.armed && status.mode != FlightMode::Mission && a.view.estimate.position_valid)
     else {
         return;
     };
@@ -176,5 +177,5 @@ fn save_waypoint(e: &mut Endpoint, a: &mut Arrival) {
     }
     let command = if down { MavCmd::MAV_CMD_NAV_LAND } else { MavCmd::MAV_CMD_NAV_WAYPOINT };
     e.plans.add(item(command, here, over_home_m));
-    exchange::hand_over(e, MavMissionType::MAV_MISSION_TYPE_MISSION, a.view, a.autopilot);
+    param_and_mission_services::update_autopilot_plan(e, MavMissionType::MAV_MISSION_TYPE_MISSION, a.view, a.autopilot);
 }

@@ -20,34 +20,34 @@ const LOOK: SimTime = SimTime::from_ms(1_000);
 
 /// A link's capacity and its use.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Budget {
+pub struct LinkBudget {
     bytes_s: f64,
     tokens: f64,
     at: SimTime,
-    looked: SimTime,
+    last_adjusted: SimTime,
     streamed: f64,
     stretch: f64,
 }
 
-impl Budget {
+impl LinkBudget {
     /// A link of so many bytes a second, whose streams would send `frames_s` frames a second.
     #[must_use]
     pub fn new(bytes_s: f64, frames_s: f64, now: SimTime) -> Self {
         let stretch = (frames_s * FRAME_BYTES / (bytes_s * STREAMS_SHARE)).clamp(1.0, SLOWEST);
-        Self { bytes_s, tokens: 0.0, at: now, looked: now, streamed: 0.0, stretch }
+        Self { bytes_s, tokens: 0.0, at: now, last_adjusted: now, streamed: 0.0, stretch }
     }
 
     /// Time passes: capacity grows again; once a second the streams' pace follows what they took.
     pub fn advance(&mut self, now: SimTime) {
         self.tokens = (self.tokens + self.bytes_s * (now - self.at).s()).min(BURST_BYTES.max(self.bytes_s * BURST_S));
         self.at = now;
-        let window_s = (now - self.looked).s();
-        if now - self.looked >= LOOK {
+        let window_s = (now - self.last_adjusted).s();
+        if now - self.last_adjusted >= LOOK {
             let used = self.streamed / (window_s * self.bytes_s * STREAMS_SHARE);
             // Half of the way each time: a second with few slow streams in it must not throw the pace about.
             self.stretch = (self.stretch * f64::midpoint(1.0, used)).clamp(1.0, SLOWEST);
             self.streamed = 0.0;
-            self.looked = now;
+            self.last_adjusted = now;
         }
     }
 
@@ -67,13 +67,13 @@ impl Budget {
 
     /// How many times slower than asked the streams run.
     #[must_use]
-    pub fn stretch(&self) -> f64 {
+    pub fn interval_factor(&self) -> f64 {
         self.stretch
     }
 
     /// So many waiting bytes are enough for now.
     #[must_use]
-    pub fn busy(&self, waiting: usize) -> bool {
+    pub fn is_saturated(&self, waiting: usize) -> bool {
         waiting as f64 > self.bytes_s * BUSY_S
     }
 
@@ -95,7 +95,7 @@ mod tests {
 
     #[test]
     fn exact_what_leaves_is_what_the_link_carries() {
-        let mut budget = Budget::new(RADIO, 0.0, SimTime::ZERO);
+        let mut budget = LinkBudget::new(RADIO, 0.0, SimTime::ZERO);
         let mut sent = 0;
         for ms in 1..=10_000 {
             budget.advance(SimTime::from_ms(ms));
@@ -109,23 +109,23 @@ mod tests {
     #[test]
     fn exact_streams_settle_at_their_share_of_the_link_from_either_side() {
         for (frames_s, bytes) in [(400.0, 20), (100.0, 200)] {
-            let mut budget = Budget::new(RADIO, frames_s, SimTime::ZERO);
+            let mut budget = LinkBudget::new(RADIO, frames_s, SimTime::ZERO);
             let mut asked = 0.0;
             for ms in 1..=60_000 {
                 budget.advance(SimTime::from_ms(ms));
-                asked += frames_s * bytes as f64 / 1_000.0 / budget.stretch();
+                asked += frames_s * bytes as f64 / 1_000.0 / budget.interval_factor();
                 if asked >= bytes as f64 {
                     asked -= bytes as f64;
                     budget.note_streamed(bytes);
                 }
             }
-            let share = frames_s * bytes as f64 / budget.stretch() / RADIO;
+            let share = frames_s * bytes as f64 / budget.interval_factor() / RADIO;
             assert!((share / STREAMS_SHARE - 1.0).abs() < 0.1, "{share}: whole frames in one second's count");
         }
     }
 
     #[test]
     fn exact_a_fast_link_is_not_slowed() {
-        assert_eq!(Budget::new(1e6, 800.0, SimTime::ZERO).stretch(), 1.0);
+        assert_eq!(LinkBudget::new(1e6, 800.0, SimTime::ZERO).interval_factor(), 1.0);
     }
 }

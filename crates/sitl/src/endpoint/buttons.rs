@@ -1,6 +1,6 @@
 //! Buttons of a joystick (MANUAL_CONTROL) and what a press of each does: parameters say so.
 
-use super::commands::Command;
+use super::commands::VehicleCommand;
 use super::params::Params;
 use super::streams::AUTOPILOT;
 use spandrel_mavlink::dialect::{MANUAL_CONTROL_DATA, MavCmd, MavStandardMode};
@@ -28,11 +28,11 @@ pub const NAMES: [&str; COUNT] = [
 ];
 /// Buttons as they were last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Presses {
+pub struct ButtonState {
     down: Option<u16>,
 }
 
-impl Presses {
+impl ButtonState {
     /// Buttons that are pressed now and were not before. What is down when somebody takes the sticks is no press.
     pub fn of(&mut self, m: &MANUAL_CONTROL_DATA) -> impl Iterator<Item = usize> + use<> {
         let before = self.down.replace(m.buttons).unwrap_or(m.buttons);
@@ -43,7 +43,7 @@ impl Presses {
 
 /// What a press may need to know.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Seen {
+pub(super) struct ButtonContext {
     /// The lamp is on.
     pub lamp_on: bool,
     /// Where the gimbal points, degrees about the horizon, and where it can.
@@ -60,7 +60,7 @@ const STEP_DEG: f64 = 10.0;
 const OVER_HOME: u8 = 3;
 
 /// The command that a button's parameter names: it is obeyed and refused as if it had been sent.
-pub(super) fn command(button: usize, params: &Params, seen: &Seen, from: (u8, u8)) -> Option<Command> {
+pub(super) fn command(button: usize, params: &Params, seen: &ButtonContext, from: (u8, u8)) -> Option<VehicleCommand> {
     use MavCmd as M;
     let standard = |mode: MavStandardMode| (M::MAV_CMD_DO_SET_STANDARD_MODE, [f64::from(mode as u32), 0.0, 0.0]);
     let aim = |pitch_deg: f64| {
@@ -86,5 +86,5 @@ pub(super) fn command(button: usize, params: &Params, seen: &Seen, from: (u8, u8
     };
     let p = [a, b, c, 0.0, 0.0, 0.0, if number == M::MAV_CMD_NAV_TAKEOFF { seen.take_off_m } else { 0.0 }];
     let number = number as u16;
-    Some(Command { number, p, frame: OVER_HOME, component: AUTOPILOT, system: 0, from, whole: false, own: false })
+    Some(VehicleCommand { number, p, frame: OVER_HOME, component: AUTOPILOT, system: 0, from, whole: false, own: false })
 }

@@ -1,10 +1,10 @@
 //! MAV_CMD_PREFLIGHT_CALIBRATION: what can be calibrated at rest is measured at rest, and reported in the texts that ground stations read.
 
 use super::Endpoint;
-use super::commands::Command;
-use super::context::Context;
-use super::params::Value;
-use super::view::View;
+use super::commands::VehicleCommand;
+use super::context::CommandContext;
+use super::params::ParamValue;
+use super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{MavResult, MavSeverity};
 use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::math::GRAVITY_M_S2;
@@ -25,14 +25,14 @@ const LEVEL_M_S2: f64 = 0.5 * GRAVITY_M_S2;
 
 /// What is calibrated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Sensor {
+enum CalibratedSensor {
     Gyro,
     Barometer,
     Level,
     Accelerometer,
 }
 
-impl Sensor {
+impl CalibratedSensor {
     /// The word that QGroundControl looks for.
     fn word(self) -> &'static str {
         match self {
@@ -46,20 +46,20 @@ impl Sensor {
 
 /// Whose texts report it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Words {
+pub enum CalibrationTexts {
     /// PX4's, which begin with `[cal]` (QGroundControl: SensorsComponentController).
     Px4,
     /// ArduPilot's, recorded.
     ArduPilot,
 }
 
-impl Words {
-    fn start(self, sensor: Sensor) -> Option<String> {
+impl CalibrationTexts {
+    fn start(self, sensor: CalibratedSensor) -> Option<String> {
         match (self, sensor) {
             (Self::Px4, _) => Some(format!("[cal] calibration started: 2 {}", sensor.word())),
-            (Self::ArduPilot, Sensor::Barometer) => Some("Updating barometer calibration".into()),
-            (Self::ArduPilot, Sensor::Gyro) => Some("Initialising ArduPilot".into()),
-            (Self::ArduPilot, Sensor::Level | Sensor::Accelerometer) => None,
+            (Self::ArduPilot, CalibratedSensor::Barometer) => Some("Updating barometer calibration".into()),
+            (Self::ArduPilot, CalibratedSensor::Gyro) => Some("Initialising ArduPilot".into()),
+            (Self::ArduPilot, CalibratedSensor::Level | CalibratedSensor::Accelerometer) => None,
         }
     }
 
@@ -67,10 +67,10 @@ impl Words {
         (self == Self::Px4).then(|| format!("[cal] progress <{percent}>"))
     }
 
-    fn done(self, sensor: Sensor) -> Option<String> {
+    fn done(self, sensor: CalibratedSensor) -> Option<String> {
         match (self, sensor) {
             (Self::Px4, _) => Some(format!("[cal] calibration done: {}", sensor.word())),
-            (Self::ArduPilot, Sensor::Barometer) => Some("Barometer calibration complete".into()),
+            (Self::ArduPilot, CalibratedSensor::Barometer) => Some("Barometer calibration complete".into()),
             (Self::ArduPilot, _) => None,
         }
     }
@@ -85,13 +85,13 @@ impl Words {
 
 /// Sums over one half of the measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct Half {
+struct HalfSums {
     rates: Vec3<Frd>,
     force: Vec3<Frd>,
     samples: u32,
 }
 
-impl Half {
+impl HalfSums {
     fn means(&self) -> (Vec3<Frd>, Vec3<Frd>) {
         let share = 1.0 / f64::from(self.samples.max(1));
         (self.rates * share, self.force * share)
@@ -101,20 +101,20 @@ impl Half {
 /// A calibration that runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Calibration {
-    sensor: Sensor,
+    sensor: CalibratedSensor,
     since: SimTime,
-    halves: [Half; 2],
+    halves: [HalfSums; 2],
     steps: u32,
 }
 
 /// Parameters 1 gyro, 2 compass, 3 barometer, 4 radio, 5 accelerometer, 6 airspeed, 7 ESC; none of them ends what runs.
-pub(super) fn command(c: &Command, x: &mut Context) -> MavResult {
+pub(super) fn command(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
     use MavResult as R;
     let words = x.view.flavour.calibration;
-    let asked = |k: usize| c.given(k).unwrap_or(0.0);
+    let asked = |k: usize| c.finite_param(k).unwrap_or(0.0);
     if (0..7).all(|k| asked(k) == 0.0) {
-        if x.calibration.take().is_some() && words == Words::Px4 {
-            x.inform("[cal] calibration cancelled");
+        if x.calibration.take().is_some() && words == CalibrationTexts::Px4 {
+            x.inform_all("[cal] calibration cancelled");
         }
         return R::MAV_RESULT_ACCEPTED;
     }
@@ -127,29 +127,29 @@ pub(super) fn command(c: &Command, x: &mut Context) -> MavResult {
     }
     let rotated = if asked(1) == 1.0 { Some("mag") } else { (asked(4) == 1.0).then_some("accel") };
     if let Some(what) = rotated {
-        if words == Words::Px4 {
-            x.inform(&format!("[cal] calibration started: 2 {what}"));
+        if words == CalibrationTexts::Px4 {
+            x.inform_all(&format!("[cal] calibration started: 2 {what}"));
         }
-        x.tell(&words.failed("this vehicle cannot be rotated by hand"));
-        return if words == Words::Px4 { R::MAV_RESULT_ACCEPTED } else { R::MAV_RESULT_FAILED };
+        x.warn_all(&words.failed("this vehicle cannot be rotated by hand"));
+        return if words == CalibrationTexts::Px4 { R::MAV_RESULT_ACCEPTED } else { R::MAV_RESULT_FAILED };
     }
     let sensor = match (asked(0), asked(2), asked(4)) {
-        (1.0, ..) => Sensor::Gyro,
-        (_, 1.0, _) => Sensor::Barometer,
-        (.., 2.0) => Sensor::Level,
-        (.., 4.0) => Sensor::Accelerometer,
+        (1.0, ..) => CalibratedSensor::Gyro,
+        (_, 1.0, _) => CalibratedSensor::Barometer,
+        (.., 2.0) => CalibratedSensor::Level,
+        (.., 4.0) => CalibratedSensor::Accelerometer,
         _ => return R::MAV_RESULT_UNSUPPORTED,
     };
-    *x.calibration = Some(Calibration { sensor, since: x.view.now, halves: [Half::default(); 2], steps: 0 });
+    *x.calibration = Some(Calibration { sensor, since: x.view.now, halves: [HalfSums::default(); 2], steps: 0 });
     if let Some(text) = words.start(sensor) {
-        x.inform(&text);
+        x.inform_all(&text);
     }
     R::MAV_RESULT_ACCEPTED
 }
 
 impl Calibration {
     /// Takes in the newest reading; true once it has measured long enough.
-    fn measure(&mut self, view: &View) -> bool {
+    fn measure(&mut self, view: &VehicleSnapshot) -> bool {
         let age_s = (view.now - self.since).s();
         let half = &mut self.halves[usize::from(age_s > 0.5 * MEASURE_S)];
         if let Some(imu) = view.readings.imu {
@@ -171,7 +171,7 @@ impl Calibration {
         if turned || (force_1 - force_0).norm() > STILL_M_S2 || (force.norm() - GRAVITY_M_S2).abs() > REST_M_S2 {
             return Err("vehicle moved");
         }
-        if self.sensor == Sensor::Level && force.forward().abs().max(force.right().abs()) > LEVEL_M_S2 {
+        if self.sensor == CalibratedSensor::Level && force.forward().abs().max(force.right().abs()) > LEVEL_M_S2 {
             return Err("excess roll or pitch angle");
         }
         Ok((rates_0 + rates_1) * 0.5)
@@ -180,17 +180,20 @@ impl Calibration {
 
 impl Endpoint {
     /// What a running calibration has measured, and how it ends.
-    pub(super) fn calibrate(&mut self, view: &View) {
+    pub(super) fn calibrate(&mut self, view: &VehicleSnapshot) {
         let Some(mut running) = self.calibration.take() else { return };
         let words = self.flavour.calibration;
         let done = running.measure(view);
         let steps = ((view.now - running.since).s() / MEASURE_S * f64::from(STEPS)) as u32;
         if steps > running.steps && steps <= STEPS {
             running.steps = steps;
-            words.progress(100 / STEPS * steps).into_iter().for_each(|text| self.tell(MavSeverity::MAV_SEVERITY_INFO, &text));
+            words
+                .progress(100 / STEPS * steps)
+                .into_iter()
+                .for_each(|text| self.push_text(MavSeverity::MAV_SEVERITY_INFO, &text));
         }
         if view.status.armed {
-            self.tell(MavSeverity::MAV_SEVERITY_CRITICAL, &words.failed("armed"));
+            self.push_text(MavSeverity::MAV_SEVERITY_CRITICAL, &words.failed("armed"));
         } else if !done {
             self.calibration = Some(running);
         } else {
@@ -198,18 +201,18 @@ impl Endpoint {
         }
     }
 
-    fn end_calibration(&mut self, ended: &Calibration, words: Words) {
+    fn end_calibration(&mut self, ended: &Calibration, words: CalibrationTexts) {
         match ended.outcome() {
             Ok(offset) => {
-                if ended.sensor == Sensor::Gyro {
+                if ended.sensor == CalibratedSensor::Gyro {
                     for (name, value) in GYRO_OFFSETS.iter().zip(offset.array()) {
                         // Only PX4's parameters show the offsets.
-                        let _ = self.params.set_value(name, Value::Real(value as f32));
+                        let _ = self.params.set_value(name, ParamValue::Real(value as f32));
                     }
                 }
-                words.done(ended.sensor).into_iter().for_each(|text| self.tell(MavSeverity::MAV_SEVERITY_INFO, &text));
+                words.done(ended.sensor).into_iter().for_each(|text| self.push_text(MavSeverity::MAV_SEVERITY_INFO, &text));
             }
-            Err(why) => self.tell(MavSeverity::MAV_SEVERITY_CRITICAL, &words.failed(why)),
+            Err(why) => self.push_text(MavSeverity::MAV_SEVERITY_CRITICAL, &words.failed(why)),
         }
     }
 }

@@ -1,8 +1,8 @@
 //! The camera's settings over PARAM_EXT.
 
 use super::Endpoint;
-use super::arrival::Arrival;
-use super::camera::settings::{ALL, Setting};
+use super::camera::settings::{ALL, CameraSetting};
+use super::inbound::InboundMessage;
 use super::streams::CAMERA;
 use mavlink::types::CharArray;
 use spandrel_mavlink::dialect::*;
@@ -22,7 +22,7 @@ fn bytes(value: u32) -> CharArray<128> {
     data.into()
 }
 
-fn value(e: &Endpoint, index: usize, setting: &Setting) -> MavMessage {
+fn value(e: &Endpoint, index: usize, setting: &CameraSetting) -> MavMessage {
     MavMessage::PARAM_EXT_VALUE(PARAM_EXT_VALUE_DATA {
         param_count: ALL.len() as u16,
         param_index: index as u16,
@@ -32,7 +32,7 @@ fn value(e: &Endpoint, index: usize, setting: &Setting) -> MavMessage {
     })
 }
 
-pub(super) fn list(e: &mut Endpoint, m: &PARAM_EXT_REQUEST_LIST_DATA, a: &mut Arrival) {
+pub(super) fn list(e: &mut Endpoint, m: &PARAM_EXT_REQUEST_LIST_DATA, a: &mut InboundMessage) {
     if is_for_camera(m.target_component) {
         for (index, setting) in ALL.iter().enumerate() {
             let message = value(e, index, setting);
@@ -42,14 +42,14 @@ pub(super) fn list(e: &mut Endpoint, m: &PARAM_EXT_REQUEST_LIST_DATA, a: &mut Ar
 }
 
 /// By its number, or with -1 by its name.
-pub(super) fn read(e: &mut Endpoint, m: &PARAM_EXT_REQUEST_READ_DATA, a: &mut Arrival) {
+pub(super) fn read(e: &mut Endpoint, m: &PARAM_EXT_REQUEST_READ_DATA, a: &mut InboundMessage) {
     if !is_for_camera(m.target_component) {
         return;
     }
     let name = m.param_id.to_str().unwrap_or_default();
     let found = match usize::try_from(m.param_index) {
         Ok(index) => ALL.get(index).map(|setting| (index, setting)),
-        Err(_) => Setting::named(name),
+        Err(_) => CameraSetting::named(name),
     };
     let message = match found {
         Some((index, setting)) => value(e, index, setting),
@@ -65,17 +65,17 @@ pub(super) fn read(e: &mut Endpoint, m: &PARAM_EXT_REQUEST_READ_DATA, a: &mut Ar
 }
 
 /// The acknowledgement tells the value that counts from now on; a change is told to every link.
-pub(super) fn set(e: &mut Endpoint, m: &PARAM_EXT_SET_DATA, a: &mut Arrival) {
+pub(super) fn set(e: &mut Endpoint, m: &PARAM_EXT_SET_DATA, a: &mut InboundMessage) {
     if !is_for_camera(m.target_component) {
         return;
     }
     let [first, second, third, fourth, ..] = *m.param_value;
     let wanted = u32::from_le_bytes([first, second, third, fourth]);
-    let found = Setting::named(m.param_id.to_str().unwrap_or_default());
+    let found = CameraSetting::named(m.param_id.to_str().unwrap_or_default());
     let done = match found {
         Some((_, setting)) if m.param_type == TYPE => setting.change(&mut e.payload.camera, wanted).map_err(|refusal| {
             refusal.text().map_or(ParamAck::PARAM_ACK_VALUE_UNSUPPORTED, |text| {
-                e.payload.news.warn(text);
+                e.payload.changes.add_warning(text);
                 ParamAck::PARAM_ACK_FAILED
             })
         }),
@@ -97,7 +97,7 @@ pub(super) fn set(e: &mut Endpoint, m: &PARAM_EXT_SET_DATA, a: &mut Arrival) {
 }
 
 /// PARAM_EXT_SET of a type that MAVLink does not know.
-pub(super) fn unknown_type(e: &mut Endpoint, payload: &[u8], a: &Arrival) {
+pub(super) fn unknown_type(e: &mut Endpoint, payload: &[u8], a: &InboundMessage) {
     let mut param_id = [0; 16];
     param_id.copy_from_slice(&payload[2..18]);
     let refusal = MavMessage::PARAM_EXT_ACK(PARAM_EXT_ACK_DATA {

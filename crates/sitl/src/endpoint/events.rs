@@ -1,11 +1,11 @@
 //! PX4's events interface: what arming checks and health report, event by event, and the file that explains the events
 //! (<https://mavlink.io/en/services/events.html>; libevents, health and arming checks).
 
-use super::arrival::Arrival;
-use super::link::Link;
+use super::inbound::InboundMessage;
+use super::link::PeerLink;
 use super::notices;
+use super::snapshot::VehicleSnapshot;
 use super::streams::AUTOPILOT;
-use super::view::View;
 use super::{Endpoint, LinkKind};
 use serde_json::{Value as Json, json};
 use spandrel_mavlink::dialect::{
@@ -85,9 +85,9 @@ fn sub_id(name: &str) -> u32 {
 
 /// Events sent, and what the last report said.
 #[derive(Debug, Clone, Default)]
-pub struct Events {
+pub struct EventReports {
     sequence: u16,
-    kept: VecDeque<EVENT_DATA>,
+    history: VecDeque<EVENT_DATA>,
     reported: Option<(Vec<String>, [u32; 5])>,
     next_report: SimTime,
     next_sequence: SimTime,
@@ -95,7 +95,7 @@ pub struct Events {
     pub asked: bool,
 }
 
-impl Events {
+impl EventReports {
     fn add(&mut self, name: &str, log_levels: u8, payload: &[u8], now_ms: u32) {
         let mut arguments = [0; 40];
         arguments.iter_mut().zip(payload).for_each(|(slot, byte)| *slot = *byte);
@@ -110,15 +110,15 @@ impl Events {
             log_levels,
             arguments,
         };
-        if self.kept.len() == KEPT {
-            self.kept.pop_front();
+        if self.history.len() == KEPT {
+            self.history.pop_front();
         }
-        self.kept.push_back(event);
+        self.history.push_back(event);
     }
 }
 
 /// Errors of the checks, modes that can be armed, modes that can be flown, what is there, what of it fails.
-fn masks(view: &View) -> [u32; 5] {
+fn masks(view: &VehicleSnapshot) -> [u32; 5] {
     let s = view.status;
     let errors = s.arming_reasons.iter().fold(0, |mask, reason| mask | 1 << check(reason).2);
     let flyable = |(nav, _, _, needs_position): &(u8, &str, u32, bool)| {
@@ -137,7 +137,7 @@ fn check(reason: &str) -> &'static (&'static str, &'static str, u8) {
 
 impl Endpoint {
     /// Reports the arming checks when they have changed, and repeats the newest event's number.
-    pub(super) fn report_events(&mut self, view: &View) {
+    pub(super) fn report_events(&mut self, view: &VehicleSnapshot) {
         if !self.flavour.events {
             return;
         }
@@ -149,9 +149,10 @@ impl Endpoint {
             let before = self.events.sequence;
             self.add_report(&reasons, masks, view);
             self.events.reported = Some((reasons, masks));
-            let fresh = self.events.kept.iter().filter(|event| event.sequence.wrapping_sub(before.wrapping_add(1)) < KEPT as u16);
+            let fresh =
+                self.events.history.iter().filter(|event| event.sequence.wrapping_sub(before.wrapping_add(1)) < KEPT as u16);
             let fresh: Vec<MavMessage> = fresh.cloned().map(MavMessage::EVENT).collect();
-            for link in self.links.values_mut().filter(|link| hears(link)) {
+            for link in self.links.values_mut().filter(|link| is_listening(link)) {
                 fresh.iter().for_each(|event| link.stream(AUTOPILOT, event));
             }
         }
@@ -160,12 +161,12 @@ impl Endpoint {
             let flags = MavEventCurrentSequenceFlags::empty();
             let sequence = self.events.sequence;
             let message = MavMessage::CURRENT_EVENT_SEQUENCE(CURRENT_EVENT_SEQUENCE_DATA { sequence, flags });
-            self.links.values_mut().filter(|link| hears(link)).for_each(|link| link.stream(AUTOPILOT, &message));
+            self.links.values_mut().filter(|link| is_listening(link)).for_each(|link| link.stream(AUTOPILOT, &message));
         }
     }
 
     /// Summary of the checks, one event for each that fails, summary of the health: the order that clients expect.
-    fn add_report(&mut self, reasons: &[String], [errors, can_arm, can_run, present, failing]: [u32; 5], view: &View) {
+    fn add_report(&mut self, reasons: &[String], [errors, can_arm, can_run, present, failing]: [u32; 5], view: &VehicleSnapshot) {
         let now_ms = view.boot_ms();
         let summary = |words: &[u32]| [&[0][..], &words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>()].concat();
         self.events.add(ARMING_SUMMARY, PROTOCOL, &summary(&[errors, 0, can_arm, can_run]), now_ms);
@@ -184,31 +185,31 @@ impl Endpoint {
     pub(super) fn send_notice(&mut self, text: &str, now_ms: u32) {
         let Some(notice) = notices::of(text).filter(|_| self.flavour.events) else { return };
         self.events.add(notice.name, notice.levels, &[], now_ms);
-        let Some(event) = self.events.kept.back().cloned().map(MavMessage::EVENT) else { return };
-        self.links.values_mut().filter(|link| hears(link)).for_each(|link| link.stream(AUTOPILOT, &event));
+        let Some(event) = self.events.history.back().cloned().map(MavMessage::EVENT) else { return };
+        self.links.values_mut().filter(|link| is_listening(link)).for_each(|link| link.stream(AUTOPILOT, &event));
     }
 }
 
 /// Sidecars read telemetry, not events.
-fn hears(link: &Link) -> bool {
+fn is_listening(link: &PeerLink) -> bool {
     link.kind != LinkKind::Payload
 }
 
 /// Events again. The first that is not kept is answered with the oldest that is, and the client asks again from there.
-pub(super) fn request(e: &mut Endpoint, r: &REQUEST_EVENT_DATA, a: &mut Arrival) {
+pub(super) fn request(e: &mut Endpoint, r: &REQUEST_EVENT_DATA, a: &mut InboundMessage) {
     if !e.flavour.events {
         return;
     }
     let count = r.last_sequence.wrapping_sub(r.first_sequence).min(AT_ONCE - 1);
     for sequence in (0..=count).map(|k| r.first_sequence.wrapping_add(k)) {
-        if let Some(event) = e.events.kept.iter().find(|event| event.sequence == sequence) {
+        if let Some(event) = e.events.history.iter().find(|event| event.sequence == sequence) {
             let again = MavMessage::EVENT(event.clone());
             e.answer(a.link, &again);
             continue;
         }
         let error = MavMessage::RESPONSE_EVENT_ERROR(RESPONSE_EVENT_ERROR_DATA {
             sequence,
-            sequence_oldest_available: e.events.kept.front().map_or(e.events.sequence, |event| event.sequence),
+            sequence_oldest_available: e.events.history.front().map_or(e.events.sequence, |event| event.sequence),
             target_system: a.from.0,
             target_component: a.from.1,
             reason: MavEventErrorReason::MAV_EVENT_ERROR_REASON_UNAVAILABLE,

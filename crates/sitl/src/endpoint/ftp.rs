@@ -1,33 +1,33 @@
 //! Files over MAVLink: the message around the packets of the file server.
 
-use super::arrival::Arrival;
+use super::inbound::InboundMessage;
 use super::params::packed;
 use super::streams::{AUTOPILOT, CAMERA};
 use super::{Endpoint, LinkId};
 use spandrel_mavlink::dialect::{FILE_TRANSFER_PROTOCOL_DATA, MavMessage};
-use spandrel_mavlink::ftp::{Opcode, Packet};
+use spandrel_mavlink::ftp::{FtpPacket, Opcode};
 
-pub(super) fn request(e: &mut Endpoint, request: &FILE_TRANSFER_PROTOCOL_DATA, a: &mut Arrival) {
-    let (client, packet) = ((a.link, a.from), Packet::read(&request.payload));
+pub(super) fn request(e: &mut Endpoint, request: &FILE_TRANSFER_PROTOCOL_DATA, a: &mut InboundMessage) {
+    let (client, packet) = ((a.link, a.from), FtpPacket::read(&request.payload));
     match packed_parameters(e, &packet) {
-        Some(content) => e.files.open_made(client, &packet, content, a.view.now),
+        Some(content) => e.files.open_generated(client, &packet, content, a.view.now),
         None => e.files.receive(client, &packet, a.view.now),
     }
 }
 
 /// The parameters as a file, where the flavour has it and this opens it.
-fn packed_parameters(e: &Endpoint, packet: &Packet) -> Option<Vec<u8>> {
+fn packed_parameters(e: &Endpoint, packet: &FtpPacket) -> Option<Vec<u8>> {
     let opens = e.flavour.params.packed && packet.opcode == Opcode::OpenFileRo as u8;
     packed::file(packet.sized().filter(|_| opens)?, &e.params, e.storage.defaults())
 }
 
 /// The camera's component has its own files.
-pub(super) fn request_of_camera(e: &mut Endpoint, request: &FILE_TRANSFER_PROTOCOL_DATA, a: &Arrival) {
-    e.camera_files.receive((a.link, a.from), &Packet::read(&request.payload), a.view.now);
+pub(super) fn request_of_camera(e: &mut Endpoint, request: &FILE_TRANSFER_PROTOCOL_DATA, a: &InboundMessage) {
+    e.camera_files.receive((a.link, a.from), &FtpPacket::read(&request.payload), a.view.now);
 }
 
 /// What the servers have to say goes out.
-pub(super) fn speak(e: &mut Endpoint) {
+pub(super) fn send(e: &mut Endpoint) {
     for component in [AUTOPILOT, CAMERA] {
         let links = &e.links;
         let ready = |link: &LinkId| links.get(link).is_none_or(|link| !link.is_busy());
@@ -38,7 +38,7 @@ pub(super) fn speak(e: &mut Endpoint) {
     }
 }
 
-fn message(to: (u8, u8), packet: &Packet) -> MavMessage {
+fn message(to: (u8, u8), packet: &FtpPacket) -> MavMessage {
     MavMessage::FILE_TRANSFER_PROTOCOL(FILE_TRANSFER_PROTOCOL_DATA {
         target_network: 0,
         target_system: to.0,

@@ -12,7 +12,7 @@ const SLACK_RAD: f64 = 0.02;
 
 /// What the gimbal strives for.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Aim {
+pub enum GimbalTarget {
     /// An angle, rad.
     Angle(f64),
     /// An angle, rad, and how fast to get there, rad/s.
@@ -25,7 +25,7 @@ pub enum Aim {
     Neutral,
 }
 
-impl Aim {
+impl GimbalTarget {
     /// What a message with these fields asks for, NaN and zero rates being left out: an angle, at a rate, or a rate alone.
     #[must_use]
     pub fn of(angle_rad: Option<f64>, rate_rad_s: Option<f64>) -> Option<Self> {
@@ -40,7 +40,7 @@ impl Aim {
 
 /// The gimbal's state.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Gimbal {
+pub struct GimbalState {
     /// Pitch about the horizon, rad; negative looks down.
     pub pitch_rad: f64,
     /// Its rate, rad/s.
@@ -53,10 +53,10 @@ pub struct Gimbal {
     pub mount_rates: bool,
     /// It is wanted beyond its stop.
     pub at_stop: bool,
-    aim: Aim,
+    aim: GimbalTarget,
 }
 
-impl Gimbal {
+impl GimbalState {
     /// Level.
     #[must_use]
     pub fn new() -> Self {
@@ -67,38 +67,38 @@ impl Gimbal {
             secondary: (0, 0),
             mount_rates: false,
             at_stop: false,
-            aim: Aim::Angle(0.0),
+            aim: GimbalTarget::Angle(0.0),
         }
     }
 
     /// Somebody in control keeps others out; with nobody in control anybody may move it.
     #[must_use]
-    pub fn obeys(&self, from: (u8, u8)) -> bool {
+    pub fn accepts_control_from(&self, from: (u8, u8)) -> bool {
         self.control == (0, 0) || self.control == from || self.secondary == from
     }
 
     /// It is in its neutral place, or on the way there.
     #[must_use]
     pub fn is_neutral(&self) -> bool {
-        self.aim == Aim::Neutral
+        self.aim == GimbalTarget::Neutral
     }
 
     /// A stick's deflection in [-1, 1], up positive: the whole way to the stop on its side.
     #[must_use]
-    pub fn deflected(camera: &Camera, deflection: f64) -> Aim {
+    pub fn deflected(camera: &Camera, deflection: f64) -> GimbalTarget {
         let stop = if deflection < 0.0 { -camera.gimbal_pitch_min_rad } else { camera.gimbal_pitch_max_rad };
-        Aim::Angle(deflection.clamp(-1.0, 1.0) * stop)
+        GimbalTarget::Angle(deflection.clamp(-1.0, 1.0) * stop)
     }
 
     /// A new aim; refused when it is not a number or an angle out of reach.
-    pub fn set(&mut self, aim: Aim, camera: &Camera) -> bool {
+    pub fn set(&mut self, aim: GimbalTarget, camera: &Camera) -> bool {
         let reached = (camera.gimbal_pitch_min_rad - SLACK_RAD)..=(camera.gimbal_pitch_max_rad + SLACK_RAD);
         let legal = match aim {
-            Aim::Angle(angle) => reached.contains(&angle),
-            Aim::Slowly(angle, rate) => reached.contains(&angle) && rate.is_finite() && rate > 0.0,
-            Aim::Rate(rate) => rate.is_finite(),
-            Aim::Place(place) => place.is_finite(),
-            Aim::Neutral => true,
+            GimbalTarget::Angle(angle) => reached.contains(&angle),
+            GimbalTarget::Slowly(angle, rate) => reached.contains(&angle) && rate.is_finite() && rate > 0.0,
+            GimbalTarget::Rate(rate) => rate.is_finite(),
+            GimbalTarget::Place(place) => place.is_finite(),
+            GimbalTarget::Neutral => true,
         };
         if legal {
             self.aim = aim;
@@ -108,28 +108,31 @@ impl Gimbal {
 
     /// Moves for `dt_s`.
     pub fn step(&mut self, camera: &Camera, position_m: Vec3<Enu>, dt_s: f64) {
-        let fastest =
-            if let Aim::Slowly(_, rate) = self.aim { rate.min(camera.gimbal_rate_rad_s) } else { camera.gimbal_rate_rad_s };
+        let fastest = if let GimbalTarget::Slowly(_, rate) = self.aim {
+            rate.min(camera.gimbal_rate_rad_s)
+        } else {
+            camera.gimbal_rate_rad_s
+        };
         let limit = fastest * dt_s;
         let before = self.pitch_rad;
         let wished = match self.aim {
-            Aim::Angle(angle) | Aim::Slowly(angle, _) => angle,
-            Aim::Rate(rate) => before + rate * dt_s,
-            Aim::Place(place) => {
+            GimbalTarget::Angle(angle) | GimbalTarget::Slowly(angle, _) => angle,
+            GimbalTarget::Rate(rate) => before + rate * dt_s,
+            GimbalTarget::Place(place) => {
                 let line = place - position_m;
                 math::atan2(line.up(), line.horizontal_norm())
             }
-            Aim::Neutral => 0.0,
+            GimbalTarget::Neutral => 0.0,
         };
         let wanted = wished.clamp(camera.gimbal_pitch_min_rad, camera.gimbal_pitch_max_rad);
         self.pitch_rad = before + (wanted - before).clamp(-limit, limit);
         self.rate_rad_s = (self.pitch_rad - before) / dt_s;
-        let beyond = if let Aim::Rate(_) = self.aim { 0.0 } else { SLACK_RAD };
+        let beyond = if let GimbalTarget::Rate(_) = self.aim { 0.0 } else { SLACK_RAD };
         self.at_stop = self.pitch_rad == wanted && (wished - wanted).abs() > beyond;
     }
 }
 
-impl Default for Gimbal {
+impl Default for GimbalState {
     fn default() -> Self {
         Self::new()
     }

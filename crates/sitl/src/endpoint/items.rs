@@ -1,9 +1,9 @@
 //! Items of missions: what can be flown, and how the autopilot flies it.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
-use super::areas;
 use super::commands::payload;
-use super::places::{HIGHEST_M, flyable, place, placeless, relative};
+use super::fence_and_rally;
+use super::mission_positions::{HIGHEST_M, flyable_position, place, relative, without_position};
 use crate::autopilot::{MissionStep, TimeOfDay};
 use spandrel_mavlink::dialect::{MISSION_ITEM_INT_DATA, MavCmd, MavFrame, MavMissionResult, MavMissionType};
 use spandrel_model::geodesy::LocalPlane;
@@ -19,38 +19,38 @@ const SPEEDS_M_S: (f32, f32) = (0.1, 100.0);
 /// Repetitions from which a jump counts as endless.
 const ENDLESS: f32 = 64.0;
 
-type Legal = Result<(), MavMissionResult>;
+type ItemResult = Result<(), MavMissionResult>;
 
-fn span(value: f32, (low, high): (f32, f32), wrong: MavMissionResult) -> Legal {
+fn span(value: f32, (low, high): (f32, f32), wrong: MavMissionResult) -> ItemResult {
     if value.is_nan() || (low..=high).contains(&value) { Ok(()) } else { Err(wrong) }
 }
 
 /// Refuses what could never be flown, naming the parameter that is wrong. `flown` are the numbers of the items that
 /// the plan will fly.
-pub(super) fn legal(item: &MISSION_ITEM_INT_DATA, flown: std::ops::Range<u16>, plane: &LocalPlane) -> Legal {
+pub(super) fn check_item(item: &MISSION_ITEM_INT_DATA, flown: std::ops::Range<u16>, plane: &LocalPlane) -> ItemResult {
     use MavMissionResult as R;
     if item.mission_type != MavMissionType::MAV_MISSION_TYPE_MISSION {
-        return areas::legal(item, plane);
+        return fence_and_rally::check_area(item, plane);
     }
     match item.command {
         MavCmd::MAV_CMD_NAV_WAYPOINT | MavCmd::MAV_CMD_NAV_LOITER_TIME | MavCmd::MAV_CMD_NAV_LOITER_UNLIM => {
             span(item.param1, (0.0, LONGEST_S), R::MAV_MISSION_INVALID_PARAM1)?;
-            flyable(item, plane)
+            flyable_position(item, plane)
         }
         MavCmd::MAV_CMD_NAV_SPLINE_WAYPOINT => {
             span(item.param1, (0.0, LONGEST_S), R::MAV_MISSION_INVALID_PARAM1)?;
-            flyable(item, plane)
+            flyable_position(item, plane)
         }
-        MavCmd::MAV_CMD_NAV_LOITER_TO_ALT | MavCmd::MAV_CMD_CONDITION_GATE => flyable(item, plane),
+        MavCmd::MAV_CMD_NAV_LOITER_TO_ALT | MavCmd::MAV_CMD_CONDITION_GATE => flyable_position(item, plane),
         MavCmd::MAV_CMD_DO_SET_ROI_WPNEXT_OFFSET => straight(item),
-        MavCmd::MAV_CMD_NAV_LOITER_TURNS => circle(item).and_then(|()| flyable(item, plane)),
-        MavCmd::MAV_CMD_NAV_TAKEOFF | MavCmd::MAV_CMD_NAV_LAND if placeless(item) => {
+        MavCmd::MAV_CMD_NAV_LOITER_TURNS => circle(item).and_then(|()| flyable_position(item, plane)),
+        MavCmd::MAV_CMD_NAV_TAKEOFF | MavCmd::MAV_CMD_NAV_LAND if without_position(item) => {
             if relative(item.frame).is_none() && item.frame != MavFrame::MAV_FRAME_MISSION {
                 return Err(R::MAV_MISSION_UNSUPPORTED_FRAME);
             }
             span(item.z, (-HIGHEST_M, HIGHEST_M), R::MAV_MISSION_INVALID_PARAM7)
         }
-        MavCmd::MAV_CMD_NAV_TAKEOFF | MavCmd::MAV_CMD_NAV_LAND => flyable(item, plane),
+        MavCmd::MAV_CMD_NAV_TAKEOFF | MavCmd::MAV_CMD_NAV_LAND => flyable_position(item, plane),
         MavCmd::MAV_CMD_NAV_DELAY if item.param1 == -1.0 => time_of_day(item).map(|_| ()),
         MavCmd::MAV_CMD_NAV_DELAY | MavCmd::MAV_CMD_CONDITION_DELAY | MavCmd::MAV_CMD_CONDITION_DISTANCE => {
             span(item.param1, (0.0, LONGEST_S), R::MAV_MISSION_INVALID_PARAM1)
@@ -66,7 +66,7 @@ pub(super) fn legal(item: &MISSION_ITEM_INT_DATA, flown: std::ops::Range<u16>, p
         }
         MavCmd::MAV_CMD_DO_CHANGE_SPEED => speed(item),
         MavCmd::MAV_CMD_DO_SET_HOME if item.param1 == 1.0 => Ok(()),
-        MavCmd::MAV_CMD_DO_SET_HOME => flyable(item, plane),
+        MavCmd::MAV_CMD_DO_SET_HOME => flyable_position(item, plane),
         MavCmd::MAV_CMD_DO_FENCE_ENABLE => {
             if [0.0, 1.0].contains(&item.param1) {
                 Ok(())
@@ -74,10 +74,10 @@ pub(super) fn legal(item: &MISSION_ITEM_INT_DATA, flown: std::ops::Range<u16>, p
                 Err(R::MAV_MISSION_INVALID_PARAM1)
             }
         }
-        MavCmd::MAV_CMD_DO_SET_ROI_LOCATION => flyable(item, plane),
-        MavCmd::MAV_CMD_DO_SET_ROI if !placeless(item) => flyable(item, plane),
+        MavCmd::MAV_CMD_DO_SET_ROI_LOCATION => flyable_position(item, plane),
+        MavCmd::MAV_CMD_DO_SET_ROI if !without_position(item) => flyable_position(item, plane),
         MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH | MavCmd::MAV_CMD_DO_LAND_START => Ok(()),
-        command if payload::knows(command) => Ok(()),
+        command if payload::is_supported(command) => Ok(()),
         _ => Err(R::MAV_MISSION_UNSUPPORTED),
     }
 }
@@ -98,7 +98,7 @@ fn time_of_day(item: &MISSION_ITEM_INT_DATA) -> Result<TimeOfDay, MavMissionResu
 }
 
 /// Parameter 1 how often, 3 the radius, negative for counter-clockwise; 0 or none for the usual one.
-fn circle(item: &MISSION_ITEM_INT_DATA) -> Legal {
+fn circle(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     span(item.param1, (0.0, 1_000.0), MavMissionResult::MAV_MISSION_INVALID_PARAM1)?;
     let radius = item.param3.abs();
     let known = radius.is_nan() || radius == 0.0 || RADII_M.contains(&radius);
@@ -106,7 +106,7 @@ fn circle(item: &MISSION_ITEM_INT_DATA) -> Legal {
 }
 
 /// Parameter 1 the angle in degrees, 2 the rate in deg/s (0: the vehicle's own), 3 the way round, 4 whether from the present heading.
-fn turn(item: &MISSION_ITEM_INT_DATA) -> Legal {
+fn turn(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     use MavMissionResult as R;
     if !(-360.0..=360.0).contains(&item.param1) {
         return Err(R::MAV_MISSION_INVALID_PARAM1);
@@ -116,7 +116,7 @@ fn turn(item: &MISSION_ITEM_INT_DATA) -> Legal {
 }
 
 /// Parameter 1 which speed: over the ground or in the air, which is the same to a multirotor; 2 how fast.
-fn speed(item: &MISSION_ITEM_INT_DATA) -> Legal {
+fn speed(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     if !(item.param1.is_nan() || [0.0, 1.0].contains(&item.param1)) {
         return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM1);
     }
@@ -127,7 +127,7 @@ fn speed(item: &MISSION_ITEM_INT_DATA) -> Legal {
 }
 
 /// Refuses a mission in which endless jumps lead from one to the other with nothing to fly or to wait for between them.
-pub(super) fn whole(items: &[MISSION_ITEM_INT_DATA]) -> Legal {
+pub(super) fn whole(items: &[MISSION_ITEM_INT_DATA]) -> ItemResult {
     let idle = |item: &MISSION_ITEM_INT_DATA| {
         (item.command as u16) > NAV_LAST
             && item.command != MavCmd::MAV_CMD_CONDITION_GATE
@@ -160,7 +160,7 @@ pub(super) fn aimed(items: &[MISSION_ITEM_INT_DATA], index: usize) -> Option<MIS
     if item.command != MavCmd::MAV_CMD_DO_SET_ROI_WPNEXT_OFFSET {
         return Some(item.clone());
     }
-    let flown = |item: &&MISSION_ITEM_INT_DATA| is_flown(item.command) && !placeless(item);
+    let flown = |item: &&MISSION_ITEM_INT_DATA| has_position(item.command) && !without_position(item);
     let command = MavCmd::MAV_CMD_DO_SET_ROI_LOCATION;
     let next = items.iter().skip(index + 1).find(flown);
     // Behind the last place there is nothing to look at.
@@ -168,12 +168,12 @@ pub(super) fn aimed(items: &[MISSION_ITEM_INT_DATA], index: usize) -> Option<MIS
     Some(next.map_or_else(none, |next| MISSION_ITEM_INT_DATA { command, ..next.clone() }))
 }
 
-fn is_flown(command: MavCmd) -> bool {
+fn has_position(command: MavCmd) -> bool {
     (command as u16) <= NAV_LAST || command == MavCmd::MAV_CMD_CONDITION_GATE
 }
 
 /// Looks at the next place itself: pitch and yaw beside it in parameters 5 and 7, roll in 6, must not be asked for.
-fn straight(item: &MISSION_ITEM_INT_DATA) -> Legal {
+fn straight(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     use MavMissionResult as R;
     let none = |offset: i32| matches!(offset, 0 | i32::MAX);
     match (none(item.x), none(item.y), item.z == 0.0 || item.z.is_nan()) {
@@ -211,7 +211,7 @@ pub(super) fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: 
             MissionStep::Takeoff { up_m: (!item.z.is_nan()).then(|| base + f64::from(item.z)) }
         }
         MavCmd::MAV_CMD_NAV_LAND => {
-            MissionStep::Land { position_m: if placeless(item) { None } else { place(item, plane, home_up_m) } }
+            MissionStep::Land { position_m: if without_position(item) { None } else { place(item, plane, home_up_m) } }
         }
         MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH => MissionStep::Return,
         MavCmd::MAV_CMD_DO_CHANGE_SPEED if item.param2 > 0.0 => MissionStep::Speed(Some(number(item.param2, 5.0))),
@@ -227,7 +227,7 @@ pub(super) fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: 
         MavCmd::MAV_CMD_DO_SET_HOME => somewhere(|place| MissionStep::Home(Some(place))),
         MavCmd::MAV_CMD_DO_FENCE_ENABLE => MissionStep::Fence(item.param1 == 1.0),
         MavCmd::MAV_CMD_DO_SET_ROI_NONE => MissionStep::LookAt(None),
-        MavCmd::MAV_CMD_DO_SET_ROI if placeless(item) => MissionStep::LookAt(None),
+        MavCmd::MAV_CMD_DO_SET_ROI if without_position(item) => MissionStep::LookAt(None),
         MavCmd::MAV_CMD_DO_SET_ROI_LOCATION | MavCmd::MAV_CMD_DO_SET_ROI => somewhere(|place| MissionStep::LookAt(Some(place))),
         MavCmd::MAV_CMD_DO_JUMP => {
             let times = number(item.param2, 0.0);

@@ -1,6 +1,6 @@
 //! The drone's lamp: on or off, and off and on again as often as a relay is told.
 
-use super::payload::News;
+use super::payload::PayloadChange;
 use mavlink::MessageData;
 use spandrel_mavlink::dialect::ILLUMINATOR_STATUS_DATA;
 use spandrel_model::time::SimTime;
@@ -14,12 +14,12 @@ const CYCLE_S: std::ops::RangeInclusive<f64> = 0.04..=3_600.0;
 pub struct LampState {
     /// Shines.
     pub on: bool,
-    blinking: Option<Blinking>,
+    blinking: Option<BlinkSequence>,
 }
 
 /// Changes that are still to come.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Blinking {
+struct BlinkSequence {
     left: u32,
     every: SimTime,
     next: SimTime,
@@ -39,13 +39,13 @@ impl LampState {
         let sensible = CYCLES.contains(&cycles) && CYCLE_S.contains(&cycle_s);
         if sensible {
             let left = 2 * cycles as u32;
-            self.blinking = Some(Blinking { left, every: SimTime::from_s(0.5 * cycle_s), next: now });
+            self.blinking = Some(BlinkSequence { left, every: SimTime::from_s(0.5 * cycle_s), next: now });
         }
         sensible
     }
 
     /// A change that is due is made, and told.
-    pub fn step(&mut self, now: SimTime, news: &mut News) {
+    pub fn step(&mut self, now: SimTime, news: &mut PayloadChange) {
         let Some(blinking) = self.blinking.as_mut().filter(|blinking| blinking.next <= now) else { return };
         self.on = !self.on;
         blinking.left -= 1;
@@ -53,7 +53,7 @@ impl LampState {
         if blinking.left == 0 {
             self.blinking = None;
         }
-        news.say(ILLUMINATOR_STATUS_DATA::ID);
+        news.add_message(ILLUMINATOR_STATUS_DATA::ID);
     }
 }
 
@@ -62,14 +62,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_repetition_changes_over_and_back_as_often_as_told_and_ends_as_it_began() {
+    fn exact_a_repetition_changes_over_and_back_as_often_as_requested_and_ends_as_it_began() {
         let mut lamp = LampState::OFF;
         lamp.switch(true);
         assert!(lamp.repeat(3.0, 0.2, SimTime::ZERO));
         let mut changes = Vec::new();
         for ms in 0..2_000 {
             let before = lamp.on;
-            lamp.step(SimTime::from_ms(ms), &mut News::default());
+            lamp.step(SimTime::from_ms(ms), &mut PayloadChange::default());
             if lamp.on != before {
                 changes.push((ms, lamp.on));
             }
@@ -85,7 +85,7 @@ mod tests {
         }
         assert!(lamp.repeat(5.0, 1.0, SimTime::ZERO));
         lamp.switch(false);
-        lamp.step(SimTime::from_ms(600), &mut News::default());
+        lamp.step(SimTime::from_ms(600), &mut PayloadChange::default());
         assert_eq!(lamp, LampState::OFF);
     }
 }

@@ -1,9 +1,9 @@
 //! One link: who is behind it, what it is sent and how often, and what waits to go out.
 
 use super::LinkKind;
-use super::budget::Budget;
+use super::budget::LinkBudget;
 use super::streams::{AUTOPILOT, CAMERA, STREAMS};
-use spandrel_mavlink::codec::{Decoder, Encoder, Framed};
+use spandrel_mavlink::codec::{Decoder, Encodable, Encoder};
 use spandrel_mavlink::signing::Signing;
 use spandrel_model::time::SimTime;
 use std::collections::{BTreeMap, VecDeque};
@@ -27,7 +27,7 @@ const TRUTH: u32 = 115;
 
 /// How far a peer is that is to be kept in step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Step {
+pub enum LockstepState {
     /// Time waits for its first answer.
     Awaited,
     /// It has not answered yet, and is served in real time until it does.
@@ -38,31 +38,31 @@ pub enum Step {
 
 /// One peer.
 #[derive(Debug, Clone)]
-pub struct Link {
+pub struct PeerLink {
     /// What it is.
     pub kind: LinkKind,
     /// It is kept in step.
     pub lockstep: bool,
     /// Only answers go out: no heartbeat has come in yet.
-    pub quiet: bool,
+    pub answers_only: bool,
     /// How far it is with that.
-    pub step: Step,
+    pub lockstep_state: LockstepState,
     /// Something has come from it.
-    pub heard: bool,
+    pub has_received: bool,
     /// The token of its last question for step.
-    pub asked: Option<i64>,
+    pub lockstep_token: Option<i64>,
     /// Incoming bytes.
     pub decoder: Decoder,
     system_id: u8,
     encoders: BTreeMap<u8, Encoder>,
     next: Vec<SimTime>,
-    every: Vec<Option<SimTime>>,
-    soonest: SimTime,
+    intervals: Vec<Option<SimTime>>,
+    next_due: SimTime,
     out: VecDeque<Vec<u8>>,
     waiting: usize,
     dropped: u64,
-    handed_on: (SimTime, usize),
-    budget: Option<Budget>,
+    forwarded: (SimTime, usize),
+    budget: Option<LinkBudget>,
     signing: Option<Signing>,
     /// The signing timestamp of now.
     pub stamp: u64,
@@ -76,29 +76,29 @@ pub struct Link {
     uses_camera: bool,
 }
 
-impl Link {
+impl PeerLink {
     /// A link with its kind's usual rates, which are none but heartbeats' where it must ask; the first of everything is due at once.
     #[must_use]
     pub fn new(kind: LinkKind, lockstep: bool, system_id: u8, must_ask: bool, now: SimTime) -> Self {
-        let every: Vec<Option<SimTime>> = (0..STREAMS.len()).map(|row| usual(row, kind, must_ask)).collect();
+        let every: Vec<Option<SimTime>> = (0..STREAMS.len()).map(|row| default_interval(row, kind, must_ask)).collect();
         let next = vec![now; every.len()];
         Self {
             kind,
             lockstep,
-            quiet: false,
-            step: Step::Awaited,
-            heard: false,
-            asked: None,
+            answers_only: false,
+            lockstep_state: LockstepState::Awaited,
+            has_received: false,
+            lockstep_token: None,
             decoder: Decoder::new(),
             system_id,
             encoders: BTreeMap::new(),
             next,
-            every,
-            soonest: now,
+            intervals: every,
+            next_due: now,
             out: VecDeque::new(),
             waiting: 0,
             dropped: 0,
-            handed_on: (now, 0),
+            forwarded: (now, 0),
             budget: None,
             signing: None,
             stamp: 0,
@@ -111,22 +111,22 @@ impl Link {
 
     /// The link carries no more than so many bytes a second.
     pub fn limit(&mut self, bytes_s: f64, now: SimTime) {
-        let frames_s = self.every.iter().flatten().map(|every| 1.0 / every.s()).sum();
-        self.budget = Some(Budget::new(bytes_s, frames_s, now));
+        let frames_s = self.intervals.iter().flatten().map(|every| 1.0 / every.s()).sum();
+        self.budget = Some(LinkBudget::new(bytes_s, frames_s, now));
     }
 
     /// Whether time waits for it.
     #[must_use]
-    pub fn is_waited_for(&self) -> bool {
-        self.lockstep && self.step != Step::Late
+    pub fn blocks_lockstep(&self) -> bool {
+        self.lockstep && self.lockstep_state != LockstepState::Late
     }
 
     /// Whether this token answers a question of ours: the last one, or any before it of a peer that time does not wait for.
     #[must_use]
     pub fn is_answer(&self, token: i64) -> bool {
-        match self.step {
-            Step::Late => self.lockstep && self.asked.is_some_and(|asked| (1..=asked).contains(&token)),
-            Step::Awaited | Step::Joined => self.asked == Some(token),
+        match self.lockstep_state {
+            LockstepState::Late => self.lockstep && self.lockstep_token.is_some_and(|asked| (1..=asked).contains(&token)),
+            LockstepState::Awaited | LockstepState::Joined => self.lockstep_token == Some(token),
         }
     }
 
@@ -139,7 +139,7 @@ impl Link {
     /// As much waits as should: lists and files wait, streams and forwarded frames are left out.
     #[must_use]
     pub fn is_busy(&self) -> bool {
-        self.budget.as_ref().is_some_and(|budget| budget.busy(self.waiting))
+        self.budget.as_ref().is_some_and(|budget| budget.is_saturated(self.waiting))
     }
 
     /// Frames that found no room.
@@ -154,13 +154,13 @@ impl Link {
         if let Some(budget) = &mut self.budget {
             budget.advance(now);
         }
-        if now < self.soonest {
+        if now < self.next_due {
             return;
         }
-        let stretch = self.budget.as_ref().map_or(1.0, Budget::stretch);
+        let stretch = self.budget.as_ref().map_or(1.0, LinkBudget::interval_factor);
         let busy = self.is_busy();
         let mut soonest = SimTime::NEVER;
-        for (k, every) in self.every.iter().enumerate() {
+        for (k, every) in self.intervals.iter().enumerate() {
             let Some(every) = every else { continue };
             let steady = STREAMS[k].id == HEARTBEAT;
             if self.next[k] <= now {
@@ -175,13 +175,13 @@ impl Link {
             }
             soonest = soonest.min(self.next[k]);
         }
-        self.soonest = soonest;
+        self.next_due = soonest;
     }
 
     /// Interval of a row, microseconds; -1 when off.
     #[must_use]
     pub fn interval_us(&self, row: usize) -> i32 {
-        self.every.get(row).copied().flatten().map_or(-1, |every| i32::try_from(every.us()).unwrap_or(i32::MAX))
+        self.intervals.get(row).copied().flatten().map_or(-1, |every| i32::try_from(every.us()).unwrap_or(i32::MAX))
     }
 
     /// Sets a row's interval, microseconds: 0 the usual, negative off. False for what is no interval.
@@ -189,27 +189,27 @@ impl Link {
         if !us.is_finite() || row >= STREAMS.len() {
             return false;
         }
-        self.every[row] = match us {
+        self.intervals[row] = match us {
             us if us < 0.0 => None,
-            0.0 => usual(row, self.kind, self.must_ask),
+            0.0 => default_interval(row, self.kind, self.must_ask),
             us => period((1e6 / us).min(FASTEST_HZ)),
         };
         self.next[row] = now;
-        self.soonest = now;
+        self.next_due = now;
         true
     }
 
     /// It wants the values for the scoring: without asking, or with the truth that it has asked for.
     #[must_use]
     pub fn wants_truth(&self) -> bool {
-        !self.must_ask || STREAMS.iter().zip(&self.every).any(|(stream, every)| stream.id == TRUTH && every.is_some())
+        !self.must_ask || STREAMS.iter().zip(&self.intervals).any(|(stream, every)| stream.id == TRUTH && every.is_some())
     }
 
     /// Every stream at its kind's usual rate again.
-    pub fn usual_rates(&mut self, now: SimTime) {
-        self.every = (0..STREAMS.len()).map(|row| usual(row, self.kind, self.must_ask)).collect();
+    pub fn reset_rates(&mut self, now: SimTime) {
+        self.intervals = (0..STREAMS.len()).map(|row| default_interval(row, self.kind, self.must_ask)).collect();
         self.next.fill(now);
-        self.soonest = now;
+        self.next_due = now;
         if std::mem::take(&mut self.uses_camera) {
             self.use_camera();
         }
@@ -223,11 +223,11 @@ impl Link {
         self.uses_camera = true;
         let row_of = |component| STREAMS.iter().position(|row| row.id == HEARTBEAT && row.component == component);
         if let (Some(camera), Some(autopilot)) = (row_of(CAMERA), row_of(AUTOPILOT))
-            && self.every[camera].is_some_and(|every| every > BEAT)
+            && self.intervals[camera].is_some_and(|every| every > BEAT)
         {
-            self.every[camera] = Some(BEAT);
+            self.intervals[camera] = Some(BEAT);
             self.next[camera] = self.next[autopilot];
-            self.soonest = self.soonest.min(self.next[camera]);
+            self.next_due = self.next_due.min(self.next[camera]);
         }
     }
 
@@ -239,9 +239,9 @@ impl Link {
 
     /// Its first heartbeat has come in: streams begin now.
     pub fn wake(&mut self, now: SimTime) {
-        if std::mem::take(&mut self.quiet) {
+        if std::mem::take(&mut self.answers_only) {
             self.next.fill(now);
-            self.soonest = now;
+            self.next_due = now;
         }
     }
 
@@ -251,7 +251,7 @@ impl Link {
     }
 
     /// Queues a message of a stream.
-    pub fn stream(&mut self, component: u8, message: &impl Framed) {
+    pub fn stream(&mut self, component: u8, message: &impl Encodable) {
         let before = self.waiting;
         self.send(component, message);
         if let Some(budget) = &mut self.budget {
@@ -260,18 +260,18 @@ impl Link {
     }
 
     /// Counts a frame of this link that is handed on to others; false when it has sent too many in this tick.
-    pub fn may_hand_on(&mut self, now: SimTime) -> bool {
-        if self.handed_on.0 != now {
-            self.handed_on = (now, 0);
+    pub fn may_forward(&mut self, now: SimTime) -> bool {
+        if self.forwarded.0 != now {
+            self.forwarded = (now, 0);
         }
-        self.handed_on.1 += 1;
-        let may = self.handed_on.1 <= HANDED_ON_A_TICK;
+        self.forwarded.1 += 1;
+        let may = self.forwarded.1 <= HANDED_ON_A_TICK;
         self.dropped += u64::from(!may);
         may
     }
 
     /// Queues a frame that somebody else sent.
-    pub fn hand_on(&mut self, frame: Vec<u8>) {
+    pub fn forward(&mut self, frame: Vec<u8>) {
         if self.is_busy() {
             self.dropped += 1;
         } else {
@@ -280,7 +280,7 @@ impl Link {
     }
 
     /// Queues a message of one of our components.
-    pub fn send(&mut self, component: u8, message: &impl Framed) {
+    pub fn send(&mut self, component: u8, message: &impl Encodable) {
         let frame = message.frame(self.encoder(component));
         self.queue_own(frame);
     }
@@ -333,7 +333,7 @@ impl Link {
 }
 
 /// A row's usual interval.
-fn usual(row: usize, kind: LinkKind, must_ask: bool) -> Option<SimTime> {
+fn default_interval(row: usize, kind: LinkKind, must_ask: bool) -> Option<SimTime> {
     let silent = must_ask && STREAMS[row].id != HEARTBEAT;
     if silent { None } else { period(STREAMS[row].rate_hz(kind)) }
 }

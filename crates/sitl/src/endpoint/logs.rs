@@ -2,7 +2,7 @@
 //! file; the same shell does its jobs.
 
 use super::LinkId;
-use super::files::job::{Action, Done, Entry, FileError, Job};
+use super::files::job::{DirectoryEntry, FileAction, FileError, FileJob, FileJobResult};
 use super::files::path::FilePath;
 use spandrel_mavlink::dialect::{LOG_DATA_DATA, LOG_ENTRY_DATA, MavMessage};
 use std::collections::{BTreeMap, VecDeque};
@@ -27,14 +27,14 @@ const LISTINGS_MAX: usize = 64;
 
 /// A log.
 #[derive(Debug, Clone, PartialEq)]
-struct Log {
+struct LogEntry {
     path: FilePath,
     size: u64,
 }
 
 /// What a finished listing is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Purpose {
+enum ListingPurpose {
     /// Entries first to last go to a link.
     Tell(LinkId, u16, u16),
     /// All are removed.
@@ -42,14 +42,14 @@ enum Purpose {
 }
 
 #[derive(Debug, Clone, PartialEq)]
-struct Listing {
-    purpose: Purpose,
+struct LogListing {
+    purpose: ListingPurpose,
     folders: Vec<FilePath>,
-    found: Vec<Log>,
+    found: Vec<LogEntry>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-struct Download {
+struct LogDownload {
     id: u16,
     path: FilePath,
     at: u32,
@@ -60,41 +60,41 @@ struct Download {
 
 /// Listings and downloads that are under way.
 #[derive(Debug, Clone, Default)]
-pub struct Logs {
+pub struct LogTransfers {
     /// Somebody does the jobs.
     pub stored: bool,
-    known: Vec<Log>,
-    listings: VecDeque<Listing>,
+    known: Vec<LogEntry>,
+    listings: VecDeque<LogListing>,
     ticket: Option<u64>,
     entries: BTreeMap<LinkId, VecDeque<MavMessage>>,
-    downloads: BTreeMap<LinkId, Download>,
-    jobs: VecDeque<Job>,
+    downloads: BTreeMap<LinkId, LogDownload>,
+    jobs: VecDeque<FileJob>,
     tickets: u64,
 }
 
-impl Logs {
+impl LogTransfers {
     /// A link asks for the entries `first` to `last`.
     pub fn list(&mut self, link: LinkId, first: u16, last: u16) {
         if !self.stored {
             self.entries.insert(link, [MavMessage::LOG_ENTRY(LOG_ENTRY_DATA::default())].into());
             return;
         }
-        self.begin(Purpose::Tell(link, first, last));
+        self.begin(ListingPurpose::Tell(link, first, last));
     }
 
     /// Somebody wants all logs gone.
     pub fn erase(&mut self) {
         if self.stored {
-            self.begin(Purpose::Erase);
+            self.begin(ListingPurpose::Erase);
         }
     }
 
-    fn begin(&mut self, purpose: Purpose) {
+    fn begin(&mut self, purpose: ListingPurpose) {
         let again = self.listings.iter().any(|listing| listing.purpose == purpose);
         if !again && self.listings.len() < LISTINGS_MAX {
             let folders = FilePath::of(FOLDER.as_bytes()).into_iter().collect();
-            self.listings.push_back(Listing { purpose, folders, found: Vec::new() });
-            self.go_on();
+            self.listings.push_back(LogListing { purpose, folders, found: Vec::new() });
+            self.continue_listing();
         }
     }
 
@@ -107,7 +107,7 @@ impl Logs {
             return;
         };
         let end = at.saturating_add(count);
-        let download = Download { id, path: log.path.clone(), at, end, pieces: VecDeque::new(), reading: None };
+        let download = LogDownload { id, path: log.path.clone(), at, end, pieces: VecDeque::new(), reading: None };
         self.downloads.insert(link, download);
     }
 
@@ -120,18 +120,18 @@ impl Logs {
     pub fn forget(&mut self, link: LinkId) {
         self.stop(link);
         self.entries.remove(&link);
-        self.listings.retain(|listing| !matches!(listing.purpose, Purpose::Tell(to, ..) if to == link));
-        self.go_on();
+        self.listings.retain(|listing| !matches!(listing.purpose, ListingPurpose::Tell(to, ..) if to == link));
+        self.continue_listing();
     }
 
     /// The action of the next job.
     #[must_use]
-    pub fn next_action(&self) -> Option<&Action> {
+    pub fn next_action(&self) -> Option<&FileAction> {
         self.jobs.front().map(|job| &job.action)
     }
 
     /// The next job.
-    pub fn poll_job(&mut self) -> Option<Job> {
+    pub fn poll_job(&mut self) -> Option<FileJob> {
         self.jobs.pop_front()
     }
 
@@ -141,19 +141,19 @@ impl Logs {
         ticket >= FIRST_TICKET
     }
 
-    fn ask(&mut self, action: Action) -> u64 {
+    fn submit_job(&mut self, action: FileAction) -> u64 {
         let ticket = FIRST_TICKET + self.tickets;
         self.tickets += 1;
-        self.jobs.push_back(Job { ticket, action });
+        self.jobs.push_back(FileJob { ticket, action });
         ticket
     }
 
     /// The listing in turn looks into its next folder, or is finished.
-    fn go_on(&mut self) {
+    fn continue_listing(&mut self) {
         while self.ticket.is_none() {
             let Some(listing) = self.listings.front_mut() else { return };
             match listing.folders.last().cloned() {
-                Some(folder) => self.ticket = Some(self.ask(Action::List(folder))),
+                Some(folder) => self.ticket = Some(self.submit_job(FileAction::List(folder))),
                 None => self.finish(),
             }
         }
@@ -164,13 +164,13 @@ impl Logs {
         listing.found.sort_by(|a, b| a.path.cmp(&b.path));
         listing.found.truncate(usize::from(u16::MAX));
         match listing.purpose {
-            Purpose::Tell(link, first, last) => {
+            ListingPurpose::Tell(link, first, last) => {
                 self.entries.insert(link, entries(&listing.found, first, last));
                 self.known = listing.found;
             }
-            Purpose::Erase => {
+            ListingPurpose::Erase => {
                 for log in listing.found {
-                    self.ask(Action::Remove(log.path));
+                    self.submit_job(FileAction::Remove(log.path));
                 }
                 self.known.clear();
             }
@@ -178,17 +178,17 @@ impl Logs {
     }
 
     /// A job is done.
-    pub fn done(&mut self, ticket: u64, outcome: Result<Done, FileError>) {
+    pub fn done(&mut self, ticket: u64, outcome: Result<FileJobResult, FileError>) {
         if self.ticket == Some(ticket) {
             self.ticket = None;
-            self.looked(outcome);
-            self.go_on();
+            self.listing_done(outcome);
+            self.continue_listing();
             return;
         }
         let download = self.downloads.iter_mut().find(|(_, download)| download.reading == Some(ticket));
         let Some((link, download)) = download else { return };
         download.reading = None;
-        let bytes = if let Ok(Done::Bytes(bytes)) = outcome { bytes } else { Vec::new() };
+        let bytes = if let Ok(FileJobResult::Bytes(bytes)) = outcome { bytes } else { Vec::new() };
         if bytes.is_empty() {
             let end = LOG_DATA_DATA { id: download.id, ofs: download.at, ..LOG_DATA_DATA::default() };
             let link = *link;
@@ -209,20 +209,20 @@ impl Logs {
         }
     }
 
-    fn looked(&mut self, outcome: Result<Done, FileError>) {
+    fn listing_done(&mut self, outcome: Result<FileJobResult, FileError>) {
         let Some(listing) = self.listings.front_mut() else { return };
         let Some(folder) = listing.folders.pop() else { return };
-        let Ok(Done::Entries(entries)) = outcome else { return };
+        let Ok(FileJobResult::Entries(entries)) = outcome else { return };
         let inside = |name: &str| FilePath::of(format!("{}/{name}", folder.as_str()).as_bytes());
         for entry in entries {
             match entry {
-                Entry::Directory(name) => listing.folders.extend(inside(&name)),
-                Entry::File(name, size)
-                    if name.ends_with(ENDING) || (listing.purpose == Purpose::Erase && name.ends_with(BESIDE)) =>
+                DirectoryEntry::Directory(name) => listing.folders.extend(inside(&name)),
+                DirectoryEntry::File(name, size)
+                    if name.ends_with(ENDING) || (listing.purpose == ListingPurpose::Erase && name.ends_with(BESIDE)) =>
                 {
-                    listing.found.extend(inside(&name).map(|path| Log { path, size }));
+                    listing.found.extend(inside(&name).map(|path| LogEntry { path, size }));
                 }
-                Entry::File(..) => {}
+                DirectoryEntry::File(..) => {}
             }
         }
     }
@@ -240,11 +240,11 @@ impl Logs {
             let few = download.pieces.len().min(PIECES_A_TICK);
             out.extend(download.pieces.drain(..few).map(|piece| (*link, piece)));
             if download.pieces.is_empty() && download.reading.is_none() && download.at < download.end {
-                reads.push((*link, Action::Read(download.path.clone(), download.at, CHUNK.min(download.end - download.at))));
+                reads.push((*link, FileAction::Read(download.path.clone(), download.at, CHUNK.min(download.end - download.at))));
             }
         }
         for (link, action) in reads {
-            let ticket = self.ask(action);
+            let ticket = self.submit_job(action);
             if let Some(download) = self.downloads.get_mut(&link) {
                 download.reading = Some(ticket);
             }
@@ -254,7 +254,7 @@ impl Logs {
     }
 }
 
-fn entries(logs: &[Log], first: u16, last: u16) -> VecDeque<MavMessage> {
+fn entries(logs: &[LogEntry], first: u16, last: u16) -> VecDeque<MavMessage> {
     let count = logs.len() as u16;
     if count == 0 {
         return [MavMessage::LOG_ENTRY(LOG_ENTRY_DATA::default())].into();
@@ -290,23 +290,25 @@ mod tests {
 
     const LINK: LinkId = LinkId(4);
 
-    fn logs() -> Logs {
-        Logs { stored: true, ..Logs::default() }
+    fn logs() -> LogTransfers {
+        LogTransfers { stored: true, ..LogTransfers::default() }
     }
 
     /// Does jobs as a folder with two days and three logs of some bytes would.
-    fn work(logs: &mut Logs, removed: &mut Vec<String>) {
+    fn work(logs: &mut LogTransfers, removed: &mut Vec<String>) {
         while let Some(job) = logs.poll_job() {
             let outcome = match &job.action {
-                Action::List(path) => Ok(Done::Entries(match path.as_str() {
-                    "log" => vec![Entry::Directory("2026-11-21".into()), Entry::Directory("2026-11-20".into())],
-                    "log/2026-11-20" => vec![Entry::File("15_08_00.ulg".into(), 200), Entry::File("notes.txt".into(), 5)],
-                    _ => vec![Entry::File("09_00_00.ulg".into(), 7_000), Entry::File("10_00_00.ulg".into(), 0)],
+                FileAction::List(path) => Ok(FileJobResult::Entries(match path.as_str() {
+                    "log" => vec![DirectoryEntry::Directory("2026-11-21".into()), DirectoryEntry::Directory("2026-11-20".into())],
+                    "log/2026-11-20" => {
+                        vec![DirectoryEntry::File("15_08_00.ulg".into(), 200), DirectoryEntry::File("notes.txt".into(), 5)]
+                    }
+                    _ => vec![DirectoryEntry::File("09_00_00.ulg".into(), 7_000), DirectoryEntry::File("10_00_00.ulg".into(), 0)],
                 })),
-                Action::Read(_, at, most) => Ok(Done::Bytes((*at..7_000.min(at + most)).map(|k| k as u8).collect())),
-                Action::Remove(path) => {
+                FileAction::Read(_, at, most) => Ok(FileJobResult::Bytes((*at..7_000.min(at + most)).map(|k| k as u8).collect())),
+                FileAction::Remove(path) => {
                     removed.push(path.as_str().to_owned());
-                    Ok(Done::Nothing)
+                    Ok(FileJobResult::Nothing)
                 }
                 other => panic!("{other:?}"),
             };
@@ -314,7 +316,7 @@ mod tests {
         }
     }
 
-    fn run(logs: &mut Logs) -> Vec<MavMessage> {
+    fn run(logs: &mut LogTransfers) -> Vec<MavMessage> {
         let mut out = Vec::new();
         for _ in 0..200 {
             work(logs, &mut Vec::new());
@@ -369,7 +371,7 @@ mod tests {
 
     #[test]
     fn exact_without_a_folder_there_are_no_logs_and_no_silence() {
-        let mut logs = Logs::default();
+        let mut logs = LogTransfers::default();
         logs.list(LINK, 0, u16::MAX);
         logs.read(LINK, 3, 0, 90);
         let out = run(&mut logs);

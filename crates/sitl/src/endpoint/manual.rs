@@ -2,8 +2,8 @@
 //! hands is told.
 
 use super::LinkId;
-use super::buttons::Presses;
-use super::params::Policy;
+use super::buttons::ButtonState;
+use super::params::StickPolicy;
 use crate::autopilot::Sticks;
 use spandrel_mavlink::dialect::{MANUAL_CONTROL_DATA, RC_CHANNELS_OVERRIDE_DATA};
 use spandrel_model::time::SimTime;
@@ -32,59 +32,59 @@ const GIMBAL_STEP: f64 = 0.01;
 const HAS_PITCH: u8 = 1;
 
 /// Who sends: over which link, system, component.
-type Sender = (LinkId, (u8, u8));
+type StickSender = (LinkId, (u8, u8));
 
 /// Who holds the sticks, and how.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Manual {
+pub struct ManualControl {
     /// A sender that is silent this long has let go of the sticks, s.
-    pub let_go_s: f64,
+    pub release_timeout_s: f64,
     /// Among several senders.
-    pub policy: Policy,
-    holder: Option<Sender>,
-    heard: SimTime,
+    pub policy: StickPolicy,
+    holder: Option<StickSender>,
+    last_input: SimTime,
     sticks: Sticks,
     pulses_us: [u16; 4],
     aux_us: [u16; AUX],
     /// Senders whose throttle counts from -1000 to 1000.
-    full_range: Vec<Sender>,
+    full_range: Vec<StickSender>,
     gimbal: Option<f64>,
-    told: Option<(Sender, SimTime)>,
+    last_report: Option<(StickSender, SimTime)>,
     texts: VecDeque<String>,
     /// Buttons of the holder.
-    pub presses: Presses,
+    pub presses: ButtonState,
 }
 
-impl Default for Manual {
+impl Default for ManualControl {
     fn default() -> Self {
         Self {
-            let_go_s: crate::autopilot::Tuning::default().manual_patience_s(),
-            policy: Policy::FirstKeeps,
+            release_timeout_s: crate::autopilot::Tuning::default().manual_timeout_s(),
+            policy: StickPolicy::FirstKeeps,
             holder: None,
-            heard: SimTime::ZERO,
+            last_input: SimTime::ZERO,
             sticks: Sticks::default(),
             pulses_us: [MIDDLE_US; 4],
             aux_us: AUX_US,
             full_range: Vec::new(),
             gimbal: None,
-            told: None,
+            last_report: None,
             texts: VecDeque::new(),
-            presses: Presses::default(),
+            presses: ButtonState::default(),
         }
     }
 }
 
-impl Manual {
+impl ManualControl {
     /// The sticks, while they are fresh.
     #[must_use]
     pub fn fresh(&self, now: SimTime) -> Option<Sticks> {
-        self.holds(now).then_some(self.sticks)
+        self.has_holder(now).then_some(self.sticks)
     }
 
     /// The sticks as channels of a transmitter, microseconds, while they are fresh.
     #[must_use]
     pub fn pulses_us(&self, now: SimTime) -> Option<[u16; 4]> {
-        self.holds(now).then_some(self.pulses_us)
+        self.has_holder(now).then_some(self.pulses_us)
     }
 
     /// Channels 5 to 16, microseconds.
@@ -94,8 +94,8 @@ impl Manual {
     }
 
     /// Channels 5 to 16 of an override, from whoever may have the sticks.
-    pub fn take_aux(&mut self, from: Sender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) {
-        if self.policy == Policy::FirstKeeps && self.holder.is_some_and(|holder| holder != from) && self.holds(now) {
+    pub fn take_aux(&mut self, from: StickSender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) {
+        if self.policy == StickPolicy::FirstKeeps && self.holder.is_some_and(|holder| holder != from) && self.has_holder(now) {
             return;
         }
         for (k, us) in aux_of(c).into_iter().enumerate() {
@@ -113,8 +113,8 @@ impl Manual {
         self.full_range.retain(|(known, _)| *known != link);
     }
 
-    fn holds(&self, now: SimTime) -> bool {
-        self.holder.is_some() && (now - self.heard).s() <= self.let_go_s
+    fn has_holder(&self, now: SimTime) -> bool {
+        self.holder.is_some() && (now - self.last_input).s() <= self.release_timeout_s
     }
 
     /// The next thing to tell everybody.
@@ -122,39 +122,39 @@ impl Manual {
         self.texts.pop_front()
     }
 
-    fn take(&mut self, from: Sender, sticks: Sticks, pulses_us: [u16; 4], now: SimTime) -> Option<Sticks> {
-        let another = self.holder.filter(|holder| *holder != from && self.holds(now));
+    fn take(&mut self, from: StickSender, sticks: Sticks, pulses_us: [u16; 4], now: SimTime) -> Option<Sticks> {
+        let another = self.holder.filter(|holder| *holder != from && self.has_holder(now));
         if let Some(holder) = another {
             let moved = [sticks.forward, sticks.right, sticks.up, sticks.yaw].iter().any(|axis| axis.abs() > 0.1);
-            if self.policy == Policy::FirstKeeps || !moved {
-                self.tell_ignored(from, holder, now);
+            if self.policy == StickPolicy::FirstKeeps || !moved {
+                self.report_ignored_sender(from, holder, now);
                 return None;
             }
         }
         if self.holder != Some(from) {
             if self.holder.is_some() {
-                self.texts.push_back(format!("Sticks: {} now has them", name(from)));
+                self.texts.push_back(format!("Sticks: {} now has them", sender_name(from)));
             }
-            self.presses = Presses::default();
+            self.presses = ButtonState::default();
             self.gimbal = None;
         }
-        (self.holder, self.heard, self.sticks, self.pulses_us) = (Some(from), now, sticks, pulses_us);
+        (self.holder, self.last_input, self.sticks, self.pulses_us) = (Some(from), now, sticks, pulses_us);
         Some(sticks)
     }
 
-    fn tell_ignored(&mut self, from: Sender, holder: Sender, now: SimTime) {
-        if self.told.is_none_or(|(known, at)| known != from || (now - at).s() >= TELL_EVERY_S) {
-            self.told = Some((from, now));
-            self.texts.push_back(format!("Sticks of {} ignored: {} has them", name(from), name(holder)));
+    fn report_ignored_sender(&mut self, from: StickSender, holder: StickSender, now: SimTime) {
+        if self.last_report.is_none_or(|(known, at)| known != from || (now - at).s() >= TELL_EVERY_S) {
+            self.last_report = Some((from, now));
+            self.texts.push_back(format!("Sticks of {} ignored: {} has them", sender_name(from), sender_name(holder)));
         }
     }
 
     /// MANUAL_CONTROL: x forward, y right, r clockwise in -1000..1000; z is throttle in 0..1000 with 500 as its middle, or in -1000..1000
     /// of a sender that has ever sent a negative one. Anything out of range or not used counts as centred.
-    pub fn manual_control(&mut self, from: Sender, m: &MANUAL_CONTROL_DATA, now: SimTime) -> Option<Sticks> {
+    pub fn manual_control(&mut self, from: StickSender, m: &MANUAL_CONTROL_DATA, now: SimTime) -> Option<Sticks> {
         let zero = |value: Option<f64>| value.unwrap_or(0.0);
         let up = match axis(m.z) {
-            Some(z) if self.counts_from_below(from, z) => z,
+            Some(z) if self.has_signed_throttle(from, z) => z,
             Some(z) if z >= 0.0 => 2.0 * z - 1.0,
             _ => 0.0,
         };
@@ -163,11 +163,11 @@ impl Manual {
     }
 
     /// Whether the middle of a sender's throttle is 0; told once when it shows.
-    fn counts_from_below(&mut self, from: Sender, z: f64) -> bool {
+    fn has_signed_throttle(&mut self, from: StickSender, z: f64) -> bool {
         let known = self.full_range.contains(&from);
         if !known && z < 0.0 && self.full_range.len() < FULL_RANGE_MAX {
             self.full_range.push(from);
-            self.texts.push_back(format!("{}: throttle is -1000 to 1000", name(from)));
+            self.texts.push_back(format!("{}: throttle is -1000 to 1000", sender_name(from)));
             return true;
         }
         known
@@ -175,7 +175,7 @@ impl Manual {
 
     /// The gimbal's axis of MANUAL_CONTROL (extension `s`), -1 down to 1 up, when the holder has moved it. The extension `t` (roll by MAVLink, yaw by
     /// QGroundControl) moves nothing: the gimbal has neither axis.
-    pub fn gimbal(&mut self, from: Sender, m: &MANUAL_CONTROL_DATA) -> Option<f64> {
+    pub fn gimbal(&mut self, from: StickSender, m: &MANUAL_CONTROL_DATA) -> Option<f64> {
         let pitch = (m.enabled_extensions & HAS_PITCH != 0 && self.holder == Some(from)).then(|| axis(m.s)).flatten()?;
         let before = self.gimbal.replace(pitch);
         // Where the axis stands at first is no wish: the gimbal may have been pointed by a command.
@@ -184,13 +184,13 @@ impl Manual {
 
     /// Whether a sender has the sticks.
     #[must_use]
-    pub fn is_holder(&self, from: Sender) -> bool {
+    pub fn is_holder(&self, from: StickSender) -> bool {
         self.holder == Some(from)
     }
 
     /// RC_CHANNELS_OVERRIDE: channels 1 to 4 roll, pitch, throttle, yaw in microseconds. 65535, and what no transmitter sends, leaves a channel as it was, 0 releases it to
     /// its middle; all four released let go of the sticks. Pitch is reversed as on a transmitter: stick forward is below the middle.
-    pub fn channels(&mut self, from: Sender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) -> Option<Sticks> {
+    pub fn channels(&mut self, from: StickSender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) -> Option<Sticks> {
         let all = [c.chan1_raw, c.chan2_raw, c.chan3_raw, c.chan4_raw];
         if all.iter().all(|us| *us == 0) {
             if self.holder == Some(from) {
@@ -202,7 +202,7 @@ impl Manual {
         if !all.iter().any(|us| PULSES_US.contains(us)) {
             return None;
         }
-        let own = self.holder == Some(from) && self.holds(now);
+        let own = self.holder == Some(from) && self.has_holder(now);
         let (before, pulses) = if own { (self.sticks, self.pulses_us) } else { (Sticks::default(), [MIDDLE_US; 4]) };
         let axis = |us: u16, before: f64| match us {
             0 => 0.0,
@@ -252,6 +252,6 @@ fn axis(value: i16) -> Option<f64> {
 }
 
 /// As short as a text's 50 bytes ask: system/component@link.
-fn name((link, (system, component)): Sender) -> String {
+fn sender_name((link, (system, component)): StickSender) -> String {
     format!("{system}/{component}@{}", link.0)
 }

@@ -1,12 +1,12 @@
 //! Plans: upload, whole or in part, and download of missions, fences and rally points.
 #![allow(deprecated, reason = "clients still know MISSION_REQUEST alone")]
 
-use super::places::relative;
-use super::view::PlanSummary;
-use super::{areas, items, unnamed};
+use super::mission_positions::relative;
+use super::snapshot::PlanSummary;
+use super::{deferred_fields, fence_and_rally, items};
 use crate::autopilot::MissionStep;
-use crate::autopilot::fence::{Refuge, Zone};
-use crate::autopilot::mission::Unnamed;
+use crate::autopilot::fence::{FenceZone, RallyPoint};
+use crate::autopilot::mission::DeferredFields;
 use spandrel_mavlink::dialect::{
     MISSION_ACK_DATA, MISSION_COUNT_DATA, MISSION_ITEM_INT_DATA, MISSION_REQUEST_DATA, MISSION_REQUEST_INT_DATA, MavCmd,
     MavMessage, MavMissionResult, MavMissionType,
@@ -38,19 +38,19 @@ const DELAY_WEIGHT: f64 = 0.25;
 const ACKNOWLEDGED_AGAIN: u8 = 4;
 
 /// Who speaks: system and component.
-pub type Peer = (u8, u8);
+pub type PlanPeer = (u8, u8);
 
 /// Plans and a running upload.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Plans {
-    kept: [Vec<MISSION_ITEM_INT_DATA>; 3],
+pub struct PlanStore {
+    plans: [Vec<MISSION_ITEM_INT_DATA>; 3],
     ids: [u32; 3],
-    upload: Option<Upload>,
+    upload: Option<PlanUpload>,
     /// Who finished an upload last, with which item: the acknowledgement may have been lost.
-    done: Option<(Peer, MavMissionType, u16)>,
-    echo: Option<Echo>,
+    done: Option<(PlanPeer, MavMissionType, u16)>,
+    ack_repeat: Option<AckRepeat>,
     /// Seconds of simulation time in a second of the uploader's.
-    pace: f64,
+    speed_factor: f64,
     /// Items of the wire's mission before the first that is flown.
     lead: u16,
     /// Items that ArduPilot alone has are taken: splines, delays until a time of day.
@@ -58,12 +58,12 @@ pub struct Plans {
     /// What is 0 in an item is where the vehicle is then.
     zero_is_here: bool,
     /// In which form items are asked for first.
-    form: Form,
+    form: ItemEncoding,
 }
 
 /// The two messages by which an item of an upload is asked for. Clients know both, or one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Form {
+pub enum ItemEncoding {
     /// MISSION_REQUEST_INT.
     #[default]
     Int,
@@ -71,7 +71,7 @@ pub enum Form {
     Float,
 }
 
-impl Form {
+impl ItemEncoding {
     fn other(self) -> Self {
         match self {
             Self::Int => Self::Float,
@@ -80,39 +80,39 @@ impl Form {
     }
 }
 
-impl Default for Plans {
+impl Default for PlanStore {
     fn default() -> Self {
         Self {
-            kept: Default::default(),
+            plans: Default::default(),
             ids: [0; 3],
             upload: None,
             done: None,
-            echo: None,
-            pace: 1.0,
+            ack_repeat: None,
+            speed_factor: 1.0,
             lead: 0,
             splines: false,
             zero_is_here: false,
-            form: Form::Int,
+            form: ItemEncoding::Int,
         }
     }
 }
 
 #[derive(Debug, Clone, PartialEq)]
-struct Upload {
-    from: Peer,
+struct PlanUpload {
+    from: PlanPeer,
     kind: MavMissionType,
     items: Vec<MISSION_ITEM_INT_DATA>,
     /// The items replace a part of the plan, from this place on.
     part: bool,
     first: u16,
     count: u16,
-    heard: SimTime,
-    asked: SimTime,
+    last_received: SimTime,
+    last_request: SimTime,
     /// Something had to be asked for again: the link loses datagrams.
-    loses: bool,
-    form: Form,
+    is_lossy: bool,
+    form: ItemEncoding,
     /// So it is for the item that is waited for: its delay tells nothing.
-    asked_again: bool,
+    is_retry: bool,
     /// Requests since the last item without an answer.
     unanswered: u8,
     /// Usual time from a request to its item, s.
@@ -125,8 +125,8 @@ struct Upload {
     reorders: bool,
 }
 
-impl Upload {
-    fn begin(from: Peer, kind: MavMissionType, form: Form, now: SimTime) -> Self {
+impl PlanUpload {
+    fn begin(from: PlanPeer, kind: MavMissionType, form: ItemEncoding, now: SimTime) -> Self {
         Self {
             from,
             kind,
@@ -134,11 +134,11 @@ impl Upload {
             part: false,
             first: 0,
             count: 0,
-            heard: now,
-            asked: now,
-            loses: false,
+            last_received: now,
+            last_request: now,
+            is_lossy: false,
             form,
-            asked_again: false,
+            is_retry: false,
             unanswered: 0,
             delay_s: None,
             requested: 0,
@@ -152,11 +152,11 @@ impl Upload {
         self.first + self.items.len() as u16
     }
 
-    /// An item that the vehicle already has. If it was requested, the next one is due; else `remind` goes on from it once the missing item is
+    /// An item that the vehicle already has. If it was requested, the next one is due; else `poll_retries` goes on from it once the missing item is
     /// overdue. A request at every repeated item would double all that follows, and clients that count repetitions give up.
     fn repeated(&mut self, seq: u16, now: SimTime) -> Option<MavMessage> {
         if seq == self.requested {
-            (self.requested, self.asked, self.asked_again, self.unanswered) = (seq + 1, now, true, 0);
+            (self.requested, self.last_request, self.is_retry, self.unanswered) = (seq + 1, now, true, 0);
             return Some(self.question());
         }
         (self.set_back_to, self.reorders) = (Some(seq + 1), true);
@@ -185,19 +185,19 @@ impl Upload {
     /// The item that was waited for has come.
     fn answered(&mut self, now: SimTime) {
         (self.unanswered, self.set_back_to) = (0, None);
-        if !std::mem::take(&mut self.asked_again) {
-            let delay_s = (now - self.asked).s();
+        if !std::mem::take(&mut self.is_retry) {
+            let delay_s = (now - self.last_request).s();
             self.delay_s = Some(self.delay_s.map_or(delay_s, |usual_s| usual_s + DELAY_WEIGHT * (delay_s - usual_s)));
         }
-        self.asked = now;
+        self.last_request = now;
     }
 }
 
 /// The acknowledgement of an upload over a link that loses datagrams. It is sent again: clients only wait for it (MAVSDK), so that a lost
 /// one would undo an upload that was complete.
 #[derive(Debug, Clone, PartialEq)]
-struct Echo {
-    to: Peer,
+struct AckRepeat {
+    to: PlanPeer,
     message: MavMessage,
     sent: SimTime,
     left: u8,
@@ -205,7 +205,7 @@ struct Echo {
 
 /// What came of a message.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Reply {
+pub enum PlanReply {
     /// Answer the sender.
     Say(MavMessage),
     /// A plan is complete or gone: answer, and let the autopilot have it.
@@ -225,12 +225,12 @@ fn slot(kind: MavMissionType) -> Option<usize> {
 
 /// An acknowledgement to a peer.
 #[must_use]
-pub fn ack(to: Peer, kind: MavMissionType, result: MavMissionResult) -> MavMessage {
+pub fn ack(to: PlanPeer, kind: MavMissionType, result: MavMissionResult) -> MavMessage {
     ack_with(to, kind, result, 0)
 }
 
 /// An acknowledgement with the id of the plan that is accepted.
-fn ack_with(to: Peer, kind: MavMissionType, result: MavMissionResult, opaque_id: u32) -> MavMessage {
+fn ack_with(to: PlanPeer, kind: MavMissionType, result: MavMissionResult, opaque_id: u32) -> MavMessage {
     MavMessage::MISSION_ACK(MISSION_ACK_DATA {
         target_system: to.0,
         target_component: to.1,
@@ -255,11 +255,11 @@ fn id_of(items: &[MISSION_ITEM_INT_DATA]) -> u32 {
     crc.finalize().max(1)
 }
 
-impl Plans {
+impl PlanStore {
     /// No plans yet; so many items of the wire's missions (home) are not flown. What is kept is
     /// numbered without them.
     #[must_use]
-    pub fn led_by(lead: u16) -> Self {
+    pub fn with_lead_items(lead: u16) -> Self {
         Self { lead, ..Self::default() }
     }
 
@@ -277,45 +277,45 @@ impl Plans {
 
     /// The form in which items are asked for first.
     #[must_use]
-    pub fn asking_by(self, form: Form) -> Self {
+    pub fn with_encoding(self, form: ItemEncoding) -> Self {
         Self { form, ..self }
     }
 
     /// The item as it is judged and flown: with a place in the stead of one that is left open.
-    fn filled(&self, item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> MISSION_ITEM_INT_DATA {
-        if self.zero_is_here { unnamed::filled(item, plane) } else { item.clone() }
+    fn with_default_position(&self, item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> MISSION_ITEM_INT_DATA {
+        if self.zero_is_here { deferred_fields::filled(item, plane) } else { item.clone() }
     }
 
     /// What each item of the mission leaves open.
     #[must_use]
-    pub fn unnamed(&self) -> Vec<Unnamed> {
-        if self.zero_is_here { self.kept[0].iter().map(unnamed::of).collect() } else { Vec::new() }
+    pub fn deferred_fields(&self) -> Vec<DeferredFields> {
+        if self.zero_is_here { self.plans[0].iter().map(deferred_fields::of).collect() } else { Vec::new() }
     }
 
     /// An uploader has sent an item in a form: it is asked in the same one, unless the autopilot knows only one.
-    pub fn note_form(&mut self, from: Peer, form: Form) {
-        if let Some(upload) = self.upload.as_mut().filter(|u| u.from == from && self.form == Form::Int) {
+    pub fn note_form(&mut self, from: PlanPeer, form: ItemEncoding) {
+        if let Some(upload) = self.upload.as_mut().filter(|u| u.from == from && self.form == ItemEncoding::Int) {
             upload.form = form;
         }
     }
 
     /// An uploader does not know the form in which it was asked: the question in the other one.
-    pub fn ask_otherwise(&mut self, from: Peer, now: SimTime) -> Option<MavMessage> {
+    pub fn switch_encoding(&mut self, from: PlanPeer, now: SimTime) -> Option<MavMessage> {
         let upload = self.upload.as_mut().filter(|u| u.from == from)?;
         upload.form = upload.form.other();
-        upload.asked = now;
+        upload.last_request = now;
         Some(upload.question())
     }
 
     /// The fence names a place to return to.
     #[must_use]
     pub fn has_fence_return(&self) -> bool {
-        self.kept[1].iter().any(areas::is_return)
+        self.plans[1].iter().any(fence_and_rally::is_return)
     }
 
     /// Items of a plan as the wire counts them.
     fn count(&self, kind: MavMissionType, slot: usize) -> u16 {
-        let kept = self.kept[slot].len() as u16;
+        let kept = self.plans[slot].len() as u16;
         if kept == 0 { 0 } else { kept + self.lead(kind) }
     }
 
@@ -327,63 +327,63 @@ impl Plans {
     /// Whether this is home's item of a mission that is there.
     #[must_use]
     pub fn is_home(&self, kind: MavMissionType, seq: u16) -> bool {
-        seq < self.lead(kind) && !self.kept[0].is_empty()
+        seq < self.lead(kind) && !self.plans[0].is_empty()
     }
 
     /// Uploaders that are not kept in step take longer by this factor.
-    pub fn set_pace(&mut self, pace: f64) {
-        self.pace = pace;
+    pub fn set_speed_factor(&mut self, pace: f64) {
+        self.speed_factor = pace;
     }
 
     /// Items of mission, fence and rally points, as parameters show them.
     #[must_use]
     pub fn totals(&self) -> [u16; 3] {
-        [self.count(MavMissionType::MAV_MISSION_TYPE_MISSION, 0), self.kept[1].len() as u16, self.kept[2].len() as u16]
+        [self.count(MavMissionType::MAV_MISSION_TYPE_MISSION, 0), self.plans[1].len() as u16, self.plans[2].len() as u16]
     }
 
     /// What stations see of the plans.
     #[must_use]
     pub fn summary(&self) -> PlanSummary {
-        PlanSummary { mission_items: self.kept[0].len() as u16, ids: self.ids, lead: self.lead }
+        PlanSummary { mission_items: self.plans[0].len() as u16, ids: self.ids, lead: self.lead }
     }
 
     /// The fence's areas.
     #[must_use]
-    pub fn zones(&self, plane: &LocalPlane) -> Vec<Zone> {
-        areas::zones(&self.kept[1], plane)
+    pub fn zones(&self, plane: &LocalPlane) -> Vec<FenceZone> {
+        fence_and_rally::zones(&self.plans[1], plane)
     }
 
     /// The rally points.
     #[must_use]
-    pub fn refuges(&self, plane: &LocalPlane, home_up_m: f64) -> Vec<Refuge> {
-        areas::refuges(&self.kept[2], plane, home_up_m)
+    pub fn rally_points(&self, plane: &LocalPlane, home_up_m: f64) -> Vec<RallyPoint> {
+        fence_and_rally::rally_points(&self.plans[2], plane, home_up_m)
     }
 
     /// Items of the mission.
     #[must_use]
     pub fn mission(&self) -> &[MISSION_ITEM_INT_DATA] {
-        &self.kept[0]
+        &self.plans[0]
     }
 
     /// Adds an item at the end of the mission.
     pub fn add(&mut self, item: MISSION_ITEM_INT_DATA) {
-        let seq = self.kept[0].len() as u16;
+        let seq = self.plans[0].len() as u16;
         if seq < MOST_ITEMS {
-            self.kept[0].push(MISSION_ITEM_INT_DATA { seq, ..item });
-            self.ids[0] = id_of(&self.kept[0]);
+            self.plans[0].push(MISSION_ITEM_INT_DATA { seq, ..item });
+            self.ids[0] = id_of(&self.plans[0]);
         }
     }
 
     /// No mission is kept any more.
     pub fn drop_mission(&mut self) {
-        self.kept[0].clear();
+        self.plans[0].clear();
         self.ids[0] = 0;
     }
 
     /// Somebody wants the list.
     #[must_use]
-    pub fn list(&mut self, from: Peer, kind: MavMissionType) -> MavMessage {
-        self.goes_on(from);
+    pub fn list(&mut self, from: PlanPeer, kind: MavMissionType) -> MavMessage {
+        self.forget_acknowledged(from);
         let Some(slot) = slot(kind) else { return ack(from, kind, MavMissionResult::MAV_MISSION_UNSUPPORTED) };
         MavMessage::MISSION_COUNT(MISSION_COUNT_DATA {
             count: self.count(kind, slot),
@@ -396,9 +396,9 @@ impl Plans {
 
     /// Somebody wants one item.
     #[must_use]
-    pub fn item(&self, from: Peer, kind: MavMissionType, seq: u16) -> MavMessage {
+    pub fn item(&self, from: PlanPeer, kind: MavMissionType, seq: u16) -> MavMessage {
         let index = seq.checked_sub(self.lead(kind)).map(usize::from);
-        let item = slot(kind).zip(index).and_then(|(slot, index)| self.kept[slot].get(index));
+        let item = slot(kind).zip(index).and_then(|(slot, index)| self.plans[slot].get(index));
         match item {
             Some(item) => {
                 let mut item = renumbered(item.clone(), i32::from(self.lead(kind)));
@@ -410,14 +410,14 @@ impl Plans {
     }
 
     /// A peer says something new about plans: it has its acknowledgement, or waits for it no more.
-    fn goes_on(&mut self, from: Peer) {
-        self.echo.take_if(|echo| echo.to == from);
+    fn forget_acknowledged(&mut self, from: PlanPeer) {
+        self.ack_repeat.take_if(|echo| echo.to == from);
     }
 
     /// Somebody begins an upload. A second station in the middle of one is refused.
-    pub fn begin(&mut self, from: Peer, kind: MavMissionType, count: u16, now: SimTime) -> Reply {
-        self.goes_on(from);
-        let refuse = |result| Reply::Say(ack(from, kind, result));
+    pub fn begin(&mut self, from: PlanPeer, kind: MavMissionType, count: u16, now: SimTime) -> PlanReply {
+        self.forget_acknowledged(from);
+        let refuse = |result| PlanReply::Say(ack(from, kind, result));
         if self.is_busy(from, now) {
             return refuse(MavMissionResult::MAV_MISSION_DENIED);
         }
@@ -428,19 +428,19 @@ impl Plans {
         self.done = None;
         if count == 0 {
             self.upload = None;
-            self.kept[slot].clear();
+            self.plans[slot].clear();
             self.ids[slot] = 0;
             let done = ack(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED);
-            return Reply::New(kind, done);
+            return PlanReply::New(kind, done);
         }
-        let upload = Upload { count, ..Upload::begin(from, kind, self.form, now) };
-        Reply::Say(self.upload.insert(upload).question())
+        let upload = PlanUpload { count, ..PlanUpload::begin(from, kind, self.form, now) };
+        PlanReply::Say(self.upload.insert(upload).question())
     }
 
     /// Somebody replaces the items from `first` to `last`, which are there.
-    pub fn begin_part(&mut self, from: Peer, kind: MavMissionType, (first, last): (i16, i16), now: SimTime) -> Reply {
-        self.goes_on(from);
-        let refuse = |result| Reply::Say(ack(from, kind, result));
+    pub fn begin_part(&mut self, from: PlanPeer, kind: MavMissionType, (first, last): (i16, i16), now: SimTime) -> PlanReply {
+        self.forget_acknowledged(from);
+        let refuse = |result| PlanReply::Say(ack(from, kind, result));
         if self.is_busy(from, now) {
             return refuse(MavMissionResult::MAV_MISSION_DENIED);
         }
@@ -453,87 +453,94 @@ impl Plans {
             return refuse(MavMissionResult::MAV_MISSION_INVALID_SEQUENCE);
         }
         self.done = None;
-        let upload =
-            Upload { part: true, first, requested: first, count: last - first + 1, ..Upload::begin(from, kind, self.form, now) };
-        Reply::Say(self.upload.insert(upload).question())
+        let upload = PlanUpload {
+            part: true,
+            first,
+            requested: first,
+            count: last - first + 1,
+            ..PlanUpload::begin(from, kind, self.form, now)
+        };
+        PlanReply::Say(self.upload.insert(upload).question())
     }
 
     /// Somebody else is in the middle of an upload.
-    fn is_busy(&self, from: Peer, now: SimTime) -> bool {
-        self.upload.as_ref().is_some_and(|u| u.from != from && (now - u.heard).s() < STALL_S * self.pace)
+    fn is_busy(&self, from: PlanPeer, now: SimTime) -> bool {
+        self.upload.as_ref().is_some_and(|u| u.from != from && (now - u.last_received).s() < STALL_S * self.speed_factor)
     }
 
     /// An item of an upload.
-    pub fn receive(&mut self, from: Peer, item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, now: SimTime) -> Reply {
+    pub fn receive(&mut self, from: PlanPeer, item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, now: SimTime) -> PlanReply {
         let lead = self.lead(item.mission_type);
-        let judged = self.filled(item, plane);
+        let judged = self.with_default_position(item, plane);
         let Some(upload) = self.upload.as_mut().filter(|u| u.from == from && u.kind == item.mission_type) else {
-            return self.without_upload(from, item);
+            return self.reply_without_upload(from, item);
         };
-        upload.heard = now;
+        upload.last_received = now;
         let wanted = upload.missing();
         if item.seq < wanted && item.seq >= upload.first {
-            return upload.repeated(item.seq, now).map_or(Reply::Nothing, Reply::Say);
+            return upload.repeated(item.seq, now).map_or(PlanReply::Nothing, PlanReply::Say);
         }
         if item.seq != wanted {
-            // Out of turn: the missing item has been requested, and `remind` requests it again.
-            return Reply::Nothing;
+            // Out of turn: the missing item has been requested, and `poll_retries` requests it again.
+            return PlanReply::Nothing;
         }
         upload.answered(now);
-        let kept = slot(upload.kind).map_or(0, |slot| self.kept[slot].len());
+        let kept = slot(upload.kind).map_or(0, |slot| self.plans[slot].len());
         let total = if upload.part { kept as u16 + lead } else { upload.count };
         // Home is the vehicle's own, whatever is sent for it.
         let spline = item.command == MavCmd::MAV_CMD_NAV_SPLINE_WAYPOINT && !self.splines;
         let day = item.command == MavCmd::MAV_CMD_NAV_DELAY && item.param1 < 0.0 && !self.splines;
         let unknown = spline.then_some(MavMissionResult::MAV_MISSION_UNSUPPORTED);
         let unknown = unknown.or(day.then_some(MavMissionResult::MAV_MISSION_INVALID_PARAM1));
-        let refusal = if wanted < lead { None } else { unknown.or_else(|| items::legal(&judged, lead..total, plane).err()) };
+        let refusal = if wanted < lead { None } else { unknown.or_else(|| items::check_item(&judged, lead..total, plane).err()) };
         if let Some(result) = refusal {
             let kind = upload.kind;
             self.upload = None;
-            return Reply::Say(ack(from, kind, result));
+            return PlanReply::Say(ack(from, kind, result));
         }
         let mut item = item.clone();
         item.current = 0;
         upload.items.push(item);
         upload.requested = upload.missing();
         if (upload.items.len() as u16) < upload.count {
-            return Reply::Say(upload.question());
+            return PlanReply::Say(upload.question());
         }
-        self.upload.take().map_or(Reply::Nothing, |upload| self.complete(upload, now))
+        self.upload.take().map_or(PlanReply::Nothing, |upload| self.complete(upload, now))
     }
 
     /// All items have come.
-    fn complete(&mut self, upload: Upload, now: SimTime) -> Reply {
-        let Upload { from, kind, items, first, part, loses, .. } = upload;
-        let Some(slot) = slot(kind) else { return Reply::Nothing };
+    fn complete(&mut self, upload: PlanUpload, now: SimTime) -> PlanReply {
+        let PlanUpload { from, kind, items, first, part, is_lossy: loses, .. } = upload;
+        let Some(slot) = slot(kind) else { return PlanReply::Nothing };
         let lead = self.lead(kind);
-        let mut whole = if part { self.kept[slot].clone() } else { Vec::new() };
+        let mut whole = if part { self.plans[slot].clone() } else { Vec::new() };
         let last = first + items.len().saturating_sub(1) as u16;
         let flown = items.into_iter().skip(usize::from(lead.saturating_sub(first)));
         let items: Vec<_> = flown.map(|item| renumbered(item, -i32::from(lead))).collect();
         let first = usize::from(first.saturating_sub(lead));
         let until = (first + items.len()).min(whole.len());
         whole.splice(first.min(until)..until, items);
-        if let Err(result) = areas::whole(&whole).and_then(|()| items::whole(&whole)) {
-            return Reply::Say(ack(from, kind, result));
+        if let Err(result) = fence_and_rally::is_complete(&whole).and_then(|()| items::whole(&whole)) {
+            return PlanReply::Say(ack(from, kind, result));
         }
         self.ids[slot] = id_of(&whole);
-        self.kept[slot] = whole;
+        self.plans[slot] = whole;
         self.done = Some((from, kind, last));
         let done = ack_with(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED, self.ids[slot]);
-        self.echo = loses.then(|| Echo { to: from, message: done.clone(), sent: now, left: ACKNOWLEDGED_AGAIN });
-        Reply::New(kind, done)
+        self.ack_repeat = loses.then(|| AckRepeat { to: from, message: done.clone(), sent: now, left: ACKNOWLEDGED_AGAIN });
+        PlanReply::New(kind, done)
     }
 
     /// An item outside of an upload: an error, unless it repeats one of the plan that this peer has just finished. Its last item means that the
     /// acknowledgement was lost; an earlier one was only delayed, and an error would undo the acknowledgement that is under way.
-    fn without_upload(&self, from: Peer, item: &MISSION_ITEM_INT_DATA) -> Reply {
+    fn reply_without_upload(&self, from: PlanPeer, item: &MISSION_ITEM_INT_DATA) -> PlanReply {
         let last = self.done.filter(|&(peer, kind, _)| (peer, kind) == (from, item.mission_type)).map(|(_, _, last)| last);
         match last.filter(|_| self.is_kept(item)) {
-            Some(last) if item.seq < last => Reply::Nothing,
-            Some(last) if item.seq == last => Reply::Say(ack(from, item.mission_type, MavMissionResult::MAV_MISSION_ACCEPTED)),
-            _ => Reply::Say(ack(from, item.mission_type, MavMissionResult::MAV_MISSION_ERROR)),
+            Some(last) if item.seq < last => PlanReply::Nothing,
+            Some(last) if item.seq == last => {
+                PlanReply::Say(ack(from, item.mission_type, MavMissionResult::MAV_MISSION_ACCEPTED))
+            }
+            _ => PlanReply::Say(ack(from, item.mission_type, MavMissionResult::MAV_MISSION_ERROR)),
         }
     }
 
@@ -541,7 +548,7 @@ impl Plans {
     fn is_kept(&self, item: &MISSION_ITEM_INT_DATA) -> bool {
         let lead = self.lead(item.mission_type);
         let index = item.seq.checked_sub(lead).map(usize::from);
-        let kept = slot(item.mission_type).zip(index).and_then(|(slot, index)| self.kept[slot].get(index));
+        let kept = slot(item.mission_type).zip(index).and_then(|(slot, index)| self.plans[slot].get(index));
         // Not-a-number fields differ from themselves: place and command decide.
         let same = |kept: &MISSION_ITEM_INT_DATA| {
             (kept.seq + lead, kept.command, kept.frame, kept.x, kept.y) == (item.seq, item.command, item.frame, item.x, item.y)
@@ -551,85 +558,86 @@ impl Plans {
     }
 
     /// An item that the dialect cannot hold (unknown command or frame) ends the upload.
-    pub fn receive_unknown(&mut self, from: Peer) -> Reply {
+    pub fn receive_unknown(&mut self, from: PlanPeer) -> PlanReply {
         match self.upload.take_if(|u| u.from == from) {
-            Some(upload) => Reply::Say(ack(from, upload.kind, MavMissionResult::MAV_MISSION_UNSUPPORTED)),
-            None => Reply::Nothing,
+            Some(upload) => PlanReply::Say(ack(from, upload.kind, MavMissionResult::MAV_MISSION_UNSUPPORTED)),
+            None => PlanReply::Nothing,
         }
     }
 
     /// Empties plans.
-    pub fn clear(&mut self, from: Peer, kind: MavMissionType) -> Reply {
-        self.goes_on(from);
+    pub fn clear(&mut self, from: PlanPeer, kind: MavMissionType) -> PlanReply {
+        self.forget_acknowledged(from);
         self.upload.take_if(|u| u.from == from);
         self.done = None;
         match slot(kind) {
             Some(slot) => {
-                self.kept[slot].clear();
+                self.plans[slot].clear();
                 self.ids[slot] = 0;
             }
             None => {
-                self.kept.iter_mut().for_each(Vec::clear);
+                self.plans.iter_mut().for_each(Vec::clear);
                 self.ids = [0; 3];
             }
         }
         let done = ack(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED);
-        Reply::New(kind, done)
+        PlanReply::New(kind, done)
     }
 
     /// The uploader has given up or finished.
-    pub fn acknowledged(&mut self, from: Peer) {
+    pub fn acknowledged(&mut self, from: PlanPeer) {
         self.upload.take_if(|u| u.from == from);
     }
 
     /// Asks a silent uploader again, gives up a stalled upload, or acknowledges one again; returns whom to send what.
-    pub fn remind(&mut self, now: SimTime) -> Option<(Peer, MavMessage)> {
+    pub fn poll_retries(&mut self, now: SimTime) -> Option<(PlanPeer, MavMessage)> {
         let Some(upload) = self.upload.as_mut() else { return self.acknowledge_again(now) };
         let (from, kind) = (upload.from, upload.kind);
-        if (now - upload.heard).s() > STALL_S * self.pace {
+        if (now - upload.last_received).s() > STALL_S * self.speed_factor {
             self.upload = None;
             return Some((from, ack(from, kind, MavMissionResult::MAV_MISSION_OPERATION_CANCELLED)));
         }
-        if (now - upload.asked).s() > upload.patience_s(self.pace) {
-            upload.asked = now;
-            (upload.loses, upload.asked_again) = (true, true);
+        if (now - upload.last_request).s() > upload.patience_s(self.speed_factor) {
+            upload.last_request = now;
+            (upload.is_lossy, upload.is_retry) = (true, true);
             upload.unanswered = upload.unanswered.saturating_add(1);
             upload.requested = upload.overdue();
             // A client that has sent none yet may know only the other form. On a link that loses datagrams most know the first.
-            if upload.items.is_empty() && self.form == Form::Int {
-                upload.form = if upload.unanswered.is_multiple_of(OTHER_FORM_EVERY) { Form::Float } else { Form::Int };
+            if upload.items.is_empty() && self.form == ItemEncoding::Int {
+                upload.form =
+                    if upload.unanswered.is_multiple_of(OTHER_FORM_EVERY) { ItemEncoding::Float } else { ItemEncoding::Int };
             }
             return Some((from, upload.question()));
         }
         None
     }
 
-    fn acknowledge_again(&mut self, now: SimTime) -> Option<(Peer, MavMessage)> {
-        let echo = self.echo.as_mut()?;
-        if (now - echo.sent).s() <= ASK_AGAIN_S * self.pace {
+    fn acknowledge_again(&mut self, now: SimTime) -> Option<(PlanPeer, MavMessage)> {
+        let echo = self.ack_repeat.as_mut()?;
+        if (now - echo.sent).s() <= ASK_AGAIN_S * self.speed_factor {
             return None;
         }
         (echo.sent, echo.left) = (now, echo.left - 1);
         let again = (echo.to, echo.message.clone());
-        self.echo.take_if(|echo| echo.left == 0);
+        self.ack_repeat.take_if(|echo| echo.left == 0);
         Some(again)
     }
 
     /// The mission as the autopilot flies it. `home_m` is home about the origin.
     #[must_use]
     pub fn steps(&self, plane: &LocalPlane, home_m: Option<Vec3<Ned>>) -> Vec<MissionStep> {
-        let all = &self.kept[0];
+        let all = &self.plans[0];
         let home_up_m = home_m.map_or(0.0, |home| -home.down());
-        let step = |k| Some(items::step(&self.filled(&items::aimed(all, k)?, plane), plane, home_up_m));
+        let step = |k| Some(items::step(&self.with_default_position(&items::aimed(all, k)?, plane), plane, home_up_m));
         let mut steps: Vec<MissionStep> = (0..all.len()).filter_map(step).collect();
-        unnamed::expect(&mut steps, &self.unnamed(), home_m);
+        deferred_fields::assume_previous_positions(&mut steps, &self.deferred_fields(), home_m);
         steps
     }
 
     /// Which items of the mission give their height over home.
     #[must_use]
-    pub fn over_home(&self) -> Vec<bool> {
-        self.kept[0].iter().map(|item| relative(item.frame) == Some(true)).collect()
+    pub fn home_relative_steps(&self) -> Vec<bool> {
+        self.plans[0].iter().map(|item| relative(item.frame) == Some(true)).collect()
     }
 }
 
@@ -642,16 +650,16 @@ fn renumbered(mut item: MISSION_ITEM_INT_DATA, by: i32) -> MISSION_ITEM_INT_DATA
     item
 }
 
-impl Upload {
+impl PlanUpload {
     /// Requests an item.
     fn question(&self) -> MavMessage {
         let seq = self.requested;
         let ((target_system, target_component), mission_type) = (self.from, self.kind);
         match self.form {
-            Form::Int => {
+            ItemEncoding::Int => {
                 MavMessage::MISSION_REQUEST_INT(MISSION_REQUEST_INT_DATA { seq, target_system, target_component, mission_type })
             }
-            Form::Float => {
+            ItemEncoding::Float => {
                 MavMessage::MISSION_REQUEST(MISSION_REQUEST_DATA { seq, target_system, target_component, mission_type })
             }
         }

@@ -1,7 +1,6 @@
 //! The vehicle's MAVLink face, in one of three flavours. Datagrams of every link come in, what is due goes out; nothing here reads a clock.
 
-mod areas;
-mod arrival;
+mod ardupilot_items;
 mod aux_functions;
 pub mod budget;
 pub mod buttons;
@@ -11,56 +10,57 @@ mod camera_params;
 pub mod commands;
 mod context;
 mod control;
+mod deferred_fields;
 pub mod events;
-mod exchange;
+mod fence_and_rally;
 pub mod files;
 pub mod flavour;
 mod ftp;
 pub mod gimbal;
-pub mod guard;
-mod homes;
+mod inbound;
 mod items;
 pub mod lamp;
 pub mod link;
 pub mod logs;
 pub mod manual;
 pub mod mission;
+mod mission_positions;
 mod notices;
 mod offboard;
+mod param_and_mission_services;
 pub mod params;
 pub mod payload;
 mod persistence;
-mod places;
+mod publish;
 mod receive;
 mod scoring;
 mod shell;
-mod speak;
+pub mod signing_policy;
+pub mod snapshot;
+mod status_texts;
 mod storage;
 pub mod streams;
-mod texts;
-mod unnamed;
-pub mod view;
 
 use crate::autopilot::Autopilot;
-pub use context::{Context, Injection};
+pub use context::{CommandContext, FailureInjection};
 use flavour::Flavour;
-use guard::Guard;
-use link::Link;
-pub use link::Step;
-use manual::Manual;
-use mission::{Form, Plans};
-use params::{Pack, Params};
+pub use link::LockstepState;
+use link::PeerLink;
+use manual::ManualControl;
+use mission::{ItemEncoding, PlanStore};
+use params::{AircraftValues, Params};
 pub use payload::Payload;
 pub use receive::HANDLED;
-use scoring::TruthRates;
+use scoring::TruthSchedule;
+use signing_policy::SigningPolicy;
+use snapshot::{ScoringTruth, VehicleSnapshot};
 use spandrel_mavlink::dialect::{MavMessage, MavMissionType, MavSeverity, TIMESYNC_DATA};
 use spandrel_mavlink::router::Router;
 use spandrel_model::time::SimTime;
 use std::collections::{BTreeMap, VecDeque};
-use storage::Storage;
-pub use storage::Wish;
+use storage::ParamStorage;
+pub use storage::StorageRequest;
 use streams::AUTOPILOT;
-use view::{Scoring, View};
 
 /// A link's name, chosen by the shell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -97,37 +97,37 @@ pub struct Endpoint {
     flavour: &'static Flavour,
     /// The flavour's number of the mode that was asked for last: several may mean the same to us.
     chosen: u32,
-    links: BTreeMap<LinkId, Link>,
+    links: BTreeMap<LinkId, PeerLink>,
     router: Router<LinkId>,
-    guard: Option<Guard>,
+    guard: Option<SigningPolicy>,
     /// The file server.
-    pub files: files::Server,
+    pub files: files::FileServer,
     /// What the camera's component has to be fetched.
-    camera_files: files::Server,
+    camera_files: files::FileServer,
     /// The flight logs.
-    pub logs: logs::Logs,
+    pub logs: logs::LogTransfers,
     params: Params,
-    storage: Storage,
+    storage: ParamStorage,
     restart: bool,
-    injections: VecDeque<Injection>,
+    injections: VecDeque<FailureInjection>,
     /// Manual control gets through.
     pub sticks_pass: bool,
-    plans: Plans,
-    manual: Manual,
+    plans: PlanStore,
+    manual: ManualControl,
     /// Camera, gimbal, lamp.
     pub payload: Payload,
     texts: Vec<(MavSeverity, String)>,
     text_id: u16,
     param_lists: BTreeMap<LinkId, VecDeque<usize>>,
-    pace: f64,
-    told_pace: f64,
+    speed_factor: f64,
+    reported_speed_factor: f64,
     complained: SimTime,
-    truth_rates: TruthRates,
-    sent: Scoring,
+    truth_rates: TruthSchedule,
+    sent: ScoringTruth,
     bad_bytes: u64,
     gone_dropped: u64,
     row_buffer: Vec<usize>,
-    flight: view::Flight,
+    flight: snapshot::FlightTimes,
     was_armed: bool,
     fence_took: u16,
     /// Parameter changes, plans' items and fence switch that the parameters show already: they are looked up by name, which is too slow for
@@ -138,13 +138,13 @@ pub struct Endpoint {
     /// The last position of the mode switch, from 0.
     mode_switch: Option<usize>,
     /// Where the auxiliary switches on channels 5 to 16 stood last.
-    switches: [Option<aux_functions::Level>; manual::AUX],
+    switches: [Option<aux_functions::SwitchPosition>; manual::AUX],
     /// The calibration that runs.
     calibration: Option<calibration::Calibration>,
     /// Events sent to ground stations.
-    events: events::Events,
+    events: events::EventReports,
     /// The console.
-    shell: shell::Shell,
+    shell: shell::NshShell,
 }
 
 /// Texts that wait for the next tick; a flood of refusals says no more than these.
@@ -155,7 +155,7 @@ const COMPLAIN_EVERY: SimTime = SimTime::from_ms(1_000);
 impl Endpoint {
     /// An endpoint without links.
     #[must_use]
-    pub fn new(system_id: u8, pack: Pack, flavour: &'static Flavour) -> Self {
+    pub fn new(system_id: u8, pack: AircraftValues, flavour: &'static Flavour) -> Self {
         let params = Params::new(system_id, pack, flavour.params);
         Self {
             system_id,
@@ -166,30 +166,30 @@ impl Endpoint {
             guard: None,
             files: metadata_server(flavour),
             camera_files: camera_server(),
-            logs: logs::Logs::default(),
-            storage: Storage::new(params.clone()),
+            logs: logs::LogTransfers::default(),
+            storage: ParamStorage::new(params.clone()),
             restart: false,
             injections: VecDeque::new(),
             sticks_pass: true,
             params,
-            plans: Plans::led_by(u16::from(flavour.home_item))
+            plans: PlanStore::with_lead_items(u16::from(flavour.home_item))
                 .with_splines(flavour.splines)
                 .with_zero_as_here(flavour.zero_is_here)
-                .asking_by(if flavour.float_items { Form::Float } else { Form::Int }),
-            manual: Manual::default(),
+                .with_encoding(if flavour.float_items { ItemEncoding::Float } else { ItemEncoding::Int }),
+            manual: ManualControl::default(),
             payload: Payload::new(),
             texts: Vec::new(),
             text_id: 0,
             param_lists: BTreeMap::new(),
-            pace: 1.0,
-            told_pace: 1.0,
+            speed_factor: 1.0,
+            reported_speed_factor: 1.0,
             complained: SimTime::ZERO.saturating_sub(COMPLAIN_EVERY),
-            truth_rates: TruthRates::new(),
-            sent: Scoring::default(),
+            truth_rates: TruthSchedule::new(),
+            sent: ScoringTruth::default(),
             bad_bytes: 0,
             gone_dropped: 0,
             row_buffer: Vec::new(),
-            flight: view::Flight::default(),
+            flight: snapshot::FlightTimes::default(),
             was_armed: false,
             fence_took: 0,
             shown_by_params: None,
@@ -197,14 +197,14 @@ impl Endpoint {
             mode_switch: None,
             switches: [None; manual::AUX],
             calibration: None,
-            events: events::Events::default(),
-            shell: shell::Shell::default(),
+            events: events::EventReports::default(),
+            shell: shell::NshShell::default(),
         }
     }
 
     /// A peer is there from now on.
     pub fn open(&mut self, id: LinkId, kind: LinkKind, lockstep: bool, now: SimTime) {
-        let mut link = Link::new(kind, lockstep, self.system_id, self.flavour.must_ask(kind), now);
+        let mut link = PeerLink::new(kind, lockstep, self.system_id, self.flavour.is_silent_until_asked(kind), now);
         link.sign_with(self.guard.as_ref().map(|guard| guard.signer(id.0 as u8)));
         self.links.insert(id, link);
     }
@@ -213,13 +213,13 @@ impl Endpoint {
     /// make a flood of every datagram.
     pub fn await_heartbeat(&mut self, id: LinkId) {
         if let Some(link) = self.links.get_mut(&id) {
-            link.quiet = true;
+            link.answers_only = true;
         }
     }
 
     /// The links that get what nobody has asked for.
-    fn listeners(&mut self) -> impl Iterator<Item = &mut Link> {
-        self.links.values_mut().filter(|link| !link.quiet)
+    fn listeners(&mut self) -> impl Iterator<Item = &mut PeerLink> {
+        self.links.values_mut().filter(|link| !link.answers_only)
     }
 
     /// A link carries no more than so many bytes a second: streams slow down, lists wait, the values for the scoring are left out.
@@ -232,23 +232,23 @@ impl Endpoint {
     /// Frames that found no room on a link, or were more than a peer may send to the others.
     #[must_use]
     pub fn dropped(&self) -> u64 {
-        self.gone_dropped + self.links.values().map(Link::dropped).sum::<u64>()
+        self.gone_dropped + self.links.values().map(PeerLink::dropped).sum::<u64>()
     }
 
     /// A peer is gone.
     pub fn close(&mut self, id: LinkId) {
         self.gone_dropped += self.links.remove(&id).map_or(0, |link| link.dropped());
-        self.router.close(id);
+        self.router.forget_link(id);
         self.param_lists.remove(&id);
         self.files.forget(id);
         self.camera_files.forget(id);
         self.logs.forget(id);
         self.manual.forget(id);
-        self.shell.forget(id);
+        self.shell.disconnect(id);
     }
 
     /// Names and present values of all parameters, in the order of their names.
-    pub fn parameters(&self) -> impl Iterator<Item = (&'static str, params::Value)> {
+    pub fn parameters(&self) -> impl Iterator<Item = (&'static str, params::ParamValue)> {
         (0..self.params.count()).filter_map(|index| self.params.at(index))
     }
 
@@ -260,7 +260,7 @@ impl Endpoint {
 
     /// The flavour's number of the mode that was asked for last.
     #[must_use]
-    pub fn chosen(&self) -> u32 {
+    pub fn requested_mode(&self) -> u32 {
         self.chosen
     }
 
@@ -272,7 +272,7 @@ impl Endpoint {
 
     /// The flight of now, or the last.
     #[must_use]
-    pub fn flight(&self) -> view::Flight {
+    pub fn flight(&self) -> snapshot::FlightTimes {
         self.flight
     }
 
@@ -289,14 +289,14 @@ impl Endpoint {
     }
 
     /// The next fault to put in.
-    pub fn poll_injection(&mut self) -> Option<Injection> {
+    pub fn poll_injection(&mut self) -> Option<FailureInjection> {
         self.injections.pop_front()
     }
 
     /// What the parameters say of the world: wind and radio.
     #[must_use]
-    pub fn world(&self) -> params::World {
-        self.params.world()
+    pub fn instructor_settings(&self) -> params::InstructorSettings {
+        self.params.instructor_settings()
     }
 
     /// What is behind a link.
@@ -306,47 +306,47 @@ impl Endpoint {
     }
 
     /// A fresh autopilot gets parameters and plans; links get their usual rates.
-    pub fn boot(&mut self, view: &View, autopilot: &mut Autopilot) {
+    pub fn boot(&mut self, view: &VehicleSnapshot, autopilot: &mut Autopilot) {
         (self.mode_switch, self.switches) = (None, [None; manual::AUX]);
         if self.params.drops_mission_at_boot() {
             self.plans.drop_mission();
         }
         self.apply_parameters(autopilot);
-        exchange::hand_over(self, MavMissionType::MAV_MISSION_TYPE_ALL, view, autopilot);
+        param_and_mission_services::update_autopilot_plan(self, MavMissionType::MAV_MISSION_TYPE_ALL, view, autopilot);
         for link in self.links.values_mut() {
-            link.usual_rates(view.now);
+            link.reset_rates(view.now);
         }
-        self.tell(MavSeverity::MAV_SEVERITY_INFO, "Autopilot restarted");
+        self.push_text(MavSeverity::MAV_SEVERITY_INFO, "Autopilot restarted");
     }
 
     /// Links that time waits for.
-    pub fn in_step(&self) -> impl Iterator<Item = LinkId> {
-        self.links.iter().filter(|(_, link)| link.is_waited_for()).map(|(id, _)| *id)
+    pub fn all_in_step(&self) -> impl Iterator<Item = LinkId> {
+        self.links.iter().filter(|(_, link)| link.blocks_lockstep()).map(|(id, _)| *id)
     }
 
     /// Links that are kept in step, or will be from their first answer on: how far each is, and whether anything has come from it.
-    pub fn stepped(&self) -> impl Iterator<Item = (LinkId, Step, bool)> {
-        self.links.iter().filter(|(_, link)| link.lockstep).map(|(id, link)| (*id, link.step, link.heard))
+    pub fn stepped(&self) -> impl Iterator<Item = (LinkId, LockstepState, bool)> {
+        self.links.iter().filter(|(_, link)| link.lockstep).map(|(id, link)| (*id, link.lockstep_state, link.has_received))
     }
 
     /// A peer has answered: time waits for it from now on.
     pub fn join(&mut self, id: LinkId) {
         if let Some(link) = self.links.get_mut(&id) {
-            link.step = Step::Joined;
+            link.lockstep_state = LockstepState::Joined;
         }
     }
 
     /// Time does not wait for a peer's first answer any longer.
     pub fn serve_in_real_time(&mut self, id: LinkId) {
-        if let Some(link) = self.links.get_mut(&id).filter(|link| link.step == Step::Awaited) {
-            link.step = Step::Late;
+        if let Some(link) = self.links.get_mut(&id).filter(|link| link.lockstep_state == LockstepState::Awaited) {
+            link.lockstep_state = LockstepState::Late;
         }
     }
 
     /// Something has come from a peer.
-    pub fn note_heard(&mut self, id: LinkId) {
+    pub fn note_station_heard(&mut self, id: LinkId) {
         if let Some(link) = self.links.get_mut(&id) {
-            link.heard = true;
+            link.has_received = true;
         }
     }
 
@@ -358,7 +358,7 @@ impl Endpoint {
 
     /// What stations see of the plans.
     #[must_use]
-    pub fn plans(&self) -> view::PlanSummary {
+    pub fn plans(&self) -> snapshot::PlanSummary {
         self.plans.summary()
     }
 
@@ -381,27 +381,27 @@ impl Endpoint {
     }
 
     /// Seconds of simulation time in a second of the clients' time. The limits of clients that are not kept in step grow by it, and every
-    /// log says so: a text now, and NAMED_VALUE_FLOAT `pace` beside the other slow values.
-    pub fn set_pace(&mut self, pace: f64, autopilot: &mut Autopilot) {
-        self.pace = pace;
-        self.plans.set_pace(pace);
+    /// log says so: a text now, and NAMED_VALUE_FLOAT `speed_factor` beside the other slow values.
+    pub fn set_speed_factor(&mut self, pace: f64, autopilot: &mut Autopilot) {
+        self.speed_factor = pace;
+        self.plans.set_speed_factor(pace);
         autopilot.tuning.client_pace = pace;
-        self.manual.let_go_s = autopilot.tuning.manual_patience_s();
+        self.manual.release_timeout_s = autopilot.tuning.manual_timeout_s();
     }
 
     /// Says what is wrong with a stream of messages, at most once a second.
-    fn complain(&mut self, text: &str, now: SimTime) {
+    fn warn_all(&mut self, text: &str, now: SimTime) {
         if now - self.complained >= COMPLAIN_EVERY {
             self.complained = now;
-            self.tell(MavSeverity::MAV_SEVERITY_CRITICAL, text);
+            self.push_text(MavSeverity::MAV_SEVERITY_CRITICAL, text);
         }
     }
 
     /// Asks every peer in step for its answer.
-    pub fn ask_step(&mut self, now: SimTime) {
+    pub fn request_lockstep(&mut self, now: SimTime) {
         let message = MavMessage::TIMESYNC(TIMESYNC_DATA { tc1: 0, ts1: now.ns(), target_system: 0, target_component: 0 });
         for link in self.links.values_mut().filter(|l| l.lockstep) {
-            link.asked = Some(now.ns());
+            link.lockstep_token = Some(now.ns());
             link.send(AUTOPILOT, &message);
         }
     }
@@ -412,7 +412,7 @@ impl Endpoint {
     }
 
     /// Says something to everybody.
-    pub fn tell(&mut self, severity: MavSeverity, text: &str) {
+    pub fn push_text(&mut self, severity: MavSeverity, text: &str) {
         if self.texts.len() < MOST_TEXTS {
             self.texts.push((severity, text.to_string()));
         }
@@ -420,18 +420,18 @@ impl Endpoint {
 }
 
 /// A file server with nothing but what describes the vehicle.
-fn metadata_server(flavour: &Flavour) -> files::Server {
-    let mut server = files::Server::default();
-    let params::metadata::Files { general, parameter, events } = params::metadata::files(flavour.params);
+fn metadata_server(flavour: &Flavour) -> files::FileServer {
+    let mut server = files::FileServer::default();
+    let params::metadata::MetadataFiles { general, parameter, events } = params::metadata::files(flavour.params);
     for file in [general, parameter].into_iter().chain(events) {
-        server.make_up(file.path, file.bytes.clone());
+        server.generate(file.path, file.bytes.clone());
     }
     server
 }
 
 /// The camera's own, with nothing but its description.
-fn camera_server() -> files::Server {
-    let mut server = files::Server::default();
-    server.make_up(camera::settings::FILE, camera::settings::definition().into_bytes());
+fn camera_server() -> files::FileServer {
+    let mut server = files::FileServer::default();
+    server.generate(camera::settings::FILE, camera::settings::definition().into_bytes());
     server
 }

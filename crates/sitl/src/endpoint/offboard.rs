@@ -2,7 +2,7 @@
 //! (MAVLink common, POSITION_TARGET_TYPEMASK and ATTITUDE_TARGET_TYPEMASK).
 #![allow(deprecated, reason = "clients still name frames that MAVLink has superseded")]
 
-use super::view::View;
+use super::snapshot::VehicleSnapshot;
 use crate::autopilot::{OffboardSetpoint, Tuning};
 use spandrel_mavlink::dialect::{
     AttitudeTargetTypemask, MavFrame, PositionTargetTypemask, SET_ATTITUDE_TARGET_DATA, SET_POSITION_TARGET_GLOBAL_INT_DATA,
@@ -20,11 +20,11 @@ const FAR_M: f64 = 20_000.0;
 const FAST_RAD_S: f32 = 100.0;
 
 /// A set-point, or why there is none.
-pub type Reading = Result<OffboardSetpoint, &'static str>;
+pub type SetpointResult = Result<OffboardSetpoint, &'static str>;
 
-type Axes = [Option<f64>; 3];
+type AxisSetpoints = [Option<f64>; 3];
 
-struct Mask {
+struct TypeMask {
     position: [bool; 3],
     velocity: [bool; 3],
     acceleration: [bool; 3],
@@ -32,7 +32,7 @@ struct Mask {
     yaw_rate: bool,
 }
 
-impl Mask {
+impl TypeMask {
     /// What is to be ignored.
     fn of(m: PositionTargetTypemask) -> Result<Self, &'static str> {
         use PositionTargetTypemask as P;
@@ -64,7 +64,7 @@ impl Mask {
 }
 
 /// What is left of three axes. As in PX4 a not-a-number counts as ignored.
-fn axes(values: [f32; 3], ignored: [bool; 3]) -> Result<Axes, &'static str> {
+fn axes(values: [f32; 3], ignored: [bool; 3]) -> Result<AxisSetpoints, &'static str> {
     let mut out = [None; 3];
     for k in 0..3 {
         if ignored[k] || values[k].is_nan() {
@@ -87,16 +87,16 @@ fn rate(value: f32, ignored: bool) -> Option<f64> {
 }
 
 /// At least one of position, velocity and acceleration must be there.
-fn checked(s: OffboardSetpoint) -> Reading {
+fn checked(s: OffboardSetpoint) -> SetpointResult {
     let wanted = s.position_m.iter().chain(&s.velocity_m_s).chain(&s.acceleration_m_s2).any(Option::is_some);
     if wanted { Ok(s) } else { Err("Set-point without position, velocity or acceleration") }
 }
 
 /// SET_POSITION_TARGET_LOCAL_NED. In the frames that move with the vehicle velocity and acceleration turn with its heading. A position in
 /// them has no meaning (PX4), or counts from where the vehicle is (ArduPilot).
-pub fn local(t: &SET_POSITION_TARGET_LOCAL_NED_DATA, view: &View) -> Reading {
+pub fn local(t: &SET_POSITION_TARGET_LOCAL_NED_DATA, view: &VehicleSnapshot) -> SetpointResult {
     use MavFrame as F;
-    let mask = Mask::of(t.type_mask)?;
+    let mask = TypeMask::of(t.type_mask)?;
     let velocity_m_s = axes([t.vx, t.vy, t.vz], mask.velocity)?;
     let acceleration_m_s2 = axes([t.afx, t.afy, t.afz], mask.acceleration)?;
     let (yaw_rad, yaw_rate_rad_s) = (angle(t.yaw, mask.yaw), rate(t.yaw_rate, mask.yaw_rate));
@@ -108,14 +108,14 @@ pub fn local(t: &SET_POSITION_TARGET_LOCAL_NED_DATA, view: &View) -> Reading {
         }
         F::MAV_FRAME_LOCAL_OFFSET_NED if view.flavour.offsets => {
             let offset = axes([t.x, t.y, t.z], mask.position)?;
-            checked(OffboardSetpoint { position_m: from_here(offset, view), ..fixed })
+            checked(OffboardSetpoint { position_m: relative_to_vehicle(offset, view), ..fixed })
         }
         F::MAV_FRAME_BODY_NED | F::MAV_FRAME_BODY_OFFSET_NED | F::MAV_FRAME_BODY_FRD => {
             let heading = view.estimate.attitude.yaw_rad();
             let offsets = view.flavour.offsets && t.coordinate_frame != F::MAV_FRAME_BODY_FRD;
             let offset = if offsets { turned(axes([t.x, t.y, t.z], mask.position)?, heading)? } else { [None; 3] };
             checked(OffboardSetpoint {
-                position_m: from_here(offset, view),
+                position_m: relative_to_vehicle(offset, view),
                 velocity_m_s: turned(velocity_m_s, heading)?,
                 acceleration_m_s2: turned(acceleration_m_s2, heading)?,
                 yaw_rad: if offsets { yaw_rad.map(|yaw| math::wrap_pi(heading + yaw)) } else { yaw_rad },
@@ -127,19 +127,19 @@ pub fn local(t: &SET_POSITION_TARGET_LOCAL_NED_DATA, view: &View) -> Reading {
 }
 
 /// A position of MAVLink's local frame in the site frame, axis by axis.
-fn from_local(local_m: Axes, view: &View) -> Axes {
+fn from_local(local_m: AxisSetpoints, view: &VehicleSnapshot) -> AxisSetpoints {
     let site_m = view.site_from_local(Vec3::assume(local_m.map(|axis| axis.unwrap_or(0.0)).into())).array();
     std::array::from_fn(|k| local_m[k].map(|_| site_m[k]))
 }
 
 /// A place at an offset from the vehicle.
-fn from_here(offset: Axes, view: &View) -> Axes {
+fn relative_to_vehicle(offset: AxisSetpoints, view: &VehicleSnapshot) -> AxisSetpoints {
     let here = view.estimate.position_m.array();
     std::array::from_fn(|k| offset[k].map(|offset| here[k] + offset))
 }
 
 /// Forward, right, down to north, east, down. Of forward and right both or neither must be given.
-fn turned(frd: Axes, heading: f64) -> Result<Axes, &'static str> {
+fn turned(frd: AxisSetpoints, heading: f64) -> Result<AxisSetpoints, &'static str> {
     let (s, c) = math::sin_cos(heading);
     match (frd[0], frd[1]) {
         (Some(f), Some(r)) => Ok([Some(c * f - s * r), Some(s * f + c * r), frd[2]]),
@@ -149,9 +149,9 @@ fn turned(frd: Axes, heading: f64) -> Result<Axes, &'static str> {
 }
 
 /// SET_POSITION_TARGET_GLOBAL_INT. Heights over terrain count from home: the vehicle has no terrain database.
-pub fn global(t: &SET_POSITION_TARGET_GLOBAL_INT_DATA, view: &View) -> Reading {
+pub fn global(t: &SET_POSITION_TARGET_GLOBAL_INT_DATA, view: &VehicleSnapshot) -> SetpointResult {
     use MavFrame as F;
-    let mask = Mask::of(t.type_mask)?;
+    let mask = TypeMask::of(t.type_mask)?;
     let origin = view.plane.origin();
     let home_up = view.status.home_m.map_or(0.0, |h| -h.down());
     let over = match t.coordinate_frame {
@@ -189,7 +189,7 @@ pub fn global(t: &SET_POSITION_TARGET_GLOBAL_INT_DATA, view: &View) -> Reading {
 
 /// SET_ATTITUDE_TARGET: an attitude with a yaw rate beside it, or body rates where the attitude is ignored; thrust 0 to 1.
 /// Where the thrust is read as a climb rate (`GUID_OPTIONS`), 0.5 keeps the height and the ends are the vertical speeds of automatic modes.
-pub fn attitude(t: &SET_ATTITUDE_TARGET_DATA, tuning: &Tuning) -> Reading {
+pub fn attitude(t: &SET_ATTITUDE_TARGET_DATA, tuning: &Tuning) -> SetpointResult {
     use AttitudeTargetTypemask as A;
     let has = |flag: A| t.type_mask.contains(flag);
     if has(A::ATTITUDE_TARGET_TYPEMASK_THRUST_BODY_SET) {

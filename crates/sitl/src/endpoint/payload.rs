@@ -1,7 +1,7 @@
 //! Camera, gimbal and lamp together, and what they have to tell.
 
 use super::camera::CameraState;
-use super::gimbal::Gimbal;
+use super::gimbal::GimbalState;
 use super::lamp::LampState;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::time::SimTime;
@@ -14,25 +14,30 @@ pub struct Payload {
     /// Camera.
     pub camera: CameraState,
     /// Gimbal.
-    pub gimbal: Gimbal,
+    pub gimbal: GimbalState,
     /// Lamp.
     pub lamp: LampState,
     /// What is to be told.
-    pub news: News,
+    pub changes: PayloadChange,
 }
 
 impl Payload {
     /// Camera in photo mode, gimbal level, lamp dark.
     #[must_use]
     pub fn new() -> Self {
-        Self { camera: CameraState::default(), gimbal: Gimbal::new(), lamp: LampState::OFF, news: News::default() }
+        Self {
+            camera: CameraState::default(),
+            gimbal: GimbalState::new(),
+            lamp: LampState::OFF,
+            changes: PayloadChange::default(),
+        }
     }
 
     /// Time passes: what moves moves, what is due is done.
     pub fn step(&mut self, camera: &Camera, position_m: Vec3<Enu>, now: SimTime, dt_s: f64) {
         self.gimbal.step(camera, position_m, dt_s);
-        self.camera.step(now, dt_s, &mut self.news);
-        self.lamp.step(now, &mut self.news);
+        self.camera.step(now, dt_s, &mut self.changes);
+        self.lamp.step(now, &mut self.changes);
     }
 }
 
@@ -44,19 +49,19 @@ impl Default for Payload {
 
 /// Messages to be said once to everybody, and warnings.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct News {
+pub struct PayloadChange {
     messages: BTreeSet<u32>,
     warnings: BTreeSet<&'static str>,
 }
 
-impl News {
+impl PayloadChange {
     /// The message with this number, as it is at the end of the tick.
-    pub fn say(&mut self, message: u32) {
+    pub fn add_message(&mut self, message: u32) {
         self.messages.insert(message);
     }
 
     /// A text.
-    pub fn warn(&mut self, text: &'static str) {
+    pub fn add_warning(&mut self, text: &'static str) {
         self.warnings.insert(text);
     }
 

@@ -1,8 +1,8 @@
 //! Parameters as a whole: told to links, kept in a file by the shell, taken over by the autopilot.
 
 use super::streams::AUTOPILOT;
-use super::{Endpoint, Wish, exchange, params};
-use crate::autopilot::{Autopilot, Request};
+use super::{Endpoint, StorageRequest, param_and_mission_services, params};
+use crate::autopilot::{Autopilot, AutopilotRequest};
 
 /// Parameters sent to a link in one tick of the list.
 const PARAMS_A_TICK: usize = 2;
@@ -24,7 +24,7 @@ impl Endpoint {
     ///
     /// # Errors
     /// Every line that is wrong; then nothing is set.
-    pub fn read_parameters(&mut self, text: &str, autopilot: &mut Autopilot) -> Result<(), Vec<params::text::Problem>> {
+    pub fn read_parameters(&mut self, text: &str, autopilot: &mut Autopilot) -> Result<(), Vec<params::text::ParamFileProblem>> {
         params::text::read(&mut self.params, text)?;
         self.parameters_changed(autopilot);
         Ok(())
@@ -36,15 +36,15 @@ impl Endpoint {
     }
 
     /// What a client wants of whoever keeps the parameters.
-    pub fn poll_storage(&mut self) -> Option<Wish> {
-        self.storage.wish.take()
+    pub fn poll_storage(&mut self) -> Option<StorageRequest> {
+        self.storage.request.take()
     }
 
     /// The geofence was switched by a command or a mission: the parameter for it follows, and everybody is told.
     pub(super) fn note_fence_switch(&mut self, enabled: bool) {
         if self.params.fence_enabled().is_some_and(|shown| shown != enabled)
-            && self.params.set_value(params::FENCE_SWITCH, params::Value::Int(i32::from(enabled))).is_ok()
-            && let Some(message) = exchange::param_named(self, params::FENCE_SWITCH)
+            && self.params.set_value(params::FENCE_SWITCH, params::ParamValue::Int(i32::from(enabled))).is_ok()
+            && let Some(message) = param_and_mission_services::param_named(self, params::FENCE_SWITCH)
         {
             self.broadcast(AUTOPILOT, &message);
         }
@@ -55,10 +55,10 @@ impl Endpoint {
         let cruise_m_s = autopilot.tuning.cruise_m_s;
         self.params.apply(&mut autopilot.tuning);
         if autopilot.tuning.cruise_m_s != cruise_m_s {
-            autopilot.request(Request::SetSpeed(None), autopilot.now());
+            autopilot.request(AutopilotRequest::SetSpeed(None), autopilot.now());
         }
         (self.flavour.tune)(&mut autopilot.tuning);
-        self.manual.let_go_s = autopilot.tuning.manual_patience_s();
+        self.manual.release_timeout_s = autopilot.tuning.manual_timeout_s();
         self.manual.policy = self.params.stick_policy();
         self.payload.camera.announced.parameter = self.params.camera_announced();
     }
@@ -80,8 +80,8 @@ impl Endpoint {
                     break;
                 }
                 let Some(index) = list.pop_front() else { break };
-                if let Some(told) = self.params.told(index) {
-                    link.send(AUTOPILOT, &exchange::param_value(told, index, count));
+                if let Some(told) = self.params.outgoing(index) {
+                    link.send(AUTOPILOT, &param_and_mission_services::param_value(told, index, count));
                 }
             }
         }

@@ -1,17 +1,19 @@
 //! What comes in: routing first, then what is meant for us, by one table of messages.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
-use super::arrival::Arrival;
 use super::camera::stream;
-use super::commands::{self, Command};
-use super::guard::Admitted;
-use super::link::Link;
+use super::commands::{self, VehicleCommand};
+use super::inbound::InboundMessage;
+use super::link::PeerLink;
+use super::signing_policy::FrameAdmission;
+use super::snapshot::VehicleSnapshot;
 use super::streams::{AUTOPILOT, CAMERA, STREAMS};
-use super::view::View;
-use super::{Context, Endpoint, LinkId, aux_functions, camera_params, control, events, exchange, ftp, shell};
+use super::{
+    CommandContext, Endpoint, LinkId, aux_functions, camera_params, control, events, ftp, param_and_mission_services, shell,
+};
 use crate::autopilot::Autopilot;
 use mavlink::MessageData;
-use spandrel_mavlink::codec::{Decoder, Received};
+use spandrel_mavlink::codec::{Decoder, ReceivedFrame};
 use spandrel_mavlink::dialect::*;
 use spandrel_mavlink::router;
 use spandrel_model::time::SimTime;
@@ -23,7 +25,7 @@ macro_rules! handlers {
         /// Numbers of all messages that the vehicle acts on; the fuzzing mutates each of them.
         pub const HANDLED: &[u32] = &[COMMAND_LONG_DATA::ID, COMMAND_INT_DATA::ID, $($data::ID),*];
 
-        fn dispatch(endpoint: &mut Endpoint, message: &MavMessage, arrival: &mut Arrival) {
+        fn dispatch(endpoint: &mut Endpoint, message: &MavMessage, arrival: &mut InboundMessage) {
             match message {
                 $(MavMessage::$name(body) => $handler(endpoint, body, arrival),)*
                 _ => {}
@@ -48,53 +50,54 @@ handlers! {
     GLOBAL_POSITION_INT GLOBAL_POSITION_INT_DATA control::other_position,
     REQUEST_EVENT REQUEST_EVENT_DATA events::request,
     SERIAL_CONTROL SERIAL_CONTROL_DATA shell::bytes,
-    TIMESYNC TIMESYNC_DATA exchange::timesync,
-    PING PING_DATA exchange::ping,
-    REQUEST_DATA_STREAM REQUEST_DATA_STREAM_DATA exchange::data_stream,
+    TIMESYNC TIMESYNC_DATA param_and_mission_services::timesync,
+    PING PING_DATA param_and_mission_services::ping,
+    REQUEST_DATA_STREAM REQUEST_DATA_STREAM_DATA param_and_mission_services::data_stream,
     FILE_TRANSFER_PROTOCOL FILE_TRANSFER_PROTOCOL_DATA ftp::request,
-    PARAM_REQUEST_LIST PARAM_REQUEST_LIST_DATA exchange::param_list,
-    PARAM_REQUEST_READ PARAM_REQUEST_READ_DATA exchange::param_read,
-    PARAM_SET PARAM_SET_DATA exchange::param_set,
+    PARAM_REQUEST_LIST PARAM_REQUEST_LIST_DATA param_and_mission_services::param_list,
+    PARAM_REQUEST_READ PARAM_REQUEST_READ_DATA param_and_mission_services::param_read,
+    PARAM_SET PARAM_SET_DATA param_and_mission_services::param_set,
     PARAM_EXT_REQUEST_LIST PARAM_EXT_REQUEST_LIST_DATA camera_params::list,
     PARAM_EXT_REQUEST_READ PARAM_EXT_REQUEST_READ_DATA camera_params::read,
     PARAM_EXT_SET PARAM_EXT_SET_DATA camera_params::set,
-    MISSION_REQUEST_LIST MISSION_REQUEST_LIST_DATA exchange::mission_list,
-    MISSION_REQUEST_INT MISSION_REQUEST_INT_DATA exchange::mission_item_int,
-    MISSION_REQUEST MISSION_REQUEST_DATA exchange::mission_item,
-    MISSION_COUNT MISSION_COUNT_DATA exchange::mission_count,
-    MISSION_ITEM_INT MISSION_ITEM_INT_DATA exchange::mission_receive_int,
-    MISSION_ITEM MISSION_ITEM_DATA exchange::mission_receive,
-    MISSION_CLEAR_ALL MISSION_CLEAR_ALL_DATA exchange::mission_clear,
-    MISSION_ACK MISSION_ACK_DATA exchange::mission_ack,
-    MISSION_SET_CURRENT MISSION_SET_CURRENT_DATA exchange::mission_set_current,
-    MISSION_REQUEST_PARTIAL_LIST MISSION_REQUEST_PARTIAL_LIST_DATA exchange::mission_request_partial,
-    MISSION_WRITE_PARTIAL_LIST MISSION_WRITE_PARTIAL_LIST_DATA exchange::mission_write_partial,
+    MISSION_REQUEST_LIST MISSION_REQUEST_LIST_DATA param_and_mission_services::mission_list,
+    MISSION_REQUEST_INT MISSION_REQUEST_INT_DATA param_and_mission_services::mission_item_int,
+    MISSION_REQUEST MISSION_REQUEST_DATA param_and_mission_services::mission_item,
+    MISSION_COUNT MISSION_COUNT_DATA param_and_mission_services::mission_count,
+    MISSION_ITEM_INT MISSION_ITEM_INT_DATA param_and_mission_services::mission_receive_int,
+    MISSION_ITEM MISSION_ITEM_DATA param_and_mission_services::mission_receive,
+    MISSION_CLEAR_ALL MISSION_CLEAR_ALL_DATA param_and_mission_services::mission_clear,
+    MISSION_ACK MISSION_ACK_DATA param_and_mission_services::mission_ack,
+    MISSION_SET_CURRENT MISSION_SET_CURRENT_DATA param_and_mission_services::mission_set_current,
+    MISSION_REQUEST_PARTIAL_LIST MISSION_REQUEST_PARTIAL_LIST_DATA param_and_mission_services::mission_request_partial,
+    MISSION_WRITE_PARTIAL_LIST MISSION_WRITE_PARTIAL_LIST_DATA param_and_mission_services::mission_write_partial,
     VIDEO_STREAM_STATUS VIDEO_STREAM_STATUS_DATA stream::status,
-    LOG_REQUEST_LIST LOG_REQUEST_LIST_DATA exchange::log_list,
-    LOG_REQUEST_DATA LOG_REQUEST_DATA_DATA exchange::log_data,
-    LOG_REQUEST_END LOG_REQUEST_END_DATA exchange::log_end,
-    LOG_ERASE LOG_ERASE_DATA exchange::log_erase,
+    LOG_REQUEST_LIST LOG_REQUEST_LIST_DATA param_and_mission_services::log_list,
+    LOG_REQUEST_DATA LOG_REQUEST_DATA_DATA param_and_mission_services::log_data,
+    LOG_REQUEST_END LOG_REQUEST_END_DATA param_and_mission_services::log_end,
+    LOG_ERASE LOG_ERASE_DATA param_and_mission_services::log_erase,
 }
 
 impl Endpoint {
     /// The tokens of lockstep answers to us in a datagram, of those who may speak. It acts later, by `receive`.
     #[must_use]
-    pub fn answers(&self, id: LinkId, bytes: &[u8]) -> Vec<i64> {
+    pub fn lockstep_answers(&self, id: LinkId, bytes: &[u8]) -> Vec<i64> {
         let Some(link) = self.links.get(&id) else { return Vec::new() };
         // A copy judges: what it remembers of the frame must not make it a repetition when it acts.
         let mut guard = self.guard.clone();
-        let mut admitted = |frame: &Received| guard.as_mut().map_or(Admitted::Acts, |guard| guard.admit(frame, link.kind));
+        let mut admitted =
+            |frame: &ReceivedFrame| guard.as_mut().map_or(FrameAdmission::Execute, |guard| guard.admit(frame, link.kind));
         let frames = Decoder::new().datagram(bytes);
         frames
             .iter()
             .filter_map(|frame| Some((frame, self.step_token(link, frame)?)))
-            .filter(|(frame, _)| admitted(frame) == Admitted::Acts)
+            .filter(|(frame, _)| admitted(frame) == FrameAdmission::Execute)
             .map(|(_, token)| token)
             .collect()
     }
 
     /// The token of a frame that answers our question on a link in step; answers to others go their way.
-    fn step_token(&self, link: &Link, frame: &Received) -> Option<i64> {
+    fn step_token(&self, link: &PeerLink, frame: &ReceivedFrame) -> Option<i64> {
         let Some(MavMessage::TIMESYNC(sync)) = &frame.message else { return None };
         let (system, component) = router::target(frame);
         let ours = system == 0 || (system == self.system_id && matches!(component, 0 | AUTOPILOT));
@@ -102,30 +105,32 @@ impl Endpoint {
     }
 
     /// Reads a datagram of a link.
-    pub fn receive(&mut self, id: LinkId, bytes: &[u8], view: &View, autopilot: &mut Autopilot) {
+    pub fn receive(&mut self, id: LinkId, bytes: &[u8], view: &VehicleSnapshot, autopilot: &mut Autopilot) {
         let Some(link) = self.links.get_mut(&id) else { return };
         let before = link.decoder.bad_bytes();
         let kind = link.kind;
         let frames = link.decoder.datagram(bytes);
         self.bad_bytes += link.decoder.bad_bytes() - before;
         for frame in frames {
-            let admitted = self.guard.as_mut().map_or(Admitted::Acts, |guard| guard.admit(&frame, kind));
-            if admitted == Admitted::Acts && self.links.get(&id).is_some_and(|link| self.step_token(link, &frame).is_some()) {
+            let admitted = self.guard.as_mut().map_or(FrameAdmission::Execute, |guard| guard.admit(&frame, kind));
+            if admitted == FrameAdmission::Execute
+                && self.links.get(&id).is_some_and(|link| self.step_token(link, &frame).is_some())
+            {
                 self.join(id);
                 continue;
             }
-            if admitted != Admitted::No {
+            if admitted != FrameAdmission::Reject {
                 self.wake(id, &frame, view.now);
                 self.route(id, &frame, view.now);
             }
-            if admitted == Admitted::Acts {
-                self.act(id, &frame, view, autopilot);
+            if admitted == FrameAdmission::Execute {
+                self.handle_frame(id, &frame, view, autopilot);
             }
         }
     }
 
     /// A heartbeat that comes in lets the streams out.
-    fn wake(&mut self, from: LinkId, frame: &Received, now: SimTime) {
+    fn wake(&mut self, from: LinkId, frame: &ReceivedFrame, now: SimTime) {
         if frame.message_id == HEARTBEAT_DATA::ID
             && let Some(link) = self.links.get_mut(&from)
         {
@@ -133,27 +138,27 @@ impl Endpoint {
         }
     }
 
-    fn route(&mut self, from: LinkId, frame: &Received, now: SimTime) {
+    fn route(&mut self, from: LinkId, frame: &ReceivedFrame, now: SimTime) {
         // Nobody may speak in our own components' names.
         if frame.system_id == self.system_id && matches!(frame.component_id, AUTOPILOT | CAMERA) {
             return;
         }
         self.router.note(from, frame);
         let all: Vec<LinkId> = self.links.keys().copied().collect();
-        let onward = self.router.onward(from, frame, &all);
-        if onward.is_empty() || !self.links.get_mut(&from).is_some_and(|link| link.may_hand_on(now)) {
+        let onward = self.router.targets_of(from, frame, &all);
+        if onward.is_empty() || !self.links.get_mut(&from).is_some_and(|link| link.may_forward(now)) {
             return;
         }
         for onward in onward {
             let to_all = router::target(frame).0 == 0;
-            if let Some(link) = self.links.get_mut(&onward).filter(|link| !(link.quiet && to_all)) {
-                link.hand_on(frame.bytes.clone());
+            if let Some(link) = self.links.get_mut(&onward).filter(|link| !(link.answers_only && to_all)) {
+                link.forward(frame.bytes.clone());
             }
         }
     }
 
     /// Keeps what acts on the vehicle for the digest: who sent what. Sequence numbers and checksums do nothing, nor do a client's clocks.
-    fn note_act(&mut self, frame: &Received) {
+    fn record_for_digest(&mut self, frame: &ReceivedFrame) {
         let clocked = match frame.message_id {
             // Questions about clocks: their answers change nothing of the vehicle, and they hold wall time.
             TIMESYNC_DATA::ID | PING_DATA::ID => return,
@@ -170,12 +175,12 @@ impl Endpoint {
     }
 
     /// What has acted on the vehicle since the last call, for the digest.
-    pub fn take_acted(&mut self) -> Vec<u8> {
+    pub fn take_digest_input(&mut self) -> Vec<u8> {
         std::mem::take(&mut self.acted)
     }
 
     /// Everything is the autopilot's component's; the camera's takes commands, and has settings and a file of its own.
-    fn act(&mut self, id: LinkId, frame: &Received, view: &View, autopilot: &mut Autopilot) {
+    fn handle_frame(&mut self, id: LinkId, frame: &ReceivedFrame, view: &VehicleSnapshot, autopilot: &mut Autopilot) {
         let (system, component) = router::target(frame);
         if system != 0 && system != self.system_id {
             return;
@@ -185,20 +190,20 @@ impl Endpoint {
         {
             link.use_camera();
         }
-        self.note_act(frame);
-        let mut arrival = Arrival { link: id, from: (frame.system_id, frame.component_id), view, autopilot };
-        match (component, Command::of(frame)) {
+        self.record_for_digest(frame);
+        let mut arrival = InboundMessage { link: id, from: (frame.system_id, frame.component_id), view, autopilot };
+        match (component, VehicleCommand::of(frame)) {
             (0 | AUTOPILOT | CAMERA, Some(command)) => self.command(&command, &mut arrival),
             (0 | AUTOPILOT, None) => match &frame.message {
                 Some(message) => dispatch(self, message, &mut arrival),
-                None => self.unreadable(frame, &mut arrival),
+                None => self.answer_unreadable(frame, &mut arrival),
             },
-            (CAMERA, None) => self.act_as_camera(frame, &mut arrival),
+            (CAMERA, None) => self.handle_camera_frame(frame, &mut arrival),
             _ => {}
         }
     }
 
-    fn act_as_camera(&mut self, frame: &Received, a: &mut Arrival) {
+    fn handle_camera_frame(&mut self, frame: &ReceivedFrame, a: &mut InboundMessage) {
         match &frame.message {
             Some(MavMessage::FILE_TRANSFER_PROTOCOL(request)) => ftp::request_of_camera(self, request, a),
             Some(
@@ -212,10 +217,10 @@ impl Endpoint {
     }
 
     /// Carries out a command, whether it came by the wire or by a button; `None` when its link is gone.
-    pub(super) fn obey(&mut self, command: &Command, a: &mut Arrival) -> Option<MavResult> {
+    pub(super) fn execute(&mut self, command: &VehicleCommand, a: &mut InboundMessage) -> Option<MavResult> {
         let link = self.links.get_mut(&a.link)?;
-        let mut context = Context {
-            view: a.view.with(&self.payload).towards(link.kind),
+        let mut context = CommandContext {
+            view: a.view.with_payload(&self.payload).for_link(link.kind),
             autopilot: &mut *a.autopilot,
             payload: &mut self.payload,
             link,
@@ -224,7 +229,7 @@ impl Endpoint {
             storage: &mut self.storage,
             restart: &mut self.restart,
             faults: &mut self.injections,
-            chosen: &mut self.chosen,
+            requested_mode: &mut self.chosen,
             report: &mut self.events.asked,
             calibration: &mut self.calibration,
         };
@@ -236,10 +241,10 @@ impl Endpoint {
         Some(result)
     }
 
-    fn command(&mut self, command: &Command, a: &mut Arrival) {
+    fn command(&mut self, command: &VehicleCommand, a: &mut InboundMessage) {
         let done = match aux_functions::command(self, command, a) {
             Some(result) => Some(result),
-            None => self.obey(command, a),
+            None => self.execute(command, a),
         };
         let Some(result) = done else { return };
         let component = if command.component == CAMERA { CAMERA } else { AUTOPILOT };
@@ -248,7 +253,7 @@ impl Endpoint {
         let payload = [number[0], number[1], result as u8, 0, 0, 0, 0, 0, command.from.0, command.from.1];
         if let Some(link) = self.links.get_mut(&a.link) {
             link.send_payload(component, COMMAND_ACK, &payload);
-            let view = a.view.with(&self.payload).towards(link.kind);
+            let view = a.view.with_payload(&self.payload).for_link(link.kind);
             for row in std::mem::take(&mut link.after_acknowledgement) {
                 if let Some(message) = STREAMS[row].build(&view) {
                     link.send(STREAMS[row].component, &message);
@@ -258,19 +263,19 @@ impl Endpoint {
     }
 
     /// Bodies with a number that the dialect's enumerations do not know are answered all the same.
-    fn unreadable(&mut self, frame: &Received, a: &mut Arrival) {
+    fn answer_unreadable(&mut self, frame: &ReceivedFrame, a: &mut InboundMessage) {
         let p = frame.payload(255);
         match frame.message_id {
             SET_MODE_DATA::ID => control::enter_mode(self, u32::from_le_bytes([p[0], p[1], p[2], p[3]]), a),
             SET_POSITION_TARGET_LOCAL_NED_DATA::ID | SET_POSITION_TARGET_GLOBAL_INT_DATA::ID => {
-                self.complain("Set-point in a frame that is not supported", a.view.now);
+                self.warn_all("Set-point in a frame that is not supported", a.view.now);
             }
-            MISSION_ITEM_INT_DATA::ID | MISSION_ITEM_DATA::ID => exchange::unknown_item(self, p[37], a),
-            MISSION_REQUEST_LIST_DATA::ID | MISSION_CLEAR_ALL_DATA::ID => exchange::unknown_plan(self, p[2], a),
+            MISSION_ITEM_INT_DATA::ID | MISSION_ITEM_DATA::ID => param_and_mission_services::unknown_item(self, p[37], a),
+            MISSION_REQUEST_LIST_DATA::ID | MISSION_CLEAR_ALL_DATA::ID => param_and_mission_services::unknown_plan(self, p[2], a),
             MISSION_COUNT_DATA::ID | MISSION_REQUEST_INT_DATA::ID | MISSION_REQUEST_DATA::ID => {
-                exchange::unknown_plan(self, p[4], a);
+                param_and_mission_services::unknown_plan(self, p[4], a);
             }
-            PARAM_SET_DATA::ID => exchange::unknown_type(self, &p[6..22], a),
+            PARAM_SET_DATA::ID => param_and_mission_services::unknown_type(self, &p[6..22], a),
             _ => {}
         }
     }

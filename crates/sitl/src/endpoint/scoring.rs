@@ -2,22 +2,22 @@
 //! change and at rates of their own.
 
 use super::Endpoint;
+use super::snapshot::VehicleSnapshot;
 use super::streams::AUTOPILOT;
-use super::view::View;
 use spandrel_mavlink::contract::named::Named;
 use spandrel_mavlink::dialect::MavMessage;
 use spandrel_model::time::{Schedule, SimTime};
 
 /// When each is due.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct TruthRates {
+pub(super) struct TruthSchedule {
     contact: Schedule,
     clearance: Schedule,
     lux: Schedule,
     slow: Schedule,
 }
 
-impl TruthRates {
+impl TruthSchedule {
     /// The design's rates; everything is due at once.
     pub(super) fn new() -> Self {
         let at = |hz| Schedule::new(SimTime::ZERO, hz);
@@ -28,7 +28,7 @@ impl TruthRates {
 impl Endpoint {
     /// Named values for the scoring: contact on change and at 10 Hz, hits, respawns and traffic on change and with the slow
     /// ones.
-    pub(super) fn truth(&mut self, view: &View) {
+    pub(super) fn truth(&mut self, view: &VehicleSnapshot) {
         let s = view.scoring;
         let rates = &mut self.truth_rates;
         let mut out = Vec::new();
@@ -49,8 +49,8 @@ impl Endpoint {
         if slow {
             out.push(Named::Seed(s.seed.cast_unsigned()));
             out.push(Named::ScenarioCrc(s.scenario_crc));
-            if self.pace != 1.0 {
-                out.push(Named::Pace(self.pace));
+            if self.speed_factor != 1.0 {
+                out.push(Named::Pace(self.speed_factor));
             }
         }
         if rates.clearance.fire(view.now) {

@@ -2,9 +2,9 @@
 
 mod topics;
 
-use super::arrival::Arrival;
-use super::commands::Command;
-use super::params::Value;
+use super::commands::VehicleCommand;
+use super::inbound::InboundMessage;
+use super::params::ParamValue;
 use super::streams::AUTOPILOT;
 use super::{Endpoint, LinkId};
 use spandrel_mavlink::dialect::{MavCmd, MavMessage, MavResult, SERIAL_CONTROL_DATA, SerialControlDev, SerialControlFlag};
@@ -35,24 +35,24 @@ const MODES: [(&str, f64, f64); 11] = [
 ];
 
 /// Who talks to the shell.
-type Sender = (LinkId, (u8, u8));
+type ShellClient = (LinkId, (u8, u8));
 
 /// The shell's state. One talks to it at a time, as to PX4's: who types takes it over.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Shell {
-    user: Option<Sender>,
+pub struct NshShell {
+    user: Option<ShellClient>,
     line: String,
     out: VecDeque<u8>,
 }
 
-impl Shell {
+impl NshShell {
     fn print(&mut self, text: &str) {
         let room = MOST_WAITING.saturating_sub(self.out.len());
         self.out.extend(text.bytes().take(room));
     }
 
     /// A link is gone.
-    pub fn forget(&mut self, link: LinkId) {
+    pub fn disconnect(&mut self, link: LinkId) {
         if self.user.is_some_and(|(known, _)| known == link) {
             *self = Self::default();
         }
@@ -60,7 +60,7 @@ impl Shell {
 }
 
 /// Bytes for the shell. Without the flags that ask for a reply it is closed.
-pub(super) fn bytes(e: &mut Endpoint, m: &SERIAL_CONTROL_DATA, a: &mut Arrival) {
+pub(super) fn bytes(e: &mut Endpoint, m: &SERIAL_CONTROL_DATA, a: &mut InboundMessage) {
     let ours = m.device == SerialControlDev::SERIAL_CONTROL_DEV_SHELL && e.flavour.shell;
     if !ours || m.flags.contains(SerialControlFlag::SERIAL_CONTROL_FLAG_REPLY) {
         return;
@@ -68,19 +68,19 @@ pub(super) fn bytes(e: &mut Endpoint, m: &SERIAL_CONTROL_DATA, a: &mut Arrival) 
     let from = (a.link, a.from);
     if !m.flags.contains(SerialControlFlag::SERIAL_CONTROL_FLAG_RESPOND) {
         if e.shell.user == Some(from) {
-            e.shell = Shell::default();
+            e.shell = NshShell::default();
         }
         return;
     }
     if e.shell.user != Some(from) {
-        e.shell = Shell { user: Some(from), ..Shell::default() };
+        e.shell = NshShell { user: Some(from), ..NshShell::default() };
         e.shell.print(PROMPT);
     }
     let data = &m.data[..usize::from(m.count).min(CHUNK)];
     for character in String::from_utf8_lossy(data).chars() {
         match character {
             '\n' | '\r' if e.shell.line.is_empty() && character == '\r' => {}
-            '\n' | '\r' => enter(e, a),
+            '\n' | '\r' => run_line(e, a),
             '\u{8}' | '\u{7f}' => {
                 e.shell.line.pop();
             }
@@ -94,7 +94,7 @@ pub(super) fn bytes(e: &mut Endpoint, m: &SERIAL_CONTROL_DATA, a: &mut Arrival) 
 }
 
 /// Carries out the line.
-fn enter(e: &mut Endpoint, a: &mut Arrival) {
+fn run_line(e: &mut Endpoint, a: &mut InboundMessage) {
     let line = std::mem::take(&mut e.shell.line);
     let words: Vec<&str> = line.split_whitespace().collect();
     let output = match words.split_first() {
@@ -132,10 +132,10 @@ fn version(e: &Endpoint, rest: &[&str]) -> String {
     }
 }
 
-fn parameters(e: &mut Endpoint, rest: &[&str], a: &mut Arrival) -> String {
-    let shown = |(name, value): (&str, Value)| match value {
-        Value::Int(whole) => format!("x   {name} : {whole}\n"),
-        Value::Real(real) => format!("x   {name} : {real:.4}\n"),
+fn parameters(e: &mut Endpoint, rest: &[&str], a: &mut InboundMessage) -> String {
+    let shown = |(name, value): (&str, ParamValue)| match value {
+        ParamValue::Int(whole) => format!("x   {name} : {whole}\n"),
+        ParamValue::Real(real) => format!("x   {name} : {real:.4}\n"),
     };
     match rest {
         ["show"] | ["show", _] => {
@@ -153,11 +153,11 @@ fn parameters(e: &mut Endpoint, rest: &[&str], a: &mut Arrival) -> String {
     }
 }
 
-fn set_parameter(e: &mut Endpoint, name: &str, value: &str, a: &mut Arrival) -> String {
+fn set_parameter(e: &mut Endpoint, name: &str, value: &str, a: &mut InboundMessage) -> String {
     let Some((_, _, before)) = e.params.find(name) else { return format!("ERROR: parameter {name} not found\n") };
     let parsed = match before {
-        Value::Int(_) => value.parse().ok().map(Value::Int),
-        Value::Real(_) => value.parse().ok().map(Value::Real),
+        ParamValue::Int(_) => value.parse().ok().map(ParamValue::Int),
+        ParamValue::Real(_) => value.parse().ok().map(ParamValue::Real),
     };
     let Some(parsed) = parsed else { return format!("ERROR: {value} is no value for {name}\n") };
     if e.params.set_value(name, parsed).is_err() {
@@ -168,7 +168,7 @@ fn set_parameter(e: &mut Endpoint, name: &str, value: &str, a: &mut Arrival) -> 
     format!("  {name}: curr: {value}\n")
 }
 
-fn commander(e: &mut Endpoint, rest: &[&str], a: &mut Arrival) -> String {
+fn commander(e: &mut Endpoint, rest: &[&str], a: &mut InboundMessage) -> String {
     let forced = |rest: &[&str]| if rest.contains(&"-f") { 21_196.0 } else { 0.0 };
     let order = match rest {
         ["arm", more @ ..] => (MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [1.0, forced(more), 0.0]),
@@ -188,22 +188,22 @@ fn commander(e: &mut Endpoint, rest: &[&str], a: &mut Arrival) -> String {
     let p = [p0, p1, p2, nan, nan, nan, nan];
     let number = number as u16;
     let command =
-        Command { number, p, frame: 0, component: AUTOPILOT, system: e.system_id, from: a.from, whole: false, own: false };
-    match e.obey(&command, a) {
+        VehicleCommand { number, p, frame: 0, component: AUTOPILOT, system: e.system_id, from: a.from, whole: false, own: false };
+    match e.execute(&command, a) {
         Some(MavResult::MAV_RESULT_ACCEPTED) => String::new(),
         Some(result) => format!("Command failed: {result:?}\n"),
         None => String::new(),
     }
 }
 
-fn check(a: &Arrival) -> String {
+fn check(a: &InboundMessage) -> String {
     let reasons = &a.view.status.arming_reasons;
     let lines: Vec<String> = reasons.iter().map(|reason| format!("WARN: Preflight Fail: {reason}\n")).collect();
     let verdict = if reasons.is_empty() { "OK" } else { "FAILED" };
     format!("{}Preflight check: {verdict}\n", lines.concat())
 }
 
-fn status(a: &Arrival) -> String {
+fn status(a: &InboundMessage) -> String {
     let s = a.view.status;
     let armed = if s.armed { "Armed" } else { "Disarmed" };
     let failsafe = s.failsafe.as_deref().unwrap_or("none");

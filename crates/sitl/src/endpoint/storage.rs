@@ -1,13 +1,13 @@
 //! Keeping parameters beyond a run: the shell holds the file, clients ask for it by PREFLIGHT_STORAGE.
 
-use super::Context;
-use super::commands::Command;
+use super::CommandContext;
+use super::commands::VehicleCommand;
 use super::params::Params;
 use spandrel_mavlink::dialect::MavResult;
 
 /// What a client wants of the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Wish {
+pub enum StorageRequest {
     /// Read it again.
     Load,
     /// Write it.
@@ -16,15 +16,15 @@ pub enum Wish {
 
 /// Who keeps the parameters, and what they were at first.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Storage {
+pub struct ParamStorage {
     /// The shell has a file.
     pub kept: bool,
     /// What is to be done with it.
-    pub wish: Option<Wish>,
+    pub request: Option<StorageRequest>,
     defaults: Params,
 }
 
-impl Storage {
+impl ParamStorage {
     /// What they were at first.
     #[must_use]
     pub fn defaults(&self) -> &Params {
@@ -34,15 +34,15 @@ impl Storage {
     /// Nobody keeps them.
     #[must_use]
     pub fn new(defaults: Params) -> Self {
-        Self { kept: false, wish: None, defaults }
+        Self { kept: false, request: None, defaults }
     }
 }
 
 /// PREFLIGHT_STORAGE: parameter 1 is 0 to read the file, 1 to write it, 2 for the defaults (MAVLink common).
-pub(super) fn preflight(c: &Command, x: &mut Context) -> MavResult {
+pub(super) fn preflight(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
     let wish = match c.p[0] {
-        0.0 => Wish::Load,
-        1.0 => Wish::Save,
+        0.0 => StorageRequest::Load,
+        1.0 => StorageRequest::Save,
         2.0 => {
             x.params.reset(&x.storage.defaults);
             return MavResult::MAV_RESULT_ACCEPTED;
@@ -52,9 +52,9 @@ pub(super) fn preflight(c: &Command, x: &mut Context) -> MavResult {
         _ => return MavResult::MAV_RESULT_DENIED,
     };
     if !x.storage.kept {
-        x.tell("No parameter file: start with --params FILE");
+        x.warn_all("No parameter file: start with --params FILE");
         return MavResult::MAV_RESULT_DENIED;
     }
-    x.storage.wish = Some(wish);
+    x.storage.request = Some(wish);
     MavResult::MAV_RESULT_ACCEPTED
 }

@@ -7,32 +7,32 @@ mod topics;
 pub mod ulog;
 
 use super::endpoint::params;
-use super::endpoint::view::View;
-use row::Row;
-use scene::Scene;
-use spandrel_model::foxglove::Message;
+use super::endpoint::snapshot::VehicleSnapshot;
+use row::LogRow;
+use scene::FoxgloveScene;
+use spandrel_model::foxglove::ChannelMessage;
 use spandrel_model::time::{Schedule, SimTime};
 use std::collections::VecDeque;
 use topics::TOPICS;
-use ulog::{Value, Writer};
+use ulog::{UlogValue, UlogWriter};
 
 /// Turns instants of the vehicle into bytes of a log.
 #[derive(Debug, Clone)]
-pub struct Log {
-    writer: Writer,
+pub struct FlightLogEncoder {
+    writer: UlogWriter,
     due: Vec<Schedule>,
 }
 
-impl Log {
+impl FlightLogEncoder {
     /// Begins a log: what it is, the parameters as they are, and what the rows hold.
-    pub fn begin<'a>(view: &View, version: &str, parameters: impl Iterator<Item = (&'a str, Value<'a>)>) -> Self {
-        let mut writer = Writer::default();
+    pub fn begin<'a>(view: &VehicleSnapshot, version: &str, parameters: impl Iterator<Item = (&'a str, UlogValue<'a>)>) -> Self {
+        let mut writer = UlogWriter::default();
         writer.begin(view.sim_us());
         let hardware = format!("Spandrel SITL, {}", view.vehicle.name);
-        writer.information("sys_name", Value::Text("Spandrel"));
-        writer.information("ver_sw", Value::Text(version));
-        writer.information("ver_hw", Value::Text(&hardware));
-        writer.information("time_ref_utc", Value::Int(0));
+        writer.information("sys_name", UlogValue::Text("Spandrel"));
+        writer.information("ver_sw", UlogValue::Text(version));
+        writer.information("ver_hw", UlogValue::Text(&hardware));
+        writer.information("time_ref_utc", UlogValue::Int(0));
         for topic in TOPICS {
             writer.format(topic.name, &format!("uint64_t timestamp;{}", topic.fields));
         }
@@ -47,12 +47,12 @@ impl Log {
     }
 
     /// Writes the rows that are due; the last of a log are due whatever the time.
-    pub fn observe(&mut self, view: &View, last: bool) {
+    pub fn observe(&mut self, view: &VehicleSnapshot, last: bool) {
         for ((number, topic), due) in (0u16..).zip(TOPICS).zip(&mut self.due) {
             if !due.fire(view.now) && !last {
                 continue;
             }
-            let mut row = Row::at(view.sim_us());
+            let mut row = LogRow::at(view.sim_us());
             if (topic.fill)(view, &mut row).is_some() {
                 self.writer.row(number, row.bytes());
             }
@@ -66,7 +66,7 @@ impl Log {
 
     /// Bytes that have gathered.
     #[must_use]
-    pub fn gathered(&self) -> usize {
+    pub fn take_bytes(&self) -> usize {
         self.writer.gathered()
     }
 
@@ -76,71 +76,71 @@ impl Log {
     }
 }
 
-impl From<params::Value> for Value<'_> {
-    fn from(value: params::Value) -> Self {
+impl From<params::ParamValue> for UlogValue<'_> {
+    fn from(value: params::ParamValue) -> Self {
         match value {
-            params::Value::Int(value) => Self::Int(value),
-            params::Value::Real(value) => Self::Real(value),
+            params::ParamValue::Int(value) => Self::Int(value),
+            params::ParamValue::Real(value) => Self::Real(value),
         }
     }
 }
 
 /// What a recorder has for whoever keeps files.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Piece {
+pub enum LogOutput {
     /// A new log begins; it is named after this UTC, microseconds since the Unix epoch.
     Begin(u64),
     /// Bytes for the end of the ULog.
     Bytes(Vec<u8>),
     /// A message of the recording beside it.
-    Message(Message),
+    Message(ChannelMessage),
     /// It is whole.
     End,
 }
 
 /// Keeps a log from arming to disarming, once it is asked to.
 #[derive(Debug, Clone, Default)]
-pub struct Recorder {
+pub struct FlightRecorder {
     on: bool,
-    log: Option<(Log, Scene)>,
-    out: VecDeque<Piece>,
+    log: Option<(FlightLogEncoder, FoxgloveScene)>,
+    out: VecDeque<LogOutput>,
 }
 
 /// Bytes that gather before they are handed out.
 const PIECE: usize = 16_384;
 
-impl Recorder {
+impl FlightRecorder {
     /// Logs are wanted from now on.
-    pub fn turn_on(&mut self) {
+    pub fn enable(&mut self) {
         self.on = true;
     }
 
     /// One instant of the vehicle, with what was said in it.
-    pub fn observe<'a, P>(&mut self, view: &View, texts: &[(u8, &str)], parameters: impl Fn() -> P)
+    pub fn observe<'a, P>(&mut self, view: &VehicleSnapshot, texts: &[(u8, &str)], parameters: impl Fn() -> P)
     where
-        P: Iterator<Item = (&'a str, Value<'a>)>,
+        P: Iterator<Item = (&'a str, UlogValue<'a>)>,
     {
         if !self.on {
             return;
         }
         if self.log.is_none() && view.status.armed {
-            self.out.push_back(Piece::Begin(view.unix_us()));
-            let log = Log::begin(view, env!("CARGO_PKG_VERSION"), parameters());
-            self.log = Some((log, Scene::begin(view)));
+            self.out.push_back(LogOutput::Begin(view.unix_us()));
+            let log = FlightLogEncoder::begin(view, env!("CARGO_PKG_VERSION"), parameters());
+            self.log = Some((log, FoxgloveScene::begin(view)));
         }
         let Some((log, scene)) = &mut self.log else { return };
         for (severity, text) in texts {
             log.text(*severity, view.now, text);
-            self.out.push_back(Piece::Message(scene.text(*severity, view.now, text)));
+            self.out.push_back(LogOutput::Message(scene.text(*severity, view.now, text)));
         }
         log.observe(view, !view.status.armed);
-        self.out.extend(scene.observe(view).into_iter().map(Piece::Message));
-        if log.gathered() >= PIECE || !view.status.armed {
-            self.out.push_back(Piece::Bytes(log.take()));
+        self.out.extend(scene.observe(view).into_iter().map(LogOutput::Message));
+        if log.take_bytes() >= PIECE || !view.status.armed {
+            self.out.push_back(LogOutput::Bytes(log.take()));
         }
         if !view.status.armed {
             self.log = None;
-            self.out.push_back(Piece::End);
+            self.out.push_back(LogOutput::End);
         }
     }
 
@@ -148,12 +148,12 @@ impl Recorder {
     pub fn stop(&mut self) {
         self.on = false;
         if let Some((mut log, _)) = self.log.take() {
-            self.out.extend([Piece::Bytes(log.take()), Piece::End]);
+            self.out.extend([LogOutput::Bytes(log.take()), LogOutput::End]);
         }
     }
 
     /// The next piece.
-    pub fn poll(&mut self) -> Option<Piece> {
+    pub fn poll(&mut self) -> Option<LogOutput> {
         self.out.pop_front()
     }
 }

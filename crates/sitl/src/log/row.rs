@@ -4,11 +4,11 @@ use spandrel_model::frames::{Rotation, Vec3};
 
 /// Bytes of a row under way.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Row {
+pub struct LogRow {
     bytes: Vec<u8>,
 }
 
-impl Row {
+impl LogRow {
     /// A row that begins with its timestamp, microseconds.
     #[must_use]
     pub fn at(us: u64) -> Self {

@@ -1,7 +1,7 @@
 //! The flight for Foxglove: where drone and camera are, truth and estimate, battery, what the scores are made of, and every text.
 
-use super::super::endpoint::view::View;
-use spandrel_model::foxglove::{self, Message, Pose};
+use super::super::endpoint::snapshot::VehicleSnapshot;
+use spandrel_model::foxglove::{self, ChannelMessage, FramePose};
 use spandrel_model::time::{Schedule, SimTime};
 use std::collections::VecDeque;
 
@@ -10,14 +10,14 @@ const RATES_HZ: [f64; 4] = [25.0, 5.0, 10.0, 1.0];
 
 /// What is due when.
 #[derive(Debug, Clone)]
-pub struct Scene {
+pub struct FoxgloveScene {
     due: [Schedule; 4],
     start_unix_s: i64,
 }
 
-impl Scene {
+impl FoxgloveScene {
     /// From now on.
-    pub fn begin(view: &View) -> Self {
+    pub fn begin(view: &VehicleSnapshot) -> Self {
         Self { due: RATES_HZ.map(|rate| Schedule::new(view.now, rate)), start_unix_s: view.start_unix_s }
     }
 
@@ -26,12 +26,12 @@ impl Scene {
     }
 
     /// A text with MAVLink's severity.
-    pub fn text(&self, severity: u8, now: SimTime, text: &str) -> Message {
+    pub fn text(&self, severity: u8, now: SimTime, text: &str) -> ChannelMessage {
         foxglove::log(self.unix_ns(now), severity, text)
     }
 
     /// What is due at an instant.
-    pub fn observe(&mut self, view: &View) -> VecDeque<Message> {
+    pub fn observe(&mut self, view: &VehicleSnapshot) -> VecDeque<ChannelMessage> {
         let at = self.unix_ns(view.now);
         let [frames, fixes, scoring, slow] = self.due.each_mut().map(|due| due.fire(view.now));
         let mut out = VecDeque::new();
@@ -43,10 +43,10 @@ impl Scene {
         }
         if scoring {
             let s = view.scoring;
-            let values = foxglove::Scoring {
+            let values = foxglove::ScoringSignals {
                 clearance_m: s.clearance_m,
                 lux: Some(s.lux),
-                contact: s.contact.word(),
+                contact: s.contact.label(),
                 hits: s.hits,
                 respawns: s.respawns,
                 lamp_on: view.lamp.on,
@@ -64,12 +64,12 @@ impl Scene {
     }
 }
 
-fn transforms(view: &View, at: u64) -> Message {
+fn transforms(view: &VehicleSnapshot, at: u64) -> ChannelMessage {
     let (truth, believed) = (view.truth, view.estimate);
-    let camera = Pose::camera(truth.position_m, truth.attitude, view.vehicle.camera.position_m, view.gimbal.pitch_rad);
+    let camera = FramePose::camera(truth.position_m, truth.attitude, view.vehicle.camera.position_m, view.gimbal.pitch_rad);
     let frames = [
-        (foxglove::DRONE, Pose::drone(truth.position_m, truth.attitude)),
-        (foxglove::BELIEVED, Pose::drone(believed.position_m, believed.attitude)),
+        (foxglove::DRONE, FramePose::drone(truth.position_m, truth.attitude)),
+        (foxglove::BELIEVED, FramePose::drone(believed.position_m, believed.attitude)),
         (foxglove::CAMERA, camera),
     ];
     foxglove::transforms(at, &frames)

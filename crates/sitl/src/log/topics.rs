@@ -1,13 +1,13 @@
 //! What is logged: one row of the table a topic, with PX4's names, so that PX4's tools draw the usual pictures.
 
-use super::row::Row;
-use crate::autopilot::{Landed, Mode};
-use crate::endpoint::view::View;
+use super::row::LogRow;
+use crate::autopilot::{FlightMode, LandedState};
+use crate::endpoint::snapshot::VehicleSnapshot;
 use spandrel_model::geodesy::Geo;
 
 /// A topic.
 #[derive(Debug, Clone, Copy)]
-pub struct Topic {
+pub struct UlogTopic {
     /// PX4's name, or our own.
     pub name: &'static str,
     /// Fields after the timestamp.
@@ -15,15 +15,20 @@ pub struct Topic {
     /// Rows a second of simulation time.
     pub rate_hz: f64,
     /// Adds the fields to a row; `None` when there is nothing to say.
-    pub fill: fn(&View, &mut Row) -> Option<()>,
+    pub fill: fn(&VehicleSnapshot, &mut LogRow) -> Option<()>,
 }
 
-const fn topic(name: &'static str, rate_hz: f64, fields: &'static str, fill: fn(&View, &mut Row) -> Option<()>) -> Topic {
-    Topic { name, fields, rate_hz, fill }
+const fn topic(
+    name: &'static str,
+    rate_hz: f64,
+    fields: &'static str,
+    fill: fn(&VehicleSnapshot, &mut LogRow) -> Option<()>,
+) -> UlogTopic {
+    UlogTopic { name, fields, rate_hz, fill }
 }
 
 /// All of them.
-pub const TOPICS: &[Topic] = &[
+pub const TOPICS: &[UlogTopic] = &[
     topic("sensor_combined", 250.0, "float[3] gyro_rad;float[3] accelerometer_m_s2;", sensor_combined),
     topic("vehicle_angular_velocity", 250.0, "float[3] xyz;", angular_velocity),
     topic("vehicle_attitude", 100.0, "float[4] q;", attitude),
@@ -67,28 +72,28 @@ pub const TOPICS: &[Topic] = &[
     ),
 ];
 
-fn sensor_combined(v: &View, row: &mut Row) -> Option<()> {
+fn sensor_combined(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     let imu = v.readings.imu.as_ref()?;
     row.vec(imu.rates_rad_s).vec(imu.specific_force_m_s2);
     Some(())
 }
 
-fn angular_velocity(v: &View, row: &mut Row) -> Option<()> {
+fn angular_velocity(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     row.vec(v.estimate.rates_rad_s);
     Some(())
 }
 
-fn attitude(v: &View, row: &mut Row) -> Option<()> {
+fn attitude(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     row.quaternion(v.estimate.attitude);
     v.estimate.attitude_valid.then_some(())
 }
 
-fn attitude_setpoint(v: &View, row: &mut Row) -> Option<()> {
+fn attitude_setpoint(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     row.quaternion(v.status.attitude_target).floats(&[0.0, 0.0, -v.status.thrust]);
     v.status.armed.then_some(())
 }
 
-fn local_position(v: &View, row: &mut Row) -> Option<()> {
+fn local_position(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     // Without a fix there is no reference: PX4 logs not-a-number then.
     let nowhere = Geo { latitude_deg: f64::NAN, longitude_deg: f64::NAN, altitude_m: f64::NAN };
     let (e, origin) = (v.estimate, v.local_origin().unwrap_or(nowhere));
@@ -100,18 +105,18 @@ fn local_position(v: &View, row: &mut Row) -> Option<()> {
     Some(())
 }
 
-fn position_setpoint(v: &View, row: &mut Row) -> Option<()> {
+fn position_setpoint(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     row.vec(v.local_from_site(v.status.target_m?));
     Some(())
 }
 
-fn global_position(v: &View, row: &mut Row) -> Option<()> {
+fn global_position(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     let geo = v.geo();
     row.f64(geo.latitude_deg).f64(geo.longitude_deg).f32(geo.altitude_m).f32(v.estimate.horizontal_m).f32(v.estimate.vertical_m);
     v.estimate.position_valid.then_some(())
 }
 
-fn gnss(v: &View, row: &mut Row) -> Option<()> {
+fn gnss(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     let gnss = v.readings.gnss.as_ref()?;
     let geo = v.plane.geo_from_enu(gnss.position_m.enu());
     row.f64(geo.latitude_deg)
@@ -125,17 +130,17 @@ fn gnss(v: &View, row: &mut Row) -> Option<()> {
     Some(())
 }
 
-fn air_data(v: &View, row: &mut Row) -> Option<()> {
+fn air_data(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     row.f32(v.readings.baro_up_m? + v.plane.origin().altitude_m).f32(v.readings.pressure_pa?);
     Some(())
 }
 
-fn magnetometer(v: &View, row: &mut Row) -> Option<()> {
+fn magnetometer(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     row.vec(v.readings.mag_gauss?);
     Some(())
 }
 
-fn range_down(v: &View, row: &mut Row) -> Option<()> {
+fn range_down(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     /// ROTATION_DOWNWARD_FACING of PX4's distance_sensor.
     const DOWN: u8 = 25;
     let range = v.readings.range_down_m.filter(|range| range.is_finite())?;
@@ -143,19 +148,19 @@ fn range_down(v: &View, row: &mut Row) -> Option<()> {
     Some(())
 }
 
-fn sticks(v: &View, row: &mut Row) -> Option<()> {
+fn sticks(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     let sticks = v.sticks?;
     row.bool(true).f32(sticks.right).f32(sticks.forward).f32(sticks.yaw).f32(sticks.up);
     Some(())
 }
 
-fn motors(v: &View, row: &mut Row) -> Option<()> {
+fn motors(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     row.floats(&padded::<12>(v.actuators.motors.iter().map(|motor| if v.actuators.armed { *motor } else { 0.0 })));
     Some(())
 }
 
 /// Motor outputs as pulse widths, us: 1000 at rest, 2000 at full speed.
-fn outputs(v: &View, row: &mut Row) -> Option<()> {
+fn outputs(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     let pulses = v.actuators.motors.iter().map(|motor| if v.actuators.armed { 1000.0 + 1000.0 * motor } else { 900.0 });
     row.i32(v.vehicle.rotors.len() as i32).floats(&padded::<16>(pulses.take(v.vehicle.rotors.len())));
     Some(())
@@ -169,13 +174,13 @@ fn padded<const N: usize>(values: impl Iterator<Item = f64>) -> [f64; N] {
     out
 }
 
-fn battery(v: &View, row: &mut Row) -> Option<()> {
+fn battery(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     let battery = v.readings.battery.as_ref()?;
     row.bool(true).f32(battery.voltage_v).f32(battery.current_a).f32(battery.remaining_pct / 100.0);
     Some(())
 }
 
-fn status(v: &View, row: &mut Row) -> Option<()> {
+fn status(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     /// PX4's arming states and its number for a rotary wing.
     const DISARMED: u8 = 1;
     const ARMED: u8 = 2;
@@ -186,64 +191,64 @@ fn status(v: &View, row: &mut Row) -> Option<()> {
 }
 
 /// PX4's number of a mode (vehicle_status, nav_state).
-fn nav_state(mode: Mode) -> u8 {
+fn nav_state(mode: FlightMode) -> u8 {
     match mode {
-        Mode::Altitude => 1,
-        Mode::Position => 2,
-        Mode::Mission => 3,
-        Mode::Hold => 4,
-        Mode::Return => 5,
-        Mode::Offboard => 14,
-        Mode::Orbit => 21,
-        Mode::Stabilized => 15,
-        Mode::Takeoff => 17,
-        Mode::Land => 18,
-        Mode::Acro => 10,
-        Mode::SmartReturn => 5,
-        Mode::Follow => 19,
+        FlightMode::Altitude => 1,
+        FlightMode::Position => 2,
+        FlightMode::Mission => 3,
+        FlightMode::Hold => 4,
+        FlightMode::Return => 5,
+        FlightMode::Offboard => 14,
+        FlightMode::Orbit => 21,
+        FlightMode::Stabilized => 15,
+        FlightMode::Takeoff => 17,
+        FlightMode::Land => 18,
+        FlightMode::Acro => 10,
+        FlightMode::SmartReturn => 5,
+        FlightMode::Follow => 19,
     }
 }
 
-fn land_detected(v: &View, row: &mut Row) -> Option<()> {
-    let landed = v.status.landed == Landed::OnGround;
+fn land_detected(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
+    let landed = v.status.landed == LandedState::OnGround;
     row.bool(landed).bool(landed).bool(landed);
     Some(())
 }
 
-fn home(v: &View, row: &mut Row) -> Option<()> {
+fn home(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     let home = v.status.home_m?;
     let geo = v.plane.geo_from_enu(home.enu());
     row.f64(geo.latitude_deg).f64(geo.longitude_deg).f32(geo.altitude_m).vec(v.local_from_site(home));
     Some(())
 }
 
-fn wind(v: &View, row: &mut Row) -> Option<()> {
+fn wind(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     row.f32(v.wind_m_s.north()).f32(v.wind_m_s.east());
     Some(())
 }
 
-fn true_attitude(v: &View, row: &mut Row) -> Option<()> {
+fn true_attitude(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     row.quaternion(v.truth.attitude);
     Some(())
 }
 
-fn true_rates(v: &View, row: &mut Row) -> Option<()> {
+fn true_rates(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     row.vec(v.truth.rates_rad_s);
     Some(())
 }
 
-fn true_position(v: &View, row: &mut Row) -> Option<()> {
+fn true_position(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     row.vec(v.local_from_site(v.truth.position_m)).vec(v.truth.velocity_m_s);
     Some(())
 }
 
-fn true_global(v: &View, row: &mut Row) -> Option<()> {
+fn true_global(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     let geo = v.true_geo();
     row.f64(geo.latitude_deg).f64(geo.longitude_deg).f32(geo.altitude_m);
     Some(())
 }
 
-fn scoring(v: &View, row: &mut Row) -> Option<()> {
+fn scoring(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     row.f32(v.scoring.clearance_m).f32(v.scoring.lux).i32(v.scoring.contact.code()).i32(v.scoring.hits).i32(v.scoring.respawns);
     row.f32(v.gimbal.pitch_rad).bool(v.lamp.on);
     Some(())

@@ -5,13 +5,13 @@ const MAGIC: [u8; 8] = [b'U', b'L', b'o', b'g', 0x01, 0x12, 0x35, 0x01];
 
 /// Appends ULog messages to bytes.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Writer {
+pub struct UlogWriter {
     out: Vec<u8>,
 }
 
 /// A value of an information or parameter message.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Value<'a> {
+pub enum UlogValue<'a> {
     /// Text.
     Text(&'a str),
     /// Whole number.
@@ -20,7 +20,7 @@ pub enum Value<'a> {
     Real(f32),
 }
 
-impl Value<'_> {
+impl UlogValue<'_> {
     fn kind(&self) -> String {
         match self {
             Self::Text(text) => format!("char[{}]", text.len()),
@@ -38,7 +38,7 @@ impl Value<'_> {
     }
 }
 
-impl Writer {
+impl UlogWriter {
     /// The header: logging began at so many microseconds; then the flags that no reader needs.
     pub fn begin(&mut self, at_us: u64) {
         self.out.extend_from_slice(&MAGIC);
@@ -52,12 +52,12 @@ impl Writer {
     }
 
     /// A fact about the whole log.
-    pub fn information(&mut self, name: &str, value: Value) {
+    pub fn information(&mut self, name: &str, value: UlogValue) {
         self.keyed(b'I', name, value);
     }
 
     /// A parameter's value at the start; before the first row.
-    pub fn parameter(&mut self, name: &str, value: Value) {
+    pub fn parameter(&mut self, name: &str, value: UlogValue) {
         self.keyed(b'P', name, value);
     }
 
@@ -87,7 +87,7 @@ impl Writer {
         std::mem::take(&mut self.out)
     }
 
-    fn keyed(&mut self, kind: u8, name: &str, value: Value) {
+    fn keyed(&mut self, kind: u8, name: &str, value: UlogValue) {
         let key = format!("{} {name}", value.kind());
         // Names are our own and short; a longer one would break the length byte.
         let length = key.len().min(255);
@@ -110,12 +110,12 @@ mod tests {
 
     #[test]
     fn exact_messages_are_laid_out_as_the_format_says() {
-        let mut log = Writer::default();
+        let mut log = UlogWriter::default();
         log.begin(5);
         assert_eq!(log.take(), [&MAGIC[..], &[5, 0, 0, 0, 0, 0, 0, 0, 40, 0, b'B'], &[0; 40]].concat());
         log.format("t", "uint64_t timestamp;");
         assert_eq!(log.take(), [&[21, 0, b'F'], b"t:uint64_t timestamp;".as_slice()].concat());
-        log.parameter("A", Value::Int(-1));
+        log.parameter("A", UlogValue::Int(-1));
         assert_eq!(log.take(), [&[14, 0, b'P', 9], b"int32_t A".as_slice(), &[255; 4]].concat());
         log.subscribe(258, "t");
         assert_eq!(log.take(), [4, 0, b'A', 0, 2, 1, b't']);

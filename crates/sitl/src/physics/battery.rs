@@ -1,6 +1,6 @@
 //! Battery: open-circuit voltage over charge, internal resistance, power drawn; or the paper's clock.
 
-use super::{Load, Model, State as Physics};
+use super::{AirframeModel, PhysicsState as Physics, PowerLoad};
 use spandrel_model::math;
 use spandrel_model::scenario::BatteryModel;
 
@@ -9,7 +9,7 @@ const EMPTY_CELL_V: f64 = 3.2;
 
 /// Charge and what the terminals show.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct State {
+pub struct BatteryState {
     /// State of charge, 0..1.
     pub charge: f64,
     /// Terminal voltage, V; 0 until the first step.
@@ -24,7 +24,7 @@ pub struct State {
     pub dead_cells: u16,
 }
 
-impl State {
+impl BatteryState {
     /// A full pack.
     pub const FULL: Self = Self { charge: 1.0, voltage_v: 0.0, current_a: 0.0, energy_j: 0.0, speed_factor: 1.0, dead_cells: 0 };
 
@@ -36,7 +36,7 @@ impl State {
 
     /// Whether a cell, counted from 0, has failed.
     #[must_use]
-    pub fn is_dead(&self, cell: usize) -> bool {
+    pub fn is_empty(&self, cell: usize) -> bool {
         cell < 16 && self.dead_cells & (1 << cell) != 0
     }
 
@@ -61,14 +61,14 @@ impl State {
 
 /// Open-circuit voltage of the pack at a state of charge, V: linear between the eleven points of the aircraft's file.
 #[must_use]
-pub fn open_circuit_v(battery: &spandrel_model::vehicle::Battery, charge: f64) -> f64 {
+pub fn open_circuit_v(battery: &spandrel_model::vehicle::BatterySpec, charge: f64) -> f64 {
     let x = charge.clamp(0.0, 1.0) * 10.0;
     let low = (x.floor() as usize).min(9);
     f64::from(battery.cells) * math::lerp(battery.ocv_cell_v[low], battery.ocv_cell_v[low + 1], x - low as f64)
 }
 
 /// Electrical power of everything on board, W.
-fn power_w(model: &Model, physics: &Physics, load: Load) -> f64 {
+fn power_w(model: &AirframeModel, physics: &Physics, load: PowerLoad) -> f64 {
     let rotor = &model.rotor;
     let shaft: f64 = physics.rigid.rotor_rad_s.iter().map(|w| rotor.torque_coefficient_n_m_s2 * w * w * w).sum();
     let lamp = if load.lamp_on && model.lamp.flux_lm > 0.0 { model.battery.lamp_w } else { 0.0 };
@@ -76,7 +76,7 @@ fn power_w(model: &Model, physics: &Physics, load: Load) -> f64 {
 }
 
 /// One step of charge, voltage and sag.
-pub fn advance(model: &Model, physics: &mut Physics, load: Load, dt_s: f64) {
+pub fn advance(model: &AirframeModel, physics: &mut Physics, load: PowerLoad, dt_s: f64) {
     let battery = &model.battery;
     let power = power_w(model, physics, load);
     let state = &mut physics.battery;

@@ -1,6 +1,6 @@
 //! Contact as impulses on velocities: restitution, Coulomb friction, and a look ahead of one step so that nothing is passed through.
 
-use super::{Model, Obstacles, RigidState, State};
+use super::{AirframeModel, Obstacles, PhysicsState, RigidState};
 use nalgebra::{Matrix3, Vector3};
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::site::{Contact, ObjectId, Surface};
@@ -25,7 +25,7 @@ const ROTOR_STRIKE_S: f64 = 0.08;
 
 /// What touched in one step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Report {
+pub struct ContactReport {
     /// The most severe surface touched, with its object.
     pub surface: Option<(Surface, ObjectId)>,
     /// Fastest approach that was stopped in this step, m/s.
@@ -34,7 +34,7 @@ pub struct Report {
     pub normal_n: f64,
 }
 
-impl Report {
+impl ContactReport {
     /// Something touches.
     #[must_use]
     pub fn touching(&self) -> bool {
@@ -44,15 +44,15 @@ impl Report {
 
 /// Impulses of the last step, to start from.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Warm {
-    kept: Vec<(Key, Vector3<f64>)>,
+pub struct WarmStart {
+    impulses: Vec<(ContactKey, Vector3<f64>)>,
 }
 
 /// Which probe met which object, and how many times before in this step.
-type Key = (usize, u32, usize);
+type ContactKey = (usize, u32, usize);
 
-struct Constraint {
-    key: Key,
+struct ContactConstraint {
+    key: ContactKey,
     rotor: Option<usize>,
     surface: Surface,
     object: ObjectId,
@@ -63,23 +63,30 @@ struct Constraint {
     target: f64,
     approach: f64,
     /// What impulses here do to the body, and how far its own place gives way.
-    gives: Gives,
+    gives: ImpulseResponse,
     inverse_effective: f64,
     impulse: Vector3<f64>,
     active: bool,
 }
 
 /// Corrects the step that free flight has just made from `start`, where something is in the way.
-pub fn resolve(model: &Model, state: &mut State, start: &RigidState, obstacles: &impl Obstacles, at: SimTime, dt_s: f64) {
+pub fn resolve(
+    model: &AirframeModel,
+    state: &mut PhysicsState,
+    start: &RigidState,
+    obstacles: &impl Obstacles,
+    at: SimTime,
+    dt_s: f64,
+) {
     let travel = state.rigid.velocity_m_s.norm() * dt_s + model.hull_radius_m * state.rigid.rates_rad_s.norm() * dt_s;
     // Asked at the step's start, where nothing had been passed yet.
     let mut constraints = gather(model, start, obstacles, at, travel + MARGIN_M);
     if constraints.is_empty() {
-        state.contact = Report::default();
-        state.warm.kept.clear();
+        state.contact = ContactReport::default();
+        state.warm.impulses.clear();
         return;
     }
-    let body = Body::new(model, &state.rigid);
+    let body = ContactBody::new(model, &state.rigid);
     prepare(&mut constraints, &body, &state.rigid, model.restitution, dt_s);
     warm_start(&mut constraints, &state.warm);
     let (velocity, spin) = solve(&mut constraints, &body, &state.rigid, model, dt_s);
@@ -88,53 +95,59 @@ pub fn resolve(model: &Model, state: &mut State, start: &RigidState, obstacles: 
         state.rigid.velocity_m_s = Vec3::assume(velocity);
         state.rigid.rates_rad_s = state.rigid.attitude.inverse() * Vec3::<Ned>::assume(spin);
         // The step is made again from its start with the velocities that contact allows.
-        state.rigid.position_m = start.position_m + state.rigid.velocity_m_s * dt_s + mend(&constraints);
+        state.rigid.position_m = start.position_m + state.rigid.velocity_m_s * dt_s + repair_quaternion(&constraints);
         state.rigid.attitude = start.attitude.turned_by(state.rigid.rates_rad_s * dt_s);
         strike_rotors(&constraints, &mut state.rigid, dt_s);
     }
     state.contact = report(&constraints, dt_s);
-    state.warm.kept = constraints.iter().filter(|c| c.active).map(|c| (c.key, c.impulse)).collect();
+    state.warm.impulses = constraints.iter().filter(|c| c.active).map(|c| (c.key, c.impulse)).collect();
 }
 
-struct Body {
+struct ContactBody {
     inverse_mass: f64,
     inverse_inertia: Matrix3<f64>,
 }
 
-impl Body {
-    fn new(model: &Model, rigid: &RigidState) -> Self {
+impl ContactBody {
+    fn new(model: &AirframeModel, rigid: &RigidState) -> Self {
         let r = rigid.attitude.matrix();
         let inverse_inertia = r * Matrix3::from_diagonal(&model.inverse_inertia) * r.transpose();
         Self { inverse_mass: model.inverse_mass, inverse_inertia }
     }
 
     /// How it gives way to impulses at `arm`.
-    fn gives(&self, arm: &Vector3<f64>) -> Gives {
+    fn impulse_response(&self, arm: &Vector3<f64>) -> ImpulseResponse {
         let cross = arm.cross_matrix();
         let spin = self.inverse_inertia * cross;
-        Gives { spin, place: Matrix3::identity() * self.inverse_mass - cross * spin }
+        ImpulseResponse { spin, place: Matrix3::identity() * self.inverse_mass - cross * spin }
     }
 }
 
 /// How a body gives way to an impulse at a place of it.
 #[derive(Debug, Clone, Copy, Default)]
-struct Gives {
+struct ImpulseResponse {
     /// Change of its spin.
     spin: Matrix3<f64>,
     /// Change of the place's velocity.
     place: Matrix3<f64>,
 }
 
-fn gather(model: &Model, pose: &RigidState, obstacles: &impl Obstacles, at: SimTime, margin_m: f64) -> Vec<Constraint> {
+fn gather(
+    model: &AirframeModel,
+    pose: &RigidState,
+    obstacles: &impl Obstacles,
+    at: SimTime,
+    margin_m: f64,
+) -> Vec<ContactConstraint> {
     let mut found: Vec<Contact> = Vec::new();
-    let mut out: Vec<Constraint> = Vec::new();
+    let mut out: Vec<ContactConstraint> = Vec::new();
     for (index, probe) in model.probes.iter().enumerate() {
         found.clear();
         obstacles.contacts(&probe.placed(pose), margin_m, at, &mut found);
         for contact in &found {
-            let same = |c: &&Constraint| c.key.0 == index && c.key.1 == contact.object.0;
+            let same = |c: &&ContactConstraint| c.key.0 == index && c.key.1 == contact.object.0;
             let key = (index, contact.object.0, out.iter().filter(same).count());
-            out.push(Constraint {
+            out.push(ContactConstraint {
                 key,
                 rotor: probe.rotor,
                 surface: contact.surface,
@@ -145,7 +158,7 @@ fn gather(model: &Model, pose: &RigidState, obstacles: &impl Obstacles, at: SimT
                 gap: contact.gap_m,
                 target: 0.0,
                 approach: 0.0,
-                gives: Gives::default(),
+                gives: ImpulseResponse::default(),
                 inverse_effective: 0.0,
                 impulse: Vector3::zeros(),
                 active: false,
@@ -155,7 +168,7 @@ fn gather(model: &Model, pose: &RigidState, obstacles: &impl Obstacles, at: SimT
     out
 }
 
-fn prepare(constraints: &mut [Constraint], body: &Body, rigid: &RigidState, restitution: f64, dt_s: f64) {
+fn prepare(constraints: &mut [ContactConstraint], body: &ContactBody, rigid: &RigidState, restitution: f64, dt_s: f64) {
     let v = rigid.velocity_m_s.raw();
     let w = (rigid.attitude * rigid.rates_rad_s).raw();
     for c in constraints {
@@ -163,14 +176,14 @@ fn prepare(constraints: &mut [Constraint], body: &Body, rigid: &RigidState, rest
         c.approach = -relative.dot(&c.normal);
         let allowed = c.gap.max(0.0) / dt_s;
         c.target = if c.approach > allowed && c.approach > BOUNCE_M_S { restitution * c.approach } else { -allowed };
-        c.gives = body.gives(&c.arm);
+        c.gives = body.impulse_response(&c.arm);
         c.inverse_effective = 1.0 / c.normal.dot(&(c.gives.place * c.normal));
     }
 }
 
-fn warm_start(constraints: &mut [Constraint], warm: &Warm) {
+fn warm_start(constraints: &mut [ContactConstraint], warm: &WarmStart) {
     for c in constraints {
-        if let Some((_, impulse)) = warm.kept.iter().find(|(key, _)| *key == c.key)
+        if let Some((_, impulse)) = warm.impulses.iter().find(|(key, _)| *key == c.key)
             && c.approach <= BOUNCE_M_S
         {
             c.impulse = *impulse;
@@ -180,10 +193,10 @@ fn warm_start(constraints: &mut [Constraint], warm: &Warm) {
 
 /// Projected Gauss-Seidel on normal and friction impulses; returns the velocities afterwards.
 fn solve(
-    constraints: &mut [Constraint],
-    body: &Body,
+    constraints: &mut [ContactConstraint],
+    body: &ContactBody,
     rigid: &RigidState,
-    model: &Model,
+    model: &AirframeModel,
     dt_s: f64,
 ) -> (Vector3<f64>, Vector3<f64>) {
     let mut v = rigid.velocity_m_s.raw();
@@ -209,7 +222,7 @@ fn solve(
 }
 
 /// One contact's turn; returns the size of its impulse change.
-fn one_contact(c: &mut Constraint, body: &Body, v: &mut Vector3<f64>, w: &mut Vector3<f64>, friction: f64) -> f64 {
+fn one_contact(c: &mut ContactConstraint, body: &ContactBody, v: &mut Vector3<f64>, w: &mut Vector3<f64>, friction: f64) -> f64 {
     let old = c.impulse;
     let relative = *v + w.cross(&c.arm) - c.object_velocity;
     let normal_old = old.dot(&c.normal);
@@ -236,7 +249,7 @@ fn one_contact(c: &mut Constraint, body: &Body, v: &mut Vector3<f64>, w: &mut Ve
 }
 
 /// Shift that mends the deepest penetration, without giving speed.
-fn mend(constraints: &[Constraint]) -> Vec3<Ned> {
+fn repair_quaternion(constraints: &[ContactConstraint]) -> Vec3<Ned> {
     let deepest = constraints.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
     deepest.filter(|c| c.gap < -SLOP_M).map_or(Vec3::zero(), |c| {
         // FRAME: normals were turned into NED when gathered.
@@ -244,15 +257,15 @@ fn mend(constraints: &[Constraint]) -> Vec3<Ned> {
     })
 }
 
-fn strike_rotors(constraints: &[Constraint], rigid: &mut RigidState, dt_s: f64) {
+fn strike_rotors(constraints: &[ContactConstraint], rigid: &mut RigidState, dt_s: f64) {
     let keep = spandrel_model::math::exp(-dt_s / ROTOR_STRIKE_S);
     for rotor in constraints.iter().filter(|c| c.active).filter_map(|c| c.rotor) {
         rigid.rotor_rad_s[rotor] *= keep;
     }
 }
 
-fn report(constraints: &[Constraint], dt_s: f64) -> Report {
-    let mut out = Report::default();
+fn report(constraints: &[ContactConstraint], dt_s: f64) -> ContactReport {
+    let mut out = ContactReport::default();
     for c in constraints.iter().filter(|c| c.active && c.gap < TOUCH_M.max(c.approach * dt_s)) {
         out.surface = Some(match out.surface {
             Some((known, _)) if super::more_severe(known, c.surface) == known => out.surface.unwrap_or((known, c.object)),

@@ -2,7 +2,7 @@
 
 use super::RigidState;
 use spandrel_model::frames::{Enu, Frd, Vec3};
-use spandrel_model::site::Probe;
+use spandrel_model::site::HullProbe;
 use spandrel_model::vehicle::Vehicle;
 
 /// Half thickness of arms and rotor discs, m (estimate).
@@ -35,12 +35,12 @@ impl BodyProbe {
 
     /// Placed in the site.
     #[must_use]
-    pub fn placed(&self, rigid: &RigidState) -> Probe {
+    pub fn placed(&self, rigid: &RigidState) -> HullProbe {
         let place = |p: Vec3<Frd>| -> Vec3<Enu> { (rigid.position_m + rigid.attitude * p).enu() };
         if self.a_m == self.b_m {
-            Probe::Ball { centre_m: place(self.a_m), radius_m: self.radius_m }
+            HullProbe::Ball { centre_m: place(self.a_m), radius_m: self.radius_m }
         } else {
-            Probe::Capsule { a_m: place(self.a_m), b_m: place(self.b_m), radius_m: self.radius_m }
+            HullProbe::Capsule { a_m: place(self.a_m), b_m: place(self.b_m), radius_m: self.radius_m }
         }
     }
 }

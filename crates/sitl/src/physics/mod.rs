@@ -10,9 +10,9 @@ use nalgebra::Vector3;
 use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::BatteryModel;
-use spandrel_model::site::{Contact, ObjectId, Probe, RayHit, Site, Surface};
+use spandrel_model::site::{Contact, HullProbe, ObjectId, RayHit, Site, Surface};
 use spandrel_model::time::SimTime;
-use spandrel_model::vehicle::{Battery, Lamp, Rotor, RotorModel, Vehicle};
+use spandrel_model::vehicle::{BatterySpec, Lamp, Rotor, RotorModel, Vehicle};
 
 /// Most rotors an aircraft may have.
 pub const MAX_ROTORS: usize = 8;
@@ -53,7 +53,7 @@ const EFFECT_PERIOD_S: f64 = 0.02;
 
 /// The air around the aircraft, held over one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Air {
+pub struct AirState {
     /// Wind at the aircraft, m/s.
     pub velocity_m_s: Vec3<Ned>,
     /// Density, kg/m³.
@@ -62,7 +62,7 @@ pub struct Air {
     pub force_n: Vec3<Ned>,
 }
 
-impl Air {
+impl AirState {
     /// Still air at sea level.
     pub const STILL: Self = Self { velocity_m_s: Vec3::zero(), density_kg_m3: AIR_DENSITY_KG_M3, force_n: Vec3::zero() };
 }
@@ -70,7 +70,7 @@ impl Air {
 /// What the aircraft may touch. The site is one; tests bring planes and boxes of their own.
 pub trait Obstacles {
     /// Appends contacts and near-contacts of a probe.
-    fn contacts(&self, probe: &Probe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>);
+    fn contacts(&self, probe: &HullProbe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>);
     /// The nearest solid thing within `max_m`, pad included, or `None`.
     fn clearance(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<f64>;
     /// The first thing along a ray.
@@ -78,7 +78,7 @@ pub trait Obstacles {
 }
 
 impl Obstacles for Site {
-    fn contacts(&self, probe: &Probe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>) {
+    fn contacts(&self, probe: &HullProbe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>) {
         Site::contacts(self, probe, margin_m, at, out);
     }
     fn clearance(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<f64> {
@@ -94,7 +94,7 @@ impl Obstacles for Site {
 pub struct OpenSky;
 
 impl Obstacles for OpenSky {
-    fn contacts(&self, _: &Probe, _: f64, _: SimTime, _: &mut Vec<Contact>) {}
+    fn contacts(&self, _: &HullProbe, _: f64, _: SimTime, _: &mut Vec<Contact>) {}
     fn clearance(&self, _: Vec3<Enu>, _: f64, _: SimTime) -> Option<f64> {
         None
     }
@@ -105,7 +105,7 @@ impl Obstacles for OpenSky {
 
 /// An aircraft's constants in the form that the models use.
 #[derive(Debug, Clone)]
-pub struct Model {
+pub struct AirframeModel {
     /// Mass, kg.
     pub mass_kg: f64,
     inverse_mass: f64,
@@ -121,44 +121,44 @@ pub struct Model {
     hull_radius_m: f64,
     restitution: f64,
     friction: f64,
-    battery: Battery,
+    battery: BatterySpec,
     battery_model: BatteryModel,
     lamp: Lamp,
 }
 
 /// The moving state: plain data, so that a clone is a snapshot.
 #[derive(Debug, Clone, PartialEq)]
-pub struct State {
+pub struct PhysicsState {
     /// Rigid body and rotors.
     pub rigid: RigidState,
     /// Battery.
-    pub battery: battery::State,
+    pub battery: battery::BatteryState,
     /// Non-gravitational force over mass in the last step, m/s²: what an accelerometer feels.
     pub specific_force_m_s2: Vec3<Frd>,
     /// Contacts of the last step.
-    pub contact: contact::Report,
-    warm: contact::Warm,
+    pub contact: contact::ContactReport,
+    warm: contact::WarmStart,
     effect: [f64; MAX_ROTORS],
     effect_due: SimTime,
-    free: FreeBall,
+    clear_sphere: ClearSphere,
 }
 
 /// A ball that was empty at an instant: no contact can happen deep inside it for a while.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct FreeBall {
+struct ClearSphere {
     centre_m: Vec3<Enu>,
     radius_m: f64,
     since: SimTime,
 }
 
-impl FreeBall {
+impl ClearSphere {
     /// Distance from `position` that is certainly free now, m.
     fn left_m(&self, position_m: Vec3<Enu>, now: SimTime) -> f64 {
         self.radius_m - (position_m - self.centre_m).norm() - FASTEST_OBJECT_M_S * (now - self.since).s()
     }
 }
 
-impl State {
+impl PhysicsState {
     /// At rest at a place with a heading, motors off, battery full.
     #[must_use]
     pub fn at_rest(position_m: Vec3<Ned>, yaw_rad: f64) -> Self {
@@ -170,13 +170,13 @@ impl State {
                 rates_rad_s: Vec3::zero(),
                 rotor_rad_s: [0.0; MAX_ROTORS],
             },
-            battery: battery::State::FULL,
+            battery: battery::BatteryState::FULL,
             specific_force_m_s2: Vec3::new(0.0, 0.0, -math::GRAVITY_M_S2),
-            contact: contact::Report::default(),
-            warm: contact::Warm::default(),
+            contact: contact::ContactReport::default(),
+            warm: contact::WarmStart::default(),
             effect: [1.0; MAX_ROTORS],
             effect_due: SimTime::ZERO,
-            free: FreeBall { centre_m: Vec3::zero(), radius_m: -1.0, since: SimTime::ZERO },
+            clear_sphere: ClearSphere { centre_m: Vec3::zero(), radius_m: -1.0, since: SimTime::ZERO },
         }
     }
 
@@ -185,13 +185,13 @@ impl State {
         let fresh = Self::at_rest(position_m, yaw_rad);
         let rotor_rad_s = self.rigid.rotor_rad_s;
         self.rigid = RigidState { rotor_rad_s, ..fresh.rigid };
-        self.free = fresh.free;
+        self.clear_sphere = fresh.clear_sphere;
         self.warm = fresh.warm;
         self.contact = fresh.contact;
     }
 }
 
-impl Model {
+impl AirframeModel {
     /// From an aircraft and the battery that the job asks for.
     #[must_use]
     pub fn new(vehicle: &Vehicle, battery_model: BatteryModel) -> Self {
@@ -222,7 +222,7 @@ impl Model {
         math::exp(-dt_s / self.rotor.time_constant_s)
     }
 
-    fn decay_half(&self, dt_s: f64) -> f64 {
+    fn decay_half_step(&self, dt_s: f64) -> f64 {
         math::exp(-0.5 * dt_s / self.rotor.time_constant_s)
     }
 
@@ -241,7 +241,7 @@ impl Model {
     }
 
     /// Rotor speeds that the motors strive for.
-    fn targets(&self, actuators: &Actuators, battery: &battery::State) -> [f64; MAX_ROTORS] {
+    fn targets(&self, actuators: &Actuators, battery: &battery::BatteryState) -> [f64; MAX_ROTORS] {
         let mut out = [0.0; MAX_ROTORS];
         if !actuators.armed || battery.empty() {
             return out;
@@ -257,11 +257,11 @@ impl Model {
     #[allow(clippy::too_many_arguments, reason = "a step's inputs, each of another kind")]
     pub fn advance(
         &self,
-        state: &mut State,
+        state: &mut PhysicsState,
         actuators: &Actuators,
-        air: &Air,
+        air: &AirState,
         obstacles: &impl Obstacles,
-        load: Load,
+        load: PowerLoad,
         now: SimTime,
         dt: SimTime,
     ) {
@@ -274,11 +274,11 @@ impl Model {
         let before = start.velocity_m_s;
         rigid::advance(self, &mut state.rigid, &targets, air, &state.effect, dt_s);
         let reach = self.hull_radius_m + state.rigid.velocity_m_s.norm().max(before.norm()) * dt_s + contact::MARGIN_M;
-        if state.free.left_m(state.rigid.position_m.enu(), now + dt) <= reach {
+        if state.clear_sphere.left_m(state.rigid.position_m.enu(), now + dt) <= reach {
             contact::resolve(self, state, &start, obstacles, now + dt, dt_s);
         } else if state.contact.touching() {
-            state.contact = contact::Report::default();
-            state.warm = contact::Warm::default();
+            state.contact = contact::ContactReport::default();
+            state.warm = contact::WarmStart::default();
         }
         let gravity = Vec3::<Ned>::new(0.0, 0.0, math::GRAVITY_M_S2 * self.gravity_scale);
         let felt = (state.rigid.velocity_m_s - before) / dt_s - gravity;
@@ -286,24 +286,24 @@ impl Model {
         battery::advance(self, state, load, dt_s);
     }
 
-    fn refresh_clearance(&self, state: &mut State, obstacles: &impl Obstacles, position_m: Vec3<Enu>, now: SimTime) {
+    fn refresh_clearance(&self, state: &mut PhysicsState, obstacles: &impl Obstacles, position_m: Vec3<Enu>, now: SimTime) {
         let speed = state.rigid.velocity_m_s.norm();
         let need = self.hull_radius_m.max(surface_effects::reach_m(self)) + 0.05 + 0.002 * speed;
-        if state.free.left_m(position_m, now) > need {
+        if state.clear_sphere.left_m(position_m, now) > need {
             return;
         }
         let radius_m = obstacles.clearance(position_m, CLEARANCE_REACH_M, now).unwrap_or(CLEARANCE_REACH_M);
-        state.free = FreeBall { centre_m: position_m, radius_m, since: now };
+        state.clear_sphere = ClearSphere { centre_m: position_m, radius_m, since: now };
     }
 
-    fn refresh_effects(&self, state: &mut State, obstacles: &impl Obstacles, now: SimTime) {
+    fn refresh_effects(&self, state: &mut PhysicsState, obstacles: &impl Obstacles, now: SimTime) {
         if now < state.effect_due {
             return;
         }
         state.effect_due = now + SimTime::from_s(EFFECT_PERIOD_S);
         let reach = surface_effects::reach_m(self);
         let spinning = state.rigid.rotor_rad_s[0] > 0.0;
-        if !spinning || state.free.left_m(state.rigid.position_m.enu(), now) > reach + self.hull_radius_m {
+        if !spinning || state.clear_sphere.left_m(state.rigid.position_m.enu(), now) > reach + self.hull_radius_m {
             state.effect = [1.0; MAX_ROTORS];
             return;
         }
@@ -313,7 +313,7 @@ impl Model {
 
 /// What else draws power and time in one step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Load {
+pub struct PowerLoad {
     /// The lamp is on.
     pub lamp_on: bool,
     /// Lift-off has happened (the `paper` battery's clock runs).

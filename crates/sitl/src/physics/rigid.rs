@@ -1,7 +1,7 @@
 //! Free flight: one classical Runge-Kutta step of rigid body and rotors. Rotor speeds follow their exact exponential inside the step,
 //! so that only the rigid body is integrated numerically.
 
-use super::{Air, MAX_ROTORS, Model, RigidState};
+use super::{AirState, AirframeModel, MAX_ROTORS, RigidState};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::math::GRAVITY_M_S2;
@@ -17,14 +17,14 @@ pub struct Wrench {
 
 /// The part of the state that is integrated numerically; the quaternion is not kept at unit length between stages.
 #[derive(Clone, Copy)]
-struct Stage {
+struct IntegratedState {
     p: Vector3<f64>,
     v: Vector3<f64>,
     q: Quaternion<f64>,
     w: Vector3<f64>,
 }
 
-impl Stage {
+impl IntegratedState {
     fn plus(self, d: &Self, h: f64) -> Self {
         Self { p: self.p + d.p * h, v: self.v + d.v * h, q: self.q + d.q * h, w: self.w + d.w * h }
     }
@@ -39,21 +39,21 @@ struct RotorInstant {
 
 /// Advances by `dt_s` with the rotors driven towards `target_rad_s`. Air and external force are held over the step.
 pub fn advance(
-    model: &Model,
+    model: &AirframeModel,
     state: &mut RigidState,
     target_rad_s: &[f64; MAX_ROTORS],
-    air: &Air,
+    air: &AirState,
     effect: &[f64; MAX_ROTORS],
     dt_s: f64,
 ) {
-    let y = Stage {
+    let y = IntegratedState {
         p: state.position_m.raw(),
         v: state.velocity_m_s.raw(),
         q: state.attitude.raw().into_inner(),
         w: state.rates_rad_s.raw(),
     };
     let start = model.rotor_instant(state, target_rad_s, 1.0);
-    let half = model.rotor_instant(state, target_rad_s, model.decay_half(dt_s));
+    let half = model.rotor_instant(state, target_rad_s, model.decay_half_step(dt_s));
     let end = model.rotor_instant(state, target_rad_s, model.decay(dt_s));
     let k1 = derivative(model, &y, &start, air, effect);
     let k2 = derivative(model, &y.plus(&k1, 0.5 * dt_s), &half, air, effect);
@@ -69,7 +69,13 @@ pub fn advance(
     state.rotor_rad_s = end.speed;
 }
 
-fn derivative(model: &Model, y: &Stage, rotors: &RotorInstant, air: &Air, effect: &[f64; MAX_ROTORS]) -> Stage {
+fn derivative(
+    model: &AirframeModel,
+    y: &IntegratedState,
+    rotors: &RotorInstant,
+    air: &AirState,
+    effect: &[f64; MAX_ROTORS],
+) -> IntegratedState {
     let attitude = UnitQuaternion::new_normalize(y.q);
     // FRAME: the stage's quaternion is the body's attitude, its velocity is over ground in NED.
     let attitude = Rotation::<Frd, Ned>::assume(attitude);
@@ -80,11 +86,11 @@ fn derivative(model: &Model, y: &Stage, rotors: &RotorInstant, air: &Air, effect
     let momentum = model.inertia.component_mul(&y.w) + model.rotor_momentum(&rotors.speed);
     let spin = (wrench.torque_n_m.raw() - y.w.cross(&momentum)).component_mul(&model.inverse_inertia);
     let q_dot = y.q * Quaternion::new(0.0, y.w.x, y.w.y, y.w.z) * 0.5;
-    Stage { p: y.v, v: acceleration, q: q_dot, w: spin }
+    IntegratedState { p: y.v, v: acceleration, q: q_dot, w: spin }
 }
 
 fn wrench(
-    model: &Model,
+    model: &AirframeModel,
     air_velocity_m_s: Vec3<Frd>,
     rates_rad_s: Vec3<Frd>,
     rotors: &RotorInstant,
@@ -102,7 +108,7 @@ fn wrench(
     total
 }
 
-fn body_drag(model: &Model, air_velocity_m_s: Vec3<Frd>, rates_rad_s: Vec3<Frd>, density_kg_m3: f64) -> Wrench {
+fn body_drag(model: &AirframeModel, air_velocity_m_s: Vec3<Frd>, rates_rad_s: Vec3<Frd>, density_kg_m3: f64) -> Wrench {
     let v = air_velocity_m_s.raw();
     let k = -0.5 * density_kg_m3 * v.norm();
     // FRAME: areas and damping are about the body axes.
@@ -112,7 +118,7 @@ fn body_drag(model: &Model, air_velocity_m_s: Vec3<Frd>, rates_rad_s: Vec3<Frd>,
     }
 }
 
-impl Model {
+impl AirframeModel {
     /// Rotor speeds and accelerations when the distance to the target has shrunk to `left` of what it was.
     fn rotor_instant(&self, state: &RigidState, target_rad_s: &[f64; MAX_ROTORS], left: f64) -> RotorInstant {
         let mut out = RotorInstant { speed: [0.0; MAX_ROTORS], acceleration: [0.0; MAX_ROTORS] };

@@ -1,6 +1,6 @@
 //! Ground and ceiling effect, per rotor, as a factor on thrust at a given rotor speed.
 
-use super::{MAX_ROTORS, Model, Obstacles, RigidState};
+use super::{AirframeModel, MAX_ROTORS, Obstacles, RigidState};
 use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
@@ -10,7 +10,7 @@ const REACH_RADII: f64 = 5.0;
 
 /// How far surfaces matter, m.
 #[must_use]
-pub fn reach_m(model: &Model) -> f64 {
+pub fn reach_m(model: &AirframeModel) -> f64 {
     REACH_RADII * model.rotor.radius_m
 }
 
@@ -38,7 +38,7 @@ pub fn ceiling_factor(distance_over_radius: f64) -> f64 {
 }
 
 /// The factor for every rotor from what stands below and above its hub along the rotor axis.
-pub fn factors(model: &Model, rigid: &RigidState, obstacles: &impl Obstacles, at: SimTime) -> [f64; MAX_ROTORS] {
+pub fn factors(model: &AirframeModel, rigid: &RigidState, obstacles: &impl Obstacles, at: SimTime) -> [f64; MAX_ROTORS] {
     let mut out = [1.0; MAX_ROTORS];
     let down = (rigid.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).enu();
     let radius = model.rotor.radius_m;
@@ -84,10 +84,10 @@ mod tests {
     }
 
     /// A floor and a ceiling, m up, over half of the plane each (north of the origin).
-    struct Slabs(f64, f64);
+    struct FloorAndCeiling(f64, f64);
 
-    impl Obstacles for Slabs {
-        fn contacts(&self, _: &spandrel_model::site::Probe, _: f64, _: SimTime, _: &mut Vec<spandrel_model::site::Contact>) {}
+    impl Obstacles for FloorAndCeiling {
+        fn contacts(&self, _: &spandrel_model::site::HullProbe, _: f64, _: SimTime, _: &mut Vec<spandrel_model::site::Contact>) {}
         fn clearance(&self, _: Vec3<Enu>, _: f64, _: SimTime) -> Option<f64> {
             Some(0.0)
         }
@@ -104,11 +104,11 @@ mod tests {
     fn exact_each_rotor_feels_what_stands_over_and_under_it() {
         let text = include_str!("../../../../vehicle-params/phantom2.toml");
         let vehicle = spandrel_model::vehicle::read("phantom2.toml", text).expect("shipped");
-        let model = Model::new(&vehicle, spandrel_model::scenario::BatteryModel::Paper);
+        let model = AirframeModel::new(&vehicle, spandrel_model::scenario::BatteryModel::Paper);
         let radius = vehicle.rotor.radius_m;
         // The hubs lie 3 cm over the centre; ceiling and floor a radius and two away from them.
-        let slabs = Slabs(0.03 - 2.0 * radius, 0.03 + radius);
-        let state = crate::physics::State::at_rest(Vec3::zero(), 0.0);
+        let slabs = FloorAndCeiling(0.03 - 2.0 * radius, 0.03 + radius);
+        let state = crate::physics::PhysicsState::at_rest(Vec3::zero(), 0.0);
         let got = factors(&model, &state.rigid, &slabs, SimTime::ZERO);
         let beside = ground_factor(2.0) * ceiling_factor(1.0);
         for (i, rotor) in vehicle.rotors.iter().enumerate() {
@@ -122,7 +122,7 @@ mod tests {
     fn exact_thrust_and_only_thrust_grows_by_the_factor() {
         let text = include_str!("../../../../vehicle-params/phantom2.toml");
         let vehicle = spandrel_model::vehicle::read("phantom2.toml", text).expect("shipped");
-        let model = Model::new(&vehicle, spandrel_model::scenario::BatteryModel::Paper);
+        let model = AirframeModel::new(&vehicle, spandrel_model::scenario::BatteryModel::Paper);
         let wrench = |effect| model.rotor_wrench(0, Vec3::zero(), 500.0, 0.0, effect);
         let (open, near) = (wrench(1.0), wrench(1.25));
         assert!((near.force_n - open.force_n * 1.25).norm() < 1e-12);

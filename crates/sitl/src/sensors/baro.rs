@@ -10,7 +10,7 @@ pub const START_OFFSET_M: f64 = 0.1;
 
 /// State of the barometer.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Baro {
+pub struct Barometer {
     stream: RandomStream,
     due: Schedule,
     noise_m: f64,
@@ -19,10 +19,10 @@ pub struct Baro {
     origin_altitude_m: f64,
 }
 
-impl Baro {
+impl Barometer {
     /// `origin_altitude_m`: mean-sea-level altitude of the local origin.
     #[must_use]
-    pub fn new(sensors: &vehicle::Sensors, origin_altitude_m: f64, seed: u64) -> Self {
+    pub fn new(sensors: &vehicle::SensorSpec, origin_altitude_m: f64, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "baro");
         Self {
             due: Schedule::new(SimTime::ZERO, sensors.baro_rate_hz),

@@ -17,7 +17,7 @@ const RATE_HZ: f64 = 20.0;
 
 /// State of the flow sensor.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Flow {
+pub struct OpticalFlow {
     stream: RandomStream,
     due: Schedule,
     noise_m_s: f64,
@@ -25,10 +25,10 @@ pub struct Flow {
     scale: f64,
 }
 
-impl Flow {
+impl OpticalFlow {
     /// Never due when the aircraft has none.
     #[must_use]
-    pub fn new(sensors: &vehicle::Sensors, seed: u64) -> Self {
+    pub fn new(sensors: &vehicle::SensorSpec, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "flow");
         let fitted = sensors.flow_velocity_m_s > 0.0;
         Self {

@@ -32,7 +32,7 @@ const MULTIPATH_TIME_S: f64 = 8.0;
 
 /// State of the receiver.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Gnss {
+pub struct GnssReceiver {
     stream: RandomStream,
     due: Schedule,
     period_s: f64,
@@ -47,10 +47,10 @@ pub struct Gnss {
     multipath_m2: f64,
 }
 
-impl Gnss {
+impl GnssReceiver {
     /// `shadow`: the structures hide satellites.
     #[must_use]
-    pub fn new(sensors: &vehicle::Sensors, shadow: bool, seed: u64) -> Self {
+    pub fn new(sensors: &vehicle::SensorSpec, shadow: bool, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "gnss");
         let sky = sky();
         let open = dilution(sky.iter().copied()).unwrap_or((1.0, 1.0));
@@ -81,7 +81,7 @@ impl Gnss {
         let position_m = rigid.position_m.enu();
         let visible: Vec<Vec3<Enu>> = self.sky.iter().copied().filter(|d| self.sees(position_m, *d, site, now)).collect();
         let hidden = 1.0 - visible.len() as f64 / self.sky.len() as f64;
-        self.wander(hidden);
+        self.step_errors(hidden);
         Some(self.fix(rigid, &visible))
     }
 
@@ -89,7 +89,7 @@ impl Gnss {
         !self.shadow || site.ray_m(position_m, direction, REACH_M, now).is_none()
     }
 
-    fn wander(&mut self, hidden: f64) {
+    fn step_errors(&mut self, hidden: f64) {
         let mut stream = self.stream.clone();
         let keep = math::exp(-self.period_s / DRIFT_TIME_S);
         self.drift = self.drift * keep + self.scaled(&mut stream, DRIFT_SHARE * (1.0 - keep * keep).sqrt());
@@ -196,8 +196,8 @@ mod tests {
         assert!((h - expected).abs() < 1e-12 && (v - expected).abs() < 1e-12, "{h} {v}");
     }
 
-    struct Lid;
-    impl Surroundings for Lid {
+    struct CoveredSky;
+    impl Surroundings for CoveredSky {
         fn ray_m(&self, _: Vec3<Enu>, d: Vec3<Enu>, _: f64, _: SimTime) -> Option<f64> {
             (d.up() > 0.3).then_some(5.0)
         }
@@ -210,7 +210,7 @@ mod tests {
     fn prop_a_lid_over_the_sky_takes_the_fix_only_when_shadows_count() {
         let sensors = crate::sensors::tests::perfect();
         let rigid = crate::sensors::tests::still();
-        let fix = |shadow| Gnss::new(&sensors, shadow, 1).read(&rigid, &Lid, SimTime::ZERO).map(|r| r.fix);
+        let fix = |shadow| GnssReceiver::new(&sensors, shadow, 1).read(&rigid, &CoveredSky, SimTime::ZERO).map(|r| r.fix);
         assert_eq!(fix(false), Some(3));
         assert_eq!(fix(true), Some(0));
     }

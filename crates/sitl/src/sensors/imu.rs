@@ -31,11 +31,11 @@ pub struct Imu {
 impl Imu {
     /// Draws the start biases.
     #[must_use]
-    pub fn new(sensors: &vehicle::Sensors, seed: u64) -> Self {
+    pub fn new(sensors: &vehicle::SensorSpec, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "imu");
         let period_s = 1.0 / sensors.imu_rate_hz;
         let walk = BIAS_WALK_SHARE * (period_s * f64::from(WALK_EVERY)).sqrt();
-        let (accel, gyro) = six(&mut stream);
+        let (accel, gyro) = normal_pair_3d(&mut stream);
         Self {
             accel_sigma: sensors.accel_noise_density / period_s.sqrt(),
             gyro_sigma: sensors.gyro_noise_density / period_s.sqrt(),
@@ -52,7 +52,7 @@ impl Imu {
     }
 
     /// Takes in one physics step: an impact between two samples is felt in the next one.
-    pub fn feel(&mut self, specific_force_m_s2: Vec3<Frd>, rates_rad_s: Vec3<Frd>, dt: SimTime) {
+    pub fn integrate(&mut self, specific_force_m_s2: Vec3<Frd>, rates_rad_s: Vec3<Frd>, dt: SimTime) {
         let dt_s = dt.s();
         self.force_sum += specific_force_m_s2 * dt_s;
         self.rate_sum += rates_rad_s * dt_s;
@@ -66,12 +66,12 @@ impl Imu {
         }
         if self.until_walk == 0 {
             self.until_walk = WALK_EVERY;
-            let (accel, gyro) = six(&mut self.stream);
+            let (accel, gyro) = normal_pair_3d(&mut self.stream);
             self.accel_bias += accel * self.accel_walk;
             self.gyro_bias += gyro * self.gyro_walk;
         }
         self.until_walk -= 1;
-        let (accel, gyro) = six(&mut self.stream);
+        let (accel, gyro) = normal_pair_3d(&mut self.stream);
         let force = self.force_sum / self.time_s + self.accel_bias + accel * self.accel_sigma;
         let rates = self.rate_sum / self.time_s + self.gyro_bias + gyro * self.gyro_sigma;
         self.force_sum = Vec3::zero();
@@ -88,7 +88,7 @@ impl Imu {
 }
 
 /// Six independent standard normals as two vectors.
-fn six(stream: &mut RandomStream) -> (Vec3<Frd>, Vec3<Frd>) {
+fn normal_pair_3d(stream: &mut RandomStream) -> (Vec3<Frd>, Vec3<Frd>) {
     let ((a, b), (c, d), (e, f)) = (stream.normal_pair(), stream.normal_pair(), stream.normal_pair());
     (Vec3::new(a, b, c), Vec3::new(d, e, f))
 }
@@ -99,12 +99,12 @@ mod tests {
 
     #[test]
     fn exact_an_impact_between_two_samples_is_felt_in_full() {
-        let sensors = vehicle::Sensors { imu_rate_hz: 400.0, ..crate::sensors::tests::perfect() };
+        let sensors = vehicle::SensorSpec { imu_rate_hz: 400.0, ..crate::sensors::tests::perfect() };
         let mut imu = Imu::new(&sensors, 1);
         let step = SimTime::from_us(500);
         for i in 0..5 {
             let push = if i == 2 { 2000.0 } else { 0.0 };
-            imu.feel(Vec3::new(push, 0.0, -9.806_65), Vec3::zero(), step);
+            imu.integrate(Vec3::new(push, 0.0, -9.806_65), Vec3::zero(), step);
         }
         let gained = imu.read().map(|r| r.specific_force_m_s2.forward() * 0.0025);
         // 2000 m/s² over 0.5 ms is 1 m/s; rounding only.

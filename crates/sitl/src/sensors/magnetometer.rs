@@ -37,7 +37,7 @@ pub struct Magnetometer {
 impl Magnetometer {
     /// At a site whose origin lies at `origin`.
     #[must_use]
-    pub fn new(sensors: &vehicle::Sensors, origin: Geo, seed: u64) -> Self {
+    pub fn new(sensors: &vehicle::SensorSpec, origin: Geo, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "magnetometer");
         let [x, y, z] = stream.normal3();
         Self {
@@ -66,7 +66,7 @@ mod tests {
 
     #[test]
     fn exact_the_bias_turns_with_the_body_and_spreads_as_the_file_says() {
-        let spec = vehicle::Sensors { mag_bias_gauss: 0.01, ..perfect() };
+        let spec = vehicle::SensorSpec { mag_bias_gauss: 0.01, ..perfect() };
         let place = Geo { latitude_deg: 46.5, longitude_deg: 8.0, altitude_m: 0.0 };
         let mut squares = 0.0;
         for seed in 0..400 {

@@ -72,7 +72,7 @@ pub struct Readings {
 
 impl Readings {
     /// Takes over what is new, keeps the rest: the last of every reading.
-    pub fn keep(&mut self, fresh: &Self) {
+    pub fn update_latest(&mut self, fresh: &Self) {
         self.imu = fresh.imu.or(self.imu);
         self.gnss = fresh.gnss.or(self.gnss);
         self.baro_up_m = fresh.baro_up_m.or(self.baro_up_m);
@@ -136,12 +136,12 @@ impl Surroundings for Site {
 
 /// Level ground without end at one height, in daylight, under an open sky.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Plain {
+pub struct FlatGround {
     /// Height of the ground, m up.
     pub up_m: f64,
 }
 
-impl Surroundings for Plain {
+impl Surroundings for FlatGround {
     fn ray_m(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, _: SimTime) -> Option<f64> {
         let distance = (self.up_m - origin_m.up()) / direction.up();
         (distance.is_finite() && distance >= 0.0 && distance <= max_m).then_some(distance)
@@ -153,7 +153,7 @@ impl Surroundings for Plain {
 
 /// What the sensors need to know of the truth at one tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Truth<'a> {
+pub struct SensorInputs<'a> {
     /// Motion.
     pub rigid: &'a RigidState,
     /// The battery's terminals.
@@ -169,11 +169,11 @@ pub struct Sensors {
     power_due: Schedule,
     light_due: Schedule,
     imu: imu::Imu,
-    gnss: gnss::Gnss,
-    baro: baro::Baro,
+    gnss: gnss::GnssReceiver,
+    baro: baro::Barometer,
     magnetometer: magnetometer::Magnetometer,
     ranges: rangefinder::RangeFinders,
-    flow: flow::Flow,
+    flow: flow::OpticalFlow,
     lamp: Lamp,
     nearest_m: f64,
     ambient_lux: f64,
@@ -195,11 +195,11 @@ impl Sensors {
             power_due: Schedule::new(SimTime::ZERO, POWER_RATE_HZ),
             light_due: Schedule::new(SimTime::ZERO, if fitted { LIGHT_RATE_HZ } else { 0.0 }),
             imu: imu::Imu::new(spec, seed),
-            gnss: gnss::Gnss::new(spec, gnss_shadow, seed),
-            baro: baro::Baro::new(spec, origin.altitude_m, seed),
+            gnss: gnss::GnssReceiver::new(spec, gnss_shadow, seed),
+            baro: baro::Barometer::new(spec, origin.altitude_m, seed),
             magnetometer: magnetometer::Magnetometer::new(spec, origin, seed),
             ranges: rangefinder::RangeFinders::new(spec, seed),
-            flow: flow::Flow::new(spec, seed),
+            flow: flow::OpticalFlow::new(spec, seed),
             lamp: vehicle.lamp,
             nearest_m: f64::INFINITY,
             ambient_lux: 0.0,
@@ -207,12 +207,12 @@ impl Sensors {
     }
 
     /// Call after every physics step with what the body felt in it, so that the inertial sensors miss nothing between two samples.
-    pub fn feel(&mut self, rigid: &RigidState, specific_force_m_s2: Vec3<Frd>, dt: SimTime) {
-        self.imu.feel(specific_force_m_s2, rigid.rates_rad_s, dt);
+    pub fn integrate_imu(&mut self, rigid: &RigidState, specific_force_m_s2: Vec3<Frd>, dt: SimTime) {
+        self.imu.integrate(specific_force_m_s2, rigid.rates_rad_s, dt);
     }
 
     /// Every reading that is due at `now`.
-    pub fn sample<S: Surroundings>(&mut self, truth: &Truth<'_>, site: &S, now: SimTime) -> Readings {
+    pub fn sample<S: Surroundings>(&mut self, truth: &SensorInputs<'_>, site: &S, now: SimTime) -> Readings {
         let rigid = truth.rigid;
         let position_m = rigid.position_m.enu();
         let mut out = Readings::default();
@@ -261,13 +261,13 @@ impl Sensors {
 
     /// The receiver, for tests of the estimator.
     #[must_use]
-    pub fn gnss(&self) -> &gnss::Gnss {
+    pub fn gnss(&self) -> &gnss::GnssReceiver {
         &self.gnss
     }
 
     /// The barometer, for tests of the estimator.
     #[must_use]
-    pub fn baro(&self) -> &baro::Baro {
+    pub fn baro(&self) -> &baro::Barometer {
         &self.baro
     }
 }
@@ -280,8 +280,8 @@ pub(crate) mod tests {
     use spandrel_model::vehicle;
 
     /// Sensors without error, for tests of single mechanisms.
-    pub(crate) fn perfect() -> vehicle::Sensors {
-        vehicle::Sensors {
+    pub(crate) fn perfect() -> vehicle::SensorSpec {
+        vehicle::SensorSpec {
             imu_rate_hz: 400.0,
             accel_noise_density: 0.0,
             accel_bias_m_s2: 0.0,
@@ -319,21 +319,21 @@ pub(crate) mod tests {
     #[test]
     fn exact_range_finders_measure_the_plain_below() {
         let mut finders = rangefinder::RangeFinders::new(&perfect(), 1);
-        let ranges = finders.read(&still(), &Plain { up_m: 2.0 }, SimTime::ZERO);
+        let ranges = finders.read(&still(), &FlatGround { up_m: 2.0 }, SimTime::ZERO);
         assert!(ranges.is_some_and(|r| (r.down_m - 8.0).abs() < 1e-12 && r.up_m.is_infinite()), "{ranges:?}");
     }
 
     #[test]
     fn exact_each_range_finder_has_a_bias_of_its_own_that_stays() {
-        let biased = vehicle::Sensors { range_bias_m: 0.05, ..perfect() };
+        let biased = vehicle::SensorSpec { range_bias_m: 0.05, ..perfect() };
         let mut finders = rangefinder::RangeFinders::new(&biased, 1);
-        let mut off = |ms| finders.read(&still(), &Plain { up_m: 2.0 }, SimTime::from_ms(ms)).expect("due").down_m - 8.0;
+        let mut off = |ms| finders.read(&still(), &FlatGround { up_m: 2.0 }, SimTime::from_ms(ms)).expect("due").down_m - 8.0;
         let (first, later) = (off(0), off(100));
         assert!(first != 0.0 && first.abs() < 0.25 && first == later, "{first} {later}");
         let mut all: Vec<f64> = (0..40)
             .map(|seed| {
                 rangefinder::RangeFinders::new(&biased, seed)
-                    .read(&still(), &Plain { up_m: 2.0 }, SimTime::ZERO)
+                    .read(&still(), &FlatGround { up_m: 2.0 }, SimTime::ZERO)
                     .expect("due")
                     .down_m
             })
@@ -345,7 +345,7 @@ pub(crate) mod tests {
 
     #[test]
     fn exact_flow_needs_light_and_a_surface_within_reach() {
-        let mut flow = flow::Flow::new(&perfect(), 1);
+        let mut flow = flow::OpticalFlow::new(&perfect(), 1);
         assert!(flow.read(&still(), 5.0, 100.0).is_some());
         assert!(flow.read(&still(), 5.0, 14.0).is_none());
         assert!(flow.read(&still(), 41.0, 100.0).is_none());

@@ -10,7 +10,7 @@ use spandrel_model::vehicle;
 
 /// What all range finders measured at one instant, m; infinite beyond reach.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ranges {
+pub struct RangeReadings {
     /// Along the body's down axis.
     pub down_m: f64,
     /// Against it.
@@ -19,7 +19,7 @@ pub struct Ranges {
     pub around_m: [f64; 8],
 }
 
-impl Ranges {
+impl RangeReadings {
     /// The shortest of all, m.
     #[must_use]
     pub fn shortest_m(&self) -> f64 {
@@ -42,7 +42,7 @@ pub struct RangeFinders {
 impl RangeFinders {
     /// With the aircraft's rate, noise and reach.
     #[must_use]
-    pub fn new(sensors: &vehicle::Sensors, seed: u64) -> Self {
+    pub fn new(sensors: &vehicle::SensorSpec, seed: u64) -> Self {
         let mut around = [Vec3::zero(); 8];
         for (i, direction) in around.iter_mut().enumerate() {
             let (s, c) = math::sin_cos(i as f64 * math::PI / 4.0);
@@ -60,13 +60,13 @@ impl RangeFinders {
     }
 
     /// All ranges from the centre of mass, when due.
-    pub fn read<S: Surroundings>(&mut self, rigid: &RigidState, site: &S, now: SimTime) -> Option<Ranges> {
+    pub fn read<S: Surroundings>(&mut self, rigid: &RigidState, site: &S, now: SimTime) -> Option<RangeReadings> {
         if !self.due.fire(now) {
             return None;
         }
         if site.nothing_within(rigid.position_m.enu(), self.max_m, now) {
             let far = f64::INFINITY;
-            return Some(Ranges { down_m: far, up_m: far, around_m: [far; 8] });
+            return Some(RangeReadings { down_m: far, up_m: far, around_m: [far; 8] });
         }
         let [down, up, beside @ ..] = self.bias_m;
         let down_m = self.one(rigid, (Vec3::new(0.0, 0.0, 1.0), down), site, now);
@@ -75,7 +75,7 @@ impl RangeFinders {
         for (range, looks) in around_m.iter_mut().zip(self.around.into_iter().zip(beside)) {
             *range = self.one(rigid, looks, site, now);
         }
-        Some(Ranges { down_m, up_m, around_m })
+        Some(RangeReadings { down_m, up_m, around_m })
     }
 
     /// One range along a direction, with its finder's bias.

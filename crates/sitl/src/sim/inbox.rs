@@ -16,20 +16,20 @@ const WAITING_BYTES: usize = 131_072;
 /// The queues of all links.
 #[derive(Debug, Clone, Default)]
 pub struct Inbox {
-    links: BTreeMap<LinkId, Queue>,
+    links: BTreeMap<LinkId, LinkQueue>,
     waiting: usize,
     tick: SimTime,
     dropped: u64,
 }
 
 #[derive(Debug, Clone, Default)]
-struct Queue {
+struct LinkQueue {
     datagrams: VecDeque<Vec<u8>>,
     bytes: usize,
     spent: (usize, usize),
 }
 
-impl Queue {
+impl LinkQueue {
     fn has_room_for(&self, len: usize) -> bool {
         len <= BYTES_A_TICK && self.datagrams.len() < WAITING && self.bytes + len <= WAITING_BYTES
     }

@@ -10,7 +10,7 @@ const UNDER_WAY: usize = 16_384;
 
 /// What is under way, and how bad it is.
 #[derive(Debug, Clone)]
-pub struct Radio {
+pub struct RadioLink {
     loss: f64,
     delay: SimTime,
     stream: RandomStream,
@@ -18,7 +18,7 @@ pub struct Radio {
     inward: VecDeque<(SimTime, LinkId, Vec<u8>)>,
 }
 
-impl Radio {
+impl RadioLink {
     /// A good one.
     #[must_use]
     pub fn new(seed: u64) -> Self {
@@ -33,7 +33,7 @@ impl Radio {
 
     /// Nothing is lost and nothing late.
     #[must_use]
-    pub fn is_good(&self) -> bool {
+    pub fn is_lossless(&self) -> bool {
         self.loss == 0.0 && self.delay == SimTime::ZERO
     }
 

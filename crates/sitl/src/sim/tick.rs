@@ -2,8 +2,8 @@
 
 use super::{STEP, Sim};
 use crate::autopilot::CONTROL_HZ;
-use crate::physics::{Actuators, Load};
-use crate::sensors::{BatteryReading, Truth};
+use crate::physics::{Actuators, PowerLoad};
+use crate::sensors::{BatteryReading, SensorInputs};
 use sha2::Digest;
 use spandrel_model::frames::Vec3;
 use spandrel_model::time::SimTime;
@@ -12,25 +12,25 @@ use std::sync::Arc;
 impl Sim {
     pub(super) fn tick(&mut self) {
         let start = self.now;
-        self.heed_the_instructor();
-        self.endpoint.sticks_pass = self.faults.sticks_pass(start);
-        self.move_air(start);
+        self.apply_instructor_inputs();
+        self.endpoint.sticks_pass = self.faults.passes_sticks(start);
+        self.step_wind(start);
         if self.control_due.fire(start) {
-            self.control(start);
+            self.step_control(start);
         }
-        let load = Load { lamp_on: self.endpoint.payload.lamp.on, airborne: self.lifted };
+        let load = PowerLoad { lamp_on: self.endpoint.payload.lamp.on, airborne: self.has_lifted_off };
         let site = Arc::clone(&self.site);
         let model = Arc::clone(&self.model);
         model.advance(&mut self.state, &self.actuators, &self.air, site.as_ref(), load, start, STEP);
-        self.sensors.feel(&self.state.rigid, self.state.specific_force_m_s2, STEP);
+        self.sensors.integrate_imu(&self.state.rigid, self.state.specific_force_m_s2, STEP);
         self.now += STEP;
-        self.consequences();
-        self.look_around();
-        self.speak();
-        self.sign();
+        self.handle_crash_and_respawn();
+        self.update_clearance_and_light();
+        self.publish();
+        self.update_digest();
     }
 
-    fn move_air(&mut self, now: SimTime) {
+    fn step_wind(&mut self, now: SimTime) {
         if self.wind_due.fire(now) {
             let up = -self.state.rigid.position_m.down();
             let here = self.state.rigid.position_m.enu();
@@ -41,28 +41,28 @@ impl Sim {
             self.wind.update(now, height_m, self.state.rigid.velocity_m_s);
         }
         self.air.velocity_m_s = self.wind.air_velocity(now);
-        self.air.force_n = if self.lifted { self.wind.paper_force_n() } else { Vec3::zero() };
+        self.air.force_n = if self.has_lifted_off { self.wind.paper_force_n() } else { Vec3::zero() };
     }
 
-    fn control(&mut self, now: SimTime) {
+    fn step_control(&mut self, now: SimTime) {
         let b = &self.state.battery;
         let battery = BatteryReading { voltage_v: b.voltage_v, current_a: b.current_a, remaining_pct: b.remaining_pct() };
-        let truth = Truth { rigid: &self.state.rigid, battery, lamp_on: self.endpoint.payload.lamp.on };
+        let truth = SensorInputs { rigid: &self.state.rigid, battery, lamp_on: self.endpoint.payload.lamp.on };
         let mut fresh = self.sensors.sample(&truth, self.site.as_ref(), now);
-        self.faults.spoil(&mut fresh, now);
+        self.faults.corrupt_readings(&mut fresh, now);
         self.actuators = self.backend.step(&fresh, now);
         self.faults.stop_motors(&mut self.actuators);
-        if self.ended.is_some() {
+        if self.end_reason.is_some() {
             self.actuators = Actuators::default();
         }
-        self.readings.keep(&fresh);
+        self.readings.update_latest(&fresh);
         let camera = self.config.vehicle.camera;
         let position = self.state.rigid.position_m.enu();
         self.endpoint.payload.step(&camera, position, now, 1.0 / CONTROL_HZ);
     }
 
     /// The tick's state enters the digest bit by bit.
-    fn sign(&mut self) {
+    fn update_digest(&mut self) {
         let r = &self.state.rigid;
         let mut bits = [0u8; 8 * 13];
         let values =

@@ -66,7 +66,7 @@ fn wire_the_cameras_component_does_not_fly() {
         assert_eq!(station.command(100, command, one), MavResult::MAV_RESULT_UNSUPPORTED, "{command:?}");
     }
     station.run_ms(1_100);
-    let armed = station.last(|m| match m {
+    let armed = station.last_message(|m| match m {
         MavMessage::HEARTBEAT(b) if b.mavtype == MavType::MAV_TYPE_QUADROTOR => Some(b.base_mode),
         _ => None,
     });
@@ -88,7 +88,7 @@ fn wire_every_stream_can_be_asked_for_once_and_at_a_rate() {
     for stream in STREAMS {
         let id = stream.id as f32;
         station.sticks(0, 0, 500, 0);
-        if !stream.is_spoken(&spandrel_sitl::endpoint::flavour::px4::FLAVOUR) {
+        if !stream.is_sent(&spandrel_sitl::endpoint::flavour::px4::FLAVOUR) {
             let refused = station.command(stream.component, MavCmd::MAV_CMD_REQUEST_MESSAGE, [id, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
             let rate =
                 station.command(stream.component, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [id, 5e4, 0.0, 0.0, 0.0, 0.0, 0.0]);
@@ -98,21 +98,21 @@ fn wire_every_stream_can_be_asked_for_once_and_at_a_rate() {
         }
         let asked = station.command(stream.component, MavCmd::MAV_CMD_REQUEST_MESSAGE, [id, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         assert_eq!(asked, MavResult::MAV_RESULT_ACCEPTED, "message {id}");
-        assert!(station.heard.iter().any(|f| f.message_id == stream.id && f.component_id == stream.component), "message {id}");
+        assert!(station.received.iter().any(|f| f.message_id == stream.id && f.component_id == stream.component), "message {id}");
         let set = |us| [id, us, 0.0, 0.0, 0.0, 0.0, 0.0];
         let accepted = |s: &mut Station, us| {
             let result = s.command(stream.component, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, set(us));
             assert_eq!(result, MavResult::MAV_RESULT_ACCEPTED, "message {id}");
         };
         let heard_in_a_second = |s: &mut Station| {
-            s.heard.clear();
+            s.received.clear();
             for _ in 0..5 {
                 s.sticks(0, 0, 500, 0);
                 s.run_ms(200);
             }
             // A message may have several rows, such as a distance in each direction.
             let rows = STREAMS.iter().filter(|other| (other.id, other.component) == (stream.id, stream.component)).count();
-            s.heard.iter().filter(|f| f.message_id == stream.id && f.component_id == stream.component).count() / rows
+            s.received.iter().filter(|f| f.message_id == stream.id && f.component_id == stream.component).count() / rows
         };
         accepted(&mut station, 50_000.0);
         let count = heard_in_a_second(&mut station);
@@ -120,8 +120,8 @@ fn wire_every_stream_can_be_asked_for_once_and_at_a_rate() {
         accepted(&mut station, -1.0);
         assert_eq!(heard_in_a_second(&mut station), 0, "message {id} is off");
         let interval = station.command(stream.component, MavCmd::MAV_CMD_GET_MESSAGE_INTERVAL, set(0.0));
-        let told =
-            station.last(|m| if let MavMessage::MESSAGE_INTERVAL(i) = m { Some((i.message_id, i.interval_us)) } else { None });
+        let told = station
+            .last_message(|m| if let MavMessage::MESSAGE_INTERVAL(i) = m { Some((i.message_id, i.interval_us)) } else { None });
         assert_eq!((interval, told), (MavResult::MAV_RESULT_ACCEPTED, Some((stream.id as u16, -1))));
         accepted(&mut station, 0.0);
     }
@@ -200,7 +200,7 @@ fn wire_the_checksum_comes_before_the_list_and_setting_it_stops_the_list() {
         param_type: MavParamType::MAV_PARAM_TYPE_UINT32,
     }));
     station.run_ms(2);
-    station.heard.clear();
+    station.received.clear();
     station.run_ms(500);
     assert!(station.all(value_of).is_empty(), "the station knows them all");
 }
@@ -270,7 +270,7 @@ fn wire_speeds_and_terminations_that_change_nothing_are_granted() {
     }
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_FLIGHTTERMINATION, [0.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(1_100);
-    let armed = station.last(|m| match m {
+    let armed = station.last_message(|m| match m {
         MavMessage::HEARTBEAT(b) if b.mavtype == MavType::MAV_TYPE_QUADROTOR => Some(b.base_mode),
         _ => None,
     });

@@ -33,17 +33,17 @@ fn ask(station: &mut Station, id: u32) -> MavResult {
 }
 
 fn settings(station: &Station) -> Option<(CameraMode, f32)> {
-    station.last(|m| if let MavMessage::CAMERA_SETTINGS(s) = m { Some((s.mode_id, s.zoomLevel)) } else { None })
+    station.last_message(|m| if let MavMessage::CAMERA_SETTINGS(s) = m { Some((s.mode_id, s.zoomLevel)) } else { None })
 }
 
 fn status(station: &mut Station) -> CAMERA_CAPTURE_STATUS_DATA {
     assert_eq!(ask(station, 262), OK);
-    station.last(|m| if let MavMessage::CAMERA_CAPTURE_STATUS(s) = m { Some(s.clone()) } else { None }).unwrap()
+    station.last_message(|m| if let MavMessage::CAMERA_CAPTURE_STATUS(s) = m { Some(s.clone()) } else { None }).unwrap()
 }
 
 fn used_mib(station: &mut Station) -> f32 {
     assert_eq!(ask(station, 261), OK);
-    let told = station.last(|m| if let MavMessage::STORAGE_INFORMATION(s) = m { Some(s.clone()) } else { None }).unwrap();
+    let told = station.last_message(|m| if let MavMessage::STORAGE_INFORMATION(s) = m { Some(s.clone()) } else { None }).unwrap();
     assert_eq!((told.status, told.storage_id, told.storage_count), (StorageStatus::STORAGE_STATUS_READY, 1, 1));
     assert!((told.used_capacity + told.available_capacity - told.total_capacity).abs() < 0.01, "{told:?}");
     told.used_capacity
@@ -58,7 +58,7 @@ fn take(station: &mut Station) -> MavResult {
 }
 
 #[test]
-fn wire_the_camera_records_in_video_mode_alone_takes_pictures_in_both_and_tells_how_long() {
+fn wire_the_camera_records_in_video_mode_alone_takes_pictures_in_both_and_reports_how_long() {
     let mut station = on_the_pad("phantom2");
     let record = p(&[0.0, 2.0, 0.0]);
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_START_CAPTURE, record), FAILED);
@@ -66,7 +66,7 @@ fn wire_the_camera_records_in_video_mode_alone_takes_pictures_in_both_and_tells_
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_MODE, p(&[0.0, 1.0])), OK);
     assert_eq!(settings(&station).unwrap().0, CameraMode::CAMERA_MODE_VIDEO, "told to everybody at once");
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_START_CAPTURE, record), OK);
-    station.heard.clear();
+    station.received.clear();
     station.run_ms(3_000);
     let told = station.all(|m| if let MavMessage::CAMERA_CAPTURE_STATUS(s) = m { Some(s.video_status) } else { None });
     assert!((6..=7).contains(&told.len()) && told.iter().all(|on| *on == 1), "twice a second, as asked: {told:?}");
@@ -98,7 +98,7 @@ fn wire_a_formatted_card_is_empty_and_counts_from_nought_and_not_while_recording
     assert_eq!((used_mib(&mut station), status(&mut station).image_count), (2.0 * PICTURE_MIB, 0), "the log alone");
     assert_eq!(station.command(CAMERA, format, p(&[1.0, 1.0, 1.0])), OK);
     assert_eq!(used_mib(&mut station), 0.0);
-    station.heard.clear();
+    station.received.clear();
     assert_eq!(take(&mut station), OK);
     assert_eq!(pictures(&station), [0]);
     station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_MODE, p(&[0.0, 1.0]));
@@ -134,13 +134,14 @@ fn wire_every_kind_of_zoom_is_obeyed_shown_and_within_the_lens() {
         let told = settings(&station).unwrap().1;
         assert!((told - level).abs() < 0.01, "{kind} {value}: {told} for {level}");
         assert_eq!(ask(&mut station, 271), OK);
-        let field = station.last(|m| if let MavMessage::CAMERA_FOV_STATUS(f) = m { Some((f.hfov, f.vfov)) } else { None });
+        let field =
+            station.last_message(|m| if let MavMessage::CAMERA_FOV_STATUS(f) = m { Some((f.hfov, f.vfov)) } else { None });
         let (hfov, vfov) = field.unwrap();
         assert!((f64::from(hfov) - field_deg(f64::from(level) / 100.0)).abs() < 0.01, "{level}: {hfov}");
         let tall = (0.5 * vfov.to_radians()).tan() / (0.5 * hfov.to_radians()).tan();
         assert!((tall - 0.75).abs() < 1e-4, "3000 lines of 4000 pixels: {tall}");
         assert_eq!(ask(&mut station, 269), OK);
-        let stream = station.last(|m| if let MavMessage::VIDEO_STREAM_INFORMATION(s) = m { Some(s.hfov) } else { None });
+        let stream = station.last_message(|m| if let MavMessage::VIDEO_STREAM_INFORMATION(s) = m { Some(s.hfov) } else { None });
         assert!((f32::from(stream.unwrap()) - hfov).abs() <= 0.5);
     }
     for (kind, value) in [(2.0, 101.0), (3.0, 100.0), (4.0, 170.0), (5.0, 1.0), (0.0, NAN), (NAN, 1.0)] {
@@ -150,7 +151,7 @@ fn wire_every_kind_of_zoom_is_obeyed_shown_and_within_the_lens() {
     assert_eq!(fixed.command(CAMERA, zoom, p(&[2.0, 50.0])), UNSUPPORTED);
     for (station, zooms) in [(&mut station, true), (&mut fixed, false)] {
         assert_eq!(ask(station, 259), OK);
-        let flags = station.last(|m| if let MavMessage::CAMERA_INFORMATION(i) = m { Some(i.flags) } else { None });
+        let flags = station.last_message(|m| if let MavMessage::CAMERA_INFORMATION(i) = m { Some(i.flags) } else { None });
         assert_eq!(flags.unwrap().contains(CameraCapFlags::CAMERA_CAP_FLAGS_HAS_BASIC_ZOOM), zooms);
         assert_eq!(ask(station, 260), OK);
         assert_eq!(settings(station).unwrap().1.is_nan(), !zooms);
@@ -158,7 +159,7 @@ fn wire_every_kind_of_zoom_is_obeyed_shown_and_within_the_lens() {
 }
 
 #[test]
-fn wire_a_continuous_zoom_stops_when_told_and_a_reset_leads_back_to_the_wide_end() {
+fn wire_a_continuous_zoom_stops_on_command_and_a_reset_leads_back_to_the_wide_end() {
     let mut station = on_the_pad(ZOOMS);
     let zoom = MavCmd::MAV_CMD_SET_CAMERA_ZOOM;
     assert_eq!(station.command(CAMERA, zoom, p(&[1.0, 0.5])), OK);
@@ -183,11 +184,11 @@ fn wire_before_every_picture_stands_the_field_of_view_that_it_has() {
     station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_ZOOM, p(&[1.0, 1.0]));
     for _ in 0..5 {
         station.run_ms(430);
-        station.heard.clear();
+        station.received.clear();
         assert_eq!(take(&mut station), OK);
         station.run_ms(20);
         let spoken: Vec<&MavMessage> = station
-            .heard
+            .received
             .iter()
             .filter(|frame| frame.component_id == CAMERA)
             .filter_map(|frame| frame.message.as_ref())
@@ -213,10 +214,11 @@ fn wire_focus_is_answered_as_it_is_and_a_stream_runs_while_somebody_sends_it() {
     assert!(station.texts().iter().any(|text| text.contains("stream")));
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_START_STREAMING, p(&[2.0])), DENIED);
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_STOP_STREAMING, p(&[1.0])), OK);
-    let told = station.last(|m| if let MavMessage::VIDEO_STREAM_STATUS(s) = m { Some(s.flags) } else { None });
+    let told = station.last_message(|m| if let MavMessage::VIDEO_STREAM_STATUS(s) = m { Some(s.flags) } else { None });
     assert_eq!(told, Some(VideoStreamStatusFlags::empty()));
     assert_eq!(ask(&mut station, 269), OK);
-    let stream = station.last(|m| if let MavMessage::VIDEO_STREAM_INFORMATION(s) = m { Some(s.clone()) } else { None }).unwrap();
+    let stream =
+        station.last_message(|m| if let MavMessage::VIDEO_STREAM_INFORMATION(s) = m { Some(s.clone()) } else { None }).unwrap();
     assert_eq!((stream.stream_id, stream.count, stream.mavtype), (1, 1, VideoStreamType::VIDEO_STREAM_TYPE_RTPUDP));
     assert_eq!((stream.flags, stream.uri.to_str()), (VideoStreamStatusFlags::empty(), Ok("5600")));
     let running = VideoStreamStatusFlags::VIDEO_STREAM_STATUS_FLAGS_RUNNING;
@@ -229,16 +231,16 @@ fn wire_focus_is_answered_as_it_is_and_a_stream_runs_while_somebody_sends_it() {
         stream_id: 1,
         ..Default::default()
     };
-    station.heard.clear();
+    station.received.clear();
     station.send(&MavMessage::VIDEO_STREAM_STATUS(sent.clone()));
     station.run_ms(100);
     let told = |station: &Station| {
-        station.last(|m| if let MavMessage::VIDEO_STREAM_INFORMATION(s) = m { Some(s.clone()) } else { None })
+        station.last_message(|m| if let MavMessage::VIDEO_STREAM_INFORMATION(s) = m { Some(s.clone()) } else { None })
     };
     let stream = told(&station).expect("told to everybody at once");
     assert_eq!((stream.flags, stream.resolution_h, stream.resolution_v, stream.framerate), (running, 640, 360, 20.0));
     for (width, announced) in [(640, false), (960, true), (640, true)] {
-        station.heard.clear();
+        station.received.clear();
         station.send(&MavMessage::VIDEO_STREAM_STATUS(VIDEO_STREAM_STATUS_DATA { resolution_h: width, ..sent.clone() }));
         station.run_ms(100);
         assert_eq!(told(&station).map(|s| s.resolution_h), announced.then_some(width), "another size is told to everybody");
@@ -255,7 +257,7 @@ fn wire_focus_is_answered_as_it_is_and_a_stream_runs_while_somebody_sends_it() {
     station.run_ms(1_000);
     assert_eq!(ask(&mut station, 269), OK);
     assert_eq!(told(&station).map(|s| s.flags), Some(VideoStreamStatusFlags::empty()), "nobody sends it any more");
-    station.sim.set_pace(10.0);
+    station.sim.set_speed_factor(10.0);
     station.send(&MavMessage::VIDEO_STREAM_STATUS(sent));
     station.run_ms(30_000);
     assert_eq!(ask(&mut station, 269), OK);
@@ -282,7 +284,7 @@ fn wire_the_older_requests_and_the_one_of_today_bring_the_same_messages() {
         let first = if id == 263 { 0.0 } else { 1.0 };
         for (command, values) in [(older, p(&[first, 1.0])), (M::MAV_CMD_REQUEST_MESSAGE, p(&[id as f32, 0.0]))] {
             assert_eq!(station.command(CAMERA, command, values), OK, "{command:?}");
-            let told = station.heard.iter().filter(|frame| (frame.message_id, frame.component_id) == (id, CAMERA)).count();
+            let told = station.received.iter().filter(|frame| (frame.message_id, frame.component_id) == (id, CAMERA)).count();
             assert_eq!(told, 1, "{command:?}");
         }
     }
@@ -312,7 +314,7 @@ fn wire_a_command_for_a_picture_that_comes_twice_takes_one_and_other_cameras_are
 }
 
 #[test]
-fn wire_missed_pictures_are_told_again_one_by_one_in_ranges_and_all() {
+fn wire_missed_pictures_are_reported_again_one_by_one_in_ranges_and_all() {
     let mut station = on_the_pad("phantom2");
     for _ in 0..8 {
         take(&mut station);
@@ -372,7 +374,7 @@ fn wire_a_missions_items_do_what_the_same_commands_do() {
     assert_eq!(station.command(1, M::MAV_CMD_COMPONENT_ARM_DISARM, p(&[1.0])), OK);
     let (mut lowest, mut changes, mut lamp) = (0.0_f32, 0, false);
     let ended = station.run_until(90.0, |s| {
-        for frame in s.heard.drain(..).collect::<Vec<_>>() {
+        for frame in s.received.drain(..).collect::<Vec<_>>() {
             match frame.message {
                 Some(MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g)) => lowest = lowest.min(2.0 * g.q[2].atan2(g.q[0])),
                 Some(MavMessage::ILLUMINATOR_STATUS(i)) => {
@@ -401,6 +403,6 @@ fn wire_a_missions_items_do_what_the_same_commands_do() {
     ask(&mut station, 260);
     assert!((settings(&station).unwrap().1 - 50.0).abs() < 0.01);
     station.run_ms(200);
-    let flags = station.last(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(g.flags) } else { None });
+    let flags = station.last_message(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(g.flags) } else { None });
     assert!(flags.unwrap().contains(GimbalDeviceFlags::GIMBAL_DEVICE_FLAGS_NEUTRAL));
 }

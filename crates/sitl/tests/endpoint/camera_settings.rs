@@ -1,7 +1,7 @@
 //! The camera's settings by name and number, and the file that describes them.
 
 use spandrel_mavlink::dialect::*;
-use spandrel_mavlink::ftp::{ACK, NAK, Opcode, Packet};
+use spandrel_mavlink::ftp::{ACK, FtpPacket, NAK, Opcode};
 use spandrel_testkit::station::Station;
 
 const CAMERA: u8 = 100;
@@ -28,7 +28,7 @@ fn told(station: &Station) -> Vec<(String, u32, u16, u16)> {
 }
 
 fn ask(station: &mut Station, message: &MavMessage) {
-    station.heard.clear();
+    station.received.clear();
     station.send(message);
     station.run_ms(5);
 }
@@ -58,7 +58,7 @@ fn set(station: &mut Station, name: &str, value: u32, param_type: MavParamExtTyp
         param_type,
     });
     ask(station, &message);
-    let ack = station.last(|m| match m {
+    let ack = station.last_message(|m| match m {
         MavMessage::PARAM_EXT_ACK(a) if a.param_id.to_str() == Ok(name) => Some((a.param_result, number(&a.param_value[..]))),
         _ => None,
     });
@@ -76,7 +76,7 @@ fn wire_the_cameras_settings_are_listed_read_and_changed_by_the_camera_alone() {
         ask(&mut station, &list(component));
         let expected = delivered.iter().zip(0..).map(|((name, value), k)| ((*name).to_owned(), *value, k, 2));
         assert_eq!(told(&station), expected.collect::<Vec<_>>());
-        assert!(station.heard.iter().filter(|f| f.message_id == 322).all(|f| f.component_id == CAMERA));
+        assert!(station.received.iter().filter(|f| f.message_id == 322).all(|f| f.component_id == CAMERA));
     }
     for message in [read("CAM_VIDRATE", -1), read("", 1)] {
         ask(&mut station, &message);
@@ -84,7 +84,7 @@ fn wire_the_cameras_settings_are_listed_read_and_changed_by_the_camera_alone() {
     }
     for message in [read("CAM_NONE", -1), read("", 2)] {
         ask(&mut station, &message);
-        let error = station.last(|m| if let MavMessage::PARAM_ERROR(e) = m { Some(e.error) } else { None });
+        let error = station.last_message(|m| if let MavMessage::PARAM_ERROR(e) = m { Some(e.error) } else { None });
         assert_eq!(error, Some(MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST));
     }
     assert_eq!(set(&mut station, "CAM_VIDRATE", 80, UINT32), (A::PARAM_ACK_ACCEPTED, 80));
@@ -107,11 +107,19 @@ fn wire_the_cameras_settings_are_listed_read_and_changed_by_the_camera_alone() {
     assert_eq!(told(&station).iter().map(|setting| setting.1).collect::<Vec<_>>(), [1, 60], "as delivered");
 }
 
-fn transfer(station: &mut Station, component: u8, opcode: Opcode, (session, offset): (u8, u32), data: &[u8], size: u8) -> Packet {
+fn transfer(
+    station: &mut Station,
+    component: u8,
+    opcode: Opcode,
+    (session, offset): (u8, u32),
+    data: &[u8],
+    size: u8,
+) -> FtpPacket {
     let mut all = [0; spandrel_mavlink::ftp::DATA_MAX];
     all[..data.len()].copy_from_slice(data);
     let sequence = (station.sim.now().ms() % 60_000) as u16;
-    let request = Packet { sequence, session, opcode: opcode as u8, size, request: 0, burst_complete: false, offset, data: all };
+    let request =
+        FtpPacket { sequence, session, opcode: opcode as u8, size, request: 0, burst_complete: false, offset, data: all };
     ask(
         station,
         &MavMessage::FILE_TRANSFER_PROTOCOL(FILE_TRANSFER_PROTOCOL_DATA {
@@ -121,8 +129,8 @@ fn transfer(station: &mut Station, component: u8, opcode: Opcode, (session, offs
             payload: request.write(),
         }),
     );
-    let answer = station.heard.iter().filter(|frame| frame.component_id == component).find_map(|frame| match &frame.message {
-        Some(MavMessage::FILE_TRANSFER_PROTOCOL(f)) => Some(Packet::read(&f.payload)),
+    let answer = station.received.iter().filter(|frame| frame.component_id == component).find_map(|frame| match &frame.message {
+        Some(MavMessage::FILE_TRANSFER_PROTOCOL(f)) => Some(FtpPacket::read(&f.payload)),
         _ => None,
     });
     answer.unwrap_or_else(|| panic!("{opcode:?} is not answered"))
@@ -132,7 +140,7 @@ fn transfer(station: &mut Station, component: u8, opcode: Opcode, (session, offs
 fn wire_the_camera_serves_the_file_that_describes_its_settings_and_no_other() {
     let mut station = on_the_pad();
     station.command(CAMERA, MavCmd::MAV_CMD_REQUEST_MESSAGE, [259.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-    let uri = station.last(|m| match m {
+    let uri = station.last_message(|m| match m {
         MavMessage::CAMERA_INFORMATION(i) => Some(i.cam_definition_uri.to_str().unwrap().to_owned()),
         _ => None,
     });

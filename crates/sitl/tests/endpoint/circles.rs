@@ -11,7 +11,7 @@ const YAW_TOLERANCE: f32 = 0.2;
 const NAN: f32 = f32::NAN;
 
 fn yaw(station: &Station) -> f32 {
-    station.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw) } else { None }).unwrap()
+    station.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw) } else { None }).unwrap()
 }
 
 fn off(a: f32, b: f32) -> f32 {
@@ -28,7 +28,7 @@ fn flight_an_orbit_keeps_its_radius_and_speed_with_the_nose_to_the_middle() {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_ORBIT, orbit), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(12_000);
     assert_eq!(station.mode(), Some(1 << 24 | 3 << 16));
-    let status = station.last(|m| if let MavMessage::ORBIT_EXECUTION_STATUS(o) = m { Some(o.radius) } else { None });
+    let status = station.last_message(|m| if let MavMessage::ORBIT_EXECUTION_STATUS(o) = m { Some(o.radius) } else { None });
     assert_eq!(status, Some(-8.0));
     let mut turned = 0.0f32;
     let mut before: Option<f32> = None;
@@ -59,7 +59,7 @@ fn flight_an_orbit_of_half_a_circle_ends_in_a_hold() {
 }
 
 #[test]
-fn flight_in_a_mission_the_nose_turns_to_the_place_of_interest_until_it_is_told_no_more() {
+fn flight_in_a_mission_the_nose_follows_the_region_of_interest_until_cleared() {
     let mut station = Station::airborne("drill-hover", 7);
     let home = home_north(&station);
     let mut aim = item(1, MavCmd::MAV_CMD_DO_SET_ROI_LOCATION, home + 20.0, 2.0);
@@ -150,12 +150,12 @@ fn wire_a_home_may_be_given_relative_to_home_and_in_no_strange_frame() {
     let mut station = ready(7);
     let home_mm = |s: &mut Station| {
         s.run_ms(2_100);
-        s.last(|m| if let MavMessage::HOME_POSITION(h) = m { Some(h.altitude) } else { None }).unwrap()
+        s.last_message(|m| if let MavMessage::HOME_POSITION(h) = m { Some(h.altitude) } else { None }).unwrap()
     };
     let before = home_mm(&mut station);
     let there = item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 0.0);
     let set = |s: &mut Station, frame: MavFrame, z: f32| {
-        s.heard.clear();
+        s.received.clear();
         s.send(&MavMessage::COMMAND_INT(COMMAND_INT_DATA {
             command: MavCmd::MAV_CMD_DO_SET_HOME,
             frame,
@@ -167,7 +167,7 @@ fn wire_a_home_may_be_given_relative_to_home_and_in_no_strange_frame() {
             ..Default::default()
         }));
         s.run_ms(5);
-        s.last(|m| if let MavMessage::COMMAND_ACK(ack) = m { Some(ack.result) } else { None }).unwrap()
+        s.last_message(|m| if let MavMessage::COMMAND_ACK(ack) = m { Some(ack.result) } else { None }).unwrap()
     };
     assert_eq!(set(&mut station, MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT, 3.0), MavResult::MAV_RESULT_ACCEPTED);
     assert!((home_mm(&mut station) - before - 3_000).abs() < 50);
@@ -176,7 +176,7 @@ fn wire_a_home_may_be_given_relative_to_home_and_in_no_strange_frame() {
 
 /// The middle of the circle that is flown, as COMMAND_INT has it.
 fn middle(station: &Station) -> (i32, i32, f32) {
-    station.last(|m| if let MavMessage::ORBIT_EXECUTION_STATUS(o) = m { Some((o.x, o.y, o.z)) } else { None }).unwrap()
+    station.last_message(|m| if let MavMessage::ORBIT_EXECUTION_STATUS(o) = m { Some((o.x, o.y, o.z)) } else { None }).unwrap()
 }
 
 /// QGroundControl's orbit names no behavior of its own (5, unchanged): a PX4 that is not in an orbit yet turns its nose to the middle.
@@ -206,13 +206,13 @@ fn regress_an_orbit_with_yaw_unchanged_faces_its_middle_and_keeps_what_is_flown(
             target_component: 1,
             ..Default::default()
         };
-        station.heard.clear();
+        station.received.clear();
         station.send(&MavMessage::COMMAND_INT(orbit));
         // Streamed at 2 Hz.
         station.run_ms(1_000);
-        let result = station.last(|m| if let MavMessage::COMMAND_ACK(ack) = m { Some(ack.result) } else { None });
+        let result = station.last_message(|m| if let MavMessage::COMMAND_ACK(ack) = m { Some(ack.result) } else { None });
         assert_eq!(result, Some(MavResult::MAV_RESULT_ACCEPTED));
-        let radius = station.last(|m| if let MavMessage::ORBIT_EXECUTION_STATUS(o) = m { Some(o.radius) } else { None });
+        let radius = station.last_message(|m| if let MavMessage::ORBIT_EXECUTION_STATUS(o) = m { Some(o.radius) } else { None });
         assert_eq!(radius, Some(8.0));
     }
     station.run_ms(8_000);

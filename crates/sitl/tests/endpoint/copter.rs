@@ -31,7 +31,7 @@ pub(super) fn mode(number: f32) -> [f32; 7] {
 
 pub(super) fn beat(station: &Station) -> HEARTBEAT_DATA {
     station
-        .last(|m| match m {
+        .last_message(|m| match m {
             MavMessage::HEARTBEAT(beat) if beat.mavtype == MavType::MAV_TYPE_QUADROTOR => Some(beat.clone()),
             _ => None,
         })
@@ -39,7 +39,7 @@ pub(super) fn beat(station: &Station) -> HEARTBEAT_DATA {
 }
 
 pub(super) fn next_beat(station: &mut Station) -> HEARTBEAT_DATA {
-    station.heard.clear();
+    station.received.clear();
     station.run_ms(1_100);
     beat(station)
 }

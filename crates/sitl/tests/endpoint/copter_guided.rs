@@ -16,7 +16,7 @@ fn set_options(station: &mut Station, bits: f32) {
 fn heading_deg(station: &mut Station) -> f32 {
     station.command(1, REQUEST, one(30.0));
     station.run_ms(5);
-    station.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw.to_degrees()) } else { None }).unwrap()
+    station.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw.to_degrees()) } else { None }).unwrap()
 }
 
 fn turned_deg(from: f32, to: f32) -> f32 {
@@ -45,7 +45,7 @@ fn hold_yaw(station: &mut Station, us: u16, ms: i64) {
 }
 
 #[test]
-fn regress_a_transmitter_arms_in_guided_only_where_guid_options_says_so() {
+fn regress_a_transmitter_arms_in_guided_only_where_guid_options_reports_so() {
     let mut station = copter();
     assert_eq!(station.set("RC8_OPTION", 153.0, MavParamType::MAV_PARAM_TYPE_INT16), Some(153.0));
     assert_eq!(station.set("FLTMODE_CH", 0.0, MavParamType::MAV_PARAM_TYPE_INT8), Some(0.0));
@@ -85,7 +85,7 @@ fn regress_the_yaw_stick_turns_the_nose_in_guided_unless_guid_options_ignores_it
 }
 
 #[test]
-fn regress_thrust_of_an_attitude_is_thrust_where_guid_options_says_so() {
+fn regress_thrust_of_an_attitude_is_thrust_where_guid_options_reports_so() {
     let mut station = copter_at(5.0);
     let thrust_after = |station: &mut Station, asked: f32| {
         for _ in 0..10 {
@@ -101,7 +101,7 @@ fn regress_thrust_of_an_attitude_is_thrust_where_guid_options_says_so() {
         }
         station.command(1, REQUEST, one(83.0));
         station.run_ms(5);
-        station.last(|m| if let MavMessage::ATTITUDE_TARGET(a) = m { Some(a.thrust) } else { None }).unwrap()
+        station.last_message(|m| if let MavMessage::ATTITUDE_TARGET(a) = m { Some(a.thrust) } else { None }).unwrap()
     };
     // 0.5 keeps the height.
     let hover = thrust_after(&mut station, 0.5);
@@ -142,10 +142,10 @@ fn target(ignored: u16, place: [f32; 3], velocity: [f32; 3], acceleration: [f32;
 }
 
 fn reported(station: &mut Station) -> Option<POSITION_TARGET_LOCAL_NED_DATA> {
-    station.heard.clear();
+    station.received.clear();
     station.command(1, REQUEST, one(85.0));
     station.run_ms(5);
-    station.last(|m| if let MavMessage::POSITION_TARGET_LOCAL_NED(t) = m { Some(t.clone()) } else { None })
+    station.last_message(|m| if let MavMessage::POSITION_TARGET_LOCAL_NED(t) = m { Some(t.clone()) } else { None })
 }
 
 fn parts(t: &POSITION_TARGET_LOCAL_NED_DATA) -> [[f32; 3]; 3] {
@@ -153,7 +153,7 @@ fn parts(t: &POSITION_TARGET_LOCAL_NED_DATA) -> [[f32; 3]; 3] {
 }
 
 #[test]
-fn regress_guided_reports_the_target_that_was_asked_for_with_arducopters_masks() {
+fn regress_guided_reports_the_target_that_was_requested_with_arducopters_masks() {
     let mut station = copter_at(5.0);
     let [north, east, down] = station.place();
     let place = [north + 30.0, east, down];
@@ -183,12 +183,12 @@ fn regress_a_target_over_the_sea_is_reported_for_places_alone() {
     let mut station = copter_at(5.0);
     let [north, east, down] = station.place();
     let shown = |station: &mut Station| {
-        station.heard.clear();
+        station.received.clear();
         station.command(1, REQUEST, one(87.0));
         station.run_ms(5);
-        station.last(
-            |m| if let MavMessage::POSITION_TARGET_GLOBAL_INT(t) = m { Some((t.lat_int, t.type_mask.bits())) } else { None },
-        )
+        station.last_message(|m| {
+            if let MavMessage::POSITION_TARGET_GLOBAL_INT(t) = m { Some((t.lat_int, t.type_mask.bits())) } else { None }
+        })
     };
     station.send(&target(NO_VELOCITY | NO_ACCELERATION, [north, east, down], [0.0; 3], [0.0; 3]));
     station.run_ms(200);
@@ -212,7 +212,8 @@ fn regress_a_velocity_in_guided_is_paused_and_flown_on() {
     station.send(&target(NO_PLACE | NO_ACCELERATION, [0.0; 3], velocity, [0.0; 3]));
     let flies = |wanted: [f32; 3]| {
         move |station: &mut Station| {
-            let at = station.last(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some([p.vx, p.vy, p.vz]) } else { None });
+            let at =
+                station.last_message(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some([p.vx, p.vy, p.vz]) } else { None });
             at.is_some_and(|v| v.iter().zip(wanted).all(|(v, w)| (v - w).abs() < SPEED_M_S))
         }
     };

@@ -45,7 +45,7 @@ fn set_param(station: &mut Station, name: &str, value: f32, param_type: MavParam
 
 fn yaw(station: &mut Station) -> f32 {
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(30.0));
-    station.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw) } else { None }).unwrap()
+    station.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw) } else { None }).unwrap()
 }
 
 fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
@@ -109,7 +109,7 @@ fn regress_smart_rtl_flies_back_along_its_path_and_lands_where_it_took_off() {
         let here = s.place();
         nearest = nearest.min(distance(here, corner));
         path_back.push(here);
-        s.last(|m| if let MavMessage::EXTENDED_SYS_STATE(e) = m { Some(e.landed_state) } else { None })
+        s.last_message(|m| if let MavMessage::EXTENDED_SYS_STATE(e) = m { Some(e.landed_state) } else { None })
             == Some(MavLandedState::MAV_LANDED_STATE_ON_GROUND)
     });
     assert!(landed, "{:?} {:?}", station.place(), station.texts());
@@ -215,7 +215,7 @@ fn regress_thrust_of_an_attitude_is_a_copters_climb_rate() {
             station.send(&level(thrust));
             station.run_ms(50);
         }
-        let vz = station.last(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some(p.vz) } else { None }).unwrap();
+        let vz = station.last_message(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some(p.vz) } else { None }).unwrap();
         assert!((-vz - climb).abs() < 0.2, "thrust {thrust}: climbs {} m/s, not {climb}", -vz);
     }
 }
@@ -270,8 +270,9 @@ fn regress_pause_holds_a_guided_copter_and_continue_flies_on() {
 fn regress_a_mission_waits_for_a_time_of_day_pauses_and_lands_by_its_landing_sequence() {
     let mut station = copter_at(5.0);
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(2.0));
-    let unix_s =
-        station.last(|m| if let MavMessage::SYSTEM_TIME(t) = m { Some(t.time_unix_usec / 1_000_000) } else { None }).unwrap();
+    let unix_s = station
+        .last_message(|m| if let MavMessage::SYSTEM_TIME(t) = m { Some(t.time_unix_usec / 1_000_000) } else { None })
+        .unwrap();
     let then = (unix_s + 25) % 86_400;
     let clock = |mut item: MISSION_ITEM_INT_DATA| {
         item.param1 = -1.0;
@@ -300,7 +301,7 @@ fn regress_a_mission_waits_for_a_time_of_day_pauses_and_lands_by_its_landing_seq
     station.run_ms(4_000);
     assert!(distance(station.place(), station.place_after(2_000)) < 0.4, "paused");
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(42.0));
-    let state = station.last(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some(c.mission_state) } else { None });
+    let state = station.last_message(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some(c.mission_state) } else { None });
     assert_eq!(state, Some(MissionState::MISSION_STATE_PAUSED));
     assert_eq!(next_beat(&mut station).custom_mode, AUTO as u32);
     assert_eq!(station.command(1, pause, one(1.0)), ACCEPTED);
@@ -319,7 +320,7 @@ fn regress_acro_turns_at_the_sticks_rate_and_levels_when_they_are_released() {
     assert_eq!(station.command(1, SET_MODE, mode(1.0)), ACCEPTED);
     let roll = |s: &mut Station| {
         s.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(30.0));
-        s.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.roll.to_degrees()) } else { None }).unwrap()
+        s.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.roll.to_degrees()) } else { None }).unwrap()
     };
     for _ in 0..10 {
         station.sticks(0, 300, 500, 0);
@@ -347,8 +348,9 @@ fn regress_follow_keeps_its_offset_from_another_vehicle() {
     set_param(&mut station, "FOLL_OFS_Z", -4.0, MavParamType::MAV_PARAM_TYPE_REAL32);
     let home = station.place_after(100);
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
-    let alt =
-        station.last(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(g.alt - g.relative_alt) } else { None }).unwrap();
+    let alt = station
+        .last_message(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(g.alt - g.relative_alt) } else { None })
+        .unwrap();
     assert_eq!(station.command(1, SET_MODE, mode(23.0)), ACCEPTED);
     // A walker 1.5 m/s to the east on the ground, from 10 m north of the pad; a degree of longitude is 0.6858 of one of latitude here.
     let east_m_per_e7 = M_PER_E7 * 0.6858;
@@ -379,7 +381,7 @@ fn regress_a_copter_shows_16_channels_without_sticks_and_its_mode_switch_acts() 
     let mut station = copter();
     let channels = |s: &mut Station| {
         s.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(65.0));
-        s.last(|m| if let MavMessage::RC_CHANNELS(c) = m { Some(c.clone()) } else { None }).expect("RC_CHANNELS")
+        s.last_message(|m| if let MavMessage::RC_CHANNELS(c) = m { Some(c.clone()) } else { None }).expect("RC_CHANNELS")
     };
     let idle = channels(&mut station);
     let raw = [idle.chan1_raw, idle.chan2_raw, idle.chan3_raw, idle.chan4_raw, idle.chan5_raw, idle.chan16_raw];
@@ -405,7 +407,7 @@ fn regress_a_copter_shows_16_channels_without_sticks_and_its_mode_switch_acts() 
 }
 
 #[test]
-fn regress_a_copter_streams_what_ardupilots_dialect_has_and_says_that_it_is_a_multicopter() {
+fn regress_a_copter_streams_what_ardupilots_dialect_has_and_reports_that_it_is_a_multicopter() {
     let mut station = copter();
     use MavDataStream as D;
     let groups = [
@@ -414,7 +416,7 @@ fn regress_a_copter_streams_what_ardupilots_dialect_has_and_says_that_it_is_a_mu
         (D::MAV_DATA_STREAM_EXTRA3, vec![163, 168, 193]),
     ];
     for (group, ids) in groups {
-        station.heard.clear();
+        station.received.clear();
         station.send(&MavMessage::REQUEST_DATA_STREAM(REQUEST_DATA_STREAM_DATA {
             req_message_rate: 5,
             target_system: 1,
@@ -424,17 +426,17 @@ fn regress_a_copter_streams_what_ardupilots_dialect_has_and_says_that_it_is_a_mu
         }));
         station.run_ms(1_000);
         for id in ids {
-            let count = station.heard.iter().filter(|frame| frame.message_id == id).count();
+            let count = station.received.iter().filter(|frame| frame.message_id == id).count();
             assert!((4..=6).contains(&count), "message {id}: {count} in 1 s");
         }
     }
-    station.heard.clear();
+    station.received.clear();
     assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(193.0)), ACCEPTED);
-    let report = station.heard.iter().find(|frame| frame.message_id == 193).expect("EKF_STATUS_REPORT").payload(26);
+    let report = station.received.iter().find(|frame| frame.message_id == 193).expect("EKF_STATUS_REPORT").payload(26);
     // Flags of a healthy ArduCopter, recorded: 831.
     assert_eq!(u16::from_le_bytes([report[20], report[21]]), 831);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(245.0)), ACCEPTED);
-    let vtol = station.last(|m| if let MavMessage::EXTENDED_SYS_STATE(e) = m { Some(e.vtol_state) } else { None });
+    let vtol = station.last_message(|m| if let MavMessage::EXTENDED_SYS_STATE(e) = m { Some(e.vtol_state) } else { None });
     assert_eq!(vtol, Some(MavVtolState::MAV_VTOL_STATE_MC));
     let mut px4 = Station::new("drill-hover", 7);
     px4.run_ms(1_000);

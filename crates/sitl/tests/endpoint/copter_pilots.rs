@@ -57,10 +57,10 @@ fn unknown_command(station: &mut Station, number: u16, values: [f32; 2]) -> u8 {
     payload[4..8].copy_from_slice(&values[1].to_le_bytes());
     payload[28..30].copy_from_slice(&number.to_le_bytes());
     (payload[30], payload[31]) = (1, 1);
-    station.heard.clear();
+    station.received.clear();
     station.send_payload(COMMAND_LONG, &payload);
     station.run_ms(2);
-    let ack = station.heard.iter().find(|frame| frame.message_id == 77).expect("an acknowledgement");
+    let ack = station.received.iter().find(|frame| frame.message_id == 77).expect("an acknowledgement");
     ack.payload(10)[2]
 }
 
@@ -112,7 +112,7 @@ fn flight_a_copters_switch_saves_waypoints_and_another_clears_them() {
     set(&mut station, "FLTMODE_CH", 0.0);
     let total = |station: &mut Station| {
         station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(42.0));
-        station.last(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some(c.total) } else { None }).unwrap()
+        station.last_message(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some(c.total) } else { None }).unwrap()
     };
     // A take-off goes before the first one.
     for (chan8_raw, count) in [(1000, 0), (2000, 2), (1000, 2), (2000, 3)] {
@@ -201,10 +201,13 @@ fn flight_a_copter_takes_off_in_auto_once_the_throttle_is_off_its_lower_end() {
 #[test]
 fn wire_a_copters_delay_without_seconds_waits_for_a_time_of_day() {
     let mut station = copter();
-    let clock = station.last(|m| if let MavMessage::SYSTEM_TIME(t) = m { Some(t.time_unix_usec / 1_000_000) } else { None });
+    let clock =
+        station.last_message(|m| if let MavMessage::SYSTEM_TIME(t) = m { Some(t.time_unix_usec / 1_000_000) } else { None });
     let clock = clock.unwrap_or_else(|| {
         station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(2.0));
-        station.last(|m| if let MavMessage::SYSTEM_TIME(t) = m { Some(t.time_unix_usec / 1_000_000) } else { None }).unwrap()
+        station
+            .last_message(|m| if let MavMessage::SYSTEM_TIME(t) = m { Some(t.time_unix_usec / 1_000_000) } else { None })
+            .unwrap()
     });
     const LATER_S: u64 = 30;
     let due = (clock + LATER_S) % 86_400;
@@ -226,7 +229,7 @@ fn wire_a_copters_delay_without_seconds_waits_for_a_time_of_day() {
 }
 
 #[test]
-fn wire_a_copter_acknowledges_before_it_shows_what_was_asked_for() {
+fn wire_a_copter_acknowledges_before_it_shows_what_was_requested() {
     let mut station = copter();
     for (command, values, shown) in [
         (MavCmd::MAV_CMD_REQUEST_MESSAGE, p(&[49.0]), 49),
@@ -235,7 +238,7 @@ fn wire_a_copter_acknowledges_before_it_shows_what_was_asked_for() {
     ] {
         assert_eq!(station.command(1, command, values), ACCEPTED, "{shown}");
         station.run_ms(5);
-        let order: Vec<u32> = station.heard.iter().map(|f| f.message_id).filter(|id| *id == 77 || *id == shown).collect();
+        let order: Vec<u32> = station.received.iter().map(|f| f.message_id).filter(|id| *id == 77 || *id == shown).collect();
         assert_eq!(order, [77, shown]);
     }
 }
@@ -264,7 +267,8 @@ fn flight_a_copters_return_takes_a_rally_points_height_and_turns_back() {
     let heading = |s: &mut Station| {
         s.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
         s.run_ms(5);
-        s.last(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(f32::from(g.hdg) / 100.0) } else { None }).unwrap()
+        s.last_message(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(f32::from(g.hdg) / 100.0) } else { None })
+            .unwrap()
     };
     let armed = heading(&mut station);
     let rally = MISSION_ITEM_INT_DATA {
@@ -328,7 +332,7 @@ fn flight_guided_turns_to_a_place_that_comes_without_a_heading() {
     let yaw = |s: &mut Station| {
         s.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(30.0));
         s.run_ms(5);
-        s.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw.to_degrees()) } else { None }).unwrap()
+        s.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw.to_degrees()) } else { None }).unwrap()
     };
     assert!((yaw(&mut station) - 90.0).abs() > 30.0, "it looks elsewhere first");
     station.send(&target);

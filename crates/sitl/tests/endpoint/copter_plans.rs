@@ -33,11 +33,11 @@ fn counted(station: &mut Station) -> u16 {
 
 fn current(station: &mut Station) -> (u16, u16) {
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(42.0));
-    station.last(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some((c.seq, c.total)) } else { None }).unwrap()
+    station.last_message(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some((c.seq, c.total)) } else { None }).unwrap()
 }
 
 #[test]
-fn flight_a_copters_fence_acts_while_its_parameter_says_so() {
+fn flight_a_copters_fence_acts_if_enabled() {
     let mut station = copter_at(5.0);
     let circle = MISSION_ITEM_INT_DATA {
         param1: 30.0,
@@ -77,7 +77,7 @@ fn flight_a_copters_fence_ends_guided_flight() {
         vx: 2.0,
         ..Default::default()
     });
-    station.heard.clear();
+    station.received.clear();
     for _ in 0..150 {
         station.send(&north);
         station.run_ms(100);
@@ -183,15 +183,15 @@ fn flight_a_copter_flies_its_mission_by_its_own_numbers() {
     station.command(1, SET_MODE, mode(GUIDED));
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, one(0.0)), ACCEPTED);
-    station.heard.clear();
+    station.received.clear();
     let mut reached = Vec::new();
     let landed = station.run_until(240.0, |s| {
         reached.extend(s.all(|m| if let MavMessage::MISSION_ITEM_REACHED(r) = m { Some(r.seq) } else { None }));
-        let armed = s.heard.iter().filter_map(|f| f.message.as_ref()).find_map(|m| match m {
+        let armed = s.received.iter().filter_map(|f| f.message.as_ref()).find_map(|m| match m {
             MavMessage::HEARTBEAT(b) if b.mavtype == MavType::MAV_TYPE_QUADROTOR => Some(b.base_mode),
             _ => None,
         });
-        s.heard.clear();
+        s.received.clear();
         armed.is_some_and(|mode| !mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED))
     });
     assert!(landed, "{reached:?}");

@@ -1,7 +1,7 @@
 //! What an instructor breaks, and what the vehicle makes of it.
 
 use spandrel_mavlink::dialect::*;
-use spandrel_model::site::gates::Gates;
+use spandrel_model::site::bridge_closures::BridgeClosures;
 use spandrel_model::site::traffic::CREW_TRUCK;
 use spandrel_model::site::{Site, Surface};
 use spandrel_sitl::endpoint::flavour::{Flavour, ardupilot, generic, px4};
@@ -79,21 +79,21 @@ fn wire_failures_are_injected_only_where_they_are_allowed_and_only_such_as_there
 }
 
 #[test]
-fn flight_a_receiver_that_hears_nothing_is_told_and_so_is_its_return() {
+fn flight_a_receiver_that_receives_nothing_is_reported_and_so_is_its_return() {
     let mut station = holding();
     let seen = |s: &Station| {
-        let healthy = s.last(|m| match m {
+        let healthy = s.last_message(|m| match m {
             MavMessage::SYS_STATUS(s) => {
                 Some(s.onboard_control_sensors_health.contains(MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_GPS))
             }
             _ => None,
         });
-        let fix = s.last(|m| if let MavMessage::GPS_RAW_INT(g) = m { Some(g.fix_type as u8) } else { None });
+        let fix = s.last_message(|m| if let MavMessage::GPS_RAW_INT(g) = m { Some(g.fix_type as u8) } else { None });
         (healthy, fix)
     };
     assert_eq!(inject(&mut station, GNSS, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
     assert!(station.run_until(10.0, |s| matches!(seen(s), (Some(false), Some(0 | 1)))), "{:?}", seen(&station));
-    station.heard.clear();
+    station.received.clear();
     assert_eq!(inject(&mut station, GNSS, OK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
     assert!(station.run_until(30.0, |s| seen(s) == (Some(true), Some(3))), "{:?}", seen(&station));
 }
@@ -113,7 +113,7 @@ fn flight_a_jump_of_the_fixes_does_not_bring_it_down() {
 
 /// Health bits of one SYS_STATUS.
 fn health(station: &Station) -> Option<MavSysStatusSensor> {
-    station.last(|m| if let MavMessage::SYS_STATUS(s) = m { Some(s.onboard_control_sensors_health) } else { None })
+    station.last_message(|m| if let MavMessage::SYS_STATUS(s) = m { Some(s.onboard_control_sensors_health) } else { None })
 }
 
 /// A missing sensor shows and forbids arming within this, s (half a second of silence, and SYS_STATUS twice a second).
@@ -149,7 +149,7 @@ fn wire_a_compass_or_barometer_that_is_gone_shows_and_forbids_arming_until_it_is
 
 /// Without a compass the gyroscopes keep the heading well enough to hold and land.
 #[test]
-fn flight_a_compass_lost_in_the_air_is_told_and_the_hold_goes_on() {
+fn flight_a_compass_lost_in_the_air_is_reported_and_the_hold_goes_on() {
     let mut station = holding();
     let before = station.sim.truth().rigid.position_m;
     assert_eq!(inject(&mut station, COMPASS, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
@@ -185,7 +185,7 @@ fn wire_a_stuck_sensor_is_announced_in_the_flavours_words_and_forbids_arming() {
         station.run_ms(600);
         assert!(health(&station).unwrap().contains(bit), "{words}");
         assert_eq!(inject(&mut station, unit, STUCK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
-        station.heard.clear();
+        station.received.clear();
         let gone = |s: &mut Station| health(s).is_some_and(|now| !now.intersects(bit)) && said(s, words);
         assert!(station.run_until(WITHIN_S, gone), "{words}: {:?}", station.texts());
         assert_ne!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm), MavResult::MAV_RESULT_ACCEPTED, "{words}");
@@ -203,12 +203,13 @@ fn regress_a_barometer_stuck_on_the_way_up_is_announced_and_the_height_is_reache
     const HEIGHT_M: f64 = 2.5;
     let mut station = holding();
     let before = station.sim.truth().rigid.position_m.enu();
-    let altitude = station.last(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(g.alt as f32 * 1e-3) } else { None });
+    let altitude =
+        station.last_message(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(g.alt as f32 * 1e-3) } else { None });
     let up = p(&[-1.0, 1.0, 0.0, f32::NAN, f32::NAN, f32::NAN, altitude.unwrap() + 7.0]);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_REPOSITION, up), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(1_500);
     assert_eq!(inject(&mut station, BAROMETER, STUCK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
-    station.heard.clear();
+    station.received.clear();
     assert!(station.run_until(4.0, |s| said(s, "BARO #0 failed: STALE!")), "{:?}", station.texts());
     for _ in 0..60 {
         station.run_ms(1_000);
@@ -221,9 +222,9 @@ fn regress_a_barometer_stuck_on_the_way_up_is_announced_and_the_height_is_reache
 
 /// One rotor less: it cannot be held level, turns, and says so before it has fallen.
 #[test]
-fn flight_a_motor_that_stops_shows_in_attitude_and_heading_and_is_told() {
+fn flight_a_motor_that_stops_shows_in_attitude_and_heading_and_is_reported() {
     let mut station = holding();
-    let level = |s: &Station| s.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.clone()) } else { None }).unwrap();
+    let level = |s: &Station| s.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.clone()) } else { None }).unwrap();
     let before = level(&station);
     assert!(before.roll.hypot(before.pitch) < 0.2 && !said(&station, "Attitude lost"), "{before:?}");
     assert_eq!(inject(&mut station, MOTOR, OFF, 2.0), MavResult::MAV_RESULT_ACCEPTED);
@@ -268,12 +269,12 @@ fn flight_without_manual_control_the_failsafe_holds_and_with_it_flies_on() {
 }
 
 #[test]
-fn wire_a_failing_battery_is_told() {
+fn wire_a_failing_battery_is_reported() {
     let mut station = holding();
     assert_eq!(inject(&mut station, BATTERY, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
     assert!(station.run_until(5.0, |s| said(s, "Low battery")));
     station.run_ms(600);
-    let left = station.last(|m| if let MavMessage::BATTERY_STATUS(b) = m { Some(b.battery_remaining) } else { None });
+    let left = station.last_message(|m| if let MavMessage::BATTERY_STATUS(b) = m { Some(b.battery_remaining) } else { None });
     assert!(left.unwrap() <= 5, "{left:?}");
 }
 
@@ -281,9 +282,10 @@ fn wire_a_failing_battery_is_told() {
 #[test]
 fn wire_a_failing_cell_is_shown_and_missed() {
     let mut station = holding();
-    let cells = |s: &Station| s.last(|m| if let MavMessage::BATTERY_STATUS(b) = m { Some(b.voltages) } else { None }).unwrap();
+    let cells =
+        |s: &Station| s.last_message(|m| if let MavMessage::BATTERY_STATUS(b) = m { Some(b.voltages) } else { None }).unwrap();
     let pack = |s: &Station| {
-        s.last(|m| if let MavMessage::SYS_STATUS(b) = m { Some(f32::from(b.voltage_battery)) } else { None }).unwrap()
+        s.last_message(|m| if let MavMessage::SYS_STATUS(b) = m { Some(f32::from(b.voltage_battery)) } else { None }).unwrap()
     };
     station.run_ms(1_000);
     let (whole, before) = (cells(&station), pack(&station));
@@ -306,17 +308,17 @@ fn flight_the_wind_that_an_instructor_sets_blows() {
     station.run_ms(10_000);
     let mean = (0..50).map(|_| {
         station.run_ms(200);
-        f64::from(station.last(|m| if let MavMessage::WIND_COV(w) = m { Some(w.wind_y) } else { None }).unwrap())
+        f64::from(station.last_message(|m| if let MavMessage::WIND_COV(w) = m { Some(w.wind_y) } else { None }).unwrap())
     });
     let east = mean.sum::<f64>() / 50.0;
     assert!((east - 8.0).abs() < WIND_TOLERANCE_M_S, "a west wind blows to the east at {east} m/s");
 }
 
 #[test]
-fn wire_closed_bridges_run_empty_and_telemetry_alone_tells_it() {
+fn wire_closed_bridges_run_empty_as_seen_from_telemetry() {
     let mut station = Station::new("two-bridges", 7);
     let codes = |s: &Station| -> Vec<i32> {
-        let said = s.heard.iter().filter_map(|frame| frame.message.as_ref());
+        let said = s.received.iter().filter_map(|frame| frame.message.as_ref());
         said.filter_map(|m| {
             if let MavMessage::NAMED_VALUE_INT(v) = m { (v.name.to_str() == Ok("traffic")).then_some(v.value) } else { None }
         })
@@ -324,14 +326,14 @@ fn wire_closed_bridges_run_empty_and_telemetry_alone_tells_it() {
     };
     station.run_ms(11_000);
     assert!(codes(&station).is_empty(), "what was never touched is not spoken of");
-    assert!(station.sim.site().traffic().gates().are_untouched());
+    assert!(station.sim.site().traffic().gates().is_empty());
     for (open, wait_ms) in [(0, 90_000), (1, 90_000)] {
         set_whole(&mut station, "SIM_TRAFFIC", open);
         station.run_ms(wait_ms);
-        let heard = Gates::from_codes(codes(&station));
+        let heard = BridgeClosures::from_codes(codes(&station));
         assert_eq!(station.sim.site().traffic().gates(), &heard);
         // Who knows scenario, seed and telemetry sees the same cars.
-        let theirs = Site::build(&scenario("two-bridges"), 7).with_gates(heard);
+        let theirs = Site::build(&scenario("two-bridges"), 7).with_closures(heard);
         let now = station.sim.now();
         let (here, there) = (station.sim.site().traffic().solids(now), theirs.traffic().solids(now));
         assert_eq!(here, there);
@@ -357,9 +359,9 @@ fn wire_a_bad_radio_loses_its_share_and_is_late() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(1_000);
     let frames = |s: &mut Station| {
-        s.heard.clear();
+        s.received.clear();
         s.run_ms(5_000);
-        s.heard.iter().filter(|f| f.message_id == 30).count() as f64
+        s.received.iter().filter(|f| f.message_id == 30).count() as f64
     };
     let good = frames(&mut station);
     set_real(&mut station, "SIM_LINK_LOSS", 50.0);
@@ -377,10 +379,10 @@ fn wire_a_bad_radio_loses_its_share_and_is_late() {
     }));
     station.run_ms(5);
     let asked_at = station.sim.now();
-    station.heard.clear();
+    station.received.clear();
     station.send(&MavMessage::TIMESYNC(TIMESYNC_DATA { ts1: 77, ..Default::default() }));
     while station
-        .last(|m| if let MavMessage::TIMESYNC(t) = m { (t.tc1 != 0 && t.ts1 == 77).then_some(()) } else { None })
+        .last_message(|m| if let MavMessage::TIMESYNC(t) = m { (t.tc1 != 0 && t.ts1 == 77).then_some(()) } else { None })
         .is_none()
     {
         station.run_ms(1);

@@ -47,12 +47,12 @@ fn wire_at_the_fence_it_holds_once_and_the_pilot_flies_back_in() {
     assert!(station.said("Geofence breached: out of bounds, holding"), "{:?}", station.texts());
     station.run_ms(4_000);
     assert_eq!(station.mode(), Some(HOLD));
-    let status = station.last(|m| match m {
+    let status = station.last_message(|m| match m {
         MavMessage::FENCE_STATUS(f) => Some((f.breach_status, f.breach_count, f.breach_type)),
         _ => None,
     });
     assert_eq!(status, Some((1, 1, FenceBreach::FENCE_BREACH_BOUNDARY)));
-    station.heard.clear();
+    station.received.clear();
     for _ in 0..100 {
         fly(&mut station, -1000, 0, 500, 120);
         if station.said("Within the geofence again") {
@@ -171,7 +171,7 @@ fn wire_a_mission_that_the_pilot_interrupts_goes_on_where_it_was_left() {
     fly(&mut station, 0, 0, 500, 2_000);
     assert!(station.said("Mission paused: pilot took over by the sticks"), "{:?}", station.texts());
     assert_eq!(station.mode(), Some(POSITION));
-    let state = station.last(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some(c.mission_state) } else { None });
+    let state = station.last_message(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some(c.mission_state) } else { None });
     assert_eq!(state, Some(MissionState::MISSION_STATE_PAUSED));
     let away = station.place();
     assert!((away[1] - left[1]).abs() > 5.0, "the pilot has flown off: {left:?} to {away:?}");

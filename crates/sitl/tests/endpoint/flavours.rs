@@ -3,7 +3,7 @@
 
 use super::copter::{SET_MODE, beat, copter, copter_at, mode, next_beat};
 use spandrel_mavlink::dialect::*;
-use spandrel_mavlink::ftp::{ACK, Opcode, Packet};
+use spandrel_mavlink::ftp::{ACK, FtpPacket, Opcode};
 use spandrel_sitl::endpoint::flavour::{ardupilot, generic, px4};
 use spandrel_sitl::endpoint::{LinkId, LinkKind};
 use spandrel_testkit::station::{GCS, Station, one};
@@ -29,7 +29,8 @@ fn wire_each_flavour_beats_and_names_itself_as_its_autopilot() {
         assert_eq!((heard.autopilot, heard.custom_mode), (autopilot, number), "{}", flavour.name);
         assert_eq!(heard.system_status, MavState::MAV_STATE_STANDBY);
         station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(148.0));
-        let version = station.last(|m| if let MavMessage::AUTOPILOT_VERSION(v) = m { Some(v.clone()) } else { None }).unwrap();
+        let version =
+            station.last_message(|m| if let MavMessage::AUTOPILOT_VERSION(v) = m { Some(v.clone()) } else { None }).unwrap();
         assert_eq!(version.flight_sw_version, flavour.software_version);
         assert_eq!(version.capabilities.contains(c_cast), flavour.name == "ardupilot");
         let own =
@@ -66,8 +67,9 @@ fn wire_every_mode_that_is_offered_is_entered_by_each_message_and_shown_under_it
                 let standard = one(mode.standard_mode as u32 as f32);
                 assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_STANDARD_MODE, standard), ACCEPTED);
                 station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(436.0));
-                let now =
-                    station.last(|m| if let MavMessage::CURRENT_MODE(mode) = m { Some(mode.clone()) } else { None }).unwrap();
+                let now = station
+                    .last_message(|m| if let MavMessage::CURRENT_MODE(mode) = m { Some(mode.clone()) } else { None })
+                    .unwrap();
                 assert_eq!((now.standard_mode, now.custom_mode), (mode.standard_mode, mode.custom_mode));
             }
         }
@@ -172,7 +174,7 @@ fn wire_the_packed_parameters_come_whole_over_ftp_and_other_flavours_have_none()
     }
 }
 
-fn file(station: &mut Station, opcode: Opcode, session: u8, offset: u32, data: &[u8], sequence: u16) -> Packet {
+fn file(station: &mut Station, opcode: Opcode, session: u8, offset: u32, data: &[u8], sequence: u16) -> FtpPacket {
     let mut payload = [0u8; 251];
     payload[..2].copy_from_slice(&sequence.to_le_bytes());
     (payload[2], payload[3], payload[4]) = (session, opcode as u8, data.len() as u8);
@@ -181,17 +183,17 @@ fn file(station: &mut Station, opcode: Opcode, session: u8, offset: u32, data: &
     let request = FILE_TRANSFER_PROTOCOL_DATA { target_network: 0, target_system: 1, target_component: 1, payload };
     station
         .ask(&MavMessage::FILE_TRANSFER_PROTOCOL(request), |m| match m {
-            MavMessage::FILE_TRANSFER_PROTOCOL(answer) => Some(Packet::read(&answer.payload)),
+            MavMessage::FILE_TRANSFER_PROTOCOL(answer) => Some(FtpPacket::read(&answer.payload)),
             _ => None,
         })
         .expect("an answer at once")
 }
 
 #[test]
-fn wire_a_copter_says_nothing_but_heartbeats_until_it_is_asked_and_the_sidecar_is_told_all_the_same() {
+fn wire_a_copter_reports_nothing_but_heartbeats_until_it_is_asked_and_the_sidecar_gets_its_data_anyway() {
     let mut station = Station::speaking(&ardupilot::FLAVOUR, "drill-hover", 7);
     station.run_ms(3_000);
-    let unasked: std::collections::BTreeSet<u32> = station.heard.iter().map(|f| f.message_id).collect();
+    let unasked: std::collections::BTreeSet<u32> = station.received.iter().map(|f| f.message_id).collect();
     assert_eq!(unasked.into_iter().collect::<Vec<_>>(), [0], "heartbeats alone");
     let sidecar = LinkId(9);
     station.sim.open_link(sidecar, LinkKind::Payload, false);
@@ -220,13 +222,13 @@ fn wire_a_copter_says_nothing_but_heartbeats_until_it_is_asked_and_the_sidecar_i
     };
     station.send(&groups(MavDataStream::MAV_DATA_STREAM_POSITION, 5, 1));
     station.run_ms(10);
-    station.heard.clear();
+    station.received.clear();
     station.run_ms(2_000);
-    let count = |station: &Station, id| station.heard.iter().filter(|f| f.message_id == id).count();
+    let count = |station: &Station, id| station.received.iter().filter(|f| f.message_id == id).count();
     assert_eq!((count(&station, 33), count(&station, 32), count(&station, 30)), (10, 10, 0), "a group at 5 Hz");
     station.send(&groups(MavDataStream::MAV_DATA_STREAM_ALL, 4, 1));
     station.run_ms(10);
-    station.heard.clear();
+    station.received.clear();
     station.run_ms(2_000);
     for id in [1, 24, 27, 30, 33, 62, 65, 74, 147] {
         // Sticks are told while somebody has them.
@@ -234,9 +236,9 @@ fn wire_a_copter_says_nothing_but_heartbeats_until_it_is_asked_and_the_sidecar_i
     }
     station.send(&groups(MavDataStream::MAV_DATA_STREAM_ALL, 4, 0));
     station.run_ms(10);
-    station.heard.clear();
+    station.received.clear();
     station.run_ms(2_000);
-    assert!(station.heard.iter().all(|f| f.message_id == 0));
+    assert!(station.received.iter().all(|f| f.message_id == 0));
 }
 
 #[test]

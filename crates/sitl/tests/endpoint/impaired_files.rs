@@ -3,10 +3,10 @@
 use super::impaired::{Client, LIMIT_S, PATIENCE_MS};
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::*;
-use spandrel_mavlink::ftp::{ACK, DATA_MAX, NAK, Opcode, Packet, Refusal, checksum};
+use spandrel_mavlink::ftp::{ACK, DATA_MAX, FtpError, FtpPacket, NAK, Opcode, checksum};
 use spandrel_model::time::SimTime;
-use spandrel_sitl::endpoint::files::job::{Action, CHECKSUM_SLICE, Done, FileError};
-use spandrel_sitl::endpoint::params::{face, metadata};
+use spandrel_sitl::endpoint::files::job::{CHECKSUM_SLICE, FileAction, FileError, FileJobResult};
+use spandrel_sitl::endpoint::params::{metadata, param_view};
 use spandrel_testkit::station::{GCS, Station};
 use std::collections::BTreeMap;
 
@@ -21,28 +21,28 @@ const SHIPPED: &str = "/etc/extras/parameter.json.xz";
 pub(super) struct Disk(BTreeMap<String, Vec<u8>>);
 
 impl Disk {
-    pub(super) fn work(&mut self, action: &Action) -> Result<Done, FileError> {
+    pub(super) fn work(&mut self, action: &FileAction) -> Result<FileJobResult, FileError> {
         match action {
-            Action::Create(path) => {
+            FileAction::Create(path) => {
                 self.0.insert(path.as_str().to_owned(), Vec::new());
-                Ok(Done::Nothing)
+                Ok(FileJobResult::Nothing)
             }
-            Action::Size(path) => self.file(path.as_str()).map(|file| Done::Size(file.len() as u32)),
-            Action::Read(path, offset, most) => {
+            FileAction::Size(path) => self.file(path.as_str()).map(|file| FileJobResult::Size(file.len() as u32)),
+            FileAction::Read(path, offset, most) => {
                 let file = self.file(path.as_str())?;
-                Ok(Done::Bytes(file.iter().skip(*offset as usize).take(*most as usize).copied().collect()))
+                Ok(FileJobResult::Bytes(file.iter().skip(*offset as usize).take(*most as usize).copied().collect()))
             }
-            Action::Write(path, offset, bytes) => {
+            FileAction::Write(path, offset, bytes) => {
                 let file = self.0.get_mut(path.as_str()).ok_or(FileError::NotFound)?;
                 let (from, to) = (*offset as usize, *offset as usize + bytes.len());
                 file.resize(file.len().max(to), 0);
                 file[from..to].copy_from_slice(bytes);
-                Ok(Done::Nothing)
+                Ok(FileJobResult::Nothing)
             }
-            Action::Checksum { path, from, sum } => {
+            FileAction::Checksum { path, from, sum } => {
                 let file = self.file(path.as_str())?;
                 let slice: Vec<u8> = file.iter().skip(*from as usize).take(CHECKSUM_SLICE as usize).copied().collect();
-                Ok(Done::Checksum { sum: checksum(*sum, &slice), bytes: slice.len() as u32 })
+                Ok(FileJobResult::Checksum { sum: checksum(*sum, &slice), bytes: slice.len() as u32 })
             }
             _ => Err(FileError::Other),
         }
@@ -60,14 +60,14 @@ struct Ftp {
     patience_ms: i64,
 }
 
-fn of(message: &MavMessage) -> Option<Packet> {
-    if let MavMessage::FILE_TRANSFER_PROTOCOL(f) = message { Some(Packet::read(&f.payload)) } else { None }
+fn of(message: &MavMessage) -> Option<FtpPacket> {
+    if let MavMessage::FILE_TRANSFER_PROTOCOL(f) = message { Some(FtpPacket::read(&f.payload)) } else { None }
 }
 
 impl Ftp {
     fn new(seed: u64, patience_ms: i64) -> Self {
         let mut client = Client::new(seed);
-        client.station.sim.serve_files();
+        client.station.sim.enable_file_jobs();
         Self { client, sequence: 0, patience_ms }
     }
 
@@ -76,8 +76,8 @@ impl Ftp {
         field[..data.len()].copy_from_slice(data);
         let reads = matches!(opcode, Opcode::ReadFile | Opcode::BurstReadFile);
         let size = if reads { DATA_MAX as u8 } else { data.len() as u8 };
-        let blank = Packet::read(&[0; 251]);
-        let packet = Packet { sequence: self.sequence, session, opcode: opcode as u8, size, offset, data: field, ..blank };
+        let blank = FtpPacket::read(&[0; 251]);
+        let packet = FtpPacket { sequence: self.sequence, session, opcode: opcode as u8, size, offset, data: field, ..blank };
         let expected = self.sequence.wrapping_add(1);
         self.sequence = self.sequence.wrapping_add(2);
         let payload = packet.write();
@@ -85,7 +85,7 @@ impl Ftp {
         (expected, MavMessage::FILE_TRANSFER_PROTOCOL(message))
     }
 
-    fn ask(&mut self, opcode: Opcode, session: u8, offset: u32, data: &[u8]) -> Packet {
+    fn ask(&mut self, opcode: Opcode, session: u8, offset: u32, data: &[u8]) -> FtpPacket {
         let (expected, message) = self.request(opcode, session, offset, data);
         let answer = self.client.ask_every(self.patience_ms, &message, |m| of(m).filter(|p| p.sequence == expected));
         assert_eq!(answer.request, opcode as u8);
@@ -123,12 +123,12 @@ impl Ftp {
         self.client.send(&message);
         let mut silent_since = self.client.station.sim.now();
         while self.client.station.sim.now() - silent_since < SimTime::from_ms(SILENCE_MS) {
-            let heard: Vec<Packet> = self.client.tick().iter().filter_map(of).collect();
+            let heard: Vec<FtpPacket> = self.client.tick().iter().filter_map(of).collect();
             for packet in heard.iter().filter(|p| p.request == Opcode::BurstReadFile as u8 && p.session == session) {
                 silent_since = self.client.station.sim.now();
                 match packet.opcode {
                     ACK => drop(parts.insert(packet.offset as usize, packet.sized().unwrap().to_vec())),
-                    NAK => assert_eq!(packet.data[0], Refusal::EndOfFile as u8),
+                    NAK => assert_eq!(packet.data[0], FtpError::EndOfFile as u8),
                     other => panic!("opcode {other}"),
                 }
             }
@@ -164,7 +164,7 @@ fn wire_a_file_comes_whole_over_a_bad_link() {
         assert!(!piece.is_empty() && part.offset == file.len() as u32);
         file.extend(piece);
     }
-    assert_eq!(file, metadata::files(&face::PX4).parameter.bytes.to_vec());
+    assert_eq!(file, metadata::files(&param_view::PX4).parameter.bytes.to_vec());
     assert_eq!(ftp.ask(Opcode::TerminateSession, session, 0, &[]).opcode, ACK);
 }
 
@@ -178,7 +178,7 @@ fn wire_a_file_comes_whole_in_bursts_over_a_bad_link() {
     // 100 kB are four bursts where nothing is lost.
     assert!(bursts > 4, "{bursts}: the link is bad");
     let (shipped, _) = ftp.read_in_bursts(SHIPPED);
-    assert!(shipped == metadata::files(&face::PX4).parameter.bytes.to_vec());
+    assert!(shipped == metadata::files(&param_view::PX4).parameter.bytes.to_vec());
 }
 
 /// Also by a client that repeats its questions before they can have been answered.
@@ -200,18 +200,18 @@ fn long_file() -> Vec<u8> {
 }
 
 /// The FTP answers of a second if the shell lets so much time pass at once, and the most jobs between two ticks.
-fn answers_of_a_second(at_once_ms: i64) -> (Vec<Packet>, usize) {
+fn answers_of_a_second(at_once_ms: i64) -> (Vec<FtpPacket>, usize) {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(100);
     let sim = &mut station.sim;
-    sim.serve_files();
+    sim.enable_file_jobs();
     let mut disk = Disk::default();
     disk.0.insert("long".into(), long_file());
     let mut encoder = Encoder::new(255, 190);
     let mut request = |opcode: Opcode, sequence: u16, path: &[u8]| {
         let mut data = [0; DATA_MAX];
         data[..path.len()].copy_from_slice(path);
-        let packet = Packet { sequence, opcode: opcode as u8, size: path.len() as u8, data, ..Packet::read(&[0; 251]) };
+        let packet = FtpPacket { sequence, opcode: opcode as u8, size: path.len() as u8, data, ..FtpPacket::read(&[0; 251]) };
         let payload = packet.write();
         encoder.encode(&MavMessage::FILE_TRANSFER_PROTOCOL(FILE_TRANSFER_PROTOCOL_DATA {
             target_network: 0,
@@ -222,7 +222,7 @@ fn answers_of_a_second(at_once_ms: i64) -> (Vec<Packet>, usize) {
     };
     sim.handle_datagram(GCS, &request(Opcode::CalcFileCrc32, 1, b"/long"));
     (2..60).for_each(|k| sim.handle_datagram(GCS, &request(Opcode::OpenFileRo, 7 * k, b"/none")));
-    let (begin, mut heard, mut most): (SimTime, Vec<Packet>, usize) = (sim.now(), Vec::new(), 0);
+    let (begin, mut heard, mut most): (SimTime, Vec<FtpPacket>, usize) = (sim.now(), Vec::new(), 0);
     while sim.now() - begin < SimTime::from_ms(1_000) {
         let until = sim.now() + SimTime::from_ms(at_once_ms);
         let (mut tick, mut jobs) = (sim.now(), 0);

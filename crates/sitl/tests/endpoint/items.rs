@@ -30,7 +30,7 @@ fn reached(station: &Station) -> Vec<u16> {
 }
 
 fn heading_deg(station: &Station) -> f32 {
-    station.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw.to_degrees()) } else { None }).unwrap()
+    station.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw.to_degrees()) } else { None }).unwrap()
 }
 
 #[test]
@@ -124,7 +124,7 @@ fn flight_a_mission_moves_home_and_switches_the_fence() {
     assert!(station.said("Geofence off"));
     let request = [242.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, request);
-    let home = station.last(|m| if let MavMessage::HOME_POSITION(h) = m { Some(h.x) } else { None }).unwrap();
+    let home = station.last_message(|m| if let MavMessage::HOME_POSITION(h) = m { Some(h.x) } else { None }).unwrap();
     assert!((f64::from(home) - north - 20.0).abs() < 3.0, "home is where the drone was: {home} of {north}");
 }
 

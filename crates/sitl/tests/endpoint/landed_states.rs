@@ -18,14 +18,15 @@ const GLOBAL_POSITION_INT: u32 = 33;
 fn states(station: &mut Station, limit_s: f64, last: MavLandedState) -> Vec<(MavLandedState, f64)> {
     let mut seen: Vec<(MavLandedState, f64)> = Vec::new();
     let done = station.run_until(limit_s, |s| {
-        let up =
-            s.last(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(f64::from(g.relative_alt) * 1e-3) } else { None });
+        let up = s.last_message(|m| {
+            if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(f64::from(g.relative_alt) * 1e-3) } else { None }
+        });
         for state in s.all(|m| if let MavMessage::EXTENDED_SYS_STATE(e) = m { Some(e.landed_state) } else { None }) {
             if seen.last().is_none_or(|(before, _)| *before != state) {
                 seen.push((state, up.unwrap_or_default()));
             }
         }
-        s.heard.retain(|frame| frame.message_id == GLOBAL_POSITION_INT);
+        s.received.retain(|frame| frame.message_id == GLOBAL_POSITION_INT);
         seen.last().is_some_and(|(state, _)| *state == last)
     });
     assert!(done, "{seen:?}");
@@ -46,8 +47,9 @@ fn regress_px4s_take_off_lasts_until_its_height_and_its_landing_until_the_ground
     use MavLandedState as L;
     let mut station = ready(7);
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
-    let ground =
-        station.last(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(g.alt as f32 * 1e-3) } else { None }).unwrap();
+    let ground = station
+        .last_message(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(g.alt as f32 * 1e-3) } else { None })
+        .unwrap();
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
     let up = [0.0, 0.0, 0.0, f32::NAN, f32::NAN, f32::NAN, ground + UP_M];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_TAKEOFF, up), ACCEPTED);
@@ -58,7 +60,7 @@ fn regress_px4s_take_off_lasts_until_its_height_and_its_landing_until_the_ground
 }
 
 #[test]
-fn regress_a_missions_take_off_and_a_copters_say_so_until_their_height() {
+fn regress_a_missions_take_off_and_a_copters_report_it_until_their_height() {
     let mut mission = ready(7);
     let north = home_north(&mission);
     let plan = [item(0, MavCmd::MAV_CMD_NAV_TAKEOFF, north, UP_M), item(1, MavCmd::MAV_CMD_NAV_WAYPOINT, north + 20.0, UP_M)];

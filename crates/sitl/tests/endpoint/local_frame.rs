@@ -27,7 +27,7 @@ fn place(latitude: i32, longitude: i32, altitude: i32) -> Geo {
 fn requested<T>(station: &mut Station, number: u32, pick: impl Fn(&MavMessage) -> Option<T>) -> T {
     let result = station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, p(&[number as f32]));
     assert_eq!(result, MavResult::MAV_RESULT_ACCEPTED);
-    station.last(pick).unwrap()
+    station.last_message(pick).unwrap()
 }
 
 fn local(station: &mut Station) -> [f32; 3] {
@@ -112,7 +112,7 @@ fn regress_a_local_set_point_counts_from_the_pad() {
     let at = station.place();
     let held = (at[0] - north).hypot(at[1] - east).hypot(at[2] - down);
     assert!(held < HELD_M, "{at:?}: {held} m off");
-    let told = station.last(|m| match m {
+    let told = station.last_message(|m| match m {
         MavMessage::POSITION_TARGET_LOCAL_NED(t) => Some([t.x, t.y, t.z]),
         _ => None,
     });

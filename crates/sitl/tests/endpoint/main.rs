@@ -1,7 +1,6 @@
 //! The program as a user meets it: processes, sockets, files, exit codes.
 
-mod aftermath;
-mod afterwards;
+mod after_landing;
 mod answers;
 mod camera;
 mod camera_settings;
@@ -14,13 +13,12 @@ mod copter_plans;
 mod failures;
 mod fence;
 mod flavours;
-mod honest;
 mod impaired;
 mod impaired_files;
 mod items;
 mod landed_states;
-mod lasting;
 mod local_frame;
+mod long_commands;
 mod manual;
 mod mount;
 mod network;
@@ -31,6 +29,8 @@ mod plans;
 mod px4_events;
 mod px4_setup;
 mod ranges;
+mod refusals;
+mod restart_and_logs;
 mod signing;
 mod simple_clients;
 mod vehicle;

@@ -34,8 +34,8 @@ fn wire_overridden_channels_fly_like_sticks_and_pitch_is_a_transmitters() {
         station.run_ms(20);
     }
     let (v, yaw) = (
-        station.last(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some([p.vx, p.vy]) } else { None }).unwrap(),
-        station.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw) } else { None }).unwrap(),
+        station.last_message(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some([p.vx, p.vy]) } else { None }).unwrap(),
+        station.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw) } else { None }).unwrap(),
     );
     let forward = v[0] * yaw.cos() + v[1] * yaw.sin();
     assert!(forward > 2.0, "a pitch channel below its middle flies forward: {forward}");
@@ -84,7 +84,7 @@ fn wire_the_echo_of_the_sticks_is_what_was_sent_and_a_sidecars_is_forward_positi
         wait(&mut station, sticks, [[1600, 1300, 1750, 1000], [1600, 1700, 1750, 1000]]);
         let again = [65.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, again), MavResult::MAV_RESULT_ACCEPTED);
-        let asked = station.last(|m| if let MavMessage::RC_CHANNELS(c) = m { Some(c.chan2_raw) } else { None });
+        let asked = station.last_message(|m| if let MavMessage::RC_CHANNELS(c) = m { Some(c.chan2_raw) } else { None });
         assert_eq!(asked, Some(1300), "{}: asked for by the ground station", flavour.name);
     }
 }
@@ -92,7 +92,7 @@ fn wire_the_echo_of_the_sticks_is_what_was_sent_and_a_sidecars_is_forward_positi
 /// What the record of a session is made of: the monitor's link carries the stick samples themselves, also of one control tick, and of
 /// those who do not have the sticks.
 #[test]
-fn wire_a_sidecar_hears_every_sample_of_the_sticks_as_it_was_sent() {
+fn wire_a_sidecar_receives_every_sample_of_the_sticks_as_it_was_sent() {
     let sidecar = LinkId(6);
     let mut station = Station::new("drill-hover", 7);
     station.sim.open_link(sidecar, LinkKind::Payload, false);
@@ -127,7 +127,7 @@ fn wire_a_sender_that_has_sent_a_negative_throttle_has_its_middle_at_zero() {
     let up = |station: &mut Station, z: i16| {
         station.sticks(0, 0, z, 0);
         station.run_ms(40);
-        station.last(|m| if let MavMessage::RC_CHANNELS(c) = m { Some(c.chan3_raw) } else { None }).unwrap()
+        station.last_message(|m| if let MavMessage::RC_CHANNELS(c) = m { Some(c.chan3_raw) } else { None }).unwrap()
     };
     for (z, us) in [(500, 1500), (0, 1000), (1000, 2000), (-2000, 1500), (500, 1500)] {
         assert_eq!(up(&mut station, z), us, "{z}");
@@ -147,7 +147,7 @@ fn wire_a_sender_that_has_sent_a_negative_throttle_has_its_middle_at_zero() {
 fn wire_released_channels_are_no_sticks() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(1_000);
-    station.heard.clear();
+    station.received.clear();
     for value in [0, u16::MAX] {
         station.send(&MavMessage::RC_CHANNELS_OVERRIDE(RC_CHANNELS_OVERRIDE_DATA {
             chan1_raw: value,
@@ -166,7 +166,7 @@ fn wire_released_channels_are_no_sticks() {
 /// Silence of a hand-flown vehicle's client until the failsafe, s, at a pace.
 fn patience_s(pace: f64, lockstep: bool) -> f64 {
     let mut station = Station::airborne("drill-hover", 7);
-    station.sim.set_pace(pace);
+    station.sim.set_speed_factor(pace);
     if lockstep {
         station.sim.open_link(LinkId(9), LinkKind::Payload, true);
     }
@@ -175,7 +175,7 @@ fn patience_s(pace: f64, lockstep: bool) -> f64 {
     assert_eq!(station.mode(), Some(POSITION));
     let silent_since = station.sim.now();
     let lost = |s: &Station| {
-        s.last(|m| match m {
+        s.last_message(|m| match m {
             MavMessage::STATUSTEXT(t) => t.text.to_str().ok().filter(|t| t.contains("manual control lost")).map(|_| ()),
             _ => None,
         })
@@ -201,26 +201,27 @@ fn answer_lockstep(station: &mut Station) {
 }
 
 #[test]
-fn wire_without_lockstep_the_limits_of_clients_grow_with_the_speed_and_that_is_told() {
+fn wire_without_lockstep_the_limits_of_clients_grow_with_the_speed_and_that_is_reported() {
     // COM_RC_LOSS_T is 0.5 s; the failsafe looks every 50 ms.
     for (pace, lockstep, expected_s) in [(1.0, false, 0.5), (8.0, false, 4.0), (8.0, true, 0.5), (0.5, false, 0.5)] {
         let s = patience_s(pace, lockstep);
         assert!((expected_s..expected_s + 0.15).contains(&s), "pace {pace}, lockstep {lockstep}: {s} s for {expected_s} s");
     }
     let mut station = Station::new("drill-hover", 7);
-    station.sim.set_pace(8.0);
+    station.sim.set_speed_factor(8.0);
     station.run_ms(10);
-    let told = station.last(|m| match m {
+    let told = station.last_message(|m| match m {
         MavMessage::NAMED_VALUE_FLOAT(v) if v.name.to_str() == Ok("pace") => Some(v.value),
         _ => None,
     });
     assert_eq!(told, Some(8.0), "every log says it");
-    let text = station.last(|m| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None });
+    let text =
+        station.last_message(|m| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None });
     assert_eq!(text.as_deref(), Some("Time limits of clients are 8 times as long"));
 }
 
 #[test]
-fn wire_a_lost_hand_stops_the_flight_and_a_returning_one_takes_it_up_again() {
+fn wire_lost_sticks_stop_the_flight_and_returning_sticks_resume_it() {
     let mut station = Station::airborne("drill-hover", 7);
     station.run_ms(1_700);
     assert_eq!(station.mode(), Some(HOLD));
@@ -232,7 +233,7 @@ fn wire_a_lost_hand_stops_the_flight_and_a_returning_one_takes_it_up_again() {
     // The link itself goes; another station sees what becomes of the flight, and takes the sticks.
     station.sim.open_link(OTHER, LinkKind::GroundStation, false);
     station.sim.close_link(GCS);
-    station.heard.clear();
+    station.received.clear();
     station.run_ms(2_000);
     assert_eq!(station.mode(), Some(HOLD));
     assert!(station.said("manual control lost"), "{:?}", station.texts());
@@ -291,11 +292,11 @@ fn set(station: &mut Station, name: &str, value: i32) {
 }
 
 fn roll_echo(station: &Station) -> u16 {
-    station.last(|m| if let MavMessage::RC_CHANNELS(c) = m { Some(c.chan1_raw) } else { None }).unwrap()
+    station.last_message(|m| if let MavMessage::RC_CHANNELS(c) = m { Some(c.chan1_raw) } else { None }).unwrap()
 }
 
 #[test]
-fn wire_the_first_keeps_the_sticks_until_he_is_silent_and_the_other_is_told() {
+fn wire_the_first_keeps_the_sticks_until_silent_and_the_other_is_informed() {
     let mut station = Station::airborne("drill-hover", 7);
     station.sim.open_link(OTHER, LinkKind::GroundStation, false);
     for _ in 0..100 {
@@ -337,7 +338,9 @@ fn wire_a_channel_that_is_left_alone_keeps_its_value_and_all_released_let_go() {
     station.run_ms(20);
     channels(&mut station, u16::MAX, 1600);
     station.run_ms(20);
-    let echo = |s: &Station| s.last(|m| if let MavMessage::RC_CHANNELS(c) = m { Some((c.chan2_raw, c.chan3_raw)) } else { None });
+    let echo = |s: &Station| {
+        s.last_message(|m| if let MavMessage::RC_CHANNELS(c) = m { Some((c.chan2_raw, c.chan3_raw)) } else { None })
+    };
     station.run_ms(20);
     assert_eq!(echo(&station), Some((1300, 1600)));
     channels(&mut station, 2500, 65_534);
@@ -349,13 +352,13 @@ fn wire_a_channel_that_is_left_alone_keeps_its_value_and_all_released_let_go() {
         ..Default::default()
     }));
     station.run_ms(20);
-    station.heard.clear();
+    station.received.clear();
     station.run_ms(100);
     assert_eq!(echo(&station), None, "let go: there are no sticks to echo");
 }
 
 #[test]
-fn wire_buttons_do_what_their_parameters_say_once_a_press() {
+fn wire_buttons_do_what_their_parameters_set_once_a_press() {
     let mut station = Station::airborne("drill-hover", 7);
     set(&mut station, "BTN3_FUNCTION", 11);
     set(&mut station, "BTN9_FUNCTION", 10);
@@ -365,7 +368,7 @@ fn wire_buttons_do_what_their_parameters_say_once_a_press() {
         station.send(&MavMessage::MANUAL_CONTROL(sticks));
         station.run_ms(40);
     };
-    station.heard.clear();
+    station.received.clear();
     for buttons in [0, 1 << 3, 1 << 3, 1 << 3 | 1 << 9, 1 << 9, 0] {
         press(&mut station, buttons, 0);
     }
@@ -374,8 +377,8 @@ fn wire_buttons_do_what_their_parameters_say_once_a_press() {
     for _ in 0..25 {
         press(&mut station, 0, -900);
     }
-    assert_eq!(station.last(|m| if let MavMessage::ILLUMINATOR_STATUS(s) = m { Some(s.enable) } else { None }), Some(1));
-    let pitch =
-        station.last(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(2.0 * g.q[2].asin()) } else { None });
+    assert_eq!(station.last_message(|m| if let MavMessage::ILLUMINATOR_STATUS(s) = m { Some(s.enable) } else { None }), Some(1));
+    let pitch = station
+        .last_message(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(2.0 * g.q[2].asin()) } else { None });
     assert!(pitch.unwrap() < -0.5, "the gimbal's axis points down: {pitch:?}");
 }

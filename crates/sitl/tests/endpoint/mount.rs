@@ -21,7 +21,7 @@ fn on_the_pad() -> Station {
 }
 
 fn attitude(station: &Station) -> GIMBAL_DEVICE_ATTITUDE_STATUS_DATA {
-    station.last(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(g.clone()) } else { None }).unwrap()
+    station.last_message(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(g.clone()) } else { None }).unwrap()
 }
 
 fn pitch_deg(station: &mut Station) -> f32 {
@@ -32,7 +32,7 @@ fn pitch_deg(station: &mut Station) -> f32 {
 
 /// Primary and secondary control, as the manager tells at once after a change.
 fn control(station: &Station) -> Option<[(u8, u8); 2]> {
-    station.last(|m| match m {
+    station.last_message(|m| match m {
         MavMessage::GIMBAL_MANAGER_STATUS(s) => {
             Some([(s.primary_control_sysid, s.primary_control_compid), (s.secondary_control_sysid, s.secondary_control_compid)])
         }
@@ -49,7 +49,7 @@ fn wire_the_height_of_a_place_to_look_at_is_read_as_the_flavour_reads_it() {
         station.run_ms(2_500);
         let home = |m: &MavMessage| if let MavMessage::HOME_POSITION(h) = m { Some(h.clone()) } else { None };
         assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, p(&[242.0])), OK);
-        let home = station.last(home).unwrap();
+        let home = station.last_message(home).unwrap();
         assert_eq!(station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, p(&[285.0, 100_000.0])), OK);
         for (frame, over_sea) in [(MavFrame::MAV_FRAME_GLOBAL, true), (MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT, false)] {
             station.send(&MavMessage::COMMAND_INT(COMMAND_INT_DATA {
@@ -133,17 +133,18 @@ fn wire_an_angle_with_a_rate_gets_there_at_that_rate_and_whole_numbers_carry_the
 }
 
 #[test]
-fn wire_manager_and_device_tell_what_the_gimbal_can_and_the_device_obeys_its_own_message() {
+fn wire_manager_and_device_report_what_the_gimbal_can_and_the_device_obeys_its_own_message() {
     let mut station = on_the_pad();
     for id in [280.0, 281.0, 283.0, 285.0] {
         assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, p(&[id])), OK, "{id}");
-        assert!(station.heard.iter().any(|frame| f64::from(frame.message_id) == f64::from(id)), "{id}");
+        assert!(station.received.iter().any(|frame| f64::from(frame.message_id) == f64::from(id)), "{id}");
     }
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, p(&[280.0]));
     let manager =
-        station.last(|m| if let MavMessage::GIMBAL_MANAGER_INFORMATION(g) = m { Some(g.clone()) } else { None }).unwrap();
+        station.last_message(|m| if let MavMessage::GIMBAL_MANAGER_INFORMATION(g) = m { Some(g.clone()) } else { None }).unwrap();
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, p(&[283.0]));
-    let device = station.last(|m| if let MavMessage::GIMBAL_DEVICE_INFORMATION(g) = m { Some(g.clone()) } else { None }).unwrap();
+    let device =
+        station.last_message(|m| if let MavMessage::GIMBAL_DEVICE_INFORMATION(g) = m { Some(g.clone()) } else { None }).unwrap();
     assert_eq!((manager.pitch_min, manager.pitch_max), (device.pitch_min, device.pitch_max));
     // What the device can the manager can; the manager can point at places besides.
     let point = GimbalManagerCapFlags::GIMBAL_MANAGER_CAP_FLAGS_CAN_POINT_LOCATION_GLOBAL;
@@ -196,7 +197,7 @@ fn wire_the_older_mount_follows_its_modes() {
 }
 
 fn lamp(station: &Station) -> Option<bool> {
-    station.last(|m| if let MavMessage::ILLUMINATOR_STATUS(i) = m { Some(i.enable == 1) } else { None })
+    station.last_message(|m| if let MavMessage::ILLUMINATOR_STATUS(i) = m { Some(i.enable == 1) } else { None })
 }
 
 #[test]
@@ -216,9 +217,9 @@ fn wire_the_lamp_obeys_its_service_and_every_alias_of_it() {
         assert_eq!(station.command(1, command, values), OK, "{command:?} {values:?}");
         station.run_ms(1_100);
         assert_eq!(lamp(&station), Some(on), "{command:?} {values:?}");
-        let relay = station.last(|m| if let MavMessage::RELAY_STATUS(r) = m { Some((r.on, r.present)) } else { None });
+        let relay = station.last_message(|m| if let MavMessage::RELAY_STATUS(r) = m { Some((r.on, r.present)) } else { None });
         assert_eq!(relay, Some((u16::from(on), 1)));
-        let servo = station.last(|m| if let MavMessage::SERVO_OUTPUT_RAW(s) = m { Some(s.servo9_raw) } else { None });
+        let servo = station.last_message(|m| if let MavMessage::SERVO_OUTPUT_RAW(s) = m { Some(s.servo9_raw) } else { None });
         assert_eq!(servo, Some(if on { 1_900 } else { 1_100 }));
     }
     for (command, values) in [
@@ -240,9 +241,9 @@ fn wire_the_lamp_obeys_its_service_and_every_alias_of_it() {
 }
 
 #[test]
-fn wire_a_repeated_relay_blinks_the_lamp_as_often_as_told_and_leaves_it_as_it_was() {
+fn wire_a_repeated_relay_blinks_the_lamp_as_often_as_requested_and_leaves_it_as_it_was() {
     let mut station = on_the_pad();
-    station.heard.clear();
+    station.received.clear();
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_REPEAT_RELAY, p(&[0.0, 3.0, 0.4])), OK);
     station.run_ms(3_000);
     let told = station.all(|m| if let MavMessage::ILLUMINATOR_STATUS(i) = m { Some((i.uptime_ms, i.enable == 1)) } else { None });

@@ -1,6 +1,6 @@
 //! Many peers, a flood, a slow radio, an old client: what one link does costs the others nothing.
 
-use spandrel_mavlink::codec::{Decoder, Encoder, Received};
+use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
 use spandrel_mavlink::dialect::*;
 use spandrel_model::time::SimTime;
 use spandrel_sitl::endpoint::{LinkId, LinkKind};
@@ -18,15 +18,15 @@ const RADIO_BYTES_S: f64 = 5_760.0;
 /// Bytes that may leave at once after a silence, and the last datagram that is not cut in two.
 const RADIO_BURST: usize = 600;
 
-fn drain(sim: &mut Sim) -> BTreeMap<LinkId, Vec<Received>> {
-    let mut heard: BTreeMap<LinkId, Vec<Received>> = BTreeMap::new();
+fn drain(sim: &mut Sim) -> BTreeMap<LinkId, Vec<ReceivedFrame>> {
+    let mut heard: BTreeMap<LinkId, Vec<ReceivedFrame>> = BTreeMap::new();
     while let Some(transmit) = sim.poll_transmit() {
         heard.entry(transmit.link).or_default().extend(Decoder::new().datagram(&transmit.bytes));
     }
     heard
 }
 
-fn run_ms(sim: &mut Sim, ms: i64) -> BTreeMap<LinkId, Vec<Received>> {
+fn run_ms(sim: &mut Sim, ms: i64) -> BTreeMap<LinkId, Vec<ReceivedFrame>> {
     let until = sim.now() + SimTime::from_ms(ms);
     sim.handle_timeout(until);
     drain(sim)
@@ -70,7 +70,7 @@ fn wire_answers_to_others_questions_about_time_go_on_from_a_link_in_step() {
     sim.handle_datagram(sidecar, &answer(token, 1, 1));
     assert!(!sim.waiting());
     let heard = run_ms(&mut sim, 2);
-    let answers = |frames: &Vec<Received>| -> Vec<(i64, u8, u8)> {
+    let answers = |frames: &Vec<ReceivedFrame>| -> Vec<(i64, u8, u8)> {
         let foreign = frames.iter().filter(|f| f.component_id == 191).filter_map(|f| f.message.as_ref());
         let sync = |m: &MavMessage| {
             if let MavMessage::TIMESYNC(t) = m { Some((t.ts1, t.target_system, t.target_component)) } else { None }
@@ -85,7 +85,7 @@ fn wire_answers_to_others_questions_about_time_go_on_from_a_link_in_step() {
     );
 }
 
-fn own(frames: &[Received]) -> Vec<(u32, u8)> {
+fn own(frames: &[ReceivedFrame]) -> Vec<(u32, u8)> {
     frames.iter().filter(|f| f.system_id == 1).map(|f| (f.message_id, f.component_id)).collect()
 }
 
@@ -154,7 +154,7 @@ fn wire_fifty_peers_at_once_get_everything_that_one_gets() {
     let peers: Vec<LinkId> = (10..60).map(LinkId).collect();
     peers.iter().for_each(|peer| sim.open_link(*peer, LinkKind::GroundStation, false));
     let mut encoders: Vec<Encoder> = (0..50).map(|k| Encoder::new(100 + k, 190)).collect();
-    let mut heard: BTreeMap<LinkId, Vec<Received>> = BTreeMap::new();
+    let mut heard: BTreeMap<LinkId, Vec<ReceivedFrame>> = BTreeMap::new();
     for second in 0..3 {
         for (peer, encoder) in peers.iter().zip(&mut encoders) {
             sim.handle_datagram(*peer, &encoder.encode(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default())));
@@ -236,7 +236,7 @@ fn wire_a_client_that_speaks_mavlink_1_is_obeyed() {
     (lamp[30], lamp[31]) = (1, 1);
     station.sim.handle_datagram(GCS, &old_frame(0, 76, &lamp));
     station.run_ms(600);
-    assert_eq!(station.last(|m| if let MavMessage::ILLUMINATOR_STATUS(s) = m { Some(s.enable) } else { None }), Some(1));
+    assert_eq!(station.last_message(|m| if let MavMessage::ILLUMINATOR_STATUS(s) = m { Some(s.enable) } else { None }), Some(1));
 }
 
 #[test]
@@ -263,7 +263,7 @@ fn wire_a_datagram_longer_than_any_clients_is_dropped_whole() {
 
 /// Whoever is known by a source address alone gets answers, and streams once a heartbeat has come from there: one byte drew 266 kB.
 #[test]
-fn regress_a_peer_that_nobody_called_gets_no_streams_before_its_heartbeat() {
+fn regress_a_peer_that_was_not_dialed_gets_no_streams_before_its_heartbeat() {
     let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     let peer = LinkId(9);
     sim.open_link(peer, LinkKind::Payload, false);

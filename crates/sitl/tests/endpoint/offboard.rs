@@ -45,11 +45,11 @@ fn offboard(station: &mut Station, setpoint: &MavMessage) {
 
 /// Velocity as the vehicle reports it, m/s.
 fn velocity(station: &Station) -> [f32; 3] {
-    station.last(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some([p.vx, p.vy, p.vz]) } else { None }).unwrap()
+    station.last_message(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some([p.vx, p.vy, p.vz]) } else { None }).unwrap()
 }
 
 fn angles(station: &Station) -> ATTITUDE_DATA {
-    station.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.clone()) } else { None }).unwrap()
+    station.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.clone()) } else { None }).unwrap()
 }
 
 /// In the air by hand, at rest, its nose turned away from north.
@@ -107,7 +107,7 @@ fn wire_an_acceleration_alone_gathers_speed() {
 #[test]
 fn wire_attitudes_and_body_rates_are_flown() {
     let mut station = level();
-    let hover = station.last(|m| if let MavMessage::ATTITUDE_TARGET(t) = m { Some(t.thrust) } else { None }).unwrap();
+    let hover = station.last_message(|m| if let MavMessage::ATTITUDE_TARGET(t) = m { Some(t.thrust) } else { None }).unwrap();
     let (sin, cos) = (0.05f32.sin(), 0.05f32.cos());
     let lean = attitude(0b0000_0111, |t| (t.q, t.thrust) = ([cos, sin, 0.0, 0.0], hover));
     offboard(&mut station, &lean);
@@ -123,7 +123,7 @@ fn wire_attitudes_and_body_rates_are_flown() {
 }
 
 #[test]
-fn wire_set_points_that_cannot_be_flown_do_not_count_and_are_told_once_a_second() {
+fn wire_set_points_that_cannot_be_flown_do_not_count_and_are_reported_once_a_second() {
     let frame = MavFrame::MAV_FRAME_LOCAL_NED;
     let wrong = [
         (local(MavFrame::MAV_FRAME_LOCAL_ENU, POSITION, |_| {}), "frame"),
@@ -164,12 +164,12 @@ fn wire_set_points_for_another_vehicle_are_not_ours() {
 }
 
 #[test]
-fn wire_when_set_points_stop_it_holds_and_says_so() {
+fn wire_when_set_points_stop_it_holds_and_reports_it() {
     let mut station = level();
     let ahead = local(MavFrame::MAV_FRAME_LOCAL_NED, VELOCITY, |t| t.vx = 2.0);
     offboard(&mut station, &ahead);
     fly(&mut station, &ahead, 2.0);
-    station.heard.clear();
+    station.received.clear();
     // COM_OF_LOSS_T is one second as in PX4: not before.
     station.run_ms(900);
     assert!(!station.texts().iter().any(|t| t.contains("set-points lost")), "{:?}", station.texts());

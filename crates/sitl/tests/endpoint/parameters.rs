@@ -4,11 +4,11 @@
 use super::copter::{ARM, AUTO, SET_MODE, copter, copter_at, mode, next_beat};
 use spandrel_mavlink::dialect::*;
 use spandrel_sitl::autopilot::operator_rules::{
-    Exceptions, Heading, HeightReference, MissionNeeds, OffboardLoss, Response, ReturnPlaces,
+    FailsafeResponse, HeadingRule, HeightReference, LinkLossExceptions, MissionNeeds, OffboardLoss, ReturnTargets,
 };
-use spandrel_sitl::autopilot::{LinkLoss, Mode, OperatorRules, Tuning};
-use spandrel_sitl::endpoint::params::face::{COPTER, Face, PX4};
-use spandrel_sitl::endpoint::params::{Pack, Params, Value, metadata};
+use spandrel_sitl::autopilot::{FlightMode, LinkLossAction, OperatorRules, Tuning};
+use spandrel_sitl::endpoint::params::param_view::{COPTER, PX4, ParamView};
+use spandrel_sitl::endpoint::params::{AircraftValues, ParamValue, Params, metadata};
 use spandrel_testkit::plans::{item, upload};
 use spandrel_testkit::station::{Station, one, p};
 use std::io::Cursor;
@@ -23,8 +23,8 @@ const QGROUNDCONTROL_COPTER: &str = include_str!("names/qgroundcontrol-copter.ts
 const SUITE_PX4: &str = include_str!("names/suite-px4.tsv");
 const SUITE_COPTER: &str = include_str!("names/suite-copter.tsv");
 
-fn params(face: &'static Face) -> Params {
-    Params::new(1, Pack::SMALL, face)
+fn params(face: &'static ParamView) -> Params {
+    Params::new(1, AircraftValues::SMALL, face)
 }
 
 /// Names of a list with what the autopilot's own description of each has.
@@ -33,7 +33,7 @@ fn names(list: &str) -> Vec<(&str, &str)> {
 }
 
 /// What a ground station is told of the parameters.
-fn described(face: &Face) -> Vec<serde_json::Value> {
+fn described(face: &ParamView) -> Vec<serde_json::Value> {
     let mut text = Vec::new();
     lzma_rs::xz_decompress(&mut Cursor::new(&metadata::files(face).parameter.bytes), &mut text).unwrap();
     let file: serde_json::Value = serde_json::from_slice(&text).unwrap();
@@ -70,7 +70,7 @@ fn regress_flight_mode_slots_have_words_for_their_value() {
         for slot in 1..=6 {
             let name = format!("{prefix}{slot}");
             let row = all.iter().find(|row| row["name"] == name.as_str()).unwrap();
-            let Some((_, _, Value::Int(value))) = own.find(&name) else { panic!("{name} is no whole number") };
+            let Some((_, _, ParamValue::Int(value))) = own.find(&name) else { panic!("{name} is no whole number") };
             let worded = row["values"].as_array().unwrap().iter().any(|entry| entry["value"] == value);
             assert!(worded, "{name} = {value} has no words: {row}");
         }
@@ -96,12 +96,12 @@ fn regress_nine_in_ten_names_of_the_setup_pages_and_the_suites_are_there() {
 }
 
 /// The tuning after a parameter was set.
-fn tuned(face: &'static Face, name: &str, value: f64) -> Tuning {
+fn tuned(face: &'static ParamView, name: &str, value: f64) -> Tuning {
     let mut own = params(face);
     let kind = own.find(name).unwrap_or_else(|| panic!("{name}")).2;
     let value = match kind {
-        Value::Int(_) => Value::Int(value as i32),
-        Value::Real(_) => Value::Real(value as f32),
+        ParamValue::Int(_) => ParamValue::Int(value as i32),
+        ParamValue::Real(_) => ParamValue::Real(value as f32),
     };
     assert_eq!(own.set_value(name, value), Ok(()), "{name}");
     let mut tuning = Tuning::default();
@@ -127,27 +127,30 @@ type Check = fn(&Tuning) -> bool;
 fn exact_px4s_parameters_set_what_they_name() {
     let checks: [(&str, f64, Check); 23] = [
         ("COM_RCL_EXCEPT", 5.0, |t| {
-            t.rules.responses.manual_loss_except == Exceptions { mission: true, hold: false, offboard: true, manual: false }
+            t.rules.responses.manual_loss_except
+                == LinkLossExceptions { mission: true, hold: false, offboard: true, manual: false }
         }),
         ("COM_DLL_EXCEPT", 2.0, |t| t.rules.responses.data_link_loss_except.hold),
-        ("COM_OBL_RC_ACT", 4.0, |t| t.rules.responses.offboard_loss == OffboardLoss::Fixed(Response::Land)),
-        ("COM_ACT_FAIL_ACT", 3.0, |t| t.rules.responses.motor_failure == Response::Return),
-        ("COM_LOW_BAT_ACT", 3.0, |t| t.rules.responses.battery == [None, Some(Response::Return), Some(Response::Land)]),
+        ("COM_OBL_RC_ACT", 4.0, |t| t.rules.responses.offboard_loss == OffboardLoss::Fixed(FailsafeResponse::Land)),
+        ("COM_ACT_FAIL_ACT", 3.0, |t| t.rules.responses.motor_failure == FailsafeResponse::Return),
+        ("COM_LOW_BAT_ACT", 3.0, |t| {
+            t.rules.responses.battery == [None, Some(FailsafeResponse::Return), Some(FailsafeResponse::Land)]
+        }),
         ("COM_FAIL_ACT_T", 2.0, |t| t.failsafe_delay_s == 2.0),
         ("COM_RC_OVERRIDE", 2.0, |t| !t.stick_takeover && t.rules.responses.takeover_offboard),
         ("COM_RC_STICK_OV", 50.0, |t| t.rules.responses.takeover_share == 0.5),
         ("COM_ARM_MIS_REQ", 1.0, |t| t.rules.responses.arm_needs_mission),
         ("COM_ARM_BAT_MIN", 0.5, |t| t.rules.responses.arm_charge_pct == 50.0),
         ("COM_POSCTL_NAVL", 1.0, |t| t.rules.responses.blind_lands),
-        ("NAV_RCL_ACT", 5.0, |t| t.manual_loss == LinkLoss::Terminate),
-        ("RTL_TYPE", 1.0, |t| t.rules.homeward.places == ReturnPlaces { home: false, rally: true, mission_landing: true }),
+        ("NAV_RCL_ACT", 5.0, |t| t.manual_loss == LinkLossAction::Terminate),
+        ("RTL_TYPE", 1.0, |t| t.rules.homeward.places == ReturnTargets { home: false, rally: true, mission_landing: true }),
         ("RTL_LAND_DELAY", 12.0, |t| t.rules.homeward.wait_s == 12.0),
         ("RTL_DESCEND_ALT", 7.0, |t| t.rules.homeward.wait_height_m == Some(7.0)),
         ("RTL_CONE_ANG", 45.0, |t| (t.rules.homeward.cone_slope - 1.0).abs() < 1e-9),
         ("MPC_ACC_HOR", 2.0, |t| t.rules.envelope.acceleration_m_s2 == 2.0),
         ("MPC_VEL_MANUAL", 3.0, |t| t.rules.envelope.manual_m_s == 3.0),
         ("MPC_MAN_Y_MAX", 90.0, |t| (t.rules.envelope.manual_yaw_rad_s - 90f64.to_radians()).abs() < 1e-12),
-        ("MPC_YAW_MODE", 5.0, |t| t.rules.heading == Heading::Fixed),
+        ("MPC_YAW_MODE", 5.0, |t| t.rules.heading == HeadingRule::Fixed),
         ("MPC_Z_V_AUTO_UP", 1.0, |t| t.climb_m_s == 1.0),
         ("MIS_TKO_LAND_REQ", 4.0, |t| t.rules.mission_needs == MissionNeeds::BothOrNeither),
         ("MIS_TAKEOFF_ALT", 100.0, |t| t.takeoff_height_m == 100.0),
@@ -165,8 +168,8 @@ fn exact_copters_parameters_set_what_they_name() {
         ("FS_OPTIONS", 18.0, |t| {
             t.rules.responses.data_link_loss_except.mission && t.rules.responses.data_link_loss_except.manual
         }),
-        ("BATT_FS_LOW_ACT", 2.0, |t| t.rules.responses.battery[0] == Some(Response::Return)),
-        ("BATT_FS_CRT_ACT", 5.0, |t| t.rules.responses.battery[1] == Some(Response::Terminate)),
+        ("BATT_FS_LOW_ACT", 2.0, |t| t.rules.responses.battery[0] == Some(FailsafeResponse::Return)),
+        ("BATT_FS_CRT_ACT", 5.0, |t| t.rules.responses.battery[1] == Some(FailsafeResponse::Terminate)),
         ("BATT_LOW_VOLT", 10.5, |t| t.rules.responses.battery_low_v == [10.5, 0.0]),
         ("BATT_ARM_VOLT", 11.0, |t| t.rules.responses.arm_voltage_v == 11.0),
         ("FS_EKF_ACTION", 1.0, |t| t.rules.responses.blind_lands),
@@ -177,7 +180,7 @@ fn exact_copters_parameters_set_what_they_name() {
         ("RTL_CLIMB_MIN", 400.0, |t| t.rules.homeward.climb_min_m == 4.0),
         ("RTL_CONE_SLOPE", 3.0, |t| t.rules.homeward.cone_slope == 3.0),
         ("RALLY_INCL_HOME", 0.0, |t| !t.rules.homeward.places.home),
-        ("WP_YAW_BEHAVIOR", 0.0, |t| t.rules.heading == Heading::Fixed),
+        ("WP_YAW_BEHAVIOR", 0.0, |t| t.rules.heading == HeadingRule::Fixed),
         ("MIS_RESTART", 1.0, |t| t.rules.mission_restarts),
         ("CIRCLE_RADIUS", 1_200.0, |t| t.rules.orbit_radius_m == 12.0),
         ("FENCE_TYPE", 8.0, |t| !t.rules.fence.areas && t.rules.fence.floor_m == Some(-10.0)),
@@ -324,10 +327,12 @@ fn flight_com_act_fail_act_terminates_on_a_failed_motor() {
 
 #[test]
 fn exact_modes_that_a_lost_link_never_stops() {
-    for mode in [Mode::Land, Mode::Return] {
-        assert!(Exceptions::default().cover(mode), "{mode:?}");
+    for mode in [FlightMode::Land, FlightMode::Return] {
+        assert!(LinkLossExceptions::default().cover(mode), "{mode:?}");
     }
-    assert!(!Exceptions::default().cover(Mode::Mission) && Exceptions::from_bits(1).cover(Mode::Mission));
+    assert!(
+        !LinkLossExceptions::default().cover(FlightMode::Mission) && LinkLossExceptions::from_bits(1).cover(FlightMode::Mission)
+    );
 }
 
 #[test]
@@ -341,7 +346,7 @@ fn regress_the_height_reference_takes_every_value_and_reaches_the_filter() {
         let row = all.iter().find(|row| row["name"] == name).unwrap();
         assert!(!row["longDesc"].as_str().unwrap().contains("No effect"), "{row}");
         for (code, reference) in codes.into_iter().zip(references) {
-            let (wire, kind) = if face.cast { (code as f32, REAL) } else { (Value::Int(code).to_wire(), INT) };
+            let (wire, kind) = if face.cast { (code as f32, REAL) } else { (ParamValue::Int(code).to_wire(), INT) };
             assert_eq!(own.set(name, wire, kind), Ok(()), "{name} {code}");
             let mut tuning = Tuning::default();
             own.apply(&mut tuning);

@@ -11,7 +11,7 @@ const NEAR: f32 = 0.01;
 
 fn pitch(station: &Station) -> f32 {
     station
-        .last(|m| match m {
+        .last_message(|m| match m {
             MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) => Some(2.0 * g.q[2].atan2(g.q[0])),
             _ => None,
         })
@@ -84,7 +84,7 @@ fn wire_the_gimbal_follows_the_managers_messages() {
 }
 
 #[test]
-fn wire_who_takes_control_of_the_gimbal_keeps_others_out_until_he_lets_go() {
+fn wire_who_takes_control_of_the_gimbal_keeps_others_out_until_he_releases() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(100);
     let aim = [-20.0, 0.0, f32::NAN, f32::NAN, 0.0, 0.0, 0.0];
@@ -93,13 +93,13 @@ fn wire_who_takes_control_of_the_gimbal_keeps_others_out_until_he_lets_go() {
     let configure = MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_CONFIGURE;
     assert_eq!(station.command(1, configure, take), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(2_100);
-    let holder = station.last(|m| match m {
+    let holder = station.last_message(|m| match m {
         MavMessage::GIMBAL_MANAGER_STATUS(s) => Some((s.primary_control_sysid, s.primary_control_compid)),
         _ => None,
     });
     assert_eq!(holder, Some((255, 190)));
     station.speak_as(254, 190);
-    station.heard.clear();
+    station.received.clear();
     let other = MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
         command: MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW,
         param1: -20.0,
@@ -122,9 +122,9 @@ fn shots(station: &Station) -> Vec<(i32, i32, i32)> {
 }
 
 #[test]
-fn wire_missed_shots_are_sent_again_and_a_series_stops_when_told() {
+fn wire_missed_shots_are_sent_again_and_a_series_stops_on_command() {
     let mut station = Station::airborne("drill-hover", 7);
-    station.heard.clear();
+    station.received.clear();
     let series = [0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0];
     station.command(100, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, series);
     for _ in 0..105 {
@@ -147,7 +147,7 @@ fn wire_missed_shots_are_sent_again_and_a_series_stops_when_told() {
 #[test]
 fn wire_pictures_by_distance_come_as_far_apart_as_asked() {
     let mut station = Station::airborne("drill-hover", 7);
-    station.heard.clear();
+    station.received.clear();
     let every = [3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(100, MavCmd::MAV_CMD_DO_SET_CAM_TRIGG_DIST, every), MavResult::MAV_RESULT_ACCEPTED);
     let [n0, e0, _] = station.place_after(10);
@@ -181,10 +181,10 @@ fn wire_every_action_of_the_ground_stations_file_is_accepted() {
         }
         payload.extend(number.to_le_bytes());
         payload.extend([1, component, 0]);
-        station.heard.clear();
+        station.received.clear();
         station.send_payload(76, &payload);
         station.run_ms(5);
-        let result = station.last(|m| match m {
+        let result = station.last_message(|m| match m {
             MavMessage::COMMAND_ACK(ack) if ack.command as u16 == number => Some(ack.result),
             _ => None,
         });
@@ -210,7 +210,8 @@ fn wire_only_who_has_the_gimbal_lets_go_of_it() {
     };
     let control = |s: &mut Station| {
         s.run_ms(2_100);
-        s.last(|m| if let MavMessage::GIMBAL_MANAGER_STATUS(g) = m { Some(g.primary_control_sysid) } else { None }).unwrap()
+        s.last_message(|m| if let MavMessage::GIMBAL_MANAGER_STATUS(g) = m { Some(g.primary_control_sysid) } else { None })
+            .unwrap()
     };
     configure(&mut station, -2.0);
     assert_eq!(control(&mut station), 255);
@@ -246,7 +247,8 @@ fn wire_the_lamp_neither_dims_nor_strobes_and_the_gimbal_has_a_neutral_place() {
     }
     let pitch = |s: &mut Station| {
         s.run_ms(3_000);
-        s.last(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(2.0 * g.q[2].asin()) } else { None }).unwrap()
+        s.last_message(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(2.0 * g.q[2].asin()) } else { None })
+            .unwrap()
     };
     let aim = |s: &mut Station, p: [f32; 7]| s.command(1, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, p);
     let nan = f32::NAN;

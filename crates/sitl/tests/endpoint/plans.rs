@@ -44,7 +44,7 @@ fn wire_a_mission_is_uploaded_given_back_and_flown_to_its_end() {
     let mut furthest = north;
     let ended = station.run_until(90.0, |s| {
         furthest = furthest.max(home_north(s));
-        s.heard
+        s.received
             .iter()
             .any(|f| matches!(&f.message, Some(MavMessage::STATUSTEXT(t)) if t.text.to_str() == Ok("Disarmed by landing")))
     });
@@ -62,12 +62,13 @@ fn wire_a_mission_is_uploaded_given_back_and_flown_to_its_end() {
     });
     let taken = station.ask(&status, |m| if let MavMessage::CAMERA_CAPTURE_STATUS(c) = m { Some(c.image_count) } else { None });
     assert_eq!(taken, Some(1), "the picture of item 2 was taken");
-    let pitch = station.last(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(2.0 * g.q[2]) } else { None });
+    let pitch =
+        station.last_message(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(2.0 * g.q[2]) } else { None });
     assert!(pitch.is_none_or(|p| p < -0.6), "the gimbal of item 3 looks down: {pitch:?}");
 }
 
 #[test]
-fn wire_lost_doubled_and_exchanged_items_are_asked_for_until_the_plan_is_whole() {
+fn wire_lost_doubled_and_exchanged_items_are_requested_until_the_plan_is_whole() {
     let mut station = ready(7);
     let items: Vec<_> = (0..4).map(|k| item(k, MavCmd::MAV_CMD_NAV_WAYPOINT, 5.0 * f64::from(k), 6.0)).collect();
     let send = |s: &mut Station, k: usize| {
@@ -79,7 +80,7 @@ fn wire_lost_doubled_and_exchanged_items_are_asked_for_until_the_plan_is_whole()
     assert_eq!(send(&mut station, 0), None, "doubled: the next one is asked for already");
     assert_eq!(send(&mut station, 2), None, "out of turn");
     // Nothing comes: the vehicle asks again by itself.
-    station.heard.clear();
+    station.received.clear();
     station.run_ms(2_000);
     let asked_again = station.all(asked);
     assert!(asked_again.starts_with(&[1, 1, 1]), "{asked_again:?}");
@@ -105,9 +106,9 @@ fn wire_an_upload_that_stalls_is_given_up_and_a_second_station_waits_its_turn() 
     assert_eq!(station.ask(&count(2, PLAN), asked), Some(0));
     station.speak_as(254, 190);
     assert_eq!(station.ask(&count(1, PLAN), result), Some(MavMissionResult::MAV_MISSION_DENIED));
-    station.heard.clear();
+    station.received.clear();
     station.run_ms(11_000);
-    assert_eq!(station.last(result), Some(MavMissionResult::MAV_MISSION_OPERATION_CANCELLED));
+    assert_eq!(station.last_message(result), Some(MavMissionResult::MAV_MISSION_OPERATION_CANCELLED));
     assert_eq!(station.ask(&count(1, PLAN), asked), Some(0), "its turn now");
 }
 
@@ -178,12 +179,12 @@ fn wire_the_current_item_is_set_by_message_and_by_command() {
     assert_eq!(station.ask(&set(77), result), Some(MavMissionResult::MAV_MISSION_INVALID_SEQUENCE));
     let one = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, one), MavResult::MAV_RESULT_ACCEPTED);
-    assert_eq!(station.last(current), Some((1, 3)), "said with the answer, not with the next of the stream");
+    assert_eq!(station.last_message(current), Some((1, 3)), "said with the answer, not with the next of the stream");
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, [9.0; 7]), MavResult::MAV_RESULT_DENIED);
 }
 
 #[test]
-fn wire_heights_over_home_follow_a_home_that_is_set_anew() {
+fn wire_heights_over_home_follow_a_home_that_is_set_again() {
     let mut station = Station::airborne("drill-hover", 7);
     let north = home_north(&station);
     let amsl = MISSION_ITEM_INT_DATA {
@@ -240,28 +241,29 @@ fn wire_older_and_partial_forms_are_taken_or_refused_but_always_answered() {
     let part = MISSION_REQUEST_PARTIAL_LIST_DATA { target_system: 1, target_component: 1, ..Default::default() };
     assert_eq!(station.ask(&MavMessage::MISSION_REQUEST_PARTIAL_LIST(part), result), Some(R::MAV_MISSION_UNSUPPORTED));
     // A plan of a type that MAVLink does not know: MISSION_REQUEST_LIST, type 9.
-    station.heard.clear();
+    station.received.clear();
     station.send_payload(43, &[1, 1, 9]);
     station.run_ms(1);
-    let refused = station.heard.iter().find(|f| f.message_id == 47).map(|f| f.payload(4));
+    let refused = station.received.iter().find(|f| f.message_id == 47).map(|f| f.payload(4));
     assert_eq!(refused.as_deref(), Some(&[255, 190, R::MAV_MISSION_UNSUPPORTED as u8, 9][..]));
     // An item with a command that nobody knows ends its upload.
     assert_eq!(station.ask(&count(1, PLAN), asked), Some(0));
     let mut unknown = [0u8; 38];
     unknown[30..32].copy_from_slice(&31_998u16.to_le_bytes());
     (unknown[32], unknown[33], unknown[34]) = (1, 1, 3);
-    station.heard.clear();
+    station.received.clear();
     station.send_payload(73, &unknown);
     station.run_ms(1);
-    assert_eq!(station.last(result), Some(R::MAV_MISSION_UNSUPPORTED));
-    assert_eq!(station.last(asked), None);
+    assert_eq!(station.last_message(result), Some(R::MAV_MISSION_UNSUPPORTED));
+    assert_eq!(station.last_message(asked), None);
 }
 
 /// A station that comes later sees by the id that the plan is not its own, and one that has it need not fetch it.
 #[test]
 fn wire_each_plan_has_an_id_that_changes_with_it() {
     let mut station = ready(7);
-    let id_in_ack = |s: &Station| s.last(|m| if let MavMessage::MISSION_ACK(a) = m { Some(a.opaque_id) } else { None }).unwrap();
+    let id_in_ack =
+        |s: &Station| s.last_message(|m| if let MavMessage::MISSION_ACK(a) = m { Some(a.opaque_id) } else { None }).unwrap();
     let mut ids = Vec::new();
     for height in [6.0, 7.0, 6.0] {
         assert_eq!(upload(&mut station, &[item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 5.0, height)]), ACCEPTED);
@@ -269,7 +271,8 @@ fn wire_each_plan_has_an_id_that_changes_with_it() {
     }
     assert!(ids[0] != 0 && ids[0] != ids[1] && ids[0] == ids[2], "{ids:?}");
     station.run_ms(1_100);
-    let told = station.last(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some((c.mission_id, c.fence_id)) } else { None });
+    let told =
+        station.last_message(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some((c.mission_id, c.fence_id)) } else { None });
     assert_eq!(told, Some((ids[2], 0)));
     let list = MavMessage::MISSION_REQUEST_LIST(MISSION_REQUEST_LIST_DATA {
         target_system: 1,

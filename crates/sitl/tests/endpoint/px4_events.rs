@@ -1,8 +1,8 @@
 //! PX4's events in flight: what a client that knows the definitions of the vehicle reads.
 
 use spandrel_mavlink::dialect::*;
-use spandrel_sitl::endpoint::params::face::PX4;
 use spandrel_sitl::endpoint::params::metadata;
+use spandrel_sitl::endpoint::params::param_view::PX4;
 use spandrel_testkit::station::{Station, one, p};
 use std::collections::BTreeMap;
 use std::io::Cursor;

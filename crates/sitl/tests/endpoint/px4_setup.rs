@@ -48,7 +48,7 @@ fn regress_a_gyro_calibration_reports_itself_in_the_texts_that_qgroundcontrol_re
 }
 
 #[test]
-fn regress_the_radio_pages_calibration_is_accepted_and_what_needs_hands_says_why() {
+fn regress_the_radio_pages_calibration_is_accepted_and_manual_steps_are_explained() {
     let mut station = ready();
     assert_eq!(station.command(1, CALIBRATE, p(&[0.0, 0.0, 0.0, 1.0])), ACCEPTED, "the radio page begins");
     assert_eq!(station.command(1, CALIBRATE, p(&[])), ACCEPTED, "and ends");
@@ -69,7 +69,7 @@ fn regress_the_radio_pages_calibration_is_accepted_and_what_needs_hands_says_why
 
 /// A line typed into the console, and what comes back.
 fn console(station: &mut Station, line: &str) -> String {
-    station.heard.clear();
+    station.received.clear();
     for chunk in format!("{line}\n").as_bytes().chunks(70) {
         let mut data = [0; 70];
         data[..chunk.len()].copy_from_slice(chunk);
@@ -109,7 +109,7 @@ fn regress_the_mavlink_console_answers() {
     assert!(console(&mut station, "commander check").contains("Preflight check: OK"));
     assert!(console(&mut station, "commander arm").ends_with("nsh> "));
     station.run_ms(1_100);
-    let armed = station.last(|m| match m {
+    let armed = station.last_message(|m| match m {
         MavMessage::HEARTBEAT(b) if b.mavtype == MavType::MAV_TYPE_QUADROTOR => Some(b.base_mode),
         _ => None,
     });
@@ -149,7 +149,7 @@ fn regress_follow_me_keeps_its_distance_behind_the_target() {
     }
     let end = station.place();
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
-    let here = station.last(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(g.clone()) } else { None }).unwrap();
+    let here = station.last_message(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(g.clone()) } else { None }).unwrap();
     let behind = 0.4 * 249.0 + 0.4 - f64::from(here.lat - 467_052_000) * 0.011_132;
     assert!((behind - 12.0).abs() < 2.0, "{behind} m behind, {start:?} to {end:?}");
     // FLW_TGT_HT over home.
@@ -168,7 +168,7 @@ fn regress_arming_checks_are_reported_as_events_and_can_be_asked_for_again() {
     };
     let word = |event: &EVENT_DATA, at: usize| u32::from_le_bytes(event.arguments[at..at + 4].try_into().unwrap());
     let mut station = ready();
-    station.heard.clear();
+    station.received.clear();
     station.sticks(0, 900, 500, 0);
     station.run_ms(300);
     station.sticks(0, 900, 500, 0);
@@ -181,7 +181,7 @@ fn regress_arming_checks_are_reported_as_events_and_can_be_asked_for_again() {
     // Remote control has an error (bit 7), no mode can be armed, Position (bit 2) could be flown.
     assert_eq!((word(summary, 1), word(summary, 9)), (1 << 7, 0));
     assert!(word(summary, 13) & 1 << 2 != 0);
-    station.heard.clear();
+    station.received.clear();
     let [first, last] = [report[0].sequence, report[report.len() - 1].sequence];
     let asked = REQUEST_EVENT_DATA { first_sequence: first, last_sequence: last, target_system: 1, target_component: 1 };
     station.send(&MavMessage::REQUEST_EVENT(asked));
@@ -194,10 +194,10 @@ fn regress_arming_checks_are_reported_as_events_and_can_be_asked_for_again() {
         target_component: 1,
     }));
     station.run_ms(5);
-    let error = station.last(|m| if let MavMessage::RESPONSE_EVENT_ERROR(e) = m { Some(e.sequence) } else { None });
+    let error = station.last_message(|m| if let MavMessage::RESPONSE_EVENT_ERROR(e) = m { Some(e.sequence) } else { None });
     assert_eq!(error, Some(last + 100));
     // However many are missing, one answer says where to go on.
-    station.heard.clear();
+    station.received.clear();
     station.send(&MavMessage::REQUEST_EVENT(REQUEST_EVENT_DATA {
         first_sequence: last + 100,
         last_sequence: last + 30_000,
@@ -211,11 +211,11 @@ fn regress_arming_checks_are_reported_as_events_and_can_be_asked_for_again() {
     // Once the sticks are let go every mode that needs no mission can be armed, and QGroundControl's question brings the report again.
     station.sticks(0, 0, 500, 0);
     station.run_ms(1_500);
-    station.heard.clear();
+    station.received.clear();
     assert_eq!(station.command(1, MavCmd::MAV_CMD_RUN_PREARM_CHECKS, one(0.0)), ACCEPTED);
     station.run_ms(2_100);
     let healthy = events(&station);
     assert!(healthy.len() >= 2 && word(&healthy[0], 1) == 0 && word(&healthy[0], 9) & 1 << 17 != 0, "{healthy:?}");
-    let newest = station.last(|m| if let MavMessage::CURRENT_EVENT_SEQUENCE(c) = m { Some(c.sequence) } else { None });
+    let newest = station.last_message(|m| if let MavMessage::CURRENT_EVENT_SEQUENCE(c) = m { Some(c.sequence) } else { None });
     assert_eq!(newest, healthy.last().map(|event| event.sequence));
 }

@@ -63,7 +63,7 @@ fn crowded(job: &Scenario, site: &Site) -> Vec<Vec3<Enu>> {
 
 /// Distances that the vehicle tells by DISTANCE_SENSOR and by OBSTACLE_DISTANCE, m, with their reach.
 fn told(station: &Station, orientation: MavSensorOrientation) -> (f64, f64) {
-    let found = station.last(|m| match m {
+    let found = station.last_message(|m| match m {
         MavMessage::DISTANCE_SENSOR(d) if d.orientation == orientation => {
             Some((f64::from(d.current_distance) / 100.0, f64::from(d.max_distance) / 100.0))
         }
@@ -83,7 +83,7 @@ fn agrees(told: f64, there: Option<f64>, what: &str) {
 }
 
 #[test]
-fn wire_every_range_finder_tells_the_sites_distance_in_its_own_direction() {
+fn wire_every_range_finder_reports_the_sites_distance_in_its_own_direction() {
     let base = scenario("two-bridges");
     let places = crowded(&base, &Site::build(&base, 7));
     let mut met = [0; 10];
@@ -97,7 +97,8 @@ fn wire_every_range_finder_tells_the_sites_distance_in_its_own_direction() {
             let way: Vec3<Enu> = (truth.attitude * direction).enu();
             site.ray(truth.position_m.enu(), way, REACH_M, now).map(|hit| hit.distance_m)
         };
-        let map = station.last(|m| if let MavMessage::OBSTACLE_DISTANCE(o) = m { Some(o.clone()) } else { None }).unwrap();
+        let map =
+            station.last_message(|m| if let MavMessage::OBSTACLE_DISTANCE(o) = m { Some(o.clone()) } else { None }).unwrap();
         assert_eq!((map.frame, map.angle_offset, map.increment_f), (MavFrame::MAV_FRAME_BODY_FRD, 0.0, 5.0));
         assert_eq!(map.increment, 5, "72 sectors of 5 deg go once round: QGroundControl reads all of them");
         assert_eq!((map.min_distance, f64::from(map.max_distance) / 100.0), (10, REACH_M));
@@ -125,7 +126,7 @@ fn wire_rates_of_the_finders_are_each_links_own() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(1_000);
     let count = |station: &mut Station| {
-        station.heard.clear();
+        station.received.clear();
         station.run_ms(10_000);
         let of = |orientation| {
             station.all(|m| matches!(m, MavMessage::DISTANCE_SENSOR(d) if d.orientation == orientation).then_some(())).len()

@@ -2,7 +2,7 @@
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, HEARTBEAT_DATA, MavCmd, MavMessage, STATUSTEXT_DATA};
-use spandrel_mavlink::signing::{Key, Signing, Verdict};
+use spandrel_mavlink::signing::{SignatureVerdict, Signing, SigningKey};
 use spandrel_sitl::endpoint::{LinkId, LinkKind};
 use spandrel_sitl::sim::Sim;
 use spandrel_testkit::station::{GCS, Station};
@@ -10,15 +10,15 @@ use spandrel_testkit::station::{GCS, Station};
 const NOW: u64 = 30_000_000_000_000;
 const SIDECAR: LinkId = LinkId(2);
 
-fn key() -> Key {
-    Key::of_passphrase("bridge over water")
+fn key() -> SigningKey {
+    SigningKey::from_passphrase("bridge over water")
 }
 
 fn signed_vehicle() -> Sim {
     let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     sim.open_link(SIDECAR, LinkKind::Payload, false);
     sim.demand_signatures(key(), NOW, &[]);
-    sim.tell_stamp(NOW);
+    sim.set_signing_time(NOW);
     sim
 }
 
@@ -34,7 +34,7 @@ fn lamp_on(encoder: &mut Encoder) -> Vec<u8> {
 }
 
 /// Acknowledgements and texts that each link heard.
-fn heard(sim: &mut Sim) -> Vec<(LinkId, &'static str)> {
+fn messages(sim: &mut Sim) -> Vec<(LinkId, &'static str)> {
     let until = sim.now() + spandrel_model::time::SimTime::from_ms(5);
     sim.handle_timeout(until);
     let mut out = Vec::new();
@@ -56,20 +56,20 @@ fn wire_only_who_signs_is_obeyed_and_never_twice() {
     let (mut encoder, mut signing) = (Encoder::new(255, 190), Signing::new(key(), 9, NOW));
     let bare = lamp_on(&mut encoder);
     sim.handle_datagram(GCS, &bare);
-    assert_eq!(heard(&mut sim), [], "unsigned");
-    let mut stranger = Signing::new(Key::of_passphrase("another bridge"), 9, NOW);
+    assert_eq!(messages(&mut sim), [], "unsigned");
+    let mut stranger = Signing::new(SigningKey::from_passphrase("another bridge"), 9, NOW);
     sim.handle_datagram(GCS, &stranger.sign(bare, NOW));
-    assert_eq!(heard(&mut sim), [], "another key");
+    assert_eq!(messages(&mut sim), [], "another key");
     let good = signing.sign(lamp_on(&mut encoder), NOW);
     sim.handle_datagram(GCS, &good);
-    assert_eq!(heard(&mut sim), [(GCS, "ack")]);
+    assert_eq!(messages(&mut sim), [(GCS, "ack")]);
     sim.handle_datagram(GCS, &good);
-    assert_eq!(heard(&mut sim), [], "recorded and played back");
-    assert_eq!(sim.refused(), 3);
+    assert_eq!(messages(&mut sim), [], "recorded and played back");
+    assert_eq!(sim.rejected_frames(), 3);
 }
 
 #[test]
-fn wire_everything_the_vehicle_says_is_signed() {
+fn wire_everything_the_vehicle_reports_is_signed() {
     let mut sim = signed_vehicle();
     let until = sim.now() + spandrel_model::time::SimTime::from_ms(2_000);
     sim.handle_timeout(until);
@@ -78,7 +78,12 @@ fn wire_everything_the_vehicle_says_is_signed() {
     while let Some(transmit) = sim.poll_transmit() {
         for frame in Decoder::new().datagram(&transmit.bytes) {
             frames += 1;
-            assert_eq!(guards[transmit.link.0 as usize - 1].verify(&frame, NOW), Verdict::Good, "message {}", frame.message_id);
+            assert_eq!(
+                guards[transmit.link.0 as usize - 1].verify(&frame, NOW),
+                SignatureVerdict::Good,
+                "message {}",
+                frame.message_id
+            );
         }
     }
     assert!(frames > 200, "{frames}");
@@ -91,9 +96,9 @@ fn wire_a_sidecar_without_the_key_is_heard_by_others_and_commands_nothing() {
     sim.handle_datagram(SIDECAR, &monitor.encode(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default())));
     let text = MavMessage::STATUSTEXT(STATUSTEXT_DATA { text: "Too close".into(), ..Default::default() });
     sim.handle_datagram(SIDECAR, &monitor.encode(&text));
-    assert_eq!(heard(&mut sim), [(GCS, "text")]);
+    assert_eq!(messages(&mut sim), [(GCS, "text")]);
     sim.handle_datagram(SIDECAR, &lamp_on(&mut monitor));
-    assert_eq!(heard(&mut sim), []);
+    assert_eq!(messages(&mut sim), []);
 }
 
 #[test]
@@ -103,10 +108,10 @@ fn wire_an_unsigned_frame_acts_on_trusted_kinds_of_links_alone_and_a_forged_one_
     sim.demand_signatures(key(), NOW, &[LinkKind::Sdk]);
     let mut encoder = Encoder::new(255, 190);
     sim.handle_datagram(SIDECAR, &lamp_on(&mut encoder));
-    assert_eq!(heard(&mut sim), [(SIDECAR, "ack")]);
+    assert_eq!(messages(&mut sim), [(SIDECAR, "ack")]);
     sim.handle_datagram(GCS, &lamp_on(&mut encoder));
-    assert_eq!(heard(&mut sim), []);
-    let mut stranger = Signing::new(Key::of_passphrase("another bridge"), 9, NOW);
+    assert_eq!(messages(&mut sim), []);
+    let mut stranger = Signing::new(SigningKey::from_passphrase("another bridge"), 9, NOW);
     sim.handle_datagram(SIDECAR, &stranger.sign(lamp_on(&mut encoder), NOW));
-    assert_eq!(heard(&mut sim), []);
+    assert_eq!(messages(&mut sim), []);
 }

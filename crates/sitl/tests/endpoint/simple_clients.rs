@@ -22,10 +22,10 @@ const KEPT_M: f64 = 1.5;
 
 /// Senders of heartbeats in the order of their arrival.
 fn beats(station: &mut Station, ms: i64) -> Vec<u8> {
-    station.heard.clear();
+    station.received.clear();
     station.run_ms(ms);
     let beat = |m: &Option<MavMessage>| matches!(m, Some(MavMessage::HEARTBEAT(_)));
-    station.heard.iter().filter(|frame| beat(&frame.message)).map(|frame| frame.component_id).collect()
+    station.received.iter().filter(|frame| beat(&frame.message)).map(|frame| frame.component_id).collect()
 }
 
 #[test]
@@ -77,12 +77,12 @@ fn regress_the_camera_beats_once_a_second_where_it_is_used_and_not_at_all_where_
     station.run_ms(20);
     assert!(beats(&mut station, 5_000).contains(&100));
     let mut silent = Station::new("drill-hover", 7);
-    silent.sim.silence_camera();
+    silent.sim.mute_camera_heartbeat();
     assert!(!beats(&mut silent, 10_000).contains(&100));
 }
 
 fn boot_ms(station: &Station) -> u32 {
-    station.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.time_boot_ms) } else { None }).unwrap()
+    station.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.time_boot_ms) } else { None }).unwrap()
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn regress_the_boot_clock_starts_again_with_the_autopilot_and_the_truths_goes_on
     station.run_ms(10_000);
     assert!(boot_ms(&station) > 12_000);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN, one(1.0)), ACCEPTED);
-    station.heard.clear();
+    station.received.clear();
     let rebooted = station.sim.now();
     let until = rebooted + SimTime::from_ms(3_000);
     station.sim.handle_timeout(until);
@@ -113,10 +113,10 @@ fn regress_the_boot_clock_starts_again_with_the_autopilot_and_the_truths_goes_on
 }
 
 #[test]
-fn regress_gps_raw_tells_the_height_over_the_ellipsoid() {
+fn regress_gps_raw_reports_the_height_over_the_ellipsoid() {
     let station = ready(7);
     let (alt, ellipsoid) = station
-        .last(|m| if let MavMessage::GPS_RAW_INT(g) = m { Some((g.alt, g.alt_ellipsoid)) } else { None })
+        .last_message(|m| if let MavMessage::GPS_RAW_INT(g) = m { Some((g.alt, g.alt_ellipsoid)) } else { None })
         .expect("GPS_RAW_INT is streamed");
     // The simulator's sea level is the ellipsoid.
     assert_eq!(alt, ellipsoid);
@@ -169,8 +169,8 @@ fn regress_an_uploader_that_knows_one_request_only_is_asked_by_it() {
     let items = [0, 1, 2].map(|seq| item(seq, MavCmd::MAV_CMD_NAV_WAYPOINT, 5.0 * f64::from(seq), 5.0));
     // One that waits for the older request alone.
     assert_eq!(station.ask(&counting(3), question), Some((0, false)));
-    station.heard.clear();
-    assert!(station.run_until(3.0, |s| s.last(question) == Some((0, true))), "the other form is tried");
+    station.received.clear();
+    assert!(station.run_until(3.0, |s| s.last_message(question) == Some((0, true))), "the other form is tried");
     assert_eq!(station.ask(&older(&items[0]), question), Some((1, true)), "and kept, once it is answered");
     assert_eq!(station.ask(&older(&items[1]), question), Some((2, true)));
     // One that refuses a form is asked in the other at once.
@@ -189,7 +189,7 @@ fn regress_an_uploader_that_knows_one_request_only_is_asked_by_it() {
 fn place(station: &mut Station) -> (f64, f64) {
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
     station
-        .last(|m| match m {
+        .last_message(|m| match m {
             MavMessage::GLOBAL_POSITION_INT(g) => Some((f64::from(g.lat - PAD.0) * M_PER_E7, f64::from(g.alt) * 1e-3)),
             _ => None,
         })
@@ -218,7 +218,8 @@ fn regress_zero_in_a_copters_item_is_where_it_is_then() {
     assert_eq!(station.command(1, SET_MODE, mode(AUTO)), ACCEPTED);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), ACCEPTED);
     let reached = |s: &Station, seq: u16| {
-        s.last(|m| if let MavMessage::MISSION_ITEM_REACHED(r) = m { (r.seq >= seq).then_some(()) } else { None }).is_some()
+        s.last_message(|m| if let MavMessage::MISSION_ITEM_REACHED(r) = m { (r.seq >= seq).then_some(()) } else { None })
+            .is_some()
     };
     assert!(station.run_until(120.0, |s| reached(s, 4)), "{:?}", station.texts());
     let (north, up) = place(&mut station);
@@ -234,7 +235,8 @@ fn regress_zero_in_a_copters_item_is_where_it_is_then() {
         "at its height: {north} m north, {} m up",
         up - pad_m
     );
-    let home = station.last(|m| if let MavMessage::HOME_POSITION(h) = m { Some(f64::from(h.altitude) * 1e-3) } else { None });
+    let home =
+        station.last_message(|m| if let MavMessage::HOME_POSITION(h) = m { Some(f64::from(h.altitude) * 1e-3) } else { None });
     assert!(home.is_none_or(|home| (home - pad_m - 9.0).abs() < KEPT_M), "home is where item 5 was passed: {home:?}");
 }
 
@@ -244,8 +246,8 @@ fn regress_home_at_zero_is_where_a_copter_is_and_nowhere_for_px4() {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_HOME, [0.0; 7]), ACCEPTED);
     station.run_ms(100);
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
-    let up =
-        station.last(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(f64::from(g.relative_alt) * 1e-3) } else { None });
+    let up = station
+        .last_message(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(f64::from(g.relative_alt) * 1e-3) } else { None });
     assert!(up.is_some_and(|up| up.abs() < KEPT_M), "home is where it hovers: {up:?} m over it");
     assert_eq!(ready(7).command(1, MavCmd::MAV_CMD_DO_SET_HOME, [0.0; 7]), MavResult::MAV_RESULT_DENIED);
 }
@@ -265,29 +267,29 @@ fn regress_lockstep_begins_with_a_peers_first_answer() {
         sent.flat_map(|t| Decoder::new().datagram(&t.bytes)).filter_map(|frame| frame.message).collect()
     };
     sim.handle_timeout(SimTime::from_ms(1_000));
-    assert_eq!((sim.now(), sim.first_answer()), (SimTime::from_ms(20), Some(false)), "time stands, nobody has spoken");
+    assert_eq!((sim.now(), sim.awaits_first_answer()), (SimTime::from_ms(20), Some(false)), "time stands, nobody has spoken");
     heard(&mut sim);
-    sim.knock();
+    sim.send_first_contact();
     let knocked = heard(&mut sim);
     let beats = knocked.iter().filter(|m| matches!(m, MavMessage::HEARTBEAT(_))).count();
     let asks = knocked.iter().filter(|m| matches!(m, MavMessage::TIMESYNC(t) if t.ts1 == 20_000_000)).count();
     assert!(beats > 0 && asks == 1, "it is found, and asked again: {knocked:?}");
-    sim.go_without_first_answers();
-    assert!(sim.serves_in_real_time() && !sim.waiting());
+    sim.skip_first_answers();
+    assert!(sim.runs_in_real_time() && !sim.waiting());
     sim.handle_timeout(SimTime::from_ms(1_000));
     assert_eq!(sim.now(), SimTime::from_ms(1_000), "served without waiting");
     assert!(heard(&mut sim).iter().any(|m| matches!(m, MavMessage::ATTITUDE(_))));
     sim.handle_datagram(PEER, &answer(5, 900_000_000));
     sim.handle_timeout(SimTime::from_ms(5_000));
     assert_eq!(
-        (sim.now(), sim.waiting(), sim.serves_in_real_time()),
+        (sim.now(), sim.waiting(), sim.runs_in_real_time()),
         (SimTime::from_ms(1_020), true, false),
         "in step from now on"
     );
     sim.handle_datagram(PEER, &answer(6, 1_020_000_000));
     sim.handle_timeout(SimTime::from_ms(5_000));
     assert_eq!(sim.now(), SimTime::from_ms(1_040));
-    assert_eq!(sim.first_answer(), None, "an answer that is owed now is no first one");
+    assert_eq!(sim.awaits_first_answer(), None, "an answer that is owed now is no first one");
 }
 
 #[test]

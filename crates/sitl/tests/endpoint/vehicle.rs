@@ -9,9 +9,9 @@ use spandrel_testkit::station::Station;
 fn wire_the_first_heartbeat_comes_at_once_and_the_vehicle_is_armable_within_two_seconds() {
     let mut station = Station::new("two-bridges", 7);
     station.run_ms(100);
-    assert!(station.last(|m| matches!(m, MavMessage::HEARTBEAT(_)).then_some(())).is_some(), "heartbeat within 0.1 s");
+    assert!(station.last_message(|m| matches!(m, MavMessage::HEARTBEAT(_)).then_some(())).is_some(), "heartbeat within 0.1 s");
     station.run_ms(1900);
-    let healthy = station.last(|m| match m {
+    let healthy = station.last_message(|m| match m {
         MavMessage::SYS_STATUS(s) => Some(s.onboard_control_sensors_health),
         _ => None,
     });
@@ -52,7 +52,7 @@ fn wire_the_parameter_list_is_complete() {
     station.run_ms(500);
     let mut seen = std::collections::BTreeSet::new();
     let mut count = 0;
-    for frame in &station.heard {
+    for frame in &station.received {
         // The checksum stands outside the list.
         if let Some(MavMessage::PARAM_VALUE(value)) = &frame.message
             && value.param_index != u16::MAX
@@ -77,7 +77,7 @@ fn wire_an_empty_mission_is_counted_as_such() {
             mission_type: kind,
         }));
         station.run_ms(2);
-        let count = station.last(|m| match m {
+        let count = station.last_message(|m| match m {
             MavMessage::MISSION_COUNT(c) if c.mission_type == kind => Some(c.count),
             _ => None,
         });
@@ -88,7 +88,7 @@ fn wire_an_empty_mission_is_counted_as_such() {
 #[test]
 fn wire_flown_by_hand_it_climbs_photographs_and_lights_up() {
     let mut station = Station::airborne("two-bridges", 7);
-    let up = station.last(|m| match m {
+    let up = station.last_message(|m| match m {
         MavMessage::LOCAL_POSITION_NED(p) => Some(-p.z),
         _ => None,
     });
@@ -96,14 +96,16 @@ fn wire_flown_by_hand_it_climbs_photographs_and_lights_up() {
     let one = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(100, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, one), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(5);
-    assert!(station.last(|m| matches!(m, MavMessage::CAMERA_IMAGE_CAPTURED(c) if c.image_index == 0).then_some(())).is_some());
+    assert!(
+        station.last_message(|m| matches!(m, MavMessage::CAMERA_IMAGE_CAPTURED(c) if c.image_index == 0).then_some(())).is_some()
+    );
     let again = [263.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(100, MavCmd::MAV_CMD_REQUEST_MESSAGE, again), MavResult::MAV_RESULT_ACCEPTED);
     let on = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF, on), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(600);
-    assert_eq!(station.last(|m| if let MavMessage::ILLUMINATOR_STATUS(s) = m { Some(s.enable) } else { None }), Some(1));
-    let armed = station.last(|m| match m {
+    assert_eq!(station.last_message(|m| if let MavMessage::ILLUMINATOR_STATUS(s) = m { Some(s.enable) } else { None }), Some(1));
+    let armed = station.last_message(|m| match m {
         MavMessage::HEARTBEAT(b) => Some(b.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED)),
         _ => None,
     });

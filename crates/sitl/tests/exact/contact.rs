@@ -3,9 +3,9 @@
 use spandrel_model::frames::{Enu, Rotation, Vec3};
 use spandrel_model::math::GRAVITY_M_S2;
 use spandrel_model::scenario::BatteryModel;
-use spandrel_model::site::{Contact, ObjectId, Probe, RayHit, Surface};
+use spandrel_model::site::{Contact, HullProbe, ObjectId, RayHit, Surface};
 use spandrel_model::time::SimTime;
-use spandrel_sitl::physics::{Actuators, Air, Load, Model, Obstacles, State};
+use spandrel_sitl::physics::{Actuators, AirState, AirframeModel, Obstacles, PhysicsState, PowerLoad};
 use spandrel_testkit::aircraft::quad;
 
 const DT: SimTime = SimTime::from_ms(1);
@@ -36,10 +36,10 @@ impl Plate {
 }
 
 impl Obstacles for Plate {
-    fn contacts(&self, probe: &Probe, margin_m: f64, _: SimTime, out: &mut Vec<Contact>) {
+    fn contacts(&self, probe: &HullProbe, margin_m: f64, _: SimTime, out: &mut Vec<Contact>) {
         match *probe {
-            Probe::Ball { centre_m, radius_m } => self.touch(centre_m, radius_m, margin_m, out),
-            Probe::Capsule { a_m, b_m, radius_m } => {
+            HullProbe::Ball { centre_m, radius_m } => self.touch(centre_m, radius_m, margin_m, out),
+            HullProbe::Capsule { a_m, b_m, radius_m } => {
                 self.touch(a_m, radius_m, margin_m, out);
                 self.touch(b_m, radius_m, margin_m, out);
             }
@@ -58,14 +58,14 @@ const GROUND: Plate = Plate { top_m: 0.0, thick_m: 100.0 };
 /// Height of the centre of mass when the feet (0.12 m below, 15 mm balls) stand on the ground.
 const STANDING_M: f64 = 0.135;
 
-fn at(up: f64) -> State {
-    State::at_rest(Vec3::new(0.0, 0.0, -up), 0.0)
+fn at(up: f64) -> PhysicsState {
+    PhysicsState::at_rest(Vec3::new(0.0, 0.0, -up), 0.0)
 }
 
-fn run(plate: &Plate, state: &mut State, steps: i64, mut each: impl FnMut(&State)) {
-    let model = Model::new(&quad(), BatteryModel::Paper);
+fn run(plate: &Plate, state: &mut PhysicsState, steps: i64, mut each: impl FnMut(&PhysicsState)) {
+    let model = AirframeModel::new(&quad(), BatteryModel::Paper);
     for k in 0..steps {
-        model.advance(state, &Actuators::default(), &Air::STILL, plate, Load::default(), SimTime::from_ms(k), DT);
+        model.advance(state, &Actuators::default(), &AirState::STILL, plate, PowerLoad::default(), SimTime::from_ms(k), DT);
         each(state);
     }
 }
@@ -105,7 +105,7 @@ fn exact_a_bounce_gains_no_energy() {
     let mut state = at(1.5);
     state.rigid.attitude = Rotation::from_euler(0.4, 0.2, 0.0);
     state.rigid.velocity_m_s = Vec3::new(2.0, 0.0, 0.0);
-    let energy = |s: &State| {
+    let energy = |s: &PhysicsState| {
         let w = s.rigid.rates_rad_s.array();
         let spin: f64 = [0.0097, 0.0097, 0.017].iter().zip(w).map(|(i, w)| 0.5 * i * w * w).sum();
         0.5 * 1.3 * s.rigid.velocity_m_s.norm_squared() + spin - 1.3 * GRAVITY_M_S2 * s.rigid.position_m.down()

@@ -5,7 +5,9 @@ use spandrel_model::math::{self, GRAVITY_M_S2};
 use spandrel_model::scenario::BatteryModel;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
-use spandrel_sitl::physics::{AIR_DENSITY_KG_M3, Actuators, Air, Load, MAX_ROTORS, Model, OpenSky, State};
+use spandrel_sitl::physics::{
+    AIR_DENSITY_KG_M3, Actuators, AirState, AirframeModel, MAX_ROTORS, OpenSky, PhysicsState, PowerLoad,
+};
 use spandrel_testkit::aircraft::quad;
 
 const DT: SimTime = SimTime::from_ms(1);
@@ -19,14 +21,14 @@ fn bare() -> Vehicle {
     vehicle
 }
 
-fn start() -> State {
-    State::at_rest(Vec3::new(0.0, 0.0, -1000.0), 0.0)
+fn start() -> PhysicsState {
+    PhysicsState::at_rest(Vec3::new(0.0, 0.0, -1000.0), 0.0)
 }
 
-fn run(model: &Model, state: &mut State, actuators: &Actuators, air: &Air, dt: SimTime, steps: i64) {
+fn run(model: &AirframeModel, state: &mut PhysicsState, actuators: &Actuators, air: &AirState, dt: SimTime, steps: i64) {
     for k in 0..steps {
         let now = SimTime::from_ns(dt.ns() * k);
-        model.advance(state, actuators, air, &OpenSky, Load::default(), now, dt);
+        model.advance(state, actuators, air, &OpenSky, PowerLoad::default(), now, dt);
     }
 }
 
@@ -38,8 +40,8 @@ fn coasting() -> Actuators {
 fn exact_free_fall_is_half_g_t_squared() {
     // Relative; rounding of 2 000 additions.
     const TOLERANCE: f64 = 1e-12;
-    let mut state = State::at_rest(Vec3::zero(), 0.0);
-    run(&Model::new(&bare(), BatteryModel::Paper), &mut state, &coasting(), &Air::STILL, DT, 2000);
+    let mut state = PhysicsState::at_rest(Vec3::zero(), 0.0);
+    run(&AirframeModel::new(&bare(), BatteryModel::Paper), &mut state, &coasting(), &AirState::STILL, DT, 2000);
     let fallen = state.rigid.position_m.down();
     let expected = 0.5 * GRAVITY_M_S2 * 4.0;
     assert!((fallen / expected - 1.0).abs() < TOLERANCE, "{fallen}");
@@ -54,7 +56,7 @@ fn exact_terminal_speed_follows_from_drag() {
     let mut vehicle = bare();
     vehicle.drag.area_m2 = [0.05; 3];
     let mut state = start();
-    run(&Model::new(&vehicle, BatteryModel::Paper), &mut state, &coasting(), &Air::STILL, DT, 60_000);
+    run(&AirframeModel::new(&vehicle, BatteryModel::Paper), &mut state, &coasting(), &AirState::STILL, DT, 60_000);
     let expected = (2.0 * vehicle.mass_kg * GRAVITY_M_S2 / (AIR_DENSITY_KG_M3 * 0.05)).sqrt();
     assert!((state.rigid.velocity_m_s.down() / expected - 1.0).abs() < TOLERANCE);
 }
@@ -66,7 +68,7 @@ fn exact_fall_with_drag_follows_the_hyperbolic_tangent() {
     let mut vehicle = bare();
     vehicle.drag.area_m2 = [0.05; 3];
     let mut state = start();
-    run(&Model::new(&vehicle, BatteryModel::Paper), &mut state, &coasting(), &Air::STILL, DT, 1500);
+    run(&AirframeModel::new(&vehicle, BatteryModel::Paper), &mut state, &coasting(), &AirState::STILL, DT, 1500);
     let top = (2.0 * vehicle.mass_kg * GRAVITY_M_S2 / (AIR_DENSITY_KG_M3 * 0.05)).sqrt();
     let expected = top * math::tanh(GRAVITY_M_S2 * 1.5 / top);
     assert!((state.rigid.velocity_m_s.down() - expected).abs() < TOLERANCE);
@@ -76,7 +78,7 @@ fn exact_fall_with_drag_follows_the_hyperbolic_tangent() {
 fn exact_hover_thrust_balances_weight() {
     // Share of the weight; m/s and rad/s after one second.
     const TOLERANCE: f64 = 1e-12;
-    let model = Model::new(&quad(), BatteryModel::Paper);
+    let model = AirframeModel::new(&quad(), BatteryModel::Paper);
     let mut state = start();
     let lift: f64 =
         (0..4).map(|i| -model.rotor_wrench(i, Vec3::zero(), model.hover_rotor_rad_s(), 0.0, 1.0).force_n.down()).sum();
@@ -84,7 +86,7 @@ fn exact_hover_thrust_balances_weight() {
     let speed = (1.3 * GRAVITY_M_S2 / 4.0 / 1.0e-5).sqrt();
     state.rigid.rotor_rad_s = [speed; MAX_ROTORS];
     let actuators = Actuators { motors: [model.hover_command(); MAX_ROTORS], armed: true };
-    run(&model, &mut state, &actuators, &Air::STILL, DT, 1000);
+    run(&model, &mut state, &actuators, &AirState::STILL, DT, 1000);
     assert!(state.rigid.velocity_m_s.norm() < TOLERANCE, "{:?}", state.rigid.velocity_m_s);
     assert!(state.rigid.rates_rad_s.norm() < TOLERANCE);
 }
@@ -93,19 +95,19 @@ fn exact_hover_thrust_balances_weight() {
 fn exact_motor_step_reaches_its_share_at_the_time_constant() {
     // Relative; the exponential is exact.
     const TOLERANCE: f64 = 1e-12;
-    let model = Model::new(&quad(), BatteryModel::Paper);
+    let model = AirframeModel::new(&quad(), BatteryModel::Paper);
     let mut state = start();
-    run(&model, &mut state, &Actuators { motors: [1.0; MAX_ROTORS], armed: true }, &Air::STILL, DT, 30);
+    run(&model, &mut state, &Actuators { motors: [1.0; MAX_ROTORS], armed: true }, &AirState::STILL, DT, 30);
     let expected = 1000.0 * (1.0 - math::exp(-1.0));
     assert!((state.rigid.rotor_rad_s[0] / expected - 1.0).abs() < TOLERANCE);
 }
 
 /// The brick of NESC check case 02 (NASA TM-2015-218675): inertia in slug ft², rates in deg/s.
-fn brick() -> (Model, State) {
+fn brick() -> (AirframeModel, PhysicsState) {
     const KG_M2_PER_SLUG_FT2: f64 = 1.355_817_948_331_400_4;
     let mut vehicle = bare();
     vehicle.inertia_kg_m2 = [0.001_894_22, 0.006_211_019, 0.007_194_665].map(|i| i * KG_M2_PER_SLUG_FT2);
-    let mut model = Model::new(&vehicle, BatteryModel::Paper);
+    let mut model = AirframeModel::new(&vehicle, BatteryModel::Paper);
     model.gravity_scale = 0.0;
     let mut state = start();
     state.rigid.rates_rad_s = Vec3::new(10f64.to_radians(), 20f64.to_radians(), 30f64.to_radians());
@@ -123,7 +125,7 @@ fn val_tumbling_brick_matches_the_nesc_case_02_figures() {
         [12.618_390_776, -17.397_474_762, 31.119_588_887],
     ];
     for expected in published {
-        run(&model, &mut state, &coasting(), &Air::STILL, DT, 10_000);
+        run(&model, &mut state, &coasting(), &AirState::STILL, DT, 10_000);
         let rates = state.rigid.rates_rad_s.array().map(f64::to_degrees);
         for (got, wanted) in rates.iter().zip(expected) {
             assert!((got - wanted).abs() < TOLERANCE, "{rates:?} against {expected:?}");
@@ -138,14 +140,14 @@ fn exact_tumbling_keeps_energy_and_angular_momentum() {
     const KG_M2_PER_SLUG_FT2: f64 = 1.355_817_948_331_400_4;
     let inertia = [0.001_894_22, 0.006_211_019, 0.007_194_665].map(|i| i * KG_M2_PER_SLUG_FT2);
     let (model, mut state) = brick();
-    let measure = |s: &State| {
+    let measure = |s: &PhysicsState| {
         let w = s.rigid.rates_rad_s.array();
         let energy: f64 = (0..3).map(|k| 0.5 * inertia[k] * w[k] * w[k]).sum();
         let body = Vec3::<Frd>::new(inertia[0] * w[0], inertia[1] * w[1], inertia[2] * w[2]);
         (energy, s.rigid.attitude * body)
     };
     let (energy, momentum) = measure(&state);
-    run(&model, &mut state, &coasting(), &Air::STILL, DT, 30_000);
+    run(&model, &mut state, &coasting(), &AirState::STILL, DT, 30_000);
     let (energy_after, momentum_after) = measure(&state);
     assert!((energy_after / energy - 1.0).abs() < TOLERANCE, "{}", energy_after / energy - 1.0);
     let lost = (momentum_after - momentum).norm() / momentum.norm();
@@ -154,8 +156,8 @@ fn exact_tumbling_keeps_energy_and_angular_momentum() {
 
 #[test]
 fn exact_the_integrator_is_of_fourth_order() {
-    let model = Model::new(&quad(), BatteryModel::Paper);
-    let air = Air { velocity_m_s: Vec3::new(3.0, -2.0, 0.5), ..Air::STILL };
+    let model = AirframeModel::new(&quad(), BatteryModel::Paper);
+    let air = AirState { velocity_m_s: Vec3::new(3.0, -2.0, 0.5), ..AirState::STILL };
     let motors = [0.62, 0.58, 0.60, 0.61, 0.0, 0.0, 0.0, 0.0];
     let end = |per_second: i64| {
         let mut state = start();
@@ -176,8 +178,8 @@ fn exact_wind_pushes_a_free_body_where_it_blows() {
     let mut vehicle = bare();
     vehicle.drag.area_m2 = [0.05; 3];
     let mut state = start();
-    let air = Air { velocity_m_s: Vec3::new(5.0, 0.0, 0.0), ..Air::STILL };
-    run(&Model::new(&vehicle, BatteryModel::Paper), &mut state, &coasting(), &air, DT, 100);
+    let air = AirState { velocity_m_s: Vec3::new(5.0, 0.0, 0.0), ..AirState::STILL };
+    run(&AirframeModel::new(&vehicle, BatteryModel::Paper), &mut state, &coasting(), &air, DT, 100);
     assert!(state.rigid.velocity_m_s.north() > 0.0, "air that moves north pushes north");
 }
 
@@ -185,14 +187,14 @@ fn exact_wind_pushes_a_free_body_where_it_blows() {
 fn exact_only_the_speed_through_the_air_counts() {
     // m/s.
     const TOLERANCE: f64 = 1e-12;
-    let model = Model::new(&quad(), BatteryModel::Paper);
+    let model = AirframeModel::new(&quad(), BatteryModel::Paper);
     let drift = Vec3::<Ned>::new(4.0, -3.0, 1.0);
     let actuators = Actuators { motors: [0.6; MAX_ROTORS], armed: true };
     let mut still = start();
-    run(&model, &mut still, &actuators, &Air::STILL, DT, 500);
+    run(&model, &mut still, &actuators, &AirState::STILL, DT, 500);
     let mut carried = start();
     carried.rigid.velocity_m_s = drift;
-    run(&model, &mut carried, &actuators, &Air { velocity_m_s: drift, ..Air::STILL }, DT, 500);
+    run(&model, &mut carried, &actuators, &AirState { velocity_m_s: drift, ..AirState::STILL }, DT, 500);
     let difference = carried.rigid.velocity_m_s - drift - still.rigid.velocity_m_s;
     assert!(difference.norm() < TOLERANCE, "{difference:?}");
 }
@@ -201,12 +203,12 @@ fn exact_only_the_speed_through_the_air_counts() {
 fn exact_no_heading_is_preferred() {
     // m.
     const TOLERANCE: f64 = 1e-9;
-    let model = Model::new(&quad(), BatteryModel::Paper);
+    let model = AirframeModel::new(&quad(), BatteryModel::Paper);
     let actuators = Actuators { motors: [0.62, 0.58, 0.60, 0.61, 0.0, 0.0, 0.0, 0.0], armed: true };
     let fly = |yaw: f64| {
         let mut state = start();
         state.rigid.attitude = Rotation::from_euler(0.0, 0.0, yaw);
-        run(&model, &mut state, &actuators, &Air::STILL, DT, 1000);
+        run(&model, &mut state, &actuators, &AirState::STILL, DT, 1000);
         Rotation::<Ned, Frd>::assume(Rotation::from_euler(0.0, 0.0, yaw).inverse().raw())
             * (state.rigid.position_m - start().rigid.position_m)
     };
@@ -218,7 +220,7 @@ fn exact_one_rotor_pulls_and_turns_as_force_times_arm() {
     // N and N m; a few roundings.
     const TOLERANCE: f64 = 1e-14;
     let vehicle = quad();
-    let model = Model::new(&vehicle, BatteryModel::Paper);
+    let model = AirframeModel::new(&vehicle, BatteryModel::Paper);
     let wrench = model.rotor_wrench(0, Vec3::zero(), 500.0, 0.0, 1.0);
     let thrust = 1.0e-5 * 500.0 * 500.0;
     let arm = vehicle.rotors[0].position_m;
@@ -233,11 +235,11 @@ fn exact_the_paper_battery_is_empty_after_its_endurance() {
     const TOLERANCE: f64 = 1e-7;
     let mut vehicle = bare();
     vehicle.battery.paper_endurance_s = 15.0;
-    let model = Model::new(&vehicle, BatteryModel::Paper);
+    let model = AirframeModel::new(&vehicle, BatteryModel::Paper);
     let mut state = start();
-    let load = Load { airborne: true, lamp_on: false };
+    let load = PowerLoad { airborne: true, lamp_on: false };
     for k in 0..7500 {
-        model.advance(&mut state, &coasting(), &Air::STILL, &OpenSky, load, SimTime::from_ms(k), DT);
+        model.advance(&mut state, &coasting(), &AirState::STILL, &OpenSky, load, SimTime::from_ms(k), DT);
     }
     assert!((state.battery.remaining_pct() - 50.0).abs() < TOLERANCE);
 }
@@ -247,19 +249,19 @@ fn exact_the_physical_battery_obeys_ohm_and_counts_its_charge() {
     // V, A: rounding. Share of the charge: the current changes a little over the second.
     const ROUNDING: f64 = 1e-9;
     let vehicle = quad();
-    let model = Model::new(&vehicle, BatteryModel::Physical);
+    let model = AirframeModel::new(&vehicle, BatteryModel::Physical);
     let mut state = start();
     state.rigid.rotor_rad_s = [600.0; MAX_ROTORS];
     state.rigid.rotor_rad_s[4..].fill(0.0);
     let b = &vehicle.battery;
     let power = 4.0 * 1.6e-7 * 600.0 * 600.0 * 600.0 / 0.5 + b.avionics_w + b.lamp_w;
     let mut drawn_as = 0.0;
-    let load = Load { airborne: true, lamp_on: true };
+    let load = PowerLoad { airborne: true, lamp_on: true };
     // Commands that keep the rotors turning as they do.
     for k in 0..1000 {
         let top = 1000.0 * state.battery.speed_factor;
         let actuators = Actuators { motors: [(600.0 - 100.0) / (top - 100.0); MAX_ROTORS], armed: true };
-        model.advance(&mut state, &actuators, &Air::STILL, &OpenSky, load, SimTime::from_ms(k), DT);
+        model.advance(&mut state, &actuators, &AirState::STILL, &OpenSky, load, SimTime::from_ms(k), DT);
         let (v, i) = (state.battery.voltage_v, state.battery.current_a);
         drawn_as += i * DT.s();
         assert!((state.rigid.rotor_rad_s[0] - 600.0).abs() < ROUNDING);

@@ -4,10 +4,10 @@ use spandrel_model::frames::{Enu, Rotation, Vec3};
 use spandrel_model::math::{self, GRAVITY_M_S2};
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::{BatteryModel, Scenario};
-use spandrel_model::site::{Contact, Probe, RayHit, Site};
+use spandrel_model::site::{Contact, HullProbe, RayHit, Site};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
-use spandrel_sitl::physics::{Actuators, Air, Load, Model, Obstacles, State};
+use spandrel_sitl::physics::{Actuators, AirState, AirframeModel, Obstacles, PhysicsState, PowerLoad};
 
 const DT: SimTime = SimTime::from_ms(1);
 /// m; radius of the feet's balls (crates/sitl/src/physics/hull.rs).
@@ -33,25 +33,25 @@ fn vehicles() -> Vec<Vehicle> {
     .to_vec()
 }
 
-fn state(position: Vec3<Enu>) -> State {
-    State::at_rest(position.ned(), 0.0)
+fn state(position: Vec3<Enu>) -> PhysicsState {
+    PhysicsState::at_rest(position.ned(), 0.0)
 }
 
-fn run(model: &Model, obstacles: &impl Obstacles, state: &mut State, steps: i64, each: impl FnMut(&State)) {
+fn run(model: &AirframeModel, obstacles: &impl Obstacles, state: &mut PhysicsState, steps: i64, each: impl FnMut(&PhysicsState)) {
     run_from(0, model, obstacles, state, steps, each);
 }
 
 fn run_from(
     from_ms: i64,
-    model: &Model,
+    model: &AirframeModel,
     obstacles: &impl Obstacles,
-    state: &mut State,
+    state: &mut PhysicsState,
     steps: i64,
-    mut each: impl FnMut(&State),
+    mut each: impl FnMut(&PhysicsState),
 ) {
     for k in from_ms..from_ms + steps {
         let now = SimTime::from_ms(k);
-        model.advance(state, &Actuators::default(), &Air::STILL, obstacles, Load::default(), now, DT);
+        model.advance(state, &Actuators::default(), &AirState::STILL, obstacles, PowerLoad::default(), now, DT);
         each(state);
     }
 }
@@ -84,7 +84,7 @@ fn exact_set_down_on_a_bridge_an_aircraft_stays_within_a_millimetre() {
     let scenario = scenario();
     let site = Site::build(&scenario, 3);
     for vehicle in vehicles() {
-        let model = Model::new(&vehicle, BatteryModel::Paper);
+        let model = AirframeModel::new(&vehicle, BatteryModel::Paper);
         let low = lowest_m(&vehicle);
         for (member, place) in [
             ("arch/slab/08", [3.0, 1.2]),
@@ -122,9 +122,9 @@ fn exact_standing_on_the_pad_an_aircraft_stays_where_it_stands() {
     let scenario = scenario();
     let site = Site::build(&scenario, 3);
     for vehicle in vehicles() {
-        let model = Model::new(&vehicle, BatteryModel::Paper);
+        let model = AirframeModel::new(&vehicle, BatteryModel::Paper);
         let low = lowest_m(&vehicle);
-        let mut s = State::at_rest((scenario.ground_team.pad_m + Vec3::new(0.0, 0.0, low + 0.01)).ned(), 0.6);
+        let mut s = PhysicsState::at_rest((scenario.ground_team.pad_m + Vec3::new(0.0, 0.0, low + 0.01)).ned(), 0.6);
         run(&model, &site, &mut s, 2000, |_| ());
         let (start, mut worst, mut force): (_, f64, f64) = (s.rigid.position_m, 0.0, 0.0);
         run_from(2000, &model, &site, &mut s, 60_000, |s| {
@@ -141,7 +141,7 @@ fn exact_standing_on_the_pad_an_aircraft_stays_where_it_stands() {
 fn exact_a_tilted_aircraft_dropped_on_the_edge_of_a_beam_topples_outwards() {
     let scenario = scenario();
     let site = Site::build(&scenario, 3);
-    let model = Model::new(&vehicles()[0], BatteryModel::Paper);
+    let model = AirframeModel::new(&vehicles()[0], BatteryModel::Paper);
     // Struts between the ribs are 0.7 m wide; bridge and aircraft both look east, so that negative pitch leans over the far edge.
     for (lean, side) in [(-0.35, 1.0), (0.35, -1.0)] {
         let top = on_top(&scenario, &site, "arch/strut/05", [-7.0, 0.0]);
@@ -168,7 +168,7 @@ fn exact_a_tilted_aircraft_dropped_on_the_deck_stands_up() {
     let scenario = scenario();
     let site = Site::build(&scenario, 3);
     let vehicle = &vehicles()[0];
-    let model = Model::new(vehicle, BatteryModel::Paper);
+    let model = AirframeModel::new(vehicle, BatteryModel::Paper);
     let mut s = state(on_top(&scenario, &site, "arch/slab/08", [3.0, 1.2]) + Vec3::new(0.0, 0.0, 0.35));
     s.rigid.attitude = Rotation::from_euler(0.25, -0.2, 0.7);
     run(&model, &site, &mut s, 5000, |_| ());
@@ -177,7 +177,7 @@ fn exact_a_tilted_aircraft_dropped_on_the_deck_stands_up() {
 }
 
 /// Arms never reach through anything: from the centre to the hubs nothing is in the way.
-fn nothing_is_within(vehicle: &Vehicle, site: &Site, s: &State) -> bool {
+fn nothing_is_within(vehicle: &Vehicle, site: &Site, s: &PhysicsState) -> bool {
     let centre = s.rigid.position_m.enu();
     let mut all = vehicle.rotors.iter().map(|r| (s.rigid.attitude * r.position_m).enu());
     all.all(|arm| site.geometry().ray(centre, arm.unit(), arm.norm()).is_none())
@@ -206,7 +206,7 @@ fn exact_nothing_passes_a_member_at_thirty_metres_a_second() {
         "suspension/post-left/030",
     ];
     for vehicle in &vehicles() {
-        let model = Model::new(vehicle, BatteryModel::Paper);
+        let model = AirframeModel::new(vehicle, BatteryModel::Paper);
         let (mut shots, mut stopped) = (0, 0);
         for member in members {
             let solid = &site.members().iter().find(|m| m.name == member).unwrap_or_else(|| panic!("no {member}")).solid;
@@ -247,7 +247,7 @@ fn exact_nothing_passes_a_member_at_thirty_metres_a_second() {
 struct Always<'a>(&'a Site);
 
 impl Obstacles for Always<'_> {
-    fn contacts(&self, probe: &Probe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>) {
+    fn contacts(&self, probe: &HullProbe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>) {
         Obstacles::contacts(self.0, probe, margin_m, at, out);
     }
     fn clearance(&self, _: Vec3<Enu>, _: f64, _: SimTime) -> Option<f64> {
@@ -262,7 +262,7 @@ impl Obstacles for Always<'_> {
 fn exact_leaving_contact_out_where_all_is_free_changes_no_bit() {
     let scenario = scenario();
     let site = Site::build(&scenario, 3);
-    let model = Model::new(&vehicles()[0], BatteryModel::Paper);
+    let model = AirframeModel::new(&vehicles()[0], BatteryModel::Paper);
     let mut random = RandomStream::new(6, "steep");
     let mut touched = 0;
     for k in 0..60 {

@@ -2,7 +2,9 @@
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::time::SimTime;
-use spandrel_sitl::autopilot::{Landed, MissionStep, Mode, OffboardSetpoint, Outcome, Request, Sticks};
+use spandrel_sitl::autopilot::{
+    AutopilotRequest, FlightMode, LandedState, MissionStep, OffboardSetpoint, RequestOutcome, Sticks,
+};
 use spandrel_testkit::bench::{Bench, VEHICLES};
 use spandrel_testkit::shipped::vehicle;
 
@@ -28,10 +30,10 @@ fn flight_arming_is_refused_with_every_reason_named() {
     bench.run(2.0, |_| ());
     bench.sticks = Some(Sticks { forward: 0.5, ..Sticks::default() });
     bench.run(0.1, |_| ());
-    let outcome = bench.autopilot.request(Request::Arm { force: false }, bench.now);
-    let Outcome::TemporarilyRejected(why) = outcome else { panic!("{outcome:?}") };
+    let outcome = bench.autopilot.request(AutopilotRequest::Arm { force: false }, bench.now);
+    let RequestOutcome::TemporarilyRejected(why) = outcome else { panic!("{outcome:?}") };
     assert!(why.contains("No GNSS fix") && why.contains("Sticks not centred"), "{why}");
-    bench.ask(Request::Arm { force: true });
+    bench.ask(AutopilotRequest::Arm { force: true });
     assert!(bench.autopilot.status().armed);
 }
 
@@ -45,11 +47,11 @@ fn flight_takes_off_holds_and_lands_where_it_was() {
         bench.run(20.0, |b| worst = worst.max(b.position().horizontal_norm()));
         assert!(worst < NEAR_M, "{name}: strayed {worst} m");
         assert!((bench.position().down() + 5.0).abs() < HEIGHT_M, "{name}: {:?}", bench.position());
-        bench.ask(Request::Land);
+        bench.ask(AutopilotRequest::Land);
         let mut impact: f64 = 0.0;
         bench.run(20.0, |b| impact = impact.max(b.state.contact.impact_m_s));
         let status = bench.autopilot.status().clone();
-        assert!(!status.armed && status.landed == Landed::OnGround, "{name}: {status:?} {:?}", bench.position());
+        assert!(!status.armed && status.landed == LandedState::OnGround, "{name}: {status:?} {:?}", bench.position());
         // m/s: gentler than a step off a kerb.
         assert!(impact < 1.2, "{name}: hit the ground with {impact} m/s");
     }
@@ -61,13 +63,13 @@ fn flight_takes_off_and_lands_by_the_sticks() {
         let mut bench = Bench::new(&vehicle(name), 2);
         bench.sticks = Some(Sticks::default());
         bench.run(2.0, |_| ());
-        bench.ask(Request::SetMode(Mode::Position));
-        bench.ask(Request::Arm { force: false });
+        bench.ask(AutopilotRequest::SetMode(FlightMode::Position));
+        bench.ask(AutopilotRequest::Arm { force: false });
         bench.run(2.0, |_| ());
-        assert_eq!(bench.autopilot.status().landed, Landed::OnGround, "{name} left the ground unasked");
+        assert_eq!(bench.autopilot.status().landed, LandedState::OnGround, "{name} left the ground unasked");
         bench.sticks = Some(Sticks { up: 0.5, ..Sticks::default() });
         bench.run(3.0, |_| ());
-        assert_eq!(bench.autopilot.status().landed, Landed::InAir, "{name}");
+        assert_eq!(bench.autopilot.status().landed, LandedState::InAir, "{name}");
         bench.sticks = Some(Sticks::default());
         bench.run(5.0, |_| ());
         assert!(bench.autopilot.status().armed && bench.position().down() < -1.0, "{name}: {:?}", bench.position());
@@ -84,10 +86,10 @@ fn flight_a_return_comes_home_and_lands() {
     for name in VEHICLES {
         let mut bench = Bench::airborne(&vehicle(name), 6, 6.0);
         bench.autopilot.tuning.return_height_m = 12.0;
-        bench.ask(Request::GoTo { north_east_m: Some((20.0, 10.0)), up_m: None, yaw_rad: None, speed_m_s: None });
+        bench.ask(AutopilotRequest::GoTo { north_east_m: Some((20.0, 10.0)), up_m: None, yaw_rad: None, speed_m_s: None });
         bench.run(15.0, |_| ());
         assert!((bench.position() - Vec3::new(20.0, 10.0, -6.0)).norm() < NEAR_M, "{name}: {:?}", bench.position());
-        bench.ask(Request::SetMode(Mode::Return));
+        bench.ask(AutopilotRequest::SetMode(FlightMode::Return));
         let mut top: f64 = 0.0;
         bench.run(70.0, |b| top = top.max(-b.position().down()));
         assert!(!bench.autopilot.status().armed, "{name}: {:?} {:?}", bench.autopilot.status(), bench.position());
@@ -117,8 +119,8 @@ fn flight_a_mission_is_flown_in_order_and_ends_on_the_ground() {
         MissionStep::Land { position_m: Some(Vec3::new(0.0, 0.0, 0.0)) },
     ]);
     bench.run(2.0, |_| ());
-    bench.ask(Request::Arm { force: false });
-    bench.ask(Request::StartMission { first: None });
+    bench.ask(AutopilotRequest::Arm { force: false });
+    bench.ask(AutopilotRequest::StartMission { first: None });
     let mut reached = Vec::new();
     let mut fastest: f64 = 0.0;
     for _ in 0..90 {
@@ -136,11 +138,11 @@ fn flight_a_mission_is_flown_in_order_and_ends_on_the_ground() {
 #[test]
 fn flight_external_set_points_are_followed_and_their_loss_leads_to_hold() {
     let mut bench = Bench::airborne(&vehicle("phantom2"), 8, 6.0);
-    let refused = bench.autopilot.request(Request::SetMode(Mode::Offboard), bench.now);
-    assert!(matches!(refused, Outcome::TemporarilyRejected(_)), "{refused:?}");
+    let refused = bench.autopilot.request(AutopilotRequest::SetMode(FlightMode::Offboard), bench.now);
+    assert!(matches!(refused, RequestOutcome::TemporarilyRejected(_)), "{refused:?}");
     let velocity = OffboardSetpoint { velocity_m_s: [Some(2.0), Some(-1.0), Some(0.0)], ..OffboardSetpoint::default() };
     bench.autopilot.offboard(velocity, bench.now);
-    bench.ask(Request::SetMode(Mode::Offboard));
+    bench.ask(AutopilotRequest::SetMode(FlightMode::Offboard));
     for _ in 0..50 {
         bench.autopilot.offboard(velocity, bench.now);
         bench.run(0.1, |_| ());
@@ -168,7 +170,12 @@ fn regress_the_same_seed_flies_the_same_bits() {
 #[test]
 fn regress_a_clone_in_mid_flight_goes_on_with_the_same_bits() {
     let mut bench = Bench::airborne(&vehicle("m30"), 9, 4.0);
-    bench.ask(Request::GoTo { north_east_m: Some((8.0, 3.0)), up_m: Some(6.0), yaw_rad: Some(1.0), speed_m_s: Some(2.0) });
+    bench.ask(AutopilotRequest::GoTo {
+        north_east_m: Some((8.0, 3.0)),
+        up_m: Some(6.0),
+        yaw_rad: Some(1.0),
+        speed_m_s: Some(2.0),
+    });
     bench.run(1.0, |_| ());
     let (state, sensors, autopilot, now) = (bench.state.clone(), bench.sensors.clone(), bench.autopilot.clone(), bench.now);
     bench.run(4.0, |_| ());

@@ -9,9 +9,9 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_sitl::autopilot::estimator::align::ROCKING_SHARE;
 use spandrel_sitl::autopilot::estimator::covariance::{P, THETA, V};
-use spandrel_sitl::autopilot::estimator::{Estimator, Truth};
+use spandrel_sitl::autopilot::estimator::{Estimator, SimulatedTruth};
 use spandrel_sitl::physics::{MAX_ROTORS, RigidState};
-use spandrel_sitl::sensors::{self, Plain, Readings, Sensors, Surroundings};
+use spandrel_sitl::sensors::{self, FlatGround, Readings, Sensors, Surroundings};
 use spandrel_testkit::bench::VEHICLES;
 use spandrel_testkit::shipped::vehicle;
 
@@ -52,7 +52,7 @@ impl Surroundings for Shadow {
         if d.up() > 0.0 && at >= self.from && at < self.until {
             Some(3.0)
         } else {
-            Plain { up_m: (self.ground_up_m)(at) }.ray_m(origin, d, max, at)
+            FlatGround { up_m: (self.ground_up_m)(at) }.ray_m(origin, d, max, at)
         }
     }
     fn lux(&self, _: Vec3<Enu>, _: SimTime) -> f64 {
@@ -124,11 +124,11 @@ impl Run {
             self.rigid.velocity_m_s = b;
             self.rigid.rates_rad_s = rates(self.now.s(), self.rocking_rad_s);
             self.rigid.attitude = self.rigid.attitude.turned_by(self.rigid.rates_rad_s * dt.s());
-            self.sensors.feel(&self.rigid, felt, dt);
+            self.sensors.integrate_imu(&self.rigid, felt, dt);
             self.now += dt;
         }
         let battery = sensors::BatteryReading { voltage_v: 12.0, current_a: 0.0, remaining_pct: 100.0 };
-        let truth = sensors::Truth { rigid: &self.rigid, battery, lamp_on: false };
+        let truth = sensors::SensorInputs { rigid: &self.rigid, battery, lamp_on: false };
         let mut readings = self.sensors.sample(&truth, &self.site, self.now);
         change(&mut readings, self.now);
         self.filter.step(&readings, self.now);
@@ -136,7 +136,7 @@ impl Run {
 
     fn error(&self) -> [f64; 15] {
         let (accel, gyro) = self.sensors.imu().biases();
-        self.filter.error(&Truth {
+        self.filter.error(&SimulatedTruth {
             position_m: self.rigid.position_m,
             velocity_m_s: self.rigid.velocity_m_s,
             attitude: self.rigid.attitude,

@@ -2,7 +2,7 @@
 
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::math;
-use spandrel_sitl::autopilot::{Landed, LinkLoss, Mode, Request, Severity, Sticks};
+use spandrel_sitl::autopilot::{AutopilotRequest, FlightMode, LandedState, LinkLossAction, Severity, Sticks};
 use spandrel_testkit::bench::{Bench, VEHICLES};
 use spandrel_testkit::shipped::vehicle;
 
@@ -13,25 +13,25 @@ fn flight_lost_sticks_lead_to_hold_and_found_ones_give_the_mode_back() {
     bench.run(2.0, |_| ());
     bench.sticks = None;
     bench.run(0.4, |_| ());
-    assert_eq!(bench.autopilot.status().mode, Mode::Position, "half a second of silence is not over");
+    assert_eq!(bench.autopilot.status().mode, FlightMode::Position, "half a second of silence is not over");
     bench.run(4.0, |_| ());
     let status = bench.autopilot.status().clone();
-    assert_eq!((status.mode, status.failsafe.as_deref()), (Mode::Hold, Some("manual control lost")));
+    assert_eq!((status.mode, status.failsafe.as_deref()), (FlightMode::Hold, Some("manual control lost")));
     assert!(bench.state.rigid.velocity_m_s.norm() < 0.3);
     bench.sticks = Some(Sticks::default());
     bench.run(0.2, |_| ());
     let status = bench.autopilot.status().clone();
-    assert_eq!((status.mode, status.failsafe), (Mode::Position, None));
+    assert_eq!((status.mode, status.failsafe), (FlightMode::Position, None));
 }
 
 #[test]
-fn flight_lost_sticks_return_or_land_when_the_tuning_says_so() {
-    for (action, mode) in [(LinkLoss::Return, Mode::Return), (LinkLoss::Land, Mode::Land)] {
+fn flight_lost_sticks_return_or_land_if_enabled() {
+    for (action, mode) in [(LinkLossAction::Return, FlightMode::Return), (LinkLossAction::Land, FlightMode::Land)] {
         let mut bench = Bench::by_hand(&vehicle("phantom2"), 5, 6.0);
         bench.autopilot.tuning.manual_loss = action;
         bench.sticks = None;
         bench.run(4.0, |_| ());
-        assert_eq!(bench.autopilot.status().mode, Mode::Hold, "it holds first");
+        assert_eq!(bench.autopilot.status().mode, FlightMode::Hold, "it holds first");
         bench.run(3.0, |_| ());
         assert_eq!(bench.autopilot.status().mode, mode);
         bench.run(60.0, |_| ());
@@ -40,13 +40,13 @@ fn flight_lost_sticks_return_or_land_when_the_tuning_says_so() {
 }
 
 #[test]
-fn flight_a_lost_ground_station_acts_only_when_the_tuning_says_so() {
-    for (action, mode) in [(LinkLoss::Ignore, Mode::Hold), (LinkLoss::Return, Mode::Return)] {
+fn flight_a_lost_ground_station_acts_if_enabled() {
+    for (action, mode) in [(LinkLossAction::Ignore, FlightMode::Hold), (LinkLossAction::Return, FlightMode::Return)] {
         let mut bench = Bench::airborne(&vehicle("phantom2"), 6, 6.0);
         bench.autopilot.tuning.data_link_loss = action;
         bench.autopilot.ground_station_alive(bench.now);
         bench.run(9.0, |_| ());
-        assert_eq!(bench.autopilot.status().mode, Mode::Hold);
+        assert_eq!(bench.autopilot.status().mode, FlightMode::Hold);
         bench.run(2.0, |_| ());
         assert_eq!(bench.autopilot.status().mode, mode);
     }
@@ -62,7 +62,7 @@ fn flight_minutes_without_satellites_stay_controllable_where_flow_sees_a_surface
         bench.jammed = true;
         bench.run(120.0, |_| ());
         let status = bench.autopilot.status();
-        assert_eq!((status.mode, status.failsafe.clone()), (Mode::Position, None), "{name}");
+        assert_eq!((status.mode, status.failsafe.clone()), (FlightMode::Position, None), "{name}");
         let drift = (bench.position() - start).horizontal_norm();
         assert!(drift < DRIFT_M, "{name}: drifted {drift} m");
     }
@@ -78,7 +78,7 @@ fn flight_without_satellites_and_flow_the_pilot_keeps_height_and_tilt_and_gets_p
         (bench.jammed, bench.dark) = (true, true);
         bench.run(120.0, |_| ());
         let status = bench.autopilot.status().clone();
-        assert_eq!(status.mode, Mode::Altitude, "{name}");
+        assert_eq!(status.mode, FlightMode::Altitude, "{name}");
         assert!(status.failsafe.is_some_and(|f| f.contains("position lost")), "{name}");
         let e = bench.autopilot.estimate();
         assert!(!e.position_valid && (bench.position().down() - height).abs() < HEIGHT_M, "{name}: {:?}", bench.position());
@@ -90,7 +90,7 @@ fn flight_without_satellites_and_flow_the_pilot_keeps_height_and_tilt_and_gets_p
         (bench.jammed, bench.dark) = (false, false);
         bench.run(20.0, |_| ());
         let status = bench.autopilot.status().clone();
-        assert_eq!((status.mode, status.failsafe), (Mode::Position, None), "{name}");
+        assert_eq!((status.mode, status.failsafe), (FlightMode::Position, None), "{name}");
         assert!(bench.state.rigid.velocity_m_s.norm() < 0.3, "{name}: {:?}", bench.state.rigid.velocity_m_s);
     }
 }
@@ -101,15 +101,15 @@ fn flight_without_satellites_flow_and_pilot_it_lands() {
     (bench.jammed, bench.dark) = (true, true);
     bench.run(90.0, |_| ());
     let status = bench.autopilot.status();
-    assert!(!status.armed && status.landed == Landed::OnGround, "{status:?} {:?}", bench.position());
+    assert!(!status.armed && status.landed == LandedState::OnGround, "{status:?} {:?}", bench.position());
 }
 
 #[test]
-fn flight_a_low_battery_returns_only_where_the_job_says_so() {
-    for (returns, mode) in [(false, Mode::Hold), (true, Mode::Return)] {
+fn flight_a_low_battery_returns_if_enabled() {
+    for (returns, mode) in [(false, FlightMode::Hold), (true, FlightMode::Return)] {
         let mut bench = Bench::with_rules(&vehicle("phantom2"), 10, |rules| rules.low_battery_return = returns);
         bench.take_off(6.0);
-        bench.ask(Request::GoTo { north_east_m: Some((15.0, 0.0)), up_m: None, yaw_rad: None, speed_m_s: None });
+        bench.ask(AutopilotRequest::GoTo { north_east_m: Some((15.0, 0.0)), up_m: None, yaw_rad: None, speed_m_s: None });
         bench.run(10.0, |_| ());
         bench.autopilot.drain_events();
         bench.state.battery.charge = 0.01 * (bench.autopilot.tuning.battery_low_pct - 0.5);
@@ -122,8 +122,8 @@ fn flight_a_low_battery_returns_only_where_the_job_says_so() {
 }
 
 #[test]
-fn flight_a_critical_battery_lands_only_where_the_job_says_so() {
-    for (returns, mode) in [(false, Mode::Hold), (true, Mode::Land)] {
+fn flight_a_critical_battery_lands_if_enabled() {
+    for (returns, mode) in [(false, FlightMode::Hold), (true, FlightMode::Land)] {
         let mut bench = Bench::with_rules(&vehicle("phantom2"), 10, |rules| rules.low_battery_return = returns);
         bench.take_off(6.0);
         bench.autopilot.drain_events();
@@ -140,22 +140,22 @@ fn flight_a_critical_battery_lands_only_where_the_job_says_so() {
 }
 
 #[test]
-fn flight_who_takes_off_with_a_low_battery_is_brought_back_once() {
+fn flight_a_takeoff_with_a_low_battery_returns_once() {
     let mut bench = Bench::with_rules(&vehicle("phantom2"), 10, |rules| rules.low_battery_return = true);
     bench.state.battery.charge = 0.01 * (bench.autopilot.tuning.battery_low_pct - 0.5);
     bench.run(2.0, |_| ());
-    bench.ask(Request::Arm { force: false });
-    bench.ask(Request::Takeoff { height_m: Some(4.0) });
+    bench.ask(AutopilotRequest::Arm { force: false });
+    bench.ask(AutopilotRequest::Takeoff { height_m: Some(4.0) });
     let mut returned = false;
     for _ in 0..30 {
         bench.run(0.1, |_| ());
-        returned |= bench.autopilot.status().mode == Mode::Return;
+        returned |= bench.autopilot.status().mode == FlightMode::Return;
     }
     assert!(returned, "{:?}", bench.autopilot.status().mode);
     // The pilot has the last word.
-    bench.ask(Request::SetMode(Mode::Hold));
+    bench.ask(AutopilotRequest::SetMode(FlightMode::Hold));
     bench.run(2.0, |_| ());
-    assert_eq!(bench.autopilot.status().mode, Mode::Hold);
+    assert_eq!(bench.autopilot.status().mode, FlightMode::Hold);
 }
 
 #[test]
@@ -189,10 +189,10 @@ fn flight_lying_on_its_back_it_stops_the_motors() {
 }
 
 #[test]
-fn flight_put_back_in_the_air_it_hovers_there() {
+fn flight_respawned_in_the_air_it_hovers_there() {
     for name in VEHICLES {
         let mut bench = Bench::by_hand(&vehicle(name), 14, 5.0);
-        bench.ask(Request::Disarm { force: true });
+        bench.ask(AutopilotRequest::Disarm { force: true });
         bench.run(4.0, |_| ());
         let place = Vec3::<Ned>::new(6.0, -4.0, -7.0);
         bench.state.place(place, 0.5);
@@ -201,7 +201,7 @@ fn flight_put_back_in_the_air_it_hovers_there() {
         let mut stray: f64 = 0.0;
         bench.run(10.0, |b| stray = stray.max((b.position() - place).norm()));
         let status = bench.autopilot.status();
-        assert!(status.armed && status.mode == Mode::Position, "{name}: {status:?}");
+        assert!(status.armed && status.mode == FlightMode::Position, "{name}: {status:?}");
         // m: the rotors start from rest, so it sinks before it holds.
         assert!(stray < 2.5, "{name}: strayed {stray} m");
         assert!(bench.state.rigid.velocity_m_s.norm() < 0.3, "{name}");
@@ -212,12 +212,12 @@ fn flight_put_back_in_the_air_it_hovers_there() {
 fn flight_moved_sticks_take_over_from_an_automatic_mode() {
     let mut bench = Bench::airborne(&vehicle("phantom2"), 15, 5.0);
     bench.sticks = Some(Sticks { up: -1.0, ..Sticks::default() });
-    bench.ask(Request::SetMode(Mode::Position));
+    bench.ask(AutopilotRequest::SetMode(FlightMode::Position));
     bench.run(0.2, |_| ());
-    bench.ask(Request::SetMode(Mode::Hold));
+    bench.ask(AutopilotRequest::SetMode(FlightMode::Hold));
     bench.run(1.0, |_| ());
-    assert_eq!(bench.autopilot.status().mode, Mode::Hold, "a throttle that only lies at its end is no wish");
+    assert_eq!(bench.autopilot.status().mode, FlightMode::Hold, "a throttle that only lies at its end is no wish");
     bench.sticks = Some(Sticks { forward: 0.6, up: -1.0, ..Sticks::default() });
     bench.run(0.2, |_| ());
-    assert_eq!(bench.autopilot.status().mode, Mode::Position);
+    assert_eq!(bench.autopilot.status().mode, FlightMode::Position);
 }

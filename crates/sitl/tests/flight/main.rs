@@ -4,7 +4,7 @@ mod automatic;
 mod consistency;
 mod emergencies;
 mod heights;
-mod manoeuvres;
+mod maneuvers;
 mod missions;
 mod rules;
 mod stuck;

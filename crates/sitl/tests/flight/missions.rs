@@ -2,13 +2,13 @@
 
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::random::RandomStream;
-use spandrel_sitl::autopilot::trajectory::{Bounds, Planned, Speeds, Trajectory, Waypoint};
-use spandrel_sitl::autopilot::{Landed, MissionStep, Mode, Request};
+use spandrel_sitl::autopilot::trajectory::{AccelerationLimits, SpeedLimits, Trajectory, TrajectoryPoint, Waypoint};
+use spandrel_sitl::autopilot::{AutopilotRequest, FlightMode, LandedState, MissionStep};
 use spandrel_testkit::bench::{Bench, VEHICLES};
 use spandrel_testkit::shipped::vehicle;
 
 const STEP_S: f64 = 0.0025;
-const SPEEDS: Speeds = Speeds { usual_m_s: 5.0, most_m_s: 12.0, up_m_s: 3.0, down_m_s: 1.5 };
+const SPEEDS: SpeedLimits = SpeedLimits { default_m_s: 5.0, max_m_s: 12.0, up_m_s: 3.0, down_m_s: 1.5 };
 /// m/s²: along the leg and across it at once, each within its own bound of 2.
 const ACCELERATION_M_S2: f64 = 3.0;
 /// m/s³: the speed's jerk (4), the corner's (2.5), and what the speed's change adds within a corner.
@@ -31,7 +31,8 @@ fn prop_a_planned_way_is_smooth_passes_every_waypoint_and_ends_at_rest() {
         let waypoints: Vec<Waypoint> = (0..2 + case % 7)
             .map(|_| Waypoint { position_m: somewhere(&mut stream, reach_m), speed_m_s: Some(stream.range(1.0, 6.0)), accept_m })
             .collect();
-        let mut way = Trajectory::join(Planned::default(), &waypoints, Bounds::within(6.0, 4.0)).expect("there are waypoints");
+        let mut way = Trajectory::join(TrajectoryPoint::default(), &waypoints, AccelerationLimits::within(6.0, 4.0))
+            .expect("there are waypoints");
         let mut nearest = vec![f64::INFINITY; waypoints.len()];
         let mut before = way.planned();
         for _ in 0..(400.0 / STEP_S) as usize {
@@ -57,13 +58,13 @@ fn prop_a_planned_way_is_smooth_passes_every_waypoint_and_ends_at_rest() {
 fn prop_a_way_that_is_joined_in_flight_goes_on_from_its_motion() {
     let mut stream = RandomStream::new(4, "joins");
     for _ in 0..50 {
-        let from = Planned {
+        let from = TrajectoryPoint {
             position_m: somewhere(&mut stream, 5.0),
             velocity_m_s: somewhere(&mut stream, 2.0),
             acceleration_m_s2: somewhere(&mut stream, 1.0),
         };
         let to = Waypoint { position_m: somewhere(&mut stream, 30.0), speed_m_s: None, accept_m: 2.0 };
-        let mut way = Trajectory::join(from, &[to], Bounds::within(6.0, 4.0)).expect("a waypoint");
+        let mut way = Trajectory::join(from, &[to], AccelerationLimits::within(6.0, 4.0)).expect("a waypoint");
         let begins = way.planned();
         // m, m/s, m/s²: rounding.
         assert!((begins.position_m - from.position_m).norm() < 1e-9);
@@ -86,8 +87,8 @@ fn regress_a_straight_leg_holds_its_speed_through_waypoints() {
         steps.extend((0..5).map(|k| point(20.0 * f64::from(k), 0.0, 10.0)));
         bench.autopilot.set_mission(steps);
         bench.run(2.0, |_| ());
-        bench.ask(Request::Arm { force: false });
-        bench.ask(Request::StartMission { first: None });
+        bench.ask(AutopilotRequest::Arm { force: false });
+        bench.ask(AutopilotRequest::StartMission { first: None });
         let (mut slowest, mut fastest): (f64, f64) = (f64::INFINITY, 0.0);
         bench.run(70.0, |b| {
             // On the way to 40 and to 60 m.
@@ -108,15 +109,15 @@ fn regress_a_take_off_step_below_the_ground_takes_off_instead_of_tipping_over() 
         let mut bench = Bench::new(&vehicle("phantom2"), 5);
         bench.autopilot.set_mission(vec![MissionStep::Takeoff { up_m: Some(up_m) }, point(10.0, 0.0, 6.0)]);
         bench.run(2.0, |_| ());
-        bench.ask(Request::Arm { force: false });
-        bench.ask(Request::StartMission { first: None });
+        bench.ask(AutopilotRequest::Arm { force: false });
+        bench.ask(AutopilotRequest::StartMission { first: None });
         let mut tilt_deg: f64 = 0.0;
         bench.run(40.0, |b| {
             let (roll, pitch, _) = b.state.rigid.attitude.euler();
             tilt_deg = tilt_deg.max(roll.abs().max(pitch.abs()).to_degrees());
         });
         let status = bench.autopilot.status();
-        assert!(status.mission_finished && status.landed == Landed::InAir, "{up_m}: {status:?} {:?}", bench.position());
+        assert!(status.mission_finished && status.landed == LandedState::InAir, "{up_m}: {status:?} {:?}", bench.position());
         // The aircraft's own tilt limit.
         assert!(tilt_deg < 35.0, "{up_m}: tilted to {tilt_deg} deg");
     }
@@ -136,11 +137,11 @@ fn regress_a_take_off_climbs_at_its_own_rate() {
             tuning.takeoff_at_climb_speed = at_climb_speed;
             bench.autopilot.set_mission(vec![MissionStep::Takeoff { up_m: Some(14.0) }]);
             bench.run(2.0, |_| ());
-            bench.ask(Request::Arm { force: false });
+            bench.ask(AutopilotRequest::Arm { force: false });
             if by_mission {
-                bench.ask(Request::StartMission { first: None });
+                bench.ask(AutopilotRequest::StartMission { first: None });
             } else {
-                bench.ask(Request::Takeoff { height_m: Some(14.0) });
+                bench.ask(AutopilotRequest::Takeoff { height_m: Some(14.0) });
             }
             let mut fastest: f64 = 0.0;
             // Below 9 m: PX4's own rate holds up to 10 m.
@@ -161,8 +162,8 @@ fn regress_a_mission_without_a_take_off_step_climbs_before_it_flies_away() {
     let mut bench = Bench::new(&vehicle("phantom2"), 7);
     bench.autopilot.set_mission(vec![point(60.0, 0.0, 6.0)]);
     bench.run(2.0, |_| ());
-    bench.ask(Request::Arm { force: false });
-    bench.ask(Request::StartMission { first: None });
+    bench.ask(AutopilotRequest::Arm { force: false });
+    bench.ask(AutopilotRequest::StartMission { first: None });
     let mut worst: f64 = 0.0;
     bench.run(30.0, |b| {
         if -b.position().down() < 1.5 {
@@ -171,5 +172,5 @@ fn regress_a_mission_without_a_take_off_step_climbs_before_it_flies_away() {
     });
     assert!(worst < DRIFT_M, "{worst} m off its place below 1.5 m");
     let status = bench.autopilot.status();
-    assert!(status.mission_finished && status.mode == Mode::Hold, "{status:?} {:?}", bench.position());
+    assert!(status.mission_finished && status.mode == FlightMode::Hold, "{status:?} {:?}", bench.position());
 }

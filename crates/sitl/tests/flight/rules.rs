@@ -4,9 +4,12 @@ use spandrel_model::frames::Vec3;
 use spandrel_model::math;
 use spandrel_sitl::autopilot::fence::FenceAction;
 use spandrel_sitl::autopilot::operator_rules::{
-    Exceptions, FenceParts, FenceSwitching, Heading, JOB_BATTERY, MissionNeeds, OffboardLoss, Response, ReturnPlaces,
+    FailsafeResponse, FenceParts, FenceSwitching, HeadingRule, JOB_BATTERY, LinkLossExceptions, MissionNeeds, OffboardLoss,
+    ReturnTargets,
 };
-use spandrel_sitl::autopilot::{Landed, MissionStep, Mode, OffboardSetpoint, Outcome, Request, Sticks, Tuning};
+use spandrel_sitl::autopilot::{
+    AutopilotRequest, FlightMode, LandedState, MissionStep, OffboardSetpoint, RequestOutcome, Sticks, Tuning,
+};
 use spandrel_testkit::bench::Bench;
 use spandrel_testkit::shipped::vehicle;
 
@@ -25,11 +28,11 @@ fn airborne(change: impl Fn(&mut Tuning)) -> Bench {
 }
 
 fn away(bench: &mut Bench, north_m: f64) {
-    bench.ask(Request::GoTo { north_east_m: Some((north_m, 0.0)), up_m: None, yaw_rad: None, speed_m_s: Some(8.0) });
+    bench.ask(AutopilotRequest::GoTo { north_east_m: Some((north_m, 0.0)), up_m: None, yaw_rad: None, speed_m_s: Some(8.0) });
     bench.run(4.0 + north_m / 5.0, |_| ());
 }
 
-fn mode(bench: &Bench) -> Mode {
+fn mode(bench: &Bench) -> FlightMode {
     bench.autopilot.status().mode
 }
 
@@ -41,18 +44,20 @@ fn waypoints() -> Vec<MissionStep> {
 
 #[test]
 fn flight_lost_sticks_end_a_mission_unless_it_is_excepted_or_they_were_let_go_of() {
-    for (except, let_go, expected) in [(false, false, Mode::Hold), (true, false, Mode::Mission), (false, true, Mode::Mission)] {
+    for (except, let_go, expected) in
+        [(false, false, FlightMode::Hold), (true, false, FlightMode::Mission), (false, true, FlightMode::Mission)]
+    {
         let mut bench = airborne(|tuning| {
-            tuning.rules.responses.manual_loss_except = Exceptions { mission: except, ..Exceptions::default() };
+            tuning.rules.responses.manual_loss_except = LinkLossExceptions { mission: except, ..LinkLossExceptions::default() };
         });
         bench.sticks = Some(Sticks::default());
         bench.run(0.5, |_| ());
         bench.autopilot.set_mission(waypoints());
-        bench.ask(Request::StartMission { first: None });
+        bench.ask(AutopilotRequest::StartMission { first: None });
         bench.run(1.0, |_| ());
         bench.sticks = None;
         if let_go {
-            bench.autopilot.let_go_of_sticks();
+            bench.autopilot.release_sticks();
         }
         bench.run(2.0, |_| ());
         assert_eq!(mode(&bench), expected, "excepted {except}, let go {let_go}");
@@ -61,23 +66,23 @@ fn flight_lost_sticks_end_a_mission_unless_it_is_excepted_or_they_were_let_go_of
 
 #[test]
 fn flight_a_mission_that_nobody_had_sticks_for_goes_on_without_them() {
-    let mut bench = airborne(|tuning| tuning.rules.responses.manual_loss_except = Exceptions::default());
+    let mut bench = airborne(|tuning| tuning.rules.responses.manual_loss_except = LinkLossExceptions::default());
     bench.autopilot.set_mission(waypoints());
-    bench.ask(Request::StartMission { first: None });
+    bench.ask(AutopilotRequest::StartMission { first: None });
     bench.run(5.0, |_| ());
-    assert_eq!(mode(&bench), Mode::Mission);
+    assert_eq!(mode(&bench), FlightMode::Mission);
 }
 
 #[test]
 fn flight_lost_set_points_lead_to_what_the_operator_set() {
     let fixed = OffboardLoss::Fixed;
     let cases = [
-        (OffboardLoss::Sticks(Mode::Position), true, Mode::Position),
-        (OffboardLoss::Sticks(Mode::Altitude), true, Mode::Altitude),
-        (OffboardLoss::Sticks(Mode::Position), false, Mode::Hold),
-        (fixed(Response::Return), false, Mode::Return),
-        (fixed(Response::Land), false, Mode::Land),
-        (fixed(Response::Hold), true, Mode::Hold),
+        (OffboardLoss::Sticks(FlightMode::Position), true, FlightMode::Position),
+        (OffboardLoss::Sticks(FlightMode::Altitude), true, FlightMode::Altitude),
+        (OffboardLoss::Sticks(FlightMode::Position), false, FlightMode::Hold),
+        (fixed(FailsafeResponse::Return), false, FlightMode::Return),
+        (fixed(FailsafeResponse::Land), false, FlightMode::Land),
+        (fixed(FailsafeResponse::Hold), true, FlightMode::Hold),
     ];
     for (loss, sticks, expected) in cases {
         let mut bench = airborne(|tuning| tuning.rules.responses.offboard_loss = loss);
@@ -86,7 +91,7 @@ fn flight_lost_set_points_lead_to_what_the_operator_set() {
         bench.run(0.2, |_| ());
         let setpoint = OffboardSetpoint { velocity_m_s: [Some(1.0), Some(0.0), Some(0.0)], ..OffboardSetpoint::default() };
         bench.autopilot.offboard(setpoint, bench.now);
-        bench.ask(Request::SetMode(Mode::Offboard));
+        bench.ask(AutopilotRequest::SetMode(FlightMode::Offboard));
         bench.run(2.0, |_| ());
         assert_eq!(mode(&bench), expected, "{loss:?}, sticks {sticks}");
     }
@@ -94,14 +99,14 @@ fn flight_lost_set_points_lead_to_what_the_operator_set() {
 
 #[test]
 fn flight_the_battery_leads_to_what_the_operator_set_at_each_level() {
-    let land = Some(Response::Land);
+    let land = Some(FailsafeResponse::Land);
     let cases = [
-        ([None; 3], 9.0, Mode::Hold),
-        (JOB_BATTERY, 14.0, Mode::Return),
-        (JOB_BATTERY, 6.5, Mode::Land),
-        ([None, Some(Response::Return), land], 14.0, Mode::Hold),
-        ([None, Some(Response::Return), land], 6.5, Mode::Return),
-        ([None, Some(Response::Return), land], 4.0, Mode::Land),
+        ([None; 3], 9.0, FlightMode::Hold),
+        (JOB_BATTERY, 14.0, FlightMode::Return),
+        (JOB_BATTERY, 6.5, FlightMode::Land),
+        ([None, Some(FailsafeResponse::Return), land], 14.0, FlightMode::Hold),
+        ([None, Some(FailsafeResponse::Return), land], 6.5, FlightMode::Return),
+        ([None, Some(FailsafeResponse::Return), land], 4.0, FlightMode::Land),
     ];
     for (battery, charge_pct, expected) in cases {
         let mut bench = airborne(|tuning| tuning.rules.responses.battery = battery);
@@ -115,24 +120,24 @@ fn flight_the_battery_leads_to_what_the_operator_set_at_each_level() {
     let responses = &mut bench.autopilot.tuning.rules.responses;
     (responses.battery, responses.battery_low_v, responses.battery_low_s) = ([land, None, None], [100.0, 0.0], 5.0);
     bench.run(4.5, |_| ());
-    assert_eq!(mode(&bench), Mode::Hold, "not yet");
+    assert_eq!(mode(&bench), FlightMode::Hold, "not yet");
     bench.run(1.0, |_| ());
-    assert_eq!(mode(&bench), Mode::Land);
+    assert_eq!(mode(&bench), FlightMode::Land);
 }
 
 #[test]
 fn flight_arming_needs_what_the_operator_asks_for() {
     let mut bench = Bench::new(&vehicle("phantom2"), 5);
     bench.run(2.0, |_| ());
-    bench.ask(Request::Arm { force: false });
-    bench.ask(Request::Disarm { force: true });
+    bench.ask(AutopilotRequest::Arm { force: false });
+    bench.ask(AutopilotRequest::Disarm { force: true });
     bench.autopilot.tuning.rules.responses.arm_needs_mission = true;
     bench.autopilot.tuning.rules.responses.arm_voltage_v = 100.0;
     let reasons = bench.autopilot.arming_reasons(bench.now);
     assert_eq!(reasons, ["Battery voltage too low", "No mission"]);
     bench.autopilot.set_mission(waypoints());
     bench.autopilot.tuning.rules.responses.arm_voltage_v = 0.0;
-    bench.ask(Request::Arm { force: false });
+    bench.ask(AutopilotRequest::Arm { force: false });
 }
 
 #[test]
@@ -143,7 +148,7 @@ fn flight_a_return_keeps_its_speed_waits_and_stays_at_its_final_height() {
         (rules.speed_m_s, rules.wait_height_m, rules.wait_s, rules.final_height_m) = (Some(2.0), None, 4.0, 3.0);
     });
     away(&mut bench, 30.0);
-    bench.ask(Request::SetMode(Mode::Return));
+    bench.ask(AutopilotRequest::SetMode(FlightMode::Return));
     bench.run(4.0, |_| ());
     let mut fastest = 0.0_f64;
     let mut over_home_s = 0.0;
@@ -156,7 +161,7 @@ fn flight_a_return_keeps_its_speed_waits_and_stays_at_its_final_height() {
     assert!(fastest < 2.0 * SPEED_SHARE && fastest > 1.5, "{fastest} m/s");
     assert!(over_home_s > 4.0, "waited {over_home_s} s");
     let status = bench.autopilot.status();
-    assert!(status.armed && status.landed == Landed::InAir, "{status:?}");
+    assert!(status.armed && status.landed == LandedState::InAir, "{status:?}");
     assert!((-bench.position().down() - 3.0).abs() < HEIGHT_M, "{:?}", bench.position());
 }
 
@@ -167,7 +172,7 @@ fn flight_a_negative_delay_keeps_a_return_over_home() {
         (tuning.rules.homeward.wait_height_m, tuning.rules.homeward.wait_s) = (Some(5.0), -1.0);
     });
     away(&mut bench, 15.0);
-    bench.ask(Request::SetMode(Mode::Return));
+    bench.ask(AutopilotRequest::SetMode(FlightMode::Return));
     bench.run(60.0, |_| ());
     assert!(bench.autopilot.status().armed);
     assert!((-bench.position().down() - 5.0).abs() < HEIGHT_M, "{:?}", bench.position());
@@ -182,7 +187,7 @@ fn flight_the_cone_and_the_least_climb_set_the_height_of_a_return() {
             (rules.cone_slope, rules.climb_min_m, rules.wait_height_m) = (cone_slope, climb_min_m, None);
         });
         away(&mut bench, 20.0);
-        bench.ask(Request::SetMode(Mode::Return));
+        bench.ask(AutopilotRequest::SetMode(FlightMode::Return));
         let mut highest = 0.0_f64;
         bench.run(20.0, |bench| highest = highest.max(-bench.position().down()));
         assert!((highest - height_m).abs() < HEIGHT_M, "slope {cone_slope}, climb {climb_min_m}: {highest} m");
@@ -191,24 +196,24 @@ fn flight_the_cone_and_the_least_climb_set_the_height_of_a_return() {
 
 #[test]
 fn flight_a_return_goes_to_the_places_that_its_type_allows() {
-    use spandrel_sitl::autopilot::fence::Refuge;
-    let rally = Refuge { place_m: Vec3::new(30.0, 10.0, 0.0), over_home: false };
+    use spandrel_sitl::autopilot::fence::RallyPoint;
+    let rally = RallyPoint { place_m: Vec3::new(30.0, 10.0, 0.0), over_home: false };
     let landing = MissionStep::Land { position_m: Some(Vec3::new(0.0, 30.0, 0.0)) };
     let cases = [
-        (ReturnPlaces { home: true, rally: true, mission_landing: false }, (30.0, 10.0)),
-        (ReturnPlaces { home: false, rally: false, mission_landing: true }, (0.0, 30.0)),
-        (ReturnPlaces { home: true, rally: false, mission_landing: false }, (0.0, 0.0)),
-        (ReturnPlaces { home: false, rally: false, mission_landing: false }, (0.0, 0.0)),
+        (ReturnTargets { home: true, rally: true, mission_landing: false }, (30.0, 10.0)),
+        (ReturnTargets { home: false, rally: false, mission_landing: true }, (0.0, 30.0)),
+        (ReturnTargets { home: true, rally: false, mission_landing: false }, (0.0, 0.0)),
+        (ReturnTargets { home: false, rally: false, mission_landing: false }, (0.0, 0.0)),
     ];
     for (places, (north, east)) in cases {
         let mut bench = airborne(|tuning| {
             tuning.return_height_m = 8.0;
             tuning.rules.homeward.places = places;
         });
-        bench.autopilot.set_refuges(vec![rally]);
+        bench.autopilot.set_rally_points(vec![rally]);
         bench.autopilot.set_mission(vec![landing]);
         away(&mut bench, 20.0);
-        bench.ask(Request::SetMode(Mode::Return));
+        bench.ask(AutopilotRequest::SetMode(FlightMode::Return));
         bench.run(45.0, |_| ());
         let at = bench.position();
         assert!(math::hypot(at.north() - north, at.east() - east) < 1.5, "{places:?}: {at:?}");
@@ -221,23 +226,23 @@ fn flight_the_nose_points_where_the_operator_set() {
     // The bench starts with the nose to the north; the flight goes east, home lies west of it.
     let east = std::f64::consts::FRAC_PI_2;
     let cases = [
-        (Heading::Fixed, Mode::Hold, 0.0),
-        (Heading::Target, Mode::Hold, east),
-        (Heading::Home, Mode::Hold, -east),
-        (Heading::AwayFromHome, Mode::Hold, east),
-        (Heading::Path, Mode::Hold, east),
-        (Heading::TargetExceptReturn, Mode::Return, 0.0),
+        (HeadingRule::Fixed, FlightMode::Hold, 0.0),
+        (HeadingRule::Target, FlightMode::Hold, east),
+        (HeadingRule::Home, FlightMode::Hold, -east),
+        (HeadingRule::AwayFromHome, FlightMode::Hold, east),
+        (HeadingRule::Path, FlightMode::Hold, east),
+        (HeadingRule::TargetExceptReturn, FlightMode::Return, 0.0),
     ];
     for (heading, flown, expected) in cases {
         let mut bench = airborne(|tuning| {
-            tuning.rules.heading = if flown == Mode::Return { Heading::Fixed } else { heading };
+            tuning.rules.heading = if flown == FlightMode::Return { HeadingRule::Fixed } else { heading };
             tuning.return_height_m = 6.0;
         });
-        bench.ask(Request::GoTo { north_east_m: Some((0.0, 60.0)), up_m: None, yaw_rad: None, speed_m_s: Some(5.0) });
+        bench.ask(AutopilotRequest::GoTo { north_east_m: Some((0.0, 60.0)), up_m: None, yaw_rad: None, speed_m_s: Some(5.0) });
         bench.run(7.0, |_| ());
-        if flown == Mode::Return {
+        if flown == FlightMode::Return {
             bench.autopilot.tuning.rules.heading = heading;
-            bench.ask(Request::SetMode(Mode::Return));
+            bench.ask(AutopilotRequest::SetMode(FlightMode::Return));
             bench.run(5.0, |_| ());
         }
         let error = math::wrap_pi(bench.state.rigid.attitude.yaw_rad() - expected);
@@ -250,7 +255,7 @@ fn flight_limits_of_sticks_and_of_automatic_flight_are_kept() {
     // Acceleration of a go-to.
     for limit in [1.0, f64::INFINITY] {
         let mut bench = airborne(|tuning| tuning.rules.envelope.acceleration_m_s2 = limit);
-        bench.ask(Request::GoTo { north_east_m: Some((40.0, 0.0)), up_m: None, yaw_rad: None, speed_m_s: Some(5.0) });
+        bench.ask(AutopilotRequest::GoTo { north_east_m: Some((40.0, 0.0)), up_m: None, yaw_rad: None, speed_m_s: Some(5.0) });
         bench.run(2.0, |_| ());
         let speed = bench.state.rigid.velocity_m_s.horizontal_norm();
         let kept = speed < 2.0 * (1.0 + ACCELERATION_M_S2);
@@ -280,7 +285,7 @@ fn flight_limits_of_sticks_and_of_automatic_flight_are_kept() {
     bench.sticks = Some(centered);
     bench.run(3.0, |_| ());
     bench.autopilot.tuning.rules.envelope.manual_tilt_rad = 0.15;
-    bench.ask(Request::SetMode(Mode::Altitude));
+    bench.ask(AutopilotRequest::SetMode(FlightMode::Altitude));
     bench.sticks = Some(Sticks { forward: 1.0, ..centered });
     let mut most = 0.0_f64;
     bench.run(1.5, |bench| most = most.max(bench.state.rigid.attitude.euler().1.abs()));
@@ -288,7 +293,7 @@ fn flight_limits_of_sticks_and_of_automatic_flight_are_kept() {
 }
 
 #[test]
-fn flight_a_mission_that_lacks_what_is_asked_for_is_refused() {
+fn flight_a_mission_that_lacks_what_is_requested_is_refused() {
     let place = waypoints()[0];
     let takeoff = MissionStep::Takeoff { up_m: Some(6.0) };
     let cases = [
@@ -301,33 +306,33 @@ fn flight_a_mission_that_lacks_what_is_asked_for_is_refused() {
     ];
     let mut bench = airborne(|_| ());
     for (needs, steps, refusal) in cases {
-        bench.ask(Request::SetMode(Mode::Hold));
+        bench.ask(AutopilotRequest::SetMode(FlightMode::Hold));
         bench.autopilot.tuning.rules.mission_needs = needs;
         bench.autopilot.set_mission(steps.clone());
-        let outcome = bench.autopilot.request(Request::StartMission { first: None }, bench.now);
-        let expected = refusal.map_or(Outcome::Accepted, |why| Outcome::Denied(why.into()));
+        let outcome = bench.autopilot.request(AutopilotRequest::StartMission { first: None }, bench.now);
+        let expected = refusal.map_or(RequestOutcome::Accepted, |why| RequestOutcome::Denied(why.into()));
         assert_eq!(outcome, expected, "{needs:?} {steps:?}");
     }
-    bench.ask(Request::SetMode(Mode::Hold));
+    bench.ask(AutopilotRequest::SetMode(FlightMode::Hold));
     bench.autopilot.tuning.rules.mission_needs = MissionNeeds::Nothing;
     bench.autopilot.tuning.rules.first_waypoint_m = 15.0;
     bench.autopilot.set_mission(waypoints());
-    let outcome = bench.autopilot.request(Request::StartMission { first: None }, bench.now);
-    assert_eq!(outcome, Outcome::Denied("First waypoint too far from home: 20 m, limit 15 m".into()));
+    let outcome = bench.autopilot.request(AutopilotRequest::StartMission { first: None }, bench.now);
+    assert_eq!(outcome, RequestOutcome::Denied("First waypoint too far from home: 20 m, limit 15 m".into()));
 }
 
 #[test]
-fn flight_a_mission_that_restarts_begins_anew_when_it_is_entered_again() {
+fn flight_a_mission_that_restarts_starts_over_when_it_is_entered_again() {
     for restarts in [false, true] {
         let mut bench = airborne(|tuning| tuning.rules.mission_restarts = restarts);
         bench.autopilot.set_mission(waypoints());
-        bench.ask(Request::StartMission { first: None });
+        bench.ask(AutopilotRequest::StartMission { first: None });
         bench.run(8.0, |_| ());
         let before = bench.autopilot.status().mission_current;
         assert!(before > 0, "it has come to the second waypoint");
-        bench.ask(Request::SetMode(Mode::Hold));
+        bench.ask(AutopilotRequest::SetMode(FlightMode::Hold));
         bench.run(1.0, |_| ());
-        bench.ask(Request::SetMode(Mode::Mission));
+        bench.ask(AutopilotRequest::SetMode(FlightMode::Mission));
         bench.run(0.1, |_| ());
         let expected = if restarts { 0 } else { before };
         assert_eq!(bench.autopilot.status().mission_current, expected, "restarts {restarts}");
@@ -337,29 +342,29 @@ fn flight_a_mission_that_restarts_begins_anew_when_it_is_entered_again() {
 #[test]
 fn flight_only_the_parts_of_the_fence_that_are_on_act_and_its_floor_is_kept() {
     let parts = |height, floor_m| FenceParts { height, distance: true, areas: true, floor_m, auto: FenceSwitching::Never };
-    let up = |up_m| Request::GoTo { north_east_m: None, up_m: Some(up_m), yaw_rad: None, speed_m_s: None };
+    let up = |up_m| AutopilotRequest::GoTo { north_east_m: None, up_m: Some(up_m), yaw_rad: None, speed_m_s: None };
     for height in [true, false] {
         let mut bench = airborne(|tuning| {
             tuning.fence_height_m = 10.0;
             tuning.rules.fence = parts(height, None);
         });
         let outcome = bench.autopilot.request(up(14.0), bench.now);
-        assert_eq!(outcome == Outcome::Accepted, !height, "{outcome:?}");
+        assert_eq!(outcome == RequestOutcome::Accepted, !height, "{outcome:?}");
     }
     let mut bench = airborne(|tuning| {
         tuning.fence_action = FenceAction::Hold;
         tuning.rules.fence = parts(true, Some(3.0));
     });
     assert_eq!(bench.autopilot.status().fence.count, 0, "the way up through the floor is no breach");
-    assert_eq!(bench.autopilot.request(up(2.0), bench.now), Outcome::Denied("Target lies outside the geofence".into()));
+    assert_eq!(bench.autopilot.request(up(2.0), bench.now), RequestOutcome::Denied("Target lies outside the geofence".into()));
     bench.sticks = Some(Sticks::default());
     bench.run(0.2, |_| ());
-    bench.ask(Request::SetMode(Mode::Position));
+    bench.ask(AutopilotRequest::SetMode(FlightMode::Position));
     bench.sticks = Some(Sticks { up: -1.0, ..Sticks::default() });
     bench.run(6.0, |_| ());
-    assert_eq!((mode(&bench), bench.autopilot.status().fence.count), (Mode::Hold, 1));
+    assert_eq!((mode(&bench), bench.autopilot.status().fence.count), (FlightMode::Hold, 1));
     bench.sticks = None;
-    bench.ask(Request::SetMode(Mode::Land));
+    bench.ask(AutopilotRequest::SetMode(FlightMode::Land));
     bench.run(20.0, |_| ());
     assert_eq!(bench.autopilot.status().fence.count, 1, "a landing is no breach");
 }

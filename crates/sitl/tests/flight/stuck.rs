@@ -2,8 +2,8 @@
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::time::SimTime;
-use spandrel_sitl::autopilot::{Landed, Mode, Request};
-use spandrel_sitl::faults::{Kind, Unit};
+use spandrel_sitl::autopilot::{AutopilotRequest, FlightMode, LandedState};
+use spandrel_sitl::faults::{FailureType, FailureUnit};
 use spandrel_sitl::sensors::Readings;
 use spandrel_testkit::bench::{Bench, VEHICLES};
 use spandrel_testkit::shipped::vehicle;
@@ -14,7 +14,7 @@ const HEIGHT_M: f64 = 2.5;
 const PLACE_M: f64 = 2.5;
 
 fn go(bench: &mut Bench, north: f64, east: f64, up: f64) {
-    bench.ask(Request::GoTo { north_east_m: Some((north, east)), up_m: Some(up), yaw_rad: None, speed_m_s: None });
+    bench.ask(AutopilotRequest::GoTo { north_east_m: Some((north, east)), up_m: Some(up), yaw_rad: None, speed_m_s: None });
 }
 
 fn said(bench: &mut Bench) -> Vec<String> {
@@ -22,7 +22,7 @@ fn said(bench: &mut Bench) -> Vec<String> {
 }
 
 /// Flies a square with the fault from its first leg on, then lands; the largest distance from where it should be, horizontal and up, m.
-fn square(name: &str, unit: Unit, kind: Kind) -> (f64, f64, Vec<String>) {
+fn square(name: &str, unit: FailureUnit, kind: FailureType) -> (f64, f64, Vec<String>) {
     let mut bench = Bench::airborne(&vehicle(name), 21, 5.0);
     said(&mut bench);
     let (mut flat, mut up): (f64, f64) = (0.0, 0.0);
@@ -36,10 +36,14 @@ fn square(name: &str, unit: Unit, kind: Kind) -> (f64, f64, Vec<String>) {
         let off = bench.position() - Vec3::new(n, e, -height);
         (flat, up) = (flat.max(off.horizontal_norm()), up.max(off.down().abs()));
     }
-    bench.ask(Request::Land);
+    bench.ask(AutopilotRequest::Land);
     bench.run(30.0, |_| ());
     let status = bench.autopilot.status();
-    assert!(!status.armed && status.landed == Landed::OnGround, "{name}, {unit:?} {kind:?}: {status:?} {:?}", bench.position());
+    assert!(
+        !status.armed && status.landed == LandedState::OnGround,
+        "{name}, {unit:?} {kind:?}: {status:?} {:?}",
+        bench.position()
+    );
     let texts = said(&mut bench);
     (flat, up, texts)
 }
@@ -51,14 +55,14 @@ fn regress_a_barometer_stuck_in_a_climb_is_announced_and_the_climb_ends_where_it
         said(&mut bench);
         go(&mut bench, 0.0, 0.0, 12.0);
         bench.run(1.5, |_| ());
-        assert!(bench.faults.inject(Unit::Barometer, Some(Kind::Stuck), 0, 4));
+        assert!(bench.faults.inject(FailureUnit::Barometer, Some(FailureType::Stuck), 0, 4));
         let mut highest: f64 = 0.0;
         bench.run(60.0, |b| highest = highest.max(-b.position().down()));
         let texts = said(&mut bench);
         assert!((highest - 12.0).abs() < HEIGHT_M && (bench.position().down() + 12.0).abs() < HEIGHT_M, "{name}: {highest} m");
         assert!(texts.iter().any(|text| text.contains("Barometer stuck")), "{name}: {texts:?}");
-        assert_eq!(bench.autopilot.status().mode, Mode::Hold, "{name}");
-        assert!(bench.faults.inject(Unit::Barometer, None, 0, 4));
+        assert_eq!(bench.autopilot.status().mode, FlightMode::Hold, "{name}");
+        assert!(bench.faults.inject(FailureUnit::Barometer, None, 0, 4));
         bench.run(10.0, |_| ());
         let texts = said(&mut bench);
         assert!(texts.iter().any(|text| text.contains("Barometer is back")), "{name}: {texts:?}");
@@ -69,8 +73,10 @@ fn regress_a_barometer_stuck_in_a_climb_is_announced_and_the_climb_ends_where_it
 #[test]
 fn regress_a_stuck_sensor_is_announced_dropped_and_survived() {
     for name in VEHICLES {
-        for (unit, text) in [(Unit::Barometer, "Barometer"), (Unit::Magnetometer, "Compass"), (Unit::Gnss, "GNSS")] {
-            let (flat, up, texts) = square(name, unit, Kind::Stuck);
+        for (unit, text) in
+            [(FailureUnit::Barometer, "Barometer"), (FailureUnit::Magnetometer, "Compass"), (FailureUnit::Gnss, "GNSS")]
+        {
+            let (flat, up, texts) = square(name, unit, FailureType::Stuck);
             assert!(flat < PLACE_M && up < HEIGHT_M, "{name}, {unit:?}: {flat} m off, {up} m in height");
             assert!(texts.iter().any(|t| t.contains(&format!("{text} stuck"))), "{name}, {unit:?}: {texts:?}");
         }
@@ -81,11 +87,11 @@ fn regress_a_stuck_sensor_is_announced_dropped_and_survived() {
 fn regress_a_sensor_that_contradicts_the_others_is_announced_dropped_and_survived() {
     for name in VEHICLES {
         for (unit, kind, text) in [
-            (Unit::Barometer, Kind::Wrong, "Barometer"),
-            (Unit::Barometer, Kind::Garbage, "Barometer"),
-            (Unit::Magnetometer, Kind::Wrong, "Compass"),
-            (Unit::Magnetometer, Kind::Garbage, "Compass"),
-            (Unit::Gnss, Kind::Garbage, "GNSS"),
+            (FailureUnit::Barometer, FailureType::Wrong, "Barometer"),
+            (FailureUnit::Barometer, FailureType::Garbage, "Barometer"),
+            (FailureUnit::Magnetometer, FailureType::Wrong, "Compass"),
+            (FailureUnit::Magnetometer, FailureType::Garbage, "Compass"),
+            (FailureUnit::Gnss, FailureType::Garbage, "GNSS"),
         ] {
             let (flat, up, texts) = square(name, unit, kind);
             assert!(flat < PLACE_M && up < HEIGHT_M, "{name}, {unit:?} {kind:?}: {flat} m off, {up} m in height");
@@ -138,7 +144,7 @@ fn regress_a_height_that_creeps_away_is_not_flown() {
 /// Once the sensors agree that the receiver has jumped for good, the position is set to it and announced; a vehicle that a pilot holds in place
 /// stays there. With optical flow as a witness nothing is reset.
 #[test]
-fn regress_a_steady_jump_of_the_receiver_resets_the_position_and_says_so() {
+fn regress_a_steady_jump_of_the_receiver_resets_the_position_and_reports_it() {
     // m: it drifts by its inertial sensors alone while the receiver is refused.
     const DRIFTED_M: f64 = 4.0;
     for name in VEHICLES {
@@ -148,7 +154,7 @@ fn regress_a_steady_jump_of_the_receiver_resets_the_position_and_says_so() {
             bench.run(3.0, |_| ());
             said(&mut bench);
             let before = bench.position();
-            assert!(bench.faults.inject(Unit::Gnss, Some(Kind::Wrong), 0, 4));
+            assert!(bench.faults.inject(FailureUnit::Gnss, Some(FailureType::Wrong), 0, 4));
             bench.run(2.0, |_| ());
             assert_eq!(bench.autopilot.status().position_resets, 0, "{name}: single fixes are refused");
             let mut farthest: f64 = 0.0;

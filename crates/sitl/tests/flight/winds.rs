@@ -68,9 +68,9 @@ fn pass(station: &mut Station, pad_m: Vec3<Enu>, time: SimTime, flown: &mut Flow
 
 /// The armed flag of the next heartbeat.
 fn armed(station: &mut Station) -> bool {
-    station.heard.clear();
+    station.received.clear();
     station.run_ms(1_000);
-    let beat = station.last(|m| match m {
+    let beat = station.last_message(|m| match m {
         MavMessage::HEARTBEAT(beat) if beat.custom_mode != 0 => Some(beat.base_mode),
         _ => None,
     });

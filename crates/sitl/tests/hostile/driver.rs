@@ -1,11 +1,11 @@
 //! Feeds datagrams to a vehicle and looks for what must never happen.
 
 use super::mutate;
-use spandrel_mavlink::codec::{Decoder, Encoder, Received};
+use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
 use spandrel_mavlink::dialect::*;
 use spandrel_model::random::RandomStream;
 use spandrel_model::time::SimTime;
-use spandrel_sitl::endpoint::files::job::{Action, Done, Entry, FileError};
+use spandrel_sitl::endpoint::files::job::{DirectoryEntry, FileAction, FileError, FileJobResult};
 use spandrel_sitl::endpoint::flavour::{ardupilot, px4};
 use spandrel_sitl::endpoint::{LinkId, LinkKind};
 use spandrel_sitl::sim::Sim;
@@ -36,7 +36,7 @@ pub struct Vehicle(pub Sim);
 impl Vehicle {
     pub fn new(mut sim: Sim) -> Self {
         sim.open_link(SIDECAR, LinkKind::Payload, false);
-        sim.serve_files();
+        sim.enable_file_jobs();
         Self(sim)
     }
 
@@ -45,15 +45,15 @@ impl Vehicle {
         while let Some(job) = self.0.poll_file_job() {
             let outcome = match (job.ticket % 5, job.action) {
                 (0, _) => Err(FileError::Other),
-                (_, Action::List(_)) => Ok(Done::Entries(vec![
-                    Entry::Directory("d".repeat(300)),
-                    Entry::File("\u{fffd}\t\0".into(), u64::MAX),
-                    Entry::File(String::new(), 0),
+                (_, FileAction::List(_)) => Ok(FileJobResult::Entries(vec![
+                    DirectoryEntry::Directory("d".repeat(300)),
+                    DirectoryEntry::File("\u{fffd}\t\0".into(), u64::MAX),
+                    DirectoryEntry::File(String::new(), 0),
                 ])),
-                (_, Action::Read(_, _, most)) => Ok(Done::Bytes(vec![7; most.min(40_000) as usize])),
-                (_, Action::Size(_)) => Ok(Done::Size(u32::MAX)),
-                (_, Action::Checksum { from, .. }) => Ok(Done::Checksum { sum: u32::MAX, bytes: from ^ u32::MAX }),
-                _ => Ok(Done::Nothing),
+                (_, FileAction::Read(_, _, most)) => Ok(FileJobResult::Bytes(vec![7; most.min(40_000) as usize])),
+                (_, FileAction::Size(_)) => Ok(FileJobResult::Size(u32::MAX)),
+                (_, FileAction::Checksum { from, .. }) => Ok(FileJobResult::Checksum { sum: u32::MAX, bytes: from ^ u32::MAX }),
+                _ => Ok(FileJobResult::Nothing),
             };
             self.0.file_job_done(job.ticket, outcome);
         }
@@ -176,7 +176,7 @@ impl Driver<'_> {
         Ok(count)
     }
 
-    fn note(&mut self, frame: &Received) {
+    fn note(&mut self, frame: &ReceivedFrame) {
         let depth = &mut self.depth;
         *depth.answers.entry(frame.message_id).or_default() += 1;
         match &frame.message {

@@ -1,8 +1,8 @@
 //! Answers of a group: counted by question, and against what was measured.
 
-use super::Runs;
-use crate::questionnaire::{Aspect, Item, Overall, Phase, STRONGLY_AGREE, STRONGLY_DISAGREE};
-use crate::record::Record;
+use super::SessionsByTrainee;
+use crate::questionnaire::{InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE};
+use crate::record::SessionRecord;
 use crate::statistics::{Correlation, quantile, spearman};
 use serde::Serialize;
 
@@ -59,20 +59,20 @@ pub struct Contradiction {
     pub words: String,
 }
 
-pub fn likert(firsts: &[&Record], group: &Runs<'_>, repetitions: usize) -> Vec<Likert> {
+pub fn likert(firsts: &[&SessionRecord], group: &SessionsByTrainee<'_>, repetitions: usize) -> Vec<Likert> {
     let mut rows = count(firsts, None);
     for k in 0..repetitions {
-        let records: Vec<&Record> = group.values().map(|sessions| sessions[k]).collect();
+        let records: Vec<&SessionRecord> = group.values().map(|sessions| sessions[k]).collect();
         rows.extend(count(&records, Some(k + 1)));
     }
     rows
 }
 
-fn count(records: &[&Record], repetition: Option<usize>) -> Vec<Likert> {
+fn count(records: &[&SessionRecord], repetition: Option<usize>) -> Vec<Likert> {
     let mut tasks: Vec<u32> = records.iter().flat_map(|record| record.task_ids()).collect();
     tasks.sort_unstable();
     tasks.dedup();
-    let row = |item: Item| {
+    let row = |item: QuestionnaireItem| {
         let mut counts = [0; 5];
         for answer in records.iter().filter_map(|record| record.answers.as_ref()?.given.get(&item)) {
             counts[usize::from((*answer).clamp(STRONGLY_AGREE, STRONGLY_DISAGREE) - STRONGLY_AGREE)] += 1;
@@ -81,16 +81,16 @@ fn count(records: &[&Record], repetition: Option<usize>) -> Vec<Likert> {
         let agreeing: usize = counts[..usize::from(AGREE)].iter().sum();
         (n > 0).then(|| Likert { question: item.to_string(), repetition, counts, n, agree: agreeing as f64 / n as f64 })
     };
-    Item::all(&tasks).into_iter().filter_map(row).collect()
+    QuestionnaireItem::all(&tasks).into_iter().filter_map(row).collect()
 }
 
 /// Overall as a share of what could be had, %.
-pub fn measured_pct(record: &Record) -> f64 {
+pub fn measured_pct(record: &SessionRecord) -> f64 {
     100.0 * record.scores.overall / record.scores.overall_max
 }
 
-pub fn self_rating(firsts: &[&Record]) -> SelfRating {
-    let pair = |record: &&Record| {
+pub fn self_rating(firsts: &[&SessionRecord]) -> SelfRating {
+    let pair = |record: &&SessionRecord| {
         let self_rating = record.scales()?.self_rating?;
         Some(SelfRatingPair { trainee: record.trainee.clone(), self_rating, measured_pct: measured_pct(record) })
     };
@@ -107,9 +107,9 @@ pub fn self_rating(firsts: &[&Record]) -> SelfRating {
     }
 }
 
-fn of_task(firsts: &[&Record], id: u32) -> Option<Correlation> {
-    let pair = |record: &&Record| {
-        let answer = given(record, Item::Phase(Phase::Task(id), Aspect::Performance))?;
+fn of_task(firsts: &[&SessionRecord], id: u32) -> Option<Correlation> {
+    let pair = |record: &&SessionRecord| {
+        let answer = answer_value(record, QuestionnaireItem::Phase(InspectionPhase::Task(id), PhaseAspect::Performance))?;
         let task = record.tasks.iter().find(|task| task.id == id)?;
         Some((f64::from(STRONGLY_AGREE + STRONGLY_DISAGREE - answer), task.on_path))
     };
@@ -117,13 +117,13 @@ fn of_task(firsts: &[&Record], id: u32) -> Option<Correlation> {
     spearman(&own, &measured).ok()
 }
 
-fn given(record: &Record, item: Item) -> Option<u8> {
+fn answer_value(record: &SessionRecord, item: QuestionnaireItem) -> Option<u8> {
     record.answers.as_ref()?.given.get(&item).copied()
 }
 
 /// As the paper's examples: thinks well of a flight among the poorest quarter, or not of one among the best; without time pressure
 /// among the slowest, or with it among the quickest.
-fn contradictions(firsts: &[&Record], people: &[SelfRatingPair]) -> Vec<Contradiction> {
+fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<Contradiction> {
     let mut found = Vec::new();
     let ends = |mut values: Vec<f64>| {
         values.sort_by(f64::total_cmp);
@@ -144,7 +144,7 @@ fn contradictions(firsts: &[&Record], people: &[SelfRatingPair]) -> Vec<Contradi
     }
     if let Some((quick, slow)) = ends(firsts.iter().map(|record| record.seconds).collect()) {
         for record in firsts {
-            let Some(answer) = given(record, Item::Overall(Overall::TimePressure)) else { continue };
+            let Some(answer) = answer_value(record, QuestionnaireItem::Overall(OverallItem::TimePressure)) else { continue };
             let minutes = record.seconds / 60.0;
             let words = if answer <= AGREE && record.seconds > slow {
                 format!("felt no time pressure; flew {minutes:.1} min, among the slowest quarter")

@@ -3,7 +3,7 @@
 //! moderated mediation).
 
 use super::answers::measured_pct;
-use crate::record::Record;
+use crate::record::SessionRecord;
 use crate::statistics::{Regression, least_squares, mean, quantile, sd, solve};
 use serde::Serialize;
 use spandrel_model::random::RandomStream;
@@ -23,7 +23,7 @@ const SCALE: [f64; 2] = [1.0, 5.0];
 
 /// The model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Causal {
+pub struct MediationModel {
     /// People with whole answers.
     pub n: usize,
     /// Strain on demand, feedback and their product; demand and feedback about their means.
@@ -32,16 +32,16 @@ pub struct Causal {
     pub performance: Regression,
     /// Points of performance per step of demand through strain: where feedback helped little (a standard deviation below the mean), at
     /// the mean, where it helped much (a standard deviation above); never beyond the scale of answers.
-    pub indirect: [Indirect; 3],
+    pub indirect: [IndirectEffect; 3],
     /// How much that effect changes per step of feedback: the moderation itself.
-    pub moderation: Indirect,
+    pub moderation: IndirectEffect,
     /// Draws that could be estimated.
     pub resamples: usize,
 }
 
 /// An effect with its interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Indirect {
+pub struct IndirectEffect {
     /// Feedback at which it holds, 1 to 5; for the moderation its mean.
     pub feedback: f64,
     /// Estimate.
@@ -50,7 +50,7 @@ pub struct Indirect {
     pub interval_95: Option<[f64; 2]>,
 }
 
-struct Person {
+struct PersonRow {
     demand: f64,
     strain: f64,
     feedback: f64,
@@ -58,8 +58,8 @@ struct Person {
 }
 
 /// Estimates the model; what stands against it is added to the warnings.
-pub fn causal(firsts: &[&Record], warnings: &mut Vec<String>) -> Option<Causal> {
-    let people: Vec<Person> = firsts.iter().filter_map(|record| person(record)).collect();
+pub fn causal(firsts: &[&SessionRecord], warnings: &mut Vec<String>) -> Option<MediationModel> {
+    let people: Vec<PersonRow> = firsts.iter().filter_map(|record| person(record)).collect();
     let n = people.len();
     if n < SENSIBLE_N {
         warnings.push(format!(
@@ -76,14 +76,14 @@ pub fn causal(firsts: &[&Record], warnings: &mut Vec<String>) -> Option<Causal> 
     }
 }
 
-fn person(record: &Record) -> Option<Person> {
+fn person(record: &SessionRecord) -> Option<PersonRow> {
     let scales = record.scales()?;
     let (demand, strain, feedback) = (scales.demand?, scales.strain?, scales.feedback?);
-    Some(Person { demand, strain, feedback, performance: measured_pct(record) })
+    Some(PersonRow { demand, strain, feedback, performance: measured_pct(record) })
 }
 
-fn estimate(people: &[Person]) -> Result<Causal, String> {
-    let column = |pick: fn(&Person) -> f64| people.iter().map(pick).collect::<Vec<f64>>();
+fn estimate(people: &[PersonRow]) -> Result<MediationModel, String> {
+    let column = |pick: fn(&PersonRow) -> f64| people.iter().map(pick).collect::<Vec<f64>>();
     let about_mean = |values: Vec<f64>| {
         let middle = mean(&values).unwrap_or_default();
         values.into_iter().map(|value| value - middle).collect::<Vec<f64>>()
@@ -104,17 +104,24 @@ fn estimate(people: &[Person]) -> Result<Causal, String> {
     let second_rows: Vec<[f64; 2]> = (0..people.len()).map(|k| [strain[k], demand[k]]).collect();
     let drawn = resample(&rows, &strain, &second_rows, &performance);
     let places = [-spread, 0.0, spread].map(|at| at.clamp(SCALE[0] - middle, SCALE[1] - middle));
-    let indirect = places.map(|at| Indirect {
+    let indirect = places.map(|at| IndirectEffect {
         feedback: middle + at,
         effect: (a[1] + a[3] * at) * b[1],
         interval_95: interval(drawn.iter().map(|(own, moderated)| own + moderated * at).collect()),
     });
-    let moderation = Indirect {
+    let moderation = IndirectEffect {
         feedback: middle,
         effect: a[3] * b[1],
         interval_95: interval(drawn.iter().map(|(_, moderated)| *moderated).collect()),
     };
-    Ok(Causal { n: people.len(), strain: on_strain, performance: on_performance, indirect, moderation, resamples: drawn.len() })
+    Ok(MediationModel {
+        n: people.len(),
+        strain: on_strain,
+        performance: on_performance,
+        indirect,
+        moderation,
+        resamples: drawn.len(),
+    })
 }
 
 /// Of each draw the indirect effect at the mean feedback, and its change per step of feedback.

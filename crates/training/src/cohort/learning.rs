@@ -1,6 +1,6 @@
 //! The group's learning curve: of each score the mean over those who flew often enough, and the curve through it.
 
-use super::progress::Progress;
+use super::progress::TraineeProgress;
 use super::{SCORES, progress::Repetition};
 use crate::statistics::{LEARNING_NEEDS, LearningCurve, learning_curve, mean};
 use serde::Serialize;
@@ -20,12 +20,12 @@ pub struct GroupCurve {
 }
 
 /// The curves of those who flew at least [`LEARNING_NEEDS`] times; none when nobody did.
-pub fn learning(progress: &[Progress]) -> Vec<GroupCurve> {
+pub fn learning(progress: &[TraineeProgress]) -> Vec<GroupCurve> {
     SCORES.into_iter().filter_map(|(score, _)| of_score(score, progress)).collect()
 }
 
-fn of_score(score: &str, progress: &[Progress]) -> Option<GroupCurve> {
-    let values = |one: &Progress| one.repetitions.iter().map(|repetition: &Repetition| repetition.score(score)).collect();
+fn of_score(score: &str, progress: &[TraineeProgress]) -> Option<GroupCurve> {
+    let values = |one: &TraineeProgress| one.repetitions.iter().map(|repetition: &Repetition| repetition.score(score)).collect();
     let often = progress.iter().filter(|one| one.repetitions.len() >= LEARNING_NEEDS);
     let people: Vec<Vec<f64>> = often.filter_map(values).collect();
     let shared = people.iter().map(Vec::len).min()?;

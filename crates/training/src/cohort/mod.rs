@@ -10,13 +10,13 @@ mod scores;
 mod tables;
 
 pub use answers::{Contradiction, Likert, SelfRating, SelfRatingPair};
-pub use causal::{Causal, Indirect, SENSIBLE_N};
+pub use causal::{IndirectEffect, MediationModel, SENSIBLE_N};
 pub use learning::GroupCurve;
-pub use progress::{Curve, OnJob, Progress, Repetition, by_job};
+pub use progress::{JobProgress, Repetition, ScoreCurve, TraineeProgress, by_job};
 pub use scores::{Comparison, CrashRow, CrashTable, Distribution, GroupTest, Individual, RepetitionBox, TaskShare};
 pub use tables::{TABLES, table, tables};
 
-use super::record::{Incomplete, Record};
+use super::record::{IncompletePolicy, SessionRecord};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -32,7 +32,7 @@ pub struct Selection {
     /// Repetitions that are compared.
     pub repetitions: usize,
     /// Whether incomplete sessions count.
-    pub incomplete: Incomplete,
+    pub incomplete: IncompletePolicy,
 }
 
 /// Everything.
@@ -67,9 +67,9 @@ pub struct Cohort {
     /// What people think of their flight against what was measured.
     pub self_rating: SelfRating,
     /// Demand, state, performance, with feedback as moderator; absent when it cannot be estimated.
-    pub causal: Option<Causal>,
+    pub causal: Option<MediationModel>,
     /// Each person over the repetitions.
-    pub progress: Vec<Progress>,
+    pub progress: Vec<TraineeProgress>,
     /// Learning curves of those who flew often enough for one, together; empty when nobody did.
     pub learning: Vec<GroupCurve>,
     /// What to keep in mind.
@@ -77,37 +77,38 @@ pub struct Cohort {
 }
 
 /// A score by name.
-pub(super) type Pick = fn(&Record) -> Option<f64>;
+pub(super) type ScorePicker = fn(&SessionRecord) -> Option<f64>;
 
 /// The five scores.
-pub(super) const SCORES: [(&str, Pick); 5] = [
+pub(super) const SCORES: [(&str, ScorePicker); 5] = [
     ("conformity", |record| record.scores.conformity),
     ("efficiency", |record| Some(record.scores.efficiency)),
     ("safety", |record| Some(record.scores.safety)),
     ("accuracy", |record| record.scores.accuracy),
     OVERALL,
 ];
-const OVERALL: (&str, Pick) = ("overall", |record| Some(record.scores.overall));
+const OVERALL: (&str, ScorePicker) = ("overall", |record| Some(record.scores.overall));
 
 /// Sessions of each trainee on the job, in their order.
-pub(super) type Runs<'a> = BTreeMap<&'a str, Vec<&'a Record>>;
+pub(super) type SessionsByTrainee<'a> = BTreeMap<&'a str, Vec<&'a SessionRecord>>;
 
 /// Works everything out.
 #[must_use]
-pub fn cohort(records: &[Record], selection: &Selection) -> Cohort {
+pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
     let scenarios = scenarios(records, selection);
     let on_job = records.iter().filter(|record| scenarios.contains(&record.scenario));
-    let (counted, left_out): (Vec<&Record>, Vec<&Record>) = on_job.partition(|record| selection.incomplete.counts(record));
-    let mut runs = Runs::new();
+    let (counted, left_out): (Vec<&SessionRecord>, Vec<&SessionRecord>) =
+        on_job.partition(|record| selection.incomplete.counts(record));
+    let mut runs = SessionsByTrainee::new();
     for record in counted {
         runs.entry(&record.trainee).or_default().push(record);
     }
     for sessions in runs.values_mut() {
         sessions.sort_by(|a, b| (a.started_unix_us, &a.id).cmp(&(b.started_unix_us, &b.id)));
     }
-    let firsts: Vec<&Record> = runs.values().filter_map(|sessions| sessions.first().copied()).collect();
+    let firsts: Vec<&SessionRecord> = runs.values().filter_map(|sessions| sessions.first().copied()).collect();
     let repetitions = selection.repetitions.max(1);
-    let group: Runs<'_> =
+    let group: SessionsByTrainee<'_> =
         runs.iter().filter(|(_, sessions)| sessions.len() >= repetitions).map(|(k, v)| (*k, v.clone())).collect();
     let mut warnings = Vec::new();
     let causal = causal::causal(&firsts, &mut warnings);
@@ -117,7 +118,7 @@ pub fn cohort(records: &[Record], selection: &Selection) -> Cohort {
             group.len()
         ));
     }
-    let progress: Vec<Progress> = runs.iter().map(|(trainee, sessions)| progress::progress(trainee, sessions)).collect();
+    let progress: Vec<TraineeProgress> = runs.iter().map(|(trainee, sessions)| progress::progress(trainee, sessions)).collect();
     let homogeneity = scores::homogeneity_of(&firsts, &group, &mut warnings);
     Cohort {
         sessions: runs.values().map(Vec::len).sum(),
@@ -142,7 +143,7 @@ pub fn cohort(records: &[Record], selection: &Selection) -> Cohort {
 }
 
 /// The scenarios asked for, else the one flown most often (of several the first by name), by the sessions that count if there are any.
-fn scenarios(records: &[Record], selection: &Selection) -> Vec<String> {
+fn scenarios(records: &[SessionRecord], selection: &Selection) -> Vec<String> {
     if !selection.scenarios.is_empty() {
         return selection.scenarios.clone();
     }

@@ -1,20 +1,20 @@
 //! One trainee over the repetitions: the paper's figure of participant 18.
 
 use super::SCORES;
-use crate::record::{Crashes, Incomplete, Record};
+use crate::record::{Crashes, IncompletePolicy, SessionRecord};
 use crate::statistics::{LearningCurve, learning_curve};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// One trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Progress {
+pub struct TraineeProgress {
     /// Who.
     pub trainee: String,
     /// Sessions on the job in their order.
     pub repetitions: Vec<Repetition>,
     /// Learning curves of the scores, from four repetitions on.
-    pub curves: Vec<Curve>,
+    pub curves: Vec<ScoreCurve>,
 }
 
 /// One session.
@@ -46,7 +46,7 @@ pub struct Repetition {
 
 /// One score's curve.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Curve {
+pub struct ScoreCurve {
     /// Score.
     pub score: String,
     /// Its curve.
@@ -56,13 +56,13 @@ pub struct Curve {
 
 /// One trainee on one job: practice on a drill says nothing about practice on another job.
 #[derive(Debug, Clone, PartialEq)]
-pub struct OnJob {
+pub struct JobProgress {
     /// Scenario.
     pub scenario: String,
     /// Numbers and names of its tasks, as flown last.
     pub tasks: Vec<(u32, String)>,
     /// The sessions on it that count; perhaps none.
-    pub progress: Progress,
+    pub progress: TraineeProgress,
     /// Incomplete sessions on it that were left out.
     pub left_out: usize,
 }
@@ -84,12 +84,12 @@ impl Repetition {
 
 /// One trainee's sessions apart by scenario: the job with the most tasks first, then by name.
 #[must_use]
-pub fn by_job(records: &[Record], incomplete: Incomplete) -> Vec<OnJob> {
-    let mut jobs: BTreeMap<&str, Vec<&Record>> = BTreeMap::new();
+pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy) -> Vec<JobProgress> {
+    let mut jobs: BTreeMap<&str, Vec<&SessionRecord>> = BTreeMap::new();
     for record in records {
         jobs.entry(&record.scenario).or_default().push(record);
     }
-    let on_job = |(scenario, mut sessions): (&str, Vec<&Record>)| {
+    let on_job = |(scenario, mut sessions): (&str, Vec<&SessionRecord>)| {
         sessions.sort_by(|a, b| (a.started_unix_us, &a.id).cmp(&(b.started_unix_us, &b.id)));
         let last = sessions.last()?;
         let tasks = last.tasks.iter().map(|task| (task.id, task.name.clone())).collect();
@@ -97,27 +97,27 @@ pub fn by_job(records: &[Record], incomplete: Incomplete) -> Vec<OnJob> {
         let all = sessions.len();
         sessions.retain(|record| incomplete.counts(record));
         let left_out = all - sessions.len();
-        Some(OnJob { scenario: scenario.to_owned(), tasks, progress: progress(&trainee, &sessions), left_out })
+        Some(JobProgress { scenario: scenario.to_owned(), tasks, progress: progress(&trainee, &sessions), left_out })
     };
-    let mut found: Vec<OnJob> = jobs.into_iter().filter_map(on_job).collect();
+    let mut found: Vec<JobProgress> = jobs.into_iter().filter_map(on_job).collect();
     found.sort_by_key(|job| std::cmp::Reverse(job.tasks.len()));
     found
 }
 
 /// One trainee's sessions in their order.
-pub fn progress(trainee: &str, sessions: &[&Record]) -> Progress {
-    let curve = |(score, pick): (&str, super::Pick)| {
+pub fn progress(trainee: &str, sessions: &[&SessionRecord]) -> TraineeProgress {
+    let curve = |(score, pick): (&str, super::ScorePicker)| {
         let values: Option<Vec<f64>> = sessions.iter().map(|record| pick(record)).collect();
-        Some(Curve { score: score.to_owned(), curve: learning_curve(&values?).ok()? })
+        Some(ScoreCurve { score: score.to_owned(), curve: learning_curve(&values?).ok()? })
     };
-    Progress {
+    TraineeProgress {
         trainee: trainee.to_owned(),
         repetitions: sessions.iter().enumerate().map(|(k, record)| repetition(k + 1, record)).collect(),
         curves: SCORES.into_iter().filter_map(curve).collect(),
     }
 }
 
-fn repetition(number: usize, record: &Record) -> Repetition {
+fn repetition(number: usize, record: &SessionRecord) -> Repetition {
     Repetition {
         number,
         session: record.id.clone(),

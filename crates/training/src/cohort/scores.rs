@@ -1,9 +1,10 @@
 //! Scores of a group: distributions, people, crashes, repetitions and their tests.
 
-use super::{OVERALL, Pick, Runs, SCORES};
-use crate::record::{Crashes, Record};
+use super::{OVERALL, SCORES, ScorePicker, SessionsByTrainee};
+use crate::record::{Crashes, SessionRecord};
 use crate::statistics::{
-    Bin, BoxPlot, Homogeneity, Paired, Summary, Tails, box_plot, histogram, holm, homogeneity, paired_t, quantile, summary,
+    BoxPlot, HistogramBin, Homogeneity, PairedTest, SampleSummary, TailProbabilities, box_plot, histogram, holm, homogeneity,
+    paired_t, quantile, summary,
 };
 use serde::Serialize;
 
@@ -16,9 +17,9 @@ pub struct Distribution {
     /// Score.
     pub score: String,
     /// Its figures.
-    pub summary: Summary,
+    pub summary: SampleSummary,
     /// Bars over the score's whole range.
-    pub histogram: Vec<Bin>,
+    pub histogram: Vec<HistogramBin>,
 }
 
 /// One person's first session.
@@ -110,9 +111,9 @@ pub struct Comparison {
     pub later: usize,
     /// Later less earlier.
     #[serde(flatten)]
-    pub test: Paired,
+    pub test: PairedTest,
     /// p values after Holm's correction, each tail by itself; the four scores' comparisons are one family, the overall's another.
-    pub p_holm: Option<Tails>,
+    pub p_holm: Option<TailProbabilities>,
 }
 
 /// Whether the group's first sessions spread over low, middle and high as the others' do.
@@ -131,13 +132,13 @@ pub struct GroupTest {
     pub test: Homogeneity,
 }
 
-fn values(records: &[&Record], pick: Pick) -> Vec<f64> {
+fn values(records: &[&SessionRecord], pick: ScorePicker) -> Vec<f64> {
     records.iter().filter_map(|record| pick(record)).collect()
 }
 
-pub fn distributions(firsts: &[&Record]) -> Vec<Distribution> {
+pub fn distributions(firsts: &[&SessionRecord]) -> Vec<Distribution> {
     let most = |score: &str| if score == OVERALL.0 { 400.0 } else { 100.0 };
-    let one = |(score, pick): (&str, Pick)| {
+    let one = |(score, pick): (&str, ScorePicker)| {
         let values = values(firsts, pick);
         let histogram = histogram(&values, (0.0, most(score)), BARS);
         Some(Distribution { score: score.to_owned(), summary: summary(&values).ok()?, histogram })
@@ -145,7 +146,7 @@ pub fn distributions(firsts: &[&Record]) -> Vec<Distribution> {
     SCORES.into_iter().filter_map(one).collect()
 }
 
-pub fn individual(record: &Record) -> Individual {
+pub fn individual(record: &SessionRecord) -> Individual {
     let share = |task: &crate::record::TaskRecord| TaskShare {
         id: task.id,
         name: task.name.clone(),
@@ -167,11 +168,11 @@ pub fn individual(record: &Record) -> Individual {
     }
 }
 
-pub fn crash_table(firsts: &[&Record]) -> CrashTable {
+pub fn crash_table(firsts: &[&SessionRecord]) -> CrashTable {
     let mut tasks: Vec<u32> = firsts.iter().flat_map(|record| record.task_ids()).collect();
     tasks.sort_unstable();
     tasks.dedup();
-    let row = |record: &&Record| {
+    let row = |record: &&SessionRecord| {
         let in_task = |id: &u32| record.tasks.iter().find(|task| task.id == *id).map_or(0, |task| task.crashes.total());
         let by_task = tasks.iter().map(in_task).chain([record.crashes_outside.total()]).collect();
         CrashRow { trainee: record.trainee.clone(), by_task, total: record.crashes().total() }
@@ -179,18 +180,18 @@ pub fn crash_table(firsts: &[&Record]) -> CrashTable {
     let rows: Vec<CrashRow> = firsts.iter().map(row).collect();
     CrashTable {
         total: rows.iter().map(|row| row.total).sum(),
-        by_kind: firsts.iter().map(|record| record.crashes()).fold(Crashes::default(), Crashes::plus),
+        by_kind: firsts.iter().map(|record| record.crashes()).fold(Crashes::default(), Crashes::with_added),
         by_task: (0..=tasks.len()).map(|k| rows.iter().map(|row| row.by_task[k]).sum()).collect(),
         tasks,
         rows,
     }
 }
 
-pub fn boxes(group: &Runs<'_>, repetitions: usize) -> Vec<RepetitionBox> {
+pub fn boxes(group: &SessionsByTrainee<'_>, repetitions: usize) -> Vec<RepetitionBox> {
     let mut boxes = Vec::new();
     for (score, pick) in SCORES {
         for k in 0..repetitions {
-            let records: Vec<&Record> = group.values().map(|sessions| sessions[k]).collect();
+            let records: Vec<&SessionRecord> = group.values().map(|sessions| sessions[k]).collect();
             if let Ok(plot) = box_plot(&values(&records, pick)) {
                 boxes.push(RepetitionBox { score: score.to_owned(), repetition: k + 1, plot });
             }
@@ -199,7 +200,7 @@ pub fn boxes(group: &Runs<'_>, repetitions: usize) -> Vec<RepetitionBox> {
     boxes
 }
 
-pub fn comparisons(group: &Runs<'_>, repetitions: usize, warnings: &mut Vec<String>) -> Vec<Comparison> {
+pub fn comparisons(group: &SessionsByTrainee<'_>, repetitions: usize, warnings: &mut Vec<String>) -> Vec<Comparison> {
     let mut tests = Vec::new();
     for (score, pick) in SCORES {
         for later in 1..repetitions {
@@ -228,17 +229,17 @@ pub fn comparisons(group: &Runs<'_>, repetitions: usize, warnings: &mut Vec<Stri
 /// Holm's correction of one family, tail by tail.
 fn correct(mut family: Vec<&mut Comparison>) {
     family.retain(|test| test.test.p.is_some());
-    let tail = |pick: fn(&Tails) -> f64| {
+    let tail = |pick: fn(&TailProbabilities) -> f64| {
         let p: Vec<f64> = family.iter().filter_map(|test| test.test.p.as_ref()).map(pick).collect();
         holm(&p)
     };
     let (upper, lower, two) = (tail(|p| p.upper), tail(|p| p.lower), tail(|p| p.two));
     for (k, test) in family.into_iter().enumerate() {
-        test.p_holm = Some(Tails { upper: upper[k], lower: lower[k], two: two[k] });
+        test.p_holm = Some(TailProbabilities { upper: upper[k], lower: lower[k], two: two[k] });
     }
 }
 
-pub fn homogeneity_of(firsts: &[&Record], group: &Runs<'_>, warnings: &mut Vec<String>) -> Vec<GroupTest> {
+pub fn homogeneity_of(firsts: &[&SessionRecord], group: &SessionsByTrainee<'_>, warnings: &mut Vec<String>) -> Vec<GroupTest> {
     let mut tests = Vec::new();
     if group.is_empty() || group.len() == firsts.len() {
         return tests;

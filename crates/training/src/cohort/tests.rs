@@ -1,10 +1,10 @@
 use super::*;
-use crate::questionnaire::{Aspect, Item, Overall, Phase};
+use crate::questionnaire::{InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem};
 use crate::testing::{broken_off, faultless};
 use spandrel_model::random::RandomStream;
 
 /// 22 people, the first eight of them three times, with scores and answers by chance: demand raises strain, strain lowers safety.
-fn pilot() -> Vec<Record> {
+fn pilot() -> Vec<SessionRecord> {
     let mut stream = RandomStream::new(11, "made-up cohort");
     let mut records = Vec::new();
     for person in 0..22usize {
@@ -13,12 +13,14 @@ fn pilot() -> Vec<Record> {
             let demand = stream.range(1.0, 5.0);
             let strain = (0.7 * demand + stream.range(0.0, 1.5)).clamp(1.0, 5.0);
             let answers = record.answers.as_mut().unwrap();
-            for item in Item::all(&[1, 2, 3, 4]) {
+            for item in QuestionnaireItem::all(&[1, 2, 3, 4]) {
                 let value = match item {
-                    Item::Overall(Overall::TimePressure | Overall::Frustration) => strain,
-                    Item::Overall(Overall::Feedback) => stream.range(1.0, 3.4),
-                    Item::Phase(_, Aspect::Performance) => stream.range(1.0, 4.0),
-                    Item::Phase(_, Aspect::MentalDemand | Aspect::PhysicalDemand) => demand + stream.range(-0.5, 0.5),
+                    QuestionnaireItem::Overall(OverallItem::TimePressure | OverallItem::Frustration) => strain,
+                    QuestionnaireItem::Overall(OverallItem::Feedback) => stream.range(1.0, 3.4),
+                    QuestionnaireItem::Phase(_, PhaseAspect::Performance) => stream.range(1.0, 4.0),
+                    QuestionnaireItem::Phase(_, PhaseAspect::MentalDemand | PhaseAspect::PhysicalDemand) => {
+                        demand + stream.range(-0.5, 0.5)
+                    }
                 };
                 answers.given.insert(item, value.round().clamp(1.0, 5.0) as u8);
             }
@@ -34,8 +36,8 @@ fn pilot() -> Vec<Record> {
     records
 }
 
-fn worked(records: &[Record]) -> Cohort {
-    cohort(records, &Selection { scenarios: Vec::new(), repetitions: 3, incomplete: Incomplete::LeaveOut })
+fn worked(records: &[SessionRecord]) -> Cohort {
+    cohort(records, &Selection { scenarios: Vec::new(), repetitions: 3, incomplete: IncompletePolicy::LeaveOut })
 }
 
 #[test]
@@ -96,12 +98,12 @@ fn exact_the_causal_model_finds_what_made_the_data() {
 
 #[test]
 fn exact_contradictions_of_the_papers_kinds_are_found() {
-    let mut records: Vec<Record> = (0..8).map(|k| faultless(&format!("p{k}"), 1)).collect();
+    let mut records: Vec<SessionRecord> = (0..8).map(|k| faultless(&format!("p{k}"), 1)).collect();
     for (k, record) in records.iter_mut().enumerate() {
         record.scores.overall = 400.0 - 10.0 * k as f64;
         record.seconds = 800.0 + 50.0 * k as f64;
     }
-    records[0].answers.as_mut().unwrap().given.insert(Item::Overall(Overall::TimePressure), 4);
+    records[0].answers.as_mut().unwrap().given.insert(QuestionnaireItem::Overall(OverallItem::TimePressure), 4);
     let found = worked(&records).self_rating.contradictions;
     let of = |who: &str| found.iter().filter(|one| one.trainee == who).map(|one| one.words.as_str()).collect::<Vec<_>>();
     assert!(of("p0").iter().any(|words| words.starts_with("felt time pressure")));
@@ -112,7 +114,7 @@ fn exact_contradictions_of_the_papers_kinds_are_found() {
 
 #[test]
 fn exact_four_repetitions_make_a_learning_curve() {
-    let mut records: Vec<Record> = (1..=5).map(|k| faultless("anna", k)).collect();
+    let mut records: Vec<SessionRecord> = (1..=5).map(|k| faultless("anna", k)).collect();
     for (k, record) in records.iter_mut().enumerate() {
         record.scores.safety = 40.0 * spandrel_model::math::pow((k + 1) as f64, 0.4);
         record.scores.accuracy = None;
@@ -149,21 +151,21 @@ fn exact_the_groups_curve_goes_through_the_means_of_those_who_flew_often_enough(
 
 #[test]
 fn exact_one_trainees_jobs_are_kept_apart() {
-    let mut records: Vec<Record> = (1..=9).map(|k| faultless("anna", k)).collect();
+    let mut records: Vec<SessionRecord> = (1..=9).map(|k| faultless("anna", k)).collect();
     for record in records.iter_mut().step_by(2) {
         record.scenario = "drill-gap".into();
         record.tasks.truncate(1);
         record.scores.safety = 10.0;
     }
     records.reverse();
-    let jobs = by_job(&records, Incomplete::LeaveOut);
+    let jobs = by_job(&records, IncompletePolicy::LeaveOut);
     let told: Vec<(&str, usize, usize)> =
         jobs.iter().map(|job| (job.scenario.as_str(), job.tasks.len(), job.progress.repetitions.len())).collect();
     assert_eq!(told, [("two-bridges", 4, 4), ("drill-gap", 1, 5)], "the job before its drills");
     assert!(jobs[0].progress.repetitions.iter().all(|one| one.safety == 100.0));
     assert!(jobs[1].progress.repetitions.windows(2).all(|pair| pair[0].started_unix_us < pair[1].started_unix_us));
     assert_eq!((jobs[0].progress.curves.len(), jobs[1].progress.curves.len()), (5, 5));
-    assert!(by_job(&[], Incomplete::LeaveOut).is_empty());
+    assert!(by_job(&[], IncompletePolicy::LeaveOut).is_empty());
 }
 
 #[test]
@@ -192,18 +194,26 @@ fn exact_other_jobs_do_not_count_unless_asked_for() {
     drill.scenario = "drill-gap".into();
     records.push(drill);
     assert_eq!(worked(&records).sessions, 38);
-    let both =
-        Selection { scenarios: vec!["two-bridges".into(), "drill-gap".into()], repetitions: 3, incomplete: Incomplete::LeaveOut };
+    let both = Selection {
+        scenarios: vec!["two-bridges".into(), "drill-gap".into()],
+        repetitions: 3,
+        incomplete: IncompletePolicy::LeaveOut,
+    };
     assert_eq!(cohort(&records, &both).sessions, 39);
 }
 
 #[test]
 fn exact_a_task_is_rated_against_its_own_path() {
-    let mut records: Vec<Record> = (0..6).map(|k| faultless(&format!("p{k}"), 1)).collect();
+    let mut records: Vec<SessionRecord> = (0..6).map(|k| faultless(&format!("p{k}"), 1)).collect();
     for (k, record) in records.iter_mut().enumerate() {
         record.tasks[2].on_path = 0.3 + 0.1 * k as f64;
         let answer = 5 - (k as u8).min(4);
-        record.answers.as_mut().unwrap().given.insert(Item::Phase(Phase::Task(3), Aspect::Performance), answer);
+        record
+            .answers
+            .as_mut()
+            .unwrap()
+            .given
+            .insert(QuestionnaireItem::Phase(InspectionPhase::Task(3), PhaseAspect::Performance), answer);
     }
     let rating = worked(&records).self_rating;
     let third = rating.tasks.iter().find(|(id, _)| *id == 3).and_then(|(_, correlation)| *correlation).unwrap();
@@ -214,8 +224,8 @@ fn exact_a_task_is_rated_against_its_own_path() {
 #[test]
 fn regress_an_abort_is_no_first_session_unless_asked_for() {
     let records = vec![broken_off("anna", 1), faultless("anna", 2), faultless("ben", 1), broken_off("cleo", 1)];
-    let of = |incomplete: Incomplete| cohort(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete });
-    let (without, with) = (of(Incomplete::LeaveOut), of(Incomplete::Include));
+    let of = |incomplete: IncompletePolicy| cohort(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete });
+    let (without, with) = (of(IncompletePolicy::LeaveOut), of(IncompletePolicy::Include));
     assert_eq!((without.trainees, without.sessions, without.left_out), (2, 2, 2));
     assert_eq!(
         without.individuals.iter().map(|one| one.session.as_str()).collect::<Vec<_>>(),
@@ -224,16 +234,16 @@ fn regress_an_abort_is_no_first_session_unless_asked_for() {
     assert_eq!(without.progress[0].repetitions.len(), 1);
     assert_eq!((with.trainees, with.sessions, with.left_out), (3, 4, 0));
     assert_eq!(with.individuals[0].session, "session-anna-001");
-    let older = vec![Record { completion: None, ..faultless("anna", 1) }];
-    let older = cohort(&older, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: Incomplete::LeaveOut });
+    let older = vec![SessionRecord { completion: None, ..faultless("anna", 1) }];
+    let older = cohort(&older, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::LeaveOut });
     assert_eq!((older.sessions, older.left_out), (0, 1), "a record that does not say so is not taken for complete");
 }
 
 #[test]
 fn regress_learning_curves_leave_incomplete_sessions_out() {
-    let mut records: Vec<Record> = (1..=4).map(|k| faultless("anna", k)).collect();
+    let mut records: Vec<SessionRecord> = (1..=4).map(|k| faultless("anna", k)).collect();
     records.push(broken_off("anna", 5));
-    let (without, with) = (&by_job(&records, Incomplete::LeaveOut)[0], &by_job(&records, Incomplete::Include)[0]);
+    let (without, with) = (&by_job(&records, IncompletePolicy::LeaveOut)[0], &by_job(&records, IncompletePolicy::Include)[0]);
     assert_eq!((without.progress.repetitions.len(), without.left_out), (4, 1));
     assert_eq!((with.progress.repetitions.len(), with.left_out), (5, 0));
     assert!(without.progress.curves.iter().all(|curve| curve.curve.n == 4));

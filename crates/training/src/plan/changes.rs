@@ -1,6 +1,6 @@
 //! What changed since last time.
 
-use crate::record::Record;
+use crate::record::SessionRecord;
 use serde::Serialize;
 
 /// Smaller changes of a score are not worth a word, points.
@@ -8,16 +8,16 @@ const WORTH_A_WORD: f64 = 0.05;
 
 /// The newest session against the one before on the same job.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Changes {
+pub struct SessionChanges {
     /// Session compared with.
     pub since: String,
     /// What differs, scores first.
-    pub changes: Vec<Change>,
+    pub changes: Vec<MeasureChange>,
 }
 
 /// One measure, then and now.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Change {
+pub struct MeasureChange {
     /// What.
     pub what: String,
     /// Then.
@@ -29,14 +29,14 @@ pub struct Change {
 }
 
 /// Compares the newest record with the newest earlier one of its scenario.
-pub fn changes(records: &[Record]) -> Option<Changes> {
+pub fn changes(records: &[SessionRecord]) -> Option<SessionChanges> {
     let (last, earlier) = records.split_last()?;
     let before = earlier.iter().rev().find(|record| record.scenario == last.scenario)?;
     let mut changes = Vec::new();
     let mut add = |what: String, before: Option<f64>, now: Option<f64>, more_is_better: bool| {
         if let (Some(before), Some(now)) = (before, now) {
             let same = (now - before).abs() < WORTH_A_WORD;
-            changes.push(Change { what, before, now, better: (!same).then_some((now > before) == more_is_better) });
+            changes.push(MeasureChange { what, before, now, better: (!same).then_some((now > before) == more_is_better) });
         }
     };
     let (then, now) = (&before.scores, &last.scores);
@@ -57,5 +57,5 @@ pub fn changes(records: &[Record]) -> Option<Changes> {
             add(format!("crashes: {kind}"), Some(then as f64), Some(now as f64), false);
         }
     }
-    Some(Changes { since: before.id.clone(), changes })
+    Some(SessionChanges { since: before.id.clone(), changes })
 }

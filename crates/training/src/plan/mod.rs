@@ -4,12 +4,12 @@
 mod changes;
 mod rules;
 
-pub use changes::{Change, Changes};
-pub use rules::{Measure, RULES, Rule, Rules, read_rules};
+pub use changes::{MeasureChange, SessionChanges};
+pub use rules::{PlanRule, PlanRules, RULES, RuleMeasure, read_rules};
 
-use super::record::{Crashes, DefectRecord, Incomplete, Outcome, Record, TaskRecord};
+use super::record::{Crashes, DefectRecord, IncompletePolicy, SessionOutcome, SessionRecord, TaskRecord};
 use serde::Serialize;
-use spandrel_model::numbers::beside_limit;
+use spandrel_model::numbers::format_beside_limit;
 use std::cmp::Ordering;
 
 /// Condition state from which on a missed defect is severe: poor (AASHTO MBEI).
@@ -27,13 +27,13 @@ const MAINLY: f64 = 2.0;
 
 /// What to do next.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Plan {
+pub struct TrainingPlan {
     /// Who.
     pub trainee: String,
     /// Newest session, which the plan answers to.
     pub session: String,
     /// What to fly, the most urgent first; never empty.
-    pub steps: Vec<Step>,
+    pub steps: Vec<PlanStep>,
     /// Not before, µs since the Unix epoch.
     pub from_unix_us: u64,
     /// Not later than, µs since the Unix epoch.
@@ -41,25 +41,25 @@ pub struct Plan {
     /// The last flight is longer ago than skill lasts.
     pub overdue: bool,
     /// Against the session before on the same job, if there is one.
-    pub changes: Option<Changes>,
+    pub changes: Option<SessionChanges>,
     /// Incomplete sessions that were left out.
     pub left_out: usize,
 }
 
 /// One scenario to fly.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Step {
+pub struct PlanStep {
     /// Scenario.
     pub scenario: String,
     /// Sum over its rules of weight times value over limit.
     pub urgency: f64,
     /// Why, the most urgent first.
-    pub reasons: Vec<Reason>,
+    pub reasons: Vec<PlanReason>,
 }
 
 /// Why a scenario should be flown.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Reason {
+pub struct PlanReason {
     /// Rule.
     pub rule: String,
     /// Session that it looked at.
@@ -76,20 +76,20 @@ pub struct Reason {
 struct Finding<'a> {
     value: f64,
     task: Option<&'a TaskRecord>,
-    record: &'a Record,
+    record: &'a SessionRecord,
 }
 
 /// Plans for one trainee from his records in the order of their start; `None` without any.
 #[must_use]
-pub fn plan(records: &[Record], rules: &Rules, now_unix_us: u64) -> Option<Plan> {
+pub fn plan(records: &[SessionRecord], rules: &PlanRules, now_unix_us: u64) -> Option<TrainingPlan> {
     let last = records.last()?;
-    let mut found: Vec<(f64, &Rule, Finding<'_>)> = Vec::new();
+    let mut found: Vec<(f64, &PlanRule, Finding<'_>)> = Vec::new();
     for rule in &rules.rules {
         let over = findings(rule, records).into_iter().filter(|finding| finding.value > rule.limit);
         found.extend(over.map(|finding| (rule.weight * finding.value / rule.limit, rule, finding)));
     }
     found.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut steps: Vec<Step> = Vec::new();
+    let mut steps: Vec<PlanStep> = Vec::new();
     for (urgency, rule, finding) in &found {
         add(&mut steps, &rule.scenario, *urgency, reason(rule, finding));
     }
@@ -104,7 +104,7 @@ pub fn plan(records: &[Record], rules: &Rules, now_unix_us: u64) -> Option<Plan>
         steps.push(single(&rules.job, last, ("job", rules.job_reason.clone()), (0.0, 0.0)));
     }
     let after = |days: f64| last.started_unix_us.saturating_add((days * DAY_US) as u64);
-    Some(Plan {
+    Some(TrainingPlan {
         trainee: last.trainee.clone(),
         session: last.id.clone(),
         steps,
@@ -118,55 +118,64 @@ pub fn plan(records: &[Record], rules: &Rules, now_unix_us: u64) -> Option<Plan>
 
 /// The same from those sessions that count. Without one the plan is to fly the job.
 #[must_use]
-pub fn plan_counting(mut records: Vec<Record>, incomplete: Incomplete, rules: &Rules, now_unix_us: u64) -> Option<Plan> {
+pub fn plan_counting(
+    mut records: Vec<SessionRecord>,
+    incomplete: IncompletePolicy,
+    rules: &PlanRules,
+    now_unix_us: u64,
+) -> Option<TrainingPlan> {
     let newest = records.last()?.clone();
     let all = records.len();
     records.retain(|record| incomplete.counts(record));
     let left_out = all - records.len();
     if let Some(plan) = plan(&records, rules, now_unix_us) {
-        return Some(Plan { left_out, ..plan });
+        return Some(TrainingPlan { left_out, ..plan });
     }
-    let words = format!("No complete session yet. The last one: {}.", newest.headline());
+    let words = format!("No complete session yet. The last one: {}.", newest.completion_summary());
     let steps = vec![single(&rules.job, &newest, ("job", words), (0.0, 0.0))];
     let after = |days: f64| newest.started_unix_us.saturating_add((days * DAY_US) as u64);
     let (trainee, session) = (newest.trainee.clone(), newest.id.clone());
     let (from_unix_us, until_unix_us) = (newest.started_unix_us, after(rules.retention_days));
-    Some(Plan { trainee, session, steps, from_unix_us, until_unix_us, overdue: false, changes: None, left_out })
+    Some(TrainingPlan { trainee, session, steps, from_unix_us, until_unix_us, overdue: false, changes: None, left_out })
 }
 
-fn add(steps: &mut Vec<Step>, scenario: &str, urgency: f64, reason: Reason) {
+fn add(steps: &mut Vec<PlanStep>, scenario: &str, urgency: f64, reason: PlanReason) {
     match steps.iter_mut().find(|step| step.scenario == scenario) {
         Some(step) => {
             step.urgency += urgency;
             step.reasons.push(reason);
         }
-        None => steps.push(Step { scenario: scenario.to_owned(), urgency, reasons: vec![reason] }),
+        None => steps.push(PlanStep { scenario: scenario.to_owned(), urgency, reasons: vec![reason] }),
     }
 }
 
-fn single(scenario: &str, record: &Record, (rule, words): (&str, String), (value, limit): (f64, f64)) -> Step {
-    let reason = Reason { rule: rule.to_owned(), session: record.id.clone(), words, value, limit };
-    Step { scenario: scenario.to_owned(), urgency: 0.0, reasons: vec![reason] }
+fn single(scenario: &str, record: &SessionRecord, (rule, words): (&str, String), (value, limit): (f64, f64)) -> PlanStep {
+    let reason = PlanReason { rule: rule.to_owned(), session: record.id.clone(), words, value, limit };
+    PlanStep { scenario: scenario.to_owned(), urgency: 0.0, reasons: vec![reason] }
 }
 
 /// Values that a rule looks at: of tasks the newest flight of each, of whole sessions the newest that says something on it.
-fn findings<'a>(rule: &Rule, records: &'a [Record]) -> Vec<Finding<'a>> {
+fn findings<'a>(rule: &PlanRule, records: &'a [SessionRecord]) -> Vec<Finding<'a>> {
     match rule.measure {
-        Measure::OffPath | Measure::OffHeight | Measure::Speeding | Measure::Crashes | Measure::NotAttempted => {
+        RuleMeasure::OffPath
+        | RuleMeasure::OffHeight
+        | RuleMeasure::Speeding
+        | RuleMeasure::Crashes
+        | RuleMeasure::NotAttempted => {
             let fits = |task: &&TaskRecord| rule.task.is_none_or(|kind| task.kind == kind);
             let newest = newest_tasks(records).into_iter().filter(|(_, task)| fits(task));
             let of = |(record, task)| Some(Finding { value: of_task(rule, task)?, task: Some(task), record });
             newest.filter_map(of).collect()
         }
-        Measure::CrashesOutside
-        | Measure::CrashesAll
-        | Measure::Missed
-        | Measure::MissedSevere
-        | Measure::MissedInView
-        | Measure::FalseSnapshots
-        | Measure::Overtime
-        | Measure::NotLanded
-        | Measure::BatteryLow => {
+        RuleMeasure::CrashesOutside
+        | RuleMeasure::CrashesAll
+        | RuleMeasure::Missed
+        | RuleMeasure::MissedSevere
+        | RuleMeasure::MissedInView
+        | RuleMeasure::FalseSnapshots
+        | RuleMeasure::Overtime
+        | RuleMeasure::NotLanded
+        | RuleMeasure::BatteryLow => {
             let of = |record| Some(Finding { value: of_session(rule, record)?, task: None, record });
             records.iter().rev().find_map(of).into_iter().collect()
         }
@@ -174,11 +183,12 @@ fn findings<'a>(rule: &Rule, records: &'a [Record]) -> Vec<Finding<'a>> {
 }
 
 /// Of each task (by its kind, free ones by their name) the newest flight.
-fn newest_tasks(records: &[Record]) -> Vec<(&Record, &TaskRecord)> {
-    let mut newest: Vec<(&Record, &TaskRecord)> = Vec::new();
+fn newest_tasks(records: &[SessionRecord]) -> Vec<(&SessionRecord, &TaskRecord)> {
+    let mut newest: Vec<(&SessionRecord, &TaskRecord)> = Vec::new();
     for (record, task) in records.iter().rev().flat_map(|record| record.tasks.iter().map(move |task| (record, task))) {
-        let same =
-            |(_, other): &(&Record, &TaskRecord)| other.kind == task.kind && (task.kind != "free" || other.name == task.name);
+        let same = |(_, other): &(&SessionRecord, &TaskRecord)| {
+            other.kind == task.kind && (task.kind != "free" || other.name == task.name)
+        };
         // One session may fly two tasks of a kind: both count.
         if !newest.iter().any(|seen| same(seen) && seen.0.id != record.id) {
             newest.push((record, task));
@@ -187,58 +197,62 @@ fn newest_tasks(records: &[Record]) -> Vec<(&Record, &TaskRecord)> {
     newest
 }
 
-fn of_task(rule: &Rule, task: &TaskRecord) -> Option<f64> {
+fn of_task(rule: &PlanRule, task: &TaskRecord) -> Option<f64> {
     let flown = task.attempted.then_some(());
     match rule.measure {
-        Measure::OffPath => flown.map(|()| 1.0 - task.on_path),
-        Measure::OffHeight => task.off_height_m,
-        Measure::Speeding => flown.filter(|()| task.seconds > 0.0).map(|()| task.speeding_s / task.seconds),
-        Measure::Crashes => Some(count(rule, task.crashes)),
-        Measure::NotAttempted => Some(f64::from(u8::from(!task.attempted))),
-        Measure::CrashesOutside
-        | Measure::CrashesAll
-        | Measure::Missed
-        | Measure::MissedSevere
-        | Measure::MissedInView
-        | Measure::FalseSnapshots
-        | Measure::Overtime
-        | Measure::NotLanded
-        | Measure::BatteryLow => None,
+        RuleMeasure::OffPath => flown.map(|()| 1.0 - task.on_path),
+        RuleMeasure::OffHeight => task.off_height_m,
+        RuleMeasure::Speeding => flown.filter(|()| task.seconds > 0.0).map(|()| task.speeding_s / task.seconds),
+        RuleMeasure::Crashes => Some(count(rule, task.crashes)),
+        RuleMeasure::NotAttempted => Some(f64::from(u8::from(!task.attempted))),
+        RuleMeasure::CrashesOutside
+        | RuleMeasure::CrashesAll
+        | RuleMeasure::Missed
+        | RuleMeasure::MissedSevere
+        | RuleMeasure::MissedInView
+        | RuleMeasure::FalseSnapshots
+        | RuleMeasure::Overtime
+        | RuleMeasure::NotLanded
+        | RuleMeasure::BatteryLow => None,
     }
 }
 
-fn of_session(rule: &Rule, record: &Record) -> Option<f64> {
+fn of_session(rule: &PlanRule, record: &SessionRecord) -> Option<f64> {
     let yes = |is: bool| Some(f64::from(u8::from(is)));
     let share = |part: usize, whole: usize| (whole > 0).then(|| part as f64 / whole as f64);
     match rule.measure {
-        Measure::CrashesOutside => Some(count(rule, record.crashes_outside)),
-        Measure::CrashesAll => Some(count(rule, record.crashes())),
-        Measure::Missed => {
+        RuleMeasure::CrashesOutside => Some(count(rule, record.crashes_outside)),
+        RuleMeasure::CrashesAll => Some(count(rule, record.crashes())),
+        RuleMeasure::Missed => {
             let lacked = |lacked: &[String]| rule.lacked.is_empty() || lacked.iter().any(|word| word.starts_with(&rule.lacked));
             let missed = record.defects.iter().filter(|defect| !defect.found && lacked(&defect.lacked)).count();
             share(missed, record.defects.len())
         }
-        Measure::MissedSevere => Some(missed(rule, record).len() as f64),
-        Measure::MissedInView => {
+        RuleMeasure::MissedSevere => Some(missed(rule, record).len() as f64),
+        RuleMeasure::MissedInView => {
             let longest_s = missed(rule, record).iter().filter_map(|defect| defect.in_view_s).fold(0.0, f64::max);
             Some(longest_s)
         }
-        Measure::FalseSnapshots => share(record.snapshots - record.hits.min(record.snapshots), record.snapshots),
+        RuleMeasure::FalseSnapshots => share(record.snapshots - record.hits.min(record.snapshots), record.snapshots),
         // The score of 0 to 100 stands for -100 to 100 points; who ran out of battery has no points that tell the time.
-        Measure::Overtime => {
+        RuleMeasure::Overtime => {
             let points = 2.0 * record.scores.efficiency - 100.0;
             (!record.battery_failed).then(|| (100.0 - points) / EFFICIENCY_LOSS_PER_MIN)
         }
-        Measure::NotLanded => yes(record.end_reason != "landed"),
-        Measure::BatteryLow => yes(record.battery_at_end_pct < BATTERY_RESERVE_PCT),
-        Measure::OffPath | Measure::OffHeight | Measure::Speeding | Measure::Crashes | Measure::NotAttempted => None,
+        RuleMeasure::NotLanded => yes(record.end_reason != "landed"),
+        RuleMeasure::BatteryLow => yes(record.battery_at_end_pct < BATTERY_RESERVE_PCT),
+        RuleMeasure::OffPath
+        | RuleMeasure::OffHeight
+        | RuleMeasure::Speeding
+        | RuleMeasure::Crashes
+        | RuleMeasure::NotAttempted => None,
     }
 }
 
 /// The missed defects that a rule is about: the severe ones, or those that were in plain view; the gravest first.
-fn missed<'a>(rule: &Rule, record: &'a Record) -> Vec<&'a DefectRecord> {
+fn missed<'a>(rule: &PlanRule, record: &'a SessionRecord) -> Vec<&'a DefectRecord> {
     let about = |defect: &&DefectRecord| match rule.measure {
-        Measure::MissedInView => defect.in_view_s.is_some_and(|seconds| seconds > rule.limit),
+        RuleMeasure::MissedInView => defect.in_view_s.is_some_and(|seconds| seconds > rule.limit),
         _ => defect.condition_state >= SEVERE_STATE,
     };
     let mut missed: Vec<&DefectRecord> = record.defects.iter().filter(|defect| !defect.found).filter(about).collect();
@@ -251,7 +265,7 @@ fn missed<'a>(rule: &Rule, record: &'a Record) -> Vec<&'a DefectRecord> {
 }
 
 /// The same in words, at most [`DEFECTS_NAMED`] by name.
-fn missed_in_words(rule: &Rule, record: &Record) -> String {
+fn missed_summary(rule: &PlanRule, record: &SessionRecord) -> String {
     let missed = missed(rule, record);
     let name = |defect: &&DefectRecord| {
         format!("defect {} ({}, condition state {})", defect.id, defect.kind_name, defect.condition_state)
@@ -267,21 +281,21 @@ fn missed_in_words(rule: &Rule, record: &Record) -> String {
     }
 }
 
-fn count(rule: &Rule, crashes: Crashes) -> f64 {
+fn count(rule: &PlanRule, crashes: Crashes) -> f64 {
     let counted = crashes.by_kind().into_iter().filter(|(kind, _)| rule.with.is_none_or(|with| with == *kind));
     counted.map(|(_, count)| count as f64).sum()
 }
 
-fn reason(rule: &Rule, finding: &Finding<'_>) -> Reason {
+fn reason(rule: &PlanRule, finding: &Finding<'_>) -> PlanReason {
     let task = finding.task.map_or(String::new(), |task| task.name.clone());
     let fastest = finding.task.map_or(0.0, |task| task.fastest_m_s);
     let axis = finding.task.map_or("", axis);
-    let words = rule.reason.replace("{value}", &shown(rule.measure, finding.value, rule.limit));
-    let words = words.replace("{limit}", &shown(rule.measure, rule.limit, rule.limit));
-    let words = words.replace("{defects}", &missed_in_words(rule, finding.record));
+    let words = rule.reason.replace("{value}", &displayed_value(rule.measure, finding.value, rule.limit));
+    let words = words.replace("{limit}", &displayed_value(rule.measure, rule.limit, rule.limit));
+    let words = words.replace("{defects}", &missed_summary(rule, finding.record));
     // What a scenario's author wrote comes last, so that braces in it mean nothing.
     let words = words.replace("{axis}", axis).replace("{fastest}", &format!("{fastest:.1} m/s")).replace("{task}", &task);
-    Reason { rule: rule.name.clone(), session: finding.record.id.clone(), words, value: finding.value, limit: rule.limit }
+    PlanReason { rule: rule.name.clone(), session: finding.record.id.clone(), words, value: finding.value, limit: rule.limit }
 }
 
 /// In which direction a task was off its path.
@@ -295,21 +309,21 @@ fn axis(task: &TaskRecord) -> &'static str {
 }
 
 /// A value with the digits that show on which side of the limit it lies.
-fn shown(measure: Measure, value: f64, limit: f64) -> String {
+fn displayed_value(measure: RuleMeasure, value: f64, limit: f64) -> String {
     match measure {
-        Measure::OffPath | Measure::Speeding | Measure::Missed | Measure::FalseSnapshots => {
-            format!("{} %", beside_limit(100.0 * value, 100.0 * limit, 0))
+        RuleMeasure::OffPath | RuleMeasure::Speeding | RuleMeasure::Missed | RuleMeasure::FalseSnapshots => {
+            format!("{} %", format_beside_limit(100.0 * value, 100.0 * limit, 0))
         }
-        Measure::OffHeight => format!("{} m", beside_limit(value, limit, 1)),
-        Measure::Overtime => format!("{} min", beside_limit(value, limit, 1)),
-        Measure::MissedInView => format!("{} s", beside_limit(value, limit, 1)),
-        Measure::Crashes
-        | Measure::CrashesOutside
-        | Measure::CrashesAll
-        | Measure::NotAttempted
-        | Measure::MissedSevere
-        | Measure::NotLanded
-        | Measure::BatteryLow => format!("{value:.0}"),
+        RuleMeasure::OffHeight => format!("{} m", format_beside_limit(value, limit, 1)),
+        RuleMeasure::Overtime => format!("{} min", format_beside_limit(value, limit, 1)),
+        RuleMeasure::MissedInView => format!("{} s", format_beside_limit(value, limit, 1)),
+        RuleMeasure::Crashes
+        | RuleMeasure::CrashesOutside
+        | RuleMeasure::CrashesAll
+        | RuleMeasure::NotAttempted
+        | RuleMeasure::MissedSevere
+        | RuleMeasure::NotLanded
+        | RuleMeasure::BatteryLow => format!("{value:.0}"),
     }
 }
 

@@ -10,7 +10,7 @@ const FORMAT: i64 = 1;
 
 /// What a rule looks at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Measure {
+pub enum RuleMeasure {
     /// Share of a task's time off its path.
     OffPath,
     /// Mean vertical distance from a task's path while off it, m.
@@ -41,21 +41,21 @@ pub enum Measure {
     BatteryLow,
 }
 
-const MEASURES: &[(&str, Measure)] = &[
-    ("off_path", Measure::OffPath),
-    ("off_height", Measure::OffHeight),
-    ("speeding", Measure::Speeding),
-    ("crashes", Measure::Crashes),
-    ("crashes_outside", Measure::CrashesOutside),
-    ("crashes_all", Measure::CrashesAll),
-    ("not_attempted", Measure::NotAttempted),
-    ("missed", Measure::Missed),
-    ("missed_severe", Measure::MissedSevere),
-    ("missed_in_view", Measure::MissedInView),
-    ("false_snapshots", Measure::FalseSnapshots),
-    ("overtime", Measure::Overtime),
-    ("not_landed", Measure::NotLanded),
-    ("battery_low", Measure::BatteryLow),
+const MEASURES: &[(&str, RuleMeasure)] = &[
+    ("off_path", RuleMeasure::OffPath),
+    ("off_height", RuleMeasure::OffHeight),
+    ("speeding", RuleMeasure::Speeding),
+    ("crashes", RuleMeasure::Crashes),
+    ("crashes_outside", RuleMeasure::CrashesOutside),
+    ("crashes_all", RuleMeasure::CrashesAll),
+    ("not_attempted", RuleMeasure::NotAttempted),
+    ("missed", RuleMeasure::Missed),
+    ("missed_severe", RuleMeasure::MissedSevere),
+    ("missed_in_view", RuleMeasure::MissedInView),
+    ("false_snapshots", RuleMeasure::FalseSnapshots),
+    ("overtime", RuleMeasure::Overtime),
+    ("not_landed", RuleMeasure::NotLanded),
+    ("battery_low", RuleMeasure::BatteryLow),
 ];
 const TASKS: &[(&str, Option<&str>)] = &[
     ("any", None),
@@ -77,11 +77,11 @@ const WITH: &[(&str, Option<&str>)] = &[
 
 /// One rule.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Rule {
+pub struct PlanRule {
     /// Name, unique.
     pub name: String,
     /// What it looks at.
-    pub measure: Measure,
+    pub measure: RuleMeasure,
     /// Kind of task, or any.
     pub task: Option<&'static str>,
     /// What was hit, or anything.
@@ -100,7 +100,7 @@ pub struct Rule {
 
 /// All rules.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Rules {
+pub struct PlanRules {
     /// Longest pause, days.
     pub retention_days: f64,
     /// What to fly after a longer one.
@@ -116,14 +116,14 @@ pub struct Rules {
     /// Most scenarios that a plan names.
     pub steps: usize,
     /// The rules, in file order.
-    pub rules: Vec<Rule>,
+    pub rules: Vec<PlanRule>,
 }
 
 /// Reads rules.
 ///
 /// # Errors
 /// Everything that is wrong with the file.
-pub fn read_rules(file: &str, text: &str) -> Result<Rules, Problems> {
+pub fn read_rules(file: &str, text: &str) -> Result<PlanRules, Problems> {
     let mut reader = Reader::new(file, text);
     let rules = reader.parse().map(|document| {
         let mut root = reader.root(&document);
@@ -135,19 +135,19 @@ pub fn read_rules(file: &str, text: &str) -> Result<Rules, Problems> {
     }
 }
 
-fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Rules {
-    reader.whole(root, "format", (FORMAT, FORMAT), None);
-    let steps = reader.whole(root, "steps", (1, 20), Some(3));
-    let mut rules: Vec<Rule> = Vec::new();
+fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> PlanRules {
+    reader.integer(root, "format", (FORMAT, FORMAT), None);
+    let steps = reader.integer(root, "steps", (1, 20), Some(3));
+    let mut rules: Vec<PlanRule> = Vec::new();
     for mut section in reader.sections(root, "rules") {
         let rule = one(reader, &mut section);
         if rules.iter().any(|other| other.name == rule.name) {
-            reader.complain(&section, "name", &rule.name, "a name of its own", "two rules of one name");
+            reader.add_problem(&section, "name", &rule.name, "a name of its own", "two rules of one name");
         }
         reader.finish(&section);
         rules.push(rule);
     }
-    let rules = Rules {
+    let rules = PlanRules {
         retention_days: reader.number(root, "retention_days", (1.0, 3650.0), None),
         retention_scenario: reader.text(root, "retention_scenario", None),
         retention_reason: reader.text(root, "retention_reason", None),
@@ -161,8 +161,8 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Rules {
     rules
 }
 
-fn one(reader: &mut Reader<'_>, section: &mut Section<'_>) -> Rule {
-    Rule {
+fn one(reader: &mut Reader<'_>, section: &mut Section<'_>) -> PlanRule {
+    PlanRule {
         name: reader.text(section, "name", None),
         measure: reader.choice(section, "measure", MEASURES, None),
         task: reader.choice(section, "task", TASKS, Some(0)),
@@ -180,7 +180,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_shipped_rules_are_valid_and_a_wrong_one_is_told_by_line_and_key() {
+    fn exact_the_shipped_rules_are_valid_and_a_wrong_one_is_reported_by_line_and_key() {
         assert!(read_rules("rules.toml", RULES).unwrap().rules.len() > 20);
         let wrong =
             RULES.replacen("measure = \"off_path\"", "measure = \"elegance\"", 1).replacen("limit = 0.1\n", "limit = -1\n", 1);

@@ -3,12 +3,12 @@ use crate::testing::{broken_off, faultless};
 
 const NOW: u64 = 1_700_000_000_000_000 + 864_000_000_000;
 
-fn rules() -> Rules {
+fn rules() -> PlanRules {
     read_rules("rules.toml", RULES).unwrap()
 }
 
 /// Made just as bad as a rule looks for: `factor` times its limit.
-fn suffering(rule: &Rule, factor: f64) -> Record {
+fn suffering(rule: &PlanRule, factor: f64) -> SessionRecord {
     let mut record = faultless("anna", 1);
     let value = factor * rule.limit;
     // Counts: above a limit of one half is one, below it none.
@@ -26,13 +26,13 @@ fn suffering(rule: &Rule, factor: f64) -> Record {
     }
     let task = record.tasks.iter_mut().find(|task| rule.task.is_none_or(|kind| task.kind == kind)).unwrap();
     match rule.measure {
-        Measure::OffPath => task.on_path = 1.0 - value,
-        Measure::OffHeight => task.off_height_m = Some(value),
-        Measure::Speeding => task.speeding_s = value * task.seconds,
-        Measure::Crashes => task.crashes = crashes,
-        Measure::NotAttempted => task.attempted = count == 0,
-        Measure::CrashesOutside | Measure::CrashesAll => record.crashes_outside = crashes,
-        Measure::Missed => {
+        RuleMeasure::OffPath => task.on_path = 1.0 - value,
+        RuleMeasure::OffHeight => task.off_height_m = Some(value),
+        RuleMeasure::Speeding => task.speeding_s = value * task.seconds,
+        RuleMeasure::Crashes => task.crashes = crashes,
+        RuleMeasure::NotAttempted => task.attempted = count == 0,
+        RuleMeasure::CrashesOutside | RuleMeasure::CrashesAll => record.crashes_outside = crashes,
+        RuleMeasure::Missed => {
             let missed = (10.0 * value + if factor > 1.0 { 0.999 } else { 0.0 }).floor() as usize;
             let lacked = format!("{}: 1 lx of 50 lx needed", rule.lacked);
             record
@@ -41,12 +41,12 @@ fn suffering(rule: &Rule, factor: f64) -> Record {
                 .take(missed)
                 .for_each(|defect| (defect.found, defect.lacked) = (false, vec![lacked.clone()]));
         }
-        Measure::MissedSevere => record.defects[0].found = count == 0,
-        Measure::MissedInView => (record.defects[0].found, record.defects[0].in_view_s) = (false, Some(value)),
-        Measure::FalseSnapshots => (record.snapshots, record.hits) = (1000, (1000.0 * (1.0 - value)).round() as usize),
-        Measure::Overtime => record.scores.efficiency = 100.0 - value * 5.0,
-        Measure::NotLanded => record.end_reason = if count > 0 { "abort".into() } else { "landed".into() },
-        Measure::BatteryLow => record.battery_at_end_pct = if count > 0 { 19.0 } else { 21.0 },
+        RuleMeasure::MissedSevere => record.defects[0].found = count == 0,
+        RuleMeasure::MissedInView => (record.defects[0].found, record.defects[0].in_view_s) = (false, Some(value)),
+        RuleMeasure::FalseSnapshots => (record.snapshots, record.hits) = (1000, (1000.0 * (1.0 - value)).round() as usize),
+        RuleMeasure::Overtime => record.scores.efficiency = 100.0 - value * 5.0,
+        RuleMeasure::NotLanded => record.end_reason = if count > 0 { "abort".into() } else { "landed".into() },
+        RuleMeasure::BatteryLow => record.battery_at_end_pct = if count > 0 { 19.0 } else { 21.0 },
     }
     record
 }
@@ -68,7 +68,7 @@ fn exact_every_shipped_rule_fires_above_its_limit_and_not_below() {
 }
 
 #[test]
-fn exact_who_cannot_hold_the_interlayer_is_sent_to_the_gap_drill() {
+fn exact_poor_interlayer_flights_lead_to_the_gap_drill() {
     let mut record = faultless("anna", 1);
     record.tasks[2].on_path = 0.3;
     record.tasks[2].off_sideways_m = Some(0.4);
@@ -85,7 +85,7 @@ fn exact_who_cannot_hold_the_interlayer_is_sent_to_the_gap_drill() {
 }
 
 #[test]
-fn exact_who_has_done_the_drill_well_goes_on_to_the_job() {
+fn exact_a_good_drill_leads_to_the_job() {
     let mut job = faultless("anna", 1);
     job.tasks[2].on_path = 0.3;
     let mut drill = faultless("anna", 2);
@@ -112,7 +112,7 @@ fn exact_after_a_long_pause_one_begins_with_a_refresher() {
 }
 
 #[test]
-fn exact_changes_say_what_got_better_and_what_worse() {
+fn exact_changes_report_what_got_better_and_what_worse() {
     let (mut then, mut now) = (faultless("anna", 1), faultless("anna", 2));
     then.scores.safety = 64.0;
     then.tasks[1].crashes.bridge = 12;
@@ -143,14 +143,14 @@ fn exact_braces_in_a_tasks_name_mean_nothing() {
 }
 
 #[test]
-fn regress_plans_leave_incomplete_sessions_out_and_say_so() {
+fn regress_plans_leave_incomplete_sessions_out_and_report_it() {
     let records = vec![faultless("anna", 1), broken_off("anna", 2)];
-    let of = |records: &[Record], incomplete| plan_counting(records.to_vec(), incomplete, &rules(), NOW).unwrap();
-    let without = of(&records, Incomplete::LeaveOut);
+    let of = |records: &[SessionRecord], incomplete| plan_counting(records.to_vec(), incomplete, &rules(), NOW).unwrap();
+    let without = of(&records, IncompletePolicy::LeaveOut);
     assert_eq!((without.session.as_str(), without.left_out), ("session-anna-001", 1));
-    let with = of(&records, Incomplete::Include);
+    let with = of(&records, IncompletePolicy::Include);
     assert_eq!((with.session.as_str(), with.left_out), ("session-anna-002", 0));
-    let none = of(&records[1..], Incomplete::LeaveOut);
+    let none = of(&records[1..], IncompletePolicy::LeaveOut);
     assert_eq!((none.steps[0].scenario.as_str(), none.left_out), (rules().job.as_str(), 1));
     assert!(none.steps[0].reasons[0].words.contains("Incomplete: 0 of 4 tasks, 15 % of the path"), "{:?}", none.steps);
 }

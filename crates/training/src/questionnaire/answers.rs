@@ -1,7 +1,7 @@
 //! `answers.json`: what a trainee has answered so far.
 
 use super::language::is_tag;
-use super::{Item, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, Tlx};
+use super::{QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, TlxScale};
 use serde::de::Error as _;
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -23,16 +23,16 @@ pub struct Answers {
     /// Language that they were given in.
     pub language: String,
     /// Answers from 1 (strongly agree) to 5 (strongly disagree).
-    pub given: BTreeMap<Item, u8>,
+    pub given: BTreeMap<QuestionnaireItem, u8>,
     /// NASA-TLX, 0 to 100 in steps of 5; empty when it was not asked.
-    pub tlx: BTreeMap<Tlx, u8>,
+    pub tlx: BTreeMap<TlxScale, u8>,
 }
 
 impl Answers {
     /// The questions that are still open, in the order of asking.
     #[must_use]
-    pub fn open(&self, tasks: &[u32]) -> Vec<Item> {
-        Item::all(tasks).into_iter().filter(|item| !self.given.contains_key(item)).collect()
+    pub fn open(&self, tasks: &[u32]) -> Vec<QuestionnaireItem> {
+        QuestionnaireItem::all(tasks).into_iter().filter(|item| !self.given.contains_key(item)).collect()
     }
 
     /// All questions of a job with these tasks are answered.
@@ -60,7 +60,7 @@ impl Serialize for Answers {
 
 /// As kept in records: what was read once is not judged again, but what is no question is refused.
 #[derive(Deserialize)]
-struct Kept {
+struct StoredAnswers {
     language: String,
     #[serde(default)]
     answers: BTreeMap<String, u8>,
@@ -70,10 +70,13 @@ struct Kept {
 
 impl<'de> Deserialize<'de> for Answers {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let kept = Kept::deserialize(deserializer)?;
+        let kept = StoredAnswers::deserialize(deserializer)?;
         let unknown = |key: &str| D::Error::custom(format!("{key} is no question"));
-        let item = |(key, value): (&String, &u8)| Item::from_key(key).map(|item| (item, *value)).ok_or_else(|| unknown(key));
-        let scale = |(key, value): (&String, &u8)| Tlx::from_key(key).map(|scale| (scale, *value)).ok_or_else(|| unknown(key));
+        let item = |(key, value): (&String, &u8)| {
+            QuestionnaireItem::from_key(key).map(|item| (item, *value)).ok_or_else(|| unknown(key))
+        };
+        let scale =
+            |(key, value): (&String, &u8)| TlxScale::from_key(key).map(|scale| (scale, *value)).ok_or_else(|| unknown(key));
         Ok(Self {
             given: kept.answers.iter().map(item).collect::<Result<_, _>>()?,
             tlx: kept.tlx.iter().map(scale).collect::<Result<_, _>>()?,
@@ -87,15 +90,15 @@ impl<'de> Deserialize<'de> for Answers {
 /// # Errors
 /// Everything that is wrong with it: file, line, key, value, what is allowed.
 pub fn read_answers(file: &str, text: &str, tasks: &[u32]) -> Result<Answers, Problems> {
-    let mut reading = Reading { file, text, problems: Vec::new() };
+    let mut reading = AnswerReading { file, text, problems: Vec::new() };
     if text.len() > LARGEST {
-        reading.wrong("", &format!("{} bytes", text.len()), &format!("at most {LARGEST} bytes"), "too large");
+        reading.invalid_answer("", &format!("{} bytes", text.len()), &format!("at most {LARGEST} bytes"), "too large");
         return Err(Problems(reading.problems));
     }
     let answers = match serde_json::from_str::<Value>(text) {
         Ok(Value::Object(map)) => reading.answers(&map, tasks),
         Ok(other) => {
-            reading.wrong("", &shown(&other), "a JSON object", "not an object");
+            reading.invalid_answer("", &shown(&other), "a JSON object", "not an object");
             Answers::default()
         }
         Err(error) => {
@@ -107,40 +110,40 @@ pub fn read_answers(file: &str, text: &str, tasks: &[u32]) -> Result<Answers, Pr
     if reading.problems.is_empty() { Ok(answers) } else { Err(Problems(reading.problems)) }
 }
 
-struct Reading<'a> {
+struct AnswerReading<'a> {
     file: &'a str,
     text: &'a str,
     problems: Vec<Problem>,
 }
 
-impl Reading<'_> {
+impl AnswerReading<'_> {
     fn answers(&mut self, map: &serde_json::Map<String, Value>, tasks: &[u32]) -> Answers {
         let keys = "format, language, answers, tlx";
         for (key, value) in map.iter().filter(|(key, _)| !keys.split(", ").any(|known| known == *key)) {
-            self.wrong(key, &shown(value), keys, "unknown key");
+            self.invalid_answer(key, &shown(value), keys, "unknown key");
         }
         match map.get("format").map(|value| (value.as_u64(), value)) {
             Some((Some(FORMAT), _)) => {}
-            Some((_, value)) => self.wrong("format", &shown(value), &FORMAT.to_string(), "not this version's"),
-            None => self.wrong("format", "", &FORMAT.to_string(), "missing"),
+            Some((_, value)) => self.invalid_answer("format", &shown(value), &FORMAT.to_string(), "not this version's"),
+            None => self.invalid_answer("format", "", &FORMAT.to_string(), "missing"),
         }
         let language = map.get("language").and_then(Value::as_str).filter(|tag| is_tag(tag));
         if language.is_none() {
             let value = map.get("language").map(shown).unwrap_or_default();
-            self.wrong("language", &value, "a language tag such as en", "missing or none");
+            self.invalid_answer("language", &value, "a language tag such as en", "missing or none");
         }
-        let known = Item::all(tasks);
+        let known = QuestionnaireItem::all(tasks);
         let allowed_keys = known.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
-        let item = |key: &str| Item::from_key(key).filter(|item| known.contains(item));
+        let item = |key: &str| QuestionnaireItem::from_key(key).filter(|item| known.contains(item));
         let likert = |value: u8| (STRONGLY_AGREE..=STRONGLY_DISAGREE).contains(&value);
         let tlx = |value: u8| value <= TLX_MAX && value.is_multiple_of(TLX_STEP);
-        let tlx_keys = Tlx::ALL.map(Tlx::key).join(", ");
+        let tlx_keys = TlxScale::ALL.map(TlxScale::key).join(", ");
         let to_five = format!("whole number {STRONGLY_AGREE} to {STRONGLY_DISAGREE}");
         let to_hundred = format!("0 to {TLX_MAX} in steps of {TLX_STEP}");
         Answers {
             language: language.unwrap_or_default().to_owned(),
             given: self.table(map, "answers", (&allowed_keys, &to_five), item, likert),
-            tlx: self.table(map, "tlx", (&tlx_keys, &to_hundred), Tlx::from_key, tlx),
+            tlx: self.table(map, "tlx", (&tlx_keys, &to_hundred), TlxScale::from_key, tlx),
         }
     }
 
@@ -157,7 +160,7 @@ impl Reading<'_> {
             None => return found,
             Some(Value::Object(table)) => table,
             Some(other) => {
-                self.wrong(name, &shown(other), "a JSON object", "not an object");
+                self.invalid_answer(name, &shown(other), "a JSON object", "not an object");
                 return found;
             }
         };
@@ -167,14 +170,14 @@ impl Reading<'_> {
                 (Some(key), Some(number)) => {
                     found.insert(key, number);
                 }
-                (None, _) => self.wrong(key, &shown(value), allowed_keys, &format!("unknown key in {name}")),
-                (Some(_), None) => self.wrong(key, &shown(value), allowed, "no such answer"),
+                (None, _) => self.invalid_answer(key, &shown(value), allowed_keys, &format!("unknown key in {name}")),
+                (Some(_), None) => self.invalid_answer(key, &shown(value), allowed, "no such answer"),
             }
         }
         found
     }
 
-    fn wrong(&mut self, key: &str, value: &str, allowed: &str, message: &str) {
+    fn invalid_answer(&mut self, key: &str, value: &str, allowed: &str, message: &str) {
         let quoted = Value::from(key).to_string();
         let offset = if key.is_empty() { Some(0) } else { self.text.find(&quoted) };
         let line = offset.map_or(1, |offset| 1 + self.text[..offset].matches('\n').count());
@@ -200,7 +203,7 @@ fn shown(value: &Value) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Aspect, Overall, Phase};
+    use super::super::{InspectionPhase, OverallItem, PhaseAspect};
     use super::*;
 
     const TASKS: [u32; 4] = [1, 2, 3, 4];
@@ -212,9 +215,9 @@ mod tests {
     #[test]
     fn exact_what_is_written_is_read_again() {
         let mut answers = Answers { language: "en".into(), ..Answers::default() };
-        answers.given.insert(Item::Overall(Overall::Feedback), 1);
-        answers.given.insert(Item::Phase(Phase::Task(3), Aspect::MentalDemand), 5);
-        answers.tlx.insert(Tlx::Effort, 65);
+        answers.given.insert(QuestionnaireItem::Overall(OverallItem::Feedback), 1);
+        answers.given.insert(QuestionnaireItem::Phase(InspectionPhase::Task(3), PhaseAspect::MentalDemand), 5);
+        answers.tlx.insert(TlxScale::Effort, 65);
         let text = serde_json::to_string_pretty(&answers).unwrap();
         assert_eq!(read_answers("answers.json", &text, &TASKS), Ok(answers.clone()));
         assert_eq!(serde_json::from_str::<Answers>(&text).unwrap(), answers);
@@ -223,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_every_fault_is_told_with_file_line_key_value_and_range() {
+    fn exact_every_fault_is_reported_with_file_line_key_value_and_range() {
         let told = problems("{\"format\": 1, \"language\": \"en\",\n\"answers\": {\n\"frustration\": 6}}");
         assert_eq!(told, "answers.json:3: frustration = 6: no such answer (allowed: whole number 1 to 5)");
         for (text, expected) in [

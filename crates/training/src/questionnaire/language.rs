@@ -55,7 +55,7 @@ impl Languages {
     /// The wording that an Accept-Language header likes best (RFC 9110, 12.5.4); the first one when it likes none.
     #[must_use]
     pub fn accepted(&self, header: &str) -> &Wording {
-        let mut wanted: Vec<(&str, f64)> = header.split(',').take(ACCEPTED_MOST).filter_map(wish).collect();
+        let mut wanted: Vec<(&str, f64)> = header.split(',').take(ACCEPTED_MOST).filter_map(accept_language).collect();
         // Equal ones stay in the browser's order.
         wanted.sort_by(|a, b| b.1.total_cmp(&a.1));
         wanted.into_iter().find_map(|(tag, _)| self.of(tag)).unwrap_or(&self.0[0])
@@ -63,7 +63,7 @@ impl Languages {
 }
 
 /// A tag and how much it is wished for; nothing for what is not wanted or is no tag.
-fn wish(part: &str) -> Option<(&str, f64)> {
+fn accept_language(part: &str) -> Option<(&str, f64)> {
     let (tag, parameter) = part.split_once(';').unwrap_or((part, "q=1"));
     let weight: f64 = parameter.trim().strip_prefix("q=")?.parse().ok()?;
     let tag = tag.trim();
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_tags_are_told_from_what_is_none() {
+    fn exact_language_tags_are_recognized() {
         for good in ["en", "de-CH", "zh-Hant-TW", "es-419"] {
             assert!(is_tag(good), "{good}");
         }

@@ -9,8 +9,8 @@ mod wording;
 
 pub use answers::{ANSWERS, Answers, read_answers};
 pub use language::{Languages, SHIPPED};
-pub use scales::{Scales, raw_tlx, scales};
-pub use wording::{Form, Wording, read_wording};
+pub use scales::{ScaleScores, raw_tlx, scales};
+pub use wording::{FormWording, Wording, read_wording};
 
 use std::fmt;
 
@@ -25,7 +25,7 @@ pub const TLX_MAX: u8 = 100;
 
 /// What is asked of the whole inspection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Overall {
+pub enum OverallItem {
     /// Without stress for time.
     TimePressure,
     /// Never insecure, irritated, stressed.
@@ -36,7 +36,7 @@ pub enum Overall {
 
 /// What is asked of each phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Aspect {
+pub enum PhaseAspect {
     /// Done well.
     Performance,
     /// Was easy.
@@ -47,7 +47,7 @@ pub enum Aspect {
 
 /// A phase of the inspection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Phase {
+pub enum InspectionPhase {
     /// Getting ready.
     Calibration,
     /// Taking off.
@@ -60,16 +60,16 @@ pub enum Phase {
 
 /// One question.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Item {
+pub enum QuestionnaireItem {
     /// Of the whole.
-    Overall(Overall),
+    Overall(OverallItem),
     /// Of a phase.
-    Phase(Phase, Aspect),
+    Phase(InspectionPhase, PhaseAspect),
 }
 
 /// One scale of NASA-TLX.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Tlx {
+pub enum TlxScale {
     /// Thinking.
     MentalDemand,
     /// Body.
@@ -84,7 +84,7 @@ pub enum Tlx {
     Frustration,
 }
 
-impl Overall {
+impl OverallItem {
     /// In the order of asking.
     pub const ALL: [Self; 3] = [Self::TimePressure, Self::Frustration, Self::Feedback];
 
@@ -99,7 +99,7 @@ impl Overall {
     }
 }
 
-impl Aspect {
+impl PhaseAspect {
     /// In the order of asking.
     pub const ALL: [Self; 3] = [Self::Performance, Self::MentalDemand, Self::PhysicalDemand];
 
@@ -114,7 +114,7 @@ impl Aspect {
     }
 }
 
-impl Phase {
+impl InspectionPhase {
     /// All phases of a job with these tasks, in flying order.
     #[must_use]
     pub fn all(tasks: &[u32]) -> Vec<Self> {
@@ -123,7 +123,7 @@ impl Phase {
     }
 }
 
-impl fmt::Display for Phase {
+impl fmt::Display for InspectionPhase {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Calibration => f.write_str("calibration"),
@@ -134,27 +134,27 @@ impl fmt::Display for Phase {
     }
 }
 
-impl Item {
+impl QuestionnaireItem {
     /// All questions of a job with these tasks, in the order of asking: 24 for four tasks.
     #[must_use]
     pub fn all(tasks: &[u32]) -> Vec<Self> {
-        let phases = Phase::all(tasks);
-        let by_phase = phases.iter().flat_map(|phase| Aspect::ALL.map(|aspect| Self::Phase(*phase, aspect)));
-        Overall::ALL.map(Self::Overall).into_iter().chain(by_phase).collect()
+        let phases = InspectionPhase::all(tasks);
+        let by_phase = phases.iter().flat_map(|phase| PhaseAspect::ALL.map(|aspect| Self::Phase(*phase, aspect)));
+        OverallItem::ALL.map(Self::Overall).into_iter().chain(by_phase).collect()
     }
 
     /// The question with this key, of whatever job.
     #[must_use]
     pub fn from_key(key: &str) -> Option<Self> {
         let Some((phase, aspect)) = key.split_once('.') else {
-            return Overall::ALL.into_iter().find(|overall| overall.key() == key).map(Self::Overall);
+            return OverallItem::ALL.into_iter().find(|overall| overall.key() == key).map(Self::Overall);
         };
-        let aspect = Aspect::ALL.into_iter().find(|known| known.key() == aspect)?;
+        let aspect = PhaseAspect::ALL.into_iter().find(|known| known.key() == aspect)?;
         let phase = match phase {
-            "calibration" => Phase::Calibration,
-            "taking_off" => Phase::TakingOff,
-            "landing" => Phase::Landing,
-            task => Phase::Task(task.strip_prefix("task_")?.parse().ok()?),
+            "calibration" => InspectionPhase::Calibration,
+            "taking_off" => InspectionPhase::TakingOff,
+            "landing" => InspectionPhase::Landing,
+            task => InspectionPhase::Task(task.strip_prefix("task_")?.parse().ok()?),
         };
         let item = Self::Phase(phase, aspect);
         // `task_01` would be a second name of the same question.
@@ -162,7 +162,7 @@ impl Item {
     }
 }
 
-impl fmt::Display for Item {
+impl fmt::Display for QuestionnaireItem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Overall(overall) => f.write_str(overall.key()),
@@ -171,7 +171,7 @@ impl fmt::Display for Item {
     }
 }
 
-impl Tlx {
+impl TlxScale {
     /// In the order of asking.
     pub const ALL: [Self; 6] =
         [Self::MentalDemand, Self::PhysicalDemand, Self::TemporalDemand, Self::Performance, Self::Effort, Self::Frustration];
@@ -202,15 +202,15 @@ mod tests {
 
     #[test]
     fn exact_the_papers_job_asks_24_questions_with_keys_of_their_own() {
-        let items = Item::all(&[1, 2, 3, 4]);
+        let items = QuestionnaireItem::all(&[1, 2, 3, 4]);
         assert_eq!(items.len(), 24);
         for item in &items {
-            assert_eq!(Item::from_key(&item.to_string()), Some(*item));
+            assert_eq!(QuestionnaireItem::from_key(&item.to_string()), Some(*item));
         }
         assert_eq!(items[0].to_string(), "time_pressure");
         assert_eq!(items[23].to_string(), "landing.physical_demand");
         for bad in ["", "task_1", "task_.performance", "task_01.performance", "landing.effort", "performance"] {
-            assert_eq!(Item::from_key(bad), None, "{bad}");
+            assert_eq!(QuestionnaireItem::from_key(bad), None, "{bad}");
         }
     }
 }

@@ -1,11 +1,11 @@
 //! What the answers add up to: the causal factors, states and the moderator that the paper names.
 
-use super::{Answers, Aspect, Item, Overall, Phase, STRONGLY_AGREE, STRONGLY_DISAGREE, Tlx};
+use super::{Answers, InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TlxScale};
 use serde::{Deserialize, Serialize};
 
 /// Scales from 1 to 5; more is more of what the name says. A scale stands when at least half of its questions are answered.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Scales {
+pub struct ScaleScores {
     /// Mental demand over the phases.
     pub mental_demand: Option<f64>,
     /// Physical demand over the phases.
@@ -22,26 +22,26 @@ pub struct Scales {
 
 /// Scales of one session's answers.
 #[must_use]
-pub fn scales(answers: &Answers, tasks: &[u32]) -> Scales {
-    let of = |aspects: &[Aspect]| {
-        let phases = Phase::all(tasks);
-        let items = phases.iter().flat_map(|phase| aspects.iter().map(|aspect| Item::Phase(*phase, *aspect)));
+pub fn scales(answers: &Answers, tasks: &[u32]) -> ScaleScores {
+    let of = |aspects: &[PhaseAspect]| {
+        let phases = InspectionPhase::all(tasks);
+        let items = phases.iter().flat_map(|phase| aspects.iter().map(|aspect| QuestionnaireItem::Phase(*phase, *aspect)));
         average(answers, items.collect())
     };
-    let whole = |which: &[Overall]| average(answers, which.iter().map(|one| Item::Overall(*one)).collect());
+    let whole = |which: &[OverallItem]| average(answers, which.iter().map(|one| QuestionnaireItem::Overall(*one)).collect());
     // The statements on demand and strain deny it, so that disagreeing means much; those on feedback and performance affirm.
     let affirmed = |mean: f64| f64::from(STRONGLY_AGREE + STRONGLY_DISAGREE) - mean;
-    Scales {
-        mental_demand: of(&[Aspect::MentalDemand]),
-        physical_demand: of(&[Aspect::PhysicalDemand]),
-        demand: of(&[Aspect::MentalDemand, Aspect::PhysicalDemand]),
-        strain: whole(&[Overall::TimePressure, Overall::Frustration]),
-        feedback: whole(&[Overall::Feedback]).map(affirmed),
-        self_rating: of(&[Aspect::Performance]).map(affirmed),
+    ScaleScores {
+        mental_demand: of(&[PhaseAspect::MentalDemand]),
+        physical_demand: of(&[PhaseAspect::PhysicalDemand]),
+        demand: of(&[PhaseAspect::MentalDemand, PhaseAspect::PhysicalDemand]),
+        strain: whole(&[OverallItem::TimePressure, OverallItem::Frustration]),
+        feedback: whole(&[OverallItem::Feedback]).map(affirmed),
+        self_rating: of(&[PhaseAspect::Performance]).map(affirmed),
     }
 }
 
-fn average(answers: &Answers, items: Vec<Item>) -> Option<f64> {
+fn average(answers: &Answers, items: Vec<QuestionnaireItem>) -> Option<f64> {
     let given: Vec<f64> = items.iter().filter_map(|item| answers.given.get(item)).map(|answer| f64::from(*answer)).collect();
     (!given.is_empty() && 2 * given.len() >= items.len()).then(|| given.iter().sum::<f64>() / given.len() as f64)
 }
@@ -49,7 +49,8 @@ fn average(answers: &Answers, items: Vec<Item>) -> Option<f64> {
 /// NASA-TLX without weights: the mean of its six scales, 0 to 100; `None` until all are answered.
 #[must_use]
 pub fn raw_tlx(answers: &Answers) -> Option<f64> {
-    let given: Option<Vec<f64>> = Tlx::ALL.iter().map(|scale| answers.tlx.get(scale).map(|value| f64::from(*value))).collect();
+    let given: Option<Vec<f64>> =
+        TlxScale::ALL.iter().map(|scale| answers.tlx.get(scale).map(|value| f64::from(*value))).collect();
     given.map(|values| values.iter().sum::<f64>() / values.len() as f64)
 }
 
@@ -62,12 +63,12 @@ mod tests {
     #[test]
     fn exact_scales_point_where_their_names_say() {
         let mut answers = Answers::default();
-        for item in Item::all(&TASKS) {
+        for item in QuestionnaireItem::all(&TASKS) {
             answers.given.insert(item, STRONGLY_AGREE);
         }
         let best = scales(&answers, &TASKS);
         assert_eq!((best.demand, best.strain, best.feedback, best.self_rating), (Some(1.0), Some(1.0), Some(5.0), Some(5.0)));
-        answers.given.insert(Item::Phase(Phase::Task(3), Aspect::MentalDemand), 5);
+        answers.given.insert(QuestionnaireItem::Phase(InspectionPhase::Task(3), PhaseAspect::MentalDemand), 5);
         let told = scales(&answers, &TASKS);
         assert_eq!(told.mental_demand, Some(11.0 / 7.0));
         assert_eq!(told.demand, Some(18.0 / 14.0));
@@ -77,21 +78,21 @@ mod tests {
     #[test]
     fn exact_a_scale_needs_half_of_its_answers() {
         let mut answers = Answers::default();
-        answers.given.insert(Item::Overall(Overall::TimePressure), 4);
+        answers.given.insert(QuestionnaireItem::Overall(OverallItem::TimePressure), 4);
         let told = scales(&answers, &TASKS);
         assert_eq!((told.strain, told.feedback, told.self_rating), (Some(4.0), None, None));
-        for phase in [Phase::Calibration, Phase::TakingOff, Phase::Landing] {
-            answers.given.insert(Item::Phase(phase, Aspect::Performance), 2);
+        for phase in [InspectionPhase::Calibration, InspectionPhase::TakingOff, InspectionPhase::Landing] {
+            answers.given.insert(QuestionnaireItem::Phase(phase, PhaseAspect::Performance), 2);
         }
         assert_eq!(scales(&answers, &TASKS).self_rating, None, "three of seven are not half");
-        answers.given.insert(Item::Phase(Phase::Task(1), Aspect::Performance), 2);
+        answers.given.insert(QuestionnaireItem::Phase(InspectionPhase::Task(1), PhaseAspect::Performance), 2);
         assert_eq!(scales(&answers, &TASKS).self_rating, Some(4.0));
     }
 
     #[test]
     fn exact_raw_tlx_is_the_mean_of_six() {
         let mut answers = Answers::default();
-        for (scale, value) in Tlx::ALL.into_iter().zip([10, 20, 30, 40, 50, 90]) {
+        for (scale, value) in TlxScale::ALL.into_iter().zip([10, 20, 30, 40, 50, 90]) {
             assert_eq!(raw_tlx(&answers), None);
             answers.tlx.insert(scale, value);
         }

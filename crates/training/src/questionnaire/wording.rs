@@ -1,7 +1,9 @@
 //! The words of the questionnaire, from a TOML file.
 
 use super::language::is_tag;
-use super::{Aspect, Item, Overall, Phase, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, Tlx};
+use super::{
+    InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, TlxScale,
+};
 use spandrel_model::toml::{Problems, Reader, Section};
 
 /// Format of the file.
@@ -37,12 +39,12 @@ pub struct Wording {
     tlx: [String; 6],
     tlx_ends: [String; 4],
     /// What stands around the questions.
-    pub form: Form,
+    pub form: FormWording,
 }
 
 /// What stands around the questions: buttons, messages, the terminal's words.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Form {
+pub struct FormWording {
     /// How many are answered; `{answered}` and `{all}` are still to be filled in.
     pub answered: String,
     /// That nothing is lost.
@@ -84,27 +86,27 @@ pub fn read_wording(file: &str, text: &str) -> Result<Wording, Problems> {
 }
 
 fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Wording {
-    reader.whole(root, "format", (FORMAT, FORMAT), None);
+    reader.integer(root, "format", (FORMAT, FORMAT), None);
     let [language, language_name, title, introduction] =
         texts(reader, root, ["language", "language_name", "title", "introduction"]);
     if root.has("language") && !is_tag(&language) {
-        reader.complain(root, "language", &language, "a language tag such as de or pt-BR", "no such tag");
+        reader.add_problem(root, "language", &language, "a language tag such as de or pt-BR", "no such tag");
     }
     let mut scale = reader.section(root, "scale");
     let answers = texts(reader, &mut scale, ["strongly_agree", "agree", "neutral", "disagree", "strongly_disagree"]);
     let mut overall = reader.section(root, "overall");
     let [overall_heading] = texts(reader, &mut overall, ["heading"]);
-    let statements = texts(reader, &mut overall, Overall::ALL.map(Overall::key));
+    let statements = texts(reader, &mut overall, OverallItem::ALL.map(OverallItem::key));
     let mut by_phase = reader.section(root, "by_phase");
-    let aspects = texts(reader, &mut by_phase, Aspect::ALL.map(Aspect::key));
+    let aspects = texts(reader, &mut by_phase, PhaseAspect::ALL.map(PhaseAspect::key));
     let mut phases = reader.section(root, "phases");
     let [calibration, taking_off, task, landing] = texts(reader, &mut phases, ["calibration", "taking_off", "task", "landing"]);
     if phases.has("task") && !task.contains(NUMBER) {
-        reader.complain(&phases, "task", &task, "text with {number}, and {name} if you like", "tasks would look alike");
+        reader.add_problem(&phases, "task", &task, "text with {number}, and {name} if you like", "tasks would look alike");
     }
     let mut tlx = reader.section(root, "tlx");
     let [tlx_title, tlx_introduction] = texts(reader, &mut tlx, ["title", "introduction"]);
-    let scales = texts(reader, &mut tlx, Tlx::ALL.map(Tlx::key));
+    let scales = texts(reader, &mut tlx, TlxScale::ALL.map(TlxScale::key));
     let tlx_ends = texts(reader, &mut tlx, ["low", "high", "best", "worst"]);
     let mut around = reader.section(root, "form");
     let form = form(reader, &mut around);
@@ -133,16 +135,22 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Wording {
 }
 
 /// Texts around the questions, each with the places where something is filled in.
-fn form(reader: &mut Reader<'_>, section: &mut Section<'_>) -> Form {
+fn form(reader: &mut Reader<'_>, section: &mut Section<'_>) -> FormWording {
     let mut text = |key: &'static str, filled_in: &[&str]| {
         let text = reader.text(section, key, None);
         let is_missing = filled_in.iter().any(|word| !text.contains(word));
         if section.has(key) && is_missing {
-            reader.complain(section, key, &text, &format!("text with {}", filled_in.join(" and ")), "a number would be missing");
+            reader.add_problem(
+                section,
+                key,
+                &text,
+                &format!("text with {}", filled_in.join(" and ")),
+                "a number would be missing",
+            );
         }
         text
     };
-    Form {
+    FormWording {
         answered: text("answered", &["{answered}", "{all}"]),
         at_once: text("at_once", &[]),
         saved: text("saved", &[]),
@@ -158,7 +166,7 @@ fn form(reader: &mut Reader<'_>, section: &mut Section<'_>) -> Form {
     }
 }
 
-impl Form {
+impl FormWording {
     /// How many of all questions are answered.
     #[must_use]
     pub fn answered(&self, answered: usize, all: usize) -> String {
@@ -167,13 +175,13 @@ impl Form {
 
     /// What may be typed to a statement.
     #[must_use]
-    pub fn please_whole(&self) -> String {
+    pub fn integer_instruction(&self) -> String {
         self.please_whole.replace("{from}", &STRONGLY_AGREE.to_string()).replace("{to}", &STRONGLY_DISAGREE.to_string())
     }
 
     /// What may be typed to a scale of NASA-TLX.
     #[must_use]
-    pub fn please_steps(&self) -> String {
+    pub fn step_instruction(&self) -> String {
         let text = self.please_steps.replace("{from}", "0").replace("{to}", &TLX_MAX.to_string());
         text.replace("{step}", &TLX_STEP.to_string())
     }
@@ -186,46 +194,46 @@ fn texts<const N: usize>(reader: &mut Reader<'_>, section: &mut Section<'_>, key
 impl Wording {
     /// The statement of a question.
     #[must_use]
-    pub fn statement(&self, item: Item) -> &str {
+    pub fn statement(&self, item: QuestionnaireItem) -> &str {
         match item {
-            Item::Overall(Overall::TimePressure) => &self.overall[0],
-            Item::Overall(Overall::Frustration) => &self.overall[1],
-            Item::Overall(Overall::Feedback) => &self.overall[2],
-            Item::Phase(_, Aspect::Performance) => &self.aspects[0],
-            Item::Phase(_, Aspect::MentalDemand) => &self.aspects[1],
-            Item::Phase(_, Aspect::PhysicalDemand) => &self.aspects[2],
+            QuestionnaireItem::Overall(OverallItem::TimePressure) => &self.overall[0],
+            QuestionnaireItem::Overall(OverallItem::Frustration) => &self.overall[1],
+            QuestionnaireItem::Overall(OverallItem::Feedback) => &self.overall[2],
+            QuestionnaireItem::Phase(_, PhaseAspect::Performance) => &self.aspects[0],
+            QuestionnaireItem::Phase(_, PhaseAspect::MentalDemand) => &self.aspects[1],
+            QuestionnaireItem::Phase(_, PhaseAspect::PhysicalDemand) => &self.aspects[2],
         }
     }
 
     /// What a question is about: the whole, or its phase. `name` tells a task's name by its number.
-    pub fn heading(&self, item: Item, name: impl Fn(u32) -> String) -> String {
+    pub fn heading(&self, item: QuestionnaireItem, name: impl Fn(u32) -> String) -> String {
         match item {
-            Item::Overall(_) => self.overall_heading.clone(),
-            Item::Phase(phase, _) => self.phase(phase, name),
+            QuestionnaireItem::Overall(_) => self.overall_heading.clone(),
+            QuestionnaireItem::Phase(phase, _) => self.phase(phase, name),
         }
     }
 
     /// A phase in words. `name` tells a task's name by its number.
-    pub fn phase(&self, phase: Phase, name: impl Fn(u32) -> String) -> String {
+    pub fn phase(&self, phase: InspectionPhase, name: impl Fn(u32) -> String) -> String {
         match phase {
-            Phase::Calibration => self.calibration.clone(),
-            Phase::TakingOff => self.taking_off.clone(),
-            Phase::Task(id) => self.task.replace(NUMBER, &id.to_string()).replace(NAME, &name(id)),
-            Phase::Landing => self.landing.clone(),
+            InspectionPhase::Calibration => self.calibration.clone(),
+            InspectionPhase::TakingOff => self.taking_off.clone(),
+            InspectionPhase::Task(id) => self.task.replace(NUMBER, &id.to_string()).replace(NAME, &name(id)),
+            InspectionPhase::Landing => self.landing.clone(),
         }
     }
 
     /// A NASA-TLX scale: question, words at 0, words at 100.
     #[must_use]
-    pub fn tlx(&self, scale: Tlx) -> (&str, &str, &str) {
+    pub fn tlx(&self, scale: TlxScale) -> (&str, &str, &str) {
         let [low, high, best, worst] = &self.tlx_ends;
         match scale {
-            Tlx::MentalDemand => (&self.tlx[0], low, high),
-            Tlx::PhysicalDemand => (&self.tlx[1], low, high),
-            Tlx::TemporalDemand => (&self.tlx[2], low, high),
-            Tlx::Performance => (&self.tlx[3], best, worst),
-            Tlx::Effort => (&self.tlx[4], low, high),
-            Tlx::Frustration => (&self.tlx[5], low, high),
+            TlxScale::MentalDemand => (&self.tlx[0], low, high),
+            TlxScale::PhysicalDemand => (&self.tlx[1], low, high),
+            TlxScale::TemporalDemand => (&self.tlx[2], low, high),
+            TlxScale::Performance => (&self.tlx[3], best, worst),
+            TlxScale::Effort => (&self.tlx[4], low, high),
+            TlxScale::Frustration => (&self.tlx[5], low, high),
         }
     }
 }
@@ -242,20 +250,22 @@ mod tests {
         for (file, text) in SHIPPED {
             let wording = read_wording(file, text).unwrap();
             let name = |id: u32| format!("no. {id}");
-            let mut seen: Vec<String> =
-                Item::all(&[1, 2, 3, 4]).into_iter().map(|item| wording.heading(item, name) + wording.statement(item)).collect();
-            seen.extend(Tlx::ALL.map(|scale| wording.tlx(scale).0.to_owned()));
+            let mut seen: Vec<String> = QuestionnaireItem::all(&[1, 2, 3, 4])
+                .into_iter()
+                .map(|item| wording.heading(item, name) + wording.statement(item))
+                .collect();
+            seen.extend(TlxScale::ALL.map(|scale| wording.tlx(scale).0.to_owned()));
             seen.extend(wording.scale.clone());
             seen.sort();
             seen.dedup();
             assert_eq!(seen.len(), 24 + 6 + 5, "{file}");
-            assert!(wording.phase(Phase::Task(3), name).contains("3: no. 3"), "{file}");
+            assert!(wording.phase(InspectionPhase::Task(3), name).contains("3: no. 3"), "{file}");
             assert_eq!(file, format!("{}.toml", wording.language));
         }
         let wording = read_wording("en.toml", ENGLISH).unwrap();
-        assert_eq!(wording.tlx(Tlx::Performance).1, "perfectly");
+        assert_eq!(wording.tlx(TlxScale::Performance).1, "perfectly");
         assert_eq!(wording.form.answered(3, 24), "3 of 24 answered");
-        assert_eq!(wording.form.please_steps(), "Please 0 to 100 in steps of 5, Enter, b or q.");
+        assert_eq!(wording.form.step_instruction(), "Please 0 to 100 in steps of 5, Enter, b or q.");
     }
 
     #[test]

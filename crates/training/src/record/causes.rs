@@ -1,13 +1,13 @@
 //! What a session suffered from: read off its frames, task by task.
 
-use super::{Crashes, DefectRecord, Source, TaskRecord, kind_word};
+use super::{Crashes, DefectRecord, RecordSource, TaskRecord, kind_word};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::PlacedDefect;
 use spandrel_model::site::catalogue::kind_name;
 use spandrel_monitor::assessment::SnapshotCounts;
 use spandrel_monitor::measures::crash::{self, Crash};
-use spandrel_monitor::measures::on_path::{OnPath, Paths, Window};
+use spandrel_monitor::measures::on_path::{OnPath, OnPathWindow, ReferencePaths};
 use spandrel_monitor::measures::on_speed;
 
 /// Farther from the path than this the drone is elsewhere, not off the path, m (docs/src/reference/assessment.md, "Feedback
@@ -15,7 +15,7 @@ use spandrel_monitor::measures::on_speed;
 const OFF_PATH_WITHIN_M: f64 = 8.0;
 
 /// Everything of a record that is read off the frames.
-pub struct Causes {
+pub struct ScoreCauses {
     /// Tasks in file order.
     pub tasks: Vec<TaskRecord>,
     /// Crashes outside all windows.
@@ -24,9 +24,9 @@ pub struct Causes {
     pub defects: Vec<DefectRecord>,
 }
 
-struct Flown<'a> {
+struct FlownSession<'a> {
     frames: &'a [Frame],
-    paths: Paths,
+    paths: ReferencePaths,
     on_path: OnPath,
     crashes: Vec<Crash>,
     speeding: Vec<bool>,
@@ -34,12 +34,12 @@ struct Flown<'a> {
 }
 
 /// Reads the causes.
-pub fn causes(source: &Source<'_>) -> Causes {
+pub fn causes(source: &RecordSource<'_>) -> ScoreCauses {
     let (scenario, frames) = (source.scenario, &source.graded.frames);
-    let paths = Paths::new(scenario);
+    let paths = ReferencePaths::new(scenario);
     let on_path = OnPath::measure(&paths, frames.iter().map(|frame| frame.position_m));
     let speeds: Vec<f64> = frames.iter().map(Frame::speed_m_s).collect();
-    let flown = Flown {
+    let flown = FlownSession {
         frames,
         crashes: crash::crashes(frames, &on_path),
         speeding: on_speed::speeding(&speeds, &on_path.windows, scenario.scoring.speed_limit_m_s),
@@ -48,14 +48,14 @@ pub fn causes(source: &Source<'_>) -> Causes {
         on_path,
     };
     let defects = defects(source, &flown.paths);
-    Causes {
-        tasks: (0..scenario.tasks.len()).map(|task| one_task(source, &flown, task, &defects)).collect(),
+    ScoreCauses {
+        tasks: (0..scenario.tasks.len()).map(|task| task_causes(source, &flown, task, &defects)).collect(),
         crashes_outside: crashes(&flown, None),
         defects,
     }
 }
 
-fn one_task(source: &Source<'_>, flown: &Flown<'_>, task: usize, defects: &[DefectRecord]) -> TaskRecord {
+fn task_causes(source: &RecordSource<'_>, flown: &FlownSession<'_>, task: usize, defects: &[DefectRecord]) -> TaskRecord {
     let (described, result) = (&source.scenario.tasks[task], &source.graded.assessment.tasks[task]);
     let window = flown.on_path.windows[task];
     let range = window.map_or(0..0, |window| window.first..window.last + 1);
@@ -85,17 +85,17 @@ fn one_task(source: &Source<'_>, flown: &Flown<'_>, task: usize, defects: &[Defe
 }
 
 /// Horizontal and vertical distance from the path, m, of the frames in the window that are on no path but within 8 m of this one.
-fn off_path(flown: &Flown<'_>, task: usize, window: Window) -> Vec<(f64, f64)> {
+fn off_path(flown: &FlownSession<'_>, task: usize, window: OnPathWindow) -> Vec<(f64, f64)> {
     let frames = (window.first..=window.last).filter(|k| flown.on_path.task[*k].is_none());
     let offset = |k: usize| {
         let position_m = flown.frames[k].position_m;
-        flown.paths.path(task).foot(position_m).map(|foot_m| position_m - foot_m)
+        flown.paths.path(task).closest_on_segment(position_m).map(|foot_m| position_m - foot_m)
     };
     let near = frames.filter_map(offset).filter(|offset| offset.norm() <= OFF_PATH_WITHIN_M);
     near.map(|offset: Vec3<Enu>| (offset.horizontal_norm(), offset.up().abs())).collect()
 }
 
-fn crashes(flown: &Flown<'_>, task: Option<usize>) -> Crashes {
+fn crashes(flown: &FlownSession<'_>, task: Option<usize>) -> Crashes {
     let mut counts = Crashes::default();
     for crash in flown.crashes.iter().filter(|crash| crash.task == task) {
         counts.add(crash.with);
@@ -103,12 +103,17 @@ fn crashes(flown: &Flown<'_>, task: Option<usize>) -> Crashes {
     counts
 }
 
-fn defects(source: &Source<'_>, paths: &Paths) -> Vec<DefectRecord> {
+fn defects(source: &RecordSource<'_>, paths: &ReferencePaths) -> Vec<DefectRecord> {
     let pictures = &source.graded.assessment.snapshots;
-    source.placed.iter().map(|defect| one_defect(source, paths, defect, pictures)).collect()
+    source.placed.iter().map(|defect| defect_causes(source, paths, defect, pictures)).collect()
 }
 
-fn one_defect(source: &Source<'_>, paths: &Paths, defect: &PlacedDefect, pictures: &SnapshotCounts) -> DefectRecord {
+fn defect_causes(
+    source: &RecordSource<'_>,
+    paths: &ReferencePaths,
+    defect: &PlacedDefect,
+    pictures: &SnapshotCounts,
+) -> DefectRecord {
     let found = pictures.each.iter().any(|picture| picture.found.contains(&defect.id));
     let views = pictures.each.iter().flat_map(|picture| &picture.views).filter(|view| view.defect == defect.id && !view.shown);
     let best = views.min_by_key(|view| view.fails.len());
@@ -125,7 +130,7 @@ fn one_defect(source: &Source<'_>, paths: &Paths, defect: &PlacedDefect, picture
     }
 }
 
-fn nearest_task(paths: &Paths, position_m: Vec3<Enu>) -> Option<usize> {
+fn nearest_task(paths: &ReferencePaths, position_m: Vec3<Enu>) -> Option<usize> {
     let distance = |task: &usize| paths.path(*task).exact(position_m).map_or(f64::INFINITY, |nearest| nearest.distance_m);
     (0..paths.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
 }

@@ -4,13 +4,13 @@
 mod causes;
 mod outcome;
 
-pub use outcome::Outcome;
+pub use outcome::SessionOutcome;
 
-use super::questionnaire::{Answers, Scales, scales};
+use super::questionnaire::{Answers, ScaleScores, scales};
 use serde::{Deserialize, Serialize};
-use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_model::scenario::{PlacedDefect, Scenario, TaskKind};
-use spandrel_monitor::Graded;
+use spandrel_monitor::AssessedSession;
 use spandrel_monitor::folder::sha256_hex;
 use spandrel_monitor::score::completion::{Completion, TaskState};
 use spandrel_monitor::score::{SCORER_VERSION, Score};
@@ -20,7 +20,7 @@ pub const FORMAT: u32 = 2;
 
 /// One session.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Record {
+pub struct SessionRecord {
     /// Format of this record.
     pub format: u32,
     /// Name of the session's folder: it holds time, pseudonym, scenario and a short unique id.
@@ -185,7 +185,7 @@ pub struct DefectRecord {
 
 /// One line of a list of sessions.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Listed {
+pub struct SessionListEntry {
     /// Session.
     pub id: String,
     /// Pseudonym.
@@ -212,7 +212,7 @@ pub struct Listed {
 
 /// Whether incomplete sessions count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Incomplete {
+pub enum IncompletePolicy {
     /// They are left out.
     #[default]
     LeaveOut,
@@ -220,7 +220,7 @@ pub enum Incomplete {
     Include,
 }
 
-impl Incomplete {
+impl IncompletePolicy {
     /// From a switch.
     #[must_use]
     pub fn included(include: bool) -> Self {
@@ -229,14 +229,14 @@ impl Incomplete {
 
     /// Whether a session counts.
     #[must_use]
-    pub fn counts(self, record: &Record) -> bool {
+    pub fn counts(self, record: &SessionRecord) -> bool {
         self == Self::Include || record.is_complete()
     }
 }
 
 /// How many incomplete sessions were left out, in words; `None` for none.
 #[must_use]
-pub fn left_out_words(count: usize) -> Option<String> {
+pub fn omitted_summary(count: usize) -> Option<String> {
     match count {
         0 => None,
         1 => Some("1 incomplete session left out".to_owned()),
@@ -244,7 +244,7 @@ pub fn left_out_words(count: usize) -> Option<String> {
     }
 }
 
-impl Outcome for Listed {
+impl SessionOutcome for SessionListEntry {
     fn completion(&self) -> Option<&Completion> {
         self.completion.as_ref()
     }
@@ -255,7 +255,7 @@ impl Outcome for Listed {
 
 /// What a record is made from.
 #[derive(Debug, Clone, Copy)]
-pub struct Source<'a> {
+pub struct RecordSource<'a> {
     /// Name of the session's folder.
     pub id: &'a str,
     /// Pseudonym.
@@ -271,9 +271,9 @@ pub struct Source<'a> {
     /// Id of the aircraft.
     pub vehicle: &'a str,
     /// Its hashes.
-    pub hashes: &'a Hashes,
+    pub hashes: &'a SourceHashes,
     /// Scores and frames.
-    pub graded: &'a Graded,
+    pub graded: &'a AssessedSession,
     /// Defects of the session's seed.
     pub placed: &'a [PlacedDefect],
     /// Answers, if begun.
@@ -282,7 +282,7 @@ pub struct Source<'a> {
 
 /// SHA-256 of a session's source files, hexadecimal.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Hashes {
+pub struct SourceHashes {
     /// `scenario.toml`.
     pub scenario: String,
     /// `vehicle.toml`.
@@ -293,7 +293,7 @@ pub struct Hashes {
     pub answers: String,
 }
 
-impl Hashes {
+impl SourceHashes {
     /// Of the files' bytes.
     #[must_use]
     pub fn of(scenario: &[u8], vehicle: &[u8], telemetry: &[u8], answers: &[u8]) -> Self {
@@ -311,11 +311,11 @@ impl Hashes {
 
 /// Makes the record of a session.
 #[must_use]
-pub fn record(source: &Source<'_>) -> Record {
+pub fn record(source: &RecordSource<'_>) -> SessionRecord {
     let assessment = &source.graded.assessment;
     let pct = |score: Score| score.pct;
     let causes = causes::causes(source);
-    Record {
+    SessionRecord {
         format: FORMAT,
         id: source.id.to_owned(),
         fingerprint: source.hashes.fingerprint(),
@@ -344,7 +344,7 @@ pub fn record(source: &Source<'_>) -> Record {
         defects: causes.defects,
         snapshots: assessment.snapshots.taken,
         hits: assessment.snapshots.hits,
-        end_reason: assessment.end.reason.word().to_owned(),
+        end_reason: assessment.end.reason.label().to_owned(),
         seconds: assessment.end.seconds,
         battery_failed: assessment.end.battery_failed,
         battery_at_end_pct: assessment.certification.battery_at_end_pct,
@@ -355,7 +355,7 @@ pub fn record(source: &Source<'_>) -> Record {
     }
 }
 
-impl Outcome for Record {
+impl SessionOutcome for SessionRecord {
     fn completion(&self) -> Option<&Completion> {
         self.completion.as_ref()
     }
@@ -364,7 +364,7 @@ impl Outcome for Record {
     }
 }
 
-impl Record {
+impl SessionRecord {
     /// Numbers of the tasks.
     #[must_use]
     pub fn task_ids(&self) -> Vec<u32> {
@@ -374,12 +374,12 @@ impl Record {
     /// All crashes.
     #[must_use]
     pub fn crashes(&self) -> Crashes {
-        self.tasks.iter().map(|task| task.crashes).fold(self.crashes_outside, Crashes::plus)
+        self.tasks.iter().map(|task| task.crashes).fold(self.crashes_outside, Crashes::with_added)
     }
 
     /// What the answers add up to.
     #[must_use]
-    pub fn scales(&self) -> Option<Scales> {
+    pub fn scales(&self) -> Option<ScaleScores> {
         self.answers.as_ref().map(|answers| scales(answers, &self.task_ids()))
     }
 
@@ -418,21 +418,21 @@ impl Record {
 
 impl Crashes {
     /// Counts one.
-    fn add(&mut self, with: Contact) {
+    fn add(&mut self, with: ContactKind) {
         match with {
-            Contact::None => {}
-            Contact::Bridge => self.bridge += 1,
-            Contact::Terrain => self.terrain += 1,
-            Contact::Water => self.water += 1,
-            Contact::Other => self.other += 1,
-            Contact::Vehicle => self.vehicle += 1,
-            Contact::Person => self.person += 1,
+            ContactKind::None => {}
+            ContactKind::Bridge => self.bridge += 1,
+            ContactKind::Terrain => self.terrain += 1,
+            ContactKind::Water => self.water += 1,
+            ContactKind::Other => self.other += 1,
+            ContactKind::Vehicle => self.vehicle += 1,
+            ContactKind::Person => self.person += 1,
         }
     }
 
     /// Both together.
     #[must_use]
-    pub fn plus(self, more: Self) -> Self {
+    pub fn with_added(self, more: Self) -> Self {
         Self {
             bridge: self.bridge + more.bridge,
             terrain: self.terrain + more.terrain,
@@ -479,26 +479,26 @@ mod tests {
 
     #[test]
     fn exact_a_fingerprint_follows_every_source() {
-        let base = Hashes::of(b"s", b"v", b"t", b"");
+        let base = SourceHashes::of(b"s", b"v", b"t", b"");
         let others = [
-            Hashes::of(b"S", b"v", b"t", b""),
-            Hashes::of(b"s", b"V", b"t", b""),
-            Hashes::of(b"s", b"v", b"T", b""),
-            Hashes::of(b"s", b"v", b"t", b"a"),
+            SourceHashes::of(b"S", b"v", b"t", b""),
+            SourceHashes::of(b"s", b"V", b"t", b""),
+            SourceHashes::of(b"s", b"v", b"T", b""),
+            SourceHashes::of(b"s", b"v", b"t", b"a"),
         ];
         for other in others {
             assert_ne!(base.fingerprint(), other.fingerprint());
         }
-        assert_eq!(base.fingerprint(), Hashes::of(b"s", b"v", b"t", b"").fingerprint());
+        assert_eq!(base.fingerprint(), SourceHashes::of(b"s", b"v", b"t", b"").fingerprint());
     }
 
     #[test]
     fn exact_crashes_add_up() {
         let mut crashes = Crashes::default();
-        for with in [Contact::Bridge, Contact::Bridge, Contact::Water, Contact::None, Contact::Person] {
+        for with in [ContactKind::Bridge, ContactKind::Bridge, ContactKind::Water, ContactKind::None, ContactKind::Person] {
             crashes.add(with);
         }
         assert_eq!((crashes.bridge, crashes.water, crashes.total()), (2, 1, 4));
-        assert_eq!(crashes.plus(crashes).total(), 8);
+        assert_eq!(crashes.with_added(crashes).total(), 8);
     }
 }

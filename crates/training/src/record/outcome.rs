@@ -3,7 +3,7 @@
 use spandrel_monitor::score::completion::{self, Completion};
 
 /// A session whose outcome is known.
-pub trait Outcome {
+pub trait SessionOutcome {
     /// Share of the job that was done; `None` in a record of format 1.
     fn completion(&self) -> Option<&Completion>;
 
@@ -16,7 +16,7 @@ pub trait Outcome {
     }
 
     /// How much of the job was done, in words.
-    fn headline(&self) -> String {
+    fn completion_summary(&self) -> String {
         self.completion().map_or_else(|| "Completion unknown: import this session again".to_owned(), Completion::headline)
     }
 

@@ -1,14 +1,14 @@
 //! The feedback that was given, found by letting the sidecar hear the log again, and what the trainee's hands did about it.
 
-use super::Scene;
-use super::track::Step;
+use super::ReviewContext;
+use super::track::TaskProximityStep;
 use spandrel_mavlink::contract::cue;
-use spandrel_mavlink::telemetry::log_stream::Log;
+use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
-use spandrel_monitor::watch::build_site;
-use spandrel_monitor::{Monitor, MonitorConfig, Record};
+use spandrel_monitor::sidecar::build_site;
+use spandrel_monitor::{Monitor, MonitorConfig, SessionOutput};
 use std::ops::ControlFlow;
 
 /// A stick that moves this far from where it was when the cue came is an answer, full travel = 1 (estimate: beyond any hand's tremor, below
@@ -18,18 +18,18 @@ const STICK_MOVE: f64 = 0.1;
 const ANSWER_WITHIN_S: f64 = 5.0;
 
 /// The cues in the order of their rows.
-pub const KINDS: [Kind; 6] = [
-    Kind { bit: cue::CRASH, name: "crash", wants_answer: true },
-    Kind { bit: cue::TOO_CLOSE, name: "too close", wants_answer: true },
-    Kind { bit: cue::SPEEDING, name: "speeding", wants_answer: true },
-    Kind { bit: cue::OFF_PATH, name: "off path", wants_answer: true },
-    Kind { bit: cue::BATTERY_YELLOW, name: "battery yellow", wants_answer: false },
-    Kind { bit: cue::BATTERY_RED, name: "battery red", wants_answer: false },
+pub const KINDS: [CueKind; 6] = [
+    CueKind { bit: cue::CRASH, name: "crash", wants_answer: true },
+    CueKind { bit: cue::TOO_CLOSE, name: "too close", wants_answer: true },
+    CueKind { bit: cue::SPEEDING, name: "speeding", wants_answer: true },
+    CueKind { bit: cue::OFF_PATH, name: "off path", wants_answer: true },
+    CueKind { bit: cue::BATTERY_YELLOW, name: "battery yellow", wants_answer: false },
+    CueKind { bit: cue::BATTERY_RED, name: "battery red", wants_answer: false },
 ];
 
 /// One kind of cue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Kind {
+pub struct CueKind {
     /// Its bit.
     pub bit: i32,
     /// Its name.
@@ -40,7 +40,7 @@ pub struct Kind {
 
 /// One time that a cue was on.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Episode {
+pub struct CueEpisode {
     /// Index into [`KINDS`].
     pub kind: usize,
     /// Since lift-off, s.
@@ -55,9 +55,9 @@ pub struct Episode {
 
 /// What was said.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Said {
+pub struct CueText {
     /// Cues, by the time at which they came on.
-    pub episodes: Vec<Episode>,
+    pub episodes: Vec<CueEpisode>,
     /// Texts with their times, s since lift-off.
     pub texts: Vec<(f64, String)>,
     /// What an instructor noted, with its time, s since lift-off; before it below zero. No trainee's screen showed it.
@@ -66,10 +66,10 @@ pub struct Said {
 
 /// Collects the feedback among the sidecar's events.
 #[must_use]
-pub fn said(events: Vec<Event>, scene: &Scene<'_>, track: &[Step]) -> Said {
-    let (Some(first), Some(last)) = (scene.frames.first(), scene.frames.last()) else { return Said::default() };
+pub fn cue_text(events: Vec<LoggedEvent>, scene: &ReviewContext<'_>, track: &[TaskProximityStep]) -> CueText {
+    let (Some(first), Some(last)) = (scene.frames.first(), scene.frames.last()) else { return CueText::default() };
     let end_s = (last.time - first.time).s();
-    let mut said = Said::default();
+    let mut said = CueText::default();
     let mut open: [Option<f64>; KINDS.len()] = [None; KINDS.len()];
     for (time_s, event) in events {
         let t_s = time_s - first.time.s();
@@ -104,13 +104,13 @@ pub fn said(events: Vec<Event>, scene: &Scene<'_>, track: &[Step]) -> Said {
 }
 
 /// Simulation time, s, and a line of `events.jsonl`.
-pub type Event = (f64, serde_json::Value);
+pub type LoggedEvent = (f64, serde_json::Value);
 
 /// Plays a log to the monitor and returns its events.
 ///
 /// # Errors
 /// When the log cannot be read.
-pub fn events(log: &(impl Log + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> std::io::Result<Vec<Event>> {
+pub fn events(log: &(impl TelemetryLog + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> std::io::Result<Vec<LoggedEvent>> {
     let mut monitor = Monitor::new(MonitorConfig {
         scenario: scenario.clone(),
         vehicle: vehicle.clone(),
@@ -119,14 +119,14 @@ pub fn events(log: &(impl Log + ?Sized), scenario: &Scenario, vehicle: &Vehicle)
         started_unix_us: 0,
         system_id: 1,
         seed: None,
-        build: build_site,
+        survey_builder: build_site,
     });
     let mut events = Vec::new();
-    log.each(&mut |record| {
+    log.for_each_record(&mut |record| {
         monitor.handle_datagram(record.frame);
         while monitor.poll_transmit().is_some() {}
         while let Some(record) = monitor.poll_record() {
-            if let Record::Event(line) = record
+            if let SessionOutput::Event(line) = record
                 && let Ok(event) = serde_json::from_str::<serde_json::Value>(&line)
                 && let Some(t_s) = event["t_s"].as_f64()
             {
@@ -138,7 +138,7 @@ pub fn events(log: &(impl Log + ?Sized), scenario: &Scenario, vehicle: &Vehicle)
     Ok(events)
 }
 
-fn episode(kind: usize, (from_s, to_s): (f64, f64), scene: &Scene<'_>, track: &[Step]) -> Episode {
+fn episode(kind: usize, (from_s, to_s): (f64, f64), scene: &ReviewContext<'_>, track: &[TaskProximityStep]) -> CueEpisode {
     let first = scene.frames[0].time;
     let onset = first + SimTime::from_s(from_s);
     let at = scene.frames.partition_point(|frame| frame.time < onset).min(scene.frames.len() - 1);
@@ -146,7 +146,7 @@ fn episode(kind: usize, (from_s, to_s): (f64, f64), scene: &Scene<'_>, track: &[
     let until = onset + SimTime::from_s(ANSWER_WITHIN_S);
     let moved = |sticks: [f64; 4]| sticks.iter().zip(before).any(|(now, then)| (now - then).abs() >= STICK_MOVE);
     let answer = scene.frames[at..].iter().take_while(|frame| frame.time <= until).find(|frame| moved(frame.sticks));
-    Episode {
+    CueEpisode {
         kind,
         from_s,
         to_s,

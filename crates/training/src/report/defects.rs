@@ -1,10 +1,10 @@
 //! What became of each defect, and for one that no picture shows: how near the flight came to it.
 
-use super::Scene;
+use super::ReviewContext;
 use super::words;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::PlacedDefect;
-use spandrel_model::site::look::judge;
+use spandrel_model::site::visibility::judge;
 use spandrel_model::site::{CameraPose, DefectView};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Camera;
@@ -18,18 +18,18 @@ const SHOWN_FROM_M: f64 = 4.0;
 
 /// One defect.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Fate {
+pub struct DefectOutcome {
     /// The defect.
     pub defect: PlacedDefect,
     /// Number of the picture that showed it first.
     pub found_by: Option<u32>,
     /// How near the flight came, when no picture shows it.
-    pub chance: Option<Chance>,
+    pub chance: Option<BestApproach>,
 }
 
 /// How near the flight came to a picture of a defect.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Chance {
+pub struct BestApproach {
     /// Time for which one press would have been a hit, s.
     pub in_view_s: f64,
     /// The best moment, s since lift-off: the first that would have been a hit, else the one with the fewest conditions failing.
@@ -38,7 +38,7 @@ pub struct Chance {
     pub nearest: (f64, f64),
 }
 
-impl Fate {
+impl DefectOutcome {
     /// What happened, in words.
     #[must_use]
     pub fn words(&self) -> String {
@@ -74,32 +74,32 @@ impl Fate {
 
 /// All defects of a session.
 #[must_use]
-pub fn fates(scene: &Scene<'_>, assessment: &Assessment) -> Vec<Fate> {
+pub fn fates(scene: &ReviewContext<'_>, assessment: &Assessment) -> Vec<DefectOutcome> {
     let each = &assessment.snapshots.each;
     let number = |id: u32| each.iter().position(|s| s.found.contains(&id)).map(|k| u32::try_from(k + 1).unwrap_or(u32::MAX));
     let fate = |defect: &PlacedDefect| {
         let found_by = number(defect.id);
         let chance = if found_by.is_none() { Some(chance(scene, defect)) } else { None };
-        Fate { defect: defect.clone(), found_by, chance }
+        DefectOutcome { defect: defect.clone(), found_by, chance }
     };
     scene.site.defects().iter().map(fate).collect()
 }
 
-fn chance(scene: &Scene<'_>, defect: &PlacedDefect) -> Chance {
+fn chance(scene: &ReviewContext<'_>, defect: &PlacedDefect) -> BestApproach {
     let rate_hz = scene.scenario.scoring.frame_rate_hz;
     let stride = (STEP.s() * rate_hz).round().max(1.0) as usize;
-    let mut chance = Chance { in_view_s: 0.0, best: None, nearest: (f64::INFINITY, 0.0) };
+    let mut chance = BestApproach { in_view_s: 0.0, best: None, nearest: (f64::INFINITY, 0.0) };
     // The sun moves little in a flight: its light on the defect is asked for once.
     let mut ambient_lux = None;
     for frame in scene.frames.iter().step_by(stride) {
-        let t_s = scene.since_lift_off_s(frame.time);
+        let t_s = scene.time_since_lift_off_s(frame.time);
         let away_m = (frame.position_m - defect.position_m).norm();
         if away_m < chance.nearest.0 {
             chance.nearest = (away_m, t_s);
         }
         let Some(pose) = attention::pose(scene.flight, frame.time, scene.vehicle) else { continue };
         let camera = attention::camera(scene.flight, frame.time, &scene.vehicle.camera);
-        if !may_show(&pose, &camera, defect.position_m) {
+        if !could_be_visible(&pose, &camera, defect.position_m) {
             continue;
         }
         let lux = *ambient_lux.get_or_insert_with(|| scene.site.ambient_lux(defect.position_m, Some(defect.normal), frame.time));
@@ -124,7 +124,7 @@ fn failing(view: &DefectView) -> usize {
 }
 
 /// False only when the point is outside the image.
-fn may_show(pose: &CameraPose, camera: &Camera, point_m: Vec3<Enu>) -> bool {
+fn could_be_visible(pose: &CameraPose, camera: &Camera, point_m: Vec3<Enu>) -> bool {
     let to = point_m - pose.position_m;
     let depth = to.dot(pose.forward);
     let half = 0.5 * f64::from(camera.width_px.max(camera.height_px)) / camera.focal_px();

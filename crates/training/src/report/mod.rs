@@ -18,9 +18,9 @@ pub mod table;
 pub mod track;
 pub mod words;
 
-use crate::plan::{self, RULES, Step, read_rules};
-use crate::record::{Hashes, Source, record};
-use spandrel_mavlink::telemetry::log_stream::Log;
+use crate::plan::{self, PlanStep, RULES, read_rules};
+use crate::record::{RecordSource, SourceHashes, record};
+use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
 use spandrel_mavlink::telemetry::timeline::LinkCounts;
 use spandrel_mavlink::telemetry::{Flight, Frame, Timeline};
 use spandrel_model::geodesy::LocalPlane;
@@ -30,12 +30,12 @@ use spandrel_model::vehicle::Vehicle;
 use spandrel_monitor::assessment::{Assessment, identified_flight};
 use spandrel_monitor::measures::attention;
 use spandrel_monitor::measures::crash::{self, Crash};
-use spandrel_monitor::measures::on_path::{OnPath, Paths};
-use spandrel_monitor::{AssessError, Graded, Job, assess};
+use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths};
+use spandrel_monitor::{AssessError, AssessedSession, ScoringJob, assess};
 
 /// What the folder says besides the flight itself.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct About {
+pub struct SessionFacts {
     /// Who flew.
     pub trainee: String,
     /// `practice` or `assessment`, where somebody chose.
@@ -67,7 +67,7 @@ pub struct Jpeg {
 #[derive(Debug)]
 pub struct Review {
     /// Who, when, which files.
-    pub about: About,
+    pub about: SessionFacts,
     /// The job.
     pub scenario: Scenario,
     /// The aircraft.
@@ -81,7 +81,7 @@ pub struct Review {
     /// Frames 1 to N.
     pub frames: Vec<Frame>,
     /// Frame by frame, how the drone stood to the tasks.
-    pub track: Vec<track::Step>,
+    pub track: Vec<track::TaskProximityStep>,
     /// Windows and on-path frames.
     pub on_path: OnPath,
     /// Onsets of contact.
@@ -89,15 +89,15 @@ pub struct Review {
     /// What each task's window holds.
     pub tasks: Vec<track::TaskFacts>,
     /// Feedback and what the trainee did.
-    pub feedback: cues::Said,
+    pub feedback: cues::CueText,
     /// Pictures.
-    pub pictures: Vec<pictures::Picture>,
+    pub pictures: Vec<pictures::ReviewedPicture>,
     /// Defects.
-    pub defects: Vec<defects::Fate>,
+    pub defects: Vec<defects::DefectOutcome>,
     /// Surface seen, by element.
-    pub coverage: coverage::Coverage,
+    pub coverage: coverage::SurfaceCoverage,
     /// What to fly next, by this session alone and the shipped rules.
-    pub next: Vec<Step>,
+    pub next: Vec<PlanStep>,
     /// What the link did.
     pub link: LinkCounts,
 }
@@ -107,7 +107,12 @@ impl Review {
     ///
     /// # Errors
     /// When the log cannot be read, is of another scenario or seed, or holds no session.
-    pub fn of(log: &(impl Log + ?Sized), scenario: &Scenario, vehicle: &Vehicle, about: About) -> Result<Self, AssessError> {
+    pub fn of(
+        log: &(impl TelemetryLog + ?Sized),
+        scenario: &Scenario,
+        vehicle: &Vehicle,
+        about: SessionFacts,
+    ) -> Result<Self, AssessError> {
         // Before the flight is in memory: the sidecar that hears the log holds a second one until it has ended.
         let events = cues::events(log, scenario, vehicle)?;
         let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
@@ -115,19 +120,19 @@ impl Review {
         let (flight, seed) = identified_flight(&timeline, scenario, vehicle)?;
         let link = timeline.counts();
         drop(timeline);
-        let site = Site::build(scenario, seed).with_gates(attention::gates(&flight));
-        let (assessment, frames) = assess(&flight, &Job { scenario, vehicle, survey: &site })?;
-        let paths = Paths::new(scenario);
+        let site = Site::build(scenario, seed).with_closures(attention::gates(&flight));
+        let (assessment, frames) = assess(&flight, &ScoringJob { scenario, vehicle, survey: &site })?;
+        let paths = ReferencePaths::new(scenario);
         let on_path = OnPath::measure(&paths, frames.iter().map(|frame| frame.position_m));
-        let scene = Scene { flight: &flight, frames: &frames, scenario, vehicle, site: &site };
+        let scene = ReviewContext { flight: &flight, frames: &frames, scenario, vehicle, site: &site };
         let track = track::steps(&paths, &on_path, &scene);
         let pictures = pictures::judged(&scene, &assessment, &track);
         let coverage = coverage::covered(&scene, &pictures);
         let (crashes, tasks) = (crash::crashes(&frames, &on_path), track::tasks(&scene, &on_path, &track));
-        let (feedback, defects) = (cues::said(events, &scene, &track), defects::fates(&scene, &assessment));
-        let graded = Graded { assessment, frames, seed };
+        let (feedback, defects) = (cues::cue_text(events, &scene, &track), defects::fates(&scene, &assessment));
+        let graded = AssessedSession { assessment, frames, seed };
         let next = next(&about, scenario, vehicle, &graded, (&site, &defects));
-        let Graded { assessment, frames, .. } = graded;
+        let AssessedSession { assessment, frames, .. } = graded;
         Ok(Self {
             crashes,
             tasks,
@@ -159,19 +164,19 @@ impl Review {
 
 /// What the shipped rules say of one session; nothing when they cannot be read, which a test excludes.
 fn next(
-    about: &About,
+    about: &SessionFacts,
     scenario: &Scenario,
     vehicle: &Vehicle,
-    graded: &Graded,
-    (site, fates): (&Site, &[defects::Fate]),
-) -> Vec<Step> {
-    let hashes = Hashes {
+    graded: &AssessedSession,
+    (site, fates): (&Site, &[defects::DefectOutcome]),
+) -> Vec<PlanStep> {
+    let hashes = SourceHashes {
         scenario: about.scenario_sha256.clone(),
         vehicle: about.vehicle_sha256.clone(),
         telemetry: about.telemetry_sha256.clone(),
         answers: String::new(),
     };
-    let mut record = record(&Source {
+    let mut record = record(&RecordSource {
         id: &about.folder,
         trainee: &about.trainee,
         purpose: about.purpose.as_deref(),
@@ -194,7 +199,7 @@ fn next(
 
 /// What the parts of a review look at.
 #[derive(Debug, Clone, Copy)]
-pub struct Scene<'a> {
+pub struct ReviewContext<'a> {
     /// The flight.
     pub flight: &'a Flight,
     /// Its frames.
@@ -207,10 +212,10 @@ pub struct Scene<'a> {
     pub site: &'a Site,
 }
 
-impl Scene<'_> {
+impl ReviewContext<'_> {
     /// Seconds since lift-off of a simulation time.
     #[must_use]
-    pub fn since_lift_off_s(&self, time: spandrel_model::time::SimTime) -> f64 {
+    pub fn time_since_lift_off_s(&self, time: spandrel_model::time::SimTime) -> f64 {
         self.frames.first().map_or(0.0, |first| (time - first.time).s())
     }
 }

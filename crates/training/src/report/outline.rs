@@ -8,7 +8,7 @@ use spandrel_model::scenario::bridges::Member;
 
 /// A parallel view: what is to the right of the sheet, and what is up on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct View {
+pub struct ParallelView {
     /// Unit vector to the right.
     pub right: Vec3<Enu>,
     /// Unit vector up the sheet.
@@ -17,7 +17,7 @@ pub struct View {
 
 /// The silhouette of one member.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Outline {
+pub struct MemberOutline {
     /// AASHTO MBEI number.
     pub element: u32,
     /// Corners on the sheet, counter-clockwise, m right and up.
@@ -26,7 +26,7 @@ pub struct Outline {
     pub near_m: f64,
 }
 
-impl View {
+impl ParallelView {
     /// From above, north up.
     #[must_use]
     pub fn plan() -> Self {
@@ -95,14 +95,14 @@ pub fn hull(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
 
 /// Silhouettes of the members, the farthest first; those smaller than `least_m` either way are left out.
 #[must_use]
-pub fn outlines<'a>(members: impl Iterator<Item = &'a Member>, view: &View, least_m: f64) -> Vec<Outline> {
+pub fn outlines<'a>(members: impl Iterator<Item = &'a Member>, view: &ParallelView, least_m: f64) -> Vec<MemberOutline> {
     let towards = view.towards();
     let one = |member: &Member| {
         let corners = hull(&member.solid.vertices_m.iter().map(|v| view.at(*v)).collect::<Vec<_>>());
         let near_m = member.solid.vertices_m.iter().map(|v| v.dot(towards)).fold(f64::NEG_INFINITY, f64::max);
-        Outline { element: member.element, corners, near_m }
+        MemberOutline { element: member.element, corners, near_m }
     };
-    let mut found: Vec<Outline> = members.map(one).filter(|outline| extent(&outline.corners) >= least_m).collect();
+    let mut found: Vec<MemberOutline> = members.map(one).filter(|outline| extent(&outline.corners) >= least_m).collect();
     found.sort_by(|a, b| a.near_m.total_cmp(&b.near_m));
     found
 }
@@ -118,7 +118,7 @@ fn extent(corners: &[(f64, f64)]) -> f64 {
 
 /// Triangles in whole centimetres about a corner of the site, for 16-bit numbers.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Mesh {
+pub struct QuantizedMesh {
     /// What zero means, m east, north, up.
     pub origin_m: [f64; 3],
     /// What one means, m.
@@ -131,7 +131,7 @@ pub struct Mesh {
 
 /// The members as triangles; those that would not fit 65,536 corners are left out, the smallest first.
 #[must_use]
-pub fn mesh(members: &[Member]) -> Mesh {
+pub fn mesh(members: &[Member]) -> QuantizedMesh {
     let size = |member: &Member| {
         let v = &member.solid.vertices_m;
         v.iter().map(|a| (*a - v[0]).norm()).fold(0.0, f64::max)
@@ -142,7 +142,7 @@ pub fn mesh(members: &[Member]) -> Mesh {
     let low = all().fold([f64::INFINITY; 3], |low, v| std::array::from_fn(|k| low[k].min(v.array()[k])));
     let high = all().fold([f64::NEG_INFINITY; 3], |high, v| std::array::from_fn(|k| high[k].max(v.array()[k])));
     let widest = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
-    let mut mesh = Mesh { origin_m: low, step_m: (widest / f64::from(u16::MAX)).max(0.01), ..Mesh::default() };
+    let mut mesh = QuantizedMesh { origin_m: low, step_m: (widest / f64::from(u16::MAX)).max(0.01), ..QuantizedMesh::default() };
     for member in order {
         let solid = &member.solid;
         if mesh.corners.len() + solid.vertices_m.len() > usize::from(u16::MAX) {
@@ -170,14 +170,14 @@ mod tests {
 
     #[test]
     fn exact_views_are_right_handed_and_square() {
-        for view in [View::plan(), View::from_south(), View::oblique(30.0, 25.0)] {
+        for view in [ParallelView::plan(), ParallelView::from_south(), ParallelView::oblique(30.0, 25.0)] {
             assert!(view.right.dot(view.up).abs() < 1e-12);
             assert!((view.right.norm() - 1.0).abs() < 1e-12 && (view.up.norm() - 1.0).abs() < 1e-12);
         }
-        assert!((View::plan().towards() - Vec3::new(0.0, 0.0, 1.0)).norm() < 1e-12, "seen from above");
-        assert!((View::from_south().towards() - Vec3::new(0.0, -1.0, 0.0)).norm() < 1e-12);
+        assert!((ParallelView::plan().towards() - Vec3::new(0.0, 0.0, 1.0)).norm() < 1e-12, "seen from above");
+        assert!((ParallelView::from_south().towards() - Vec3::new(0.0, -1.0, 0.0)).norm() < 1e-12);
         // Looking north and down: who looks stands south and above.
-        let towards = View::oblique(0.0, 30.0).towards();
+        let towards = ParallelView::oblique(0.0, 30.0).towards();
         assert!((towards - Vec3::new(0.0, -math::cos(30f64.to_radians()), 0.5)).norm() < 1e-12, "{towards:?}");
     }
 }

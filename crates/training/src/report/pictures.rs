@@ -1,9 +1,9 @@
 //! Each picture with its verdict, by the same geometry and light as the score.
 
-use super::Scene;
-use super::track::Step;
+use super::ReviewContext;
+use super::track::TaskProximityStep;
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::site::look::{lamp_lux, needed_lux};
+use spandrel_model::site::visibility::{lamp_lux, needed_lux};
 use spandrel_model::site::{CameraPose, DefectView, ObjectId, Surface};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Camera;
@@ -15,7 +15,7 @@ const TARGET_REACH_M: f64 = 120.0;
 
 /// What a picture was worth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Verdict {
+pub enum PictureVerdict {
     /// It is the first to show a defect.
     Hit,
     /// It shows defects that earlier pictures have shown.
@@ -30,7 +30,7 @@ pub enum Verdict {
     False,
 }
 
-impl Verdict {
+impl PictureVerdict {
     /// All, in the order of the legend.
     pub const ALL: [Self; 6] = [Self::Hit, Self::Repeat, Self::TooDark, Self::TooFar, Self::TooOblique, Self::False];
 
@@ -61,7 +61,7 @@ impl Verdict {
 
 /// What stands in the middle of a picture.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Target {
+pub struct PictureSubject {
     /// Its name.
     pub name: String,
     /// Distance, m.
@@ -80,7 +80,7 @@ pub struct Target {
 
 /// One picture.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Picture {
+pub struct ReviewedPicture {
     /// Running number in this report, from 1.
     pub number: u32,
     /// The camera's own number.
@@ -96,7 +96,7 @@ pub struct Picture {
     /// The camera as it was zoomed.
     pub camera: Camera,
     /// Worth.
-    pub verdict: Verdict,
+    pub verdict: PictureVerdict,
     /// Why, in words.
     pub reason: String,
     /// Defects that it is the first to show.
@@ -104,14 +104,14 @@ pub struct Picture {
     /// Defects in the middle of the image, shown or not.
     pub views: Vec<DefectView>,
     /// What stands in its middle; `None` for sky.
-    pub target: Option<Target>,
+    pub target: Option<PictureSubject>,
     /// Index of the task then flown.
     pub task: Option<usize>,
 }
 
 /// All pictures of a session.
 #[must_use]
-pub fn judged(scene: &Scene<'_>, assessment: &Assessment, track: &[Step]) -> Vec<Picture> {
+pub fn judged(scene: &ReviewContext<'_>, assessment: &Assessment, track: &[TaskProximityStep]) -> Vec<ReviewedPicture> {
     let each = assessment.snapshots.each.iter().enumerate();
     each.filter_map(|(k, snapshot)| {
         let at = usize::try_from(snapshot.frame).ok()?.checked_sub(1)?;
@@ -120,10 +120,10 @@ pub fn judged(scene: &Scene<'_>, assessment: &Assessment, track: &[Step]) -> Vec
         let (time, _, (index, _)) = *scene.flight.snapshots.between(since, frame.time).first()?;
         let pose = attention::pose(scene.flight, time, scene.vehicle)?;
         let camera = attention::camera(scene.flight, time, &scene.vehicle.camera);
-        let looks = scene.site.look(&pose, &camera, &scene.vehicle.lamp, time);
+        let looks = scene.site.view_defects(&pose, &camera, &scene.vehicle.lamp, time);
         let views: Vec<DefectView> = looks.into_iter().filter(|view| view.in_frame || view.hit).collect();
         let (verdict, reason) = verdict(&snapshot.found, &views);
-        Some(Picture {
+        Some(ReviewedPicture {
             number: u32::try_from(k + 1).unwrap_or(u32::MAX),
             index,
             frame: snapshot.frame,
@@ -144,42 +144,47 @@ pub fn judged(scene: &Scene<'_>, assessment: &Assessment, track: &[Step]) -> Vec
 
 /// What a picture is worth, from what it is the first to show and what it has in its middle.
 #[must_use]
-pub fn verdict(found: &[u32], views: &[DefectView]) -> (Verdict, String) {
+pub fn verdict(found: &[u32], views: &[DefectView]) -> (PictureVerdict, String) {
     let list = |ids: &[u32]| ids.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
     if !found.is_empty() {
-        return (Verdict::Hit, format!("shows defect {} for the first time", list(found)));
+        return (PictureVerdict::Hit, format!("shows defect {} for the first time", list(found)));
     }
     let again: Vec<u32> = views.iter().filter(|view| view.hit).map(|view| view.defect_id).collect();
     if !again.is_empty() {
-        return (Verdict::Repeat, format!("defect {} had been photographed before", list(&again)));
+        return (PictureVerdict::Repeat, format!("defect {} had been photographed before", list(&again)));
     }
     let failing = |view: &&DefectView| view.conditions().iter().filter(|holds| !**holds).count();
     let nearest = views.iter().filter(|view| view.unoccluded).min_by_key(failing);
     let Some(view) = nearest else {
         let behind = views.first().map(|view| format!(" (defect {} is there, behind something)", view.defect_id));
-        return (Verdict::False, format!("no defect to be seen{}", behind.unwrap_or_default()));
+        return (PictureVerdict::False, format!("no defect to be seen{}", behind.unwrap_or_default()));
     };
     let [_, _, square, large, wide, lit] = view.conditions();
     let verdict = if !square {
-        Verdict::TooOblique
+        PictureVerdict::TooOblique
     } else if !large || !wide {
-        Verdict::TooFar
+        PictureVerdict::TooFar
     } else if !lit {
-        Verdict::TooDark
+        PictureVerdict::TooDark
     } else {
-        Verdict::False
+        PictureVerdict::False
     };
     (verdict, format!("defect {} is {}", view.defect_id, view.reasons().join("; ")))
 }
 
-fn target(scene: &Scene<'_>, pose: &CameraPose, camera: &Camera, (time, velocity_m_s): (SimTime, Vec3<Enu>)) -> Option<Target> {
+fn target(
+    scene: &ReviewContext<'_>,
+    pose: &CameraPose,
+    camera: &Camera,
+    (time, velocity_m_s): (SimTime, Vec3<Enu>),
+) -> Option<PictureSubject> {
     let hit = scene.site.ray(pose.position_m, pose.forward, TARGET_REACH_M, time)?;
     let point_m = pose.position_m + pose.forward * hit.distance_m;
     let ambient = scene.site.ambient_lux(point_m, Some(hit.normal), time);
     let lux = ambient + lamp_lux(&scene.vehicle.lamp, pose, point_m, hit.normal);
     let gsd_m = hit.distance_m / camera.focal_px();
     let across = velocity_m_s - pose.forward * velocity_m_s.dot(pose.forward);
-    Some(Target {
+    Some(PictureSubject {
         name: if hit.surface == Surface::Bridge { member(scene, hit.object) } else { scene.site.object_name(hit.object) },
         distance_m: hit.distance_m,
         incidence_rad: spandrel_model::math::acos((-pose.forward.dot(hit.normal)).clamp(-1.0, 1.0)),
@@ -190,7 +195,7 @@ fn target(scene: &Scene<'_>, pose: &CameraPose, camera: &Camera, (time, velocity
     })
 }
 
-fn member(scene: &Scene<'_>, object: ObjectId) -> String {
+fn member(scene: &ReviewContext<'_>, object: ObjectId) -> String {
     scene.site.members().get(object.0 as usize).map_or_else(|| scene.site.object_name(object), |member| member.name.clone())
 }
 
@@ -224,27 +229,27 @@ mod tests {
     #[test]
     fn exact_every_verdict_has_its_cause() {
         let hit = DefectView { hit: true, ..view() };
-        assert_eq!(verdict(&[4], &[hit]).0, Verdict::Hit);
-        assert_eq!(verdict(&[], &[hit]).0, Verdict::Repeat);
+        assert_eq!(verdict(&[4], &[hit]).0, PictureVerdict::Hit);
+        assert_eq!(verdict(&[], &[hit]).0, PictureVerdict::Repeat);
         let cases = [
-            (DefectView { illuminance_lux: 10.0, ..view() }, Verdict::TooDark, "too dark: lamp off"),
-            (DefectView { extent_px: 3.0, ..view() }, Verdict::TooFar, "too small"),
-            (DefectView { line: true, width_px: 0.2, ..view() }, Verdict::TooFar, "line too thin"),
-            (DefectView { incidence_rad: 1.2, ..view() }, Verdict::TooOblique, "69 deg"),
-            (DefectView { unoccluded: false, ..view() }, Verdict::False, "behind something"),
+            (DefectView { illuminance_lux: 10.0, ..view() }, PictureVerdict::TooDark, "too dark: lamp off"),
+            (DefectView { extent_px: 3.0, ..view() }, PictureVerdict::TooFar, "too small"),
+            (DefectView { line: true, width_px: 0.2, ..view() }, PictureVerdict::TooFar, "line too thin"),
+            (DefectView { incidence_rad: 1.2, ..view() }, PictureVerdict::TooOblique, "69 deg"),
+            (DefectView { unoccluded: false, ..view() }, PictureVerdict::False, "behind something"),
         ];
         for (case, expected, word) in cases {
             let (got, reason) = verdict(&[], &[case]);
             assert_eq!(got, expected, "{reason}");
             assert!(reason.contains(word), "{reason}");
         }
-        assert_eq!(verdict(&[], &[]), (Verdict::False, "no defect to be seen".into()));
+        assert_eq!(verdict(&[], &[]), (PictureVerdict::False, "no defect to be seen".into()));
     }
 
     #[test]
     fn exact_the_defect_nearest_to_a_hit_decides() {
         let worse = DefectView { defect_id: 1, incidence_rad: 1.2, illuminance_lux: 1.0, ..view() };
         let better = DefectView { illuminance_lux: 10.0, ..view() };
-        assert_eq!(verdict(&[], &[worse, better]).0, Verdict::TooDark);
+        assert_eq!(verdict(&[], &[worse, better]).0, PictureVerdict::TooDark);
     }
 }

@@ -23,18 +23,18 @@ const SKY: [f64; 3] = [0.80, 0.87, 0.93];
 
 struct Facet {
     corners: [Vec3<Enu>; 3],
-    shade: Shade,
+    shade: ShadeIndex,
 }
 
 /// A colour by its number: faces of one shade have one.
-type Shade = u32;
+type ShadeIndex = u32;
 /// The sky's.
-const BLUE: Shade = 0;
+const BLUE: ShadeIndex = 0;
 
 /// All colours of a site. A drawing writes numbers: they are a sixth as long.
 struct Palette {
     colours: Vec<[f64; 3]>,
-    numbers: BTreeMap<[u64; 3], Shade>,
+    numbers: BTreeMap<[u64; 3], ShadeIndex>,
 }
 
 impl Palette {
@@ -42,16 +42,16 @@ impl Palette {
         Self { colours: vec![SKY], numbers: [(SKY.map(f64::to_bits), BLUE)].into() }
     }
 
-    fn number(&mut self, colour: [f64; 3]) -> Shade {
+    fn number(&mut self, colour: [f64; 3]) -> ShadeIndex {
         let next = self.colours.len();
         *self.numbers.entry(colour.map(f64::to_bits)).or_insert_with(|| {
             self.colours.push(colour);
-            Shade::try_from(next).unwrap_or(BLUE)
+            ShadeIndex::try_from(next).unwrap_or(BLUE)
         })
     }
 }
 
-struct Body {
+struct SketchBody {
     centre_m: Vec3<Enu>,
     radius_m: f64,
     facets: Vec<Facet>,
@@ -59,13 +59,13 @@ struct Body {
 
 /// The site, shaded and ready to be drawn from anywhere.
 pub struct Sketcher {
-    bodies: Vec<Body>,
+    bodies: Vec<SketchBody>,
     colours: Vec<[f64; 3]>,
 }
 
 /// Light for one drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Exposure {
+pub struct SketchExposure {
     /// Light in the middle as a share of what the camera needs there.
     pub light: f64,
     /// The lamp gives most of it.
@@ -78,7 +78,7 @@ impl Sketcher {
     pub fn new(site: &Site, scenario: &Scenario, at: SimTime) -> Self {
         let sun = sun::direction(scenario.light.start_unix_s as f64 + at.s(), scenario.origin);
         let mut palette = Palette::new();
-        let mut bodies: Vec<Body> = site.members().iter().map(|member| structure(member, sun, &mut palette)).collect();
+        let mut bodies: Vec<SketchBody> = site.members().iter().map(|member| structure(member, sun, &mut palette)).collect();
         bodies.extend(ground(site, scenario, sun, &mut palette));
         Self { bodies, colours: palette.colours }
     }
@@ -87,11 +87,12 @@ impl Sketcher {
     ///
     /// # Errors
     /// When it cannot be encoded.
-    pub fn png(&self, pose: &CameraPose, camera: &Camera, exposure: Exposure) -> Result<Vec<u8>, png::EncodingError> {
+    pub fn png(&self, pose: &CameraPose, camera: &Camera, exposure: SketchExposure) -> Result<Vec<u8>, png::EncodingError> {
         let height = (WIDTH_PX * camera.height_px as usize / (camera.width_px as usize).max(1)).clamp(1, 4 * WIDTH_PX);
-        let mut sheet = Sheet::new(height, camera.focal_px() * WIDTH_PX as f64 / f64::from(camera.width_px));
+        let mut sheet = SketchSheet::new(height, camera.focal_px() * WIDTH_PX as f64 / f64::from(camera.width_px));
         let slope = |px: u32| 0.5 * f64::from(px) / camera.focal_px();
-        let lens = Lens { pose, down: pose.forward.cross(pose.right), slopes: [slope(camera.width_px), slope(camera.height_px)] };
+        let lens =
+            SketchLens { pose, down: pose.forward.cross(pose.right), slopes: [slope(camera.width_px), slope(camera.height_px)] };
         for body in &self.bodies {
             if !lens.may_show(body) {
                 continue;
@@ -104,13 +105,13 @@ impl Sketcher {
     }
 }
 
-fn structure(member: &spandrel_model::scenario::bridges::Member, sun: Vec3<Enu>, palette: &mut Palette) -> Body {
+fn structure(member: &spandrel_model::scenario::bridges::Member, sun: Vec3<Enu>, palette: &mut Palette) -> SketchBody {
     let v = &member.solid.vertices_m;
     let centre_m = v.iter().fold(Vec3::zero(), |sum, x| sum + *x) / v.len().max(1) as f64;
     let steel = matches!(member.element, 107 | 113 | 147 | 148 | 152 | 207 | 311 | 313 | 330);
     let base = if steel { [0.50, 0.57, 0.60] } else { [0.74, 0.72, 0.68] };
     let facet = |t: [u32; 3]| facet(t.map(|k| v[k as usize]), base, sun, palette);
-    Body {
+    SketchBody {
         centre_m,
         radius_m: v.iter().map(|x| (*x - centre_m).norm()).fold(0.0, f64::max),
         facets: member.solid.triangles().into_iter().map(facet).collect(),
@@ -125,7 +126,7 @@ fn facet(corners: [Vec3<Enu>; 3], base: [f64; 3], sun: Vec3<Enu>, palette: &mut 
 }
 
 /// Ground and water in squares.
-fn ground(site: &Site, scenario: &Scenario, sun: Vec3<Enu>, palette: &mut Palette) -> Vec<Body> {
+fn ground(site: &Site, scenario: &Scenario, sun: Vec3<Enu>, palette: &mut Palette) -> Vec<SketchBody> {
     let half = 0.5 * scenario.terrain.size_m;
     let water_m = scenario.terrain.water_level_m;
     let count = (scenario.terrain.size_m / GROUND_STEP_M).floor().clamp(1.0, 200.0) as usize;
@@ -148,53 +149,53 @@ fn ground(site: &Site, scenario: &Scenario, sun: Vec3<Enu>, palette: &mut Palett
     bodies
 }
 
-fn slab(square: [Vec3<Enu>; 4], base: [f64; 3], sun: Vec3<Enu>, palette: &mut Palette) -> Body {
+fn slab(square: [Vec3<Enu>; 4], base: [f64; 3], sun: Vec3<Enu>, palette: &mut Palette) -> SketchBody {
     let centre_m = square.iter().fold(Vec3::zero(), |sum, x| sum + *x) / 4.0;
-    Body {
+    SketchBody {
         centre_m,
         radius_m: square.iter().map(|x| (*x - centre_m).norm()).fold(0.0, f64::max),
         facets: [[0, 1, 2], [0, 2, 3]].map(|corners| facet(corners.map(|k: usize| square[k]), base, sun, palette)).into(),
     }
 }
 
-struct Lens<'a> {
+struct SketchLens<'a> {
     pose: &'a CameraPose,
     down: Vec3<Enu>,
     /// Half width and half height of the image at a depth of 1.
     slopes: [f64; 2],
 }
 
-impl Lens<'_> {
+impl SketchLens<'_> {
     /// Right, down, ahead.
-    fn see(&self, point_m: Vec3<Enu>) -> [f64; 3] {
+    fn project(&self, point_m: Vec3<Enu>) -> [f64; 3] {
         let to = point_m - self.pose.position_m;
         [to.dot(self.pose.right), to.dot(self.down), to.dot(self.pose.forward)]
     }
 
     /// False only when all of a body is behind the lens, too far or beside the image.
-    fn may_show(&self, body: &Body) -> bool {
-        let [x, y, depth] = self.see(body.centre_m);
+    fn may_show(&self, body: &SketchBody) -> bool {
+        let [x, y, depth] = self.project(body.centre_m);
         let r = body.radius_m;
         let beside = |aside: f64, slope: f64| aside.abs() - slope * depth > r * (1.0 + slope * slope).sqrt();
         depth + r >= NEAR_M && depth - r <= REACH_M && !beside(x, self.slopes[0]) && !beside(y, self.slopes[1])
     }
 }
 
-struct Sheet {
+struct SketchSheet {
     height: usize,
     focal_px: f64,
     /// 1/depth, 0 for the sky.
     near: Vec<f64>,
-    shade: Vec<Shade>,
+    shade: Vec<ShadeIndex>,
 }
 
-impl Sheet {
+impl SketchSheet {
     fn new(height: usize, focal_px: f64) -> Self {
         Self { height, focal_px, near: vec![0.0; WIDTH_PX * height], shade: vec![BLUE; WIDTH_PX * height] }
     }
 
-    fn draw(&mut self, lens: &Lens<'_>, facet: &Facet) {
-        let seen = facet.corners.map(|corner| lens.see(corner));
+    fn draw(&mut self, lens: &SketchLens<'_>, facet: &Facet) {
+        let seen = facet.corners.map(|corner| lens.project(corner));
         let clipped = clip(&seen);
         for k in 2..clipped.len() {
             self.fill([clipped[0], clipped[k - 1], clipped[k]], facet.shade);
@@ -202,7 +203,7 @@ impl Sheet {
     }
 
     /// Fills a triangle whose corners lie before the lens and run counter-clockwise as seen; the backs of faces are not drawn.
-    fn fill(&mut self, corners: [[f64; 3]; 3], shade: Shade) {
+    fn fill(&mut self, corners: [[f64; 3]; 3], shade: ShadeIndex) {
         let (w, h) = (WIDTH_PX as f64, self.height as f64);
         let p = corners.map(|[x, y, z]| (0.5 * w + self.focal_px * x / z, 0.5 * h + self.focal_px * y / z, 1.0 / z));
         let area = (p[1].0 - p[0].0) * (p[2].1 - p[0].1) - (p[1].1 - p[0].1) * (p[2].0 - p[0].0);
@@ -235,7 +236,7 @@ impl Sheet {
     }
 
     /// Edges, haze and light, to 8 bits.
-    fn shaded(&self, colours: &[[f64; 3]], exposure: Exposure) -> Vec<u8> {
+    fn shaded(&self, colours: &[[f64; 3]], exposure: SketchExposure) -> Vec<u8> {
         let dim = exposure.light.clamp(0.0, 1.0).sqrt().max(0.06);
         let mut rgb = Vec::with_capacity(3 * self.near.len());
         for y in 0..self.height {
@@ -321,7 +322,7 @@ fn encode(rgb: &[u8], width: usize, height: usize) -> Result<Vec<u8>, png::Encod
 mod tests {
     use super::*;
 
-    fn triangle(ahead_m: f64, shade: Shade) -> Facet {
+    fn triangle(ahead_m: f64, shade: ShadeIndex) -> Facet {
         let corner = |e: f64, u: f64| Vec3::new(e, ahead_m, u);
         Facet { corners: [corner(-1.0, -1.0), corner(1.0, -1.0), corner(0.0, 1.0)], shade }
     }
@@ -334,11 +335,11 @@ mod tests {
             right: Vec3::new(1.0, 0.0, 0.0),
             lamp_on: false,
         };
-        let lens = Lens { pose: &pose, down: pose.forward.cross(pose.right), slopes: [1.0, 0.75] };
-        assert_eq!(lens.see(Vec3::new(1.0, 2.0, 3.0)), [1.0, -3.0, 2.0], "right, down, ahead");
+        let lens = SketchLens { pose: &pose, down: pose.forward.cross(pose.right), slopes: [1.0, 0.75] };
+        assert_eq!(lens.project(Vec3::new(1.0, 2.0, 3.0)), [1.0, -3.0, 2.0], "right, down, ahead");
         let (near, far) = (triangle(2.0, 1), triangle(4.0, 2));
         for order in [[&near, &far], [&far, &near]] {
-            let mut sheet = Sheet::new(300, 200.0);
+            let mut sheet = SketchSheet::new(300, 200.0);
             order.iter().for_each(|facet| sheet.draw(&lens, facet));
             let middle = 150 * WIDTH_PX + 200;
             assert_eq!(sheet.shade[middle], 1);
@@ -353,7 +354,7 @@ mod tests {
         let corner = |x: f64, y: f64| [(x - 200.0) / 100.0, (y - 150.0) / 100.0, 1.0];
         let face = [corner(10.0, 10.0), corner(10.0, 30.0), corner(30.0, 10.0)];
         let filled = |corners: [[f64; 3]; 3]| {
-            let mut sheet = Sheet::new(300, 100.0);
+            let mut sheet = SketchSheet::new(300, 100.0);
             sheet.fill(corners, 1);
             sheet.shade.iter().filter(|shade| **shade == 1).count()
         };

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 
 /// One cell.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Cell {
+pub enum TableCell {
     /// Words.
     Text(String),
     /// A number and the digits after its point that are shown.
@@ -16,31 +16,31 @@ pub enum Cell {
     Empty,
 }
 
-impl From<&str> for Cell {
+impl From<&str> for TableCell {
     fn from(text: &str) -> Self {
         Self::Text(text.to_owned())
     }
 }
 
-impl From<String> for Cell {
+impl From<String> for TableCell {
     fn from(text: String) -> Self {
         Self::Text(text)
     }
 }
 
-impl From<usize> for Cell {
+impl From<usize> for TableCell {
     fn from(count: usize) -> Self {
         Self::Number(count as f64, 0)
     }
 }
 
-impl From<u32> for Cell {
+impl From<u32> for TableCell {
     fn from(count: u32) -> Self {
         Self::Number(f64::from(count), 0)
     }
 }
 
-impl Cell {
+impl TableCell {
     fn shown(&self) -> String {
         match self {
             Self::Text(text) => text.clone(),
@@ -78,7 +78,7 @@ pub struct Table {
     /// Heads, as shown.
     pub columns: Vec<&'static str>,
     /// Rows, each as long as `columns`.
-    pub rows: Vec<Vec<Cell>>,
+    pub rows: Vec<Vec<TableCell>>,
 }
 
 impl Table {
@@ -120,10 +120,10 @@ impl Table {
     /// The file: full precision, one head line.
     #[must_use]
     pub fn csv(&self) -> String {
-        let mut csv = self.columns.iter().map(|column| Cell::from(*column).field()).collect::<Vec<_>>().join(",");
+        let mut csv = self.columns.iter().map(|column| TableCell::from(*column).field()).collect::<Vec<_>>().join(",");
         csv.push('\n');
         for row in &self.rows {
-            csv.push_str(&row.iter().map(Cell::field).collect::<Vec<_>>().join(","));
+            csv.push_str(&row.iter().map(TableCell::field).collect::<Vec<_>>().join(","));
             csv.push('\n');
         }
         csv
@@ -150,7 +150,7 @@ mod tests {
     use super::*;
 
     fn table(text: &str) -> Table {
-        let rows = vec![vec![text.into(), Cell::Number(1.0 / 3.0, 2), Cell::Clock(61.5)]];
+        let rows = vec![vec![text.into(), TableCell::Number(1.0 / 3.0, 2), TableCell::Clock(61.5)]];
         Table { name: "t", caption: "a table", columns: vec!["words", "x, m", "time"], rows }
     }
 

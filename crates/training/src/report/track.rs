@@ -1,13 +1,13 @@
 //! Frame by frame: how far from the path of the task being flown, and what that adds up to in each task's window.
 
-use super::Scene;
+use super::ReviewContext;
 use spandrel_mavlink::telemetry::Frame;
-use spandrel_monitor::measures::on_path::{OnPath, Paths};
+use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths};
 use spandrel_monitor::measures::on_speed;
 
 /// How the drone stood to the tasks at one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Step {
+pub struct TaskProximityStep {
     /// The task that the distance is to: the one entered last, before that the nearest. An index.
     pub task: Option<usize>,
     /// Distance to its path, m.
@@ -41,7 +41,7 @@ pub struct TaskFacts {
 
 /// All frames.
 #[must_use]
-pub fn steps(paths: &Paths, on_path: &OnPath, scene: &Scene<'_>) -> Vec<Step> {
+pub fn steps(paths: &ReferencePaths, on_path: &OnPath, scene: &ReviewContext<'_>) -> Vec<TaskProximityStep> {
     let speeds: Vec<f64> = scene.frames.iter().map(Frame::speed_m_s).collect();
     let speeding = on_speed::speeding(&speeds, &on_path.windows, scene.scenario.scoring.speed_limit_m_s);
     let mut last = None;
@@ -54,7 +54,7 @@ pub fn steps(paths: &Paths, on_path: &OnPath, scene: &Scene<'_>) -> Vec<Step> {
             Some(task) => to(task),
             None => nearest(),
         };
-        Step {
+        TaskProximityStep {
             task: flown.map(|(task, _)| task),
             distance_m: flown.map(|(_, distance_m)| distance_m),
             on: on.is_some(),
@@ -67,11 +67,11 @@ pub fn steps(paths: &Paths, on_path: &OnPath, scene: &Scene<'_>) -> Vec<Step> {
 
 /// All tasks.
 #[must_use]
-pub fn tasks(scene: &Scene<'_>, on_path: &OnPath, steps: &[Step]) -> Vec<TaskFacts> {
-    let paths = Paths::new(scene.scenario);
+pub fn tasks(scene: &ReviewContext<'_>, on_path: &OnPath, steps: &[TaskProximityStep]) -> Vec<TaskFacts> {
+    let paths = ReferencePaths::new(scene.scenario);
     let rate_hz = scene.scenario.scoring.frame_rate_hz;
     let of = |task: usize| {
-        let Some(window) = on_path.windows[task] else { return TaskFacts::none() };
+        let Some(window) = on_path.windows[task] else { return TaskFacts::no_task() };
         let frames = &scene.frames[window.first..=window.last];
         let seconds = |count: usize| count as f64 / rate_hz;
         let away = frames.iter().filter_map(|frame| paths.nearest(task, frame.position_m)).map(|nearest| nearest.distance_m);
@@ -91,7 +91,7 @@ pub fn tasks(scene: &Scene<'_>, on_path: &OnPath, steps: &[Step]) -> Vec<TaskFac
 }
 
 impl TaskFacts {
-    fn none() -> Self {
+    fn no_task() -> Self {
         let unknown = f64::NAN;
         Self {
             time_s: 0.0,

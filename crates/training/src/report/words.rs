@@ -1,6 +1,6 @@
 //! Names and numbers as people read them. Nothing is rounded before it comes here.
 
-use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::modes::ControlSource;
 use spandrel_monitor::session::EndReason;
 
@@ -38,7 +38,7 @@ pub fn duration(t_s: f64) -> String {
 
 /// How a session ended.
 #[must_use]
-pub fn end(reason: EndReason) -> &'static str {
+pub fn end_reason_label(reason: EndReason) -> &'static str {
     match reason {
         EndReason::Landed => "landed near the ground team",
         EndReason::Battery => "battery empty",
@@ -53,21 +53,21 @@ pub fn end(reason: EndReason) -> &'static str {
 
 /// What was hit.
 #[must_use]
-pub fn contact(with: Contact) -> &'static str {
+pub fn contact_label(with: ContactKind) -> &'static str {
     match with {
-        Contact::None => "nothing",
-        Contact::Bridge => "bridge",
-        Contact::Terrain => "ground",
-        Contact::Water => "water",
-        Contact::Vehicle => "vehicle",
-        Contact::Person => "person",
-        Contact::Other => "other",
+        ContactKind::None => "nothing",
+        ContactKind::Bridge => "bridge",
+        ContactKind::Terrain => "ground",
+        ContactKind::Water => "water",
+        ContactKind::Vehicle => "vehicle",
+        ContactKind::Person => "person",
+        ContactKind::Other => "other",
     }
 }
 
 /// Who flew.
 #[must_use]
-pub fn hand(by: Option<ControlSource>) -> &'static str {
+pub fn control_source_label(by: Option<ControlSource>) -> &'static str {
     match by {
         Some(ControlSource::Pilot) => "pilot",
         Some(ControlSource::Mission) => "mission",

@@ -8,7 +8,7 @@ const POLISHING: usize = 4;
 
 /// The p values of one t by its tails.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Tails {
+pub struct TailProbabilities {
     /// Against "no increase".
     pub upper: f64,
     /// Against "no decrease".
@@ -19,13 +19,13 @@ pub struct Tails {
 
 /// The p values of `t` with `df` degrees of freedom; `None` without any degree of freedom or for what is no number.
 #[must_use]
-pub fn tails_of_t(t: f64, df: f64) -> Option<Tails> {
+pub fn tails_of_t(t: f64, df: f64) -> Option<TailProbabilities> {
     let student = student(df)?;
     if t.is_nan() {
         return None;
     }
     let (lower, upper) = (student.cdf(t), student.sf(t));
-    Some(Tails { upper, lower, two: (2.0 * lower.min(upper)).min(1.0) })
+    Some(TailProbabilities { upper, lower, two: (2.0 * lower.min(upper)).min(1.0) })
 }
 
 /// The t below which `share` of the distribution lies.

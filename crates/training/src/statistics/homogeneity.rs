@@ -83,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_tables_that_say_nothing_are_refused() {
+    fn exact_empty_tables_are_refused() {
         assert!(homogeneity(&[vec![3, 4]]).is_err());
         assert!(homogeneity(&[vec![3, 0], vec![4, 0]]).is_err());
         assert!(homogeneity(&[vec![3, 0], vec![4]]).is_err());

@@ -47,8 +47,8 @@ pub fn learning_curve(values: &[f64]) -> Result<LearningCurve, StatisticsError> 
     StatisticsError::finite(values)?;
     let (low, high) = EXPONENTS;
     let at = |k: usize| low + (high - low) * k as f64 / GRID as f64;
-    let best = (0..=GRID).min_by(|a, b| misfit(values, at(*a)).total_cmp(&misfit(values, at(*b)))).unwrap_or(0);
-    let exponent = narrow(values, at(best.saturating_sub(1)), at((best + 1).min(GRID)));
+    let best = (0..=GRID).min_by(|a, b| residual(values, at(*a)).total_cmp(&residual(values, at(*b)))).unwrap_or(0);
+    let exponent = refine_interval(values, at(best.saturating_sub(1)), at((best + 1).min(GRID)));
     let first = height(values, exponent);
     let average = mean(values).unwrap_or_default();
     let around: f64 = values.iter().map(|value| (value - average) * (value - average)).sum();
@@ -56,14 +56,14 @@ pub fn learning_curve(values: &[f64]) -> Result<LearningCurve, StatisticsError> 
         n: values.len(),
         first,
         exponent,
-        r_squared: (around > 0.0).then(|| 1.0 - misfit(values, exponent) / around),
+        r_squared: (around > 0.0).then(|| 1.0 - residual(values, exponent) / around),
         next: first * math::pow((values.len() + 1) as f64, exponent),
     })
 }
 
 /// The slope of the misfit over the exponent changes its sign at the minimum: halving finds it to rounding, where comparing misfits
 /// would stop at half the digits.
-fn narrow(values: &[f64], mut low: f64, mut high: f64) -> f64 {
+fn refine_interval(values: &[f64], mut low: f64, mut high: f64) -> f64 {
     for _ in 0..NARROWING {
         let middle = 0.5 * (low + high);
         if slope(values, middle) > 0.0 {
@@ -89,7 +89,7 @@ fn height(values: &[f64], exponent: f64) -> f64 {
     both / own
 }
 
-fn misfit(values: &[f64], exponent: f64) -> f64 {
+fn residual(values: &[f64], exponent: f64) -> f64 {
     let first = height(values, exponent);
     practice(exponent, values.len()).zip(values).map(|((_, power), value)| value - first * power).map(|off| off * off).sum()
 }

@@ -11,12 +11,12 @@ mod regression;
 mod sample;
 
 pub use correlation::{Correlation, pearson, spearman};
-pub use distribution::{Tails, tails_of_t};
+pub use distribution::{TailProbabilities, tails_of_t};
 pub use homogeneity::{Homogeneity, homogeneity};
 pub use learning::{LEARNING_NEEDS, LearningCurve, learning_curve};
-pub use paired::{Paired, holm, paired_t};
+pub use paired::{PairedTest, holm, paired_t};
 pub use regression::{Coefficient, Regression, least_squares, solve};
-pub use sample::{Bin, BoxPlot, Summary, box_plot, histogram, mean, quantile, sd, summary};
+pub use sample::{BoxPlot, HistogramBin, SampleSummary, box_plot, histogram, mean, quantile, sd, summary};
 
 /// Why there is no figure.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,6 +1,6 @@
 //! Paired t tests: did the same people change?
 
-use super::distribution::{Tails, quantile_of_t, tails_of_t};
+use super::distribution::{TailProbabilities, quantile_of_t, tails_of_t};
 use super::{StatisticsError, mean, sd};
 use serde::Serialize;
 
@@ -9,7 +9,7 @@ pub(super) const UPPER_END_95: f64 = 0.975;
 
 /// One paired comparison, later less earlier.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Paired {
+pub struct PairedTest {
     /// Pairs.
     pub n: usize,
     /// Mean of later less earlier.
@@ -21,7 +21,7 @@ pub struct Paired {
     /// t; absent when all differences are equal.
     pub t: Option<f64>,
     /// p values by tail; absent with t.
-    pub p: Option<Tails>,
+    pub p: Option<TailProbabilities>,
     /// Cohen's d for pairs: mean difference over its standard deviation; absent with t.
     pub effect_size_dz: Option<f64>,
     /// Of the mean difference.
@@ -32,7 +32,7 @@ pub struct Paired {
 ///
 /// # Errors
 /// When the lists differ in length, hold fewer than two pairs, or what is no number.
-pub fn paired_t(earlier: &[f64], later: &[f64]) -> Result<Paired, StatisticsError> {
+pub fn paired_t(earlier: &[f64], later: &[f64]) -> Result<PairedTest, StatisticsError> {
     StatisticsError::pairs(earlier, later, 2)?;
     let differences: Vec<f64> = earlier.iter().zip(later).map(|(earlier, later)| later - earlier).collect();
     let n = differences.len();
@@ -41,7 +41,7 @@ pub fn paired_t(earlier: &[f64], later: &[f64]) -> Result<Paired, StatisticsErro
     let df = n - 1;
     let t = (error > 0.0).then(|| mean / error);
     let reach = error * quantile_of_t(UPPER_END_95, df as f64).unwrap_or_default();
-    Ok(Paired {
+    Ok(PairedTest {
         n,
         mean_difference: mean,
         sd_difference: sd,

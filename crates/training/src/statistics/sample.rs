@@ -8,7 +8,7 @@ const WHISKER_IQR: f64 = 1.5;
 
 /// What a distribution is told by.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Summary {
+pub struct SampleSummary {
     /// Values.
     pub n: usize,
     /// Arithmetic mean.
@@ -54,7 +54,7 @@ pub struct BoxPlot {
 
 /// One bar of a histogram: values in [from, to), the last bar with its upper end.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Bin {
+pub struct HistogramBin {
     /// Lower end.
     pub from: f64,
     /// Upper end.
@@ -91,12 +91,12 @@ pub fn quantile(ascending: &[f64], share: f64) -> Option<f64> {
 ///
 /// # Errors
 /// When it is empty or holds what is no number.
-pub fn summary(values: &[f64]) -> Result<Summary, StatisticsError> {
+pub fn summary(values: &[f64]) -> Result<SampleSummary, StatisticsError> {
     let sorted = ascending(values)?;
     let quarter = |share| quantile(&sorted, share).unwrap_or_default();
     let (min, max) = (quarter(0.0), quarter(1.0));
     let mean = mean(&sorted).unwrap_or_default();
-    Ok(Summary {
+    Ok(SampleSummary {
         n: sorted.len(),
         mean,
         sd: sd(&sorted),
@@ -140,10 +140,10 @@ pub fn box_plot(values: &[f64]) -> Result<BoxPlot, StatisticsError> {
 
 /// Counts values in `bars` equal bars over [low, high]; what lies outside counts in the nearest bar.
 #[must_use]
-pub fn histogram(values: &[f64], (low, high): (f64, f64), bars: usize) -> Vec<Bin> {
+pub fn histogram(values: &[f64], (low, high): (f64, f64), bars: usize) -> Vec<HistogramBin> {
     let width = (high - low) / bars.max(1) as f64;
-    let mut bins: Vec<Bin> =
-        (0..bars).map(|k| Bin { from: low + width * k as f64, to: low + width * (k + 1) as f64, count: 0 }).collect();
+    let mut bins: Vec<HistogramBin> =
+        (0..bars).map(|k| HistogramBin { from: low + width * k as f64, to: low + width * (k + 1) as f64, count: 0 }).collect();
     for value in values.iter().filter(|value| value.is_finite()) {
         let k = ((value - low) / width).floor().clamp(0.0, bars.saturating_sub(1) as f64) as usize;
         if let Some(bin) = bins.get_mut(k) {

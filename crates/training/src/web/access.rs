@@ -4,7 +4,7 @@ use crate::trainee::Role;
 
 /// Who may open a page or act.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Needs {
+pub enum AccessLevel {
     /// Anybody, logged in or not.
     Nothing,
     /// Whoever is logged in; what belongs to a trainee is judged by [`Visitor::may_see`].
@@ -37,25 +37,25 @@ impl Visitor {
 
     /// Meets what a page needs.
     #[must_use]
-    pub fn meets(&self, needs: Needs) -> bool {
+    pub fn satisfies(&self, needs: AccessLevel) -> bool {
         match needs {
-            Needs::Nothing => true,
-            Needs::Login => self.is_known(),
-            Needs::Instructor => self.is_known() && self.role >= Role::Instructor,
-            Needs::Administrator => self.is_known() && self.role >= Role::Administrator,
+            AccessLevel::Nothing => true,
+            AccessLevel::Login => self.is_known(),
+            AccessLevel::Instructor => self.is_known() && self.role >= Role::Instructor,
+            AccessLevel::Administrator => self.is_known() && self.role >= Role::Administrator,
         }
     }
 
     /// What belongs to this trainee is shown: his own, or to whom trains him.
     #[must_use]
     pub fn may_see(&self, trainee: &str) -> bool {
-        self.meets(Needs::Instructor) || self.name.as_deref() == Some(trainee)
+        self.satisfies(AccessLevel::Instructor) || self.name.as_deref() == Some(trainee)
     }
 
     /// The trainee that lists are limited to; `None` for whoever sees all.
     #[must_use]
     pub fn limited_to(&self) -> Option<&str> {
-        if self.meets(Needs::Instructor) { None } else { Some(self.name.as_deref().unwrap_or_default()) }
+        if self.satisfies(AccessLevel::Instructor) { None } else { Some(self.name.as_deref().unwrap_or_default()) }
     }
 }
 
@@ -68,8 +68,8 @@ mod tests {
     }
 
     #[test]
-    fn exact_each_role_meets_what_it_may() {
-        let all = [Needs::Nothing, Needs::Login, Needs::Instructor, Needs::Administrator];
+    fn exact_each_role_has_its_permissions() {
+        let all = [AccessLevel::Nothing, AccessLevel::Login, AccessLevel::Instructor, AccessLevel::Administrator];
         for (who, met) in [
             (visitor(None, Role::Administrator, false), [true, false, false, false]),
             (visitor(Some("a"), Role::Trainee, false), [true, true, false, false]),
@@ -77,12 +77,12 @@ mod tests {
             (visitor(Some("a"), Role::Administrator, false), [true; 4]),
             (visitor(None, Role::Administrator, true), [true; 4]),
         ] {
-            assert_eq!(all.map(|needs| who.meets(needs)), met, "{who:?}");
+            assert_eq!(all.map(|needs| who.satisfies(needs)), met, "{who:?}");
         }
     }
 
     #[test]
-    fn exact_a_trainee_sees_only_what_is_his() {
+    fn exact_trainees_see_only_their_own_sessions() {
         let anna = visitor(Some("anna"), Role::Trainee, false);
         assert!(anna.may_see("anna") && !anna.may_see("ben") && !anna.may_see(""));
         assert_eq!(anna.limited_to(), Some("anna"));

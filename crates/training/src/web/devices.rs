@@ -2,7 +2,7 @@
 //! address, so that a stranger at the same address cannot keep the owner of a name out. Kept in memory by a hash over cookie and name;
 //! after a restart the next login makes a browser known again. Time and randomness are arguments.
 
-use super::visits::{Secret, text_of};
+use super::visits::{TokenBytes, text_of};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
@@ -12,22 +12,22 @@ const FORGOTTEN_US: u64 = 90 * 24 * 3_600_000_000;
 const DEVICES: usize = 10_000;
 
 /// A known browser of one person.
-pub type Device = [u8; 32];
+pub type KnownBrowser = [u8; 32];
 
 /// All known browsers, with the time of their last login, us.
 #[derive(Debug, Default)]
-pub struct Devices(BTreeMap<Device, u64>);
+pub struct KnownBrowsers(BTreeMap<KnownBrowser, u64>);
 
-impl Devices {
+impl KnownBrowsers {
     /// Returns the browser of a cookie if `name` has logged in with it before.
     #[must_use]
-    pub fn find(&self, cookie: &str, name: &str, now_us: u64) -> Option<Device> {
+    pub fn find(&self, cookie: &str, name: &str, now_us: u64) -> Option<KnownBrowser> {
         let device = device(cookie, name);
         self.0.get(&device).filter(|login_us| now_us.saturating_sub(**login_us) < FORGOTTEN_US).map(|_| device)
     }
 
     /// Remembers a browser after a login of `name` and returns its cookie: the one that it has if it is known, otherwise a new one.
-    pub fn remember(&mut self, cookie: Option<&str>, name: &str, secret: &Secret, now_us: u64) -> String {
+    pub fn remember(&mut self, cookie: Option<&str>, name: &str, secret: &TokenBytes, now_us: u64) -> String {
         let known = cookie.filter(|cookie| self.find(cookie, name, now_us).is_some());
         let cookie = known.map_or_else(|| text_of(secret), str::to_owned);
         self.0.insert(device(&cookie, name), now_us);
@@ -40,7 +40,7 @@ impl Devices {
     }
 }
 
-fn device(cookie: &str, name: &str) -> Device {
+fn device(cookie: &str, name: &str) -> KnownBrowser {
     // No cookie of ours holds a zero byte: a cookie and a name cannot be split at another place.
     Sha256::new().chain_update(cookie).chain_update([0]).chain_update(name).finalize().into()
 }
@@ -50,8 +50,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_browser_is_known_for_the_name_that_logged_in_until_it_is_forgotten() {
-        let mut devices = Devices::default();
+    fn exact_a_browser_is_remembered_per_user() {
+        let mut devices = KnownBrowsers::default();
         let cookie = devices.remember(None, "anna", &[1; 32], 0);
         assert!(devices.find(&cookie, "anna", FORGOTTEN_US - 1).is_some());
         assert_eq!(devices.find(&cookie, "anna", FORGOTTEN_US), None);
@@ -64,7 +64,7 @@ mod tests {
 
     #[test]
     fn prop_many_logins_fill_no_memory() {
-        let mut devices = Devices::default();
+        let mut devices = KnownBrowsers::default();
         for k in 0..DEVICES as u32 + 100 {
             let mut secret = [0; 32];
             secret[..4].copy_from_slice(&k.to_le_bytes());

@@ -5,7 +5,8 @@ use super::access::Visitor;
 use super::assets;
 use super::frame::{in_language, message, token};
 use crate::questionnaire::{
-    Answers, Aspect, Item, Overall, Phase, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, Tlx, Wording,
+    Answers, InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP,
+    TlxScale, Wording,
 };
 use maud::{Markup, html};
 
@@ -14,7 +15,7 @@ const TLX: &str = "tlx.";
 
 /// What the form is about.
 #[derive(Debug, Clone, Copy)]
-pub struct Asked<'a> {
+pub struct FormContext<'a> {
     /// Session.
     pub id: &'a str,
     /// Numbers and names of its tasks.
@@ -32,7 +33,7 @@ pub struct Asked<'a> {
 /// Why an answer of a form is refused: field, value, and what is allowed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{field} = {value}: no such answer (allowed: {allowed})")]
-pub struct NoAnswer {
+pub struct InvalidAnswer {
     /// Field.
     pub field: String,
     /// Value.
@@ -45,14 +46,14 @@ pub struct NoAnswer {
 ///
 /// # Errors
 /// At the first answer that is none; then nothing should be saved.
-pub fn take(answers: &mut Answers, fields: &[(String, String)], tasks: &[u32]) -> Result<usize, NoAnswer> {
-    let items = Item::all(tasks);
+pub fn parse_answers(answers: &mut Answers, fields: &[(String, String)], tasks: &[u32]) -> Result<usize, InvalidAnswer> {
+    let items = QuestionnaireItem::all(tasks);
     let mut taken = 0;
     for (field, value) in fields {
-        if let Some(item) = Item::from_key(field).filter(|item| items.contains(item)) {
+        if let Some(item) = QuestionnaireItem::from_key(field).filter(|item| items.contains(item)) {
             let allowed = || format!("{STRONGLY_AGREE} to {STRONGLY_DISAGREE}");
             answers.given.insert(item, number(field, value, |v| (STRONGLY_AGREE..=STRONGLY_DISAGREE).contains(&v), allowed)?);
-        } else if let Some(scale) = field.strip_prefix(TLX).and_then(Tlx::from_key) {
+        } else if let Some(scale) = field.strip_prefix(TLX).and_then(TlxScale::from_key) {
             if value.is_empty() {
                 continue;
             }
@@ -66,18 +67,18 @@ pub fn take(answers: &mut Answers, fields: &[(String, String)], tasks: &[u32]) -
     Ok(taken)
 }
 
-fn number(field: &str, value: &str, fits: impl Fn(u8) -> bool, allowed: impl Fn() -> String) -> Result<u8, NoAnswer> {
+fn number(field: &str, value: &str, fits: impl Fn(u8) -> bool, allowed: impl Fn() -> String) -> Result<u8, InvalidAnswer> {
     let short = |text: &str| text.chars().filter(|c| !c.is_control()).take(60).collect();
-    let wrong = || NoAnswer { field: short(field), value: short(value), allowed: allowed() };
+    let wrong = || InvalidAnswer { field: short(field), value: short(value), allowed: allowed() };
     value.parse().ok().filter(|value| fits(*value)).ok_or_else(wrong)
 }
 
 /// The page.
 #[must_use]
-pub fn page(visitor: &Visitor, asked: &Asked<'_>) -> Markup {
+pub fn page(visitor: &Visitor, asked: &FormContext<'_>) -> Markup {
     let tasks: Vec<u32> = asked.tasks.iter().map(|(id, _)| *id).collect();
-    let (all, open) = (Item::all(&tasks).len(), asked.answers.open(&tasks).len());
-    let overall: Vec<Item> = Overall::ALL.map(Item::Overall).to_vec();
+    let (all, open) = (QuestionnaireItem::all(&tasks).len(), asked.answers.open(&tasks).len());
+    let overall: Vec<QuestionnaireItem> = OverallItem::ALL.map(QuestionnaireItem::Overall).to_vec();
     let words = &asked.wording.form;
     let body = html! {
         (switch(asked))
@@ -88,8 +89,8 @@ pub fn page(visitor: &Visitor, asked: &Asked<'_>) -> Markup {
             input type="hidden" name="language" value=(asked.wording.language);
             p.status { span role="status" data-status { (words.answered(all - open, all)) } " · " (words.at_once) }
             (group(&asked.wording.overall_heading, &overall, asked))
-            @for phase in Phase::all(&tasks) {
-                (group(&phase_name(asked, phase), &Aspect::ALL.map(|aspect| Item::Phase(phase, aspect)), asked))
+            @for phase in InspectionPhase::all(&tasks) {
+                (group(&phase_name(asked, phase), &PhaseAspect::ALL.map(|aspect| QuestionnaireItem::Phase(phase, aspect)), asked))
             }
             (workload(asked))
             p.tools {
@@ -102,7 +103,7 @@ pub fn page(visitor: &Visitor, asked: &Asked<'_>) -> Markup {
 }
 
 /// The choice of languages, each in its own words. Answers are saved at once: another language loses none.
-fn switch(asked: &Asked<'_>) -> Markup {
+fn switch(asked: &FormContext<'_>) -> Markup {
     let words = &asked.wording.form;
     html! {
         form.inline.languages method="get" action={ "/sessions/" (asked.id) "/questions" } {
@@ -118,12 +119,12 @@ fn switch(asked: &Asked<'_>) -> Markup {
     }
 }
 
-fn phase_name(asked: &Asked<'_>, phase: Phase) -> String {
+fn phase_name(asked: &FormContext<'_>, phase: InspectionPhase) -> String {
     let name = |id: u32| asked.tasks.iter().find(|(task, _)| *task == id).map_or(String::new(), |(_, name)| name.clone());
     asked.wording.phase(phase, name)
 }
 
-fn group(heading: &str, items: &[Item], asked: &Asked<'_>) -> Markup {
+fn group(heading: &str, items: &[QuestionnaireItem], asked: &FormContext<'_>) -> Markup {
     html! {
         section {
             h2 { (heading) }
@@ -132,7 +133,7 @@ fn group(heading: &str, items: &[Item], asked: &Asked<'_>) -> Markup {
     }
 }
 
-fn question(item: Item, heading: &str, asked: &Asked<'_>) -> Markup {
+fn question(item: QuestionnaireItem, heading: &str, asked: &FormContext<'_>) -> Markup {
     let given = asked.answers.given.get(&item).copied();
     html! {
         fieldset.likert-question data-question {
@@ -146,13 +147,13 @@ fn question(item: Item, heading: &str, asked: &Asked<'_>) -> Markup {
     }
 }
 
-fn workload(asked: &Asked<'_>) -> Markup {
+fn workload(asked: &FormContext<'_>) -> Markup {
     html! {
         section {
             details open[!asked.answers.tlx.is_empty()] {
                 summary { (asked.wording.tlx_title) }
                 p { (asked.wording.tlx_introduction) }
-                @for scale in Tlx::ALL {
+                @for scale in TlxScale::ALL {
                     @let (question, low, high) = asked.wording.tlx(scale);
                     label.scale {
                         span { (question) }
@@ -191,13 +192,17 @@ mod tests {
             ("tlx.effort", "35"),
             ("tlx.frustration", ""),
         ]);
-        assert_eq!(take(&mut answers, &given, &[1, 2]), Ok(3));
-        assert_eq!((answers.given.len(), answers.tlx[&Tlx::Effort]), (2, 35));
-        assert_eq!(take(&mut answers, &fields(&[("task_3.performance", "1")]), &[1, 2]), Ok(0), "no such task in this job");
+        assert_eq!(parse_answers(&mut answers, &given, &[1, 2]), Ok(3));
+        assert_eq!((answers.given.len(), answers.tlx[&TlxScale::Effort]), (2, 35));
+        assert_eq!(
+            parse_answers(&mut answers, &fields(&[("task_3.performance", "1")]), &[1, 2]),
+            Ok(0),
+            "no such task in this job"
+        );
         for (field, value, allowed) in
             [("frustration", "6", "1 to 5"), ("feedback", "<b>", "1 to 5"), ("tlx.effort", "33", "0 to 100 in steps of 5")]
         {
-            let wrong = take(&mut answers, &fields(&[(field, value)]), &[1]).unwrap_err().to_string();
+            let wrong = parse_answers(&mut answers, &fields(&[(field, value)]), &[1]).unwrap_err().to_string();
             assert_eq!(wrong, format!("{field} = {value}: no such answer (allowed: {allowed})"));
         }
     }
@@ -207,15 +212,15 @@ mod tests {
         let languages = Languages::with(Vec::new()).unwrap();
         let wording = languages.of("de").unwrap();
         let mut answers = Answers::default();
-        answers.given.insert(Item::Overall(Overall::Feedback), 5);
+        answers.given.insert(QuestionnaireItem::Overall(OverallItem::Feedback), 5);
         let tasks = [(1, EVIL.to_owned())];
-        let asked = Asked { id: "s", tasks: &tasks, wording, languages: languages.all(), answers: &answers, saved: true };
+        let asked = FormContext { id: "s", tasks: &tasks, wording, languages: languages.all(), answers: &answers, saved: true };
         let text = page(&administrator(), &asked).into_string();
         check(&text);
         assert!(text.contains("name=\"feedback\" value=\"5\" checked"), "{text}");
         assert_eq!(text.matches(" checked").count(), 1);
         assert!(text.contains("<html lang=\"de\">") && text.contains("<header class=\"bar\" lang=\"en\">"), "{text}");
         assert!(text.contains("Gespeichert.") && text.contains("lang=\"es\">Español"), "{text}");
-        assert_eq!(text.matches("<fieldset").count(), Item::all(&[1]).len());
+        assert_eq!(text.matches("<fieldset").count(), QuestionnaireItem::all(&[1]).len());
     }
 }

@@ -1,21 +1,21 @@
 //! What all pages share: head, navigation, tables of links, forms with their token.
 
-use super::access::{Needs, Visitor};
+use super::access::{AccessLevel, Visitor};
 use super::assets;
 use maud::{DOCTYPE, Markup, html};
 
 /// For trainees: instructors have the live page.
 const OWN_FLIGHT: &str = "/flight";
 /// Places of the navigation: address, words, who sees it.
-const PLACES: [(&str, &str, Needs); 8] = [
-    ("/sessions", "Sessions", Needs::Login),
-    (OWN_FLIGHT, "My flight", Needs::Login),
-    ("/live", "Live", Needs::Instructor),
-    ("/trainees", "Trainees", Needs::Instructor),
-    ("/cohort", "Cohort", Needs::Instructor),
-    ("/scenarios", "Scenarios", Needs::Login),
-    ("/settings", "Settings", Needs::Administrator),
-    ("/account", "Account", Needs::Login),
+const PLACES: [(&str, &str, AccessLevel); 8] = [
+    ("/sessions", "Sessions", AccessLevel::Login),
+    (OWN_FLIGHT, "My flight", AccessLevel::Login),
+    ("/live", "Live", AccessLevel::Instructor),
+    ("/trainees", "Trainees", AccessLevel::Instructor),
+    ("/cohort", "Cohort", AccessLevel::Instructor),
+    ("/scenarios", "Scenarios", AccessLevel::Login),
+    ("/settings", "Settings", AccessLevel::Administrator),
+    ("/account", "Account", AccessLevel::Login),
 ];
 
 /// A whole page. `at` is the navigation's place that it belongs to.
@@ -60,7 +60,7 @@ fn bar(visitor: &Visitor, at: &str) -> Markup {
             a.brand href="/" { "Spandrel" }
             nav aria-label="Main" {
                 @for (address, words, needs) in PLACES {
-                    @if visitor.meets(needs) && !(visitor.open && address == "/account") && !(visitor.meets(Needs::Instructor) && address == OWN_FLIGHT) {
+                    @if visitor.satisfies(needs) && !(visitor.open && address == "/account") && !(visitor.satisfies(AccessLevel::Instructor) && address == OWN_FLIGHT) {
                         a href=(address) aria-current=[(address == at).then_some("page")] { (words) }
                     }
                 }

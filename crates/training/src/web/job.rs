@@ -1,6 +1,6 @@
 //! Scenarios: what there is, one in short with its drawing, and the upload of another; the upload of a recorded flight.
 
-use super::access::{Needs, Visitor};
+use super::access::{AccessLevel, Visitor};
 use super::frame::{message, page, section, table, token};
 use crate::report::plots::job::job_plan;
 use crate::report::words;
@@ -10,7 +10,7 @@ use spandrel_model::site::Site;
 
 /// One line of the list.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Named {
+pub struct ScenarioEntry {
     /// Name.
     pub name: String,
     /// Title.
@@ -21,7 +21,7 @@ pub struct Named {
 
 /// The list, with how an upload went.
 #[must_use]
-pub fn list(visitor: &Visitor, named: &[Named], told: Option<(&str, &str)>) -> Markup {
+pub fn list(visitor: &Visitor, named: &[ScenarioEntry], told: Option<(&str, &str)>) -> Markup {
     let rows = html! {
         @for one in named {
             tr {
@@ -34,7 +34,7 @@ pub fn list(visitor: &Visitor, named: &[Named], told: Option<(&str, &str)>) -> M
     let body = html! {
         @if let Some((kind, words)) = told { (message_lines(kind, words)) }
         section { (table(&format!("{} scenarios", named.len()), &[("Name", false), ("Title", false), ("From", false)], &rows)) }
-        @if visitor.meets(Needs::Instructor) { (section("upload", "Upload a scenario", &upload(visitor))) }
+        @if visitor.satisfies(AccessLevel::Instructor) { (section("upload", "Upload a scenario", &upload(visitor))) }
     };
     page(visitor, "/scenarios", "Scenarios", &body)
 }
@@ -57,7 +57,7 @@ fn upload(visitor: &Visitor) -> Markup {
 
 /// One scenario. The file itself is for instructors: it may say where the defects are, and its seed does.
 #[must_use]
-pub fn one(visitor: &Visitor, named: &Named, scenario: &Scenario, site: &Site, text: &str) -> Markup {
+pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenario, site: &Site, text: &str) -> Markup {
     let s = &scenario.scoring;
     let facts = html! {
         dl.facts {
@@ -82,7 +82,7 @@ pub fn one(visitor: &Visitor, named: &Named, scenario: &Scenario, site: &Site, t
             (section("tasks", "Tasks", &table("Tasks and how far their paths reach", &[("Task", false), ("On the path within, m", true)], &rows)))
         }
         (section("site", "From above", &html! { figure.wide { div.scroll tabindex="0" role="region" aria-label="Drawing" { (job_plan(scenario, site)) } } }))
-        @if visitor.meets(Needs::Instructor) { (section("file", "The file", &html! {
+        @if visitor.satisfies(AccessLevel::Instructor) { (section("file", "The file", &html! {
             details { summary { "Show" } div.scroll tabindex="0" role="region" aria-label="Text of the file" { pre { code { (text) } } } }
             @if named.uploaded {
                 form method="post" action={ "/scenarios/" (named.name) "/remove" } { (token(visitor)) button.danger type="submit" { "Take this upload away" } }
@@ -94,7 +94,7 @@ pub fn one(visitor: &Visitor, named: &Named, scenario: &Scenario, site: &Site, t
 
 /// What is told of a recording that was not taken in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Told<'a> {
+pub enum UploadMessage<'a> {
     /// What is wrong with it.
     Wrong(&'a str),
     /// It is a session already.
@@ -108,12 +108,12 @@ pub enum Told<'a> {
 
 /// The form that takes in a recorded flight, with what became of the one before.
 #[must_use]
-pub fn recorded(visitor: &Visitor, scenarios: &[Named], vehicles: &[String], told: Option<Told<'_>>) -> Markup {
+pub fn recorded(visitor: &Visitor, scenarios: &[ScenarioEntry], vehicles: &[String], told: Option<UploadMessage<'_>>) -> Markup {
     let body = html! {
         @match told {
             None => {},
-            Some(Told::Wrong(words)) => (message("bad", words)),
-            Some(Told::There { id, trainee }) => p.message.good role="status" {
+            Some(UploadMessage::Wrong(words)) => (message("bad", words)),
+            Some(UploadMessage::There { id, trainee }) => p.message.good role="status" {
                 "This recording is here already: it is " a href={ "/sessions/" (id) } { "a session of " (trainee) } ". Nothing was changed."
             },
         }
@@ -139,17 +139,18 @@ mod tests {
     use crate::trainee::Role;
 
     #[test]
-    fn exact_uploads_are_for_instructors_and_what_a_file_says_is_escaped() {
-        let named = [Named { name: EVIL.into(), title: EVIL.into(), uploaded: true }];
+    fn exact_uploads_are_for_instructors_and_text_from_files_is_escaped() {
+        let named = [ScenarioEntry { name: EVIL.into(), title: EVIL.into(), uploaded: true }];
         let text = list(&administrator(), &named, Some(("bad", EVIL))).into_string();
         check(&text);
         assert!(text.contains("type=\"file\""));
         let trainee = Visitor { role: Role::Trainee, ..administrator() };
         assert!(!list(&trainee, &named, None).into_string().contains("type=\"file\""));
-        for told in [Told::Wrong(EVIL), Told::There { id: "s-1", trainee: EVIL }] {
+        for told in [UploadMessage::Wrong(EVIL), UploadMessage::There { id: "s-1", trainee: EVIL }] {
             check(&recorded(&administrator(), &named, &[EVIL.into()], Some(told)).into_string());
         }
-        let there = recorded(&administrator(), &named, &[], Some(Told::There { id: "s-1", trainee: "anna" })).into_string();
+        let there =
+            recorded(&administrator(), &named, &[], Some(UploadMessage::There { id: "s-1", trainee: "anna" })).into_string();
         assert!(there.contains("href=\"/sessions/s-1\"") && there.contains("a session of anna"), "{there}");
     }
 }

@@ -20,7 +20,7 @@ pub const UNITS: [(&str, &str, f32); 4] = [
 
 /// The job that is flown, drawn.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Drawn {
+pub struct DrawnJob {
     /// Names the job and its seed.
     pub key: String,
     /// Title.
@@ -31,14 +31,14 @@ pub struct Drawn {
 
 /// Which of the vehicles is watched on a page.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Choice {
+pub struct VehicleChoice {
     /// Addresses of all.
     pub vehicles: Vec<String>,
     /// The number of the one that is watched, from 1.
     pub number: usize,
 }
 
-impl Choice {
+impl VehicleChoice {
     fn address(&self) -> Option<&str> {
         self.number.checked_sub(1).and_then(|k| self.vehicles.get(k)).map(String::as_str)
     }
@@ -46,7 +46,7 @@ impl Choice {
 
 /// The page.
 #[must_use]
-pub fn live(visitor: &Visitor, drawn: Option<&Drawn>, choice: &Choice) -> Markup {
+pub fn live(visitor: &Visitor, drawn: Option<&DrawnJob>, choice: &VehicleChoice) -> Markup {
     let body = html! {
         (others(choice))
         div.live-page data-live[!choice.vehicles.is_empty()] data-vehicle=(choice.number) data-job=(drawn.map_or("", |drawn| drawn.key.as_str())) {
@@ -93,7 +93,7 @@ pub fn live(visitor: &Visitor, drawn: Option<&Drawn>, choice: &Choice) -> Markup
 
 /// The page of the one who flies: his own camera's picture, which the script keeps fresh.
 #[must_use]
-pub fn own(visitor: &Visitor) -> Markup {
+pub fn own_flight(visitor: &Visitor) -> Markup {
     let body = html! {
         div.own-flight data-flight {
             p.lead role="status" data-state { "You are not flying now. This page follows as soon as you do." }
@@ -108,7 +108,7 @@ pub fn own(visitor: &Visitor) -> Markup {
 }
 
 /// Links to the other vehicles.
-fn others(choice: &Choice) -> Markup {
+fn others(choice: &VehicleChoice) -> Markup {
     html! {
         @if choice.vehicles.len() > 1 {
             nav.pages aria-label="Vehicles" {
@@ -159,28 +159,28 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_who_flies_sees_the_camera_and_no_map_or_action() {
+    fn exact_a_flying_trainee_sees_the_camera_without_map_or_actions() {
         let trainee = Visitor { role: crate::trainee::Role::Trainee, ..administrator() };
-        let text = own(&trainee).into_string();
+        let text = own_flight(&trainee).into_string();
         check(&text);
         assert!(text.contains("href=\"/flight\" aria-current=\"page\"") && text.contains("data-camera hidden"), "{text}");
         assert!(!text.contains("class=\"map\"") && !text.contains("/live"), "{text}");
-        assert!(!own(&administrator()).into_string().contains("href=\"/flight\""), "instructors have the live page");
+        assert!(!own_flight(&administrator()).into_string().contains("href=\"/flight\""), "instructors have the live page");
     }
 
     #[test]
     fn exact_without_a_flight_there_is_nothing_to_act_in() {
-        let choice = Choice { vehicles: vec!["127.0.0.1:14280".into(), EVIL.into()], number: 2 };
+        let choice = VehicleChoice { vehicles: vec!["127.0.0.1:14280".into(), EVIL.into()], number: 2 };
         let text = live(&administrator(), None, &choice).into_string();
         check(&text);
         assert!(!text.contains("/live/act") && text.contains("Waiting for a flight"));
-        let drawn = Drawn { key: "k".into(), title: EVIL.into(), drawings: vec![(EVIL.into(), "<svg></svg>".into())] };
+        let drawn = DrawnJob { key: "k".into(), title: EVIL.into(), drawings: vec![(EVIL.into(), "<svg></svg>".into())] };
         let text = live(&administrator(), Some(&drawn), &choice).into_string();
         check(&text);
         assert_eq!(text.matches("action=\"/live/act\"").count(), 4);
         assert_eq!(text.matches("name=\"vehicle\" value=\"2\"").count(), 4);
         assert!(text.contains("href=\"/live?vehicle=2\" aria-current=\"page\""), "{text}");
-        let text = live(&administrator(), None, &Choice::default()).into_string();
+        let text = live(&administrator(), None, &VehicleChoice::default()).into_string();
         assert!(!text.contains("data-live") && text.contains("watches no vehicle"), "nothing to listen to: {text}");
     }
 }

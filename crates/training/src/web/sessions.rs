@@ -1,20 +1,20 @@
 //! Lists of sessions, and one session's page.
 
-use super::access::{Needs, Visitor};
+use super::access::{AccessLevel, Visitor};
 use super::frame::{page, pages, section, table};
-use crate::questionnaire::Item;
-use crate::record::{Listed, Outcome, Record, TaskRecord};
-use crate::report::plots::bars::{Row, shares};
-use crate::report::plots::radar::{Spoke, radar};
+use crate::questionnaire::QuestionnaireItem;
+use crate::record::{SessionListEntry, SessionOutcome, SessionRecord, TaskRecord};
+use crate::report::plots::bars::{ShareRow, shares};
+use crate::report::plots::radar::{RadarAxis, radar};
 use crate::report::words;
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
 
 /// A part of the list of sessions.
 #[derive(Debug, Clone, Copy)]
-pub struct Listing<'a> {
+pub struct SessionList<'a> {
     /// The part.
-    pub lines: &'a [Listed],
+    pub lines: &'a [SessionListEntry],
     /// Only this trainee's were asked for.
     pub trainee: Option<&'a str>,
     /// The part's number, from 1.
@@ -27,7 +27,7 @@ pub struct Listing<'a> {
 
 /// The list.
 #[must_use]
-pub fn list(visitor: &Visitor, listing: &Listing<'_>) -> Markup {
+pub fn list(visitor: &Visitor, listing: &SessionList<'_>) -> Markup {
     let address = match listing.trainee {
         Some(trainee) => format!("/sessions?trainee={trainee}&"),
         None => "/sessions?".to_owned(),
@@ -35,7 +35,7 @@ pub fn list(visitor: &Visitor, listing: &Listing<'_>) -> Markup {
     let body = html! {
         section {
             div.tools {
-                @if visitor.meets(Needs::Instructor) {
+                @if visitor.satisfies(AccessLevel::Instructor) {
                     form.inline method="get" action="/sessions" {
                         label { "Trainee " input name="trainee" value=[listing.trainee] maxlength="32" autocapitalize="none"; }
                         button type="submit" { "Show" }
@@ -59,8 +59,8 @@ pub fn list(visitor: &Visitor, listing: &Listing<'_>) -> Markup {
 
 /// Rows of sessions.
 #[must_use]
-pub fn lines(visitor: &Visitor, caption: &str, lines: &[Listed]) -> Markup {
-    let all = visitor.meets(Needs::Instructor);
+pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Markup {
+    let all = visitor.satisfies(AccessLevel::Instructor);
     // What a phone shows without being moved comes first: when, who, how well.
     let mut heads = vec![
         ("Started", false),
@@ -83,7 +83,7 @@ pub fn lines(visitor: &Visitor, caption: &str, lines: &[Listed]) -> Markup {
                     th scope="row" { a href={ "/sessions/" (one.id) } { (minute(one.started_unix_us)) } }
                     @if all { td { a href={ "/trainees/" (one.trainee) } { (one.trainee) } } }
                     @if one.is_complete() { td.number { (words::number(one.overall, 1)) " of " (words::number(one.overall_max, 0)) } }
-                    @else { td { (one.headline()) } }
+                    @else { td { (one.completion_summary()) } }
                     td { (one.verdict()) }
                     td { (one.scenario) }
                     td { (one.purpose.as_deref().unwrap_or("–")) }
@@ -96,16 +96,16 @@ pub fn lines(visitor: &Visitor, caption: &str, lines: &[Listed]) -> Markup {
 
 /// What a session's page needs besides its record.
 #[derive(Debug, Clone, Copy)]
-pub struct Beside<'a> {
+pub struct SessionPageData<'a> {
     /// Its folder is here, so report, questionnaire and downloads are.
     pub folder: bool,
     /// Other sessions of the same trainee.
-    pub others: &'a [Listed],
+    pub others: &'a [SessionListEntry],
 }
 
 /// One session.
 #[must_use]
-pub fn session(visitor: &Visitor, record: &Record, beside: &Beside<'_>) -> Markup {
+pub fn session(visitor: &Visitor, record: &SessionRecord, beside: &SessionPageData<'_>) -> Markup {
     let body = html! {
         p.lead {
             a href={ "/trainees/" (record.trainee) } { (record.trainee) } " · " (minute(record.started_unix_us)) " · " (record.vehicle)
@@ -121,9 +121,9 @@ pub fn session(visitor: &Visitor, record: &Record, beside: &Beside<'_>) -> Marku
     page(visitor, "/sessions", &format!("Session: {}", record.scenario), &body)
 }
 
-fn actions(record: &Record, beside: &Beside<'_>) -> Markup {
+fn actions(record: &SessionRecord, beside: &SessionPageData<'_>) -> Markup {
     let tasks: Vec<u32> = record.tasks.iter().map(|task| task.id).collect();
-    let all = Item::all(&tasks).len();
+    let all = QuestionnaireItem::all(&tasks).len();
     let answered = record.answers.as_ref().map_or(0, |answers| all - answers.open(&tasks).len());
     html! {
         @if beside.folder {
@@ -145,7 +145,7 @@ fn actions(record: &Record, beside: &Beside<'_>) -> Markup {
 
 /// The four scores by name, 0 to 100.
 #[must_use]
-pub fn named(record: &Record) -> [(&'static str, Option<f64>); 4] {
+pub fn scores_by_name(record: &SessionRecord) -> [(&'static str, Option<f64>); 4] {
     let scores = &record.scores;
     [
         ("Conformity", scores.conformity),
@@ -155,17 +155,18 @@ pub fn named(record: &Record) -> [(&'static str, Option<f64>); 4] {
     ]
 }
 
-fn scores(record: &Record) -> Markup {
-    let spokes: Vec<Spoke> = named(record).into_iter().map(|(name, value)| Spoke { name, values: vec![value] }).collect();
+fn scores(record: &SessionRecord) -> Markup {
+    let spokes: Vec<RadarAxis> =
+        scores_by_name(record).into_iter().map(|(name, value)| RadarAxis { name, values: vec![value] }).collect();
     html! {
-        p { b { (record.headline()) ". " (record.verdict()) "." } @if !record.is_complete() { " The scores below are for the part that was flown." } }
+        p { b { (record.completion_summary()) ". " (record.verdict()) "." } @if !record.is_complete() { " The scores below are for the part that was flown." } }
         div.split {
             figure { figcaption { "The four scores, 0 in the middle, 100 at the rim" } (radar(&spokes, "Kiviat diagram of the four scores")) }
             div.cards {
                 @if record.is_complete() {
                     div.card { h3 { "Overall" } p.figure { (words::number(record.scores.overall, 0)) span.of { " of " (words::number(record.scores.overall_max, 0)) } } }
                 }
-                @for (name, value) in named(record) {
+                @for (name, value) in scores_by_name(record) {
                     div.card { h3 { (name) } p.figure { @if let Some(value) = value { (words::number(value, 0)) } @else { "n/a" } } }
                 }
             }
@@ -173,13 +174,13 @@ fn scores(record: &Record) -> Markup {
     }
 }
 
-fn tasks(record: &Record) -> Markup {
-    let row = |task: &TaskRecord| Row {
+fn tasks(record: &SessionRecord) -> Markup {
+    let row = |task: &TaskRecord| ShareRow {
         name: format!("{} · {}", task.id, task.name),
         bars: vec![("b-on", task.on_path)],
         instead: (!task.attempted).then_some("not attempted"),
     };
-    let rows: Vec<Row> = record.tasks.iter().map(row).collect();
+    let rows: Vec<ShareRow> = record.tasks.iter().map(row).collect();
     html! {
         div.split {
             figure { figcaption { "Share of each task's time on the path" } (shares(&rows, "On the path by task")) }
@@ -190,7 +191,7 @@ fn tasks(record: &Record) -> Markup {
                     @for task in &record.tasks {
                         tr {
                             th scope="row" { (task.id) " · " (task.name) }
-                            td { (flown(record, task)) }
+                            td { (task_completion_text(record, task)) }
                             td.number { (words::number(100.0 * task.on_path, 0)) }
                             td.number { (words::number(task.speeding_s, 1)) }
                             td.number { (task.crashes.total()) }
@@ -205,12 +206,12 @@ fn tasks(record: &Record) -> Markup {
 }
 
 /// How far a task got, in words.
-fn flown(record: &Record, task: &TaskRecord) -> String {
+fn task_completion_text(record: &SessionRecord, task: &TaskRecord) -> String {
     let done_share = record.completion.map_or(0.0, |completion| completion.done_share);
     task.state.zip(task.covered).map_or_else(|| "unknown".to_owned(), |(state, covered)| state.words(covered, done_share))
 }
 
-fn defects(record: &Record) -> Markup {
+fn defects(record: &SessionRecord) -> Markup {
     table(
         &format!(
             "{} of {} found; {} of {} pictures showed a new one",
@@ -233,7 +234,7 @@ fn defects(record: &Record) -> Markup {
     )
 }
 
-fn compare(record: &Record, others: &[Listed]) -> Markup {
+fn compare(record: &SessionRecord, others: &[SessionListEntry]) -> Markup {
     html! {
         @if others.is_empty() {
             p.calm { "There is no other session of this trainee yet." }
@@ -266,7 +267,7 @@ mod tests {
         record.end_reason = EVIL.into();
         record.unmet = vec![EVIL.into()];
         record.certified = false;
-        let other = Listed {
+        let other = SessionListEntry {
             id: "x".into(),
             trainee: EVIL.into(),
             started_unix_us: 0,
@@ -280,29 +281,31 @@ mod tests {
             unmet: vec![EVIL.into()],
         };
         let others = [other];
-        check(&session(&administrator(), &record, &Beside { folder: true, others: &others }).into_string());
-        let listing = Listing { lines: &others, trainee: Some(EVIL), page: 1, last: 9, count: 401 };
+        check(&session(&administrator(), &record, &SessionPageData { folder: true, others: &others }).into_string());
+        let listing = SessionList { lines: &others, trainee: Some(EVIL), page: 1, last: 9, count: 401 };
         check(&list(&administrator(), &listing).into_string());
     }
 
     #[test]
     fn regress_an_incomplete_session_shows_how_much_was_flown_and_no_sum() {
         let record = broken_off("anna", 1);
-        let text = session(&administrator(), &record, &Beside { folder: true, others: &[] }).into_string();
+        let text = session(&administrator(), &record, &SessionPageData { folder: true, others: &[] }).into_string();
         assert!(text.contains("Incomplete: 0 of 4 tasks, 15 % of the path"), "{text}");
         assert!(text.contains("Not certified: task 1 not done: 60 % of its path, 80 % needed (and 1 more)"), "{text}");
         assert!(text.contains("for the part that was flown") && !text.contains("<h3>Overall</h3>"), "{text}");
         assert!(
-            session(&administrator(), &faultless("anna", 1), &Beside { folder: true, others: &[] })
+            session(&administrator(), &faultless("anna", 1), &SessionPageData { folder: true, others: &[] })
                 .into_string()
                 .contains("<h3>Overall</h3>")
         );
     }
 
     #[test]
-    fn exact_the_questionnaire_is_offered_by_how_far_it_is() {
+    fn exact_the_questionnaire_link_follows_its_progress() {
         let mut record = faultless("anna", 1);
-        let text = |record: &Record| session(&administrator(), record, &Beside { folder: true, others: &[] }).into_string();
+        let text = |record: &SessionRecord| {
+            session(&administrator(), record, &SessionPageData { folder: true, others: &[] }).into_string()
+        };
         assert!(text(&record).contains("all 24 answered"));
         if let Some(answers) = &mut record.answers {
             answers.given.pop_first();
@@ -310,7 +313,7 @@ mod tests {
         assert!(text(&record).contains("23 of 24"));
         record.answers = None;
         assert!(text(&record).contains("Answer the questionnaire"));
-        let bare = session(&administrator(), &record, &Beside { folder: false, others: &[] }).into_string();
+        let bare = session(&administrator(), &record, &SessionPageData { folder: false, others: &[] }).into_string();
         assert!(!bare.contains("/report") && bare.contains("not on this machine"));
     }
 }

@@ -8,7 +8,7 @@ use maud::{Markup, html};
 
 /// What the page shows.
 #[derive(Debug, Clone, Copy)]
-pub struct Settings<'a> {
+pub struct SettingsPage<'a> {
     /// Everybody.
     pub people: &'a [Trainee],
     /// Those who may log in.
@@ -18,14 +18,14 @@ pub struct Settings<'a> {
     /// Folders of sessions.
     pub folders: &'a [String],
     /// How a change went.
-    pub told: Option<(&'a str, &'a str)>,
+    pub notice: Option<(&'a str, &'a str)>,
 }
 
 /// The page.
 #[must_use]
-pub fn settings(visitor: &Visitor, settings: &Settings<'_>) -> Markup {
+pub fn settings(visitor: &Visitor, settings: &SettingsPage<'_>) -> Markup {
     let body = html! {
-        @if let Some((kind, words)) = settings.told { (message(kind, words)) }
+        @if let Some((kind, words)) = settings.notice { (message(kind, words)) }
         (section("logins", "Who may log in", &logins(visitor, settings)))
         (section("add", "Add a person, or set a password and a role", &add(visitor)))
         (section("retention", "Retention", &retention(visitor)))
@@ -40,7 +40,7 @@ pub fn settings(visitor: &Visitor, settings: &Settings<'_>) -> Markup {
     page(visitor, "/settings", "Settings", &body)
 }
 
-fn logins(visitor: &Visitor, settings: &Settings<'_>) -> Markup {
+fn logins(visitor: &Visitor, settings: &SettingsPage<'_>) -> Markup {
     let role = |name: &String| settings.people.iter().find(|one| one.pseudonym == *name).map_or("", |one| one.role.word());
     html! {
         @if visitor.open { (message("warn", "Nobody has a password: whoever uses this machine may do everything, and the server can be reached from this machine alone. With the first password everybody has to log in; make it an administrator's.")) }
@@ -95,11 +95,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_nobody_takes_away_the_own_login_and_names_are_escaped() {
+    fn exact_users_cannot_remove_their_own_login_and_names_are_escaped() {
         let names = [EVIL.to_owned(), "ben".to_owned()];
         let people = [Trainee::new(EVIL), Trainee::new("ben")];
-        let shown =
-            Settings { people: &people, with_password: &names, database: EVIL, folders: &names, told: Some(("good", EVIL)) };
+        let shown = SettingsPage {
+            people: &people,
+            with_password: &names,
+            database: EVIL,
+            folders: &names,
+            notice: Some(("good", EVIL)),
+        };
         let text = settings(&administrator(), &shown).into_string();
         check(&text);
         assert_eq!(text.matches("/settings/no-login").count(), 1, "of two only the other's");

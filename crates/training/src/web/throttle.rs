@@ -3,7 +3,7 @@
 //! passwords that `login::check` accepts. A browser that the owner of a name has logged in with before counts apart ([`super::devices`]):
 //! failures of others at its address do not delay it.
 
-use super::devices::Device;
+use super::devices::KnownBrowser;
 use std::collections::BTreeMap;
 use std::net::IpAddr;
 
@@ -22,53 +22,53 @@ const ADDRESSES: usize = 10_000;
 
 /// Where a login comes from, as far as failures are counted together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Origin {
+pub enum LoginOrigin {
     /// Anyone at an address or, with IPv6, in a network.
     Network(IpAddr),
     /// A browser known for the name.
-    Known(Device),
+    Known(KnownBrowser),
 }
 
-impl Origin {
+impl LoginOrigin {
     /// The browser if it is known, otherwise the network of the address.
     #[must_use]
-    pub fn of(from: IpAddr, known: Option<Device>) -> Self {
+    pub fn for_address(from: IpAddr, known: Option<KnownBrowser>) -> Self {
         known.map_or_else(|| Self::Network(network(from)), Self::Known)
     }
 }
 
 /// Failed logins by origin: when, and for which name.
 #[derive(Debug, Default)]
-pub struct Throttle(BTreeMap<Origin, Vec<(u64, String)>>);
+pub struct LoginThrottle(BTreeMap<LoginOrigin, Vec<(u64, String)>>);
 
-impl Throttle {
+impl LoginThrottle {
     /// How long a login has to wait, µs; `None` when it may be tried.
     #[must_use]
-    pub fn wait_us(&self, from: Origin, name: &str, now_us: u64) -> Option<u64> {
+    pub fn wait_us(&self, from: LoginOrigin, name: &str, now_us: u64) -> Option<u64> {
         let failures = self.0.get(&from)?;
         let recent: Vec<&(u64, String)> = failures.iter().filter(|(at, _)| now_us.saturating_sub(*at) < WINDOW_US).collect();
         let left = |times: Vec<u64>, most: usize| {
             let waits_until = times.last()?.saturating_add(wait_after(times.len().checked_sub(most)?));
             waits_until.checked_sub(now_us).filter(|left| *left > 0)
         };
-        let of_name = recent.iter().filter(|(_, who)| *who == kept(name)).map(|(at, _)| *at).collect();
+        let of_name = recent.iter().filter(|(_, who)| *who == tracked(name)).map(|(at, _)| *at).collect();
         left(of_name, OF_NAME).max(left(recent.iter().map(|(at, _)| *at).collect(), OF_ADDRESS))
     }
 
     /// Notes a failure.
-    pub fn failed(&mut self, from: Origin, name: &str, now_us: u64) {
+    pub fn record_failure(&mut self, from: LoginOrigin, name: &str, now_us: u64) {
         if self.0.len() >= ADDRESSES {
             self.forget(now_us);
         }
         let failures = self.0.entry(from).or_default();
         failures.retain(|(at, _)| now_us.saturating_sub(*at) < WINDOW_US);
-        failures.push((now_us, kept(name)));
+        failures.push((now_us, tracked(name)));
     }
 
     /// A login that went well clears its name.
-    pub fn went_well(&mut self, from: Origin, name: &str) {
+    pub fn clear_failures(&mut self, from: LoginOrigin, name: &str) {
         if let Some(failures) = self.0.get_mut(&from) {
-            let name = kept(name);
+            let name = tracked(name);
             failures.retain(|(_, who)| *who != name);
         }
     }
@@ -94,7 +94,7 @@ fn wait_after(beyond: usize) -> u64 {
 }
 
 /// An attacker chooses the names; only their beginning is kept.
-fn kept(name: &str) -> String {
+fn tracked(name: &str) -> String {
     name.chars().take(64).collect()
 }
 
@@ -110,33 +110,37 @@ fn network(from: IpAddr) -> IpAddr {
 mod tests {
     use super::*;
 
-    fn here() -> Origin {
-        Origin::of([127, 0, 0, 1].into(), None)
+    fn this_machine() -> LoginOrigin {
+        LoginOrigin::for_address([127, 0, 0, 1].into(), None)
     }
 
     #[test]
     fn regress_five_failures_cost_seconds_and_never_more_than_a_minute() {
-        let mut throttle = Throttle::default();
+        let mut throttle = LoginThrottle::default();
         for k in 0..5 {
-            assert_eq!(throttle.wait_us(here(), "anna", k), None);
-            throttle.failed(here(), "anna", k);
+            assert_eq!(throttle.wait_us(this_machine(), "anna", k), None);
+            throttle.record_failure(this_machine(), "anna", k);
         }
-        assert_eq!(throttle.wait_us(here(), "anna", 4), Some(FIRST_WAIT_US));
-        assert_eq!(throttle.wait_us(here(), "ben", 10), None, "another name");
-        assert_eq!(throttle.wait_us(Origin::of([10, 0, 0, 1].into(), None), "anna", 10), None, "the same name from elsewhere");
-        assert_eq!(throttle.wait_us(here(), "anna", 4 + FIRST_WAIT_US), None);
+        assert_eq!(throttle.wait_us(this_machine(), "anna", 4), Some(FIRST_WAIT_US));
+        assert_eq!(throttle.wait_us(this_machine(), "ben", 10), None, "another name");
+        assert_eq!(
+            throttle.wait_us(LoginOrigin::for_address([10, 0, 0, 1].into(), None), "anna", 10),
+            None,
+            "the same name from elsewhere"
+        );
+        assert_eq!(throttle.wait_us(this_machine(), "anna", 4 + FIRST_WAIT_US), None);
         let mut now_us = 4;
         let waits: Vec<u64> = (0..6)
             .map(|_| {
-                let wait_us = throttle.wait_us(here(), "anna", now_us).unwrap_or_default();
+                let wait_us = throttle.wait_us(this_machine(), "anna", now_us).unwrap_or_default();
                 now_us += wait_us;
-                throttle.failed(here(), "anna", now_us);
+                throttle.record_failure(this_machine(), "anna", now_us);
                 wait_us / 1_000_000
             })
             .collect();
         assert_eq!(waits, [4, 8, 16, 32, 60, 60]);
-        throttle.went_well(here(), "anna");
-        assert_eq!(throttle.wait_us(here(), "anna", now_us), None);
+        throttle.clear_failures(this_machine(), "anna");
+        assert_eq!(throttle.wait_us(this_machine(), "anna", now_us), None);
     }
 
     #[test]
@@ -150,23 +154,23 @@ mod tests {
 
     #[test]
     fn regress_a_known_browser_is_not_delayed_by_its_address_and_is_limited_itself() {
-        let mut throttle = Throttle::default();
-        let known = Origin::of([127, 0, 0, 1].into(), Some([7; 32]));
-        (0..30).for_each(|_| throttle.failed(here(), "anna", 0));
-        assert_eq!(throttle.wait_us(here(), "anna", 1), Some(LONGEST_WAIT_US - 1), "a stranger at the address");
+        let mut throttle = LoginThrottle::default();
+        let known = LoginOrigin::for_address([127, 0, 0, 1].into(), Some([7; 32]));
+        (0..30).for_each(|_| throttle.record_failure(this_machine(), "anna", 0));
+        assert_eq!(throttle.wait_us(this_machine(), "anna", 1), Some(LONGEST_WAIT_US - 1), "a stranger at the address");
         assert_eq!(throttle.wait_us(known, "anna", 1), None, "the owner's browser");
-        (0..OF_NAME).for_each(|_| throttle.failed(known, "anna", 1));
+        (0..OF_NAME).for_each(|_| throttle.record_failure(known, "anna", 1));
         assert_eq!(throttle.wait_us(known, "anna", 1), Some(FIRST_WAIT_US), "guessing with a stolen cookie");
     }
 
     #[test]
     fn exact_many_names_from_one_address_wait_together() {
-        let mut throttle = Throttle::default();
+        let mut throttle = LoginThrottle::default();
         for k in 0..20 {
-            assert_eq!(throttle.wait_us(here(), &format!("n{k}"), 0), None, "{k}");
-            throttle.failed(here(), &format!("n{k}"), 0);
+            assert_eq!(throttle.wait_us(this_machine(), &format!("n{k}"), 0), None, "{k}");
+            throttle.record_failure(this_machine(), &format!("n{k}"), 0);
         }
-        assert_eq!(throttle.wait_us(here(), "one-more", 1), Some(FIRST_WAIT_US - 1));
+        assert_eq!(throttle.wait_us(this_machine(), "one-more", 1), Some(FIRST_WAIT_US - 1));
     }
 
     #[test]
@@ -178,9 +182,9 @@ mod tests {
 
     #[test]
     fn prop_many_addresses_fill_no_memory() {
-        let mut throttle = Throttle::default();
+        let mut throttle = LoginThrottle::default();
         for k in 0..30_000u32 {
-            throttle.failed(Origin::of(k.to_be_bytes().into(), None), "x", u64::from(k));
+            throttle.record_failure(LoginOrigin::for_address(k.to_be_bytes().into(), None), "x", u64::from(k));
         }
         assert!(throttle.0.len() <= ADDRESSES);
     }

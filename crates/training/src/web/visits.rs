@@ -12,17 +12,17 @@ const LONGEST_US: u64 = 12 * 3_600_000_000;
 const STRANGERS: usize = 4_096;
 
 /// Random bytes of a token.
-pub type Secret = [u8; 32];
+pub type TokenBytes = [u8; 32];
 /// Stands for a password and a role: a visit holds while it is the one of its login, wherever the change is made.
-pub type Credential = [u8; 32];
+pub type CredentialHash = [u8; 32];
 
 /// One browser.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Visit {
+pub struct BrowserSession {
     /// Who logged in.
     pub name: Option<String>,
     /// By which password and in which role; a stranger has none.
-    pub credential: Option<Credential>,
+    pub credential: Option<CredentialHash>,
     /// Goes with every form.
     pub token: String,
     began_us: u64,
@@ -31,11 +31,11 @@ pub struct Visit {
 
 /// All browsers.
 #[derive(Debug, Default)]
-pub struct Visits(BTreeMap<[u8; 32], Visit>);
+pub struct BrowserSessions(BTreeMap<[u8; 32], BrowserSession>);
 
 /// A secret as text for a cookie or a form.
 #[must_use]
-pub fn text_of(secret: &Secret) -> String {
+pub fn text_of(secret: &TokenBytes) -> String {
     secret.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
@@ -43,9 +43,9 @@ fn key(cookie: &str) -> [u8; 32] {
     Sha256::digest(cookie.as_bytes()).into()
 }
 
-impl Visits {
+impl BrowserSessions {
     /// The visit of a cookie, if it lives; using it keeps it alive.
-    pub fn find(&mut self, cookie: &str, now_us: u64) -> Option<Visit> {
+    pub fn find(&mut self, cookie: &str, now_us: u64) -> Option<BrowserSession> {
         let key = key(cookie);
         let visit = self.0.get_mut(&key)?;
         let over = now_us.saturating_sub(visit.used_us) > IDLE_US || now_us.saturating_sub(visit.began_us) > LONGEST_US;
@@ -59,12 +59,17 @@ impl Visits {
 
     /// Begins a visit: a stranger's, or that of somebody who has just logged in. The cookie is new in either case, so that one that was
     /// planted before the login opens nothing after it. Returns the cookie's text and the visit.
-    pub fn begin(&mut self, who: Option<(&str, Credential)>, [cookie, token]: [Secret; 2], now_us: u64) -> (String, Visit) {
+    pub fn begin(
+        &mut self,
+        who: Option<(&str, CredentialHash)>,
+        [cookie, token]: [TokenBytes; 2],
+        now_us: u64,
+    ) -> (String, BrowserSession) {
         if who.is_none() {
-            self.make_room(now_us);
+            self.evict_oldest(now_us);
         }
         let (name, credential) = who.map(|(name, credential)| (name.to_owned(), credential)).unzip();
-        let visit = Visit { name, credential, token: text_of(&token), began_us: now_us, used_us: now_us };
+        let visit = BrowserSession { name, credential, token: text_of(&token), began_us: now_us, used_us: now_us };
         let cookie = text_of(&cookie);
         self.0.insert(key(&cookie), visit.clone());
         (cookie, visit)
@@ -76,7 +81,7 @@ impl Visits {
     }
 
     /// The visit of this cookie goes on under a new password or role: whoever has just changed his own stays logged in here.
-    pub fn renew(&mut self, cookie: &str, credential: Credential) {
+    pub fn renew(&mut self, cookie: &str, credential: CredentialHash) {
         if let Some(visit) = self.0.get_mut(&key(cookie)).filter(|visit| visit.name.is_some()) {
             visit.credential = Some(credential);
         }
@@ -89,7 +94,7 @@ impl Visits {
     }
 
     /// Forgets what is over, and of too many strangers those who were here longest ago.
-    fn make_room(&mut self, now_us: u64) {
+    fn evict_oldest(&mut self, now_us: u64) {
         if self.0.len() < STRANGERS {
             return;
         }
@@ -108,7 +113,7 @@ impl Visits {
 
 /// Equal, in a time that does not tell how many characters are.
 #[must_use]
-pub fn same(a: &str, b: &str) -> bool {
+pub fn constant_time_eq(a: &str, b: &str) -> bool {
     a.len() == b.len() && a.bytes().zip(b.bytes()).fold(0, |different, (x, y)| different | (x ^ y)) == 0
 }
 
@@ -116,9 +121,9 @@ pub fn same(a: &str, b: &str) -> bool {
 mod tests {
     use super::*;
 
-    const WORD: Credential = [1; 32];
+    const WORD: CredentialHash = [1; 32];
 
-    fn secrets(k: u32) -> [Secret; 2] {
+    fn secrets(k: u32) -> [TokenBytes; 2] {
         let mut a = [0; 32];
         a[..4].copy_from_slice(&k.to_le_bytes());
         [a, [7; 32]]
@@ -126,7 +131,7 @@ mod tests {
 
     #[test]
     fn exact_a_visit_lives_while_it_is_used_and_no_longer_than_a_day() {
-        let mut visits = Visits::default();
+        let mut visits = BrowserSessions::default();
         let (cookie, visit) = visits.begin(Some(("anna", WORD)), secrets(1), 0);
         assert_eq!(cookie.len(), 64);
         assert_eq!(visits.find(&cookie, IDLE_US).map(|visit| visit.name), Some(Some("anna".into())));
@@ -142,12 +147,12 @@ mod tests {
 
     #[test]
     fn exact_a_new_password_ends_all_other_visits_of_that_person() {
-        let mut visits = Visits::default();
+        let mut visits = BrowserSessions::default();
         let cookies = [("anna", 1), ("anna", 2), ("ben", 3)].map(|(name, k)| visits.begin(Some((name, WORD)), secrets(k), 0).0);
         visits.end_all_of("anna", Some(&cookies[0]));
         assert_eq!(cookies.each_ref().map(|cookie| visits.find(cookie, 1).is_some()), [true, false, true]);
         visits.renew(&cookies[0], [2; 32]);
-        let credential = |visits: &mut Visits, cookie: &str| visits.find(cookie, 1).and_then(|visit| visit.credential);
+        let credential = |visits: &mut BrowserSessions, cookie: &str| visits.find(cookie, 1).and_then(|visit| visit.credential);
         assert_eq!((credential(&mut visits, &cookies[0]), credential(&mut visits, &cookies[2])), (Some([2; 32]), Some(WORD)));
         let (stranger, _) = visits.begin(None, secrets(4), 0);
         visits.renew(&stranger, WORD);
@@ -157,8 +162,8 @@ mod tests {
     }
 
     #[test]
-    fn prop_strangers_fill_no_memory_and_put_nobody_out() {
-        let mut visits = Visits::default();
+    fn prop_unknown_visitors_use_bounded_memory_and_end_no_sessions() {
+        let mut visits = BrowserSessions::default();
         let (anna, _) = visits.begin(Some(("anna", WORD)), secrets(u32::MAX), 0);
         for k in 0..20_000 {
             visits.begin(None, secrets(k), u64::from(k));
@@ -169,7 +174,7 @@ mod tests {
 
     #[test]
     fn exact_tokens_are_compared_whole() {
-        assert!(same("ab", "ab") && same("", ""));
-        assert!(!same("ab", "ac") && !same("ab", "abc") && !same("", "a"));
+        assert!(constant_time_eq("ab", "ab") && constant_time_eq("", ""));
+        assert!(!constant_time_eq("ab", "ac") && !constant_time_eq("ab", "abc") && !constant_time_eq("", "a"));
     }
 }

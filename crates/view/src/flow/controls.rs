@@ -1,12 +1,12 @@
 //! The controller is tried before the flight (the calibration of the paper's questionnaire): live sticks, and the wizard's questions.
 
-use super::menu::{self, Row};
-use super::sheet::{Pen, SMALL, TEXT, TITLE};
-use crate::hud::{Colour, Side};
+use super::menu::{self, MenuRow};
+use super::sheet::{PageWriter, SMALL, TEXT, TITLE};
+use crate::hud::{HudColor, TextAlign};
 
 /// The controller as it stands.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Controls {
+pub struct ControllerStatus {
     /// Its name; none: the keys fly.
     pub device: Option<String>,
     /// It was there and is away: the keys fly.
@@ -31,7 +31,7 @@ pub struct Controls {
     pub keys: String,
 }
 
-impl Default for Controls {
+impl Default for ControllerStatus {
     fn default() -> Self {
         Self {
             device: None,
@@ -49,10 +49,10 @@ impl Default for Controls {
     }
 }
 
-impl Controls {
+impl ControllerStatus {
     /// A device is connected.
     #[must_use]
-    pub fn is_there(&self) -> bool {
+    pub fn is_connected(&self) -> bool {
         self.device.is_some() && !self.lost
     }
 
@@ -78,16 +78,16 @@ fn duties(mode: i64) -> [(&'static str, &'static str); 2] {
     }
 }
 
-pub fn page(pen: &mut Pen, controls: &Controls, rows: &[Row], focus: usize) {
+pub fn page(pen: &mut PageWriter, controls: &ControllerStatus, rows: &[MenuRow], focus: usize) {
     let left = 0.04;
     let half = 0.42 * pen.width;
-    pen.text((left, 0.08), Side::Left, TITLE, Colour::White, "Check the controller");
-    let mut y = pen.lines((left, 0.165), half, TEXT, Colour::Yellow, &controls.standing());
+    pen.text((left, 0.08), TextAlign::Left, TITLE, HudColor::White, "Check the controller");
+    let mut y = pen.lines((left, 0.165), half, TEXT, HudColor::Yellow, &controls.standing());
     if let Some(prompt) = &controls.wizard {
-        y = pen.lines((left, y + 0.02), half, 1.1 * TEXT, Colour::White, prompt) + 0.02;
+        y = pen.lines((left, y + 0.02), half, 1.1 * TEXT, HudColor::White, prompt) + 0.02;
     }
     let y = menu::draw(pen, (left, y + 0.01), half, rows, focus);
-    let y = pen.lines((left, y + 0.035), half, SMALL, Colour::Grey, &controls.note);
+    let y = pen.lines((left, y + 0.035), half, SMALL, HudColor::Grey, &controls.note);
     let x = left + half + 0.08;
     let room = pen.width - x - 0.02;
     let size = (0.5 * (room - 0.1)).min(0.36);
@@ -97,46 +97,46 @@ pub fn page(pen: &mut Pen, controls: &Controls, rows: &[Row], focus: usize) {
         stick(pen, (x + (size + 0.1) * k as f64, 0.22), size, (right, way), [name, up, across]);
     }
     let below = 0.22 + size + 0.16;
-    if !controls.is_there() && controls.wizard.is_none() {
+    if !controls.is_connected() && controls.wizard.is_none() {
         columns(pen, (left, y + 0.02), half, &controls.keys);
         pen.lines(
             (x, below),
             room,
             SMALL,
-            Colour::White,
+            HudColor::White,
             "Press the keys that fly: the dots must follow. Tab and Enter, or the mouse, go on.",
         );
     } else if controls.wizard.is_some() || !controls.calibrated {
         axes(pen, (x, below), room, &controls.axes);
     } else {
         let words = "Move the sticks: the dots must follow, rest in the middle, and reach all edges.";
-        pen.lines((x, below), room, SMALL, Colour::White, words);
+        pen.lines((x, below), room, SMALL, HudColor::White, words);
     }
 }
 
 /// A square in which a dot follows the stick.
-fn stick(pen: &mut Pen, (x, y): (f64, f64), size: f64, (right, up): (f64, f64), [name, vertical, across]: [&str; 3]) {
+fn stick(pen: &mut PageWriter, (x, y): (f64, f64), size: f64, (right, up): (f64, f64), [name, vertical, across]: [&str; 3]) {
     const DOT: f64 = 0.018;
     let (mx, my, r) = (x + 0.5 * size, y + 0.5 * size, 0.5 * size);
-    pen.panel((x, y), (size, size), Colour::Card);
-    pen.line(&[(x, my), (x + size, my)], 0.002, Colour::Grey);
-    pen.line(&[(mx, y), (mx, y + size)], 0.002, Colour::Grey);
+    pen.panel((x, y), (size, size), HudColor::Card);
+    pen.line(&[(x, my), (x + size, my)], 0.002, HudColor::Grey);
+    pen.line(&[(mx, y), (mx, y + size)], 0.002, HudColor::Grey);
     let (dx, dy) = (mx + (r - DOT) * right.clamp(-1.0, 1.0), my - (r - DOT) * up.clamp(-1.0, 1.0));
-    pen.line(&[(mx, my), (dx, dy)], 0.005, Colour::Yellow);
+    pen.line(&[(mx, my), (dx, dy)], 0.005, HudColor::Yellow);
     let dot: Vec<(f64, f64)> = (0..16)
         .map(|k| {
             let (s, c) = spandrel_model::math::sin_cos(spandrel_model::math::TAU * f64::from(k) / 16.0);
             (dx + DOT * s, dy + DOT * c)
         })
         .collect();
-    pen.fill(&dot, Colour::Yellow);
-    pen.text((mx, y - 0.035), Side::Middle, TEXT, Colour::White, name);
-    pen.text((mx, y + size + 0.03), Side::Middle, SMALL, Colour::Grey, format!("vertical: {vertical}"));
-    pen.text((mx, y + size + 0.07), Side::Middle, SMALL, Colour::Grey, format!("across: {across}"));
+    pen.fill(&dot, HudColor::Yellow);
+    pen.text((mx, y - 0.035), TextAlign::Middle, TEXT, HudColor::White, name);
+    pen.text((mx, y + size + 0.03), TextAlign::Middle, SMALL, HudColor::Grey, format!("vertical: {vertical}"));
+    pen.text((mx, y + size + 0.07), TextAlign::Middle, SMALL, HudColor::Grey, format!("across: {across}"));
 }
 
 /// Every raw axis as a bar: the ends that were seen, and where it stands.
-fn axes(pen: &mut Pen, (x, y): (f64, f64), width: f64, all: &[(u32, f64, (f64, f64))]) {
+fn axes(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, all: &[(u32, f64, (f64, f64))]) {
     const MOST: usize = 7;
     const HIGH: f64 = 0.024;
     let (from, full) = (x + 0.16, width - 0.18);
@@ -144,18 +144,18 @@ fn axes(pen: &mut Pen, (x, y): (f64, f64), width: f64, all: &[(u32, f64, (f64, f
     for (k, (axis, value, (low, high))) in all.iter().take(MOST).enumerate() {
         let y = y + 0.042 * k as f64;
         // The kind of an event stands in the upper half of its number on Linux; people count axes from 0.
-        pen.text((x, y + 0.5 * HIGH), Side::Left, SMALL, Colour::Grey, format!("axis {}", axis & 0xffff));
-        pen.panel((from, y), (full, HIGH), Colour::Card);
-        pen.fill(&[(at(*low), y), (at(*high), y), (at(*high), y + HIGH), (at(*low), y + HIGH)], Colour::Focus);
-        pen.panel((at(*value) - 0.004, y - 0.004), (0.008, HIGH + 0.008), Colour::Yellow);
+        pen.text((x, y + 0.5 * HIGH), TextAlign::Left, SMALL, HudColor::Grey, format!("axis {}", axis & 0xffff));
+        pen.panel((from, y), (full, HIGH), HudColor::Card);
+        pen.fill(&[(at(*low), y), (at(*high), y), (at(*high), y + HIGH), (at(*low), y + HIGH)], HudColor::Focus);
+        pen.panel((at(*value) - 0.004, y - 0.004), (0.008, HIGH + 0.008), HudColor::Yellow);
     }
     if all.is_empty() {
-        pen.text((x, y), Side::Left, SMALL, Colour::Grey, "No axis has moved yet.");
+        pen.text((x, y), TextAlign::Left, SMALL, HudColor::Grey, "No axis has moved yet.");
     }
 }
 
 /// Lines in two columns, as far as there is room: the key, what it does.
-fn columns(pen: &mut Pen, (x, y): (f64, f64), width: f64, text: &str) {
+fn columns(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, text: &str) {
     const COLUMNS: usize = 2;
     const KEY: f64 = 0.17;
     let lines: Vec<&str> = text.lines().collect();
@@ -165,7 +165,7 @@ fn columns(pen: &mut Pen, (x, y): (f64, f64), width: f64, text: &str) {
     for (k, line) in lines.iter().enumerate() {
         let place = (x + 0.5 * width * (k / rows) as f64, y + step * ((k % rows) as f64 + 0.5));
         let (key, duty) = line.split_once(' ').unwrap_or((line, ""));
-        pen.text(place, Side::Left, height, Colour::Yellow, key);
-        pen.text((place.0 + KEY, place.1), Side::Left, height, Colour::White, duty.trim().replace('_', " "));
+        pen.text(place, TextAlign::Left, height, HudColor::Yellow, key);
+        pen.text((place.0 + KEY, place.1), TextAlign::Left, height, HudColor::White, duty.trim().replace('_', " "));
     }
 }

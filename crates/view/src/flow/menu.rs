@@ -1,8 +1,8 @@
 //! Rows of a page: what can be chosen, typed and done, by keys as by clicks.
 
-use super::Press;
-use super::sheet::{Pen, SMALL, TEXT, width_of};
-use crate::hud::{Colour, Side};
+use super::KeyPress;
+use super::sheet::{PageWriter, SMALL, TEXT, width_of};
+use crate::hud::{HudColor, TextAlign};
 
 /// Height of a row, and of the step to the next.
 const HIGH: f64 = 0.06;
@@ -10,7 +10,7 @@ pub const STEP: f64 = 0.07;
 
 /// What a row does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Deed {
+pub enum MenuAction {
     /// Whose session it is.
     Trainee,
     /// Which job.
@@ -67,7 +67,7 @@ pub enum Deed {
 
 /// How a row is used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum RowKind {
     /// Enter or a click does it.
     Button,
     /// Left and right change its value.
@@ -78,65 +78,65 @@ pub enum Kind {
 
 /// A row.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
+pub struct MenuRow {
     /// What it does.
-    pub deed: Deed,
+    pub deed: MenuAction,
     /// How it is used.
-    pub kind: Kind,
+    pub kind: RowKind,
     /// Its name.
     pub label: String,
     /// Its value.
     pub value: String,
 }
 
-impl Row {
+impl MenuRow {
     /// Something to do.
-    pub fn button(deed: Deed, label: impl Into<String>) -> Self {
-        Self { deed, kind: Kind::Button, label: label.into(), value: String::new() }
+    pub fn button(deed: MenuAction, label: impl Into<String>) -> Self {
+        Self { deed, kind: RowKind::Button, label: label.into(), value: String::new() }
     }
 
     /// Something to choose.
-    pub fn choice(deed: Deed, label: &str, value: impl Into<String>) -> Self {
-        Self { deed, kind: Kind::Choice, label: label.to_owned(), value: value.into() }
+    pub fn choice(deed: MenuAction, label: &str, value: impl Into<String>) -> Self {
+        Self { deed, kind: RowKind::Choice, label: label.to_owned(), value: value.into() }
     }
 
     /// Something to type.
-    pub fn typed(deed: Deed, label: &str, value: impl Into<String>) -> Self {
-        Self { kind: Kind::Typed, ..Self::choice(deed, label, value) }
+    pub fn typed_row(deed: MenuAction, label: &str, value: impl Into<String>) -> Self {
+        Self { kind: RowKind::Typed, ..Self::choice(deed, label, value) }
     }
 }
 
 /// Draws rows one below the other; gives where the next thing would stand.
-pub fn draw(pen: &mut Pen, (x, y): (f64, f64), width: f64, rows: &[Row], focus: usize) -> f64 {
+pub fn draw(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, rows: &[MenuRow], focus: usize) -> f64 {
     for (k, row) in rows.iter().enumerate() {
         one(pen, (x, y + STEP * k as f64), width, row, (k, k == focus));
     }
     y + STEP * rows.len() as f64
 }
 
-fn one(pen: &mut Pen, (x, y): (f64, f64), width: f64, row: &Row, (k, lit): (usize, bool)) {
+fn one(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow, (k, lit): (usize, bool)) {
     let middle = y + 0.5 * HIGH;
-    pen.panel((x, y), (width, HIGH), if lit { Colour::Focus } else { Colour::Card });
-    pen.spot((x, y), (width, HIGH), Press::Row(k));
+    pen.panel((x, y), (width, HIGH), if lit { HudColor::Focus } else { HudColor::Card });
+    pen.spot((x, y), (width, HIGH), KeyPress::Row(k));
     if lit {
         // Not by colour alone: a bar at the edge says the same.
-        pen.panel((x - 0.014, y), (0.008, HIGH), Colour::White);
+        pen.panel((x - 0.014, y), (0.008, HIGH), HudColor::White);
     }
-    let label = if row.kind == Kind::Button { Colour::White } else { Colour::Grey };
-    pen.text((x + 0.02, middle), Side::Left, TEXT, label, row.label.clone());
-    if row.kind == Kind::Button {
+    let label = if row.kind == RowKind::Button { HudColor::White } else { HudColor::Grey };
+    pen.text((x + 0.02, middle), TextAlign::Left, TEXT, label, row.label.clone());
+    if row.kind == RowKind::Button {
         return;
     }
     let (from, to) = (x + VALUE * width, x + width);
-    let words = if row.kind == Kind::Typed && lit { format!("{}_", row.value) } else { row.value.clone() };
+    let words = if row.kind == RowKind::Typed && lit { format!("{}_", row.value) } else { row.value.clone() };
     let room = to - from - 2.0 * ARROW;
     let height = TEXT.min(TEXT * room / width_of(&words, TEXT).max(1e-9)).max(0.6 * SMALL);
-    pen.text((0.5 * (from + to), middle), Side::Middle, height, Colour::White, words);
+    pen.text((0.5 * (from + to), middle), TextAlign::Middle, height, HudColor::White, words);
     for (edge, way, on) in [(from, -1.0, false), (to - ARROW, 1.0, true)] {
         let tip = edge + 0.5 * ARROW + way * 0.011;
         let base = edge + 0.5 * ARROW - way * 0.011;
-        pen.fill(&[(tip, middle), (base, middle - 0.014), (base, middle + 0.014)], Colour::White);
-        pen.spot((edge, y), (ARROW, HIGH), Press::Step(k, on));
+        pen.fill(&[(tip, middle), (base, middle - 0.014), (base, middle + 0.014)], HudColor::White);
+        pen.spot((edge, y), (ARROW, HIGH), KeyPress::Step(k, on));
     }
 }
 

@@ -4,7 +4,6 @@
 mod controls;
 mod menu;
 mod names;
-mod over;
 mod page;
 mod paused;
 pub mod pipe;
@@ -12,65 +11,66 @@ mod press;
 mod rows;
 pub mod sheet;
 mod start;
+mod summary;
 #[cfg(test)]
 mod tests;
 mod tutorial;
 
-pub use controls::Controls;
-pub use menu::{Deed, Kind, Row};
-pub use names::Names;
-pub use page::{Order, Page, Press, Tune};
-pub use sheet::Sheet;
+pub use controls::ControllerStatus;
+pub use menu::{MenuAction, MenuRow, RowKind};
+pub use names::KeyNames;
+pub use page::{KeyPress, Page, ProfileChange, WindowRequest};
+pub use sheet::PageLayout;
 pub use tutorial::PICTURES;
 
-use crate::arrange::Arrangement;
-use crate::hud::Point;
-use pipe::{Choice, Ended, Flying, FromWindow, Offers, Purpose, ToWindow};
+use crate::arrange::ViewLayout;
+use crate::hud::ScreenPoint;
+use pipe::{FlightChoice, FlightOptions, FlightStarted, FlightSummary, FromWindow, Purpose, ToWindow};
 use std::collections::{BTreeSet, VecDeque};
 
 /// Where the window stands.
 #[derive(Debug, Clone)]
-pub struct Flow {
+pub struct WindowFlow {
     page: Page,
     focus: usize,
-    offers: Option<Offers>,
-    choice: Choice,
+    offers: Option<FlightOptions>,
+    choice: FlightChoice,
     /// The controller as it stands.
-    pub controls: Controls,
-    flying: Option<Flying>,
-    ended: Option<Ended>,
-    words: Option<String>,
+    pub controls: ControllerStatus,
+    flying: Option<FlightStarted>,
+    ended: Option<FlightSummary>,
+    notice: Option<String>,
     /// Who has read the tutorial, or flown a practice, in this window.
-    taught: BTreeSet<String>,
-    names: Names,
+    tutorial_done: BTreeSet<String>,
+    names: KeyNames,
     /// What is waited for.
-    awaited: &'static str,
+    waiting_for: &'static str,
     /// How the views share the window.
-    pub arrangement: Arrangement,
+    pub arrangement: ViewLayout,
     /// The pause was asked for to begin anew.
-    anew: bool,
+    restart_requested: bool,
     sound: bool,
-    out: VecDeque<Order>,
+    out: VecDeque<WindowRequest>,
 }
 
-impl Flow {
+impl WindowFlow {
     /// Nothing is known yet. `sound`: it is on; `names`: of the keys.
     #[must_use]
-    pub fn new(sound: bool, names: Names) -> Self {
+    pub fn new(sound: bool, names: KeyNames) -> Self {
         Self {
             page: Page::Opening,
             focus: 0,
             offers: None,
-            choice: Choice { trainee: String::new(), scenario: String::new(), purpose: Purpose::Practice },
-            controls: Controls::default(),
+            choice: FlightChoice { trainee: String::new(), scenario: String::new(), purpose: Purpose::Practice },
+            controls: ControllerStatus::default(),
             flying: None,
             ended: None,
-            words: None,
-            taught: BTreeSet::new(),
+            notice: None,
+            tutorial_done: BTreeSet::new(),
             names,
-            awaited: "",
-            arrangement: Arrangement::default(),
-            anew: false,
+            waiting_for: "",
+            arrangement: ViewLayout::default(),
+            restart_requested: false,
             sound,
             out: VecDeque::new(),
         }
@@ -78,7 +78,7 @@ impl Flow {
 
     /// A flight that is watched without anybody who leads it: no page but the flight.
     #[must_use]
-    pub fn watching(sound: bool, names: Names) -> Self {
+    pub fn watch_only(sound: bool, names: KeyNames) -> Self {
         Self { page: Page::Flight, ..Self::new(sound, names) }
     }
 
@@ -90,70 +90,70 @@ impl Flow {
 
     /// The choice as it stands.
     #[must_use]
-    pub fn choice(&self) -> &Choice {
+    pub fn choice(&self) -> &FlightChoice {
         &self.choice
     }
 
     /// The keys that fly are tried: they do nothing else on this page.
     #[must_use]
-    pub fn tries_keys(&self) -> bool {
-        self.page == Page::Controls && !self.controls.is_there()
+    pub fn is_key_test(&self) -> bool {
+        self.page == Page::Controls && !self.controls.is_connected()
     }
 
     /// The flight is seen under a question about it.
     #[must_use]
-    pub fn asks(&self) -> bool {
+    pub fn is_asking(&self) -> bool {
         matches!(self.page, Page::Paused | Page::Leaving)
     }
 
     /// Time stands still.
     #[must_use]
-    pub fn stands(&self) -> bool {
+    pub fn is_paused(&self) -> bool {
         self.page == Page::Paused
     }
 
     /// The reference paths may be shown.
     #[must_use]
-    pub fn map(&self) -> bool {
+    pub fn shows_map(&self) -> bool {
         self.flying.as_ref().is_none_or(|flying| flying.choice.purpose == Purpose::Practice)
     }
 
     /// Words for the person, until the next press.
     #[must_use]
-    pub fn words(&self) -> Option<&str> {
-        self.words.as_deref()
+    pub fn notice(&self) -> Option<&str> {
+        self.notice.as_deref()
     }
 
     /// Something went otherwise than was wished.
-    pub fn note(&mut self, words: String) {
-        self.words = Some(words);
+    pub fn show_notice(&mut self, words: String) {
+        self.notice = Some(words);
     }
 
     /// Words that are told elsewhere.
-    pub fn take_words(&mut self) -> Option<String> {
-        self.words.take()
+    pub fn take_notice(&mut self) -> Option<String> {
+        self.notice.take()
     }
 
     /// The next thing to do.
-    pub fn poll(&mut self) -> Option<Order> {
+    pub fn poll(&mut self) -> Option<WindowRequest> {
         self.out.pop_front()
     }
 
-    fn go(&mut self, page: Page) {
+    fn show_page(&mut self, page: Page) {
         (self.page, self.focus) = (page, 0);
     }
 
-    fn tell(&mut self, message: FromWindow) {
-        self.out.push_back(Order::Tell(message));
+    fn send(&mut self, message: FromWindow) {
+        self.out.push_back(WindowRequest::Tell(message));
     }
 
     /// The controller as it stands now. A wizard that has ended leads back to the controller.
-    pub fn look(&mut self, controls: Controls) {
+    pub fn update_controls(&mut self, controls: ControllerStatus) {
         let wizard = controls.wizard.is_some();
         self.controls = controls;
         match self.page {
-            Page::Controls if wizard => self.go(Page::Calibrating),
-            Page::Calibrating if !wizard => self.go(Page::Controls),
+            Page::Controls if wizard => self.show_page(Page::Calibrating),
+            Page::Calibrating if !wizard => self.show_page(Page::Controls),
             _ => {}
         }
         // A device that has gone takes rows with it.
@@ -161,7 +161,7 @@ impl Flow {
     }
 
     /// `train` says something.
-    pub fn hear(&mut self, message: ToWindow) {
+    pub fn handle_message(&mut self, message: ToWindow) {
         match message {
             ToWindow::Offers(offers) => {
                 if self.offers.is_none() {
@@ -169,37 +169,37 @@ impl Flow {
                 }
                 self.offers = Some(offers);
                 if self.page == Page::Opening {
-                    self.go(Page::Start);
+                    self.show_page(Page::Start);
                 }
             }
             ToWindow::Flying(flying) => {
                 self.choice = flying.choice.clone();
                 self.ended = None;
-                self.words = None;
-                self.anew = false;
+                self.notice = None;
+                self.restart_requested = false;
                 self.flying = Some(flying.clone());
-                self.out.push_back(Order::Fly(Box::new(flying)));
-                self.go(Page::Flight);
+                self.out.push_back(WindowRequest::Fly(Box::new(flying)));
+                self.show_page(Page::Flight);
             }
             ToWindow::Paused { on: true } if self.page == Page::Flight => {
-                self.go(Page::Paused);
-                self.focus = usize::from(std::mem::take(&mut self.anew));
+                self.show_page(Page::Paused);
+                self.focus = usize::from(std::mem::take(&mut self.restart_requested));
             }
-            ToWindow::Paused { on: false } if self.page == Page::Paused => self.go(Page::Flight),
+            ToWindow::Paused { on: false } if self.page == Page::Paused => self.show_page(Page::Flight),
             ToWindow::Paused { .. } => {}
             ToWindow::Refused { words } => {
-                self.words = Some(words);
+                self.notice = Some(words);
                 if self.page == Page::Waiting {
-                    self.go(Page::Start);
+                    self.show_page(Page::Start);
                 }
             }
             ToWindow::Ended(ended) => {
                 self.ended = Some(ended);
                 if let Some(flown) = self.flying.take().filter(|flown| flown.choice.purpose == Purpose::Practice) {
-                    self.taught.insert(flown.choice.trainee);
+                    self.tutorial_done.insert(flown.choice.trainee);
                 }
-                self.out.push_back(Order::Land);
-                self.go(Page::Over);
+                self.out.push_back(WindowRequest::Land);
+                self.show_page(Page::Over);
             }
         }
     }
@@ -207,10 +207,10 @@ impl Flow {
     /// The key or the button for a pause was pressed: an assessment is asked whether it is to end.
     pub fn pause(&mut self) {
         match (self.page, &self.flying) {
-            (Page::Paused, _) => self.tell(FromWindow::Resume),
-            (Page::Flight, Some(flying)) if flying.choice.purpose == Purpose::Practice => self.tell(FromWindow::Pause),
-            (Page::Flight, Some(_)) => self.go(Page::Leaving),
-            (Page::Leaving, _) => self.go(Page::Flight),
+            (Page::Paused, _) => self.send(FromWindow::Resume),
+            (Page::Flight, Some(flying)) if flying.choice.purpose == Purpose::Practice => self.send(FromWindow::Pause),
+            (Page::Flight, Some(_)) => self.show_page(Page::Leaving),
+            (Page::Leaving, _) => self.show_page(Page::Flight),
             _ => {}
         }
     }
@@ -219,17 +219,17 @@ impl Flow {
     pub fn restart(&mut self) {
         match (self.page, &self.flying) {
             (Page::Flight, Some(flying)) if flying.choice.purpose == Purpose::Practice => {
-                self.anew = true;
-                self.tell(FromWindow::Pause);
+                self.restart_requested = true;
+                self.send(FromWindow::Pause);
             }
-            (Page::Flight, Some(_)) => self.words = Some("An assessment is flown through: it does not begin anew.".into()),
+            (Page::Flight, Some(_)) => self.notice = Some("An assessment is flown through: it does not begin anew.".into()),
             (Page::Paused, _) => self.focus = 1,
             _ => {}
         }
     }
 
     /// A click at a place of a window of this aspect, shares to the right and down; true when something lies there.
-    pub fn click(&mut self, place: Point, aspect: f64) -> bool {
+    pub fn click(&mut self, place: ScreenPoint, aspect: f64) -> bool {
         // What was drawn last lies on top.
         let spots = self.sheet(aspect).spots;
         let Some(spot) = spots.iter().rev().find(|spot| spot.holds(place)) else { return false };
@@ -244,6 +244,6 @@ impl Flow {
     /// Sound on or off.
     pub fn toggle_sound(&mut self) {
         self.sound = !self.sound;
-        self.out.push_back(Order::Sound(self.sound));
+        self.out.push_back(WindowRequest::Sound(self.sound));
     }
 }

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 /// Keys for people, by what they do as files of keys name it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Names(BTreeMap<&'static str, String>);
+pub struct KeyNames(BTreeMap<&'static str, String>);
 
-impl Names {
+impl KeyNames {
     /// Of these keys.
     #[must_use]
     pub fn new(keys: BTreeMap<&'static str, String>) -> Self {

@@ -1,10 +1,10 @@
 //! What a person does, what is shown, and what the window is told to do.
 
-use super::pipe::{Flying, FromWindow};
+use super::pipe::{FlightStarted, FromWindow};
 
 /// What changes of a controller's profile; all else stays as it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Tune {
+pub enum ProfileChange {
     /// Which stick does what, 1 to 4.
     Mode(i64),
     /// Dead band of every way, a part of it, 0 to 0.5.
@@ -15,7 +15,7 @@ pub enum Tune {
 
 /// What a person did.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Press {
+pub enum KeyPress {
     /// One row up.
     Up,
     /// One row down.
@@ -65,11 +65,11 @@ pub enum Page {
 
 /// What the window is to do.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Order {
+pub enum WindowRequest {
     /// Say this to `train`.
     Tell(FromWindow),
     /// Show this flight.
-    Fly(Box<Flying>),
+    Fly(Box<FlightStarted>),
     /// Let go of the flight.
     Land,
     /// Look for a controller again.
@@ -81,7 +81,7 @@ pub enum Order {
     /// Leave the wizard.
     Cancel,
     /// Change this of the controller's profile, and keep it.
-    Tune(Tune),
+    Tune(ProfileChange),
     /// Show an address in a browser.
     Open(String),
     /// Sound on or off.

@@ -28,7 +28,7 @@ impl Purpose {
 
 /// Somebody who has flown here.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Person {
+pub struct TraineeSummary {
     /// Pseudonym.
     pub name: String,
     /// Sessions so far.
@@ -39,7 +39,7 @@ pub struct Person {
 
 /// A job that can be flown.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Job {
+pub struct JobOffer {
     /// Its name, or the path of its file.
     pub name: String,
     /// Title for people.
@@ -50,7 +50,7 @@ pub struct Job {
 
 /// Who flies what, and what for.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Choice {
+pub struct FlightChoice {
     /// Pseudonym.
     pub trainee: String,
     /// Name or path of the job.
@@ -61,22 +61,22 @@ pub struct Choice {
 
 /// What can be chosen, and what is chosen unless somebody changes it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Offers {
+pub struct FlightOptions {
     /// Who has flown here.
-    pub trainees: Vec<Person>,
+    pub trainees: Vec<TraineeSummary>,
     /// Jobs.
-    pub scenarios: Vec<Job>,
+    pub scenarios: Vec<JobOffer>,
     /// As asked for on the command line, or the usual.
-    pub choice: Choice,
+    pub choice: FlightChoice,
     /// The pages of this machine's sessions, where they are served.
     pub web: Option<String>,
 }
 
 /// A flight that has begun.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Flying {
+pub struct FlightStarted {
     /// Who flies what.
-    pub choice: Choice,
+    pub choice: FlightChoice,
     /// With which aircraft: name or path.
     pub vehicle: String,
     /// The session's seed.
@@ -89,7 +89,7 @@ pub struct Flying {
 
 /// A score.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Score {
+pub struct FinalScore {
     /// As the paper defines it.
     pub raw: f64,
     /// Of 100.
@@ -98,9 +98,9 @@ pub struct Score {
 
 /// The end of a flight.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Ended {
+pub struct FlightSummary {
     /// Conformity, efficiency, safety, accuracy; none where it does not apply.
-    pub scores: [Option<Score>; 4],
+    pub scores: [Option<FinalScore>; 4],
     /// Sum, and the most that it can be here; none when the session is incomplete.
     pub overall: Option<(f64, f64)>,
     /// How much of the job was done, in words.
@@ -125,9 +125,9 @@ pub const SCORES: [&str; 4] = ["conformity", "efficiency", "safety", "accuracy"]
 #[serde(tag = "is", rename_all = "snake_case")]
 pub enum ToWindow {
     /// What can be chosen.
-    Offers(Offers),
+    Offers(FlightOptions),
     /// A flight has begun.
-    Flying(Flying),
+    Flying(FlightStarted),
     /// Time stands still, or runs again.
     Paused {
         /// It stands still.
@@ -139,7 +139,7 @@ pub enum ToWindow {
         words: String,
     },
     /// The flight is over.
-    Ended(Ended),
+    Ended(FlightSummary),
 }
 
 /// From the window to `train`.
@@ -149,7 +149,7 @@ pub enum FromWindow {
     /// The window is open.
     Ready,
     /// Fly this.
-    Chosen(Choice),
+    Chosen(FlightChoice),
     /// Time shall stand still.
     Pause,
     /// Time shall run again.
@@ -188,27 +188,27 @@ pub fn read<T: DeserializeOwned>(line: &str) -> Result<T, String> {
 mod tests {
     use super::*;
 
-    fn choice() -> Choice {
-        Choice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Assessment }
+    fn choice() -> FlightChoice {
+        FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Assessment }
     }
 
     #[test]
     fn exact_every_message_survives_its_line() {
-        let score = Some(Score { raw: -9.0, pct: 91.0 });
-        let offers = Offers {
-            trainees: vec![Person { name: "anna".into(), sessions: 3, practices: 2 }],
-            scenarios: vec![Job { name: "drill-hover".into(), title: "Drill: \"hover\"\n".into(), kind: "drill".into() }],
+        let score = Some(FinalScore { raw: -9.0, pct: 91.0 });
+        let offers = FlightOptions {
+            trainees: vec![TraineeSummary { name: "anna".into(), sessions: 3, practices: 2 }],
+            scenarios: vec![JobOffer { name: "drill-hover".into(), title: "Drill: \"hover\"\n".into(), kind: "drill".into() }],
             choice: choice(),
             web: None,
         };
-        let flying = Flying {
+        let flying = FlightStarted {
             choice: choice(),
             vehicle: "phantom2".into(),
             seed: 7,
             connect: SocketAddr::from(([127, 0, 0, 1], 14280)),
             fly: None,
         };
-        let ended = Ended {
+        let ended = FlightSummary {
             scores: [score, None, score, None],
             overall: Some((182.5, 200.0)),
             completion: Some("Complete: 1 of 1 task, 92 % of the path".into()),

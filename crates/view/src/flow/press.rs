@@ -1,8 +1,8 @@
 //! What keys and clicks do on a page.
 
-use super::menu::{Deed, Kind, Row};
-use super::pipe::{Ended, FromWindow, Offers, Purpose};
-use super::{Controls, Flow, Order, Page, Press, Tune, tutorial};
+use super::menu::{MenuAction, MenuRow, RowKind};
+use super::pipe::{FlightOptions, FlightSummary, FromWindow, Purpose};
+use super::{ControllerStatus, KeyPress, Page, ProfileChange, WindowFlow, WindowRequest, tutorial};
 
 /// Most signs of a pseudonym, as everywhere.
 const NAME_MAX: usize = 32;
@@ -11,76 +11,76 @@ const READY: &str = "The simulator gets ready ...";
 const FINE: f64 = 0.01;
 const COARSE: f64 = 0.1;
 
-impl Flow {
+impl WindowFlow {
     /// A key or a click on a page.
-    pub fn press(&mut self, press: Press) {
-        self.words = None;
+    pub fn press(&mut self, press: KeyPress) {
+        self.notice = None;
         let rows = self.rows();
         let last = rows.len().saturating_sub(1);
         let kind = rows.get(self.focus).map(|row| row.kind);
         match press {
-            Press::Up => self.focus = if self.focus == 0 { last } else { self.focus - 1 },
-            Press::Down => self.focus = if self.focus >= last { 0 } else { self.focus + 1 },
+            KeyPress::Up => self.focus = if self.focus == 0 { last } else { self.focus - 1 },
+            KeyPress::Down => self.focus = if self.focus >= last { 0 } else { self.focus + 1 },
             // A page may come under a key that flies: left and right change values, and nothing else.
-            Press::Left | Press::Right if kind == Some(Kind::Button) => {}
-            Press::Left => self.step(&rows, false),
-            Press::Right => self.step(&rows, true),
-            Press::Enter => self.activate(&rows),
-            Press::Escape => self.back(),
-            Press::Backspace if kind == Some(Kind::Typed) => {
+            KeyPress::Left | KeyPress::Right if kind == Some(RowKind::Button) => {}
+            KeyPress::Left => self.step(&rows, false),
+            KeyPress::Right => self.step(&rows, true),
+            KeyPress::Enter => self.activate(&rows),
+            KeyPress::Escape => self.back(),
+            KeyPress::Backspace if kind == Some(RowKind::Typed) => {
                 self.choice.trainee.pop();
             }
-            Press::Sign(sign) if kind == Some(Kind::Typed) => self.typed(sign),
-            Press::Backspace | Press::Sign(_) => {}
-            Press::Row(row) if row < rows.len() => {
+            KeyPress::Sign(sign) if kind == Some(RowKind::Typed) => self.type_character(sign),
+            KeyPress::Backspace | KeyPress::Sign(_) => {}
+            KeyPress::Row(row) if row < rows.len() => {
                 self.focus = row;
-                if rows[row].kind == Kind::Button {
+                if rows[row].kind == RowKind::Button {
                     self.activate(&rows);
                 }
             }
-            Press::Step(row, on) if row < rows.len() => {
+            KeyPress::Step(row, on) if row < rows.len() => {
                 self.focus = row;
                 self.step(&rows, on);
             }
-            Press::Row(_) | Press::Step(..) => {}
+            KeyPress::Row(_) | KeyPress::Step(..) => {}
         }
     }
 
-    fn typed(&mut self, sign: char) {
+    fn type_character(&mut self, sign: char) {
         let fits = sign.is_ascii_alphanumeric() || (!self.choice.trainee.is_empty() && (sign == '-' || sign == '_'));
         if !fits {
-            self.words = Some("A pseudonym has letters, digits, '-' and '_', and begins with a letter or a digit.".into());
+            self.notice = Some("A pseudonym has letters, digits, '-' and '_', and begins with a letter or a digit.".into());
         } else if self.choice.trainee.len() >= NAME_MAX {
-            self.words = Some(format!("A pseudonym has at most {NAME_MAX} signs."));
+            self.notice = Some(format!("A pseudonym has at most {NAME_MAX} signs."));
         } else {
             self.choice.trainee.push(sign);
         }
     }
 
-    fn step(&mut self, rows: &[Row], on: bool) {
+    fn step(&mut self, rows: &[MenuRow], on: bool) {
         let Some(row) = rows.get(self.focus) else { return };
         let way = if on { 1.0 } else { -1.0 };
-        let Controls { mode, dead_band, expo, .. } = self.controls;
+        let ControllerStatus { mode, dead_band, expo, .. } = self.controls;
         match row.deed {
-            Deed::Trainee => self.next_trainee(on),
-            Deed::Scenario => self.next_scenario(on),
-            Deed::Purpose => {
+            MenuAction::Trainee => self.next_trainee(on),
+            MenuAction::Scenario => self.next_scenario(on),
+            MenuAction::Purpose => {
                 self.choice.purpose = match self.choice.purpose {
                     Purpose::Practice => Purpose::Assessment,
                     Purpose::Assessment => Purpose::Practice,
                 };
             }
-            Deed::Mode => {
+            MenuAction::Mode => {
                 let mode = (mode - 1 + if on { 1 } else { 3 }) % 4 + 1;
-                self.out.push_back(Order::Tune(Tune::Mode(mode)));
+                self.out.push_back(WindowRequest::Tune(ProfileChange::Mode(mode)));
             }
-            Deed::DeadBand => {
+            MenuAction::DeadBand => {
                 let dead_band = (dead_band + FINE * way).clamp(0.0, 0.5);
-                self.out.push_back(Order::Tune(Tune::DeadBand(dead_band)));
+                self.out.push_back(WindowRequest::Tune(ProfileChange::DeadBand(dead_band)));
             }
-            Deed::Expo => {
+            MenuAction::Expo => {
                 let expo = (expo + COARSE * way).clamp(0.0, 1.0);
-                self.out.push_back(Order::Tune(Tune::Expo(expo)));
+                self.out.push_back(WindowRequest::Tune(ProfileChange::Expo(expo)));
             }
             _ => {}
         }
@@ -103,102 +103,109 @@ impl Flow {
     }
 
     /// Whoever has flown no practice here yet reads the tutorial before the first one.
-    pub(super) fn is_new(&self) -> bool {
-        let flown = |offers: &Offers| offers.trainees.iter().any(|p| p.name == self.choice.trainee && p.practices > 0);
-        !self.taught.contains(&self.choice.trainee) && !self.offers.as_ref().is_some_and(flown)
+    pub(super) fn needs_tutorial(&self) -> bool {
+        let flown = |offers: &FlightOptions| offers.trainees.iter().any(|p| p.name == self.choice.trainee && p.practices > 0);
+        !self.tutorial_done.contains(&self.choice.trainee) && !self.offers.as_ref().is_some_and(flown)
     }
 
-    fn activate(&mut self, rows: &[Row]) {
+    fn activate(&mut self, rows: &[MenuRow]) {
         let Some(row) = rows.get(self.focus) else { return };
         match row.deed {
-            Deed::Trainee | Deed::Scenario | Deed::Purpose | Deed::Mode | Deed::DeadBand | Deed::Expo => {
+            MenuAction::Trainee
+            | MenuAction::Scenario
+            | MenuAction::Purpose
+            | MenuAction::Mode
+            | MenuAction::DeadBand
+            | MenuAction::Expo => {
                 self.focus = (self.focus + 1).min(rows.len().saturating_sub(1));
             }
-            Deed::Check if self.choice.trainee.is_empty() => self.words = Some("Type a pseudonym first.".into()),
-            Deed::Check => self.go(Page::Controls),
-            Deed::Learn => self.go(Page::Tutorial(0, false)),
-            Deed::Sound => self.toggle_sound(),
-            Deed::Look => self.out.push_back(Order::Look),
-            Deed::Calibrate => self.out.push_back(Order::Calibrate),
-            Deed::Fly if self.choice.purpose == Purpose::Practice && self.is_new() => self.go(Page::Tutorial(0, true)),
-            Deed::Fly => self.choose(),
-            Deed::Back => self.back(),
-            Deed::Next => self.turn(),
-            Deed::Skip => self.taught_enough(),
-            Deed::Confirm => self.out.push_back(Order::Confirm),
-            Deed::Cancel => self.out.push_back(Order::Cancel),
-            Deed::Stay => self.go(Page::Flight),
-            Deed::Resume => self.tell(FromWindow::Resume),
-            Deed::Restart => {
-                self.leave(READY);
-                self.tell(FromWindow::Restart);
+            MenuAction::Check if self.choice.trainee.is_empty() => self.notice = Some("Type a pseudonym first.".into()),
+            MenuAction::Check => self.show_page(Page::Controls),
+            MenuAction::Learn => self.show_page(Page::Tutorial(0, false)),
+            MenuAction::Sound => self.toggle_sound(),
+            MenuAction::Look => self.out.push_back(WindowRequest::Look),
+            MenuAction::Calibrate => self.out.push_back(WindowRequest::Calibrate),
+            MenuAction::Fly if self.choice.purpose == Purpose::Practice && self.needs_tutorial() => {
+                self.show_page(Page::Tutorial(0, true))
             }
-            Deed::End => {
-                self.leave("The flight is scored ...");
-                self.tell(FromWindow::End);
+            MenuAction::Fly => self.choose(),
+            MenuAction::Back => self.back(),
+            MenuAction::Next => self.turn_tutorial_page(),
+            MenuAction::Skip => self.finish_tutorial(),
+            MenuAction::Confirm => self.out.push_back(WindowRequest::Confirm),
+            MenuAction::Cancel => self.out.push_back(WindowRequest::Cancel),
+            MenuAction::Stay => self.show_page(Page::Flight),
+            MenuAction::Resume => self.send(FromWindow::Resume),
+            MenuAction::Restart => {
+                self.send_and_wait(READY);
+                self.send(FromWindow::Restart);
             }
-            Deed::Again => {
-                self.leave(READY);
-                self.tell(FromWindow::Again);
+            MenuAction::End => {
+                self.send_and_wait("The flight is scored ...");
+                self.send(FromWindow::End);
             }
-            Deed::Other => self.go(Page::Start),
-            Deed::Report => self.open(|ended| ended.report.clone()),
-            Deed::Questions => self.open(|ended| Some(ended.questionnaire.clone())),
-            Deed::Quit => {
-                self.tell(FromWindow::Quit);
-                self.out.push_back(Order::Close);
+            MenuAction::Again => {
+                self.send_and_wait(READY);
+                self.send(FromWindow::Again);
+            }
+            MenuAction::Other => self.show_page(Page::Start),
+            MenuAction::Report => self.open(|ended| ended.report.clone()),
+            MenuAction::Questions => self.open(|ended| Some(ended.questionnaire.clone())),
+            MenuAction::Quit => {
+                self.send(FromWindow::Quit);
+                self.out.push_back(WindowRequest::Close);
             }
         }
     }
 
     /// The simulator works at what comes next.
-    fn leave(&mut self, awaited: &'static str) {
-        self.out.push_back(Order::Land);
+    fn send_and_wait(&mut self, awaited: &'static str) {
+        self.out.push_back(WindowRequest::Land);
         self.wait(awaited);
     }
 
     fn wait(&mut self, awaited: &'static str) {
-        self.awaited = awaited;
-        self.go(Page::Waiting);
+        self.waiting_for = awaited;
+        self.show_page(Page::Waiting);
     }
 
     fn choose(&mut self) {
-        self.tell(FromWindow::Chosen(self.choice.clone()));
+        self.send(FromWindow::Chosen(self.choice.clone()));
         self.wait(READY);
     }
 
-    fn turn(&mut self) {
+    fn turn_tutorial_page(&mut self) {
         if let Page::Tutorial(page, flight) = self.page {
             if page + 1 < tutorial::PAGES {
-                self.go(Page::Tutorial(page + 1, flight));
+                self.show_page(Page::Tutorial(page + 1, flight));
             } else {
-                self.taught_enough();
+                self.finish_tutorial();
             }
         }
     }
 
-    fn taught_enough(&mut self) {
-        self.taught.insert(self.choice.trainee.clone());
+    fn finish_tutorial(&mut self) {
+        self.tutorial_done.insert(self.choice.trainee.clone());
         match self.page {
             Page::Tutorial(_, true) => self.choose(),
-            _ => self.go(Page::Start),
+            _ => self.show_page(Page::Start),
         }
     }
 
-    fn open(&mut self, address: impl Fn(&Ended) -> Option<String>) {
+    fn open(&mut self, address: impl Fn(&FlightSummary) -> Option<String>) {
         if let Some(address) = self.ended.as_ref().and_then(address) {
-            self.out.push_back(Order::Open(address));
+            self.out.push_back(WindowRequest::Open(address));
         }
     }
 
     fn back(&mut self) {
         match self.page {
-            Page::Controls | Page::Tutorial(0, false) => self.go(Page::Start),
-            Page::Tutorial(0, true) => self.go(Page::Controls),
-            Page::Tutorial(page, flight) => self.go(Page::Tutorial(page - 1, flight)),
-            Page::Calibrating => self.out.push_back(Order::Cancel),
-            Page::Paused => self.tell(FromWindow::Resume),
-            Page::Leaving => self.go(Page::Flight),
+            Page::Controls | Page::Tutorial(0, false) => self.show_page(Page::Start),
+            Page::Tutorial(0, true) => self.show_page(Page::Controls),
+            Page::Tutorial(page, flight) => self.show_page(Page::Tutorial(page - 1, flight)),
+            Page::Calibrating => self.out.push_back(WindowRequest::Cancel),
+            Page::Paused => self.send(FromWindow::Resume),
+            Page::Leaving => self.show_page(Page::Flight),
             Page::Opening | Page::Start | Page::Waiting | Page::Flight | Page::Over => {}
         }
     }

@@ -1,73 +1,78 @@
 //! Which rows a page has.
 
-use super::menu::{Deed, Row};
-use super::{Flow, Page, over, tutorial};
+use super::menu::{MenuAction, MenuRow};
+use super::{Page, WindowFlow, summary, tutorial};
 
-impl Flow {
+impl WindowFlow {
     /// What can be done on this page.
     #[must_use]
-    pub fn rows(&self) -> Vec<Row> {
+    pub fn rows(&self) -> Vec<MenuRow> {
         match self.page {
             Page::Opening | Page::Waiting | Page::Flight => Vec::new(),
             Page::Start => self.start_rows(),
             Page::Controls => self.controls_rows(),
-            Page::Calibrating => vec![Row::button(Deed::Confirm, "Go on (Enter)"), Row::button(Deed::Cancel, "Leave (Esc)")],
+            Page::Calibrating => {
+                vec![MenuRow::button(MenuAction::Confirm, "Go on (Enter)"), MenuRow::button(MenuAction::Cancel, "Leave (Esc)")]
+            }
             Page::Tutorial(page, flight) => tutorial_rows(page, flight),
             Page::Paused => vec![
-                Row::button(Deed::Resume, "Fly on (Esc)"),
-                Row::button(Deed::Restart, "End this attempt, begin anew"),
-                Row::button(Deed::End, "End the session"),
+                MenuRow::button(MenuAction::Resume, "Fly on (Esc)"),
+                MenuRow::button(MenuAction::Restart, "End this attempt, begin anew"),
+                MenuRow::button(MenuAction::End, "End the session"),
             ],
             Page::Leaving => {
-                vec![Row::button(Deed::Stay, "Fly on (Esc)"), Row::button(Deed::End, "End it: score what was flown")]
+                vec![
+                    MenuRow::button(MenuAction::Stay, "Fly on (Esc)"),
+                    MenuRow::button(MenuAction::End, "End it: score what was flown"),
+                ]
             }
-            Page::Over => over::rows(self.ended.as_ref()),
+            Page::Over => summary::rows(self.ended.as_ref()),
         }
     }
 
-    fn start_rows(&self) -> Vec<Row> {
+    fn start_rows(&self) -> Vec<MenuRow> {
         let job = self.offers.as_ref().and_then(|offers| offers.scenarios.iter().find(|job| job.name == self.choice.scenario));
         let title = job.map_or(self.choice.scenario.as_str(), |job| job.title.as_str());
         vec![
-            Row::typed(Deed::Trainee, "Trainee", self.choice.trainee.clone()),
-            Row::choice(Deed::Scenario, "Job", title),
-            Row::choice(Deed::Purpose, "Purpose", self.choice.purpose.word()),
-            Row::button(Deed::Check, "Go on: check the controller"),
-            Row::button(Deed::Learn, "Read the tutorial"),
-            Row::button(Deed::Sound, if self.sound { "Sound is on" } else { "Sound is off" }),
-            Row::button(Deed::Quit, "Quit"),
+            MenuRow::typed_row(MenuAction::Trainee, "Trainee", self.choice.trainee.clone()),
+            MenuRow::choice(MenuAction::Scenario, "Job", title),
+            MenuRow::choice(MenuAction::Purpose, "Purpose", self.choice.purpose.word()),
+            MenuRow::button(MenuAction::Check, "Go on: check the controller"),
+            MenuRow::button(MenuAction::Learn, "Read the tutorial"),
+            MenuRow::button(MenuAction::Sound, if self.sound { "Sound is on" } else { "Sound is off" }),
+            MenuRow::button(MenuAction::Quit, "Quit"),
         ]
     }
 
-    fn controls_rows(&self) -> Vec<Row> {
+    fn controls_rows(&self) -> Vec<MenuRow> {
         let controls = &self.controls;
-        let mut rows = vec![Row::button(Deed::Fly, "Go on: fly")];
-        if controls.is_there() {
-            rows.push(Row::button(Deed::Calibrate, if controls.calibrated { "Calibrate again" } else { "Calibrate" }));
-            rows.push(Row::choice(Deed::Mode, "Stick mode", controls.mode.to_string()));
+        let mut rows = vec![MenuRow::button(MenuAction::Fly, "Go on: fly")];
+        if controls.is_connected() {
+            rows.push(MenuRow::button(MenuAction::Calibrate, if controls.calibrated { "Calibrate again" } else { "Calibrate" }));
+            rows.push(MenuRow::choice(MenuAction::Mode, "Stick mode", controls.mode.to_string()));
         } else {
-            rows.push(Row::button(Deed::Look, "Look for a controller again"));
+            rows.push(MenuRow::button(MenuAction::Look, "Look for a controller again"));
         }
-        if controls.is_there() && controls.calibrated {
-            rows.push(Row::choice(Deed::DeadBand, "Dead band", format!("{:.0} %", 100.0 * controls.dead_band)));
-            rows.push(Row::choice(Deed::Expo, "Expo", format!("{:.1}", controls.expo)));
+        if controls.is_connected() && controls.calibrated {
+            rows.push(MenuRow::choice(MenuAction::DeadBand, "Dead band", format!("{:.0} %", 100.0 * controls.dead_band)));
+            rows.push(MenuRow::choice(MenuAction::Expo, "Expo", format!("{:.1}", controls.expo)));
         }
-        rows.push(Row::button(Deed::Back, "Back (Esc)"));
+        rows.push(MenuRow::button(MenuAction::Back, "Back (Esc)"));
         rows
     }
 }
 
-fn tutorial_rows(page: usize, flight: bool) -> Vec<Row> {
+fn tutorial_rows(page: usize, flight: bool) -> Vec<MenuRow> {
     let last = page + 1 == tutorial::PAGES;
     let next = match (last, flight) {
         (false, _) => "Next page",
         (true, true) => "Fly",
         (true, false) => "Done",
     };
-    let mut rows = vec![Row::button(Deed::Next, next)];
-    rows.push(Row::button(Deed::Back, "Back (Esc)"));
+    let mut rows = vec![MenuRow::button(MenuAction::Next, next)];
+    rows.push(MenuRow::button(MenuAction::Back, "Back (Esc)"));
     if !last {
-        rows.push(Row::button(Deed::Skip, if flight { "Skip, fly" } else { "Skip" }));
+        rows.push(MenuRow::button(MenuAction::Skip, if flight { "Skip, fly" } else { "Skip" }));
     }
     rows
 }

@@ -1,8 +1,8 @@
 //! A page as plain data: things to draw, places that a click means something at, pictures. Sizes are shares of the window's height, so that
 //! type grows with the window; across, places are reckoned in heights, too, and turned into shares of the width at the end.
 
-use super::Press;
-use crate::hud::{Colour, Item, Point, Side, at};
+use super::KeyPress;
+use crate::hud::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
 
 /// Type sizes.
 pub const TITLE: f64 = 0.075;
@@ -19,61 +19,61 @@ pub const WIDEST: f64 = 2.3;
 
 /// A place that means something when it is clicked.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Spot {
+pub struct ClickArea {
     /// Upper left.
-    pub from: Point,
+    pub from: ScreenPoint,
     /// Lower right.
-    pub to: Point,
+    pub to: ScreenPoint,
     /// What.
-    pub press: Press,
+    pub press: KeyPress,
 }
 
-impl Spot {
+impl ClickArea {
     /// True for a place in it.
     #[must_use]
-    pub fn holds(&self, place: Point) -> bool {
+    pub fn holds(&self, place: ScreenPoint) -> bool {
         (self.from.x..=self.to.x).contains(&place.x) && (self.from.y..=self.to.y).contains(&place.y)
     }
 }
 
 /// A picture of ours by its name, in its place.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Placed {
+pub struct PlacedPicture {
     /// Which.
     pub name: &'static str,
     /// Upper left.
-    pub from: Point,
+    pub from: ScreenPoint,
     /// Lower right.
-    pub to: Point,
+    pub to: ScreenPoint,
 }
 
 /// A page.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Sheet {
+pub struct PageLayout {
     /// Pictures, below everything else.
-    pub pictures: Vec<Placed>,
+    pub pictures: Vec<PlacedPicture>,
     /// Things to draw, in their order.
-    pub items: Vec<Item>,
+    pub items: Vec<DrawItem>,
     /// Places to click.
-    pub spots: Vec<Spot>,
+    pub spots: Vec<ClickArea>,
 }
 
 /// Writes a page in heights: x from the page's left edge, y from the window's upper edge.
 #[derive(Debug)]
-pub struct Pen {
-    sheet: Sheet,
+pub struct PageWriter {
+    sheet: PageLayout,
     aspect: f64,
     left: f64,
     /// Width of the page, heights.
     pub width: f64,
 }
 
-impl Pen {
+impl PageWriter {
     /// An empty page for a window of this aspect (width over height).
     #[must_use]
     pub fn new(aspect: f64) -> Self {
         let width = aspect.min(WIDEST);
-        Self { sheet: Sheet::default(), aspect, left: 0.5 * (aspect - width), width }
+        Self { sheet: PageLayout::default(), aspect, left: 0.5 * (aspect - width), width }
     }
 
     /// What a share of the window's width is on the page, heights.
@@ -83,51 +83,51 @@ impl Pen {
     }
 
     /// A place in shares of the window.
-    fn place(&self, x: f64, y: f64) -> Point {
+    fn place(&self, x: f64, y: f64) -> ScreenPoint {
         at((self.left + x) / self.aspect, y)
     }
 
     /// A rectangle.
-    pub fn panel(&mut self, (x, y): (f64, f64), (width, height): (f64, f64), colour: Colour) {
+    pub fn panel(&mut self, (x, y): (f64, f64), (width, height): (f64, f64), colour: HudColor) {
         let (from, to) = (self.place(x, y), self.place(x + width, y + height));
-        self.sheet.items.push(Item::Panel { from, to, colour });
+        self.sheet.items.push(DrawItem::Panel { from, to, colour });
     }
 
     /// The whole window in one colour.
-    pub fn ground(&mut self, colour: Colour) {
-        self.sheet.items.push(Item::Fill { points: vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)], colour });
+    pub fn ground(&mut self, colour: HudColor) {
+        self.sheet.items.push(DrawItem::Fill { points: vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)], colour });
     }
 
     /// A line of text.
-    pub fn text(&mut self, (x, y): (f64, f64), side: Side, height: f64, colour: Colour, words: impl Into<String>) {
+    pub fn text(&mut self, (x, y): (f64, f64), side: TextAlign, height: f64, colour: HudColor, words: impl Into<String>) {
         let place = self.place(x, y);
-        self.sheet.items.push(Item::Text { place, side, height, colour, words: words.into() });
+        self.sheet.items.push(DrawItem::Text { place, side, height, colour, words: words.into() });
     }
 
     /// Text broken into lines of a width; gives where the next line would stand.
-    pub fn lines(&mut self, (x, y): (f64, f64), width: f64, height: f64, colour: Colour, words: &str) -> f64 {
+    pub fn lines(&mut self, (x, y): (f64, f64), width: f64, height: f64, colour: HudColor, words: &str) -> f64 {
         let mut y = y;
         for line in wrapped(words, width, height) {
-            self.text((x, y), Side::Left, height, colour, line);
+            self.text((x, y), TextAlign::Left, height, colour, line);
             y += LINE * height;
         }
         y
     }
 
     /// A line through points.
-    pub fn line(&mut self, points: &[(f64, f64)], width: f64, colour: Colour) {
+    pub fn line(&mut self, points: &[(f64, f64)], width: f64, colour: HudColor) {
         let points = points.iter().map(|(x, y)| self.place(*x, *y)).collect();
-        self.sheet.items.push(Item::Line { points, width, colour });
+        self.sheet.items.push(DrawItem::Line { points, width, colour });
     }
 
     /// A filled convex outline.
-    pub fn fill(&mut self, points: &[(f64, f64)], colour: Colour) {
+    pub fn fill(&mut self, points: &[(f64, f64)], colour: HudColor) {
         let points = points.iter().map(|(x, y)| self.place(*x, *y)).collect();
-        self.sheet.items.push(Item::Fill { points, colour });
+        self.sheet.items.push(DrawItem::Fill { points, colour });
     }
 
     /// An arrow from one place to another.
-    pub fn arrow(&mut self, from: (f64, f64), to: (f64, f64), colour: Colour) {
+    pub fn arrow(&mut self, from: (f64, f64), to: (f64, f64), colour: HudColor) {
         const HEAD: f64 = 0.022;
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
         let long = (dx * dx + dy * dy).sqrt().max(1e-9);
@@ -141,18 +141,18 @@ impl Pen {
     /// A picture.
     pub fn picture(&mut self, name: &'static str, (x, y): (f64, f64), (width, height): (f64, f64)) {
         let (from, to) = (self.place(x, y), self.place(x + width, y + height));
-        self.sheet.pictures.push(Placed { name, from, to });
+        self.sheet.pictures.push(PlacedPicture { name, from, to });
     }
 
     /// A place to click.
-    pub fn spot(&mut self, (x, y): (f64, f64), (width, height): (f64, f64), press: Press) {
+    pub fn spot(&mut self, (x, y): (f64, f64), (width, height): (f64, f64), press: KeyPress) {
         let (from, to) = (self.place(x, y), self.place(x + width, y + height));
-        self.sheet.spots.push(Spot { from, to, press });
+        self.sheet.spots.push(ClickArea { from, to, press });
     }
 
     /// The page.
     #[must_use]
-    pub fn done(self) -> Sheet {
+    pub fn done(self) -> PageLayout {
         self.sheet
     }
 }
@@ -208,9 +208,9 @@ mod tests {
     #[test]
     fn exact_a_page_stands_in_the_middle_of_a_wide_window() {
         for (aspect, left) in [(4.0, 0.5 * (4.0 - WIDEST) / 4.0), (1.5, 0.0)] {
-            let mut pen = Pen::new(aspect);
+            let mut pen = PageWriter::new(aspect);
             let width = pen.width;
-            pen.spot((0.0, 0.1), (width, 0.2), Press::Sign('x'));
+            pen.spot((0.0, 0.1), (width, 0.2), KeyPress::Sign('x'));
             let spot = pen.done().spots.remove(0);
             assert!((spot.from.x - left).abs() < 1e-12 && (spot.to.x - (1.0 - left)).abs() < 1e-12, "{spot:?}");
             assert!(spot.holds(at(0.5, 0.2)) && !spot.holds(at(0.5, 0.35)));

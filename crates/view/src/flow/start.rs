@@ -1,53 +1,53 @@
 //! The first page: who flies what, and what for. And what stands there while the simulator works.
 
 use super::pipe::Purpose;
-use super::sheet::{LINE, Pen, SMALL, Sheet, TEXT, TITLE, wrapped};
-use super::{Flow, Page, controls, menu, over, paused, tutorial};
-use crate::hud::{Colour, Side};
+use super::sheet::{LINE, PageLayout, PageWriter, SMALL, TEXT, TITLE, wrapped};
+use super::{Page, WindowFlow, controls, menu, paused, summary, tutorial};
+use crate::hud::{HudColor, TextAlign};
 
-impl Flow {
+impl WindowFlow {
     /// The page for a window of this aspect (width over height); nothing over a flight.
     #[must_use]
-    pub fn sheet(&self, aspect: f64) -> Sheet {
+    pub fn sheet(&self, aspect: f64) -> PageLayout {
         let rows = self.rows();
-        let mut pen = Pen::new(aspect);
+        let mut pen = PageWriter::new(aspect);
         match self.page {
             Page::Flight => return paused::button(self, pen),
             Page::Paused => return paused::page(pen, &paused::STANDS, &rows, self.focus),
             Page::Leaving => return paused::page(pen, &paused::GOES_ON, &rows, self.focus),
-            _ => pen.ground(Colour::Night),
+            _ => pen.ground(HudColor::Night),
         }
         match self.page {
             Page::Start => self.start(&mut pen, &rows),
             Page::Controls | Page::Calibrating => controls::page(&mut pen, &self.controls, &rows, self.focus),
             Page::Tutorial(page, _) => tutorial::page(&mut pen, page, &rows, self.focus, &self.names),
-            Page::Over => over::page(&mut pen, self.ended.as_ref(), &rows, self.focus),
-            Page::Waiting => waiting(&mut pen, self.awaited),
+            Page::Over => summary::page(&mut pen, self.ended.as_ref(), &rows, self.focus),
+            Page::Waiting => waiting(&mut pen, self.waiting_for),
             Page::Opening | Page::Flight | Page::Paused | Page::Leaving => waiting(&mut pen, "Spandrel"),
         }
-        if let Some(words) = &self.words {
-            told(&mut pen, words);
+        if let Some(words) = &self.notice {
+            choice_explanation(&mut pen, words);
         }
         pen.done()
     }
 
-    fn start(&self, pen: &mut Pen, rows: &[menu::Row]) {
+    fn start(&self, pen: &mut PageWriter, rows: &[menu::MenuRow]) {
         let left = 0.04;
-        pen.text((left, 0.08), Side::Left, TITLE, Colour::White, "Spandrel: inspect a bridge with a drone");
+        pen.text((left, 0.08), TextAlign::Left, TITLE, HudColor::White, "Spandrel: inspect a bridge with a drone");
         let half = 0.56 * pen.width;
         menu::draw(pen, (left, 0.17), half, rows, self.focus);
         let help = "Up and down choose a row, left and right its value, Enter does it; or click.";
-        pen.text((left, 0.70), Side::Left, SMALL, Colour::Grey, help);
+        pen.text((left, 0.70), TextAlign::Left, SMALL, HudColor::Grey, help);
         let (x, width) = (left + half + 0.06, pen.width - half - left - 0.08);
         let mut y = 0.19;
-        for (head, words) in self.told() {
-            pen.text((x, y), Side::Left, TEXT, Colour::Yellow, head);
-            y = pen.lines((x, y + 0.052), width, SMALL, Colour::White, &words) + 0.03;
+        for (head, words) in self.choice_explanation() {
+            pen.text((x, y), TextAlign::Left, TEXT, HudColor::Yellow, head);
+            y = pen.lines((x, y + 0.052), width, SMALL, HudColor::White, &words) + 0.03;
         }
     }
 
     /// What the chosen values mean.
-    fn told(&self) -> Vec<(&'static str, String)> {
+    fn choice_explanation(&self) -> Vec<(&'static str, String)> {
         let offers = self.offers.as_ref();
         let known = offers.and_then(|o| o.trainees.iter().find(|p| p.name == self.choice.trainee)).map_or(0, |p| p.sessions);
         let who = match known {
@@ -56,7 +56,7 @@ impl Flow {
             1 => "Has flown one session here.".to_owned(),
             n => format!("Has flown {n} sessions here."),
         };
-        let new = !self.choice.trainee.is_empty() && self.is_new();
+        let new = !self.choice.trainee.is_empty() && self.needs_tutorial();
         let who = if new { format!("{who} The tutorial comes before the first practice.") } else { who };
         let job = offers.and_then(|o| o.scenarios.iter().find(|job| job.name == self.choice.scenario));
         let job = job.map_or(String::new(), |job| format!("{} ({})", job.kind, job.name));
@@ -73,21 +73,21 @@ impl Flow {
 }
 
 /// What a person is to read now, along the lower edge, over whatever stands there.
-fn told(pen: &mut Pen, words: &str) {
+fn choice_explanation(pen: &mut PageWriter, words: &str) {
     let (width, margin) = (pen.width, 0.04);
     let lines = wrapped(words, width - 2.0 * margin, TEXT);
     let high = LINE * TEXT * lines.len() as f64 + 0.025;
     let top = (0.985 - high).max(0.0);
-    pen.panel((0.0, top), (width, high), Colour::Card);
+    pen.panel((0.0, top), (width, high), HudColor::Card);
     for (k, line) in lines.into_iter().enumerate() {
         let y = top + 0.0125 + LINE * TEXT * (k as f64 + 0.5);
         if y < 0.985 {
-            pen.text((0.5 * width, y), Side::Middle, TEXT, Colour::Yellow, line);
+            pen.text((0.5 * width, y), TextAlign::Middle, TEXT, HudColor::Yellow, line);
         }
     }
 }
 
-fn waiting(pen: &mut Pen, words: &str) {
+fn waiting(pen: &mut PageWriter, words: &str) {
     let middle = 0.5 * pen.width;
-    pen.text((middle, 0.45), Side::Middle, TITLE, Colour::White, words);
+    pen.text((middle, 0.45), TextAlign::Middle, TITLE, HudColor::White, words);
 }

@@ -1,31 +1,40 @@
 //! The way through the pages by keys, what is refused where, and what stands on each page.
 
-use super::pipe::{Choice, Ended, Flying, FromWindow, Job, Offers, Person, Purpose, Score, ToWindow};
-use super::{Controls, Deed, Flow, Names, Order, PICTURES, Page, Press, Tune};
-use crate::hud::{Item, Point};
+use super::pipe::{
+    FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FromWindow, JobOffer, Purpose, ToWindow,
+    TraineeSummary,
+};
+use super::{ControllerStatus, KeyNames, KeyPress, MenuAction, PICTURES, Page, ProfileChange, WindowFlow, WindowRequest};
+use crate::hud::{DrawItem, ScreenPoint};
 use std::net::SocketAddr;
 
-fn offers() -> Offers {
-    let job = |name: &str, title: &str| Job { name: name.into(), title: title.into(), kind: "1 task".into() };
-    Offers {
+fn offers() -> FlightOptions {
+    let job = |name: &str, title: &str| JobOffer { name: name.into(), title: title.into(), kind: "1 task".into() };
+    FlightOptions {
         trainees: vec![
-            Person { name: "anna".into(), sessions: 2, practices: 1 },
-            Person { name: "bert".into(), sessions: 0, practices: 0 },
+            TraineeSummary { name: "anna".into(), sessions: 2, practices: 1 },
+            TraineeSummary { name: "bert".into(), sessions: 0, practices: 0 },
         ],
         scenarios: vec![job("drill-hover", "Drill: hover"), job("two-bridges", "Two bridges")],
-        choice: Choice { trainee: "anna".into(), scenario: "two-bridges".into(), purpose: Purpose::Practice },
+        choice: FlightChoice { trainee: "anna".into(), scenario: "two-bridges".into(), purpose: Purpose::Practice },
         web: Some("http://127.0.0.1:8080".into()),
     }
 }
 
-fn flying(choice: &Choice) -> ToWindow {
+fn flying(choice: &FlightChoice) -> ToWindow {
     let here = SocketAddr::from(([127, 0, 0, 1], 14280));
-    ToWindow::Flying(Flying { choice: choice.clone(), vehicle: "phantom2".into(), seed: 7, connect: here, fly: Some(here) })
+    ToWindow::Flying(FlightStarted {
+        choice: choice.clone(),
+        vehicle: "phantom2".into(),
+        seed: 7,
+        connect: here,
+        fly: Some(here),
+    })
 }
 
-fn ended() -> Ended {
-    let score = |pct: f64| Some(Score { raw: pct, pct });
-    Ended {
+fn ended() -> FlightSummary {
+    let score = |pct: f64| Some(FinalScore { raw: pct, pct });
+    FlightSummary {
         scores: [score(81.25), score(100.0), score(91.0), None],
         overall: Some((272.25, 300.0)),
         completion: Some("Complete: 4 of 4 tasks, 98 % of the path".into()),
@@ -38,30 +47,30 @@ fn ended() -> Ended {
 }
 
 /// Keys by names that nothing else on a page has.
-fn names() -> Names {
+fn names() -> KeyNames {
     let sticks = ["up", "down", "turn_left", "turn_right", "forward", "back", "left", "right"];
     let rest =
         ["swap", "follow", "pause", "arm", "take_off", "land", "lamp", "snapshot", "gimbal_up", "gimbal_down", "camera_zoom_in"];
-    Names::new(sticks.into_iter().chain(rest).map(|duty| (duty, format!("<{duty}>"))).collect())
+    KeyNames::new(sticks.into_iter().chain(rest).map(|duty| (duty, format!("<{duty}>"))).collect())
 }
 
-fn started() -> Flow {
-    let mut flow = Flow::new(true, names());
-    flow.hear(ToWindow::Offers(offers()));
+fn started() -> WindowFlow {
+    let mut flow = WindowFlow::new(true, names());
+    flow.handle_message(ToWindow::Offers(offers()));
     flow
 }
 
-fn orders(flow: &mut Flow) -> Vec<Order> {
+fn orders(flow: &mut WindowFlow) -> Vec<WindowRequest> {
     std::iter::from_fn(|| flow.poll()).collect()
 }
 
-fn press(flow: &mut Flow, all: &[Press]) {
+fn press(flow: &mut WindowFlow, all: &[KeyPress]) {
     all.iter().for_each(|one| flow.press(*one));
 }
 
-fn in_flight(purpose: Purpose) -> Flow {
+fn in_flight(purpose: Purpose) -> WindowFlow {
     let mut flow = started();
-    flow.hear(flying(&Choice { purpose, ..flow.choice().clone() }));
+    flow.handle_message(flying(&FlightChoice { purpose, ..flow.choice().clone() }));
     orders(&mut flow);
     flow
 }
@@ -70,123 +79,123 @@ fn in_flight(purpose: Purpose) -> Flow {
 fn exact_keys_alone_lead_from_the_choice_to_the_flight_and_on() {
     let mut flow = started();
     assert_eq!(flow.page(), Page::Start);
-    press(&mut flow, &[Press::Down, Press::Left, Press::Enter, Press::Enter, Press::Enter]);
+    press(&mut flow, &[KeyPress::Down, KeyPress::Left, KeyPress::Enter, KeyPress::Enter, KeyPress::Enter]);
     assert_eq!((flow.page(), flow.choice().scenario.as_str()), (Page::Controls, "drill-hover"));
-    press(&mut flow, &[Press::Enter]);
+    press(&mut flow, &[KeyPress::Enter]);
     assert_eq!(flow.page(), Page::Waiting, "anna has flown before: no tutorial");
-    let wanted = Choice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice };
-    assert_eq!(orders(&mut flow), [Order::Tell(FromWindow::Chosen(wanted.clone()))]);
-    flow.hear(flying(&wanted));
+    let wanted = FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice };
+    assert_eq!(orders(&mut flow), [WindowRequest::Tell(FromWindow::Chosen(wanted.clone()))]);
+    flow.handle_message(flying(&wanted));
     assert_eq!(flow.page(), Page::Flight);
-    assert!(matches!(orders(&mut flow).as_slice(), [Order::Fly(flying)] if flying.choice == wanted));
-    flow.hear(ToWindow::Ended(ended()));
-    assert_eq!((flow.page(), orders(&mut flow)), (Page::Over, vec![Order::Land]));
-    press(&mut flow, &[Press::Enter, Press::Down, Press::Enter, Press::Down, Press::Enter]);
+    assert!(matches!(orders(&mut flow).as_slice(), [WindowRequest::Fly(flying)] if flying.choice == wanted));
+    flow.handle_message(ToWindow::Ended(ended()));
+    assert_eq!((flow.page(), orders(&mut flow)), (Page::Over, vec![WindowRequest::Land]));
+    press(&mut flow, &[KeyPress::Enter, KeyPress::Down, KeyPress::Enter, KeyPress::Down, KeyPress::Enter]);
     let told = orders(&mut flow);
-    assert!(matches!(&told[0], Order::Open(address) if address.starts_with("file:")), "{told:?}");
-    assert!(matches!(&told[1], Order::Open(address) if address.ends_with("/questions")), "{told:?}");
-    assert_eq!(told[2..], [Order::Land, Order::Tell(FromWindow::Again)]);
+    assert!(matches!(&told[0], WindowRequest::Open(address) if address.starts_with("file:")), "{told:?}");
+    assert!(matches!(&told[1], WindowRequest::Open(address) if address.ends_with("/questions")), "{told:?}");
+    assert_eq!(told[2..], [WindowRequest::Land, WindowRequest::Tell(FromWindow::Again)]);
 }
 
 #[test]
 fn exact_a_new_trainee_reads_the_tutorial_first_and_may_skip_it() {
     let mut flow = started();
-    press(&mut flow, &[Press::Backspace; 4]);
-    "n3w".chars().for_each(|sign| flow.press(Press::Sign(sign)));
-    press(&mut flow, &[Press::Enter, Press::Enter, Press::Enter, Press::Enter]);
+    press(&mut flow, &[KeyPress::Backspace; 4]);
+    "n3w".chars().for_each(|sign| flow.press(KeyPress::Sign(sign)));
+    press(&mut flow, &[KeyPress::Enter, KeyPress::Enter, KeyPress::Enter, KeyPress::Enter]);
     assert_eq!((flow.page(), flow.choice().trainee.as_str()), (Page::Controls, "n3w"));
-    press(&mut flow, &[Press::Enter, Press::Enter]);
+    press(&mut flow, &[KeyPress::Enter, KeyPress::Enter]);
     assert_eq!(flow.page(), Page::Tutorial(1, true));
-    press(&mut flow, &[Press::Escape, Press::Up, Press::Enter]);
+    press(&mut flow, &[KeyPress::Escape, KeyPress::Up, KeyPress::Enter]);
     assert_eq!(flow.page(), Page::Waiting, "the last row skips");
-    assert!(matches!(orders(&mut flow).as_slice(), [Order::Tell(FromWindow::Chosen(choice))] if choice.trainee == "n3w"));
-    flow.hear(ToWindow::Refused { words: "the port is taken".into() });
-    assert_eq!((flow.page(), flow.words()), (Page::Start, Some("the port is taken")));
+    assert!(matches!(orders(&mut flow).as_slice(), [WindowRequest::Tell(FromWindow::Chosen(choice))] if choice.trainee == "n3w"));
+    flow.handle_message(ToWindow::Refused { words: "the port is taken".into() });
+    assert_eq!((flow.page(), flow.notice()), (Page::Start, Some("the port is taken")));
     // Read again from the first page, to its end.
-    press(&mut flow, &[Press::Row(4)]);
-    (0..6).for_each(|_| flow.press(Press::Enter));
+    press(&mut flow, &[KeyPress::Row(4)]);
+    (0..6).for_each(|_| flow.press(KeyPress::Enter));
     assert_eq!((flow.page(), orders(&mut flow).len()), (Page::Start, 0));
 }
 
-fn choose_practice(flow: &mut Flow) {
+fn choose_practice(flow: &mut WindowFlow) {
     if flow.choice().purpose == Purpose::Assessment {
-        press(flow, &[Press::Row(2), Press::Right]);
+        press(flow, &[KeyPress::Row(2), KeyPress::Right]);
     }
 }
 
 #[test]
 fn exact_every_trainee_reads_the_tutorial_before_the_first_practice() {
     let mut flow = in_flight(Purpose::Assessment);
-    flow.hear(ToWindow::Ended(ended()));
+    flow.handle_message(ToWindow::Ended(ended()));
     // From the start page, by its rows: a name, on to the controller, fly.
-    let named = |flow: &mut Flow, name: &str| {
-        flow.press(Press::Row(0));
-        press(flow, &[Press::Backspace; 32]);
-        name.chars().for_each(|sign| flow.press(Press::Sign(sign)));
-        press(flow, &[Press::Row(3), Press::Enter]);
+    let named = |flow: &mut WindowFlow, name: &str| {
+        flow.press(KeyPress::Row(0));
+        press(flow, &[KeyPress::Backspace; 32]);
+        name.chars().for_each(|sign| flow.press(KeyPress::Sign(sign)));
+        press(flow, &[KeyPress::Row(3), KeyPress::Enter]);
         flow.page()
     };
-    press(&mut flow, &[Press::Row(3)]);
+    press(&mut flow, &[KeyPress::Row(3)]);
     assert_eq!(flow.page(), Page::Start);
     choose_practice(&mut flow);
     assert_eq!(named(&mut flow, "cora"), Page::Tutorial(0, true), "an assessment has taught nobody");
-    press(&mut flow, &[Press::Row(2)]);
-    flow.hear(flying(&flow.choice().clone()));
-    flow.hear(ToWindow::Ended(ended()));
-    press(&mut flow, &[Press::Row(3), Press::Row(3), Press::Enter]);
+    press(&mut flow, &[KeyPress::Row(2)]);
+    flow.handle_message(flying(&flow.choice().clone()));
+    flow.handle_message(ToWindow::Ended(ended()));
+    press(&mut flow, &[KeyPress::Row(3), KeyPress::Row(3), KeyPress::Enter]);
     assert_eq!(flow.page(), Page::Waiting, "cora has flown a practice");
-    flow.hear(ToWindow::Refused { words: String::new() });
+    flow.handle_message(ToWindow::Refused { words: String::new() });
     assert_eq!(named(&mut flow, "dan"), Page::Tutorial(0, true), "the next one has not");
 }
 
 #[test]
 fn exact_a_key_that_flies_does_nothing_on_a_page_that_comes_under_it() {
     let mut flow = in_flight(Purpose::Practice);
-    flow.hear(ToWindow::Ended(ended()));
+    flow.handle_message(ToWindow::Ended(ended()));
     orders(&mut flow);
-    press(&mut flow, &[Press::Left, Press::Right, Press::Down, Press::Right, Press::Up]);
+    press(&mut flow, &[KeyPress::Left, KeyPress::Right, KeyPress::Down, KeyPress::Right, KeyPress::Up]);
     assert_eq!((flow.page(), orders(&mut flow).len()), (Page::Over, 0));
     let mut flow = started();
-    assert!(!flow.tries_keys());
-    press(&mut flow, &[Press::Row(3), Press::Right, Press::Left]);
+    assert!(!flow.is_key_test());
+    press(&mut flow, &[KeyPress::Row(3), KeyPress::Right, KeyPress::Left]);
     assert_eq!(flow.page(), Page::Controls);
-    assert!(flow.tries_keys(), "keys fly: they are tried here");
-    flow.look(Controls { device: Some("Pad".into()), ..Controls::default() });
-    assert!(!flow.tries_keys(), "a controller's values are chosen by keys");
+    assert!(flow.is_key_test(), "keys fly: they are tried here");
+    flow.update_controls(ControllerStatus { device: Some("Pad".into()), ..ControllerStatus::default() });
+    assert!(!flow.is_key_test(), "a controller's values are chosen by keys");
 }
 
 #[test]
-fn exact_a_controller_that_was_unplugged_is_said_to_be_and_may_be_looked_for() {
+fn exact_a_controller_that_was_unplugged_is_reported_and_may_be_looked_for() {
     let mut flow = started();
-    press(&mut flow, &[Press::Row(3)]);
-    let there = Controls { device: Some("Pad".into()), calibrated: true, ..Controls::default() };
-    let lost = Controls { lost: true, keys: "w climbs".into(), ..there.clone() };
-    let deeds = |flow: &Flow| flow.rows().into_iter().map(|row| row.deed).collect::<Vec<_>>();
-    flow.look(there);
-    assert!(words(&flow).contains("Pad, calibrated") && !deeds(&flow).contains(&Deed::Look));
-    press(&mut flow, &[Press::Up]);
-    flow.look(lost);
+    press(&mut flow, &[KeyPress::Row(3)]);
+    let there = ControllerStatus { device: Some("Pad".into()), calibrated: true, ..ControllerStatus::default() };
+    let lost = ControllerStatus { lost: true, keys: "w climbs".into(), ..there.clone() };
+    let deeds = |flow: &WindowFlow| flow.rows().into_iter().map(|row| row.deed).collect::<Vec<_>>();
+    flow.update_controls(there);
+    assert!(words(&flow).contains("Pad, calibrated") && !deeds(&flow).contains(&MenuAction::Look));
+    press(&mut flow, &[KeyPress::Up]);
+    flow.update_controls(lost);
     assert!(flow.focus < flow.rows().len(), "one of the rows is chosen");
     let told = words(&flow);
     assert!(
         told.contains("Pad is not connected: the keys fly") && !told.contains("calibrated") && told.contains("climbs"),
         "{told}"
     );
-    assert_eq!(deeds(&flow), [Deed::Fly, Deed::Look, Deed::Back]);
-    assert!(flow.tries_keys(), "keys fly: they are tried here");
+    assert_eq!(deeds(&flow), [MenuAction::Fly, MenuAction::Look, MenuAction::Back]);
+    assert!(flow.is_key_test(), "keys fly: they are tried here");
 }
 
 #[test]
-fn regress_a_flight_that_ended_before_its_pause_leaves_no_wish_to_begin_anew() {
+fn regress_a_flight_that_ended_before_its_pause_leaves_no_restart_request() {
     let mut flow = in_flight(Purpose::Practice);
     flow.restart();
-    flow.hear(ToWindow::Ended(ended()));
+    flow.handle_message(ToWindow::Ended(ended()));
     let mut next = in_flight(Purpose::Practice);
-    next.hear(ToWindow::Paused { on: true });
+    next.handle_message(ToWindow::Paused { on: true });
     let harmless = next.focus;
     let flying = next.flying.clone().unwrap();
-    flow.hear(ToWindow::Flying(flying));
-    flow.hear(ToWindow::Paused { on: true });
+    flow.handle_message(ToWindow::Flying(flying));
+    flow.handle_message(ToWindow::Paused { on: true });
     assert_eq!(flow.focus, harmless);
 }
 
@@ -198,28 +207,28 @@ fn exact_pages_name_the_keys_as_they_are_set_and_what_is_waited_for() {
         seen.push_str(&words(&flow));
     }
     assert!(["<swap>", "<follow>", "<lamp>", "<pause>"].into_iter().all(|key| seen.contains(key)), "{seen}");
-    flight.hear(ToWindow::Paused { on: true });
-    press(&mut flight, &[Press::Row(2)]);
+    flight.handle_message(ToWindow::Paused { on: true });
+    press(&mut flight, &[KeyPress::Row(2)]);
     assert!(words(&flight).contains("scored"), "{}", words(&flight));
-    flight.hear(ToWindow::Refused { words: "a word ".repeat(80) });
+    flight.handle_message(ToWindow::Refused { words: "a word ".repeat(80) });
     let lines = words(&flight).lines().filter(|line| line.contains("a word")).count();
     assert!(lines > 2, "a long refusal is broken into lines: {lines}");
 }
 
 #[test]
-fn exact_names_stay_harmless_and_wrong_signs_are_told() {
+fn exact_names_stay_harmless_and_wrong_signs_are_reported() {
     let mut flow = started();
-    press(&mut flow, &[Press::Backspace; 9]);
+    press(&mut flow, &[KeyPress::Backspace; 9]);
     for sign in "-_ /é.".chars() {
-        flow.press(Press::Sign(sign));
-        assert!(flow.words().is_some() && flow.choice().trainee.is_empty(), "{sign}");
+        flow.press(KeyPress::Sign(sign));
+        assert!(flow.notice().is_some() && flow.choice().trainee.is_empty(), "{sign}");
     }
-    press(&mut flow, &[Press::Row(3)]);
+    press(&mut flow, &[KeyPress::Row(3)]);
     assert_eq!(flow.page(), Page::Start, "without a name nobody flies");
-    "a".repeat(40).chars().for_each(|sign| flow.press(Press::Sign(sign)));
+    "a".repeat(40).chars().for_each(|sign| flow.press(KeyPress::Sign(sign)));
     assert!(flow.choice().trainee.is_empty(), "signs go to the row that has the focus");
-    flow.press(Press::Row(0));
-    "a".repeat(40).chars().for_each(|sign| flow.press(Press::Sign(sign)));
+    flow.press(KeyPress::Row(0));
+    "a".repeat(40).chars().for_each(|sign| flow.press(KeyPress::Sign(sign)));
     assert_eq!(flow.choice().trainee.len(), 32);
 }
 
@@ -227,107 +236,111 @@ fn exact_names_stay_harmless_and_wrong_signs_are_told() {
 fn exact_pause_and_restart_are_for_practice_alone() {
     let mut flow = in_flight(Purpose::Practice);
     flow.pause();
-    assert_eq!(orders(&mut flow), [Order::Tell(FromWindow::Pause)]);
-    assert!(!flow.stands(), "the simulator decides");
-    flow.hear(ToWindow::Paused { on: true });
-    assert!(flow.stands());
-    flow.press(Press::Escape);
-    assert_eq!(orders(&mut flow), [Order::Tell(FromWindow::Resume)]);
-    flow.hear(ToWindow::Paused { on: false });
+    assert_eq!(orders(&mut flow), [WindowRequest::Tell(FromWindow::Pause)]);
+    assert!(!flow.is_paused(), "the simulator decides");
+    flow.handle_message(ToWindow::Paused { on: true });
+    assert!(flow.is_paused());
+    flow.press(KeyPress::Escape);
+    assert_eq!(orders(&mut flow), [WindowRequest::Tell(FromWindow::Resume)]);
+    flow.handle_message(ToWindow::Paused { on: false });
     assert_eq!(flow.page(), Page::Flight);
     flow.restart();
-    flow.hear(ToWindow::Paused { on: true });
-    flow.press(Press::Enter);
+    flow.handle_message(ToWindow::Paused { on: true });
+    flow.press(KeyPress::Enter);
     assert_eq!(
         orders(&mut flow),
-        [Order::Tell(FromWindow::Pause), Order::Land, Order::Tell(FromWindow::Restart)],
+        [WindowRequest::Tell(FromWindow::Pause), WindowRequest::Land, WindowRequest::Tell(FromWindow::Restart)],
         "asked once more, by the row that has the focus"
     );
     assert_eq!(flow.page(), Page::Waiting);
 
     let mut flow = in_flight(Purpose::Assessment);
-    assert!(!flow.map());
+    assert!(!flow.shows_map());
     flow.restart();
-    assert!(flow.words().is_some_and(|words| words.contains("anew")));
+    assert!(flow.notice().is_some_and(|words| words.contains("anew")));
     flow.pause();
-    assert!(flow.page() == Page::Leaving && !flow.stands(), "it flies on");
-    flow.press(Press::Escape);
+    assert!(flow.page() == Page::Leaving && !flow.is_paused(), "it flies on");
+    flow.press(KeyPress::Escape);
     assert_eq!(flow.page(), Page::Flight);
     flow.pause();
-    flow.press(Press::Enter);
+    flow.press(KeyPress::Enter);
     assert_eq!((flow.page(), orders(&mut flow)), (Page::Flight, vec![]), "the first row is the harmless one");
     let mut given_up = flow.clone();
     given_up.pause();
-    press(&mut given_up, &[Press::Down, Press::Enter]);
-    assert_eq!(orders(&mut given_up), [Order::Land, Order::Tell(FromWindow::End)]);
+    press(&mut given_up, &[KeyPress::Down, KeyPress::Enter]);
+    assert_eq!(orders(&mut given_up), [WindowRequest::Land, WindowRequest::Tell(FromWindow::End)]);
     assert_eq!(given_up.page(), Page::Waiting);
     flow.pause();
-    flow.hear(ToWindow::Ended(ended()));
+    flow.handle_message(ToWindow::Ended(ended()));
     flow.pause();
     flow.restart();
-    assert_eq!(orders(&mut flow), [Order::Land], "after the end there is nothing to stop");
+    assert_eq!(orders(&mut flow), [WindowRequest::Land], "after the end there is nothing to stop");
 }
 
 #[test]
 fn exact_the_profile_changes_by_steps_within_its_range() {
     let mut flow = started();
-    press(&mut flow, &[Press::Row(3)]);
-    flow.look(Controls {
+    press(&mut flow, &[KeyPress::Row(3)]);
+    flow.update_controls(ControllerStatus {
         device: Some("Pad".into()),
         calibrated: true,
         mode: 4,
         dead_band: 0.5,
         expo: 0.05,
-        ..Controls::default()
+        ..ControllerStatus::default()
     });
-    press(&mut flow, &[Press::Row(2), Press::Right, Press::Row(3), Press::Right, Press::Row(4), Press::Left]);
+    press(&mut flow, &[KeyPress::Row(2), KeyPress::Right, KeyPress::Row(3), KeyPress::Right, KeyPress::Row(4), KeyPress::Left]);
     let told = orders(&mut flow);
-    assert_eq!(told[0], Order::Tune(Tune::Mode(1)), "after mode 4 comes 1");
-    assert_eq!(told[1], Order::Tune(Tune::DeadBand(0.5)), "no dead band over a half");
-    assert_eq!(told[2], Order::Tune(Tune::Expo(0.0)));
-    flow.look(Controls { wizard: Some("Let go.".into()), ..flow.controls.clone() });
+    assert_eq!(told[0], WindowRequest::Tune(ProfileChange::Mode(1)), "after mode 4 comes 1");
+    assert_eq!(told[1], WindowRequest::Tune(ProfileChange::DeadBand(0.5)), "no dead band over a half");
+    assert_eq!(told[2], WindowRequest::Tune(ProfileChange::Expo(0.0)));
+    flow.update_controls(ControllerStatus { wizard: Some("Let go.".into()), ..flow.controls.clone() });
     assert_eq!(flow.page(), Page::Calibrating);
-    press(&mut flow, &[Press::Enter, Press::Escape]);
-    assert_eq!(orders(&mut flow), [Order::Confirm, Order::Cancel]);
-    flow.look(Controls { wizard: None, ..flow.controls.clone() });
+    press(&mut flow, &[KeyPress::Enter, KeyPress::Escape]);
+    assert_eq!(orders(&mut flow), [WindowRequest::Confirm, WindowRequest::Cancel]);
+    flow.update_controls(ControllerStatus { wizard: None, ..flow.controls.clone() });
     assert_eq!(flow.page(), Page::Controls);
 }
 
 /// Every page that there is.
-fn every_page() -> Vec<(String, Flow)> {
-    let mut all = vec![("opening".to_owned(), Flow::new(true, names())), ("start".to_owned(), started())];
+fn every_page() -> Vec<(String, WindowFlow)> {
+    let mut all = vec![("opening".to_owned(), WindowFlow::new(true, names())), ("start".to_owned(), started())];
     let mut controls = started();
-    controls.press(Press::Row(3));
+    controls.press(KeyPress::Row(3));
     controls.controls.keys = "w up\ns down\n1 arm".into();
     all.push(("controls-keys".into(), controls.clone()));
-    let device = Controls {
+    let device = ControllerStatus {
         device: Some("Radiomaster TX16S".into()),
         calibrated: true,
         dead_band: 0.05,
         expo: 0.3,
         sticks: [0.4, -0.2, 1.0, -1.0],
         note: "Kept in /home/anna/.config/spandrel/controllers/radiomaster-tx16s-1209-4f54.toml".into(),
-        ..Controls::default()
+        ..ControllerStatus::default()
     };
-    controls.look(device.clone());
+    controls.update_controls(device.clone());
     all.push(("controls-device".into(), controls.clone()));
     let axes = vec![(0, 0.3, (-0.9, 0.95)), (1, -0.2, (-1.0, 1.0))];
-    controls.look(Controls { wizard: Some("Push the LEFT stick fully UP and hold it there.".into()), axes, ..device });
+    controls.update_controls(ControllerStatus {
+        wizard: Some("Push the LEFT stick fully UP and hold it there.".into()),
+        axes,
+        ..device
+    });
     all.push(("calibrating".into(), controls));
     let mut tutorial = started();
-    tutorial.press(Press::Row(4));
+    tutorial.press(KeyPress::Row(4));
     for page in 1..=6 {
         all.push((format!("tutorial-{page}"), tutorial.clone()));
-        tutorial.press(Press::Enter);
+        tutorial.press(KeyPress::Enter);
     }
     let mut paused = in_flight(Purpose::Practice);
     all.push(("flight".into(), paused.clone()));
-    paused.hear(ToWindow::Paused { on: true });
+    paused.handle_message(ToWindow::Paused { on: true });
     all.push(("paused".into(), paused.clone()));
     let mut leaving = in_flight(Purpose::Assessment);
     leaving.pause();
     all.push(("leaving".into(), leaving));
-    paused.hear(ToWindow::Ended(ended()));
+    paused.handle_message(ToWindow::Ended(ended()));
     all.push(("over".into(), paused));
     all
 }
@@ -337,12 +350,12 @@ fn prop_everything_stays_in_windows_of_any_shape_and_every_picture_is_there() {
     for aspect in [4.0 / 3.0, 16.0 / 9.0, 1600.0 / 560.0, 1280.0 / 360.0] {
         for (name, flow) in every_page() {
             let sheet = flow.sheet(aspect);
-            let inside = |p: &Point| (-1e-9..=1.0 + 1e-9).contains(&p.x) && (-1e-9..=1.0 + 1e-9).contains(&p.y);
+            let inside = |p: &ScreenPoint| (-1e-9..=1.0 + 1e-9).contains(&p.x) && (-1e-9..=1.0 + 1e-9).contains(&p.y);
             for item in &sheet.items {
-                let points: Vec<Point> = match item {
-                    Item::Panel { from, to, .. } => vec![*from, *to],
-                    Item::Text { place, .. } => vec![*place],
-                    Item::Fill { points, .. } | Item::Line { points, .. } => points.clone(),
+                let points: Vec<ScreenPoint> = match item {
+                    DrawItem::Panel { from, to, .. } => vec![*from, *to],
+                    DrawItem::Text { place, .. } => vec![*place],
+                    DrawItem::Fill { points, .. } | DrawItem::Line { points, .. } => points.clone(),
                 };
                 assert!(points.iter().all(inside), "{name} at {aspect}: {item:?}");
             }
@@ -354,10 +367,10 @@ fn prop_everything_stays_in_windows_of_any_shape_and_every_picture_is_there() {
 }
 
 /// Every word of a page with its place in hundredths.
-fn words(flow: &Flow) -> String {
-    let line = |item: &Item| match item {
-        Item::Text { place, words, .. } => Some(format!("{:3.0} {:3.0} {words}\n", 100.0 * place.x, 100.0 * place.y)),
-        Item::Panel { .. } | Item::Fill { .. } | Item::Line { .. } => None,
+fn words(flow: &WindowFlow) -> String {
+    let line = |item: &DrawItem| match item {
+        DrawItem::Text { place, words, .. } => Some(format!("{:3.0} {:3.0} {words}\n", 100.0 * place.x, 100.0 * place.y)),
+        DrawItem::Panel { .. } | DrawItem::Fill { .. } | DrawItem::Line { .. } => None,
     };
     flow.sheet(16.0 / 9.0).items.iter().filter_map(line).collect()
 }
@@ -366,7 +379,7 @@ fn words(flow: &Flow) -> String {
 fn regress_the_first_page_and_the_last() {
     let (start, end) = (include_str!("snapshots/start.txt"), include_str!("snapshots/over.txt"));
     let mut over = in_flight(Purpose::Practice);
-    over.hear(ToWindow::Ended(ended()));
+    over.handle_message(ToWindow::Ended(ended()));
     assert_eq!(words(&started()), start, "\n{}", words(&started()));
     assert_eq!(words(&over), end, "\n{}", words(&over));
 }

@@ -1,10 +1,10 @@
 //! A few pages before the first practice, as the paper's protocol has it: real pictures of ours with arrows and words, and the display as it
 //! is drawn in flight.
 
-use super::Names;
-use super::menu::{self, Row, STEP};
-use super::sheet::{Pen, SMALL, TITLE, width_of};
-use crate::hud::{Colour, Gnss, Hud, Item, Point, Side, Track, layout};
+use super::KeyNames;
+use super::menu::{self, MenuRow, STEP};
+use super::sheet::{PageWriter, SMALL, TITLE, width_of};
+use crate::hud::{DrawItem, GnssStatus, Hud, HudColor, MapPath, ScreenPoint, TextAlign, layout};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::frames::Vec3;
 
@@ -25,9 +25,9 @@ pub const PICTURES: [(&str, &[u8]); 9] = [
 const WIDE: f64 = 16.0 / 9.0;
 
 /// A page: its title, what is drawn into the box on the left, what is said on the right; `{duty}` stands for a key.
-type Leaf = (&'static str, fn(&mut Pen, Frame, &Names), &'static str);
+type TutorialPage = (&'static str, fn(&mut PageWriter, PictureFrame, &KeyNames), &'static str);
 
-const LEAVES: [Leaf; PAGES] = [
+const LEAVES: [TutorialPage; PAGES] = [
     (
         "the job",
         job,
@@ -73,14 +73,14 @@ pub const PAGES: usize = 6;
 
 /// Where a picture stands, in heights.
 #[derive(Debug, Clone, Copy)]
-struct Frame {
+struct PictureFrame {
     x: f64,
     y: f64,
     width: f64,
     height: f64,
 }
 
-impl Frame {
+impl PictureFrame {
     fn at(self, across: f64, down: f64) -> (f64, f64) {
         (self.x + across * self.width, self.y + down * self.height)
     }
@@ -91,31 +91,31 @@ impl Frame {
     }
 }
 
-pub fn page(pen: &mut Pen, page: usize, rows: &[Row], focus: usize, names: &Names) {
+pub fn page(pen: &mut PageWriter, page: usize, rows: &[MenuRow], focus: usize, names: &KeyNames) {
     let Some((title, picture, words)) = LEAVES.get(page) else { return };
     let left = 0.04;
-    pen.text((left, 0.07), Side::Left, TITLE, Colour::White, format!("Tutorial {} of {PAGES}: {title}", page + 1));
+    pen.text((left, 0.07), TextAlign::Left, TITLE, HudColor::White, format!("Tutorial {} of {PAGES}: {title}", page + 1));
     let width = (0.60 * pen.width).min(0.70 * WIDE);
-    picture(pen, Frame { x: left, y: 0.15, width, height: width / WIDE }, names);
+    picture(pen, PictureFrame { x: left, y: 0.15, width, height: width / WIDE }, names);
     let x = left + width + 0.06;
     let room = pen.width - x - 0.03;
-    pen.lines((x, 0.17), room, if room < 0.6 { 0.92 * SMALL } else { SMALL }, Colour::White, &names.fill(words));
+    pen.lines((x, 0.17), room, if room < 0.6 { 0.92 * SMALL } else { SMALL }, HudColor::White, &names.fill(words));
     menu::draw(pen, (x, 0.97 - STEP * rows.len() as f64), room, rows, focus);
 }
 
 /// Words with an arrow to what they name; both in shares of the frame.
-fn label(pen: &mut Pen, frame: Frame, words: &str, from: (f64, f64), to: (f64, f64)) {
+fn label(pen: &mut PageWriter, frame: PictureFrame, words: &str, from: (f64, f64), to: (f64, f64)) {
     let half = 0.5 * width_of(words, SMALL) + 0.012;
     let (x, y) = frame.at(from.0, from.1);
     let (tx, ty) = frame.at(to.0, to.1);
     // The arrow leaves the words at the side that is nearer to what it points at.
     let foot = if (tx - x).abs() > half { (x + half * (tx - x).signum(), y) } else { (x, y + 0.025 * (ty - y).signum()) };
-    pen.arrow(foot, (tx, ty), Colour::Yellow);
-    pen.panel((x - half, y - 0.025), (2.0 * half, 0.05), Colour::Night);
-    pen.text((x, y), Side::Middle, SMALL, Colour::Yellow, words);
+    pen.arrow(foot, (tx, ty), HudColor::Yellow);
+    pen.panel((x - half, y - 0.025), (2.0 * half, 0.05), HudColor::Night);
+    pen.text((x, y), TextAlign::Middle, SMALL, HudColor::Yellow, words);
 }
 
-fn job(pen: &mut Pen, frame: Frame, _: &Names) {
+fn job(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     pen.picture("job", frame.at(0.0, 0.0), (frame.width, frame.height));
     label(pen, frame, "take off and land here", (0.26, 0.86), (0.075, 0.62));
     label(pen, frame, "suspension bridge", (0.62, 0.07), (0.55, 0.22));
@@ -123,13 +123,13 @@ fn job(pen: &mut Pen, frame: Frame, _: &Names) {
     label(pen, frame, "round the pier: task 4", (0.24, 0.07), (0.235, 0.355));
 }
 
-fn views(pen: &mut Pen, frame: Frame, _: &Names) {
+fn views(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     let half = frame.part((0.0, 0.0), (0.5, 0.5));
     let other = frame.part((0.5, 0.0), (0.5, 0.5));
     pen.picture("inspector", half.at(0.0, 0.0), (half.width, half.height));
     pen.picture("camera", other.at(0.0, 0.0), (other.width, other.height));
     inset(pen, &layout(&example(0), WIDE), other);
-    pen.line(&[other.at(0.0, 0.0), other.at(0.0, 1.0)], 0.004, Colour::Black);
+    pen.line(&[other.at(0.0, 0.0), other.at(0.0, 1.0)], 0.004, HudColor::Black);
     label(pen, half, "where the drone is", (0.42, 1.15), (0.50, 0.56));
     label(pen, other, "the camera's view", (0.40, 1.15), (0.5, 0.75));
     label(pen, other, "the map", (0.86, 1.15), (0.92, 0.88));
@@ -138,13 +138,13 @@ fn views(pen: &mut Pen, frame: Frame, _: &Names) {
         (x, y),
         frame.width,
         SMALL,
-        Colour::Grey,
+        HudColor::Grey,
         "The bracket in your view stays on the drone and says how far away it is. The triangle on the map is the drone, the square the \
          pad, the lines are the tasks' paths.",
     );
 }
 
-fn display(pen: &mut Pen, frame: Frame, _: &Names) {
+fn display(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     pen.picture("camera", frame.at(0.0, 0.0), (frame.width, frame.height));
     inset(pen, &layout(&example(0), WIDE), frame);
     for (words, from, to) in [
@@ -159,7 +159,7 @@ fn display(pen: &mut Pen, frame: Frame, _: &Names) {
     }
 }
 
-fn warnings(pen: &mut Pen, frame: Frame, _: &Names) {
+fn warnings(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     pen.picture("camera", frame.at(0.0, 0.0), (frame.width, frame.height));
     let display = Hud { hit: Some("pier".into()), battery_pct: Some(24.0), speed_m_s: 5.3, ..example(0b11_1100) };
     inset(pen, &layout(&display, WIDE), frame);
@@ -167,7 +167,7 @@ fn warnings(pen: &mut Pen, frame: Frame, _: &Names) {
     label(pen, frame, "battery is red", (0.62, 0.22), (0.86, 0.085));
 }
 
-fn defects(pen: &mut Pen, frame: Frame, _: &Names) {
+fn defects(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     for (k, (name, words)) in
         [("crack", "crack"), ("spall", "spall"), ("efflorescence", "efflorescence"), ("corrosion", "corrosion")]
             .into_iter()
@@ -178,16 +178,16 @@ fn defects(pen: &mut Pen, frame: Frame, _: &Names) {
         let width = (4.0 * strip.height).min(strip.width);
         pen.picture(name, strip.at(0.0, 0.0), (width, 0.25 * width));
         let end = strip.x + width;
-        pen.text((end + 0.02, strip.y + 0.5 * strip.height), Side::Left, SMALL, Colour::Yellow, words);
+        pen.text((end + 0.02, strip.y + 0.5 * strip.height), TextAlign::Left, SMALL, HudColor::Yellow, words);
     }
     for (k, words) in ["1 m", "3 m", "8 m"].into_iter().enumerate() {
         let width = (4.0 * 0.24 * frame.height).min(frame.width);
         let x = frame.x + width * (k as f64 + 0.5) / 3.0;
-        pen.text((x, frame.y + 1.06 * frame.height), Side::Middle, SMALL, Colour::Yellow, words);
+        pen.text((x, frame.y + 1.06 * frame.height), TextAlign::Middle, SMALL, HudColor::Yellow, words);
     }
 }
 
-fn light(pen: &mut Pen, frame: Frame, names: &Names) {
+fn light(pen: &mut PageWriter, frame: PictureFrame, names: &KeyNames) {
     let first = frame.part((0.0, 0.0), (0.49, 0.49));
     let second = frame.part((0.51, 0.0), (0.49, 0.49));
     pen.picture("dark", first.at(0.0, 0.0), (first.width, first.height));
@@ -199,12 +199,12 @@ fn light(pen: &mut Pen, frame: Frame, names: &Names) {
     let words = "Sticks let go: the drone keeps its place. Keys: {arm} motors on, {take_off} take-off, {up} {down} up and down, {turn_left} \
                  {turn_right} turn, {forward} {back} {left} {right} fly, {lamp} lamp, {snapshot} photograph, {gimbal_up} {gimbal_down} turn \
                  the camera, {land} land, {pause} pause.";
-    pen.lines((x, y), frame.width, SMALL, Colour::Grey, &names.fill(words));
+    pen.lines((x, y), frame.width, SMALL, HudColor::Grey, &names.fill(words));
 }
 
 /// A display in the middle of a flight.
 fn example(cues: i32) -> Hud {
-    let line = |id, path_m: [(f64, f64); 2]| Track {
+    let line = |id, path_m: [(f64, f64); 2]| MapPath {
         id,
         path_m: path_m.map(|(east, north)| Vec3::new(east, north, 20.0)).to_vec(),
         closed: false,
@@ -220,7 +220,7 @@ fn example(cues: i32) -> Hud {
         height_m: 12.0,
         home_m: 118.0,
         mode: "Position".into(),
-        gnss: Some(Gnss { fixed: true, satellites: 17 }),
+        gnss: Some(GnssStatus { fixed: true, satellites: 17 }),
         silent_s: 0.0,
         gimbal_rad: 0.1,
         zoom: 1.0,
@@ -238,19 +238,19 @@ fn example(cues: i32) -> Hud {
 }
 
 /// A display drawn into a frame.
-fn inset(pen: &mut Pen, items: &[Item], frame: Frame) {
-    let place = |p: &Point| frame.at(p.x, p.y);
+fn inset(pen: &mut PageWriter, items: &[DrawItem], frame: PictureFrame) {
+    let place = |p: &ScreenPoint| frame.at(p.x, p.y);
     for item in items {
         match item {
-            Item::Panel { from, to, colour } => {
+            DrawItem::Panel { from, to, colour } => {
                 let (from, to) = (place(from), place(to));
                 pen.panel(from, (to.0 - from.0, to.1 - from.1), *colour);
             }
-            Item::Text { place: at, side, height, colour, words } => {
+            DrawItem::Text { place: at, side, height, colour, words } => {
                 pen.text(place(at), *side, height * frame.height, *colour, words.clone());
             }
-            Item::Fill { points, colour } => pen.fill(&points.iter().map(place).collect::<Vec<_>>(), *colour),
-            Item::Line { points, width, colour } => {
+            DrawItem::Fill { points, colour } => pen.fill(&points.iter().map(place).collect::<Vec<_>>(), *colour),
+            DrawItem::Line { points, width, colour } => {
                 pen.line(&points.iter().map(place).collect::<Vec<_>>(), width * frame.height, *colour);
             }
         }

@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn regress_a_device_that_fails_is_told_and_no_panic() {
+    fn regress_a_device_that_fails_is_reported_and_no_panic() {
         let Ok(gpu) = Gpu::open_software() else {
             println!("skipped: no software Vulkan driver (Debian and Ubuntu: apt-get install mesa-vulkan-drivers)");
             return;

@@ -2,8 +2,8 @@
 
 use super::device::Gpu;
 use super::pipelines::PICTURE;
-use crate::flow::{PICTURES, Sheet};
-use crate::hud::{Item, Point, Side};
+use crate::flow::{PICTURES, PageLayout};
+use crate::hud::{DrawItem, ScreenPoint, TextAlign};
 use egui::{Align2, Color32, FontId, Pos2, Rect, Shape, Stroke};
 use std::collections::BTreeMap;
 
@@ -28,7 +28,7 @@ impl Overlay {
     }
 
     /// Draws items over what `target` (of this size, px) holds.
-    pub fn draw(&mut self, gpu: &Gpu, items: &[Item], target: &wgpu::TextureView, size_px: (u32, u32)) {
+    pub fn draw(&mut self, gpu: &Gpu, items: &[DrawItem], target: &wgpu::TextureView, size_px: (u32, u32)) {
         let size = egui::vec2(size_px.0 as f32, size_px.1 as f32);
         let input = egui::RawInput { screen_rect: Some(Rect::from_min_size(Pos2::ZERO, size)), ..egui::RawInput::default() };
         let mut output = self.context.run_ui(input, |ui| {
@@ -72,9 +72,9 @@ impl Overlay {
 
 /// The pictures of pages, as textures of one context.
 #[derive(Default)]
-pub struct Pictures(BTreeMap<&'static str, egui::TextureHandle>);
+pub struct PageTextures(BTreeMap<&'static str, egui::TextureHandle>);
 
-impl Pictures {
+impl PageTextures {
     /// A picture by its name; decoded when it is first wanted. One that cannot be decoded is left out.
     fn of(&mut self, context: &egui::Context, name: &'static str) -> Option<egui::TextureId> {
         if !self.0.contains_key(name) {
@@ -95,13 +95,13 @@ fn decoded(bytes: &[u8]) -> Option<egui::ColorImage> {
 }
 
 /// Paints a page over a rectangle.
-pub fn paint_sheet(painter: &egui::Painter, sheet: &Sheet, rect: Rect, pictures: &mut Pictures) {
+pub fn paint_sheet(painter: &egui::Painter, sheet: &PageLayout, rect: Rect, pictures: &mut PageTextures) {
     // The ground of a page lies below its pictures.
-    let ground = usize::from(matches!(sheet.items.first(), Some(Item::Fill { points, .. }) if points.len() == 4));
+    let ground = usize::from(matches!(sheet.items.first(), Some(DrawItem::Fill { points, .. }) if points.len() == 4));
     let (ground, items) = sheet.items.split_at(ground.min(sheet.items.len()));
     paint(painter, ground, rect);
     let size = rect.size();
-    let px = |p: &Point| rect.min + egui::vec2(p.x as f32 * size.x, p.y as f32 * size.y);
+    let px = |p: &ScreenPoint| rect.min + egui::vec2(p.x as f32 * size.x, p.y as f32 * size.y);
     let whole = Rect::from_min_max(Pos2::ZERO, egui::pos2(1.0, 1.0));
     for picture in &sheet.pictures {
         if let Some(texture) = pictures.of(painter.ctx(), picture.name) {
@@ -112,35 +112,35 @@ pub fn paint_sheet(painter: &egui::Painter, sheet: &Sheet, rect: Rect, pictures:
 }
 
 /// Paints items over the picture that fills a rectangle.
-pub fn paint(painter: &egui::Painter, items: &[Item], rect: Rect) {
+pub fn paint(painter: &egui::Painter, items: &[DrawItem], rect: Rect) {
     for item in items {
         paint_one(painter, item, rect);
     }
 }
 
-fn paint_one(painter: &egui::Painter, item: &Item, rect: Rect) {
+fn paint_one(painter: &egui::Painter, item: &DrawItem, rect: Rect) {
     let size = rect.size();
-    let px = |p: &Point| rect.min + egui::vec2(p.x as f32 * size.x, p.y as f32 * size.y);
-    let colour = |c: crate::hud::Colour| {
+    let px = |p: &ScreenPoint| rect.min + egui::vec2(p.x as f32 * size.x, p.y as f32 * size.y);
+    let colour = |c: crate::hud::HudColor| {
         let [r, g, b, a] = c.rgba();
         Color32::from_rgba_unmultiplied(r, g, b, a)
     };
     match item {
-        Item::Panel { from, to, colour: fill } => {
+        DrawItem::Panel { from, to, colour: fill } => {
             painter.add(Shape::rect_filled(Rect::from_min_max(px(from), px(to)), 0.012 * size.y, colour(*fill)));
         }
-        Item::Text { place, side, height, colour: ink, words } => {
+        DrawItem::Text { place, side, height, colour: ink, words } => {
             let align = match side {
-                Side::Left => Align2::LEFT_CENTER,
-                Side::Middle => Align2::CENTER_CENTER,
-                Side::Right => Align2::RIGHT_CENTER,
+                TextAlign::Left => Align2::LEFT_CENTER,
+                TextAlign::Middle => Align2::CENTER_CENTER,
+                TextAlign::Right => Align2::RIGHT_CENTER,
             };
             painter.text(px(place), align, words, FontId::proportional(*height as f32 * size.y), colour(*ink));
         }
-        Item::Fill { points, colour: fill } => {
+        DrawItem::Fill { points, colour: fill } => {
             painter.add(Shape::convex_polygon(points.iter().map(px).collect(), colour(*fill), Stroke::NONE));
         }
-        Item::Line { points, width, colour: ink } => {
+        DrawItem::Line { points, width, colour: ink } => {
             let stroke = Stroke::new((*width as f32 * size.y).max(1.0), colour(*ink));
             painter.add(Shape::line(points.iter().map(px).collect(), stroke));
         }

@@ -1,22 +1,22 @@
 //! Recording of passes.
 
 use super::device::Gpu;
-use crate::looks::Look;
+use crate::looks::MaterialGroup;
 use crate::mesh::Mesh;
 use crate::scene::Instance;
 use std::ops::Range;
 use wgpu::util::DeviceExt;
 
 /// A mesh on the device; the triangles of one look lie together.
-pub struct Solid {
+pub struct GpuMesh {
     vertices: wgpu::Buffer,
     indices: wgpu::Buffer,
     count: u32,
-    runs: Vec<(Look, Range<u32>)>,
+    runs: Vec<(MaterialGroup, Range<u32>)>,
 }
 
 /// Copies of a mesh.
-pub struct Copies {
+pub struct MeshInstances {
     buffer: wgpu::Buffer,
     count: u32,
 }
@@ -26,7 +26,7 @@ pub fn upload(gpu: &Gpu, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffe
     gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: None, contents: bytes, usage })
 }
 
-impl Solid {
+impl GpuMesh {
     /// Uploads a mesh; `None` for an empty one.
     pub fn new(gpu: &Gpu, mesh: &Mesh) -> Option<Self> {
         if mesh.indices.is_empty() {
@@ -54,18 +54,18 @@ impl Solid {
     }
 
     /// Draws its copies, whatever they look like: for depth alone.
-    pub fn draw(&self, pass: &mut wgpu::RenderPass, copies: &Copies) {
+    pub fn draw(&self, pass: &mut wgpu::RenderPass, copies: &MeshInstances) {
         self.draw_range(pass, copies, 0..self.count);
     }
 
     /// Draws what has one look and returns how many triangles of each copy that are; `None`: nothing has it.
-    pub fn draw_look(&self, pass: &mut wgpu::RenderPass, copies: &Copies, look: Look) -> Option<u32> {
+    pub fn draw_look(&self, pass: &mut wgpu::RenderPass, copies: &MeshInstances, look: MaterialGroup) -> Option<u32> {
         let (_, run) = self.runs.iter().find(|run| run.0 == look)?;
         self.draw_range(pass, copies, run.clone());
         Some(run.len() as u32 / 3)
     }
 
-    fn draw_range(&self, pass: &mut wgpu::RenderPass, copies: &Copies, range: Range<u32>) {
+    fn draw_range(&self, pass: &mut wgpu::RenderPass, copies: &MeshInstances, range: Range<u32>) {
         pass.set_vertex_buffer(0, self.vertices.slice(..));
         pass.set_vertex_buffer(1, copies.buffer.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
@@ -74,11 +74,13 @@ impl Solid {
 }
 
 /// Triangles by their look, and where each look's begin and end.
-fn sorted(mesh: &Mesh) -> (Vec<u32>, Vec<(Look, Range<u32>)>) {
-    let look = |corner: u32| mesh.vertices.get(corner as usize).map_or(Look::Simple, |vertex| Look::of(vertex.material));
+fn sorted(mesh: &Mesh) -> (Vec<u32>, Vec<(MaterialGroup, Range<u32>)>) {
+    let look = |corner: u32| {
+        mesh.vertices.get(corner as usize).map_or(MaterialGroup::Simple, |vertex| MaterialGroup::of(vertex.material))
+    };
     let mut indices: Vec<u32> = Vec::with_capacity(mesh.indices.len());
     let mut runs = Vec::new();
-    for of in Look::ALL {
+    for of in MaterialGroup::ALL {
         let from = indices.len() as u32;
         indices.extend(mesh.indices.chunks_exact(3).filter(|corners| look(corners[0]) == of).flatten());
         if indices.len() as u32 > from {
@@ -88,7 +90,7 @@ fn sorted(mesh: &Mesh) -> (Vec<u32>, Vec<(Look, Range<u32>)>) {
     (indices, runs)
 }
 
-impl Copies {
+impl MeshInstances {
     /// Uploads instances; `None` for none.
     pub fn new(gpu: &Gpu, instances: &[Instance]) -> Option<Self> {
         (!instances.is_empty()).then(|| Self {

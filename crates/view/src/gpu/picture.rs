@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn regress_what_failed_meanwhile_is_told_instead_of_a_black_picture() {
+    fn regress_what_failed_meanwhile_is_reported_instead_of_a_black_picture() {
         let Ok(gpu) = Gpu::open_software() else {
             println!("skipped: no software Vulkan driver (Debian and Ubuntu: apt-get install mesa-vulkan-drivers)");
             return;

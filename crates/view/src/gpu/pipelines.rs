@@ -3,10 +3,10 @@
 mod labels;
 
 use super::device::Gpu;
-use crate::looks::Look;
+use crate::looks::MaterialGroup;
 use crate::mesh::Vertex;
 use crate::quality::Quality;
-use crate::scene::{Instance, Patch};
+use crate::scene::{DefectPatch, Instance};
 use crate::shaders;
 use spandrel_model::site::catalogue;
 use wgpu::VertexFormat::{Float32, Float32x2, Float32x3, Float32x4, Uint32, Unorm8x4};
@@ -21,7 +21,7 @@ pub const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 pub const PICTURE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// A pipeline for each look.
-pub type Looks = Vec<(Look, wgpu::RenderPipeline)>;
+pub type MaterialPipelines = Vec<(MaterialGroup, wgpu::RenderPipeline)>;
 
 /// Layouts, samplers and pipelines.
 pub struct Pipelines {
@@ -40,9 +40,9 @@ pub struct Pipelines {
     /// Compares with a shadow map.
     pub compare: wgpu::Sampler,
     /// Solids without and with the lamp.
-    pub surfaces: [Looks; 2],
+    pub surfaces: [MaterialPipelines; 2],
     /// Solids, mirrored, without and with the lamp.
-    pub surfaces_mirrored: [Looks; 2],
+    pub surfaces_mirrored: [MaterialPipelines; 2],
     /// What shines through.
     pub sheer: wgpu::RenderPipeline,
     /// Defects, by their AASHTO code.
@@ -106,7 +106,7 @@ fn copies() -> wgpu::VertexBufferLayout<'static> {
 
 fn patches() -> wgpu::VertexBufferLayout<'static> {
     wgpu::VertexBufferLayout {
-        array_stride: size_of::<Patch>() as u64,
+        array_stride: size_of::<DefectPatch>() as u64,
         step_mode: wgpu::VertexStepMode::Instance,
         attributes: PATCH,
     }
@@ -114,7 +114,7 @@ fn patches() -> wgpu::VertexBufferLayout<'static> {
 
 /// What sets one pipeline apart.
 #[derive(Clone, Copy)]
-struct Kind<'a> {
+struct PipelineKey<'a> {
     module: &'a wgpu::ShaderModule,
     /// The module's functions for corners and for pixels.
     entries: (&'static str, &'static str),
@@ -133,7 +133,7 @@ struct Kind<'a> {
     constants: &'a [(&'a str, f64)],
 }
 
-fn build(gpu: &Gpu, kind: &Kind) -> wgpu::RenderPipeline {
+fn build(gpu: &Gpu, kind: &PipelineKey) -> wgpu::RenderPipeline {
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: None,
         bind_group_layouts: kind.layouts,
@@ -198,14 +198,14 @@ fn module(gpu: &Gpu, name: &str) -> wgpu::ShaderModule {
 }
 
 /// Layouts of what is bound.
-struct Layouts {
+struct BindLayouts {
     globals: wgpu::BindGroupLayout,
     water: wgpu::BindGroupLayout,
     develop: wgpu::BindGroupLayout,
     map: wgpu::BindGroupLayout,
 }
 
-impl Layouts {
+impl BindLayouts {
     fn new(gpu: &Gpu, quality: &Quality) -> Self {
         use wgpu::{BindingType::Sampler, SamplerBindingType, ShaderStages, TextureSampleType};
         let (both, fragment) = (ShaderStages::VERTEX_FRAGMENT, ShaderStages::FRAGMENT);
@@ -257,20 +257,20 @@ fn costs(quality: &Quality) -> [(&'static str, f64); 5] {
 }
 
 /// A pipeline with more overrides.
-fn special(gpu: &Gpu, kind: &Kind, more: &[(&str, f64)]) -> wgpu::RenderPipeline {
+fn special(gpu: &Gpu, kind: &PipelineKey, more: &[(&str, f64)]) -> wgpu::RenderPipeline {
     let constants = [kind.constants, more].concat();
-    build(gpu, &Kind { constants: &constants, ..*kind })
+    build(gpu, &PipelineKey { constants: &constants, ..*kind })
 }
 
 /// One pipeline for each look, without and with the lamp.
-fn surfaces(gpu: &Gpu, kind: &Kind, quality: &Quality, mirrored: f64) -> [Looks; 2] {
+fn surfaces(gpu: &Gpu, kind: &PipelineKey, quality: &Quality, mirrored: f64) -> [MaterialPipelines; 2] {
     by_lamp(quality, |lamp| {
-        let of = |look: Look| {
+        let of = |look: MaterialGroup| {
             let glossy = f64::from(u8::from(look.shines()));
             let own = [("LOOK", f64::from(look as u32)), ("GLOSSY", glossy), ("MIRRORED", mirrored), lamp];
             (look, special(gpu, kind, &own))
         };
-        Look::ALL.into_iter().map(of).collect()
+        MaterialGroup::ALL.into_iter().map(of).collect()
     })
 }
 
@@ -291,7 +291,7 @@ const NEARER: wgpu::CompareFunction = wgpu::CompareFunction::GreaterEqual;
 impl Pipelines {
     /// Compiles everything.
     pub fn new(gpu: &Gpu, quality: &Quality) -> Self {
-        let layouts = Layouts::new(gpu, quality);
+        let layouts = BindLayouts::new(gpu, quality);
         let [surface, sky, defect, water, shadow] = ["surface", "sky", "defect", "water", "shadow"].map(|name| module(gpu, name));
         let develop = module(gpu, if quality.samples > 1 { shaders::DEVELOP_SAMPLED } else { "develop" });
         let (front, over) = (wgpu::FrontFace::Ccw, Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING));
@@ -301,7 +301,7 @@ impl Pipelines {
         let (lake_layouts, map_layouts, develop_layouts) =
             ([Some(&layouts.globals), Some(&layouts.water)], [Some(&layouts.map)], [Some(&layouts.develop)]);
         let costs = costs(quality);
-        let solid = Kind {
+        let solid = PipelineKey {
             module: &surface,
             entries: ENTRIES,
             layouts: &globals,
@@ -318,16 +318,18 @@ impl Pipelines {
         };
         let shown = Some((false, NEARER));
         let lean = module(gpu, "lean");
-        let shaded = if quality.lean { Kind { module: &lean, entries: LEAN, ..solid } } else { solid };
-        let mirrored = Kind { front: wgpu::FrontFace::Cw, samples: 1, ..shaded };
-        let back = Kind { module: &sky, buffers: &[], depth: shown, cull: None, ..solid };
-        let see_through = [costs.as_slice(), &[("LOOK", f64::from(Look::Simple as u32))]].concat();
-        let sheer = Kind { blend: Some(wgpu::BlendState::ALPHA_BLENDING), depth: shown, constants: &see_through, ..solid };
+        let shaded = if quality.lean { PipelineKey { module: &lean, entries: LEAN, ..solid } } else { solid };
+        let mirrored = PipelineKey { front: wgpu::FrontFace::Cw, samples: 1, ..shaded };
+        let back = PipelineKey { module: &sky, buffers: &[], depth: shown, cull: None, ..solid };
+        let see_through = [costs.as_slice(), &[("LOOK", f64::from(MaterialGroup::Simple as u32))]].concat();
+        let sheer = PipelineKey { blend: Some(wgpu::BlendState::ALPHA_BLENDING), depth: shown, constants: &see_through, ..solid };
         // Towards the eye: in front of the faces that they lie in.
-        let flat = Kind { module: &defect, buffers: &patch_buffers, blend: over, depth: shown, bias: 2, cull: None, ..solid };
-        let lake = Kind { module: &water, layouts: &lake_layouts, buffers: &water_buffers, blend: over, cull: None, ..solid };
+        let flat =
+            PipelineKey { module: &defect, buffers: &patch_buffers, blend: over, depth: shown, bias: 2, cull: None, ..solid };
+        let lake =
+            PipelineKey { module: &water, layouts: &lake_layouts, buffers: &water_buffers, blend: over, cull: None, ..solid };
         // Away from the sun.
-        let dark = Kind {
+        let dark = PipelineKey {
             module: &shadow,
             layouts: &map_layouts,
             target: None,
@@ -338,7 +340,7 @@ impl Pipelines {
             ..solid
         };
         let blur = [("BLUR", f64::from(u8::from(quality.blur_taps > 1)))];
-        let film = Kind {
+        let film = PipelineKey {
             module: &develop,
             layouts: &develop_layouts,
             buffers: &[],
@@ -355,7 +357,7 @@ impl Pipelines {
             sheer: build(gpu, &sheer),
             defects: catalogue::KINDS.iter().map(|code| (*code, special(gpu, &flat, &[("KIND", f64::from(*code))]))).collect(),
             water: by_lamp(quality, |lamp| special(gpu, &lake, &[lamp])),
-            sky_mirrored: build(gpu, &Kind { samples: 1, ..back }),
+            sky_mirrored: build(gpu, &PipelineKey { samples: 1, ..back }),
             sky: build(gpu, &back),
             shadow: build(gpu, &dark),
             develop: [0.0, 1.0].map(|sensor| special(gpu, &film, &[("SENSOR", sensor)])),

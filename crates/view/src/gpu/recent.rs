@@ -7,12 +7,12 @@ const KEPT: usize = 4;
 
 /// What was used last, by key.
 #[derive(Debug)]
-pub struct Recent<K, V> {
+pub struct LruCache<K, V> {
     /// The one that was used longest ago first.
     all: VecDeque<(K, V)>,
 }
 
-impl<K: PartialEq, V> Recent<K, V> {
+impl<K: PartialEq, V> LruCache<K, V> {
     /// Nothing is kept yet.
     pub fn new() -> Self {
         Self { all: VecDeque::with_capacity(KEPT + 1) }
@@ -40,7 +40,7 @@ mod tests {
 
     #[test]
     fn exact_what_was_used_longest_ago_goes_first() {
-        let mut recent = Recent::new();
+        let mut recent = LruCache::new();
         for size in 0..KEPT {
             recent.put(size, 'a');
         }
@@ -54,7 +54,7 @@ mod tests {
 
     #[test]
     fn exact_a_window_of_many_sizes_keeps_but_a_few() {
-        let mut recent = Recent::new();
+        let mut recent = LruCache::new();
         for width in 0..1_000 {
             let made = recent.take(&width).unwrap_or(width);
             recent.put(width, made);

@@ -1,40 +1,40 @@
 //! Draws shots of one scene.
 
-mod back;
+mod culling;
 mod labels;
-mod sight;
-mod still;
+mod readback;
+mod static_cells;
 
 use super::device::Gpu;
-use super::pass::{Copies, Solid, begin, begin_depth, upload};
-use super::pipelines::{DEPTH, LabelPipelines, Looks, Pipelines};
-use super::recent::Recent;
-use super::targets::{Targets, noise_texture, tile_texture};
-use super::uniforms::{Develop, Globals, MAPS, Maps};
-use crate::cells::{self, Bounds, Frustum};
+use super::pass::{GpuMesh, MeshInstances, begin, begin_depth, upload};
+use super::pipelines::{DEPTH, LabelPipelines, MaterialPipelines, Pipelines};
+use super::recent::LruCache;
+use super::targets::{RenderTargets, noise_texture, tile_texture};
+use super::uniforms::{DevelopUniforms, Globals, MAPS, ShadowMaps};
+use crate::cells::{self, CellBounds, Frustum};
 use crate::quality::Quality;
-use crate::scene::{Instance, Model, Patch, Scene};
-use crate::shadows::{self, Map};
+use crate::scene::{DefectPatch, Instance, MoverModel, Scene};
+use crate::shadows::{self, ShadowMap};
 use crate::shot::Shot;
 use crate::tiles;
-use sight::View;
+use culling::ShotView;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::catalogue;
-use still::{Fixed, fixed};
+use static_cells::{StaticCell, fixed};
 
 /// The sun's map over the whole site is drawn anew when the sun has moved so far (cosine of a quarter of a degree).
 const SUN_MOVED: f64 = 0.999_990_5;
 
 /// What one picture cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Counts {
+pub struct DrawCounts {
     /// Triangles sent.
     pub triangles: u64,
     /// Draw calls.
     pub draws: u32,
 }
 
-impl Counts {
+impl DrawCounts {
     /// Both together.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
@@ -48,11 +48,11 @@ pub struct Renderer {
     pipelines: Pipelines,
     /// Compiled when labels are first asked for.
     labels: Option<LabelPipelines>,
-    fixed: Vec<Fixed>,
-    models: Vec<Option<Solid>>,
+    fixed: Vec<StaticCell>,
+    models: Vec<Option<GpuMesh>>,
     /// How far models reach from their origin, m.
     reaches_m: Vec<f64>,
-    water: Vec<(Solid, Bounds)>,
+    water: Vec<(GpuMesh, CellBounds)>,
     patches: Vec<(u32, wgpu::Buffer, u32)>,
     bounds_m: (Vec3<Enu>, f64),
     water_m: f64,
@@ -62,8 +62,8 @@ pub struct Renderer {
     bound_mirrored: wgpu::BindGroup,
     maps: Vec<(wgpu::TextureView, wgpu::Buffer, wgpu::BindGroup)>,
     site_map_sun: Option<Vec3<Enu>>,
-    targets: Recent<(u32, u32), Targets>,
-    counts: Counts,
+    targets: LruCache<(u32, u32), RenderTargets>,
+    counts: DrawCounts,
 }
 
 impl Renderer {
@@ -78,7 +78,7 @@ impl Renderer {
         });
         let noise = noise_texture(gpu);
         // What only a lean preset reads costs the others nothing.
-        let tile = |levels: fn() -> tiles::Levels| if quality.lean { tile_texture(gpu, &levels()) } else { noise.clone() };
+        let tile = |levels: fn() -> tiles::MipLevels| if quality.lean { tile_texture(gpu, &levels()) } else { noise.clone() };
         let (ground, concrete) = (tile(tiles::ground), tile(tiles::concrete));
         let bind = |data: &wgpu::Buffer| {
             let view = wgpu::BindingResource::TextureView;
@@ -105,11 +105,11 @@ impl Renderer {
         let layers = 0..maps_texture.depth_or_array_layers();
         Self {
             fixed: fixed(gpu, scene),
-            models: scene.models.iter().map(|mesh| Solid::new(gpu, mesh)).collect(),
+            models: scene.models.iter().map(|mesh| GpuMesh::new(gpu, mesh)).collect(),
             reaches_m: scene.models.iter().map(cells::reach_m).collect(),
             water: cells::cut(&scene.water, false)
                 .iter()
-                .filter_map(|cell| Some((Solid::new(gpu, cell)?, Bounds::of(cell))))
+                .filter_map(|cell| Some((GpuMesh::new(gpu, cell)?, CellBounds::of(cell))))
                 .collect(),
             patches: patches(gpu, &scene.patches),
             bounds_m: scene.bounds_m,
@@ -120,8 +120,8 @@ impl Renderer {
             globals,
             globals_mirrored,
             site_map_sun: None,
-            targets: Recent::new(),
-            counts: Counts::default(),
+            targets: LruCache::new(),
+            counts: DrawCounts::default(),
             labels: None,
             quality,
             pipelines,
@@ -130,43 +130,48 @@ impl Renderer {
 
     /// What the last picture cost.
     #[must_use]
-    pub fn counts(&self) -> Counts {
+    pub fn counts(&self) -> DrawCounts {
         self.counts
     }
 
     /// Replaces the scene's defects.
-    pub fn set_patches(&mut self, gpu: &Gpu, all: &[Patch]) {
+    pub fn set_patches(&mut self, gpu: &Gpu, all: &[DefectPatch]) {
         self.patches = patches(gpu, all);
     }
 
     /// Draws a shot into `target` (a texture of [`wgpu::TextureFormat::Rgba8Unorm`] of the shot's size).
     pub fn draw(&mut self, gpu: &Gpu, shot: &Shot, target: &wgpu::TextureView) {
-        self.counts = Counts::default();
+        self.counts = DrawCounts::default();
         let sun_maps = shadows::sun_maps(&self.quality, &shot.eye, self.bounds_m, shot.sky.sun);
         let lamp_map = shot
             .beam
             .filter(|_| self.quality.lamp_shadow && sun_maps.len() < self.maps.len())
             .map(|beam| shadows::lamp_map(&beam, self.quality.shadow_px));
-        let maps = Maps { sun: &sun_maps, lamp: lamp_map.as_ref() };
+        let maps = ShadowMaps { sun: &sun_maps, lamp: lamp_map.as_ref() };
         for (buffer, mirrored) in [(&self.globals, false), (&self.globals_mirrored, true)] {
             let globals = Globals::new(shot, self.water_m, &maps, mirrored);
             gpu.queue.write_buffer(buffer, 0, bytemuck::bytes_of(&globals));
         }
-        let view = View::of(shot, self.water_m);
+        let view = ShotView::of(shot, self.water_m);
         let casts = self.quality.cascades > 1 || lamp_map.is_some();
-        let moving =
-            if casts { self.moving(gpu, &shot.moving) } else { self.moving(gpu, &view.in_sight(&shot.moving, &self.reaches_m)) };
+        let moving = if casts {
+            self.moving(gpu, &shot.moving)
+        } else {
+            self.moving(gpu, &view.is_in_view(&shot.moving, &self.reaches_m))
+        };
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         self.draw_maps(gpu, &mut encoder, shot, (&sun_maps, lamp_map.as_ref()), &moving);
-        let targets =
-            self.targets.take(&shot.size_px).unwrap_or_else(|| Targets::new(gpu, &self.pipelines, &self.quality, shot.size_px));
+        let targets = self
+            .targets
+            .take(&shot.size_px)
+            .unwrap_or_else(|| RenderTargets::new(gpu, &self.pipelines, &self.quality, shot.size_px));
         if self.quality.reflection > 0.0 && view.lake {
             let mirrored = self.draw_mirror(&mut encoder, &targets, &moving, &view);
             self.counts = self.counts.and(mirrored);
         }
         let lit = self.draw_light(&mut encoder, &targets, &moving, &view);
         self.counts = self.counts.and(lit);
-        let develop = Develop::new(shot, &self.quality);
+        let develop = DevelopUniforms::new(shot, &self.quality);
         gpu.queue.write_buffer(&targets.develop_data, 0, bytemuck::bytes_of(&develop));
         {
             let mut pass = begin(&mut encoder, target, None, None);
@@ -178,12 +183,12 @@ impl Renderer {
         gpu.queue.submit([encoder.finish()]);
     }
 
-    fn moving(&self, gpu: &Gpu, moving: &[(Model, Instance)]) -> Vec<(Model, Copies)> {
-        let of = |model: Model| {
+    fn moving(&self, gpu: &Gpu, moving: &[(MoverModel, Instance)]) -> Vec<(MoverModel, MeshInstances)> {
+        let of = |model: MoverModel| {
             let copies: Vec<Instance> = moving.iter().filter(|m| m.0 == model).map(|m| m.1).collect();
-            Copies::new(gpu, &copies).map(|copies| (model, copies))
+            MeshInstances::new(gpu, &copies).map(|copies| (model, copies))
         };
-        Model::ALL.into_iter().filter_map(of).collect()
+        MoverModel::ALL.into_iter().filter_map(of).collect()
     }
 
     fn draw_maps(
@@ -191,8 +196,8 @@ impl Renderer {
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         shot: &Shot,
-        (sun, lamp): (&[Map], Option<&Map>),
-        moving: &[(Model, Copies)],
+        (sun, lamp): (&[ShadowMap], Option<&ShadowMap>),
+        moving: &[(MoverModel, MeshInstances)],
     ) {
         // One map over the whole site holds what stands still and is kept while the sun stands.
         let whole = self.quality.cascades <= 1;
@@ -227,12 +232,12 @@ impl Renderer {
     fn draw_mirror(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        targets: &Targets,
-        moving: &[(Model, Copies)],
-        view: &View,
-    ) -> Counts {
+        targets: &RenderTargets,
+        moving: &[(MoverModel, MeshInstances)],
+        view: &ShotView,
+    ) -> DrawCounts {
         let shown = view.mirrored();
-        let mut counts = Counts::default();
+        let mut counts = DrawCounts::default();
         let mut pass = begin(encoder, &targets.mirror, None, Some(&targets.mirror_depth));
         pass.set_bind_group(0, &self.bound_mirrored, &[]);
         self.draw_solids(
@@ -252,14 +257,15 @@ impl Renderer {
     fn draw_solids(
         &self,
         pass: &mut wgpu::RenderPass,
-        pipelines: &Looks,
-        (moving, shown): (&[(Model, Copies)], &Frustum),
+        pipelines: &MaterialPipelines,
+        (moving, shown): (&[(MoverModel, MeshInstances)], &Frustum),
         (in_lake, eye_m): (bool, Vec3<Enu>),
-        counts: &mut Counts,
+        counts: &mut DrawCounts,
     ) {
-        let shows =
-            |fixed: &&Fixed| shown.may_show_cell(&fixed.bounds) && fixed.seen.shows(in_lake, fixed.bounds.ball.from_m(eye_m));
-        let mut still: Vec<&Fixed> = self.fixed.iter().filter(shows).collect();
+        let shows = |fixed: &&StaticCell| {
+            shown.may_show_cell(&fixed.bounds) && fixed.visible_range.shows(in_lake, fixed.bounds.ball.from_m(eye_m))
+        };
+        let mut still: Vec<&StaticCell> = self.fixed.iter().filter(shows).collect();
         // Near things first: what they hide is not shaded.
         still.sort_by(|a, b| a.bounds.ball.from_m(eye_m).total_cmp(&b.bounds.ball.from_m(eye_m)));
         for (look, pipeline) in pipelines {
@@ -274,8 +280,8 @@ impl Renderer {
     }
 
     /// Defects, each kind by its pipeline.
-    fn draw_patches(&self, pass: &mut wgpu::RenderPass, pipelines: &[(u32, wgpu::RenderPipeline)]) -> Counts {
-        let mut counts = Counts::default();
+    fn draw_patches(&self, pass: &mut wgpu::RenderPass, pipelines: &[(u32, wgpu::RenderPipeline)]) -> DrawCounts {
+        let mut counts = DrawCounts::default();
         for (kind, buffer, patches) in &self.patches {
             let Some((_, pipeline)) = pipelines.iter().find(|of| of.0 == *kind) else { continue };
             pass.set_pipeline(pipeline);
@@ -290,12 +296,12 @@ impl Renderer {
     fn draw_light(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        targets: &Targets,
-        moving: &[(Model, Copies)],
-        view: &View,
-    ) -> Counts {
-        let shown = view.straight();
-        let mut counts = Counts::default();
+        targets: &RenderTargets,
+        moving: &[(MoverModel, MeshInstances)],
+        view: &ShotView,
+    ) -> DrawCounts {
+        let shown = view.direct_view();
+        let mut counts = DrawCounts::default();
         let mut pass = begin(encoder, &targets.light, targets.resolved.as_ref(), Some(&targets.depth));
         pass.set_bind_group(0, &self.bound, &[]);
         self.draw_solids(&mut pass, &self.pipelines.surfaces[view.lamp], (moving, &shown), (false, view.eye_m), &mut counts);
@@ -313,7 +319,7 @@ impl Renderer {
         pass.draw(0..3, 0..1);
         counts.draws += 1;
         pass.set_pipeline(&self.pipelines.sheer);
-        for (model, copies) in moving.iter().filter(|(model, _)| *model == Model::Disc) {
+        for (model, copies) in moving.iter().filter(|(model, _)| *model == MoverModel::Disc) {
             let Some(Some(solid)) = self.models.get(*model as usize) else { continue };
             count(&mut counts, solid.triangles(), copies);
             solid.draw(&mut pass, copies);
@@ -323,9 +329,9 @@ impl Renderer {
 }
 
 /// Defects by kind.
-fn patches(gpu: &Gpu, all: &[Patch]) -> Vec<(u32, wgpu::Buffer, u32)> {
+fn patches(gpu: &Gpu, all: &[DefectPatch]) -> Vec<(u32, wgpu::Buffer, u32)> {
     let of = |kind: &u32| {
-        let same: Vec<Patch> = all.iter().filter(|patch| patch.centre[3] as u32 == *kind).copied().collect();
+        let same: Vec<DefectPatch> = all.iter().filter(|patch| patch.centre[3] as u32 == *kind).copied().collect();
         let buffer = (!same.is_empty()).then(|| upload(gpu, bytemuck::cast_slice(&same), wgpu::BufferUsages::VERTEX))?;
         Some((*kind, buffer, same.len() as u32))
     };
@@ -333,9 +339,12 @@ fn patches(gpu: &Gpu, all: &[Patch]) -> Vec<(u32, wgpu::Buffer, u32)> {
 }
 
 /// What moves and is solid.
-fn solids<'a>(models: &'a [Option<Solid>], moving: &'a [(Model, Copies)]) -> impl Iterator<Item = (&'a Solid, &'a Copies)> {
-    let of = |(model, copies): &'a (Model, Copies)| Some((models.get(*model as usize)?.as_ref()?, copies));
-    moving.iter().filter(|(model, _)| *model != Model::Disc).filter_map(of)
+fn solids<'a>(
+    models: &'a [Option<GpuMesh>],
+    moving: &'a [(MoverModel, MeshInstances)],
+) -> impl Iterator<Item = (&'a GpuMesh, &'a MeshInstances)> {
+    let of = |(model, copies): &'a (MoverModel, MeshInstances)| Some((models.get(*model as usize)?.as_ref()?, copies));
+    moving.iter().filter(|(model, _)| *model != MoverModel::Disc).filter_map(of)
 }
 
 fn uniform(gpu: &Gpu, size: usize) -> wgpu::Buffer {
@@ -379,7 +388,7 @@ fn layer(gpu: &Gpu, pipelines: &Pipelines, maps: &wgpu::Texture, k: u32) -> (wgp
     (view, data, group)
 }
 
-fn count(counts: &mut Counts, triangles: u32, copies: &Copies) {
+fn count(counts: &mut DrawCounts, triangles: u32, copies: &MeshInstances) {
     counts.draws += 1;
     counts.triangles += u64::from(triangles) * u64::from(copies.count());
 }

@@ -5,7 +5,7 @@ use super::pipelines::{DEPTH, LIGHT, Pipelines};
 use crate::quality::Quality;
 
 /// Textures and what binds them.
-pub struct Targets {
+pub struct RenderTargets {
     /// Light, with all samples.
     pub light: wgpu::TextureView,
     /// Light, one sample a pixel; `None` when that is [`Self::light`] itself.
@@ -39,7 +39,7 @@ pub fn texture(gpu: &Gpu, size: (u32, u32), format: wgpu::TextureFormat, samples
     gpu.device.create_texture(&descriptor).create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-impl Targets {
+impl RenderTargets {
     /// For pictures of one size.
     pub fn new(gpu: &Gpu, pipelines: &Pipelines, quality: &Quality, size: (u32, u32)) -> Self {
         let light = texture(gpu, size, LIGHT, quality.samples);
@@ -51,7 +51,7 @@ impl Targets {
         let mirror_depth = texture(gpu, small, DEPTH, 1);
         let develop_data = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("develop"),
-            size: size_of::<super::uniforms::Develop>() as u64,
+            size: size_of::<super::uniforms::DevelopUniforms>() as u64,
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });

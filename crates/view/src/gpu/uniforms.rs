@@ -2,7 +2,7 @@
 
 use super::super::matrix::Matrix;
 use super::super::quality::Quality;
-use super::super::shadows::Map;
+use super::super::shadows::ShadowMap;
 use super::super::shot::Shot;
 use nalgebra::Matrix4;
 use spandrel_model::frames::{Enu, Vec3};
@@ -35,10 +35,10 @@ pub struct Globals {
     shadow_proj: [[[f32; 4]; 4]; MAPS],
 }
 
-/// `Develop`.
+/// `DevelopUniforms`.
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
-pub struct Develop {
+pub struct DevelopUniforms {
     reproject: [[f32; 4]; 4],
     grain: [f32; 4],
     size: [f32; 4],
@@ -54,16 +54,16 @@ fn colour(rgb: [f64; 3], last: f64) -> [f32; 4] {
 }
 
 /// What a shot's maps are.
-pub struct Maps<'a> {
+pub struct ShadowMaps<'a> {
     /// Of the sun.
-    pub sun: &'a [Map],
+    pub sun: &'a [ShadowMap],
     /// Of the lamp.
-    pub lamp: Option<&'a Map>,
+    pub lamp: Option<&'a ShadowMap>,
 }
 
 impl Globals {
     /// For a shot, or for what the water at `water_m` mirrors of it.
-    pub fn new(shot: &Shot, water_m: f64, maps: &Maps, mirrored: bool) -> Self {
+    pub fn new(shot: &Shot, water_m: f64, maps: &ShadowMaps, mirrored: bool) -> Self {
         let flip = |v: Vec3<Enu>| if mirrored { Vec3::new(v.east(), v.north(), -v.up()) } else { v };
         let eye_m = shot.eye.position_m;
         let eye = if mirrored { Vec3::new(eye_m.east(), eye_m.north(), 2.0 * water_m - eye_m.up()) } else { eye_m };
@@ -107,7 +107,7 @@ impl Globals {
     }
 }
 
-impl Develop {
+impl DevelopUniforms {
     /// For a shot.
     pub fn new(shot: &Shot, quality: &Quality) -> Self {
         let now = shot.eye.view_projection(shot.aspect());

@@ -1,10 +1,10 @@
 //! Upper right: a battery that empties, a number, and a shape for its state.
 
-use super::icons::Shape;
+use super::icons::IconShape;
 use super::layout::{EDGE, MIDDLE};
 use super::pane::Pane;
 use super::state::Hud;
-use super::{Colour, Item, Side};
+use super::{DrawItem, HudColor, TextAlign};
 
 /// Width and height of its panel.
 pub const WIDE: f64 = 0.27;
@@ -14,57 +14,57 @@ const FLASH_HZ: f64 = 2.0;
 
 /// What a charge looks like.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Charge {
+pub struct ChargeStyle {
     /// Colour of everything.
-    pub colour: Colour,
+    pub colour: HudColor,
     /// Its shape.
-    pub shape: Shape,
+    pub shape: IconShape,
     /// It flashes, and is away just now.
     pub dark: bool,
 }
 
 /// The look of a charge in %.
-pub fn charge(hud: &Hud, pct: f64) -> Charge {
+pub fn charge(hud: &Hud, pct: f64) -> ChargeStyle {
     let (colour, shape) = if pct >= hud.green_pct {
-        (Colour::Green, Shape::Disc)
+        (HudColor::Green, IconShape::Disc)
     } else if pct >= hud.yellow_pct {
-        (Colour::Yellow, Shape::Triangle)
+        (HudColor::Yellow, IconShape::Triangle)
     } else {
-        (Colour::Red, Shape::Octagon)
+        (HudColor::Red, IconShape::Octagon)
     };
-    let dark = colour == Colour::Red && (hud.time_s * FLASH_HZ).rem_euclid(1.0) >= 0.5;
-    Charge { colour, shape, dark }
+    let dark = colour == HudColor::Red && (hud.time_s * FLASH_HZ).rem_euclid(1.0) >= 0.5;
+    ChargeStyle { colour, shape, dark }
 }
 
-pub fn battery(hud: &Hud, pane: Pane) -> Vec<Item> {
+pub fn battery(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let right = pane.width - EDGE;
     let (from, y) = (right - WIDE, EDGE + 0.5 * HIGH);
     let words_at = (right - 0.016, y);
     let mut items = vec![pane.panel((from, EDGE), (right, EDGE + HIGH))];
     let Some(pct) = hud.battery_pct else {
         let place = (words_at.0, EDGE + 0.037);
-        items.push(pane.text(place, Side::Right, MIDDLE, Colour::Grey, "no battery data"));
+        items.push(pane.text(place, TextAlign::Right, MIDDLE, HudColor::Grey, "no battery data"));
         return items;
     };
-    let Charge { colour, shape, dark } = charge(hud, pct);
+    let ChargeStyle { colour, shape, dark } = charge(hud, pct);
     if !dark {
         items.extend(pane.symbol(shape, (from + 0.03, y), 0.036, colour));
     }
     let filled = (!dark).then_some((pct / 100.0).clamp(0.0, 1.0));
-    items.extend(case(pane, (from + 0.062, y), filled, colour));
-    items.push(pane.text(words_at, Side::Right, MIDDLE, colour, format!("{pct:.0} %")));
+    items.extend(battery_outline(pane, (from + 0.062, y), filled, colour));
+    items.push(pane.text(words_at, TextAlign::Right, MIDDLE, colour, format!("{pct:.0} %")));
     items
 }
 
 /// A battery with its left edge here, filled by a share.
-fn case(pane: Pane, (low, y): (f64, f64), filled: Option<f64>, colour: Colour) -> Vec<Item> {
+fn battery_outline(pane: Pane, (low, y): (f64, f64), filled: Option<f64>, colour: HudColor) -> Vec<DrawItem> {
     let (high, half, inset) = (low + 0.08, 0.017, 0.004);
     let box_of =
         |(left, right): (f64, f64), half: f64| [(left, y - half), (right, y - half), (right, y + half), (left, y + half)];
     let outline = box_of((low, high), half);
     let closed = [outline[0], outline[1], outline[2], outline[3], outline[0]];
     let mut items =
-        vec![pane.line(&closed, 0.003, Colour::White), pane.fill(&box_of((high, high + 0.006), 0.007), Colour::White)];
+        vec![pane.line(&closed, 0.003, HudColor::White), pane.fill(&box_of((high, high + 0.006), 0.007), HudColor::White)];
     if let Some(share) = filled {
         let left = low + inset;
         let end = left + (high - low - 2.0 * inset) * share;

@@ -1,11 +1,11 @@
 //! Symbols that tell by their shape alone: who cannot tell the colours apart reads the same.
 
-use super::{Colour, Item, Point, at};
+use super::{DrawItem, HudColor, ScreenPoint, at};
 use spandrel_model::math;
 
 /// Shapes, from harmless to grave.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Shape {
+pub enum IconShape {
     /// All is well, or worth knowing.
     Disc,
     /// Take care.
@@ -17,8 +17,8 @@ pub enum Shape {
 }
 
 /// A symbol with a dark rim; `size` is its height as a share of the picture's.
-pub fn symbol(shape: Shape, middle: Point, size: f64, aspect: f64, colour: Colour) -> Vec<Item> {
-    let ring = |count: u32, turn: f64, radius: f64| -> Vec<Point> {
+pub fn symbol(shape: IconShape, middle: ScreenPoint, size: f64, aspect: f64, colour: HudColor) -> Vec<DrawItem> {
+    let ring = |count: u32, turn: f64, radius: f64| -> Vec<ScreenPoint> {
         (0..count)
             .map(|k| {
                 let (s, c) = math::sin_cos(turn + math::TAU * f64::from(k) / f64::from(count));
@@ -27,10 +27,10 @@ pub fn symbol(shape: Shape, middle: Point, size: f64, aspect: f64, colour: Colou
             .collect()
     };
     let outline = |grown: f64| match shape {
-        Shape::Disc => ring(16, 0.0, 0.46 * size * grown),
-        Shape::Triangle => ring(3, 0.0, 0.58 * size * grown),
-        Shape::Diamond => ring(4, 0.0, 0.55 * size * grown),
-        Shape::Octagon => ring(8, math::PI / 8.0, 0.52 * size * grown),
+        IconShape::Disc => ring(16, 0.0, 0.46 * size * grown),
+        IconShape::Triangle => ring(3, 0.0, 0.58 * size * grown),
+        IconShape::Diamond => ring(4, 0.0, 0.55 * size * grown),
+        IconShape::Octagon => ring(8, math::PI / 8.0, 0.52 * size * grown),
     };
-    vec![Item::Fill { points: outline(1.18), colour: Colour::Black }, Item::Fill { points: outline(1.0), colour }]
+    vec![DrawItem::Fill { points: outline(1.18), colour: HudColor::Black }, DrawItem::Fill { points: outline(1.0), colour }]
 }

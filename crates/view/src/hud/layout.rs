@@ -1,15 +1,15 @@
 //! Where everything stands. Sizes and places are in units of `Pane`: shares of the height of a picture that is not narrow.
 
 use super::battery::battery;
-use super::brief::brief;
 use super::map::map;
 use super::messages::messages;
 use super::pane::Pane;
+use super::small_view::brief;
 use super::state::Hud;
 use super::status::status;
-use super::{Colour, Item, Side};
+use super::{DrawItem, HudColor, TextAlign};
 use spandrel_mavlink::contract::cue;
-use spandrel_model::numbers::beside_limit;
+use spandrel_model::numbers::format_beside_limit;
 
 /// Distance of blocks from the picture's edges.
 pub(super) const EDGE: f64 = 0.025;
@@ -28,7 +28,7 @@ const CENTRAL: f64 = 0.8;
 
 /// Everything on the display for a picture of this aspect (width over height).
 #[must_use]
-pub fn layout(hud: &Hud, aspect: f64) -> Vec<Item> {
+pub fn layout(hud: &Hud, aspect: f64) -> Vec<DrawItem> {
     let pane = Pane::of(aspect);
     let mut items = frame(hud, pane);
     items.extend(speed(hud, pane));
@@ -43,51 +43,51 @@ pub fn layout(hud: &Hud, aspect: f64) -> Vec<Item> {
 /// The same for a picture that has this size on the screen, px (of a screen of usual density): one that is too small for everything shows
 /// what is needed at once.
 #[must_use]
-pub fn layout_px(hud: &Hud, (width, height): (f64, f64)) -> Vec<Item> {
+pub fn layout_px(hud: &Hud, (width, height): (f64, f64)) -> Vec<DrawItem> {
     let size_px = (width.max(1.0), height.max(1.0));
     if SMALL * Pane::unit(size_px) >= LEAST_PX { layout(hud, size_px.0 / size_px.1) } else { brief(hud, size_px) }
 }
 
 /// The middle, and the part of the picture in which a defect counts; below everything else.
-fn frame(hud: &Hud, pane: Pane) -> Vec<Item> {
+fn frame(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let mut items = Vec::new();
     let (low, high, arm) = (0.5 - 0.5 * CENTRAL, 0.5 + 0.5 * CENTRAL, 0.035);
-    let colour = if hud.shutter { Colour::Yellow } else { Colour::Grey };
+    let colour = if hud.shutter { HudColor::Yellow } else { HudColor::Grey };
     for (x, right) in [(low * pane.width, arm), (high * pane.width, -arm)] {
         for (y, down) in [(low * pane.height, arm), (high * pane.height, -arm)] {
             items.push(pane.line(&[(x + right, y), (x, y), (x, y + down)], 0.003, colour));
         }
     }
     let (x, y, cross) = (0.5 * pane.width, 0.5 * pane.height, 0.018);
-    items.push(pane.line(&[(x - cross, y), (x + cross, y)], 0.0025, Colour::White));
-    items.push(pane.line(&[(x, y - cross), (x, y + cross)], 0.0025, Colour::White));
+    items.push(pane.line(&[(x - cross, y), (x + cross, y)], 0.0025, HudColor::White));
+    items.push(pane.line(&[(x, y - cross), (x, y + cross)], 0.0025, HudColor::White));
     items
 }
 
 /// The speed, and its colour.
-pub(super) fn speed_words(hud: &Hud) -> (Colour, String) {
+pub(super) fn speed_words(hud: &Hud) -> (HudColor, String) {
     let fast = hud.cues & cue::SPEEDING != 0;
-    (if fast { Colour::Yellow } else { Colour::White }, format!("{:.1} m/s", hud.speed_m_s))
+    (if fast { HudColor::Yellow } else { HudColor::White }, format!("{:.1} m/s", hud.speed_m_s))
 }
 
 /// Upper left.
-fn speed(hud: &Hud, pane: Pane) -> Vec<Item> {
+fn speed(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let inner = EDGE + 0.016;
     let mph = |m_s: f64| m_s / M_S_PER_MPH;
     let (speed_mph, limit_mph) = (mph(hud.speed_m_s), mph(hud.limit_m_s));
     let over = hud.speed_m_s > hud.limit_m_s;
-    let shown = if over { beside_limit(speed_mph, limit_mph, 0) } else { format!("{speed_mph:.0}") };
+    let shown = if over { format_beside_limit(speed_mph, limit_mph, 0) } else { format!("{speed_mph:.0}") };
     let limit = format!("{shown} mph, limit {limit_mph:.0}");
     let (colour, words) = speed_words(hud);
     vec![
         pane.panel((EDGE, EDGE), (EDGE + 0.25, EDGE + 0.105)),
-        pane.text((inner, EDGE + 0.037), Side::Left, LARGE, colour, words),
-        pane.text((inner, EDGE + 0.081), Side::Left, SMALL, Colour::Grey, limit),
+        pane.text((inner, EDGE + 0.037), TextAlign::Left, LARGE, colour, words),
+        pane.text((inner, EDGE + 0.081), TextAlign::Left, SMALL, HudColor::Grey, limit),
     ]
 }
 
 /// Below the battery: heights, distances, gimbal, time, lamp, pictures.
-fn numbers(hud: &Hud, pane: Pane) -> Vec<Item> {
+fn numbers(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let (right, top) = (pane.width - EDGE, EDGE + 0.085);
     let left = hud.left_s.max(0.0);
     let mut lines = vec![
@@ -108,9 +108,9 @@ fn numbers(hud: &Hud, pane: Pane) -> Vec<Item> {
     for (k, (name, value)) in lines.into_iter().enumerate() {
         let y = top + 0.006 + step * (k as f64 + 0.5);
         let lit = name == "lamp" && hud.lamp;
-        items.push(pane.text((from + 0.012, y), Side::Left, SMALL, Colour::Grey, name));
-        let colour = if lit { Colour::Yellow } else { Colour::White };
-        items.push(pane.text((right - 0.012, y), Side::Right, SMALL, colour, value));
+        items.push(pane.text((from + 0.012, y), TextAlign::Left, SMALL, HudColor::Grey, name));
+        let colour = if lit { HudColor::Yellow } else { HudColor::White };
+        items.push(pane.text((right - 0.012, y), TextAlign::Right, SMALL, colour, value));
     }
     items
 }

@@ -2,7 +2,7 @@
 
 use super::pane::Pane;
 use super::state::Hud;
-use super::{Colour, Item, Side};
+use super::{DrawItem, HudColor, TextAlign};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
@@ -25,7 +25,7 @@ pub fn left(hud: &Hud, pane: Pane) -> Option<f64> {
 }
 
 /// The map's items.
-pub fn map(hud: &Hud, pane: Pane) -> Vec<Item> {
+pub fn map(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     if hud.tracks.is_empty() {
         return Vec::new();
     }
@@ -37,16 +37,16 @@ pub fn map(hud: &Hud, pane: Pane) -> Vec<Item> {
         let mut points: Vec<(f64, f64)> = track.path_m.iter().step_by(3).map(|p| place(*p)).collect();
         points.extend(track.path_m.last().filter(|_| !track.closed).or(track.path_m.first()).map(|p| place(*p)));
         let start = points[0];
-        items.push(pane.line(&points, 0.004, Colour::Blue));
+        items.push(pane.line(&points, 0.004, HudColor::Blue));
         let label = beside(&labels, (start.0, start.1 - 0.014), x + HALF - 0.5 * WIDE);
-        items.push(pane.text(label, Side::Middle, TYPE, Colour::Grey, format!("{}", track.id)));
+        items.push(pane.text(label, TextAlign::Middle, TYPE, HudColor::Grey, format!("{}", track.id)));
         labels.push(label);
     }
     let (pad, side) = (place(hud.pad_m), 0.007);
     let square = [(-side, -side), (side, -side), (side, side), (-side, side)];
-    items.push(pane.fill(&square.map(|(right, down)| (pad.0 + right, pad.1 + down)), Colour::White));
-    items.push(pane.fill(&arrow(place(hud.position_m), hud.heading_rad), Colour::Yellow));
-    items.push(pane.text((x, y - HALF + 0.016), Side::Middle, TYPE, Colour::Grey, "N"));
+    items.push(pane.fill(&square.map(|(right, down)| (pad.0 + right, pad.1 + down)), HudColor::White));
+    items.push(pane.fill(&arrow(place(hud.position_m), hud.heading_rad), HudColor::Yellow));
+    items.push(pane.text((x, y - HALF + 0.016), TextAlign::Middle, TYPE, HudColor::Grey, "N"));
     items
 }
 

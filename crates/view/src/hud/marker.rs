@@ -1,8 +1,8 @@
 //! In the inspector's view: where the drone is, small as it may look.
 
-use super::super::camera::Eye;
-use super::letters::width_of;
-use super::{Colour, Item, Point, Side, at};
+use super::super::camera::PinholeCamera;
+use super::text_metrics::width_of;
+use super::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
@@ -15,7 +15,7 @@ const ROOM_M: f64 = 0.6;
 
 /// A bracket around the drone with its distance; nothing when it is outside the picture. Grey and dashed where something stands before it.
 #[must_use]
-pub fn marker(eye: &Eye, aspect: f64, drone_m: Vec3<Enu>, hidden: bool) -> Vec<Item> {
+pub fn marker(eye: &PinholeCamera, aspect: f64, drone_m: Vec3<Enu>, hidden: bool) -> Vec<DrawItem> {
     let clip = eye.view_projection(aspect).apply(drone_m);
     let (x, y) = (clip[0] / clip[3], clip[1] / clip[3]);
     if clip[3] <= 0.0 || x.abs() > 0.95 || y.abs() > 0.95 {
@@ -24,7 +24,7 @@ pub fn marker(eye: &Eye, aspect: f64, drone_m: Vec3<Enu>, hidden: bool) -> Vec<I
     let middle = at(0.5 + 0.5 * x, 0.5 - 0.5 * y);
     let distance_m = (drone_m - eye.position_m).norm();
     let half = LEAST.max(0.5 * ROOM_M / (math::tan(0.5 * eye.hfov_rad) * clip[3]) * aspect);
-    let corner = |right: f64, down: f64| -> Vec<Vec<Point>> {
+    let corner = |right: f64, down: f64| -> Vec<Vec<ScreenPoint>> {
         let place = |a: f64, b: f64| at(middle.x + right * a * half / aspect, middle.y + down * b * half);
         let dash = |a: (f64, f64), b: (f64, f64)| vec![place(a.0, a.1), place(b.0, b.1)];
         if hidden {
@@ -37,19 +37,19 @@ pub fn marker(eye: &Eye, aspect: f64, drone_m: Vec3<Enu>, hidden: bool) -> Vec<I
         }
         vec![vec![place(0.5, 1.0), place(1.0, 1.0), place(1.0, 0.5)]]
     };
-    let colour = if hidden { Colour::Grey } else { Colour::White };
-    let mut items: Vec<Item> = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
+    let colour = if hidden { HudColor::Grey } else { HudColor::White };
+    let mut items: Vec<DrawItem> = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
         .into_iter()
         .flat_map(|(right, down)| corner(right, down))
-        .map(|points| Item::Line { points, width: 0.003, colour })
+        .map(|points| DrawItem::Line { points, width: 0.003, colour })
         .collect();
     let words = format!("{distance_m:.0} m{}", if hidden { ", hidden" } else { "" });
     let place = at(middle.x, (middle.y + half + 0.022).min(0.98));
     // A pale sky is as bright as the words.
     let ground = (0.5 * (width_of(&words, TYPE) + 0.4 * TYPE) / aspect, 0.6 * TYPE);
     let side = |sign: f64| at(place.x + sign * ground.0, place.y + sign * ground.1);
-    items.push(Item::Panel { from: side(-1.0), to: side(1.0), colour: Colour::Shade });
-    items.push(Item::Text { place, side: Side::Middle, height: TYPE, colour, words });
+    items.push(DrawItem::Panel { from: side(-1.0), to: side(1.0), colour: HudColor::Shade });
+    items.push(DrawItem::Text { place, side: TextAlign::Middle, height: TYPE, colour, words });
     items
 }
 
@@ -59,17 +59,18 @@ mod tests {
 
     #[test]
     fn exact_the_bracket_lies_around_the_drone_and_nowhere_behind() {
-        let eye = Eye::at(Vec3::zero(), Vec3::new(0.0, 100.0, 0.0), 1.0, 1.5);
+        let eye = PinholeCamera::at(Vec3::zero(), Vec3::new(0.0, 100.0, 0.0), 1.0, 1.5);
         let items = marker(&eye, 1.5, Vec3::new(0.0, 80.0, 0.0), false);
         let words = items.iter().find_map(|item| match item {
-            Item::Text { words, place, .. } => Some((words.clone(), place.x)),
-            Item::Panel { .. } | Item::Fill { .. } | Item::Line { .. } => None,
+            DrawItem::Text { words, place, .. } => Some((words.clone(), place.x)),
+            DrawItem::Panel { .. } | DrawItem::Fill { .. } | DrawItem::Line { .. } => None,
         });
         assert_eq!(words, Some(("80 m".to_owned(), 0.5)));
         assert_eq!(items.len(), 6);
         assert!(marker(&eye, 1.5, Vec3::new(0.0, -80.0, 0.0), false).is_empty());
         let hidden = marker(&eye, 1.5, Vec3::new(0.0, 80.0, 0.0), true);
-        let told = |item: &Item| matches!(item, Item::Text { words, colour: Colour::Grey, .. } if words == "80 m, hidden");
+        let told =
+            |item: &DrawItem| matches!(item, DrawItem::Text { words, colour: HudColor::Grey, .. } if words == "80 m, hidden");
         assert!(hidden.len() > items.len() && hidden.iter().any(told), "dashed, and said");
     }
 }

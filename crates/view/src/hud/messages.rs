@@ -1,11 +1,11 @@
 //! Lower left: warnings, the gravest at the bottom.
 
-use super::icons::Shape;
+use super::icons::IconShape;
 use super::layout::{EDGE, GAP, M_S_PER_MPH, MIDDLE};
-use super::letters::{width_of, wrapped};
 use super::pane::Pane;
 use super::state::Hud;
-use super::{Colour, Item, Side, map};
+use super::text_metrics::{width_of, wrapped};
+use super::{DrawItem, HudColor, TextAlign, map};
 use spandrel_mavlink::contract::cue;
 
 /// Width of a sign, mean of capitals.
@@ -22,40 +22,40 @@ const LINES: usize = 2;
 
 /// A cue that is on.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Warning {
+pub struct ActiveCue {
     /// Its shape.
-    pub shape: Shape,
+    pub shape: IconShape,
     /// Its colour.
-    pub colour: Colour,
+    pub colour: HudColor,
     /// What it says.
-    pub words: &'static str,
+    pub text: &'static str,
     /// And more exactly.
     pub more: Option<String>,
 }
 
 /// Cues that are on, the gravest first.
-pub fn warnings(hud: &Hud) -> Vec<Warning> {
+pub fn warnings(hud: &Hud) -> Vec<ActiveCue> {
     let limit = format!("limit {:.0} mph", hud.limit_m_s / M_S_PER_MPH);
     let all = [
-        (cue::CRASH, Shape::Octagon, Colour::Red, "CRASH", hud.hit.clone()),
-        (cue::TOO_CLOSE, Shape::Diamond, Colour::Orange, "TOO CLOSE", None),
-        (cue::SPEEDING, Shape::Triangle, Colour::Yellow, "TOO FAST", Some(limit)),
-        (cue::OFF_PATH, Shape::Disc, Colour::Blue, "OFF THE PATH", None),
+        (cue::CRASH, IconShape::Octagon, HudColor::Red, "CRASH", hud.hit.clone()),
+        (cue::TOO_CLOSE, IconShape::Diamond, HudColor::Orange, "TOO CLOSE", None),
+        (cue::SPEEDING, IconShape::Triangle, HudColor::Yellow, "TOO FAST", Some(limit)),
+        (cue::OFF_PATH, IconShape::Disc, HudColor::Blue, "OFF THE PATH", None),
     ];
     let on = all.into_iter().filter(|(bit, ..)| hud.cues & bit != 0);
-    on.map(|(_, shape, colour, words, more)| Warning { shape, colour, words, more }).collect()
+    on.map(|(_, shape, colour, words, more)| ActiveCue { shape, colour, text: words, more }).collect()
 }
 
 fn width(words: &str) -> f64 {
     (SIGN * words.chars().count() as f64).max(width_of(words, MIDDLE))
 }
 
-pub fn messages(hud: &Hud, pane: Pane) -> Vec<Item> {
+pub fn messages(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let right = map::left(hud, pane).map_or(pane.width - EDGE, |left| left - GAP);
     let room = right - EDGE - INDENT - MARGIN;
     let mut bottom = pane.height - EDGE;
     let mut items = Vec::new();
-    for Warning { shape, colour, words, more } in warnings(hud) {
+    for ActiveCue { shape, colour, text: words, more } in warnings(hud) {
         let words = more.map_or_else(|| words.to_owned(), |more| format!("{words}: {more}"));
         let lines = wrapped(&words, LINES, |line| width(line) <= room);
         let top = bottom - HIGH - STEP * (lines.len() - 1) as f64;
@@ -64,7 +64,7 @@ pub fn messages(hud: &Hud, pane: Pane) -> Vec<Item> {
         items.extend(pane.symbol(shape, (EDGE + 0.5 * INDENT, 0.5 * (top + bottom)), 0.04, colour));
         for (k, line) in lines.into_iter().enumerate() {
             let y = top + 0.5 * HIGH + STEP * k as f64;
-            items.push(pane.text((EDGE + INDENT, y), Side::Left, MIDDLE, colour, line));
+            items.push(pane.text((EDGE + INDENT, y), TextAlign::Left, MIDDLE, colour, line));
         }
         bottom = top - GAP;
     }

@@ -2,30 +2,30 @@
 //! docs/src/reference/assessment.md, "Feedback during the flight", has them (speed upper left, battery upper right, messages
 //! lower left). Whoever draws needs to know nothing of what they mean.
 
-#[cfg(test)]
-mod apart;
 mod battery;
-mod brief;
 mod icons;
 pub mod layout;
-mod letters;
 mod map;
 mod marker;
 mod messages;
+#[cfg(test)]
+mod overlap;
 mod pane;
+mod small_view;
 pub mod state;
 mod status;
 #[cfg(test)]
 mod tests;
+mod text_metrics;
 
 pub use layout::{layout, layout_px};
 pub use marker::marker;
-pub use state::{Gnss, Hud, Track};
+pub use state::{GnssStatus, Hud, MapPath};
 pub use status::SILENT_S;
 
 /// A place in the picture: 0..1 to the right and down.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Point {
+pub struct ScreenPoint {
     /// To the right.
     pub x: f64,
     /// Down.
@@ -34,13 +34,13 @@ pub struct Point {
 
 /// A place.
 #[must_use]
-pub const fn at(x: f64, y: f64) -> Point {
-    Point { x, y }
+pub const fn at(x: f64, y: f64) -> ScreenPoint {
+    ScreenPoint { x, y }
 }
 
 /// Colours: safe to tell apart for the colour-blind (after Okabe and Ito), and never the only sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Colour {
+pub enum HudColor {
     /// Text and lines.
     White,
     /// Lesser text.
@@ -67,7 +67,7 @@ pub enum Colour {
     Focus,
 }
 
-impl Colour {
+impl HudColor {
     /// Red, green, blue, opacity in sRGB.
     #[must_use]
     pub const fn rgba(self) -> [u8; 4] {
@@ -90,7 +90,7 @@ impl Colour {
 
 /// Which end of a text stands at its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
+pub enum TextAlign {
     /// Its left end.
     Left,
     /// Its middle.
@@ -101,43 +101,43 @@ pub enum Side {
 
 /// One thing to draw, in the order of drawing. Heights and widths of strokes are shares of the picture's height.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Item {
+pub enum DrawItem {
     /// A rectangle with rounded corners.
     Panel {
         /// Upper left.
-        from: Point,
+        from: ScreenPoint,
         /// Lower right.
-        to: Point,
+        to: ScreenPoint,
         /// Fill.
-        colour: Colour,
+        colour: HudColor,
     },
     /// A line of text, centred upright on its place.
     Text {
         /// Where.
-        place: Point,
+        place: ScreenPoint,
         /// Which end is there.
-        side: Side,
+        side: TextAlign,
         /// Height of the type.
         height: f64,
         /// Colour.
-        colour: Colour,
+        colour: HudColor,
         /// What it says.
         words: String,
     },
     /// A filled convex outline.
     Fill {
         /// Corners.
-        points: Vec<Point>,
+        points: Vec<ScreenPoint>,
         /// Fill.
-        colour: Colour,
+        colour: HudColor,
     },
     /// A line through points.
     Line {
         /// Points.
-        points: Vec<Point>,
+        points: Vec<ScreenPoint>,
         /// Width of the stroke.
         width: f64,
         /// Colour.
-        colour: Colour,
+        colour: HudColor,
     },
 }

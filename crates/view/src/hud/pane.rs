@@ -1,7 +1,7 @@
 //! A picture in the display's own measure: places from its upper left corner, sizes in one unit for both directions.
 
-use super::icons::{self, Shape};
-use super::{Colour, Item, Point, Side, at};
+use super::icons::{self, IconShape};
+use super::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
 
 /// In pictures of this shape (width over height) and wider ones all blocks fit beside each other at their full size; in narrower ones
 /// everything shrinks with the width.
@@ -34,36 +34,36 @@ impl Pane {
     }
 
     /// A place as shares of the picture.
-    pub fn at(self, (x, y): (f64, f64)) -> Point {
+    pub fn at(self, (x, y): (f64, f64)) -> ScreenPoint {
         at(x / self.width, y / self.height)
     }
 
     /// The ground of a block, from its upper left to its lower right corner.
-    pub fn panel(self, from: (f64, f64), to: (f64, f64)) -> Item {
-        Item::Panel { from: self.at(from), to: self.at(to), colour: Colour::Shade }
+    pub fn panel(self, from: (f64, f64), to: (f64, f64)) -> DrawItem {
+        DrawItem::Panel { from: self.at(from), to: self.at(to), colour: HudColor::Shade }
     }
 
     /// A line of text.
-    pub fn text(self, place: (f64, f64), side: Side, size: f64, colour: Colour, words: impl Into<String>) -> Item {
-        Item::Text { place: self.at(place), side, height: self.share(size), colour, words: words.into() }
+    pub fn text(self, place: (f64, f64), side: TextAlign, size: f64, colour: HudColor, words: impl Into<String>) -> DrawItem {
+        DrawItem::Text { place: self.at(place), side, height: self.share(size), colour, words: words.into() }
     }
 
     /// A filled convex outline.
-    pub fn fill(self, points: &[(f64, f64)], colour: Colour) -> Item {
-        Item::Fill { points: self.all(points), colour }
+    pub fn fill(self, points: &[(f64, f64)], colour: HudColor) -> DrawItem {
+        DrawItem::Fill { points: self.all(points), colour }
     }
 
     /// A line through points.
-    pub fn line(self, points: &[(f64, f64)], width: f64, colour: Colour) -> Item {
-        Item::Line { points: self.all(points), width: self.share(width), colour }
+    pub fn line(self, points: &[(f64, f64)], width: f64, colour: HudColor) -> DrawItem {
+        DrawItem::Line { points: self.all(points), width: self.share(width), colour }
     }
 
     /// A symbol with a dark rim.
-    pub fn symbol(self, shape: Shape, middle: (f64, f64), size: f64, colour: Colour) -> Vec<Item> {
+    pub fn symbol(self, shape: IconShape, middle: (f64, f64), size: f64, colour: HudColor) -> Vec<DrawItem> {
         icons::symbol(shape, self.at(middle), self.share(size), self.width / self.height, colour)
     }
 
-    fn all(self, points: &[(f64, f64)]) -> Vec<Point> {
+    fn all(self, points: &[(f64, f64)]) -> Vec<ScreenPoint> {
         points.iter().map(|place| self.at(*place)).collect()
     }
 }

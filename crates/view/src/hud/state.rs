@@ -4,14 +4,14 @@ use spandrel_model::frames::{Enu, Vec3};
 
 /// Fix and satellites.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Gnss {
+pub struct GnssStatus {
     /// Has a fix in three dimensions.
     pub fixed: bool,
     /// Satellites used, as the wire counts them: [`Self::known`].
     pub satellites: u8,
 }
 
-impl Gnss {
+impl GnssStatus {
     /// The wire's count where nobody counts (GPS_RAW_INT.satellites_visible).
     const UNKNOWN: u8 = 255;
 
@@ -24,7 +24,7 @@ impl Gnss {
 
 /// A task's reference path for the map.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Track {
+pub struct MapPath {
     /// Number for people.
     pub id: u32,
     /// Points, m.
@@ -57,7 +57,7 @@ pub struct Hud {
     /// Mode in words.
     pub mode: String,
     /// Satellite navigation.
-    pub gnss: Option<Gnss>,
+    pub gnss: Option<GnssStatus>,
     /// Age of the newest telemetry, s.
     pub silent_s: f64,
     /// Gimbal pitch, rad, up positive.
@@ -81,5 +81,5 @@ pub struct Hud {
     /// The pad, m.
     pub pad_m: Vec3<Enu>,
     /// Paths on the map; none: the map is hidden.
-    pub tracks: Vec<Track>,
+    pub tracks: Vec<MapPath>,
 }

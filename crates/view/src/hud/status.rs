@@ -2,8 +2,8 @@
 
 use super::layout::{EDGE, GAP, SMALL};
 use super::pane::Pane;
-use super::state::{Gnss, Hud};
-use super::{Colour, Item, Side, battery};
+use super::state::{GnssStatus, Hud};
+use super::{DrawItem, HudColor, TextAlign, battery};
 
 /// Telemetry older than this is a lost link, s.
 pub const SILENT_S: f64 = 1.5;
@@ -13,7 +13,7 @@ const SIGN: f64 = 0.017;
 const HIGH: f64 = 0.048;
 const STEP: f64 = 0.037;
 
-fn satellites(gnss: Gnss) -> String {
+fn satellites(gnss: GnssStatus) -> String {
     match (gnss.fixed, gnss.known()) {
         (true, Some(count)) => format!("GNSS {count}"),
         (true, None) => "GNSS ok".into(),
@@ -35,7 +35,7 @@ pub fn alarm(hud: &Hud) -> Option<String> {
     if is_lost(hud) { Some(link(hud)) } else { hud.gnss.filter(|gnss| !gnss.fixed).map(satellites) }
 }
 
-pub fn status(hud: &Hud, pane: Pane) -> Vec<Item> {
+pub fn status(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let place = format!("{}   {}", hud.mode, hud.gnss.map_or_else(|| "GNSS ?".to_owned(), satellites));
     // Between speed and battery, which is the wider one.
     let room = pane.width - 2.0 * (EDGE + battery::WIDE + GAP);
@@ -44,10 +44,10 @@ pub fn status(hud: &Hud, pane: Pane) -> Vec<Item> {
     let lines = if width(&whole) <= room { vec![whole] } else { vec![place, link(hud)] };
     let half = 0.5 * lines.iter().map(|line| width(line)).fold(0.0, f64::max);
     let (middle, bottom) = (0.5 * pane.width, EDGE + HIGH + STEP * (lines.len() - 1) as f64);
-    let colour = if alarm(hud).is_some() { Colour::Orange } else { Colour::White };
+    let colour = if alarm(hud).is_some() { HudColor::Orange } else { HudColor::White };
     let mut items = vec![pane.panel((middle - half, EDGE), (middle + half, bottom))];
     for (k, line) in lines.into_iter().enumerate() {
-        items.push(pane.text((middle, EDGE + 0.5 * HIGH + STEP * k as f64), Side::Middle, SMALL, colour, line));
+        items.push(pane.text((middle, EDGE + 0.5 * HIGH + STEP * k as f64), TextAlign::Middle, SMALL, colour, line));
     }
     items
 }

@@ -21,7 +21,7 @@ pub(super) fn hud() -> Hud {
         height_m: 21.4,
         home_m: 118.0,
         mode: "Position".into(),
-        gnss: Some(Gnss { fixed: true, satellites: 14 }),
+        gnss: Some(GnssStatus { fixed: true, satellites: 14 }),
         silent_s: 0.02,
         gimbal_rad: 0.35,
         zoom: 1.0,
@@ -33,25 +33,25 @@ pub(super) fn hud() -> Hud {
         position_m: Vec3::new(10.0, -4.0, 20.0),
         heading_rad: 1.2,
         pad_m: Vec3::new(-100.0, 60.0, 5.0),
-        tracks: vec![Track { id: 1, path_m: vec![Vec3::new(-50.0, -5.0, 30.0), Vec3::new(50.0, -5.0, 30.0)], closed: false }],
+        tracks: vec![MapPath { id: 1, path_m: vec![Vec3::new(-50.0, -5.0, 30.0), Vec3::new(50.0, -5.0, 30.0)], closed: false }],
     }
 }
 
-fn texts(hud: &Hud) -> Vec<(Point, Colour, String)> {
+fn texts(hud: &Hud) -> Vec<(ScreenPoint, HudColor, String)> {
     let of = |item| match item {
-        Item::Text { place, colour, words, .. } => Some((place, colour, words)),
-        Item::Panel { .. } | Item::Fill { .. } | Item::Line { .. } => None,
+        DrawItem::Text { place, colour, words, .. } => Some((place, colour, words)),
+        DrawItem::Panel { .. } | DrawItem::Fill { .. } | DrawItem::Line { .. } => None,
     };
     layout(hud, WIDE).into_iter().filter_map(of).collect()
 }
 
-fn find(hud: &Hud, part: &str) -> Option<(Point, Colour)> {
+fn find(hud: &Hud, part: &str) -> Option<(ScreenPoint, HudColor)> {
     texts(hud).into_iter().find(|(_, _, words)| words.contains(part)).map(|(place, colour, _)| (place, colour))
 }
 
 /// Every word of the display with its place in hundredths and its colour.
 fn snapshot(hud: &Hud) -> String {
-    let line = |(place, colour, words): (Point, Colour, String)| {
+    let line = |(place, colour, words): (ScreenPoint, HudColor, String)| {
         format!("{:3.0} {:3.0} {colour:?}: {words}\n", 100.0 * place.x, 100.0 * place.y)
     };
     texts(hud).into_iter().map(line).collect()
@@ -83,22 +83,22 @@ fn exact_places_are_those_of_the_assessment() {
 #[test]
 fn exact_the_battery_changes_at_70_and_30_and_flashes_when_red() {
     let at = |pct: f64, time_s: f64| Hud { battery_pct: Some(pct), time_s, ..hud() };
-    assert_eq!(find(&at(70.0, 0.0), "70 %").unwrap().1, Colour::Green);
-    assert_eq!(find(&at(69.9, 0.0), "70 %").unwrap().1, Colour::Yellow);
-    assert_eq!(find(&at(30.0, 0.0), "30 %").unwrap().1, Colour::Yellow);
-    assert_eq!(find(&at(29.0, 0.0), "29 %").unwrap().1, Colour::Red);
-    let fills = |hud: &Hud| layout(hud, WIDE).iter().filter(|i| matches!(i, Item::Fill { .. })).count();
+    assert_eq!(find(&at(70.0, 0.0), "70 %").unwrap().1, HudColor::Green);
+    assert_eq!(find(&at(69.9, 0.0), "70 %").unwrap().1, HudColor::Yellow);
+    assert_eq!(find(&at(30.0, 0.0), "30 %").unwrap().1, HudColor::Yellow);
+    assert_eq!(find(&at(29.0, 0.0), "29 %").unwrap().1, HudColor::Red);
+    let fills = |hud: &Hud| layout(hud, WIDE).iter().filter(|i| matches!(i, DrawItem::Fill { .. })).count();
     assert!(fills(&at(29.0, 0.1)) > fills(&at(29.0, 0.3)), "red flashes");
     assert_eq!(fills(&at(50.0, 0.1)), fills(&at(50.0, 0.3)), "yellow does not");
     assert!(find(&Hud { battery_pct: None, ..hud() }, "no battery").is_some());
 }
 
 #[test]
-fn exact_a_lost_link_and_a_lost_fix_are_told() {
+fn exact_a_lost_link_and_a_lost_fix_are_reported() {
     let lost = Hud { silent_s: 3.0, ..hud() };
-    assert_eq!(find(&lost, "LINK LOST 3 s").unwrap().1, Colour::Orange);
-    let dark = Hud { gnss: Some(Gnss { fixed: false, satellites: 4 }), ..hud() };
-    assert_eq!(find(&dark, "GNSS lost (4)").unwrap().1, Colour::Orange);
+    assert_eq!(find(&lost, "LINK LOST 3 s").unwrap().1, HudColor::Orange);
+    let dark = Hud { gnss: Some(GnssStatus { fixed: false, satellites: 4 }), ..hud() };
+    assert_eq!(find(&dark, "GNSS lost (4)").unwrap().1, HudColor::Orange);
 }
 
 #[test]
@@ -108,9 +108,9 @@ fn prop_everything_stays_in_pictures_of_any_shape() {
         for state in &states {
             for item in layout(state, aspect) {
                 let points = match item {
-                    Item::Panel { from, to, .. } => vec![from, to],
-                    Item::Text { place, .. } => vec![place],
-                    Item::Fill { points, .. } | Item::Line { points, .. } => points,
+                    DrawItem::Panel { from, to, .. } => vec![from, to],
+                    DrawItem::Text { place, .. } => vec![place],
+                    DrawItem::Fill { points, .. } | DrawItem::Line { points, .. } => points,
                 };
                 for p in points {
                     assert!((0.0..=1.0).contains(&p.x) && (0.0..=1.0).contains(&p.y), "{p:?} at {aspect}");
@@ -124,8 +124,8 @@ fn prop_everything_stays_in_pictures_of_any_shape() {
 fn exact_shapes_differ_where_colours_do() {
     let corners = |pct: f64| {
         layout(&Hud { battery_pct: Some(pct), tracks: vec![], ..hud() }, WIDE).into_iter().find_map(|item| match item {
-            Item::Fill { points, .. } => Some(points.len()),
-            Item::Panel { .. } | Item::Text { .. } | Item::Line { .. } => None,
+            DrawItem::Fill { points, .. } => Some(points.len()),
+            DrawItem::Panel { .. } | DrawItem::Text { .. } | DrawItem::Line { .. } => None,
         })
     };
     assert_eq!([corners(90.0), corners(50.0), corners(10.0)], [Some(16), Some(3), Some(8)]);
@@ -140,7 +140,7 @@ fn news(hud: &Hud) -> Vec<String> {
 
 #[test]
 fn exact_words_of_every_state_that_is_not_calm() {
-    let gnss = |fixed, satellites| Hud { gnss: Some(Gnss { fixed, satellites }), ..hud() };
+    let gnss = |fixed, satellites| Hud { gnss: Some(GnssStatus { fixed, satellites }), ..hud() };
     let warned = |cues| Hud { cues, ..hud() };
     let crash = "Red: CRASH: bridge member arch/rib-left/07";
     let hit = Some("bridge member arch/rib-left/07".to_owned());
@@ -176,8 +176,8 @@ fn exact_words_of_every_state_that_is_not_calm() {
 fn exact_a_small_picture_shows_speed_battery_and_what_is_wrong() {
     let words = |hud: &Hud, size_px| {
         let of = |item| match item {
-            Item::Text { height, words, .. } => Some((height, words)),
-            Item::Panel { .. } | Item::Fill { .. } | Item::Line { .. } => None,
+            DrawItem::Text { height, words, .. } => Some((height, words)),
+            DrawItem::Panel { .. } | DrawItem::Fill { .. } | DrawItem::Line { .. } => None,
         };
         layout_px(hud, size_px).into_iter().filter_map(of).collect::<Vec<_>>()
     };

@@ -19,19 +19,21 @@ const PATIENCE_S: f64 = 0.1;
 /// The instant that is shown.
 #[derive(Debug, Clone, Default)]
 pub struct Playhead {
-    heard: VecDeque<(SimTime, SimTime)>,
-    shown: Option<(SimTime, SimTime)>,
+    arrivals: VecDeque<(SimTime, SimTime)>,
+    shown_at: Option<(SimTime, SimTime)>,
 }
 
 impl Playhead {
     /// A newest sample of the vehicle's clock came in at this wall time.
-    pub fn hear(&mut self, wall: SimTime, newest: SimTime) {
-        if self.heard.back().is_some_and(|(_, last)| newest <= *last) {
+    pub fn handle_sample_time(&mut self, wall: SimTime, newest: SimTime) {
+        if self.arrivals.back().is_some_and(|(_, last)| newest <= *last) {
             return;
         }
-        self.heard.push_back((wall, newest));
-        while self.heard.front().is_some_and(|(first, _)| wall.saturating_sub(*first) > MEASURED_OVER) && self.heard.len() > 2 {
-            self.heard.pop_front();
+        self.arrivals.push_back((wall, newest));
+        while self.arrivals.front().is_some_and(|(first, _)| wall.saturating_sub(*first) > MEASURED_OVER)
+            && self.arrivals.len() > 2
+        {
+            self.arrivals.pop_front();
         }
     }
 
@@ -43,7 +45,7 @@ impl Playhead {
     /// Seconds of the vehicle's clock in a second of wall time; 1 until it is known.
     #[must_use]
     pub fn pace(&self) -> f64 {
-        match (self.heard.front(), self.heard.back()) {
+        match (self.arrivals.front(), self.arrivals.back()) {
             (Some(first), Some(last)) if (last.0 - first.0).s() > 0.2 => (last.1 - first.1).s() / (last.0 - first.0).s(),
             _ => 1.0,
         }
@@ -51,11 +53,11 @@ impl Playhead {
 
     /// Moves on to a wall time and gives the instant to show; `None` while nothing has been heard.
     pub fn advance(&mut self, wall: SimTime) -> Option<SimTime> {
-        let (arrived, newest) = *self.heard.back()?;
+        let (arrived, newest) = *self.arrivals.back()?;
         let pace = self.pace();
         let since_s = (wall - arrived).s().clamp(0.0, PATIENCE_S);
         let target_s = (newest.s() + pace * (since_s - BEHIND_S)).max(0.0);
-        let shown_s = match self.shown {
+        let shown_s = match self.shown_at {
             None => target_s,
             Some((before, shown)) => {
                 let step_s = (wall - before).s().max(0.0);
@@ -70,7 +72,7 @@ impl Playhead {
             }
         };
         let shown = SimTime::from_s(shown_s).min(newest);
-        self.shown = Some((wall, shown));
+        self.shown_at = Some((wall, shown));
         Some(shown)
     }
 }
@@ -88,7 +90,7 @@ mod tests {
             let wall_s = f64::from(picture) / 60.0;
             while f64::from(sample + burst) * 0.02 <= wall_s * pace {
                 sample += burst;
-                head.hear(SimTime::from_s(wall_s), SimTime::from_s(f64::from(sample) * 0.02));
+                head.handle_sample_time(SimTime::from_s(wall_s), SimTime::from_s(f64::from(sample) * 0.02));
             }
             if let Some(at) = head.advance(SimTime::from_s(wall_s)) {
                 out.push(at.s());
@@ -118,12 +120,12 @@ mod tests {
         let mut head = Playhead::default();
         assert_eq!(head.advance(SimTime::ZERO), None);
         for k in 0..50 {
-            head.hear(SimTime::from_ms(20 * k), SimTime::from_ms(20 * k));
+            head.handle_sample_time(SimTime::from_ms(20 * k), SimTime::from_ms(20 * k));
             head.advance(SimTime::from_ms(20 * k));
         }
         let stopped = (1..100).filter_map(|k| head.advance(SimTime::from_ms(980 + 20 * k))).next_back();
         assert_eq!(stopped, Some(SimTime::from_ms(980)), "at the newest sample");
-        head.hear(SimTime::from_ms(10_000), SimTime::from_ms(10_000));
+        head.handle_sample_time(SimTime::from_ms(10_000), SimTime::from_ms(10_000));
         let after = head.advance(SimTime::from_ms(10_000)).map(SimTime::s);
         assert!(after.is_some_and(|s| (s - (10.0 - BEHIND_S)).abs() < 0.01), "{after:?}");
     }

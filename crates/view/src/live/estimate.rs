@@ -8,11 +8,11 @@ use spandrel_model::time::SimTime;
 
 /// The newest attitude, until a position comes with its time.
 #[derive(Debug, Clone, Default)]
-pub struct Estimate {
+pub struct EstimatedPose {
     ned_from_frd: Option<Rotation<Frd, Ned>>,
 }
 
-impl Estimate {
+impl EstimatedPose {
     /// Takes a message; a position completes a pose.
     pub fn take(&mut self, message: &MavMessage, plane: &LocalPlane) -> Option<Truth> {
         match message {

@@ -7,25 +7,25 @@ mod series;
 mod trace;
 mod video;
 
-pub use trace::{Pose, Trace};
-pub use video::Video;
+pub use trace::{AircraftMotion, MotionHistory};
+pub use video::VideoStatus;
 
 use super::feed::Feed;
 use super::scene::DronePose;
-use super::stage::{LIFT_OFF_M, Moment, Told};
+use super::stage::{HudInputs, LIFT_OFF_M, SceneMoment};
 use clock::Playhead;
-use estimate::Estimate;
-use spandrel_mavlink::codec::{Decoder, Encoder, Received};
+use estimate::EstimatedPose;
+use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
 use spandrel_mavlink::contract::continuity::RESTART_AFTER;
 use spandrel_mavlink::contract::continuity::RESTART_CONFIRM;
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::{MavCmd, MavMessage};
 use spandrel_mavlink::station;
-use spandrel_mavlink::telemetry::sample::{self, Said, Sample, SampleValue};
+use spandrel_mavlink::telemetry::sample::{self, Sample, SampleContent, SampleValue};
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::CameraPose;
-use spandrel_model::site::gates::Gates;
+use spandrel_model::site::bridge_closures::BridgeClosures;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 use std::collections::{BTreeSet, VecDeque};
@@ -54,61 +54,61 @@ const VIDEO_LASTS: SimTime = SimTime::from_ms(3_000);
 
 /// A flight as it is heard.
 #[derive(Debug, Clone)]
-pub struct Live {
+pub struct LiveFlight {
     plane: LocalPlane,
     pad_up_m: f64,
     decoder: Decoder,
     encoder: Encoder,
     out: VecDeque<Vec<u8>>,
-    next_beat: SimTime,
-    next_ask: Option<SimTime>,
+    next_heartbeat: SimTime,
+    next_truth_request: Option<SimTime>,
     system: Option<u8>,
     /// When the vehicle was first heard.
-    met: Option<SimTime>,
+    first_heard: Option<SimTime>,
     seed: Option<u64>,
     scenario_crc: Option<u32>,
     /// When the rotors' outputs are asked for next; none: nobody hears them.
     next_rotors: Option<SimTime>,
-    spoken: bool,
-    estimate: Estimate,
-    backwards: usize,
-    heard: Option<SimTime>,
-    head: Playhead,
-    state: State,
+    truth_requested: bool,
+    estimate: EstimatedPose,
+    time_reversals: usize,
+    last_heard: Option<SimTime>,
+    playhead: Playhead,
+    state: SimulatorRun,
     /// And when its last picture went out, wall time.
-    video: Option<(Video, SimTime)>,
+    video: Option<(VideoStatus, SimTime)>,
 }
 
 /// What begins anew with the simulator.
 #[derive(Debug, Clone, Default)]
-struct State {
+struct SimulatorRun {
     feed: Feed,
-    trace: Trace,
+    trace: MotionHistory,
     lamp: bool,
     armed: bool,
     /// Outputs of the rotors, 0 to 1; none while they stand.
     outputs: Option<[f64; 4]>,
     battery_pct: Option<f64>,
-    begun: Option<SimTime>,
+    lift_off: Option<SimTime>,
     /// It flew already when it was first heard, and the vehicle is asked since when; when it is asked next.
     since_when: Option<SimTime>,
     pictures: BTreeSet<(i32, Option<SimTime>)>,
-    taken: Option<SimTime>,
-    gates: Gates,
+    last_picture: Option<SimTime>,
+    closures: BridgeClosures,
 }
 
 /// What is drawn at one instant.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Now {
+pub struct LiveMoment {
     /// Where everything is.
-    pub moment: Moment,
+    pub moment: SceneMoment,
     /// What the display tells besides.
-    pub told: Told,
+    pub hud: HudInputs,
     /// When traffic was stopped and let go.
-    pub gates: Gates,
+    pub closures: BridgeClosures,
 }
 
-impl Live {
+impl LiveFlight {
     /// Nothing has been heard yet.
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
@@ -118,19 +118,19 @@ impl Live {
             decoder: Decoder::new(),
             encoder: Encoder::new(SYSTEM, COMPONENT),
             out: VecDeque::new(),
-            next_beat: SimTime::ZERO,
-            next_ask: None,
+            next_heartbeat: SimTime::ZERO,
+            next_truth_request: None,
             system: None,
-            met: None,
+            first_heard: None,
             seed: None,
             scenario_crc: None,
             next_rotors: None,
-            spoken: false,
-            estimate: Estimate::default(),
-            backwards: 0,
-            heard: None,
-            head: Playhead::default(),
-            state: State::default(),
+            truth_requested: false,
+            estimate: EstimatedPose::default(),
+            time_reversals: 0,
+            last_heard: None,
+            playhead: Playhead::default(),
+            state: SimulatorRun::default(),
             video: None,
         }
     }
@@ -156,13 +156,13 @@ impl Live {
     /// The aircraft's poses are its own estimate: nobody says the truth.
     #[must_use]
     pub fn is_estimated(&self) -> bool {
-        self.heard.is_some() && !self.spoken
+        self.last_heard.is_some() && !self.truth_requested
     }
 
     /// Nobody says the truth, though it was asked for: no simulator of ours, and no seed will be said.
     #[must_use]
-    pub fn says_no_truth(&self, wall: SimTime) -> bool {
-        !self.spoken && self.met.is_some_and(|met| wall >= met + NO_TRUTH_AFTER + NO_TRUTH_AFTER)
+    pub fn lacks_truth(&self, wall: SimTime) -> bool {
+        !self.truth_requested && self.first_heard.is_some_and(|met| wall >= met + NO_TRUTH_AFTER + NO_TRUTH_AFTER)
     }
 
     /// Mode, satellites, cues and words.
@@ -174,23 +174,23 @@ impl Live {
     /// A datagram, heard at a wall time.
     pub fn handle_datagram(&mut self, bytes: &[u8], wall: SimTime) {
         for frame in self.decoder.datagram(bytes) {
-            self.frame(&frame, wall);
+            self.handle_frame(&frame, wall);
         }
     }
 
-    fn frame(&mut self, frame: &Received, wall: SimTime) {
+    fn handle_frame(&mut self, frame: &ReceivedFrame, wall: SimTime) {
         let beats = matches!(frame.message, Some(MavMessage::HEARTBEAT(_))) && frame.component_id == AUTOPILOT;
         if self.system.is_none() && (beats || sample::truth_time(&frame.bytes).is_some()) {
             self.system = Some(frame.system_id);
-            self.met = Some(wall);
-            self.next_ask = Some(wall + NO_TRUTH_AFTER);
+            self.first_heard = Some(wall);
+            self.next_truth_request = Some(wall + NO_TRUTH_AFTER);
         }
         if self.system != Some(frame.system_id) {
             return;
         }
         let now = self.state.trace.newest().unwrap_or_default();
-        if Feed::listens(frame.message_id) {
-            self.state.feed.take(frame, now);
+        if Feed::is_relevant(frame.message_id) {
+            self.state.feed.handle_frame(frame, now);
         }
         if let Some(MavMessage::SERVO_OUTPUT_RAW(servos)) = &frame.message {
             self.next_rotors = self.next_rotors.map(|_| wall + ASK_EVERY);
@@ -203,33 +203,33 @@ impl Live {
             && let Ok(took_off_us @ 1..) = i64::try_from(flight.takeoff_time_utc)
         {
             // A time since boot, whatever the field is called (MAVLink common).
-            (self.state.begun, self.state.since_when) = (Some(SimTime::from_us(took_off_us)), None);
+            (self.state.lift_off, self.state.since_when) = (Some(SimTime::from_us(took_off_us)), None);
         }
-        if !self.spoken
+        if !self.truth_requested
             && let Some(truth) = frame.message.as_ref().and_then(|message| self.estimate.take(message, &self.plane))
         {
-            self.truth(truth, wall);
+            self.handle_truth(truth, wall);
         }
         if let Some(sample) = sample::read(&frame.bytes, &self.plane) {
-            self.sample(&sample, wall);
+            self.handle_sample(&sample, wall);
         }
     }
 
-    fn sample(&mut self, sample: &Sample, wall: SimTime) {
-        match sample.said {
-            Said::Truth(truth) => {
-                if !self.spoken {
+    fn handle_sample(&mut self, sample: &Sample, wall: SimTime) {
+        match sample.content {
+            SampleContent::Truth(truth) => {
+                if !self.truth_requested {
                     // From now on the truth is drawn; estimates may run on another clock.
-                    self.spoken = true;
+                    self.truth_requested = true;
                     self.restart();
                 }
-                self.truth(truth, wall);
+                self.handle_truth(truth, wall);
             }
-            Said::Value(value) => self.value(value, sample.own_time),
+            SampleContent::Value(value) => self.handle_value(value, sample.own_time),
         }
     }
 
-    fn value(&mut self, value: SampleValue, own_time: Option<SimTime>) {
+    fn handle_value(&mut self, value: SampleValue, own_time: Option<SimTime>) {
         let now = self.state.trace.newest().unwrap_or_default();
         let state = &mut self.state;
         let time = own_time.filter(|own| *own <= now + RESTART_AFTER).unwrap_or(now);
@@ -241,11 +241,11 @@ impl Live {
             SampleValue::Beat { armed, .. } => state.armed = armed,
             SampleValue::Snapshot(number) => {
                 if state.pictures.insert((number, own_time)) {
-                    state.taken = Some(own_time.unwrap_or(now));
+                    state.last_picture = Some(own_time.unwrap_or(now));
                 }
             }
-            SampleValue::Traffic(code) => state.gates.hear(code),
-            SampleValue::Seed(seed) => self.hear_seed(seed),
+            SampleValue::Traffic(code) => state.closures.apply_codes(code),
+            SampleValue::Seed(seed) => self.handle_seed(seed),
             SampleValue::ScenarioCrc(crc) => self.scenario_crc = Some(crc),
             SampleValue::Sticks(_)
             | SampleValue::Contact(_)
@@ -256,28 +256,28 @@ impl Live {
         }
     }
 
-    fn truth(&mut self, truth: Truth, wall: SimTime) {
+    fn handle_truth(&mut self, truth: Truth, wall: SimTime) {
         if self.state.trace.newest().is_some_and(|newest| truth.time + RESTART_AFTER < newest) {
-            self.backwards += 1;
-            if self.backwards < RESTART_CONFIRM {
+            self.time_reversals += 1;
+            if self.time_reversals < RESTART_CONFIRM {
                 return;
             }
             self.restart();
             // What has begun anew says its own.
             (self.seed, self.scenario_crc) = (None, None);
         }
-        self.backwards = 0;
-        self.heard = Some(wall);
-        self.head.hear(wall, truth.time);
-        if self.state.begun.is_none() && truth.position_m.up() - self.pad_up_m > LIFT_OFF_M {
-            self.state.begun = Some(truth.time);
+        self.time_reversals = 0;
+        self.last_heard = Some(wall);
+        self.playhead.handle_sample_time(wall, truth.time);
+        if self.state.lift_off.is_none() && truth.position_m.up() - self.pad_up_m > LIFT_OFF_M {
+            self.state.lift_off = Some(truth.time);
             self.state.since_when = self.state.trace.newest().is_none().then_some(wall);
         }
         self.state.trace.push(truth);
     }
 
     /// Another seed is another session, even where its clock has not gone back.
-    fn hear_seed(&mut self, seed: u64) {
+    fn handle_seed(&mut self, seed: u64) {
         if self.seed.is_some_and(|known| known != seed) {
             self.restart();
         }
@@ -285,13 +285,13 @@ impl Live {
     }
 
     fn restart(&mut self) {
-        self.head.restart();
-        self.backwards = 0;
-        self.state = State::default();
+        self.playhead.restart();
+        self.time_reversals = 0;
+        self.state = SimulatorRun::default();
     }
 
     /// The camera's view is streamed, a picture went out at a wall time; or it is not. The vehicle hears of it every second, and announces it.
-    pub fn streams(&mut self, video: Option<Video>, wall: SimTime) {
+    pub fn set_video_status(&mut self, video: Option<VideoStatus>, wall: SimTime) {
         match video {
             Some(video) => self.video = Some((video, wall)),
             None => self.end_video(),
@@ -300,18 +300,18 @@ impl Live {
 
     fn end_video(&mut self) {
         if let Some((video, _)) = self.video.take() {
-            self.say(&video.status(false));
+            self.send(&video.status(false));
         }
     }
 
     /// Queues what is due to be said: a heartbeat, so that the vehicle knows its listener, and questions to one that says no truth.
     pub fn handle_timeout(&mut self, wall: SimTime) {
-        if wall >= self.next_beat {
-            self.next_beat = wall + HEARTBEAT_EVERY;
-            self.say(&station::companion_heartbeat());
+        if wall >= self.next_heartbeat {
+            self.next_heartbeat = wall + HEARTBEAT_EVERY;
+            self.send(&station::companion_heartbeat());
             match self.video {
                 Some((_, last)) if wall.saturating_sub(last) > VIDEO_LASTS => self.end_video(),
-                Some((video, _)) => self.say(&video.status(true)),
+                Some((video, _)) => self.send(&video.status(true)),
                 None => {}
             }
         }
@@ -319,26 +319,26 @@ impl Live {
             && wall >= due
         {
             self.next_rotors = Some(wall + ASK_EVERY);
-            self.say(&every(system, ROTORS));
+            self.send(&message_interval_request(system, ROTORS));
         }
         if let (Some(system), Some(due)) = (self.system, self.state.since_when)
             && wall >= due
         {
             self.state.since_when = Some(wall + ASK_EVERY);
-            self.say(&once(system, FLIGHT));
+            self.send(&message_request(system, FLIGHT));
         }
-        if let (Some(system), false, Some(due)) = (self.system, self.spoken, self.next_ask)
+        if let (Some(system), false, Some(due)) = (self.system, self.truth_requested, self.next_truth_request)
             && wall >= due
         {
-            self.next_ask = Some(wall + ASK_EVERY);
+            self.next_truth_request = Some(wall + ASK_EVERY);
             for wanted in INSTEAD {
-                self.say(&every(system, wanted));
+                self.send(&message_interval_request(system, wanted));
             }
         }
     }
 
     /// The rotors are heard from now on: their outputs are asked for, and again when they fall silent.
-    pub fn hear_rotors(&mut self) {
+    pub fn request_rotor_outputs(&mut self) {
         self.next_rotors.get_or_insert(SimTime::ZERO);
     }
 
@@ -350,7 +350,7 @@ impl Live {
         outputs.map_or(Vec::new(), |outputs| outputs.map(|output| idle + output * (full - idle)).to_vec())
     }
 
-    fn say(&mut self, message: &MavMessage) {
+    fn send(&mut self, message: &MavMessage) {
         let bytes = self.encoder.encode(message);
         self.out.push_back(bytes);
     }
@@ -361,13 +361,13 @@ impl Live {
     }
 
     /// What to draw at a wall time; `None` while nobody has said where the aircraft is.
-    pub fn now(&mut self, wall: SimTime, vehicle: &Vehicle) -> Option<Now> {
-        let at = self.head.advance(wall)?;
+    pub fn moment(&mut self, wall: SimTime, vehicle: &Vehicle) -> Option<LiveMoment> {
+        let at = self.playhead.advance(wall)?;
         let state = &self.state;
         let pose = state.trace.at(at)?;
         let lens = state.trace.lens_at(at).map_or(vehicle.camera, |hfov_rad| Camera { hfov_rad, ..vehicle.camera });
         let gimbal_rad = state.trace.gimbal_at(at);
-        let moment = Moment {
+        let moment = SceneMoment {
             at,
             drone: DronePose { position_m: pose.position_m, ned_from_frd: pose.ned_from_frd, spinning: state.armed },
             velocity_m_s: pose.velocity_m_s,
@@ -375,26 +375,26 @@ impl Live {
             lens,
             turn: state.trace.turn_at(at),
         };
-        let told = Told {
+        let told = HudInputs {
             battery_pct: state.battery_pct,
-            begun: state.begun,
-            silent_s: self.heard.map_or(0.0, |heard| (wall - heard).s().max(0.0)),
+            lift_off: state.lift_off,
+            silent_s: self.last_heard.map_or(0.0, |heard| (wall - heard).s().max(0.0)),
             pictures: state.pictures.len(),
-            taken: state.taken,
+            last_picture: state.last_picture,
             flash_s: wall.s(),
         };
-        Some(Now { moment, told, gates: state.gates.clone() })
+        Some(LiveMoment { moment, hud: told, closures: state.closures.clone() })
     }
 }
 
 /// The question for a message at a rate, Hz.
-fn every(system: u8, (id, rate_hz): (u32, f32)) -> MavMessage {
+fn message_interval_request(system: u8, (id, rate_hz): (u32, f32)) -> MavMessage {
     let params = [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0];
     MavMessage::COMMAND_LONG(station::command(system, AUTOPILOT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params))
 }
 
 /// The question for a message, once.
-fn once(system: u8, id: u32) -> MavMessage {
+fn message_request(system: u8, id: u32) -> MavMessage {
     let params = [id as f32, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     MavMessage::COMMAND_LONG(station::command(system, AUTOPILOT, MavCmd::MAV_CMD_REQUEST_MESSAGE, params))
 }

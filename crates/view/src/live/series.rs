@@ -6,11 +6,11 @@ use std::collections::VecDeque;
 
 /// What was told lately, in the order of time.
 #[derive(Debug, Clone, Default)]
-pub struct Series {
+pub struct TimeSeries {
     points: VecDeque<(SimTime, f64)>,
 }
 
-impl Series {
+impl TimeSeries {
     /// Takes what was told; what comes late finds its place.
     pub fn push(&mut self, time: SimTime, value: f64) {
         let after = self.points.partition_point(|known| known.0 <= time);
@@ -54,7 +54,7 @@ mod tests {
 
     #[test]
     fn exact_between_tellings_it_goes_evenly_and_beyond_them_it_is_held() {
-        let mut series = Series::default();
+        let mut series = TimeSeries::default();
         assert_eq!(series.at(SimTime::ZERO), None);
         for (ms, value) in [(100, 1.0), (500, 1.6), (300, 1.2), (2_000, 9.0)] {
             series.push(SimTime::from_ms(ms), value);

@@ -7,19 +7,19 @@ use spandrel_mavlink::dialect::{
 const SCENARIO: &str = include_str!("../../../../scenarios/two-bridges.toml");
 const VEHICLE: &str = include_str!("../../../../vehicle-params/phantom2.toml");
 
-struct Wire {
+struct FakeVehicle {
     vehicle: Encoder,
-    live: Live,
+    live: LiveFlight,
     aircraft: Vehicle,
 }
 
-impl Wire {
+impl FakeVehicle {
     fn new() -> Self {
         let scenario =
             spandrel_model::scenario::read("two-bridges.toml", SCENARIO, &|name| Err(format!("{name}: not asked for")))
                 .expect("the shipped scenario is good");
         let aircraft = spandrel_model::vehicle::read("phantom2.toml", VEHICLE).expect("the shipped vehicle is good");
-        Self { vehicle: Encoder::new(1, 1), live: Live::new(&scenario), aircraft }
+        Self { vehicle: Encoder::new(1, 1), live: LiveFlight::new(&scenario), aircraft }
     }
 
     fn say(&mut self, message: &MavMessage, wall_ms: i64) {
@@ -43,8 +43,8 @@ impl Wire {
         self.say(&MavMessage::HIL_STATE_QUATERNION(truth), wall_ms);
     }
 
-    fn now(&mut self, wall_ms: i64) -> Option<Now> {
-        self.live.now(SimTime::from_ms(wall_ms), &self.aircraft)
+    fn now(&mut self, wall_ms: i64) -> Option<LiveMoment> {
+        self.live.moment(SimTime::from_ms(wall_ms), &self.aircraft)
     }
 }
 
@@ -52,8 +52,8 @@ impl Wire {
 const WIRE_M: f64 = 0.02;
 
 #[test]
-fn exact_the_moment_lies_between_samples_and_tells_what_was_heard() {
-    let mut wire = Wire::new();
+fn exact_the_moment_lies_between_samples_and_reports_what_was_received() {
+    let mut wire = FakeVehicle::new();
     assert!(wire.now(0).is_none());
     for k in 0..100 {
         wire.truth(5_000 + 20 * k, 20 * k, 0.02 * k as f64);
@@ -76,18 +76,18 @@ fn exact_the_moment_lies_between_samples_and_tells_what_was_heard() {
     assert!((behind_s - clock::BEHIND_S).abs() < 0.005, "{behind_s} s behind");
     assert!((now.moment.drone.position_m.east() - (now.moment.at.s() - 5.0)).abs() < WIRE_M);
     assert!(now.moment.camera.lamp_on && now.moment.drone.spinning);
-    assert_eq!((now.told.pictures, now.told.taken), (1, Some(SimTime::from_ms(6_900))));
-    assert_eq!(now.told.begun, Some(SimTime::from_ms(5_000)));
+    assert_eq!((now.hud.pictures, now.hud.last_picture), (1, Some(SimTime::from_ms(6_900))));
+    assert_eq!(now.hud.lift_off, Some(SimTime::from_ms(5_000)));
     assert_eq!(wire.live.feed().mode(), "Position");
     let later = wire.now(4_980).expect("it stands");
-    assert!((later.told.silent_s - 3.0).abs() < 1e-9, "the link is silent");
+    assert!((later.hud.silent_s - 3.0).abs() < 1e-9, "the link is silent");
     assert_eq!(later.moment.at, SimTime::from_ms(6_980));
-    assert!((later.told.flash_s - now.told.flash_s - 2.99).abs() < 1e-9, "what flashes does so while everything stands");
+    assert!((later.hud.flash_s - now.hud.flash_s - 2.99).abs() < 1e-9, "what flashes does so while everything stands");
 }
 
 #[test]
-fn exact_a_restarted_simulator_begins_anew_and_strangers_are_not_drawn() {
-    let mut wire = Wire::new();
+fn exact_a_restarted_simulator_starts_over_and_strangers_are_not_drawn() {
+    let mut wire = FakeVehicle::new();
     for k in 0..50 {
         wire.truth(60_000 + 20 * k, 20 * k, 5.0);
     }
@@ -104,9 +104,9 @@ fn exact_a_restarted_simulator_begins_anew_and_strangers_are_not_drawn() {
 }
 
 #[test]
-fn exact_a_restarted_simulator_is_believed_when_it_says_another_seed() {
-    let mut wire = Wire::new();
-    let say_seed = |wire: &mut Wire, value: i32, wall_ms: i64| {
+fn exact_a_restarted_simulator_is_believed_when_it_reports_another_seed() {
+    let mut wire = FakeVehicle::new();
+    let say_seed = |wire: &mut FakeVehicle, value: i32, wall_ms: i64| {
         wire.say(
             &MavMessage::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA { name: "seed".into(), value, ..Default::default() }),
             wall_ms,
@@ -135,9 +135,9 @@ fn exact_a_restarted_simulator_is_believed_when_it_says_another_seed() {
 
 #[test]
 fn exact_a_vehicle_without_truth_is_asked_and_drawn_by_its_estimate() {
-    let mut wire = Wire::new();
+    let mut wire = FakeVehicle::new();
     wire.say(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default()), 0);
-    let said = |wire: &mut Wire, ms: i64| {
+    let said = |wire: &mut FakeVehicle, ms: i64| {
         wire.live.handle_timeout(SimTime::from_ms(ms));
         let mut decoder = Decoder::new();
         let bytes: Vec<Vec<u8>> = std::iter::from_fn(|| wire.live.poll_transmit()).collect();
@@ -170,18 +170,18 @@ fn exact_a_vehicle_without_truth_is_asked_and_drawn_by_its_estimate() {
 }
 
 #[test]
-fn exact_rotors_are_asked_for_where_they_are_heard_and_turn_by_their_outputs() {
-    let mut wire = Wire::new();
+fn exact_rotors_are_requested_where_they_are_heard_and_turn_by_their_outputs() {
+    let mut wire = FakeVehicle::new();
     let armed = HEARTBEAT_DATA { base_mode: MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED, ..Default::default() };
     wire.say(&MavMessage::HEARTBEAT(armed), 0);
-    let asked = |wire: &mut Wire, ms: i64| {
+    let asked = |wire: &mut FakeVehicle, ms: i64| {
         wire.live.handle_timeout(SimTime::from_ms(ms));
         let bytes: Vec<u8> = std::iter::from_fn(|| wire.live.poll_transmit()).flatten().collect();
         let frames = Decoder::new().datagram(&bytes);
         frames.iter().any(|f| matches!(&f.message, Some(MavMessage::COMMAND_LONG(c)) if c.param1 == 36.0))
     };
     assert!(!asked(&mut wire, 100), "nobody hears them");
-    wire.live.hear_rotors();
+    wire.live.request_rotor_outputs();
     assert!(asked(&mut wire, 200) && !asked(&mut wire, 1_000) && asked(&mut wire, 5_300), "until they are told");
     let mut say = |pulse: u16, wall_ms: i64| {
         let servos = SERVO_OUTPUT_RAW_DATA {
@@ -206,8 +206,8 @@ fn exact_rotors_are_asked_for_where_they_are_heard_and_turn_by_their_outputs() {
 }
 
 #[test]
-fn exact_the_seed_and_the_scenario_are_heard() {
-    let mut wire = Wire::new();
+fn exact_the_seed_and_the_scenario_are_received() {
+    let mut wire = FakeVehicle::new();
     wire.truth(20, 0, 0.0);
     for (name, value) in [("seed", 7), ("scn_crc", -2)] {
         let named = NAMED_VALUE_INT_DATA { name: name.into(), value, ..Default::default() };
@@ -217,11 +217,11 @@ fn exact_the_seed_and_the_scenario_are_heard() {
 }
 
 #[test]
-fn exact_who_begins_to_listen_in_flight_asks_since_when_it_flies() {
-    let mut wire = Wire::new();
+fn exact_a_late_listener_requests_the_flight_time() {
+    let mut wire = FakeVehicle::new();
     wire.truth(300_000, 0, 0.0);
     wire.truth(300_020, 20, 0.0);
-    assert_eq!(wire.now(20).unwrap().told.begun, Some(SimTime::from_ms(300_000)), "until it is known");
+    assert_eq!(wire.now(20).unwrap().hud.lift_off, Some(SimTime::from_ms(300_000)), "until it is known");
     wire.live.handle_timeout(SimTime::from_ms(20));
     let mut decoder = Decoder::new();
     let asked = std::iter::from_fn(|| wire.live.poll_transmit()).any(|bytes| {
@@ -235,17 +235,17 @@ fn exact_who_begins_to_listen_in_flight_asks_since_when_it_flies() {
     assert!(asked);
     let flight = FLIGHT_INFORMATION_DATA { takeoff_time_utc: 12_500_000, ..Default::default() };
     wire.say(&MavMessage::FLIGHT_INFORMATION(flight.clone()), 40);
-    assert_eq!(wire.now(40).unwrap().told.begun, Some(SimTime::from_ms(12_500)));
+    assert_eq!(wire.now(40).unwrap().hud.lift_off, Some(SimTime::from_ms(12_500)));
     wire.say(&MavMessage::FLIGHT_INFORMATION(FLIGHT_INFORMATION_DATA { takeoff_time_utc: 99_000_000, ..flight }), 60);
-    assert_eq!(wire.now(60).unwrap().told.begun, Some(SimTime::from_ms(12_500)), "a flight begins once");
+    assert_eq!(wire.now(60).unwrap().hud.lift_off, Some(SimTime::from_ms(12_500)), "a flight begins once");
 }
 
 #[test]
-fn exact_a_stream_is_told_of_while_pictures_go_out_and_its_end_once() {
-    let mut wire = Wire::new();
-    let video = Video { width_px: 640, height_px: 360, rate_hz: 20.0, bits_s: 1_000_000 };
+fn exact_a_stream_is_reported_while_pictures_go_out_and_its_end_once() {
+    let mut wire = FakeVehicle::new();
+    let video = VideoStatus { width_px: 640, height_px: 360, rate_hz: 20.0, bits_s: 1_000_000 };
     let mut decoder = Decoder::new();
-    let mut said = |live: &mut Live| -> Vec<bool> {
+    let mut said = |live: &mut LiveFlight| -> Vec<bool> {
         let frames: Vec<_> = std::iter::from_fn(|| live.poll_transmit()).flat_map(|bytes| decoder.datagram(&bytes)).collect();
         let runs = |message: &MavMessage| match message {
             MavMessage::VIDEO_STREAM_STATUS(status) => Some(!status.flags.is_empty()),
@@ -254,11 +254,11 @@ fn exact_a_stream_is_told_of_while_pictures_go_out_and_its_end_once() {
         frames.iter().filter_map(|frame| frame.message.as_ref().and_then(runs)).collect()
     };
     let at = SimTime::from_ms;
-    wire.live.streams(None, at(0));
+    wire.live.set_video_status(None, at(0));
     wire.live.handle_timeout(at(0));
     assert!(said(&mut wire.live).is_empty(), "what never ran does not end");
-    wire.live.streams(Some(video), at(500));
-    let mut beats = |live: &mut Live, from_s: i64| -> Vec<Vec<bool>> {
+    wire.live.set_video_status(Some(video), at(500));
+    let mut beats = |live: &mut LiveFlight, from_s: i64| -> Vec<Vec<bool>> {
         let beat = |k| {
             live.handle_timeout(at(1_000 * k));
             said(live)
@@ -267,9 +267,9 @@ fn exact_a_stream_is_told_of_while_pictures_go_out_and_its_end_once() {
     };
     let ended: [&[bool]; 5] = [&[true], &[true], &[true], &[false], &[]];
     assert_eq!(beats(&mut wire.live, 1), ended, "no picture since half a second");
-    wire.live.streams(Some(video), at(10_000));
+    wire.live.set_video_status(Some(video), at(10_000));
     assert_eq!(beats(&mut wire.live, 10)[0], [true]);
-    wire.live.streams(Some(video), at(15_000));
-    wire.live.streams(None, at(15_000));
+    wire.live.set_video_status(Some(video), at(15_000));
+    wire.live.set_video_status(None, at(15_000));
     assert_eq!(beats(&mut wire.live, 15)[0], [false], "at once");
 }

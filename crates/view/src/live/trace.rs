@@ -1,7 +1,7 @@
 //! The last seconds of what moves, and what holds between two samples of it.
 
-use super::series::Series;
-use crate::stage::Turn;
+use super::series::TimeSeries;
+use crate::stage::CameraTurnRate;
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use spandrel_model::math;
@@ -18,7 +18,7 @@ const LENS_BEHIND: SimTime = SimTime::from_ms(160);
 
 /// Where the aircraft was and how it moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pose {
+pub struct AircraftMotion {
     /// Position, m.
     pub position_m: Vec3<Enu>,
     /// Velocity, m/s.
@@ -27,7 +27,7 @@ pub struct Pose {
     pub ned_from_frd: Rotation<Frd, Ned>,
 }
 
-impl Pose {
+impl AircraftMotion {
     fn of(truth: &Truth) -> Self {
         Self { position_m: truth.position_m, velocity_m_s: truth.velocity_m_s, ned_from_frd: truth.ned_from_frd }
     }
@@ -35,13 +35,13 @@ impl Pose {
 
 /// Recent samples in the order of time.
 #[derive(Debug, Clone, Default)]
-pub struct Trace {
+pub struct MotionHistory {
     truths: VecDeque<Truth>,
-    gimbal: Series,
-    lens: Series,
+    gimbal: TimeSeries,
+    lens: TimeSeries,
 }
 
-impl Trace {
+impl MotionHistory {
     /// Takes a sample; one that comes late finds its place, one that is known already changes nothing.
     pub fn push(&mut self, truth: Truth) {
         let after = self.truths.partition_point(|known| known.time <= truth.time);
@@ -78,13 +78,13 @@ impl Trace {
 
     /// The aircraft at a time; before the first sample as at the first, after the last as at the last.
     #[must_use]
-    pub fn at(&self, time: SimTime) -> Option<Pose> {
+    pub fn at(&self, time: SimTime) -> Option<AircraftMotion> {
         let Some((before, next)) = self.around(time) else {
             let after = self.truths.partition_point(|truth| truth.time <= time);
-            return self.truths.get(after.saturating_sub(1)).map(Pose::of);
+            return self.truths.get(after.saturating_sub(1)).map(AircraftMotion::of);
         };
         let t = share(before.time, next.time, time);
-        Some(Pose {
+        Some(AircraftMotion {
             position_m: before.position_m.lerp(next.position_m, t),
             velocity_m_s: before.velocity_m_s.lerp(next.velocity_m_s, t),
             ned_from_frd: before.ned_from_frd.lerp(next.ned_from_frd, t),
@@ -105,17 +105,17 @@ impl Trace {
 
     /// The horizontal field of view at a time of a flight that is known whole, rad. None: nothing has been heard.
     #[must_use]
-    pub fn lens_told_at(&self, time: SimTime) -> Option<f64> {
+    pub fn reported_lens_at(&self, time: SimTime) -> Option<f64> {
         self.lens.at(time)
     }
 
     /// How fast the camera turns at a time: as evenly as between the samples; not at all where nothing is made up.
     #[must_use]
-    pub fn turn_at(&self, time: SimTime) -> Turn {
+    pub fn turn_at(&self, time: SimTime) -> CameraTurnRate {
         let heading_rad_s = self.around(time).map_or(0.0, |(before, next)| {
             math::wrap_pi(next.ned_from_frd.yaw_rad() - before.ned_from_frd.yaw_rad()) / (next.time - before.time).s()
         });
-        Turn { heading_rad_s, pitch_rad_s: self.gimbal.rate_at(time) }
+        CameraTurnRate { heading_rad_s, pitch_rad_s: self.gimbal.rate_at(time) }
     }
 
     /// The samples before and after a time, where the aircraft flew from one to the other.
@@ -151,7 +151,7 @@ mod tests {
 
     #[test]
     fn exact_between_samples_everything_goes_evenly() {
-        let mut trace = Trace::default();
+        let mut trace = MotionHistory::default();
         assert_eq!(trace.at(SimTime::ZERO), None);
         // The second comes late, and once more.
         for sample in [truth(0, 0.0, 10.0), truth(40, 2.0, 14.0), truth(20, 1.0, 12.0), truth(20, 1.0, 12.0)] {
@@ -168,8 +168,8 @@ mod tests {
 
     #[test]
     fn exact_the_camera_turns_as_fast_as_its_samples_lie_apart() {
-        let mut trace = Trace::default();
-        assert_eq!(trace.turn_at(SimTime::ZERO), Turn::default());
+        let mut trace = MotionHistory::default();
+        assert_eq!(trace.turn_at(SimTime::ZERO), CameraTurnRate::default());
         // Over south, where headings leap by a full turn.
         for sample in [truth(0, 0.0, 179.0), truth(20, 0.0, 181.0), truth(40, 0.0, 181.0)] {
             trace.push(sample);
@@ -179,12 +179,12 @@ mod tests {
         let turn = trace.turn_at(SimTime::from_ms(5));
         assert!((turn.heading_rad_s.to_degrees() - 100.0).abs() < 1e-6 && (turn.pitch_rad_s + 0.5).abs() < 1e-12, "{turn:?}");
         assert!(trace.turn_at(SimTime::from_ms(25)).heading_rad_s.abs() < 1e-9);
-        assert_eq!(trace.turn_at(SimTime::from_ms(40)), Turn::default(), "held");
+        assert_eq!(trace.turn_at(SimTime::from_ms(40)), CameraTurnRate::default(), "held");
     }
 
     #[test]
-    fn exact_a_zoom_goes_evenly_although_it_is_told_five_times_a_second() {
-        let mut trace = Trace::default();
+    fn exact_a_zoom_goes_evenly_although_it_is_reported_five_times_a_second() {
+        let mut trace = MotionHistory::default();
         assert_eq!(trace.lens_at(SimTime::ZERO), None);
         let (mut shown, from_ms) = (Vec::new(), 2_000);
         for ms in (0..3_000).step_by(20) {
@@ -200,8 +200,8 @@ mod tests {
     }
 
     #[test]
-    fn exact_put_back_or_silent_it_does_not_glide() {
-        let mut trace = Trace::default();
+    fn exact_respawned_or_silent_it_does_not_glide() {
+        let mut trace = MotionHistory::default();
         trace.push(truth(0, 0.0, 0.0));
         trace.push(truth(20, 50.0, 0.0));
         assert_eq!(trace.at(SimTime::from_ms(10)).map(|p| p.position_m.east()), Some(0.0));

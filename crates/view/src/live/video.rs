@@ -4,7 +4,7 @@ use spandrel_mavlink::dialect::{MavMessage, VIDEO_STREAM_STATUS_DATA, VideoStrea
 
 /// A stream of the camera's view that runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Video {
+pub struct VideoStatus {
     /// Width, px.
     pub width_px: u32,
     /// Height, px.
@@ -15,7 +15,7 @@ pub struct Video {
     pub bits_s: u32,
 }
 
-impl Video {
+impl VideoStatus {
     /// As the vehicle is told of it: that it runs, or that it has ended.
     pub(super) fn status(&self, runs: bool) -> MavMessage {
         let side = |px: u32| u16::try_from(px).unwrap_or(u16::MAX);

@@ -11,10 +11,10 @@ const COARSEST: u8 = 20;
 const XMP: &[u8] = b"http://ns.adobe.com/xap/1.0/\0";
 
 /// EXIF and XMP of a photograph.
-pub type Tags<'a> = (&'a [u8], &'a str);
+pub type PhotoTags<'a> = (&'a [u8], &'a str);
 
 /// The best quality whose file is not larger than `most` bytes, by halving.
-pub fn encode(picture: &Picture, tags: Option<Tags<'_>>, most: usize) -> Result<Vec<u8>, PhotoError> {
+pub fn encode(picture: &Picture, tags: Option<PhotoTags<'_>>, most: usize) -> Result<Vec<u8>, PhotoError> {
     let best = with_quality(picture, tags, BEST)?;
     if best.len() <= most {
         return Ok(best);
@@ -33,7 +33,7 @@ pub fn encode(picture: &Picture, tags: Option<Tags<'_>>, most: usize) -> Result<
     Ok(fits)
 }
 
-fn with_quality(picture: &Picture, tags: Option<Tags<'_>>, quality: u8) -> Result<Vec<u8>, PhotoError> {
+fn with_quality(picture: &Picture, tags: Option<PhotoTags<'_>>, quality: u8) -> Result<Vec<u8>, PhotoError> {
     let refused = |error: jpeg_encoder::EncodingError| PhotoError::Refused(error.to_string());
     let side = |px: u32| u16::try_from(px).map_err(|_| PhotoError::Refused(format!("{px} px is too large")));
     let (width, height) = (side(picture.width)?, side(picture.height)?);

@@ -21,7 +21,7 @@ pub enum PhotoError {
 
 /// What a photograph tells of itself.
 #[derive(Debug, Clone, PartialEq)]
-pub struct About {
+pub struct PhotoInfo {
     /// Running number, from 1.
     pub number: u32,
     /// Wall time of the press, µs since the Unix epoch.
@@ -56,7 +56,7 @@ pub struct About {
     pub job: String,
 }
 
-impl About {
+impl PhotoInfo {
     /// Ground sampling distance in the middle of a picture of this width, mm a pixel.
     #[must_use]
     pub fn gsd_mm(&self, width_px: u32) -> Option<f64> {
@@ -83,7 +83,7 @@ const COPY_NARROWEST_PX: u32 = 320;
 ///
 /// # Errors
 /// When JPEG or EXIF cannot say it.
-pub fn jpeg(picture: &Picture, about: &About) -> Result<Vec<u8>, PhotoError> {
+pub fn jpeg(picture: &Picture, about: &PhotoInfo) -> Result<Vec<u8>, PhotoError> {
     let size = (picture.width, picture.height);
     jpeg::encode(picture, Some((&tags::write(about, size)?, &xmp::write(about, size))), usize::MAX)
 }

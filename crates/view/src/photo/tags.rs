@@ -1,6 +1,6 @@
 //! EXIF 2.32: what cameras tell of a picture.
 
-use super::{About, PhotoError};
+use super::{PhotoError, PhotoInfo};
 use exif::experimental::Writer;
 use exif::{Field, In, Rational, Tag, Value};
 use spandrel_model::vehicle::SENSOR_MM;
@@ -10,7 +10,7 @@ use std::io::Cursor;
 const FILM_MM: f64 = 36.0;
 
 /// The TIFF structure of an EXIF segment.
-pub fn write(about: &About, size_px: (u32, u32)) -> Result<Vec<u8>, PhotoError> {
+pub fn write(about: &PhotoInfo, size_px: (u32, u32)) -> Result<Vec<u8>, PhotoError> {
     let fields: Vec<Field> = camera(about, size_px)
         .into_iter()
         .chain(place(about))
@@ -37,7 +37,7 @@ fn one(value: f64, parts: u32) -> Value {
     Value::Rational(vec![rational(value, parts)])
 }
 
-fn camera(about: &About, (width, height): (u32, u32)) -> Vec<(Tag, Value)> {
+fn camera(about: &PhotoInfo, (width, height): (u32, u32)) -> Vec<(Tag, Value)> {
     let (date, time) = &about.taken_utc;
     let lens = &about.lens;
     let focal_mm = lens.focal_mm();
@@ -67,7 +67,7 @@ fn camera(about: &About, (width, height): (u32, u32)) -> Vec<(Tag, Value)> {
     ]
 }
 
-fn place(about: &About) -> Vec<(Tag, Value)> {
+fn place(about: &PhotoInfo) -> Vec<(Tag, Value)> {
     let place = &about.place;
     let north = if place.latitude_deg < 0.0 { "S" } else { "N" };
     let east = if place.longitude_deg < 0.0 { "W" } else { "E" };

@@ -1,8 +1,8 @@
 use super::*;
 use exif::{In, Tag};
 
-fn about() -> About {
-    About {
+fn about() -> PhotoInfo {
+    PhotoInfo {
         number: 3,
         taken_unix_us: 1_781_943_330_250_000,
         taken_utc: ("2026:06:20".into(), "08:15:30".into()),
@@ -33,7 +33,7 @@ fn noise(width: u32, height: u32) -> Picture {
 }
 
 #[test]
-fn exact_exif_tells_place_lens_and_direction() {
+fn exact_exif_reports_place_lens_and_direction() {
     let file = jpeg(&noise(64, 48), &about()).unwrap();
     let read = exif::Reader::new().read_from_container(&mut std::io::Cursor::new(&file)).unwrap();
     let value = |tag| read.get_field(tag, In::PRIMARY).map(|field| field.display_value().to_string()).unwrap_or_default();
@@ -59,7 +59,7 @@ fn exact_exif_tells_place_lens_and_direction() {
 }
 
 #[test]
-fn exact_a_heading_is_told_straight_up_and_down_too() {
+fn exact_a_heading_is_reported_straight_up_and_down_too() {
     use spandrel_model::frames::Rotation;
     let camera = spandrel_model::site::defects::REFERENCE_CAMERA;
     for yaw_deg in [0.5_f64, 45.0, 135.0, 180.0, 271.5, 359.0] {
@@ -81,7 +81,7 @@ fn exact_the_ground_sampling_distance_is_that_of_the_drawn_picture() {
     let text = xmp::write(&about(), (1000, 750));
     assert!(text.contains("spandrel:GroundSamplingDistanceMillimetre=\"8.0000\""), "{text}");
     assert!(text.contains("drone-dji:GimbalYawDegree=\"-88.50\"") && text.contains("drone-dji:GimbalPitchDegree=\"+30.25\""));
-    assert!(!xmp::write(&About { distance_m: None, ..about() }, (10, 10)).contains("GroundSampling"));
+    assert!(!xmp::write(&PhotoInfo { distance_m: None, ..about() }, (10, 10)).contains("GroundSampling"));
 }
 
 #[test]

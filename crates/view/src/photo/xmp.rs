@@ -1,11 +1,11 @@
 //! XMP: attitude of gimbal and aircraft under the names that photogrammetry programs read of drones (Metashape, Pix4D, OpenDroneMap: DJI's),
 //! and what only a trainer knows under names of its own.
 
-use super::About;
+use super::PhotoInfo;
 use std::fmt::Write;
 
 /// The packet.
-pub fn write(about: &About, (width, height): (u32, u32)) -> String {
+pub fn write(about: &PhotoInfo, (width, height): (u32, u32)) -> String {
     let mut fields = String::new();
     let mut field = |name: &str, value: String| {
         let _ = write!(fields, "\n   {name}=\"{value}\"");

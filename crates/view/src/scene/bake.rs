@@ -2,7 +2,7 @@
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::light::spread;
-use spandrel_model::site::{At, RayHit, Site};
+use spandrel_model::site::{QueryTime, RayHit, Site};
 
 /// Samples keep this distance from the edges of their face, so that what touches the edge does not blacken it, m.
 pub const INSET_M: f64 = 0.25;
@@ -15,13 +15,13 @@ const PROBE_M: f64 = 0.05;
 const OVER_M: f64 = 0.005;
 
 /// Works light out at points of one site.
-pub struct Bake<'a> {
+pub struct LightBaker<'a> {
     site: &'a Site,
     sun: Vec3<Enu>,
     rays: Vec<(f64, f64)>,
 }
 
-impl<'a> Bake<'a> {
+impl<'a> LightBaker<'a> {
     /// With so many rays at each point.
     pub fn new(site: &'a Site, sun: Vec3<Enu>, rays: usize) -> Self {
         Self { site, sun, rays: spread(rays) }
@@ -88,9 +88,9 @@ pub fn filled(samples: &[Option<[f32; 2]>], columns: usize) -> Vec<[f32; 2]> {
 }
 
 /// Light around a small thing in the air: on what faces up, and on what faces down.
-pub fn around(site: &Site, position_m: Vec3<Enu>, at: At) -> [f32; 4] {
+pub fn around(site: &Site, position_m: Vec3<Enu>, at: QueryTime) -> [f32; 4] {
     const RAYS: usize = 24;
-    let bake = Bake::new(site, site.light().daylight(at).sun, RAYS);
+    let bake = LightBaker::new(site, site.light().daylight(at).sun, RAYS);
     let up = Vec3::new(0.0, 0.0, 1.0);
     let ([a, b], [c, d]) = (bake.at(position_m, up), bake.at(position_m, -up));
     [a, b, c, d]

@@ -2,8 +2,8 @@
 
 use super::super::mesh::{Material, Mesh, Vertex, single};
 use super::super::quality::Quality;
-use super::bake::{Bake, INSET_M, filled};
-use super::{Part, Seen};
+use super::bake::{INSET_M, LightBaker, filled};
+use super::{SceneItem, VisibleRange};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::bridges::Member;
 use spandrel_model::scenario::{Bridge, Scenario};
@@ -37,7 +37,7 @@ pub(super) fn matter(element: u32) -> (Material, [u8; 3]) {
 }
 
 /// Bridges' own axes for coordinates in faces.
-struct Axes {
+struct TextureAxes {
     origin_m: Vec3<Enu>,
     along: Vec3<Enu>,
     left: Vec3<Enu>,
@@ -55,27 +55,31 @@ const LEVEL: f64 = 0.999;
 const SLIM: [u32; 3] = [148, 330, 331];
 
 /// Of a face, by its element and normal: how far light between its corners may come out off; `None` leaves it out.
-type Thinned<'a> = &'a dyn Fn(u32, Vec3<Enu>) -> Option<f32>;
+type LightTolerance<'a> = &'a dyn Fn(u32, Vec3<Enu>) -> Option<f32>;
 /// Nothing is as near as this: every sample stays.
 const WHOLE: f32 = f32::NEG_INFINITY;
 
 /// All members; where triangles are saved the lake has simpler ones.
-pub fn parts(scenario: &Scenario, bake: &Bake, quality: &Quality) -> Vec<Part> {
+pub fn parts(scenario: &Scenario, bake: &LightBaker, quality: &Quality) -> Vec<SceneItem> {
     if !quality.sparse {
         let [mesh] = meshes(scenario, bake, quality, [&|_, _| Some(WHOLE)]);
-        return vec![Part::here("bridges", mesh, true)];
+        return vec![SceneItem::here("bridges", mesh, true)];
     }
     let is_slim = |element: u32| SLIM.contains(&element);
     let straight = |element: u32, _| Some(if is_slim(element) { LIGHT_OFF_SLIM } else { LIGHT_OFF });
     // In the lake light is taken at the corners of faces alone.
     let in_lake = |element: u32, normal: Vec3<Enu>| (!is_slim(element) && normal.up() < LEVEL).then_some(f32::INFINITY);
     let [straight, in_lake] = meshes(scenario, bake, quality, [&straight, &in_lake]);
-    let (straight, in_lake) = (Part::here("bridges", straight, true), Part::here("bridges in the lake", in_lake, false));
-    vec![Part { seen: Seen::STRAIGHT, ..straight }, Part { seen: Seen::IN_LAKE, ..in_lake }]
+    let (straight, in_lake) =
+        (SceneItem::here("bridges", straight, true), SceneItem::here("bridges in the lake", in_lake, false));
+    vec![
+        SceneItem { visible_range: VisibleRange::STRAIGHT, ..straight },
+        SceneItem { visible_range: VisibleRange::IN_LAKE, ..in_lake },
+    ]
 }
 
 /// A mesh for each way to thin out; light is worked out once for all of them.
-fn meshes<const N: usize>(scenario: &Scenario, bake: &Bake, quality: &Quality, thinned: [Thinned; N]) -> [Mesh; N] {
+fn meshes<const N: usize>(scenario: &Scenario, bake: &LightBaker, quality: &Quality, thinned: [LightTolerance; N]) -> [Mesh; N] {
     let mut meshes = [(); N].map(|()| Mesh::default());
     for bridge in &scenario.bridges {
         let axes = axes(bridge);
@@ -86,9 +90,9 @@ fn meshes<const N: usize>(scenario: &Scenario, bake: &Bake, quality: &Quality, t
     meshes
 }
 
-fn axes(bridge: &Bridge) -> Axes {
+fn axes(bridge: &Bridge) -> TextureAxes {
     let placement = bridge.placement();
-    Axes {
+    TextureAxes {
         origin_m: bridge.centre_m,
         along: placement.direction([1.0, 0.0, 0.0]),
         left: placement.direction([0.0, 1.0, 0.0]),
@@ -96,17 +100,23 @@ fn axes(bridge: &Bridge) -> Axes {
     }
 }
 
-fn add(meshes: &mut [Mesh], member: &Member, axes: &Axes, bake: &Bake, (light_cell_m, thinned): (f64, &[Thinned])) {
+fn add(
+    meshes: &mut [Mesh],
+    member: &Member,
+    axes: &TextureAxes,
+    bake: &LightBaker,
+    (light_cell_m, thinned): (f64, &[LightTolerance]),
+) {
     let (material, tint) = matter(member.element);
     for face in &member.solid.faces {
         let corners: Vec<Vec3<Enu>> = face.iter().map(|k| member.solid.vertices_m[*k as usize]).collect();
         let normal = normal(&corners);
-        let off = |thinned: &Thinned| thinned(member.element, normal);
+        let off = |thinned: &LightTolerance| thinned(member.element, normal);
         if thinned.iter().all(|thinned| off(thinned).is_none()) || is_covered(&corners, normal, bake) {
             continue;
         }
         let road = matches!(member.element, 12 | 13 | 15 | 16 | 28..=31 | 38 | 39) && normal.up() > 0.9;
-        let look = Look {
+        let look = FaceLook {
             element: member.element,
             normal,
             material: if road { Material::Deck } else { material },
@@ -143,7 +153,7 @@ fn middle(corners: &[Vec3<Enu>]) -> Vec3<Enu> {
 }
 
 /// Other members cover all of a face.
-fn is_covered(corners: &[Vec3<Enu>], normal: Vec3<Enu>, bake: &Bake) -> bool {
+fn is_covered(corners: &[Vec3<Enu>], normal: Vec3<Enu>, bake: &LightBaker) -> bool {
     let Ok(quad) = <[Vec3<Enu>; 4]>::try_from(corners).map(Quad) else {
         let middle = middle(corners);
         let near = |corner: &Vec3<Enu>| corner.lerp(middle, (PROBED_M.1 / (*corner - middle).norm()).min(1.0));
@@ -158,7 +168,7 @@ fn is_covered(corners: &[Vec3<Enu>], normal: Vec3<Enu>, bake: &Bake) -> bool {
     shares(along).all(|s| shares(across).all(|t| bake.is_inside(quad.at(s, t), normal)))
 }
 
-struct Look {
+struct FaceLook {
     element: u32,
     normal: Vec3<Enu>,
     material: Material,
@@ -172,7 +182,7 @@ fn normal(corners: &[Vec3<Enu>]) -> Vec3<Enu> {
 }
 
 /// Coordinates in a face: along the bridge and across it on level faces, level and up on walls.
-fn uv(p: Vec3<Enu>, normal: Vec3<Enu>, axes: &Axes) -> [f32; 2] {
+fn uv(p: Vec3<Enu>, normal: Vec3<Enu>, axes: &TextureAxes) -> [f32; 2] {
     let from = p - axes.origin_m;
     if normal.up().abs() > 0.8 {
         return [from.dot(axes.along) as f32, from.dot(axes.left) as f32];
@@ -181,7 +191,7 @@ fn uv(p: Vec3<Enu>, normal: Vec3<Enu>, axes: &Axes) -> [f32; 2] {
     [from.dot(level) as f32, from.dot(normal.cross(level)) as f32]
 }
 
-fn corner(p: Vec3<Enu>, look: &Look, axes: &Axes, light: [f32; 2]) -> Vertex {
+fn corner(p: Vec3<Enu>, look: &FaceLook, axes: &TextureAxes, light: [f32; 2]) -> Vertex {
     let [r, g, b] = look.tint;
     Vertex {
         position: single(p),
@@ -195,10 +205,10 @@ fn corner(p: Vec3<Enu>, look: &Look, axes: &Axes, light: [f32; 2]) -> Vertex {
 }
 
 /// Meshes that show a face, and how far its light may come out off in each.
-trait Wanted<'a>: Iterator<Item = (&'a mut Mesh, f32)> {}
-impl<'a, T: Iterator<Item = (&'a mut Mesh, f32)>> Wanted<'a> for T {}
+trait FaceMeshes<'a>: Iterator<Item = (&'a mut Mesh, f32)> {}
+impl<'a, T: Iterator<Item = (&'a mut Mesh, f32)>> FaceMeshes<'a> for T {}
 
-fn fan_face<'a>(wanted: impl Wanted<'a>, corners: &[Vec3<Enu>], look: &Look, axes: &Axes, bake: &Bake) {
+fn fan_face<'a>(wanted: impl FaceMeshes<'a>, corners: &[Vec3<Enu>], look: &FaceLook, axes: &TextureAxes, bake: &LightBaker) {
     let light = bake.on_member(middle(corners), look.normal).unwrap_or([0.0, 0.0]);
     for (mesh, _) in wanted {
         let first = mesh.vertices.len() as u32;
@@ -210,12 +220,12 @@ fn fan_face<'a>(wanted: impl Wanted<'a>, corners: &[Vec3<Enu>], look: &Look, axe
 }
 
 fn quad_face<'a>(
-    wanted: impl Wanted<'a>,
+    wanted: impl FaceMeshes<'a>,
     member: &Member,
     quad: &Quad,
-    look: &Look,
-    axes: &Axes,
-    bake: &Bake,
+    look: &FaceLook,
+    axes: &TextureAxes,
+    bake: &LightBaker,
     light_cell_m: f64,
 ) {
     let lengths = quad.lengths_m();
@@ -311,7 +321,7 @@ mod tests {
         let text = include_str!("../../../../scenarios/two-bridges.toml");
         let scenario = spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap();
         let site = spandrel_model::site::Site::build(&scenario, 7);
-        let bake = Bake::new(&site, Vec3::new(0.0, 0.0, 1.0), 1);
+        let bake = LightBaker::new(&site, Vec3::new(0.0, 0.0, 1.0), 1);
         let (mut bearings, mut stringers, mut slabs) = (0, 0, 0);
         for bridge in &scenario.bridges {
             for member in bridge.members() {

@@ -1,6 +1,6 @@
 //! Defects as patches on their members' faces.
 
-use super::bake::Bake;
+use super::bake::LightBaker;
 use super::bridges;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::PlacedDefect;
@@ -18,7 +18,7 @@ const RAGGED: f64 = 1.06;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "gpu", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C)]
-pub struct Patch {
+pub struct DefectPatch {
     /// Centre, m; AASHTO code.
     pub centre: [f32; 4],
     /// Outward normal; a number of its own in 0..1.
@@ -34,8 +34,8 @@ pub struct Patch {
 }
 
 /// All defects of a site.
-pub fn patches(site: &Site, sun: Vec3<Enu>) -> Vec<Patch> {
-    let bake = Bake::new(site, sun, RAYS);
+pub fn patches(site: &Site, sun: Vec3<Enu>) -> Vec<DefectPatch> {
+    let bake = LightBaker::new(site, sun, RAYS);
     site.defects().iter().map(|defect| patch(defect, bake.at(defect.position_m, defect.normal))).collect()
 }
 
@@ -51,7 +51,7 @@ fn look(defect: &PlacedDefect) -> u32 {
 
 /// One defect under a light.
 #[must_use]
-pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> Patch {
+pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> DefectPatch {
     let four = |v: Vec3<Enu>, last: f64| {
         let [x, y, z] = v.array();
         [x as f32, y as f32, z as f32, last as f32]
@@ -65,7 +65,7 @@ pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> Patch {
     let [r, g, b] = bridges::matter(defect.element).1.map(|c| f32::from(c) / 255.0);
     // Any number that differs between defects and stays the same for one.
     let own = (f64::from(defect.id) * 0.618_034 + defect.length_m * 7.13).fract();
-    Patch {
+    DefectPatch {
         centre: four(defect.position_m, f64::from(look(defect))),
         normal: four(defect.normal, own),
         along: four(defect.along, defect.length_m),

@@ -1,18 +1,18 @@
 //! The aircraft from its numbers: arms to the rotors, body, legs, camera on its gimbal, a cage where there is one. Own axes are the body's
 //! (forward, right, down); the mesh's x, y, z are these.
 
-use super::super::mesh::{Finish, Material, Mesh};
+use super::super::mesh::{Material, Mesh, SurfaceFinish};
 use spandrel_model::frames::{Enu, Frd, Vec3};
 use spandrel_model::math;
 use spandrel_model::vehicle::Vehicle;
 
-const SHELL: Finish = Finish::new(Material::Enamel, [196, 196, 190]);
-const ARM: Finish = Finish::new(Material::Enamel, [150, 150, 148]);
-const DARK: Finish = Finish::new(Material::Rubber, [14, 14, 15]);
-const LENS: Finish = Finish::new(Material::Glass, [4, 5, 9]);
-const BLADE: Finish = Finish::new(Material::Enamel, [120, 120, 118]);
-const CAGE: Finish = Finish::new(Material::Rubber, [24, 24, 26]);
-const RED: Finish = Finish::new(Material::Enamel, [190, 16, 10]);
+const SHELL: SurfaceFinish = SurfaceFinish::new(Material::Enamel, [196, 196, 190]);
+const ARM: SurfaceFinish = SurfaceFinish::new(Material::Enamel, [150, 150, 148]);
+const DARK: SurfaceFinish = SurfaceFinish::new(Material::Rubber, [14, 14, 15]);
+const LENS: SurfaceFinish = SurfaceFinish::new(Material::Glass, [4, 5, 9]);
+const BLADE: SurfaceFinish = SurfaceFinish::new(Material::Enamel, [120, 120, 118]);
+const CAGE: SurfaceFinish = SurfaceFinish::new(Material::Rubber, [24, 24, 26]);
+const RED: SurfaceFinish = SurfaceFinish::new(Material::Enamel, [190, 16, 10]);
 
 /// Body coordinates as the mesh's.
 fn at(v: Vec3<Frd>) -> Vec3<Enu> {
@@ -116,7 +116,7 @@ pub fn disc(vehicle: &Vehicle) -> Mesh {
             Vec3::new(vehicle.rotor.radius_m * c, vehicle.rotor.radius_m * s, -0.012)
         })
         .collect();
-    let finish = Finish::new(Material::Blur, [120, 120, 120]);
+    let finish = SurfaceFinish::new(Material::Blur, [120, 120, 120]);
     mesh.polygon(&ring, finish);
     mesh.polygon(&ring.iter().rev().copied().collect::<Vec<_>>(), finish);
     for v in &mut mesh.vertices {

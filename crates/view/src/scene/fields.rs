@@ -1,6 +1,6 @@
 //! Which of the ground's corners are shown: all of them, or fewer where nobody sees the difference.
 
-use super::sparse::{self, Square};
+use super::sparse::{self, GridSquare};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::Scenario;
@@ -31,7 +31,7 @@ pub fn sparse(scenario: &Scenario, site: &Site, rough: f64) -> Vec<[u32; 3]> {
     if side * side != points.len() {
         return triangles;
     }
-    let field = Field { scenario, site, points: &points, side, eyes_m: eyes(scenario), rough };
+    let field = GroundField { scenario, site, points: &points, side, eyes_m: eyes(scenario), rough };
     sparse::triangles(side, LARGEST, &|square| field.flat(square))
 }
 
@@ -49,7 +49,7 @@ fn eyes(scenario: &Scenario) -> Vec<Vec3<Enu>> {
     paths.chain([team.pad_m, team.truck_m, team.inspector_m]).collect()
 }
 
-struct Field<'a> {
+struct GroundField<'a> {
     scenario: &'a Scenario,
     site: &'a Site,
     points: &'a [Vec3<Enu>],
@@ -58,9 +58,9 @@ struct Field<'a> {
     rough: f64,
 }
 
-impl Field<'_> {
+impl GroundField<'_> {
     /// A square may be drawn by its corners alone.
-    fn flat(&self, square: &Square) -> bool {
+    fn flat(&self, square: &GridSquare) -> bool {
         let corners = square.corners(self.side).map(|k| self.points[k]);
         let middle = corners[0].lerp(corners[2], 0.5);
         let half_m = 0.5 * (corners[2] - corners[0]).horizontal_norm();
@@ -79,7 +79,7 @@ impl Field<'_> {
     }
 
     /// All corners of cells in a square.
-    fn inside(&self, square: &Square) -> impl Iterator<Item = Vec3<Enu>> {
+    fn inside(&self, square: &GridSquare) -> impl Iterator<Item = Vec3<Enu>> {
         let (first, size) = (square.row * self.side + square.column, square.size);
         (0..=size).flat_map(move |row| (0..=size).map(move |column| self.points[first + row * self.side + column]))
     }

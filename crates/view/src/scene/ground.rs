@@ -1,7 +1,7 @@
 //! Ground, mountains beyond it, the lake's surface and the pad.
 
 use super::super::mesh::{Material, Mesh, Vertex, single};
-use super::bake::Bake;
+use super::bake::LightBaker;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::Scenario;
@@ -37,7 +37,7 @@ fn ground_vertex(p: Vec3<Enu>, normal: Vec3<Enu>, light: [f32; 2], over_water_m:
 }
 
 /// The ground that collides, by those of its corners that are shown.
-pub fn mesh(scenario: &Scenario, site: &Site, bake: &Bake, shown: &[[u32; 3]]) -> Mesh {
+pub fn mesh(scenario: &Scenario, site: &Site, bake: &LightBaker, shown: &[[u32; 3]]) -> Mesh {
     let (points, triangles) = site.geometry().terrain.ground.triangles();
     let normals = smooth(&points, &triangles);
     let vertex = |k: u32| {
@@ -147,7 +147,7 @@ fn slope_up_m(rim_up_m: f64, share: f64, east: f64, north: f64) -> f64 {
 }
 
 /// The lake: over the field a corner for each of the ground's with its depth, and far out a frame.
-pub fn water(scenario: &Scenario, site: &Site, bake: &Bake, shown: &[[u32; 3]]) -> Mesh {
+pub fn water(scenario: &Scenario, site: &Site, bake: &LightBaker, shown: &[[u32; 3]]) -> Mesh {
     let level = scenario.terrain.water_level_m;
     let (points, _) = site.geometry().terrain.ground.triangles();
     let wet = |k: &u32| level - points[*k as usize].up() > -1.5;

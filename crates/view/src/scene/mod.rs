@@ -11,16 +11,16 @@ mod plants;
 mod props;
 mod sparse;
 
-pub use defects::Patch;
+pub use defects::DefectPatch;
 
 use super::mesh::{Mesh, Vertex, single};
 use super::quality::Quality;
-use bake::Bake;
+use bake::LightBaker;
 use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::Scenario;
-use spandrel_model::site::movers::Kind;
-use spandrel_model::site::{At, Site};
+use spandrel_model::site::movers::MoverKind;
+use spandrel_model::site::{QueryTime, Site};
 use spandrel_model::vehicle::Vehicle;
 
 /// Where one copy of a mesh stands.
@@ -50,7 +50,7 @@ impl Instance {
     }
 
     /// A corner of the mesh where this copy has it, lit as the shaders light copies.
-    fn applied(&self, v: &Vertex) -> Vertex {
+    fn transformed(&self, v: &Vertex) -> Vertex {
         let turned = |of: [f32; 3]| self.rows.map(|row| row[0] * of[0] + row[1] * of[1] + row[2] * of[2]);
         let [x, y, z] = turned(v.normal);
         let length = (x * x + y * y + z * z).sqrt().max(f32::MIN_POSITIVE);
@@ -65,14 +65,14 @@ impl Instance {
         }
     }
 
-    fn painted(self, [r, g, b]: [f32; 3]) -> Self {
+    fn with_material(self, [r, g, b]: [f32; 3]) -> Self {
         Self { paint: [r, g, b, 1.0], ..self }
     }
 }
 
 /// A mesh and where its copies stand.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Part {
+pub struct SceneItem {
     /// What it is.
     pub name: &'static str,
     /// Triangles.
@@ -82,21 +82,21 @@ pub struct Part {
     /// It throws shadows.
     pub casts: bool,
     /// From where it shows.
-    pub seen: Seen,
+    pub visible_range: VisibleRange,
     /// It stands around everything: cut into sectors.
     pub backdrop: bool,
 }
 
 /// From where something shows: distances at which it begins and ends, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Seen {
+pub struct VisibleRange {
     /// Straight.
     pub straight_m: [f64; 2],
     /// In the lake.
     pub in_lake_m: [f64; 2],
 }
 
-impl Seen {
+impl VisibleRange {
     /// From anywhere.
     pub const ALWAYS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
     /// From nowhere.
@@ -128,16 +128,16 @@ impl Seen {
     }
 }
 
-impl Part {
+impl SceneItem {
     /// What is built where it stands.
     fn here(name: &'static str, mesh: Mesh, casts: bool) -> Self {
-        Self { name, mesh, instances: vec![Instance::HERE], casts, seen: Seen::EVERYWHERE, backdrop: false }
+        Self { name, mesh, instances: vec![Instance::HERE], casts, visible_range: VisibleRange::EVERYWHERE, backdrop: false }
     }
 }
 
 /// Meshes of what moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Model {
+pub enum MoverModel {
     /// A car.
     Car,
     /// A lorry.
@@ -152,7 +152,7 @@ pub enum Model {
     Disc,
 }
 
-impl Model {
+impl MoverModel {
     /// All, in order.
     pub const ALL: [Self; 6] = [Self::Car, Self::Truck, Self::Person, Self::Drone, Self::Propeller, Self::Disc];
 }
@@ -172,12 +172,12 @@ pub struct DronePose {
 #[derive(Debug, Clone)]
 pub struct Scene {
     /// What stands still.
-    pub parts: Vec<Part>,
+    pub parts: Vec<SceneItem>,
     /// The lake's surface; `aux` of its corners is the depth, m.
     pub water: Mesh,
     /// Defects.
-    pub patches: Vec<Patch>,
-    /// Meshes of [`Model::ALL`].
+    pub patches: Vec<DefectPatch>,
+    /// Meshes of [`MoverModel::ALL`].
     pub models: Vec<Mesh>,
     /// Ball around everything that is built, m.
     pub bounds_m: (Vec3<Enu>, f64),
@@ -193,11 +193,11 @@ const SHOWN_SPIN_RAD_S: f64 = 43.0;
 impl Scene {
     /// Builds a site's scene for the light at one instant.
     #[must_use]
-    pub fn build(scenario: &Scenario, site: &Site, vehicle: &Vehicle, quality: &Quality, at: At) -> Self {
+    pub fn build(scenario: &Scenario, site: &Site, vehicle: &Vehicle, quality: &Quality, at: QueryTime) -> Self {
         let sun = site.light().daylight(at).sun;
-        let bake = Bake::new(site, sun, quality.light_rays);
+        let bake = LightBaker::new(site, sun, quality.light_rays);
         let shown = if quality.sparse { fields::sparse(scenario, site, 1.0) } else { fields::all(site) };
-        let rounds = if quality.sparse { props::Rounds::Plain } else { props::Rounds::Fine };
+        let rounds = if quality.sparse { props::RoundDetail::Plain } else { props::RoundDetail::Fine };
         let ground = |triangles: &[[u32; 3]], under_m: f64| {
             ground::mesh(scenario, site, &bake, &fields::shallow(scenario, site, triangles, under_m))
         };
@@ -205,17 +205,17 @@ impl Scene {
         let mut parts = bridges::parts(scenario, &bake, quality);
         let ground_at = parts.len();
         parts.extend([
-            Part::here("ground", ground(&shown, bottom_m), true),
-            Part { backdrop: true, ..Part::here("mountains", ground::mountains(scenario, site, false), false) },
-            Part::here("pad", ground::pad(site), false),
+            SceneItem::here("ground", ground(&shown, bottom_m), true),
+            SceneItem { backdrop: true, ..SceneItem::here("mountains", ground::mountains(scenario, site, false), false) },
+            SceneItem::here("pad", ground::pad(site), false),
         ]);
         if quality.sparse {
-            let coarse = Part::here("mountains in the lake", ground::mountains(scenario, site, true), false);
-            parts[ground_at].seen = Seen::STRAIGHT;
-            parts[ground_at + 1].seen = Seen::STRAIGHT;
-            parts.push(Part { backdrop: true, seen: Seen::IN_LAKE, ..coarse });
+            let coarse = SceneItem::here("mountains in the lake", ground::mountains(scenario, site, true), false);
+            parts[ground_at].visible_range = VisibleRange::STRAIGHT;
+            parts[ground_at + 1].visible_range = VisibleRange::STRAIGHT;
+            parts.push(SceneItem { backdrop: true, visible_range: VisibleRange::IN_LAKE, ..coarse });
             let rough = ground(&fields::sparse(scenario, site, IN_LAKE), 0.0);
-            parts.push(Part { seen: Seen::IN_LAKE, ..Part::here("ground in the lake", rough, false) });
+            parts.push(SceneItem { visible_range: VisibleRange::IN_LAKE, ..SceneItem::here("ground in the lake", rough, false) });
         }
         parts.extend(plants::parts(scenario, site, quality));
         Self {
@@ -244,43 +244,58 @@ impl Scene {
 
     /// What moves, at an instant.
     #[must_use]
-    pub fn moving(&self, scenario: &Scenario, site: &Site, drone: Option<&DronePose>, at: At) -> Vec<(Model, Instance)> {
+    pub fn moving(
+        &self,
+        scenario: &Scenario,
+        site: &Site,
+        drone: Option<&DronePose>,
+        at: QueryTime,
+    ) -> Vec<(MoverModel, Instance)> {
         let mut all = Vec::new();
         for (k, mover) in site.traffic().movers().iter().enumerate() {
             let Some(placed) = site.traffic().place(mover, at) else { continue };
             let model = match mover.kind {
-                Kind::Car => Model::Car,
-                Kind::Truck => Model::Truck,
-                Kind::Pedestrian => Model::Person,
+                MoverKind::Car => MoverModel::Car,
+                MoverKind::Truck => MoverModel::Truck,
+                MoverKind::Pedestrian => MoverModel::Person,
             };
-            all.push((model, standing(placed.position_m, placed.forward, OPEN).painted(props::colour(mover.kind, k))));
+            all.push((
+                model,
+                place_on_ground(placed.position_m, placed.forward, OPEN).with_material(props::colour(mover.kind, k)),
+            ));
         }
         let team = &scenario.ground_team;
         let facing = |heading_deg: f64| {
             let (s, c) = math::sin_cos(heading_deg.to_radians());
             Vec3::new(s, c, 0.0)
         };
-        all.push((Model::Truck, standing(team.truck_m, facing(team.truck_heading_deg), OPEN).painted(props::CREW_TRUCK)));
-        all.push((Model::Person, standing(team.inspector_m, facing(team.pad_heading_deg), OPEN).painted(props::VEST)));
+        all.push((
+            MoverModel::Truck,
+            place_on_ground(team.truck_m, facing(team.truck_heading_deg), OPEN).with_material(props::CREW_TRUCK),
+        ));
+        all.push((
+            MoverModel::Person,
+            place_on_ground(team.inspector_m, facing(team.pad_heading_deg), OPEN).with_material(props::VEST),
+        ));
         if let Some(drone) = drone {
             self.aircraft(site, drone, at, &mut all);
         }
         all
     }
 
-    fn aircraft(&self, site: &Site, drone: &DronePose, at: At, out: &mut Vec<(Model, Instance)>) {
+    fn aircraft(&self, site: &Site, drone: &DronePose, at: QueryTime, out: &mut Vec<(MoverModel, Instance)>) {
         let axis = |v: Vec3<Frd>| (drone.ned_from_frd * v).enu();
         let axes = [axis(Vec3::new(1.0, 0.0, 0.0)), axis(Vec3::new(0.0, 1.0, 0.0)), axis(Vec3::new(0.0, 0.0, 1.0))];
         let around = bake::around(site, drone.position_m, at);
-        out.push((Model::Drone, Instance::placed(drone.position_m, axes, around)));
+        out.push((MoverModel::Drone, Instance::placed(drone.position_m, axes, around)));
         for (hub_m, spin) in &self.rotors {
             let hub = drone.position_m + axis(*hub_m);
             let angle = if drone.spinning { -spin * SHOWN_SPIN_RAD_S * at.s() } else { 0.6 };
             let (s, c) = math::sin_cos(angle);
             let turned = [axes[0] * c + axes[1] * s, axes[1] * c - axes[0] * s, axes[2]];
-            out.push((Model::Propeller, Instance::placed(hub, turned, around)));
+            out.push((MoverModel::Propeller, Instance::placed(hub, turned, around)));
             if drone.spinning {
-                out.push((Model::Disc, Instance::placed(hub, axes, around)));
+                out.push((MoverModel::Disc, Instance::placed(hub, axes, around)));
             }
         }
     }
@@ -290,7 +305,7 @@ impl Scene {
 const OPEN: [f32; 4] = [0.95, 0.02, 0.22, 0.10];
 
 /// A mesh with x forward, y left, z up that stands on its feet.
-fn standing(feet_m: Vec3<Enu>, forward: Vec3<Enu>, around: [f32; 4]) -> Instance {
+fn place_on_ground(feet_m: Vec3<Enu>, forward: Vec3<Enu>, around: [f32; 4]) -> Instance {
     let level: Vec3<Enu> = Vec3::new(forward.east(), forward.north(), 0.0).unit();
     let left = Vec3::new(-level.north(), level.east(), 0.0);
     Instance::placed(feet_m, [level, left, Vec3::new(0.0, 0.0, 1.0)], around)

@@ -1,9 +1,9 @@
 //! Conifers and boulders for scale. They stand where nobody flies a task: clear of bridges, task paths and pad, since nothing collides with
 //! them.
 
-use super::super::mesh::{Finish, Material, Mesh, Vertex};
+use super::super::mesh::{Material, Mesh, SurfaceFinish, Vertex};
 use super::super::quality::Quality;
-use super::{Instance, Part, Seen};
+use super::{Instance, SceneItem, VisibleRange};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
@@ -30,12 +30,12 @@ const OVERLAP_M: f64 = 5.0;
 /// Side of the patches in which trees stand together, m.
 const GROVE_M: f64 = 55.0;
 
-const NEEDLES: Finish = Finish::new(Material::Foliage, [17, 30, 15]);
-const BARK: Finish = Finish::new(Material::Bark, [42, 30, 22]);
-const STONE: Finish = Finish::new(Material::Rock, [74, 70, 64]);
+const NEEDLES: SurfaceFinish = SurfaceFinish::new(Material::Foliage, [17, 30, 15]);
+const BARK: SurfaceFinish = SurfaceFinish::new(Material::Bark, [42, 30, 22]);
+const STONE: SurfaceFinish = SurfaceFinish::new(Material::Rock, [74, 70, 64]);
 
 /// Trees and boulders of a site; their places come from the terrain's own seed.
-pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<Part> {
+pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<SceneItem> {
     let seed = match &scenario.terrain.source {
         TerrainSource::Valley { seed, .. } => *seed,
         TerrainSource::Flat { .. } | TerrainSource::File { .. } => 1,
@@ -69,10 +69,14 @@ pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<Part> {
         let Some(foot) = room(scenario, site, east, north, -0.5) else { continue };
         rocks.push(grown(foot, size, turn));
     }
-    let on_shore =
-        if quality.sparse { Seen { straight_m: Seen::within(BOULDERS_M), ..Seen::STRAIGHT } } else { Seen::EVERYWHERE };
+    let on_shore = if quality.sparse {
+        VisibleRange { straight_m: VisibleRange::within(BOULDERS_M), ..VisibleRange::STRAIGHT }
+    } else {
+        VisibleRange::EVERYWHERE
+    };
     let (spruce, fir) = (conifer(0.21, 5, quality.boughs), conifer(0.15, 6, quality.boughs));
-    let copies = |name, mesh, instances, seen| Part { name, mesh, instances, casts: true, seen, backdrop: false };
+    let copies =
+        |name, mesh, instances, seen| SceneItem { name, mesh, instances, casts: true, visible_range: seen, backdrop: false };
     let boulders = copies("boulders", boulder(quality.boughs), rocks, on_shore);
     if quality.sparse {
         // Software draws copies one by one: a wood in one piece takes less.
@@ -81,15 +85,16 @@ pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<Part> {
             wood.append(&stamped(fir, &slim));
             wood
         };
-        let near = Seen { straight_m: Seen::within(FAR_M + OVERLAP_M), in_lake_m: Seen::within(MIRRORED_M) };
-        let far = Seen { straight_m: Seen::beyond(FAR_M), ..Seen::STRAIGHT };
+        let near =
+            VisibleRange { straight_m: VisibleRange::within(FAR_M + OVERLAP_M), in_lake_m: VisibleRange::within(MIRRORED_M) };
+        let far = VisibleRange { straight_m: VisibleRange::beyond(FAR_M), ..VisibleRange::STRAIGHT };
         return vec![
-            Part { seen: near, ..Part::here("trees", wood(&spruce, &fir), true) },
-            Part { seen: far, ..Part::here("trees far away", wood(&distant(0.21), &distant(0.15)), false) },
+            SceneItem { visible_range: near, ..SceneItem::here("trees", wood(&spruce, &fir), true) },
+            SceneItem { visible_range: far, ..SceneItem::here("trees far away", wood(&distant(0.21), &distant(0.15)), false) },
             boulders,
         ];
     }
-    vec![copies("spruces", spruce, tall, Seen::EVERYWHERE), copies("firs", fir, slim, Seen::EVERYWHERE), boulders]
+    vec![copies("spruces", spruce, tall, VisibleRange::EVERYWHERE), copies("firs", fir, slim, VisibleRange::EVERYWHERE), boulders]
 }
 
 /// How likely a tree is here: groves and clearings.
@@ -212,7 +217,7 @@ fn stamped(mesh: &Mesh, copies: &[Instance]) -> Mesh {
     let mut all = Mesh::default();
     for copy in copies {
         let first = all.vertices.len() as u32;
-        all.vertices.extend(mesh.vertices.iter().map(|v| copy.applied(v)));
+        all.vertices.extend(mesh.vertices.iter().map(|v| copy.transformed(v)));
         all.indices.extend(mesh.indices.iter().map(|k| first + k));
     }
     all

@@ -1,20 +1,20 @@
 //! Cars, lorries and people, each within the boxes that collide (`site::movers`): x forward, y left, z up from the feet.
 
-use super::super::mesh::{Finish, Material, Mesh};
+use super::super::mesh::{Material, Mesh, SurfaceFinish};
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::site::movers::Kind;
+use spandrel_model::site::movers::MoverKind;
 
-const PAINT: Finish = Finish::new(Material::Paint, [120, 120, 120]);
-const GLASS: Finish = Finish::new(Material::Glass, [6, 8, 10]);
-const TYRE: Finish = Finish::new(Material::Rubber, [6, 6, 6]);
-const RIM: Finish = Finish::new(Material::Enamel, [90, 90, 92]);
-const DARK: Finish = Finish::new(Material::Rubber, [12, 12, 13]);
-const LAMP: Finish = Finish::new(Material::Glass, [200, 200, 190]);
-const TAIL: Finish = Finish::new(Material::Glass, [120, 6, 4]);
-const BOX: Finish = Finish::new(Material::Enamel, [150, 150, 146]);
-const SKIN: Finish = Finish::new(Material::Cloth, [120, 72, 50]);
-const TROUSERS: Finish = Finish::new(Material::Cloth, [16, 20, 34]);
-const HAIR: Finish = Finish::new(Material::Cloth, [22, 14, 8]);
+const PAINT: SurfaceFinish = SurfaceFinish::new(Material::Paint, [120, 120, 120]);
+const GLASS: SurfaceFinish = SurfaceFinish::new(Material::Glass, [6, 8, 10]);
+const TYRE: SurfaceFinish = SurfaceFinish::new(Material::Rubber, [6, 6, 6]);
+const RIM: SurfaceFinish = SurfaceFinish::new(Material::Enamel, [90, 90, 92]);
+const DARK: SurfaceFinish = SurfaceFinish::new(Material::Rubber, [12, 12, 13]);
+const LAMP: SurfaceFinish = SurfaceFinish::new(Material::Glass, [200, 200, 190]);
+const TAIL: SurfaceFinish = SurfaceFinish::new(Material::Glass, [120, 6, 4]);
+const BOX: SurfaceFinish = SurfaceFinish::new(Material::Enamel, [150, 150, 146]);
+const SKIN: SurfaceFinish = SurfaceFinish::new(Material::Cloth, [120, 72, 50]);
+const TROUSERS: SurfaceFinish = SurfaceFinish::new(Material::Cloth, [16, 20, 34]);
+const HAIR: SurfaceFinish = SurfaceFinish::new(Material::Cloth, [22, 14, 8]);
 
 /// Colours of cars as they stand on car parks, linear.
 const CARS: [[f32; 3]; 8] = [
@@ -38,25 +38,25 @@ pub const VEST: [f32; 3] = [0.85, 0.28, 0.01];
 pub const CREW_TRUCK: [f32; 3] = [0.75, 0.48, 0.03];
 
 /// The colour of the k-th mover.
-pub fn colour(kind: Kind, k: usize) -> [f32; 3] {
+pub fn colour(kind: MoverKind, k: usize) -> [f32; 3] {
     let pick = k.wrapping_mul(7) + 3;
     match kind {
-        Kind::Car => CARS[pick % CARS.len()],
-        Kind::Truck => CABS[pick % CABS.len()],
-        Kind::Pedestrian => JACKETS[pick % JACKETS.len()],
+        MoverKind::Car => CARS[pick % CARS.len()],
+        MoverKind::Truck => CABS[pick % CABS.len()],
+        MoverKind::Pedestrian => JACKETS[pick % JACKETS.len()],
     }
 }
 
 /// How round wheels and limbs are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Rounds {
+pub enum RoundDetail {
     /// As round as they look from a step away.
     Fine,
     /// As round as they look across a road: with half the sides.
     Plain,
 }
 
-impl Rounds {
+impl RoundDetail {
     /// Sides of what has so many at its finest.
     fn sides(self, finest: u32) -> u32 {
         match self {
@@ -78,14 +78,14 @@ fn p(x: f64, y: f64, z: f64) -> Vec3<Enu> {
     Vec3::new(x, y, z)
 }
 
-fn wheel(mesh: &mut Mesh, x: f64, y: f64, (radius, width): (f64, f64), rounds: Rounds) {
+fn wheel(mesh: &mut Mesh, x: f64, y: f64, (radius, width): (f64, f64), rounds: RoundDetail) {
     let side = y.signum();
     mesh.round((p(x, y - side * width, radius), radius), (p(x, y, radius), radius), rounds.sides(14), TYRE);
     mesh.round((p(x, y, radius), 0.62 * radius), (p(x, y + side * 0.015, radius), 0.55 * radius), rounds.sides(12), RIM);
 }
 
 /// A family car, 4.5 m long.
-pub fn car(rounds: Rounds) -> Mesh {
+pub fn car(rounds: RoundDetail) -> Mesh {
     let mut mesh = Mesh::default();
     // Sills, waist, bonnet and boot.
     mesh.block([-2.2, -0.86, 0.22], [2.2, 0.86, 0.55], [0.0, 0.0, -0.03], PAINT);
@@ -111,7 +111,7 @@ pub fn car(rounds: Rounds) -> Mesh {
 }
 
 /// A lorry, 10 m long: a cab and a box body.
-pub fn truck(rounds: Rounds) -> Mesh {
+pub fn truck(rounds: RoundDetail) -> Mesh {
     let mut mesh = Mesh::default();
     mesh.block([-5.0, -0.45, 0.55], [4.6, 0.45, 0.85], [0.0; 3], DARK);
     // Cab with a raked windscreen.
@@ -144,7 +144,7 @@ pub fn truck(rounds: Rounds) -> Mesh {
 }
 
 /// A person, 1.75 m tall, standing.
-pub fn person(rounds: Rounds) -> Mesh {
+pub fn person(rounds: RoundDetail) -> Mesh {
     let mut mesh = Mesh::default();
     for y in [0.09, -0.09] {
         mesh.round((p(0.02, y, 0.06), 0.055), (p(0.0, y, 0.48), 0.07), rounds.sides(8), TROUSERS);
@@ -173,10 +173,10 @@ mod tests {
     #[test]
     fn exact_what_is_drawn_lies_within_what_collides() {
         for (mesh, kind, half_width, height) in [
-            (car(Rounds::Fine), Kind::Car, 0.9, 1.5),
-            (truck(Rounds::Fine), Kind::Truck, 1.25, 3.5),
-            (person(Rounds::Fine), Kind::Pedestrian, 0.29, 1.78),
-            (person(Rounds::Plain), Kind::Pedestrian, 0.29, 1.78),
+            (car(RoundDetail::Fine), MoverKind::Car, 0.9, 1.5),
+            (truck(RoundDetail::Fine), MoverKind::Truck, 1.25, 3.5),
+            (person(RoundDetail::Fine), MoverKind::Pedestrian, 0.29, 1.78),
+            (person(RoundDetail::Plain), MoverKind::Pedestrian, 0.29, 1.78),
         ] {
             let half_length = kind.half_length_m();
             for v in &mesh.vertices {

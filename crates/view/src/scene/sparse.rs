@@ -2,7 +2,7 @@
 
 /// A square of cells: column and row of its south-west corner, and cells along a side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Square {
+pub struct GridSquare {
     /// Column of its south-west corner.
     pub column: usize,
     /// Row of its south-west corner.
@@ -11,7 +11,7 @@ pub struct Square {
     pub size: usize,
 }
 
-impl Square {
+impl GridSquare {
     /// Numbers of its corners in a grid with `side` corners a row: south-west, south-east, north-east, north-west.
     #[must_use]
     pub const fn corners(&self, side: usize) -> [usize; 4] {
@@ -36,12 +36,12 @@ impl Square {
 /// Triangles over a grid with `side` corners a row, as numbers of corners, counter-clockwise from above. Squares of at most `largest` cells (a
 /// power of two) stay whole where `whole` says so. The diagonal runs as in single cells: from south-west to north-east.
 #[must_use]
-pub fn triangles(side: usize, largest: usize, whole: &dyn Fn(&Square) -> bool) -> Vec<[u32; 3]> {
+pub fn triangles(side: usize, largest: usize, whole: &dyn Fn(&GridSquare) -> bool) -> Vec<[u32; 3]> {
     let cells = side.saturating_sub(1);
     let largest = (0..).map(|k| largest >> k).find(|size| *size <= 1 || cells.is_multiple_of(*size)).unwrap_or(1).max(1);
     let starts = (0..cells).step_by(largest);
-    let mut open: Vec<Square> =
-        starts.clone().flat_map(|row| starts.clone().map(move |column| Square { column, row, size: largest })).collect();
+    let mut open: Vec<GridSquare> =
+        starts.clone().flat_map(|row| starts.clone().map(move |column| GridSquare { column, row, size: largest })).collect();
     let mut squares = Vec::new();
     while let Some(square) = open.pop() {
         if square.size == 1 || whole(&square) { squares.push(square) } else { open.extend(square.quarters()) }
@@ -54,7 +54,7 @@ pub fn triangles(side: usize, largest: usize, whole: &dyn Fn(&Square) -> bool) -
 }
 
 /// A square's triangles: two, or a fan about its middle where smaller neighbours have corners on its rim.
-fn filled(square: &Square, side: usize, used: &[bool]) -> Vec<[u32; 3]> {
+fn filled(square: &GridSquare, side: usize, used: &[bool]) -> Vec<[u32; 3]> {
     let rim: Vec<u32> = square.rim(side).filter(|corner| used[*corner]).map(|corner| corner as u32).collect();
     if let [sw, se, ne, nw] = *rim {
         return vec![[sw, se, ne], [sw, ne, nw]];

@@ -6,7 +6,7 @@ mod warnings;
 pub use warnings::spoken;
 
 use propellers::Propellers;
-use warnings::Warnings;
+use warnings::WarningTones;
 
 /// Samples a second: twice and more what the highest harmonic has.
 pub const RATE_HZ: u32 = 24_000;
@@ -18,7 +18,7 @@ const WARNINGS: f64 = 0.45;
 
 /// What is on.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
+pub struct SoundSettings {
     /// Propellers.
     pub propellers: bool,
     /// Tones for warnings.
@@ -29,7 +29,7 @@ pub struct Settings {
     pub volume: f64,
 }
 
-impl Default for Settings {
+impl Default for SoundSettings {
     fn default() -> Self {
         Self { propellers: true, warnings: true, speech: false, volume: 0.7 }
     }
@@ -37,7 +37,7 @@ impl Default for Settings {
 
 /// What there is to hear now.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Heard {
+pub struct SoundInputs {
     /// Speeds of the rotors, rad/s; empty: nobody has said.
     pub rotors_rad_s: Vec<f64>,
     /// From the inspector to the drone, m.
@@ -50,11 +50,11 @@ pub struct Heard {
 
 /// A value that follows another one without a jump.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct Slewed(f64);
+struct SmoothedValue(f64);
 
-impl Slewed {
+impl SmoothedValue {
     /// One sample on.
-    fn towards(&mut self, target: f64) -> f64 {
+    fn follow(&mut self, target: f64) -> f64 {
         self.0 += (target - self.0) / (SLEW_S * f64::from(RATE_HZ));
         self.0
     }
@@ -62,31 +62,31 @@ impl Slewed {
 
 /// The sound of a flight.
 #[derive(Debug, Clone, Default)]
-pub struct Sound {
-    settings: Settings,
-    heard: Heard,
+pub struct FlightSound {
+    settings: SoundSettings,
+    inputs: SoundInputs,
     propellers: Propellers,
-    warnings: Warnings,
-    volume: Slewed,
+    warnings: WarningTones,
+    volume: SmoothedValue,
 }
 
-impl Sound {
+impl FlightSound {
     /// Silent until something is heard.
     #[must_use]
-    pub fn new(settings: Settings) -> Self {
+    pub fn new(settings: SoundSettings) -> Self {
         Self { settings, ..Self::default() }
     }
 
     /// What there is to hear from now on.
-    pub fn set(&mut self, heard: Heard) {
-        self.heard = heard;
+    pub fn set(&mut self, heard: SoundInputs) {
+        self.inputs = heard;
     }
 
     /// The next samples, each within -1 and 1.
     pub fn fill(&mut self, out: &mut [f32]) {
-        let Self { settings, heard, propellers, warnings, volume } = self;
+        let Self { settings, inputs: heard, propellers, warnings, volume } = self;
         for sample in out {
-            let loud = volume.towards(if heard.silent { 0.0 } else { settings.volume.clamp(0.0, 1.0) });
+            let loud = volume.follow(if heard.silent { 0.0 } else { settings.volume.clamp(0.0, 1.0) });
             let rotors: &[f64] = if settings.propellers { &heard.rotors_rad_s } else { &[] };
             let cues = if settings.warnings { heard.cues } else { 0 };
             let mixed = PROPELLERS * propellers.next(rotors, heard.distance_m) + WARNINGS * warnings.next(cues);

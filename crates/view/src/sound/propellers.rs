@@ -1,6 +1,6 @@
 //! Propellers: for each rotor the frequency at which its blades pass, and harmonics of it.
 
-use super::{RATE_HZ, Slewed};
+use super::{RATE_HZ, SmoothedValue};
 use spandrel_model::math;
 
 /// Blades of a propeller (the aircraft of the paper, a DJI Phantom 2, has two-bladed ones of 9.4 inches; so have most of its size).
@@ -22,14 +22,14 @@ const STANDS_RAD_S: f64 = 1e-3;
 /// Rotors as oscillators.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Propellers {
-    rotors: [Rotor; MOST],
-    level: Slewed,
-    count: Slewed,
+    rotors: [RotorOscillator; MOST],
+    level: SmoothedValue,
+    count: SmoothedValue,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct Rotor {
-    speed: Slewed,
+struct RotorOscillator {
+    speed: SmoothedValue,
     /// Turns of the blades' fundamental, 0 to 1.
     phase: f64,
 }
@@ -37,9 +37,9 @@ struct Rotor {
 impl Propellers {
     /// The next sample, within -1 and 1, for rotors that turn so fast (rad/s) at this distance (m).
     pub fn next(&mut self, rotors_rad_s: &[f64], distance_m: f64) -> f64 {
-        let far = self.level.towards((NEAR_M / distance_m.max(NEAR_M)).clamp(0.0, 1.0));
+        let far = self.level.follow((NEAR_M / distance_m.max(NEAR_M)).clamp(0.0, 1.0));
         // All rotors together are as loud as one is; no fewer than a quadrotor's, so that one alone is fainter.
-        let count = self.count.towards(rotors_rad_s.len().min(MOST) as f64).max(4.0);
+        let count = self.count.follow(rotors_rad_s.len().min(MOST) as f64).max(4.0);
         let mut sum = 0.0;
         for (k, rotor) in self.rotors.iter_mut().enumerate() {
             sum += rotor.next(rotors_rad_s.get(k).copied().unwrap_or(0.0));
@@ -48,10 +48,10 @@ impl Propellers {
     }
 }
 
-impl Rotor {
+impl RotorOscillator {
     fn next(&mut self, rad_s: f64) -> f64 {
         let wanted = if rad_s.is_finite() { rad_s.clamp(0.0, 2.0 * FULL_RAD_S) } else { 0.0 };
-        let speed = self.speed.towards(wanted);
+        let speed = self.speed.follow(wanted);
         if wanted == 0.0 && speed < STANDS_RAD_S {
             return 0.0;
         }

@@ -1,17 +1,17 @@
 //! Frequencies, levels, silence, and no clicks.
 
 use super::propellers::BLADES;
-use super::{Heard, RATE_HZ, Settings, Sound, spoken};
+use super::{FlightSound, RATE_HZ, SoundInputs, SoundSettings, spoken};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 
-fn heard(rad_s: f64, distance_m: f64, cues: i32) -> Heard {
-    Heard { rotors_rad_s: vec![rad_s; 4], distance_m, cues, silent: false }
+fn heard(rad_s: f64, distance_m: f64, cues: i32) -> SoundInputs {
+    SoundInputs { rotors_rad_s: vec![rad_s; 4], distance_m, cues, silent: false }
 }
 
 /// So many seconds of a sound, after a second in which levels settle.
-fn played(sound: &mut Sound, heard: Heard, seconds: f64) -> Vec<f64> {
+fn played(sound: &mut FlightSound, heard: SoundInputs, seconds: f64) -> Vec<f64> {
     sound.set(heard);
     let mut out = vec![0.0_f32; RATE_HZ as usize + (seconds * f64::from(RATE_HZ)) as usize];
     sound.fill(&mut out);
@@ -29,15 +29,15 @@ fn amplitude(samples: &[f64], hz: f64) -> f64 {
     2.0 * math::hypot(re, im) / samples.len() as f64
 }
 
-fn only(propellers: bool, warnings: bool) -> Settings {
-    Settings { propellers, warnings, speech: false, volume: 1.0 }
+fn only(propellers: bool, warnings: bool) -> SoundSettings {
+    SoundSettings { propellers, warnings, speech: false, volume: 1.0 }
 }
 
 #[test]
 fn exact_the_blades_frequency_and_its_harmonics_are_heard_and_nothing_between() {
     // 120 turns a second: two blades pass 240 times.
     let rad_s = 120.0 * math::TAU;
-    let samples = played(&mut Sound::new(only(true, true)), heard(rad_s, 1.0, 0), 1.0);
+    let samples = played(&mut FlightSound::new(only(true, true)), heard(rad_s, 1.0, 0), 1.0);
     let first = amplitude(&samples, BLADES * 120.0);
     assert!(first > 0.05, "{first}");
     for (k, share) in [(2.0, 0.5), (3.0, 0.25)] {
@@ -52,7 +52,7 @@ fn exact_the_blades_frequency_and_its_harmonics_are_heard_and_nothing_between() 
 #[test]
 fn exact_the_level_grows_with_the_square_of_speed_and_falls_with_distance() {
     let level = |turns: f64, distance_m: f64| {
-        let samples = played(&mut Sound::new(only(true, true)), heard(turns * math::TAU, distance_m, 0), 1.0);
+        let samples = played(&mut FlightSound::new(only(true, true)), heard(turns * math::TAU, distance_m, 0), 1.0);
         amplitude(&samples, BLADES * turns)
     };
     let near = level(80.0, 1.0);
@@ -62,16 +62,16 @@ fn exact_the_level_grows_with_the_square_of_speed_and_falls_with_distance() {
 }
 
 #[test]
-fn exact_each_warning_has_a_pitch_of_its_own_and_the_gravest_is_heard() {
+fn exact_each_warning_has_a_pitch_of_its_own_and_the_most_severe_is_heard() {
     let pitches = [220.0, 1_050.0, 700.0, 440.0, 330.0];
     let cues = [cue::CRASH, cue::TOO_CLOSE, cue::SPEEDING, cue::OFF_PATH, cue::BATTERY_RED];
     for (own, cue) in pitches.into_iter().zip(cues) {
-        let samples = played(&mut Sound::new(only(true, true)), heard(0.0, 1.0, cue), 6.0);
+        let samples = played(&mut FlightSound::new(only(true, true)), heard(0.0, 1.0, cue), 6.0);
         let loudest = pitches.into_iter().max_by(|a, b| amplitude(&samples, *a).total_cmp(&amplitude(&samples, *b)));
         assert_eq!(loudest, Some(own), "cue {cue}");
     }
     let all = cues.into_iter().fold(0, |mask, cue| mask | cue);
-    let samples = played(&mut Sound::new(only(true, true)), heard(0.0, 1.0, all), 6.0);
+    let samples = played(&mut FlightSound::new(only(true, true)), heard(0.0, 1.0, all), 6.0);
     assert!(amplitude(&samples, 220.0) > 10.0 * amplitude(&samples, 1_050.0), "a crash before all else");
     assert_eq!(spoken(0, all), Some("Crash"));
     assert_eq!(spoken(cue::SPEEDING, cue::SPEEDING | cue::OFF_PATH), Some("Off the path"));
@@ -81,20 +81,20 @@ fn exact_each_warning_has_a_pitch_of_its_own_and_the_gravest_is_heard() {
 #[test]
 fn exact_what_is_off_is_silent() {
     let flying = heard(700.0, 5.0, cue::SPEEDING);
-    let peak = |settings: Settings, heard: Heard| {
-        played(&mut Sound::new(settings), heard, 1.0).into_iter().fold(0.0, |most: f64, sample| most.max(sample.abs()))
+    let peak = |settings: SoundSettings, heard: SoundInputs| {
+        played(&mut FlightSound::new(settings), heard, 1.0).into_iter().fold(0.0, |most: f64, sample| most.max(sample.abs()))
     };
     // What is left of a level a second after it was let go: exp(-50).
     const REST: f64 = 1e-12;
     assert!(peak(only(true, true), flying.clone()) > 0.1);
     assert!(peak(only(false, false), flying.clone()) < REST);
-    assert!(peak(only(true, true), Heard { silent: true, ..flying.clone() }) < REST);
-    assert!(peak(Settings { volume: 0.0, ..only(true, true) }, flying) < REST);
+    assert!(peak(only(true, true), SoundInputs { silent: true, ..flying.clone() }) < REST);
+    assert!(peak(SoundSettings { volume: 0.0, ..only(true, true) }, flying) < REST);
     assert!(peak(only(true, true), heard(0.0, 5.0, 0)) < REST, "standing propellers");
 }
 
 #[test]
-fn prop_whatever_is_heard_nothing_clips_and_nothing_clicks() {
+fn prop_the_sound_never_clips_or_clicks() {
     // The steepest that steady parts can be: each at its full level with all its harmonics in step.
     let top_hz = BLADES * 2.0 * 1_100.0 / math::TAU;
     let harmonics: f64 = (1..=6).map(|k| f64::from(k) * math::pow(0.5, f64::from(k - 1))).sum::<f64>() / 1.968_75;
@@ -105,11 +105,11 @@ fn prop_whatever_is_heard_nothing_clips_and_nothing_clicks() {
     assert!(steepest < 0.5, "a click would be seen: {steepest}");
     for seed in 0..20 {
         let mut random = RandomStream::new(seed, "sound");
-        let mut sound = Sound::new(only(true, true));
+        let mut sound = FlightSound::new(only(true, true));
         let mut last = 0.0_f32;
         for _ in 0..60 {
             let mut any = |most: f64| most * random.uniform();
-            sound.set(Heard {
+            sound.set(SoundInputs {
                 rotors_rad_s: (0..(any(9.0) as usize)).map(|_| any(4_000.0) - 500.0).collect(),
                 distance_m: any(300.0) - 10.0,
                 cues: any(64.0) as i32,
@@ -124,8 +124,8 @@ fn prop_whatever_is_heard_nothing_clips_and_nothing_clicks() {
             }
         }
     }
-    let mut sound = Sound::new(only(true, true));
-    sound.set(Heard { rotors_rad_s: vec![f64::NAN, f64::INFINITY], distance_m: f64::NAN, ..Heard::default() });
+    let mut sound = FlightSound::new(only(true, true));
+    sound.set(SoundInputs { rotors_rad_s: vec![f64::NAN, f64::INFINITY], distance_m: f64::NAN, ..SoundInputs::default() });
     let mut out = [0.0_f32; 480];
     sound.fill(&mut out);
     assert!(out.iter().all(|sample| sample.is_finite()));

@@ -13,35 +13,35 @@ struct Tone {
     hz: f64,
     on_s: f64,
     period_s: f64,
-    words: &'static str,
+    speech: &'static str,
 }
 
 /// From the gravest to the mildest. Pitches and rhythms are estimates: a fifth or more apart, faster the more urgent (after the order of
 /// ISO 7731's and IEC 60601-1-8's bursts).
 const TONES: [Tone; 5] = [
-    Tone { cue: cue::CRASH, hz: 220.0, on_s: 0.35, period_s: 0.5, words: "Crash" },
-    Tone { cue: cue::TOO_CLOSE, hz: 1_050.0, on_s: 0.09, period_s: 0.18, words: "Too close" },
-    Tone { cue: cue::SPEEDING, hz: 700.0, on_s: 0.15, period_s: 0.6, words: "Too fast" },
-    Tone { cue: cue::OFF_PATH, hz: 440.0, on_s: 0.25, period_s: 1.2, words: "Off the path" },
-    Tone { cue: cue::BATTERY_RED, hz: 330.0, on_s: 0.4, period_s: 3.0, words: "Battery low" },
+    Tone { cue: cue::CRASH, hz: 220.0, on_s: 0.35, period_s: 0.5, speech: "Crash" },
+    Tone { cue: cue::TOO_CLOSE, hz: 1_050.0, on_s: 0.09, period_s: 0.18, speech: "Too close" },
+    Tone { cue: cue::SPEEDING, hz: 700.0, on_s: 0.15, period_s: 0.6, speech: "Too fast" },
+    Tone { cue: cue::OFF_PATH, hz: 440.0, on_s: 0.25, period_s: 1.2, speech: "Off the path" },
+    Tone { cue: cue::BATTERY_RED, hz: 330.0, on_s: 0.4, period_s: 3.0, speech: "Battery low" },
 ];
 
 /// The words for what has come up since, the gravest alone.
 #[must_use]
 pub fn spoken(before: i32, now: i32) -> Option<&'static str> {
-    TONES.iter().find(|tone| now & !before & tone.cue != 0).map(|tone| tone.words)
+    TONES.iter().find(|tone| now & !before & tone.cue != 0).map(|tone| tone.speech)
 }
 
 /// One oscillator.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Warnings {
+pub struct WarningTones {
     tone: Option<usize>,
     clock_s: f64,
     phase: f64,
     gate: f64,
 }
 
-impl Warnings {
+impl WarningTones {
     /// The next sample, within -1 and 1, while these cues are on.
     pub fn next(&mut self, cues: i32) -> f64 {
         let step_s = 1.0 / f64::from(RATE_HZ);

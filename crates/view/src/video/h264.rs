@@ -8,7 +8,7 @@ use openh264::formats::{RgbaSliceU8, YUVBuffer};
 
 /// One encoded picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Encoded {
+pub struct EncodedPicture {
     /// Its network abstraction layer units, without start codes.
     pub units: Vec<Vec<u8>>,
     /// It can be read without those before it.
@@ -16,12 +16,12 @@ pub struct Encoded {
 }
 
 /// Pictures of one size into H.264.
-pub struct Encoder {
+pub struct H264Encoder {
     encoder: openh264::encoder::Encoder,
     size_px: (u32, u32),
 }
 
-impl Encoder {
+impl H264Encoder {
     /// For pictures of a size (even numbers of px), so many a second, so many bits a second; every `key_every`-th can be read by itself.
     ///
     /// # Errors
@@ -48,7 +48,7 @@ impl Encoder {
     ///
     /// # Errors
     /// When it has another size, or the encoder fails.
-    pub fn encode(&mut self, picture: &Picture) -> Result<Encoded, VideoError> {
+    pub fn encode(&mut self, picture: &Picture) -> Result<EncodedPicture, VideoError> {
         if (picture.width, picture.height) != self.size_px {
             return Err(VideoError::Encoder("a picture has another size than the video".into()));
         }
@@ -60,7 +60,7 @@ impl Encoder {
         for layer in layers {
             units.extend((0..layer.nal_count()).filter_map(|k| layer.nal_unit(k)).map(|unit| without_start_code(unit).to_vec()));
         }
-        Ok(Encoded { units, key: matches!(stream.frame_type(), FrameType::IDR | FrameType::I) })
+        Ok(EncodedPicture { units, key: matches!(stream.frame_type(), FrameType::IDR | FrameType::I) })
     }
 }
 

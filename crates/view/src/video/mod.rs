@@ -6,9 +6,9 @@ mod rate;
 pub mod rtp;
 pub mod webvtt;
 
-pub use h264::{Encoded, Encoder};
-pub use mp4::{Mp4, Piece};
-pub use rate::Rate;
+pub use h264::{EncodedPicture, H264Encoder};
+pub use mp4::{Mp4Chunk, Mp4Writer};
+pub use rate::PictureRate;
 
 /// Why there is no video.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

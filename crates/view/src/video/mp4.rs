@@ -1,6 +1,6 @@
 //! An MP4 file that is written as pictures come: media data first, its index at the end.
 
-use super::{Encoded, VideoError};
+use super::{EncodedPicture, VideoError};
 use shiguredo_mp4::boxes::{Avc1Box, AvccBox, SampleEntry, VisualSampleEntryFields};
 use shiguredo_mp4::mux::{Mp4FileMuxer, Sample};
 use shiguredo_mp4::{TrackKind, Uint};
@@ -14,7 +14,7 @@ const PPS: u8 = 8;
 
 /// Bytes to write at a place of the file.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Piece {
+pub struct Mp4Chunk {
     /// Where.
     pub at: u64,
     /// What.
@@ -22,7 +22,7 @@ pub struct Piece {
 }
 
 /// A file that grows.
-pub struct Mp4 {
+pub struct Mp4Writer {
     muxer: Mp4FileMuxer,
     size_px: (u32, u32),
     begun: bool,
@@ -32,24 +32,24 @@ pub struct Mp4 {
     rate_hz: f64,
 }
 
-impl Mp4 {
+impl Mp4Writer {
     /// A file for pictures of one size, so many a second, and its first bytes.
     ///
     /// # Errors
     /// When the structure will not hold them.
-    pub fn new(size_px: (u32, u32), rate_hz: f64) -> Result<(Self, Piece), VideoError> {
+    pub fn new(size_px: (u32, u32), rate_hz: f64) -> Result<(Self, Mp4Chunk), VideoError> {
         let muxer = Mp4FileMuxer::new().map_err(|error| VideoError::File(error.to_string()))?;
         let head = muxer.initial_boxes_bytes().to_vec();
         let end = head.len() as u64;
         let file = Self { muxer, size_px, begun: false, end, ticks: 0, pictures: 0, rate_hz };
-        Ok((file, Piece { at: 0, bytes: head }))
+        Ok((file, Mp4Chunk { at: 0, bytes: head }))
     }
 
     /// Adds a picture.
     ///
     /// # Errors
     /// When the structure will not hold it.
-    pub fn push(&mut self, encoded: &Encoded) -> Result<Piece, VideoError> {
+    pub fn push(&mut self, encoded: &EncodedPicture) -> Result<Mp4Chunk, VideoError> {
         let mut bytes = Vec::new();
         for unit in encoded.units.iter().filter(|unit| !is_parameter(unit)) {
             bytes.extend((unit.len() as u32).to_be_bytes());
@@ -70,7 +70,7 @@ impl Mp4 {
         };
         self.muxer.append_sample(&sample).map_err(|error| VideoError::File(error.to_string()))?;
         (self.begun, self.ticks) = (true, until);
-        let piece = Piece { at: self.end, bytes };
+        let piece = Mp4Chunk { at: self.end, bytes };
         self.end += piece.bytes.len() as u64;
         Ok(piece)
     }
@@ -79,9 +79,9 @@ impl Mp4 {
     ///
     /// # Errors
     /// When the structure will not close.
-    pub fn finish(mut self) -> Result<Vec<Piece>, VideoError> {
+    pub fn finish(mut self) -> Result<Vec<Mp4Chunk>, VideoError> {
         let closed = self.muxer.finalize().map_err(|error| VideoError::File(error.to_string()))?;
-        Ok(closed.offset_and_bytes_pairs().map(|(at, bytes)| Piece { at, bytes: bytes.to_vec() }).collect())
+        Ok(closed.offset_and_bytes_pairs().map(|(at, bytes)| Mp4Chunk { at, bytes: bytes.to_vec() }).collect())
     }
 }
 

@@ -8,9 +8,9 @@ const MEASURED_OVER: SimTime = SimTime::from_ms(2_000);
 
 /// Pictures a second, by when the last ones went out.
 #[derive(Debug, Clone, Default)]
-pub struct Rate(VecDeque<SimTime>);
+pub struct PictureRate(VecDeque<SimTime>);
 
-impl Rate {
+impl PictureRate {
     /// A picture went out at a wall time.
     pub fn count(&mut self, wall: SimTime) {
         self.0.push_back(wall);

@@ -14,14 +14,14 @@ const FU_A: u8 = 28;
 
 /// A sender's numbering.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Packets {
+pub struct RtpPacketizer {
     sequence: u16,
     source: u32,
     /// Time stamp of time zero.
     zero: u32,
 }
 
-impl Packets {
+impl RtpPacketizer {
     /// A stream whose identifier and first numbers come from a seed: another one for each stream, so that a receiver takes none for the
     /// continuation of the one before (RFC 3550, 5.1).
     #[must_use]

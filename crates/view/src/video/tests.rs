@@ -10,8 +10,8 @@ fn picture(k: u32) -> Picture {
     Picture { width, height, rgba: (0..height).flat_map(|y| (0..width).flat_map(move |x| pixel(x, y))).collect() }
 }
 
-fn encoded(count: u32) -> Vec<Encoded> {
-    let mut encoder = Encoder::new((320, 180), 15.0, 500_000, 10).unwrap();
+fn encoded(count: u32) -> Vec<EncodedPicture> {
+    let mut encoder = H264Encoder::new((320, 180), 15.0, 500_000, 10).unwrap();
     (0..count).map(|k| encoder.encode(&picture(k)).unwrap()).collect()
 }
 
@@ -38,13 +38,13 @@ fn val_a_decoder_sees_the_square_where_it_was_drawn() {
 fn exact_every_tenth_picture_can_be_read_by_itself() {
     let keys: Vec<usize> = encoded(25).iter().enumerate().filter(|(_, one)| one.key).map(|(k, _)| k).collect();
     assert_eq!(keys, [0, 10, 20]);
-    assert!(Encoder::new((321, 180), 15.0, 500_000, 10).is_err(), "odd sizes have no half");
+    assert!(H264Encoder::new((321, 180), 15.0, 500_000, 10).is_err(), "odd sizes have no half");
 }
 
 #[test]
 fn exact_packets_put_together_again_are_the_units() {
     let units = vec![vec![0x67, 1, 2], vec![0x65; 5_000], vec![0x41; 1_388], vec![0x41; 1_389]];
-    let mut packets = rtp::Packets::new(9);
+    let mut packets = rtp::RtpPacketizer::new(9);
     let number = |packet: &[u8]| u16::from_be_bytes([packet[2], packet[3]]);
     let stamp = |packet: &[u8]| u32::from_be_bytes([packet[4], packet[5], packet[6], packet[7]]);
     let begin = packets.picture(&[vec![0x41, 1]], 0.0).remove(0);
@@ -71,7 +71,7 @@ fn exact_packets_put_together_again_are_the_units() {
 
 #[test]
 fn exact_each_stream_has_numbers_of_its_own() {
-    let first = |seed: u64| rtp::Packets::new(seed).picture(&[vec![0x41, 1]], 0.0).remove(0);
+    let first = |seed: u64| rtp::RtpPacketizer::new(seed).picture(&[vec![0x41, 1]], 0.0).remove(0);
     assert_eq!(first(1), first(1));
     for field in [2..4, 4..8, 8..12] {
         assert_ne!(first(1)[field.clone()], first(2)[field]);
@@ -81,9 +81,9 @@ fn exact_each_stream_has_numbers_of_its_own() {
 #[test]
 fn exact_an_mp4_file_holds_every_picture_and_its_time() {
     let pictures = encoded(30);
-    let (mut file, head) = Mp4::new((320, 180), 15.0).unwrap();
+    let (mut file, head) = Mp4Writer::new((320, 180), 15.0).unwrap();
     let mut bytes = Vec::new();
-    let mut write = |piece: mp4::Piece| {
+    let mut write = |piece: mp4::Mp4Chunk| {
         let end = piece.at as usize + piece.bytes.len();
         bytes.resize(bytes.len().max(end), 0);
         bytes[piece.at as usize..end].copy_from_slice(&piece.bytes);
@@ -111,8 +111,8 @@ fn exact_chapters_are_one_line_without_markup() {
 }
 
 #[test]
-fn exact_a_rate_is_told_from_the_second_picture_on_and_forgets_after_two_seconds() {
-    let mut rate = Rate::default();
+fn exact_a_rate_is_reported_from_the_second_picture_on_and_forgets_after_two_seconds() {
+    let mut rate = PictureRate::default();
     let mut after = |ms: i64| {
         rate.count(SimTime::from_ms(ms));
         rate.hz()

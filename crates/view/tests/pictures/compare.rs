@@ -157,7 +157,7 @@ fn sample(square: Option<(u32, u32)>, shift: u32) -> Picture {
 }
 
 #[test]
-fn exact_the_yardstick_notices_what_is_missing_or_moved_and_forgives_jpeg() {
+fn exact_the_comparison_detects_missing_or_moved_parts_and_tolerates_jpeg() {
     let plain = sample(None, 0);
     assert_eq!(difference(&plain, &plain), Some(Difference { mean: 0.0, tile: 0.0 }));
     let spotted = difference(&plain, &sample(Some((60, 40)), 0)).unwrap();

@@ -7,7 +7,7 @@ use spandrel_model::site::catalogue;
 use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, sunny};
 use spandrel_view::picture::Picture;
-use spandrel_view::scene::Patch;
+use spandrel_view::scene::DefectPatch;
 use spandrel_view::scene::defects::patch;
 
 /// Crops of the camera's picture at its own resolution, px.
@@ -21,7 +21,7 @@ const LIMED: f32 = 0.12;
 struct Wall {
     studio: Studio,
     crack: PlacedDefect,
-    patches: Vec<Patch>,
+    patches: Vec<DefectPatch>,
 }
 
 impl Wall {

@@ -9,8 +9,8 @@ use spandrel_model::site::catalogue;
 use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, dusk, sunny};
 use spandrel_view::arrange::fitted_px;
-use spandrel_view::camera::Eye;
-use spandrel_view::hud::{self, Gnss, Hud, Track};
+use spandrel_view::camera::PinholeCamera;
+use spandrel_view::hud::{self, GnssStatus, Hud, MapPath};
 use spandrel_view::picture::Picture;
 use spandrel_view::scene::defects::patch;
 use std::path::Path;
@@ -79,8 +79,8 @@ fn regress_the_crew_and_the_drone_at_the_pad() {
     ] {
         let moment = studio.moment(drone, at(0.0, 150.0, 14.0), false, at(0.0, 0.0, 0.0));
         let aspect = f64::from(SCENE.0) / f64::from(SCENE.1);
-        let eye = Eye::at(from, look, f64::to_radians(vfov_deg), aspect);
-        let shot = studio.stage().person(eye, &moment, SCENE);
+        let eye = PinholeCamera::at(from, look, f64::to_radians(vfov_deg), aspect);
+        let shot = studio.stage().inspector_shot(eye, &moment, SCENE);
         let picture = studio.draw(&shot);
         wall.hang(name, &picture);
     }
@@ -89,7 +89,7 @@ fn regress_the_crew_and_the_drone_at_the_pad() {
 
 /// What may be taken for a defect and is none: a crack that was closed, a web, spray paint. Form lines, tie holes, streaks and droppings are beside.
 #[test]
-fn regress_false_friends() {
+fn regress_distractor() {
     let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
     studio.without_defects();
     let mut wall = Wall::default();
@@ -232,7 +232,7 @@ fn regress_the_tutorial_shows_defects_through_one_lens_at_true_scale() {
 
 /// What the display says in flight when nothing is wrong.
 fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
-    let track = |task: &spandrel_model::scenario::Task| Track { id: task.id, path_m: task.path_m.clone(), closed: task.closed };
+    let track = |task: &spandrel_model::scenario::Task| MapPath { id: task.id, path_m: task.path_m.clone(), closed: task.closed };
     Hud {
         speed_m_s: 2.4,
         limit_m_s: 4.4704,
@@ -244,7 +244,7 @@ fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
         height_m: position_m.up() - studio.scenario.ground_team.pad_m.up(),
         home_m: (position_m - studio.scenario.ground_team.pad_m).horizontal_norm(),
         mode: "Position".into(),
-        gnss: Some(Gnss { fixed: true, satellites: 17 }),
+        gnss: Some(GnssStatus { fixed: true, satellites: 17 }),
         silent_s: 0.02,
         gimbal_rad: 0.1,
         zoom: 1.0,
@@ -286,7 +286,7 @@ fn regress_both_views_with_every_state_of_the_display() {
         ("lamp-zoom-no-satellites", between, |hud| {
             hud.lamp = true;
             hud.zoom = 2.0;
-            hud.gnss = Some(Gnss { fixed: false, satellites: 4 });
+            hud.gnss = Some(GnssStatus { fixed: false, satellites: 4 });
             hud.mode = "Altitude".into();
         }),
         ("assessment-link-lost", slab, |hud| {
@@ -301,7 +301,7 @@ fn regress_both_views_with_every_state_of_the_display() {
         let mut moment = studio.moment(from, look, display.lamp, Vec3::new(0.5, 0.0, 0.0));
         moment.lens.hfov_rad = 2.0 * math::atan(math::tan(0.5 * moment.lens.hfov_rad) / display.zoom);
         let inspector = studio.stage().inspector(&moment, VIEW);
-        let marked = studio.stage().marked(&inspector, &moment);
+        let marked = studio.stage().drone_marker(&inspector, &moment);
         let seen = fitted_px(VIEW, moment.lens.aspect());
         let camera = studio.stage().camera(&moment, seen);
         let shown = hud::layout(&display, f64::from(seen.0) / f64::from(seen.1));

@@ -9,10 +9,10 @@ use spandrel_model::site::{CameraPose, DefectView, Site};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 use spandrel_testkit::studio::{Studio, two_bridges};
-use spandrel_view::camera::Eye;
+use spandrel_view::camera::PinholeCamera;
 use spandrel_view::picture::Picture;
 use spandrel_view::scene::defects;
-use spandrel_view::stage::aimed;
+use spandrel_view::stage::camera_aimed_at;
 use std::collections::BTreeMap;
 
 /// Photographs that show a defect.
@@ -44,19 +44,25 @@ fn taken(site: &Site, vehicle: &Vehicle, defect: &PlacedDefect, stream: &mut Ran
     }
     let distance = (from - defect.position_m).norm();
     let aside = (across * stream.range(-0.5, 0.5) + up * stream.range(-0.4, 0.4)) * distance;
-    let pose = aimed(from, defect.position_m + aside, stream.uniform() < 0.5);
-    let seen = site.look(&pose, &vehicle.camera, &vehicle.lamp, SimTime::ZERO);
+    let pose = camera_aimed_at(from, defect.position_m + aside, stream.uniform() < 0.5);
+    let seen = site.view_defects(&pose, &vehicle.camera, &vehicle.lamp, SimTime::ZERO);
     seen.into_iter().find(|view| view.defect_id == defect.id).map(|view| Snapshot { pose, view })
 }
 
 /// The crop around a defect with the defects and without them; exposed as the whole photograph is.
 fn drawn(studio: &mut Studio, snapshot: &Snapshot, defect: &PlacedDefect) -> [Picture; 2] {
     let lens = studio.vehicle.camera;
-    let whole = studio.stage().through(Eye::of(&snapshot.pose, &lens), Some(&snapshot.pose), &lens, None, (SimTime::ZERO, FRAME));
+    let whole = studio.stage().through(
+        PinholeCamera::of(&snapshot.pose, &lens),
+        Some(&snapshot.pose),
+        &lens,
+        None,
+        (SimTime::ZERO, FRAME),
+    );
     let hfov_rad = 2.0 * math::atan(0.5 * f64::from(CROP.0) / lens.focal_px());
-    let towards = aimed(snapshot.pose.position_m, defect.position_m, snapshot.pose.lamp_on);
+    let towards = camera_aimed_at(snapshot.pose.position_m, defect.position_m, snapshot.pose.lamp_on);
     let mut shot = whole;
-    shot.eye = Eye::of(&towards, &Camera { hfov_rad, ..lens });
+    shot.eye = PinholeCamera::of(&towards, &Camera { hfov_rad, ..lens });
     shot.size_px = CROP;
     shot.finish.vignette = 0.0;
     let sun = studio.site.light().daylight(SimTime::ZERO).sun;
@@ -71,8 +77,8 @@ fn drawn(studio: &mut Studio, snapshot: &Snapshot, defect: &PlacedDefect) -> [Pi
 /// Where in a crop the defect lies: each pixel's place on the defect's plane, along and across, in shares of its half sizes.
 fn inside(snapshot: &Snapshot, defect: &PlacedDefect, lens: &Camera) -> Vec<bool> {
     let hfov_rad = 2.0 * math::atan(0.5 * f64::from(CROP.0) / lens.focal_px());
-    let towards = aimed(snapshot.pose.position_m, defect.position_m, false);
-    let eye = Eye::of(&towards, &Camera { hfov_rad, ..*lens });
+    let towards = camera_aimed_at(snapshot.pose.position_m, defect.position_m, false);
+    let eye = PinholeCamera::of(&towards, &Camera { hfov_rad, ..*lens });
     let aspect = f64::from(CROP.0) / f64::from(CROP.1);
     let gsd_m = (defect.position_m - eye.position_m).norm() / lens.focal_px();
     let across = defect.normal.cross(defect.along);
@@ -116,8 +122,8 @@ fn shows([with, without]: &[Picture; 2], region: &[bool]) -> Shows {
 fn from_behind(site: &Site, vehicle: &Vehicle, defect: &PlacedDefect) -> Option<Snapshot> {
     let from = (3..16).map(|k| defect.position_m - defect.normal * (0.5 * f64::from(k)));
     let free = from.clone().find(|from| site.nearest(*from, 0.6, SimTime::ZERO).is_none())?;
-    let pose = aimed(free, defect.position_m, true);
-    let seen = site.look(&pose, &vehicle.camera, &vehicle.lamp, SimTime::ZERO);
+    let pose = camera_aimed_at(free, defect.position_m, true);
+    let seen = site.view_defects(&pose, &vehicle.camera, &vehicle.lamp, SimTime::ZERO);
     let view = seen.into_iter().find(|view| view.defect_id == defect.id)?;
     Some(Snapshot { pose, view })
 }

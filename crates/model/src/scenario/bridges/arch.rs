@@ -1,7 +1,7 @@
 //! Open-spandrel deck arch: two parabolic ribs with struts, spandrel columns, floorbeams, stringers, deck slab, railings, abutments.
 
-use super::solid::Builder;
-use super::{Field, Footing, Misfit, Misfits};
+use super::solid::MemberBuilder;
+use super::{BridgeField, Footing, Inconsistency, InconsistencyList};
 use crate::math;
 
 /// Floorbeams end this far inside the deck's edge, m (estimate).
@@ -54,13 +54,13 @@ pub struct Arch {
     pub approach_m: f64,
 }
 
-const fn field(key: &'static str, min: f64, max: f64, default: f64, doc: &'static str) -> Field {
-    Field { key, min, max, default, doc }
+const fn field(key: &'static str, min: f64, max: f64, default: f64, doc: &'static str) -> BridgeField {
+    BridgeField { key, min, max, default, doc }
 }
 
 impl Arch {
     /// Keys of the scenario file, in the order of [`Arch::from_values`].
-    pub const FIELDS: &'static [Field] = &[
+    pub const FIELDS: &'static [BridgeField] = &[
         field("span_m", 40.0, 520.0, 98.0, "distance between springings; Bixby Creek 98 m, New River Gorge 518 m"),
         field("rise_m", 8.0, 120.0, 26.0, "crown axis over springing axis; span/rise of catalogued arches is 2.5 to 8"),
         field("crown_depth_m", 0.8, 8.0, 1.6, "rib depth at the crown; span/65 to span/50 (estimate)"),
@@ -175,13 +175,13 @@ impl Arch {
 
     /// Numbers that do not fit together: none, or every member has a volume, stands on another, and the interlayer is open.
     #[must_use]
-    pub fn misfits(&self) -> Vec<Misfit> {
+    pub fn misfits(&self) -> Vec<Inconsistency> {
         let panel_m = self.span_m / self.panels.round();
         let line_m = (self.deck_width_m - 2.0 * BEAM_INSET_M) / self.stringers.round();
         let over_columns_m = self.rib_spacing_m + self.column_m + 2.0 * BEAM_INSET_M;
-        let mut m = Misfits::default();
-        m.whole("panels", self.panels);
-        m.whole("stringers", self.stringers);
+        let mut m = InconsistencyList::default();
+        m.integer_field("panels", self.panels);
+        m.integer_field("stringers", self.stringers);
         m.at_least("rise_m", self.rise_m, self.span_m / 12.0, "not too flat for span_m");
         m.at_most("rise_m", self.rise_m, self.span_m / 2.0, "not too steep for span_m");
         m.at_least("springing_depth_m", self.springing_depth_m, self.crown_depth_m, "no thinner than the crown (crown_depth_m)");
@@ -197,7 +197,7 @@ impl Arch {
     }
 
     /// Builds every member.
-    pub fn build(&self, b: &mut Builder) {
+    pub fn build(&self, b: &mut MemberBuilder) {
         self.ribs(b);
         self.columns(b);
         self.floor(b);
@@ -205,7 +205,7 @@ impl Arch {
         self.abutments(b);
     }
 
-    fn ribs(&self, b: &mut Builder) {
+    fn ribs(&self, b: &mut MemberBuilder) {
         for (side, y) in [("left", 0.5 * self.rib_spacing_m), ("right", -0.5 * self.rib_spacing_m)] {
             for (k, pair) in self.rib_nodes().windows(2).enumerate() {
                 let (a, c) = (pair[0], pair[1]);
@@ -222,7 +222,7 @@ impl Arch {
         }
     }
 
-    fn columns(&self, b: &mut Builder) {
+    fn columns(&self, b: &mut MemberBuilder) {
         let half = 0.5 * self.column_m;
         let top = self.floorbeam_z_m();
         for (k, x) in self.panel_points().into_iter().enumerate() {
@@ -244,7 +244,7 @@ impl Arch {
         }
     }
 
-    fn floor(&self, b: &mut Builder) {
+    fn floor(&self, b: &mut MemberBuilder) {
         let half_width = 0.5 * self.deck_width_m;
         let beam_half = half_width - BEAM_INSET_M;
         let soffit = -self.slab_m;
@@ -275,7 +275,7 @@ impl Arch {
         }
     }
 
-    fn railings(&self, b: &mut Builder) {
+    fn railings(&self, b: &mut MemberBuilder) {
         railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, 331);
     }
 
@@ -303,7 +303,7 @@ impl Arch {
         0.5 * (self.rib_spacing_m + self.rib_width_m) + 0.5
     }
 
-    fn abutments(&self, b: &mut Builder) {
+    fn abutments(&self, b: &mut MemberBuilder) {
         // Skewbacks carry the ribs.
         let under_deck = -self.slab_m - self.stringer_depth_m;
         let over_ribs = self.extrados_z_m(0.5 * self.span_m) + 0.8;
@@ -326,7 +326,7 @@ impl Default for Arch {
 }
 
 /// Posts every 2 m and three rails along both edges of a deck.
-pub(super) fn railing(b: &mut Builder, length_m: f64, edge_y_m: f64, height_m: f64, element: u32) {
+pub(super) fn railing(b: &mut MemberBuilder, length_m: f64, edge_y_m: f64, height_m: f64, element: u32) {
     const POST_M: f64 = 0.15;
     let posts = (length_m / 2.0).floor() as i32;
     for (side, y) in [("left", edge_y_m - POST_M), ("right", -edge_y_m)] {

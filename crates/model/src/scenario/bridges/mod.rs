@@ -8,7 +8,7 @@ pub mod suspension;
 
 use super::{Bridge, BridgeKind, TaskKind};
 use crate::frames::{Enu, Vec3};
-use solid::{Builder, Placement};
+use solid::{MemberBuilder, Placement};
 
 /// One structural member. What collides, what is drawn, what carries defects and what is exported is this solid and nothing else.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,7 +52,7 @@ pub struct Lane {
 
 /// A number of a bridge type as scenario files write it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Field {
+pub struct BridgeField {
     /// Key, with its unit.
     pub key: &'static str,
     /// Smallest value allowed.
@@ -67,7 +67,7 @@ pub struct Field {
 
 /// Numbers of a bridge that are legal one by one but not together.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Misfit {
+pub struct Inconsistency {
     /// Key to change.
     pub key: &'static str,
     /// Its value.
@@ -78,24 +78,24 @@ pub struct Misfit {
 
 /// Collects misfits while a type's numbers are compared.
 #[derive(Debug, Default)]
-struct Misfits(Vec<Misfit>);
+struct InconsistencyList(Vec<Inconsistency>);
 
-impl Misfits {
-    fn whole(&mut self, key: &'static str, value: f64) {
+impl InconsistencyList {
+    fn integer_field(&mut self, key: &'static str, value: f64) {
         if value.fract() != 0.0 {
-            self.0.push(Misfit { key, value, allowed: "a whole number".into() });
+            self.0.push(Inconsistency { key, value, allowed: "a whole number".into() });
         }
     }
 
     fn at_least(&mut self, key: &'static str, value: f64, low: f64, why: &str) {
         if value < low {
-            self.0.push(Misfit { key, value, allowed: format!("{why}: at least {low:.2}") });
+            self.0.push(Inconsistency { key, value, allowed: format!("{why}: at least {low:.2}") });
         }
     }
 
     fn at_most(&mut self, key: &'static str, value: f64, high: f64, why: &str) {
         if value > high {
-            self.0.push(Misfit { key, value, allowed: format!("{why}: at most {high:.2}") });
+            self.0.push(Inconsistency { key, value, allowed: format!("{why}: at most {high:.2}") });
         }
     }
 }
@@ -103,7 +103,7 @@ impl Misfits {
 impl BridgeKind {
     /// Numbers that do not fit together: none, or the bridge cannot be built.
     #[must_use]
-    pub fn misfits(&self) -> Vec<Misfit> {
+    pub fn misfits(&self) -> Vec<Inconsistency> {
         match self {
             Self::Arch(arch) => arch.misfits(),
             Self::Suspension(suspension) => suspension.misfits(),
@@ -143,7 +143,7 @@ impl Bridge {
     /// All members.
     #[must_use]
     pub fn members(&self) -> Vec<Member> {
-        let mut builder = Builder::new(&self.name, self.placement());
+        let mut builder = MemberBuilder::new(&self.name, self.placement());
         match &self.kind {
             BridgeKind::Arch(arch) => arch.build(&mut builder),
             BridgeKind::Suspension(suspension) => suspension.build(&mut builder),

@@ -2,7 +2,7 @@
 
 use super::TaskPath;
 use super::arch::Arch;
-use super::solid::{Local, Placement};
+use super::solid::{LocalPoint, Placement};
 use super::suspension::Suspension;
 use crate::math;
 
@@ -11,13 +11,13 @@ pub const SPACING_M: f64 = 0.8;
 
 /// A path before it is placed in the site.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Drawn {
-    points: Vec<Local>,
-    look: Vec<Local>,
+pub struct LocalPath {
+    points: Vec<LocalPoint>,
+    look: Vec<LocalPoint>,
     closed: bool,
 }
 
-impl Drawn {
+impl LocalPath {
     /// Carried into the site.
     #[must_use]
     pub fn placed(&self, placement: &Placement) -> TaskPath {
@@ -36,15 +36,15 @@ fn steps(a: f64, b: f64) -> Vec<f64> {
 }
 
 /// Task 1: a straight line along the right side of the deck, level with the slab, looking at it.
-pub(super) fn slab_side(arch: &Arch, stand_off_m: f64) -> Drawn {
+pub(super) fn slab_side(arch: &Arch, stand_off_m: f64) -> LocalPath {
     let half = 0.5 * arch.span_m;
     let y = -0.5 * arch.deck_width_m - stand_off_m;
-    let points: Vec<Local> = steps(-half, half).into_iter().map(|x| [x, y, -0.6]).collect();
-    Drawn { look: vec![[0.0, 1.0, 0.0]; points.len()], points, closed: false }
+    let points: Vec<LocalPoint> = steps(-half, half).into_iter().map(|x| [x, y, -0.6]).collect();
+    LocalPath { look: vec![[0.0, 1.0, 0.0]; points.len()], points, closed: false }
 }
 
 /// Task 2: under the arch between the ribs, at the stand-off square to the intrados, looking up and ahead at it.
-pub(super) fn arch_bottom(arch: &Arch, stand_off_m: f64) -> Drawn {
+pub(super) fn arch_bottom(arch: &Arch, stand_off_m: f64) -> LocalPath {
     let reach = 0.5 * arch.span_m * 0.78;
     let bend = arch.intrados_bend_per_m();
     // The ribs are built straight between their nodes, which lie on the curve: at most this far inside it.
@@ -53,7 +53,7 @@ pub(super) fn arch_bottom(arch: &Arch, stand_off_m: f64) -> Drawn {
     let steepest = 2.0 * bend * reach;
     let n = (2.0 * reach * (1.0 + steepest * steepest).sqrt() / SPACING_M).ceil() as i32;
     let on_curve = (0..=n).map(|k| reach * (2.0 * f64::from(k) / f64::from(n) - 1.0));
-    let points: Vec<Local> = on_curve
+    let points: Vec<LocalPoint> = on_curve
         .map(|x| {
             let fall = 2.0 * bend * x;
             let stretch = (1.0 + fall * fall).sqrt();
@@ -61,11 +61,11 @@ pub(super) fn arch_bottom(arch: &Arch, stand_off_m: f64) -> Drawn {
         })
         .collect();
     let look = points.iter().enumerate().map(|(k, p)| under_arch_look(arch, *p, off, k)).collect();
-    Drawn { points, look, closed: false }
+    LocalPath { points, look, closed: false }
 }
 
 /// Up at the soffits a little ahead, swinging slowly from the left rib over the struts to the right rib.
-fn under_arch_look(arch: &Arch, from: Local, off: f64, k: usize) -> Local {
+fn under_arch_look(arch: &Arch, from: LocalPoint, off: f64, k: usize) -> LocalPoint {
     const PERIOD_POINTS: f64 = 30.0;
     let side = math::sin(math::TAU * k as f64 / PERIOD_POINTS);
     // Straight over a point of the path the arch is farther away than the stand-off: seen square to it, it lies out from the crown.
@@ -76,16 +76,16 @@ fn under_arch_look(arch: &Arch, from: Local, off: f64, k: usize) -> Local {
 }
 
 /// Task 3: between deck and arch on the centreline, half way between floorbeams and crown, level.
-pub(super) fn interlayer(arch: &Arch) -> Drawn {
+pub(super) fn interlayer(arch: &Arch) -> LocalPath {
     let half = 0.3 * arch.span_m;
     let z = 0.5 * (arch.floorbeam_z_m() + arch.extrados_z_m(0.0));
-    let points: Vec<Local> = steps(-half, half).into_iter().map(|x| [x, 0.0, z]).collect();
+    let points: Vec<LocalPoint> = steps(-half, half).into_iter().map(|x| [x, 0.0, z]).collect();
     let look = (0..points.len()).map(interlayer_look).collect();
-    Drawn { points, look, closed: false }
+    LocalPath { points, look, closed: false }
 }
 
 /// Alternately up at the deck's underside and down at the ribs, swinging to both sides.
-fn interlayer_look(k: usize) -> Local {
+fn interlayer_look(k: usize) -> LocalPoint {
     const PERIOD_POINTS: f64 = 20.0;
     let phase = math::TAU * k as f64 / PERIOD_POINTS;
     [0.6, 0.5 * math::sin(0.5 * phase), 0.8 * math::sin(phase)]
@@ -93,7 +93,7 @@ fn interlayer_look(k: usize) -> Local {
 
 /// Task 4: once around the start pier at the stand-off from its faces (corners rounded), 2 m under its top or as far under the girders
 /// as the stand-off asks, looking at it.
-pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<Drawn, String> {
+pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<LocalPath, String> {
     let centre = [-0.5 * suspension.main_span_m, 0.0];
     let (hx, hy) = (0.5 * suspension.pier_x_m, 0.5 * suspension.pier_y_m);
     let z = (-suspension.pier_top_m - 2.0).min(suspension.girder_z_m() - stand_off_m);
@@ -124,5 +124,5 @@ pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<D
             add(x + stand_off_m * c, y + stand_off_m * s, c, s);
         }
     }
-    Ok(Drawn { points, look, closed: true })
+    Ok(LocalPath { points, look, closed: true })
 }

@@ -6,7 +6,7 @@ use crate::frames::{Enu, Vec3};
 use crate::math;
 
 /// A point in a bridge's own axes, m.
-pub type Local = [f64; 3];
+pub type LocalPoint = [f64; 3];
 
 /// Where a bridge's own axes stand in the site.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,19 +26,19 @@ impl Placement {
 
     /// A point in the site.
     #[must_use]
-    pub fn point(&self, p: Local) -> Vec3<Enu> {
+    pub fn point(&self, p: LocalPoint) -> Vec3<Enu> {
         self.origin_m + self.direction(p)
     }
 
     /// A direction in the site.
     #[must_use]
-    pub fn direction(&self, d: Local) -> Vec3<Enu> {
+    pub fn direction(&self, d: LocalPoint) -> Vec3<Enu> {
         self.along * d[0] + self.left * d[1] + Vec3::new(0.0, 0.0, d[2])
     }
 
     /// A site point in the bridge's own axes.
     #[must_use]
-    pub fn local(&self, p: Vec3<Enu>) -> Local {
+    pub fn local(&self, p: Vec3<Enu>) -> LocalPoint {
         let d = p - self.origin_m;
         [d.dot(self.along), d.dot(self.left), d.up()]
     }
@@ -46,7 +46,7 @@ impl Placement {
 
 /// Direction of a steel beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Runs {
+pub enum BeamDirection {
     /// Along the bridge, x.
     Along,
     /// Across it, y.
@@ -55,7 +55,7 @@ pub enum Runs {
 
 /// Plate thicknesses of a steel beam, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Plates {
+pub struct PlateThickness {
     /// Of both flanges.
     pub flange_m: f64,
     /// Of the web.
@@ -64,13 +64,13 @@ pub struct Plates {
 
 /// Collects members under one bridge's name.
 #[derive(Debug)]
-pub struct Builder {
+pub struct MemberBuilder {
     bridge: String,
     placement: Placement,
     members: Vec<Member>,
 }
 
-impl Builder {
+impl MemberBuilder {
     /// An empty collection.
     #[must_use]
     pub fn new(bridge: &str, placement: Placement) -> Self {
@@ -83,24 +83,31 @@ impl Builder {
         self.members
     }
 
-    fn push(&mut self, part: &str, element: u32, corners: &[Local], faces: Vec<Vec<u32>>) {
+    fn push(&mut self, part: &str, element: u32, corners: &[LocalPoint], faces: Vec<Vec<u32>>) {
         let vertices_m = corners.iter().map(|c| self.placement.point(*c)).collect();
         let name = format!("{}/{part}", self.bridge);
         self.members.push(Member { name, element, solid: Solid { vertices_m, faces } });
     }
 
     /// A box between two opposite corners.
-    pub fn block(&mut self, part: &str, element: u32, low: Local, high: Local) {
+    pub fn block(&mut self, part: &str, element: u32, low: LocalPoint, high: LocalPoint) {
         let profile = [[low[0], low[2]], [high[0], low[2]], [high[0], high[2]], [low[0], high[2]]];
         self.across(part, element, &profile, low[1], high[1]);
     }
 
     /// A rolled or welded steel beam between two opposite corners: two flanges and a web, each a member of its own. It runs along x, or
     /// across along y.
-    pub fn steel_beam(&mut self, part: &str, element: u32, (low, high): (Local, Local), runs: Runs, plates: Plates) {
+    pub fn steel_beam(
+        &mut self,
+        part: &str,
+        element: u32,
+        (low, high): (LocalPoint, LocalPoint),
+        runs: BeamDirection,
+        plates: PlateThickness,
+    ) {
         let side = match runs {
-            Runs::Along => 1,
-            Runs::Across => 0,
+            BeamDirection::Along => 1,
+            BeamDirection::Across => 0,
         };
         let middle = 0.5 * (low[side] + high[side]);
         let (mut web_low, mut web_high) = (low, high);
@@ -115,19 +122,19 @@ impl Builder {
     pub fn across(&mut self, part: &str, element: u32, profile: &[[f64; 2]], y_low: f64, y_high: f64) {
         let near = profile.iter().map(|p| [p[0], y_low, p[1]]);
         let far = profile.iter().map(|p| [p[0], y_high, p[1]]);
-        let corners: Vec<Local> = near.chain(far).collect();
+        let corners: Vec<LocalPoint> = near.chain(far).collect();
         self.push(part, element, &corners, prism_faces(profile.len()));
     }
 
     /// A regular prism of `sides` around the line from `a` to `b`, whose corners lie at `radius_m`.
-    pub fn rod(&mut self, part: &str, element: u32, a: Local, b: Local, radius_m: f64, sides: u32) {
+    pub fn rod(&mut self, part: &str, element: u32, a: LocalPoint, b: LocalPoint, radius_m: f64, sides: u32) {
         let axis = unit(sub(b, a));
         self.cut_rod(part, element, [(a, axis), (b, axis)], radius_m, sides);
     }
 
     /// Rods from point to point in an upright plane along the bridge, mitred so that each ends where the next begins; the pieces are
     /// numbered.
-    pub fn cable(&mut self, part: &str, element: u32, points: &[Local], radius_m: f64, sides: u32) {
+    pub fn cable(&mut self, part: &str, element: u32, points: &[LocalPoint], radius_m: f64, sides: u32) {
         let last = points.len() - 1;
         let cut = |k: usize| {
             let (before, after) = (points[k.saturating_sub(1)], points[(k + 1).min(last)]);
@@ -142,13 +149,13 @@ impl Builder {
     }
 
     /// A prism along the line between two points, cut off at each by the plane with the normal given.
-    fn cut_rod(&mut self, part: &str, element: u32, ends: [(Local, Local); 2], radius_m: f64, sides: u32) {
+    fn cut_rod(&mut self, part: &str, element: u32, ends: [(LocalPoint, LocalPoint); 2], radius_m: f64, sides: u32) {
         let axis = unit(sub(ends[1].0, ends[0].0));
         // Any direction that is not along the axis will do; the deck's left side keeps cables and hangers alike.
         let helper = if axis[1].abs() > 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
         let u = unit(cross(helper, axis));
         let v = cross(axis, u);
-        let ring = |(centre, normal): (Local, Local)| {
+        let ring = |(centre, normal): (LocalPoint, LocalPoint)| {
             (0..sides).map(move |k| {
                 let (s, c) = math::sin_cos(math::TAU * f64::from(k) / f64::from(sides));
                 let out = [0, 1, 2].map(|i| radius_m * (c * u[i] + s * v[i]));
@@ -157,7 +164,7 @@ impl Builder {
             })
         };
         // Seen from the first end the ring runs clockwise, which is counter-clockwise seen from outside its first face.
-        let corners: Vec<Local> = ring(ends[1]).chain(ring(ends[0])).collect();
+        let corners: Vec<LocalPoint> = ring(ends[1]).chain(ring(ends[0])).collect();
         self.push(part, element, &corners, prism_faces(sides as usize));
     }
 }
@@ -173,19 +180,19 @@ fn prism_faces(n: usize) -> Vec<Vec<u32>> {
     faces
 }
 
-fn sub(a: Local, b: Local) -> Local {
+fn sub(a: LocalPoint, b: LocalPoint) -> LocalPoint {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-fn dot(a: Local, b: Local) -> f64 {
+fn dot(a: LocalPoint, b: LocalPoint) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn cross(a: Local, b: Local) -> Local {
+fn cross(a: LocalPoint, b: LocalPoint) -> LocalPoint {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-fn unit(a: Local) -> Local {
+fn unit(a: LocalPoint) -> LocalPoint {
     let n = dot(a, a).sqrt();
     [a[0] / n, a[1] / n, a[2] / n]
 }

@@ -1,17 +1,17 @@
 //! Suspension bridge: towers on piers in the water, main cables, hangers, stiffening girders, floor, railings, anchorages.
 
 use super::arch::railing;
-use super::solid::{Builder, Plates, Runs};
-use super::{Field, Footing, Misfit, Misfits};
+use super::solid::{BeamDirection, MemberBuilder, PlateThickness};
+use super::{BridgeField, Footing, Inconsistency, InconsistencyList};
 
 /// Girders stand this far out over the deck's edge, m (estimate).
 const GIRDER_OUT_M: f64 = 0.2;
 /// Plates of the welded stiffening girders (estimate).
-const GIRDER: Plates = Plates { flange_m: 0.04, web_m: 0.016 };
+const GIRDER: PlateThickness = PlateThickness { flange_m: 0.04, web_m: 0.016 };
 /// Plates of the floorbeams (estimate).
-const FLOORBEAM: Plates = Plates { flange_m: 0.025, web_m: 0.012 };
+const FLOORBEAM: PlateThickness = PlateThickness { flange_m: 0.025, web_m: 0.012 };
 /// Plates of the stringers, those of a rolled W21 (estimate).
-const STRINGER: Plates = Plates { flange_m: 0.02, web_m: 0.012 };
+const STRINGER: PlateThickness = PlateThickness { flange_m: 0.02, web_m: 0.012 };
 /// Between girder and tower leg, m (estimate).
 const LEG_GAP_M: f64 = 0.02;
 /// Height of the bearings under the girders, m (estimate).
@@ -68,13 +68,13 @@ pub struct Suspension {
     pub railing_m: f64,
 }
 
-const fn field(key: &'static str, min: f64, max: f64, default: f64, doc: &'static str) -> Field {
-    Field { key, min, max, default, doc }
+const fn field(key: &'static str, min: f64, max: f64, default: f64, doc: &'static str) -> BridgeField {
+    BridgeField { key, min, max, default, doc }
 }
 
 impl Suspension {
     /// Keys of the scenario file, in the order of [`Suspension::from_values`].
-    pub const FIELDS: &'static [Field] = &[
+    pub const FIELDS: &'static [BridgeField] = &[
         field("main_span_m", 60.0, 1400.0, 140.0, "between the towers; Deer Isle 329 m, Golden Gate 1280 m"),
         field("side_span_m", 20.0, 400.0, 45.0, "tower to anchorage (estimate)"),
         field("sag_m", 5.0, 160.0, 14.0, "cable sag; span/9 to span/11 (estimate)"),
@@ -185,10 +185,10 @@ impl Suspension {
 
     /// Numbers that do not fit together: none, or the towers stand on their piers, the girders clear them and all members meet.
     #[must_use]
-    pub fn misfits(&self) -> Vec<Misfit> {
+    pub fn misfits(&self) -> Vec<Inconsistency> {
         let legs_m = 2.0 * self.cable_y_m() + self.leg_y_m;
         let portal_m = BEARING_M + PORTAL_M - self.girder_z_m();
-        let mut m = Misfits::default();
+        let mut m = InconsistencyList::default();
         m.at_least("sag_m", self.sag_m, self.main_span_m / 20.0, "not too flat for main_span_m");
         m.at_most("sag_m", self.sag_m, self.main_span_m / 4.0, "not too steep for main_span_m");
         m.at_least("cable_clearance_m", self.cable_clearance_m, self.cable_radius_m, "clear of the deck (cable_radius_m)");
@@ -208,7 +208,7 @@ impl Suspension {
     }
 
     /// Builds every member.
-    pub fn build(&self, b: &mut Builder) {
+    pub fn build(&self, b: &mut MemberBuilder) {
         self.towers(b);
         self.cables(b);
         self.floor(b);
@@ -227,7 +227,7 @@ impl Suspension {
         self.cable_z_m(half - reach).min(self.cable_z_m(half + reach))
     }
 
-    fn towers(&self, b: &mut Builder) {
+    fn towers(&self, b: &mut MemberBuilder) {
         let top = self.leg_top_m();
         for (name, x) in [("start", -0.5 * self.main_span_m), ("end", 0.5 * self.main_span_m)] {
             let (px, py) = (0.5 * self.pier_x_m, 0.5 * self.pier_y_m);
@@ -249,7 +249,7 @@ impl Suspension {
     }
 
     /// Carries the cable over the leg: up to the middle of the cable, whose lower half lies in it.
-    fn saddle(&self, b: &mut Builder, name: &str, x: f64, y: f64) {
+    fn saddle(&self, b: &mut MemberBuilder, name: &str, x: f64, y: f64) {
         let (reach, half) = (0.5 * self.leg_x_m, self.cable_radius_m + SADDLE_M);
         let (low, edge, crown) = (self.leg_top_m(), self.saddle_edge_z_m(), self.cable_z_m(0.5 * self.main_span_m));
         let profile = [[x - reach, low], [x + reach, low], [x + reach, edge], [x, crown], [x - reach, edge]];
@@ -257,13 +257,13 @@ impl Suspension {
     }
 
     /// Between a girder and what carries it.
-    fn bearing(&self, b: &mut Builder, name: &str, element: u32, x: f64, side: f64) {
+    fn bearing(&self, b: &mut MemberBuilder, name: &str, element: u32, x: f64, side: f64) {
         let y = side * 0.5 * self.deck_width_m;
         let z = self.girder_z_m();
         b.block(name, element, [x - 0.3, y - 0.15, z - BEARING_M], [x + 0.3, y + 0.15, z]);
     }
 
-    fn cables(&self, b: &mut Builder) {
+    fn cables(&self, b: &mut MemberBuilder) {
         let half = 0.5 * self.main_span_m;
         let grip = self.anchor_x_m() + GRIP_M;
         let mut xs = vec![-grip, -half];
@@ -279,7 +279,7 @@ impl Suspension {
         }
     }
 
-    fn floor(&self, b: &mut Builder) {
+    fn floor(&self, b: &mut MemberBuilder) {
         let half_width = 0.5 * self.deck_width_m;
         let soffit = -self.slab_m;
         for (k, pair) in self.panel_ends().windows(2).enumerate() {
@@ -287,13 +287,13 @@ impl Suspension {
             for (side, y) in [("left", half_width - GIRDER_OUT_M), ("right", -half_width - GIRDER_OUT_M)] {
                 let name = format!("girder-{side}/{k:02}");
                 let corners = ([pair[0], y, self.girder_z_m()], [pair[1], y + 2.0 * GIRDER_OUT_M, soffit]);
-                b.steel_beam(&name, 107, corners, Runs::Along, GIRDER);
+                b.steel_beam(&name, 107, corners, BeamDirection::Along, GIRDER);
             }
             for (line, y) in [(0, -0.25), (1, 0.25)] {
                 let y = y * self.deck_width_m;
                 let name = format!("stringer-{line}/{k:02}");
                 let corners = ([pair[0], y - 0.12, soffit - 0.5], [pair[1], y + 0.12, soffit]);
-                b.steel_beam(&name, 113, corners, Runs::Along, STRINGER);
+                b.steel_beam(&name, 113, corners, BeamDirection::Along, STRINGER);
             }
         }
         // In the main span they reach out to the hangers, which hold them.
@@ -302,7 +302,7 @@ impl Suspension {
             let reach = if x.abs() < 0.5 * self.main_span_m { held } else { half_width };
             let name = format!("floorbeam/{k:02}");
             let corners = ([x - 0.15, -reach, soffit - self.floorbeam_depth_m], [x + 0.15, reach, soffit]);
-            b.steel_beam(&name, 152, corners, Runs::Across, FLOORBEAM);
+            b.steel_beam(&name, 152, corners, BeamDirection::Across, FLOORBEAM);
         }
     }
 
@@ -328,7 +328,7 @@ impl Suspension {
         ]
     }
 
-    fn anchorages(&self, b: &mut Builder) {
+    fn anchorages(&self, b: &mut MemberBuilder) {
         let near = (self.cable_y_m() - self.cable_radius_m - 0.45).max(0.5 * self.deck_width_m + GIRDER_OUT_M);
         let top = self.girder_z_m() - BEARING_M;
         for (name, foot) in ["start", "end"].into_iter().zip(&self.footings()[2..]) {

@@ -18,14 +18,14 @@ pub const ROCKING_SHARE: f64 = 0.1;
 
 /// The gyroscope by its data sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Gyro {
+pub struct GyroSpec {
     /// Bias after calibration, rad/s (1 sigma).
     pub bias_rad_s: f64,
     /// White noise of one sample, rad/s (1 sigma).
     pub sample_rad_s: f64,
 }
 
-impl Gyro {
+impl GyroSpec {
     /// Whether a mean rate of rest can be this gyroscope's bias, rad/s.
     fn allows(&self, mean_rad_s: Vec3<Frd>, samples: f64) -> bool {
         let sigma = math::hypot(self.bias_rad_s, self.sample_rad_s / samples.sqrt());
@@ -36,7 +36,7 @@ impl Gyro {
 /// Sums while aligning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Alignment {
-    gyro: Gyro,
+    gyro: GyroSpec,
     force: Vec3<Frd>,
     rates: Vec3<Frd>,
     mag: Vec3<Frd>,
@@ -47,7 +47,7 @@ pub struct Alignment {
 
 /// The outcome.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Aligned {
+pub struct AlignmentResult {
     /// Attitude.
     pub attitude: Rotation<Frd, Ned>,
     /// Gyroscope bias, rad/s.
@@ -63,7 +63,7 @@ pub struct Aligned {
 impl Alignment {
     /// Nothing sampled yet.
     #[must_use]
-    pub fn new(gyro: Gyro) -> Self {
+    pub fn new(gyro: GyroSpec) -> Self {
         let zero = Vec3::zero();
         Self { gyro, force: zero, rates: zero, mag: Vec3::zero(), samples: 0, mag_samples: 0, time_s: 0.0 }
     }
@@ -100,7 +100,7 @@ impl Alignment {
 
     /// The attitude, once enough was averaged. `field` is the earth's field at the site.
     #[must_use]
-    pub fn done(&self, field: Vec3<Ned>) -> Option<Aligned> {
+    pub fn done(&self, field: Vec3<Ned>) -> Option<AlignmentResult> {
         if self.time_s < ALIGN_S || self.mag_samples == 0 {
             return None;
         }
@@ -113,7 +113,7 @@ impl Alignment {
         let pitch = math::atan2(force.forward(), math::hypot(force.right(), force.down()));
         let level = Rotation::from_euler(roll, pitch, 0.0) * self.mag;
         let yaw = math::wrap_pi(math::atan2(field.east(), field.north()) - math::atan2(level.east(), level.north()));
-        Some(Aligned {
+        Some(AlignmentResult {
             attitude: Rotation::from_euler(roll, pitch, yaw),
             gyro_bias_rad_s: self.mean_rate(),
             gyro_variance: self.gyro_variance(samples),
@@ -127,11 +127,11 @@ impl Alignment {
 mod tests {
     use super::*;
 
-    const GYRO: Gyro = Gyro { bias_rad_s: 0.02, sample_rad_s: 0.002 };
+    const GYRO: GyroSpec = GyroSpec { bias_rad_s: 0.02, sample_rad_s: 0.002 };
 
     #[test]
     fn regress_a_body_that_rocks_is_not_aligned_and_one_at_rest_does_not_know_its_bias_exactly() {
-        let gyro = Gyro { bias_rad_s: 0.003, sample_rad_s: 0.002 };
+        let gyro = GyroSpec { bias_rad_s: 0.003, sample_rad_s: 0.002 };
         let mut alignment = Alignment::new(gyro);
         let field = Vec3::new(0.2, 0.02, 0.4);
         let mut feed = |rate: f64, samples: u32| {

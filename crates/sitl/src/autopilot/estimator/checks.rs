@@ -17,13 +17,13 @@ pub const REFUSED_S: f64 = 3.0;
 
 /// How well one source fits the filter.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Check {
+pub struct InnovationCheck {
     refused_share: f64,
     last: Option<SimTime>,
     dropped: bool,
 }
 
-impl Check {
+impl InnovationCheck {
     /// Takes note of a measurement that fits or not; true if it is to be fused.
     pub fn admits(&mut self, fits: bool, now: SimTime) -> bool {
         let gap_s = self.last.map_or(LONGEST_GAP_S, |last| (now - last).s()).min(LONGEST_GAP_S);
@@ -41,7 +41,7 @@ impl Check {
     }
 
     /// Drops the source: others have shown that it is wrong.
-    pub fn drop_now(&mut self) {
+    pub fn reject(&mut self) {
         (self.refused_share, self.dropped) = (1.0, true);
     }
 
@@ -53,17 +53,17 @@ impl Check {
 
 /// Whether a refused source agrees with itself: its distance from the filter stays the same, as after a jump, and is not noise.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Steadiness {
-    seen: Option<(Vec3<Ned>, SimTime)>,
+pub struct RejectionMonitor {
+    previous: Option<(Vec3<Ned>, SimTime)>,
 }
 
-impl Steadiness {
+impl RejectionMonitor {
     /// Takes note of a distance from the filter, m; returns for how long it has stayed within `tolerance_m`, s.
     pub fn hold_s(&mut self, distance_m: Vec3<Ned>, tolerance_m: f64, now: SimTime) -> f64 {
-        match self.seen {
+        match self.previous {
             Some((then, since)) if (distance_m - then).norm() <= tolerance_m => (now - since).s(),
             _ => {
-                self.seen = Some((distance_m, now));
+                self.previous = Some((distance_m, now));
                 0.0
             }
         }
@@ -71,27 +71,27 @@ impl Steadiness {
 
     /// The source fits again.
     pub fn forget(&mut self) {
-        self.seen = None;
+        self.previous = None;
     }
 }
 
 /// The checks of all sources.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Checks {
+pub struct InnovationChecks {
     /// Barometer.
-    pub baro: Check,
+    pub baro: InnovationCheck,
     /// Magnetometer.
-    pub mag: Check,
+    pub mag: InnovationCheck,
     /// The receiver's horizontal position.
-    pub gnss: Check,
+    pub gnss: InnovationCheck,
     /// The receiver's height.
-    pub gnss_height: Check,
+    pub gnss_height: InnovationCheck,
     /// The receiver's velocity.
-    pub gnss_velocity: Check,
+    pub gnss_velocity: InnovationCheck,
     /// How steady the barometer is off.
-    pub baro_off: Steadiness,
+    pub baro_off: RejectionMonitor,
     /// How steady the receiver is off.
-    pub gnss_off: Steadiness,
+    pub gnss_off: RejectionMonitor,
 }
 
 #[cfg(test)]
@@ -100,7 +100,7 @@ mod tests {
 
     #[test]
     fn exact_a_second_of_refusals_drops_a_source_and_two_of_agreement_bring_it_back() {
-        let mut check = Check::default();
+        let mut check = InnovationCheck::default();
         let mut at = SimTime::ZERO;
         let mut feed = |fits: bool, ms: i64| {
             for _ in 0..ms / 20 {

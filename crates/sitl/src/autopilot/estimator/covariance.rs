@@ -47,7 +47,7 @@ pub struct ProcessNoise {
 }
 
 /// A correction of all error states.
-pub type Correction = [f64; STATES];
+pub type StateCorrection = [f64; STATES];
 
 /// A row's places: an even number of pairs, so that no loop over a row has a tail; what lies beyond the states stays zero.
 const WIDTH: usize = STATES.next_multiple_of(4);
@@ -199,7 +199,7 @@ impl Covariance {
 
     /// Fuses one scalar: `slopes` are the few non-zero derivatives of the measurement by the errors, `innovation` is measured minus
     /// expected. `None` when it lies outside `gate` standard deviations; the covariance then stays.
-    pub fn fuse(&mut self, slopes: &[(usize, f64)], innovation: f64, variance: f64, gate: f64) -> Option<Correction> {
+    pub fn fuse(&mut self, slopes: &[(usize, f64)], innovation: f64, variance: f64, gate: f64) -> Option<StateCorrection> {
         let mut ph = [0.0; WIDTH];
         for (index, slope) in slopes {
             for (sum, value) in ph.iter_mut().zip(&self.m[*index]) {
@@ -227,16 +227,16 @@ mod tests {
     use super::*;
     use nalgebra::SMatrix;
 
-    type Full = SMatrix<f64, STATES, STATES>;
+    type SquareMatrix = SMatrix<f64, STATES, STATES>;
     /// Rounding of sums of products of order one, no unit.
     const ROUNDING: f64 = 1e-12;
 
-    fn full(c: &Covariance) -> Full {
-        Full::from_fn(|i, j| c.m[i][j])
+    fn full(c: &Covariance) -> SquareMatrix {
+        SquareMatrix::from_fn(|i, j| c.m[i][j])
     }
 
     fn some_covariance() -> Covariance {
-        let root = Full::from_fn(|i, j| ((i * 7 + j * 13) % 11) as f64 / 11.0 - 0.4);
+        let root = SquareMatrix::from_fn(|i, j| ((i * 7 + j * 13) % 11) as f64 / 11.0 - 0.4);
         let m = root * root.transpose();
         let mut c = Covariance::diagonal(&[0.0; STATES]);
         for i in 0..STATES {
@@ -261,7 +261,7 @@ mod tests {
         let dt = 0.01;
         let r = *nalgebra::Rotation3::from_euler_angles(0.3, -0.2, 1.1).matrix();
         let g = Vector3::new(0.02, -0.05, -0.1);
-        let mut f = Full::identity();
+        let mut f = SquareMatrix::identity();
         let cross = Matrix3::new(0.0, g.z, -g.y, -g.z, 0.0, g.x, g.y, -g.x, 0.0);
         for i in 0..3 {
             f[(P + i, V + i)] = dt;
@@ -297,7 +297,7 @@ mod tests {
         let s = (h * before * h.transpose())[(0, 0)] + 0.2;
         let k = before * h.transpose() / s;
         let dx = c.fuse(&[(P, 1.0), (DRIFT, 0.5)], 0.3, 0.2, 5.0).unwrap_or([0.0; STATES]);
-        assert!((full(&c) - (Full::identity() - k * h) * before).abs().max() < ROUNDING);
+        assert!((full(&c) - (SquareMatrix::identity() - k * h) * before).abs().max() < ROUNDING);
         assert!((0..STATES).all(|i| (dx[i] - k[(i, 0)] * 0.3).abs() < ROUNDING));
     }
 

@@ -3,7 +3,7 @@
 
 use super::Estimator;
 use super::checks::REFUSED_S;
-use super::covariance::{BA, BARO, BG, Correction, DRIFT, FLOW, MAG, P, THETA, V};
+use super::covariance::{BA, BARO, BG, DRIFT, FLOW, MAG, P, StateCorrection, THETA, V};
 use crate::sensors::{FlowReading, GnssReading};
 use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::math;
@@ -26,7 +26,7 @@ const AGREED_SIGMAS: f64 = 1.5;
 const NEW_OFFSET_M: f64 = 0.3;
 
 /// Slopes of one measurement.
-type Slopes<'a> = &'a [(usize, f64)];
+type MeasurementJacobian<'a> = &'a [(usize, f64)];
 
 impl Estimator {
     pub(super) fn fuse_gnss(&mut self, fix: &GnssReading, now: SimTime) {
@@ -49,17 +49,17 @@ impl Estimator {
     }
 
     /// How far a fix is from the filter, m.
-    fn fix_off_m(&self, fix: &GnssReading) -> Vec3<Ned> {
+    fn fix_offset_m(&self, fix: &GnssReading) -> Vec3<Ned> {
         fix.position_m - self.position_m - self.drift_m
     }
 
     fn fuse_fix(&mut self, fix: &GnssReading, variance: f64, now: SimTime) {
-        let off = self.fix_off_m(fix).array();
+        let off = self.fix_offset_m(fix).array();
         let slopes = [[(P, 1.0), (DRIFT, 1.0)], [(P + 1, 1.0), (DRIFT + 1, 1.0)]];
         let fits = (0..2).all(|i| self.accepts(&slopes[i], off[i], variance));
         if self.checks.gnss.admits(fits, now) {
             self.fuse(&slopes[0], off[0], variance);
-            let off = self.fix_off_m(fix);
+            let off = self.fix_offset_m(fix);
             self.fuse(&slopes[1], off.east(), variance);
         }
         if fits {
@@ -67,7 +67,7 @@ impl Estimator {
             return;
         }
         // Where optical flow sees no such jump, the receiver is wrong. Without a witness a steady jump is believed, noise never.
-        let off = self.fix_off_m(fix);
+        let off = self.fix_offset_m(fix);
         let flat = Vec3::new(off.north(), off.east(), 0.0);
         let steady_s = self.checks.gnss_off.hold_s(flat, GATE * (2.0 * variance).sqrt(), now);
         let witness = (now - self.trust.flow).s() < FLOW_FRESH_S;
@@ -88,7 +88,7 @@ impl Estimator {
     fn fuse_fix_height(&mut self, fix: &GnssReading, variance: f64, now: SimTime) {
         let slow = self.slow_height_error_m(fix, now);
         let slopes = [(P + 2, 1.0), (DRIFT + 2, 1.0)];
-        let off = self.fix_off_m(fix).down();
+        let off = self.fix_offset_m(fix).down();
         let fits = self.accepts(&slopes, off, variance);
         if self.checks.gnss_height.admits(fits, now) && !self.checks.gnss.dropped() {
             self.fuse(&slopes, off, variance);
@@ -96,7 +96,7 @@ impl Estimator {
         }
         let apart = (fix.position_m.down() - self.position_m.down()).abs();
         if apart < AGREED_SIGMAS * math::hypot(slow, variance.sqrt()) {
-            self.ground.agree(self.position_m.down(), fix.position_m.down());
+            self.ground.samples_agree(self.position_m.down(), fix.position_m.down());
         }
         // Where another sensor is the reference, the receiver may be off for good.
         let drifted = self.follows_gnss() && self.drift_m.down().abs() > DRIFT_SIGMAS * slow;
@@ -123,13 +123,13 @@ impl Estimator {
         if alone && (now - self.trust.height).s() <= REFUSED_S {
             return;
         }
-        let sides = || self.ground.sides_with_filter(self.position_m.down(), fix.position_m.down());
+        let sides = || self.ground.agrees_with_filter(self.position_m.down(), fix.position_m.down());
         if !alone && (!self.follows_gnss() || sides()) {
-            self.checks.gnss_height.drop_now();
+            self.checks.gnss_height.reject();
             self.forget_height_drift();
             return;
         }
-        self.checks.baro.drop_now();
+        self.checks.baro.reject();
         self.set_height(fix, now);
     }
 
@@ -269,11 +269,11 @@ impl Estimator {
         }
     }
 
-    pub(super) fn accepts(&self, slopes: Slopes, innovation: f64, variance: f64) -> bool {
+    pub(super) fn accepts(&self, slopes: MeasurementJacobian, innovation: f64, variance: f64) -> bool {
         self.covariance.accepts(slopes, innovation, variance, GATE)
     }
 
-    pub(super) fn fuse(&mut self, slopes: Slopes, innovation: f64, variance: f64) -> bool {
+    pub(super) fn fuse(&mut self, slopes: MeasurementJacobian, innovation: f64, variance: f64) -> bool {
         match self.covariance.fuse(slopes, innovation, variance, GATE) {
             Some(correction) => {
                 self.correct(&correction);
@@ -283,7 +283,7 @@ impl Estimator {
         }
     }
 
-    fn correct(&mut self, d: &Correction) {
+    fn correct(&mut self, d: &StateCorrection) {
         self.position_m += Vec3::new(d[P], d[P + 1], d[P + 2]);
         self.velocity_m_s += Vec3::new(d[V], d[V + 1], d[V + 2]);
         self.turn(Vec3::new(d[THETA], d[THETA + 1], d[THETA + 2]));

@@ -6,14 +6,14 @@ const CLEAR_SHARE: f64 = 0.3;
 
 /// Where the ground lies by the range finder, measured from each height, m down.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Ground {
+pub struct GroundEstimate {
     range_m: Option<f64>,
     agreed: Option<[f64; 2]>,
 }
 
-impl Ground {
+impl GroundEstimate {
     /// Takes in the vertical distance to the ground, m; infinite beyond reach.
-    pub fn see(&mut self, range_m: f64) {
+    pub fn add_measurement(&mut self, range_m: f64) {
         self.range_m = Some(range_m).filter(|range| range.is_finite());
         if self.range_m.is_none() {
             self.agreed = None;
@@ -21,13 +21,13 @@ impl Ground {
     }
 
     /// The filter's height and the receiver's agree, m down.
-    pub fn agree(&mut self, filter_down_m: f64, receiver_down_m: f64) {
+    pub fn samples_agree(&mut self, filter_down_m: f64, receiver_down_m: f64) {
         self.agreed = self.range_m.map(|range| [filter_down_m + range, receiver_down_m + range]);
     }
 
     /// They contradict each other, and the ground has moved by the receiver's height alone.
     #[must_use]
-    pub fn sides_with_filter(&self, filter_down_m: f64, receiver_down_m: f64) -> bool {
+    pub fn agrees_with_filter(&self, filter_down_m: f64, receiver_down_m: f64) -> bool {
         let (Some(range), Some([filter_then, receiver_then])) = (self.range_m, self.agreed) else { return false };
         let by_filter = (filter_down_m + range - filter_then).abs();
         let by_receiver = (receiver_down_m + range - receiver_then).abs();
@@ -42,15 +42,15 @@ mod tests {
 
     #[test]
     fn exact_the_height_that_keeps_the_ground_in_place_is_believed() {
-        let mut ground = Ground::default();
-        ground.see(5.0);
-        ground.agree(-5.0, -5.2);
+        let mut ground = GroundEstimate::default();
+        ground.add_measurement(5.0);
+        ground.samples_agree(-5.0, -5.2);
         // The receiver climbs, the range does not.
-        assert!(ground.sides_with_filter(-5.1, -9.0));
+        assert!(ground.agrees_with_filter(-5.1, -9.0));
         // The filter stands, the range grows with the receiver.
-        ground.see(9.0);
-        assert!(!ground.sides_with_filter(-5.0, -9.1));
-        ground.see(f64::INFINITY);
-        assert!(!ground.sides_with_filter(-5.1, -9.0), "nothing to see");
+        ground.add_measurement(9.0);
+        assert!(!ground.agrees_with_filter(-5.0, -9.1));
+        ground.add_measurement(f64::INFINITY);
+        assert!(!ground.agrees_with_filter(-5.1, -9.0), "nothing to see");
     }
 }

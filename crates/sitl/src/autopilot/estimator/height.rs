@@ -2,7 +2,7 @@
 //! alone. A reference that falls silent or contradicts the filter gives way to GNSS, to which the height then glides.
 
 use super::Estimator;
-use super::checks::{Check, REFUSED_S, Steadiness};
+use super::checks::{InnovationCheck, REFUSED_S, RejectionMonitor};
 use super::covariance::{BARO, P};
 use super::fuse::GATE;
 use crate::autopilot::operator_rules::HeightReference;
@@ -25,8 +25,8 @@ pub struct Followed {
     ground_down_m: Option<f64>,
     barometer: Option<SimTime>,
     range: Option<SimTime>,
-    check: Check,
-    off: Steadiness,
+    check: InnovationCheck,
+    off: RejectionMonitor,
 }
 
 impl Followed {
@@ -37,7 +37,7 @@ impl Followed {
 
     /// The vehicle was put elsewhere: the ground is another one.
     pub fn forget_ground(&mut self) {
-        (self.ground_down_m, self.check, self.off) = (None, Check::default(), Steadiness::default());
+        (self.ground_down_m, self.check, self.off) = (None, InnovationCheck::default(), RejectionMonitor::default());
     }
 }
 

@@ -15,10 +15,10 @@ mod height;
 use super::Estimate;
 use super::operator_rules::{HeightReference, NO_AID_S};
 use crate::sensors::{GnssReading, ImuReading, Readings, baro, flow, gnss, imu, magnetometer};
-use align::{Aligned, Alignment, Gyro};
-use checks::Checks;
+use align::{Alignment, AlignmentResult, GyroSpec};
+use checks::InnovationChecks;
 use covariance::{BA, BARO, BG, Covariance, DRIFT, FLOW, MAG, P, ProcessNoise, STATES, THETA, V};
-use ground::Ground;
+use ground::GroundEstimate;
 use height::Followed;
 use nalgebra::Vector3;
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
@@ -59,14 +59,14 @@ struct MeasurementNoise {
 
 /// When a source was last believed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Trust {
+struct LastFused {
     velocity: SimTime,
     flow: SimTime,
     height: SimTime,
     heading: SimTime,
 }
 
-impl Trust {
+impl LastFused {
     /// All sources at once.
     fn new(now: SimTime) -> Self {
         Self { velocity: now, flow: now, height: now, heading: now }
@@ -75,7 +75,7 @@ impl Trust {
 
 /// Sources that the filter does not use because they contradict the others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Dropped {
+pub struct RejectedSources {
     /// Magnetometer.
     pub compass: bool,
     /// Barometer.
@@ -112,9 +112,9 @@ pub struct Estimator {
     rates_rad_s: Vec3<Frd>,
     acceleration_m_s2: Vec3<Ned>,
     last_imu: Option<SimTime>,
-    trust: Trust,
-    checks: Checks,
-    ground: Ground,
+    trust: LastFused,
+    checks: InnovationChecks,
+    ground: GroundEstimate,
     latest_fix: Option<(GnssReading, SimTime)>,
     /// Variance of the receiver's height by the multipath that it has claimed lately, m².
     multipath_m2: f64,
@@ -133,7 +133,7 @@ pub struct Estimator {
 impl Estimator {
     /// Unaligned. `origin` is where the local frame lies, for the magnetic model.
     #[must_use]
-    pub fn new(sensors: &vehicle::Sensors, origin: Geo) -> Self {
+    pub fn new(sensors: &vehicle::SensorSpec, origin: Geo) -> Self {
         let sq = |x: f64| x * x;
         let drift = [sensors.gnss_horizontal_m * gnss::DRIFT_SHARE, sensors.gnss_vertical_m * gnss::DRIFT_SHARE];
         let rate = sensors.imu_rate_hz.sqrt();
@@ -162,7 +162,7 @@ impl Estimator {
                 range_m: sensors.range_noise_m,
             },
             field_gauss: magnetometer::earth_field_gauss(origin),
-            alignment: Alignment::new(Gyro {
+            alignment: Alignment::new(GyroSpec {
                 bias_rad_s: sensors.gyro_bias_rad_s,
                 sample_rad_s: sensors.gyro_noise_density * rate,
             }),
@@ -187,9 +187,9 @@ impl Estimator {
             rates_rad_s: Vec3::zero(),
             acceleration_m_s2: Vec3::zero(),
             last_imu: None,
-            trust: Trust::new(SimTime::ZERO),
-            checks: Checks::default(),
-            ground: Ground::default(),
+            trust: LastFused::new(SimTime::ZERO),
+            checks: InnovationChecks::default(),
+            ground: GroundEstimate::default(),
             latest_fix: None,
             multipath_m2: 0.0,
             parked: true,
@@ -219,7 +219,7 @@ impl Estimator {
         self.choose_reference(now);
         if let Some(range_m) = readings.range_down_m {
             let below_m = range_m * (self.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down();
-            self.ground.see(below_m);
+            self.ground.add_measurement(below_m);
             self.follow_range(below_m, now);
         }
         if let Some(fix) = readings.gnss.as_ref().filter(|g| g.fix >= 3) {
@@ -261,7 +261,7 @@ impl Estimator {
     }
 
     /// The covariance of a fresh alignment: tilt is known as well as the accelerometer is, so the two go together.
-    fn start(&mut self, aligned: &Aligned, now: SimTime) {
+    fn start(&mut self, aligned: &AlignmentResult, now: SimTime) {
         let n = self.noise;
         let sq = |x: f64| x * x;
         self.attitude = aligned.attitude;
@@ -304,7 +304,7 @@ impl Estimator {
         }
         self.aligned = true;
         self.local_origin_m = self.position_m;
-        self.trust = Trust::new(now);
+        self.trust = LastFused::new(now);
         // The heading came from this very measurement: fusing it with no innovation gives the matching covariance.
         let level = aligned.attitude.inverse() * self.field_gauss;
         self.fuse_mag(level, 1.0 / aligned.mag_samples, now);
@@ -372,9 +372,13 @@ impl Estimator {
 
     /// Sources that are not used because they contradict the others.
     #[must_use]
-    pub fn dropped(&self) -> Dropped {
+    pub fn dropped(&self) -> RejectedSources {
         let c = &self.checks;
-        Dropped { compass: c.mag.dropped(), barometer: c.baro.dropped(), gnss: c.gnss.dropped() || c.gnss_height.dropped() }
+        RejectedSources {
+            compass: c.mag.dropped(),
+            barometer: c.baro.dropped(),
+            gnss: c.gnss.dropped() || c.gnss_height.dropped(),
+        }
     }
 
     /// The step by which the position was set to the receiver's since the last call, m.
@@ -415,10 +419,10 @@ impl Estimator {
         self.aligned = true;
         self.located = true;
         self.usable = true;
-        self.checks = Checks::default();
-        self.ground = Ground::default();
+        self.checks = InnovationChecks::default();
+        self.ground = GroundEstimate::default();
         self.followed.forget_ground();
-        self.trust = Trust::new(now);
+        self.trust = LastFused::new(now);
     }
 
     /// What is believed now.
@@ -464,7 +468,7 @@ impl Estimator {
 
     /// Error of the estimate against a given truth, in the order of the covariance's first fifteen states, for consistency tests.
     #[must_use]
-    pub fn error(&self, truth: &Truth) -> [f64; 15] {
+    pub fn error(&self, truth: &SimulatedTruth) -> [f64; 15] {
         let turn = self.attitude.inverse().then(truth.attitude).raw();
         // FRAME: believed-inverse then true is the small rotation in NED that turns the believed attitude into the true one.
         let theta: Vector3<f64> = turn.scaled_axis();
@@ -481,7 +485,7 @@ impl Estimator {
 
 /// A truth that a test compares with.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Truth {
+pub struct SimulatedTruth {
     /// Position, m.
     pub position_m: Vec3<Ned>,
     /// Velocity, m/s.

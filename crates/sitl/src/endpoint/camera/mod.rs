@@ -1,25 +1,25 @@
 //! The camera component: modes, pictures with their geotags, series, recording, zoom, memory card.
 
-pub mod card;
+mod capture_record;
 mod series;
 pub mod settings;
-mod shot;
+pub mod storage_card;
 pub mod stream;
 pub mod zoom;
 
-use super::payload::News;
-use super::view::CameraSummary;
-use card::{CARD_MIB, Card};
+use super::payload::PayloadChange;
+use super::snapshot::CameraSummary;
+pub use capture_record::CaptureRecord;
 use mavlink::MessageData;
-use series::Series;
-pub use shot::Shot;
+use series::CaptureSeries;
 use spandrel_mavlink::dialect::{
     CAMERA_CAPTURE_STATUS_DATA, CAMERA_FOV_STATUS_DATA, CAMERA_SETTINGS_DATA, MavMessage, STORAGE_INFORMATION_DATA,
 };
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Camera;
-use zoom::{Wish, Zoom};
+use storage_card::{CARD_MIB, StorageCard};
+use zoom::{ZoomCommand, ZoomLens};
 
 /// A command for one picture with the number of the one before is its repetition within this time.
 const REPEATED_WITHIN: SimTime = SimTime::from_ms(5_000);
@@ -29,7 +29,7 @@ const MIB: f64 = 1_048_576.0;
 
 /// What the camera is set to take. It takes pictures in either mode, and records in video mode alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Mode {
+pub enum CaptureMode {
     /// Pictures.
     #[default]
     Photo,
@@ -39,20 +39,20 @@ pub enum Mode {
 
 /// What can be set beside mode and zoom.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Settings {
+pub struct CameraSettings {
     /// Pictures of the better quality, that take more of the card.
     pub fine: bool,
     /// Rate of recordings, Mbit/s.
     pub video_mbit_s: u32,
 }
 
-impl Default for Settings {
+impl Default for CameraSettings {
     fn default() -> Self {
         Self { fine: true, video_mbit_s: 60 }
     }
 }
 
-impl Settings {
+impl CameraSettings {
     /// One picture, MiB (estimate: 12 MP JPEG of little and of more compression).
     #[must_use]
     pub fn picture_mib(&self) -> f64 {
@@ -68,7 +68,7 @@ impl Settings {
 
 /// Why the camera does not do what it is told.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Refusal {
+pub enum CameraError {
     /// Numbers that make no sense.
     Senseless,
     /// Nothing more fits on the card.
@@ -79,7 +79,7 @@ pub enum Refusal {
     Recording,
 }
 
-impl Refusal {
+impl CameraError {
     /// In words; none where the command alone is to blame.
     #[must_use]
     pub fn text(self) -> Option<&'static str> {
@@ -93,25 +93,25 @@ impl Refusal {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Recording {
+struct VideoRecording {
     since: SimTime,
     /// Its status is told this often, and when next.
     tell: Option<(SimTime, SimTime)>,
 }
 
 /// A command for one picture: who gave it, its number, when.
-type Trigger = ((u8, u8), u32, SimTime);
+type CaptureCommand = ((u8, u8), u32, SimTime);
 
 /// Who lets the camera's component say heartbeats: simple clients take them for the vehicle's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Announced {
+pub struct CameraAnnouncement {
     /// The parameter does.
     pub parameter: bool,
     /// Whoever started the program does not.
     pub silenced: bool,
 }
 
-impl Default for Announced {
+impl Default for CameraAnnouncement {
     fn default() -> Self {
         Self { parameter: true, silenced: false }
     }
@@ -121,19 +121,19 @@ impl Default for Announced {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CameraState {
     /// Mode.
-    pub mode: Mode,
+    pub mode: CaptureMode,
     /// Lens.
-    pub zoom: Zoom,
+    pub zoom: ZoomLens,
     /// What else is set.
-    pub settings: Settings,
+    pub settings: CameraSettings,
     /// The live picture.
-    pub stream: stream::Told,
+    pub stream: stream::StreamReport,
     /// Whether it says heartbeats.
-    pub announced: Announced,
-    series: Series,
-    card: Card,
-    recording: Option<Recording>,
-    last: Option<Trigger>,
+    pub announced: CameraAnnouncement,
+    series: CaptureSeries,
+    card: StorageCard,
+    recording: Option<VideoRecording>,
+    last: Option<CaptureCommand>,
 }
 
 impl CameraState {
@@ -170,22 +170,22 @@ impl CameraState {
     ///
     /// # Errors
     /// A full card; numbers that make no sense.
-    pub fn start(&mut self, interval_s: f64, count: f64, now: SimTime) -> Result<(), Refusal> {
+    pub fn start(&mut self, interval_s: f64, count: f64, now: SimTime) -> Result<(), CameraError> {
         if self.full(now) {
-            return Err(Refusal::Full);
+            return Err(CameraError::Full);
         }
-        if self.series.start(interval_s, count, now) { Ok(()) } else { Err(Refusal::Senseless) }
+        if self.series.start(interval_s, count, now) { Ok(()) } else { Err(CameraError::Senseless) }
     }
 
     /// A picture every `way_m` from `here` on, and one now if asked for; 0 ends it.
     ///
     /// # Errors
     /// A full card; numbers that make no sense.
-    pub fn start_by_distance(&mut self, way_m: f64, first: bool, here: Vec3<Enu>, now: SimTime) -> Result<(), Refusal> {
+    pub fn start_by_distance(&mut self, way_m: f64, first: bool, here: Vec3<Enu>, now: SimTime) -> Result<(), CameraError> {
         if way_m > 0.0 && self.full(now) {
-            return Err(Refusal::Full);
+            return Err(CameraError::Full);
         }
-        if self.series.start_by_distance(way_m, first, here, now) { Ok(()) } else { Err(Refusal::Senseless) }
+        if self.series.start_by_distance(way_m, first, here, now) { Ok(()) } else { Err(CameraError::Senseless) }
     }
 
     /// Whether a command for one picture with a number of its own is the last one said again, as its acknowledgement was lost.
@@ -208,9 +208,9 @@ impl CameraState {
     ///
     /// # Errors
     /// A recording runs.
-    pub fn set_mode(&mut self, mode: Mode) -> Result<(), Refusal> {
+    pub fn set_mode(&mut self, mode: CaptureMode) -> Result<(), CameraError> {
         if self.recording.is_some() && mode != self.mode {
-            return Err(Refusal::Recording);
+            return Err(CameraError::Recording);
         }
         self.mode = mode;
         Ok(())
@@ -220,19 +220,19 @@ impl CameraState {
     ///
     /// # Errors
     /// Photo mode; a full card; a rate that makes no sense.
-    pub fn start_recording(&mut self, tell_hz: f64, now: SimTime) -> Result<(), Refusal> {
-        if self.mode != Mode::Video {
-            return Err(Refusal::PhotoMode);
+    pub fn start_recording(&mut self, tell_hz: f64, now: SimTime) -> Result<(), CameraError> {
+        if self.mode != CaptureMode::Video {
+            return Err(CameraError::PhotoMode);
         }
         if self.full(now) {
-            return Err(Refusal::Full);
+            return Err(CameraError::Full);
         }
         if !(tell_hz.is_finite() && tell_hz >= 0.0) {
-            return Err(Refusal::Senseless);
+            return Err(CameraError::Senseless);
         }
         let every = (tell_hz > 0.0).then(|| SimTime::period(tell_hz.clamp(1e-3, FASTEST_TELLING_HZ)));
         let since = self.recording.map_or(now, |running| running.since);
-        self.recording = Some(Recording { since, tell: every.map(|every| (every, now + every)) });
+        self.recording = Some(VideoRecording { since, tell: every.map(|every| (every, now + every)) });
         Ok(())
     }
 
@@ -240,7 +240,7 @@ impl CameraState {
     pub fn stop_recording(&mut self, now: SimTime) {
         if let Some(recording) = self.recording.take() {
             let room = CARD_MIB - self.card.used_mib();
-            self.card.keep_video(((now - recording.since).s() * self.settings.video_mib_s()).min(room));
+            self.card.add_video(((now - recording.since).s() * self.settings.video_mib_s()).min(room));
         }
     }
 
@@ -248,14 +248,14 @@ impl CameraState {
     ///
     /// # Errors
     /// A recording runs.
-    pub fn format(&mut self, whole: bool) -> Result<(), Refusal> {
+    pub fn format(&mut self, whole: bool) -> Result<(), CameraError> {
         if self.recording.is_some() {
-            return Err(Refusal::Recording);
+            return Err(CameraError::Recording);
         }
         if whole {
             self.card.format();
         } else {
-            self.card.forget_log();
+            self.card.clear_log();
         }
         Ok(())
     }
@@ -264,13 +264,13 @@ impl CameraState {
     ///
     /// # Errors
     /// A recording runs.
-    pub fn reset(&mut self, camera: &Camera) -> Result<(), Refusal> {
+    pub fn reset(&mut self, camera: &Camera) -> Result<(), CameraError> {
         if self.recording.is_some() {
-            return Err(Refusal::Recording);
+            return Err(CameraError::Recording);
         }
-        self.mode = Mode::Photo;
-        self.settings = Settings::default();
-        self.zoom.go(Wish::Level(0.0), camera);
+        self.mode = CaptureMode::Photo;
+        self.settings = CameraSettings::default();
+        self.zoom.command(ZoomCommand::Level(0.0), camera);
         Ok(())
     }
 
@@ -278,35 +278,35 @@ impl CameraState {
     ///
     /// # Errors
     /// A recording runs whose rate would change.
-    pub fn set(&mut self, settings: Settings) -> Result<(), Refusal> {
+    pub fn set(&mut self, settings: CameraSettings) -> Result<(), CameraError> {
         if self.recording.is_some() && settings.video_mbit_s != self.settings.video_mbit_s {
-            return Err(Refusal::Recording);
+            return Err(CameraError::Recording);
         }
         self.settings = settings;
         Ok(())
     }
 
     /// Time passes: the lens moves, recordings tell of themselves and end on a full card.
-    pub fn step(&mut self, now: SimTime, dt_s: f64, news: &mut News) {
+    pub fn step(&mut self, now: SimTime, dt_s: f64, news: &mut PayloadChange) {
         if self.zoom.step(dt_s) {
-            news.say(CAMERA_SETTINGS_DATA::ID);
-            news.say(CAMERA_FOV_STATUS_DATA::ID);
+            news.add_message(CAMERA_SETTINGS_DATA::ID);
+            news.add_message(CAMERA_FOV_STATUS_DATA::ID);
         }
         if self.recording.is_none() {
             return;
         }
         if self.used_mib(now) >= CARD_MIB {
             self.stop_recording(now);
-            news.warn("Memory card full");
-            news.say(STORAGE_INFORMATION_DATA::ID);
-            news.say(CAMERA_CAPTURE_STATUS_DATA::ID);
+            news.add_warning("Memory card full");
+            news.add_message(STORAGE_INFORMATION_DATA::ID);
+            news.add_message(CAMERA_CAPTURE_STATUS_DATA::ID);
             return;
         }
         if let Some((every, next)) = self.recording.as_mut().and_then(|recording| recording.tell.as_mut())
             && *next <= now
         {
             *next += *every;
-            news.say(CAMERA_CAPTURE_STATUS_DATA::ID);
+            news.add_message(CAMERA_CAPTURE_STATUS_DATA::ID);
         }
     }
 
@@ -317,20 +317,20 @@ impl CameraState {
     }
 
     /// The picture that is due. A full card ends every series.
-    pub fn take(&mut self, shot: Shot, now: SimTime, here: Vec3<Enu>) -> MavMessage {
+    pub fn take(&mut self, shot: CaptureRecord, now: SimTime, here: Vec3<Enu>) -> MavMessage {
         let message = shot.message();
-        self.card.keep(shot, self.settings.picture_mib());
+        self.card.add_picture(shot, self.settings.picture_mib());
         self.series.taken(now, here);
         if self.full(now) {
-            self.series.clear();
+            self.series.cancel();
         }
         message
     }
 
     /// A picture's message again.
     #[must_use]
-    pub fn again(&self, index: usize) -> Option<MavMessage> {
-        self.card.shots().get(index).map(Shot::message)
+    pub fn recorded_capture(&self, index: usize) -> Option<MavMessage> {
+        self.card.shots().get(index).map(CaptureRecord::message)
     }
 }
 
@@ -348,31 +348,31 @@ mod tests {
         let mut indices = Vec::new();
         while camera.due(now, here) {
             let pictures = camera.summary(now).pictures;
-            let message = camera.take(Shot::numbered(pictures), now, here);
+            let message = camera.take(CaptureRecord::numbered(pictures), now, here);
             let MavMessage::CAMERA_IMAGE_CAPTURED(image) = message else { panic!("{message:?}") };
             indices.push(image.image_index);
             now += SimTime::from_s(1.0);
         }
-        let most = (CARD_MIB / Settings::default().picture_mib()) as i32;
+        let most = (CARD_MIB / CameraSettings::default().picture_mib()) as i32;
         assert!(indices.iter().copied().eq(0..most), "{} pictures", indices.len());
         let left = CARD_MIB - camera.summary(now).used_mib;
-        assert!((0.0..Settings::default().picture_mib()).contains(&left), "the storage that is told agrees: {left}");
+        assert!((0.0..CameraSettings::default().picture_mib()).contains(&left), "the storage that is told agrees: {left}");
         assert!(camera.full(now) && camera.summary(now).interval_s.is_none());
-        assert_eq!(camera.start(0.0, 1.0, now), Err(Refusal::Full));
-        assert_eq!(camera.start_by_distance(5.0, false, here, now), Err(Refusal::Full));
+        assert_eq!(camera.start(0.0, 1.0, now), Err(CameraError::Full));
+        assert_eq!(camera.start_by_distance(5.0, false, here, now), Err(CameraError::Full));
         assert_eq!(camera.format(true), Ok(()));
         assert_eq!((camera.summary(now).pictures, camera.summary(now).used_mib), (0, 0.0));
     }
 
     #[test]
-    fn regress_single_pictures_that_are_asked_for_within_one_tick_are_all_taken_beside_a_series() {
+    fn regress_single_pictures_that_are_requested_within_one_tick_are_all_taken_beside_a_series() {
         let (mut camera, now, here) = (CameraState::default(), SimTime::ZERO, Vec3::zero());
         for (interval_s, count) in [(0.0, 1.0), (0.0, 1.0), (1.0, 2.0), (0.0, 1.0)] {
             assert!(camera.start(interval_s, count, now).is_ok());
         }
         let mut taken = 0;
         while camera.due(now, here) {
-            let _ = camera.take(Shot::numbered(taken), now, here);
+            let _ = camera.take(CaptureRecord::numbered(taken), now, here);
             taken += 1;
         }
         assert_eq!(taken, 4, "three single ones and the first of the series");
@@ -380,14 +380,14 @@ mod tests {
         assert!(camera.start(0.0, 1.0, now).is_ok());
         camera.stop();
         assert!(camera.due(now, here), "a picture that was promised before the stop");
-        let _ = camera.take(Shot::numbered(taken), now, here);
+        let _ = camera.take(CaptureRecord::numbered(taken), now, here);
         assert!(!camera.due(now + SimTime::from_s(2.0), here));
     }
 
     #[test]
     fn exact_a_recording_takes_its_rate_of_the_card_and_ends_when_the_card_is_full() {
-        let mut camera = CameraState { mode: Mode::Video, ..CameraState::default() };
-        let mut news = News::default();
+        let mut camera = CameraState { mode: CaptureMode::Video, ..CameraState::default() };
+        let mut news = PayloadChange::default();
         assert_eq!(camera.start_recording(0.0, SimTime::ZERO), Ok(()));
         // 60 Mbit/s are 7.5 MB/s.
         let after = SimTime::from_s(100.0);
@@ -398,21 +398,21 @@ mod tests {
         camera.step(end, 0.01, &mut news);
         assert_eq!(camera.summary(end).recording, None);
         assert_eq!(camera.summary(end).used_mib, CARD_MIB);
-        assert_eq!(camera.start_recording(0.0, end), Err(Refusal::Full));
+        assert_eq!(camera.start_recording(0.0, end), Err(CameraError::Full));
     }
 
     #[test]
-    fn exact_a_recording_keeps_mode_and_card_as_they_are_and_tells_of_itself_as_often_as_asked() {
+    fn exact_a_recording_keeps_mode_and_card_as_they_are_and_reports_its_status_as_often_as_requested() {
         let mut camera = CameraState::default();
-        assert_eq!(camera.start_recording(1.0, SimTime::ZERO), Err(Refusal::PhotoMode));
-        assert_eq!(camera.set_mode(Mode::Video), Ok(()));
-        assert_eq!(camera.start_recording(-1.0, SimTime::ZERO), Err(Refusal::Senseless));
+        assert_eq!(camera.start_recording(1.0, SimTime::ZERO), Err(CameraError::PhotoMode));
+        assert_eq!(camera.set_mode(CaptureMode::Video), Ok(()));
+        assert_eq!(camera.start_recording(-1.0, SimTime::ZERO), Err(CameraError::Senseless));
         assert_eq!(camera.start_recording(2.0, SimTime::ZERO), Ok(()));
-        assert_eq!(camera.set_mode(Mode::Photo), Err(Refusal::Recording));
-        assert_eq!(camera.format(true), Err(Refusal::Recording));
-        assert_eq!(camera.reset(&FIXED), Err(Refusal::Recording));
+        assert_eq!(camera.set_mode(CaptureMode::Photo), Err(CameraError::Recording));
+        assert_eq!(camera.format(true), Err(CameraError::Recording));
+        assert_eq!(camera.reset(&FIXED), Err(CameraError::Recording));
         let told = (1..=4_000).filter(|ms| {
-            let mut news = News::default();
+            let mut news = PayloadChange::default();
             camera.step(SimTime::from_ms(*ms), 0.001, &mut news);
             news.take().0.contains(&CAMERA_CAPTURE_STATUS_DATA::ID)
         });
@@ -422,7 +422,7 @@ mod tests {
         assert_eq!(camera.summary(SimTime::from_ms(5_000)).recording, Some(SimTime::from_ms(5_000)));
         camera.stop_recording(SimTime::from_ms(5_000));
         assert_eq!(camera.reset(&FIXED), Ok(()));
-        assert_eq!(camera.mode, Mode::Photo);
+        assert_eq!(camera.mode, CaptureMode::Photo);
     }
 
     #[test]

@@ -14,7 +14,7 @@ const LONGEST_WAY_M: f64 = 1e5;
 
 /// What is to be taken.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Series {
+pub struct CaptureSeries {
     interval_s: Option<f64>,
     next: Option<SimTime>,
     left: Option<u32>,
@@ -24,7 +24,7 @@ pub struct Series {
     singles: u32,
 }
 
-impl Series {
+impl CaptureSeries {
     /// Seconds between pictures of a running series by time.
     #[must_use]
     pub fn interval_s(&self) -> Option<f64> {
@@ -70,11 +70,11 @@ impl Series {
     }
 
     /// Nothing is to be taken any more.
-    pub fn clear(&mut self) {
+    pub fn cancel(&mut self) {
         *self = Self::default();
     }
 
-    /// True when a picture is due; call [`Series::taken`] when it is taken.
+    /// True when a picture is due; call [`CaptureSeries::taken`] when it is taken.
     #[must_use]
     pub fn due(&self, now: SimTime, here: Vec3<Enu>) -> bool {
         let far = self.by_distance.is_some_and(|(way_m, last)| (here - last).norm() >= way_m);

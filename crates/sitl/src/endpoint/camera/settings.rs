@@ -1,7 +1,7 @@
 //! The camera's settings as stations show them: by name and number over PARAM_EXT, described by a camera definition file
 //! (<https://mavlink.io/en/services/camera_def.html>).
 
-use super::{CameraState, Refusal, Settings};
+use super::{CameraError, CameraSettings, CameraState};
 use std::fmt::Write;
 
 /// Where the camera's own file server has the description.
@@ -13,7 +13,7 @@ pub const VERSION: u16 = 1;
 
 /// Values that a setting may have.
 #[derive(Debug, Clone, Copy)]
-pub enum Allowed {
+pub enum AllowedValues {
     /// Each by a name.
     Options(&'static [(&'static str, u32)]),
     /// From, to, in steps of.
@@ -21,38 +21,38 @@ pub enum Allowed {
 }
 
 /// One setting.
-pub struct Setting {
+pub struct CameraSetting {
     /// As on the wire, at most 16 characters.
     pub name: &'static str,
     description: &'static str,
-    allowed: Allowed,
+    allowed: AllowedValues,
     default: u32,
     get: fn(&CameraState) -> u32,
-    set: fn(&mut CameraState, u32) -> Result<(), Refusal>,
+    set: fn(&mut CameraState, u32) -> Result<(), CameraError>,
 }
 
 /// All of them, in the order of their numbers. The mode is none: MAV_CMD_SET_CAMERA_MODE sets it, and MAVSDK mistakes the values that a setting
 /// called CAM_MODE has (its own count from 1).
-pub const ALL: &[Setting] = &[
-    Setting {
+pub const ALL: &[CameraSetting] = &[
+    CameraSetting {
         name: "CAM_PHOTOQUAL",
         description: "Photo quality",
-        allowed: Allowed::Options(&[("Normal", 0), ("Fine", 1)]),
+        allowed: AllowedValues::Options(&[("Normal", 0), ("Fine", 1)]),
         default: 1,
         get: |camera| u32::from(camera.settings.fine),
-        set: |camera, value| camera.set(Settings { fine: value == 1, ..camera.settings }),
+        set: |camera, value| camera.set(CameraSettings { fine: value == 1, ..camera.settings }),
     },
-    Setting {
+    CameraSetting {
         name: "CAM_VIDRATE",
         description: "Video rate (Mbit/s)",
-        allowed: Allowed::Range(10, 100, 10),
+        allowed: AllowedValues::Range(10, 100, 10),
         default: 60,
         get: |camera| camera.settings.video_mbit_s,
-        set: |camera, value| camera.set(Settings { video_mbit_s: value, ..camera.settings }),
+        set: |camera, value| camera.set(CameraSettings { video_mbit_s: value, ..camera.settings }),
     },
 ];
 
-impl Setting {
+impl CameraSetting {
     /// By its name.
     #[must_use]
     pub fn named(name: &str) -> Option<(usize, &'static Self)> {
@@ -69,19 +69,19 @@ impl Setting {
     ///
     /// # Errors
     /// A value that it may not have; what the camera is doing.
-    pub fn change(&self, camera: &mut CameraState, value: u32) -> Result<(), Refusal> {
+    pub fn change(&self, camera: &mut CameraState, value: u32) -> Result<(), CameraError> {
         let legal = match self.allowed {
-            Allowed::Options(options) => options.iter().any(|(_, option)| *option == value),
-            Allowed::Range(low, high, step) => (low..=high).contains(&value) && (value - low).is_multiple_of(step),
+            AllowedValues::Options(options) => options.iter().any(|(_, option)| *option == value),
+            AllowedValues::Range(low, high, step) => (low..=high).contains(&value) && (value - low).is_multiple_of(step),
         };
-        if legal { (self.set)(camera, value) } else { Err(Refusal::Senseless) }
+        if legal { (self.set)(camera, value) } else { Err(CameraError::Senseless) }
     }
 
     fn describe(&self, xml: &mut String) {
         let (name, default, description) = (self.name, self.default, self.description);
         // Writing to a string does not fail.
         let _ = match self.allowed {
-            Allowed::Options(options) => {
+            AllowedValues::Options(options) => {
                 let options: String =
                     options.iter().map(|(name, value)| format!("<option name=\"{name}\" value=\"{value}\"/>")).collect();
                 writeln!(
@@ -90,7 +90,7 @@ impl Setting {
                      <description>{description}</description><options>{options}</options></parameter>"
                 )
             }
-            Allowed::Range(low, high, step) => writeln!(
+            AllowedValues::Range(low, high, step) => writeln!(
                 xml,
                 "<parameter name=\"{name}\" type=\"uint32\" default=\"{default}\" min=\"{low}\" max=\"{high}\" step=\"{step}\">\
                  <description>{description}</description></parameter>"
@@ -113,7 +113,7 @@ pub fn definition() -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Mode;
+    use super::super::CaptureMode;
     use super::*;
     use spandrel_model::time::SimTime;
 
@@ -125,12 +125,12 @@ mod tests {
             assert_eq!(setting.value(&camera), setting.default, "{}", setting.name);
             let legal: Vec<u32> = (0..=200).filter(|value| setting.change(&mut camera, *value).is_ok()).collect();
             let described: Vec<u32> = match setting.allowed {
-                Allowed::Options(options) => options.iter().map(|option| option.1).collect(),
-                Allowed::Range(low, high, step) => (low..=high).step_by(step as usize).collect(),
+                AllowedValues::Options(options) => options.iter().map(|option| option.1).collect(),
+                AllowedValues::Range(low, high, step) => (low..=high).step_by(step as usize).collect(),
             };
             assert_eq!(legal, described, "{}", setting.name);
             assert_eq!(setting.value(&camera), *described.last().expect("some"));
-            assert_eq!(setting.change(&mut camera, u32::MAX), Err(Refusal::Senseless));
+            assert_eq!(setting.change(&mut camera, u32::MAX), Err(CameraError::Senseless));
         }
     }
 
@@ -140,12 +140,12 @@ mod tests {
         let mib = |camera: &CameraState| (camera.settings.picture_mib(), camera.settings.video_mib_s());
         let before = mib(&camera);
         for (name, value) in [("CAM_PHOTOQUAL", 0), ("CAM_VIDRATE", 30)] {
-            assert_eq!(Setting::named(name).map(|(_, setting)| setting.change(&mut camera, value)), Some(Ok(())), "{name}");
+            assert_eq!(CameraSetting::named(name).map(|(_, setting)| setting.change(&mut camera, value)), Some(Ok(())), "{name}");
         }
         assert_eq!(mib(&camera), (0.5 * before.0, 0.5 * before.1));
-        camera.mode = Mode::Video;
+        camera.mode = CaptureMode::Video;
         assert_eq!(camera.start_recording(0.0, SimTime::ZERO), Ok(()));
-        let done = Setting::named("CAM_VIDRATE").map(|(_, setting)| setting.change(&mut camera, 40));
-        assert_eq!(done, Some(Err(Refusal::Recording)));
+        let done = CameraSetting::named("CAM_VIDRATE").map(|(_, setting)| setting.change(&mut camera, 40));
+        assert_eq!(done, Some(Err(CameraError::Recording)));
     }
 }

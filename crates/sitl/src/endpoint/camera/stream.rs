@@ -2,7 +2,7 @@
 //! for as long as it is told of.
 
 use super::super::Endpoint;
-use super::super::arrival::Arrival;
+use super::super::inbound::InboundMessage;
 use super::super::streams::{AUTOPILOT, CAMERA};
 use mavlink::MessageData;
 use spandrel_mavlink::dialect::{VIDEO_STREAM_INFORMATION_DATA, VIDEO_STREAM_STATUS_DATA, VideoStreamStatusFlags};
@@ -18,7 +18,7 @@ const RATE_MAX_HZ: f32 = 240.0;
 
 /// What runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stream {
+pub struct VideoStream {
     /// Width, px.
     pub width_px: u16,
     /// Height, px.
@@ -31,18 +31,18 @@ pub struct Stream {
 
 /// The last word of who sends it, and until when it holds.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Told(Option<(Stream, SimTime)>);
+pub struct StreamReport(Option<(VideoStream, SimTime)>);
 
-impl Told {
+impl StreamReport {
     /// The stream, while it is told of.
     #[must_use]
-    pub fn running(&self, now: SimTime) -> Option<Stream> {
+    pub fn running(&self, now: SimTime) -> Option<VideoStream> {
         self.0.filter(|(_, until)| now <= *until).map(|(stream, _)| stream)
     }
 }
 
 /// VIDEO_STREAM_STATUS of the first stream, of anybody but the vehicle's own components.
-pub(in super::super) fn status(e: &mut Endpoint, m: &VIDEO_STREAM_STATUS_DATA, a: &mut Arrival) {
+pub(in super::super) fn status(e: &mut Endpoint, m: &VIDEO_STREAM_STATUS_DATA, a: &mut InboundMessage) {
     let own = a.from.0 == e.system_id && matches!(a.from.1, AUTOPILOT | CAMERA);
     let sound = m.framerate.is_finite() && (0.0..=RATE_MAX_HZ).contains(&m.framerate) && m.resolution_h > 0 && m.resolution_v > 0;
     if own || m.stream_id != 1 || !sound {
@@ -50,14 +50,14 @@ pub(in super::super) fn status(e: &mut Endpoint, m: &VIDEO_STREAM_STATUS_DATA, a
     }
     let before = e.payload.camera.stream.running(a.view.now);
     let runs = m.flags.contains(VideoStreamStatusFlags::VIDEO_STREAM_STATUS_FLAGS_RUNNING);
-    let stream = Stream { width_px: m.resolution_h, height_px: m.resolution_v, rate_hz: m.framerate, bits_s: m.bitrate };
+    let stream = VideoStream { width_px: m.resolution_h, height_px: m.resolution_v, rate_hz: m.framerate, bits_s: m.bitrate };
     // Who sends it lives in wall time, as clients do.
-    let until = a.view.now + SimTime::from_s(LASTS_S * e.pace);
-    e.payload.camera.stream = Told(runs.then_some((stream, until)));
+    let until = a.view.now + SimTime::from_s(LASTS_S * e.speed_factor);
+    e.payload.camera.stream = StreamReport(runs.then_some((stream, until)));
     // Ground stations open the picture when they hear that it runs, and shape it by the size that they hear.
-    let size = |stream: Stream| (stream.width_px, stream.height_px);
+    let size = |stream: VideoStream| (stream.width_px, stream.height_px);
     if before.map(size) != runs.then(|| size(stream)) {
-        e.payload.news.say(VIDEO_STREAM_INFORMATION_DATA::ID);
-        e.payload.news.say(VIDEO_STREAM_STATUS_DATA::ID);
+        e.payload.changes.add_message(VIDEO_STREAM_INFORMATION_DATA::ID);
+        e.payload.changes.add_message(VIDEO_STREAM_STATUS_DATA::ID);
     }
 }

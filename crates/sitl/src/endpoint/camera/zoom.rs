@@ -13,7 +13,7 @@ const SLACK: f64 = 0.01;
 
 /// What somebody wants of the lens.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Wish {
+pub enum ZoomCommand {
     /// So many steps towards tele.
     Step(f64),
     /// On and on, -1 wide to 1 tele of the full speed; 0 stops.
@@ -27,7 +27,7 @@ pub enum Wish {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-enum Drive {
+enum ZoomDrive {
     #[default]
     Rest,
     To(f64),
@@ -36,9 +36,9 @@ enum Drive {
 
 /// The lens; its place in the range is proportional to the focal length.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Zoom {
+pub struct ZoomLens {
     level: f64,
-    drive: Drive,
+    drive: ZoomDrive,
 }
 
 /// Focal length at the wide end, mm.
@@ -47,7 +47,7 @@ pub fn wide_mm(camera: &Camera) -> f64 {
     camera.focal_mm()
 }
 
-impl Zoom {
+impl ZoomLens {
     /// Place in the range, 0 wide to 1 tele.
     #[must_use]
     pub fn level(&self) -> f64 {
@@ -61,7 +61,7 @@ impl Zoom {
     }
 
     /// Takes a wish; false when it lies out of the range or the lens does not zoom.
-    pub fn go(&mut self, wish: Wish, camera: &Camera) -> bool {
+    pub fn command(&mut self, wish: ZoomCommand, camera: &Camera) -> bool {
         if camera.zoom_max <= 1.0 {
             return false;
         }
@@ -70,16 +70,16 @@ impl Zoom {
             inside.then(|| ((ratio - 1.0) / (camera.zoom_max - 1.0)).clamp(0.0, 1.0))
         };
         let drive = match wish {
-            Wish::Step(steps) if steps.is_finite() => {
-                let from = if let Drive::To(target) = self.drive { target } else { self.level };
-                Some(Drive::To((from + steps.clamp(-1.0, 1.0) / STEPS).clamp(0.0, 1.0)))
+            ZoomCommand::Step(steps) if steps.is_finite() => {
+                let from = if let ZoomDrive::To(target) = self.drive { target } else { self.level };
+                Some(ZoomDrive::To((from + steps.clamp(-1.0, 1.0) / STEPS).clamp(0.0, 1.0)))
             }
-            Wish::Rate(0.0) => Some(Drive::Rest),
-            Wish::Rate(rate) if rate.is_finite() => Some(Drive::Rate(rate.clamp(-1.0, 1.0))),
-            Wish::Level(level) if (0.0..=1.0).contains(&level) => Some(Drive::To(level)),
-            Wish::FocalMm(mm) => level_of(mm / wide_mm(camera)).map(Drive::To),
-            Wish::FieldOfView(rad) if rad > 0.0 && rad < math::PI => {
-                level_of(math::tan(0.5 * camera.hfov_rad) / math::tan(0.5 * rad)).map(Drive::To)
+            ZoomCommand::Rate(0.0) => Some(ZoomDrive::Rest),
+            ZoomCommand::Rate(rate) if rate.is_finite() => Some(ZoomDrive::Rate(rate.clamp(-1.0, 1.0))),
+            ZoomCommand::Level(level) if (0.0..=1.0).contains(&level) => Some(ZoomDrive::To(level)),
+            ZoomCommand::FocalMm(mm) => level_of(mm / wide_mm(camera)).map(ZoomDrive::To),
+            ZoomCommand::FieldOfView(rad) if rad > 0.0 && rad < math::PI => {
+                level_of(math::tan(0.5 * camera.hfov_rad) / math::tan(0.5 * rad)).map(ZoomDrive::To)
             }
             _ => None,
         };
@@ -93,23 +93,23 @@ impl Zoom {
     pub fn step(&mut self, dt_s: f64) -> bool {
         let most = dt_s / SWEEP_S;
         let moved = match self.drive {
-            Drive::Rest => return false,
-            Drive::To(target) => (target - self.level).clamp(-most, most),
-            Drive::Rate(rate) => rate * most,
+            ZoomDrive::Rest => return false,
+            ZoomDrive::To(target) => (target - self.level).clamp(-most, most),
+            ZoomDrive::Rate(rate) => rate * most,
         };
         let before = self.level;
         self.level = match self.drive {
             // Ends are met exactly, so that wide is wide to the bit.
-            Drive::To(target) if (target - before).abs() <= most => target,
+            ZoomDrive::To(target) if (target - before).abs() <= most => target,
             _ => (before + moved).clamp(0.0, 1.0),
         };
         let arrived = match self.drive {
-            Drive::To(target) => self.level == target,
-            Drive::Rate(rate) => self.level == if rate < 0.0 { 0.0 } else { 1.0 },
-            Drive::Rest => true,
+            ZoomDrive::To(target) => self.level == target,
+            ZoomDrive::Rate(rate) => self.level == if rate < 0.0 { 0.0 } else { 1.0 },
+            ZoomDrive::Rest => true,
         };
         if arrived {
-            self.drive = Drive::Rest;
+            self.drive = ZoomDrive::Rest;
         }
         arrived
     }
@@ -136,32 +136,32 @@ mod tests {
     /// Rounding, of ratios and radians.
     const NEAR: f64 = 1e-12;
 
-    fn at_rest(wish: Wish) -> Zoom {
-        let mut zoom = Zoom::default();
-        assert!(zoom.go(wish, &CAMERA), "{wish:?}");
+    fn at_rest(wish: ZoomCommand) -> ZoomLens {
+        let mut zoom = ZoomLens::default();
+        assert!(zoom.command(wish, &CAMERA), "{wish:?}");
         let ticks = (0..10_000).take_while(|_| !zoom.step(0.01)).count();
         assert!(ticks < 10_000, "{wish:?} never comes to rest");
         zoom
     }
 
     #[test]
-    fn exact_every_way_of_asking_comes_to_the_focal_length_that_is_asked_for() {
+    fn exact_every_way_of_asking_comes_to_the_focal_length_that_is_requested() {
         // tan 45 deg is 1: the focal length is half the sensor's width, and twice as long sees 2 atan(1/2).
         let field = 2.0 * math::atan2(1.0, 2.0);
-        for wish in [Wish::Level(0.5), Wish::FocalMm(SENSOR_MM), Wish::FieldOfView(field)] {
+        for wish in [ZoomCommand::Level(0.5), ZoomCommand::FocalMm(SENSOR_MM), ZoomCommand::FieldOfView(field)] {
             let zoom = at_rest(wish);
             assert!((zoom.ratio(&CAMERA) - 2.0).abs() < NEAR, "{wish:?}");
             assert!((CAMERA.zoomed(zoom.ratio(&CAMERA)).hfov_rad - field).abs() < NEAR);
             assert!((CAMERA.zoomed(2.0).focal_px() / CAMERA.focal_px() - 2.0).abs() < NEAR);
         }
-        assert!((at_rest(Wish::Step(1.0)).level() - 1.0 / STEPS).abs() < NEAR);
-        assert_eq!(at_rest(Wish::Rate(0.7)).level(), 1.0);
+        assert!((at_rest(ZoomCommand::Step(1.0)).level() - 1.0 / STEPS).abs() < NEAR);
+        assert_eq!(at_rest(ZoomCommand::Rate(0.7)).level(), 1.0);
     }
 
     #[test]
     fn exact_back_at_the_wide_end_the_camera_is_the_same_to_the_bit() {
-        let mut zoom = at_rest(Wish::Level(0.37));
-        assert!(zoom.go(Wish::Rate(-1.0), &CAMERA));
+        let mut zoom = at_rest(ZoomCommand::Level(0.37));
+        assert!(zoom.command(ZoomCommand::Rate(-1.0), &CAMERA));
         while !zoom.step(0.0025) {}
         assert_eq!(CAMERA.zoomed(zoom.ratio(&CAMERA)), CAMERA);
     }
@@ -170,29 +170,29 @@ mod tests {
     fn exact_what_lies_out_of_the_range_is_refused_and_a_fixed_lens_refuses_all() {
         let fixed = Camera { zoom_max: 1.0, ..CAMERA };
         for wish in [
-            Wish::Level(1.01),
-            Wish::Level(f64::NAN),
-            Wish::FocalMm(1.0),
-            Wish::FocalMm(20.0),
-            Wish::FieldOfView(0.0),
-            Wish::FieldOfView(3.0),
-            Wish::Step(f64::NAN),
-            Wish::Rate(f64::INFINITY),
+            ZoomCommand::Level(1.01),
+            ZoomCommand::Level(f64::NAN),
+            ZoomCommand::FocalMm(1.0),
+            ZoomCommand::FocalMm(20.0),
+            ZoomCommand::FieldOfView(0.0),
+            ZoomCommand::FieldOfView(3.0),
+            ZoomCommand::Step(f64::NAN),
+            ZoomCommand::Rate(f64::INFINITY),
         ] {
-            assert!(!Zoom::default().go(wish, &CAMERA), "{wish:?}");
+            assert!(!ZoomLens::default().command(wish, &CAMERA), "{wish:?}");
         }
-        assert!(!Zoom::default().go(Wish::Level(0.0), &fixed));
+        assert!(!ZoomLens::default().command(ZoomCommand::Level(0.0), &fixed));
     }
 
     #[test]
     fn exact_the_whole_range_takes_its_time_and_a_stop_holds_where_it_is() {
-        let mut zoom = Zoom::default();
-        zoom.go(Wish::Rate(1.0), &CAMERA);
+        let mut zoom = ZoomLens::default();
+        zoom.command(ZoomCommand::Rate(1.0), &CAMERA);
         for _ in 0..100 {
             assert!(!zoom.step(0.01));
         }
         assert!((zoom.level() - 1.0 / SWEEP_S).abs() < NEAR);
-        zoom.go(Wish::Rate(0.0), &CAMERA);
+        zoom.command(ZoomCommand::Rate(0.0), &CAMERA);
         assert!(!zoom.step(1.0));
         assert!((zoom.level() - 1.0 / SWEEP_S).abs() < NEAR);
     }

@@ -1,12 +1,12 @@
 //! The camera: pictures, recording, modes, zoom, the memory card.
 
 use super::super::Payload;
-use super::super::camera::zoom::Wish;
-use super::super::camera::{Mode, Refusal};
+use super::super::camera::zoom::ZoomCommand;
+use super::super::camera::{CameraError, CaptureMode};
+use super::super::snapshot::VehicleSnapshot;
 use super::super::streams::CAMERA;
-use super::super::view::View;
-use super::Command;
-use super::payload::{ACCEPTED, DENIED, Row, verdict};
+use super::VehicleCommand;
+use super::payload::{ACCEPTED, DENIED, PayloadCommand, verdict};
 use mavlink::MessageData;
 use spandrel_mavlink::dialect::{
     CAMERA_CAPTURE_STATUS_DATA, CAMERA_FOV_STATUS_DATA, CAMERA_SETTINGS_DATA, MavCmd, MavResult, STORAGE_INFORMATION_DATA,
@@ -20,21 +20,21 @@ const STREAM: f64 = 1.0;
 /// The one memory card.
 const CARD: f64 = 1.0;
 
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[PayloadCommand] = &[
     (MavCmd::MAV_CMD_IMAGE_START_CAPTURE, start),
     (MavCmd::MAV_CMD_IMAGE_STOP_CAPTURE, |c, _, p| {
-        if !for_us(c, 0) {
+        if !targets_this_camera(c, 0) {
             return DENIED;
         }
         p.camera.stop();
-        told(p, &[CAMERA_CAPTURE_STATUS_DATA::ID])
+        stream_reported(p, &[CAMERA_CAPTURE_STATUS_DATA::ID])
     }),
     (MavCmd::MAV_CMD_DO_DIGICAM_CONTROL, |c, v, p| {
-        if c.plain(4) == Some(1.0) { outcome(p.camera.start(0.0, 1.0, v.now), &[], p) } else { DENIED }
+        if c.small_integer(4) == Some(1.0) { outcome(p.camera.start(0.0, 1.0, v.now), &[], p) } else { DENIED }
     }),
     (MavCmd::MAV_CMD_DO_SET_CAM_TRIGG_DIST, |c, v, p| {
         let here = v.estimate.position_m.enu();
-        if !for_us(c, 3) {
+        if !targets_this_camera(c, 3) {
             return DENIED;
         }
         outcome(p.camera.start_by_distance(c.p[0], c.is_one(2), here, v.now), &[CAMERA_CAPTURE_STATUS_DATA::ID], p)
@@ -43,38 +43,38 @@ pub(super) const ROWS: &[Row] = &[
     (MavCmd::MAV_CMD_SET_CAMERA_ZOOM, zoom),
     (MavCmd::MAV_CMD_SET_CAMERA_FOCUS, focus),
     (MavCmd::MAV_CMD_VIDEO_START_CAPTURE, |c, v, p| {
-        if !for_us(c, 2) || !is_one_or_all(c, 0, STREAM) {
+        if !targets_this_camera(c, 2) || !is_one_or_all(c, 0, STREAM) {
             return DENIED;
         }
-        outcome(p.camera.start_recording(c.given(1).unwrap_or(0.0), v.now), &[CAMERA_CAPTURE_STATUS_DATA::ID], p)
+        outcome(p.camera.start_recording(c.finite_param(1).unwrap_or(0.0), v.now), &[CAMERA_CAPTURE_STATUS_DATA::ID], p)
     }),
     (MavCmd::MAV_CMD_VIDEO_STOP_CAPTURE, |c, v, p| {
-        if !for_us(c, 1) || !is_one_or_all(c, 0, STREAM) {
+        if !targets_this_camera(c, 1) || !is_one_or_all(c, 0, STREAM) {
             return DENIED;
         }
         p.camera.stop_recording(v.now);
-        told(p, &[CAMERA_CAPTURE_STATUS_DATA::ID, STORAGE_INFORMATION_DATA::ID])
+        stream_reported(p, &[CAMERA_CAPTURE_STATUS_DATA::ID, STORAGE_INFORMATION_DATA::ID])
     }),
     (MavCmd::MAV_CMD_VIDEO_START_STREAMING, |c, v, p| {
-        if !for_us(c, 1) || !is_one_or_all(c, 0, STREAM) {
+        if !targets_this_camera(c, 1) || !is_one_or_all(c, 0, STREAM) {
             return DENIED;
         }
         if v.camera.stream.is_some() {
-            return told(p, &[VIDEO_STREAM_STATUS_DATA::ID]);
+            return stream_reported(p, &[VIDEO_STREAM_STATUS_DATA::ID]);
         }
-        p.news.warn("Camera: nobody sends a video stream");
+        p.changes.add_warning("Camera: nobody sends a video stream");
         FAILED
     }),
     // Who sends it sends it to whoever is there: nobody is drawn to it, and nobody is sent away.
     (MavCmd::MAV_CMD_VIDEO_STOP_STREAMING, |c, _, p| {
-        if !for_us(c, 1) || !is_one_or_all(c, 0, STREAM) {
+        if !targets_this_camera(c, 1) || !is_one_or_all(c, 0, STREAM) {
             return DENIED;
         }
-        told(p, &[VIDEO_STREAM_STATUS_DATA::ID])
+        stream_reported(p, &[VIDEO_STREAM_STATUS_DATA::ID])
     }),
     (MavCmd::MAV_CMD_STORAGE_FORMAT, format),
     (MavCmd::MAV_CMD_RESET_CAMERA_SETTINGS, |c, v, p| {
-        if !c.is_one(0) || !for_us(c, 1) {
+        if !c.is_one(0) || !targets_this_camera(c, 1) {
             return DENIED;
         }
         outcome(p.camera.reset(&v.vehicle.camera), &[CAMERA_SETTINGS_DATA::ID, CAMERA_FOV_STATUS_DATA::ID], p)
@@ -82,40 +82,40 @@ pub(super) const ROWS: &[Row] = &[
 ];
 
 /// Says messages once to everybody when a command is accepted.
-fn told(payload: &mut Payload, messages: &[u32]) -> MavResult {
-    messages.iter().for_each(|message| payload.news.say(*message));
+fn stream_reported(payload: &mut Payload, messages: &[u32]) -> MavResult {
+    messages.iter().for_each(|message| payload.changes.add_message(*message));
     ACCEPTED
 }
 
 /// The answer on the wire; a reason that lies in the camera becomes a text.
-fn outcome(done: Result<(), Refusal>, messages: &[u32], payload: &mut Payload) -> MavResult {
-    match done.map_err(Refusal::text) {
-        Ok(()) => told(payload, messages),
+fn outcome(done: Result<(), CameraError>, messages: &[u32], payload: &mut Payload) -> MavResult {
+    match done.map_err(CameraError::text) {
+        Ok(()) => stream_reported(payload, messages),
         Err(None) => DENIED,
         Err(Some(text)) => {
-            payload.news.warn(text);
+            payload.changes.add_warning(text);
             FAILED
         }
     }
 }
 
 /// Whether a parameter that names a camera means this one: 0 all, a component's number, or this component's first sensor.
-fn for_us(c: &Command, k: usize) -> bool {
+fn targets_this_camera(c: &VehicleCommand, k: usize) -> bool {
     let first = c.component == CAMERA;
-    c.given(k).is_none_or(|id| id == 0.0 || id == f64::from(CAMERA) || (first && id == 1.0))
+    c.finite_param(k).is_none_or(|id| id == 0.0 || id == f64::from(CAMERA) || (first && id == 1.0))
 }
 
 /// Whether a parameter names the one thing of its kind, or all.
-fn is_one_or_all(c: &Command, k: usize, one: f64) -> bool {
-    c.given(k).is_none_or(|id| id == 0.0 || id == one)
+fn is_one_or_all(c: &VehicleCommand, k: usize, one: f64) -> bool {
+    c.finite_param(k).is_none_or(|id| id == 0.0 || id == one)
 }
 
 /// Interval in parameter 2, count in 3, and for single pictures a number in 4 that tells repetitions.
-fn start(c: &Command, view: &View, payload: &mut Payload) -> MavResult {
-    if !for_us(c, 0) {
+fn start(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> MavResult {
+    if !targets_this_camera(c, 0) {
         return DENIED;
     }
-    let number = c.given(3).filter(|number| (1.0..1e9).contains(number) && c.p[2] == 1.0).map(|number| number as u32);
+    let number = c.finite_param(3).filter(|number| (1.0..1e9).contains(number) && c.p[2] == 1.0).map(|number| number as u32);
     if number.is_some_and(|number| payload.camera.is_repeated(c.from, number, view.now)) {
         return ACCEPTED;
     }
@@ -128,50 +128,50 @@ fn start(c: &Command, view: &View, payload: &mut Payload) -> MavResult {
     done
 }
 
-fn mode(c: &Command, _: &View, payload: &mut Payload) -> MavResult {
+fn mode(c: &VehicleCommand, _: &VehicleSnapshot, payload: &mut Payload) -> MavResult {
     let mode = match c.p[1] {
-        0.0 => Mode::Photo,
-        1.0 => Mode::Video,
+        0.0 => CaptureMode::Photo,
+        1.0 => CaptureMode::Video,
         _ => return DENIED,
     };
-    if !for_us(c, 0) {
+    if !targets_this_camera(c, 0) {
         return DENIED;
     }
     outcome(payload.camera.set_mode(mode), &[CAMERA_SETTINGS_DATA::ID], payload)
 }
 
 /// Kind in parameter 1, value in 2 (CAMERA_ZOOM_TYPE).
-fn zoom(c: &Command, view: &View, payload: &mut Payload) -> MavResult {
+fn zoom(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> MavResult {
     let camera = &view.vehicle.camera;
     if camera.zoom_max <= 1.0 {
         return UNSUPPORTED;
     }
     let wish = match c.p[0] {
-        0.0 => Wish::Step(c.p[1]),
-        1.0 => Wish::Rate(c.p[1]),
-        2.0 => Wish::Level(c.p[1] / 100.0),
-        3.0 => Wish::FocalMm(c.p[1]),
-        4.0 => Wish::FieldOfView(c.p[1].to_radians()),
+        0.0 => ZoomCommand::Step(c.p[1]),
+        1.0 => ZoomCommand::Rate(c.p[1]),
+        2.0 => ZoomCommand::Level(c.p[1] / 100.0),
+        3.0 => ZoomCommand::FocalMm(c.p[1]),
+        4.0 => ZoomCommand::FieldOfView(c.p[1].to_radians()),
         _ => return DENIED,
     };
-    if !for_us(c, 2) || !payload.camera.zoom.go(wish, camera) {
+    if !targets_this_camera(c, 2) || !payload.camera.zoom.command(wish, camera) {
         return DENIED;
     }
-    told(payload, &[CAMERA_SETTINGS_DATA::ID, CAMERA_FOV_STATUS_DATA::ID])
+    stream_reported(payload, &[CAMERA_SETTINGS_DATA::ID, CAMERA_FOV_STATUS_DATA::ID])
 }
 
 /// The camera is always in focus: what asks it to focus by itself (SET_FOCUS_TYPE 4 to 6) is done, focus by hand it has not.
-fn focus(c: &Command, _: &View, payload: &mut Payload) -> MavResult {
+fn focus(c: &VehicleCommand, _: &VehicleSnapshot, payload: &mut Payload) -> MavResult {
     match c.p[0] {
-        4.0..=6.0 if for_us(c, 2) => told(payload, &[CAMERA_SETTINGS_DATA::ID]),
+        4.0..=6.0 if targets_this_camera(c, 2) => stream_reported(payload, &[CAMERA_SETTINGS_DATA::ID]),
         4.0..=6.0 => DENIED,
         _ => UNSUPPORTED,
     }
 }
 
 /// Which card in parameter 1, whether to empty it in 2, or only to count pictures from 0 again in 3.
-fn format(c: &Command, _: &View, payload: &mut Payload) -> MavResult {
-    let flag = |k: usize| match c.given(k) {
+fn format(c: &VehicleCommand, _: &VehicleSnapshot, payload: &mut Payload) -> MavResult {
+    let flag = |k: usize| match c.finite_param(k) {
         None | Some(0.0) => Some(false),
         Some(1.0) => Some(true),
         Some(_) => None,

@@ -1,12 +1,12 @@
 //! Arming, modes, take-off, go-to, landing.
 
 use super::super::{calibration, storage};
-use super::{Command, result};
-use crate::autopilot::orbit::{OrbitWish, OrbitYaw};
-use crate::autopilot::{Mode, Outcome, Request, Turn};
+use super::{VehicleCommand, result};
+use crate::autopilot::orbit::{OrbitRequest, OrbitYaw};
+use crate::autopilot::{AutopilotRequest, FlightMode, RequestOutcome, TurnCommand};
 use crate::endpoint::flavour::ModeRow;
-use crate::endpoint::{Context, Injection};
-use crate::faults::{Faults, Kind, Unit};
+use crate::endpoint::{CommandContext, FailureInjection};
+use crate::faults::{FailureType, FailureUnit, Faults};
 use mavlink::MessageData;
 use spandrel_mavlink::dialect::{GPS_GLOBAL_ORIGIN_DATA, HOME_POSITION_DATA, MISSION_CURRENT_DATA, MavCmd, MavResult};
 use spandrel_model::math;
@@ -14,51 +14,52 @@ use spandrel_model::math;
 /// MAV_CMD_DO_JUMP_TAG, where the dialect doesn't know it.
 const DO_JUMP_TAG: u16 = 601;
 
-pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
+pub(super) fn handle(c: &VehicleCommand, x: &mut CommandContext) -> Option<MavResult> {
     use MavCmd as M;
     const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
     let request = match c.number {
         n if n == M::MAV_CMD_COMPONENT_ARM_DISARM as u16 => match arm(c, x) {
-            Some(Request::Arm { force }) => return Some(arm_motors(c, force, x)),
+            Some(AutopilotRequest::Arm { force }) => return Some(arm_motors(c, force, x)),
             Some(other) => other,
             None => return Some(x.deny("Arming: 1 arms, 0 disarms")),
         },
         n if n == M::MAV_CMD_DO_SET_MODE as u16 => return Some(set_mode(c, x)),
         n if n == M::MAV_CMD_DO_SET_STANDARD_MODE as u16 => {
-            let row = c.given(0).and_then(|number| x.view.flavour.standard(number as u32));
+            let row = c.finite_param(0).and_then(|number| x.view.flavour.standard(number as u32));
             return Some(match row {
                 Some(row) => enter(row, x),
                 None => x.deny(&format!("No such standard mode {}", c.p[0])),
             });
         }
         n if n == M::MAV_CMD_NAV_TAKEOFF as u16 => match (x.view.flavour.take_off)(c, x) {
-            Ok(height_m) => Request::Takeoff { height_m },
+            Ok(height_m) => AutopilotRequest::Takeoff { height_m },
             Err(refusal) => return Some(refusal),
         },
-        n if n == M::MAV_CMD_NAV_LAND as u16 => Request::Land,
-        n if n == M::MAV_CMD_NAV_VTOL_LAND as u16 && x.view.flavour.home_item => Request::Land,
+        n if n == M::MAV_CMD_NAV_LAND as u16 => AutopilotRequest::Land,
+        n if n == M::MAV_CMD_NAV_VTOL_LAND as u16 && x.view.flavour.home_item => AutopilotRequest::Land,
         // No mission has tags, so none is ever found.
         DO_JUMP_TAG if x.view.flavour.home_item => {
-            let is_tag = c.given(0).is_some_and(|tag| (0.0..=f64::from(u16::MAX)).contains(&tag));
+            let is_tag = c.finite_param(0).is_some_and(|tag| (0.0..=f64::from(u16::MAX)).contains(&tag));
             return Some(if is_tag { MavResult::MAV_RESULT_FAILED } else { DENIED });
         }
-        n if n == M::MAV_CMD_NAV_RETURN_TO_LAUNCH as u16 => Request::SetMode(Mode::Return),
+        n if n == M::MAV_CMD_NAV_RETURN_TO_LAUNCH as u16 => AutopilotRequest::SetMode(FlightMode::Return),
         n if n == M::MAV_CMD_NAV_LOITER_UNLIM as u16 => {
             let flavour = x.view.flavour;
-            let row = flavour.loiters.and_then(|number| flavour.row(number)).unwrap_or_else(|| flavour.usual(Mode::Hold));
+            let row =
+                flavour.loiters.and_then(|number| flavour.row(number)).unwrap_or_else(|| flavour.default_mode(FlightMode::Hold));
             return Some(enter(row, x));
         }
         n if n == M::MAV_CMD_DO_REPOSITION as u16 => return Some(go(c, x)),
         n if n == M::MAV_CMD_DO_LAND_START as u16 => {
-            let row = x.view.flavour.modes.iter().find(|row| row.request == Request::LandingSequence)?;
+            let row = x.view.flavour.modes.iter().find(|row| row.request == AutopilotRequest::LandingSequence)?;
             return Some(enter(row, x));
         }
         n if n == M::MAV_CMD_DO_PAUSE_CONTINUE as u16 && x.view.flavour.pauses => return Some(pause(c, x)),
         n if n == M::MAV_CMD_DO_PAUSE_CONTINUE as u16 => {
             if c.is_one(0) {
-                Request::StartMission { first: None }
+                AutopilotRequest::StartMission { first: None }
             } else {
-                Request::SetMode(Mode::Hold)
+                AutopilotRequest::SetMode(FlightMode::Hold)
             }
         }
         n if n == M::MAV_CMD_MISSION_START as u16 => {
@@ -66,21 +67,21 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
             if x.view.flavour.home_item && c.p[..2].iter().any(|item| *item != 0.0) {
                 return Some(x.deny("Mission start: first and last item are not supported"));
             }
-            Request::StartMission { first: c.given(0).filter(|f| *f > 0.0).map(|f| index(f, x)) }
+            AutopilotRequest::StartMission { first: c.finite_param(0).filter(|f| *f > 0.0).map(|f| index(f, x)) }
         }
         // Climbing and sinking have parameters of their own.
-        n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 && c.given(0).is_some_and(|kind| kind > 1.0) => {
+        n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 && c.finite_param(0).is_some_and(|kind| kind > 1.0) => {
             return Some(x.deny("Speed: types 0, 1; climb and sink are parameters"));
         }
-        n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 => match c.given(1) {
+        n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 => match c.finite_param(1) {
             // -1 changes nothing, -2 goes back to the parameter's (MAVLink common).
             Some(-1.0) => return Some(MavResult::MAV_RESULT_ACCEPTED),
-            Some(-2.0) => Request::SetSpeed(None),
-            Some(speed) if speed > 0.0 => Request::SetSpeed(Some(speed)),
+            Some(-2.0) => AutopilotRequest::SetSpeed(None),
+            Some(speed) if speed > 0.0 => AutopilotRequest::SetSpeed(Some(speed)),
             _ => return Some(x.deny("Speed: above 0 m/s, -1 as it is, -2 the usual")),
         },
         n if n == M::MAV_CMD_DO_ORBIT as u16 => match orbit(c, x) {
-            Some(wish) => Request::Orbit(wish),
+            Some(wish) => AutopilotRequest::Orbit(wish),
             None => return Some(x.deny("Orbit: place within 20 km, yaw behaviour 0 to 5")),
         },
         n if n == M::MAV_CMD_CONDITION_YAW as u16 => match turn(c, x) {
@@ -92,12 +93,12 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
             None => return Some(x.deny("Home: latitude, longitude, altitude within 20 km")),
         },
         n if n == M::MAV_CMD_DO_FENCE_ENABLE as u16 => match c.p[0] {
-            0.0 => Request::EnableFence(false),
-            1.0 => Request::EnableFence(true),
+            0.0 => AutopilotRequest::EnableFence(false),
+            1.0 => AutopilotRequest::EnableFence(true),
             _ => return Some(x.deny("Fence: 0 switches off, 1 on")),
         },
         n if n == M::MAV_CMD_DO_FLIGHTTERMINATION as u16 => match c.p[0] {
-            p if p > 0.5 => Request::Disarm { force: true },
+            p if p > 0.5 => AutopilotRequest::Disarm { force: true },
             0.0 => return Some(MavResult::MAV_RESULT_ACCEPTED),
             _ => return Some(DENIED),
         },
@@ -114,42 +115,42 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
         _ => return None,
     };
     let outcome = x.autopilot.request(request, x.view.now);
-    if matches!(request, Request::SetHome(_)) && outcome == Outcome::Accepted && x.view.flavour.home_item {
-        x.payload.news.say(GPS_GLOBAL_ORIGIN_DATA::ID);
-        x.payload.news.say(HOME_POSITION_DATA::ID);
+    if matches!(request, AutopilotRequest::SetHome(_)) && outcome == RequestOutcome::Accepted && x.view.flavour.home_item {
+        x.payload.changes.add_message(GPS_GLOBAL_ORIGIN_DATA::ID);
+        x.payload.changes.add_message(HOME_POSITION_DATA::ID);
     }
     Some(result(outcome, x))
 }
 
 /// Parameters 1 unit, 2 kind, 3 instance. As in PX4 nothing happens unless SYS_FAILURE_EN allows it.
-fn inject(c: &Command, x: &mut Context) -> MavResult {
+fn inject(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
     if x.params.whole("SYS_FAILURE_EN") != Some(1) {
-        x.tell("Failure injection is off (SYS_FAILURE_EN)");
+        x.warn_all("Failure injection is off (SYS_FAILURE_EN)");
         return MavResult::MAV_RESULT_DENIED;
     }
-    let whole = |k: usize| c.given(k).map(|value| value as i64);
-    let (unit, kind) = (whole(0).and_then(Unit::from_number), whole(1).and_then(Kind::from_number));
+    let whole = |k: usize| c.finite_param(k).map(|value| value as i64);
+    let (unit, kind) = (whole(0).and_then(FailureUnit::from_number), whole(1).and_then(FailureType::from_number));
     let (Some(unit), Some(kind)) = (unit, kind) else { return MavResult::MAV_RESULT_UNSUPPORTED };
     let instance = usize::try_from(whole(2).unwrap_or(0)).unwrap_or(usize::MAX);
     let rotors = x.view.vehicle.rotors.len();
     let cells = x.view.vehicle.battery.cells as usize;
-    if unit == Unit::Battery && instance > cells {
-        x.tell(&format!("No such battery cell: {instance} (1 to {cells}, 0: the whole pack)"));
+    if unit == FailureUnit::Battery && instance > cells {
+        x.warn_all(&format!("No such battery cell: {instance} (1 to {cells}, 0: the whole pack)"));
         return MavResult::MAV_RESULT_DENIED;
     }
     if !Faults::new(0).inject(unit, kind, instance, rotors) {
         return MavResult::MAV_RESULT_UNSUPPORTED;
     }
-    x.faults.push_back(Injection { unit, kind, instance });
+    x.faults.push_back(FailureInjection { unit, kind, instance });
     MavResult::MAV_RESULT_ACCEPTED
 }
 
 /// Parameter 1: 0 nothing, 1 and 3 the autopilot starts again; a simulated vehicle is not shut down by a client.
-fn reboot(c: &Command, x: &mut Context) -> MavResult {
+fn reboot(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
     match c.p[0] {
         0.0 => MavResult::MAV_RESULT_ACCEPTED,
         1.0 | 3.0 if x.view.status.armed => {
-            x.tell("Reboot denied: armed");
+            x.warn_all("Reboot denied: armed");
             x.view.flavour.refusals.for_now
         }
         1.0 | 3.0 => {
@@ -160,102 +161,102 @@ fn reboot(c: &Command, x: &mut Context) -> MavResult {
     }
 }
 
-fn arm(c: &Command, x: &Context) -> Option<Request> {
+fn arm(c: &VehicleCommand, x: &CommandContext) -> Option<AutopilotRequest> {
     let force = x.view.flavour.force.iter().any(|number| (c.p[1] - number).abs() < 0.5);
     match c.p[0] {
-        p if (p - 1.0).abs() < 1e-6 => Some(Request::Arm { force }),
-        0.0 => Some(Request::Disarm { force }),
+        p if (p - 1.0).abs() < 1e-6 => Some(AutopilotRequest::Arm { force }),
+        0.0 => Some(AutopilotRequest::Disarm { force }),
         _ => None,
     }
 }
 
 /// Each reason against it in a text of its own, where the flavour has words for that.
 /// In the mode that flies errands the vehicle's own order, by a switch of the transmitter, needs leave (`GUID_OPTIONS`).
-fn arm_motors(c: &Command, force: bool, x: &mut Context) -> MavResult {
+fn arm_motors(c: &VehicleCommand, force: bool, x: &mut CommandContext) -> MavResult {
     let (flavour, now) = (x.view.flavour, x.view.now);
     if let Some(words) = flavour.arm_words
         && !x.autopilot.status().armed
     {
-        let row = flavour.row_of(x.autopilot.status().mode, *x.chosen);
+        let row = flavour.row_of(x.autopilot.status().mode, *x.requested_mode);
         let mut reasons = if force { Vec::new() } else { x.autopilot.arming_reasons(now) };
-        let allowed = row.armable || row.mode == Mode::Mission && x.params.arms_in_auto();
-        let by_transmitter = c.own && x.in_errands();
+        let allowed = row.armable || row.mode == FlightMode::Mission && x.params.arms_in_auto();
+        let by_transmitter = c.own && x.in_guided_mode();
         let allowed = allowed && (!by_transmitter || x.autopilot.tuning.rules.guided.transmitter_arms);
         if !allowed && !force {
             reasons.insert(0, format!("{} mode not armable", row.name.to_uppercase()));
         }
         if !reasons.is_empty() {
-            reasons.iter().for_each(|reason| x.tell(&format!("{words}{reason}")));
+            reasons.iter().for_each(|reason| x.warn_all(&format!("{words}{reason}")));
             return flavour.refusals.for_now;
         }
     }
-    let outcome = x.autopilot.request(Request::Arm { force }, now);
+    let outcome = x.autopilot.request(AutopilotRequest::Arm { force }, now);
     result(outcome, x)
 }
 
-fn enter(row: &ModeRow, x: &mut Context) -> MavResult {
-    let outcome = x.view.flavour.enter(row, x.chosen, x.autopilot, x.view.now);
+fn enter(row: &ModeRow, x: &mut CommandContext) -> MavResult {
+    let outcome = x.view.flavour.enter(row, x.requested_mode, x.autopilot, x.view.now);
     result(outcome, x)
 }
 
 /// Only the custom mode counts; the bits of base_mode beside it are the vehicle's own business.
-fn set_mode(c: &Command, x: &mut Context) -> MavResult {
-    let custom = c.given(0).is_some_and(|base| (base as i64) & 1 == 1);
-    let Some(main) = c.given(1).filter(|_| custom) else {
-        x.tell("No custom mode given");
+fn set_mode(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
+    let custom = c.finite_param(0).is_some_and(|base| (base as i64) & 1 == 1);
+    let Some(main) = c.finite_param(1).filter(|_| custom) else {
+        x.warn_all("No custom mode given");
         return MavResult::MAV_RESULT_DENIED;
     };
-    let number = (x.view.flavour.custom_mode)(main, c.given(2).unwrap_or(0.0));
+    let number = (x.view.flavour.custom_mode)(main, c.finite_param(2).unwrap_or(0.0));
     match x.view.flavour.row(number) {
         Some(row) => enter(row, x),
         None => {
-            x.tell(&format!("No such mode {main}"));
+            x.warn_all(&format!("No such mode {main}"));
             x.view.flavour.refusals.no_mode
         }
     }
 }
 
 /// An item's place among those that are flown.
-fn index(seq: f64, x: &Context) -> usize {
+fn index(seq: f64, x: &CommandContext) -> usize {
     (seq as usize).saturating_sub(usize::from(x.view.plans.lead))
 }
 
 /// Parameter 1 the item, -1 for the present one (ArduPilot refuses that); with 1 in parameter 2 the mission is as if it had not been flown. Everybody hears of it, as
 /// after MISSION_SET_CURRENT.
-fn set_current(c: &Command, x: &mut Context) -> bool {
-    let item = match c.given(0) {
+fn set_current(c: &VehicleCommand, x: &mut CommandContext) -> bool {
+    let item = match c.finite_param(0) {
         Some(-1.0) if !x.view.flavour.home_item => x.autopilot.status().mission_current,
         Some(seq) if seq >= 0.0 => index(seq, x),
         _ => return false,
     };
     let set = x.autopilot.set_mission_current(item, c.is_one(1));
     if set {
-        x.payload.news.say(MISSION_CURRENT_DATA::ID);
+        x.payload.changes.add_message(MISSION_CURRENT_DATA::ID);
     }
     set
 }
 
 /// DO_REPOSITION. Where one mode flies errands it must be flown, or parameter 2 must ask for it (MAV_DO_REPOSITION_FLAGS_CHANGE_MODE).
-fn go(c: &Command, x: &mut Context) -> MavResult {
-    let changes = c.given(1).is_some_and(|flags| (flags as i64) & 1 == 1);
+fn go(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
+    let changes = c.finite_param(1).is_some_and(|flags| (flags as i64) & 1 == 1);
     let errands = x.view.flavour.errands;
-    if !(errands.is_none() || changes || x.in_errands()) {
+    if !(errands.is_none() || changes || x.in_guided_mode()) {
         return x.deny("Go-to: not in this mode, nor asked to change it");
     }
     let Some(request) = reposition(c, x) else { return x.deny("Go-to: place out of range (20 km) or frame unknown") };
     let outcome = x.autopilot.request(request, x.view.now);
-    if outcome == Outcome::Accepted {
-        *x.chosen = errands.unwrap_or(*x.chosen);
+    if outcome == RequestOutcome::Accepted {
+        *x.requested_mode = errands.unwrap_or(*x.requested_mode);
     }
     result(outcome, x)
 }
 
-fn reposition(c: &Command, x: &Context) -> Option<Request> {
+fn reposition(c: &VehicleCommand, x: &CommandContext) -> Option<AutopilotRequest> {
     let home_up = x.view.status.home_m.map_or(0.0, |h| -h.down());
     let origin = x.view.plane.origin();
-    let relative = c.over_home()?;
-    let up_m = c.given(6).map(|z| if relative { home_up + z } else { z - origin.altitude_m });
-    let north_east_m = match (c.given(4), c.given(5)) {
+    let relative = c.is_home_relative()?;
+    let up_m = c.finite_param(6).map(|z| if relative { home_up + z } else { z - origin.altitude_m });
+    let north_east_m = match (c.finite_param(4), c.finite_param(5)) {
         (Some(lat), Some(lon)) => {
             if lat.abs() > 90.0 || lon.abs() > 180.0 {
                 return None;
@@ -269,20 +270,20 @@ fn reposition(c: &Command, x: &Context) -> Option<Request> {
         }
         _ => None,
     };
-    let speed_m_s = c.given(0).filter(|s| *s > 0.0);
-    Some(Request::GoTo { north_east_m, up_m, yaw_rad: c.given(3), speed_m_s })
+    let speed_m_s = c.finite_param(0).filter(|s| *s > 0.0);
+    Some(AutopilotRequest::GoTo { north_east_m, up_m, yaw_rad: c.finite_param(3), speed_m_s })
 }
 
 /// Where the flavour has it, only a mission and what flies errands are paused.
-fn pause(c: &Command, x: &mut Context) -> MavResult {
-    let pausable = x.in_errands() || x.autopilot.status().mode == Mode::Mission;
+fn pause(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
+    let pausable = x.in_guided_mode() || x.autopilot.status().mode == FlightMode::Mission;
     let pause = match c.p[0] {
         0.0 => true,
         1.0 => false,
         _ => return MavResult::MAV_RESULT_DENIED,
     };
-    let failed = || Outcome::Failed(if pause { "Failed to pause" } else { "Failed to resume" }.into());
-    let outcome = if pausable { x.autopilot.request(Request::Pause(pause), x.view.now) } else { failed() };
+    let failed = || RequestOutcome::Failed(if pause { "Failed to pause" } else { "Failed to resume" }.into());
+    let outcome = if pausable { x.autopilot.request(AutopilotRequest::Pause(pause), x.view.now) } else { failed() };
     result(outcome, x)
 }
 
@@ -290,46 +291,46 @@ fn pause(c: &Command, x: &mut Context) -> MavResult {
 const YAW_UNCHANGED: i64 = 5;
 
 /// Parameters 1 radius, 2 speed, 3 where the nose points, 4 how far round in radians, 5 to 7 the middle.
-fn orbit(c: &Command, x: &Context) -> Option<OrbitWish> {
-    let Request::GoTo { north_east_m, up_m, .. } = reposition(c, x)? else { return None };
-    let yaw = match c.given(2).map(|number| number.round() as i64) {
+fn orbit(c: &VehicleCommand, x: &CommandContext) -> Option<OrbitRequest> {
+    let AutopilotRequest::GoTo { north_east_m, up_m, .. } = reposition(c, x)? else { return None };
+    let yaw = match c.finite_param(2).map(|number| number.round() as i64) {
         None | Some(YAW_UNCHANGED) => None,
         Some(number) => Some(OrbitYaw::from_number(number)?),
     };
-    let arc_rad = c.given(3).unwrap_or(0.0).abs();
-    Some(OrbitWish { centre_m: north_east_m, up_m, radius_m: c.given(0), speed_m_s: c.given(1), yaw, arc_rad })
+    let arc_rad = c.finite_param(3).unwrap_or(0.0).abs();
+    Some(OrbitRequest { centre_m: north_east_m, up_m, radius_m: c.finite_param(0), speed_m_s: c.finite_param(1), yaw, arc_rad })
 }
 
 /// Parameters 1 angle in degrees, 2 rate in deg/s (0: the vehicle's own), 3 direction, 4 whether from the present heading.
-fn turn(c: &Command, x: &Context) -> Option<Request> {
-    let angle = c.given(0)?.to_radians();
+fn turn(c: &VehicleCommand, x: &CommandContext) -> Option<AutopilotRequest> {
+    let angle = c.finite_param(0)?.to_radians();
     let relative = c.is_one(3);
     let signed = if c.p[2] < 0.0 { -angle } else { angle };
     let now = x.view.estimate.attitude.yaw_rad();
-    let rate_rad_s = c.given(1).filter(|rate| *rate > 0.0).map(f64::to_radians);
-    let clockwise = c.given(2).filter(|direction| *direction != 0.0).map(|direction| direction > 0.0);
+    let rate_rad_s = c.finite_param(1).filter(|rate| *rate > 0.0).map(f64::to_radians);
+    let clockwise = c.finite_param(2).filter(|direction| *direction != 0.0).map(|direction| direction > 0.0);
     let yaw_rad = math::wrap_pi(if relative { now + signed } else { angle });
-    Some(Request::Turn(Turn { yaw_rad, rate_rad_s, clockwise }))
+    Some(AutopilotRequest::Turn(TurnCommand { yaw_rad, rate_rad_s, clockwise }))
 }
 
-fn home(c: &Command, x: &Context) -> Option<Request> {
+fn home(c: &VehicleCommand, x: &CommandContext) -> Option<AutopilotRequest> {
     let unnamed = x.view.flavour.zero_is_here && c.p[4] == 0.0 && c.p[5] == 0.0;
     if c.is_one(0) || unnamed {
-        return x.view.estimate.position_valid.then_some(Request::SetHome(x.view.estimate.position_m));
+        return x.view.estimate.position_valid.then_some(AutopilotRequest::SetHome(x.view.estimate.position_m));
     }
-    let (lat, lon, alt) = (c.given(4)?, c.given(5)?, c.given(6)?);
+    let (lat, lon, alt) = (c.finite_param(4)?, c.finite_param(5)?, c.finite_param(6)?);
     let home_up = x.view.status.home_m.map_or(0.0, |h| -h.down());
-    let alt = if c.over_home()? { x.view.plane.origin().altitude_m + home_up + alt } else { alt };
+    let alt = if c.is_home_relative()? { x.view.plane.origin().altitude_m + home_up + alt } else { alt };
     let geo = spandrel_mavlink::units::geo(spandrel_mavlink::units::deg_e7(lat), spandrel_mavlink::units::deg_e7(lon), alt)?;
     let local = x.view.plane.enu_from_geo(geo);
-    (local.norm() < 20_000.0).then(|| Request::SetHome(local.ned()))
+    (local.norm() < 20_000.0).then(|| AutopilotRequest::SetHome(local.ned()))
 }
 
-fn checks(x: &mut Context) -> MavResult {
+fn checks(x: &mut CommandContext) -> MavResult {
     *x.report = true;
     let reasons = x.view.status.arming_reasons.clone();
     for reason in &reasons {
-        x.tell(&format!("{}{reason}", x.view.flavour.check_words));
+        x.warn_all(&format!("{}{reason}", x.view.flavour.check_words));
     }
     MavResult::MAV_RESULT_ACCEPTED
 }

@@ -2,10 +2,10 @@
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::super::Payload;
-use super::super::gimbal::{Aim, DEVICE, Gimbal};
-use super::super::view::View;
-use super::Command;
-use super::payload::{ACCEPTED, DENIED, Row, place, verdict};
+use super::super::gimbal::{DEVICE, GimbalState, GimbalTarget};
+use super::super::snapshot::VehicleSnapshot;
+use super::VehicleCommand;
+use super::payload::{ACCEPTED, DENIED, PayloadCommand, place, verdict};
 use mavlink::MessageData;
 use spandrel_mavlink::dialect::{GIMBAL_MANAGER_STATUS_DATA, MavCmd, MavResult};
 
@@ -13,51 +13,51 @@ use spandrel_mavlink::dialect::{GIMBAL_MANAGER_STATUS_DATA, MavCmd, MavResult};
 const RETRACT: u32 = 1;
 const NEUTRAL: u32 = 2;
 
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[PayloadCommand] = &[
     (MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, pitch_yaw),
     (MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_CONFIGURE, |c, _, p| configure(c, p)),
     (MavCmd::MAV_CMD_DO_MOUNT_CONTROL, mount_control),
     (MavCmd::MAV_CMD_DO_MOUNT_CONFIGURE, mount_configure),
     (MavCmd::MAV_CMD_DO_SET_ROI_LOCATION, roi),
     (MavCmd::MAV_CMD_DO_SET_ROI, roi),
-    (MavCmd::MAV_CMD_DO_SET_ROI_NONE, |c, v, p| aim(Aim::Angle(0.0), c, v, p)),
+    (MavCmd::MAV_CMD_DO_SET_ROI_NONE, |c, v, p| aim(GimbalTarget::Angle(0.0), c, v, p)),
 ];
 
 /// The vehicle's own mission is always in control, whoever else is.
-fn may_move(c: &Command, gimbal: &Gimbal) -> bool {
-    c.own || gimbal.obeys(c.from)
+fn may_move(c: &VehicleCommand, gimbal: &GimbalState) -> bool {
+    c.own || gimbal.accepts_control_from(c.from)
 }
 
-fn aim(aim: Aim, c: &Command, view: &View, payload: &mut Payload) -> MavResult {
+fn aim(aim: GimbalTarget, c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> MavResult {
     let gimbal = &mut payload.gimbal;
     verdict(may_move(c, gimbal) && gimbal.set(aim, &view.vehicle.camera))
 }
 
 /// The device in parameter 7: this one, or all.
-fn is_ours(c: &Command) -> bool {
-    c.given(6).is_none_or(|device| device == 0.0 || device == f64::from(DEVICE))
+fn targets_this_gimbal(c: &VehicleCommand) -> bool {
+    c.finite_param(6).is_none_or(|device| device == 0.0 || device == f64::from(DEVICE))
 }
 
 /// Pitch, and how fast to get there, or a pitch rate alone, degrees about the horizon; yaw follows the vehicle whatever is asked, but asking
 /// for yaw alone is refused.
-fn pitch_yaw(c: &Command, view: &View, payload: &mut Payload) -> MavResult {
-    let flags = c.plain(4).map_or(0, |flags| flags as u32);
-    if !is_ours(c) || flags & RETRACT != 0 {
+fn pitch_yaw(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> MavResult {
+    let flags = c.small_integer(4).map_or(0, |flags| flags as u32);
+    if !targets_this_gimbal(c) || flags & RETRACT != 0 {
         return DENIED;
     }
     if flags & NEUTRAL != 0 {
-        return aim(Aim::Neutral, c, view, payload);
+        return aim(GimbalTarget::Neutral, c, view, payload);
     }
-    let radians = |k: usize| c.given(k).map(f64::to_radians);
-    match Aim::of(radians(0), radians(2)) {
+    let radians = |k: usize| c.finite_param(k).map(f64::to_radians);
+    match GimbalTarget::of(radians(0), radians(2)) {
         Some(wish) => aim(wish, c, view, payload),
-        None => verdict([1, 3].iter().all(|k| c.given(*k).is_none_or(|yaw| yaw == 0.0))),
+        None => verdict([1, 3].iter().all(|k| c.finite_param(*k).is_none_or(|yaw| yaw == 0.0))),
     }
 }
 
 /// Who is in control: primary in parameters 1 and 2, secondary in 3 and 4, system and component each: 0 nobody, -1 as it is, -2 the sender,
 /// -3 nobody if it is the sender (MAVLink common).
-fn configure(c: &Command, payload: &mut Payload) -> MavResult {
+fn configure(c: &VehicleCommand, payload: &mut Payload) -> MavResult {
     let gimbal = &mut payload.gimbal;
     let one = |wish: f64, now: u8, own: u8, held: bool| match wish {
         -1.0 => Some(now),
@@ -72,20 +72,21 @@ fn configure(c: &Command, payload: &mut Payload) -> MavResult {
         // No system: nobody, whatever the component.
         Some(if pair.0 == 0 { (0, 0) } else { pair })
     };
-    let (Some(primary), Some(secondary), true) = (chosen(0, gimbal.control), chosen(2, gimbal.secondary), is_ours(c)) else {
+    let (Some(primary), Some(secondary), true) = (chosen(0, gimbal.control), chosen(2, gimbal.secondary), targets_this_gimbal(c))
+    else {
         return DENIED;
     };
     (gimbal.control, gimbal.secondary) = (primary, secondary);
-    payload.news.say(GIMBAL_MANAGER_STATUS_DATA::ID);
+    payload.changes.add_message(GIMBAL_MANAGER_STATUS_DATA::ID);
     ACCEPTED
 }
 
-fn roi(c: &Command, view: &View, payload: &mut Payload) -> MavResult {
-    if c.clears_interest() {
-        return aim(Aim::Angle(0.0), c, view, payload);
+fn roi(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> MavResult {
+    if c.clears_region_of_interest() {
+        return aim(GimbalTarget::Angle(0.0), c, view, payload);
     }
-    let place = c.given(6).and_then(|altitude_m| place(c, view, altitude_m));
-    place.map_or(DENIED, |place| aim(Aim::Place(place), c, view, payload))
+    let place = c.finite_param(6).and_then(|altitude_m| place(c, view, altitude_m));
+    place.map_or(DENIED, |place| aim(GimbalTarget::Place(place), c, view, payload))
 }
 
 /// What a mode of a mount means for this gimbal (MAV_MOUNT_MODE).
@@ -110,38 +111,38 @@ impl MountMode {
     }
 }
 
-fn look_home(c: &Command, view: &View, payload: &mut Payload) -> MavResult {
-    view.status.home_m.map_or(DENIED, |home| aim(Aim::Place(home.enu()), c, view, payload))
+fn point_at_home(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> MavResult {
+    view.status.home_m.map_or(DENIED, |home| aim(GimbalTarget::Place(home.enu()), c, view, payload))
 }
 
 /// Mode in parameter 7; pitch in 1, a rate after DO_MOUNT_CONFIGURE has said so; the place to point at in 5, 6 and 4.
-fn mount_control(c: &Command, view: &View, payload: &mut Payload) -> MavResult {
-    match MountMode::of(c.given(6).unwrap_or(2.0)) {
-        Some(MountMode::Neutral) => aim(Aim::Neutral, c, view, payload),
+fn mount_control(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> MavResult {
+    match MountMode::of(c.finite_param(6).unwrap_or(2.0)) {
+        Some(MountMode::Neutral) => aim(GimbalTarget::Neutral, c, view, payload),
         Some(MountMode::Targeting) => {
             let pitch = c.p[0].to_radians();
-            let wish = if payload.gimbal.mount_rates { Aim::Rate(pitch) } else { Aim::Angle(pitch) };
+            let wish = if payload.gimbal.mount_rates { GimbalTarget::Rate(pitch) } else { GimbalTarget::Angle(pitch) };
             aim(wish, c, view, payload)
         }
         Some(MountMode::Point) => {
-            let place = c.given(3).and_then(|altitude_m| place(c, view, altitude_m));
-            place.map_or(DENIED, |place| aim(Aim::Place(place), c, view, payload))
+            let place = c.finite_param(3).and_then(|altitude_m| place(c, view, altitude_m));
+            place.map_or(DENIED, |place| aim(GimbalTarget::Place(place), c, view, payload))
         }
-        Some(MountMode::Home) => look_home(c, view, payload),
+        Some(MountMode::Home) => point_at_home(c, view, payload),
         None => DENIED,
     }
 }
 
 /// Mode in parameter 1; what pitch means in 6: 0 and 2 an angle, 1 a rate. Roll and pitch are stabilised whatever 2 to 4 say.
-fn mount_configure(c: &Command, view: &View, payload: &mut Payload) -> MavResult {
-    let rates = match c.plain(5) {
+fn mount_configure(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> MavResult {
+    let rates = match c.small_integer(5) {
         None | Some(0.0 | 2.0) => false,
         Some(1.0) => true,
         Some(_) => return DENIED,
     };
     let done = match MountMode::of(c.p[0]) {
-        Some(MountMode::Neutral) => aim(Aim::Neutral, c, view, payload),
-        Some(MountMode::Home) => look_home(c, view, payload),
+        Some(MountMode::Neutral) => aim(GimbalTarget::Neutral, c, view, payload),
+        Some(MountMode::Home) => point_at_home(c, view, payload),
         Some(MountMode::Targeting | MountMode::Point) => verdict(may_move(c, &payload.gimbal)),
         None => DENIED,
     };

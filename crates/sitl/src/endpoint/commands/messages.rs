@@ -2,8 +2,8 @@
 #![allow(deprecated, reason = "clients still send the superseded commands")]
 
 use super::super::streams::{self, AUTOPILOT, CAMERA, STREAMS};
-use super::Command;
-use crate::endpoint::Context;
+use super::VehicleCommand;
+use crate::endpoint::CommandContext;
 use spandrel_mavlink::dialect::{AVAILABLE_MODES_DATA, MESSAGE_INTERVAL_DATA, MavCmd, MavMessage, MavModeProperty, MavResult};
 
 const AVAILABLE_MODES: u32 = 435;
@@ -18,9 +18,9 @@ const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
 /// MAV_CMD_DO_SEND_BANNER of ArduPilot's dialect.
 const SEND_BANNER: u16 = 42_428;
 
-pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
+pub(super) fn handle(c: &VehicleCommand, x: &mut CommandContext) -> Option<MavResult> {
     use MavCmd as M;
-    let id = |k: usize| c.given(k).filter(|v| (0.0..16_777_216.0).contains(v)).map(|v| v as u32);
+    let id = |k: usize| c.finite_param(k).filter(|v| (0.0..16_777_216.0).contains(v)).map(|v| v as u32);
     // Older commands that ask for one message each.
     let legacy = match c.number {
         n if n == M::MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES as u16 => Some(148),
@@ -43,7 +43,7 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
     }
     match c.number {
         SEND_BANNER if !x.view.flavour.banner.is_empty() => {
-            x.introduce();
+            x.announce_identity();
             Some(ACCEPTED)
         }
         n if n == M::MAV_CMD_REQUEST_MESSAGE as u16 => {
@@ -65,7 +65,7 @@ fn addressed(id: u32, component: u8) -> impl Iterator<Item = usize> {
 }
 
 /// Parameters 2 and 3 of the request are `index` and `last`; what they mean depends on the message.
-fn request(id: u32, (index, last): (f64, f64), component: u8, x: &mut Context) -> MavResult {
+fn request(id: u32, (index, last): (f64, f64), component: u8, x: &mut CommandContext) -> MavResult {
     if id == AVAILABLE_MODES {
         return modes(index, x);
     }
@@ -76,7 +76,7 @@ fn request(id: u32, (index, last): (f64, f64), component: u8, x: &mut Context) -
     if COUNTED.contains(&id) && index.is_finite() && !matches!(index, 0.0 | 1.0) {
         return DENIED;
     }
-    let rows: Vec<usize> = addressed(id, component).filter(|row| STREAMS[*row].is_spoken(x.view.flavour)).collect();
+    let rows: Vec<usize> = addressed(id, component).filter(|row| STREAMS[*row].is_sent(x.view.flavour)).collect();
     let mut said = false;
     for row in rows {
         let Some(message) = STREAMS[row].build(&x.view) else { continue };
@@ -92,7 +92,7 @@ fn request(id: u32, (index, last): (f64, f64), component: u8, x: &mut Context) -
 
 /// Pictures again: from number `first` (-1: from 0 to the newest) to `last` (0: that one alone, -1: to the newest). The first at once, the
 /// others as the link has room.
-fn pictures(first: f64, last: f64, x: &mut Context) -> MavResult {
+fn pictures(first: f64, last: f64, x: &mut CommandContext) -> MavResult {
     let count = x.view.camera.pictures;
     let (first, last) = match (first, last) {
         (-1.0, _) => (0.0, -1.0),
@@ -107,7 +107,7 @@ fn pictures(first: f64, last: f64, x: &mut Context) -> MavResult {
         0.0 => first + 1,
         last => count.min(last as usize + 1),
     };
-    let Some(message) = x.payload.camera.again(first) else { return DENIED };
+    let Some(message) = x.payload.camera.recorded_capture(first) else { return DENIED };
     if end > first + 1 {
         x.link.pictures = first + 1..end;
     }
@@ -115,7 +115,7 @@ fn pictures(first: f64, last: f64, x: &mut Context) -> MavResult {
 }
 
 /// One mode, or with index 0 all of them.
-fn modes(index: f64, x: &mut Context) -> MavResult {
+fn modes(index: f64, x: &mut CommandContext) -> MavResult {
     let modes = x.view.flavour.modes;
     let count = modes.len();
     let wanted = if index.is_finite() && index >= 0.0 { index as usize } else { return DENIED };
@@ -139,8 +139,8 @@ fn modes(index: f64, x: &mut Context) -> MavResult {
     ACCEPTED
 }
 
-fn set_interval(id: u32, us: f64, component: u8, x: &mut Context) -> MavResult {
-    let rows: Vec<usize> = addressed(id, component).filter(|row| STREAMS[*row].is_spoken(x.view.flavour)).collect();
+fn set_interval(id: u32, us: f64, component: u8, x: &mut CommandContext) -> MavResult {
+    let rows: Vec<usize> = addressed(id, component).filter(|row| STREAMS[*row].is_sent(x.view.flavour)).collect();
     if rows.is_empty() {
         return x.view.flavour.refusals.interval;
     }
@@ -148,7 +148,7 @@ fn set_interval(id: u32, us: f64, component: u8, x: &mut Context) -> MavResult {
     if rows.iter().all(|row| x.link.set_interval(*row, us, now)) { ACCEPTED } else { DENIED }
 }
 
-fn get_interval(id: u32, component: u8, x: &mut Context) -> MavResult {
+fn get_interval(id: u32, component: u8, x: &mut CommandContext) -> MavResult {
     let row = addressed(id, component).next();
     let interval_us = row.map_or(0, |row| x.link.interval_us(row));
     x.answer(AUTOPILOT, &MavMessage::MESSAGE_INTERVAL(MESSAGE_INTERVAL_DATA { interval_us, message_id: id as u16 }));

@@ -7,10 +7,10 @@ mod lamp;
 mod messages;
 pub(super) mod payload;
 
-use super::Context;
+use super::CommandContext;
 use super::streams::CAMERA;
-use crate::autopilot::{Outcome, Request};
-use spandrel_mavlink::codec::Received;
+use crate::autopilot::{AutopilotRequest, RequestOutcome};
+use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_mavlink::dialect::{MISSION_ITEM_INT_DATA, MavResult};
 
 /// Degrees E7 of a place that is not given: none of them is on the globe.
@@ -18,7 +18,7 @@ const NOT_GIVEN: [i32; 3] = [i32::MAX, i32::MIN, 0x7ff8_0000];
 
 /// A command from either message.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Command {
+pub struct VehicleCommand {
     /// MAV_CMD number.
     pub number: u16,
     /// Parameters 1 to 7; 5 and 6 in degrees or metres whichever message brought them.
@@ -40,10 +40,10 @@ pub struct Command {
 const LONG: u32 = 76;
 const INT: u32 = 75;
 
-impl Command {
+impl VehicleCommand {
     /// From a received frame; `None` when it is no command. Read from the bytes, so that unknown numbers are commands too.
     #[must_use]
-    pub fn of(frame: &Received) -> Option<Self> {
+    pub fn of(frame: &ReceivedFrame) -> Option<Self> {
         let from = (frame.system_id, frame.component_id);
         let b = match frame.message_id {
             LONG => frame.payload(33),
@@ -68,7 +68,7 @@ impl Command {
 
     /// From an item of a mission, as its vehicle gives it to itself.
     #[must_use]
-    pub fn of_item(item: &MISSION_ITEM_INT_DATA, from: (u8, u8)) -> Self {
+    pub fn from_item(item: &MISSION_ITEM_INT_DATA, from: (u8, u8)) -> Self {
         let [x, y] = [item.x, item.y].map(|scaled| if scaled == i32::MAX { f64::NAN } else { f64::from(scaled) * 1e-7 });
         let p = [item.param1, item.param2, item.param3, item.param4].map(f64::from);
         let p = [p[0], p[1], p[2], p[3], x, y, f64::from(item.z)];
@@ -78,7 +78,7 @@ impl Command {
 
     /// Whether its height counts from home; `None` for a frame that is no place over the ground.
     #[must_use]
-    pub fn over_home(&self) -> Option<bool> {
+    pub fn is_home_relative(&self) -> Option<bool> {
         match self.frame {
             0 | 5 => Some(false),
             3 | 6 | 10 | 11 => Some(true),
@@ -94,21 +94,21 @@ impl Command {
 
     /// A parameter when it is a number.
     #[must_use]
-    pub fn given(&self, k: usize) -> Option<f64> {
+    pub fn finite_param(&self, k: usize) -> Option<f64> {
         Some(self.p[k]).filter(|v| v.is_finite())
     }
 
     /// A place of interest at 0 north, 0 east is none: clients end it so. An item of a mission may leave the place out besides.
     #[must_use]
-    pub fn clears_interest(&self) -> bool {
+    pub fn clears_region_of_interest(&self) -> bool {
         [4, 5].iter().all(|k| self.p[*k] == 0.0 || (self.own && self.p[*k].is_nan()))
     }
 
     /// A small whole number that is no place, when it is given: as 5 and 6 of COMMAND_INT and of a mission's item it is not scaled, but some
     /// stations scale it all the same.
     #[must_use]
-    pub fn plain(&self, k: usize) -> Option<f64> {
-        let value = self.given(k)?;
+    pub fn small_integer(&self, k: usize) -> Option<f64> {
+        let value = self.finite_param(k)?;
         if !(self.whole && matches!(k, 4 | 5)) || (value != 0.0 && value.fract() == 0.0) {
             return Some(value);
         }
@@ -117,7 +117,7 @@ impl Command {
 }
 
 /// Does what a command asks and says how it went. The camera's component takes pictures and speaks of itself; it does not fly.
-pub fn handle(c: &Command, x: &mut Context) -> MavResult {
+pub fn handle(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
     let done = messages::handle(c, x).or_else(|| {
         if c.component == CAMERA {
             return payload::camera(c, &x.view, x.payload);
@@ -128,30 +128,30 @@ pub fn handle(c: &Command, x: &mut Context) -> MavResult {
 }
 
 /// What the gimbal looks at the vehicle turns to.
-fn look(c: &Command, x: &mut Context) -> Option<MavResult> {
+fn look(c: &VehicleCommand, x: &mut CommandContext) -> Option<MavResult> {
     let place = payload::looked_at(c, &x.view)?;
     let done = payload::handle(c, &x.view, x.payload);
     let obeyed = done == Some(MavResult::MAV_RESULT_ACCEPTED);
     if obeyed || place.is_none() {
-        x.autopilot.request(Request::LookAt(place), x.view.now);
+        x.autopilot.request(AutopilotRequest::LookAt(place), x.view.now);
     }
     if !obeyed && place.is_none() {
-        x.tell("The vehicle looks nowhere any more; the gimbal stays with who controls it");
+        x.warn_all("The vehicle looks nowhere any more; the gimbal stays with who controls it");
         return Some(MavResult::MAV_RESULT_ACCEPTED);
     }
     done
 }
 
 /// The autopilot's answer on the wire; its reason becomes a text.
-fn result(outcome: Outcome, context: &mut Context) -> MavResult {
+fn result(outcome: RequestOutcome, context: &mut CommandContext) -> MavResult {
     let refusals = &context.view.flavour.refusals;
     let (result, reason) = match outcome {
-        Outcome::Accepted => return MavResult::MAV_RESULT_ACCEPTED,
-        Outcome::TemporarilyRejected(reason) => (refusals.for_now, reason),
-        Outcome::Denied(reason) => (refusals.denied, reason),
-        Outcome::Failed(reason) => (MavResult::MAV_RESULT_FAILED, reason),
-        Outcome::Unsupported => return MavResult::MAV_RESULT_UNSUPPORTED,
+        RequestOutcome::Accepted => return MavResult::MAV_RESULT_ACCEPTED,
+        RequestOutcome::TemporarilyRejected(reason) => (refusals.for_now, reason),
+        RequestOutcome::Denied(reason) => (refusals.denied, reason),
+        RequestOutcome::Failed(reason) => (MavResult::MAV_RESULT_FAILED, reason),
+        RequestOutcome::Unsupported => return MavResult::MAV_RESULT_UNSUPPORTED,
     };
-    context.tell(&reason);
+    context.warn_all(&reason);
     result
 }

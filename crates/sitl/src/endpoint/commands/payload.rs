@@ -2,8 +2,8 @@
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::super::Payload;
-use super::super::view::View;
-use super::{Command, camera, gimbal, lamp};
+use super::super::snapshot::VehicleSnapshot;
+use super::{VehicleCommand, camera, gimbal, lamp};
 use spandrel_mavlink::dialect::{MavCmd, MavResult};
 use spandrel_model::frames::{Enu, Ned, Vec3};
 
@@ -11,47 +11,47 @@ pub(super) const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 pub(super) const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
 
 /// What a command does to the payload.
-pub(super) type Act = fn(&Command, &View, &mut Payload) -> MavResult;
+pub(super) type PayloadHandler = fn(&VehicleCommand, &VehicleSnapshot, &mut Payload) -> MavResult;
 /// A command and what it does.
-pub(super) type Row = (MavCmd, Act);
+pub(super) type PayloadCommand = (MavCmd, PayloadHandler);
 
 /// Commands that only the autopilot's component takes: gimbal and lamp hang on it.
-const MOUNTED: [&[Row]; 2] = [gimbal::ROWS, lamp::ROWS];
+const MOUNTED: [&[PayloadCommand]; 2] = [gimbal::ROWS, lamp::ROWS];
 
 pub(super) fn verdict(ok: bool) -> MavResult {
     if ok { ACCEPTED } else { DENIED }
 }
 
 /// True for what the payload does.
-pub(in super::super) fn knows(command: MavCmd) -> bool {
+pub(in super::super) fn is_supported(command: MavCmd) -> bool {
     camera::ROWS.iter().chain(MOUNTED.into_iter().flatten()).any(|(known, _)| *known == command)
 }
 
-fn row(number: u16, rows: &'static [Row]) -> Option<Act> {
+fn row(number: u16, rows: &'static [PayloadCommand]) -> Option<PayloadHandler> {
     rows.iter().find(|(command, _)| *command as u16 == number).map(|(_, act)| *act)
 }
 
 /// As the camera component.
-pub(super) fn camera(c: &Command, view: &View, payload: &mut Payload) -> Option<MavResult> {
+pub(super) fn camera(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> Option<MavResult> {
     Some(row(c.number, camera::ROWS)?(c, view, payload))
 }
 
 /// As the autopilot's component.
-pub(in super::super) fn handle(c: &Command, view: &View, payload: &mut Payload) -> Option<MavResult> {
+pub(in super::super) fn handle(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> Option<MavResult> {
     let mounted = || MOUNTED.into_iter().find_map(|rows| row(c.number, rows));
     camera(c, view, payload).or_else(|| Some(mounted()?(c, view, payload)))
 }
 
 /// True for a command that the payload does.
-pub(in super::super) fn handles(c: &Command) -> bool {
+pub(in super::super) fn handles(c: &VehicleCommand) -> bool {
     camera::ROWS.iter().chain(MOUNTED.into_iter().flatten()).any(|(known, _)| *known as u16 == c.number)
 }
 
 /// Why a command was refused, in words.
-pub(in super::super) fn why(c: &Command, view: &View, payload: &Payload) -> String {
+pub(in super::super) fn refusal_text(c: &VehicleCommand, view: &VehicleSnapshot, payload: &Payload) -> String {
     if row(c.number, gimbal::ROWS).is_some() {
         let (gimbal, camera) = (&payload.gimbal, &view.vehicle.camera);
-        if !(c.own || gimbal.obeys(c.from)) {
+        if !(c.own || gimbal.accepts_control_from(c.from)) {
             return format!("gimbal is controlled by {}/{}", gimbal.control.0, gimbal.control.1);
         }
         let [low, high] = [camera.gimbal_pitch_min_rad, camera.gimbal_pitch_max_rad].map(f64::to_degrees);
@@ -65,29 +65,25 @@ pub(in super::super) fn why(c: &Command, view: &View, payload: &Payload) -> Stri
 }
 
 /// Where a command makes the vehicle look: `None` for another command or no usable place, `Some(None)` for looking nowhere any more.
-pub(in super::super) fn looked_at(c: &Command, view: &View) -> Option<Option<Vec3<Ned>>> {
+pub(in super::super) fn looked_at(c: &VehicleCommand, view: &VehicleSnapshot) -> Option<Option<Vec3<Ned>>> {
     match c.number {
         n if n == MavCmd::MAV_CMD_DO_SET_ROI_NONE as u16 => Some(None),
         n if n == MavCmd::MAV_CMD_DO_SET_ROI_LOCATION as u16 || n == MavCmd::MAV_CMD_DO_SET_ROI as u16 => {
-            if c.clears_interest() {
-                Some(None)
-            } else {
-                Some(Some(place(c, view, c.given(6)?)?.ned()))
-            }
+            if c.clears_region_of_interest() { Some(None) } else { Some(Some(place(c, view, c.finite_param(6)?)?.ned())) }
         }
         _ => None,
     }
 }
 
 /// The place in parameters 5 and 6 at an altitude in the command's frame, or over the sea where the flavour's commands have none.
-pub(super) fn place(c: &Command, view: &View, altitude_m: f64) -> Option<Vec3<Enu>> {
-    let (latitude_deg, longitude_deg) = (c.given(4)?, c.given(5)?);
+pub(super) fn place(c: &VehicleCommand, view: &VehicleSnapshot, altitude_m: f64) -> Option<Vec3<Enu>> {
+    let (latitude_deg, longitude_deg) = (c.finite_param(4)?, c.finite_param(5)?);
     if latitude_deg.abs() > 90.0 || longitude_deg.abs() > 180.0 || altitude_m.abs() > 1e5 {
         return None;
     }
     let origin = view.plane.origin();
     let home_up = view.status.home_m.map_or(0.0, |h| -h.down());
-    let relative = c.over_home() == Some(true) && (c.own || !view.flavour.looks_over_sea);
+    let relative = c.is_home_relative() == Some(true) && (c.own || !view.flavour.looks_over_sea);
     let altitude_m = if relative { origin.altitude_m + home_up + altitude_m } else { altitude_m };
     Some(view.plane.enu_from_geo(spandrel_model::geodesy::Geo { latitude_deg, longitude_deg, altitude_m }))
 }

@@ -1,7 +1,7 @@
 //! What the server asks of whoever holds the files, and what it is told. The server itself touches none.
 
 use super::path::FilePath;
-use spandrel_mavlink::ftp::Refusal;
+use spandrel_mavlink::ftp::FtpError;
 
 /// Bytes of a file that one job sums up: less than a tenth of a millisecond of a processor (estimate, `crc32fast`), so that no tick waits
 /// for a long file.
@@ -13,16 +13,16 @@ const LISTING_COST: u32 = 8;
 
 /// Work on files.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Job {
+pub struct FileJob {
     /// Goes back with the outcome.
     pub ticket: u64,
     /// What to do.
-    pub action: Action,
+    pub action: FileAction,
 }
 
 /// What to do with files.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Action {
+pub enum FileAction {
     /// Names and sizes in a directory, in one order every time.
     List(FilePath),
     /// The size of a file.
@@ -54,8 +54,8 @@ pub enum Action {
     },
 }
 
-impl Action {
-    /// What it takes out of the ticks' [`super::allowance::Allowance`].
+impl FileAction {
+    /// What it takes out of the ticks' [`super::allowance::JobAllowance`].
     #[must_use]
     pub fn cost(&self) -> u32 {
         if matches!(self, Self::List(_)) { LISTING_COST } else { 1 }
@@ -64,7 +64,7 @@ impl Action {
 
 /// One thing in a directory.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Entry {
+pub enum DirectoryEntry {
     /// A directory.
     Directory(String),
     /// A file and its size, bytes.
@@ -73,14 +73,14 @@ pub enum Entry {
 
 /// What came of a job.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Done {
-    /// Of [`Action::List`].
-    Entries(Vec<Entry>),
-    /// Of [`Action::Size`], bytes.
+pub enum FileJobResult {
+    /// Of [`FileAction::List`].
+    Entries(Vec<DirectoryEntry>),
+    /// Of [`FileAction::Size`], bytes.
     Size(u32),
-    /// Of [`Action::Read`].
+    /// Of [`FileAction::Read`].
     Bytes(Vec<u8>),
-    /// Of [`Action::Checksum`].
+    /// Of [`FileAction::Checksum`].
     Checksum {
         /// The sum up to the slice's end.
         sum: u32,
@@ -107,12 +107,12 @@ pub enum FileError {
 impl FileError {
     /// As the wire says it.
     #[must_use]
-    pub fn refusal(self) -> Refusal {
+    pub fn refusal(self) -> FtpError {
         match self {
-            Self::NotFound => Refusal::FileNotFound,
-            Self::Exists => Refusal::FileExists,
-            Self::Protected => Refusal::FileProtected,
-            Self::Other => Refusal::Fail,
+            Self::NotFound => FtpError::FileNotFound,
+            Self::Exists => FtpError::FileExists,
+            Self::Protected => FtpError::FileProtected,
+            Self::Other => FtpError::Fail,
         }
     }
 }

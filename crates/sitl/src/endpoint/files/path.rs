@@ -62,7 +62,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_nobody_climbs() {
+    fn exact_no_user_gains_a_higher_role() {
         for text in ["..", "/..", "a/../b", "a/..", "..\\..\\b", "C:/x", "a\nb", "../log-of-somebody-else"] {
             assert_eq!(FilePath::of(text.as_bytes()), None, "{text:?}");
         }

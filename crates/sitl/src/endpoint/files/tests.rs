@@ -4,83 +4,85 @@ use super::*;
 use spandrel_mavlink::ftp::{NAK, PAYLOAD};
 use spandrel_model::random::RandomStream;
 
-const CLIENT: Client = (LinkId(1), (255, 190));
-const OTHER: Client = (LinkId(2), (254, 190));
+const CLIENT: FileClient = (LinkId(1), (255, 190));
+const OTHER: FileClient = (LinkId(2), (254, 190));
 
 /// Files in memory, in one directory tree by path.
 #[derive(Default)]
-struct Memory(BTreeMap<String, Vec<u8>>);
+struct MemoryFiles(BTreeMap<String, Vec<u8>>);
 
-impl Memory {
-    fn work(&mut self, action: &Action) -> Result<Done, FileError> {
+impl MemoryFiles {
+    fn work(&mut self, action: &FileAction) -> Result<FileJobResult, FileError> {
         let key = |path: &FilePath| path.as_str().to_owned();
         match action {
-            Action::List(path) if path.is_root() => {
-                Ok(Done::Entries(self.0.iter().map(|(name, bytes)| Entry::File(name.clone(), bytes.len() as u64)).collect()))
+            FileAction::List(path) if path.is_root() => Ok(FileJobResult::Entries(
+                self.0.iter().map(|(name, bytes)| DirectoryEntry::File(name.clone(), bytes.len() as u64)).collect(),
+            )),
+            FileAction::Size(path) => {
+                self.0.get(&key(path)).map(|b| FileJobResult::Size(b.len() as u32)).ok_or(FileError::NotFound)
             }
-            Action::Size(path) => self.0.get(&key(path)).map(|b| Done::Size(b.len() as u32)).ok_or(FileError::NotFound),
-            Action::Create(path) => {
+            FileAction::Create(path) => {
                 self.0.insert(key(path), Vec::new());
-                Ok(Done::Nothing)
+                Ok(FileJobResult::Nothing)
             }
-            Action::Read(path, offset, most) => {
+            FileAction::Read(path, offset, most) => {
                 let bytes = self.0.get(&key(path)).ok_or(FileError::NotFound)?;
-                Ok(Done::Bytes(bytes.iter().skip(*offset as usize).take(*most as usize).copied().collect()))
+                Ok(FileJobResult::Bytes(bytes.iter().skip(*offset as usize).take(*most as usize).copied().collect()))
             }
-            Action::Write(path, offset, new) => {
+            FileAction::Write(path, offset, new) => {
                 let bytes = self.0.get_mut(&key(path)).ok_or(FileError::NotFound)?;
                 bytes.resize(bytes.len().max(*offset as usize + new.len()), 0);
                 bytes[*offset as usize..][..new.len()].copy_from_slice(new);
-                Ok(Done::Nothing)
+                Ok(FileJobResult::Nothing)
             }
-            Action::Remove(path) => self.0.remove(&key(path)).map(|_| Done::Nothing).ok_or(FileError::NotFound),
-            Action::Rename(from, to) if !self.0.contains_key(&key(to)) => {
+            FileAction::Remove(path) => self.0.remove(&key(path)).map(|_| FileJobResult::Nothing).ok_or(FileError::NotFound),
+            FileAction::Rename(from, to) if !self.0.contains_key(&key(to)) => {
                 let bytes = self.0.remove(&key(from)).ok_or(FileError::NotFound)?;
                 self.0.insert(key(to), bytes);
-                Ok(Done::Nothing)
+                Ok(FileJobResult::Nothing)
             }
-            Action::Rename(..) => Err(FileError::Exists),
-            Action::Truncate(path, length) => {
+            FileAction::Rename(..) => Err(FileError::Exists),
+            FileAction::Truncate(path, length) => {
                 self.0.get_mut(&key(path)).ok_or(FileError::NotFound)?.resize(*length as usize, 0);
-                Ok(Done::Nothing)
+                Ok(FileJobResult::Nothing)
             }
-            Action::Checksum { path, from, sum } => {
+            FileAction::Checksum { path, from, sum } => {
                 let bytes = self.0.get(&key(path)).ok_or(FileError::NotFound)?;
                 let slice = cut(bytes, *from, CHECKSUM_SLICE);
-                Ok(Done::Checksum { sum: checksum(*sum, &slice), bytes: slice.len() as u32 })
+                Ok(FileJobResult::Checksum { sum: checksum(*sum, &slice), bytes: slice.len() as u32 })
             }
-            Action::List(_) | Action::MakeDirectory(_) | Action::RemoveDirectory(_) => Err(FileError::NotFound),
+            FileAction::List(_) | FileAction::MakeDirectory(_) | FileAction::RemoveDirectory(_) => Err(FileError::NotFound),
         }
     }
 }
 
-struct Bench {
-    server: Server,
-    files: Memory,
+struct FtpHarness {
+    server: FileServer,
+    files: MemoryFiles,
     now: SimTime,
     sequence: u16,
 }
 
-impl Bench {
+impl FtpHarness {
     fn new() -> Self {
-        let mut server = Server::default();
+        let mut server = FileServer::default();
         server.stored();
-        Self { server, files: Memory::default(), now: SimTime::from_ms(100_000), sequence: 0 }
+        Self { server, files: MemoryFiles::default(), now: SimTime::from_ms(100_000), sequence: 0 }
     }
 
-    fn packet(&mut self, opcode: Opcode, session: u8, offset: u32, data: &[u8]) -> Packet {
+    fn packet(&mut self, opcode: Opcode, session: u8, offset: u32, data: &[u8]) -> FtpPacket {
         self.sequence = self.sequence.wrapping_add(2);
-        let mut packet = Packet::read(&[0; PAYLOAD]);
+        let mut packet = FtpPacket::read(&[0; PAYLOAD]);
         packet.data[..data.len()].copy_from_slice(data);
-        Packet { sequence: self.sequence, session, opcode: opcode as u8, size: data.len() as u8, offset, ..packet }
+        FtpPacket { sequence: self.sequence, session, opcode: opcode as u8, size: data.len() as u8, offset, ..packet }
     }
 
-    fn put(&mut self, client: Client, packet: &Packet) -> Vec<Packet> {
+    fn put(&mut self, client: FileClient, packet: &FtpPacket) -> Vec<FtpPacket> {
         self.server.receive(client, packet, self.now);
         self.turn(client)
     }
 
-    fn turn(&mut self, client: Client) -> Vec<Packet> {
+    fn turn(&mut self, client: FileClient) -> Vec<FtpPacket> {
         while let Some(job) = self.server.poll_job() {
             let outcome = self.files.work(&job.action);
             self.server.done(job.ticket, outcome, self.now);
@@ -88,7 +90,7 @@ impl Bench {
         self.server.poll(|_| true).into_iter().filter(|(to, _)| *to == client).map(|(_, packet)| packet).collect()
     }
 
-    fn ask(&mut self, opcode: Opcode, session: u8, offset: u32, data: &[u8]) -> Packet {
+    fn ask(&mut self, opcode: Opcode, session: u8, offset: u32, data: &[u8]) -> FtpPacket {
         let packet = self.packet(opcode, session, offset, data);
         let answers = self.put(CLIENT, &packet);
         assert_eq!(answers.len(), 1, "{opcode:?} is answered once and at once");
@@ -97,58 +99,58 @@ impl Bench {
     }
 }
 
-fn said(answer: &Packet) -> Result<Vec<u8>, u8> {
+fn said(answer: &FtpPacket) -> Result<Vec<u8>, u8> {
     if answer.opcode == ACK { Ok(answer.sized().unwrap().to_vec()) } else { Err(answer.data[0]) }
 }
 
 #[test]
 fn exact_without_a_store_everything_is_refused_at_once() {
-    let mut bench = Bench::new();
-    bench.server = Server::default();
-    assert_eq!(said(&bench.ask(Opcode::ListDirectory, 0, 0, b"/")), Err(Refusal::EndOfFile as u8));
-    assert_eq!(said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"/a")), Err(Refusal::FileNotFound as u8));
-    assert_eq!(said(&bench.ask(Opcode::CreateFile, 0, 0, b"/a")), Err(Refusal::FileProtected as u8));
+    let mut bench = FtpHarness::new();
+    bench.server = FileServer::default();
+    assert_eq!(said(&bench.ask(Opcode::ListDirectory, 0, 0, b"/")), Err(FtpError::EndOfFile as u8));
+    assert_eq!(said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"/a")), Err(FtpError::FileNotFound as u8));
+    assert_eq!(said(&bench.ask(Opcode::CreateFile, 0, 0, b"/a")), Err(FtpError::FileProtected as u8));
 }
 
 #[test]
 fn exact_every_number_of_an_opcode_is_answered() {
-    let mut bench = Bench::new();
+    let mut bench = FtpHarness::new();
     for number in 0..=255u8 {
         let mut packet = bench.packet(Opcode::None, 0, 0, b"x");
         packet.opcode = number;
         let answers = bench.put(CLIENT, &packet);
         assert_eq!(answers.len(), 1, "opcode {number}");
         assert!([ACK, NAK].contains(&answers[0].opcode));
-        assert!(number < 16 || said(&answers[0]) == Err(Refusal::UnknownCommand as u8));
+        assert!(number < 16 || said(&answers[0]) == Err(FtpError::UnknownCommand as u8));
     }
 }
 
 #[test]
 fn exact_a_file_is_made_written_read_renamed_and_removed() {
-    let mut bench = Bench::new();
+    let mut bench = FtpHarness::new();
     let session = bench.ask(Opcode::CreateFile, 0, 0, b"/notes.txt").session;
     assert_eq!(said(&bench.ask(Opcode::WriteFile, session, 0, b"hello")), Ok(Vec::new()));
     assert_eq!(said(&bench.ask(Opcode::WriteFile, session, 5, b" there")), Ok(Vec::new()));
-    assert_eq!(said(&bench.ask(Opcode::ReadFile, session, 0, b"")), Err(Refusal::InvalidSession as u8), "opened to be written");
+    assert_eq!(said(&bench.ask(Opcode::ReadFile, session, 0, b"")), Err(FtpError::InvalidSession as u8), "opened to be written");
     assert_eq!(said(&bench.ask(Opcode::TerminateSession, session, 0, b"")), Ok(Vec::new()));
-    assert_eq!(said(&bench.ask(Opcode::TerminateSession, session, 0, b"")), Err(Refusal::InvalidSession as u8));
+    assert_eq!(said(&bench.ask(Opcode::TerminateSession, session, 0, b"")), Err(FtpError::InvalidSession as u8));
     assert_eq!(said(&bench.ask(Opcode::Rename, 0, 0, b"notes.txt\0words.txt")), Ok(Vec::new()));
     assert_eq!(said(&bench.ask(Opcode::ListDirectory, 0, 0, b"/")), Ok(b"Fwords.txt\t11\0".to_vec()));
     let opened = bench.ask(Opcode::OpenFileRo, 0, 0, b"words.txt");
     assert_eq!(said(&opened), Ok(11u32.to_le_bytes().to_vec()));
     assert_eq!(said(&bench.ask(Opcode::ReadFile, opened.session, 6, &[0; 20])), Ok(b"there".to_vec()));
-    assert_eq!(said(&bench.ask(Opcode::ReadFile, opened.session, 11, &[0; 20])), Err(Refusal::EndOfFile as u8));
+    assert_eq!(said(&bench.ask(Opcode::ReadFile, opened.session, 11, &[0; 20])), Err(FtpError::EndOfFile as u8));
     assert_eq!(
         said(&bench.ask(Opcode::CalcFileCrc32, 0, 0, b"words.txt")),
         Ok(checksum(0, b"hello there").to_le_bytes().to_vec())
     );
     assert_eq!(said(&bench.ask(Opcode::RemoveFile, 0, 0, b"words.txt")), Ok(Vec::new()));
-    assert_eq!(said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"words.txt")), Err(Refusal::FileNotFound as u8));
+    assert_eq!(said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"words.txt")), Err(FtpError::FileNotFound as u8));
 }
 
 #[test]
 fn exact_a_repeated_request_is_answered_again_and_done_once() {
-    let mut bench = Bench::new();
+    let mut bench = FtpHarness::new();
     bench.files.0.insert("a".into(), vec![1]);
     let packet = bench.packet(Opcode::RemoveFile, 0, 0, b"a");
     let first = bench.put(CLIENT, &packet);
@@ -158,16 +160,16 @@ fn exact_a_repeated_request_is_answered_again_and_done_once() {
 
 #[test]
 fn exact_nobody_uses_another_clients_session_or_more_than_its_share() {
-    let mut bench = Bench::new();
+    let mut bench = FtpHarness::new();
     bench.files.0.insert("a".into(), vec![1; 10]);
     let own = bench.ask(Opcode::OpenFileRo, 0, 0, b"a").session;
     let theirs = bench.packet(Opcode::ReadFile, own, 0, &[0; 5]);
     let answer = bench.put(OTHER, &theirs);
-    assert_eq!(said(&answer[0]), Err(Refusal::InvalidSession as u8));
+    assert_eq!(said(&answer[0]), Err(FtpError::InvalidSession as u8));
     for number in 1..8 {
         assert!(said(&bench.ask(Opcode::OpenFileRo, number, 0, b"a")).is_ok());
     }
-    assert_eq!(said(&bench.ask(Opcode::OpenFileRo, 8, 0, b"a")), Err(Refusal::NoSessionsAvailable as u8));
+    assert_eq!(said(&bench.ask(Opcode::OpenFileRo, 8, 0, b"a")), Err(FtpError::NoSessionsAvailable as u8));
     assert!(said(&bench.ask(Opcode::OpenFileRo, 7, 0, b"a")).is_ok(), "one that it has under this number gives way");
     bench.now += SimTime::from_ms(60_001);
     assert!(said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"a")).is_ok(), "idle sessions end");
@@ -176,8 +178,8 @@ fn exact_nobody_uses_another_clients_session_or_more_than_its_share() {
 
 /// MAVProxy sorts answers by the session that it chose; MAVSDK 4 says 0 whatever the answer says; each client numbers its own.
 #[test]
-fn regress_answers_name_the_session_that_was_asked_for() {
-    let mut bench = Bench::new();
+fn regress_answers_name_the_session_that_was_requested() {
+    let mut bench = FtpHarness::new();
     bench.files.0.insert("a".into(), vec![1; 10]);
     bench.files.0.insert("b".into(), vec![2; 10]);
     for number in [7, 200, 0] {
@@ -198,7 +200,7 @@ fn regress_answers_name_the_session_that_was_asked_for() {
 /// The last packet of a burst ends it: behind a lost one, MAVSDK 4 would take the refusal for the end of its patience.
 #[test]
 fn regress_a_burst_to_the_end_of_the_file_ends_without_a_refusal() {
-    let mut bench = Bench::new();
+    let mut bench = FtpHarness::new();
     bench.files.0.insert("a".into(), vec![1; 2 * DATA_MAX + 7]);
     bench.files.0.insert("empty".into(), Vec::new());
     bench.ask(Opcode::OpenFileRo, 0, 0, b"a");
@@ -208,15 +210,15 @@ fn regress_a_burst_to_the_end_of_the_file_ends_without_a_refusal() {
     let shape: Vec<(u8, u32, u8, bool)> = heard.iter().map(|p| (p.opcode, p.offset, p.size, p.burst_complete)).collect();
     let full = DATA_MAX as u8;
     assert_eq!(shape, [(ACK, 0, full, false), (ACK, 239, full, false), (ACK, 478, 7, true)]);
-    assert_eq!(said(&bench.ask(Opcode::BurstReadFile, 0, 485, &[0; DATA_MAX])), Err(Refusal::EndOfFile as u8));
+    assert_eq!(said(&bench.ask(Opcode::BurstReadFile, 0, 485, &[0; DATA_MAX])), Err(FtpError::EndOfFile as u8));
     bench.ask(Opcode::OpenFileRo, 0, 0, b"empty");
-    assert_eq!(said(&bench.ask(Opcode::BurstReadFile, 0, 0, &[0; DATA_MAX])), Err(Refusal::EndOfFile as u8));
+    assert_eq!(said(&bench.ask(Opcode::BurstReadFile, 0, 0, &[0; DATA_MAX])), Err(FtpError::EndOfFile as u8));
 }
 
 /// What the network doubles or holds back starts no burst anew and empties no file that is being written.
 #[test]
 fn regress_a_doubled_request_disturbs_nothing_that_came_after_it() {
-    let mut bench = Bench::new();
+    let mut bench = FtpHarness::new();
     bench.files.0.insert("a".into(), vec![1; 1000]);
     bench.ask(Opcode::OpenFileRo, 3, 0, b"a");
     let burst = bench.packet(Opcode::BurstReadFile, 3, 0, &[0; DATA_MAX]);
@@ -241,7 +243,7 @@ fn regress_a_doubled_request_disturbs_nothing_that_came_after_it() {
 /// A long file is summed up slice by slice, and what others ask for is done between.
 #[test]
 fn regress_a_checksum_is_made_in_slices() {
-    let mut bench = Bench::new();
+    let mut bench = FtpHarness::new();
     let slice = CHECKSUM_SLICE as usize;
     for length in [0, 5, slice, 3 * slice, 3 * slice + 1] {
         let file: Vec<u8> = (0..length).map(|k| (k % 251) as u8).collect();
@@ -261,29 +263,29 @@ fn regress_a_checksum_is_made_in_slices() {
 
 #[test]
 fn exact_made_up_files_are_listed_read_and_never_written() {
-    let mut bench = Bench::new();
+    let mut bench = FtpHarness::new();
     bench.files.0.insert("b.ulg".into(), vec![0; 3]);
-    bench.server.make_up("/general.json", b"{}".to_vec());
-    bench.server.make_up("/extras/deep.json", b"[1]".to_vec());
+    bench.server.generate("/general.json", b"{}".to_vec());
+    bench.server.generate("/extras/deep.json", b"[1]".to_vec());
     let listed = said(&bench.ask(Opcode::ListDirectory, 0, 0, b"/")).unwrap();
     assert_eq!(String::from_utf8(listed).unwrap(), "Dextras\0Fgeneral.json\t2\0Fb.ulg\t3\0");
     assert_eq!(said(&bench.ask(Opcode::ListDirectory, 0, 0, b"/extras")), Ok(b"Fdeep.json\t3\0".to_vec()));
-    assert_eq!(said(&bench.ask(Opcode::ListDirectory, 0, 1, b"/extras")), Err(Refusal::EndOfFile as u8));
+    assert_eq!(said(&bench.ask(Opcode::ListDirectory, 0, 1, b"/extras")), Err(FtpError::EndOfFile as u8));
     let opened = bench.ask(Opcode::OpenFileRo, 0, 0, b"general.json");
     assert_eq!(said(&bench.ask(Opcode::ReadFile, opened.session, 0, &[0; 200])), Ok(b"{}".to_vec()));
-    assert_eq!(said(&bench.ask(Opcode::RemoveFile, 0, 0, b"general.json")), Err(Refusal::FileProtected as u8));
-    assert_eq!(said(&bench.ask(Opcode::CreateFile, 0, 0, b"/")), Err(Refusal::FileProtected as u8));
-    assert_eq!(said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"../b.ulg")), Err(Refusal::FileNotFound as u8));
+    assert_eq!(said(&bench.ask(Opcode::RemoveFile, 0, 0, b"general.json")), Err(FtpError::FileProtected as u8));
+    assert_eq!(said(&bench.ask(Opcode::CreateFile, 0, 0, b"/")), Err(FtpError::FileProtected as u8));
+    assert_eq!(said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"../b.ulg")), Err(FtpError::FileNotFound as u8));
 }
 
 #[test]
 fn exact_what_is_made_for_a_session_stays_as_it_was_when_it_was_opened() {
-    let mut bench = Bench::new();
+    let mut bench = FtpHarness::new();
     let mut open = |number: u8, content: &[u8]| {
         let request = bench.packet(Opcode::OpenFileRo, number, 0, b"@PARAM/param.pck");
-        bench.server.open_made(CLIENT, &request, content.to_vec(), bench.now);
-        bench.server.open_made(CLIENT, &request, b"a repetition makes nothing anew".to_vec(), bench.now);
-        let answers: Vec<Packet> = bench.server.poll(|_| true).into_iter().map(|(_, packet)| packet).collect();
+        bench.server.open_generated(CLIENT, &request, content.to_vec(), bench.now);
+        bench.server.open_generated(CLIENT, &request, b"a repetition makes nothing anew".to_vec(), bench.now);
+        let answers: Vec<FtpPacket> = bench.server.poll(|_| true).into_iter().map(|(_, packet)| packet).collect();
         assert_eq!(answers[0], answers[1]);
         answers[0].clone()
     };
@@ -291,17 +293,17 @@ fn exact_what_is_made_for_a_session_stays_as_it_was_when_it_was_opened() {
     assert_eq!((said(&old), said(&new)), (Ok(6u32.to_le_bytes().to_vec()), Ok(8u32.to_le_bytes().to_vec())));
     assert_eq!(said(&bench.ask(Opcode::ReadFile, old.session, 0, &[0; 100])), Ok(b"before".to_vec()));
     assert_eq!(said(&bench.ask(Opcode::ReadFile, new.session, 6, &[0; 100])), Ok(b"it".to_vec()));
-    assert_eq!(said(&bench.ask(Opcode::ReadFile, new.session, 8, &[0; 100])), Err(Refusal::EndOfFile as u8));
+    assert_eq!(said(&bench.ask(Opcode::ReadFile, new.session, 8, &[0; 100])), Err(FtpError::EndOfFile as u8));
     assert_eq!(
         said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"@PARAM/param.pck")),
-        Err(Refusal::FileNotFound as u8),
+        Err(FtpError::FileNotFound as u8),
         "it is not kept"
     );
 }
 
 #[test]
 fn exact_a_long_listing_is_reached_entry_by_entry() {
-    let mut bench = Bench::new();
+    let mut bench = FtpHarness::new();
     let names: Vec<String> = (0..40).map(|k| format!("flight-{k:02}.ulg")).chain(["x".repeat(250), "y".into()]).collect();
     for name in &names {
         bench.files.0.insert(name.clone(), Vec::new());
@@ -317,8 +319,8 @@ fn exact_a_long_listing_is_reached_entry_by_entry() {
 }
 
 /// Loses three of ten packets and repeats one of ten, both ways.
-fn impair(packets: Vec<Packet>, random: &mut RandomStream) -> Vec<Packet> {
-    let mut out: Vec<Packet> = Vec::new();
+fn impair(packets: Vec<FtpPacket>, random: &mut RandomStream) -> Vec<FtpPacket> {
+    let mut out: Vec<FtpPacket> = Vec::new();
     for packet in packets {
         if random.uniform() < 0.3 {
             continue;
@@ -335,7 +337,7 @@ fn impair(packets: Vec<Packet>, random: &mut RandomStream) -> Vec<Packet> {
 fn prop_a_burst_download_is_whole_over_a_link_that_loses_repeats_and_reorders() {
     for seed in 0..20 {
         let mut random = RandomStream::new(seed, "ftp link");
-        let mut bench = Bench::new();
+        let mut bench = FtpHarness::new();
         let file: Vec<u8> = (0..40_000 + seed * 239).map(|k| (k * k % 251) as u8).collect();
         bench.files.0.insert("log.ulg".into(), file.clone());
         let session = bench.ask(Opcode::OpenFileRo, 0, 0, b"log.ulg").session;
@@ -368,7 +370,7 @@ fn prop_a_burst_download_is_whole_over_a_link_that_loses_repeats_and_reorders() 
 #[test]
 fn prop_rubbish_is_answered_and_leaves_nothing_behind() {
     let mut random = RandomStream::new(5, "ftp rubbish");
-    let mut bench = Bench::new();
+    let mut bench = FtpHarness::new();
     bench.files.0.insert("a".into(), vec![7; 1000]);
     for _ in 0..20_000 {
         let mut bytes = [0u8; PAYLOAD];
@@ -383,7 +385,7 @@ fn prop_rubbish_is_answered_and_leaves_nothing_behind() {
             bytes[9..12].fill(0);
         }
         let client = (LinkId(1 + u32::from(bytes[0] % 3)), (bytes[1], 190));
-        bench.put(client, &Packet::read(&bytes));
+        bench.put(client, &FtpPacket::read(&bytes));
     }
     assert!(bench.server.answered.len() <= 64 && bench.server.waiting.is_empty() && bench.server.jobs.is_empty());
     for link in 1..=3 {

@@ -3,14 +3,14 @@
 #![allow(deprecated, reason = "ArduPilot names its encoding by the older capability")]
 
 use super::px4::FORCE;
-use super::{COMMON, Flavour, ModeRow, Refusals};
-use crate::autopilot::senses::{Sensor, SensorChange, SensorFault};
-use crate::autopilot::{Landed, Mode, Request};
-use crate::endpoint::Context;
+use super::{COMMON, Flavour, ModeRow, RefusalResults};
+use crate::autopilot::sensor_health::{MonitoredSensor, SensorChange, SensorFault};
+use crate::autopilot::{AutopilotRequest, FlightMode, LandedState};
+use crate::endpoint::CommandContext;
 use crate::endpoint::calibration;
-use crate::endpoint::commands::Command;
-use crate::endpoint::params::face;
-use crate::endpoint::view::View;
+use crate::endpoint::commands::VehicleCommand;
+use crate::endpoint::params::param_view;
+use crate::endpoint::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{
     MavAutopilot, MavModeFlag as F, MavProtocolCapability, MavResult, MavSeverity, MavStandardMode as S, MavState, MavVtolState,
 };
@@ -23,11 +23,11 @@ const BASE: F =
     F::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED.union(F::MAV_MODE_FLAG_STABILIZE_ENABLED).union(F::MAV_MODE_FLAG_MANUAL_INPUT_ENABLED);
 const PLACED: F = BASE.union(F::MAV_MODE_FLAG_GUIDED_ENABLED);
 
-const fn row(number: u32, mode: Mode, name: &'static str, base: F) -> ModeRow {
+const fn row(number: u32, mode: FlightMode, name: &'static str, base: F) -> ModeRow {
     ModeRow {
         number,
         mode,
-        request: Request::SetMode(mode),
+        request: AutopilotRequest::SetMode(mode),
         unattended: None,
         only_chosen: false,
         covers: &[],
@@ -41,7 +41,7 @@ const fn row(number: u32, mode: Mode, name: &'static str, base: F) -> ModeRow {
 }
 
 impl ModeRow {
-    const fn not_armable(mut self) -> Self {
+    const fn without_arming(mut self) -> Self {
         self.armable = false;
         self
     }
@@ -53,11 +53,11 @@ impl ModeRow {
 
     /// Holds while it is armed and no sticks are there, under its own number.
     const fn holds_unattended(mut self) -> Self {
-        self.unattended = Some(Mode::Hold);
-        self.covering(&[Mode::Hold])
+        self.unattended = Some(FlightMode::Hold);
+        self.covering(&[FlightMode::Hold])
     }
 
-    const fn entered_by(mut self, request: Request) -> Self {
+    const fn entered_by(mut self, request: AutopilotRequest) -> Self {
         self.request = request;
         self
     }
@@ -66,21 +66,24 @@ impl ModeRow {
 /// Order, numbers and names of ArduCopter's AVAILABLE_MODES (GCS_MAVLink_Copter.cpp, send_available_mode; mode.h), without the modes that are not
 /// flown here. It names no standard modes and no properties. LOITER and POSHOLD fly alike.
 const MODES: &[ModeRow] = &[
-    row(AUTO_RTL, Mode::Mission, "AUTO RTL", PLACED).entered_by(Request::LandingSequence).not_armable().only_chosen(),
-    row(3, Mode::Mission, "AUTO", PLACED).not_armable(),
-    row(1, Mode::Acro, "ACRO", BASE),
-    row(0, Mode::Stabilized, "STABILIZE", BASE),
-    row(2, Mode::Altitude, "ALT_HOLD", BASE),
-    row(7, Mode::Orbit, "CIRCLE", PLACED).entered_by(Request::CircleAhead).not_armable(),
-    row(LOITER, Mode::Position, "LOITER", PLACED).holds_unattended(),
-    row(GUIDED, Mode::Hold, "GUIDED", PLACED).covering(&[Mode::Takeoff, Mode::Offboard]).only_chosen(),
-    row(9, Mode::Land, "LAND", PLACED).not_armable(),
-    row(6, Mode::Return, "RTL", PLACED).not_armable(),
-    row(16, Mode::Position, "POSHOLD", PLACED).holds_unattended(),
+    row(AUTO_RTL, FlightMode::Mission, "AUTO RTL", PLACED)
+        .entered_by(AutopilotRequest::LandingSequence)
+        .without_arming()
+        .only_chosen(),
+    row(3, FlightMode::Mission, "AUTO", PLACED).without_arming(),
+    row(1, FlightMode::Acro, "ACRO", BASE),
+    row(0, FlightMode::Stabilized, "STABILIZE", BASE),
+    row(2, FlightMode::Altitude, "ALT_HOLD", BASE),
+    row(7, FlightMode::Orbit, "CIRCLE", PLACED).entered_by(AutopilotRequest::CircleAhead).without_arming(),
+    row(LOITER, FlightMode::Position, "LOITER", PLACED).holds_unattended(),
+    row(GUIDED, FlightMode::Hold, "GUIDED", PLACED).covering(&[FlightMode::Takeoff, FlightMode::Offboard]).only_chosen(),
+    row(9, FlightMode::Land, "LAND", PLACED).without_arming(),
+    row(6, FlightMode::Return, "RTL", PLACED).without_arming(),
+    row(16, FlightMode::Position, "POSHOLD", PLACED).holds_unattended(),
     // Armable, where ArduPilot's is not: without sticks the other modes by hand are armed into it, and a landing ends in it.
-    row(17, Mode::Hold, "BRAKE", PLACED),
-    row(21, Mode::SmartReturn, "SMARTRTL", PLACED).not_armable(),
-    row(23, Mode::Follow, "FOLLOW", PLACED).not_armable(),
+    row(17, FlightMode::Hold, "BRAKE", PLACED),
+    row(21, FlightMode::SmartReturn, "SMARTRTL", PLACED).without_arming(),
+    row(23, FlightMode::Follow, "FOLLOW", PLACED).without_arming(),
 ];
 
 /// ArduPilot's interface. The version is a development one of the series whose parameter names are used.
@@ -99,7 +102,7 @@ pub static FLAVOUR: Flavour = Flavour {
     // The second is ArduPilot's own for arming.
     force: &[FORCE, 2989.0],
     looks_over_sea: false,
-    refusals: Refusals {
+    refusals: RefusalResults {
         for_now: MavResult::MAV_RESULT_FAILED,
         denied: MavResult::MAV_RESULT_FAILED,
         no_mode: MavResult::MAV_RESULT_FAILED,
@@ -127,7 +130,7 @@ pub static FLAVOUR: Flavour = Flavour {
         (12, &[163, 2, 168, 193, 147, 231, 241, 230, 132, 285]),
     ],
     dialect_of_ardupilot: true,
-    calibration: calibration::Words::ArduPilot,
+    calibration: calibration::CalibrationTexts::ArduPilot,
     shell: false,
     events: false,
     loiters: Some(LOITER),
@@ -138,7 +141,7 @@ pub static FLAVOUR: Flavour = Flavour {
     zero_is_here: true,
     home_item: true,
     float_items: true,
-    params: &face::COPTER,
+    params: &param_view::COPTER,
     tune: |tuning| {
         tuning.setpoints_end = true;
         tuning.takeoff_at_climb_speed = true;
@@ -150,12 +153,12 @@ pub static FLAVOUR: Flavour = Flavour {
 };
 
 /// Booting until the attitude is known, critical in a failsafe, active from lift-off to touch-down.
-fn state(v: &View) -> MavState {
+fn state(v: &VehicleSnapshot) -> MavState {
     if !v.estimate.attitude_valid {
         MavState::MAV_STATE_BOOT
     } else if v.status.failsafe.is_some() {
         MavState::MAV_STATE_CRITICAL
-    } else if v.status.armed && v.status.landed != Landed::OnGround {
+    } else if v.status.armed && v.status.landed != LandedState::OnGround {
         MavState::MAV_STATE_ACTIVE
     } else {
         MavState::MAV_STATE_STANDBY
@@ -163,30 +166,30 @@ fn state(v: &View) -> MavState {
 }
 
 /// Only from the ground, in GUIDED, with the motors armed; parameter 7 is over home.
-fn from_guided(c: &Command, x: &mut Context) -> Result<Option<f64>, MavResult> {
+fn from_guided(c: &VehicleCommand, x: &mut CommandContext) -> Result<Option<f64>, MavResult> {
     const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
     const HIGHEST_M: f64 = 500.0;
     let status = x.autopilot.status();
-    let why = if !x.in_errands() {
+    let why = if !x.in_guided_mode() {
         Some("Take-off needs mode Guided")
     } else if !status.armed {
         Some("Take-off needs armed motors")
-    } else if status.landed != Landed::OnGround {
+    } else if status.landed != LandedState::OnGround {
         Some("Take-off: in the air already")
     } else {
         None
     };
     if let Some(why) = why {
-        x.tell(why);
+        x.warn_all(why);
         return Err(FAILED);
     }
     // COMMAND_LONG has no frame; COMMAND_INT must say that the height counts from home.
-    if c.whole && c.over_home() != Some(true) {
+    if c.whole && c.is_home_relative() != Some(true) {
         return Err(MavResult::MAV_RESULT_DENIED);
     }
-    let height = c.given(6).filter(|height| *height > 0.0 && *height <= HIGHEST_M);
+    let height = c.finite_param(6).filter(|height| *height > 0.0 && *height <= HIGHEST_M);
     if height.is_none() {
-        x.tell("Take-off height: above 0, at most 500 m over home");
+        x.warn_all("Take-off height: above 0, at most 500 m over home");
     }
     height.map(Some).ok_or(FAILED)
 }
@@ -195,10 +198,10 @@ fn from_guided(c: &Command, x: &mut Context) -> Result<Option<f64>, MavResult> {
 fn sensor_words(change: SensorChange) -> Option<(MavSeverity, String)> {
     let text = match (change.sensor, change.fault) {
         (_, Some(SensorFault::Silent)) => return None,
-        (Sensor::Gnss, Some(_)) => "GPS Glitch or Compass error",
-        (Sensor::Gnss, None) => "Glitch cleared",
-        (Sensor::Compass, Some(_)) => "Compass 1 not healthy",
-        (Sensor::Barometer, Some(_)) => "Baro 1 not healthy",
+        (MonitoredSensor::Gnss, Some(_)) => "GPS Glitch or Compass error",
+        (MonitoredSensor::Gnss, None) => "Glitch cleared",
+        (MonitoredSensor::Compass, Some(_)) => "Compass 1 not healthy",
+        (MonitoredSensor::Barometer, Some(_)) => "Baro 1 not healthy",
         (_, None) => return None,
     };
     Some((MavSeverity::MAV_SEVERITY_CRITICAL, text.to_owned()))

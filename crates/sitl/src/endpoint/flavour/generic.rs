@@ -2,23 +2,25 @@
 //! nothing by the standard; they are PX4's, because SDKs and recorders that do not ask read them so.
 
 use super::px4::{self, row};
-use super::{COMMON, Flavour, ModeRow, plain};
-use crate::autopilot::Mode;
+use super::{COMMON, Flavour, ModeRow, named_mode};
+use crate::autopilot::FlightMode;
 use crate::endpoint::calibration;
-use crate::endpoint::params::face;
+use crate::endpoint::params::param_view;
 use spandrel_mavlink::dialect::{MavAutopilot, MavProtocolCapability, MavStandardMode as S, MavVtolState};
 
 const MODES: &[ModeRow] = &[
-    row(Mode::Position, (3, 0), "Position hold", S::MAV_STANDARD_MODE_POSITION_HOLD, false, true),
-    row(Mode::Altitude, (2, 0), "Altitude hold", S::MAV_STANDARD_MODE_ALTITUDE_HOLD, false, true),
-    row(Mode::Takeoff, (4, 2), "Take-off", S::MAV_STANDARD_MODE_TAKEOFF, true, true),
-    row(Mode::Mission, (4, 4), "Mission", S::MAV_STANDARD_MODE_MISSION, true, true),
-    row(Mode::Return, (4, 5), "Safe recovery", S::MAV_STANDARD_MODE_SAFE_RECOVERY, true, true).covering(&[Mode::SmartReturn]),
-    row(Mode::Land, (4, 6), "Land", S::MAV_STANDARD_MODE_LAND, true, true),
-    row(Mode::Orbit, (3, 1), "Orbit", S::MAV_STANDARD_MODE_ORBIT, true, false),
-    row(Mode::Hold, (4, 3), "Hold", S::MAV_STANDARD_MODE_NON_STANDARD, true, false).covering(&[Mode::Follow]),
-    row(Mode::Stabilized, (7, 0), "Stabilized", S::MAV_STANDARD_MODE_NON_STANDARD, false, false).covering(&[Mode::Acro]),
-    row(Mode::Offboard, (6, 0), "Offboard", S::MAV_STANDARD_MODE_NON_STANDARD, true, false),
+    row(FlightMode::Position, (3, 0), "Position hold", S::MAV_STANDARD_MODE_POSITION_HOLD, false, true),
+    row(FlightMode::Altitude, (2, 0), "Altitude hold", S::MAV_STANDARD_MODE_ALTITUDE_HOLD, false, true),
+    row(FlightMode::Takeoff, (4, 2), "Take-off", S::MAV_STANDARD_MODE_TAKEOFF, true, true),
+    row(FlightMode::Mission, (4, 4), "Mission", S::MAV_STANDARD_MODE_MISSION, true, true),
+    row(FlightMode::Return, (4, 5), "Safe recovery", S::MAV_STANDARD_MODE_SAFE_RECOVERY, true, true)
+        .covering(&[FlightMode::SmartReturn]),
+    row(FlightMode::Land, (4, 6), "Land", S::MAV_STANDARD_MODE_LAND, true, true),
+    row(FlightMode::Orbit, (3, 1), "Orbit", S::MAV_STANDARD_MODE_ORBIT, true, false),
+    row(FlightMode::Hold, (4, 3), "Hold", S::MAV_STANDARD_MODE_NON_STANDARD, true, false).covering(&[FlightMode::Follow]),
+    row(FlightMode::Stabilized, (7, 0), "Stabilized", S::MAV_STANDARD_MODE_NON_STANDARD, false, false)
+        .covering(&[FlightMode::Acro]),
+    row(FlightMode::Offboard, (6, 0), "Offboard", S::MAV_STANDARD_MODE_NON_STANDARD, true, false),
 ];
 
 /// The standard alone.
@@ -33,20 +35,20 @@ pub static FLAVOUR: Flavour = Flavour {
     custom_flag: false,
     state: px4::state,
     errands: None,
-    take_off: px4::over_sea,
+    take_off: px4::above_sea_level,
     force: &[px4::FORCE],
     looks_over_sea: false,
     refusals: px4::REFUSALS,
     arm_words: None,
     check_words: "Preflight Fail: ",
     sensor_words: |_| None,
-    mode_words: plain,
+    mode_words: named_mode,
     banner: &[],
     answers_after_acknowledgement: false,
     asks_first: false,
     groups: px4::GROUPS,
     dialect_of_ardupilot: false,
-    calibration: calibration::Words::Px4,
+    calibration: calibration::CalibrationTexts::Px4,
     shell: false,
     events: false,
     loiters: None,
@@ -57,7 +59,7 @@ pub static FLAVOUR: Flavour = Flavour {
     zero_is_here: false,
     home_item: false,
     float_items: false,
-    params: &face::GENERIC,
+    params: &param_view::GENERIC,
     tune: |_| {},
 };
 

@@ -5,13 +5,13 @@ pub mod ardupilot;
 pub mod generic;
 pub mod px4;
 
-use super::calibration::Words;
-use super::commands::Command;
-use super::params::Face;
-use super::view::View;
-use super::{Context, LinkKind};
-use crate::autopilot::senses::SensorChange;
-use crate::autopilot::{Autopilot, Mode, Outcome, Request, Tuning};
+use super::calibration::CalibrationTexts;
+use super::commands::VehicleCommand;
+use super::params::ParamView;
+use super::snapshot::VehicleSnapshot;
+use super::{CommandContext, LinkKind};
+use crate::autopilot::sensor_health::SensorChange;
+use crate::autopilot::{Autopilot, AutopilotRequest, FlightMode, RequestOutcome, Tuning};
 use spandrel_mavlink::dialect::{
     MavAutopilot, MavModeFlag, MavProtocolCapability, MavResult, MavSeverity, MavStandardMode, MavState, MavVtolState,
 };
@@ -23,15 +23,15 @@ pub struct ModeRow {
     /// HEARTBEAT.custom_mode.
     pub number: u32,
     /// The mode of ours that is entered by it.
-    pub mode: Mode,
+    pub mode: FlightMode,
     /// The request that enters it.
-    pub request: Request,
+    pub request: AutopilotRequest,
     /// Flown in its place while it is armed and no sticks are there.
-    pub unattended: Option<Mode>,
+    pub unattended: Option<FlightMode>,
     /// It is shown only after it was asked for by its number.
     pub only_chosen: bool,
     /// Other modes of ours that clients see under the same number.
-    pub covers: &'static [Mode],
+    pub covers: &'static [FlightMode],
     /// Display name.
     pub name: &'static str,
     /// The standard mode that it is.
@@ -48,19 +48,19 @@ pub struct ModeRow {
 
 impl ModeRow {
     /// Shown for other modes of ours as well.
-    const fn covering(mut self, modes: &'static [Mode]) -> Self {
+    const fn covering(mut self, modes: &'static [FlightMode]) -> Self {
         self.covers = modes;
         self
     }
 
-    fn shows(&self, mode: Mode) -> bool {
+    fn shows(&self, mode: FlightMode) -> bool {
         self.mode == mode || self.covers.contains(&mode)
     }
 }
 
 /// What a command or message that is not obeyed is answered.
 #[derive(Debug, Clone, Copy)]
-pub struct Refusals {
+pub struct RefusalResults {
     /// Not now.
     pub for_now: MavResult,
     /// Not in this state.
@@ -74,7 +74,7 @@ pub struct Refusals {
 }
 
 /// Height over home at which a NAV_TAKEOFF ends, m (`None`: the parameter's), or its refusal.
-pub type TakeOff = fn(&Command, &mut Context) -> Result<Option<f64>, MavResult>;
+pub type TakeOffHeight = fn(&VehicleCommand, &mut CommandContext) -> Result<Option<f64>, MavResult>;
 
 /// One interface.
 #[derive(Debug)]
@@ -96,18 +96,18 @@ pub struct Flavour {
     /// SET_MODE must say that it means a custom mode; otherwise it means something else (ArduPilot: the safety switch).
     pub custom_flag: bool,
     /// HEARTBEAT.system_status.
-    pub state: fn(&View) -> MavState,
+    pub state: fn(&VehicleSnapshot) -> MavState,
     /// Number of the mode in which go-to commands and external set-points are flown as they come; `None`: external set-points have a mode
     /// that is entered by itself, and a go-to may come in any.
     pub errands: Option<u32>,
     /// Reads NAV_TAKEOFF.
-    pub take_off: TakeOff,
+    pub take_off: TakeOffHeight,
     /// Numbers in COMPONENT_ARM_DISARM that force it.
     pub force: &'static [f64],
     /// The height of a place to look at, in a command, is over the sea whatever frame the command names.
     pub looks_over_sea: bool,
     /// Answers to what is not obeyed.
-    pub refusals: Refusals,
+    pub refusals: RefusalResults,
     /// Begins each reason of a refused arming, one text each; `None`: the autopilot's words, in one.
     pub arm_words: Option<&'static str>,
     /// Begins each reason that RUN_PREARM_CHECKS tells.
@@ -127,7 +127,7 @@ pub struct Flavour {
     /// Messages of ArduPilot's own dialect are spoken.
     pub dialect_of_ardupilot: bool,
     /// Whose texts report a calibration.
-    pub calibration: Words,
+    pub calibration: CalibrationTexts,
     /// SERIAL_CONTROL opens a shell.
     pub shell: bool,
     /// Arming checks and health are reported as events.
@@ -149,7 +149,7 @@ pub struct Flavour {
     /// MISSION_REQUEST is answered with MISSION_ITEM, and items of an upload are asked for by MISSION_REQUEST.
     pub float_items: bool,
     /// The parameters as clients see them.
-    pub params: &'static Face,
+    pub params: &'static ParamView,
     /// What the autopilot does otherwise.
     pub tune: fn(&mut Tuning),
 }
@@ -157,14 +157,14 @@ pub struct Flavour {
 impl Flavour {
     /// The row that clients see while `mode` is flown; `chosen` is the number of the row that was asked for last.
     #[must_use]
-    pub fn row_of(&self, mode: Mode, chosen: u32) -> &'static ModeRow {
+    pub fn row_of(&self, mode: FlightMode, chosen: u32) -> &'static ModeRow {
         let asked = self.modes.iter().find(|row| row.number == chosen && row.shows(mode));
-        asked.unwrap_or_else(|| self.usual(mode))
+        asked.unwrap_or_else(|| self.default_mode(mode))
     }
 
     /// The usual row of a mode.
     #[must_use]
-    pub fn usual(&self, mode: Mode) -> &'static ModeRow {
+    pub fn default_mode(&self, mode: FlightMode) -> &'static ModeRow {
         let enters = self.modes.iter().find(|row| row.mode == mode && !row.only_chosen);
         // Every mode is shown by some row: a test looks.
         enters.or_else(|| self.modes.iter().find(|row| row.shows(mode))).unwrap_or(&self.modes[0])
@@ -183,31 +183,31 @@ impl Flavour {
     }
 
     /// Enters a mode; `chosen` keeps which of the numbers that mean the same to us was asked for.
-    pub fn enter(&self, row: &ModeRow, chosen: &mut u32, autopilot: &mut Autopilot, now: SimTime) -> Outcome {
+    pub fn enter(&self, row: &ModeRow, chosen: &mut u32, autopilot: &mut Autopilot, now: SimTime) -> RequestOutcome {
         let before = autopilot.status().mode;
         let from = self.row_of(before, *chosen).number;
         let unattended = row.unattended.filter(|_| autopilot.is_unattended(now));
-        let request = unattended.map_or(row.request, Request::SetMode);
+        let request = unattended.map_or(row.request, AutopilotRequest::SetMode);
         let outcome = autopilot.request(request, now);
-        if outcome != Outcome::Accepted {
+        if outcome != RequestOutcome::Accepted {
             return match outcome {
-                Outcome::TemporarilyRejected(why) => Outcome::TemporarilyRejected((self.mode_words)(row, why)),
-                Outcome::Denied(why) => Outcome::Denied((self.mode_words)(row, why)),
-                Outcome::Failed(why) => Outcome::Failed((self.mode_words)(row, why)),
+                RequestOutcome::TemporarilyRejected(why) => RequestOutcome::TemporarilyRejected((self.mode_words)(row, why)),
+                RequestOutcome::Denied(why) => RequestOutcome::Denied((self.mode_words)(row, why)),
+                RequestOutcome::Failed(why) => RequestOutcome::Failed((self.mode_words)(row, why)),
                 other => other,
             };
         }
         *chosen = row.number;
-        if before == Mode::Hold && autopilot.status().mode == Mode::Hold && from != row.number {
+        if before == FlightMode::Hold && autopilot.status().mode == FlightMode::Hold && from != row.number {
             // The same to the autopilot, which would fly on to the place of the mode before; refused on the ground, where nothing flies.
-            autopilot.request(Request::GoTo { north_east_m: None, up_m: None, yaw_rad: None, speed_m_s: None }, now);
+            autopilot.request(AutopilotRequest::GoTo { north_east_m: None, up_m: None, yaw_rad: None, speed_m_s: None }, now);
         }
         outcome
     }
 
     /// Whether a kind of link must ask for its streams.
     #[must_use]
-    pub fn must_ask(&self, kind: LinkKind) -> bool {
+    pub fn is_silent_until_asked(&self, kind: LinkKind) -> bool {
         self.asks_first && kind != LinkKind::Payload
     }
 }
@@ -235,7 +235,7 @@ const COMMON: MavProtocolCapability = {
 };
 
 /// Words as the autopilot has them.
-fn plain(_: &ModeRow, why: String) -> String {
+fn named_mode(_: &ModeRow, why: String) -> String {
     why
 }
 
@@ -243,27 +243,27 @@ fn plain(_: &ModeRow, why: String) -> String {
 mod tests {
     use super::*;
 
-    const ALL: [Mode; 13] = [
-        Mode::Stabilized,
-        Mode::Altitude,
-        Mode::Position,
-        Mode::Hold,
-        Mode::Takeoff,
-        Mode::Land,
-        Mode::Return,
-        Mode::Mission,
-        Mode::Offboard,
-        Mode::Orbit,
-        Mode::Acro,
-        Mode::SmartReturn,
-        Mode::Follow,
+    const ALL: [FlightMode; 13] = [
+        FlightMode::Stabilized,
+        FlightMode::Altitude,
+        FlightMode::Position,
+        FlightMode::Hold,
+        FlightMode::Takeoff,
+        FlightMode::Land,
+        FlightMode::Return,
+        FlightMode::Mission,
+        FlightMode::Offboard,
+        FlightMode::Orbit,
+        FlightMode::Acro,
+        FlightMode::SmartReturn,
+        FlightMode::Follow,
     ];
 
     #[test]
     fn exact_every_flavour_shows_every_mode_and_every_number_leads_back_to_its_row() {
         for flavour in ["px4", "ardupilot", "generic"].map(|name| named(name).unwrap()) {
             for mode in ALL {
-                assert!(flavour.usual(mode).shows(mode), "{}: {mode:?}", flavour.name);
+                assert!(flavour.default_mode(mode).shows(mode), "{}: {mode:?}", flavour.name);
             }
             for row in flavour.modes {
                 assert_eq!(flavour.row(row.number).unwrap().name, row.name);
@@ -277,13 +277,13 @@ mod tests {
     #[test]
     fn exact_guided_stays_guided_from_take_off_to_go_to_and_gives_way_to_the_pilot() {
         let copter = &ardupilot::FLAVOUR;
-        for mode in [Mode::Hold, Mode::Takeoff, Mode::Offboard] {
+        for mode in [FlightMode::Hold, FlightMode::Takeoff, FlightMode::Offboard] {
             assert_eq!(copter.row_of(mode, 4).number, 4);
         }
-        assert_eq!(copter.row_of(Mode::Position, 4).number, 5);
-        assert_eq!(copter.row_of(Mode::Position, 16).number, 16);
-        assert_eq!(copter.row_of(Mode::Hold, 3).number, 17, "a hold that nobody asked for is a brake");
-        assert_eq!(copter.row_of(Mode::Hold, 5).number, 5, "LOITER holds without sticks");
-        assert_eq!((copter.usual(Mode::Mission).number, copter.row_of(Mode::Mission, 27).number), (3, 27));
+        assert_eq!(copter.row_of(FlightMode::Position, 4).number, 5);
+        assert_eq!(copter.row_of(FlightMode::Position, 16).number, 16);
+        assert_eq!(copter.row_of(FlightMode::Hold, 3).number, 17, "a hold that nobody asked for is a brake");
+        assert_eq!(copter.row_of(FlightMode::Hold, 5).number, 5, "LOITER holds without sticks");
+        assert_eq!((copter.default_mode(FlightMode::Mission).number, copter.row_of(FlightMode::Mission, 27).number), (3, 27));
     }
 }

@@ -1,14 +1,14 @@
 //! PX4's interface: custom_mode is main mode in bits 16 to 23, sub mode in bits 24 to 31 (docs/src/reference/wire.md, "Autopilot
 //! interfaces"; recorded from a real PX4).
 
-use super::{COMMON, Flavour, ModeRow, Refusals, plain};
-use crate::autopilot::senses::{Sensor, SensorChange, SensorFault};
-use crate::autopilot::{Mode, Request};
-use crate::endpoint::Context;
+use super::{COMMON, Flavour, ModeRow, RefusalResults, named_mode};
+use crate::autopilot::sensor_health::{MonitoredSensor, SensorChange, SensorFault};
+use crate::autopilot::{AutopilotRequest, FlightMode};
+use crate::endpoint::CommandContext;
 use crate::endpoint::calibration;
-use crate::endpoint::commands::Command;
-use crate::endpoint::params::face;
-use crate::endpoint::view::View;
+use crate::endpoint::commands::VehicleCommand;
+use crate::endpoint::params::param_view;
+use crate::endpoint::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{
     MavAutopilot, MavModeFlag as F, MavProtocolCapability, MavResult, MavSeverity, MavStandardMode as S, MavState, MavVtolState,
 };
@@ -19,7 +19,7 @@ const BY_ITSELF: F = BASE.union(F::MAV_MODE_FLAG_AUTO_ENABLED).union(F::MAV_MODE
 
 /// A mode by its main and sub mode.
 pub(super) const fn row(
-    mode: Mode,
+    mode: FlightMode,
     (main, sub): (u8, u8),
     name: &'static str,
     standard: S,
@@ -29,7 +29,7 @@ pub(super) const fn row(
     ModeRow {
         number: (main as u32) << 16 | (sub as u32) << 24,
         mode,
-        request: Request::SetMode(mode),
+        request: AutopilotRequest::SetMode(mode),
         unattended: None,
         only_chosen: false,
         covers: &[],
@@ -43,18 +43,19 @@ pub(super) const fn row(
 }
 
 const MODES: &[ModeRow] = &[
-    row(Mode::Position, (3, 0), "Position", S::MAV_STANDARD_MODE_POSITION_HOLD, false, true),
-    row(Mode::Altitude, (2, 0), "Altitude", S::MAV_STANDARD_MODE_ALTITUDE_HOLD, false, true),
-    row(Mode::Stabilized, (7, 0), "Stabilized", S::MAV_STANDARD_MODE_NON_STANDARD, false, true),
-    row(Mode::Hold, (4, 3), "Hold", S::MAV_STANDARD_MODE_NON_STANDARD, true, true),
-    row(Mode::Takeoff, (4, 2), "Takeoff", S::MAV_STANDARD_MODE_TAKEOFF, true, true),
-    row(Mode::Mission, (4, 4), "Mission", S::MAV_STANDARD_MODE_MISSION, true, true),
-    row(Mode::Return, (4, 5), "Return", S::MAV_STANDARD_MODE_SAFE_RECOVERY, true, true).covering(&[Mode::SmartReturn]),
-    row(Mode::Land, (4, 6), "Land", S::MAV_STANDARD_MODE_LAND, true, true),
-    row(Mode::Orbit, (3, 1), "Orbit", S::MAV_STANDARD_MODE_ORBIT, true, false),
-    row(Mode::Offboard, (6, 0), "Offboard", S::MAV_STANDARD_MODE_NON_STANDARD, true, false),
-    row(Mode::Follow, (4, 8), "Follow Me", S::MAV_STANDARD_MODE_NON_STANDARD, true, true),
-    row(Mode::Acro, (5, 0), "Acro", S::MAV_STANDARD_MODE_NON_STANDARD, false, true),
+    row(FlightMode::Position, (3, 0), "Position", S::MAV_STANDARD_MODE_POSITION_HOLD, false, true),
+    row(FlightMode::Altitude, (2, 0), "Altitude", S::MAV_STANDARD_MODE_ALTITUDE_HOLD, false, true),
+    row(FlightMode::Stabilized, (7, 0), "Stabilized", S::MAV_STANDARD_MODE_NON_STANDARD, false, true),
+    row(FlightMode::Hold, (4, 3), "Hold", S::MAV_STANDARD_MODE_NON_STANDARD, true, true),
+    row(FlightMode::Takeoff, (4, 2), "Takeoff", S::MAV_STANDARD_MODE_TAKEOFF, true, true),
+    row(FlightMode::Mission, (4, 4), "Mission", S::MAV_STANDARD_MODE_MISSION, true, true),
+    row(FlightMode::Return, (4, 5), "Return", S::MAV_STANDARD_MODE_SAFE_RECOVERY, true, true)
+        .covering(&[FlightMode::SmartReturn]),
+    row(FlightMode::Land, (4, 6), "Land", S::MAV_STANDARD_MODE_LAND, true, true),
+    row(FlightMode::Orbit, (3, 1), "Orbit", S::MAV_STANDARD_MODE_ORBIT, true, false),
+    row(FlightMode::Offboard, (6, 0), "Offboard", S::MAV_STANDARD_MODE_NON_STANDARD, true, false),
+    row(FlightMode::Follow, (4, 8), "Follow Me", S::MAV_STANDARD_MODE_NON_STANDARD, true, true),
+    row(FlightMode::Acro, (5, 0), "Acro", S::MAV_STANDARD_MODE_NON_STANDARD, false, true),
 ];
 /// Bits of main and sub mode.
 pub(super) const MODE_BITS: u32 = 0xFFFF_0000;
@@ -72,7 +73,7 @@ pub static FLAVOUR: Flavour = Flavour {
     custom_flag: false,
     state,
     errands: None,
-    take_off: over_sea,
+    take_off: above_sea_level,
     force: &[FORCE],
     // PX4's navigator takes the height without looking at the frame; MAVSDK's gimbal plugin counts on it: it sends heights over the sea in
     // a frame over home.
@@ -81,13 +82,13 @@ pub static FLAVOUR: Flavour = Flavour {
     arm_words: None,
     check_words: "Preflight Fail: ",
     sensor_words,
-    mode_words: plain,
+    mode_words: named_mode,
     banner: &[],
     answers_after_acknowledgement: false,
     asks_first: false,
     groups: GROUPS,
     dialect_of_ardupilot: false,
-    calibration: calibration::Words::Px4,
+    calibration: calibration::CalibrationTexts::Px4,
     shell: true,
     events: true,
     loiters: None,
@@ -98,14 +99,14 @@ pub static FLAVOUR: Flavour = Flavour {
     zero_is_here: false,
     home_item: false,
     float_items: false,
-    params: &face::PX4,
+    params: &param_view::PX4,
     tune: |_| {},
 };
 
 /// The number that forces arming and disarming (MAVLink common, COMPONENT_ARM_DISARM param2).
 pub(super) const FORCE: f64 = 21196.0;
 /// PX4's answers.
-pub(super) const REFUSALS: Refusals = Refusals {
+pub(super) const REFUSALS: RefusalResults = RefusalResults {
     for_now: MavResult::MAV_RESULT_TEMPORARILY_REJECTED,
     denied: MavResult::MAV_RESULT_DENIED,
     no_mode: MavResult::MAV_RESULT_DENIED,
@@ -132,7 +133,7 @@ pub(super) fn main_and_sub(main: f64, sub: f64) -> u32 {
     }
 }
 
-pub(super) fn state(v: &View) -> MavState {
+pub(super) fn state(v: &VehicleSnapshot) -> MavState {
     match (&v.status.failsafe, v.status.armed) {
         (Some(_), _) => MavState::MAV_STATE_CRITICAL,
         (None, true) => MavState::MAV_STATE_ACTIVE,
@@ -141,13 +142,13 @@ pub(super) fn state(v: &View) -> MavState {
 }
 
 /// Parameter 7 is over the sea, in COMMAND_INT by its frame; not given or too near the ground, the parameter's height.
-pub(super) fn over_sea(c: &Command, x: &mut Context) -> Result<Option<f64>, MavResult> {
+pub(super) fn above_sea_level(c: &VehicleCommand, x: &mut CommandContext) -> Result<Option<f64>, MavResult> {
     const LOWEST_M: f64 = 0.5;
     const HIGHEST_M: f64 = 500.0;
     const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
     let home_up = x.view.status.home_m.map_or(0.0, |h| -h.down());
-    let relative = c.over_home().ok_or(DENIED)?;
-    let Some(z) = c.given(6) else { return Ok(None) };
+    let relative = c.is_home_relative().ok_or(DENIED)?;
+    let Some(z) = c.finite_param(6) else { return Ok(None) };
     let height_m = if relative { z } else { z - x.view.plane.origin().altitude_m - home_up };
     if height_m > HIGHEST_M {
         Err(x.deny("Take-off height: at most 500 m over home"))
@@ -164,9 +165,9 @@ fn sensor_words(change: SensorChange) -> Option<(MavSeverity, String)> {
         SensorFault::Inconsistent => "INCONSISTENT",
     };
     let kind = match change.sensor {
-        Sensor::Compass => "MAG",
-        Sensor::Barometer => "BARO",
-        Sensor::Gnss => "GPS",
+        MonitoredSensor::Compass => "MAG",
+        MonitoredSensor::Barometer => "BARO",
+        MonitoredSensor::Gnss => "GPS",
     };
     Some((MavSeverity::MAV_SEVERITY_EMERGENCY, format!("{kind} #0 failed: {reason}!")))
 }

@@ -1,7 +1,7 @@
 //! Parameters of behavior under PX4's names: reactions to failures, the way home, limits, missions. Ranges and defaults are PX4's
 //! (PX4ParameterFactMetaData.xml of QGroundControl 5.0.1) where no reason is given. The autopilot's `OperatorRules` say what each does.
 
-use super::Value::{self, Int, Real};
+use super::ParamValue::{self, Int, Real};
 use super::table::{Row, row};
 
 const COMMANDER: &str = "Commander";
@@ -155,7 +155,7 @@ pub(super) const ROWS: &[Row] = &[
 ];
 
 /// The defaults that follow from the aircraft, rounded up to what the wire carries.
-pub(super) fn frame_defaults(frame: &crate::autopilot::operator_rules::Envelope) -> [(&'static str, Value); 7] {
+pub(super) fn frame_defaults(frame: &crate::autopilot::operator_rules::FlightEnvelope) -> [(&'static str, ParamValue); 7] {
     let up = |value: f64, low: f64, high: f64| Real((((value * 100.0).ceil() / 100.0) as f32).clamp(low as f32, high as f32));
     let vertical = up(frame.climb_acceleration_m_s2, 0.5, 15.0);
     [

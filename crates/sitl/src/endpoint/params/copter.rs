@@ -2,8 +2,8 @@
 //! sources), with ArduPilot's units and numbers. Where one of ours is behind a name, it acts; what this vehicle has no use for
 //! tells how it is and cannot be set.
 
-use super::Value::{self, Int, Real};
-use super::table::{self, Behind, ROWS, Row, row};
+use super::ParamValue::{self, Int, Real};
+use super::table::{self, ParamSource, ROWS, Row, row};
 use super::{behavior, copter_behavior, stored};
 use spandrel_mavlink::dialect::MavParamType;
 use std::sync::LazyLock;
@@ -14,7 +14,7 @@ pub(super) const INT32: MavParamType = MavParamType::MAV_PARAM_TYPE_INT32;
 pub(super) const REAL32: MavParamType = MavParamType::MAV_PARAM_TYPE_REAL32;
 
 /// Where ArduPilot's patience differs from ours: overrides lapse after 3 s, a ground station after 5 s.
-pub const DEFAULTS: &[(&str, Value)] = &[("COM_RC_LOSS_T", Real(3.0)), ("COM_DL_LOSS_T", Int(5))];
+pub const DEFAULTS: &[(&str, ParamValue)] = &[("COM_RC_LOSS_T", Real(3.0)), ("COM_DL_LOSS_T", Int(5))];
 
 const LOSS: &[(i32, &str)] = &[(0, "Disabled"), (1, "Return"), (5, "Land"), (7, "Brake")];
 /// ArduPilot's numbers of what a loss leads to, and ours.
@@ -34,9 +34,9 @@ pub fn rows() -> &'static [Row] {
         let shared = ROWS.iter().chain(behavior::ROWS);
         let shared = shared.filter(|row| matches!(row.group, "Simulation" | "Joystick") || OURS.contains(&row.name));
         let mut all: Vec<Row> =
-            [acting(), copter_behavior::rows(), fixed(), radio(), circling_and_following(), mode_switch()].concat();
+            [active_rows(), copter_behavior::rows(), fixed(), radio(), circling_and_following(), mode_switch()].concat();
         all.extend(shared.copied());
-        stored::complete(all, stored::COPTER)
+        stored::fill_missing(all, stored::COPTER)
     });
     &ALL
 }
@@ -44,7 +44,7 @@ pub fn rows() -> &'static [Row] {
 /// Our own, under our own names.
 const OURS: [&str; 4] = ["COM_RC_OVERRIDE", "SPAN_CAMERA", "SPAN_FLAVOUR", "SYS_FAILURE_EN"];
 
-fn ours(name: &str) -> &'static Row {
+fn px4_name(name: &str) -> &'static Row {
     // The names below are the table's: a test looks.
     table::rows().iter().find(|row| row.name == name).unwrap_or(&ROWS[0])
 }
@@ -58,11 +58,11 @@ pub(super) fn scaled(
     unit: &'static str,
     group: &'static str,
 ) -> Row {
-    let behind = ours(other);
+    let behind = px4_name(other);
     let default = if wire == REAL32 { Real(0.0) } else { Int(0) };
     let range = (behind.low * factor, behind.high * factor);
-    let mut out = row(name, default.alike(behind.default.number() * factor), range, unit, group, behind.short);
-    (out.wire, out.behind, out.read_only) = (wire, Behind::Scaled(other, factor), behind.read_only);
+    let mut out = row(name, default.is_unchanged(behind.default.number() * factor), range, unit, group, behind.short);
+    (out.wire, out.source, out.read_only) = (wire, ParamSource::Scaled(other, factor), behind.read_only);
     out
 }
 
@@ -75,15 +75,15 @@ pub(super) fn mapped(
     group: &'static str,
 ) -> Row {
     let (low, high) = (pairs[0].0, pairs[pairs.len() - 1].0);
-    let behind = ours(other);
+    let behind = px4_name(other);
     let default = pairs.iter().find(|(_, theirs)| Int(*theirs) == behind.default).map_or(low, |(own, _)| *own);
     let mut out = row(name, Int(default), (f64::from(low), f64::from(high)), "", group, behind.short).values(values);
-    (out.wire, out.behind) = (INT8, Behind::Mapped(other, pairs));
+    (out.wire, out.source) = (INT8, ParamSource::Mapped(other, pairs));
     out
 }
 
 /// A row that tells how it is.
-fn told(name: &'static str, value: Value, wire: MavParamType, group: &'static str, short: &'static str) -> Row {
+fn outgoing(name: &'static str, value: ParamValue, wire: MavParamType, group: &'static str, short: &'static str) -> Row {
     let number = value.number();
     let mut out = row(name, value, (number.min(0.0), number.max(0.0)), "", group, short).read_only().token();
     out.wire = wire;
@@ -91,10 +91,10 @@ fn told(name: &'static str, value: Value, wire: MavParamType, group: &'static st
 }
 
 /// What acts.
-fn acting() -> Vec<Row> {
+fn active_rows() -> Vec<Row> {
     let of_capacity = |name, other, short| {
         let mut out = row(name, Real(0.0), (0.0, 0.0), "mAh", "BATT", short);
-        out.behind = Behind::Capacity(other);
+        out.source = ParamSource::Capacity(other);
         out
     };
     let enable = |name, group, short| {
@@ -137,10 +137,10 @@ fn acting() -> Vec<Row> {
 fn fixed() -> Vec<Row> {
     // Clients take zero for a sensor that was never calibrated; a simulated one has nothing to calibrate.
     let nominal = Real(0.001);
-    let offset = |name| told(name, nominal, REAL32, "INS", "Offset of the accelerometer: nominal").unit("m/s^2");
+    let offset = |name| outgoing(name, nominal, REAL32, "INS", "Offset of the accelerometer: nominal").unit("m/s^2");
     let none = |name, wire, group| {
         let zero = if wire == REAL32 { Real(0.0) } else { Int(0) };
-        let row = told(name, zero, wire, group, "There is only one");
+        let row = outgoing(name, zero, wire, group, "There is only one");
         if wire == REAL32 {
             row.unit("mGauss")
         } else if wire == INT8 {
@@ -149,18 +149,18 @@ fn fixed() -> Vec<Row> {
             row
         }
     };
-    let compass = |name| told(name, nominal, REAL32, "COMPASS", "Offset of the compass: nominal").unit("mGauss");
+    let compass = |name| outgoing(name, nominal, REAL32, "COMPASS", "Offset of the compass: nominal").unit("mGauss");
     vec![
         row("ARMING_CHECK", Int(1), (0.0, 1_048_575.0), "", "ARMING", "Checks before arming; all are made")
             .bits(&[(0, "All")])
             .token(),
-        told("ARMING_REQUIRE", Int(1), INT8, "ARMING", "Motors must be armed").values(ONE),
+        outgoing("ARMING_REQUIRE", Int(1), INT8, "ARMING", "Motors must be armed").values(ONE),
         row("BATT_CAPACITY", Int(0), (0.0, 1e6), "mAh", "BATT", "Capacity of the battery").read_only(),
-        told("BATT_MONITOR", Int(4), INT8, "BATT", "Battery is measured by voltage and current")
+        outgoing("BATT_MONITOR", Int(4), INT8, "BATT", "Battery is measured by voltage and current")
             .values(&[(4, "Voltage and current")]),
-        told("COMPASS_DEV_ID", Int(97_539), INT32, "COMPASS", "Number of the compass"),
-        told("COMPASS_ENABLE", Int(1), INT8, "COMPASS", "There is a compass").values(ONE),
-        told("COMPASS_EXTERNAL", Int(0), INT8, "COMPASS", "The compass is on the board"),
+        outgoing("COMPASS_DEV_ID", Int(97_539), INT32, "COMPASS", "Number of the compass"),
+        outgoing("COMPASS_ENABLE", Int(1), INT8, "COMPASS", "There is a compass").values(ONE),
+        outgoing("COMPASS_EXTERNAL", Int(0), INT8, "COMPASS", "The compass is on the board"),
         none("COMPASS_DEV_ID2", INT32, "COMPASS"),
         none("COMPASS_DEV_ID3", INT32, "COMPASS"),
         none("COMPASS_OFS2_X", REAL32, "COMPASS"),
@@ -176,16 +176,16 @@ fn fixed() -> Vec<Row> {
         compass("COMPASS_OFS_X"),
         compass("COMPASS_OFS_Y"),
         compass("COMPASS_OFS_Z"),
-        told("COMPASS_PRIO1_ID", Int(97_539), INT32, "COMPASS", "Number of the first compass"),
-        told("COMPASS_USE", Int(1), INT8, "COMPASS", "The compass is used").values(ONE),
-        told("FORMAT_VERSION", Int(120), INT16, "FORMAT", "Layout of the parameters"),
-        told("FRAME_CLASS", Int(1), INT8, "FRAME", "Kind of frame").values(&[(1, "Quad")]),
-        told("FRAME_TYPE", Int(1), INT8, "FRAME", "Shape of the frame").values(&[(1, "X")]),
+        outgoing("COMPASS_PRIO1_ID", Int(97_539), INT32, "COMPASS", "Number of the first compass"),
+        outgoing("COMPASS_USE", Int(1), INT8, "COMPASS", "The compass is used").values(ONE),
+        outgoing("FORMAT_VERSION", Int(120), INT16, "FORMAT", "Layout of the parameters"),
+        outgoing("FRAME_CLASS", Int(1), INT8, "FRAME", "Kind of frame").values(&[(1, "Quad")]),
+        outgoing("FRAME_TYPE", Int(1), INT8, "FRAME", "Shape of the frame").values(&[(1, "X")]),
         offset("INS_ACCOFFS_X"),
         offset("INS_ACCOFFS_Y"),
         offset("INS_ACCOFFS_Z"),
-        told("INS_USE", Int(1), INT8, "INS", "The inertial sensor is used").values(ONE),
-        told("RELAY1_FUNCTION", Int(1), INT8, "RELAY", "The first relay is the lamp").values(&[(1, "Relay")]),
+        outgoing("INS_USE", Int(1), INT8, "INS", "The inertial sensor is used").values(ONE),
+        outgoing("RELAY1_FUNCTION", Int(1), INT8, "RELAY", "The first relay is the lamp").values(&[(1, "Relay")]),
     ]
 }
 
@@ -262,13 +262,13 @@ fn radio() -> Vec<Row> {
         ["RC3_MIN", "RC3_MAX", "RC3_TRIM", "RC3_REVERSED"],
         ["RC4_MIN", "RC4_MAX", "RC4_TRIM", "RC4_REVERSED"],
     ];
-    let map = |name, channel| told(name, Int(channel), INT8, "RCMAP", "Channel of this stick");
+    let map = |name, channel| outgoing(name, Int(channel), INT8, "RCMAP", "Channel of this stick");
     let mut out = vec![map("RCMAP_PITCH", 2), map("RCMAP_ROLL", 1), map("RCMAP_THROTTLE", 3), map("RCMAP_YAW", 4)];
     for [low, high, middle, reversed] in CHANNELS {
-        out.push(told(low, Int(1_000), INT16, "RC", "Pulse at the lower end").unit("us"));
-        out.push(told(high, Int(2_000), INT16, "RC", "Pulse at the upper end").unit("us"));
-        out.push(told(middle, Int(1_500), INT16, "RC", "Pulse in the middle").unit("us"));
-        out.push(told(reversed, Int(0), INT8, "RC", "The channel is not reversed").values(&[(0, "Normal"), (1, "Reversed")]));
+        out.push(outgoing(low, Int(1_000), INT16, "RC", "Pulse at the lower end").unit("us"));
+        out.push(outgoing(high, Int(2_000), INT16, "RC", "Pulse at the upper end").unit("us"));
+        out.push(outgoing(middle, Int(1_500), INT16, "RC", "Pulse in the middle").unit("us"));
+        out.push(outgoing(reversed, Int(0), INT8, "RC", "The channel is not reversed").values(&[(0, "Normal"), (1, "Reversed")]));
     }
     out
 }
@@ -284,13 +284,13 @@ mod tests {
         }
         for row in rows() {
             assert!(row.name.len() <= 16, "{}", row.name);
-            let other = match row.behind {
-                Behind::Own => continue,
-                Behind::Scaled(other, _) | Behind::Capacity(other) | Behind::Mapped(other, _) => other,
+            let other = match row.source {
+                ParamSource::Own => continue,
+                ParamSource::Scaled(other, _) | ParamSource::Capacity(other) | ParamSource::Mapped(other, _) => other,
             };
             assert_eq!(super::super::find(other).map(|row| row.name), Some(other), "behind {}", row.name);
-            if let Behind::Mapped(_, pairs) = row.behind {
-                let other = ours(other);
+            if let ParamSource::Mapped(_, pairs) = row.source {
+                let other = px4_name(other);
                 assert!(pairs.iter().all(|(_, theirs)| (other.low..=other.high).contains(&f64::from(*theirs))), "{}", row.name);
             }
         }

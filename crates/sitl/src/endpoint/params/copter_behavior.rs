@@ -1,9 +1,9 @@
 //! Behavior under ArduPilot's names where PX4 has no parameter that means the same. Ranges and defaults are ArduCopter 4.6's where no reason is given.
 
-use super::Value::{Int, Real};
+use super::ParamValue::{Int, Real};
 use super::behavior;
 use super::copter::{INT8, INT16, INT32, REAL32, mapped, scaled};
-use super::table::{Behind, Row, row};
+use super::table::{ParamSource, Row, row};
 
 const BATTERY_ACTIONS: &[(i32, &str)] = &[
     (0, "None"),
@@ -24,7 +24,7 @@ pub(super) fn rows() -> Vec<Row> {
 
 fn failsafes() -> Vec<Row> {
     let mut station = row("MAV_GCS_SYSID", Int(0), (0.0, 255.0), "", "MAV", STATION).wire(INT16);
-    station.behind = Behind::Scaled("SYSID_MYGCS", 1.0);
+    station.source = ParamSource::Scaled("SYSID_MYGCS", 1.0);
     vec![
         row("BATT_ARM_VOLT", Real(0.0), (0.0, 100.0), "V", "BATT", "Voltage needed for arming; 0: none"),
         row("BATT_CRT_VOLT", Real(0.0), (0.0, 100.0), "V", "BATT", "Voltage that counts as critical; 0: none"),
@@ -136,9 +136,9 @@ fn missions() -> Vec<Row> {
 
 /// Whether a row's default follows from the aircraft.
 pub(super) fn depends_on_aircraft(row: &Row) -> bool {
-    match row.behind {
-        Behind::Capacity(_) => true,
-        Behind::Scaled(other, _) => behavior::FRAME.contains(&other),
-        Behind::Own | Behind::Mapped(..) => behavior::FRAME.contains(&row.name),
+    match row.source {
+        ParamSource::Capacity(_) => true,
+        ParamSource::Scaled(other, _) => behavior::FRAME.contains(&other),
+        ParamSource::Own | ParamSource::Mapped(..) => behavior::FRAME.contains(&row.name),
     }
 }

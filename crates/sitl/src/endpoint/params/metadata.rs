@@ -1,10 +1,10 @@
 //! What a ground station shows beside names and values: the files of MAVLink's component metadata service
 //! (<https://mavlink.io/en/services/component_information.html>), made from the table and served over MAVLink FTP.
 
-use super::Value;
+use super::ParamValue;
 use super::copter_behavior::depends_on_aircraft;
-use super::face::{COPTER, Face, PX4};
-use super::table::{Behind, Row};
+use super::param_view::{COPTER, PX4, ParamView};
+use super::table::{ParamSource, Row};
 use crate::endpoint::events;
 use serde_json::{Value as Json, json};
 use spandrel_mavlink::ftp::checksum;
@@ -22,7 +22,7 @@ const GENERAL_PATH: &str = "/etc/extras/general.json.xz";
 
 /// A file, where it lies, and its checksum (CRC-32 as MAVLink FTP counts it).
 #[derive(Debug, Clone)]
-pub struct File {
+pub struct MetadataFile {
     /// Path on the file server.
     pub path: &'static str,
     /// What clients ask for.
@@ -33,7 +33,7 @@ pub struct File {
     pub bytes: Arc<[u8]>,
 }
 
-impl File {
+impl MetadataFile {
     fn new(path: &'static str, json: &Json) -> Self {
         let mut bytes = Vec::new();
         // Writing to memory does not fail; an empty file would show in its checksum and in every client.
@@ -44,31 +44,31 @@ impl File {
 
 /// Both files of one flavour's parameters.
 #[derive(Debug)]
-pub struct Files {
+pub struct MetadataFiles {
     /// The file that leads to all others.
-    pub general: File,
+    pub general: MetadataFile,
     /// The file about the parameters.
-    pub parameter: File,
+    pub parameter: MetadataFile,
     /// The file about the events, where they are sent.
-    pub events: Option<File>,
+    pub events: Option<MetadataFile>,
 }
 
 /// The files about the parameters as a flavour shows them.
 #[must_use]
-pub fn files(face: &Face) -> &'static Files {
-    static COMMON: LazyLock<Files> = LazyLock::new(|| make(&PX4));
-    static OTHER: LazyLock<Files> = LazyLock::new(|| make(&COPTER));
+pub fn files(face: &ParamView) -> &'static MetadataFiles {
+    static COMMON: LazyLock<MetadataFiles> = LazyLock::new(|| make(&PX4));
+    static OTHER: LazyLock<MetadataFiles> = LazyLock::new(|| make(&COPTER));
     if face.cast { &OTHER } else { &COMMON }
 }
 
-fn make(face: &Face) -> Files {
+fn make(face: &ParamView) -> MetadataFiles {
     let parameters: Vec<Json> = face.rows().iter().map(describe).collect();
-    let parameter = File::new(PARAMETER_PATH, &json!({ "version": 1, "parameters": parameters }));
-    let events = (!face.cast).then(|| File::new(EVENTS_PATH, &events::definitions()));
+    let parameter = MetadataFile::new(PARAMETER_PATH, &json!({ "version": 1, "parameters": parameters }));
+    let events = (!face.cast).then(|| MetadataFile::new(EVENTS_PATH, &events::definitions()));
     let mut types = vec![json!({ "type": PARAMETER, "uri": parameter.uri, "fileCrc": parameter.crc })];
     types.extend(events.iter().map(|file| json!({ "type": EVENTS, "uri": file.uri, "fileCrc": file.crc })));
-    let general = File::new(GENERAL_PATH, &json!({ "version": 1, "metadataTypes": types }));
-    Files { general, parameter, events }
+    let general = MetadataFile::new(GENERAL_PATH, &json!({ "version": 1, "metadataTypes": types }));
+    MetadataFiles { general, parameter, events }
 }
 
 /// The long text says whether setting the parameter changes anything.
@@ -83,7 +83,7 @@ fn long(row: &Row) -> String {
 }
 
 fn describe(row: &Row) -> Json {
-    let real = matches!(row.default, Value::Real(_));
+    let real = matches!(row.default, ParamValue::Real(_));
     let number = |value: f64| if real { json!(value as f32) } else { json!(value as i64) };
     let mut out = json!({
         "name": row.name,
@@ -109,7 +109,7 @@ fn describe(row: &Row) -> Json {
     if depends_on_aircraft(row) {
         out.as_object_mut().map(|fields| fields.remove("default"));
     }
-    if matches!(row.behind, Behind::Capacity(_)) {
+    if matches!(row.source, ParamSource::Capacity(_)) {
         // They depend on the aircraft's battery.
         for key in ["min", "max"] {
             out.as_object_mut().map(|fields| fields.remove(key));
@@ -131,7 +131,7 @@ mod tests {
     use super::super::table;
     use super::*;
 
-    fn unpacked(file: &File) -> Json {
+    fn unpacked(file: &MetadataFile) -> Json {
         let mut text = Vec::new();
         lzma_rs::xz_decompress(&mut Cursor::new(&file.bytes), &mut text).unwrap();
         serde_json::from_slice(&text).unwrap()
@@ -139,7 +139,7 @@ mod tests {
 
     #[test]
     fn exact_the_files_lead_to_each_other_and_describe_every_parameter() {
-        let Files { general, parameter, .. } = files(&PX4);
+        let MetadataFiles { general, parameter, .. } = files(&PX4);
         let general = unpacked(general);
         let entry = &general["metadataTypes"][0];
         assert_eq!((entry["type"].as_u64(), entry["uri"].as_str()), (Some(1), Some(parameter.uri.as_str())));

@@ -4,34 +4,34 @@
 mod behavior;
 mod copter;
 mod copter_behavior;
-pub mod face;
-mod following;
+mod follow_rule;
 pub mod metadata;
 pub mod packed;
+pub mod param_view;
 mod rules;
 mod stored;
 mod table;
 pub mod text;
 
-use crate::autopilot::operator_rules::Envelope;
-use crate::autopilot::{FenceAction, LinkLoss, Tuning};
-use Value::{Int, Real};
-pub use face::Face;
+use crate::autopilot::operator_rules::FlightEnvelope;
+use crate::autopilot::{FenceAction, LinkLossAction, Tuning};
+use ParamValue::{Int, Real};
+pub use param_view::ParamView;
 use spandrel_mavlink::dialect::MavParamType;
 use spandrel_model::time::SimTime;
 use std::collections::BTreeMap;
-use table::{Behind, Row};
+use table::{ParamSource, Row};
 
 /// A value with its type.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Value {
+pub enum ParamValue {
     /// INT32.
     Int(i32),
     /// REAL32.
     Real(f32),
 }
 
-impl Value {
+impl ParamValue {
     /// Byte-wise into the wire's float field.
     #[must_use]
     pub fn to_wire(self) -> f32 {
@@ -48,7 +48,7 @@ impl Value {
     }
 
     /// A number as this one's kind.
-    fn alike(self, number: f64) -> Self {
+    fn is_unchanged(self, number: f64) -> Self {
         match self {
             Self::Int(_) => Self::Int(number.round() as i32),
             Self::Real(_) => Self::Real(number as f32),
@@ -69,7 +69,7 @@ pub const HASH: &str = "_HASH_CHECK";
 pub const FENCE_SWITCH: &str = "FENCE_ENABLE";
 /// Why a parameter was not set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Refusal {
+pub enum ParamRefusal {
     /// No such name.
     Unknown,
     /// Outside its range, or not a number.
@@ -82,7 +82,7 @@ pub enum Refusal {
 
 /// When the battery counts as low and as critical; the job's rules say so until an operator does.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Thresholds {
+pub struct BatteryThresholds {
     /// Low, %.
     pub low_pct: f64,
     /// Critical, %.
@@ -91,27 +91,27 @@ pub struct Thresholds {
 
 /// What of the aircraft the parameters show.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pack {
+pub struct AircraftValues {
     /// Cells in series.
     pub cells: u32,
     /// Capacity, mAh.
     pub capacity_mah: f64,
     /// When it counts as low.
-    pub thresholds: Thresholds,
+    pub thresholds: BatteryThresholds,
     /// The job brings the vehicle back when the battery is low.
     pub returns_when_low: bool,
     /// The limits of the airframe.
-    pub frame: Envelope,
+    pub frame: FlightEnvelope,
 }
 
-impl Pack {
+impl AircraftValues {
     /// A small aircraft, for tests of parameters that do not depend on the aircraft.
     pub const SMALL: Self = Self {
         cells: 3,
         capacity_mah: 5_200.0,
-        thresholds: Thresholds { low_pct: 30.0, critical_pct: 10.0 },
+        thresholds: BatteryThresholds { low_pct: 30.0, critical_pct: 10.0 },
         returns_when_low: false,
-        frame: Envelope {
+        frame: FlightEnvelope {
             manual_m_s: 15.0,
             manual_up_m_s: 6.0,
             manual_down_m_s: 2.0,
@@ -126,7 +126,7 @@ impl Pack {
 
 /// A parameter as it goes out.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Told {
+pub struct OutgoingParam {
     /// Name.
     pub name: &'static str,
     /// The wire's float field.
@@ -137,7 +137,7 @@ pub struct Told {
 
 /// What an instructor can make of the world by parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct World {
+pub struct InstructorSettings {
     /// Mean wind at 20 ft, m/s, and where it comes from, degrees; `None`: the scenario's.
     pub wind: Option<(f64, f64)>,
     /// Share of datagrams that is lost, each way.
@@ -150,7 +150,7 @@ pub struct World {
 
 /// What happens when a second sender moves sticks while the first is there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Policy {
+pub enum StickPolicy {
     /// Who has the sticks keeps them until he falls silent or lets go.
     FirstKeeps,
     /// Who moves a stick off its middle takes them.
@@ -160,21 +160,21 @@ pub enum Policy {
 /// The parameter table: present values by name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Params {
-    values: BTreeMap<&'static str, Value>,
+    values: BTreeMap<&'static str, ParamValue>,
     changes: u64,
-    face: &'static Face,
+    face: &'static ParamView,
     capacity_mah: f64,
     /// Defaults that follow from the airframe.
-    frame: BTreeMap<&'static str, Value>,
+    frame: BTreeMap<&'static str, ParamValue>,
 }
 
 impl Params {
     /// Defaults for a vehicle, as one flavour shows them.
     #[must_use]
-    pub fn new(system_id: u8, pack: Pack, face: &'static Face) -> Self {
-        let own = face.rows().iter().filter(|row| row.behind == Behind::Own);
+    pub fn new(system_id: u8, pack: AircraftValues, face: &'static ParamView) -> Self {
+        let own = face.rows().iter().filter(|row| row.source == ParamSource::Own);
         // Names that two flavors share may differ in type and default: the flavor's own row counts.
-        let mut values: BTreeMap<&'static str, Value> =
+        let mut values: BTreeMap<&'static str, ParamValue> =
             table::rows().iter().chain(own).map(|row| (row.name, row.default)).collect();
         values.extend(face.defaults.iter().copied());
         values.insert("SPAN_FLAVOUR", Int(face.number));
@@ -213,7 +213,7 @@ impl Params {
 
     /// How clients see them.
     #[must_use]
-    pub fn face(&self) -> &'static Face {
+    pub fn param_view(&self) -> &'static ParamView {
         self.face
     }
 
@@ -243,22 +243,22 @@ impl Params {
 
     /// By place in the list.
     #[must_use]
-    pub fn at(&self, index: usize) -> Option<(&'static str, Value)> {
+    pub fn at(&self, index: usize) -> Option<(&'static str, ParamValue)> {
         self.face.rows().get(index).map(|row| (row.name, self.shown(row)))
     }
 
     /// By name, with its place.
     #[must_use]
-    pub fn find(&self, name: &str) -> Option<(usize, &'static str, Value)> {
+    pub fn find(&self, name: &str) -> Option<(usize, &'static str, ParamValue)> {
         self.row(name).map(|(index, row)| (index, row.name, self.shown(row)))
     }
 
     /// By place in the list, as it goes out.
     #[must_use]
-    pub fn told(&self, index: usize) -> Option<Told> {
+    pub fn outgoing(&self, index: usize) -> Option<OutgoingParam> {
         let row = self.face.rows().get(index)?;
         let value = self.shown(row);
-        Some(Told { name: row.name, wire: if self.face.cast { value.cast() } else { value.to_wire() }, kind: row.wire })
+        Some(OutgoingParam { name: row.name, wire: if self.face.cast { value.cast() } else { value.to_wire() }, kind: row.wire })
     }
 
     fn row(&self, name: &str) -> Option<(usize, &'static Row)> {
@@ -268,26 +268,26 @@ impl Params {
     }
 
     /// The factor by which a row shows what is behind it, and whose value that is.
-    fn behind(&self, row: &Row) -> Option<(&'static str, f64)> {
-        match row.behind {
-            Behind::Own | Behind::Mapped(..) => None,
-            Behind::Scaled(name, factor) => Some((name, factor)),
-            Behind::Capacity(name) => Some((name, self.capacity_mah)),
+    fn source_value(&self, row: &Row) -> Option<(&'static str, f64)> {
+        match row.source {
+            ParamSource::Own | ParamSource::Mapped(..) => None,
+            ParamSource::Scaled(name, factor) => Some((name, factor)),
+            ParamSource::Capacity(name) => Some((name, self.capacity_mah)),
         }
     }
 
     fn span(&self, row: &Row) -> (f64, f64) {
-        match self.behind(row).and_then(|(name, factor)| Some((find(name)?, factor))) {
+        match self.source_value(row).and_then(|(name, factor)| Some((find(name)?, factor))) {
             Some((other, factor)) => (other.low * factor, other.high * factor),
             None => (row.low, row.high),
         }
     }
 
-    fn shown(&self, row: &Row) -> Value {
-        if let Some((name, factor)) = self.behind(row) {
-            return row.default.alike(self.number(name) * factor);
+    fn shown(&self, row: &Row) -> ParamValue {
+        if let Some((name, factor)) = self.source_value(row) {
+            return row.default.is_unchanged(self.number(name) * factor);
         }
-        let Behind::Mapped(name, pairs) = row.behind else {
+        let ParamSource::Mapped(name, pairs) = row.source else {
             return self.values.get(row.name).copied().unwrap_or(row.default);
         };
         let other = self.whole(name);
@@ -297,17 +297,17 @@ impl Params {
     /// Sets a value from the wire: byte-wise, where the bits are an integer for integer parameters, or cast, where the type does not count.
     ///
     /// # Errors
-    /// [`Refusal`], and nothing is changed.
-    pub fn set(&mut self, name: &str, wire: f32, kind: MavParamType) -> Result<(), Refusal> {
-        let (_, row) = self.row(name).ok_or(Refusal::Unknown)?;
+    /// [`ParamRefusal`], and nothing is changed.
+    pub fn set(&mut self, name: &str, wire: f32, kind: MavParamType) -> Result<(), ParamRefusal> {
+        let (_, row) = self.row(name).ok_or(ParamRefusal::Unknown)?;
         let real = kind == MavParamType::MAV_PARAM_TYPE_REAL32;
         let value = match row.default {
-            Int(_) if self.face.cast && wire.is_nan() => return Err(Refusal::OutOfRange),
+            Int(_) if self.face.cast && wire.is_nan() => return Err(ParamRefusal::OutOfRange),
             // ArduPilot cuts off what lies behind the point.
             Int(_) if self.face.cast => Int(wire as i32),
             Int(_) if !real => Int(wire.to_bits().cast_signed()),
             Real(_) if real || self.face.cast => Real(wire),
-            Int(_) | Real(_) => return Err(Refusal::Type),
+            Int(_) | Real(_) => return Err(ParamRefusal::Type),
         };
         self.put(row, value)
     }
@@ -315,36 +315,36 @@ impl Params {
     /// Sets a value by the name that clients know.
     ///
     /// # Errors
-    /// [`Refusal`], and nothing is changed.
-    pub fn set_value(&mut self, name: &str, value: Value) -> Result<(), Refusal> {
-        let (_, row) = self.row(name).ok_or(Refusal::Unknown)?;
+    /// [`ParamRefusal`], and nothing is changed.
+    pub fn set_value(&mut self, name: &str, value: ParamValue) -> Result<(), ParamRefusal> {
+        let (_, row) = self.row(name).ok_or(ParamRefusal::Unknown)?;
         match (row.default, value) {
             (Int(_), Int(_)) | (Real(_), Real(_)) => self.put(row, value),
-            _ => Err(Refusal::Type),
+            _ => Err(ParamRefusal::Type),
         }
     }
 
-    fn put(&mut self, row: &'static Row, value: Value) -> Result<(), Refusal> {
+    fn put(&mut self, row: &'static Row, value: ParamValue) -> Result<(), ParamRefusal> {
         if row.read_only {
-            return Err(Refusal::ReadOnly);
+            return Err(ParamRefusal::ReadOnly);
         }
         let (number, (low, high)) = (value.number(), self.span(row));
         // The last place of the wire's numbers, so that a bound that is shown can be set.
-        let whole = row.behind == Behind::Own && matches!(value, Int(_));
+        let whole = row.source == ParamSource::Own && matches!(value, Int(_));
         let slack = if whole { 0.0 } else { f64::from(f32::EPSILON) * high.abs().max(low.abs()) };
         if number.is_nan() || number < low - slack || number > high + slack {
-            return Err(Refusal::OutOfRange);
+            return Err(ParamRefusal::OutOfRange);
         }
-        let (name, value) = match row.behind {
-            Behind::Own => (row.name, value),
-            Behind::Mapped(name, pairs) => {
-                let (_, theirs) = pairs.iter().find(|(own, _)| Int(*own) == value).ok_or(Refusal::OutOfRange)?;
+        let (name, value) = match row.source {
+            ParamSource::Own => (row.name, value),
+            ParamSource::Mapped(name, pairs) => {
+                let (_, theirs) = pairs.iter().find(|(own, _)| Int(*own) == value).ok_or(ParamRefusal::OutOfRange)?;
                 (name, Int(*theirs))
             }
-            Behind::Scaled(..) | Behind::Capacity(_) => {
-                let (name, factor) = self.behind(row).ok_or(Refusal::Unknown)?;
-                let other = find(name).ok_or(Refusal::Unknown)?;
-                (name, other.default.alike((number / factor).clamp(other.low, other.high)))
+            ParamSource::Scaled(..) | ParamSource::Capacity(_) => {
+                let (name, factor) = self.source_value(row).ok_or(ParamRefusal::Unknown)?;
+                let other = find(name).ok_or(ParamRefusal::Unknown)?;
+                (name, other.default.is_unchanged((number / factor).clamp(other.low, other.high)))
             }
         };
         if self.values.insert(name, value) != Some(value) {
@@ -361,8 +361,8 @@ impl Params {
 
     /// Who of several senders has the sticks.
     #[must_use]
-    pub fn stick_policy(&self) -> Policy {
-        if self.whole("SPAN_STICKS") == Some(1) { Policy::LatestTakes } else { Policy::FirstKeeps }
+    pub fn stick_policy(&self) -> StickPolicy {
+        if self.whole("SPAN_STICKS") == Some(1) { StickPolicy::LatestTakes } else { StickPolicy::FirstKeeps }
     }
 
     /// Whether the camera's component says heartbeats.
@@ -379,9 +379,9 @@ impl Params {
 
     /// What an instructor has made of the world.
     #[must_use]
-    pub fn world(&self) -> World {
+    pub fn instructor_settings(&self) -> InstructorSettings {
         let wind_m_s = Some(self.number("SIM_WIND_SPD")).filter(|speed| *speed >= 0.0);
-        World {
+        InstructorSettings {
             wind: wind_m_s.map(|speed| (speed, self.number("SIM_WIND_DIR"))),
             loss: self.number("SIM_LINK_LOSS") / 100.0,
             delay: SimTime::from_ms(self.number("SIM_LINK_DELAY") as i64),
@@ -473,12 +473,12 @@ impl Params {
         tuning.fence_enabled = self.fence_enabled().unwrap_or(tuning.fence_enabled);
         tuning.fence_distance_m = self.number("GF_MAX_HOR_DIST");
         tuning.fence_height_m = self.number("GF_MAX_VER_DIST");
-        tuning.manual_loss = LinkLoss::from_number(self.number("NAV_RCL_ACT") as i32).unwrap_or(LinkLoss::Hold);
-        tuning.follow = following::rule(self);
+        tuning.manual_loss = LinkLossAction::from_number(self.number("NAV_RCL_ACT") as i32).unwrap_or(LinkLossAction::Hold);
+        tuning.follow = follow_rule::rule(self);
         if let Some(rate_deg_s) = self.real("CIRCLE_RATE") {
             tuning.circle_rate_rad_s = rate_deg_s.to_radians();
         }
-        tuning.data_link_loss = LinkLoss::from_number(self.number("NAV_DLL_ACT") as i32).unwrap_or(LinkLoss::Ignore);
+        tuning.data_link_loss = LinkLossAction::from_number(self.number("NAV_DLL_ACT") as i32).unwrap_or(LinkLossAction::Ignore);
     }
 }
 

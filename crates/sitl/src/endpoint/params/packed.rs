@@ -3,7 +3,7 @@
 //! its value and, where asked for and different, its default.
 
 use super::table::Row;
-use super::{Params, Value};
+use super::{ParamValue, Params};
 use spandrel_mavlink::dialect::MavParamType;
 
 /// Where it lies.
@@ -17,9 +17,9 @@ const COMMON_MAX: usize = 15;
 
 /// Which part of it is wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Wish {
+struct ParamSelection {
     first: usize,
-    most: usize,
+    count: usize,
     defaults: bool,
 }
 
@@ -29,11 +29,11 @@ pub fn file(path: &[u8], params: &Params, defaults: &Params) -> Option<Vec<u8>> 
     let end = path.iter().position(|byte| *byte == 0).unwrap_or(path.len());
     let text = std::str::from_utf8(&path[..end]).ok()?;
     let options = text.strip_prefix('/').unwrap_or(text).strip_prefix(PATH)?;
-    Some(pack(wish(options)?, params, defaults))
+    Some(pack(parse_selection(options)?, params, defaults))
 }
 
-fn wish(options: &str) -> Option<Wish> {
-    let mut wish = Wish { first: 0, most: usize::MAX, defaults: false };
+fn parse_selection(options: &str) -> Option<ParamSelection> {
+    let mut wish = ParamSelection { first: 0, count: usize::MAX, defaults: false };
     if options.is_empty() {
         return Some(wish);
     }
@@ -42,7 +42,7 @@ fn wish(options: &str) -> Option<Wish> {
         let number: usize = value.parse().ok()?;
         match name {
             "start" => wish.first = number,
-            "count" => wish.most = number,
+            "count" => wish.count = number,
             "withdefaults" => wish.defaults = number != 0,
             _ => return None,
         }
@@ -50,8 +50,8 @@ fn wish(options: &str) -> Option<Wish> {
     Some(wish)
 }
 
-fn pack(wish: Wish, params: &Params, defaults: &Params) -> Vec<u8> {
-    let rows: Vec<&Row> = params.face.rows().iter().skip(wish.first).take(wish.most).collect();
+fn pack(wish: ParamSelection, params: &Params, defaults: &Params) -> Vec<u8> {
+    let rows: Vec<&Row> = params.face.rows().iter().skip(wish.first).take(wish.count).collect();
     let mut out = Vec::new();
     for number in [if wish.defaults { WITH_DEFAULTS } else { PLAIN }, rows.len() as u16, params.count() as u16] {
         out.extend(number.to_le_bytes());
@@ -84,25 +84,25 @@ fn kind(wire: MavParamType) -> u8 {
     }
 }
 
-fn put(out: &mut Vec<u8>, wire: MavParamType, value: Value) {
+fn put(out: &mut Vec<u8>, wire: MavParamType, value: ParamValue) {
     match (wire, value) {
-        (MavParamType::MAV_PARAM_TYPE_INT8, Value::Int(whole)) => out.extend((whole as i8).to_le_bytes()),
-        (MavParamType::MAV_PARAM_TYPE_INT16, Value::Int(whole)) => out.extend((whole as i16).to_le_bytes()),
-        (MavParamType::MAV_PARAM_TYPE_INT32, Value::Int(whole)) => out.extend(whole.to_le_bytes()),
+        (MavParamType::MAV_PARAM_TYPE_INT8, ParamValue::Int(whole)) => out.extend((whole as i8).to_le_bytes()),
+        (MavParamType::MAV_PARAM_TYPE_INT16, ParamValue::Int(whole)) => out.extend((whole as i16).to_le_bytes()),
+        (MavParamType::MAV_PARAM_TYPE_INT32, ParamValue::Int(whole)) => out.extend(whole.to_le_bytes()),
         (_, value) => out.extend(value.cast().to_le_bytes()),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::face;
+    use super::super::param_view;
     use super::super::tests::of;
     use super::*;
 
     #[test]
     fn exact_the_first_entries_byte_by_byte() {
-        let (params, defaults) = (of(&face::COPTER), of(&face::COPTER));
-        let rows = face::COPTER.rows();
+        let (params, defaults) = (of(&param_view::COPTER), of(&param_view::COPTER));
+        let rows = param_view::COPTER.rows();
         let first = rows.iter().position(|row| row.name == "AUTOTUNE_AXES").unwrap();
         assert_eq!(rows[first + 1].name, "AUTO_OPTIONS");
         let path = format!("@PARAM/param.pck?start={first}&count=2\0");
@@ -119,10 +119,10 @@ mod tests {
 
     #[test]
     fn exact_a_default_stands_beside_what_differs_from_it() {
-        let (mut params, defaults) = (of(&face::COPTER), of(&face::COPTER));
+        let (mut params, defaults) = (of(&param_view::COPTER), of(&param_view::COPTER));
         let plain = file(b"/@PARAM/param.pck?withdefaults=1", &params, &defaults).unwrap();
         assert_eq!(plain[..2], [0x1c, 0x67]);
-        params.set_value("WPNAV_SPEED", Value::Real(300.0)).unwrap();
+        params.set_value("WPNAV_SPEED", ParamValue::Real(300.0)).unwrap();
         let changed = file(b"/@PARAM/param.pck?withdefaults=1", &params, &defaults).unwrap();
         assert_eq!(changed.len(), plain.len() + 4);
         let value_and_default = [300f32.to_le_bytes(), 500f32.to_le_bytes()].concat();
@@ -131,7 +131,7 @@ mod tests {
 
     #[test]
     fn exact_other_paths_and_options_are_no_such_file() {
-        let params = of(&face::COPTER);
+        let params = of(&param_view::COPTER);
         for path in
             ["param.pck", "@PARAM/param.pck.bak", "@PARAM/param.pck?start", "@PARAM/param.pck?start=-1", "@PARAM/param.pck?x=1"]
         {

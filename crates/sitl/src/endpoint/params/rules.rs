@@ -2,8 +2,8 @@
 
 use super::Params;
 use crate::autopilot::operator_rules::{
-    BatteryResponses, Envelope, Exceptions, FenceParts, FenceSwitching, GuidedOptions, Heading, HeightReference, JOB_BATTERY,
-    MissionNeeds, OffboardLoss, OperatorRules, Response, ReturnPlaces, ReturnRules,
+    BatteryResponses, FailsafeResponse, FenceParts, FenceSwitching, FlightEnvelope, GuidedOptions, HeadingRule, HeightReference,
+    JOB_BATTERY, LinkLossExceptions, MissionNeeds, OffboardLoss, OperatorRules, ReturnRules, ReturnTargets,
 };
 
 /// Bits of ArduPilot's `FS_OPTIONS`.
@@ -13,25 +13,25 @@ const GUIDED_WITHOUT_STICKS: i32 = 1 << 2;
 const PILOT_WITHOUT_STATION: i32 = 1 << 4;
 
 /// A reaction, by the numbers of `COM_ACT_FAIL_ACT`.
-fn actuator_response(number: i32) -> Response {
+fn actuator_response(number: i32) -> FailsafeResponse {
     match number {
-        1 => Response::Hold,
-        2 => Response::Land,
-        3 => Response::Return,
-        4 => Response::Terminate,
-        _ => Response::Warn,
+        1 => FailsafeResponse::Hold,
+        2 => FailsafeResponse::Land,
+        3 => FailsafeResponse::Return,
+        4 => FailsafeResponse::Terminate,
+        _ => FailsafeResponse::Warn,
     }
 }
 
 /// A reaction, by the numbers of `BATT_FS_LOW_ACT`.
-fn battery_response(number: i32) -> Option<Response> {
+fn battery_response(number: i32) -> Option<FailsafeResponse> {
     match number {
-        1 => Some(Response::Land),
-        2 | 3 => Some(Response::Return),
-        4 => Some(Response::Land),
-        5 => Some(Response::Terminate),
-        6 => Some(Response::Return),
-        7 => Some(Response::Hold),
+        1 => Some(FailsafeResponse::Land),
+        2 | 3 => Some(FailsafeResponse::Return),
+        4 => Some(FailsafeResponse::Land),
+        5 => Some(FailsafeResponse::Terminate),
+        6 => Some(FailsafeResponse::Return),
+        7 => Some(FailsafeResponse::Hold),
         _ => None,
     }
 }
@@ -63,13 +63,13 @@ impl Params {
 
     fn apply_responses(&self, rules: &mut OperatorRules) {
         let out = &mut rules.responses;
-        out.manual_loss_except = Exceptions::from_bits(self.integer("COM_RCL_EXCEPT"));
-        out.data_link_loss_except = Exceptions::from_bits(self.integer("COM_DLL_EXCEPT"));
+        out.manual_loss_except = LinkLossExceptions::from_bits(self.integer("COM_RCL_EXCEPT"));
+        out.data_link_loss_except = LinkLossExceptions::from_bits(self.integer("COM_DLL_EXCEPT"));
         if let Some(loss) = OffboardLoss::from_number(self.integer("COM_OBL_RC_ACT")) {
             out.offboard_loss = loss;
         }
         let detected = self.integer("FD_ACT_EN") != 0;
-        out.motor_failure = if detected { actuator_response(self.integer("COM_ACT_FAIL_ACT")) } else { Response::Warn };
+        out.motor_failure = if detected { actuator_response(self.integer("COM_ACT_FAIL_ACT")) } else { FailsafeResponse::Warn };
         out.battery = self.battery_responses();
         out.battery_emergency_pct = 100.0 * self.number("BAT_EMERGEN_THR");
         out.blind_lands = self.integer("COM_POSCTL_NAVL") == 1;
@@ -80,14 +80,17 @@ impl Params {
         if self.face.cast {
             let options = self.integer("FS_OPTIONS");
             let has = |bit: i32| options & bit != 0;
-            out.manual_loss_except = Exceptions {
+            out.manual_loss_except = LinkLossExceptions {
                 mission: has(AUTO_WITHOUT_STICKS),
                 hold: has(GUIDED_WITHOUT_STICKS),
                 offboard: has(GUIDED_WITHOUT_STICKS),
                 manual: false,
             };
-            out.data_link_loss_except =
-                Exceptions { mission: has(AUTO_WITHOUT_STATION), manual: has(PILOT_WITHOUT_STATION), ..Exceptions::default() };
+            out.data_link_loss_except = LinkLossExceptions {
+                mission: has(AUTO_WITHOUT_STATION),
+                manual: has(PILOT_WITHOUT_STATION),
+                ..LinkLossExceptions::default()
+            };
             out.battery_low_v = [self.number("BATT_LOW_VOLT"), self.number("BATT_CRT_VOLT")];
             out.battery_low_s = self.number("BATT_LOW_TIMER");
             out.blind_lands = self.integer("FS_EKF_ACTION") != 2;
@@ -103,8 +106,8 @@ impl Params {
         }
         match self.integer("COM_LOW_BAT_ACT") {
             1 => JOB_BATTERY,
-            2 => [None, Some(Response::Land), Some(Response::Land)],
-            3 => [None, Some(Response::Return), Some(Response::Land)],
+            2 => [None, Some(FailsafeResponse::Land), Some(FailsafeResponse::Land)],
+            3 => [None, Some(FailsafeResponse::Return), Some(FailsafeResponse::Land)],
             _ => [None; 3],
         }
     }
@@ -112,7 +115,7 @@ impl Params {
     fn px4_return(&self) -> ReturnRules {
         let angle_rad = self.number("RTL_CONE_ANG").to_radians();
         ReturnRules {
-            places: ReturnPlaces::from_number(self.integer("RTL_TYPE")).unwrap_or_default(),
+            places: ReturnTargets::from_number(self.integer("RTL_TYPE")).unwrap_or_default(),
             speed_m_s: None,
             climb_min_m: 0.0,
             cone_slope: if angle_rad > 0.0 { 1.0 / spandrel_model::math::tan(angle_rad) } else { 0.0 },
@@ -127,7 +130,7 @@ impl Params {
 
     fn copter_return(&self) -> ReturnRules {
         ReturnRules {
-            places: ReturnPlaces { home: self.integer("RALLY_INCL_HOME") != 0, rally: true, mission_landing: false },
+            places: ReturnTargets { home: self.integer("RALLY_INCL_HOME") != 0, rally: true, mission_landing: false },
             speed_m_s: Some(self.number("RTL_SPEED") / 100.0).filter(|speed| *speed > 0.0),
             climb_min_m: self.number("RTL_CLIMB_MIN") / 100.0,
             cone_slope: self.number("RTL_CONE_SLOPE"),
@@ -140,15 +143,15 @@ impl Params {
         }
     }
 
-    fn heading(&self) -> Heading {
+    fn heading(&self) -> HeadingRule {
         if !self.face.cast {
-            return Heading::from_number(self.integer("MPC_YAW_MODE")).unwrap_or(Heading::Target);
+            return HeadingRule::from_number(self.integer("MPC_YAW_MODE")).unwrap_or(HeadingRule::Target);
         }
         match self.integer("WP_YAW_BEHAVIOR") {
-            0 => Heading::Fixed,
-            1 => Heading::Target,
-            3 => Heading::Path,
-            _ => Heading::TargetExceptReturn,
+            0 => HeadingRule::Fixed,
+            1 => HeadingRule::Target,
+            3 => HeadingRule::Path,
+            _ => HeadingRule::TargetExceptReturn,
         }
     }
 
@@ -158,15 +161,15 @@ impl Params {
         if value == self.frame.get(name) { f64::INFINITY } else { self.number(name) }
     }
 
-    fn envelope(&self) -> Envelope {
+    fn envelope(&self) -> FlightEnvelope {
         let centimeters = |name: &str| Some(self.number(name) / 100.0).filter(|value| *value > 0.0).unwrap_or(f64::INFINITY);
-        let mut out = Envelope {
+        let mut out = FlightEnvelope {
             manual_m_s: self.limit("MPC_VEL_MANUAL"),
             manual_yaw_rad_s: self.limit("MPC_MAN_Y_MAX").to_radians(),
             manual_tilt_rad: self.limit("MPC_MAN_TILT_MAX").to_radians(),
             acceleration_m_s2: self.limit("MPC_ACC_HOR"),
             climb_acceleration_m_s2: self.limit("MPC_ACC_UP_MAX").min(self.limit("MPC_ACC_DOWN_MAX")),
-            ..Envelope::OPEN
+            ..FlightEnvelope::OPEN
         };
         if self.face.cast {
             out.manual_up_m_s = self.limit("PILOT_SPEED_UP") / 100.0;

@@ -1,7 +1,7 @@
 //! Parameters that are stored, checked and described, and act on nothing: hardware that this vehicle does not have, and gains that follow from the
 //! airframe. The tables are the files in `stored/`; a row of the code with the same name replaces theirs.
 
-use super::Value::{Int, Real};
+use super::ParamValue::{Int, Real};
 use super::table::{Row, row};
 use spandrel_mavlink::dialect::MavParamType;
 
@@ -20,7 +20,7 @@ mod tables {
 pub(super) use tables::{COPTER, PX4};
 
 /// Adds the stored rows whose names are not there yet, in the order of the names.
-pub(super) fn complete(mut rows: Vec<Row>, stored: &[Row]) -> Vec<Row> {
+pub(super) fn fill_missing(mut rows: Vec<Row>, stored: &[Row]) -> Vec<Row> {
     // A stable sort keeps the acting row before the stored one of the same name.
     rows.extend(stored.iter().copied());
     rows.sort_by_key(|row| row.name);

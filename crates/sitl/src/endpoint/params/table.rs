@@ -1,13 +1,13 @@
 //! The parameters: one row each, with what ground stations show of it.
 
-use super::Value::{self, Int, Real};
+use super::ParamValue::{self, Int, Real};
 use super::{behavior, stored};
 use spandrel_mavlink::dialect::MavParamType;
 use std::sync::LazyLock;
 
 /// Where a parameter's value is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Behind {
+pub enum ParamSource {
     /// It has one of its own.
     Own,
     /// Another parameter's, times a factor.
@@ -24,7 +24,7 @@ pub struct Row {
     /// Name, at most 16 characters.
     pub name: &'static str,
     /// Default.
-    pub default: Value,
+    pub default: ParamValue,
     /// Smallest value that is taken.
     pub low: f64,
     /// Largest value that is taken.
@@ -48,12 +48,12 @@ pub struct Row {
     /// Its type on the wire.
     pub wire: MavParamType,
     /// Where its value is.
-    pub behind: Behind,
+    pub source: ParamSource,
 }
 
 pub(super) const fn row(
     name: &'static str,
-    default: Value,
+    default: ParamValue,
     range: (f64, f64),
     unit: &'static str,
     group: &'static str,
@@ -76,7 +76,7 @@ pub(super) const fn row(
             Int(_) => MavParamType::MAV_PARAM_TYPE_INT32,
             Real(_) => MavParamType::MAV_PARAM_TYPE_REAL32,
         },
-        behind: Behind::Own,
+        source: ParamSource::Own,
     }
 }
 
@@ -199,7 +199,7 @@ const fn button(name: &'static str) -> Row {
 
 /// All parameters under PX4's names, in the order of the names.
 pub(super) fn rows() -> &'static [Row] {
-    static ALL: LazyLock<Vec<Row>> = LazyLock::new(|| stored::complete([behavior::ROWS, ROWS].concat(), stored::PX4));
+    static ALL: LazyLock<Vec<Row>> = LazyLock::new(|| stored::fill_missing([behavior::ROWS, ROWS].concat(), stored::PX4));
     &ALL
 }
 

@@ -1,6 +1,6 @@
 //! Parameters as a text file: the tab-separated format that QGroundControl writes and reads (`.params`).
 
-use super::{Params, Refusal, Value};
+use super::{ParamRefusal, ParamValue, Params};
 
 /// MAV_PARAM_TYPE_INT32 and MAV_PARAM_TYPE_REAL32.
 const INT32: &str = "6";
@@ -11,7 +11,7 @@ const NARROW: [&str; 2] = ["2", "4"];
 /// What is wrong with a line.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}: {what}")]
-pub struct Problem {
+pub struct ParamFileProblem {
     /// From 1.
     pub line: usize,
     /// What, with the allowed range.
@@ -23,10 +23,10 @@ pub struct Problem {
 pub fn write(params: &Params, system_id: u8) -> String {
     let mut out = String::from("# Parameters of a Spandrel vehicle\n# Vehicle-Id Component-Id Name Value Type\n");
     for index in 0..params.count() {
-        let Some(((name, value), told)) = params.at(index).zip(params.told(index)) else { continue };
+        let Some(((name, value), told)) = params.at(index).zip(params.outgoing(index)) else { continue };
         let value = match value {
-            Value::Int(whole) => whole.to_string(),
-            Value::Real(real) => real.to_string(),
+            ParamValue::Int(whole) => whole.to_string(),
+            ParamValue::Real(real) => real.to_string(),
         };
         out.push_str(&format!("{system_id}\t1\t{name}\t{value}\t{}\n", told.kind as u8));
     }
@@ -38,12 +38,12 @@ pub fn write(params: &Params, system_id: u8) -> String {
 ///
 /// # Errors
 /// Every line that is wrong; then nothing is set.
-pub fn read(params: &mut Params, text: &str) -> Result<(), Vec<Problem>> {
+pub fn read(params: &mut Params, text: &str) -> Result<(), Vec<ParamFileProblem>> {
     let mut fresh = params.clone();
     let mut problems = Vec::new();
     for (index, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#')) {
         if let Err(what) = read_line(&mut fresh, line) {
-            problems.push(Problem { line: index + 1, what });
+            problems.push(ParamFileProblem { line: index + 1, what });
         }
     }
     if !problems.is_empty() {
@@ -63,16 +63,16 @@ fn read_line(params: &mut Params, line: &str) -> Result<(), String> {
         return Ok(());
     }
     let no_number = |allowed| format!("{name} = '{value}' is no number (allowed: {allowed})");
-    let narrow = params.face().cast && NARROW.contains(&kind);
+    let narrow = params.param_view().cast && NARROW.contains(&kind);
     let value_read = match kind {
-        REAL32 => Value::Real(value.parse().map_err(|_| no_number("a real number"))?),
-        _ if kind == INT32 || narrow => Value::Int(value.parse().map_err(|_| no_number("a whole number"))?),
+        REAL32 => ParamValue::Real(value.parse().map_err(|_| no_number("a real number"))?),
+        _ if kind == INT32 || narrow => ParamValue::Int(value.parse().map_err(|_| no_number("a whole number"))?),
         _ => return Err(format!("{name}: type '{kind}' (allowed: {INT32} for whole numbers, {REAL32} for real ones)")),
     };
     match params.set_value(name, value_read) {
-        Ok(()) | Err(Refusal::Unknown | Refusal::ReadOnly) => Ok(()),
-        Err(Refusal::Type) => Err(format!("{name} is of the other type")),
-        Err(Refusal::OutOfRange) => {
+        Ok(()) | Err(ParamRefusal::Unknown | ParamRefusal::ReadOnly) => Ok(()),
+        Err(ParamRefusal::Type) => Err(format!("{name} is of the other type")),
+        Err(ParamRefusal::OutOfRange) => {
             let (low, high) = params.range(name).unwrap_or_default();
             Err(format!("{name} = {value} is out of range (allowed: {low} to {high})"))
         }
@@ -81,28 +81,28 @@ fn read_line(params: &mut Params, line: &str) -> Result<(), String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::face;
+    use super::super::param_view;
     use super::super::tests::of;
     use super::*;
 
     fn params() -> Params {
-        of(&face::PX4)
+        of(&param_view::PX4)
     }
 
     #[test]
     fn exact_what_is_written_reads_back_the_same() {
         let mut changed = params();
-        changed.set_value("MIS_TAKEOFF_ALT", Value::Real(7.3)).unwrap();
-        changed.set_value("GF_ACTION", Value::Int(3)).unwrap();
+        changed.set_value("MIS_TAKEOFF_ALT", ParamValue::Real(7.3)).unwrap();
+        changed.set_value("GF_ACTION", ParamValue::Int(3)).unwrap();
         let mut read_back = params();
         read(&mut read_back, &write(&changed, 3)).unwrap();
         assert_eq!(read_back, changed);
-        let mut copter = of(&face::COPTER);
-        copter.set_value("FENCE_ACTION", Value::Int(2)).unwrap();
-        copter.set_value("RTL_ALT", Value::Int(2_500)).unwrap();
+        let mut copter = of(&param_view::COPTER);
+        copter.set_value("FENCE_ACTION", ParamValue::Int(2)).unwrap();
+        copter.set_value("RTL_ALT", ParamValue::Int(2_500)).unwrap();
         let text = write(&copter, 3);
         assert!(text.contains("3\t1\tFENCE_ACTION\t2\t2\n"), "as narrow as ArduPilot's");
-        let mut read_back = of(&face::COPTER);
+        let mut read_back = of(&param_view::COPTER);
         read(&mut read_back, &text).unwrap();
         assert_eq!(write(&read_back, 3), text);
     }

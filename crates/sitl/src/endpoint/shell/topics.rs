@@ -1,14 +1,14 @@
 //! `listener TOPIC`: the newest values of a topic, under PX4's names.
 
-use super::super::streams::{self, Outgoing};
-use super::super::view::View;
+use super::super::snapshot::VehicleSnapshot;
+use super::super::streams::{self, OutgoingMessage};
 use mavlink::MessageData;
 use spandrel_mavlink::dialect::{LOCAL_POSITION_NED_DATA, MavMessage};
 
-type Fields = Vec<(&'static str, String)>;
-type Topic = (&'static str, fn(&View) -> Fields);
+type TopicFields = Vec<(&'static str, String)>;
+type ShellTopic = (&'static str, fn(&VehicleSnapshot) -> TopicFields);
 
-const TOPICS: [Topic; 6] = [
+const TOPICS: [ShellTopic; 6] = [
     ("battery_status", battery),
     ("sensor_combined", sensors),
     ("vehicle_attitude", attitude),
@@ -17,7 +17,7 @@ const TOPICS: [Topic; 6] = [
     ("vehicle_status", status),
 ];
 
-pub(super) fn listen(view: &View, rest: &[&str]) -> String {
+pub(super) fn listen(view: &VehicleSnapshot, rest: &[&str]) -> String {
     let found = rest.first().and_then(|wanted| TOPICS.iter().find(|(name, _)| name == wanted));
     let Some((name, fields)) = found else {
         let known = TOPICS.map(|(name, _)| format!("  {name}\n")).concat();
@@ -32,7 +32,7 @@ fn vector(values: &[f64]) -> String {
     format!("[{}]", numbers.join(", "))
 }
 
-fn battery(v: &View) -> Fields {
+fn battery(v: &VehicleSnapshot) -> TopicFields {
     vec![
         ("voltage_v", format!("{:.5}", v.battery.voltage_v)),
         ("current_a", format!("{:.5}", v.battery.current_a)),
@@ -40,12 +40,12 @@ fn battery(v: &View) -> Fields {
     ]
 }
 
-fn sensors(v: &View) -> Fields {
-    let Some(imu) = &v.readings.imu else { return Fields::new() };
+fn sensors(v: &VehicleSnapshot) -> TopicFields {
+    let Some(imu) = &v.readings.imu else { return TopicFields::new() };
     vec![("gyro_rad", vector(&imu.rates_rad_s.array())), ("accelerometer_m_s2", vector(&imu.specific_force_m_s2.array()))]
 }
 
-fn attitude(v: &View) -> Fields {
+fn attitude(v: &VehicleSnapshot) -> TopicFields {
     let (roll, pitch, yaw) = v.estimate.attitude.euler();
     let degrees = [roll, pitch, yaw].map(f64::to_degrees);
     vec![(
@@ -60,7 +60,7 @@ fn attitude(v: &View) -> Fields {
     )]
 }
 
-fn global_position(v: &View) -> Fields {
+fn global_position(v: &VehicleSnapshot) -> TopicFields {
     let geo = v.geo();
     vec![
         ("lat", format!("{:.7}", geo.latitude_deg)),
@@ -71,10 +71,10 @@ fn global_position(v: &View) -> Fields {
     ]
 }
 
-fn local_position(v: &View) -> Fields {
+fn local_position(v: &VehicleSnapshot) -> TopicFields {
     // As it is streamed, in the same frame.
     let streamed = streams::rows_of(LOCAL_POSITION_NED_DATA::ID).find_map(|(_, row)| row.build(v));
-    let Some(Outgoing::Common(MavMessage::LOCAL_POSITION_NED(p))) = streamed else { return Fields::new() };
+    let Some(OutgoingMessage::Common(MavMessage::LOCAL_POSITION_NED(p))) = streamed else { return TopicFields::new() };
     let number = |value: f32| format!("{value:.5}");
     vec![
         ("x", number(p.x)),
@@ -87,7 +87,7 @@ fn local_position(v: &View) -> Fields {
     ]
 }
 
-fn status(v: &View) -> Fields {
+fn status(v: &VehicleSnapshot) -> TopicFields {
     vec![
         ("arming_state", if v.status.armed { "2" } else { "1" }.to_owned()),
         ("nav_state", v.mode_row().name.to_owned()),

@@ -1,7 +1,7 @@
 //! What ArduCopter streams besides the common messages.
 
-use super::super::view::View;
-use spandrel_mavlink::ardupilotmega::{AHRS, EKF_STATUS_REPORT, MEMINFO, Message, SIMSTATE, WIND};
+use super::super::snapshot::VehicleSnapshot;
+use spandrel_mavlink::ardupilotmega::{AHRS, DialectMessage, EKF_STATUS_REPORT, MEMINFO, SIMSTATE, WIND};
 use spandrel_mavlink::dialect::{MavMessage, MavPowerStatus, POWER_STATUS_DATA, SIM_STATE_DATA};
 use spandrel_mavlink::units::deg_e7;
 use spandrel_model::frames::Vec3;
@@ -19,7 +19,7 @@ const REJECTED_M: f64 = 5.0;
 const FREE_BYTES: f64 = 524_288.0;
 const BOARD_MV: u16 = 5_000;
 
-pub(super) fn estimator(v: &View) -> Option<Message> {
+pub(super) fn estimator(v: &VehicleSnapshot) -> Option<DialectMessage> {
     let e = v.estimate;
     let flags = match (e.attitude_valid, e.position_valid) {
         (false, _) => UNINITIALIZED,
@@ -41,17 +41,17 @@ pub(super) fn estimator(v: &View) -> Option<Message> {
 }
 
 /// The gyroscope's drift: what the estimator adds to its readings. It keeps no measure of its attitude's error: those are 0.
-pub(super) fn ahrs(v: &View) -> Option<Message> {
+pub(super) fn ahrs(v: &VehicleSnapshot) -> Option<DialectMessage> {
     let drift = v.readings.imu.map_or(Vec3::zero(), |imu| v.estimate.rates_rad_s - imu.rates_rad_s);
     let [x, y, z] = drift.array();
     Some(AHRS.message(&[x, y, z]))
 }
 
-pub(super) fn memory(_: &View) -> Option<Message> {
+pub(super) fn memory(_: &VehicleSnapshot) -> Option<DialectMessage> {
     Some(MEMINFO.message(&[0.0, f64::from(u16::MAX), FREE_BYTES]))
 }
 
-pub(super) fn simulation(v: &View) -> Option<Message> {
+pub(super) fn simulation(v: &VehicleSnapshot) -> Option<DialectMessage> {
     let (roll, pitch, yaw) = v.truth.attitude.euler();
     let ([xa, ya, za], [xr, yr, zr]) = (v.specific_force_m_s2.array(), v.truth.rates_rad_s.array());
     let geo = v.true_geo();
@@ -59,7 +59,7 @@ pub(super) fn simulation(v: &View) -> Option<Message> {
     Some(SIMSTATE.message(&[roll, pitch, yaw, xa, ya, za, xr, yr, zr, lat, lng]))
 }
 
-pub(super) fn simulated(v: &View) -> Option<MavMessage> {
+pub(super) fn simulated(v: &VehicleSnapshot) -> Option<MavMessage> {
     let real = |value: f64| value as f32;
     let (roll, pitch, yaw) = v.truth.attitude.euler();
     let [q1, q2, q3, q4] = v.truth.attitude.wxyz().map(real);
@@ -93,12 +93,12 @@ pub(super) fn simulated(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn wind(v: &View) -> Option<Message> {
+pub(super) fn wind(v: &VehicleSnapshot) -> Option<DialectMessage> {
     let w = v.wind_m_s;
     let from = math::atan2(-w.east(), -w.north()).to_degrees();
     Some(WIND.message(&[from, w.horizontal_norm(), w.down()]))
 }
 
-pub(super) fn power(_: &View) -> Option<MavMessage> {
+pub(super) fn power(_: &VehicleSnapshot) -> Option<MavMessage> {
     Some(MavMessage::POWER_STATUS(POWER_STATUS_DATA { Vcc: BOARD_MV, Vservo: 0, flags: MavPowerStatus::empty() }))
 }

@@ -1,11 +1,11 @@
 //! Attitude as estimated and as wanted.
 
-use super::super::view::View;
+use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{
     ATTITUDE_DATA, ATTITUDE_QUATERNION_DATA, ATTITUDE_TARGET_DATA, AttitudeTargetTypemask, MavMessage,
 };
 
-pub(super) fn attitude(v: &View) -> Option<MavMessage> {
+pub(super) fn attitude(v: &VehicleSnapshot) -> Option<MavMessage> {
     let (roll, pitch, yaw) = v.estimate.attitude.euler();
     let w = v.estimate.rates_rad_s;
     Some(MavMessage::ATTITUDE(ATTITUDE_DATA {
@@ -19,7 +19,7 @@ pub(super) fn attitude(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn quaternion(v: &View) -> Option<MavMessage> {
+pub(super) fn quaternion(v: &VehicleSnapshot) -> Option<MavMessage> {
     let q = v.estimate.attitude.wxyz();
     let w = v.estimate.rates_rad_s;
     Some(MavMessage::ATTITUDE_QUATERNION(ATTITUDE_QUATERNION_DATA {
@@ -35,7 +35,7 @@ pub(super) fn quaternion(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn target(v: &View) -> Option<MavMessage> {
+pub(super) fn target(v: &VehicleSnapshot) -> Option<MavMessage> {
     let rates = AttitudeTargetTypemask::ATTITUDE_TARGET_TYPEMASK_BODY_ROLL_RATE_IGNORE
         | AttitudeTargetTypemask::ATTITUDE_TARGET_TYPEMASK_BODY_PITCH_RATE_IGNORE
         | AttitudeTargetTypemask::ATTITUDE_TARGET_TYPEMASK_BODY_YAW_RATE_IGNORE;

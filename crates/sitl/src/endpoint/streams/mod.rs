@@ -12,9 +12,9 @@ pub(super) use payload::field_of_view;
 
 use super::LinkKind;
 use super::flavour::Flavour;
-use super::view::View;
+use super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::ardupilotmega;
-use spandrel_mavlink::codec::{Encoder, Framed};
+use spandrel_mavlink::codec::{Encodable, Encoder};
 use spandrel_mavlink::dialect::MavMessage;
 
 /// The autopilot's component id.
@@ -24,7 +24,7 @@ pub const CAMERA: u8 = 100;
 
 /// One message that can be streamed or requested.
 #[derive(Clone, Copy)]
-pub struct Stream {
+pub struct StreamSpec {
     /// Message id.
     pub id: u32,
     /// Rates on a ground station's link, an SDK's and a sidecar's, Hz.
@@ -33,27 +33,27 @@ pub struct Stream {
     pub component: u8,
     /// ArduPilot alone sends it, whichever dialect defines it.
     of_ardupilot: bool,
-    make: Make,
+    source: MessageSource,
 }
 
 /// How a message is made; `None` when there is nothing to say.
 #[derive(Clone, Copy)]
-enum Make {
-    Common(fn(&View) -> Option<MavMessage>),
-    ArduPilot(fn(&View) -> Option<ardupilotmega::Message>),
+enum MessageSource {
+    Common(fn(&VehicleSnapshot) -> Option<MavMessage>),
+    ArduPilot(fn(&VehicleSnapshot) -> Option<ardupilotmega::DialectMessage>),
 }
 
 /// A message to be sent.
 #[derive(Debug, Clone, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "it lives for one call; a box would cost an allocation for each message")]
-pub enum Outgoing {
+pub enum OutgoingMessage {
     /// Of the common dialect.
     Common(MavMessage),
     /// Of ArduPilot's.
-    ArduPilot(ardupilotmega::Message),
+    ArduPilot(ardupilotmega::DialectMessage),
 }
 
-impl Framed for Outgoing {
+impl Encodable for OutgoingMessage {
     fn frame(&self, encoder: &mut Encoder) -> Vec<u8> {
         match self {
             Self::Common(message) => message.frame(encoder),
@@ -62,22 +62,22 @@ impl Framed for Outgoing {
     }
 }
 
-impl Stream {
+impl StreamSpec {
     /// The message; `None` when there is nothing to say.
     #[must_use]
-    pub fn build(&self, view: &View) -> Option<Outgoing> {
-        if !self.is_spoken(view.flavour) {
+    pub fn build(&self, view: &VehicleSnapshot) -> Option<OutgoingMessage> {
+        if !self.is_sent(view.flavour) {
             return None;
         }
-        match self.make {
-            Make::Common(make) => make(view).map(Outgoing::Common),
-            Make::ArduPilot(make) => make(view).map(Outgoing::ArduPilot),
+        match self.source {
+            MessageSource::Common(make) => make(view).map(OutgoingMessage::Common),
+            MessageSource::ArduPilot(make) => make(view).map(OutgoingMessage::ArduPilot),
         }
     }
 
     /// Whether a flavour speaks this message.
     #[must_use]
-    pub fn is_spoken(&self, flavour: &Flavour) -> bool {
+    pub fn is_sent(&self, flavour: &Flavour) -> bool {
         flavour.dialect_of_ardupilot || !self.of_ardupilot
     }
 
@@ -92,23 +92,23 @@ impl Stream {
     }
 }
 
-const fn row(id: u32, rates_hz: [f64; 3], build: fn(&View) -> Option<MavMessage>) -> Stream {
-    Stream { id, rates_hz, component: AUTOPILOT, of_ardupilot: false, make: Make::Common(build) }
+const fn row(id: u32, rates_hz: [f64; 3], build: fn(&VehicleSnapshot) -> Option<MavMessage>) -> StreamSpec {
+    StreamSpec { id, rates_hz, component: AUTOPILOT, of_ardupilot: false, source: MessageSource::Common(build) }
 }
 
-const fn camera(id: u32, rates_hz: [f64; 3], build: fn(&View) -> Option<MavMessage>) -> Stream {
-    Stream { id, rates_hz, component: CAMERA, of_ardupilot: false, make: Make::Common(build) }
+const fn camera(id: u32, rates_hz: [f64; 3], build: fn(&VehicleSnapshot) -> Option<MavMessage>) -> StreamSpec {
+    StreamSpec { id, rates_hz, component: CAMERA, of_ardupilot: false, source: MessageSource::Common(build) }
 }
 
-const fn of_ardupilot(id: u32, make: Make) -> Stream {
-    Stream { id, rates_hz: [0.0; 3], component: AUTOPILOT, of_ardupilot: true, make }
+const fn of_ardupilot(id: u32, make: MessageSource) -> StreamSpec {
+    StreamSpec { id, rates_hz: [0.0; 3], component: AUTOPILOT, of_ardupilot: true, source: make }
 }
 
 /// All of them. HIL_STATE_QUATERNION comes first, so that what follows in the same datagram belongs to its instant.
-pub const STREAMS: &[Stream] = &[
+pub const STREAMS: &[StreamSpec] = &[
     row(115, [50.0, 50.0, 50.0], truth::state),
     row(0, [1.0, 1.0, 1.0], system::heartbeat),
-    // After the autopilot's, so that a client that takes the first heartbeat gets the vehicle; once a second where the camera is used (`Link`).
+    // After the autopilot's, so that a client that takes the first heartbeat gets the vehicle; once a second where the camera is used (`PeerLink`).
     camera(0, [0.25, 0.25, 1.0], payload::camera_heartbeat),
     row(1, [2.0, 2.0, 2.0], system::sys_status),
     row(2, [1.0, 1.0, 1.0], system::system_time),
@@ -171,16 +171,16 @@ pub const STREAMS: &[Stream] = &[
     camera(271, [0.0, 0.0, 5.0], |v| Some(field_of_view(v))),
     row(27, [0.0, 0.0, 0.0], sensors::raw_imu),
     row(62, [0.0, 0.0, 0.0], position::way),
-    of_ardupilot(108, Make::Common(ardupilot::simulated)),
-    of_ardupilot(125, Make::Common(ardupilot::power)),
-    of_ardupilot(152, Make::ArduPilot(ardupilot::memory)),
-    of_ardupilot(163, Make::ArduPilot(ardupilot::ahrs)),
-    of_ardupilot(164, Make::ArduPilot(ardupilot::simulation)),
-    of_ardupilot(168, Make::ArduPilot(ardupilot::wind)),
-    of_ardupilot(193, Make::ArduPilot(ardupilot::estimator)),
+    of_ardupilot(108, MessageSource::Common(ardupilot::simulated)),
+    of_ardupilot(125, MessageSource::Common(ardupilot::power)),
+    of_ardupilot(152, MessageSource::ArduPilot(ardupilot::memory)),
+    of_ardupilot(163, MessageSource::ArduPilot(ardupilot::ahrs)),
+    of_ardupilot(164, MessageSource::ArduPilot(ardupilot::simulation)),
+    of_ardupilot(168, MessageSource::ArduPilot(ardupilot::wind)),
+    of_ardupilot(193, MessageSource::ArduPilot(ardupilot::estimator)),
 ];
 
 /// The rows of a message id.
-pub fn rows_of(id: u32) -> impl Iterator<Item = (usize, &'static Stream)> {
+pub fn rows_of(id: u32) -> impl Iterator<Item = (usize, &'static StreamSpec)> {
     STREAMS.iter().enumerate().filter(move |(_, s)| s.id == id)
 }

@@ -1,10 +1,10 @@
 //! Camera, gimbal and lamp.
 
-use super::super::camera::card::CARD_MIB;
-use super::super::camera::stream::{PORT, Stream};
-use super::super::camera::{Mode, settings, zoom};
+use super::super::camera::storage_card::CARD_MIB;
+use super::super::camera::stream::{PORT, VideoStream};
+use super::super::camera::{CaptureMode, settings, zoom};
 use super::super::gimbal::DEVICE;
-use super::super::view::View;
+use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{
     CAMERA_CAPTURE_STATUS_DATA, CAMERA_FOV_STATUS_DATA, CAMERA_INFORMATION_DATA, CAMERA_SETTINGS_DATA, CameraCapFlags,
     CameraMode, GIMBAL_DEVICE_ATTITUDE_STATUS_DATA, GIMBAL_DEVICE_INFORMATION_DATA, GIMBAL_MANAGER_INFORMATION_DATA,
@@ -17,7 +17,7 @@ use spandrel_mavlink::dialect::{
 use spandrel_mavlink::units::{deg_e7, mm};
 use spandrel_model::math;
 
-pub(super) fn camera_heartbeat(v: &View) -> Option<MavMessage> {
+pub(super) fn camera_heartbeat(v: &VehicleSnapshot) -> Option<MavMessage> {
     let beat = MavMessage::HEARTBEAT(HEARTBEAT_DATA {
         custom_mode: 0,
         mavtype: MavType::MAV_TYPE_CAMERA,
@@ -29,7 +29,7 @@ pub(super) fn camera_heartbeat(v: &View) -> Option<MavMessage> {
     v.camera.announced.then_some(beat)
 }
 
-pub(super) fn camera_information(v: &View) -> Option<MavMessage> {
+pub(super) fn camera_information(v: &VehicleSnapshot) -> Option<MavMessage> {
     use CameraCapFlags as C;
     let camera = &v.vehicle.camera;
     let mut vendor_name = [0u8; 32];
@@ -61,13 +61,13 @@ pub(super) fn camera_information(v: &View) -> Option<MavMessage> {
 }
 
 /// There is no focus to tell: everything is sharp.
-pub(super) fn camera_settings(v: &View) -> Option<MavMessage> {
+pub(super) fn camera_settings(v: &VehicleSnapshot) -> Option<MavMessage> {
     let zooms = v.vehicle.camera.zoom_max > 1.0;
     Some(MavMessage::CAMERA_SETTINGS(CAMERA_SETTINGS_DATA {
         time_boot_ms: v.sim_ms(),
         mode_id: match v.camera.mode {
-            Mode::Photo => CameraMode::CAMERA_MODE_IMAGE,
-            Mode::Video => CameraMode::CAMERA_MODE_VIDEO,
+            CaptureMode::Photo => CameraMode::CAMERA_MODE_IMAGE,
+            CaptureMode::Video => CameraMode::CAMERA_MODE_VIDEO,
         },
         zoomLevel: if zooms { (v.camera.zoom * 100.0) as f32 } else { f32::NAN },
         focusLevel: f32::NAN,
@@ -76,7 +76,7 @@ pub(super) fn camera_settings(v: &View) -> Option<MavMessage> {
 }
 
 /// What the camera sees now: the scoring judges pictures by it. What stands there the camera does not know.
-pub(in super::super) fn field_of_view(v: &View) -> MavMessage {
+pub(in super::super) fn field_of_view(v: &VehicleSnapshot) -> MavMessage {
     let camera = v.camera_now();
     let geo = v.geo();
     MavMessage::CAMERA_FOV_STATUS(CAMERA_FOV_STATUS_DATA {
@@ -94,7 +94,7 @@ pub(in super::super) fn field_of_view(v: &View) -> MavMessage {
     })
 }
 
-pub(super) fn storage(v: &View) -> Option<MavMessage> {
+pub(super) fn storage(v: &VehicleSnapshot) -> Option<MavMessage> {
     use StorageUsageFlag as U;
     Some(MavMessage::STORAGE_INFORMATION(STORAGE_INFORMATION_DATA {
         time_boot_ms: v.sim_ms(),
@@ -112,7 +112,7 @@ pub(super) fn storage(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn capture_status(v: &View) -> Option<MavMessage> {
+pub(super) fn capture_status(v: &VehicleSnapshot) -> Option<MavMessage> {
     let busy = v.camera.interval_s.is_some() || v.camera.series;
     Some(MavMessage::CAMERA_CAPTURE_STATUS(CAMERA_CAPTURE_STATUS_DATA {
         time_boot_ms: v.sim_ms(),
@@ -127,15 +127,15 @@ pub(super) fn capture_status(v: &View) -> Option<MavMessage> {
 }
 
 /// What is told of a stream that does not run (estimate: what wireless networks carry).
-const STREAM: Stream = Stream { width_px: 1280, height_px: 720, rate_hz: 25.0, bits_s: 3_000_000 };
+const STREAM: VideoStream = VideoStream { width_px: 1280, height_px: 720, rate_hz: 25.0, bits_s: 3_000_000 };
 
-fn stream_flags(v: &View) -> VideoStreamStatusFlags {
+fn stream_flags(v: &VehicleSnapshot) -> VideoStreamStatusFlags {
     let mut flags = VideoStreamStatusFlags::empty();
     flags.set(VideoStreamStatusFlags::VIDEO_STREAM_STATUS_FLAGS_RUNNING, v.camera.stream.is_some());
     flags
 }
 
-pub(super) fn stream_information(v: &View) -> Option<MavMessage> {
+pub(super) fn stream_information(v: &VehicleSnapshot) -> Option<MavMessage> {
     let stream = v.camera.stream.unwrap_or(STREAM);
     Some(MavMessage::VIDEO_STREAM_INFORMATION(VIDEO_STREAM_INFORMATION_DATA {
         framerate: stream.rate_hz,
@@ -155,7 +155,7 @@ pub(super) fn stream_information(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn stream_status(v: &View) -> Option<MavMessage> {
+pub(super) fn stream_status(v: &VehicleSnapshot) -> Option<MavMessage> {
     let stream = v.camera.stream.unwrap_or(STREAM);
     Some(MavMessage::VIDEO_STREAM_STATUS(VIDEO_STREAM_STATUS_DATA {
         framerate: stream.rate_hz,
@@ -170,7 +170,7 @@ pub(super) fn stream_status(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn gimbal_manager(v: &View) -> Option<MavMessage> {
+pub(super) fn gimbal_manager(v: &VehicleSnapshot) -> Option<MavMessage> {
     use GimbalManagerCapFlags as C;
     let camera = &v.vehicle.camera;
     Some(MavMessage::GIMBAL_MANAGER_INFORMATION(GIMBAL_MANAGER_INFORMATION_DATA {
@@ -188,7 +188,7 @@ pub(super) fn gimbal_manager(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn gimbal_device(v: &View) -> Option<MavMessage> {
+pub(super) fn gimbal_device(v: &VehicleSnapshot) -> Option<MavMessage> {
     use GimbalDeviceCapFlagsU16 as C;
     let camera = &v.vehicle.camera;
     Some(MavMessage::GIMBAL_DEVICE_INFORMATION(GIMBAL_DEVICE_INFORMATION_DATA {
@@ -210,7 +210,7 @@ pub(super) fn gimbal_device(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn gimbal_manager_status(v: &View) -> Option<MavMessage> {
+pub(super) fn gimbal_manager_status(v: &VehicleSnapshot) -> Option<MavMessage> {
     use GimbalManagerFlags as F;
     let (system, component) = v.gimbal.control;
     let mut flags =
@@ -228,7 +228,7 @@ pub(super) fn gimbal_manager_status(v: &View) -> Option<MavMessage> {
 }
 
 /// The camera keeps the horizon and follows the heading; its attitude is given in the vehicle's heading frame, and the heading with it.
-pub(super) fn gimbal_attitude(v: &View) -> Option<MavMessage> {
+pub(super) fn gimbal_attitude(v: &VehicleSnapshot) -> Option<MavMessage> {
     use GimbalDeviceFlags as F;
     let (s, c) = math::sin_cos(0.5 * v.gimbal.pitch_rad);
     let mut flags =
@@ -249,7 +249,7 @@ pub(super) fn gimbal_attitude(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn lamp(v: &View) -> Option<MavMessage> {
+pub(super) fn lamp(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(MavMessage::ILLUMINATOR_STATUS(ILLUMINATOR_STATUS_DATA {
         uptime_ms: v.boot_ms(),
         error_status: IlluminatorErrorFlags::empty(),
@@ -265,6 +265,6 @@ pub(super) fn lamp(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn relay(v: &View) -> Option<MavMessage> {
+pub(super) fn relay(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(MavMessage::RELAY_STATUS(RELAY_STATUS_DATA { time_boot_ms: v.boot_ms(), on: u16::from(v.lamp.on), present: 1 }))
 }

@@ -1,6 +1,6 @@
 //! Where the vehicle believes to be, wants to be, and calls home.
 
-use super::super::view::View;
+use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{
     ALTITUDE_DATA, GLOBAL_POSITION_INT_DATA, GPS_GLOBAL_ORIGIN_DATA, HOME_POSITION_DATA, LOCAL_POSITION_NED_DATA,
     MavEstimatorType, MavFrame, MavMessage, NAV_CONTROLLER_OUTPUT_DATA, ODOMETRY_DATA, ORBIT_EXECUTION_STATUS_DATA,
@@ -10,7 +10,7 @@ use spandrel_mavlink::units::{cm, deg_e7, heading_cdeg, mm};
 use spandrel_model::frames::Vec3;
 use spandrel_model::math;
 
-pub(super) fn local(v: &View) -> Option<MavMessage> {
+pub(super) fn local(v: &VehicleSnapshot) -> Option<MavMessage> {
     let [x, y, z] = v.local_from_site(v.estimate.position_m).array().map(|c| c as f32);
     let [vx, vy, vz] = v.estimate.velocity_m_s.array().map(|c| c as f32);
     v.estimate
@@ -18,7 +18,7 @@ pub(super) fn local(v: &View) -> Option<MavMessage> {
         .then(|| MavMessage::LOCAL_POSITION_NED(LOCAL_POSITION_NED_DATA { time_boot_ms: v.boot_ms(), x, y, z, vx, vy, vz }))
 }
 
-pub(super) fn global(v: &View) -> Option<MavMessage> {
+pub(super) fn global(v: &VehicleSnapshot) -> Option<MavMessage> {
     if !v.estimate.position_valid {
         return None;
     }
@@ -38,7 +38,7 @@ pub(super) fn global(v: &View) -> Option<MavMessage> {
 }
 
 /// Only while it circles.
-pub(super) fn orbit(v: &View) -> Option<MavMessage> {
+pub(super) fn orbit(v: &VehicleSnapshot) -> Option<MavMessage> {
     let orbit = v.status.orbit?;
     let centre = v.plane.geo_from_enu(orbit.centre_m.enu());
     Some(MavMessage::ORBIT_EXECUTION_STATUS(ORBIT_EXECUTION_STATUS_DATA {
@@ -70,7 +70,7 @@ const UNUSED_BITS: PositionTargetTypemask = PositionTargetTypemask::from_bits_re
 
 /// POSITION_TARGET_LOCAL_NED as PX4 sends it: the place that is flown to. An ArduCopter sends it in GUIDED alone, with what the last
 /// setpoint has asked for.
-pub(super) fn local_target(v: &View) -> Option<MavMessage> {
+pub(super) fn local_target(v: &VehicleSnapshot) -> Option<MavMessage> {
     if v.flavour.errands.is_some() {
         return guided_target(v);
     }
@@ -81,8 +81,8 @@ pub(super) fn local_target(v: &View) -> Option<MavMessage> {
 
 /// Which of place, velocity and acceleration the mask leaves is ArduCopter's rule: a place alone, all three, velocity and acceleration, or
 /// acceleration alone; none for attitudes.
-fn guided_target(v: &View) -> Option<MavMessage> {
-    if v.flavour.errands != Some(v.flavour.row_of(v.status.mode, v.chosen).number) {
+fn guided_target(v: &VehicleSnapshot) -> Option<MavMessage> {
+    if v.flavour.errands != Some(v.flavour.row_of(v.status.mode, v.requested_mode).number) {
         return None;
     }
     let place = || Some(v.local_from_site(v.status.target_m?).array());
@@ -107,7 +107,7 @@ fn guided_target(v: &View) -> Option<MavMessage> {
 }
 
 /// Place, velocity and acceleration in MAVLink's local frame.
-fn target_message(v: &View, type_mask: PositionTargetTypemask, parts: [[f64; 3]; 3]) -> MavMessage {
+fn target_message(v: &VehicleSnapshot, type_mask: PositionTargetTypemask, parts: [[f64; 3]; 3]) -> MavMessage {
     let [[x, y, z], [vx, vy, vz], [afx, afy, afz]] = parts.map(|part| part.map(|c| c as f32));
     MavMessage::POSITION_TARGET_LOCAL_NED(POSITION_TARGET_LOCAL_NED_DATA {
         time_boot_ms: v.boot_ms(),
@@ -127,7 +127,7 @@ fn target_message(v: &View, type_mask: PositionTargetTypemask, parts: [[f64; 3];
 }
 
 /// The place that is flown to, over the sea. Velocities and accelerations have none.
-pub(super) fn global_target(v: &View) -> Option<MavMessage> {
+pub(super) fn global_target(v: &VehicleSnapshot) -> Option<MavMessage> {
     let placed = v.status.setpoint.is_none_or(|s| s.position_m.iter().any(Option::is_some) && s.velocity_m_s == [None; 3]);
     let flies_itself = !v.status.mode.is_manual();
     let geo = v.plane.geo_from_enu(v.status.target_m.filter(|_| placed && flies_itself)?.enu());
@@ -142,7 +142,7 @@ pub(super) fn global_target(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn altitude(v: &View) -> Option<MavMessage> {
+pub(super) fn altitude(v: &VehicleSnapshot) -> Option<MavMessage> {
     let [_, _, local_down] = v.local_from_site(v.estimate.position_m).array();
     let up = -v.estimate.position_m.down();
     let amsl = v.plane.origin().altitude_m + up;
@@ -160,7 +160,7 @@ pub(super) fn altitude(v: &View) -> Option<MavMessage> {
     })
 }
 
-pub(super) fn home(v: &View) -> Option<MavMessage> {
+pub(super) fn home(v: &VehicleSnapshot) -> Option<MavMessage> {
     let home = v.status.home_m?;
     let geo = v.plane.geo_from_enu(home.enu());
     let [x, y, z] = v.local_from_site(home).array().map(|c| c as f32);
@@ -178,7 +178,7 @@ pub(super) fn home(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn origin(v: &View) -> Option<MavMessage> {
+pub(super) fn origin(v: &VehicleSnapshot) -> Option<MavMessage> {
     let geo = v.local_origin()?;
     Some(MavMessage::GPS_GLOBAL_ORIGIN(GPS_GLOBAL_ORIGIN_DATA {
         latitude: deg_e7(geo.latitude_deg),
@@ -188,7 +188,7 @@ pub(super) fn origin(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn odometry(v: &View) -> Option<MavMessage> {
+pub(super) fn odometry(v: &VehicleSnapshot) -> Option<MavMessage> {
     let [x, y, z] = v.local_from_site(v.estimate.position_m).array().map(|c| c as f32);
     let body: Vec3<_> = v.estimate.attitude.inverse() * v.estimate.velocity_m_s;
     let w = v.estimate.rates_rad_s;
@@ -216,7 +216,7 @@ pub(super) fn odometry(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn hud(v: &View) -> Option<MavMessage> {
+pub(super) fn hud(v: &VehicleSnapshot) -> Option<MavMessage> {
     let e = v.estimate;
     let heading = e.attitude.yaw_rad().to_degrees().rem_euclid(360.0);
     Some(MavMessage::VFR_HUD(VFR_HUD_DATA {
@@ -230,7 +230,7 @@ pub(super) fn hud(v: &View) -> Option<MavMessage> {
 }
 
 /// What the guidance wants, and how far it has to go: nowhere without a target.
-pub(super) fn way(v: &View) -> Option<MavMessage> {
+pub(super) fn way(v: &VehicleSnapshot) -> Option<MavMessage> {
     let here = v.estimate.position_m;
     let left = v.status.target_m.map_or(Vec3::zero(), |target| target - here);
     let bearing = |east: f64, north: f64| math::atan2(east, north).to_degrees().round() as i16;

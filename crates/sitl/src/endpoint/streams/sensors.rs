@@ -1,13 +1,13 @@
 //! What the sensors measure.
 
-use super::super::view::View;
+use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{
     DISTANCE_SENSOR_DATA, GPS_RAW_INT_DATA, GpsFixType, HIGHRES_IMU_DATA, HighresImuUpdatedFlags, MavDistanceSensor, MavFrame,
     MavMessage, MavSensorOrientation, OBSTACLE_DISTANCE_DATA, RAW_IMU_DATA, SCALED_IMU_DATA, SCALED_PRESSURE_DATA,
 };
 use spandrel_mavlink::units::{cm_u16, deg_e7, heading_cdeg, milli_g, mm};
 
-pub(super) fn gps_raw(v: &View) -> Option<MavMessage> {
+pub(super) fn gps_raw(v: &VehicleSnapshot) -> Option<MavMessage> {
     let gnss = v.readings.gnss.as_ref()?;
     let geo = v.plane.geo_from_enu(gnss.position_m.enu());
     let velocity = gnss.velocity_m_s;
@@ -32,7 +32,7 @@ pub(super) fn gps_raw(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn pressure(v: &View) -> Option<MavMessage> {
+pub(super) fn pressure(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(MavMessage::SCALED_PRESSURE(SCALED_PRESSURE_DATA {
         time_boot_ms: v.boot_ms(),
         press_abs: (v.readings.pressure_pa? / 100.0) as f32,
@@ -41,7 +41,7 @@ pub(super) fn pressure(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn highres_imu(v: &View) -> Option<MavMessage> {
+pub(super) fn highres_imu(v: &VehicleSnapshot) -> Option<MavMessage> {
     let imu = v.readings.imu.as_ref()?;
     let [xacc, yacc, zacc] = imu.specific_force_m_s2.array().map(|c| c as f32);
     let [xgyro, ygyro, zgyro] = imu.rates_rad_s.array().map(|c| c as f32);
@@ -65,14 +65,14 @@ pub(super) fn highres_imu(v: &View) -> Option<MavMessage> {
 }
 
 /// Specific force, thousandths of g; rates, mrad/s; field, mgauss. The raw message leaves its units open; ArduPilot fills it so.
-fn milli(v: &View) -> Option<[[i16; 3]; 3]> {
+fn milli(v: &VehicleSnapshot) -> Option<[[i16; 3]; 3]> {
     let imu = v.readings.imu.as_ref()?;
     let milli = |value: f64| (1000.0 * value).round() as i16;
     let field = v.readings.mag_gauss.map_or([0; 3], |gauss| gauss.array().map(milli));
     Some([imu.specific_force_m_s2.array().map(milli_g), imu.rates_rad_s.array().map(milli), field])
 }
 
-pub(super) fn scaled_imu(v: &View) -> Option<MavMessage> {
+pub(super) fn scaled_imu(v: &VehicleSnapshot) -> Option<MavMessage> {
     let [[xacc, yacc, zacc], [xgyro, ygyro, zgyro], [xmag, ymag, zmag]] = milli(v)?;
     Some(MavMessage::SCALED_IMU(SCALED_IMU_DATA {
         time_boot_ms: v.boot_ms(),
@@ -89,7 +89,7 @@ pub(super) fn scaled_imu(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn raw_imu(v: &View) -> Option<MavMessage> {
+pub(super) fn raw_imu(v: &VehicleSnapshot) -> Option<MavMessage> {
     let [[xacc, yacc, zacc], [xgyro, ygyro, zgyro], [xmag, ymag, zmag]] = milli(v)?;
     Some(MavMessage::RAW_IMU(RAW_IMU_DATA {
         time_usec: v.boot_us(),
@@ -116,7 +116,7 @@ fn finder_of(sector: usize, finders: usize) -> usize {
 }
 
 /// Sectors clockwise from the nose, each with the reading of the nearest of the range finders around.
-pub(super) fn obstacles(v: &View) -> Option<MavMessage> {
+pub(super) fn obstacles(v: &VehicleSnapshot) -> Option<MavMessage> {
     let around = v.readings.range_around_m?;
     let reach = cm_u16(v.vehicle.sensors.range_max_m);
     let mut distances = [u16::MAX; 72];
@@ -137,12 +137,12 @@ pub(super) fn obstacles(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn range_down(v: &View) -> Option<MavMessage> {
+pub(super) fn range_down(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(range(v, 0, v.readings.range_down_m?, MavSensorOrientation::MAV_SENSOR_ROTATION_PITCH_270))
 }
 
 /// To the soffit.
-pub(super) fn range_up(v: &View) -> Option<MavMessage> {
+pub(super) fn range_up(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(range(v, 1, v.readings.range_up_m?, MavSensorOrientation::MAV_SENSOR_ROTATION_PITCH_90))
 }
 
@@ -162,17 +162,17 @@ const AROUND: [MavSensorOrientation; 8] = [
 const FIRST_AROUND: u8 = 2;
 
 /// Ahead: the sector of the nose among those around.
-pub(super) fn range_ahead(v: &View) -> Option<MavMessage> {
+pub(super) fn range_ahead(v: &VehicleSnapshot) -> Option<MavMessage> {
     range_beside(v, 0)
 }
 
 /// One of the eight around.
-pub(super) fn range_beside(v: &View, k: usize) -> Option<MavMessage> {
+pub(super) fn range_beside(v: &VehicleSnapshot, k: usize) -> Option<MavMessage> {
     Some(range(v, FIRST_AROUND + k as u8, *v.readings.range_around_m?.get(k)?, *AROUND.get(k)?))
 }
 
 /// Nothing within reach is told as a little more than the reach.
-fn range(v: &View, id: u8, distance_m: f64, orientation: MavSensorOrientation) -> MavMessage {
+fn range(v: &VehicleSnapshot, id: u8, distance_m: f64, orientation: MavSensorOrientation) -> MavMessage {
     let reach = cm_u16(v.vehicle.sensors.range_max_m);
     MavMessage::DISTANCE_SENSOR(DISTANCE_SENSOR_DATA {
         time_boot_ms: v.boot_ms(),

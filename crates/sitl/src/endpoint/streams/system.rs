@@ -2,9 +2,9 @@
 #![allow(deprecated, reason = "clients still ask for PROTOCOL_VERSION")]
 
 use super::super::params::metadata;
-use super::super::view::View;
+use super::super::snapshot::VehicleSnapshot;
 use crate::autopilot::fence::Breach;
-use crate::autopilot::{Landed, Mode};
+use crate::autopilot::{FlightMode, LandedState};
 use spandrel_mavlink::dialect::{
     ACTUATOR_OUTPUT_STATUS_DATA, AUTOPILOT_VERSION_DATA, BATTERY_STATUS_DATA, COMPONENT_INFORMATION_DATA,
     COMPONENT_METADATA_DATA, CURRENT_MODE_DATA, ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA, EstimatorStatusFlags,
@@ -15,7 +15,7 @@ use spandrel_mavlink::dialect::{
 };
 use spandrel_model::time::SimTime;
 
-pub(super) fn heartbeat(v: &View) -> Option<MavMessage> {
+pub(super) fn heartbeat(v: &VehicleSnapshot) -> Option<MavMessage> {
     let row = v.mode_row();
     let mut base = row.base;
     base.set(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED, v.status.armed);
@@ -29,7 +29,7 @@ pub(super) fn heartbeat(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn sys_status(v: &View) -> Option<MavMessage> {
+pub(super) fn sys_status(v: &VehicleSnapshot) -> Option<MavMessage> {
     use MavSysStatusSensor as S;
     let mut present = S::MAV_SYS_STATUS_SENSOR_3D_GYRO
         | S::MAV_SYS_STATUS_SENSOR_3D_ACCEL
@@ -63,7 +63,7 @@ pub(super) fn sys_status(v: &View) -> Option<MavMessage> {
     health.set(S::MAV_SYS_STATUS_AHRS, v.estimate.attitude_valid);
     health.set(S::MAV_SYS_STATUS_SENSOR_3D_MAG, works.compass);
     health.set(S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE, works.barometer);
-    health.set(S::MAV_SYS_STATUS_SENSOR_ATTITUDE_STABILIZATION, works.obeys);
+    health.set(S::MAV_SYS_STATUS_SENSOR_ATTITUDE_STABILIZATION, works.tracks_attitude);
     health.set(S::MAV_SYS_STATUS_PREARM_CHECK, v.status.armed || v.status.arming_reasons.is_empty());
     Some(MavMessage::SYS_STATUS(SYS_STATUS_DATA {
         onboard_control_sensors_present: present,
@@ -81,16 +81,21 @@ pub(super) fn sys_status(v: &View) -> Option<MavMessage> {
 }
 
 /// Whole percent, rounded up: only an empty battery reads 0.
-fn percent(v: &View) -> i8 {
+fn percent(v: &VehicleSnapshot) -> i8 {
     v.battery.remaining_pct().ceil().clamp(0.0, 100.0) as i8
 }
 
-pub(super) fn battery(v: &View) -> Option<MavMessage> {
+pub(super) fn battery(v: &VehicleSnapshot) -> Option<MavMessage> {
     let cells = v.vehicle.battery.cells.clamp(1, 10);
     let mut voltages = [u16::MAX; 10];
     let live = v.battery.live_cells(cells).max(1);
     voltages[..cells as usize].fill((v.battery.voltage_v / f64::from(live) * 1000.0).round() as u16);
-    voltages.iter_mut().take(cells as usize).enumerate().filter(|(cell, _)| v.battery.is_dead(*cell)).for_each(|(_, mv)| *mv = 0);
+    voltages
+        .iter_mut()
+        .take(cells as usize)
+        .enumerate()
+        .filter(|(cell, _)| v.battery.is_empty(*cell))
+        .for_each(|(_, mv)| *mv = 0);
     let state = match v.battery.remaining_pct() {
         p if p < v.status.battery_critical_pct => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_CRITICAL,
         p if p < v.status.battery_low_pct => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW,
@@ -114,24 +119,24 @@ pub(super) fn battery(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn system_time(v: &View) -> Option<MavMessage> {
+pub(super) fn system_time(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(MavMessage::SYSTEM_TIME(SYSTEM_TIME_DATA { time_unix_usec: v.unix_us(), time_boot_ms: v.boot_ms() }))
 }
 
-pub(super) fn extended_state(v: &View) -> Option<MavMessage> {
+pub(super) fn extended_state(v: &VehicleSnapshot) -> Option<MavMessage> {
     let landed_state = match v.status.landed {
-        Landed::OnGround => MavLandedState::MAV_LANDED_STATE_ON_GROUND,
-        Landed::TakingOff => MavLandedState::MAV_LANDED_STATE_TAKEOFF,
+        LandedState::OnGround => MavLandedState::MAV_LANDED_STATE_ON_GROUND,
+        LandedState::TakingOff => MavLandedState::MAV_LANDED_STATE_TAKEOFF,
         // As PX4 and ArduPilot: until the take-off's height is reached.
-        Landed::InAir if v.status.climbing_out => MavLandedState::MAV_LANDED_STATE_TAKEOFF,
-        Landed::InAir => MavLandedState::MAV_LANDED_STATE_IN_AIR,
-        Landed::Landing => MavLandedState::MAV_LANDED_STATE_LANDING,
+        LandedState::InAir if v.status.climbing_out => MavLandedState::MAV_LANDED_STATE_TAKEOFF,
+        LandedState::InAir => MavLandedState::MAV_LANDED_STATE_IN_AIR,
+        LandedState::Landing => MavLandedState::MAV_LANDED_STATE_LANDING,
     };
     let vtol_state = v.flavour.vtol_state;
     Some(MavMessage::EXTENDED_SYS_STATE(EXTENDED_SYS_STATE_DATA { vtol_state, landed_state }))
 }
 
-pub(super) fn servos(v: &View) -> Option<MavMessage> {
+pub(super) fn servos(v: &VehicleSnapshot) -> Option<MavMessage> {
     let pwm = |k: usize| if v.actuators.armed { 1000 + (v.actuators.motors[k] * 1000.0) as u16 } else { 900 };
     // The lamp as a servo output: see DO_SET_SERVO.
     let lamp = if v.lamp.on { 1900 } else { 1100 };
@@ -147,7 +152,7 @@ pub(super) fn servos(v: &View) -> Option<MavMessage> {
 }
 
 /// The rotors' outputs alone, as pulse widths, us.
-pub(super) fn outputs(v: &View) -> Option<MavMessage> {
+pub(super) fn outputs(v: &VehicleSnapshot) -> Option<MavMessage> {
     let rotors = v.vehicle.rotors.len().min(v.actuators.motors.len());
     let mut actuator = [0.0; 32];
     for (slot, motor) in actuator.iter_mut().zip(&v.actuators.motors[..rotors]) {
@@ -160,7 +165,7 @@ pub(super) fn outputs(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn estimator(v: &View) -> Option<MavMessage> {
+pub(super) fn estimator(v: &VehicleSnapshot) -> Option<MavMessage> {
     let mut flags = EstimatorStatusFlags::empty();
     flags.set(EstimatorStatusFlags::ESTIMATOR_ATTITUDE, v.estimate.attitude_valid);
     for flag in [
@@ -180,7 +185,7 @@ pub(super) fn estimator(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn wind(v: &View) -> Option<MavMessage> {
+pub(super) fn wind(v: &VehicleSnapshot) -> Option<MavMessage> {
     let [x, y, z] = v.wind_m_s.array().map(|c| c as f32);
     Some(MavMessage::WIND_COV(WIND_COV_DATA {
         time_usec: v.boot_us(),
@@ -192,16 +197,16 @@ pub(super) fn wind(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn vibration(v: &View) -> Option<MavMessage> {
+pub(super) fn vibration(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(MavMessage::VIBRATION(VIBRATION_DATA { time_usec: v.boot_us(), ..Default::default() }))
 }
 
-pub(super) fn mission_current(v: &View) -> Option<MavMessage> {
-    let flying = v.status.mode == Mode::Mission;
+pub(super) fn mission_current(v: &VehicleSnapshot) -> Option<MavMessage> {
+    let flying = v.status.mode == FlightMode::Mission;
     let state = match (v.status.mode, v.status.mission_finished) {
         _ if v.plans.mission_items == 0 => MissionState::MISSION_STATE_NO_MISSION,
         (_, true) => MissionState::MISSION_STATE_COMPLETE,
-        (Mode::Mission, _) if v.status.armed && !v.status.mission_paused => MissionState::MISSION_STATE_ACTIVE,
+        (FlightMode::Mission, _) if v.status.armed && !v.status.mission_paused => MissionState::MISSION_STATE_ACTIVE,
         _ if v.status.mission_paused => MissionState::MISSION_STATE_PAUSED,
         _ => MissionState::MISSION_STATE_NOT_STARTED,
     };
@@ -219,7 +224,7 @@ pub(super) fn mission_current(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn fence(v: &View) -> Option<MavMessage> {
+pub(super) fn fence(v: &VehicleSnapshot) -> Option<MavMessage> {
     // ArduPilot is silent about a fence that is off.
     if v.flavour.home_item && !v.fence_enabled {
         return None;
@@ -240,10 +245,10 @@ pub(super) fn fence(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn current_mode(v: &View) -> Option<MavMessage> {
+pub(super) fn current_mode(v: &VehicleSnapshot) -> Option<MavMessage> {
     let row = v.mode_row();
     let acts = v.status.failsafe.is_some();
-    let intended = if acts { v.flavour.row_of(v.status.intended, v.chosen) } else { row };
+    let intended = if acts { v.flavour.row_of(v.status.intended, v.requested_mode) } else { row };
     Some(MavMessage::CURRENT_MODE(CURRENT_MODE_DATA {
         custom_mode: row.number,
         intended_custom_mode: intended.number,
@@ -257,7 +262,7 @@ const PRODUCT: u16 = 0x5452;
 /// The first simulated board, of no type in the registered lists.
 const BOARD: u32 = 1 << 8;
 
-pub(super) fn version(v: &View) -> Option<MavMessage> {
+pub(super) fn version(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(MavMessage::AUTOPILOT_VERSION(AUTOPILOT_VERSION_DATA {
         capabilities: v.flavour.capabilities,
         uid: 0x5350_414e_4452_454c + u64::from(v.scoring.seed.unsigned_abs()) + (u64::from(v.system_id) << 32),
@@ -271,14 +276,14 @@ pub(super) fn version(v: &View) -> Option<MavMessage> {
 }
 
 /// Where the descriptions of the parameters lie.
-pub(super) fn metadata(v: &View) -> Option<MavMessage> {
+pub(super) fn metadata(v: &VehicleSnapshot) -> Option<MavMessage> {
     let general = &metadata::files(v.flavour.params).general;
     let uri = general.uri.as_str().into();
     Some(MavMessage::COMPONENT_METADATA(COMPONENT_METADATA_DATA { time_boot_ms: v.boot_ms(), file_crc: general.crc, uri }))
 }
 
 /// The same for older clients.
-pub(super) fn information(v: &View) -> Option<MavMessage> {
+pub(super) fn information(v: &VehicleSnapshot) -> Option<MavMessage> {
     let general = &metadata::files(v.flavour.params).general;
     Some(MavMessage::COMPONENT_INFORMATION(COMPONENT_INFORMATION_DATA {
         time_boot_ms: v.boot_ms(),
@@ -288,7 +293,7 @@ pub(super) fn information(v: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn protocol(_: &View) -> Option<MavMessage> {
+pub(super) fn protocol(_: &VehicleSnapshot) -> Option<MavMessage> {
     Some(MavMessage::PROTOCOL_VERSION(PROTOCOL_VERSION_DATA {
         version: 200,
         min_version: 100,
@@ -297,7 +302,7 @@ pub(super) fn protocol(_: &View) -> Option<MavMessage> {
     }))
 }
 
-pub(super) fn flight(v: &View) -> Option<MavMessage> {
+pub(super) fn flight(v: &VehicleSnapshot) -> Option<MavMessage> {
     let us = |at: Option<SimTime>| at.map_or(0, |at| v.since_boot(at).us().max(1).cast_unsigned());
     // Times since boot, and a number, whatever the fields are called (MAVLink common).
     Some(MavMessage::FLIGHT_INFORMATION(FLIGHT_INFORMATION_DATA {

@@ -1,12 +1,12 @@
 //! The truth for the scoring (docs/src/reference/wire.md, "Scoring data"), apart from the estimate, and the sticks as received.
 
 use super::super::LinkKind;
-use super::super::view::View;
+use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::contract::sticks;
 use spandrel_mavlink::contract::truth::Published;
 use spandrel_mavlink::dialect::{MavMessage, RC_CHANNELS_DATA};
 
-pub(super) fn state(v: &View) -> Option<MavMessage> {
+pub(super) fn state(v: &VehicleSnapshot) -> Option<MavMessage> {
     let published = Published {
         time_us: v.sim_us(),
         place: v.true_geo(),
@@ -21,12 +21,12 @@ pub(super) fn state(v: &View) -> Option<MavMessage> {
 
 /// Sticks as received: roll, pitch, throttle, yaw in microseconds. A sidecar gets 1500 + 500 x axis, forward positive; everybody else
 /// what the sender sent, or would have on a transmitter, where forward is below the middle.
-pub(super) fn sticks(v: &View) -> Option<MavMessage> {
-    if v.to != LinkKind::Payload && v.flavour.dialect_of_ardupilot {
+pub(super) fn sticks(v: &VehicleSnapshot) -> Option<MavMessage> {
+    if v.link_kind != LinkKind::Payload && v.flavour.dialect_of_ardupilot {
         return Some(channels(v));
     }
     let held = v.sticks?;
-    let [chan1_raw, chan2_raw, chan3_raw, chan4_raw] = match v.to {
+    let [chan1_raw, chan2_raw, chan3_raw, chan4_raw] = match v.link_kind {
         LinkKind::Payload => sticks::to_us([held.forward, held.right, held.up, held.yaw]),
         LinkKind::GroundStation | LinkKind::Sdk | LinkKind::Tcp | LinkKind::Serial => v.pulses_us?,
     };
@@ -50,7 +50,7 @@ pub(super) fn sticks(v: &View) -> Option<MavMessage> {
 const UNTOUCHED_US: [u16; 4] = [1500, 1500, 1000, 1500];
 
 /// All 16 channels, with or without sticks (ArduPilot).
-fn channels(v: &View) -> MavMessage {
+fn channels(v: &VehicleSnapshot) -> MavMessage {
     let [chan1_raw, chan2_raw, chan3_raw, chan4_raw] = v.pulses_us.unwrap_or(UNTOUCHED_US);
     let a = v.aux_us;
     MavMessage::RC_CHANNELS(RC_CHANNELS_DATA {

@@ -1,32 +1,32 @@
 //! Sums over surface: by element, by fate, and what the pictures are like.
 
-use super::fate::Fate;
+use super::outcome::SurfaceOutcome;
 use spandrel_model::math;
 use std::collections::BTreeMap;
 
 /// What was seen.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Coverage {
+pub struct SurfaceCoverage {
     /// By element, in the order of their numbers.
-    pub elements: Vec<Element>,
+    pub elements: Vec<ElementSurface>,
 }
 
 /// One element's surface.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Element {
+pub struct ElementSurface {
     /// AASHTO MBEI number; 0 for all together.
     pub element: u32,
     /// What could be seen well from the reference paths, m².
     pub inspectable_m2: f64,
     /// Of it, by what became of it, m².
-    pub by_fate_m2: BTreeMap<Fate, f64>,
+    pub by_fate_m2: BTreeMap<SurfaceOutcome, f64>,
     /// Of what was photographed at the required size and angle, the best pictures: areas times values.
-    pub(in crate::report) sums: Sums,
+    pub(in crate::report) sums: PictureSums,
 }
 
 /// Sums over area of what the best pictures are like.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(in crate::report) struct Sums {
+pub(in crate::report) struct PictureSums {
     area_m2: f64,
     incidence_rad: f64,
     gsd_m: f64,
@@ -36,7 +36,7 @@ pub(in crate::report) struct Sums {
 
 /// What the pictures of a surface are like on average over its area.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Typical {
+pub struct AveragePicture {
     /// Angle off square, rad.
     pub incidence_rad: f64,
     /// Size of a pixel on the surface, m.
@@ -49,20 +49,20 @@ pub struct Typical {
 
 /// The best picture of a patch so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Best {
-    pub fate: Fate,
+pub(super) struct BestPicture {
+    pub fate: SurfaceOutcome,
     pub incidence_rad: f64,
     pub gsd_m: f64,
     pub blur_px: f64,
     pub lux: f64,
 }
 
-impl Element {
+impl ElementSurface {
     /// Takes a piece of surface in, with its fate and its best picture.
-    pub(super) fn add(&mut self, area_m2: f64, fate: Fate, best: Option<&Best>) {
+    pub(super) fn add(&mut self, area_m2: f64, fate: SurfaceOutcome, best: Option<&BestPicture>) {
         self.inspectable_m2 += area_m2;
         *self.by_fate_m2.entry(fate).or_default() += area_m2;
-        let Some(best) = best.filter(|best| best.fate > Fate::TooOblique) else { return };
+        let Some(best) = best.filter(|best| best.fate > SurfaceOutcome::TooOblique) else { return };
         self.sums.area_m2 += area_m2;
         self.sums.incidence_rad += area_m2 * best.incidence_rad;
         self.sums.gsd_m += area_m2 * best.gsd_m;
@@ -85,27 +85,27 @@ impl Element {
 
     /// What became so, m².
     #[must_use]
-    pub fn area_m2(&self, fate: Fate) -> f64 {
+    pub fn area_m2(&self, fate: SurfaceOutcome) -> f64 {
         self.by_fate_m2.get(&fate).copied().unwrap_or_default()
     }
 
     /// What became so or better, m².
     #[must_use]
-    pub fn at_least_m2(&self, fate: Fate) -> f64 {
+    pub fn at_least_m2(&self, fate: SurfaceOutcome) -> f64 {
         self.by_fate_m2.range(fate..).map(|(_, area_m2)| area_m2).sum()
     }
 
     /// What pictures show at the required size of a pixel and angle, m².
     #[must_use]
     pub fn pictured_m2(&self) -> f64 {
-        self.at_least_m2(Fate::DarkLampOff)
+        self.at_least_m2(SurfaceOutcome::DarkLampOff)
     }
 
     /// What the pictures at that size and angle are like; `None` without any.
     #[must_use]
-    pub fn typical(&self) -> Option<Typical> {
-        let Sums { area_m2, incidence_rad, gsd_m, blur_px, ln_lux } = self.sums;
-        (area_m2 > 0.0).then(|| Typical {
+    pub fn typical(&self) -> Option<AveragePicture> {
+        let PictureSums { area_m2, incidence_rad, gsd_m, blur_px, ln_lux } = self.sums;
+        (area_m2 > 0.0).then(|| AveragePicture {
             incidence_rad: incidence_rad / area_m2,
             gsd_m: gsd_m / area_m2,
             blur_px: blur_px / area_m2,
@@ -114,11 +114,11 @@ impl Element {
     }
 }
 
-impl Coverage {
+impl SurfaceCoverage {
     /// All elements together.
     #[must_use]
-    pub fn total(&self) -> Element {
-        let mut total = Element::default();
+    pub fn total(&self) -> ElementSurface {
+        let mut total = ElementSurface::default();
         self.elements.iter().for_each(|one| total.merge(one));
         total
     }

@@ -2,20 +2,20 @@
 //! lacked, and how much of it the camera had in view while flying. Size, angle and light are judged by the score's own functions.
 
 mod element;
-mod fate;
+mod outcome;
 mod patches;
 
-pub use element::{Coverage, Element, Typical};
-pub use fate::Fate;
+pub use element::{AveragePicture, ElementSurface, SurfaceCoverage};
+pub use outcome::SurfaceOutcome;
 
-use super::Scene;
-use super::pictures::{Picture, exposure_s};
-use element::Best;
-use patches::{Patch, inspectable};
+use super::ReviewContext;
+use super::pictures::{ReviewedPicture, exposure_s};
+use element::BestPicture;
+use patches::{SurfacePatch, inspectable};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::site::CameraPose;
-use spandrel_model::site::look::{INCIDENCE_MAX_RAD, LINE_WIDTH_MIN_PX, lamp_lux, needed_lux};
+use spandrel_model::site::visibility::{INCIDENCE_MAX_RAD, LINE_WIDTH_MIN_PX, lamp_lux, needed_lux};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Camera;
 use spandrel_monitor::measures::attention;
@@ -37,34 +37,34 @@ const VIEW_STEP: SimTime = SimTime::from_ms(2_000);
 const LIGHT_CELL_M: f64 = 5.0;
 
 /// A patch and what became of it.
-struct Piece {
-    patch: Patch,
+struct JudgedPatch {
+    patch: SurfacePatch,
     in_view: bool,
-    best: Option<Best>,
+    best: Option<BestPicture>,
 }
 
 /// Works out the coverage of a session.
 #[must_use]
-pub fn covered(scene: &Scene<'_>, pictures: &[Picture]) -> Coverage {
-    let whole = inspectable(scene).into_iter().map(|patch| Piece { patch, in_view: false, best: None });
-    let mut pieces: Vec<Piece> = whole.collect();
-    let mut light = Light { scene, cells: BTreeMap::new() };
+pub fn covered(scene: &ReviewContext<'_>, pictures: &[ReviewedPicture]) -> SurfaceCoverage {
+    let whole = inspectable(scene).into_iter().map(|patch| JudgedPatch { patch, in_view: false, best: None });
+    let mut pieces: Vec<JudgedPatch> = whole.collect();
+    let mut light = LightCache { scene, cells: BTreeMap::new() };
     for picture in pictures {
-        see_picture(&mut pieces, picture, &mut light);
+        add_picture(&mut pieces, picture, &mut light);
     }
-    see_flight(&mut pieces, scene);
-    let mut elements: BTreeMap<u32, Element> = BTreeMap::new();
+    add_flight(&mut pieces, scene);
+    let mut elements: BTreeMap<u32, ElementSurface> = BTreeMap::new();
     for piece in &pieces {
-        let Patch { element, area_m2, .. } = piece.patch;
-        let sum = elements.entry(element).or_insert(Element { element, ..Element::default() });
+        let SurfacePatch { element, area_m2, .. } = piece.patch;
+        let sum = elements.entry(element).or_insert(ElementSurface { element, ..ElementSurface::default() });
         sum.add(area_m2, piece.fate(), piece.best.as_ref());
     }
-    Coverage { elements: elements.into_values().collect() }
+    SurfaceCoverage { elements: elements.into_values().collect() }
 }
 
-impl Piece {
-    fn fate(&self) -> Fate {
-        let unpictured = if self.in_view { Fate::Unpictured } else { Fate::Unseen };
+impl JudgedPatch {
+    fn fate(&self) -> SurfaceOutcome {
+        let unpictured = if self.in_view { SurfaceOutcome::Unpictured } else { SurfaceOutcome::Unseen };
         self.best.map_or(unpictured, |best| best.fate)
     }
 }
@@ -75,14 +75,14 @@ pub fn reach_m(camera: &Camera) -> f64 {
     REQUIRED_GSD_M * camera.focal_px()
 }
 
-fn is_clear(from: Vec3<Enu>, to: Vec3<Enu>, scene: &Scene<'_>) -> bool {
+fn is_clear(from: Vec3<Enu>, to: Vec3<Enu>, scene: &ReviewContext<'_>) -> bool {
     let line = to - from;
     let reach = line.norm() - CLEAR_M;
     reach <= 0.0 || scene.site.geometry().ray(from, line.unit(), reach).is_none()
 }
 
 /// Distance, m, and cosine of the angle off square of a patch that is inside the image and turned to the camera; sight lines are not asked.
-fn framed(patch: &Patch, pose: &CameraPose, camera: &Camera, farthest_m: f64) -> Option<(f64, f64)> {
+fn framed(patch: &SurfacePatch, pose: &CameraPose, camera: &Camera, farthest_m: f64) -> Option<(f64, f64)> {
     let to = patch.point_m - pose.position_m;
     let away_m = to.norm();
     let cosine = -to.dot(patch.normal) / away_m.max(f64::MIN_POSITIVE);
@@ -98,28 +98,28 @@ fn framed(patch: &Patch, pose: &CameraPose, camera: &Camera, farthest_m: f64) ->
     inside.then_some((away_m, cosine))
 }
 
-fn see_picture(pieces: &mut [Piece], picture: &Picture, light: &mut Light<'_>) {
+fn add_picture(pieces: &mut [JudgedPatch], picture: &ReviewedPicture, light: &mut LightCache<'_>) {
     let (pose, camera) = (&picture.pose, &picture.camera);
     let reach = reach_m(camera);
     for piece in pieces {
         let Some((away_m, cosine)) = framed(&piece.patch, pose, camera, BACKGROUND * reach) else { continue };
         // The best that this picture can be for the patch: when a better one is there, no sight line is asked.
         let most = if away_m > reach {
-            Fate::TooFar
+            SurfaceOutcome::TooFar
         } else if cosine < math::cos(INCIDENCE_MAX_RAD) {
-            Fate::TooOblique
+            SurfaceOutcome::TooOblique
         } else {
-            Fate::Shown
+            SurfaceOutcome::Shown
         };
         let gsd_m = away_m / camera.focal_px();
-        let worse = |best: &Best| (best.fate, -best.gsd_m) < (most, -gsd_m);
+        let worse = |best: &BestPicture| (best.fate, -best.gsd_m) < (most, -gsd_m);
         if !piece.best.as_ref().is_none_or(worse) || !is_clear(pose.position_m, piece.patch.above_m, light.scene) {
             continue;
         }
         let incidence_rad = math::acos(cosine.min(1.0));
-        let mut now = Best { fate: most, incidence_rad, gsd_m, blur_px: 0.0, lux: 0.0 };
-        if most == Fate::Shown {
-            (now.lux, now.blur_px) = light.and_blur(&piece.patch, picture);
+        let mut now = BestPicture { fate: most, incidence_rad, gsd_m, blur_px: 0.0, lux: 0.0 };
+        if most == SurfaceOutcome::Shown {
+            (now.lux, now.blur_px) = light.with_motion_blur(&piece.patch, picture);
             now.fate = judged(now.lux, now.blur_px, picture);
         }
         if piece.best.is_none_or(|best| (best.fate, -best.gsd_m) < (now.fate, -now.gsd_m)) {
@@ -129,17 +129,17 @@ fn see_picture(pieces: &mut [Piece], picture: &Picture, light: &mut Light<'_>) {
 }
 
 /// What a picture near and square enough is worth by its light and smear.
-fn judged(lux: f64, blur_px: f64, picture: &Picture) -> Fate {
+fn judged(lux: f64, blur_px: f64, picture: &ReviewedPicture) -> SurfaceOutcome {
     if lux < needed_lux(&picture.camera) {
-        if picture.pose.lamp_on { Fate::DarkLampOn } else { Fate::DarkLampOff }
+        if picture.pose.lamp_on { SurfaceOutcome::DarkLampOn } else { SurfaceOutcome::DarkLampOff }
     } else if blur_px > BLUR_MAX_PX {
-        Fate::Blurred
+        SurfaceOutcome::Blurred
     } else {
-        Fate::Shown
+        SurfaceOutcome::Shown
     }
 }
 
-fn see_flight(pieces: &mut [Piece], scene: &Scene<'_>) {
+fn add_flight(pieces: &mut [JudgedPatch], scene: &ReviewContext<'_>) {
     let stride = (VIEW_STEP.s() * scene.scenario.scoring.frame_rate_hz).round().max(1.0) as usize;
     let steepest = math::cos(INCIDENCE_MAX_RAD);
     for frame in scene.frames.iter().step_by(stride) {
@@ -155,14 +155,14 @@ fn see_flight(pieces: &mut [Piece], scene: &Scene<'_>) {
 }
 
 /// Ambient light, asked for once per neighbourhood and orientation.
-struct Light<'a> {
-    scene: &'a Scene<'a>,
+struct LightCache<'a> {
+    scene: &'a ReviewContext<'a>,
     cells: BTreeMap<[i64; 6], f64>,
 }
 
-impl Light<'_> {
+impl LightCache<'_> {
     /// Light on a patch in a picture, lamp included, lx, and its smear, px, at the shortest exposure that this light allows.
-    fn and_blur(&mut self, patch: &Patch, picture: &Picture) -> (f64, f64) {
+    fn with_motion_blur(&mut self, patch: &SurfacePatch, picture: &ReviewedPicture) -> (f64, f64) {
         let (pose, camera) = (&picture.pose, &picture.camera);
         let lamp = lamp_lux(&self.scene.vehicle.lamp, pose, patch.point_m, patch.normal);
         let lux = lamp + self.ambient_lux(patch, picture.time);
@@ -173,7 +173,7 @@ impl Light<'_> {
         (lux, across_m_s * exposure_s(camera, lux) * camera.focal_px() / to.norm())
     }
 
-    fn ambient_lux(&mut self, patch: &Patch, time: SimTime) -> f64 {
+    fn ambient_lux(&mut self, patch: &SurfacePatch, time: SimTime) -> f64 {
         let (p, n) = (patch.point_m.array(), patch.normal.array());
         let key =
             std::array::from_fn(|k| if k < 3 { (p[k] / LIGHT_CELL_M).floor() as i64 } else { (2.0 * n[k - 3]).round() as i64 });

@@ -1,11 +1,11 @@
 //! The surface that counts: what some point of a reference path sees well, sampled by patches of about a square metre.
 
 use super::{is_clear, reach_m};
-use crate::report::Scene;
+use crate::report::ReviewContext;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::bridges::Solid;
-use spandrel_model::site::look::INCIDENCE_MAX_RAD;
+use spandrel_model::site::visibility::INCIDENCE_MAX_RAD;
 
 /// Side of a patch, m.
 const PATCH_M: f64 = 1.0;
@@ -18,7 +18,7 @@ const TRIES: usize = 8;
 
 /// A piece of a member's surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Patch {
+pub struct SurfacePatch {
     /// AASHTO MBEI number of its element.
     pub element: u32,
     /// A little above its middle, so that a sight line can end there.
@@ -33,7 +33,7 @@ pub struct Patch {
 
 /// Patches that some point of a reference path sees well.
 #[must_use]
-pub fn inspectable(scene: &Scene<'_>) -> Vec<Patch> {
+pub fn inspectable(scene: &ReviewContext<'_>) -> Vec<SurfacePatch> {
     let reach = reach_m(&scene.vehicle.camera);
     let stations: Vec<Vec3<Enu>> = scene.scenario.tasks.iter().flat_map(|task| task.path_m.iter().copied()).collect();
     let mut patches = Vec::new();
@@ -45,7 +45,7 @@ pub fn inspectable(scene: &Scene<'_>) -> Vec<Patch> {
         for (point_m, normal, area_m2) in sampled(&member.solid) {
             if seen_from(&near, (point_m, normal), reach, scene) {
                 let (element, above_m) = (member.element, point_m + normal * LIFT_M);
-                patches.push(Patch { element, above_m, point_m, normal, area_m2 });
+                patches.push(SurfacePatch { element, above_m, point_m, normal, area_m2 });
             }
         }
     }
@@ -117,7 +117,7 @@ fn is_inside(flat: &[(f64, f64)], p: (f64, f64)) -> bool {
     })
 }
 
-fn seen_from(stations: &[Vec3<Enu>], (point_m, normal): (Vec3<Enu>, Vec3<Enu>), reach_m: f64, scene: &Scene<'_>) -> bool {
+fn seen_from(stations: &[Vec3<Enu>], (point_m, normal): (Vec3<Enu>, Vec3<Enu>), reach_m: f64, scene: &ReviewContext<'_>) -> bool {
     let steepest = math::cos(INCIDENCE_MAX_RAD);
     let mut near: Vec<(f64, Vec3<Enu>)> = stations
         .iter()

@@ -1,7 +1,7 @@
 //! The certification profile beside the paper's scores: gates, and what its scores are made of.
 
 use crate::report::Review;
-use crate::report::table::{Cell, Table};
+use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
 use spandrel_model::site::catalogue::kind_name;
@@ -39,9 +39,9 @@ fn visits(review: &Review) -> Table {
         vec![
             task.id.into(),
             task.visits.len().into(),
-            Cell::Number(100.0 * task.coverage, 1),
-            Cell::Number(100.0 * task.on_path, 1),
-            Cell::Number(task.speeding, 3),
+            TableCell::Number(100.0 * task.coverage, 1),
+            TableCell::Number(100.0 * task.on_path, 1),
+            TableCell::Number(task.speeding, 3),
         ]
     };
     Table {

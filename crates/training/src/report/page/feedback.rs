@@ -2,9 +2,9 @@
 
 use super::{figure, scrolling};
 use crate::report::Review;
-use crate::report::cues::{Episode, KINDS, median};
+use crate::report::cues::{CueEpisode, KINDS, median};
 use crate::report::plots::{line, sheet, ticks, unit};
-use crate::report::table::{Cell, Table};
+use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
 
@@ -37,7 +37,7 @@ pub fn section(review: &Review) -> Markup {
     }
 }
 
-fn of(review: &Review, kind: usize) -> impl Iterator<Item = &Episode> {
+fn of(review: &Review, kind: usize) -> impl Iterator<Item = &CueEpisode> {
     review.feedback.episodes.iter().filter(move |episode| episode.kind == kind)
 }
 
@@ -67,7 +67,7 @@ fn row(review: &Review, kind: usize) -> Markup {
 }
 
 /// Where a reaction lies on the sheet.
-fn x_of(answer_s: f64) -> f64 {
+fn fraction_text(answer_s: f64) -> f64 {
     LEFT + (RIGHT - LEFT) * (answer_s / LONGEST_S).clamp(0.0, 1.0)
 }
 
@@ -80,26 +80,26 @@ fn reactions(review: &Review) -> Markup {
         "reactions",
         &html! {
             @for tick in ticks(LONGEST_S, 5) {
-                path.grid d=(line(&[(x_of(tick), 0.0), (x_of(tick), bottom)], false)) {}
-                text.tick x=(unit(x_of(tick))) y=(unit(bottom + 16.0)) text-anchor="middle" { (words::number(tick, 0)) " s" }
+                path.grid d=(line(&[(fraction_text(tick), 0.0), (fraction_text(tick), bottom)], false)) {}
+                text.tick x=(unit(fraction_text(tick))) y=(unit(bottom + 16.0)) text-anchor="middle" { (words::number(tick, 0)) " s" }
             }
             @for (k, kind) in kinds.iter().enumerate() {
                 @let y = ROW * k as f64 + 0.5 * ROW;
                 text.label x=(unit(LEFT - 10.0)) y=(unit(y + 5.0)) text-anchor="end" { (KINDS[*kind].name) }
-                @for answer_s in times(review, *kind) { circle.reaction cx=(unit(x_of(answer_s))) cy=(unit(y)) r="5" {} }
-                @if let Some(middle) = median(times(review, *kind)) { path.median d=(line(&[(x_of(middle), y - 11.0), (x_of(middle), y + 11.0)], false)) {} }
+                @for answer_s in times(review, *kind) { circle.reaction cx=(unit(fraction_text(answer_s))) cy=(unit(y)) r="5" {} }
+                @if let Some(middle) = median(times(review, *kind)) { path.median d=(line(&[(fraction_text(middle), y - 11.0), (fraction_text(middle), y + 11.0)], false)) {} }
             }
         },
     )
 }
 
 fn episodes(review: &Review) -> Table {
-    let row = |episode: &Episode| {
+    let row = |episode: &CueEpisode| {
         vec![
-            Cell::Clock(episode.from_s),
+            TableCell::Clock(episode.from_s),
             KINDS[episode.kind].name.into(),
-            Cell::Number(episode.to_s - episode.from_s, 2),
-            episode.answer_s.map_or(Cell::Empty, |answer_s| Cell::Number(answer_s, 2)),
+            TableCell::Number(episode.to_s - episode.from_s, 2),
+            episode.answer_s.map_or(TableCell::Empty, |answer_s| TableCell::Number(answer_s, 2)),
             episode.task.map_or("between tasks".into(), |task| format!("task {}", review.scenario.tasks[task].id)).into(),
         ]
     };
@@ -112,7 +112,7 @@ fn episodes(review: &Review) -> Table {
 }
 
 fn texts(review: &Review) -> Table {
-    let row = |(t_s, text): &(f64, String)| vec![Cell::Clock(*t_s), text.clone().into()];
+    let row = |(t_s, text): &(f64, String)| vec![TableCell::Clock(*t_s), text.clone().into()];
     Table {
         name: "texts",
         caption: "texts as they were sent",
@@ -124,7 +124,7 @@ fn texts(review: &Review) -> Table {
 /// What an instructor noted while he watched; the trainee's screen did not show it.
 fn notes(review: &Review) -> Table {
     let row = |(t_s, text): &(f64, String)| {
-        let when = if *t_s < 0.0 { "before lift-off".into() } else { Cell::Clock(*t_s) };
+        let when = if *t_s < 0.0 { "before lift-off".into() } else { TableCell::Clock(*t_s) };
         vec![when, text.clone().into()]
     };
     Table {
@@ -141,6 +141,6 @@ mod tests {
 
     #[test]
     fn exact_reactions_lie_on_their_axis() {
-        assert_eq!((x_of(0.0), x_of(2.5), x_of(5.0), x_of(9.0)), (96.0, 348.0, 600.0, 600.0));
+        assert_eq!((fraction_text(0.0), fraction_text(2.5), fraction_text(5.0), fraction_text(9.0)), (96.0, 348.0, 600.0, 600.0));
     }
 }

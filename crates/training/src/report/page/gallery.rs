@@ -2,14 +2,14 @@
 
 use crate::report::Review;
 use crate::report::assets::base64;
-use crate::report::pictures::{Picture, Verdict};
+use crate::report::pictures::{PictureVerdict, ReviewedPicture};
 use crate::report::plots::unit;
-use crate::report::sketch::{Exposure, Sketcher, WIDTH_PX};
-use crate::report::table::{Cell, Table};
+use crate::report::sketch::{SketchExposure, Sketcher, WIDTH_PX};
+use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
 use spandrel_model::site::CameraPose;
-use spandrel_model::site::look::CENTRAL_SHARE;
+use spandrel_model::site::visibility::CENTRAL_SHARE;
 use spandrel_model::vehicle::Camera;
 
 /// The site as it is drawn in all pictures: by the light of mid-flight.
@@ -33,8 +33,8 @@ pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
 }
 
 fn tally(review: &Review) -> String {
-    let count = |verdict: Verdict| review.pictures.iter().filter(|picture| picture.verdict == verdict).count();
-    let parts: Vec<String> = Verdict::ALL
+    let count = |verdict: PictureVerdict| review.pictures.iter().filter(|picture| picture.verdict == verdict).count();
+    let parts: Vec<String> = PictureVerdict::ALL
         .iter()
         .map(|v| (count(*v), v.name()))
         .filter(|(n, _)| *n > 0)
@@ -43,25 +43,25 @@ fn tally(review: &Review) -> String {
     format!("{} pictures: {}.", review.pictures.len(), parts.join(", "))
 }
 
-fn card(review: &Review, picture: &Picture, sketcher: &Sketcher) -> Markup {
+fn card(review: &Review, picture: &ReviewedPicture, sketcher: &Sketcher) -> Markup {
     html! {
         li.shot {
             (image(review, picture, sketcher))
             p { span class={ "badge " (picture.verdict.class()) } { (picture.verdict.name()) } " "
                 b { "Picture " (picture.number) } " at " (words::clock(picture.t_s))
                 @if let Some(task) = picture.task { ", task " (review.scenario.tasks[task].id) } }
-            p { (capital(&picture.reason)) "." }
+            p { (capitalized(&picture.reason)) "." }
             p.note { (target(picture)) }
         }
     }
 }
 
-fn capital(words: &str) -> String {
+fn capitalized(words: &str) -> String {
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-fn target(picture: &Picture) -> String {
+fn target(picture: &ReviewedPicture) -> String {
     let lamp = if picture.pose.lamp_on { "lamp on" } else { "lamp off" };
     match &picture.target {
         None => format!("Sky in the middle, {lamp}"),
@@ -77,25 +77,25 @@ fn target(picture: &Picture) -> String {
     }
 }
 
-fn image(review: &Review, picture: &Picture, sketcher: &Sketcher) -> Markup {
+fn image(review: &Review, picture: &ReviewedPicture, sketcher: &Sketcher) -> Markup {
     let words = format!("Picture {}: {}", picture.number, picture.reason);
     let index = u32::try_from(picture.index).ok();
     let photograph = review.about.pictures.iter().find(|(number, _)| Some(*number) == index);
     if let Some((_, jpeg)) = photograph {
         return html! { img.frame alt=(words) loading="lazy" src={ "data:image/jpeg;base64," (base64(&jpeg.bytes)) }; };
     }
-    let exposure = picture.target.as_ref().map_or(Exposure { light: 1.0, by_lamp: false }, |t| Exposure {
+    let exposure = picture.target.as_ref().map_or(SketchExposure { light: 1.0, by_lamp: false }, |t| SketchExposure {
         light: t.lux / t.needed_lux,
         by_lamp: picture.pose.lamp_on && t.lux < 4.0 * t.needed_lux,
     });
     let shown = |id: u32| picture.views.iter().find(|view| view.defect_id == id);
-    let marks: Vec<Mark> = review
+    let marks: Vec<DefectMark> = review
         .defects
         .iter()
         .filter_map(|fate| {
             let view = shown(fate.defect.id)?;
             let class = if view.hit { "found" } else { "missed" };
-            Some(Mark {
+            Some(DefectMark {
                 id: fate.defect.id,
                 at_m: fate.defect.position_m,
                 long_m: fate.defect.length_m,
@@ -108,7 +108,7 @@ fn image(review: &Review, picture: &Picture, sketcher: &Sketcher) -> Markup {
 }
 
 /// A defect to be marked in a drawing.
-pub struct Mark {
+pub struct DefectMark {
     /// Its number.
     pub id: u32,
     /// Where it is.
@@ -125,14 +125,14 @@ pub struct Mark {
 pub fn frame(
     sketcher: &Sketcher,
     (pose, camera): (&CameraPose, &Camera),
-    exposure: Exposure,
-    marks: &[Mark],
+    exposure: SketchExposure,
+    marks: &[DefectMark],
     words: &str,
 ) -> Markup {
     let (w, h) = (WIDTH_PX as f64, WIDTH_PX as f64 * f64::from(camera.height_px) / f64::from(camera.width_px));
     let focal = camera.focal_px() * w / f64::from(camera.width_px);
     let down = pose.forward.cross(pose.right);
-    let place = |mark: &Mark| {
+    let place = |mark: &DefectMark| {
         let to = mark.at_m - pose.position_m;
         let depth = to.dot(pose.forward).max(0.01);
         let middle = (0.5 * w + focal * to.dot(pose.right) / depth, 0.5 * h + focal * to.dot(down) / depth);
@@ -158,14 +158,14 @@ pub fn frame(
 }
 
 fn table(review: &Review) -> Table {
-    let number = |value: Option<f64>, digits: usize| value.map_or(Cell::Empty, |value| Cell::Number(value, digits));
-    let row = |picture: &Picture| {
+    let number = |value: Option<f64>, digits: usize| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
+    let row = |picture: &ReviewedPicture| {
         let t = picture.target.as_ref();
         vec![
             picture.number.into(),
-            Cell::Clock(picture.t_s),
+            TableCell::Clock(picture.t_s),
             picture.frame.into(),
-            picture.task.map_or(Cell::Empty, |task| review.scenario.tasks[task].id.into()),
+            picture.task.map_or(TableCell::Empty, |task| review.scenario.tasks[task].id.into()),
             picture.verdict.name().into(),
             picture.reason.clone().into(),
             t.map_or("sky".into(), |t| t.name.clone()).into(),

@@ -3,12 +3,12 @@
 pub mod cohort;
 mod compare;
 mod conditions;
+mod defects_found;
 mod feedback;
-mod flight;
-mod found;
+mod flight_section;
 mod gallery;
 mod kinds;
-mod next;
+mod next_steps;
 pub mod progress;
 mod record;
 pub mod series;
@@ -30,10 +30,10 @@ pub fn session(review: &Review) -> String {
     let sections = [
         ("scores", "Scores", summary::scores(review)),
         ("tasks", "Tasks", tasks::section(review)),
-        ("next", "Next", next::section(review)),
-        ("flight", "Flight", flight::section(review)),
+        ("next", "Next", next_steps::section(review)),
+        ("flight", "Flight", flight_section::section(review)),
         ("pictures", "Pictures", gallery::section(review, &sketcher)),
-        ("defects", "Defects", found::section(review, &sketcher)),
+        ("defects", "Defects", defects_found::section(review, &sketcher)),
         ("feedback", "Feedback", feedback::section(review)),
         ("coverage", "Coverage", surface::section(review)),
         ("certification", "Certification", conditions::section(review)),
@@ -42,7 +42,7 @@ pub fn session(review: &Review) -> String {
     let data = series::data(review);
     document(
         &title,
-        &Moves::Session(data),
+        &PageScripts::Session(data),
         &html! {
             (summary::header(review))
             nav aria-label="Sections" { @for (id, name, _) in &sections { a href={ "#" (id) } { (name) } } }
@@ -56,7 +56,7 @@ pub fn session(review: &Review) -> String {
 }
 
 /// What moves on a page: its data block, and with it its scripts.
-enum Moves {
+enum PageScripts {
     /// Nothing.
     Nothing,
     /// A session's slider, curves and model.
@@ -66,7 +66,7 @@ enum Moves {
 }
 
 /// A whole document: policy, styles, the body, data and scripts. Styles and scripts are ours and the libraries', never a user's words.
-fn document(title: &str, moves: &Moves, body: &Markup) -> String {
+fn document(title: &str, moves: &PageScripts, body: &Markup) -> String {
     html! {
         (DOCTYPE)
         html lang="en" {
@@ -84,14 +84,14 @@ fn document(title: &str, moves: &Moves, body: &Markup) -> String {
             body {
                 (body)
                 @match moves {
-                    Moves::Nothing => {}
-                    Moves::Session(data) => {
+                    PageScripts::Nothing => {}
+                    PageScripts::Session(data) => {
                         script type="application/json" id="flight-data" { (PreEscaped(data)) }
                         script type="text/plain" id="three-core" { (PreEscaped(assets::THREE_CORE)) }
                         script type="text/plain" id="three-module" data-core=(assets::THREE_CORE_NAME) { (PreEscaped(assets::THREE)) }
                         (scripts(&[assets::UPLOT, assets::COMMON, assets::SCRIPT]))
                     }
-                    Moves::Comparison(data) => {
+                    PageScripts::Comparison(data) => {
                         script type="application/json" id="comparison-data" { (PreEscaped(data)) }
                         (scripts(&[assets::UPLOT, assets::COMMON, assets::COMPARE]))
                     }

@@ -3,12 +3,12 @@
 
 use super::kinds::{KINDS, counted, segments};
 use super::{figure, legend};
-use crate::cohort::{Curve, OnJob, Progress, Repetition};
-use crate::record::left_out_words;
-use crate::report::plots::bars::{Counts, counts};
-use crate::report::plots::lines::{Line, colour, lines};
-use crate::report::plots::practice::{Practice, practice};
-use crate::report::table::{Cell, Table};
+use crate::cohort::{JobProgress, Repetition, ScoreCurve, TraineeProgress};
+use crate::record::omitted_summary;
+use crate::report::plots::bars::{CountRow, counts};
+use crate::report::plots::lines::{ChartLine, colour, lines};
+use crate::report::plots::practice::{PracticeChart, practice};
+use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
 
@@ -22,9 +22,9 @@ pub fn most(score: &str) -> f64 {
 
 /// Everything of one job.
 #[must_use]
-pub fn on_job(job: &OnJob) -> Markup {
+pub fn on_job(job: &JobProgress) -> Markup {
     let progress = &job.progress;
-    let left_out = html! { @if let Some(words) = left_out_words(job.left_out) { p.note { (words) "." } } };
+    let left_out = html! { @if let Some(words) = omitted_summary(job.left_out) { p.note { (words) "." } } };
     if progress.repetitions.is_empty() {
         return left_out;
     }
@@ -38,13 +38,13 @@ pub fn on_job(job: &OnJob) -> Markup {
 }
 
 /// The three figures of the repetitions.
-pub fn pictures(progress: &Progress, tasks: &[(u32, String)]) -> Markup {
+pub fn pictures(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Markup {
     let scores = scores(progress);
     let shares = shares(progress, tasks);
-    let rows: Vec<Counts> = progress
+    let rows: Vec<CountRow> = progress
         .repetitions
         .iter()
-        .map(|one| Counts { name: format!("repetition {}", one.number), kinds: segments(&one.crashes) })
+        .map(|one| CountRow { name: format!("repetition {}", one.number), kinds: segments(&one.crashes) })
         .collect();
     let all = progress.repetitions.iter().fold([0; 5], |mut sum, one| {
         sum.iter_mut().zip(counted(&one.crashes)).for_each(|(sum, count)| *sum += count);
@@ -66,8 +66,8 @@ pub fn pictures(progress: &Progress, tasks: &[(u32, String)]) -> Markup {
     }
 }
 
-fn scores(progress: &Progress) -> Vec<Line> {
-    let line = |(k, name): (usize, &&str)| Line {
+fn scores(progress: &TraineeProgress) -> Vec<ChartLine> {
+    let line = |(k, name): (usize, &&str)| ChartLine {
         name: (*name).to_owned(),
         style: k + 1,
         values: progress.repetitions.iter().map(|one| one.score(name)).collect(),
@@ -80,8 +80,8 @@ fn on_path(one: &Repetition, task: u32) -> Option<f64> {
     one.on_path.iter().find(|(id, _)| *id == task).and_then(|(_, share)| *share).map(|share| 100.0 * share)
 }
 
-fn shares(progress: &Progress, tasks: &[(u32, String)]) -> Vec<Line> {
-    let line = |(k, (id, name)): (usize, &(u32, String))| Line {
+fn shares(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Vec<ChartLine> {
+    let line = |(k, (id, name)): (usize, &(u32, String))| ChartLine {
         name: format!("{id} · {name}"),
         style: k + 1,
         values: progress.repetitions.iter().map(|one| on_path(one, *id)).collect(),
@@ -89,19 +89,19 @@ fn shares(progress: &Progress, tasks: &[(u32, String)]) -> Vec<Line> {
     tasks.iter().enumerate().map(line).collect()
 }
 
-fn key(lines: &[Line]) -> Markup {
+fn key(lines: &[ChartLine]) -> Markup {
     const DOTS: [&str; 4] = ["dot-1", "dot-2", "dot-3", "dot-4"];
     legend(&lines.iter().map(|one| (DOTS[colour(one.style) - 1], one.name.clone())).collect::<Vec<_>>())
 }
 
-fn learning(progress: &Progress) -> Markup {
-    let values = |curve: &Curve| progress.repetitions.iter().filter_map(|one| one.score(&curve.score)).collect::<Vec<f64>>();
+fn learning(progress: &TraineeProgress) -> Markup {
+    let values = |curve: &ScoreCurve| progress.repetitions.iter().filter_map(|one| one.score(&curve.score)).collect::<Vec<f64>>();
     html! {
         h4 { "Learning curves" }
         div.trio {
             @for curve in &progress.curves {
                 @let values = values(curve);
-                @let drawn = Practice { values: &values, curve: &curve.curve, others: &[], most: most(&curve.score) };
+                @let drawn = PracticeChart { values: &values, curve: &curve.curve, others: &[], most: most(&curve.score) };
                 (figure(&curve.score, &practice(&drawn, &format!("Learning curve of {}", curve.score))))
             }
         }
@@ -110,12 +110,19 @@ fn learning(progress: &Progress) -> Markup {
     }
 }
 
-fn curve_numbers(curves: &[Curve]) -> Table {
-    let row = |one: &Curve| {
+fn curve_numbers(curves: &[ScoreCurve]) -> Table {
+    let row = |one: &ScoreCurve| {
         let c = &one.curve;
-        let next = Cell::Number(c.next.min(most(&one.score)), 1);
-        let r_squared = c.r_squared.map_or(Cell::Empty, |value| Cell::Number(value, 2));
-        vec![one.score.clone().into(), c.n.into(), Cell::Number(c.first, 1), Cell::Number(c.exponent, 3), r_squared, next]
+        let next = TableCell::Number(c.next.min(most(&one.score)), 1);
+        let r_squared = c.r_squared.map_or(TableCell::Empty, |value| TableCell::Number(value, 2));
+        vec![
+            one.score.clone().into(),
+            c.n.into(),
+            TableCell::Number(c.first, 1),
+            TableCell::Number(c.exponent, 3),
+            r_squared,
+            next,
+        ]
     };
     Table {
         name: "learning_curves",
@@ -125,13 +132,13 @@ fn curve_numbers(curves: &[Curve]) -> Table {
     }
 }
 
-fn numbers(scenario: &str, progress: &Progress) -> Table {
-    let maybe = |value: Option<f64>| value.map_or(Cell::Empty, |value| Cell::Number(value, 1));
+fn numbers(scenario: &str, progress: &TraineeProgress) -> Table {
+    let maybe = |value: Option<f64>| value.map_or(TableCell::Empty, |value| TableCell::Number(value, 1));
     let row = |one: &Repetition| {
         let mut row = vec![one.number.into(), scenario.into()];
         row.extend(SCORES.map(|score| maybe(one.score(score))));
-        row.extend([Cell::Number(one.overall, 1), Cell::Clock(one.seconds)]);
-        row.extend(counted(&one.crashes).map(Cell::from));
+        row.extend([TableCell::Number(one.overall, 1), TableCell::Clock(one.seconds)]);
+        row.extend(counted(&one.crashes).map(TableCell::from));
         row
     };
     let columns = ["repetition", "scenario", "conformity", "efficiency", "safety", "accuracy", "overall", "flight time"];
@@ -144,9 +151,9 @@ fn numbers(scenario: &str, progress: &Progress) -> Table {
     }
 }
 
-fn on_path_numbers(progress: &Progress, tasks: &[(u32, String)]) -> Table {
+fn on_path_numbers(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Table {
     let row = |one: &Repetition, (id, name): &(u32, String)| {
-        let share = on_path(one, *id).map_or("not attempted".into(), |share| Cell::Number(share, 1));
+        let share = on_path(one, *id).map_or("not attempted".into(), |share| TableCell::Number(share, 1));
         vec![one.number.into(), (*id).into(), name.clone().into(), share]
     };
     Table {
@@ -166,22 +173,22 @@ pub fn too_few() -> String {
 mod tests {
     use super::*;
     use crate::cohort::by_job;
-    use crate::record::{Incomplete, Record};
+    use crate::record::{IncompletePolicy, SessionRecord};
     use crate::testing::faultless;
 
-    fn flown(count: usize) -> Markup {
-        let mut records: Vec<Record> = (1..=count).map(|k| faultless("anna", k)).collect();
+    fn progress_page(count: usize) -> Markup {
+        let mut records: Vec<SessionRecord> = (1..=count).map(|k| faultless("anna", k)).collect();
         records[0].tasks[2].attempted = false;
         records[0].tasks[0].name = "<b>slab</b>".into();
         records[count - 1].tasks[0].name = "<b>slab</b>".into();
         records[0].tasks[1].crashes.water = 2;
         records[0].tasks[1].crashes.person = 1;
-        on_job(&by_job(&records, Incomplete::LeaveOut)[0])
+        on_job(&by_job(&records, IncompletePolicy::LeaveOut)[0])
     }
 
     #[test]
     fn exact_scores_tasks_and_crashes_stand_repetition_by_repetition() {
-        let text = flown(3).into_string();
+        let text = progress_page(3).into_string();
         assert_eq!(text.matches("class=\"lines\"").count(), 2);
         // Four lines of scores with three points each; of the tasks one point is missing, for that task was left out.
         assert_eq!(text.matches("<circle class=\"dot-").count(), 12 + 11);
@@ -192,7 +199,7 @@ mod tests {
 
     #[test]
     fn exact_the_fourth_repetition_brings_the_curves() {
-        let text = flown(4).into_string();
+        let text = progress_page(4).into_string();
         assert_eq!(text.matches("class=\"practice\"").count(), 5);
         assert!(text.contains("learning_curves.csv") && !text.contains("NaN"));
     }

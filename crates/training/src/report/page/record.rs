@@ -1,7 +1,7 @@
 //! What the report rests on: coverage of the telemetry, who flew when, the link, the files and their hashes.
 
 use crate::report::Review;
-use crate::report::table::{Cell, Table};
+use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
 
@@ -13,7 +13,7 @@ pub fn section(review: &Review) -> Markup {
         @if telemetry.missing_frames > 0 {
             p.note { "Frames in gaps over a second hold the last position and are scored as they stand." }
         }
-        (hands(review).shown())
+        (control_stretches(review).shown())
         (files(review).shown())
         p.note { "Everything here is worked out from the telemetry and the two files, by the code that scores. The same three files make the same report." }
     }
@@ -33,10 +33,14 @@ fn gaps(review: &Review) -> String {
     )
 }
 
-fn hands(review: &Review) -> Table {
-    let row = |stretch: &spandrel_monitor::assessment::Stretch| {
+fn control_stretches(review: &Review) -> Table {
+    let row = |stretch: &spandrel_monitor::assessment::ControlStretch| {
         let t_s = |frame: u32| review.t_s((frame as usize).saturating_sub(1));
-        vec![Cell::Clock(t_s(stretch.from_frame)), Cell::Clock(t_s(stretch.to_frame)), words::hand(stretch.by).into()]
+        vec![
+            TableCell::Clock(t_s(stretch.from_frame)),
+            TableCell::Clock(t_s(stretch.to_frame)),
+            words::control_source_label(stretch.by).into(),
+        ]
     };
     Table {
         name: "flown-by",
@@ -49,7 +53,7 @@ fn hands(review: &Review) -> Table {
 fn files(review: &Review) -> Table {
     let about = &review.about;
     let link = &review.link;
-    let row = |name: &str, value: Cell| vec![name.into(), value];
+    let row = |name: &str, value: TableCell| vec![name.into(), value];
     Table {
         name: "record",
         caption: "the record",
@@ -67,10 +71,10 @@ fn files(review: &Review) -> Table {
             row("seed", review.seed.to_string().into()),
             row("scorer", concat!("spandrel ", env!("CARGO_PKG_VERSION")).into()),
             row("frames scored", review.frames.len().into()),
-            row("MAVLink frames heard", Cell::Number(link.frames as f64, 0)),
-            row("lost on the link", Cell::Number(link.lost as f64, 0)),
-            row("came twice", Cell::Number(link.duplicated as f64, 0)),
-            row("came late", Cell::Number(link.reordered as f64, 0)),
+            row("MAVLink frames heard", TableCell::Number(link.frames as f64, 0)),
+            row("lost on the link", TableCell::Number(link.lost as f64, 0)),
+            row("came twice", TableCell::Number(link.duplicated as f64, 0)),
+            row("came late", TableCell::Number(link.reordered as f64, 0)),
         ],
     }
 }

@@ -3,8 +3,8 @@
 
 use crate::report::Review;
 use crate::report::assets::base64;
-use crate::report::outline::{self, Mesh};
-use crate::report::plots::colours::CLEARANCES_M;
+use crate::report::outline::{self, QuantizedMesh};
+use crate::report::plots::colors::CLEARANCES_M;
 use serde_json::{Value, json};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::frames::{Enu, Vec3};
@@ -40,7 +40,7 @@ pub fn data(review: &Review) -> String {
 
 /// The block of a comparison: both flights' series, and when each began and entered each task.
 #[must_use]
-pub fn comparison(both: [&Review; 2], line_ups: &[LineUp]) -> String {
+pub fn comparison(both: [&Review; 2], line_ups: &[AlignmentEvent]) -> String {
     let flight = |k: usize| {
         let starts: Vec<f64> = line_ups.iter().map(|line_up| line_up.at_s[k]).collect();
         let tasks = both[k].scenario.tasks.iter().map(|task| format!("{} · {}", task.id, task.name));
@@ -56,7 +56,7 @@ pub fn comparison(both: [&Review; 2], line_ups: &[LineUp]) -> String {
 
 /// An event of both flights at which their times are lined up.
 #[derive(Debug, Clone, PartialEq)]
-pub struct LineUp {
+pub struct AlignmentEvent {
     /// In words.
     pub name: String,
     /// When it was in each, since lift-off, s.
@@ -65,12 +65,12 @@ pub struct LineUp {
 
 /// Lift-off, and, of flights of one job, the entry into each task that both entered.
 #[must_use]
-pub fn line_ups(both: [&Review; 2], same_job: bool) -> Vec<LineUp> {
-    let mut found = vec![LineUp { name: "lift-off".into(), at_s: [0.0, 0.0] }];
+pub fn line_ups(both: [&Review; 2], same_job: bool) -> Vec<AlignmentEvent> {
+    let mut found = vec![AlignmentEvent { name: "lift-off".into(), at_s: [0.0, 0.0] }];
     let tasks = both[0].scenario.tasks.iter().enumerate().filter(|_| same_job);
     found.extend(tasks.filter_map(|(k, task)| {
         let entry_s = |review: &Review| review.on_path.windows.get(k).copied().flatten().map(|window| review.t_s(window.first));
-        Some(LineUp { name: format!("start of task {}", task.id), at_s: [entry_s(both[0])?, entry_s(both[1])?] })
+        Some(AlignmentEvent { name: format!("start of task {}", task.id), at_s: [entry_s(both[0])?, entry_s(both[1])?] })
     }));
     found
 }
@@ -101,7 +101,7 @@ fn series(review: &Review) -> Value {
     })
 }
 
-fn mesh(mesh: &Mesh) -> Value {
+fn mesh(mesh: &QuantizedMesh) -> Value {
     let bytes = |triples: &[[u16; 3]]| triples.iter().flatten().flat_map(|value| value.to_le_bytes()).collect::<Vec<u8>>();
     json!({ "origin": mesh.origin_m, "step": mesh.step_m, "corners": base64(&bytes(&mesh.corners)),
         "triangles": base64(&bytes(&mesh.triangles)) })

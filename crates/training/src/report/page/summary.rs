@@ -2,8 +2,8 @@
 
 use super::figure;
 use crate::report::Review;
-use crate::report::plots::radar::{Spoke, radar};
-use crate::report::table::{Cell, Table};
+use crate::report::plots::radar::{RadarAxis, radar};
+use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
 use spandrel_monitor::assessment::Scores;
@@ -25,7 +25,7 @@ pub fn header(review: &Review) -> Markup {
                     b { (review.about.trainee) } " · " (utc(&review.about.started_utc)) " · " (review.vehicle.name)
                     @if let Some(purpose) = &review.about.purpose { " · " (purpose) }
                 }
-                p { (words::duration(end.seconds)) " of flight, " (words::end(end.reason)) ". " (cover(review)) }
+                p { (words::duration(end.seconds)) " of flight, " (words::end_reason_label(end.reason)) ". " (cover(review)) }
             }
             div.overall {
                 @if review.assessment.completion.complete {
@@ -57,18 +57,20 @@ fn cover(review: &Review) -> String {
 /// The diagram, the cards and their table.
 pub fn scores(review: &Review) -> Markup {
     let scores = &review.assessment.scores;
-    let spokes: Vec<Spoke> =
-        named(scores).iter().map(|(name, score)| Spoke { name, values: vec![score.map(|score| score.pct)] }).collect();
+    let spokes: Vec<RadarAxis> = scores_by_name(scores)
+        .iter()
+        .map(|(name, score)| RadarAxis { name, values: vec![score.map(|score| score.pct)] })
+        .collect();
     html! {
         p { (review.assessment.completion.headline()) "." @if !review.assessment.completion.complete { " The scores below are for the part that was flown." } }
         div.split {
             (figure("The four scores, 0 in the middle, 100 at the rim", &radar(&spokes, "Kiviat diagram of the four scores")))
             div.cards {
-                @for (name, score) in named(scores) {
+                @for (name, score) in scores_by_name(scores) {
                     div.card {
                         h3 { (name) }
                         p.figure { @if let Some(score) = score { (words::number(score.pct, 0)) } @else { "n/a" } }
-                        p { (why(review, name)) }
+                        p { (end_reason_text(review, name)) }
                     }
                 }
             }
@@ -78,7 +80,7 @@ pub fn scores(review: &Review) -> Markup {
 }
 
 /// The scores in the order of the diagram.
-pub fn named(scores: &Scores) -> [(&'static str, Option<Score>); 4] {
+pub fn scores_by_name(scores: &Scores) -> [(&'static str, Option<Score>); 4] {
     [
         ("Conformity", scores.conformity),
         ("Efficiency", Some(scores.efficiency)),
@@ -87,7 +89,7 @@ pub fn named(scores: &Scores) -> [(&'static str, Option<Score>); 4] {
     ]
 }
 
-fn why(review: &Review, name: &str) -> String {
+fn end_reason_text(review: &Review, name: &str) -> String {
     let assessment = &review.assessment;
     match name {
         "Conformity" => conformity(review),
@@ -141,9 +143,9 @@ fn conformity(review: &Review) -> String {
 fn table(review: &Review) -> Table {
     let scores = &review.assessment.scores;
     let certification = &review.assessment.certification.scores;
-    let number = |value: Option<f64>| value.map_or(Cell::Empty, |value| Cell::Number(value, 2));
+    let number = |value: Option<f64>| value.map_or(TableCell::Empty, |value| TableCell::Number(value, 2));
     let beside = [certification.conformity, Some(certification.efficiency), Some(certification.safety), certification.accuracy];
-    let mut rows: Vec<Vec<Cell>> = named(scores)
+    let mut rows: Vec<Vec<TableCell>> = scores_by_name(scores)
         .iter()
         .zip(beside)
         .map(|((name, score), beside)| {
@@ -151,7 +153,7 @@ fn table(review: &Review) -> Table {
         })
         .collect();
     if review.assessment.completion.complete {
-        rows.push(vec!["Overall".into(), Cell::Empty, Cell::Number(scores.overall, 2), Cell::Empty]);
+        rows.push(vec!["Overall".into(), TableCell::Empty, TableCell::Number(scores.overall, 2), TableCell::Empty]);
     }
     Table { name: "scores", caption: "scores", columns: vec!["score", "raw", "of 100", "certification profile, of 100"], rows }
 }

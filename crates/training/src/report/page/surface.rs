@@ -2,12 +2,12 @@
 
 use super::{figure, legend};
 use crate::report::Review;
-use crate::report::coverage::{BLUR_MAX_PX, Coverage, Element, Fate, REQUIRED_GSD_M, reach_m};
-use crate::report::plots::bars::{Stack, stacks};
-use crate::report::table::{Cell, Table};
+use crate::report::coverage::{BLUR_MAX_PX, ElementSurface, REQUIRED_GSD_M, SurfaceCoverage, SurfaceOutcome, reach_m};
+use crate::report::plots::bars::{StackedBar, stacks};
+use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
-use spandrel_model::site::look::INCIDENCE_MAX_RAD;
+use spandrel_model::site::visibility::INCIDENCE_MAX_RAD;
 
 /// Reasons in the summary's sentence at most.
 const REASONS: usize = 3;
@@ -21,10 +21,10 @@ pub fn section(review: &Review) -> Markup {
         return html! { p.calm { "No surface of a bridge lies within the camera's reach of a reference path." } };
     }
     let share = |area: f64| words::number(100.0 * area / total.inspectable_m2, 0);
-    let key: Vec<(&str, String)> = Fate::ALL.map(|fate| (fate.class(), fate.name().to_owned())).to_vec();
+    let key: Vec<(&str, String)> = SurfaceOutcome::ALL.map(|fate| (fate.class(), fate.name().to_owned())).to_vec();
     html! {
         p { "Of " (words::number(total.inspectable_m2, 0)) " m² that can be inspected from the reference paths, pictures show "
-            b { (share(total.area_m2(Fate::Shown))) " %" } " well enough." @if let Some(why) = lacking(&total) { " The rest: " (why) "." } }
+            b { (share(total.area_m2(SurfaceOutcome::Shown))) " %" } " well enough." @if let Some(why) = lacking(&total) { " The rest: " (why) "." } }
         p.note { "Inspectable is what some point of a reference path sees at " (words::number(1000.0 * REQUIRED_GSD_M, 2))
             " mm per pixel or finer (a crack of 1.27 mm, the limit between condition states 2 and 3, then covers half a pixel; with this camera that is "
             (words::number(reach_m(&review.vehicle.camera), 1)) " m) and at most "
@@ -45,46 +45,47 @@ pub fn section(review: &Review) -> Markup {
 }
 
 /// The largest shares of what is not shown well, in words; `None` when next to nothing is left.
-fn lacking(total: &Element) -> Option<String> {
-    let share = |fate: &Fate| total.area_m2(*fate) / total.inspectable_m2;
-    let mut rest: Vec<Fate> = Fate::ALL.into_iter().filter(|fate| *fate != Fate::Shown && share(fate) >= LEAST_SHARE).collect();
+fn lacking(total: &ElementSurface) -> Option<String> {
+    let share = |fate: &SurfaceOutcome| total.area_m2(*fate) / total.inspectable_m2;
+    let mut rest: Vec<SurfaceOutcome> =
+        SurfaceOutcome::ALL.into_iter().filter(|fate| *fate != SurfaceOutcome::Shown && share(fate) >= LEAST_SHARE).collect();
     rest.sort_by(|a, b| share(b).total_cmp(&share(a)));
-    let words = |fate: &Fate| format!("{} % {}", words::number(100.0 * share(fate), 0), fate.name());
+    let words = |fate: &SurfaceOutcome| format!("{} % {}", words::number(100.0 * share(fate), 0), fate.name());
     let words: Vec<String> = rest.iter().take(REASONS).map(words).collect();
     (!words.is_empty()).then(|| words.join("; "))
 }
 
-fn rows(coverage: &Coverage) -> Vec<Stack> {
-    let row = |element: &Element| Stack {
+fn rows(coverage: &SurfaceCoverage) -> Vec<StackedBar> {
+    let row = |element: &ElementSurface| StackedBar {
         name: format!(
             "{} · {} ({} m²)",
             element.element,
             words::element(element.element),
             words::number(element.inspectable_m2, 0)
         ),
-        parts: Fate::ALL.map(|fate| (fate.class(), element.area_m2(fate) / element.inspectable_m2)).to_vec(),
+        parts: SurfaceOutcome::ALL.map(|fate| (fate.class(), element.area_m2(fate) / element.inspectable_m2)).to_vec(),
     };
     coverage.elements.iter().map(row).collect()
 }
 
-fn table(coverage: &Coverage) -> Table {
-    let row = |element: &Element, [number, name]: [Cell; 2]| {
-        let mut row = vec![number, name, Cell::Number(element.inspectable_m2, 1)];
-        row.extend(Fate::ALL.map(|fate| Cell::Number(element.area_m2(fate), 1)));
+fn table(coverage: &SurfaceCoverage) -> Table {
+    let row = |element: &ElementSurface, [number, name]: [TableCell; 2]| {
+        let mut row = vec![number, name, TableCell::Number(element.inspectable_m2, 1)];
+        row.extend(SurfaceOutcome::ALL.map(|fate| TableCell::Number(element.area_m2(fate), 1)));
         let typical = element.typical();
-        let value = |value: Option<f64>, digits| value.map_or(Cell::Empty, |value| Cell::Number(value, digits));
+        let value = |value: Option<f64>, digits| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
         row.push(value(typical.map(|like| 1000.0 * like.gsd_m), 2));
         row.push(value(typical.map(|like| like.incidence_rad.to_degrees()), 0));
         row.push(value(typical.map(|like| like.lux), 0));
         row.push(value(typical.map(|like| like.blur_px), 2));
         row
     };
-    let mut rows: Vec<Vec<Cell>> = coverage
+    let mut rows: Vec<Vec<TableCell>> = coverage
         .elements
         .iter()
         .map(|element| row(element, [element.element.into(), words::element(element.element).into()]))
         .collect();
-    rows.push(row(&coverage.total(), ["all".into(), Cell::Empty]));
+    rows.push(row(&coverage.total(), ["all".into(), TableCell::Empty]));
     let mut columns = vec!["element", "name", "inspectable, m²"];
     columns.extend([
         "shown well, m²",
@@ -113,21 +114,29 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_every_fate_has_a_column_and_the_reasons_are_told_by_their_size() {
-        let mut element = Element { element: 105, inspectable_m2: 100.0, ..Element::default() };
-        for (fate, area_m2) in
-            [(Fate::Shown, 40.0), (Fate::DarkLampOff, 35.0), (Fate::Blurred, 20.0), (Fate::TooFar, 4.6), (Fate::Unseen, 0.4)]
-        {
+    fn exact_every_outcome_has_a_column_and_reasons_are_sorted_by_area() {
+        let mut element = ElementSurface { element: 105, inspectable_m2: 100.0, ..ElementSurface::default() };
+        for (fate, area_m2) in [
+            (SurfaceOutcome::Shown, 40.0),
+            (SurfaceOutcome::DarkLampOff, 35.0),
+            (SurfaceOutcome::Blurred, 20.0),
+            (SurfaceOutcome::TooFar, 4.6),
+            (SurfaceOutcome::Unseen, 0.4),
+        ] {
             element.by_fate_m2.insert(fate, area_m2);
         }
         assert_eq!(lacking(&element).unwrap(), "35 % too dark, lamp off; 20 % blurred; 5 % too far");
-        let table = table(&Coverage { elements: vec![element] });
-        for (k, fate) in Fate::ALL.iter().enumerate() {
+        let table = table(&SurfaceCoverage { elements: vec![element] });
+        for (k, fate) in SurfaceOutcome::ALL.iter().enumerate() {
             assert_eq!(table.columns[3 + k], format!("{}, m²", fate.name()));
         }
         assert!(table.rows.iter().all(|row| row.len() == table.columns.len()));
-        assert_eq!(table.rows[1][6], Cell::Number(35.0, 1), "the sum of one is itself");
-        let all = Element { inspectable_m2: 1.0, by_fate_m2: [(Fate::Shown, 1.0)].into(), ..Element::default() };
+        assert_eq!(table.rows[1][6], TableCell::Number(35.0, 1), "the sum of one is itself");
+        let all = ElementSurface {
+            inspectable_m2: 1.0,
+            by_fate_m2: [(SurfaceOutcome::Shown, 1.0)].into(),
+            ..ElementSurface::default()
+        };
         assert_eq!(lacking(&all), None);
     }
 }

@@ -2,21 +2,21 @@
 
 use super::{figure, legend};
 use crate::report::Review;
-use crate::report::plots::bars::{self, Counts, Row};
-use crate::report::table::{Cell, Table};
+use crate::report::plots::bars::{self, CountRow, ShareRow};
+use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
-use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_monitor::score::completion::TaskState;
 
 /// Kinds of crashes in the order of the bars.
-const KINDS: [(Contact, &str); 6] = [
-    (Contact::Bridge, "k-bridge"),
-    (Contact::Terrain, "k-terrain"),
-    (Contact::Water, "k-water"),
-    (Contact::Other, "k-other"),
-    (Contact::Vehicle, "k-grave"),
-    (Contact::Person, "k-grave"),
+const KINDS: [(ContactKind, &str); 6] = [
+    (ContactKind::Bridge, "k-bridge"),
+    (ContactKind::Terrain, "k-terrain"),
+    (ContactKind::Water, "k-water"),
+    (ContactKind::Other, "k-other"),
+    (ContactKind::Vehicle, "k-grave"),
+    (ContactKind::Person, "k-grave"),
 ];
 
 /// The section.
@@ -29,7 +29,7 @@ pub fn section(review: &Review) -> Markup {
                 (bars::shares(&rows(review), "On the path and speeding by task"))
             }))
             (figure("Contacts by task and by what was touched", &html! {
-                (legend(&kinds_present(review)))
+                (legend(&contact_kinds(review)))
                 @if review.crashes.is_empty() { p.calm { "Nothing was touched." } }
                 @else { (bars::counts(&counts(review), "Contacts by task and kind")) }
             }))
@@ -42,11 +42,11 @@ pub fn section(review: &Review) -> Markup {
     }
 }
 
-fn rows(review: &Review) -> Vec<Row> {
+fn rows(review: &Review) -> Vec<ShareRow> {
     let row = |(k, task): (usize, &spandrel_monitor::assessment::TaskResult)| {
         let facts = &review.tasks[k];
         let share = |seconds: f64| if facts.time_s > 0.0 { seconds / facts.time_s } else { 0.0 };
-        Row {
+        ShareRow {
             name: format!("{} · {}", task.id, review.scenario.tasks[k].name),
             bars: vec![("b-on", task.on_path), ("b-speeding", share(facts.speeding_s))],
             instead: (!task.attempted).then_some("not attempted"),
@@ -63,28 +63,32 @@ fn state(task: &spandrel_monitor::assessment::TaskResult) -> &'static str {
     }
 }
 
-fn of(review: &Review, task: Option<usize>, kind: Contact) -> usize {
+fn of(review: &Review, task: Option<usize>, kind: ContactKind) -> usize {
     review.crashes.iter().filter(|crash| crash.task == task && crash.with == kind).count()
 }
 
-fn counts(review: &Review) -> Vec<Counts> {
+fn counts(review: &Review) -> Vec<CountRow> {
     let tasks = (0..review.scenario.tasks.len()).map(Some).chain([None]);
     let name = |task: Option<usize>| match task {
         Some(k) => format!("{} · {}", review.scenario.tasks[k].id, review.scenario.tasks[k].name),
         None => "between tasks".into(),
     };
     tasks
-        .map(|task| Counts { name: name(task), kinds: KINDS.map(|(kind, class)| (class, of(review, task, kind))).to_vec() })
+        .map(|task| CountRow { name: name(task), kinds: KINDS.map(|(kind, class)| (class, of(review, task, kind))).to_vec() })
         .collect()
 }
 
-fn kinds_present(review: &Review) -> Vec<(&'static str, String)> {
-    let present = |kind: Contact| review.crashes.iter().any(|crash| crash.with == kind);
-    KINDS.iter().filter(|(kind, _)| present(*kind)).map(|(kind, class)| (*class, words::contact(*kind).to_owned())).collect()
+fn contact_kinds(review: &Review) -> Vec<(&'static str, String)> {
+    let present = |kind: ContactKind| review.crashes.iter().any(|crash| crash.with == kind);
+    KINDS
+        .iter()
+        .filter(|(kind, _)| present(*kind))
+        .map(|(kind, class)| (*class, words::contact_label(*kind).to_owned()))
+        .collect()
 }
 
 fn task_table(review: &Review) -> Table {
-    let number = |value: f64, digits: usize| Cell::Number(value, digits);
+    let number = |value: f64, digits: usize| TableCell::Number(value, digits);
     let row = |(k, task): (usize, &spandrel_monitor::assessment::TaskResult)| {
         let facts = &review.tasks[k];
         vec![
@@ -129,13 +133,13 @@ fn crash_table(review: &Review) -> Table {
     let row = |crash: &spandrel_monitor::measures::crash::Crash| {
         let [east, north, up] = review.frames[crash.frame].position_m.array();
         vec![
-            Cell::Clock(review.t_s(crash.frame)),
+            TableCell::Clock(review.t_s(crash.frame)),
             crash.task.map_or("between tasks".into(), |k| format!("task {}", review.scenario.tasks[k].id)).into(),
-            words::contact(crash.with).into(),
-            Cell::Number(crash.speed_m_s, 2),
-            Cell::Number(east, 2),
-            Cell::Number(north, 2),
-            Cell::Number(up, 2),
+            words::contact_label(crash.with).into(),
+            TableCell::Number(crash.speed_m_s, 2),
+            TableCell::Number(east, 2),
+            TableCell::Number(north, 2),
+            TableCell::Number(up, 2),
         ]
     };
     Table {

@@ -1,6 +1,6 @@
 //! Water and ground behind a drawing.
 
-use super::map::Map;
+use super::map::PlotMap;
 use super::{line, simplified, unit};
 use maud::{Markup, html};
 use spandrel_model::frames::Vec3;
@@ -11,7 +11,7 @@ use spandrel_model::site::Site;
 const GROUND_STEP_M: f64 = 5.0;
 
 /// Water as seen from above, in strips between its shores.
-pub(super) fn lake(scenario: &Scenario, site: &Site, map: &Map) -> Markup {
+pub(super) fn lake(scenario: &Scenario, site: &Site, map: &PlotMap) -> Markup {
     let terrain = &scenario.terrain;
     let half = 0.5 * terrain.size_m;
     let count = (terrain.size_m / GROUND_STEP_M).floor().clamp(1.0, 400.0) as usize;
@@ -55,7 +55,7 @@ fn crossing(a: (f64, f64), b: (f64, f64)) -> f64 {
 }
 
 /// The ground under a bridge's axis, and the water.
-pub(super) fn ground(scenario: &Scenario, site: &Site, map: &Map, bridge: &Bridge) -> Markup {
+pub(super) fn ground(scenario: &Scenario, site: &Site, map: &PlotMap, bridge: &Bridge) -> Markup {
     let axis = map.view.right;
     let middle = map.view.at(bridge.centre_m).0;
     let from = map.corner_m.0;

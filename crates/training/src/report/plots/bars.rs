@@ -11,7 +11,7 @@ const BAR: f64 = 14.0;
 
 /// A row of shares.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
+pub struct ShareRow {
     /// What it is of.
     pub name: String,
     /// Bars below each other: style and share, 0 to 1.
@@ -28,7 +28,7 @@ pub fn length(share: f64, full: f64) -> f64 {
 
 /// Rows of shares, each name above its bars.
 #[must_use]
-pub fn shares(rows: &[Row], title: &str) -> Markup {
+pub fn shares(rows: &[ShareRow], title: &str) -> Markup {
     let mut y = 4.0;
     let mut places = Vec::new();
     for row in rows {
@@ -59,7 +59,7 @@ pub fn shares(rows: &[Row], title: &str) -> Markup {
 
 /// A row of counts, one segment per kind.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Counts {
+pub struct CountRow {
     /// What it is of.
     pub name: String,
     /// Style and count, from left to right.
@@ -68,8 +68,8 @@ pub struct Counts {
 
 /// Rows of counts on one scale.
 #[must_use]
-pub fn counts(rows: &[Counts], title: &str) -> Markup {
-    let sum = |row: &Counts| row.kinds.iter().map(|(_, count)| count).sum::<usize>();
+pub fn counts(rows: &[CountRow], title: &str) -> Markup {
+    let sum = |row: &CountRow| row.kinds.iter().map(|(_, count)| count).sum::<usize>();
     let most = rows.iter().map(sum).max().unwrap_or(0).max(4) as f64;
     sheet(
         (WIDTH, 40.0 * rows.len() as f64 + 4.0),
@@ -93,7 +93,7 @@ pub fn counts(rows: &[Counts], title: &str) -> Markup {
 
 /// A whole and its parts.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Stack {
+pub struct StackedBar {
     /// What it is of.
     pub name: String,
     /// Style and share of the whole, 0 to 1, from left to right; the first one is also said in figures.
@@ -102,7 +102,7 @@ pub struct Stack {
 
 /// Rows of wholes, each as long as the others.
 #[must_use]
-pub fn stacks(rows: &[Stack], title: &str) -> Markup {
+pub fn stacks(rows: &[StackedBar], title: &str) -> Markup {
     sheet(
         (WIDTH, 44.0 * rows.len() as f64 + 4.0),
         title,
@@ -143,7 +143,7 @@ mod tests {
     fn exact_bars_are_as_long_as_their_share() {
         assert_eq!((length(0.0, 1.0), length(0.25, 1.0), length(1.0, 1.0)), (0.0, 92.0, 368.0));
         assert_eq!((length(2.0, 1.0), length(3.0, 12.0), length(1.0, 0.0)), (368.0, 92.0, 0.0));
-        let row = Row { name: "task <1>".into(), bars: vec![("on", 0.5)], instead: None };
+        let row = ShareRow { name: "task <1>".into(), bars: vec![("on", 0.5)], instead: None };
         let figure = shares(&[row], "t").into_string();
         assert!(figure.contains("class=\"on\" x=\"4\" y=\"26\" width=\"184\""), "{figure}");
         assert!(figure.contains("task &lt;1&gt;") && figure.contains("50 %"), "{figure}");
@@ -151,7 +151,7 @@ mod tests {
 
     #[test]
     fn exact_segments_follow_each_other() {
-        let row = Counts { name: "a".into(), kinds: vec![("x", 2), ("y", 0), ("z", 3)] };
+        let row = CountRow { name: "a".into(), kinds: vec![("x", 2), ("y", 0), ("z", 3)] };
         assert_eq!(parts(&[("x", 2.0), ("y", 0.0), ("z", 3.0)]), [("x", 0.0, 2.0), ("z", 2.0, 3.0)]);
         let figure = counts(&[row], "t").into_string();
         assert!(figure.contains("class=\"z\" x=\"151.2\""), "two of five along 368 from 4: {figure}");
@@ -159,7 +159,7 @@ mod tests {
 
     #[test]
     fn exact_parts_of_a_whole_follow_each_other_and_the_first_is_said() {
-        let row = Stack { name: "deck".into(), parts: vec![("good", 0.25), ("none", 0.0), ("bad", 0.5)] };
+        let row = StackedBar { name: "deck".into(), parts: vec![("good", 0.25), ("none", 0.0), ("bad", 0.5)] };
         let figure = stacks(&[row], "t").into_string();
         assert!(figure.contains("class=\"good\" x=\"4\" y=\"21\" width=\"92\""), "{figure}");
         assert!(figure.contains("class=\"bad\" x=\"96\" y=\"21\" width=\"184\"") && !figure.contains("none"), "{figure}");

@@ -13,7 +13,7 @@ const HALF: f64 = 15.0;
 
 /// One box with its name.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Named<'a> {
+pub struct NamedBox<'a> {
     /// Name below it.
     pub name: String,
     /// The box.
@@ -29,7 +29,7 @@ pub fn y_of(value: f64, (low, high): (f64, f64)) -> f64 {
 
 /// Boxes on a scale from 0 to `most`.
 #[must_use]
-pub fn boxes(named: &[Named<'_>], most: f64, title: &str) -> Markup {
+pub fn boxes(named: &[NamedBox<'_>], most: f64, title: &str) -> Markup {
     // Few boxes are not drawn larger than many.
     let width = LEFT + STEP * named.len().max(5) as f64 + 10.0;
     let y = |value: f64| y_of(value, (0.0, most));
@@ -80,7 +80,7 @@ mod tests {
         assert_eq!([0.0, 50.0, 100.0].map(|value| y_of(value, (0.0, 100.0))), [190.0, 100.0, 10.0]);
         let plot = box_plot(&[50.0, 50.0, 50.0, 60.0, 70.0, 70.0, 70.0, 0.0]).unwrap();
         assert_eq!((plot.q1, plot.median, plot.q3, plot.outliers.len()), (50.0, 55.0, 70.0, 1));
-        let figure = boxes(&[Named { name: "<1>".into(), plot: &plot }], 100.0, "t").into_string();
+        let figure = boxes(&[NamedBox { name: "<1>".into(), plot: &plot }], 100.0, "t").into_string();
         assert!(figure.contains("class=\"box\" x=\"53\" y=\"64\" width=\"30\" height=\"36\""), "{figure}");
         assert_eq!(places(&[1.0, 1.4, 3.0], |value| value), ["1", "3"]);
         assert!(figure.contains("cy=\"190\"") && figure.contains("&lt;1&gt;"), "{figure}");

@@ -2,7 +2,7 @@
 
 use super::{line, sheet, ticks, unit};
 use crate::report::words;
-use crate::statistics::Bin;
+use crate::statistics::HistogramBin;
 use maud::{Markup, html};
 
 const SIZE: (f64, f64) = (312.0, 150.0);
@@ -13,7 +13,7 @@ const BOTTOM: f64 = 122.0;
 
 /// Bars of the bins, side by side.
 #[must_use]
-pub fn histogram(bins: &[Bin], mean: f64, title: &str) -> Markup {
+pub fn histogram(bins: &[HistogramBin], mean: f64, title: &str) -> Markup {
     let (from, to) = (bins.first().map_or(0.0, |bin| bin.from), bins.last().map_or(1.0, |bin| bin.to));
     let most = bins.iter().map(|bin| bin.count).max().unwrap_or(0).max(2) as f64;
     let x = |value: f64| LEFT + (RIGHT - LEFT) * if to > from { ((value - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
@@ -45,7 +45,7 @@ mod tests {
 
     #[test]
     fn exact_a_bar_is_as_tall_as_its_count() {
-        let bins = [Bin { from: 0.0, to: 50.0, count: 1 }, Bin { from: 50.0, to: 100.0, count: 2 }];
+        let bins = [HistogramBin { from: 0.0, to: 50.0, count: 1 }, HistogramBin { from: 50.0, to: 100.0, count: 2 }];
         let figure = histogram(&bins, 75.0, "t").into_string();
         assert!(figure.contains("x=\"44.5\" y=\"65\" width=\"122\" height=\"57\""), "{figure}");
         assert!(figure.contains("x=\"167.5\" y=\"8\" width=\"122\" height=\"114\""), "{figure}");

@@ -13,7 +13,7 @@ const ROOM: f64 = 0.08;
 
 /// One estimate.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Estimate {
+pub struct IntervalEstimate {
     /// What it is of.
     pub name: String,
     /// Its value.
@@ -24,7 +24,7 @@ pub struct Estimate {
 
 /// Ends of the axis: all estimates, their intervals and zero, with some room.
 #[must_use]
-pub fn ends(estimates: &[Estimate]) -> (f64, f64) {
+pub fn ends(estimates: &[IntervalEstimate]) -> (f64, f64) {
     let all = estimates.iter().flat_map(|one| [Some(one.value), one.interval.map(|i| i[0]), one.interval.map(|i| i[1])]);
     let (low, high) = all.flatten().fold((0.0, 0.0), |(low, high): (f64, f64), value| (low.min(value), high.max(value)));
     let room = if high > low { ROOM * (high - low) } else { 1.0 };
@@ -39,7 +39,7 @@ pub fn x_of(value: f64, (low, high): (f64, f64)) -> f64 {
 
 /// All estimates on one axis; `axis` names it.
 #[must_use]
-pub fn intervals(estimates: &[Estimate], axis: &str, title: &str) -> Markup {
+pub fn intervals(estimates: &[IntervalEstimate], axis: &str, title: &str) -> Markup {
     let ends = ends(estimates);
     let bottom = ROW * estimates.len() as f64 + 4.0;
     let reach = ends.0.abs().max(ends.1.abs());
@@ -78,8 +78,8 @@ pub fn intervals(estimates: &[Estimate], axis: &str, title: &str) -> Markup {
 mod tests {
     use super::*;
 
-    fn estimate(value: f64, interval: Option<[f64; 2]>) -> Estimate {
-        Estimate { name: "<a>".into(), value, interval }
+    fn estimate(value: f64, interval: Option<[f64; 2]>) -> IntervalEstimate {
+        IntervalEstimate { name: "<a>".into(), value, interval }
     }
 
     #[test]

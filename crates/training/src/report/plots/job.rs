@@ -1,9 +1,9 @@
 //! A job drawn without a flight: what a scenario's page shows, and the ground that a live flight moves on.
 
 use super::backdrop::{ground, lake};
-use super::map::{Map, extent, nearness, north, pad, references, scale, structure};
+use super::map::{PlotMap, extent, label_distance, north, pad, references, scale, structure};
 use super::sheet;
-use crate::report::outline::View;
+use crate::report::outline::ParallelView;
 use maud::{Markup, html};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{Bridge, Scenario};
@@ -17,7 +17,7 @@ const ABOVE_M: f64 = 15.0;
 /// From above, north up.
 #[must_use]
 pub fn job_plan(scenario: &Scenario, site: &Site) -> Markup {
-    let map = Map::around(View::plan(), &extent(scenario, site));
+    let map = PlotMap::around(ParallelView::plan(), &extent(scenario, site));
     sheet(
         map.size,
         "The job from above, north up",
@@ -37,7 +37,7 @@ pub fn job_plan(scenario: &Scenario, site: &Site) -> Markup {
 /// One bridge from its side.
 #[must_use]
 pub fn job_side(scenario: &Scenario, site: &Site, bridge: &Bridge) -> Markup {
-    let view = View::side(bridge);
+    let view = ParallelView::side(bridge);
     let water_m = scenario.terrain.water_level_m;
     let prefix = format!("{}/", bridge.name);
     let members = site.members().iter().filter(|member| member.name.starts_with(&prefix));
@@ -50,7 +50,7 @@ pub fn job_side(scenario: &Scenario, site: &Site, bridge: &Bridge) -> Markup {
         points.push(Vec3::new(end.east(), end.north(), water_m - 4.0));
         points.push(Vec3::new(end.east(), end.north(), top_m + ABOVE_M));
     }
-    let map = Map::around(view, &points);
+    let map = PlotMap::around(view, &points);
     let title = format!("The bridge '{}' from the side", bridge.name);
     sheet(
         map.size,
@@ -73,16 +73,16 @@ pub fn job_south(scenario: &Scenario, site: &Site) -> Markup {
     let mut points = extent(scenario, site);
     points.push(Vec3::new(pad_m.east() - BESIDE_M, pad_m.north(), pad_m.up()));
     points.push(Vec3::new(pad_m.east() + BESIDE_M, pad_m.north(), pad_m.up() + ABOVE_M));
-    let map = Map::around(View::from_south(), &points);
+    let map = PlotMap::around(ParallelView::from_south(), &points);
     let body = html! { (structure(site, &map, None)) (references(scenario, &map, None)) (pad(scenario, &map)) (drone(&map, None)) (scale(&map)) };
     sheet(map.size, "The job from the south", "map", &body)
 }
 
 /// The drone and its trail, which a script moves; hidden until it does, and in the side view of a bridge that it is not near.
-fn drone(map: &Map, bridge: Option<&Bridge>) -> Markup {
+fn drone(map: &PlotMap, bridge: Option<&Bridge>) -> Markup {
     html! {
-        path.trail data-matrix=(map.matrix()) data-near=[bridge.map(nearness)] d="" {}
-        g.drone data-matrix=(map.matrix()) data-near=[bridge.map(nearness)] { circle r="7" {} circle.core r="2.5" {} }
+        path.trail data-matrix=(map.matrix()) data-near=[bridge.map(label_distance)] d="" {}
+        g.drone data-matrix=(map.matrix()) data-near=[bridge.map(label_distance)] { circle r="7" {} circle.core r="2.5" {} }
     }
 }
 

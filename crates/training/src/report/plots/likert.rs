@@ -16,7 +16,7 @@ const LINE_CHARACTERS: usize = 84;
 
 /// One question.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Question {
+pub struct LikertQuestion {
     /// What was asked.
     pub name: String,
     /// From strongly agree to strongly disagree.
@@ -54,9 +54,9 @@ fn lines(name: &str) -> Vec<String> {
 
 /// Rows of answers.
 #[must_use]
-pub fn likert(questions: &[Question], title: &str) -> Markup {
+pub fn likert(questions: &[LikertQuestion], title: &str) -> Markup {
     let mut height = 0.0;
-    let rows: Vec<(f64, Vec<String>, &Question)> = questions
+    let rows: Vec<(f64, Vec<String>, &LikertQuestion)> = questions
         .iter()
         .map(|question| {
             let (top, lines) = (height, lines(&question.name));
@@ -72,7 +72,7 @@ pub fn likert(questions: &[Question], title: &str) -> Markup {
     )
 }
 
-fn row(top: f64, lines: &[String], question: &Question) -> Markup {
+fn row(top: f64, lines: &[String], question: &LikertQuestion) -> Markup {
     let bar = top + 19.0 + LINE * (lines.len() - 1) as f64;
     html! {
         text.label x="4" y=(unit(top + 13.0)) {
@@ -98,7 +98,7 @@ mod tests {
         assert_eq!(bars([0, 0, 0, 0, 3])[4], (320.0, 300.0));
         assert_eq!(bars([1, 0, 2, 0, 1]), [(170.0, 75.0), (245.0, 0.0), (245.0, 150.0), (395.0, 0.0), (395.0, 75.0)]);
         assert_eq!(bars([0; 5]), [(320.0, 0.0); 5]);
-        let figure = likert(&[Question { name: "<q>".into(), counts: [0, 2, 0, 0, 0] }], "t").into_string();
+        let figure = likert(&[LikertQuestion { name: "<q>".into(), counts: [0, 2, 0, 0, 0] }], "t").into_string();
         assert!(figure.contains("&lt;q&gt;") && figure.matches("<rect").count() == 1, "{figure}");
     }
 
@@ -109,7 +109,7 @@ mod tests {
         assert_eq!(broken.join(" "), long.trim());
         assert!(broken.len() == 3 && broken.iter().all(|line| line.chars().count() <= LINE_CHARACTERS), "{broken:?}");
         assert_eq!((lines(""), lines(&"x".repeat(90)).len()), (vec![String::new()], 1));
-        let question = |name: &str| Question { name: name.into(), counts: [1, 0, 0, 0, 0] };
+        let question = |name: &str| LikertQuestion { name: name.into(), counts: [1, 0, 0, 0, 0] };
         let figure = likert(&[question(&long), question("short")], "t").into_string();
         assert!(
             figure.contains(r#"y="49""#) && figure.contains(r#"y="91""#),

@@ -14,7 +14,7 @@ const COLOURS: usize = 4;
 
 /// One line.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
+pub struct ChartLine {
     /// Name.
     pub name: String,
     /// Style number, 1 to 4; beyond it they come again, broken.
@@ -32,7 +32,7 @@ pub fn place(k: usize, count: usize, value: f64, most: f64) -> (f64, f64) {
 
 /// Lines from 0 to `most`, sessions numbered below.
 #[must_use]
-pub fn lines(lines: &[Line], most: f64, title: &str) -> Markup {
+pub fn lines(lines: &[ChartLine], most: f64, title: &str) -> Markup {
     let count = lines.iter().map(|line| line.values.len()).max().unwrap_or(0);
     // Of many sessions only some are numbered.
     let step = count.div_ceil(12).max(1);
@@ -65,7 +65,7 @@ pub fn colour(style: usize) -> usize {
     (style.max(1) - 1) % COLOURS + 1
 }
 
-fn points(one: &Line, count: usize, most: f64) -> Vec<(f64, f64)> {
+fn points(one: &ChartLine, count: usize, most: f64) -> Vec<(f64, f64)> {
     one.values.iter().enumerate().filter_map(|(k, value)| value.map(|value| place(k, count, value, most))).collect()
 }
 
@@ -74,11 +74,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_first_is_left_the_best_is_up_and_what_does_not_apply_is_left_out() {
+    fn exact_the_first_point_is_left_the_best_is_up_and_missing_scores_are_omitted() {
         assert_eq!(place(0, 3, 0.0, 100.0), (50.0, BOTTOM));
         assert_eq!(place(2, 3, 100.0, 100.0), (394.0, TOP));
         assert_eq!(place(0, 1, 50.0, 100.0), (222.0, 108.0));
-        let one = Line { name: "a".into(), style: 1, values: vec![Some(0.0), None, Some(100.0)] };
+        let one = ChartLine { name: "a".into(), style: 1, values: vec![Some(0.0), None, Some(100.0)] };
         let figure = lines(&[one], 100.0, "<t>").into_string();
         assert!(figure.contains("d=\"M50 206L394 10\"") && figure.contains("&lt;t&gt;"), "{figure}");
         assert_eq!(figure.matches("<circle").count(), 2);

@@ -2,10 +2,10 @@
 //! marks for pictures, crashes and defects, and the drone, which the page's slider moves.
 
 use super::backdrop::{ground, lake};
-use super::colours::{COLOURINGS, track};
+use super::colors::{COLOURINGS, track};
 use super::{line, sheet, simplified, unit};
 use crate::report::Review;
-use crate::report::outline::{View, outlines};
+use crate::report::outline::{ParallelView, outlines};
 use crate::report::words;
 use maud::{Markup, html};
 use spandrel_mavlink::telemetry::Frame;
@@ -29,9 +29,9 @@ const MANY: usize = 40;
 
 /// A view fitted to a sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Map {
+pub struct PlotMap {
     /// The view.
-    pub view: View,
+    pub view: ParallelView,
     /// Left and upper end of what is shown, m right and up.
     pub(super) corner_m: (f64, f64),
     /// Units of the sheet per metre.
@@ -40,10 +40,10 @@ pub struct Map {
     pub size: (f64, f64),
 }
 
-impl Map {
+impl PlotMap {
     /// Fits a view to points.
     #[must_use]
-    pub fn around(view: View, points_m: &[Vec3<Enu>]) -> Self {
+    pub fn around(view: ParallelView, points_m: &[Vec3<Enu>]) -> Self {
         let flat: Vec<(f64, f64)> = points_m.iter().map(|point| view.at(*point)).collect();
         let span = |f: fn(&(f64, f64)) -> f64| {
             let (low, high) = flat.iter().map(f).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
@@ -80,7 +80,7 @@ impl Map {
 /// From above.
 #[must_use]
 pub fn plan(review: &Review) -> Markup {
-    let map = Map::around(View::plan(), &everything(review));
+    let map = PlotMap::around(ParallelView::plan(), &everything(review));
     let all = |_: &Frame| true;
     let body = html! {
         (lake(&review.scenario, &review.site, &map))
@@ -94,7 +94,7 @@ pub fn plan(review: &Review) -> Markup {
 /// From above and aside.
 #[must_use]
 pub fn oblique(review: &Review) -> Markup {
-    let map = Map::around(View::oblique(25.0, 22.0), &everything(review));
+    let map = PlotMap::around(ParallelView::oblique(25.0, 22.0), &everything(review));
     let all = |_: &Frame| true;
     sheet(
         map.size,
@@ -127,8 +127,8 @@ pub fn elevation(review: &Review, bridge: &Bridge) -> Markup {
 }
 
 /// The same for the page's script: east and north of the middle, of the axis along the bridge, and how far along and beside counts, m.
-pub(super) fn nearness(bridge: &Bridge) -> String {
-    let axis = View::side(bridge).right;
+pub(super) fn label_distance(bridge: &Bridge) -> String {
+    let axis = ParallelView::side(bridge).right;
     let half_m = 0.5 * bridge.deck_length_m() + 25.0;
     [bridge.centre_m.east(), bridge.centre_m.north(), axis.east(), axis.north(), half_m, BESIDE_M]
         .map(|value| format!("{value:.3}"))
@@ -137,7 +137,7 @@ pub(super) fn nearness(bridge: &Bridge) -> String {
 
 /// The flight belongs into the side view of this bridge.
 pub(super) fn is_beside(bridge: &Bridge) -> impl Fn(&Frame) -> bool + use<> {
-    let (view, centre_m) = (View::side(bridge), bridge.centre_m);
+    let (view, centre_m) = (ParallelView::side(bridge), bridge.centre_m);
     let (axis, towards) = (view.right, view.towards());
     let half_m = 0.5 * bridge.deck_length_m() + 25.0;
     move |frame: &Frame| {
@@ -147,7 +147,7 @@ pub(super) fn is_beside(bridge: &Bridge) -> impl Fn(&Frame) -> bool + use<> {
 }
 
 /// The side view of a bridge, with room for these frames.
-pub(super) fn beside<'a>(scenario: &Scenario, site: &Site, bridge: &Bridge, flown: impl Iterator<Item = &'a Frame>) -> Map {
+pub(super) fn beside<'a>(scenario: &Scenario, site: &Site, bridge: &Bridge, flown: impl Iterator<Item = &'a Frame>) -> PlotMap {
     let prefix = format!("{}/", bridge.name);
     let members = site.members().iter().filter(|member| member.name.starts_with(&prefix));
     let mut points: Vec<Vec3<Enu>> = members.flat_map(|member| member.solid.vertices_m.iter().copied()).collect();
@@ -156,13 +156,13 @@ pub(super) fn beside<'a>(scenario: &Scenario, site: &Site, bridge: &Bridge, flow
     // Foundations deep in the ground would make all else small.
     points.retain(|point| point.up() > water_m - 6.0);
     points.push(Vec3::new(bridge.centre_m.east(), bridge.centre_m.north(), water_m - 4.0));
-    Map::around(View::side(bridge), &points)
+    PlotMap::around(ParallelView::side(bridge), &points)
 }
 
 /// A job without bridges, from the south.
 #[must_use]
-pub fn from_south(review: &Review) -> Markup {
-    let map = Map::around(View::from_south(), &everything(review));
+pub fn south_elevation(review: &Review) -> Markup {
+    let map = PlotMap::around(ParallelView::from_south(), &everything(review));
     let all = |_: &Frame| true;
     sheet(
         map.size,
@@ -174,12 +174,12 @@ pub fn from_south(review: &Review) -> Markup {
 
 /// One bridge with its defects only: what was found and what was missed.
 #[must_use]
-pub fn findings(review: &Review, bridge: &Bridge, view: View, title: &str) -> Markup {
+pub fn findings(review: &Review, bridge: &Bridge, view: ParallelView, title: &str) -> Markup {
     let prefix = format!("{}/", bridge.name);
     let water_m = review.scenario.terrain.water_level_m;
     let members = review.site.members().iter().filter(|member| member.name.starts_with(&prefix));
     let points: Vec<Vec3<Enu>> = members.flat_map(|member| member.solid.vertices_m.iter().copied()).collect();
-    let map = Map::around(view, &points.into_iter().filter(|point| point.up() > water_m - 6.0).collect::<Vec<_>>());
+    let map = PlotMap::around(view, &points.into_iter().filter(|point| point.up() > water_m - 6.0).collect::<Vec<_>>());
     let mine = review.defects.iter().filter(|fate| fate.defect.member.starts_with(&prefix));
     sheet(
         map.size,
@@ -214,7 +214,7 @@ pub(super) fn extent(scenario: &Scenario, site: &Site) -> Vec<Vec3<Enu>> {
     members.chain(paths).chain([scenario.ground_team.pad_m]).filter(|point| point.up() > water_m - 6.0).collect()
 }
 
-pub(super) fn structure(site: &Site, map: &Map, prefix: Option<&str>) -> Markup {
+pub(super) fn structure(site: &Site, map: &PlotMap, prefix: Option<&str>) -> Markup {
     let of = |name: &str| prefix.is_none_or(|prefix| name.starts_with(prefix));
     let members = site.members().iter().filter(|member| of(&member.name));
     let shapes = outlines(members, &map.view, LEAST / map.scale);
@@ -228,7 +228,7 @@ pub(super) fn structure(site: &Site, map: &Map, prefix: Option<&str>) -> Markup 
 }
 
 /// Reference paths (of one bridge or of all), track, marks, the drone and a scale.
-fn job(review: &Review, map: &Map, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
+fn job(review: &Review, map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     html! {
         (references(&review.scenario, map, bridge.map(|bridge| bridge.name.as_str())))
         @for (layer, (_, class)) in COLOURINGS.iter().enumerate() {
@@ -237,13 +237,13 @@ fn job(review: &Review, map: &Map, bridge: Option<&Bridge>, shown: &dyn Fn(&Fram
             }
         }
         (marks(review, map, shown))
-        g.drone data-matrix=(map.matrix()) data-near=[bridge.map(nearness)] { circle r="7" {} circle.core r="2.5" {} }
+        g.drone data-matrix=(map.matrix()) data-near=[bridge.map(label_distance)] { circle r="7" {} circle.core r="2.5" {} }
         (scale(map))
     }
 }
 
 /// Reference paths of one bridge, or of all.
-pub(super) fn references(scenario: &Scenario, map: &Map, bridge: Option<&str>) -> Markup {
+pub(super) fn references(scenario: &Scenario, map: &PlotMap, bridge: Option<&str>) -> Markup {
     let of = |task: &&Task| {
         let own = task.bridge.and_then(|k| scenario.bridges.get(k)).map(|own| own.name.as_str());
         bridge.is_none() || own.is_none() || own == bridge
@@ -257,7 +257,7 @@ pub(super) fn references(scenario: &Scenario, map: &Map, bridge: Option<&str>) -
     }
 }
 
-fn marks(review: &Review, map: &Map, shown: &dyn Fn(&Frame) -> bool) -> Markup {
+fn marks(review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     let place = |point: Vec3<Enu>| {
         let (x, y) = map.at(point);
         format!("translate({} {})", unit(x), unit(y))
@@ -267,7 +267,7 @@ fn marks(review: &Review, map: &Map, shown: &dyn Fn(&Frame) -> bool) -> Markup {
         @for crash in review.crashes.iter().filter(|crash| shown(&review.frames[crash.frame])) {
             g.crash transform=(place(review.frames[crash.frame].position_m)) {
                 path d="M-5 -5L5 5M5 -5L-5 5" {}
-                title { "crash with " (words::contact(crash.with)) " at " (words::clock(review.t_s(crash.frame))) }
+                title { "crash with " (words::contact_label(crash.with)) " at " (words::clock(review.t_s(crash.frame))) }
             }
         }
         @for picture in &review.pictures {
@@ -286,12 +286,12 @@ fn marks(review: &Review, map: &Map, shown: &dyn Fn(&Frame) -> bool) -> Markup {
 }
 
 /// Where flights begin and end.
-pub(super) fn pad(scenario: &Scenario, map: &Map) -> Markup {
+pub(super) fn pad(scenario: &Scenario, map: &PlotMap) -> Markup {
     let (x, y) = map.at(scenario.ground_team.pad_m);
     html! { g.pad transform={ "translate(" (unit(x)) " " (unit(y)) ")" } { path d="M-6 -6H6V6H-6Z" {} title { "pad" } } }
 }
 
-pub(super) fn north(map: &Map) -> Markup {
+pub(super) fn north(map: &PlotMap) -> Markup {
     html! {
         g.north transform={ "translate(" (unit(map.size.0 - 24.0)) " 34)" } {
             path d="M0 -18L7 6L0 1L-7 6Z" {}
@@ -300,7 +300,7 @@ pub(super) fn north(map: &Map) -> Markup {
     }
 }
 
-pub(super) fn scale(map: &Map) -> Markup {
+pub(super) fn scale(map: &PlotMap) -> Markup {
     let length_m = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0].into_iter().rfind(|m| m * map.scale <= 160.0).unwrap_or(1.0);
     let y = map.size.1 - 14.0;
     html! {
@@ -318,7 +318,7 @@ mod tests {
     #[test]
     fn exact_a_map_fits_its_points_keeps_proportions_and_its_matrix_agrees() {
         let corners = [Vec3::new(-50.0, 10.0, 0.0), Vec3::new(50.0, 60.0, 20.0)];
-        let map = Map::around(View::plan(), &corners);
+        let map = PlotMap::around(ParallelView::plan(), &corners);
         for point in corners {
             let (x, y) = map.at(point);
             assert!(x >= MARGIN - 1e-9 && x <= map.size.0 - MARGIN + 1e-9, "{x}");

@@ -4,7 +4,7 @@
 mod backdrop;
 pub mod bars;
 pub mod boxes;
-pub mod colours;
+pub mod colors;
 pub mod histogram;
 pub mod intervals;
 pub mod job;

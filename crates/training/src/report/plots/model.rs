@@ -16,7 +16,7 @@ const HEAD: f64 = 5.0;
 
 /// An arrow's words: the estimate, and whether zero lies in its interval.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Effect {
+pub struct PathEffect {
     /// Estimate and interval.
     pub words: String,
     /// Zero lies in the interval.
@@ -25,20 +25,20 @@ pub struct Effect {
 
 /// The four effects.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Effects {
+pub struct PathEffects {
     /// Demand on strain.
-    pub on_strain: Effect,
+    pub on_strain: PathEffect,
     /// Strain on performance.
-    pub on_performance: Effect,
+    pub on_performance: PathEffect,
     /// Demand on performance past strain.
-    pub direct: Effect,
+    pub direct: PathEffect,
     /// Feedback on the first.
-    pub moderation: Effect,
+    pub moderation: PathEffect,
 }
 
 /// The drawing.
 #[must_use]
-pub fn model(effects: &Effects, title: &str) -> Markup {
+pub fn model(effects: &PathEffects, title: &str) -> Markup {
     let middle = ROW + 0.5 * BOX.1;
     let (from, to) = (DEMAND + BOX.0, STRAIN);
     let crossing = 0.5 * (from + to);
@@ -47,24 +47,24 @@ pub fn model(effects: &Effects, title: &str) -> Markup {
         title,
         "model-drawing",
         &html! {
-            (named((DEMAND, ROW), "Demand", "mental, physical"))
-            (named((STRAIN, ROW), "State", "pressure, frustration"))
-            (named((PERFORMANCE, ROW), "Performance", "overall score, %"))
-            (named(FEEDBACK, "Feedback", "how much it helped"))
+            (labeled_arrow((DEMAND, ROW), "Demand", "mental, physical"))
+            (labeled_arrow((STRAIN, ROW), "State", "pressure, frustration"))
+            (labeled_arrow((PERFORMANCE, ROW), "Performance", "overall score, %"))
+            (labeled_arrow(FEEDBACK, "Feedback", "how much it helped"))
             (arrow(&[(from, middle), (to, middle)], &effects.on_strain))
-            (said((crossing, middle + 24.0), &effects.on_strain))
+            (effect_text((crossing, middle + 24.0), &effects.on_strain))
             (arrow(&[(STRAIN + BOX.0, middle), (PERFORMANCE, middle)], &effects.on_performance))
-            (said((0.5 * (STRAIN + BOX.0 + PERFORMANCE), middle + 24.0), &effects.on_performance))
+            (effect_text((0.5 * (STRAIN + BOX.0 + PERFORMANCE), middle + 24.0), &effects.on_performance))
             (arrow(&[(crossing, FEEDBACK.1 + BOX.1), (crossing, middle - 2.0)], &effects.moderation))
             text.value x=(unit(crossing + 10.0)) y=(unit(FEEDBACK.1 + BOX.1 + 28.0)) { (effects.moderation.words) }
             @let (down, low) = (ROW + BOX.1, SIZE.1 - 30.0);
             (arrow(&[(DEMAND + 0.5 * BOX.0, down), (DEMAND + 0.5 * BOX.0, low), (PERFORMANCE + 0.5 * BOX.0, low), (PERFORMANCE + 0.5 * BOX.0, down)], &effects.direct))
-            (said((0.5 * SIZE.0, low + 20.0), &effects.direct))
+            (effect_text((0.5 * SIZE.0, low + 20.0), &effects.direct))
         },
     )
 }
 
-fn named((x, y): (f64, f64), name: &str, what: &str) -> Markup {
+fn labeled_arrow((x, y): (f64, f64), name: &str, what: &str) -> Markup {
     html! {
         rect.node x=(unit(x)) y=(unit(y)) width=(unit(BOX.0)) height=(unit(BOX.1)) rx="8" {}
         text.label x=(unit(x + 0.5 * BOX.0)) y=(unit(y + 23.0)) text-anchor="middle" { (name) }
@@ -72,11 +72,11 @@ fn named((x, y): (f64, f64), name: &str, what: &str) -> Markup {
     }
 }
 
-fn said((x, y): (f64, f64), effect: &Effect) -> Markup {
+fn effect_text((x, y): (f64, f64), effect: &PathEffect) -> Markup {
     html! { text.value x=(unit(x)) y=(unit(y)) text-anchor="middle" { (effect.words) } }
 }
 
-fn arrow(points: &[(f64, f64)], effect: &Effect) -> Markup {
+fn arrow(points: &[(f64, f64)], effect: &PathEffect) -> Markup {
     let head = head(points);
     html! {
         path class={ "arrow" @if effect.may_be_none { " may-be-none" } } d=(line(points, false)) {}
@@ -101,8 +101,8 @@ mod tests {
         assert_eq!(head(&[(0.0, 0.0), (50.0, 0.0)]), [(50.0, 0.0), (40.0, 5.0), (40.0, -5.0)]);
         assert_eq!(head(&[(0.0, 9.0), (0.0, 50.0)]), [(0.0, 50.0), (5.0, 40.0), (-5.0, 40.0)]);
         assert!(head(&[(0.0, 0.0)]).is_empty());
-        let effect = |words: &str, may_be_none| Effect { words: words.into(), may_be_none };
-        let effects = Effects {
+        let effect = |words: &str, may_be_none| PathEffect { words: words.into(), may_be_none };
+        let effects = PathEffects {
             on_strain: effect("0.7 <a>", false),
             on_performance: effect("b", true),
             direct: effect("c", true),

@@ -1,11 +1,11 @@
 //! Two flights of one job on the same drawing, each in its own colour, with the drone of each for the page's slider.
 
 use super::backdrop::{ground, lake};
-use super::colours::plain;
-use super::map::{Map, beside, everything, is_beside, nearness, north, pad, references, scale, structure};
+use super::colors::plain_color;
+use super::map::{PlotMap, beside, everything, is_beside, label_distance, north, pad, references, scale, structure};
 use super::{sheet, unit};
 use crate::report::Review;
-use crate::report::outline::View;
+use crate::report::outline::ParallelView;
 use crate::report::words;
 use maud::{Markup, html};
 use spandrel_mavlink::telemetry::Frame;
@@ -14,7 +14,7 @@ use spandrel_model::scenario::Bridge;
 /// From above, north up.
 #[must_use]
 pub fn plan(both: [&Review; 2]) -> Markup {
-    let map = Map::around(View::plan(), &both.map(everything).concat());
+    let map = PlotMap::around(ParallelView::plan(), &both.map(everything).concat());
     sheet(
         map.size,
         "Both flights from above, north up",
@@ -50,21 +50,21 @@ pub fn elevation(both: [&Review; 2], bridge: &Bridge) -> Markup {
 /// A job without bridges, from the south.
 #[must_use]
 pub fn from_south(both: [&Review; 2]) -> Markup {
-    let map = Map::around(View::from_south(), &both.map(everything).concat());
+    let map = PlotMap::around(ParallelView::from_south(), &both.map(everything).concat());
     let body = html! { (structure(&both[0].site, &map, None)) (flights(both, &map, None, &|_| true)) };
     sheet(map.size, "Both flights from the south", "map", &body)
 }
 
-fn flights(both: [&Review; 2], map: &Map, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
+fn flights(both: [&Review; 2], map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     html! {
         (references(&both[0].scenario, map, bridge.map(|bridge| bridge.name.as_str())))
         @for (k, review) in both.into_iter().enumerate() {
-            path class={ "overlaid line-" (k + 1) } d=(plain(review, map, shown)) { title { "session " (k + 1) } }
+            path class={ "overlaid line-" (k + 1) } d=(plain_color(review, map, shown)) { title { "session " (k + 1) } }
         }
         (pad(&both[0].scenario, map))
         @for (k, review) in both.into_iter().enumerate() { (crashes(k, review, map, shown)) }
         @for k in 0..2 {
-            g class={ "drone drone-" (k + 1) } data-flight=(k) data-matrix=(map.matrix()) data-near=[bridge.map(nearness)] {
+            g class={ "drone drone-" (k + 1) } data-flight=(k) data-matrix=(map.matrix()) data-near=[bridge.map(label_distance)] {
                 circle r="9" {}
                 text.mark y="4" text-anchor="middle" { (k + 1) }
             }
@@ -73,13 +73,13 @@ fn flights(both: [&Review; 2], map: &Map, bridge: Option<&Bridge>, shown: &dyn F
     }
 }
 
-fn crashes(k: usize, review: &Review, map: &Map, shown: &dyn Fn(&Frame) -> bool) -> Markup {
+fn crashes(k: usize, review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     html! {
         @for crash in review.crashes.iter().filter(|crash| shown(&review.frames[crash.frame])) {
             @let (x, y) = map.at(review.frames[crash.frame].position_m);
             g class={ "crash of-" (k + 1) } transform={ "translate(" (unit(x)) " " (unit(y)) ")" } {
                 path d="M-5 -5L5 5M5 -5L-5 5" {}
-                title { "session " (k + 1) ": crash with " (words::contact(crash.with)) " at " (words::clock(review.t_s(crash.frame))) }
+                title { "session " (k + 1) ": crash with " (words::contact_label(crash.with)) " at " (words::clock(review.t_s(crash.frame))) }
             }
         }
     }

@@ -17,7 +17,7 @@ const NUMBERED: usize = 10;
 
 /// What is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Practice<'a> {
+pub struct PracticeChart<'a> {
     /// The score, repetition by repetition.
     pub values: &'a [f64],
     /// The curve through them.
@@ -37,7 +37,7 @@ pub fn place(repetition: f64, count: usize, value: f64, most: f64) -> (f64, f64)
 
 /// Dots for what was flown, the curve, and a ring where it expects the next.
 #[must_use]
-pub fn practice(drawn: &Practice<'_>, title: &str) -> Markup {
+pub fn practice(drawn: &PracticeChart<'_>, title: &str) -> Markup {
     let (count, most) = (drawn.values.len(), drawn.most);
     let at = |repetition: f64, value: f64| place(repetition, count, value, most);
     let along = |curve: &LearningCurve, last: usize| {
@@ -83,7 +83,7 @@ mod tests {
         let values = [40.0, 60.0, 75.0, 88.0, 99.0];
         let curve = learning_curve(&values).unwrap();
         assert!(curve.next > 100.0, "{curve:?}");
-        let drawn = Practice { values: &values, curve: &curve, others: &[curve], most: 100.0 };
+        let drawn = PracticeChart { values: &values, curve: &curve, others: &[curve], most: 100.0 };
         let figure = practice(&drawn, "<t>").into_string();
         assert_eq!((figure.matches("class=\"dot-1\"").count(), figure.matches("one-of-many").count()), (5, 1));
         assert!(figure.contains("class=\"expected\" cx=\"290\" cy=\"8\"") && figure.contains("&lt;t&gt;"), "{figure}");

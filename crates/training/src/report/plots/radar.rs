@@ -11,7 +11,7 @@ const RADIUS: f64 = 118.0;
 
 /// One spoke.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Spoke {
+pub struct RadarAxis {
     /// Name.
     pub name: &'static str,
     /// 0 to 100 of each session; `None` does not apply.
@@ -28,7 +28,7 @@ pub fn place(k: usize, count: usize, pct: f64) -> (f64, f64) {
 
 /// The diagram of one session, or of several laid over each other.
 #[must_use]
-pub fn radar(spokes: &[Spoke], title: &str) -> Markup {
+pub fn radar(spokes: &[RadarAxis], title: &str) -> Markup {
     let count = spokes.len();
     let at = |k: usize, pct: f64| {
         let (x, y) = place(k, count, pct);
@@ -37,7 +37,7 @@ pub fn radar(spokes: &[Spoke], title: &str) -> Markup {
     let ring = |pct: f64| line(&(0..count).map(|k| at(k, pct)).collect::<Vec<_>>(), true);
     let sessions = spokes.iter().map(|spoke| spoke.values.len()).max().unwrap_or(0);
     let shape = |session: usize| -> Vec<(f64, f64)> {
-        let value = |spoke: &Spoke| spoke.values.get(session).copied().flatten();
+        let value = |spoke: &RadarAxis| spoke.values.get(session).copied().flatten();
         spokes.iter().enumerate().filter_map(|(k, spoke)| value(spoke).map(|pct| at(k, pct))).collect()
     };
     sheet(
@@ -100,7 +100,7 @@ mod tests {
 
     #[test]
     fn exact_the_polygon_goes_through_the_values_and_leaves_out_what_does_not_apply() {
-        let spoke = |name, value| Spoke { name, values: vec![value] };
+        let spoke = |name, value| RadarAxis { name, values: vec![value] };
         let figure = radar(&[spoke("a", Some(100.0)), spoke("b", Some(50.0)), spoke("c", Some(0.0)), spoke("d", None)], "t");
         let figure = figure.into_string();
         assert!(figure.contains("d=\"M210 68L269 186L210 186Z\""), "{figure}");

@@ -11,7 +11,7 @@ const ROW: f64 = 26.0;
 
 /// One row.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Strip {
+pub struct TimeStrip {
     /// Name.
     pub name: String,
     /// Stretches: style, from, to (s), and what is said of it.
@@ -28,7 +28,7 @@ pub fn x_of(t_s: f64, end_s: f64) -> f64 {
 
 /// All rows from 0 to `end_s`.
 #[must_use]
-pub fn strips(rows: &[Strip], end_s: f64, title: &str) -> Markup {
+pub fn strips(rows: &[TimeStrip], end_s: f64, title: &str) -> Markup {
     let bottom = 6.0 + ROW * rows.len() as f64;
     // Whole and half minutes read better than tenths of them.
     let minutes = ticks(end_s / 60.0, 8);
@@ -69,7 +69,7 @@ mod tests {
     fn exact_time_runs_from_left_to_right() {
         assert_eq!((x_of(0.0, 100.0), x_of(50.0, 100.0), x_of(100.0, 100.0)), (118.0, 504.0, 890.0));
         assert_eq!((x_of(-1.0, 100.0), x_of(101.0, 100.0), x_of(1.0, 0.0)), (118.0, 890.0, 118.0));
-        let row = Strip {
+        let row = TimeStrip {
             name: "row".into(),
             stretches: vec![("on".into(), 25.0, 75.0, "<said>".into())],
             marks: vec![("hit".into(), 100.0, String::new())],

@@ -1,6 +1,6 @@
 //! How labels are drawn in place of light: which element, which defect.
 
-use super::{ENTRIES, Kind, LIGHT, NEARER, build, copies, corners, module, patches, special};
+use super::{ENTRIES, LIGHT, NEARER, PipelineKey, build, copies, corners, module, patches, special};
 use crate::gpu::device::Gpu;
 use spandrel_model::site::catalogue;
 
@@ -19,7 +19,7 @@ impl LabelPipelines {
         let globals = [Some(globals_layout)];
         let (solids, of_patches) = ([Some(corners()), Some(copies())], [Some(patches())]);
         let constants = [("MASK", 1.0)];
-        let solid = Kind {
+        let solid = PipelineKey {
             module: &surface,
             entries: ENTRIES,
             layouts: &globals,
@@ -34,7 +34,7 @@ impl LabelPipelines {
             samples: 1,
             constants: &constants,
         };
-        let flat = Kind {
+        let flat = PipelineKey {
             module: &defect,
             buffers: &of_patches,
             writes: wgpu::ColorWrites::GREEN,

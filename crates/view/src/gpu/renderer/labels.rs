@@ -2,12 +2,12 @@
 
 use super::{Frustum, Renderer, solids};
 use crate::gpu::device::{Gpu, GpuError};
-use crate::gpu::pass::{Copies, begin};
+use crate::gpu::pass::{MeshInstances, begin};
 use crate::gpu::picture::{colour_texture, read_bytes};
 use crate::gpu::pipelines::{DEPTH, LIGHT, LabelPipelines};
 use crate::gpu::targets::texture;
-use crate::gpu::uniforms::{Globals, Maps};
-use crate::masks::Masks;
+use crate::gpu::uniforms::{Globals, ShadowMaps};
+use crate::masks::LabelMask;
 use crate::scene::Instance;
 use crate::shot::Shot;
 
@@ -19,9 +19,9 @@ impl Renderer {
     ///
     /// # Errors
     /// When the shot is too large for the device, or the device fails or has failed.
-    pub fn labels(&mut self, gpu: &Gpu, shot: &Shot) -> Result<Masks, GpuError> {
+    pub fn labels(&mut self, gpu: &Gpu, shot: &Shot) -> Result<LabelMask, GpuError> {
         gpu.check_size(shot.size_px)?;
-        let globals = Globals::new(shot, self.water_m, &Maps { sun: &[], lamp: None }, false);
+        let globals = Globals::new(shot, self.water_m, &ShadowMaps { sun: &[], lamp: None }, false);
         gpu.queue.write_buffer(&self.globals, 0, bytemuck::bytes_of(&globals));
         let pipelines = self.labels.take().unwrap_or_else(|| LabelPipelines::new(gpu, &self.pipelines.globals_layout));
         let target = colour_texture(gpu, shot.size_px, (LIGHT, wgpu::TextureUsages::COPY_SRC));
@@ -40,7 +40,7 @@ impl Renderer {
         shot: &Shot,
         target: &wgpu::Texture,
     ) {
-        let (moving, here) = (self.moving(gpu, &shot.moving), Copies::new(gpu, &[Instance::HERE]));
+        let (moving, here) = (self.moving(gpu, &shot.moving), MeshInstances::new(gpu, &[Instance::HERE]));
         let shown = Frustum::of(&shot.eye.view_projection(shot.aspect()));
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
         let depth = texture(gpu, shot.size_px, DEPTH, 1);
@@ -50,7 +50,7 @@ impl Renderer {
         let still = self
             .fixed
             .iter()
-            .filter(|fixed| fixed.seen.shows(false, 0.0) && shown.may_show_cell(&fixed.bounds))
+            .filter(|fixed| fixed.visible_range.shows(false, 0.0) && shown.may_show_cell(&fixed.bounds))
             .map(|fixed| (&*fixed.solid, &fixed.copies));
         let lake = self.water.iter().flat_map(|(water, _)| Some((water, here.as_ref()?)));
         for (solid, copies) in solids(&self.models, &moving).chain(still).chain(lake) {
@@ -60,11 +60,12 @@ impl Renderer {
     }
 }
 
-fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Masks, GpuError> {
+fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<LabelMask, GpuError> {
     let (width, height) = (texture.width(), texture.height());
     let bytes = read_bytes(gpu, texture, PIXEL)?;
     let number = |k: usize| u16::from_le_bytes([bytes[k], bytes[k + 1]]);
-    let of =
-        |channel: usize| (0..bytes.len() / PIXEL as usize).map(|k| Masks::whole(number(PIXEL as usize * k + channel))).collect();
-    Ok(Masks { width, height, elements: of(0), defects: of(2) })
+    let of = |channel: usize| {
+        (0..bytes.len() / PIXEL as usize).map(|k| LabelMask::whole(number(PIXEL as usize * k + channel))).collect()
+    };
+    Ok(LabelMask { width, height, elements: of(0), defects: of(2) })
 }

@@ -1,11 +1,11 @@
 //! The questionnaire's answers, and how they stand to what was measured.
 
 use super::super::{figure, legend, scrolling};
-use super::{many, people_shown};
+use super::{people_shown, pooled};
 use crate::cohort::{Cohort, Likert};
-use crate::questionnaire::{Item, SHIPPED, read_wording};
-use crate::report::plots::likert::{Question, likert};
-use crate::report::table::{Cell, Table};
+use crate::questionnaire::{QuestionnaireItem, SHIPPED, read_wording};
+use crate::report::plots::likert::{LikertQuestion, likert};
+use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
 
@@ -21,11 +21,11 @@ const ANSWERS: [(&str, &str); 5] = [
 /// Likert charts.
 pub fn answers(cohort: &Cohort) -> Markup {
     let key: Vec<(&str, String)> = ANSWERS.iter().map(|(class, words)| (*class, (*words).to_owned())).collect();
-    let of = |repetition: Option<usize>| -> Vec<Question> {
+    let of = |repetition: Option<usize>| -> Vec<LikertQuestion> {
         let those = cohort.likert.iter().filter(|one| one.repetition == repetition);
-        those.map(|one| Question { name: asked(one), counts: one.counts }).collect()
+        those.map(|one| LikertQuestion { name: asked(one), counts: one.counts }).collect()
     };
-    let later: Vec<(usize, Vec<Question>)> =
+    let later: Vec<(usize, Vec<LikertQuestion>)> =
         (1..=cohort.repetitions).map(|k| (k, of(Some(k)))).filter(|(_, questions)| !questions.is_empty()).collect();
     let first = of(None);
     html! {
@@ -37,17 +37,17 @@ pub fn answers(cohort: &Cohort) -> Markup {
     }
 }
 
-fn chart(questions: &[Question], title: &str) -> Markup {
+fn chart(questions: &[LikertQuestion], title: &str) -> Markup {
     scrolling(title, &likert(questions, title))
 }
 
 /// A question in the shipped words; its key when they have none.
 fn asked(one: &Likert) -> String {
     let wording = read_wording(SHIPPED[0].0, SHIPPED[0].1).ok();
-    match (Item::from_key(&one.question), wording) {
+    match (QuestionnaireItem::from_key(&one.question), wording) {
         (Some(item), Some(wording)) => {
             let statement = wording.statement(item);
-            if matches!(item, Item::Overall(_)) {
+            if matches!(item, QuestionnaireItem::Overall(_)) {
                 statement.to_owned()
             } else {
                 format!("{}: {statement}", wording.heading(item, |_| String::new()).trim_end_matches([':', ' ']))
@@ -67,14 +67,15 @@ pub fn self_rating(cohort: &Cohort) -> Markup {
         @if people_shown(cohort) {
             @if !rating.contradictions.is_empty() { ul { @for one in &rating.contradictions { li { b { (one.trainee) } ": " (one.words) } } } }
             (rated(cohort).folded())
-        } @else { (many::self_rating(cohort)) }
+        } @else { (pooled::self_rating(cohort)) }
     }
 }
 
 fn rated(cohort: &Cohort) -> Table {
     let people = cohort.self_rating.people.iter();
-    let rows =
-        people.map(|one| vec![one.trainee.clone().into(), Cell::Number(one.self_rating, 2), Cell::Number(one.measured_pct, 1)]);
+    let rows = people.map(|one| {
+        vec![one.trainee.clone().into(), TableCell::Number(one.self_rating, 2), TableCell::Number(one.measured_pct, 1)]
+    });
     Table {
         name: "self_rating",
         caption: "self-rating and measured share",

@@ -1,10 +1,10 @@
 //! The causal model: demand on strain on performance, with feedback as moderator.
 
 use super::super::{figure, scrolling};
-use crate::cohort::{Causal, Cohort, Indirect, SENSIBLE_N};
-use crate::report::plots::intervals::{Estimate, intervals};
-use crate::report::plots::model::{Effect, Effects, model};
-use crate::report::table::{Cell, Table};
+use crate::cohort::{Cohort, IndirectEffect, MediationModel, SENSIBLE_N};
+use crate::report::plots::intervals::{IntervalEstimate, intervals};
+use crate::report::plots::model::{PathEffect, PathEffects, model};
+use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use crate::statistics::{Coefficient, Regression};
 use maud::{Markup, html};
@@ -20,7 +20,7 @@ pub fn causal(cohort: &Cohort) -> Markup {
     }
 }
 
-fn estimated(model_: &Causal) -> Markup {
+fn estimated(model_: &MediationModel) -> Markup {
     html! {
         @if model_.n < SENSIBLE_N {
             p.caution { b { (model_.n) " people with whole answers." } " With fewer than " (SENSIBLE_N) " the model misses effects of medium size: read it as a description of these people, and as no proof." }
@@ -37,8 +37,8 @@ fn named(at: usize) -> &'static str {
     ["feedback helped little", "feedback at the mean", "feedback helped much"].get(at).copied().unwrap_or_default()
 }
 
-fn indirect(model: &Causal) -> Vec<Estimate> {
-    let estimate = |(k, one): (usize, &Indirect)| Estimate {
+fn indirect(model: &MediationModel) -> Vec<IntervalEstimate> {
+    let estimate = |(k, one): (usize, &IndirectEffect)| IntervalEstimate {
         name: format!("{} ({})", named(k), words::number(one.feedback, 1)),
         value: one.effect,
         interval: one.interval_95,
@@ -46,8 +46,8 @@ fn indirect(model: &Causal) -> Vec<Estimate> {
     model.indirect.iter().enumerate().map(estimate).collect()
 }
 
-fn effects(model: &Causal) -> Effects {
-    Effects {
+fn effects(model: &MediationModel) -> PathEffects {
+    PathEffects {
         on_strain: effect(&model.strain, "demand"),
         on_performance: effect(&model.performance, "strain"),
         direct: effect(&model.performance, "demand"),
@@ -55,24 +55,24 @@ fn effects(model: &Causal) -> Effects {
     }
 }
 
-fn effect(regression: &Regression, name: &str) -> Effect {
+fn effect(regression: &Regression, name: &str) -> PathEffect {
     let Some(one) = regression.coefficients.iter().find(|one| one.name == name) else {
-        return Effect { words: "–".into(), may_be_none: true };
+        return PathEffect { words: "–".into(), may_be_none: true };
     };
     let [low, high] = one.interval_95;
     let number = |value: f64| words::number(value, 2).replace('-', "−");
-    Effect {
+    PathEffect {
         words: format!("{} [{}, {}]", number(one.estimate), number(low), number(high)),
         may_be_none: low <= 0.0 && high >= 0.0,
     }
 }
 
-fn effects_table(model: &Causal) -> Table {
-    let ends = |one: &Indirect, k: usize| one.interval_95.map_or(Cell::Empty, |ends| Cell::Number(ends[k], 2));
-    let row = |name: &str, one: &Indirect| {
-        vec![name.into(), Cell::Number(one.feedback, 2), Cell::Number(one.effect, 2), ends(one, 0), ends(one, 1)]
+fn effects_table(model: &MediationModel) -> Table {
+    let ends = |one: &IndirectEffect, k: usize| one.interval_95.map_or(TableCell::Empty, |ends| TableCell::Number(ends[k], 2));
+    let row = |name: &str, one: &IndirectEffect| {
+        vec![name.into(), TableCell::Number(one.feedback, 2), TableCell::Number(one.effect, 2), ends(one, 0), ends(one, 1)]
     };
-    let mut rows: Vec<Vec<Cell>> = model.indirect.iter().enumerate().map(|(k, one)| row(named(k), one)).collect();
+    let mut rows: Vec<Vec<TableCell>> = model.indirect.iter().enumerate().map(|(k, one)| row(named(k), one)).collect();
     rows.push(row("moderation: change per step of feedback", &model.moderation));
     Table {
         name: "indirect_effects",
@@ -82,18 +82,18 @@ fn effects_table(model: &Causal) -> Table {
     }
 }
 
-fn coefficients(model: &Causal) -> Table {
-    let maybe = |value: Option<f64>, digits: usize| value.map_or(Cell::Empty, |value| Cell::Number(value, digits));
+fn coefficients(model: &MediationModel) -> Table {
+    let maybe = |value: Option<f64>, digits: usize| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
     let row = |of: &'static str, one: &Coefficient| {
         vec![
             of.into(),
             one.name.clone().into(),
-            Cell::Number(one.estimate, 3),
-            Cell::Number(one.standard_error, 3),
+            TableCell::Number(one.estimate, 3),
+            TableCell::Number(one.standard_error, 3),
             maybe(one.t, 2),
             maybe(one.p, 3),
-            Cell::Number(one.interval_95[0], 3),
-            Cell::Number(one.interval_95[1], 3),
+            TableCell::Number(one.interval_95[0], 3),
+            TableCell::Number(one.interval_95[1], 3),
         ]
     };
     let of = |name: &'static str, regression: &Regression| {

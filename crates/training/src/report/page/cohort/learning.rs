@@ -2,9 +2,9 @@
 
 use super::super::progress::{most, pictures, too_few};
 use super::super::{figure, legend};
-use crate::cohort::{Cohort, GroupCurve, Progress};
-use crate::report::plots::practice::{Practice, practice};
-use crate::report::table::{Cell, Table};
+use crate::cohort::{Cohort, GroupCurve, TraineeProgress};
+use crate::report::plots::practice::{PracticeChart, practice};
+use crate::report::table::{Table, TableCell};
 use crate::statistics::LearningCurve;
 use maud::{Markup, html};
 
@@ -28,7 +28,7 @@ pub fn curves(cohort: &Cohort) -> Markup {
             div.trio {
                 @for one in &cohort.learning {
                     @let others = of_people(cohort, &one.score);
-                    @let drawn = Practice { values: &one.means, curve: &one.curve, others: &others, most: most(&one.score) };
+                    @let drawn = PracticeChart { values: &one.means, curve: &one.curve, others: &others, most: most(&one.score) };
                     (figure(&format!("{}, {}", one.score, people(one.people)), &practice(&drawn, &format!("Learning curve of {}", one.score))))
                 }
             }
@@ -60,11 +60,11 @@ fn numbers(curves: &[GroupCurve]) -> Table {
             one.score.clone().into(),
             one.people.into(),
             c.n.into(),
-            Cell::Number(one.means.first().copied().unwrap_or_default(), 1),
-            Cell::Number(one.means.last().copied().unwrap_or_default(), 1),
-            Cell::Number(c.exponent, 3),
-            c.r_squared.map_or(Cell::Empty, |value| Cell::Number(value, 2)),
-            Cell::Number(c.next.min(most(&one.score)), 1),
+            TableCell::Number(one.means.first().copied().unwrap_or_default(), 1),
+            TableCell::Number(one.means.last().copied().unwrap_or_default(), 1),
+            TableCell::Number(c.exponent, 3),
+            c.r_squared.map_or(TableCell::Empty, |value| TableCell::Number(value, 2)),
+            TableCell::Number(c.next.min(most(&one.score)), 1),
         ]
     };
     Table {
@@ -77,7 +77,7 @@ fn numbers(curves: &[GroupCurve]) -> Table {
 
 /// Those who flew more than once, each with his repetitions.
 pub fn one_by_one(cohort: &Cohort) -> Markup {
-    let repeated: Vec<&Progress> = repeated(cohort).collect();
+    let repeated: Vec<&TraineeProgress> = repeated(cohort).collect();
     html! {
         @if repeated.len() > ONE_BY_ONE {
             p.calm { (repeated.len()) " people flew more than once; more than " (ONE_BY_ONE) " are not shown one by one. The file progress.csv holds them all." }
@@ -90,12 +90,12 @@ pub fn one_by_one(cohort: &Cohort) -> Markup {
 }
 
 /// Those who flew more than once.
-pub fn repeated(cohort: &Cohort) -> impl Iterator<Item = &Progress> {
+pub fn repeated(cohort: &Cohort) -> impl Iterator<Item = &TraineeProgress> {
     cohort.progress.iter().filter(|one| one.repetitions.len() > 1)
 }
 
 /// The tasks as the first session names them.
-fn tasks(cohort: &Cohort, one: &Progress) -> Vec<(u32, String)> {
+fn tasks(cohort: &Cohort, one: &TraineeProgress) -> Vec<(u32, String)> {
     let first = cohort.individuals.iter().find(|first| first.trainee == one.trainee);
     first.map(|first| first.tasks.iter().map(|task| (task.id, task.name.clone())).collect()).unwrap_or_default()
 }

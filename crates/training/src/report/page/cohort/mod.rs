@@ -3,14 +3,14 @@
 
 mod answers;
 mod causal;
-mod first;
+mod first_sessions;
 mod learning;
-mod many;
+mod pooled;
 mod repetitions;
 
-use super::{Moves, document};
+use super::{PageScripts, document};
 use crate::cohort::{Cohort, TABLES, tables};
-use crate::record::left_out_words;
+use crate::record::omitted_summary;
 use crate::report::table::download;
 use maud::{Markup, html};
 
@@ -19,7 +19,7 @@ pub const PEOPLE_SHOWN: usize = 60;
 
 /// Where the tables are as files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Files<'a> {
+pub enum TableLinks<'a> {
     /// In the page, as far as their people are listed in it.
     Inside,
     /// Served: the address is this, the file's name, and a query.
@@ -34,12 +34,12 @@ fn people_shown(cohort: &Cohort) -> bool {
 /// The page that opens offline.
 #[must_use]
 pub fn cohort(cohort: &Cohort) -> String {
-    let sections = sections(cohort, Files::Inside);
+    let sections = sections(cohort, TableLinks::Inside);
     document(
         "Cohort report",
-        &Moves::Nothing,
+        &PageScripts::Nothing,
         &html! {
-            header { div { p.kicker { "Cohort report" } h1 { (cohort.scenarios.join(", ")) } (in_short(cohort)) } }
+            header { div { p.kicker { "Cohort report" } h1 { (cohort.scenarios.join(", ")) } (summary_lines(cohort)) } }
             nav aria-label="Sections" { @for (id, name, _) in &sections { a href={ "#" (id) } { (name) } } }
             main {
                 @for (id, name, body) in &sections {
@@ -52,24 +52,24 @@ pub fn cohort(cohort: &Cohort) -> String {
 
 /// Who flew what.
 #[must_use]
-pub fn in_short(cohort: &Cohort) -> Markup {
+pub fn summary_lines(cohort: &Cohort) -> Markup {
     html! {
         p { (cohort.trainees) " trainees, " (cohort.sessions) " sessions of " (cohort.scenarios.join(", ")) ". "
             @if !cohort.group.is_empty() && cohort.repetitions > 1 { (cohort.group.len()) " of them flew " (cohort.repetitions) " times or more." }
-            @if let Some(words) = left_out_words(cohort.left_out) { " " (words) "." } }
+            @if let Some(words) = omitted_summary(cohort.left_out) { " " (words) "." } }
     }
 }
 
 /// Id, name and body of each section; those with nothing to show are left out.
 #[must_use]
-pub fn sections(cohort: &Cohort, files_at: Files<'_>) -> Vec<(&'static str, &'static str, Markup)> {
+pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>) -> Vec<(&'static str, &'static str, Markup)> {
     let mut sections = Vec::new();
     if !cohort.warnings.is_empty() {
         sections.push(("mind", "To keep in mind", html! { ul { @for words in &cohort.warnings { li { (words) } } } }));
     }
-    sections.push(("distributions", "Scores of the first sessions", first::distributions(cohort)));
-    sections.push(("people", "People and tasks", first::people(cohort)));
-    sections.push(("crashes", "Crashes", first::crashes(cohort)));
+    sections.push(("distributions", "Scores of the first sessions", first_sessions::distributions(cohort)));
+    sections.push(("people", "People and tasks", first_sessions::people(cohort)));
+    sections.push(("crashes", "Crashes", first_sessions::crashes(cohort)));
     if !cohort.boxes.is_empty() && cohort.repetitions > 1 {
         sections.push(("repetitions", "Repetitions", repetitions::repetitions(cohort)));
     }
@@ -101,12 +101,12 @@ const BY_PERSON: [&str; 7] = [
     "learning_curves.csv",
 ];
 
-fn files(cohort: &Cohort, at: Files<'_>) -> Markup {
+fn files(cohort: &Cohort, at: TableLinks<'_>) -> Markup {
     match at {
-        Files::At(address, query) => html! {
+        TableLinks::At(address, query) => html! {
             ul.actions { @for name in TABLES { li { a href={ (address) (name) (query) } { (name) } } } }
         },
-        Files::Inside => {
+        TableLinks::Inside => {
             let inside = |name: &str| people_shown(cohort) || !BY_PERSON.contains(&name);
             html! {
                 ul.actions { @for (name, csv) in tables(cohort).into_iter().filter(|(name, _)| inside(name)) { li { (download(name, &csv, name)) } } }
@@ -122,10 +122,10 @@ fn files(cohort: &Cohort, at: Files<'_>) -> Markup {
 mod tests {
     use super::*;
     use crate::cohort::{Selection, cohort as of};
-    use crate::record::{Incomplete, Record};
+    use crate::record::{IncompletePolicy, SessionRecord};
     use crate::testing::faultless;
 
-    fn group() -> Vec<Record> {
+    fn group() -> Vec<SessionRecord> {
         let mut records = Vec::new();
         for person in 0..6 {
             for number in 1..=2 {
@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn exact_the_page_shows_every_figure_and_escapes_names() {
-        let cohort = of(&group(), &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: Incomplete::LeaveOut });
+        let cohort = of(&group(), &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::LeaveOut });
         let page = super::cohort(&cohort);
         assert!(!page.contains("<script>alert") && page.contains("&lt;script&gt;"));
         for figure in
@@ -156,19 +156,22 @@ mod tests {
     fn exact_a_group_without_answers_or_repetitions_leaves_those_sections_out() {
         let mut records = group();
         records.iter_mut().for_each(|record| record.answers = None);
-        let cohort = of(&records[..1], &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: Incomplete::LeaveOut });
-        let ids: Vec<&str> = sections(&cohort, Files::Inside).into_iter().map(|(id, _, _)| id).collect();
+        let cohort =
+            of(&records[..1], &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::LeaveOut });
+        let ids: Vec<&str> = sections(&cohort, TableLinks::Inside).into_iter().map(|(id, _, _)| id).collect();
         assert!(!ids.contains(&"answers") && !ids.contains(&"repetitions") && ids.contains(&"files"), "{ids:?}");
         assert!(!ids.contains(&"causal") && !ids.contains(&"learning"), "{ids:?}");
     }
 
     #[test]
-    fn exact_the_causal_model_is_drawn_with_its_warning_or_the_page_says_why_not() {
+    fn exact_the_causal_model_is_drawn_with_its_warning_or_the_page_explains_why_not() {
         // The made-up answers are all alike: nothing can be estimated.
-        let page =
-            super::cohort(&of(&group(), &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: Incomplete::LeaveOut }));
+        let page = super::cohort(&of(
+            &group(),
+            &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::LeaveOut },
+        ));
         assert!(page.contains("No estimate can be made") && !page.contains("class=\"model-drawing\""));
-        let mut records: Vec<Record> = (0..20).map(|person| faultless(&format!("t{person}"), 1)).collect();
+        let mut records: Vec<SessionRecord> = (0..20).map(|person| faultless(&format!("t{person}"), 1)).collect();
         let mut chance = spandrel_model::random::RandomStream::new(3, "made-up answers");
         for record in &mut records {
             for answer in record.answers.as_mut().unwrap().given.values_mut() {
@@ -176,7 +179,7 @@ mod tests {
             }
             record.scores.overall = chance.range(200.0, 400.0);
         }
-        let cohort = of(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: Incomplete::LeaveOut });
+        let cohort = of(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::LeaveOut });
         assert!(cohort.causal.is_some(), "{:?}", cohort.warnings);
         let page = super::cohort(&cohort);
         assert!(page.contains("class=\"model-drawing\"") && page.contains("With fewer than 78"), "no warning");
@@ -187,8 +190,11 @@ mod tests {
     #[test]
     fn exact_the_learning_curve_stands_where_somebody_flew_often_enough() {
         let flown = |times: usize| {
-            let records: Vec<Record> = (1..=times).flat_map(|k| [faultless("anna", k), faultless("ben", k)]).collect();
-            super::cohort(&of(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: Incomplete::LeaveOut }))
+            let records: Vec<SessionRecord> = (1..=times).flat_map(|k| [faultless("anna", k), faultless("ben", k)]).collect();
+            super::cohort(&of(
+                &records,
+                &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::LeaveOut },
+            ))
         };
         let (three, four) = (flown(3), flown(4));
         assert!(three.contains("needs 4 repetitions") && !three.contains("class=\"practice\""));
@@ -199,9 +205,9 @@ mod tests {
     #[test]
     fn exact_of_many_people_the_page_shows_distributions_and_stays_small() {
         let people = |count: usize| {
-            let records: Vec<Record> =
+            let records: Vec<SessionRecord> =
                 (0..count).flat_map(|k| [faultless(&format!("p{k}"), 1), faultless(&format!("p{k}"), 2)]).collect();
-            of(&records, &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: Incomplete::LeaveOut })
+            of(&records, &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::LeaveOut })
         };
         let few = super::cohort(&people(PEOPLE_SHOWN));
         assert!(few.contains("Person by person") && few.contains("individuals.csv\" href") && few.contains(">p59<"));
@@ -214,7 +220,7 @@ mod tests {
         assert!(many.len() < some.len() + 2_000, "{} and {} bytes", some.len(), many.len());
         // Served, every file has its address.
         let cohort = people(PEOPLE_SHOWN + 1);
-        let (_, _, files) = sections(&cohort, Files::At("/cohort/", "?repetitions=2")).pop().unwrap();
+        let (_, _, files) = sections(&cohort, TableLinks::At("/cohort/", "?repetitions=2")).pop().unwrap();
         let files = files.into_string();
         let names: Vec<&str> = tables(&cohort).into_iter().map(|(name, _)| name).collect();
         assert_eq!(names, TABLES);

@@ -2,8 +2,8 @@
 
 use super::super::figure;
 use crate::cohort::{Cohort, Comparison};
-use crate::report::plots::boxes::{Named, boxes};
-use crate::report::table::{Cell, Table};
+use crate::report::plots::boxes::{NamedBox, boxes};
+use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
 
 /// Scores in the order of showing, with the most that each can be.
@@ -15,7 +15,7 @@ pub fn repetitions(cohort: &Cohort) -> Markup {
     html! {
         div.trio {
             @for (score, most) in SCORES {
-                @let named: Vec<Named<'_>> = cohort.boxes.iter().filter(|one| one.score == score).map(|one| Named { name: one.repetition.to_string(), plot: &one.plot }).collect();
+                @let named: Vec<NamedBox<'_>> = cohort.boxes.iter().filter(|one| one.score == score).map(|one| NamedBox { name: one.repetition.to_string(), plot: &one.plot }).collect();
                 @if !named.is_empty() { (figure(score, &boxes(&named, most, &format!("Box plots of {score} by repetition")))) }
             }
         }
@@ -26,16 +26,16 @@ pub fn repetitions(cohort: &Cohort) -> Markup {
 }
 
 fn t_tests(tests: &[Comparison]) -> Table {
-    let maybe = |value: Option<f64>| value.map_or(Cell::Empty, |value| Cell::Number(value, 3));
+    let maybe = |value: Option<f64>| value.map_or(TableCell::Empty, |value| TableCell::Number(value, 3));
     let row = |one: &Comparison| {
         let (t, p) = (&one.test, one.test.p);
         vec![
             one.score.clone().into(),
             format!("{} vs. {}", one.earlier, one.later).into(),
             t.n.into(),
-            Cell::Number(t.mean_difference, 2),
-            Cell::Number(t.interval_95[0], 2),
-            Cell::Number(t.interval_95[1], 2),
+            TableCell::Number(t.mean_difference, 2),
+            TableCell::Number(t.interval_95[0], 2),
+            TableCell::Number(t.interval_95[1], 2),
             maybe(t.t),
             maybe(p.map(|p| p.upper)),
             maybe(p.map(|p| p.lower)),
@@ -68,9 +68,9 @@ fn homogeneity(cohort: &Cohort) -> Table {
             one.score.clone().into(),
             counted(&one.group).into(),
             counted(&one.others).into(),
-            Cell::Number(one.test.chi_squared, 2),
+            TableCell::Number(one.test.chi_squared, 2),
             one.test.df.into(),
-            Cell::Number(one.test.p, 3),
+            TableCell::Number(one.test.p, 3),
         ]
     });
     Table {

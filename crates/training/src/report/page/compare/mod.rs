@@ -1,29 +1,32 @@
 //! Two sessions side by side.
 
-mod flight;
+mod charts;
 
-use super::{Moves, document, figure, legend, series, summary};
+use super::{PageScripts, document, figure, legend, series, summary};
 use crate::report::Review;
-use crate::report::coverage::Fate;
-use crate::report::plots::bars::{Row, shares};
-use crate::report::plots::radar::{Spoke, radar};
-use crate::report::table::{Cell, Table};
+use crate::report::coverage::SurfaceOutcome;
+use crate::report::plots::bars::{ShareRow, shares};
+use crate::report::plots::radar::{RadarAxis, radar};
+use crate::report::table::{Table, TableCell};
 use maud::html;
 
 /// The page that compares two sessions.
 #[must_use]
 pub fn comparison(first: &Review, second: &Review) -> String {
     let both = [first, second];
-    let named = both.map(|review| summary::named(&review.assessment.scores));
-    let spokes: Vec<Spoke> = (0..4)
-        .map(|k| Spoke { name: named[0][k].0, values: named.iter().map(|scores| scores[k].1.map(|score| score.pct)).collect() })
+    let named = both.map(|review| summary::scores_by_name(&review.assessment.scores));
+    let spokes: Vec<RadarAxis> = (0..4)
+        .map(|k| RadarAxis {
+            name: named[0][k].0,
+            values: named.iter().map(|scores| scores[k].1.map(|score| score.pct)).collect(),
+        })
         .collect();
     let same = first.scenario.tasks.len() == second.scenario.tasks.len() && first.scenario.crc == second.scenario.crc;
     let line_ups = series::line_ups(both, same);
     let key = [("dot-1", format!("1: {}", words_of(first))), ("dot-2", format!("2: {}", words_of(second)))];
     document(
         "Comparison of two sessions",
-        &Moves::Comparison(series::comparison(both, &line_ups)),
+        &PageScripts::Comparison(series::comparison(both, &line_ups)),
         &html! {
             header {
                 div {
@@ -43,7 +46,7 @@ pub fn comparison(first: &Review, second: &Review) -> String {
                 }
                 section aria-labelledby="flight-head" {
                     h2 id="flight-head" { "Flights" }
-                    (flight::section(both, same, &line_ups, &key))
+                    (charts::section(both, same, &line_ups, &key))
                 }
                 @if same {
                     section aria-labelledby="tasks-head" {
@@ -60,10 +63,10 @@ fn words_of(review: &Review) -> String {
     format!("{}, {}", review.about.trainee, review.about.started_utc)
 }
 
-fn rows(first: &Review, second: &Review) -> Vec<Row> {
+fn rows(first: &Review, second: &Review) -> Vec<ShareRow> {
     let tasks = first.scenario.tasks.iter().enumerate();
     tasks
-        .map(|(k, task)| Row {
+        .map(|(k, task)| ShareRow {
             name: format!("{} · {}", task.id, task.name),
             bars: vec![("dot-1", first.assessment.tasks[k].on_path), ("dot-2", second.assessment.tasks[k].on_path)],
             instead: None,
@@ -74,7 +77,7 @@ fn rows(first: &Review, second: &Review) -> Vec<Row> {
 fn table(first: &Review, second: &Review) -> Table {
     let mut rows = Vec::new();
     let mut put = |name: &str, digits: usize, values: [Option<f64>; 2]| {
-        let number = |value: Option<f64>| value.map_or(Cell::Empty, |value| Cell::Number(value, digits));
+        let number = |value: Option<f64>| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
         let change = match values {
             [Some(a), Some(b)] => Some(b - a),
             _ => None,
@@ -82,7 +85,7 @@ fn table(first: &Review, second: &Review) -> Table {
         rows.push(vec![name.into(), number(values[0]), number(values[1]), number(change)]);
     };
     let both = [first, second];
-    let [ours, theirs] = both.map(|review| summary::named(&review.assessment.scores));
+    let [ours, theirs] = both.map(|review| summary::scores_by_name(&review.assessment.scores));
     for ((name, a), (_, b)) in ours.into_iter().zip(theirs) {
         put(name, 1, [a, b].map(|score| score.map(|score| score.pct)));
     }
@@ -94,7 +97,7 @@ fn table(first: &Review, second: &Review) -> Table {
     put("Defects found", 0, both.map(|review| Some(review.assessment.snapshots.defects_found as f64)));
     put("Cues", 0, both.map(|review| Some(review.feedback.episodes.len() as f64)));
     put("Time too close or off the path, s", 1, both.map(|review| Some(warned_s(review))));
-    put("Surface shown well in pictures, m²", 0, both.map(|review| Some(review.coverage.total().area_m2(Fate::Shown))));
+    put("Surface shown well in pictures, m²", 0, both.map(|review| Some(review.coverage.total().area_m2(SurfaceOutcome::Shown))));
     Table { name: "comparison", caption: "both sessions in numbers", columns: vec!["what", "first", "second", "change"], rows }
 }
 

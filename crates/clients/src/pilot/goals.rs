@@ -1,0 +1,157 @@
+//! The job as a list of legs: transits planned by looking, tasks along their reference paths, home.
+
+use super::route_search;
+use super::track::TrackLeg;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::{Scenario, Task, TaskKind};
+use spandrel_model::site::Site;
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Vehicle;
+
+/// Transit speed, m/s (a comfortable jog for a video drone, estimate).
+const TRANSIT_M_S: f64 = 6.0;
+/// Transit speed with something near, m/s (estimate).
+const CAREFUL_M_S: f64 = 2.5;
+/// What counts as near in transit, m (estimate).
+const NEAR_M: f64 = 4.0;
+/// Height over the pad at which take-off ends and landing begins, m (estimate).
+pub const PAD_HOVER_M: f64 = 6.0;
+
+/// What comes next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FlightGoal {
+    /// Task by index.
+    Task(usize),
+    /// Fly home.
+    Home,
+}
+
+/// Speed at which a task is flown, m/s: under the 10 mph limit with the margin that its shape asks for (estimate).
+fn task_speed_m_s(task: &Task) -> f64 {
+    match task.kind {
+        TaskKind::SlabSide => 3.3,
+        TaskKind::ArchBottom => 3.0,
+        TaskKind::Interlayer => 1.4,
+        TaskKind::PierCircle => 2.2,
+        TaskKind::Free => 2.5,
+    }
+}
+
+/// The place over the pad where flights begin and end.
+#[must_use]
+pub fn hover_point_over_pad(scenario: &Scenario) -> Vec3<Enu> {
+    scenario.ground_team.pad_m + Vec3::new(0.0, 0.0, PAD_HOVER_M)
+}
+
+/// Everything that planning looks at.
+#[derive(Clone, Copy)]
+pub struct PlanningContext<'a> {
+    /// The job.
+    pub scenario: &'a Scenario,
+    /// The site.
+    pub site: &'a Site,
+    /// The aircraft.
+    pub vehicle: &'a Vehicle,
+    /// When.
+    pub at: SimTime,
+    /// Clearance that transits keep, m, but where a path's end lies nearer to things; `None`: this pilot's own.
+    pub keep_clear_m: Option<f64>,
+}
+
+impl PlanningContext<'_> {
+    /// Clearance below which this pilot will not plan, m: what `check` asks of a path.
+    fn clearance_m(&self) -> f64 {
+        0.5 * self.vehicle.hull.tip_to_tip_m + 0.5
+    }
+
+    fn route(&self, from: Vec3<Enu>, to: Vec3<Enu>) -> Vec<Vec3<Enu>> {
+        let ceiling = from.up().max(to.up()) + 60.0;
+        route_search::route(self.site, (from, to), self.clearance_m(), self.keep_clear_m, ceiling, self.at)
+    }
+
+    /// The way as part of a leg: fast in the open, careful past things.
+    fn append_route(&self, leg: &mut TrackLeg, from: Vec3<Enu>, to: Vec3<Enu>) {
+        const STEP_M: f64 = 3.0;
+        let mut last = from;
+        for point in self.route(from, to) {
+            let steps = ((point - last).norm() / STEP_M).ceil().max(1.0) as usize;
+            for k in 1..=steps {
+                let p = last.lerp(point, k as f64 / steps as f64);
+                let near = self.site.nearest(p, NEAR_M, self.at).is_some();
+                leg.push(p, if near { CAREFUL_M_S } else { TRANSIT_M_S }, None, None);
+            }
+            last = point;
+        }
+    }
+
+    /// The leg for a job from here.
+    #[must_use]
+    pub fn leg(&self, job: FlightGoal, from: Vec3<Enu>) -> TrackLeg {
+        match job {
+            FlightGoal::Home => self.transit(from, hover_point_over_pad(self.scenario)),
+            FlightGoal::Task(index) => self.task(index, from),
+        }
+    }
+
+    fn transit(&self, from: Vec3<Enu>, to: Vec3<Enu>) -> TrackLeg {
+        let mut leg = TrackLeg::new();
+        self.append_route(&mut leg, from, to);
+        ensure_two_points(&mut leg, to);
+        leg
+    }
+
+    fn task(&self, index: usize, from: Vec3<Enu>) -> TrackLeg {
+        let task = &self.scenario.tasks[index];
+        let order = flying_order(task, from);
+        let mut leg = TrackLeg::new();
+        let Some(first) = order.first() else { return self.transit(from, hover_point_over_pad(self.scenario)) };
+        self.append_route(&mut leg, from, task.path_m[*first]);
+        for k in &order {
+            leg.push(task.path_m[*k], task_speed_m_s(task), task.look.get(*k).copied(), Some(index));
+        }
+        ensure_two_points(&mut leg, task.path_m[*first]);
+        leg
+    }
+
+    /// The rest of a leg after a mishap: a way back to the point that comes next, then on as before.
+    #[must_use]
+    pub fn resume(&self, leg: &TrackLeg, next: usize, from: Vec3<Enu>) -> TrackLeg {
+        let next = next.min(leg.points_m.len() - 1);
+        let mut fresh = TrackLeg::new();
+        for point in self.route(from, leg.points_m[next]) {
+            fresh.push(point, leg.speed_m_s[next].min(2.0), leg.line_of_sight[next], leg.task[next]);
+        }
+        for k in next..leg.points_m.len() {
+            fresh.push(leg.points_m[k], leg.speed_m_s[k], leg.line_of_sight[k], leg.task[k]);
+        }
+        ensure_two_points(&mut fresh, leg.points_m[next]);
+        fresh
+    }
+}
+
+/// A leg needs two points; one that is flown on the spot gets a second one a hand's breadth away.
+fn ensure_two_points(leg: &mut TrackLeg, at: Vec3<Enu>) {
+    if leg.points_m.is_empty() {
+        leg.push(at, 1.0, None, None);
+    }
+    if leg.points_m.len() == 1 {
+        let (point, task) = (leg.points_m[0], leg.task[0]);
+        leg.push(point + Vec3::new(0.0, 0.0, 0.05), 1.0, None, task);
+    }
+}
+
+/// Path indices in the order in which a person would fly them: from the nearer end; a closed path from its nearest point, with a
+/// little overlap.
+fn flying_order(task: &Task, from: Vec3<Enu>) -> Vec<usize> {
+    const OVERLAP: usize = 4;
+    let n = task.path_m.len();
+    if n == 0 {
+        return Vec::new();
+    }
+    let far = |k: usize| (task.path_m[k] - from).norm();
+    if task.closed {
+        let start = (0..n).min_by(|a, b| far(*a).total_cmp(&far(*b))).unwrap_or(0);
+        return (0..n + OVERLAP).map(|k| (start + k) % n).collect();
+    }
+    if far(n - 1) < far(0) { (0..n).rev().collect() } else { (0..n).collect() }
+}

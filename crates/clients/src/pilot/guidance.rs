@@ -1,0 +1,339 @@
+//! In the air: follow the leg, keep off things, look, photograph, recover.
+
+use super::goals::{FlightGoal, PlanningContext};
+use super::perception::MotionState;
+use super::stick_response::StickAxes;
+use super::track::{LegProgress, TrackCommand, TrackLeg};
+use super::visual_search::{Glimpse, camera_pose};
+use super::{Pilot, PilotConfig, PilotPhase};
+use spandrel_mavlink::contract::contact::ContactKind;
+use spandrel_mavlink::dialect::MavCmd;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+use spandrel_model::site::DefectView;
+use spandrel_model::time::SimTime;
+
+/// Heading loop of the trained pilot, 1/s (estimate).
+const YAW_PER_S: f64 = 1.3;
+/// Share of the felt speed error that the hand adds, trained pilot (estimate).
+const SPEED_FEEDBACK: f64 = 0.35;
+/// No way made for this long means stuck, s.
+const STUCK_S: f64 = 6.0;
+/// Backing off after being stuck lasts this long, s.
+const BACK_OFF_S: f64 = 2.0;
+/// One approach to a noticed defect lasts at most this long, s.
+const INSPECT_S: f64 = 7.0;
+/// Battery at which a sensible pilot breaks off, %.
+const BREAK_OFF_PCT: f64 = 12.0;
+/// Aiming error at which the shutter is pressed, rad.
+const AIMED_RAD: f64 = 0.12;
+/// Tries per defect.
+const TRIES: u32 = 2;
+/// A spot that would not show well is left alone this long, s: it may show better from farther on (estimate).
+const LEAVE_S: f64 = 15.0;
+/// Standard deviation of judging by eye how obliquely a surface is seen, trained pilot, rad (4 degrees, estimate).
+const JUDGE_RAD: f64 = 0.07;
+/// Standard deviation of judging size and light on a screen, trained pilot, as a share (estimate).
+const JUDGE_SHARE: f64 = 0.15;
+
+/// A noticed spot that is being photographed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct PhotoTarget {
+    defect: u32,
+    position_m: Vec3<Enu>,
+    normal: Vec3<Enu>,
+    since: SimTime,
+    triggered: Option<SimTime>,
+    attempts: u32,
+    /// How far this pilot misjudges this spot, in standard deviations of the trained pilot.
+    misjudged: f64,
+}
+
+/// State of the flight in the air.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Guidance {
+    leg: Option<(FlightGoal, TrackLeg)>,
+    progress: LegProgress,
+    best_along_m: f64,
+    best_since: SimTime,
+    back_off_until: SimTime,
+    needs_plan: bool,
+    target: Option<PhotoTarget>,
+    distractor_trigger: Option<SimTime>,
+}
+
+impl Guidance {
+    /// Nothing begun.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            leg: None,
+            progress: LegProgress::default(),
+            best_along_m: 0.0,
+            best_since: SimTime::ZERO,
+            back_off_until: SimTime::ZERO,
+            needs_plan: false,
+            target: None,
+            distractor_trigger: None,
+        }
+    }
+
+    /// The aircraft is somewhere else than thought: look for a way back to the leg.
+    pub fn replan(&mut self) {
+        self.needs_plan = true;
+        self.target = None;
+    }
+
+    /// The task being worked.
+    #[must_use]
+    pub fn task(&self) -> Option<usize> {
+        let (_, leg) = self.leg.as_ref()?;
+        leg.task.get(self.progress.next).copied().flatten()
+    }
+
+    fn begin_leg(&mut self, leg: TrackLeg, job: FlightGoal, now: SimTime) {
+        self.leg = Some((job, leg));
+        self.progress = LegProgress { next: 1, along_m: 0.0 };
+        self.best_along_m = 0.0;
+        self.best_since = now;
+        self.needs_plan = false;
+    }
+}
+
+impl Pilot {
+    /// One moment of flying the job.
+    pub(super) fn fly(&mut self, belief: &MotionState) -> StickAxes {
+        if !self.link.status.armed && self.phase_time_s() > 1.0 {
+            return self.recover_from_disarm();
+        }
+        self.plan_next_leg(belief);
+        let Some(mut wish) = self.follow(belief) else { return [0.0; 4] };
+        self.search_picture(belief, &mut wish);
+        self.payload(&wish, belief);
+        wish.velocity_m_s += self.avoid_obstacles(belief);
+        // The hand gives what the eye takes for the wanted speed.
+        wish.velocity_m_s = wish.velocity_m_s / self.perception.speed_scale();
+        sticks(wish.velocity_m_s, belief, wish.line_of_sight, &self.config)
+    }
+
+    /// Motors off in the air's middle: try to go on, unless the session is over.
+    fn recover_from_disarm(&mut self) -> StickAxes {
+        if matches!(self.link.status.contact, ContactKind::Person | ContactKind::Vehicle) {
+            self.finish("hit a person or a vehicle");
+        } else if self.link.status.battery_pct.is_some_and(|pct| pct < 1.0) {
+            self.finish("battery empty");
+        } else if self.phase_time_s() > 25.0 * 60.0 {
+            self.finish("could not fly on");
+        } else {
+            self.arm();
+            return [0.0, 0.0, 0.3, 0.0];
+        }
+        [0.0; 4]
+    }
+
+    fn map<'a>(config: &'a PilotConfig, site: &'a spandrel_model::site::Site, at: SimTime) -> PlanningContext<'a> {
+        PlanningContext { scenario: &config.scenario, site, vehicle: &config.vehicle, at, keep_clear_m: None }
+    }
+
+    /// Plans the next leg when there is none, or a way back to the present one.
+    fn plan_next_leg(&mut self, belief: &MotionState) {
+        let Some(site) = &self.site else { return };
+        let map = Self::map(&self.config, site, self.now);
+        if self.link.status.battery_pct.is_some_and(|pct| pct < BREAK_OFF_PCT)
+            && !matches!(self.guidance.leg, Some((FlightGoal::Home, _)))
+        {
+            self.goals = [FlightGoal::Home].into();
+            self.guidance.leg = None;
+        }
+        match (&self.guidance.leg, self.guidance.needs_plan) {
+            (Some((job, leg)), true) => {
+                let (job, fresh) = (*job, map.resume(leg, self.guidance.progress.next, belief.position_m));
+                self.guidance.begin_leg(fresh, job, self.now);
+            }
+            (None, _) => {
+                let Some(job) = self.goals.pop_front() else { return };
+                let leg = map.leg(job, belief.position_m);
+                self.guidance.begin_leg(leg, job, self.now);
+            }
+            (Some(_), false) => {}
+        }
+    }
+
+    /// The leg's wish; `None` when the leg has just ended.
+    fn follow(&mut self, belief: &MotionState) -> Option<TrackCommand> {
+        let flight = &mut self.guidance;
+        let (job, leg) = flight.leg.as_ref()?;
+        let wish = leg.command(&mut flight.progress, belief, &self.config.skill);
+        if flight.progress.along_m > flight.best_along_m + 0.3 || flight.target.is_some() {
+            flight.best_along_m = flight.best_along_m.max(flight.progress.along_m);
+            flight.best_since = self.now;
+        }
+        if wish.done && flight.target.is_none() {
+            let job = *job;
+            flight.leg = None;
+            match job {
+                FlightGoal::Task(_) => self.tasks_flown += 1,
+                FlightGoal::Home => self.enter(PilotPhase::Descend),
+            }
+            return None;
+        }
+        Some(wish)
+    }
+
+    /// Pushes away from what is seen to be near, and backs off when no way is made.
+    fn avoid_obstacles(&mut self, belief: &MotionState) -> Vec3<Enu> {
+        let Some(site) = &self.site else { return Vec3::zero() };
+        let safe_m = 0.5 * self.config.vehicle.hull.tip_to_tip_m + 0.7;
+        let Some(near) = site.nearest(belief.position_m, safe_m + 1.0, self.now) else { return Vec3::zero() };
+        if (self.now - self.guidance.best_since).s() > STUCK_S {
+            self.guidance.best_since = self.now;
+            self.guidance.back_off_until = self.now + SimTime::from_s(BACK_OFF_S);
+            self.guidance.needs_plan = true;
+        }
+        let push = if self.now < self.guidance.back_off_until { 1.5 } else { 0.0 };
+        let gap = (safe_m - near.distance_m).max(0.0);
+        near.normal * (push + 1.5 * self.config.skill.gain * gap)
+    }
+
+    /// Looks at the picture and turns to what it shows.
+    fn search_picture(&mut self, belief: &MotionState, wish: &mut TrackCommand) {
+        self.glimpse(wish.task.is_some());
+        let Some(target) = self.guidance.target else { return };
+        if (self.now - target.since).s() > INSPECT_S || target.attempts >= TRIES {
+            if target.attempts == 0 {
+                self.visual_search.ignore_until(target.defect, self.now + SimTime::from_s(LEAVE_S));
+            }
+            self.guidance.target = None;
+            return;
+        }
+        let line = target.position_m - belief.position_m;
+        wish.line_of_sight = Some(line.unit());
+        // Stand before it at most as far as the corridor allows, towards its normal, and slowly.
+        let threshold_m = wish.task.map_or(2.0, |t| self.config.scenario.tasks[t].threshold_m);
+        let stand_m = target.normal * line.norm().clamp(2.0, 6.0);
+        let shift = (target.position_m + stand_m - belief.position_m).limited(0.5 * threshold_m);
+        let pull_back = wish.velocity_m_s - wish.velocity_m_s.unit() * wish.velocity_m_s.norm().min(3.0);
+        wish.velocity_m_s = pull_back + shift * 0.25;
+        self.photograph(target, line, belief);
+    }
+
+    fn glimpse(&mut self, working: bool) {
+        let skill = self.config.skill;
+        let Some(picture) = self.perception.delayed_view(skill.delay_s) else { return };
+        let Some(site) = &self.site else { return };
+        let vehicle = &self.config.vehicle;
+        let pose = camera_pose(&picture, self.link.status.gimbal_pitch_rad, self.lamp, vehicle);
+        let views = || site.view_defects(&pose, &vehicle.camera, &vehicle.lamp, picture.time);
+        if self.guidance.target.is_some() || !working || self.stick_response.is_lapsed(self.now) {
+            return;
+        }
+        match self.visual_search.glimpse(views, site, &skill, self.now, true) {
+            Glimpse::Defect { id, misjudged } => {
+                self.guidance.target = site.defects().iter().find(|d| d.id == id).map(|d| PhotoTarget {
+                    defect: id,
+                    position_m: d.position_m,
+                    normal: d.normal,
+                    since: self.now,
+                    triggered: None,
+                    attempts: 0,
+                    misjudged,
+                });
+            }
+            Glimpse::Distractor => self.guidance.distractor_trigger = Some(self.now + SimTime::from_s(skill.delay_s)),
+            Glimpse::Nothing => {}
+        }
+    }
+
+    /// Presses when it is aimed and seems to show well, then looks at the picture taken and tries again if that seems bad.
+    fn photograph(&mut self, mut target: PhotoTarget, line: Vec3<Enu>, belief: &MotionState) {
+        if let Some(pressed) = target.triggered {
+            if (self.now - pressed).s() < 0.6 + self.config.skill.delay_s {
+                return;
+            }
+            if self.is_well_framed(&target) {
+                self.guidance.target = None;
+                return;
+            }
+            target.triggered = None;
+        }
+        let (yaw, pitch) = angles(line.unit());
+        let off = math::wrap_pi(yaw - belief.yaw_rad).abs().max((pitch - self.link.status.gimbal_pitch_rad).abs());
+        if off < AIMED_RAD && belief.velocity_m_s.norm() < 0.8 && self.is_well_framed(&target) {
+            target.triggered = Some(self.now);
+            target.attempts += 1;
+            self.trigger_camera();
+        }
+        self.guidance.target = Some(target);
+    }
+
+    /// Whether the screen shows the spot well, as far as this pilot can tell.
+    fn is_well_framed(&self, target: &PhotoTarget) -> bool {
+        let (vehicle, skill) = (&self.config.vehicle, self.config.skill);
+        let (Some(site), Some(picture)) = (&self.site, self.perception.delayed_view(skill.delay_s)) else { return true };
+        let pose = camera_pose(&picture, self.link.status.gimbal_pitch_rad, self.lamp, vehicle);
+        let views = site.view_defects(&pose, &vehicle.camera, &vehicle.lamp, picture.time);
+        let error = skill.noise * target.misjudged;
+        let flattered = math::exp(JUDGE_SHARE * error);
+        views.iter().find(|view| view.defect_id == target.defect).is_some_and(|view| {
+            let seen = DefectView {
+                incidence_rad: view.incidence_rad - JUDGE_RAD * error,
+                extent_px: view.extent_px * flattered,
+                width_px: view.width_px * flattered,
+                illuminance_lux: view.illuminance_lux * flattered,
+                ..*view
+            };
+            seen.conditions().iter().all(|condition| *condition)
+        })
+    }
+
+    fn trigger_camera(&mut self) {
+        self.pictures += 1;
+        let mut params = [0.0; 7];
+        params[2] = 1.0;
+        self.link.send_command_to(100, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, params);
+    }
+
+    /// Lamp and gimbal by hand, and the picture that a false friend asked for.
+    fn payload(&mut self, wish: &TrackCommand, _belief: &MotionState) {
+        if self.guidance.distractor_trigger.is_some_and(|at| at <= self.now) {
+            self.guidance.distractor_trigger = None;
+            self.trigger_camera();
+        }
+        let dark = wish.task.is_some_and(|t| self.config.scenario.tasks[t].dark);
+        if dark != self.lamp && self.config.vehicle.lamp.flux_lm > 0.0 {
+            self.lamp = dark;
+            self.link.send_command(MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF, [f32::from(u8::from(dark)), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        }
+        let pitch = wish.line_of_sight.map_or(0.0, |look| angles(look).1);
+        let camera = &self.config.vehicle.camera;
+        let pitch = pitch.clamp(camera.gimbal_pitch_min_rad, camera.gimbal_pitch_max_rad);
+        if (pitch - self.gimbal_rad).abs() > 0.04 && (self.now - self.gimbal_sent).s() > 0.2 {
+            self.gimbal_rad = pitch;
+            self.gimbal_sent = self.now;
+            let nan = f32::NAN;
+            let degrees = pitch.to_degrees() as f32;
+            self.link.send_command(MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [degrees, nan, nan, nan, 0.0, 0.0, 0.0]);
+        }
+    }
+}
+
+/// Heading (clockwise from north) and elevation of a line of sight, rad.
+fn angles(look: Vec3<Enu>) -> (f64, f64) {
+    (math::atan2(look.east(), look.north()), math::asin(look.up()))
+}
+
+/// Stick axes for a wanted velocity and line of sight, through what the hand has learnt of this aircraft.
+pub(super) fn sticks(wanted: Vec3<Enu>, belief: &MotionState, look: Option<Vec3<Enu>>, config: &PilotConfig) -> StickAxes {
+    let limits = &config.vehicle.limits;
+    let gain = config.skill.gain;
+    let push = wanted + (wanted - belief.velocity_m_s) * (SPEED_FEEDBACK * gain);
+    let (s, c) = math::sin_cos(belief.yaw_rad);
+    let forward = push.east() * s + push.north() * c;
+    let right = push.east() * c - push.north() * s;
+    let up = push.up();
+    let climb = if up > 0.0 { limits.climb_m_s } else { limits.descend_m_s };
+    // A line of sight that stands nearly upright says nothing of the heading.
+    let turn = look.filter(|l| l.horizontal_norm() > 0.2).map_or(0.0, |l| math::wrap_pi(angles(l).0 - belief.yaw_rad));
+    [forward / limits.forward_m_s, right / limits.sideward_m_s, up / climb, turn * YAW_PER_S * gain / limits.yaw_rate_rad_s]
+        .map(|axis| axis.clamp(-1.0, 1.0))
+}

@@ -1,0 +1,207 @@
+//! The way from here to there around what stands: A* on a grid, pulled straight. A person plans this by looking.
+
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::site::Site;
+use spandrel_model::time::SimTime;
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BinaryHeap};
+
+/// Grid spacing, m: finer than the interlayer is high.
+const CELL_M: f64 = 2.0;
+/// Clearance that a person likes to keep, m (practice: 3 to 5 m, docs/src/reference/domain.md, "Stand-off and clearance").
+const COMFORT_M: f64 = 4.0;
+/// Around an end that lies nearer to things than the way should, the way keeps what the end has, m (estimate: the reach of a task's own
+/// distance for "too close").
+const CRAMPED_M: f64 = 8.0;
+/// Near such an end the way may come closer to things than the end by this, m (estimate: stand-offs are rounded).
+const END_SLACK_M: f64 = 0.1;
+/// Clearances to try, one after the other, as shares of what COMFORT_M adds to the minimum.
+const SHARES: [f64; 3] = [1.0, 0.7, 0.4];
+/// Room around the two ends for the search, m.
+const MARGIN_M: f64 = 40.0;
+/// Cells looked at before giving up; the two-bridge site needs about a tenth.
+const MAX_EXPANSIONS: usize = 400_000;
+
+type GridCell = [i32; 3];
+
+/// A flyable polyline from `from` to `to`, both included, that keeps `clearance_m` where it can, and `keep_m` (if given) but near an end
+/// that lies nearer to things itself, from traffic at any time too. Where no way keeps that much, it keeps less; a straight line when no way
+/// is found.
+#[must_use]
+pub fn route(
+    site: &Site,
+    (from, to): (Vec3<Enu>, Vec3<Enu>),
+    clearance_m: f64,
+    keep_m: Option<f64>,
+    ceiling_up_m: f64,
+    at: SimTime,
+) -> Vec<Vec3<Enu>> {
+    let mut space = SearchSpace { site, clearance_m, at, origin: from, to, ceiling_up_m, keep: None };
+    let found = match keep_m {
+        Some(keep_m) => SHARES.into_iter().find_map(|share| {
+            space.keep = Some(space.clearance_rule(clearance_m + share * (keep_m - clearance_m).max(0.0)));
+            space.is_line_clear(from, to, COMFORT_M).then(Vec::new).or_else(|| search(&space))
+        }),
+        None => None,
+    };
+    let found = found.or_else(|| {
+        space.keep = None;
+        if space.is_line_clear(from, to, COMFORT_M) { Some(Vec::new()) } else { search(&space) }
+    });
+    let cells = found.unwrap_or_default();
+    let mut points = vec![from];
+    points.extend(cells.iter().map(|c| space.center(*c)));
+    points.push(to);
+    remove_detours(&space, &points)
+}
+
+/// A clearance that holds but near cramped ends.
+struct ClearanceRule {
+    keep_m: f64,
+    /// Clearance required near the origin and near the goal, m.
+    ends_m: [f64; 2],
+}
+
+struct SearchSpace<'a> {
+    keep: Option<ClearanceRule>,
+    site: &'a Site,
+    clearance_m: f64,
+    at: SimTime,
+    origin: Vec3<Enu>,
+    to: Vec3<Enu>,
+    ceiling_up_m: f64,
+}
+
+impl SearchSpace<'_> {
+    fn center(&self, cell: GridCell) -> Vec3<Enu> {
+        self.origin + Vec3::new(f64::from(cell[0]), f64::from(cell[1]), f64::from(cell[2])) * CELL_M
+    }
+
+    /// The clearance to keep, and what its ends allow.
+    fn clearance_rule(&self, keep_m: f64) -> ClearanceRule {
+        let still = |end| self.site.nearest(end, keep_m, self.at).map_or(keep_m, |near| near.distance_m);
+        ClearanceRule { keep_m, ends_m: [self.origin, self.to].map(|end| (still(end) - END_SLACK_M).max(self.clearance_m)) }
+    }
+
+    fn clearance(&self, p: Vec3<Enu>) -> f64 {
+        let Some(keep) = &self.keep else {
+            return self.site.nearest(p, COMFORT_M, self.at).map_or(COMFORT_M, |near| near.distance_m);
+        };
+        let reach_m = keep.keep_m.max(COMFORT_M);
+        let still = self.site.nearest(p, reach_m, self.at).map_or(reach_m, |near| near.distance_m);
+        self.site.traffic().min_distance_ever_m(p, still).unwrap_or(still)
+    }
+
+    /// Clearance that this place must have, m.
+    fn required(&self, p: Vec3<Enu>) -> f64 {
+        let Some(keep) = &self.keep else { return self.clearance_m };
+        let near = [self.origin, self.to].map(|end| (p - end).norm() < CRAMPED_M);
+        let ends = keep.ends_m.into_iter().zip(near).filter_map(|(end_m, near)| near.then_some(end_m));
+        ends.fold(keep.keep_m, f64::min).max(self.clearance_m)
+    }
+
+    fn inside(&self, p: Vec3<Enu>) -> bool {
+        let low = |a: f64, b: f64| a.min(b) - MARGIN_M;
+        let high = |a: f64, b: f64| a.max(b) + MARGIN_M;
+        let (a, b) = (self.origin, self.to);
+        p.east() >= low(a.east(), b.east())
+            && p.east() <= high(a.east(), b.east())
+            && p.north() >= low(a.north(), b.north())
+            && p.north() <= high(a.north(), b.north())
+            && p.up() <= self.ceiling_up_m.max(a.up().max(b.up()) + MARGIN_M)
+            && p.up() >= low(a.up(), b.up())
+    }
+
+    fn is_line_clear(&self, a: Vec3<Enu>, b: Vec3<Enu>, clearance_m: f64) -> bool {
+        let length = (b - a).norm();
+        let steps = (length / 0.75).ceil().max(1.0) as usize;
+        (0..=steps).all(|k| {
+            let p = a.lerp(b, k as f64 / steps as f64);
+            // Near the two ends the line may start or finish as near to things as they are.
+            let near_end = (p - a).norm().min((p - b).norm()) < COMFORT_M;
+            let least = if near_end { self.clearance_m.min(clearance_m) } else { clearance_m };
+            self.clearance(p) >= if self.keep.is_some() { self.required(p) } else { least }
+        })
+    }
+}
+
+fn search(space: &SearchSpace) -> Option<Vec<GridCell>> {
+    let goal = {
+        let d = (space.to - space.origin) / CELL_M;
+        [d.east().round() as i32, d.north().round() as i32, d.up().round() as i32]
+    };
+    let mut open = BinaryHeap::new();
+    let mut best: BTreeMap<GridCell, (f64, GridCell)> = BTreeMap::new();
+    best.insert([0, 0, 0], (0.0, [0, 0, 0]));
+    open.push(Reverse((0u64, [0, 0, 0])));
+    for _ in 0..MAX_EXPANSIONS {
+        let Reverse((_, cell)) = open.pop()?;
+        if cell == goal {
+            return Some(trace(&best, goal));
+        }
+        let cost = best[&cell].0;
+        for next in neighbours(cell) {
+            let Some(step) = step_cost(space, cell, next, goal) else { continue };
+            let total = cost + step;
+            if best.get(&next).is_none_or(|(known, _)| total < *known) {
+                best.insert(next, (total, cell));
+                let estimate = total + distance(next, goal);
+                // Millimetres as an integer key: total order without floats.
+                open.push(Reverse(((estimate * 1000.0) as u64, next)));
+            }
+        }
+    }
+    None
+}
+
+fn step_cost(space: &SearchSpace, from: GridCell, to: GridCell, goal: GridCell) -> Option<f64> {
+    let p = space.center(to);
+    if !space.inside(p) {
+        return None;
+    }
+    let clearance = space.clearance(p);
+    if clearance < space.required(p) && to != goal {
+        return None;
+    }
+    let closeness = (COMFORT_M - clearance).max(0.0) / COMFORT_M;
+    Some(distance(from, to) * (1.0 + 6.0 * closeness * closeness))
+}
+
+fn neighbours(c: GridCell) -> impl Iterator<Item = GridCell> {
+    (-1..=1)
+        .flat_map(|x| (-1..=1).flat_map(move |y| (-1..=1).map(move |z| [x, y, z])))
+        .filter(|d| *d != [0, 0, 0])
+        .map(move |d| [c[0] + d[0], c[1] + d[1], c[2] + d[2]])
+}
+
+fn distance(a: GridCell, b: GridCell) -> f64 {
+    let d = [a[0] - b[0], a[1] - b[1], a[2] - b[2]].map(f64::from);
+    CELL_M * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
+}
+
+fn trace(best: &BTreeMap<GridCell, (f64, GridCell)>, goal: GridCell) -> Vec<GridCell> {
+    let mut cells = vec![goal];
+    let mut at = goal;
+    while let Some((_, from)) = best.get(&at) {
+        if *from == at {
+            break;
+        }
+        at = *from;
+        cells.push(at);
+    }
+    cells.reverse();
+    cells
+}
+
+/// Leaves out every point that a free straight line can skip.
+fn remove_detours(space: &SearchSpace, points: &[Vec3<Enu>]) -> Vec<Vec3<Enu>> {
+    let mut kept = vec![points[0]];
+    let mut at = 0;
+    while at + 1 < points.len() {
+        let wish = 0.75 * COMFORT_M;
+        let far = (at + 1..points.len()).rev().find(|k| space.is_line_clear(points[at], points[*k], wish)).unwrap_or(at + 1);
+        kept.push(points[far]);
+        at = far;
+    }
+    kept
+}

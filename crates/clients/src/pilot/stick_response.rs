@@ -1,0 +1,85 @@
+//! The hand on the sticks: lag, tremor in proportion to the deflection, and lapses in which it stays where it is.
+
+use super::perception::DriftProcess;
+use super::skill::Skill;
+use spandrel_model::math;
+use spandrel_model::random::RandomStream;
+use spandrel_model::time::SimTime;
+
+/// Neuromuscular lag, s (docs/src/reference/domain.md, "Human operators").
+const LAG_S: f64 = 0.1;
+/// Motor noise in proportion to the deflection for the trained pilot (-25 dB, docs/src/reference/domain.md, "Human operators").
+const PROPORTIONAL: f64 = 0.056;
+/// Tremor around the centre for the trained pilot (estimate).
+const TREMOR: f64 = 0.006;
+/// Correlation time of the motor noise, s (estimate).
+const NOISE_TAU_S: f64 = 0.25;
+/// A lapse lasts between these, s (estimate).
+const LAPSE_S: (f64, f64) = (1.0, 3.0);
+
+/// Stick axes: forward, right, up, yaw.
+pub type StickAxes = [f64; 4];
+
+/// The hand's state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StickResponse {
+    random: RandomStream,
+    noise: [DriftProcess; 4],
+    out: StickAxes,
+    lapse_until: SimTime,
+}
+
+impl StickResponse {
+    /// Sticks centred.
+    #[must_use]
+    pub fn new(seed: u64) -> Self {
+        let mut random = RandomStream::new(seed, "pilot hand");
+        let noise = [(); 4].map(|()| DriftProcess::new(NOISE_TAU_S, &mut random));
+        Self { random, noise, out: [0.0; 4], lapse_until: SimTime::ZERO }
+    }
+
+    /// True while the mind is elsewhere.
+    #[must_use]
+    pub fn is_lapsed(&self, now: SimTime) -> bool {
+        now < self.lapse_until
+    }
+
+    /// Moves towards `wanted` and returns the axes in [-1, 1].
+    pub fn step(&mut self, wanted: StickAxes, skill: &Skill, now: SimTime, dt_s: f64) -> StickAxes {
+        let lapse = self.random.uniform() < skill.lapses_per_min / 60.0 * dt_s;
+        if lapse && !self.is_lapsed(now) {
+            self.lapse_until = now + SimTime::from_s(self.random.range(LAPSE_S.0, LAPSE_S.1));
+        }
+        let follow = 1.0 - math::exp(-dt_s / LAG_S);
+        for (axis, target) in wanted.iter().enumerate() {
+            let drift = self.noise[axis].step(dt_s, &mut self.random);
+            if now < self.lapse_until {
+                continue;
+            }
+            let noisy = target + drift * skill.noise * (PROPORTIONAL * target.abs() + TREMOR);
+            self.out[axis] += follow * (noisy.clamp(-1.0, 1.0) - self.out[axis]);
+        }
+        self.out
+    }
+
+    /// Lets go of the sticks.
+    pub fn release(&mut self) {
+        self.out = [0.0; 4];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_lapse_freezes_the_sticks() {
+        let mut hand = StickResponse::new(1);
+        let dreamer = Skill { lapses_per_min: 6000.0, ..Skill::TRAINED };
+        let frozen = hand.step([0.5; 4], &dreamer, SimTime::from_ms(0), 0.02);
+        let first = hand.step([0.5; 4], &dreamer, SimTime::from_ms(20), 0.02);
+        assert!(hand.is_lapsed(SimTime::from_ms(40)));
+        assert_eq!(first, hand.step([-1.0; 4], &dreamer, SimTime::from_ms(40), 0.02));
+        assert!(frozen.iter().all(|a| a.abs() < 0.5));
+    }
+}

@@ -1,0 +1,211 @@
+//! What the pilot's ground station says and hears on the wire.
+
+use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::contract::contact::ContactKind;
+use spandrel_mavlink::contract::named::Named;
+use spandrel_mavlink::contract::truth::{self, Truth};
+use spandrel_mavlink::dialect::{
+    MANUAL_CONTROL_DATA, MavAutopilot, MavCmd, MavLandedState, MavMessage, MavModeFlag, MavSysStatusSensor, TIMESYNC_DATA,
+};
+use spandrel_mavlink::station;
+use spandrel_model::frames::Rotation;
+use spandrel_model::geodesy::LocalPlane;
+use spandrel_model::time::SimTime;
+use std::collections::VecDeque;
+
+use super::perception::MotionState;
+use super::stick_response::StickAxes;
+
+/// A ground station as MAVLink clients number it (QGroundControl's ids).
+const SYSTEM: u8 = 255;
+const COMPONENT: u8 = 190;
+const AUTOPILOT: u8 = 1;
+/// What the pilot lives by (truth, system status, landed state, battery, gimbal) and how often, Hz: a PX4's rates to a ground station.
+const STREAMS: [(u32, f32); 5] = [(115, 50.0), (1, 2.0), (245, 5.0), (147, 2.0), (285, 10.0)];
+
+/// What has been heard last.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct VehicleStatus {
+    /// The vehicle's system id.
+    pub system: Option<u8>,
+    /// Whose interface it speaks.
+    pub autopilot: Option<MavAutopilot>,
+    /// Something of the world has been seen since the last heartbeat.
+    truth_received: bool,
+    /// Motors may turn.
+    pub armed: bool,
+    /// The vehicle says that it would arm.
+    pub ready: bool,
+    /// On the ground, as the vehicle reports.
+    pub on_ground: bool,
+    /// Battery, %.
+    pub battery_pct: Option<f64>,
+    /// The session's seed.
+    pub seed: Option<u64>,
+    /// Times that the aircraft was put back.
+    pub respawns: i32,
+    /// What the aircraft touches.
+    pub contact: ContactKind,
+    /// Gimbal pitch, rad.
+    pub gimbal_pitch_rad: f64,
+}
+
+/// Encoder, decoder, out-box.
+#[derive(Debug, Clone)]
+pub struct VehicleLink {
+    decoder: Decoder,
+    encoder: Encoder,
+    out: VecDeque<Vec<u8>>,
+    /// What has been heard.
+    pub status: VehicleStatus,
+}
+
+/// Something that the pilot reacts to at once.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum VehicleUpdate {
+    /// The world as it looks now.
+    Truth(MotionState),
+    /// Lockstep: answer with this token when all that is due has been sent.
+    Timesync(i64),
+}
+
+impl VehicleLink {
+    /// A silent ground station.
+    #[must_use]
+    pub fn new() -> Self {
+        let encoder = Encoder::new(SYSTEM, COMPONENT);
+        Self { decoder: Decoder::new(), encoder, out: VecDeque::new(), status: VehicleStatus::default() }
+    }
+
+    /// Reads one datagram.
+    pub fn receive(&mut self, bytes: &[u8], plane: &LocalPlane) -> Vec<VehicleUpdate> {
+        let mut news = Vec::new();
+        for frame in self.decoder.datagram(bytes) {
+            let from_autopilot = frame.component_id == AUTOPILOT;
+            match frame.message {
+                Some(MavMessage::HIL_STATE_QUATERNION(state)) => {
+                    self.status.truth_received = true;
+                    news.extend(truth::read(&state, plane).map(|truth| VehicleUpdate::Truth(motion(&truth))));
+                }
+                Some(MavMessage::TIMESYNC(sync)) if sync.tc1 == 0 => news.push(VehicleUpdate::Timesync(sync.ts1)),
+                Some(MavMessage::HEARTBEAT(beat)) if from_autopilot => {
+                    self.status.system = Some(frame.system_id);
+                    self.status.autopilot = Some(beat.autopilot);
+                    if !std::mem::take(&mut self.status.truth_received) {
+                        self.request_streams();
+                    }
+                    self.status.armed = beat.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED);
+                }
+                Some(message) => self.update_status(&message),
+                None => {}
+            }
+        }
+        news
+    }
+
+    fn update_status(&mut self, message: &MavMessage) {
+        match message {
+            MavMessage::SYS_STATUS(status) => {
+                let prearm = MavSysStatusSensor::MAV_SYS_STATUS_PREARM_CHECK;
+                self.status.ready = status.onboard_control_sensors_health.contains(prearm);
+            }
+            MavMessage::EXTENDED_SYS_STATE(state) => {
+                self.status.on_ground = state.landed_state == MavLandedState::MAV_LANDED_STATE_ON_GROUND;
+            }
+            MavMessage::BATTERY_STATUS(battery) if battery.battery_remaining >= 0 => {
+                self.status.battery_pct = Some(f64::from(battery.battery_remaining));
+            }
+            MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(gimbal) => {
+                if let Some(attitude) = Rotation::from_wxyz(gimbal.q.map(f64::from)) {
+                    self.status.gimbal_pitch_rad = attitude.euler().1;
+                }
+            }
+            MavMessage::NAMED_VALUE_INT(named) => match Named::from_int(named) {
+                Some(Named::Seed(seed)) => self.status.seed = Some(u64::from(seed)),
+                Some(Named::Respawns(count)) => self.status.respawns = count,
+                Some(Named::Contact(contact)) => self.status.contact = contact,
+                _ => {}
+            },
+            _ => {}
+        }
+    }
+
+    /// A vehicle that says nothing unasked is asked, until it speaks.
+    fn request_streams(&mut self) {
+        for (id, rate_hz) in STREAMS {
+            self.send_command(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        }
+    }
+
+    /// Asks for the mode in which the sticks command velocity.
+    pub fn set_position_mode(&mut self) {
+        let (command, params) = station::position_mode(self.status.autopilot);
+        self.send_command(command, params);
+    }
+
+    /// Queues a message.
+    pub fn send(&mut self, message: &MavMessage) {
+        let bytes = self.encoder.encode(message);
+        self.out.push_back(bytes);
+    }
+
+    /// The next datagram to send.
+    pub fn poll_transmit(&mut self) -> Option<Vec<u8>> {
+        self.out.pop_front()
+    }
+
+    /// The ground station's own heartbeat.
+    pub fn send_heartbeat(&mut self) {
+        self.send(&station::heartbeat());
+    }
+
+    /// Answers a lockstep request.
+    pub fn answer_timesync(&mut self, token: i64, now: SimTime) {
+        let system = self.status.system.unwrap_or(1);
+        self.send(&MavMessage::TIMESYNC(TIMESYNC_DATA {
+            tc1: now.ns().max(1),
+            ts1: token,
+            target_system: system,
+            target_component: AUTOPILOT,
+        }));
+    }
+
+    /// A command to the autopilot.
+    pub fn send_command(&mut self, command: MavCmd, params: [f32; 7]) {
+        self.send_command_to(AUTOPILOT, command, params);
+    }
+
+    /// A command to one of the vehicle's components.
+    pub fn send_command_to(&mut self, component: u8, command: MavCmd, params: [f32; 7]) {
+        let system = self.status.system.unwrap_or(1);
+        self.send(&MavMessage::COMMAND_LONG(station::command(system, component, command, params)));
+    }
+
+    /// Sticks: forward, right, up, yaw in [-1, 1]. Throttle's middle is 500 (PX4's convention).
+    pub fn send_sticks(&mut self, axes: StickAxes) {
+        let scale = |value: f64| (value.clamp(-1.0, 1.0) * 1000.0).round() as i16;
+        self.send(&MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA {
+            target: self.status.system.unwrap_or(1),
+            x: scale(axes[0]),
+            y: scale(axes[1]),
+            z: 500 + scale(axes[2]) / 2,
+            r: scale(axes[3]),
+            ..MANUAL_CONTROL_DATA::default()
+        }));
+    }
+}
+
+impl Default for VehicleLink {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+fn motion(truth: &Truth) -> MotionState {
+    MotionState {
+        time: truth.time,
+        position_m: truth.position_m,
+        velocity_m_s: truth.velocity_m_s,
+        yaw_rad: truth.ned_from_frd.yaw_rad(),
+    }
+}

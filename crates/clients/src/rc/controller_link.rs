@@ -1,0 +1,549 @@
+//! Sticks and actions to a vehicle: MANUAL_CONTROL at 50 Hz, commands until they are answered, a heartbeat.
+//!
+//! A device that is lost gives centred sticks for [`NEUTRAL_S`] and then silence, so that the vehicle's own failsafe acts, and not a
+//! program that pretends to have a pilot.
+
+use super::{ControllerAction, Sticks};
+use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::dialect::{
+    COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavAutopilot, MavCmd, MavMessage, MavModeFlag, MavResult,
+};
+use spandrel_mavlink::station;
+use spandrel_model::time::SimTime;
+use std::collections::VecDeque;
+
+/// A second ground station beside QGroundControl's 255.
+pub const SYSTEM: u8 = 254;
+/// MAV_COMP_ID_MISSIONPLANNER: a ground station.
+const COMPONENT: u8 = 190;
+const AUTOPILOT: u8 = 1;
+const CAMERA: u8 = 100;
+/// Between two MANUAL_CONTROL, s: 50 Hz, what the monitor records.
+const STICKS_EVERY_S: f64 = 0.02;
+const HEARTBEAT_EVERY_S: f64 = 1.0;
+/// Centred sticks of a lost device for this long before the silence, s (estimate: long enough to be received on a bad radio).
+pub const NEUTRAL_S: f64 = 0.3;
+/// A command that is not answered is sent again after this, s, so many times (MAVLink command protocol; estimate).
+const AGAIN_S: f64 = 0.5;
+const TIMES: u8 = 5;
+/// What buttons depend on, and how often, Hz: ILLUMINATOR_STATUS, GIMBAL_DEVICE_ATTITUDE_STATUS.
+const STREAMS: [(u32, f32); 2] = [(440, 5.0), (285, 5.0)];
+/// What has not come for this long is asked for again, s: an answer was lost, or the vehicle began anew (estimate).
+const STREAMS_AGAIN_S: f64 = 5.0;
+const TELLING: &str = "telling of lamp and gimbal";
+/// ZOOM_TYPE_STEP of CAMERA_ZOOM_TYPE: one press zooms by one step of the camera's own.
+const ZOOM_STEP: f32 = 0.0;
+/// One press of a gimbal button, degrees.
+const GIMBAL_STEP_DEG: f32 = 10.0;
+/// The next press counts from where the last one aimed for this long, s: the gimbal may still swing there (estimate: two taps of a person and
+/// a swing by some steps). Later it counts from where the gimbal is, for others aim it, too.
+const AIM_S: f64 = 2.0;
+
+/// What the vehicle said last.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LastReported {
+    /// System id, once there is a heartbeat.
+    pub system: Option<u8>,
+    /// Whose interface it speaks.
+    pub autopilot: Option<MavAutopilot>,
+    /// Motors may turn.
+    pub armed: bool,
+    /// The lamp is on.
+    pub lamp: bool,
+    /// The gimbal's pitch, degrees over the horizon.
+    pub gimbal_deg: Option<f32>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct PendingCommand {
+    description: &'static str,
+    command: COMMAND_LONG_DATA,
+    sent: u8,
+    next: SimTime,
+}
+
+/// The bridge from a controller to a vehicle.
+#[derive(Debug, Clone)]
+pub struct ControllerLink {
+    decoder: Decoder,
+    encoder: Encoder,
+    out: VecDeque<Vec<u8>>,
+    messages: VecDeque<String>,
+    next_stream_request: SimTime,
+    /// Which of [`STREAMS`] have come since they were looked for last.
+    streams_received: [bool; 2],
+    /// What the vehicle said last.
+    pub vehicle: LastReported,
+    sticks: Sticks,
+    device_lost: Option<SimTime>,
+    next_sticks: SimTime,
+    next_heartbeat: SimTime,
+    pending: Vec<PendingCommand>,
+    aim: Option<(f32, SimTime)>,
+    /// What came of asking for the streams is known, and told if it was nothing.
+    streams_known: bool,
+    pictures: u16,
+    arm_hint: String,
+}
+
+impl Default for ControllerLink {
+    fn default() -> Self {
+        Self {
+            decoder: Decoder::new(),
+            encoder: Encoder::new(SYSTEM, COMPONENT),
+            out: VecDeque::new(),
+            messages: VecDeque::new(),
+            next_stream_request: SimTime::ZERO,
+            streams_received: [false; 2],
+            vehicle: LastReported::default(),
+            sticks: Sticks::default(),
+            device_lost: Some(SimTime::ZERO - SimTime::from_s(NEUTRAL_S)),
+            next_sticks: SimTime::ZERO,
+            next_heartbeat: SimTime::ZERO,
+            pending: Vec::new(),
+            aim: None,
+            streams_known: false,
+            pictures: 0,
+            arm_hint: String::new(),
+        }
+    }
+}
+
+impl ControllerLink {
+    /// The sticks as they are; `None` when there is no device. Without a device from the start nothing is sent but heartbeats.
+    pub fn set_sticks(&mut self, sticks: Option<Sticks>, now: SimTime) {
+        match sticks {
+            Some(sticks) => {
+                if self.device_lost.take().is_some() {
+                    self.next_sticks = now;
+                }
+                self.sticks = sticks;
+            }
+            None => {
+                self.device_lost.get_or_insert(now);
+                self.sticks = Sticks::default();
+            }
+        }
+    }
+
+    /// A datagram of the vehicle.
+    pub fn receive(&mut self, bytes: &[u8]) {
+        for frame in self.decoder.datagram(bytes) {
+            match frame.message {
+                Some(MavMessage::HEARTBEAT(beat)) if frame.component_id == AUTOPILOT => {
+                    self.vehicle.system = Some(frame.system_id);
+                    self.vehicle.autopilot = Some(beat.autopilot);
+                    self.vehicle.armed = beat.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED);
+                }
+                Some(MavMessage::ILLUMINATOR_STATUS(status)) => {
+                    (self.streams_received[0], self.streams_known) = (true, true);
+                    self.vehicle.lamp = status.enable != 0;
+                }
+                Some(MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(status)) => {
+                    (self.streams_received[1], self.streams_known) = (true, true);
+                    let attitude =
+                        spandrel_model::frames::Rotation::<spandrel_model::frames::Frd, spandrel_model::frames::Ned>::from_wxyz(
+                            status.q.map(f64::from),
+                        );
+                    self.vehicle.gimbal_deg = attitude.map(|q| q.euler().1.to_degrees() as f32);
+                }
+                Some(MavMessage::COMMAND_ACK(ack)) if ack.target_system == SYSTEM || ack.target_system == 0 => {
+                    self.handle_ack(ack.command, ack.result)
+                }
+                Some(MavMessage::STATUSTEXT(text)) => {
+                    if let Ok(words) = text.text.to_str() {
+                        // A tab at the end means that an event says the same.
+                        self.messages.push_back(words.trim_end().to_owned());
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn handle_ack(&mut self, command: MavCmd, result: MavResult) {
+        if result == MavResult::MAV_RESULT_IN_PROGRESS {
+            return;
+        }
+        if let Some(k) = self.pending.iter().position(|p| p.command.command == command) {
+            let done = self.pending.remove(k);
+            if command == MavCmd::MAV_CMD_COMPONENT_ARM_DISARM && result == MavResult::MAV_RESULT_ACCEPTED {
+                // The next heartbeat may be a second away.
+                self.vehicle.armed = done.command.param1 == 1.0;
+            }
+            let known = done.description == TELLING && std::mem::replace(&mut self.streams_known, true);
+            if result != MavResult::MAV_RESULT_ACCEPTED && !known {
+                if command == MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW {
+                    self.aim = None;
+                }
+                self.push_message(done.description, refusal(command, result));
+            }
+        }
+    }
+
+    /// Asks the vehicle for something. Without a vehicle it says so.
+    pub fn act(&mut self, action: ControllerAction, now: SimTime) {
+        let Some(system) = self.vehicle.system else {
+            return self.push_message(action.name(), "no vehicle has been heard yet");
+        };
+        if action == ControllerAction::TakeOff && !self.vehicle.armed && !self.is_arming() {
+            self.messages.push_back(format!("Arm the motors first{}", self.arm_hint));
+            return;
+        }
+        let (component, command, params) = self.command_for(action, now);
+        let command = station::command(system, component, command, params);
+        // A newer wish of the same kind takes the place of an older one.
+        self.pending.retain(|p| p.command.command != command.command);
+        self.pending.push(PendingCommand { description: action.name(), command, sent: 0, next: now });
+    }
+
+    /// Motors have been asked for and the vehicle has not answered yet.
+    fn is_arming(&self) -> bool {
+        self.pending.iter().any(|p| p.description == ControllerAction::Arm.name())
+    }
+
+    /// Where the motors are armed, such as a key's name, for whoever asks for a take-off without them.
+    pub fn set_arm_key(&mut self, key: &str) {
+        self.arm_hint = format!(" (key {key})");
+    }
+
+    /// What the buttons depend on is asked for once there is a vehicle, and again when it does not come.
+    fn request_streams(&mut self, now: SimTime) {
+        let Some(system) = self.vehicle.system.filter(|_| now >= self.next_stream_request) else { return };
+        self.next_stream_request = now + SimTime::from_s(STREAMS_AGAIN_S);
+        let came = std::mem::take(&mut self.streams_received);
+        for (n, (id, rate_hz)) in STREAMS.into_iter().enumerate() {
+            if came[n] {
+                continue;
+            }
+            let params = [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0];
+            let command = station::command(system, AUTOPILOT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params);
+            self.pending.retain(|p| p.command != command);
+            self.pending.push(PendingCommand { description: TELLING, command, sent: 0, next: now });
+        }
+    }
+
+    fn command_for(&mut self, action: ControllerAction, now: SimTime) -> (u8, MavCmd, [f32; 7]) {
+        use MavCmd as M;
+        const NAN: f32 = f32::NAN;
+        let one = |value: f32| [value, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        match action {
+            ControllerAction::Lamp => (AUTOPILOT, M::MAV_CMD_ILLUMINATOR_ON_OFF, one(if self.vehicle.lamp { 0.0 } else { 1.0 })),
+            ControllerAction::Snapshot => self.snapshot(),
+            ControllerAction::Arm => (AUTOPILOT, M::MAV_CMD_COMPONENT_ARM_DISARM, one(1.0)),
+            ControllerAction::Disarm => (AUTOPILOT, M::MAV_CMD_COMPONENT_ARM_DISARM, one(0.0)),
+            ControllerAction::TakeOff => (AUTOPILOT, M::MAV_CMD_NAV_TAKEOFF, [NAN; 7]),
+            ControllerAction::Land => (AUTOPILOT, M::MAV_CMD_NAV_LAND, [0.0, 0.0, 0.0, NAN, NAN, NAN, NAN]),
+            ControllerAction::Return => (AUTOPILOT, M::MAV_CMD_NAV_RETURN_TO_LAUNCH, [0.0; 7]),
+            ControllerAction::Hold => (AUTOPILOT, M::MAV_CMD_NAV_LOITER_UNLIM, [0.0, 0.0, 0.0, NAN, NAN, NAN, NAN]),
+            ControllerAction::Position => {
+                let (command, params) = station::position_mode(self.vehicle.autopilot);
+                (AUTOPILOT, command, params)
+            }
+            ControllerAction::GimbalUp => self.aim(GIMBAL_STEP_DEG, now),
+            ControllerAction::GimbalDown => self.aim(-GIMBAL_STEP_DEG, now),
+            ControllerAction::CameraZoomIn => (CAMERA, M::MAV_CMD_SET_CAMERA_ZOOM, [ZOOM_STEP, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+            ControllerAction::CameraZoomOut => (CAMERA, M::MAV_CMD_SET_CAMERA_ZOOM, [ZOOM_STEP, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        }
+    }
+
+    /// Every press has a number of its own, from 1; the camera knows by it a command that is only said again.
+    fn snapshot(&mut self) -> (u8, MavCmd, [f32; 7]) {
+        const NAN: f32 = f32::NAN;
+        self.pictures = self.pictures.checked_add(1).unwrap_or(1);
+        let number = f32::from(self.pictures);
+        (CAMERA, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, [0.0, 0.0, 1.0, number, NAN, NAN, NAN])
+    }
+
+    fn aim(&mut self, step: f32, now: SimTime) -> (u8, MavCmd, [f32; 7]) {
+        let aimed = self.aim.map(|(aim, _)| aim);
+        let fresh = self.aim.filter(|(_, at)| (now - *at).s() < AIM_S).map(|(aim, _)| aim);
+        let from = fresh.or(self.vehicle.gimbal_deg).or(aimed).unwrap_or(0.0);
+        let to = (from + step).clamp(-90.0, 90.0);
+        self.aim = Some((to, now));
+        (AUTOPILOT, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [to, f32::NAN, f32::NAN, f32::NAN, 0.0, 0.0, 0.0])
+    }
+
+    /// Queues what is due by now. Call it at least every 50 times a second.
+    pub fn handle_timeout(&mut self, now: SimTime) {
+        self.request_streams(now);
+        if now >= self.next_heartbeat {
+            self.next_heartbeat = now + SimTime::from_s(HEARTBEAT_EVERY_S);
+            self.send(&station::heartbeat());
+        }
+        let pilot = self.device_lost.is_none_or(|since| (now - since).s() < NEUTRAL_S);
+        if pilot && now >= self.next_sticks {
+            self.next_sticks = (self.next_sticks + SimTime::from_s(STICKS_EVERY_S)).max(now);
+            self.send_sticks();
+        }
+        self.send_commands(now);
+    }
+
+    fn send_sticks(&mut self) {
+        let Some(target) = self.vehicle.system else { return };
+        let scale = |value: f64| (value.clamp(-1.0, 1.0) * 1000.0).round() as i16;
+        let s = self.sticks;
+        // Throttle's middle is 500, its ends 0 and 1000: PX4's, ArduPilot's and QGroundControl's convention.
+        let z = (500.0 + 500.0 * s.up.clamp(-1.0, 1.0)).round() as i16;
+        self.send(&MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA {
+            target,
+            x: scale(s.forward),
+            y: scale(s.right),
+            z,
+            r: scale(s.yaw),
+            ..MANUAL_CONTROL_DATA::default()
+        }));
+    }
+
+    fn send_commands(&mut self, now: SimTime) {
+        let mut pending = std::mem::take(&mut self.pending);
+        pending.retain_mut(|p| {
+            if now < p.next {
+                return true;
+            }
+            if p.sent == TIMES {
+                // Asked for again and again: a vehicle that has answered once may stand still.
+                if p.description != TELLING || !std::mem::replace(&mut self.streams_known, true) {
+                    self.push_message(p.description, "the vehicle does not answer");
+                }
+                return false;
+            }
+            p.command.confirmation = p.sent;
+            (p.sent, p.next) = (p.sent + 1, now + SimTime::from_s(AGAIN_S));
+            let bytes = self.encoder.encode(&MavMessage::COMMAND_LONG(p.command.clone()));
+            self.out.push_back(bytes);
+            true
+        });
+        self.pending = pending;
+    }
+
+    fn push_message(&mut self, what: &str, words: &str) {
+        self.messages.push_back(format!("{}: {words}", what.replace('_', " ")));
+    }
+
+    fn send(&mut self, message: &MavMessage) {
+        let bytes = self.encoder.encode(message);
+        self.out.push_back(bytes);
+    }
+
+    /// The next datagram to send.
+    pub fn poll_transmit(&mut self) -> Option<Vec<u8>> {
+        self.out.pop_front()
+    }
+
+    /// The next thing to tell the person: refusals, silence, the vehicle's own words.
+    pub fn poll_message(&mut self) -> Option<String> {
+        self.messages.pop_front()
+    }
+}
+
+fn refusal(command: MavCmd, result: MavResult) -> &'static str {
+    match (command, result) {
+        (_, MavResult::MAV_RESULT_TEMPORARILY_REJECTED) => "not now",
+        (_, MavResult::MAV_RESULT_DENIED) => "denied",
+        (MavCmd::MAV_CMD_SET_CAMERA_ZOOM, MavResult::MAV_RESULT_UNSUPPORTED) => "this camera's lens does not zoom",
+        (_, MavResult::MAV_RESULT_UNSUPPORTED) => "the vehicle has no such thing",
+        (_, MavResult::MAV_RESULT_CANCELLED) => "cancelled",
+        _ => "failed",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_mavlink::dialect::{COMMAND_ACK_DATA, HEARTBEAT_DATA};
+
+    fn at(s: f64) -> SimTime {
+        SimTime::from_s(s)
+    }
+
+    fn known() -> ControllerLink {
+        let mut link = ControllerLink::default();
+        let beat =
+            MavMessage::HEARTBEAT(HEARTBEAT_DATA { autopilot: MavAutopilot::MAV_AUTOPILOT_PX4, ..HEARTBEAT_DATA::default() });
+        link.receive(&Encoder::new(1, 1).encode(&beat));
+        link.handle_timeout(SimTime::ZERO);
+        let asked: Vec<_> = std::iter::from_fn(|| link.poll_transmit()).collect();
+        assert_eq!(asked.len(), 1 + STREAMS.len(), "a heartbeat and what the buttons depend on");
+        link.pending.clear();
+        link
+    }
+
+    /// What is sent between two times, seen every millisecond.
+    fn sent(link: &mut ControllerLink, from: f64, to: f64) -> Vec<MavMessage> {
+        let mut decoder = Decoder::new();
+        let mut found = Vec::new();
+        for ms in (from * 1000.0) as i64..(to * 1000.0) as i64 {
+            link.handle_timeout(SimTime::from_us(ms * 1000));
+            while let Some(bytes) = link.poll_transmit() {
+                found.extend(decoder.datagram(&bytes).into_iter().filter_map(|frame| frame.message));
+            }
+        }
+        found
+    }
+
+    fn sticks(messages: &[MavMessage]) -> Vec<(i16, i16, i16, i16)> {
+        messages
+            .iter()
+            .filter_map(|m| if let MavMessage::MANUAL_CONTROL(c) = m { Some((c.x, c.y, c.z, c.r)) } else { None })
+            .collect()
+    }
+
+    #[test]
+    fn exact_lamp_and_gimbal_are_requested_again_while_they_do_not_come_and_what_is_wrong_is_reported_once() {
+        let mut link = known();
+        let asked = |messages: &[MavMessage]| -> Vec<u32> {
+            let ids =
+                messages.iter().filter_map(|m| if let MavMessage::COMMAND_LONG(c) = m { Some(c.param1 as u32) } else { None });
+            ids.collect()
+        };
+        let gimbal =
+            MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(spandrel_mavlink::dialect::GIMBAL_DEVICE_ATTITUDE_STATUS_DATA::default());
+        link.receive(&Encoder::new(1, 1).encode(&gimbal));
+        let again = sent(&mut link, 0.0, STREAMS_AGAIN_S + 0.1);
+        assert_eq!(asked(&again), [STREAMS[0].0], "the gimbal's has come");
+        answer(&mut link, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, MavResult::MAV_RESULT_UNSUPPORTED);
+        let later = sent(&mut link, STREAMS_AGAIN_S + 0.1, 2.0 * STREAMS_AGAIN_S + 0.1);
+        assert_eq!(asked(&later), STREAMS.map(|(id, _)| id), "the gimbal's has stopped, too");
+        sent(&mut link, 2.0 * STREAMS_AGAIN_S + 0.1, 60.0);
+        let told = |link: &mut ControllerLink| std::iter::from_fn(|| link.poll_message()).collect::<Vec<_>>();
+        assert!(told(&mut link).is_empty(), "one of them came");
+        let mut refused = known();
+        sent(&mut refused, 0.0, STREAMS_AGAIN_S + 0.1);
+        for _ in STREAMS {
+            answer(&mut refused, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, MavResult::MAV_RESULT_UNSUPPORTED);
+        }
+        assert_eq!(told(&mut refused), ["telling of lamp and gimbal: the vehicle has no such thing"]);
+        let mut deaf = known();
+        sent(&mut deaf, 0.0, 60.0);
+        assert_eq!(told(&mut deaf), ["telling of lamp and gimbal: the vehicle does not answer"]);
+        let mut stands = known();
+        stands.receive(&Encoder::new(1, 1).encode(&gimbal));
+        sent(&mut stands, 0.0, 60.0);
+        assert!(told(&mut stands).is_empty(), "time stands still: nothing is wrong");
+    }
+
+    #[test]
+    fn regress_a_take_off_with_the_motors_off_reports_what_is_missing() {
+        let take_offs = |messages: &[MavMessage]| {
+            let is = |m: &&MavMessage| matches!(m, MavMessage::COMMAND_LONG(c) if c.command == MavCmd::MAV_CMD_NAV_TAKEOFF);
+            messages.iter().filter(is).count()
+        };
+        let mut link = known();
+        link.vehicle.armed = false;
+        link.set_arm_key("M");
+        link.act(ControllerAction::TakeOff, at(0.0));
+        assert_eq!(link.poll_message().as_deref(), Some("Arm the motors first (key M)"));
+        assert_eq!(take_offs(&sent(&mut link, 0.0, 0.1)), 0, "nothing is asked of the vehicle");
+        // Both keys in a row: the take-off waits for no heartbeat.
+        link.act(ControllerAction::Arm, at(0.1));
+        link.act(ControllerAction::TakeOff, at(0.1));
+        assert_eq!((take_offs(&sent(&mut link, 0.1, 0.2)), link.poll_message()), (1, None));
+        let mut armed = known();
+        armed.vehicle.armed = false;
+        armed.act(ControllerAction::Arm, at(0.0));
+        sent(&mut armed, 0.0, 0.1);
+        answer(&mut armed, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, MavResult::MAV_RESULT_ACCEPTED);
+        armed.act(ControllerAction::TakeOff, at(0.1));
+        assert_eq!((take_offs(&sent(&mut armed, 0.1, 0.2)), armed.poll_message()), (1, None));
+    }
+
+    #[test]
+    fn exact_sticks_go_out_fifty_times_a_second() {
+        let mut link = known();
+        link.set_sticks(Some(Sticks { forward: 1.0, right: -0.5, up: -1.0, yaw: 0.25 }), at(0.0));
+        assert_eq!(sticks(&sent(&mut link, 0.0, 1.0)), vec![(1000, -500, 0, 250); 50]);
+    }
+
+    #[test]
+    fn exact_a_lost_device_is_neutral_and_then_silent_and_comes_back() {
+        let mut link = known();
+        link.set_sticks(Some(Sticks { forward: 1.0, ..Sticks::default() }), at(0.0));
+        sent(&mut link, 0.0, 0.1);
+        for ms in 100..2000 {
+            link.set_sticks(None, SimTime::from_us(ms * 1000));
+        }
+        let after = sticks(&sent(&mut link, 0.1, 2.0));
+        assert_eq!(after, vec![(0, 0, 500, 0); (NEUTRAL_S / STICKS_EVERY_S) as usize]);
+        link.set_sticks(Some(Sticks { up: 1.0, ..Sticks::default() }), at(2.0));
+        assert_eq!(sticks(&sent(&mut link, 2.0, 2.1)), vec![(0, 0, 1000, 0); 5]);
+    }
+
+    #[test]
+    fn exact_no_sticks_are_sent_without_a_device() {
+        let mut link = known();
+        let messages = sent(&mut link, 0.0, 2.0);
+        assert!(messages.iter().all(|m| matches!(m, MavMessage::HEARTBEAT(_))), "{messages:?}");
+        assert_eq!(messages.len(), 1);
+    }
+
+    fn answer(link: &mut ControllerLink, command: MavCmd, result: MavResult) {
+        let ack = COMMAND_ACK_DATA { command, result, target_system: SYSTEM, ..Default::default() };
+        link.receive(&Encoder::new(1, 1).encode(&MavMessage::COMMAND_ACK(ack)));
+    }
+
+    #[test]
+    fn exact_the_camera_zooms_by_steps_and_one_that_cannot_is_reported_in_plain_words() {
+        let mut link = known();
+        for (action, step) in [(ControllerAction::CameraZoomIn, 1.0), (ControllerAction::CameraZoomOut, -1.0)] {
+            link.act(action, at(0.0));
+            let messages = sent(&mut link, 0.0, 0.1);
+            let asked = messages.iter().find_map(|m| if let MavMessage::COMMAND_LONG(c) = m { Some(c) } else { None }).unwrap();
+            assert_eq!((asked.command, asked.target_component), (MavCmd::MAV_CMD_SET_CAMERA_ZOOM, CAMERA));
+            assert_eq!([asked.param1, asked.param2, asked.param3], [0.0, step, 0.0]);
+        }
+        answer(&mut link, MavCmd::MAV_CMD_SET_CAMERA_ZOOM, MavResult::MAV_RESULT_UNSUPPORTED);
+        assert_eq!(link.poll_message().as_deref(), Some("camera zoom out: this camera's lens does not zoom"));
+    }
+
+    /// The numbers of the pictures that commands ask for.
+    fn pictures(messages: &[MavMessage]) -> Vec<f32> {
+        let number = |m: &MavMessage| if let MavMessage::COMMAND_LONG(c) = m { Some(c.param4) } else { None };
+        messages.iter().filter_map(number).collect()
+    }
+
+    #[test]
+    fn exact_a_picture_that_is_requested_again_keeps_its_number_and_a_new_press_has_the_next() {
+        let mut link = known();
+        link.act(ControllerAction::Snapshot, at(0.0));
+        assert_eq!(pictures(&sent(&mut link, 0.0, 1.1)), [1.0; 3]);
+        answer(&mut link, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, MavResult::MAV_RESULT_ACCEPTED);
+        link.act(ControllerAction::Snapshot, at(1.2));
+        assert_eq!(pictures(&sent(&mut link, 1.2, 1.8)), [2.0; 2]);
+    }
+
+    #[test]
+    fn exact_a_press_aims_on_from_the_last_one_and_later_from_where_the_gimbal_is() {
+        let mut link = known();
+        let aimed = |link: &mut ControllerLink, action: ControllerAction, s: f64| {
+            link.act(action, at(s));
+            let messages = sent(link, s, s + 0.1);
+            messages.iter().find_map(|m| if let MavMessage::COMMAND_LONG(c) = m { Some(c.param1) } else { None }).unwrap()
+        };
+        assert_eq!([0.0, 0.2].map(|s| aimed(&mut link, ControllerAction::GimbalDown, s)), [-10.0, -20.0], "it has not swung yet");
+        link.vehicle.gimbal_deg = Some(-60.0);
+        assert_eq!(aimed(&mut link, ControllerAction::GimbalUp, 0.2 + AIM_S), -50.0, "a mission has aimed it meanwhile");
+        answer(&mut link, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, MavResult::MAV_RESULT_DENIED);
+        assert_eq!(aimed(&mut link, ControllerAction::GimbalUp, 0.5 + AIM_S), -50.0, "what was refused is no aim");
+    }
+
+    #[test]
+    fn exact_a_command_is_repeated_until_it_is_answered() {
+        let mut link = known();
+        link.streams_known = true;
+        link.act(ControllerAction::Lamp, at(0.0));
+        let streams = MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL;
+        let wished = |m: &&MavMessage| matches!(m, MavMessage::COMMAND_LONG(c) if c.command != streams);
+        let count = |messages: &[MavMessage]| messages.iter().filter(wished).count();
+        assert_eq!(count(&sent(&mut link, 0.0, 1.1)), 3);
+        answer(&mut link, MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF, MavResult::MAV_RESULT_DENIED);
+        assert_eq!(count(&sent(&mut link, 1.1, 5.0)), 0);
+        assert_eq!(link.poll_message().as_deref(), Some("lamp: denied"));
+        link.act(ControllerAction::Snapshot, at(5.0));
+        assert_eq!(count(&sent(&mut link, 5.0, 20.0)), usize::from(TIMES));
+        assert_eq!(link.poll_message().as_deref(), Some("snapshot: the vehicle does not answer"));
+        let mut alone = ControllerLink::default();
+        alone.act(ControllerAction::Arm, at(0.0));
+        assert_eq!(alone.poll_message().as_deref(), Some("arm: no vehicle has been heard yet"));
+    }
+}

@@ -1,0 +1,77 @@
+//! When the bridges were open to traffic: an instructor may close them. Who is on a bridge by then goes on; nobody enters any more.
+
+use crate::time::SimTime;
+
+/// The changes so far, in the order of time; open before the first. Plain data, so that traffic stays a function of time.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct BridgeClosures(Vec<(SimTime, bool)>);
+
+impl BridgeClosures {
+    /// The wire's number of a change (NAMED_VALUE_INT `traffic`): the time of an opening, ms, or of a closing, negative. It carries
+    /// all there is to know, so that it may come late, twice, or after a later one.
+    #[must_use]
+    pub fn code(at: SimTime, open: bool) -> i32 {
+        // At the very start is a millisecond later: 0 has no sign.
+        let ms = i32::try_from(at.ns() / 1_000_000).unwrap_or(i32::MAX).max(1);
+        if open { ms } else { -ms }
+    }
+
+    /// From the wire's numbers, in whatever order.
+    #[must_use]
+    pub fn from_codes(codes: impl IntoIterator<Item = i32>) -> Self {
+        let mut gates = Self::default();
+        codes.into_iter().for_each(|code| gates.apply_codes(code));
+        gates
+    }
+
+    /// Takes a number of the wire; 0 tells nothing.
+    pub fn apply_codes(&mut self, code: i32) {
+        let change = (SimTime::from_ms(i64::from(code.unsigned_abs())), code > 0);
+        if code != 0 && !self.0.contains(&change) {
+            self.0.push(change);
+            self.0.sort_unstable();
+        }
+    }
+
+    /// Numbers of the last two changes, 0 for none: who begins to listen now knows who is still on the bridges.
+    #[must_use]
+    pub fn last_codes(&self) -> [i32; 2] {
+        let mut last = self.0.iter().rev().map(|(at, open)| Self::code(*at, *open));
+        let newest = last.next().unwrap_or(0);
+        [last.next().unwrap_or(0), newest]
+    }
+
+    /// Whether somebody who comes at this time, s, may enter.
+    #[must_use]
+    pub fn is_open_at(&self, t_s: f64) -> bool {
+        self.0.iter().rev().find(|(since, _)| since.s() <= t_s).is_none_or(|(_, open)| *open)
+    }
+
+    /// Nothing was ever changed.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_bridges_are_open_until_closed_and_the_codes_carry_every_closure() {
+        let (close, open) =
+            (BridgeClosures::code(SimTime::from_ms(4_000), false), BridgeClosures::code(SimTime::from_s(9.000_9), true));
+        assert_eq!((close, open), (-4_000, 9_000), "whole milliseconds");
+        let gates = BridgeClosures::from_codes([open, 0, close, close]);
+        assert_eq!(gates, BridgeClosures::from_codes([close, open]));
+        assert_eq!([0.0, 3.999, 4.0, 8.999, 9.0, 1e6].map(|t| gates.is_open_at(t)), [true, true, false, false, true, true]);
+        assert!(gates.is_open_at(-50.0) && BridgeClosures::default().is_open_at(f64::NAN), "before the start they were open");
+        assert_eq!(BridgeClosures::from_codes(gates.last_codes()), gates);
+        assert_eq!(
+            (BridgeClosures::default().last_codes(), BridgeClosures::from_codes([close]).last_codes()),
+            ([0, 0], [0, close])
+        );
+        assert_eq!(BridgeClosures::code(SimTime::ZERO, false), -1);
+    }
+}

@@ -1,0 +1,324 @@
+//! How a defect shows in a picture, by the rule for a hit in docs/src/reference/assessment.md, "Photographs": inside the central
+//! 80 % of the image, unoccluded, at most 60 degrees off its normal, at least 10 px along its longest visible extent, a line at
+//! least 0.5 px wide, and lit well enough for an exposure within the camera's limits. An ideal pinhole; the lamp sits at the lens
+//! and looks where it looks.
+
+use super::light::RayCast;
+use super::{CameraPose, DefectView};
+use crate::frames::{Enu, Vec3};
+use crate::math;
+use crate::numbers::{format_beside_limit, limit};
+use crate::scenario::PlacedDefect;
+use crate::vehicle::{Camera, Lamp};
+
+/// Defects farther than this are not listed, m.
+pub const REACH_M: f64 = 60.0;
+/// Share of the image, from its centre, that counts.
+pub const CENTRAL_SHARE: f64 = 0.8;
+/// Largest angle off the defect's normal, rad.
+pub const INCIDENCE_MAX_RAD: f64 = math::PI / 3.0;
+/// Least longest extent, px.
+pub const EXTENT_MIN_PX: f64 = 10.0;
+/// Least width of a line, px.
+pub const LINE_WIDTH_MIN_PX: f64 = 0.5;
+/// Incident-light meter calibration constant, lx s ISO (ISO 2720 gives 240 to 400).
+const CALIBRATION: f64 = 250.0;
+/// Points along the defect at which occlusion is tested, as shares of its length from the centre.
+const SAMPLES: [f64; 5] = [-0.48, -0.24, 0.0, 0.24, 0.48];
+/// Height over the surface at which a sight line may end, m.
+const LIFT_M: f64 = 0.005;
+/// Share of the lens-to-defect line that may not be hit, m short of its end.
+const CLEAR_M: f64 = 0.01;
+
+/// What decides the light on a defect: ambient light by position and normal, lx.
+pub type AmbientLight<'a> = &'a dyn Fn(Vec3<Enu>, Vec3<Enu>) -> f64;
+
+/// Illuminance, lx, that an exposure within the camera's limits needs: C N²/(t S).
+#[must_use]
+pub fn needed_lux(camera: &Camera) -> f64 {
+    CALIBRATION * camera.f_number * camera.f_number / (camera.exposure_max_s * camera.iso_max)
+}
+
+/// Illuminance, lx, of a lamp at the lens on a surface: flux over the beam's solid angle, the inverse square and the cosine.
+#[must_use]
+pub fn lamp_lux(lamp: &Lamp, pose: &CameraPose, point_m: Vec3<Enu>, normal: Vec3<Enu>) -> f64 {
+    let to = point_m - pose.position_m;
+    let distance = to.norm();
+    if !pose.lamp_on || lamp.flux_lm <= 0.0 || distance <= 0.0 {
+        return 0.0;
+    }
+    let edge = math::cos(0.5 * lamp.beam_rad);
+    let ray = to / distance;
+    if ray.dot(pose.forward) < edge {
+        return 0.0;
+    }
+    let candela = lamp.flux_lm / (math::TAU * (1.0 - edge));
+    candela * (-ray.dot(normal)).max(0.0) / (distance * distance)
+}
+
+/// Judges one defect; `None` when it is out of reach or behind the camera. `cast` is asked for the sight lines, `ambient` only
+/// once and only for defects that are listed.
+#[must_use]
+pub fn judge(
+    defect: &PlacedDefect,
+    pose: &CameraPose,
+    (camera, lamp): (&Camera, &Lamp),
+    cast: RayCast,
+    ambient: AmbientLight,
+) -> Option<DefectView> {
+    let to = defect.position_m - pose.position_m;
+    let distance_m = to.norm();
+    if distance_m > REACH_M || to.dot(pose.forward) <= 0.0 {
+        return None;
+    }
+    let incidence_rad = math::acos(-to.dot(defect.normal) / distance_m.max(1e-9));
+    let samples = SAMPLES.map(|s| defect.position_m + defect.along * (s * defect.length_m));
+    let seen = samples.map(|p| has_line_of_sight(pose.position_m, p + defect.normal * LIFT_M, cast));
+    // Most of it must be seen: three of five sample points.
+    let unoccluded = 2 * seen.iter().filter(|s| **s).count() > SAMPLES.len();
+    // What is hidden fails for being hidden, not for being small too.
+    let counted = if unoccluded { seen } else { [true; SAMPLES.len()] };
+    let in_frame = project(pose, camera, defect.position_m).is_some_and(|px| is_in_frame(px, camera, CENTRAL_SHARE));
+    let width_px = length_px(pose, camera, defect, defect.normal.cross(defect.along), defect.width_m);
+    let along_px = visible_px(pose, camera, defect, samples.iter().zip(counted));
+    let mut view = DefectView {
+        defect_id: defect.id,
+        in_frame,
+        unoccluded,
+        incidence_rad,
+        extent_px: if defect.line { along_px } else { along_px.max(width_px) },
+        width_px,
+        illuminance_lux: ambient(defect.position_m, defect.normal) + lamp_lux(lamp, pose, defect.position_m, defect.normal),
+        needed_lux: needed_lux(camera),
+        distance_m,
+        line: defect.line,
+        lamp_on: pose.lamp_on,
+        hit: false,
+    };
+    view.hit = view.conditions().iter().all(|c| *c);
+    Some(view)
+}
+
+impl DefectView {
+    /// The six conditions of a hit, in the order of docs/src/reference/assessment.md, "Photographs": framed, unoccluded,
+    /// incidence, extent, line width, light.
+    #[must_use]
+    pub fn conditions(&self) -> [bool; 6] {
+        [
+            self.in_frame,
+            self.unoccluded,
+            self.incidence_rad <= INCIDENCE_MAX_RAD,
+            self.extent_px >= EXTENT_MIN_PX,
+            !self.line || self.width_px >= LINE_WIDTH_MIN_PX,
+            self.illuminance_lux >= self.needed_lux,
+        ]
+    }
+
+    /// Why it is no hit, in words; empty for a hit.
+    #[must_use]
+    pub fn reasons(&self) -> Vec<String> {
+        let lamp = if self.lamp_on { "lamp on" } else { "lamp off" };
+        let (incidence_deg, incidence_max_deg) = (self.incidence_rad.to_degrees(), INCIDENCE_MAX_RAD.to_degrees());
+        // The light needed is shown as a whole number unless the measured light lies between that and the real limit.
+        let whole = self.needed_lux.round();
+        let needed_lux = if self.illuminance_lux < whole { whole } else { self.needed_lux };
+        let words = [
+            "not in the central 80 % of the image".to_owned(),
+            "hidden behind something".to_owned(),
+            format!(
+                "too oblique: {} deg, limit {} deg",
+                format_beside_limit(incidence_deg, incidence_max_deg, 0),
+                limit(incidence_max_deg)
+            ),
+            format!("too small: {} px, at least {EXTENT_MIN_PX} px", format_beside_limit(self.extent_px, EXTENT_MIN_PX, 1)),
+            format!(
+                "line too thin: {} px, at least {LINE_WIDTH_MIN_PX} px",
+                format_beside_limit(self.width_px, LINE_WIDTH_MIN_PX, 2)
+            ),
+            format!(
+                "too dark: {lamp}, {} lx of {} lx needed",
+                format_beside_limit(self.illuminance_lux, needed_lux, 0),
+                limit(needed_lux)
+            ),
+        ];
+        words.into_iter().zip(self.conditions()).filter_map(|(word, holds)| (!holds).then_some(word)).collect()
+    }
+}
+
+fn has_line_of_sight(from: Vec3<Enu>, to: Vec3<Enu>, cast: RayCast) -> bool {
+    let line = to - from;
+    let reach = line.norm() - CLEAR_M;
+    reach <= 0.0 || cast(from, line.unit(), reach).is_none()
+}
+
+/// Pixel coordinates from the image centre, right and down; `None` behind the lens.
+fn project(pose: &CameraPose, camera: &Camera, point_m: Vec3<Enu>) -> Option<(f64, f64)> {
+    let to = point_m - pose.position_m;
+    let depth = to.dot(pose.forward);
+    let down = pose.forward.cross(pose.right);
+    let focal = camera.focal_px();
+    (depth > 1e-6).then(|| (focal * to.dot(pose.right) / depth, focal * to.dot(down) / depth))
+}
+
+fn is_in_frame(px: (f64, f64), camera: &Camera, share: f64) -> bool {
+    px.0.abs() <= 0.5 * share * f64::from(camera.width_px) && px.1.abs() <= 0.5 * share * f64::from(camera.height_px)
+}
+
+/// Extent in pixels, along the defect, of the samples that count and lie inside the image; each stands for its share.
+fn visible_px<'a>(
+    pose: &CameraPose,
+    camera: &Camera,
+    defect: &PlacedDefect,
+    samples: impl Iterator<Item = (&'a Vec3<Enu>, bool)>,
+) -> f64 {
+    let framed = |p: &Vec3<Enu>| project(pose, camera, *p).is_some_and(|px| is_in_frame(px, camera, 1.0));
+    let shown = samples.filter(|(p, counts)| *counts && framed(p)).count();
+    length_px(pose, camera, defect, defect.along, defect.length_m) * shown as f64 / SAMPLES.len() as f64
+}
+
+/// Pixels that a short stretch of `length_m` along a unit direction through the defect's centre covers (at the centre's scale, so
+/// that a sub-pixel width keeps its precision).
+fn length_px(pose: &CameraPose, camera: &Camera, defect: &PlacedDefect, direction: Vec3<Enu>, length_m: f64) -> f64 {
+    let to = defect.position_m - pose.position_m;
+    let distance = to.norm().max(1e-9);
+    let ray = to / distance;
+    let across = (direction - ray * direction.dot(ray)).norm();
+    // Pixels per radian grow off the axis of a pinhole; the value on the axis is the conservative one.
+    camera.focal_px() * across * length_m / distance
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{ObjectId, RayHit, Surface};
+    use super::*;
+
+    const CAMERA: Camera = Camera {
+        position_m: Vec3::new(0.0, 0.0, 0.0),
+        width_px: 4000,
+        height_px: 3000,
+        hfov_rad: math::FRAC_PI_2,
+        zoom_max: 1.0,
+        f_number: 2.8,
+        iso_max: 1600.0,
+        exposure_max_s: 0.01,
+        gimbal_pitch_min_rad: -1.57,
+        gimbal_pitch_max_rad: 1.57,
+        gimbal_rate_rad_s: 1.0,
+    };
+    const LAMP: Lamp = Lamp { flux_lm: 2200.0, beam_rad: math::PI / 3.0 };
+
+    /// A crack 0.5 m long and 2 mm wide, 3 m north of the camera, facing it.
+    fn crack() -> PlacedDefect {
+        PlacedDefect {
+            id: 1,
+            element: 144,
+            member: "arch".into(),
+            kind: 1130,
+            condition_state: 3,
+            position_m: Vec3::new(0.0, 3.0, 0.0),
+            normal: Vec3::new(0.0, -1.0, 0.0),
+            along: Vec3::new(1.0, 0.0, 0.0),
+            length_m: 0.5,
+            width_m: 0.002,
+            line: true,
+        }
+    }
+
+    fn pose() -> CameraPose {
+        CameraPose {
+            position_m: Vec3::zero(),
+            forward: Vec3::new(0.0, 1.0, 0.0),
+            right: Vec3::new(1.0, 0.0, 0.0),
+            lamp_on: false,
+        }
+    }
+
+    fn open(_: Vec3<Enu>, _: Vec3<Enu>, _: f64) -> Option<RayHit> {
+        None
+    }
+
+    fn wall(_: Vec3<Enu>, d: Vec3<Enu>, _: f64) -> Option<RayHit> {
+        Some(RayHit { distance_m: 1.0, normal: -d, surface: Surface::Bridge, object: ObjectId(0) })
+    }
+
+    fn view_defects(defect: &PlacedDefect, pose: &CameraPose, cast: RayCast, lux: f64) -> DefectView {
+        judge(defect, pose, (&CAMERA, &LAMP), cast, &|_, _| lux).expect("in front and near")
+    }
+
+    fn only_failing(view: &DefectView, index: usize, word: &str) {
+        let expected: Vec<bool> = (0..6).map(|k| k != index).collect();
+        assert_eq!(view.conditions().to_vec(), expected, "{view:?}");
+        assert!(!view.hit);
+        assert_eq!(view.reasons().len(), 1);
+        assert!(view.reasons()[0].contains(word), "{:?}", view.reasons());
+    }
+
+    #[test]
+    fn exact_a_plain_view_is_a_hit_with_the_pinholes_pixels() {
+        let view = view_defects(&crack(), &pose(), &open, 1000.0);
+        // Focal length 2000 px at 90 deg and 4000 px.
+        assert!(view.hit && view.reasons().is_empty(), "{view:?}");
+        assert!((view.extent_px - 2000.0 * 0.5 / 3.0).abs() < 1e-9);
+        assert!((view.width_px - 2000.0 * 0.002 / 3.0).abs() < 1e-9);
+        // 250 * 2.8² / (0.01 * 1600).
+        assert!((view.needed_lux - 122.5).abs() < 1e-9);
+    }
+
+    #[test]
+    fn exact_each_condition_fails_alone() {
+        let mut aside = pose();
+        // 40 deg aside: tan 40 = 0.839, just outside 0.8 of the half image, still in front.
+        let (s, c) = math::sin_cos(40.0_f64.to_radians());
+        (aside.forward, aside.right) = (Vec3::new(s, c, 0.0), Vec3::new(c, -s, 0.0));
+        only_failing(&view_defects(&crack(), &aside, &open, 1000.0), 0, "central");
+        only_failing(&view_defects(&crack(), &pose(), &wall, 1000.0), 1, "hidden");
+    }
+
+    #[test]
+    fn exact_oblique_small_thin_and_dark_fail_alone() {
+        let mut oblique = crack();
+        let (s, c) = math::sin_cos(61.0_f64.to_radians());
+        (oblique.normal, oblique.along) = (Vec3::new(s, -c, 0.0), Vec3::new(0.0, 0.0, 1.0));
+        oblique.width_m = 0.01;
+        only_failing(&view_defects(&oblique, &pose(), &open, 1000.0), 2, "61 deg");
+        let small = PlacedDefect { length_m: 0.014, line: false, width_m: 0.01, ..crack() };
+        only_failing(&view_defects(&small, &pose(), &open, 1000.0), 3, "9.3 px");
+        let thin = PlacedDefect { width_m: 0.0007, ..crack() };
+        only_failing(&view_defects(&thin, &pose(), &open, 1000.0), 4, "0.47 px");
+        only_failing(&view_defects(&crack(), &pose(), &open, 122.0), 5, "lamp off");
+    }
+
+    #[test]
+    fn val_the_lamp_gives_the_tabulated_illuminance() {
+        // docs/src/reference/domain.md, "Light levels": a 2200 lm, 60 deg light: 2600, 650, 290, 105 lx at 1, 2, 3, 5 m; to the
+        // rounding of the table.
+        let lit = CameraPose { lamp_on: true, ..pose() };
+        for (distance, lux) in [(1.0, 2600.0), (2.0, 650.0), (3.0, 290.0), (5.0, 105.0)] {
+            let got = lamp_lux(&LAMP, &lit, Vec3::new(0.0, distance, 0.0), Vec3::new(0.0, -1.0, 0.0));
+            assert!((got / lux - 1.0).abs() < 0.02, "{got} at {distance} m");
+        }
+        let outside = lamp_lux(&LAMP, &lit, Vec3::new(2.0, 3.0, 0.0), Vec3::new(0.0, -1.0, 0.0));
+        assert_eq!(outside, 0.0, "33.7 deg is outside a 60 deg beam");
+        let dark = view_defects(&crack(), &lit, &open, 0.0);
+        assert!(dark.hit, "the lamp alone lights 3 m: {dark:?}");
+    }
+
+    #[test]
+    fn exact_nothing_behind_or_beyond_reach_is_listed() {
+        let behind = CameraPose { forward: Vec3::new(0.0, -1.0, 0.0), ..pose() };
+        assert!(judge(&crack(), &behind, (&CAMERA, &LAMP), &open, &|_, _| 1e3).is_none());
+        let far = PlacedDefect { position_m: Vec3::new(0.0, 60.1, 0.0), ..crack() };
+        assert!(judge(&far, &pose(), (&CAMERA, &LAMP), &open, &|_, _| 1e3).is_none());
+    }
+
+    #[test]
+    fn exact_a_half_hidden_crack_shows_the_visible_part() {
+        // Sight lines to the right half are blocked: three of five samples remain.
+        let right_blocked = |_: Vec3<Enu>, d: Vec3<Enu>, _: f64| {
+            (d.east() > 0.01).then_some(RayHit { distance_m: 1.0, normal: -d, surface: Surface::Other, object: ObjectId(0) })
+        };
+        let view = view_defects(&crack(), &pose(), &right_blocked, 1000.0);
+        assert!(view.unoccluded);
+        assert!((view.extent_px - 0.6 * 2000.0 * 0.5 / 3.0).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,160 @@
+//! Speaking: cues, texts, answers, events.
+
+use super::{AUTOPILOT, COMPONENT, CUES_EVERY, Monitor, SessionOutput};
+use crate::feedback::{FeedbackInput, TaskProximity};
+use crate::session::lift_off_height_m;
+use serde_json::json;
+use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
+use spandrel_mavlink::contract::contact::ContactKind;
+use spandrel_mavlink::contract::cue;
+use spandrel_mavlink::contract::named::Named;
+use spandrel_mavlink::contract::truth::Truth;
+use spandrel_mavlink::dialect::{COMMAND_ACK_DATA, MavCmd, MavMessage, MavResult, MavSeverity, STATUSTEXT_DATA, TIMESYNC_DATA};
+use spandrel_mavlink::station;
+
+/// Share of a path's points that must be passed before it counts as flown (estimate: a rounded corner hides the last ones).
+const FLOWN_SHARE: f64 = 0.9;
+
+impl Monitor {
+    pub(super) fn send_due(&mut self) {
+        let Some(truth) = self.live.truth else { return };
+        let moment = self.moment(&truth);
+        let (cues, texts) = self.feedback.update(&moment);
+        let changed = cues != self.live.cues;
+        if changed {
+            self.event("cues", json!({ "cues": cues }));
+        }
+        self.live.cues = cues;
+        if changed || self.live.cues_sent.is_none_or(|sent| truth.time - sent >= CUES_EVERY) {
+            self.live.cues_sent = Some(truth.time);
+            self.send(&Named::Cues(cues).message(truth.time.ms() as u32));
+        }
+        self.texts.put(truth.time, texts);
+        while let Some(text) = self.texts.next(truth.time) {
+            let quiet = text.cue == cue::BATTERY_YELLOW;
+            let severity = if quiet { MavSeverity::MAV_SEVERITY_INFO } else { MavSeverity::MAV_SEVERITY_WARNING };
+            self.text(&text.text, severity);
+        }
+    }
+
+    fn moment(&self, truth: &Truth) -> FeedbackInput {
+        let scenario = &self.config.scenario;
+        let in_session = self.live.lift_off.is_some() && self.live.end.is_none() && self.outcome.is_none();
+        let near = |(t, task): (usize, &spandrel_model::scenario::Task)| {
+            let nearest = self.paths.nearest(t, truth.position_m);
+            TaskProximity {
+                distance_m: nearest.map_or(f64::INFINITY, |nearest| nearest.distance_m),
+                threshold_m: task.threshold_m,
+                too_close_m: task.too_close_m,
+                id: task.id,
+                may_leave: nearest.is_some_and(|nearest| self.may_leave_task(t, nearest.point)),
+            }
+        };
+        let contact = self.counted_contact();
+        let onset = contact != ContactKind::None && self.live.cues & cue::CRASH == 0;
+        FeedbackInput {
+            time: truth.time,
+            in_session,
+            airborne: !self.live.on_ground && !self.is_down_at_home(truth),
+            speed_m_s: truth.velocity_m_s.norm(),
+            battery_pct: self.live.battery_pct,
+            clearance_m: self.live.clearance_m,
+            contact,
+            touched: if onset { self.contact_name() } else { None },
+            tasks: scenario.tasks.iter().enumerate().map(near).collect(),
+            current_task: self.live.current_task,
+            last: self.live.last_task,
+        }
+    }
+
+    /// A task may be left here: anywhere once it is flown, before that at an end of its path.
+    fn may_leave_task(&self, task: usize, point: usize) -> bool {
+        let count = self.paths.path(task).points_m().len();
+        let passed = self.live.visited_points[task].iter().filter(|passed| **passed).count();
+        let at_end = !self.config.scenario.tasks[task].closed && (point == 0 || point + 1 >= count);
+        at_end || passed as f64 >= FLOWN_SHARE * count as f64
+    }
+
+    /// Low over the pad. Elsewhere the pad's height says nothing: a job may be flown lower than it lies.
+    fn is_down_at_home(&self, truth: &Truth) -> bool {
+        let team = &self.config.scenario.ground_team;
+        let at_home = (truth.position_m - team.pad_m).horizontal_norm() <= team.home_radius_m;
+        at_home && self.height_m(truth.position_m) <= lift_off_height_m(&self.config.vehicle)
+    }
+
+    pub(super) fn handle_command(&mut self, received: &ReceivedFrame) {
+        let ours = |system: u8, component: u8| {
+            (system == 0 || system == self.encoder.system_id()) && (component == 0 || component == COMPONENT)
+        };
+        match &received.message {
+            Some(MavMessage::TIMESYNC(sync)) if sync.tc1 == 0 && ours(sync.target_system, sync.target_component) => {
+                let answer = TIMESYNC_DATA {
+                    tc1: self.now().ns().max(1),
+                    ts1: sync.ts1,
+                    target_system: received.system_id,
+                    target_component: received.component_id,
+                };
+                self.send(&MavMessage::TIMESYNC(answer));
+            }
+            Some(MavMessage::COMMAND_LONG(command)) if command.target_component == COMPONENT => {
+                if ours(command.target_system, COMPONENT) {
+                    self.unsupported(command.command, received);
+                }
+            }
+            Some(MavMessage::COMMAND_INT(command)) if command.target_component == COMPONENT => {
+                if ours(command.target_system, COMPONENT) {
+                    self.unsupported(command.command, received);
+                }
+            }
+            Some(MavMessage::HEARTBEAT(_)) if received.component_id == AUTOPILOT => self.adopt_system(received.system_id),
+            Some(_) | None => {}
+        }
+    }
+
+    /// Speaks as a component of the vehicle: the one whose flight is scored, or until there is one the last that has been heard.
+    fn adopt_system(&mut self, system: u8) {
+        let system = self.timeline.system().unwrap_or(system);
+        if system != self.encoder.system_id() {
+            self.encoder = Encoder::new(system, COMPONENT);
+        }
+    }
+
+    fn unsupported(&mut self, command: MavCmd, asker: &ReceivedFrame) {
+        self.send(&MavMessage::COMMAND_ACK(COMMAND_ACK_DATA {
+            command,
+            result: MavResult::MAV_RESULT_UNSUPPORTED,
+            target_system: asker.system_id,
+            target_component: asker.component_id,
+            ..COMMAND_ACK_DATA::default()
+        }));
+    }
+
+    pub(super) fn heartbeat(&mut self) {
+        self.send(&station::companion_heartbeat());
+    }
+
+    pub(super) fn text(&mut self, words: &str, severity: MavSeverity) {
+        self.event("text", json!({ "text": words }));
+        self.send(&MavMessage::STATUSTEXT(STATUSTEXT_DATA { severity, text: words.into(), ..STATUSTEXT_DATA::default() }));
+    }
+
+    fn send(&mut self, message: &MavMessage) {
+        if !self.replaying {
+            let bytes = self.encoder.encode(message);
+            self.out.push_back(bytes);
+        }
+    }
+
+    pub(super) fn event(&mut self, kind: &str, mut detail: serde_json::Value) {
+        if self.replaying {
+            return;
+        }
+        let mut line = serde_json::Map::new();
+        line.insert("t_s".to_owned(), json!(self.now().s()));
+        line.insert("event".to_owned(), json!(kind));
+        if let Some(detail) = detail.as_object_mut() {
+            line.append(detail);
+        }
+        self.records.push_back(SessionOutput::Event(serde_json::Value::Object(line).to_string() + "\n"));
+    }
+}

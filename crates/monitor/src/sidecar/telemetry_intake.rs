@@ -1,0 +1,283 @@
+//! Taking in: one frame at a time, from the stamp in the log to the end of the session.
+
+use super::{COMPONENT, HEARTBEAT_EVERY, LiveState, Monitor, RETRY, SETTLE, TOUCH_REACH_M};
+use crate::assessment::{self, AssessError, AssessedSession, ScoringJob};
+use crate::feedback::{FeedbackRules, texts::TextQueue};
+use crate::folder::SIMULATOR_RESTARTED;
+use crate::measures::attention;
+use crate::measures::crash::may_touch_pad;
+use crate::session::{EndReason, EndRuleInput as EndMoment, lift_off_height_m};
+use serde_json::json;
+use spandrel_mavlink::codec::ReceivedFrame;
+use spandrel_mavlink::contract::contact::ContactKind;
+use spandrel_mavlink::contract::truth::Truth;
+use spandrel_mavlink::dialect::MavSeverity;
+use spandrel_mavlink::note;
+use spandrel_mavlink::telemetry::frame::GAP_AFTER;
+use spandrel_mavlink::telemetry::sample::{Sample, SampleContent, SampleValue};
+use spandrel_mavlink::telemetry::timeline::FrameDisposition;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::time::SimTime;
+impl Monitor {
+    /// Session start plus the simulation time since the first truth; after a simulator's restart the stamps go on rising.
+    pub(super) fn stamp_us(&mut self, received: &ReceivedFrame) -> u64 {
+        let own = spandrel_mavlink::telemetry::sample::truth_time(&received.bytes);
+        let since_zero = |own: SimTime| u64::try_from(own.us()).unwrap_or(0);
+        let started = self.config.started_unix_us;
+        self.zero_unix_us = self.zero_unix_us.or(own.map(|own| started.saturating_sub(since_zero(own))));
+        let Some(zero) = self.zero_unix_us else { return started };
+        let now = own.map_or(self.now(), |own| own.max(self.now()));
+        let passed = self.timeline.apply_pushed(self.timeline.simulator_runs() - 1);
+        let since = u64::try_from((passed + now).us()).unwrap_or(0);
+        zero.saturating_add(since)
+    }
+
+    pub(super) fn take_frame(&mut self, received: &ReceivedFrame) {
+        let before = self.timeline.newest();
+        match self.timeline.push(&received.bytes) {
+            FrameDisposition::Nothing => {}
+            FrameDisposition::Restarted(sample) => self.handle_restart(sample),
+            FrameDisposition::Kept(sample) => self.handle_sample(sample, before),
+        }
+    }
+
+    /// An instructor's note at this moment.
+    pub(super) fn take_note(&mut self, received: &ReceivedFrame) {
+        if let Some(((system, COMPONENT), text)) = note::decode(received)
+            && system == self.encoder.system_id()
+        {
+            self.event("note", json!({ "text": text }));
+        }
+    }
+
+    fn handle_restart(&mut self, sample: Sample) {
+        self.event(SIMULATOR_RESTARTED, json!({}));
+        if self.live.lift_off.is_some() {
+            self.close();
+            return;
+        }
+        self.live = LiveState::new(&self.config);
+        self.feedback = FeedbackRules::new(&self.config.scenario);
+        self.texts = TextQueue::default();
+        self.heartbeat_sim = None;
+        self.handle_sample(sample, None);
+    }
+
+    fn handle_sample(&mut self, sample: Sample, before: Option<SimTime>) {
+        match sample.content {
+            SampleContent::Truth(truth) if before.is_none_or(|before| truth.time > before) => self.handle_truth(truth, before),
+            SampleContent::Truth(_) => {}
+            SampleContent::Value(value) => self.handle_value(value),
+        }
+    }
+
+    fn handle_value(&mut self, value: SampleValue) {
+        match value {
+            SampleValue::Sticks(_)
+            | SampleValue::Hits(_)
+            | SampleValue::GimbalPitch(_)
+            | SampleValue::FieldOfView(_)
+            | SampleValue::Light(_) => {}
+            SampleValue::Battery(pct) => self.live.battery_pct = Some(pct),
+            SampleValue::Contact(contact) => self.handle_contact(contact),
+            SampleValue::Respawns(count) => self.handle_respawns(count),
+            SampleValue::Traffic(code) => self.handle_traffic(code),
+            SampleValue::Seed(seed) => self.handle_seed(seed),
+            SampleValue::ScenarioCrc(crc) => {
+                if let Err(error) = assessment::check_scenario(&self.config.scenario, crc) {
+                    self.refuse(error);
+                }
+            }
+            SampleValue::Clearance(metres) => self.live.clearance_m = Some(metres),
+            SampleValue::Beat { armed, by } => {
+                self.live.armed = Some(armed);
+                if self.live.flown_by.replace(by) != Some(by) {
+                    self.event("flown_by", json!({ "by": by }));
+                }
+            }
+            SampleValue::OnGround(on_ground) => self.live.on_ground = on_ground,
+            SampleValue::Snapshot(index) => self.event("snapshot", json!({ "image": index })),
+        }
+    }
+
+    fn handle_seed(&mut self, seed: u64) {
+        if let Err(error) = assessment::check_seed(self.seed, seed) {
+            self.refuse(error);
+            return;
+        }
+        self.seed = Some(seed);
+        if self.survey.is_none() {
+            let survey = (self.config.survey_builder)(&self.config.scenario, seed);
+            self.survey = Some(survey.with_closures(self.live.closures.clone()).unwrap_or(survey));
+            self.event("seed", json!({ "seed": seed }));
+        }
+    }
+
+    fn refuse(&mut self, error: AssessError) {
+        if self.refusal.is_none() {
+            self.event("refused", json!({ "why": error.to_string() }));
+            self.text("Monitor: other scenario or seed", MavSeverity::MAV_SEVERITY_WARNING);
+            self.refusal = Some(error.clone());
+            self.outcome = Some(Err(error));
+        }
+    }
+
+    /// Traffic was stopped or let go: what stands near is asked about under the same traffic as the simulator's.
+    fn handle_traffic(&mut self, code: i32) {
+        let before = self.live.closures.clone();
+        self.live.closures.apply_codes(code);
+        if self.live.closures == before {
+            return;
+        }
+        self.event("traffic", json!({ "open": code > 0 }));
+        self.survey = self.survey.take().map(|survey| survey.with_closures(self.live.closures.clone()).unwrap_or(survey));
+    }
+
+    fn handle_respawns(&mut self, count: i32) {
+        if self.live.respawns.is_some_and(|known| count > known) {
+            self.event("respawn", json!({ "count": count }));
+        }
+        self.live.respawns = Some(count);
+    }
+
+    fn handle_truth(&mut self, truth: Truth, before: Option<SimTime>) {
+        if let Some(before) = before.filter(|before| truth.time - *before > GAP_AFTER) {
+            self.event("telemetry_gap", json!({ "from_s": before.s(), "to_s": truth.time.s() }));
+        }
+        self.live.truth = Some(truth);
+        if self.live.lift_off.is_none() && self.height_m(truth.position_m) > lift_off_height_m(&self.config.vehicle) {
+            self.live.lift_off = Some(truth.time);
+            self.event("lift_off", json!({}));
+        }
+        self.update_task(truth.position_m);
+        self.send_due();
+        self.check_end(&truth);
+        let due = |last: Option<SimTime>| last.is_none_or(|last| truth.time - last >= HEARTBEAT_EVERY);
+        if due(self.heartbeat_sim) {
+            self.heartbeat_sim = Some(truth.time);
+            self.heartbeat();
+        }
+    }
+
+    pub(super) fn height_m(&self, position_m: Vec3<Enu>) -> f64 {
+        position_m.up() - self.config.scenario.ground_team.pad_m.up()
+    }
+
+    fn update_task(&mut self, position_m: Vec3<Enu>) {
+        if self.live.lift_off.is_none() {
+            return;
+        }
+        let on = self.paths.on(position_m, self.live.last_task);
+        if let Some((task, nearest)) = on
+            && let Some(passed) = self.live.visited_points[task].get_mut(nearest.point)
+        {
+            *passed = true;
+        }
+        let on = on.map(|(task, _)| task);
+        if let Some(task) = on.filter(|task| self.live.last_task != Some(*task)) {
+            self.event("task_entered", json!({ "task": self.config.scenario.tasks[task].id }));
+        }
+        self.live.current_task = on;
+        self.live.last_task = on.or(self.live.last_task);
+    }
+
+    fn handle_contact(&mut self, contact: ContactKind) {
+        let onset = self.live.contact == ContactKind::None && contact != ContactKind::None;
+        if onset {
+            self.live.on_pad = self.is_soft_pad_touch(contact);
+        }
+        let changed = self.live.contact != contact;
+        self.live.contact = contact;
+        if changed && contact != ContactKind::None && !self.live.on_pad && self.live.lift_off.is_some() {
+            let what = self.contact_name();
+            self.event("crash", json!({ "with": contact.label(), "what": what }));
+        }
+        if changed {
+            self.send_due();
+        }
+    }
+
+    fn is_soft_pad_touch(&self, contact: ContactKind) -> bool {
+        let team = &self.config.scenario.ground_team;
+        matches!(contact, ContactKind::Terrain | ContactKind::Other)
+            && self.live.truth.is_some_and(|truth| may_touch_pad(truth.position_m, truth.velocity_m_s.up(), team))
+    }
+
+    pub(super) fn counted_contact(&self) -> ContactKind {
+        if self.live.on_pad && !matches!(self.live.contact, ContactKind::Person | ContactKind::Vehicle) {
+            ContactKind::None
+        } else {
+            self.live.contact
+        }
+    }
+
+    pub(super) fn contact_name(&self) -> Option<String> {
+        let truth = self.live.truth?;
+        self.survey.as_ref()?.name_near(truth.position_m, TOUCH_REACH_M, truth.time)
+    }
+
+    fn check_end(&mut self, truth: &Truth) {
+        let Some(start) = self.live.lift_off else { return };
+        if self.live.end.is_none() && truth.time >= self.live.no_end_before {
+            let rate = self.config.scenario.scoring.frame_rate_hz;
+            let moment = EndMoment {
+                time: truth.time,
+                flown_s: (truth.time - start).s() + 1.0 / rate,
+                position_m: truth.position_m,
+                speed_m_s: truth.velocity_m_s.norm(),
+                contact: self.counted_contact(),
+                battery_pct: self.live.battery_pct.unwrap_or(100.0),
+                armed: self.live.armed,
+                on_ground: self.live.on_ground,
+            };
+            self.live.end = self.live.rule.update(&moment).map(|(_, reason)| (truth.time, reason));
+        }
+        if let Some((time, _)) = self.live.end
+            && truth.time - time >= SETTLE
+            && !self.replaying
+        {
+            self.try_to_finish(truth.time);
+        }
+    }
+
+    /// The live rule sees samples, the scorer frames: the scorer decides. When it sees no end yet, the watch goes on.
+    fn try_to_finish(&mut self, now: SimTime) {
+        let outcome = self.score();
+        match &outcome {
+            Ok(graded) if graded.assessment.end.reason == EndReason::Abort => {
+                self.live.end = None;
+                self.live.no_end_before = now + RETRY;
+            }
+            Ok(_) | Err(_) => self.finish(outcome),
+        }
+    }
+
+    pub(super) fn score(&mut self) -> Result<AssessedSession, AssessError> {
+        if let Some(refused) = &self.refusal {
+            return Err(refused.clone());
+        }
+        let Self { config, timeline, survey, .. } = self;
+        let flight = assessment::scored_flight(timeline, &config.scenario, &config.vehicle);
+        let seed = assessment::check_identity(&flight, &config.scenario, self.seed)?;
+        let survey = survey.get_or_insert_with(|| (config.survey_builder)(&config.scenario, seed)).clone();
+        let survey = attention::with_traffic_at(survey, &flight);
+        let job = ScoringJob { scenario: &config.scenario, vehicle: &config.vehicle, survey: survey.as_ref() };
+        let (assessment, frames) = assessment::assess(&flight, &job)?;
+        Ok(AssessedSession { assessment, frames, seed })
+    }
+
+    pub(super) fn finish(&mut self, outcome: Result<AssessedSession, AssessError>) {
+        let (reason, words) = match &outcome {
+            Ok(graded) => {
+                let (overall, completion) = (graded.assessment.scores.overall, graded.assessment.completion);
+                let words = if completion.complete { format!("Session over: {overall:.0} points") } else { completion.short() };
+                (json!(graded.assessment.end.reason), words)
+            }
+            Err(error) => (json!(error.to_string()), "Session over: nothing to score".to_owned()),
+        };
+        let counts = self.link();
+        self.event("end", json!({ "reason": reason, "link": counts }));
+        self.text(&words, MavSeverity::MAV_SEVERITY_INFO);
+        self.outcome = Some(outcome);
+    }
+}

@@ -1,0 +1,396 @@
+//! From datagrams to frames and scores: gaps, respawns, contacts, windows, ends.
+
+use spandrel_mavlink::contract::contact::ContactKind;
+use spandrel_mavlink::telemetry::Timeline;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::geodesy::LocalPlane;
+use spandrel_model::scenario::{PlacedDefect, Scenario};
+use spandrel_model::site::{CameraPose, DefectView};
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::{Camera, Lamp};
+use spandrel_monitor::assessment::assess_log;
+use spandrel_monitor::measures::attention::SiteSurvey;
+use spandrel_monitor::session::EndReason;
+use spandrel_testkit::job::*;
+
+#[test]
+fn exact_a_clean_flight_scores_full_marks_and_ends_where_it_touches_down() {
+    let graded = grade(&clean_flight(), &one_task());
+    let assessment = &graded.assessment;
+    assert_eq!(assessment.end.reason, EndReason::Landed);
+    assert!(!assessment.end.battery_failed);
+    assert_eq!(assessment.scores.conformity.unwrap().pct, 100.0);
+    assert_eq!(assessment.scores.efficiency.pct, 100.0);
+    assert_eq!(assessment.scores.safety.pct, 100.0);
+    assert_eq!(assessment.scores.accuracy.unwrap().pct, 0.0);
+    assert_eq!(assessment.scores.overall, 300.0);
+    let last = graded.frames.last().unwrap();
+    assert_eq!(last.speed_m_s(), 0.0);
+    let before = &graded.frames[graded.frames.len() - 2];
+    assert!(before.speed_m_s() > 0.0, "the first frame at rest is the last frame");
+    assert_eq!(graded.frames[0].index, 1);
+    assert!(graded.frames[0].position_m.up() > 0.3);
+    assert_eq!(assessment.end.seconds, graded.frames.len() as f64 / RATE_HZ);
+}
+
+#[test]
+fn exact_silence_up_to_a_second_is_interpolated_and_longer_silence_is_missing() {
+    // (silence in ms, interpolated frames, missing frames); frames are 40 ms apart, truths 20 ms.
+    for (ms, interpolated, missing) in [(200, 0, 0), (240, 5, 0), (1_000, 24, 0), (1_040, 0, 25)] {
+        let mut tape = Tape::new();
+        tape.fly((0.0, 0.0, 10.0), 2.0);
+        while !(u64::from(tape.now_ms) - 80).is_multiple_of(40) {
+            tape.hold(0.02);
+        }
+        tape.silence(ms - 20);
+        tape.hold(0.5);
+        tape.land();
+        let graded = grade(&tape, &one_task());
+        let telemetry = graded.assessment.telemetry;
+        let got = (telemetry.interpolated_frames, telemetry.missing_frames);
+        // Lift-off decides whether frames fall on even or odd samples: one frame more or less lies inside.
+        assert!(got.0.abs_diff(interpolated) <= 1 && got.1.abs_diff(missing) <= 1, "{ms} ms: {got:?}");
+        assert_eq!(telemetry.gaps, usize::from(ms > 200));
+        assert_eq!(got.0 == 0, interpolated == 0, "{ms} ms");
+        assert_eq!(got.1 == 0, missing == 0, "{ms} ms");
+    }
+}
+
+#[test]
+fn exact_missing_frames_hold_the_last_position_and_touch_nothing() {
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.contact(1);
+    tape.hold(0.2);
+    let held = tape.at_m;
+    tape.silence(3_000);
+    tape.at_m = held + spandrel_model::frames::Vec3::new(4.0, 0.0, 0.0);
+    tape.contact(0);
+    tape.hold(1.0);
+    let graded = grade(&tape, &one_task());
+    let missing: Vec<_> = graded.frames.iter().filter(|frame| frame.missing).collect();
+    assert!(missing.len() >= 74);
+    for frame in missing {
+        assert!((frame.position_m - held).norm() < 0.02, "held");
+        assert_eq!(frame.contact, ContactKind::None);
+    }
+}
+
+#[test]
+fn exact_nothing_is_interpolated_across_a_respawn() {
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.fly((30.0, 0.0, 10.0), 4.0);
+    let crashed = tape.at_m;
+    tape.silence(400);
+    tape.int("respawns", 1);
+    tape.at_m = spandrel_model::frames::Vec3::new(28.0, 0.0, 12.0);
+    let put_back = tape.at_m;
+    tape.hold(1.0);
+    let graded = grade(&tape, &one_task());
+    let near = |p: spandrel_model::frames::Vec3<spandrel_model::frames::Enu>, q| (p - q).norm() < 0.02;
+    let between = graded.frames.iter().filter(|f| f.time.ms() > i64::from(tape.now_ms) - 1_400);
+    for frame in between {
+        assert!(near(frame.position_m, crashed) || near(frame.position_m, put_back), "{frame:?}");
+    }
+}
+
+#[test]
+fn exact_an_empty_battery_outranks_a_respawn() {
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.fly((30.0, 0.0, 10.0), 4.0);
+    tape.contact(3);
+    tape.hold(2.0);
+    tape.battery(0);
+    tape.hold(1.0);
+    tape.int("respawns", 1);
+    tape.contact(0);
+    tape.at_m = spandrel_model::frames::Vec3::new(28.0, 0.0, 12.0);
+    tape.hold(5.0);
+    let graded = grade(&tape, &one_task());
+    assert_eq!(graded.assessment.end.reason, EndReason::Battery);
+    assert!(graded.assessment.end.battery_failed);
+    assert_eq!(graded.assessment.scores.efficiency.pct, 0.0);
+    assert!((graded.frames.last().unwrap().position_m.east() - 30.0).abs() < 0.02);
+}
+
+#[test]
+fn exact_the_battery_may_run_out_while_the_drone_already_stands_at_home() {
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.fly((0.0, 0.0, 0.15), 0.8);
+    tape.hold(1.0);
+    tape.battery(0);
+    tape.hold(4.0);
+    assert_eq!(grade(&tape, &one_task()).assessment.end.reason, EndReason::Landed);
+}
+
+#[test]
+fn exact_twenty_five_minutes_are_the_limit_and_no_frame_more() {
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.hold(1_510.0);
+    let end = grade(&tape, &one_task()).assessment.end;
+    assert_eq!(end.reason, EndReason::TimeLimit);
+    assert_eq!(end.frames, (1_500.0 * RATE_HZ) as usize + 1);
+    assert!(end.battery_failed);
+}
+
+#[test]
+fn exact_a_person_or_a_vehicle_ends_the_session_at_once() {
+    for (code, reason, person, car) in [(5, EndReason::Person, 1, 0), (4, EndReason::Vehicle, 0, 1)] {
+        let mut tape = Tape::new();
+        tape.fly((0.0, 0.0, 10.0), 2.0);
+        tape.contact(code);
+        tape.hold(2.0);
+        tape.contact(0);
+        tape.land();
+        let assessment = grade(&tape, &one_task()).assessment;
+        assert_eq!(assessment.end.reason, reason);
+        assert_eq!((assessment.crashes.person, assessment.crashes.vehicle), (person, car));
+        assert_eq!(assessment.scores.safety.pct, 0.0);
+        assert!(!assessment.certification.gates.no_person_or_vehicle_hit);
+    }
+}
+
+#[test]
+fn exact_a_contact_of_many_frames_is_one_crash_and_a_short_one_is_not_lost() {
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.contact(1);
+    tape.hold(1.0);
+    tape.contact(0);
+    tape.hold(1.0);
+    // On and off between two truths: shorter than any frame.
+    tape.contact(2);
+    tape.int("hits", 2);
+    tape.contact(0);
+    tape.hold(1.0);
+    // Both messages of a contact lost; only the count tells.
+    tape.int("hits", 3);
+    tape.land();
+    let graded = grade(&tape, &one_task());
+    assert_eq!(graded.assessment.crashes.other, 3);
+    assert_eq!(graded.assessment.scores.safety.pct, 91.0);
+    let with = |contact| graded.frames.iter().filter(|frame| frame.contact == contact).count();
+    assert_eq!((with(ContactKind::Bridge) > 20, with(ContactKind::Terrain), with(ContactKind::Other)), (true, 1, 1));
+    assert_eq!(graded.assessment.crashes.by_task["outside"], 3);
+}
+
+#[test]
+fn exact_a_soft_touch_of_the_pad_is_no_crash_and_a_hard_one_is() {
+    for (speed, crashes) in [(0.8, 0), (1.4, 1)] {
+        let mut tape = Tape::new();
+        tape.fly((0.0, 0.0, 3.0), 2.0);
+        tape.fly((0.0, 0.0, 0.15), speed);
+        tape.contact(2);
+        tape.hold(4.0);
+        let graded = grade(&tape, &one_task());
+        assert_eq!(graded.assessment.crashes.other, crashes, "{speed} m/s");
+        assert_eq!(graded.assessment.end.reason, EndReason::Landed);
+        if crashes == 0 {
+            assert!(graded.frames.iter().all(|frame| frame.contact == ContactKind::None));
+        }
+    }
+}
+
+#[test]
+fn exact_a_soft_touch_of_the_ground_away_from_home_is_a_crash() {
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 3.0), 2.0);
+    tape.fly((20.0, 0.0, 3.0), 2.0);
+    tape.fly((20.0, 0.0, 0.15), 0.5);
+    tape.contact(2);
+    tape.hold(5.0);
+    let assessment = grade(&tape, &one_task()).assessment;
+    assert_eq!(assessment.crashes.other, 1);
+    assert_eq!(assessment.end.reason, EndReason::Abort, "standing elsewhere is no landing");
+}
+
+#[test]
+fn exact_overlapping_corridors_never_count_twice_and_the_nearer_share_wins() {
+    let wide = task(1, line((10.0, 0.0, 10.0), (60.0, 0.0, 10.0)), 6.0);
+    let narrow = task(2, line((10.0, 2.0, 10.0), (60.0, 2.0, 10.0)), 2.0);
+    let scenario = scenario(vec![wide, narrow]);
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.5, 10.0), 2.0);
+    tape.fly((60.0, 0.5, 10.0), 4.0);
+    tape.fly((60.0, 2.0, 10.0), 1.0);
+    tape.fly((10.0, 2.0, 10.0), 4.0);
+    tape.land();
+    let assessment = grade(&tape, &scenario).assessment;
+    let [one, two] = assessment.tasks[..] else { panic!("two tasks") };
+    assert!(one.attempted && two.attempted);
+    assert!(one.on_path < 1.0, "task 1's window spans frames that belong to task 2");
+    assert_eq!(two.on_path, 1.0);
+}
+
+#[test]
+fn exact_a_task_never_entered_has_no_window_and_no_shares() {
+    let mut scenario = one_task();
+    scenario.tasks.push(task(2, line((10.0, 90.0, 10.0), (60.0, 90.0, 10.0)), 3.0));
+    let assessment = grade(&clean_flight(), &scenario).assessment;
+    let skipped = assessment.tasks[1];
+    assert_eq!((skipped.attempted, skipped.first_frame, skipped.last_frame), (false, None, None));
+    assert_eq!((skipped.on_path, skipped.speeding), (0.0, 0.0));
+    assert_eq!(assessment.certification.flags, ["not_attempted:2"]);
+    assert_eq!(assessment.certification.scores.efficiency, 0.0);
+    assert_eq!(assessment.scores.efficiency.pct, 100.0);
+}
+
+#[test]
+fn exact_nothing_entered_is_half_marks_in_paper_and_no_evidence_in_certification() {
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 3.0), 2.0);
+    tape.land();
+    let assessment = grade(&tape, &one_task()).assessment;
+    assert_eq!(assessment.scores.conformity.unwrap().pct, 50.0);
+    assert_eq!(assessment.certification.scores.conformity, None);
+    assert!(assessment.certification.flags.contains(&"no_evidence".to_owned()));
+    assert!(!assessment.certification.passed);
+}
+
+#[test]
+fn exact_hopping_to_a_path_and_off_again_pays_in_paper_but_not_in_certification() {
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.fly((9.0, 0.0, 10.0), 4.0);
+    tape.land();
+    let assessment = grade(&tape, &one_task()).assessment;
+    assert_eq!(assessment.scores.conformity.unwrap().pct, 100.0);
+    let covered = &assessment.certification.tasks[0];
+    assert!(covered.coverage < 0.1, "{}", covered.coverage);
+    assert!(assessment.certification.scores.conformity.unwrap() < 55.0);
+}
+
+#[test]
+fn exact_pictures_count_once_and_a_dark_one_gives_the_reason() {
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.fly((20.0, 0.0, 10.0), 4.0);
+    tape.snapshot(0);
+    tape.hold(1.0);
+    tape.lamp(true);
+    tape.hold(1.0);
+    tape.snapshot(1);
+    let taken_ms = tape.now_ms;
+    tape.hold(1.0);
+    tape.snapshot(2);
+    tape.fly((25.0, 0.0, 10.0), 4.0);
+    tape.snapshot(3);
+    // The camera sends a missed one again, much later.
+    tape.snapshot_at(1, taken_ms);
+    tape.land();
+    let snapshots = grade(&tape, &one_task()).assessment.snapshots;
+    assert_eq!((snapshots.taken, snapshots.hits, snapshots.defects_found, snapshots.defects_placed), (4, 1, 1, 10));
+    let [why] = &snapshots.each[0].views[0].fails[..] else { panic!("{:?}", snapshots.each[0]) };
+    assert!(why.starts_with("too dark: lamp off"), "{why}");
+    assert_eq!(snapshots.each[1].found, [2]);
+    assert!(snapshots.each[2].views[0].shown && !snapshots.each[2].hit, "shown before");
+    assert!(snapshots.each[3].views.is_empty());
+}
+
+#[test]
+fn exact_a_simulator_restarted_in_flight_ends_the_session_and_keeps_what_was_flown() {
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.fly((60.0, 0.0, 10.0), 4.0);
+    let flown = tape.now_ms;
+    let again = clean_flight();
+    tape.datagrams.extend(again.datagrams);
+    let mut timeline = Timeline::new(LocalPlane::new(one_task().origin));
+    timeline.push_log(&tape.log(0)).unwrap();
+    assert_eq!((timeline.simulator_runs(), timeline.counts().restarts), (2, 1));
+    let flown_before = [0, 1].map(|epoch| timeline.apply_pushed(epoch).ms());
+    assert_eq!(flown_before, [0, i64::from(flown)]);
+    let graded = grade(&tape, &one_task());
+    assert_eq!(graded.assessment.end.reason, EndReason::Restart);
+    assert_eq!(graded.frames.last().unwrap().time.ms() / 40, i64::from(flown) / 40);
+    assert_eq!(graded.assessment.tasks[0].on_path, 1.0);
+}
+
+/// Shows its defects to narrow cameras only.
+#[derive(Debug)]
+struct Small(Fence);
+
+impl SiteSurvey for Small {
+    fn defects(&self) -> &[PlacedDefect] {
+        &self.0.defects
+    }
+    fn view_defects(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: SimTime) -> Vec<DefectView> {
+        let narrow = camera.hfov_rad < 0.5;
+        self.0
+            .view_defects(pose, camera, lamp, at)
+            .into_iter()
+            .map(|view| DefectView { hit: view.hit && narrow, ..view })
+            .collect()
+    }
+    fn name_near(&self, _: Vec3<Enu>, _: f64, _: SimTime) -> Option<String> {
+        None
+    }
+}
+
+#[test]
+fn exact_a_picture_is_judged_by_the_field_of_view_that_the_camera_reports() {
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.lamp(true);
+    tape.fly((10.0, 0.0, 10.0), 4.0);
+    tape.snapshot(0);
+    tape.hold(1.0);
+    tape.field_of_view(20.0);
+    tape.snapshot(1);
+    tape.fly((20.0, 0.0, 10.0), 4.0);
+    tape.hold(1.0);
+    // Numbers that are no field of view change nothing.
+    tape.field_of_view(f32::NAN);
+    tape.field_of_view(0.0);
+    tape.snapshot(2);
+    tape.hold(1.0);
+    tape.field_of_view(vehicle().camera.hfov_rad.to_degrees() as f32);
+    tape.fly((30.0, 0.0, 10.0), 4.0);
+    tape.snapshot(3);
+    tape.land();
+    let build = |_: &Scenario, _: u64| -> std::sync::Arc<dyn SiteSurvey> { std::sync::Arc::new(Small(Fence::of(10))) };
+    let graded = assess_log(&tape.log(1_000_000), &one_task(), &vehicle(), build).unwrap();
+    let hits: Vec<bool> = graded.assessment.snapshots.each.iter().map(|snapshot| snapshot.hit).collect();
+    assert_eq!(hits, [false, true, true, false]);
+}
+
+#[test]
+fn exact_a_field_of_view_that_is_the_aircrafts_own_changes_no_bit_of_its_camera() {
+    use spandrel_monitor::measures::attention::camera;
+    let own = vehicle().camera;
+    let mut timeline = Timeline::new(LocalPlane::new(one_task().origin));
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.field_of_view(own.hfov_rad.to_degrees() as f32);
+    tape.hold(0.5);
+    tape.datagrams.iter().for_each(|datagram| {
+        timeline.push(datagram);
+    });
+    let flight = timeline.flight(0);
+    let end = SimTime::from_ms(i64::from(tape.now_ms));
+    assert!(flight.field_of_view.at(end).is_some(), "it was told");
+    assert_eq!(camera(&flight, end, &own), own);
+    assert_eq!(camera(&flight, SimTime::ZERO, &own), own);
+}
+
+#[test]
+fn exact_pictures_on_a_formatted_card_have_old_numbers_and_are_new() {
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.lamp(true);
+    tape.fly((10.0, 0.0, 10.0), 4.0);
+    tape.snapshot(0);
+    let taken_ms = tape.now_ms;
+    tape.fly((20.0, 0.0, 10.0), 4.0);
+    // Formatted: numbers begin again.
+    tape.snapshot(0);
+    tape.hold(1.0);
+    tape.snapshot_at(0, taken_ms);
+    tape.land();
+    let snapshots = grade(&tape, &one_task()).assessment.snapshots;
+    assert_eq!((snapshots.taken, snapshots.hits), (2, 2));
+}

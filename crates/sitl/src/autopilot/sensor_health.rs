@@ -1,0 +1,260 @@
+//! Sensors that fall silent, repeat one value or contradict the others: they are announced, not used, and forbid arming.
+
+use super::core::{Autopilot, Severity};
+use super::estimator::RejectedSources;
+use crate::sensors::Readings;
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle;
+
+/// A sensor that is silent this long is missing, s (estimate: 25 readings of compass and barometer, fewer than a wink loses).
+const SILENT_S: f64 = 0.5;
+/// A sensor that repeats one value for this long is stuck, s (ArduPilot's barometer: 2 s; PX4: 100 equal values, 2 s at 50 Hz).
+const STUCK_S: f64 = 2.0;
+
+/// What the autopilot finds working.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SensorStatus {
+    /// The compass is used.
+    pub compass: bool,
+    /// The barometer is used.
+    pub barometer: bool,
+    /// The GNSS receiver is used, where it has a fix.
+    pub gnss: bool,
+    /// The vehicle turns as it is told.
+    pub tracks_attitude: bool,
+}
+
+impl SensorStatus {
+    /// All is well.
+    pub const GOOD: Self = Self { compass: true, barometer: true, gnss: true, tracks_attitude: true };
+}
+
+/// A sensor that may fail.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MonitoredSensor {
+    /// Magnetometer.
+    Compass,
+    /// Barometer.
+    Barometer,
+    /// GNSS receiver.
+    Gnss,
+}
+
+impl MonitoredSensor {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Compass => "Compass",
+            Self::Barometer => "Barometer",
+            Self::Gnss => "GNSS",
+        }
+    }
+}
+
+/// Why a sensor is not used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SensorFault {
+    /// No readings.
+    Silent,
+    /// The same value bit for bit.
+    Stuck,
+    /// Readings that contradict the other sensors.
+    Inconsistent,
+}
+
+/// A sensor has failed, or works again (`None`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SensorChange {
+    /// Which one.
+    pub sensor: MonitoredSensor,
+    /// Its fault now.
+    pub fault: Option<SensorFault>,
+}
+
+impl SensorChange {
+    /// The change in words.
+    #[must_use]
+    pub fn words(self) -> String {
+        let name = self.sensor.name();
+        match self.fault {
+            Some(SensorFault::Silent) => format!("{name} lost: no readings"),
+            Some(SensorFault::Stuck) => format!("{name} stuck: not used"),
+            Some(SensorFault::Inconsistent) => format!("{name} inconsistent: not used"),
+            None => format!("{name} is back"),
+        }
+    }
+}
+
+/// One sensor's readings over time; the clock begins with the first look.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct SensorMonitor<T> {
+    /// Two readings in a row are never equal, because the sensor has noise.
+    noisy: bool,
+    latest: Option<T>,
+    received: Option<SimTime>,
+    changed: Option<SimTime>,
+    fault: Option<SensorFault>,
+}
+
+impl<T: Copy + PartialEq> SensorMonitor<T> {
+    fn new(noisy: bool) -> Self {
+        Self { noisy, latest: None, received: None, changed: None, fault: None }
+    }
+
+    /// Takes in a reading and returns it if it is a new measurement; a repeated value is none.
+    fn accept(&mut self, reading: Option<T>, now: SimTime) -> Option<T> {
+        let (received, changed) = (self.received.get_or_insert(now), self.changed.get_or_insert(now));
+        let value = reading?;
+        *received = now;
+        if self.noisy && self.latest == Some(value) {
+            return None;
+        }
+        *changed = now;
+        self.latest = Some(value);
+        Some(value)
+    }
+
+    /// Updates the fault; true if it has changed.
+    fn update_fault(&mut self, may_be_silent: bool, dropped: bool, now: SimTime) -> bool {
+        let since = |at: Option<SimTime>| at.map_or(0.0, |at| (now - at).s());
+        let silent = !may_be_silent && since(self.received) > SILENT_S;
+        let stuck = since(self.changed) - since(self.received) > STUCK_S;
+        let fault = match (silent, stuck, dropped) {
+            (true, ..) => Some(SensorFault::Silent),
+            (_, true, _) => Some(SensorFault::Stuck),
+            (.., true) => Some(SensorFault::Inconsistent),
+            _ => None,
+        };
+        std::mem::replace(&mut self.fault, fault) != fault
+    }
+}
+
+/// The sensors that the autopilot watches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct SensorHealth {
+    compass: SensorMonitor<[f64; 3]>,
+    barometer: SensorMonitor<f64>,
+    gnss: SensorMonitor<[f64; 6]>,
+}
+
+impl SensorHealth {
+    pub(super) fn new(sensors: &vehicle::SensorSpec) -> Self {
+        Self {
+            compass: SensorMonitor::new(sensors.mag_noise_gauss > 0.0),
+            barometer: SensorMonitor::new(sensors.baro_noise_m > 0.0),
+            gnss: SensorMonitor::new(sensors.gnss_horizontal_m > 0.0),
+        }
+    }
+
+    /// Returns the readings that the filter may use.
+    pub(super) fn filter(&mut self, readings: &Readings, now: SimTime) -> Readings {
+        let mut out = *readings;
+        if self.compass.accept(readings.mag_gauss.map(|m| m.array()), now).is_none() {
+            out.mag_gauss = None;
+        }
+        out.baro_up_m = self.barometer.accept(readings.baro_up_m, now);
+        let fix = readings.gnss.filter(|fix| fix.fix >= 3);
+        let values = fix.map(|fix| {
+            let ([a, b, c], [d, e, f]) = (fix.position_m.array(), fix.velocity_m_s.array());
+            [a, b, c, d, e, f]
+        });
+        if self.gnss.accept(values, now).is_none() {
+            out.gnss = out.gnss.filter(|fix| fix.fix < 3);
+        }
+        out
+    }
+
+    fn changes(&mut self, dropped: RejectedSources, now: SimTime) -> Vec<SensorChange> {
+        let mut out = Vec::new();
+        let mut note = |changed: bool, sensor, fault| {
+            if changed {
+                out.push(SensorChange { sensor, fault });
+            }
+        };
+        note(self.compass.update_fault(false, dropped.compass, now), MonitoredSensor::Compass, self.compass.fault);
+        note(self.barometer.update_fault(false, dropped.barometer, now), MonitoredSensor::Barometer, self.barometer.fault);
+        note(self.gnss.update_fault(true, dropped.gnss, now), MonitoredSensor::Gnss, self.gnss.fault);
+        out
+    }
+}
+
+impl Autopilot {
+    /// Announces sensors that have failed or are back.
+    pub(super) fn check_sensors(&mut self, now: SimTime) {
+        let changes = self.sensor_health.changes(self.estimator.dropped(), now);
+        let senses = &self.sensor_health;
+        let health = &mut self.status.health;
+        health.compass = senses.compass.fault.is_none();
+        health.barometer = senses.barometer.fault.is_none();
+        health.gnss = senses.gnss.fault.is_none();
+        for change in changes {
+            self.announce_sensor(change);
+        }
+    }
+
+    /// The filter has set its position to the receiver's. A place that is held for a pilot moves along, so that the vehicle stays where it is; a
+    /// target on the map does not (PX4 and ArduCopter: so do position hold and waypoints).
+    pub(super) fn follow_place_step(&mut self) {
+        let Some(step_m) = self.estimator.take_place_step() else { return };
+        self.status.position_resets += 1;
+        if let Some((north, east)) = &mut self.navigator.horizontal_lock {
+            *north += step_m.north();
+            *east += step_m.east();
+        }
+        self.push_event(Severity::Critical, format!("GNSS position jumped {:.0} m: position reset", step_m.horizontal_norm()));
+    }
+
+    fn announce_sensor(&mut self, change: SensorChange) {
+        let severity = if change.fault.is_some() { Severity::Critical } else { Severity::Info };
+        self.events.push(super::AutopilotEvent { severity, text: change.words(), sensor: Some(change) });
+    }
+
+    /// Sensors whose faults forbid arming.
+    pub(super) fn missing_sensors(&self) -> Vec<String> {
+        let s = &self.sensor_health;
+        let all = [
+            (MonitoredSensor::Compass, s.compass.fault),
+            (MonitoredSensor::Barometer, s.barometer.fault),
+            (MonitoredSensor::Gnss, s.gnss.fault),
+        ];
+        all.into_iter().filter_map(|(sensor, fault)| Some(refusal(sensor, fault?))).collect()
+    }
+}
+
+fn refusal(sensor: MonitoredSensor, fault: SensorFault) -> String {
+    let fault = match fault {
+        SensorFault::Silent => "missing",
+        SensorFault::Stuck => "stuck",
+        SensorFault::Inconsistent => "inconsistent",
+    };
+    format!("{} {fault}", sensor.name())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_repeated_value_is_no_measurement_and_after_two_seconds_a_fault() {
+        let mut watched = SensorMonitor::new(true);
+        let mut feed = |value: f64, from_ms: i64, until_ms: i64| {
+            let mut used = 0;
+            for ms in (from_ms..until_ms).step_by(20) {
+                let now = SimTime::from_ms(ms);
+                used += usize::from(watched.accept(Some(value), now).is_some());
+                watched.update_fault(false, false, now);
+            }
+            (used, watched.fault)
+        };
+        assert_eq!(feed(1.0, 0, 2_000), (1, None));
+        assert_eq!(feed(1.0, 2_000, 2_100), (0, Some(SensorFault::Stuck)));
+        assert_eq!(feed(1.5, 2_100, 2_120), (1, None));
+    }
+
+    #[test]
+    fn exact_a_sensor_without_noise_may_repeat_itself() {
+        let mut watched = SensorMonitor::new(false);
+        let used = (0..500).filter(|k| watched.accept(Some(1.0), SimTime::from_ms(20 * k)).is_some()).count();
+        watched.update_fault(false, false, SimTime::from_ms(10_000));
+        assert_eq!((used, watched.fault), (500, None));
+    }
+}

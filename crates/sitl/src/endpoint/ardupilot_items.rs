@@ -1,0 +1,82 @@
+//! What ArduPilot makes of mission items besides: item 0 is home, and single items outside a plan are errands.
+#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+
+use super::Endpoint;
+use super::inbound::InboundMessage;
+use super::mission_positions::{flyable_position, place};
+use super::snapshot::VehicleSnapshot;
+use crate::autopilot::{AutopilotRequest, RequestOutcome};
+use spandrel_mavlink::dialect::{
+    MISSION_ITEM_DATA, MISSION_ITEM_INT_DATA, MavCmd, MavFrame, MavMessage, MavMissionResult, MavMissionType,
+};
+use spandrel_mavlink::units::deg_e7;
+use spandrel_model::frames::Vec3;
+
+/// MISSION_ITEM.current: go there now, or only to its height.
+const GO_TO: u8 = 2;
+const CHANGE_HEIGHT: u8 = 3;
+
+/// Home as the mission's item 0; nowhere while there is none.
+pub(super) fn home_item(view: &VehicleSnapshot, (target_system, target_component): (u8, u8)) -> MavMessage {
+    let home = view.status.home_m.map(|home: Vec3<_>| view.plane.geo_from_enu(home.enu()));
+    MavMessage::MISSION_ITEM_INT(MISSION_ITEM_INT_DATA {
+        x: home.map_or(0, |geo| deg_e7(geo.latitude_deg)),
+        y: home.map_or(0, |geo| deg_e7(geo.longitude_deg)),
+        z: home.map_or(0.0, |geo| geo.altitude_m as f32),
+        seq: 0,
+        command: MavCmd::MAV_CMD_NAV_WAYPOINT,
+        target_system,
+        target_component,
+        frame: MavFrame::MAV_FRAME_GLOBAL,
+        autocontinue: 1,
+        mission_type: MavMissionType::MAV_MISSION_TYPE_MISSION,
+        ..Default::default()
+    })
+}
+
+/// The older form of an item.
+pub(super) fn in_degrees(item: &MISSION_ITEM_INT_DATA) -> MISSION_ITEM_DATA {
+    let degrees = |scaled: i32| if scaled == i32::MAX { f32::NAN } else { (f64::from(scaled) * 1e-7) as f32 };
+    MISSION_ITEM_DATA {
+        param1: item.param1,
+        param2: item.param2,
+        param3: item.param3,
+        param4: item.param4,
+        x: degrees(item.x),
+        y: degrees(item.y),
+        z: item.z,
+        seq: item.seq,
+        command: item.command,
+        target_system: item.target_system,
+        target_component: item.target_component,
+        frame: item.frame,
+        current: item.current,
+        autocontinue: item.autocontinue,
+        mission_type: item.mission_type,
+    }
+}
+
+/// An item that belongs to no plan but is to be flown at once.
+pub(super) fn is_fly_now_item(item: &MISSION_ITEM_INT_DATA) -> bool {
+    let mission = item.mission_type == MavMissionType::MAV_MISSION_TYPE_MISSION;
+    mission && matches!(item.current, GO_TO | CHANGE_HEIGHT) && item.command == MavCmd::MAV_CMD_NAV_WAYPOINT
+}
+
+/// Flies it, in the mode that flies errands alone.
+pub(super) fn fly_now(e: &mut Endpoint, item: &MISSION_ITEM_INT_DATA, a: &mut InboundMessage) -> MavMissionResult {
+    let shown = e.flavour.row_of(a.autopilot.status().mode, e.chosen).number;
+    if e.flavour.errands != Some(shown) {
+        return MavMissionResult::MAV_MISSION_DENIED;
+    }
+    if let Err(result) = flyable_position(item, a.view.plane) {
+        return result;
+    }
+    let home_up = a.view.status.home_m.map_or(0.0, |home| -home.down());
+    let Some(target) = place(item, a.view.plane, home_up) else { return MavMissionResult::MAV_MISSION_INVALID_PARAM5_X };
+    let north_east_m = (item.current == GO_TO).then_some((target.north(), target.east()));
+    let request = AutopilotRequest::GoTo { north_east_m, up_m: Some(-target.down()), yaw_rad: None, speed_m_s: None };
+    match a.autopilot.request(request, a.view.now) {
+        RequestOutcome::Accepted => MavMissionResult::MAV_MISSION_ACCEPTED,
+        _ => MavMissionResult::MAV_MISSION_DENIED,
+    }
+}

@@ -1,0 +1,61 @@
+//! How much work on files the ticks may cause. Jobs are done between two ticks, by the thread that runs them, so that the same requests
+//! are answered in the same tick in every run; what a client asks for may therefore not hold a tick up.
+
+use super::job::FileAction;
+use spandrel_model::time::SimTime;
+
+/// Jobs that may be done at once after a rest.
+const SAVED_MAX: u32 = 32;
+
+/// One small job for each millisecond of simulation time, saved up to a few.
+#[derive(Debug, Clone)]
+pub struct JobAllowance {
+    left: u32,
+    counted: SimTime,
+}
+
+impl Default for JobAllowance {
+    fn default() -> Self {
+        Self { left: SAVED_MAX, counted: SimTime::ZERO }
+    }
+}
+
+impl JobAllowance {
+    /// Whether there is enough left for this at a time.
+    #[must_use]
+    pub fn covers(&self, action: &FileAction, now: SimTime) -> bool {
+        self.left_at(now) >= action.cost()
+    }
+
+    /// Takes it out.
+    pub fn spend(&mut self, action: &FileAction, now: SimTime) {
+        (self.left, self.counted) = (self.left_at(now).saturating_sub(action.cost()), now);
+    }
+
+    fn left_at(&self, now: SimTime) -> u32 {
+        let passed_ms = u32::try_from(now.ms() - self.counted.ms()).unwrap_or(0);
+        self.left.saturating_add(passed_ms).min(SAVED_MAX)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::path::FilePath;
+    use super::*;
+
+    #[test]
+    fn exact_a_flood_gets_one_job_a_millisecond_and_one_listing_in_eight() {
+        let path = || FilePath::of(b"a").unwrap();
+        for (action, expected) in [(FileAction::Size(path()), 32 + 100), (FileAction::List(path()), (32 + 100) / 8)] {
+            let (mut allowance, mut done) = (JobAllowance::default(), 0);
+            for ms in 0..=100 {
+                let now = SimTime::from_ms(ms);
+                while allowance.covers(&action, now) {
+                    allowance.spend(&action, now);
+                    done += 1;
+                }
+            }
+            assert_eq!(done, expected, "{action:?}");
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! Texts to everybody, in the pieces that the wire asks for.
+
+use super::snapshot::VehicleSnapshot;
+use super::streams::AUTOPILOT;
+use super::{Endpoint, LinkKind, notices};
+use spandrel_mavlink::dialect::{MavMessage, STATUSTEXT_DATA};
+
+impl Endpoint {
+    /// Texts of more than 50 bytes go out in pieces that clients put together by their id. What an event says as well ends with a tab for ground
+    /// stations, as PX4's do.
+    pub(super) fn say_texts(&mut self, view: &VehicleSnapshot) {
+        for (severity, text) in std::mem::take(&mut self.texts) {
+            self.send_notice(&text, view.boot_ms());
+            let marked = self.flavour.events && notices::says_all(&text);
+            let plain = pieces(&text);
+            let tabbed = if marked { pieces(&format!("{text}\t")) } else { Vec::new() };
+            let whole = plain.len() == 1 && tabbed.len() <= 1;
+            if !whole {
+                self.text_id = self.text_id.wrapping_add(1).max(1);
+            }
+            let id = if whole { 0 } else { self.text_id };
+            for link in self.listeners() {
+                let stations = matches!(link.kind, LinkKind::GroundStation | LinkKind::Tcp | LinkKind::Serial);
+                let pieces = if marked && stations { &tabbed } else { &plain };
+                for (k, piece) in pieces.iter().enumerate() {
+                    let text = piece.as_str().into();
+                    link.send(AUTOPILOT, &MavMessage::STATUSTEXT(STATUSTEXT_DATA { severity, text, id, chunk_seq: k as u8 }));
+                }
+            }
+        }
+    }
+}
+
+/// Pieces of at most 50 bytes, cut between characters.
+fn pieces(text: &str) -> Vec<String> {
+    const LONGEST: usize = 50;
+    let mut out = vec![String::new()];
+    for character in text.chars() {
+        let last = out.len() - 1;
+        if out[last].len() + character.len_utf8() > LONGEST {
+            out.push(String::new());
+        }
+        let last = out.len() - 1;
+        out[last].push(character);
+    }
+    // A full piece says that more follows: the last of several must not be full.
+    if out.len() > 1 && out.last().is_some_and(|last| last.len() == LONGEST) {
+        out.push(String::new());
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_the_last_of_several_pieces_is_never_full() {
+        for (long, count) in [(0, 1), (49, 1), (50, 1), (51, 2), (99, 2), (100, 3), (150, 4)] {
+            let text = "x".repeat(long);
+            let pieces = pieces(&text);
+            assert_eq!((pieces.len(), pieces.concat()), (count, text), "{long}");
+            assert!(count == 1 || pieces[count - 1].len() < 50, "{long}");
+        }
+    }
+}

@@ -1,0 +1,364 @@
+//! What follows from a step: lift-off, contact, an empty battery, being put back; clearance and light for the scoring.
+
+use super::{CLEARANCE_REACH_M, Sim, SimEvent};
+use crate::autopilot::LandedState;
+use crate::physics;
+use spandrel_mavlink::contract::contact::ContactKind;
+use spandrel_mavlink::dialect::MavSeverity;
+use spandrel_model::frames::{Rotation, Vec3};
+use spandrel_model::scenario::AfterCrash;
+use spandrel_model::site::Surface;
+
+/// Lift-off: this far above where it stood, m (docs/src/reference/assessment.md, "Frames").
+const LIFT_OFF_M: f64 = 0.3;
+/// A hover counts as safe with this much clearance, m.
+const SAFE_CLEARANCE_M: f64 = 1.0;
+/// Slower than this it lies still, m/s.
+const STILL_M_S: f64 = 0.3;
+/// Touching the pad or the ground about it more slowly than this is landing, m/s (docs/src/reference/assessment.md, "Crashes").
+const PAD_TOUCH_M_S: f64 = 1.0;
+/// What has touched nothing for so long flies, s (estimate: a lying body rocks off its contact for a step or two).
+const FLIES_S: f64 = 0.5;
+
+impl Sim {
+    /// Lift-off, contact, battery, putting back.
+    pub(super) fn handle_crash_and_respawn(&mut self) {
+        let up = -self.state.rigid.position_m.down();
+        if !self.has_lifted_off && up > self.standing_up_m + LIFT_OFF_M {
+            self.has_lifted_off = true;
+            self.events.push_back(SimEvent::LiftOff);
+        }
+        self.note_contact();
+        if self.state.battery.empty() && !self.battery_empty_reported {
+            self.battery_empty_reported = true;
+            self.events.push_back(SimEvent::BatteryEmpty);
+            self.endpoint.push_text(MavSeverity::MAV_SEVERITY_EMERGENCY, "Battery empty");
+            self.end_session("battery empty");
+        }
+        self.respawn_when_down();
+    }
+
+    fn end_session(&mut self, reason: &str) {
+        if self.end_reason.is_none() {
+            self.end_reason = Some(reason.to_string());
+            self.events.push_back(SimEvent::Ended { reason: reason.to_string() });
+        }
+    }
+
+    /// What is touched, and its onsets. Touching the pad gently, near home or before lift-off, is none.
+    fn note_contact(&mut self) {
+        let report = self.state.contact;
+        let contact = match report.surface {
+            Some((surface, _)) if self.has_lifted_off && !self.is_gentle_touch(surface, report.impact_m_s) => {
+                contact_with(surface)
+            }
+            _ => ContactKind::None,
+        };
+        let before = std::mem::replace(&mut self.scoring.contact, contact);
+        // Who scrapes along a bridge and then hits somebody has hit somebody: that ends the session from any contact.
+        let grave = |contact: ContactKind| matches!(contact, ContactKind::Person | ContactKind::Vehicle);
+        let onset = contact != ContactKind::None && before == ContactKind::None;
+        let worse = grave(contact) && !grave(before);
+        if !onset && !worse {
+            return;
+        }
+        self.scoring.hits += 1;
+        let (surface, object) = report.surface.unwrap_or((Surface::Other, spandrel_model::site::ObjectId(0)));
+        let what = self.site.object_name(object);
+        self.events.push_back(SimEvent::Crash { what: what.clone(), impact_m_s: report.impact_m_s });
+        if matches!(surface, Surface::Person | Surface::Vehicle) {
+            self.end_session(&format!("hit {what}"));
+        } else if self.config.after_crash() == AfterCrash::End {
+            self.end_session(&format!("crashed into {what}"));
+        }
+    }
+
+    fn is_gentle_touch(&self, surface: Surface, impact_m_s: f64) -> bool {
+        let team = &self.config.scenario.ground_team;
+        let here = self.state.rigid.position_m.enu() - team.pad_m;
+        let home = here.horizontal_norm() <= team.home_radius_m;
+        let place = surface == Surface::Pad || (surface == Surface::Terrain && home);
+        place && impact_m_s < PAD_TOUCH_M_S
+    }
+
+    /// On its side or back: near home that is gentle contact and no crash, yet it will not fly from there.
+    fn is_upside_down(&self) -> bool {
+        const UPRIGHT: f64 = 0.8;
+        let down = self.state.rigid.attitude * Vec3::<spandrel_model::frames::Frd>::new(0.0, 0.0, 1.0);
+        self.state.contact.touching() && down.down() < UPRIGHT
+    }
+
+    /// Landed on its feet, gently, and not in the water: it stays, and may take off again.
+    fn has_landed_upright(&self) -> bool {
+        let landed =
+            self.backend.builtin().is_some_and(|a| matches!(a.status().landed, LandedState::OnGround | LandedState::TakingOff));
+        let wet = self.scoring.contact == ContactKind::Water;
+        landed && !wet && !self.hard_contact && !self.is_upside_down()
+    }
+
+    /// A drone that has crashed and lies still away from the pad, lies tipped, or touches water goes back to its last safe hover after
+    /// a while.
+    fn respawn_when_down(&mut self) {
+        let rules = &self.config.scenario.rules;
+        if !self.has_lifted_off || self.end_reason.is_some() || self.config.after_crash() != AfterCrash::Respawn {
+            return;
+        }
+        let rigid = &self.state.rigid;
+        let touching = self.scoring.contact != ContactKind::None || self.is_upside_down();
+        let still = rigid.velocity_m_s.norm() < STILL_M_S;
+        let wet = self.scoring.contact == ContactKind::Water;
+        if touching {
+            self.touched_at = self.now;
+        }
+        self.hard_contact |= touching && self.state.contact.impact_m_s >= PAD_TOUCH_M_S;
+        if !touching && (self.now - self.touched_at).s() > FLIES_S {
+            self.hard_contact = false;
+        }
+        if self.has_landed_upright() {
+            self.crashed_since = None;
+            return;
+        }
+        if !(touching && (still || wet)) {
+            let flies = !still || (self.now - self.touched_at).s() > FLIES_S;
+            if !touching && flies {
+                self.crashed_since = None;
+            }
+            return;
+        }
+        let since = *self.crashed_since.get_or_insert(self.now);
+        if self.now - since >= rules.respawn_after && !self.state.battery.empty() {
+            self.respawn();
+        }
+    }
+
+    fn respawn(&mut self) {
+        let (position_m, yaw_rad) = self.last_safe_hover;
+        self.crashed_since = None;
+        self.hard_contact = false;
+        self.state.place(position_m, yaw_rad);
+        let hover = self.model.hover_rotor_rad_s();
+        self.state.rigid.rotor_rad_s = [hover; physics::MAX_ROTORS];
+        self.scoring.respawns += 1;
+        self.scoring.contact = ContactKind::None;
+        let attitude = Rotation::from_euler(0.0, 0.0, yaw_rad);
+        let now = self.now;
+        if let Some(autopilot) = self.backend.builtin_mut() {
+            autopilot.respawn(position_m, Vec3::zero(), attitude, now);
+        }
+        self.events.push_back(SimEvent::Respawn);
+    }
+
+    /// Clearance and light for the scoring, and the last safe hover.
+    pub(super) fn update_clearance_and_light(&mut self) {
+        let position = self.state.rigid.position_m.enu();
+        if self.clearance_due.fire(self.now) {
+            let near = self.site.nearest(position, CLEARANCE_REACH_M, self.now);
+            self.scoring.clearance_m = near.map_or(CLEARANCE_REACH_M, |n| n.distance_m);
+            self.save_safe_hover();
+        }
+        if self.lux_due.fire(self.now) {
+            self.scoring.lux = self.site.ambient_lux(position, None, self.now);
+        }
+    }
+
+    fn save_safe_hover(&mut self) {
+        let rigid = &self.state.rigid;
+        let (roll, pitch, yaw) = rigid.attitude.euler();
+        let calm = rigid.velocity_m_s.norm() < 2.0 && roll.abs() < 0.4 && pitch.abs() < 0.4 && rigid.rates_rad_s.norm() < 1.0;
+        let flying = self.backend.builtin().is_some_and(|a| a.status().landed == LandedState::InAir);
+        if calm && flying && self.scoring.clearance_m > SAFE_CLEARANCE_M && self.crashed_since.is_none() {
+            self.last_safe_hover = (rigid.position_m, yaw);
+        }
+    }
+}
+
+/// The pad is something else where it is hit and not landed on.
+fn contact_with(surface: Surface) -> ContactKind {
+    match surface {
+        Surface::Bridge => ContactKind::Bridge,
+        Surface::Terrain => ContactKind::Terrain,
+        Surface::Water => ContactKind::Water,
+        Surface::Vehicle => ContactKind::Vehicle,
+        Surface::Person => ContactKind::Person,
+        Surface::Other | Surface::Pad => ContactKind::Other,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::endpoint::flavour::px4;
+    use crate::physics::contact::ContactReport;
+    use crate::sim::{SimConfig, SimEvent};
+    use spandrel_model::frames::Enu;
+    use spandrel_model::scenario::Scenario;
+    use spandrel_model::site::{ObjectId, Site};
+    use spandrel_model::time::SimTime;
+    use std::sync::Arc;
+
+    const MS: SimTime = SimTime::from_ms(1);
+    /// Where these drones last hovered safely, north-east-down, m.
+    const SAFE: (f64, f64, f64) = (3.0, 4.0, -6.0);
+
+    /// A drone that has flown and is now 50 m from the pad, at rest and level.
+    fn flown(change: impl Fn(&mut Scenario)) -> Sim {
+        let text = include_str!("../../../../scenarios/drill-hover.toml");
+        let mut scenario = spandrel_model::scenario::read("drill-hover.toml", text, &|_| Err("none".into())).expect("shipped");
+        change(&mut scenario);
+        let vehicle = include_str!("../../../../vehicle-params/phantom2.toml");
+        let vehicle = Arc::new(spandrel_model::vehicle::read("phantom2.toml", vehicle).expect("shipped"));
+        let site = Arc::new(Site::build(&scenario, 1));
+        let mut sim = Sim::new(
+            SimConfig { scenario: Arc::new(scenario), vehicle, seed: 1, instance: 0, flavour: &px4::FLAVOUR, after_crash: None },
+            site,
+        );
+        sim.has_lifted_off = true;
+        sim.last_safe_hover = (Vec3::new(SAFE.0, SAFE.1, SAFE.2), 0.3);
+        put(&mut sim, Vec3::new(50.0, 0.0, 0.1));
+        sim
+    }
+
+    fn put(sim: &mut Sim, place: Vec3<Enu>) {
+        sim.state = physics::PhysicsState::at_rest(place.ned(), 0.0);
+    }
+
+    fn touches(sim: &mut Sim, surface: Option<Surface>, impact_m_s: f64) {
+        sim.state.contact = ContactReport { surface: surface.map(|s| (s, ObjectId(0))), impact_m_s, normal_n: 1.0 };
+    }
+
+    /// What follows from a state that stays as it is; physics stands still.
+    fn pass(sim: &mut Sim, ms: i64) -> Vec<SimEvent> {
+        for _ in 0..ms {
+            sim.now += MS;
+            sim.handle_crash_and_respawn();
+        }
+        sim.events.drain(..).collect()
+    }
+
+    fn crashes(events: &[SimEvent]) -> usize {
+        events.iter().filter(|e| matches!(e, SimEvent::Crash { .. })).count()
+    }
+
+    #[test]
+    fn exact_what_lies_still_or_touches_water_is_respawned_after_three_seconds() {
+        let going = Vec3::new(1.5, 0.0, 0.0);
+        for (surface, velocity, back) in [
+            (Surface::Bridge, Vec3::zero(), true),
+            (Surface::Terrain, Vec3::zero(), true),
+            (Surface::Water, Vec3::zero(), true),
+            (Surface::Water, going, true),
+            (Surface::Bridge, going, false),
+        ] {
+            let mut sim = flown(|_| ());
+            touches(&mut sim, Some(surface), 2.0);
+            sim.state.rigid.velocity_m_s = velocity;
+            // The first tick is the one at which it begins to lie there.
+            assert_eq!(crashes(&pass(&mut sim, 3_000)), 1, "{surface:?}");
+            assert_eq!(sim.scoring.respawns, 0, "{surface:?}: too early");
+            let events = pass(&mut sim, 1);
+            assert_eq!(events.contains(&SimEvent::Respawn), back, "{surface:?} {events:?}");
+            assert_eq!(sim.scoring.respawns, i32::from(back));
+            if back {
+                assert_eq!(sim.state.rigid.position_m, Vec3::new(SAFE.0, SAFE.1, SAFE.2));
+                assert_eq!(sim.state.rigid.velocity_m_s.norm(), 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn regress_a_gentle_landing_on_its_feet_is_not_undone() {
+        let tipped = Rotation::from_euler(1.2, 0.0, 0.0);
+        for (surface, impact_m_s, attitude, back) in [
+            (Surface::Terrain, 0.7, None, false),
+            (Surface::Bridge, 0.7, None, false),
+            (Surface::Terrain, 1.5, None, true),
+            (Surface::Terrain, 0.7, Some(tipped), true),
+            (Surface::Water, 0.7, None, true),
+        ] {
+            let mut sim = flown(|_| ());
+            sim.state.rigid.attitude = attitude.unwrap_or(sim.state.rigid.attitude);
+            touches(&mut sim, Some(surface), impact_m_s);
+            pass(&mut sim, 1);
+            touches(&mut sim, Some(surface), 0.0);
+            let events = pass(&mut sim, 10_000);
+            assert_eq!(events.contains(&SimEvent::Respawn), back, "{surface:?} at {impact_m_s} m/s, {attitude:?}");
+        }
+    }
+
+    #[test]
+    fn exact_other_rules_leave_it_where_it_lies_or_end_the_session() {
+        let mut sim = flown(|s| s.rules.after_crash = AfterCrash::Continue);
+        touches(&mut sim, Some(Surface::Bridge), 2.0);
+        let events = pass(&mut sim, 20_000);
+        assert!(crashes(&events) == 1 && events.len() == 1 && sim.ended().is_none(), "{events:?}");
+        let mut sim = flown(|s| s.rules.after_crash = AfterCrash::End);
+        touches(&mut sim, Some(Surface::Bridge), 2.0);
+        let events = pass(&mut sim, 1);
+        assert!(sim.ended().is_some_and(|why| why.starts_with("crashed into")), "{events:?}");
+    }
+
+    #[test]
+    fn exact_a_person_or_a_vehicle_ends_the_session_under_every_rule_and_from_any_contact() {
+        for rule in [AfterCrash::Continue, AfterCrash::Respawn, AfterCrash::End] {
+            for surface in [Surface::Person, Surface::Vehicle] {
+                let mut sim = flown(|s| s.rules.after_crash = rule);
+                if rule != AfterCrash::End {
+                    touches(&mut sim, Some(Surface::Bridge), 1.0);
+                    pass(&mut sim, 10);
+                    assert!(sim.ended().is_none());
+                }
+                touches(&mut sim, Some(surface), 0.1);
+                let events = pass(&mut sim, 5_000);
+                assert!(sim.ended().is_some_and(|why| why.starts_with("hit ")), "{rule:?} {surface:?} {events:?}");
+                assert!(!events.contains(&SimEvent::Respawn));
+            }
+        }
+    }
+
+    #[test]
+    fn exact_an_empty_battery_outranks_being_respawned() {
+        // One millisecond before it would be put back, and in that very one.
+        for ms in [2_999, 3_000] {
+            let mut sim = flown(|_| ());
+            touches(&mut sim, Some(Surface::Bridge), 2.0);
+            pass(&mut sim, ms);
+            sim.state.battery.charge = 0.0;
+            let events = pass(&mut sim, 10_000);
+            assert_eq!(sim.ended(), Some("battery empty"), "{events:?}");
+            assert!(events.contains(&SimEvent::BatteryEmpty) && !events.contains(&SimEvent::Respawn), "{events:?}");
+        }
+    }
+
+    #[test]
+    fn exact_a_vehicle_that_bumped_and_hovered_on_is_not_respawned() {
+        let mut sim = flown(|_| ());
+        touches(&mut sim, Some(Surface::Bridge), 0.2);
+        pass(&mut sim, 100);
+        // Slower than what counts as still, yet in the air.
+        touches(&mut sim, None, 0.0);
+        sim.state.rigid.velocity_m_s = Vec3::new(0.1, 0.0, 0.0);
+        pass(&mut sim, 10_000);
+        touches(&mut sim, Some(Surface::Bridge), 0.2);
+        let events = pass(&mut sim, 100);
+        assert!(crashes(&events) == 1 && !events.contains(&SimEvent::Respawn), "{events:?}");
+    }
+
+    #[test]
+    fn exact_touching_the_pad_is_a_crash_only_above_one_meter_per_second() {
+        for (impact_m_s, expected) in [(0.99, 0), (1.01, 1), (6.0, 1)] {
+            for surface in [Surface::Pad, Surface::Terrain] {
+                let mut sim = flown(|_| ());
+                let pad = sim.config.scenario.ground_team.pad_m;
+                put(&mut sim, pad + Vec3::new(0.3, 0.0, 0.1));
+                touches(&mut sim, Some(surface), impact_m_s);
+                let mut events = pass(&mut sim, 1);
+                // Then it stands there.
+                touches(&mut sim, Some(surface), 0.0);
+                events.extend(pass(&mut sim, 10_000));
+                assert_eq!(crashes(&events), expected, "{surface:?} at {impact_m_s} m/s: {events:?}");
+                assert!(!events.contains(&SimEvent::Respawn) && sim.ended().is_none(), "{events:?}");
+                assert_eq!(sim.scoring.contact, ContactKind::None, "standing on the pad is no contact");
+            }
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! The first sessions: distributions, people and tasks, crashes.
+
+use super::super::kinds::{KINDS, counted, segments};
+use super::super::{figure, legend};
+use super::{people_shown, pooled};
+use crate::cohort::Cohort;
+use crate::report::plots::bars::{CountRow, ShareRow, counts, shares};
+use crate::report::plots::histogram::histogram;
+use crate::report::table::{Table, TableCell};
+use maud::{Markup, html};
+
+/// How the scores are distributed.
+pub fn distributions(cohort: &Cohort) -> Markup {
+    let rows = cohort.distributions.iter().map(|one| {
+        let s = &one.summary;
+        let maybe = |value: Option<f64>| value.map_or(TableCell::Empty, |value| TableCell::Number(value, 2));
+        let numbers = [s.min, s.q1, s.median, s.q3, s.max].map(|value| TableCell::Number(value, 1));
+        let mut row = vec![one.score.clone().into(), s.n.into(), TableCell::Number(s.mean, 2), maybe(s.sd)];
+        row.extend(numbers);
+        row.push(maybe(s.skewness));
+        row
+    });
+    let columns = vec!["score", "n", "mean", "sd", "min", "q1", "median", "q3", "max", "skewness"];
+    let table = Table { name: "distributions", caption: "first sessions", columns, rows: rows.collect() };
+    html! {
+        div.trio {
+            @for one in &cohort.distributions {
+                (figure(&one.score, &histogram(&one.histogram, one.summary.mean, &format!("Histogram of {}, the line is the mean", one.score))))
+            }
+        }
+        (table.shown())
+    }
+}
+
+/// Each person's scores and tasks; of too many people how they are distributed.
+pub fn people(cohort: &Cohort) -> Markup {
+    if people_shown(cohort) { one_by_one(cohort) } else { pooled::tasks(cohort) }
+}
+
+fn one_by_one(cohort: &Cohort) -> Markup {
+    let rows: Vec<ShareRow> = cohort
+        .individuals
+        .iter()
+        .map(|one| ShareRow {
+            name: one.trainee.clone(),
+            bars: one
+                .tasks
+                .iter()
+                .zip(["dot-1", "dot-2", "dot-3", "dot-4"].iter().cycle())
+                .map(|(task, class)| (*class, task.on_path))
+                .collect(),
+            instead: one.tasks.is_empty().then_some("no tasks"),
+        })
+        .collect();
+    let key: Vec<(&str, String)> = cohort
+        .individuals
+        .first()
+        .map(|one| {
+            one.tasks
+                .iter()
+                .zip(["dot-1", "dot-2", "dot-3", "dot-4"].iter().cycle())
+                .map(|(task, class)| (*class, format!("{} · {}", task.id, task.name)))
+                .collect()
+        })
+        .unwrap_or_default();
+    let maybe = |value: Option<f64>| value.map_or(TableCell::Empty, |value| TableCell::Number(value, 1));
+    let table = cohort.individuals.iter().map(|one| {
+        vec![
+            one.trainee.clone().into(),
+            maybe(one.conformity),
+            TableCell::Number(one.efficiency, 1),
+            TableCell::Number(one.safety, 1),
+            maybe(one.accuracy),
+            TableCell::Number(one.overall, 1),
+            TableCell::Clock(one.seconds),
+        ]
+    });
+    let columns = vec!["trainee", "conformity", "efficiency", "safety", "accuracy", "overall", "flight time"];
+    let table = Table { name: "individuals", caption: "first session of each person", columns, rows: table.collect() };
+    html! {
+        (table.shown())
+        details.numbers { summary { "Share of each task's time on the path, person by person" }
+            (figure("Share of the time on the path", &html! { (legend(&key)) (shares(&rows, "On the path by person and task")) }))
+        }
+    }
+}
+
+/// What was hit, where, by whom.
+pub fn crashes(cohort: &Cohort) -> Markup {
+    let table = &cohort.crashes;
+    let key: Vec<(&str, String)> =
+        KINDS.iter().zip(counted(&table.by_kind)).map(|((class, name), count)| (*class, format!("{name}: {count}"))).collect();
+    let names = table.tasks.iter().map(|id| format!("task {id}")).chain(["outside".to_owned()]);
+    let by_task: Vec<CountRow> =
+        names.zip(&table.by_task).map(|(name, count)| CountRow { name, kinds: vec![("k-bridge", *count)] }).collect();
+    let all = CountRow { name: "all".into(), kinds: segments(&table.by_kind) };
+    html! {
+        p { (table.total) " crashes in the first sessions." }
+        div.split {
+            (figure("By what was hit", &html! { (legend(&key)) (counts(&[all], "Crashes by kind")) }))
+            (figure("By task", &counts(&by_task, "Crashes by task")))
+        }
+        @if people_shown(cohort) {
+            details.numbers { summary { "Person by person" } (figure("Crashes by person", &counts(&by_person(cohort), "Crashes by person"))) }
+        } @else { (pooled::crashes(cohort)) }
+    }
+}
+
+fn by_person(cohort: &Cohort) -> Vec<CountRow> {
+    cohort.crashes.rows.iter().map(|row| CountRow { name: row.trainee.clone(), kinds: vec![("k-bridge", row.total)] }).collect()
+}

@@ -1,0 +1,107 @@
+//! What stands for a list of people where there are more than anybody reads: distributions over them.
+
+use super::super::figure;
+use crate::cohort::{Cohort, SelfRatingPair};
+use crate::report::plots::boxes::{NamedBox, boxes};
+use crate::report::plots::histogram::histogram;
+use crate::report::table::{Table, TableCell};
+use crate::statistics::{BoxPlot, HistogramBin, box_plot};
+use maud::{Markup, html};
+
+/// Bars of a histogram of crashes: beyond it several counts share one.
+const BARS: usize = 20;
+
+fn too_many(cohort: &Cohort, file: &str) -> Markup {
+    html! { p.note { (cohort.trainees) " people are not listed one by one: the figures show how they are distributed, the file " (file) " holds each of them." } }
+}
+
+/// A box with a name.
+type LabeledBox = (String, BoxPlot);
+
+fn drawn(of: &[LabeledBox], most: f64, title: &str) -> Markup {
+    let named: Vec<NamedBox<'_>> = of.iter().map(|(name, plot)| NamedBox { name: name.clone(), plot }).collect();
+    boxes(&named, most, title)
+}
+
+fn table(name: &'static str, caption: &'static str, head: &'static str, of: &[LabeledBox]) -> Table {
+    let row = |(name, b): &LabeledBox| {
+        let figures = [b.mean, b.low_whisker, b.q1, b.median, b.q3, b.high_whisker].map(|value| TableCell::Number(value, 1));
+        [vec![name.clone().into(), b.n.into()], figures.to_vec()].concat()
+    };
+    let columns = vec![head, "n", "mean", "low whisker", "q1", "median", "q3", "high whisker"];
+    Table { name, caption, columns, rows: of.iter().map(row).collect() }
+}
+
+/// On-path shares by task.
+pub fn tasks(cohort: &Cohort) -> Markup {
+    let shares = |id: u32| -> Vec<f64> {
+        let tasks = cohort.individuals.iter().flat_map(|one| &one.tasks);
+        tasks.filter(|task| task.id == id && task.attempted).map(|task| 100.0 * task.on_path).collect()
+    };
+    let of = |id: &u32| Some((format!("task {id}"), box_plot(&shares(*id)).ok()?));
+    let all: Vec<LabeledBox> = cohort.crashes.tasks.iter().filter_map(of).collect();
+    html! {
+        (too_many(cohort, "individuals.csv"))
+        @if !all.is_empty() {
+            (figure("Share of each task's time on the path, %", &drawn(&all, 100.0, "On the path by task")))
+            (table("on_path_by_task", "on the path by task, %, of those who attempted it", "task", &all).shown())
+        }
+    }
+}
+
+/// How many crashes people had.
+pub fn crashes(cohort: &Cohort) -> Markup {
+    let counts: Vec<usize> = cohort.crashes.rows.iter().map(|row| row.total).collect();
+    let bins = bins(&counts);
+    let mean = counts.iter().sum::<usize>() as f64 / counts.len().max(1) as f64;
+    let row = |bin: &HistogramBin| vec![TableCell::Number(bin.from, 0), TableCell::Number(bin.to - 1.0, 0), bin.count.into()];
+    let columns = vec!["crashes, from", "to", "people"];
+    let table =
+        Table { name: "crashes_by_person", caption: "people by their crashes", columns, rows: bins.iter().map(row).collect() };
+    html! {
+        (figure("People by how often they crashed; the line is the mean", &histogram(&bins, mean, "Histogram of crashes by person")))
+        (table.folded())
+    }
+}
+
+/// Whole counts from 0 on, each bin as wide as the others.
+fn bins(counts: &[usize]) -> Vec<HistogramBin> {
+    let most = counts.iter().copied().max().unwrap_or(0);
+    let wide = (most + 1).div_ceil(BARS).max(1);
+    let bin = |from: usize| {
+        let to = from + wide;
+        HistogramBin { from: from as f64, to: to as f64, count: counts.iter().filter(|count| (from..to).contains(count)).count() }
+    };
+    (0..=most).step_by(wide).map(bin).collect()
+}
+
+/// Measured shares by self-rating, to the nearest whole rating.
+pub fn self_rating(cohort: &Cohort) -> Markup {
+    let rated = |rating: usize| {
+        let people = cohort.self_rating.people.iter();
+        let near = |one: &&SelfRatingPair| one.self_rating.round() == rating as f64;
+        box_plot(&people.filter(near).map(|one| one.measured_pct).collect::<Vec<f64>>()).ok()
+    };
+    let all: Vec<LabeledBox> = (1..=5).filter_map(|rating| Some((rating.to_string(), rated(rating)?))).collect();
+    html! {
+        (too_many(cohort, "self_rating.csv"))
+        @if !all.is_empty() {
+            (figure("Overall score, % of what could be had, by self-rating (5 is best)", &drawn(&all, 100.0, "Measured share by self-rating")))
+            (table("measured_by_self_rating", "measured share by self-rating, %", "self-rating", &all).shown())
+        }
+        p { (cohort.self_rating.contradictions.len()) " contradictions of the two are in the file contradictions.csv." }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_every_person_falls_into_one_bin() {
+        let bins = bins(&[0, 0, 1, 3, 45]);
+        assert_eq!((bins.len(), bins[0].to, bins.iter().map(|bin| bin.count).sum::<usize>()), (16, 3.0, 5));
+        assert_eq!(super::bins(&[0, 2]).iter().map(|bin| bin.count).collect::<Vec<_>>(), [1, 0, 1]);
+        assert_eq!(super::bins(&[]).len(), 1);
+    }
+}

@@ -1,0 +1,118 @@
+//! Both flights on the site and in time, tied together by one slider.
+
+use super::super::flight_section::slider;
+use super::super::series::AlignmentEvent;
+use super::super::{figure, legend};
+use crate::report::Review;
+use crate::report::plots::overlay;
+use crate::report::table::{Table, TableCell};
+use maud::{Markup, html};
+
+/// Column of the series and title of its curves.
+const CHARTS: [(&str, &str); 4] = [
+    ("speed", "Speed, m/s"),
+    ("distance", "Distance to the path of the task flown, m"),
+    ("clearance", "Clearance to the nearest surface, m"),
+    ("battery", "Battery, %"),
+];
+/// What the slider's table says: key for the script and head.
+const READOUT: [(&str, &str); 5] =
+    [("task", "Task"), ("distance", "Distance"), ("speed", "Speed"), ("clearance", "Clearance"), ("battery", "Battery")];
+
+/// The section. Flights of different jobs have no drawing in common.
+pub fn section(both: [&Review; 2], same_job: bool, line_ups: &[AlignmentEvent], key: &[(&str, String)]) -> Markup {
+    html! {
+        (controls(line_ups, key))
+        @if same_job { (drawings(both)) }
+        div.charts {
+            @for (column, title) in CHARTS {
+                figure {
+                    figcaption { (title) (legend(key)) }
+                    div.chart id={ "chart-" (column) } data-columns=(column) role="img" aria-label={ (title) " of both sessions over time; the table below holds the numbers" } {}
+                }
+            }
+        }
+        p.note { "Drag over a curve to look closer, double-click to see all again, click to move the slider." }
+        (table(both).folded())
+    }
+}
+
+fn controls(line_ups: &[AlignmentEvent], key: &[(&str, String)]) -> Markup {
+    html! {
+        div.controls id="controls" {
+            div.run hidden id="run" {
+                (slider())
+                label { "Lined up at " select id="line-up" { @for (k, line_up) in line_ups.iter().enumerate() { option value=(k) { (line_up.name) } } } }
+            }
+            div.scroll id="readout" hidden tabindex="0" role="region" aria-label="Both sessions at the moment of the slider" {
+                table.moment {
+                    thead { tr { th scope="col" { "Session" } @for (_, head) in READOUT { th scope="col" { (head) } } } }
+                    tbody {
+                        @for (k, (class, name)) in key.iter().enumerate() {
+                            tr {
+                                th scope="row" { svg.swatch viewBox="0 0 14 14" aria-hidden="true" { rect class=(class) x="1" y="1" width="12" height="12" rx="3" {} } " " (name) }
+                                @for (id, _) in READOUT { td data-now=(id) data-flight=(k) { "–" } }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn drawings(both: [&Review; 2]) -> Markup {
+    let scroll = |label: &str, body: &Markup| html! { div.scroll.wide tabindex="0" role="region" aria-label=(label) { (body) } };
+    html! {
+        (figure("Both flights from above, north up; crosses are contacts", &scroll("Plan", &overlay::plan(both))))
+        @if both[0].scenario.bridges.is_empty() {
+            (figure("From the south", &scroll("Elevation", &overlay::from_south(both))))
+        }
+        @for bridge in &both[0].scenario.bridges {
+            @let title = format!("Bridge '{}' from the side, with what was flown near it", bridge.name);
+            (figure(&title, &scroll(&title, &overlay::elevation(both, bridge))))
+        }
+    }
+}
+
+/// A row every few seconds since lift-off: what the curves show.
+fn table(both: [&Review; 2]) -> Table {
+    let end_s = |review: &Review| review.t_s(review.frames.len().saturating_sub(1));
+    let longest_s = f64::max(end_s(both[0]), end_s(both[1]));
+    let every_s = (longest_s / 60.0 / 5.0).ceil().max(1.0) * 5.0;
+    let known = |value: Option<f64>, digits: usize| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
+    let cells = |review: &Review, t_s: f64| {
+        let i = (t_s * review.scenario.scoring.frame_rate_hz).round() as usize;
+        let frame = review.frames.get(i);
+        let step = review.track.get(i);
+        let task = step.and_then(|step| step.task).map(|task| review.scenario.tasks[task].id);
+        [
+            task.map_or(TableCell::Empty, TableCell::from),
+            known(step.and_then(|step| step.distance_m), 2),
+            known(frame.map(|frame| frame.speed_m_s()), 2),
+            known(frame.and_then(|frame| frame.clearance_m), 2),
+            known(frame.map(|frame| frame.battery_pct), 0),
+        ]
+    };
+    let rows = (0..=(longest_s / every_s) as usize).map(|k| {
+        let t_s = every_s * k as f64;
+        let mut row = vec![TableCell::Clock(t_s)];
+        both.iter().for_each(|review| row.extend(cells(review, t_s)));
+        row
+    });
+    let rows: Vec<Vec<TableCell>> = rows.collect();
+    let columns = vec![
+        "time since lift-off",
+        "1: task",
+        "1: distance, m",
+        "1: speed, m/s",
+        "1: clearance, m",
+        "1: battery, %",
+        "2: task",
+        "2: distance, m",
+        "2: speed, m/s",
+        "2: clearance, m",
+        "2: battery, %",
+    ];
+    Table { name: "both-flights", caption: "both flights, a row every few seconds since lift-off", columns, rows }
+}

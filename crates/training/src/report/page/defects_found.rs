@@ -1,0 +1,122 @@
+//! Defects: found and missed, on the bridges, and for the missed ones how near the flight came and how they would have looked.
+
+use super::figure;
+use super::gallery::{DefectMark, frame};
+use crate::report::Review;
+use crate::report::defects::DefectOutcome;
+use crate::report::outline::ParallelView;
+use crate::report::plots::map;
+use crate::report::sketch::{SketchExposure, Sketcher};
+use crate::report::table::{Table, TableCell};
+use crate::report::words;
+use maud::{Markup, html};
+use spandrel_model::scenario::Bridge;
+use spandrel_model::site::catalogue::kind_name;
+
+/// The section.
+pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
+    if review.defects.is_empty() {
+        return html! { p.calm { "No defects were placed in this job." } };
+    }
+    let missed: Vec<&DefectOutcome> = review.defects.iter().filter(|fate| fate.found_by.is_none()).collect();
+    html! {
+        p { (review.defects.len() - missed.len()) " of " (review.defects.len()) " defects were found." }
+        ul.legend {
+            li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { circle.found r="8" {} } "found" }
+            li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { path.missed d="M0 -8L8 0L0 8L-8 0Z" {} } "missed" }
+        }
+        @for bridge in &review.scenario.bridges {
+            @if review.defects.iter().any(|fate| fate.defect.member.starts_with(&format!("{}/", bridge.name))) { (drawings(review, bridge)) }
+        }
+        @if !missed.is_empty() {
+            h3 { "What was missed" }
+            p.note { "Each is drawn as a camera four metres square on would have had it, with the lamp on." }
+            ul.gallery { @for fate in &missed { (card(review, fate, sketcher)) } }
+        }
+        (table(review).folded())
+    }
+}
+
+fn drawings(review: &Review, bridge: &Bridge) -> Markup {
+    let scroll = |title: &str, body: &Markup| html! { div.scroll.wide tabindex="0" role="region" aria-label={ "Defects: " (title) } { (body) } };
+    let side = format!("Bridge '{}' from the side", bridge.name);
+    let under = format!("Bridge '{}' from above", bridge.name);
+    let above = ParallelView { right: ParallelView::side(bridge).right, up: ParallelView::side(bridge).towards() * -1.0 };
+    html! {
+        (figure(&side, &scroll(&side, &map::findings(review, bridge, ParallelView::side(bridge), &side))))
+        (figure(&under, &scroll(&under, &map::findings(review, bridge, above, &under))))
+    }
+}
+
+fn card(review: &Review, fate: &DefectOutcome, sketcher: &Sketcher) -> Markup {
+    let defect = &fate.defect;
+    let marks = [DefectMark { id: defect.id, at_m: defect.position_m, long_m: defect.length_m, class: "missed", hidden: false }];
+    let alt = format!("Where defect {} is, from four metres", defect.id);
+    let exposure = SketchExposure { light: 1.0, by_lamp: true };
+    html! {
+        li.shot {
+            (frame(sketcher, (&fate.good_view(), &review.vehicle.camera), exposure, &marks, &alt))
+            p { span.badge.v-false { "missed" } " " b { "Defect " (defect.id) } ", " (kind_name(defect.kind)) ", condition state " (defect.condition_state) }
+            p { "On " (defect.member) " (" (words::element(defect.element)) "), " (size(fate)) "." }
+            p.note { "It was " (fate.words()) "." }
+        }
+    }
+}
+
+fn size(fate: &DefectOutcome) -> String {
+    let defect = &fate.defect;
+    let long = words::number(100.0 * defect.length_m, 0);
+    if defect.line {
+        format!("{long} cm long, {} mm wide", words::number(1000.0 * defect.width_m, 2))
+    } else {
+        format!("{long} by {} cm", words::number(100.0 * defect.width_m, 0))
+    }
+}
+
+fn table(review: &Review) -> Table {
+    let row = |fate: &DefectOutcome| {
+        let defect = &fate.defect;
+        let [east, north, up] = defect.position_m.array();
+        let chance = fate.chance.as_ref();
+        let number = |value: Option<f64>, digits: usize| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
+        vec![
+            defect.id.into(),
+            kind_name(defect.kind).into(),
+            u32::from(defect.condition_state).into(),
+            defect.element.into(),
+            words::element(defect.element).into(),
+            defect.member.clone().into(),
+            TableCell::Number(1000.0 * defect.length_m, 0),
+            TableCell::Number(1000.0 * defect.width_m, 2),
+            TableCell::Number(east, 2),
+            TableCell::Number(north, 2),
+            TableCell::Number(up, 2),
+            fate.found_by.map_or("missed".into(), |number| format!("picture {number}")).into(),
+            number(chance.map(|c| c.in_view_s), 1),
+            number(chance.map(|c| c.nearest.0), 1),
+            fate.words().into(),
+        ]
+    };
+    Table {
+        name: "defects",
+        caption: "defects",
+        columns: vec![
+            "defect",
+            "kind",
+            "condition state",
+            "element",
+            "element's name",
+            "member",
+            "length, mm",
+            "width, mm",
+            "east, m",
+            "north, m",
+            "up, m",
+            "found",
+            "missed in plain view, s",
+            "nearest, m",
+            "what happened",
+        ],
+        rows: review.defects.iter().map(row).collect(),
+    }
+}

@@ -1,0 +1,249 @@
+//! The flight on the site, its time line and its series, tied together by the slider.
+
+use super::{figure, legend, scrolling};
+use crate::report::cues::KINDS;
+use crate::report::plots::strips::{TimeStrip, strips};
+use crate::report::plots::{colors, map};
+use crate::report::table::{Table, TableCell};
+use crate::report::{Review, words};
+use maud::{Markup, html};
+
+/// The series: id, title, and what the script draws (names of columns).
+const CHARTS: [(&str, &str, &str); 5] = [
+    ("speed", "Speed, m/s", "speed"),
+    ("distance", "Distance to the path of the task flown, m", "distance"),
+    ("clearance", "Clearance to the nearest surface, m", "clearance"),
+    ("battery", "Battery, %", "battery"),
+    ("sticks", "Sticks, full travel = 1", "fb rl ud rt"),
+];
+
+/// The section.
+pub fn section(review: &Review) -> Markup {
+    html! {
+        (controls(review))
+        (marks_legend())
+        (drawings(review))
+        (figure("The session in time", &html! {
+            (legend(&strip_legend()))
+            (scrolling("Time line", &strips(&rows(review), end_s(review), "Who flew, tasks, feedback, pictures and gaps over time")))
+        }))
+        div.charts {
+            @for (id, title, columns) in CHARTS {
+                figure {
+                    figcaption { (title) @if id == "sticks" { (stick_legend()) } }
+                    div.chart id={ "chart-" (id) } data-columns=(columns) role="img" aria-label={ (title) " over time; the table below holds the numbers" } {}
+                }
+            }
+        }
+        p.note { "Drag over a curve to look closer, double-click to see all again, click to move the slider." }
+        (series_table(review).folded())
+        p.download { button type="button" id="series-csv" hidden { "Download the series as CSV" } " "
+            span.note { "Every frame in full: " code { "spandrel export SESSION --frames frames.csv" } } }
+    }
+}
+
+fn end_s(review: &Review) -> f64 {
+    review.t_s(review.frames.len().saturating_sub(1))
+}
+
+/// The button that plays, the slider and its moment.
+pub(super) fn slider() -> Markup {
+    html! {
+        button type="button" id="play" aria-pressed="false" { "Play" }
+        label for="moment" { "Moment" }
+        input type="range" id="moment" min="0" max="0" value="0" step="1";
+        output id="moment-text" for="moment" { "0:00" }
+    }
+}
+
+/// The slider, what holds at its moment, and the switch of colours.
+fn controls(review: &Review) -> Markup {
+    html! {
+        div.controls id="controls" {
+            div.run hidden id="run" { (slider()) }
+            dl.readout hidden id="readout" aria-live="off" {
+                @for (id, name) in [("task", "Task"), ("state", "Path"), ("distance", "Distance"), ("speed", "Speed"), ("clearance", "Clearance"), ("battery", "Battery")] {
+                    div { dt { (name) } dd id={ "now-" (id) } { "–" } }
+                }
+            }
+            fieldset.switch {
+                legend { "Colour the flight by" }
+                @for (k, (name, class)) in colors::COLOURINGS.iter().enumerate() {
+                    label { input type="radio" name="colouring" value=(class) id=(class) checked[k == 0]; (name) }
+                }
+            }
+            @for (k, (_, class)) in colors::COLOURINGS.iter().enumerate() {
+                div class={ "key " (class) } {
+                    (legend(&colors::classes(k).iter().copied().zip(colors::legend(k, review.scenario.scoring.speed_limit_m_s)).collect::<Vec<_>>()))
+                }
+            }
+        }
+    }
+}
+
+fn marks_legend() -> Markup {
+    html! {
+            ul.legend {
+                li { svg.swatch viewBox="0 0 14 14" aria-hidden="true" { path.reference-key d="M0 7H14" {} } "reference path" }
+                li { svg.swatch viewBox="-7 -7 14 14" aria-hidden="true" { g.crash { path d="M-5 -5L5 5M5 -5L-5 5" {} } } "contact" }
+                li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { g.picture.v-hit { circle r="8" {} } } "picture: hit" }
+                li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { g.picture.v-repeat { circle r="8" {} } } "repeat" }
+                li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { g.picture.v-near { circle r="8" {} } } "nearly" }
+                li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { g.picture.v-false { circle r="8" {} } } "false" }
+            }
+    }
+}
+
+fn drawings(review: &Review) -> Markup {
+    let scroll = |label: &str, body: &Markup| html! { div.scroll.wide tabindex="0" role="region" aria-label=(label) { (body) } };
+    html! {
+        (figure("From above, north up", &scroll("Plan", &map::plan(review))))
+        @if review.scenario.bridges.is_empty() {
+            (figure("From the south", &scroll("Elevation", &map::south_elevation(review))))
+        }
+        @for bridge in &review.scenario.bridges {
+            @let title = format!("Bridge '{}' from the side, with the flight near it", bridge.name);
+            (figure(&title, &scroll(&title, &map::elevation(review, bridge))))
+        }
+        figure.model id="model" {
+            figcaption { "In three dimensions " button type="button" id="model-open" hidden { "Turn it" } }
+            div.scroll.wide id="model-still" tabindex="0" role="region" aria-label="View in three dimensions" { (map::oblique(review)) }
+            div id="model-live" hidden {}
+            p.note id="model-note" hidden { "Drag or use the arrow keys to turn, + and − or the wheel to come closer." }
+        }
+    }
+}
+
+fn strip_legend() -> Vec<(&'static str, String)> {
+    vec![
+        ("h-pilot", "flown by the pilot".into()),
+        ("h-other", "by mission, script or autopilot".into()),
+        ("w-task", "task window".into()),
+        ("cue", "cue on".into()),
+        ("gap", "telemetry missing".into()),
+    ]
+}
+
+fn stick_legend() -> Markup {
+    legend(&[("s-fb", "forward".into()), ("s-rl", "right".into()), ("s-ud", "up".into()), ("s-rt", "turn clockwise".into())])
+}
+
+fn rows(review: &Review) -> Vec<TimeStrip> {
+    let mut rows = vec![control_stretches(review)];
+    for (k, window) in review.on_path.windows.iter().enumerate() {
+        let stretch =
+            window.map(|w| ("w-task".to_owned(), review.t_s(w.first), review.t_s(w.last), review.scenario.tasks[k].name.clone()));
+        rows.push(TimeStrip {
+            name: format!("task {}", review.scenario.tasks[k].id),
+            stretches: stretch.into_iter().collect(),
+            marks: Vec::new(),
+        });
+    }
+    for (kind, about) in KINDS.iter().enumerate() {
+        let mine = review.feedback.episodes.iter().filter(|episode| episode.kind == kind);
+        let stretches: Vec<_> = mine
+            .map(|e| {
+                (
+                    "cue".to_owned(),
+                    e.from_s,
+                    e.to_s,
+                    format!("{} from {} to {}", about.name, words::clock(e.from_s), words::clock(e.to_s)),
+                )
+            })
+            .collect();
+        if !stretches.is_empty() {
+            rows.push(TimeStrip { name: about.name.to_owned(), stretches, marks: Vec::new() });
+        }
+    }
+    let picture = |p: &crate::report::pictures::ReviewedPicture| {
+        (format!("picture-dot {}", p.verdict.class()), p.t_s, format!("picture {}: {}", p.number, p.verdict.name()))
+    };
+    rows.push(TimeStrip { name: "pictures".into(), stretches: Vec::new(), marks: review.pictures.iter().map(picture).collect() });
+    if !review.feedback.notes.is_empty() {
+        let note = |(t_s, text): &(f64, String)| ("note-dot".to_owned(), *t_s, format!("note: {text}"));
+        rows.push(TimeStrip {
+            name: "notes".into(),
+            stretches: Vec::new(),
+            marks: review.feedback.notes.iter().map(note).collect(),
+        });
+    }
+    rows.push(gaps(review));
+    rows
+}
+
+fn control_stretches(review: &Review) -> TimeStrip {
+    let stretch = |s: &spandrel_monitor::assessment::ControlStretch| {
+        let class = if s.by == Some(spandrel_mavlink::contract::modes::ControlSource::Pilot) { "h-pilot" } else { "h-other" };
+        let t_s = |frame: u32| review.t_s((frame as usize).saturating_sub(1));
+        (class.to_owned(), t_s(s.from_frame), t_s(s.to_frame), words::control_source_label(s.by).to_owned())
+    };
+    TimeStrip { name: "flown by".into(), stretches: review.assessment.flown_by.iter().map(stretch).collect(), marks: Vec::new() }
+}
+
+/// Frames in a row that were not heard.
+fn gaps(review: &Review) -> TimeStrip {
+    let mut stretches: Vec<(String, f64, f64, String)> = Vec::new();
+    let mut open: Option<usize> = None;
+    for (i, frame) in review.frames.iter().enumerate() {
+        let gap = frame.missing || frame.interpolated;
+        match open {
+            None if gap => open = Some(i),
+            Some(from) if !gap => {
+                let seconds = words::number(review.t_s(i) - review.t_s(from), 1);
+                stretches.push(("gap".into(), review.t_s(from), review.t_s(i), format!("{seconds} s not heard")));
+                open = None;
+            }
+            None | Some(_) => {}
+        }
+    }
+    stretches.extend(open.map(|from| ("gap".into(), review.t_s(from), end_s(review), "not heard to the end".into())));
+    TimeStrip { name: "gaps".into(), stretches, marks: Vec::new() }
+}
+
+/// A row every few seconds: what the curves show.
+fn series_table(review: &Review) -> Table {
+    let every_s = (end_s(review) / 60.0 / 5.0).ceil().max(1.0) * 5.0;
+    let stride = (every_s * review.scenario.scoring.frame_rate_hz).round().max(1.0) as usize;
+    let known = |value: Option<f64>, digits: usize| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
+    let row = |(i, frame): (usize, &spandrel_mavlink::telemetry::Frame)| {
+        let step = &review.track[i];
+        vec![
+            TableCell::Clock(review.t_s(i)),
+            step.task.map_or(TableCell::Empty, |task| review.scenario.tasks[task].id.into()),
+            if step.on {
+                "on path"
+            } else if step.inside {
+                "off path"
+            } else {
+                "between tasks"
+            }
+            .into(),
+            known(step.distance_m, 2),
+            TableCell::Number(frame.speed_m_s(), 2),
+            known(frame.clearance_m, 2),
+            TableCell::Number(frame.battery_pct, 0),
+            TableCell::Number(frame.sticks[0], 2),
+            TableCell::Number(frame.sticks[1], 2),
+            TableCell::Number(frame.sticks[2], 2),
+            TableCell::Number(frame.sticks[3], 2),
+        ]
+    };
+    Table {
+        name: "flight",
+        caption: "the flight, a row every few seconds",
+        columns: vec![
+            "time",
+            "task",
+            "path",
+            "distance, m",
+            "speed, m/s",
+            "clearance, m",
+            "battery, %",
+            "forward",
+            "right",
+            "up",
+            "turn",
+        ],
+        rows: review.frames.iter().enumerate().step_by(stride).map(row).collect(),
+    }
+}

@@ -1,0 +1,42 @@
+//! What to fly next, by the rules of the training plan and this session alone.
+
+use crate::plan::PlanStep;
+use crate::report::Review;
+use crate::report::table::{Table, TableCell};
+use maud::{Markup, html};
+
+/// The section.
+pub fn section(review: &Review) -> Markup {
+    html! {
+        p.note { "From this session alone; " code { "spandrel plan" } " looks at all of a trainee's sessions." }
+        ol.steps {
+            @for step in &review.next {
+                li {
+                    b { (step.scenario) }
+                    ul { @for reason in &step.reasons { li { (reason.words) } } }
+                }
+            }
+        }
+        (table(&review.next).folded())
+    }
+}
+
+fn table(steps: &[PlanStep]) -> Table {
+    let rows = steps.iter().flat_map(|step| step.reasons.iter().map(move |reason| (step, reason)));
+    let row = |(step, reason): (&PlanStep, &crate::plan::PlanReason)| {
+        vec![
+            step.scenario.clone().into(),
+            reason.rule.clone().into(),
+            TableCell::Number(reason.value, 3),
+            TableCell::Number(reason.limit, 3),
+            TableCell::Number(step.urgency, 2),
+            reason.words.clone().into(),
+        ]
+    };
+    Table {
+        name: "next",
+        caption: "what to fly next",
+        columns: vec!["scenario", "rule", "measured", "limit", "urgency", "why"],
+        rows: rows.map(row).collect(),
+    }
+}

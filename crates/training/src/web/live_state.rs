@@ -1,0 +1,294 @@
+//! A flight as an instructor sees it while it goes on: telemetry in, one small document per moment out. Sans-IO; it hears what any
+//! subscriber of the payload port hears.
+
+use serde_json::{Value, json};
+use spandrel_mavlink::codec::ReceivedFrame;
+use spandrel_mavlink::contract::contact::ContactKind;
+use spandrel_mavlink::contract::cue;
+use spandrel_mavlink::contract::named::Named;
+use spandrel_mavlink::contract::truth::Truth;
+use spandrel_mavlink::dialect::{MavAutopilot, MavMessage, MavSeverity};
+use spandrel_mavlink::telemetry::sample;
+use spandrel_mavlink::telemetry::sample::{Sample, SampleContent, SampleValue};
+use spandrel_model::geodesy::{Geo, LocalPlane};
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::bridge_closures::BridgeClosures;
+use spandrel_monitor::measures::on_path::ReferencePaths;
+use std::collections::VecDeque;
+
+/// Where positions are read from before the job is known; none of them is shown.
+const NOWHERE: Geo = Geo { latitude_deg: 0.0, longitude_deg: 0.0, altitude_m: 0.0 };
+/// Words that are shown, the newest last.
+const WORDS: usize = 40;
+/// What identifies the job that is flown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct JobKey {
+    /// CRC of the scenario.
+    pub crc: u32,
+    /// Seed.
+    pub seed: u64,
+}
+
+/// The job that positions are read with.
+#[derive(Debug)]
+struct TrackedJob {
+    key: JobKey,
+    plane: LocalPlane,
+    paths: ReferencePaths,
+    /// Numbers and names of the tasks.
+    tasks: Vec<(u32, String)>,
+}
+
+/// The flight.
+#[derive(Debug)]
+pub struct LiveFlightState {
+    crc: Option<u32>,
+    seed: Option<u64>,
+    job: Option<TrackedJob>,
+    truth: Option<Truth>,
+    current_task: Option<usize>,
+    battery_pct: Option<f64>,
+    clearance_m: Option<f64>,
+    contact: ContactKind,
+    armed: bool,
+    gates: BridgeClosures,
+    cues: i32,
+    messages: VecDeque<(u64, f64, &'static str, String)>,
+    message_count: u64,
+    /// System id of the vehicle, once heard.
+    pub system: Option<u8>,
+    /// Whose interface it speaks, once heard.
+    pub autopilot: Option<MavAutopilot>,
+}
+
+impl Default for LiveFlightState {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl LiveFlightState {
+    /// Nothing heard yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            crc: None,
+            seed: None,
+            job: None,
+            truth: None,
+            current_task: None,
+            battery_pct: None,
+            clearance_m: None,
+            contact: ContactKind::None,
+            armed: false,
+            gates: BridgeClosures::default(),
+            cues: 0,
+            messages: VecDeque::new(),
+            message_count: 0,
+            system: None,
+            autopilot: None,
+        }
+    }
+
+    /// The job that is flown, once the wire has told it.
+    #[must_use]
+    pub fn missing_job(&self) -> Option<JobKey> {
+        let key = JobKey { crc: self.crc?, seed: self.seed? };
+        Some(key)
+    }
+
+    /// The job that positions are read with.
+    #[must_use]
+    pub fn job(&self) -> Option<JobKey> {
+        self.job.as_ref().map(|job| job.key)
+    }
+
+    /// The shell has found the job.
+    pub fn set_job(&mut self, key: JobKey, scenario: &Scenario) {
+        let tasks = scenario.tasks.iter().map(|task| (task.id, task.name.clone())).collect();
+        self.job = Some(TrackedJob { key, plane: LocalPlane::new(scenario.origin), paths: ReferencePaths::new(scenario), tasks });
+        self.truth = None;
+    }
+
+    /// Takes a frame.
+    pub fn handle_frame(&mut self, frame: &ReceivedFrame) {
+        self.note_sender(frame);
+        match &frame.message {
+            Some(MavMessage::STATUSTEXT(text)) => {
+                let kind = if text.severity as u8 <= MavSeverity::MAV_SEVERITY_WARNING as u8 { "warn" } else { "info" };
+                let words: String = text.text.to_str().unwrap_or_default().chars().filter(|c| !c.is_control()).collect();
+                self.push_message(kind, words);
+            }
+            Some(message) => {
+                if let Some(Named::Cues(cues)) = Named::of(message) {
+                    self.cues = cues;
+                }
+            }
+            None => {}
+        }
+        // Before the job is known only what needs no place on the earth is read right; the rest comes again.
+        let nowhere = LocalPlane::new(NOWHERE);
+        let plane = self.job.as_ref().map_or(&nowhere, |job| &job.plane);
+        if let Some(sample) = sample::read(&frame.bytes, plane) {
+            self.handle_sample(sample);
+        }
+    }
+
+    fn note_sender(&mut self, frame: &ReceivedFrame) {
+        if let Some(MavMessage::HEARTBEAT(beat)) = &frame.message
+            && frame.component_id == 1
+        {
+            self.system = Some(frame.system_id);
+            self.autopilot = Some(beat.autopilot);
+        }
+    }
+
+    fn handle_sample(&mut self, sample: Sample) {
+        match sample.content {
+            SampleContent::Truth(truth) => self.truth(truth),
+            SampleContent::Value(value) => self.handle_value(value),
+        }
+    }
+
+    fn handle_value(&mut self, value: SampleValue) {
+        match value {
+            SampleValue::Battery(pct) => self.battery_pct = Some(pct),
+            SampleValue::Contact(contact) => self.contact = contact,
+            SampleValue::Clearance(metres) => self.clearance_m = Some(metres),
+            SampleValue::Beat { armed, .. } => self.armed = armed,
+            SampleValue::Traffic(code) => self.gates.apply_codes(code),
+            SampleValue::Seed(seed) => self.seed = Some(seed),
+            SampleValue::ScenarioCrc(crc) => self.crc = Some(crc),
+            SampleValue::Snapshot(index) => self.push_message("info", format!("picture {index}")),
+            _ => {}
+        }
+    }
+
+    fn truth(&mut self, truth: Truth) {
+        let Some(job) = &self.job else { return };
+        // A clock that goes back is another flight; what was said in the one before stays readable.
+        if self.truth.is_some_and(|before| truth.time < before.time) {
+            (self.current_task, self.cues, self.gates) = (None, 0, BridgeClosures::default());
+        }
+        self.current_task = job.paths.on(truth.position_m, self.current_task).map(|(task, _)| task);
+        self.truth = Some(truth);
+    }
+
+    /// Adds a line to what was said.
+    pub fn push_message(&mut self, kind: &'static str, words: String) {
+        self.message_count += 1;
+        let t_s = self.truth.map_or(0.0, |truth| truth.time.s());
+        self.messages.push_back((self.message_count, t_s, kind, words));
+        while self.messages.len() > WORDS {
+            self.messages.pop_front();
+        }
+    }
+
+    /// This moment, for the page's script. `heard` says whether the vehicle has spoken lately.
+    #[must_use]
+    pub fn to_json(&self, heard: bool) -> Value {
+        let key = self.job().map(|key| format!("{:08x}-{}", key.crc, key.seed));
+        let place = self.truth.map(|truth| {
+            let [e, n, u] = truth.position_m.array().map(|m| (m * 100.0).round() / 100.0);
+            json!([e, n, u])
+        });
+        let task = self.current_task.and_then(|on| self.job.as_ref()?.tasks.get(on)).map(|(id, name)| format!("{id} · {name}"));
+        let cues: Vec<&str> = cue::ALL.iter().filter(|(bit, _)| self.cues & bit != 0).map(|(_, name)| *name).collect();
+        let words: Vec<Value> = self
+            .messages
+            .iter()
+            .map(|(id, t_s, kind, words)| json!({ "id": id, "t_s": t_s, "kind": kind, "words": words }))
+            .collect();
+        let open = self.gates.is_open_at(self.truth.map_or(f64::INFINITY, |truth| truth.time.s()));
+        json!({
+            "heard": heard,
+            "traffic": if open { "open" } else { "closed" },
+            "job": key,
+            "t_s": self.truth.map(|truth| truth.time.s()),
+            "place": place,
+            "speed_m_s": self.truth.map(|truth| truth.velocity_m_s.norm()),
+            "height_m": self.truth.map(|truth| truth.position_m.up()),
+            "battery_pct": self.battery_pct,
+            "clearance_m": self.clearance_m.filter(|metres| metres.is_finite()),
+            "contact": self.contact.label(),
+            "armed": self.armed,
+            "task": task,
+            "cues": cues,
+            "words": words,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_mavlink::codec::{Decoder, Encoder};
+    use spandrel_mavlink::dialect::{HEARTBEAT_DATA, HIL_STATE_QUATERNION_DATA, NAMED_VALUE_INT_DATA, STATUSTEXT_DATA};
+    use spandrel_model::scenario::read;
+
+    fn told(watch: &mut LiveFlightState, message: &MavMessage) {
+        let bytes = Encoder::new(1, 1).encode(message);
+        Decoder::new().datagram(&bytes).iter().for_each(|frame| watch.handle_frame(frame));
+    }
+
+    fn number(watch: &mut LiveFlightState, name: &str, value: i32) {
+        told(watch, &MavMessage::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA { time_boot_ms: 0, value, name: name.into() }));
+    }
+
+    #[test]
+    fn wire_a_flight_is_followed_once_its_job_is_known() {
+        let scenario = read("j.toml", include_str!("../../../../scenarios/two-bridges.toml"), &|_| Err("none".into())).unwrap();
+        let mut watch = LiveFlightState::new();
+        assert_eq!(watch.to_json(false)["place"], Value::Null);
+        number(&mut watch, "seed", 7);
+        number(&mut watch, "scn_crc", scenario.crc.cast_signed());
+        let key = JobKey { crc: scenario.crc, seed: 7 };
+        assert_eq!((watch.missing_job(), watch.job()), (Some(key), None));
+        watch.set_job(key, &scenario);
+        let origin = scenario.origin;
+        told(
+            &mut watch,
+            &MavMessage::HIL_STATE_QUATERNION(HIL_STATE_QUATERNION_DATA {
+                time_usec: 2_000_000,
+                attitude_quaternion: [1.0, 0.0, 0.0, 0.0],
+                lat: (origin.latitude_deg * 1e7).round() as i32,
+                lon: (origin.longitude_deg * 1e7).round() as i32,
+                alt: ((origin.altitude_m + 12.0) * 1e3).round() as i32,
+                vx: 300,
+                ..HIL_STATE_QUATERNION_DATA::default()
+            }),
+        );
+        number(&mut watch, "cues", cue::TOO_CLOSE | cue::SPEEDING);
+        assert_eq!(watch.to_json(true)["traffic"], json!("open"));
+        number(&mut watch, "traffic", -1_500);
+        let moment = watch.to_json(true);
+        assert_eq!(moment["traffic"], json!("closed"));
+        // degE7 is a centimetre, the wire's height a millimetre.
+        let place: Vec<f64> = moment["place"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
+        assert!(place[0].abs() < 0.02 && place[1].abs() < 0.02 && (place[2] - 12.0).abs() < 0.02, "{moment}");
+        assert_eq!((&moment["speed_m_s"], &moment["t_s"]), (&json!(3.0), &json!(2.0)));
+        assert_eq!(moment["cues"], json!(["too close", "speeding"]));
+    }
+
+    #[test]
+    fn wire_texts_are_kept_in_order_and_bounded() {
+        let mut watch = LiveFlightState::new();
+        told(
+            &mut watch,
+            &MavMessage::HEARTBEAT(HEARTBEAT_DATA { autopilot: MavAutopilot::MAV_AUTOPILOT_PX4, ..HEARTBEAT_DATA::default() }),
+        );
+        assert_eq!(watch.system, Some(1));
+        for k in 0..100 {
+            told(
+                &mut watch,
+                &MavMessage::STATUSTEXT(STATUSTEXT_DATA {
+                    text: format!("<b>{k}\n").as_str().into(),
+                    ..STATUSTEXT_DATA::default()
+                }),
+            );
+        }
+        let moment = watch.to_json(true);
+        let words = moment["words"].as_array().unwrap();
+        assert_eq!((words.len(), &words[39]["words"], &words[39]["id"]), (WORDS, &json!("<b>99"), &json!(100)));
+    }
+}

@@ -1,0 +1,200 @@
+//! Trainees: who there is, and one's progress, plan, details, export and erasure.
+
+use super::access::{AccessLevel, Visitor};
+use super::frame::{page, section, table, token};
+use super::sessions::lines;
+use crate::cohort::by_job;
+use crate::plan::{MeasureChange, TrainingPlan};
+use crate::record::{IncompletePolicy, SessionListEntry, SessionOutcome, SessionRecord, omitted_summary};
+use crate::report::page::progress::on_job;
+use crate::report::words;
+use crate::trainee::{AGE_BANDS, EXPERIENCE, Trainee};
+use maud::{Markup, html};
+use spandrel_model::calendar::minute;
+
+/// Before the name of a field: what it was when the page was opened, so that nobody's change is lost.
+pub const BEFORE: &str = "before_";
+
+/// Everybody.
+#[must_use]
+pub fn trainee_list(visitor: &Visitor, people: &[Trainee]) -> Markup {
+    let rows = html! {
+        @for one in people {
+            tr {
+                th scope="row" { a href={ "/trainees/" (one.pseudonym) } { (one.pseudonym) } }
+                td { (one.role.word()) }
+                td { (one.age_band.as_deref().unwrap_or_default()) }
+                td { (one.drone_experience.as_deref().unwrap_or_default()) }
+                td { (one.gaming_experience.as_deref().unwrap_or_default()) }
+            }
+        }
+    };
+    let heads = [("Pseudonym", false), ("Role", false), ("Age", false), ("Drones", false), ("Games", false)];
+    let body = html! {
+        section {
+            @if people.is_empty() { p.calm { "Nobody yet. Whoever flies appears here." } }
+            @else { (table(&format!("{} people", people.len()), &heads, &rows)) }
+        }
+    };
+    page(visitor, "/trainees", "Trainees", &body)
+}
+
+/// What a trainee's page shows.
+#[derive(Debug, Clone, Copy)]
+pub struct TraineeProfile<'a> {
+    /// Who.
+    pub person: &'a Trainee,
+    /// His sessions in their order.
+    pub records: &'a [SessionRecord],
+    /// The same in short, the newest first.
+    pub listed: &'a [SessionListEntry],
+    /// What to fly next.
+    pub plan: Option<&'a TrainingPlan>,
+    /// Whether incomplete sessions count in progress and plan.
+    pub incomplete: IncompletePolicy,
+}
+
+/// One trainee.
+#[must_use]
+pub fn trainee_page(visitor: &Visitor, about: &TraineeProfile<'_>) -> Markup {
+    let name = &about.person.pseudonym;
+    let body = html! {
+        @if let Some(plan) = about.plan { (section("plan", "What to fly next", &next(plan))) }
+        @if !about.records.is_empty() { (section("progress", "Progress", &progress(name, about.records, about.incomplete))) }
+        (section("sessions", "Sessions", &html! {
+            @if about.listed.is_empty() { p.calm { "No session yet." } }
+            @else { (lines(visitor, &format!("{} sessions, the newest first", about.listed.len()), about.listed)) }
+        }))
+        (section("details", "Details", &details(visitor, about.person)))
+        (section("data", "Data", &html! {
+            p { a href={ "/trainees/" (name) "/export.json" } { "Download everything that is kept of " (name) } }
+            @if visitor.satisfies(AccessLevel::Administrator) { (erase(visitor, name)) }
+        }))
+    };
+    page(visitor, "/trainees", &format!("Trainee {name}"), &body)
+}
+
+fn next(plan: &TrainingPlan) -> Markup {
+    let told = |change: &&MeasureChange| change.better.is_some();
+    html! {
+        p { "Between " (minute(plan.from_unix_us)) " and " (minute(plan.until_unix_us)) "." @if plan.overdue { " " b { "The last flight is longer ago than skill lasts." } } }
+        ol.steps {
+            @for step in &plan.steps {
+                li { b { a href={ "/scenarios/" (step.scenario) } { (step.scenario) } } ul { @for reason in &step.reasons { li { (reason.words) } } } }
+            }
+        }
+        @if let Some(words) = omitted_summary(plan.left_out) { p.note { (words) "." } }
+        @if let Some(changes) = &plan.changes {
+            h3 { "What changed" }
+            p.note { "Since " a href={ "/sessions/" (changes.since) } { "the session before on the same job" } "." }
+            ul {
+                @for change in changes.changes.iter().filter(told) {
+                    li { (change.what) ": " (words::number(change.before, 1)) " → " (words::number(change.now, 1)) ", " (if change.better == Some(true) { "better" } else { "worse" }) }
+                }
+            }
+        }
+    }
+}
+
+/// Each job by itself: practice on one says nothing of another.
+fn progress(name: &str, records: &[SessionRecord], incomplete: IncompletePolicy) -> Markup {
+    let unfinished = records.iter().filter(|record| !record.is_complete()).count();
+    html! {
+        @if unfinished > 0 { p {
+            @match incomplete {
+                IncompletePolicy::LeaveOut => a href={ "/trainees/" (name) "?incomplete=1" } { "Include incomplete sessions" },
+                IncompletePolicy::Include => a href={ "/trainees/" (name) } { "Leave out incomplete sessions" },
+            }
+        } }
+        @for job in by_job(records, incomplete) {
+            @let times = job.progress.repetitions.len();
+            h3.job { a href={ "/scenarios/" (job.scenario) } { (job.scenario) } ", " (times) @if times == 1 { " session" } @else { " sessions" } }
+            (on_job(&job))
+        }
+    }
+}
+
+fn details(visitor: &Visitor, person: &Trainee) -> Markup {
+    let choice = |name: &str, label: &str, given: Option<&str>, all: &[&str]| {
+        html! {
+            input type="hidden" name={ (BEFORE) (name) } value=(given.unwrap_or_default());
+            label { (label)
+                select name=(name) {
+                    option value="" selected[given.is_none()] { "not said" }
+                    @for one in all { option value=(one) selected[given == Some(one)] { (one) } }
+                }
+            }
+        }
+    };
+    html! {
+        p { "Role: " (person.role.word()) ". What one tells of oneself is free, and kept for the study alone." }
+        form.stacked method="post" action={ "/trainees/" (person.pseudonym) "/details" } {
+            (token(visitor))
+            (choice("age_band", "Age, years", person.age_band.as_deref(), AGE_BANDS))
+            (choice("drone_experience", "Experience with drones", person.drone_experience.as_deref(), EXPERIENCE))
+            (choice("gaming_experience", "Experience with games", person.gaming_experience.as_deref(), EXPERIENCE))
+            button type="submit" { "Save" }
+        }
+    }
+}
+
+fn erase(visitor: &Visitor, name: &str) -> Markup {
+    html! {
+        details {
+            summary { "Erase" }
+            form.stacked method="post" action={ "/trainees/" (name) "/erase" } {
+                (token(visitor))
+                p { "Erases " (name) " with all sessions, answers and session folders. This cannot be undone." }
+                label { "Write the pseudonym to go on" input name="again" required maxlength="32" autocomplete="off" autocapitalize="none"; }
+                button.danger type="submit" { "Erase for ever" }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::frame::tests::{EVIL, administrator, check};
+    use super::*;
+    use crate::plan::{RULES, plan, read_rules};
+    use crate::testing::{broken_off, faultless};
+    use crate::trainee::Role;
+
+    #[test]
+    fn exact_a_trainees_page_escapes_and_offers_erasure_to_administrators_alone() {
+        let mut records = vec![faultless(EVIL, 1), faultless(EVIL, 2), faultless(EVIL, 3)];
+        records[0].scenario = EVIL.into();
+        let person = Trainee { age_band: Some(EVIL.into()), ..Trainee::new(EVIL) };
+        let plan = plan(&records, &read_rules("rules.toml", RULES).unwrap(), records[2].started_unix_us);
+        let about = TraineeProfile {
+            person: &person,
+            records: &records,
+            listed: &[],
+            plan: plan.as_ref(),
+            incomplete: IncompletePolicy::LeaveOut,
+        };
+        let text = trainee_page(&administrator(), &about).into_string();
+        check(&text);
+        assert!(text.contains("Erase for ever") && text.contains("class=\"lines\"") && text.contains("What to fly next"));
+        assert_eq!(
+            (text.matches("class=\"job\"").count(), text.matches("class=\"lines\"").count()),
+            (2, 4),
+            "each job by itself"
+        );
+        assert!(text.contains(", 1 session<") && text.contains(", 2 sessions<"), "{text}");
+        let unfinished = vec![faultless("anna", 1), broken_off("anna", 2)];
+        let text = |incomplete: IncompletePolicy| {
+            trainee_page(&administrator(), &TraineeProfile { records: &unfinished, plan: None, incomplete, ..about })
+                .into_string()
+        };
+        let (without, with) = (text(IncompletePolicy::LeaveOut), text(IncompletePolicy::Include));
+        assert!(
+            without.contains("1 incomplete session left out") && without.contains("Include incomplete sessions"),
+            "{without}"
+        );
+        assert!(with.contains(", 2 sessions<") && !with.contains("left out.") && with.contains("Leave out"), "{with}");
+        let instructor = Visitor { role: Role::Instructor, ..administrator() };
+        assert!(!trainee_page(&instructor, &about).into_string().contains("Erase for ever"));
+        check(&trainee_list(&administrator(), &[person]).into_string());
+    }
+}

@@ -1,0 +1,79 @@
+//! The end: four scores, where the report and the questionnaire are, and what comes next.
+
+use super::menu::{self, MenuAction, MenuRow};
+use super::pipe::{FlightSummary, SCORES};
+use super::sheet::{PageWriter, SMALL, TEXT, TITLE, width_of};
+use crate::hud::{HudColor, TextAlign};
+
+/// An address that a browser can open.
+fn is_openable(address: &str) -> bool {
+    ["http://", "https://", "file://"].iter().any(|start| address.starts_with(start))
+}
+
+/// What can be done with an end.
+pub fn rows(ended: Option<&FlightSummary>) -> Vec<MenuRow> {
+    let mut rows = Vec::new();
+    if ended.is_some_and(|ended| ended.report.is_some()) {
+        rows.push(MenuRow::button(MenuAction::Report, "Open the report"));
+    }
+    if ended.is_some_and(|ended| is_openable(&ended.questionnaire)) {
+        rows.push(MenuRow::button(MenuAction::Questions, "Open the questionnaire"));
+    }
+    rows.push(MenuRow::button(MenuAction::Again, "Fly the same again"));
+    rows.push(MenuRow::button(MenuAction::Other, "Choose another job"));
+    rows.push(MenuRow::button(MenuAction::Quit, "Quit"));
+    rows
+}
+
+pub fn page(pen: &mut PageWriter, ended: Option<&FlightSummary>, rows: &[MenuRow], focus: usize) {
+    let left = 0.04;
+    let half = 0.52 * pen.width;
+    let Some(ended) = ended else { return };
+    let (title, note) = match &ended.completion {
+        Some(words) if !ended.complete => (words.as_str(), format!("{}. Scores for the part that was flown:", ended.why)),
+        _ => ("The flight is over", ended.why.clone()),
+    };
+    // The headline has to fit on a line: how wide it is depends on the job.
+    let height = TITLE.min((pen.width - 2.0 * left) / width_of(title, 1.0));
+    pen.text((left, 0.08), TextAlign::Left, height, HudColor::White, title);
+    pen.lines((left, 0.155), pen.width - 2.0 * left, SMALL, HudColor::Grey, &note);
+    for (k, (name, score)) in SCORES.iter().zip(&ended.scores).enumerate() {
+        bar(pen, (left, 0.21 + 0.085 * k as f64), half, name, score.map(|score| score.pct));
+    }
+    let overall = match ended.overall {
+        Some((sum, most)) => Some(format!("overall  {sum:.1} of {most:.0}")),
+        None => ended.scores.iter().all(Option::is_none).then(|| "no scores".to_owned()),
+    };
+    let mut y = if overall.is_some() { 0.64 } else { 0.58 };
+    if let Some(words) = overall {
+        pen.text((left, 0.59), TextAlign::Left, 1.3 * TEXT, HudColor::White, words);
+    }
+    if let Some(verdict) = &ended.verdict {
+        y = pen.lines((left, y), half, SMALL, HudColor::White, verdict);
+    }
+    y = y.max(0.68) + 0.02;
+    for (name, address) in
+        [("report", ended.report.as_deref().unwrap_or("none was written")), ("questionnaire", ended.questionnaire.as_str())]
+    {
+        pen.text((left, y), TextAlign::Left, SMALL, HudColor::Yellow, name);
+        y = pen.lines((left + 0.26, y), pen.width - left - 0.30, SMALL, HudColor::White, address) + 0.02;
+    }
+    menu::draw(pen, (left + half + 0.08, 0.20), pen.width - half - 2.0 * left - 0.08, rows, focus);
+}
+
+/// A score as a bar of 100 with its number.
+fn bar(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, name: &str, pct: Option<f64>) {
+    const HIGH: f64 = 0.05;
+    let (from, full) = (x + 0.28, width - 0.44);
+    pen.text((x, y + 0.5 * HIGH), TextAlign::Left, TEXT, HudColor::White, name);
+    pen.panel((from, y), (full, HIGH), HudColor::Card);
+    let Some(pct) = pct else {
+        pen.text((from + 0.02, y + 0.5 * HIGH), TextAlign::Left, SMALL, HudColor::Grey, "not applicable");
+        return;
+    };
+    let long = full * (pct / 100.0).clamp(0.0, 1.0);
+    if long > 0.0 {
+        pen.fill(&[(from, y), (from + long, y), (from + long, y + HIGH), (from, y + HIGH)], HudColor::Blue);
+    }
+    pen.text((x + width - 0.02, y + 0.5 * HIGH), TextAlign::Right, TEXT, HudColor::White, format!("{pct:.1}"));
+}

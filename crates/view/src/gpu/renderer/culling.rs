@@ -1,0 +1,101 @@
+//! What a shot can show.
+
+use crate::camera::PinholeCamera;
+use crate::cells::{BoundingSphere, Frustum};
+use crate::matrix::Matrix;
+use crate::scene::{Instance, MoverModel};
+use crate::shot::Shot;
+use spandrel_model::frames::{Enu, Vec3};
+
+/// How a shot looks at the scene.
+pub struct ShotView {
+    projection: Matrix,
+    water_m: f64,
+    /// From where.
+    pub eye_m: Vec3<Enu>,
+    /// 1 while the lamp is on.
+    pub lamp: usize,
+    /// The lake may be in the picture.
+    pub lake: bool,
+}
+
+impl ShotView {
+    /// Of a shot over water at a level.
+    pub fn of(shot: &Shot, water_m: f64) -> Self {
+        Self {
+            projection: shot.eye.view_projection(shot.aspect()),
+            water_m,
+            eye_m: shot.eye.position_m,
+            lamp: usize::from(shot.beam.is_some()),
+            lake: may_show_in_lake(&shot.eye, shot.aspect(), water_m),
+        }
+    }
+
+    /// What it may show straight.
+    pub fn direct_view(&self) -> Frustum {
+        Frustum::of(&self.projection)
+    }
+
+    /// What it may show in the lake.
+    pub fn mirrored(&self) -> Frustum {
+        Frustum::of(&self.projection.after(&Matrix::mirror(self.water_m)))
+    }
+
+    /// Of what moves what it may show, straight or in the lake; `reaches_m`: how far each model reaches from its origin, m.
+    pub fn is_in_view(&self, moving: &[(MoverModel, Instance)], reaches_m: &[f64]) -> Vec<(MoverModel, Instance)> {
+        let (straight, mirrored) = (self.direct_view(), self.mirrored());
+        let shows = |(model, instance): &&(MoverModel, Instance)| {
+            let [x, y, z] = instance.rows.map(|row| f64::from(row[3]));
+            let radius_m = reaches_m.get(*model as usize).copied().unwrap_or(0.0);
+            let ball = BoundingSphere { centre_m: Vec3::new(x, y, z), radius_m };
+            straight.may_show(&ball) || (self.lake && mirrored.may_show(&ball))
+        };
+        moving.iter().filter(shows).copied().collect()
+    }
+}
+
+/// False where every ray of a picture from over the water points up.
+fn may_show_in_lake(eye: &PinholeCamera, aspect: f64, water_m: f64) -> bool {
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)];
+    eye.position_m.up() <= water_m || corners.iter().any(|(x, y)| eye.ray(*x, *y, aspect).up() < 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ASPECT: f64 = 1.5;
+
+    /// From 10 m over the lake northwards, rising so far on 50 m.
+    fn eye(rise_m: f64) -> PinholeCamera {
+        PinholeCamera::at(Vec3::new(0.0, 0.0, 10.0), Vec3::new(0.0, 50.0, 10.0 + rise_m), 1.0, ASPECT)
+    }
+
+    fn is_visible(rise_m: f64, all: &[(MoverModel, Instance)]) -> Vec<(MoverModel, Instance)> {
+        let (eye, water_m) = (eye(rise_m), 0.0);
+        let (projection, lake) = (eye.view_projection(ASPECT), may_show_in_lake(&eye, ASPECT, water_m));
+        let view = ShotView { projection, water_m, eye_m: eye.position_m, lamp: 0, lake };
+        view.is_in_view(all, &[3.0; MoverModel::ALL.len()])
+    }
+
+    #[test]
+    fn exact_the_lake_is_left_out_where_no_ray_falls() {
+        let shows = |rise_m: f64, water_m: f64| may_show_in_lake(&eye(rise_m), ASPECT, water_m);
+        assert!(shows(0.0, 0.0) && !shows(60.0, 0.0));
+        assert!(shows(60.0, 11.0), "from under the water");
+    }
+
+    #[test]
+    fn exact_what_moves_beside_the_picture_is_left_out_and_what_the_lake_shows_is_not() {
+        let at = |east: f64, north: f64, up: f64| {
+            let axes = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 0.0, 1.0)];
+            (MoverModel::Car, Instance::placed(Vec3::new(east, north, up), axes, [1.0; 4]))
+        };
+        let [ahead, behind, beside, above] =
+            [at(0.0, 50.0, 10.0), at(0.0, -50.0, 10.0), at(90.0, 50.0, 10.0), at(0.0, 40.0, 40.0)];
+        assert_eq!(is_visible(0.0, &[ahead, behind, beside, above]), [ahead]);
+        // Looking down into the lake one sees there what is ahead and what is above.
+        assert_eq!(is_visible(-45.0, &[ahead, behind, beside, above]), [ahead, above]);
+        assert_eq!(is_visible(-400.0, &[ahead]), []);
+    }
+}

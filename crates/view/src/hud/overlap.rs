@@ -1,0 +1,221 @@
+//! Nothing on the display lies over anything else, in pictures of any shape and size.
+
+use super::tests::{ALL_CUES, hud};
+use super::text_metrics::width_of;
+use super::*;
+use crate::arrange::{ViewKind, ViewLayout};
+use spandrel_model::frames::Vec3;
+
+/// A rectangle in the picture's measure: left, top, right, bottom, in heights.
+type PictureRect = [f64; 4];
+
+/// Rounding.
+const NOTHING: f64 = 1e-9;
+
+/// A block of the display: its ground, and what stands on it.
+#[derive(Debug)]
+struct DisplayBlock {
+    ground: PictureRect,
+    texts: Vec<(PictureRect, String)>,
+    shapes: Vec<PictureRect>,
+}
+
+fn around(points: &[ScreenPoint], aspect: f64) -> PictureRect {
+    let of = |pick: fn(f64, f64) -> f64, place: fn(&ScreenPoint) -> f64| points.iter().map(place).reduce(pick).unwrap();
+    [of(f64::min, |p| p.x) * aspect, of(f64::min, |p| p.y), of(f64::max, |p| p.x) * aspect, of(f64::max, |p| p.y)]
+}
+
+fn written(place: ScreenPoint, side: TextAlign, height: f64, words: &str, aspect: f64) -> PictureRect {
+    let wide = width_of(words, height);
+    let left = place.x * aspect
+        - match side {
+            TextAlign::Left => 0.0,
+            TextAlign::Middle => 0.5 * wide,
+            TextAlign::Right => wide,
+        };
+    [left, place.y - 0.5 * height, left + wide, place.y + 0.5 * height]
+}
+
+/// The display's blocks; the frame below them all belongs to the picture.
+fn blocks(items: Vec<DrawItem>, aspect: f64) -> Vec<DisplayBlock> {
+    let mut found: Vec<DisplayBlock> = Vec::new();
+    for item in items {
+        if let DrawItem::Panel { from, to, .. } = item {
+            found.push(DisplayBlock { ground: around(&[from, to], aspect), texts: Vec::new(), shapes: Vec::new() });
+            continue;
+        }
+        let Some(block) = found.last_mut() else {
+            assert!(matches!(item, DrawItem::Line { .. }), "{item:?} stands nowhere");
+            continue;
+        };
+        match item {
+            DrawItem::Text { place, side, height, words, .. } => {
+                block.texts.push((written(place, side, height, &words, aspect), words));
+            }
+            DrawItem::Fill { points, .. } | DrawItem::Line { points, .. } => block.shapes.push(around(&points, aspect)),
+            DrawItem::Panel { .. } => {}
+        }
+    }
+    found
+}
+
+fn apart(a: &PictureRect, b: &PictureRect) -> bool {
+    a[2] <= b[0] + NOTHING || b[2] <= a[0] + NOTHING || a[3] <= b[1] + NOTHING || b[3] <= a[1] + NOTHING
+}
+
+fn holds(outer: &PictureRect, inner: &PictureRect) -> bool {
+    outer[0] <= inner[0] + NOTHING
+        && outer[1] <= inner[1] + NOTHING
+        && inner[2] <= outer[2] + NOTHING
+        && inner[3] <= outer[3] + NOTHING
+}
+
+/// An area of a camera's picture in a window of that shape, shares of its width and height.
+fn in_window(area: &PictureRect, lens: f64, window: f64) -> PictureRect {
+    let [camera, _] = ViewLayout::Camera.places();
+    assert_eq!(camera.which, ViewKind::Camera);
+    let place = camera.fit_aspect(lens, window);
+    let (x, y) = (|x: f64| place.left + place.width * x / lens, |y: f64| place.top + place.height * y);
+    [x(area[0]), y(area[1]), x(area[2]), y(area[3])]
+}
+
+/// The map is one picture: its paths cross, and their numbers stand on them.
+fn is_map(block: &DisplayBlock) -> bool {
+    block.texts.iter().any(|(_, words)| words == "N")
+}
+
+fn check_block(block: &DisplayBlock, what: &str) {
+    for shape in &block.shapes {
+        assert!(holds(&block.ground, shape), "{what}: a shape at {shape:?} leaves {:?}", block.ground);
+    }
+    if is_map(block) {
+        return;
+    }
+    for (k, (place, words)) in block.texts.iter().enumerate() {
+        assert!(holds(&block.ground, place), "{what}: '{words}' at {place:?} leaves {:?}", block.ground);
+        for (other, over) in &block.texts[..k] {
+            assert!(apart(place, other), "{what}: '{words}' lies over '{over}'");
+        }
+        assert!(block.shapes.iter().all(|shape| apart(place, shape)), "{what}: '{words}' lies over a shape");
+    }
+    for (k, one) in block.shapes.iter().enumerate() {
+        // A rim holds what it is around, a battery its charge.
+        let fine = |other: &PictureRect| apart(one, other) || holds(one, other) || holds(other, one);
+        assert!(block.shapes[..k].iter().all(fine), "{what}: shapes of one block lie over each other");
+    }
+}
+
+fn check(items: Vec<DrawItem>, aspect: f64, what: &str) {
+    let found = blocks(items, aspect);
+    for (k, block) in found.iter().enumerate() {
+        check_block(block, what);
+        assert!(holds(&[0.0, 0.0, aspect, 1.0], &block.ground), "{what}: {block:?} leaves the picture");
+        for other in &found[..k] {
+            assert!(apart(&block.ground, &other.ground), "{what}: {block:?} lies over {other:?}");
+        }
+    }
+}
+
+/// Every state with the longest words that it can have (the wire's texts have 50 signs), with and without the map.
+fn states() -> Vec<(&'static str, Hud)> {
+    let dark = |satellites| Some(GnssStatus { fixed: false, satellites });
+    let hit = |words: &str| Hud { cues: ALL_CUES, hit: Some(words.to_owned()), ..hud() };
+    let track =
+        |id, east| MapPath { id, path_m: vec![Vec3::new(east, 150.0, 30.0), Vec3::new(-90.0, 20.0, 30.0)], closed: id == 2 };
+    let full = Hud {
+        speed_m_s: 44.4,
+        battery_pct: Some(100.0),
+        height_m: -120.4,
+        home_m: 4321.0,
+        mode: "mode 4294967295".into(),
+        gnss: dark(99),
+        silent_s: 86_400.0,
+        gimbal_rad: -1.55,
+        zoom: 10.0,
+        left_s: 5_999.0,
+        lamp: true,
+        pictures: 999,
+        tracks: [1, 2, 3, 4].map(|id| track(id, 150.0)).to_vec(),
+        ..hit("bridge member suspension/hanger-left/upper/07")
+    };
+    let shown = [
+        ("calm", hud()),
+        ("link lost", Hud { silent_s: 12.0, ..hud() }),
+        ("GNSS lost", Hud { gnss: dark(14), ..hud() }),
+        ("GNSS unknown", Hud { gnss: None, ..hud() }),
+        ("no link, no GNSS", Hud { silent_s: 12.0, gnss: dark(4), mode: "Stabilized".into(), ..hud() }),
+        ("no link for long", Hud { silent_s: 86_400.0, gnss: dark(99), mode: "mode 4294967295".into(), ..hud() }),
+        ("no battery", Hud { battery_pct: None, ..hud() }),
+        ("red", Hud { battery_pct: Some(9.0), time_s: 0.1, ..hud() }),
+        ("red and away", Hud { battery_pct: Some(9.0), time_s: 0.3, ..hud() }),
+        ("all warnings", hit("bridge")),
+        ("a long name", hit("bridge member arch/rib-left/07")),
+        ("a name without a space", hit(&"bridge-member-".repeat(4)[..43])),
+        ("a name longer than the wire allows", hit(&"WWWW ".repeat(40))),
+        ("zoomed", Hud { zoom: 3.1, lamp: true, ..hud() }),
+        ("everything", full),
+    ];
+    let hidden = shown.clone().map(|(name, state)| (name, Hud { tracks: Vec::new(), ..state }));
+    shown.into_iter().chain(hidden).collect()
+}
+
+#[test]
+fn prop_nothing_lies_over_anything_else_in_pictures_of_any_shape() {
+    let steps = (0..=38).map(|k| 0.7 + 0.05 * f64::from(k));
+    for aspect in steps.chain([4.0 / 3.0, 16.0 / 9.0]) {
+        for (name, state) in states() {
+            check(layout(&state, aspect), aspect, &format!("{name}, aspect {aspect:.2}, map {}", !state.tracks.is_empty()));
+        }
+    }
+}
+
+#[test]
+fn prop_nothing_lies_over_anything_else_in_pictures_of_any_size() {
+    for aspect in [0.7, 1.0, 4.0 / 3.0, 16.0 / 9.0, 2.6] {
+        for height_px in [40.0, 81.0, 108.0, 162.0, 216.0, 324.0, 350.0, 360.0, 700.0] {
+            for (name, state) in states() {
+                let items = layout_px(&state, (aspect * height_px, height_px));
+                check(items, aspect, &format!("{name}, aspect {aspect:.2}, {height_px} px high"));
+            }
+        }
+    }
+}
+
+#[test]
+fn prop_the_windows_own_words_cover_nothing_of_the_large_cameras_display() {
+    // Six lines of the window's type with their ground; from the picture's middle on a pilot aims.
+    const WORDS: f64 = 0.2;
+    let words = ViewLayout::Camera.words();
+    let [_, eyes] = ViewLayout::Camera.places();
+    assert!(words.hang);
+    assert!(words.left_aligned >= eyes.left + eyes.width && words.edge + WORDS < 0.48, "{words:?}");
+    let room = [words.left_aligned, words.edge, words.left_aligned + words.width, words.edge + WORDS];
+    for (name, state) in states() {
+        for window in [1.0, 4.0 / 3.0, 16.0 / 10.0, 16.0 / 9.0, 21.0 / 9.0] {
+            for lens in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
+                // In a square window, where a wide picture begins lower, mode and link may be covered for a while; warnings stay free.
+                let counts = |block: &DisplayBlock| window > 1.0 || block.ground[1] > 0.5;
+                for block in blocks(layout(&state, lens), lens).into_iter().filter(counts) {
+                    let covered = !apart(&in_window(&block.ground, lens, window), &room);
+                    assert!(!covered, "{name}: {block:?} under the words, lens {lens}, window {window}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn prop_the_small_view_hides_nothing_of_the_large_cameras_display() {
+    let all = Hud { cues: ALL_CUES, hit: Some("suspension bridge, tower leg".into()), zoom: 2.0, ..hud() };
+    let [_, eyes] = ViewLayout::Camera.places();
+    assert_eq!(eyes.which, ViewKind::Inspector);
+    let small = [eyes.left, eyes.top, eyes.left + eyes.width, eyes.top + eyes.height];
+    for window in [4.0 / 3.0, 16.0 / 10.0, 16.0 / 9.0, 21.0 / 9.0] {
+        for lens in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
+            for block in blocks(layout(&all, lens), lens) {
+                let covered = !apart(&in_window(&block.ground, lens, window), &small);
+                assert!(!covered, "{block:?} under the small view, lens {lens}, window {window}");
+            }
+        }
+    }
+}

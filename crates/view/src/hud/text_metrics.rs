@@ -1,0 +1,81 @@
+//! How long words are when they are drawn, so that they can be kept apart: whoever lays out has no font.
+
+/// Width of a sign as a share of the type's height (egui's Ubuntu Light, in classes; a little wide, so that nothing overflows).
+fn glyph_width(sign: char) -> f64 {
+    match sign {
+        ' ' => 0.25,
+        'm' | 'w' | 'M' | 'W' | '%' => 0.9,
+        'f' | 'i' | 'j' | 'l' | 'r' | 't' | '.' | ',' | ':' | '/' | '(' | ')' | '-' | '°' | '?' | '\'' => 0.38,
+        '0'..='9' => 0.57,
+        'A'..='Z' => 0.64,
+        sign if sign.is_ascii() => 0.58,
+        // Signs of other scripts are as wide as they are high.
+        _ => 1.0,
+    }
+}
+
+/// Width of a line of text in the measure of the type's height.
+pub fn width_of(words: &str, height: f64) -> f64 {
+    height * words.chars().map(glyph_width).sum::<f64>()
+}
+
+/// The words as far as they fit by a measure, with a sign for what was cut off.
+pub fn cut(words: &str, fits: impl Fn(&str) -> bool) -> String {
+    let mut kept = words.to_owned();
+    let mut shown = kept.clone();
+    while !fits(&shown) && kept.pop().is_some() {
+        shown = format!("{}…", kept.trim_end());
+    }
+    shown
+}
+
+/// Words broken at spaces into lines that fit, so many at most; what does not fit then is cut off.
+pub fn wrapped(words: &str, most: usize, fits: impl Fn(&str) -> bool) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in words.split(' ') {
+        let full = lines.len() >= most;
+        match lines.last_mut() {
+            Some(line) if full || fits(&format!("{line} {word}")) => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines.iter().map(|line| cut(line, &fits)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_words_break_at_spaces_and_what_is_left_over_is_cut_off() {
+        let ten = |line: &str| line.chars().count() <= 10;
+        assert_eq!(wrapped("a pier", 2, ten), ["a pier"]);
+        assert_eq!(wrapped("bridge member 7", 2, ten), ["bridge", "member 7"]);
+        assert_eq!(wrapped("bridge member arch/rib-left/07", 2, ten), ["bridge", "member ar…"]);
+        assert_eq!(wrapped("incomprehensible", 2, ten), ["incompreh…"]);
+        assert_eq!(wrapped("", 2, ten), [""]);
+        assert_eq!(cut("nothing fits", |_| false), "…");
+    }
+
+    #[test]
+    fn exact_lengths_are_those_of_the_font_and_a_little_more() {
+        // Advances of the font's own table, summed, as shares of the type's height.
+        for (words, em) in [
+            ("OFF THE PATH", 6.54),
+            ("TOO CLOSE", 5.28),
+            ("TOO FAST: limit 10 mph", 10.60),
+            ("CRASH: bridge member arch/rib-left/07", 17.48),
+            ("no battery data", 6.86),
+            ("Position   GNSS lost (4)   LINK LOST 12 s", 17.31),
+            ("12.3 m/s", 3.82),
+            ("100 %", 2.75),
+            ("time left", 3.83),
+        ] {
+            let found = width_of(words, 1.0);
+            assert!(found >= em && found < 1.2 * em, "{words}: {found} for {em}");
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! Where the inspector looks: after the aircraft, or anywhere, near or through narrowed eyes.
+
+use super::camera::{EYE_HEIGHT_M, INSPECTOR_FOV_RAD, PinholeCamera};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+
+/// The view narrows on an aircraft that is farther away than this, m, as binoculars do.
+const NARROW_FROM_M: f64 = 60.0;
+/// And shows no less than this by itself, rad.
+const NARROWEST_RAD: f64 = 0.22;
+/// Half a step ahead of where the inspector stands, m, so that the own body is not in the picture.
+const AHEAD_M: f64 = 0.45;
+/// As far as a head bends, rad.
+const STEEPEST_RAD: f64 = 1.4;
+/// Zoom by hand: from a wider view to binoculars (estimate: 8 x glasses are the usual ones).
+const ZOOM: std::ops::RangeInclusive<f64> = 0.6..=8.0;
+
+/// A direction and a zoom.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InspectorCamera {
+    /// Looks after the aircraft.
+    pub follows: bool,
+    bearing_rad: f64,
+    pitch_rad: f64,
+    zoom: f64,
+}
+
+impl Default for InspectorCamera {
+    fn default() -> Self {
+        Self { follows: true, bearing_rad: 0.0, pitch_rad: 0.0, zoom: 1.0 }
+    }
+}
+
+impl InspectorCamera {
+    /// Turns away from where it looks, rad: to the right, up. Who turns by hand follows the aircraft no more; `to` is the way from the
+    /// inspector to it, m.
+    pub fn turn(&mut self, right_rad: f64, up_rad: f64, to: Vec3<Enu>) {
+        if self.follows {
+            // What was seen narrowed stays as near as it was.
+            let zoom = math::tan(0.5 * INSPECTOR_FOV_RAD) / math::tan(0.5 * self.vfov_rad(to.norm()));
+            self.zoom = zoom.clamp(*ZOOM.start(), *ZOOM.end());
+            self.follows = false;
+            self.bearing_rad = math::atan2(to.east(), to.north());
+            self.pitch_rad = math::atan2(to.up() - EYE_HEIGHT_M, to.horizontal_norm());
+        }
+        self.bearing_rad = math::wrap_pi(self.bearing_rad + right_rad);
+        self.pitch_rad = (self.pitch_rad + up_rad).clamp(-STEEPEST_RAD, STEEPEST_RAD);
+    }
+
+    /// How far one turns, rad, for a pixel of a view so many pixels high: what is under a pointer that drags stays there.
+    #[must_use]
+    pub fn rad_px(&self, height_px: f64, to: Vec3<Enu>) -> f64 {
+        self.vfov_rad(to.norm()) / height_px.max(1.0)
+    }
+
+    /// Nearer (above 1) or wider.
+    pub fn zoom(&mut self, times: f64) {
+        if times.is_finite() {
+            self.zoom = (self.zoom * times).clamp(*ZOOM.start(), *ZOOM.end());
+        }
+    }
+
+    /// The angle of view, rad across the picture's height, on an aircraft so far away.
+    fn vfov_rad(&self, distance_m: f64) -> f64 {
+        let narrowed = if self.follows { NARROW_FROM_M / distance_m.max(NARROW_FROM_M) } else { 1.0 };
+        let half = math::tan(0.5 * (INSPECTOR_FOV_RAD * narrowed).max(NARROWEST_RAD)) / self.zoom;
+        2.0 * math::atan2(half, 1.0)
+    }
+
+    /// The eye of somebody who stands there.
+    #[must_use]
+    pub fn eye(&self, stands_m: Vec3<Enu>, drone_m: Vec3<Enu>, aspect: f64) -> PinholeCamera {
+        let to = drone_m - stands_m;
+        let level: Vec3<Enu> = Vec3::new(to.east(), to.north(), 0.0);
+        let (s, c) = math::sin_cos(self.bearing_rad);
+        let ahead = match (self.follows, level.norm() > 0.5) {
+            (false, _) => Vec3::new(s, c, 0.0),
+            (true, true) => level.unit(),
+            (true, false) => Vec3::new(0.0, 1.0, 0.0),
+        };
+        let eye_m = stands_m + ahead * AHEAD_M + Vec3::new(0.0, 0.0, EYE_HEIGHT_M);
+        let (up, flat) = math::sin_cos(self.pitch_rad);
+        let target = if self.follows { drone_m } else { eye_m + ahead * flat + Vec3::new(0.0, 0.0, up) };
+        PinholeCamera::at(eye_m, target, self.vfov_rad((drone_m - eye_m).norm()), aspect)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STANDS: Vec3<Enu> = Vec3::new(0.0, 0.0, 0.0);
+
+    #[test]
+    fn exact_it_follows_until_it_is_turned_and_then_stays() {
+        let mut gaze = InspectorCamera::default();
+        let north = Vec3::new(0.0, 40.0, EYE_HEIGHT_M);
+        assert!((gaze.eye(STANDS, north, 1.5).forward.north() - 1.0).abs() < 1e-9);
+        gaze.turn(std::f64::consts::FRAC_PI_2, 0.0, north - STANDS);
+        let east = gaze.eye(STANDS, north, 1.5).forward;
+        assert!((east.east() - 1.0).abs() < 1e-9, "a quarter turn to the right of north is east: {east:?}");
+        assert_eq!(gaze.eye(STANDS, Vec3::new(-9.0, 3.0, 50.0), 1.5).forward, east, "the aircraft moves, the eyes do not");
+        gaze.turn(0.0, 99.0, north);
+        assert!((math::asin(gaze.eye(STANDS, north, 1.5).forward.up()) - STEEPEST_RAD).abs() < 1e-9);
+    }
+
+    #[test]
+    fn exact_a_drag_follows_the_pointer_and_who_turns_keeps_what_was_seen_near() {
+        let mut gaze = InspectorCamera::default();
+        let far = Vec3::new(0.0, 150.0, EYE_HEIGHT_M);
+        let before = gaze.eye(STANDS, far, 1.0).hfov_rad;
+        // The eye stands half a step nearer than the inspector.
+        let apart = 0.01;
+        gaze.turn(0.0, 0.0, far);
+        assert!((gaze.eye(STANDS, far, 1.0).hfov_rad / before - 1.0).abs() < apart);
+        assert!((gaze.rad_px(500.0, far) * 500.0 / before - 1.0).abs() < apart, "a drag over the whole view turns by all of it");
+    }
+
+    #[test]
+    fn exact_zoom_narrows_the_tangent_and_has_ends() {
+        let mut gaze = InspectorCamera::default();
+        let far = Vec3::new(0.0, 30.0, EYE_HEIGHT_M);
+        let half = |gaze: &InspectorCamera| math::tan(0.5 * gaze.eye(STANDS, far, 1.0).hfov_rad);
+        let plain = half(&gaze);
+        gaze.zoom(2.0);
+        assert!((half(&gaze) - 0.5 * plain).abs() < 1e-9);
+        (0..20).for_each(|_| gaze.zoom(2.0));
+        assert!((half(&gaze) - plain / ZOOM.end()).abs() < 1e-9);
+        gaze.zoom(f64::NAN);
+        assert!((half(&gaze) - plain / ZOOM.end()).abs() < 1e-9);
+    }
+}

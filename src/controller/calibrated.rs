@@ -1,0 +1,181 @@
+//! A calibrated device in somebody's hand: its events through the profile into sticks and wishes.
+
+use super::{EventSource, ProfileFolder, read_profile};
+use crate::errors::AppError;
+use spandrel_clients::rc::controller_link::ControllerLink;
+use spandrel_clients::rc::input_recording;
+use spandrel_clients::rc::{ControllerProfile, Device, DeviceEvent, RawInput, Sticks};
+use spandrel_model::time::SimTime;
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// A calibrated device.
+#[derive(Debug)]
+pub struct CalibratedController {
+    source: EventSource,
+    profile: ControllerProfile,
+    raw: RawInput,
+    log: Option<InputLog>,
+}
+
+#[derive(Debug)]
+struct InputLog {
+    path: PathBuf,
+    file: File,
+    /// Length of the lines that the disk has taken, bytes.
+    whole: u64,
+}
+
+impl InputLog {
+    fn begin(path: &Path, device: &Device) -> Result<Self, AppError> {
+        let failed = |error: std::io::Error| AppError::wrong(format!("{}: {error}", path.display()));
+        let mut log = Self { path: path.to_owned(), file: File::create(path).map_err(failed)?, whole: 0 };
+        log.line(input_recording::head(device)).map_err(failed)?;
+        Ok(log)
+    }
+
+    fn write(&mut self, now: SimTime, event: DeviceEvent) -> std::io::Result<()> {
+        self.line(input_recording::line(now, event))
+    }
+
+    /// Adds a line whole or not at all.
+    fn line(&mut self, mut line: String) -> std::io::Result<()> {
+        line.push('\n');
+        self.file.write_all(line.as_bytes()).inspect_err(|_| {
+            // Half a line would make the whole record unreadable.
+            let _ = self.file.set_len(self.whole);
+        })?;
+        self.whole += line.len() as u64;
+        Ok(())
+    }
+}
+
+/// What a look at the controller gave.
+#[derive(Debug)]
+pub struct ControllerReading {
+    /// The sticks; `None` while the device is lost.
+    pub sticks: Option<Sticks>,
+    /// A record has been played to its end.
+    pub over: bool,
+}
+
+impl CalibratedController {
+    /// Takes a source whose device is calibrated, by the profile in that file or by the one that is kept for it.
+    ///
+    /// # Errors
+    /// When it is not calibrated, or a file is wrong.
+    pub fn take(
+        source: EventSource,
+        profiles: &ProfileFolder,
+        profile: Option<&Path>,
+        record: Option<&Path>,
+    ) -> Result<Self, AppError> {
+        let device = source.of().clone();
+        let profile = match profile {
+            Some(path) => Some(read_profile(path)?),
+            None => profiles.find(&device)?,
+        };
+        let profile = profile.ok_or_else(|| {
+            AppError::failed(format!(
+                "'{}' is not calibrated: run `spandrel rc --calibrate` ({})",
+                device.name,
+                profiles.missing(&device)
+            ))
+        })?;
+        let log = record.map(|path| InputLog::begin(path, &device)).transpose()?;
+        Ok(Self { log, ..Self::with(source, profile) })
+    }
+
+    /// Takes a source and what is known of its device.
+    pub fn with(source: EventSource, profile: ControllerProfile) -> Self {
+        tracing::info!("flying with '{}', stick mode {}", profile.device.name, profile.mode.number());
+        Self { source, profile, raw: RawInput::default(), log: None }
+    }
+
+    /// Takes what the device has reported, and does what its buttons say. A record is played by `flown`, the time since the vehicle was
+    /// heard.
+    pub fn poll(&mut self, link: &mut ControllerLink, flown: SimTime, now: SimTime) -> ControllerReading {
+        while let Some(event) = self.source.next(flown) {
+            self.keep(flown, event);
+            let fresh = matches!(event, DeviceEvent::Button { button, pressed: true } if !self.raw.down.contains(&button));
+            self.raw.apply(event);
+            match event {
+                DeviceEvent::Button { button, .. } if fresh => {
+                    self.profile.buttons.get(&button).into_iter().for_each(|action| link.act(*action, now));
+                }
+                DeviceEvent::Lost => tracing::warn!("'{}' is lost: sticks centred, then silent", self.profile.device.name),
+                DeviceEvent::Found => tracing::info!("'{}' is there", self.profile.device.name),
+                _ => {}
+            }
+        }
+        ControllerReading { sticks: (!self.raw.lost).then(|| self.profile.sticks(&self.raw)), over: self.source.is_over() }
+    }
+
+    /// Records an event. A disk that refuses ends the record, never the flight.
+    fn keep(&mut self, flown: SimTime, event: DeviceEvent) {
+        let Some(log) = &mut self.log else { return };
+        if let Err(error) = log.write(flown, event) {
+            tracing::warn!("{}: cannot be written: {error}; the record ends here, the flight goes on", log.path.display());
+            self.log = None;
+        }
+    }
+}
+
+/// What the window needs besides, where the controller is tried and calibrated.
+#[cfg(feature = "view")]
+impl CalibratedController {
+    /// What is known of the device.
+    pub fn profile(&self) -> &ControllerProfile {
+        &self.profile
+    }
+
+    /// The device is read by another profile from now on.
+    pub fn set(&mut self, profile: ControllerProfile) {
+        self.profile = profile;
+    }
+
+    /// Where everything stands.
+    pub fn raw(&self) -> &RawInput {
+        &self.raw
+    }
+
+    /// The device, without its meaning.
+    pub fn release(self) -> EventSource {
+        self.source
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_clients::rc::input_recording::InputRecording;
+    use spandrel_clients::rc::profile::StickMode;
+    use std::collections::BTreeMap;
+
+    const RECORD: &str = r#"{"format":1,"device":"Stick","id":"1"}
+{"t_s":0.0,"axis":0,"value":0.5}
+{"t_s":0.1,"axis":0,"value":0.25}
+"#;
+
+    #[test]
+    fn regress_a_disk_that_refuses_ends_the_record_and_not_the_flight() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("flown.jsonl");
+        let device = InputRecording::read("in", RECORD).unwrap().device;
+        let profile =
+            ControllerProfile { device: device.clone(), mode: StickMode::Two, axes: BTreeMap::new(), buttons: BTreeMap::new() };
+        let mut log = InputLog::begin(&path, &device).unwrap();
+        // A descriptor that cannot be written to refuses as a full disk does.
+        log.file = File::open(&path).unwrap();
+        let mut hand = CalibratedController {
+            log: Some(log),
+            ..CalibratedController::with(EventSource::Record(InputRecording::read("in", RECORD).unwrap()), profile)
+        };
+        let mut link = ControllerLink::default();
+        let late = SimTime::from_ms(200);
+        assert!(hand.poll(&mut link, late, late).sticks.is_some());
+        assert!(hand.log.is_none(), "the record has ended");
+        InputRecording::read("flown", &std::fs::read_to_string(&path).unwrap()).expect("what is there can be played");
+    }
+}

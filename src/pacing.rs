@@ -1,0 +1,261 @@
+//! How simulation time follows wall time: real time, N times, or flat out. Pure: the wall clock is an argument.
+
+use spandrel_model::time::SimTime;
+use std::str::FromStr;
+use std::time::Duration;
+
+/// Largest step of simulation time between two looks at the sockets: the lockstep interval (docs/src/reference/wire.md, "One
+/// simulation step").
+pub const STEP: SimTime = SimTime::from_ms(20);
+/// A lockstep peer that does not answer for this much wall time ends the run.
+pub const PATIENCE: Duration = Duration::from_secs(10);
+/// A host that falls behind by more wall time than this does not catch up: the clock slips, and the slip is reported.
+const SLACK: Duration = Duration::from_millis(250);
+
+/// How fast simulation time runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SimulationSpeed {
+    /// Multiple of real time.
+    Times(f64),
+    /// As fast as possible.
+    Max,
+}
+
+/// Largest multiple of real time.
+const FASTEST: f64 = 100.0;
+
+impl SimulationSpeed {
+    /// Simulation seconds per second of a client outside lockstep. Unknown at `max`, which counts as the largest multiple.
+    pub fn client_speed_factor(self) -> f64 {
+        match self {
+            Self::Times(times) => times.max(1.0),
+            Self::Max => FASTEST,
+        }
+    }
+}
+
+impl FromStr for SimulationSpeed {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "max" {
+            return Ok(Self::Max);
+        }
+        let allowed = || format!("'{text}' is not a speed (allowed: 0.1 to 100, or max)");
+        let times: f64 = text.parse().map_err(|_| allowed())?;
+        if (0.1..=FASTEST).contains(&times) { Ok(Self::Times(times)) } else { Err(allowed()) }
+    }
+}
+
+impl std::fmt::Display for SimulationSpeed {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Times(times) => write!(f, "{times}"),
+            Self::Max => f.write_str("max"),
+        }
+    }
+}
+
+/// Delay of the simulation behind its clock, in wall time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Lateness {
+    /// Longest delay. It includes the length of a sleep, because one wake-up runs several ticks.
+    pub latest: Duration,
+    /// Number of delays beyond the limit, at which the clock slipped.
+    pub slips: u32,
+    /// Total time slipped.
+    pub slipped: Duration,
+}
+
+/// Maps wall time to the simulation time that is due.
+#[derive(Debug, Clone)]
+pub struct WallPacer {
+    speed: SimulationSpeed,
+    wall: Duration,
+    sim: SimTime,
+    late: Lateness,
+}
+
+impl WallPacer {
+    /// Simulation time zero is now.
+    pub fn new(speed: SimulationSpeed, wall: Duration) -> Self {
+        Self { speed, wall, sim: SimTime::ZERO, late: Lateness::default() }
+    }
+
+    /// The simulation time to run to, at most [`STEP`] past `reached`.
+    pub fn target(&mut self, wall: Duration, reached: SimTime) -> SimTime {
+        let SimulationSpeed::Times(times) = self.speed else { return reached + STEP };
+        let due = self.due(wall, times);
+        let behind = Duration::from_secs_f64(due.saturating_sub(reached).s() / times);
+        self.late.latest = self.late.latest.max(behind);
+        if behind > SLACK {
+            self.late.slips += 1;
+            self.late.slipped += behind;
+            self.wall = wall;
+            self.sim = reached;
+            return reached + STEP;
+        }
+        due.min(reached + STEP)
+    }
+
+    /// Runs at another speed from now on.
+    pub fn set_speed(&mut self, speed: SimulationSpeed, wall: Duration, reached: SimTime) {
+        if self.speed != speed {
+            self.speed = speed;
+            self.hold(wall, reached);
+        }
+    }
+
+    /// Time stands still: what passes on the wall does not count, and no machine was too slow.
+    pub fn hold(&mut self, wall: Duration, reached: SimTime) {
+        (self.wall, self.sim) = (wall, reached);
+    }
+
+    /// Wall time to sleep until `next` is due.
+    pub fn sleep(&self, wall: Duration, next: SimTime) -> Duration {
+        let SimulationSpeed::Times(times) = self.speed else { return Duration::ZERO };
+        let due_s = (next.saturating_sub(self.sim)).s() / times;
+        (self.wall + Duration::from_secs_f64(due_s)).saturating_sub(wall)
+    }
+
+    /// How late the machine has been.
+    pub fn lateness(&self) -> Lateness {
+        self.late
+    }
+
+    fn due(&self, wall: Duration, times: f64) -> SimTime {
+        self.sim + SimTime::from_s(wall.saturating_sub(self.wall).as_secs_f64() * times)
+    }
+}
+
+/// A peer that speaks but does not answer TIMESYNC is waited for so long, and served in real time afterwards.
+const FIRST_ANSWER: Duration = Duration::from_secs(3);
+
+/// How long time stands still for a peer's first answer: nothing of the flight has passed then, so that a peer that answers soon is in step from
+/// the first tick on.
+#[derive(Debug, Clone, Default)]
+pub struct FirstAnswerWait {
+    since: Option<Duration>,
+    first_heard: Option<Duration>,
+    last_announced: Option<Duration>,
+}
+
+/// Action while the peer's first answer is outstanding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FirstAnswerAction {
+    /// Wait.
+    Wait,
+    /// Say again that the vehicle is there.
+    Announce,
+    /// Go on without it.
+    Proceed,
+}
+
+impl FirstAnswerWait {
+    /// What is to be done at wall time `wall`; `heard`: something has come from the peer.
+    pub fn action_due(&mut self, heard: bool, wall: Duration, every: Duration) -> FirstAnswerAction {
+        let since = *self.since.get_or_insert(wall);
+        let over = |since: Duration, most: Duration| wall.saturating_sub(since) > most;
+        if heard {
+            self.first_heard.get_or_insert(wall);
+        }
+        if over(since, PATIENCE) || self.first_heard.is_some_and(|heard| over(heard, FIRST_ANSWER)) {
+            *self = Self::default();
+            return FirstAnswerAction::Proceed;
+        }
+        if over(self.last_announced.unwrap_or(since), every) {
+            self.last_announced = Some(wall);
+            return FirstAnswerAction::Announce;
+        }
+        FirstAnswerAction::Wait
+    }
+}
+
+/// Limits how long the simulation waits for lockstep peers. Only waiting without progress counts: at `max` speed it waits at every step.
+#[derive(Debug, Clone, Default)]
+pub struct LockstepTimeout {
+    stalled_since: Option<(SimTime, Duration)>,
+}
+
+impl LockstepTimeout {
+    /// Returns true if simulation time, now `reached`, has not advanced for more than [`PATIENCE`] at wall time `wall`.
+    pub fn is_over(&mut self, reached: SimTime, wall: Duration) -> bool {
+        match self.stalled_since {
+            Some((at, since)) if at == reached => wall.saturating_sub(since) > PATIENCE,
+            _ => {
+                self.stalled_since = Some((reached, wall));
+                false
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_four_times_real_time_runs_four_seconds_in_one() {
+        let mut pace = WallPacer::new(SimulationSpeed::Times(4.0), Duration::from_secs(10));
+        let mut reached = SimTime::ZERO;
+        for ms in 1..=1000 {
+            reached = pace.target(Duration::from_secs(10) + Duration::from_millis(ms), reached);
+        }
+        assert_eq!(reached, SimTime::from_s(4.0));
+        assert_eq!(pace.sleep(Duration::from_secs(11), SimTime::from_s(4.4)), Duration::from_millis(100));
+    }
+
+    #[test]
+    fn exact_a_stalled_host_slips_and_does_not_race() {
+        let mut pace = WallPacer::new(SimulationSpeed::Times(1.0), Duration::ZERO);
+        assert_eq!(pace.target(Duration::from_secs(5), SimTime::ZERO), STEP);
+        let five = Duration::from_secs(5);
+        assert_eq!(pace.lateness(), Lateness { latest: five, slips: 1, slipped: five });
+        assert_eq!(pace.target(Duration::from_millis(5010), STEP), SimTime::from_ms(10));
+    }
+
+    #[test]
+    fn exact_time_that_stood_still_does_not_count() {
+        let mut pace = WallPacer::new(SimulationSpeed::Times(2.0), Duration::ZERO);
+        assert_eq!(pace.target(Duration::from_millis(5), SimTime::ZERO), SimTime::from_ms(10));
+        pace.hold(Duration::from_secs(60), SimTime::from_ms(10));
+        assert_eq!(pace.target(Duration::from_millis(60_005), SimTime::from_ms(10)), SimTime::from_ms(20));
+        assert_eq!(pace.lateness(), Lateness { latest: Duration::from_millis(5), ..Lateness::default() });
+    }
+
+    #[test]
+    fn exact_the_latest_is_reported_in_wall_time_and_a_little_late_is_no_slip() {
+        let mut pace = WallPacer::new(SimulationSpeed::Times(4.0), Duration::ZERO);
+        for ms in [2, 102] {
+            pace.target(Duration::from_millis(ms), SimTime::from_ms(8));
+        }
+        assert_eq!(pace.lateness(), Lateness { latest: Duration::from_millis(100), ..Lateness::default() });
+    }
+
+    #[test]
+    fn exact_flat_out_goes_step_by_step_and_never_sleeps() {
+        let mut pace = WallPacer::new(SimulationSpeed::Max, Duration::ZERO);
+        assert_eq!(pace.target(Duration::ZERO, SimTime::from_ms(40)), SimTime::from_ms(60));
+        assert_eq!(pace.sleep(Duration::ZERO, SimTime::from_s(9.0)), Duration::ZERO);
+    }
+
+    #[test]
+    fn exact_speeds_parse_and_print() {
+        assert_eq!("max".parse(), Ok(SimulationSpeed::Max));
+        assert_eq!("5".parse(), Ok(SimulationSpeed::Times(5.0)));
+        assert_eq!(SimulationSpeed::Times(0.5).to_string(), "0.5");
+        for bad in ["0", "-1", "fast", "1000", "NaN"] {
+            assert!(bad.parse::<SimulationSpeed>().is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn regress_only_blocked_time_counts_toward_the_timeout() {
+        let mut patience = LockstepTimeout::default();
+        for (reached, wall) in (0..100).map(|step| SimTime::from_ms(20 * step)).zip((0..100).map(Duration::from_secs)) {
+            assert!(!patience.is_over(reached, wall), "a long run in step is no silence");
+        }
+        let (stuck, since) = (SimTime::from_ms(20 * 99), Duration::from_secs(99));
+        assert!(!patience.is_over(stuck, since + PATIENCE));
+        assert!(patience.is_over(stuck, since + PATIENCE + Duration::from_millis(1)));
+    }
+}

@@ -1,0 +1,137 @@
+//! Removal of session folders that a kill cannot leave half done. The database names the folders in the same transaction that erases their
+//! records; then each folder gets a name under which nothing reads it, and is deleted. Whoever opens the place next finishes what is left.
+
+use super::database::Database;
+use super::erasure_marks::{self, ErasedKind};
+use crate::errors::AppError;
+use sqlx::Row;
+use std::collections::BTreeSet;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+/// Beginning of the name of a folder that is being deleted.
+const ASIDE: &str = ".erasing-";
+
+impl Database {
+    /// Hashes of the folders whose removal has begun.
+    fn erasing(&self) -> Result<BTreeSet<String>, AppError> {
+        self.run(async {
+            let query = sqlx::query("SELECT sha256 FROM erased WHERE what = $1").bind(ErasedKind::Folder.word().to_owned());
+            query.fetch_all(&self.pool).await?.iter().map(|row| row.try_get(0)).collect()
+        })
+    }
+
+    /// A folder is gone.
+    fn removed(&self, name: &str) -> Result<(), AppError> {
+        self.run(async {
+            let mut change = self.begin().await?;
+            erasure_marks::unmark(&mut change, ErasedKind::Folder, name).await?;
+            change.commit().await
+        })
+    }
+}
+
+/// A folder's own name.
+pub(super) fn name_of(folder: &Path) -> String {
+    folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+/// Removes folders that the database has marked (`Database::erase`, `Database::delete_sessions`).
+///
+/// # Errors
+/// When the disk or the database refuses; the next start tries again.
+pub(super) fn remove_folders(database: &Database, folders: &[PathBuf]) -> Result<(), AppError> {
+    for folder in folders {
+        let name = name_of(folder);
+        let aside = folder.with_file_name(format!("{ASIDE}{name}"));
+        delete(&aside)?;
+        match std::fs::rename(folder, &aside) {
+            // Another process finishes the same erasure.
+            Err(error) if error.kind() == ErrorKind::NotFound => {}
+            moved => moved.map_err(|error| io_error(folder, &error))?,
+        }
+        sync_parent(folder)?;
+        delete(&aside)?;
+        database.removed(&name)?;
+    }
+    Ok(())
+}
+
+/// Finishes the erasures that a kill has cut off.
+///
+/// # Errors
+/// When the disk or the database refuses.
+pub(super) fn finish(database: &Database, sessions: &[PathBuf]) -> Result<(), AppError> {
+    let marked = database.erasing()?;
+    for entry in sessions.iter().filter_map(|folder| std::fs::read_dir(folder).ok()).flatten().flatten() {
+        let path = entry.path();
+        let name = name_of(&path);
+        if let Some(original) = name.strip_prefix(ASIDE) {
+            delete(&path)?;
+            database.removed(original)?;
+        } else if marked.contains(&erasure_marks::hash(&name)) {
+            remove_folders(database, &[path])?;
+        }
+    }
+    Ok(())
+}
+
+fn delete(folder: &Path) -> Result<(), AppError> {
+    match std::fs::remove_dir_all(folder) {
+        Err(error) if error.kind() != ErrorKind::NotFound || folder.exists() => Err(io_error(folder, &error)),
+        _ => Ok(()),
+    }
+}
+
+/// The new name is on the disk before anything under it goes.
+fn sync_parent(folder: &Path) -> Result<(), AppError> {
+    let Some(parent) = folder.parent().filter(|parent| !parent.as_os_str().is_empty()) else { return Ok(()) };
+    std::fs::File::open(parent).and_then(|parent| parent.sync_all()).map_err(|error| io_error(parent, &error))
+}
+
+fn io_error(path: &Path, error: &std::io::Error) -> AppError {
+    AppError::failed(format!("{}: cannot be erased: {error}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn session(sessions: &Path, name: &str) -> PathBuf {
+        let folder = sessions.join(name);
+        std::fs::create_dir_all(folder.join("snapshots")).unwrap();
+        for file in ["telemetry.tlog", "answers.json", "session.json", "snapshots/1.jpg"] {
+            std::fs::write(folder.join(file), "private").unwrap();
+        }
+        folder
+    }
+
+    fn left(sessions: &Path) -> Vec<String> {
+        let mut names: Vec<String> = std::fs::read_dir(sessions).unwrap().flatten().map(|entry| name_of(&entry.path())).collect();
+        names.retain(|name| !name.starts_with("records"));
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn regress_an_erasure_cut_off_anywhere_is_finished_at_the_next_start() {
+        let place = tempfile::tempdir().unwrap();
+        let here = [place.path().to_path_buf()];
+        let database = Database::open(&place.path().join("records.sqlite").display().to_string()).unwrap();
+        session(place.path(), "b-ben");
+        // Cut off after the transaction, after the new name, and half deleted.
+        let [marked, renamed, half] = ["a-anna", "c-anna", "d-anna"].map(|name| session(place.path(), name));
+        database.erase("anna", &[marked, renamed.clone(), half.clone()]).unwrap();
+        for folder in [&renamed, &half] {
+            std::fs::rename(folder, folder.with_file_name(format!("{ASIDE}{}", name_of(folder)))).unwrap();
+        }
+        std::fs::remove_file(place.path().join(format!("{ASIDE}d-anna")).join("telemetry.tlog")).unwrap();
+        finish(&database, &here).unwrap();
+        assert_eq!(left(place.path()), ["b-ben"]);
+        assert_eq!(database.erasing(), Ok(BTreeSet::new()));
+        // A folder that comes back from elsewhere is not removed without being asked for.
+        session(place.path(), "a-anna");
+        finish(&database, &here).unwrap();
+        assert_eq!(left(place.path()), ["a-anna", "b-ben"]);
+    }
+}

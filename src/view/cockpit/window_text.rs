@@ -1,0 +1,97 @@
+//! The window's own words, and how pictures, displays and words are put together.
+
+use super::flight_view::SceneLoading;
+use super::listener::TelemetryListener;
+use super::panes::PaneContent;
+use spandrel_clients::rc::keyboard::KeyBindings;
+use spandrel_view::arrange::ViewLayout;
+use spandrel_view::gpu::paint;
+
+/// Words of the window itself.
+#[derive(Default)]
+pub struct WindowText {
+    /// What is waited for.
+    pub waiting: String,
+    /// What has been said lately.
+    pub lines: Vec<String>,
+    /// Which key does what.
+    pub help: String,
+}
+
+/// What is waited for.
+pub fn waiting(scene: &SceneLoading, heard: bool, listener: &TelemetryListener) -> String {
+    match scene {
+        SceneLoading::Drawn(_) => String::new(),
+        SceneLoading::Building(_) => "Building the site and its light ...".to_owned(),
+        SceneLoading::Waiting if heard => "The vehicle is heard; waiting for the session's seed ...".to_owned(),
+        SceneLoading::Waiting => format!("Waiting for the vehicle at {} ...", listener.vehicle()),
+    }
+}
+
+/// Which key does what.
+pub fn help(keys: &KeyBindings, flies: bool) -> String {
+    let key = |name: &str| keys.label(name);
+    let mut words = format!(
+        "{} views    {} map    drag or {} {} look around    wheel zoom    {} follow the drone",
+        key("swap"),
+        key("map"),
+        key("look_left"),
+        key("look_right"),
+        key("follow")
+    );
+    if flies {
+        words.push_str(&format!(
+            "\n{} motors on    {} take off    {} {} up and down    {} {} turn    {} {} {} {} fly    {} lamp    {} picture    {} land",
+            key("arm"),
+            key("take_off"),
+            key("up"),
+            key("down"),
+            key("turn_left"),
+            key("turn_right"),
+            key("forward"),
+            key("back"),
+            key("left"),
+            key("right"),
+            key("lamp"),
+            key("snapshot"),
+            key("land")
+        ));
+    }
+    words
+}
+
+/// A flight's content: pictures with their displays, and the window's own words.
+pub fn compose_text(ui: &mut egui::Ui, shown: &[PaneContent], text: &WindowText, arrangement: ViewLayout) {
+    let area = ui.ctx().content_rect();
+    let painter = ui.ctx().layer_painter(egui::LayerId::background());
+    for view in shown {
+        let at = |x: f64, y: f64| area.min + egui::vec2(x as f32 * area.width(), y as f32 * area.height());
+        let place = &view.place;
+        let rect = egui::Rect::from_min_max(at(place.left, place.top), at(place.left + place.width, place.top + place.height));
+        let whole = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
+        painter.image(view.picture, rect, whole, egui::Color32::WHITE);
+        paint(&painter.with_clip_rect(rect), &view.items, rect);
+        let edge = egui::Stroke::new(1.0, egui::Color32::from_gray(20));
+        painter.rect_stroke(rect, 0.0, edge, egui::StrokeKind::Inside);
+    }
+    let size = 0.03 * area.height().max(300.0);
+    if !text.waiting.is_empty() {
+        let font = egui::FontId::proportional(1.2 * size);
+        painter.text(area.center(), egui::Align2::CENTER_CENTER, &text.waiting, font, egui::Color32::from_gray(225));
+    }
+    let mut lines = text.lines.clone();
+    if !text.help.is_empty() {
+        lines.push(text.help.clone());
+    }
+    if !lines.is_empty() {
+        let font = egui::FontId::proportional(0.75 * size);
+        let stand = arrangement.words();
+        let corner = area.min + egui::vec2(stand.left_aligned as f32 * area.width(), stand.edge as f32 * area.height());
+        let room = stand.width as f32 * area.width() - 1.2 * size;
+        let galley = painter.layout(lines.join("\n"), font, egui::Color32::from_gray(235), room);
+        let down = if stand.hang { 0.6 * size } else { -0.6 * size - galley.size().y };
+        let rect = egui::Rect::from_min_size(corner + egui::vec2(0.6 * size, down), galley.size());
+        painter.rect_filled(rect.expand(0.3 * size), 0.2 * size, egui::Color32::from_black_alpha(160));
+        painter.galley(rect.min, galley, egui::Color32::WHITE);
+    }
+}

@@ -1,0 +1,243 @@
+//! Where a request comes from: a page of ours, by one of our names, and which address.
+
+use super::Authenticator;
+use crate::web::response::WebError;
+use axum::http::{HeaderMap, header};
+use ipnet::IpNet;
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr};
+
+/// Who may pass requests on to the server, and by which names clients reach it.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct AllowedOrigins {
+    /// Proxies that speak TLS for us; empty without one. Nobody else reaches the server then, and only these say for whom they ask.
+    pub proxies: Vec<IpNet>,
+    /// Names of this server beside localhost and addresses.
+    pub hosts: Vec<String>,
+}
+
+impl AllowedOrigins {
+    /// The reach of a server behind proxies: those named, else a proxy on this machine.
+    pub fn behind(named: &[IpNet], hosts: &[String]) -> Self {
+        let local = || vec![IpNet::from(IpAddr::from(Ipv4Addr::LOCALHOST)), IpNet::from(IpAddr::from(Ipv6Addr::LOCALHOST))];
+        Self { proxies: if named.is_empty() { local() } else { named.to_vec() }, hosts: hosts.to_vec() }
+    }
+
+    fn trusts(&self, address: IpAddr) -> bool {
+        self.proxies.iter().any(|proxy| proxy.contains(&address.to_canonical()))
+    }
+
+    /// A server that needs a password is reached by addresses and by its names: no other site's name leads here.
+    fn is_allowed_host(&self, host: &Host<'_>) -> bool {
+        match host {
+            Host::Address(_) => true,
+            Host::Name(name) => {
+                name.eq_ignore_ascii_case("localhost") || self.hosts.iter().any(|known| known.eq_ignore_ascii_case(name))
+            }
+        }
+    }
+}
+
+impl Authenticator {
+    /// Checks that a request names this server, and, if it changes something, that it comes from a page of ours, as far as the browser says.
+    /// A server without passwords answers to this machine alone, by a name that no other site can take over (DNS rebinding).
+    ///
+    /// # Errors
+    /// When it does not.
+    pub fn check_origin(&self, headers: &HeaderMap, changes: bool, open: bool) -> Result<(), WebError> {
+        let text = |name: &str| headers.get(name).and_then(|value| value.to_str().ok());
+        let authority = authority(headers);
+        let host = authority.and_then(Host::parse);
+        let host = host.ok_or_else(|| WebError::Forbidden("The request needs exactly one valid Host header.".into()))?;
+        if open && !host.is_this_machine() {
+            return Err(WebError::Forbidden("Without a password the server answers to localhost and 127.0.0.1 alone.".into()));
+        }
+        if !self.reach.is_allowed_host(&host) {
+            let words = "The server does not know this host name. Its administrator can add it with --host NAME.";
+            return Err(WebError::Forbidden(words.into()));
+        }
+        if !changes {
+            return Ok(());
+        }
+        let site = text("sec-fetch-site").is_none_or(|site| site == "same-origin" || site == "none");
+        let origin = text("origin").is_none_or(|origin| origin.split_once("://").map(|(_, from)| from) == authority);
+        if site && origin {
+            return Ok(());
+        }
+        Err(WebError::Forbidden("This request comes from another site.".into()))
+    }
+
+    /// Returns the client's address: the socket's, or behind a proxy the last address in X-Forwarded-For that is no proxy of ours.
+    ///
+    /// # Errors
+    /// When a proxy is required and the socket is not its.
+    pub fn address(&self, socket: IpAddr, headers: &HeaderMap) -> Result<IpAddr, WebError> {
+        if self.reach.proxies.is_empty() {
+            return Ok(socket);
+        }
+        if !self.reach.trusts(socket) {
+            return Err(WebError::Forbidden("This server answers to its proxy alone (--trusted-proxy).".into()));
+        }
+        let lines = headers.get_all("x-forwarded-for").iter().rev().map(|line| line.to_str().unwrap_or_default());
+        // Each proxy appends the address that it saw; whatever stands before the last one that is not ours is the sender's to choose.
+        for entry in lines.flat_map(|line| line.rsplit(',')) {
+            match entry.trim().parse::<IpAddr>() {
+                Ok(address) if self.reach.trusts(address) => {}
+                Ok(address) => return Ok(address),
+                Err(_) => break,
+            }
+        }
+        Ok(socket)
+    }
+}
+
+/// The one Host header, as it was sent.
+fn authority(headers: &HeaderMap) -> Option<&str> {
+    let mut all = headers.get_all(header::HOST).iter();
+    let only = all.next()?.to_str().ok()?;
+    all.next().is_none().then_some(only)
+}
+
+/// The host in a Host header (RFC 9110, 7.2), without its port.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Host<'a> {
+    Address(IpAddr),
+    Name(&'a str),
+}
+
+impl<'a> Host<'a> {
+    /// `None` for anything but a name or an address, each with an optional port.
+    fn parse(authority: &'a str) -> Option<Self> {
+        let (host, port) = match authority.strip_prefix('[') {
+            Some(rest) => {
+                let (address, port) = rest.split_once(']')?;
+                (Self::Address(address.parse::<Ipv6Addr>().ok()?.into()), port)
+            }
+            None => {
+                let (name, port) = authority.split_at(authority.find(':').unwrap_or(authority.len()));
+                (Self::named(name)?, port)
+            }
+        };
+        let plain = |digits: &str| digits.bytes().all(|b| b.is_ascii_digit()) && digits.parse::<u16>().is_ok();
+        (port.is_empty() || port.strip_prefix(':').is_some_and(plain)).then_some(host)
+    }
+
+    fn named(name: &'a str) -> Option<Self> {
+        if let Ok(address) = name.parse::<Ipv4Addr>() {
+            return Some(Self::Address(address.into()));
+        }
+        is_host_name(name).then_some(Self::Name(name))
+    }
+
+    fn is_this_machine(&self) -> bool {
+        match self {
+            Self::Address(address) => address.to_canonical().is_loopback(),
+            Self::Name(name) => name.eq_ignore_ascii_case("localhost"),
+        }
+    }
+}
+
+/// A DNS name (RFC 1123): labels of letters, digits and inner hyphens.
+pub fn is_host_name(name: &str) -> bool {
+    let label = |label: &str| {
+        let plain = label.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'-');
+        plain && !label.is_empty() && label.len() <= 63 && !label.starts_with('-') && !label.ends_with('-')
+    };
+    name.len() <= 253 && name.split('.').all(label)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn headers(pairs: &[(&'static str, &str)]) -> HeaderMap {
+        let mut all = HeaderMap::new();
+        for (name, value) in pairs {
+            all.append(header::HeaderName::from_static(name), value.parse().unwrap());
+        }
+        all
+    }
+
+    fn named(hosts: &[&str]) -> Authenticator {
+        let hosts = hosts.iter().map(|&host| host.to_owned()).collect();
+        Authenticator::new(true, false, AllowedOrigins { hosts, ..AllowedOrigins::default() })
+    }
+
+    #[test]
+    fn exact_other_sites_and_other_names_are_turned_away() {
+        let guard = named(&["trainer.example"]);
+        let ok = |pairs: &[(&'static str, &str)], changes, open| guard.check_origin(&headers(pairs), changes, open).is_ok();
+        assert!(ok(&[("host", "127.0.0.1:8080")], true, true));
+        assert!(ok(
+            &[("host", "localhost:8080"), ("origin", "http://localhost:8080"), ("sec-fetch-site", "same-origin")],
+            true,
+            true
+        ));
+        assert!(ok(&[("host", "[::1]:8080")], false, true));
+        for bad in [
+            &[("host", "evil.example:8080")][..],
+            &[("host", "localhost.evil.example")],
+            &[],
+            &[("host", "localhost:8080"), ("origin", "http://evil.example")],
+            &[("host", "localhost:8080"), ("origin", "null")],
+            &[("host", "localhost:8080"), ("sec-fetch-site", "cross-site")],
+            &[("host", "localhost:8080"), ("sec-fetch-site", "same-site")],
+        ] {
+            assert!(!ok(bad, true, true), "{bad:?}");
+        }
+        assert!(ok(&[("host", "trainer.example"), ("origin", "https://trainer.example")], true, false));
+        assert!(
+            ok(&[("host", "trainer.example"), ("sec-fetch-site", "cross-site")], false, false),
+            "a link from elsewhere may be followed"
+        );
+    }
+
+    #[test]
+    fn regress_the_host_header_is_one_name_of_this_server() {
+        let guard = named(&["trainer.example"]);
+        let ok = |pairs: &[(&'static str, &str)]| guard.check_origin(&headers(pairs), false, false).is_ok();
+        for good in ["trainer.example", "TRAINER.example:8443", "10.0.0.7:8443", "[2001:db8::7]", "localhost:1"] {
+            assert!(ok(&[("host", good)]), "{good}");
+        }
+        for bad in [
+            "",
+            "evil.example",
+            "[::1]evil.example",
+            "[::1",
+            "[trainer.example]",
+            "127.0.0.1@evil.example",
+            "localhost:8080@evil",
+            "localhost:",
+            "localhost:x",
+            "localhost:99999",
+            "localhost:+80",
+            "trainer.example.",
+            "-trainer.example",
+            "a b",
+            "trainer.example/",
+        ] {
+            assert!(!ok(&[("host", bad)]), "{bad}");
+        }
+        assert!(!ok(&[("host", "localhost"), ("host", "localhost")]), "twice");
+    }
+
+    #[test]
+    fn regress_only_a_trusted_proxy_reports_for_whom_it_asks() {
+        let local: IpAddr = [127, 0, 0, 1].into();
+        let (proxy, client): (IpAddr, IpAddr) = ([10, 0, 0, 2].into(), [203, 0, 113, 9].into());
+        let forwarded = headers(&[("x-forwarded-for", "1.1.1.1, 203.0.113.9")]);
+        let address = |reach: AllowedOrigins, socket, headers: &HeaderMap| {
+            Authenticator::new(true, true, reach).address(socket, headers).ok()
+        };
+        assert_eq!(address(AllowedOrigins::default(), local, &forwarded), Some(local), "without a proxy the header says nothing");
+        let here = AllowedOrigins::behind(&[], &[]);
+        assert_eq!(address(here.clone(), local, &forwarded), Some(client));
+        assert_eq!(address(here.clone(), IpAddr::from(Ipv4Addr::LOCALHOST.to_ipv6_mapped()), &forwarded), Some(client));
+        assert_eq!(address(here.clone(), local, &headers(&[])), Some(local));
+        assert_eq!(address(here.clone(), local, &headers(&[("x-forwarded-for", "1.1.1.1, nonsense")])), Some(local));
+        assert_eq!(address(here, proxy, &forwarded), None, "somebody who goes around the proxy");
+        let chain = AllowedOrigins::behind(&["10.0.0.0/24".parse().unwrap()], &[]);
+        let through_two = headers(&[("x-forwarded-for", "1.1.1.1, 203.0.113.9"), ("x-forwarded-for", "10.0.0.3")]);
+        assert_eq!(address(chain.clone(), proxy, &through_two), Some(client));
+        assert_eq!(address(chain, local, &through_two), None);
+    }
+}

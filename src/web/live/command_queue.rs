@@ -1,0 +1,355 @@
+//! What an instructor asks of the vehicle, until it has answered: datagrams may be lost, so each step is asked again, and told when it never
+//! is answered.
+
+use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
+use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MavCmd, MavMessage, MavParamError, MavParamType, MavResult, PARAM_SET_DATA};
+use spandrel_mavlink::{note, station};
+use spandrel_monitor::sidecar::COMPONENT as MONITOR;
+use std::collections::VecDeque;
+use std::time::Duration;
+
+/// A step that is not answered is asked again after this.
+const AGAIN: Duration = Duration::from_millis(500);
+/// And given up after so many times.
+const TRIES: u32 = 20;
+/// Who asks: a system of our own, a companion computer, which no vehicle takes for the ground station whose loss it fears.
+pub const SYSTEM: u8 = 252;
+pub const COMPONENT: u8 = 192;
+/// FAILURE_TYPE: whole, and gone.
+const WHOLE: f32 = 0.0;
+const OFF: f32 = 1.0;
+
+/// What is asked.
+#[derive(Debug, Clone, PartialEq)]
+pub enum InstructorCommand {
+    /// A note for the sidecar's events.
+    Note(String),
+    /// Another mean wind.
+    Wind {
+        /// Speed, m/s.
+        speed_m_s: f64,
+        /// From, degrees clockwise from north.
+        from_deg: f64,
+    },
+    /// The bridges open to traffic, or closed.
+    Traffic {
+        /// Open.
+        open: bool,
+    },
+    /// A failure, or its end.
+    Failure {
+        /// FAILURE_UNIT.
+        unit: f32,
+        /// The unit for people.
+        words: &'static str,
+        /// Fails, or is whole again.
+        fails: bool,
+    },
+}
+
+/// One message that wants an answer.
+#[derive(Debug, Clone, PartialEq)]
+enum CommandStep {
+    Parameter(&'static str, ParamNumber),
+    Inject { unit: f32, kind: f32 },
+    Note(String),
+}
+
+/// A parameter's value with its type.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum ParamNumber {
+    Real(f32),
+    Whole(i32),
+}
+
+impl ParamNumber {
+    /// As it travels; `cast` says how the vehicle takes whole numbers.
+    fn to_wire(self, cast: bool) -> f32 {
+        match self {
+            Self::Real(value) => value,
+            Self::Whole(value) if cast => value as f32,
+            Self::Whole(value) => f32::from_bits(value.cast_unsigned()),
+        }
+    }
+
+    fn matches(self, wire: f32) -> bool {
+        [true, false].into_iter().any(|cast| self.to_wire(cast).to_bits() == wire.to_bits())
+    }
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct QueuedCommand {
+    steps: VecDeque<CommandStep>,
+    description: String,
+    last_sent: Option<Duration>,
+    tries: u32,
+}
+
+/// Orders that are not done yet, one after the other.
+#[derive(Debug, Default)]
+pub struct CommandQueue(VecDeque<QueuedCommand>);
+
+impl CommandQueue {
+    /// Takes an order.
+    pub fn push(&mut self, order: InstructorCommand) {
+        let (steps, words) = match order {
+            InstructorCommand::Note(text) => (vec![CommandStep::Note(text.clone())], format!("note: {text}")),
+            InstructorCommand::Wind { speed_m_s, from_deg } => {
+                let words = format!("instructor: wind {speed_m_s} m/s from {from_deg}°");
+                let value = |value: f64| ParamNumber::Real(value as f32);
+                (
+                    vec![
+                        CommandStep::Parameter("SIM_WIND_DIR", value(from_deg)),
+                        CommandStep::Parameter("SIM_WIND_SPD", value(speed_m_s)),
+                    ],
+                    words,
+                )
+            }
+            InstructorCommand::Traffic { open } => {
+                let words = format!("instructor: the bridges are {} to traffic", if open { "open" } else { "closed" });
+                (vec![CommandStep::Parameter("SIM_TRAFFIC", ParamNumber::Whole(i32::from(open)))], words)
+            }
+            InstructorCommand::Failure { unit, words, fails } => {
+                let said = format!("instructor: {} {}", words.to_lowercase(), if fails { "fails" } else { "is whole again" });
+                let inject = CommandStep::Inject { unit, kind: if fails { OFF } else { WHOLE } };
+                (vec![CommandStep::Parameter("SYS_FAILURE_EN", ParamNumber::Whole(1)), inject], said)
+            }
+        };
+        self.0.push_back(QueuedCommand { steps: steps.into(), description: words, last_sent: None, tries: 0 });
+    }
+
+    /// Frames that are due, and words about orders that ended. `cast` says how the vehicle takes whole numbers.
+    pub fn poll_frames(&mut self, now: Duration, encoder: &mut Encoder, system: u8, cast: bool) -> (Vec<Vec<u8>>, Vec<String>) {
+        let (mut frames, mut words) = (Vec::new(), Vec::new());
+        while let Some(task) = self.0.front_mut() {
+            let Some(step) = task.steps.front() else {
+                words.push(std::mem::take(&mut task.description));
+                self.0.pop_front();
+                continue;
+            };
+            if task.last_sent.is_some_and(|asked| now < asked + AGAIN) {
+                break;
+            }
+            if task.tries >= TRIES {
+                words.push(format!("{}: not answered", task.description));
+                self.0.pop_front();
+                continue;
+            }
+            frames.push(frame(step, encoder, system, cast));
+            (task.last_sent, task.tries) = (Some(now), task.tries + 1);
+            // Nobody answers a note; the telemetry link of a sidecar on this machine loses next to nothing.
+            if matches!(step, CommandStep::Note(_)) {
+                task.steps.pop_front();
+            }
+        }
+        (frames, words)
+    }
+
+    /// Hears whether the step under way is answered; words when it is refused, with which the order ends.
+    pub fn handle_frame(&mut self, frame: &ReceivedFrame) -> Option<String> {
+        let task = self.0.front_mut()?;
+        match answer(task.steps.front()?, frame.message.as_ref()?)? {
+            Ok(()) => {
+                task.steps.pop_front();
+                (task.last_sent, task.tries) = (None, 0);
+                None
+            }
+            Err(why) => {
+                let words = format!("{}: refused, {why}", task.description);
+                self.0.pop_front();
+                Some(words)
+            }
+        }
+    }
+}
+
+/// Whether a message answers a step: done, or refused and why. What answers somebody else answers nothing here.
+fn answer(step: &CommandStep, message: &MavMessage) -> Option<Result<(), &'static str>> {
+    let ours = |system: u8, component: u8| (system, component) == (SYSTEM, COMPONENT);
+    match (step, message) {
+        // The old value is no answer: it may have been asked for by somebody else.
+        (CommandStep::Parameter(name, number), MavMessage::PARAM_VALUE(value)) => {
+            let done = value.param_id.to_str().is_ok_and(|id| id == *name) && number.matches(value.param_value);
+            done.then_some(Ok(()))
+        }
+        (CommandStep::Parameter(name, _), MavMessage::PARAM_ERROR(error)) => {
+            let it = error.param_id.to_str().is_ok_and(|id| id == *name) && ours(error.target_system, error.target_component);
+            it.then(|| Err(error_words(error.error)))
+        }
+        (CommandStep::Inject { .. }, MavMessage::COMMAND_ACK(ack))
+            if ack.command == MavCmd::MAV_CMD_INJECT_FAILURE && ours(ack.target_system, ack.target_component) =>
+        {
+            result(ack.result)
+        }
+        _ => None,
+    }
+}
+
+/// What a command came to; `None` while it goes on.
+fn result(result: MavResult) -> Option<Result<(), &'static str>> {
+    match result {
+        MavResult::MAV_RESULT_ACCEPTED => Some(Ok(())),
+        MavResult::MAV_RESULT_IN_PROGRESS => None,
+        MavResult::MAV_RESULT_TEMPORARILY_REJECTED => Some(Err("not now")),
+        MavResult::MAV_RESULT_UNSUPPORTED => Some(Err("this vehicle does not know it")),
+        MavResult::MAV_RESULT_DENIED => Some(Err("the vehicle denies it")),
+        _ => Some(Err("it failed")),
+    }
+}
+
+fn error_words(error: MavParamError) -> &'static str {
+    match error {
+        MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST => "this vehicle has no such parameter",
+        MavParamError::MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE => "the value is out of range",
+        MavParamError::MAV_PARAM_ERROR_READ_ONLY | MavParamError::MAV_PARAM_ERROR_PERMISSION_DENIED => {
+            "the parameter may not be set"
+        }
+        _ => "the vehicle does not take the value",
+    }
+}
+
+fn frame(step: &CommandStep, encoder: &mut Encoder, system: u8, cast: bool) -> Vec<u8> {
+    match step {
+        CommandStep::Parameter(name, number) => {
+            let param_type = match number {
+                ParamNumber::Real(_) => MavParamType::MAV_PARAM_TYPE_REAL32,
+                ParamNumber::Whole(_) => MavParamType::MAV_PARAM_TYPE_INT32,
+            };
+            let param_value = number.to_wire(cast);
+            let set =
+                PARAM_SET_DATA { param_value, target_system: system, target_component: 1, param_id: (*name).into(), param_type };
+            encoder.encode(&MavMessage::PARAM_SET(set))
+        }
+        CommandStep::Inject { unit, kind } => {
+            let params = [*unit, *kind, 0.0, 0.0, 0.0, 0.0, 0.0];
+            let command: COMMAND_LONG_DATA = station::command(system, 1, MavCmd::MAV_CMD_INJECT_FAILURE, params);
+            encoder.encode(&MavMessage::COMMAND_LONG(command))
+        }
+        CommandStep::Note(text) => note::encode(encoder, system, MONITOR, text),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_mavlink::codec::Decoder;
+    use spandrel_mavlink::dialect::{COMMAND_ACK_DATA, PARAM_ERROR_DATA, PARAM_VALUE_DATA};
+
+    fn told(message: &MavMessage) -> ReceivedFrame {
+        Decoder::new().datagram(&Encoder::new(1, 1).encode(message)).remove(0)
+    }
+
+    fn sent(orders: &mut CommandQueue, now_ms: u64) -> (Vec<ReceivedFrame>, Vec<String>) {
+        let (frames, words) = orders.poll_frames(Duration::from_millis(now_ms), &mut Encoder::new(252, 192), 1, false);
+        (frames.iter().map(|frame| Decoder::new().datagram(frame).remove(0)).collect(), words)
+    }
+
+    fn acked(result: MavResult, (target_system, target_component): (u8, u8)) -> MavMessage {
+        let command = MavCmd::MAV_CMD_INJECT_FAILURE;
+        MavMessage::COMMAND_ACK(COMMAND_ACK_DATA {
+            command,
+            result,
+            target_system,
+            target_component,
+            ..COMMAND_ACK_DATA::default()
+        })
+    }
+
+    fn value(name: &str, param_value: f32) -> ReceivedFrame {
+        told(&MavMessage::PARAM_VALUE(PARAM_VALUE_DATA { param_id: name.into(), param_value, ..PARAM_VALUE_DATA::default() }))
+    }
+
+    #[test]
+    fn wire_a_wind_is_asked_step_by_step_and_again_until_answered() {
+        let mut orders = CommandQueue::default();
+        orders.push(InstructorCommand::Wind { speed_m_s: 8.0, from_deg: 270.0 });
+        let name = |frames: &[ReceivedFrame]| match frames[0].message.as_ref() {
+            Some(MavMessage::PARAM_SET(set)) => (set.param_id.to_str().unwrap().to_owned(), set.param_value),
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(name(&sent(&mut orders, 0).0), ("SIM_WIND_DIR".into(), 270.0));
+        assert!(sent(&mut orders, 100).0.is_empty());
+        assert_eq!(name(&sent(&mut orders, 500).0).0, "SIM_WIND_DIR");
+        orders.handle_frame(&value("SIM_WIND_SPD", 270.0));
+        orders.handle_frame(&value("SIM_WIND_DIR", 0.0));
+        assert_eq!(name(&sent(&mut orders, 1_000).0).0, "SIM_WIND_DIR", "another answer counts for nothing");
+        orders.handle_frame(&value("SIM_WIND_DIR", 270.0));
+        assert_eq!(name(&sent(&mut orders, 1_010).0), ("SIM_WIND_SPD".into(), 8.0));
+        orders.handle_frame(&value("SIM_WIND_SPD", 8.0));
+        assert_eq!(sent(&mut orders, 1_020), (vec![], vec!["instructor: wind 8 m/s from 270°".into()]));
+    }
+
+    #[test]
+    fn wire_refusals_and_timeouts_are_reported_and_the_next_command_runs() {
+        let mut orders = CommandQueue::default();
+        orders.push(InstructorCommand::Failure { unit: 5.0, words: "Satellite navigation", fails: true });
+        orders.push(InstructorCommand::Note("look".into()));
+        sent(&mut orders, 0);
+        orders.handle_frame(&value("SYS_FAILURE_EN", f32::from_bits(1)));
+        sent(&mut orders, 1);
+        assert_eq!(
+            orders.handle_frame(&told(&acked(MavResult::MAV_RESULT_DENIED, (SYSTEM, COMPONENT)))),
+            Some("instructor: satellite navigation fails: refused, the vehicle denies it".into())
+        );
+        let (frames, words) = sent(&mut orders, 2);
+        assert_eq!((note::decode(&frames[0]).unwrap().1, words), ("look".into(), vec!["note: look".into()]));
+        orders.push(InstructorCommand::Wind { speed_m_s: 1.0, from_deg: 0.0 });
+        let told: Vec<String> = (0..30).flat_map(|k| sent(&mut orders, 1_000 + 500 * k).1).collect();
+        assert_eq!(told, ["instructor: wind 1 m/s from 0°: not answered"]);
+    }
+
+    #[test]
+    fn wire_a_refused_parameter_is_reported_at_once_and_answers_to_others_count_for_nothing() {
+        let mut orders = CommandQueue::default();
+        orders.push(InstructorCommand::Wind { speed_m_s: 8.0, from_deg: 270.0 });
+        sent(&mut orders, 0);
+        let error = |name: &str, (target_system, target_component): (u8, u8)| {
+            told(&MavMessage::PARAM_ERROR(PARAM_ERROR_DATA {
+                target_system,
+                target_component,
+                param_id: name.into(),
+                error: MavParamError::MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE,
+                ..PARAM_ERROR_DATA::default()
+            }))
+        };
+        for other in
+            [error("SIM_WIND_DIR", (255, 190)), error("SIM_WIND_DIR", (SYSTEM, 1)), error("SIM_WIND_SPD", (SYSTEM, COMPONENT))]
+        {
+            assert_eq!(orders.handle_frame(&other), None);
+        }
+        let refused = orders.handle_frame(&error("SIM_WIND_DIR", (SYSTEM, COMPONENT)));
+        assert_eq!(refused.as_deref(), Some("instructor: wind 8 m/s from 270°: refused, the value is out of range"));
+        assert_eq!(sent(&mut orders, 10_000), (vec![], vec![]), "the order has ended");
+
+        orders.push(InstructorCommand::Failure { unit: 5.0, words: "Compass", fails: true });
+        sent(&mut orders, 10_000);
+        orders.handle_frame(&value("SYS_FAILURE_EN", f32::from_bits(1)));
+        sent(&mut orders, 10_001);
+        assert_eq!(orders.handle_frame(&told(&acked(MavResult::MAV_RESULT_DENIED, (255, 190)))), None, "somebody else's");
+        assert_eq!(orders.handle_frame(&told(&acked(MavResult::MAV_RESULT_IN_PROGRESS, (SYSTEM, COMPONENT)))), None);
+        assert_eq!(sent(&mut orders, 10_600).0.len(), 1, "it still waits for its own");
+        assert_eq!(orders.handle_frame(&told(&acked(MavResult::MAV_RESULT_ACCEPTED, (SYSTEM, COMPONENT)))), None);
+        assert_eq!(sent(&mut orders, 10_601).1, ["instructor: compass fails"]);
+    }
+
+    #[test]
+    fn wire_the_bridges_are_closed_by_a_whole_number() {
+        let mut orders = CommandQueue::default();
+        orders.push(InstructorCommand::Traffic { open: false });
+        let (frames, _) = sent(&mut orders, 0);
+        let Some(MavMessage::PARAM_SET(set)) = &frames[0].message else { panic!("{frames:?}") };
+        assert_eq!((set.param_id.to_str().unwrap(), set.param_value.to_bits()), ("SIM_TRAFFIC", 0));
+        orders.handle_frame(&value("SIM_TRAFFIC", f32::from_bits(0)));
+        assert_eq!(sent(&mut orders, 1).1, ["instructor: the bridges are closed to traffic"]);
+    }
+
+    #[test]
+    fn exact_whole_numbers_travel_as_the_vehicle_takes_them() {
+        for (cast, bits) in [(false, 1), (true, 1f32.to_bits())] {
+            let step = CommandStep::Parameter("SYS_FAILURE_EN", ParamNumber::Whole(1));
+            let frame = Decoder::new().datagram(&frame(&step, &mut Encoder::new(252, 192), 1, cast)).remove(0);
+            let Some(MavMessage::PARAM_SET(set)) = frame.message else { panic!() };
+            assert_eq!(set.param_value.to_bits(), bits);
+        }
+    }
+}

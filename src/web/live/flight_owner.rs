@@ -1,0 +1,58 @@
+//! Whose flight it is that a vehicle flies: the session that the sidecar is writing just now for this job and seed.
+
+use crate::records::session_folders;
+use crate::session_folder::ongoing_session;
+use spandrel_training::web::live_state::JobKey;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// A session whose telemetry has not grown for so long is not the one that is flown.
+const FRESH: Duration = Duration::from_secs(10);
+
+/// The trainee of the one session under way; `None` when there is none, or several could be it: nobody sees another's camera.
+pub fn trainee(sessions: &[PathBuf], key: JobKey) -> Option<String> {
+    let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
+    let folders = session_folders(&here).ok()?;
+    let mut found = folders
+        .iter()
+        .filter_map(|folder| ongoing_session(folder, FRESH))
+        .filter(|one| (one.crc, one.seed) == (key.crc, key.seed));
+    let one = found.next()?;
+    found.next().is_none().then_some(one.trainee)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_monitor::folder::{ASSESSMENT, SESSION, TELEMETRY};
+    use std::fs;
+
+    const KEY: JobKey = JobKey { crc: 0x00ab_cdef, seed: 7 };
+
+    fn session(sessions: &tempfile::TempDir, name: &str, trainee: &str, seed: u64) -> PathBuf {
+        let folder = sessions.path().join(name);
+        fs::create_dir(&folder).unwrap();
+        fs::write(folder.join(TELEMETRY), b"x").unwrap();
+        let about = serde_json::json!({ "trainee": trainee, "scenario_crc": format!("{:08x}", KEY.crc), "seed": seed });
+        fs::write(folder.join(SESSION), about.to_string()).unwrap();
+        folder
+    }
+
+    #[test]
+    fn exact_the_flight_belongs_to_the_one_session_that_is_being_written() {
+        let sessions = tempfile::tempdir().unwrap();
+        let places = [sessions.path().to_path_buf(), PathBuf::from("/none")];
+        assert_eq!(trainee(&places, KEY), None);
+        let anna = session(&sessions, "1-anna", "anna", KEY.seed);
+        session(&sessions, "2-ben", "ben", KEY.seed + 1);
+        assert_eq!(trainee(&places, KEY).as_deref(), Some("anna"));
+        let cleo = session(&sessions, "3-cleo", "cleo", KEY.seed);
+        assert_eq!(trainee(&places, KEY), None, "two could be it");
+        fs::write(cleo.join(ASSESSMENT), b"{}").unwrap();
+        assert_eq!(trainee(&places, KEY).as_deref(), Some("anna"), "the other has ended");
+        let file = fs::File::options().write(true).open(anna.join(TELEMETRY)).unwrap();
+        let modified = file.metadata().unwrap().modified().unwrap();
+        file.set_modified(modified - 2 * FRESH).unwrap();
+        assert_eq!(trainee(&places, KEY), None, "nobody writes it any more");
+    }
+}

@@ -1,0 +1,49 @@
+//! What an instructor asks for, from the form to an order.
+
+use super::command_queue::InstructorCommand;
+use crate::web::request::WebRequest;
+use crate::web::response::{HandlerResult, WebError, WebResponse};
+use crate::web::state::ServerState;
+use serde_json::json;
+use spandrel_training::web::live::{self as pages, UNITS};
+
+/// An instructor's action. It is under way when this answers; what became of it is said in the stream.
+pub fn run_action(state: &ServerState, asked: &WebRequest) -> HandlerResult {
+    let (number, live) = super::chosen(state, asked.form_field("vehicle"))?;
+    let order = parse_command(asked)?;
+    live.orders.send(order).map_err(|_| WebError::Failed("the live link has ended: start the server again".into()))?;
+    let back = format!("/live?vehicle={number}");
+    Ok(if asked.by_script { WebResponse::json(&json!({ "under_way": true })) } else { WebResponse::redirect(&back) })
+}
+
+fn parse_command(asked: &WebRequest) -> Result<InstructorCommand, WebError> {
+    match asked.required_field("act")? {
+        "note" => {
+            let text = asked.required_field("text")?;
+            let count = text.chars().count();
+            if count > pages::NOTE_MOST || text.chars().any(char::is_control) {
+                return Err(WebError::BadRequest(format!(
+                    "text: {count} characters (allowed: 1 to {}, on one line)",
+                    pages::NOTE_MOST
+                )));
+            }
+            Ok(InstructorCommand::Note(text.to_owned()))
+        }
+        "wind" => {
+            let number = |name: &str, most: f64| {
+                let value: Option<f64> = asked.required_field(name)?.parse().ok();
+                let allowed = || WebError::BadRequest(format!("{name}: no such number (allowed: 0 to {most})"));
+                value.filter(|value| (0.0..=most).contains(value)).ok_or_else(allowed)
+            };
+            Ok(InstructorCommand::Wind { speed_m_s: number("speed", pages::WIND_MOST_M_S)?, from_deg: number("from", 360.0)? })
+        }
+        "traffic" => Ok(InstructorCommand::Traffic { open: asked.required_field("open")? == "yes" }),
+        "failure" => {
+            let key = asked.required_field("unit")?;
+            let unit = UNITS.iter().find(|(name, ..)| *name == key);
+            let (_, words, unit) = unit.ok_or_else(|| WebError::BadRequest("unit: unknown".into()))?;
+            Ok(InstructorCommand::Failure { unit: *unit, words, fails: asked.required_field("fails")? == "yes" })
+        }
+        _ => Err(WebError::BadRequest("act: unknown (allowed: note, wind, traffic, failure)".into())),
+    }
+}

@@ -1,0 +1,213 @@
+//! The thread that hears one vehicle: it is one more subscriber of the payload port.
+
+use super::command_queue::{COMPONENT, CommandQueue, InstructorCommand, SYSTEM};
+use super::{flight_owner, picture};
+use crate::clock::Stopwatch;
+use crate::errors::AppError;
+use crate::net::{NetEvent, SocketHub, SocketId};
+use crate::web::scenarios;
+use crate::web::state::lock;
+use serde_json::Value;
+use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::dialect::{MavAutopilot, MavMessage};
+use spandrel_mavlink::station;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::Site;
+use spandrel_training::report::plots::job::{job_plan, job_side, job_south};
+use spandrel_training::web::live::DrawnJob;
+use spandrel_training::web::live_state::{JobKey, LiveFlightState};
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
+use std::path::PathBuf;
+use std::sync::mpsc::Receiver;
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+use tokio::sync::watch;
+
+/// Moments a second.
+const EVERY: Duration = Duration::from_millis(200);
+/// Longest wait for a datagram.
+const WAIT: Duration = Duration::from_millis(50);
+/// The vehicle forgets who is silent.
+const HEARTBEAT_EVERY: Duration = Duration::from_secs(1);
+/// A vehicle that says nothing for so long is silent.
+const SILENT: Duration = Duration::from_secs(3);
+/// Datagrams taken before anything else is done.
+const BATCH: usize = 256;
+
+/// What is looked for on the disk.
+#[derive(Debug, Clone)]
+pub struct ListenerPaths {
+    /// Folders with sessions: a job that is under way stands in one.
+    pub sessions: Vec<PathBuf>,
+    /// Uploaded scenarios.
+    pub scenarios: PathBuf,
+    /// Where a window keeps the camera's view.
+    pub picture: Option<PathBuf>,
+}
+
+/// The listening thread.
+pub struct LiveListener {
+    hub: SocketHub,
+    socket: SocketId,
+    vehicle: SocketAddr,
+    flight: LiveFlightState,
+    encoder: Encoder,
+    orders: CommandQueue,
+    /// A job that was looked for and not found, and when.
+    unknown: Option<(JobKey, Duration)>,
+    /// When it was last looked whose flight it is.
+    trainee_checked: Option<Duration>,
+    known: SharedKnowledge,
+    places: ListenerPaths,
+}
+
+/// What pages know of the flight.
+#[derive(Debug, Clone, Default)]
+pub struct SharedKnowledge {
+    /// Its job, drawn.
+    pub drawn: Arc<Mutex<Option<DrawnJob>>>,
+    /// Who flies it.
+    pub trainee: Arc<Mutex<Option<String>>>,
+}
+
+impl LiveListener {
+    /// Opens a socket towards a vehicle.
+    ///
+    /// # Errors
+    /// When none can be opened.
+    pub fn open(vehicle: SocketAddr, known: SharedKnowledge, places: ListenerPaths) -> Result<Self, AppError> {
+        let ip: IpAddr = match vehicle.ip() {
+            ip if ip.is_loopback() => ip,
+            IpAddr::V4(_) => Ipv4Addr::UNSPECIFIED.into(),
+            IpAddr::V6(_) => Ipv6Addr::UNSPECIFIED.into(),
+        };
+        let mut hub = SocketHub::new();
+        let socket = hub.bind(ip, 0, "--vehicle")?;
+        let (watch, encoder, orders) = (LiveFlightState::new(), Encoder::new(SYSTEM, COMPONENT), CommandQueue::default());
+        Ok(Self { hub, socket, vehicle, flight: watch, encoder, orders, unknown: None, trainee_checked: None, known, places })
+    }
+
+    /// Listens until nobody hears any more.
+    pub fn listen(&mut self, moments: &watch::Sender<String>, orders: &Receiver<InstructorCommand>) {
+        let clock = Stopwatch::start();
+        let (mut heard, mut beat, mut told) = (None, None, None);
+        let due = |last: Option<Duration>, every: Duration| last.is_none_or(|last| clock.elapsed() >= last + every);
+        // The server and its pages are gone when nobody can hear any more.
+        while !moments.is_closed() {
+            if self.receive() {
+                heard = Some(clock.elapsed());
+            }
+            if due(beat, HEARTBEAT_EVERY) {
+                beat = Some(clock.elapsed());
+                self.send(&station::companion_heartbeat());
+            }
+            for order in orders.try_iter() {
+                self.orders.push(order);
+            }
+            self.send_due_commands(clock.elapsed());
+            self.find_job(clock.elapsed());
+            let lives = heard.is_some_and(|heard: Duration| clock.elapsed() < heard + SILENT);
+            self.find_trainee(lives, clock.elapsed());
+            if due(told, EVERY) {
+                told = Some(clock.elapsed());
+                moments.send_replace(self.moment(lives).to_string());
+            }
+        }
+    }
+
+    fn moment(&self, heard: bool) -> Value {
+        let mut moment = self.flight.to_json(heard);
+        moment["picture"] = self.places.picture.as_deref().and_then(picture::version).into();
+        moment
+    }
+
+    /// Takes in what has come. True when the vehicle spoke.
+    fn receive(&mut self) -> bool {
+        let (mut wait, mut spoke) = (WAIT, false);
+        for _ in 0..BATCH {
+            let Some(arrival) = self.hub.next(wait) else { break };
+            wait = Duration::ZERO;
+            let NetEvent::Datagram { from, bytes, .. } = arrival else { continue };
+            // Nobody else may tell what the vehicle does.
+            if from != self.vehicle {
+                continue;
+            }
+            for frame in Decoder::new().datagram(&bytes) {
+                self.flight.handle_frame(&frame);
+                if let Some(words) = self.orders.handle_frame(&frame) {
+                    self.flight.push_message("warn", words);
+                }
+                spoke = true;
+            }
+        }
+        spoke
+    }
+
+    fn send_due_commands(&mut self, now: Duration) {
+        let Some(system) = self.flight.system else { return };
+        let cast = self.flight.autopilot == Some(MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA);
+        let (frames, words) = self.orders.poll_frames(now, &mut self.encoder, system, cast);
+        for frame in frames {
+            self.hub.send(self.socket, self.vehicle, &frame);
+        }
+        for one in words {
+            self.flight.push_message("info", one);
+        }
+    }
+
+    fn send(&mut self, message: &MavMessage) {
+        let bytes = self.encoder.encode(message);
+        self.hub.send(self.socket, self.vehicle, &bytes);
+    }
+
+    /// Finds the scenario that the vehicle names by its checksum: shipped, uploaded, or of a session that is under way.
+    fn find_job(&mut self, now: Duration) {
+        let Some(key) = self.flight.missing_job().filter(|key| self.flight.job() != Some(*key)) else { return };
+        if self.unknown.is_some_and(|(other, at)| other == key && now < at + SILENT) {
+            return;
+        }
+        let Some(scenario) = self.scenario_of(key.crc) else {
+            self.unknown = Some((key, now));
+            return;
+        };
+        let drawn = draw_job(&scenario, key);
+        *lock(&self.known.drawn) = Some(drawn);
+        self.flight.set_job(key, &scenario);
+    }
+
+    /// Finds out whose flight it is, now and then: the next one may be another's.
+    fn find_trainee(&mut self, lives: bool, now: Duration) {
+        if self.trainee_checked.is_some_and(|at| now < at + SILENT) {
+            return;
+        }
+        self.trainee_checked = Some(now);
+        let flown = self.flight.missing_job().filter(|_| lives);
+        *lock(&self.known.trainee) = flown.and_then(|key| flight_owner::trainee(&self.places.sessions, key));
+    }
+
+    fn scenario_of(&self, crc: u32) -> Option<Scenario> {
+        let ListenerPaths { sessions, scenarios: uploads, .. } = &self.places;
+        let known = scenarios::all(uploads).into_iter().map(|job| job.scenario).find(|scenario| scenario.crc == crc);
+        known.or_else(|| {
+            let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
+            let folders = crate::records::session_folders(&here).ok()?;
+            // The newest are last.
+            folders.iter().rev().take(20).find_map(|folder| {
+                let scenario = crate::session_folder::StoredSession::scenario_of(folder).ok()?.scenario;
+                (scenario.crc == crc).then_some(scenario)
+            })
+        })
+    }
+}
+
+fn draw_job(scenario: &Scenario, key: JobKey) -> DrawnJob {
+    let site = Site::build(scenario, key.seed);
+    let mut drawings = vec![("From above, north up".to_owned(), job_plan(scenario, &site).into_string())];
+    for bridge in &scenario.bridges {
+        drawings.push((format!("{} from the side", bridge.name), job_side(scenario, &site, bridge).into_string()));
+    }
+    if scenario.bridges.is_empty() {
+        drawings.push(("From the south".to_owned(), job_south(scenario, &site).into_string()));
+    }
+    DrawnJob { key: format!("{:08x}-{}", key.crc, key.seed), title: scenario.title.clone(), drawings }
+}

@@ -1,0 +1,203 @@
+//! The door. Every request goes the same way: who is it, may he, is the form his, then the row's handler, on a thread that
+//! may wait for disk and database.
+
+use super::auth::Identified;
+use super::body;
+use super::live;
+use super::request::WebRequest;
+use super::response::{HandlerResult, WebError, WebResponse, set_security_headers};
+use super::routes::{Route, RouteKind, STREAM};
+use super::state::ServerState;
+use axum::RequestExt;
+use axum::body::Body;
+use axum::extract::{ConnectInfo, Path, Request};
+use axum::http::{HeaderMap, Method, Response, header};
+use spandrel_training::web::access::AccessLevel;
+use spandrel_training::web::frame;
+use std::collections::BTreeMap;
+use std::net::SocketAddr;
+use std::sync::Arc;
+use tokio::sync::Semaphore;
+
+/// A client that found no room may try again after this, s.
+const BUSY_S: u64 = 5;
+
+/// What the requests' tasks share.
+#[derive(Debug, Clone)]
+pub struct PipelineState {
+    /// What all requests share.
+    pub state: Arc<ServerState>,
+    /// Room for uploads that arrive.
+    pub uploads: Arc<Semaphore>,
+    /// Held while a recording is scored or a cohort's figures are computed; who waits for it holds no thread.
+    pub working: Arc<Semaphore>,
+}
+
+/// A request for a row of the table.
+pub async fn through(shared: PipelineState, route: &'static Route, request: Request) -> Response<Body> {
+    let secure = shared.state.auth.is_secure();
+    let mut response = asked(shared, route, request).await;
+    set_security_headers(response.headers_mut(), secure);
+    response
+}
+
+/// What a request says before its body is read.
+struct RequestHead {
+    request: WebRequest,
+    identity: Option<Identified>,
+}
+
+async fn asked(shared: PipelineState, route: &'static Route, mut request: Request) -> Response<Body> {
+    let head = match head(&shared, route, &mut request).await {
+        Ok(head) => head,
+        Err(refusal) => return error_response(&shared, None, &refusal),
+    };
+    let RequestHead { request: mut asked, identity: recognised } = head;
+    let cookie = recognised.filter(|recognised| recognised.fresh).map(|recognised| shared.state.auth.cookie(&recognised.cookie));
+    let visitor = asked.visitor.clone();
+    let answered = async {
+        authorize(&asked, route)?;
+        let _room = match route.how {
+            RouteKind::Upload(_) => Some(shared.uploads.try_acquire().map_err(|_| WebError::Busy(BUSY_S))?),
+            RouteKind::File | RouteKind::Show | RouteKind::Compute | RouteKind::Change => None,
+        };
+        body::read(&mut asked, route.how, request, &shared.state.spool()).await?;
+        let turn = match route.how {
+            RouteKind::Upload(_) | RouteKind::Compute => {
+                Some(shared.working.clone().acquire_owned().await.map_err(|_| WebError::Failed("the server ends".into()))?)
+            }
+            RouteKind::File | RouteKind::Show | RouteKind::Change => None,
+        };
+        let state = shared.state.clone();
+        blocking(move || {
+            // The handler goes on when its client leaves, and keeps its turn.
+            let _turn = turn;
+            (route.handler)(&state, &asked)
+        })
+        .await
+    }
+    .await;
+    let mut response = match answered {
+        Ok(answer) => answer.into_response(),
+        Err(refusal) => error_response(&shared, Some(&visitor), &refusal),
+    };
+    if let Some(cookie) = cookie.and_then(|cookie| cookie.parse().ok())
+        && !response.headers().contains_key(header::SET_COOKIE)
+    {
+        response.headers_mut().insert(header::SET_COOKIE, cookie);
+    }
+    response
+}
+
+async fn head(shared: &PipelineState, route: &'static Route, request: &mut Request) -> Result<RequestHead, WebError> {
+    let path = request.extract_parts::<Path<BTreeMap<String, String>>>().await;
+    let path = path.map_err(|_| WebError::NotFound)?.0;
+    let headers = request.headers().clone();
+    let socket = request.extensions().get::<ConnectInfo<SocketAddr>>().map(|info| info.0.ip());
+    let query = request.uri().query().unwrap_or_default();
+    let query = form_urlencoded::parse(query.as_bytes()).into_owned().collect();
+    let state = shared.state.clone();
+    let changes = !route.how.is_read_only();
+    let file = route.how == RouteKind::File;
+    blocking(move || {
+        let open = state.auth.is_open(&state.database)?;
+        state.auth.check_origin(&headers, changes, open)?;
+        let from = state.auth.address(socket.ok_or_else(|| WebError::Failed("a request from nowhere".into()))?, &headers)?;
+        let recognised = if file { None } else { Some(state.auth.identify(&state.database, state.auth.cookie_of(&headers))?) };
+        let visitor = recognised.as_ref().map_or_else(anonymous_visitor, |recognised| recognised.visitor.clone());
+        let cookie = recognised.as_ref().map(|recognised| recognised.cookie.clone());
+        let device = state.auth.device_of(&headers);
+        let by_script = accepts_json(&headers);
+        let languages = headers.get(header::ACCEPT_LANGUAGE).and_then(|value| value.to_str().ok()).unwrap_or_default().to_owned();
+        let asked =
+            WebRequest { visitor, cookie, from, device, path, query, form: Vec::new(), upload: None, languages, by_script };
+        Ok(RequestHead { request: asked, identity: recognised })
+    })
+    .await
+}
+
+fn anonymous_visitor() -> spandrel_training::web::access::Visitor {
+    spandrel_training::web::access::Visitor {
+        name: None,
+        role: spandrel_training::trainee::Role::Trainee,
+        open: false,
+        token: String::new(),
+    }
+}
+
+fn accepts_json(headers: &HeaderMap) -> bool {
+    headers.get(header::ACCEPT).is_some_and(|value| value.as_bytes() == b"application/json")
+}
+
+/// The visitor may ask this.
+fn authorize(asked: &WebRequest, route: &Route) -> Result<(), WebError> {
+    if asked.visitor.satisfies(route.needs) {
+        return Ok(());
+    }
+    if !asked.visitor.is_known() {
+        return Err(WebError::LoginRequired);
+    }
+    let who = if route.needs == AccessLevel::Administrator { "administrators" } else { "instructors" };
+    Err(WebError::Forbidden(format!("This is for {who}.")))
+}
+
+/// Runs what may wait for disk or database.
+async fn blocking<T: Send + 'static>(work: impl FnOnce() -> Result<T, WebError> + Send + 'static) -> Result<T, WebError> {
+    let done = tokio::task::spawn_blocking(work).await;
+    done.unwrap_or_else(|_| Err(WebError::Failed("a handler broke off: this is a fault of the program".into())))
+}
+
+fn error_response(
+    shared: &PipelineState,
+    visitor: Option<&spandrel_training::web::access::Visitor>,
+    refusal: &WebError,
+) -> Response<Body> {
+    if let WebError::Failed(words) = refusal {
+        tracing::error!("{words}");
+    }
+    if *refusal == WebError::LoginRequired {
+        return WebResponse::redirect("/login").into_response();
+    }
+    let (status, title, words) = refusal.status_and_text();
+    let visitor = visitor.cloned().unwrap_or_else(anonymous_visitor);
+    let page = WebResponse::page(frame::refusal(&visitor, title, &words)).with_status(status);
+    let mut response = page.retry_after(refusal.retry_after_s()).into_response();
+    set_security_headers(response.headers_mut(), shared.state.auth.is_secure());
+    response
+}
+
+/// What is not in the table.
+pub async fn nothing(shared: PipelineState, request: Request) -> Response<Body> {
+    let status = if request.method() == Method::GET || request.method() == Method::HEAD {
+        WebError::NotFound
+    } else {
+        WebError::Forbidden("There is nothing to change here.".into())
+    };
+    error_response(&shared, None, &status)
+}
+
+/// Live values, as long as the browser listens and the visitor may.
+pub async fn live_stream(shared: PipelineState, mut request: Request) -> Response<Body> {
+    static ROUTE: Route =
+        Route { path: STREAM, how: RouteKind::Show, needs: AccessLevel::Instructor, handler: unreachable_handler };
+    let head = match head(&shared, &ROUTE, &mut request).await {
+        Ok(head) => head,
+        Err(refusal) => return error_response(&shared, None, &refusal),
+    };
+    if let Err(refusal) = authorize(&head.request, &ROUTE) {
+        let refusal =
+            if refusal == WebError::LoginRequired { WebError::Forbidden("Please log in first.".into()) } else { refusal };
+        return error_response(&shared, Some(&head.request.visitor), &refusal);
+    }
+    let cookie = head.request.cookie.clone();
+    let mut response = match live::chosen(&shared.state, head.request.query_value("vehicle")) {
+        Ok((_, live)) => live::stream(shared.state.clone(), live, cookie),
+        Err(refusal) => return error_response(&shared, Some(&head.request.visitor), &refusal),
+    };
+    set_security_headers(response.headers_mut(), shared.state.auth.is_secure());
+    response
+}
+
+fn unreachable_handler(_: &ServerState, _: &WebRequest) -> HandlerResult {
+    Err(WebError::NotFound)
+}

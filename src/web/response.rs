@@ -1,0 +1,213 @@
+//! What a request is answered with, and the headers that every answer carries.
+
+use crate::errors::AppError;
+use axum::body::Body;
+use axum::http::{HeaderName, HeaderValue, Response, StatusCode, header};
+use maud::Markup;
+
+/// Policy of our pages: our own files, nothing inline, no request elsewhere.
+const PAGES: &str = "default-src 'none'; style-src 'self'; script-src 'self'; img-src 'self' data:; connect-src 'self'; \
+    form-action 'self'; base-uri 'none'; frame-ancestors 'none'";
+
+/// An answer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct WebResponse {
+    status: StatusCode,
+    kind: &'static str,
+    policy: String,
+    location: Option<String>,
+    download: Option<String>,
+    keep: bool,
+    retry_after_s: Option<u64>,
+    /// Cookies to set, whole.
+    pub cookies: Vec<String>,
+    body: Vec<u8>,
+}
+
+/// Why there is none.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum WebError {
+    /// There is no such thing, or none that this visitor may see: the two look alike, so that nobody learns by guessing.
+    NotFound,
+    /// Log in first.
+    LoginRequired,
+    /// This visitor may not.
+    Forbidden(String),
+    /// The request is wrong.
+    BadRequest(String),
+    /// More than so many bytes.
+    TooLarge(usize),
+    /// Too often; seconds to wait.
+    RateLimited(u64),
+    /// Too much is asked for at once; seconds to wait.
+    Busy(u64),
+    /// Our fault; the log says more than the page.
+    Failed(String),
+}
+
+/// The result of a handler.
+pub type HandlerResult = Result<WebResponse, WebError>;
+
+impl WebResponse {
+    fn new(kind: &'static str, body: Vec<u8>) -> Self {
+        Self {
+            status: StatusCode::OK,
+            kind,
+            policy: PAGES.to_owned(),
+            location: None,
+            download: None,
+            keep: false,
+            retry_after_s: None,
+            cookies: Vec::new(),
+            body,
+        }
+    }
+
+    /// A page.
+    pub fn page(markup: Markup) -> Self {
+        Self::new("text/html; charset=utf-8", markup.into_string().into_bytes())
+    }
+
+    /// A page that brings its own policy and scripts (a report): it runs in a box of its own, without our cookies.
+    pub fn sandboxed_page(page: Vec<u8>, policy: &str) -> Self {
+        let policy = format!("{policy}; frame-ancestors 'none'; sandbox allow-scripts allow-downloads");
+        Self { policy, ..Self::new("text/html; charset=utf-8", page) }
+    }
+
+    /// JSON for a script of ours.
+    pub fn json(value: &serde_json::Value) -> Self {
+        Self::new("application/json", value.to_string().into_bytes())
+    }
+
+    /// A file to keep.
+    pub fn download(name: &str, kind: &'static str, bytes: Vec<u8>) -> Self {
+        Self { download: Some(name.to_owned()), ..Self::new(kind, bytes) }
+    }
+
+    /// A picture to be shown once.
+    pub fn picture(jpeg: Vec<u8>) -> Self {
+        Self::new("image/jpeg", jpeg)
+    }
+
+    /// A file that a browser may keep until its address changes.
+    pub fn asset(kind: &'static str, text: String) -> Self {
+        Self { keep: true, ..Self::new(kind, text.into_bytes()) }
+    }
+
+    /// Go there next.
+    pub fn redirect(address: &str) -> Self {
+        let there = Self::new("text/plain; charset=utf-8", Vec::new());
+        Self { status: StatusCode::SEE_OTHER, location: Some(address.to_owned()), ..there }
+    }
+
+    /// The same with another status.
+    pub fn with_status(mut self, status: StatusCode) -> Self {
+        self.status = status;
+        self
+    }
+
+    /// The same, to be asked again later.
+    pub fn retry_after(mut self, seconds: Option<u64>) -> Self {
+        self.retry_after_s = seconds;
+        self
+    }
+
+    /// For the wire.
+    pub fn into_response(self) -> Response<Body> {
+        let mut response = Response::new(Body::from(self.body));
+        *response.status_mut() = self.status;
+        let mut set = |name: HeaderName, value: &str| {
+            // Every value is ours or checked to be plain; one that is not is left out rather than sent.
+            if let Ok(value) = HeaderValue::from_str(value) {
+                response.headers_mut().insert(name, value);
+            }
+        };
+        set(header::CONTENT_TYPE, self.kind);
+        set(header::CONTENT_SECURITY_POLICY, &self.policy);
+        set(header::CACHE_CONTROL, if self.keep { "public, max-age=31536000, immutable" } else { "no-store" });
+        if let Some(location) = &self.location {
+            set(header::LOCATION, location);
+        }
+        if let Some(name) = &self.download {
+            set(header::CONTENT_DISPOSITION, &format!("attachment; filename=\"{name}\""));
+        }
+        if let Some(seconds) = self.retry_after_s {
+            set(header::RETRY_AFTER, &seconds.to_string());
+        }
+        for cookie in self.cookies.iter().filter_map(|cookie| HeaderValue::from_str(cookie).ok()) {
+            response.headers_mut().append(header::SET_COOKIE, cookie);
+        }
+        response
+    }
+}
+
+/// Headers of every answer, whatever made it.
+pub fn set_security_headers(headers: &mut axum::http::HeaderMap, secure: bool) {
+    let mut set = |name: HeaderName, value: &'static str| headers.insert(name, HeaderValue::from_static(value));
+    set(header::X_CONTENT_TYPE_OPTIONS, "nosniff");
+    set(header::X_FRAME_OPTIONS, "DENY");
+    set(header::REFERRER_POLICY, "same-origin");
+    set(HeaderName::from_static("cross-origin-opener-policy"), "same-origin");
+    set(HeaderName::from_static("cross-origin-resource-policy"), "same-origin");
+    set(HeaderName::from_static("permissions-policy"), "camera=(), microphone=(), geolocation=()");
+    if secure {
+        set(header::STRICT_TRANSPORT_SECURITY, "max-age=31536000");
+    }
+    headers.entry(header::CONTENT_SECURITY_POLICY).or_insert(HeaderValue::from_static(PAGES));
+}
+
+impl WebError {
+    /// Seconds after which the client may try again, where waiting helps.
+    pub fn retry_after_s(&self) -> Option<u64> {
+        match self {
+            Self::RateLimited(seconds) | Self::Busy(seconds) => Some(*seconds),
+            Self::NotFound
+            | Self::LoginRequired
+            | Self::Forbidden(_)
+            | Self::BadRequest(_)
+            | Self::TooLarge(_)
+            | Self::Failed(_) => None,
+        }
+    }
+
+    /// Status, title and words for people.
+    pub fn status_and_text(&self) -> (StatusCode, &'static str, String) {
+        match self {
+            Self::NotFound => (StatusCode::NOT_FOUND, "Not found", "There is nothing here, or nothing that you may see.".into()),
+            Self::LoginRequired => (StatusCode::UNAUTHORIZED, "Log in", "Please log in first.".into()),
+            Self::Forbidden(words) => (StatusCode::FORBIDDEN, "Not allowed", words.clone()),
+            Self::BadRequest(words) => (StatusCode::UNPROCESSABLE_ENTITY, "That is not right", words.clone()),
+            Self::TooLarge(most) => {
+                (StatusCode::PAYLOAD_TOO_LARGE, "Too large", format!("What was sent is too large (allowed: {most} bytes)."))
+            }
+            Self::RateLimited(seconds) => {
+                let words = format!("Too many failed logins. Please wait {seconds} s.");
+                (StatusCode::TOO_MANY_REQUESTS, "Please wait", words)
+            }
+            Self::Busy(seconds) => {
+                let words = format!("The server is busy. Try again in {seconds} s.");
+                (StatusCode::SERVICE_UNAVAILABLE, "Server busy", words)
+            }
+            Self::Failed(_) => (
+                StatusCode::INTERNAL_SERVER_ERROR,
+                "Something failed",
+                "The server's log says what. Please tell who runs it.".into(),
+            ),
+        }
+    }
+}
+
+impl From<crate::append_file::WriteRefused> for WebError {
+    fn from(refused: crate::append_file::WriteRefused) -> Self {
+        Self::Failed(refused.to_string())
+    }
+}
+
+impl From<AppError> for WebError {
+    fn from(error: AppError) -> Self {
+        match error {
+            AppError::Wrong(words) => Self::BadRequest(words),
+            AppError::Failed(words) => Self::Failed(words),
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! What a kill left of a file that was just being written: `NAME.PID-N.new`, which nobody would ever rename any more.
+
+use crate::records::session_folders;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// Nobody writes a file for so long; a program of another machine on the same disk may have any process id.
+const ABANDONED: Duration = Duration::from_secs(600);
+
+/// Removes the leftovers in the folders of sessions, directly in them and in their sessions, and in that of scenarios. What cannot be
+/// looked at or removed is left: nothing reads it.
+pub fn remove_stale(sessions: &[PathBuf], scenarios: &Path) {
+    let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
+    let inside = session_folders(&here).unwrap_or_default();
+    for folder in here.iter().chain(&inside).map(PathBuf::as_path).chain([scenarios]) {
+        let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+        for path in entries.map(|entry| entry.path()).filter(|path| is_stale(path)) {
+            match std::fs::remove_file(&path) {
+                Ok(()) => tracing::info!("{}: left by a program that was killed, removed", path.display()),
+                Err(error) => tracing::warn!("{}: cannot be removed: {error}", path.display()),
+            }
+        }
+    }
+}
+
+/// Named as `session_folder::replace` names what it writes, by a program that runs no more, long ago.
+fn is_stale(path: &Path) -> bool {
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let Some(writer) = writer_pid(name) else { return false };
+    let old = path.metadata().and_then(|about| about.modified()).is_ok_and(|at| at.elapsed().is_ok_and(|age| age > ABANDONED));
+    old && path.is_file() && !is_alive(writer)
+}
+
+/// The process in `NAME.PID-N.new`.
+fn writer_pid(name: &str) -> Option<u32> {
+    let (rest, number) = name.strip_suffix(".new")?.rsplit_once('-')?;
+    let (original, process) = rest.rsplit_once('.')?;
+    number.parse::<u64>().ok().filter(|_| !original.is_empty())?;
+    process.parse().ok()
+}
+
+/// The process runs, or nobody can tell.
+fn is_alive(process: u32) -> bool {
+    let all = Path::new("/proc");
+    !all.join("self").exists() || all.join(process.to_string()).exists()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    fn put(path: &Path, age: Duration) {
+        fs::write(path, "half").unwrap();
+        let file = fs::File::options().write(true).open(path).unwrap();
+        let now = file.metadata().unwrap().modified().unwrap();
+        file.set_modified(now - age).unwrap();
+    }
+
+    #[test]
+    fn exact_only_what_a_dead_program_left_long_ago_is_removed() {
+        let (sessions, scenarios) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        let session = sessions.path().join("a-session");
+        fs::create_dir(&session).unwrap();
+        fs::write(session.join("telemetry.tlog"), "x").unwrap();
+        // Linux gives no process a number beyond 2^22.
+        let (dead, alive) = (4_194_305, std::process::id());
+        let gone = [
+            session.join(format!("answers.json.{dead}-7.new")),
+            sessions.path().join(format!("x.{dead}-0.new")),
+            scenarios.path().join(format!("job.toml.{dead}-1.new")),
+        ];
+        let kept = [
+            session.join(format!("report.html.{alive}-7.new")),
+            session.join("notes.new"),
+            session.join(format!("{dead}-7.new")),
+            session.join(format!("answers.json.{dead}-seven.new")),
+            session.join("answers.json"),
+        ];
+        gone.iter().chain(&kept).for_each(|path| put(path, 2 * ABANDONED));
+        let young = session.join(format!("answers.json.{dead}-8.new"));
+        put(&young, Duration::ZERO);
+        remove_stale(&[sessions.path().to_path_buf(), PathBuf::from("/none")], scenarios.path());
+        assert!(gone.iter().all(|path| !path.exists()));
+        assert!(kept.iter().chain([&young]).all(|path| path.exists()));
+    }
+}

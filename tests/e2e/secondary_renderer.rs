@@ -1,0 +1,27 @@
+//! A second view on a device of its own.
+
+use spandrel::secondary_renderer::SecondaryRenderer;
+use spandrel_model::time::SimTime;
+use spandrel_testkit::studio::{Studio, at, two_bridges};
+use spandrel_view::quality::Quality;
+use std::sync::Arc;
+
+/// Small: the comparison is of every pixel.
+const SIZE: (u32, u32) = (160, 90);
+
+#[test]
+fn exact_the_secondary_renderer_draws_what_one_device_draws() {
+    let mut studio = Studio::new(two_bridges(), 7, "low", SimTime::ZERO);
+    let aside = SecondaryRenderer::open(Quality::named("low").unwrap(), Arc::clone(&studio.scene)).unwrap();
+    let moment = studio.moment(at(0.0, 70.0, 30.0), at(0.0, 150.0, 10.0), false, at(1.0, 0.5, 0.0));
+    let wide = studio.stage().camera(&moment, SIZE);
+    let narrow = studio.stage().camera(&moment, (SIZE.0 / 2, SIZE.1));
+    // Two that wait come in their order, and each in its size.
+    aside.start(wide.clone()).unwrap();
+    aside.start(narrow.clone()).unwrap();
+    for shot in [wide, narrow] {
+        let (picture, counts) = aside.picture().unwrap();
+        assert_eq!(picture.difference(&studio.draw(&shot)), Some(0.0));
+        assert_eq!(counts, studio.renderer().1.counts());
+    }
+}
