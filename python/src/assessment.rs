@@ -17,6 +17,7 @@ pub fn assess(py: Python<'_>, tlog: PathBuf, scenario: &str, vehicle: &str) -> P
         let log = fs::read(&tlog).map_err(|error| PyOSError::new_err(format!("{}: {error}", tlog.display())))?;
         let graded =
             assess_log(&log[..], &job, &aircraft, build_site).map_err(|error| AssessmentError::new_err(error.to_string()))?;
-        Ok((export::json_text(&graded.assessment), export::frames_csv(&graded.frames)))
+        let rows = export::frame_rows(&log[..], &job, &aircraft).map_err(|error| AssessmentError::new_err(error.to_string()))?;
+        Ok((export::json_text(&graded.assessment), export::frames_csv(&rows)))
     })
 }

@@ -34,7 +34,7 @@ impl Inner {
     /// Runs up to a time, or up to where a peer in lockstep owes an answer; then true. Datagrams are exchanged every 20 ms.
     fn run(&mut self, until: SimTime) -> bool {
         loop {
-            self.links.receive(self.vehicle.sim);
+            self.links.receive(&mut self.vehicle.sim);
             let now = self.vehicle.now();
             if self.vehicle.sim.waiting() {
                 return true;
@@ -129,8 +129,8 @@ impl Flight {
         py.detach(|| {
             let inner = self.lock();
             let (command, before) = inner.asked?;
-            let heard = inner.vehicle.received;
-            heard.get(before..).unwrap_or(heard).iter().rev().find_map(|frame| match &frame.message {
+            let received = &inner.vehicle.received[..];
+            received.get(before..).unwrap_or(received).iter().rev().find_map(|frame| match &frame.message {
                 Some(MavMessage::COMMAND_ACK(ack)) if ack.command == command => Some(ack.result as u32),
                 _ => None,
             })
@@ -153,7 +153,7 @@ impl Flight {
         let peer = peer.map(address).transpose()?;
         let opened = py.detach(|| {
             let inner = &mut *self.lock();
-            inner.links.open_udp(inner.vehicle.sim, kind, peer, lockstep)
+            inner.links.open_udp(&mut inner.vehicle.sim, kind, peer, lockstep)
         });
         opened.map(|(link, port)| (link.0, port)).map_err(|error| PyOSError::new_err(error.to_string()))
     }
@@ -163,7 +163,7 @@ impl Flight {
         let kind = link_kind(kind)?;
         Ok(py.detach(|| {
             let inner = &mut *self.lock();
-            inner.links.open_mailbox(inner.vehicle.sim, kind).0
+            inner.links.open_mailbox(&mut inner.vehicle.sim, kind).0
         }))
     }
 
@@ -171,7 +171,7 @@ impl Flight {
     fn open_log(&self, py: Python<'_>, path: PathBuf) -> PyResult<u32> {
         let opened = py.detach(|| {
             let inner = &mut *self.lock();
-            inner.links.open_log(inner.vehicle.sim, &path)
+            inner.links.open_log(&mut inner.vehicle.sim, &path)
         });
         opened.map(|link| link.0).map_err(|error| PyOSError::new_err(format!("{}: {error}", path.display())))
     }
@@ -197,7 +197,7 @@ impl Flight {
     fn close(&self, py: Python<'_>, link: u32) -> PyResult<()> {
         py.detach(|| {
             let inner = &mut *self.lock();
-            inner.links.close(inner.vehicle.sim, LinkId(link))
+            inner.links.close(&mut inner.vehicle.sim, LinkId(link))
         })
         .map_err(|error| match error.kind() {
             ErrorKind::NotConnected => no_link(link),
