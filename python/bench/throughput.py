@@ -73,7 +73,7 @@ def peer(checkout, action):
         from gym_pybullet_drones.envs.HoverAviary import HoverAviary
         from gym_pybullet_drones.utils.enums import ActionType, Physics
     except ImportError as error:
-        print(f"gym-pybullet-drones is not installed ({error}); PyPI has no distribution of that name. Its stated figure counts.")
+        print(f"gym-pybullet-drones is not installed ({error}): name a checkout with --peer. Its stated figure counts.")
         return None
     with open(os.devnull, "w", encoding="utf-8") as nowhere:
         said, sys.stdout = sys.stdout, nowhere
