@@ -14,7 +14,7 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle as Aircraft;
 use spandrel_sitl::endpoint::{LinkId, LinkKind};
 use spandrel_sitl::sim::Sim;
-use spandrel_sitl::testing::{MissedExpectation, Vehicle};
+use spandrel_sitl::testing::{MissedExpectation, STATION, Vehicle};
 use std::sync::Arc;
 
 /// The link that setpoints come over. It gets answers and no streams: nobody reads them.
@@ -142,6 +142,8 @@ impl Episode {
             }
             Kind::Inspect => (Task::Inspect(Box::new(Inspect::new(&world.job))), Inspect::START_HEIGHT_M),
         };
+        // Answers alone: what nobody reads would take half of a reset's time.
+        vehicle.sim.await_heartbeat(STATION);
         vehicle.arm(READY)?;
         vehicle.take_off(height_m)?;
         vehicle.run_until(|v| (v.height_m() - height_m).abs() < AT_HEIGHT_M, READY)?;

@@ -143,14 +143,12 @@ impl Flight {
     }
 
     /// Opens a UDP socket on a free loopback port. Returns link and port.
-    #[pyo3(signature = (kind, peer=None, lockstep=false))]
-    fn open_udp(&self, py: Python<'_>, kind: &str, peer: Option<(String, u16)>, lockstep: bool) -> PyResult<(u32, u16)> {
+    #[pyo3(signature = (kind, peer, lockstep=false))]
+    fn open_udp(&self, py: Python<'_>, kind: &str, peer: (String, u16), lockstep: bool) -> PyResult<(u32, u16)> {
         let kind = link_kind(kind)?;
-        let address = |(host, port): (String, u16)| match host.parse::<IpAddr>() {
-            Ok(ip) => Ok(SocketAddr::new(ip, port)),
-            Err(_) => Err(PyValueError::new_err(format!("{host}: no IP address"))),
-        };
-        let peer = peer.map(address).transpose()?;
+        let (host, port) = peer;
+        let ip: IpAddr = host.parse().map_err(|_| PyValueError::new_err(format!("{host}: no IP address")))?;
+        let peer = SocketAddr::new(ip, port);
         let opened = py.detach(|| {
             let inner = &mut *self.lock();
             inner.links.open_udp(&mut inner.vehicle.sim, kind, peer, lockstep)

@@ -26,19 +26,19 @@ impl Hover {
         self.point_m
     }
 
-    fn to_point_m(&self, sim: &Sim) -> Vec3<Enu> {
+    fn offset_m(self, sim: &Sim) -> Vec3<Enu> {
         self.point_m - sim.truth().rigid.position_m.enu()
     }
 
     /// Appends the observation.
     pub fn observe(&self, sim: &Sim, out: &mut Vec<f32>) {
-        environment::append(out, &environment::in_heading(self.to_point_m(sim), sim.truth().rigid.attitude));
+        environment::append(out, &environment::in_heading(self.offset_m(sim), sim.truth().rigid.attitude));
         environment::append(out, &environment::motion(sim));
     }
 
     /// The reward is minus the distance to the point, m. Measures: that distance, m, and contacts.
     pub fn judge(&self, sim: &Sim, over: bool) -> Outcome {
-        let distance_m = self.to_point_m(sim).norm();
+        let distance_m = self.offset_m(sim).norm();
         Outcome { reward: -distance_m, terminated: over, measures: [distance_m, f64::from(sim.hits())] }
     }
 }

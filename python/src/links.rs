@@ -20,7 +20,7 @@ const MAILBOX: usize = 50_000;
 /// One way in and out.
 #[derive(Debug)]
 enum Way {
-    Udp { socket: UdpSocket, kind: LinkKind, lockstep: bool, peer: Option<SocketAddr> },
+    Udp { socket: UdpSocket, peer: SocketAddr },
     Mailbox(VecDeque<Vec<u8>>),
     Log(Log),
 }
@@ -69,21 +69,13 @@ impl Links {
         link
     }
 
-    /// Opens a socket on a free loopback port. Without a peer, the sender of the first datagram is the peer. Returns link and port.
-    pub fn open_udp(
-        &mut self,
-        sim: &mut Sim,
-        kind: LinkKind,
-        peer: Option<SocketAddr>,
-        lockstep: bool,
-    ) -> io::Result<(LinkId, u16)> {
+    /// Opens a socket on a free loopback port. Returns link and port.
+    pub fn open_udp(&mut self, sim: &mut Sim, kind: LinkKind, peer: SocketAddr, lockstep: bool) -> io::Result<(LinkId, u16)> {
         let socket = UdpSocket::bind((Ipv4Addr::LOCALHOST, 0))?;
         socket.set_nonblocking(true)?;
         let port = socket.local_addr()?.port();
-        let link = self.add(Way::Udp { socket, kind, lockstep, peer });
-        if peer.is_some() {
-            sim.open_link(link, kind, lockstep);
-        }
+        let link = self.add(Way::Udp { socket, peer });
+        sim.open_link(link, kind, lockstep);
         Ok((link, port))
     }
 
@@ -129,7 +121,7 @@ impl Links {
     /// peers come and go.
     pub fn deliver(&mut self, link: LinkId, bytes: Vec<u8>, stamp_us: u64) {
         match self.ways.get_mut(&link) {
-            Some(Way::Udp { socket, peer: Some(peer), .. }) => {
+            Some(Way::Udp { socket, peer }) => {
                 let _ = socket.send_to(&bytes, *peer);
             }
             Some(Way::Mailbox(mail)) => {
@@ -139,20 +131,16 @@ impl Links {
                 mail.push_back(bytes);
             }
             Some(Way::Log(log)) => log.write(stamp_us, &bytes),
-            Some(Way::Udp { peer: None, .. }) | None => {}
+            None => {}
         }
     }
 
     /// Hands everything that has arrived to the vehicle. Datagrams from others than a link's peer are ignored.
     pub fn receive(&mut self, sim: &mut Sim) {
-        for (link, way) in &mut self.ways {
-            let Way::Udp { socket, kind, lockstep, peer } = way else { continue };
+        for (link, way) in &self.ways {
+            let Way::Udp { socket, peer } = way else { continue };
             while let Some((len, from)) = next(socket, &mut self.buffer) {
-                if peer.is_none() {
-                    *peer = Some(from);
-                    sim.open_link(*link, *kind, *lockstep);
-                }
-                if *peer == Some(from) {
+                if *peer == from {
                     sim.handle_datagram(*link, &self.buffer[..len]);
                 }
             }

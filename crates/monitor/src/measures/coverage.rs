@@ -81,3 +81,26 @@ impl FlownPath {
         PathCoverage { length_m, share }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_model::frames::Vec3;
+
+    #[test]
+    fn exact_a_path_is_flown_point_by_point_and_between_near_frames() {
+        let points: Vec<_> = (0..11).map(|k| Vec3::new(f64::from(k), 0.0, 0.0)).collect();
+        let mut flown = FlownPath::new(&Path::new(&points, false), 1.0);
+        assert_eq!(flown.coverage(), PathCoverage { length_m: 10.0, share: 0.0 });
+        flown.note(Some(0));
+        flown.note(Some(4));
+        assert_eq!(flown.coverage().share, 0.45, "joined: half a metre at the start, one for each of four points");
+        flown.note(Some(10));
+        assert_eq!(flown.coverage().share, 0.5, "6 m on are not joined");
+        flown.note(None);
+        flown.note(Some(8));
+        flown.note(Some(11));
+        assert_eq!(flown.coverage().share, 0.6, "beyond the last point there is none");
+        assert_eq!(flown.points().iter().filter(|flown| **flown).count(), 7);
+    }
+}
