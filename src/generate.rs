@@ -98,7 +98,9 @@ mod tests {
         for name in command.get_subcommands().map(Command::get_name) {
             let page = String::from_utf8(pages[&format!("spandrel-{name}.1")].clone()).unwrap();
             assert!(
-                !page.contains(".SH NOTES") && page.contains(".SH EXAMPLES") && page.contains(&format!("spandrel {name}")),
+                !page.contains(".SH NOTES\n.nf\n.fi")
+                    && page.contains(".SH EXAMPLES")
+                    && page.contains(&format!("spandrel {name}")),
                 "{page}"
             );
         }
