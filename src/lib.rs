@@ -14,6 +14,7 @@ mod errors;
 mod export;
 mod files;
 mod flight_logs;
+mod generate;
 mod key;
 mod links;
 mod log_file;
@@ -52,7 +53,7 @@ mod web;
 
 pub use errors::AppError;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::process::ExitCode;
 
 /// Open trainer for bridge inspectors who fly a drone: a simulated MAVLink vehicle, a monitor that scores the flight from its telemetry, and
@@ -94,9 +95,23 @@ enum Command {
 /// Runs the program: arguments in, exit code out (0 done, 1 failed, 2 wrong arguments or files).
 #[must_use]
 pub fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let matches = Cli::command().subcommand(generate::subcommand()).get_matches();
+    let done = match matches.subcommand() {
+        Some((generate::NAME, inner)) => {
+            let what = generate::What::from_arg_matches(inner).unwrap_or_else(|error| error.exit());
+            generate::run(&what, Cli::command())
+        }
+        _ => run(&Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => error.report(),
+    }
+}
+
+fn run(cli: &Cli) -> Result<(), AppError> {
     logging::start(cli.log);
-    let done = match &cli.command {
+    match &cli.command {
         Command::Train(args) => train::run(args, cli.log),
         Command::Demo(args) => demo::run(args, cli.log),
         Command::Sim(args) => sim::run(args),
@@ -114,17 +129,12 @@ pub fn main() -> ExitCode {
         Command::Render(args) => render::run(args),
         Command::View(args) => view::run(args),
         Command::Check(args) => check::run(args),
-    };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => error.report(),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
 
     #[test]
     fn exact_the_command_line_is_consistent() {

@@ -72,7 +72,7 @@ const OUTSIDE: &[&[&str]] = &[
     &["tracing_subscriber"],
     &["clap"],
     &["jiff", "Timestamp", "now"],
-    &["jiff", "Zoned", "now"],
+    &["jiff", "ZonedDateTime", "now"],
 ];
 /// What of these rooms of `std` is plain data: no clock, no socket.
 const PLAIN_DATA: &[&[&str]] = &[&["std", "time", "Duration"], &["std", "net", "IpAddr"], &["std", "net", "SocketAddr"]];

@@ -280,7 +280,7 @@ fn utc_s(path: &str) -> Option<u32> {
     let date: jiff::civil::Date = date.parse().ok()?;
     let field = |at: usize| time.get(at..at + 2)?.parse::<i8>().ok();
     let time = jiff::civil::Time::new(field(0)?, field(3)?, field(6)?, 0).ok()?;
-    let start = date.to_datetime(time).to_zoned(jiff::tz::TimeZone::UTC).ok()?;
+    let start = date.to_datetime(time).to_zoned_datetime(jiff::tz::TimeZone::UTC).ok()?;
     u32::try_from(start.timestamp().as_second()).ok()
 }
 
