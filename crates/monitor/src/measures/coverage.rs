@@ -90,7 +90,7 @@ mod tests {
     #[test]
     fn exact_a_path_is_flown_point_by_point_and_between_near_frames() {
         let points: Vec<_> = (0..11).map(|k| Vec3::new(f64::from(k), 0.0, 0.0)).collect();
-        let mut flown = FlownPath::new(&Path::new(&points, false), 1.0);
+        let mut flown = FlownPath::new(&ReferencePath::new(&points, false), 1.0);
         assert_eq!(flown.coverage(), PathCoverage { length_m: 10.0, share: 0.0 });
         flown.note(Some(0));
         flown.note(Some(4));
