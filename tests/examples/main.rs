@@ -1,4 +1,5 @@
 //! The examples run to their end, and under sixty lines each.
+#![allow(clippy::unwrap_used, reason = "a test")]
 
 #[path = "../../examples/custom_job.rs"]
 mod custom_job;

@@ -1,5 +1,6 @@
 //! Reference pages that are made from the code. Each test compares a committed page with the text made now; run them with
 //! `SPANDREL_REFERENCE=write` to rewrite the pages.
+#![allow(clippy::unwrap_used, reason = "a test")]
 
 // Flags of the window and of gamepads depend on features.
 #[cfg(all(feature = "view", feature = "gamepad"))]

@@ -1,4 +1,5 @@
 //! The numbers that a scorer must reproduce (shared assessment, the pilot study's figures), from the formulas alone.
+#![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_monitor::score::accuracy::MatchCounts;
 use spandrel_monitor::score::conformity::{self, TaskShares};

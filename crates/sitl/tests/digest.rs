@@ -1,5 +1,6 @@
 //! The same flight gives the same bits: in two runs and from a snapshot taken anywhere. (Debug and release builds are compared over the
 //! wire, in `tests/clients/`.)
+#![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage};

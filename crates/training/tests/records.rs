@@ -1,4 +1,5 @@
 //! From a flight to its record: what it suffered from, task by task, against flights whose faults were put in by hand.
+#![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_model::scenario::Scenario;
 use spandrel_monitor::assessment::AssessedSession;

@@ -5,6 +5,7 @@ use spandrel_model::math;
 use spandrel_model::vehicle::{BatterySpec, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, SensorSpec, Vehicle};
 
 /// A 1.3 kg quadrotor of Phantom size.
+#[expect(clippy::too_many_lines, reason = "one value, field by field")]
 pub fn quad() -> Vehicle {
     let arm = 0.1237;
     let rotor = |x: f64, y: f64, spin| Rotor { position_m: Vec3::new(x, y, -0.02), spin };

@@ -111,6 +111,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
     }
 }
 
+#[expect(clippy::too_many_lines, reason = "one value, field by field")]
 pub fn vehicle() -> Vehicle {
     Vehicle {
         id: "test".to_owned(),
@@ -267,6 +268,12 @@ pub struct Tape {
     pub at_m: Vec3<Enu>,
     /// Heading, rad clockwise from north.
     pub yaw_rad: f64,
+}
+
+impl Default for Tape {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 impl Tape {

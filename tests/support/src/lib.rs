@@ -10,6 +10,7 @@
 //! | `job` | `telemetry` | a small job, and a tape of the datagrams that a flight over it sends |
 //! | `inspection` | `telemetry` | a long inspection of the paper's job on such a tape |
 //! | `studio` | `view` | a site ready to be drawn by software, and cameras in it |
+#![allow(clippy::unwrap_used, reason = "a test")]
 #![allow(missing_docs, reason = "test support")]
 
 pub mod aircraft;

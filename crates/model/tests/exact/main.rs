@@ -1,4 +1,5 @@
 //! Geometry against closed forms.
+#![allow(clippy::unwrap_used, reason = "a test")]
 
 mod bridges;
 mod geometry;

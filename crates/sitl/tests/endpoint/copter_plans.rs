@@ -89,6 +89,7 @@ fn flight_a_copters_fence_ends_guided_flight() {
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "one flight from start to end")]
 fn wire_item_0_of_a_copters_mission_is_home_and_all_numbers_count_from_it() {
     let mut station = copter();
     let accepted = MavMissionResult::MAV_MISSION_ACCEPTED;

@@ -1,4 +1,5 @@
 //! Physics against closed forms.
+#![allow(clippy::unwrap_used, reason = "a test")]
 
 mod contact;
 mod free_flight;

@@ -1,4 +1,5 @@
 //! Closed-loop flights: physics, sensors, estimator and autopilot together, without a network.
+#![allow(clippy::unwrap_used, reason = "a test")]
 
 mod automatic;
 mod consistency;

@@ -288,6 +288,15 @@ const LEAN: (&str, &str) = ("vs_lean", "fs_lean");
 /// Nearer is greater; what is as near as before is drawn over.
 const NEARER: wgpu::CompareFunction = wgpu::CompareFunction::GreaterEqual;
 
+/// Light to picture: one triangle over the whole of it.
+fn film<'a>(
+    solid: &PipelineKey<'a>,
+    (module, layouts): (&'a wgpu::ShaderModule, &'a [Option<&'a wgpu::BindGroupLayout>]),
+    constants: &'a [(&'a str, f64)],
+) -> PipelineKey<'a> {
+    PipelineKey { module, layouts, buffers: &[], target: Some(PICTURE), depth: None, cull: None, samples: 1, constants, ..*solid }
+}
+
 impl Pipelines {
     /// Compiles everything.
     pub fn new(gpu: &Gpu, quality: &Quality) -> Self {
@@ -340,17 +349,7 @@ impl Pipelines {
             ..solid
         };
         let blur = [("BLUR", f64::from(u8::from(quality.blur_taps > 1)))];
-        let film = PipelineKey {
-            module: &develop,
-            layouts: &develop_layouts,
-            buffers: &[],
-            target: Some(PICTURE),
-            depth: None,
-            cull: None,
-            samples: 1,
-            constants: &blur,
-            ..solid
-        };
+        let film = film(&solid, (&develop, &develop_layouts), &blur);
         Self {
             surfaces: surfaces(gpu, &shaded, quality, 0.0),
             surfaces_mirrored: surfaces(gpu, &mirrored, quality, 1.0),

@@ -14,105 +14,24 @@ use spandrel_model::math;
 /// MAV_CMD_DO_JUMP_TAG, where the dialect doesn't know it.
 const DO_JUMP_TAG: u16 = 601;
 
+/// How a command goes on.
+enum Step {
+    /// It is answered here.
+    Answer(MavResult),
+    /// The autopilot decides.
+    Request(AutopilotRequest),
+}
+
+use Step::{Answer, Request};
+
 pub(super) fn handle(c: &VehicleCommand, x: &mut CommandContext) -> Option<MavResult> {
-    use MavCmd as M;
-    const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
-    let request = match c.number {
-        n if n == M::MAV_CMD_COMPONENT_ARM_DISARM as u16 => match arm(c, x) {
-            Some(AutopilotRequest::Arm { force }) => return Some(arm_motors(c, force, x)),
-            Some(other) => other,
-            None => return Some(x.deny("Arming: 1 arms, 0 disarms")),
-        },
-        n if n == M::MAV_CMD_DO_SET_MODE as u16 => return Some(set_mode(c, x)),
-        n if n == M::MAV_CMD_DO_SET_STANDARD_MODE as u16 => {
-            let row = c.finite_param(0).and_then(|number| x.view.flavour.standard(number as u32));
-            return Some(match row {
-                Some(row) => enter(row, x),
-                None => x.deny(&format!("No such standard mode {}", c.p[0])),
-            });
-        }
-        n if n == M::MAV_CMD_NAV_TAKEOFF as u16 => match (x.view.flavour.take_off)(c, x) {
-            Ok(height_m) => AutopilotRequest::Takeoff { height_m },
-            Err(refusal) => return Some(refusal),
-        },
-        n if n == M::MAV_CMD_NAV_LAND as u16 => AutopilotRequest::Land,
-        n if n == M::MAV_CMD_NAV_VTOL_LAND as u16 && x.view.flavour.home_item => AutopilotRequest::Land,
-        // No mission has tags, so none is ever found.
-        DO_JUMP_TAG if x.view.flavour.home_item => {
-            let is_tag = c.finite_param(0).is_some_and(|tag| (0.0..=f64::from(u16::MAX)).contains(&tag));
-            return Some(if is_tag { MavResult::MAV_RESULT_FAILED } else { DENIED });
-        }
-        n if n == M::MAV_CMD_NAV_RETURN_TO_LAUNCH as u16 => AutopilotRequest::SetMode(FlightMode::Return),
-        n if n == M::MAV_CMD_NAV_LOITER_UNLIM as u16 => {
-            let flavour = x.view.flavour;
-            let row =
-                flavour.loiters.and_then(|number| flavour.row(number)).unwrap_or_else(|| flavour.default_mode(FlightMode::Hold));
-            return Some(enter(row, x));
-        }
-        n if n == M::MAV_CMD_DO_REPOSITION as u16 => return Some(go(c, x)),
-        n if n == M::MAV_CMD_DO_LAND_START as u16 => {
-            let row = x.view.flavour.modes.iter().find(|row| row.request == AutopilotRequest::LandingSequence)?;
-            return Some(enter(row, x));
-        }
-        n if n == M::MAV_CMD_DO_PAUSE_CONTINUE as u16 && x.view.flavour.pauses => return Some(pause(c, x)),
-        n if n == M::MAV_CMD_DO_PAUSE_CONTINUE as u16 => {
-            if c.is_one(0) {
-                AutopilotRequest::StartMission { first: None }
-            } else {
-                AutopilotRequest::SetMode(FlightMode::Hold)
-            }
-        }
-        n if n == M::MAV_CMD_MISSION_START as u16 => {
-            // ArduPilot starts a mission as a whole.
-            if x.view.flavour.home_item && c.p[..2].iter().any(|item| *item != 0.0) {
-                return Some(x.deny("Mission start: first and last item are not supported"));
-            }
-            AutopilotRequest::StartMission { first: c.finite_param(0).filter(|f| *f > 0.0).map(|f| index(f, x)) }
-        }
-        // Climbing and sinking have parameters of their own.
-        n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 && c.finite_param(0).is_some_and(|kind| kind > 1.0) => {
-            return Some(x.deny("Speed: types 0, 1; climb and sink are parameters"));
-        }
-        n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 => match c.finite_param(1) {
-            // -1 changes nothing, -2 goes back to the parameter's (MAVLink common).
-            Some(-1.0) => return Some(MavResult::MAV_RESULT_ACCEPTED),
-            Some(-2.0) => AutopilotRequest::SetSpeed(None),
-            Some(speed) if speed > 0.0 => AutopilotRequest::SetSpeed(Some(speed)),
-            _ => return Some(x.deny("Speed: above 0 m/s, -1 as it is, -2 the usual")),
-        },
-        n if n == M::MAV_CMD_DO_ORBIT as u16 => match orbit(c, x) {
-            Some(wish) => AutopilotRequest::Orbit(wish),
-            None => return Some(x.deny("Orbit: place within 20 km, yaw behaviour 0 to 5")),
-        },
-        n if n == M::MAV_CMD_CONDITION_YAW as u16 => match turn(c, x) {
-            Some(request) => request,
-            None => return Some(x.deny("Turn: the angle is not a number")),
-        },
-        n if n == M::MAV_CMD_DO_SET_HOME as u16 => match home(c, x) {
-            Some(request) => request,
-            None => return Some(x.deny("Home: latitude, longitude, altitude within 20 km")),
-        },
-        n if n == M::MAV_CMD_DO_FENCE_ENABLE as u16 => match c.p[0] {
-            0.0 => AutopilotRequest::EnableFence(false),
-            1.0 => AutopilotRequest::EnableFence(true),
-            _ => return Some(x.deny("Fence: 0 switches off, 1 on")),
-        },
-        n if n == M::MAV_CMD_DO_FLIGHTTERMINATION as u16 => match c.p[0] {
-            p if p > 0.5 => AutopilotRequest::Disarm { force: true },
-            0.0 => return Some(MavResult::MAV_RESULT_ACCEPTED),
-            _ => return Some(DENIED),
-        },
-        n if n == M::MAV_CMD_INJECT_FAILURE as u16 => return Some(inject(c, x)),
-        n if n == M::MAV_CMD_PREFLIGHT_CALIBRATION as u16 => return Some(calibration::command(c, x)),
-        n if n == M::MAV_CMD_PREFLIGHT_STORAGE as u16 => return Some(storage::preflight(c, x)),
-        n if n == M::MAV_CMD_RUN_PREARM_CHECKS as u16 => return Some(checks(x)),
-        n if n == M::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN as u16 => {
-            return Some(reboot(c, x));
-        }
-        n if n == M::MAV_CMD_DO_SET_MISSION_CURRENT as u16 => {
-            return Some(if set_current(c, x) { MavResult::MAV_RESULT_ACCEPTED } else { x.deny("No such mission item") });
-        }
-        _ => return None,
+    let mut step = modes(c, x);
+    for group in [places, missions, limits, services] {
+        step = step.or_else(|| group(c, x));
+    }
+    let request = match step? {
+        Answer(result) => return Some(result),
+        Request(request) => request,
     };
     let outcome = x.autopilot.request(request, x.view.now);
     if matches!(request, AutopilotRequest::SetHome(_)) && outcome == RequestOutcome::Accepted && x.view.flavour.home_item {
@@ -120,6 +39,136 @@ pub(super) fn handle(c: &VehicleCommand, x: &mut CommandContext) -> Option<MavRe
         x.payload.changes.add_message(HOME_POSITION_DATA::ID);
     }
     Some(result(outcome, x))
+}
+
+/// Arming and modes.
+fn modes(c: &VehicleCommand, x: &mut CommandContext) -> Option<Step> {
+    use MavCmd as M;
+    Some(match c.number {
+        n if n == M::MAV_CMD_COMPONENT_ARM_DISARM as u16 => match arm(c, x) {
+            Some(AutopilotRequest::Arm { force }) => Answer(arm_motors(c, force, x)),
+            Some(other) => Request(other),
+            None => Answer(x.deny("Arming: 1 arms, 0 disarms")),
+        },
+        n if n == M::MAV_CMD_DO_SET_MODE as u16 => Answer(set_mode(c, x)),
+        n if n == M::MAV_CMD_DO_SET_STANDARD_MODE as u16 => {
+            let row = c.finite_param(0).and_then(|number| x.view.flavour.standard(number as u32));
+            Answer(match row {
+                Some(row) => enter(row, x),
+                None => x.deny(&format!("No such standard mode {}", c.p[0])),
+            })
+        }
+        n if n == M::MAV_CMD_NAV_RETURN_TO_LAUNCH as u16 => Request(AutopilotRequest::SetMode(FlightMode::Return)),
+        n if n == M::MAV_CMD_NAV_LOITER_UNLIM as u16 => {
+            let flavour = x.view.flavour;
+            let row =
+                flavour.loiters.and_then(|number| flavour.row(number)).unwrap_or_else(|| flavour.default_mode(FlightMode::Hold));
+            Answer(enter(row, x))
+        }
+        n if n == M::MAV_CMD_DO_FLIGHTTERMINATION as u16 => match c.p[0] {
+            p if p > 0.5 => Request(AutopilotRequest::Disarm { force: true }),
+            0.0 => Answer(MavResult::MAV_RESULT_ACCEPTED),
+            _ => Answer(MavResult::MAV_RESULT_DENIED),
+        },
+        _ => return None,
+    })
+}
+
+/// Take-off, landing, places to go to.
+fn places(c: &VehicleCommand, x: &mut CommandContext) -> Option<Step> {
+    use MavCmd as M;
+    Some(match c.number {
+        n if n == M::MAV_CMD_NAV_TAKEOFF as u16 => match (x.view.flavour.take_off)(c, x) {
+            Ok(height_m) => Request(AutopilotRequest::Takeoff { height_m }),
+            Err(refusal) => Answer(refusal),
+        },
+        n if n == M::MAV_CMD_NAV_LAND as u16 => Request(AutopilotRequest::Land),
+        n if n == M::MAV_CMD_NAV_VTOL_LAND as u16 && x.view.flavour.home_item => Request(AutopilotRequest::Land),
+        n if n == M::MAV_CMD_DO_REPOSITION as u16 => Answer(go(c, x)),
+        n if n == M::MAV_CMD_DO_ORBIT as u16 => match orbit(c, x) {
+            Some(orbit) => Request(AutopilotRequest::Orbit(orbit)),
+            None => Answer(x.deny("Orbit: place within 20 km, yaw behaviour 0 to 5")),
+        },
+        n if n == M::MAV_CMD_CONDITION_YAW as u16 => match turn(c, x) {
+            Some(request) => Request(request),
+            None => Answer(x.deny("Turn: the angle is not a number")),
+        },
+        n if n == M::MAV_CMD_DO_SET_HOME as u16 => match home(c, x) {
+            Some(request) => Request(request),
+            None => Answer(x.deny("Home: latitude, longitude, altitude within 20 km")),
+        },
+        _ => return None,
+    })
+}
+
+/// Missions: start, pause, jumps.
+fn missions(c: &VehicleCommand, x: &mut CommandContext) -> Option<Step> {
+    use MavCmd as M;
+    Some(match c.number {
+        // No mission has tags, so none is ever found.
+        DO_JUMP_TAG if x.view.flavour.home_item => {
+            let is_tag = c.finite_param(0).is_some_and(|tag| (0.0..=f64::from(u16::MAX)).contains(&tag));
+            Answer(if is_tag { MavResult::MAV_RESULT_FAILED } else { MavResult::MAV_RESULT_DENIED })
+        }
+        n if n == M::MAV_CMD_DO_LAND_START as u16 => {
+            let row = x.view.flavour.modes.iter().find(|row| row.request == AutopilotRequest::LandingSequence)?;
+            Answer(enter(row, x))
+        }
+        n if n == M::MAV_CMD_DO_PAUSE_CONTINUE as u16 && x.view.flavour.pauses => Answer(pause(c, x)),
+        n if n == M::MAV_CMD_DO_PAUSE_CONTINUE as u16 => Request(if c.is_one(0) {
+            AutopilotRequest::StartMission { first: None }
+        } else {
+            AutopilotRequest::SetMode(FlightMode::Hold)
+        }),
+        n if n == M::MAV_CMD_MISSION_START as u16 => {
+            // ArduPilot starts a mission as a whole.
+            if x.view.flavour.home_item && c.p[..2].iter().any(|item| *item != 0.0) {
+                return Some(Answer(x.deny("Mission start: first and last item are not supported")));
+            }
+            Request(AutopilotRequest::StartMission { first: c.finite_param(0).filter(|f| *f > 0.0).map(|f| index(f, x)) })
+        }
+        n if n == M::MAV_CMD_DO_SET_MISSION_CURRENT as u16 => {
+            Answer(if set_current(c, x) { MavResult::MAV_RESULT_ACCEPTED } else { x.deny("No such mission item") })
+        }
+        _ => return None,
+    })
+}
+
+/// Speed and geofence.
+fn limits(c: &VehicleCommand, x: &mut CommandContext) -> Option<Step> {
+    use MavCmd as M;
+    Some(match c.number {
+        // Climbing and sinking have parameters of their own.
+        n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 && c.finite_param(0).is_some_and(|kind| kind > 1.0) => {
+            Answer(x.deny("Speed: types 0, 1; climb and sink are parameters"))
+        }
+        n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 => match c.finite_param(1) {
+            // -1 changes nothing, -2 goes back to the parameter's (MAVLink common).
+            Some(-1.0) => Answer(MavResult::MAV_RESULT_ACCEPTED),
+            Some(-2.0) => Request(AutopilotRequest::SetSpeed(None)),
+            Some(speed) if speed > 0.0 => Request(AutopilotRequest::SetSpeed(Some(speed))),
+            _ => Answer(x.deny("Speed: above 0 m/s, -1 as it is, -2 the usual")),
+        },
+        n if n == M::MAV_CMD_DO_FENCE_ENABLE as u16 => match c.p[0] {
+            0.0 => Request(AutopilotRequest::EnableFence(false)),
+            1.0 => Request(AutopilotRequest::EnableFence(true)),
+            _ => Answer(x.deny("Fence: 0 switches off, 1 on")),
+        },
+        _ => return None,
+    })
+}
+
+/// What is answered without the autopilot: failures, calibration, storage, checks, restart.
+fn services(c: &VehicleCommand, x: &mut CommandContext) -> Option<Step> {
+    use MavCmd as M;
+    Some(Answer(match c.number {
+        n if n == M::MAV_CMD_INJECT_FAILURE as u16 => inject(c, x),
+        n if n == M::MAV_CMD_PREFLIGHT_CALIBRATION as u16 => calibration::command(c, x),
+        n if n == M::MAV_CMD_PREFLIGHT_STORAGE as u16 => storage::preflight(c, x),
+        n if n == M::MAV_CMD_RUN_PREARM_CHECKS as u16 => checks(x),
+        n if n == M::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN as u16 => reboot(c, x),
+        _ => return None,
+    }))
 }
 
 /// Parameters 1 unit, 2 kind, 3 instance. As in PX4 nothing happens unless SYS_FAILURE_EN allows it.
