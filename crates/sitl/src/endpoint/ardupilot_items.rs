@@ -1,4 +1,4 @@
-//! What ArduPilot makes of mission items besides: item 0 is home, and single items outside a plan are errands.
+//! ArduPilot's extra mission item rules: item 0 is home, and single items outside a plan are fly-now commands.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::Endpoint;
@@ -12,11 +12,11 @@ use spandrel_mavlink::dialect::{
 use spandrel_mavlink::units::deg_e7;
 use spandrel_model::frames::Vec3;
 
-/// MISSION_ITEM.current: go there now, or only to its height.
+/// MISSION_ITEM.current values: fly to the position, or change altitude only.
 const GO_TO: u8 = 2;
 const CHANGE_HEIGHT: u8 = 3;
 
-/// Home as the mission's item 0; nowhere while there is none.
+/// Returns home as mission item 0. All coordinates are 0 while home is not set.
 pub(super) fn home_item(view: &VehicleSnapshot, (target_system, target_component): (u8, u8)) -> MavMessage {
     let home = view.status.home_m.map(|home: Vec3<_>| view.plane.geo_from_enu(home.enu()));
     MavMessage::MISSION_ITEM_INT(MISSION_ITEM_INT_DATA {
@@ -34,7 +34,7 @@ pub(super) fn home_item(view: &VehicleSnapshot, (target_system, target_component
     })
 }
 
-/// The older form of an item.
+/// Converts a MISSION_ITEM_INT to the older MISSION_ITEM, with coordinates in degrees.
 pub(super) fn in_degrees(item: &MISSION_ITEM_INT_DATA) -> MISSION_ITEM_DATA {
     let degrees = |scaled: i32| if scaled == i32::MAX { f32::NAN } else { (f64::from(scaled) * 1e-7) as f32 };
     MISSION_ITEM_DATA {
@@ -56,13 +56,13 @@ pub(super) fn in_degrees(item: &MISSION_ITEM_INT_DATA) -> MISSION_ITEM_DATA {
     }
 }
 
-/// An item that belongs to no plan but is to be flown at once.
+/// Checks whether an item belongs to no plan and is to be flown immediately.
 pub(super) fn is_fly_now_item(item: &MISSION_ITEM_INT_DATA) -> bool {
     let mission = item.mission_type == MavMissionType::MAV_MISSION_TYPE_MISSION;
     mission && matches!(item.current, GO_TO | CHANGE_HEIGHT) && item.command == MavCmd::MAV_CMD_NAV_WAYPOINT
 }
 
-/// Flies it, in the mode that flies errands alone.
+/// Flies to the item's position. Denied unless the vehicle is in the mode that accepts go-to commands (GUIDED).
 pub(super) fn fly_now(e: &mut Endpoint, item: &MISSION_ITEM_INT_DATA, a: &mut InboundMessage) -> MavMissionResult {
     let shown = e.flavour.row_of(a.autopilot.status().mode, e.chosen).number;
     if e.flavour.errands != Some(shown) {

@@ -1,4 +1,4 @@
-//! Auxiliary functions by ArduPilot's numbers: switches on a transmitter's channels (RCn_OPTION) and DO_AUX_FUNCTION.
+//! ArduPilot's auxiliary functions by number: switches on transmitter channels (RCn_OPTION) and DO_AUX_FUNCTION.
 
 use super::commands::{self, VehicleCommand};
 use super::inbound::InboundMessage;
@@ -11,19 +11,19 @@ use spandrel_mavlink::dialect::{
 };
 use spandrel_mavlink::units::deg_e7;
 
-/// The command, of ArduPilot's own dialect: its items of a mission can't be read.
+/// Command number in ArduPilot's dialect. Not supported as a mission item.
 const DO_AUX_FUNCTION: u16 = 218;
-/// Pulses beyond these are the ends of a switch, microseconds (ArduPilot: AUX_SWITCH_PWM_TRIGGER_LOW and _HIGH).
+/// Pulse thresholds of the low and high switch positions, microseconds (ArduPilot: AUX_SWITCH_PWM_TRIGGER_LOW and _HIGH).
 const LOW_BELOW_US: u16 = 1_200;
 const HIGH_ABOVE_US: u16 = 1_800;
-/// A throttle pulse up to this counts as down, microseconds (ArduPilot: RC3_MIN and RC3_DZ).
+/// Maximum throttle pulse that counts as throttle down, microseconds (ArduPilot: RC3_MIN and RC3_DZ).
 const THROTTLE_DOWN_US: u16 = 1_030;
-/// The least height of the take-off before a first saved waypoint, m (ArduPilot: SAVE_WP).
+/// Minimum height of the takeoff item added before the first saved waypoint, m (ArduPilot: SAVE_WP).
 const LEAST_TAKEOFF_M: f32 = 1.0;
-/// The first channel that is no stick.
+/// First channel that is not a stick.
 const FIRST_CHANNEL: usize = 5;
 
-/// Functions that enter a mode, and Copter's number of it (ArduPilot: RC_Channel::AUX_FUNC).
+/// Functions that enter a mode, with Copter's mode number (ArduPilot: RC_Channel::AUX_FUNC).
 const MODES: &[(u16, u32)] = &[
     (4, 6),
     (16, 3),
@@ -41,7 +41,7 @@ const MODES: &[(u16, u32)] = &[
     (99, 27),
 ];
 
-/// Where a switch stands.
+/// Position of a three-position switch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum SwitchPosition {
     Low,
@@ -63,7 +63,7 @@ impl SwitchPosition {
     }
 }
 
-/// Runs the function of every switch that has moved. Where a switch stands when it is first heard is no movement.
+/// Runs the function of every switch that has moved. The first reading of a switch does not count as a movement.
 pub(super) fn read_switches(e: &mut Endpoint, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut InboundMessage) {
     for (k, us) in manual::aux_of(c).into_iter().enumerate() {
         if !manual::PULSES_US.contains(&us) {
@@ -78,7 +78,8 @@ pub(super) fn read_switches(e: &mut Endpoint, c: &RC_CHANNELS_OVERRIDE_DATA, a: 
     }
 }
 
-/// DO_AUX_FUNCTION: parameter 1 the function, 2 the level. `None` for another command, and where the flavour has no switches.
+/// Handles DO_AUX_FUNCTION: parameter 1 is the function, 2 the switch level. Returns `None` for other commands and for flavours
+/// without switches.
 pub(super) fn command(e: &mut Endpoint, c: &VehicleCommand, a: &mut InboundMessage) -> Option<MavResult> {
     if c.number != DO_AUX_FUNCTION || e.params.switch_function(FIRST_CHANNEL).is_none() {
         return None;
@@ -89,7 +90,7 @@ pub(super) fn command(e: &mut Endpoint, c: &VehicleCommand, a: &mut InboundMessa
     Some(if done { MavResult::MAV_RESULT_ACCEPTED } else { MavResult::MAV_RESULT_FAILED })
 }
 
-/// False for a function that this vehicle doesn't have.
+/// Runs an auxiliary function. Returns false if this vehicle does not support it.
 fn run(e: &mut Endpoint, function: u16, level: SwitchPosition, a: &mut InboundMessage) -> bool {
     let high = level == SwitchPosition::High;
     if let Some((_, mode)) = MODES.iter().find(|(known, _)| *known == function) {
@@ -116,7 +117,7 @@ fn run(e: &mut Endpoint, function: u16, level: SwitchPosition, a: &mut InboundMe
     true
 }
 
-/// Up enters the mode; back from it the mode switch decides again.
+/// Enters the mode when the switch goes high. When it leaves high, the mode switch selects the mode again.
 fn switch_mode(e: &mut Endpoint, mode: u32, high: bool, a: &mut InboundMessage) {
     let shown = e.flavour.row_of(a.autopilot.status().mode, e.chosen).number;
     if high {
@@ -148,8 +149,8 @@ fn restart_mission(e: &mut Endpoint, a: &mut InboundMessage) {
     e.payload.changes.add_message(MISSION_CURRENT_DATA::ID);
 }
 
-/// Adds the vehicle's place to the mission, as a landing while the throttle is down; a take-off goes before the first one. Not in AUTO and not
-/// before the motors are armed.
+/// Appends the vehicle's position to the mission: a landing if the throttle is down, a waypoint otherwise. A takeoff item is
+/// added before the first one. Does nothing in AUTO or while disarmed.
 fn save_waypoint(e: &mut Endpoint, a: &mut InboundMessage) {
     let status = a.autopilot.status();
     let Some(home) =

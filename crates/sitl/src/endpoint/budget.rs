@@ -1,24 +1,24 @@
-//! What a slow link carries: bytes a second, what that leaves to the streams, and what has to wait or is dropped.
+//! Bandwidth budget of a slow link: its capacity, the stream interval scaling, and when data waits or is dropped.
 
 use spandrel_model::time::SimTime;
 
-/// Part of the link that streams may fill; the rest is for answers, lists and files.
+/// Fraction of the link capacity available to streams; the rest is for responses, lists and files.
 const STREAMS_SHARE: f64 = 0.75;
-/// A stream frame before any was seen, bytes (estimate: the shipped streams' mean).
+/// Assumed stream frame size before any is measured, bytes (estimate: mean of the shipped streams).
 const FRAME_BYTES: f64 = 50.0;
-/// Streams are slowed by this at most.
+/// Maximum factor by which stream intervals are stretched.
 const SLOWEST: f64 = 200.0;
-/// What may leave at once after a silence, s of the link's capacity, and at least one datagram, bytes.
+/// Maximum burst after an idle period, s of link capacity, and its minimum of one datagram, bytes.
 const BURST_S: f64 = 0.05;
 const BURST_BYTES: f64 = 300.0;
-/// More waiting than this, s of the link's capacity: lists and files wait, streams and forwarded frames are left out.
+/// Backlog above which lists and files wait and streams and forwarded frames are skipped, s of link capacity.
 const BUSY_S: f64 = 0.25;
-/// More waiting than this is dropped, s of the link's capacity.
+/// Backlog above which data is dropped, s of link capacity.
 const FULL_S: f64 = 2.0;
-/// The streams' share is looked at this often.
+/// Interval between adjustments of the stream intervals.
 const LOOK: SimTime = SimTime::from_ms(1_000);
 
-/// A link's capacity and its use.
+/// Capacity of a link and its current use.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinkBudget {
     bytes_s: f64,
@@ -30,28 +30,28 @@ pub struct LinkBudget {
 }
 
 impl LinkBudget {
-    /// A link of so many bytes a second, whose streams would send `frames_s` frames a second.
+    /// Creates the budget of a link with a capacity of `bytes_s`, bytes/s, and streams that request `frames_s`, frames/s.
     #[must_use]
     pub fn new(bytes_s: f64, frames_s: f64, now: SimTime) -> Self {
         let stretch = (frames_s * FRAME_BYTES / (bytes_s * STREAMS_SHARE)).clamp(1.0, SLOWEST);
         Self { bytes_s, tokens: 0.0, at: now, last_adjusted: now, streamed: 0.0, stretch }
     }
 
-    /// Time passes: capacity grows again; once a second the streams' pace follows what they took.
+    /// Refills the capacity up to `now`; once a second, adjusts the stream intervals to the measured usage.
     pub fn advance(&mut self, now: SimTime) {
         self.tokens = (self.tokens + self.bytes_s * (now - self.at).s()).min(BURST_BYTES.max(self.bytes_s * BURST_S));
         self.at = now;
         let window_s = (now - self.last_adjusted).s();
         if now - self.last_adjusted >= LOOK {
             let used = self.streamed / (window_s * self.bytes_s * STREAMS_SHARE);
-            // Half of the way each time: a second with few slow streams in it must not throw the pace about.
+            // Move halfway each time, so that a second with few slow streams does not make the intervals jump.
             self.stretch = (self.stretch * f64::midpoint(1.0, used)).clamp(1.0, SLOWEST);
             self.streamed = 0.0;
             self.last_adjusted = now;
         }
     }
 
-    /// Takes a datagram's bytes if the link can carry them now.
+    /// Consumes a datagram's bytes if the link can send them now; returns false otherwise.
     pub fn take(&mut self, bytes: usize) -> bool {
         let free = self.tokens > 0.0;
         if free {
@@ -60,24 +60,24 @@ impl LinkBudget {
         free
     }
 
-    /// Streams sent so many bytes.
+    /// Counts bytes sent by streams.
     pub fn note_streamed(&mut self, bytes: usize) {
         self.streamed += bytes as f64;
     }
 
-    /// How many times slower than asked the streams run.
+    /// Returns the factor by which stream intervals are stretched, at least 1.
     #[must_use]
     pub fn interval_factor(&self) -> f64 {
         self.stretch
     }
 
-    /// So many waiting bytes are enough for now.
+    /// Checks whether the backlog is large enough to hold back more data. `waiting` is in bytes.
     #[must_use]
     pub fn is_saturated(&self, waiting: usize) -> bool {
         waiting as f64 > self.bytes_s * BUSY_S
     }
 
-    /// No more than this may wait, bytes.
+    /// Returns the maximum backlog, bytes.
     #[must_use]
     pub fn most_waiting(&self) -> usize {
         (self.bytes_s * FULL_S) as usize
@@ -90,7 +90,7 @@ mod tests {
 
     /// A telemetry radio at 57,600 baud, 8N1, bytes a second.
     const RADIO: f64 = 5_760.0;
-    /// Of the mean over ten seconds; datagrams are not divisible.
+    /// Relative to the mean over ten seconds; datagrams are indivisible.
     const TOLERANCE: f64 = 0.02;
 
     #[test]

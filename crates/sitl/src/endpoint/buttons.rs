@@ -1,13 +1,13 @@
-//! Buttons of a joystick (MANUAL_CONTROL) and what a press of each does: parameters say so.
+//! Joystick buttons (MANUAL_CONTROL) and the actions that parameters assign to them.
 
 use super::commands::VehicleCommand;
 use super::params::Params;
 use super::streams::AUTOPILOT;
 use spandrel_mavlink::dialect::{MANUAL_CONTROL_DATA, MavCmd, MavStandardMode};
 
-/// Buttons that have a parameter; others do nothing.
+/// Number of buttons that have a parameter; other buttons are ignored.
 pub const COUNT: usize = 16;
-/// Their parameters.
+/// Parameter names of the buttons.
 pub const NAMES: [&str; COUNT] = [
     "BTN0_FUNCTION",
     "BTN1_FUNCTION",
@@ -26,14 +26,15 @@ pub const NAMES: [&str; COUNT] = [
     "BTN14_FUNCTION",
     "BTN15_FUNCTION",
 ];
-/// Buttons as they were last.
+/// The last known button state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ButtonState {
     down: Option<u16>,
 }
 
 impl ButtonState {
-    /// Buttons that are pressed now and were not before. What is down when somebody takes the sticks is no press.
+    /// Returns the buttons pressed since the last message. Buttons already down when a client takes control don't count as
+    /// pressed.
     pub fn of(&mut self, m: &MANUAL_CONTROL_DATA) -> impl Iterator<Item = usize> + use<> {
         let before = self.down.replace(m.buttons).unwrap_or(m.buttons);
         let fresh = m.buttons & !before;
@@ -41,25 +42,25 @@ impl ButtonState {
     }
 }
 
-/// What a press may need to know.
+/// Vehicle state that button actions depend on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ButtonContext {
-    /// The lamp is on.
+    /// Whether the lamp is on.
     pub lamp_on: bool,
-    /// Where the gimbal points, degrees about the horizon, and where it can.
+    /// Gimbal pitch relative to the horizon, degrees.
     pub pitch_deg: f64,
-    /// See `pitch_deg`.
+    /// Minimum and maximum gimbal pitch, degrees.
     pub reach_deg: (f64, f64),
-    /// Height of a take-off over home, m.
+    /// Takeoff height above home, m.
     pub take_off_m: f64,
 }
 
-/// A press moves the gimbal by this much, degrees.
+/// Gimbal pitch change for each press, degrees.
 const STEP_DEG: f64 = 10.0;
-/// MAV_FRAME_GLOBAL_RELATIVE_ALT: heights over home.
+/// MAV_FRAME_GLOBAL_RELATIVE_ALT: altitude relative to home.
 const OVER_HOME: u8 = 3;
 
-/// The command that a button's parameter names: it is obeyed and refused as if it had been sent.
+/// Returns the command assigned to a button, executed and rejected like a received command. `None` if no action is assigned.
 pub(super) fn command(button: usize, params: &Params, seen: &ButtonContext, from: (u8, u8)) -> Option<VehicleCommand> {
     use MavCmd as M;
     let standard = |mode: MavStandardMode| (M::MAV_CMD_DO_SET_STANDARD_MODE, [f64::from(mode as u32), 0.0, 0.0]);

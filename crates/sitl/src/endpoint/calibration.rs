@@ -1,4 +1,5 @@
-//! MAV_CMD_PREFLIGHT_CALIBRATION: what can be calibrated at rest is measured at rest, and reported in the texts that ground stations read.
+//! MAV_CMD_PREFLIGHT_CALIBRATION: calibrates the sensors that need no rotation, and reports progress in the texts that ground
+//! stations parse.
 
 use super::Endpoint;
 use super::commands::VehicleCommand;
@@ -10,20 +11,20 @@ use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::math::GRAVITY_M_S2;
 use spandrel_model::time::SimTime;
 
-/// Readings are averaged for this long, s (PX4's gyro calibration takes about as long).
+/// Averaging time, s (PX4's gyro calibration takes about as long).
 const MEASURE_S: f64 = 4.0;
-/// Progress is reported in so many steps.
+/// Number of progress reports.
 const STEPS: u32 = 5;
-/// The halves of a measurement of rest differ by less, rad/s (PX4: gyro calibration, 0.01 rad/s).
+/// Maximum rate difference between the two halves of the measurement at rest, rad/s (PX4: gyro calibration, 0.01 rad/s).
 const STILL_RAD_S: f64 = 0.01;
-/// The same for the specific force, m/s² (estimate: ten times the noise of the mean).
+/// Maximum specific force difference between the halves, m/s² (estimate: ten times the noise of the mean).
 const STILL_M_S2: f64 = 0.05;
-/// Farther from 1 g is not rest, m/s².
+/// Maximum deviation from 1 g at rest, m/s².
 const REST_M_S2: f64 = 1.0;
-/// A vehicle that leans more is not level, m/s² of gravity (30 degrees; PX4: level calibration).
+/// Maximum horizontal component of gravity for a level vehicle, m/s² (30 degrees; PX4: level calibration).
 const LEVEL_M_S2: f64 = 0.5 * GRAVITY_M_S2;
 
-/// What is calibrated.
+/// The sensor or reference being calibrated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum CalibratedSensor {
     Gyro,
@@ -33,7 +34,7 @@ enum CalibratedSensor {
 }
 
 impl CalibratedSensor {
-    /// The word that QGroundControl looks for.
+    /// Returns the keyword that QGroundControl expects in the texts.
     fn word(self) -> &'static str {
         match self {
             Self::Gyro => "gyro",
@@ -44,12 +45,12 @@ impl CalibratedSensor {
     }
 }
 
-/// Whose texts report it.
+/// Format of the calibration texts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CalibrationTexts {
-    /// PX4's, which begin with `[cal]` (QGroundControl: SensorsComponentController).
+    /// PX4's texts, which begin with `[cal]` (QGroundControl: SensorsComponentController).
     Px4,
-    /// ArduPilot's, recorded.
+    /// ArduPilot's texts, as recorded.
     ArduPilot,
 }
 
@@ -98,7 +99,7 @@ impl HalfSums {
     }
 }
 
-/// A calibration that runs.
+/// A calibration in progress.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Calibration {
     sensor: CalibratedSensor,
@@ -107,7 +108,8 @@ pub struct Calibration {
     steps: u32,
 }
 
-/// Parameters 1 gyro, 2 compass, 3 barometer, 4 radio, 5 accelerometer, 6 airspeed, 7 ESC; none of them ends what runs.
+/// Handles the command: parameters 1 gyro, 2 compass, 3 barometer, 4 radio, 5 accelerometer, 6 airspeed, 7 ESC. All zero cancels
+/// the calibration.
 pub(super) fn command(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
     use MavResult as R;
     let words = x.view.flavour.calibration;
@@ -148,7 +150,7 @@ pub(super) fn command(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
 }
 
 impl Calibration {
-    /// Takes in the newest reading; true once it has measured long enough.
+    /// Adds the latest reading. Returns true once the measuring time has passed.
     fn measure(&mut self, view: &VehicleSnapshot) -> bool {
         let age_s = (view.now - self.since).s();
         let half = &mut self.halves[usize::from(age_s > 0.5 * MEASURE_S)];
@@ -160,7 +162,7 @@ impl Calibration {
         age_s >= MEASURE_S
     }
 
-    /// The gyroscope's offset, rad/s, or why there is none.
+    /// Returns the gyroscope bias, rad/s, or the reason for the failure.
     fn outcome(&self) -> Result<Vec3<Frd>, &'static str> {
         let [(rates_0, force_0), (rates_1, force_1)] = self.halves.map(|half| half.means());
         let force = (force_0 + force_1) * 0.5;
@@ -179,7 +181,7 @@ impl Calibration {
 }
 
 impl Endpoint {
-    /// What a running calibration has measured, and how it ends.
+    /// Updates the running calibration and finishes it when it is complete.
     pub(super) fn calibrate(&mut self, view: &VehicleSnapshot) {
         let Some(mut running) = self.calibration.take() else { return };
         let words = self.flavour.calibration;
@@ -206,7 +208,7 @@ impl Endpoint {
             Ok(offset) => {
                 if ended.sensor == CalibratedSensor::Gyro {
                     for (name, value) in GYRO_OFFSETS.iter().zip(offset.array()) {
-                        // Only PX4's parameters show the offsets.
+                        // Only PX4 has parameters for the offsets.
                         let _ = self.params.set_value(name, ParamValue::Real(value as f32));
                     }
                 }
@@ -217,5 +219,5 @@ impl Endpoint {
     }
 }
 
-/// PX4's parameters of the gyroscope's offset, rad/s.
+/// PX4's gyroscope offset parameters, rad/s.
 const GYRO_OFFSETS: [&str; 3] = ["CAL_GYRO0_XOFF", "CAL_GYRO0_YOFF", "CAL_GYRO0_ZOFF"];

@@ -7,15 +7,15 @@ use super::streams::CAMERA;
 use mavlink::types::CharArray;
 use spandrel_mavlink::dialect::*;
 
-/// All settings are of this type.
+/// Type of all settings.
 const TYPE: MavParamExtType = MavParamExtType::MAV_PARAM_EXT_TYPE_UINT32;
 
-/// Meant for the camera, or for everybody; the autopilot has no such parameters.
+/// Checks whether the message targets the camera or all components; the autopilot has no extended parameters.
 fn is_for_camera(component: u8) -> bool {
     matches!(component, 0 | CAMERA)
 }
 
-/// A value as it lies on the wire: its bytes first, little end first.
+/// Encodes a value for the wire: its bytes first, little-endian.
 fn bytes(value: u32) -> CharArray<128> {
     let mut data = [0; 128];
     data[..4].copy_from_slice(&value.to_le_bytes());
@@ -41,7 +41,7 @@ pub(super) fn list(e: &mut Endpoint, m: &PARAM_EXT_REQUEST_LIST_DATA, a: &mut In
     }
 }
 
-/// By its number, or with -1 by its name.
+/// Sends a setting by index, or by name if the index is -1.
 pub(super) fn read(e: &mut Endpoint, m: &PARAM_EXT_REQUEST_READ_DATA, a: &mut InboundMessage) {
     if !is_for_camera(m.target_component) {
         return;
@@ -64,7 +64,7 @@ pub(super) fn read(e: &mut Endpoint, m: &PARAM_EXT_REQUEST_READ_DATA, a: &mut In
     e.answer_as(CAMERA, a.link, &message);
 }
 
-/// The acknowledgement tells the value that counts from now on; a change is told to every link.
+/// Changes a setting. The acknowledgment contains the resulting value; a change is broadcast to every link.
 pub(super) fn set(e: &mut Endpoint, m: &PARAM_EXT_SET_DATA, a: &mut InboundMessage) {
     if !is_for_camera(m.target_component) {
         return;
@@ -96,7 +96,7 @@ pub(super) fn set(e: &mut Endpoint, m: &PARAM_EXT_SET_DATA, a: &mut InboundMessa
     }
 }
 
-/// PARAM_EXT_SET of a type that MAVLink does not know.
+/// Rejects a PARAM_EXT_SET with a type that MAVLink does not define.
 pub(super) fn unknown_type(e: &mut Endpoint, payload: &[u8], a: &InboundMessage) {
     let mut param_id = [0; 16];
     param_id.copy_from_slice(&payload[2..18]);

@@ -1,4 +1,4 @@
-//! Messages that steer: sticks, modes, external set-points, the gimbal.
+//! Messages that control the vehicle: sticks, modes, offboard setpoints, gimbal.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::Endpoint;
@@ -26,12 +26,12 @@ pub(super) fn heartbeat(e: &mut Endpoint, beat: &HEARTBEAT_DATA, a: &mut Inbound
     }
 }
 
-/// Whether the sender is the ground station, where a parameter names one.
+/// Checks whether the sender is the configured ground station, if a parameter names one.
 fn is_accepted_station(e: &Endpoint, a: &InboundMessage) -> bool {
     e.params.ground_station().is_none_or(|system| system == a.from.0)
 }
 
-/// In the mode that flies errands the yaw stick takes nothing over.
+/// Applies stick input. In the mode that accepts go-to commands, the yaw stick does not take over.
 fn fly_by_sticks(e: &Endpoint, sticks: Sticks, a: &mut InboundMessage) {
     let row = e.flavour.row_of(a.autopilot.status().mode, e.chosen);
     a.autopilot.note_errands(e.flavour.errands == Some(row.number));
@@ -59,7 +59,7 @@ pub(super) fn manual_control(e: &mut Endpoint, m: &MANUAL_CONTROL_DATA, a: &mut 
 }
 
 pub(super) fn channels(e: &mut Endpoint, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut InboundMessage) {
-    // A receiver reports a lost transmitter by a throttle pulse below all others: its sticks are no sticks.
+    // A receiver signals a lost transmitter by an unusually short throttle pulse; its channels are then ignored.
     let lost = e.params.throttle_loss_us().is_some_and(|least| c.chan3_raw > 0 && c.chan3_raw < least);
     if !e.sticks_pass || !is_accepted_station(e, a) || lost {
         return;
@@ -77,11 +77,12 @@ pub(super) fn channels(e: &mut Endpoint, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut 
     announce_stick_changes(e);
 }
 
-/// Upper ends of the first five positions of a six-position mode switch, microseconds (ArduPilot: RC_Channel, read_6pos_switch).
+/// Upper limits of the first five positions of a six-position mode switch, microseconds (ArduPilot: RC_Channel,
+/// read_6pos_switch).
 const POSITIONS_US: [u16; 5] = [1230, 1360, 1490, 1620, 1749];
 const MODE_OF_POSITION: [&str; 6] = ["FLTMODE1", "FLTMODE2", "FLTMODE3", "FLTMODE4", "FLTMODE5", "FLTMODE6"];
 
-/// A new position of the mode switch (FLTMODE_CH) enters its mode.
+/// Enters the mode assigned to a new position of the mode switch (FLTMODE_CH).
 fn apply_mode_switch(e: &mut Endpoint, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut InboundMessage) {
     let pulses = manual::aux_of(c);
     let channel = e.params.whole("FLTMODE_CH").and_then(|channel| usize::try_from(channel - 5).ok());
@@ -95,14 +96,15 @@ fn apply_mode_switch(e: &mut Endpoint, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut In
     }
 }
 
-/// The mode of a position of the mode switch.
+/// Returns the mode assigned to a position of the mode switch.
 pub(super) fn mode_for_switch(e: &Endpoint, position: usize) -> Option<u32> {
     e.params.whole(MODE_OF_POSITION.get(position)?).map(i32::unsigned_abs)
 }
 
-/// A target that reports itself to everybody (PX4, ArduPilot).
+/// Handles the position of a follow-me target (PX4, ArduPilot).
 pub(super) fn follow_target(_: &mut Endpoint, t: &FOLLOW_TARGET_DATA, a: &mut InboundMessage) {
-    // As PX4 does, a velocity counts whatever the bits say (MAVSDK sets that of the position alone); one that is zero without its bit is none.
+    // Like PX4, accepts a velocity regardless of the capability bits (MAVSDK sets only the position bit), but ignores a zero
+    // velocity without its bit.
     let given = t.est_capabilities & FOLLOW_VELOCITY != 0 || t.vel != [0.0; 3];
     let velocity = Some(t.vel.map(f64::from)).filter(|v| given && v.iter().all(|c| c.is_finite()));
     if t.est_capabilities & FOLLOW_POSITION != 0 {
@@ -114,7 +116,7 @@ pub(super) fn follow_target(_: &mut Endpoint, t: &FOLLOW_TARGET_DATA, a: &mut In
 const FOLLOW_POSITION: u8 = 1;
 const FOLLOW_VELOCITY: u8 = 2;
 
-/// Another vehicle's position, where the flavour follows by it (ArduPilot: FOLL_SYSID, 0 for whichever is heard).
+/// Handles another vehicle's position for flavours that follow it (ArduPilot: FOLL_SYSID, 0 for any vehicle).
 pub(super) fn other_position(e: &mut Endpoint, p: &GLOBAL_POSITION_INT_DATA, a: &mut InboundMessage) {
     let Some(followed) = e.params.whole("FOLL_SYSID") else { return };
     if a.from.0 == e.system_id || (followed != 0 && i32::from(a.from.0) != followed) {
@@ -139,7 +141,7 @@ fn report_target(
     }
 }
 
-/// A target farther from the origin, or faster, is a mistake, m, m/s.
+/// Maximum distance of a target from the origin, m, and maximum speed, m/s; others are ignored.
 const FAR_M: f64 = 20_000.0;
 const FAST_M_S: f64 = 1_000.0;
 
@@ -161,7 +163,7 @@ fn press_buttons(e: &mut Endpoint, m: &MANUAL_CONTROL_DATA, a: &mut InboundMessa
     }
 }
 
-/// Every change of hands is told to everybody.
+/// Broadcasts every change of the stick control source.
 fn announce_stick_changes(e: &mut Endpoint) {
     while let Some(text) = e.manual.poll_text() {
         e.push_text(MavSeverity::MAV_SEVERITY_NOTICE, &text);
@@ -174,7 +176,7 @@ pub(super) fn set_mode(e: &mut Endpoint, m: &SET_MODE_DATA, a: &mut InboundMessa
     }
 }
 
-/// SET_MODE has no acknowledgement: a refusal becomes a text.
+/// Enters a mode. SET_MODE has no acknowledgment, so a rejection is sent as a text.
 pub(super) fn enter_mode(e: &mut Endpoint, custom_mode: u32, a: &mut InboundMessage) {
     let outcome = match e.flavour.row(custom_mode) {
         Some(row) => e.flavour.enter(row, &mut e.chosen, a.autopilot, a.view.now),
@@ -186,7 +188,7 @@ pub(super) fn enter_mode(e: &mut Endpoint, custom_mode: u32, a: &mut InboundMess
     }
 }
 
-/// A set-point that cannot be flown is told, and does not count as one.
+/// Applies a setpoint. Reports and ignores one that cannot be flown.
 fn apply_setpoint(e: &mut Endpoint, reading: SetpointResult, a: &mut InboundMessage) {
     match reading {
         Ok(setpoint) => {
@@ -197,7 +199,7 @@ fn apply_setpoint(e: &mut Endpoint, reading: SetpointResult, a: &mut InboundMess
     }
 }
 
-/// Where a mode flies errands as they come, a set-point in it is flown without being asked for, and ends a take-off that has left the ground.
+/// Enters the setpoint mode if the current mode accepts setpoints directly. A takeoff that has left the ground ends.
 fn enter_setpoint_mode(e: &Endpoint, a: &mut InboundMessage) {
     let status = a.autopilot.status();
     let here = Some(e.flavour.row_of(status.mode, e.chosen).number) == e.flavour.errands;
@@ -219,18 +221,18 @@ pub(super) fn attitude_target(e: &mut Endpoint, t: &SET_ATTITUDE_TARGET_DATA, a:
     apply_setpoint(e, offboard::attitude(t, &a.autopilot.tuning), a);
 }
 
-/// The gimbal as the message's sender may move it: none for another device, or while somebody else is in control.
+/// Returns the gimbal if the sender may move it; `None` for another device or if another client has control.
 fn gimbal<'e>(e: &'e mut Endpoint, device: u8, a: &InboundMessage) -> Option<&'e mut GimbalState> {
     let gimbal = &mut e.payload.gimbal;
     (matches!(device, 0 | DEVICE) && gimbal.accepts_control_from(a.from)).then_some(gimbal)
 }
 
-/// Flags of the manager and of the device that have the same numbers: RETRACT and NEUTRAL (MAVLink common).
+/// Flags with the same values for manager and device: RETRACT and NEUTRAL (MAVLink common).
 const RETRACT: u32 = 1;
 const NEUTRAL: u32 = 2;
 
-/// An angle, at a rate or as fast as can be, or a rate alone, radians. Aims out of reach go to the stop, as a stick does; this gimbal does
-/// not retract.
+/// Applies a pitch angle with an optional rate, or a rate alone, radians. Angles out of range are clamped, as for a stick. This
+/// gimbal cannot retract.
 fn move_gimbal(gimbal: &mut GimbalState, flags: u32, (pitch_rad, rate_rad_s): (f32, f32), a: &InboundMessage) {
     let camera = &a.view.vehicle.camera;
     let number = |value: f32| Some(f64::from(value)).filter(|value| value.is_finite());
@@ -241,7 +243,7 @@ fn move_gimbal(gimbal: &mut GimbalState, flags: u32, (pitch_rad, rate_rad_s): (f
     }
 }
 
-/// Pitch of a quaternion that is given, NaN where none is.
+/// Returns the pitch of a quaternion; NaN if it is not set.
 fn pitch_of(q: [f32; 4]) -> f32 {
     Rotation::<Frd, Ned>::from_wxyz(q.map(f64::from)).map_or(f32::NAN, |attitude| attitude.euler().1 as f32)
 }
@@ -252,7 +254,7 @@ pub(super) fn gimbal_attitude(e: &mut Endpoint, m: &GIMBAL_MANAGER_SET_ATTITUDE_
     }
 }
 
-/// The device's own message, from whom the manager would obey.
+/// Handles the device's own message, from senders that have gimbal control.
 pub(super) fn gimbal_device(e: &mut Endpoint, m: &GIMBAL_DEVICE_SET_ATTITUDE_DATA, a: &mut InboundMessage) {
     if let Some(gimbal) = gimbal(e, DEVICE, a) {
         move_gimbal(gimbal, u32::from(m.flags.bits()), (pitch_of(m.q), m.angular_velocity_y), a);

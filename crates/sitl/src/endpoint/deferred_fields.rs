@@ -1,4 +1,4 @@
-//! Items of missions that leave their place or height open: ArduPilot writes it as 0 and takes what the vehicle has when the item begins.
+//! Mission items without a position or altitude: ArduPilot encodes these as 0 and uses the vehicle's values when the item starts.
 
 use crate::autopilot::MissionStep;
 use crate::autopilot::mission::DeferredFields;
@@ -7,11 +7,11 @@ use spandrel_mavlink::units::deg_e7;
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::geodesy::LocalPlane;
 
-/// NAV_DELAY's first parameter where hour, minute and second count: no seconds to ArduPilot.
+/// First parameter of NAV_DELAY if hour, minute and second are used; ArduPilot sends 0 instead.
 const BY_TIME_OF_DAY: f32 = -1.0;
 const TURN_DEG: f32 = 360.0;
 
-/// What an item leaves open.
+/// Returns the fields that an item leaves open.
 pub(super) fn of(item: &MISSION_ITEM_INT_DATA) -> DeferredFields {
     let flown = matches!(
         item.command,
@@ -22,19 +22,19 @@ pub(super) fn of(item: &MISSION_ITEM_INT_DATA) -> DeferredFields {
             | MavCmd::MAV_CMD_NAV_LOITER_TURNS
             | MavCmd::MAV_CMD_NAV_LOITER_TO_ALT
     );
-    // A height to loiter to is what its item is for.
+    // For LOITER_TO_ALT the altitude is the target, so it is never open.
     let height = flown && item.z == 0.0 && item.command != MavCmd::MAV_CMD_NAV_LOITER_TO_ALT;
     DeferredFields { place: flown && (item.x, item.y) == (0, 0), height }
 }
 
-/// The item with a place in the open one's stead: what else it says can be judged.
+/// Returns the item with a placeholder for the open position, so that its other fields can be checked.
 pub(super) fn filled(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> MISSION_ITEM_INT_DATA {
     let mut item = item.clone();
     if of(&item).place {
         let origin = plane.origin();
         (item.x, item.y) = (deg_e7(origin.latitude_deg), deg_e7(origin.longitude_deg));
     }
-    // Copter's waypoints have no heading; Mission Planner writes 0.
+    // Copter ignores the heading of waypoints; Mission Planner writes 0.
     if item.command == MavCmd::MAV_CMD_NAV_WAYPOINT {
         item.param4 = f32::NAN;
     }
@@ -42,7 +42,7 @@ pub(super) fn filled(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> MISSIO
     if item.command == MavCmd::MAV_CMD_NAV_DELAY && item.param1 == 0.0 && timed {
         item.param1 = BY_TIME_OF_DAY;
     }
-    // More than a turn ends where the rest of it does.
+    // An angle above one turn is reduced to its remainder.
     if item.command == MavCmd::MAV_CMD_CONDITION_YAW && item.param1.is_finite() {
         item.param1 %= TURN_DEG;
     }
@@ -53,7 +53,7 @@ pub(super) fn filled(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> MISSIO
     item
 }
 
-/// What is open is expected to be as at the step before: the vehicle has got there when the step begins.
+/// Fills open fields with the position of the previous step, where the vehicle will be when the step starts.
 pub(super) fn assume_previous_positions(steps: &mut [MissionStep], open: &[DeferredFields], home_m: Option<Vec3<Ned>>) {
     let mut before = home_m;
     for (step, open) in steps.iter_mut().zip(open) {

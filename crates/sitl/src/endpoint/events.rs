@@ -1,4 +1,4 @@
-//! PX4's events interface: what arming checks and health report, event by event, and the file that explains the events
+//! PX4's events interface: events for arming checks and health, and the metadata file that describes them
 //! (<https://mavlink.io/en/services/events.html>; libevents, health and arming checks).
 
 use super::inbound::InboundMessage;
@@ -15,14 +15,14 @@ use spandrel_mavlink::dialect::{
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// Events that can be asked for again (estimate: several reports).
+/// Number of events kept for retransmission (estimate: several reports).
 const KEPT: usize = 64;
-/// Events that one request brings back (estimate: a whole report; a client asks again for what is left).
+/// Maximum number of events for each request (estimate: a whole report; clients request the remainder again).
 const AT_ONCE: u16 = 10;
-/// Reports are this far apart, and the newest number is repeated this often.
+/// Minimum interval between reports, and interval of the sequence number message.
 const REPORT_EVERY: SimTime = SimTime::from_ms(500);
 const SEQUENCE_EVERY: SimTime = SimTime::from_ms(2_000);
-/// Log levels of PX4: internal in the upper half, external in the lower.
+/// PX4's log levels: internal in the upper four bits, external in the lower.
 const PROTOCOL: u8 = 0x88;
 const ERROR: u8 = 0x33;
 
@@ -40,7 +40,7 @@ const COMPONENTS: [(u8, &str, &str); 10] = [
     (29, "gyro", "Gyroscope"),
 ];
 const SYSTEM: u8 = 20;
-/// PX4's number, name and custom mode of each mode group, and whether it needs a position.
+/// PX4's number, name and custom mode of each mode group, and whether it requires a position.
 const GROUPS: [(u8, &str, u32, bool); 12] = [
     (1, "altctl", 2 << 16, false),
     (2, "posctl", 3 << 16, true),
@@ -56,7 +56,7 @@ const GROUPS: [(u8, &str, u32, bool); 12] = [
     (21, "orbit", 3 << 16 | 1 << 24, true),
 ];
 const MISSION_GROUP: u8 = 3;
-/// Arming checks: the autopilot's words, the event's name, the component that it concerns.
+/// Arming checks: the autopilot's text, the event name, the affected component.
 const CHECKS: [(&str, &str, u8); 13] = [
     ("Booting", "check_booting", SYSTEM),
     ("Attitude not aligned", "check_attitude_not_aligned", 16),
@@ -72,18 +72,18 @@ const CHECKS: [(&str, &str, u8); 13] = [
     ("Something stands over the vehicle", "check_obstacle_above", SYSTEM),
     (OTHER, "check_other", SYSTEM),
 ];
-/// A check without an event of its own; its words are in the texts.
+/// A check without an event of its own; the details are in its status text.
 const OTHER: &str = "Preflight check failed";
 const ARMING_SUMMARY: &str = "commander_arming_check_summary";
 const HEALTH_SUMMARY: &str = "commander_health_summary";
 
-/// An event's number in the component's part of the definitions (PX4: FNV-1a, 24 bits).
+/// Computes an event's ID within the component (PX4: FNV-1a, 24 bits).
 fn sub_id(name: &str) -> u32 {
     let hash = name.bytes().fold(0x811c_9dc5_u32, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193));
     hash & 0x00ff_ffff
 }
 
-/// Events sent, and what the last report said.
+/// Events sent, and the contents of the last report.
 #[derive(Debug, Clone, Default)]
 pub struct EventReports {
     sequence: u16,
@@ -91,7 +91,7 @@ pub struct EventReports {
     reported: Option<(Vec<String>, [u32; 5])>,
     next_report: SimTime,
     next_sequence: SimTime,
-    /// Report even if nothing has changed.
+    /// Report even if nothing changed.
     pub asked: bool,
 }
 
@@ -117,7 +117,7 @@ impl EventReports {
     }
 }
 
-/// Errors of the checks, modes that can be armed, modes that can be flown, what is there, what of it fails.
+/// Returns the bit masks: failed checks, modes that allow arming, modes that can run, components present, components failing.
 fn masks(view: &VehicleSnapshot) -> [u32; 5] {
     let s = view.status;
     let errors = s.arming_reasons.iter().fold(0, |mask, reason| mask | 1 << check(reason).2);
@@ -136,7 +136,7 @@ fn check(reason: &str) -> &'static (&'static str, &'static str, u8) {
 }
 
 impl Endpoint {
-    /// Reports the arming checks when they have changed, and repeats the newest event's number.
+    /// Reports the arming checks when they change, and repeats the latest sequence number.
     pub(super) fn report_events(&mut self, view: &VehicleSnapshot) {
         if !self.flavour.events {
             return;
@@ -165,7 +165,7 @@ impl Endpoint {
         }
     }
 
-    /// Summary of the checks, one event for each that fails, summary of the health: the order that clients expect.
+    /// Adds the check summary, one event for each failed check, and the health summary, in the order that clients expect.
     fn add_report(&mut self, reasons: &[String], [errors, can_arm, can_run, present, failing]: [u32; 5], view: &VehicleSnapshot) {
         let now_ms = view.boot_ms();
         let summary = |words: &[u32]| [&[0][..], &words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>()].concat();
@@ -181,7 +181,7 @@ impl Endpoint {
 }
 
 impl Endpoint {
-    /// Sends the event of a text, where it has one.
+    /// Sends the event that corresponds to a status text, if there is one.
     pub(super) fn send_notice(&mut self, text: &str, now_ms: u32) {
         let Some(notice) = notices::of(text).filter(|_| self.flavour.events) else { return };
         self.events.add(notice.name, notice.levels, &[], now_ms);
@@ -190,12 +190,12 @@ impl Endpoint {
     }
 }
 
-/// Sidecars read telemetry, not events.
+/// Payload processes read telemetry, not events.
 fn is_listening(link: &PeerLink) -> bool {
     link.kind != LinkKind::Payload
 }
 
-/// Events again. The first that is not kept is answered with the oldest that is, and the client asks again from there.
+/// Resends events. If the first one is no longer kept, reports the oldest available, and the client requests again from there.
 pub(super) fn request(e: &mut Endpoint, r: &REQUEST_EVENT_DATA, a: &mut InboundMessage) {
     if !e.flavour.events {
         return;
@@ -218,7 +218,7 @@ pub(super) fn request(e: &mut Endpoint, r: &REQUEST_EVENT_DATA, a: &mut InboundM
     }
 }
 
-/// The definitions (component metadata, type events).
+/// Returns the event definitions (component metadata, type events).
 #[must_use]
 pub fn definitions() -> Json {
     let bitfield = |description: &str, entries: Json| json!({ "type": "uint32_t", "description": description, "is_bitfield": true, "entries": entries });

@@ -1,16 +1,16 @@
-//! Geofence and rally points of a plan, as the autopilot takes them.
+//! Converts the geofence and rally points of a plan for the autopilot.
 
 use super::mission_positions::{flyable_position, place, relative};
 use crate::autopilot::fence::{FenceOutline, FenceZone, RallyPoint};
 use spandrel_mavlink::dialect::{MISSION_ITEM_INT_DATA, MavCmd, MavMissionResult, MavMissionType};
 use spandrel_model::geodesy::LocalPlane;
 
-/// A polygon's corners.
+/// Allowed number of polygon vertices.
 const CORNERS: std::ops::RangeInclusive<f32> = 3.0..=70.0;
-/// Radii of circles, m.
+/// Allowed circle radii, m.
 const RADII_M: std::ops::RangeInclusive<f32> = 1.0..=100_000.0;
 
-/// Whether an item of a fence or of rally points can be part of one; names the parameter that is wrong.
+/// Checks a geofence or rally item. Returns an error that names the invalid parameter.
 pub(super) fn check_area(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> Result<(), MavMissionResult> {
     let rally = item.mission_type == MavMissionType::MAV_MISSION_TYPE_RALLY;
     let first = match item.command {
@@ -29,14 +29,14 @@ pub(super) fn check_area(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> Re
     flyable_position(item, plane)
 }
 
-/// Whether a whole fence holds together: every polygon has as many corners in a row as each of them says.
+/// Checks that a fence is complete: every polygon has as many consecutive vertices as its items specify.
 pub(super) fn is_complete(items: &[MISSION_ITEM_INT_DATA]) -> Result<(), MavMissionResult> {
     let mut at = 0;
     while let Some(item) = items.get(at) {
         let corners = corners(item);
         let run = items.iter().skip(at).take(corners);
         let alike = run.filter(|other| other.command == item.command && other.param1 == item.param1).count();
-        // What is no polygon stands for itself; its first parameter need not even be a number.
+        // Other items are complete on their own; their first parameter need not be finite.
         if corners > 1 && alike < corners {
             return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM1);
         }
@@ -45,12 +45,12 @@ pub(super) fn is_complete(items: &[MISSION_ITEM_INT_DATA]) -> Result<(), MavMiss
     Ok(())
 }
 
-/// A place to return to after a breach: kept with the fence, and not used, as a return goes to home or a rally point.
+/// Checks for a fence return point. It is stored with the fence but not used: the vehicle returns to home or a rally point.
 pub(super) fn is_return(item: &MISSION_ITEM_INT_DATA) -> bool {
     item.command == MavCmd::MAV_CMD_NAV_FENCE_RETURN_POINT
 }
 
-/// Items that make up the area that begins with this one.
+/// Returns the number of items in the area that starts with this one.
 fn corners(item: &MISSION_ITEM_INT_DATA) -> usize {
     match item.command {
         MavCmd::MAV_CMD_NAV_FENCE_POLYGON_VERTEX_INCLUSION | MavCmd::MAV_CMD_NAV_FENCE_POLYGON_VERTEX_EXCLUSION => {
@@ -60,7 +60,7 @@ fn corners(item: &MISSION_ITEM_INT_DATA) -> usize {
     }
 }
 
-/// The areas of a fence that is legal and whole.
+/// Returns the areas of a valid, complete fence.
 pub(super) fn zones(items: &[MISSION_ITEM_INT_DATA], plane: &LocalPlane) -> Vec<FenceZone> {
     let flat = |item: &MISSION_ITEM_INT_DATA| place(item, plane, 0.0).map_or((0.0, 0.0), |p| (p.north(), p.east()));
     let mut out = Vec::new();
@@ -86,7 +86,7 @@ pub(super) fn zones(items: &[MISSION_ITEM_INT_DATA], plane: &LocalPlane) -> Vec<
     out
 }
 
-/// The rally points.
+/// Returns the rally points.
 pub(super) fn rally_points(items: &[MISSION_ITEM_INT_DATA], plane: &LocalPlane, home_up_m: f64) -> Vec<RallyPoint> {
     let refuge = |item: &MISSION_ITEM_INT_DATA| {
         Some(RallyPoint { place_m: place(item, plane, home_up_m)?, over_home: relative(item.frame) == Some(true) })

@@ -1,4 +1,4 @@
-//! Files over MAVLink: the message around the packets of the file server.
+//! MAVLink FTP messages to and from the file servers.
 
 use super::inbound::InboundMessage;
 use super::params::packed;
@@ -15,18 +15,18 @@ pub(super) fn request(e: &mut Endpoint, request: &FILE_TRANSFER_PROTOCOL_DATA, a
     }
 }
 
-/// The parameters as a file, where the flavour has it and this opens it.
+/// Returns the packed parameter file if the flavour supports it and the request opens it.
 fn packed_parameters(e: &Endpoint, packet: &FtpPacket) -> Option<Vec<u8>> {
     let opens = e.flavour.params.packed && packet.opcode == Opcode::OpenFileRo as u8;
     packed::file(packet.sized().filter(|_| opens)?, &e.params, e.storage.defaults())
 }
 
-/// The camera's component has its own files.
+/// Handles a request to the camera component, which has its own files.
 pub(super) fn request_of_camera(e: &mut Endpoint, request: &FILE_TRANSFER_PROTOCOL_DATA, a: &InboundMessage) {
     e.camera_files.receive((a.link, a.from), &FtpPacket::read(&request.payload), a.view.now);
 }
 
-/// What the servers have to say goes out.
+/// Sends the replies of both servers.
 pub(super) fn send(e: &mut Endpoint) {
     for component in [AUTOPILOT, CAMERA] {
         let links = &e.links;

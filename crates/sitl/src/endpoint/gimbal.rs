@@ -1,32 +1,33 @@
-//! Pitch gimbal behind the gimbal manager of the autopilot component. It keeps the horizon in roll and pitch and follows the heading:
-//! it has no axis for roll and yaw, and no place to retract to.
+//! The pitch gimbal, controlled through the gimbal manager of the autopilot component. It stabilizes roll and pitch and follows
+//! the heading; it has no roll or yaw axis and cannot retract.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::vehicle::Camera;
 
-/// Id of the non-MAVLink gimbal device (docs/src/reference/wire.md, "Camera, gimbal and lamp").
+/// ID of the non-MAVLink gimbal device (docs/src/reference/wire.md, "Camera, gimbal and lamp").
 pub const DEVICE: u8 = 1;
-/// An angle this far beyond the stop is taken as the stop, rad (a degree: clients round).
+/// Tolerance within which an angle beyond the limit is accepted and clamped, rad (about one degree, because clients round).
 const SLACK_RAD: f64 = 0.02;
 
-/// What the gimbal strives for.
+/// Target of the gimbal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum GimbalTarget {
-    /// An angle, rad.
+    /// A pitch angle, rad.
     Angle(f64),
-    /// An angle, rad, and how fast to get there, rad/s.
+    /// A pitch angle, rad, and the rate at which to approach it, rad/s.
     Slowly(f64, f64),
-    /// A rate, rad/s.
+    /// A pitch rate, rad/s.
     Rate(f64),
-    /// A place, m.
+    /// A position to point at, m.
     Place(Vec3<Enu>),
-    /// Level and ahead.
+    /// Level, facing forward.
     Neutral,
 }
 
 impl GimbalTarget {
-    /// What a message with these fields asks for, NaN and zero rates being left out: an angle, at a rate, or a rate alone.
+    /// Returns the target of a message with these fields, where NaN and zero rates are omitted: an angle, an angle with a rate,
+    /// or a rate alone.
     #[must_use]
     pub fn of(angle_rad: Option<f64>, rate_rad_s: Option<f64>) -> Option<Self> {
         match (angle_rad, rate_rad_s) {
@@ -38,26 +39,26 @@ impl GimbalTarget {
     }
 }
 
-/// The gimbal's state.
+/// State of the gimbal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GimbalState {
-    /// Pitch about the horizon, rad; negative looks down.
+    /// Pitch relative to the horizon, rad; negative points down.
     pub pitch_rad: f64,
-    /// Its rate, rad/s.
+    /// Pitch rate, rad/s.
     pub rate_rad_s: f64,
-    /// Who controls it: system and component, 0 for nobody.
+    /// Primary control: system and component ID; 0 for nobody.
     pub control: (u8, u8),
-    /// Who may move it besides.
+    /// Secondary control: system and component ID.
     pub secondary: (u8, u8),
-    /// Angles of DO_MOUNT_CONTROL are rates: DO_MOUNT_CONFIGURE has said so.
+    /// Whether DO_MOUNT_CONTROL values are rates, as selected by DO_MOUNT_CONFIGURE.
     pub mount_rates: bool,
-    /// It is wanted beyond its stop.
+    /// Whether the target is beyond the limit.
     pub at_stop: bool,
     aim: GimbalTarget,
 }
 
 impl GimbalState {
-    /// Level.
+    /// Creates a level gimbal.
     #[must_use]
     pub fn new() -> Self {
         Self {
@@ -71,26 +72,26 @@ impl GimbalState {
         }
     }
 
-    /// Somebody in control keeps others out; with nobody in control anybody may move it.
+    /// Checks whether this sender may move the gimbal: anyone if nobody has control, otherwise only those in control.
     #[must_use]
     pub fn accepts_control_from(&self, from: (u8, u8)) -> bool {
         self.control == (0, 0) || self.control == from || self.secondary == from
     }
 
-    /// It is in its neutral place, or on the way there.
+    /// Checks whether the gimbal is in its neutral position or moving there.
     #[must_use]
     pub fn is_neutral(&self) -> bool {
         self.aim == GimbalTarget::Neutral
     }
 
-    /// A stick's deflection in [-1, 1], up positive: the whole way to the stop on its side.
+    /// Converts a stick deflection in [-1, 1], up positive, to an angle; full deflection corresponds to the limit on that side.
     #[must_use]
     pub fn deflected(camera: &Camera, deflection: f64) -> GimbalTarget {
         let stop = if deflection < 0.0 { -camera.gimbal_pitch_min_rad } else { camera.gimbal_pitch_max_rad };
         GimbalTarget::Angle(deflection.clamp(-1.0, 1.0) * stop)
     }
 
-    /// A new aim; refused when it is not a number or an angle out of reach.
+    /// Sets a new target. Returns false if it is not finite or out of range.
     pub fn set(&mut self, aim: GimbalTarget, camera: &Camera) -> bool {
         let reached = (camera.gimbal_pitch_min_rad - SLACK_RAD)..=(camera.gimbal_pitch_max_rad + SLACK_RAD);
         let legal = match aim {
@@ -106,7 +107,7 @@ impl GimbalState {
         legal
     }
 
-    /// Moves for `dt_s`.
+    /// Moves the gimbal for `dt_s`, s.
     pub fn step(&mut self, camera: &Camera, position_m: Vec3<Enu>, dt_s: f64) {
         let fastest = if let GimbalTarget::Slowly(_, rate) = self.aim {
             rate.min(camera.gimbal_rate_rad_s)

@@ -1,17 +1,17 @@
-//! A message on its way to whoever acts on it.
+//! Context for handling a received message.
 
 use super::LinkId;
 use super::snapshot::VehicleSnapshot;
 use crate::autopilot::Autopilot;
 
-/// A message that is meant for us, and what may be touched to answer it.
+/// A message addressed to this vehicle, and the state needed to handle it.
 pub(super) struct InboundMessage<'a, 'v> {
-    /// The link it came on.
+    /// The link it arrived on.
     pub link: LinkId,
-    /// Its sender.
+    /// System and component ID of the sender.
     pub from: (u8, u8),
-    /// The vehicle now.
+    /// Snapshot of the vehicle.
     pub view: &'a VehicleSnapshot<'v>,
-    /// Who flies.
+    /// The autopilot.
     pub autopilot: &'a mut Autopilot,
 }

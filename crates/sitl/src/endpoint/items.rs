@@ -1,4 +1,4 @@
-//! Items of missions: what can be flown, and how the autopilot flies it.
+//! Mission items: validation, and conversion to the autopilot's steps.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::commands::payload;
@@ -8,15 +8,15 @@ use crate::autopilot::{MissionStep, TimeOfDay};
 use spandrel_mavlink::dialect::{MISSION_ITEM_INT_DATA, MavCmd, MavFrame, MavMissionResult, MavMissionType};
 use spandrel_model::geodesy::LocalPlane;
 
-/// Longest stay of an item, s.
+/// Maximum hold time of an item, s.
 const LONGEST_S: f32 = 86_400.0;
-/// Radii of circles, m.
+/// Allowed circle radii, m.
 const RADII_M: std::ops::RangeInclusive<f32> = 1.0..=1_000.0;
-/// The radius of a circle that names none, m.
+/// Default circle radius, m.
 const RADIUS_M: f64 = 5.0;
-/// Speeds that an item may ask for, m/s; -1 changes nothing, -2 goes back to the parameter's (MAVLink common).
+/// Allowed speeds, m/s; -1 means no change, -2 restores the parameter's value (MAVLink common).
 const SPEEDS_M_S: (f32, f32) = (0.1, 100.0);
-/// Repetitions from which a jump counts as endless.
+/// Number of repetitions from which a jump counts as endless.
 const ENDLESS: f32 = 64.0;
 
 type ItemResult = Result<(), MavMissionResult>;
@@ -25,8 +25,8 @@ fn span(value: f32, (low, high): (f32, f32), wrong: MavMissionResult) -> ItemRes
     if value.is_nan() || (low..=high).contains(&value) { Ok(()) } else { Err(wrong) }
 }
 
-/// Refuses what could never be flown, naming the parameter that is wrong. `flown` are the numbers of the items that
-/// the plan will fly.
+/// Validates an item and returns an error that names the invalid parameter. `flown` is the range of sequence numbers that the
+/// plan executes.
 pub(super) fn check_item(item: &MISSION_ITEM_INT_DATA, flown: std::ops::Range<u16>, plane: &LocalPlane) -> ItemResult {
     use MavMissionResult as R;
     if item.mission_type != MavMissionType::MAV_MISSION_TYPE_MISSION {
@@ -82,7 +82,7 @@ pub(super) fn check_item(item: &MISSION_ITEM_INT_DATA, flown: std::ops::Range<u1
     }
 }
 
-/// Parameters 2 to 4 hour, minute and second in UTC, each -1 where any will do.
+/// Parameters 2 to 4 are hour, minute and second in UTC; -1 matches any value.
 fn time_of_day(item: &MISSION_ITEM_INT_DATA) -> Result<TimeOfDay, MavMissionResult> {
     use MavMissionResult as R;
     let part = |value: f32, most: f32, wrong: R| match value {
@@ -97,7 +97,7 @@ fn time_of_day(item: &MISSION_ITEM_INT_DATA) -> Result<TimeOfDay, MavMissionResu
     })
 }
 
-/// Parameter 1 how often, 3 the radius, negative for counter-clockwise; 0 or none for the usual one.
+/// Parameter 1 is the number of turns, 3 the radius, negative for counterclockwise; 0 or NaN selects the default.
 fn circle(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     span(item.param1, (0.0, 1_000.0), MavMissionResult::MAV_MISSION_INVALID_PARAM1)?;
     let radius = item.param3.abs();
@@ -105,7 +105,8 @@ fn circle(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     if known { Ok(()) } else { Err(MavMissionResult::MAV_MISSION_INVALID_PARAM3) }
 }
 
-/// Parameter 1 the angle in degrees, 2 the rate in deg/s (0: the vehicle's own), 3 the way round, 4 whether from the present heading.
+/// Parameter 1 is the angle in degrees, 2 the rate in deg/s (0: default), 3 the direction, 4 whether relative to the current
+/// heading.
 fn turn(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     use MavMissionResult as R;
     if !(-360.0..=360.0).contains(&item.param1) {
@@ -115,7 +116,7 @@ fn turn(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     if [0.0, 1.0].contains(&item.param4) { Ok(()) } else { Err(R::MAV_MISSION_INVALID_PARAM4) }
 }
 
-/// Parameter 1 which speed: over the ground or in the air, which is the same to a multirotor; 2 how fast.
+/// Parameter 1 is the speed type (ground speed or airspeed, which are the same for a multirotor), 2 the speed.
 fn speed(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     if !(item.param1.is_nan() || [0.0, 1.0].contains(&item.param1)) {
         return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM1);
@@ -126,7 +127,7 @@ fn speed(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     span(item.param2, SPEEDS_M_S, MavMissionResult::MAV_MISSION_INVALID_PARAM2)
 }
 
-/// Refuses a mission in which endless jumps lead from one to the other with nothing to fly or to wait for between them.
+/// Rejects a mission with a loop of endless jumps that contains nothing to fly or wait for.
 pub(super) fn whole(items: &[MISSION_ITEM_INT_DATA]) -> ItemResult {
     let idle = |item: &MISSION_ITEM_INT_DATA| {
         (item.command as u16) > NAV_LAST
@@ -151,10 +152,10 @@ pub(super) fn whole(items: &[MISSION_ITEM_INT_DATA]) -> ItemResult {
     Ok(())
 }
 
-/// MAV_CMD_NAV_LAST: commands up to this number fly or wait.
+/// MAV_CMD_NAV_LAST: commands up to this number navigate or wait.
 const NAV_LAST: u16 = 95;
 
-/// An item of a mission with what it aims at: the next place, where it is to look there.
+/// Returns a mission item; DO_SET_ROI_WPNEXT_OFFSET is resolved to the position of the next waypoint.
 pub(super) fn aimed(items: &[MISSION_ITEM_INT_DATA], index: usize) -> Option<MISSION_ITEM_INT_DATA> {
     let item = items.get(index)?;
     if item.command != MavCmd::MAV_CMD_DO_SET_ROI_WPNEXT_OFFSET {
@@ -163,7 +164,7 @@ pub(super) fn aimed(items: &[MISSION_ITEM_INT_DATA], index: usize) -> Option<MIS
     let flown = |item: &&MISSION_ITEM_INT_DATA| has_position(item.command) && !without_position(item);
     let command = MavCmd::MAV_CMD_DO_SET_ROI_LOCATION;
     let next = items.iter().skip(index + 1).find(flown);
-    // Behind the last place there is nothing to look at.
+    // After the last position there is no target.
     let none = || MISSION_ITEM_INT_DATA { command: MavCmd::MAV_CMD_DO_SET_ROI_NONE, ..item.clone() };
     Some(next.map_or_else(none, |next| MISSION_ITEM_INT_DATA { command, ..next.clone() }))
 }
@@ -172,7 +173,7 @@ fn has_position(command: MavCmd) -> bool {
     (command as u16) <= NAV_LAST || command == MavCmd::MAV_CMD_CONDITION_GATE
 }
 
-/// Looks at the next place itself: pitch and yaw beside it in parameters 5 and 7, roll in 6, must not be asked for.
+/// Checks that DO_SET_ROI_WPNEXT_OFFSET has no offsets: pitch in parameter 5, roll in 6 and yaw in 7 are not supported.
 fn straight(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     use MavMissionResult as R;
     let none = |offset: i32| matches!(offset, 0 | i32::MAX);
@@ -184,7 +185,7 @@ fn straight(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     }
 }
 
-/// An item as the autopilot flies it. `home_up_m` is home's height about the origin.
+/// Converts an item to an autopilot step. `home_up_m` is home's height above the origin, m.
 pub(super) fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64) -> MissionStep {
     let number = |x: f32, or: f64| if x.is_finite() { f64::from(x) } else { or };
     let somewhere = |make: fn(spandrel_model::frames::Vec3<spandrel_model::frames::Ned>) -> MissionStep| {
@@ -231,7 +232,7 @@ pub(super) fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: 
         MavCmd::MAV_CMD_DO_SET_ROI_LOCATION | MavCmd::MAV_CMD_DO_SET_ROI => somewhere(|place| MissionStep::LookAt(Some(place))),
         MavCmd::MAV_CMD_DO_JUMP => {
             let times = number(item.param2, 0.0);
-            // -1 repeats for ever (MAVLink common).
+            // -1 repeats forever (MAVLink common).
             let times = if times < 0.0 { u32::MAX } else { times as u32 };
             MissionStep::Jump { to: number(item.param1, 0.0).max(0.0) as usize, times }
         }
@@ -239,7 +240,7 @@ pub(super) fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: 
     }
 }
 
-/// The first parameter of a height to loiter to and of a gate is no time to stay.
+/// Converts a waypoint. For LOITER_TO_ALT and CONDITION_GATE, the first parameter is not a hold time.
 fn waypoint(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64) -> MissionStep {
     let Some(position_m) = place(item, plane, home_up_m) else { return MissionStep::Payload };
     let passes = item.command == MavCmd::MAV_CMD_NAV_WAYPOINT;
@@ -247,7 +248,7 @@ fn waypoint(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64) ->
     let stay_s = if stays && item.param1.is_finite() { f64::from(item.param1).max(0.0) } else { 0.0 };
     MissionStep::Waypoint {
         position_m,
-        // 0: the parameter's of then.
+        // 0 selects the parameter's value at the time.
         accept_m: if passes && item.param2.is_finite() && item.param2 > 0.0 { f64::from(item.param2) } else { 0.0 },
         hold_s: if item.command == MavCmd::MAV_CMD_NAV_LOITER_UNLIM { f64::INFINITY } else { stay_s },
         yaw_rad: (passes && item.param4.is_finite()).then(|| f64::from(item.param4).to_radians()),
@@ -283,7 +284,7 @@ mod tests {
             (vec![fly(), jump(0.0, -1.0)], Ok(())),
             (vec![photo(), jump(0.0, 1e6)], refused),
             (vec![photo(), jump(0.0, 3.0)], Ok(())),
-            // A way round the waypoint.
+            // A jump around the waypoint.
             (vec![jump(2.0, -1.0), fly(), jump(0.0, -1.0)], refused),
             (vec![jump(2.0, -1.0), fly(), photo()], Ok(())),
         ] {

@@ -1,23 +1,23 @@
-//! The drone's lamp: on or off, and off and on again as often as a relay is told.
+//! The drone's lamp: on, off, or blinking for a relay repeat command.
 
 use super::payload::PayloadChange;
 use mavlink::MessageData;
 use spandrel_mavlink::dialect::ILLUMINATOR_STATUS_DATA;
 use spandrel_model::time::SimTime;
 
-/// Cycles of a repetition, and how long each may take, s.
+/// Allowed number of cycles, and allowed cycle time, s.
 const CYCLES: std::ops::RangeInclusive<f64> = 1.0..=10_000.0;
 const CYCLE_S: std::ops::RangeInclusive<f64> = 0.04..=3_600.0;
 
-/// On or off.
+/// State of the lamp.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LampState {
-    /// Shines.
+    /// Whether the lamp is on.
     pub on: bool,
     blinking: Option<BlinkSequence>,
 }
 
-/// Changes that are still to come.
+/// Remaining toggles of a blink sequence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct BlinkSequence {
     left: u32,
@@ -26,15 +26,15 @@ struct BlinkSequence {
 }
 
 impl LampState {
-    /// Dark.
+    /// Lamp off.
     pub const OFF: Self = Self { on: false, blinking: None };
 
-    /// On or off; ends a repetition.
+    /// Switches the lamp on or off; ends a blink sequence.
     pub fn switch(&mut self, on: bool) {
         *self = Self { on, blinking: None };
     }
 
-    /// Changes over and back `cycles` times, `cycle_s` each, beginning now. False when the numbers make no sense.
+    /// Toggles the lamp and back `cycles` times, `cycle_s` each, starting now. Returns false if a value is out of range.
     pub fn repeat(&mut self, cycles: f64, cycle_s: f64, now: SimTime) -> bool {
         let sensible = CYCLES.contains(&cycles) && CYCLE_S.contains(&cycle_s);
         if sensible {
@@ -44,7 +44,7 @@ impl LampState {
         sensible
     }
 
-    /// A change that is due is made, and told.
+    /// Toggles the lamp when due, and reports the change.
     pub fn step(&mut self, now: SimTime, news: &mut PayloadChange) {
         let Some(blinking) = self.blinking.as_mut().filter(|blinking| blinking.next <= now) else { return };
         self.on = !self.on;

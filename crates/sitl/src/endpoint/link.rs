@@ -1,4 +1,4 @@
-//! One link: who is behind it, what it is sent and how often, and what waits to go out.
+//! A link: its peer, stream rates and outgoing queue.
 
 use super::LinkKind;
 use super::budget::LinkBudget;
@@ -8,50 +8,50 @@ use spandrel_mavlink::signing::Signing;
 use spandrel_model::time::SimTime;
 use std::collections::{BTreeMap, VecDeque};
 
-/// Frames are packed into datagrams of at most this size, bytes (below the usual path limit).
+/// Maximum size of a datagram into which frames are packed, bytes (below the usual path MTU).
 const DATAGRAM: usize = 1_200;
-/// Datagrams of a link that carries fewer bytes a second, bytes: one frame soon rather than many later.
+/// Datagram size on a rate-limited link, bytes: small, to keep the latency low.
 const SMALL_DATAGRAM: usize = 280;
-/// Fastest stream that may be asked for, Hz: the control loop's rate.
+/// Maximum stream rate that can be requested, Hz: the rate of the control loop.
 const FASTEST_HZ: f64 = 400.0;
-/// Waiting bytes of a link without a limit; the shell empties it at every turn.
+/// Maximum backlog of an unlimited link, bytes; the host empties it in every iteration.
 const MOST_WAITING: usize = 4_194_304;
-/// Frames of one link that are handed on to others in one tick.
+/// Maximum number of frames of one link forwarded to others per tick.
 const HANDED_ON_A_TICK: usize = 16;
-/// Heartbeats are never slowed: clients tell by them that we are there.
+/// Message ID of the heartbeat, which is never slowed down because clients detect the vehicle by it.
 const HEARTBEAT: u32 = 0;
-/// Between heartbeats of a component (MAVLink: 1 Hz).
+/// Interval between heartbeats of a component (MAVLink: 1 Hz).
 const BEAT: SimTime = SimTime::from_ms(1_000);
 /// HIL_STATE_QUATERNION.
 const TRUTH: u32 = 115;
 
-/// How far a peer is that is to be kept in step.
+/// Lockstep state of a peer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LockstepState {
-    /// Time waits for its first answer.
+    /// Simulation time waits for its first response.
     Awaited,
-    /// It has not answered yet, and is served in real time until it does.
+    /// No response yet; the peer is served in real time until it responds.
     Late,
-    /// It answers, and time waits for it.
+    /// The peer responds, and simulation time waits for it.
     Joined,
 }
 
-/// One peer.
+/// A connected peer.
 #[derive(Debug, Clone)]
 pub struct PeerLink {
-    /// What it is.
+    /// Kind of link.
     pub kind: LinkKind,
-    /// It is kept in step.
+    /// Whether the peer runs in lockstep.
     pub lockstep: bool,
-    /// Only answers go out: no heartbeat has come in yet.
+    /// Whether only responses are sent, because no heartbeat was received yet.
     pub answers_only: bool,
-    /// How far it is with that.
+    /// Lockstep progress.
     pub lockstep_state: LockstepState,
-    /// Something has come from it.
+    /// Whether anything was received.
     pub has_received: bool,
-    /// The token of its last question for step.
+    /// Token of the last lockstep request.
     pub lockstep_token: Option<i64>,
-    /// Incoming bytes.
+    /// Decoder of the received bytes.
     pub decoder: Decoder,
     system_id: u8,
     encoders: BTreeMap<u8, Encoder>,
@@ -64,20 +64,21 @@ pub struct PeerLink {
     forwarded: (SimTime, usize),
     budget: Option<LinkBudget>,
     signing: Option<Signing>,
-    /// The signing timestamp of now.
+    /// Current signing timestamp.
     pub stamp: u64,
-    /// Numbers of pictures that are to be told again.
+    /// Indices of the image records still to resend.
     pub pictures: std::ops::Range<usize>,
-    /// Streams whose messages were asked for and follow the acknowledgement.
+    /// Stream rows requested by REQUEST_MESSAGE, sent after the acknowledgment.
     pub after_acknowledgement: Vec<usize>,
-    /// Nothing but heartbeats until it asks.
+    /// Whether only heartbeats are sent until streams are requested.
     must_ask: bool,
-    /// Somebody behind it has spoken to the camera.
+    /// Whether the peer has addressed the camera.
     uses_camera: bool,
 }
 
 impl PeerLink {
-    /// A link with its kind's usual rates, which are none but heartbeats' where it must ask; the first of everything is due at once.
+    /// Creates a link with the default rates of its kind, or heartbeats only if streams must be requested. All streams are due
+    /// immediately.
     #[must_use]
     pub fn new(kind: LinkKind, lockstep: bool, system_id: u8, must_ask: bool, now: SimTime) -> Self {
         let every: Vec<Option<SimTime>> = (0..STREAMS.len()).map(|row| default_interval(row, kind, must_ask)).collect();
@@ -109,19 +110,19 @@ impl PeerLink {
         }
     }
 
-    /// The link carries no more than so many bytes a second.
+    /// Limits the link's capacity to `bytes_s`, bytes/s.
     pub fn limit(&mut self, bytes_s: f64, now: SimTime) {
         let frames_s = self.intervals.iter().flatten().map(|every| 1.0 / every.s()).sum();
         self.budget = Some(LinkBudget::new(bytes_s, frames_s, now));
     }
 
-    /// Whether time waits for it.
+    /// Checks whether simulation time waits for this peer.
     #[must_use]
     pub fn blocks_lockstep(&self) -> bool {
         self.lockstep && self.lockstep_state != LockstepState::Late
     }
 
-    /// Whether this token answers a question of ours: the last one, or any before it of a peer that time does not wait for.
+    /// Checks whether a token answers a lockstep request: the last one, or any earlier one for a late peer.
     #[must_use]
     pub fn is_answer(&self, token: i64) -> bool {
         match self.lockstep_state {
@@ -130,25 +131,26 @@ impl PeerLink {
         }
     }
 
-    /// It has a limit.
+    /// Checks whether the link has a capacity limit.
     #[must_use]
     pub fn is_limited(&self) -> bool {
         self.budget.is_some()
     }
 
-    /// As much waits as should: lists and files wait, streams and forwarded frames are left out.
+    /// Checks whether the backlog is saturated: lists and files then wait, and streams and forwarded frames are skipped.
     #[must_use]
     pub fn is_busy(&self) -> bool {
         self.budget.as_ref().is_some_and(|budget| budget.is_saturated(self.waiting))
     }
 
-    /// Frames that found no room.
+    /// Returns the number of dropped frames.
     #[must_use]
     pub fn dropped(&self) -> u64 {
         self.dropped
     }
 
-    /// Rows of the stream table that are due, each once; their next time is set, later on a link whose capacity they would exceed.
+    /// Returns the due rows of the stream table, each once, and schedules them again, with longer intervals if they exceed the
+    /// link's capacity.
     pub fn due(&mut self, now: SimTime, out: &mut Vec<usize>) {
         out.clear();
         if let Some(budget) = &mut self.budget {
@@ -178,13 +180,14 @@ impl PeerLink {
         self.next_due = soonest;
     }
 
-    /// Interval of a row, microseconds; -1 when off.
+    /// Returns the interval of a row, microseconds; -1 if it is off.
     #[must_use]
     pub fn interval_us(&self, row: usize) -> i32 {
         self.intervals.get(row).copied().flatten().map_or(-1, |every| i32::try_from(every.us()).unwrap_or(i32::MAX))
     }
 
-    /// Sets a row's interval, microseconds: 0 the usual, negative off. False for what is no interval.
+    /// Sets the interval of a row, microseconds: 0 restores the default, negative values turn it off. Returns false if the value
+    /// is invalid.
     pub fn set_interval(&mut self, row: usize, us: f64, now: SimTime) -> bool {
         if !us.is_finite() || row >= STREAMS.len() {
             return false;
@@ -199,13 +202,13 @@ impl PeerLink {
         true
     }
 
-    /// It wants the values for the scoring: without asking, or with the truth that it has asked for.
+    /// Checks whether the peer receives the scoring data: either by default, or because it requested the ground truth.
     #[must_use]
     pub fn wants_truth(&self) -> bool {
         !self.must_ask || STREAMS.iter().zip(&self.intervals).any(|(stream, every)| stream.id == TRUTH && every.is_some())
     }
 
-    /// Every stream at its kind's usual rate again.
+    /// Restores the default rates of all streams.
     pub fn reset_rates(&mut self, now: SimTime) {
         self.intervals = (0..STREAMS.len()).map(|row| default_interval(row, self.kind, self.must_ask)).collect();
         self.next.fill(now);
@@ -215,7 +218,8 @@ impl PeerLink {
         }
     }
 
-    /// Somebody behind the link speaks to the camera: he hears it as often as MAVLink asks of a component, in step with the autopilot.
+    /// Records that the peer addresses the camera: it then receives the camera's heartbeats at MAVLink's rate for components,
+    /// aligned with the autopilot's.
     pub fn use_camera(&mut self) {
         if self.uses_camera {
             return;
@@ -231,13 +235,13 @@ impl PeerLink {
         }
     }
 
-    /// Somebody behind the link has spoken to the camera.
+    /// Checks whether the peer has addressed the camera.
     #[must_use]
     pub fn uses_camera(&self) -> bool {
         self.uses_camera
     }
 
-    /// Its first heartbeat has come in: streams begin now.
+    /// Handles the first heartbeat: starts the streams.
     pub fn wake(&mut self, now: SimTime) {
         if std::mem::take(&mut self.answers_only) {
             self.next.fill(now);
@@ -245,12 +249,12 @@ impl PeerLink {
         }
     }
 
-    /// Signs what our components say from now on.
+    /// Sets or removes the signing of outgoing messages.
     pub fn sign_with(&mut self, signing: Option<Signing>) {
         self.signing = signing;
     }
 
-    /// Queues a message of a stream.
+    /// Queues a stream message.
     pub fn stream(&mut self, component: u8, message: &impl Encodable) {
         let before = self.waiting;
         self.send(component, message);
@@ -259,7 +263,7 @@ impl PeerLink {
         }
     }
 
-    /// Counts a frame of this link that is handed on to others; false when it has sent too many in this tick.
+    /// Counts a frame to be forwarded to other links. Returns false if this link exceeded its limit in this tick.
     pub fn may_forward(&mut self, now: SimTime) -> bool {
         if self.forwarded.0 != now {
             self.forwarded = (now, 0);
@@ -270,7 +274,7 @@ impl PeerLink {
         may
     }
 
-    /// Queues a frame that somebody else sent.
+    /// Queues a frame forwarded from another link.
     pub fn forward(&mut self, frame: Vec<u8>) {
         if self.is_busy() {
             self.dropped += 1;
@@ -279,13 +283,13 @@ impl PeerLink {
         }
     }
 
-    /// Queues a message of one of our components.
+    /// Queues a message from one of the vehicle's components.
     pub fn send(&mut self, component: u8, message: &impl Encodable) {
         let frame = message.frame(self.encoder(component));
         self.queue_own(frame);
     }
 
-    /// Queues a raw payload of one of our components.
+    /// Queues a raw payload from one of the vehicle's components.
     pub fn send_payload(&mut self, component: u8, id: u32, payload: &[u8]) {
         let frame = self.encoder(component).encode_payload(id, payload);
         self.queue_own(frame);
@@ -321,7 +325,7 @@ impl PeerLink {
         }
     }
 
-    /// The next datagram that the link can carry now.
+    /// Returns the next datagram that the link can carry now.
     pub fn poll(&mut self) -> Option<Vec<u8>> {
         let len = self.out.front()?.len();
         if self.budget.as_mut().is_some_and(|budget| !budget.take(len)) {
@@ -332,7 +336,7 @@ impl PeerLink {
     }
 }
 
-/// A row's usual interval.
+/// Returns the default interval of a row.
 fn default_interval(row: usize, kind: LinkKind, must_ask: bool) -> Option<SimTime> {
     let silent = must_ask && STREAMS[row].id != HEARTBEAT;
     if silent { None } else { period(STREAMS[row].rate_hz(kind)) }

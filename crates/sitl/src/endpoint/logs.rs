@@ -1,5 +1,5 @@
-//! Flight logs by the messages of MAVLink's log protocol: listed, downloaded piece by piece, erased. Like the file server it touches no
-//! file; the same shell does its jobs.
+//! Flight logs over MAVLink's log protocol: list, download and erase. Like the file server, it performs no file access; the same
+//! host executes its jobs.
 
 use super::LinkId;
 use super::files::job::{DirectoryEntry, FileAction, FileError, FileJob, FileJobResult};
@@ -7,37 +7,37 @@ use super::files::path::FilePath;
 use spandrel_mavlink::dialect::{LOG_DATA_DATA, LOG_ENTRY_DATA, MavMessage};
 use std::collections::{BTreeMap, VecDeque};
 
-/// Tickets of our jobs begin here, so that they never meet the file server's.
+/// First ticket number of log jobs, chosen to avoid collisions with the file server's.
 const FIRST_TICKET: u64 = 1 << 63;
-/// Where the logs lie, in a folder for each day.
+/// Folder of the logs, with a subfolder for each day.
 const FOLDER: &str = "log";
 const ENDING: &str = ".ulg";
-/// Recordings beside the logs, which are erased with them.
+/// Extension of the recordings stored with the logs and erased together with them.
 const BESIDE: &str = ".mcap";
-/// Bytes of one LOG_DATA.
+/// Data bytes in one LOG_DATA message.
 const PIECE: usize = 90;
-/// Bytes read at once.
+/// Bytes per file read.
 const CHUNK: u32 = 64 * PIECE as u32;
-/// Pieces a tick of each download: at 1000 ticks a second some 180 kB/s.
+/// Messages per tick for each download: about 180 kB/s at 1000 ticks a second.
 const PIECES_A_TICK: usize = 2;
-/// Entries a tick of a listing.
+/// Entries per tick for each listing.
 const ENTRIES_A_TICK: usize = 4;
-/// Listings that may wait for their turn.
+/// Maximum number of queued listings.
 const LISTINGS_MAX: usize = 64;
 
-/// A log.
+/// A log file.
 #[derive(Debug, Clone, PartialEq)]
 struct LogEntry {
     path: FilePath,
     size: u64,
 }
 
-/// What a finished listing is for.
+/// Purpose of a listing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum ListingPurpose {
-    /// Entries first to last go to a link.
+    /// Sends entries first to last to a link.
     Tell(LinkId, u16, u16),
-    /// All are removed.
+    /// Removes all logs.
     Erase,
 }
 
@@ -58,10 +58,10 @@ struct LogDownload {
     reading: Option<u64>,
 }
 
-/// Listings and downloads that are under way.
+/// Listings and downloads in progress.
 #[derive(Debug, Clone, Default)]
 pub struct LogTransfers {
-    /// Somebody does the jobs.
+    /// Whether a host executes file jobs.
     pub stored: bool,
     known: Vec<LogEntry>,
     listings: VecDeque<LogListing>,
@@ -73,7 +73,7 @@ pub struct LogTransfers {
 }
 
 impl LogTransfers {
-    /// A link asks for the entries `first` to `last`.
+    /// Requests the entries `first` to `last` for a link.
     pub fn list(&mut self, link: LinkId, first: u16, last: u16) {
         if !self.stored {
             self.entries.insert(link, [MavMessage::LOG_ENTRY(LOG_ENTRY_DATA::default())].into());
@@ -82,7 +82,7 @@ impl LogTransfers {
         self.begin(ListingPurpose::Tell(link, first, last));
     }
 
-    /// Somebody wants all logs gone.
+    /// Erases all logs.
     pub fn erase(&mut self) {
         if self.stored {
             self.begin(ListingPurpose::Erase);
@@ -98,10 +98,10 @@ impl LogTransfers {
         }
     }
 
-    /// A link asks for `count` bytes of a log from `at`.
+    /// Requests `count` bytes of a log from offset `at` for a link.
     pub fn read(&mut self, link: LinkId, id: u16, at: u32, count: u32) {
         let Some(log) = self.known.get(usize::from(id)) else {
-            // Nothing where there is no such log: the client stops waiting.
+            // An empty message for an unknown log makes the client stop waiting.
             let end = LOG_DATA_DATA { id, ofs: at, ..LOG_DATA_DATA::default() };
             self.entries.entry(link).or_default().push_back(MavMessage::LOG_DATA(end));
             return;
@@ -111,12 +111,12 @@ impl LogTransfers {
         self.downloads.insert(link, download);
     }
 
-    /// A link wants no more.
+    /// Stops the download of a link.
     pub fn stop(&mut self, link: LinkId) {
         self.downloads.remove(&link);
     }
 
-    /// A link is gone.
+    /// Releases everything that belongs to a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.stop(link);
         self.entries.remove(&link);
@@ -124,18 +124,18 @@ impl LogTransfers {
         self.continue_listing();
     }
 
-    /// The action of the next job.
+    /// Returns the action of the next job.
     #[must_use]
     pub fn next_action(&self) -> Option<&FileAction> {
         self.jobs.front().map(|job| &job.action)
     }
 
-    /// The next job.
+    /// Removes and returns the next job.
     pub fn poll_job(&mut self) -> Option<FileJob> {
         self.jobs.pop_front()
     }
 
-    /// True for a ticket of ours.
+    /// Checks whether a ticket belongs to a log job.
     #[must_use]
     pub fn owns(ticket: u64) -> bool {
         ticket >= FIRST_TICKET
@@ -148,7 +148,7 @@ impl LogTransfers {
         ticket
     }
 
-    /// The listing in turn looks into its next folder, or is finished.
+    /// Continues the current listing with its next folder, or finishes it.
     fn continue_listing(&mut self) {
         while self.ticket.is_none() {
             let Some(listing) = self.listings.front_mut() else { return };
@@ -177,7 +177,7 @@ impl LogTransfers {
         }
     }
 
-    /// A job is done.
+    /// Handles the result of a job.
     pub fn done(&mut self, ticket: u64, outcome: Result<FileJobResult, FileError>) {
         if self.ticket == Some(ticket) {
             self.ticket = None;
@@ -203,7 +203,7 @@ impl LogTransfers {
             download.at += piece.len() as u32;
             download.pieces.push_back(MavMessage::LOG_DATA(data));
         }
-        // A short read is the log's end.
+        // A short read marks the end of the log.
         if bytes.len() < CHUNK as usize {
             download.end = download.at;
         }
@@ -227,7 +227,7 @@ impl LogTransfers {
         }
     }
 
-    /// What may go out in this tick on links that are ready.
+    /// Returns the messages to send in this tick on links that are ready.
     pub fn poll(&mut self, ready: impl Fn(&LinkId) -> bool) -> Vec<(LinkId, MavMessage)> {
         let mut out = Vec::new();
         for (link, entries) in self.entries.iter_mut().filter(|(link, _)| ready(link)) {
@@ -273,7 +273,7 @@ fn entries(logs: &[LogEntry], first: u16, last: u16) -> VecDeque<MavMessage> {
         .collect()
 }
 
-/// The start of a log from its name, `log/<date>/<hours>_<minutes>_<seconds>...`: seconds since the Unix epoch.
+/// Parses the start time of a log from its path, `log/<date>/<hours>_<minutes>_<seconds>...`, s since the Unix epoch.
 fn utc_s(path: &str) -> Option<u32> {
     let mut parts = path.rsplit('/');
     let (time, date) = (parts.next()?, parts.next()?);
@@ -294,7 +294,7 @@ mod tests {
         LogTransfers { stored: true, ..LogTransfers::default() }
     }
 
-    /// Does jobs as a folder with two days and three logs of some bytes would.
+    /// Executes jobs on a simulated folder with two days and three logs.
     fn work(logs: &mut LogTransfers, removed: &mut Vec<String>) {
         while let Some(job) = logs.poll_job() {
             let outcome = match &job.action {
@@ -333,7 +333,7 @@ mod tests {
             .iter()
             .filter_map(|m| if let MavMessage::LOG_ENTRY(e) = m { Some((e.id, e.num_logs, e.size, e.time_utc)) } else { None })
             .collect();
-        // 2026-11-20T15:08:00Z and the next day's nine and ten o'clock.
+        // 2026-11-20T15:08:00Z, and 09:00 and 10:00 on the next day.
         let at = 1_795_187_280;
         assert_eq!(entries, [(0, 3, 200, at), (1, 3, 7_000, at + 64_320), (2, 3, 0, at + 67_920)]);
         logs.list(LINK, 1, 1);

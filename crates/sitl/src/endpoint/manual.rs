@@ -1,5 +1,5 @@
-//! Manual control: MANUAL_CONTROL and RC_CHANNELS_OVERRIDE as stick intents, and who of several senders has the sticks. Every change of
-//! hands is told.
+//! Manual control: converts MANUAL_CONTROL and RC_CHANNELS_OVERRIDE to stick input and arbitrates between senders. Reports every
+//! change of control.
 
 use super::LinkId;
 use super::buttons::ButtonState;
@@ -9,49 +9,49 @@ use spandrel_mavlink::dialect::{MANUAL_CONTROL_DATA, RC_CHANNELS_OVERRIDE_DATA};
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// The field's "not used".
+/// Field value that means "not used".
 const UNUSED: i16 = i16::MAX;
-/// Somebody whose sticks are ignored is told so this often, s.
+/// Interval at which an ignored sender is reported, s.
 const TELL_EVERY_S: f64 = 5.0;
-/// Pulse lengths of a transmitter's channel, microseconds; what lies outside is no stick (ArduPilot passes it on; we do not).
+/// Range of valid channel pulses, microseconds; other values are ignored (ArduPilot passes them on).
 pub const PULSES_US: std::ops::RangeInclusive<u16> = 800..=2200;
 const MIDDLE_US: u16 = 1500;
-/// Channels beside the sticks.
+/// Number of channels other than the sticks.
 pub const AUX: usize = 12;
-/// Of them those that 0 releases: channels 5 to 8.
+/// Number of those that a value of 0 releases: channels 5 to 8.
 const LOW_AUX: usize = 4;
-/// Channels 5 to 16 that nobody overrides, microseconds (ArduPilot's SITL: SIM RC defaults).
+/// Default values of channels 5 to 16, microseconds (ArduPilot's SITL: SIM RC defaults).
 const AUX_US: [u16; AUX] = [1800, 1000, 1000, 1800, 1500, 1500, 1500, 1500, 1500, 1500, 1500, 1500];
-/// Value that releases channels 9 and up; 0 releases those before (MAVLink common).
+/// Value that releases channels 9 and up; 0 releases channels 1 to 8 (MAVLink common).
 const RELEASE_HIGH: u16 = 65_534;
-/// Senders with a throttle from -1000 that are remembered; a flood of names must not fill the memory.
+/// Maximum number of remembered senders with a signed throttle, to limit memory use.
 const FULL_RANGE_MAX: usize = 64;
-/// The gimbal's axis acts when it has moved by more than this share of its way.
+/// Minimum change of the gimbal axis that has an effect, as a fraction of full deflection.
 const GIMBAL_STEP: f64 = 0.01;
 /// Bits of `enabled_extensions`.
 const HAS_PITCH: u8 = 1;
 
-/// Who sends: over which link, system, component.
+/// A sender: its link, system ID and component ID.
 type StickSender = (LinkId, (u8, u8));
 
-/// Who holds the sticks, and how.
+/// State of manual control.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ManualControl {
-    /// A sender that is silent this long has let go of the sticks, s.
+    /// Timeout after which a silent sender loses control, s.
     pub release_timeout_s: f64,
-    /// Among several senders.
+    /// Arbitration policy for several senders.
     pub policy: StickPolicy,
     holder: Option<StickSender>,
     last_input: SimTime,
     sticks: Sticks,
     pulses_us: [u16; 4],
     aux_us: [u16; AUX],
-    /// Senders whose throttle counts from -1000 to 1000.
+    /// Senders with a throttle range of -1000 to 1000.
     full_range: Vec<StickSender>,
     gimbal: Option<f64>,
     last_report: Option<(StickSender, SimTime)>,
     texts: VecDeque<String>,
-    /// Buttons of the holder.
+    /// Button state of the sender in control.
     pub presses: ButtonState,
 }
 
@@ -75,25 +75,25 @@ impl Default for ManualControl {
 }
 
 impl ManualControl {
-    /// The sticks, while they are fresh.
+    /// Returns the stick positions; `None` after the timeout.
     #[must_use]
     pub fn fresh(&self, now: SimTime) -> Option<Sticks> {
         self.has_holder(now).then_some(self.sticks)
     }
 
-    /// The sticks as channels of a transmitter, microseconds, while they are fresh.
+    /// Returns the sticks as transmitter pulses, microseconds; `None` after the timeout.
     #[must_use]
     pub fn pulses_us(&self, now: SimTime) -> Option<[u16; 4]> {
         self.has_holder(now).then_some(self.pulses_us)
     }
 
-    /// Channels 5 to 16, microseconds.
+    /// Returns channels 5 to 16, microseconds.
     #[must_use]
     pub fn aux_us(&self) -> [u16; AUX] {
         self.aux_us
     }
 
-    /// Channels 5 to 16 of an override, from whoever may have the sticks.
+    /// Applies channels 5 to 16 of an override, if this sender may take control.
     pub fn take_aux(&mut self, from: StickSender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) {
         if self.policy == StickPolicy::FirstKeeps && self.holder.is_some_and(|holder| holder != from) && self.has_holder(now) {
             return;
@@ -108,7 +108,7 @@ impl ManualControl {
         }
     }
 
-    /// A link is gone: another sender may get its number.
+    /// Releases what belongs to a closed link; its number may be reused.
     pub fn forget(&mut self, link: LinkId) {
         self.full_range.retain(|(known, _)| *known != link);
     }
@@ -117,7 +117,7 @@ impl ManualControl {
         self.holder.is_some() && (now - self.last_input).s() <= self.release_timeout_s
     }
 
-    /// The next thing to tell everybody.
+    /// Removes and returns the next text to broadcast.
     pub fn poll_text(&mut self) -> Option<String> {
         self.texts.pop_front()
     }
@@ -149,8 +149,8 @@ impl ManualControl {
         }
     }
 
-    /// MANUAL_CONTROL: x forward, y right, r clockwise in -1000..1000; z is throttle in 0..1000 with 500 as its middle, or in -1000..1000
-    /// of a sender that has ever sent a negative one. Anything out of range or not used counts as centred.
+    /// Applies MANUAL_CONTROL: x forward, y right, r clockwise in -1000..1000; z is throttle in 0..1000 with 500 as its center,
+    /// or in -1000..1000 for a sender that has ever sent a negative value. Values out of range or not used count as centered.
     pub fn manual_control(&mut self, from: StickSender, m: &MANUAL_CONTROL_DATA, now: SimTime) -> Option<Sticks> {
         let zero = |value: Option<f64>| value.unwrap_or(0.0);
         let up = match axis(m.z) {
@@ -162,7 +162,7 @@ impl ManualControl {
         self.take(from, sticks, pulses_of(&sticks), now)
     }
 
-    /// Whether the middle of a sender's throttle is 0; told once when it shows.
+    /// Checks whether a sender uses a signed throttle. Reports it once when first detected.
     fn has_signed_throttle(&mut self, from: StickSender, z: f64) -> bool {
         let known = self.full_range.contains(&from);
         if !known && z < 0.0 && self.full_range.len() < FULL_RANGE_MAX {
@@ -173,23 +173,24 @@ impl ManualControl {
         known
     }
 
-    /// The gimbal's axis of MANUAL_CONTROL (extension `s`), -1 down to 1 up, when the holder has moved it. The extension `t` (roll by MAVLink, yaw by
-    /// QGroundControl) moves nothing: the gimbal has neither axis.
+    /// Returns the gimbal axis of MANUAL_CONTROL (extension `s`), -1 down to 1 up, when the sender in control moves it. Extension
+    /// `t` (roll in MAVLink, yaw in QGroundControl) is ignored: the gimbal has neither axis.
     pub fn gimbal(&mut self, from: StickSender, m: &MANUAL_CONTROL_DATA) -> Option<f64> {
         let pitch = (m.enabled_extensions & HAS_PITCH != 0 && self.holder == Some(from)).then(|| axis(m.s)).flatten()?;
         let before = self.gimbal.replace(pitch);
-        // Where the axis stands at first is no wish: the gimbal may have been pointed by a command.
+        // Ignore the initial position: a command may have set the gimbal's angle.
         before.is_some_and(|before| (before - pitch).abs() > GIMBAL_STEP).then_some(pitch)
     }
 
-    /// Whether a sender has the sticks.
+    /// Checks whether a sender has control.
     #[must_use]
     pub fn is_holder(&self, from: StickSender) -> bool {
         self.holder == Some(from)
     }
 
-    /// RC_CHANNELS_OVERRIDE: channels 1 to 4 roll, pitch, throttle, yaw in microseconds. 65535, and what no transmitter sends, leaves a channel as it was, 0 releases it to
-    /// its middle; all four released let go of the sticks. Pitch is reversed as on a transmitter: stick forward is below the middle.
+    /// Applies RC_CHANNELS_OVERRIDE: channels 1 to 4 are roll, pitch, throttle and yaw, microseconds. 65535 and values outside
+    /// the valid range leave a channel unchanged, 0 centers it; all four at 0 release control. Pitch is reversed as on a
+    /// transmitter: stick forward is below center.
     pub fn channels(&mut self, from: StickSender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) -> Option<Sticks> {
         let all = [c.chan1_raw, c.chan2_raw, c.chan3_raw, c.chan4_raw];
         if all.iter().all(|us| *us == 0) {
@@ -198,7 +199,7 @@ impl ManualControl {
             }
             return None;
         }
-        // Nothing in it that a transmitter could send: nobody's sticks.
+        // Without any valid pulse, the message does not take control.
         if !all.iter().any(|us| PULSES_US.contains(us)) {
             return None;
         }
@@ -224,7 +225,7 @@ impl ManualControl {
     }
 }
 
-/// Channels 5 to 16 of an override, microseconds.
+/// Returns channels 5 to 16 of an override, microseconds.
 pub fn aux_of(c: &RC_CHANNELS_OVERRIDE_DATA) -> [u16; AUX] {
     [
         c.chan5_raw,
@@ -242,7 +243,7 @@ pub fn aux_of(c: &RC_CHANNELS_OVERRIDE_DATA) -> [u16; AUX] {
     ]
 }
 
-/// Sticks as a transmitter's channels: roll, pitch, throttle, yaw, stick forward below the middle.
+/// Converts sticks to transmitter pulses, microseconds: roll, pitch, throttle, yaw, with stick forward below center.
 fn pulses_of(s: &Sticks) -> [u16; 4] {
     [s.right, -s.forward, s.up, s.yaw].map(|axis| (1500.0 + 500.0 * axis).round() as u16)
 }
@@ -251,7 +252,7 @@ fn axis(value: i16) -> Option<f64> {
     (value != UNUSED && (-1000..=1000).contains(&value)).then(|| f64::from(value) / 1000.0)
 }
 
-/// As short as a text's 50 bytes ask: system/component@link.
+/// Returns system/component@link, short enough for a text of 50 bytes.
 fn sender_name((link, (system, component)): StickSender) -> String {
     format!("{system}/{component}@{}", link.0)
 }

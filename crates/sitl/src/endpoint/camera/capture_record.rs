@@ -1,17 +1,17 @@
-//! One picture and what its message says.
+//! A captured image and its CAMERA_IMAGE_CAPTURED message.
 
 use crate::endpoint::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{CAMERA_IMAGE_CAPTURED_DATA, MavBool, MavMessage};
 use spandrel_mavlink::units::{deg_e7, mm};
 
-/// One picture: everything that its message says, so that it can be said again.
+/// One captured image, with all the fields of its message so that it can be sent again.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CaptureRecord {
     message: CAMERA_IMAGE_CAPTURED_DATA,
 }
 
 impl CaptureRecord {
-    /// A picture of this instant.
+    /// Creates the record of an image taken now.
     #[must_use]
     pub fn of(v: &VehicleSnapshot) -> Self {
         let geo = v.geo();
@@ -32,13 +32,13 @@ impl CaptureRecord {
         }
     }
 
-    /// CAMERA_IMAGE_CAPTURED.
+    /// Returns the CAMERA_IMAGE_CAPTURED message.
     #[must_use]
     pub fn message(&self) -> MavMessage {
         MavMessage::CAMERA_IMAGE_CAPTURED(self.message.clone())
     }
 
-    /// A picture of nothing with this number, for tests.
+    /// Creates an empty record with this index, for tests.
     #[cfg(test)]
     pub(super) fn numbered(index: usize) -> Self {
         Self { message: CAMERA_IMAGE_CAPTURED_DATA { image_index: index as i32, ..Default::default() } }

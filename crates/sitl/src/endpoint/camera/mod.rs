@@ -1,4 +1,4 @@
-//! The camera component: modes, pictures with their geotags, series, recording, zoom, memory card.
+//! The camera component: modes, geotagged images, capture series, recording, zoom, memory card.
 
 mod capture_record;
 mod series;
@@ -21,28 +21,28 @@ use spandrel_model::vehicle::Camera;
 use storage_card::{CARD_MIB, StorageCard};
 use zoom::{ZoomCommand, ZoomLens};
 
-/// A command for one picture with the number of the one before is its repetition within this time.
+/// Time within which a capture command with the previous sequence number counts as a repeat.
 const REPEATED_WITHIN: SimTime = SimTime::from_ms(5_000);
-/// Recordings tell of themselves this often at most, Hz.
+/// Maximum rate of recording status messages, Hz.
 const FASTEST_TELLING_HZ: f64 = 10.0;
 const MIB: f64 = 1_048_576.0;
 
-/// What the camera is set to take. It takes pictures in either mode, and records in video mode alone.
+/// Capture mode. Images can be taken in either mode; recording requires video mode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum CaptureMode {
-    /// Pictures.
+    /// Photo mode.
     #[default]
     Photo,
-    /// Recordings.
+    /// Video mode.
     Video,
 }
 
-/// What can be set beside mode and zoom.
+/// Camera settings other than mode and zoom.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CameraSettings {
-    /// Pictures of the better quality, that take more of the card.
+    /// Whether images are saved at high quality, which takes more storage.
     pub fine: bool,
-    /// Rate of recordings, Mbit/s.
+    /// Video bit rate, Mbit/s.
     pub video_mbit_s: u32,
 }
 
@@ -53,34 +53,34 @@ impl Default for CameraSettings {
 }
 
 impl CameraSettings {
-    /// One picture, MiB (estimate: 12 MP JPEG of little and of more compression).
+    /// Size of one image, MiB (estimate: 12 MP JPEG at low and high compression).
     #[must_use]
     pub fn picture_mib(&self) -> f64 {
         if self.fine { 6.0 } else { 3.0 }
     }
 
-    /// Recording, MiB/s.
+    /// Video data rate, MiB/s.
     #[must_use]
     pub fn video_mib_s(&self) -> f64 {
         f64::from(self.video_mbit_s) * 1e6 / 8.0 / MIB
     }
 }
 
-/// Why the camera does not do what it is told.
+/// Reason why the camera rejects a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CameraError {
-    /// Numbers that make no sense.
+    /// Invalid values.
     Senseless,
-    /// Nothing more fits on the card.
+    /// The memory card is full.
     Full,
-    /// Recording needs video mode.
+    /// Recording requires video mode.
     PhotoMode,
-    /// Not while it records.
+    /// Not possible while recording.
     Recording,
 }
 
 impl CameraError {
-    /// In words; none where the command alone is to blame.
+    /// Returns the text to send; `None` if the command itself is invalid.
     #[must_use]
     pub fn text(self) -> Option<&'static str> {
         match self {
@@ -95,19 +95,19 @@ impl CameraError {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct VideoRecording {
     since: SimTime,
-    /// Its status is told this often, and when next.
+    /// Interval between status messages, and the time of the next one.
     tell: Option<(SimTime, SimTime)>,
 }
 
-/// A command for one picture: who gave it, its number, when.
+/// A command for a single image: sender, sequence number, time.
 type CaptureCommand = ((u8, u8), u32, SimTime);
 
-/// Who lets the camera's component say heartbeats: simple clients take them for the vehicle's.
+/// Whether the camera component sends heartbeats; simple clients mistake them for the vehicle's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CameraAnnouncement {
-    /// The parameter does.
+    /// Enabled by the parameter.
     pub parameter: bool,
-    /// Whoever started the program does not.
+    /// Disabled when the program was started.
     pub silenced: bool,
 }
 
@@ -117,18 +117,18 @@ impl Default for CameraAnnouncement {
     }
 }
 
-/// The camera's state.
+/// State of the camera.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CameraState {
-    /// Mode.
+    /// Capture mode.
     pub mode: CaptureMode,
-    /// Lens.
+    /// Zoom lens.
     pub zoom: ZoomLens,
-    /// What else is set.
+    /// Other settings.
     pub settings: CameraSettings,
-    /// The live picture.
+    /// Live video stream.
     pub stream: stream::StreamReport,
-    /// Whether it says heartbeats.
+    /// Whether the component sends heartbeats.
     pub announced: CameraAnnouncement,
     series: CaptureSeries,
     card: StorageCard,
@@ -137,7 +137,7 @@ pub struct CameraState {
 }
 
 impl CameraState {
-    /// The counters.
+    /// Returns a summary of the camera's state.
     #[must_use]
     pub fn summary(&self, now: SimTime) -> CameraSummary {
         CameraSummary {
@@ -154,22 +154,22 @@ impl CameraState {
         }
     }
 
-    /// What is on the card, MiB, a running recording included.
+    /// Returns the used storage, MiB, including a running recording.
     fn used_mib(&self, now: SimTime) -> f64 {
         let running = self.recording.map_or(0.0, |recording| (now - recording.since).s() * self.settings.video_mib_s());
         (self.card.used_mib() + running).min(CARD_MIB)
     }
 
-    /// No picture fits on the card any more.
+    /// Checks whether there is no room for another image.
     #[must_use]
     pub fn full(&self, now: SimTime) -> bool {
         self.used_mib(now) + self.settings.picture_mib() > CARD_MIB
     }
 
-    /// Starts a series or takes one picture: `count` 0 means until stopped.
+    /// Starts a series or takes one image. A `count` of 0 means until stopped.
     ///
     /// # Errors
-    /// A full card; numbers that make no sense.
+    /// Returns an error if the card is full or a value is invalid.
     pub fn start(&mut self, interval_s: f64, count: f64, now: SimTime) -> Result<(), CameraError> {
         if self.full(now) {
             return Err(CameraError::Full);
@@ -177,10 +177,11 @@ impl CameraState {
         if self.series.start(interval_s, count, now) { Ok(()) } else { Err(CameraError::Senseless) }
     }
 
-    /// A picture every `way_m` from `here` on, and one now if asked for; 0 ends it.
+    /// Takes an image every `way_m` meters, starting at `here`, and one immediately if `first` is set. A distance of 0 stops the
+    /// series.
     ///
     /// # Errors
-    /// A full card; numbers that make no sense.
+    /// Returns an error if the card is full or a value is invalid.
     pub fn start_by_distance(&mut self, way_m: f64, first: bool, here: Vec3<Enu>, now: SimTime) -> Result<(), CameraError> {
         if way_m > 0.0 && self.full(now) {
             return Err(CameraError::Full);
@@ -188,18 +189,18 @@ impl CameraState {
         if self.series.start_by_distance(way_m, first, here, now) { Ok(()) } else { Err(CameraError::Senseless) }
     }
 
-    /// Whether a command for one picture with a number of its own is the last one said again, as its acknowledgement was lost.
+    /// Checks whether a numbered single-image command repeats the last one, as clients do after a lost acknowledgment.
     #[must_use]
     pub fn is_repeated(&self, from: (u8, u8), number: u32, now: SimTime) -> bool {
         self.last.is_some_and(|(who, last, at)| who == from && last == number && now - at <= REPEATED_WITHIN)
     }
 
-    /// Such a command has been obeyed.
+    /// Records a single-image command as executed.
     pub fn remember(&mut self, from: (u8, u8), number: u32, now: SimTime) {
         self.last = Some((from, number, now));
     }
 
-    /// Ends every series.
+    /// Stops every series.
     pub fn stop(&mut self) {
         self.series.stop();
     }
@@ -207,7 +208,7 @@ impl CameraState {
     /// Changes the mode.
     ///
     /// # Errors
-    /// A recording runs.
+    /// Returns an error while recording.
     pub fn set_mode(&mut self, mode: CaptureMode) -> Result<(), CameraError> {
         if self.recording.is_some() && mode != self.mode {
             return Err(CameraError::Recording);
@@ -216,10 +217,10 @@ impl CameraState {
         Ok(())
     }
 
-    /// Records from now on, and tells its status `tell_hz` times a second (0: not by itself). What records already goes on.
+    /// Starts recording and sends the status `tell_hz` times a second (0: only on request). A running recording continues.
     ///
     /// # Errors
-    /// Photo mode; a full card; a rate that makes no sense.
+    /// Returns an error in photo mode, if the card is full, or if the rate is invalid.
     pub fn start_recording(&mut self, tell_hz: f64, now: SimTime) -> Result<(), CameraError> {
         if self.mode != CaptureMode::Video {
             return Err(CameraError::PhotoMode);
@@ -236,7 +237,7 @@ impl CameraState {
         Ok(())
     }
 
-    /// Ends a recording.
+    /// Stops the recording.
     pub fn stop_recording(&mut self, now: SimTime) {
         if let Some(recording) = self.recording.take() {
             let room = CARD_MIB - self.card.used_mib();
@@ -244,10 +245,10 @@ impl CameraState {
         }
     }
 
-    /// Empties the card, or only counts pictures from 0 again.
+    /// Formats the card, or only resets the image counter.
     ///
     /// # Errors
-    /// A recording runs.
+    /// Returns an error while recording.
     pub fn format(&mut self, whole: bool) -> Result<(), CameraError> {
         if self.recording.is_some() {
             return Err(CameraError::Recording);
@@ -260,10 +261,10 @@ impl CameraState {
         Ok(())
     }
 
-    /// Everything as delivered: photo mode, wide end, best quality.
+    /// Resets the camera to its defaults: photo mode, widest zoom, high quality.
     ///
     /// # Errors
-    /// A recording runs.
+    /// Returns an error while recording.
     pub fn reset(&mut self, camera: &Camera) -> Result<(), CameraError> {
         if self.recording.is_some() {
             return Err(CameraError::Recording);
@@ -277,7 +278,7 @@ impl CameraState {
     /// Changes the settings.
     ///
     /// # Errors
-    /// A recording runs whose rate would change.
+    /// Returns an error if the video bit rate would change while recording.
     pub fn set(&mut self, settings: CameraSettings) -> Result<(), CameraError> {
         if self.recording.is_some() && settings.video_mbit_s != self.settings.video_mbit_s {
             return Err(CameraError::Recording);
@@ -286,7 +287,7 @@ impl CameraState {
         Ok(())
     }
 
-    /// Time passes: the lens moves, recordings tell of themselves and end on a full card.
+    /// Advances the simulation: moves the lens, sends the recording status, and stops the recording when the card is full.
     pub fn step(&mut self, now: SimTime, dt_s: f64, news: &mut PayloadChange) {
         if self.zoom.step(dt_s) {
             news.add_message(CAMERA_SETTINGS_DATA::ID);
@@ -310,13 +311,13 @@ impl CameraState {
         }
     }
 
-    /// True when a picture is due at `now`; call [`CameraState::take`] then.
+    /// Checks whether an image is due at `now`; if so, call [`CameraState::take`].
     #[must_use]
     pub fn due(&self, now: SimTime, here: Vec3<Enu>) -> bool {
         self.series.due(now, here) && !self.full(now)
     }
 
-    /// The picture that is due. A full card ends every series.
+    /// Stores the image that is due and returns its message. A full card ends every series.
     pub fn take(&mut self, shot: CaptureRecord, now: SimTime, here: Vec3<Enu>) -> MavMessage {
         let message = shot.message();
         self.card.add_picture(shot, self.settings.picture_mib());
@@ -327,7 +328,7 @@ impl CameraState {
         message
     }
 
-    /// A picture's message again.
+    /// Returns the message of a stored image again.
     #[must_use]
     pub fn recorded_capture(&self, index: usize) -> Option<MavMessage> {
         self.card.shots().get(index).map(CaptureRecord::message)
@@ -389,7 +390,7 @@ mod tests {
         let mut camera = CameraState { mode: CaptureMode::Video, ..CameraState::default() };
         let mut news = PayloadChange::default();
         assert_eq!(camera.start_recording(0.0, SimTime::ZERO), Ok(()));
-        // 60 Mbit/s are 7.5 MB/s.
+        // 60 Mbit/s is 7.5 MB/s.
         let after = SimTime::from_s(100.0);
         assert!((camera.summary(after).used_mib * MIB - 750e6).abs() < 1.0);
         let end = SimTime::from_s(CARD_MIB * MIB / 7.5e6 + 0.01);
@@ -417,7 +418,7 @@ mod tests {
             news.take().0.contains(&CAMERA_CAPTURE_STATUS_DATA::ID)
         });
         assert_eq!(told.count(), 8, "twice a second for four seconds");
-        // Started again, as after a lost acknowledgement, it goes on.
+        // Starting again, as after a lost acknowledgment, continues the recording.
         assert_eq!(camera.start_recording(0.0, SimTime::from_ms(4_000)), Ok(()));
         assert_eq!(camera.summary(SimTime::from_ms(5_000)).recording, Some(SimTime::from_ms(5_000)));
         camera.stop_recording(SimTime::from_ms(5_000));

@@ -1,43 +1,43 @@
-//! When pictures are due: single ones, a series by time, a series by way.
+//! Capture timing: single images, time-lapse series and distance-triggered series.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::time::SimTime;
 
-/// The shortest way between pictures of a series, m.
+/// Minimum distance between images of a series, m.
 const LEAST_WAY_M: f64 = 0.1;
-/// The shortest and the longest time between pictures of a series, s.
+/// Minimum and maximum interval between images of a series, s.
 const LEAST_INTERVAL_S: f64 = 0.2;
 const LONGEST_INTERVAL_S: f64 = 86_400.0;
-/// Counts and ways beyond these are mistakes.
+/// Limits above which counts and distances are rejected.
 const MOST_PICTURES: f64 = 1e6;
 const LONGEST_WAY_M: f64 = 1e5;
 
-/// What is to be taken.
+/// Images still to be taken.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CaptureSeries {
     interval_s: Option<f64>,
     next: Option<SimTime>,
     left: Option<u32>,
-    /// A picture every so many metres, and where the last one was.
+    /// Distance between images, m, and the position of the last one.
     by_distance: Option<(f64, Vec3<Enu>)>,
-    /// Single pictures that are still to be taken: commands may come faster than pictures are taken, and none must swallow another.
+    /// Single images still to be taken. Commands may arrive faster than images are taken, and none may be lost.
     singles: u32,
 }
 
 impl CaptureSeries {
-    /// Seconds between pictures of a running series by time.
+    /// Returns the interval of a running time-lapse series, s.
     #[must_use]
     pub fn interval_s(&self) -> Option<f64> {
         self.interval_s
     }
 
-    /// A series by way runs.
+    /// Checks whether a distance-triggered series is running.
     #[must_use]
     pub fn is_by_distance(&self) -> bool {
         self.by_distance.is_some()
     }
 
-    /// Starts a series or takes one picture: `count` 0 means until stopped. False when the numbers make no sense.
+    /// Starts a series or takes one image. A `count` of 0 means until stopped. Returns false if a value is invalid.
     pub fn start(&mut self, interval_s: f64, count: f64, now: SimTime) -> bool {
         if !(0.0..=MOST_PICTURES).contains(&count) || !(0.0..=LONGEST_INTERVAL_S).contains(&interval_s) {
             return false;
@@ -52,7 +52,8 @@ impl CaptureSeries {
         true
     }
 
-    /// A picture every `way_m` from `here` on, and one now if asked for; 0 ends it. False when the numbers make no sense.
+    /// Takes an image every `way_m` meters, starting at `here`, and one immediately if `first` is set. A distance of 0 stops the
+    /// series. Returns false if the value is invalid.
     pub fn start_by_distance(&mut self, way_m: f64, first: bool, here: Vec3<Enu>, now: SimTime) -> bool {
         if !(0.0..=LONGEST_WAY_M).contains(&way_m) {
             return false;
@@ -64,24 +65,24 @@ impl CaptureSeries {
         true
     }
 
-    /// Ends every series. A single picture that was promised is still taken.
+    /// Stops every series. Single images already accepted are still taken.
     pub fn stop(&mut self) {
         *self = Self { singles: self.singles, ..Self::default() };
     }
 
-    /// Nothing is to be taken any more.
+    /// Cancels everything, including single images.
     pub fn cancel(&mut self) {
         *self = Self::default();
     }
 
-    /// True when a picture is due; call [`CaptureSeries::taken`] when it is taken.
+    /// Checks whether an image is due; call [`CaptureSeries::taken`] once it is taken.
     #[must_use]
     pub fn due(&self, now: SimTime, here: Vec3<Enu>) -> bool {
         let far = self.by_distance.is_some_and(|(way_m, last)| (here - last).norm() >= way_m);
         self.singles > 0 || far || self.next.is_some_and(|next| next <= now)
     }
 
-    /// The picture that was due is taken.
+    /// Records that the image that was due has been taken.
     pub fn taken(&mut self, now: SimTime, here: Vec3<Enu>) {
         if self.singles > 0 {
             self.singles -= 1;

@@ -1,28 +1,28 @@
-//! The camera's settings as stations show them: by name and number over PARAM_EXT, described by a camera definition file
+//! Camera settings for ground stations: accessed by name or index over PARAM_EXT, described by a camera definition file
 //! (<https://mavlink.io/en/services/camera_def.html>).
 
 use super::{CameraError, CameraSettings, CameraState};
 use std::fmt::Write;
 
-/// Where the camera's own file server has the description.
+/// Path of the definition file on the camera's file server.
 pub const FILE: &str = "camera.xml";
-/// Where stations are told to fetch it.
+/// URI of the definition file, sent to ground stations.
 pub const URI: &str = "mftp://camera.xml";
-/// Stations keep the description by this number: it grows with every change of the table below.
+/// Version of the definition, by which ground stations cache it. Increase it with every change of the table below.
 pub const VERSION: u16 = 1;
 
-/// Values that a setting may have.
+/// Values that a setting accepts.
 #[derive(Debug, Clone, Copy)]
 pub enum AllowedValues {
-    /// Each by a name.
+    /// Named options.
     Options(&'static [(&'static str, u32)]),
-    /// From, to, in steps of.
+    /// Minimum, maximum and step.
     Range(u32, u32, u32),
 }
 
-/// One setting.
+/// A camera setting.
 pub struct CameraSetting {
-    /// As on the wire, at most 16 characters.
+    /// Parameter name on the wire, at most 16 characters.
     pub name: &'static str,
     description: &'static str,
     allowed: AllowedValues,
@@ -31,8 +31,8 @@ pub struct CameraSetting {
     set: fn(&mut CameraState, u32) -> Result<(), CameraError>,
 }
 
-/// All of them, in the order of their numbers. The mode is none: MAV_CMD_SET_CAMERA_MODE sets it, and MAVSDK mistakes the values that a setting
-/// called CAM_MODE has (its own count from 1).
+/// All settings, in index order. The mode is not one of them: MAV_CMD_SET_CAMERA_MODE sets it, and MAVSDK misreads the values of
+/// a setting named CAM_MODE (it counts them from 1).
 pub const ALL: &[CameraSetting] = &[
     CameraSetting {
         name: "CAM_PHOTOQUAL",
@@ -53,22 +53,22 @@ pub const ALL: &[CameraSetting] = &[
 ];
 
 impl CameraSetting {
-    /// By its name.
+    /// Returns the setting with this name and its index.
     #[must_use]
     pub fn named(name: &str) -> Option<(usize, &'static Self)> {
         ALL.iter().enumerate().find(|(_, setting)| setting.name == name)
     }
 
-    /// Its present value.
+    /// Returns the current value.
     #[must_use]
     pub fn value(&self, camera: &CameraState) -> u32 {
         (self.get)(camera)
     }
 
-    /// Changes it.
+    /// Changes the value.
     ///
     /// # Errors
-    /// A value that it may not have; what the camera is doing.
+    /// Returns an error if the value is not allowed or the camera's state does not permit the change.
     pub fn change(&self, camera: &mut CameraState, value: u32) -> Result<(), CameraError> {
         let legal = match self.allowed {
             AllowedValues::Options(options) => options.iter().any(|(_, option)| *option == value),
@@ -79,7 +79,7 @@ impl CameraSetting {
 
     fn describe(&self, xml: &mut String) {
         let (name, default, description) = (self.name, self.default, self.description);
-        // Writing to a string does not fail.
+        // Writing to a string cannot fail.
         let _ = match self.allowed {
             AllowedValues::Options(options) => {
                 let options: String =
@@ -99,7 +99,7 @@ impl CameraSetting {
     }
 }
 
-/// The camera definition file.
+/// Returns the camera definition file (XML).
 #[must_use]
 pub fn definition() -> String {
     let mut xml = format!(

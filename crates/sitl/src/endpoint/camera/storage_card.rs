@@ -1,11 +1,11 @@
-//! The memory card: what is on it and what still fits.
+//! The memory card: its contents and free space.
 
 use super::CaptureRecord;
 
-/// A memory card of 32 GB, MiB.
+/// Capacity of a 32 GB memory card, MiB.
 pub const CARD_MIB: f64 = 30_517.0;
 
-/// What has been written.
+/// Contents of the card.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StorageCard {
     shots: Vec<CaptureRecord>,
@@ -14,35 +14,35 @@ pub struct StorageCard {
 }
 
 impl StorageCard {
-    /// Pictures of the image log, in the order of their numbers.
+    /// Returns the images of the image log, in index order.
     #[must_use]
     pub fn shots(&self) -> &[CaptureRecord] {
         &self.shots
     }
 
-    /// What pictures and finished recordings take, MiB.
+    /// Returns the storage used by images and finished recordings, MiB.
     #[must_use]
     pub fn used_mib(&self) -> f64 {
         self.pictures_mib + self.videos_mib
     }
 
-    /// Keeps a picture.
+    /// Stores an image of `mib` MiB.
     pub fn add_picture(&mut self, shot: CaptureRecord, mib: f64) {
         self.shots.push(shot);
         self.pictures_mib += mib;
     }
 
-    /// Keeps a finished recording.
+    /// Stores a finished recording of `mib` MiB.
     pub fn add_video(&mut self, mib: f64) {
         self.videos_mib += mib;
     }
 
-    /// Counts pictures from 0 again; the files stay.
+    /// Resets the image counter; the files remain.
     pub fn clear_log(&mut self) {
         self.shots.clear();
     }
 
-    /// Everything is gone.
+    /// Deletes everything.
     pub fn format(&mut self) {
         *self = Self::default();
     }

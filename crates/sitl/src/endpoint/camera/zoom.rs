@@ -1,24 +1,24 @@
-//! The zoom lens: where it stands, where it is going, and how fast.
+//! The zoom lens: its position, target and speed.
 
 use spandrel_model::math;
 use spandrel_model::vehicle::Camera;
 pub use spandrel_model::vehicle::SENSOR_MM;
 
-/// The whole range takes this long, s (estimate: small motor zooms take 2 to 4 s).
+/// Time to travel the whole zoom range, s (estimate: small motorized zooms take 2 to 4 s).
 const SWEEP_S: f64 = 3.0;
-/// Steps over the whole range (estimate).
+/// Number of zoom steps across the range (estimate).
 const STEPS: f64 = 10.0;
-/// A focal length or field of view this far beyond the range is taken as its end: clients round.
+/// Relative tolerance within which an out-of-range focal length or field of view is clamped, because clients round.
 const SLACK: f64 = 0.01;
 
-/// What somebody wants of the lens.
+/// A zoom command.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ZoomCommand {
-    /// So many steps towards tele.
+    /// Number of steps toward tele.
     Step(f64),
-    /// On and on, -1 wide to 1 tele of the full speed; 0 stops.
+    /// Continuous zoom, from -1 (wide) to 1 (tele) of full speed; 0 stops.
     Rate(f64),
-    /// A place in the range, 0 wide to 1 tele.
+    /// Position in the range, 0 wide to 1 tele.
     Level(f64),
     /// A focal length, mm.
     FocalMm(f64),
@@ -34,33 +34,33 @@ enum ZoomDrive {
     Rate(f64),
 }
 
-/// The lens; its place in the range is proportional to the focal length.
+/// State of the lens. Its position in the range is linear in the focal length.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ZoomLens {
     level: f64,
     drive: ZoomDrive,
 }
 
-/// Focal length at the wide end, mm.
+/// Returns the focal length at the wide end, mm.
 #[must_use]
 pub fn wide_mm(camera: &Camera) -> f64 {
     camera.focal_mm()
 }
 
 impl ZoomLens {
-    /// Place in the range, 0 wide to 1 tele.
+    /// Returns the position in the range, 0 wide to 1 tele.
     #[must_use]
     pub fn level(&self) -> f64 {
         self.level
     }
 
-    /// Focal length over that of the wide end.
+    /// Returns the focal length relative to the wide end.
     #[must_use]
     pub fn ratio(&self, camera: &Camera) -> f64 {
         1.0 + self.level * (camera.zoom_max - 1.0)
     }
 
-    /// Takes a wish; false when it lies out of the range or the lens does not zoom.
+    /// Applies a command. Returns false if it is out of range or the lens does not zoom.
     pub fn command(&mut self, wish: ZoomCommand, camera: &Camera) -> bool {
         if camera.zoom_max <= 1.0 {
             return false;
@@ -89,7 +89,7 @@ impl ZoomLens {
         drive.is_some()
     }
 
-    /// Moves for `dt_s`; true when it comes to rest.
+    /// Moves the lens for `dt_s`, s. Returns true when it stops.
     pub fn step(&mut self, dt_s: f64) -> bool {
         let most = dt_s / SWEEP_S;
         let moved = match self.drive {
@@ -99,7 +99,7 @@ impl ZoomLens {
         };
         let before = self.level;
         self.level = match self.drive {
-            // Ends are met exactly, so that wide is wide to the bit.
+            // Reach the ends exactly, so that the wide end is bit-identical.
             ZoomDrive::To(target) if (target - before).abs() <= most => target,
             _ => (before + moved).clamp(0.0, 1.0),
         };
@@ -133,7 +133,7 @@ mod tests {
         gimbal_pitch_max_rad: 1.57,
         gimbal_rate_rad_s: 1.0,
     };
-    /// Rounding, of ratios and radians.
+    /// Tolerance for rounding, in ratios and radians.
     const NEAR: f64 = 1e-12;
 
     fn at_rest(wish: ZoomCommand) -> ZoomLens {
@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn exact_every_way_of_asking_comes_to_the_focal_length_that_is_requested() {
-        // tan 45 deg is 1: the focal length is half the sensor's width, and twice as long sees 2 atan(1/2).
+        // tan 45 deg is 1: the focal length is half the sensor's width, and twice that gives a field of view of 2 atan(1/2).
         let field = 2.0 * math::atan2(1.0, 2.0);
         for wish in [ZoomCommand::Level(0.5), ZoomCommand::FocalMm(SENSOR_MM), ZoomCommand::FieldOfView(field)] {
             let zoom = at_rest(wish);

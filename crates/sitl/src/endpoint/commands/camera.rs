@@ -1,4 +1,4 @@
-//! The camera: pictures, recording, modes, zoom, the memory card.
+//! Camera commands: images, recording, modes, zoom, memory card.
 
 use super::super::Payload;
 use super::super::camera::zoom::ZoomCommand;
@@ -15,9 +15,9 @@ use spandrel_mavlink::dialect::{
 
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
 const UNSUPPORTED: MavResult = MavResult::MAV_RESULT_UNSUPPORTED;
-/// The one video stream.
+/// ID of the only video stream.
 const STREAM: f64 = 1.0;
-/// The one memory card.
+/// ID of the only memory card.
 const CARD: f64 = 1.0;
 
 pub(super) const ROWS: &[PayloadCommand] = &[
@@ -65,7 +65,7 @@ pub(super) const ROWS: &[PayloadCommand] = &[
         p.changes.add_warning("Camera: nobody sends a video stream");
         FAILED
     }),
-    // Who sends it sends it to whoever is there: nobody is drawn to it, and nobody is sent away.
+    // The video is sent to a fixed destination, so starting and stopping change nothing.
     (MavCmd::MAV_CMD_VIDEO_STOP_STREAMING, |c, _, p| {
         if !targets_this_camera(c, 1) || !is_one_or_all(c, 0, STREAM) {
             return DENIED;
@@ -81,13 +81,13 @@ pub(super) const ROWS: &[PayloadCommand] = &[
     }),
 ];
 
-/// Says messages once to everybody when a command is accepted.
+/// Accepts the command and broadcasts the messages.
 fn stream_reported(payload: &mut Payload, messages: &[u32]) -> MavResult {
     messages.iter().for_each(|message| payload.changes.add_message(*message));
     ACCEPTED
 }
 
-/// The answer on the wire; a reason that lies in the camera becomes a text.
+/// Converts the outcome to a result; an error caused by the camera's state is also sent as a text.
 fn outcome(done: Result<(), CameraError>, messages: &[u32], payload: &mut Payload) -> MavResult {
     match done.map_err(CameraError::text) {
         Ok(()) => stream_reported(payload, messages),
@@ -99,18 +99,18 @@ fn outcome(done: Result<(), CameraError>, messages: &[u32], payload: &mut Payloa
     }
 }
 
-/// Whether a parameter that names a camera means this one: 0 all, a component's number, or this component's first sensor.
+/// Checks whether a camera ID parameter means this camera: 0 (all), the component ID, or 1 when addressed to this component.
 fn targets_this_camera(c: &VehicleCommand, k: usize) -> bool {
     let first = c.component == CAMERA;
     c.finite_param(k).is_none_or(|id| id == 0.0 || id == f64::from(CAMERA) || (first && id == 1.0))
 }
 
-/// Whether a parameter names the one thing of its kind, or all.
+/// Checks whether an ID parameter is 0 (all) or the only valid ID.
 fn is_one_or_all(c: &VehicleCommand, k: usize, one: f64) -> bool {
     c.finite_param(k).is_none_or(|id| id == 0.0 || id == one)
 }
 
-/// Interval in parameter 2, count in 3, and for single pictures a number in 4 that tells repetitions.
+/// Parameter 2 is the interval, 3 the count and, for single images, 4 a sequence number that identifies repeats.
 fn start(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> MavResult {
     if !targets_this_camera(c, 0) {
         return DENIED;
@@ -140,7 +140,7 @@ fn mode(c: &VehicleCommand, _: &VehicleSnapshot, payload: &mut Payload) -> MavRe
     outcome(payload.camera.set_mode(mode), &[CAMERA_SETTINGS_DATA::ID], payload)
 }
 
-/// Kind in parameter 1, value in 2 (CAMERA_ZOOM_TYPE).
+/// Parameter 1 is the zoom type (CAMERA_ZOOM_TYPE), 2 the value.
 fn zoom(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> MavResult {
     let camera = &view.vehicle.camera;
     if camera.zoom_max <= 1.0 {
@@ -160,7 +160,7 @@ fn zoom(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> Ma
     stream_reported(payload, &[CAMERA_SETTINGS_DATA::ID, CAMERA_FOV_STATUS_DATA::ID])
 }
 
-/// The camera is always in focus: what asks it to focus by itself (SET_FOCUS_TYPE 4 to 6) is done, focus by hand it has not.
+/// The camera is always in focus: autofocus commands (SET_FOCUS_TYPE 4 to 6) succeed, manual focus is unsupported.
 fn focus(c: &VehicleCommand, _: &VehicleSnapshot, payload: &mut Payload) -> MavResult {
     match c.p[0] {
         4.0..=6.0 if targets_this_camera(c, 2) => stream_reported(payload, &[CAMERA_SETTINGS_DATA::ID]),
@@ -169,7 +169,7 @@ fn focus(c: &VehicleCommand, _: &VehicleSnapshot, payload: &mut Payload) -> MavR
     }
 }
 
-/// Which card in parameter 1, whether to empty it in 2, or only to count pictures from 0 again in 3.
+/// Parameter 1 is the card; 2 formats it, 3 only resets the image counter.
 fn format(c: &VehicleCommand, _: &VehicleSnapshot, payload: &mut Payload) -> MavResult {
     let flag = |k: usize| match c.finite_param(k) {
         None | Some(0.0) => Some(false),

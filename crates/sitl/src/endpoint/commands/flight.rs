@@ -1,4 +1,4 @@
-//! Arming, modes, take-off, go-to, landing.
+//! Commands for arming, modes, takeoff, go-to and landing.
 
 use super::super::{calibration, storage};
 use super::{VehicleCommand, result};
@@ -11,14 +11,14 @@ use mavlink::MessageData;
 use spandrel_mavlink::dialect::{GPS_GLOBAL_ORIGIN_DATA, HOME_POSITION_DATA, MISSION_CURRENT_DATA, MavCmd, MavResult};
 use spandrel_model::math;
 
-/// MAV_CMD_DO_JUMP_TAG, where the dialect doesn't know it.
+/// MAV_CMD_DO_JUMP_TAG; defined here because not every dialect has it.
 const DO_JUMP_TAG: u16 = 601;
 
-/// How a command goes on.
+/// How a command is handled.
 enum Step {
-    /// It is answered here.
+    /// Answered immediately with this result.
     Answer(MavResult),
-    /// The autopilot decides.
+    /// Forwarded to the autopilot.
     Request(AutopilotRequest),
 }
 
@@ -74,7 +74,7 @@ fn modes(c: &VehicleCommand, x: &mut CommandContext) -> Option<Step> {
     })
 }
 
-/// Take-off, landing, places to go to.
+/// Takeoff, landing and go-to commands.
 fn places(c: &VehicleCommand, x: &mut CommandContext) -> Option<Step> {
     use MavCmd as M;
     Some(match c.number {
@@ -101,11 +101,11 @@ fn places(c: &VehicleCommand, x: &mut CommandContext) -> Option<Step> {
     })
 }
 
-/// Missions: start, pause, jumps.
+/// Mission commands: start, pause, jump.
 fn missions(c: &VehicleCommand, x: &mut CommandContext) -> Option<Step> {
     use MavCmd as M;
     Some(match c.number {
-        // No mission has tags, so none is ever found.
+        // Missions never contain tags, so a lookup always fails.
         DO_JUMP_TAG if x.view.flavour.home_item => {
             let is_tag = c.finite_param(0).is_some_and(|tag| (0.0..=f64::from(u16::MAX)).contains(&tag));
             Answer(if is_tag { MavResult::MAV_RESULT_FAILED } else { MavResult::MAV_RESULT_DENIED })
@@ -121,7 +121,7 @@ fn missions(c: &VehicleCommand, x: &mut CommandContext) -> Option<Step> {
             AutopilotRequest::SetMode(FlightMode::Hold)
         }),
         n if n == M::MAV_CMD_MISSION_START as u16 => {
-            // ArduPilot starts a mission as a whole.
+            // ArduPilot always starts a mission from its first item.
             if x.view.flavour.home_item && c.p[..2].iter().any(|item| *item != 0.0) {
                 return Some(Answer(x.deny("Mission start: first and last item are not supported")));
             }
@@ -134,16 +134,16 @@ fn missions(c: &VehicleCommand, x: &mut CommandContext) -> Option<Step> {
     })
 }
 
-/// Speed and geofence.
+/// Speed and geofence commands.
 fn limits(c: &VehicleCommand, x: &mut CommandContext) -> Option<Step> {
     use MavCmd as M;
     Some(match c.number {
-        // Climbing and sinking have parameters of their own.
+        // Climb and descent speeds have parameters of their own.
         n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 && c.finite_param(0).is_some_and(|kind| kind > 1.0) => {
             Answer(x.deny("Speed: types 0, 1; climb and sink are parameters"))
         }
         n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 => match c.finite_param(1) {
-            // -1 changes nothing, -2 goes back to the parameter's (MAVLink common).
+            // -1 means no change, -2 restores the parameter's value (MAVLink common).
             Some(-1.0) => Answer(MavResult::MAV_RESULT_ACCEPTED),
             Some(-2.0) => Request(AutopilotRequest::SetSpeed(None)),
             Some(speed) if speed > 0.0 => Request(AutopilotRequest::SetSpeed(Some(speed))),
@@ -158,7 +158,7 @@ fn limits(c: &VehicleCommand, x: &mut CommandContext) -> Option<Step> {
     })
 }
 
-/// What is answered without the autopilot: failures, calibration, storage, checks, restart.
+/// Commands that don't involve the autopilot: failure injection, calibration, storage, checks, reboot.
 fn services(c: &VehicleCommand, x: &mut CommandContext) -> Option<Step> {
     use MavCmd as M;
     Some(Answer(match c.number {
@@ -171,7 +171,7 @@ fn services(c: &VehicleCommand, x: &mut CommandContext) -> Option<Step> {
     }))
 }
 
-/// Parameters 1 unit, 2 kind, 3 instance. As in PX4 nothing happens unless SYS_FAILURE_EN allows it.
+/// Parameters 1 unit, 2 failure type, 3 instance. As in PX4, denied unless SYS_FAILURE_EN is set.
 fn inject(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
     if x.params.whole("SYS_FAILURE_EN") != Some(1) {
         x.warn_all("Failure injection is off (SYS_FAILURE_EN)");
@@ -194,7 +194,7 @@ fn inject(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
     MavResult::MAV_RESULT_ACCEPTED
 }
 
-/// Parameter 1: 0 nothing, 1 and 3 the autopilot starts again; a simulated vehicle is not shut down by a client.
+/// Parameter 1: 0 does nothing, 1 and 3 reboot the autopilot. A client cannot shut the simulated vehicle down.
 fn reboot(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
     match c.p[0] {
         0.0 => MavResult::MAV_RESULT_ACCEPTED,
@@ -219,8 +219,8 @@ fn arm(c: &VehicleCommand, x: &CommandContext) -> Option<AutopilotRequest> {
     }
 }
 
-/// Each reason against it in a text of its own, where the flavour has words for that.
-/// In the mode that flies errands the vehicle's own order, by a switch of the transmitter, needs leave (`GUID_OPTIONS`).
+/// Arms the motors. If the flavour reports them, each failed check is sent as a separate text. In the mode that accepts go-to
+/// commands (GUIDED), arming by a transmitter switch must be allowed (`GUID_OPTIONS`).
 fn arm_motors(c: &VehicleCommand, force: bool, x: &mut CommandContext) -> MavResult {
     let (flavour, now) = (x.view.flavour, x.view.now);
     if let Some(words) = flavour.arm_words
@@ -248,7 +248,7 @@ fn enter(row: &ModeRow, x: &mut CommandContext) -> MavResult {
     result(outcome, x)
 }
 
-/// Only the custom mode counts; the bits of base_mode beside it are the vehicle's own business.
+/// Only the custom mode is used; the other bits of base_mode are ignored.
 fn set_mode(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
     let custom = c.finite_param(0).is_some_and(|base| (base as i64) & 1 == 1);
     let Some(main) = c.finite_param(1).filter(|_| custom) else {
@@ -265,13 +265,13 @@ fn set_mode(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
     }
 }
 
-/// An item's place among those that are flown.
+/// Converts a mission sequence number to the autopilot's item index.
 fn index(seq: f64, x: &CommandContext) -> usize {
     (seq as usize).saturating_sub(usize::from(x.view.plans.lead))
 }
 
-/// Parameter 1 the item, -1 for the present one (ArduPilot refuses that); with 1 in parameter 2 the mission is as if it had not been flown. Everybody hears of it, as
-/// after MISSION_SET_CURRENT.
+/// Parameter 1 is the item, -1 the current one (rejected by ArduPilot); 1 in parameter 2 resets the mission's progress.
+/// Broadcasts MISSION_CURRENT, as MISSION_SET_CURRENT does.
 fn set_current(c: &VehicleCommand, x: &mut CommandContext) -> bool {
     let item = match c.finite_param(0) {
         Some(-1.0) if !x.view.flavour.home_item => x.autopilot.status().mission_current,
@@ -285,7 +285,8 @@ fn set_current(c: &VehicleCommand, x: &mut CommandContext) -> bool {
     set
 }
 
-/// DO_REPOSITION. Where one mode flies errands it must be flown, or parameter 2 must ask for it (MAV_DO_REPOSITION_FLAGS_CHANGE_MODE).
+/// DO_REPOSITION. If the flavour has a go-to mode (GUIDED), it must be active, or parameter 2 must request the change
+/// (MAV_DO_REPOSITION_FLAGS_CHANGE_MODE).
 fn go(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
     let changes = c.finite_param(1).is_some_and(|flags| (flags as i64) & 1 == 1);
     let errands = x.view.flavour.errands;
@@ -323,7 +324,7 @@ fn reposition(c: &VehicleCommand, x: &CommandContext) -> Option<AutopilotRequest
     Some(AutopilotRequest::GoTo { north_east_m, up_m, yaw_rad: c.finite_param(3), speed_m_s })
 }
 
-/// Where the flavour has it, only a mission and what flies errands are paused.
+/// Pauses or resumes. Flavours with this command can pause only missions and go-to commands.
 fn pause(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
     let pausable = x.in_guided_mode() || x.autopilot.status().mode == FlightMode::Mission;
     let pause = match c.p[0] {
@@ -339,7 +340,7 @@ fn pause(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
 /// ORBIT_YAW_BEHAVIOUR_UNCHANGED.
 const YAW_UNCHANGED: i64 = 5;
 
-/// Parameters 1 radius, 2 speed, 3 where the nose points, 4 how far round in radians, 5 to 7 the middle.
+/// Parameters 1 radius, 2 speed, 3 yaw behavior, 4 arc in radians, 5 to 7 center.
 fn orbit(c: &VehicleCommand, x: &CommandContext) -> Option<OrbitRequest> {
     let AutopilotRequest::GoTo { north_east_m, up_m, .. } = reposition(c, x)? else { return None };
     let yaw = match c.finite_param(2).map(|number| number.round() as i64) {
@@ -350,7 +351,7 @@ fn orbit(c: &VehicleCommand, x: &CommandContext) -> Option<OrbitRequest> {
     Some(OrbitRequest { centre_m: north_east_m, up_m, radius_m: c.finite_param(0), speed_m_s: c.finite_param(1), yaw, arc_rad })
 }
 
-/// Parameters 1 angle in degrees, 2 rate in deg/s (0: the vehicle's own), 3 direction, 4 whether from the present heading.
+/// Parameters 1 angle in degrees, 2 rate in deg/s (0: default), 3 direction, 4 whether relative to the current heading.
 fn turn(c: &VehicleCommand, x: &CommandContext) -> Option<AutopilotRequest> {
     let angle = c.finite_param(0)?.to_radians();
     let relative = c.is_one(3);

@@ -1,4 +1,4 @@
-//! The gimbal: the manager's commands, regions of interest, and the older mount's.
+//! Gimbal commands: gimbal manager, regions of interest, and the older mount commands.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::super::Payload;
@@ -9,7 +9,7 @@ use super::payload::{ACCEPTED, DENIED, PayloadCommand, place, verdict};
 use mavlink::MessageData;
 use spandrel_mavlink::dialect::{GIMBAL_MANAGER_STATUS_DATA, MavCmd, MavResult};
 
-/// GIMBAL_MANAGER_FLAGS_RETRACT and _NEUTRAL; this gimbal does not retract.
+/// GIMBAL_MANAGER_FLAGS_RETRACT and _NEUTRAL. This gimbal cannot retract.
 const RETRACT: u32 = 1;
 const NEUTRAL: u32 = 2;
 
@@ -23,7 +23,7 @@ pub(super) const ROWS: &[PayloadCommand] = &[
     (MavCmd::MAV_CMD_DO_SET_ROI_NONE, |c, v, p| aim(GimbalTarget::Angle(0.0), c, v, p)),
 ];
 
-/// The vehicle's own mission is always in control, whoever else is.
+/// Checks whether the sender may move the gimbal; the vehicle's own mission always may.
 fn may_move(c: &VehicleCommand, gimbal: &GimbalState) -> bool {
     c.own || gimbal.accepts_control_from(c.from)
 }
@@ -33,13 +33,13 @@ fn aim(aim: GimbalTarget, c: &VehicleCommand, view: &VehicleSnapshot, payload: &
     verdict(may_move(c, gimbal) && gimbal.set(aim, &view.vehicle.camera))
 }
 
-/// The device in parameter 7: this one, or all.
+/// Checks whether the device ID in parameter 7 means this gimbal: 0 (all) or its own ID.
 fn targets_this_gimbal(c: &VehicleCommand) -> bool {
     c.finite_param(6).is_none_or(|device| device == 0.0 || device == f64::from(DEVICE))
 }
 
-/// Pitch, and how fast to get there, or a pitch rate alone, degrees about the horizon; yaw follows the vehicle whatever is asked, but asking
-/// for yaw alone is refused.
+/// Sets a pitch angle with an optional rate, or a pitch rate alone, relative to the horizon, degrees. Yaw always follows the
+/// vehicle; a command for yaw alone is denied.
 fn pitch_yaw(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> MavResult {
     let flags = c.small_integer(4).map_or(0, |flags| flags as u32);
     if !targets_this_gimbal(c) || flags & RETRACT != 0 {
@@ -55,8 +55,8 @@ fn pitch_yaw(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) 
     }
 }
 
-/// Who is in control: primary in parameters 1 and 2, secondary in 3 and 4, system and component each: 0 nobody, -1 as it is, -2 the sender,
-/// -3 nobody if it is the sender (MAVLink common).
+/// Sets who is in control: system and component of primary control in parameters 1 and 2, of secondary control in 3 and 4. 0
+/// means nobody, -1 no change, -2 the sender, -3 nobody if the sender is in control (MAVLink common).
 fn configure(c: &VehicleCommand, payload: &mut Payload) -> MavResult {
     let gimbal = &mut payload.gimbal;
     let one = |wish: f64, now: u8, own: u8, held: bool| match wish {
@@ -69,7 +69,7 @@ fn configure(c: &VehicleCommand, payload: &mut Payload) -> MavResult {
     let chosen = |k: usize, now: (u8, u8)| {
         let held = now == c.from;
         let pair = (one(c.p[k], now.0, c.from.0, held)?, one(c.p[k + 1], now.1, c.from.1, held)?);
-        // No system: nobody, whatever the component.
+        // Without a system, nobody is in control, whatever the component.
         Some(if pair.0 == 0 { (0, 0) } else { pair })
     };
     let (Some(primary), Some(secondary), true) = (chosen(0, gimbal.control), chosen(2, gimbal.secondary), targets_this_gimbal(c))
@@ -89,17 +89,17 @@ fn roi(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> Mav
     place.map_or(DENIED, |place| aim(GimbalTarget::Place(place), c, view, payload))
 }
 
-/// What a mode of a mount means for this gimbal (MAV_MOUNT_MODE).
+/// Mount modes that this gimbal supports (MAV_MOUNT_MODE).
 enum MountMode {
     Neutral,
-    /// By angles, over MAVLink or by a stick.
+    /// Angles from MAVLink or a stick.
     Targeting,
     Point,
     Home,
 }
 
 impl MountMode {
-    /// None for what it cannot do: retract, follow another system, look at the next waypoint.
+    /// Returns `None` for unsupported modes: retract, follow another system, point at the next waypoint.
     fn of(number: f64) -> Option<Self> {
         match number {
             1.0 => Some(Self::Neutral),
@@ -115,7 +115,8 @@ fn point_at_home(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Paylo
     view.status.home_m.map_or(DENIED, |home| aim(GimbalTarget::Place(home.enu()), c, view, payload))
 }
 
-/// Mode in parameter 7; pitch in 1, a rate after DO_MOUNT_CONFIGURE has said so; the place to point at in 5, 6 and 4.
+/// Parameter 7 is the mode. Parameter 1 is the pitch angle, or a rate if DO_MOUNT_CONFIGURE selected rates; 5, 6 and 4 are the
+/// target position.
 fn mount_control(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> MavResult {
     match MountMode::of(c.finite_param(6).unwrap_or(2.0)) {
         Some(MountMode::Neutral) => aim(GimbalTarget::Neutral, c, view, payload),
@@ -133,7 +134,8 @@ fn mount_control(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Paylo
     }
 }
 
-/// Mode in parameter 1; what pitch means in 6: 0 and 2 an angle, 1 a rate. Roll and pitch are stabilised whatever 2 to 4 say.
+/// Parameter 1 is the mode; 6 selects whether pitch is an angle (0, 2) or a rate (1). Roll and pitch are always stabilized,
+/// regardless of 2 to 4.
 fn mount_configure(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> MavResult {
     let rates = match c.small_integer(5) {
         None | Some(0.0 | 2.0) => false,

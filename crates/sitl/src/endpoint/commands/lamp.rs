@@ -1,4 +1,4 @@
-//! The lamp: the illuminator service, and its aliases relay 0, actuator 1 and servo output 9.
+//! Lamp commands: the illuminator service and its aliases relay 0, actuator 1 and servo output 9.
 
 use super::super::Payload;
 use super::super::snapshot::VehicleSnapshot;
@@ -6,9 +6,9 @@ use super::VehicleCommand;
 use super::payload::{ACCEPTED, DENIED, PayloadCommand, verdict};
 use spandrel_mavlink::dialect::{MavCmd, MavResult};
 
-/// The servo output that the lamp hangs on: the first after eight motors, ArduPilot's first auxiliary one.
+/// Servo output of the lamp: the first after eight motors, ArduPilot's first auxiliary output.
 const SERVO: f64 = 9.0;
-/// Pulses longer than the middle are on, microseconds, and those that a servo output knows.
+/// Pulse width above which the lamp is on, and the range of valid pulses, microseconds.
 const MIDDLE_US: f64 = 1_500.0;
 const PULSES_US: std::ops::RangeInclusive<f64> = 800.0..=2_200.0;
 
@@ -34,7 +34,7 @@ fn switch(value: f64, view: &VehicleSnapshot, payload: &mut Payload) -> MavResul
     ACCEPTED
 }
 
-/// Six values and the number of their set; actuator 1 of set 0 is the lamp, on above its middle, and there is no other.
+/// Parameters 1 to 6 are actuator values, 7 is the set. Actuator 1 of set 0 is the lamp, on above 0; there are no others.
 fn actuator(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> MavResult {
     let others = (1..6).any(|k| c.finite_param(k).is_some_and(|value| value != 0.0));
     match (c.finite_param(6).unwrap_or(0.0), c.finite_param(0)) {
@@ -44,8 +44,8 @@ fn actuator(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -
     }
 }
 
-/// Mode in parameter 1 (0 and 1 leave it as it is), brightness in per cent in parameter 2, strobe period and duty: this lamp is on or off, it
-/// neither dims nor strobes, and the light of a picture is judged by that.
+/// Parameters: 1 mode (0 and 1 change nothing), 2 brightness in percent, 3 strobe period, 4 duty cycle. The lamp is either on or
+/// off: dimming and strobing are denied, because the exposure of images assumes full brightness.
 fn configure(c: &VehicleCommand) -> MavResult {
     let mode = matches!(c.finite_param(0), None | Some(0.0 | 1.0));
     let strobes = c.finite_param(2).is_some_and(|period| period != 0.0) || !matches!(c.finite_param(3), None | Some(0.0 | 100.0));

@@ -1,4 +1,4 @@
-//! Asking for messages and their rates, by the present commands and by the older ones that clients still send.
+//! Requests for messages and message rates, by the current commands and by the superseded ones that clients still send.
 #![allow(deprecated, reason = "clients still send the superseded commands")]
 
 use super::super::streams::{self, AUTOPILOT, CAMERA, STREAMS};
@@ -10,7 +10,7 @@ const AVAILABLE_MODES: u32 = 435;
 const IMAGE_CAPTURED: u32 = 263;
 const STREAM_INFORMATION: u32 = 269;
 const STREAM_STATUS: u32 = 270;
-/// Messages of which there is one for each card or stream, and that are asked for by its number.
+/// Messages sent once for each card or stream, requested by its number.
 const COUNTED: [u32; 3] = [261, STREAM_INFORMATION, STREAM_STATUS];
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
@@ -21,7 +21,7 @@ const SEND_BANNER: u16 = 42_428;
 pub(super) fn handle(c: &VehicleCommand, x: &mut CommandContext) -> Option<MavResult> {
     use MavCmd as M;
     let id = |k: usize| c.finite_param(k).filter(|v| (0.0..16_777_216.0).contains(v)).map(|v| v as u32);
-    // Older commands that ask for one message each.
+    // Superseded commands that request one message each.
     let legacy = match c.number {
         n if n == M::MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES as u16 => Some(148),
         n if n == M::MAV_CMD_REQUEST_PROTOCOL_VERSION as u16 => Some(300),
@@ -37,7 +37,7 @@ pub(super) fn handle(c: &VehicleCommand, x: &mut CommandContext) -> Option<MavRe
         _ => None,
     };
     if let Some(message) = legacy {
-        // Of those with a number in it, it is their first parameter.
+        // If the message has an index, it is the command's first parameter.
         let index = if COUNTED.contains(&message) || message == IMAGE_CAPTURED { c.p[0] } else { 0.0 };
         return Some(request(message, (index, 0.0), c.component, x));
     }
@@ -57,14 +57,14 @@ pub(super) fn handle(c: &VehicleCommand, x: &mut CommandContext) -> Option<MavRe
     }
 }
 
-/// Rows of a message that the addressed component speaks.
+/// Returns the stream rows of a message sent by the addressed component.
 fn addressed(id: u32, component: u8) -> impl Iterator<Item = usize> {
     let mine =
         move |row: &usize| component == 0 || STREAMS[*row].component == component || !matches!(component, AUTOPILOT | CAMERA);
     streams::rows_of(id).map(|(row, _)| row).filter(mine)
 }
 
-/// Parameters 2 and 3 of the request are `index` and `last`; what they mean depends on the message.
+/// Sends a message. `index` and `last` are parameters 2 and 3 of the request; their meaning depends on the message.
 fn request(id: u32, (index, last): (f64, f64), component: u8, x: &mut CommandContext) -> MavResult {
     if id == AVAILABLE_MODES {
         return modes(index, x);
@@ -72,7 +72,7 @@ fn request(id: u32, (index, last): (f64, f64), component: u8, x: &mut CommandCon
     if id == IMAGE_CAPTURED {
         return pictures(index, last, x);
     }
-    // One card, one stream: 0 is all of them.
+    // There is one card and one stream; 0 means all.
     if COUNTED.contains(&id) && index.is_finite() && !matches!(index, 0.0 | 1.0) {
         return DENIED;
     }
@@ -90,8 +90,8 @@ fn request(id: u32, (index, last): (f64, f64), component: u8, x: &mut CommandCon
     if said { ACCEPTED } else { x.view.flavour.refusals.message }
 }
 
-/// Pictures again: from number `first` (-1: from 0 to the newest) to `last` (0: that one alone, -1: to the newest). The first at once, the
-/// others as the link has room.
+/// Resends image records `first` (-1: all) to `last` (0: only `first`, -1: to the newest). The first is sent immediately, the
+/// others as link capacity permits.
 fn pictures(first: f64, last: f64, x: &mut CommandContext) -> MavResult {
     let count = x.view.camera.pictures;
     let (first, last) = match (first, last) {
@@ -114,7 +114,7 @@ fn pictures(first: f64, last: f64, x: &mut CommandContext) -> MavResult {
     x.answer(CAMERA, &message)
 }
 
-/// One mode, or with index 0 all of them.
+/// Sends one mode, or all modes if `index` is 0.
 fn modes(index: f64, x: &mut CommandContext) -> MavResult {
     let modes = x.view.flavour.modes;
     let count = modes.len();

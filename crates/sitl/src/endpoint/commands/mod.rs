@@ -1,4 +1,4 @@
-//! Commands: COMMAND_LONG and COMMAND_INT in one shape, one file for each family, every one answered at once.
+//! Commands: COMMAND_LONG and COMMAND_INT in a common form, one file for each group. Every command is answered immediately.
 
 mod camera;
 mod flight;
@@ -13,27 +13,27 @@ use crate::autopilot::{AutopilotRequest, RequestOutcome};
 use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_mavlink::dialect::{MISSION_ITEM_INT_DATA, MavResult};
 
-/// Degrees E7 of a place that is not given: none of them is on the globe.
+/// Coordinates that mean "not set", in degrees E7; none is a valid position.
 const NOT_GIVEN: [i32; 3] = [i32::MAX, i32::MIN, 0x7ff8_0000];
 
-/// A command from either message.
+/// A command from COMMAND_LONG, COMMAND_INT or a mission item.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VehicleCommand {
     /// MAV_CMD number.
     pub number: u16,
-    /// Parameters 1 to 7; 5 and 6 in degrees or metres whichever message brought them.
+    /// Parameters 1 to 7. Parameters 5 and 6 are in degrees or meters, whichever message they came from.
     pub p: [f64; 7],
-    /// MAV_FRAME number; COMMAND_LONG counts as global with altitude over the sea.
+    /// MAV_FRAME number. COMMAND_LONG counts as global with altitude above mean sea level.
     pub frame: u8,
     /// Target component.
     pub component: u8,
     /// Target system.
     pub system: u8,
-    /// Sender.
+    /// System and component ID of the sender.
     pub from: (u8, u8),
-    /// Parameters 5 and 6 came as whole numbers, scaled as places are.
+    /// Whether parameters 5 and 6 were received as scaled integers.
     pub whole: bool,
-    /// The vehicle's own order (an item of its mission): nobody keeps it from its gimbal.
+    /// Whether the vehicle issued the command itself (mission item): such commands always have gimbal control.
     pub own: bool,
 }
 
@@ -41,7 +41,8 @@ const LONG: u32 = 76;
 const INT: u32 = 75;
 
 impl VehicleCommand {
-    /// From a received frame; `None` when it is no command. Read from the bytes, so that unknown numbers are commands too.
+    /// Reads a command from a received frame; `None` for other messages. Parses the raw bytes so that unknown command numbers are
+    /// accepted.
     #[must_use]
     pub fn of(frame: &ReceivedFrame) -> Option<Self> {
         let from = (frame.system_id, frame.component_id);
@@ -59,14 +60,14 @@ impl VehicleCommand {
         }
         let scaled = |at: usize| {
             let whole = i32::from_le_bytes(four(at));
-            // INT32_MAX means "not given" (MAVLink: COMMAND_INT); the others are what clients make of a not-a-number.
+            // INT32_MAX means "not set" (MAVLink: COMMAND_INT); the others result from clients that convert NaN to an integer.
             if NOT_GIVEN.contains(&whole) { f64::NAN } else { f64::from(whole) * 1e-7 }
         };
         (p[4], p[5]) = (scaled(16), scaled(20));
         Some(Self { number, p, frame: b[32], component: b[31], system: b[30], from, whole: true, own: false })
     }
 
-    /// From an item of a mission, as its vehicle gives it to itself.
+    /// Creates a command from a mission item, as issued by the vehicle itself.
     #[must_use]
     pub fn from_item(item: &MISSION_ITEM_INT_DATA, from: (u8, u8)) -> Self {
         let [x, y] = [item.x, item.y].map(|scaled| if scaled == i32::MAX { f64::NAN } else { f64::from(scaled) * 1e-7 });
@@ -76,7 +77,7 @@ impl VehicleCommand {
         Self { number, p, frame, component, system, from, whole: true, own: true }
     }
 
-    /// Whether its height counts from home; `None` for a frame that is no place over the ground.
+    /// Returns whether the altitude is relative to home; `None` for a frame without a global position.
     #[must_use]
     pub fn is_home_relative(&self) -> Option<bool> {
         match self.frame {
@@ -86,26 +87,27 @@ impl VehicleCommand {
         }
     }
 
-    /// True when a parameter is 1.
+    /// Checks whether a parameter is 1.
     #[must_use]
     pub fn is_one(&self, k: usize) -> bool {
         (self.p[k] - 1.0).abs() < 1e-6
     }
 
-    /// A parameter when it is a number.
+    /// Returns a parameter if it is finite.
     #[must_use]
     pub fn finite_param(&self, k: usize) -> Option<f64> {
         Some(self.p[k]).filter(|v| v.is_finite())
     }
 
-    /// A place of interest at 0 north, 0 east is none: clients end it so. An item of a mission may leave the place out besides.
+    /// Checks for latitude 0, longitude 0, by which clients clear the region of interest. A mission item may also leave the
+    /// coordinates unset.
     #[must_use]
     pub fn clears_region_of_interest(&self) -> bool {
         [4, 5].iter().all(|k| self.p[*k] == 0.0 || (self.own && self.p[*k].is_nan()))
     }
 
-    /// A small whole number that is no place, when it is given: as 5 and 6 of COMMAND_INT and of a mission's item it is not scaled, but some
-    /// stations scale it all the same.
+    /// Returns a parameter that is a small integer, if it is set. As parameter 5 or 6 of COMMAND_INT and of mission items it
+    /// should not be scaled, but some ground stations scale it anyway.
     #[must_use]
     pub fn small_integer(&self, k: usize) -> Option<f64> {
         let value = self.finite_param(k)?;
@@ -116,7 +118,7 @@ impl VehicleCommand {
     }
 }
 
-/// Does what a command asks and says how it went. The camera's component takes pictures and speaks of itself; it does not fly.
+/// Executes a command and returns its result. The camera component accepts camera commands and message requests only.
 pub fn handle(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
     let done = messages::handle(c, x).or_else(|| {
         if c.component == CAMERA {
@@ -127,7 +129,7 @@ pub fn handle(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
     done.unwrap_or(MavResult::MAV_RESULT_UNSUPPORTED)
 }
 
-/// What the gimbal looks at the vehicle turns to.
+/// Handles commands that point the gimbal at a position: the vehicle also turns toward it.
 fn look(c: &VehicleCommand, x: &mut CommandContext) -> Option<MavResult> {
     let place = payload::looked_at(c, &x.view)?;
     let done = payload::handle(c, &x.view, x.payload);
@@ -142,7 +144,7 @@ fn look(c: &VehicleCommand, x: &mut CommandContext) -> Option<MavResult> {
     done
 }
 
-/// The autopilot's answer on the wire; its reason becomes a text.
+/// Converts the autopilot's outcome to a result; its reason is sent as a text.
 fn result(outcome: RequestOutcome, context: &mut CommandContext) -> MavResult {
     let refusals = &context.view.flavour.refusals;
     let (result, reason) = match outcome {

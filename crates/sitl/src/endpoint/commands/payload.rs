@@ -1,4 +1,4 @@
-//! Camera, gimbal and lamp: one row a command. The same rows serve commands from the wire and items of a mission.
+//! Camera, gimbal and lamp commands: one row per command, used for received commands and for mission items.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::super::Payload;
@@ -10,19 +10,19 @@ use spandrel_model::frames::{Enu, Ned, Vec3};
 pub(super) const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 pub(super) const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
 
-/// What a command does to the payload.
+/// Executes a command on the payload.
 pub(super) type PayloadHandler = fn(&VehicleCommand, &VehicleSnapshot, &mut Payload) -> MavResult;
-/// A command and what it does.
+/// A command and its handler.
 pub(super) type PayloadCommand = (MavCmd, PayloadHandler);
 
-/// Commands that only the autopilot's component takes: gimbal and lamp hang on it.
+/// Commands accepted only by the autopilot component, which the gimbal and the lamp belong to.
 const MOUNTED: [&[PayloadCommand]; 2] = [gimbal::ROWS, lamp::ROWS];
 
 pub(super) fn verdict(ok: bool) -> MavResult {
     if ok { ACCEPTED } else { DENIED }
 }
 
-/// True for what the payload does.
+/// Checks whether the payload supports this command.
 pub(in super::super) fn is_supported(command: MavCmd) -> bool {
     camera::ROWS.iter().chain(MOUNTED.into_iter().flatten()).any(|(known, _)| *known == command)
 }
@@ -31,23 +31,23 @@ fn row(number: u16, rows: &'static [PayloadCommand]) -> Option<PayloadHandler> {
     rows.iter().find(|(command, _)| *command as u16 == number).map(|(_, act)| *act)
 }
 
-/// As the camera component.
+/// Handles a command addressed to the camera component.
 pub(super) fn camera(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> Option<MavResult> {
     Some(row(c.number, camera::ROWS)?(c, view, payload))
 }
 
-/// As the autopilot's component.
+/// Handles a command addressed to the autopilot component.
 pub(in super::super) fn handle(c: &VehicleCommand, view: &VehicleSnapshot, payload: &mut Payload) -> Option<MavResult> {
     let mounted = || MOUNTED.into_iter().find_map(|rows| row(c.number, rows));
     camera(c, view, payload).or_else(|| Some(mounted()?(c, view, payload)))
 }
 
-/// True for a command that the payload does.
+/// Checks whether the payload handles this command.
 pub(in super::super) fn handles(c: &VehicleCommand) -> bool {
     camera::ROWS.iter().chain(MOUNTED.into_iter().flatten()).any(|(known, _)| *known as u16 == c.number)
 }
 
-/// Why a command was refused, in words.
+/// Returns the reason why a command was rejected, as text.
 pub(in super::super) fn refusal_text(c: &VehicleCommand, view: &VehicleSnapshot, payload: &Payload) -> String {
     if row(c.number, gimbal::ROWS).is_some() {
         let (gimbal, camera) = (&payload.gimbal, &view.vehicle.camera);
@@ -64,7 +64,8 @@ pub(in super::super) fn refusal_text(c: &VehicleCommand, view: &VehicleSnapshot,
     "camera cannot do it with these values or in this mode".into()
 }
 
-/// Where a command makes the vehicle look: `None` for another command or no usable place, `Some(None)` for looking nowhere any more.
+/// Returns the position that a command makes the vehicle face. `None` for other commands or an unusable position, `Some(None)` if
+/// it clears the target.
 pub(in super::super) fn looked_at(c: &VehicleCommand, view: &VehicleSnapshot) -> Option<Option<Vec3<Ned>>> {
     match c.number {
         n if n == MavCmd::MAV_CMD_DO_SET_ROI_NONE as u16 => Some(None),
@@ -75,7 +76,8 @@ pub(in super::super) fn looked_at(c: &VehicleCommand, view: &VehicleSnapshot) ->
     }
 }
 
-/// The place in parameters 5 and 6 at an altitude in the command's frame, or over the sea where the flavour's commands have none.
+/// Returns the position in parameters 5 and 6. The altitude is in the command's frame, or above mean sea level for flavours that
+/// ignore the frame.
 pub(super) fn place(c: &VehicleCommand, view: &VehicleSnapshot, altitude_m: f64) -> Option<Vec3<Enu>> {
     let (latitude_deg, longitude_deg) = (c.finite_param(4)?, c.finite_param(5)?);
     if latitude_deg.abs() > 90.0 || longitude_deg.abs() > 180.0 || altitude_m.abs() > 1e5 {

@@ -1,11 +1,11 @@
-//! Streams of packets that answer one burst request each.
+//! Packet streams that answer burst read requests.
 
 use super::super::LinkId;
 use super::FileClient;
 use spandrel_mavlink::ftp::FtpPacket;
 use std::collections::VecDeque;
 
-/// Burst packets a tick, all clients together: at 1000 ticks a second some 240 kB/s, less than a local link takes.
+/// Burst packets per tick, for all clients together: about 240 kB/s at 1000 ticks a second, less than a local link carries.
 const PACKETS_A_TICK: usize = 1;
 
 #[derive(Debug, Clone)]
@@ -15,33 +15,33 @@ struct BurstRead {
     packets: VecDeque<FtpPacket>,
 }
 
-/// All bursts that are under way; clients take turns.
+/// All active burst reads, served in turn.
 #[derive(Debug, Clone, Default)]
 pub(super) struct BurstReads(VecDeque<BurstRead>);
 
 impl BurstReads {
-    /// Begins one; it replaces what is left of the session's last.
+    /// Starts a burst read and replaces the rest of the session's previous one.
     pub fn begin(&mut self, client: FileClient, request: &FtpPacket, packets: VecDeque<FtpPacket>) {
         self.end(client, request.session);
         self.0.push_back(BurstRead { client, request: request.clone(), packets });
     }
 
-    /// The packets that this very request asked for are still going out: the network has doubled it.
+    /// Checks whether this exact request is still being answered, that is, the network duplicated it.
     pub fn is_under_way(&self, client: FileClient, request: &FtpPacket) -> bool {
         self.0.iter().any(|burst| burst.client == client && burst.request == *request)
     }
 
-    /// Ends a session's.
+    /// Ends the burst read of a session.
     pub fn end(&mut self, client: FileClient, session: u8) {
         self.0.retain(|burst| burst.client != client || burst.request.session != session);
     }
 
-    /// Ends those of the clients that fit.
+    /// Ends the burst reads of all matching clients.
     pub fn end_matching(&mut self, fits: impl Fn(FileClient) -> bool) {
         self.0.retain(|burst| !fits(burst.client));
     }
 
-    /// What may go out in this tick, on links that are ready.
+    /// Returns the packets to send in this tick on links that are ready.
     pub fn poll(&mut self, ready: impl Fn(&LinkId) -> bool) -> Vec<(FileClient, FtpPacket)> {
         let mut out = Vec::new();
         for _ in 0..PACKETS_A_TICK {
@@ -55,7 +55,7 @@ impl BurstReads {
         out
     }
 
-    /// Nothing is under way.
+    /// Checks whether no burst read is active.
     #[cfg(test)]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()

@@ -1,37 +1,37 @@
-//! What the server asks of whoever holds the files, and what it is told. The server itself touches none.
+//! File jobs and their results. The server itself performs no file access: its host executes the jobs.
 
 use super::path::FilePath;
 use spandrel_mavlink::ftp::FtpError;
 
-/// Bytes of a file that one job sums up: less than a tenth of a millisecond of a processor (estimate, `crc32fast`), so that no tick waits
-/// for a long file.
+/// Bytes of a file that one checksum job covers: less than a tenth of a millisecond of CPU time (estimate, `crc32fast`), so that
+/// a long file delays no tick.
 pub const CHECKSUM_SLICE: u32 = 131_072;
-/// The longest file that is summed up, bytes: 8,192 slices, some 8 s of simulation time.
+/// Maximum size of a file to checksum, bytes: 8,192 slices, about 8 s of simulation time.
 pub const CHECKSUM_MAX: u32 = 8_192 * CHECKSUM_SLICE;
-/// A listing looks at every name in a directory; it counts as so many jobs.
+/// Cost of a listing in jobs, because it reads every name in a directory.
 const LISTING_COST: u32 = 8;
 
-/// Work on files.
+/// A file operation for the host to execute.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FileJob {
-    /// Goes back with the outcome.
+    /// Identifies the job; returned with its result.
     pub ticket: u64,
-    /// What to do.
+    /// The operation.
     pub action: FileAction,
 }
 
-/// What to do with files.
+/// A file operation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum FileAction {
-    /// Names and sizes in a directory, in one order every time.
+    /// Lists names and sizes in a directory, in a deterministic order.
     List(FilePath),
-    /// The size of a file.
+    /// Returns the size of a file.
     Size(FilePath),
-    /// Makes an empty file; one that is there is emptied.
+    /// Creates an empty file, or truncates an existing one.
     Create(FilePath),
-    /// At most so many bytes from an offset; none at the end.
+    /// Reads from an offset up to a maximum number of bytes; returns none at the end of the file.
     Read(FilePath, u32, u32),
-    /// Bytes to an offset.
+    /// Writes bytes at an offset.
     Write(FilePath, u32, Vec<u8>),
     /// Removes a file.
     Remove(FilePath),
@@ -39,73 +39,73 @@ pub enum FileAction {
     MakeDirectory(FilePath),
     /// Removes an empty directory.
     RemoveDirectory(FilePath),
-    /// Cuts or lengthens a file.
+    /// Truncates or extends a file.
     Truncate(FilePath, u32),
-    /// Renames the first to the second, which must not be there.
+    /// Renames the first path to the second, which must not exist.
     Rename(FilePath, FilePath),
-    /// [`spandrel_mavlink::ftp::checksum`] over at most [`CHECKSUM_SLICE`] bytes of a file.
+    /// Computes [`spandrel_mavlink::ftp::checksum`] over at most [`CHECKSUM_SLICE`] bytes of a file.
     Checksum {
         /// The file.
         path: FilePath,
-        /// Where the slice begins, bytes.
+        /// Start of the slice, bytes.
         from: u32,
-        /// The sum over what lies before it.
+        /// Checksum of all preceding bytes.
         sum: u32,
     },
 }
 
 impl FileAction {
-    /// What it takes out of the ticks' [`super::allowance::JobAllowance`].
+    /// Returns the cost that is deducted from [`super::allowance::JobAllowance`].
     #[must_use]
     pub fn cost(&self) -> u32 {
         if matches!(self, Self::List(_)) { LISTING_COST } else { 1 }
     }
 }
 
-/// One thing in a directory.
+/// An entry of a directory listing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum DirectoryEntry {
     /// A directory.
     Directory(String),
-    /// A file and its size, bytes.
+    /// A file with its size, bytes.
     File(String, u64),
 }
 
-/// What came of a job.
+/// Result of a job.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum FileJobResult {
-    /// Of [`FileAction::List`].
+    /// Result of [`FileAction::List`].
     Entries(Vec<DirectoryEntry>),
-    /// Of [`FileAction::Size`], bytes.
+    /// Result of [`FileAction::Size`], bytes.
     Size(u32),
-    /// Of [`FileAction::Read`].
+    /// Result of [`FileAction::Read`].
     Bytes(Vec<u8>),
-    /// Of [`FileAction::Checksum`].
+    /// Result of [`FileAction::Checksum`].
     Checksum {
-        /// The sum up to the slice's end.
+        /// Checksum up to the end of the slice.
         sum: u32,
-        /// Bytes of the slice; fewer than a whole one at the end of the file.
+        /// Bytes in the slice; fewer than a full slice at the end of the file.
         bytes: u32,
     },
-    /// Of everything else.
+    /// Success of any other action.
     Nothing,
 }
 
-/// Why a job was not done.
+/// Reason why a job failed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileError {
-    /// There is none.
+    /// The path does not exist.
     NotFound,
-    /// One is there already.
+    /// The path already exists.
     Exists,
-    /// It may not be read or written.
+    /// The file may not be read or written.
     Protected,
-    /// Anything else.
+    /// Any other failure.
     Other,
 }
 
 impl FileError {
-    /// As the wire says it.
+    /// Returns the corresponding MAVLink FTP error.
     #[must_use]
     pub fn refusal(self) -> FtpError {
         match self {

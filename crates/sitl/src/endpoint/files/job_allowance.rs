@@ -1,13 +1,13 @@
-//! How much work on files the ticks may cause. Jobs are done between two ticks, by the thread that runs them, so that the same requests
-//! are answered in the same tick in every run; what a client asks for may therefore not hold a tick up.
+//! Limits the file work per tick. Jobs run between two ticks on the simulation thread, so that the same requests are answered in
+//! the same tick in every run; client requests must therefore never delay a tick.
 
 use super::job::FileAction;
 use spandrel_model::time::SimTime;
 
-/// Jobs that may be done at once after a rest.
+/// Maximum number of jobs at once after an idle period.
 const SAVED_MAX: u32 = 32;
 
-/// One small job for each millisecond of simulation time, saved up to a few.
+/// One small job per millisecond of simulation time, accumulated up to a maximum.
 #[derive(Debug, Clone)]
 pub struct JobAllowance {
     left: u32,
@@ -21,13 +21,13 @@ impl Default for JobAllowance {
 }
 
 impl JobAllowance {
-    /// Whether there is enough left for this at a time.
+    /// Checks whether the allowance covers this action at `now`.
     #[must_use]
     pub fn covers(&self, action: &FileAction, now: SimTime) -> bool {
         self.left_at(now) >= action.cost()
     }
 
-    /// Takes it out.
+    /// Deducts the cost of an action.
     pub fn spend(&mut self, action: &FileAction, now: SimTime) {
         (self.left, self.counted) = (self.left_at(now).saturating_sub(action.cost()), now);
     }

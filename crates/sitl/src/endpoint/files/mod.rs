@@ -1,4 +1,4 @@
-//! The MAVLink FTP server, sans-IO: packets in, packets out, and jobs for whoever holds the files.
+//! The MAVLink FTP server, sans-IO: packets in, packets out, and file jobs for the host.
 
 mod burst;
 pub mod job;
@@ -18,23 +18,22 @@ use spandrel_model::time::SimTime;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
-/// Who asks: over which link, system, component.
+/// A client: its link, system ID and component ID.
 pub type FileClient = (LinkId, (u8, u8));
 
-/// Jobs that may wait, of all clients and of one. A request beyond that counts as lost on its way, as ArduPilot does it: its client asks
-/// again.
+/// Maximum number of pending jobs, in total and per client. Further requests are dropped, as in ArduPilot; the client retries.
 const JOBS_MAX: usize = 64;
 const JOBS_EACH: usize = 32;
-/// Packets of one burst; the client then asks for the next.
+/// Maximum number of packets per burst; the client then requests the next one.
 const BURST_PACKETS: u32 = 128;
 
-/// The server.
+/// The MAVLink FTP server.
 #[derive(Debug, Clone, Default)]
 pub struct FileServer {
     sessions: FileSessions,
-    /// Somebody holds files and does the jobs.
+    /// Whether a host executes file jobs.
     stored: bool,
-    /// Files that are made up, not stored: read-only, at their paths.
+    /// Generated, read-only files by path; they are not stored on disk.
     generated: BTreeMap<FilePath, Arc<[u8]>>,
     waiting: BTreeMap<u64, PendingRequest>,
     jobs: VecDeque<FileJob>,
@@ -44,30 +43,30 @@ pub struct FileServer {
     bursts: BurstReads,
 }
 
-/// A request whose job is under way.
+/// A request with a job in progress.
 #[derive(Debug, Clone)]
 struct PendingRequest {
     client: FileClient,
     request: FtpPacket,
     opens: Option<(FilePath, bool)>,
-    /// Bytes of a checksum so far.
+    /// Bytes included in the checksum so far.
     summed: u32,
 }
 
 impl FileServer {
-    /// Somebody does the jobs from now on; until then nothing is there but what is made up.
+    /// Declares that a host executes file jobs. Until then, only generated files exist.
     pub fn stored(&mut self) {
         self.stored = true;
     }
 
-    /// Serves one more file that is not stored anywhere.
+    /// Serves a generated file at `path`.
     pub fn generate(&mut self, path: &str, content: impl Into<Arc<[u8]>>) {
         if let Some(path) = FilePath::of(path.as_bytes()) {
             self.generated.insert(path, content.into());
         }
     }
 
-    /// A client is gone.
+    /// Releases everything that belongs to a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.sessions.close_matching(|client| client.0 == link);
         self.answered.forget(link);
@@ -76,26 +75,25 @@ impl FileServer {
         self.waiting.retain(|_, waiting| waiting.client.0 != link);
     }
 
-    /// The action of the next job.
+    /// Returns the action of the next job.
     #[must_use]
     pub fn next_action(&self) -> Option<&FileAction> {
         self.jobs.front().map(|job| &job.action)
     }
 
-    /// The next job.
+    /// Removes and returns the next job.
     pub fn poll_job(&mut self) -> Option<FileJob> {
         self.jobs.pop_front()
     }
 
-    /// Answers that may go out in this tick: all but bursts at once, bursts a few at a time on links that are ready for them.
+    /// Returns the replies to send in this tick: all ordinary replies, and a few burst packets on links that are ready for them.
     pub fn poll(&mut self, ready: impl Fn(&LinkId) -> bool) -> Vec<(FileClient, FtpPacket)> {
         let mut out: Vec<_> = self.answers.drain(..).collect();
         out.extend(self.bursts.poll(ready));
         out
     }
 
-    /// True for a request that was heard before; its answer, if there is one by now, was lost and goes out again, without doing the work
-    /// twice.
+    /// Checks for a repeated request. If its reply is available, it is sent again, without executing the request twice.
     fn is_again(&mut self, client: FileClient, request: &FtpPacket, now: SimTime) -> bool {
         if let Some(answer) = self.answered.cached_reply(client, request) {
             self.answers.push_back((client, answer.clone()));
@@ -106,7 +104,7 @@ impl FileServer {
             || self.waiting.values().any(|waiting| waiting.client == client && waiting.request == *request)
     }
 
-    /// Opens a file whose content is made for this session alone: what others do meanwhile changes nothing in it.
+    /// Opens a file with content generated for this session; later changes do not affect it.
     pub fn open_generated(&mut self, client: FileClient, request: &FtpPacket, content: Vec<u8>, now: SimTime) {
         if self.is_again(client, request, now) {
             return;
@@ -121,7 +119,7 @@ impl FileServer {
         self.queue_reply(client, request, answer);
     }
 
-    /// A request came in.
+    /// Handles a request.
     pub fn receive(&mut self, client: FileClient, request: &FtpPacket, now: SimTime) {
         if self.is_again(client, request, now) {
             return;
@@ -140,7 +138,7 @@ impl FileServer {
         }
     }
 
-    /// A job is done.
+    /// Handles the result of a job.
     pub fn done(&mut self, ticket: u64, outcome: Result<FileJobResult, FileError>, now: SimTime) {
         if self.continues(ticket, &outcome) {
             return;
@@ -156,7 +154,7 @@ impl FileServer {
             }
             Ok(FileJobResult::Bytes(bytes)) if bytes.is_empty() => request.error_reply(FtpError::EndOfFile),
             Ok(FileJobResult::Bytes(bytes)) => request.acknowledge(&bytes),
-            // The rest of a longer file was left out: a sum over a part would be a wrong one.
+            // The rest of a longer file was skipped: a checksum of part of the file would be wrong.
             Ok(FileJobResult::Checksum { bytes, .. }) if bytes >= CHECKSUM_SLICE => request.error_reply(FtpError::Fail),
             Ok(FileJobResult::Checksum { sum, .. }) => request.acknowledge(&sum.to_le_bytes()),
             Ok(FileJobResult::Size(_) | FileJobResult::Nothing) if opens.is_some() => {
@@ -169,7 +167,7 @@ impl FileServer {
         self.queue_reply(client, &request, answer);
     }
 
-    /// A checksum has not come to the end of its file: its next slice waits behind the jobs of others.
+    /// Queues the next slice of an unfinished checksum behind other jobs. Returns false if there is none.
     fn continues(&mut self, ticket: u64, outcome: &Result<FileJobResult, FileError>) -> bool {
         let Some(waiting) = self.waiting.get_mut(&ticket) else { return false };
         let Ok(FileJobResult::Checksum { sum, bytes }) = outcome else { return false };
@@ -233,7 +231,7 @@ impl FileServer {
         Ok(act)
     }
 
-    /// What is made up cannot be written, and nothing can take the root's place.
+    /// Checks that a path is writable: generated files and the root are protected.
     fn writable(&self, path: FilePath) -> Result<FilePath, FtpError> {
         if path.is_root() || self.generated.contains_key(&path) { Err(FtpError::FileProtected) } else { Ok(path) }
     }
@@ -269,8 +267,8 @@ impl FileServer {
         })
     }
 
-    /// One stream of packets. The last one ends it, also at the end of the file: a refusal behind it would make a client that has lost the
-    /// last packet give up (MAVSDK 4). Only a request at the end of the file is refused.
+    /// Queues one burst. The last packet completes it, even at the end of the file: after an additional NAK, a client that lost
+    /// the last packet would give up (MAVSDK 4). Only a request that starts at the end of the file is rejected.
     fn burst(&mut self, client: FileClient, request: &FtpPacket, bytes: &[u8]) {
         if bytes.is_empty() {
             return self.queue_reply(client, request, request.error_reply(FtpError::EndOfFile));
@@ -309,7 +307,8 @@ impl FileServer {
         self.jobs.push_back(FileJob { ticket, action });
     }
 
-    /// What is made up needs nobody's help; a listing is completed when it comes back.
+    /// Returns the result for generated files, which need no job. Generated entries are added to a listing when its job
+    /// completes.
     fn is_generated(&self, action: &FileAction) -> Option<Result<FileJobResult, FileError>> {
         match action {
             FileAction::Size(path) => self.generated.get(path).map(|content| Ok(FileJobResult::Size(content.len() as u32))),
@@ -329,7 +328,7 @@ impl FileServer {
         }
     }
 
-    /// A listing with what is made up in that directory; a directory that holds nothing else is there all the same.
+    /// Adds the generated files to a directory listing. A directory that contains only generated files also exists.
     fn with_generated(&self, request: &FtpPacket, outcome: Result<FileJobResult, FileError>) -> Result<FileJobResult, FileError> {
         let Some(path) = request.sized().and_then(FilePath::of) else { return outcome };
         let mut made_up: Vec<DirectoryEntry> = Vec::new();
@@ -356,24 +355,24 @@ impl FileServer {
     }
 }
 
-/// What follows from a request.
+/// Next step of a request.
 enum RequestStep {
-    /// An acknowledgement at once.
+    /// Acknowledge immediately with this data.
     Answer(Vec<u8>),
-    /// What was read.
+    /// Return the data read.
     Bytes(Vec<u8>),
-    /// Work, and the file that it opens (writable?).
+    /// Run a job; with the file that it opens and whether it is writable.
     Job(FileAction, Option<(FilePath, bool)>),
 }
 
-/// At most so many bytes from an offset.
+/// Returns at most `most` bytes from an offset.
 fn cut(content: &[u8], offset: u32, most: u32) -> Vec<u8> {
     let from = (offset as usize).min(content.len());
     let to = from.saturating_add(most as usize).min(content.len());
     content[from..to].to_vec()
 }
 
-/// Bytes a packet that a read asks for; 0 means a whole packet.
+/// Returns the requested bytes per packet; 0 means the maximum.
 fn chunk(request: &FtpPacket) -> u32 {
     match usize::from(request.size) {
         0 => DATA_MAX as u32,
@@ -381,7 +380,7 @@ fn chunk(request: &FtpPacket) -> u32 {
     }
 }
 
-/// As many entries as a packet holds, from the one that the offset numbers.
+/// Returns as many entries as fit into a packet, starting at the entry number in the offset.
 fn list(request: &FtpPacket, entries: Vec<DirectoryEntry>) -> FtpPacket {
     let mut data = Vec::new();
     for entry in entries.iter().skip(request.offset as usize) {
@@ -389,7 +388,7 @@ fn list(request: &FtpPacket, entries: Vec<DirectoryEntry>) -> FtpPacket {
             DirectoryEntry::Directory(name) => format!("D{name}\0"),
             DirectoryEntry::File(name, size) => format!("F{name}\t{size}\0"),
         };
-        // A name that no packet holds is skipped, so that the entries behind it can be reached.
+        // Skip a name too long for any packet, so that the entries after it remain reachable.
         let text = if text.len() > DATA_MAX { "S\0".to_owned() } else { text };
         if data.len() + text.len() > DATA_MAX {
             break;

@@ -1,12 +1,12 @@
-//! Paths that clients ask for, cleaned: whatever is asked, none leads out of the root.
+//! Sanitized paths of client requests; none can leave the root directory.
 
-/// A path below the root: parts joined by '/', no leading '/', no empty part, no `.` or `..`; empty for the root itself.
+/// A path below the root: components joined by '/', without a leading '/', empty components, `.` or `..`; empty for the root.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FilePath(String);
 
 impl FilePath {
-    /// Cleans what a client sent. `None` for a path that tries to climb, is not UTF-8, or holds a character that a path of some system
-    /// could take for a separator or a drive.
+    /// Sanitizes a path from a client. Returns `None` if it contains `..`, is not UTF-8, or contains a character that some system
+    /// treats as a separator or a drive.
     #[must_use]
     pub fn of(bytes: &[u8]) -> Option<Self> {
         let end = bytes.iter().position(|byte| *byte == 0).unwrap_or(bytes.len());
@@ -19,13 +19,13 @@ impl FilePath {
         Some(Self(parts.join("/")))
     }
 
-    /// The path as text; empty for the root.
+    /// Returns the path as text; empty for the root.
     #[must_use]
     pub fn as_str(&self) -> &str {
         &self.0
     }
 
-    /// What of this path lies below another.
+    /// Returns the part of this path below `directory`; `None` if the path is not in it.
     #[must_use]
     pub fn below<'a>(&'a self, directory: &Self) -> Option<&'a str> {
         if directory.is_root() {
@@ -34,7 +34,7 @@ impl FilePath {
         self.0.strip_prefix(&directory.0)?.strip_prefix('/')
     }
 
-    /// True for the root itself.
+    /// Checks whether this is the root.
     #[must_use]
     pub fn is_root(&self) -> bool {
         self.0.is_empty()

@@ -1,14 +1,14 @@
-//! Answers that have gone out: a request that comes again is answered again, and its work is not done twice.
+//! Cache of sent replies: a repeated request gets the same reply and is not executed again.
 
 use super::super::LinkId;
 use super::FileClient;
 use spandrel_mavlink::ftp::{FtpError, FtpPacket, NAK};
 use std::collections::BTreeMap;
 
-/// Sessions whose last answer is kept.
+/// Number of sessions for which the last reply is kept.
 const ANSWERS_MAX: usize = 64;
 
-/// The last request of each session, and its answer.
+/// The last request and reply of each session.
 #[derive(Debug, Clone, Default)]
 pub(super) struct ReplyCache {
     last: BTreeMap<(FileClient, u8), (u64, FtpPacket, FtpPacket)>,
@@ -16,14 +16,14 @@ pub(super) struct ReplyCache {
 }
 
 impl ReplyCache {
-    /// The answer to this very request, if it was its session's last.
+    /// Returns the reply to this exact request, if it was the session's last.
     pub fn cached_reply(&self, client: FileClient, request: &FtpPacket) -> Option<&FtpPacket> {
         let (_, asked, answer) = self.last.get(&(client, request.session))?;
         (asked == request).then_some(answer)
     }
 
-    /// Keeps an answer; the oldest makes room. A request that comes late to a session that has ended leaves the answer about its end in place:
-    /// that one may have been lost.
+    /// Stores a reply and evicts the oldest if the cache is full. A late request to a closed session does not replace the reply
+    /// to its close request, because that reply may have been lost.
     pub fn keep(&mut self, client: FileClient, request: &FtpPacket, answer: &FtpPacket) {
         let ended = answer.sized() == Some(&[FtpError::InvalidSession as u8]) && answer.opcode == NAK;
         if ended && self.last.contains_key(&(client, request.session)) {
@@ -38,12 +38,12 @@ impl ReplyCache {
         }
     }
 
-    /// A link is gone.
+    /// Removes the replies of a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.last.retain(|((from, _), _), _| *from != link);
     }
 
-    /// Answers that are kept.
+    /// Returns the number of stored replies.
     #[cfg(test)]
     pub fn len(&self) -> usize {
         self.last.len()

@@ -1,4 +1,4 @@
-//! Open files of the clients. Each client numbers its own.
+//! Open files of the clients. Session numbers are per client.
 
 use super::FileClient;
 use super::path::FilePath;
@@ -7,14 +7,14 @@ use spandrel_model::time::SimTime;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Files that all clients together may have open.
+/// Maximum number of open files of all clients.
 const SESSIONS_MAX: usize = 32;
-/// Files that one client may have open; MAVProxy moves five at once.
+/// Maximum number of open files per client; MAVProxy transfers five at once.
 const EACH_MAX: usize = 8;
-/// A session that is not used this long is ended, so that a client that died holds nothing.
+/// Timeout after which an idle session is closed, so that a vanished client does not hold resources.
 const IDLE: SimTime = SimTime::from_ms(60_000);
-/// A request to open that comes again within this time is a repetition, whatever came in between: networks double and reorder datagrams.
-/// Later it is a new one by a client whose sequence numbers begin anew (estimate: longer than networks hold datagrams back).
+/// Time within which an identical open request counts as a repeat, whatever arrived in between: networks duplicate and reorder
+/// datagrams. Later it comes from a client that restarted its sequence numbers (estimate: longer than networks delay datagrams).
 const REPETITION: SimTime = SimTime::from_ms(2_000);
 
 #[derive(Debug, Clone)]
@@ -23,25 +23,25 @@ struct FileSession {
     writes: bool,
     used: SimTime,
     opened: SimTime,
-    /// The request that opened it.
+    /// The request that opened the session.
     request: FtpPacket,
-    /// What is read, where it was made for this session alone.
+    /// Content generated for this session, if any.
     content: Option<Arc<[u8]>>,
 }
 
-/// All open files, by client and its number.
+/// All open files, by client and session number.
 #[derive(Debug, Clone, Default)]
 pub(super) struct FileSessions(BTreeMap<(FileClient, u8), FileSession>);
 
 impl FileSessions {
-    /// Whether this client may open a file under this number. One that it has open under it gives way.
+    /// Checks whether this client may open a file under this session number. An open session with the same number is replaced.
     pub fn room(&self, client: FileClient, number: u8) -> Result<(), FtpError> {
         let own = self.0.keys().filter(|(owner, _)| *owner == client).count();
         let full = self.0.len() >= SESSIONS_MAX || own >= EACH_MAX;
         if full && !self.0.contains_key(&(client, number)) { Err(FtpError::NoSessionsAvailable) } else { Ok(()) }
     }
 
-    /// Opens a file under the number that the request names.
+    /// Opens a file under the session number in the request.
     pub fn begin(
         &mut self,
         owner: FileClient,
@@ -56,25 +56,26 @@ impl FileSessions {
         Ok(())
     }
 
-    /// This request has just opened the session that it names.
+    /// Checks whether this request has just opened its session.
     pub fn is_repetition(&self, client: FileClient, request: &FtpPacket, now: SimTime) -> bool {
         let session = self.0.get(&(client, request.session));
         session.is_some_and(|session| session.request == *request && now.saturating_sub(session.opened) <= REPETITION)
     }
 
-    /// Keeps what was made for a session.
+    /// Stores the content generated for a session.
     pub fn hold(&mut self, client: FileClient, number: u8, content: Arc<[u8]>) {
         if let Some(session) = self.0.get_mut(&(client, number)) {
             session.content = Some(content);
         }
     }
 
-    /// What was made for a session of this client.
+    /// Returns the content generated for a session of this client.
     pub fn content(&self, client: FileClient, number: u8) -> Option<Arc<[u8]>> {
         self.0.get(&(client, number))?.content.clone()
     }
 
-    /// The file of a session of this client, which must have been opened to be written if `writes`.
+    /// Returns the path of a session of this client; the session must be open for writing if `writes` is set, for reading
+    /// otherwise.
     pub fn path(&self, client: FileClient, number: u8, writes: bool) -> Result<FilePath, FtpError> {
         match self.0.get(&(client, number)) {
             Some(session) if session.writes == writes => Ok(session.path.clone()),
@@ -82,24 +83,24 @@ impl FileSessions {
         }
     }
 
-    /// Ends one of this client's.
+    /// Closes a session of this client.
     pub fn end(&mut self, client: FileClient, number: u8) -> Option<()> {
         self.0.remove(&(client, number)).map(|_| ())
     }
 
-    /// Ends those of the owners that fit.
+    /// Closes the sessions of all matching clients.
     pub fn close_matching(&mut self, fits: impl Fn(FileClient) -> bool) {
         self.0.retain(|(owner, _), _| !fits(*owner));
     }
 
-    /// It is in use.
+    /// Resets the idle timer of a session.
     pub fn touch(&mut self, client: FileClient, number: u8, now: SimTime) {
         if let Some(session) = self.0.get_mut(&(client, number)) {
             session.used = now;
         }
     }
 
-    /// Ends what nobody uses.
+    /// Closes idle sessions.
     pub fn expire(&mut self, now: SimTime) {
         self.0.retain(|_, session| now.saturating_sub(session.used) <= IDLE);
     }

@@ -1,4 +1,4 @@
-//! A client that retries against the server over a link that loses, repeats and reorders; files in memory.
+//! Tests the server with a retrying client over a link that loses, duplicates and reorders packets, with files in memory.
 
 use super::*;
 use spandrel_mavlink::ftp::{NAK, PAYLOAD};
@@ -176,7 +176,7 @@ fn exact_nobody_uses_another_clients_session_or_more_than_its_share() {
     assert!(said(&bench.ask(Opcode::ResetSessions, 0, 0, b"")).is_ok());
 }
 
-/// MAVProxy sorts answers by the session that it chose; MAVSDK 4 says 0 whatever the answer says; each client numbers its own.
+/// MAVProxy matches replies by the session it chose; MAVSDK 4 always sends 0; session numbers are per client.
 #[test]
 fn regress_answers_name_the_session_that_was_requested() {
     let mut bench = FtpHarness::new();
@@ -197,7 +197,7 @@ fn regress_answers_name_the_session_that_was_requested() {
     assert_eq!((left_open.session, said(&bench.ask(Opcode::ReadFile, 7, 0, &[0; 3]))), (7, Ok(vec![2; 3])), "the newest counts");
 }
 
-/// The last packet of a burst ends it: behind a lost one, MAVSDK 4 would take the refusal for the end of its patience.
+/// The last packet of a burst completes it: if it is lost, MAVSDK 4 would treat an additional NAK as its last failed attempt.
 #[test]
 fn regress_a_burst_to_the_end_of_the_file_ends_without_a_refusal() {
     let mut bench = FtpHarness::new();
@@ -215,7 +215,7 @@ fn regress_a_burst_to_the_end_of_the_file_ends_without_a_refusal() {
     assert_eq!(said(&bench.ask(Opcode::BurstReadFile, 0, 0, &[0; DATA_MAX])), Err(FtpError::EndOfFile as u8));
 }
 
-/// What the network doubles or holds back starts no burst anew and empties no file that is being written.
+/// A duplicated or delayed request restarts no burst and truncates no file being written.
 #[test]
 fn regress_a_doubled_request_disturbs_nothing_that_came_after_it() {
     let mut bench = FtpHarness::new();
@@ -240,7 +240,7 @@ fn regress_a_doubled_request_disturbs_nothing_that_came_after_it() {
     assert!(bench.files.0["new"].is_empty(), "a client that begins anew with the same number");
 }
 
-/// A long file is summed up slice by slice, and what others ask for is done between.
+/// A long file is checksummed slice by slice, with other clients' jobs in between.
 #[test]
 fn regress_a_checksum_is_made_in_slices() {
     let mut bench = FtpHarness::new();
@@ -318,7 +318,7 @@ fn exact_a_long_listing_is_reached_entry_by_entry() {
     assert_eq!((seen[40].as_str(), seen[41].as_str()), ("S", "Fy\t0"));
 }
 
-/// Loses three of ten packets and repeats one of ten, both ways.
+/// Loses 30 % and duplicates 10 % of the packets, in both directions.
 fn impair(packets: Vec<FtpPacket>, random: &mut RandomStream) -> Vec<FtpPacket> {
     let mut out: Vec<FtpPacket> = Vec::new();
     for packet in packets {

@@ -1,5 +1,5 @@
-//! ArduPilot's interface, as ArduCopter implements it (docs/src/reference/wire.md, "Autopilot interfaces"; recorded from a real
-//! ArduCopter 4.7-dev, names of parameters as in 4.6).
+//! ArduPilot's interface, as implemented by ArduCopter (docs/src/reference/wire.md, "Autopilot interfaces"; recorded from a real
+//! ArduCopter 4.7-dev, parameter names as in 4.6).
 #![allow(deprecated, reason = "ArduPilot names its encoding by the older capability")]
 
 use super::px4::FORCE;
@@ -15,7 +15,8 @@ use spandrel_mavlink::dialect::{
     MavAutopilot, MavModeFlag as F, MavProtocolCapability, MavResult, MavSeverity, MavStandardMode as S, MavState, MavVtolState,
 };
 
-/// Copter's numbers of the modes that fly errands, hold for NAV_LOITER_UNLIM, and land by the mission's landing sequence.
+/// Copter's mode numbers: the mode for go-to commands, the mode for NAV_LOITER_UNLIM, and the mode that flies the mission's
+/// landing sequence.
 const GUIDED: u32 = 4;
 const LOITER: u32 = 5;
 const AUTO_RTL: u32 = 27;
@@ -51,7 +52,7 @@ impl ModeRow {
         self
     }
 
-    /// Holds while it is armed and no sticks are there, under its own number.
+    /// Holds position under its own mode number while armed without stick input.
     const fn holds_unattended(mut self) -> Self {
         self.unattended = Some(FlightMode::Hold);
         self.covering(&[FlightMode::Hold])
@@ -63,8 +64,8 @@ impl ModeRow {
     }
 }
 
-/// Order, numbers and names of ArduCopter's AVAILABLE_MODES (GCS_MAVLink_Copter.cpp, send_available_mode; mode.h), without the modes that are not
-/// flown here. It names no standard modes and no properties. LOITER and POSHOLD fly alike.
+/// Order, numbers and names of ArduCopter's AVAILABLE_MODES (GCS_MAVLink_Copter.cpp, send_available_mode; mode.h), without the
+/// modes not supported here. ArduCopter reports no standard modes and no properties. LOITER and POSHOLD behave the same.
 const MODES: &[ModeRow] = &[
     row(AUTO_RTL, FlightMode::Mission, "AUTO RTL", PLACED)
         .entered_by(AutopilotRequest::LandingSequence)
@@ -80,13 +81,13 @@ const MODES: &[ModeRow] = &[
     row(9, FlightMode::Land, "LAND", PLACED).without_arming(),
     row(6, FlightMode::Return, "RTL", PLACED).without_arming(),
     row(16, FlightMode::Position, "POSHOLD", PLACED).holds_unattended(),
-    // Armable, where ArduPilot's is not: without sticks the other modes by hand are armed into it, and a landing ends in it.
+    // Armable, unlike in ArduPilot: without stick input, the other manual modes switch to it on arming, and a landing ends in it.
     row(17, FlightMode::Hold, "BRAKE", PLACED),
     row(21, FlightMode::SmartReturn, "SMARTRTL", PLACED).without_arming(),
     row(23, FlightMode::Follow, "FOLLOW", PLACED).without_arming(),
 ];
 
-/// ArduPilot's interface. The version is a development one of the series whose parameter names are used.
+/// ArduPilot's interface. Reports a development version of the series that the parameter names come from.
 pub static FLAVOUR: Flavour = Flavour {
     name: "ardupilot",
     autopilot: MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA,
@@ -99,7 +100,7 @@ pub static FLAVOUR: Flavour = Flavour {
     state,
     errands: Some(GUIDED),
     take_off: from_guided,
-    // The second is ArduPilot's own for arming.
+    // The second value is ArduPilot's own for arming.
     force: &[FORCE, 2989.0],
     looks_over_sea: false,
     refusals: RefusalResults {
@@ -152,7 +153,7 @@ pub static FLAVOUR: Flavour = Flavour {
     },
 };
 
-/// Booting until the attitude is known, critical in a failsafe, active from lift-off to touch-down.
+/// Reports boot until the attitude is valid, critical during a failsafe, and active from takeoff to landing.
 fn state(v: &VehicleSnapshot) -> MavState {
     if !v.estimate.attitude_valid {
         MavState::MAV_STATE_BOOT
@@ -165,7 +166,7 @@ fn state(v: &VehicleSnapshot) -> MavState {
     }
 }
 
-/// Only from the ground, in GUIDED, with the motors armed; parameter 7 is over home.
+/// Takes off only from the ground, in GUIDED, while armed. Parameter 7 is the height above home, m.
 fn from_guided(c: &VehicleCommand, x: &mut CommandContext) -> Result<Option<f64>, MavResult> {
     const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
     const HIGHEST_M: f64 = 500.0;
@@ -183,7 +184,7 @@ fn from_guided(c: &VehicleCommand, x: &mut CommandContext) -> Result<Option<f64>
         x.warn_all(why);
         return Err(FAILED);
     }
-    // COMMAND_LONG has no frame; COMMAND_INT must say that the height counts from home.
+    // COMMAND_LONG has no frame; COMMAND_INT must use a frame relative to home.
     if c.whole && c.is_home_relative() != Some(true) {
         return Err(MavResult::MAV_RESULT_DENIED);
     }
@@ -194,7 +195,8 @@ fn from_guided(c: &VehicleCommand, x: &mut CommandContext) -> Result<Option<f64>
     height.map(Some).ok_or(FAILED)
 }
 
-/// ArduCopter announces a receiver that contradicts the filter as a glitch; barometer and compass by number, as its checks name them.
+/// Returns ArduCopter's text: it reports a GNSS receiver that contradicts the estimator as a glitch, and barometer and compass by
+/// instance, as in its checks.
 fn sensor_words(change: SensorChange) -> Option<(MavSeverity, String)> {
     let text = match (change.sensor, change.fault) {
         (_, Some(SensorFault::Silent)) => return None,

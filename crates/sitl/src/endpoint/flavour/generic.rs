@@ -1,5 +1,5 @@
-//! No autopilot's interface, the standard alone: modes are offered where MAVLink has a standard mode for them. Their custom numbers say
-//! nothing by the standard; they are PX4's, because SDKs and recorders that do not ask read them so.
+//! A generic MAVLink interface without an autopilot's dialect. It offers MAVLink's standard modes where they exist. The standard
+//! does not define custom mode numbers; PX4's are used because many SDKs and recorders assume them.
 
 use super::px4::{self, row};
 use super::{COMMON, Flavour, ModeRow, named_mode};
@@ -23,7 +23,7 @@ const MODES: &[ModeRow] = &[
     row(FlightMode::Offboard, (6, 0), "Offboard", S::MAV_STANDARD_MODE_NON_STANDARD, true, false),
 ];
 
-/// The standard alone.
+/// The generic interface.
 pub static FLAVOUR: Flavour = Flavour {
     name: "generic",
     autopilot: MavAutopilot::MAV_AUTOPILOT_GENERIC,
@@ -63,7 +63,7 @@ pub static FLAVOUR: Flavour = Flavour {
     tune: |_| {},
 };
 
-/// Our own version: major and minor.
+/// This software's version: major and minor.
 const VERSION: u32 = digits(env!("CARGO_PKG_VERSION_MAJOR")) << 24 | digits(env!("CARGO_PKG_VERSION_MINOR")) << 16;
 
 const fn digits(text: &str) -> u32 {
@@ -75,7 +75,8 @@ const fn digits(text: &str) -> u32 {
     value
 }
 
-/// Parameter 2 is a whole custom mode by the standard; SDKs that take every vehicle for PX4 send main and sub mode.
+/// Returns the custom mode. By the standard, parameter 2 is the whole custom mode; SDKs that assume PX4 send main and sub mode
+/// instead.
 fn custom_mode(main: f64, sub: f64) -> u32 {
     if (256.0..4_294_967_296.0).contains(&main) { main as u32 } else { px4::main_and_sub(main, sub) }
 }

@@ -1,5 +1,5 @@
-//! Whose interface the vehicle speaks: all that differs between autopilots on the wire, one table each. What is not here is the same for
-//! all of them.
+//! Autopilot flavours: one table for each autopilot interface, with everything that differs on the wire. All other behavior is
+//! shared.
 
 pub mod ardupilot;
 pub mod generic;
@@ -17,37 +17,37 @@ use spandrel_mavlink::dialect::{
 };
 use spandrel_model::time::SimTime;
 
-/// One mode as clients of a flavour know it.
+/// A flight mode as presented to clients of a flavour.
 #[derive(Debug, Clone, Copy)]
 pub struct ModeRow {
     /// HEARTBEAT.custom_mode.
     pub number: u32,
-    /// The mode of ours that is entered by it.
+    /// The internal mode that it enters.
     pub mode: FlightMode,
-    /// The request that enters it.
+    /// The request that enters the mode.
     pub request: AutopilotRequest,
-    /// Flown in its place while it is armed and no sticks are there.
+    /// Mode used instead while the vehicle is armed without stick input.
     pub unattended: Option<FlightMode>,
-    /// It is shown only after it was asked for by its number.
+    /// Whether the mode is shown only after it was requested by its number.
     pub only_chosen: bool,
-    /// Other modes of ours that clients see under the same number.
+    /// Other internal modes shown under the same number.
     pub covers: &'static [FlightMode],
     /// Display name.
     pub name: &'static str,
-    /// The standard mode that it is.
+    /// The corresponding standard mode.
     pub standard: MavStandardMode,
-    /// HEARTBEAT.base_mode without the bit for armed motors.
+    /// HEARTBEAT.base_mode without the armed bit.
     pub base: MavModeFlag,
-    /// Flies by itself.
+    /// Whether the mode flies autonomously.
     pub auto: bool,
-    /// Offered in menus.
+    /// Whether ground stations list the mode for selection.
     pub selectable: bool,
-    /// Motors may be armed in it.
+    /// Whether the motors may be armed in this mode.
     pub armable: bool,
 }
 
 impl ModeRow {
-    /// Shown for other modes of ours as well.
+    /// Also shows this row for other internal modes.
     const fn covering(mut self, modes: &'static [FlightMode]) -> Self {
         self.covers = modes;
         self
@@ -58,28 +58,28 @@ impl ModeRow {
     }
 }
 
-/// What a command or message that is not obeyed is answered.
+/// Results sent for rejected commands and requests.
 #[derive(Debug, Clone, Copy)]
 pub struct RefusalResults {
-    /// Not now.
+    /// Temporarily rejected.
     pub for_now: MavResult,
-    /// Not in this state.
+    /// Rejected in the current state.
     pub denied: MavResult,
-    /// No such mode.
+    /// Unknown mode.
     pub no_mode: MavResult,
-    /// REQUEST_MESSAGE of what is not spoken.
+    /// REQUEST_MESSAGE for an unsupported message.
     pub message: MavResult,
-    /// SET_MESSAGE_INTERVAL of what is not spoken.
+    /// SET_MESSAGE_INTERVAL for an unsupported message.
     pub interval: MavResult,
 }
 
-/// Height over home at which a NAV_TAKEOFF ends, m (`None`: the parameter's), or its refusal.
+/// Returns the height above home at which NAV_TAKEOFF ends, m (`None`: the parameter's value), or the result of a rejection.
 pub type TakeOffHeight = fn(&VehicleCommand, &mut CommandContext) -> Result<Option<f64>, MavResult>;
 
-/// One interface.
+/// An autopilot interface.
 #[derive(Debug)]
 pub struct Flavour {
-    /// As on the command line.
+    /// Name on the command line.
     pub name: &'static str,
     /// HEARTBEAT.autopilot.
     pub autopilot: MavAutopilot,
@@ -87,102 +87,105 @@ pub struct Flavour {
     pub software_version: u32,
     /// AUTOPILOT_VERSION.capabilities.
     pub capabilities: MavProtocolCapability,
-    /// All modes, in the order of AVAILABLE_MODES. Of several rows that show a mode of ours the first that enters it is its usual one.
+    /// All modes, in the order of AVAILABLE_MODES. If several rows show the same internal mode, the first that enters it is its
+    /// default.
     pub modes: &'static [ModeRow],
-    /// Bits of a custom mode that name the mode.
+    /// Bits of the custom mode that identify the mode.
     pub mode_bits: u32,
-    /// The custom mode in parameters 2 and 3 of DO_SET_MODE.
+    /// Converts parameters 2 and 3 of DO_SET_MODE to a custom mode.
     pub custom_mode: fn(f64, f64) -> u32,
-    /// SET_MODE must say that it means a custom mode; otherwise it means something else (ArduPilot: the safety switch).
+    /// Whether SET_MODE requires the custom mode flag; without it, the message has another meaning (ArduPilot: the safety
+    /// switch).
     pub custom_flag: bool,
     /// HEARTBEAT.system_status.
     pub state: fn(&VehicleSnapshot) -> MavState,
-    /// Number of the mode in which go-to commands and external set-points are flown as they come; `None`: external set-points have a mode
-    /// that is entered by itself, and a go-to may come in any.
+    /// Number of the mode that accepts go-to commands and offboard setpoints directly (GUIDED). `None`: offboard setpoints have a
+    /// mode of their own, and go-to commands are accepted in any mode.
     pub errands: Option<u32>,
-    /// Reads NAV_TAKEOFF.
+    /// Interprets NAV_TAKEOFF.
     pub take_off: TakeOffHeight,
-    /// Numbers in COMPONENT_ARM_DISARM that force it.
+    /// Values in COMPONENT_ARM_DISARM that force arming or disarming.
     pub force: &'static [f64],
-    /// The height of a place to look at, in a command, is over the sea whatever frame the command names.
+    /// Whether the altitude of a region of interest command is above mean sea level, regardless of its frame.
     pub looks_over_sea: bool,
-    /// Answers to what is not obeyed.
+    /// Results of rejections.
     pub refusals: RefusalResults,
-    /// Begins each reason of a refused arming, one text each; `None`: the autopilot's words, in one.
+    /// Prefix of the text sent for each failed arming check; `None`: a single text from the autopilot.
     pub arm_words: Option<&'static str>,
-    /// Begins each reason that RUN_PREARM_CHECKS tells.
+    /// Prefix of each reason reported by RUN_PREARM_CHECKS.
     pub check_words: &'static str,
-    /// A sensor that has failed or is back, as the autopilot announces it, with its severity; `None`: the event's own words.
+    /// Returns the text and severity for a sensor that failed or recovered; `None`: the default text.
     pub sensor_words: fn(SensorChange) -> Option<(MavSeverity, String)>,
-    /// A refused change of mode in words.
+    /// Returns the text for a rejected mode change.
     pub mode_words: fn(&ModeRow, String) -> String,
-    /// Who it is, told with the parameters and by DO_SEND_BANNER; empty: nobody asks.
+    /// Identification texts sent with the parameter list and for DO_SEND_BANNER; empty if unsupported.
     pub banner: &'static [&'static str],
-    /// Ground stations and SDKs get heartbeats alone until they ask for more.
+    /// Whether ground stations and SDKs receive only heartbeats until they request streams.
     pub asks_first: bool,
-    /// A message that REQUEST_MESSAGE asks for follows the acknowledgement; otherwise it goes before.
+    /// Whether the message requested by REQUEST_MESSAGE follows the acknowledgment; otherwise it precedes it.
     pub answers_after_acknowledgement: bool,
-    /// REQUEST_DATA_STREAM: groups and the messages in them.
+    /// Message groups of REQUEST_DATA_STREAM.
     pub groups: &'static [(u8, &'static [u32])],
-    /// Messages of ArduPilot's own dialect are spoken.
+    /// Whether messages of ArduPilot's dialect are sent.
     pub dialect_of_ardupilot: bool,
-    /// Whose texts report a calibration.
+    /// Format of the calibration texts.
     pub calibration: CalibrationTexts,
-    /// SERIAL_CONTROL opens a shell.
+    /// Whether SERIAL_CONTROL opens a shell.
     pub shell: bool,
-    /// Arming checks and health are reported as events.
+    /// Whether arming checks and health are reported as events.
     pub events: bool,
-    /// Number of the mode that NAV_LOITER_UNLIM enters; `None`: the mode that holds.
+    /// Number of the mode that NAV_LOITER_UNLIM enters; `None`: Hold mode.
     pub loiters: Option<u32>,
-    /// Positions of set-points in frames that move with the vehicle count from where it is; otherwise they have no meaning.
+    /// Whether setpoint positions in body and offset frames are relative to the vehicle; otherwise they are ignored.
     pub offsets: bool,
-    /// DO_PAUSE_CONTINUE pauses what is flown; otherwise it ends in a hold.
+    /// Whether DO_PAUSE_CONTINUE pauses the current operation; otherwise it enters Hold mode.
     pub pauses: bool,
     /// EXTENDED_SYS_STATE.vtol_state.
     pub vtol_state: MavVtolState,
-    /// NAV_SPLINE_WAYPOINT is taken in missions; it is flown as a waypoint.
+    /// Whether missions may contain NAV_SPLINE_WAYPOINT, which is flown as a waypoint.
     pub splines: bool,
-    /// 0, 0 as a place in an item of a mission and in DO_SET_HOME is where the vehicle is then, and 0 as an item's height is its height.
+    /// Whether coordinates of 0, 0 in a mission item or in DO_SET_HOME mean the vehicle's position at that time, and an item
+    /// altitude of 0 its altitude.
     pub zero_is_here: bool,
-    /// Item 0 of a mission is home.
+    /// Whether mission item 0 is home.
     pub home_item: bool,
-    /// MISSION_REQUEST is answered with MISSION_ITEM, and items of an upload are asked for by MISSION_REQUEST.
+    /// Whether MISSION_REQUEST is answered with MISSION_ITEM, and uploaded items are requested with MISSION_REQUEST.
     pub float_items: bool,
-    /// The parameters as clients see them.
+    /// The parameters presented to clients.
     pub params: &'static ParamView,
-    /// What the autopilot does otherwise.
+    /// Adjusts the autopilot to this flavour's behavior.
     pub tune: fn(&mut Tuning),
 }
 
 impl Flavour {
-    /// The row that clients see while `mode` is flown; `chosen` is the number of the row that was asked for last.
+    /// Returns the row shown while `mode` is active; `chosen` is the number of the last requested row.
     #[must_use]
     pub fn row_of(&self, mode: FlightMode, chosen: u32) -> &'static ModeRow {
         let asked = self.modes.iter().find(|row| row.number == chosen && row.shows(mode));
         asked.unwrap_or_else(|| self.default_mode(mode))
     }
 
-    /// The usual row of a mode.
+    /// Returns the default row of a mode.
     #[must_use]
     pub fn default_mode(&self, mode: FlightMode) -> &'static ModeRow {
         let enters = self.modes.iter().find(|row| row.mode == mode && !row.only_chosen);
-        // Every mode is shown by some row: a test looks.
+        // Every mode is shown by some row; a test checks this.
         enters.or_else(|| self.modes.iter().find(|row| row.shows(mode))).unwrap_or(&self.modes[0])
     }
 
-    /// The row of a custom mode.
+    /// Returns the row of a custom mode.
     #[must_use]
     pub fn row(&self, custom_mode: u32) -> Option<&'static ModeRow> {
         self.modes.iter().find(|row| row.number == custom_mode & self.mode_bits)
     }
 
-    /// The row of a standard mode.
+    /// Returns the row of a standard mode.
     #[must_use]
     pub fn standard(&self, number: u32) -> Option<&'static ModeRow> {
         self.modes.iter().find(|row| number != 0 && row.standard as u32 == number)
     }
 
-    /// Enters a mode; `chosen` keeps which of the numbers that mean the same to us was asked for.
+    /// Enters a mode. Stores the requested number in `chosen`, because several numbers may map to the same internal mode.
     pub fn enter(&self, row: &ModeRow, chosen: &mut u32, autopilot: &mut Autopilot, now: SimTime) -> RequestOutcome {
         let before = autopilot.status().mode;
         let from = self.row_of(before, *chosen).number;
@@ -199,26 +202,27 @@ impl Flavour {
         }
         *chosen = row.number;
         if before == FlightMode::Hold && autopilot.status().mode == FlightMode::Hold && from != row.number {
-            // The same to the autopilot, which would fly on to the place of the mode before; refused on the ground, where nothing flies.
+            // The internal mode is unchanged, so the autopilot would continue to the previous mode's target. Rejected on the
+            // ground, where it has no effect.
             autopilot.request(AutopilotRequest::GoTo { north_east_m: None, up_m: None, yaw_rad: None, speed_m_s: None }, now);
         }
         outcome
     }
 
-    /// Whether a kind of link must ask for its streams.
+    /// Checks whether links of this kind must request their streams.
     #[must_use]
     pub fn is_silent_until_asked(&self, kind: LinkKind) -> bool {
         self.asks_first && kind != LinkKind::Payload
     }
 }
 
-/// The interface of a name.
+/// Returns the flavour with this name.
 #[must_use]
 pub fn named(name: &str) -> Option<&'static Flavour> {
     [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR].into_iter().find(|flavour| flavour.name == name)
 }
 
-/// Capabilities that all flavours have.
+/// Capabilities common to all flavours.
 const COMMON: MavProtocolCapability = {
     use MavProtocolCapability as C;
     C::MAV_PROTOCOL_CAPABILITY_MISSION_FLOAT
@@ -234,7 +238,7 @@ const COMMON: MavProtocolCapability = {
         .union(C::MAV_PROTOCOL_CAPABILITY_MISSION_RALLY)
 };
 
-/// Words as the autopilot has them.
+/// Returns the autopilot's text unchanged.
 fn named_mode(_: &ModeRow, why: String) -> String {
     why
 }

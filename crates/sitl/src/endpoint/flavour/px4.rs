@@ -1,5 +1,5 @@
-//! PX4's interface: custom_mode is main mode in bits 16 to 23, sub mode in bits 24 to 31 (docs/src/reference/wire.md, "Autopilot
-//! interfaces"; recorded from a real PX4).
+//! PX4's interface: custom_mode holds the main mode in bits 16 to 23 and the sub mode in bits 24 to 31
+//! (docs/src/reference/wire.md, "Autopilot interfaces"; recorded from a real PX4).
 
 use super::{COMMON, Flavour, ModeRow, RefusalResults, named_mode};
 use crate::autopilot::sensor_health::{MonitoredSensor, SensorChange, SensorFault};
@@ -17,7 +17,7 @@ const BASE: F = F::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED.union(F::MAV_MODE_FLAG_STAB
 const BY_HAND: F = BASE.union(F::MAV_MODE_FLAG_MANUAL_INPUT_ENABLED);
 const BY_ITSELF: F = BASE.union(F::MAV_MODE_FLAG_AUTO_ENABLED).union(F::MAV_MODE_FLAG_GUIDED_ENABLED);
 
-/// A mode by its main and sub mode.
+/// Creates a row from main and sub mode.
 pub(super) const fn row(
     mode: FlightMode,
     (main, sub): (u8, u8),
@@ -57,11 +57,11 @@ const MODES: &[ModeRow] = &[
     row(FlightMode::Follow, (4, 8), "Follow Me", S::MAV_STANDARD_MODE_NON_STANDARD, true, true),
     row(FlightMode::Acro, (5, 0), "Acro", S::MAV_STANDARD_MODE_NON_STANDARD, false, true),
 ];
-/// Bits of main and sub mode.
+/// Bits of the main and sub mode.
 pub(super) const MODE_BITS: u32 = 0xFFFF_0000;
 
-/// PX4's interface (docs/src/reference/wire.md, "Autopilot interfaces"); the version is a development one, so that no ground
-/// station looks for a newer release.
+/// PX4's interface (docs/src/reference/wire.md, "Autopilot interfaces"). Reports a development version, so that no ground station
+/// offers an update.
 pub static FLAVOUR: Flavour = Flavour {
     name: "px4",
     autopilot: MavAutopilot::MAV_AUTOPILOT_PX4,
@@ -75,8 +75,8 @@ pub static FLAVOUR: Flavour = Flavour {
     errands: None,
     take_off: above_sea_level,
     force: &[FORCE],
-    // PX4's navigator takes the height without looking at the frame; MAVSDK's gimbal plugin counts on it: it sends heights over the sea in
-    // a frame over home.
+    // PX4's navigator uses the altitude without checking the frame. MAVSDK's gimbal plugin relies on it: it sends altitudes above
+    // mean sea level in a home-relative frame.
     looks_over_sea: true,
     refusals: REFUSALS,
     arm_words: None,
@@ -103,9 +103,9 @@ pub static FLAVOUR: Flavour = Flavour {
     tune: |_| {},
 };
 
-/// The number that forces arming and disarming (MAVLink common, COMPONENT_ARM_DISARM param2).
+/// Magic value that forces arming or disarming (MAVLink common, COMPONENT_ARM_DISARM param2).
 pub(super) const FORCE: f64 = 21196.0;
-/// PX4's answers.
+/// PX4's results.
 pub(super) const REFUSALS: RefusalResults = RefusalResults {
     for_now: MavResult::MAV_RESULT_TEMPORARILY_REJECTED,
     denied: MavResult::MAV_RESULT_DENIED,
@@ -113,7 +113,7 @@ pub(super) const REFUSALS: RefusalResults = RefusalResults {
     message: MavResult::MAV_RESULT_DENIED,
     interval: MavResult::MAV_RESULT_FAILED,
 };
-/// The older groups of messages, for clients that ask by them.
+/// Message groups of the superseded REQUEST_DATA_STREAM.
 pub(super) const GROUPS: &[(u8, &[u32])] = &[
     (1, &[24, 29, 105]),
     (2, &[1, 147, 230, 42, 24]),
@@ -124,7 +124,7 @@ pub(super) const GROUPS: &[(u8, &[u32])] = &[
     (12, &[2, 242, 231]),
 ];
 
-/// Main and sub mode as DO_SET_MODE has them; what is no small whole number is no mode.
+/// Converts the main and sub mode of DO_SET_MODE; returns an invalid mode for other values than small integers.
 pub(super) fn main_and_sub(main: f64, sub: f64) -> u32 {
     let byte = |value: f64| if (0.0..256.0).contains(&value) { Some(value as u32) } else { None };
     match (byte(main), byte(sub)) {
@@ -141,7 +141,8 @@ pub(super) fn state(v: &VehicleSnapshot) -> MavState {
     }
 }
 
-/// Parameter 7 is over the sea, in COMMAND_INT by its frame; not given or too near the ground, the parameter's height.
+/// Parameter 7 is the altitude above mean sea level; in COMMAND_INT it is in the given frame. If it is not set or too close to
+/// the ground, the parameter's height is used.
 pub(super) fn above_sea_level(c: &VehicleCommand, x: &mut CommandContext) -> Result<Option<f64>, MavResult> {
     const LOWEST_M: f64 = 0.5;
     const HIGHEST_M: f64 = 500.0;
@@ -157,7 +158,8 @@ pub(super) fn above_sea_level(c: &VehicleCommand, x: &mut CommandContext) -> Res
     }
 }
 
-/// PX4 announces a failed sensor with its kind and reason ("BARO #0 failed: STALE!"); a lost one is announced in our own words.
+/// Returns PX4's text for a failed sensor, with type and reason ("BARO #0 failed: STALE!"); a missing sensor gets the default
+/// text.
 fn sensor_words(change: SensorChange) -> Option<(MavSeverity, String)> {
     let reason = match change.fault? {
         SensorFault::Silent => return None,
