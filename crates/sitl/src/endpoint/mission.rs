@@ -1,4 +1,4 @@
-//! Plans: upload, whole or in part, and download of missions, fences and rally points.
+//! Plans: full and partial upload, and download, of missions, fences and rally points.
 #![allow(deprecated, reason = "clients still know MISSION_REQUEST alone")]
 
 use super::mission_positions::relative;
@@ -15,53 +15,55 @@ use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::time::SimTime;
 
-/// Items that a plan may have.
+/// Maximum number of items in a plan.
 const MOST_ITEMS: u16 = 2_000;
-/// A stalled upload is given up after this long, s (clients retry for less).
+/// Timeout after which a stalled upload is canceled, s (clients retry for less).
 const STALL_S: f64 = 10.0;
-/// One in so many requests for a first item that does not come goes out in the other form (estimate: a second at the usual patience).
+/// Every n-th retry of a request for the first item uses the other encoding (estimate: a second at the usual timeout).
 const OTHER_FORM_EVERY: u8 = 4;
-/// A silent uploader is asked again after this long, s, as PX4 does it.
+/// Timeout after which a silent uploader is asked again, s, as in PX4.
 const ASK_AGAIN_S: f64 = 0.25;
-/// One whose answers come sooner is asked again sooner: after so many times its usual delay, but not before this, s. MAVSDK gives an item up
-/// after five half-seconds without a request; at 0.25 s only one repetition fits into each.
+/// An uploader that usually answers faster is asked again sooner: after this multiple of its usual delay, but not before this
+/// time, s. MAVSDK gives up on an item after five half-seconds without a request; at 0.25 s only one retry fits into each.
 const OVERDUE: f64 = 4.0;
 const ASK_AGAIN_SOONEST_S: f64 = 0.12;
-/// Requests without an answer after which earlier items are requested on a link that reorders datagrams, each time further back: an uploader that
-/// a delayed request has set back ignores requests for later items (MAVSDK). Fewer would use up MAVSDK's five attempts where requests are only lost.
+/// Number of unanswered requests after which earlier items are requested on a link that reorders datagrams, stepping further back
+/// each time: an uploader that a delayed request has set back ignores requests for later items (MAVSDK). A lower number would use
+/// up MAVSDK's five attempts where requests are merely lost.
 const STEP_BACK_AFTER: u8 = 4;
-/// Number of steps, each twice as far as the last: up to 128 items back, more than pass while a request is delayed.
+/// Number of steps back, each twice as far as the previous one: up to 128 items, more than are transferred while a request is
+/// delayed.
 const STEPS_BACK: u8 = 8;
-/// Weight of the newest delay in the usual one.
+/// Weight of the latest delay in the moving average.
 const DELAY_WEIGHT: f64 = 0.25;
-/// So often the acknowledgement of an upload that has lost something is sent again.
+/// Number of times the acknowledgment of an upload over a lossy link is repeated.
 const ACKNOWLEDGED_AGAIN: u8 = 4;
 
-/// Who speaks: system and component.
+/// A peer: its system and component ID.
 pub type PlanPeer = (u8, u8);
 
-/// Plans and a running upload.
+/// Stored plans and the upload in progress.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanStore {
     plans: [Vec<MISSION_ITEM_INT_DATA>; 3],
     ids: [u32; 3],
     upload: Option<PlanUpload>,
-    /// Who finished an upload last, with which item: the acknowledgement may have been lost.
+    /// Peer, plan type and last item of the last finished upload, because its acknowledgment may have been lost.
     done: Option<(PlanPeer, MavMissionType, u16)>,
     ack_repeat: Option<AckRepeat>,
-    /// Seconds of simulation time in a second of the uploader's.
+    /// Seconds of simulation time per second of the uploader's time.
     speed_factor: f64,
-    /// Items of the wire's mission before the first that is flown.
+    /// Number of items at the start of a transferred mission that are not flown (home).
     lead: u16,
-    /// Items that ArduPilot alone has are taken: splines, delays until a time of day.
+    /// Whether items specific to ArduPilot are accepted: splines, delays until a time of day.
     splines: bool,
-    /// What is 0 in an item is where the vehicle is then.
+    /// Whether zero coordinates in an item mean the vehicle's position at that time.
     zero_is_here: bool,
-    /// In which form items are asked for first.
+    /// Encoding in which items are requested first.
     form: ItemEncoding,
 }
 
-/// The two messages by which an item of an upload is asked for. Clients know both, or one.
+/// The two messages that request an item of an upload. Clients support one or both.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ItemEncoding {
     /// MISSION_REQUEST_INT.
@@ -102,26 +104,26 @@ struct PlanUpload {
     from: PlanPeer,
     kind: MavMissionType,
     items: Vec<MISSION_ITEM_INT_DATA>,
-    /// The items replace a part of the plan, from this place on.
+    /// Whether the items replace part of the plan, starting at `first`.
     part: bool,
     first: u16,
     count: u16,
     last_received: SimTime,
     last_request: SimTime,
-    /// Something had to be asked for again: the link loses datagrams.
+    /// Whether a request had to be repeated, that is, the link loses datagrams.
     is_lossy: bool,
     form: ItemEncoding,
-    /// So it is for the item that is waited for: its delay tells nothing.
+    /// Whether the current item was requested again, so that its delay is meaningless.
     is_retry: bool,
-    /// Requests since the last item without an answer.
+    /// Number of unanswered requests since the last item.
     unanswered: u8,
-    /// Usual time from a request to its item, s.
+    /// Usual delay between a request and its item, s.
     delay_s: Option<f64>,
-    /// Number of the item that was requested last: the first that is missing, or an earlier one that leads a set-back uploader on.
+    /// Sequence number of the last requested item: the first missing one, or an earlier one that makes an uploader catch up.
     requested: u16,
-    /// Number after that of an item which arrived again without a request: perhaps the uploader goes on from there.
+    /// Number after that of an item received again without a request: the uploader may continue from there.
     set_back_to: Option<u16>,
-    /// Such an item has arrived: the link reorders or duplicates datagrams.
+    /// Whether such an item has arrived, that is, the link reorders or duplicates datagrams.
     reorders: bool,
 }
 
@@ -147,13 +149,14 @@ impl PlanUpload {
         }
     }
 
-    /// Number of the first item that has not arrived.
+    /// Returns the number of the first missing item.
     fn missing(&self) -> u16 {
         self.first + self.items.len() as u16
     }
 
-    /// An item that the vehicle already has. If it was requested, the next one is due; else `poll_retries` goes on from it once the missing item is
-    /// overdue. A request at every repeated item would double all that follows, and clients that count repetitions give up.
+    /// Handles an item that was already received. If it was requested, requests the next one; otherwise, `poll_retries` continues
+    /// from it once the missing item is overdue. A request for every repeated item would double all subsequent traffic, and
+    /// clients that count repeats would give up.
     fn repeated(&mut self, seq: u16, now: SimTime) -> Option<MavMessage> {
         if seq == self.requested {
             (self.requested, self.last_request, self.is_retry, self.unanswered) = (seq + 1, now, true, 0);
@@ -163,26 +166,26 @@ impl PlanUpload {
         None
     }
 
-    /// Number of the item to request when nothing has answered the last request.
+    /// Returns the number of the item to request after a timeout.
     fn overdue(&mut self) -> u16 {
         if let Some(seq) = self.set_back_to.take() {
             return seq;
         }
         match self.unanswered.checked_sub(STEP_BACK_AFTER).filter(|_| self.reorders) {
-            // Every other request is for the missing item: a client that never repeats an item waits for that one.
+            // Alternate with the missing item: a client that never repeats an item waits for that one.
             Some(turn) if turn.is_multiple_of(2) => self.missing().saturating_sub(1 << (turn / 2 % STEPS_BACK)).max(self.first),
             Some(_) => self.missing(),
             None => self.requested,
         }
     }
 
-    /// An answer is overdue this long after the request, s.
+    /// Returns the timeout of a request, s.
     fn patience_s(&self, pace: f64) -> f64 {
         let usual_s = self.delay_s.map_or(ASK_AGAIN_S * pace, |delay_s| OVERDUE * delay_s);
         usual_s.clamp(ASK_AGAIN_SOONEST_S * pace, ASK_AGAIN_S * pace)
     }
 
-    /// The item that was waited for has come.
+    /// Records the arrival of the expected item.
     fn answered(&mut self, now: SimTime) {
         (self.unanswered, self.set_back_to) = (0, None);
         if !std::mem::take(&mut self.is_retry) {
@@ -193,8 +196,8 @@ impl PlanUpload {
     }
 }
 
-/// The acknowledgement of an upload over a link that loses datagrams. It is sent again: clients only wait for it (MAVSDK), so that a lost
-/// one would undo an upload that was complete.
+/// The repeated acknowledgment of an upload over a lossy link. Clients only wait for it (MAVSDK), so that losing it would make a
+/// complete upload fail.
 #[derive(Debug, Clone, PartialEq)]
 struct AckRepeat {
     to: PlanPeer,
@@ -203,14 +206,14 @@ struct AckRepeat {
     left: u8,
 }
 
-/// What came of a message.
+/// Result of handling a message.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PlanReply {
-    /// Answer the sender.
+    /// Send a reply.
     Say(MavMessage),
-    /// A plan is complete or gone: answer, and let the autopilot have it.
+    /// A plan was completed or cleared: send a reply and update the autopilot.
     New(MavMissionType, MavMessage),
-    /// Nothing.
+    /// No action.
     Nothing,
 }
 
@@ -223,13 +226,13 @@ fn slot(kind: MavMissionType) -> Option<usize> {
     }
 }
 
-/// An acknowledgement to a peer.
+/// Creates an acknowledgment.
 #[must_use]
 pub fn ack(to: PlanPeer, kind: MavMissionType, result: MavMissionResult) -> MavMessage {
     ack_with(to, kind, result, 0)
 }
 
-/// An acknowledgement with the id of the plan that is accepted.
+/// Creates an acknowledgment with the ID of the accepted plan.
 fn ack_with(to: PlanPeer, kind: MavMissionType, result: MavMissionResult, opaque_id: u32) -> MavMessage {
     MavMessage::MISSION_ACK(MISSION_ACK_DATA {
         target_system: to.0,
@@ -240,7 +243,7 @@ fn ack_with(to: PlanPeer, kind: MavMissionType, result: MavMissionResult, opaque
     })
 }
 
-/// A plan's id: the checksum of its items, never 0 for a plan that has some.
+/// Returns the ID of a plan: the checksum of its items, never 0 for a plan with items.
 fn id_of(items: &[MISSION_ITEM_INT_DATA]) -> u32 {
     if items.is_empty() {
         return 0;
@@ -256,50 +259,50 @@ fn id_of(items: &[MISSION_ITEM_INT_DATA]) -> u32 {
 }
 
 impl PlanStore {
-    /// No plans yet; so many items of the wire's missions (home) are not flown. What is kept is
-    /// numbered without them.
+    /// Creates an empty store. The first `lead` items of transferred missions (home) are not flown; stored items are numbered
+    /// without them.
     #[must_use]
     pub fn with_lead_items(lead: u16) -> Self {
         Self { lead, ..Self::default() }
     }
 
-    /// Whether splines and delays until a time of day are taken in missions.
+    /// Sets whether missions may contain splines and delays until a time of day.
     #[must_use]
     pub fn with_splines(self, splines: bool) -> Self {
         Self { splines, ..self }
     }
 
-    /// Whether 0 in an item is where the vehicle is then.
+    /// Sets whether zero coordinates mean the vehicle's position at that time.
     #[must_use]
     pub fn with_zero_as_here(self, zero_is_here: bool) -> Self {
         Self { zero_is_here, ..self }
     }
 
-    /// The form in which items are asked for first.
+    /// Sets the encoding in which items are requested first.
     #[must_use]
     pub fn with_encoding(self, form: ItemEncoding) -> Self {
         Self { form, ..self }
     }
 
-    /// The item as it is judged and flown: with a place in the stead of one that is left open.
+    /// Returns the item for validation and conversion, with a placeholder for an open position.
     fn with_default_position(&self, item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> MISSION_ITEM_INT_DATA {
         if self.zero_is_here { deferred_fields::filled(item, plane) } else { item.clone() }
     }
 
-    /// What each item of the mission leaves open.
+    /// Returns the fields that each mission item leaves open.
     #[must_use]
     pub fn deferred_fields(&self) -> Vec<DeferredFields> {
         if self.zero_is_here { self.plans[0].iter().map(deferred_fields::of).collect() } else { Vec::new() }
     }
 
-    /// An uploader has sent an item in a form: it is asked in the same one, unless the autopilot knows only one.
+    /// Requests further items in the encoding that an uploader used, unless the autopilot supports only one.
     pub fn note_form(&mut self, from: PlanPeer, form: ItemEncoding) {
         if let Some(upload) = self.upload.as_mut().filter(|u| u.from == from && self.form == ItemEncoding::Int) {
             upload.form = form;
         }
     }
 
-    /// An uploader does not know the form in which it was asked: the question in the other one.
+    /// Switches the encoding for an uploader that does not support the current one, and returns the new request.
     pub fn switch_encoding(&mut self, from: PlanPeer, now: SimTime) -> Option<MavMessage> {
         let upload = self.upload.as_mut().filter(|u| u.from == from)?;
         upload.form = upload.form.other();
@@ -307,65 +310,65 @@ impl PlanStore {
         Some(upload.question())
     }
 
-    /// The fence names a place to return to.
+    /// Checks whether the fence contains a return point.
     #[must_use]
     pub fn has_fence_return(&self) -> bool {
         self.plans[1].iter().any(fence_and_rally::is_return)
     }
 
-    /// Items of a plan as the wire counts them.
+    /// Returns the number of items of a plan as transferred.
     fn count(&self, kind: MavMissionType, slot: usize) -> u16 {
         let kept = self.plans[slot].len() as u16;
         if kept == 0 { 0 } else { kept + self.lead(kind) }
     }
 
-    /// Items of a plan of this kind that are not kept.
+    /// Returns the number of items of this plan type that are not stored.
     fn lead(&self, kind: MavMissionType) -> u16 {
         if kind == MavMissionType::MAV_MISSION_TYPE_MISSION { self.lead } else { 0 }
     }
 
-    /// Whether this is home's item of a mission that is there.
+    /// Checks whether this is the home item of an existing mission.
     #[must_use]
     pub fn is_home(&self, kind: MavMissionType, seq: u16) -> bool {
         seq < self.lead(kind) && !self.plans[0].is_empty()
     }
 
-    /// Uploaders that are not kept in step take longer by this factor.
+    /// Sets the simulation speed, which scales the timeouts of uploaders that are not in lockstep.
     pub fn set_speed_factor(&mut self, pace: f64) {
         self.speed_factor = pace;
     }
 
-    /// Items of mission, fence and rally points, as parameters show them.
+    /// Returns the number of items of mission, fence and rally points, for the parameters.
     #[must_use]
     pub fn totals(&self) -> [u16; 3] {
         [self.count(MavMissionType::MAV_MISSION_TYPE_MISSION, 0), self.plans[1].len() as u16, self.plans[2].len() as u16]
     }
 
-    /// What stations see of the plans.
+    /// Returns a summary of the plans.
     #[must_use]
     pub fn summary(&self) -> PlanSummary {
         PlanSummary { mission_items: self.plans[0].len() as u16, ids: self.ids, lead: self.lead }
     }
 
-    /// The fence's areas.
+    /// Returns the fence's areas.
     #[must_use]
     pub fn zones(&self, plane: &LocalPlane) -> Vec<FenceZone> {
         fence_and_rally::zones(&self.plans[1], plane)
     }
 
-    /// The rally points.
+    /// Returns the rally points.
     #[must_use]
     pub fn rally_points(&self, plane: &LocalPlane, home_up_m: f64) -> Vec<RallyPoint> {
         fence_and_rally::rally_points(&self.plans[2], plane, home_up_m)
     }
 
-    /// Items of the mission.
+    /// Returns the mission items.
     #[must_use]
     pub fn mission(&self) -> &[MISSION_ITEM_INT_DATA] {
         &self.plans[0]
     }
 
-    /// Adds an item at the end of the mission.
+    /// Appends an item to the mission.
     pub fn add(&mut self, item: MISSION_ITEM_INT_DATA) {
         let seq = self.plans[0].len() as u16;
         if seq < MOST_ITEMS {
@@ -374,13 +377,13 @@ impl PlanStore {
         }
     }
 
-    /// No mission is kept any more.
+    /// Deletes the mission.
     pub fn drop_mission(&mut self) {
         self.plans[0].clear();
         self.ids[0] = 0;
     }
 
-    /// Somebody wants the list.
+    /// Handles a list request; returns the item count.
     #[must_use]
     pub fn list(&mut self, from: PlanPeer, kind: MavMissionType) -> MavMessage {
         self.forget_acknowledged(from);
@@ -394,7 +397,7 @@ impl PlanStore {
         })
     }
 
-    /// Somebody wants one item.
+    /// Handles an item request.
     #[must_use]
     pub fn item(&self, from: PlanPeer, kind: MavMissionType, seq: u16) -> MavMessage {
         let index = seq.checked_sub(self.lead(kind)).map(usize::from);
@@ -409,12 +412,13 @@ impl PlanStore {
         }
     }
 
-    /// A peer says something new about plans: it has its acknowledgement, or waits for it no more.
+    /// Stops repeating the acknowledgment to a peer that sends another plan message: it has received it or no longer waits for
+    /// it.
     fn forget_acknowledged(&mut self, from: PlanPeer) {
         self.ack_repeat.take_if(|echo| echo.to == from);
     }
 
-    /// Somebody begins an upload. A second station in the middle of one is refused.
+    /// Starts an upload. Rejected while another station is uploading.
     pub fn begin(&mut self, from: PlanPeer, kind: MavMissionType, count: u16, now: SimTime) -> PlanReply {
         self.forget_acknowledged(from);
         let refuse = |result| PlanReply::Say(ack(from, kind, result));
@@ -437,7 +441,7 @@ impl PlanStore {
         PlanReply::Say(self.upload.insert(upload).question())
     }
 
-    /// Somebody replaces the items from `first` to `last`, which are there.
+    /// Starts a partial upload that replaces the existing items `first` to `last`.
     pub fn begin_part(&mut self, from: PlanPeer, kind: MavMissionType, (first, last): (i16, i16), now: SimTime) -> PlanReply {
         self.forget_acknowledged(from);
         let refuse = |result| PlanReply::Say(ack(from, kind, result));
@@ -463,12 +467,12 @@ impl PlanStore {
         PlanReply::Say(self.upload.insert(upload).question())
     }
 
-    /// Somebody else is in the middle of an upload.
+    /// Checks whether another peer is uploading.
     fn is_busy(&self, from: PlanPeer, now: SimTime) -> bool {
         self.upload.as_ref().is_some_and(|u| u.from != from && (now - u.last_received).s() < STALL_S * self.speed_factor)
     }
 
-    /// An item of an upload.
+    /// Handles an uploaded item.
     pub fn receive(&mut self, from: PlanPeer, item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, now: SimTime) -> PlanReply {
         let lead = self.lead(item.mission_type);
         let judged = self.with_default_position(item, plane);
@@ -481,13 +485,13 @@ impl PlanStore {
             return upload.repeated(item.seq, now).map_or(PlanReply::Nothing, PlanReply::Say);
         }
         if item.seq != wanted {
-            // Out of turn: the missing item has been requested, and `poll_retries` requests it again.
+            // Out of order: the missing item has been requested, and `poll_retries` requests it again.
             return PlanReply::Nothing;
         }
         upload.answered(now);
         let kept = slot(upload.kind).map_or(0, |slot| self.plans[slot].len());
         let total = if upload.part { kept as u16 + lead } else { upload.count };
-        // Home is the vehicle's own, whatever is sent for it.
+        // The home item is ignored: the vehicle keeps its own home.
         let spline = item.command == MavCmd::MAV_CMD_NAV_SPLINE_WAYPOINT && !self.splines;
         let day = item.command == MavCmd::MAV_CMD_NAV_DELAY && item.param1 < 0.0 && !self.splines;
         let unknown = spline.then_some(MavMissionResult::MAV_MISSION_UNSUPPORTED);
@@ -508,7 +512,7 @@ impl PlanStore {
         self.upload.take().map_or(PlanReply::Nothing, |upload| self.complete(upload, now))
     }
 
-    /// All items have come.
+    /// Finishes an upload once all items have arrived.
     fn complete(&mut self, upload: PlanUpload, now: SimTime) -> PlanReply {
         let PlanUpload { from, kind, items, first, part, is_lossy: loses, .. } = upload;
         let Some(slot) = slot(kind) else { return PlanReply::Nothing };
@@ -531,8 +535,9 @@ impl PlanStore {
         PlanReply::New(kind, done)
     }
 
-    /// An item outside of an upload: an error, unless it repeats one of the plan that this peer has just finished. Its last item means that the
-    /// acknowledgement was lost; an earlier one was only delayed, and an error would undo the acknowledgement that is under way.
+    /// Handles an item without an upload: an error, unless it repeats one of the plan that this peer has just finished. A repeat
+    /// of the last item means that the acknowledgment was lost; an earlier one was merely delayed, and an error would invalidate
+    /// the acknowledgment in transit.
     fn reply_without_upload(&self, from: PlanPeer, item: &MISSION_ITEM_INT_DATA) -> PlanReply {
         let last = self.done.filter(|&(peer, kind, _)| (peer, kind) == (from, item.mission_type)).map(|(_, _, last)| last);
         match last.filter(|_| self.is_kept(item)) {
@@ -544,20 +549,20 @@ impl PlanStore {
         }
     }
 
-    /// Whether an item of the wire is the one that is kept under its number.
+    /// Checks whether a received item matches the stored item with its number.
     fn is_kept(&self, item: &MISSION_ITEM_INT_DATA) -> bool {
         let lead = self.lead(item.mission_type);
         let index = item.seq.checked_sub(lead).map(usize::from);
         let kept = slot(item.mission_type).zip(index).and_then(|(slot, index)| self.plans[slot].get(index));
-        // Not-a-number fields differ from themselves: place and command decide.
+        // NaN fields never compare equal: compare position and command only.
         let same = |kept: &MISSION_ITEM_INT_DATA| {
             (kept.seq + lead, kept.command, kept.frame, kept.x, kept.y) == (item.seq, item.command, item.frame, item.x, item.y)
         };
-        // Home is not kept: any item for it is the same.
+        // Home is not stored: any home item matches.
         item.seq < lead || kept.is_some_and(same)
     }
 
-    /// An item that the dialect cannot hold (unknown command or frame) ends the upload.
+    /// Rejects an upload with an item that the dialect cannot represent (unknown command or frame).
     pub fn receive_unknown(&mut self, from: PlanPeer) -> PlanReply {
         match self.upload.take_if(|u| u.from == from) {
             Some(upload) => PlanReply::Say(ack(from, upload.kind, MavMissionResult::MAV_MISSION_UNSUPPORTED)),
@@ -565,7 +570,7 @@ impl PlanStore {
         }
     }
 
-    /// Empties plans.
+    /// Clears plans.
     pub fn clear(&mut self, from: PlanPeer, kind: MavMissionType) -> PlanReply {
         self.forget_acknowledged(from);
         self.upload.take_if(|u| u.from == from);
@@ -584,12 +589,12 @@ impl PlanStore {
         PlanReply::New(kind, done)
     }
 
-    /// The uploader has given up or finished.
+    /// Ends an upload that the client canceled or finished.
     pub fn acknowledged(&mut self, from: PlanPeer) {
         self.upload.take_if(|u| u.from == from);
     }
 
-    /// Asks a silent uploader again, gives up a stalled upload, or acknowledges one again; returns whom to send what.
+    /// Repeats an overdue request, cancels a stalled upload, or repeats an acknowledgment. Returns the message and its recipient.
     pub fn poll_retries(&mut self, now: SimTime) -> Option<(PlanPeer, MavMessage)> {
         let Some(upload) = self.upload.as_mut() else { return self.acknowledge_again(now) };
         let (from, kind) = (upload.from, upload.kind);
@@ -602,7 +607,8 @@ impl PlanStore {
             (upload.is_lossy, upload.is_retry) = (true, true);
             upload.unanswered = upload.unanswered.saturating_add(1);
             upload.requested = upload.overdue();
-            // A client that has sent none yet may know only the other form. On a link that loses datagrams most know the first.
+            // A client that has not sent any item yet may support only the other encoding. On a lossy link, most clients support
+            // the first.
             if upload.items.is_empty() && self.form == ItemEncoding::Int {
                 upload.form =
                     if upload.unanswered.is_multiple_of(OTHER_FORM_EVERY) { ItemEncoding::Float } else { ItemEncoding::Int };
@@ -623,7 +629,7 @@ impl PlanStore {
         Some(again)
     }
 
-    /// The mission as the autopilot flies it. `home_m` is home about the origin.
+    /// Returns the mission as autopilot steps. `home_m` is home's position relative to the origin, m.
     #[must_use]
     pub fn steps(&self, plane: &LocalPlane, home_m: Option<Vec3<Ned>>) -> Vec<MissionStep> {
         let all = &self.plans[0];
@@ -634,14 +640,14 @@ impl PlanStore {
         steps
     }
 
-    /// Which items of the mission give their height over home.
+    /// Returns for each mission item whether its altitude is relative to home.
     #[must_use]
     pub fn home_relative_steps(&self) -> Vec<bool> {
         self.plans[0].iter().map(|item| relative(item.frame) == Some(true)).collect()
     }
 }
 
-/// An item with its number, and that of a jump's aim, moved by so much.
+/// Shifts an item's sequence number, and the target of a jump, by `by`.
 fn renumbered(mut item: MISSION_ITEM_INT_DATA, by: i32) -> MISSION_ITEM_INT_DATA {
     item.seq = (i32::from(item.seq) + by).max(0) as u16;
     if item.command == MavCmd::MAV_CMD_DO_JUMP {
@@ -651,7 +657,7 @@ fn renumbered(mut item: MISSION_ITEM_INT_DATA, by: i32) -> MISSION_ITEM_INT_DATA
 }
 
 impl PlanUpload {
-    /// Requests an item.
+    /// Creates the request for the next item.
     fn question(&self) -> MavMessage {
         let seq = self.requested;
         let ((target_system, target_component), mission_type) = (self.from, self.kind);

@@ -1,4 +1,4 @@
-//! Where items of plans are: frames, heights, and what cannot be a place.
+//! Positions of plan items: frames, altitudes, validity.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use spandrel_mavlink::dialect::{MISSION_ITEM_INT_DATA, MavFrame, MavMissionResult};
@@ -6,11 +6,11 @@ use spandrel_mavlink::units;
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::geodesy::LocalPlane;
 
-/// Heights beyond this are mistakes, m.
+/// Maximum altitude, m.
 pub(super) const HIGHEST_M: f32 = 10_000.0;
 
-/// Whether a frame counts heights from home; `None` for a frame that is no place over the ground, and for heights over the terrain: the
-/// vehicle has no map of it, and deck and water are none.
+/// Checks whether a frame's altitude is relative to home. `None` for frames without a global position and for terrain-relative
+/// altitudes: the vehicle has no terrain map, and bridge decks and water are not terrain.
 pub(super) fn relative(frame: MavFrame) -> Option<bool> {
     match frame {
         MavFrame::MAV_FRAME_GLOBAL | MavFrame::MAV_FRAME_GLOBAL_INT => Some(false),
@@ -19,7 +19,7 @@ pub(super) fn relative(frame: MavFrame) -> Option<bool> {
     }
 }
 
-/// Where an item is, m; `None` without a usable place.
+/// Returns an item's position, m; `None` if it is not usable.
 pub(super) fn place(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64) -> Option<Vec3<Ned>> {
     let relative = relative(item.frame)?;
     let altitude = f64::from(item.z);
@@ -29,12 +29,12 @@ pub(super) fn place(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m:
     (enu.is_finite() && enu.norm() < 50_000.0).then(|| enu.ned())
 }
 
-/// No place given: where the vehicle is then.
+/// Checks whether an item has no position, which means the vehicle's position at that time.
 pub(super) fn without_position(item: &MISSION_ITEM_INT_DATA) -> bool {
     (item.x, item.y) == (0, 0) || item.x == i32::MAX || item.y == i32::MAX
 }
 
-/// A place in a known frame, at a height, not on another continent.
+/// Checks for a supported frame, a valid altitude and a position within range.
 pub(super) fn flyable_position(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> Result<(), MavMissionResult> {
     if relative(item.frame).is_none() {
         return Err(MavMissionResult::MAV_MISSION_UNSUPPORTED_FRAME);

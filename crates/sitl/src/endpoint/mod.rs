@@ -1,4 +1,5 @@
-//! The vehicle's MAVLink face, in one of three flavours. Datagrams of every link come in, what is due goes out; nothing here reads a clock.
+//! The vehicle's MAVLink interface, in one of three flavours. It processes the datagrams of all links and produces outgoing ones;
+//! it does not read a clock.
 
 mod ardupilot_items;
 mod aux_functions;
@@ -62,18 +63,18 @@ use storage::ParamStorage;
 pub use storage::StorageRequest;
 use streams::AUTOPILOT;
 
-/// A link's name, chosen by the shell.
+/// Identifies a link; assigned by the host.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct LinkId(pub u32);
 
-/// What stands behind a link; decides the usual rates.
+/// Kind of peer, which determines the default rates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LinkKind {
     /// A ground station over UDP.
     GroundStation,
     /// An SDK or companion computer.
     Sdk,
-    /// A sidecar such as the monitor.
+    /// A payload process, such as the monitor.
     Payload,
     /// A ground station over TCP.
     Tcp,
@@ -81,28 +82,28 @@ pub enum LinkKind {
     Serial,
 }
 
-/// A datagram to be sent.
+/// A datagram to send.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Transmit {
-    /// Over which link.
+    /// The link to send it on.
     pub link: LinkId,
-    /// Whole frames.
+    /// Complete frames.
     pub bytes: Vec<u8>,
 }
 
-/// The endpoint's state.
+/// State of the endpoint.
 #[derive(Debug, Clone)]
 pub struct Endpoint {
     system_id: u8,
     flavour: &'static Flavour,
-    /// The flavour's number of the mode that was asked for last: several may mean the same to us.
+    /// The flavour's number of the last requested mode; several may map to the same internal mode.
     chosen: u32,
     links: BTreeMap<LinkId, PeerLink>,
     router: Router<LinkId>,
     guard: Option<SigningPolicy>,
     /// The file server.
     pub files: files::FileServer,
-    /// What the camera's component has to be fetched.
+    /// The camera component's file server.
     camera_files: files::FileServer,
     /// The flight logs.
     pub logs: logs::LogTransfers,
@@ -110,7 +111,7 @@ pub struct Endpoint {
     storage: ParamStorage,
     restart: bool,
     injections: VecDeque<FailureInjection>,
-    /// Manual control gets through.
+    /// Whether manual control is accepted.
     pub sticks_pass: bool,
     plans: PlanStore,
     manual: ManualControl,
@@ -130,16 +131,16 @@ pub struct Endpoint {
     flight: snapshot::FlightTimes,
     was_armed: bool,
     fence_took: u16,
-    /// Parameter changes, plans' items and fence switch that the parameters show already: they are looked up by name, which is too slow for
-    /// every tick.
+    /// Parameter revision, plan item counts and fence switch already shown by the parameters, cached because looking parameters
+    /// up by name is too slow for every tick.
     shown_by_params: Option<(u64, [u16; 3], bool)>,
-    /// What has acted on the vehicle and is not in the digest yet.
+    /// Inputs that affected the vehicle and are not yet in the digest.
     acted: Vec<u8>,
-    /// The last position of the mode switch, from 0.
+    /// Last position of the mode switch, from 0.
     mode_switch: Option<usize>,
-    /// Where the auxiliary switches on channels 5 to 16 stood last.
+    /// Last positions of the auxiliary switches on channels 5 to 16.
     switches: [Option<aux_functions::SwitchPosition>; manual::AUX],
-    /// The calibration that runs.
+    /// The running calibration.
     calibration: Option<calibration::Calibration>,
     /// Events sent to ground stations.
     events: events::EventReports,
@@ -147,13 +148,13 @@ pub struct Endpoint {
     shell: shell::NshShell,
 }
 
-/// Texts that wait for the next tick; a flood of refusals says no more than these.
+/// Maximum number of texts queued for the next tick; further ones are dropped.
 const MOST_TEXTS: usize = 32;
-/// Set-points come many times a second: what is wrong with them is told this often.
+/// Minimum interval between warnings about setpoints, which arrive many times a second.
 const COMPLAIN_EVERY: SimTime = SimTime::from_ms(1_000);
 
 impl Endpoint {
-    /// An endpoint without links.
+    /// Creates an endpoint without links.
     #[must_use]
     pub fn new(system_id: u8, pack: AircraftValues, flavour: &'static Flavour) -> Self {
         let params = Params::new(system_id, pack, flavour.params);
@@ -202,40 +203,40 @@ impl Endpoint {
         }
     }
 
-    /// A peer is there from now on.
+    /// Adds a link to a peer.
     pub fn open(&mut self, id: LinkId, kind: LinkKind, lockstep: bool, now: SimTime) {
         let mut link = PeerLink::new(kind, lockstep, self.system_id, self.flavour.is_silent_until_asked(kind), now);
         link.sign_with(self.guard.as_ref().map(|guard| guard.signer(id.0 as u8)));
         self.links.insert(id, link);
     }
 
-    /// Nothing but answers goes out on a link until a heartbeat has come over it: its sender's address may be forged, and streams would
-    /// make a flood of every datagram.
+    /// Sends only responses on a link until a heartbeat is received: the sender's address may be forged, and streams would
+    /// amplify every datagram.
     pub fn await_heartbeat(&mut self, id: LinkId) {
         if let Some(link) = self.links.get_mut(&id) {
             link.answers_only = true;
         }
     }
 
-    /// The links that get what nobody has asked for.
+    /// Returns the links that receive unsolicited messages.
     fn listeners(&mut self) -> impl Iterator<Item = &mut PeerLink> {
         self.links.values_mut().filter(|link| !link.answers_only)
     }
 
-    /// A link carries no more than so many bytes a second: streams slow down, lists wait, the values for the scoring are left out.
+    /// Limits a link's capacity to `bytes_s`, bytes/s: streams slow down, lists wait, and scoring data is omitted.
     pub fn limit(&mut self, id: LinkId, bytes_s: f64, now: SimTime) {
         if let Some(link) = self.links.get_mut(&id) {
             link.limit(bytes_s, now);
         }
     }
 
-    /// Frames that found no room on a link, or were more than a peer may send to the others.
+    /// Returns the number of frames dropped because a link was saturated or a peer exceeded its forwarding limit.
     #[must_use]
     pub fn dropped(&self) -> u64 {
         self.gone_dropped + self.links.values().map(PeerLink::dropped).sum::<u64>()
     }
 
-    /// A peer is gone.
+    /// Removes a link.
     pub fn close(&mut self, id: LinkId) {
         self.gone_dropped += self.links.remove(&id).map_or(0, |link| link.dropped());
         self.router.forget_link(id);
@@ -247,65 +248,65 @@ impl Endpoint {
         self.shell.disconnect(id);
     }
 
-    /// Names and present values of all parameters, in the order of their names.
+    /// Returns the names and current values of all parameters, sorted by name.
     pub fn parameters(&self) -> impl Iterator<Item = (&'static str, params::ParamValue)> {
         (0..self.params.count()).filter_map(|index| self.params.at(index))
     }
 
-    /// Whose interface is spoken.
+    /// Returns the autopilot flavour.
     #[must_use]
     pub fn flavour(&self) -> &'static Flavour {
         self.flavour
     }
 
-    /// The flavour's number of the mode that was asked for last.
+    /// Returns the flavour's number of the last requested mode.
     #[must_use]
     pub fn requested_mode(&self) -> u32 {
         self.chosen
     }
 
-    /// MAVLink system id.
+    /// Returns the MAVLink system ID.
     #[must_use]
     pub fn system_id(&self) -> u8 {
         self.system_id
     }
 
-    /// The flight of now, or the last.
+    /// Returns the times of the current or last flight.
     #[must_use]
     pub fn flight(&self) -> snapshot::FlightTimes {
         self.flight
     }
 
-    /// A fresh autopilot gets what its flavour has otherwise than it.
+    /// Applies the flavour's parameter defaults to a new autopilot.
     pub fn prepare(&mut self, autopilot: &mut Autopilot) {
         if !self.flavour.params.defaults.is_empty() {
             self.apply_parameters(autopilot);
         }
     }
 
-    /// True once after somebody has asked for a restart of the autopilot's software.
+    /// Returns true once after a client requested a reboot of the autopilot.
     pub fn take_restart(&mut self) -> bool {
         std::mem::take(&mut self.restart)
     }
 
-    /// The next fault to put in.
+    /// Removes and returns the next failure to inject.
     pub fn poll_injection(&mut self) -> Option<FailureInjection> {
         self.injections.pop_front()
     }
 
-    /// What the parameters say of the world: wind and radio.
+    /// Returns the environment set by parameters: wind and radio.
     #[must_use]
     pub fn instructor_settings(&self) -> params::InstructorSettings {
         self.params.instructor_settings()
     }
 
-    /// What is behind a link.
+    /// Returns the kind of a link and whether it runs in lockstep.
     #[must_use]
     pub fn kind(&self, id: LinkId) -> Option<(LinkKind, bool)> {
         self.links.get(&id).map(|link| (link.kind, link.lockstep))
     }
 
-    /// A fresh autopilot gets parameters and plans; links get their usual rates.
+    /// Applies parameters and plans to a new autopilot, and resets the links to their default rates.
     pub fn boot(&mut self, view: &VehicleSnapshot, autopilot: &mut Autopilot) {
         (self.mode_switch, self.switches) = (None, [None; manual::AUX]);
         if self.params.drops_mission_at_boot() {
@@ -319,69 +320,70 @@ impl Endpoint {
         self.push_text(MavSeverity::MAV_SEVERITY_INFO, "Autopilot restarted");
     }
 
-    /// Links that time waits for.
+    /// Returns the links that simulation time waits for.
     pub fn all_in_step(&self) -> impl Iterator<Item = LinkId> {
         self.links.iter().filter(|(_, link)| link.blocks_lockstep()).map(|(id, _)| *id)
     }
 
-    /// Links that are kept in step, or will be from their first answer on: how far each is, and whether anything has come from it.
+    /// Returns the links in lockstep or about to join: their state, and whether anything was received from them.
     pub fn stepped(&self) -> impl Iterator<Item = (LinkId, LockstepState, bool)> {
         self.links.iter().filter(|(_, link)| link.lockstep).map(|(id, link)| (*id, link.lockstep_state, link.has_received))
     }
 
-    /// A peer has answered: time waits for it from now on.
+    /// Marks a peer as joined: simulation time waits for it from now on.
     pub fn join(&mut self, id: LinkId) {
         if let Some(link) = self.links.get_mut(&id) {
             link.lockstep_state = LockstepState::Joined;
         }
     }
 
-    /// Time does not wait for a peer's first answer any longer.
+    /// Stops waiting for a peer's first response.
     pub fn serve_in_real_time(&mut self, id: LinkId) {
         if let Some(link) = self.links.get_mut(&id).filter(|link| link.lockstep_state == LockstepState::Awaited) {
             link.lockstep_state = LockstepState::Late;
         }
     }
 
-    /// Something has come from a peer.
+    /// Records that something was received from a peer.
     pub fn note_station_heard(&mut self, id: LinkId) {
         if let Some(link) = self.links.get_mut(&id) {
             link.has_received = true;
         }
     }
 
-    /// Bytes that belonged to no frame, all links together.
+    /// Returns the number of bytes outside of valid frames, for all links.
     #[must_use]
     pub fn bad_bytes(&self) -> u64 {
         self.bad_bytes
     }
 
-    /// What stations see of the plans.
+    /// Returns a summary of the plans.
     #[must_use]
     pub fn plans(&self) -> snapshot::PlanSummary {
         self.plans.summary()
     }
 
-    /// The sticks, while they are fresh.
+    /// Returns the stick positions; `None` after the timeout.
     #[must_use]
     pub fn sticks(&self, now: SimTime) -> Option<crate::autopilot::Sticks> {
         self.manual.fresh(now)
     }
 
-    /// The same as channels of a transmitter, microseconds.
+    /// Returns the sticks as transmitter pulses, microseconds; `None` after the timeout.
     #[must_use]
     pub fn pulses_us(&self, now: SimTime) -> Option<[u16; 4]> {
         self.manual.pulses_us(now)
     }
 
-    /// Channels 5 to 16 of a transmitter, microseconds.
+    /// Returns transmitter channels 5 to 16, microseconds.
     #[must_use]
     pub fn aux_us(&self) -> [u16; manual::AUX] {
         self.manual.aux_us()
     }
 
-    /// Seconds of simulation time in a second of the clients' time. The limits of clients that are not kept in step grow by it, and every
-    /// log says so: a text now, and NAMED_VALUE_FLOAT `speed_factor` beside the other slow values.
+    /// Sets the simulation speed, in seconds of simulation time per second of client time. Timeouts of clients that are not in
+    /// lockstep are scaled by it, and logs record it: as a text now, and as NAMED_VALUE_FLOAT `speed_factor` with the other slow
+    /// values.
     pub fn set_speed_factor(&mut self, pace: f64, autopilot: &mut Autopilot) {
         self.speed_factor = pace;
         self.plans.set_speed_factor(pace);
@@ -389,7 +391,7 @@ impl Endpoint {
         self.manual.release_timeout_s = autopilot.tuning.manual_timeout_s();
     }
 
-    /// Says what is wrong with a stream of messages, at most once a second.
+    /// Warns about a stream of messages, at most once a second.
     fn warn_all(&mut self, text: &str, now: SimTime) {
         if now - self.complained >= COMPLAIN_EVERY {
             self.complained = now;
@@ -397,7 +399,7 @@ impl Endpoint {
         }
     }
 
-    /// Asks every peer in step for its answer.
+    /// Sends a lockstep request to every peer in lockstep.
     pub fn request_lockstep(&mut self, now: SimTime) {
         let message = MavMessage::TIMESYNC(TIMESYNC_DATA { tc1: 0, ts1: now.ns(), target_system: 0, target_component: 0 });
         for link in self.links.values_mut().filter(|l| l.lockstep) {
@@ -406,12 +408,12 @@ impl Endpoint {
         }
     }
 
-    /// The next datagram.
+    /// Returns the next datagram.
     pub fn poll(&mut self) -> Option<Transmit> {
         self.links.iter_mut().find_map(|(id, link)| link.poll().map(|bytes| Transmit { link: *id, bytes }))
     }
 
-    /// Says something to everybody.
+    /// Broadcasts a text.
     pub fn push_text(&mut self, severity: MavSeverity, text: &str) {
         if self.texts.len() < MOST_TEXTS {
             self.texts.push((severity, text.to_string()));
@@ -419,7 +421,7 @@ impl Endpoint {
     }
 }
 
-/// A file server with nothing but what describes the vehicle.
+/// Creates the file server with the vehicle's metadata files.
 fn metadata_server(flavour: &Flavour) -> files::FileServer {
     let mut server = files::FileServer::default();
     let params::metadata::MetadataFiles { general, parameter, events } = params::metadata::files(flavour.params);
@@ -429,7 +431,7 @@ fn metadata_server(flavour: &Flavour) -> files::FileServer {
     server
 }
 
-/// The camera's own, with nothing but its description.
+/// Creates the camera's file server with its definition file.
 fn camera_server() -> files::FileServer {
     let mut server = files::FileServer::default();
     server.generate(camera::settings::FILE, camera::settings::definition().into_bytes());

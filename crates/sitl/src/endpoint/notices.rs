@@ -1,18 +1,18 @@
-//! Texts that are events, too, as PX4 sends them: a client that knows the definitions shows them in its own language.
+//! Texts that are also sent as events, as PX4 does: a client with the event definitions can show them in its own language.
 
 use serde_json::{Value as Json, json};
 
-/// Log levels of PX4: internal in the upper half, external in the lower.
+/// PX4's log levels: internal in the upper four bits, external in the lower.
 const CRITICAL: u8 = 0x22;
 const WARNING: u8 = 0x44;
 const INFO: u8 = 0x66;
 
-/// One event without arguments.
+/// An event without arguments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Notice {
-    /// How the text begins.
+    /// Beginning of the text.
     pub words: &'static str,
-    /// The event's name.
+    /// Name of the event.
     pub name: &'static str,
     /// Log levels.
     pub levels: u8,
@@ -22,7 +22,7 @@ const fn notice(words: &'static str, name: &'static str, levels: u8) -> Notice {
     Notice { words, name, levels }
 }
 
-/// All of them.
+/// All notices.
 pub const NOTICES: [Notice; 34] = [
     notice("Arming denied", "commander_arming_denied", CRITICAL),
     notice("Disarming denied: not landed", "commander_disarming_denied_not_landed", CRITICAL),
@@ -60,20 +60,20 @@ pub const NOTICES: [Notice; 34] = [
     notice("Mission finished", "mission_finished", INFO),
 ];
 
-/// The event of a text.
+/// Returns the event of a text.
 #[must_use]
 pub fn of(text: &str) -> Option<&'static Notice> {
     NOTICES.iter().find(|notice| text.starts_with(notice.words))
 }
 
-/// Whether the event says all that the text says: then a ground station that shows events need not show the text. PX4 marks such texts by a tab at
-/// their end, and QGroundControl leaves them out.
+/// Checks whether the event conveys the whole text, so that a ground station that shows events need not show the text. PX4 marks
+/// such texts with a trailing tab, and QGroundControl hides them.
 #[must_use]
 pub fn says_all(text: &str) -> bool {
     of(text).is_some_and(|notice| notice.words == text)
 }
 
-/// Their definitions.
+/// Returns the event definitions.
 #[must_use]
 pub fn definitions(id: impl Fn(&str) -> u32) -> Json {
     let events = NOTICES.iter().map(|n| (id(n.name).to_string(), json!({ "name": n.name, "message": n.words })));

@@ -1,4 +1,4 @@
-//! External set-points: what each message's frame and type mask leave of it, in north, east, down. The rules are PX4's
+//! Offboard setpoints: converts each message to north, east, down, according to its frame and type mask. The rules are PX4's
 //! (MAVLink common, POSITION_TARGET_TYPEMASK and ATTITUDE_TARGET_TYPEMASK).
 #![allow(deprecated, reason = "clients still name frames that MAVLink has superseded")]
 
@@ -12,14 +12,14 @@ use spandrel_mavlink::units;
 use spandrel_model::frames::{Rotation, Vec3};
 use spandrel_model::math;
 
-/// Numbers beyond this are mistakes, m, m/s and m/s².
+/// Maximum value of a field, m, m/s and m/s²; larger values are rejected.
 const FAR: f32 = 1e5;
-/// A place further from the origin is a mistake, m.
+/// Maximum distance of a position from the origin, m.
 const FAR_M: f64 = 20_000.0;
-/// Faster turning is a mistake, rad/s.
+/// Maximum rotation rate, rad/s.
 const FAST_RAD_S: f32 = 100.0;
 
-/// A set-point, or why there is none.
+/// A setpoint, or the reason for its rejection.
 pub type SetpointResult = Result<OffboardSetpoint, &'static str>;
 
 type AxisSetpoints = [Option<f64>; 3];
@@ -33,7 +33,7 @@ struct TypeMask {
 }
 
 impl TypeMask {
-    /// What is to be ignored.
+    /// Reads the ignored fields.
     fn of(m: PositionTargetTypemask) -> Result<Self, &'static str> {
         use PositionTargetTypemask as P;
         let has = |flags: [P; 3]| flags.map(|f| m.contains(f));
@@ -63,7 +63,7 @@ impl TypeMask {
     }
 }
 
-/// What is left of three axes. As in PX4 a not-a-number counts as ignored.
+/// Returns the three axes without the ignored ones. As in PX4, NaN counts as ignored.
 fn axes(values: [f32; 3], ignored: [bool; 3]) -> Result<AxisSetpoints, &'static str> {
     let mut out = [None; 3];
     for k in 0..3 {
@@ -86,14 +86,14 @@ fn rate(value: f32, ignored: bool) -> Option<f64> {
     (!ignored && value.is_finite() && value.abs() <= FAST_RAD_S).then(|| f64::from(value))
 }
 
-/// At least one of position, velocity and acceleration must be there.
+/// Requires at least one of position, velocity and acceleration.
 fn checked(s: OffboardSetpoint) -> SetpointResult {
     let wanted = s.position_m.iter().chain(&s.velocity_m_s).chain(&s.acceleration_m_s2).any(Option::is_some);
     if wanted { Ok(s) } else { Err("Set-point without position, velocity or acceleration") }
 }
 
-/// SET_POSITION_TARGET_LOCAL_NED. In the frames that move with the vehicle velocity and acceleration turn with its heading. A position in
-/// them has no meaning (PX4), or counts from where the vehicle is (ArduPilot).
+/// Converts SET_POSITION_TARGET_LOCAL_NED. In body frames, velocity and acceleration rotate with the heading. A position in a
+/// body frame is ignored (PX4) or relative to the vehicle (ArduPilot).
 pub fn local(t: &SET_POSITION_TARGET_LOCAL_NED_DATA, view: &VehicleSnapshot) -> SetpointResult {
     use MavFrame as F;
     let mask = TypeMask::of(t.type_mask)?;
@@ -126,19 +126,19 @@ pub fn local(t: &SET_POSITION_TARGET_LOCAL_NED_DATA, view: &VehicleSnapshot) -> 
     }
 }
 
-/// A position of MAVLink's local frame in the site frame, axis by axis.
+/// Converts a position from MAVLink's local frame to the site frame, axis by axis.
 fn from_local(local_m: AxisSetpoints, view: &VehicleSnapshot) -> AxisSetpoints {
     let site_m = view.site_from_local(Vec3::assume(local_m.map(|axis| axis.unwrap_or(0.0)).into())).array();
     std::array::from_fn(|k| local_m[k].map(|_| site_m[k]))
 }
 
-/// A place at an offset from the vehicle.
+/// Returns the position at an offset from the vehicle.
 fn relative_to_vehicle(offset: AxisSetpoints, view: &VehicleSnapshot) -> AxisSetpoints {
     let here = view.estimate.position_m.array();
     std::array::from_fn(|k| offset[k].map(|offset| here[k] + offset))
 }
 
-/// Forward, right, down to north, east, down. Of forward and right both or neither must be given.
+/// Converts forward, right, down to north, east, down. Forward and right must be given together.
 fn turned(frd: AxisSetpoints, heading: f64) -> Result<AxisSetpoints, &'static str> {
     let (s, c) = math::sin_cos(heading);
     match (frd[0], frd[1]) {
@@ -148,7 +148,8 @@ fn turned(frd: AxisSetpoints, heading: f64) -> Result<AxisSetpoints, &'static st
     }
 }
 
-/// SET_POSITION_TARGET_GLOBAL_INT. Heights over terrain count from home: the vehicle has no terrain database.
+/// Converts SET_POSITION_TARGET_GLOBAL_INT. Terrain altitudes are treated as relative to home: the vehicle has no terrain
+/// database.
 pub fn global(t: &SET_POSITION_TARGET_GLOBAL_INT_DATA, view: &VehicleSnapshot) -> SetpointResult {
     use MavFrame as F;
     let mask = TypeMask::of(t.type_mask)?;
@@ -187,8 +188,8 @@ pub fn global(t: &SET_POSITION_TARGET_GLOBAL_INT_DATA, view: &VehicleSnapshot) -
     })
 }
 
-/// SET_ATTITUDE_TARGET: an attitude with a yaw rate beside it, or body rates where the attitude is ignored; thrust 0 to 1.
-/// Where the thrust is read as a climb rate (`GUID_OPTIONS`), 0.5 keeps the height and the ends are the vertical speeds of automatic modes.
+/// Converts SET_ATTITUDE_TARGET: an attitude with a yaw rate, or body rates if the attitude is ignored; thrust 0 to 1. If thrust
+/// is interpreted as climb rate (`GUID_OPTIONS`), 0.5 holds altitude, and 0 and 1 are the vertical speeds of automatic modes.
 pub fn attitude(t: &SET_ATTITUDE_TARGET_DATA, tuning: &Tuning) -> SetpointResult {
     use AttitudeTargetTypemask as A;
     let has = |flag: A| t.type_mask.contains(flag);

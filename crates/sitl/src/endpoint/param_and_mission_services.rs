@@ -1,4 +1,4 @@
-//! Questions and answers: parameters, plans, streams by groups, clocks, logs.
+//! Request handlers for parameters, plans, stream groups, time synchronization and logs.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::Endpoint;
@@ -14,7 +14,7 @@ use spandrel_mavlink::dialect::*;
 
 const MISSION_ACK: u32 = 47;
 
-/// PARAM_VALUE of one parameter.
+/// Creates the PARAM_VALUE message of a parameter.
 pub(super) fn param_value(told: OutgoingParam, index: usize, count: u16) -> MavMessage {
     MavMessage::PARAM_VALUE(PARAM_VALUE_DATA {
         param_value: told.wire,
@@ -25,13 +25,13 @@ pub(super) fn param_value(told: OutgoingParam, index: usize, count: u16) -> MavM
     })
 }
 
-/// PARAM_VALUE by place or by name.
+/// Creates PARAM_VALUE by index.
 fn param_at(e: &Endpoint, index: Option<usize>) -> Option<MavMessage> {
     let index = index?;
     Some(param_value(e.params.outgoing(index)?, index, e.params.count() as u16))
 }
 
-/// PARAM_VALUE by name.
+/// Creates PARAM_VALUE by name.
 pub(super) fn param_named(e: &Endpoint, name: &str) -> Option<MavMessage> {
     param_at(e, param_index(e, name))
 }
@@ -40,7 +40,7 @@ fn param_index(e: &Endpoint, name: &str) -> Option<usize> {
     e.params.find(name).map(|(index, ..)| index)
 }
 
-/// The checksum over all parameters, outside the list (PX4: index -1).
+/// Creates PARAM_VALUE with the checksum of all parameters, which is not in the list (PX4: index -1).
 fn param_hash(e: &Endpoint) -> MavMessage {
     MavMessage::PARAM_VALUE(PARAM_VALUE_DATA {
         param_value: f32::from_bits(e.params.hash()),
@@ -51,7 +51,8 @@ fn param_hash(e: &Endpoint) -> MavMessage {
     })
 }
 
-/// The whole list, a little each tick; before it the checksum, so that a station that knows all values stops the list, or who it is.
+/// Queues the whole list, sent in parts over several ticks. The checksum is sent first, so that a station that knows all values
+/// can stop the list; flavours with a banner send it, too.
 pub(super) fn param_list(e: &mut Endpoint, _: &PARAM_REQUEST_LIST_DATA, a: &mut InboundMessage) {
     if e.flavour.params.hash {
         let hash = param_hash(e);
@@ -78,7 +79,8 @@ fn is_param_hash(e: &Endpoint, name: &str) -> bool {
     e.flavour.params.hash && name == HASH
 }
 
-/// A change is told to every link; a refusal is named, and the old value is sent as older clients expect.
+/// Changes a parameter. A change is broadcast to every link; a rejection is reported, followed by the old value as older clients
+/// expect.
 pub(super) fn param_set(e: &mut Endpoint, set: &PARAM_SET_DATA, a: &mut InboundMessage) {
     let name = set.param_id.to_str().unwrap_or_default();
     if is_param_hash(e, name) {
@@ -112,7 +114,7 @@ fn refuse_param(e: &mut Endpoint, name: &str, error: MavParamError, a: &InboundM
     }
 }
 
-/// PARAM_SET with a type that MAVLink does not know.
+/// Rejects a PARAM_SET with a type that MAVLink does not define.
 pub(super) fn unknown_type(e: &mut Endpoint, name: &[u8], a: &InboundMessage) {
     let name = name.split(|byte| *byte == 0).next().unwrap_or_default();
     refuse_param(e, std::str::from_utf8(name).unwrap_or_default(), MavParamError::MAV_PARAM_ERROR_TYPE_UNSUPPORTED, a);
@@ -138,7 +140,7 @@ pub(super) fn mission_item_int(e: &mut Endpoint, r: &MISSION_REQUEST_INT_DATA, a
     e.answer(a.link, &message);
 }
 
-/// The older request gets the same answer, as MAVLink asks, or one in the older form, as ArduPilot's clients expect.
+/// Answers the superseded request in the current form, as MAVLink requires, or in the older one, as ArduPilot's clients expect.
 pub(super) fn mission_item(e: &mut Endpoint, r: &MISSION_REQUEST_DATA, a: &mut InboundMessage) {
     let message = match plan_item(e, r.mission_type, r.seq, a) {
         MavMessage::MISSION_ITEM_INT(item) if e.flavour.float_items => {
@@ -173,7 +175,7 @@ fn receive_item(e: &mut Endpoint, item: &MISSION_ITEM_INT_DATA, a: &mut InboundM
     apply_plan_reply(e, reply, a);
 }
 
-/// Items in floating degrees, of clients older than MISSION_ITEM_INT.
+/// Handles an item with floating-point degrees, from clients without MISSION_ITEM_INT.
 pub(super) fn mission_receive(e: &mut Endpoint, item: &MISSION_ITEM_DATA, a: &mut InboundMessage) {
     let scaled = |degrees: f32| if degrees.is_finite() { (f64::from(degrees) * 1e7).round() as i32 } else { i32::MAX };
     let whole = MISSION_ITEM_INT_DATA {
@@ -202,7 +204,8 @@ pub(super) fn mission_clear(e: &mut Endpoint, c: &MISSION_CLEAR_ALL_DATA, a: &mu
     apply_plan_reply(e, reply, a);
 }
 
-/// An uploader that does not know the form in which it is asked says so, and is asked in the other one (as PX4 does).
+/// Handles MISSION_ACK. An uploader that does not support the requested encoding rejects it, and the request is repeated in the
+/// other one (as in PX4).
 pub(super) fn mission_ack(e: &mut Endpoint, m: &MISSION_ACK_DATA, a: &mut InboundMessage) {
     if m.mavtype != MavMissionResult::MAV_MISSION_UNSUPPORTED {
         e.plans.acknowledged(a.from);
@@ -211,7 +214,7 @@ pub(super) fn mission_ack(e: &mut Endpoint, m: &MISSION_ACK_DATA, a: &mut Inboun
     }
 }
 
-/// Answered by MISSION_CURRENT, after a refusal where there is no such item.
+/// Changes the current item; rejects an invalid one. MISSION_CURRENT is broadcast in either case.
 pub(super) fn mission_set_current(e: &mut Endpoint, c: &MISSION_SET_CURRENT_DATA, a: &mut InboundMessage) {
     if !a.autopilot.set_mission_current(usize::from(c.seq.saturating_sub(a.view.plans.lead)), false) {
         let result = MavMissionResult::MAV_MISSION_INVALID_SEQUENCE;
@@ -226,7 +229,7 @@ pub(super) fn mission_set_current(e: &mut Endpoint, c: &MISSION_SET_CURRENT_DATA
     }
 }
 
-/// MAVLink does not say how a part would be answered, and no autopilot does.
+/// Rejects a partial list request: MAVLink does not define the response, and no autopilot supports it.
 pub(super) fn mission_request_partial(e: &mut Endpoint, r: &MISSION_REQUEST_PARTIAL_LIST_DATA, a: &mut InboundMessage) {
     let refusal = ack(a.from, r.mission_type, MavMissionResult::MAV_MISSION_UNSUPPORTED);
     e.answer(a.link, &refusal);
@@ -237,7 +240,7 @@ pub(super) fn mission_write_partial(e: &mut Endpoint, w: &MISSION_WRITE_PARTIAL_
     apply_plan_reply(e, reply, a);
 }
 
-/// An item with a command, frame or plan type that MAVLink does not know ends the upload.
+/// Rejects an upload with an item of a command, frame or plan type that MAVLink does not define.
 pub(super) fn unknown_item(e: &mut Endpoint, mission_type: u8, a: &mut InboundMessage) {
     match e.plans.receive_unknown(a.from) {
         PlanReply::Nothing => unknown_plan(e, mission_type, a),
@@ -245,7 +248,7 @@ pub(super) fn unknown_item(e: &mut Endpoint, mission_type: u8, a: &mut InboundMe
     }
 }
 
-/// A request about a plan of an unknown type is refused with that type.
+/// Rejects a request for an unknown plan type.
 pub(super) fn unknown_plan(e: &mut Endpoint, mission_type: u8, a: &InboundMessage) {
     let refusal = [a.from.0, a.from.1, MavMissionResult::MAV_MISSION_UNSUPPORTED as u8, mission_type];
     if let Some(link) = e.links.get_mut(&a.link) {
@@ -270,7 +273,7 @@ fn apply_plan_reply(e: &mut Endpoint, reply: PlanReply, a: &mut InboundMessage) 
     }
 }
 
-/// The autopilot gets what has changed.
+/// Passes changed plans to the autopilot.
 pub(super) fn update_autopilot_plan(e: &mut Endpoint, kind: MavMissionType, view: &VehicleSnapshot, autopilot: &mut Autopilot) {
     let is = |one| kind == one || kind == MavMissionType::MAV_MISSION_TYPE_ALL;
     let home_up = view.status.home_m.map_or(0.0, |h| -h.down());
@@ -288,18 +291,18 @@ pub(super) fn update_autopilot_plan(e: &mut Endpoint, kind: MavMissionType, view
 }
 
 pub(super) fn timesync(e: &mut Endpoint, sync: &TIMESYNC_DATA, a: &mut InboundMessage) {
-    // An answer to somebody's question, not one.
+    // A response to somebody else's request.
     if sync.tc1 != 0 {
         return;
     }
     let (target_system, target_component) = a.from;
     let Some(link) = e.links.get(&a.link) else { return };
-    // The same clock as the times of our messages, so that a client can convert them.
+    // Uses the same clock as the timestamps of our messages, so that clients can convert them.
     let tc1 = a.view.for_link(link.kind).since_boot(a.view.now).ns().max(1);
     e.answer(a.link, &MavMessage::TIMESYNC(TIMESYNC_DATA { tc1, ts1: sync.ts1, target_system, target_component }));
 }
 
-/// A ping to nobody is a request; one with a target answers one.
+/// Answers a ping request. A ping without a target is a request, one with a target is a response.
 pub(super) fn ping(e: &mut Endpoint, ping: &PING_DATA, a: &mut InboundMessage) {
     if ping.target_system == 0 {
         let (target_system, target_component) = a.from;
@@ -307,7 +310,7 @@ pub(super) fn ping(e: &mut Endpoint, ping: &PING_DATA, a: &mut InboundMessage) {
     }
 }
 
-/// The legacy way of asking for rates: groups of messages (Mission Planner, MAVProxy).
+/// Handles the superseded request for message groups (Mission Planner, MAVProxy).
 pub(super) fn data_stream(e: &mut Endpoint, r: &REQUEST_DATA_STREAM_DATA, a: &mut InboundMessage) {
     let Some(link) = e.links.get_mut(&a.link) else { return };
     let wanted = r.req_stream_id as u8;
@@ -332,7 +335,7 @@ pub(super) fn log_end(e: &mut Endpoint, _: &LOG_REQUEST_END_DATA, a: &mut Inboun
     e.logs.stop(a.link);
 }
 
-/// Not in flight: the log of now is among them.
+/// Erases the logs; rejected while armed because the current log is among them.
 pub(super) fn log_erase(e: &mut Endpoint, _: &LOG_ERASE_DATA, a: &mut InboundMessage) {
     if a.view.status.armed {
         e.push_text(MavSeverity::MAV_SEVERITY_WARNING, "Logs are not erased while armed");

@@ -1,4 +1,4 @@
-//! Camera, gimbal and lamp together, and what they have to tell.
+//! Camera, gimbal and lamp, and the changes they report.
 
 use super::camera::CameraState;
 use super::gimbal::GimbalState;
@@ -8,7 +8,7 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Camera;
 use std::collections::BTreeSet;
 
-/// What the payload does: it belongs to the endpoint, the simulation reads it.
+/// State of the payload, owned by the endpoint and read by the simulation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Payload {
     /// Camera.
@@ -17,12 +17,12 @@ pub struct Payload {
     pub gimbal: GimbalState,
     /// Lamp.
     pub lamp: LampState,
-    /// What is to be told.
+    /// Changes to report.
     pub changes: PayloadChange,
 }
 
 impl Payload {
-    /// Camera in photo mode, gimbal level, lamp dark.
+    /// Creates the payload with the camera in photo mode, the gimbal level and the lamp off.
     #[must_use]
     pub fn new() -> Self {
         Self {
@@ -33,7 +33,7 @@ impl Payload {
         }
     }
 
-    /// Time passes: what moves moves, what is due is done.
+    /// Advances gimbal, camera and lamp by `dt_s`, s.
     pub fn step(&mut self, camera: &Camera, position_m: Vec3<Enu>, now: SimTime, dt_s: f64) {
         self.gimbal.step(camera, position_m, dt_s);
         self.camera.step(now, dt_s, &mut self.changes);
@@ -47,7 +47,7 @@ impl Default for Payload {
     }
 }
 
-/// Messages to be said once to everybody, and warnings.
+/// Messages to broadcast once, and warnings.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct PayloadChange {
     messages: BTreeSet<u32>,
@@ -55,17 +55,17 @@ pub struct PayloadChange {
 }
 
 impl PayloadChange {
-    /// The message with this number, as it is at the end of the tick.
+    /// Adds a message by its ID; it is built at the end of the tick.
     pub fn add_message(&mut self, message: u32) {
         self.messages.insert(message);
     }
 
-    /// A text.
+    /// Adds a warning text.
     pub fn add_warning(&mut self, text: &'static str) {
         self.warnings.insert(text);
     }
 
-    /// All of it.
+    /// Removes and returns all messages and warnings.
     pub fn take(&mut self) -> (BTreeSet<u32>, BTreeSet<&'static str>) {
         (std::mem::take(&mut self.messages), std::mem::take(&mut self.warnings))
     }

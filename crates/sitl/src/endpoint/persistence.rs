@@ -1,46 +1,46 @@
-//! Parameters as a whole: told to links, kept in a file by the shell, taken over by the autopilot.
+//! Parameter persistence: sending the list to links, saving and loading it, and applying it to the autopilot.
 
 use super::streams::AUTOPILOT;
 use super::{Endpoint, StorageRequest, param_and_mission_services, params};
 use crate::autopilot::{Autopilot, AutopilotRequest};
 
-/// Parameters sent to a link in one tick of the list.
+/// Number of parameters of a list sent to each link per tick.
 const PARAMS_A_TICK: usize = 2;
 
 impl Endpoint {
-    /// Changes of parameters so far.
+    /// Returns the number of parameter changes so far.
     #[must_use]
     pub fn parameter_changes(&self) -> u64 {
         self.params.changes()
     }
 
-    /// The parameters as a text file.
+    /// Returns the parameters as a text file.
     #[must_use]
     pub fn parameter_text(&self) -> String {
         params::text::write(&self.params, self.system_id)
     }
 
-    /// Sets what a parameter file says, and tells everybody.
+    /// Applies a parameter file and broadcasts the parameters.
     ///
     /// # Errors
-    /// Every line that is wrong; then nothing is set.
+    /// Returns all invalid lines; no parameter is set in that case.
     pub fn read_parameters(&mut self, text: &str, autopilot: &mut Autopilot) -> Result<(), Vec<params::text::ParamFileProblem>> {
         params::text::read(&mut self.params, text)?;
         self.parameters_changed(autopilot);
         Ok(())
     }
 
-    /// Somebody keeps the parameters from now on.
+    /// Declares that the host stores the parameters.
     pub fn keep_parameters(&mut self) {
         self.storage.kept = true;
     }
 
-    /// What a client wants of whoever keeps the parameters.
+    /// Removes and returns a client's storage request.
     pub fn poll_storage(&mut self) -> Option<StorageRequest> {
         self.storage.request.take()
     }
 
-    /// The geofence was switched by a command or a mission: the parameter for it follows, and everybody is told.
+    /// Updates and broadcasts the geofence parameter after a command or mission switched the geofence.
     pub(super) fn note_fence_switch(&mut self, enabled: bool) {
         if self.params.fence_enabled().is_some_and(|shown| shown != enabled)
             && self.params.set_value(params::FENCE_SWITCH, params::ParamValue::Int(i32::from(enabled))).is_ok()
@@ -50,7 +50,7 @@ impl Endpoint {
         }
     }
 
-    /// The parameters act.
+    /// Applies the parameters to the autopilot, manual control and camera.
     pub(super) fn apply_parameters(&mut self, autopilot: &mut Autopilot) {
         let cruise_m_s = autopilot.tuning.cruise_m_s;
         self.params.apply(&mut autopilot.tuning);
@@ -63,7 +63,7 @@ impl Endpoint {
         self.payload.camera.announced.parameter = self.params.camera_announced();
     }
 
-    /// Many parameters may have changed: they act, and every link gets the whole list.
+    /// Applies the parameters after many may have changed, and sends every link the whole list.
     pub(super) fn parameters_changed(&mut self, autopilot: &mut Autopilot) {
         self.apply_parameters(autopilot);
         for id in self.links.keys() {

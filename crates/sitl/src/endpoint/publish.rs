@@ -1,4 +1,4 @@
-//! What the vehicle says in a tick: news, streams, texts, lists, each to whom it concerns.
+//! Outgoing messages of a tick: changes, streams, texts and lists, each to the links concerned.
 
 use super::camera::CaptureRecord;
 use super::link::PeerLink;
@@ -9,7 +9,8 @@ use crate::autopilot::{AutopilotEvent, Severity};
 use spandrel_mavlink::codec::Encodable;
 use spandrel_mavlink::dialect::{MISSION_ITEM_REACHED_DATA, MavMessage, MavResult, MavSeverity};
 
-/// A client that keeps the last heartbeat and has no use for the camera keeps the autopilot's: it follows the camera's in the same datagram.
+/// Repeats the autopilot's heartbeat after the camera's in the same datagram, for clients that keep only the last heartbeat and
+/// don't use the camera.
 fn repeat_autopilot(link: &mut PeerLink, view: &VehicleSnapshot) {
     if link.uses_camera() || link.kind == LinkKind::Payload {
         return;
@@ -20,11 +21,11 @@ fn repeat_autopilot(link: &mut PeerLink, view: &VehicleSnapshot) {
     }
 }
 
-/// HEARTBEAT's number.
+/// Message ID of HEARTBEAT.
 const HEARTBEAT: u32 = 0;
 
 impl Endpoint {
-    /// What is due now goes out.
+    /// Sends everything that is due.
     pub fn publish(&mut self, view: &VehicleSnapshot, events: Vec<AutopilotEvent>, reached: Vec<usize>) {
         self.chosen = self.reported_mode(view);
         self.flight.update(std::mem::replace(&mut self.was_armed, view.status.armed), view.status, view.now);
@@ -76,7 +77,8 @@ impl Endpoint {
         }
     }
 
-    /// Heartbeats and texts alone: time stands still. The camera's go to those who use it.
+    /// Sends heartbeats and texts only, while simulation time is paused. The camera's heartbeat goes only to links that use the
+    /// camera.
     pub fn send_heartbeats(&mut self, view: &VehicleSnapshot) {
         let view = &view.with_payload(&self.payload);
         for link in self.listeners() {
@@ -91,8 +93,8 @@ impl Endpoint {
         self.say_texts(view);
     }
 
-    /// The flavour's number of the mode that is flown. One that the fence or a failsafe has changed to nobody chose: what flies errands as they come does
-    /// not go on doing so.
+    /// Returns the flavour's number of the active mode. If the fence or a failsafe changed the mode, returns its default number:
+    /// the mode for go-to commands must be selected again.
     fn reported_mode(&mut self, view: &VehicleSnapshot) -> u32 {
         let taken = view.status.fence.taken;
         let changed = std::mem::replace(&mut self.fence_took, taken) != taken;
@@ -106,7 +108,7 @@ impl Endpoint {
             return;
         }
         let view = &view.with_payload(&self.payload);
-        // The scoring judges what a picture shows: the field of view goes before it.
+        // The scoring evaluates the image content: send the field of view first.
         if view.vehicle.camera.zoom_max > 1.0 {
             self.broadcast(CAMERA, &streams::field_of_view(view));
         }
@@ -117,7 +119,7 @@ impl Endpoint {
         }
     }
 
-    /// What has changed in the payload is told to everybody.
+    /// Broadcasts changes of the payload.
     fn publish_payload_changes(&mut self, view: &VehicleSnapshot) {
         let (messages, warnings) = self.payload.changes.take();
         for (_, row) in messages.into_iter().flat_map(streams::rows_of) {
@@ -132,7 +134,7 @@ impl Endpoint {
         }
     }
 
-    /// Pictures that were asked for again, one in a tick on each link that has room.
+    /// Resends requested image records, one per tick on each link with capacity.
     fn send_pictures(&mut self) {
         for link in self.links.values_mut().filter(|link| !link.is_busy()) {
             if let Some(message) = link.pictures.next().and_then(|index| self.payload.camera.recorded_capture(index)) {
@@ -141,7 +143,7 @@ impl Endpoint {
         }
     }
 
-    /// Items of the mission that are the payload's act when they are passed.
+    /// Executes payload items of the mission when they are reached.
     fn mission_payload(&mut self, seq: usize, view: &VehicleSnapshot) {
         let Some(item) = items::aimed(self.plans.mission(), seq) else { return };
         let command = commands::VehicleCommand::from_item(&item, (self.system_id, AUTOPILOT));
@@ -178,7 +180,7 @@ impl Endpoint {
         }
     }
 
-    /// To the links on which a peer has been heard.
+    /// Sends a message on the links on which the peer was seen.
     fn send_to(&mut self, peer: mission::PlanPeer, message: &MavMessage) {
         for (id, link) in &mut self.links {
             if self.router.note_sender(peer, *id) {

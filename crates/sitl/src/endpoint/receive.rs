@@ -1,4 +1,4 @@
-//! What comes in: routing first, then what is meant for us, by one table of messages.
+//! Incoming messages: routes each frame, then handles those addressed to this vehicle by a message table.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::camera::stream;
@@ -22,7 +22,7 @@ const COMMAND_ACK: u32 = 77;
 
 macro_rules! handlers {
     ($($name:ident $data:ident $handler:path),* $(,)?) => {
-        /// Numbers of all messages that the vehicle acts on; the fuzzing mutates each of them.
+        /// IDs of all messages that the vehicle handles; the fuzz tests mutate each of them.
         pub const HANDLED: &[u32] = &[COMMAND_LONG_DATA::ID, COMMAND_INT_DATA::ID, $($data::ID),*];
 
         fn dispatch(endpoint: &mut Endpoint, message: &MavMessage, arrival: &mut InboundMessage) {
@@ -79,11 +79,11 @@ handlers! {
 }
 
 impl Endpoint {
-    /// The tokens of lockstep answers to us in a datagram, of those who may speak. It acts later, by `receive`.
+    /// Returns the tokens of lockstep responses in a datagram, from admitted senders. `receive` processes the datagram later.
     #[must_use]
     pub fn lockstep_answers(&self, id: LinkId, bytes: &[u8]) -> Vec<i64> {
         let Some(link) = self.links.get(&id) else { return Vec::new() };
-        // A copy judges: what it remembers of the frame must not make it a repetition when it acts.
+        // Check with a copy: recording the frame would make it a replay when it is processed.
         let mut guard = self.guard.clone();
         let mut admitted =
             |frame: &ReceivedFrame| guard.as_mut().map_or(FrameAdmission::Execute, |guard| guard.admit(frame, link.kind));
@@ -96,7 +96,7 @@ impl Endpoint {
             .collect()
     }
 
-    /// The token of a frame that answers our question on a link in step; answers to others go their way.
+    /// Returns the token of a frame that answers a lockstep request; responses to other systems are routed normally.
     fn step_token(&self, link: &PeerLink, frame: &ReceivedFrame) -> Option<i64> {
         let Some(MavMessage::TIMESYNC(sync)) = &frame.message else { return None };
         let (system, component) = router::target(frame);
@@ -104,7 +104,7 @@ impl Endpoint {
         Some(sync.ts1).filter(|token| ours && sync.tc1 != 0 && link.is_answer(*token))
     }
 
-    /// Reads a datagram of a link.
+    /// Processes a datagram received on a link.
     pub fn receive(&mut self, id: LinkId, bytes: &[u8], view: &VehicleSnapshot, autopilot: &mut Autopilot) {
         let Some(link) = self.links.get_mut(&id) else { return };
         let before = link.decoder.bad_bytes();
@@ -129,7 +129,7 @@ impl Endpoint {
         }
     }
 
-    /// A heartbeat that comes in lets the streams out.
+    /// Starts the streams of a link when a heartbeat arrives.
     fn wake(&mut self, from: LinkId, frame: &ReceivedFrame, now: SimTime) {
         if frame.message_id == HEARTBEAT_DATA::ID
             && let Some(link) = self.links.get_mut(&from)
@@ -139,7 +139,7 @@ impl Endpoint {
     }
 
     fn route(&mut self, from: LinkId, frame: &ReceivedFrame, now: SimTime) {
-        // Nobody may speak in our own components' names.
+        // Reject frames that impersonate the vehicle's own components.
         if frame.system_id == self.system_id && matches!(frame.component_id, AUTOPILOT | CAMERA) {
             return;
         }
@@ -157,12 +157,13 @@ impl Endpoint {
         }
     }
 
-    /// Keeps what acts on the vehicle for the digest: who sent what. Sequence numbers and checksums do nothing, nor do a client's clocks.
+    /// Records inputs that affect the vehicle, with their sender, for the digest. Sequence numbers, checksums and client clocks
+    /// are excluded.
     fn record_for_digest(&mut self, frame: &ReceivedFrame) {
         let clocked = match frame.message_id {
-            // Questions about clocks: their answers change nothing of the vehicle, and they hold wall time.
+            // Time requests: they don't affect the vehicle, and they contain wall time.
             TIMESYNC_DATA::ID | PING_DATA::ID => return,
-            // time_boot_ms of the sender, at the beginning of the payload.
+            // The sender's time_boot_ms, at the start of the payload.
             SET_POSITION_TARGET_LOCAL_NED_DATA::ID | SET_POSITION_TARGET_GLOBAL_INT_DATA::ID | SET_ATTITUDE_TARGET_DATA::ID => {
                 size_of::<u32>()
             }
@@ -174,12 +175,13 @@ impl Endpoint {
         self.acted.extend(&frame.payload(255)[clocked..]);
     }
 
-    /// What has acted on the vehicle since the last call, for the digest.
+    /// Returns the inputs recorded since the last call, for the digest.
     pub fn take_digest_input(&mut self) -> Vec<u8> {
         std::mem::take(&mut self.acted)
     }
 
-    /// Everything is the autopilot's component's; the camera's takes commands, and has settings and a file of its own.
+    /// Handles a frame addressed to this system: by default as the autopilot component; the camera component has commands,
+    /// settings and files of its own.
     fn handle_frame(&mut self, id: LinkId, frame: &ReceivedFrame, view: &VehicleSnapshot, autopilot: &mut Autopilot) {
         let (system, component) = router::target(frame);
         if system != 0 && system != self.system_id {
@@ -216,7 +218,7 @@ impl Endpoint {
         }
     }
 
-    /// Carries out a command, whether it came by the wire or by a button; `None` when its link is gone.
+    /// Executes a received command or a button's command. Returns `None` if the link was closed.
     pub(super) fn execute(&mut self, command: &VehicleCommand, a: &mut InboundMessage) -> Option<MavResult> {
         let link = self.links.get_mut(&a.link)?;
         let mut context = CommandContext {
@@ -249,7 +251,7 @@ impl Endpoint {
         let Some(result) = done else { return };
         let component = if command.component == CAMERA { CAMERA } else { AUTOPILOT };
         let number = command.number.to_le_bytes();
-        // Laid out by hand: the number may be one that the dialect does not know.
+        // Encoded manually because the command number may be unknown to the dialect.
         let payload = [number[0], number[1], result as u8, 0, 0, 0, 0, 0, command.from.0, command.from.1];
         if let Some(link) = self.links.get_mut(&a.link) {
             link.send_payload(component, COMMAND_ACK, &payload);
@@ -262,7 +264,7 @@ impl Endpoint {
         }
     }
 
-    /// Bodies with a number that the dialect's enumerations do not know are answered all the same.
+    /// Handles messages that contain an enum value unknown to the dialect.
     fn answer_unreadable(&mut self, frame: &ReceivedFrame, a: &mut InboundMessage) {
         let p = frame.payload(255);
         match frame.message_id {
@@ -280,12 +282,12 @@ impl Endpoint {
         }
     }
 
-    /// Answers the link that asked.
+    /// Sends a message to a link.
     pub(super) fn answer(&mut self, id: LinkId, message: &MavMessage) {
         self.answer_as(AUTOPILOT, id, message);
     }
 
-    /// Answers in the name of a component.
+    /// Sends a message to a link from a component.
     pub(super) fn answer_as(&mut self, component: u8, id: LinkId, message: &MavMessage) {
         if let Some(link) = self.links.get_mut(&id) {
             link.send(component, message);

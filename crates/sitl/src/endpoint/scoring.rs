@@ -1,5 +1,5 @@
-//! The values that the scoring needs beside the truth's motion (docs/src/reference/wire.md, "Scoring data"): named values, on
-//! change and at rates of their own.
+//! Additional scoring data besides the true motion (docs/src/reference/wire.md, "Scoring data"): named values, sent on change and
+//! at rates of their own.
 
 use super::Endpoint;
 use super::snapshot::VehicleSnapshot;
@@ -8,7 +8,7 @@ use spandrel_mavlink::contract::named::Named;
 use spandrel_mavlink::dialect::MavMessage;
 use spandrel_model::time::{Schedule, SimTime};
 
-/// When each is due.
+/// Schedules of the named values.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct TruthSchedule {
     contact: Schedule,
@@ -18,7 +18,7 @@ pub(super) struct TruthSchedule {
 }
 
 impl TruthSchedule {
-    /// The design's rates; everything is due at once.
+    /// Creates the schedules with the specified rates; everything is due immediately.
     pub(super) fn new() -> Self {
         let at = |hz| Schedule::new(SimTime::ZERO, hz);
         Self { contact: at(10.0), clearance: at(30.0), lux: at(5.0), slow: at(0.2) }
@@ -26,8 +26,8 @@ impl TruthSchedule {
 }
 
 impl Endpoint {
-    /// Named values for the scoring: contact on change and at 10 Hz, hits, respawns and traffic on change and with the slow
-    /// ones.
+    /// Sends the named values for scoring: contact on change and at 10 Hz; hits, respawns and traffic on change and with the slow
+    /// values.
     pub(super) fn truth(&mut self, view: &VehicleSnapshot) {
         let s = view.scoring;
         let rates = &mut self.truth_rates;
@@ -42,7 +42,7 @@ impl Endpoint {
         if slow || s.respawns != self.sent.respawns {
             out.push(Named::Respawns(s.respawns));
         }
-        // Traffic that was never stopped is not spoken of.
+        // Traffic that was never stopped is omitted.
         if slow || s.traffic != self.sent.traffic {
             out.extend(s.traffic.into_iter().filter(|code| *code != 0).map(Named::Traffic));
         }

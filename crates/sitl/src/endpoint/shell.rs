@@ -1,4 +1,4 @@
-//! The console over SERIAL_CONTROL, as PX4's MAVLink shell: a line in, its output and a prompt back.
+//! The console over SERIAL_CONTROL, like PX4's MAVLink shell: it reads a line and returns its output and a prompt.
 
 mod topics;
 
@@ -10,16 +10,16 @@ use super::{Endpoint, LinkId};
 use spandrel_mavlink::dialect::{MavCmd, MavMessage, MavResult, SERIAL_CONTROL_DATA, SerialControlDev, SerialControlFlag};
 use std::collections::VecDeque;
 
-/// Bytes of SERIAL_CONTROL.
+/// Data bytes in SERIAL_CONTROL.
 const CHUNK: usize = 70;
-/// Longest line that is read, bytes.
+/// Maximum line length, bytes.
 const LONGEST_LINE: usize = 256;
-/// Output that waits for one asker, bytes; more is cut off.
+/// Maximum pending output, bytes; the excess is discarded.
 const MOST_WAITING: usize = 65_536;
-/// Messages sent in one tick.
+/// Maximum number of messages per tick.
 const MESSAGES_A_TICK: usize = 4;
 const PROMPT: &str = "nsh> ";
-/// Numbers of PX4's modes, by the names of its shell.
+/// PX4's mode numbers, by their names in its shell.
 const MODES: [(&str, f64, f64); 11] = [
     ("manual", 1.0, 0.0),
     ("acro", 5.0, 0.0),
@@ -34,10 +34,10 @@ const MODES: [(&str, f64, f64); 11] = [
     ("auto:land", 4.0, 6.0),
 ];
 
-/// Who talks to the shell.
+/// A shell client: its link, system ID and component ID.
 type ShellClient = (LinkId, (u8, u8));
 
-/// The shell's state. One talks to it at a time, as to PX4's: who types takes it over.
+/// State of the shell. It has one client at a time, as in PX4: a client that types takes it over.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct NshShell {
     user: Option<ShellClient>,
@@ -51,7 +51,7 @@ impl NshShell {
         self.out.extend(text.bytes().take(room));
     }
 
-    /// A link is gone.
+    /// Resets the shell if its client's link was closed.
     pub fn disconnect(&mut self, link: LinkId) {
         if self.user.is_some_and(|(known, _)| known == link) {
             *self = Self::default();
@@ -59,7 +59,7 @@ impl NshShell {
     }
 }
 
-/// Bytes for the shell. Without the flags that ask for a reply it is closed.
+/// Handles bytes for the shell. A message without the RESPOND flag closes it.
 pub(super) fn bytes(e: &mut Endpoint, m: &SERIAL_CONTROL_DATA, a: &mut InboundMessage) {
     let ours = m.device == SerialControlDev::SERIAL_CONTROL_DEV_SHELL && e.flavour.shell;
     if !ours || m.flags.contains(SerialControlFlag::SERIAL_CONTROL_FLAG_REPLY) {
@@ -93,7 +93,7 @@ pub(super) fn bytes(e: &mut Endpoint, m: &SERIAL_CONTROL_DATA, a: &mut InboundMe
     }
 }
 
-/// Carries out the line.
+/// Executes the line.
 fn run_line(e: &mut Endpoint, a: &mut InboundMessage) {
     let line = std::mem::take(&mut e.shell.line);
     let words: Vec<&str> = line.split_whitespace().collect();
@@ -159,10 +159,10 @@ fn set_parameter(e: &mut Endpoint, name: &str, value: &str, a: &mut InboundMessa
         ParamValue::Int(_) => value.parse().ok().map(ParamValue::Int),
         ParamValue::Real(_) => value.parse().ok().map(ParamValue::Real),
     };
-    let Some(parsed) = parsed else { return format!("ERROR: {value} is no value for {name}\n") };
+    let Some(parsed) = parsed else { return format!("ERROR: {value} is not a valid value for {name}\n") };
     if e.params.set_value(name, parsed).is_err() {
         let (low, high) = e.params.range(name).unwrap_or((0.0, 0.0));
-        return format!("ERROR: {name} = {value} refused: allowed {low} to {high}, or read-only\n");
+        return format!("ERROR: {name} = {value} rejected: out of range ({low} to {high}) or read-only\n");
     }
     e.parameters_changed(a.autopilot);
     format!("  {name}: curr: {value}\n")
@@ -177,7 +177,7 @@ fn commander(e: &mut Endpoint, rest: &[&str], a: &mut InboundMessage) -> String 
         ["land"] => (MavCmd::MAV_CMD_NAV_LAND, [0.0; 3]),
         ["mode", name] => match MODES.iter().find(|(known, ..)| known == name) {
             Some((_, main, sub)) => (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, *main, *sub]),
-            None => return format!("ERROR: no mode {name}; modes: {}\n", MODES.map(|(name, ..)| name).join(" ")),
+            None => return format!("ERROR: unknown mode {name}; modes: {}\n", MODES.map(|(name, ..)| name).join(" ")),
         },
         ["check"] => return check(a),
         ["status"] => return status(a),
@@ -211,7 +211,7 @@ fn status(a: &InboundMessage) -> String {
 }
 
 impl Endpoint {
-    /// Sends what the shell has printed, some of it in each tick.
+    /// Sends pending shell output, a few messages per tick.
     pub(super) fn send_shell(&mut self) {
         let Some((id, (target_system, target_component))) = self.shell.user else { return };
         let Some(link) = self.links.get_mut(&id) else { return };

@@ -1,11 +1,11 @@
-//! Which frames may act when signatures are demanded.
+//! Admission of frames when signing is required.
 
 use super::{Endpoint, LinkKind};
 use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_mavlink::router;
 use spandrel_mavlink::signing::{SignatureVerdict, Signing, SigningKey, is_newer};
 
-/// Verifies what comes in over all links.
+/// Verifies frames received on all links.
 #[derive(Debug, Clone)]
 pub struct SigningPolicy {
     key: SigningKey,
@@ -15,57 +15,57 @@ pub struct SigningPolicy {
     trusted: Vec<LinkKind>,
 }
 
-/// What may be done with a frame.
+/// Permitted handling of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FrameAdmission {
-    /// Everything.
+    /// Execute and forward it.
     Execute,
-    /// It is handed on to others; the vehicle does nothing for it.
+    /// Forward it without executing it.
     ForwardOnly,
-    /// Nothing.
+    /// Drop it.
     Reject,
 }
 
 impl SigningPolicy {
-    /// Demands signatures of this key from now (signing timestamp) on, but for unsigned frames on trusted kinds of links. What is signed
-    /// must be signed well there, too.
+    /// Requires signatures with this key, starting at `stamp` (signing timestamp), except for unsigned frames on trusted kinds of
+    /// links. Signed frames must be valid there, too.
     #[must_use]
     pub fn new(key: SigningKey, stamp: u64, trusted: &[LinkKind]) -> Self {
         Self { signing: Signing::new(key.clone(), 0, stamp), key, stamp, refused: 0, trusted: trusted.to_vec() }
     }
 
-    /// A signer with the same key for one link.
+    /// Creates a signer with the same key for a link.
     #[must_use]
     pub fn signer(&self, link_id: u8) -> Signing {
         Signing::new(self.key.clone(), link_id, self.stamp.max(self.signing.newest()))
     }
 
-    /// What the next start with this key must know.
+    /// Returns the signing state to save for the next start.
     #[must_use]
     pub fn memory(&self) -> String {
         self.signing.save()
     }
 
-    /// Takes up what the last start knew.
+    /// Restores the signing state of the last run.
     ///
     /// # Errors
-    /// The number of the first line that is wrong, from 1.
+    /// Returns the number of the first invalid line, from 1.
     pub fn restore(&mut self, memory: &str) -> Result<(), usize> {
         self.signing.restore(memory)
     }
 
-    /// The signing timestamp of now.
+    /// Sets the current signing timestamp.
     pub fn set_time(&mut self, stamp: u64) {
         self.stamp = stamp;
     }
 
-    /// Frames that were let do nothing.
+    /// Returns the number of rejected frames.
     #[must_use]
     pub fn rejected(&self) -> u64 {
         self.refused
     }
 
-    /// Judges a frame. A sidecar that knows no key may still speak to everybody; it commands nobody.
+    /// Decides on a frame. A payload process without a key may broadcast but not send commands.
     pub fn admit(&mut self, frame: &ReceivedFrame, kind: LinkKind) -> FrameAdmission {
         let verdict = self.signing.verify(frame, self.stamp);
         if is_newer(frame, verdict) || (verdict == SignatureVerdict::Unsigned && self.trusted.contains(&kind)) {
@@ -80,8 +80,8 @@ impl SigningPolicy {
 }
 
 impl Endpoint {
-    /// Signs everything and lets nothing act that is not signed with this key, but for unsigned frames on kinds of links that are
-    /// trusted; `stamp` is the signing timestamp of now.
+    /// Signs all outgoing frames and requires signatures with this key, except for unsigned frames on trusted kinds of links.
+    /// `stamp` is the current signing timestamp.
     pub fn demand_signatures(&mut self, key: SigningKey, stamp: u64, trusted: &[LinkKind]) {
         self.guard = Some(SigningPolicy::new(key, stamp, trusted));
         self.sign_links();
@@ -94,23 +94,23 @@ impl Endpoint {
         }
     }
 
-    /// What the next start with the same key must know; `None` without one.
+    /// Returns the signing state to save for the next start; `None` if signing is off.
     #[must_use]
     pub fn signing_memory(&self) -> Option<String> {
         self.guard.as_ref().map(SigningPolicy::memory)
     }
 
-    /// Takes up what the last start knew.
+    /// Restores the signing state of the last run.
     ///
     /// # Errors
-    /// The number of the first line that is wrong, from 1.
+    /// Returns the number of the first invalid line, from 1.
     pub fn restore_signing(&mut self, memory: &str) -> Result<(), usize> {
         let done = self.guard.as_mut().map_or(Ok(()), |guard| guard.restore(memory));
         self.sign_links();
         done
     }
 
-    /// The signing timestamp of now.
+    /// Sets the current signing timestamp.
     pub fn set_signing_time(&mut self, stamp: u64) {
         if let Some(guard) = &mut self.guard {
             guard.set_time(stamp);
@@ -118,7 +118,7 @@ impl Endpoint {
         }
     }
 
-    /// Frames that did nothing because they bore no good signature.
+    /// Returns the number of frames rejected because of a missing or invalid signature.
     #[must_use]
     pub fn rejected_frames(&self) -> u64 {
         self.guard.as_ref().map_or(0, SigningPolicy::rejected)

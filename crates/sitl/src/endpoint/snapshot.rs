@@ -1,4 +1,4 @@
-//! What the endpoint may look at when it speaks: one instant of the vehicle.
+//! A read-only snapshot of the vehicle at one instant, from which messages are built.
 
 use super::LinkKind;
 use super::camera::CaptureMode;
@@ -15,80 +15,80 @@ use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 
-/// Truth and estimate, set-points and counters at one instant.
+/// Ground truth, estimate, setpoints and counters at one instant.
 #[derive(Debug, Clone, Copy)]
 pub struct VehicleSnapshot<'a> {
     /// Simulation time.
     pub now: SimTime,
-    /// When the autopilot's software started, simulation time.
+    /// Simulation time at which the autopilot booted.
     pub autopilot_booted: SimTime,
-    /// UTC at simulation start, seconds since the Unix epoch.
+    /// UTC at simulation start, s since the Unix epoch.
     pub start_unix_s: i64,
     /// The aircraft.
     pub vehicle: &'a Vehicle,
-    /// Local plane.
+    /// Local tangent plane.
     pub plane: &'a LocalPlane,
-    /// What the autopilot believes.
+    /// State estimate.
     pub estimate: &'a Estimate,
-    /// What the autopilot says.
+    /// Status of the autopilot.
     pub status: &'a AutopilotStatus,
-    /// The last of each reading.
+    /// Latest sensor readings.
     pub readings: &'a Readings,
-    /// The truth.
+    /// True state.
     pub truth: &'a RigidState,
     /// Specific force, m/s², body axes.
     pub specific_force_m_s2: Vec3<Frd>,
-    /// Battery.
+    /// Battery state.
     pub battery: &'a battery::BatteryState,
     /// Motor commands.
     pub actuators: &'a Actuators,
     /// Wind at the aircraft, m/s.
     pub wind_m_s: Vec3<Ned>,
-    /// Counters and truths for the scoring.
+    /// Counters and ground truth for scoring.
     pub scoring: &'a ScoringTruth,
-    /// Sticks as received, when they are fresh.
+    /// Stick positions as received; `None` after the timeout.
     pub sticks: Option<Sticks>,
-    /// The same as channels 1 to 4 of a transmitter, microseconds.
+    /// The same as transmitter channels 1 to 4, microseconds.
     pub pulses_us: Option<[u16; 4]>,
     /// Channels 5 to 16, microseconds.
     pub aux_us: [u16; super::manual::AUX],
-    /// What stands behind the link that is spoken to.
+    /// Kind of link that the message is built for.
     pub link_kind: LinkKind,
-    /// Gimbal.
+    /// Gimbal state.
     pub gimbal: GimbalState,
-    /// Lamp.
+    /// Lamp state.
     pub lamp: LampState,
-    /// Camera.
+    /// Camera state.
     pub camera: CameraSummary,
-    /// Plans.
+    /// Plan summary.
     pub plans: PlanSummary,
-    /// Whose interface is spoken.
+    /// Autopilot flavour.
     pub flavour: &'static Flavour,
-    /// The flavour's number of the mode that was asked for last.
+    /// The flavour's number of the last requested mode.
     pub requested_mode: u32,
-    /// The geofence is switched on.
+    /// Whether the geofence is enabled.
     pub fence_enabled: bool,
-    /// MAVLink system id.
+    /// MAVLink system ID.
     pub system_id: u8,
-    /// The flight of now, or the last.
+    /// Times of the current or last flight.
     pub flight: FlightTimes,
 }
 
-/// When a flight began and ended, simulation time.
+/// Start and end of a flight, simulation time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct FlightTimes {
-    /// Which since the start, from 1; 0 before the first.
+    /// Flight number since the start, from 1; 0 before the first flight.
     pub number: u64,
-    /// Motors armed.
+    /// Time of arming.
     pub armed: Option<SimTime>,
-    /// Left the ground.
+    /// Time of takeoff.
     pub took_off: Option<SimTime>,
-    /// Stood on it again.
+    /// Time of landing.
     pub landed: Option<SimTime>,
 }
 
 impl FlightTimes {
-    /// Follows what the autopilot says; `was_armed` is what it said before.
+    /// Updates the times from the autopilot's status; `was_armed` is the previous armed state.
     pub fn update(&mut self, was_armed: bool, status: &AutopilotStatus, now: SimTime) {
         if status.armed && !was_armed {
             *self = Self { number: self.number + 1, armed: Some(now), ..Self::default() };
@@ -103,166 +103,168 @@ impl FlightTimes {
     }
 }
 
-/// The camera's counters.
+/// Summary of the camera's state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CameraSummary {
-    /// It says heartbeats as a component of its own.
+    /// Whether the camera sends heartbeats as a separate component.
     pub announced: bool,
-    /// Pictures in the image log.
+    /// Number of images in the image log.
     pub pictures: usize,
-    /// Seconds between pictures of a running series.
+    /// Interval of a running time-lapse series, s.
     pub interval_s: Option<f64>,
-    /// A series by distance runs.
+    /// Whether a distance-triggered series is running.
     pub series: bool,
-    /// Mode.
+    /// Capture mode.
     pub mode: CaptureMode,
-    /// How long the running recording has run.
+    /// Duration of the running recording.
     pub recording: Option<SimTime>,
-    /// What is on the card, MiB.
+    /// Used storage, MiB.
     pub used_mib: f64,
-    /// Place in the zoom's range, 0 wide to 1 tele.
+    /// Zoom position, 0 wide to 1 tele.
     pub zoom: f64,
-    /// Rate of recordings, Mbit/s.
+    /// Video bit rate, Mbit/s.
     pub video_mbit_s: u32,
-    /// The live picture, while it runs.
+    /// The running video stream.
     pub stream: Option<super::camera::stream::VideoStream>,
 }
 
-/// What is kept of plans.
+/// Summary of the stored plans.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct PlanSummary {
-    /// Items of the mission.
+    /// Number of mission items.
     pub mission_items: u16,
-    /// Ids of mission, fence and rally points, by which stations see whether theirs is the present one; 0 for none.
+    /// IDs of mission, fence and rally points, by which stations detect changes; 0 for an empty plan.
     pub ids: [u32; 3],
-    /// Items of the wire's mission before the first that is flown: home.
+    /// Number of leading items of a transferred mission that are not flown (home).
     pub lead: u16,
 }
 
-/// What the scoring needs beside the motion (docs/src/reference/wire.md, "Scoring data").
+/// Scoring data besides the motion (docs/src/reference/wire.md, "Scoring data").
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ScoringTruth {
-    /// What is touched.
+    /// Kind of contact.
     pub contact: ContactKind,
-    /// Contact onsets so far.
+    /// Number of contacts so far.
     pub hits: i32,
-    /// Times put back.
+    /// Number of respawns.
     pub respawns: i32,
-    /// The last two times that traffic was stopped or let go, as the wire says them; 0 for never.
+    /// The last two traffic changes, encoded as on the wire; 0 for never.
     pub traffic: [i32; 2],
     /// The session's seed.
     pub seed: i32,
     /// CRC of the scenario.
     pub scenario_crc: u32,
-    /// Nearest surface to the drone's centre, m.
+    /// Distance to the nearest surface from the drone's center, m.
     pub clearance_m: f64,
     /// Ambient light at the drone, lux.
     pub lux: f64,
 }
 
 impl VehicleSnapshot<'_> {
-    /// The mode as clients see it.
+    /// Returns the mode as shown to clients.
     #[must_use]
     pub fn mode_row(&self) -> &'static ModeRow {
         self.flavour.row_of(self.status.mode, self.requested_mode)
     }
 
-    /// A time on the autopilot's clock, which starts again with the autopilot. A sidecar gets simulation time: its scores have one clock.
+    /// Converts a time to the autopilot's clock, which restarts with the autopilot. Payload processes receive simulation time, so
+    /// that scores use a single clock.
     #[must_use]
     pub fn since_boot(&self, at: SimTime) -> SimTime {
         if self.link_kind == LinkKind::Payload { at } else { at.saturating_sub(self.autopilot_booted) }
     }
 
-    /// Milliseconds since the autopilot's start, modulo 2^32 as MAVLink's field has it.
+    /// Returns the time since the autopilot booted, ms, modulo 2^32 as in MAVLink's field.
     #[must_use]
     pub fn boot_ms(&self) -> u32 {
         self.since_boot(self.now).ms() as u32
     }
 
-    /// Microseconds since the autopilot's start.
+    /// Returns the time since the autopilot booted, microseconds.
     #[must_use]
     pub fn boot_us(&self) -> u64 {
         self.since_boot(self.now).us().max(0).cast_unsigned()
     }
 
-    /// Milliseconds since simulation start, modulo 2^32: the clock of the camera and of the scoring's values, which no restart of the autopilot
-    /// sets back.
+    /// Returns the time since simulation start, ms, modulo 2^32: the clock of the camera and the scoring data, unaffected by
+    /// autopilot reboots.
     #[must_use]
     pub fn sim_ms(&self) -> u32 {
         self.now.ms() as u32
     }
 
-    /// Microseconds since simulation start.
+    /// Returns the time since simulation start, microseconds.
     #[must_use]
     pub fn sim_us(&self) -> u64 {
         self.now.us().max(0).cast_unsigned()
     }
 
-    /// Microseconds since the Unix epoch.
+    /// Returns the time since the Unix epoch, microseconds.
     #[must_use]
     pub fn unix_us(&self) -> u64 {
         (self.start_unix_s * 1_000_000 + self.now.us()).max(0).cast_unsigned()
     }
 
-    /// Estimated geographic position.
+    /// Returns the estimated geographic position.
     #[must_use]
     pub fn geo(&self) -> Geo {
         self.plane.geo_from_enu(self.estimate.position_m.enu())
     }
 
-    /// True geographic position.
+    /// Returns the true geographic position.
     #[must_use]
     pub fn true_geo(&self) -> Geo {
         self.plane.geo_from_enu(self.truth.position_m.enu())
     }
 
-    /// A position of the site frame in MAVLink's local frame, whose origin is where the estimator was initialized.
+    /// Converts a position from the site frame to MAVLink's local frame, which originates where the estimator was initialized.
     #[must_use]
     pub fn local_from_site(&self, site_m: Vec3<Ned>) -> Vec3<LocalNed> {
         // FRAME: both frames have the same axes; only the origins differ.
         Vec3::assume((site_m - self.estimate.local_origin_m).raw())
     }
 
-    /// A position of MAVLink's local frame in the site frame.
+    /// Converts a position from MAVLink's local frame to the site frame.
     #[must_use]
     pub fn site_from_local(&self, local_m: Vec3<LocalNed>) -> Vec3<Ned> {
         // FRAME: as above.
         self.estimate.local_origin_m + Vec3::assume(local_m.raw())
     }
 
-    /// Where MAVLink's local frame has its origin; `None` before the first fixes.
+    /// Returns the origin of MAVLink's local frame; `None` before the first fix.
     #[must_use]
     pub fn local_origin(&self) -> Option<Geo> {
         self.estimate.local_origin_set.then(|| self.plane.geo_from_enu(self.estimate.local_origin_m.enu()))
     }
 
-    /// The same instant with the payload as it is now.
+    /// Returns a copy with the current payload state.
     #[must_use]
     pub fn with_payload(&self, payload: &Payload) -> Self {
         Self { gimbal: payload.gimbal, lamp: payload.lamp, camera: payload.camera.summary(self.now), ..*self }
     }
 
-    /// The same instant for another kind of link.
+    /// Returns a copy for another kind of link.
     #[must_use]
     pub fn for_link(&self, to: LinkKind) -> Self {
         Self { link_kind: to, ..*self }
     }
 
-    /// The camera at its present focal length.
+    /// Returns the camera at its current focal length.
     #[must_use]
     pub fn camera_now(&self) -> Camera {
         let camera = &self.vehicle.camera;
         camera.zoomed(1.0 + self.camera.zoom * (camera.zoom_max - 1.0))
     }
 
-    /// Where the camera looks, body to north-east-down, w first: the gimbal keeps roll level and follows the heading.
+    /// Returns the camera's attitude as a quaternion from body to north-east-down, w first. The gimbal keeps roll level and
+    /// follows the heading.
     #[must_use]
     pub fn camera_attitude(&self) -> [f64; 4] {
         let looking: Rotation<Frd, Ned> = Rotation::from_euler(0.0, self.gimbal.pitch_rad, self.estimate.attitude.yaw_rad());
         looking.wxyz()
     }
 
-    /// Height over home, m.
+    /// Returns the height above home, m.
     #[must_use]
     pub fn over_home_m(&self) -> f64 {
         let home = self.status.home_m.map_or(0.0, |h| h.down());

@@ -1,4 +1,4 @@
-//! Texts to everybody, in the pieces that the wire asks for.
+//! Status texts, split into chunks as the protocol requires.
 
 use super::snapshot::VehicleSnapshot;
 use super::streams::AUTOPILOT;
@@ -6,8 +6,8 @@ use super::{Endpoint, LinkKind, notices};
 use spandrel_mavlink::dialect::{MavMessage, STATUSTEXT_DATA};
 
 impl Endpoint {
-    /// Texts of more than 50 bytes go out in pieces that clients put together by their id. What an event says as well ends with a tab for ground
-    /// stations, as PX4's do.
+    /// Broadcasts the queued texts. Texts above 50 bytes are split into chunks, which clients join by their ID. Like PX4, appends
+    /// a tab for ground stations if an event conveys the whole text.
     pub(super) fn say_texts(&mut self, view: &VehicleSnapshot) {
         for (severity, text) in std::mem::take(&mut self.texts) {
             self.send_notice(&text, view.boot_ms());
@@ -31,7 +31,7 @@ impl Endpoint {
     }
 }
 
-/// Pieces of at most 50 bytes, cut between characters.
+/// Splits a text into chunks of at most 50 bytes, between characters.
 fn pieces(text: &str) -> Vec<String> {
     const LONGEST: usize = 50;
     let mut out = vec![String::new()];
@@ -43,7 +43,7 @@ fn pieces(text: &str) -> Vec<String> {
         let last = out.len() - 1;
         out[last].push(character);
     }
-    // A full piece says that more follows: the last of several must not be full.
+    // A full chunk means that more follows, so the last of several must not be full.
     if out.len() > 1 && out.last().is_some_and(|last| last.len() == LONGEST) {
         out.push(String::new());
     }

@@ -1,44 +1,44 @@
-//! Keeping parameters beyond a run: the shell holds the file, clients ask for it by PREFLIGHT_STORAGE.
+//! Parameter storage across runs: the host owns the file, and clients access it with PREFLIGHT_STORAGE.
 
 use super::CommandContext;
 use super::commands::VehicleCommand;
 use super::params::Params;
 use spandrel_mavlink::dialect::MavResult;
 
-/// What a client wants of the file.
+/// A client's request for the parameter file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StorageRequest {
-    /// Read it again.
+    /// Load the file.
     Load,
-    /// Write it.
+    /// Save the file.
     Save,
 }
 
-/// Who keeps the parameters, and what they were at first.
+/// State of parameter storage, and the default values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ParamStorage {
-    /// The shell has a file.
+    /// Whether the host has a parameter file.
     pub kept: bool,
-    /// What is to be done with it.
+    /// The pending request.
     pub request: Option<StorageRequest>,
     defaults: Params,
 }
 
 impl ParamStorage {
-    /// What they were at first.
+    /// Returns the default values.
     #[must_use]
     pub fn defaults(&self) -> &Params {
         &self.defaults
     }
 
-    /// Nobody keeps them.
+    /// Creates the state without a parameter file.
     #[must_use]
     pub fn new(defaults: Params) -> Self {
         Self { kept: false, request: None, defaults }
     }
 }
 
-/// PREFLIGHT_STORAGE: parameter 1 is 0 to read the file, 1 to write it, 2 for the defaults (MAVLink common).
+/// Handles PREFLIGHT_STORAGE: parameter 1 is 0 to load the file, 1 to save it, 2 to restore the defaults (MAVLink common).
 pub(super) fn preflight(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
     let wish = match c.p[0] {
         0.0 => StorageRequest::Load,
@@ -47,7 +47,7 @@ pub(super) fn preflight(c: &VehicleCommand, x: &mut CommandContext) -> MavResult
             x.params.reset(&x.storage.defaults);
             return MavResult::MAV_RESULT_ACCEPTED;
         }
-        // -1 leaves the parameters alone.
+        // -1 does nothing.
         -1.0 => return MavResult::MAV_RESULT_ACCEPTED,
         _ => return MavResult::MAV_RESULT_DENIED,
     };

@@ -55,7 +55,7 @@ pub enum FileAction {
 }
 
 impl FileAction {
-    /// Returns the cost that is deducted from [`super::allowance::JobAllowance`].
+    /// Returns the cost that is deducted from [`super::job_allowance::JobAllowance`].
     #[must_use]
     pub fn cost(&self) -> u32 {
         if matches!(self, Self::List(_)) { LISTING_COST } else { 1 }

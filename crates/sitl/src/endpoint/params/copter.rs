@@ -1,6 +1,6 @@
-//! The names that clients look for in an ArduCopter (docs/src/reference/wire.md, "Parameters"; QGroundControl's and MAVProxy's
-//! sources), with ArduPilot's units and numbers. Where one of ours is behind a name, it acts; what this vehicle has no use for
-//! tells how it is and cannot be set.
+//! Parameter names that clients expect from ArduCopter (docs/src/reference/wire.md, "Parameters"; QGroundControl's and MAVProxy's
+//! sources), with ArduPilot's units and values. Names that correspond to an internal parameter take effect; the others describe
+//! the vehicle and are read-only.
 
 use super::ParamValue::{self, Int, Real};
 use super::table::{self, ParamSource, ROWS, Row, row};
@@ -13,21 +13,21 @@ pub(super) const INT16: MavParamType = MavParamType::MAV_PARAM_TYPE_INT16;
 pub(super) const INT32: MavParamType = MavParamType::MAV_PARAM_TYPE_INT32;
 pub(super) const REAL32: MavParamType = MavParamType::MAV_PARAM_TYPE_REAL32;
 
-/// Where ArduPilot's patience differs from ours: overrides lapse after 3 s, a ground station after 5 s.
+/// Timeouts that differ from this software's defaults: overrides time out after 3 s, the ground station after 5 s.
 pub const DEFAULTS: &[(&str, ParamValue)] = &[("COM_RC_LOSS_T", Real(3.0)), ("COM_DL_LOSS_T", Int(5))];
 
 const LOSS: &[(i32, &str)] = &[(0, "Disabled"), (1, "Return"), (5, "Land"), (7, "Brake")];
-/// ArduPilot's numbers of what a loss leads to, and ours.
+/// ArduPilot's link loss actions and the internal ones.
 const LOSSES: &[(i32, i32)] = &[(0, 0), (1, 2), (5, 3), (7, 1)];
 const STICK_LOSS: &[(i32, &str)] = &[(1, "Return"), (3, "Land"), (7, "Brake")];
 const STICK_LOSSES: &[(i32, i32)] = &[(1, 2), (3, 3), (7, 1)];
 const FENCE_ACT: &[(i32, &str)] = &[(0, "Report only"), (1, "Return"), (2, "Land"), (4, "Brake")];
-/// A breach that ours terminates, or only warns of, has no number there.
+/// Breach actions. The internal terminate and warn actions have no equivalent here.
 const FENCE_ACTS: &[(i32, i32)] = &[(0, 1), (1, 3), (2, 5), (4, 2)];
 const OFF_ON: &[(i32, &str)] = &[(0, "Disabled"), (1, "Enabled")];
 const ONE: &[(i32, &str)] = &[(1, "As it is")];
 
-/// Rows, in the order of their names.
+/// Returns the rows, sorted by name.
 #[must_use]
 pub fn rows() -> &'static [Row] {
     static ALL: LazyLock<Vec<Row>> = LazyLock::new(|| {
@@ -41,15 +41,15 @@ pub fn rows() -> &'static [Row] {
     &ALL
 }
 
-/// Our own, under our own names.
+/// This software's own parameters, under their own names.
 const OURS: [&str; 4] = ["COM_RC_OVERRIDE", "SPAN_CAMERA", "SPAN_FLAVOUR", "SYS_FAILURE_EN"];
 
 fn px4_name(name: &str) -> &'static Row {
-    // The names below are the table's: a test looks.
+    // All names used below are in the table; a test checks this.
     table::rows().iter().find(|row| row.name == name).unwrap_or(&ROWS[0])
 }
 
-/// A row that shows one of ours times a factor.
+/// Creates a row that shows another parameter multiplied by a factor.
 pub(super) fn scaled(
     name: &'static str,
     other: &'static str,
@@ -66,7 +66,7 @@ pub(super) fn scaled(
     out
 }
 
-/// A row whose numbers stand for other numbers of one of ours.
+/// Creates a row with its own numbering of another parameter's values.
 pub(super) fn mapped(
     name: &'static str,
     other: &'static str,
@@ -82,7 +82,7 @@ pub(super) fn mapped(
     out
 }
 
-/// A row that tells how it is.
+/// Creates a read-only row that describes the vehicle.
 fn outgoing(name: &'static str, value: ParamValue, wire: MavParamType, group: &'static str, short: &'static str) -> Row {
     let number = value.number();
     let mut out = row(name, value, (number.min(0.0), number.max(0.0)), "", group, short).read_only().token();
@@ -90,7 +90,7 @@ fn outgoing(name: &'static str, value: ParamValue, wire: MavParamType, group: &'
     out
 }
 
-/// What acts.
+/// Returns the rows that take effect.
 fn active_rows() -> Vec<Row> {
     let of_capacity = |name, other, short| {
         let mut out = row(name, Real(0.0), (0.0, 0.0), "mAh", "BATT", short);
@@ -103,23 +103,24 @@ fn active_rows() -> Vec<Row> {
         out
     };
     vec![
-        of_capacity("BATT_CRT_MAH", "BAT_CRIT_THR", "Charge left that counts as critical"),
-        of_capacity("BATT_LOW_MAH", "BAT_LOW_THR", "Charge left that counts as low"),
+        of_capacity("BATT_CRT_MAH", "BAT_CRIT_THR", "Critical battery level, remaining charge"),
+        of_capacity("BATT_LOW_MAH", "BAT_LOW_THR", "Low battery level, remaining charge"),
         scaled("DISARM_DELAY", "COM_DISARM_PRFLT", 1.0, REAL32, "s", "ARMING"),
         mapped("FENCE_ACTION", "GF_ACTION", FENCE_ACTS, FENCE_ACT, "FENCE"),
-        enable("FENCE_ENABLE", "FENCE", "The geofence acts"),
+        enable("FENCE_ENABLE", "FENCE", "Enable the geofence"),
         scaled("FENCE_ALT_MAX", "GF_MAX_VER_DIST", 1.0, REAL32, "m", "FENCE"),
         scaled("FENCE_RADIUS", "GF_MAX_HOR_DIST", 1.0, REAL32, "m", "FENCE"),
         mapped("FS_GCS_ENABLE", "NAV_DLL_ACT", LOSSES, LOSS, "FS"),
         scaled("FS_GCS_TIMEOUT", "COM_DL_LOSS_T", 1.0, REAL32, "s", "FS"),
         mapped("FS_THR_ENABLE", "NAV_RCL_ACT", STICK_LOSSES, STICK_LOSS, "FS"),
-        // ArduCopter's other bits (4 to 7) can be set and change nothing: this vehicle flies targets as they are, and never turns into the wind.
-        row("GUID_OPTIONS", Int(0), (0.0, 255.0), "", "GUID", "Options of the mode GUIDED").wire(INT32).bits(&[
-            (0, "Arming from the transmitter is allowed"),
-            (2, "The yaw stick is ignored"),
-            (3, "Thrust of an attitude setpoint is thrust, not a climb rate"),
+        // ArduCopter's other bits (4 to 7) can be set but have no effect: this vehicle flies to targets directly and never turns
+        // into the wind.
+        row("GUID_OPTIONS", Int(0), (0.0, 255.0), "", "GUID", "Options of GUIDED mode").wire(INT32).bits(&[
+            (0, "Allow arming from the transmitter"),
+            (2, "Ignore the yaw stick"),
+            (3, "Interpret attitude setpoint thrust as thrust, not as climb rate"),
         ]),
-        row("GUID_TIMEOUT", Real(3.0), (0.1, 3_600.0), "s", "GUID", "Silence that ends external set-points without a place"),
+        row("GUID_TIMEOUT", Real(3.0), (0.1, 3_600.0), "s", "GUID", "Timeout of setpoints without a position"),
         scaled("LAND_SPEED", "MPC_LAND_SPEED", 100.0, INT16, "cm/s", "LAND"),
         scaled("MAV_SYSID", "MAV_SYS_ID", 1.0, INT16, "", "MAV"),
         scaled("PILOT_TKOFF_ALT", "MIS_TAKEOFF_ALT", 100.0, REAL32, "cm", "PILOT"),
@@ -133,14 +134,14 @@ fn active_rows() -> Vec<Row> {
     ]
 }
 
-/// What tells how it is.
+/// Returns the read-only rows.
 fn fixed() -> Vec<Row> {
-    // Clients take zero for a sensor that was never calibrated; a simulated one has nothing to calibrate.
+    // Clients interpret zero as an uncalibrated sensor; a simulated sensor needs no calibration.
     let nominal = Real(0.001);
-    let offset = |name| outgoing(name, nominal, REAL32, "INS", "Offset of the accelerometer: nominal").unit("m/s^2");
+    let offset = |name| outgoing(name, nominal, REAL32, "INS", "Accelerometer offset (nominal)").unit("m/s^2");
     let none = |name, wire, group| {
         let zero = if wire == REAL32 { Real(0.0) } else { Int(0) };
-        let row = outgoing(name, zero, wire, group, "There is only one");
+        let row = outgoing(name, zero, wire, group, "Not present: the vehicle has only one");
         if wire == REAL32 {
             row.unit("mGauss")
         } else if wire == INT8 {
@@ -149,18 +150,17 @@ fn fixed() -> Vec<Row> {
             row
         }
     };
-    let compass = |name| outgoing(name, nominal, REAL32, "COMPASS", "Offset of the compass: nominal").unit("mGauss");
+    let compass = |name| outgoing(name, nominal, REAL32, "COMPASS", "Compass offset (nominal)").unit("mGauss");
     vec![
-        row("ARMING_CHECK", Int(1), (0.0, 1_048_575.0), "", "ARMING", "Checks before arming; all are made")
+        row("ARMING_CHECK", Int(1), (0.0, 1_048_575.0), "", "ARMING", "Arming checks; all are performed")
             .bits(&[(0, "All")])
             .token(),
-        outgoing("ARMING_REQUIRE", Int(1), INT8, "ARMING", "Motors must be armed").values(ONE),
-        row("BATT_CAPACITY", Int(0), (0.0, 1e6), "mAh", "BATT", "Capacity of the battery").read_only(),
-        outgoing("BATT_MONITOR", Int(4), INT8, "BATT", "Battery is measured by voltage and current")
-            .values(&[(4, "Voltage and current")]),
-        outgoing("COMPASS_DEV_ID", Int(97_539), INT32, "COMPASS", "Number of the compass"),
-        outgoing("COMPASS_ENABLE", Int(1), INT8, "COMPASS", "There is a compass").values(ONE),
-        outgoing("COMPASS_EXTERNAL", Int(0), INT8, "COMPASS", "The compass is on the board"),
+        outgoing("ARMING_REQUIRE", Int(1), INT8, "ARMING", "Require arming").values(ONE),
+        row("BATT_CAPACITY", Int(0), (0.0, 1e6), "mAh", "BATT", "Battery capacity").read_only(),
+        outgoing("BATT_MONITOR", Int(4), INT8, "BATT", "Battery monitor type").values(&[(4, "Voltage and current")]),
+        outgoing("COMPASS_DEV_ID", Int(97_539), INT32, "COMPASS", "Compass ID"),
+        outgoing("COMPASS_ENABLE", Int(1), INT8, "COMPASS", "Enable the compass").values(ONE),
+        outgoing("COMPASS_EXTERNAL", Int(0), INT8, "COMPASS", "External compass"),
         none("COMPASS_DEV_ID2", INT32, "COMPASS"),
         none("COMPASS_DEV_ID3", INT32, "COMPASS"),
         none("COMPASS_OFS2_X", REAL32, "COMPASS"),
@@ -176,16 +176,16 @@ fn fixed() -> Vec<Row> {
         compass("COMPASS_OFS_X"),
         compass("COMPASS_OFS_Y"),
         compass("COMPASS_OFS_Z"),
-        outgoing("COMPASS_PRIO1_ID", Int(97_539), INT32, "COMPASS", "Number of the first compass"),
-        outgoing("COMPASS_USE", Int(1), INT8, "COMPASS", "The compass is used").values(ONE),
-        outgoing("FORMAT_VERSION", Int(120), INT16, "FORMAT", "Layout of the parameters"),
-        outgoing("FRAME_CLASS", Int(1), INT8, "FRAME", "Kind of frame").values(&[(1, "Quad")]),
-        outgoing("FRAME_TYPE", Int(1), INT8, "FRAME", "Shape of the frame").values(&[(1, "X")]),
+        outgoing("COMPASS_PRIO1_ID", Int(97_539), INT32, "COMPASS", "ID of the primary compass"),
+        outgoing("COMPASS_USE", Int(1), INT8, "COMPASS", "Use the compass").values(ONE),
+        outgoing("FORMAT_VERSION", Int(120), INT16, "FORMAT", "Parameter format version"),
+        outgoing("FRAME_CLASS", Int(1), INT8, "FRAME", "Frame class").values(&[(1, "Quad")]),
+        outgoing("FRAME_TYPE", Int(1), INT8, "FRAME", "Frame type").values(&[(1, "X")]),
         offset("INS_ACCOFFS_X"),
         offset("INS_ACCOFFS_Y"),
         offset("INS_ACCOFFS_Z"),
-        outgoing("INS_USE", Int(1), INT8, "INS", "The inertial sensor is used").values(ONE),
-        outgoing("RELAY1_FUNCTION", Int(1), INT8, "RELAY", "The first relay is the lamp").values(&[(1, "Relay")]),
+        outgoing("INS_USE", Int(1), INT8, "INS", "Use the inertial sensor").values(ONE),
+        outgoing("RELAY1_FUNCTION", Int(1), INT8, "RELAY", "Function of relay 1, the lamp").values(&[(1, "Relay")]),
     ]
 }
 
@@ -207,7 +207,7 @@ const SWITCHED: &[(i32, &str)] = &[
     (27, "Auto RTL"),
 ];
 
-/// Channels that can switch modes: those after the four of the sticks.
+/// Channels that can switch modes: those after the four stick channels.
 const SWITCH_CHANNELS: [(i32, &str); 13] = {
     const STICKS: usize = 4;
     let mut out = [(0, "Disabled"); 13];
@@ -219,20 +219,20 @@ const SWITCH_CHANNELS: [(i32, &str); 13] = {
     out
 };
 
-/// The mode switch of RC_CHANNELS_OVERRIDE.
+/// Returns the mode switch parameters for RC_CHANNELS_OVERRIDE.
 fn mode_switch() -> Vec<Row> {
     let small = |mut row: Row| {
         row.wire = INT8;
         row
     };
-    let position = |name| small(row(name, Int(5), (0.0, 27.0), "", "FLTMODE", "Mode of this switch position").values(SWITCHED));
-    let channel = row("FLTMODE_CH", Int(5), (0.0, 16.0), "", "FLTMODE", "Channel that switches modes").values(&SWITCH_CHANNELS);
+    let position = |name| small(row(name, Int(5), (0.0, 27.0), "", "FLTMODE", "Mode at this switch position").values(SWITCHED));
+    let channel = row("FLTMODE_CH", Int(5), (0.0, 16.0), "", "FLTMODE", "Mode switch channel").values(&SWITCH_CHANNELS);
     let mut out = vec![small(channel)];
     out.extend(["FLTMODE1", "FLTMODE2", "FLTMODE3", "FLTMODE4", "FLTMODE5", "FLTMODE6"].map(position));
     out
 }
 
-/// Modes CIRCLE and FOLLOW, with ArduCopter's defaults.
+/// Returns the parameters of CIRCLE and FOLLOW modes, with ArduCopter's defaults.
 fn circling_and_following() -> Vec<Row> {
     let whole = |name, default, high, wire, short| {
         let mut out = row(name, Int(default), (0.0, high), "", "FOLL", short);
@@ -241,20 +241,20 @@ fn circling_and_following() -> Vec<Row> {
     };
     let offset = |name, short| row(name, Real(0.0), (-100.0, 100.0), "m", "FOLL", short);
     vec![
-        row("CIRCLE_RADIUS", Real(1_000.0), (0.0, 200_000.0), "cm", "CIRCLE", "Radius of the circle in mode Circle"),
-        row("CIRCLE_RATE", Real(20.0), (-90.0, 90.0), "deg/s", "CIRCLE", "Rate around the circle; positive: clockwise"),
-        whole("FOLL_ENABLE", 0, 1.0, INT8, "Mode Follow may be entered").values(OFF_ON),
-        whole("FOLL_SYSID", 0, 255.0, INT16, "System id of the target; 0: the first that reports its position"),
-        row("FOLL_DIST_MAX", Real(100.0), (1.0, 1_000.0), "m", "FOLL", "Targets farther away are not followed"),
-        whole("FOLL_OFS_TYPE", 0, 1.0, INT8, "Axes of the offset")
+        row("CIRCLE_RADIUS", Real(1_000.0), (0.0, 200_000.0), "cm", "CIRCLE", "Circle radius"),
+        row("CIRCLE_RATE", Real(20.0), (-90.0, 90.0), "deg/s", "CIRCLE", "Angular rate around the circle; positive: clockwise"),
+        whole("FOLL_ENABLE", 0, 1.0, INT8, "Enable FOLLOW mode").values(OFF_ON),
+        whole("FOLL_SYSID", 0, 255.0, INT16, "System ID of the target; 0: the first that reports a position"),
+        row("FOLL_DIST_MAX", Real(100.0), (1.0, 1_000.0), "m", "FOLL", "Maximum distance to the target"),
+        whole("FOLL_OFS_TYPE", 0, 1.0, INT8, "Offset frame")
             .values(&[(0, "North-East-Down"), (1, "Relative to lead vehicle heading")]),
-        offset("FOLL_OFS_X", "Offset to the north or forward; all zero: the offset at the start"),
-        offset("FOLL_OFS_Y", "Offset to the east or right"),
+        offset("FOLL_OFS_X", "Offset north or forward; all zero: the offset when the mode starts"),
+        offset("FOLL_OFS_Y", "Offset east or right"),
         offset("FOLL_OFS_Z", "Offset down"),
     ]
 }
 
-/// How RC_CHANNELS_OVERRIDE is read.
+/// Returns the parameters for RC_CHANNELS_OVERRIDE.
 fn radio() -> Vec<Row> {
     const CHANNELS: [[&str; 4]; 4] = [
         ["RC1_MIN", "RC1_MAX", "RC1_TRIM", "RC1_REVERSED"],
@@ -262,13 +262,13 @@ fn radio() -> Vec<Row> {
         ["RC3_MIN", "RC3_MAX", "RC3_TRIM", "RC3_REVERSED"],
         ["RC4_MIN", "RC4_MAX", "RC4_TRIM", "RC4_REVERSED"],
     ];
-    let map = |name, channel| outgoing(name, Int(channel), INT8, "RCMAP", "Channel of this stick");
+    let map = |name, channel| outgoing(name, Int(channel), INT8, "RCMAP", "Channel of this axis");
     let mut out = vec![map("RCMAP_PITCH", 2), map("RCMAP_ROLL", 1), map("RCMAP_THROTTLE", 3), map("RCMAP_YAW", 4)];
     for [low, high, middle, reversed] in CHANNELS {
-        out.push(outgoing(low, Int(1_000), INT16, "RC", "Pulse at the lower end").unit("us"));
-        out.push(outgoing(high, Int(2_000), INT16, "RC", "Pulse at the upper end").unit("us"));
-        out.push(outgoing(middle, Int(1_500), INT16, "RC", "Pulse in the middle").unit("us"));
-        out.push(outgoing(reversed, Int(0), INT8, "RC", "The channel is not reversed").values(&[(0, "Normal"), (1, "Reversed")]));
+        out.push(outgoing(low, Int(1_000), INT16, "RC", "Minimum pulse width").unit("us"));
+        out.push(outgoing(high, Int(2_000), INT16, "RC", "Maximum pulse width").unit("us"));
+        out.push(outgoing(middle, Int(1_500), INT16, "RC", "Center pulse width").unit("us"));
+        out.push(outgoing(reversed, Int(0), INT8, "RC", "Channel direction").values(&[(0, "Normal"), (1, "Reversed")]));
     }
     out
 }

@@ -1,14 +1,14 @@
-//! How a target is followed, by the parameters of the flavour.
+//! Converts the flavour's parameters to the rule for following a target.
 
 use super::Params;
 use crate::autopilot::follow::{FollowPosition, FollowRule};
 
-/// Height mode of FLW_TGT_ALT_M that counts from the target.
+/// FLW_TGT_ALT_M value: height above the target.
 const OVER_TARGET: i32 = 2;
-/// FOLL_OFS_TYPE that turns with the target.
+/// FOLL_OFS_TYPE value: offset relative to the target's course.
 const ALONG_COURSE: i32 = 1;
 
-/// From FOLL_* where the flavour has them, otherwise from FLW_TGT_*.
+/// Uses FOLL_* if the flavour has them, otherwise FLW_TGT_*.
 pub(super) fn rule(p: &Params) -> FollowRule {
     let fastest_m_s = p.number("MPC_XY_VEL_MAX");
     let Some(enable) = p.whole("FOLL_ENABLE") else {

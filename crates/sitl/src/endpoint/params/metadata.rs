@@ -1,5 +1,5 @@
-//! What a ground station shows beside names and values: the files of MAVLink's component metadata service
-//! (<https://mavlink.io/en/services/component_information.html>), made from the table and served over MAVLink FTP.
+//! Metadata shown by ground stations: the files of MAVLink's component metadata service
+//! (<https://mavlink.io/en/services/component_information.html>), generated from the parameter table and served over MAVLink FTP.
 
 use super::ParamValue;
 use super::copter_behavior::depends_on_aircraft;
@@ -11,49 +11,49 @@ use spandrel_mavlink::ftp::checksum;
 use std::io::Cursor;
 use std::sync::{Arc, LazyLock};
 
-/// COMP_METADATA_TYPE_GENERAL and COMP_METADATA_TYPE_PARAMETER.
+/// COMP_METADATA_TYPE_PARAMETER.
 const PARAMETER: u8 = 1;
 /// COMP_METADATA_TYPE_EVENTS.
 const EVENTS: u8 = 4;
-/// Where the files lie on our own file server.
+/// Paths of the files on the vehicle's file server.
 const PARAMETER_PATH: &str = "/etc/extras/parameter.json.xz";
 const EVENTS_PATH: &str = "/etc/extras/all_events.json.xz";
 const GENERAL_PATH: &str = "/etc/extras/general.json.xz";
 
-/// A file, where it lies, and its checksum (CRC-32 as MAVLink FTP counts it).
+/// A metadata file with its path and its checksum (CRC-32 as defined by MAVLink FTP).
 #[derive(Debug, Clone)]
 pub struct MetadataFile {
     /// Path on the file server.
     pub path: &'static str,
-    /// What clients ask for.
+    /// URI sent to clients.
     pub uri: String,
     /// Checksum of the bytes.
     pub crc: u32,
-    /// Content, compressed.
+    /// Compressed content.
     pub bytes: Arc<[u8]>,
 }
 
 impl MetadataFile {
     fn new(path: &'static str, json: &Json) -> Self {
         let mut bytes = Vec::new();
-        // Writing to memory does not fail; an empty file would show in its checksum and in every client.
+        // Writing to memory cannot fail; an empty file would be noticed by its checksum and by every client.
         let _ = lzma_rs::xz_compress(&mut Cursor::new(json.to_string()), &mut bytes);
         Self { path, uri: format!("mftp://{path}"), crc: checksum(0, &bytes), bytes: bytes.into() }
     }
 }
 
-/// Both files of one flavour's parameters.
+/// Metadata files of a flavour.
 #[derive(Debug)]
 pub struct MetadataFiles {
-    /// The file that leads to all others.
+    /// The general metadata file, which lists the others.
     pub general: MetadataFile,
-    /// The file about the parameters.
+    /// The parameter metadata file.
     pub parameter: MetadataFile,
-    /// The file about the events, where they are sent.
+    /// The events metadata file, if the flavour sends events.
     pub events: Option<MetadataFile>,
 }
 
-/// The files about the parameters as a flavour shows them.
+/// Returns the metadata files of a flavour.
 #[must_use]
 pub fn files(face: &ParamView) -> &'static MetadataFiles {
     static COMMON: LazyLock<MetadataFiles> = LazyLock::new(|| make(&PX4));
@@ -71,7 +71,7 @@ fn make(face: &ParamView) -> MetadataFiles {
     MetadataFiles { general, parameter, events }
 }
 
-/// The long text says whether setting the parameter changes anything.
+/// Returns the long description, which states whether setting the parameter has an effect.
 fn long(row: &Row) -> String {
     if row.token && row.read_only {
         format!("{}. It describes this vehicle and cannot be changed.", row.short)
@@ -96,7 +96,7 @@ fn describe(row: &Row) -> Json {
         "min": number(row.low),
         "max": number(row.high),
     });
-    // What the schema has as its default is left out: the file travels over slow links.
+    // Values equal to the schema's defaults are omitted because the file is sent over slow links.
     if !row.unit.is_empty() {
         out["units"] = json!(row.unit);
     }
@@ -110,7 +110,7 @@ fn describe(row: &Row) -> Json {
         out.as_object_mut().map(|fields| fields.remove("default"));
     }
     if matches!(row.source, ParamSource::Capacity(_)) {
-        // They depend on the aircraft's battery.
+        // Depends on the aircraft's battery.
         for key in ["min", "max"] {
             out.as_object_mut().map(|fields| fields.remove(key));
         }
@@ -147,7 +147,7 @@ mod tests {
         let described = unpacked(parameter);
         let names: Vec<&str> = described["parameters"].as_array().unwrap().iter().filter_map(|p| p["name"].as_str()).collect();
         assert_eq!(names, table::rows().iter().map(|row| row.name).collect::<Vec<_>>());
-        // MAVLink's schema for parameter.json asks for these, and types of these names.
+        // MAVLink's schema for parameter.json requires these fields and type names.
         for one in described["parameters"].as_array().unwrap() {
             assert!(["Int32", "Float"].contains(&one["type"].as_str().unwrap()));
         }

@@ -1,5 +1,5 @@
-//! Parameters: the names that ground stations look for, our own group, ranges, and how each flavour shows them. The values are kept under
-//! one set of names; another flavour's names show them in its own units.
+//! Parameters: names that ground stations expect, this software's own group, ranges, and each flavour's view. Values are stored
+//! under one set of names; the names of other flavours convert them to their own units.
 
 mod behavior;
 mod copter;
@@ -22,7 +22,7 @@ use spandrel_model::time::SimTime;
 use std::collections::BTreeMap;
 use table::{ParamSource, Row};
 
-/// A value with its type.
+/// A parameter value with its type.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ParamValue {
     /// INT32.
@@ -32,7 +32,7 @@ pub enum ParamValue {
 }
 
 impl ParamValue {
-    /// Byte-wise into the wire's float field.
+    /// Returns the value bytewise encoded in the float field of the message.
     #[must_use]
     pub fn to_wire(self) -> f32 {
         match self {
@@ -41,13 +41,13 @@ impl ParamValue {
         }
     }
 
-    /// Cast into the wire's float field, as C does.
+    /// Returns the value converted to float, as a C cast does.
     #[must_use]
     pub fn cast(self) -> f32 {
         self.number() as f32
     }
 
-    /// A number as this one's kind.
+    /// Returns a number as a value of the same type.
     fn is_unchanged(self, number: f64) -> Self {
         match self {
             Self::Int(_) => Self::Int(number.round() as i32),
@@ -63,24 +63,24 @@ impl ParamValue {
     }
 }
 
-/// PX4's name for the checksum over all parameters.
+/// PX4's name of the checksum of all parameters.
 pub const HASH: &str = "_HASH_CHECK";
-/// The parameter that switches the geofence, where a flavour has one.
+/// Name of the parameter that enables the geofence, for flavours that have one.
 pub const FENCE_SWITCH: &str = "FENCE_ENABLE";
-/// Why a parameter was not set.
+/// Reason why a parameter was not set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ParamRefusal {
-    /// No such name.
+    /// Unknown name.
     Unknown,
-    /// Outside its range, or not a number.
+    /// Out of range or NaN.
     OutOfRange,
-    /// Another type than the parameter's.
+    /// Type mismatch.
     Type,
-    /// Cannot be changed.
+    /// Read-only.
     ReadOnly,
 }
 
-/// When the battery counts as low and as critical; the job's rules say so until an operator does.
+/// Battery thresholds; the job's rules apply until an operator changes them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BatteryThresholds {
     /// Low, %.
@@ -89,23 +89,23 @@ pub struct BatteryThresholds {
     pub critical_pct: f64,
 }
 
-/// What of the aircraft the parameters show.
+/// Properties of the aircraft that the parameters show.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AircraftValues {
-    /// Cells in series.
+    /// Number of cells in series.
     pub cells: u32,
     /// Capacity, mAh.
     pub capacity_mah: f64,
-    /// When it counts as low.
+    /// Battery thresholds.
     pub thresholds: BatteryThresholds,
-    /// The job brings the vehicle back when the battery is low.
+    /// Whether the job's rules return the vehicle when the battery is low.
     pub returns_when_low: bool,
-    /// The limits of the airframe.
+    /// Limits of the airframe.
     pub frame: FlightEnvelope,
 }
 
 impl AircraftValues {
-    /// A small aircraft, for tests of parameters that do not depend on the aircraft.
+    /// A small aircraft for tests that do not depend on the aircraft.
     pub const SMALL: Self = Self {
         cells: 3,
         capacity_mah: 5_200.0,
@@ -124,56 +124,56 @@ impl AircraftValues {
     };
 }
 
-/// A parameter as it goes out.
+/// A parameter as sent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutgoingParam {
-    /// Name.
+    /// Parameter name.
     pub name: &'static str,
-    /// The wire's float field.
+    /// Value of the float field.
     pub wire: f32,
-    /// Its type.
+    /// Type of the parameter.
     pub kind: MavParamType,
 }
 
-/// What an instructor can make of the world by parameters.
+/// Environment settings that an instructor can change by parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InstructorSettings {
-    /// Mean wind at 20 ft, m/s, and where it comes from, degrees; `None`: the scenario's.
+    /// Mean wind at 20 ft, m/s, and its direction of origin, degrees; `None`: the scenario's.
     pub wind: Option<(f64, f64)>,
-    /// Share of datagrams that is lost, each way.
+    /// Fraction of datagrams lost, each way.
     pub loss: f64,
-    /// How late the others are, each way.
+    /// Delay of the other datagrams, each way.
     pub delay: SimTime,
-    /// The bridges are open to traffic.
+    /// Whether the bridges are open to traffic.
     pub open: bool,
 }
 
-/// What happens when a second sender moves sticks while the first is there.
+/// Policy when a second sender moves the sticks while another has control.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StickPolicy {
-    /// Who has the sticks keeps them until he falls silent or lets go.
+    /// The sender in control keeps it until it times out or releases the sticks.
     FirstKeeps,
-    /// Who moves a stick off its middle takes them.
+    /// A sender that deflects a stick takes control.
     LatestTakes,
 }
 
-/// The parameter table: present values by name.
+/// The parameter table: current values by name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Params {
     values: BTreeMap<&'static str, ParamValue>,
     changes: u64,
     face: &'static ParamView,
     capacity_mah: f64,
-    /// Defaults that follow from the airframe.
+    /// Defaults that depend on the airframe.
     frame: BTreeMap<&'static str, ParamValue>,
 }
 
 impl Params {
-    /// Defaults for a vehicle, as one flavour shows them.
+    /// Creates the defaults for a vehicle and a flavour.
     #[must_use]
     pub fn new(system_id: u8, pack: AircraftValues, face: &'static ParamView) -> Self {
         let own = face.rows().iter().filter(|row| row.source == ParamSource::Own);
-        // Names that two flavors share may differ in type and default: the flavor's own row counts.
+        // Names shared by two flavours may differ in type and default: the flavour's own row applies.
         let mut values: BTreeMap<&'static str, ParamValue> =
             table::rows().iter().chain(own).map(|row| (row.name, row.default)).collect();
         values.extend(face.defaults.iter().copied());
@@ -197,7 +197,7 @@ impl Params {
         Self { values, changes: 0, face, capacity_mah: pack.capacity_mah, frame }
     }
 
-    /// Back to the defaults of the vehicle.
+    /// Restores the vehicle's defaults.
     pub fn reset(&mut self, defaults: &Self) {
         if self.values != defaults.values {
             self.values.clone_from(&defaults.values);
@@ -205,34 +205,34 @@ impl Params {
         }
     }
 
-    /// Changes so far.
+    /// Returns the number of changes so far.
     #[must_use]
     pub fn changes(&self) -> u64 {
         self.changes
     }
 
-    /// How clients see them.
+    /// Returns the flavour's view of the parameters.
     #[must_use]
     pub fn param_view(&self) -> &'static ParamView {
         self.face
     }
 
-    /// Allowed range of a parameter.
+    /// Returns the allowed range of a parameter.
     #[must_use]
     pub fn range(&self, name: &str) -> Option<(f64, f64)> {
         self.row(name).map(|(_, row)| self.span(row))
     }
 
-    /// How many clients see.
+    /// Returns the number of parameters shown to clients.
     #[must_use]
     pub fn count(&self) -> usize {
         self.face.rows().len()
     }
 
-    /// PX4's checksum: CRC-32 without pre- and post-inversion over name and value of each, in the order of their names.
+    /// Returns PX4's checksum: CRC-32 without pre- and post-inversion over the name and value of each parameter, sorted by name.
     #[must_use]
     pub fn hash(&self) -> u32 {
-        // The crate inverts the register at both ends: inverting around it leaves the plain polynomial.
+        // The crate inverts the register at both ends; inverting before and after yields the plain polynomial.
         let mut crc = crc32fast::Hasher::new_with_initial(u32::MAX);
         for row in self.face.rows().iter().filter(|row| !row.volatile) {
             crc.update(row.name.as_bytes());
@@ -241,19 +241,19 @@ impl Params {
         !crc.finalize()
     }
 
-    /// By place in the list.
+    /// Returns the name and value at a list index.
     #[must_use]
     pub fn at(&self, index: usize) -> Option<(&'static str, ParamValue)> {
         self.face.rows().get(index).map(|row| (row.name, self.shown(row)))
     }
 
-    /// By name, with its place.
+    /// Returns the list index, name and value of a parameter.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<(usize, &'static str, ParamValue)> {
         self.row(name).map(|(index, row)| (index, row.name, self.shown(row)))
     }
 
-    /// By place in the list, as it goes out.
+    /// Returns the parameter at a list index as sent.
     #[must_use]
     pub fn outgoing(&self, index: usize) -> Option<OutgoingParam> {
         let row = self.face.rows().get(index)?;
@@ -267,7 +267,7 @@ impl Params {
         Some((index, &rows[index]))
     }
 
-    /// The factor by which a row shows what is behind it, and whose value that is.
+    /// Returns the parameter that a row is derived from, and the factor.
     fn source_value(&self, row: &Row) -> Option<(&'static str, f64)> {
         match row.source {
             ParamSource::Own | ParamSource::Mapped(..) => None,
@@ -294,16 +294,17 @@ impl Params {
         pairs.iter().find(|(_, theirs)| Some(*theirs) == other).map_or(row.default, |(own, _)| Int(*own))
     }
 
-    /// Sets a value from the wire: byte-wise, where the bits are an integer for integer parameters, or cast, where the type does not count.
+    /// Sets a value from the wire: bytewise, where integer parameters require an integer type, or cast, where the type is
+    /// ignored.
     ///
     /// # Errors
-    /// [`ParamRefusal`], and nothing is changed.
+    /// Returns a [`ParamRefusal`] and changes nothing.
     pub fn set(&mut self, name: &str, wire: f32, kind: MavParamType) -> Result<(), ParamRefusal> {
         let (_, row) = self.row(name).ok_or(ParamRefusal::Unknown)?;
         let real = kind == MavParamType::MAV_PARAM_TYPE_REAL32;
         let value = match row.default {
             Int(_) if self.face.cast && wire.is_nan() => return Err(ParamRefusal::OutOfRange),
-            // ArduPilot cuts off what lies behind the point.
+            // ArduPilot truncates the fraction.
             Int(_) if self.face.cast => Int(wire as i32),
             Int(_) if !real => Int(wire.to_bits().cast_signed()),
             Real(_) if real || self.face.cast => Real(wire),
@@ -312,10 +313,10 @@ impl Params {
         self.put(row, value)
     }
 
-    /// Sets a value by the name that clients know.
+    /// Sets a value by the flavour's name.
     ///
     /// # Errors
-    /// [`ParamRefusal`], and nothing is changed.
+    /// Returns a [`ParamRefusal`] and changes nothing.
     pub fn set_value(&mut self, name: &str, value: ParamValue) -> Result<(), ParamRefusal> {
         let (_, row) = self.row(name).ok_or(ParamRefusal::Unknown)?;
         match (row.default, value) {
@@ -329,7 +330,7 @@ impl Params {
             return Err(ParamRefusal::ReadOnly);
         }
         let (number, (low, high)) = (value.number(), self.span(row));
-        // The last place of the wire's numbers, so that a bound that is shown can be set.
+        // Tolerance of one unit in the last place of the wire format, so that a displayed limit can be set.
         let whole = row.source == ParamSource::Own && matches!(value, Int(_));
         let slack = if whole { 0.0 } else { f64::from(f32::EPSILON) * high.abs().max(low.abs()) };
         if number.is_nan() || number < low - slack || number > high + slack {
@@ -353,31 +354,31 @@ impl Params {
         Ok(())
     }
 
-    /// The value of a whole-number parameter.
+    /// Returns the value of an integer parameter.
     #[must_use]
     pub fn whole(&self, name: &str) -> Option<i32> {
         self.values.get(name).and_then(|value| if let Int(whole) = value { Some(*whole) } else { None })
     }
 
-    /// Who of several senders has the sticks.
+    /// Returns the arbitration policy for several stick senders.
     #[must_use]
     pub fn stick_policy(&self) -> StickPolicy {
         if self.whole("SPAN_STICKS") == Some(1) { StickPolicy::LatestTakes } else { StickPolicy::FirstKeeps }
     }
 
-    /// Whether the camera's component says heartbeats.
+    /// Checks whether the camera component sends heartbeats.
     #[must_use]
     pub fn camera_announced(&self) -> bool {
         self.whole("SPAN_CAMERA") != Some(0)
     }
 
-    /// Speed of missions, returns and go-to, m/s.
+    /// Returns the speed of missions, returns and go-to commands, m/s.
     #[must_use]
     pub fn cruise_m_s(&self) -> f64 {
         self.number("MPC_XY_CRUISE")
     }
 
-    /// What an instructor has made of the world.
+    /// Returns the instructor's environment settings.
     #[must_use]
     pub fn instructor_settings(&self) -> InstructorSettings {
         let wind_m_s = Some(self.number("SIM_WIND_SPD")).filter(|speed| *speed >= 0.0);
@@ -389,43 +390,43 @@ impl Params {
         }
     }
 
-    /// Whether the geofence acts, where a parameter says so.
+    /// Returns whether the geofence is enabled, if a parameter controls it.
     #[must_use]
     pub fn fence_enabled(&self) -> Option<bool> {
         self.whole(FENCE_SWITCH).map(|value| value != 0)
     }
 
-    /// The system id that may send sticks and counts as ground station; `None`: any.
+    /// Returns the system ID of the ground station, which may send stick input; `None`: any.
     #[must_use]
     pub fn ground_station(&self) -> Option<u8> {
         self.whole("SYSID_MYGCS").and_then(|id| u8::try_from(id).ok()).filter(|id| *id > 0)
     }
 
-    /// A throttle pulse below this means that the transmitter has lost the vehicle, microseconds.
+    /// Returns the throttle pulse below which the transmitter has lost the vehicle, microseconds.
     #[must_use]
     pub fn throttle_loss_us(&self) -> Option<u16> {
         self.whole("FS_THR_VALUE").and_then(|us| u16::try_from(us).ok())
     }
 
-    /// The function of the switch on a channel (`RCn_OPTION`), where the flavour has switches.
+    /// Returns the function of the switch on a channel (`RCn_OPTION`), for flavours with switches.
     #[must_use]
     pub fn switch_function(&self, channel: usize) -> Option<u16> {
         self.whole(&format!("RC{channel}_OPTION")).and_then(|function| u16::try_from(function).ok())
     }
 
-    /// Whether a restart drops the mission (bit 0 of `MIS_OPTIONS`).
+    /// Checks whether a reboot deletes the mission (bit 0 of `MIS_OPTIONS`).
     #[must_use]
     pub fn drops_mission_at_boot(&self) -> bool {
         self.whole("MIS_OPTIONS").is_some_and(|bits| bits & 1 != 0)
     }
 
-    /// Whether AUTO may be armed.
+    /// Checks whether arming is allowed in AUTO.
     #[must_use]
     pub fn arms_in_auto(&self) -> bool {
         self.whole("AUTO_OPTIONS").is_some_and(|bits| bits & 1 != 0)
     }
 
-    /// Shows how many items the plans have: mission, fence, rally points.
+    /// Updates the parameters for the number of mission, fence and rally items.
     pub fn note_plans(&mut self, items: [u16; 3]) {
         for (name, count) in ["MIS_TOTAL", "FENCE_TOTAL", "RALLY_TOTAL"].into_iter().zip(items) {
             if let Some(value) = self.values.get_mut(name) {
@@ -434,7 +435,7 @@ impl Params {
         }
     }
 
-    /// A value that only some flavours have.
+    /// Returns a value that only some flavours have.
     fn real(&self, name: &str) -> Option<f64> {
         self.values.get(name).map(|value| value.number())
     }
@@ -443,7 +444,7 @@ impl Params {
         self.values.get(name).map_or(0.0, |v| v.number())
     }
 
-    /// Carries the values into the autopilot's settings.
+    /// Applies the values to the autopilot's settings.
     pub fn apply(&self, tuning: &mut Tuning) {
         tuning.takeoff_height_m = self.number("MIS_TAKEOFF_ALT");
         tuning.takeoff_speed_m_s = self.number("MPC_TKO_SPEED");

@@ -1,21 +1,21 @@
-//! ArduPilot's packed parameter file, `@PARAM/param.pck` over MAVLink FTP: a header of three 16-bit numbers (which format, how many are
-//! in it, how many there are), then each as type and flags, lengths, the part of its name in which it differs from the one before it,
-//! its value and, where asked for and different, its default.
+//! ArduPilot's packed parameter file, `@PARAM/param.pck` over MAVLink FTP. The header has three 16-bit numbers: format, number of
+//! parameters in the file, total number. Each parameter follows with type and flags, lengths, the part of its name that differs
+//! from the previous one, its value and, if requested and different, its default.
 
 use super::table::Row;
 use super::{ParamValue, Params};
 use spandrel_mavlink::dialect::MavParamType;
 
-/// Where it lies.
+/// Path of the file.
 const PATH: &str = "@PARAM/param.pck";
 const PLAIN: u16 = 0x671b;
 const WITH_DEFAULTS: u16 = 0x671c;
-/// A default follows the value.
+/// Flag: a default follows the value.
 const HAS_DEFAULT: u8 = 0x10;
-/// The longest part of a name that can be taken from the one before.
+/// Maximum length of the name prefix shared with the previous parameter.
 const COMMON_MAX: usize = 15;
 
-/// Which part of it is wanted.
+/// The requested part of the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct ParamSelection {
     first: usize,
@@ -23,7 +23,7 @@ struct ParamSelection {
     defaults: bool,
 }
 
-/// The file, when this is its path; options behind a question mark are `start`, `count` and `withdefaults`.
+/// Returns the file if the path matches. Options after a question mark are `start`, `count` and `withdefaults`.
 #[must_use]
 pub fn file(path: &[u8], params: &Params, defaults: &Params) -> Option<Vec<u8>> {
     let end = path.iter().position(|byte| *byte == 0).unwrap_or(path.len());
@@ -74,7 +74,7 @@ fn pack(wish: ParamSelection, params: &Params, defaults: &Params) -> Vec<u8> {
     out
 }
 
-/// ArduPilot's number of a type.
+/// Returns ArduPilot's number of a type.
 fn kind(wire: MavParamType) -> u8 {
     match wire {
         MavParamType::MAV_PARAM_TYPE_INT8 => 1,
@@ -109,7 +109,7 @@ mod tests {
         let bytes = file(path.as_bytes(), &params, &defaults).unwrap();
         let mut expected = vec![0x1b, 0x67, 2, 0];
         expected.extend((rows.len() as u16).to_le_bytes());
-        // An INT8 of thirteen new letters, 7; an INT32 that shares four letters and has eight new ones, 0.
+        // An INT8 with thirteen new characters, value 7; an INT32 that shares four characters and has eight new ones, value 0.
         expected.extend([1, 12 << 4]);
         expected.extend(b"AUTOTUNE_AXES\x07");
         expected.extend([3, 7 << 4 | 4]);

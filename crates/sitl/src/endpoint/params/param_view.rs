@@ -1,34 +1,34 @@
-//! How each flavour shows the parameters: under which names, and how their values travel.
+//! Each flavour's view of the parameters: their names, and the encoding of their values.
 
 use super::table::{self, Row};
 use super::{ParamValue, copter};
 
-/// One flavour's view of the parameters.
+/// A flavour's view of the parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ParamView {
-    /// The flavour's number, in SPAN_FLAVOUR.
+    /// Number of the flavour in SPAN_FLAVOUR.
     pub number: i32,
-    /// Values are cast to float as C does; otherwise their bytes travel.
+    /// Whether values are cast to float; otherwise they are encoded bytewise.
     pub cast: bool,
-    /// The list begins with PX4's checksum over all of them.
+    /// Whether PX4's checksum of all parameters precedes the list.
     pub hash: bool,
-    /// They can be had as ArduPilot's packed file.
+    /// Whether ArduPilot's packed file is available.
     pub packed: bool,
-    /// Defaults that differ from the usual ones.
+    /// Defaults that override the common ones.
     pub defaults: &'static [(&'static str, ParamValue)],
 }
 
 impl ParamView {
-    /// What clients see, in the order of the names.
+    /// Returns the rows shown to clients, sorted by name.
     #[must_use]
     pub(super) fn rows(&self) -> &'static [Row] {
         if self.cast { copter::rows() } else { table::rows() }
     }
 }
 
-/// PX4's names, byte-wise.
+/// PX4's names, encoded bytewise.
 pub const PX4: ParamView = ParamView { number: 0, cast: false, hash: true, packed: false, defaults: &[] };
 /// Copter's names, cast.
 pub const COPTER: ParamView = ParamView { number: 1, cast: true, hash: false, packed: true, defaults: copter::DEFAULTS };
-/// The same names as PX4's, for there are no standard ones.
+/// PX4's names, because there is no standard set.
 pub const GENERIC: ParamView = ParamView { number: 2, hash: false, ..PX4 };

@@ -1,4 +1,4 @@
-//! How parameters become the autopilot's rules.
+//! Converts parameters to the autopilot's rules.
 
 use super::Params;
 use crate::autopilot::operator_rules::{
@@ -12,7 +12,7 @@ const AUTO_WITHOUT_STATION: i32 = 1 << 1;
 const GUIDED_WITHOUT_STICKS: i32 = 1 << 2;
 const PILOT_WITHOUT_STATION: i32 = 1 << 4;
 
-/// A reaction, by the numbers of `COM_ACT_FAIL_ACT`.
+/// Returns a response by the numbers of `COM_ACT_FAIL_ACT`.
 fn actuator_response(number: i32) -> FailsafeResponse {
     match number {
         1 => FailsafeResponse::Hold,
@@ -23,7 +23,7 @@ fn actuator_response(number: i32) -> FailsafeResponse {
     }
 }
 
-/// A reaction, by the numbers of `BATT_FS_LOW_ACT`.
+/// Returns a response by the numbers of `BATT_FS_LOW_ACT`.
 fn battery_response(number: i32) -> Option<FailsafeResponse> {
     match number {
         1 => Some(FailsafeResponse::Land),
@@ -37,7 +37,7 @@ fn battery_response(number: i32) -> Option<FailsafeResponse> {
 }
 
 impl Params {
-    /// Carries the values into the rules.
+    /// Applies the values to the rules.
     pub(super) fn apply_rules(&self, rules: &mut OperatorRules) {
         let copter = self.face.cast;
         self.apply_responses(rules);
@@ -155,7 +155,7 @@ impl Params {
         }
     }
 
-    /// A limit that an operator has changed; at its default the airframe alone limits.
+    /// Returns a limit changed by an operator; infinity at its default, where only the airframe limits apply.
     fn limit(&self, name: &str) -> f64 {
         let value = self.values.get(name);
         if value == self.frame.get(name) { f64::INFINITY } else { self.number(name) }

@@ -56,7 +56,7 @@ fn exact_every_bound_that_is_shown_can_be_set_and_reads_back() {
     }
 }
 
-/// A value of another type than its row announces shifts everything behind it in the packed file.
+/// A value of a different type than its row would shift everything after it in the packed file.
 #[test]
 fn regress_every_value_has_the_type_of_its_row() {
     for face in [&param_view::PX4, &param_view::COPTER, &param_view::GENERIC] {
@@ -68,7 +68,7 @@ fn regress_every_value_has_the_type_of_its_row() {
     }
 }
 
-/// The checksum by hand, bit by bit: polynomial 0xEDB88320, register from zero, nothing inverted.
+/// Computes the checksum bit by bit: polynomial 0xEDB88320, register starts at zero, no inversion.
 #[test]
 fn exact_the_checksum_is_the_plain_polynomial_and_changes_with_every_value() {
     let mut params = of(&param_view::PX4);

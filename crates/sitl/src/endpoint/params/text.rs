@@ -1,24 +1,24 @@
-//! Parameters as a text file: the tab-separated format that QGroundControl writes and reads (`.params`).
+//! Parameter files: the tab-separated text format of QGroundControl (`.params`).
 
 use super::{ParamRefusal, ParamValue, Params};
 
 /// MAV_PARAM_TYPE_INT32 and MAV_PARAM_TYPE_REAL32.
 const INT32: &str = "6";
 const REAL32: &str = "9";
-/// MAV_PARAM_TYPE_INT8 and MAV_PARAM_TYPE_INT16: what ArduPilot has besides.
+/// MAV_PARAM_TYPE_INT8 and MAV_PARAM_TYPE_INT16, which ArduPilot also uses.
 const NARROW: [&str; 2] = ["2", "4"];
 
-/// What is wrong with a line.
+/// An error in a line of a parameter file.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}: {what}")]
 pub struct ParamFileProblem {
-    /// From 1.
+    /// Line number, from 1.
     pub line: usize,
-    /// What, with the allowed range.
+    /// Description of the error, with the allowed range.
     pub what: String,
 }
 
-/// All parameters, one a line: system, component, name, value, type.
+/// Returns all parameters, one per line: system, component, name, value, type.
 #[must_use]
 pub fn write(params: &Params, system_id: u8) -> String {
     let mut out = String::from("# Parameters of a Spandrel vehicle\n# Vehicle-Id Component-Id Name Value Type\n");
@@ -33,11 +33,11 @@ pub fn write(params: &Params, system_id: u8) -> String {
     out
 }
 
-/// Sets what a file says. A name that this vehicle does not have, or that describes it, is passed over: the file may come from another
-/// vehicle.
+/// Applies a parameter file. Names that this vehicle does not have, and read-only parameters, are skipped because the file may
+/// come from another vehicle.
 ///
 /// # Errors
-/// Every line that is wrong; then nothing is set.
+/// Returns all invalid lines; no parameter is set in that case.
 pub fn read(params: &mut Params, text: &str) -> Result<(), Vec<ParamFileProblem>> {
     let mut fresh = params.clone();
     let mut problems = Vec::new();
@@ -58,7 +58,7 @@ fn read_line(params: &mut Params, line: &str) -> Result<(), String> {
     let [_, _, name, value, kind] = fields[..] else {
         return Err(format!("{} fields, tab-separated (allowed: vehicle, component, name, value, type)", fields.len()));
     };
-    // A name of another vehicle, whatever its type.
+    // A parameter of another vehicle, whatever its type.
     if params.range(name).is_none() {
         return Ok(());
     }

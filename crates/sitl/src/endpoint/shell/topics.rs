@@ -1,4 +1,4 @@
-//! `listener TOPIC`: the newest values of a topic, under PX4's names.
+//! `listener TOPIC`: the latest values of a topic, under PX4's names.
 
 use super::super::snapshot::VehicleSnapshot;
 use super::super::streams::{self, OutgoingMessage};
@@ -72,7 +72,7 @@ fn global_position(v: &VehicleSnapshot) -> TopicFields {
 }
 
 fn local_position(v: &VehicleSnapshot) -> TopicFields {
-    // As it is streamed, in the same frame.
+    // As streamed, in the same frame.
     let streamed = streams::rows_of(LOCAL_POSITION_NED_DATA::ID).find_map(|(_, row)| row.build(v));
     let Some(OutgoingMessage::Common(MavMessage::LOCAL_POSITION_NED(p))) = streamed else { return TopicFields::new() };
     let number = |value: f32| format!("{value:.5}");

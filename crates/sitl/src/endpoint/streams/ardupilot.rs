@@ -1,4 +1,4 @@
-//! What ArduCopter streams besides the common messages.
+//! Additional messages that ArduCopter streams.
 
 use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::ardupilotmega::{AHRS, DialectMessage, EKF_STATUS_REPORT, MEMINFO, SIMSTATE, WIND};
@@ -13,9 +13,9 @@ const VERTICAL: u16 = 4 | 32;
 const HORIZONTAL: u16 = 2 | 8 | 16 | 256 | 512;
 const CONSTANT_POSITION: u16 = 128;
 const UNINITIALIZED: u16 = 1_024;
-/// Accuracies at which a variance is 1, beyond which ArduPilot rejects it, m (1 sigma): the one that arming asks for.
+/// Accuracy at which a variance is 1, above which ArduPilot rejects it, m (1 sigma): the same as required for arming.
 const REJECTED_M: f64 = 5.0;
-/// What ArduPilot's own SITL reports of its board: a simulated one has no memory or supply of its own.
+/// Values that ArduPilot's own SITL reports for its board: a simulated board has no memory or power supply.
 const FREE_BYTES: f64 = 524_288.0;
 const BOARD_MV: u16 = 5_000;
 
@@ -40,7 +40,8 @@ pub(super) fn estimator(v: &VehicleSnapshot) -> Option<DialectMessage> {
     ]))
 }
 
-/// The gyroscope's drift: what the estimator adds to its readings. It keeps no measure of its attitude's error: those are 0.
+/// Sends the gyroscope drift: the correction that the estimator adds to its readings. The estimator does not track its attitude
+/// error, so those fields are 0.
 pub(super) fn ahrs(v: &VehicleSnapshot) -> Option<DialectMessage> {
     let drift = v.readings.imu.map_or(Vec3::zero(), |imu| v.estimate.rates_rad_s - imu.rates_rad_s);
     let [x, y, z] = drift.array();

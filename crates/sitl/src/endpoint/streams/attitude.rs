@@ -1,4 +1,4 @@
-//! Attitude as estimated and as wanted.
+//! Estimated and target attitude.
 
 use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{

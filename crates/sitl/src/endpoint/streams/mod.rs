@@ -1,4 +1,5 @@
-//! What the vehicle sends by itself: one row a message, with its rates by kind of link (docs/src/reference/wire.md, "Streams").
+//! Streamed and requestable messages: one row per message, with its rates by kind of link (docs/src/reference/wire.md,
+//! "Streams").
 
 mod ardupilot;
 mod attitude;
@@ -17,39 +18,39 @@ use spandrel_mavlink::ardupilotmega;
 use spandrel_mavlink::codec::{Encodable, Encoder};
 use spandrel_mavlink::dialect::MavMessage;
 
-/// The autopilot's component id.
+/// Component ID of the autopilot.
 pub const AUTOPILOT: u8 = 1;
-/// The camera's component id.
+/// Component ID of the camera.
 pub const CAMERA: u8 = 100;
 
-/// One message that can be streamed or requested.
+/// A message that can be streamed or requested.
 #[derive(Clone, Copy)]
 pub struct StreamSpec {
-    /// Message id.
+    /// Message ID.
     pub id: u32,
-    /// Rates on a ground station's link, an SDK's and a sidecar's, Hz.
+    /// Rates for ground stations, SDKs and payload processes, Hz.
     rates_hz: [f64; 3],
-    /// Which component speaks.
+    /// Component that sends it.
     pub component: u8,
-    /// ArduPilot alone sends it, whichever dialect defines it.
+    /// Whether only the ArduPilot flavour sends it, regardless of the dialect that defines it.
     of_ardupilot: bool,
     source: MessageSource,
 }
 
-/// How a message is made; `None` when there is nothing to say.
+/// Builds a message; `None` if there is no data.
 #[derive(Clone, Copy)]
 enum MessageSource {
     Common(fn(&VehicleSnapshot) -> Option<MavMessage>),
     ArduPilot(fn(&VehicleSnapshot) -> Option<ardupilotmega::DialectMessage>),
 }
 
-/// A message to be sent.
+/// An outgoing message.
 #[derive(Debug, Clone, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "it lives for one call; a box would cost an allocation for each message")]
 pub enum OutgoingMessage {
-    /// Of the common dialect.
+    /// A message of the common dialect.
     Common(MavMessage),
-    /// Of ArduPilot's.
+    /// A message of ArduPilot's dialect.
     ArduPilot(ardupilotmega::DialectMessage),
 }
 
@@ -63,7 +64,7 @@ impl Encodable for OutgoingMessage {
 }
 
 impl StreamSpec {
-    /// The message; `None` when there is nothing to say.
+    /// Builds the message; `None` if there is no data.
     #[must_use]
     pub fn build(&self, view: &VehicleSnapshot) -> Option<OutgoingMessage> {
         if !self.is_sent(view.flavour) {
@@ -75,13 +76,13 @@ impl StreamSpec {
         }
     }
 
-    /// Whether a flavour speaks this message.
+    /// Checks whether a flavour sends this message.
     #[must_use]
     pub fn is_sent(&self, flavour: &Flavour) -> bool {
         flavour.dialect_of_ardupilot || !self.of_ardupilot
     }
 
-    /// Rate on a kind of link, Hz.
+    /// Returns the rate for a kind of link, Hz.
     #[must_use]
     pub fn rate_hz(&self, kind: LinkKind) -> f64 {
         match kind {
@@ -104,11 +105,12 @@ const fn of_ardupilot(id: u32, make: MessageSource) -> StreamSpec {
     StreamSpec { id, rates_hz: [0.0; 3], component: AUTOPILOT, of_ardupilot: true, source: make }
 }
 
-/// All of them. HIL_STATE_QUATERNION comes first, so that what follows in the same datagram belongs to its instant.
+/// All streams. HIL_STATE_QUATERNION comes first, so that the messages after it in the same datagram belong to the same instant.
 pub const STREAMS: &[StreamSpec] = &[
     row(115, [50.0, 50.0, 50.0], truth::state),
     row(0, [1.0, 1.0, 1.0], system::heartbeat),
-    // After the autopilot's, so that a client that takes the first heartbeat gets the vehicle; once a second where the camera is used (`PeerLink`).
+    // Sent after the autopilot's, so that a client that uses the first heartbeat gets the vehicle; sent once a second if the
+    // camera is used (`PeerLink`).
     camera(0, [0.25, 0.25, 1.0], payload::camera_heartbeat),
     row(1, [2.0, 2.0, 2.0], system::sys_status),
     row(2, [1.0, 1.0, 1.0], system::system_time),
@@ -180,7 +182,7 @@ pub const STREAMS: &[StreamSpec] = &[
     of_ardupilot(193, MessageSource::ArduPilot(ardupilot::estimator)),
 ];
 
-/// The rows of a message id.
+/// Returns the rows of a message ID.
 pub fn rows_of(id: u32) -> impl Iterator<Item = (usize, &'static StreamSpec)> {
     STREAMS.iter().enumerate().filter(move |(_, s)| s.id == id)
 }

@@ -1,4 +1,4 @@
-//! Camera, gimbal and lamp.
+//! Messages of camera, gimbal and lamp.
 
 use super::super::camera::storage_card::CARD_MIB;
 use super::super::camera::stream::{PORT, VideoStream};
@@ -60,7 +60,7 @@ pub(super) fn camera_information(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// There is no focus to tell: everything is sharp.
+/// Focus is not reported: the lens is always in focus.
 pub(super) fn camera_settings(v: &VehicleSnapshot) -> Option<MavMessage> {
     let zooms = v.vehicle.camera.zoom_max > 1.0;
     Some(MavMessage::CAMERA_SETTINGS(CAMERA_SETTINGS_DATA {
@@ -75,7 +75,8 @@ pub(super) fn camera_settings(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// What the camera sees now: the scoring judges pictures by it. What stands there the camera does not know.
+/// Builds the camera's field of view, which the scoring uses to evaluate images. The camera does not know the position of the
+/// image center.
 pub(in super::super) fn field_of_view(v: &VehicleSnapshot) -> MavMessage {
     let camera = v.camera_now();
     let geo = v.geo();
@@ -126,7 +127,7 @@ pub(super) fn capture_status(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// What is told of a stream that does not run (estimate: what wireless networks carry).
+/// Reported while no stream is running (estimate: within the capacity of wireless networks).
 const STREAM: VideoStream = VideoStream { width_px: 1280, height_px: 720, rate_hz: 25.0, bits_s: 3_000_000 };
 
 fn stream_flags(v: &VehicleSnapshot) -> VideoStreamStatusFlags {
@@ -227,7 +228,8 @@ pub(super) fn gimbal_manager_status(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// The camera keeps the horizon and follows the heading; its attitude is given in the vehicle's heading frame, and the heading with it.
+/// The camera is stabilized to the horizon and follows the heading. Its attitude is relative to the vehicle's heading, which is
+/// sent with it.
 pub(super) fn gimbal_attitude(v: &VehicleSnapshot) -> Option<MavMessage> {
     use GimbalDeviceFlags as F;
     let (s, c) = math::sin_cos(0.5 * v.gimbal.pitch_rad);

@@ -1,4 +1,4 @@
-//! Where the vehicle believes to be, wants to be, and calls home.
+//! Messages of position: estimate, target and home.
 
 use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{
@@ -37,7 +37,7 @@ pub(super) fn global(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// Only while it circles.
+/// Sent only while orbiting.
 pub(super) fn orbit(v: &VehicleSnapshot) -> Option<MavMessage> {
     let orbit = v.status.orbit?;
     let centre = v.plane.geo_from_enu(orbit.centre_m.enu());
@@ -51,7 +51,7 @@ pub(super) fn orbit(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// Everything but the place is to be ignored.
+/// Type mask in which everything but the position is ignored.
 const PLACE_ALONE: PositionTargetTypemask = NO_VELOCITY.union(NO_ACCELERATION).union(NO_HEADING);
 const NO_PLACE: PositionTargetTypemask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_X_IGNORE
     .union(PositionTargetTypemask::POSITION_TARGET_TYPEMASK_Y_IGNORE)
@@ -65,11 +65,11 @@ const NO_ACCELERATION: PositionTargetTypemask = PositionTargetTypemask::POSITION
 const NO_HEADING: PositionTargetTypemask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_YAW_IGNORE
     .union(PositionTargetTypemask::POSITION_TARGET_TYPEMASK_YAW_RATE_IGNORE);
 
-/// ArduCopter sets the bits without a meaning in POSITION_TARGET_GLOBAL_INT.
+/// Bits without a meaning, which ArduCopter sets in POSITION_TARGET_GLOBAL_INT.
 const UNUSED_BITS: PositionTargetTypemask = PositionTargetTypemask::from_bits_retain(0xF000);
 
-/// POSITION_TARGET_LOCAL_NED as PX4 sends it: the place that is flown to. An ArduCopter sends it in GUIDED alone, with what the last
-/// setpoint has asked for.
+/// POSITION_TARGET_LOCAL_NED as in PX4: the target position. ArduCopter sends it only in GUIDED, with the fields of the last
+/// setpoint.
 pub(super) fn local_target(v: &VehicleSnapshot) -> Option<MavMessage> {
     if v.flavour.errands.is_some() {
         return guided_target(v);
@@ -79,8 +79,8 @@ pub(super) fn local_target(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(target_message(v, mask, [place, [0.0; 3], [0.0; 3]]))
 }
 
-/// Which of place, velocity and acceleration the mask leaves is ArduCopter's rule: a place alone, all three, velocity and acceleration, or
-/// acceleration alone; none for attitudes.
+/// Selects position, velocity and acceleration by ArduCopter's rules: position alone, all three, velocity and acceleration, or
+/// acceleration alone; `None` for attitude setpoints.
 fn guided_target(v: &VehicleSnapshot) -> Option<MavMessage> {
     if v.flavour.errands != Some(v.flavour.row_of(v.status.mode, v.requested_mode).number) {
         return None;
@@ -106,7 +106,7 @@ fn guided_target(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(target_message(v, mask, parts))
 }
 
-/// Place, velocity and acceleration in MAVLink's local frame.
+/// Builds the message from position, velocity and acceleration in MAVLink's local frame.
 fn target_message(v: &VehicleSnapshot, type_mask: PositionTargetTypemask, parts: [[f64; 3]; 3]) -> MavMessage {
     let [[x, y, z], [vx, vy, vz], [afx, afy, afz]] = parts.map(|part| part.map(|c| c as f32));
     MavMessage::POSITION_TARGET_LOCAL_NED(POSITION_TARGET_LOCAL_NED_DATA {
@@ -126,7 +126,7 @@ fn target_message(v: &VehicleSnapshot, type_mask: PositionTargetTypemask, parts:
     })
 }
 
-/// The place that is flown to, over the sea. Velocities and accelerations have none.
+/// The target position, above mean sea level. Not sent for velocity and acceleration setpoints.
 pub(super) fn global_target(v: &VehicleSnapshot) -> Option<MavMessage> {
     let placed = v.status.setpoint.is_none_or(|s| s.position_m.iter().any(Option::is_some) && s.velocity_m_s == [None; 3]);
     let flies_itself = !v.status.mode.is_manual();
@@ -229,7 +229,7 @@ pub(super) fn hud(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// What the guidance wants, and how far it has to go: nowhere without a target.
+/// The navigation controller's output and the distance to the target; the distance is zero without a target.
 pub(super) fn way(v: &VehicleSnapshot) -> Option<MavMessage> {
     let here = v.estimate.position_m;
     let left = v.status.target_m.map_or(Vec3::zero(), |target| target - here);

@@ -1,4 +1,4 @@
-//! What the sensors measure.
+//! Messages of sensor measurements.
 
 use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{
@@ -26,7 +26,7 @@ pub(super) fn gps_raw(v: &VehicleSnapshot) -> Option<MavMessage> {
         satellites_visible: gnss.satellites,
         h_acc: mm(gnss.eph_m).unsigned_abs(),
         v_acc: mm(gnss.epv_m).unsigned_abs(),
-        // The simulator takes mean sea level as the ellipsoid (base::geodesy).
+        // The simulator treats mean sea level as the ellipsoid (base::geodesy).
         alt_ellipsoid: if fix { mm(geo.altitude_m) } else { 0 },
         ..Default::default()
     }))
@@ -64,7 +64,8 @@ pub(super) fn highres_imu(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// Specific force, thousandths of g; rates, mrad/s; field, mgauss. The raw message leaves its units open; ArduPilot fills it so.
+/// Returns the specific force, milli-g; angular rates, mrad/s; magnetic field, mgauss. RAW_IMU does not define units; ArduPilot
+/// uses these.
 fn milli(v: &VehicleSnapshot) -> Option<[[i16; 3]; 3]> {
     let imu = v.readings.imu.as_ref()?;
     let milli = |value: f64| (1000.0 * value).round() as i16;
@@ -106,16 +107,16 @@ pub(super) fn raw_imu(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// Width of a sector of OBSTACLE_DISTANCE, deg: 72 of them, because QGroundControl's overlay reads all the array's elements.
+/// Sector width of OBSTACLE_DISTANCE, deg: 72 sectors, because QGroundControl's overlay reads all elements of the array.
 const SECTOR_DEG: u8 = 5;
 
-/// The range finder whose direction is nearest to a sector's; clockwise from the nose.
+/// Returns the index of the range finder closest to a sector, clockwise from the nose.
 fn finder_of(sector: usize, finders: usize) -> usize {
     let between_deg = 360 / finders.max(1);
     (sector * usize::from(SECTOR_DEG) + between_deg / 2) / between_deg % finders.max(1)
 }
 
-/// Sectors clockwise from the nose, each with the reading of the nearest of the range finders around.
+/// Sectors clockwise from the nose, each with the reading of the closest horizontal range finder.
 pub(super) fn obstacles(v: &VehicleSnapshot) -> Option<MavMessage> {
     let around = v.readings.range_around_m?;
     let reach = cm_u16(v.vehicle.sensors.range_max_m);
@@ -141,13 +142,13 @@ pub(super) fn range_down(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(range(v, 0, v.readings.range_down_m?, MavSensorOrientation::MAV_SENSOR_ROTATION_PITCH_270))
 }
 
-/// To the soffit.
+/// Distance to the soffit.
 pub(super) fn range_up(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(range(v, 1, v.readings.range_up_m?, MavSensorOrientation::MAV_SENSOR_ROTATION_PITCH_90))
 }
 
-/// Directions of the finders around, clockwise from the nose. MAVLink's own text has left and right of them exchanged; PX4, ArduPilot and
-/// QGroundControl all take 90 degrees for right.
+/// Orientations of the horizontal range finders, clockwise from the nose. MAVLink's documentation swaps left and right; PX4,
+/// ArduPilot and QGroundControl all interpret 90 degrees as right.
 const AROUND: [MavSensorOrientation; 8] = [
     MavSensorOrientation::MAV_SENSOR_ROTATION_NONE,
     MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_45,
@@ -158,20 +159,20 @@ const AROUND: [MavSensorOrientation; 8] = [
     MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_270,
     MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_315,
 ];
-/// Numbers of the finders: down, up, and from here on those around.
+/// ID of the first horizontal range finder; 0 is down, 1 is up.
 const FIRST_AROUND: u8 = 2;
 
-/// Ahead: the sector of the nose among those around.
+/// The horizontal range finder at the nose.
 pub(super) fn range_ahead(v: &VehicleSnapshot) -> Option<MavMessage> {
     range_beside(v, 0)
 }
 
-/// One of the eight around.
+/// One of the eight horizontal range finders.
 pub(super) fn range_beside(v: &VehicleSnapshot, k: usize) -> Option<MavMessage> {
     Some(range(v, FIRST_AROUND + k as u8, *v.readings.range_around_m?.get(k)?, *AROUND.get(k)?))
 }
 
-/// Nothing within reach is told as a little more than the reach.
+/// Reports slightly more than the maximum range if nothing is within range.
 fn range(v: &VehicleSnapshot, id: u8, distance_m: f64, orientation: MavSensorOrientation) -> MavMessage {
     let reach = cm_u16(v.vehicle.sensors.range_max_m);
     MavMessage::DISTANCE_SENSOR(DISTANCE_SENSOR_DATA {
@@ -187,7 +188,7 @@ fn range(v: &VehicleSnapshot, id: u8, distance_m: f64, orientation: MavSensorOri
     })
 }
 
-/// Variance of a standard deviation, cm²; 255 is "unknown", and what is more than a byte holds.
+/// Returns the variance of a standard deviation, cm², limited to 255, which means "unknown".
 fn variance_cm2(noise_m: f64) -> u8 {
     (noise_m * 100.0 * noise_m * 100.0).round().min(f64::from(u8::MAX)) as u8
 }

@@ -1,4 +1,4 @@
-//! State of the vehicle as a whole.
+//! Messages of the overall vehicle state.
 #![allow(deprecated, reason = "clients still ask for PROTOCOL_VERSION")]
 
 use super::super::params::metadata;
@@ -54,7 +54,7 @@ pub(super) fn sys_status(v: &VehicleSnapshot) -> Option<MavMessage> {
     if v.flavour.home_item {
         present |= S::MAV_SYS_STATUS_GEOFENCE;
     }
-    // Healthy without a fence, too: MAVProxy takes its absence for a breach.
+    // Healthy even without a fence: MAVProxy would interpret its absence as a breach.
     let mut health = present | S::MAV_SYS_STATUS_GEOFENCE;
     health.set(S::MAV_SYS_STATUS_GEOFENCE, v.status.fence.breach.is_none());
     let fix = v.readings.gnss.is_some_and(|g| g.fix >= 3);
@@ -80,7 +80,7 @@ pub(super) fn sys_status(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// Whole percent, rounded up: only an empty battery reads 0.
+/// Returns the remaining charge in whole percent, rounded up so that only an empty battery reads 0.
 fn percent(v: &VehicleSnapshot) -> i8 {
     v.battery.remaining_pct().ceil().clamp(0.0, 100.0) as i8
 }
@@ -127,7 +127,7 @@ pub(super) fn extended_state(v: &VehicleSnapshot) -> Option<MavMessage> {
     let landed_state = match v.status.landed {
         LandedState::OnGround => MavLandedState::MAV_LANDED_STATE_ON_GROUND,
         LandedState::TakingOff => MavLandedState::MAV_LANDED_STATE_TAKEOFF,
-        // As PX4 and ArduPilot: until the take-off's height is reached.
+        // As in PX4 and ArduPilot: until the takeoff height is reached.
         LandedState::InAir if v.status.climbing_out => MavLandedState::MAV_LANDED_STATE_TAKEOFF,
         LandedState::InAir => MavLandedState::MAV_LANDED_STATE_IN_AIR,
         LandedState::Landing => MavLandedState::MAV_LANDED_STATE_LANDING,
@@ -138,7 +138,7 @@ pub(super) fn extended_state(v: &VehicleSnapshot) -> Option<MavMessage> {
 
 pub(super) fn servos(v: &VehicleSnapshot) -> Option<MavMessage> {
     let pwm = |k: usize| if v.actuators.armed { 1000 + (v.actuators.motors[k] * 1000.0) as u16 } else { 900 };
-    // The lamp as a servo output: see DO_SET_SERVO.
+    // The lamp as a servo output; see DO_SET_SERVO.
     let lamp = if v.lamp.on { 1900 } else { 1100 };
     Some(MavMessage::SERVO_OUTPUT_RAW(SERVO_OUTPUT_RAW_DATA {
         time_usec: v.boot_us() as u32,
@@ -151,7 +151,7 @@ pub(super) fn servos(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// The rotors' outputs alone, as pulse widths, us.
+/// Sends the motor outputs as pulse widths, microseconds.
 pub(super) fn outputs(v: &VehicleSnapshot) -> Option<MavMessage> {
     let rotors = v.vehicle.rotors.len().min(v.actuators.motors.len());
     let mut actuator = [0.0; 32];
@@ -210,7 +210,7 @@ pub(super) fn mission_current(v: &VehicleSnapshot) -> Option<MavMessage> {
         _ if v.status.mission_paused => MissionState::MISSION_STATE_PAUSED,
         _ => MissionState::MISSION_STATE_NOT_STARTED,
     };
-    // Once flown to its end, the last item stays the current one.
+    // When the mission is complete, the last item remains current.
     let item = (v.status.mission_current as u16).min(v.plans.mission_items.saturating_sub(1));
     Some(MavMessage::MISSION_CURRENT(MISSION_CURRENT_DATA {
         seq: if v.plans.mission_items == 0 { 0 } else { v.plans.lead } + item,
@@ -225,7 +225,7 @@ pub(super) fn mission_current(v: &VehicleSnapshot) -> Option<MavMessage> {
 }
 
 pub(super) fn fence(v: &VehicleSnapshot) -> Option<MavMessage> {
-    // ArduPilot is silent about a fence that is off.
+    // ArduPilot does not report a disabled fence.
     if v.flavour.home_item && !v.fence_enabled {
         return None;
     }
@@ -256,10 +256,10 @@ pub(super) fn current_mode(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// Our own marks, "SP" and "TR" (trainer): no registered USB numbers are claimed by them.
+/// Identifiers "SP" and "TR" (trainer); they are not registered USB IDs.
 const VENDOR: u16 = 0x5350;
 const PRODUCT: u16 = 0x5452;
-/// The first simulated board, of no type in the registered lists.
+/// The first simulated board; not in the registered board lists.
 const BOARD: u32 = 1 << 8;
 
 pub(super) fn version(v: &VehicleSnapshot) -> Option<MavMessage> {
@@ -275,7 +275,7 @@ pub(super) fn version(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// Where the descriptions of the parameters lie.
+/// Sends the location of the parameter metadata.
 pub(super) fn metadata(v: &VehicleSnapshot) -> Option<MavMessage> {
     let general = &metadata::files(v.flavour.params).general;
     let uri = general.uri.as_str().into();
@@ -304,7 +304,7 @@ pub(super) fn protocol(_: &VehicleSnapshot) -> Option<MavMessage> {
 
 pub(super) fn flight(v: &VehicleSnapshot) -> Option<MavMessage> {
     let us = |at: Option<SimTime>| at.map_or(0, |at| v.since_boot(at).us().max(1).cast_unsigned());
-    // Times since boot, and a number, whatever the fields are called (MAVLink common).
+    // Times since boot and a counter, despite the field names (MAVLink common).
     Some(MavMessage::FLIGHT_INFORMATION(FLIGHT_INFORMATION_DATA {
         arming_time_utc: us(v.flight.armed),
         takeoff_time_utc: us(v.flight.took_off),

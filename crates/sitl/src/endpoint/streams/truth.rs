@@ -1,4 +1,4 @@
-//! The truth for the scoring (docs/src/reference/wire.md, "Scoring data"), apart from the estimate, and the sticks as received.
+//! Ground truth for scoring (docs/src/reference/wire.md, "Scoring data"), separate from the estimate, and the sticks as received.
 
 use super::super::LinkKind;
 use super::super::snapshot::VehicleSnapshot;
@@ -19,8 +19,8 @@ pub(super) fn state(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(MavMessage::HIL_STATE_QUATERNION(published.message()))
 }
 
-/// Sticks as received: roll, pitch, throttle, yaw in microseconds. A sidecar gets 1500 + 500 x axis, forward positive; everybody else
-/// what the sender sent, or would have on a transmitter, where forward is below the middle.
+/// Sticks as received: roll, pitch, throttle, yaw, microseconds. Payload processes receive 1500 + 500 x axis, forward positive;
+/// others receive the sender's pulses, or their equivalent on a transmitter, where forward is below center.
 pub(super) fn sticks(v: &VehicleSnapshot) -> Option<MavMessage> {
     if v.link_kind != LinkKind::Payload && v.flavour.dialect_of_ardupilot {
         return Some(channels(v));
@@ -46,10 +46,10 @@ pub(super) fn sticks(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// Throttle down, the other sticks centered: what ArduPilot's SITL shows without a transmitter, microseconds.
+/// Throttle down, other sticks centered: the values of ArduPilot's SITL without a transmitter, microseconds.
 const UNTOUCHED_US: [u16; 4] = [1500, 1500, 1000, 1500];
 
-/// All 16 channels, with or without sticks (ArduPilot).
+/// Builds all 16 channels, with or without stick input (ArduPilot).
 fn channels(v: &VehicleSnapshot) -> MavMessage {
     let [chan1_raw, chan2_raw, chan3_raw, chan4_raw] = v.pulses_us.unwrap_or(UNTOUCHED_US);
     let a = v.aux_us;
