@@ -133,7 +133,7 @@ impl ManualControl {
         }
         if self.holder != Some(from) {
             if self.holder.is_some() {
-                self.texts.push_back(format!("Sticks: {} now has them", sender_name(from)));
+                self.texts.push_back(format!("{} took control of the sticks", sender_name(from)));
             }
             self.presses = ButtonState::default();
             self.gimbal = None;
@@ -145,7 +145,7 @@ impl ManualControl {
     fn report_ignored_sender(&mut self, from: StickSender, holder: StickSender, now: SimTime) {
         if self.last_report.is_none_or(|(known, at)| known != from || (now - at).s() >= TELL_EVERY_S) {
             self.last_report = Some((from, now));
-            self.texts.push_back(format!("Sticks of {} ignored: {} has them", sender_name(from), sender_name(holder)));
+            self.texts.push_back(format!("Sticks of {} ignored: {} in control", sender_name(from), sender_name(holder)));
         }
     }
 

@@ -43,7 +43,7 @@ impl TypeMask {
             P::POSITION_TARGET_TYPEMASK_AZ_IGNORE,
         ]);
         if m.contains(P::POSITION_TARGET_TYPEMASK_FORCE_SET) && acceleration != [true; 3] {
-            return Err("Set-point: force is not supported");
+            return Err("Setpoint rejected: force is not supported");
         }
         Ok(Self {
             position: has([
@@ -71,7 +71,7 @@ fn axes(values: [f32; 3], ignored: [bool; 3]) -> Result<AxisSetpoints, &'static 
             continue;
         }
         if values[k].abs() > FAR {
-            return Err("Set-point out of range");
+            return Err("Setpoint rejected: out of range");
         }
         out[k] = Some(f64::from(values[k]));
     }
@@ -89,7 +89,7 @@ fn rate(value: f32, ignored: bool) -> Option<f64> {
 /// Requires at least one of position, velocity and acceleration.
 fn checked(s: OffboardSetpoint) -> SetpointResult {
     let wanted = s.position_m.iter().chain(&s.velocity_m_s).chain(&s.acceleration_m_s2).any(Option::is_some);
-    if wanted { Ok(s) } else { Err("Set-point without position, velocity or acceleration") }
+    if wanted { Ok(s) } else { Err("Setpoint has no position, velocity or acceleration") }
 }
 
 /// Converts SET_POSITION_TARGET_LOCAL_NED. In body frames, velocity and acceleration rotate with the heading. A position in a
@@ -122,7 +122,7 @@ pub fn local(t: &SET_POSITION_TARGET_LOCAL_NED_DATA, view: &VehicleSnapshot) -> 
                 ..fixed
             })
         }
-        _ => Err("Set-point in a frame that is not supported"),
+        _ => Err("Setpoint rejected: unsupported coordinate frame"),
     }
 }
 
@@ -144,7 +144,7 @@ fn turned(frd: AxisSetpoints, heading: f64) -> Result<AxisSetpoints, &'static st
     match (frd[0], frd[1]) {
         (Some(f), Some(r)) => Ok([Some(c * f - s * r), Some(s * f + c * r), frd[2]]),
         (None, None) => Ok(frd),
-        _ => Err("Set-point with only one of forward and right"),
+        _ => Err("Setpoint rejected: only one of forward and right"),
     }
 }
 
@@ -161,20 +161,20 @@ pub fn global(t: &SET_POSITION_TARGET_GLOBAL_INT_DATA, view: &VehicleSnapshot) -
         | F::MAV_FRAME_GLOBAL_RELATIVE_ALT_INT
         | F::MAV_FRAME_GLOBAL_TERRAIN_ALT
         | F::MAV_FRAME_GLOBAL_TERRAIN_ALT_INT => origin.altitude_m + home_up,
-        _ => return Err("Set-point in a frame that is not supported"),
+        _ => return Err("Setpoint rejected: unsupported coordinate frame"),
     };
     let mut position_m = [None; 3];
     if !mask.position[2] && !t.alt.is_nan() {
         position_m[2] = Some(origin.altitude_m - over - f64::from(t.alt)).filter(|d| d.abs() < FAR_M);
         if position_m[2].is_none() {
-            return Err("Set-point out of range");
+            return Err("Setpoint rejected: out of range");
         }
     }
     if !mask.position[0] || !mask.position[1] {
-        let geo = units::geo(t.lat_int, t.lon_int, origin.altitude_m).ok_or("Set-point out of range")?;
+        let geo = units::geo(t.lat_int, t.lon_int, origin.altitude_m).ok_or("Setpoint rejected: out of range")?;
         let place = view.plane.enu_from_geo(geo);
         if place.norm() > FAR_M {
-            return Err("Set-point out of range");
+            return Err("Setpoint rejected: out of range");
         }
         (position_m[0], position_m[1]) = (Some(place.north()), Some(place.east()));
     }
@@ -194,10 +194,10 @@ pub fn attitude(t: &SET_ATTITUDE_TARGET_DATA, tuning: &Tuning) -> SetpointResult
     use AttitudeTargetTypemask as A;
     let has = |flag: A| t.type_mask.contains(flag);
     if has(A::ATTITUDE_TARGET_TYPEMASK_THRUST_BODY_SET) {
-        return Err("Set-point: thrust along other axes is not supported");
+        return Err("Setpoint rejected: only body-z thrust is supported");
     }
     if has(A::ATTITUDE_TARGET_TYPEMASK_THROTTLE_IGNORE) || !t.thrust.is_finite() {
-        return Err("Set-point without thrust");
+        return Err("Setpoint rejected: no thrust");
     }
     let thrust = f64::from(t.thrust);
     let climb_m_s = tuning.rules.guided.thrust_climbs.then(|| {
@@ -206,7 +206,7 @@ pub fn attitude(t: &SET_ATTITUDE_TARGET_DATA, tuning: &Tuning) -> SetpointResult
     });
     let yaw_rate_rad_s = rate(t.body_yaw_rate, has(A::ATTITUDE_TARGET_TYPEMASK_BODY_YAW_RATE_IGNORE));
     if !has(A::ATTITUDE_TARGET_TYPEMASK_ATTITUDE_IGNORE) {
-        let attitude = Rotation::from_wxyz(t.q.map(f64::from)).ok_or("Set-point without an attitude")?;
+        let attitude = Rotation::from_wxyz(t.q.map(f64::from)).ok_or("Setpoint rejected: invalid attitude")?;
         return Ok(OffboardSetpoint {
             attitude: Some((attitude, thrust)),
             yaw_rate_rad_s,
@@ -217,7 +217,7 @@ pub fn attitude(t: &SET_ATTITUDE_TARGET_DATA, tuning: &Tuning) -> SetpointResult
     let roll = rate(t.body_roll_rate, has(A::ATTITUDE_TARGET_TYPEMASK_BODY_ROLL_RATE_IGNORE));
     let pitch = rate(t.body_pitch_rate, has(A::ATTITUDE_TARGET_TYPEMASK_BODY_PITCH_RATE_IGNORE));
     if roll.or(pitch).or(yaw_rate_rad_s).is_none() {
-        return Err("Set-point without attitude or rates");
+        return Err("Setpoint rejected: no attitude or rates");
     }
     let still = |axis: Option<f64>| axis.unwrap_or(0.0);
     let rates = Vec3::new(still(roll), still(pitch), still(yaw_rate_rad_s));

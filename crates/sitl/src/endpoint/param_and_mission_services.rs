@@ -265,7 +265,7 @@ fn apply_plan_reply(e: &mut Endpoint, reply: PlanReply, a: &mut InboundMessage) 
             if kind == MavMissionType::MAV_MISSION_TYPE_FENCE && e.plans.has_fence_return() {
                 e.push_text(
                     MavSeverity::MAV_SEVERITY_INFO,
-                    "Fence return point not used: a breach returns to home or a rally point",
+                    "Fence return point not used: a breach returns home or to a rally point",
                 );
             }
         }
@@ -338,7 +338,7 @@ pub(super) fn log_end(e: &mut Endpoint, _: &LOG_REQUEST_END_DATA, a: &mut Inboun
 /// Erases the logs; rejected while armed because the current log is among them.
 pub(super) fn log_erase(e: &mut Endpoint, _: &LOG_ERASE_DATA, a: &mut InboundMessage) {
     if a.view.status.armed {
-        e.push_text(MavSeverity::MAV_SEVERITY_WARNING, "Logs are not erased while armed");
+        e.push_text(MavSeverity::MAV_SEVERITY_WARNING, "Cannot erase logs while armed");
     } else {
         e.logs.erase();
     }

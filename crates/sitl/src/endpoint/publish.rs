@@ -37,10 +37,7 @@ impl Endpoint {
         self.take_picture(view);
         if self.speed_factor != self.reported_speed_factor {
             self.reported_speed_factor = self.speed_factor;
-            self.push_text(
-                MavSeverity::MAV_SEVERITY_INFO,
-                &format!("Time limits of clients are {} times as long", self.speed_factor),
-            );
+            self.push_text(MavSeverity::MAV_SEVERITY_INFO, &format!("Client timeouts are scaled by {}", self.speed_factor));
         }
         for event in events {
             let severity = match event.severity {

@@ -270,7 +270,7 @@ impl Endpoint {
         match frame.message_id {
             SET_MODE_DATA::ID => control::enter_mode(self, u32::from_le_bytes([p[0], p[1], p[2], p[3]]), a),
             SET_POSITION_TARGET_LOCAL_NED_DATA::ID | SET_POSITION_TARGET_GLOBAL_INT_DATA::ID => {
-                self.warn_all("Set-point in a frame that is not supported", a.view.now);
+                self.warn_all("Setpoint rejected: unsupported coordinate frame", a.view.now);
             }
             MISSION_ITEM_INT_DATA::ID | MISSION_ITEM_DATA::ID => param_and_mission_services::unknown_item(self, p[37], a),
             MISSION_REQUEST_LIST_DATA::ID | MISSION_CLEAR_ALL_DATA::ID => param_and_mission_services::unknown_plan(self, p[2], a),

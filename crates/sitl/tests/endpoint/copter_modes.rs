@@ -65,7 +65,7 @@ fn regress_qgroundcontrols_change_of_altitude_climbs_a_copter() {
         let end = station.place();
         assert!((start[2] - end[2] - 3.0).abs() < NEAR_M, "{start:?} to {end:?}: {:?}", station.texts());
         assert!((start[0] - end[0]).hypot(start[1] - end[1]) < NEAR_M);
-        assert!(!station.said("Set-point"), "{:?}", station.texts());
+        assert!(!station.said("Setpoint"), "{:?}", station.texts());
     }
 }
 

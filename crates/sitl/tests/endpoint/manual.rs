@@ -217,7 +217,7 @@ fn wire_without_lockstep_the_limits_of_clients_grow_with_the_speed_and_that_is_r
     assert_eq!(told, Some(8.0), "every log says it");
     let text =
         station.last_message(|m| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None });
-    assert_eq!(text.as_deref(), Some("Time limits of clients are 8 times as long"));
+    assert_eq!(text.as_deref(), Some("Client timeouts are scaled by 8"));
 }
 
 #[test]
@@ -312,7 +312,7 @@ fn wire_the_first_keeps_the_sticks_until_silent_and_the_other_is_informed() {
         station.run_ms(20);
     }
     assert_eq!(roll_echo(&station), 2000, "the first has fallen silent");
-    assert!(texts(&station).iter().any(|text| text.contains("now has them")), "{:?}", texts(&station));
+    assert!(texts(&station).iter().any(|text| text.contains("took control of the sticks")), "{:?}", texts(&station));
 }
 
 #[test]

@@ -127,14 +127,14 @@ fn wire_set_points_that_cannot_be_flown_do_not_count_and_are_reported_once_a_sec
     let frame = MavFrame::MAV_FRAME_LOCAL_NED;
     let wrong = [
         (local(MavFrame::MAV_FRAME_LOCAL_ENU, POSITION, |_| {}), "frame"),
-        (local(frame, 0b1101_1111_1111, |_| {}), "without position"),
+        (local(frame, 0b1101_1111_1111, |_| {}), "no position"),
         (local(frame, ACCELERATION | 1 << 9, |t| t.afx = 1.0), "force"),
         (local(frame, POSITION, |t| t.x = f32::INFINITY), "out of range"),
-        (local(frame, POSITION, |t| (t.x, t.y, t.z) = (f32::NAN, f32::NAN, f32::NAN)), "without position"),
-        (local(MavFrame::MAV_FRAME_BODY_NED, POSITION, |_| {}), "without position"),
-        (attitude(0b1000_0111, |t| t.thrust = 0.5), "without attitude or rates"),
-        (attitude(0b0100_0000, |_| {}), "without thrust"),
-        (attitude(0, |t| (t.q, t.thrust) = ([0.0; 4], 0.5)), "without an attitude"),
+        (local(frame, POSITION, |t| (t.x, t.y, t.z) = (f32::NAN, f32::NAN, f32::NAN)), "no position"),
+        (local(MavFrame::MAV_FRAME_BODY_NED, POSITION, |_| {}), "no position"),
+        (attitude(0b1000_0111, |t| t.thrust = 0.5), "no attitude or rates"),
+        (attitude(0b0100_0000, |_| {}), "no thrust"),
+        (attitude(0, |t| (t.q, t.thrust) = ([0.0; 4], 0.5)), "invalid attitude"),
     ];
     for (setpoint, needle) in wrong {
         let mut station = Station::new("drill-hover", 7);

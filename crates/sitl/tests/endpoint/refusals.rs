@@ -63,7 +63,7 @@ fn wire_a_mission_moves_its_gimbal_whoever_is_in_control_and_reports_why_it_cann
     });
     assert!(pitch.is_some_and(|pitch| (pitch + 40.0).abs() < 1.0), "a degree: {pitch:?}");
     let said = texts(&station);
-    assert!(said.iter().any(|text| text.starts_with("Mission item 2: gimbal pitches")), "{said:?}");
+    assert!(said.iter().any(|text| text.starts_with("Mission item 2: gimbal pitch range")), "{said:?}");
     assert!(!said.iter().any(|text| text.starts_with("Mission item 1")), "{said:?}");
 }
 
@@ -150,7 +150,7 @@ fn wire_a_button_is_refused_where_its_command_would_be() {
     assert!(texts(&station).contains(&"Arm: RTL mode not armable".to_owned()), "{:?}", texts(&station));
     assert!(!armed(&mut station));
     press(&mut station, 2);
-    assert!(texts(&station).contains(&"Take-off needs mode Guided".to_owned()), "{:?}", texts(&station));
+    assert!(texts(&station).contains(&"Takeoff requires mode Guided".to_owned()), "{:?}", texts(&station));
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, mode(4.0)), OK);
     press(&mut station, 1);
     assert!(armed(&mut station), "{:?}", texts(&station));
@@ -296,16 +296,16 @@ fn wire_every_refusal_gives_the_reason() {
     use MavCmd as M;
     let mut station = ready(7);
     for (command, values, wanted, words) in [
-        (ARM, p(&[0.5]), DENIED, "Arming: 1 arms"),
-        (M::MAV_CMD_CONDITION_YAW, p(&[NAN]), DENIED, "Turn: "),
+        (ARM, p(&[0.5]), DENIED, "Arming: parameter 1"),
+        (M::MAV_CMD_CONDITION_YAW, p(&[NAN]), DENIED, "Yaw: "),
         (M::MAV_CMD_DO_SET_STANDARD_MODE, p(&[99.0]), DENIED, "No such standard mode 99"),
         (M::MAV_CMD_DO_SET_HOME, p(&[0.0, 0.0, 0.0, 0.0, NAN, NAN, NAN]), DENIED, "Home: "),
-        (M::MAV_CMD_DO_REPOSITION, p(&[0.0, 1.0, 0.0, NAN, 10.0, 10.0, 500.0]), DENIED, "Go-to: place out of range"),
+        (M::MAV_CMD_DO_REPOSITION, p(&[0.0, 1.0, 0.0, NAN, 10.0, 10.0, 500.0]), DENIED, "Go-to: beyond 20 km"),
         (M::MAV_CMD_DO_ORBIT, p(&[5.0, 1.0, 17.0]), DENIED, "Orbit: "),
         (M::MAV_CMD_DO_FENCE_ENABLE, p(&[2.0]), DENIED, "Fence: "),
         (M::MAV_CMD_DO_CHANGE_SPEED, p(&[2.0, 3.0]), DENIED, "Speed: types"),
         (M::MAV_CMD_DO_CHANGE_SPEED, p(&[1.0, -7.0]), DENIED, "Speed: above"),
-        (M::MAV_CMD_NAV_TAKEOFF, p(&[0.0, 0.0, 0.0, 0.0, NAN, NAN, 5_000.0]), DENIED, "Take-off height"),
+        (M::MAV_CMD_NAV_TAKEOFF, p(&[0.0, 0.0, 0.0, 0.0, NAN, NAN, 5_000.0]), DENIED, "Takeoff height"),
         (M::MAV_CMD_DO_SET_MISSION_CURRENT, p(&[99.0]), DENIED, "No such mission item"),
     ] {
         assert_eq!(station.command(1, command, values), wanted, "{command:?}");
@@ -316,5 +316,5 @@ fn wire_every_refusal_gives_the_reason() {
     copter.run_ms(2_500);
     assert_eq!(copter.command(1, M::MAV_CMD_DO_REPOSITION, p(&[0.0, 0.0, 0.0, NAN, NAN, NAN, NAN])), DENIED);
     copter.run_ms(5);
-    assert!(texts(&copter).iter().any(|text| text.starts_with("Go-to: not in this mode")), "{:?}", texts(&copter));
+    assert!(texts(&copter).iter().any(|text| text.starts_with("Go-to: not allowed in this mode")), "{:?}", texts(&copter));
 }

@@ -86,8 +86,8 @@ impl CameraError {
         match self {
             Self::Senseless => None,
             Self::Full => Some("Camera: memory card full"),
-            Self::PhotoMode => Some("Camera: records in video mode only"),
-            Self::Recording => Some("Camera: not while recording"),
+            Self::PhotoMode => Some("Camera: recording requires video mode"),
+            Self::Recording => Some("Camera: not available while recording"),
         }
     }
 }

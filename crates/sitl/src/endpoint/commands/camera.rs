@@ -62,7 +62,7 @@ pub(super) const ROWS: &[PayloadCommand] = &[
         if v.camera.stream.is_some() {
             return stream_reported(p, &[VIDEO_STREAM_STATUS_DATA::ID]);
         }
-        p.changes.add_warning("Camera: nobody sends a video stream");
+        p.changes.add_warning("Camera: no video stream available");
         FAILED
     }),
     // The video is sent to a fixed destination, so starting and stopping change nothing.

@@ -48,7 +48,7 @@ fn modes(c: &VehicleCommand, x: &mut CommandContext) -> Option<Step> {
         n if n == M::MAV_CMD_COMPONENT_ARM_DISARM as u16 => match arm(c, x) {
             Some(AutopilotRequest::Arm { force }) => Answer(arm_motors(c, force, x)),
             Some(other) => Request(other),
-            None => Answer(x.deny("Arming: 1 arms, 0 disarms")),
+            None => Answer(x.deny("Arming: parameter 1 must be 1 (arm) or 0 (disarm)")),
         },
         n if n == M::MAV_CMD_DO_SET_MODE as u16 => Answer(set_mode(c, x)),
         n if n == M::MAV_CMD_DO_SET_STANDARD_MODE as u16 => {
@@ -87,11 +87,11 @@ fn places(c: &VehicleCommand, x: &mut CommandContext) -> Option<Step> {
         n if n == M::MAV_CMD_DO_REPOSITION as u16 => Answer(go(c, x)),
         n if n == M::MAV_CMD_DO_ORBIT as u16 => match orbit(c, x) {
             Some(orbit) => Request(AutopilotRequest::Orbit(orbit)),
-            None => Answer(x.deny("Orbit: place within 20 km, yaw behaviour 0 to 5")),
+            None => Answer(x.deny("Orbit: center within 20 km, yaw behavior 0 to 5")),
         },
         n if n == M::MAV_CMD_CONDITION_YAW as u16 => match turn(c, x) {
             Some(request) => Request(request),
-            None => Answer(x.deny("Turn: the angle is not a number")),
+            None => Answer(x.deny("Yaw: angle is not a number")),
         },
         n if n == M::MAV_CMD_DO_SET_HOME as u16 => match home(c, x) {
             Some(request) => Request(request),
@@ -140,19 +140,19 @@ fn limits(c: &VehicleCommand, x: &mut CommandContext) -> Option<Step> {
     Some(match c.number {
         // Climb and descent speeds have parameters of their own.
         n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 && c.finite_param(0).is_some_and(|kind| kind > 1.0) => {
-            Answer(x.deny("Speed: types 0, 1; climb and sink are parameters"))
+            Answer(x.deny("Speed: types 0, 1; set climb rates by parameters"))
         }
         n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 => match c.finite_param(1) {
             // -1 means no change, -2 restores the parameter's value (MAVLink common).
             Some(-1.0) => Answer(MavResult::MAV_RESULT_ACCEPTED),
             Some(-2.0) => Request(AutopilotRequest::SetSpeed(None)),
             Some(speed) if speed > 0.0 => Request(AutopilotRequest::SetSpeed(Some(speed))),
-            _ => Answer(x.deny("Speed: above 0 m/s, -1 as it is, -2 the usual")),
+            _ => Answer(x.deny("Speed: above 0 m/s, -1 no change, -2 default")),
         },
         n if n == M::MAV_CMD_DO_FENCE_ENABLE as u16 => match c.p[0] {
             0.0 => Request(AutopilotRequest::EnableFence(false)),
             1.0 => Request(AutopilotRequest::EnableFence(true)),
-            _ => Answer(x.deny("Fence: 0 switches off, 1 on")),
+            _ => Answer(x.deny("Fence: 0 disables, 1 enables")),
         },
         _ => return None,
     })
@@ -184,7 +184,7 @@ fn inject(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
     let rotors = x.view.vehicle.rotors.len();
     let cells = x.view.vehicle.battery.cells as usize;
     if unit == FailureUnit::Battery && instance > cells {
-        x.warn_all(&format!("No such battery cell: {instance} (1 to {cells}, 0: the whole pack)"));
+        x.warn_all(&format!("No battery cell {instance} (1 to {cells}, 0: whole pack)"));
         return MavResult::MAV_RESULT_DENIED;
     }
     if !Faults::new(0).inject(unit, kind, instance, rotors) {
@@ -252,7 +252,7 @@ fn enter(row: &ModeRow, x: &mut CommandContext) -> MavResult {
 fn set_mode(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
     let custom = c.finite_param(0).is_some_and(|base| (base as i64) & 1 == 1);
     let Some(main) = c.finite_param(1).filter(|_| custom) else {
-        x.warn_all("No custom mode given");
+        x.warn_all("No custom mode specified");
         return MavResult::MAV_RESULT_DENIED;
     };
     let number = (x.view.flavour.custom_mode)(main, c.finite_param(2).unwrap_or(0.0));
@@ -291,9 +291,9 @@ fn go(c: &VehicleCommand, x: &mut CommandContext) -> MavResult {
     let changes = c.finite_param(1).is_some_and(|flags| (flags as i64) & 1 == 1);
     let errands = x.view.flavour.errands;
     if !(errands.is_none() || changes || x.in_guided_mode()) {
-        return x.deny("Go-to: not in this mode, nor asked to change it");
+        return x.deny("Go-to: not allowed in this mode");
     }
-    let Some(request) = reposition(c, x) else { return x.deny("Go-to: place out of range (20 km) or frame unknown") };
+    let Some(request) = reposition(c, x) else { return x.deny("Go-to: beyond 20 km or unknown frame") };
     let outcome = x.autopilot.request(request, x.view.now);
     if outcome == RequestOutcome::Accepted {
         *x.requested_mode = errands.unwrap_or(*x.requested_mode);

@@ -138,7 +138,7 @@ fn look(c: &VehicleCommand, x: &mut CommandContext) -> Option<MavResult> {
         x.autopilot.request(AutopilotRequest::LookAt(place), x.view.now);
     }
     if !obeyed && place.is_none() {
-        x.warn_all("The vehicle looks nowhere any more; the gimbal stays with who controls it");
+        x.warn_all("ROI cleared; gimbal stays with its controller");
         return Some(MavResult::MAV_RESULT_ACCEPTED);
     }
     done

@@ -55,13 +55,13 @@ pub(in super::super) fn refusal_text(c: &VehicleCommand, view: &VehicleSnapshot,
             return format!("gimbal is controlled by {}/{}", gimbal.control.0, gimbal.control.1);
         }
         let [low, high] = [camera.gimbal_pitch_min_rad, camera.gimbal_pitch_max_rad].map(f64::to_degrees);
-        return format!("gimbal pitches {low:.0} to {high:.0} deg, no yaw or retract");
+        return format!("gimbal pitch range {low:.0} to {high:.0} deg, no yaw or retract");
     }
     if row(c.number, lamp::ROWS).is_some() {
         let there = view.vehicle.lamp.flux_lm > 0.0;
-        return if there { "lamp is relay 0, servo 9, on or off" } else { "this aircraft has no lamp" }.into();
+        return if there { "lamp is relay 0 or servo 9, on or off only" } else { "this aircraft has no lamp" }.into();
     }
-    "camera cannot do it with these values or in this mode".into()
+    "camera rejects these values or this mode".into()
 }
 
 /// Returns the position that a command makes the vehicle face. `None` for other commands or an unusable position, `Some(None)` if

@@ -116,7 +116,7 @@ pub static FLAVOUR: Flavour = Flavour {
     mode_words: |row, why| format!("Mode change to {} failed: {why}", row.name.to_uppercase()),
     banner: &[
         concat!("ArduCopter V4.6.0-dev (Spandrel ", env!("CARGO_PKG_VERSION"), ")"),
-        "Spandrel speaks as ArduPilot does; it is not it",
+        "Spandrel emulation of ArduPilot, not ArduPilot",
         "Frame: QUAD/X",
     ],
     answers_after_acknowledgement: true,
@@ -172,11 +172,11 @@ fn from_guided(c: &VehicleCommand, x: &mut CommandContext) -> Result<Option<f64>
     const HIGHEST_M: f64 = 500.0;
     let status = x.autopilot.status();
     let why = if !x.in_guided_mode() {
-        Some("Take-off needs mode Guided")
+        Some("Takeoff requires mode Guided")
     } else if !status.armed {
-        Some("Take-off needs armed motors")
+        Some("Takeoff requires armed motors")
     } else if status.landed != LandedState::OnGround {
-        Some("Take-off: in the air already")
+        Some("Takeoff: already in the air")
     } else {
         None
     };
@@ -190,7 +190,7 @@ fn from_guided(c: &VehicleCommand, x: &mut CommandContext) -> Result<Option<f64>
     }
     let height = c.finite_param(6).filter(|height| *height > 0.0 && *height <= HIGHEST_M);
     if height.is_none() {
-        x.warn_all("Take-off height: above 0, at most 500 m over home");
+        x.warn_all("Takeoff height: above 0, at most 500 m above home");
     }
     height.map(Some).ok_or(FAILED)
 }

@@ -152,7 +152,7 @@ pub(super) fn above_sea_level(c: &VehicleCommand, x: &mut CommandContext) -> Res
     let Some(z) = c.finite_param(6) else { return Ok(None) };
     let height_m = if relative { z } else { z - x.view.plane.origin().altitude_m - home_up };
     if height_m > HIGHEST_M {
-        Err(x.deny("Take-off height: at most 500 m over home"))
+        Err(x.deny("Takeoff height: at most 500 m above home"))
     } else {
         Ok(Some(height_m).filter(|h| *h >= LOWEST_M))
     }

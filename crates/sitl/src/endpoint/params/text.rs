@@ -62,7 +62,7 @@ fn read_line(params: &mut Params, line: &str) -> Result<(), String> {
     if params.range(name).is_none() {
         return Ok(());
     }
-    let no_number = |allowed| format!("{name} = '{value}' is no number (allowed: {allowed})");
+    let no_number = |allowed| format!("{name} = '{value}' is not a number (allowed: {allowed})");
     let narrow = params.param_view().cast && NARROW.contains(&kind);
     let value_read = match kind {
         REAL32 => ParamValue::Real(value.parse().map_err(|_| no_number("a real number"))?),
@@ -71,7 +71,7 @@ fn read_line(params: &mut Params, line: &str) -> Result<(), String> {
     };
     match params.set_value(name, value_read) {
         Ok(()) | Err(ParamRefusal::Unknown | ParamRefusal::ReadOnly) => Ok(()),
-        Err(ParamRefusal::Type) => Err(format!("{name} is of the other type")),
+        Err(ParamRefusal::Type) => Err(format!("{name} has the wrong type")),
         Err(ParamRefusal::OutOfRange) => {
             let (low, high) = params.range(name).unwrap_or_default();
             Err(format!("{name} = {value} is out of range (allowed: {low} to {high})"))
