@@ -51,9 +51,9 @@ pub enum MissedExpectation {
     Refused {
         /// The command.
         command: MavCmd,
-        /// The answer.
+        /// The result.
         result: MavResult,
-        /// The vehicle's newest text.
+        /// The vehicle's latest status text.
         said: String,
     },
     /// No response within one second of simulation time.
@@ -197,14 +197,14 @@ impl Vehicle {
         VehicleBuilder::default()
     }
 
-    /// Returns the simulator without its ground station; the station's link is closed.
+    /// Returns the simulator without its ground station. Closes the station's link.
     #[must_use]
     pub fn into_sim(mut self) -> Sim {
         self.sim.close_link(STATION);
         self.sim
     }
 
-    /// Returns the next datagram for a link other than the harness's own.
+    /// Returns the next datagram for a link other than the harness's.
     pub fn poll_transmit(&mut self) -> Option<Transmit> {
         self.others.pop_front()
     }
@@ -245,7 +245,7 @@ impl Vehicle {
         self.sim.truth().rigid.position_m.enu()
     }
 
-    /// True height over the pad, m.
+    /// True height above the landing pad, m.
     #[must_use]
     pub fn height_m(&self) -> f64 {
         self.position_m().up() - self.pad_up_m

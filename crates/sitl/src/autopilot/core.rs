@@ -60,7 +60,7 @@ impl Severity {
 /// An event to report to the operator.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct AutopilotEvent {
-    /// Gravity.
+    /// Severity of the event.
     pub severity: Severity,
     /// Status text.
     pub text: String,

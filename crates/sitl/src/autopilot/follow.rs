@@ -65,7 +65,7 @@ impl Default for FollowRule {
 /// A target report.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FollowTarget {
-    /// Position about the origin, m.
+    /// Position relative to the origin, m.
     pub position_m: Vec3<Ned>,
     /// Velocity, m/s.
     pub velocity_m_s: Vec3<Ned>,

@@ -30,7 +30,7 @@ const CONTROL_RESERVE: f64 = 0.08;
 pub struct Gains {
     /// Moments of inertia about forward, right, down, kg m².
     pub inertia_kg_m2: [f64; 3],
-    /// Motor lead factor.
+    /// Factor of the motor lag compensation.
     pub lead: f64,
     /// Roll and pitch rate gain, rad/s² per rad/s.
     pub rate: f64,

@@ -77,7 +77,7 @@ pub struct Sticks {
     pub right: f64,
     /// Up (+), down (-).
     pub up: f64,
-    /// Clockwise (+), counter-clockwise (-).
+    /// Clockwise (+), counterclockwise (-).
     pub yaw: f64,
 }
 
@@ -105,7 +105,7 @@ pub enum AutopilotRequest {
     Land,
     /// Fly to a position and hold. `None` components keep their present values.
     GoTo {
-        /// North, east, m.
+        /// North and east, m.
         north_east_m: Option<(f64, f64)>,
         /// Height above the origin, m.
         up_m: Option<f64>,

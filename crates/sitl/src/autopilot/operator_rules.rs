@@ -261,9 +261,9 @@ pub enum MissionNeeds {
     /// None (0).
     #[default]
     Nothing,
-    /// A take-off (1).
+    /// Take-off (1).
     Takeoff,
-    /// A landing (2).
+    /// Landing (2).
     Landing,
     /// Both (3).
     Both,

@@ -66,9 +66,9 @@ pub struct Orbit {
 pub struct OrbitRequest {
     /// Center, north and east, m; `None` uses the present position.
     pub centre_m: Option<(f64, f64)>,
-    /// Height, m up about the origin.
+    /// Height above the origin, m.
     pub up_m: Option<f64>,
-    /// Radius, m; negative is counter-clockwise.
+    /// Radius, m; negative for counterclockwise.
     pub radius_m: Option<f64>,
     /// Speed, m/s.
     pub speed_m_s: Option<f64>,

@@ -1,4 +1,4 @@
-//! One row of a topic, field by field.
+//! Encoder for one row of a topic.
 
 use spandrel_model::frames::{Rotation, Vec3};
 

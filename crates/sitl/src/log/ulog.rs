@@ -1,6 +1,6 @@
 //! Encoder for the ULog file format (<https://docs.px4.io/main/en/dev_log/ulog_file_format.html>).
 
-/// File magic and version 1.
+/// File magic bytes and format version 1.
 const MAGIC: [u8; 8] = [b'U', b'L', b'o', b'g', 0x01, 0x12, 0x35, 0x01];
 
 /// Encodes ULog messages into a buffer.
@@ -9,14 +9,14 @@ pub struct UlogWriter {
     out: Vec<u8>,
 }
 
-/// A value of an information or parameter message.
+/// Value of an information or parameter message.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum UlogValue<'a> {
-    /// Text.
+    /// Text string.
     Text(&'a str),
-    /// Whole number.
+    /// Integer.
     Int(i32),
-    /// Real number.
+    /// Floating-point number.
     Real(f32),
 }
 

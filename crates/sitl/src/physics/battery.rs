@@ -11,7 +11,7 @@ const EMPTY_CELL_V: f64 = 3.2;
 /// State of charge and terminal readings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BatteryState {
-    /// State of charge, 0..1.
+    /// State of charge, 0 to 1.
     pub charge: f64,
     /// Terminal voltage, V; 0 until the first step.
     pub voltage_v: f64,

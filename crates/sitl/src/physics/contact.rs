@@ -91,7 +91,7 @@ pub fn resolve(
     warm_start(&mut constraints, &state.warm);
     let (velocity, spin) = solve(&mut constraints, &body, &state.rigid, model, dt_s);
     if constraints.iter().any(|c| c.active) {
-        // FRAME: the solver works in NED; the body keeps its rates in its own axes.
+        // FRAME: the solver works in NED; the body's rates are in body axes.
         state.rigid.velocity_m_s = Vec3::assume(velocity);
         state.rigid.rates_rad_s = state.rigid.attitude.inverse() * Vec3::<Ned>::assume(spin);
         // Repeats the step from its start with the velocities that contact allows.

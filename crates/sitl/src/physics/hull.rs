@@ -8,7 +8,7 @@ use spandrel_model::vehicle::Vehicle;
 /// Half thickness of arms and rotor discs, m (estimate).
 const THIN_M: f64 = 0.015;
 
-/// One convex part in body axes.
+/// One convex part of the hull in body axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyProbe {
     a_m: Vec3<Frd>,
