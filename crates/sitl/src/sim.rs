@@ -453,7 +453,7 @@ impl Sim {
     /// of wall time. Does not change the vehicle.
     pub fn pause(&mut self, begins: bool) {
         if begins {
-            self.endpoint.push_text(MavSeverity::MAV_SEVERITY_INFO, "Time stands still");
+            self.endpoint.push_text(MavSeverity::MAV_SEVERITY_INFO, "Simulation paused");
         }
         let Backend::Builtin(autopilot) = &mut self.backend;
         let view = view!(self, autopilot.estimate(), autopilot.status(), autopilot.tuning.fence_enabled);
@@ -462,7 +462,7 @@ impl Sim {
 
     /// Announces that the simulation continues; clients receive the text with the next tick.
     pub fn resume(&mut self) {
-        self.endpoint.push_text(MavSeverity::MAV_SEVERITY_INFO, "Time runs again");
+        self.endpoint.push_text(MavSeverity::MAV_SEVERITY_INFO, "Simulation resumed");
     }
 
     fn publish(&mut self) {

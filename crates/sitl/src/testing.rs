@@ -47,7 +47,7 @@ const KEPT_FRAMES: usize = 20_000;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MissedExpectation {
     /// The command was not accepted.
-    #[error("{command:?} was answered {result:?}; the vehicle said: {said}")]
+    #[error("{command:?} was rejected with {result:?}; last status text: {said}")]
     Refused {
         /// The command.
         command: MavCmd,
@@ -57,10 +57,10 @@ pub enum MissedExpectation {
         said: String,
     },
     /// No response within one second of simulation time.
-    #[error("{0:?} was not answered")]
+    #[error("no response to {0:?}")]
     Silent(MavCmd),
     /// A condition was not met in time.
-    #[error("the condition did not hold within {limit_s} s of simulation time; the vehicle said: {said}")]
+    #[error("condition not met within {limit_s} s of simulation time; last status text: {said}")]
     Late {
         /// The time limit, whole seconds.
         limit_s: i64,
@@ -142,7 +142,7 @@ impl VehicleBuilder {
     /// # Errors
     /// All problems of the scenario, or otherwise of the vehicle, with line and key.
     pub fn build(self) -> Result<Vehicle, Problems> {
-        let job = scenario::read("scenario.toml", &self.scenario, &|file| Err(format!("{file}: not read here")))?;
+        let job = scenario::read("scenario.toml", &self.scenario, &|file| Err(format!("{file}: not loaded here")))?;
         let aircraft = vehicle::read("vehicle.toml", &self.vehicle)?;
         Ok(self.build_from(job, aircraft))
     }

@@ -261,7 +261,7 @@ impl Autopilot {
             self.navigator.phase = ReturnPhase::Stay;
             let down = self.estimate.position_m.down().max(home.down() - rules.final_height_m);
             self.navigator.target_m = Vec3::new(home.north(), home.east(), down);
-            self.push_event(Severity::Info, "Staying at the final height");
+            self.push_event(Severity::Info, "Holding at final height");
         } else {
             self.navigator.phase = ReturnPhase::Land;
             self.push_event(Severity::Info, "Landing");

@@ -120,10 +120,10 @@ impl Autopilot {
             return Some(RequestOutcome::Denied("throttle too high".into()));
         }
         if mode == FlightMode::Orbit && self.orbit.is_none() {
-            return Some(RequestOutcome::Denied("Nothing to circle: DO_ORBIT says what".into()));
+            return Some(RequestOutcome::Denied("No orbit defined: send DO_ORBIT first".into()));
         }
         if mode == FlightMode::Offboard && !self.links.offboard_fresh(self.tuning.offboard_timeout_s(), now) {
-            return Some(RequestOutcome::TemporarilyRejected("Offboard needs external set-points first".into()));
+            return Some(RequestOutcome::TemporarilyRejected("Offboard rejected: no external setpoints".into()));
         }
         let counts = flying || self.status.armed && self.tuning.arms_by_mode;
         if counts && mode.needs_position() && !self.estimate.position_valid {
@@ -254,7 +254,7 @@ impl Autopilot {
             FlightMode::Hold | FlightMode::Takeoff | FlightMode::Land | FlightMode::Mission | FlightMode::Offboard
         );
         if !self.status.armed || self.status.landed == LandedState::OnGround || !automatic {
-            return RequestOutcome::TemporarilyRejected("Not flying by itself".into());
+            return RequestOutcome::TemporarilyRejected("Not in an automatic mode".into());
         }
         self.look_at_m = None;
         self.navigator.target_yaw_rad = Some(turn.yaw_rad);

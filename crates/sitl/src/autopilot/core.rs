@@ -403,7 +403,7 @@ impl Autopilot {
         self.navigator.left_ground = now - SimTime::from_s(SPOOL_UP_S);
         self.failsafe.intended = mode;
         self.enter(mode, now);
-        self.push_event(Severity::Warning, "Put back at the last safe hover");
+        self.push_event(Severity::Warning, "Respawned at last safe hover");
     }
 
     pub(super) fn reset_loops(&mut self) {

@@ -226,7 +226,7 @@ impl Autopilot {
     }
 
     fn offboard_lost(&mut self, now: SimTime) -> FailsafeAction {
-        let why = "external set-points lost";
+        let why = "external setpoints lost";
         let located = self.estimate.position_valid;
         let hold = if located { FlightMode::Hold } else { FlightMode::Land };
         match self.tuning.rules.responses.offboard_loss {
@@ -387,10 +387,14 @@ impl Autopilot {
             return None;
         }
         if !self.tuning.arms_by_mode {
-            return (self.links.deflection() > CENTRED).then_some("Sticks not centred");
+            return (self.links.deflection() > CENTRED).then_some("Sticks not centered");
         }
         let climbs = self.failsafe.intended.is_manual() && self.links.sticks.up > 0.0;
-        if self.links.lateral_deflection() > CENTRED { Some("Sticks not centred") } else { climbs.then_some("Throttle too high") }
+        if self.links.lateral_deflection() > CENTRED {
+            Some("Sticks not centered")
+        } else {
+            climbs.then_some("Throttle too high")
+        }
     }
 
     /// Returns true if arming needs a position: for the mode, for hold without a pilot, or for the geofence.
@@ -418,7 +422,7 @@ impl Autopilot {
             out.push("Not level".into());
         }
         match self.unfused.battery {
-            None => out.push("Battery not measured".into()),
+            None => out.push("No battery measurement".into()),
             Some(b) if b.remaining_pct < self.tuning.battery_critical_pct.max(rules.arm_charge_pct) => {
                 out.push("Battery too low".into());
             }
@@ -432,7 +436,7 @@ impl Autopilot {
             out.push("Outside the geofence".into());
         }
         if self.unfused.range_up_m.is_some_and(|r| r < HEADROOM_M) {
-            out.push("Something stands over the vehicle".into());
+            out.push("Obstacle above vehicle".into());
         }
         out
     }
@@ -448,7 +452,7 @@ impl Autopilot {
             let mission = self.status.mode == FlightMode::Mission;
             self.push_event(
                 Severity::Info,
-                if mission { "Mission paused: pilot took over by the sticks" } else { "Pilot took over by the sticks" },
+                if mission { "Mission paused: pilot took over with sticks" } else { "Pilot took over with sticks" },
             );
             self.failsafe.intended = FlightMode::Position;
             self.enter(FlightMode::Position, now);

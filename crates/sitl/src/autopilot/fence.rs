@@ -179,7 +179,7 @@ impl Autopilot {
     /// Enables or disables the geofence.
     pub(super) fn enable_fence(&mut self, on: bool) -> RequestOutcome {
         self.tuning.fence_enabled = on;
-        self.push_event(Severity::Info, if on { "Geofence on" } else { "Geofence off" });
+        self.push_event(Severity::Info, if on { "Geofence enabled" } else { "Geofence disabled" });
         RequestOutcome::Accepted
     }
 
@@ -203,11 +203,11 @@ impl Autopilot {
     pub(super) fn fence_refusal(&self, target_m: Vec3<Ned>) -> Option<RequestOutcome> {
         let here = self.estimate.position_m;
         if self.breach_at(target_m).is_some() || self.below_floor(target_m) {
-            return Some(RequestOutcome::Denied("Target lies outside the geofence".into()));
+            return Some(RequestOutcome::Denied("Target outside geofence".into()));
         }
         // A vehicle outside the fence may fly back in.
         let out = self.estimate.position_valid && self.breach_at(here).is_none() && self.leaves_between(here, target_m);
-        out.then(|| RequestOutcome::Denied("The way there leaves the geofence".into()))
+        out.then(|| RequestOutcome::Denied("Path to target leaves geofence".into()))
     }
 
     /// Returns true if a position is below the minimum fence height above home.
@@ -218,7 +218,7 @@ impl Autopilot {
 
     /// Returns the rejection of a circle that leaves the fence, or `None` if it is allowed.
     pub(super) fn ring_refusal(&self, centre_m: Vec3<Ned>, radius_m: f64) -> Option<RequestOutcome> {
-        self.ring_leaves(centre_m, radius_m).then(|| RequestOutcome::Denied("The circle leaves the geofence".into()))
+        self.ring_leaves(centre_m, radius_m).then(|| RequestOutcome::Denied("Circle leaves geofence".into()))
     }
 
     /// Returns true if the straight path between two allowed positions leaves the fence.
@@ -245,7 +245,7 @@ impl Autopilot {
         let mut from = (self.mission.current == 0 && self.breach_at(start).is_none()).then_some(start);
         for (step, what) in self.mission.all() {
             let step = step + self.tuning.first_item;
-            let outside = format!("Mission item {step} lies outside the geofence");
+            let outside = format!("Mission item {step} outside geofence");
             let to = match what {
                 MissionStep::Waypoint { position_m, .. } | MissionStep::Land { position_m: Some(position_m) } => position_m,
                 MissionStep::Circle { centre_m, radius_m, .. } if self.ring_leaves(centre_m, radius_m.abs()) => {
@@ -262,13 +262,13 @@ impl Autopilot {
                 return Some(outside);
             }
             if from.is_some_and(|from| self.leaves_between(from, to)) {
-                return Some(format!("The way to mission item {step} leaves the geofence"));
+                return Some(format!("Path to mission item {step} leaves geofence"));
             }
             from = Some(to);
         }
         let back = self.mission.left_at.filter(|_| flying && self.breach_at(self.estimate.position_m).is_none());
         let cut_off = back.is_some_and(|place| self.leaves_between(self.estimate.position_m, place));
-        cut_off.then(|| "The way back to where the mission was left leaves the geofence".into())
+        cut_off.then(|| "Return path to mission leaves geofence".into())
     }
 
     fn is_active(&self) -> bool {
@@ -301,7 +301,7 @@ impl Autopilot {
         let before = std::mem::replace(&mut self.status.fence.breach, breach);
         match (before, breach) {
             (None, Some(breach)) => self.breached(breach, now),
-            (Some(_), None) => self.push_event(Severity::Info, "Within the geofence again"),
+            (Some(_), None) => self.push_event(Severity::Info, "Back inside geofence"),
             (None, None) | (Some(_), Some(_)) => {}
         }
     }

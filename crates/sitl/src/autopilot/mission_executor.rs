@@ -212,7 +212,7 @@ impl Autopilot {
         self.navigator.target_m = place_m;
         if (place_m - self.estimate.position_m).norm() < BACK_WITHIN_M {
             self.mission.left_at = None;
-            self.push_event(Severity::Info, "Mission goes on where it was left");
+            self.push_event(Severity::Info, "Mission resumed from interruption point");
         }
         self.go(self.mission.speed_m_s.or(Some(self.cruise_m_s())), dt_s)
     }

@@ -80,7 +80,7 @@ impl SensorChange {
             Some(SensorFault::Silent) => format!("{name} lost: no readings"),
             Some(SensorFault::Stuck) => format!("{name} stuck: not used"),
             Some(SensorFault::Inconsistent) => format!("{name} inconsistent: not used"),
-            None => format!("{name} is back"),
+            None => format!("{name} recovered"),
         }
     }
 }

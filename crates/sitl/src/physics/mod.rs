@@ -254,7 +254,7 @@ impl AirframeModel {
     }
 
     /// Runs one physics step that starts at `now`.
-    #[allow(clippy::too_many_arguments, reason = "a step's inputs, each of another kind")]
+    #[allow(clippy::too_many_arguments, reason = "inputs of one step, all of different types")]
     pub fn advance(
         &self,
         state: &mut PhysicsState,
