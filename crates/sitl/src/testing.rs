@@ -209,7 +209,7 @@ impl Vehicle {
         self.others.pop_front()
     }
 
-    /// Present simulation time.
+    /// Current simulation time.
     #[must_use]
     pub fn now(&self) -> SimTime {
         self.sim.now()
@@ -372,7 +372,7 @@ impl Vehicle {
         self.request(command, &at(command, place, [-1.0, 1.0, 0.0, f32::NAN]))
     }
 
-    /// Lands at the present position.
+    /// Lands at the current position.
     ///
     /// # Errors
     /// The command was rejected.

@@ -156,7 +156,7 @@ impl Autopilot {
         self.fly_within_limits(speed, rate, self.tuning.descend_m_s, dt_s)
     }
 
-    /// Returns the take-off height. From the ground it is at least high enough to lift off.
+    /// Returns the take-off height, m above the origin. From the ground it is at least high enough to lift off.
     pub(super) fn above_ground(&self, up_m: f64) -> f64 {
         let standing = matches!(self.status.landed, LandedState::OnGround | LandedState::TakingOff);
         if standing { up_m.max(TAKEOFF_LEAST_M - self.estimate.position_m.down()) } else { up_m }
@@ -344,7 +344,7 @@ impl Autopilot {
 
     fn spin(&mut self, rates_rad_s: Vec3<Frd>, thrust: f64) -> Setpoint {
         let thrust_n = self.direct_thrust_n(thrust);
-        // The next mode continues from the present heading.
+        // The next mode continues from the current heading.
         self.navigator.yaw_rad = self.estimate.attitude.yaw_rad();
         Setpoint::Spin { rates_rad_s, thrust_n }
     }

@@ -275,7 +275,7 @@ impl Autopilot {
         outcome
     }
 
-    /// Flies the landing sequence nearest to the present position.
+    /// Flies the landing sequence nearest to the current position.
     fn request_landing_sequence(&mut self, now: SimTime) -> RequestOutcome {
         let here = self.estimate.position_m;
         let Some(index) = self.mission.landing_sequence(here) else {

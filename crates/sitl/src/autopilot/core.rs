@@ -417,7 +417,7 @@ impl Autopilot {
         self.events.push(AutopilotEvent { severity, text: text.into(), sensor: None });
     }
 
-    /// Returns the present estimate.
+    /// Returns the current estimate.
     #[must_use]
     pub fn estimate(&self) -> &Estimate {
         &self.estimate

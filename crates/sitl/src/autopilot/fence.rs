@@ -111,7 +111,7 @@ pub enum FenceAction {
     Return,
     /// Stop the motors (4).
     Terminate,
-    /// Land at the present position (5).
+    /// Land at the current position (5).
     Land,
 }
 
@@ -129,7 +129,7 @@ impl FenceAction {
 pub struct FenceState {
     /// Whether any limit is active.
     pub set: bool,
-    /// The present breach.
+    /// The current breach.
     pub breach: Option<Breach>,
     /// Number of breaches so far.
     pub count: u16,

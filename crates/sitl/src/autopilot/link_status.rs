@@ -11,7 +11,7 @@ pub struct LinkStatus {
     pub sticks: Sticks,
     /// Time of the last stick input.
     pub sticks_at: Option<SimTime>,
-    /// Stick input at the start of the present automatic mode, the reference for stick takeover.
+    /// Stick input at the start of the current automatic mode, the reference for stick takeover.
     pub sticks_then: Sticks,
     /// Whether stick input arrives in guided mode (ArduCopter: GUIDED).
     pub guided: bool,

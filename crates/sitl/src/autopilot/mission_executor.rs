@@ -82,7 +82,7 @@ impl Autopilot {
         self.trajectory = Trajectory::join(from, &ahead, bounds);
     }
 
-    /// Replans from the present motion. After a pause the earlier trajectory no longer applies.
+    /// Replans from the current motion. After a pause the earlier trajectory no longer applies.
     pub(super) fn replan_trajectory(&mut self) {
         self.trajectory = None;
         if self.mission.begun && matches!(self.mission.step(), Some(MissionStep::Waypoint { .. } | MissionStep::Near(_))) {
@@ -90,7 +90,7 @@ impl Autopilot {
         }
     }
 
-    /// Returns a trajectory point that matches the present motion. The plan is ahead by the attitude lag.
+    /// Returns a trajectory point that matches the current motion. The plan is ahead by the attitude lag.
     fn current_motion(&self) -> TrajectoryPoint {
         let (e, lag_s) = (&self.estimate, self.gains.attitude_lag_s);
         let flat = Vec3::new(e.velocity_m_s.north(), e.velocity_m_s.east(), 0.0);

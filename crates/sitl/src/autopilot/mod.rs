@@ -50,7 +50,7 @@ pub enum FlightMode {
     Hold,
     /// Automatic take-off, then hold.
     Takeoff,
-    /// Land at the present position.
+    /// Land at the current position.
     Land,
     /// Return to home and land.
     Return,
@@ -101,9 +101,9 @@ pub enum AutopilotRequest {
         /// Height above home, m. `None` uses the parameter.
         height_m: Option<f64>,
     },
-    /// Land at the present position.
+    /// Land at the current position.
     Land,
-    /// Fly to a position and hold. `None` components keep their present values.
+    /// Fly to a position and hold. `None` components keep their current values.
     GoTo {
         /// North and east, m.
         north_east_m: Option<(f64, f64)>,
@@ -114,7 +114,7 @@ pub enum AutopilotRequest {
         /// Ground speed, m/s.
         speed_m_s: Option<f64>,
     },
-    /// Turn to a heading in the present automatic mode.
+    /// Turn to a heading in the current automatic mode.
     Turn(TurnCommand),
     /// Start or continue the mission.
     StartMission {
@@ -186,7 +186,7 @@ pub enum RequestOutcome {
     Unsupported,
 }
 
-/// The present estimate.
+/// The current estimate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
     /// Position relative to the origin, m.
@@ -247,7 +247,7 @@ pub struct AutopilotStatus {
     pub failsafe: Option<String>,
     /// Home relative to the origin, m; `None` before the first fix.
     pub home_m: Option<Vec3<Ned>>,
-    /// Present target position, m.
+    /// Current target position, m.
     pub target_m: Option<Vec3<Ned>>,
     /// The active external setpoint.
     pub setpoint: Option<OffboardSetpoint>,
@@ -294,7 +294,7 @@ pub enum MissionStep {
     },
     /// Land.
     Land {
-        /// Landing position, m; `None` for the present position.
+        /// Landing position, m; `None` for the current position.
         position_m: Option<Vec3<Ned>>,
     },
     /// Return to home and land.
@@ -325,9 +325,9 @@ pub enum MissionStep {
     },
     /// Turn to a heading.
     Turn {
-        /// Heading, or angle relative to the present heading (clockwise positive), rad.
+        /// Heading, or angle relative to the current heading (clockwise positive), rad.
         yaw_rad: f64,
-        /// Whether the angle is relative to the present heading.
+        /// Whether the angle is relative to the current heading.
         relative: bool,
         /// Turn rate, rad/s; `None` for the default.
         rate_rad_s: Option<f64>,

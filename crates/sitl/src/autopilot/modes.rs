@@ -91,7 +91,7 @@ pub struct NavigatorState {
     pub turn: Option<TurnCommand>,
     /// Whether the pilot has turned the nose in GUIDED. The heading then stays until the next request.
     pub turned_by_pilot: bool,
-    /// The pause, if the present mode is paused.
+    /// The pause, if the current mode is paused.
     pub paused: Option<PausedAt>,
 }
 

@@ -12,7 +12,7 @@ pub enum FailsafeResponse {
     Hold,
     /// Return to home and land.
     Return,
-    /// Land at the present position.
+    /// Land at the current position.
     Land,
     /// Stop the motors.
     Terminate,

@@ -64,7 +64,7 @@ pub struct Orbit {
 /// A requested circle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct OrbitRequest {
-    /// Center, north and east, m; `None` uses the present position.
+    /// Center, north and east, m; `None` uses the current position.
     pub centre_m: Option<(f64, f64)>,
     /// Height above the origin, m.
     pub up_m: Option<f64>,

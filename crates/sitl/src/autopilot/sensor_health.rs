@@ -67,7 +67,7 @@ pub enum SensorFault {
 pub struct SensorChange {
     /// The sensor.
     pub sensor: MonitoredSensor,
-    /// Its present fault; `None` if it works again.
+    /// Its current fault; `None` if it works again.
     pub fault: Option<SensorFault>,
 }
 

@@ -5,7 +5,7 @@ use super::modes::{ReturnPhase, Setpoint};
 use super::{FlightMode, LandedState};
 use spandrel_model::frames::{Ned, Vec3};
 
-/// Distance between recorded points. Path sections closer than this count as crossing, m (ArduCopter: SRTL_ACCURACY).
+/// Distance between recorded points. Path sections closer than this form a loop, m (ArduCopter: SRTL_ACCURACY).
 const ACCURACY_M: f64 = 2.0;
 /// Maximum number of points (ArduCopter: SRTL_POINTS).
 const MOST_POINTS: usize = 300;

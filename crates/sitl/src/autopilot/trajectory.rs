@@ -62,7 +62,7 @@ pub struct AccelerationLimits {
 }
 
 impl AccelerationLimits {
-    /// Creates limits for an aircraft with this acceleration. Reserves half of the horizontal and a third of the vertical
+    /// Creates limits for an aircraft with this acceleration. Reserves 50 % of the horizontal and 30 % of the vertical
     /// acceleration for wind and errors.
     #[must_use]
     pub fn within(horizontal_m_s2: f64, vertical_m_s2: f64) -> Self {
@@ -182,7 +182,7 @@ impl Trajectory {
         off.position_m += off.velocity_m_s * dt_s;
     }
 
-    /// Present state of the plan.
+    /// Current state of the plan.
     #[must_use]
     pub fn planned(&self) -> TrajectoryPoint {
         let (place, along, bend) = self.shape(self.along_m);
@@ -274,7 +274,7 @@ fn legs(from_m: Vec3<Ned>, waypoints: &[Waypoint], bounds: &AccelerationLimits) 
     for (k, to) in waypoints.iter().enumerate() {
         let way = to.position_m - at;
         let length_m = way.norm();
-        // A single waypoint at the present position is still a valid trajectory.
+        // A single waypoint at the current position is still a valid trajectory.
         if length_m < SAME_PLACE_M && (!legs.is_empty() || k + 1 < waypoints.len()) {
             continue;
         }

@@ -9,7 +9,7 @@ pub enum LinkLossAction {
     Hold,
     /// Return to home and land.
     Return,
-    /// Land at the present position.
+    /// Land at the current position.
     Land,
     /// Stop the motors.
     Terminate,

@@ -134,7 +134,7 @@ fn attitude_thrust(mass_kg: f64, now: &Estimate, force: Vec3<Ned>, yaw_rad: f64,
     AttitudeThrustSetpoint { attitude, thrust_n: thrust(mass_kg, now, force, gains) }
 }
 
-/// Collective thrust whose vertical component is correct at the present tilt.
+/// Collective thrust whose vertical component is correct at the current tilt.
 fn thrust(mass_kg: f64, now: &Estimate, force: Vec3<Ned>, gains: &Gains) -> f64 {
     let upright = (now.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down();
     if upright <= 0.0 {

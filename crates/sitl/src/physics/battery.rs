@@ -19,7 +19,7 @@ pub struct BatteryState {
     pub current_a: f64,
     /// Energy drawn, J.
     pub energy_j: f64,
-    /// Fraction of the maximum rotor speed available at the present voltage.
+    /// Fraction of the maximum rotor speed available at the current voltage.
     pub speed_factor: f64,
     /// Failed cells that deliver no voltage, as a bit mask; bit 0 is the first cell.
     pub dead_cells: u16,

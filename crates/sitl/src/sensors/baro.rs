@@ -44,7 +44,7 @@ impl Barometer {
         Some((measured, pressure_pa(self.origin_altitude_m + measured)))
     }
 
-    /// Present offset, m, for estimator tests.
+    /// Current offset, m, for estimator tests.
     #[must_use]
     pub fn offset_m(&self) -> f64 {
         self.offset_m

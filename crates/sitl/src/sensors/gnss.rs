@@ -131,7 +131,7 @@ impl GnssReceiver {
         }
     }
 
-    /// Present drift, m, for estimator tests.
+    /// Current drift, m, for estimator tests.
     #[must_use]
     pub fn drift_m(&self) -> Vec3<Ned> {
         self.drift

@@ -188,7 +188,7 @@ impl Estimator {
         }
     }
 
-    /// Recovers when no height source fits the filter: resets to GNSS, or otherwise continues from the present height with the
+    /// Recovers when no height source fits the filter: resets to GNSS, or otherwise continues from the current height with the
     /// barometer if its offset is constant.
     fn recover_height(&mut self, innovation_m: f64, now: SimTime) {
         let tolerance_m = GATE * (2.0 * self.noise.baro_m * self.noise.baro_m).sqrt();

@@ -84,7 +84,7 @@ impl Estimator {
         let start = baro::START_OFFSET_M * baro::START_OFFSET_M;
         let (drift, walk, offset) = match reference {
             HeightReference::Gnss => (usual, self.noise.baro_walk, start),
-            // The offset stays at its present value.
+            // The offset stays at its current value.
             HeightReference::Barometer => (loose, 0.0, 0.0),
             HeightReference::RangeFinder => (loose, loose_walk, start),
         };

@@ -427,7 +427,7 @@ impl Estimator {
         self.trust = LastFused::new(now);
     }
 
-    /// Returns the present estimate.
+    /// Returns the current estimate.
     #[must_use]
     pub fn estimate(&self) -> Estimate {
         Estimate {
