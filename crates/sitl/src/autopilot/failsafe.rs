@@ -16,7 +16,7 @@ const LEVEL: f64 = 0.94;
 const HEADROOM_M: f64 = 1.0;
 /// Maximum horizontal position error for arming, m (1 sigma).
 const ARMING_ACCURACY_M: f64 = 5.0;
-/// Crash detection: attitude error (40 degrees, as a cosine) and its duration on or near the ground, s.
+/// Crash detection: attitude error (40 degrees, as a cosine) and its minimum duration at low speed, s.
 const UPSET_COSINE: f64 = 0.766;
 const UPSET_S: f64 = 2.5;
 /// Speed above which crash detection waits for a possible recovery, m/s.
