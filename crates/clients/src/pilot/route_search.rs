@@ -1,4 +1,4 @@
-//! Obstacle-free routes: A* on a grid, then straightened. Stands in for a person who plans by sight.
+//! Obstacle-free routes: A* on a grid, then straightened. Models a person who plans by sight.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::Site;

@@ -1,9 +1,9 @@
-//! Who flies: five numbers of a human operator. Errors come out of them; none is made by type.
+//! Human operator model: five skill parameters. Errors result from these parameters; no type of error is scripted.
 
 use std::str::FromStr;
 
-/// A pilot's numbers. Sources: docs/src/reference/domain.md, "Human operators" (crossover model, McRuer; gaze of drone pilots 1.5
-/// s ahead, n = 21).
+/// Skill parameters of a pilot. Sources: docs/src/reference/domain.md, "Human operators" (crossover model, McRuer; gaze of drone
+/// pilots 1.5 s ahead, n = 21).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Skill {
     /// Delay from an event to the control response, s.
