@@ -13,8 +13,8 @@ import gamepad
 import spandrel
 
 # Buttons that the wizard asks for: three have one, the others none.
-WISHES = (("the lamp", gamepad.SOUTH), ("a snapshot", gamepad.EAST), ("arming", gamepad.NORTH), ("take-off", None), ("landing", None),
-          ("the camera up", None), ("the camera down", None))
+WISHES = (("the lamp", gamepad.SOUTH), ("a snapshot", gamepad.EAST), ("arming", gamepad.NORTH), ("takeoff", None), ("landing", None),
+          ("camera up", None), ("camera down", None))
 # A pad's up is below its middle.
 PUSHES = (("LEFT stick fully UP", gamepad.Y, -1), ("LEFT stick fully to the RIGHT", gamepad.X, 1),
           ("RIGHT stick fully UP", gamepad.RIGHT_Y, -1), ("RIGHT stick fully to the RIGHT", gamepad.RIGHT_X, 1))

@@ -54,10 +54,10 @@ const BUTTONS: [(ControllerAction, &str); 7] = [
     (ControllerAction::Lamp, "the lamp"),
     (ControllerAction::Snapshot, "a snapshot"),
     (ControllerAction::Arm, "arming"),
-    (ControllerAction::TakeOff, "take-off"),
+    (ControllerAction::TakeOff, "takeoff"),
     (ControllerAction::Land, "landing"),
-    (ControllerAction::GimbalUp, "the camera up"),
-    (ControllerAction::GimbalDown, "the camera down"),
+    (ControllerAction::GimbalUp, "camera up"),
+    (ControllerAction::GimbalDown, "camera down"),
 ];
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -150,7 +150,7 @@ impl CalibrationWizard {
             ),
             WizardStep::Middle(_) => "Center the sticks ...".to_owned(),
             WizardStep::Push(k) => format!("Push {} and hold it there.", WAYS[k].2),
-            WizardStep::Button(k) => format!("Press the button for {}, or Enter for none.", BUTTONS[k].1),
+            WizardStep::Button(k) => format!("Press the button for {}, or Enter to skip.", BUTTONS[k].1),
             WizardStep::Done => "Done.".to_owned(),
         };
         match self.note {
@@ -479,7 +479,7 @@ mod tests {
         person.wait(0.4);
         person.hold(2, 0.9);
         person.hold(2, 0.9);
-        assert!(person.wizard.prompt().contains("already assigned"), "{}", person.wizard.prompt());
+        assert!(person.wizard.prompt().contains("axis is already assigned"), "{}", person.wizard.prompt());
         person.wizard.handle(DeviceEvent::Lost, person.now);
         assert!(person.wizard.prompt().contains("Plug it in again"));
     }
