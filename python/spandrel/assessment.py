@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import math
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -16,8 +17,16 @@ if TYPE_CHECKING:
     import pandas
 
 
-_KINDS: dict[str, Callable[[str], object]] = {"frame": int, "light": int, "snapshot": int, "missing": int, "contact": str}
+_KINDS: dict[str, Callable[[str], object]] = {
+    **dict.fromkeys(("frame", "light", "snapshot", "missing", "on_path", "interpolated"), int),
+    "contact": str,
+}
 """Columns of the frames that are no floats."""
+
+
+def _number(text: str) -> float:
+    """A cell as a float; NaN where the telemetry held no value."""
+    return float(text) if text else math.nan
 
 
 @dataclass(frozen=True)
@@ -60,7 +69,7 @@ class Assessment:
 
         rows = list(csv.DictReader(io.StringIO(self.frames_csv)))
         # Read by Python, so that every number is the one that was written, to the last bit.
-        columns = {name: [_KINDS.get(name, float)(row[name]) for row in rows] for name in (rows[0] if rows else ())}
+        columns = {name: [_KINDS.get(name, _number)(row[name]) for row in rows] for name in (rows[0] if rows else ())}
         return pandas.DataFrame(columns).set_index("frame")
 
 

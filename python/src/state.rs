@@ -44,7 +44,7 @@ pub struct State {
 impl State {
     /// Of a vehicle now.
     pub fn of(vehicle: &Vehicle) -> Self {
-        let sim = vehicle.sim;
+        let sim = &vehicle.sim;
         let (truth, payload) = (sim.truth(), sim.payload());
         let (roll_rad, pitch_rad, heading_rad) = truth.rigid.attitude.euler();
         Self {

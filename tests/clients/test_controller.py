@@ -119,7 +119,7 @@ def test_wire_a_device_that_is_not_calibrated_or_a_wrong_file_is_told(tmp_path):
     assert refused.returncode == 2 and "left_vertical.high = 9: out of range (allowed: -1 to 1)" in refused.stderr, refused.stderr
     record.write_text("sticks\n", encoding="utf-8")
     refused = rc("--replay", str(record))
-    assert refused.returncode == 2 and "flight.jsonl:1: 'sticks' is no JSON object" in refused.stderr
+    assert refused.returncode == 2 and "flight.jsonl:1: 'sticks' is not a JSON object" in refused.stderr
     refused = rc("--keyboard")
     assert refused.returncode == 1 and "--keyboard needs a terminal" in refused.stderr
     refused = rc("--list")

@@ -24,6 +24,8 @@ from spandrel import wait_for
 
 # The take-off height that the vehicle flies to by itself, m; what the log says of it must lie this near to what telemetry said, m.
 HEIGHT_TOLERANCE_M = 0.3
+# Slower up and down than this, m/s, is a hover: the last of a climb at 1.5 m/s is faster.
+STEADY_M_S = 0.1
 # The log's unit quaternions, stored as 32-bit floats.
 QUATERNION_TOLERANCE = 1e-5
 
@@ -117,7 +119,7 @@ def test_val_pyulog_reads_the_flights_log(vehicle):
     process, port, folder = vehicle
     mavsdk, system = sdk.connect(port)
     action, telemetry = sdk.take_off(system, 1.5)
-    time.sleep(2.0)
+    wait_for("a steady hover", lambda: abs(telemetry.position_velocity_ned().velocity.down_m_s) < STEADY_M_S)
     height = telemetry.position().relative_altitude_m
     action.land()
     wait_for("disarmed", lambda: not telemetry.armed())

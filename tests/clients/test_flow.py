@@ -212,9 +212,9 @@ def test_wire_an_assessment_is_not_paused_nor_begun_anew_but_may_be_ended(screen
 
         def refused():
             again.if_due()
-            return "it does not begin anew" in training.told()
+            return "cannot be restarted" in training.told()
 
-        spandrel.wait_for("'it does not begin anew'", refused, LIMIT_S)
+        spandrel.wait_for("'cannot be restarted'", refused, LIMIT_S)
         training.see("assessment-asked", paused, ESCAPE)
         training.see("assessment-goes-on", in_flight, ESCAPE)
         assert "time stands still" not in training.told() and len(folders(training)) == 1
@@ -274,4 +274,4 @@ def test_wire_bad_lines_are_named_once_and_the_window_stays(screen, tmp_path):
         spandrel.end(window)
         log.close()
     told = (tmp_path / "view.txt").read_text(encoding="utf-8")
-    assert told.count("is no message between train and its window") == 1 and "rubbish" in told, told
+    assert told.count("is not a valid message between train and its window") == 1 and "rubbish" in told, told

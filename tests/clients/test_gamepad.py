@@ -13,8 +13,8 @@ import gamepad
 import spandrel
 
 # Buttons that the wizard asks for: three have one, the others none.
-WISHES = (("the lamp", gamepad.SOUTH), ("a snapshot", gamepad.EAST), ("arming", gamepad.NORTH), ("take-off", None), ("landing", None),
-          ("the camera up", None), ("the camera down", None))
+WISHES = (("the lamp", gamepad.SOUTH), ("a snapshot", gamepad.EAST), ("arming", gamepad.NORTH), ("takeoff", None), ("landing", None),
+          ("camera up", None), ("camera down", None))
 # A pad's up is below its middle.
 PUSHES = (("LEFT stick fully UP", gamepad.Y, -1), ("LEFT stick fully to the RIGHT", gamepad.X, 1),
           ("RIGHT stick fully UP", gamepad.RIGHT_Y, -1), ("RIGHT stick fully to the RIGHT", gamepad.RIGHT_X, 1))
@@ -81,7 +81,7 @@ def calibrate(pad, profiles):
     try:
         wizard.hear("Let go of both sticks")
         wizard.enter()
-        wizard.hear("Move both sticks along their ends")
+        wizard.hear("Move both sticks around their full range")
         for axis in (gamepad.LEFT_TRIGGER, gamepad.RIGHT_TRIGGER, *(axis for _, axis, _ in PUSHES)):
             for part in (-1, 1, -1 if gamepad.AXES[axis] == gamepad.TRIGGER else 0):
                 pad.axis(axis, part)
@@ -93,7 +93,7 @@ def calibrate(pad, profiles):
         for words, axis, part in PUSHES:
             wizard.hear(f"Push the {words}")
             pad.axis(axis, part)
-            wizard.hear("Back to the middle" if (words, axis, part) != PUSHES[-1] else f"button for {WISHES[0][0]}")
+            wizard.hear("Center the sticks" if (words, axis, part) != PUSHES[-1] else f"button for {WISHES[0][0]}")
             pad.axis(axis, 0)
         for (_, button), following in zip(WISHES, [*WISHES[1:], None]):
             if button is None:

@@ -110,7 +110,7 @@ def test_wire_mavproxy_reads_parameters_flies_by_channels_and_switches_the_lamp(
     typed.until("param fetch MPC_XY_CRUISE", "MPC_XY_CRUISE = 4.0")
     typed.say("mode", "Available modes")
     typed.say("rc 3 1900", None)
-    typed.until("arm throttle", "Sticks not centred")
+    typed.until("arm throttle", "Sticks not centered")
     typed.say("rc all 1500", None)
     typed.until("arm throttle", "ARMED")
     typed.say("rc 3 1800", "Takeoff detected")

@@ -2,7 +2,6 @@
 
 import json
 import math
-import time
 
 import pytest
 from mavsdk.plugins.action import Action
@@ -17,6 +16,8 @@ import spandrel
 from spandrel import wait_for
 
 NAN = float("nan")
+# Slower than this over the ground, m/s, is a standstill after 2 m/s.
+STANDSTILL_M_S = 0.3
 # Relative height over home and MISSION frames of MAVLink.
 OVER_HOME, ANY = 6, 2
 # 1e-7 degrees of latitude in a metre.
@@ -137,7 +138,7 @@ def test_wire_mavsdk_sets_a_fence_that_holds_the_vehicle(vehicle):
     offboard.start()
     wait_for("offboard flight", lambda: telemetry.flight_mode() == FlightMode.OFFBOARD)
     wait_for("the hold at the fence", lambda: telemetry.flight_mode() == FlightMode.HOLD)
-    time.sleep(0.5)
+    wait_for("a standstill", lambda: (v := telemetry.position_velocity_ned().velocity) and math.hypot(v.north_m_s, v.east_m_s) < STANDSTILL_M_S)
     away = math.hypot(place(telemetry)[0], place(telemetry)[1])
     assert 10.0 < away < 18.0, away
     fence.clear_geofence()

@@ -151,7 +151,7 @@ def test_wire_what_is_missing_is_named_in_one_message(screen, tmp_path):
     keys = tmp_path / "keys.toml"
     keys.write_text('format = 1\n[window]\nmap = "b"\n', encoding="utf-8")
     refused = view(blind, "--keys", str(keys))
-    assert refused.returncode == 2 and "does lamp already" in refused.stderr, refused.stderr
+    assert refused.returncode == 2 and "already bound to lamp" in refused.stderr, refused.stderr
     for asked in (["train", "--keys", str(keys)], ["train", "--quality", "best"]):
         refused = said(*asked, "--sessions", str(tmp_path / "sessions"))
         assert refused.returncode == 2 and asked[2].split("/")[-1] in refused.stderr, refused.stderr

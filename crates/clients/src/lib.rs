@@ -1,13 +1,13 @@
-//! Clients that fly the vehicle. [`pilot`] is a synthetic trainee that works from telemetry and moves the sticks; [`rc`] maps a controller or a
-//! keyboard to sticks through a calibrated profile.
+//! Clients that fly the vehicle: [`pilot`] is a synthetic trainee that flies from telemetry alone; [`rc`] maps a controller or
+//! keyboard to stick inputs through a calibrated profile.
 //!
-//! Both are MAVLink clients like any ground station and know nothing of the simulator.
+//! Both are ordinary MAVLink clients, like any ground station. They have no access to the simulator.
 //!
 //! ```
-//! use spandrel_clients::rc::keyboard::Keys;
+//! use spandrel_clients::rc::keyboard::KeyBindings;
 //!
-//! // A file of keys that names an unknown action is refused with its place.
-//! let problems = Keys::read("keys.toml", "[sticks]\nclimb = \"w\"\n").expect_err("no such action");
+//! // Rejects a key file that binds an unknown action and reports its location.
+//! let problems = KeyBindings::read("keys.toml", "[sticks]\nclimb = \"w\"\n").expect_err("no such action");
 //! assert!(problems.to_string().contains("keys.toml"));
 //! ```
 

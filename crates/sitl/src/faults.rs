@@ -1,5 +1,5 @@
-//! Faults that an instructor puts into the vehicle (MAV_CMD_INJECT_FAILURE): sensors, motors, battery, manual control. They spoil what
-//! sensors read and what actuators do; the autopilot is not told.
+//! Failures that an instructor injects (MAV_CMD_INJECT_FAILURE): sensors, motors, battery, manual control. They corrupt sensor
+//! readings and actuator commands; the autopilot gets no notification.
 
 use super::physics::{Actuators, MAX_ROTORS};
 use super::sensors::Readings;
@@ -7,44 +7,44 @@ use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::random::RandomStream;
 use spandrel_model::time::SimTime;
 
-/// What fails, by MAVLink's FAILURE_UNIT.
+/// Failing component, from MAVLink's FAILURE_UNIT.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FailureUnit {
-    /// 2.
+    /// Magnetometer (2).
     Magnetometer,
-    /// 3.
+    /// Barometer (3).
     Barometer,
-    /// 4.
+    /// GNSS receiver (4).
     Gnss,
-    /// 5.
+    /// Optical flow (5).
     Flow,
-    /// 7.
+    /// Range finders (7).
     Ranges,
-    /// 100.
+    /// Battery (100).
     Battery,
-    /// 101.
+    /// Motor (101).
     Motor,
-    /// 104.
+    /// Manual control (104).
     Sticks,
 }
 
-/// How it fails, by MAVLink's FAILURE_TYPE.
+/// Failure mode, from MAVLink's FAILURE_TYPE.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FailureType {
-    /// Nothing comes (1).
+    /// No output (1).
     Off,
-    /// The last value again and again (2).
+    /// Repeats the last value (2).
     Stuck,
-    /// Noise (3).
+    /// Random values (3).
     Garbage,
-    /// Wrong by a constant (4).
+    /// Constant error (4).
     Wrong,
-    /// There for a second, gone for a second (7).
+    /// Alternates between one second on and one second off (7).
     Intermittent,
 }
 
 impl FailureUnit {
-    /// From MAVLink's number.
+    /// Returns the unit for MAVLink's number, or `None` if it is not supported.
     #[must_use]
     pub fn from_number(n: i64) -> Option<Self> {
         Some(match n {
@@ -60,7 +60,7 @@ impl FailureUnit {
         })
     }
 
-    /// Faults that it can have.
+    /// Returns true if this component supports the failure mode.
     fn has(self, kind: FailureType) -> bool {
         match self {
             Self::Magnetometer | Self::Barometer | Self::Gnss | Self::Ranges => true,
@@ -72,7 +72,7 @@ impl FailureUnit {
 }
 
 impl FailureType {
-    /// From MAVLink's number; `Some(None)` for 0, all is well.
+    /// Returns the failure mode for MAVLink's number; `Some(None)` for 0 (no failure), `None` if it is not supported.
     #[must_use]
     pub fn from_number(n: i64) -> Option<Option<Self>> {
         Some(match n {
@@ -87,19 +87,19 @@ impl FailureType {
     }
 }
 
-/// A wrong fix lies so far to the north and east, m, and a wrong height so far up, m (estimates: a multipath jump under a deck).
+/// Constant position error, north and east, and constant height error, m (estimates: a multipath jump below a deck).
 const JUMP_M: f64 = 25.0;
 const RISE_M: f64 = 8.0;
-/// A garbage reading is wrong by this, one standard deviation: m, m, gauss.
+/// Standard deviations of garbage readings: position, m, height, m, and magnetic field, gauss.
 const GARBAGE_M: f64 = 30.0;
 const GARBAGE_UP_M: f64 = 10.0;
 const GARBAGE_GAUSS: f64 = 0.5;
-/// A wrong range finder is off by this factor.
+/// Factor on the reading of a wrong range finder.
 const RANGE_FACTOR: f64 = 0.5;
-/// Charge that a failing battery has left at most, share.
+/// Maximum charge left after a battery failure, 0 to 1.
 const CHARGE_LEFT: f64 = 0.05;
 
-/// All faults of now.
+/// All active failures.
 #[derive(Debug, Clone)]
 pub struct Faults {
     sensors: [Option<FailureType>; 5],
@@ -110,7 +110,7 @@ pub struct Faults {
 }
 
 impl Faults {
-    /// None yet.
+    /// Creates a state without failures.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self {
@@ -122,7 +122,8 @@ impl Faults {
         }
     }
 
-    /// Puts a fault in, or takes it out again (`None`). `instance` counts from 1, 0 is all. False for a fault that there is not.
+    /// Injects a failure, or clears it with `None`. `instance` counts from 1; 0 selects all. Returns false for an unsupported
+    /// failure.
     pub fn inject(&mut self, unit: FailureUnit, kind: Option<FailureType>, instance: usize, rotors: usize) -> bool {
         if kind.is_some_and(|kind| !unit.has(kind)) {
             return false;
@@ -142,13 +143,13 @@ impl Faults {
         true
     }
 
-    /// The charge that a battery has after its failure.
+    /// State of charge after a battery failure, 0 to 1.
     #[must_use]
     pub fn charge(charge: f64) -> f64 {
         charge.min(CHARGE_LEFT)
     }
 
-    /// Whether manual control gets through now.
+    /// Returns true if manual control input gets through at this time.
     #[must_use]
     pub fn passes_sticks(&self, now: SimTime) -> bool {
         match self.sticks {
@@ -158,7 +159,7 @@ impl Faults {
         }
     }
 
-    /// Keeps the last good reading of every sensor that is not stuck.
+    /// Stores the latest reading of every sensor that is not stuck.
     fn freeze(&mut self, fresh: &Readings) {
         let before = self.held;
         let stuck = |unit| self.sensors[place(unit)] == Some(FailureType::Stuck);
@@ -186,7 +187,7 @@ impl Faults {
         }
     }
 
-    /// Spoils fresh readings.
+    /// Applies the active failures to new readings.
     pub fn corrupt_readings(&mut self, fresh: &mut Readings, now: SimTime) {
         if self.sensors.iter().all(Option::is_none) {
             self.held.update_latest(fresh);
@@ -205,7 +206,7 @@ impl Faults {
                 _ => [0.0; 3],
             };
             fix.position_m += Vec3::<Ned>::new(n, e, d);
-            // A receiver that hears nothing still says so.
+            // A receiver without signal still reports that it has no fix.
             if kind == FailureType::Off || (kind == FailureType::Intermittent && is_silent(now)) {
                 (fix.fix, fix.satellites) = (0, 0);
             }
@@ -223,7 +224,7 @@ impl Faults {
         }
         if let Some(kind) = kinds[place(FailureUnit::Magnetometer)] {
             let turned = |field: Vec3<Frd>, [x, y, z]: [f64; 3]| match kind {
-                // Turned by a right angle, as a magnet beside the sensor would.
+                // Rotated by 90 degrees, like the effect of a magnet near the sensor.
                 FailureType::Wrong => Vec3::new(-field.right(), field.forward(), field.down()),
                 _ => field + Vec3::new(x, y, z),
             };
@@ -247,7 +248,7 @@ impl Faults {
         }
     }
 
-    /// Motors that have failed do not turn.
+    /// Stops failed motors.
     pub fn stop_motors(&self, actuators: &mut Actuators) {
         for (command, failed) in actuators.motors.iter_mut().zip(self.motors) {
             if failed {
@@ -271,7 +272,7 @@ fn is_silent(now: SimTime) -> bool {
     now.ms().rem_euclid(2_000) >= 1_000
 }
 
-/// A reading under a fault, when one is due.
+/// Applies a failure to one reading. Returns `None` if no reading is due.
 fn frozen<T: Copy>(kind: FailureType, fresh: Option<T>, held: Option<T>, now: SimTime) -> Option<T> {
     match kind {
         FailureType::Off => None,

@@ -1,14 +1,16 @@
-//! A multirotor in software that speaks MAVLink: physics, sensors, an autopilot and its interface, in one simulator without sockets or clocks.
+//! Simulated multirotor with a MAVLink interface: physics, sensors, autopilot and protocol endpoint in one simulator without
+//! sockets or clocks.
 //!
-//! [`sim::Sim`] is the whole vehicle at its site. Whoever runs it says what time it is (`handle_timeout`), hands in what came from a link
-//! (`handle_datagram`) and takes out what goes there (`poll_transmit`). Real time, ten times real time and as fast as possible are the same
-//! code with other times, and a clone is a snapshot.
+//! [`sim::Sim`] is the complete vehicle at its site. The host advances time (`handle_timeout`), passes in received datagrams
+//! (`handle_datagram`) and sends outgoing ones (`poll_transmit`). Real time, ten times real time and unlimited speed run the same
+//! code with different timestamps. A clone of the simulator is a snapshot.
 //!
-//! One step, in order: readings that are due ([`sensors`]), the autopilot ([`autopilot`]: estimator, modes, control, mixer), six degrees of
-//! freedom and contact ([`physics`]), then what the clients are told ([`endpoint`]). The autopilot sees readings, never the truth. Whose
-//! autopilot the clients believe to see, PX4 or ArduCopter, is one table ([`endpoint::flavour`]).
+//! Each step runs in this order: sensor samples that are due ([`sensors`]), the autopilot ([`autopilot`]: estimator, modes,
+//! control, mixer), six-degree-of-freedom motion and contact ([`physics`]), then outgoing telemetry ([`endpoint`]). The autopilot
+//! sees sensor readings only, never the true state. One table selects the emulated autopilot, PX4 or ArduCopter
+//! ([`endpoint::flavour`]).
 //!
-//! For tests and scripts, [`testing::Vehicle`] flies it by commands:
+//! For tests and scripts, [`testing::Vehicle`] controls the vehicle with commands:
 //!
 //! ```
 //! use spandrel_model::shipped;

@@ -1,5 +1,5 @@
-//! One simulation step, in a written order (docs/src/reference/wire.md, "One simulation step"). Sans-IO: datagrams and times come
-//! in, datagrams go out.
+//! One simulation step in a documented order (docs/src/reference/wire.md, "One simulation step"). Sans-IO: takes datagrams and
+//! timestamps, returns datagrams.
 
 mod crash_handling;
 mod host_api;
@@ -33,27 +33,27 @@ use spandrel_model::vehicle::Vehicle;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
-/// Physics step.
+/// Physics time step.
 pub const STEP: SimTime = SimTime::from_ms(1);
-/// Peers in step are asked this often.
+/// Interval between lockstep requests to peers.
 pub const LOCKSTEP: SimTime = SimTime::from_ms(20);
-/// Uncommon clearances are not looked for beyond this, m.
+/// Search radius for clearance, m.
 const CLEARANCE_REACH_M: f64 = 30.0;
 
-/// What to simulate.
+/// Configuration of a simulation.
 #[derive(Debug, Clone)]
 pub struct SimConfig {
-    /// The job.
+    /// The scenario.
     pub scenario: Arc<Scenario>,
     /// The aircraft.
     pub vehicle: Arc<Vehicle>,
-    /// Seed for everything random.
+    /// Seed for all random processes.
     pub seed: u64,
-    /// Vehicle number; the system id is one more.
+    /// Zero-based vehicle number. The system ID is one higher.
     pub instance: u8,
-    /// Whose interface is spoken.
+    /// The emulated autopilot.
     pub flavour: &'static Flavour,
-    /// What a crash leads to; `None`: what the scenario says.
+    /// Action after a crash. `None` uses the rule of the scenario.
     pub after_crash: Option<AfterCrash>,
 }
 
@@ -63,30 +63,30 @@ impl SimConfig {
     }
 }
 
-/// Something worth a log line.
+/// An event for the session log.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SimEvent {
-    /// First time off the ground.
+    /// First lift-off.
     LiftOff,
-    /// Something was touched.
+    /// A crash.
     Crash {
-        /// What, in words.
+        /// Name of the object that was hit.
         what: String,
-        /// How fast, m/s.
+        /// Impact speed, m/s.
         impact_m_s: f64,
     },
-    /// Put back at the last safe hover.
+    /// The vehicle was reset to its last safe hover.
     Respawn,
     /// The battery is empty.
     BatteryEmpty,
-    /// The session's flight is over.
+    /// The flight has ended.
     Ended {
-        /// Why.
+        /// The reason.
         reason: String,
     },
 }
 
-/// The whole vehicle and its site.
+/// The complete vehicle and its site.
 #[derive(Debug, Clone)]
 pub struct Sim {
     config: SimConfig,
@@ -98,7 +98,7 @@ pub struct Sim {
     endpoint: Endpoint,
     wind: WindField,
     now: SimTime,
-    /// When the autopilot's software started.
+    /// Boot time of the autopilot.
     booted: SimTime,
     readings: Readings,
     actuators: Actuators,
@@ -110,7 +110,7 @@ pub struct Sim {
     air: AirState,
     last_safe_hover: (Vec3<Ned>, f64),
     crashed_since: Option<SimTime>,
-    /// The running contact began, or went on, with a crash's speed.
+    /// Whether the current contact reached crash speed.
     hard_contact: bool,
     touched_at: SimTime,
     standing_up_m: f64,
@@ -124,16 +124,16 @@ pub struct Sim {
     faults: Faults,
     file_work: FileJobScheduler,
     instructor_settings: InstructorSettings,
-    /// When traffic was stopped and let go.
+    /// Times at which traffic was stopped and released.
     closures: BridgeClosures,
-    /// Changes of parameters that the world has followed.
+    /// Parameter changes already applied to the environment.
     applied_changes: u64,
     events: VecDeque<SimEvent>,
     digest: Sha256,
     recorder: FlightRecorder,
 }
 
-/// One instant of the vehicle, borrowing each of its parts on its own, so that endpoint and autopilot stay free to change.
+/// Builds a snapshot of the vehicle. Borrows each part separately so that endpoint and autopilot remain mutable.
 macro_rules! view {
     ($sim:expr, $estimate:expr, $status:expr, $fence_enabled:expr) => {
         VehicleSnapshot {
@@ -169,7 +169,7 @@ macro_rules! view {
 }
 
 impl Sim {
-    /// On the pad, motors off.
+    /// Creates the vehicle on its landing pad with motors off.
     #[must_use]
     pub fn new(config: SimConfig, site: Arc<Site>) -> Self {
         let (scenario, vehicle, seed) = (&config.scenario, &config.vehicle, config.seed);
@@ -236,23 +236,23 @@ impl Sim {
         }
     }
 
-    /// A peer is there.
+    /// Opens a link to a peer.
     pub fn open_link(&mut self, link: LinkId, kind: LinkKind, lockstep: bool) {
         self.endpoint.open(link, kind, lockstep, self.now);
         self.scale_timeouts();
     }
 
-    /// Nothing but answers goes out on a link until a heartbeat has come over it.
+    /// Sends only responses on a link until it has received a heartbeat.
     pub fn await_heartbeat(&mut self, link: LinkId) {
         self.endpoint.await_heartbeat(link);
     }
 
-    /// A link carries no more than so many bytes a second.
+    /// Limits the outgoing rate of a link, bytes/s.
     pub fn limit_link(&mut self, link: LinkId, bytes_s: f64) {
         self.endpoint.limit(link, bytes_s, self.now);
     }
 
-    /// A peer is gone; nobody waits for it any more.
+    /// Closes a link. Lockstep no longer waits for its peer.
     pub fn close_link(&mut self, link: LinkId) {
         self.endpoint.close(link);
         self.inbox.close(link);
@@ -260,14 +260,14 @@ impl Sim {
         self.scale_timeouts();
     }
 
-    /// Simulation runs this many times faster than its clients' clocks: with no peer in step, the limits after which a client counts as
-    /// lost grow by it (never below 1).
+    /// Sets the simulation speed relative to the clients' clocks (minimum 1). Without a lockstep peer, client timeouts scale with
+    /// it.
     pub fn set_speed_factor(&mut self, pace: f64) {
         self.speed_factor = if pace.is_finite() { pace.max(1.0) } else { 1.0 };
         self.scale_timeouts();
     }
 
-    /// Clients in step live in simulation time; without any, clients live in their own.
+    /// Lockstep clients run on simulation time. Without any, clients use their own clocks.
     fn scale_timeouts(&mut self) {
         let in_step = self.endpoint.stepped().next().is_some();
         let pace = if in_step { 1.0 } else { self.speed_factor };
@@ -275,13 +275,13 @@ impl Sim {
         self.endpoint.set_speed_factor(pace, autopilot);
     }
 
-    /// Bytes from clients that belonged to no frame.
+    /// Received bytes that did not belong to any frame.
     #[must_use]
     pub fn bad_bytes(&self) -> u64 {
         self.endpoint.bad_bytes()
     }
 
-    /// Datagrams that came faster than they may act, and frames that a link could not carry.
+    /// Number of datagrams dropped by rate limits and frames dropped by link limits.
     #[must_use]
     pub fn dropped(&self) -> u64 {
         self.inbox.dropped() + self.endpoint.dropped()
@@ -293,20 +293,20 @@ impl Sim {
         self.now
     }
 
-    /// The truth, for tools and tests.
+    /// The true physical state, for tools and tests.
     #[must_use]
     pub fn truth(&self) -> &physics::PhysicsState {
         &self.state
     }
 
-    /// Why the flight is over, once it is.
+    /// The reason the flight ended, or `None` while it continues.
     #[must_use]
     pub fn ended(&self) -> Option<&str> {
         self.end_reason.as_deref()
     }
 
-    /// Takes in a datagram. It acts at the next tick, or a later one when its link sends more than [`inbox`] lets act in one; in step,
-    /// after every answer is in, in the order of the links.
+    /// Receives a datagram. It is processed at the next tick, or later if its link exceeds the per-tick limits of [`inbox`]. In
+    /// lockstep, datagrams are processed in link order once all responses have arrived.
     pub fn handle_datagram(&mut self, link: LinkId, bytes: &[u8]) {
         if self.is_over_radio(link) {
             self.radio.receive(link, bytes, self.now);
@@ -327,13 +327,14 @@ impl Sim {
         }
     }
 
-    /// True while a peer in step owes its answer: time stands still.
+    /// Returns true while simulation time is stopped because a lockstep peer has not responded.
     #[must_use]
     pub fn waiting(&self) -> bool {
         !self.pending_answers.is_empty()
     }
 
-    /// Whether time waits for a peer that has never answered, and if so, whether anything has come from it.
+    /// Returns `None` unless the simulation is waiting for peers that have never responded; otherwise whether anything was
+    /// received from all of them.
     #[must_use]
     pub fn awaits_first_answer(&self) -> Option<bool> {
         let owing = |(link, step, heard): (LinkId, LockstepState, bool)| {
@@ -342,13 +343,13 @@ impl Sim {
         self.endpoint.stepped().filter_map(owing).reduce(|a, b| a && b)
     }
 
-    /// Shows peers that have never answered that the vehicle is there: heartbeats, and the question again. Nothing else changes.
+    /// Sends heartbeats and another lockstep request to peers that have never responded. Does not change the vehicle.
     pub fn send_first_contact(&mut self) {
         self.pause(false);
         self.endpoint.request_lockstep(self.now);
     }
 
-    /// Waits no longer for first answers: lockstep begins with them.
+    /// Stops waiting for first responses. Lockstep with each peer begins with its first response.
     pub fn skip_first_answers(&mut self) {
         let owing: Vec<LinkId> = self.pending_answers.keys().copied().collect();
         for link in owing {
@@ -358,19 +359,19 @@ impl Sim {
         self.pending_answers.retain(|link, _| kept.contains(link));
     }
 
-    /// A peer that is to be kept in step has not answered yet: time runs with the wall's until it does.
+    /// Returns true while a lockstep peer has not responded yet. Simulation time follows wall time until it does.
     #[must_use]
     pub fn runs_in_real_time(&self) -> bool {
         self.endpoint.stepped().any(|(_, step, _)| step == LockstepState::Late)
     }
 
-    /// When the next tick is due.
+    /// Time at which the next tick is due.
     #[must_use]
     pub fn poll_timeout(&self) -> SimTime {
         self.now + STEP
     }
 
-    /// The next datagram to send.
+    /// Returns the next datagram to send.
     pub fn poll_transmit(&mut self) -> Option<Transmit> {
         while let Some(transmit) = self.endpoint.poll() {
             if !self.is_over_radio(transmit.link) {
@@ -381,19 +382,20 @@ impl Sim {
         self.radio.sent(self.now)
     }
 
-    /// The next event.
+    /// Returns the next event.
     pub fn poll_event(&mut self) -> Option<SimEvent> {
         self.events.pop_front()
     }
 
-    /// SHA-256 over the state of every tick so far.
+    /// SHA-256 over the state of all ticks so far.
     #[must_use]
     pub fn digest(&self) -> [u8; 32] {
         self.digest.clone().finalize().into()
     }
 
-    /// Runs the ticks that are due up to `until`, up to where peers in step must be asked, or up to where a client has asked for work on
-    /// files ([`Sim::poll_file_job`]): it is done before the next tick, so that the answer has its place in simulation time.
+    /// Runs the ticks due up to `until`. Stops early for a lockstep request to peers, or for a file request of a client
+    /// ([`Sim::poll_file_job`]): it must be completed before the next tick so that its response has a defined place in simulation
+    /// time.
     pub fn handle_timeout(&mut self, until: SimTime) {
         if self.waiting() {
             return;
@@ -408,14 +410,14 @@ impl Sim {
         }
     }
 
-    /// True when there is somebody to wait for.
+    /// Sends lockstep requests. Returns true if there are peers to wait for.
     fn ask_peers(&mut self) -> bool {
         self.endpoint.request_lockstep(self.now);
         self.pending_answers = self.endpoint.all_in_step().map(|link| (link, self.now.ns())).collect();
         !self.pending_answers.is_empty()
     }
 
-    /// What has arrived acts now, as far as this tick's share of each link goes.
+    /// Processes received datagrams up to the per-tick limit of each link.
     fn process_inbox(&mut self) {
         while let Some((link, bytes)) = self.radio.received(self.now) {
             self.inbox.push(link, &bytes);
@@ -436,7 +438,7 @@ impl Sim {
         }
     }
 
-    /// The autopilot's software starts again on the ground; the world goes on.
+    /// Restarts the autopilot on the ground. The environment is unaffected.
     fn restart_autopilot(&mut self) {
         let Backend::Builtin(autopilot) = &mut self.backend;
         **autopilot = new_autopilot(&self.config);
@@ -447,20 +449,20 @@ impl Sim {
         self.scale_timeouts();
     }
 
-    /// Time stands still, and clients hear that the vehicle is there: a heartbeat on every link, and at the beginning a word. Call it once
-    /// a second of wall time; nothing else of the vehicle changes.
+    /// Sends a heartbeat on every link while the simulation is paused, and a text at the start of the pause. Call once per second
+    /// of wall time. Does not change the vehicle.
     pub fn pause(&mut self, begins: bool) {
         if begins {
-            self.endpoint.push_text(MavSeverity::MAV_SEVERITY_INFO, "Time stands still");
+            self.endpoint.push_text(MavSeverity::MAV_SEVERITY_INFO, "Simulation paused");
         }
         let Backend::Builtin(autopilot) = &mut self.backend;
         let view = view!(self, autopilot.estimate(), autopilot.status(), autopilot.tuning.fence_enabled);
         self.endpoint.send_heartbeats(&view);
     }
 
-    /// Time runs again; clients are told with the next tick.
+    /// Announces that the simulation continues; clients receive the text with the next tick.
     pub fn resume(&mut self) {
-        self.endpoint.push_text(MavSeverity::MAV_SEVERITY_INFO, "Time runs again");
+        self.endpoint.push_text(MavSeverity::MAV_SEVERITY_INFO, "Simulation resumed");
     }
 
     fn publish(&mut self) {

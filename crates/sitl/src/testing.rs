@@ -1,4 +1,5 @@
-//! A vehicle in process, for tests and scripts: no socket, no clock, as fast as the machine, and the same bits in every run.
+//! In-process vehicle for tests and scripts: no sockets, no clock, as fast as the machine allows, and identical results in every
+//! run.
 //!
 //! ```
 //! use spandrel_model::shipped;
@@ -14,8 +15,8 @@
 //! # }
 //! ```
 //!
-//! The vehicle is flown as any ground station flies it: by MAVLink frames, through the same interface. [`Vehicle::sim`] is the simulator
-//! itself, for further links, the truth and the digest.
+//! The harness controls the vehicle as any ground station does: with MAVLink frames through the same interface. [`Vehicle::sim`]
+//! gives access to the simulator for further links, the true state and the digest.
 
 use crate::endpoint::flavour::{Flavour, px4};
 use crate::endpoint::{LinkId, LinkKind, Transmit};
@@ -33,42 +34,42 @@ use spandrel_model::{shipped, vehicle};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// The link that the harness itself flies by.
+/// The link of the harness.
 pub const STATION: LinkId = LinkId(1);
-/// MAVLink system and component id of the harness, as ground stations have them.
+/// MAVLink system and component ID of the harness; the usual values of a ground station.
 const STATION_ID: (u8, u8) = (255, 190);
-/// A condition is looked at this often.
+/// Interval at which conditions are checked.
 const LOOK: SimTime = SimTime::from_ms(20);
-/// Frames kept for [`Vehicle::last_message`]: some twenty seconds of all streams.
+/// Maximum frames kept for [`Vehicle::last_message`]: about twenty seconds of all streams.
 const KEPT_FRAMES: usize = 20_000;
 
-/// Something that the vehicle did not do.
+/// An expected response or condition that did not occur.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MissedExpectation {
-    /// A command's answer was not "accepted".
-    #[error("{command:?} was answered {result:?}; the vehicle said: {said}")]
+    /// The command was not accepted.
+    #[error("{command:?} was rejected with {result:?}; last status text: {said}")]
     Refused {
         /// The command.
         command: MavCmd,
-        /// The answer.
+        /// The result.
         result: MavResult,
-        /// The vehicle's newest text.
+        /// The vehicle's latest status text.
         said: String,
     },
-    /// No answer within a second of simulation time.
-    #[error("{0:?} was not answered")]
+    /// No response within one second of simulation time.
+    #[error("no response to {0:?}")]
     Silent(MavCmd),
-    /// A condition did not hold in time.
-    #[error("the condition did not hold within {limit_s} s of simulation time; the vehicle said: {said}")]
+    /// A condition was not met in time.
+    #[error("condition not met within {limit_s} s of simulation time; last status text: {said}")]
     Late {
-        /// The limit, whole seconds.
+        /// The time limit, whole seconds.
         limit_s: i64,
-        /// The vehicle's newest text.
+        /// The vehicle's latest status text.
         said: String,
     },
 }
 
-/// What a vehicle is made from. Without anything: the hover drill, the phantom2, seed 1, PX4's interface.
+/// Builder for a [`Vehicle`]. Defaults: the hover drill, the phantom2, seed 1, PX4.
 #[derive(Debug, Clone)]
 pub struct VehicleBuilder {
     scenario: String,
@@ -93,59 +94,61 @@ impl Default for VehicleBuilder {
 }
 
 impl VehicleBuilder {
-    /// The job, as the text of a scenario file: one of [`shipped`] or one's own. A height field that it names is not read here.
+    /// Sets the scenario from the text of a scenario file, for example one of [`shipped`]. Height fields that it references are
+    /// not loaded.
     #[must_use]
     pub fn scenario(mut self, text: impl Into<String>) -> Self {
         self.scenario = text.into();
         self
     }
 
-    /// The aircraft, as the text of a vehicle file.
+    /// Sets the aircraft from the text of a vehicle file.
     #[must_use]
     pub fn vehicle(mut self, text: impl Into<String>) -> Self {
         self.vehicle = text.into();
         self
     }
 
-    /// Decides gusts, sensor noise, traffic and defects.
+    /// Sets the seed of gusts, sensor noise, traffic and defects.
     #[must_use]
     pub fn seed(mut self, seed: u64) -> Self {
         self.seed = seed;
         self
     }
 
-    /// Whose interface it speaks.
+    /// Sets the emulated autopilot.
     #[must_use]
     pub fn flavour(mut self, flavour: &'static Flavour) -> Self {
         self.flavour = flavour;
         self
     }
 
-    /// Which of several vehicles it is, from 0: its MAVLink system id is one more.
+    /// Sets the zero-based vehicle number. The MAVLink system ID is one higher.
     #[must_use]
     pub fn instance(mut self, instance: u8) -> Self {
         self.instance = instance;
         self
     }
 
-    /// What a crash leads to, in place of the scenario's rule.
+    /// Overrides the scenario's action after a crash.
     #[must_use]
     pub fn after_crash(mut self, rule: AfterCrash) -> Self {
         self.after_crash = Some(rule);
         self
     }
 
-    /// The vehicle on its pad, motors off.
+    /// Builds the vehicle on its landing pad with motors off.
     ///
     /// # Errors
-    /// Everything that is wrong with the scenario, or else with the vehicle, by line and key.
+    /// All problems of the scenario, or otherwise of the vehicle, with line and key.
     pub fn build(self) -> Result<Vehicle, Problems> {
-        let job = scenario::read("scenario.toml", &self.scenario, &|file| Err(format!("{file}: not read here")))?;
+        let job = scenario::read("scenario.toml", &self.scenario, &|file| Err(format!("{file}: not loaded here")))?;
         let aircraft = vehicle::read("vehicle.toml", &self.vehicle)?;
         Ok(self.build_from(job, aircraft))
     }
 
-    /// The vehicle on its pad, motors off, from a job and an aircraft that are read already; the builder's texts are not used.
+    /// Builds the vehicle on its landing pad with motors off from a parsed scenario and aircraft. Ignores the texts set in the
+    /// builder.
     #[must_use]
     pub fn build_from(self, job: Scenario, aircraft: vehicle::Vehicle) -> Vehicle {
         let site = Arc::new(Site::build(&job, self.seed));
@@ -172,14 +175,14 @@ impl VehicleBuilder {
     }
 }
 
-/// A simulated vehicle and the ground station that flies it.
+/// A simulated vehicle and the ground station that controls it.
 #[derive(Debug, Clone)]
 pub struct Vehicle {
-    /// The simulator itself: further links, the truth, faults, the digest.
+    /// The simulator: further links, true state, failures, digest.
     pub sim: Sim,
-    /// What the harness sends is encoded by this: another system or component id is another sender on the same link.
+    /// Encoder of the harness. A different system or component ID represents another sender on the same link.
     pub encoder: Encoder,
-    /// Everything received and not yet dropped, oldest first.
+    /// Received frames, oldest first, limited to the most recent.
     pub received: Vec<ReceivedFrame>,
     flavour: &'static Flavour,
     pad_up_m: f64,
@@ -188,36 +191,36 @@ pub struct Vehicle {
 }
 
 impl Vehicle {
-    /// Begins one.
+    /// Returns a builder.
     #[must_use]
     pub fn builder() -> VehicleBuilder {
         VehicleBuilder::default()
     }
 
-    /// Returns the simulator without its ground station; the station's link is closed.
+    /// Returns the simulator without its ground station. Closes the station's link.
     #[must_use]
     pub fn into_sim(mut self) -> Sim {
         self.sim.close_link(STATION);
         self.sim
     }
 
-    /// Returns the next datagram for a link other than the harness's own.
+    /// Returns the next datagram for a link other than the harness's.
     pub fn poll_transmit(&mut self) -> Option<Transmit> {
         self.others.pop_front()
     }
 
-    /// Simulation time.
+    /// Current simulation time.
     #[must_use]
     pub fn now(&self) -> SimTime {
         self.sim.now()
     }
 
-    /// The newest message that a filter likes.
+    /// Returns the latest message for which `pick` returns a value.
     pub fn last_message<T>(&self, pick: impl Fn(&MavMessage) -> Option<T>) -> Option<T> {
         self.received.iter().rev().filter_map(|frame| frame.message.as_ref()).find_map(pick)
     }
 
-    /// The vehicle's newest text; empty while it has said nothing.
+    /// The vehicle's latest status text; empty before the first one.
     #[must_use]
     pub fn status_texts(&self) -> String {
         let text =
@@ -225,7 +228,7 @@ impl Vehicle {
         self.last_message(text).unwrap_or_default()
     }
 
-    /// Armed, by the autopilot's heartbeat.
+    /// Returns true if the autopilot's latest heartbeat reports armed.
     #[must_use]
     pub fn armed(&self) -> bool {
         let beats = self.received.iter().rev().filter(|frame| frame.component_id == 1);
@@ -236,25 +239,25 @@ impl Vehicle {
         beats.into_iter().find_map(armed).unwrap_or(false)
     }
 
-    /// The true position, m, in the scenario's frame.
+    /// True position in the scenario's frame, m.
     #[must_use]
     pub fn position_m(&self) -> Vec3<Enu> {
         self.sim.truth().rigid.position_m.enu()
     }
 
-    /// True height over the pad, m.
+    /// True height above the landing pad, m.
     #[must_use]
     pub fn height_m(&self) -> f64 {
         self.position_m().up() - self.pad_up_m
     }
 
-    /// Sends a message as the ground station does; it acts at the next tick.
+    /// Sends a message as the ground station. It is processed at the next tick.
     pub fn send(&mut self, message: &MavMessage) {
         let bytes = self.encoder.encode(message);
         self.sim.handle_datagram(STATION, &bytes);
     }
 
-    /// Lets simulation time pass. With a link in lockstep it stops where the peer must answer; [`Sim::pending_answers`] is then true.
+    /// Advances simulation time. With a lockstep link, it stops when the peer must respond; [`Sim::waiting`] then returns true.
     pub fn run(&mut self, time: SimTime) {
         self.sim.handle_timeout(self.sim.now() + time);
         while let Some(transmit) = self.sim.poll_transmit() {
@@ -269,10 +272,10 @@ impl Vehicle {
         }
     }
 
-    /// Runs until a condition holds; returns how long that took.
+    /// Runs until a condition is met. Returns the elapsed time.
     ///
     /// # Errors
-    /// When it does not hold in time.
+    /// The condition was not met in time.
     pub fn run_until(&mut self, mut holds: impl FnMut(&Self) -> bool, limit: SimTime) -> Result<SimTime, MissedExpectation> {
         let start = self.now();
         while !holds(self) {
@@ -284,10 +287,10 @@ impl Vehicle {
         Ok(self.now() - start)
     }
 
-    /// Sends a command to the autopilot; parameters that are not given are 0.
+    /// Sends a command to the autopilot. Missing parameters are 0.
     ///
     /// # Errors
-    /// When it is refused, or not answered within a second.
+    /// The command was rejected, or there was no response within one second.
     pub fn command(&mut self, command: MavCmd, params: &[f32]) -> Result<(), MissedExpectation> {
         let p = |k: usize| params.get(k).copied().unwrap_or(0.0);
         self.request(
@@ -329,10 +332,10 @@ impl Vehicle {
         Err(MissedExpectation::Silent(command))
     }
 
-    /// Arms as soon as the vehicle lets it.
+    /// Arms as soon as the vehicle allows it.
     ///
     /// # Errors
-    /// The last refusal, when it does not within the limit.
+    /// The last rejection, if the vehicle did not arm within the limit.
     pub fn arm(&mut self, limit: SimTime) -> Result<(), MissedExpectation> {
         let end = self.now() + limit;
         loop {
@@ -344,10 +347,10 @@ impl Vehicle {
         }
     }
 
-    /// Takes off to a height over the pad, m; as ArduCopter, in GUIDED.
+    /// Takes off to a height above the landing pad, m. ArduCopter takes off in GUIDED.
     ///
     /// # Errors
-    /// When it is refused.
+    /// The command was rejected.
     pub fn take_off(&mut self, height_m: f64) -> Result<(), MissedExpectation> {
         if let Some(guided) = self.flavour.errands {
             self.command(MavCmd::MAV_CMD_DO_SET_MODE, &[1.0, guided as f32])?;
@@ -358,26 +361,26 @@ impl Vehicle {
         self.request(command, &at(command, place, [0.0, 0.0, 0.0, f32::NAN]))
     }
 
-    /// Flies to a place of the scenario's frame, m, and stays there.
+    /// Flies to a position in the scenario's frame, m, and holds there.
     ///
     /// # Errors
-    /// When it is refused.
+    /// The command was rejected.
     pub fn go_to(&mut self, place_m: Vec3<Enu>) -> Result<(), MissedExpectation> {
         let command = MavCmd::MAV_CMD_DO_REPOSITION;
         let place = self.place_at(place_m);
-        // Parameter 2, bit 0: change to the mode that flies there.
+        // Parameter 2, bit 0: change to a mode that can fly there.
         self.request(command, &at(command, place, [-1.0, 1.0, 0.0, f32::NAN]))
     }
 
-    /// Lands where it is.
+    /// Lands at the current position.
     ///
     /// # Errors
-    /// When it is refused.
+    /// The command was rejected.
     pub fn land(&mut self) -> Result<(), MissedExpectation> {
         self.command(MavCmd::MAV_CMD_NAV_LAND, &[0.0, 0.0, 0.0, f32::NAN])
     }
 
-    /// Holds the sticks once: forward, right and yaw from -1 to 1, up from 0 to 1 with 0.5 to hold. To be sent at 2 Hz at least.
+    /// Sends one stick input: forward, right and yaw from -1 to 1, up from 0 to 1 with 0.5 for hold. Send it at 2 Hz or faster.
     pub fn sticks(&mut self, forward: f64, right: f64, up: f64, yaw: f64) {
         let axis = |share: f64| (1000.0 * share.clamp(-1.0, 1.0)).round() as i16;
         self.send(&MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA {
@@ -390,14 +393,14 @@ impl Vehicle {
         }));
     }
 
-    /// Latitude and longitude, 1e-7 deg, and height over the sea, m.
+    /// Latitude and longitude, 1e-7 deg, and altitude above mean sea level, m.
     fn place_at(&self, place_m: Vec3<Enu>) -> (i32, i32, f32) {
         let geo = self.sim.site().plane().geo_from_enu(place_m);
         ((1e7 * geo.latitude_deg).round() as i32, (1e7 * geo.longitude_deg).round() as i32, geo.altitude_m as f32)
     }
 }
 
-/// A command at a place over the sea.
+/// Returns a command with a position above mean sea level.
 fn at(command: MavCmd, (x, y, z): (i32, i32, f32), params: [f32; 4]) -> MavMessage {
     MavMessage::COMMAND_INT(COMMAND_INT_DATA {
         command,

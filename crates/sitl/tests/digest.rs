@@ -88,7 +88,7 @@ fn flight_a_pause_changes_no_bit_and_heartbeats_go_on() {
     let beats = |component: u8| messages.iter().filter(|(c, m)| *c == component && matches!(m, MavMessage::HEARTBEAT(_))).count();
     assert_eq!((beats(1), beats(100)), (100, 0), "the autopilot's; nobody uses the camera");
     let words =
-        messages.iter().filter(|(_, m)| matches!(m, MavMessage::STATUSTEXT(t) if t.text.to_str() == Ok("Time stands still")));
+        messages.iter().filter(|(_, m)| matches!(m, MavMessage::STATUSTEXT(t) if t.text.to_str() == Ok("Simulation paused")));
     assert_eq!(words.count(), 1);
     assert!(messages.iter().all(|(_, m)| matches!(m, MavMessage::HEARTBEAT(_) | MavMessage::STATUSTEXT(_))), "{messages:?}");
     paused.resume();

@@ -1,30 +1,30 @@
-//! Which view stands where in the window.
+//! Layout of the views in the window.
 
-/// A view.
+/// A view of the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ViewKind {
-    /// The inspector's.
+    /// The inspector's view.
     Inspector,
-    /// The camera's.
+    /// The aircraft camera's view.
     Camera,
 }
 
 /// How the views share the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ViewLayout {
-    /// The inspector's left, the camera's right, as the paper has them.
+    /// Side by side: inspector left, camera right, as in the paper.
     #[default]
     Beside,
-    /// The camera's large, the inspector's in it.
+    /// Camera large, inspector inset.
     Camera,
-    /// The inspector's large, the camera's in it.
+    /// Inspector large, camera inset.
     Inspector,
 }
 
-/// A view's place in the window: shares of its width and height.
+/// Rectangle of a view, as fractions of the window's width and height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ViewRect {
-    /// Which view.
+    /// The view shown in the rectangle.
     pub which: ViewKind,
     /// Left edge.
     pub left: f64,
@@ -36,27 +36,28 @@ pub struct ViewRect {
     pub height: f64,
 }
 
-/// Where words stand, shares of the window's width and height.
+/// Position of a text block, as fractions of the window's width and height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TextAnchor {
     /// Left edge.
     pub left_aligned: f64,
-    /// Lower edge, or the upper one.
+    /// Top edge if `hang` is set, otherwise bottom edge.
     pub edge: f64,
-    /// Greatest width.
+    /// Maximum width.
     pub width: f64,
-    /// They hang from the upper edge; otherwise they stand on the lower one.
+    /// Whether the text extends down from the top edge instead of up from the bottom edge.
     pub hang: bool,
 }
 
-/// Width of the small view as a share of the window's.
+/// Width of the inset view as a fraction of the window's width.
 const SMALL: f64 = 0.3;
-/// From the upper edge to the small view below the display's speed, a share of the window's height; enough for a wide picture in a narrow window.
+/// Top edge of the inset view, below the speed readout, as a fraction of the window's height; leaves room for a wide picture in a
+/// narrow window.
 const UNDER_SPEED: f64 = 0.23;
 
 impl ViewRect {
-    /// The largest place of this shape (width over height) in the middle of this one, in a window of that shape: what a camera's sensor does
-    /// not see is not shown as if it did.
+    /// Returns the largest centered rectangle with the aspect ratio `aspect` (width over height), in a window with the aspect
+    /// ratio `window`. Keeps the view from showing more than the camera's sensor covers.
     #[must_use]
     pub fn fit_aspect(self, aspect: f64, window: f64) -> Self {
         let own = self.width / self.height * window;
@@ -67,7 +68,8 @@ impl ViewRect {
     }
 }
 
-/// The largest picture of this shape (width over height) within a size, px; even, as video needs it, and 2 px at least.
+/// Returns the largest picture size with this aspect ratio (width over height) within a size, px: even, as video requires, and at
+/// least 2 px.
 #[must_use]
 pub fn fitted_px((width, height): (u32, u32), aspect: f64) -> (u32, u32) {
     let (width, height) = ((width & !1).max(2), (height & !1).max(2));
@@ -77,7 +79,7 @@ pub fn fitted_px((width, height): (u32, u32), aspect: f64) -> (u32, u32) {
 }
 
 impl ViewLayout {
-    /// The one that Tab gives next.
+    /// Returns the next layout in the order of the Tab key.
     #[must_use]
     pub fn next(self) -> Self {
         match self {
@@ -87,19 +89,19 @@ impl ViewLayout {
         }
     }
 
-    /// Where the window's own words stand. Never over the display's warnings.
+    /// Returns the position of the window's own text. It never overlaps the HUD warnings.
     #[must_use]
     pub fn words(self) -> TextAnchor {
         match self {
             Self::Beside => TextAnchor { left_aligned: 0.0, edge: 1.0, width: 0.5, hang: false },
-            // Between the small view and what the display tells at the right, over the middle of the picture.
+            // Between the inset view and the HUD readouts on the right, above the center of the picture.
             Self::Camera => TextAnchor { left_aligned: SMALL, edge: UNDER_SPEED, width: 0.35, hang: true },
-            // Left of the small view.
+            // Left of the inset view.
             Self::Inspector => TextAnchor { left_aligned: 0.0, edge: 1.0, width: 0.5 - 0.5 * SMALL, hang: false },
         }
     }
 
-    /// Where a button in the inspector's view stands: its middle, shares of the window's width and height.
+    /// Center of a button in the inspector's view, as fractions of the window's width and height.
     #[must_use]
     pub fn button(self) -> (f64, f64) {
         match self {
@@ -109,7 +111,7 @@ impl ViewLayout {
         }
     }
 
-    /// Both views in the order of drawing.
+    /// Returns both views in drawing order.
     #[must_use]
     pub fn places(self) -> [ViewRect; 2] {
         let half = |which, left| ViewRect { which, left, top: 0.0, width: 0.5, height: 1.0 };
@@ -117,16 +119,16 @@ impl ViewLayout {
         let small = |which, (left, top)| ViewRect { which, left, top, width: SMALL, height: SMALL };
         match self {
             Self::Beside => [half(ViewKind::Inspector, 0.0), half(ViewKind::Camera, 0.5)],
-            // The display has words in all corners and at the upper edge, and its warnings reach far along the lower one: the small view
-            // stands between speed and warnings.
+            // The HUD has text in all corners and along the top, and its warnings extend far along the bottom. The inset view
+            // goes between the speed readout and the warnings.
             Self::Camera => [whole(ViewKind::Camera), small(ViewKind::Inspector, (0.0, UNDER_SPEED))],
             Self::Inspector => [whole(ViewKind::Inspector), small(ViewKind::Camera, (0.5 - 0.5 * SMALL, 1.0 - SMALL))],
         }
     }
 }
 
-/// Size, px, in which a view of that size on the screen is drawn, when no more than `most` pixels can be afforded. Its shape is kept, to even
-/// numbers of pixels, which video needs.
+/// Returns the render size, px, of a view of the given screen size, limited to `most` pixels. Keeps the aspect ratio; both sides
+/// are even, as video requires.
 #[must_use]
 pub fn drawn_px((width, height): (f64, f64), most: Option<f64>) -> (u32, u32) {
     let shrink = most.map_or(1.0, |most| (most / (width * height).max(1.0)).sqrt().min(1.0));
@@ -161,7 +163,7 @@ mod tests {
             let off = [place.left - left, place.top - top, place.width - width, place.height - height];
             assert!(off.iter().all(|off| off.abs() < 1e-12), "{place:?}");
         };
-        // Half of a window of 1920 x 1080 px is higher than 4:3, a whole one is wider.
+        // Half of a 1920 x 1080 px window is taller than 4:3, the whole window is wider.
         near(whole.fit_aspect(4.0 / 3.0, 16.0 / 9.0), 0.5, 1.0 / 6.0, 0.5, 2.0 / 3.0);
         near(ViewRect { left: 0.0, width: 1.0, ..whole }.fit_aspect(4.0 / 3.0, 16.0 / 9.0), 0.125, 0.0, 0.75, 1.0);
         assert_eq!(fitted_px((1280, 720), 4.0 / 3.0), (960, 720));

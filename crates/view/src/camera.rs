@@ -1,4 +1,4 @@
-//! From where a picture is taken and through what lens.
+//! Camera pose and projection of a picture.
 
 use super::matrix::Matrix;
 use spandrel_model::frames::{Enu, Vec3};
@@ -7,17 +7,17 @@ use spandrel_model::site::CameraPose;
 use spandrel_model::vehicle::Camera;
 
 const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
-/// Nothing nearer than this is drawn, m.
+/// Near plane, m.
 pub const NEAR_M: f64 = 0.05;
-/// Vertical field of view of the inspector's eyes on the screen, rad (60 deg: near the natural perspective of a screen; estimate).
+/// Vertical field of view of the inspector's view, rad (60 deg: near the natural perspective of a screen; estimate).
 pub const INSPECTOR_FOV_RAD: f64 = 1.05;
-/// Eye height of the inspector, m (estimate).
+/// Eye height of the inspector above the ground, m (estimate).
 pub const EYE_HEIGHT_M: f64 = 1.65;
 
-/// An eye: a level or tilted pinhole.
+/// A pinhole camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PinholeCamera {
-    /// Where, m.
+    /// Position, ENU, m.
     pub position_m: Vec3<Enu>,
     /// Unit vector of the optical axis.
     pub forward: Vec3<Enu>,
@@ -28,7 +28,8 @@ pub struct PinholeCamera {
 }
 
 impl PinholeCamera {
-    /// Looks from one point at another, level, with this vertical field of view in a picture of `aspect` (width over height).
+    /// Creates a camera without roll at `position_m` aimed at `target_m`, with a vertical field of view, rad, and `aspect` (width
+    /// over height).
     #[must_use]
     pub fn at(position_m: Vec3<Enu>, target_m: Vec3<Enu>, vfov_rad: f64, aspect: f64) -> Self {
         let to = target_m - position_m;
@@ -39,33 +40,33 @@ impl PinholeCamera {
         Self { position_m, forward, right, hfov_rad }
     }
 
-    /// The aircraft's camera: its horizontal field of view, whatever the picture's height.
+    /// Creates the view of the aircraft's camera; its horizontal field of view does not depend on the picture's height.
     #[must_use]
     pub fn of(pose: &CameraPose, camera: &Camera) -> Self {
         Self { position_m: pose.position_m, forward: pose.forward, right: pose.right, hfov_rad: camera.hfov_rad }
     }
 
-    /// Unit vector to the picture's upper edge.
+    /// Unit vector towards the top of the picture.
     #[must_use]
     pub fn up(&self) -> Vec3<Enu> {
         self.right.cross(self.forward)
     }
 
-    /// Half sizes of the picture at distance 1.
+    /// Half width and half height of the picture at distance 1.
     #[must_use]
     pub fn half_sizes(&self, aspect: f64) -> (f64, f64) {
         let half = math::tan(0.5 * self.hfov_rad);
         (half, half / aspect)
     }
 
-    /// World to clip space.
+    /// Returns the view-projection matrix (world to clip space).
     #[must_use]
     pub fn view_projection(&self, aspect: f64) -> Matrix {
         let (w, h) = self.half_sizes(aspect);
         Matrix::perspective(w, h, NEAR_M).after(&Matrix::view(self.position_m, self.right, self.up(), -self.forward))
     }
 
-    /// Unit direction through a place in the picture: -1..1 to the right and up.
+    /// Unit direction through a point of the picture; `x` and `y` in [-1, 1], right and up positive.
     #[must_use]
     pub fn ray(&self, x: f64, y: f64, aspect: f64) -> Vec3<Enu> {
         let (w, h) = self.half_sizes(aspect);

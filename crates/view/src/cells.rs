@@ -1,4 +1,5 @@
-//! What is drawn is cut into squares of ground, and what stands around them into sectors, so that a picture sends only those that it can show.
+//! Spatial partition for culling: a grid of square cells on the site and angular sectors for the backdrop, so that only
+//! potentially visible cells are drawn.
 
 use super::matrix::Matrix;
 use super::mesh::{Mesh, Vertex};
@@ -7,25 +8,25 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use std::collections::BTreeMap;
 
-/// Side of a square, m (estimate: some squares lie in every picture, most do not).
+/// Side of a cell, m (estimate: some cells are in view in any picture, most are not).
 const CELL_M: f64 = 80.0;
-/// What lies farther from the origin than this is backdrop, m.
+/// Distance from the origin beyond which geometry belongs to the backdrop, m.
 const BACKDROP_M: f64 = 500.0;
-/// Sectors of it around the origin: a view of 84 degrees shows a third of them. By software a draw costs as much as fifty triangles, a sixth of
-/// a sector of mountains.
+/// Number of backdrop sectors around the origin: a view of 84 degrees covers a third of them. In a software renderer, a draw call
+/// costs as much as fifty triangles, a sixth of a sector of mountains.
 const SECTORS: f64 = 16.0;
 
-/// A ball around everything in a cell.
+/// Bounding sphere of a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoundingSphere {
-    /// Centre, m.
+    /// Center, ENU, m.
     pub centre_m: Vec3<Enu>,
     /// Radius, m.
     pub radius_m: f64,
 }
 
 impl BoundingSphere {
-    /// Around points, each with room of its own.
+    /// Returns a sphere that encloses points, each with its own radius, m.
     #[must_use]
     pub fn around(points: &[(Vec3<Enu>, f64)]) -> Self {
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
@@ -41,13 +42,13 @@ impl BoundingSphere {
         Self { centre_m, radius_m }
     }
 
-    /// How far it begins from a point, m; below zero inside.
+    /// Distance from a point to the sphere's surface, m; negative inside.
     #[must_use]
     pub fn from_m(&self, point_m: Vec3<Enu>) -> f64 {
         (point_m - self.centre_m).norm() - self.radius_m
     }
 
-    /// Around a mesh.
+    /// Returns a sphere that encloses a mesh.
     #[must_use]
     pub fn of(mesh: &Mesh) -> Self {
         Self::around(&mesh.vertices.iter().map(|v| (position(v), 0.0)).collect::<Vec<_>>())
@@ -59,17 +60,17 @@ fn position(v: &Vertex) -> Vec3<Enu> {
     Vec3::new(x, y, z)
 }
 
-/// What lies in a cell, for a picture's edges to decide whether it shows.
+/// Bounds of a cell for frustum culling.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CellBounds {
-    /// Around it.
+    /// Bounding sphere.
     pub ball: BoundingSphere,
-    /// Its corners; none where the ball alone is known.
+    /// Corners of the bounding box; empty if only the sphere is known.
     corners_m: Vec<Vec3<Enu>>,
 }
 
 impl CellBounds {
-    /// Of a mesh.
+    /// Returns the bounds of a mesh.
     #[must_use]
     pub fn of(mesh: &Mesh) -> Self {
         Self { ball: BoundingSphere::of(mesh), corners_m: mesh.vertices.iter().map(position).collect() }
@@ -82,7 +83,7 @@ impl From<BoundingSphere> for CellBounds {
     }
 }
 
-/// A square's column and row, or a sector of the backdrop.
+/// A grid cell (column and row) or a sector of the backdrop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum SceneCell {
     Square(i64, i64),
@@ -96,10 +97,10 @@ fn cell(p: Vec3<Enu>, backdrop: bool) -> SceneCell {
     SceneCell::Square((p.east() / CELL_M).floor() as i64, (p.north() / CELL_M).floor() as i64)
 }
 
-/// Numbers of corners in a cell by those in the whole.
+/// Maps vertex indices of the whole mesh to those of a cell.
 type VertexRemap = BTreeMap<u32, u32>;
 
-/// A mesh's triangles by cell; a `backdrop` has sectors alone.
+/// Splits a mesh into cells; a `backdrop` has only sectors.
 #[must_use]
 pub fn cut(mesh: &Mesh, backdrop: bool) -> Vec<Mesh> {
     let mut cells: BTreeMap<SceneCell, (Mesh, VertexRemap)> = BTreeMap::new();
@@ -118,13 +119,13 @@ pub fn cut(mesh: &Mesh, backdrop: bool) -> Vec<Mesh> {
     cells.into_values().map(|(part, _)| part).collect()
 }
 
-/// How far a mesh reaches from its origin, m.
+/// Distance from the mesh's origin to its farthest vertex, m.
 #[must_use]
 pub fn reach_m(mesh: &Mesh) -> f64 {
     mesh.vertices.iter().map(|v| position(v).norm()).fold(0.0, f64::max)
 }
 
-/// Copies of a mesh by cell, each with the ball around them.
+/// Groups instances of a mesh by cell, each with a bounding sphere.
 #[must_use]
 pub fn grouped(mesh: &Mesh, instances: &[Instance]) -> Vec<(Vec<Instance>, BoundingSphere)> {
     let reach_m = reach_m(mesh);
@@ -145,12 +146,12 @@ pub fn grouped(mesh: &Mesh, instances: &[Instance]) -> Vec<(Vec<Instance>, Bound
     cells.into_values().map(balled).collect()
 }
 
-/// The planes within which a projection shows anything.
+/// The six planes of a view frustum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frustum([[f64; 4]; 6]);
 
 impl Frustum {
-    /// Of a projection to clip space.
+    /// Extracts the frustum of a projection to clip space.
     #[must_use]
     pub fn of(projection: &Matrix) -> Self {
         let [x, y, z, w] = projection.0;
@@ -158,18 +159,18 @@ impl Frustum {
         Self([sum(w, x, 1.0), sum(w, x, -1.0), sum(w, y, 1.0), sum(w, y, -1.0), sum(w, z, -1.0), z])
     }
 
-    /// False where a ball is certainly outside.
+    /// Returns false if the sphere is certainly outside.
     #[must_use]
     pub fn may_show(&self, ball: &BoundingSphere) -> bool {
         self.0.iter().all(|plane| {
             let [a, b, c, _] = plane;
             let length = (a * a + b * b + c * c).sqrt();
-            // An endless view has no far plane.
+            // An infinite projection has no far plane.
             length < 1e-12 || inside(plane, ball.centre_m) >= -ball.radius_m * length
         })
     }
 
-    /// False where a cell is certainly outside: all of it beyond one of the picture's edges.
+    /// Returns false if the cell is certainly outside: all of its corners beyond one plane.
     #[must_use]
     pub fn may_show_cell(&self, bounds: &CellBounds) -> bool {
         let corners = &bounds.corners_m;
@@ -178,7 +179,7 @@ impl Frustum {
     }
 }
 
-/// How far inside a plane a point lies, in the plane's own unit.
+/// Signed distance of a point from a plane, positive inside, in units of the plane's normal.
 fn inside([a, b, c, d]: &[f64; 4], p: Vec3<Enu>) -> f64 {
     let [x, y, z] = p.array();
     a * x + b * y + c * z + d
@@ -213,7 +214,7 @@ mod tests {
             frustum.may_show(&ball(0.0, 50.0)) && frustum.may_show(&ball(0.0, 9_000.0)) && frustum.may_show(&ball(0.0, -4.0))
         );
         assert!(!frustum.may_show(&ball(0.0, -20.0)) && !frustum.may_show(&ball(100.0, 50.0)));
-        // In the lake's mirror what is above shows below.
+        // In the lake's reflection, objects above appear below.
         let mirrored = Frustum::of(&eye.view_projection(1.5).after(&Matrix::mirror(0.0)));
         let high = BoundingSphere { centre_m: Vec3::new(0.0, 40.0, 60.0), radius_m: 5.0 };
         assert!(!frustum.may_show(&high) && !mirrored.may_show(&high));
@@ -233,7 +234,7 @@ mod tests {
         let (beside, across) = (wall(-260.0), wall(-60.0));
         assert!(frustum.may_show(&beside.ball) && !frustum.may_show_cell(&beside));
         assert!(frustum.may_show_cell(&across) && frustum.may_show_cell(&CellBounds::from(across.ball)));
-        // From within a cell no corner needs to be in the picture.
+        // A cell that contains the camera may show although no corner is in view.
         let mut hall = Mesh::default();
         hall.block([-500.0, -500.0, -500.0], [500.0, 500.0, 500.0], [0.0; 3], SurfaceFinish::new(Material::Rock, [9, 9, 9]));
         assert!(frustum.may_show_cell(&CellBounds::of(&hall)));

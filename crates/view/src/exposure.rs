@@ -1,4 +1,4 @@
-//! How bright the picture comes out: what a meter in the camera sees, within what the camera can.
+//! Exposure of a picture: metering, within the limits of the camera.
 
 use super::camera::PinholeCamera;
 use super::sky::Sky;
@@ -8,45 +8,46 @@ use spandrel_model::site::{CameraPose, QueryTime, Site, Surface, visibility};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Lamp};
 
-/// Metered places across and down.
+/// Number of metered points, horizontally and vertically.
 const GRID: (u32, u32) = (7, 5);
-/// What is metered comes out at this share of white (estimate: what people set outdoors; the tone curve takes a fifth of it).
+/// Target value of the metered mean, as a fraction of white (estimate: usual outdoor setting; the tone curve takes a fifth of
+/// it).
 const AIM: f64 = 0.24;
-/// Reflectance taken for whatever is hit (estimate: between wet concrete and grass).
+/// Reflectance assumed for any surface that is hit (estimate: between wet concrete and grass).
 const ALBEDO: f64 = 0.25;
-/// A bright place counts no more than this many times the middling ones: the sky does not black out a soffit.
+/// Maximum weight of a bright point, as a multiple of the middle points: the sky does not underexpose a soffit.
 const HIGHLIGHT: f64 = 5.0;
-/// The inspector's eyes see no better than this, lx (estimate: end of colour vision).
+/// Minimum illuminance to which the inspector's eyes adapt, lx (estimate: limit of color vision).
 const EYE_LUX: f64 = 3.0;
-/// Lowest sensitivity of cameras.
+/// Lowest ISO sensitivity of cameras.
 const ISO_MIN: f64 = 100.0;
-/// Reach of the meter, m.
+/// Range of the meter, m.
 const REACH_M: f64 = 600.0;
 
-/// An exposure.
+/// Exposure of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exposure {
-    /// Illuminance, lx, under which a white surface comes out white.
+    /// Illuminance at which a white surface appears white, lx.
     pub white_lux: f64,
-    /// Shutter, s.
+    /// Exposure time, s.
     pub time_s: f64,
-    /// Sensitivity.
+    /// ISO sensitivity.
     pub iso: f64,
 }
 
-/// What lights a picture.
+/// Light sources of a picture.
 #[derive(Debug, Clone, Copy)]
 pub struct Lighting<'a> {
     /// Sun and sky.
     pub sky: &'a Sky,
-    /// The aircraft's lamp and where it is, if it is on.
+    /// The aircraft's lamp and its pose, if it is on.
     pub lamp: Option<(&'a Lamp, &'a CameraPose)>,
-    /// When.
+    /// Simulation time of the site query.
     pub ambient_at: QueryTime,
 }
 
 impl Exposure {
-    /// For the aircraft's camera: never brighter than its longest exposure at its highest sensitivity allows.
+    /// Returns the exposure of the aircraft's camera, limited by its longest exposure time and highest sensitivity.
     #[must_use]
     pub fn camera(metered_lux: f64, camera: &Camera) -> Self {
         let limit = visibility::needed_lux(camera);
@@ -57,24 +58,25 @@ impl Exposure {
         Self { white_lux: lux, time_s, iso: (product / time_s).clamp(ISO_MIN, camera.iso_max.max(ISO_MIN)) }
     }
 
-    /// For a person's eyes.
+    /// Returns the exposure of a person's eyes.
     #[must_use]
     pub fn eyes(metered_lux: f64) -> Self {
         Self { white_lux: metered_lux.max(EYE_LUX), time_s: 0.0, iso: ISO_MIN }
     }
 }
 
-/// How long an exposure or a person's eyes take to follow the light by all but a third, s (estimate: cameras settle in about a second).
+/// Time constant with which a camera's exposure or a person's eyes adapt, s (estimate: cameras settle in about a second).
 const FOLLOWS_S: f64 = 0.35;
-/// After a longer break it begins anew, s.
+/// Gap after which the adaptation starts over, s.
 const BREAK_S: f64 = 2.0;
 
-/// A meter from picture to picture: what passes the lens does not make the whole picture flicker.
+/// Smoothed meter for a sequence of pictures: an object that crosses the lens does not make the picture flicker.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ExposureMeter(Option<(SimTime, f64)>);
 
 impl ExposureMeter {
-    /// What the picture at a time is exposed for, lx, when so much is metered. The first one, and one after a jump in time, for just that.
+    /// Returns the smoothed illuminance, lx, for the picture at time `at`. The first picture, and the first after a jump in time,
+    /// uses the metered value directly.
     pub fn follow(&mut self, metered_lux: f64, at: SimTime) -> f64 {
         let before = self.0.filter(|(then, lux)| *then <= at && (at - *then).s() <= BREAK_S && *lux > 0.0 && metered_lux > 0.0);
         let lux = before.map_or(metered_lux, |(then, lux)| {
@@ -86,7 +88,7 @@ impl ExposureMeter {
     }
 }
 
-/// What the meter finds: the illuminance, lx, under which the picture comes out right.
+/// Returns the illuminance, lx, for which to expose the picture.
 #[must_use]
 pub fn meter(site: &Site, eye: &PinholeCamera, aspect: f64, light: &Lighting) -> f64 {
     let mut seen: Vec<f64> = Vec::new();
@@ -100,9 +102,9 @@ pub fn meter(site: &Site, eye: &PinholeCamera, aspect: f64, light: &Lighting) ->
     metered(seen)
 }
 
-/// The mean of what is seen, lx, over what it is to come out at. A bright place counts no more than [`HIGHLIGHT`] times the middling ones, which
-/// are the half from the lower quartile on, taken together by their geometric mean: one place that is dark here and bright there moves that
-/// a little, where a median would leap from a soffit to the sky.
+/// Mean of the metered values, lx, divided by the target value. A bright point counts at most [`HIGHLIGHT`] times the geometric
+/// mean of the middle half, which starts at the lower quartile. When a single point changes from dark to bright, this mean moves
+/// slightly, whereas a median would jump from the soffit to the sky.
 fn metered(mut seen: Vec<f64>) -> f64 {
     seen.sort_by(f64::total_cmp);
     let middling = &seen[seen.len() / 4..seen.len() / 4 + seen.len() / 2];
@@ -119,7 +121,7 @@ fn visible_lux(site: &Site, from: Vec3<Enu>, ray: Vec3<Enu>, light: &Lighting) -
     };
     let point = from + ray * hit.distance_m;
     if hit.surface == Surface::Water {
-        // Water mirrors the sky, the more the flatter one looks at it (Schlick), over a dark body.
+        // Water reflects the sky, more strongly at grazing angles (Schlick), over a dark body.
         let mirrored = Vec3::new(ray.east(), ray.north(), ray.up().abs());
         let glance = 1.0 - ray.up().abs();
         let fresnel = 0.02 + 0.98 * glance * glance * glance * glance * glance;
@@ -135,9 +137,9 @@ mod tests {
     use spandrel_model::random::RandomStream;
     use spandrel_model::site::defects::REFERENCE_CAMERA;
 
-    /// Places that are metered.
+    /// Number of metered points.
     const PLACES: usize = (GRID.0 * GRID.1) as usize;
-    /// Rounding of a sum of 35 numbers, a share of it.
+    /// Relative rounding error of a sum of 35 numbers.
     const ROUNDING: f64 = 1e-12;
 
     fn near(found: f64, expected: f64) -> bool {
@@ -149,7 +151,7 @@ mod tests {
         for lux in [1.0, 300.0, 20_000.0] {
             assert!(near(metered(vec![lux; PLACES]), lux / AIM));
         }
-        // From 1 to 4.4: nothing outshines the middling places five times.
+        // From 1 to 4.4: no point exceeds the middle points fivefold.
         let slope: Vec<f64> = (0..PLACES).map(|k| 1_000.0 + 100.0 * k as f64).collect();
         assert!(near(metered(slope), 2_700.0 / AIM));
     }
@@ -163,20 +165,21 @@ mod tests {
 
     #[test]
     fn prop_one_place_that_turns_bright_never_makes_the_light_leap() {
-        // From a soffit at noon to the sky beside the sun.
+        // From a soffit at noon to the sky near the sun.
         const DARK_LUX: f64 = 30.0;
         const RANGE: f64 = 1_000.0;
-        // The middling 17 of 35 share the logarithm of the range. Under their cap all places together count at least as 27 middling ones (the 17,
-        // whose mean is no less than their geometric mean, and the 10 above), and the place itself as five at most.
+        // The middle 17 of 35 points share the logarithm of the range. With the cap, all points together weigh at least as much
+        // as 27 middle points (the 17, whose mean is no less than their geometric mean, and the 10 above), and the point itself
+        // at most as much as five.
         let leap = math::pow(RANGE, 1.0 / 17.0) * (1.0 + HIGHLIGHT / 27.0);
-        // By a hundredth of its light a place moves the whole by less than its share of both.
+        // Changing a point by 1 % moves the result by less than the point's share of both.
         let nudge = 1.0 + 0.01 * (1.0 / 17.0 + HIGHLIGHT / 27.0);
         let mut stream = RandomStream::new(7, "view.exposure");
         for bright in 0..PLACES {
             for turn in 0..100 {
                 let other = |stream: &mut RandomStream| DARK_LUX * math::pow(RANGE, stream.uniform());
                 let mut seen: Vec<f64> = (0..PLACES).map(|k| if k < bright { DARK_LUX * RANGE } else { DARK_LUX }).collect();
-                // Every other time there is all sorts of light between both.
+                // Every other iteration has random values in between.
                 seen.iter_mut().filter(|_| turn % 2 == 1).for_each(|lux| *lux = other(&mut stream));
                 let at = if turn == 0 { bright } else { stream.below(PLACES) };
                 let with = |lux: f64| {
@@ -199,7 +202,7 @@ mod tests {
             assert_eq!(meter.follow(100.0, SimTime::ZERO), 100.0);
             (1..=steps).fold(0.0, |_, k| meter.follow(1e4, SimTime::from_ms(k * 700 / steps)))
         };
-        // Two times the time constant: of two powers of ten those e⁻² are left.
+        // Two time constants: e⁻² of the initial two decades remain.
         let expected = 1e4 * math::pow(1e-2, math::exp(-2.0));
         assert!(near(end(1), expected) && (end(70) / expected - 1.0).abs() < 1e-9, "{} and {}", end(1), end(70));
     }
@@ -218,7 +221,7 @@ mod tests {
         let dark = Exposure::camera(0.1 * limit, &REFERENCE_CAMERA);
         assert_eq!((dark.white_lux, dark.time_s), (limit, REFERENCE_CAMERA.exposure_max_s));
         assert!((dark.iso - REFERENCE_CAMERA.iso_max).abs() < 1e-6);
-        // 160 times the light: a tenth of the time at a sixteenth of the sensitivity.
+        // 160 times the light: a tenth of the exposure time at a sixteenth of the sensitivity.
         let bright = Exposure::camera(160.0 * limit, &REFERENCE_CAMERA);
         assert!((bright.iso - 100.0).abs() < 1e-6 && (bright.time_s - 0.1 * REFERENCE_CAMERA.exposure_max_s).abs() < 1e-9);
     }

@@ -1,4 +1,4 @@
-//! What the head-up display tells besides the flight itself: mode, satellites, cues, words. Read from the same frames as everything else.
+//! HUD inputs other than the flight itself: flight mode, satellites, cues and texts, decoded from the same frames.
 
 use super::hud::GnssStatus;
 use mavlink::MessageData;
@@ -10,12 +10,12 @@ use spandrel_mavlink::dialect::{
 };
 use spandrel_model::time::SimTime;
 
-/// A cue without news for this long is over: the monitor repeats it at 5 Hz.
+/// Timeout of a cue; the monitor repeats active cues at 5 Hz.
 const CUES_LAST: SimTime = SimTime::from_ms(1_500);
-/// A picture counts as taken just now for this long.
+/// How long the shutter indicator is shown after a picture.
 const SHUTTER: SimTime = SimTime::from_ms(300);
 
-/// What has been heard so far.
+/// Latest values received.
 #[derive(Debug, Clone, Default)]
 pub struct Feed {
     mode: Option<String>,
@@ -25,20 +25,20 @@ pub struct Feed {
 }
 
 impl Feed {
-    /// True for messages that [`Self::handle_datagram`] listens to: the rest need no decoding.
+    /// Checks whether [`Self::handle_datagram`] uses a message; others need no decoding.
     #[must_use]
     pub fn is_relevant(message_id: u32) -> bool {
         matches!(message_id, HEARTBEAT_DATA::ID | GPS_RAW_INT_DATA::ID | NAMED_VALUE_INT_DATA::ID | STATUSTEXT_DATA::ID)
     }
 
-    /// Takes what a datagram holds, heard at this simulation time.
+    /// Processes a datagram received at simulation time `now`.
     pub fn handle_datagram(&mut self, bytes: &[u8], now: SimTime) {
         for received in Decoder::new().datagram(bytes) {
             self.handle_frame(&received, now);
         }
     }
 
-    /// Takes a frame, heard at this simulation time.
+    /// Processes a frame received at simulation time `now`.
     pub fn handle_frame(&mut self, received: &ReceivedFrame, now: SimTime) {
         if let Some(message) = &received.message {
             self.message(message, received.component_id, now);
@@ -71,44 +71,44 @@ impl Feed {
         }
     }
 
-    /// A mask of cues, from the wire or from a record.
+    /// Sets the cue mask, from telemetry or from a recording.
     pub fn set_cues(&mut self, mask: i32, now: SimTime) {
         self.cues = Some((now, mask));
     }
 
-    /// The monitor's words: those of a crash name what was hit.
+    /// Processes a text of the monitor; a crash text names the object that was hit.
     pub fn handle_text(&mut self, words: &str) {
         if let Some(what) = words.strip_prefix("Crash: ") {
             self.hit = Some(what.to_owned());
         }
     }
 
-    /// The mode in words.
+    /// Returns the name of the flight mode.
     #[must_use]
     pub fn mode(&self) -> &str {
         self.mode.as_deref().unwrap_or("no mode")
     }
 
-    /// Satellite navigation, if it has been heard of.
+    /// Returns the satellite navigation status, if it has been received.
     #[must_use]
     pub fn gnss(&self) -> Option<GnssStatus> {
         self.gnss
     }
 
-    /// Cues that are on. `held`: they come from a record that tells changes only.
+    /// Returns the mask of active cues. `held`: the cues come from a recording that stores only changes, so they do not time out.
     #[must_use]
     pub fn cues(&self, now: SimTime, held: bool) -> i32 {
         self.cues.filter(|(heard, _)| held || now.saturating_sub(*heard) <= CUES_LAST).map_or(0, |(_, mask)| mask)
     }
 
-    /// What was hit last.
+    /// Returns the object that was hit last.
     #[must_use]
     pub fn hit(&self) -> Option<&str> {
         self.hit.as_deref()
     }
 }
 
-/// True while the shutter of a picture taken at `taken` still shows.
+/// Checks whether the shutter indicator of a picture taken at `taken` is still shown.
 #[must_use]
 pub fn shutter(taken: Option<SimTime>, now: SimTime) -> bool {
     taken.is_some_and(|taken| taken <= now && now - taken <= SHUTTER)

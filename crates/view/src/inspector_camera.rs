@@ -1,24 +1,24 @@
-//! Where the inspector looks: after the aircraft, or anywhere, near or through narrowed eyes.
+//! View direction and zoom of the inspector: follows the aircraft or looks freely.
 
 use super::camera::{EYE_HEIGHT_M, INSPECTOR_FOV_RAD, PinholeCamera};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
-/// The view narrows on an aircraft that is farther away than this, m, as binoculars do.
+/// Distance beyond which the view narrows on the aircraft, m, as with binoculars.
 const NARROW_FROM_M: f64 = 60.0;
-/// And shows no less than this by itself, rad.
+/// Minimum field of view of the automatic narrowing, rad.
 const NARROWEST_RAD: f64 = 0.22;
-/// Half a step ahead of where the inspector stands, m, so that the own body is not in the picture.
+/// Distance of the camera in front of the inspector's position, m, so that the inspector's body is not in the picture.
 const AHEAD_M: f64 = 0.45;
-/// As far as a head bends, rad.
+/// Maximum elevation, rad.
 const STEEPEST_RAD: f64 = 1.4;
-/// Zoom by hand: from a wider view to binoculars (estimate: 8 x glasses are the usual ones).
+/// Range of the manual zoom: from a wider view to binoculars (estimate: 8 x is common).
 const ZOOM: std::ops::RangeInclusive<f64> = 0.6..=8.0;
 
-/// A direction and a zoom.
+/// View direction and zoom of the inspector.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InspectorCamera {
-    /// Looks after the aircraft.
+    /// Whether the view follows the aircraft.
     pub follows: bool,
     bearing_rad: f64,
     pitch_rad: f64,
@@ -32,11 +32,11 @@ impl Default for InspectorCamera {
 }
 
 impl InspectorCamera {
-    /// Turns away from where it looks, rad: to the right, up. Who turns by hand follows the aircraft no more; `to` is the way from the
-    /// inspector to it, m.
+    /// Turns the view to the right and up, rad. Turning stops following the aircraft; `to` is the vector from the inspector to
+    /// the aircraft, m.
     pub fn turn(&mut self, right_rad: f64, up_rad: f64, to: Vec3<Enu>) {
         if self.follows {
-            // What was seen narrowed stays as near as it was.
+            // Keeps the magnification of the narrowed view.
             let zoom = math::tan(0.5 * INSPECTOR_FOV_RAD) / math::tan(0.5 * self.vfov_rad(to.norm()));
             self.zoom = zoom.clamp(*ZOOM.start(), *ZOOM.end());
             self.follows = false;
@@ -47,27 +47,27 @@ impl InspectorCamera {
         self.pitch_rad = (self.pitch_rad + up_rad).clamp(-STEEPEST_RAD, STEEPEST_RAD);
     }
 
-    /// How far one turns, rad, for a pixel of a view so many pixels high: what is under a pointer that drags stays there.
+    /// View rotation per pixel, rad, for a view `height_px` high, so that the scene follows the pointer while dragging.
     #[must_use]
     pub fn rad_px(&self, height_px: f64, to: Vec3<Enu>) -> f64 {
         self.vfov_rad(to.norm()) / height_px.max(1.0)
     }
 
-    /// Nearer (above 1) or wider.
+    /// Multiplies the zoom; above 1 zooms in.
     pub fn zoom(&mut self, times: f64) {
         if times.is_finite() {
             self.zoom = (self.zoom * times).clamp(*ZOOM.start(), *ZOOM.end());
         }
     }
 
-    /// The angle of view, rad across the picture's height, on an aircraft so far away.
+    /// Vertical field of view on an aircraft at a distance, rad.
     fn vfov_rad(&self, distance_m: f64) -> f64 {
         let narrowed = if self.follows { NARROW_FROM_M / distance_m.max(NARROW_FROM_M) } else { 1.0 };
         let half = math::tan(0.5 * (INSPECTOR_FOV_RAD * narrowed).max(NARROWEST_RAD)) / self.zoom;
         2.0 * math::atan2(half, 1.0)
     }
 
-    /// The eye of somebody who stands there.
+    /// Returns the camera of an inspector who stands at `stands_m`.
     #[must_use]
     pub fn eye(&self, stands_m: Vec3<Enu>, drone_m: Vec3<Enu>, aspect: f64) -> PinholeCamera {
         let to = drone_m - stands_m;
@@ -109,7 +109,7 @@ mod tests {
         let mut gaze = InspectorCamera::default();
         let far = Vec3::new(0.0, 150.0, EYE_HEIGHT_M);
         let before = gaze.eye(STANDS, far, 1.0).hfov_rad;
-        // The eye stands half a step nearer than the inspector.
+        // The camera is slightly closer than the inspector's position.
         let apart = 0.01;
         gaze.turn(0.0, 0.0, far);
         assert!((gaze.eye(STANDS, far, 1.0).hfov_rad / before - 1.0).abs() < apart);

@@ -1,16 +1,16 @@
-//! What an inspector sees and hears in flight, drawn from the scenario and from telemetry alone.
+//! Rendering of the inspector's view and sound of a flight, from the scenario and telemetry alone.
 //!
-//! Everything up to the graphics card is plain data and pure functions; only `gpu` (feature `gpu`, wgpu) knows a device. [`scene`] turns a
-//! [`Site`](spandrel_model::site::Site) into meshes once and into what moves for every picture; [`camera`] says from where and how bright;
-//! [`hud`] lays the head-up display out; [`flow`] leads from a choice to a flight and its scores; [`live`] hears a flight and says what to draw
-//! now; [`sound`] is what is heard of it; [`shaders`] holds the sources of the shaders.
+//! Everything except `gpu` (feature `gpu`, wgpu) is plain data and pure functions. [`scene`] converts a
+//! [`Site`](spandrel_model::site::Site) into static meshes and per-picture instances; [`camera`] defines the projection; [`hud`]
+//! lays out the head-up display; [`flow`] leads from the start page through a flight to its scores; [`live`] tracks a live flight
+//! for drawing; [`sound`] synthesizes its sound; [`shaders`] contains the shader sources.
 //!
 //! ```
 //! use spandrel_model::frames::Vec3;
-//! use spandrel_view::camera::Eye;
+//! use spandrel_view::camera::PinholeCamera;
 //!
-//! // An inspector's eyes, 1.7 m over the ground, look at a bearing 30 m away and 10 m up.
-//! let eye = Eye::at(Vec3::new(0.0, 0.0, 1.7), Vec3::new(0.0, 30.0, 10.0), 50_f64.to_radians(), 16.0 / 9.0);
+//! // The inspector, with eyes 1.7 m above the ground, looks at a bearing 30 m away and 10 m up.
+//! let eye = PinholeCamera::at(Vec3::new(0.0, 0.0, 1.7), Vec3::new(0.0, 30.0, 10.0), 50_f64.to_radians(), 16.0 / 9.0);
 //! assert!(eye.up().up() > 0.9);
 //! ```
 

@@ -1,35 +1,35 @@
-//! Materials and defects that share a pipeline. Software renderers run both sides of every branch, so a shader that switches on the material
-//! costs each pixel all of them; a pipeline of its own for each look costs it one.
+//! Groups of materials and defects that share a pipeline. Software renderers execute both sides of every branch, so a shader that
+//! switches on the material pays for all of them at each pixel; one pipeline per group pays for one.
 
 use super::mesh::Material;
 
-/// Materials that are drawn by the same pipeline.
+/// Materials drawn by one pipeline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u32)]
 pub enum MaterialGroup {
     /// Cast concrete.
     Concrete = 0,
-    /// The road.
+    /// Bridge deck.
     Deck = 1,
     /// Painted steel.
     Steel = 2,
-    /// Everything that is cheap.
+    /// Other inexpensive materials.
     Simple = 3,
     /// Ground.
     Ground = 4,
 }
 
 impl MaterialGroup {
-    /// In the order of drawing: the ground hides little and is hidden by much.
+    /// All groups in drawing order. The ground comes last: it hides little and much hides it.
     pub const ALL: [Self; 5] = [Self::Concrete, Self::Deck, Self::Steel, Self::Simple, Self::Ground];
 
-    /// It reflects light in a direction, not only in all.
+    /// Checks whether the material has specular reflection.
     #[must_use]
     pub const fn shines(self) -> bool {
         matches!(self, Self::Steel | Self::Simple)
     }
 
-    /// The look of a vertex's material (its lowest eight bits).
+    /// Returns the group of a vertex's material (its lowest eight bits).
     #[must_use]
     pub const fn of(material: u32) -> Self {
         const CONCRETE: u32 = Material::Concrete as u32;

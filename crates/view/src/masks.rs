@@ -1,12 +1,11 @@
-//! What each pixel of a picture shows, for people who train detectors: an element of a bridge by its AASHTO number, and a defect by its
-//! number in the session.
+//! Per-pixel labels for training detectors: the AASHTO element number and the defect ID in the session.
 
 use serde_json::{Value, json};
 use spandrel_model::scenario::PlacedDefect;
 use spandrel_model::site::catalogue;
 use std::collections::BTreeMap;
 
-/// Labels of a picture, row by row from its upper left; 0 where there is none.
+/// Labels of a picture in row-major order from the upper left; 0 means no label.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LabelMask {
     /// Width, px.
@@ -15,11 +14,11 @@ pub struct LabelMask {
     pub height: u32,
     /// AASHTO element numbers.
     pub elements: Vec<u16>,
-    /// Defects' numbers.
+    /// Defect IDs.
     pub defects: Vec<u16>,
 }
 
-/// Where a label lies.
+/// Bounding box of a label.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct LabelBounds {
     pixels: u64,
@@ -28,7 +27,7 @@ struct LabelBounds {
 }
 
 impl LabelMask {
-    /// The whole number that a half float (IEEE 754 binary16, not negative) holds.
+    /// Converts a half-precision float (IEEE 754 binary16, nonnegative) to an integer.
     #[must_use]
     pub fn whole(half: u16) -> u16 {
         let (exponent, fraction) = (i32::from((half >> 10) & 0x1F), f64::from(half & 0x3FF));
@@ -38,8 +37,8 @@ impl LabelMask {
         ((1.0 + fraction / 1024.0) * spandrel_model::math::pow(2.0, f64::from(exponent - 15))).round() as u16
     }
 
-    /// What the labels mean and where they lie: elements with their pixels, defects with kind, condition state, pixels and box (left, top,
-    /// width, height, px).
+    /// Returns the legend of the labels: elements with their pixel counts; defects with kind, condition state, pixel count and
+    /// bounding box (left, top, width, height, px).
     #[must_use]
     pub fn legend(&self, placed: &[PlacedDefect]) -> Value {
         let elements: Vec<Value> = self

@@ -1,13 +1,13 @@
-//! 4 x 4 matrices for the graphics card: worked out in f64, handed over column by column in f32.
+//! 4 x 4 matrices for the GPU: computed in f64, passed in column-major f32.
 
 use spandrel_model::frames::{Enu, Vec3};
 
-/// Row-major, applied to column vectors.
+/// A row-major matrix that multiplies column vectors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Matrix(pub [[f64; 4]; 4]);
 
 impl Matrix {
-    /// Rows of a rotation (unit vectors right, up, back) and the eye that becomes the origin.
+    /// Returns the view matrix from a rotation (unit vectors right, up, back) and the eye position, which becomes the origin.
     #[must_use]
     pub fn view(eye: Vec3<Enu>, right: Vec3<Enu>, up: Vec3<Enu>, back: Vec3<Enu>) -> Self {
         let row = |axis: Vec3<Enu>| {
@@ -17,7 +17,7 @@ impl Matrix {
         Self([row(right), row(up), row(back), [0.0, 0.0, 0.0, 1.0]])
     }
 
-    /// Pinhole with half sizes at distance 1; depth is `near`/distance, 1 at `near` and 0 at infinity.
+    /// Returns a perspective projection with half sizes at distance 1. Depth is `near`/distance: 1 at `near`, 0 at infinity.
     #[must_use]
     pub fn perspective(half_width: f64, half_height: f64, near: f64) -> Self {
         Self([
@@ -28,7 +28,7 @@ impl Matrix {
         ])
     }
 
-    /// A box of half size `radius` around the view's axis; depth is 1 at `near` and 0 at `far` in front.
+    /// Returns an orthographic projection of half size `radius` around the view axis; depth is 1 at `near` and 0 at `far`.
     #[must_use]
     pub fn box_of(radius: f64, near: f64, far: f64) -> Self {
         let depth = far - near;
@@ -40,27 +40,27 @@ impl Matrix {
         ])
     }
 
-    /// Mirrors at the level `up_m`.
+    /// Returns the reflection in the horizontal plane at height `up_m`.
     #[must_use]
     pub fn mirror(up_m: f64) -> Self {
         Self([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, -1.0, 2.0 * up_m], [0.0, 0.0, 0.0, 1.0]])
     }
 
-    /// `other` first, then this.
+    /// Returns the composition that applies `other` first, then `self`.
     #[must_use]
     pub fn after(&self, other: &Self) -> Self {
         let cell = |i: usize, j: usize| (0..4).map(|k| self.0[i][k] * other.0[k][j]).sum();
         Self([0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| cell(i, j))))
     }
 
-    /// A point in clip space.
+    /// Transforms a point to clip space.
     #[must_use]
     pub fn apply(&self, p: Vec3<Enu>) -> [f64; 4] {
         let [x, y, z] = p.array();
         self.0.map(|row| row[0] * x + row[1] * y + row[2] * z + row[3])
     }
 
-    /// Column by column, as shaders read it.
+    /// Returns the columns, as shaders read them.
     #[must_use]
     pub fn columns(&self) -> [[f32; 4]; 4] {
         [0, 1, 2, 3].map(|j| [0, 1, 2, 3].map(|i| self.0[i][j] as f32))
@@ -76,7 +76,7 @@ mod tests {
         let view =
             Matrix::view(Vec3::new(1.0, 2.0, 3.0), Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 0.0, 1.0), Vec3::new(0.0, -1.0, 0.0));
         let clip = Matrix::perspective(0.5, 0.25, 0.1).after(&view).apply(Vec3::new(3.0, 6.0, 2.0));
-        // 4 m in front, 2 m right and 1 m below: the corner of a frustum with half sizes 0.5 and 0.25.
+        // 4 m ahead, 2 m right and 1 m below: the corner of a frustum with half sizes 0.5 and 0.25.
         assert!((clip[3] - 4.0).abs() < 1e-12);
         assert!((clip[0] / clip[3] - 1.0).abs() < 1e-12 && (clip[1] / clip[3] + 1.0).abs() < 1e-12);
         assert!((clip[2] / clip[3] - 0.1 / 4.0).abs() < 1e-12);

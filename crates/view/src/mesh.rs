@@ -1,23 +1,23 @@
-//! Triangles with what the shaders need to know of them, and the simple solids that props are built from.
+//! Triangle meshes with the vertex attributes of the shaders, and simple solids for building props.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
-/// What a surface looks like; the number is the one the shaders switch on.
+/// Surface material; the shaders switch on its number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]
 pub enum Material {
     /// Cast concrete, weathered.
     Concrete = 0,
-    /// The road on a deck: asphalt, markings, walkways. `aux` is half the deck's width, m.
+    /// Deck surface: asphalt, markings, walkways. `aux` is half the deck width, m.
     Deck = 1,
     /// Painted, riveted steel.
     Steel = 2,
-    /// Galvanised wire.
+    /// Galvanized wire.
     Cable = 3,
-    /// Grass, rock and shore. `aux` is the height over the water, m.
+    /// Grass, rock and shore. `aux` is the height above the water, m.
     Ground = 4,
-    /// Needles.
+    /// Conifer needles.
     Foliage = 5,
     /// Bark.
     Bark = 6,
@@ -25,23 +25,23 @@ pub enum Material {
     Rock = 7,
     /// Car paint.
     Paint = 8,
-    /// Windows.
+    /// Window glass.
     Glass = 9,
-    /// Tyres and black plastics.
+    /// Tires and black plastics.
     Rubber = 10,
     /// Cloth and skin.
     Cloth = 11,
-    /// Shines by itself.
+    /// Emissive.
     Light = 12,
-    /// The take-off pad.
+    /// The landing pad.
     Pad = 13,
-    /// The translucent disc of a fast propeller.
+    /// The translucent disk of a fast propeller.
     Blur = 14,
-    /// Paint that an instance's colour does not replace.
+    /// Paint whose color an instance does not override.
     Enamel = 15,
 }
 
-/// One corner of a triangle, in the scenario's frame (east, north, up), m.
+/// A vertex in the scenario's frame (east, north, up), m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "gpu", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C)]
@@ -50,65 +50,66 @@ pub struct Vertex {
     pub position: [f32; 3],
     /// Outward unit normal.
     pub normal: [f32; 3],
-    /// Coordinates in the surface, m: along the member or level, and across it or up.
+    /// Surface coordinates, m: along the member or horizontal, and across it or up.
     pub uv: [f32; 2],
-    /// Indirect light: shares of the sky's and of the sun's illuminance (see `LightModel::indirect_shares`).
+    /// Indirect light: fractions of the sky and sun illuminance (see `LightModel::indirect_shares`).
     pub light: [f32; 2],
-    /// [`Material`] in the lowest eight bits, above them the AASHTO element number of what is part of a bridge (0: nothing is).
+    /// [`Material`] in the lowest eight bits; above them the AASHTO element number, or 0 for anything that is not part of a
+    /// bridge.
     pub material: u32,
-    /// Colour, red to alpha, linear in 1/255.
+    /// Color, linear RGBA in 1/255.
     pub tint: [u8; 4],
-    /// What the material needs besides.
+    /// Additional material parameter.
     pub aux: f32,
 }
 
-/// Triangles, counter-clockwise seen from outside.
+/// Triangle mesh, counterclockwise as seen from outside.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mesh {
-    /// Corners.
+    /// Vertices.
     pub vertices: Vec<Vertex>,
-    /// Three to a triangle.
+    /// Vertex indices, three per triangle.
     pub indices: Vec<u32>,
 }
 
-/// How a face looks.
+/// Material and color of a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfaceFinish {
     /// Material.
     pub material: Material,
-    /// Colour, linear, 0..255.
+    /// Color, linear, 0..255.
     pub tint: [u8; 3],
 }
 
 impl SurfaceFinish {
-    /// A finish.
+    /// Creates a finish.
     #[must_use]
     pub const fn new(material: Material, tint: [u8; 3]) -> Self {
         Self { material, tint }
     }
 }
 
-/// As the graphics card counts.
+/// Converts a vector to single precision.
 #[must_use]
 pub fn single(v: Vec3<Enu>) -> [f32; 3] {
     v.array().map(|x| x as f32)
 }
 
 impl Mesh {
-    /// Number of triangles.
+    /// Returns the number of triangles.
     #[must_use]
     pub fn triangles(&self) -> usize {
         self.indices.len() / 3
     }
 
-    /// Adds another mesh.
+    /// Appends another mesh.
     pub fn append(&mut self, other: &Self) {
         let first = self.vertices.len() as u32;
         self.vertices.extend_from_slice(&other.vertices);
         self.indices.extend(other.indices.iter().map(|k| k + first));
     }
 
-    /// A flat convex polygon, corners counter-clockwise from outside; coordinates in the surface run along its first side.
+    /// Adds a flat convex polygon, corners counterclockwise as seen from outside; surface coordinates run along its first side.
     pub fn polygon(&mut self, corners: &[Vec3<Enu>], finish: SurfaceFinish) {
         if corners.len() < 3 {
             return;
@@ -131,7 +132,8 @@ impl Mesh {
         }
     }
 
-    /// A block whose upper face may be smaller than its lower: `inset` is taken off its front, rear and both sides.
+    /// Adds a block whose top face may be smaller than its bottom: `inset` reduces it at the front, at the rear and on both
+    /// sides.
     pub fn block(&mut self, low: [f64; 3], high: [f64; 3], inset: [f64; 3], finish: SurfaceFinish) {
         let [front, rear, side] = inset;
         let p = |x: f64, y: f64, z: f64| Vec3::new(x, y, z);
@@ -151,7 +153,7 @@ impl Mesh {
         }
     }
 
-    /// A round solid about the line from `a` to `b` with a radius at each end, smooth around, closed by flat ends.
+    /// Adds a cylinder or cone frustum from `a` to `b` with a radius at each end, smooth-shaded, with flat caps.
     pub fn round(&mut self, (a, radius_a): (Vec3<Enu>, f64), (b, radius_b): (Vec3<Enu>, f64), sides: u32, finish: SurfaceFinish) {
         let axis = (b - a).unit();
         let helper = if axis.up().abs() < 0.9 { Vec3::new(0.0, 0.0, 1.0) } else { Vec3::new(1.0, 0.0, 0.0) };
@@ -185,12 +187,12 @@ impl Mesh {
         }
     }
 
-    /// A ball squeezed to three half axes; `dent` in 0..1 makes it a boulder.
+    /// Adds an ellipsoid with three half axes; a `dent` in 0..1 makes it a boulder.
     pub fn ball(&mut self, centre: Vec3<Enu>, half: [f64; 3], dent: f64, finish: SurfaceFinish) {
         self.ball_of((8, 12), centre, half, dent, finish);
     }
 
-    /// The same with so many rings and sides.
+    /// Adds an ellipsoid with the given number of rings and sides.
     pub fn ball_of(&mut self, (rings, sides): (u32, u32), centre: Vec3<Enu>, half: [f64; 3], dent: f64, finish: SurfaceFinish) {
         let first = self.vertices.len() as u32;
         for ring in 0..=rings {
@@ -215,7 +217,7 @@ impl Mesh {
     }
 }
 
-/// A corner that sees all of the day's indirect light; what is placed by instances brings its own.
+/// A vertex that receives all indirect light; instances bring their own values.
 fn vertex(position: Vec3<Enu>, normal: Vec3<Enu>, uv: [f32; 2], finish: SurfaceFinish) -> Vertex {
     let [r, g, b] = finish.tint;
     Vertex {
@@ -235,7 +237,7 @@ mod tests {
 
     const FINISH: SurfaceFinish = SurfaceFinish::new(Material::Paint, [128, 128, 128]);
 
-    /// Volume by the divergence theorem: positive when the triangles face outward.
+    /// Volume by the divergence theorem: positive if the triangles face outward.
     fn volume(mesh: &Mesh) -> f64 {
         let at = |k: u32| {
             let [x, y, z] = mesh.vertices[k as usize].position.map(f64::from);
@@ -251,7 +253,7 @@ mod tests {
         assert!((volume(&block) - 12.0).abs() < 1e-6, "{}", volume(&block));
         let mut cone = Mesh::default();
         cone.round((Vec3::zero(), 1.0), (Vec3::new(0.0, 0.0, 3.0), 0.0), 64, FINISH);
-        // A cone of 64 sides lacks 0.2 % of π.
+        // A cone with 64 sides is 0.2 % smaller than π.
         assert!((volume(&cone) / math::PI - 1.0).abs() < 0.003, "{}", volume(&cone));
         let mut ball = Mesh::default();
         ball.ball(Vec3::new(5.0, 0.0, 0.0), [1.0; 3], 0.0, FINISH);

@@ -1,28 +1,28 @@
-//! One tile of noise for all materials, with its means over larger and larger squares: the shaders read it at the size of a pixel, so that
-//! nothing glitters far away, and one look costs the same for any number of octaves.
+//! A tile of noise for all materials, with mipmaps. The shaders sample it at the pixel size, which avoids aliasing at a distance
+//! and costs the same for any number of octaves.
 
 use spandrel_model::random::RandomStream;
 
-/// Texels along a side.
+/// Texels per side.
 pub const SIDE: usize = 512;
-/// Lattice cells along a side: the tile repeats after so many units.
+/// Lattice cells per side: the tile repeats after this many units.
 pub const CELLS: usize = 16;
 /// Octaves of the first channel; the finest has cells of two texels.
 const OCTAVES: usize = 5;
-/// Distances in the third channel are stored as shares of this, cells.
+/// Maximum distance in the third channel, cells; distances are stored as fractions of it.
 pub const FARTHEST: f64 = 1.28;
 
-/// One level: texels row by row, four channels: several octaves of noise, one octave, distance to the nearest of scattered points, a number
-/// of that point.
+/// A mip level: row-major texels with four channels: several octaves of noise, one octave, distance to the nearest scattered
+/// point, and a number of that point.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NoiseLevel {
-    /// Texels along a side.
+    /// Texels per side.
     pub side: usize,
-    /// Four bytes each.
+    /// Four bytes per texel.
     pub rgba: Vec<u8>,
 }
 
-/// The tile and its means, finest first.
+/// Returns the tile and its mipmaps, finest first.
 #[must_use]
 pub fn levels() -> Vec<NoiseLevel> {
     let mut values = tile();
@@ -71,7 +71,7 @@ fn tile() -> Vec<[f64; 4]> {
     (0..SIDE * SIDE).map(texel).collect()
 }
 
-/// Smooth between the corners of a lattice that repeats.
+/// Smooth interpolation between the corners of a periodic lattice.
 fn smooth(lattice: &[f64], cells: usize, x: f64, y: f64) -> f64 {
     let (cx, cy) = (x.floor(), y.floor());
     let fade = |t: f64| t * t * (3.0 - 2.0 * t);
@@ -82,7 +82,7 @@ fn smooth(lattice: &[f64], cells: usize, x: f64, y: f64) -> f64 {
     low + (high - low) * fy
 }
 
-/// Distance to the nearest of one scattered point a cell, and that point's number.
+/// Returns the distance to the nearest scattered point (one per cell) and that point's number.
 fn nearest(east: &[f64], north: &[f64], own: &[f64], x: f64, y: f64) -> (f64, f64) {
     let mut best = (f64::INFINITY, 0.0);
     let cell = |v: f64, step: i64| (v.floor() as i64 + step).rem_euclid(CELLS as i64) as usize;
@@ -117,7 +117,7 @@ mod tests {
     fn prop_the_tile_repeats_without_a_seam() {
         let fine = &levels()[0];
         let at = |x: usize, y: usize| f64::from(fine.rgba[4 * (y * SIDE + x)]);
-        // Across the seam the step is no larger than the largest within.
+        // The step across the seam is no larger than the largest step within the tile.
         let within = (0..SIDE - 1).map(|x| (at(x + 1, 100) - at(x, 100)).abs()).fold(0.0, f64::max);
         assert!((at(0, 100) - at(SIDE - 1, 100)).abs() <= within);
     }

@@ -1,18 +1,18 @@
-//! A finished picture.
+//! A rendered picture.
 
-/// Pixels, row by row from the upper left, 8-bit sRGB and alpha.
+/// Pixels in row-major order from the upper left, 8-bit sRGB with alpha.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Picture {
     /// Width, px.
     pub width: u32,
     /// Height, px.
     pub height: u32,
-    /// Four bytes a pixel.
+    /// Four bytes per pixel.
     pub rgba: Vec<u8>,
 }
 
 impl Picture {
-    /// Red, green, blue of a pixel; black outside.
+    /// Returns the red, green and blue values of a pixel; black outside the picture.
     #[must_use]
     pub fn at(&self, x: u32, y: u32) -> [u8; 3] {
         let k = 4 * (y as usize * self.width as usize + x as usize);
@@ -22,7 +22,7 @@ impl Picture {
         }
     }
 
-    /// Mean luma (0..255) of a rectangle, cut off at the picture's edges.
+    /// Mean luma (0..255) of a rectangle, clipped to the picture.
     #[must_use]
     pub fn luma(&self, (left, top): (u32, u32), (right, bottom): (u32, u32)) -> f64 {
         let mut sum = 0.0;
@@ -37,7 +37,7 @@ impl Picture {
         if count > 0.0 { sum / count } else { 0.0 }
     }
 
-    /// The same, no wider than this, px: each pixel is the mean of those that it covers.
+    /// Scales the picture down to at most `most_px` wide by averaging.
     #[must_use]
     pub fn narrowed(&self, most_px: u32) -> Self {
         if self.width <= most_px {
@@ -51,7 +51,7 @@ impl Picture {
         Self { width, height, rgba: rgba.collect() }
     }
 
-    /// Mean of a rectangle's pixels.
+    /// Mean color of a rectangle.
     fn mean(&self, (left, top): (u32, u32), (right, bottom): (u32, u32)) -> [u8; 4] {
         let (mut sums, mut count) = ([0_u32; 3], 0);
         for (x, y) in (top..bottom).flat_map(|y| (left..right).map(move |x| (x, y))) {
@@ -63,14 +63,14 @@ impl Picture {
         [r, g, b, u8::MAX]
     }
 
-    /// Mean absolute difference per channel (0..255); `None` when the sizes differ.
+    /// Mean absolute difference per channel (0..255), or `None` if the sizes differ.
     #[must_use]
     pub fn difference(&self, other: &Self) -> Option<f64> {
         if (self.width, self.height) != (other.width, other.height) || self.rgba.is_empty() {
             return None;
         }
         let sum: f64 = self.rgba.iter().zip(&other.rgba).map(|(a, b)| f64::from(a.abs_diff(*b))).sum();
-        // The alpha channel is the same everywhere.
+        // The alpha channel is constant.
         Some(sum / (0.75 * self.rgba.len() as f64))
     }
 }

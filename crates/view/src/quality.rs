@@ -1,43 +1,44 @@
-//! How much a picture may cost: presets as plain data.
+//! Rendering quality presets.
 
-/// What a preset decides.
+/// Settings of a preset.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quality {
     /// Name on the command line.
     pub name: &'static str,
-    /// Samples per pixel at edges: 1 or 4.
+    /// Multisampling: 1 or 4 samples per pixel.
     pub samples: u32,
-    /// Shadow maps of the sun: 1 covers the whole site and is drawn once; more follow the eye and are drawn for every picture.
+    /// Number of sun shadow maps: 1 covers the whole site and is drawn once; more follow the camera and are drawn for every
+    /// picture.
     pub cascades: u32,
     /// Side of each shadow map, px.
     pub shadow_px: u32,
-    /// Texels a side of the filter over a shadow map: 1, 2 or 3.
+    /// Shadow filter size per side, texels: 1, 2 or 3.
     pub shadow_taps: u32,
-    /// The lamp casts shadows.
+    /// Whether the lamp casts shadows.
     pub lamp_shadow: bool,
-    /// Size of the reflection on the water as a share of the picture; 0: the sky alone is reflected.
+    /// Size of the water reflection relative to the picture; 0 reflects only the sky.
     pub reflection: f64,
-    /// Ground and lake are drawn by fewer triangles where nobody sees the difference, and no bed in deep water; the lake mirrors no boulders,
-    /// hangers and railings, trees only where they are near, and simpler bridges and mountains.
+    /// Draws the ground and the lake with fewer triangles where the difference is not visible, and no lake bed in deep water. The
+    /// reflection omits boulders, hangers and railings, includes trees only nearby, and uses simplified bridges and mountains.
     pub sparse: bool,
-    /// Spacing at which light is worked out on the bridges, m.
+    /// Spacing of baked light samples on the bridges, m.
     pub light_cell_m: f64,
-    /// Rays for each place at which light is worked out.
+    /// Rays per baked light sample.
     pub light_rays: usize,
-    /// Trees that are planted, where there is room.
+    /// Maximum number of trees.
     pub trees: usize,
-    /// Boughs around a tree's trunk in each whorl; boulders are as fine.
+    /// Boughs per whorl of a tree; also sets the detail of boulders.
     pub boughs: u32,
-    /// Between two sizes of noise the mean is taken; without it the nearer one, at half the cost.
+    /// Interpolates between two mip levels of noise; otherwise uses the nearest level at half the cost.
     pub smooth_noise: bool,
-    /// Light and haze are worked out at corners, slow patterns come from ready tiles, highlights are left out: a third of the cost of a pixel. The
-    /// sun has one map.
+    /// Computes light and haze per vertex, takes slow patterns from precomputed tiles, and omits highlights: a third of the cost
+    /// per pixel. The sun has one shadow map.
     pub lean: bool,
-    /// Samples along the path of a pixel that moves while the shutter is open; 1: no motion blur.
+    /// Motion blur samples per pixel; 1 disables motion blur.
     pub blur_taps: u32,
 }
 
-/// From cheap to costly.
+/// Presets from cheapest to most expensive.
 pub const PRESETS: &[Quality] = &[
     Quality {
         name: "low",
@@ -110,7 +111,7 @@ pub const PRESETS: &[Quality] = &[
 ];
 
 impl Quality {
-    /// The preset of a name.
+    /// Returns the preset with this name, if there is one.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         PRESETS.iter().find(|preset| preset.name == name).copied()

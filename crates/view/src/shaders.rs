@@ -1,21 +1,21 @@
-//! Sources of the shaders. Each is the common part followed by its own; plain tests parse and validate all of them with no graphics card.
+//! Shader sources. Each is the common part followed by its own; tests parse and validate all of them without a GPU.
 
-/// Structures, noise, shadows and shading that the others share.
+/// Structures, noise, shadows and shading shared by the shaders.
 const COMMON: &str = include_str!("shaders/common.wgsl");
 
-/// The name of `develop` where pixels have several samples.
+/// Name of the `develop` variant for multisampled targets.
 pub const DEVELOP_SAMPLED: &str = "develop, sampled";
 
-/// A shader: name and source.
+/// A shader with its name and source.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ShaderSource {
-    /// Name, for messages.
+    /// Name for error messages.
     pub name: &'static str,
-    /// WGSL.
+    /// WGSL source.
     pub text: String,
 }
 
-/// Every shader.
+/// Returns all shaders.
 #[must_use]
 pub fn all() -> Vec<ShaderSource> {
     let drawn = [
@@ -36,7 +36,7 @@ pub fn all() -> Vec<ShaderSource> {
     sources
 }
 
-/// The source of a name; empty for a name that is none.
+/// Returns the source of a shader; empty if the name is unknown.
 #[must_use]
 pub fn source(name: &str) -> String {
     all().into_iter().find(|source| source.name == name).map_or_else(String::new, |source| source.text)

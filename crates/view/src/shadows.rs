@@ -1,4 +1,4 @@
-//! Where shadow maps look: the sun's, over the whole site or in steps ahead of the eye, and the lamp's.
+//! Projections of the shadow maps: the sun's, over the whole site or in cascades ahead of the camera, and the lamp's.
 
 use super::camera::PinholeCamera;
 use super::matrix::Matrix;
@@ -7,28 +7,28 @@ use super::shot::LampBeam;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
-/// Mountains and bridges this far towards the sun still throw shadows into a map, m.
+/// Range towards the sun from which objects cast shadows into a map, m.
 const TOWARDS_M: f64 = 700.0;
-/// And this far beyond its middle they receive them, m.
+/// Range beyond the map's center within which objects receive shadows, m.
 const BEYOND_M: f64 = 400.0;
-/// Radii of the maps that follow the eye, m, by their number.
+/// Radii of the maps that follow the camera, m, by number of cascades.
 const RADII_3: [f64; 3] = [16.0, 80.0, 380.0];
 const RADII_4: [f64; 4] = [10.0, 38.0, 130.0, 440.0];
-/// The lamp's map begins in front of the aircraft's own parts, m.
+/// Near plane of the lamp's map, m: in front of the aircraft's own parts.
 const LAMP_NEAR_M: f64 = 0.35;
-/// The lamp's map is this much wider than its beam.
+/// Width of the lamp's map relative to its beam.
 const LAMP_MARGIN: f64 = 1.08;
 
-/// One map.
+/// A shadow map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShadowMap {
-    /// World to clip space.
+    /// World-to-clip-space projection.
     pub projection: Matrix,
-    /// Size of a texel, m (of the lamp's: at 1 m).
+    /// Size of a texel, m (for the lamp: at a distance of 1 m).
     pub texel_m: f64,
 }
 
-/// Maps of the sun, finest first.
+/// Returns the sun's shadow maps, finest first.
 #[must_use]
 pub fn sun_maps(quality: &Quality, eye: &PinholeCamera, bounds_m: (Vec3<Enu>, f64), sun: Vec3<Enu>) -> Vec<ShadowMap> {
     let ahead = |radius: f64| sun_map(eye.position_m + eye.forward * (0.75 * radius), radius, quality.shadow_px, sun);
@@ -44,7 +44,7 @@ fn sun_map(centre_m: Vec3<Enu>, radius_m: f64, side_px: u32, sun: Vec3<Enu>) -> 
     let right = helper.cross(sun).unit();
     let up = sun.cross(right);
     let texel_m = 2.0 * radius_m / f64::from(side_px);
-    // Whole texels only: shadows' edges do not crawl when the eye moves.
+    // Snaps to whole texels so that shadow edges do not shimmer when the camera moves.
     let snap = |x: f64| (x / texel_m).round() * texel_m;
     let (x, y) = (snap(centre_m.dot(right)), snap(centre_m.dot(up)));
     let middle = right * x + up * y + sun * centre_m.dot(sun);
@@ -52,7 +52,7 @@ fn sun_map(centre_m: Vec3<Enu>, radius_m: f64, side_px: u32, sun: Vec3<Enu>) -> 
     ShadowMap { projection, texel_m }
 }
 
-/// The lamp's map.
+/// Returns the lamp's shadow map.
 #[must_use]
 pub fn lamp_map(beam: &LampBeam, side_px: u32) -> ShadowMap {
     let half = math::tan(beam.half_rad) * LAMP_MARGIN;
@@ -72,7 +72,7 @@ mod tests {
         let low = map.projection.apply(Vec3::new(10.0, 20.0, 30.0));
         let high = map.projection.apply(Vec3::new(10.0, 20.0, 30.0) + sun * 25.0);
         assert!(high[2] > low[2] && low[2] > 0.0 && high[2] < 1.0);
-        // Both on one ray of the sun: the same texel.
+        // Both points are on one ray of the sun: the same texel.
         assert!((high[0] - low[0]).abs() < 1e-9 && (high[1] - low[1]).abs() < 1e-9);
         assert!(low[0].abs() < 2.0 / 1024.0 && low[1].abs() < 2.0 / 1024.0, "in the middle, to the texel");
     }

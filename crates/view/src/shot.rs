@@ -1,4 +1,4 @@
-//! Everything that one picture needs besides the scene: plain data, made from telemetry and the scenario.
+//! Inputs of one picture other than the scene, as plain data from telemetry and the scenario.
 
 use super::camera::PinholeCamera;
 use super::exposure::Exposure;
@@ -9,28 +9,29 @@ use spandrel_model::math;
 use spandrel_model::site::CameraPose;
 use spandrel_model::vehicle::Lamp;
 
-/// Noise of a camera at its lowest sensitivity, as a share of white (estimate: consumer sensors, about 40 dB).
+/// Camera noise at the lowest sensitivity, as a fraction of white (estimate: consumer sensors, about 40 dB).
 const NOISE_AT_100: f64 = 0.006;
-/// Corners come out darker by half of this share, places between by the square of their distance from the middle (estimate: small wide lenses).
+/// Vignetting: corners are darker by half of this fraction; elsewhere it grows with the square of the distance from the center
+/// (estimate: small wide-angle lenses).
 const VIGNETTE: f64 = 0.45;
 
-/// A lamp's beam.
+/// Beam of a lamp.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LampBeam {
-    /// Where, m.
+    /// Position, ENU, m.
     pub position_m: Vec3<Enu>,
-    /// Unit vector of its axis.
+    /// Unit vector of the beam axis.
     pub forward: Vec3<Enu>,
-    /// Unit vector to its right.
+    /// Unit vector to the right.
     pub right: Vec3<Enu>,
-    /// Half of the beam's angle, rad.
+    /// Half beam angle, rad.
     pub half_rad: f64,
-    /// Intensity within it, cd.
+    /// Luminous intensity within the beam, cd.
     pub candela: f64,
 }
 
 impl LampBeam {
-    /// The aircraft's lamp; `None` when it is off or there is none. Its intensity is the one of `site::look`.
+    /// Returns the beam of the aircraft's lamp, or `None` if it is off or absent. Uses the intensity of `site::look`.
     #[must_use]
     pub fn of(lamp: &Lamp, pose: &CameraPose) -> Option<Self> {
         let half_rad = 0.5 * lamp.beam_rad;
@@ -44,69 +45,69 @@ impl LampBeam {
     }
 }
 
-/// How the sensor or the eye turns light into a picture.
+/// Conversion of light into a picture by a sensor or eye.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilmResponse {
     /// Exposure.
     pub exposure: Exposure,
-    /// Noise at mid grey, as a share of white.
+    /// Noise at mid-gray, as a fraction of white.
     pub noise: f64,
-    /// Darkening of the corners.
+    /// Corner darkening (vignetting).
     pub vignette: f64,
-    /// Where the eye was when the shutter opened, if that was elsewhere.
+    /// Camera when the shutter opened, if it has moved since.
     pub before: Option<PinholeCamera>,
 }
 
 impl FilmResponse {
-    /// The aircraft's camera. `moved` is the eye at the shutter's opening.
+    /// Returns the response of the aircraft's camera. `moved` is the camera when the shutter opened.
     #[must_use]
     pub fn camera(exposure: Exposure, moved: Option<PinholeCamera>) -> Self {
         Self { exposure, noise: NOISE_AT_100 * (exposure.iso / 100.0).sqrt(), vignette: VIGNETTE, before: moved }
     }
 
-    /// A sensor makes noise, a lens dark corners: eyes have neither.
+    /// Whether this is a camera, with sensor noise and vignetting, rather than an eye.
     #[must_use]
     pub fn is_camera(&self) -> bool {
         self.noise > 0.0 || self.vignette > 0.0
     }
 
-    /// A person's eyes: no noise, no blur.
+    /// Returns the response of a person's eyes: no noise, no blur.
     #[must_use]
     pub fn eyes(exposure: Exposure) -> Self {
         Self { exposure, noise: 0.0, vignette: 0.0, before: None }
     }
 }
 
-/// One picture.
+/// Inputs of one picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shot {
-    /// From where.
+    /// Camera.
     pub eye: PinholeCamera,
     /// Size, px.
     pub size_px: (u32, u32),
     /// Sun and sky.
     pub sky: Sky,
-    /// The lamp, when it is on.
+    /// The lamp's beam, if it is on.
     pub beam: Option<LampBeam>,
-    /// Sensor or eye.
+    /// Sensor or eye response.
     pub finish: FilmResponse,
-    /// Simulation time, s: waves, clouds.
+    /// Simulation time, s; animates waves and clouds.
     pub time_s: f64,
-    /// The wind over the water blows towards here: east and north, m/s.
+    /// Wind direction over the water (towards), east and north, m/s.
     pub wind_m_s: (f64, f64),
-    /// What moves.
+    /// Moving objects.
     pub moving: Vec<(MoverModel, Instance)>,
 }
 
 impl Shot {
-    /// Width over height.
+    /// Returns width over height.
     #[must_use]
     pub fn aspect(&self) -> f64 {
         f64::from(self.size_px.0) / f64::from(self.size_px.1.max(1))
     }
 }
 
-/// Where the mean wind blows at 20 ft, from a scenario: east and north, m/s.
+/// Returns the mean wind of a scenario at 20 ft (direction it blows towards), east and north, m/s.
 #[must_use]
 pub fn wind(scenario: &spandrel_model::scenario::Scenario) -> (f64, f64) {
     let (s, c) = math::sin_cos(scenario.wind.from_deg.to_radians());

@@ -1,43 +1,43 @@
-//! The sky as it looks: how bright and of which colour in every direction, scaled so that its horizontal illuminance is the one that the
-//! measures use. The shader `sky.wgsl` holds the same function; the clouds that it draws are to be looked at and light nothing.
+//! Sky model: radiance and color in every direction, scaled to the horizontal illuminance of the light model. The shader
+//! `sky.wgsl` contains the same function; its clouds are visual only and cast no light.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::site::light::Daylight;
 
-/// Colour with luminance 1 of the clear sky's zenith (estimate: about 15,000 K).
+/// Color of the clear sky's zenith, luminance 1 (estimate: about 15,000 K).
 const ZENITH: [f64; 3] = [0.62, 0.97, 2.0];
-/// Of its horizon (estimate: about 8,000 K).
+/// Color of the horizon, luminance 1 (estimate: about 8,000 K).
 const HORIZON: [f64; 3] = [0.94, 0.995, 1.24];
-/// Of clouds (estimate: about 6,500 K).
+/// Color of clouds, luminance 1 (estimate: about 6,500 K).
 const CLOUD: [f64; 3] = [0.97, 1.0, 1.05];
-/// Optical depths of the clear air for red, green and blue light, per air mass (Rayleigh's inverse fourth power with a little haze;
+/// Optical depths of clear air for red, green and blue light, per air mass (Rayleigh's inverse fourth power with slight haze;
 /// estimate).
 const AIR: [f64; 3] = [0.07, 0.12, 0.24];
 
-/// Share of the shade's blue that a camera's white balance takes out (estimate).
+/// Fraction of the blue of shade that a camera's white balance removes (estimate).
 const BALANCE: f64 = 0.55;
 
-/// What the shaders need of the day.
+/// Sky parameters of the shaders.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sky {
-    /// Towards the sun.
+    /// Unit vector towards the sun.
     pub sun: Vec3<Enu>,
-    /// Sun on a surface that faces it, lx.
+    /// Illuminance by the sun on a surface that faces it, lx.
     pub direct_lux: f64,
-    /// Its colour, luminance 1.
+    /// Color of the sun, luminance 1.
     pub sun_rgb: [f64; 3],
-    /// Horizontal illuminance of the sky, lx.
+    /// Horizontal illuminance by the sky, lx.
     pub sky_lux: f64,
-    /// Colour of the whole sky's light, luminance 1.
+    /// Color of the sky's total light, luminance 1.
     pub sky_rgb: [f64; 3],
-    /// Share under cloud.
+    /// Cloud cover, 0 to 1.
     pub cloud: f64,
-    /// Factor on [`relative`], so that the hemisphere gives `sky_lux`: π times luminance, lx.
+    /// Factor on [`relative`] that scales the hemisphere's illuminance to `sky_lux` (π times luminance, lx).
     pub scale: f64,
 }
 
-/// Luminance of an RGB colour (ITU-R BT.709).
+/// Luminance of an RGB color (ITU-R BT.709).
 #[must_use]
 pub fn luminance(rgb: [f64; 3]) -> f64 {
     0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
@@ -48,23 +48,23 @@ fn coloured(rgb: [f64; 3], luminance_is: f64) -> [f64; 3] {
     rgb.map(|c| c * k)
 }
 
-/// The sky's relative radiance towards a direction that looks up.
+/// Relative radiance of the sky in an upward direction.
 #[must_use]
 pub fn relative(direction: Vec3<Enu>, sun: Vec3<Enu>, cloud: f64) -> [f64; 3] {
     let up = direction.up().clamp(0.0, 1.0);
     let fall = math::pow(1.0 - up, 4.0);
     let towards = direction.dot(sun).clamp(-1.0, 1.0);
     let angle = math::acos(towards);
-    // Brighter at the horizon and around the sun, as CIE's clear sky is (general shape; estimate).
+    // Brighter at the horizon and around the sun, like the CIE clear sky (general shape; estimate).
     let glow = 1.0 + 2.2 * math::exp(-3.2 * angle) + 5.0 * math::exp(-22.0 * angle);
     let clear = (0.32 + 0.68 * fall) * glow;
-    // CIE overcast sky: three times as bright overhead as at the horizon.
+    // CIE overcast sky: three times as bright at the zenith as at the horizon.
     let grey = (1.0 + 2.0 * up) / 3.0;
     [0, 1, 2].map(|k| math::lerp(clear * math::lerp(ZENITH[k], HORIZON[k], fall), grey * CLOUD[k], cloud))
 }
 
 impl Sky {
-    /// The sky of a day under a share of clouds.
+    /// Returns the sky for a daylight state and cloud cover.
     #[must_use]
     pub fn new(day: &Daylight, cloud: f64) -> Self {
         const BANDS: u32 = 16;
@@ -93,7 +93,7 @@ impl Sky {
         }
     }
 
-    /// π times the luminance towards a direction, lx.
+    /// π times the luminance in a direction, lx.
     #[must_use]
     pub fn visible_lux(&self, direction: Vec3<Enu>) -> f64 {
         self.scale * luminance(relative(direction, self.sun, self.cloud))
@@ -106,7 +106,7 @@ mod tests {
 
     #[test]
     fn exact_the_sky_gives_the_illuminance_of_the_measures() {
-        // A quadrature of 20,000 directions of its own against the one inside; per cent of the coarse one.
+        // Compares with an independent quadrature of 20,000 directions; tolerance for the coarse one inside.
         const TOLERANCE: f64 = 0.02;
         for (up, cloud) in [(0.9, 0.0), (0.2, 0.3), (0.5, 1.0)] {
             let sun = Vec3::new((1.0_f64 - up * up).sqrt(), 0.0, up);

@@ -1,4 +1,4 @@
-//! From a moment of a flight to the shots of both views.
+//! Builds the shots of both views for a moment of a flight.
 
 use super::camera::PinholeCamera;
 use super::exposure::{Exposure, ExposureMeter, Lighting, meter};
@@ -16,10 +16,10 @@ use spandrel_model::site::{CameraPose, Site};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 
-/// So near to what it stands before the aircraft is still seen, m: a wing's length.
+/// Distance within which the aircraft counts as visible in front of an object, m: the length of a wing.
 const BESIDE_M: f64 = 0.5;
 
-/// What does not change during a session.
+/// Constant inputs of a session.
 #[derive(Debug, Clone, Copy)]
 pub struct Stage<'a> {
     /// The job.
@@ -28,38 +28,38 @@ pub struct Stage<'a> {
     pub vehicle: &'a Vehicle,
     /// The site.
     pub site: &'a Site,
-    /// Its scene.
+    /// The site's scene.
     pub scene: &'a Scene,
 }
 
-/// Where the aircraft is and what its camera does.
+/// State of the aircraft and its camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneMoment {
-    /// When.
+    /// Simulation time.
     pub at: SimTime,
-    /// The aircraft.
+    /// Pose of the aircraft.
     pub drone: DronePose,
-    /// Its velocity, m/s.
+    /// Velocity of the aircraft, ENU, m/s.
     pub velocity_m_s: Vec3<Enu>,
-    /// Its camera.
+    /// Pose of its camera.
     pub camera: CameraPose,
-    /// The camera's lens as it is zoomed.
+    /// The camera's lens at its current zoom.
     pub lens: Camera,
-    /// How fast the camera turns.
+    /// Turn rate of the camera.
     pub turn: CameraTurnRate,
 }
 
-/// How fast a camera on a gimbal turns; by default it does not.
+/// Turn rate of a gimbaled camera; zero by default.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CameraTurnRate {
-    /// Its heading, rad/s, clockwise from above.
+    /// Heading rate, rad/s, clockwise as seen from above.
     pub heading_rad_s: f64,
-    /// Its pitch over the horizon, rad/s, up positive.
+    /// Pitch rate, rad/s, up positive.
     pub pitch_rad_s: f64,
 }
 
 impl CameraTurnRate {
-    /// The angular velocity, rad/s, of a camera whose right is there: the gimbal keeps that level.
+    /// Angular velocity, rad/s, of a camera with this right-hand axis, which the gimbal keeps level.
     #[must_use]
     pub fn angular_rad_s(&self, right: Vec3<Enu>) -> Vec3<Enu> {
         right * self.pitch_rad_s - Vec3::new(0.0, 0.0, self.heading_rad_s)
@@ -67,19 +67,19 @@ impl CameraTurnRate {
 }
 
 impl Stage<'_> {
-    /// Sun and sky at an instant.
+    /// Returns the sun and sky at a time.
     #[must_use]
     pub fn sky(&self, at: SimTime) -> Sky {
         Sky::new(&self.site.light().daylight(at), self.scenario.light.cloud_cover)
     }
 
-    /// What the aircraft's camera sees; the aircraft itself is not in it.
+    /// Returns the shot of the aircraft's camera; the aircraft itself is not in it.
     #[must_use]
     pub fn camera(&self, moment: &SceneMoment, size_px: (u32, u32)) -> Shot {
         self.camera_frame(moment, size_px, &mut ExposureMeter::default())
     }
 
-    /// The same as the next picture of a film.
+    /// Returns the camera's shot as the next frame of a video, with smoothed exposure.
     #[must_use]
     pub fn camera_frame(&self, moment: &SceneMoment, size_px: (u32, u32), meter: &mut ExposureMeter) -> Shot {
         let eye = PinholeCamera::of(&moment.camera, &moment.lens);
@@ -90,13 +90,13 @@ impl Stage<'_> {
         Shot { finish: FilmResponse::camera(shot.finish.exposure, Some(before)), ..shot }
     }
 
-    /// What the inspector at the pad sees, looking at the aircraft.
+    /// Returns the shot of the inspector at the pad, looking at the aircraft.
     #[must_use]
     pub fn inspector(&self, moment: &SceneMoment, size_px: (u32, u32)) -> Shot {
         self.inspector_view(&InspectorCamera::default(), moment, size_px, &mut ExposureMeter::default())
     }
 
-    /// What the inspector sees who looks where they want, with eyes that follow the light.
+    /// Returns the shot of an inspector who looks freely, with eyes that adapt to the light.
     #[must_use]
     pub fn inspector_view(
         &self,
@@ -110,7 +110,7 @@ impl Stage<'_> {
         self.eye_shot(gaze.eye(stands, moment.drone.position_m, aspect), moment, size_px, eyes)
     }
 
-    /// The bracket round the aircraft over a person's view.
+    /// Returns the bracket around the aircraft, drawn over the inspector's view.
     #[must_use]
     pub fn drone_marker(&self, shot: &Shot, moment: &SceneMoment) -> Vec<DrawItem> {
         let (from, to) = (shot.eye.position_m, moment.drone.position_m - shot.eye.position_m);
@@ -120,7 +120,7 @@ impl Stage<'_> {
         marker(&shot.eye, aspect, moment.drone.position_m, hidden)
     }
 
-    /// What a person sees from anywhere.
+    /// Returns the shot of a person at any position.
     #[must_use]
     pub fn inspector_shot(&self, eye: PinholeCamera, moment: &SceneMoment, size_px: (u32, u32)) -> Shot {
         self.eye_shot(eye, moment, size_px, &mut ExposureMeter::default())
@@ -132,7 +132,7 @@ impl Stage<'_> {
         })
     }
 
-    /// A picture by a camera like the aircraft's from anywhere, with or without the aircraft in it.
+    /// Returns the shot of a camera like the aircraft's at any position, with or without the aircraft in view.
     #[must_use]
     pub fn through(
         &self,
@@ -179,32 +179,33 @@ impl Stage<'_> {
     }
 }
 
-/// The eye when the shutter opened, so many s before it closed: it moved and turned since.
+/// Returns the camera's pose when the shutter opened, `time_s` before it closed.
 fn camera_at_shutter_open(eye: &PinholeCamera, moment: &SceneMoment, time_s: f64) -> PinholeCamera {
     let back = Rotation::<Enu, Enu>::identity().turned_by(moment.turn.angular_rad_s(eye.right) * -time_s);
     let position_m = eye.position_m - moment.velocity_m_s * time_s;
     PinholeCamera { position_m, forward: back * eye.forward, right: back * eye.right, ..*eye }
 }
 
-/// What the display tells besides the moment itself and the feed.
+/// HUD inputs other than the moment and the feed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct HudInputs {
-    /// Battery, %, once it has been heard of.
+    /// Battery, %, once received.
     pub battery_pct: Option<f64>,
-    /// Lift-off.
+    /// Time of liftoff.
     pub lift_off: Option<SimTime>,
-    /// Age of the newest telemetry, s.
+    /// Age of the latest telemetry, s.
     pub silent_s: f64,
-    /// Pictures taken.
+    /// Number of pictures taken.
     pub pictures: usize,
-    /// When the last one was taken.
+    /// Time of the last picture.
     pub last_picture: Option<SimTime>,
-    /// What flashes does so by this, s: the wall's time where the flight is live, for simulation time may stand or run fast; else the film's.
+    /// Time base of blinking elements, s: wall-clock time in a live flight, because simulation time may be paused or accelerated;
+    /// video time otherwise.
     pub flash_s: f64,
 }
 
 impl HudInputs {
-    /// From a recorded flight.
+    /// Returns the inputs from a recorded flight.
     #[must_use]
     pub fn of(flight: &Flight, pad_up_m: f64, at: SimTime) -> Self {
         let newest = flight.truths.iter().rev().find(|truth| truth.time <= at).map(|truth| truth.time);
@@ -220,15 +221,15 @@ impl HudInputs {
     }
 }
 
-/// What a flight's telemetry tells the display at a moment. `feed` tells the rest; `held`: its cues come from a record that tells changes
-/// only. `map`: the reference paths may be shown.
+/// Builds the HUD from a flight's telemetry at a moment. `feed` supplies the remaining inputs; `held`: its cues come from a
+/// recording that stores only changes. `map`: whether the reference paths may be shown.
 #[must_use]
 pub fn hud(stage: &Stage, moment: &SceneMoment, flight: &Flight, feed: (&Feed, bool), map: bool) -> Hud {
     let told = HudInputs::of(flight, stage.scenario.ground_team.pad_m.up(), moment.at);
     display(stage, moment, &told, feed, map)
 }
 
-/// The same from what has been told, by whomever.
+/// Builds the HUD from inputs of any source.
 #[must_use]
 pub fn display(stage: &Stage, moment: &SceneMoment, told: &HudInputs, (feed, held): (&Feed, bool), map: bool) -> Hud {
     let (scenario, at) = (stage.scenario, moment.at);
@@ -262,7 +263,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, told: &HudInputs, (feed, hel
     }
 }
 
-/// Flight time counts from this height over the pad, m (docs/src/reference/assessment.md, "Frames").
+/// Height above the pad from which flight time counts, m (docs/src/reference/assessment.md, "Frames").
 pub const LIFT_OFF_M: f64 = 0.3;
 
 fn tracks(scenario: &Scenario) -> Vec<MapPath> {
@@ -270,14 +271,14 @@ fn tracks(scenario: &Scenario) -> Vec<MapPath> {
     scenario.tasks.iter().filter(|task| !task.path_m.is_empty()).map(track).collect()
 }
 
-/// A camera that looks from one point at another, level.
+/// Returns the pose of a camera without roll that looks from one point at another.
 #[must_use]
 pub fn camera_aimed_at(position_m: Vec3<Enu>, target_m: Vec3<Enu>, lamp_on: bool) -> CameraPose {
     let eye = PinholeCamera::at(position_m, target_m, 1.0, 1.0);
     CameraPose { position_m, forward: eye.forward, right: eye.right, lamp_on }
 }
 
-/// The aircraft on its pad with its motors off.
+/// Returns the pose of the aircraft on its pad with motors off.
 #[must_use]
 pub fn drone_on_pad(scenario: &Scenario, vehicle: &Vehicle) -> DronePose {
     let feet = vehicle.hull.feet_m.iter().map(|foot| foot.down()).fold(0.0, f64::max);
@@ -296,7 +297,7 @@ mod tests {
 
     const ROUNDING: f64 = 1e-12;
 
-    /// A camera that looks from the origin to the north, so steeply up.
+    /// A camera at the origin that looks north at this pitch.
     fn moment(pitch_deg: f64, turn: CameraTurnRate) -> SceneMoment {
         let (up, north) = math::sin_cos(pitch_deg.to_radians());
         let zero = Vec3::new(0.0, 0.0, 0.0);
@@ -318,14 +319,14 @@ mod tests {
     fn exact_a_turning_camera_looked_elsewhere_when_its_shutter_opened() {
         let (degree, fast) = (1.0_f64.to_radians(), 100.0_f64.to_radians());
         let yawed = before(&moment(0.0, CameraTurnRate { heading_rad_s: fast, pitch_rad_s: 0.0 }), 0.01);
-        // Clockwise it came from the west, by a degree.
+        // Turning clockwise, it came from the west by one degree.
         assert!((math::atan2(yawed.forward.east(), yawed.forward.north()) + degree).abs() < ROUNDING, "{yawed:?}");
         assert!(yawed.forward.up().abs() < ROUNDING && yawed.right.up().abs() < ROUNDING);
         assert!(
             (yawed.forward.dot(yawed.right)).abs() < ROUNDING
                 && (yawed.position_m - Vec3::new(-0.03, 0.0, 0.02)).norm() < ROUNDING
         );
-        // Upwards it came from below, whatever its pitch.
+        // Turning up, it came from below at any pitch.
         for pitch_deg in [0.0, -60.0, 60.0] {
             let tilted = before(&moment(pitch_deg, CameraTurnRate { heading_rad_s: 0.0, pitch_rad_s: fast }), 0.01);
             assert!((math::asin(tilted.forward.up()).to_degrees() - (pitch_deg - 1.0)).abs() < 1e-9, "{tilted:?}");

@@ -1,28 +1,29 @@
-//! Ready-made tiles for presets that save: slow patterns of ground and of concrete, several to one texture, so that one look shows what noise
-//! would take four or five for. They repeat after [`GROUND_M`] and [`CONCRETE_M`]; the shader `lean` reads them.
+//! Precomputed tiles for the cheaper presets: slow patterns of ground and concrete, several per texture, so that one lookup
+//! replaces four or five noise lookups. They repeat after [`GROUND_M`] and [`CONCRETE_M`]; the shader `lean` reads them.
 
 use spandrel_model::random::RandomStream;
 
-/// Texels along a side.
+/// Texels per side.
 pub const SIDE: usize = 1024;
-/// Side of the ground's tile, m.
+/// Side of the ground tile, m.
 pub const GROUND_M: f64 = 32.0;
-/// Side of the concrete's tile, m: whole boards, whole lengths of boards.
+/// Side of the concrete tile, m: a whole number of board widths and lengths.
 pub const CONCRETE_M: f64 = 38.4;
-/// Boards of the formwork, m wide and long (as in the shader `surface`).
+/// Width and length of formwork boards, m (as in the shader `surface`).
 const BOARD_M: (f64, f64) = (0.16, 2.4);
-/// Side of the squares of which a few hold a bird's splash, m (the shader takes 1.7; here a tile holds whole ones).
+/// Side of the cells of which some contain bird droppings, m (1.7 in the shader; here a tile holds whole cells).
 const SPLASH_CELL_M: f64 = 1.6;
-/// Share of those squares, and a splash's radius, m.
+/// Fraction of the cells with droppings, and their radius, m.
 const SPLASHES: (f64, f64) = (0.07, 0.045);
 
-/// A tile and its means over larger and larger squares, finest first: side and four bytes for each texel.
+/// A tile and its mipmaps, finest first: side and four bytes per texel.
 pub type MipLevels = Vec<(usize, Vec<u8>)>;
 
-/// One pattern over the tile, row by row.
+/// One pattern of the tile in row-major order.
 type TilePattern = Vec<f32>;
 
-/// Noise with so many cells across and down in its first octave, each octave twice as fine and half as strong; about 0.5.
+/// Noise with this many cells across and down in its first octave; each octave has twice the frequency and half the amplitude.
+/// Mean about 0.5.
 fn noise(stream: &mut RandomStream, (columns, rows): (usize, usize), octaves: u32) -> TilePattern {
     let mut field = vec![0.5; SIDE * SIDE];
     for octave in 0..octaves {
@@ -33,7 +34,7 @@ fn noise(stream: &mut RandomStream, (columns, rows): (usize, usize), octaves: u3
     field
 }
 
-/// Where texels lie between a lattice's corners: the corner before, the one behind, and how far between, smoothly.
+/// Interpolation positions of the texels between lattice corners: previous corner, next corner, smooth fraction.
 fn between(cells: usize) -> Vec<(usize, usize, f32)> {
     let of = |k: usize| {
         let at = k as f32 * cells as f32 / SIDE as f32;
@@ -60,13 +61,13 @@ fn step(low: f32, high: f32, x: f32) -> f32 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// Of the ground: patches two metres wide, blocks of rock, its beds, what is fine.
+/// Returns the ground tile: patches two meters wide, blocks of rock, beds of rock, fine detail.
 #[must_use]
 pub fn ground() -> MipLevels {
     let mut stream = RandomStream::new(0, "view.tiles.ground");
     let (near, block) = (noise(&mut stream, (16, 16), 5), noise(&mut stream, (26, 26), 5));
     let (straight, fine) = (noise(&mut stream, (4, 22), 4), noise(&mut stream, (128, 128), 3));
-    // Beds of rock waver by a metre or so.
+    // Beds of rock waver by about a meter.
     let bed = |k: usize| {
         let shift = (30.0 * (near[k] - 0.5)) as i64;
         let row = ((k / SIDE) as i64 + shift).rem_euclid(SIDE as i64) as usize;
@@ -75,7 +76,8 @@ pub fn ground() -> MipLevels {
     levels((0..SIDE * SIDE).map(|k| [near[k], block[k], bed(k), fine[k]].map(byte)).collect())
 }
 
-/// Of concrete: its tone about 0.5 (blotches and boards), streaks of rain, soot, birds' splashes; the last three as shares.
+/// Returns the concrete tile: tone about 0.5 (blotches and boards), rain streaks, soot, bird droppings; the last three as
+/// fractions.
 #[must_use]
 pub fn concrete() -> MipLevels {
     let mut stream = RandomStream::new(0, "view.tiles.concrete");
@@ -86,7 +88,7 @@ pub fn concrete() -> MipLevels {
     let splashes = splashes(&mut stream);
     let texel = |k: usize| {
         let (x, row) = ((k % SIDE) as f64 / SIDE as f64, (k / SIDE) * boards / SIDE);
-        // Every other board is laid with its joints elsewhere.
+        // Every other row of boards has its joints offset.
         let shift = if row % 2 == 1 { 0.37 } else { 0.0 };
         let length = (x * lengths as f64 + shift) as usize % lengths;
         let tone = 0.5 + 0.55 * (blotch[k] - 0.5) + 0.07 * board[row * lengths + length];
@@ -99,7 +101,7 @@ fn whole(x: f64) -> usize {
     x.round() as usize
 }
 
-/// White splashes, drawn out downwards.
+/// White droppings, elongated downwards.
 fn splashes(stream: &mut RandomStream) -> TilePattern {
     let mut field = vec![0.0; SIDE * SIDE];
     let (cells, texel_m) = (whole(CONCRETE_M / SPLASH_CELL_M), CONCRETE_M / SIDE as f64);
@@ -175,7 +177,7 @@ mod tests {
         let tile = concrete();
         let cells = whole(CONCRETE_M / SPLASH_CELL_M);
         let white = tile[0].1.chunks(4).filter(|texel| texel[3] > 127).count() as f64 / (SIDE * SIDE) as f64;
-        // An ellipse of 45 x 100 mm in some of the squares; chance gives or takes a third.
+        // An ellipse of 45 x 100 mm in some of the cells; chance varies the sum by a third.
         let expected = SPLASHES.0 * core::f64::consts::PI * SPLASHES.1 * SPLASHES.1 / 0.45 / (SPLASH_CELL_M * SPLASH_CELL_M);
         assert!((white / expected - 1.0).abs() < 0.34, "{white} of the tile, {expected} expected from {} squares", cells * cells);
     }

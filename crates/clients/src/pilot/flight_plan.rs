@@ -1,5 +1,6 @@
-//! The job as a plan file of QGroundControl (<https://docs.qgroundcontrol.com/master/en/qgc-dev-user-guide/file_formats/plan.html>): the
-//! tasks' reference paths with the transits between them, speeds, gimbal, lamp and pictures.
+//! Exports a job as a QGroundControl plan file
+//! (<https://docs.qgroundcontrol.com/master/en/qgc-dev-user-guide/file_formats/plan.html>): reference paths of the tasks,
+//! transits, speeds, gimbal and lamp commands, and pictures.
 
 use super::goals::{FlightGoal, PlanningContext, hover_point_over_pad};
 use super::track::TrackLeg;
@@ -9,27 +10,27 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::math;
 
-/// Waypoints of a task are at most this far apart, and a turn or a new line of sight gets one of its own, m, rad.
+/// Maximum spacing of task waypoints, m. Turns and changes in the line of sight get a waypoint of their own.
 const TASK_STRIDE_M: f64 = 4.0;
 const TRANSIT_STRIDE_M: f64 = 12.0;
 const TURN_RAD: f64 = 0.15;
-/// A waypoint counts as reached within, m: less than the narrowest threshold of a shipped task by what the flight may stray (estimate).
+/// Waypoint acceptance radius, m: the narrowest task threshold that ships, less the expected path error (estimate).
 const TASK_ACCEPT_M: f64 = 0.8;
 const TRANSIT_ACCEPT_M: f64 = 1.2;
-/// No leg of the plan is faster than this share of the job's speed limit: gusts and the estimate's error stay under it (estimate).
+/// Maximum leg speed as a fraction of the job's speed limit; leaves a margin for gusts and estimator error (estimate).
 const SPEED_SHARE: f64 = 0.9;
-/// Transits keep this much more clearance than the job's distance for "too close", m (estimate: the receiver's slow error reaches 1 m, and
-/// corners are rounded).
+/// Transit clearance in addition to the job's "too close" distance, m (estimate: GNSS drift reaches 1 m, and corners are
+/// rounded).
 const CLEAR_BY_M: f64 = 2.0;
-/// The gimbal is told when its pitch changes by more than this, degrees.
+/// Smallest gimbal pitch change that gets a mission item, degrees.
 const GIMBAL_STEP_DEG: f64 = 3.0;
-/// A picture every so many seconds in a task (estimate: one for each few metres of path).
+/// Interval between pictures during a task, s (estimate: one for every few meters of path).
 const PICTURE_EVERY_S: f64 = 2.0;
 
-/// Frames of items: relative to home, and no place at all.
+/// Mission item frames: MAV_FRAME_GLOBAL_RELATIVE_ALT and MAV_FRAME_MISSION.
 const RELATIVE: u8 = 3;
 const NO_PLACE: u8 = 2;
-/// Commands, by their numbers in MAVLink common.
+/// Command numbers in the MAVLink common dialect.
 const WAYPOINT: u16 = 16;
 const RETURN: u16 = 20;
 const TAKEOFF: u16 = 22;
@@ -41,7 +42,7 @@ const STOP_CAPTURE: u16 = 2001;
 /// MAV_MOUNT_MODE_MAVLINK_TARGETING.
 const TARGETING: f64 = 2.0;
 
-/// Writes items one after the other.
+/// Appends mission items in order.
 struct PlanWriter {
     plane: LocalPlane,
     pad_up_m: f64,
@@ -63,7 +64,7 @@ impl PlanWriter {
         });
         if frame == RELATIVE {
             item["Altitude"] = json!(params[6]);
-            // Relative to home.
+            // Altitude relative to home.
             item["AltitudeMode"] = json!(1);
             item["AMSLAltAboveTerrain"] = Value::Null;
         }
@@ -119,7 +120,7 @@ impl PlanWriter {
     }
 }
 
-/// Points of a leg that become waypoints: its ends, its turns, and one at every stride.
+/// Returns the indices of the leg's points that become waypoints: both ends, every turn, and one per stride.
 fn waypoint_indices(leg: &TrackLeg) -> Vec<usize> {
     let mut kept: Vec<usize> = Vec::new();
     for k in 0..leg.points_m.len() {
@@ -141,8 +142,8 @@ fn is_turn(leg: &TrackLeg, k: usize) -> bool {
     bent || matches!((leg.line_of_sight[k - 1], leg.line_of_sight[k]), (Some(before), Some(now)) if angle(before, now) > TURN_RAD)
 }
 
-/// The plan file: take-off, every task in order with pictures, return. Heights count from the pad, where home will be. `firmware` is the
-/// autopilot that it is for.
+/// Returns the plan: takeoff, all tasks in order with pictures, and return to launch. Altitudes are relative to the landing pad,
+/// which becomes home. `firmware` is the target autopilot.
 #[must_use]
 pub fn plan(map: &PlanningContext, firmware: MavAutopilot) -> Value {
     let scenario = map.scenario;

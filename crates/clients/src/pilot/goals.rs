@@ -1,4 +1,4 @@
-//! The job as a list of legs: transits planned by looking, tasks along their reference paths, home.
+//! Plans a job as a sequence of legs: transits around obstacles, tasks along their reference paths, and the flight home.
 
 use super::route_search;
 use super::track::TrackLeg;
@@ -8,25 +8,25 @@ use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 
-/// Transit speed, m/s (a comfortable jog for a video drone, estimate).
+/// Transit speed in the open, m/s (estimate: moderate for a camera drone).
 const TRANSIT_M_S: f64 = 6.0;
-/// Transit speed with something near, m/s (estimate).
+/// Transit speed near obstacles, m/s (estimate).
 const CAREFUL_M_S: f64 = 2.5;
-/// What counts as near in transit, m (estimate).
+/// Distance below which an obstacle counts as near in transit, m (estimate).
 const NEAR_M: f64 = 4.0;
-/// Height over the pad at which take-off ends and landing begins, m (estimate).
+/// Height above the landing pad at which takeoff ends and landing begins, m (estimate).
 pub const PAD_HOVER_M: f64 = 6.0;
 
-/// What comes next.
+/// The next goal of the flight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FlightGoal {
-    /// Task by index.
+    /// Fly the task with this index.
     Task(usize),
-    /// Fly home.
+    /// Return to the landing pad.
     Home,
 }
 
-/// Speed at which a task is flown, m/s: under the 10 mph limit with the margin that its shape asks for (estimate).
+/// Task speed, m/s: below the 10 mph limit by a margin that depends on the path's shape (estimate).
 fn task_speed_m_s(task: &Task) -> f64 {
     match task.kind {
         TaskKind::SlabSide => 3.3,
@@ -37,13 +37,13 @@ fn task_speed_m_s(task: &Task) -> f64 {
     }
 }
 
-/// The place over the pad where flights begin and end.
+/// Returns the hover point above the landing pad where flights begin and end, ENU, m.
 #[must_use]
 pub fn hover_point_over_pad(scenario: &Scenario) -> Vec3<Enu> {
     scenario.ground_team.pad_m + Vec3::new(0.0, 0.0, PAD_HOVER_M)
 }
 
-/// Everything that planning looks at.
+/// Inputs of the planner.
 #[derive(Clone, Copy)]
 pub struct PlanningContext<'a> {
     /// The job.
@@ -52,14 +52,14 @@ pub struct PlanningContext<'a> {
     pub site: &'a Site,
     /// The aircraft.
     pub vehicle: &'a Vehicle,
-    /// When.
+    /// Simulation time of planning.
     pub at: SimTime,
-    /// Clearance that transits keep, m, but where a path's end lies nearer to things; `None`: this pilot's own.
+    /// Clearance to keep in transit, m, except near an endpoint that has less. `None` uses the pilot's default.
     pub keep_clear_m: Option<f64>,
 }
 
 impl PlanningContext<'_> {
-    /// Clearance below which this pilot will not plan, m: what `check` asks of a path.
+    /// Minimum clearance for planning, m: the clearance that `check` requires of a path.
     fn clearance_m(&self) -> f64 {
         0.5 * self.vehicle.hull.tip_to_tip_m + 0.5
     }
@@ -69,7 +69,7 @@ impl PlanningContext<'_> {
         route_search::route(self.site, (from, to), self.clearance_m(), self.keep_clear_m, ceiling, self.at)
     }
 
-    /// The way as part of a leg: fast in the open, careful past things.
+    /// Appends a transit to a leg: fast in the open, slow near obstacles.
     fn append_route(&self, leg: &mut TrackLeg, from: Vec3<Enu>, to: Vec3<Enu>) {
         const STEP_M: f64 = 3.0;
         let mut last = from;
@@ -84,7 +84,7 @@ impl PlanningContext<'_> {
         }
     }
 
-    /// The leg for a job from here.
+    /// Returns the leg from `from` to the goal.
     #[must_use]
     pub fn leg(&self, job: FlightGoal, from: Vec3<Enu>) -> TrackLeg {
         match job {
@@ -113,7 +113,7 @@ impl PlanningContext<'_> {
         leg
     }
 
-    /// The rest of a leg after a mishap: a way back to the point that comes next, then on as before.
+    /// Returns the rest of an interrupted leg: a route back to point `next`, then the remaining points.
     #[must_use]
     pub fn resume(&self, leg: &TrackLeg, next: usize, from: Vec3<Enu>) -> TrackLeg {
         let next = next.min(leg.points_m.len() - 1);
@@ -129,7 +129,7 @@ impl PlanningContext<'_> {
     }
 }
 
-/// A leg needs two points; one that is flown on the spot gets a second one a hand's breadth away.
+/// Ensures that a leg has at least two points; a leg flown on the spot gets a second point a few centimeters away.
 fn ensure_two_points(leg: &mut TrackLeg, at: Vec3<Enu>) {
     if leg.points_m.is_empty() {
         leg.push(at, 1.0, None, None);
@@ -140,8 +140,7 @@ fn ensure_two_points(leg: &mut TrackLeg, at: Vec3<Enu>) {
     }
 }
 
-/// Path indices in the order in which a person would fly them: from the nearer end; a closed path from its nearest point, with a
-/// little overlap.
+/// Path indices in flying order: from the nearer end, or, on a closed path, from the nearest point with a short overlap.
 fn flying_order(task: &Task, from: Vec3<Enu>) -> Vec<usize> {
     const OVERLAP: usize = 4;
     let n = task.path_m.len();

@@ -1,4 +1,4 @@
-//! In the air: follow the leg, keep off things, look, photograph, recover.
+//! In-flight guidance: follows the leg, avoids obstacles, searches for defects, takes pictures, and recovers from upsets.
 
 use super::goals::{FlightGoal, PlanningContext};
 use super::perception::MotionState;
@@ -13,30 +13,30 @@ use spandrel_model::math;
 use spandrel_model::site::DefectView;
 use spandrel_model::time::SimTime;
 
-/// Heading loop of the trained pilot, 1/s (estimate).
+/// Heading loop gain of the trained pilot, 1/s (estimate).
 const YAW_PER_S: f64 = 1.3;
-/// Share of the felt speed error that the hand adds, trained pilot (estimate).
+/// Fraction of the perceived speed error added to the stick command, trained pilot (estimate).
 const SPEED_FEEDBACK: f64 = 0.35;
-/// No way made for this long means stuck, s.
+/// Time without progress after which the aircraft counts as stuck, s.
 const STUCK_S: f64 = 6.0;
-/// Backing off after being stuck lasts this long, s.
+/// Duration of the back-off maneuver after the aircraft was stuck, s.
 const BACK_OFF_S: f64 = 2.0;
-/// One approach to a noticed defect lasts at most this long, s.
+/// Maximum duration of an approach to a noticed defect, s.
 const INSPECT_S: f64 = 7.0;
-/// Battery at which a sensible pilot breaks off, %.
+/// Battery level at which the pilot aborts the job, %.
 const BREAK_OFF_PCT: f64 = 12.0;
-/// Aiming error at which the shutter is pressed, rad.
+/// Maximum aiming error for taking a picture, rad.
 const AIMED_RAD: f64 = 0.12;
-/// Tries per defect.
+/// Maximum number of picture attempts per defect.
 const TRIES: u32 = 2;
-/// A spot that would not show well is left alone this long, s: it may show better from farther on (estimate).
+/// How long a poorly visible defect is ignored, s; it may be easier to see from a later point on the path (estimate).
 const LEAVE_S: f64 = 15.0;
-/// Standard deviation of judging by eye how obliquely a surface is seen, trained pilot, rad (4 degrees, estimate).
+/// Standard deviation of the incidence angle judged by eye, trained pilot, rad (4 degrees, estimate).
 const JUDGE_RAD: f64 = 0.07;
-/// Standard deviation of judging size and light on a screen, trained pilot, as a share (estimate).
+/// Relative standard deviation of size and brightness judged on a screen, trained pilot (estimate).
 const JUDGE_SHARE: f64 = 0.15;
 
-/// A noticed spot that is being photographed.
+/// A noticed defect that is being photographed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct PhotoTarget {
     defect: u32,
@@ -45,11 +45,11 @@ struct PhotoTarget {
     since: SimTime,
     triggered: Option<SimTime>,
     attempts: u32,
-    /// How far this pilot misjudges this spot, in standard deviations of the trained pilot.
+    /// The pilot's judgment error for this defect, in standard deviations of the trained pilot.
     misjudged: f64,
 }
 
-/// State of the flight in the air.
+/// Guidance state in flight.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Guidance {
     leg: Option<(FlightGoal, TrackLeg)>,
@@ -63,7 +63,7 @@ pub struct Guidance {
 }
 
 impl Guidance {
-    /// Nothing begun.
+    /// Creates the state before the first leg.
     #[must_use]
     pub fn new() -> Self {
         Self {
@@ -78,13 +78,13 @@ impl Guidance {
         }
     }
 
-    /// The aircraft is somewhere else than thought: look for a way back to the leg.
+    /// Requests a route back to the leg, after the aircraft has been moved.
     pub fn replan(&mut self) {
         self.needs_plan = true;
         self.target = None;
     }
 
-    /// The task being worked.
+    /// Returns the index of the active task, if any.
     #[must_use]
     pub fn task(&self) -> Option<usize> {
         let (_, leg) = self.leg.as_ref()?;
@@ -101,7 +101,7 @@ impl Guidance {
 }
 
 impl Pilot {
-    /// One moment of flying the job.
+    /// Runs one control step in the flight phase and returns the stick axes.
     pub(super) fn fly(&mut self, belief: &MotionState) -> StickAxes {
         if !self.link.status.armed && self.phase_time_s() > 1.0 {
             return self.recover_from_disarm();
@@ -111,19 +111,19 @@ impl Pilot {
         self.search_picture(belief, &mut wish);
         self.payload(&wish, belief);
         wish.velocity_m_s += self.avoid_obstacles(belief);
-        // The hand gives what the eye takes for the wanted speed.
+        // Compensates for the pilot's misjudged speed: the commanded velocity is scaled by the perceived speed.
         wish.velocity_m_s = wish.velocity_m_s / self.perception.speed_scale();
         sticks(wish.velocity_m_s, belief, wish.line_of_sight, &self.config)
     }
 
-    /// Motors off in the air's middle: try to go on, unless the session is over.
+    /// Handles motors that stopped in flight: tries to continue unless the session is over.
     fn recover_from_disarm(&mut self) -> StickAxes {
         if matches!(self.link.status.contact, ContactKind::Person | ContactKind::Vehicle) {
             self.finish("hit a person or a vehicle");
         } else if self.link.status.battery_pct.is_some_and(|pct| pct < 1.0) {
             self.finish("battery empty");
         } else if self.phase_time_s() > 25.0 * 60.0 {
-            self.finish("could not fly on");
+            self.finish("could not continue");
         } else {
             self.arm();
             return [0.0, 0.0, 0.3, 0.0];
@@ -135,7 +135,7 @@ impl Pilot {
         PlanningContext { scenario: &config.scenario, site, vehicle: &config.vehicle, at, keep_clear_m: None }
     }
 
-    /// Plans the next leg when there is none, or a way back to the present one.
+    /// Plans the next leg, or a route back to the current one.
     fn plan_next_leg(&mut self, belief: &MotionState) {
         let Some(site) = &self.site else { return };
         let map = Self::map(&self.config, site, self.now);
@@ -159,7 +159,7 @@ impl Pilot {
         }
     }
 
-    /// The leg's wish; `None` when the leg has just ended.
+    /// Returns the leg's command, or `None` if the leg has just ended.
     fn follow(&mut self, belief: &MotionState) -> Option<TrackCommand> {
         let flight = &mut self.guidance;
         let (job, leg) = flight.leg.as_ref()?;
@@ -180,7 +180,7 @@ impl Pilot {
         Some(wish)
     }
 
-    /// Pushes away from what is seen to be near, and backs off when no way is made.
+    /// Returns a velocity correction away from visible obstacles; backs off when the aircraft makes no progress.
     fn avoid_obstacles(&mut self, belief: &MotionState) -> Vec3<Enu> {
         let Some(site) = &self.site else { return Vec3::zero() };
         let safe_m = 0.5 * self.config.vehicle.hull.tip_to_tip_m + 0.7;
@@ -195,7 +195,7 @@ impl Pilot {
         near.normal * (push + 1.5 * self.config.skill.gain * gap)
     }
 
-    /// Looks at the picture and turns to what it shows.
+    /// Searches the picture and points the camera at what was noticed.
     fn search_picture(&mut self, belief: &MotionState, wish: &mut TrackCommand) {
         self.glimpse(wish.task.is_some());
         let Some(target) = self.guidance.target else { return };
@@ -208,7 +208,7 @@ impl Pilot {
         }
         let line = target.position_m - belief.position_m;
         wish.line_of_sight = Some(line.unit());
-        // Stand before it at most as far as the corridor allows, towards its normal, and slowly.
+        // Approaches slowly to a point along the defect's normal, no farther out than the corridor allows.
         let threshold_m = wish.task.map_or(2.0, |t| self.config.scenario.tasks[t].threshold_m);
         let stand_m = target.normal * line.norm().clamp(2.0, 6.0);
         let shift = (target.position_m + stand_m - belief.position_m).limited(0.5 * threshold_m);
@@ -244,7 +244,7 @@ impl Pilot {
         }
     }
 
-    /// Presses when it is aimed and seems to show well, then looks at the picture taken and tries again if that seems bad.
+    /// Takes a picture once the camera is aimed and the defect seems well framed, then retries if the result looks poor.
     fn photograph(&mut self, mut target: PhotoTarget, line: Vec3<Enu>, belief: &MotionState) {
         if let Some(pressed) = target.triggered {
             if (self.now - pressed).s() < 0.6 + self.config.skill.delay_s {
@@ -266,7 +266,7 @@ impl Pilot {
         self.guidance.target = Some(target);
     }
 
-    /// Whether the screen shows the spot well, as far as this pilot can tell.
+    /// Checks whether the defect appears well framed on the screen, within this pilot's judgment.
     fn is_well_framed(&self, target: &PhotoTarget) -> bool {
         let (vehicle, skill) = (&self.config.vehicle, self.config.skill);
         let (Some(site), Some(picture)) = (&self.site, self.perception.delayed_view(skill.delay_s)) else { return true };
@@ -293,7 +293,7 @@ impl Pilot {
         self.link.send_command_to(100, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, params);
     }
 
-    /// Lamp and gimbal by hand, and the picture that a false friend asked for.
+    /// Controls the lamp and gimbal, and takes the picture that a distractor triggered.
     fn payload(&mut self, wish: &TrackCommand, _belief: &MotionState) {
         if self.guidance.distractor_trigger.is_some_and(|at| at <= self.now) {
             self.guidance.distractor_trigger = None;
@@ -322,7 +322,7 @@ fn angles(look: Vec3<Enu>) -> (f64, f64) {
     (math::atan2(look.east(), look.north()), math::asin(look.up()))
 }
 
-/// Stick axes for a wanted velocity and line of sight, through what the hand has learnt of this aircraft.
+/// Returns the stick axes for a desired velocity and line of sight, using the pilot's learned model of the aircraft.
 pub(super) fn sticks(wanted: Vec3<Enu>, belief: &MotionState, look: Option<Vec3<Enu>>, config: &PilotConfig) -> StickAxes {
     let limits = &config.vehicle.limits;
     let gain = config.skill.gain;
@@ -332,7 +332,7 @@ pub(super) fn sticks(wanted: Vec3<Enu>, belief: &MotionState, look: Option<Vec3<
     let right = push.east() * c - push.north() * s;
     let up = push.up();
     let climb = if up > 0.0 { limits.climb_m_s } else { limits.descend_m_s };
-    // A line of sight that stands nearly upright says nothing of the heading.
+    // A near-vertical line of sight does not define a heading.
     let turn = look.filter(|l| l.horizontal_norm() > 0.2).map_or(0.0, |l| math::wrap_pi(angles(l).0 - belief.yaw_rad));
     [forward / limits.forward_m_s, right / limits.sideward_m_s, up / climb, turn * YAW_PER_S * gain / limits.yaw_rate_rad_s]
         .map(|axis| axis.clamp(-1.0, 1.0))

@@ -1,6 +1,7 @@
-//! The synthetic trainee: flies over MAVLink as a person's ground station does, with MANUAL_CONTROL, lamp, gimbal and snapshot
-//! commands alone. It knows the job (scenario, reference paths, where it would look) and sees the world late and with error; it never
-//! errs by type. Sans-IO: datagrams in, datagrams out, the vehicle's own clock.
+//! A synthetic trainee that flies over MAVLink like a person at a ground station, with MANUAL_CONTROL and the lamp, gimbal and
+//! camera commands only. It knows the job (scenario, reference paths, lines of sight) and perceives the world with delay and
+//! error. Its errors arise from noise; no type of error is scripted. Sans-IO: datagrams in, datagrams out; time comes from the
+//! vehicle.
 
 pub mod goals;
 pub mod perception;
@@ -30,53 +31,53 @@ use stick_response::StickResponse;
 use vehicle_link::{VehicleLink, VehicleUpdate};
 use visual_search::VisualSearch;
 
-/// Between two tries of a command that has not had its effect, s.
+/// Retry interval for a command that has not taken effect, s.
 const RETRY_S: f64 = 1.5;
-/// Within this of the pad's middle one comes down, m (estimate: the reach of the last correction).
+/// Maximum horizontal distance from the pad's center for a descent, m (estimate: within reach of the last correction).
 const OVER_PAD_M: f64 = 2.5;
-/// From farther aside one approaches at this height at least, m (estimate: over the truck).
+/// Minimum height of an approach from farther away, m (estimate: clears the truck).
 const APPROACH_M: f64 = 5.0;
-/// The mind gives up a flight that cannot begin after this, s of simulation time.
+/// Timeout for the start of a flight, s of simulation time.
 const PATIENCE_S: f64 = 60.0;
 
-/// Who flies what.
+/// Configuration of a synthetic pilot.
 #[derive(Debug, Clone)]
 pub struct PilotConfig {
     /// The job.
     pub scenario: Arc<Scenario>,
     /// The aircraft.
     pub vehicle: Arc<Vehicle>,
-    /// The pilot's numbers.
+    /// Skill parameters.
     pub skill: Skill,
-    /// The pilot's own randomness.
+    /// Seed of the pilot's random number streams.
     pub seed: u64,
 }
 
-/// How the flight ended, as the pilot saw it.
+/// The end of the flight, as perceived by the pilot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PilotReport {
-    /// In words.
+    /// Reason for the end, as text.
     pub reason: String,
     /// Simulation time at the end.
     pub at: SimTime,
-    /// Tasks flown to their end.
+    /// Number of tasks flown to the end.
     pub tasks_flown: usize,
-    /// Pictures taken.
+    /// Number of pictures taken.
     pub pictures: u32,
 }
 
-/// What the pilot is doing.
+/// Phase of the flight.
 #[derive(Debug, Clone, PartialEq)]
 enum PilotPhase {
-    /// Waiting for the vehicle to be ready, then arming.
+    /// Waits until the vehicle is ready, then arms.
     Prepare,
-    /// Climbing off the pad.
+    /// Takes off from the pad.
     Climb,
-    /// Flying the job.
+    /// Flies the job.
     Fly,
-    /// Coming down on the pad.
+    /// Lands on the pad.
     Descend,
-    /// Over.
+    /// Finished.
     Done,
 }
 
@@ -106,7 +107,7 @@ pub struct Pilot {
 }
 
 impl Pilot {
-    /// A pilot who has read the job.
+    /// Creates a pilot who knows the job.
     #[must_use]
     pub fn new(config: PilotConfig) -> Self {
         let jobs = (0..config.scenario.tasks.len()).map(FlightGoal::Task).chain([FlightGoal::Home]).collect();
@@ -134,7 +135,7 @@ impl Pilot {
         }
     }
 
-    /// Reads one datagram and acts on it.
+    /// Processes one datagram and queues the responses.
     pub fn handle_datagram(&mut self, bytes: &[u8]) {
         let plane = spandrel_model::geodesy::LocalPlane::new(self.config.scenario.origin);
         for news in self.link.receive(bytes, &plane) {
@@ -153,26 +154,26 @@ impl Pilot {
         }
     }
 
-    /// Lets the pilot's own clock run when nothing has been heard yet: it greets the vehicle, so that a vehicle that waits to be
-    /// dialled learns of it.
+    /// Advances the pilot's clock until the first datagram arrives, and sends heartbeats so that a vehicle waiting for a
+    /// connection can find the pilot.
     pub fn handle_timeout(&mut self, now: SimTime) {
         if self.now == SimTime::ZERO {
             self.send_heartbeat(now);
         }
     }
 
-    /// The next datagram to send.
+    /// Returns the next datagram to send.
     pub fn poll_transmit(&mut self) -> Option<Vec<u8>> {
         self.link.poll_transmit()
     }
 
-    /// How it ended, once it has.
+    /// Returns the report once the flight has ended.
     #[must_use]
     pub fn finished(&self) -> Option<&PilotReport> {
         self.report.as_ref()
     }
 
-    /// What the pilot is doing, in words, for progress lines.
+    /// Returns a progress text, such as "in transit".
     #[must_use]
     pub fn status_text(&self) -> String {
         match (&self.phase, self.guidance.task()) {
@@ -191,7 +192,7 @@ impl Pilot {
         }
     }
 
-    /// One look at the world: 50 times a second.
+    /// Processes one motion sample (50 Hz).
     fn observe(&mut self, motion: MotionState) {
         let put_back = self.link.status.respawns != self.respawns;
         if motion.time <= self.now || (self.phase == PilotPhase::Done && !(put_back && self.landed())) {
@@ -203,7 +204,7 @@ impl Pilot {
         if put_back {
             self.respawns = self.link.status.respawns;
             if self.phase == PilotPhase::Done {
-                // It stood beside its home and is in the air again.
+                // The aircraft landed outside the home circle and has been put back in the air.
                 self.report = None;
                 self.enter(PilotPhase::Descend);
             }
@@ -238,7 +239,7 @@ impl Pilot {
         }
     }
 
-    /// True when a command may be tried again.
+    /// Checks whether a command may be retried now.
     fn may_retry(&mut self) -> bool {
         let may = (self.now - self.last_attempt).s() > RETRY_S;
         if may {
@@ -280,8 +281,8 @@ impl Pilot {
         [0.0, 0.0, rate / self.config.vehicle.limits.climb_m_s, 0.0]
     }
 
-    /// The whole way down is by hand: first over the pad, slower near the ground, then the stick stays down until the vehicle says that
-    /// it stands. Whoever stands beside the home circle takes off again.
+    /// Descends manually: centers over the pad, slows near the ground, then holds the stick down until the vehicle reports that
+    /// it has landed. Takes off again after a landing outside the home circle.
     fn descend(&mut self, belief: &MotionState) -> stick_response::StickAxes {
         let team = &self.config.scenario.ground_team;
         let off = team.pad_m - belief.position_m;

@@ -1,4 +1,4 @@
-//! What the pilot believes to see: the aircraft's motion, late and with drifting error.
+//! The pilot's perception of the aircraft's motion, with delay and drifting error.
 
 use super::skill::Skill;
 use spandrel_model::frames::{Enu, Vec3};
@@ -7,31 +7,31 @@ use spandrel_model::random::RandomStream;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// Drifting error of judged position for the trained pilot, m (1 sigma per axis; estimate).
+/// Drifting error of perceived position for the trained pilot, m (1 sigma per axis; estimate).
 const POSITION_ERROR_M: f64 = 0.4;
-/// Its correlation time, s (estimate).
+/// Correlation time of the position error, s (estimate).
 const POSITION_TAU_S: f64 = 4.0;
-/// Drifting relative error of judged speed for the trained pilot (1 sigma; estimate).
+/// Drifting relative error of perceived speed for the trained pilot (1 sigma; estimate).
 const SPEED_ERROR: f64 = 0.13;
-/// Its correlation time, s (estimate).
+/// Correlation time of the speed error, s (estimate).
 const SPEED_TAU_S: f64 = 3.0;
-/// Error of judged heading for the trained pilot, rad (1 sigma; estimate).
+/// Error of perceived heading for the trained pilot, rad (1 sigma; estimate).
 const HEADING_ERROR_RAD: f64 = 0.03;
 
 /// Motion of the aircraft at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionState {
-    /// When.
+    /// Simulation time.
     pub time: SimTime,
-    /// Where, m.
+    /// Position, ENU, m.
     pub position_m: Vec3<Enu>,
-    /// Velocity, m/s.
+    /// Velocity, ENU, m/s.
     pub velocity_m_s: Vec3<Enu>,
     /// Heading, rad clockwise from north.
     pub yaw_rad: f64,
 }
 
-/// An Ornstein-Uhlenbeck process of unit variance.
+/// An Ornstein-Uhlenbeck process with unit variance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DriftProcess {
     value: f64,
@@ -39,7 +39,7 @@ pub struct DriftProcess {
 }
 
 impl DriftProcess {
-    /// Starts at a draw from its own distribution.
+    /// Creates the process with a value drawn from its stationary distribution.
     pub fn new(tau_s: f64, random: &mut RandomStream) -> Self {
         Self { value: random.normal(), tau_s }
     }
@@ -64,7 +64,7 @@ pub struct Perception {
 }
 
 impl Perception {
-    /// A pilot's eyes.
+    /// Creates the perception of a pilot, seeded.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let mut random = RandomStream::new(seed, "pilot perception");
@@ -74,7 +74,7 @@ impl Perception {
         Self { history: VecDeque::new(), random, position, speed, heading, speed_sense: 1.0 }
     }
 
-    /// What happens now; it reaches the mind after the delay.
+    /// Adds the current motion to the delay line.
     pub fn observe(&mut self, motion: MotionState) {
         self.history.push_back(motion);
         while self.history.len() > 2 && self.history[1].time + SimTime::from_s(1.0) < motion.time {
@@ -82,7 +82,7 @@ impl Perception {
         }
     }
 
-    /// What was, `delay_s` ago, without error (a picture on the screen).
+    /// Returns the motion `delay_s` ago without error, as shown on the screen.
     #[must_use]
     pub fn delayed_view(&self, delay_s: f64) -> Option<MotionState> {
         let last = self.history.back()?;
@@ -90,7 +90,7 @@ impl Perception {
         self.history.iter().rev().find(|m| m.time <= wanted).or_else(|| self.history.front()).copied()
     }
 
-    /// What the pilot believes: late, extrapolated by nothing, and wrong by the drifting errors.
+    /// Returns the perceived motion: delayed, not extrapolated, with drifting errors.
     pub fn estimate(&mut self, skill: &Skill, dt_s: f64) -> Option<MotionState> {
         let truth = self.delayed_view(skill.delay_s)?;
         let mut offset = [0.0; 3];
@@ -108,13 +108,13 @@ impl Perception {
         })
     }
 
-    /// Judged over true speed at present: who judges the speed too high flies too slowly, and the other way round.
+    /// Ratio of perceived to true speed. A pilot who overestimates the speed flies too slowly, and vice versa.
     #[must_use]
     pub fn speed_scale(&self) -> f64 {
         self.speed_sense
     }
 
-    /// Forgets the past, after a jump (the aircraft was put back).
+    /// Discards the history after the aircraft has been repositioned.
     pub fn reset(&mut self) {
         self.history.clear();
     }
@@ -141,7 +141,8 @@ mod tests {
 
     #[test]
     fn exact_the_drift_has_unit_variance() {
-        // Correlated samples: 40 000 s at 0.2 s with tau 4 s are about 5 000 independent ones; five standard errors.
+        // Correlated samples: 40 000 s at 0.2 s with tau 4 s are equivalent to about 5 000 independent samples; five standard
+        // errors.
         const TOLERANCE: f64 = 0.1;
         let mut random = RandomStream::new(3, "drift");
         let mut drift = DriftProcess::new(4.0, &mut random);

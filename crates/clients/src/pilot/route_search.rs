@@ -1,4 +1,4 @@
-//! The way from here to there around what stands: A* on a grid, pulled straight. A person plans this by looking.
+//! Obstacle-free routes: A* on a grid, then straightened. Models a person who plans by sight.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::Site;
@@ -6,27 +6,27 @@ use spandrel_model::time::SimTime;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
-/// Grid spacing, m: finer than the interlayer is high.
+/// Grid spacing, m: finer than the height of the interlayer.
 const CELL_M: f64 = 2.0;
-/// Clearance that a person likes to keep, m (practice: 3 to 5 m, docs/src/reference/domain.md, "Stand-off and clearance").
+/// Preferred clearance, m (practice: 3 to 5 m, docs/src/reference/domain.md, "Stand-off and clearance").
 const COMFORT_M: f64 = 4.0;
-/// Around an end that lies nearer to things than the way should, the way keeps what the end has, m (estimate: the reach of a task's own
-/// distance for "too close").
+/// Radius around an endpoint with too little clearance within which the route may come as close as the endpoint itself, m
+/// (estimate: within a task's own "too close" distance).
 const CRAMPED_M: f64 = 8.0;
-/// Near such an end the way may come closer to things than the end by this, m (estimate: stand-offs are rounded).
+/// Margin by which the route may come closer than such an endpoint, m (estimate: stand-offs are rounded).
 const END_SLACK_M: f64 = 0.1;
-/// Clearances to try, one after the other, as shares of what COMFORT_M adds to the minimum.
+/// Clearances to try in order, as fractions of the difference between the preferred and the minimum clearance.
 const SHARES: [f64; 3] = [1.0, 0.7, 0.4];
-/// Room around the two ends for the search, m.
+/// Search margin around the two endpoints, m.
 const MARGIN_M: f64 = 40.0;
-/// Cells looked at before giving up; the two-bridge site needs about a tenth.
+/// Maximum number of expanded cells; the two-bridge site needs about a tenth.
 const MAX_EXPANSIONS: usize = 400_000;
 
 type GridCell = [i32; 3];
 
-/// A flyable polyline from `from` to `to`, both included, that keeps `clearance_m` where it can, and `keep_m` (if given) but near an end
-/// that lies nearer to things itself, from traffic at any time too. Where no way keeps that much, it keeps less; a straight line when no way
-/// is found.
+/// Returns a polyline from `from` to `to`, both included, that keeps `clearance_m` where possible. If `keep_m` is given, the
+/// route keeps that clearance except near an endpoint that has less, also from traffic at any time. Falls back to a smaller
+/// clearance if there is no such route, and to a straight line if no route is found.
 #[must_use]
 pub fn route(
     site: &Site,
@@ -55,10 +55,10 @@ pub fn route(
     remove_detours(&space, &points)
 }
 
-/// A clearance that holds but near cramped ends.
+/// A clearance that applies except near constrained endpoints.
 struct ClearanceRule {
     keep_m: f64,
-    /// Clearance required near the origin and near the goal, m.
+    /// Required clearance near the origin and near the goal, m.
     ends_m: [f64; 2],
 }
 
@@ -77,7 +77,7 @@ impl SearchSpace<'_> {
         self.origin + Vec3::new(f64::from(cell[0]), f64::from(cell[1]), f64::from(cell[2])) * CELL_M
     }
 
-    /// The clearance to keep, and what its ends allow.
+    /// Returns the clearance rule for `keep_m`, relaxed where an endpoint has less.
     fn clearance_rule(&self, keep_m: f64) -> ClearanceRule {
         let still = |end| self.site.nearest(end, keep_m, self.at).map_or(keep_m, |near| near.distance_m);
         ClearanceRule { keep_m, ends_m: [self.origin, self.to].map(|end| (still(end) - END_SLACK_M).max(self.clearance_m)) }
@@ -92,7 +92,7 @@ impl SearchSpace<'_> {
         self.site.traffic().min_distance_ever_m(p, still).unwrap_or(still)
     }
 
-    /// Clearance that this place must have, m.
+    /// Required clearance at a point, m.
     fn required(&self, p: Vec3<Enu>) -> f64 {
         let Some(keep) = &self.keep else { return self.clearance_m };
         let near = [self.origin, self.to].map(|end| (p - end).norm() < CRAMPED_M);
@@ -117,7 +117,7 @@ impl SearchSpace<'_> {
         let steps = (length / 0.75).ceil().max(1.0) as usize;
         (0..=steps).all(|k| {
             let p = a.lerp(b, k as f64 / steps as f64);
-            // Near the two ends the line may start or finish as near to things as they are.
+            // Near its ends the line may be as close to obstacles as the endpoints are.
             let near_end = (p - a).norm().min((p - b).norm()) < COMFORT_M;
             let least = if near_end { self.clearance_m.min(clearance_m) } else { clearance_m };
             self.clearance(p) >= if self.keep.is_some() { self.required(p) } else { least }
@@ -146,7 +146,7 @@ fn search(space: &SearchSpace) -> Option<Vec<GridCell>> {
             if best.get(&next).is_none_or(|(known, _)| total < *known) {
                 best.insert(next, (total, cell));
                 let estimate = total + distance(next, goal);
-                // Millimetres as an integer key: total order without floats.
+                // Millimeters as an integer key: total order without floats.
                 open.push(Reverse(((estimate * 1000.0) as u64, next)));
             }
         }
@@ -193,7 +193,7 @@ fn trace(best: &BTreeMap<GridCell, (f64, GridCell)>, goal: GridCell) -> Vec<Grid
     cells
 }
 
-/// Leaves out every point that a free straight line can skip.
+/// Removes every point that a clear straight line can skip.
 fn remove_detours(space: &SearchSpace, points: &[Vec3<Enu>]) -> Vec<Vec3<Enu>> {
     let mut kept = vec![points[0]];
     let mut at = 0;

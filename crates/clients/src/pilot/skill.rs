@@ -1,40 +1,41 @@
-//! Who flies: five numbers of a human operator. Errors come out of them; none is made by type.
+//! Human operator model: five skill parameters. Errors result from these parameters; no type of error is scripted.
 
 use std::str::FromStr;
 
-/// A pilot's numbers. Sources: docs/src/reference/domain.md, "Human operators" (crossover model, McRuer; gaze of drone pilots 1.5
-/// s ahead, n = 21).
+/// Skill parameters of a pilot. Sources: docs/src/reference/domain.md, "Human operators" (crossover model, McRuer; gaze of drone
+/// pilots 1.5 s ahead, n = 21).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Skill {
-    /// Delay from what happens to the hand's answer, s.
+    /// Delay from an event to the control response, s.
     pub delay_s: f64,
-    /// Gain of the position and heading loops, as a factor on the trained pilot's.
+    /// Gain of the position and heading loops, relative to the trained pilot.
     pub gain: f64,
-    /// Noise of perception and hand, and with it the size that is noticed, as a factor on the trained pilot's.
+    /// Noise of perception and motor control, relative to the trained pilot. Also scales the smallest defect that the pilot
+    /// notices.
     pub noise: f64,
-    /// How far ahead the eyes run, s.
+    /// Visual preview time, s.
     pub preview_s: f64,
-    /// Lapses of attention a minute: the hands stay where they are.
+    /// Attention lapses per minute; the sticks stay where they are during a lapse.
     pub lapses_per_min: f64,
 }
 
-/// One of the five numbers, for trading them between pilots.
+/// One of the five skill parameters, to exchange between pilots.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SkillFactor {
-    /// [`Skill::delay_s`]
+    /// Selects [`Skill::delay_s`].
     Delay,
-    /// [`Skill::gain`]
+    /// Selects [`Skill::gain`].
     Gain,
-    /// [`Skill::noise`]
+    /// Selects [`Skill::noise`].
     Noise,
-    /// [`Skill::preview_s`]
+    /// Selects [`Skill::preview_s`].
     Preview,
-    /// [`Skill::lapses_per_min`]
+    /// Selects [`Skill::lapses_per_min`].
     Lapses,
 }
 
 impl SkillFactor {
-    /// All five.
+    /// All five factors.
     pub const ALL: [Self; 5] = [Self::Delay, Self::Gain, Self::Noise, Self::Preview, Self::Lapses];
 }
 
@@ -53,14 +54,15 @@ impl FromStr for SkillFactor {
 }
 
 impl Skill {
-    /// A beginner: slow, timid, noisy, eyes near, easily distracted (lapses: estimate; the other numbers as in the source above).
+    /// A beginner: slow, cautious, noisy, short preview, easily distracted (lapses: estimate; the other values from the source
+    /// above).
     pub const NOVICE: Self = Self { delay_s: 0.35, gain: 0.6, noise: 2.0, preview_s: 0.7, lapses_per_min: 0.5 };
-    /// After training.
+    /// A pilot after training.
     pub const TRAINED: Self = Self { delay_s: 0.22, gain: 1.0, noise: 1.0, preview_s: 1.5, lapses_per_min: 0.1 };
-    /// A professional.
+    /// A professional pilot.
     pub const EXPERT: Self = Self { delay_s: 0.18, gain: 1.0, noise: 0.7, preview_s: 1.5, lapses_per_min: 0.02 };
 
-    /// The same pilot with one number taken from another.
+    /// Returns this skill with one parameter taken from another.
     #[must_use]
     pub fn with(mut self, factor: SkillFactor, from: Self) -> Self {
         match factor {
@@ -73,9 +75,9 @@ impl Skill {
         self
     }
 
-    /// Length of a defect that is noticed half of the time, mm: 26 for the trained (Campbell et al. 2020), 15 for the expert and
-    /// 60 for the novice (docs/src/reference/domain.md, "Human operators"), which a power law of the noise passes through within
-    /// 10 %.
+    /// Defect length at which the probability of detection is 50 %, mm: 26 for the trained pilot (Campbell et al. 2020), 15 for
+    /// the expert and 60 for the novice (docs/src/reference/domain.md, "Human operators"). A power law of the noise fits these
+    /// values within 10 %.
     #[must_use]
     pub fn median_length_mm(&self) -> f64 {
         26.0 * spandrel_model::math::pow(self.noise, 1.3)

@@ -1,4 +1,5 @@
-//! The hand on the sticks: lag, tremor in proportion to the deflection, and lapses in which it stays where it is.
+//! Motor response of the pilot's hands: lag, noise proportional to the deflection, and lapses during which the sticks do not
+//! move.
 
 use super::perception::DriftProcess;
 use super::skill::Skill;
@@ -8,19 +9,19 @@ use spandrel_model::time::SimTime;
 
 /// Neuromuscular lag, s (docs/src/reference/domain.md, "Human operators").
 const LAG_S: f64 = 0.1;
-/// Motor noise in proportion to the deflection for the trained pilot (-25 dB, docs/src/reference/domain.md, "Human operators").
+/// Motor noise proportional to the deflection, trained pilot (-25 dB, docs/src/reference/domain.md, "Human operators").
 const PROPORTIONAL: f64 = 0.056;
-/// Tremor around the centre for the trained pilot (estimate).
+/// Tremor around the center, trained pilot (estimate).
 const TREMOR: f64 = 0.006;
 /// Correlation time of the motor noise, s (estimate).
 const NOISE_TAU_S: f64 = 0.25;
-/// A lapse lasts between these, s (estimate).
+/// Shortest and longest duration of a lapse, s (estimate).
 const LAPSE_S: (f64, f64) = (1.0, 3.0);
 
-/// Stick axes: forward, right, up, yaw.
+/// Stick axes in [-1, 1]: forward, right, up, yaw.
 pub type StickAxes = [f64; 4];
 
-/// The hand's state.
+/// State of the motor response.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StickResponse {
     random: RandomStream,
@@ -30,7 +31,7 @@ pub struct StickResponse {
 }
 
 impl StickResponse {
-    /// Sticks centred.
+    /// Creates the state with centered sticks.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let mut random = RandomStream::new(seed, "pilot hand");
@@ -38,13 +39,13 @@ impl StickResponse {
         Self { random, noise, out: [0.0; 4], lapse_until: SimTime::ZERO }
     }
 
-    /// True while the mind is elsewhere.
+    /// Checks whether an attention lapse is active.
     #[must_use]
     pub fn is_lapsed(&self, now: SimTime) -> bool {
         now < self.lapse_until
     }
 
-    /// Moves towards `wanted` and returns the axes in [-1, 1].
+    /// Moves the sticks towards `wanted` and returns the axes in [-1, 1].
     pub fn step(&mut self, wanted: StickAxes, skill: &Skill, now: SimTime, dt_s: f64) -> StickAxes {
         let lapse = self.random.uniform() < skill.lapses_per_min / 60.0 * dt_s;
         if lapse && !self.is_lapsed(now) {
@@ -62,7 +63,7 @@ impl StickResponse {
         self.out
     }
 
-    /// Lets go of the sticks.
+    /// Centers the sticks.
     pub fn release(&mut self) {
         self.out = [0.0; 4];
     }

@@ -1,49 +1,49 @@
-//! Following a line by eye: aim at a point that runs ahead, brake for what the preview shows, pull back what has drifted off.
+//! Visual path following: aims at a point ahead, brakes for what the preview shows, and corrects cross-track error.
 
 use super::perception::MotionState;
 use super::skill::Skill;
 use spandrel_model::frames::{Enu, Vec3};
 
-/// Pull towards the line for the trained pilot, 1/s (a third of the crossover of a rate-command loop,
-/// docs/src/reference/domain.md, "Human operators").
+/// Cross-track gain of the trained pilot, 1/s (a third of the crossover of a rate-command loop, docs/src/reference/domain.md,
+/// "Human operators").
 const PULL_PER_S: f64 = 0.9;
-/// Braking that a person plans with, m/s² (estimate).
+/// Planned braking deceleration, m/s² (estimate).
 const BRAKE_M_S2: f64 = 1.2;
-/// Shortest distance to the aimed point, m (estimate).
+/// Minimum distance to the aim point, m (estimate).
 const MIN_AIM_M: f64 = 1.0;
 
-/// A line to fly with a wanted speed and a wanted line of sight at each point.
+/// A polyline to fly with a target speed and line of sight at each point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrackLeg {
-    /// Points, m; two or more.
+    /// Points, ENU, m; at least two.
     pub points_m: Vec<Vec3<Enu>>,
-    /// Wanted speed towards each point, m/s.
+    /// Target speed towards each point, m/s.
     pub speed_m_s: Vec<f64>,
-    /// Where to look at each point, unit vectors; `None`: along the line.
+    /// Line of sight at each point, unit vectors; `None` looks along the path.
     pub line_of_sight: Vec<Option<Vec3<Enu>>>,
-    /// Which task each point belongs to.
+    /// Task index of each point.
     pub task: Vec<Option<usize>>,
 }
 
-/// Where on a leg: the segment that ends at `next`, and how far along the whole leg.
+/// Position on a leg: the segment that ends at `next`, and the distance along the leg.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LegProgress {
-    /// Index of the segment's end point.
+    /// Index of the segment's endpoint.
     pub next: usize,
     /// Distance from the leg's start, m.
     pub along_m: f64,
 }
 
-/// What the pilot wants at one instant.
+/// The pilot's command at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrackCommand {
-    /// Velocity over ground, m/s.
+    /// Ground velocity, ENU, m/s.
     pub velocity_m_s: Vec3<Enu>,
-    /// Line of sight; `None`: keep.
+    /// Line of sight; `None` keeps the current one.
     pub line_of_sight: Option<Vec3<Enu>>,
-    /// Task being worked.
+    /// Index of the active task.
     pub task: Option<usize>,
-    /// The end of the leg is reached.
+    /// Whether the end of the leg has been reached.
     pub done: bool,
 }
 
@@ -54,7 +54,7 @@ impl TrackLeg {
         Self { points_m: Vec::new(), speed_m_s: Vec::new(), line_of_sight: Vec::new(), task: Vec::new() }
     }
 
-    /// The leg before a point, and the leg from there on.
+    /// Splits the leg at point `k` into the part before it and the part from it on.
     #[must_use]
     pub fn split_at(&self, k: usize) -> (Self, Self) {
         let part = |from: usize, to: usize| Self {
@@ -67,7 +67,7 @@ impl TrackLeg {
         (part(0, k), part(k, self.points_m.len()))
     }
 
-    /// Adds a point.
+    /// Appends a point; merges a point that coincides with the last one.
     pub fn push(&mut self, point_m: Vec3<Enu>, speed_m_s: f64, look: Option<Vec3<Enu>>, task: Option<usize>) {
         if self.points_m.last().is_some_and(|last| (*last - point_m).norm() < 1e-3) {
             return;
@@ -82,7 +82,7 @@ impl TrackLeg {
         (self.points_m[next] - self.points_m[next - 1]).norm()
     }
 
-    /// The point `distance_m` ahead of `progress`.
+    /// Returns the point `distance_m` ahead of `progress`.
     fn ahead(&self, progress: LegProgress, distance_m: f64) -> Vec3<Enu> {
         let start: f64 = (1..progress.next).map(|k| self.segment_m(k)).sum();
         let mut left = progress.along_m - start + distance_m;
@@ -96,7 +96,7 @@ impl TrackLeg {
         self.points_m[self.points_m.len() - 1]
     }
 
-    /// Moves the progress to the nearest place not far behind or ahead of it.
+    /// Moves the progress to the nearest point within a short window behind and ahead.
     pub fn advance(&self, progress: &mut LegProgress, position_m: Vec3<Enu>) {
         const WINDOW_M: f64 = 6.0;
         let mut start: f64 = (1..progress.next.max(1)).map(|k| self.segment_m(k)).sum();
@@ -109,7 +109,7 @@ impl TrackLeg {
             let length = self.segment_m(next).max(1e-9);
             let t = ((position_m - a).dot(b - a) / (length * length)).clamp(0.0, 1.0);
             let along_m = (start + t * length).max(progress.along_m);
-            // A little dearer the farther ahead, so that a bend is not cut by jumping over it.
+            // A small cost per meter ahead keeps the progress from jumping across a bend.
             let cost = (position_m - a.lerp(b, t)).norm() + 0.15 * (along_m - progress.along_m);
             if cost < best.0 {
                 best = (cost, LegProgress { next, along_m });
@@ -119,7 +119,7 @@ impl TrackLeg {
         *progress = best.1;
     }
 
-    /// Speed that the pilot dares: the wanted one, less what the eyes see coming within the preview.
+    /// Speed limited by what is visible within the preview, m/s.
     fn speed(&self, progress: LegProgress, skill: &Skill, now_m_s: f64) -> f64 {
         let start: f64 = (1..progress.next).map(|k| self.segment_m(k)).sum();
         let mut ahead_m = start - progress.along_m;
@@ -139,7 +139,7 @@ impl TrackLeg {
         speed.max(0.3)
     }
 
-    /// Share of the speed that a bend at a point leaves: 1 straight on, 0.3 for a turn back.
+    /// Speed factor for the bend at a point: 1 for straight on, 0.3 for a reversal.
     fn corner(&self, at: usize) -> f64 {
         let Some(after) = self.points_m.get(at + 1) else { return 0.0 };
         let into = (self.points_m[at] - self.points_m[at - 1]).unit();
@@ -147,12 +147,12 @@ impl TrackLeg {
         0.65 + 0.35 * into.dot(out)
     }
 
-    /// What the pilot wants, believing `motion`.
+    /// Returns the pilot's command for the perceived motion.
     pub fn command(&self, progress: &mut LegProgress, motion: &MotionState, skill: &Skill) -> TrackCommand {
         self.advance(progress, motion.position_m);
         let speed = self.speed(*progress, skill, motion.velocity_m_s.norm());
         let here = self.ahead(*progress, 0.0);
-        // One and a half seconds is where trained eyes rest; nearer eyes aim nearer.
+        // Trained pilots look 1.5 s ahead; a shorter preview puts the aim point closer.
         let aim = self.ahead(*progress, (speed * skill.preview_s).max(MIN_AIM_M));
         let pull = (here - motion.position_m) * (PULL_PER_S * skill.gain);
         let run = (aim - here).unit() * speed;

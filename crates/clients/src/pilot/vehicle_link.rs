@@ -1,4 +1,4 @@
-//! What the pilot's ground station says and hears on the wire.
+//! MAVLink connection of the synthetic pilot's ground station.
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::contract::contact::ContactKind;
@@ -16,68 +16,69 @@ use std::collections::VecDeque;
 use super::perception::MotionState;
 use super::stick_response::StickAxes;
 
-/// A ground station as MAVLink clients number it (QGroundControl's ids).
+/// System and component ID of a ground station (QGroundControl's values).
 const SYSTEM: u8 = 255;
 const COMPONENT: u8 = 190;
 const AUTOPILOT: u8 = 1;
-/// What the pilot lives by (truth, system status, landed state, battery, gimbal) and how often, Hz: a PX4's rates to a ground station.
+/// Messages that the pilot needs (ground truth, system status, landed state, battery, gimbal) and their rates, Hz, as PX4 sends
+/// them to a ground station.
 const STREAMS: [(u32, f32); 5] = [(115, 50.0), (1, 2.0), (245, 5.0), (147, 2.0), (285, 10.0)];
 
-/// What has been heard last.
+/// Latest state reported by the vehicle.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct VehicleStatus {
-    /// The vehicle's system id.
+    /// The vehicle's system ID.
     pub system: Option<u8>,
-    /// Whose interface it speaks.
+    /// Autopilot type.
     pub autopilot: Option<MavAutopilot>,
-    /// Something of the world has been seen since the last heartbeat.
+    /// Whether ground truth has arrived since the last heartbeat.
     truth_received: bool,
-    /// Motors may turn.
+    /// Whether the vehicle is armed.
     pub armed: bool,
-    /// The vehicle says that it would arm.
+    /// Whether the vehicle reports that it is ready to arm.
     pub ready: bool,
-    /// On the ground, as the vehicle reports.
+    /// Whether the vehicle reports that it is on the ground.
     pub on_ground: bool,
     /// Battery, %.
     pub battery_pct: Option<f64>,
     /// The session's seed.
     pub seed: Option<u64>,
-    /// Times that the aircraft was put back.
+    /// Number of respawns of the aircraft.
     pub respawns: i32,
-    /// What the aircraft touches.
+    /// Kind of object that the aircraft is in contact with.
     pub contact: ContactKind,
     /// Gimbal pitch, rad.
     pub gimbal_pitch_rad: f64,
 }
 
-/// Encoder, decoder, out-box.
+/// Encoder, decoder, and outgoing datagrams.
 #[derive(Debug, Clone)]
 pub struct VehicleLink {
     decoder: Decoder,
     encoder: Encoder,
     out: VecDeque<Vec<u8>>,
-    /// What has been heard.
+    /// Latest state reported by the vehicle.
     pub status: VehicleStatus,
 }
 
-/// Something that the pilot reacts to at once.
+/// An update that the pilot handles immediately.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum VehicleUpdate {
-    /// The world as it looks now.
+    /// Current motion of the aircraft (ground truth).
     Truth(MotionState),
-    /// Lockstep: answer with this token when all that is due has been sent.
+    /// Lockstep request: the pilot returns this token once everything due has been sent.
     Timesync(i64),
 }
 
 impl VehicleLink {
-    /// A silent ground station.
+    /// Creates a link that has sent nothing.
     #[must_use]
     pub fn new() -> Self {
         let encoder = Encoder::new(SYSTEM, COMPONENT);
         Self { decoder: Decoder::new(), encoder, out: VecDeque::new(), status: VehicleStatus::default() }
     }
 
-    /// Reads one datagram.
+    /// Decodes one datagram, stores the state, and returns the updates.
     pub fn receive(&mut self, bytes: &[u8], plane: &LocalPlane) -> Vec<VehicleUpdate> {
         let mut news = Vec::new();
         for frame in self.decoder.datagram(bytes) {
@@ -130,14 +131,14 @@ impl VehicleLink {
         }
     }
 
-    /// A vehicle that says nothing unasked is asked, until it speaks.
+    /// Requests the streams from a vehicle that does not send them unprompted, until they arrive.
     fn request_streams(&mut self) {
         for (id, rate_hz) in STREAMS {
             self.send_command(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0]);
         }
     }
 
-    /// Asks for the mode in which the sticks command velocity.
+    /// Requests the mode in which the sticks command velocity.
     pub fn set_position_mode(&mut self) {
         let (command, params) = station::position_mode(self.status.autopilot);
         self.send_command(command, params);
@@ -149,17 +150,17 @@ impl VehicleLink {
         self.out.push_back(bytes);
     }
 
-    /// The next datagram to send.
+    /// Returns the next datagram to send.
     pub fn poll_transmit(&mut self) -> Option<Vec<u8>> {
         self.out.pop_front()
     }
 
-    /// The ground station's own heartbeat.
+    /// Sends the ground station's heartbeat.
     pub fn send_heartbeat(&mut self) {
         self.send(&station::heartbeat());
     }
 
-    /// Answers a lockstep request.
+    /// Responds to a lockstep request.
     pub fn answer_timesync(&mut self, token: i64, now: SimTime) {
         let system = self.status.system.unwrap_or(1);
         self.send(&MavMessage::TIMESYNC(TIMESYNC_DATA {
@@ -170,18 +171,18 @@ impl VehicleLink {
         }));
     }
 
-    /// A command to the autopilot.
+    /// Sends a command to the autopilot.
     pub fn send_command(&mut self, command: MavCmd, params: [f32; 7]) {
         self.send_command_to(AUTOPILOT, command, params);
     }
 
-    /// A command to one of the vehicle's components.
+    /// Sends a command to one of the vehicle's components.
     pub fn send_command_to(&mut self, component: u8, command: MavCmd, params: [f32; 7]) {
         let system = self.status.system.unwrap_or(1);
         self.send(&MavMessage::COMMAND_LONG(station::command(system, component, command, params)));
     }
 
-    /// Sticks: forward, right, up, yaw in [-1, 1]. Throttle's middle is 500 (PX4's convention).
+    /// Sends the sticks: forward, right, up, yaw in [-1, 1]. Throttle is centered at 500 (PX4's convention).
     pub fn send_sticks(&mut self, axes: StickAxes) {
         let scale = |value: f64| (value.clamp(-1.0, 1.0) * 1000.0).round() as i16;
         self.send(&MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA {

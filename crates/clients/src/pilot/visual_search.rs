@@ -1,5 +1,5 @@
-//! What the pilot notices in the camera's picture. A defect is noticed by its size in the picture against the pilot's own
-//! probability-of-detection curve; stains and shadows are mistaken for one by noise (signal detection).
+//! Visual search: what the pilot notices in the camera picture. A defect is detected according to its size in the picture and the
+//! pilot's probability-of-detection curve; stains and shadows cause false alarms through noise (signal detection).
 
 use super::skill::Skill;
 use spandrel_model::math;
@@ -9,55 +9,56 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 use std::collections::BTreeMap;
 
-/// Time between two fixations, s (eye movement, estimate).
+/// Interval between fixations, s (estimate from eye movements).
 const GLIMPSE_S: f64 = 0.25;
-/// Spread of the lognormal detection curve (Campbell et al. 2020: 26 mm and 113 mm for 50 % and 90 %).
+/// Spread of the lognormal detection curve (Campbell et al. 2020: 50 % at 26 mm, 90 % at 113 mm).
 const POD_SIGMA_LN: f64 = 1.147;
-/// A picture shows a thing whole from this many pixels on (estimate).
+/// Extent from which a picture shows an object clearly, px (estimate).
 const CLEAR_PX: f64 = 40.0;
-/// Smaller than this a thing is not taken for anything, px (a tenth of a clear picture of it; estimate).
+/// Minimum extent for detection, px (a tenth of the pixels of a clear picture; estimate).
 const LEAST_PX: f64 = 6.0;
-/// More oblique than this a surface is a streak, rad (60 degrees, where inspection practice rejects pictures).
+/// Maximum incidence angle for detection, rad (60 degrees, where inspection practice rejects pictures).
 const LEAST_SQUARE_RAD: f64 = 1.05;
-/// Surface noise must exceed this, in standard deviations of the trained pilot, to look like a defect (estimate).
+/// Surface noise above which a surface is mistaken for a defect, in standard deviations of the trained pilot (estimate).
 const CRITERION: f64 = 4.6;
 
-/// What a glimpse told.
+/// Result of a glimpse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Glimpse {
-    /// Nothing new.
+    /// Nothing new noticed.
     Nothing,
-    /// Something that is a defect.
+    /// A real defect noticed.
     Defect {
-        /// Its number.
+        /// Defect ID.
         id: u32,
-        /// How far the pilot misjudges how it shows, in standard deviations of the trained pilot.
+        /// Judgment error for this defect, in standard deviations of the trained pilot.
         misjudged: f64,
     },
-    /// Something that is none.
+    /// A false alarm.
     Distractor,
 }
 
-/// The eye's memory.
+/// State of the visual search.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VisualSearch {
     random: RandomStream,
     next_glimpse: SimTime,
-    /// How plain a defect must be to be noticed on this flight, per defect: uniform, drawn at first sight.
+    /// Detection threshold of each defect on this flight: uniform in [0, 1], drawn at first sight.
     notice_threshold: BTreeMap<u32, f64>,
-    /// Until when a defect is not looked for again.
+    /// Time until which each defect is ignored.
     ignored_until: BTreeMap<u32, SimTime>,
 }
 
 impl VisualSearch {
-    /// A pilot's eye.
+    /// Creates the visual search, seeded.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let random = RandomStream::new(seed, "pilot eye");
         Self { random, next_glimpse: SimTime::ZERO, notice_threshold: BTreeMap::new(), ignored_until: BTreeMap::new() }
     }
 
-    /// Looks at the picture, if a fixation is due. `surface_in_view`: something near fills the picture, so that it can deceive.
+    /// Examines the picture if a fixation is due. `surface_in_view`: a nearby surface fills the picture, so that a false alarm is
+    /// possible.
     pub fn glimpse(
         &mut self,
         views: impl FnOnce() -> Vec<DefectView>,
@@ -72,7 +73,7 @@ impl VisualSearch {
         self.next_glimpse = now + SimTime::from_s(GLIMPSE_S);
         let deceived = self.random.normal() * skill.noise > CRITERION;
         for view in views() {
-            // Seen from the edge, as a speck or in the dark it says nothing yet; it will be seen better farther on.
+            // Not detectable when seen edge-on, too small or in the dark; it may become detectable later.
             let lit = view.illuminance_lux >= view.needed_lux;
             let plain = lit && view.unoccluded && view.extent_px >= LEAST_PX && view.incidence_rad < LEAST_SQUARE_RAD;
             if self.ignored_until.get(&view.defect_id).is_some_and(|until| now < *until) || !plain {
@@ -88,13 +89,13 @@ impl VisualSearch {
         if deceived && surface_in_view { Glimpse::Distractor } else { Glimpse::Nothing }
     }
 
-    /// Leaves a defect alone for now: it was noticed, but would not show well from here.
+    /// Ignores a noticed defect for now because it is poorly visible from here.
     pub fn ignore_until(&mut self, defect: u32, until: SimTime) {
         self.ignored_until.insert(defect, until);
     }
 }
 
-/// Probability that this pilot ever notices a defect that shows like this.
+/// Probability that this pilot detects a defect in this view.
 fn probability(view: &DefectView, site: &Site, skill: &Skill) -> f64 {
     let Some(defect) = site.defects().iter().find(|d| d.id == view.defect_id) else { return 0.0 };
     let contrast = if defect.line { view.width_px.min(1.0) } else { 1.0 };
@@ -106,7 +107,7 @@ fn normal_cdf(x: f64) -> f64 {
     0.5 * libm::erfc(-x / std::f64::consts::SQRT_2)
 }
 
-/// The camera's pose for an aircraft at `position` with heading and gimbal pitch (the gimbal keeps the horizon).
+/// Returns the camera pose for an aircraft at `position` with its heading and gimbal pitch (the gimbal keeps the horizon level).
 #[must_use]
 pub fn camera_pose(
     motion: &super::perception::MotionState,

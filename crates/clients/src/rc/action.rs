@@ -1,37 +1,37 @@
-//! What a button or a key does.
+//! Actions of buttons and keys.
 
-/// A wish that is no stick.
+/// A controller action other than a stick movement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ControllerAction {
-    /// The lamp on, or off when it is on.
+    /// Toggles the lamp.
     Lamp,
-    /// A picture.
+    /// Takes a picture.
     Snapshot,
-    /// Motors may turn.
+    /// Arms the motors.
     Arm,
-    /// Motors stop, on the ground.
+    /// Disarms the motors on the ground.
     Disarm,
-    /// Up to the take-off height.
+    /// Takes off to the takeoff altitude.
     TakeOff,
-    /// Down, here.
+    /// Lands at the current position.
     Land,
-    /// Home, and down there.
+    /// Returns to launch and lands.
     Return,
-    /// Stay here.
+    /// Holds the current position.
     Hold,
-    /// The sticks command velocity.
+    /// Selects position mode, in which the sticks command velocity.
     Position,
-    /// The camera up by a step.
+    /// Tilts the camera up by one step.
     GimbalUp,
-    /// The camera down by a step.
+    /// Tilts the camera down by one step.
     GimbalDown,
-    /// The camera sees nearer by a step.
+    /// Zooms the camera in by one step.
     CameraZoomIn,
-    /// The camera sees wider by a step.
+    /// Zooms the camera out by one step.
     CameraZoomOut,
 }
 
-/// All actions with their names in files.
+/// All actions and their names in configuration files.
 pub const ALL: [(&str, ControllerAction); 13] = [
     ("lamp", ControllerAction::Lamp),
     ("snapshot", ControllerAction::Snapshot),
@@ -49,13 +49,13 @@ pub const ALL: [(&str, ControllerAction); 13] = [
 ];
 
 impl ControllerAction {
-    /// Its name in files.
+    /// Returns the action's name in configuration files.
     #[must_use]
     pub fn name(self) -> &'static str {
         ALL.iter().find(|(_, action)| *action == self).map_or("", |(name, _)| name)
     }
 
-    /// It moves something by a step, and is meant to be asked for several times.
+    /// Checks whether the action moves something by a step and is usually repeated.
     #[must_use]
     pub fn is_repeatable(self) -> bool {
         matches!(self, Self::GimbalUp | Self::GimbalDown | Self::CameraZoomIn | Self::CameraZoomOut)

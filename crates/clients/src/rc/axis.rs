@@ -1,27 +1,27 @@
-//! One raw axis into one stick direction: ends, centre, dead band, expo.
+//! Calibration of one raw axis: endpoints, center, dead band and expo.
 
-/// Least way between an end and the centre, of the raw range of 2 (estimate: an axis that moves less is not the stick).
+/// Minimum distance of each endpoint from the center, of the raw range of 2 (estimate: a stick axis moves farther).
 pub const LEAST_WAY: f64 = 0.1;
 
-/// How an axis is read.
+/// Calibration of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisCalibration {
-    /// Number of the axis at its device.
+    /// Axis number on the device.
     pub axis: u32,
-    /// Raw reading with the stick fully left or down. Above `high`: the axis counts the other way round.
+    /// Raw reading with the stick fully left or down. Greater than `high` if the axis is reversed.
     pub low: f64,
     /// Raw reading at rest.
     pub centre: f64,
     /// Raw reading with the stick fully right or up.
     pub high: f64,
-    /// Part of the way about the centre that counts as centred, 0 to 0.5.
+    /// Fraction of the travel around the center that reads as centered, 0 to 0.5.
     pub dead_band: f64,
-    /// How much flatter the middle is than the ends, 0 (straight) to 1 (a cubic).
+    /// Softening of the response near the center, 0 (linear) to 1 (cubic).
     pub expo: f64,
 }
 
 impl AxisCalibration {
-    /// The direction in [-1, 1]: 0 within the dead band, without a step at its edge, ±1 at the ends and beyond.
+    /// Returns the calibrated value in [-1, 1]: 0 within the dead band, continuous at its edge, ±1 at and beyond the endpoints.
     #[must_use]
     pub fn read(&self, raw: f64) -> f64 {
         let end = if (raw - self.centre) * (self.high - self.centre) >= 0.0 { self.high } else { self.low };
@@ -37,7 +37,7 @@ impl AxisCalibration {
 mod tests {
     use super::*;
 
-    /// Rounding of a few products of numbers below 1.
+    /// Rounding error of a few products of numbers below 1.
     const ROUNDING: f64 = 1e-15;
 
     fn plain() -> AxisCalibration {
@@ -64,7 +64,7 @@ mod tests {
         assert_eq!((axis.read(0.2), axis.read(-0.2), axis.read(1.0), axis.read(-1.0)), (0.0, 0.0, 1.0, -1.0));
         let just = axis.read(0.2 + 1e-9);
         assert!(just > 0.0 && just < 1e-8);
-        // Half of the way beyond the band: 0.5 · 0.5 + 0.5 · 0.125.
+        // Half of the travel beyond the dead band: 0.5 · 0.5 + 0.5 · 0.125.
         assert!((axis.read(0.6) - 0.3125).abs() < ROUNDING);
     }
 }

@@ -1,7 +1,7 @@
-//! Sticks and actions to a vehicle: MANUAL_CONTROL at 50 Hz, commands until they are answered, a heartbeat.
+//! MAVLink link from a controller to a vehicle: MANUAL_CONTROL at 50 Hz, commands with retries, and a heartbeat.
 //!
-//! A device that is lost gives centred sticks for [`NEUTRAL_S`] and then silence, so that the vehicle's own failsafe acts, and not a
-//! program that pretends to have a pilot.
+//! After the device is lost, the link sends centered sticks for [`NEUTRAL_S`] and then stops sending, so that the vehicle's own
+//! failsafe responds instead of a program that imitates a pilot.
 
 use super::{ControllerAction, Sticks};
 use spandrel_mavlink::codec::{Decoder, Encoder};
@@ -12,45 +12,45 @@ use spandrel_mavlink::station;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// A second ground station beside QGroundControl's 255.
+/// System ID of a second ground station, next to QGroundControl's 255.
 pub const SYSTEM: u8 = 254;
 /// MAV_COMP_ID_MISSIONPLANNER: a ground station.
 const COMPONENT: u8 = 190;
 const AUTOPILOT: u8 = 1;
 const CAMERA: u8 = 100;
-/// Between two MANUAL_CONTROL, s: 50 Hz, what the monitor records.
+/// Interval between MANUAL_CONTROL messages, s: 50 Hz, the rate that the monitor records.
 const STICKS_EVERY_S: f64 = 0.02;
 const HEARTBEAT_EVERY_S: f64 = 1.0;
-/// Centred sticks of a lost device for this long before the silence, s (estimate: long enough to be received on a bad radio).
+/// Duration of centered sticks after a device is lost, s (estimate: long enough to be received over a poor radio link).
 pub const NEUTRAL_S: f64 = 0.3;
-/// A command that is not answered is sent again after this, s, so many times (MAVLink command protocol; estimate).
+/// Retry interval of an unacknowledged command, s, and the maximum number of transmissions (MAVLink command protocol; estimate).
 const AGAIN_S: f64 = 0.5;
 const TIMES: u8 = 5;
-/// What buttons depend on, and how often, Hz: ILLUMINATOR_STATUS, GIMBAL_DEVICE_ATTITUDE_STATUS.
+/// Messages that button actions depend on and their rates, Hz: ILLUMINATOR_STATUS, GIMBAL_DEVICE_ATTITUDE_STATUS.
 const STREAMS: [(u32, f32); 2] = [(440, 5.0), (285, 5.0)];
-/// What has not come for this long is asked for again, s: an answer was lost, or the vehicle began anew (estimate).
+/// Interval after which missing streams are requested again, s: an acknowledgment was lost, or the vehicle restarted (estimate).
 const STREAMS_AGAIN_S: f64 = 5.0;
-const TELLING: &str = "telling of lamp and gimbal";
-/// ZOOM_TYPE_STEP of CAMERA_ZOOM_TYPE: one press zooms by one step of the camera's own.
+const TELLING: &str = "lamp and gimbal telemetry";
+/// ZOOM_TYPE_STEP of CAMERA_ZOOM_TYPE: each press zooms by one step of the camera.
 const ZOOM_STEP: f32 = 0.0;
-/// One press of a gimbal button, degrees.
+/// Gimbal step per button press, degrees.
 const GIMBAL_STEP_DEG: f32 = 10.0;
-/// The next press counts from where the last one aimed for this long, s: the gimbal may still swing there (estimate: two taps of a person and
-/// a swing by some steps). Later it counts from where the gimbal is, for others aim it, too.
+/// How long a press counts from the last commanded pitch, s, because the gimbal may still be moving (estimate: two taps and a
+/// move of several steps). After that it counts from the reported pitch, because other clients also control the gimbal.
 const AIM_S: f64 = 2.0;
 
-/// What the vehicle said last.
+/// Latest state reported by the vehicle.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LastReported {
-    /// System id, once there is a heartbeat.
+    /// System ID, once a heartbeat has arrived.
     pub system: Option<u8>,
-    /// Whose interface it speaks.
+    /// Autopilot type.
     pub autopilot: Option<MavAutopilot>,
-    /// Motors may turn.
+    /// Whether the vehicle is armed.
     pub armed: bool,
-    /// The lamp is on.
+    /// Whether the lamp is on.
     pub lamp: bool,
-    /// The gimbal's pitch, degrees over the horizon.
+    /// Gimbal pitch above the horizon, degrees.
     pub gimbal_deg: Option<f32>,
 }
 
@@ -62,7 +62,7 @@ struct PendingCommand {
     next: SimTime,
 }
 
-/// The bridge from a controller to a vehicle.
+/// Connects a controller to a vehicle.
 #[derive(Debug, Clone)]
 pub struct ControllerLink {
     decoder: Decoder,
@@ -70,9 +70,9 @@ pub struct ControllerLink {
     out: VecDeque<Vec<u8>>,
     messages: VecDeque<String>,
     next_stream_request: SimTime,
-    /// Which of [`STREAMS`] have come since they were looked for last.
+    /// Which of [`STREAMS`] have arrived since the last check.
     streams_received: [bool; 2],
-    /// What the vehicle said last.
+    /// Latest state reported by the vehicle.
     pub vehicle: LastReported,
     sticks: Sticks,
     device_lost: Option<SimTime>,
@@ -80,7 +80,7 @@ pub struct ControllerLink {
     next_heartbeat: SimTime,
     pending: Vec<PendingCommand>,
     aim: Option<(f32, SimTime)>,
-    /// What came of asking for the streams is known, and told if it was nothing.
+    /// The result of the stream requests is known; a failure has been reported.
     streams_known: bool,
     pictures: u16,
     arm_hint: String,
@@ -110,7 +110,7 @@ impl Default for ControllerLink {
 }
 
 impl ControllerLink {
-    /// The sticks as they are; `None` when there is no device. Without a device from the start nothing is sent but heartbeats.
+    /// Sets the stick positions; `None` if there is no device. Without a device from the start, only heartbeats are sent.
     pub fn set_sticks(&mut self, sticks: Option<Sticks>, now: SimTime) {
         match sticks {
             Some(sticks) => {
@@ -126,7 +126,7 @@ impl ControllerLink {
         }
     }
 
-    /// A datagram of the vehicle.
+    /// Processes a datagram from the vehicle.
     pub fn receive(&mut self, bytes: &[u8]) {
         for frame in self.decoder.datagram(bytes) {
             match frame.message {
@@ -152,7 +152,7 @@ impl ControllerLink {
                 }
                 Some(MavMessage::STATUSTEXT(text)) => {
                     if let Ok(words) = text.text.to_str() {
-                        // A tab at the end means that an event says the same.
+                        // A trailing tab marks a text that is also sent as an event.
                         self.messages.push_back(words.trim_end().to_owned());
                     }
                 }
@@ -168,7 +168,7 @@ impl ControllerLink {
         if let Some(k) = self.pending.iter().position(|p| p.command.command == command) {
             let done = self.pending.remove(k);
             if command == MavCmd::MAV_CMD_COMPONENT_ARM_DISARM && result == MavResult::MAV_RESULT_ACCEPTED {
-                // The next heartbeat may be a second away.
+                // Updates the state at once: the next heartbeat may be a second away.
                 self.vehicle.armed = done.command.param1 == 1.0;
             }
             let known = done.description == TELLING && std::mem::replace(&mut self.streams_known, true);
@@ -181,10 +181,10 @@ impl ControllerLink {
         }
     }
 
-    /// Asks the vehicle for something. Without a vehicle it says so.
+    /// Requests an action from the vehicle. Queues a message if no vehicle is connected.
     pub fn act(&mut self, action: ControllerAction, now: SimTime) {
         let Some(system) = self.vehicle.system else {
-            return self.push_message(action.name(), "no vehicle has been heard yet");
+            return self.push_message(action.name(), "no vehicle connected");
         };
         if action == ControllerAction::TakeOff && !self.vehicle.armed && !self.is_arming() {
             self.messages.push_back(format!("Arm the motors first{}", self.arm_hint));
@@ -192,22 +192,22 @@ impl ControllerLink {
         }
         let (component, command, params) = self.command_for(action, now);
         let command = station::command(system, component, command, params);
-        // A newer wish of the same kind takes the place of an older one.
+        // A newer command of the same kind replaces the older one.
         self.pending.retain(|p| p.command.command != command.command);
         self.pending.push(PendingCommand { description: action.name(), command, sent: 0, next: now });
     }
 
-    /// Motors have been asked for and the vehicle has not answered yet.
+    /// Whether an arm command is awaiting acknowledgment.
     fn is_arming(&self) -> bool {
         self.pending.iter().any(|p| p.description == ControllerAction::Arm.name())
     }
 
-    /// Where the motors are armed, such as a key's name, for whoever asks for a take-off without them.
+    /// Sets the name of the arm key for the hint shown when takeoff is requested while disarmed.
     pub fn set_arm_key(&mut self, key: &str) {
         self.arm_hint = format!(" (key {key})");
     }
 
-    /// What the buttons depend on is asked for once there is a vehicle, and again when it does not come.
+    /// Requests the streams that button actions depend on, once a vehicle is connected and again whenever they stop.
     fn request_streams(&mut self, now: SimTime) {
         let Some(system) = self.vehicle.system.filter(|_| now >= self.next_stream_request) else { return };
         self.next_stream_request = now + SimTime::from_s(STREAMS_AGAIN_S);
@@ -247,7 +247,7 @@ impl ControllerLink {
         }
     }
 
-    /// Every press has a number of its own, from 1; the camera knows by it a command that is only said again.
+    /// Numbers each picture from 1, so that the camera can recognize a retransmitted command.
     fn snapshot(&mut self) -> (u8, MavCmd, [f32; 7]) {
         const NAN: f32 = f32::NAN;
         self.pictures = self.pictures.checked_add(1).unwrap_or(1);
@@ -264,7 +264,7 @@ impl ControllerLink {
         (AUTOPILOT, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [to, f32::NAN, f32::NAN, f32::NAN, 0.0, 0.0, 0.0])
     }
 
-    /// Queues what is due by now. Call it at least every 50 times a second.
+    /// Queues the messages that are due. Call it at least 50 times per second.
     pub fn handle_timeout(&mut self, now: SimTime) {
         self.request_streams(now);
         if now >= self.next_heartbeat {
@@ -283,7 +283,7 @@ impl ControllerLink {
         let Some(target) = self.vehicle.system else { return };
         let scale = |value: f64| (value.clamp(-1.0, 1.0) * 1000.0).round() as i16;
         let s = self.sticks;
-        // Throttle's middle is 500, its ends 0 and 1000: PX4's, ArduPilot's and QGroundControl's convention.
+        // Throttle is centered at 500 and ranges from 0 to 1000: the convention of PX4, ArduPilot and QGroundControl.
         let z = (500.0 + 500.0 * s.up.clamp(-1.0, 1.0)).round() as i16;
         self.send(&MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA {
             target,
@@ -302,9 +302,9 @@ impl ControllerLink {
                 return true;
             }
             if p.sent == TIMES {
-                // Asked for again and again: a vehicle that has answered once may stand still.
+                // Stream requests repeat; a vehicle that has answered once may be paused.
                 if p.description != TELLING || !std::mem::replace(&mut self.streams_known, true) {
-                    self.push_message(p.description, "the vehicle does not answer");
+                    self.push_message(p.description, "no response from vehicle");
                 }
                 return false;
             }
@@ -326,12 +326,12 @@ impl ControllerLink {
         self.out.push_back(bytes);
     }
 
-    /// The next datagram to send.
+    /// Returns the next datagram to send.
     pub fn poll_transmit(&mut self) -> Option<Vec<u8>> {
         self.out.pop_front()
     }
 
-    /// The next thing to tell the person: refusals, silence, the vehicle's own words.
+    /// Returns the next message for the user: rejections, timeouts, and status texts from the vehicle.
     pub fn poll_message(&mut self) -> Option<String> {
         self.messages.pop_front()
     }
@@ -339,11 +339,11 @@ impl ControllerLink {
 
 fn refusal(command: MavCmd, result: MavResult) -> &'static str {
     match (command, result) {
-        (_, MavResult::MAV_RESULT_TEMPORARILY_REJECTED) => "not now",
+        (_, MavResult::MAV_RESULT_TEMPORARILY_REJECTED) => "temporarily rejected",
         (_, MavResult::MAV_RESULT_DENIED) => "denied",
-        (MavCmd::MAV_CMD_SET_CAMERA_ZOOM, MavResult::MAV_RESULT_UNSUPPORTED) => "this camera's lens does not zoom",
-        (_, MavResult::MAV_RESULT_UNSUPPORTED) => "the vehicle has no such thing",
-        (_, MavResult::MAV_RESULT_CANCELLED) => "cancelled",
+        (MavCmd::MAV_CMD_SET_CAMERA_ZOOM, MavResult::MAV_RESULT_UNSUPPORTED) => "this camera cannot zoom",
+        (_, MavResult::MAV_RESULT_UNSUPPORTED) => "not supported by this vehicle",
+        (_, MavResult::MAV_RESULT_CANCELLED) => "canceled",
         _ => "failed",
     }
 }
@@ -369,7 +369,7 @@ mod tests {
         link
     }
 
-    /// What is sent between two times, seen every millisecond.
+    /// Returns the messages sent in a time interval, polled every millisecond.
     fn sent(link: &mut ControllerLink, from: f64, to: f64) -> Vec<MavMessage> {
         let mut decoder = Decoder::new();
         let mut found = Vec::new();
@@ -413,10 +413,10 @@ mod tests {
         for _ in STREAMS {
             answer(&mut refused, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, MavResult::MAV_RESULT_UNSUPPORTED);
         }
-        assert_eq!(told(&mut refused), ["telling of lamp and gimbal: the vehicle has no such thing"]);
+        assert_eq!(told(&mut refused), ["lamp and gimbal telemetry: not supported by this vehicle"]);
         let mut deaf = known();
         sent(&mut deaf, 0.0, 60.0);
-        assert_eq!(told(&mut deaf), ["telling of lamp and gimbal: the vehicle does not answer"]);
+        assert_eq!(told(&mut deaf), ["lamp and gimbal telemetry: no response from vehicle"]);
         let mut stands = known();
         stands.receive(&Encoder::new(1, 1).encode(&gimbal));
         sent(&mut stands, 0.0, 60.0);
@@ -435,7 +435,7 @@ mod tests {
         link.act(ControllerAction::TakeOff, at(0.0));
         assert_eq!(link.poll_message().as_deref(), Some("Arm the motors first (key M)"));
         assert_eq!(take_offs(&sent(&mut link, 0.0, 0.1)), 0, "nothing is asked of the vehicle");
-        // Both keys in a row: the take-off waits for no heartbeat.
+        // Both keys in quick succession: takeoff does not wait for a heartbeat.
         link.act(ControllerAction::Arm, at(0.1));
         link.act(ControllerAction::TakeOff, at(0.1));
         assert_eq!((take_offs(&sent(&mut link, 0.1, 0.2)), link.poll_message()), (1, None));
@@ -493,10 +493,10 @@ mod tests {
             assert_eq!([asked.param1, asked.param2, asked.param3], [0.0, step, 0.0]);
         }
         answer(&mut link, MavCmd::MAV_CMD_SET_CAMERA_ZOOM, MavResult::MAV_RESULT_UNSUPPORTED);
-        assert_eq!(link.poll_message().as_deref(), Some("camera zoom out: this camera's lens does not zoom"));
+        assert_eq!(link.poll_message().as_deref(), Some("camera zoom out: this camera cannot zoom"));
     }
 
-    /// The numbers of the pictures that commands ask for.
+    /// Picture numbers of the capture commands.
     fn pictures(messages: &[MavMessage]) -> Vec<f32> {
         let number = |m: &MavMessage| if let MavMessage::COMMAND_LONG(c) = m { Some(c.param4) } else { None };
         messages.iter().filter_map(number).collect()
@@ -541,9 +541,9 @@ mod tests {
         assert_eq!(link.poll_message().as_deref(), Some("lamp: denied"));
         link.act(ControllerAction::Snapshot, at(5.0));
         assert_eq!(count(&sent(&mut link, 5.0, 20.0)), usize::from(TIMES));
-        assert_eq!(link.poll_message().as_deref(), Some("snapshot: the vehicle does not answer"));
+        assert_eq!(link.poll_message().as_deref(), Some("snapshot: no response from vehicle"));
         let mut alone = ControllerLink::default();
         alone.act(ControllerAction::Arm, at(0.0));
-        assert_eq!(alone.poll_message().as_deref(), Some("arm: no vehicle has been heard yet"));
+        assert_eq!(alone.poll_message().as_deref(), Some("arm: no vehicle connected"));
     }
 }

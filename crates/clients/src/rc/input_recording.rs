@@ -1,23 +1,24 @@
-//! What a device reported, as lines of JSON: written down while it is used, played again in its place.
+//! Recording and playback of controller input as JSON lines.
 //!
-//! First `{"format":1,"device":NAME,"id":ID}`, then a line for each event: `{"t_s":S,"axis":N,"value":V}`,
-//! `{"t_s":S,"button":N,"pressed":BOOL}`, `{"t_s":S,"lost":true}`, `{"t_s":S,"found":true}`; `t_s` counts from the start and never goes back.
+//! The first line is `{"format":1,"device":NAME,"id":ID}`, followed by one line per event: `{"t_s":S,"axis":N,"value":V}`,
+//! `{"t_s":S,"button":N,"pressed":BOOL}`, `{"t_s":S,"lost":true}` or `{"t_s":S,"found":true}`. `t_s` is the time since the start
+//! and never decreases.
 
 use super::{Device, DeviceEvent};
 use serde_json::{Value, json};
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// Newest format that this program reads.
+/// Newest supported format version.
 const FORMAT: u64 = 1;
 
-/// The first line of a record.
+/// Returns the first line of a recording.
 #[must_use]
 pub fn head(device: &Device) -> String {
     json!({ "format": FORMAT, "device": device.name, "id": device.id }).to_string()
 }
 
-/// One line of a record.
+/// Returns one event line of a recording.
 #[must_use]
 pub fn line(at: SimTime, event: DeviceEvent) -> String {
     let t_s = at.s();
@@ -30,41 +31,42 @@ pub fn line(at: SimTime, event: DeviceEvent) -> String {
     .to_string()
 }
 
-/// A record that is played.
+/// A recording for playback.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InputRecording {
-    /// Whose it is.
+    /// The recorded device.
     pub device: Device,
     events: VecDeque<(SimTime, DeviceEvent)>,
 }
 
 impl InputRecording {
-    /// Reads a record. `file` is its name for messages.
+    /// Parses a recording. `file` is the name used in error messages.
     ///
     /// # Errors
-    /// The first wrong line: file, line, what is wrong and what is allowed.
+    /// Reports the first invalid line: file, line number, the problem, and the allowed values.
     pub fn read(file: &str, text: &str) -> Result<Self, String> {
         let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-        let (_, first) = lines.next().ok_or_else(|| format!("{file}: is empty (allowed: a record of `spandrel rc --record`)"))?;
+        let (_, first) =
+            lines.next().ok_or_else(|| format!("{file}: file is empty (allowed: a recording of `spandrel rc --record`)"))?;
         let device = device(first).map_err(|what| format!("{file}:1: {what}"))?;
         let mut events: VecDeque<(SimTime, DeviceEvent)> = VecDeque::new();
         for (k, line) in lines {
             let (at, event) = event(line).map_err(|what| format!("{file}:{}: {what}", k + 1))?;
             if let Some((before, _)) = events.back().filter(|(before, _)| *before > at) {
-                return Err(format!("{file}:{}: t_s = {} goes back (allowed: {} or later)", k + 1, at.s(), before.s()));
+                return Err(format!("{file}:{}: t_s = {} decreases (allowed: {} or later)", k + 1, at.s(), before.s()));
             }
             events.push_back((at, event));
         }
         Ok(Self { device, events })
     }
 
-    /// The next event that is due.
+    /// Returns the next event that is due at `now`.
     pub fn due(&mut self, now: SimTime) -> Option<DeviceEvent> {
         self.events.front().filter(|(at, _)| *at <= now)?;
         self.events.pop_front().map(|(_, event)| event)
     }
 
-    /// Everything has been played.
+    /// Checks whether all events have been played.
     #[must_use]
     pub fn is_over(&self) -> bool {
         self.events.is_empty()
@@ -72,7 +74,7 @@ impl InputRecording {
 }
 
 fn object(line: &str) -> Result<Value, String> {
-    serde_json::from_str::<Value>(line).ok().filter(Value::is_object).ok_or_else(|| format!("'{line}' is no JSON object"))
+    serde_json::from_str::<Value>(line).ok().filter(Value::is_object).ok_or_else(|| format!("'{line}' is not a JSON object"))
 }
 
 fn device(line: &str) -> Result<Device, String> {
@@ -81,7 +83,7 @@ fn device(line: &str) -> Result<Device, String> {
         return Err(format!("format = {} (allowed: {FORMAT})", head["format"]));
     }
     let text =
-        |key: &str| head[key].as_str().map(str::to_owned).ok_or_else(|| format!("{key} = {} (allowed: a text)", head[key]));
+        |key: &str| head[key].as_str().map(str::to_owned).ok_or_else(|| format!("{key} = {} (allowed: a string)", head[key]));
     Ok(Device { name: text("device")?, id: text("id")? })
 }
 
@@ -105,7 +107,7 @@ fn event(line: &str) -> Result<(SimTime, DeviceEvent), String> {
     match (value["lost"].as_bool(), value["found"].as_bool()) {
         (Some(true), None) => Ok((at, DeviceEvent::Lost)),
         (None, Some(true)) => Ok((at, DeviceEvent::Found)),
-        _ => Err(format!("'{line}' is no event (allowed: axis and value, button and pressed, lost, found)")),
+        _ => Err(format!("'{line}' is not an event (allowed: axis and value, button and pressed, lost, found)")),
     }
 }
 
@@ -140,12 +142,12 @@ mod tests {
     fn exact_a_wrong_line_is_named() {
         let head = head(&Device { name: "Pad".into(), id: "1:2".into() });
         for (line, told) in [
-            ("{", "is no JSON object"),
+            ("{", "is not a JSON object"),
             ("{\"t_s\":-1,\"lost\":true}", "t_s = -1 (allowed: 0 to 1e6)"),
             ("{\"t_s\":1,\"axis\":1,\"value\":2}", "value = 2 (allowed: -1 to 1)"),
-            ("{\"t_s\":1,\"axis\":1,\"value\":0}\n{\"t_s\":0.5,\"lost\":true}", "r:3: t_s = 0.5 goes back (allowed: 1 or later)"),
+            ("{\"t_s\":1,\"axis\":1,\"value\":0}\n{\"t_s\":0.5,\"lost\":true}", "r:3: t_s = 0.5 decreases (allowed: 1 or later)"),
             ("{\"t_s\":1,\"button\":1}", "pressed = null"),
-            ("{\"t_s\":1,\"fly\":1}", "is no event"),
+            ("{\"t_s\":1,\"fly\":1}", "is not an event"),
         ] {
             let error = InputRecording::read("r", &format!("{head}\n{line}")).unwrap_err();
             assert!(error.contains(told) && error.starts_with("r:"), "{error}");

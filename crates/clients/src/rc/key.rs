@@ -1,10 +1,10 @@
-//! Names of keys: as files of keys write them, and for people.
+//! Key names, in configuration files and for display.
 
-/// Keys that are no sign, by their names in files.
+/// Non-character keys by their names in configuration files.
 pub const NAMED: [&str; 11] =
     ["up", "down", "left", "right", "space", "enter", "pageup", "pagedown", "tab", "escape", "backspace"];
 
-/// True for the name of a key: one sign in lower case, or one of [`NAMED`].
+/// Checks whether `name` is a valid key name: one lowercase character or one of [`NAMED`].
 #[must_use]
 pub fn is_key(name: &str) -> bool {
     let mut signs = name.chars();
@@ -14,13 +14,13 @@ pub fn is_key(name: &str) -> bool {
     }
 }
 
-/// What a file may say where it names a key.
+/// Returns the allowed key names, for error messages.
 #[must_use]
 pub fn allowed() -> String {
-    format!("one sign, or {}", NAMED.join(", "))
+    format!("one character, or {}", NAMED.join(", "))
 }
 
-/// A key as people call it.
+/// Returns the display name of a key.
 #[must_use]
 pub fn label(name: &str) -> String {
     match name {
@@ -36,7 +36,7 @@ fn capitalized(name: &str) -> String {
     let mut upper = signs.next().into_iter().flat_map(char::to_uppercase);
     match (upper.next(), upper.next()) {
         (Some(first), None) => format!("{first}{}", signs.as_str()),
-        // A sign whose upper case is two (ß) has none on the keyboard.
+        // A character whose uppercase form has two letters (ß) has no uppercase key.
         _ => name.to_owned(),
     }
 }
@@ -53,7 +53,7 @@ mod tests {
         for name in ["", " ", "\n", "\u{7}", "A", "f5", "shift", "Up", "ab", "page up", "esc"] {
             assert!(!is_key(name), "{name:?}");
         }
-        assert!(allowed().contains("one sign") && allowed().ends_with("backspace"));
+        assert!(allowed().contains("one character") && allowed().ends_with("backspace"));
     }
 
     #[test]

@@ -1,29 +1,29 @@
-//! Keys in place of sticks: a key held is a stick pushed.
+//! Keyboard control: holding a key deflects a stick.
 
 use super::{ControllerAction, Sticks, key};
 use spandrel_model::time::SimTime;
 use spandrel_model::toml::{Problems, Reader, Section};
 use std::collections::BTreeMap;
 
-/// How far a key pushes the stick (estimate: half, so that a beginner does not fly at full speed).
+/// Stick deflection of a key (estimate: half, so that beginners do not fly at full speed).
 pub const PUSH: f64 = 0.5;
-/// A terminal tells no release: a key counts as held for this long after it was heard last, s. Above the usual delay of 0.5 s before
-/// a held key repeats (X.Org's and Windows' defaults: 0.25 to 0.66 s).
+/// How long a key counts as held after its last event, s, for terminals, which report no key releases. Longer than the usual
+/// delay before a held key repeats, 0.5 s (defaults of X.Org and Windows: 0.25 to 0.66 s).
 pub const HELD_S: f64 = 0.7;
-/// Steps of gimbal and zoom may be asked for as fast as a person taps, s (estimate: up to 8 taps a second). Above the usual 0.03 s
-/// between repeats of a held key.
+/// Minimum interval between gimbal or zoom steps from repeated taps, s (estimate: up to 8 taps per second). Longer than the usual
+/// repeat interval of a held key, 0.03 s.
 const TAP_S: f64 = 0.12;
 
-/// Which way a key pushes.
+/// Direction of a stick deflection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum StickDirection {
     /// Forward.
     Forward,
     /// Backward.
     Back,
-    /// To the left.
+    /// Left.
     Left,
-    /// To the right.
+    /// Right.
     Right,
     /// Up.
     Up,
@@ -62,32 +62,32 @@ const KEYS: [(ControllerAction, &str); 13] = [
     (ControllerAction::CameraZoomOut, "["),
 ];
 
-/// What a key does in the window of the view; a terminal has none.
+/// Action of a key in the viewer window; not available in a terminal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum WindowAction {
-    /// Both views side by side, the camera's large, the inspector's large.
+    /// Cycles the layout: both views side by side, camera large, inspector large.
     Swap,
-    /// The map on or off.
+    /// Toggles the map.
     Map,
-    /// The inspector looks after the aircraft again.
+    /// Makes the inspector view follow the aircraft again.
     Follow,
-    /// The inspector turns left.
+    /// Turns the inspector view left.
     LookLeft,
-    /// The inspector turns right.
+    /// Turns the inspector view right.
     LookRight,
-    /// The inspector looks up.
+    /// Tilts the inspector view up.
     LookUp,
-    /// The inspector looks down.
+    /// Tilts the inspector view down.
     LookDown,
-    /// The inspector sees nearer.
+    /// Zooms the inspector view in.
     ZoomIn,
-    /// The inspector sees wider.
+    /// Zooms the inspector view out.
     ZoomOut,
-    /// A practice stands still, or goes on.
+    /// Pauses or resumes a practice session.
     Pause,
-    /// A practice begins anew, once that is confirmed.
+    /// Restarts a practice session after confirmation.
     Restart,
-    /// Sound on or off.
+    /// Toggles sound.
     Sound,
 }
 
@@ -106,16 +106,16 @@ const WISHES: [(&str, WindowAction, &str); 12] = [
     ("sound", WindowAction::Sound, "n"),
 ];
 
-/// What the window plays.
+/// Sounds of the viewer window.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SoundPreferences {
-    /// Propellers.
+    /// Whether propeller sound is on.
     pub propellers: bool,
-    /// Tones for warnings.
+    /// Whether warning tones are on.
     pub warnings: bool,
-    /// Warnings in words.
+    /// Whether spoken warnings are on.
     pub speech: bool,
-    /// How loud, 0 to 1.
+    /// Volume, 0 to 1.
     pub volume: f64,
 }
 
@@ -125,14 +125,14 @@ impl Default for SoundPreferences {
     }
 }
 
-/// Which key does what. Keys by their names, as [`key`] has them.
+/// Key bindings, by the key names of [`key`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct KeyBindings {
     push: f64,
     pushes: BTreeMap<String, StickDirection>,
     actions: BTreeMap<String, ControllerAction>,
     window_actions: BTreeMap<String, WindowAction>,
-    /// What the window plays.
+    /// Sounds of the viewer window.
     pub sounds: SoundPreferences,
 }
 
@@ -149,10 +149,10 @@ impl Default for KeyBindings {
 }
 
 impl KeyBindings {
-    /// Reads a file of keys; what it leaves out stays as usual. `file` is its name for messages.
+    /// Reads a key file; omitted bindings keep their defaults. `file` is the name used in error messages.
     ///
     /// # Errors
-    /// Everything that is wrong with the file, each with line, key, value and allowed range.
+    /// Reports all errors in the file, each with its line, key, value and allowed range.
     pub fn read(file: &str, text: &str) -> Result<Self, Problems> {
         let mut r = Reader::new(file, text);
         let keys = r.parse().map(|document| {
@@ -191,32 +191,33 @@ impl KeyBindings {
         }
     }
 
-    /// What a key does in the window.
+    /// Returns the window action of a key, if any.
     #[must_use]
     pub fn window_action(&self, key: &str) -> Option<WindowAction> {
         self.window_actions.get(&key.to_lowercase()).copied()
     }
 
-    /// A key that flies: one of the sticks'.
+    /// Checks whether a key controls a stick.
     #[must_use]
     pub fn is_stick(&self, key: &str) -> bool {
         self.pushes.contains_key(&key.to_lowercase())
     }
 
-    /// What a key flies or does at the vehicle, by its name in files.
+    /// Returns the stick direction or vehicle action of a key, by its name in configuration files.
     #[must_use]
     pub fn binding_name(&self, key: &str) -> Option<&'static str> {
         let push = self.pushes.get(key).and_then(|push| PUSHES.iter().find(|p| p.1 == *push)).map(|p| p.0);
         push.or_else(|| self.actions.get(key).map(|action| action.name()))
     }
 
-    /// The key of a stick, an action or a wish for people, by the name of that duty in files; empty when there is no such duty.
+    /// Returns the display name of the key bound to a stick direction, vehicle action or window action, by its name in
+    /// configuration files; empty if the name is unknown.
     #[must_use]
     pub fn label(&self, name: &str) -> String {
         self.of(name).map_or(String::new(), key::label)
     }
 
-    /// Every duty by its name in files, with its key for people.
+    /// Returns the display name of every bound key, by the binding's name in configuration files.
     #[must_use]
     pub fn labels(&self) -> BTreeMap<&'static str, String> {
         let sticks = PUSHES.into_iter().map(|(name, ..)| name);
@@ -225,7 +226,7 @@ impl KeyBindings {
         sticks.chain(actions).chain(wishes).map(|name| (name, self.label(name))).collect()
     }
 
-    /// The key of a stick, an action or a wish by the name of that duty in files.
+    /// Returns the key bound to a stick direction, vehicle action or window action, by its name in configuration files.
     #[must_use]
     pub fn of(&self, name: &str) -> Option<&str> {
         let push = PUSHES.iter().find(|p| p.0 == name).map(|p| p.1);
@@ -236,7 +237,7 @@ impl KeyBindings {
         pushes.chain(wishes).chain(actions).next().map(String::as_str)
     }
 
-    /// The keys of the sticks and of the vehicle in words, a line each.
+    /// Returns the bindings of sticks and vehicle actions as text, one per line.
     #[must_use]
     pub fn help_text(&self) -> String {
         let pushes = self
@@ -261,7 +262,7 @@ fn sounds(r: &mut Reader, root: &mut Section) -> SoundPreferences {
     sounds
 }
 
-/// The key of a duty: one that there is, and that does nothing else.
+/// Reads the key of a binding: a valid key that is not bound to anything else.
 fn read_binding(
     r: &mut Reader,
     s: &mut Section,
@@ -270,14 +271,14 @@ fn read_binding(
 ) -> String {
     let key = r.text(s, name, Some(usual)).to_lowercase();
     if !key::is_key(&key) {
-        r.add_problem(s, name, &key, &key::allowed(), "no such key");
+        r.add_problem(s, name, &key, &key::allowed(), "unknown key");
     } else if let Some(before) = taken.insert(key.clone(), name) {
-        r.add_problem(s, name, &key, "a key of its own", &format!("does {before} already"));
+        r.add_problem(s, name, &key, "an unused key", &format!("already bound to {before}"));
     }
     key
 }
 
-/// Keys that are held now.
+/// State of the held keys.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct KeyboardState {
     keys: KeyBindings,
@@ -286,21 +287,21 @@ pub struct KeyboardState {
 }
 
 impl KeyboardState {
-    /// Nothing is held.
+    /// Creates the state with no keys held.
     #[must_use]
     pub fn new(keys: KeyBindings) -> Self {
         Self { keys, held: BTreeMap::new(), last_repeats: BTreeMap::new() }
     }
 
-    /// Which key does what.
+    /// Returns the key bindings.
     #[must_use]
     pub fn keys(&self) -> &KeyBindings {
         &self.keys
     }
 
-    /// A key went down. Where releases are told (`until_released`), a held key must not be told again. Elsewhere a stick's key counts as
-    /// held for [`HELD_S`], and what a held key repeats does nothing: an action must have rested for that long, a step of gimbal or zoom
-    /// for `TAP_S`. Returns what it does when it is no stick.
+    /// Handles a key press and returns its action unless the key controls a stick. If the system reports key releases
+    /// (`until_released`), do not pass on the repeats of a held key. Otherwise a stick key counts as held for [`HELD_S`], and
+    /// repeats are ignored: an action must have been idle for that time, a gimbal or zoom step for `TAP_S`.
     pub fn press(&mut self, key: &str, until_released: bool, now: SimTime) -> Option<ControllerAction> {
         let key = key.to_lowercase();
         if let Some(push) = self.keys.pushes.get(&key) {
@@ -313,19 +314,19 @@ impl KeyboardState {
         (until_released || !repeated).then_some(action)
     }
 
-    /// A key came up.
+    /// Handles a key release.
     pub fn release(&mut self, key: &str) {
         if let Some(push) = self.keys.pushes.get(&key.to_lowercase()) {
             self.held.remove(push);
         }
     }
 
-    /// All keys count as up: the window lost the focus.
+    /// Releases all keys, as when the window loses focus.
     pub fn release_all(&mut self) {
         self.held.clear();
     }
 
-    /// The sticks; opposite keys cancel.
+    /// Returns the stick positions; opposite keys cancel out.
     pub fn sticks(&mut self, now: SimTime) -> Sticks {
         self.held.retain(|_, until| until.is_none_or(|until| now < until));
         let one = |push: StickDirection| if self.held.contains_key(&push) { self.keys.push } else { 0.0 };
@@ -376,7 +377,7 @@ mod tests {
     #[test]
     fn exact_what_a_held_key_repeats_does_nothing_and_steps_may_be_tapped() {
         let mut board = KeyboardState::default();
-        // A second: 0.5 s before the first repeat, then 30 a second.
+        // One second: 0.5 s until the first repeat, then 30 repeats per second.
         let held: Vec<f64> = std::iter::once(0.0).chain((0..15).map(|k| 0.5 + f64::from(k) / 30.0)).collect();
         let done = |board: &mut KeyboardState, key: &str, times: &[f64]| {
             times.iter().filter_map(|s| board.press(key, false, at(*s))).collect::<Vec<_>>()
@@ -404,15 +405,15 @@ mod tests {
         assert_eq!((board.keys().window_action("Tab"), board.keys().window_action("w")), (Some(WindowAction::Swap), None));
         let told =
             KeyBindings::read("keys.toml", "format = 1\n[sticks]\nup = \"b\"\n[actions]\nfly = \"f\"\n").unwrap_err().to_string();
-        assert!(told.contains("does up already") && told.contains("fly"), "{told}");
+        assert!(told.contains("already bound to up") && told.contains("fly"), "{told}");
     }
 
     #[test]
     fn exact_a_key_that_no_keyboard_has_is_reported_with_its_line() {
         let text = "format = 1\n[actions]\nlamp = \"F5\"\n[window]\nmap = \"shift\"\n";
         let told = KeyBindings::read("keys.toml", text).unwrap_err().to_string();
-        assert!(told.contains("keys.toml:3: actions.lamp = f5: no such key (allowed: one sign, or up, "), "{told}");
-        assert!(told.contains("keys.toml:5: window.map = shift: no such key"), "{told}");
+        assert!(told.contains("keys.toml:3: actions.lamp = f5: unknown key (allowed: one character, or up, "), "{told}");
+        assert!(told.contains("keys.toml:5: window.map = shift: unknown key"), "{told}");
     }
 
     #[test]

@@ -1,9 +1,9 @@
-//! Controllers: what a device reports, through its calibration, into sticks, and sticks into MAVLink.
+//! Controllers: from raw device input through a calibrated profile to sticks, and from sticks to MAVLink.
 //!
-//! A device is a list of raw axes and buttons without meaning ([`raw`]). A [`profile`] says which axis is which stick direction, where it
-//! rests and ends, and what the buttons do; the [`wizard`] makes one by asking. The [`keyboard`] stands in where there is no device, and
-//! [`key`] names its keys.
-//! [`link`] sends the result to a vehicle; [`record`] writes events down and plays them again. No clock, no device, no socket in here.
+//! A device is a list of raw axes and buttons without meaning ([`raw_input`]). A [`profile`] assigns axes to stick directions,
+//! with their centers and endpoints, and buttons to actions; the [`wizard`] creates one interactively. The [`keyboard`] replaces
+//! a missing device, and [`key`] names its keys. [`controller_link`] sends the result to a vehicle; [`input_recording`] records
+//! and replays events. No clock, device or socket is accessed here.
 
 pub mod action;
 pub mod axis;
@@ -19,14 +19,14 @@ pub use action::ControllerAction;
 pub use profile::{ControllerProfile, StickMode};
 pub use raw_input::{Device, DeviceEvent, RawInput};
 
-/// What the sticks ask of the vehicle, each in [-1, 1]: forward, right, up, clockwise seen from above.
+/// Stick inputs, each in [-1, 1]: forward, right, up, and clockwise as seen from above.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sticks {
     /// Forward (pitch).
     pub forward: f64,
-    /// To the right (roll).
+    /// Right (roll).
     pub right: f64,
-    /// Up (throttle), 0 in its middle.
+    /// Up (throttle), 0 at the center.
     pub up: f64,
     /// Clockwise (yaw).
     pub yaw: f64,

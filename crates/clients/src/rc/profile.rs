@@ -1,4 +1,4 @@
-//! What is known of a device: which axis is which stick, which button does what; as a file that outlives the program.
+//! Controller profile: which axis is which stick and which button does what, with its file format.
 
 use super::action::{self, ControllerAction};
 use super::axis::{AxisCalibration, LEAST_WAY};
@@ -7,16 +7,16 @@ use spandrel_model::toml::{Problems, Reader, Section};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Newest format that this program reads.
+/// Newest supported format version.
 pub const FORMAT: i64 = 1;
 /// Dead band of a new profile (estimate: the play of a worn gamepad stick).
 pub const DEAD_BAND: f64 = 0.05;
 /// Expo of a new profile (estimate: between a transmitter's usual 0.2 and 0.4).
 pub const EXPO: f64 = 0.3;
-/// Largest number of an axis or a button: what a 32-bit count can say.
+/// Maximum axis or button number: a 32-bit unsigned integer.
 const MOST: i64 = u32::MAX as i64;
 
-/// Where a stick moves.
+/// A stick axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum StickMotion {
     /// Left stick, up positive.
@@ -29,7 +29,7 @@ pub enum StickMotion {
     RightHorizontal,
 }
 
-/// All four, with their names in files and for people.
+/// All four axes, with their names in configuration files and in prompts.
 pub const WAYS: [(&str, StickMotion, &str); 4] = [
     ("left_vertical", StickMotion::LeftVertical, "the LEFT stick fully UP"),
     ("left_horizontal", StickMotion::LeftHorizontal, "the LEFT stick fully to the RIGHT"),
@@ -37,12 +37,12 @@ pub const WAYS: [(&str, StickMotion, &str); 4] = [
     ("right_horizontal", StickMotion::RightHorizontal, "the RIGHT stick fully to the RIGHT"),
 ];
 
-/// Which stick does what, as transmitters number it.
+/// Stick mode, numbered as on RC transmitters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StickMode {
     /// Left: pitch and yaw. Right: throttle and roll.
     One,
-    /// Left: throttle and yaw. Right: pitch and roll. The usual one in America and Europe, and DJI's default.
+    /// Left: throttle and yaw. Right: pitch and roll. The most common mode in America and Europe, and DJI's default.
     Two,
     /// Left: pitch and roll. Right: throttle and yaw.
     Three,
@@ -51,13 +51,13 @@ pub enum StickMode {
 }
 
 impl StickMode {
-    /// From its number.
+    /// Returns the mode with this number, if it is 1 to 4.
     #[must_use]
     pub fn numbered(number: i64) -> Option<Self> {
         [Self::One, Self::Two, Self::Three, Self::Four].into_iter().find(|mode| mode.number() == number)
     }
 
-    /// Its number, 1 to 4.
+    /// Returns the number of the mode, 1 to 4.
     #[must_use]
     pub fn number(self) -> i64 {
         match self {
@@ -68,7 +68,7 @@ impl StickMode {
         }
     }
 
-    /// Where the sticks of a person in this mode stand for these wishes: left up, left right, right up, right right.
+    /// Returns the positions of the physical sticks for `sticks` in this mode: left up, left right, right up, right right.
     #[must_use]
     pub fn sticks_by_hand(self, sticks: Sticks) -> [f64; 4] {
         let Sticks { forward, right, up, yaw } = sticks;
@@ -80,7 +80,7 @@ impl StickMode {
         }
     }
 
-    /// The sticks' directions as wishes: each is a wish of its own, so modes are permutations.
+    /// Maps the physical stick positions to stick inputs. Every mode is a permutation.
     #[must_use]
     pub fn sticks(self, read: impl Fn(StickMotion) -> f64) -> Sticks {
         let [lv, lh, rv, rh] = WAYS.map(|(_, way, _)| read(way));
@@ -93,21 +93,21 @@ impl StickMode {
     }
 }
 
-/// A device with a meaning.
+/// A calibrated device.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ControllerProfile {
-    /// Whose it is.
+    /// The device.
     pub device: Device,
-    /// Which stick does what.
+    /// Stick mode.
     pub mode: StickMode,
-    /// How each way of the sticks is read.
+    /// Calibration of each stick axis.
     pub axes: BTreeMap<StickMotion, AxisCalibration>,
-    /// Buttons that do something.
+    /// Actions of the buttons.
     pub buttons: BTreeMap<u32, ControllerAction>,
 }
 
 impl ControllerProfile {
-    /// The sticks as the device stands; a way that has not been heard of yet is centred.
+    /// Returns the stick inputs for the raw state; an axis without a reading is centered.
     #[must_use]
     pub fn sticks(&self, raw: &RawInput) -> Sticks {
         self.mode.sticks(|way| {
@@ -116,7 +116,7 @@ impl ControllerProfile {
         })
     }
 
-    /// The profile as a file.
+    /// Returns the profile as a TOML file.
     #[must_use]
     pub fn write(&self) -> String {
         let mut text = format!(
@@ -144,10 +144,10 @@ impl ControllerProfile {
         text
     }
 
-    /// Reads a profile. `file` is its name for messages.
+    /// Parses a profile. `file` is the name used in error messages.
     ///
     /// # Errors
-    /// Everything that is wrong with the file, each with line, key, value and allowed range.
+    /// Reports all errors in the file, each with its line, key, value and allowed range.
     pub fn read(file: &str, text: &str) -> Result<Self, Problems> {
         let mut reader = Reader::new(file, text);
         let profile = reader.parse().map(|document| {
@@ -177,7 +177,7 @@ fn whole(r: &mut Reader, root: &mut Section) -> ControllerProfile {
         let axis = axis(r, &mut section);
         if let Some((other, _)) = ways.iter().find(|(_, known)| known.axis == axis.axis) {
             let other = WAYS.iter().find(|(_, way, _)| way == other).map_or("", |(name, ..)| name);
-            r.add_problem(&section, "axis", &axis.axis.to_string(), "an axis of its own", &format!("is {other}'s already"));
+            r.add_problem(&section, "axis", &axis.axis.to_string(), "an unused axis", &format!("already used by {other}"));
         }
         r.finish(&section);
         ways.insert(way, axis);
@@ -192,8 +192,8 @@ fn whole(r: &mut Reader, root: &mut Section) -> ControllerProfile {
                     &section,
                     name,
                     &number.to_string(),
-                    "a button of its own",
-                    &format!("does {} already", before.name()),
+                    "an unused button",
+                    &format!("already bound to {}", before.name()),
                 );
             }
         }
@@ -214,7 +214,7 @@ fn axis(r: &mut Reader, s: &mut Section) -> AxisCalibration {
     let (below, above) = (axis.centre - axis.low, axis.high - axis.centre);
     if below * above <= 0.0 || below.abs() < LEAST_WAY || above.abs() < LEAST_WAY {
         let allowed = format!("between low and high, at least {LEAST_WAY} from both");
-        r.add_problem(s, "centre", &axis.centre.to_string(), &allowed, "no axis of a stick");
+        r.add_problem(s, "centre", &axis.centre.to_string(), &allowed, "range too small for a stick");
     }
     axis
 }
@@ -257,7 +257,7 @@ mod tests {
             raw.apply(DeviceEvent::Axis { axis, value });
         }
         let flown = |mode| ControllerProfile { mode, ..profile() }.sticks(&raw);
-        // Left up, left fully left (its axis counts down), right down, right fully right.
+        // Left up, left fully left (reversed axis), right down, right fully right.
         assert_eq!(flown(StickMode::One), Sticks { forward: 1.0, yaw: -1.0, up: -1.0, right: 1.0 });
         assert_eq!(flown(StickMode::Two), Sticks { up: 1.0, yaw: -1.0, forward: -1.0, right: 1.0 });
         assert_eq!(flown(StickMode::Three), Sticks { forward: 1.0, right: -1.0, up: -1.0, yaw: 1.0 });
@@ -280,9 +280,9 @@ mod tests {
         for part in [
             "stick_mode",
             "allowed: whole number 1 to 4",
-            "left_vertical's already",
-            "no axis of a stick",
-            "does lamp already",
+            "already used by left_vertical",
+            "range too small for a stick",
+            "already bound to lamp",
             "loop",
         ] {
             assert!(told.contains(part), "{part}: {told}");

@@ -1,52 +1,52 @@
-//! What a device reports, before anybody says what it means.
+//! Raw input as reported by a device.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A gamepad or a transmitter, as it calls itself.
+/// A gamepad or transmitter, as it identifies itself.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Device {
-    /// Name for people.
+    /// Display name.
     pub name: String,
-    /// Identity of its kind: the same for two alike, the same after a restart (vendor and product, or the system's GUID).
+    /// Model ID: the same for two devices of one model and across restarts (vendor and product, or the system's GUID).
     pub id: String,
 }
 
-/// Something changed at a device.
+/// A change reported by a device.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DeviceEvent {
     /// An axis moved.
     Axis {
-        /// Number of the axis by the system's own count.
+        /// Axis number as counted by the system.
         axis: u32,
-        /// Where it stands, -1 to 1 of what the system takes for its range.
+        /// Position, -1 to 1 of the range reported by the system.
         value: f64,
     },
-    /// A button went down or up.
+    /// A button was pressed or released.
     Button {
-        /// Number of the button by the system's own count.
+        /// Button number as counted by the system.
         button: u32,
-        /// It is down.
+        /// Whether the button is pressed.
         pressed: bool,
     },
-    /// The device is gone: unplugged, out of power.
+    /// The device is gone: unplugged or out of power.
     Lost,
-    /// It is there (again).
+    /// The device is connected (again).
     Found,
 }
 
-/// Where everything stands.
+/// Current state of a device.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RawInput {
-    /// Axes that have been heard of, -1 to 1.
+    /// Axes reported so far, -1 to 1.
     pub axes: BTreeMap<u32, f64>,
-    /// Buttons that are down.
+    /// Pressed buttons.
     pub down: BTreeSet<u32>,
-    /// The device is gone.
+    /// Whether the device is gone.
     pub lost: bool,
 }
 
 impl RawInput {
-    /// Takes an event in. A value that is no number is none.
+    /// Applies an event. Ignores values that are not finite.
     pub fn apply(&mut self, event: DeviceEvent) {
         match event {
             DeviceEvent::Axis { axis, value } if value.is_finite() => {

@@ -1,4 +1,4 @@
-//! Calibration by asking: centre, range, which stick is which axis and which way round, buttons. The same steps serve a window and a terminal.
+//! Interactive calibration: center, range, axis assignment and direction, buttons. A window and a terminal use the same steps.
 
 use super::axis::{AxisCalibration, LEAST_WAY};
 use super::profile::{ControllerProfile, DEAD_BAND, EXPO, StickMode, StickMotion, WAYS};
@@ -6,71 +6,72 @@ use super::{ControllerAction, Device, DeviceEvent, RawInput};
 use spandrel_model::time::SimTime;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Sticks are left alone for this long, s, while their centre and its noise are measured (estimate).
+/// Duration of the rest measurement (center and noise), s (estimate).
 const REST_S: f64 = 1.5;
-/// An axis that moves by less than this of the raw range of 2 is none of the sticks (estimate).
+/// Minimum travel of a stick axis, of the raw range of 2 (estimate).
 const MOVED: f64 = 0.6;
-/// A stick counts as pushed from this part of its way on, and as let go below [`LET_GO`]; in between nobody knows (estimates).
+/// Fraction of the travel above which a stick counts as pushed, and [`LET_GO`] below which it counts as released; undecided in
+/// between (estimates).
 const PUSHED: f64 = 0.8;
 const LET_GO: f64 = 0.3;
-/// It must stay pushed for this long, s, so that a stick in passing is not taken (estimate).
+/// How long the stick must stay pushed, s, so that a stick in passing is not taken (estimate).
 const PUSHED_S: f64 = 0.3;
-/// It has come at least this part of its way from where it stood when it was asked for: what stands at an end since before is no answer.
+/// Minimum fraction of the travel since the prompt, so that an axis that was already at an end is not taken as the answer.
 const COME: f64 = 0.5;
-/// An axis stands still while it moves by less than this of the raw range of 2 (estimate: above the noise of a worn stick).
+/// Movement below which an axis counts as still, of the raw range of 2 (estimate: above the noise of a worn stick).
 const STILL: f64 = 0.2;
-/// Sticks rest in their middle after this long, s; what stands elsewhere for [`ASIDE_S`] is a trigger, a switch or a knob, and does not come
-/// back (estimates).
+/// How long sticks must be still at the center, s. An axis that stays elsewhere for [`ASIDE_S`] is a trigger, switch or knob that
+/// does not return (estimates).
 const STILL_S: f64 = 0.2;
 const ASIDE_S: f64 = 1.0;
-/// The dead band is this many times the noise at rest, at least the usual one, at most [`MOST_DEAD`].
+/// Dead band as a multiple of the noise at rest; at least the default, at most [`MOST_DEAD`].
 const NOISES: f64 = 2.0;
 const MOST_DEAD: f64 = 0.2;
-/// A rest beyond this part of the range from its middle is no spring's centre: a throttle that stays where it is put.
+/// Fraction of the range beyond which a rest position cannot be a spring center, as on a throttle without a spring.
 const OFF_CENTRE: f64 = 0.25;
 
-/// What a person is asked to do.
+/// A step of the calibration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum WizardStep {
-    /// Let go of everything, and say so.
+    /// Release everything and confirm.
     LetGo,
-    /// Measuring at rest.
+    /// Measuring the axes at rest.
     Rest,
-    /// Move both sticks along their ends, and say when done.
+    /// Move both sticks through their full range and confirm.
     Range,
-    /// Back to the middle.
+    /// Return to the center.
     Middle(usize),
-    /// Push this way.
+    /// Push in this direction.
     Push(usize),
-    /// A button for this action, or none.
+    /// Press a button for this action, or skip it.
     Button(usize),
-    /// All is known.
+    /// Calibration is complete.
     Done,
 }
 
-/// Buttons that are asked for.
+/// Actions that the wizard asks for.
 const BUTTONS: [(ControllerAction, &str); 7] = [
     (ControllerAction::Lamp, "the lamp"),
     (ControllerAction::Snapshot, "a snapshot"),
     (ControllerAction::Arm, "arming"),
-    (ControllerAction::TakeOff, "take-off"),
+    (ControllerAction::TakeOff, "takeoff"),
     (ControllerAction::Land, "landing"),
-    (ControllerAction::GimbalUp, "the camera up"),
-    (ControllerAction::GimbalDown, "the camera down"),
+    (ControllerAction::GimbalUp, "camera up"),
+    (ControllerAction::GimbalDown, "camera down"),
 ];
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct AxisStatistics {
-    /// Reading at rest: sum and count, then their mean.
+    /// Sum and number of the readings at rest, for their mean.
     sum: f64,
     count: u32,
-    /// At rest.
+    /// Minimum and maximum at rest.
     rest_range: (f64, f64),
-    /// Measured while nobody touched it, and not only between two pushes.
+    /// Measured while untouched, and not only between two pushes.
     rested: bool,
-    /// Over everything.
+    /// Minimum and maximum overall.
     ends: (f64, f64),
-    /// Where it stands, and since when.
+    /// Steady value and the time since which it has held.
     steady: (f64, SimTime),
 }
 
@@ -98,7 +99,7 @@ impl AxisStatistics {
     }
 }
 
-/// The wizard.
+/// The calibration wizard.
 #[derive(Debug, Clone)]
 pub struct CalibrationWizard {
     device: Device,
@@ -107,9 +108,9 @@ pub struct CalibrationWizard {
     raw: RawInput,
     since: SimTime,
     statistics: BTreeMap<u32, AxisStatistics>,
-    /// Axes that have been moved along their ends.
+    /// Axes that have been moved through their full range.
     fully_moved: BTreeSet<u32>,
-    /// Where axes stood when a push was asked for.
+    /// Axis values when the push was requested.
     push_start: BTreeMap<u32, f64>,
     pushed: Option<(u32, bool)>,
     found: BTreeMap<StickMotion, (u32, bool)>,
@@ -118,7 +119,7 @@ pub struct CalibrationWizard {
 }
 
 impl CalibrationWizard {
-    /// Asks for a device, for a person who flies in this stick mode.
+    /// Creates a wizard for a device and a stick mode.
     #[must_use]
     pub fn new(device: Device, mode: StickMode) -> Self {
         Self {
@@ -137,21 +138,19 @@ impl CalibrationWizard {
         }
     }
 
-    /// What to do now, in words.
+    /// Returns the current instruction for the user.
     #[must_use]
     pub fn prompt(&self) -> String {
         let asked = match self.step {
-            WizardStep::LetGo => {
-                "Let go of both sticks (a throttle that stays where it is put: into its middle), then press Enter.".to_owned()
-            }
-            WizardStep::Rest => "Leave the sticks alone ...".to_owned(),
+            WizardStep::LetGo => "Let go of both sticks (center a throttle that has no spring), then press Enter.".to_owned(),
+            WizardStep::Rest => "Do not touch the sticks ...".to_owned(),
             WizardStep::Range => format!(
-                "Move both sticks along their ends, all the way round, then press Enter. Axes found: {} of 4.",
+                "Move both sticks around their full range, then press Enter. Axes found: {} of 4.",
                 self.statistics.values().filter(|seen| moved(seen)).count().min(4)
             ),
-            WizardStep::Middle(_) => "Back to the middle ...".to_owned(),
+            WizardStep::Middle(_) => "Center the sticks ...".to_owned(),
             WizardStep::Push(k) => format!("Push {} and hold it there.", WAYS[k].2),
-            WizardStep::Button(k) => format!("Press the button for {}, or Enter for none.", BUTTONS[k].1),
+            WizardStep::Button(k) => format!("Press the button for {}, or Enter to skip.", BUTTONS[k].1),
             WizardStep::Done => "Done.".to_owned(),
         };
         match self.note {
@@ -160,18 +159,18 @@ impl CalibrationWizard {
         }
     }
 
-    /// The device is away.
+    /// Checks whether the device is disconnected.
     #[must_use]
     pub fn lost(&self) -> bool {
         self.raw.lost
     }
 
-    /// How far each axis stands, for a display: number, reading, ends.
+    /// Returns the position of each axis for display: number, reading, minimum and maximum.
     pub fn axes(&self) -> impl Iterator<Item = (u32, f64, (f64, f64))> + '_ {
         self.raw.axes.iter().filter_map(|(axis, value)| Some((*axis, *value, self.statistics.get(axis)?.ends)))
     }
 
-    /// The device reported something.
+    /// Processes a device event.
     pub fn handle(&mut self, event: DeviceEvent, now: SimTime) {
         self.raw.apply(event);
         if let DeviceEvent::Axis { axis, .. } = event
@@ -185,21 +184,21 @@ impl CalibrationWizard {
                 free.insert(BUTTONS[k].0);
                 self.next_button(k);
             } else {
-                self.note = Some("That button is taken.");
+                self.note = Some("That button is already assigned.");
             }
         }
         if event == DeviceEvent::Lost {
-            self.note = Some("The device was lost; plug it in again.");
+            self.note = Some("Device disconnected. Plug it in again.");
             self.start_step(WizardStep::LetGo, now);
         }
     }
 
-    /// The person pressed Enter.
+    /// Handles the Enter key.
     pub fn confirm(&mut self, now: SimTime) {
         self.note = None;
         match self.step {
             WizardStep::LetGo => {
-                // An axis that has not been heard of stands nobody knows where: it is measured when it comes back to its middle.
+                // An axis without a reading is at an unknown position; it is measured when it returns to its center.
                 self.statistics = self.raw.axes.iter().map(|(axis, value)| (*axis, AxisStatistics::at(*value, now))).collect();
                 self.buttons.clear();
                 self.start_step(WizardStep::Rest, now);
@@ -214,7 +213,7 @@ impl CalibrationWizard {
         self.fully_moved = self.statistics.iter().filter(|(_, seen)| moved(seen)).map(|(axis, _)| *axis).collect();
         self.found.clear();
         if self.fully_moved.len() < WAYS.len() {
-            self.note = Some("Fewer than four axes have moved.");
+            self.note = Some("Fewer than four axes moved.");
         } else {
             self.start_step(WizardStep::Middle(0), now);
         }
@@ -229,7 +228,7 @@ impl CalibrationWizard {
         self.step = if k + 1 < BUTTONS.len() { WizardStep::Button(k + 1) } else { WizardStep::Done };
     }
 
-    /// Time passes: call it every few milliseconds.
+    /// Advances time; call it every few milliseconds.
     pub fn handle_timeout(&mut self, now: SimTime) {
         match self.step {
             WizardStep::Rest => self.rest(now),
@@ -255,7 +254,7 @@ impl CalibrationWizard {
         }
     }
 
-    /// Where an axis stands, and how far that is out, -1 to 1 of its ends.
+    /// Reading of an axis and its deflection from the center, -1 to 1 of its range.
     fn deflection(&self, axis: u32) -> Option<(f64, f64)> {
         let (value, seen) = (*self.raw.axes.get(&axis)?, self.statistics.get(&axis)?);
         let centre = centre(seen);
@@ -276,7 +275,7 @@ impl CalibrationWizard {
         })
     }
 
-    /// Some systems say nothing of an axis before it moves: its centre is where it comes back to.
+    /// Some systems do not report an axis before it moves; its center is the position that it returns to.
     fn measure_middle(&mut self) {
         for axis in self.fully_moved.clone() {
             let Some((value, part)) = self.deflection(axis) else { continue };
@@ -294,11 +293,11 @@ impl CalibrationWizard {
         }
         let Some((axis, up)) = self.pushed.filter(|_| (now - self.since).s() >= PUSHED_S) else { return };
         if !self.fully_moved.contains(&axis) {
-            self.note = Some("That stick had not been moved along its ends.");
+            self.note = Some("That stick was not moved through its full range.");
             return self.start_step(WizardStep::Range, now);
         }
         if self.is_known(axis) {
-            self.note = Some("That way is known already: push the other one.");
+            self.note = Some("That axis is already assigned. Push the other one.");
             return self.start_step(WizardStep::Middle(k), now);
         }
         self.note = None;
@@ -310,7 +309,7 @@ impl CalibrationWizard {
         }
     }
 
-    /// A stick that was still held when a push was asked for, and has been let go since, may answer.
+    /// Accepts a stick that was still held when the push was requested and has been released since.
     fn track_released_sticks(&mut self, now: SimTime) {
         for axis in &self.fully_moved {
             let Some((value, part)) = self.deflection(*axis) else { continue };
@@ -320,13 +319,13 @@ impl CalibrationWizard {
         }
     }
 
-    /// How far an axis has come since the push was asked for, of the raw range of 2.
+    /// Distance that an axis has moved since the push was requested, of the raw range of 2.
     fn displacement(&self, axis: u32) -> f64 {
         let ends = self.push_start.get(&axis).zip(self.raw.axes.get(&axis));
         ends.map_or(0.0, |(from, value)| (value - from).abs())
     }
 
-    /// The axis that has come to an end since the push was asked for, and whether to its upper one; none while there are two.
+    /// Returns the only axis that has reached an end since the push was requested, and whether it is the upper end.
     fn single_pushed_axis(&self) -> Option<(u32, bool)> {
         let pushed = |axis: &u32| {
             let ends = self.statistics.get(axis)?.ends;
@@ -343,7 +342,7 @@ impl CalibrationWizard {
         }
     }
 
-    /// The profile, when all has been asked.
+    /// Returns the profile once the calibration is complete.
     #[must_use]
     pub fn profile(&self) -> Option<ControllerProfile> {
         if self.step != WizardStep::Done {
@@ -362,7 +361,7 @@ fn moved(seen: &AxisStatistics) -> bool {
     seen.ends.1 - seen.ends.0 >= MOVED
 }
 
-/// Where the stick rests: measured, unless it rests near an end, as a throttle without a spring may.
+/// Rest position of the stick: measured, or the middle of the range if it rests near an end, as a throttle without a spring may.
 fn centre(seen: &AxisStatistics) -> f64 {
     let middle = f64::midpoint(seen.ends.0, seen.ends.1);
     let rest = if seen.count > 0 { seen.sum / f64::from(seen.count) } else { middle };
@@ -383,7 +382,7 @@ mod tests {
     use super::*;
     use crate::rc::input_recording;
 
-    /// A person at a transmitter: axes 0 roll, 1 pitch (counts down), 2 throttle (no spring), 3 yaw; 5 is a knob.
+    /// A simulated user with a transmitter: axes 0 roll, 1 pitch (reversed), 2 throttle (no spring), 3 yaw; 5 is a knob.
     struct SimulatedUser {
         wizard: CalibrationWizard,
         now: SimTime,
@@ -441,13 +440,13 @@ mod tests {
         person.jitter_axes();
         person.confirm();
         person.wait(0.4);
-        // Left up: throttle; left right: yaw; right up: pitch, which counts down; right right: roll.
+        // Left up: throttle; left right: yaw; right up: pitch, which is reversed; right right: roll.
         for (axis, value) in [(2, 0.9), (3, 0.8), (1, -1.0), (0, 0.95)] {
             person.hold(axis, value);
         }
         person.wizard.handle(DeviceEvent::Button { button: 4, pressed: true }, person.now);
         person.wizard.handle(DeviceEvent::Button { button: 4, pressed: true }, person.now);
-        assert!(person.wizard.prompt().starts_with("That button is taken."), "{}", person.wizard.prompt());
+        assert!(person.wizard.prompt().starts_with("That button is already assigned."), "{}", person.wizard.prompt());
         for _ in 1..BUTTONS.len() {
             assert_eq!(person.wizard.profile(), None);
             person.confirm();
@@ -473,22 +472,22 @@ mod tests {
         person.confirm();
         person.wait(2.0);
         person.confirm();
-        assert!(person.wizard.prompt().starts_with("Fewer than four axes have moved."));
+        assert!(person.wizard.prompt().starts_with("Fewer than four axes moved."));
         let mut person = SimulatedUser::new();
         person.jitter_axes();
         person.confirm();
         person.wait(0.4);
         person.hold(2, 0.9);
         person.hold(2, 0.9);
-        assert!(person.wizard.prompt().contains("known already"), "{}", person.wizard.prompt());
+        assert!(person.wizard.prompt().contains("axis is already assigned"), "{}", person.wizard.prompt());
         person.wizard.handle(DeviceEvent::Lost, person.now);
-        assert!(person.wizard.prompt().contains("plug it in again"));
+        assert!(person.wizard.prompt().contains("Plug it in again"));
     }
 
-    /// A gamepad as Linux tells of it: nothing before something moves, triggers from -1. Sticks 0, 1 and 3, 4 (up is -1), triggers 2 and 5, a
-    /// hat 16. Seconds, axis, value.
+    /// A gamepad as Linux reports it: no readings before something moves, triggers start at -1. Sticks 0, 1 and 3, 4 (up is -1),
+    /// triggers 2 and 5, hat 16. Time in s, axis, value.
     const PAD: [(f64, u32, f64); 38] = [
-        // Both triggers and the hat are touched before any stick; the right trigger sticks a little.
+        // Both triggers and the hat move before any stick; the right trigger does not fully return.
         (2.2, 2, -0.9),
         (2.3, 2, 1.0),
         (2.4, 2, -1.0),
@@ -497,7 +496,7 @@ mod tests {
         (2.7, 16, 1.0),
         (2.8, 16, -1.0),
         (2.9, 16, 0.0),
-        // Along the ends; the sticks rest beside the middle of what they reach.
+        // Full range; the sticks rest off the center of their range.
         (3.0, 0, -1.0),
         (3.1, 0, 1.0),
         (3.2, 0, 0.06),
@@ -510,7 +509,7 @@ mod tests {
         (3.9, 4, 1.0),
         (4.0, 4, -1.0),
         (4.1, 4, 0.0),
-        // Left up, in passing over the left; the trigger is squeezed and let go meanwhile.
+        // Left up, passing over left; the trigger is squeezed and released meanwhile.
         (6.0, 0, -0.5),
         (6.05, 1, -1.0),
         (6.1, 0, 0.0),
@@ -526,7 +525,7 @@ mod tests {
         (11.6, 4, 0.0),
         (13.0, 3, 0.9),
         (13.6, 3, 0.05),
-        // While buttons are asked for, a trigger does no harm.
+        // During the button steps, a trigger has no effect.
         (14.0, 2, 0.2),
         (14.1, 2, 1.0),
         (14.5, 2, 0.0),
@@ -570,7 +569,7 @@ mod tests {
         person.axis(5, 1.0);
         person.wait(0.5);
         let told = person.wizard.prompt();
-        assert!(told.starts_with("That stick had not been moved along its ends. Move both sticks"), "{told}");
+        assert!(told.starts_with("That stick was not moved through its full range. Move both sticks"), "{told}");
         for value in [-1.0, 0.0] {
             person.axis(5, value);
         }

@@ -1,14 +1,15 @@
-//! Acro: the sticks command body rates. As ArduCopter's default trainer has it, released sticks level the vehicle and the lean angle is limited.
+//! Acro mode: the sticks control body rates. As with ArduCopter's default trainer, released sticks level the vehicle and the lean
+//! angle is limited.
 
 use super::core::Autopilot;
 use super::modes::Setpoint;
 use spandrel_model::frames::Vec3;
 use spandrel_model::math;
 
-/// Lean angles are leveled at this rate, 1/s, counted up to this angle, rad (ArduCopter: ACRO_BAL_ROLL 1, ACRO_LEVEL_MAX_ANGLE 30 degrees).
+/// Leveling gain, 1/s, and the maximum lean angle it counts, rad (ArduCopter: ACRO_BAL_ROLL 1, ACRO_LEVEL_MAX_ANGLE 30 degrees).
 const LEVEL_PER_S: f64 = 1.0;
 const LEVEL_MOST_RAD: f64 = 0.524;
-/// The rate towards the lean limit falls off at this gain, 1/s (estimate: slower than the attitude loop, so that the limit is not overshot).
+/// Gain of the rate limit near the maximum lean angle, 1/s (estimate: slower than the attitude loop to prevent overshoot).
 const LIMIT_PER_S: f64 = 4.0;
 
 impl Autopilot {
@@ -24,7 +25,7 @@ impl Autopilot {
         let low = math::lerp(self.gains.hover_n, self.gains.thrust_min_n, (-s.up).clamp(0.0, 1.0));
         let thrust_n = if s.up > 0.0 { math::lerp(self.gains.hover_n, self.gains.thrust_max_n, s.up) } else { low };
         self.landing_detector.wanted_down_m_s = if s.up < -0.5 { l.descend_m_s } else { 0.0 };
-        // A mode that holds the heading continues from this one.
+        // A mode with heading hold continues from this heading.
         self.navigator.yaw_rad = yaw;
         self.navigator.yaw_rate_rad_s = 0.0;
         Setpoint::Spin { rates_rad_s, thrust_n }

@@ -1,4 +1,4 @@
-//! Attitude and rate loops: thrust direction first, heading second, then rates with an integral for what is not modelled.
+//! Attitude and rate loops: thrust direction first, heading second, then body rates with an integral for unmodeled effects.
 
 use super::Estimate;
 use super::gains::Gains;
@@ -7,11 +7,11 @@ use nalgebra::{UnitQuaternion, Vector3};
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::math;
 
-/// The integral of the rate error gives at most this angular acceleration, rad/s².
+/// Limit of the rate-error integral, rad/s² of angular acceleration.
 const INTEGRAL_MAX_RAD_S2: f64 = 20.0;
-/// Yaw rates fed forward may exceed the largest that the attitude loop asks for by this factor.
+/// Factor by which yaw rate feedforward may exceed the attitude loop's limit.
 const YAW_RATE_SLACK: f64 = 1.2;
-/// Above this tilt error the heading waits, rad.
+/// Tilt error above which heading control is suspended, rad.
 const HEADING_WAITS_RAD: f64 = 0.9;
 
 /// State of the loops.
@@ -21,12 +21,12 @@ pub struct AttitudeLoop {
 }
 
 impl AttitudeLoop {
-    /// Forgets the integral.
+    /// Resets the integral.
     pub fn reset(&mut self) {
         self.integral = Vec3::zero();
     }
 
-    /// Torque for a wanted attitude and a yaw rate fed forward (about the vertical, rad/s).
+    /// Computes the torque for an attitude setpoint with a yaw rate feedforward (about the vertical, rad/s).
     pub fn torque(
         &mut self,
         gains: &Gains,
@@ -40,7 +40,7 @@ impl AttitudeLoop {
         self.rate_torque(gains, now, rates, given, dt_s)
     }
 
-    /// Torque for wanted body rates.
+    /// Computes the torque for body rate setpoints.
     pub fn rate_torque(
         &mut self,
         gains: &Gains,
@@ -50,7 +50,7 @@ impl AttitudeLoop {
         dt_s: f64,
     ) -> Vec3<Frd> {
         let error = rates - now.rates_rad_s;
-        // A motor at its limit must not wind the integral up.
+        // Anti-windup at motor limits.
         if given.tilt > 0.99 {
             self.integral += Vec3::new(error.forward(), error.right(), 0.0) * (gains.rate_integral * dt_s);
         }
@@ -67,14 +67,14 @@ impl AttitudeLoop {
     }
 }
 
-/// Body rates asked for from outside, within the aircraft's limits.
+/// Limits body rate setpoints to the aircraft's maximum rates.
 #[must_use]
 pub fn within_limits(gains: &Gains, rates: Vec3<Frd>) -> Vec3<Frd> {
     let tilt = Vec3::<Frd>::new(rates.forward(), rates.right(), 0.0).limited(gains.rate_max_rad_s);
     Vec3::new(tilt.forward(), tilt.right(), rates.down().clamp(-gains.yaw_rate_max_rad_s, gains.yaw_rate_max_rad_s))
 }
 
-/// Body rates that bring the thrust direction, then the heading, to what is wanted.
+/// Body rates that correct the thrust direction first and the heading second.
 fn wanted_rates(gains: &Gains, attitude: Rotation<Frd, Ned>, wanted: Rotation<Frd, Ned>, yaw_rate: f64) -> Vec3<Frd> {
     let into_body = attitude.inverse();
     let z = Vec3::<Frd>::new(0.0, 0.0, 1.0);
@@ -82,7 +82,7 @@ fn wanted_rates(gains: &Gains, attitude: Rotation<Frd, Ned>, wanted: Rotation<Fr
     let axis = z.cross(aim);
     let sine = axis.norm();
     let angle = math::atan2(sine, aim.down());
-    // Upside down every axis is right: roll, the quickest.
+    // Upside down, any axis works; roll is fastest.
     let axis = if sine > 1e-6 { axis / sine } else { Vec3::new(1.0, 0.0, 0.0) };
     let tilt = (axis * (gains.attitude * angle)).limited(gains.rate_max_rad_s);
     let up = into_body * Vec3::<Ned>::new(0.0, 0.0, 1.0);
@@ -93,7 +93,7 @@ fn wanted_rates(gains: &Gains, attitude: Rotation<Frd, Ned>, wanted: Rotation<Fr
     Vec3::new(tilt.forward() + fed.forward(), tilt.right() + fed.right(), (yaw + fed.down()).clamp(-limit, limit))
 }
 
-/// Turn about the body's down axis that is left once the thrust direction is right, rad.
+/// Remaining rotation about the body's down axis once the thrust direction is correct, rad.
 fn heading_error(attitude: Rotation<Frd, Ned>, wanted: Rotation<Frd, Ned>, axis: Vec3<Frd>, angle: f64) -> f64 {
     let tilted = attitude.turned_by(axis * angle);
     let rest: UnitQuaternion<f64> = tilted.inverse().raw() * wanted.raw();

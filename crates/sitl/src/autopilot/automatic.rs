@@ -1,4 +1,4 @@
-//! Hold, go-to, take-off, landing, return and external set-points.
+//! Hold, go-to, take-off, landing, return and external setpoints.
 
 use super::core::{Autopilot, Severity};
 use super::manual::LOCK_SPEED_M_S;
@@ -11,24 +11,25 @@ use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
 
-/// In automatic modes the heading turns with this share of the full rate, and follows errors with this gain, 1/s.
+/// Fraction of the full yaw rate used in automatic modes, and the gain on heading errors, 1/s.
 const AUTO_YAW_SHARE: f64 = 0.7;
 const AUTO_YAW_GAIN: f64 = 1.5;
-/// A height counts as reached within, m.
+/// Tolerance for reaching a height, m.
 pub(super) const HEIGHT_REACHED_M: f64 = 0.4;
-/// A take-off keeps its own rate up to this height over the ground, then climbs as elsewhere, m (PX4: MPC_LAND_ALT1).
+/// Height above ground up to which a take-off uses its own climb rate, m (PX4: MPC_LAND_ALT1).
 const TAKEOFF_SLOW_BELOW_M: f64 = 10.0;
-/// A take-off from the ground climbs at least so far, m (ArduCopter's AUTO).
+/// Minimum climb of a take-off from the ground, m (ArduCopter's AUTO).
 const TAKEOFF_LEAST_M: f64 = 1.0;
-/// The rest of a turn is flown the shorter way, rad (5 degrees, estimate: more than the heading overshoots).
+/// Remaining turn that always takes the shorter direction, rad (5 degrees, estimate: more than the heading overshoots).
 const NEARLY_TURNED_RAD: f64 = 0.087;
-/// The nose turns to the way when the target is further than this, m.
+/// Distance to the target above which the nose turns toward it, m.
 pub(super) const TURN_BEYOND_M: f64 = 2.0;
-/// The nose turns along the path when it flies faster than this, m/s (estimate: well above the estimator's noise).
+/// Speed above which the nose turns along the path, m/s (estimate: well above the estimator's noise).
 const TURN_ABOVE_M_S: f64 = 1.0;
 
 impl Autopilot {
-    /// The yaw stick turns the nose in GUIDED (ArduCopter, unless `GUID_OPTIONS` says otherwise); false where something else turns it.
+    /// Applies the yaw stick in GUIDED (ArduCopter, unless `GUID_OPTIONS` disables it). Returns false if the stick does not
+    /// control the heading.
     fn pilot_turns(&mut self, dt_s: f64) -> bool {
         let guided =
             self.links.guided && matches!(self.status.mode, FlightMode::Hold | FlightMode::Takeoff | FlightMode::Offboard);
@@ -59,7 +60,7 @@ impl Autopilot {
         self.advance_heading((AUTO_YAW_GAIN * left).clamp(-limit, limit), dt_s);
     }
 
-    /// The rest of a turn in the commanded direction, rad. Close to the goal the direction no longer matters.
+    /// Remaining turn in the commanded direction, rad. Close to the target heading, the shorter direction applies.
     fn detour(&mut self, turn: TurnCommand, left: f64) -> f64 {
         let long_way = turn.clockwise.is_some_and(|clockwise| clockwise != (left > 0.0));
         if left.abs() < NEARLY_TURNED_RAD {
@@ -87,13 +88,14 @@ impl Autopilot {
         MotionLimits { horizontal_m_s2, vertical_m_s2, build_up_s: JERK_S }
     }
 
-    /// Nobody waits for a mission or a return to react: they accelerate calmly. A pause brakes as `stopping_point` assumes.
+    /// Motion limits on the way to a target. Missions and returns build up acceleration gently. A pause brakes as
+    /// `stopping_point` assumes.
     fn travel_limits(&self) -> MotionLimits {
         let calm = matches!(self.status.mode, FlightMode::Mission | FlightMode::Return) && self.navigator.paused.is_none();
         MotionLimits { build_up_s: if calm { CALM_JERK_S } else { JERK_S }, ..self.auto_limits() }
     }
 
-    /// Flies to the course's target and stays.
+    /// Flies to the navigator's target and holds there.
     pub(super) fn go(&mut self, speed: Option<f64>, dt_s: f64) -> Setpoint {
         let (up, down) = (self.tuning.climb_m_s, self.tuning.descend_m_s);
         self.fly_within_limits(speed, up, down, dt_s)
@@ -115,7 +117,7 @@ impl Autopilot {
         Setpoint::Velocity(self.motion(self.shaper.velocity_m_s))
     }
 
-    /// Where the nose points when nothing else says so.
+    /// Heading from the configured heading rule, rad, if the rule gives one.
     fn heading_by_rule(&self, target_m: Vec3<Ned>) -> Option<f64> {
         let here = self.estimate.position_m;
         let home = self.status.home_m.unwrap_or(here);
@@ -145,7 +147,7 @@ impl Autopilot {
         wanted
     }
 
-    /// Climbs to a take-off's height at the take-off's rate.
+    /// Climbs to the take-off height at the take-off rate.
     pub(super) fn climb_away(&mut self, speed: Option<f64>, dt_s: f64) -> Setpoint {
         self.status.climbing_out = true;
         let up = self.navigator.ground_down_m - self.estimate.position_m.down();
@@ -154,7 +156,7 @@ impl Autopilot {
         self.fly_within_limits(speed, rate, self.tuning.descend_m_s, dt_s)
     }
 
-    /// A take-off leads up: from the ground at least so far that the vehicle leaves it.
+    /// Returns the take-off height, m above the origin. From the ground it is at least high enough to lift off.
     pub(super) fn above_ground(&self, up_m: f64) -> f64 {
         let standing = matches!(self.status.landed, LandedState::OnGround | LandedState::TakingOff);
         if standing { up_m.max(TAKEOFF_LEAST_M - self.estimate.position_m.down()) } else { up_m }
@@ -191,7 +193,7 @@ impl Autopilot {
         wanted.min(self.airframe.limits.descend_m_s)
     }
 
-    /// Level and down: all that is left without position.
+    /// Descends level without horizontal position control, for flight without a position estimate.
     pub(super) fn descend_without_position(&mut self, dt_s: f64) -> Setpoint {
         if self.status.landed == LandedState::InAir {
             self.status.landed = LandedState::Landing;
@@ -229,7 +231,7 @@ impl Autopilot {
         self.go(self.tuning.rules.homeward.speed_m_s.or(Some(self.cruise_m_s())), dt_s)
     }
 
-    /// Over the place: it waits there, or lands.
+    /// Handles arrival over the return target: waits there or lands.
     fn arrive_home(&mut self, home: Vec3<Ned>) {
         let rules = self.tuning.rules.homeward;
         let waits = rules.wait_s != 0.0 || rules.final_height_m > 0.0;
@@ -259,14 +261,14 @@ impl Autopilot {
             self.navigator.phase = ReturnPhase::Stay;
             let down = self.estimate.position_m.down().max(home.down() - rules.final_height_m);
             self.navigator.target_m = Vec3::new(home.north(), home.east(), down);
-            self.push_event(Severity::Info, "Staying at the final height");
+            self.push_event(Severity::Info, "Holding at final height");
         } else {
             self.navigator.phase = ReturnPhase::Land;
             self.push_event(Severity::Info, "Landing");
         }
     }
 
-    /// The external setpoint, while one is flown and as long as it counts.
+    /// The external setpoint, if the mode uses it and it has not timed out.
     pub(super) fn setpoint_flown(&self, now: SimTime) -> Option<OffboardSetpoint> {
         let fresh = self.status.mode == FlightMode::Offboard && self.links.offboard_fresh(self.tuning.offboard_timeout_s(), now);
         self.links.offboard.filter(|_| fresh).map(|(setpoint, _)| setpoint)
@@ -282,7 +284,7 @@ impl Autopilot {
                     self.turn_at(rate, dt_s);
                 }
             }
-            // Where a set-point leaves the heading open, a command may say it, as in ArduPilot's GUIDED.
+            // If a setpoint has no heading, a command can supply it, as in ArduPilot's GUIDED.
             _ => {
                 let wanted = setpoint.yaw_rad.or(self.navigator.target_yaw_rad).or_else(|| self.heading_towards(&setpoint));
                 self.turn_to(wanted, dt_s);
@@ -309,14 +311,14 @@ impl Autopilot {
         Setpoint::Velocity(motion)
     }
 
-    /// Where the nose points on the way to a place that comes as an errand, without a heading.
+    /// Heading on the way to a position target without a heading, rad.
     fn heading_towards(&self, setpoint: &OffboardSetpoint) -> Option<f64> {
         let [Some(n), Some(e), Some(d)] = setpoint.position_m else { return None };
         let errand = self.tuning.setpoints_end && setpoint.velocity_m_s == [None; 3];
         errand.then(|| self.heading_by_rule(Vec3::new(n, e, d))).flatten()
     }
 
-    /// An attitude or body rates with a climb rate in place of the thrust (ArduCopter).
+    /// Tracks an attitude or body rates with a climb rate instead of thrust (ArduCopter).
     fn climb_at(&mut self, setpoint: &OffboardSetpoint, up_m_s: f64, dt_s: f64) -> Setpoint {
         let wish = Vec3::new(0.0, 0.0, -up_m_s);
         self.shaper.advance(wish, &self.auto_limits(), dt_s);
@@ -334,7 +336,7 @@ impl Autopilot {
         Setpoint::Spin { rates_rad_s: rates, thrust_n: level.thrust_n }
     }
 
-    /// Thrust of a set-point that gives its share of the largest, N; hardly any of it means that the vehicle is to come down.
+    /// Thrust of a setpoint given as a fraction of the maximum, N. Near-zero thrust counts as an intended descent.
     fn direct_thrust_n(&mut self, share: f64) -> f64 {
         self.landing_detector.wanted_down_m_s = if share < 0.1 { self.airframe.limits.descend_m_s } else { 0.0 };
         (share.clamp(0.0, 1.0) * self.gains.thrust_max_n).max(self.gains.thrust_min_n)
@@ -342,12 +344,12 @@ impl Autopilot {
 
     fn spin(&mut self, rates_rad_s: Vec3<Frd>, thrust: f64) -> Setpoint {
         let thrust_n = self.direct_thrust_n(thrust);
-        // Whatever comes after goes on from the nose as it is then.
+        // The next mode continues from the current heading.
         self.navigator.yaw_rad = self.estimate.attitude.yaw_rad();
         Setpoint::Spin { rates_rad_s, thrust_n }
     }
 
-    /// Accelerations of a set-point: alone on an axis they are flown, beside a velocity they are fed forward.
+    /// Applies acceleration setpoints: flown directly on axes without position or velocity, otherwise fed forward.
     fn accelerate(&mut self, s: &OffboardSetpoint, motion: &mut VelocitySetpoint) {
         let free = |i: usize| s.position_m[i].is_none() && s.velocity_m_s[i].is_none();
         let flat = |i: usize| s.acceleration_m_s2[i].unwrap_or(0.0);
@@ -360,7 +362,7 @@ impl Autopilot {
         for i in (0..3).filter(|i| s.acceleration_m_s2[*i].is_some()) {
             acceleration[i] = wish[i] + if free(i) { 0.0 } else { acceleration[i] };
             if free(i) {
-                // No velocity error is left then: the velocity loop compares with where the plan was a lag ago.
+                // Leaves no velocity error: the velocity loop compares with the plan one lag earlier.
                 velocity[i] = now[i] + if i < 2 { wish[i] * self.gains.attitude_lag_s } else { 0.0 };
                 planned[i] = now[i];
             }
@@ -370,7 +372,8 @@ impl Autopilot {
         self.shaper.velocity_m_s = vector(planned);
     }
 
-    /// Position set-points close in, velocity set-points are flown; an axis with both takes the velocity as the speed on the way.
+    /// Velocity for an external setpoint. Axes with a position approach it, axes with only a velocity use it directly, and axes
+    /// with both use the velocity as the approach speed.
     pub(super) fn offboard_velocity(&mut self, s: &OffboardSetpoint) -> Vec3<Ned> {
         let here = self.estimate.position_m.array();
         let target: [f64; 3] = std::array::from_fn(|i| s.position_m[i].unwrap_or(here[i]));

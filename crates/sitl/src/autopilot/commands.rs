@@ -1,4 +1,4 @@
-//! Requests and their answers.
+//! Requests and their outcomes.
 
 use super::core::{Autopilot, Severity};
 use super::operator_rules::{FenceSwitching, MissionNeeds};
@@ -6,14 +6,14 @@ use super::{AutopilotRequest, FlightMode, LandedState, MissionStep, RequestOutco
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::time::SimTime;
 
-/// Heights and distances beyond this are mistakes, m.
+/// Limit beyond which heights and distances are rejected as errors, m.
 const FAR_M: f64 = 20_000.0;
 
-/// Above this stick the thrust is more than half of what hovers (ArduPilot: get_non_takeoff_throttle).
+/// Throttle stick position above which thrust exceeds half of the hover thrust (ArduPilot: get_non_takeoff_throttle).
 const LEAP: f64 = -0.5;
 
 impl Autopilot {
-    /// Asks for something; the answer comes at once.
+    /// Handles a request and returns its outcome.
     pub fn request(&mut self, request: AutopilotRequest, now: SimTime) -> RequestOutcome {
         match request {
             AutopilotRequest::Arm { force } => self.arm(force, now),
@@ -66,7 +66,7 @@ impl Autopilot {
         if self.estimate.position_valid && !self.home_is_set {
             self.move_home(self.estimate.position_m);
         }
-        // Nobody at the sticks: what flies by itself flies.
+        // Without a pilot at the sticks, automatic modes stay active.
         if self.failsafe.intended.is_manual() && !self.links.sticks_fresh(self.tuning.manual_timeout_s(), now) {
             self.failsafe.intended = FlightMode::Hold;
         }
@@ -120,10 +120,10 @@ impl Autopilot {
             return Some(RequestOutcome::Denied("throttle too high".into()));
         }
         if mode == FlightMode::Orbit && self.orbit.is_none() {
-            return Some(RequestOutcome::Denied("Nothing to circle: DO_ORBIT says what".into()));
+            return Some(RequestOutcome::Denied("No orbit defined: send DO_ORBIT first".into()));
         }
         if mode == FlightMode::Offboard && !self.links.offboard_fresh(self.tuning.offboard_timeout_s(), now) {
-            return Some(RequestOutcome::TemporarilyRejected("Offboard needs external set-points first".into()));
+            return Some(RequestOutcome::TemporarilyRejected("Offboard rejected: no external setpoints".into()));
         }
         let counts = flying || self.status.armed && self.tuning.arms_by_mode;
         if counts && mode.needs_position() && !self.estimate.position_valid {
@@ -141,7 +141,7 @@ impl Autopilot {
         None
     }
 
-    /// On the ground the throttle stick is so high that a mode in which it is the thrust would take off at once.
+    /// Returns true on the ground if the throttle stick is so high that a mode with direct throttle would take off at once.
     fn throttle_too_high(&self, mode: FlightMode, now: SimTime) -> bool {
         let direct = |mode: FlightMode| matches!(mode, FlightMode::Stabilized | FlightMode::Acro);
         let high = self.links.sticks.up > LEAP && self.links.sticks_fresh(self.tuning.manual_timeout_s(), now);
@@ -149,7 +149,7 @@ impl Autopilot {
         self.tuning.arms_by_mode && standing && high && direct(mode) && !direct(self.failsafe.intended)
     }
 
-    /// What the mission lacks of what the operator asks of one.
+    /// Returns the reason the mission does not meet the operator's requirements, or `None`.
     fn missing_mission_parts(&self) -> Option<String> {
         let rules = &self.tuning.rules;
         let takeoff = self.mission.all().any(|(_, step)| matches!(step, MissionStep::Takeoff { .. }));
@@ -247,14 +247,14 @@ impl Autopilot {
         RequestOutcome::Accepted
     }
 
-    /// The mode stays: a mission flies on, a person keeps the sticks.
+    /// Turns without a mode change: a mission continues, and a pilot keeps control.
     fn turn_by_command(&mut self, turn: TurnCommand) -> RequestOutcome {
         let automatic = matches!(
             self.status.mode,
             FlightMode::Hold | FlightMode::Takeoff | FlightMode::Land | FlightMode::Mission | FlightMode::Offboard
         );
         if !self.status.armed || self.status.landed == LandedState::OnGround || !automatic {
-            return RequestOutcome::TemporarilyRejected("Not flying by itself".into());
+            return RequestOutcome::TemporarilyRejected("Not in an automatic mode".into());
         }
         self.look_at_m = None;
         self.navigator.target_yaw_rad = Some(turn.yaw_rad);
@@ -275,7 +275,7 @@ impl Autopilot {
         outcome
     }
 
-    /// The landing sequence nearest to here.
+    /// Flies the landing sequence nearest to the current position.
     fn request_landing_sequence(&mut self, now: SimTime) -> RequestOutcome {
         let here = self.estimate.position_m;
         let Some(index) = self.mission.landing_sequence(here) else {

@@ -1,4 +1,4 @@
-//! The autopilot as one object: what the outside calls, and one control step.
+//! The autopilot object: its public interface and the control step.
 
 use super::attitude::{AttitudeLoop, within_limits};
 use super::estimator::Estimator;
@@ -29,12 +29,12 @@ use spandrel_model::vehicle::{FlightLimits, Vehicle};
 
 /// Rate of the control loops, Hz.
 pub const CONTROL_HZ: f64 = 400.0;
-/// Thrust comes up within this time at take-off, s.
+/// Thrust ramp time at take-off, s.
 const SPOOL_UP_S: f64 = 0.6;
-/// Lowest voltage share that the mixer makes up for.
+/// Minimum voltage fraction that the mixer compensates for.
 const VOLTAGE_SHARE_MIN: f64 = 0.6;
 
-/// How grave an event's text is.
+/// Severity of an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
     /// As MAV_SEVERITY_CRITICAL.
@@ -46,7 +46,7 @@ pub enum Severity {
 }
 
 impl Severity {
-    /// The number of syslog and MAVLink.
+    /// Returns the severity number of syslog and MAVLink.
     #[must_use]
     pub fn number(self) -> u8 {
         match self {
@@ -57,30 +57,30 @@ impl Severity {
     }
 }
 
-/// Something that people should read.
+/// An event to report to the operator.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct AutopilotEvent {
-    /// Gravity.
+    /// Severity of the event.
     pub severity: Severity,
-    /// Words.
+    /// Status text.
     pub text: String,
-    /// The sensor's change that the words announce; a flavour has words of its own for it.
+    /// The sensor change that caused the event. Emulated autopilots can use their own text for it.
     pub sensor: Option<SensorChange>,
 }
 
-/// What the autopilot knows of its aircraft beyond the gains.
+/// Properties of the aircraft other than the gains.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Airframe {
     pub mass_kg: f64,
     pub limits: FlightLimits,
     pub full_v: f64,
-    /// The voltage's sag reaches the motors.
+    /// Whether voltage sag affects the motors.
     pub voltage_sags: bool,
-    /// Height of the centre over the ground when standing, m.
+    /// Height of the center of mass above ground on the landing gear, m.
     pub standing_m: f64,
 }
 
-/// The latest of the sensors that are not fused.
+/// Latest readings of the sensors that are not fused.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct UnfusedReadings {
     pub battery: Option<BatteryReading>,
@@ -88,10 +88,10 @@ pub(super) struct UnfusedReadings {
     pub range_up_m: Option<f64>,
 }
 
-/// The built-in autopilot: plain data, so that a clone is a snapshot.
+/// The built-in autopilot. Plain data, so a clone is a snapshot.
 #[derive(Debug, Clone)]
 pub struct Autopilot {
-    /// What an operator may change; write freely between steps.
+    /// Settings of the operator. They can be changed between any two steps.
     pub tuning: Tuning,
     pub(super) gains: Gains,
     pub(super) airframe: Airframe,
@@ -104,21 +104,21 @@ pub struct Autopilot {
     pub(super) shaper: MotionShaper,
     pub(super) navigator: NavigatorState,
     pub(super) mission: Mission,
-    /// The planned way through the mission's waypoints, while one is flown.
+    /// Trajectory through the mission's waypoints, while one is active.
     pub(super) trajectory: Option<Trajectory>,
     pub(super) fence: Fence,
     pub(super) orbit: Option<Orbit>,
-    /// The path flown since take-off.
+    /// The path recorded since take-off.
     pub(super) flown_path: FlownPath,
-    /// The target that is followed.
+    /// Follow mode target and state.
     pub(super) follower: Follower,
-    /// Automatic modes turn towards this place, m.
+    /// Position at which automatic modes point the nose, m.
     pub(super) look_at_m: Option<Vec3<Ned>>,
-    /// Cruise speed of a command, for this flight, m/s.
+    /// Commanded cruise speed for this flight, m/s.
     pub(super) commanded_m_s: Option<f64>,
-    /// Home was put where it is by a command: arming leaves it there.
+    /// Whether a command set home. Arming then keeps it.
     pub(super) home_is_set: bool,
-    /// Places to return to beside home.
+    /// Rally points to return to in addition to home.
     pub(super) rally_points: Vec<RallyPoint>,
     pub(super) links: LinkStatus,
     pub(super) unfused: UnfusedReadings,
@@ -131,7 +131,7 @@ pub struct Autopilot {
 }
 
 impl Autopilot {
-    /// Boots on the ground. `origin` is where the local frame lies (for the magnetic model).
+    /// Starts the autopilot on the ground. `origin` is the origin of the local frame, used for the magnetic model.
     #[must_use]
     pub fn new(vehicle: &Vehicle, rules: &SessionRules, origin: Geo, mut tuning: Tuning) -> Self {
         if rules.low_battery_return {
@@ -180,30 +180,30 @@ impl Autopilot {
         }
     }
 
-    /// The tuning that goes with a job's rules: battery thresholds come from there.
+    /// Returns the settings for the rules of a scenario, which define the battery thresholds.
     #[must_use]
     pub fn tuning_for(rules: &SessionRules) -> Tuning {
         Tuning { battery_low_pct: rules.low_battery_pct, battery_critical_pct: rules.critical_battery_pct, ..Tuning::default() }
     }
 
-    /// Armed with no sticks coming in.
+    /// Returns true if the vehicle is armed and receives no stick input.
     #[must_use]
     pub fn is_unattended(&self, now: SimTime) -> bool {
         self.status.armed && !self.links.sticks_fresh(self.tuning.manual_timeout_s(), now)
     }
 
-    /// The pilot's sticks, as often as they come. Values beyond [-1, 1] are limited, not-a-numbers are centred.
+    /// Processes the pilot's stick input. Values are clamped to -1 to 1; NaN is treated as centered.
     pub fn sticks(&mut self, sticks: Sticks, now: SimTime) {
         self.links.take_sticks(sticks, self.tuning.stick_deadband, now);
         self.check_stick_takeover(now);
     }
 
-    /// Whether the sticks come in the mode that flies errands: there the yaw stick turns the nose and takes nothing over.
+    /// Sets whether stick input arrives in guided mode, where the yaw stick turns the nose and does not take over.
     pub fn note_errands(&mut self, flown: bool) {
         self.links.guided = flown;
     }
 
-    /// The sticks were let go of on purpose: that is no loss.
+    /// Handles an intentional release of the sticks, which does not trigger a failsafe.
     pub fn release_sticks(&mut self) {
         self.failsafe.sticks_seen = false;
         if !self.failsafe.intended.is_manual() {
@@ -211,7 +211,7 @@ impl Autopilot {
         }
     }
 
-    /// The limits of the airframe itself, where the parameters leave them alone.
+    /// The limits of the airframe without parameter overrides.
     #[must_use]
     pub fn airframe_envelope(&self) -> FlightEnvelope {
         let (limits, automatic) = (&self.airframe.limits, self.airframe_auto_limits());
@@ -227,18 +227,18 @@ impl Autopilot {
         }
     }
 
-    /// An external set-point.
+    /// Processes an external setpoint.
     pub fn offboard(&mut self, setpoint: OffboardSetpoint, now: SimTime) {
         self.links.offboard = Some((setpoint, now));
         self.navigator.turned_by_pilot = false;
     }
 
-    /// A ground station's heartbeat has come.
+    /// Records a heartbeat from a ground station.
     pub fn ground_station_alive(&mut self, now: SimTime) {
         self.links.ground_station = Some(now);
     }
 
-    /// Replaces the mission; the first item becomes current.
+    /// Replaces the mission. The first item becomes current.
     pub fn set_mission(&mut self, steps: Vec<MissionStep>) {
         self.mission = Mission::new(steps);
         self.look_at_m = None;
@@ -251,22 +251,24 @@ impl Autopilot {
         }
     }
 
-    /// Replaces the rally points: a return goes to the nearest of them and home.
+    /// Replaces the rally points. A return uses the nearest one or home.
     pub fn set_rally_points(&mut self, refuges: Vec<RallyPoint>) {
         self.rally_points = refuges;
     }
 
-    /// Names the mission's steps whose heights count from home; given right after the mission, with the home of that moment in them.
+    /// Marks the mission items whose heights are relative to home. Call immediately after the mission is set, with heights
+    /// computed from home at that time.
     pub fn set_home_relative_steps(&mut self, over_home: Vec<bool>) {
         self.mission.set_home_relative(over_home);
     }
 
-    /// Names what steps of the mission take from where the vehicle is when they begin; given right after the mission.
+    /// Sets the fields that mission items take from the vehicle position when they start. Call immediately after the mission is
+    /// set.
     pub fn set_deferred_fields(&mut self, unnamed: Vec<DeferredFields>) {
         self.mission.set_deferred(unnamed);
     }
 
-    /// Jumps to a mission item, with `anew` as if nothing had been flown before it; false when there is none.
+    /// Jumps to a mission item. With `anew`, resets the mission's progress. Returns false if the item does not exist.
     pub fn set_mission_current(&mut self, index: usize, anew: bool) -> bool {
         let known = self.mission.jump(index);
         if known {
@@ -280,7 +282,7 @@ impl Autopilot {
         known
     }
 
-    /// One step at the control rate (400 Hz), with what the sensors gave since the last.
+    /// Runs one control step (400 Hz) with the readings since the last step.
     pub fn step(&mut self, readings: &Readings, now: SimTime) -> Actuators {
         let dt_s = (now - self.last_step).s().clamp(0.0, 0.05);
         self.last_step = now;
@@ -362,7 +364,7 @@ impl Autopilot {
         self.mix(&TorqueThrustSetpoint { torque_n_m, thrust_n }, dt_s)
     }
 
-    /// Thrust comes up at take-off and fades out on the ground.
+    /// Ramps the thrust up at take-off and down after touchdown.
     fn ramp_thrust(&mut self, thrust_n: f64, now: SimTime) -> f64 {
         let spool = ((now - self.navigator.left_ground).s() / SPOOL_UP_S).clamp(0.0, 1.0);
         let thrust_n = thrust_n.min(self.gains.thrust_max_n * spool) * self.landing_detector.thrust_share();
@@ -383,8 +385,8 @@ impl Autopilot {
         }
     }
 
-    /// The vehicle was put back in the air by hand: estimator and controllers start there, armed, and hold. The mode stays the pilot's
-    /// where he has one, else Hold.
+    /// Continues after a respawn in the air: resets estimator and controllers to this state, armed. A manual mode is kept;
+    /// otherwise the mode is Hold.
     pub fn respawn(&mut self, position_m: Vec3<Ned>, velocity_m_s: Vec3<Ned>, attitude: Rotation<Frd, Ned>, now: SimTime) {
         self.estimator.reinitialise(position_m, velocity_m_s, attitude, now);
         self.estimate = self.estimator.estimate();
@@ -392,7 +394,7 @@ impl Autopilot {
         self.status.landed = LandedState::InAir;
         self.landing_detector = LandingDetector::default();
         self.failsafe.upset_since = None;
-        // It is in the air: its next landing is one.
+        // The vehicle is in the air, so its next landing counts.
         self.failsafe.flown = true;
         self.status.health.tracks_attitude = true;
         self.flown_path.truncate_to(position_m);
@@ -401,7 +403,7 @@ impl Autopilot {
         self.navigator.left_ground = now - SimTime::from_s(SPOOL_UP_S);
         self.failsafe.intended = mode;
         self.enter(mode, now);
-        self.push_event(Severity::Warning, "Put back at the last safe hover");
+        self.push_event(Severity::Warning, "Respawned at last safe hover");
     }
 
     pub(super) fn reset_loops(&mut self) {
@@ -415,41 +417,41 @@ impl Autopilot {
         self.events.push(AutopilotEvent { severity, text: text.into(), sensor: None });
     }
 
-    /// What the estimator believes.
+    /// Returns the current estimate.
     #[must_use]
     pub fn estimate(&self) -> &Estimate {
         &self.estimate
     }
 
-    /// The filter itself, for covariance and bias telemetry.
+    /// Returns the estimator, for covariance and bias telemetry.
     #[must_use]
     pub fn estimator(&self) -> &Estimator {
         &self.estimator
     }
 
-    /// When it last stepped.
+    /// Time of the last step.
     #[must_use]
     pub fn now(&self) -> SimTime {
         self.last_step
     }
 
-    /// Speed of missions, returns and go-to: a command's, else the parameter's, m/s.
+    /// Cruise speed of missions, returns and go-to, m/s: the commanded speed or else the parameter.
     pub(super) fn cruise_m_s(&self) -> f64 {
         self.commanded_m_s.unwrap_or(self.tuning.cruise_m_s).min(self.tuning.horizontal_speed_max_m_s)
     }
 
-    /// What the autopilot tells the world.
+    /// Returns the status for telemetry.
     #[must_use]
     pub fn status(&self) -> &AutopilotStatus {
         &self.status
     }
 
-    /// Events since the last call, in order.
+    /// Returns and clears the events since the last call, in order.
     pub fn drain_events(&mut self) -> Vec<AutopilotEvent> {
         std::mem::take(&mut self.events)
     }
 
-    /// Mission items reached since the last call, in order, for MISSION_ITEM_REACHED and for payload steps.
+    /// Returns and clears the mission items reached since the last call, in order, for MISSION_ITEM_REACHED and payload items.
     pub fn drain_reached(&mut self) -> Vec<usize> {
         self.status.mission_reached = None;
         std::mem::take(&mut self.mission.reached)
@@ -483,7 +485,7 @@ fn boot_status() -> AutopilotStatus {
     }
 }
 
-/// Cosine of the angle between two attitudes' thrust directions.
+/// Cosine of the angle between the thrust directions of two attitudes.
 fn thrust_cosine(a: Rotation<Frd, Ned>, b: Rotation<Frd, Ned>) -> f64 {
     let z = Vec3::<Frd>::new(0.0, 0.0, 1.0);
     (a * z).dot(b * z)

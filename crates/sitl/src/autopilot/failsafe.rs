@@ -1,4 +1,4 @@
-//! Failsafes, arming checks, battery warnings, and the pilot's hand on the sticks.
+//! Failsafes, arming checks, battery warnings and stick takeover.
 
 use super::core::{Autopilot, Severity};
 use super::operator_rules::{FailsafeResponse, OffboardLoss};
@@ -6,65 +6,65 @@ use super::{FlightMode, LandedState, LinkLossAction, OffboardSetpoint};
 use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::time::SimTime;
 
-/// Failsafes and checks run this often.
+/// Interval of failsafe checks.
 const PERIOD: SimTime = SimTime::from_ms(50);
-/// Sticks count as centred for arming within this.
+/// Stick deflection that counts as centered for arming.
 const CENTRED: f64 = 0.2;
-/// Level enough to arm, cosine of the tilt (20 degrees).
+/// Minimum cosine of the tilt for arming (20 degrees).
 const LEVEL: f64 = 0.94;
-/// Something this near above forbids arming, m.
+/// Minimum clearance above for arming, m.
 const HEADROOM_M: f64 = 1.0;
-/// Horizontal accuracy for arming, m (1 sigma).
+/// Maximum horizontal position error for arming, m (1 sigma).
 const ARMING_ACCURACY_M: f64 = 5.0;
-/// This far from the wanted attitude (40 degrees, as a cosine) for this long without flying: crashed, s.
+/// Crash detection: attitude error (40 degrees, as a cosine) and its minimum duration at low speed, s.
 const UPSET_COSINE: f64 = 0.766;
 const UPSET_S: f64 = 2.5;
-/// Still moving faster than this it may yet recover, m/s.
+/// Speed above which crash detection waits for a possible recovery, m/s.
 const UPSET_SPEED_M_S: f64 = 1.5;
-/// As far from the wanted attitude for this long, it does not obey, s (PX4: FD_FAIL_R_TTRI).
+/// Duration of the same attitude error that counts as loss of control, s (PX4: FD_FAIL_R_TTRI).
 const ASTRAY_S: f64 = 0.3;
-/// Without position this long an automatic mode gives up, s.
+/// Time without position after which an automatic mode is aborted, s.
 const BLIND_S: f64 = 1.0;
 
-/// What the supervision remembers.
+/// State of failsafe supervision.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FailsafeState {
-    /// The mode that was asked for; a failsafe may fly another one meanwhile.
+    /// The requested mode. A failsafe may fly another one.
     pub intended: FlightMode,
-    /// A failsafe acts in place of the intended mode.
+    /// Whether a failsafe overrides the requested mode.
     pub overridden: bool,
-    /// Standing on the ground since.
+    /// Start of the time on the ground.
     pub standing_since: SimTime,
-    /// It has flown since it was armed.
+    /// Whether the vehicle has flown since arming.
     pub flown: bool,
-    /// Cosine of the angle between wanted and believed thrust direction.
+    /// Cosine of the angle between desired and estimated thrust direction.
     pub attitude_error_cosine: f64,
-    /// Upset since.
+    /// Start of the upset attitude.
     pub upset_since: Option<SimTime>,
-    /// Away from the wanted attitude since.
+    /// Start of the attitude error.
     off_attitude_since: Option<SimTime>,
     due: SimTime,
     manual_lost: Option<SimTime>,
     no_position_since: Option<SimTime>,
     low_warned: bool,
     critical_warned: bool,
-    /// The gravest battery level (1 low, 2 critical, 3 emergency) whose failsafe has acted in this flight: each does so once, the pilot has the
-    /// last word.
+    /// Highest battery level (1 low, 2 critical, 3 emergency) whose failsafe has acted in this flight. Each level acts once, so
+    /// the pilot can override it.
     battery_level_handled: usize,
-    /// Below the low and the critical voltage since.
+    /// Start of the time below the low and critical voltages.
     low_voltage_since: [Option<SimTime>; 2],
-    /// Sticks have come since arming: their loss counts in automatic modes, too.
+    /// Whether sticks were received since arming. Their loss then counts in automatic modes too.
     pub sticks_seen: bool,
-    /// The mission was started by a command in this flight.
+    /// Whether a command started the mission in this flight.
     pub mission_started: bool,
-    /// It has been above the fence's floor in this flight.
+    /// Whether the vehicle has been above the minimum fence height in this flight.
     pub above_floor: bool,
-    /// Heading when motors were armed, rad.
+    /// Heading at arming, rad.
     pub armed_yaw_rad: Option<f64>,
 }
 
 impl FailsafeState {
-    /// Motors are armed: nothing has happened yet.
+    /// Resets the state of the flight at arming.
     pub(super) fn begin_flight(&mut self) {
         (self.sticks_seen, self.mission_started, self.above_floor) = (false, false, false);
     }
@@ -95,7 +95,7 @@ impl Default for FailsafeState {
     }
 }
 
-/// What a failsafe does, and why.
+/// Mode and reason of a failsafe.
 type FailsafeAction = Option<(FlightMode, &'static str)>;
 
 impl Autopilot {
@@ -153,7 +153,7 @@ impl Autopilot {
         }
     }
 
-    /// Position is lost: the pilot gets the altitude mode, an automatic mode sinks where it is.
+    /// Handles loss of position. The pilot gets altitude mode; automatic modes descend in place.
     fn position_lost(&mut self, now: SimTime) -> FailsafeAction {
         if self.estimate.position_valid || !self.failsafe.intended.needs_position() {
             self.failsafe.no_position_since = None;
@@ -190,7 +190,7 @@ impl Autopilot {
         self.link_lost_action(self.tuning.manual_loss, hold, why)
     }
 
-    /// What a lost link leads to.
+    /// Returns the failsafe for a lost link. Disarms if the action is to terminate.
     fn link_lost_action(&mut self, loss: LinkLossAction, hold: FlightMode, why: &'static str) -> FailsafeAction {
         if loss == LinkLossAction::Terminate {
             self.disarm(&format!("Disarmed: {why}"));
@@ -226,7 +226,7 @@ impl Autopilot {
     }
 
     fn offboard_lost(&mut self, now: SimTime) -> FailsafeAction {
-        let why = "external set-points lost";
+        let why = "external setpoints lost";
         let located = self.estimate.position_valid;
         let hold = if located { FlightMode::Hold } else { FlightMode::Land };
         match self.tuning.rules.responses.offboard_loss {
@@ -242,12 +242,12 @@ impl Autopilot {
         }
     }
 
-    /// To the place of the last set-point, where it had one; else it stops.
+    /// Continues to the position of the last setpoint if it had one; otherwise stops.
     pub(super) fn end_offboard(&mut self, now: SimTime) {
         self.failsafe.intended = FlightMode::Hold;
         let paused = self.navigator.paused;
         self.enter(FlightMode::Hold, now);
-        // A setpoint may run out while it is paused.
+        // A setpoint can time out while it is paused.
         self.navigator.paused = paused;
         if let Some((OffboardSetpoint { position_m: [Some(n), Some(e), Some(d)], yaw_rad, .. }, _)) = self.links.offboard {
             self.navigator.target_m = Vec3::new(n, e, d);
@@ -266,7 +266,7 @@ impl Autopilot {
             self.failsafe.critical_warned = true;
             self.push_event(Severity::Critical, format!("Critical battery: {left:.0} %"));
         }
-        // A pack that was changed on the ground warns again.
+        // A battery change on the ground re-enables the warnings.
         if left > low + 5.0 {
             self.failsafe.low_warned = false;
             self.failsafe.critical_warned = false;
@@ -279,7 +279,7 @@ impl Autopilot {
         }
     }
 
-    /// How grave the battery's state is: 0 good, 1 low, 2 critical, 3 emergency.
+    /// Battery level: 0 good, 1 low, 2 critical, 3 emergency.
     fn battery_level(&mut self, left_pct: f64) -> usize {
         let rules = self.tuning.rules.responses;
         let voltage_v = self.unfused.battery.map_or(f64::INFINITY, |b| b.voltage_v);
@@ -298,14 +298,15 @@ impl Autopilot {
         }
     }
 
-    /// Who took off with a low battery, or lost the position when it became low, is brought back too.
+    /// Runs the battery failsafe. It also acts on a flight that started with a low battery, or that had no position when the
+    /// level was reached.
     fn check_battery(&mut self, left_pct: f64) {
         const NAMES: [&str; 4] = ["", "low battery", "critical battery", "battery emergency"];
         let level = self.battery_level(left_pct);
         if level <= self.failsafe.battery_level_handled {
             return;
         }
-        // The gravest reaction that is set at or below this level.
+        // The most severe action configured at or below this level.
         let set = self.tuning.rules.responses.battery;
         let Some((level, response)) =
             (self.failsafe.battery_level_handled + 1..=level).rev().find_map(|k| Some((k, set[k - 1]?)))
@@ -319,7 +320,7 @@ impl Autopilot {
         self.apply_response(response, NAMES[level], if level == 1 { Severity::Warning } else { Severity::Critical });
     }
 
-    /// Carries out a reaction that stays: the pilot has the last word.
+    /// Applies a lasting failsafe action. The pilot can override it.
     fn apply_response(&mut self, response: FailsafeResponse, why: &str, severity: Severity) {
         let located = self.estimate.position_valid;
         let (mode, what) = match response {
@@ -337,7 +338,8 @@ impl Autopilot {
         self.enter(mode, self.last_step);
     }
 
-    /// In the air it does not turn as it is told: a motor or propeller has failed, or something holds it. Told once in a flight.
+    /// Reports a vehicle in the air that does not follow its attitude setpoint because of a failed motor, failed propeller or
+    /// obstruction. Acts once per flight.
     fn check_attitude_tracking(&mut self, now: SimTime) {
         if self.failsafe.attitude_error_cosine > UPSET_COSINE || self.status.landed == LandedState::OnGround {
             self.failsafe.off_attitude_since = None;
@@ -351,7 +353,7 @@ impl Autopilot {
         }
     }
 
-    /// Lying somewhere in an attitude that the rotors cannot mend: they stop.
+    /// Stops the motors if the vehicle is stuck in an attitude from which it cannot recover.
     fn check_crash_attitude(&mut self, now: SimTime) {
         let moving = self.estimate.velocity_m_s.norm() > UPSET_SPEED_M_S;
         let checked = self.tuning.rules.responses.crash_check;
@@ -367,7 +369,7 @@ impl Autopilot {
         }
     }
 
-    /// Why arming would be refused now.
+    /// Reasons that prevent arming now.
     #[must_use]
     pub fn arming_reasons(&self, now: SimTime) -> Vec<String> {
         let mut out = self.ground_arming_reasons(now);
@@ -375,7 +377,7 @@ impl Autopilot {
         out
     }
 
-    /// Why the checks before arming fail.
+    /// Reasons for failed pre-arm checks.
     fn prearm_reasons(&self, now: SimTime) -> Vec<String> {
         if self.tuning.arms_by_mode { self.ground_arming_reasons(now) } else { self.arming_reasons(now) }
     }
@@ -385,13 +387,17 @@ impl Autopilot {
             return None;
         }
         if !self.tuning.arms_by_mode {
-            return (self.links.deflection() > CENTRED).then_some("Sticks not centred");
+            return (self.links.deflection() > CENTRED).then_some("Sticks not centered");
         }
         let climbs = self.failsafe.intended.is_manual() && self.links.sticks.up > 0.0;
-        if self.links.lateral_deflection() > CENTRED { Some("Sticks not centred") } else { climbs.then_some("Throttle too high") }
+        if self.links.lateral_deflection() > CENTRED {
+            Some("Sticks not centered")
+        } else {
+            climbs.then_some("Throttle too high")
+        }
     }
 
-    /// The mode, the hold in its place while nobody has the sticks, or the fence needs a position.
+    /// Returns true if arming needs a position: for the mode, for hold without a pilot, or for the geofence.
     fn needs_position_to_arm(&self, now: SimTime) -> bool {
         let pilot = self.links.sticks_fresh(self.tuning.manual_timeout_s(), now);
         !self.tuning.arms_by_mode || !pilot || self.failsafe.intended.needs_position() || self.status.fence.set
@@ -406,7 +412,7 @@ impl Autopilot {
             return out;
         }
         if !self.needs_position_to_arm(now) {
-            // The mode flies without.
+            // The mode does not need an estimate of position.
         } else if !self.estimator.located() {
             out.push("No GNSS fix".into());
         } else if !e.position_valid || e.horizontal_m > ARMING_ACCURACY_M {
@@ -416,7 +422,7 @@ impl Autopilot {
             out.push("Not level".into());
         }
         match self.unfused.battery {
-            None => out.push("Battery not measured".into()),
+            None => out.push("No battery measurement".into()),
             Some(b) if b.remaining_pct < self.tuning.battery_critical_pct.max(rules.arm_charge_pct) => {
                 out.push("Battery too low".into());
             }
@@ -430,12 +436,12 @@ impl Autopilot {
             out.push("Outside the geofence".into());
         }
         if self.unfused.range_up_m.is_some_and(|r| r < HEADROOM_M) {
-            out.push("Something stands over the vehicle".into());
+            out.push("Obstacle above vehicle".into());
         }
         out
     }
 
-    /// Moved sticks take over from automatic flight.
+    /// Switches to manual control when the sticks move in an automatic mode.
     pub(super) fn check_stick_takeover(&mut self, now: SimTime) {
         let automatic = self.failsafe.intended != FlightMode::Offboard && !self.failsafe.intended.is_manual();
         let rules = &self.tuning.rules.responses;
@@ -446,7 +452,7 @@ impl Autopilot {
             let mission = self.status.mode == FlightMode::Mission;
             self.push_event(
                 Severity::Info,
-                if mission { "Mission paused: pilot took over by the sticks" } else { "Pilot took over by the sticks" },
+                if mission { "Mission paused: pilot took over with sticks" } else { "Pilot took over with sticks" },
             );
             self.failsafe.intended = FlightMode::Position;
             self.enter(FlightMode::Position, now);

@@ -1,4 +1,4 @@
-//! The geofence: where flight is allowed, and what its breach leads to.
+//! Geofence: allowed areas and actions on a breach.
 
 use super::core::{Autopilot, Severity};
 use super::{FlightMode, LandedState, MissionStep, RequestOutcome};
@@ -6,25 +6,25 @@ use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
 
-/// A circle is checked as a polygon of so many sides.
+/// Number of polygon sides used to check a circle.
 const RING_SIDES: usize = 36;
 
-/// An area's outline, north and east about the origin, m.
+/// Outline of a zone, north and east relative to the origin, m.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FenceOutline {
-    /// Corners in order; the last joins the first.
+    /// Corners in order; the last connects to the first.
     Polygon(Vec<(f64, f64)>),
     /// A circle.
     Circle {
-        /// Its middle.
+        /// Center.
         centre_m: (f64, f64),
-        /// Its radius, m.
+        /// Radius, m.
         radius_m: f64,
     },
 }
 
 impl FenceOutline {
-    /// Whether a place lies within.
+    /// Returns true if a point is inside.
     #[must_use]
     pub fn holds(&self, (n, e): (f64, f64)) -> bool {
         match self {
@@ -32,7 +32,7 @@ impl FenceOutline {
                 let (dn, de) = (n - centre_m.0, e - centre_m.1);
                 dn * dn + de * de <= radius_m * radius_m
             }
-            // A ray towards the east crosses the outline an odd number of times from within.
+            // A ray to the east crosses the outline an odd number of times from inside.
             Self::Polygon(corners) => {
                 let last = corners.len().saturating_sub(1);
                 let sides = corners.iter().enumerate().map(|(k, to)| (corners[if k == 0 { last } else { k - 1 }], *to));
@@ -41,7 +41,7 @@ impl FenceOutline {
         }
     }
 
-    /// Where a straight way crosses the outline, as shares of the way.
+    /// Intersections of a straight path with the outline, as fractions of the path length.
     fn crossings(&self, from: (f64, f64), to: (f64, f64)) -> Vec<f64> {
         let way = (to.0 - from.0, to.1 - from.1);
         match self {
@@ -58,7 +58,7 @@ impl FenceOutline {
                 let meet = |(start, end): ((f64, f64), (f64, f64))| {
                     let (side, gap) = ((end.0 - start.0, end.1 - start.1), (start.0 - from.0, start.1 - from.1));
                     let d = cross(way, side);
-                    // On the side itself, its middle tells.
+                    // On the side itself, its midpoint decides.
                     let share = cross(gap, way) / d;
                     (d != 0.0 && (0.0..=1.0).contains(&share)).then(|| cross(gap, side) / d)
                 };
@@ -68,54 +68,55 @@ impl FenceOutline {
     }
 }
 
-/// One area of a fence.
+/// One zone of the geofence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FenceZone {
-    /// Where.
+    /// Outline.
     pub outline: FenceOutline,
-    /// Flight is allowed within some inclusion, and within no exclusion.
+    /// Inclusion or exclusion zone. Flight is allowed inside at least one inclusion zone, if there are any, and outside all
+    /// exclusion zones.
     pub inclusion: bool,
 }
 
-/// A place to return to.
+/// A rally point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RallyPoint {
-    /// Where, m about the origin.
+    /// Position relative to the origin, m.
     pub place_m: Vec3<Ned>,
-    /// Its height counts from home and moves with it.
+    /// Whether its height is relative to home and moves with it.
     pub over_home: bool,
 }
 
-/// What was breached, by the numbers of MAVLink's FENCE_BREACH.
+/// Breached limit, numbered as MAVLink's FENCE_BREACH.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Breach {
-    /// Too low over home (1).
+    /// Minimum height above home (1).
     Floor,
-    /// Too high over home (2).
+    /// Maximum height above home (2).
     Height,
-    /// Out of an area, or too far from home (3).
+    /// Zone boundary or maximum distance from home (3).
     Boundary,
 }
 
-/// What a breach leads to, by the numbers of PX4's `GF_ACTION`.
+/// Action on a breach, numbered as PX4's `GF_ACTION`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FenceAction {
-    /// Nothing (0).
+    /// None (0).
     None,
-    /// A text (1).
+    /// Warn only (1).
     Warning,
-    /// Stop and hold (2).
+    /// Stop and hold position (2).
     Hold,
     /// Return and land (3).
     Return,
-    /// Motors off (4).
+    /// Stop the motors (4).
     Terminate,
-    /// Land here (5).
+    /// Land at the current position (5).
     Land,
 }
 
 impl FenceAction {
-    /// From the parameter's number.
+    /// Returns the action for a parameter value, or `None` if it is unknown.
     #[must_use]
     pub fn from_number(n: i32) -> Option<Self> {
         let all = [Self::None, Self::Warning, Self::Hold, Self::Return, Self::Terminate, Self::Land];
@@ -123,29 +124,29 @@ impl FenceAction {
     }
 }
 
-/// What the fence tells the world.
+/// State of the geofence for telemetry.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FenceState {
-    /// There is something to breach.
+    /// Whether any limit is active.
     pub set: bool,
-    /// The breach of now.
+    /// The current breach.
     pub breach: Option<Breach>,
-    /// Breaches so far.
+    /// Number of breaches so far.
     pub count: u16,
-    /// Breaches at which the mode was changed.
+    /// Number of breaches that changed the mode.
     pub taken: u16,
-    /// When the last one began.
+    /// Start time of the last breach.
     pub at: SimTime,
 }
 
-/// The areas.
+/// The zones of the geofence.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Fence {
     zones: Vec<FenceZone>,
 }
 
 impl Fence {
-    /// Whether a place is within the areas.
+    /// Returns true if a position is allowed by all zones.
     #[must_use]
     pub fn allows(&self, place_m: (f64, f64)) -> bool {
         let mut inclusions = self.zones.iter().filter(|zone| zone.inclusion).peekable();
@@ -153,14 +154,14 @@ impl Fence {
         within && !self.zones.iter().any(|zone| !zone.inclusion && zone.outline.holds(place_m))
     }
 
-    /// Whether the whole of a straight way is within the areas.
+    /// Returns true if an entire straight path is allowed by all zones.
     #[must_use]
     pub fn allows_path(&self, from_m: (f64, f64), to_m: (f64, f64)) -> bool {
         let mut cuts: Vec<f64> = self.zones.iter().flat_map(|zone| zone.outline.crossings(from_m, to_m)).collect();
         cuts.retain(|cut| (0.0..1.0).contains(cut));
         cuts.extend([0.0, 1.0]);
         cuts.sort_by(f64::total_cmp);
-        // Between two crossings a way is all in or all out.
+        // Between two intersections a path is entirely inside or outside.
         cuts.windows(2).filter(|pair| pair[1] - pair[0] > 1e-9).all(|pair| {
             let middle = 0.5 * (pair[0] + pair[1]);
             let at = |a: f64, b: f64| a + middle * (b - a);
@@ -170,19 +171,19 @@ impl Fence {
 }
 
 impl Autopilot {
-    /// Replaces the fence's areas.
+    /// Replaces the zones.
     pub fn set_fence(&mut self, zones: Vec<FenceZone>) {
         self.fence.zones = zones;
     }
 
-    /// Switches the fence on or off.
+    /// Enables or disables the geofence.
     pub(super) fn enable_fence(&mut self, on: bool) -> RequestOutcome {
         self.tuning.fence_enabled = on;
-        self.push_event(Severity::Info, if on { "Geofence on" } else { "Geofence off" });
+        self.push_event(Severity::Info, if on { "Geofence enabled" } else { "Geofence disabled" });
         RequestOutcome::Accepted
     }
 
-    /// What a place breaches, if anything.
+    /// Returns the limit that a position would breach, or `None`.
     pub(super) fn breach_at(&self, place_m: Vec3<Ned>) -> Option<Breach> {
         let t = &self.tuning;
         if !self.is_active() {
@@ -198,29 +199,29 @@ impl Autopilot {
         (far || parts.areas && !self.fence.allows((place_m.north(), place_m.east()))).then_some(Breach::Boundary)
     }
 
-    /// Why a target is refused, if it is.
+    /// Returns the rejection of a target outside the fence, or `None` if it is allowed.
     pub(super) fn fence_refusal(&self, target_m: Vec3<Ned>) -> Option<RequestOutcome> {
         let here = self.estimate.position_m;
         if self.breach_at(target_m).is_some() || self.below_floor(target_m) {
-            return Some(RequestOutcome::Denied("Target lies outside the geofence".into()));
+            return Some(RequestOutcome::Denied("Target outside geofence".into()));
         }
-        // Who is out may come back in.
+        // A vehicle outside the fence may fly back in.
         let out = self.estimate.position_valid && self.breach_at(here).is_none() && self.leaves_between(here, target_m);
-        out.then(|| RequestOutcome::Denied("The way there leaves the geofence".into()))
+        out.then(|| RequestOutcome::Denied("Path to target leaves geofence".into()))
     }
 
-    /// Lower over home than the fence allows.
+    /// Returns true if a position is below the minimum fence height above home.
     fn below_floor(&self, place_m: Vec3<Ned>) -> bool {
         let home = self.status.home_m.unwrap_or_default();
         self.is_active() && self.tuning.rules.fence.floor_m.is_some_and(|floor_m| home.down() - place_m.down() < floor_m)
     }
 
-    /// Why a circle is refused, if it is.
+    /// Returns the rejection of a circle that leaves the fence, or `None` if it is allowed.
     pub(super) fn ring_refusal(&self, centre_m: Vec3<Ned>, radius_m: f64) -> Option<RequestOutcome> {
-        self.ring_leaves(centre_m, radius_m).then(|| RequestOutcome::Denied("The circle leaves the geofence".into()))
+        self.ring_leaves(centre_m, radius_m).then(|| RequestOutcome::Denied("Circle leaves geofence".into()))
     }
 
-    /// A straight way between two places that are within leads out between them.
+    /// Returns true if the straight path between two allowed positions leaves the fence.
     fn leaves_between(&self, from: Vec3<Ned>, to: Vec3<Ned>) -> bool {
         self.is_active()
             && self.tuning.rules.fence.areas
@@ -235,7 +236,8 @@ impl Autopilot {
         (0..RING_SIDES).any(|k| self.breach_at(at(k)).is_some() || self.leaves_between(at(k), at(k + 1)))
     }
 
-    /// Why the mission is refused: the first step that lies outside, or whose straight way from the one before does.
+    /// Returns the reason to reject the mission: the first item outside the fence, or with a straight path to it that leaves the
+    /// fence.
     pub(super) fn mission_leaves_fence(&self) -> Option<String> {
         let flying = self.status.armed && self.status.landed != LandedState::OnGround;
         let home = self.status.home_m.unwrap_or_default();
@@ -243,7 +245,7 @@ impl Autopilot {
         let mut from = (self.mission.current == 0 && self.breach_at(start).is_none()).then_some(start);
         for (step, what) in self.mission.all() {
             let step = step + self.tuning.first_item;
-            let outside = format!("Mission item {step} lies outside the geofence");
+            let outside = format!("Mission item {step} outside geofence");
             let to = match what {
                 MissionStep::Waypoint { position_m, .. } | MissionStep::Land { position_m: Some(position_m) } => position_m,
                 MissionStep::Circle { centre_m, radius_m, .. } if self.ring_leaves(centre_m, radius_m.abs()) => {
@@ -260,20 +262,20 @@ impl Autopilot {
                 return Some(outside);
             }
             if from.is_some_and(|from| self.leaves_between(from, to)) {
-                return Some(format!("The way to mission item {step} leaves the geofence"));
+                return Some(format!("Path to mission item {step} leaves geofence"));
             }
             from = Some(to);
         }
         let back = self.mission.left_at.filter(|_| flying && self.breach_at(self.estimate.position_m).is_none());
         let cut_off = back.is_some_and(|place| self.leaves_between(self.estimate.position_m, place));
-        cut_off.then(|| "The way back to where the mission was left leaves the geofence".into())
+        cut_off.then(|| "Return path to mission leaves geofence".into())
     }
 
     fn is_active(&self) -> bool {
         self.tuning.fence_enabled && self.tuning.fence_action != FenceAction::None
     }
 
-    /// Whether there is a fence at all.
+    /// Updates whether any limit is active.
     pub(super) fn update_fence_state(&mut self) {
         let t = &self.tuning;
         let parts = t.rules.fence;
@@ -282,13 +284,13 @@ impl Autopilot {
         self.status.fence.set = self.is_active() && (limits || areas || parts.floor_m.is_some());
     }
 
-    /// Acts when a breach begins: once, so that the pilot can fly back in by hand.
+    /// Applies the fence action when a breach begins. It acts once per breach so that the pilot can fly back in.
     pub(super) fn enforce_fence(&mut self, now: SimTime) {
         if !self.estimate.position_valid {
             return;
         }
         let here = self.estimate.position_m;
-        // The floor counts from when it was first above it, and not on the way down to land.
+        // The minimum height applies once the vehicle has been above it, except while landing.
         let low = self.below_floor(here);
         self.failsafe.above_floor |= !low && self.is_active();
         let coming_down =
@@ -299,7 +301,7 @@ impl Autopilot {
         let before = std::mem::replace(&mut self.status.fence.breach, breach);
         match (before, breach) {
             (None, Some(breach)) => self.breached(breach, now),
-            (Some(_), None) => self.push_event(Severity::Info, "Within the geofence again"),
+            (Some(_), None) => self.push_event(Severity::Info, "Back inside geofence"),
             (None, None) | (Some(_), Some(_)) => {}
         }
     }
@@ -357,7 +359,7 @@ mod tests {
         let zone = |outline, inclusion| FenceZone { outline, inclusion };
         let circle = |n, radius_m| FenceOutline::Circle { centre_m: (n, 0.0), radius_m };
         let fence = Fence {
-            // Two areas that overlap, a hole in one of them, and a third area on its own.
+            // Two overlapping zones, a hole in one of them, and a separate third zone.
             zones: vec![
                 zone(square(10.0), true),
                 zone(circle(15.0, 8.0), true),

@@ -8,50 +8,50 @@ use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
 
-/// A target that has not reported for this long is lost, s (PX4 and ArduCopter: 3 s).
+/// Timeout of target reports, s (PX4 and ArduCopter: 3 s).
 const LOST_S: f64 = 3.0;
-/// Slower targets have no course of their own, m/s (PX4: 1 m/s).
+/// Minimum target speed for a valid course, m/s (PX4: 1 m/s).
 const MOVES_M_S: f64 = 1.0;
-/// Positions closer in time give no velocity: their noise would be most of it, s (estimate).
+/// Minimum time between positions for a velocity estimate, s; noise would dominate shorter intervals (estimate).
 const LEAST_APART_S: f64 = 0.2;
-/// Nearer targets do not turn the nose, m.
+/// Distance below which the heading does not track the target, m.
 const TOO_NEAR_M: f64 = 0.5;
 
-/// Where the vehicle flies, seen from the target.
+/// Vehicle position relative to the target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FollowPosition {
-    /// At a distance, m, and an angle from the target's course, rad clockwise (PX4).
+    /// At a distance and an angle from the target's course (PX4).
     Around {
         /// Horizontal distance, m.
         distance_m: f64,
-        /// Angle from the course, rad.
+        /// Angle from the course, rad clockwise.
         angle_rad: f64,
-        /// Height, m.
+        /// Height above the target or home, m.
         height_m: f64,
-        /// The height counts from the target, otherwise from home.
+        /// Whether the height is relative to the target rather than home.
         over_target: bool,
     },
-    /// At an offset, m: north, east, down, or forward, right, down of the target's course (ArduCopter). `None`: the offset of the first report.
+    /// At an offset: north, east, down, or forward, right, down of the target's course (ArduCopter).
     Offset {
-        /// Offset, m.
+        /// Offset, m. `None` uses the offset at the first report.
         offset_m: Option<[f64; 3]>,
-        /// The offset turns with the target's course.
+        /// Whether the offset rotates with the target's course.
         along_course: bool,
     },
 }
 
-/// How a target is followed.
+/// Settings of follow mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FollowRule {
-    /// The mode may be entered (`FOLL_ENABLE`).
+    /// Whether the mode is enabled (`FOLL_ENABLE`).
     pub enabled: bool,
     /// Position relative to the target.
     pub place: FollowPosition,
-    /// Targets farther away are not followed, m (`FOLL_DIST_MAX`).
+    /// Maximum distance at which a target is followed, m (`FOLL_DIST_MAX`).
     pub farthest_m: f64,
-    /// Largest speed, m/s (`FLW_TGT_MAX_VEL`).
+    /// Maximum speed, m/s (`FLW_TGT_MAX_VEL`).
     pub fastest_m_s: f64,
-    /// Share of the velocity known before in each new one (`FLW_TGT_RS`).
+    /// Weight of the previous velocity in the smoothed velocity, 0 to 1 (`FLW_TGT_RS`).
     pub smoothing: f64,
 }
 
@@ -62,18 +62,18 @@ impl Default for FollowRule {
     }
 }
 
-/// A target as it reports itself.
+/// A target report.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FollowTarget {
-    /// Position about the origin, m.
+    /// Position relative to the origin, m.
     pub position_m: Vec3<Ned>,
     /// Velocity, m/s.
     pub velocity_m_s: Vec3<Ned>,
-    /// Heading, rad, where it reports one.
+    /// Heading, rad, if reported.
     pub heading_rad: Option<f64>,
 }
 
-/// The target and what is remembered of it.
+/// The latest target report and the state derived from it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Follower {
     latest: Option<(FollowTarget, SimTime)>,
@@ -82,7 +82,7 @@ pub struct Follower {
 }
 
 impl Autopilot {
-    /// Velocity of a target that reports positions alone, by its last two, m/s.
+    /// Velocity of a target that reports positions only, from its last two positions, m/s.
     #[must_use]
     pub fn target_velocity(&self, position_m: Vec3<Ned>, now: SimTime) -> Vec3<Ned> {
         let recent = self.follower.latest.map(|(before, at)| (before, (now - at).s())).filter(|(_, age_s)| *age_s <= LOST_S);
@@ -93,7 +93,7 @@ impl Autopilot {
         }
     }
 
-    /// A report of the target.
+    /// Handles a target report.
     pub fn report_target(&mut self, target: FollowTarget, now: SimTime) {
         let known = self.follower.latest.filter(|(_, at)| (now - *at).s() <= LOST_S).map(|(known, _)| known.velocity_m_s);
         let before = known.unwrap_or(target.velocity_m_s);
@@ -109,7 +109,7 @@ impl Autopilot {
         (self.follower.course_rad, self.follower.offset_m) = (None, None);
     }
 
-    /// Where the target is now, if it still reports.
+    /// The extrapolated target, or `None` if its reports have timed out or it is too far away.
     fn followed(&self, now: SimTime) -> Option<FollowTarget> {
         let (target, at) = self.follower.latest?;
         let age_s = (now - at).s();
@@ -118,7 +118,7 @@ impl Autopilot {
         (age_s <= LOST_S * self.tuning.client_pace && !far).then_some(FollowTarget { position_m, ..target })
     }
 
-    /// The vehicle's place about a target, m.
+    /// Desired vehicle position for a target, m.
     fn position_around(&mut self, target: &FollowTarget) -> Vec3<Ned> {
         let (here, there) = (self.estimate.position_m, target.position_m);
         let turned = |angle: f64, [forward, right, down]: [f64; 3]| {
@@ -127,7 +127,7 @@ impl Autopilot {
         };
         match self.tuning.follow.place {
             FollowPosition::Around { distance_m, angle_rad, height_m, over_target } => {
-                // Before the target moves, the vehicle already is at its angle.
+                // Before the target moves, the vehicle is already at its angle.
                 let bearing = heading_of(here - there, TOO_NEAR_M).unwrap_or(0.0);
                 let course = *self.follower.course_rad.get_or_insert(math::wrap_pi(bearing - angle_rad));
                 let flat = turned(course + angle_rad, [distance_m, 0.0, 0.0]);
@@ -142,12 +142,12 @@ impl Autopilot {
         }
     }
 
-    /// Keeps its place about the target, the nose to it; without a target it holds.
+    /// Keeps the position relative to the target with the nose toward it. Holds position without a target.
     pub(super) fn follow_target(&mut self, now: SimTime, dt_s: f64) -> Setpoint {
         let Some(target) = self.followed(now) else { return self.go(None, dt_s) };
         let here = self.estimate.position_m;
         let place = self.position_around(&target);
-        // Where the target is lost, it holds.
+        // If the target is lost, the vehicle holds here.
         self.navigator.target_m = here;
         let yaw = self.look_rad().or_else(|| heading_of(target.position_m - here, TOO_NEAR_M));
         self.turn_to(yaw, dt_s);

@@ -1,85 +1,85 @@
-//! Controller gains from the aircraft's own numbers: every loop is as fast as the motors' lag allows, each outer loop slower by a
-//! fixed ratio. So no aircraft is tuned by hand.
+//! Controller gains from the aircraft's physical parameters. Each loop is as fast as the motor lag allows, and each outer loop is
+//! slower than its inner loop by a fixed ratio. No manual tuning is needed.
 
 use spandrel_model::math::{self, GRAVITY_M_S2};
 use spandrel_model::vehicle::Vehicle;
 
-/// The motors are driven ahead of their lag by this factor (a first-order lead; more would only amplify gyroscope noise).
+/// Lead factor that compensates for motor lag (first order; a higher factor would amplify gyroscope noise).
 const LEAD: f64 = 2.0;
-/// Sampling, filtering and computing, s: one control tick and a half.
+/// Delay of sampling, filtering and computation, s: one and a half control ticks.
 const DELAY_S: f64 = 0.004;
-/// Rate-loop bandwidth times its lag; 0.35 is a damping ratio of 0.85 for an integrator behind a first-order lag.
+/// Product of rate-loop bandwidth and lag; 0.35 gives a damping ratio of 0.85 for an integrator with a first-order lag.
 const RATE_TIMES_LAG: f64 = 0.35;
-/// Fastest rate loop, rad/s.
+/// Maximum bandwidth of the rate loop, rad/s.
 const RATE_MAX: f64 = 22.0;
-/// Each outer loop over its inner one.
+/// Bandwidth ratio of each outer loop to its inner loop.
 const ATTITUDE_SHARE: f64 = 0.3;
 const VELOCITY_SHARE: f64 = 0.4;
 const POSITION_SHARE: f64 = 0.5;
-/// Yaw rate loop over the roll and pitch one: the rotors' drag is a weak lever.
+/// Bandwidth ratio of yaw rate loop to roll and pitch rate loop; rotor drag gives little yaw torque.
 const YAW_SHARE: f64 = 0.3;
-/// Share of the acceleration at full tilt that plans may use; the rest is for wind and errors.
+/// Fraction of the acceleration at full tilt that plans may use. The rest is reserved for wind and errors.
 const PLANNED_SHARE: f64 = 0.85;
-/// Density of the air at sea level, kg/m³ (ISA).
+/// Air density at sea level, kg/m³ (ISA).
 const AIR_DENSITY_KG_M3: f64 = 1.225;
-/// Share of the full collective thrust that stays for roll and pitch.
+/// Fraction of the maximum collective thrust reserved for roll and pitch.
 const CONTROL_RESERVE: f64 = 0.08;
 
-/// All gains and limits of the cascade.
+/// All gains and limits of the control cascade.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gains {
     /// Moments of inertia about forward, right, down, kg m².
     pub inertia_kg_m2: [f64; 3],
-    /// Motor lead factor.
+    /// Factor of the motor lag compensation.
     pub lead: f64,
-    /// Roll and pitch rate, rad/s² per rad/s.
+    /// Roll and pitch rate gain, rad/s² per rad/s.
     pub rate: f64,
-    /// Integral of the roll and pitch rate error, 1/s².
+    /// Integral gain of the roll and pitch rate error, 1/s².
     pub rate_integral: f64,
-    /// Yaw rate, rad/s² per rad/s.
+    /// Yaw rate gain, rad/s² per rad/s.
     pub yaw_rate: f64,
-    /// Roll and pitch, rad/s per rad.
+    /// Roll and pitch gain, rad/s per rad.
     pub attitude: f64,
-    /// Yaw, rad/s per rad.
+    /// Yaw gain, rad/s per rad.
     pub yaw: f64,
-    /// Horizontal velocity, m/s² per m/s.
+    /// Horizontal velocity gain, m/s² per m/s.
     pub velocity: f64,
-    /// Integral of the horizontal velocity error, 1/s².
+    /// Integral gain of the horizontal velocity error, 1/s².
     pub velocity_integral: f64,
-    /// Horizontal position, m/s per m.
+    /// Horizontal position gain, m/s per m.
     pub position: f64,
-    /// Vertical velocity, m/s² per m/s.
+    /// Vertical velocity gain, m/s² per m/s.
     pub climb: f64,
-    /// Integral of the vertical velocity error, 1/s².
+    /// Integral gain of the vertical velocity error, 1/s².
     pub climb_integral: f64,
-    /// Height, m/s per m.
+    /// Height gain, m/s per m.
     pub height: f64,
-    /// Largest tilt, rad.
+    /// Maximum tilt, rad.
     pub tilt_rad: f64,
-    /// Its tangent.
+    /// Tangent of the maximum tilt.
     pub tilt_tangent: f64,
-    /// Largest horizontal acceleration that is planned for, m/s².
+    /// Maximum planned horizontal acceleration, m/s².
     pub acceleration_m_s2: f64,
-    /// Largest planned vertical acceleration, m/s².
+    /// Maximum planned vertical acceleration, m/s².
     pub climb_acceleration_m_s2: f64,
-    /// Time by which the tilt follows late, s.
+    /// Lag of the attitude response, s.
     pub attitude_lag_s: f64,
-    /// Horizontal drag in still air over mass: per m/s, and per (m/s)².
+    /// Horizontal drag in still air divided by mass: per m/s, and per (m/s)².
     pub drag: (f64, f64),
-    /// Largest roll and pitch rate, rad/s.
+    /// Maximum roll and pitch rate, rad/s.
     pub rate_max_rad_s: f64,
-    /// Largest yaw rate, rad/s.
+    /// Maximum yaw rate, rad/s.
     pub yaw_rate_max_rad_s: f64,
-    /// Collective thrust in hover, N.
+    /// Collective thrust at hover, N.
     pub hover_n: f64,
-    /// Largest collective thrust that leaves room for control, N.
+    /// Maximum collective thrust that leaves control authority, N.
     pub thrust_max_n: f64,
-    /// Smallest collective thrust in flight, N.
+    /// Minimum collective thrust in flight, N.
     pub thrust_min_n: f64,
 }
 
 impl Gains {
-    /// For an aircraft.
+    /// Computes the gains for an aircraft.
     #[must_use]
     pub fn new(vehicle: &Vehicle) -> Self {
         let r = &vehicle.rotor;
@@ -93,7 +93,7 @@ impl Gains {
         let full_n = n * r.thrust_coefficient_n_s2 * r.max_speed_rad_s * r.max_speed_rad_s;
         let thrust_max_n = full_n * (1.0 - CONTROL_RESERVE);
         let idle_n = n * r.thrust_coefficient_n_s2 * r.idle_speed_rad_s * r.idle_speed_rad_s;
-        // Height must be held at full tilt: the thrust that is there limits it too.
+        // Height must be held at full tilt, so the available thrust limits the tilt too.
         let tilt_rad = vehicle.limits.tilt_rad.min(math::acos((1.05 * hover_n / thrust_max_n).min(1.0)));
         let spare = (thrust_max_n / hover_n - 1.0) * GRAVITY_M_S2;
         let yaw_rate = YAW_SHARE * rate;
@@ -126,7 +126,7 @@ impl Gains {
     }
 }
 
-/// Body and rotor drag over mass about hover, in the air's mean density.
+/// Body and rotor drag at hover divided by mass, at sea-level air density.
 fn drag(vehicle: &Vehicle, rotor_n: f64) -> (f64, f64) {
     let r = &vehicle.rotor;
     let speed = (rotor_n / r.thrust_coefficient_n_s2).sqrt();

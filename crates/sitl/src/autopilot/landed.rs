@@ -1,4 +1,4 @@
-//! Ground or air, from estimates and the range finder: sinking is asked for, nothing sinks, something is right below.
+//! Landing detection from the estimate and the range finder: a commanded descent without movement, with a surface directly below.
 
 use super::core::{Autopilot, Severity};
 use super::operator_rules::FenceSwitching;
@@ -6,27 +6,27 @@ use super::{FlightMode, LandedState};
 use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::time::SimTime;
 
-/// Sinking slower than this although more is asked for, m/s and s.
+/// Vertical speed that counts as stopped during a commanded descent, m/s, and its minimum duration, s.
 const STOPPED_M_S: f64 = 0.2;
 const STOPPED_S: f64 = 0.3;
-/// Asked for at least this, m/s.
+/// Minimum commanded descent rate, m/s.
 const ASKED_M_S: f64 = 0.25;
-/// The thrust fades out within this time once the ground is felt; then it has landed, s.
+/// Time over which the thrust fades out after ground contact, s. The landing is then complete.
 const FADE_S: f64 = 0.5;
-/// The range finder may read this much more than the standing height, m.
+/// Tolerance of the range finder over the standing height, m.
 const RANGE_MARGIN_M: f64 = 0.35;
-/// Not upright enough to stand, cosine of the tilt (40 degrees).
+/// Minimum cosine of the tilt on the ground (40 degrees).
 const UPRIGHT: f64 = 0.766;
-/// It has left the ground when this much higher, m, or climbing this fast, m/s.
+/// Height, m, or climb rate, m/s, at which the vehicle counts as off the ground.
 const OFF_GROUND_M: f64 = 0.35;
 const OFF_GROUND_M_S: f64 = 0.4;
-/// A take-off that nobody wants any more ends after, s.
+/// Time after which an abandoned take-off ends, s.
 const GIVEN_UP_S: f64 = 1.0;
 
-/// What the detector remembers.
+/// State of landing detection.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LandingDetector {
-    /// Sinking that the guidance asks for, m/s down.
+    /// Commanded descent rate, m/s.
     pub wanted_down_m_s: f64,
     stopped_s: f64,
     fade_s: f64,
@@ -34,7 +34,7 @@ pub struct LandingDetector {
 }
 
 impl LandingDetector {
-    /// Share of the thrust that is left while the ground takes the weight.
+    /// Remaining thrust fraction while the ground takes the weight, 0 to 1.
     #[must_use]
     pub fn thrust_share(&self) -> f64 {
         1.0 - self.fade_s / FADE_S
@@ -42,7 +42,7 @@ impl LandingDetector {
 }
 
 impl Autopilot {
-    /// Follows take-off and landing for one tick while armed.
+    /// Updates the landed state for one tick while armed.
     pub(super) fn update_landed_state(&mut self, now: SimTime, dt_s: f64) {
         match self.status.landed {
             LandedState::OnGround => self.settle_on_ground(now),
@@ -135,7 +135,7 @@ impl Autopilot {
         self.landing_detector = LandingDetector::default();
         self.failsafe.flown = false;
         self.failsafe.upset_since = None;
-        // What was asked for in a flight ends with it.
+        // Requests made during a flight end with it.
         self.look_at_m = None;
         self.commanded_m_s = None;
         self.navigator.takeoff_up_m = None;

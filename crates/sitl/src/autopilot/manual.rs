@@ -1,4 +1,4 @@
-//! What the sticks want: attitude, height or velocity, and the locks that hold the place once they are let go.
+//! Manual modes: attitude, height or velocity from the sticks, and the locks that hold position with the sticks centered.
 
 use super::core::Autopilot;
 use super::modes::Setpoint;
@@ -8,23 +8,23 @@ use super::{FlightMode, Sticks};
 use spandrel_model::frames::{Ned, Rotation, Vec3};
 use spandrel_model::math;
 
-/// Yaw rate is built up within this time, s.
+/// Time to build up full yaw rate, s.
 const YAW_SPOOL_S: f64 = 0.3;
-/// The wanted heading never runs further ahead of the nose, rad.
+/// Maximum lead of the heading setpoint over the actual heading, rad.
 const YAW_LEAD_RAD: f64 = 0.6;
-/// While it turns faster than this the rate is held, not the heading, rad/s; the lead is then at most this, rad.
+/// Yaw rate above which the rate is controlled instead of the heading, rad/s, and the maximum lead in that case, rad.
 const TURNING_RAD_S: f64 = 0.1;
 const TURNING_LEAD_RAD: f64 = 0.08;
-/// Slower than this the nose has come to rest and the heading is captured, rad/s: at the yaw loop's lag of some tenths of a second it
-/// moves on by less than half a degree.
+/// Yaw rate below which the heading is captured, rad/s. With the yaw loop's lag of a few tenths of a second, it then moves by
+/// less than half a degree.
 const CAPTURED_RAD_S: f64 = 0.02;
-/// Slower than this the position is locked once the sticks are centred, m/s.
+/// Speed below which the position is locked with the sticks centered, m/s.
 const LOCK_M_S: f64 = 0.15;
-/// Without position the sticks tilt at most this share of the largest tilt.
+/// Tilt in manual flight without position, as a fraction of the maximum.
 const BLIND_TILT_SHARE: f64 = 0.6;
-/// Share of the slow-down time in which the plan stops; the rest is the loops' lag.
+/// Fraction of the slow-down time in which the plan stops. The loop lag takes the rest.
 const SLOW_DOWN_SHARE: f64 = 0.55;
-/// Fastest correction towards a lock, m/s.
+/// Maximum correction speed toward a lock, m/s.
 pub(super) const LOCK_SPEED_M_S: f64 = 2.0;
 
 impl Autopilot {
@@ -34,8 +34,8 @@ impl Autopilot {
         self.turn_at(rate, dt_s);
     }
 
-    /// Turns at a rate, rad/s. Once that is zero, the heading is captured where the nose comes to rest: captured earlier, it would lie
-    /// behind the nose, which then swings back.
+    /// Turns at a rate, rad/s. At zero rate, the heading is captured where the nose comes to rest; capturing it earlier would
+    /// make the nose swing back.
     pub(super) fn turn_at(&mut self, rate: f64, dt_s: f64) {
         let turning = (self.estimate.attitude * self.estimate.rates_rad_s).down();
         let c = &mut self.navigator;
@@ -48,13 +48,13 @@ impl Autopilot {
         self.advance_heading(rate, dt_s);
         if rate == 0.0 && self.navigator.heading_free {
             self.navigator.yaw_rad = self.estimate.attitude.yaw_rad();
-            // The rate loop lags by the inverse of its gain: ahead by that, the nose brakes as planned.
+            // The rate loop lags by the inverse of its gain. With this lead the nose brakes as planned.
             let braking = if dt_s > 0.0 { (self.navigator.yaw_rate_rad_s - before) / dt_s } else { 0.0 };
             self.navigator.yaw_brake_rad_s = braking / self.gains.yaw_rate;
         }
     }
 
-    /// Moves the wanted heading on at a rate that builds up gradually, rad/s.
+    /// Advances the heading setpoint at a rate that builds up gradually, rad/s.
     pub(super) fn advance_heading(&mut self, rate: f64, dt_s: f64) {
         let step = self.airframe.limits.yaw_rate_rad_s / YAW_SPOOL_S * dt_s;
         let c = &mut self.navigator;
@@ -71,7 +71,7 @@ impl Autopilot {
         if up > 0.0 { -up * l.climb_m_s.min(set.manual_up_m_s) } else { -up * l.descend_m_s.min(set.manual_down_m_s) }
     }
 
-    /// Roll and pitch by the sticks, rad: both together lean no further than one alone.
+    /// Roll and pitch from the sticks, rad. Combined tilt does not exceed the limit of one axis.
     fn stick_tilt(&self, share: f64) -> (f64, f64) {
         let Sticks { forward, right, .. } = self.links.sticks;
         let most =
@@ -131,7 +131,7 @@ impl Autopilot {
         }
     }
 
-    /// Shapes a stick velocity; once centred and slow, position and height are locked.
+    /// Shapes a velocity from the sticks. With centered sticks and low speed, position and height are locked.
     pub(super) fn with_locks(
         &mut self,
         wish: Vec3<Ned>,

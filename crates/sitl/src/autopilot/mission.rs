@@ -1,4 +1,4 @@
-//! The mission's list and where it stands; `modes.rs` flies the steps.
+//! Mission items and progress; `mission_executor.rs` flies them.
 
 use super::MissionStep;
 use super::modes::ReturnPhase;
@@ -6,34 +6,34 @@ use super::trajectory::Waypoint;
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::time::SimTime;
 
-/// Steps without flight that follow each other in one tick; more of them go on in the next.
+/// Maximum consecutive items without flight processed per tick. Others follow in the next tick.
 const GO_ON_MAX: usize = 64;
-/// A way is planned this far ahead, m, and through at most so many waypoints: further than any aircraft brakes.
+/// Planning horizon of a trajectory, m, and its maximum number of waypoints; longer than any stopping distance.
 const AHEAD_M: f64 = 80.0;
 const AHEAD_MOST: usize = 24;
 
-/// The course of a step that was left: take-off, landing and return go on with it.
+/// Saved state of an interrupted item. Take-off, landing and return continue from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SuspendedStep {
-    /// Where it flew to, m.
+    /// Target, m.
     pub target_m: Vec3<Ned>,
-    /// How far it had come.
+    /// Phase of a return.
     pub phase: ReturnPhase,
-    /// Where a return went, m.
+    /// Destination of a return, m.
     pub refuge_m: Option<Vec3<Ned>>,
 }
 
-/// What a step takes from where the vehicle is when it begins.
+/// Fields that an item takes from the vehicle position when it starts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct DeferredFields {
-    /// Its place.
+    /// Horizontal position.
     pub place: bool,
-    /// Its height.
+    /// Height.
     pub height: bool,
 }
 
 impl DeferredFields {
-    /// A place with what is open taken from another, m.
+    /// Replaces the deferred parts of a position with those of `from_m`, m.
     #[must_use]
     pub fn resolve_deferred(self, place_m: Vec3<Ned>, from_m: Vec3<Ned>) -> Vec3<Ned> {
         let over = if self.place { from_m } else { place_m };
@@ -41,45 +41,45 @@ impl DeferredFields {
     }
 }
 
-/// The list and its progress.
+/// Mission items and progress.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mission {
     steps: Vec<MissionStep>,
-    /// Steps whose heights count from home; the others' from the origin.
+    /// Items whose heights are relative to home; the others are relative to the origin.
     over_home: Vec<bool>,
-    /// What steps leave open.
+    /// Deferred fields of each item.
     unnamed: Vec<DeferredFields>,
-    /// Where the vehicle was when the current step began that leaves something open, m.
+    /// Vehicle position at the start of the current item with deferred fields, m.
     began_m: Option<Vec3<Ned>>,
-    /// Home has risen by this much since the list came, m.
+    /// Rise of home since the mission was set, m.
     home_rise_m: f64,
     jumps_done: Vec<u32>,
-    /// Current step.
+    /// Current item, zero-based.
     pub current: usize,
-    /// The current step's waiting ends at this time.
+    /// End time of the current item's wait.
     pub wait_until: Option<SimTime>,
     /// Cruise speed set by the mission, m/s.
     pub speed_m_s: Option<f64>,
-    /// Steps reached and not yet reported.
+    /// Items reached and not yet reported.
     pub reached: Vec<usize>,
-    /// The current step has been begun.
+    /// Whether the current item has started.
     pub begun: bool,
-    /// Steps that were passed and order something of the autopilot, not yet carried out.
+    /// Commands of passed items that have not been carried out yet.
     pub orders: Vec<MissionStep>,
-    /// It has left the ground without a take-off step and climbs to this place first, m.
+    /// Target of the initial climb of a mission without a take-off item, m.
     pub lift_to: Option<Vec3<Ned>>,
-    /// Where it was left on its way, m: it goes on from there.
+    /// Interruption point, m. The mission continues from there.
     pub left_at: Option<Vec3<Ned>>,
-    /// What was left then of the current step's waiting.
+    /// Remaining wait of the interrupted item.
     pub left_wait: Option<SimTime>,
-    /// What was left then of the current step's circle, rad.
+    /// Remaining arc of the interrupted circle, rad.
     pub left_rad: Option<f64>,
-    /// The course of the current step then.
+    /// Saved state of the interrupted item.
     pub left_course: Option<SuspendedStep>,
 }
 
 impl MissionStep {
-    /// Where it flies to, m, if it names a place.
+    /// Returns the position of the item for modification, if it has one.
     pub fn position_mut(&mut self) -> Option<&mut Vec3<Ned>> {
         match self {
             Self::Waypoint { position_m, .. } | Self::Land { position_m: Some(position_m) } => Some(position_m),
@@ -88,12 +88,12 @@ impl MissionStep {
         }
     }
 
-    /// It flies along the planned way, or waits at its end.
+    /// Returns true if the item flies along the trajectory or waits at its end.
     pub(super) fn stops_before_end(&self) -> bool {
         matches!(self, Self::Waypoint { .. } | Self::Near(_) | Self::Delay(_) | Self::Turn { .. })
     }
 
-    /// It takes its time: left in the middle it goes on there.
+    /// Returns true if the item takes time and can be continued after an interruption.
     pub(super) fn continues(&self) -> bool {
         use MissionStep as S;
         match self {
@@ -106,39 +106,39 @@ impl MissionStep {
 }
 
 impl Mission {
-    /// From a list.
+    /// Creates a mission from its items.
     #[must_use]
     pub fn new(steps: Vec<MissionStep>) -> Self {
         Self { jumps_done: vec![0; steps.len()], steps, ..Self::default() }
     }
 
-    /// Names the steps whose heights count from home: they rise and sink with it.
+    /// Marks the items whose heights are relative to home and move with it.
     pub fn set_home_relative(&mut self, over_home: Vec<bool>) {
         self.over_home = over_home;
     }
 
-    /// Names what steps take from where the vehicle is when they begin.
+    /// Sets the fields that items take from the vehicle position when they start.
     pub fn set_deferred(&mut self, unnamed: Vec<DeferredFields>) {
         self.unnamed = unnamed;
     }
 
-    /// The vehicle is here when the current step begins, m.
+    /// Records the vehicle position at the start of the current item, m.
     pub fn begin_at(&mut self, here_m: Vec3<Ned>) {
         self.began_m.get_or_insert(here_m);
     }
 
-    /// Home has moved up by so much, m.
+    /// Raises home by this height, m.
     pub fn raise_home(&mut self, up_m: f64) {
         self.home_rise_m += up_m;
     }
 
-    /// Nothing to fly.
+    /// Returns true if there are no items.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()
     }
 
-    /// It is left in the middle of a step, and will go on here.
+    /// Records an interruption of the current item at a position from which the mission can continue.
     pub fn suspend_at(&mut self, place_m: Vec3<Ned>, course: SuspendedStep, left_rad: Option<f64>, now: SimTime) {
         self.left_at = Some(place_m);
         self.left_course = Some(course);
@@ -146,20 +146,20 @@ impl Mission {
         self.left_rad = left_rad;
     }
 
-    /// What was left of the current step counts no more.
+    /// Clears the saved state of an interrupted item.
     pub fn reset(&mut self) {
         (self.left_at, self.left_wait, self.left_rad, self.left_course) = (None, None, None, None);
         self.lift_to = None;
     }
 
-    /// Where the mission lands, m: the last landing that has a place.
+    /// Landing position of the mission, m: the last landing item with a position.
     #[must_use]
     pub fn landing(&self) -> Option<Vec3<Ned>> {
         let lands = |k: &usize| matches!(self.step_at(*k), Some(MissionStep::Land { position_m: Some(_) }));
         (0..self.steps.len()).rev().find(lands).and_then(|k| self.position_at(k))
     }
 
-    /// The first place on the way, m.
+    /// First position of the mission, m.
     #[must_use]
     pub fn first_position(&self) -> Option<Vec3<Ned>> {
         (0..self.steps.len()).find_map(|k| self.position_at(k))
@@ -174,18 +174,17 @@ impl Mission {
         }
     }
 
-    /// The next place behind the current step, m.
+    /// Next position after the current item, m.
     #[must_use]
     pub fn next_position(&self) -> Option<Vec3<Ned>> {
         (self.current + 1..self.steps.len()).find_map(|k| self.position_at(k))
     }
 
-    /// The waypoints that are flown through from the current step on, up to the first at which the vehicle stops. `accept_m` is the
-    /// radius of those that name none.
+    /// Waypoints from the current item up to the first at which the vehicle stops. `accept_m` is the default acceptance radius.
     #[must_use]
     pub fn ahead(&self, accept_m: f64) -> Vec<Waypoint> {
         let (mut at, mut jumps, mut speed) = (self.current, self.jumps_done.clone(), self.speed_m_s);
-        // What follows a distance is done on the way: the leg begins with the speed before it.
+        // Items after a distance condition run on the way: the leg starts with the earlier speed.
         let mut leg_speed: Option<Option<f64>> = None;
         let (mut ahead, mut length_m): (Vec<Waypoint>, f64) = (Vec::new(), 0.0);
         for _ in 0..GO_ON_MAX {
@@ -214,7 +213,7 @@ impl Mission {
         ahead
     }
 
-    /// The landing sequence whose first place is nearest to `here_m`.
+    /// Index of the landing sequence whose first position is nearest to `here_m`.
     #[must_use]
     pub fn landing_sequence(&self, here_m: Vec3<Ned>) -> Option<usize> {
         let away = |start: &usize| {
@@ -225,24 +224,24 @@ impl Mission {
         starts.min_by(|a, b| away(a).total_cmp(&away(b)))
     }
 
-    /// All steps with their numbers.
+    /// All items with their indices.
     pub fn all(&self) -> impl Iterator<Item = (usize, MissionStep)> {
         (0..self.steps.len()).filter_map(|k| Some((k, self.step_at(k)?)))
     }
 
-    /// From the beginning, as if it had never been flown.
+    /// Restarts the mission as if it had never been flown.
     pub fn restart(&mut self) {
         self.forget();
         self.jump(0);
     }
 
-    /// Nothing has been flown yet: jumps count from the beginning, the speed is the usual one.
+    /// Resets jump counters and mission speed.
     pub fn forget(&mut self) {
         self.jumps_done.fill(0);
         self.speed_m_s = None;
     }
 
-    /// The step to fly now; `None` at the end.
+    /// The current item; `None` at the end.
     #[must_use]
     pub fn step(&self) -> Option<MissionStep> {
         self.step_at(self.current)
@@ -271,7 +270,7 @@ impl Mission {
         Some(step)
     }
 
-    /// Goes to a step; false when there is none.
+    /// Jumps to an item. Returns false if it does not exist.
     pub fn jump(&mut self, index: usize) -> bool {
         let known = index < self.steps.len();
         if known {
@@ -284,13 +283,13 @@ impl Mission {
         known
     }
 
-    /// The current step is done: reports it and takes the next that flies or waits. False at the end.
+    /// Completes the current item, reports it and advances to the next that flies or waits. Returns false at the end.
     pub fn advance(&mut self, now: SimTime) -> bool {
         self.next();
         self.skip(now)
     }
 
-    /// Passes over steps that neither fly nor wait. False at the end.
+    /// Skips items that neither fly nor wait. Returns false at the end.
     pub fn skip(&mut self, now: SimTime) -> bool {
         for _ in 0..GO_ON_MAX {
             match self.step() {
@@ -357,7 +356,7 @@ mod tests {
     #[test]
     fn exact_jumps_in_a_ring_stop_no_tick() {
         let mut mission = Mission::new(vec![MissionStep::Jump { to: 0, times: u32::MAX }]);
-        // Only so many in one tick; the endpoint refuses such a list.
+        // Limited per tick; the endpoint rejects such a list.
         assert!(mission.skip(SimTime::ZERO));
         assert_eq!(mission.reached.len(), GO_ON_MAX);
     }

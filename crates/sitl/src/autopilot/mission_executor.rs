@@ -1,4 +1,4 @@
-//! Flying the steps of a mission.
+//! Execution of mission items.
 
 use super::automatic::{HEIGHT_REACHED_M, TURN_BEYOND_M};
 use super::core::{Autopilot, Severity};
@@ -11,15 +11,16 @@ use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
 
-/// A mission goes on once this near to where it was left, m (estimate: less than the narrowest task's threshold).
+/// Distance to the interruption point at which a mission continues, m (estimate: less than the smallest path tolerance of a
+/// task).
 const BACK_WITHIN_M: f64 = 0.8;
-/// A turn is done within this much of its heading, rad (3 degrees, estimate).
+/// Heading tolerance of a turn, rad (3 degrees, estimate).
 const TURNED_RAD: f64 = 0.052;
-/// A landing step descends once this near over its place, m.
+/// Distance to the landing position at which the descent begins, m.
 const OVER_PLACE_M: f64 = 0.7;
-/// Largest speed at which the aircraft closes in on the planned place, horizontally and vertically, m/s (estimate: wind and a late start).
+/// Maximum speed of corrections toward the planned position, horizontal and vertical, m/s (estimate: wind and a late start).
 const CATCH_UP_M_S: (f64, f64) = (1.5, 1.0);
-/// A waypoint that the plan has flown through counts as reached when the aircraft is this near to the plan, m (estimate: a gust's work).
+/// Maximum tracking error for a passed waypoint to count as reached, m (estimate: the effect of a gust).
 const NEAR_PLAN_M: f64 = 1.0;
 
 impl Autopilot {
@@ -58,7 +59,7 @@ impl Autopilot {
         circle.unwrap_or_else(|| self.fly_step(&step, dt_s))
     }
 
-    /// Take-off at its own rate, a planned way through waypoints, anything else straight to its target.
+    /// Flies the current item: take-off at its own rate, waypoints along the trajectory, everything else straight to its target.
     fn fly_step(&mut self, step: &MissionStep, dt_s: f64) -> Setpoint {
         let speed = self.mission.speed_m_s.or(Some(self.cruise_m_s()));
         match step {
@@ -70,7 +71,7 @@ impl Autopilot {
         }
     }
 
-    /// Joins the planned way to the waypoints ahead: the present one goes on where it leads there.
+    /// Extends the trajectory to the waypoints ahead, or joins a new one.
     fn extend_trajectory(&mut self) {
         let ahead = self.mission.ahead(self.tuning.accept_radius_m);
         if self.trajectory.as_mut().is_some_and(|way| way.extend(&ahead)) {
@@ -81,7 +82,7 @@ impl Autopilot {
         self.trajectory = Trajectory::join(from, &ahead, bounds);
     }
 
-    /// A plan from where the aircraft is now: the one before went on from where and how fast it flew before a pause.
+    /// Replans from the current motion. After a pause the earlier trajectory no longer applies.
     pub(super) fn replan_trajectory(&mut self) {
         self.trajectory = None;
         if self.mission.begun && matches!(self.mission.step(), Some(MissionStep::Waypoint { .. } | MissionStep::Near(_))) {
@@ -89,21 +90,21 @@ impl Autopilot {
         }
     }
 
-    /// A plan that the aircraft is on now. The attitude follows late, so the plan is ahead by that time.
+    /// Returns a trajectory point that matches the current motion. The plan is ahead by the attitude lag.
     fn current_motion(&self) -> TrajectoryPoint {
         let (e, lag_s) = (&self.estimate, self.gains.attitude_lag_s);
         let flat = Vec3::new(e.velocity_m_s.north(), e.velocity_m_s.east(), 0.0);
         TrajectoryPoint { position_m: e.position_m + flat * lag_s, velocity_m_s: e.velocity_m_s, acceleration_m_s2: Vec3::zero() }
     }
 
-    /// From where the aircraft is to where the plan wants it at this instant, m.
+    /// Vector from the vehicle to the planned position at this instant, m.
     fn tracking_error(&self, planned: &TrajectoryPoint) -> Vec3<Ned> {
         let lag_s = self.gains.attitude_lag_s;
         let late = planned.velocity_m_s * lag_s - planned.acceleration_m_s2 * (0.5 * lag_s * lag_s);
         planned.position_m - Vec3::new(late.north(), late.east(), 0.0) - self.estimate.position_m
     }
 
-    /// Follows the planned way; `None` where there is none.
+    /// Follows the trajectory. Returns `None` without one.
     fn follow_trajectory(&mut self, dt_s: f64) -> Option<Setpoint> {
         let behind = self.tracking_error(&self.trajectory.as_ref()?.planned());
         let l = &self.airframe.limits;
@@ -117,7 +118,7 @@ impl Autopilot {
         self.status.target_m = Some(self.navigator.target_m);
         let way = heading_of(self.navigator.target_m - self.estimate.position_m, TURN_BEYOND_M);
         self.turn_to(self.look_rad().or(self.navigator.target_yaw_rad).or(way), dt_s);
-        // Whatever comes after the way goes on from the plan.
+        // Whatever follows the trajectory continues from the plan.
         self.shaper.velocity_m_s = planned.velocity_m_s;
         self.shaper.acceleration_m_s2 = planned.acceleration_m_s2;
         let behind = self.tracking_error(&planned);
@@ -127,7 +128,7 @@ impl Autopilot {
         Some(Setpoint::Velocity(self.motion(planned.velocity_m_s + flat + Vec3::new(0.0, 0.0, down))))
     }
 
-    /// The plan has flown through the current waypoint, and the aircraft is with it.
+    /// Returns true if the plan has passed the current waypoint and the vehicle is close to the plan.
     fn has_passed(&self) -> bool {
         let passed = |way: &Trajectory| {
             way.has_passed(self.navigator.target_m) && self.tracking_error(&way.planned()).norm() < NEAR_PLAN_M
@@ -135,7 +136,8 @@ impl Autopilot {
         self.trajectory.as_ref().is_some_and(passed)
     }
 
-    /// Where a step that leads away begins that finds the vehicle on the ground: straight above, at the usual height of take-offs.
+    /// Climb target for an item that moves away while the vehicle is still on the ground: straight up to the default take-off
+    /// height.
     fn needs_takeoff_first(&self, step: &MissionStep) -> Option<Vec3<Ned>> {
         let away = matches!(step, MissionStep::Waypoint { .. } | MissionStep::Near(_) | MissionStep::Circle { .. });
         let here = self.estimate.position_m;
@@ -151,13 +153,13 @@ impl Autopilot {
         self.climb_away(None, dt_s)
     }
 
-    /// Where a step begins, m: at the place that was flown to, once it is reached.
+    /// Start position of an item, m: the previous target if it was reached, otherwise the vehicle position.
     fn step_start(&self) -> Vec3<Ned> {
         let (here, target) = (self.estimate.position_m, self.navigator.target_m);
         if (target - here).norm() < self.tuning.accept_radius_m { target } else { here }
     }
 
-    /// What passed steps order of the autopilot.
+    /// Carries out the commands of passed items.
     fn run_passed_commands(&mut self) {
         for order in std::mem::take(&mut self.mission.orders) {
             match order {
@@ -171,7 +173,7 @@ impl Autopilot {
         }
     }
 
-    /// On the ground a mission waits, and passes over what needs no flight.
+    /// Waits on the ground. Processes items that need no flight.
     pub(super) fn wait_on_ground(&mut self, now: SimTime) {
         let going = self.mission.skip(now);
         self.run_passed_commands();
@@ -182,7 +184,7 @@ impl Autopilot {
         match self.mission.step() {
             Some(step @ (MissionStep::Delay(_) | MissionStep::DelayUntil(_))) => {
                 self.wait_for_time_of_day(&step, now);
-                // Waiting is no forgotten take-off.
+                // Waiting does not count toward the pre-flight disarm timeout.
                 self.failsafe.standing_since = now;
                 if self.mission.wait_until.is_some_and(|until| now >= until) {
                     self.mission.advance(now);
@@ -195,7 +197,7 @@ impl Autopilot {
         }
     }
 
-    /// A step that waits for a time of day learns how long that is.
+    /// Sets the waiting time of an item that waits for a time of day.
     fn wait_for_time_of_day(&mut self, step: &MissionStep, now: SimTime) {
         if let MissionStep::DelayUntil(time) = *step
             && self.mission.wait_until.is_none()
@@ -205,12 +207,12 @@ impl Autopilot {
         }
     }
 
-    /// To where the mission was left, then on.
+    /// Flies to the interruption point, then continues.
     fn return_to_route(&mut self, place_m: Vec3<Ned>, dt_s: f64) -> Setpoint {
         self.navigator.target_m = place_m;
         if (place_m - self.estimate.position_m).norm() < BACK_WITHIN_M {
             self.mission.left_at = None;
-            self.push_event(Severity::Info, "Mission goes on where it was left");
+            self.push_event(Severity::Info, "Mission resumed from interruption point");
         }
         self.go(self.mission.speed_m_s.or(Some(self.cruise_m_s())), dt_s)
     }
@@ -258,7 +260,7 @@ impl Autopilot {
         }
     }
 
-    /// A step that was left goes on with its course: up over the same place, down where it was sinking, home from where it had come to.
+    /// Resumes a suspended item: a take-off above the same position, a landing in progress, a return in its phase.
     fn resume_step(&mut self, step: &MissionStep, left: SuspendedStep) {
         let course = &mut self.navigator;
         let before = left.target_m;
@@ -271,7 +273,7 @@ impl Autopilot {
                 course.target_m = Vec3::new(over.north(), over.east(), before.down());
                 course.phase = left.phase;
             }
-            // To another place than then it begins anew.
+            // With a different destination, the item restarts.
             MissionStep::Return if course.return_target_m == left.refuge_m => {
                 course.target_m = before;
                 course.phase = left.phase;
@@ -280,7 +282,7 @@ impl Autopilot {
         }
     }
 
-    /// Lands where the step says, once over the place.
+    /// Flies to the landing position and lands.
     pub(super) fn fly_landing_step(&mut self, step: &MissionStep, dt_s: f64) -> Setpoint {
         if *step == MissionStep::Return {
             return self.go_home(dt_s);
@@ -331,7 +333,7 @@ impl Autopilot {
         self.enter(FlightMode::Hold, now);
     }
 
-    /// A landing that a mission or a return asked for is complete.
+    /// Completes a landing of a mission or return.
     pub(super) fn finish_landing(&mut self, now: SimTime) {
         let landing = matches!(self.mission.step(), Some(MissionStep::Land { .. } | MissionStep::Return));
         if self.status.mode == FlightMode::Mission && landing {

@@ -1,5 +1,5 @@
-//! From wanted torque and thrust to motor commands, by the rotors' geometry. When it is too much, yaw gives way first, then the
-//! collective, then roll and pitch keep their direction and lose size.
+//! Control allocation: torque and thrust to motor commands, from the rotor geometry. On saturation, yaw is reduced first, then
+//! collective thrust, then roll and pitch in proportion.
 
 use crate::physics::{Actuators, MAX_ROTORS};
 use nalgebra::{Matrix4, Vector4};
@@ -7,7 +7,7 @@ use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::math::GRAVITY_M_S2;
 use spandrel_model::vehicle::Vehicle;
 
-/// What the attitude loops want of the rotors.
+/// Demand of the attitude loops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TorqueThrustSetpoint {
     /// Torque about the body axes, N m.
@@ -16,34 +16,34 @@ pub struct TorqueThrustSetpoint {
     pub thrust_n: f64,
 }
 
-/// How much of a demand was given.
+/// Fraction of the demand that was allocated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AllocationStatus {
-    /// Share of the roll and pitch torque, 0..1.
+    /// Allocated fraction of the roll and pitch torque, 0 to 1.
     pub tilt: f64,
-    /// Share of the yaw torque, 0..1.
+    /// Allocated fraction of the yaw torque, 0 to 1.
     pub yaw: f64,
 }
 
-/// Geometry and motor model; the believed rotor speeds are its only state.
+/// Rotor geometry and motor model. The estimated rotor speeds and the filtered yaw torque are its only state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mixer {
     count: usize,
-    /// Thrust of each rotor per unit of roll torque, pitch torque, yaw torque and collective.
+    /// Thrust of each rotor per unit of roll torque, pitch torque, yaw torque and collective thrust.
     columns: [[f64; 4]; MAX_ROTORS],
     thrust_coefficient: f64,
     idle_rad_s: f64,
     max_rad_s: f64,
     time_constant_s: f64,
     lead: f64,
-    /// Rotor inertia over the slope of its drag torque at hover, s.
+    /// Rotor inertia divided by the slope of its drag torque at hover, s.
     spin_time_s: f64,
     speeds: [f64; MAX_ROTORS],
     yaw_n_m: f64,
 }
 
 impl Mixer {
-    /// From an aircraft; `lead` drives the motors ahead of their lag.
+    /// Creates a mixer for an aircraft. `lead` compensates for motor lag.
     #[must_use]
     pub fn new(vehicle: &Vehicle, lead: f64) -> Self {
         let count = vehicle.rotors.len().min(MAX_ROTORS);
@@ -56,7 +56,7 @@ impl Mixer {
             .map(|rotor| Vector4::new(-rotor.position_m.right(), rotor.position_m.forward(), rotor.spin * reach, 1.0))
             .collect();
         let gram = effect.iter().fold(Matrix4::zeros(), |sum, e| sum + e * e.transpose());
-        // Without an inverse (rotors in a line, all one spin) the collective alone is left.
+        // Without an inverse (collinear rotors, identical spin), only collective thrust remains.
         let inverse =
             gram.try_inverse().unwrap_or_else(|| Matrix4::from_diagonal(&Vector4::new(0.0, 0.0, 0.0, 1.0 / count as f64)));
         let each_n = vehicle.mass_kg * GRAVITY_M_S2 / count as f64;
@@ -80,7 +80,8 @@ impl Mixer {
         }
     }
 
-    /// Motor commands for a demand. `voltage_share` is the battery's voltage over its full one: a sagging pack turns the motors slower.
+    /// Computes motor commands for a demand. `voltage_share` is battery voltage divided by full voltage; motors turn slower at
+    /// lower voltage.
     pub fn mix(&mut self, demand: &TorqueThrustSetpoint, voltage_share: f64, dt_s: f64) -> (Actuators, AllocationStatus) {
         let top = (self.max_rad_s * voltage_share).max(self.idle_rad_s + 1.0);
         let low = self.thrust_coefficient * self.idle_rad_s * self.idle_rad_s;
@@ -93,20 +94,20 @@ impl Mixer {
             let pushed = self.speeds[i] + self.lead * (wanted - self.speeds[i]);
             out.motors[i] = ((pushed - self.idle_rad_s) / (top - self.idle_rad_s)).clamp(0.0, 1.0);
             let driven = self.idle_rad_s + out.motors[i] * (top - self.idle_rad_s);
-            // Implicit step of the first-order lag: stable for any ratio of step and lag.
+            // Implicit step of the first-order lag: stable for any ratio of step to lag.
             self.speeds[i] += (driven - self.speeds[i]) * dt_s / (dt_s + self.time_constant_s);
         }
         (out, given)
     }
 
-    /// A rotor that speeds up turns the body at once by its own inertia, and lastingly by its drag. The yaw torque is passed through the
-    /// lag that makes the two together follow the demand.
+    /// Compensates for rotor inertia. An accelerating rotor applies torque immediately through its inertia and permanently
+    /// through its drag. A lag on the yaw torque makes the sum of both follow the demand.
     fn compensate_rotor_spin(&mut self, torque: Vec3<Frd>, dt_s: f64) -> Vec3<Frd> {
         self.yaw_n_m += (torque.down() - self.yaw_n_m) * dt_s / (dt_s + self.spin_time_s);
         Vec3::new(torque.forward(), torque.right(), self.yaw_n_m)
     }
 
-    /// Motors at idle.
+    /// Sets all motors to idle.
     pub fn idle(&mut self, dt_s: f64) -> Actuators {
         for speed in &mut self.speeds {
             *speed += (self.idle_rad_s - *speed) * dt_s / (dt_s + self.time_constant_s);
@@ -114,7 +115,7 @@ impl Mixer {
         Actuators { motors: [0.0; MAX_ROTORS], armed: true }
     }
 
-    /// Motors stopped.
+    /// Stops all motors.
     pub fn stop(&mut self) -> Actuators {
         self.speeds = [0.0; MAX_ROTORS];
         self.yaw_n_m = 0.0;
@@ -134,7 +135,7 @@ impl Mixer {
             most = most.max(tilt[i]);
         }
         let tilt_share = ((high - low) / (most - least).max(1e-9)).min(1.0);
-        // The collective moves so that roll and pitch fit; for rotors of equal share it is the same for all.
+        // Adjusts the collective thrust to fit roll and pitch. The shift is the same for all rotors of equal collective share.
         let each = self.columns[0][3].max(1e-6);
         let room = (low - least * tilt_share, high - most * tilt_share);
         let common = (demand.thrust_n * each).max(room.0).min(room.1) / each;

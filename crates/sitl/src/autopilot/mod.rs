@@ -1,5 +1,5 @@
-//! The built-in autopilot: estimator, rate, attitude, velocity, position, modes, failsafes, mission. Sees sensor readings,
-//! stick intents and requests; never the truth.
+//! The built-in autopilot: estimator, rate, attitude, velocity and position control, modes, failsafes, mission. Its inputs are
+//! sensor readings, sticks and requests, never the true state.
 
 mod acro;
 pub mod attitude;
@@ -37,38 +37,38 @@ pub use self::tuning::{LinkLossAction, Tuning};
 
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 
-/// Flight modes; the MAVLink numbers of each flavour live in the endpoint.
+/// Flight modes. The endpoint maps them to the MAVLink numbers of each emulated autopilot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FlightMode {
-    /// Sticks command roll, pitch, yaw rate and thrust.
+    /// Sticks control roll, pitch, yaw rate and thrust.
     Stabilized,
-    /// As stabilized, height held by the autopilot.
+    /// As stabilized, with height hold.
     Altitude,
-    /// Sticks command velocity; let go, it stops and holds.
+    /// Sticks control velocity. With sticks centered, the vehicle stops and holds position.
     Position,
     /// Hold position.
     Hold,
     /// Automatic take-off, then hold.
     Takeoff,
-    /// Land here.
+    /// Land at the current position.
     Land,
     /// Return to home and land.
     Return,
     /// Fly the uploaded mission.
     Mission,
-    /// Follow external set-points.
+    /// Track external setpoints.
     Offboard,
-    /// Circle a place.
+    /// Circle a point.
     Orbit,
-    /// Sticks command body rates and thrust.
+    /// Sticks control body rates and thrust.
     Acro,
-    /// Return to the take-off point along the path flown, and land.
+    /// Return to the take-off point along the recorded path, and land.
     SmartReturn,
     /// Follow a moving target.
     Follow,
 }
 
-/// Stick intent, each in [-1, 1]: forward, right, up, clockwise positive.
+/// Stick inputs, each from -1 to 1.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sticks {
     /// Forward (+), backward (-).
@@ -77,65 +77,65 @@ pub struct Sticks {
     pub right: f64,
     /// Up (+), down (-).
     pub up: f64,
-    /// Clockwise (+), counter-clockwise (-).
+    /// Clockwise (+), counterclockwise (-).
     pub yaw: f64,
 }
 
-/// What the endpoint (or a failsafe) asks of the autopilot.
+/// A request from the endpoint or a failsafe.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum AutopilotRequest {
-    /// Arm; `force` skips the checks.
+    /// Arm the motors.
     Arm {
-        /// Skip the checks.
+        /// Skip the arming checks.
         force: bool,
     },
-    /// Disarm; `force` also in the air.
+    /// Disarm the motors.
     Disarm {
-        /// Also in the air.
+        /// Disarm even in the air.
         force: bool,
     },
     /// Change the mode.
     SetMode(FlightMode),
-    /// Take off to a height above home, m (`None`: the parameter's), arming is not implied.
+    /// Take off. Does not arm.
     Takeoff {
-        /// Height above home, m.
+        /// Height above home, m. `None` uses the parameter.
         height_m: Option<f64>,
     },
-    /// Land here.
+    /// Land at the current position.
     Land,
-    /// Fly to a position and hold; `None` components keep the present value.
+    /// Fly to a position and hold. `None` components keep their current values.
     GoTo {
-        /// North, east, m.
+        /// North and east, m.
         north_east_m: Option<(f64, f64)>,
-        /// Height, m up about the origin.
+        /// Height above the origin, m.
         up_m: Option<f64>,
         /// Heading, rad.
         yaw_rad: Option<f64>,
         /// Ground speed, m/s.
         speed_m_s: Option<f64>,
     },
-    /// Turn to a heading in the automatic mode that is flown.
+    /// Turn to a heading in the current automatic mode.
     Turn(TurnCommand),
-    /// Start or go on with the mission at an item.
+    /// Start or continue the mission.
     StartMission {
-        /// First item, or `None` to go on.
+        /// Zero-based index of the first item; `None` continues at the current one.
         first: Option<usize>,
     },
-    /// Cruise speed for automatic modes until the end of the flight, m/s; `None`: the parameter's again.
+    /// Cruise speed for automatic modes until the end of the flight, m/s. `None` restores the parameter.
     SetSpeed(Option<f64>),
-    /// Home position about the origin, m.
+    /// Set the home position, relative to the origin, m.
     SetHome(Vec3<Ned>),
-    /// Circle a place.
+    /// Circle a point.
     Orbit(orbit::OrbitRequest),
-    /// Turn towards a place in automatic modes, m about the origin; `None`: no more.
+    /// Point the nose at a position in automatic modes, m relative to the origin. `None` ends this.
     LookAt(Option<Vec3<Ned>>),
-    /// The geofence on or off.
+    /// Enable or disable the geofence.
     EnableFence(bool),
     /// Circle a point one radius ahead of the nose.
     CircleAhead,
-    /// Fly the mission from its landing sequence on.
+    /// Continue the mission at its landing sequence.
     LandingSequence,
-    /// Pause (true) or resume what is flown, without leaving the mode.
+    /// Pause (true) or resume without leaving the mode.
     Pause(bool),
 }
 
@@ -144,52 +144,52 @@ pub enum AutopilotRequest {
 pub struct TurnCommand {
     /// Heading, rad.
     pub yaw_rad: f64,
-    /// Turn rate, rad/s; `None`: the vehicle's own.
+    /// Turn rate, rad/s; `None` for the default.
     pub rate_rad_s: Option<f64>,
-    /// Direction of rotation; `None`: the shorter way.
+    /// Direction of rotation; `None` for the shorter one.
     pub clockwise: Option<bool>,
 }
 
-/// An offboard set-point; `None` axes are not controlled by it.
+/// An external setpoint. Axes set to `None` are not controlled by it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct OffboardSetpoint {
-    /// Position, m.
+    /// Position, m, NED.
     pub position_m: [Option<f64>; 3],
     /// Velocity, m/s (north, east, down).
     pub velocity_m_s: [Option<f64>; 3],
-    /// Acceleration, m/s² (north, east, down): flown where neither position nor velocity is asked for, fed forward elsewhere.
+    /// Acceleration, m/s² (north, east, down): flown directly without position or velocity, otherwise fed forward.
     pub acceleration_m_s2: [Option<f64>; 3],
     /// Heading, rad.
     pub yaw_rad: Option<f64>,
     /// Heading rate, rad/s.
     pub yaw_rate_rad_s: Option<f64>,
-    /// Attitude and thrust (0..1) instead of position or velocity.
+    /// Attitude and thrust (0 to 1) instead of position or velocity.
     pub attitude: Option<(Rotation<Frd, Ned>, f64)>,
-    /// Body rates, rad/s, and thrust (0..1) instead of all else.
+    /// Body rates, rad/s, and thrust (0 to 1) instead of everything else.
     pub rates: Option<(Vec3<Frd>, f64)>,
-    /// Climb rate in place of the thrust of an attitude or of body rates, m/s up.
+    /// Climb rate that replaces the thrust of an attitude or of body rates, m/s up.
     pub climb_m_s: Option<f64>,
 }
 
-/// The answer to a [`AutopilotRequest`]; maps one to one to MAV_RESULT.
+/// The outcome of an [`AutopilotRequest`]. Each variant maps to one MAV_RESULT.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum RequestOutcome {
-    /// Done or begun.
+    /// Accepted or in progress.
     Accepted,
-    /// Not now; the reason in words.
+    /// Rejected for now, with the reason.
     TemporarilyRejected(String),
-    /// Never in this state; the reason in words.
+    /// Rejected in this state, with the reason.
     Denied(String),
-    /// Tried and failed; the reason in words.
+    /// Failed, with the reason.
     Failed(String),
-    /// Not a thing this vehicle does.
+    /// Not supported by this vehicle.
     Unsupported,
 }
 
-/// What the estimator believes.
+/// The current estimate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
-    /// Position about the origin, m.
+    /// Position relative to the origin, m.
     pub position_m: Vec3<Ned>,
     /// Velocity, m/s.
     pub velocity_m_s: Vec3<Ned>,
@@ -201,22 +201,22 @@ pub struct Estimate {
     pub horizontal_m: f64,
     /// Vertical position accuracy, m (1 sigma).
     pub vertical_m: f64,
-    /// Where the estimator was initialized, about the origin, m: the origin of MAVLink's local frame.
+    /// Position at which the estimator was initialized, relative to the origin, m. It is the origin of MAVLink's local frame.
     pub local_origin_m: Vec3<Ned>,
-    /// The local frame's origin is known and stays.
+    /// Whether the origin of the local frame is set.
     pub local_origin_set: bool,
-    /// Horizontal position and velocity are usable for control.
+    /// Whether horizontal position and velocity are usable for control.
     pub position_valid: bool,
-    /// Attitude is aligned.
+    /// Whether the attitude is aligned.
     pub attitude_valid: bool,
 }
 
-/// Ground or air, as EXTENDED_SYS_STATE.
+/// Landed state, as in EXTENDED_SYS_STATE.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LandedState {
     /// On the ground.
     OnGround,
-    /// Climbing away in take-off mode.
+    /// Climbing in take-off mode.
     TakingOff,
     /// Flying.
     InAir,
@@ -224,127 +224,127 @@ pub enum LandedState {
     Landing,
 }
 
-/// What the autopilot tells the world.
+/// Status of the autopilot for telemetry.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AutopilotStatus {
-    /// Motors may turn.
+    /// Whether the motors are armed.
     pub armed: bool,
-    /// Mode.
+    /// The active mode.
     pub mode: FlightMode,
-    /// The mode that was asked for; a failsafe may fly another meanwhile.
+    /// The requested mode. A failsafe may fly another one.
     pub intended: FlightMode,
-    /// Charge below which it warns, and below which it is critical, percent.
+    /// Low battery level, %.
     pub battery_low_pct: f64,
-    /// See `battery_low_pct`.
+    /// Critical battery level, %.
     pub battery_critical_pct: f64,
-    /// Ground or air.
+    /// Landed state.
     pub landed: LandedState,
-    /// A take-off climbs to its height, as a mode or as a mission's step.
+    /// Whether a take-off climb is in progress, as a mode or a mission item.
     pub climbing_out: bool,
-    /// Why arming would be refused now; empty when it would not.
+    /// Reasons that prevent arming now; empty if none.
     pub arming_reasons: Vec<String>,
-    /// A failsafe acts; its reason.
+    /// Reason of the active failsafe.
     pub failsafe: Option<String>,
-    /// Home about the origin, m; `None` before the first fix.
+    /// Home relative to the origin, m; `None` before the first fix.
     pub home_m: Option<Vec3<Ned>>,
-    /// Present position target, if any, m.
+    /// Current target position, m.
     pub target_m: Option<Vec3<Ned>>,
-    /// The external setpoint that is flown.
+    /// The active external setpoint.
     pub setpoint: Option<OffboardSetpoint>,
-    /// Attitude set-point.
+    /// Attitude setpoint.
     pub attitude_target: Rotation<Frd, Ned>,
-    /// Collective thrust set-point 0..1.
+    /// Collective thrust setpoint, 0 to 1.
     pub thrust: f64,
-    /// Current mission item (0-based).
+    /// Current mission item, zero-based.
     pub mission_current: usize,
-    /// A mission item reached since the last look, for MISSION_ITEM_REACHED.
+    /// Mission item reached since the last query, for MISSION_ITEM_REACHED.
     pub mission_reached: Option<usize>,
-    /// The mission has been flown to its end.
+    /// Whether the mission is complete.
     pub mission_finished: bool,
-    /// The mission was left on its way and goes on where it was left.
+    /// Whether the mission was interrupted and can be continued.
     pub mission_paused: bool,
-    /// The geofence.
+    /// State of the geofence.
     pub fence: fence::FenceState,
-    /// The circle that is flown.
+    /// The active circle.
     pub orbit: Option<orbit::Orbit>,
-    /// How often the position was set to the receiver's.
+    /// Number of position resets to GNSS.
     pub position_resets: u32,
-    /// What works.
+    /// Sensor health.
     pub health: sensor_health::SensorStatus,
 }
 
-/// One mission step as the autopilot flies it; the endpoint keeps the MAVLink items beside it.
+/// One mission item as the autopilot flies it. The endpoint keeps the corresponding MAVLink items.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum MissionStep {
     /// Fly to a point.
     Waypoint {
-        /// Target about the origin, m.
+        /// Position relative to the origin, m.
         position_m: Vec3<Ned>,
-        /// Counts as reached within, m.
+        /// Acceptance radius, m.
         accept_m: f64,
-        /// Stay, s.
+        /// Hold time, s.
         hold_s: f64,
-        /// Heading there, rad; `None`: towards the target.
+        /// Heading at the waypoint, rad; `None` for toward the target.
         yaw_rad: Option<f64>,
     },
-    /// Take off to a height, m up about the origin.
+    /// Take off.
     Takeoff {
-        /// Height, m up about the origin; `None`: the parameter's over home.
+        /// Height above the origin, m. `None` uses the parameter, above home.
         up_m: Option<f64>,
     },
-    /// Land at a point; `None`: here.
+    /// Land.
     Land {
-        /// Where, m.
+        /// Landing position, m; `None` for the current position.
         position_m: Option<Vec3<Ned>>,
     },
     /// Return to home and land.
     Return,
-    /// Change the cruise speed, m/s; `None`: back to the parameter's.
+    /// Change the cruise speed, m/s. `None` restores the parameter.
     Speed(Option<f64>),
     /// Wait, s.
     Delay(f64),
     /// Wait until a time of day in UTC.
     DelayUntil(TimeOfDay),
-    /// Go to another item a number of times.
+    /// Jump to another item, a limited number of times.
     Jump {
         /// Item index.
         to: usize,
         /// Repetitions.
         times: u32,
     },
-    /// Turn towards a place from here on, m; `None`: no more.
+    /// Point the nose at a position from now on, m. `None` ends this.
     LookAt(Option<Vec3<Ned>>),
-    /// Fly round a place, the nose to it.
+    /// Circle a point with the nose toward it.
     Circle {
-        /// Its middle about the origin, m.
+        /// Center relative to the origin, m.
         centre_m: Vec3<Ned>,
-        /// Its radius, m; counter-clockwise from above where negative.
+        /// Radius, m; negative for counterclockwise from above.
         radius_m: f64,
-        /// How often.
+        /// Number of turns.
         turns: f64,
     },
-    /// Turn to a heading, rad.
+    /// Turn to a heading.
     Turn {
-        /// The heading, or the way to turn from the present one (clockwise positive).
+        /// Heading, or angle relative to the current heading (clockwise positive), rad.
         yaw_rad: f64,
-        /// From the present heading.
+        /// Whether the angle is relative to the current heading.
         relative: bool,
-        /// Turn rate, rad/s; `None`: the vehicle's own.
+        /// Turn rate, rad/s; `None` for the default.
         rate_rad_s: Option<f64>,
     },
-    /// Fly on towards the next place until this near to it, m: what follows is done on the way.
+    /// Fly toward the next position until this close to it, m. The following items run on the way.
     Near(f64),
-    /// Home is at a place from here on, m; `None`: where the vehicle is then.
+    /// Set home to a position from now on, m. `None` uses the vehicle position at that time.
     Home(Option<Vec3<Ned>>),
-    /// The geofence on or off from here on.
+    /// Enable or disable the geofence from now on.
     Fence(bool),
-    /// The landing sequence begins after this step.
+    /// Start of the landing sequence.
     LandingSequence,
-    /// Something for the payload that the endpoint does when this item becomes current.
+    /// A payload action that the endpoint performs when this item becomes current.
     Payload,
 }
 
-/// A time of day, UTC. A part that is `None` matches whatever the clock shows.
+/// A time of day, UTC. Parts set to `None` match any value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TimeOfDay {
     /// Hour, 0 to 23.
@@ -360,7 +360,7 @@ impl TimeOfDay {
     const MINUTE_S: i64 = 60;
     const DAY_S: i64 = 86_400;
 
-    /// Seconds from a UTC time (Unix seconds) until the next moment that matches; 0 if it matches now.
+    /// Seconds from a UTC time (Unix seconds) to the next matching time; 0 if it matches now.
     #[must_use]
     pub fn wait_s(self, unix_s: i64) -> i64 {
         let fits = |part: Option<u8>, value: i64| part.is_none_or(|part| i64::from(part) == value);

@@ -1,4 +1,4 @@
-//! What each mode wants of the velocity and attitude loops.
+//! Setpoints of each mode for the velocity and attitude loops.
 
 use super::core::Autopilot;
 use super::fence::RallyPoint;
@@ -10,17 +10,17 @@ use super::{FlightMode, LandedState, MissionStep, OffboardSetpoint, TurnCommand}
 use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::time::SimTime;
 
-/// The throttle stick is off its lower end (ArduPilot: RC3_DZ, 30 us).
+/// Stick position above which the throttle counts as raised (ArduPilot: RC3_DZ, 30 us).
 const THROTTLE_UP: f64 = -0.94;
 
-/// What a mode asks for.
+/// Output of a mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Setpoint {
     /// Motors at idle, on the ground.
     Idle,
-    /// A velocity.
+    /// Velocity.
     Velocity(VelocitySetpoint),
-    /// A vertical velocity with roll and pitch given, rad.
+    /// Vertical velocity with fixed roll and pitch.
     Level {
         /// Vertical velocity and heading.
         motion: VelocitySetpoint,
@@ -38,71 +38,71 @@ pub enum Setpoint {
     },
 }
 
-/// Where a return stands.
+/// Phase of a return.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ReturnPhase {
-    /// Up to the return height.
+    /// Climbing to the return height.
     #[default]
     Climb,
-    /// Over to home.
+    /// Flying to the destination.
     Cruise,
-    /// Waiting over home.
+    /// Waiting over the destination.
     Wait,
-    /// Staying over home instead of landing.
+    /// Holding over the destination instead of landing.
     Stay,
-    /// Down.
+    /// Landing.
     Land,
 }
 
-/// What the guidance remembers from tick to tick.
+/// State of navigation between ticks.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct NavigatorState {
-    /// Target of holds, go-to, take-off, landing, return, m.
+    /// Target of hold, go-to, take-off, landing and return, m.
     pub target_m: Vec3<Ned>,
-    /// Wanted heading on arrival, rad.
+    /// Heading on arrival, rad.
     pub target_yaw_rad: Option<f64>,
     /// Speed of a go-to, m/s.
     pub speed_m_s: Option<f64>,
-    /// Horizontal position lock of the position mode, m.
+    /// Horizontal position lock of position mode, north and east, m.
     pub horizontal_lock: Option<(f64, f64)>,
     /// Height lock, m down.
     pub height_lock_down_m: Option<f64>,
-    /// Wanted heading, rad.
+    /// Heading setpoint, rad.
     pub yaw_rad: f64,
-    /// Wanted heading rate, rad/s.
+    /// Heading rate setpoint, rad/s.
     pub yaw_rate_rad_s: f64,
-    /// Added to the wanted heading rate while a turn is braked, rad/s.
+    /// Added to the heading rate setpoint while a turn is braked, rad/s.
     pub yaw_brake_rad_s: f64,
-    /// No heading is held: the nose turns at a rate, or has not come to rest since.
+    /// Whether no heading is held: the nose turns at a rate, or has not come to rest since.
     pub heading_free: bool,
-    /// Asked take-off height, m up about the origin.
+    /// Requested take-off height, m above the origin.
     pub takeoff_up_m: Option<f64>,
-    /// Height of the ground where it last stood, m down.
+    /// Ground level at the last position on the ground, m down.
     pub ground_down_m: f64,
-    /// When it last left the ground.
+    /// Time of the last lift-off.
     pub left_ground: SimTime,
     /// Phase of a return.
     pub phase: ReturnPhase,
-    /// Where a return goes, m.
+    /// Destination of a return, m.
     pub return_target_m: Option<Vec3<Ned>>,
-    /// The wait over home ends at this time.
+    /// End of the wait over the destination.
     pub wait_until: Option<SimTime>,
     /// A commanded turn.
     pub turn: Option<TurnCommand>,
-    /// The pilot has turned the nose in GUIDED: it stays until something else is asked for.
+    /// Whether the pilot has turned the nose in GUIDED. The heading then stays until the next request.
     pub turned_by_pilot: bool,
-    /// What is flown is paused.
+    /// The pause, if the current mode is paused.
     pub paused: Option<PausedAt>,
 }
 
 impl FlightMode {
-    /// Sticks fly.
+    /// Returns true if the sticks control the vehicle.
     #[must_use]
     pub fn is_manual(self) -> bool {
         matches!(self, Self::Stabilized | Self::Altitude | Self::Position | Self::Acro)
     }
 
-    /// Cannot be flown without horizontal position.
+    /// Returns true if the mode requires a horizontal position.
     #[must_use]
     pub fn needs_position(self) -> bool {
         !matches!(self, Self::Stabilized | Self::Altitude | Self::Acro | Self::Land | Self::Offboard)
@@ -110,10 +110,10 @@ impl FlightMode {
 }
 
 impl Autopilot {
-    /// Begins a mode (again).
+    /// Starts or restarts a mode.
     pub(super) fn enter(&mut self, mode: FlightMode, now: SimTime) {
         self.suspend_mission(mode);
-        // A failsafe that breaks a take-off off gives it back.
+        // A failsafe that interrupts a take-off resumes it later.
         if self.failsafe.intended != FlightMode::Takeoff {
             self.navigator.takeoff_up_m = None;
         }
@@ -123,11 +123,11 @@ impl Autopilot {
         self.begin_mode(now);
     }
 
-    /// A mission that is left on its way goes on from here later.
+    /// Suspends an interrupted mission so that it can continue from here.
     fn suspend_mission(&mut self, next: FlightMode) {
         let in_air = matches!(self.status.landed, LandedState::InAir | LandedState::Landing);
         let flying = self.status.armed && in_air && self.estimate.position_valid;
-        // On its way back to where it was left it has not begun the step again.
+        // While it returns to the route, the mission has not restarted the item.
         let begun = self.mission.begun || self.mission.left_at.is_some();
         let under_way = self.status.mode == FlightMode::Mission && begun && self.mission.step().is_some();
         let left = flying && under_way && next != FlightMode::Mission;
@@ -184,12 +184,12 @@ impl Autopilot {
         self.navigator.target_m = Vec3::new(here.north(), here.east(), (-up).min(here.down()));
     }
 
-    /// Height of a take-off that names none, m up about the origin.
+    /// Default take-off height, m above the origin.
     pub(super) fn default_takeoff_up_m(&self) -> f64 {
         self.status.home_m.map_or(0.0, |h| -h.down()) + self.tuning.takeoff_height_m
     }
 
-    /// The nearest of the places that a return may go to; home where there is none.
+    /// The nearest allowed destination of a return; home if there is none.
     fn nearest_rally_point(&self) -> Vec3<Ned> {
         let here = self.estimate.position_m;
         let home = self.status.home_m.unwrap_or(here);
@@ -198,7 +198,7 @@ impl Autopilot {
         let landing = self.mission.landing().filter(|_| allowed.mission_landing);
         let places = allowed.home.then_some(home).into_iter().chain(rally).chain(landing);
         let away = |place: &Vec3<Ned>| (*place - here).horizontal_norm();
-        // Of two that are as near the first counts: home.
+        // Of two equally near destinations the first one, home, is used.
         places.reduce(|best, place| if away(&place) < away(&best) { place } else { best }).unwrap_or(home)
     }
 
@@ -217,7 +217,7 @@ impl Autopilot {
         self.navigator.target_m = Vec3::new(here.north(), here.east(), down);
     }
 
-    /// Height of a return over its place, m: less within the cone around the place.
+    /// Return height above the destination, m; lower within the cone around it.
     fn return_height_over(&self, away_m: f64) -> f64 {
         let rules = self.tuning.rules.homeward;
         if rules.cone_slope <= 0.0 {
@@ -227,7 +227,7 @@ impl Autopilot {
         (away_m * rules.cone_slope).max(least_m).min(self.tuning.return_height_m)
     }
 
-    /// Standing on the ground, the mode wants to leave it.
+    /// Returns true if the mode commands a take-off from the ground.
     pub(super) fn wants_to_fly(&self, now: SimTime) -> bool {
         match self.status.mode {
             FlightMode::Stabilized | FlightMode::Altitude | FlightMode::Position | FlightMode::Acro => {
@@ -281,7 +281,7 @@ impl Autopilot {
     }
 }
 
-/// An external set-point that leads up from where the vehicle stands.
+/// Returns true if an external setpoint leads up from the ground.
 fn is_upward(s: &OffboardSetpoint, down_m: f64) -> bool {
     s.position_m[2].is_some_and(|d| d < down_m - 0.3)
         || s.velocity_m_s[2].is_some_and(|v| v < -0.1)

@@ -1,44 +1,44 @@
-//! What an operator sets beyond speeds and thresholds: reactions to failures, the way home, limits of sticks and automatic flight. The endpoint maps
-//! parameters to these; each doc line names them (PX4; ArduPilot).
+//! Operator settings beyond speeds and thresholds: failsafe actions, return, and limits for manual and automatic flight. The
+//! endpoint maps parameters to these fields; each comment names them (PX4; ArduPilot).
 
 use super::FlightMode;
 
-/// A reaction to a failure.
+/// A failsafe action.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FailsafeResponse {
-    /// A text.
+    /// Warn only.
     Warn,
-    /// Stop and hold.
+    /// Stop and hold position.
     Hold,
     /// Return to home and land.
     Return,
-    /// Land here.
+    /// Land at the current position.
     Land,
-    /// Motors off.
+    /// Stop the motors.
     Terminate,
 }
 
-/// Modes in which a lost link changes nothing.
+/// Modes in which a lost link is ignored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct LinkLossExceptions {
     /// Missions.
     pub mission: bool,
     /// Hold, take-off and go-to.
     pub hold: bool,
-    /// External set-points.
+    /// External setpoints.
     pub offboard: bool,
-    /// Flight by the sticks.
+    /// Manual flight.
     pub manual: bool,
 }
 
 impl LinkLossExceptions {
-    /// From PX4's mask: 1 mission, 2 hold, 4 offboard.
+    /// Returns the exceptions for PX4's bit mask: 1 mission, 2 hold, 4 offboard.
     #[must_use]
     pub fn from_bits(bits: i32) -> Self {
         Self { mission: bits & 1 != 0, hold: bits & 2 != 0, offboard: bits & 4 != 0, manual: false }
     }
 
-    /// Whether a lost link changes nothing in a mode. Landing and returning go on in any case.
+    /// Returns true if a lost link is ignored in a mode. Landing and returning always continue.
     #[must_use]
     pub fn cover(&self, mode: FlightMode) -> bool {
         match mode {
@@ -51,17 +51,17 @@ impl LinkLossExceptions {
     }
 }
 
-/// Reaction to lost external set-points; the stick modes need fresh sticks.
+/// Action on loss of external setpoints. Manual modes require recent stick input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OffboardLoss {
-    /// A stick mode where somebody has the sticks, else the reaction to lost manual control.
+    /// A manual mode with recent stick input, otherwise the action for loss of manual control.
     Sticks(FlightMode),
-    /// A fixed reaction.
+    /// A fixed action.
     Fixed(FailsafeResponse),
 }
 
 impl OffboardLoss {
-    /// From the number of `COM_OBL_RC_ACT`.
+    /// Returns the action for a value of `COM_OBL_RC_ACT`.
     #[must_use]
     pub fn from_number(number: i32) -> Option<Self> {
         Some(match number {
@@ -77,60 +77,60 @@ impl OffboardLoss {
     }
 }
 
-/// Reactions to the battery: when it is low, critical, and an emergency.
+/// Failsafe actions for low, critical and emergency battery levels.
 pub type BatteryResponses = [Option<FailsafeResponse>; 3];
-/// The job's rule: back when low, down when critical.
+/// Rule of the scenario: return at low level, land at critical level.
 pub const JOB_BATTERY: BatteryResponses = [Some(FailsafeResponse::Return), Some(FailsafeResponse::Land), None];
 
-/// Reactions to failures.
+/// Failsafe actions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FailsafeResponses {
-    /// `COM_RCL_EXCEPT`; `FS_OPTIONS`: where lost sticks change nothing.
+    /// `COM_RCL_EXCEPT`; `FS_OPTIONS`: modes in which loss of manual control is ignored.
     pub manual_loss_except: LinkLossExceptions,
-    /// `COM_DLL_EXCEPT`; `FS_OPTIONS`: where a lost ground station changes nothing.
+    /// `COM_DLL_EXCEPT`; `FS_OPTIONS`: modes in which loss of the ground station is ignored.
     pub data_link_loss_except: LinkLossExceptions,
-    /// `COM_OBL_RC_ACT`: lost external set-points.
+    /// `COM_OBL_RC_ACT`: action on loss of external setpoints.
     pub offboard_loss: OffboardLoss,
-    /// `COM_ACT_FAIL_ACT` with `FD_ACT_EN`: a failed motor.
+    /// `COM_ACT_FAIL_ACT` with `FD_ACT_EN`: action on motor failure.
     pub motor_failure: FailsafeResponse,
-    /// `COM_LOW_BAT_ACT`; `BATT_FS_LOW_ACT`, `BATT_FS_CRT_ACT`: the battery.
+    /// `COM_LOW_BAT_ACT`; `BATT_FS_LOW_ACT`, `BATT_FS_CRT_ACT`: battery actions.
     pub battery: BatteryResponses,
-    /// `BAT_EMERGEN_THR`: emergency, %.
+    /// `BAT_EMERGEN_THR`: emergency battery level, %.
     pub battery_emergency_pct: f64,
-    /// `BATT_LOW_VOLT`, `BATT_CRT_VOLT`: low and critical voltage, V; 0: not looked at.
+    /// `BATT_LOW_VOLT`, `BATT_CRT_VOLT`: low and critical voltage, V; 0 disables the check.
     pub battery_low_v: [f64; 2],
-    /// `BATT_LOW_TIMER`: for this long before it counts, s.
+    /// `BATT_LOW_TIMER`: time below a voltage threshold before it counts, s.
     pub battery_low_s: f64,
-    /// `COM_POSCTL_NAVL`; `FS_EKF_ACTION`: a pilot without position lands, too.
+    /// `COM_POSCTL_NAVL`; `FS_EKF_ACTION`: land in manual position mode too when the position is lost.
     pub blind_lands: bool,
-    /// `FS_CRASH_CHECK`: motors stop after a crash.
+    /// `FS_CRASH_CHECK`: stop the motors after a crash.
     pub crash_check: bool,
-    /// `COM_RC_STICK_OV`: sticks take over beyond this share of their travel.
+    /// `COM_RC_STICK_OV`: stick deflection for takeover, as a fraction of full deflection.
     pub takeover_share: f64,
-    /// `COM_RC_OVERRIDE`: sticks take over from external set-points, too.
+    /// `COM_RC_OVERRIDE`: stick movement also takes over from external setpoints.
     pub takeover_offboard: bool,
-    /// `COM_ARM_BAT_MIN`: least charge for arming, %; 0: none.
+    /// `COM_ARM_BAT_MIN`: minimum battery level for arming, %; 0: no minimum.
     pub arm_charge_pct: f64,
-    /// `BATT_ARM_VOLT`: least voltage for arming, V; 0: none.
+    /// `BATT_ARM_VOLT`: minimum voltage for arming, V; 0: no minimum.
     pub arm_voltage_v: f64,
-    /// `COM_ARM_MIS_REQ`: arming needs a mission.
+    /// `COM_ARM_MIS_REQ`: arming requires a mission.
     pub arm_needs_mission: bool,
 }
 
-/// When the fence is switched by itself, by the number of `FENCE_AUTOENABLE`.
+/// Automatic switching of the geofence, numbered as `FENCE_AUTOENABLE`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FenceSwitching {
     /// Never.
     #[default]
     Never,
-    /// On in the air, off when motors stop.
+    /// Enabled in the air, disabled when the motors stop.
     InTheAir,
-    /// On when motors are armed, off when they stop.
+    /// Enabled at arming, disabled when the motors stop.
     AtArming,
 }
 
 impl FenceSwitching {
-    /// From the parameter's number.
+    /// Returns the setting for a parameter value.
     #[must_use]
     pub fn from_number(number: i32) -> Self {
         match number {
@@ -141,19 +141,19 @@ impl FenceSwitching {
     }
 }
 
-/// Where a return goes, by the number of `RTL_TYPE`.
+/// Destinations of a return, numbered as `RTL_TYPE`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ReturnTargets {
-    /// Home is one of the places; it is the last resort in any case.
+    /// Whether home is a candidate. It is always the last resort.
     pub home: bool,
     /// Rally points.
     pub rally: bool,
-    /// The landing of the mission.
+    /// Landing position of the mission.
     pub mission_landing: bool,
 }
 
 impl ReturnTargets {
-    /// From the parameter's number.
+    /// Returns the destinations for a parameter value, or `None` if it is unknown.
     #[must_use]
     pub fn from_number(number: i32) -> Option<Self> {
         let (home, rally, mission_landing) = match number {
@@ -168,50 +168,51 @@ impl ReturnTargets {
     }
 }
 
-/// How a return is flown.
+/// Settings of a return.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReturnRules {
-    /// `RTL_TYPE`; `RALLY_INCL_HOME`: where to.
+    /// `RTL_TYPE`; `RALLY_INCL_HOME`: destinations.
     pub places: ReturnTargets,
-    /// `RTL_SPEED`: horizontal speed, m/s; `None`: the cruise speed.
+    /// `RTL_SPEED`: horizontal speed, m/s; `None` for the cruise speed.
     pub speed_m_s: Option<f64>,
-    /// `RTL_CLIMB_MIN`: it climbs at least this much, m.
+    /// `RTL_CLIMB_MIN`: minimum climb, m.
     pub climb_min_m: f64,
-    /// `RTL_CONE_ANG`; `RTL_CONE_SLOPE`: height over distance within which it climbs less; 0: none.
+    /// `RTL_CONE_ANG`; `RTL_CONE_SLOPE`: slope of the cone, height over distance, in which the return height is lower; 0: no
+    /// cone.
     pub cone_slope: f64,
-    /// `RTL_MIN_DIST`: nearer than this it does not climb, m.
+    /// `RTL_MIN_DIST`: distance below which the vehicle does not climb, m.
     pub near_m: f64,
-    /// `RTL_DESCEND_ALT`: height over the place at which it waits, m; `None`: where it arrives.
+    /// `RTL_DESCEND_ALT`: height above the destination at which the vehicle waits, m; `None` for the arrival height.
     pub wait_height_m: Option<f64>,
-    /// `RTL_LAND_DELAY`; `RTL_LOIT_TIME`: it waits this long, s; negative: for good.
+    /// `RTL_LAND_DELAY`; `RTL_LOIT_TIME`: waiting time, s; negative to wait forever.
     pub wait_s: f64,
-    /// A rally point's height is the return's (ArduPilot).
+    /// A rally point's height is the return height (ArduPilot).
     pub rally_height: bool,
-    /// `WP_YAW_BEHAVIOR` 1, 3: over its place it turns to the heading of the take-off.
+    /// `WP_YAW_BEHAVIOR` 1, 3: turn to the take-off heading at the destination.
     pub turns_back: bool,
-    /// `RTL_ALT_FINAL`: it stays at this height instead of landing, m; 0: it lands.
+    /// `RTL_ALT_FINAL`: hold at this height instead of landing, m; 0: land.
     pub final_height_m: f64,
 }
 
-/// Where the nose points in automatic modes.
+/// Heading in automatic modes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum HeadingRule {
-    /// To the target.
+    /// Toward the target.
     Target,
-    /// To the target, but not on the way home.
+    /// Toward the target, except during a return.
     TargetExceptReturn,
-    /// To home.
+    /// Toward home.
     Home,
     /// Away from home.
     AwayFromHome,
     /// Along the path.
     Path,
-    /// Where it points.
+    /// Unchanged.
     Fixed,
 }
 
 impl HeadingRule {
-    /// From the number of `MPC_YAW_MODE`.
+    /// Returns the rule for a value of `MPC_YAW_MODE`.
     #[must_use]
     pub fn from_number(number: i32) -> Option<Self> {
         let all = [Self::Target, Self::Home, Self::AwayFromHome, Self::Path, Self::Target, Self::Fixed];
@@ -219,29 +220,29 @@ impl HeadingRule {
     }
 }
 
-/// Limits within the airframe's own; infinite: those alone.
+/// Limits in addition to those of the airframe; infinite for none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlightEnvelope {
-    /// `MPC_VEL_MANUAL`; `LOIT_SPEED`: horizontal speed by the sticks, m/s.
+    /// `MPC_VEL_MANUAL`; `LOIT_SPEED`: horizontal speed in manual flight, m/s.
     pub manual_m_s: f64,
-    /// `PILOT_SPEED_UP`: climb by the stick, m/s.
+    /// `PILOT_SPEED_UP`: climb rate in manual flight, m/s.
     pub manual_up_m_s: f64,
-    /// `PILOT_SPEED_DN`: descent by the stick, m/s.
+    /// `PILOT_SPEED_DN`: descent rate in manual flight, m/s.
     pub manual_down_m_s: f64,
-    /// `MPC_MAN_Y_MAX`; `PILOT_Y_RATE`: yaw rate by the stick, rad/s.
+    /// `MPC_MAN_Y_MAX`; `PILOT_Y_RATE`: yaw rate in manual flight, rad/s.
     pub manual_yaw_rad_s: f64,
-    /// `MPC_MAN_TILT_MAX`; `ANGLE_MAX`: tilt by the sticks, rad.
+    /// `MPC_MAN_TILT_MAX`; `ANGLE_MAX`: tilt in manual flight, rad.
     pub manual_tilt_rad: f64,
-    /// `MPC_ACC_HOR`; `WPNAV_ACCEL`: horizontal acceleration of automatic modes, m/s².
+    /// `MPC_ACC_HOR`; `WPNAV_ACCEL`: horizontal acceleration in automatic modes, m/s².
     pub acceleration_m_s2: f64,
-    /// `MPC_ACC_UP_MAX`, `MPC_ACC_DOWN_MAX`; `WPNAV_ACCEL_Z`: vertical acceleration of automatic modes, m/s².
+    /// `MPC_ACC_UP_MAX`, `MPC_ACC_DOWN_MAX`; `WPNAV_ACCEL_Z`: vertical acceleration in automatic modes, m/s².
     pub climb_acceleration_m_s2: f64,
-    /// `LAND_SPEED_HIGH`: descent of a landing before its last meters, m/s.
+    /// `LAND_SPEED_HIGH`: descent rate of a landing before its last meters, m/s.
     pub landing_m_s: f64,
 }
 
 impl FlightEnvelope {
-    /// The airframe's limits alone.
+    /// No limits beyond those of the airframe.
     pub const OPEN: Self = Self {
         manual_m_s: f64::INFINITY,
         manual_up_m_s: f64::INFINITY,
@@ -254,15 +255,15 @@ impl FlightEnvelope {
     };
 }
 
-/// What a mission must have, by the numbers of `MIS_TKO_LAND_REQ`.
+/// Required mission items, numbered as `MIS_TKO_LAND_REQ`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum MissionNeeds {
-    /// Anything (0).
+    /// None (0).
     #[default]
     Nothing,
-    /// A take-off (1).
+    /// Take-off (1).
     Takeoff,
-    /// A landing (2).
+    /// Landing (2).
     Landing,
     /// Both (3).
     Both,
@@ -271,7 +272,7 @@ pub enum MissionNeeds {
 }
 
 impl MissionNeeds {
-    /// From the parameter's number.
+    /// Returns the requirement for a parameter value, or `None` if it is unknown.
     #[must_use]
     pub fn from_number(number: i32) -> Option<Self> {
         let all = [Self::Nothing, Self::Takeoff, Self::Landing, Self::Both, Self::BothOrNeither];
@@ -279,35 +280,35 @@ impl MissionNeeds {
     }
 }
 
-/// Which parts of the geofence act.
+/// Active parts of the geofence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FenceParts {
-    /// Bit 0 of `FENCE_TYPE`: the greatest height.
+    /// Bit 0 of `FENCE_TYPE`: maximum height.
     pub height: bool,
-    /// Bit 1: the distance from home.
+    /// Bit 1: maximum distance from home.
     pub distance: bool,
-    /// Bit 2: the areas.
+    /// Bit 2: inclusion and exclusion zones.
     pub areas: bool,
-    /// Bit 3, `FENCE_ALT_MIN`: least height over home once it has been above, m.
+    /// Bit 3, `FENCE_ALT_MIN`: minimum height above home, m. Active once the vehicle has been above it.
     pub floor_m: Option<f64>,
-    /// `FENCE_AUTOENABLE`: when it is switched by itself.
+    /// `FENCE_AUTOENABLE`: automatic switching.
     pub auto: FenceSwitching,
 }
 
-/// The sensor whose slow changes the height follows, by the numbers of `EKF2_HGT_REF` (ArduPilot: `EK3_SRC1_POSZ`).
+/// Height reference, numbered as `EKF2_HGT_REF` (ArduPilot: `EK3_SRC1_POSZ`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum HeightReference {
-    /// Barometer: the receiver's height counts as off by a slow error of its own.
+    /// Barometer. The GNSS height is treated as slowly drifting.
     Barometer,
-    /// GNSS, with the barometer weighed by its drift.
+    /// GNSS. The barometer is weighted by its drift.
     #[default]
     Gnss,
-    /// Range finder: height over the ground below.
+    /// Range finder: height above the ground below.
     RangeFinder,
 }
 
 impl HeightReference {
-    /// From the parameter's number. There is no vision: GNSS is next.
+    /// Returns the reference for a parameter value. Vision is not available; GNSS is used instead.
     #[must_use]
     pub fn from_number(number: i32) -> Self {
         match number {
@@ -318,19 +319,19 @@ impl HeightReference {
     }
 }
 
-/// The bits of `GUID_OPTIONS` that have a meaning here (ArduCopter).
+/// Supported bits of `GUID_OPTIONS` (ArduCopter).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct GuidedOptions {
-    /// Bit 0: the transmitter may arm the motors in GUIDED.
+    /// Bit 0: the transmitter may arm in GUIDED.
     pub transmitter_arms: bool,
-    /// The yaw stick turns the nose in GUIDED; bit 2 switches that off.
+    /// The yaw stick controls the heading in GUIDED. Bit 2 disables this.
     pub pilot_yaw: bool,
-    /// The thrust of an attitude setpoint is a climb rate; with bit 3 it is thrust.
+    /// The thrust of an attitude setpoint is a climb rate. With bit 3 it is thrust.
     pub thrust_climbs: bool,
 }
 
 impl GuidedOptions {
-    /// From the parameter's bits.
+    /// Returns the options for a parameter value.
     #[must_use]
     pub fn from_bits(bits: i32) -> Self {
         let has = |bit: i32| bits & 1 << bit != 0;
@@ -338,39 +339,40 @@ impl GuidedOptions {
     }
 }
 
-/// All of them.
+/// All operator settings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OperatorRules {
-    /// Reactions to failures.
+    /// Failsafe actions.
     pub responses: FailsafeResponses,
-    /// The way home.
+    /// Settings of a return.
     pub homeward: ReturnRules,
-    /// `MPC_YAW_MODE`; `WP_YAW_BEHAVIOR`: the nose.
+    /// `MPC_YAW_MODE`; `WP_YAW_BEHAVIOR`: heading in automatic modes.
     pub heading: HeadingRule,
-    /// Limits.
+    /// Additional limits.
     pub envelope: FlightEnvelope,
-    /// `MIS_TKO_LAND_REQ`: what a mission must have.
+    /// `MIS_TKO_LAND_REQ`: required mission items.
     pub mission_needs: MissionNeeds,
-    /// `MIS_DIST_1WP`: farthest first waypoint from home, m; not above zero: any.
+    /// `MIS_DIST_1WP`: maximum distance of the first waypoint from home, m; 0 or less: no limit.
     pub first_waypoint_m: f64,
-    /// `MIS_RESTART`: a mission begins anew whenever it is entered.
+    /// `MIS_RESTART`: restart the mission whenever its mode is entered.
     pub mission_restarts: bool,
-    /// Bit 1 of `AUTO_OPTIONS`: a mission that is armed takes off at once; otherwise it waits for the throttle or the start command.
+    /// Bit 1 of `AUTO_OPTIONS`: a mission takes off immediately after arming. Otherwise it waits for the throttle or a start
+    /// command.
     pub mission_starts_armed: bool,
-    /// `FENCE_TYPE`, `FENCE_ALT_MIN`.
+    /// `FENCE_TYPE`, `FENCE_ALT_MIN`: parts of the geofence.
     pub fence: FenceParts,
-    /// `CIRCLE_RADIUS`: radius of an orbit that names none, and of a circle entered by its mode alone, m.
+    /// `CIRCLE_RADIUS`: default radius of an orbit or of a circle entered by mode change, m.
     pub orbit_radius_m: f64,
-    /// `GUID_OPTIONS`: flight by errands and external setpoints.
+    /// `GUID_OPTIONS`: options for guided flight and external setpoints.
     pub guided: GuidedOptions,
-    /// `EKF2_HGT_REF`; `EK3_SRC1_POSZ`: what the height follows.
+    /// `EKF2_HGT_REF`; `EK3_SRC1_POSZ`: height reference.
     pub height_reference: HeightReference,
-    /// `EKF2_NOAID_TOUT`: without GNSS and optical flow for this long the position counts as lost, s.
+    /// `EKF2_NOAID_TOUT`: time without GNSS and optical flow after which the position is lost, s.
     pub no_aid_s: f64,
 }
 
-/// Longest dead reckoning by default, s. PX4 allows 5 s; an aircraft below a deck over water often has neither GNSS nor optical flow, and this
-/// estimator's drift stays within its limits for about that long (`crates/sitl/tests/flight`).
+/// Default dead-reckoning time limit, s. PX4 allows 5 s. Below a deck over water an aircraft often has neither GNSS nor optical
+/// flow, and this estimator's drift stays within its limits for about this long (`crates/sitl/tests/flight`).
 pub const NO_AID_S: f64 = 60.0;
 
 impl Default for OperatorRules {

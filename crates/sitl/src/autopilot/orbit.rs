@@ -1,4 +1,4 @@
-//! Circling a place, and looking at one.
+//! Circling a point, and pointing the nose at one.
 
 use super::core::{Autopilot, Severity};
 use super::modes::Setpoint;
@@ -8,73 +8,73 @@ use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
 
-/// The circle is closed in on at this rate, 1/s (estimate: slower than the velocity loop by far).
+/// Rate at which the distance error to the circle is corrected, 1/s (estimate: much slower than the velocity loop).
 const CLOSE_IN_PER_S: f64 = 0.6;
-/// What stays of the error is trimmed away at this rate, 1/s² (estimate: damping ratio 0.8 with the above), up to so much, m/s.
+/// Integral gain on the remaining distance error, 1/s² (estimate: damping ratio 0.8 with the rate above), and its limit, m/s.
 const TRIM_PER_S2: f64 = 0.14;
 const TRIM_MAX_M_S: f64 = 2.0;
-/// Share of the acceleration that the circle may take.
+/// Fraction of the available acceleration that circling may use.
 const TURN_SHARE: f64 = 0.5;
-/// Radii that can be flown, m.
+/// Allowed radii, m.
 const RADII_M: std::ops::RangeInclusive<f64> = 1.0..=1_000.0;
-/// Nearer than this the heading towards a place is kept, m.
+/// Distance below which the heading to a point is not updated, m.
 const TOO_NEAR_M: f64 = 0.5;
-/// Speed where none is given, m/s.
+/// Default speed, m/s.
 const SPEED_M_S: f64 = 2.0;
 
-/// Where the nose points on a circle, by the numbers of MAVLink's ORBIT_YAW_BEHAVIOUR.
+/// Heading on a circle, numbered as MAVLink's ORBIT_YAW_BEHAVIOUR.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum OrbitYaw {
-    /// To the middle (0).
+    /// Toward the center (0).
     #[default]
     Centre,
-    /// As at the start (1), or as it may be (2).
+    /// Heading at the start (1), or uncontrolled (2).
     Keep,
-    /// Along the way (3).
+    /// Tangential to the circle (3).
     Tangent,
-    /// By the yaw stick (4).
+    /// Controlled by the yaw stick (4).
     Stick,
 }
 
 impl OrbitYaw {
-    /// From the command's number.
+    /// Returns the behavior for a command value, or `None` if it is unknown.
     #[must_use]
     pub fn from_number(n: i64) -> Option<Self> {
         [Self::Centre, Self::Keep, Self::Keep, Self::Tangent, Self::Stick].get(usize::try_from(n).ok()?).copied()
     }
 }
 
-/// A circle to fly.
+/// An active circle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Orbit {
-    /// Its middle, m; the height is the circle's.
+    /// Center and height of the circle, m.
     pub centre_m: Vec3<Ned>,
-    /// Its radius, m.
+    /// Radius, m.
     pub radius_m: f64,
-    /// Speed along it, m/s; clockwise from above is positive.
+    /// Tangential speed, m/s; clockwise from above is positive.
     pub speed_m_s: f64,
-    /// Where the nose points.
+    /// Heading behavior.
     pub yaw: OrbitYaw,
-    /// What is left to fly, rad; without end at infinity.
+    /// Remaining arc, rad; infinite for an endless circle.
     pub left_rad: f64,
-    /// Inward speed that keeps it on the circle, learned on the way, m/s.
+    /// Learned inward speed that keeps the vehicle on the circle, m/s.
     pub trim_m_s: f64,
 }
 
-/// A circle as a command asks for it.
+/// A requested circle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct OrbitRequest {
-    /// North, east of its middle, m; here where none is given.
+    /// Center, north and east, m; `None` uses the current position.
     pub centre_m: Option<(f64, f64)>,
-    /// Height, m up about the origin.
+    /// Height above the origin, m.
     pub up_m: Option<f64>,
-    /// Radius, m; negative is counter-clockwise.
+    /// Radius, m; negative for counterclockwise.
     pub radius_m: Option<f64>,
     /// Speed, m/s.
     pub speed_m_s: Option<f64>,
-    /// Where the nose points; `None`: as on the circle that is flown, otherwise to the middle.
+    /// Heading behavior. `None` keeps that of the active circle, or points toward the center.
     pub yaw: Option<OrbitYaw>,
-    /// How far round, rad; 0: without end.
+    /// Arc to fly, rad; 0 for an endless circle.
     pub arc_rad: f64,
 }
 
@@ -114,7 +114,7 @@ impl Autopilot {
         RequestOutcome::Accepted
     }
 
-    /// A circle ahead of the nose, at once where it flies; on the ground the mode alone is taken.
+    /// Starts a circle ahead of the nose. On the ground, changes only the mode.
     pub(super) fn request_circle_ahead(&mut self, now: SimTime) -> RequestOutcome {
         if !self.status.armed || self.status.landed == LandedState::OnGround {
             (self.failsafe.intended, self.orbit) = (FlightMode::Orbit, None);
@@ -153,7 +153,7 @@ impl Autopilot {
         wanted
     }
 
-    /// Sets up a circle of a mission: as fast as the mission flies, the nose to the middle or to what is looked at.
+    /// Starts a mission circle at mission speed, with the nose toward its center or the region of interest.
     pub(super) fn begin_circle(&mut self, centre_m: Vec3<Ned>, radius_m: f64, turns: f64) {
         let speed = self.mission.speed_m_s.unwrap_or(self.cruise_m_s()).min(self.max_speed_on(radius_m.abs()));
         let speed_m_s = speed * radius_m.signum();
@@ -163,7 +163,7 @@ impl Autopilot {
         self.navigator.target_m = centre_m;
     }
 
-    /// Flies round; `None` where there is nothing to circle.
+    /// Flies the active circle. Returns `None` without one.
     pub(super) fn circle(&mut self, dt_s: f64) -> Option<Setpoint> {
         let mut orbit = self.orbit?;
         let here = self.estimate.position_m;
@@ -173,7 +173,7 @@ impl Autopilot {
         let along = Vec3::<Ned>::new(-away.east(), away.north(), 0.0);
         let error = distance - orbit.radius_m;
         let cruise = self.cruise_m_s().min(self.airframe.limits.forward_m_s);
-        // Far from the circle the way is towards it; on it, around.
+        // Far from the circle, the heading of travel is toward it; on the circle, along it.
         let on_it = (1.0 - error.abs() / orbit.radius_m.max(2.0)).clamp(0.0, 1.0);
         let flat = along * (orbit.speed_m_s * on_it) - away * (CLOSE_IN_PER_S * error + orbit.trim_m_s).clamp(-cruise, cruise);
         let climb = CLOSE_IN_PER_S * (orbit.centre_m.down() - here.down());
@@ -195,7 +195,7 @@ impl Autopilot {
         Some(Setpoint::Velocity(self.motion(self.shaper.velocity_m_s)))
     }
 
-    /// Heading towards the place that is looked at, if there is one and it is not underneath, rad.
+    /// Heading toward the region of interest, rad. `None` without one or directly above it.
     pub(super) fn look_rad(&self) -> Option<f64> {
         let to = self.look_at_m? - self.estimate.position_m;
         (to.horizontal_norm() > TOO_NEAR_M).then(|| heading(to)).flatten()

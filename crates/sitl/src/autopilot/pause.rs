@@ -1,4 +1,4 @@
-//! Pausing what is flown without leaving the mode (ArduCopter: DO_PAUSE_CONTINUE in AUTO and GUIDED).
+//! Pausing without leaving the mode (ArduCopter: DO_PAUSE_CONTINUE in AUTO and GUIDED).
 
 use super::core::{Autopilot, Severity};
 use super::modes::Setpoint;
@@ -7,7 +7,7 @@ use super::{FlightMode, LandedState, RequestOutcome};
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::time::SimTime;
 
-/// A pause: where it holds, and since when.
+/// Position and start time of a pause.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PausedAt {
     /// Hold position, m.
@@ -33,7 +33,7 @@ impl Autopilot {
         RequestOutcome::Accepted
     }
 
-    /// Continues after a pause; the rest of a mission item's waiting time is kept.
+    /// Continues after a pause. Keeps the remaining wait of a mission item.
     pub(super) fn resume(&mut self, now: SimTime) -> RequestOutcome {
         let Some(pause) = self.navigator.paused.take() else { return RequestOutcome::Accepted };
         if self.status.mode == FlightMode::Mission {
@@ -45,7 +45,7 @@ impl Autopilot {
         RequestOutcome::Accepted
     }
 
-    /// Holds where the pause began; the course stays as it was.
+    /// Holds the position of the pause. Keeps the navigator's target.
     pub(super) fn hold_paused(&mut self, pause: PausedAt, dt_s: f64) -> Setpoint {
         let target_m = std::mem::replace(&mut self.navigator.target_m, pause.place_m);
         let yaw_rad = self.navigator.target_yaw_rad.take();

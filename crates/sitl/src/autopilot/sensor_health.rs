@@ -1,4 +1,4 @@
-//! Sensors that fall silent, repeat one value or contradict the others: they are announced, not used, and forbid arming.
+//! Sensor health: sensors that are silent, stuck or inconsistent are reported, not used, and prevent arming.
 
 use super::core::{Autopilot, Severity};
 use super::estimator::RejectedSources;
@@ -6,30 +6,31 @@ use crate::sensors::Readings;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle;
 
-/// A sensor that is silent this long is missing, s (estimate: 25 readings of compass and barometer, fewer than a wink loses).
+/// Timeout of sensor readings, s (estimate: 25 readings of compass and barometer).
 const SILENT_S: f64 = 0.5;
-/// A sensor that repeats one value for this long is stuck, s (ArduPilot's barometer: 2 s; PX4: 100 equal values, 2 s at 50 Hz).
+/// Time of identical readings after which a sensor counts as stuck, s (ArduPilot's barometer: 2 s; PX4: 100 equal values, 2 s at
+/// 50 Hz).
 const STUCK_S: f64 = 2.0;
 
-/// What the autopilot finds working.
+/// Sensor and control health for telemetry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SensorStatus {
-    /// The compass is used.
+    /// Whether the compass is used.
     pub compass: bool,
-    /// The barometer is used.
+    /// Whether the barometer is used.
     pub barometer: bool,
-    /// The GNSS receiver is used, where it has a fix.
+    /// Whether GNSS is used when it has a fix.
     pub gnss: bool,
-    /// The vehicle turns as it is told.
+    /// Whether the vehicle tracks its attitude setpoint.
     pub tracks_attitude: bool,
 }
 
 impl SensorStatus {
-    /// All is well.
+    /// Everything works.
     pub const GOOD: Self = Self { compass: true, barometer: true, gnss: true, tracks_attitude: true };
 }
 
-/// A sensor that may fail.
+/// A monitored sensor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MonitoredSensor {
     /// Magnetometer.
@@ -50,28 +51,28 @@ impl MonitoredSensor {
     }
 }
 
-/// Why a sensor is not used.
+/// Reason a sensor is not used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SensorFault {
     /// No readings.
     Silent,
-    /// The same value bit for bit.
+    /// Identical readings, bit for bit.
     Stuck,
-    /// Readings that contradict the other sensors.
+    /// Readings that contradict other sensors.
     Inconsistent,
 }
 
-/// A sensor has failed, or works again (`None`).
+/// A change of a sensor's health.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SensorChange {
-    /// Which one.
+    /// The sensor.
     pub sensor: MonitoredSensor,
-    /// Its fault now.
+    /// Its current fault; `None` if it works again.
     pub fault: Option<SensorFault>,
 }
 
 impl SensorChange {
-    /// The change in words.
+    /// Returns the status text for the change.
     #[must_use]
     pub fn words(self) -> String {
         let name = self.sensor.name();
@@ -79,15 +80,15 @@ impl SensorChange {
             Some(SensorFault::Silent) => format!("{name} lost: no readings"),
             Some(SensorFault::Stuck) => format!("{name} stuck: not used"),
             Some(SensorFault::Inconsistent) => format!("{name} inconsistent: not used"),
-            None => format!("{name} is back"),
+            None => format!("{name} recovered"),
         }
     }
 }
 
-/// One sensor's readings over time; the clock begins with the first look.
+/// Monitors the readings of one sensor. Timing starts with the first check.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct SensorMonitor<T> {
-    /// Two readings in a row are never equal, because the sensor has noise.
+    /// Whether consecutive readings always differ because of sensor noise.
     noisy: bool,
     latest: Option<T>,
     received: Option<SimTime>,
@@ -100,7 +101,7 @@ impl<T: Copy + PartialEq> SensorMonitor<T> {
         Self { noisy, latest: None, received: None, changed: None, fault: None }
     }
 
-    /// Takes in a reading and returns it if it is a new measurement; a repeated value is none.
+    /// Records a reading. Returns it if it is new, or `None` if the value is repeated.
     fn accept(&mut self, reading: Option<T>, now: SimTime) -> Option<T> {
         let (received, changed) = (self.received.get_or_insert(now), self.changed.get_or_insert(now));
         let value = reading?;
@@ -113,7 +114,7 @@ impl<T: Copy + PartialEq> SensorMonitor<T> {
         Some(value)
     }
 
-    /// Updates the fault; true if it has changed.
+    /// Updates the fault. Returns true if it changed.
     fn update_fault(&mut self, may_be_silent: bool, dropped: bool, now: SimTime) -> bool {
         let since = |at: Option<SimTime>| at.map_or(0.0, |at| (now - at).s());
         let silent = !may_be_silent && since(self.received) > SILENT_S;
@@ -128,7 +129,7 @@ impl<T: Copy + PartialEq> SensorMonitor<T> {
     }
 }
 
-/// The sensors that the autopilot watches.
+/// Health of all monitored sensors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SensorHealth {
     compass: SensorMonitor<[f64; 3]>,
@@ -145,7 +146,7 @@ impl SensorHealth {
         }
     }
 
-    /// Returns the readings that the filter may use.
+    /// Returns the readings that the estimator may use.
     pub(super) fn filter(&mut self, readings: &Readings, now: SimTime) -> Readings {
         let mut out = *readings;
         if self.compass.accept(readings.mag_gauss.map(|m| m.array()), now).is_none() {
@@ -178,7 +179,7 @@ impl SensorHealth {
 }
 
 impl Autopilot {
-    /// Announces sensors that have failed or are back.
+    /// Reports sensors that have failed or recovered.
     pub(super) fn check_sensors(&mut self, now: SimTime) {
         let changes = self.sensor_health.changes(self.estimator.dropped(), now);
         let senses = &self.sensor_health;
@@ -191,8 +192,8 @@ impl Autopilot {
         }
     }
 
-    /// The filter has set its position to the receiver's. A place that is held for a pilot moves along, so that the vehicle stays where it is; a
-    /// target on the map does not (PX4 and ArduCopter: so do position hold and waypoints).
+    /// Handles a position reset to GNSS. Position hold moves with it so that the vehicle stays in place; map targets do not (as
+    /// position hold and waypoints in PX4 and ArduCopter).
     pub(super) fn follow_place_step(&mut self) {
         let Some(step_m) = self.estimator.take_place_step() else { return };
         self.status.position_resets += 1;
@@ -208,7 +209,7 @@ impl Autopilot {
         self.events.push(super::AutopilotEvent { severity, text: change.words(), sensor: Some(change) });
     }
 
-    /// Sensors whose faults forbid arming.
+    /// Sensors whose faults prevent arming.
     pub(super) fn missing_sensors(&self) -> Vec<String> {
         let s = &self.sensor_health;
         let all = [

@@ -1,28 +1,29 @@
-//! From where to go or how fast to a velocity that the aircraft can follow: limited acceleration and jerk, braking in time.
+//! Shapes position and velocity targets into a velocity that the aircraft can follow: limited acceleration and jerk, and timely
+//! braking.
 
 use super::gains::Gains;
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math;
 
-/// The wanted velocity is approached with this time constant near the end, s.
+/// Time constant of the final approach to the target velocity, s.
 const APPROACH_S: f64 = 0.25;
-/// Time to build up the full acceleration, s.
+/// Time to build up full acceleration, s.
 pub const JERK_S: f64 = 0.15;
-/// The same horizontally on the way of a mission or a return, s (estimate: about 50 deg/s of tilt).
+/// Time to build up full horizontal acceleration in a mission or return, s (estimate: about 50 deg/s of tilt).
 pub const CALM_JERK_S: f64 = 0.5;
 
-/// Limits of a shaped motion.
+/// Limits of shaped motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionLimits {
     /// Horizontal acceleration, m/s².
     pub horizontal_m_s2: f64,
     /// Vertical acceleration, m/s².
     pub vertical_m_s2: f64,
-    /// Time to build up the full horizontal acceleration, s.
+    /// Time to build up full horizontal acceleration, s.
     pub build_up_s: f64,
 }
 
-/// Velocity and acceleration that are asked of the velocity loop.
+/// Velocity and acceleration setpoints for the velocity loop.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionShaper {
     /// Velocity, m/s.
@@ -32,12 +33,12 @@ pub struct MotionShaper {
 }
 
 impl MotionShaper {
-    /// Starts from a velocity.
+    /// Resets the shaper to a velocity with zero acceleration.
     pub fn start(&mut self, velocity_m_s: Vec3<Ned>) {
         *self = Self { velocity_m_s, acceleration_m_s2: Vec3::zero() };
     }
 
-    /// Moves towards a wanted velocity for one step.
+    /// Advances one step toward a target velocity.
     pub fn advance(&mut self, wanted_m_s: Vec3<Ned>, limits: &MotionLimits, dt_s: f64) {
         let wish = (wanted_m_s - self.velocity_m_s) / APPROACH_S;
         let flat = Vec3::<Ned>::new(wish.north(), wish.east(), 0.0).limited(limits.horizontal_m_s2);
@@ -51,7 +52,7 @@ impl MotionShaper {
     }
 }
 
-/// Speed at which to close a distance so that a deceleration brings it to rest there: linear near the end, then by the square root.
+/// Speed at which to approach a target so that a deceleration stops there: linear near the target, square root farther away.
 #[must_use]
 pub fn closing_speed(distance_m: f64, gain: f64, deceleration_m_s2: f64) -> f64 {
     let bend = deceleration_m_s2 / (gain * gain);
@@ -60,7 +61,7 @@ pub fn closing_speed(distance_m: f64, gain: f64, deceleration_m_s2: f64) -> f64 
     speed.copysign(distance_m)
 }
 
-/// Velocity towards a target within speed limits (horizontal, up, down; m/s).
+/// Velocity toward a target within speed limits (horizontal, up, down; m/s).
 #[must_use]
 pub fn towards(gains: &Gains, from_m: Vec3<Ned>, to_m: Vec3<Ned>, horizontal: f64, up: f64, down: f64) -> Vec3<Ned> {
     let way = to_m - from_m;
@@ -72,7 +73,7 @@ pub fn towards(gains: &Gains, from_m: Vec3<Ned>, to_m: Vec3<Ned>, horizontal: f6
     Vec3::new(flat.north(), flat.east(), vertical)
 }
 
-/// Where something that moves at this velocity would come to rest, m.
+/// Position at which a body with this velocity comes to rest, m.
 #[must_use]
 pub fn stopping_point(gains: &Gains, position_m: Vec3<Ned>, velocity_m_s: Vec3<Ned>) -> Vec3<Ned> {
     let speed = velocity_m_s.horizontal_norm();
@@ -83,14 +84,14 @@ pub fn stopping_point(gains: &Gains, position_m: Vec3<Ned>, velocity_m_s: Vec3<N
     position_m + Vec3::new(velocity_m_s.north() * k, velocity_m_s.east() * k, below)
 }
 
-/// A stick within the dead band is centred; the rest of its travel still reaches the full value.
+/// Stick value with the deadband removed, rescaled to reach full deflection.
 #[must_use]
 pub fn stick(value: f64, deadband: f64) -> f64 {
     let v = value.clamp(-1.0, 1.0);
     if v.abs() <= deadband || !v.is_finite() { 0.0 } else { (v.abs() - deadband) / (1.0 - deadband) * v.signum() }
 }
 
-/// Wrapped heading difference to a direction, rad; `None` for a direction too short to have one.
+/// Heading of a direction, rad, or `None` if its horizontal length is below `least_m`.
 #[must_use]
 pub fn heading_of(way: Vec3<Ned>, least_m: f64) -> Option<f64> {
     (way.horizontal_norm() > least_m).then(|| math::atan2(way.east(), way.north()))
@@ -119,7 +120,7 @@ mod tests {
             shaper.advance(Vec3::zero(), &limits, 0.0025);
             least = least.min(shaper.velocity_m_s.north());
         }
-        // m/s; a tenth of walking pace backwards would be felt.
+        // m/s; even a tenth of walking speed backward would be noticeable.
         assert!(least > -0.15 && shaper.velocity_m_s.norm() < 1e-3, "{least}");
     }
 

@@ -1,25 +1,25 @@
-//! Smart return: back to the take-off point along the path flown (ArduCopter's Smart RTL).
+//! Smart return: flies back to the take-off point along the recorded path (ArduCopter's Smart RTL).
 
 use super::core::{Autopilot, Severity};
 use super::modes::{ReturnPhase, Setpoint};
 use super::{FlightMode, LandedState};
 use spandrel_model::frames::{Ned, Vec3};
 
-/// Distance between recorded points; two parts of the path nearer to each other are one, m (ArduCopter: SRTL_ACCURACY).
+/// Distance between recorded points. Path sections closer than this form a loop, m (ArduCopter: SRTL_ACCURACY).
 const ACCURACY_M: f64 = 2.0;
-/// Points kept (ArduCopter: SRTL_POINTS).
+/// Maximum number of points (ArduCopter: SRTL_POINTS).
 const MOST_POINTS: usize = 300;
-/// The simplified path departs at most this far from the recorded one, m (ArduCopter: half the accuracy).
+/// Maximum deviation of the simplified path from the recorded one, m (ArduCopter: half the accuracy).
 const SIMPLIFIED_WITHIN_M: f64 = 0.5 * ACCURACY_M;
-/// A point counts as reached within, m.
+/// Acceptance radius of points, m.
 const REACHED_M: f64 = 1.0;
-/// The landing begins this far above the take-off point, m (ArduCopter: pre-land position).
+/// Height above the take-off point at which the landing begins, m (ArduCopter: pre-land position).
 const LANDING_FROM_M: f64 = 2.0;
-/// Over the take-off point: within, m, and slower than, m/s.
+/// Tolerances above the take-off point: distance, m, and speed, m/s.
 const OVER_M: f64 = 0.5;
 const SLOW_M_S: f64 = 0.5;
 
-/// The path flown since take-off.
+/// The path recorded since take-off.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FlownPath {
     points: Vec<Vec3<Ned>>,
@@ -31,13 +31,13 @@ impl FlownPath {
         self.points = vec![place_m];
     }
 
-    /// No path is recorded.
+    /// Returns true if no path is recorded.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.points.is_empty()
     }
 
-    /// Records a place. A loop is cut out where the path comes near itself again.
+    /// Records a position. If the path comes near itself, the loop is removed.
     pub fn record(&mut self, place_m: Vec3<Ned>) {
         let Some(last) = self.points.last() else { return };
         if (place_m - *last).norm() < ACCURACY_M {
@@ -56,7 +56,7 @@ impl FlownPath {
         }
     }
 
-    /// The vehicle was moved to a place on its path: what was flown after it no longer counts.
+    /// Handles a respawn at a position on the path: removes the later points.
     pub fn truncate_to(&mut self, place_m: Vec3<Ned>) {
         let distance = |k: &usize| (self.points[*k] - place_m).norm();
         let nearest = (0..self.points.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
@@ -65,7 +65,7 @@ impl FlownPath {
         }
     }
 
-    /// Leaves out points that lie on straight legs (Ramer, Douglas and Peucker).
+    /// Removes points on nearly straight sections (Ramer-Douglas-Peucker).
     pub fn simplify(&mut self, within_m: f64) {
         let mut keep = vec![false; self.points.len()];
         let mut parts = vec![(0, self.points.len().saturating_sub(1))];
@@ -84,7 +84,7 @@ impl FlownPath {
     }
 }
 
-/// Distance from a place to a straight leg, m.
+/// Distance from a point to a line segment, m.
 fn distance_to_leg(place: Vec3<Ned>, from: Vec3<Ned>, to: Vec3<Ned>) -> f64 {
     let (leg, off) = (to - from, place - from);
     let length2 = leg.dot(leg);
@@ -106,7 +106,7 @@ impl Autopilot {
         self.navigator.phase = ReturnPhase::Cruise;
     }
 
-    /// Point by point back; above the take-off point it lands.
+    /// Flies back point by point and lands at the take-off point.
     pub(super) fn retrace_path(&mut self, dt_s: f64) -> Setpoint {
         if self.navigator.phase == ReturnPhase::Land {
             return self.land(dt_s);

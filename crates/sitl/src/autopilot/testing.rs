@@ -1,9 +1,9 @@
-//! An aircraft for tests: a Phantom-sized quadrotor with round numbers (estimates).
+//! Test aircraft: a Phantom-sized quadrotor with round numbers (estimates).
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::vehicle::{BatterySpec, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, SensorSpec, Vehicle};
 
-/// The test aircraft with these sensors.
+/// Returns the test aircraft with these sensors.
 #[must_use]
 pub fn vehicle_with(sensors: SensorSpec) -> Vehicle {
     let arm = |x: f64, y: f64, spin: f64| Rotor { position_m: Vec3::new(x, y, -0.02), spin };

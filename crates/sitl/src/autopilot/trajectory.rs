@@ -1,59 +1,60 @@
-//! The way through a mission's waypoints as a function of time: straight legs, rounded corners, bounded acceleration and jerk.
+//! Time-parameterized trajectory through mission waypoints: straight legs, rounded corners, limited acceleration and jerk.
 //!
-//! Arc length `s` runs along the polyline of the waypoints. Within `reach` of a corner the direction turns smoothly from one leg's to the
-//! next one's, so that position, velocity and acceleration are continuous. The speed along `s` obeys the corners and ends ahead.
+//! Arc length `s` runs along the polyline of the waypoints. Within `reach` of a corner the direction turns smoothly from one leg
+//! to the next, so position, velocity and acceleration are continuous. The speed along `s` is limited by the corners and the end
+//! ahead.
 
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math;
 
-/// Largest acceleration on a mission's way, m/s² (PX4: MPC_ACC_HOR 3; less, because light wind takes its share of the tilt).
+/// Maximum acceleration in missions, m/s² (PX4: MPC_ACC_HOR 3; less here, because wind uses part of the tilt).
 const HORIZONTAL_M_S2: f64 = 2.0;
 const VERTICAL_M_S2: f64 = 1.5;
-/// Largest jerk along a leg and in a corner, m/s³ (PX4: MPC_JERK_AUTO 4).
+/// Maximum jerk along a leg and in a corner, m/s³ (PX4: MPC_JERK_AUTO 4).
 const JERK_M_S3: f64 = 4.0;
 const CORNER_JERK_M_S3: f64 = 2.5;
-/// The speed follows its limit with this time constant, s.
+/// Time constant of the speed relative to its limit, s.
 const APPROACH_S: f64 = 0.25;
-/// A corner is cut by at most this share of the waypoint's radius, and by at most so much, m.
+/// Maximum corner cut, as a fraction of the acceptance radius, and absolute, m.
 const CUT_SHARE: f64 = 0.5;
 const CUT_MOST_M: f64 = 2.0;
-/// A corner is cut by this much for each metre of reach and unit of turned direction: 3/16 for the cubic blend below.
+/// Corner cut per meter of reach and unit of direction change: 3/16 for the cubic blend below.
 const CUT_PER_REACH: f64 = 0.1875;
-/// Steeper legs than this are climbs: their speed is the climb's, not the mission's (sine of the slope, 60 degrees).
+/// Sine of the slope above which a leg is flown at climb or descent speed (60 degrees).
 const STEEP: f64 = 0.866;
-/// Waypoints nearer to each other than this are one, m.
+/// Distance below which waypoints count as identical, m.
 const SAME_PLACE_M: f64 = 0.01;
-/// What is left of a velocity off the way decays at this rate, 1/s (estimate: its jerk at 1 m/s is below 7 m/s³).
+/// Decay rate of the initial cross-track velocity, 1/s (estimate: its jerk at 1 m/s is below 7 m/s³).
 const JOIN_PER_S: f64 = 1.5;
-/// The plan runs freely while the aircraft is this near to it, and waits for it from here on, m (estimate).
+/// Tracking errors at which the plan starts to slow down and at which it stops, m (estimate).
 const FREE_M: f64 = 1.0;
 const WAITS_M: f64 = 3.0;
 
-/// A place to fly to.
+/// A position to fly to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Waypoint {
-    /// Where, m.
+    /// Position, m.
     pub position_m: Vec3<Ned>,
-    /// Speed on the way to it, m/s; `None`: the usual one.
+    /// Speed on the way to it, m/s; `None` for the default.
     pub speed_m_s: Option<f64>,
-    /// It counts as reached within, m.
+    /// Acceptance radius, m.
     pub accept_m: f64,
 }
 
-/// How fast the aircraft may go.
+/// Speed limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpeedLimits {
-    /// Where a leg names none, m/s.
+    /// Default leg speed, m/s.
     pub default_m_s: f64,
-    /// At most, m/s.
+    /// Maximum speed, m/s.
     pub max_m_s: f64,
-    /// Climb, m/s.
+    /// Climb rate, m/s.
     pub up_m_s: f64,
-    /// Descent, m/s.
+    /// Descent rate, m/s.
     pub down_m_s: f64,
 }
 
-/// Accelerations that a plan may ask for.
+/// Acceleration limits of a plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AccelerationLimits {
     horizontal_m_s2: f64,
@@ -61,7 +62,8 @@ pub struct AccelerationLimits {
 }
 
 impl AccelerationLimits {
-    /// For an aircraft that can accelerate this much: the plan leaves half of it, and most of the climb's, to wind and errors.
+    /// Creates limits for an aircraft with this acceleration. Reserves 50 % of the horizontal and 30 % of the vertical
+    /// acceleration for wind and errors.
     #[must_use]
     pub fn within(horizontal_m_s2: f64, vertical_m_s2: f64) -> Self {
         Self {
@@ -70,7 +72,7 @@ impl AccelerationLimits {
         }
     }
 
-    /// Largest acceleration in a direction, m/s².
+    /// Maximum acceleration in a direction, m/s².
     fn along(&self, direction: Vec3<Ned>) -> f64 {
         let unit = direction.unit();
         (self.horizontal_m_s2 / unit.horizontal_norm().max(1e-9)).min(self.vertical_m_s2 / unit.down().abs().max(1e-9))
@@ -80,15 +82,15 @@ impl AccelerationLimits {
 /// Position, velocity and acceleration of the plan at one instant.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TrajectoryPoint {
-    /// m.
+    /// Position, m.
     pub position_m: Vec3<Ned>,
-    /// m/s.
+    /// Velocity, m/s.
     pub velocity_m_s: Vec3<Ned>,
-    /// m/s².
+    /// Acceleration, m/s².
     pub acceleration_m_s2: Vec3<Ned>,
 }
 
-/// A straight part of the way.
+/// A straight leg.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Segment {
     from_m: Vec3<Ned>,
@@ -96,15 +98,15 @@ struct Segment {
     unit: Vec3<Ned>,
     start_m: f64,
     length_m: f64,
-    /// Half the length of the corner at its end, m; 0 at the last.
+    /// Half the length of the corner at its end, m; 0 for the last leg.
     reach_m: f64,
-    /// Speed that this corner allows, m/s; 0 at the last.
+    /// Speed limit of that corner, m/s; 0 for the last leg.
     corner_m_s: f64,
-    /// Largest acceleration along it, m/s².
+    /// Maximum acceleration along the leg, m/s².
     max_m_s2: f64,
 }
 
-/// The way with the progress on it.
+/// The trajectory and its progress.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
     bounds: AccelerationLimits,
@@ -112,12 +114,13 @@ pub struct Trajectory {
     along_m: f64,
     speed_m_s: f64,
     push_m_s2: f64,
-    /// What is left of the state that the way was joined with.
+    /// Remaining offset from the state at which the trajectory was joined.
     joining: TrajectoryPoint,
 }
 
 impl Trajectory {
-    /// A way from a state of motion through waypoints; it ends at rest at the last. `None` without any.
+    /// Creates a trajectory from a motion state through waypoints. It ends at rest at the last one. Returns `None` without
+    /// waypoints.
     #[must_use]
     pub fn join(from: TrajectoryPoint, waypoints: &[Waypoint], bounds: AccelerationLimits) -> Option<Self> {
         let legs = legs(from.position_m, waypoints, &bounds);
@@ -131,11 +134,11 @@ impl Trajectory {
         Some(Self { bounds, legs, along_m: 0.0, speed_m_s, push_m_s2: 0.0, joining })
     }
 
-    /// The same way with other waypoints ahead: from the leg to the first of them on. False where it is not on this way.
+    /// Replaces the waypoints from the first of `waypoints` onward. Returns false if that one is not on this trajectory.
     pub fn extend(&mut self, waypoints: &[Waypoint]) -> bool {
         let Some(first) = waypoints.first() else { return false };
         let now = self.leg_at(self.along_m);
-        // A corner that is being flown still needs the leg before it.
+        // A corner in progress still needs its incoming leg.
         let keep = if now > 0 && self.along_m < self.legs[now].start_m + self.legs[now - 1].reach_m { now - 1 } else { now };
         let leads_there = |leg: &Segment| (leg.to.position_m - first.position_m).norm() < SAME_PLACE_M;
         let Some(next) = (keep..self.legs.len()).find(|k| leads_there(&self.legs[*k])) else { return false };
@@ -147,14 +150,14 @@ impl Trajectory {
         true
     }
 
-    /// Whether the plan has flown through a place of this way that is not its end.
+    /// Returns true if the plan has passed a waypoint other than the last.
     #[must_use]
     pub fn has_passed(&self, place_m: Vec3<Ned>) -> bool {
         let through = self.legs.iter().rev().skip(1);
         through.filter(|leg| (leg.to.position_m - place_m).norm() < SAME_PLACE_M).any(|leg| self.along_m >= leg.end_m())
     }
 
-    /// Goes on for one step. `behind_m` is how far the aircraft is from where it should be.
+    /// Advances the plan by one step. `behind_m` is the aircraft's tracking error.
     pub fn advance(&mut self, speeds: &SpeedLimits, behind_m: f64, dt_s: f64) -> TrajectoryPoint {
         let waits = ((WAITS_M - behind_m) / (WAITS_M - FREE_M)).clamp(0.0, 1.0);
         let allowed = self.allowed_m_s(speeds) * waits;
@@ -170,7 +173,7 @@ impl Trajectory {
         self.planned()
     }
 
-    /// Critically damped decay, of third order: the acceleration stays continuous.
+    /// Third-order critically damped decay, which keeps the acceleration continuous.
     fn settle(&mut self, dt_s: f64) {
         let (k, off) = (JOIN_PER_S, &mut self.joining);
         let jerk = off.acceleration_m_s2 * (-3.0 * k) + off.velocity_m_s * (-3.0 * k * k) + off.position_m * (-k * k * k);
@@ -179,7 +182,7 @@ impl Trajectory {
         off.position_m += off.velocity_m_s * dt_s;
     }
 
-    /// Where the plan is now.
+    /// Current state of the plan.
     #[must_use]
     pub fn planned(&self) -> TrajectoryPoint {
         let (place, along, bend) = self.shape(self.along_m);
@@ -198,7 +201,7 @@ impl Trajectory {
         self.legs.iter().position(|leg| along_m < leg.end_m()).unwrap_or(self.legs.len() - 1)
     }
 
-    /// Place and its first and second derivative by arc length.
+    /// Position and its first and second derivatives with respect to arc length.
     fn shape(&self, along_m: f64) -> (Vec3<Ned>, Vec3<Ned>, Vec3<Ned>) {
         let k = self.leg_at(along_m);
         let leg = &self.legs[k];
@@ -211,7 +214,7 @@ impl Trajectory {
         (leg.from_m + leg.unit * (along_m - leg.start_m), leg.unit, Vec3::zero())
     }
 
-    /// Speed that leg and corners ahead allow here, m/s.
+    /// Speed limit here from the leg and the corners ahead, m/s.
     fn allowed_m_s(&self, speeds: &SpeedLimits) -> f64 {
         let now = self.leg_at(self.along_m);
         let mut allowed = self.legs[now].speed_m_s(speeds);
@@ -220,7 +223,7 @@ impl Trajectory {
         {
             allowed = allowed.min(before.corner_m_s);
         }
-        // The speed follows late by the time constant.
+        // The speed lags its limit by the time constant.
         let lead_m = self.speed_m_s * APPROACH_S;
         for (k, leg) in self.legs.iter().enumerate().skip(now) {
             let after = self.legs.get(k + 1).map_or(0.0, |next| next.speed_m_s(speeds).min(leg.corner_m_s));
@@ -244,7 +247,7 @@ impl Segment {
         if down.abs() > STEEP { climb.min(wanted / flat.max(1e-9)) } else { climb.min(wanted) }
     }
 
-    /// The blend to the next leg: the direction turns by the cubic 3x² - 2x³.
+    /// Blend into the next leg: the direction follows the cubic 3x² - 2x³.
     fn corner(&self, next: &Self, along_m: f64) -> (Vec3<Ned>, Vec3<Ned>, Vec3<Ned>) {
         let reach = self.reach_m;
         let x = ((along_m - (self.end_m() - reach)) / (2.0 * reach)).clamp(0.0, 1.0);
@@ -256,21 +259,22 @@ impl Segment {
     }
 }
 
-/// Speed at which a way can be braked in time to another speed, the ramp of the deceleration included, m/s.
+/// Maximum speed from which the vehicle can brake to another speed in the remaining distance, including the deceleration ramp,
+/// m/s.
 fn braking_speed(left_m: f64, most_m_s2: f64, after_m_s: f64) -> f64 {
     let ramp = 4.0 * most_m_s2 * most_m_s2 / JERK_M_S3;
     let speed = 0.5 * ((ramp * ramp + 4.0 * (2.0 * most_m_s2 * left_m + after_m_s * after_m_s)).sqrt() - ramp);
     speed.max(after_m_s)
 }
 
-/// Legs from a place through waypoints, with their corners.
+/// Builds the legs through the waypoints, with their corners.
 fn legs(from_m: Vec3<Ned>, waypoints: &[Waypoint], bounds: &AccelerationLimits) -> Vec<Segment> {
     let mut legs: Vec<Segment> = Vec::with_capacity(waypoints.len());
     let mut at = from_m;
     for (k, to) in waypoints.iter().enumerate() {
         let way = to.position_m - at;
         let length_m = way.norm();
-        // A lone place where the aircraft is already is a way, too.
+        // A single waypoint at the current position is still a valid trajectory.
         if length_m < SAME_PLACE_M && (!legs.is_empty() || k + 1 < waypoints.len()) {
             continue;
         }
@@ -295,7 +299,7 @@ fn legs(from_m: Vec3<Ned>, waypoints: &[Waypoint], bounds: &AccelerationLimits) 
     legs
 }
 
-/// Half the length of the corner between two legs, m, and the speed that its acceleration and jerk allow, m/s.
+/// Half the length of the corner between two legs, m, and the speed limit from its acceleration and jerk, m/s.
 fn corner(leg: &Segment, next: &Segment, bounds: &AccelerationLimits) -> (f64, f64) {
     let turn = next.unit - leg.unit;
     let bend = turn.norm();

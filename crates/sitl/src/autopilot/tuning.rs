@@ -1,22 +1,22 @@
-//! What an operator may change in flight; the endpoint maps each field to the parameter name in its doc line.
+//! Settings that an operator can change in flight. The endpoint maps each field to the parameter named in its comment.
 
-/// What a lost link leads to.
+/// Action on link loss.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LinkLossAction {
-    /// Nothing but a warning.
+    /// Warn only.
     Ignore,
-    /// Stop and hold.
+    /// Stop and hold position.
     Hold,
     /// Return to home and land.
     Return,
-    /// Land here.
+    /// Land at the current position.
     Land,
-    /// Motors off.
+    /// Stop the motors.
     Terminate,
 }
 
 impl LinkLossAction {
-    /// From a parameter's number: 0 nothing, 1 hold, 2 return, 3 land, 5 and 6 motors off.
+    /// Returns the action for a parameter value: 0 ignore, 1 hold, 2 return, 3 land, 5 and 6 terminate.
     #[must_use]
     pub fn from_number(n: i32) -> Option<Self> {
         Some(match n {
@@ -29,7 +29,7 @@ impl LinkLossAction {
         })
     }
 
-    /// The parameter's number.
+    /// Returns the parameter value.
     #[must_use]
     pub fn number(self) -> i32 {
         match self {
@@ -42,100 +42,102 @@ impl LinkLossAction {
     }
 }
 
-/// Changeable values, with the PX4 parameter that each stands for.
+/// Adjustable settings with their PX4 parameters. Settings that exist only in ArduPilot are marked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tuning {
-    /// `MPC_XY_VEL_MAX`: largest horizontal speed in automatic modes, m/s.
+    /// `MPC_XY_VEL_MAX`: maximum horizontal speed in automatic modes, m/s.
     pub horizontal_speed_max_m_s: f64,
     /// `MPC_XY_CRUISE`: horizontal speed in missions, returns and go-to, m/s.
     pub cruise_m_s: f64,
-    /// `MPC_Z_V_AUTO_UP`: climb in automatic modes, m/s.
+    /// `MPC_Z_V_AUTO_UP`: climb rate in automatic modes, m/s.
     pub climb_m_s: f64,
-    /// `MPC_Z_V_AUTO_DN`: descent in automatic modes, m/s.
+    /// `MPC_Z_V_AUTO_DN`: descent rate in automatic modes, m/s.
     pub descend_m_s: f64,
-    /// `MPC_TKO_SPEED`: climb at take-off, m/s.
+    /// `MPC_TKO_SPEED`: climb rate at take-off, m/s.
     pub takeoff_speed_m_s: f64,
-    /// Take-offs climb at `climb_m_s` from the ground on. (ArduPilot: WPNAV_SPEED_UP)
+    /// Take-offs climb at `climb_m_s` from the ground (ArduPilot: WPNAV_SPEED_UP).
     pub takeoff_at_climb_speed: bool,
-    /// `MPC_LAND_SPEED`: last metres of a landing, m/s.
+    /// `MPC_LAND_SPEED`: descent rate in the last meters of a landing, m/s.
     pub land_speed_m_s: f64,
-    /// `MPC_LAND_ALT2`: below this height over the ground (or home) the landing is slow, m.
+    /// `MPC_LAND_ALT2`: height above ground (or home) below which a landing is slow, m.
     pub land_slow_below_m: f64,
-    /// `MIS_TAKEOFF_ALT`: take-off height over home, m.
+    /// `MIS_TAKEOFF_ALT`: default take-off height above home, m.
     pub takeoff_height_m: f64,
-    /// `RTL_RETURN_ALT`: height over home at which it returns, m.
+    /// `RTL_RETURN_ALT`: return height above home, m.
     pub return_height_m: f64,
-    /// `NAV_ACC_RAD`: a waypoint counts as reached within, m.
+    /// `NAV_ACC_RAD`: acceptance radius of waypoints, m.
     pub accept_radius_m: f64,
-    /// `COM_RC_LOSS_T`: manual control is lost after, s.
+    /// `COM_RC_LOSS_T`: timeout of manual control, s.
     pub manual_loss_s: f64,
-    /// `COM_FAIL_ACT_T`: it holds this long before the failsafe's action, s.
+    /// `COM_FAIL_ACT_T`: hold time before a failsafe action, s.
     pub failsafe_delay_s: f64,
-    /// `NAV_RCL_ACT`: what lost manual control leads to.
+    /// `NAV_RCL_ACT`: action on loss of manual control.
     pub manual_loss: LinkLossAction,
-    /// `COM_DL_LOSS_T`: the ground station is lost after, s.
+    /// `COM_DL_LOSS_T`: timeout of the ground station link, s.
     pub data_link_loss_s: f64,
-    /// `NAV_DLL_ACT`: what a lost ground station leads to.
+    /// `NAV_DLL_ACT`: action on loss of the ground station.
     pub data_link_loss: LinkLossAction,
-    /// `COM_OF_LOSS_T`: external set-points are lost after, s.
+    /// `COM_OF_LOSS_T`: timeout of external setpoints, s.
     pub offboard_loss_s: f64,
-    /// Seconds of simulation time in a second of the clients' time, where they are not kept in step: their time-outs grow by it.
+    /// Simulation seconds per second of the clients' clocks without lockstep. Client timeouts scale with it.
     pub client_pace: f64,
-    /// `BAT_LOW_THR`: low battery, %.
+    /// `BAT_LOW_THR`: low battery level, %.
     pub battery_low_pct: f64,
-    /// `BAT_CRIT_THR`: critical battery, %.
+    /// `BAT_CRIT_THR`: critical battery level, %.
     pub battery_critical_pct: f64,
-    /// `COM_DISARM_LAND`: disarms this long after landing, s; not above zero: never.
+    /// `COM_DISARM_LAND`: delay of automatic disarming after landing, s; 0 or less disables it.
     pub disarm_after_landing_s: f64,
-    /// `COM_DISARM_PRFLT`: disarms when not taken off within, s; not above zero: never.
+    /// `COM_DISARM_PRFLT`: timeout for take-off after arming, s; 0 or less disables it.
     pub disarm_before_flight_s: f64,
-    /// `GF_ACTION`: what a breach of the geofence leads to.
+    /// `GF_ACTION`: action on a geofence breach.
     pub fence_action: super::FenceAction,
-    /// `FENCE_ENABLE` (ArduPilot): the geofence acts. A command or an item of a mission switches it, too.
+    /// `FENCE_ENABLE` (ArduPilot): whether the geofence is enabled. Commands and mission items can change it.
     pub fence_enabled: bool,
-    /// The switch is a parameter that stations see, and stays as it is; otherwise the fence acts again after the flight. (ArduPilot)
+    /// The fence switch is a parameter that ground stations see, and it persists. Otherwise the fence is enabled again after the
+    /// flight (ArduPilot).
     pub fence_switch_stays: bool,
-    /// `GF_MAX_HOR_DIST`: farthest from home, m; 0: no limit.
+    /// `GF_MAX_HOR_DIST`: maximum distance from home, m; 0: no limit.
     pub fence_distance_m: f64,
-    /// `GF_MAX_VER_DIST`: highest over home, m; 0: no limit.
+    /// `GF_MAX_VER_DIST`: maximum height above home, m; 0: no limit.
     pub fence_height_m: f64,
-    /// `COM_RC_OVERRIDE`: moved sticks take over from automatic modes.
+    /// `COM_RC_OVERRIDE`: stick movement takes over from automatic modes.
     pub stick_takeover: bool,
-    /// The end of external set-points is the end of an errand: it goes to the last place, or stops; otherwise it is a failure. (ArduPilot)
+    /// When external setpoints end, the vehicle continues to the last target or stops. Otherwise their end is a failure
+    /// (ArduPilot).
     pub setpoints_end: bool,
-    /// Arming asks for sticks and position as the mode uses them; sticks count only when motors are armed, not in the checks before.
-    /// (ArduPilot)
+    /// Arming requires sticks and position only as the mode needs them. Stick checks run when motors are armed, not before
+    /// (ArduPilot).
     pub arms_by_mode: bool,
-    /// A mission that has ended stays in its mode, and takes off once the throttle is off its lower end. (ArduPilot)
+    /// A completed mission keeps its mode, and takes off again once the throttle is raised (ArduPilot).
     pub mission_mode_stays: bool,
-    /// The number that people give the mission's first step: 1 where home is 0. (ArduPilot)
+    /// Displayed number of the first mission item: 1 where home is item 0 (ArduPilot).
     pub first_item: usize,
-    /// `CIRCLE_RATE` (ArduPilot): rate around a circle entered by its mode alone, rad/s, clockwise positive.
+    /// `CIRCLE_RATE` (ArduPilot): angular rate of a circle entered by mode change only, rad/s, clockwise positive.
     pub circle_rate_rad_s: f64,
-    /// How a target is followed.
+    /// Settings of follow mode.
     pub follow: super::follow::FollowRule,
     /// UTC at simulation start, Unix seconds.
     pub start_unix_s: i64,
-    /// `MPC_HOLD_DZ`: sticks within this share of their travel count as centred.
+    /// `MPC_HOLD_DZ`: stick deadband as a fraction of full deflection.
     pub stick_deadband: f64,
-    /// What an operator sets beyond these.
+    /// Further operator settings.
     pub rules: super::OperatorRules,
 }
 
 impl Tuning {
-    /// After this much silence manual control is lost, s of simulation time.
+    /// Timeout of manual control, s of simulation time.
     #[must_use]
     pub fn manual_timeout_s(&self) -> f64 {
         self.manual_loss_s * self.client_pace
     }
 
-    /// After this much silence external set-points are lost, s of simulation time.
+    /// Timeout of external setpoints, s of simulation time.
     #[must_use]
     pub fn offboard_timeout_s(&self) -> f64 {
         self.offboard_loss_s * self.client_pace
     }
 
-    /// After this much silence the ground station is lost, s of simulation time.
+    /// Timeout of the ground station link, s of simulation time.
     #[must_use]
     pub fn data_link_timeout_s(&self) -> f64 {
         self.data_link_loss_s * self.client_pace

@@ -1,4 +1,4 @@
-//! Velocity loop: from wanted velocity and acceleration to attitude and collective thrust.
+//! Velocity loop: velocity and acceleration setpoints to attitude and collective thrust.
 
 use super::Estimate;
 use super::gains::Gains;
@@ -6,18 +6,18 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::math::{self, GRAVITY_M_S2};
 
-/// What the velocity loop is to fly.
+/// Setpoint of the velocity loop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VelocitySetpoint {
     /// Velocity, m/s.
     pub velocity_m_s: Vec3<Ned>,
-    /// Acceleration fed forward, m/s².
+    /// Acceleration feedforward, m/s².
     pub acceleration_m_s2: Vec3<Ned>,
     /// Heading, rad.
     pub yaw_rad: f64,
 }
 
-/// Attitude and collective thrust.
+/// Attitude and collective thrust setpoint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AttitudeThrustSetpoint {
     /// Attitude.
@@ -26,24 +26,24 @@ pub struct AttitudeThrustSetpoint {
     pub thrust_n: f64,
 }
 
-/// State of the loop: the integral, m/s².
+/// Integral state of the loop, m/s².
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct VelocityLoop {
     integral: Vec3<Ned>,
 }
 
 impl VelocityLoop {
-    /// Forgets the integral.
+    /// Resets the integral.
     pub fn reset(&mut self) {
         self.integral = Vec3::zero();
     }
 
-    /// Forgets the horizontal integral alone.
+    /// Resets the horizontal integral only.
     pub fn reset_horizontal(&mut self) {
         self.integral = Vec3::new(0.0, 0.0, self.integral.down());
     }
 
-    /// All three axes.
+    /// Controls all three axes.
     pub fn fly(
         &mut self,
         gains: &Gains,
@@ -52,7 +52,7 @@ impl VelocityLoop {
         motion: &VelocitySetpoint,
         dt_s: f64,
     ) -> AttitudeThrustSetpoint {
-        // The attitude follows late: the velocity is compared with where the plan was that long ago.
+        // The attitude response lags, so the velocity is compared with the plan one lag earlier.
         let late = motion.acceleration_m_s2 * gains.attitude_lag_s;
         let planned = motion.velocity_m_s - Vec3::new(late.north(), late.east(), 0.0);
         let error = planned - now.velocity_m_s;
@@ -69,7 +69,7 @@ impl VelocityLoop {
         attitude_thrust(mass_kg, now, force, motion.yaw_rad, gains)
     }
 
-    /// Height alone; roll and pitch (rad) are the pilot's.
+    /// Controls height only; the pilot controls roll and pitch (rad).
     pub fn fly_level(
         &mut self,
         gains: &Gains,
@@ -91,7 +91,7 @@ impl VelocityLoop {
     }
 
     fn climb(&mut self, gains: &Gains, error: f64, free: bool, dt_s: f64) {
-        // At a thrust limit the integral may only come back.
+        // At a thrust limit the integral may only decrease in magnitude.
         if free || error * self.integral.down() < 0.0 {
             self.integral += Vec3::new(0.0, 0.0, gains.climb_integral * error * dt_s);
         }
@@ -104,14 +104,14 @@ impl VelocityLoop {
     }
 }
 
-/// Acceleration that makes up for drag in still air, m/s²; wind is the integral's.
+/// Acceleration that compensates for drag in still air, m/s². The integral handles wind.
 fn drag(gains: &Gains, velocity_m_s: Vec3<Ned>) -> Vec3<Ned> {
     let k = gains.drag.0 + gains.drag.1 * velocity_m_s.horizontal_norm();
     Vec3::new(velocity_m_s.north() * k, velocity_m_s.east() * k, 0.0)
 }
 
-/// Specific force for a wanted acceleration within tilt and thrust limits, height before horizontal; and whether the horizontal and
-/// vertical parts were left as wished.
+/// Specific force for a desired acceleration within tilt and thrust limits, vertical before horizontal, and whether the
+/// horizontal and vertical parts were left unchanged.
 fn limit_acceleration(gains: &Gains, mass_kg: f64, wish_m_s2: Vec3<Ned>) -> (Vec3<Ned>, bool, bool) {
     let (low, high) = (gains.thrust_min_n / mass_kg, gains.thrust_max_n / mass_kg);
     let lift = GRAVITY_M_S2 - wish_m_s2.down();
@@ -134,11 +134,11 @@ fn attitude_thrust(mass_kg: f64, now: &Estimate, force: Vec3<Ned>, yaw_rad: f64,
     AttitudeThrustSetpoint { attitude, thrust_n: thrust(mass_kg, now, force, gains) }
 }
 
-/// Collective thrust whose vertical part is right at the tilt of this instant.
+/// Collective thrust whose vertical component is correct at the current tilt.
 fn thrust(mass_kg: f64, now: &Estimate, force: Vec3<Ned>, gains: &Gains) -> f64 {
     let upright = (now.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down();
     if upright <= 0.0 {
-        // Thrust would push down: as little as control needs.
+        // Thrust would point down: use the minimum needed for control.
         return gains.thrust_min_n;
     }
     (mass_kg * -force.down() / upright.max(0.5)).clamp(gains.thrust_min_n, gains.thrust_max_n)

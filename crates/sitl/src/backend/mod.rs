@@ -1,11 +1,12 @@
-//! Who flies: the built-in autopilot now; PX4 and ArduPilot over their simulator interfaces later.
+//! Flight controller backends. The built-in autopilot is the only one so far; PX4 and ArduPilot can be added through their
+//! simulator interfaces.
 
 use crate::autopilot::Autopilot;
 use crate::physics::Actuators;
 use crate::sensors::Readings;
 use spandrel_model::time::SimTime;
 
-/// The flight controller behind the vehicle: what a tick calls between sensors and physics.
+/// The flight controller. It runs between sensors and physics in each tick.
 #[derive(Debug, Clone)]
 pub enum Backend {
     /// The built-in autopilot.
@@ -13,14 +14,14 @@ pub enum Backend {
 }
 
 impl Backend {
-    /// One control step.
+    /// Runs one control step.
     pub fn step(&mut self, readings: &Readings, now: SimTime) -> Actuators {
         match self {
             Self::Builtin(autopilot) => autopilot.step(readings, now),
         }
     }
 
-    /// The built-in autopilot, when it flies.
+    /// Returns the built-in autopilot if it is the active backend.
     #[must_use]
     pub fn builtin(&self) -> Option<&Autopilot> {
         match self {
@@ -28,7 +29,7 @@ impl Backend {
         }
     }
 
-    /// The built-in autopilot to command, when it flies.
+    /// Returns the built-in autopilot for commands if it is the active backend.
     pub fn builtin_mut(&mut self) -> Option<&mut Autopilot> {
         match self {
             Self::Builtin(autopilot) => Some(autopilot),

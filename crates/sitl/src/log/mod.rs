@@ -1,5 +1,5 @@
-//! The vehicle's own log: as ULog, with PX4's topic names, which PX4's tools open (pyulog, Flight Review, PlotJuggler), and beside it
-//! what Foxglove shows.
+//! Flight log: a ULog with PX4's topic names, which PX4's tools can open (pyulog, Flight Review, PlotJuggler), and a parallel
+//! recording for Foxglove.
 
 mod row;
 mod scene;
@@ -16,7 +16,7 @@ use std::collections::VecDeque;
 use topics::TOPICS;
 use ulog::{UlogValue, UlogWriter};
 
-/// Turns instants of the vehicle into bytes of a log.
+/// Encodes vehicle snapshots as ULog bytes.
 #[derive(Debug, Clone)]
 pub struct FlightLogEncoder {
     writer: UlogWriter,
@@ -24,7 +24,7 @@ pub struct FlightLogEncoder {
 }
 
 impl FlightLogEncoder {
-    /// Begins a log: what it is, the parameters as they are, and what the rows hold.
+    /// Starts a log: writes header information, parameter values and topic formats.
     pub fn begin<'a>(view: &VehicleSnapshot, version: &str, parameters: impl Iterator<Item = (&'a str, UlogValue<'a>)>) -> Self {
         let mut writer = UlogWriter::default();
         writer.begin(view.sim_us());
@@ -46,7 +46,7 @@ impl FlightLogEncoder {
         Self { writer, due }
     }
 
-    /// Writes the rows that are due; the last of a log are due whatever the time.
+    /// Writes the rows that are due. With `last`, writes every topic regardless of its schedule.
     pub fn observe(&mut self, view: &VehicleSnapshot, last: bool) {
         for ((number, topic), due) in (0u16..).zip(TOPICS).zip(&mut self.due) {
             if !due.fire(view.now) && !last {
@@ -59,18 +59,18 @@ impl FlightLogEncoder {
         }
     }
 
-    /// Writes a text (severity 0 emergency to 7 debug).
+    /// Writes a text message (severity 0 emergency to 7 debug).
     pub fn text(&mut self, severity: u8, now: SimTime, text: &str) {
         self.writer.text(severity, now.us().max(0).cast_unsigned(), text);
     }
 
-    /// Bytes that have gathered.
+    /// Number of buffered bytes.
     #[must_use]
     pub fn take_bytes(&self) -> usize {
         self.writer.gathered()
     }
 
-    /// The bytes since the last call; they go to the end of the file.
+    /// Returns the bytes since the last call; append them to the file.
     pub fn take(&mut self) -> Vec<u8> {
         self.writer.take()
     }
@@ -85,20 +85,20 @@ impl From<params::ParamValue> for UlogValue<'_> {
     }
 }
 
-/// What a recorder has for whoever keeps files.
+/// Output of the flight recorder for the host to store.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum LogOutput {
-    /// A new log begins; it is named after this UTC, microseconds since the Unix epoch.
+    /// A new log starts. The value is its UTC timestamp for the file name, in microseconds since the Unix epoch.
     Begin(u64),
-    /// Bytes for the end of the ULog.
+    /// Bytes to append to the ULog file.
     Bytes(Vec<u8>),
-    /// A message of the recording beside it.
+    /// A message of the parallel Foxglove recording.
     Message(ChannelMessage),
-    /// It is whole.
+    /// The log is complete.
     End,
 }
 
-/// Keeps a log from arming to disarming, once it is asked to.
+/// Records a log from arming to disarming while enabled.
 #[derive(Debug, Clone, Default)]
 pub struct FlightRecorder {
     on: bool,
@@ -106,16 +106,16 @@ pub struct FlightRecorder {
     out: VecDeque<LogOutput>,
 }
 
-/// Bytes that gather before they are handed out.
+/// Buffered bytes that trigger an output chunk.
 const PIECE: usize = 16_384;
 
 impl FlightRecorder {
-    /// Logs are wanted from now on.
+    /// Enables logging.
     pub fn enable(&mut self) {
         self.on = true;
     }
 
-    /// One instant of the vehicle, with what was said in it.
+    /// Records one snapshot of the vehicle and the text messages sent at that instant.
     pub fn observe<'a, P>(&mut self, view: &VehicleSnapshot, texts: &[(u8, &str)], parameters: impl Fn() -> P)
     where
         P: Iterator<Item = (&'a str, UlogValue<'a>)>,
@@ -144,7 +144,7 @@ impl FlightRecorder {
         }
     }
 
-    /// What is left goes out although the motors still turn: the program ends.
+    /// Stops logging and flushes an open log, even with motors running. Call at program exit.
     pub fn stop(&mut self) {
         self.on = false;
         if let Some((mut log, _)) = self.log.take() {
@@ -152,7 +152,7 @@ impl FlightRecorder {
         }
     }
 
-    /// The next piece.
+    /// Returns the next output.
     pub fn poll(&mut self) -> Option<LogOutput> {
         self.out.pop_front()
     }

@@ -1,46 +1,46 @@
-//! One row of a topic, field by field.
+//! Encoder for one row of a topic.
 
 use spandrel_model::frames::{Rotation, Vec3};
 
-/// Bytes of a row under way.
+/// Encoder for one row.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LogRow {
     bytes: Vec<u8>,
 }
 
 impl LogRow {
-    /// A row that begins with its timestamp, microseconds.
+    /// Starts a row with its timestamp in microseconds.
     #[must_use]
     pub fn at(us: u64) -> Self {
         Self { bytes: us.to_le_bytes().to_vec() }
     }
 
-    /// `double`.
+    /// Appends a `double`.
     pub fn f64(&mut self, value: f64) -> &mut Self {
         self.put(&value.to_le_bytes())
     }
 
-    /// `float` from a core value.
+    /// Appends a `float`, converted from `f64`.
     pub fn f32(&mut self, value: f64) -> &mut Self {
         self.put(&(value as f32).to_le_bytes())
     }
 
-    /// `int32_t`.
+    /// Appends an `int32_t`.
     pub fn i32(&mut self, value: i32) -> &mut Self {
         self.put(&value.to_le_bytes())
     }
 
-    /// `uint8_t`.
+    /// Appends a `uint8_t`.
     pub fn u8(&mut self, value: u8) -> &mut Self {
         self.put(&[value])
     }
 
-    /// `bool`.
+    /// Appends a `bool`.
     pub fn bool(&mut self, value: bool) -> &mut Self {
         self.put(&[u8::from(value)])
     }
 
-    /// `float[N]`.
+    /// Appends a `float[N]`.
     pub fn floats(&mut self, values: &[f64]) -> &mut Self {
         for value in values {
             self.f32(*value);
@@ -48,17 +48,17 @@ impl LogRow {
         self
     }
 
-    /// `float[3]`, or three `float`.
+    /// Appends a `float[3]`, or three `float` fields.
     pub fn vec<F>(&mut self, vector: Vec3<F>) -> &mut Self {
         self.floats(&vector.array())
     }
 
-    /// `float[4]`: w, x, y, z.
+    /// Appends a `float[4]` quaternion: w, x, y, z.
     pub fn quaternion<A, B>(&mut self, rotation: Rotation<A, B>) -> &mut Self {
         self.floats(&rotation.wxyz())
     }
 
-    /// The bytes.
+    /// The encoded row.
     #[must_use]
     pub fn bytes(&self) -> &[u8] {
         &self.bytes

@@ -1,14 +1,15 @@
-//! The flight for Foxglove: where drone and camera are, truth and estimate, battery, what the scores are made of, and every text.
+//! Flight recording for Foxglove: drone and camera poses, true and estimated state, battery, scoring inputs and all text
+//! messages.
 
 use super::super::endpoint::snapshot::VehicleSnapshot;
 use spandrel_model::foxglove::{self, ChannelMessage, FramePose};
 use spandrel_model::time::{Schedule, SimTime};
 use std::collections::VecDeque;
 
-/// Messages a second of simulation time: frames, fixes, scoring, the slow rest.
+/// Message rates in simulation time, Hz: frames, position fixes, scoring, slow data.
 const RATES_HZ: [f64; 4] = [25.0, 5.0, 10.0, 1.0];
 
-/// What is due when.
+/// Schedules of the recorded channels.
 #[derive(Debug, Clone)]
 pub struct FoxgloveScene {
     due: [Schedule; 4],
@@ -16,7 +17,7 @@ pub struct FoxgloveScene {
 }
 
 impl FoxgloveScene {
-    /// From now on.
+    /// Starts a recording at the time of this snapshot.
     pub fn begin(view: &VehicleSnapshot) -> Self {
         Self { due: RATES_HZ.map(|rate| Schedule::new(view.now, rate)), start_unix_s: view.start_unix_s }
     }
@@ -25,12 +26,12 @@ impl FoxgloveScene {
         (self.start_unix_s * 1_000_000_000 + now.ns()).max(0).cast_unsigned()
     }
 
-    /// A text with MAVLink's severity.
+    /// Returns a log message with MAVLink severity.
     pub fn text(&self, severity: u8, now: SimTime, text: &str) -> ChannelMessage {
         foxglove::log(self.unix_ns(now), severity, text)
     }
 
-    /// What is due at an instant.
+    /// Returns the messages that are due at this snapshot.
     pub fn observe(&mut self, view: &VehicleSnapshot) -> VecDeque<ChannelMessage> {
         let at = self.unix_ns(view.now);
         let [frames, fixes, scoring, slow] = self.due.each_mut().map(|due| due.fire(view.now));

@@ -1,20 +1,20 @@
-//! What is logged: one row of the table a topic, with PX4's names, so that PX4's tools draw the usual pictures.
+//! Table of logged topics, one row each, with PX4's names so that PX4's tools show their standard plots.
 
 use super::row::LogRow;
 use crate::autopilot::{FlightMode, LandedState};
 use crate::endpoint::snapshot::VehicleSnapshot;
 use spandrel_model::geodesy::Geo;
 
-/// A topic.
+/// A logged topic.
 #[derive(Debug, Clone, Copy)]
 pub struct UlogTopic {
-    /// PX4's name, or our own.
+    /// Topic name: PX4's, or a custom one with the prefix `spandrel_`.
     pub name: &'static str,
-    /// Fields after the timestamp.
+    /// Field definitions after the timestamp.
     pub fields: &'static str,
-    /// Rows a second of simulation time.
+    /// Rate in simulation time, Hz.
     pub rate_hz: f64,
-    /// Adds the fields to a row; `None` when there is nothing to say.
+    /// Appends the fields to a row. Returns `None` if there is no data to log.
     pub fill: fn(&VehicleSnapshot, &mut LogRow) -> Option<()>,
 }
 
@@ -27,7 +27,7 @@ const fn topic(
     UlogTopic { name, fields, rate_hz, fill }
 }
 
-/// All of them.
+/// All logged topics.
 pub const TOPICS: &[UlogTopic] = &[
     topic("sensor_combined", 250.0, "float[3] gyro_rad;float[3] accelerometer_m_s2;", sensor_combined),
     topic("vehicle_angular_velocity", 250.0, "float[3] xyz;", angular_velocity),
@@ -94,7 +94,7 @@ fn attitude_setpoint(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
 }
 
 fn local_position(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
-    // Without a fix there is no reference: PX4 logs not-a-number then.
+    // Without a fix there is no reference position; PX4 logs NaN.
     let nowhere = Geo { latitude_deg: f64::NAN, longitude_deg: f64::NAN, altitude_m: f64::NAN };
     let (e, origin) = (v.estimate, v.local_origin().unwrap_or(nowhere));
     row.vec(v.local_from_site(e.position_m)).vec(e.velocity_m_s).f32(e.attitude.yaw_rad());
@@ -159,7 +159,7 @@ fn motors(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     Some(())
 }
 
-/// Motor outputs as pulse widths, us: 1000 at rest, 2000 at full speed.
+/// Motor outputs as pulse widths, us: 1000 at idle, 2000 at full speed, 900 while disarmed.
 fn outputs(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     let pulses = v.actuators.motors.iter().map(|motor| if v.actuators.armed { 1000.0 + 1000.0 * motor } else { 900.0 });
     row.i32(v.vehicle.rotors.len() as i32).floats(&padded::<16>(pulses.take(v.vehicle.rotors.len())));
@@ -181,7 +181,7 @@ fn battery(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
 }
 
 fn status(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
-    /// PX4's arming states and its number for a rotary wing.
+    /// PX4's arming states and its code for rotary-wing vehicles.
     const DISARMED: u8 = 1;
     const ARMED: u8 = 2;
     const ROTARY_WING: u8 = 1;
@@ -190,7 +190,7 @@ fn status(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     Some(())
 }
 
-/// PX4's number of a mode (vehicle_status, nav_state).
+/// PX4's code for a mode (`nav_state` of vehicle_status).
 fn nav_state(mode: FlightMode) -> u8 {
     match mode {
         FlightMode::Altitude => 1,

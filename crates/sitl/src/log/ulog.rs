@@ -1,22 +1,22 @@
-//! The ULog file format (<https://docs.px4.io/main/en/dev_log/ulog_file_format.html>), as bytes.
+//! Encoder for the ULog file format (<https://docs.px4.io/main/en/dev_log/ulog_file_format.html>).
 
-/// File magic and version 1.
+/// File magic bytes and format version 1.
 const MAGIC: [u8; 8] = [b'U', b'L', b'o', b'g', 0x01, 0x12, 0x35, 0x01];
 
-/// Appends ULog messages to bytes.
+/// Encodes ULog messages into a buffer.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct UlogWriter {
     out: Vec<u8>,
 }
 
-/// A value of an information or parameter message.
+/// Value of an information or parameter message.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum UlogValue<'a> {
-    /// Text.
+    /// Text string.
     Text(&'a str),
-    /// Whole number.
+    /// Integer.
     Int(i32),
-    /// Real number.
+    /// Floating-point number.
     Real(f32),
 }
 
@@ -39,64 +39,64 @@ impl UlogValue<'_> {
 }
 
 impl UlogWriter {
-    /// The header: logging began at so many microseconds; then the flags that no reader needs.
+    /// Writes the file header with the start time in microseconds, then the flag-bits message.
     pub fn begin(&mut self, at_us: u64) {
         self.out.extend_from_slice(&MAGIC);
         self.out.extend_from_slice(&at_us.to_le_bytes());
         self.message(b'B', &[&[0; 40]]);
     }
 
-    /// What a topic's rows hold: `type name;` for every field, `uint64_t timestamp` (microseconds) first.
+    /// Writes the format of a topic: `type name;` for every field, starting with `uint64_t timestamp` (microseconds).
     pub fn format(&mut self, topic: &str, fields: &str) {
         self.message(b'F', &[topic.as_bytes(), b":", fields.as_bytes()]);
     }
 
-    /// A fact about the whole log.
+    /// Writes an information message about the log.
     pub fn information(&mut self, name: &str, value: UlogValue) {
         self.keyed(b'I', name, value);
     }
 
-    /// A parameter's value at the start; before the first row.
+    /// Writes the initial value of a parameter. Must precede the first data row.
     pub fn parameter(&mut self, name: &str, value: UlogValue) {
         self.keyed(b'P', name, value);
     }
 
-    /// Rows of this topic carry this number from here on. What defines must come before what subscribes.
+    /// Assigns a message ID to a topic. The format must be written first.
     pub fn subscribe(&mut self, number: u16, topic: &str) {
         self.message(b'A', &[&[0], &number.to_le_bytes(), topic.as_bytes()]);
     }
 
-    /// One row, fields without gaps.
+    /// Writes one data row. Fields have no padding.
     pub fn row(&mut self, number: u16, row: &[u8]) {
         self.message(b'D', &[&number.to_le_bytes(), row]);
     }
 
-    /// A text with its severity (0 emergency to 7 debug).
+    /// Writes a text message with its severity (0 emergency to 7 debug).
     pub fn text(&mut self, severity: u8, at_us: u64, text: &str) {
         self.message(b'L', &[&[b'0' + severity.min(7)], &at_us.to_le_bytes(), text.as_bytes()]);
     }
 
-    /// Bytes so far.
+    /// Number of buffered bytes.
     #[must_use]
     pub fn gathered(&self) -> usize {
         self.out.len()
     }
 
-    /// The bytes so far; they go to the end of the file.
+    /// Returns the buffered bytes and clears the buffer; append them to the file.
     pub fn take(&mut self) -> Vec<u8> {
         std::mem::take(&mut self.out)
     }
 
     fn keyed(&mut self, kind: u8, name: &str, value: UlogValue) {
         let key = format!("{} {name}", value.kind());
-        // Names are our own and short; a longer one would break the length byte.
+        // All names are internal and short; a longer one would overflow the length byte.
         let length = key.len().min(255);
         self.message(kind, &[&[length as u8], &key.as_bytes()[..length], &value.bytes()]);
     }
 
     fn message(&mut self, kind: u8, parts: &[&[u8]]) {
         let length: usize = parts.iter().map(|part| part.len()).sum();
-        // 16 bits of length: what does not fit would end the log for every reader.
+        // The length field has 16 bits. A longer message would corrupt the rest of the log, so it is dropped.
         let Ok(length) = u16::try_from(length) else { return };
         self.out.extend_from_slice(&length.to_le_bytes());
         self.out.push(kind);

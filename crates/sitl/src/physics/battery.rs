@@ -1,16 +1,17 @@
-//! Battery: open-circuit voltage over charge, internal resistance, power drawn; or the paper's clock.
+//! Battery model: open-circuit voltage as a function of charge, internal resistance and power draw, or the fixed endurance of the
+//! paper.
 
 use super::{AirframeModel, PhysicsState as Physics, PowerLoad};
 use spandrel_model::math;
 use spandrel_model::scenario::BatteryModel;
 
-/// Cell voltage below which the pack is taken as empty, V (estimate; LiPo practice).
+/// Cell voltage below which the pack counts as empty, V (estimate; LiPo practice).
 const EMPTY_CELL_V: f64 = 3.2;
 
-/// Charge and what the terminals show.
+/// State of charge and terminal readings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BatteryState {
-    /// State of charge, 0..1.
+    /// State of charge, 0 to 1.
     pub charge: f64,
     /// Terminal voltage, V; 0 until the first step.
     pub voltage_v: f64,
@@ -18,35 +19,35 @@ pub struct BatteryState {
     pub current_a: f64,
     /// Energy drawn, J.
     pub energy_j: f64,
-    /// Share of the full rotor speed that the sagging voltage still allows.
+    /// Fraction of the maximum rotor speed available at the current voltage.
     pub speed_factor: f64,
-    /// Cells that have failed and give no voltage, one bit each from the lowest.
+    /// Failed cells that deliver no voltage, as a bit mask; bit 0 is the first cell.
     pub dead_cells: u16,
 }
 
 impl BatteryState {
-    /// A full pack.
+    /// A fully charged pack.
     pub const FULL: Self = Self { charge: 1.0, voltage_v: 0.0, current_a: 0.0, energy_j: 0.0, speed_factor: 1.0, dead_cells: 0 };
 
-    /// Nothing left.
+    /// Returns true if the pack has no charge left.
     #[must_use]
     pub fn empty(&self) -> bool {
         self.charge <= 0.0
     }
 
-    /// Whether a cell, counted from 0, has failed.
+    /// Returns true if the cell with this zero-based index has failed.
     #[must_use]
     pub fn is_empty(&self, cell: usize) -> bool {
         cell < 16 && self.dead_cells & (1 << cell) != 0
     }
 
-    /// A cell fails, or is whole again.
+    /// Sets or clears the failure of one cell.
     pub fn fail_cell(&mut self, cell: usize, dead: bool) {
         let bit = if cell < 16 { 1 << cell } else { 0 };
         self.dead_cells = if dead { self.dead_cells | bit } else { self.dead_cells & !bit };
     }
 
-    /// Cells of a pack that still give voltage.
+    /// Number of working cells in a pack of `cells` cells.
     #[must_use]
     pub fn live_cells(&self, cells: u32) -> u32 {
         cells.saturating_sub(self.dead_cells.count_ones())
@@ -59,7 +60,7 @@ impl BatteryState {
     }
 }
 
-/// Open-circuit voltage of the pack at a state of charge, V: linear between the eleven points of the aircraft's file.
+/// Open-circuit voltage of the pack at a state of charge, V. Interpolates linearly between the eleven points of the vehicle file.
 #[must_use]
 pub fn open_circuit_v(battery: &spandrel_model::vehicle::BatterySpec, charge: f64) -> f64 {
     let x = charge.clamp(0.0, 1.0) * 10.0;
@@ -67,7 +68,7 @@ pub fn open_circuit_v(battery: &spandrel_model::vehicle::BatterySpec, charge: f6
     f64::from(battery.cells) * math::lerp(battery.ocv_cell_v[low], battery.ocv_cell_v[low + 1], x - low as f64)
 }
 
-/// Electrical power of everything on board, W.
+/// Total electrical power draw, W.
 fn power_w(model: &AirframeModel, physics: &Physics, load: PowerLoad) -> f64 {
     let rotor = &model.rotor;
     let shaft: f64 = physics.rigid.rotor_rad_s.iter().map(|w| rotor.torque_coefficient_n_m_s2 * w * w * w).sum();
@@ -75,7 +76,7 @@ fn power_w(model: &AirframeModel, physics: &Physics, load: PowerLoad) -> f64 {
     shaft / rotor.efficiency + model.battery.avionics_w + lamp
 }
 
-/// One step of charge, voltage and sag.
+/// Advances charge, voltage and voltage sag by one step.
 pub fn advance(model: &AirframeModel, physics: &mut Physics, load: PowerLoad, dt_s: f64) {
     let battery = &model.battery;
     let power = power_w(model, physics, load);
@@ -84,7 +85,7 @@ pub fn advance(model: &AirframeModel, physics: &mut Physics, load: PowerLoad, dt
     let live = state.live_cells(battery.cells);
     let open = if live < battery.cells { whole * f64::from(live) / f64::from(battery.cells) } else { whole };
     let r = battery.internal_resistance_ohm;
-    // P = (OCV - I R) I has no real solution beyond the power that the pack can give; it then gives that.
+    // P = (OCV - I R) I has no real solution above the maximum power of the pack; the pack then delivers that maximum.
     let discriminant = (open * open - 4.0 * r * power).max(0.0);
     state.current_a = if r > 0.0 {
         (open - discriminant.sqrt()) / (2.0 * r)

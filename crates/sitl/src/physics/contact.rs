@@ -1,4 +1,4 @@
-//! Contact as impulses on velocities: restitution, Coulomb friction, and a look ahead of one step so that nothing is passed through.
+//! Contact response as velocity impulses: restitution, Coulomb friction and a one-step look-ahead that prevents tunneling.
 
 use super::{AirframeModel, Obstacles, PhysicsState, RigidState};
 use nalgebra::{Matrix3, Vector3};
@@ -6,49 +6,49 @@ use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::site::{Contact, ObjectId, Surface};
 use spandrel_model::time::SimTime;
 
-/// Near-contacts are asked for within this beyond one step's travel, m.
+/// Search margin for near-contacts beyond the travel of one step, m.
 pub const MARGIN_M: f64 = 0.01;
-/// Slower approaches than this do not bounce, m/s (keeps a resting body at rest).
+/// Approach speed below which contacts do not bounce, m/s (keeps a resting body at rest).
 const BOUNCE_M_S: f64 = 0.3;
-/// A gap below this counts as touching, m.
+/// Gap below which bodies count as touching, m.
 const TOUCH_M: f64 = 1e-3;
-/// Penetration that is left alone, m.
+/// Penetration depth that is not corrected, m.
 const SLOP_M: f64 = 1e-5;
-/// Share of the penetration mended a step.
+/// Fraction of the penetration that is corrected per step.
 const MEND: f64 = 0.2;
-/// Rounds of the impulse solver; a resting body starts from the last step's impulses and needs few.
+/// Maximum iterations of the impulse solver. A resting body starts from the impulses of the last step and needs few.
 const ROUNDS: usize = 16;
-/// An impulse change below this share of the weight's impulse ends the rounds.
+/// Convergence threshold: the largest impulse change relative to the weight's impulse.
 const SETTLED: f64 = 1e-9;
-/// A rotor that touches loses its speed with this time constant, s (estimate).
+/// Time constant at which a rotor in contact loses speed, s (estimate).
 const ROTOR_STRIKE_S: f64 = 0.08;
 
-/// What touched in one step.
+/// Contacts of one step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ContactReport {
-    /// The most severe surface touched, with its object.
+    /// The most severe surface in contact and its object.
     pub surface: Option<(Surface, ObjectId)>,
-    /// Fastest approach that was stopped in this step, m/s.
+    /// Largest approach speed stopped in this step, m/s.
     pub impact_m_s: f64,
     /// Sum of normal forces, N.
     pub normal_n: f64,
 }
 
 impl ContactReport {
-    /// Something touches.
+    /// Returns true if any surface is in contact.
     #[must_use]
     pub fn touching(&self) -> bool {
         self.surface.is_some()
     }
 }
 
-/// Impulses of the last step, to start from.
+/// Impulses of the last step, used as the initial guess.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct WarmStart {
     impulses: Vec<(ContactKey, Vector3<f64>)>,
 }
 
-/// Which probe met which object, and how many times before in this step.
+/// Probe index, object ID and the number of earlier contacts between the two in this step.
 type ContactKey = (usize, u32, usize);
 
 struct ContactConstraint {
@@ -62,14 +62,14 @@ struct ContactConstraint {
     gap: f64,
     target: f64,
     approach: f64,
-    /// What impulses here do to the body, and how far its own place gives way.
+    /// Response of the body and of this contact point to an impulse here.
     gives: ImpulseResponse,
     inverse_effective: f64,
     impulse: Vector3<f64>,
     active: bool,
 }
 
-/// Corrects the step that free flight has just made from `start`, where something is in the way.
+/// Corrects the free-flight step made from `start` for contacts with obstacles.
 pub fn resolve(
     model: &AirframeModel,
     state: &mut PhysicsState,
@@ -79,7 +79,7 @@ pub fn resolve(
     dt_s: f64,
 ) {
     let travel = state.rigid.velocity_m_s.norm() * dt_s + model.hull_radius_m * state.rigid.rates_rad_s.norm() * dt_s;
-    // Asked at the step's start, where nothing had been passed yet.
+    // Queried at the start of the step, before anything can have been passed through.
     let mut constraints = gather(model, start, obstacles, at, travel + MARGIN_M);
     if constraints.is_empty() {
         state.contact = ContactReport::default();
@@ -91,10 +91,10 @@ pub fn resolve(
     warm_start(&mut constraints, &state.warm);
     let (velocity, spin) = solve(&mut constraints, &body, &state.rigid, model, dt_s);
     if constraints.iter().any(|c| c.active) {
-        // FRAME: the solver works in NED; the body keeps its rates in its own axes.
+        // FRAME: the solver works in NED; the body's rates are in body axes.
         state.rigid.velocity_m_s = Vec3::assume(velocity);
         state.rigid.rates_rad_s = state.rigid.attitude.inverse() * Vec3::<Ned>::assume(spin);
-        // The step is made again from its start with the velocities that contact allows.
+        // Repeats the step from its start with the velocities that contact allows.
         state.rigid.position_m = start.position_m + state.rigid.velocity_m_s * dt_s + repair_quaternion(&constraints);
         state.rigid.attitude = start.attitude.turned_by(state.rigid.rates_rad_s * dt_s);
         strike_rotors(&constraints, &mut state.rigid, dt_s);
@@ -115,7 +115,7 @@ impl ContactBody {
         Self { inverse_mass: model.inverse_mass, inverse_inertia }
     }
 
-    /// How it gives way to impulses at `arm`.
+    /// Response to impulses at `arm`.
     fn impulse_response(&self, arm: &Vector3<f64>) -> ImpulseResponse {
         let cross = arm.cross_matrix();
         let spin = self.inverse_inertia * cross;
@@ -123,12 +123,12 @@ impl ContactBody {
     }
 }
 
-/// How a body gives way to an impulse at a place of it.
+/// Response of a body to an impulse at a contact point.
 #[derive(Debug, Clone, Copy, Default)]
 struct ImpulseResponse {
-    /// Change of its spin.
+    /// Change of angular velocity per unit impulse.
     spin: Matrix3<f64>,
-    /// Change of the place's velocity.
+    /// Change of the contact point's velocity per unit impulse.
     place: Matrix3<f64>,
 }
 
@@ -191,7 +191,7 @@ fn warm_start(constraints: &mut [ContactConstraint], warm: &WarmStart) {
     }
 }
 
-/// Projected Gauss-Seidel on normal and friction impulses; returns the velocities afterwards.
+/// Runs projected Gauss-Seidel on normal and friction impulses. Returns the resulting linear and angular velocities.
 fn solve(
     constraints: &mut [ContactConstraint],
     body: &ContactBody,
@@ -221,7 +221,7 @@ fn solve(
     (v, w)
 }
 
-/// One contact's turn; returns the size of its impulse change.
+/// Updates one contact. Returns the magnitude of its impulse change.
 fn one_contact(c: &mut ContactConstraint, body: &ContactBody, v: &mut Vector3<f64>, w: &mut Vector3<f64>, friction: f64) -> f64 {
     let old = c.impulse;
     let relative = *v + w.cross(&c.arm) - c.object_velocity;
@@ -248,11 +248,11 @@ fn one_contact(c: &mut ContactConstraint, body: &ContactBody, v: &mut Vector3<f6
     change.norm()
 }
 
-/// Shift that mends the deepest penetration, without giving speed.
+/// Position shift that corrects the deepest penetration without adding velocity.
 fn repair_quaternion(constraints: &[ContactConstraint]) -> Vec3<Ned> {
     let deepest = constraints.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
     deepest.filter(|c| c.gap < -SLOP_M).map_or(Vec3::zero(), |c| {
-        // FRAME: normals were turned into NED when gathered.
+        // FRAME: `gather` converted the normals to NED.
         Vec3::assume(c.normal * (MEND * (-c.gap - SLOP_M)))
     })
 }

@@ -1,4 +1,4 @@
-//! The aircraft's hull as convex probes: arms, rotor discs or cage, feet, body.
+//! Collision hull of the aircraft as convex probes: arms, rotor discs or cage, feet and body.
 
 use super::RigidState;
 use spandrel_model::frames::{Enu, Frd, Vec3};
@@ -8,13 +8,13 @@ use spandrel_model::vehicle::Vehicle;
 /// Half thickness of arms and rotor discs, m (estimate).
 const THIN_M: f64 = 0.015;
 
-/// One convex part in body axes.
+/// One convex part of the hull in body axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyProbe {
     a_m: Vec3<Frd>,
     b_m: Vec3<Frd>,
     radius_m: f64,
-    /// The rotor that turns here, if any.
+    /// Index of the rotor at this probe, if any.
     pub rotor: Option<usize>,
 }
 
@@ -27,13 +27,13 @@ impl BodyProbe {
         Self { a_m, b_m, radius_m, rotor: None }
     }
 
-    /// Farthest distance from the centre of mass, m.
+    /// Largest distance from the center of mass, m.
     #[must_use]
     pub fn reach_m(&self) -> f64 {
         self.a_m.norm().max(self.b_m.norm()) + self.radius_m
     }
 
-    /// Placed in the site.
+    /// Transforms the probe to the pose of the aircraft.
     #[must_use]
     pub fn placed(&self, rigid: &RigidState) -> HullProbe {
         let place = |p: Vec3<Frd>| -> Vec3<Enu> { (rigid.position_m + rigid.attitude * p).enu() };
@@ -45,8 +45,8 @@ impl BodyProbe {
     }
 }
 
-/// The parts of an aircraft. A caged one is a ball of its cage; an open one has arms, two crossed diameters and the outer edge of each
-/// rotor disc, feet and body.
+/// Returns the probes of an aircraft. A caged aircraft is one ball the size of its cage. An open one has arms, feet, a body, and
+/// per rotor disc two crossed diameters and the outer edge.
 #[must_use]
 pub fn probes(vehicle: &Vehicle) -> Vec<BodyProbe> {
     let hull = &vehicle.hull;
@@ -66,7 +66,7 @@ pub fn probes(vehicle: &Vehicle) -> Vec<BodyProbe> {
     out
 }
 
-/// Two crossed diameters of a rotor disc, radial and tangential.
+/// Two crossed diameters of a rotor disc, one radial and one tangential.
 fn disc(hub_m: Vec3<Frd>, radius_m: f64) -> [BodyProbe; 2] {
     let radial = Vec3::new(hub_m.forward(), hub_m.right(), 0.0).unit();
     let tangential = Vec3::new(-radial.right(), radial.forward(), 0.0);

@@ -1,4 +1,4 @@
-//! Rigid body, rotors, surface effects, drag, battery, contact: state is plain data, models are functions.
+//! Rigid body, rotors, surface effects, drag, battery and contact. State is plain data; models are functions.
 
 pub mod battery;
 pub mod contact;
@@ -14,51 +14,51 @@ use spandrel_model::site::{Contact, HullProbe, ObjectId, RayHit, Site, Surface};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{BatterySpec, Lamp, Rotor, RotorModel, Vehicle};
 
-/// Most rotors an aircraft may have.
+/// Maximum number of rotors.
 pub const MAX_ROTORS: usize = 8;
 
-/// The moving state of the aircraft: the truth.
+/// True motion state of the aircraft.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidState {
-    /// Centre of mass, m, local north-east-down.
+    /// Position of the center of mass, m, local NED.
     pub position_m: Vec3<Ned>,
     /// Velocity over ground, m/s.
     pub velocity_m_s: Vec3<Ned>,
-    /// Attitude.
+    /// Attitude: body to NED.
     pub attitude: Rotation<Frd, Ned>,
-    /// Angular velocity of the body against the ground, rad/s.
+    /// Angular velocity relative to the ground, rad/s, in body axes.
     pub rates_rad_s: Vec3<Frd>,
     /// Rotor speeds, rad/s.
     pub rotor_rad_s: [f64; MAX_ROTORS],
 }
 
-/// What the flight controller drives.
+/// Actuator commands from the flight controller.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Actuators {
-    /// Motor commands, 0..1 of the speed range (idle to max), in rotor order; ignored when not armed.
+    /// Motor commands, 0 to 1 of the speed range (idle to maximum), in rotor order. Ignored while disarmed.
     pub motors: [f64; MAX_ROTORS],
-    /// Motors turn.
+    /// Whether the motors are armed.
     pub armed: bool,
 }
 
 /// Sea-level air density, kg/m³ (ISA, 15 °C, 1013.25 hPa).
 pub const AIR_DENSITY_KG_M3: f64 = 1.225;
-/// Nothing at the site moves faster, m/s: cars go at 35 m/s at most, the lane's speed differs by a tenth. Bounds how long a clearance may
-/// be trusted.
+/// Upper bound for the speed of objects at the site, m/s: cars drive at most 35 m/s, and lane speeds vary by a tenth. Limits how
+/// long a measured clearance stays valid.
 pub const FASTEST_OBJECT_M_S: f64 = 38.5;
-/// Distance up to which the surroundings are asked for clearance, m.
+/// Search radius for clearance, m.
 const CLEARANCE_REACH_M: f64 = 4.0;
-/// Surface effects are looked up this often, s.
+/// Update interval of surface effects, s.
 const EFFECT_PERIOD_S: f64 = 0.02;
 
-/// The air around the aircraft, held over one step.
+/// The air around the aircraft, constant over one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AirState {
     /// Wind at the aircraft, m/s.
     pub velocity_m_s: Vec3<Ned>,
-    /// Density, kg/m³.
+    /// Air density, kg/m³.
     pub density_kg_m3: f64,
-    /// External force at the centre of mass, N (the paper's wind).
+    /// External force at the center of mass, N (the paper's wind model).
     pub force_n: Vec3<Ned>,
 }
 
@@ -67,13 +67,13 @@ impl AirState {
     pub const STILL: Self = Self { velocity_m_s: Vec3::zero(), density_kg_m3: AIR_DENSITY_KG_M3, force_n: Vec3::zero() };
 }
 
-/// What the aircraft may touch. The site is one; tests bring planes and boxes of their own.
+/// Collision queries against the surroundings. [`Site`] implements this; tests use planes and boxes.
 pub trait Obstacles {
     /// Appends contacts and near-contacts of a probe.
     fn contacts(&self, probe: &HullProbe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>);
-    /// The nearest solid thing within `max_m`, pad included, or `None`.
+    /// Distance to the nearest solid object within `max_m`, including the landing pad, m.
     fn clearance(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<f64>;
-    /// The first thing along a ray.
+    /// The first hit along a ray within `max_m`.
     fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<RayHit>;
 }
 
@@ -89,7 +89,7 @@ impl Obstacles for Site {
     }
 }
 
-/// No obstacle anywhere.
+/// Surroundings without obstacles.
 #[derive(Debug, Clone, Copy)]
 pub struct OpenSky;
 
@@ -103,7 +103,7 @@ impl Obstacles for OpenSky {
     }
 }
 
-/// An aircraft's constants in the form that the models use.
+/// Constants of an aircraft in the form that the models use.
 #[derive(Debug, Clone)]
 pub struct AirframeModel {
     /// Mass, kg.
@@ -111,7 +111,7 @@ pub struct AirframeModel {
     inverse_mass: f64,
     inertia: Vector3<f64>,
     inverse_inertia: Vector3<f64>,
-    /// 1 on earth; tests of torque-free motion switch gravity off.
+    /// Factor on gravity: 1 on earth, 0 in tests of torque-free motion.
     pub gravity_scale: f64,
     rotors: Vec<Rotor>,
     rotor: RotorModel,
@@ -126,14 +126,14 @@ pub struct AirframeModel {
     lamp: Lamp,
 }
 
-/// The moving state: plain data, so that a clone is a snapshot.
+/// Complete physical state. Plain data, so a clone is a snapshot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PhysicsState {
     /// Rigid body and rotors.
     pub rigid: RigidState,
-    /// Battery.
+    /// Battery state.
     pub battery: battery::BatteryState,
-    /// Non-gravitational force over mass in the last step, m/s²: what an accelerometer feels.
+    /// Specific force of the last step, m/s²: non-gravitational force per mass, as measured by an accelerometer.
     pub specific_force_m_s2: Vec3<Frd>,
     /// Contacts of the last step.
     pub contact: contact::ContactReport,
@@ -143,7 +143,7 @@ pub struct PhysicsState {
     clear_sphere: ClearSphere,
 }
 
-/// A ball that was empty at an instant: no contact can happen deep inside it for a while.
+/// A sphere that was free of obstacles at one instant. Contacts well inside it are impossible for some time after.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct ClearSphere {
     centre_m: Vec3<Enu>,
@@ -152,14 +152,14 @@ struct ClearSphere {
 }
 
 impl ClearSphere {
-    /// Distance from `position` that is certainly free now, m.
+    /// Remaining radius around `position` that is guaranteed to be free now, m.
     fn left_m(&self, position_m: Vec3<Enu>, now: SimTime) -> f64 {
         self.radius_m - (position_m - self.centre_m).norm() - FASTEST_OBJECT_M_S * (now - self.since).s()
     }
 }
 
 impl PhysicsState {
-    /// At rest at a place with a heading, motors off, battery full.
+    /// Returns the state at rest at a position and heading, with motors off and a full battery.
     #[must_use]
     pub fn at_rest(position_m: Vec3<Ned>, yaw_rad: f64) -> Self {
         Self {
@@ -180,7 +180,7 @@ impl PhysicsState {
         }
     }
 
-    /// Puts the aircraft somewhere else, level and at rest, rotors as they are.
+    /// Moves the aircraft to a position, level and at rest. Keeps the rotor speeds.
     pub fn place(&mut self, position_m: Vec3<Ned>, yaw_rad: f64) {
         let fresh = Self::at_rest(position_m, yaw_rad);
         let rotor_rad_s = self.rigid.rotor_rad_s;
@@ -192,7 +192,7 @@ impl PhysicsState {
 }
 
 impl AirframeModel {
-    /// From an aircraft and the battery that the job asks for.
+    /// Builds the model from an aircraft and the battery model of the scenario.
     #[must_use]
     pub fn new(vehicle: &Vehicle, battery_model: BatteryModel) -> Self {
         let inertia = Vector3::from(vehicle.inertia_kg_m2);
@@ -226,21 +226,21 @@ impl AirframeModel {
         math::exp(-0.5 * dt_s / self.rotor.time_constant_s)
     }
 
-    /// Rotor speed that carries the weight, rad/s.
+    /// Rotor speed in hover, rad/s.
     #[must_use]
     pub fn hover_rotor_rad_s(&self) -> f64 {
         let per_rotor = self.mass_kg * math::GRAVITY_M_S2 / self.rotors.len() as f64;
         (per_rotor / self.rotor.thrust_coefficient_n_s2).sqrt()
     }
 
-    /// Motor command (0..1) at which the rotors carry the weight, with a full battery.
+    /// Motor command (0 to 1) in hover with a full battery.
     #[must_use]
     pub fn hover_command(&self) -> f64 {
         let speed = self.hover_rotor_rad_s();
         (speed - self.rotor.idle_speed_rad_s) / (self.rotor.max_speed_rad_s - self.rotor.idle_speed_rad_s)
     }
 
-    /// Rotor speeds that the motors strive for.
+    /// Target rotor speeds, rad/s.
     fn targets(&self, actuators: &Actuators, battery: &battery::BatteryState) -> [f64; MAX_ROTORS] {
         let mut out = [0.0; MAX_ROTORS];
         if !actuators.armed || battery.empty() {
@@ -253,8 +253,8 @@ impl AirframeModel {
         out
     }
 
-    /// One physics step, `now` at its start. `lamp_on` loads the battery, `airborne` drains the `paper` battery.
-    #[allow(clippy::too_many_arguments, reason = "a step's inputs, each of another kind")]
+    /// Runs one physics step that starts at `now`.
+    #[allow(clippy::too_many_arguments, reason = "inputs of one step, all of different types")]
     pub fn advance(
         &self,
         state: &mut PhysicsState,
@@ -311,17 +311,17 @@ impl AirframeModel {
     }
 }
 
-/// What else draws power and time in one step.
+/// Inputs to the battery model for one step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PowerLoad {
-    /// The lamp is on.
+    /// Whether the lamp is on.
     pub lamp_on: bool,
-    /// Lift-off has happened (the `paper` battery's clock runs).
+    /// Whether the vehicle has lifted off. Starts the clock of the `paper` battery.
     pub airborne: bool,
 }
 
-/// The most severe of two surfaces for reports: person, vehicle, bridge, terrain, water, other (docs/src/reference/wire.md,
-/// "Scoring data").
+/// Returns the more severe of two surfaces for reports, in the order person, vehicle, bridge, terrain, water, other
+/// (docs/src/reference/wire.md, "Scoring data").
 #[must_use]
 pub fn more_severe(a: Surface, b: Surface) -> Surface {
     const ORDER: [Surface; 7] =
@@ -330,5 +330,5 @@ pub fn more_severe(a: Surface, b: Surface) -> Surface {
     if rank(a) <= rank(b) { a } else { b }
 }
 
-/// Re-exported for reports.
+/// Object ID, re-exported for reports.
 pub type Touched = ObjectId;

@@ -1,12 +1,12 @@
-//! Free flight: one classical Runge-Kutta step of rigid body and rotors. Rotor speeds follow their exact exponential inside the step,
-//! so that only the rigid body is integrated numerically.
+//! Free flight: one classical Runge-Kutta step for rigid body and rotors. Rotor speeds follow their exact exponential within the
+//! step, so only the rigid body is integrated numerically.
 
 use super::{AirState, AirframeModel, MAX_ROTORS, RigidState};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::math::GRAVITY_M_S2;
 
-/// Force and torque about the centre of mass, gravity left out.
+/// Force and torque about the center of mass, without gravity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wrench {
     /// Force, N.
@@ -15,7 +15,7 @@ pub struct Wrench {
     pub torque_n_m: Vec3<Frd>,
 }
 
-/// The part of the state that is integrated numerically; the quaternion is not kept at unit length between stages.
+/// The numerically integrated part of the state. The quaternion is not normalized between stages.
 #[derive(Clone, Copy)]
 struct IntegratedState {
     p: Vector3<f64>,
@@ -30,14 +30,15 @@ impl IntegratedState {
     }
 }
 
-/// What the rotors do at one instant of a step.
+/// Rotor speeds and accelerations at one instant of a step.
 #[derive(Clone, Copy)]
 struct RotorInstant {
     speed: [f64; MAX_ROTORS],
     acceleration: [f64; MAX_ROTORS],
 }
 
-/// Advances by `dt_s` with the rotors driven towards `target_rad_s`. Air and external force are held over the step.
+/// Advances the state by `dt_s` while the rotor speeds approach `target_rad_s`. Air and external force are constant over the
+/// step.
 pub fn advance(
     model: &AirframeModel,
     state: &mut RigidState,
@@ -60,7 +61,7 @@ pub fn advance(
     let k3 = derivative(model, &y.plus(&k2, 0.5 * dt_s), &half, air, effect);
     let k4 = derivative(model, &y.plus(&k3, dt_s), &end, air, effect);
     let sixth = dt_s / 6.0;
-    // FRAME: each component keeps the frame that it was taken from.
+    // FRAME: each component keeps its original frame.
     state.position_m = Vec3::assume(y.p + (k1.p + (k2.p + k3.p) * 2.0 + k4.p) * sixth);
     state.velocity_m_s = Vec3::assume(y.v + (k1.v + (k2.v + k3.v) * 2.0 + k4.v) * sixth);
     let q = y.q + (k1.q + (k2.q + k3.q) * 2.0 + k4.q) * sixth;
@@ -119,7 +120,7 @@ fn body_drag(model: &AirframeModel, air_velocity_m_s: Vec3<Frd>, rates_rad_s: Ve
 }
 
 impl AirframeModel {
-    /// Rotor speeds and accelerations when the distance to the target has shrunk to `left` of what it was.
+    /// Rotor speeds and accelerations when the remaining distance to the target is the fraction `left` of its initial value.
     fn rotor_instant(&self, state: &RigidState, target_rad_s: &[f64; MAX_ROTORS], left: f64) -> RotorInstant {
         let mut out = RotorInstant { speed: [0.0; MAX_ROTORS], acceleration: [0.0; MAX_ROTORS] };
         let pairs = state.rotor_rad_s.iter().zip(target_rad_s).take(self.rotors.len());
@@ -132,12 +133,12 @@ impl AirframeModel {
     }
 
     fn rotor_momentum(&self, speed: &[f64; MAX_ROTORS]) -> Vector3<f64> {
-        // Counter-clockwise seen from above is a rotation vector that points up, against the body's down axis.
+        // Counterclockwise seen from above is a rotation vector that points up, opposite to the body's down axis.
         let z: f64 = self.rotors.iter().zip(speed).map(|(r, w)| -r.spin * self.rotor.inertia_kg_m2 * w).sum();
         Vector3::new(0.0, 0.0, z)
     }
 
-    /// Wrench of one rotor about the centre of mass: thrust, in-plane drag, drag torque, reaction to its acceleration.
+    /// Wrench of one rotor about the center of mass: thrust, in-plane drag, drag torque and the reaction to its acceleration.
     #[must_use]
     pub fn rotor_wrench(&self, index: usize, hub_air_m_s: Vec3<Frd>, speed: f64, acceleration: f64, effect: f64) -> Wrench {
         let rotor = &self.rotors[index];

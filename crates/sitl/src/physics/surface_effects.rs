@@ -1,20 +1,21 @@
-//! Ground and ceiling effect, per rotor, as a factor on thrust at a given rotor speed.
+//! Ground and ceiling effect per rotor, as a thrust factor at a given rotor speed.
 
 use super::{AirframeModel, MAX_ROTORS, Obstacles, RigidState};
 use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
 
-/// Surfaces farther than this many rotor radii change thrust by less than 0.3 % (Cheeseman-Bennett at 5 R: 1.0025).
+/// Range of surface effects in rotor radii. Farther surfaces change thrust by less than 0.3 % (Cheeseman-Bennett at 5 R: 1.0025).
 const REACH_RADII: f64 = 5.0;
 
-/// How far surfaces matter, m.
+/// Range of surface effects, m.
 #[must_use]
 pub fn reach_m(model: &AirframeModel) -> f64 {
     REACH_RADII * model.rotor.radius_m
 }
 
-/// Cheeseman and Bennett: thrust in ground effect over thrust out of it at equal power; valid for z > R/2, held there below.
+/// Thrust in ground effect divided by thrust out of it at equal power, after Cheeseman and Bennett. Valid for z > R/2; constant
+/// below.
 #[must_use]
 pub fn ground_factor(height_over_radius: f64) -> f64 {
     let z = height_over_radius.max(0.5);
@@ -22,22 +23,22 @@ pub fn ground_factor(height_over_radius: f64) -> f64 {
     1.0 / (1.0 - r * r)
 }
 
-/// Hsiao and Chirarattananon's gamma: ratio of induced velocities without and with a ceiling at a distance; held below R/4 as the
-/// public Crazyflie firmware does.
+/// Ratio of induced velocities without and with a ceiling, gamma of Hsiao and Chirarattananon. Constant below R/4, as in the
+/// public Crazyflie firmware.
 #[must_use]
 pub fn ceiling_gamma(distance_over_radius: f64) -> f64 {
     let d = distance_over_radius.max(0.25);
     0.5 + 0.5 * (1.0 + 1.0 / (8.0 * d * d)).sqrt()
 }
 
-/// Thrust at constant power under a ceiling over thrust in the open: gamma^(2/3).
+/// Thrust below a ceiling divided by thrust in open air at constant power: gamma^(2/3).
 #[must_use]
 pub fn ceiling_factor(distance_over_radius: f64) -> f64 {
     let g = math::cbrt(ceiling_gamma(distance_over_radius));
     g * g
 }
 
-/// The factor for every rotor from what stands below and above its hub along the rotor axis.
+/// Thrust factor of every rotor, from the surfaces below and above its hub along the rotor axis.
 pub fn factors(model: &AirframeModel, rigid: &RigidState, obstacles: &impl Obstacles, at: SimTime) -> [f64; MAX_ROTORS] {
     let mut out = [1.0; MAX_ROTORS];
     let down = (rigid.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).enu();
@@ -60,7 +61,7 @@ mod tests {
     use spandrel_model::frames::Enu;
     use spandrel_model::site::{ObjectId, RayHit, Surface};
 
-    /// The printed values carry three decimals.
+    /// Tolerance for published values with three decimals.
     const PRINTED: f64 = 6e-4;
 
     #[test]
@@ -83,7 +84,7 @@ mod tests {
         }
     }
 
-    /// A floor and a ceiling, m up, over half of the plane each (north of the origin).
+    /// A floor and a ceiling at these heights, m up. Each covers one half of the plane, split at north = 0.
     struct FloorAndCeiling(f64, f64);
 
     impl Obstacles for FloorAndCeiling {
@@ -106,14 +107,14 @@ mod tests {
         let vehicle = spandrel_model::vehicle::read("phantom2.toml", text).expect("shipped");
         let model = AirframeModel::new(&vehicle, spandrel_model::scenario::BatteryModel::Paper);
         let radius = vehicle.rotor.radius_m;
-        // The hubs lie 3 cm over the centre; ceiling and floor a radius and two away from them.
+        // The hubs are 3 cm above the center. The ceiling is one radius away and the floor two.
         let slabs = FloorAndCeiling(0.03 - 2.0 * radius, 0.03 + radius);
         let state = crate::physics::PhysicsState::at_rest(Vec3::zero(), 0.0);
         let got = factors(&model, &state.rigid, &slabs, SimTime::ZERO);
         let beside = ground_factor(2.0) * ceiling_factor(1.0);
         for (i, rotor) in vehicle.rotors.iter().enumerate() {
             let expected = if rotor.position_m.forward() > 0.0 { beside } else { 1.0 };
-            // Rounding.
+            // Rounding tolerance.
             assert!((got[i] - expected).abs() < 1e-12, "rotor {i}: {}, not {expected}", got[i]);
         }
     }

@@ -1,11 +1,11 @@
-//! Barometer: height over the origin with white noise and a slowly walking offset, and the pressure that goes with it.
+//! Barometer: height above the origin with white noise and a slow random-walk offset, and the corresponding pressure.
 
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle;
 
-/// Offset at power-on after the zero at the origin's known height, m (estimate).
+/// Offset at power-on after zeroing at the known height of the origin, m (estimate).
 pub const START_OFFSET_M: f64 = 0.1;
 
 /// State of the barometer.
@@ -20,7 +20,7 @@ pub struct Barometer {
 }
 
 impl Barometer {
-    /// `origin_altitude_m`: mean-sea-level altitude of the local origin.
+    /// Creates the sensor. `origin_altitude_m` is the altitude of the local origin above mean sea level.
     #[must_use]
     pub fn new(sensors: &vehicle::SensorSpec, origin_altitude_m: f64, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "baro");
@@ -34,7 +34,7 @@ impl Barometer {
         }
     }
 
-    /// Height over the origin, m, and static pressure, Pa, when due.
+    /// Returns height above the origin, m, and static pressure, Pa, if a sample is due.
     pub fn read(&mut self, up_m: f64, now: SimTime) -> Option<(f64, f64)> {
         if !self.due.fire(now) {
             return None;
@@ -44,7 +44,7 @@ impl Barometer {
         Some((measured, pressure_pa(self.origin_altitude_m + measured)))
     }
 
-    /// The offset now, m, for tests of the estimator.
+    /// Current offset, m, for estimator tests.
     #[must_use]
     pub fn offset_m(&self) -> f64 {
         self.offset_m
@@ -61,7 +61,7 @@ pub fn pressure_pa(altitude_m: f64) -> f64 {
 mod tests {
     #[test]
     fn val_pressure_at_1000_m_is_the_standard_atmospheres() {
-        // ISO 2533 table: 89 874.6 Pa at 1000 m; to 5 Pa.
+        // ISO 2533 table: 89 874.6 Pa at 1000 m; tolerance 5 Pa.
         assert!((super::pressure_pa(1000.0) - 89_874.6).abs() < 5.0);
     }
 }

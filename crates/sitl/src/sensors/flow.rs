@@ -1,5 +1,5 @@
-//! Optical flow: horizontal velocity against any lit surface within the range finders' reach (below, above or beside: cameras look
-//! all around, as on today's inspection aircraft). Over far water or in the dark it gives nothing.
+//! Optical flow: horizontal velocity relative to any lit surface within range-finder reach, in any direction (cameras face all
+//! sides, as on current inspection aircraft). Gives no measurement over distant water or in the dark.
 
 use super::FlowReading;
 use crate::physics::RigidState;
@@ -8,11 +8,11 @@ use spandrel_model::random::RandomStream;
 use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle;
 
-/// Least light for tracking texture, lx (makers of vision positioning ask for more than 15 lx).
+/// Minimum light for feature tracking, lx (manufacturers of vision positioning specify more than 15 lx).
 pub const LEAST_LUX: f64 = 15.0;
-/// Scale error of a session, as a share of the velocity (estimate).
+/// Scale error, constant over a session, as a fraction of velocity (estimate).
 pub const SCALE_ERROR: f64 = 0.01;
-/// Rate, Hz (estimate: usual for on-board flow).
+/// Sample rate, Hz (estimate: typical for on-board flow sensors).
 const RATE_HZ: f64 = 20.0;
 
 /// State of the flow sensor.
@@ -26,7 +26,7 @@ pub struct OpticalFlow {
 }
 
 impl OpticalFlow {
-    /// Never due when the aircraft has none.
+    /// Creates the sensor. It is never due if the aircraft has no flow sensor.
     #[must_use]
     pub fn new(sensors: &vehicle::SensorSpec, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "flow");
@@ -40,12 +40,12 @@ impl OpticalFlow {
         }
     }
 
-    /// True when a reading is due now; ask once a tick.
+    /// Returns true if a sample is due. Call once per tick.
     pub fn due(&mut self, now: SimTime) -> bool {
         self.due.fire(now)
     }
 
-    /// The reading for the nearest surface at `nearest_m` under `lux`; `None` when nothing can be tracked.
+    /// Returns the reading for the nearest surface at `nearest_m` under `lux`, or `None` if tracking is impossible.
     pub fn read(&mut self, rigid: &RigidState, nearest_m: f64, lux: f64) -> Option<FlowReading> {
         let (a, b) = (self.stream.normal(), self.stream.normal());
         if lux < LEAST_LUX || nearest_m >= self.reach_m {

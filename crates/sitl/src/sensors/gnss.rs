@@ -1,5 +1,5 @@
-//! GNSS receiver under a fixed sky: what the structures hide is lost, dilution comes from the satellites that remain, errors are
-//! part slow drift, part white noise, part multipath that grows with the hidden share of the sky.
+//! GNSS receiver under a fixed constellation. Structures hide satellites, and dilution of precision follows from the visible
+//! ones. Position errors combine slow drift, white noise, and multipath that grows with the hidden fraction of the sky.
 
 use super::{GnssReading, Surroundings};
 use crate::physics::RigidState;
@@ -10,23 +10,23 @@ use spandrel_model::random::RandomStream;
 use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle;
 
-/// Satellites over the elevation mask (estimate: four constellations, one frequency).
+/// Satellites above the elevation mask (estimate: four constellations, one frequency).
 pub const SATELLITES: usize = 22;
-/// Elevation mask, rad (10 degrees, usual in receivers).
+/// Elevation mask, rad (10 degrees, common in receivers).
 const MASK_RAD: f64 = 0.174_533;
-/// A fix needs this many satellites (four unknowns plus one to check).
+/// Minimum satellites for a fix (four unknowns plus one for consistency).
 const LEAST_SATELLITES: usize = 5;
-/// A fix needs a horizontal dilution below this (estimate: receivers flag more as unusable).
+/// Maximum horizontal dilution for a fix (estimate: receivers flag larger values as unusable).
 const LARGEST_HDOP: f64 = 8.0;
-/// Structures beyond this do not hide a satellite, m (the sites end there).
+/// Range within which structures hide satellites, m (the sites end there).
 const REACH_M: f64 = 400.0;
-/// Share of the position noise that drifts slowly; the white share makes up the rest in variance.
+/// Slowly drifting fraction of the position noise. The white fraction supplies the remaining variance.
 pub const DRIFT_SHARE: f64 = 0.8;
-/// White share of the position noise: `DRIFT_SHARE`² + `WHITE_SHARE`² = 1.
+/// White fraction of the position noise: `DRIFT_SHARE`² + `WHITE_SHARE`² = 1.
 pub const WHITE_SHARE: f64 = 0.6;
-/// Time constant of the drift, s (estimate: ionosphere and orbit errors seen by one receiver move over minutes).
+/// Time constant of the drift, s (estimate: ionosphere and orbit errors at one receiver change over minutes).
 pub const DRIFT_TIME_S: f64 = 120.0;
-/// Multipath with all but the last satellites hidden, m (estimate), and its time constant, s.
+/// Multipath error with nearly all satellites hidden, m (estimate), and its time constant, s.
 const MULTIPATH_M: f64 = 3.0;
 const MULTIPATH_TIME_S: f64 = 8.0;
 
@@ -48,7 +48,7 @@ pub struct GnssReceiver {
 }
 
 impl GnssReceiver {
-    /// `shadow`: the structures hide satellites.
+    /// Creates the receiver. With `shadow`, structures hide satellites.
     #[must_use]
     pub fn new(sensors: &vehicle::SensorSpec, shadow: bool, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "gnss");
@@ -73,7 +73,7 @@ impl GnssReceiver {
         gnss
     }
 
-    /// The reading when one is due.
+    /// Returns a reading if one is due.
     pub fn read<S: Surroundings>(&mut self, rigid: &RigidState, site: &S, now: SimTime) -> Option<GnssReading> {
         if !self.due.fire(now) {
             return None;
@@ -100,7 +100,7 @@ impl GnssReceiver {
         self.stream = stream;
     }
 
-    /// A draw with the receiver's horizontal and vertical noise times `share`.
+    /// Random error with the receiver's horizontal and vertical noise multiplied by `share`.
     fn scaled(&self, stream: &mut RandomStream, share: f64) -> Vec3<Ned> {
         let [n, e, d] = stream.normal3();
         Vec3::new(n * self.horizontal_m, e * self.horizontal_m, d * self.vertical_m) * share
@@ -131,7 +131,7 @@ impl GnssReceiver {
         }
     }
 
-    /// The slow error now, m, for tests of the estimator.
+    /// Current drift, m, for estimator tests.
     #[must_use]
     pub fn drift_m(&self) -> Vec3<Ned> {
         self.drift
@@ -156,7 +156,7 @@ fn no_fix() -> GnssReading {
     }
 }
 
-/// Unit vectors to the satellites: evenly spread over the sky above the mask by the golden angle.
+/// Unit vectors to the satellites, spread evenly above the mask by the golden angle.
 fn sky() -> Vec<Vec3<Enu>> {
     let golden = math::PI * (3.0 - 5.0_f64.sqrt());
     let low = math::sin(MASK_RAD);
@@ -170,7 +170,7 @@ fn sky() -> Vec<Vec3<Enu>> {
         .collect()
 }
 
-/// Horizontal and vertical dilution of precision; `None` with too few or badly placed satellites.
+/// Horizontal and vertical dilution of precision. Returns `None` with too few satellites or a degenerate geometry.
 fn dilution(sky: impl Iterator<Item = Vec3<Enu>>) -> Option<(f64, f64)> {
     let normal: Matrix4<f64> = sky.fold(Matrix4::zeros(), |sum, d| {
         let row = Vector4::new(-d.east(), -d.north(), -d.up(), 1.0);

@@ -1,4 +1,4 @@
-//! Accelerometer and gyroscope: the mean over each sampling interval, plus white noise, plus a bias that starts somewhere and walks slowly.
+//! Accelerometer and gyroscope: mean over each sampling interval plus white noise and a slowly varying bias.
 
 use super::ImuReading;
 use spandrel_model::frames::{Frd, Vec3};
@@ -6,10 +6,11 @@ use spandrel_model::random::RandomStream;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle;
 
-/// Bias walk per √s as a share of the start bias (estimate: consumer inertial sensors move by some per cent of it in a minute).
+/// Bias random walk per √s as a fraction of the initial bias (estimate: consumer inertial sensors drift by a few percent of it
+/// per minute).
 pub const BIAS_WALK_SHARE: f64 = 0.005;
 
-/// The biases walk once in this many samples.
+/// Samples between updates of the bias walk.
 const WALK_EVERY: u32 = 40;
 
 /// State of the inertial sensors.
@@ -29,7 +30,7 @@ pub struct Imu {
 }
 
 impl Imu {
-    /// Draws the start biases.
+    /// Creates the sensors with random initial biases.
     #[must_use]
     pub fn new(sensors: &vehicle::SensorSpec, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "imu");
@@ -51,7 +52,7 @@ impl Imu {
         }
     }
 
-    /// Takes in one physics step: an impact between two samples is felt in the next one.
+    /// Integrates one physics step, so the next sample includes impacts between samples.
     pub fn integrate(&mut self, specific_force_m_s2: Vec3<Frd>, rates_rad_s: Vec3<Frd>, dt: SimTime) {
         let dt_s = dt.s();
         self.force_sum += specific_force_m_s2 * dt_s;
@@ -59,7 +60,7 @@ impl Imu {
         self.time_s += dt_s;
     }
 
-    /// The reading at the end of an interval; `None` when nothing was felt since the last.
+    /// Returns the reading at the end of a sampling interval, or `None` if nothing was integrated since the last.
     pub fn read(&mut self) -> Option<ImuReading> {
         if self.time_s <= 0.0 {
             return None;
@@ -80,14 +81,14 @@ impl Imu {
         Some(ImuReading { specific_force_m_s2: force, rates_rad_s: rates })
     }
 
-    /// The true biases now, accelerometer (m/s²) and gyroscope (rad/s), for tests of the estimator.
+    /// True biases of accelerometer (m/s²) and gyroscope (rad/s), for estimator tests.
     #[must_use]
     pub fn biases(&self) -> (Vec3<Frd>, Vec3<Frd>) {
         (self.accel_bias, self.gyro_bias)
     }
 }
 
-/// Six independent standard normals as two vectors.
+/// Six independent standard normal values as two vectors.
 fn normal_pair_3d(stream: &mut RandomStream) -> (Vec3<Frd>, Vec3<Frd>) {
     let ((a, b), (c, d), (e, f)) = (stream.normal_pair(), stream.normal_pair(), stream.normal_pair());
     (Vec3::new(a, b, c), Vec3::new(d, e, f))
@@ -107,7 +108,7 @@ mod tests {
             imu.integrate(Vec3::new(push, 0.0, -9.806_65), Vec3::zero(), step);
         }
         let gained = imu.read().map(|r| r.specific_force_m_s2.forward() * 0.0025);
-        // 2000 m/s² over 0.5 ms is 1 m/s; rounding only.
+        // 2000 m/s² over 0.5 ms is 1 m/s; tolerance for rounding only.
         assert!(gained.is_some_and(|v| (v - 1.0).abs() < 1e-12), "{gained:?}");
     }
 }

@@ -1,4 +1,5 @@
-//! Magnetometer in the earth's dipole field, with what calibration leaves of the aircraft's own field. No iron of the structure bends it.
+//! Magnetometer in the earth's dipole field, with the residual bias of the aircraft after calibration. Steel structures do not
+//! disturb the field.
 
 use crate::physics::RigidState;
 use spandrel_model::frames::{Frd, Ned, Vec3};
@@ -8,10 +9,10 @@ use spandrel_model::random::RandomStream;
 use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle;
 
-/// First-degree coefficients g10, g11, h11 of IGRF-13 for 2020, gauss.
+/// First-degree IGRF-13 coefficients g10, g11, h11 for 2020, gauss.
 const DIPOLE_GAUSS: [f64; 3] = [-0.294_048, -0.014_509, 0.046_525];
 
-/// The earth's magnetic field at a place: the tilted centred dipole, gauss. Good to some degrees of direction.
+/// The earth's magnetic field as a tilted centered dipole, gauss. Direction is accurate to a few degrees.
 #[must_use]
 pub fn earth_field_gauss(place: Geo) -> Vec3<Ned> {
     let [g10, g11, h11] = DIPOLE_GAUSS;
@@ -35,7 +36,7 @@ pub struct Magnetometer {
 }
 
 impl Magnetometer {
-    /// At a site whose origin lies at `origin`.
+    /// Creates the sensor for a site with this origin.
     #[must_use]
     pub fn new(sensors: &vehicle::SensorSpec, origin: Geo, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "magnetometer");
@@ -49,7 +50,7 @@ impl Magnetometer {
         }
     }
 
-    /// The field in the body's axes, gauss, when due.
+    /// Returns the field in body axes, gauss, if a sample is due.
     pub fn read(&mut self, rigid: &RigidState, now: SimTime) -> Option<Vec3<Frd>> {
         if !self.due.fire(now) {
             return None;
@@ -79,14 +80,15 @@ mod tests {
             assert!((first - later).norm() < 1e-12, "{first:?} {later:?}");
             squares += first.norm_squared() / 1200.0;
         }
-        // 1 200 draws: three standard errors of the deviation are 6 %.
+        // 1,200 draws: three standard errors of the standard deviation are 6 %.
         assert!((squares.sqrt() / 0.01 - 1.0).abs() < 0.06, "{}", squares.sqrt());
     }
 
     #[test]
     fn val_the_field_dips_downward_in_the_north_and_is_horizontal_near_the_magnetic_equator() {
         let alps = earth_field_gauss(Geo { latitude_deg: 46.5, longitude_deg: 8.0, altitude_m: 0.0 });
-        // World Magnetic Model 2020 there: 0.47 G in all, dip 62 degrees; the dipole alone is within 0.06 G and 6 degrees.
+        // World Magnetic Model 2020 at this location: 0.47 G total, dip 62 degrees; the dipole alone is within 0.06 G and 6
+        // degrees.
         let dip = math::atan2(alps.down(), alps.horizontal_norm()).to_degrees();
         assert!((alps.norm() - 0.47).abs() < 0.06 && (dip - 62.0).abs() < 6.0, "{alps:?} {dip}");
     }

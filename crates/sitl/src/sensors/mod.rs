@@ -1,4 +1,4 @@
-//! Sensors: one file each, with noise, bias and a rate of its own. What they return is all that the autopilot ever sees.
+//! Sensor models, one file each, with their own noise, bias and rate. The autopilot gets no other information about the vehicle.
 
 pub mod baro;
 pub mod flow;
@@ -15,7 +15,7 @@ use spandrel_model::site::Site;
 use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle::{Lamp, Vehicle};
 
-/// One reading of accelerometer and gyroscope.
+/// One sample of accelerometer and gyroscope.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImuReading {
     /// Specific force, m/s² (at rest and level: down = -9.81).
@@ -27,11 +27,11 @@ pub struct ImuReading {
 /// One GNSS fix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GnssReading {
-    /// 0 none, 2 two-dimensional, 3 three-dimensional.
+    /// Fix type: 0 none, 2 two-dimensional, 3 three-dimensional.
     pub fix: u8,
     /// Satellites used.
     pub satellites: u8,
-    /// Position about the origin, m.
+    /// Position relative to the origin, m.
     pub position_m: Vec3<Ned>,
     /// Velocity, m/s.
     pub velocity_m_s: Vec3<Ned>,
@@ -39,9 +39,9 @@ pub struct GnssReading {
     pub hdop: f64,
     /// Vertical dilution of precision.
     pub vdop: f64,
-    /// Horizontal accuracy that the receiver claims, m (1 sigma).
+    /// Horizontal accuracy reported by the receiver, m (1 sigma).
     pub eph_m: f64,
-    /// Vertical accuracy that the receiver claims, m (1 sigma).
+    /// Vertical accuracy reported by the receiver, m (1 sigma).
     pub epv_m: f64,
 }
 
@@ -50,28 +50,28 @@ pub struct GnssReading {
 pub struct Readings {
     /// Accelerometer and gyroscope.
     pub imu: Option<ImuReading>,
-    /// GNSS.
+    /// GNSS fix.
     pub gnss: Option<GnssReading>,
-    /// Barometric height over the origin, m up.
+    /// Barometric height above the origin, m.
     pub baro_up_m: Option<f64>,
     /// Static pressure, Pa (for SCALED_PRESSURE and HIGHRES_IMU).
     pub pressure_pa: Option<f64>,
-    /// Magnetic field, gauss.
+    /// Magnetic field, gauss, in body axes.
     pub mag_gauss: Option<Vec3<Frd>>,
-    /// Range finder downwards, m; `Some(f64::INFINITY)` when nothing is within reach.
+    /// Downward range, m; `Some(f64::INFINITY)` if nothing is within reach.
     pub range_down_m: Option<f64>,
-    /// Range finder upwards, m.
+    /// Upward range, m; infinite if nothing is within reach.
     pub range_up_m: Option<f64>,
-    /// Horizontal ranges in eight sectors clockwise from the nose, m.
+    /// Horizontal ranges in eight sectors clockwise from the nose, m; infinite if nothing is within reach.
     pub range_around_m: Option<[f64; 8]>,
-    /// Optical flow: velocity over ground in the body's heading frame (forward, right), m/s, with its quality 0..1.
+    /// Optical-flow velocity over ground.
     pub flow: Option<FlowReading>,
-    /// Battery as measured.
+    /// Battery measurement.
     pub battery: Option<BatteryReading>,
 }
 
 impl Readings {
-    /// Takes over what is new, keeps the rest: the last of every reading.
+    /// Updates each reading that is present in `fresh` and keeps the others.
     pub fn update_latest(&mut self, fresh: &Self) {
         self.imu = fresh.imu.or(self.imu);
         self.gnss = fresh.gnss.or(self.gnss);
@@ -86,37 +86,38 @@ impl Readings {
     }
 }
 
-/// Optical-flow velocity.
+/// Optical-flow velocity in the heading frame of the body (forward, right).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlowReading {
-    /// Forward velocity over the surface below, m/s.
+    /// Forward velocity relative to the surface, m/s.
     pub forward_m_s: f64,
-    /// Velocity to the right, m/s.
+    /// Velocity to the right relative to the surface, m/s.
     pub right_m_s: f64,
-    /// 0 useless, 1 best.
+    /// Quality from 0 (unusable) to 1 (best).
     pub quality: f64,
 }
 
-/// Battery as the power module measures it.
+/// Battery measurement of the power module.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BatteryReading {
     /// Terminal voltage, V.
     pub voltage_v: f64,
     /// Current, A.
     pub current_a: f64,
-    /// Remaining, %.
+    /// Remaining charge, %.
     pub remaining_pct: f64,
 }
 
-/// What sensors ask of the world around the aircraft. The site is one; tests bring a flat plain of their own.
+/// Sensor queries against the surroundings. [`Site`] implements this; tests use [`FlatGround`].
 pub trait Surroundings {
-    /// Distance to the first thing along a unit direction, m, within `max_m`.
+    /// Distance to the first hit along a unit direction, m, or `None` if nothing is within `max_m`.
     fn ray_m(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<f64>;
-    /// Nothing solid within `max_m` in any direction, pad included; false is always allowed, and only costs time.
+    /// Returns true only if nothing solid is within `max_m` in any direction, including the landing pad. Returning false is
+    /// always allowed and only costs time.
     fn nothing_within(&self, _position_m: Vec3<Enu>, _max_m: f64, _at: SimTime) -> bool {
         false
     }
-    /// Mean ambient light at a point in the air, lx.
+    /// Mean ambient light at a point, lx.
     fn lux(&self, position_m: Vec3<Enu>, at: SimTime) -> f64;
 }
 
@@ -125,7 +126,7 @@ impl Surroundings for Site {
         self.ray(origin_m, direction, max_m, at).map(|hit| hit.distance_m)
     }
     fn nothing_within(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> bool {
-        // The pad is left out of `nearest`; its level ground is what stands below.
+        // `nearest` excludes the landing pad; the ground height below covers it.
         position_m.up() - self.ground_up_m(position_m.east(), position_m.north()) > max_m
             && self.nearest(position_m, max_m, at).is_none()
     }
@@ -134,7 +135,7 @@ impl Surroundings for Site {
     }
 }
 
-/// Level ground without end at one height, in daylight, under an open sky.
+/// Infinite level ground in daylight under an open sky.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlatGround {
     /// Height of the ground, m up.
@@ -151,18 +152,18 @@ impl Surroundings for FlatGround {
     }
 }
 
-/// What the sensors need to know of the truth at one tick.
+/// True state that the sensors measure in one tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorInputs<'a> {
-    /// Motion.
+    /// Motion state.
     pub rigid: &'a RigidState,
-    /// The battery's terminals.
+    /// Battery terminal values.
     pub battery: BatteryReading,
-    /// The lamp shines.
+    /// Whether the lamp is on.
     pub lamp_on: bool,
 }
 
-/// All sensors of one aircraft: plain data.
+/// All sensors of one aircraft. Plain data.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sensors {
     imu_due: Schedule,
@@ -181,11 +182,11 @@ pub struct Sensors {
 
 /// Rate of the power module, Hz (estimate).
 const POWER_RATE_HZ: f64 = 10.0;
-/// How often the light is looked up for the flow sensor, Hz.
+/// Update rate of ambient light for the flow sensor, Hz.
 const LIGHT_RATE_HZ: f64 = 2.0;
 
 impl Sensors {
-    /// `origin` is the scenario's, `gnss_shadow` the rule of that name.
+    /// Creates the sensors. `gnss_shadow` and `origin` are those of the scenario.
     #[must_use]
     pub fn new(vehicle: &Vehicle, gnss_shadow: bool, origin: Geo, seed: u64) -> Self {
         let spec = &vehicle.sensors;
@@ -206,12 +207,12 @@ impl Sensors {
         }
     }
 
-    /// Call after every physics step with what the body felt in it, so that the inertial sensors miss nothing between two samples.
+    /// Integrates the inertial sensors. Call after every physics step so that they miss nothing between two samples.
     pub fn integrate_imu(&mut self, rigid: &RigidState, specific_force_m_s2: Vec3<Frd>, dt: SimTime) {
         self.imu.integrate(specific_force_m_s2, rigid.rates_rad_s, dt);
     }
 
-    /// Every reading that is due at `now`.
+    /// Returns all readings due at `now`.
     pub fn sample<S: Surroundings>(&mut self, truth: &SensorInputs<'_>, site: &S, now: SimTime) -> Readings {
         let rigid = truth.rigid;
         let position_m = rigid.position_m.enu();
@@ -244,7 +245,7 @@ impl Sensors {
         out
     }
 
-    /// Light that the lamp throws on the nearest surface, lx, as if it looked there.
+    /// Illuminance on the nearest surface if the lamp pointed at it, lx.
     fn lamp_lux(&self, on: bool) -> f64 {
         if !on || self.lamp.flux_lm <= 0.0 {
             return 0.0;
@@ -253,19 +254,19 @@ impl Sensors {
         self.lamp.flux_lm / solid_angle.max(1e-3) / self.nearest_m.max(0.5) / self.nearest_m.max(0.5)
     }
 
-    /// The inertial sensors, for tests of the estimator.
+    /// The inertial sensors, for estimator tests.
     #[must_use]
     pub fn imu(&self) -> &imu::Imu {
         &self.imu
     }
 
-    /// The receiver, for tests of the estimator.
+    /// The GNSS receiver, for estimator tests.
     #[must_use]
     pub fn gnss(&self) -> &gnss::GnssReceiver {
         &self.gnss
     }
 
-    /// The barometer, for tests of the estimator.
+    /// The barometer, for estimator tests.
     #[must_use]
     pub fn baro(&self) -> &baro::Barometer {
         &self.baro
@@ -279,7 +280,7 @@ pub(crate) mod tests {
     use spandrel_model::frames::Rotation;
     use spandrel_model::vehicle;
 
-    /// Sensors without error, for tests of single mechanisms.
+    /// Sensors without errors, for tests of single mechanisms.
     pub(crate) fn perfect() -> vehicle::SensorSpec {
         vehicle::SensorSpec {
             imu_rate_hz: 400.0,
@@ -305,7 +306,7 @@ pub(crate) mod tests {
         }
     }
 
-    /// At rest ten metres over the origin.
+    /// At rest, ten meters above the origin.
     pub(crate) fn still() -> RigidState {
         RigidState {
             position_m: Vec3::new(0.0, 0.0, -10.0),

@@ -1,4 +1,4 @@
-//! Range finders: down, up, and eight around in the body's plane, as rays into the site.
+//! Range finders: one down, one up and eight around in the body plane, modeled as rays into the site.
 
 use super::Surroundings;
 use crate::physics::RigidState;
@@ -8,19 +8,19 @@ use spandrel_model::random::RandomStream;
 use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle;
 
-/// What all range finders measured at one instant, m; infinite beyond reach.
+/// Readings of all range finders at one instant, m; infinite beyond reach.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RangeReadings {
-    /// Along the body's down axis.
+    /// Downward range.
     pub down_m: f64,
-    /// Against it.
+    /// Upward range.
     pub up_m: f64,
-    /// Eight directions clockwise from the nose.
+    /// Ranges in eight directions clockwise from the nose.
     pub around_m: [f64; 8],
 }
 
 impl RangeReadings {
-    /// The shortest of all, m.
+    /// The shortest range, m.
     #[must_use]
     pub fn shortest_m(&self) -> f64 {
         self.around_m.iter().fold(self.down_m.min(self.up_m), |a, b| a.min(*b))
@@ -33,14 +33,14 @@ pub struct RangeFinders {
     stream: RandomStream,
     due: Schedule,
     noise_m: f64,
-    /// Of each: down, up, around.
+    /// Bias of each sensor: down, up, then the eight around.
     bias_m: [f64; 10],
     max_m: f64,
     around: [Vec3<Frd>; 8],
 }
 
 impl RangeFinders {
-    /// With the aircraft's rate, noise and reach.
+    /// Creates the sensors with the aircraft's rate, noise and reach.
     #[must_use]
     pub fn new(sensors: &vehicle::SensorSpec, seed: u64) -> Self {
         let mut around = [Vec3::zero(); 8];
@@ -59,7 +59,7 @@ impl RangeFinders {
         }
     }
 
-    /// All ranges from the centre of mass, when due.
+    /// Returns all ranges from the center of mass, if a sample is due.
     pub fn read<S: Surroundings>(&mut self, rigid: &RigidState, site: &S, now: SimTime) -> Option<RangeReadings> {
         if !self.due.fire(now) {
             return None;
@@ -78,7 +78,7 @@ impl RangeFinders {
         Some(RangeReadings { down_m, up_m, around_m })
     }
 
-    /// One range along a direction, with its finder's bias.
+    /// Measures one range along a direction, with the bias of that sensor.
     fn one<S: Surroundings>(&mut self, rigid: &RigidState, (direction, bias_m): (Vec3<Frd>, f64), site: &S, now: SimTime) -> f64 {
         let hit = site.ray_m(rigid.position_m.enu(), (rigid.attitude * direction).enu(), self.max_m, now);
         hit.map_or(f64::INFINITY, |d| (d + bias_m + self.noise_m * self.stream.normal()).max(0.0))

@@ -1,4 +1,4 @@
-//! What follows from a step: lift-off, contact, an empty battery, being put back; clearance and light for the scoring.
+//! Consequences of a step: lift-off, contact, empty battery and respawn, plus clearance and light for scoring.
 
 use super::{CLEARANCE_REACH_M, Sim, SimEvent};
 use crate::autopilot::LandedState;
@@ -9,19 +9,21 @@ use spandrel_model::frames::{Rotation, Vec3};
 use spandrel_model::scenario::AfterCrash;
 use spandrel_model::site::Surface;
 
-/// Lift-off: this far above where it stood, m (docs/src/reference/assessment.md, "Frames").
+/// Height above the start position that counts as lift-off, m (docs/src/reference/assessment.md, "Frames").
 const LIFT_OFF_M: f64 = 0.3;
-/// A hover counts as safe with this much clearance, m.
+/// Minimum clearance of a safe hover, m.
 const SAFE_CLEARANCE_M: f64 = 1.0;
-/// Slower than this it lies still, m/s.
+/// Speed below which the vehicle counts as motionless, m/s.
 const STILL_M_S: f64 = 0.3;
-/// Touching the pad or the ground about it more slowly than this is landing, m/s (docs/src/reference/assessment.md, "Crashes").
+/// Speed below which contact with the landing pad or the ground around it is a landing, m/s (docs/src/reference/assessment.md,
+/// "Crashes").
 const PAD_TOUCH_M_S: f64 = 1.0;
-/// What has touched nothing for so long flies, s (estimate: a lying body rocks off its contact for a step or two).
+/// Time without contact after which the vehicle counts as flying, s (estimate: a body at rest can rock off its contact for a step
+/// or two).
 const FLIES_S: f64 = 0.5;
 
 impl Sim {
-    /// Lift-off, contact, battery, putting back.
+    /// Handles lift-off, contact, empty battery and respawn.
     pub(super) fn handle_crash_and_respawn(&mut self) {
         let up = -self.state.rigid.position_m.down();
         if !self.has_lifted_off && up > self.standing_up_m + LIFT_OFF_M {
@@ -45,7 +47,8 @@ impl Sim {
         }
     }
 
-    /// What is touched, and its onsets. Touching the pad gently, near home or before lift-off, is none.
+    /// Updates the current contact and counts new ones. Gentle contact with the landing pad, near home or before lift-off does
+    /// not count.
     fn note_contact(&mut self) {
         let report = self.state.contact;
         let contact = match report.surface {
@@ -55,7 +58,7 @@ impl Sim {
             _ => ContactKind::None,
         };
         let before = std::mem::replace(&mut self.scoring.contact, contact);
-        // Who scrapes along a bridge and then hits somebody has hit somebody: that ends the session from any contact.
+        // Hitting a person or vehicle during another contact is a new hit and ends the session.
         let grave = |contact: ContactKind| matches!(contact, ContactKind::Person | ContactKind::Vehicle);
         let onset = contact != ContactKind::None && before == ContactKind::None;
         let worse = grave(contact) && !grave(before);
@@ -81,14 +84,15 @@ impl Sim {
         place && impact_m_s < PAD_TOUCH_M_S
     }
 
-    /// On its side or back: near home that is gentle contact and no crash, yet it will not fly from there.
+    /// Returns true if the vehicle rests on its side or back. Near home this is gentle contact and not a crash, but the vehicle
+    /// cannot take off.
     fn is_upside_down(&self) -> bool {
         const UPRIGHT: f64 = 0.8;
         let down = self.state.rigid.attitude * Vec3::<spandrel_model::frames::Frd>::new(0.0, 0.0, 1.0);
         self.state.contact.touching() && down.down() < UPRIGHT
     }
 
-    /// Landed on its feet, gently, and not in the water: it stays, and may take off again.
+    /// Returns true after a gentle, upright landing outside water. The vehicle stays and can take off again.
     fn has_landed_upright(&self) -> bool {
         let landed =
             self.backend.builtin().is_some_and(|a| matches!(a.status().landed, LandedState::OnGround | LandedState::TakingOff));
@@ -96,8 +100,8 @@ impl Sim {
         landed && !wet && !self.hard_contact && !self.is_upside_down()
     }
 
-    /// A drone that has crashed and lies still away from the pad, lies tipped, or touches water goes back to its last safe hover after
-    /// a while.
+    /// Resets the vehicle to its last safe hover after a delay if it has crashed and is motionless away from the landing pad, is
+    /// tipped over, or touches water.
     fn respawn_when_down(&mut self) {
         let rules = &self.config.scenario.rules;
         if !self.has_lifted_off || self.end_reason.is_some() || self.config.after_crash() != AfterCrash::Respawn {
@@ -148,7 +152,7 @@ impl Sim {
         self.events.push_back(SimEvent::Respawn);
     }
 
-    /// Clearance and light for the scoring, and the last safe hover.
+    /// Updates clearance and light for scoring, and the last safe hover.
     pub(super) fn update_clearance_and_light(&mut self) {
         let position = self.state.rigid.position_m.enu();
         if self.clearance_due.fire(self.now) {
@@ -172,7 +176,7 @@ impl Sim {
     }
 }
 
-/// The pad is something else where it is hit and not landed on.
+/// Maps a surface to a contact kind. A landing pad counts as another object because gentle landings on it are excluded earlier.
 fn contact_with(surface: Surface) -> ContactKind {
     match surface {
         Surface::Bridge => ContactKind::Bridge,
@@ -197,10 +201,10 @@ mod tests {
     use std::sync::Arc;
 
     const MS: SimTime = SimTime::from_ms(1);
-    /// Where these drones last hovered safely, north-east-down, m.
+    /// Last safe hover in these tests, NED, m.
     const SAFE: (f64, f64, f64) = (3.0, 4.0, -6.0);
 
-    /// A drone that has flown and is now 50 m from the pad, at rest and level.
+    /// A vehicle that has flown and is now 50 m from the landing pad, level and at rest.
     fn flown(change: impl Fn(&mut Scenario)) -> Sim {
         let text = include_str!("../../../../scenarios/drill-hover.toml");
         let mut scenario = spandrel_model::scenario::read("drill-hover.toml", text, &|_| Err("none".into())).expect("shipped");
@@ -226,7 +230,7 @@ mod tests {
         sim.state.contact = ContactReport { surface: surface.map(|s| (s, ObjectId(0))), impact_m_s, normal_n: 1.0 };
     }
 
-    /// What follows from a state that stays as it is; physics stands still.
+    /// Runs crash handling for `ms` ticks on an unchanging physical state.
     fn pass(sim: &mut Sim, ms: i64) -> Vec<SimEvent> {
         for _ in 0..ms {
             sim.now += MS;
@@ -252,7 +256,7 @@ mod tests {
             let mut sim = flown(|_| ());
             touches(&mut sim, Some(surface), 2.0);
             sim.state.rigid.velocity_m_s = velocity;
-            // The first tick is the one at which it begins to lie there.
+            // The vehicle is down from the first tick.
             assert_eq!(crashes(&pass(&mut sim, 3_000)), 1, "{surface:?}");
             assert_eq!(sim.scoring.respawns, 0, "{surface:?}: too early");
             let events = pass(&mut sim, 1);
@@ -317,7 +321,7 @@ mod tests {
 
     #[test]
     fn exact_an_empty_battery_outranks_being_respawned() {
-        // One millisecond before it would be put back, and in that very one.
+        // One millisecond before the respawn, and at the same instant.
         for ms in [2_999, 3_000] {
             let mut sim = flown(|_| ());
             touches(&mut sim, Some(Surface::Bridge), 2.0);
@@ -334,7 +338,7 @@ mod tests {
         let mut sim = flown(|_| ());
         touches(&mut sim, Some(Surface::Bridge), 0.2);
         pass(&mut sim, 100);
-        // Slower than what counts as still, yet in the air.
+        // Below the motionless threshold, but in the air.
         touches(&mut sim, None, 0.0);
         sim.state.rigid.velocity_m_s = Vec3::new(0.1, 0.0, 0.0);
         pass(&mut sim, 10_000);
@@ -352,7 +356,7 @@ mod tests {
                 put(&mut sim, pad + Vec3::new(0.3, 0.0, 0.1));
                 touches(&mut sim, Some(surface), impact_m_s);
                 let mut events = pass(&mut sim, 1);
-                // Then it stands there.
+                // The vehicle then stays there.
                 touches(&mut sim, Some(surface), 0.0);
                 events.extend(pass(&mut sim, 10_000));
                 assert_eq!(crashes(&events), expected, "{surface:?} at {impact_m_s} m/s: {events:?}");

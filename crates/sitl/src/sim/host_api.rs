@@ -1,4 +1,4 @@
-//! What the shell does for the vehicle: keys, files, logs, parameters. The core asks, the shell answers.
+//! Services that the host provides: signing keys, files, logs and parameters. The core sends requests and the host responds.
 
 use super::Sim;
 use crate::backend::Backend;
@@ -11,7 +11,7 @@ use crate::log;
 use spandrel_mavlink::signing::SigningKey;
 use spandrel_model::site::Site;
 
-/// How the jobs of clients are given out.
+/// Alternates between the file jobs of the file server and of log transfers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct FileJobScheduler {
     allowance: JobAllowance,
@@ -19,7 +19,7 @@ pub(super) struct FileJobScheduler {
 }
 
 impl Sim {
-    /// What stands and moves around the vehicle.
+    /// The site around the vehicle.
     #[must_use]
     pub fn site(&self) -> &Site {
         &self.site
@@ -37,101 +37,101 @@ impl Sim {
         self.backend.builtin().is_some_and(|autopilot| autopilot.status().armed)
     }
 
-    /// Contacts with anything but the pad so far.
+    /// Number of contacts so far, excluding the landing pad.
     #[must_use]
     pub fn hits(&self) -> i32 {
         self.scoring.hits
     }
 
-    /// The camera's component says no heartbeats.
+    /// Stops the heartbeats of the camera component.
     pub fn mute_camera_heartbeat(&mut self) {
         self.endpoint.payload.camera.announced.silenced = true;
     }
 
-    /// Signs everything and lets nothing act that is not signed with this key, but for unsigned frames on kinds of links that are
-    /// trusted; `stamp` is the signing timestamp of now.
+    /// Signs all outgoing frames and ignores incoming frames that are not signed with this key, except unsigned frames on trusted
+    /// link kinds. `stamp` is the current signing timestamp.
     pub fn demand_signatures(&mut self, key: SigningKey, stamp: u64, trusted: &[LinkKind]) {
         self.endpoint.demand_signatures(key, stamp, trusted);
     }
 
-    /// What the next start with the same key must know, so that nothing is obeyed twice; `None` without a key.
+    /// Returns the signing state to restore at the next start with the same key, which prevents replays. `None` without a key.
     #[must_use]
     pub fn signing_memory(&self) -> Option<String> {
         self.endpoint.signing_memory()
     }
 
-    /// Takes up what the last start knew.
+    /// Restores the signing state of an earlier run.
     ///
     /// # Errors
-    /// The number of the first line that is wrong, from 1.
+    /// The one-based number of the first invalid line.
     pub fn restore_signing(&mut self, memory: &str) -> Result<(), usize> {
         self.endpoint.restore_signing(memory)
     }
 
-    /// The signing timestamp of now.
+    /// Sets the current signing timestamp.
     pub fn set_signing_time(&mut self, stamp: u64) {
         self.endpoint.set_signing_time(stamp);
     }
 
-    /// Frames that did nothing because they bore no good signature.
+    /// Number of frames ignored because their signature was missing or invalid.
     #[must_use]
     pub fn rejected_frames(&self) -> u64 {
         self.endpoint.rejected_frames()
     }
 
-    /// Changes of parameters so far.
+    /// Number of parameter changes so far.
     #[must_use]
     pub fn parameter_changes(&self) -> u64 {
         self.endpoint.parameter_changes()
     }
 
-    /// The parameters as a text file, in the format of QGroundControl.
+    /// Returns the parameters as a text file in QGroundControl's format.
     #[must_use]
     pub fn parameter_text(&self) -> String {
         self.endpoint.parameter_text()
     }
 
-    /// Sets what a parameter file says.
+    /// Sets the parameters of a parameter file.
     ///
     /// # Errors
-    /// Every line that is wrong; then nothing is set.
+    /// All invalid lines. No parameter is changed in that case.
     pub fn read_parameters(&mut self, text: &str) -> Result<(), Vec<ParamFileProblem>> {
         let Backend::Builtin(autopilot) = &mut self.backend;
         self.endpoint.read_parameters(text, autopilot)
     }
 
-    /// Somebody keeps the parameters in a file from now on ([`Sim::poll_storage`]).
+    /// Enables parameter storage by the host ([`Sim::poll_storage`]).
     pub fn enable_param_storage(&mut self) {
         self.endpoint.keep_parameters();
     }
 
-    /// What a client wants of the parameter file.
+    /// Returns the next storage request of a client.
     pub fn poll_storage(&mut self) -> Option<StorageRequest> {
         self.endpoint.poll_storage()
     }
 
-    /// Somebody does file jobs from now on ([`Sim::poll_file_job`]).
+    /// Enables file jobs by the host ([`Sim::poll_file_job`]).
     pub fn enable_file_jobs(&mut self) {
         self.endpoint.files.stored();
         self.endpoint.logs.stored = true;
     }
 
-    /// Keeps a log of every flight from now on.
+    /// Enables logging of all flights.
     pub fn enable_flight_log(&mut self) {
         self.recorder.enable();
     }
 
-    /// Ends a log that is under way: the program ends.
+    /// Closes the current log. Call at program exit.
     pub fn close_flight_log(&mut self) {
         self.recorder.stop();
     }
 
-    /// The next piece of the flight's log.
+    /// Returns the next output of the flight log.
     pub fn poll_log(&mut self) -> Option<log::LogOutput> {
         self.recorder.poll()
     }
 
-    /// The next thing to do with files for a client; no more in a tick than [`JobAllowance`] covers.
+    /// Returns the next file job of a client, within the per-tick limit of [`JobAllowance`].
     pub fn poll_file_job(&mut self) -> Option<FileJob> {
         let logs_turn = self.next_file_job()?;
         let job = if logs_turn { self.endpoint.logs.poll_job() } else { self.endpoint.files.poll_job() }?;
@@ -140,13 +140,13 @@ impl Sim {
         Some(job)
     }
 
-    /// Work on files waits that may be done now.
+    /// Returns true if a file job is waiting and within the limit.
     #[must_use]
     pub fn has_file_job(&self) -> bool {
         self.next_file_job().is_some()
     }
 
-    /// Whether the next job that may be done now is the logs'; they and the file server take turns.
+    /// Returns whether the next allowed job is a log transfer. Log transfers and the file server alternate.
     fn next_file_job(&self) -> Option<bool> {
         let (files, logs) = (self.endpoint.files.next_action(), self.endpoint.logs.next_action());
         let logs_turn = logs.is_some() && (self.file_work.logs_next || files.is_none());
@@ -154,7 +154,7 @@ impl Sim {
         self.file_work.allowance.covers(action, self.now).then_some(logs_turn)
     }
 
-    /// It is done.
+    /// Reports the result of a file job.
     pub fn file_job_done(&mut self, ticket: u64, outcome: Result<FileJobResult, FileError>) {
         if LogTransfers::owns(ticket) {
             self.endpoint.logs.done(ticket, outcome);

@@ -1,19 +1,20 @@
-//! What has arrived and waits for its tick: bounded for each link, so that a peer that floods costs the others neither time nor memory.
+//! Receive queues, bounded per link so that a flooding peer cannot use up the processing time or memory of the others.
 
 use crate::endpoint::LinkId;
 use spandrel_model::time::SimTime;
 use std::collections::{BTreeMap, VecDeque};
 
-/// Datagrams of one link that act in one tick; at 1,000 ticks a second more than any client sends (estimate).
+/// Maximum datagrams processed per link and tick. At 1,000 ticks/s this exceeds what any client sends (estimate).
 pub const DATAGRAMS_A_TICK: usize = 8;
-/// Bytes of one link that act in one tick, and the longest datagram that is read; a frame has 280 at most, clients send one or a few.
+/// Maximum bytes processed per link and tick, and the maximum datagram length. A frame has at most 280 bytes, and clients send
+/// one or a few per datagram.
 pub const BYTES_A_TICK: usize = 4_096;
-/// Datagrams of one link that may wait: with the two above at most some 130 ms.
+/// Maximum queued datagrams per link. With the limits above, the queue drains within about 130 ms.
 const WAITING: usize = 1_024;
-/// Bytes of one link that may wait.
+/// Maximum queued bytes per link.
 const WAITING_BYTES: usize = 131_072;
 
-/// The queues of all links.
+/// The receive queues of all links.
 #[derive(Debug, Clone, Default)]
 pub struct Inbox {
     links: BTreeMap<LinkId, LinkQueue>,
@@ -34,7 +35,7 @@ impl LinkQueue {
         len <= BYTES_A_TICK && self.datagrams.len() < WAITING && self.bytes + len <= WAITING_BYTES
     }
 
-    /// The next datagram, if this tick's share covers it.
+    /// Returns the next datagram if it fits in the limits of this tick.
     fn next(&mut self) -> Option<Vec<u8>> {
         let len = self.datagrams.front()?.len();
         let (count, bytes) = self.spent;
@@ -48,7 +49,7 @@ impl LinkQueue {
 }
 
 impl Inbox {
-    /// Takes a datagram in, or counts it as dropped when its link has too much waiting.
+    /// Queues a datagram, or drops and counts it if the link's queue is full.
     pub fn push(&mut self, link: LinkId, datagram: &[u8]) {
         let queue = self.links.entry(link).or_default();
         if !queue.has_room_for(datagram.len()) {
@@ -60,15 +61,15 @@ impl Inbox {
         self.waiting += 1;
     }
 
-    /// A link is gone; what it sent before acts no more.
+    /// Removes a link and discards its queued datagrams.
     pub fn close(&mut self, link: LinkId) {
         if let Some(queue) = self.links.remove(&link) {
             self.waiting -= queue.datagrams.len();
         }
     }
 
-    /// What may act in the tick at `now`: link by link, and within a link in the order of arrival. Asked again in the same tick it goes
-    /// on with what is left of each link's share.
+    /// Returns the datagrams to process at `now`, ordered by link and then by arrival. Further calls in the same tick continue
+    /// within the remaining limits.
     pub fn take(&mut self, now: SimTime) -> Vec<(LinkId, Vec<u8>)> {
         if self.waiting == 0 {
             return Vec::new();
@@ -85,7 +86,7 @@ impl Inbox {
         out
     }
 
-    /// Datagrams that were not taken in.
+    /// Number of dropped datagrams.
     #[must_use]
     pub fn dropped(&self) -> u64 {
         self.dropped

@@ -1,4 +1,4 @@
-//! What an instructor does to the flight while it goes on: faults, weather, a bad radio.
+//! Instructor inputs during a flight: failures, weather and radio impairment.
 
 use super::Sim;
 use crate::endpoint::{FailureInjection, LinkId, LinkKind};
@@ -7,16 +7,16 @@ use spandrel_model::site::bridge_closures::BridgeClosures;
 use spandrel_model::time::SimTime;
 use std::sync::Arc;
 
-/// A wind that an instructor changes has changed within this.
+/// Duration of the transition after an instructor changes the wind.
 const WIND_CHANGES_IN: SimTime = SimTime::from_ms(5_000);
 
 impl Sim {
-    /// Sidecars and peers in step sit beside the vehicle; all others are reached over the radio, while it is bad.
+    /// Returns true if a link is subject to radio impairment. Payload links and lockstep peers are exempt.
     pub(super) fn is_over_radio(&self, link: LinkId) -> bool {
         !self.radio.is_lossless() && self.endpoint.kind(link).is_some_and(|(kind, in_step)| kind != LinkKind::Payload && !in_step)
     }
 
-    /// Faults and weather that came by command and parameter.
+    /// Applies failures and weather set by commands and parameters.
     pub(super) fn apply_instructor_inputs(&mut self) {
         while let Some(FailureInjection { unit, kind, instance }) = self.endpoint.poll_injection() {
             self.faults.inject(unit, kind, instance, self.config.vehicle.rotors.len());

@@ -1,4 +1,4 @@
-//! One tick in its written order.
+//! One tick in its documented order.
 
 use super::{STEP, Sim};
 use crate::autopilot::CONTROL_HZ;
@@ -61,7 +61,7 @@ impl Sim {
         self.endpoint.payload.step(&camera, position, now, 1.0 / CONTROL_HZ);
     }
 
-    /// The tick's state enters the digest bit by bit.
+    /// Adds the exact bits of this tick's state to the digest.
     fn update_digest(&mut self) {
         let r = &self.state.rigid;
         let mut bits = [0u8; 8 * 13];

@@ -89,10 +89,10 @@ fn wire_copters_modes_are_refused_as_copter_refuses_them() {
     station.run_ms(100);
     assert_eq!(station.command(1, ARM, one(1.0)), FAILED);
     station.run_ms(5);
-    assert!(station.texts().contains(&"Arm: Sticks not centred".to_owned()), "{:?}", station.texts());
+    assert!(station.texts().contains(&"Arm: Sticks not centered".to_owned()), "{:?}", station.texts());
     assert_eq!(station.command(1, MavCmd::MAV_CMD_RUN_PREARM_CHECKS, one(0.0)), ACCEPTED);
     station.run_ms(5);
-    assert!(!station.texts().contains(&"PreArm: Sticks not centred".to_owned()), "sticks count when motors are armed");
+    assert!(!station.texts().contains(&"PreArm: Sticks not centered".to_owned()), "sticks count when motors are armed");
     let forced = [1.0, 2989.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(1, ARM, forced), ACCEPTED, "ArduPilot's number forces it");
 }

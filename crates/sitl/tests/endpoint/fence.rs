@@ -55,11 +55,11 @@ fn wire_at_the_fence_it_holds_once_and_the_pilot_flies_back_in() {
     station.received.clear();
     for _ in 0..100 {
         fly(&mut station, -1000, 0, 500, 120);
-        if station.said("Within the geofence again") {
+        if station.said("Back inside geofence") {
             break;
         }
     }
-    assert!(station.said("Pilot took over") && station.said("Within the geofence again"), "{:?}", station.texts());
+    assert!(station.said("Pilot took over") && station.said("Back inside geofence"), "{:?}", station.texts());
     assert!(!station.said("breached"), "no second time for the same breach");
 }
 
@@ -71,7 +71,7 @@ fn wire_what_leads_out_of_the_fence_is_refused() {
     let plan = [item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 5.0, 6.0), item(1, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 40.0, 6.0)];
     assert_eq!(upload(&mut station, &plan), ACCEPTED);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_DENIED);
-    assert!(station.said("Mission item 1 lies outside the geofence"));
+    assert!(station.said("Mission item 1 outside geofence"));
     let (lat, lon) = (f64::from(plan[1].x) * 1e-7, f64::from(plan[1].y) * 1e-7);
     let there = [-1.0, 1.0, 0.0, f32::NAN, lat as f32, lon as f32, f32::NAN];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_REPOSITION, there), MavResult::MAV_RESULT_DENIED);
@@ -89,11 +89,11 @@ fn wire_a_way_through_a_forbidden_area_is_refused_and_so_is_one_that_is_too_high
     assert_eq!(upload(&mut station, &plan), ACCEPTED);
     let start = |s: &mut Station| s.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]);
     assert_eq!(start(&mut station), MavResult::MAV_RESULT_DENIED);
-    assert!(station.said("The way to mission item 1 leaves the geofence"), "{:?}", station.texts());
+    assert!(station.said("Path to mission item 1 leaves geofence"), "{:?}", station.texts());
     let round = MISSION_ITEM_INT_DATA { param1: 1.0, param3: 26.0, ..item(0, MavCmd::MAV_CMD_NAV_LOITER_TURNS, home, 6.0) };
     assert_eq!(upload(&mut station, &[round]), ACCEPTED);
     assert_eq!(start(&mut station), MavResult::MAV_RESULT_DENIED);
-    assert!(station.said("Mission item 0 lies outside the geofence"), "{:?}", station.texts());
+    assert!(station.said("Mission item 0 outside geofence"), "{:?}", station.texts());
     station.set("GF_MAX_VER_DIST", 20.0, MavParamType::MAV_PARAM_TYPE_REAL32);
     assert_eq!(upload(&mut station, &[item(0, MavCmd::MAV_CMD_NAV_TAKEOFF, home, 30.0)]), ACCEPTED);
     assert_eq!(start(&mut station), MavResult::MAV_RESULT_DENIED);
@@ -169,7 +169,7 @@ fn wire_a_mission_that_the_pilot_interrupts_goes_on_where_it_was_left() {
     let left = station.place();
     fly(&mut station, 0, 1000, 500, 3_000);
     fly(&mut station, 0, 0, 500, 2_000);
-    assert!(station.said("Mission paused: pilot took over by the sticks"), "{:?}", station.texts());
+    assert!(station.said("Mission paused: pilot took over with sticks"), "{:?}", station.texts());
     assert_eq!(station.mode(), Some(POSITION));
     let state = station.last_message(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some(c.mission_state) } else { None });
     assert_eq!(state, Some(MissionState::MISSION_STATE_PAUSED));
@@ -188,7 +188,7 @@ fn wire_a_mission_that_the_pilot_interrupts_goes_on_where_it_was_left() {
         s.said("Mission finished")
     });
     assert!(ended);
-    assert!(station.said("Mission goes on where it was left"));
+    assert!(station.said("Mission resumed from interruption point"));
     assert!(nearest < 1.5, "passed {nearest} m from where it was left");
     assert!(furthest_before < away[0].max(left[0]) + 1.0, "first back, then on: {furthest_before} of {left:?}");
 }

@@ -121,7 +121,7 @@ fn flight_a_mission_moves_home_and_switches_the_fence() {
     assert_eq!(upload(&mut station, &items), ACCEPTED);
     assert_eq!(start(&mut station), MavResult::MAV_RESULT_ACCEPTED);
     assert!(station.run_until(60.0, |s| reached(s).contains(&2)));
-    assert!(station.said("Geofence off"));
+    assert!(station.said("Geofence disabled"));
     let request = [242.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, request);
     let home = station.last_message(|m| if let MavMessage::HOME_POSITION(h) = m { Some(h.x) } else { None }).unwrap();

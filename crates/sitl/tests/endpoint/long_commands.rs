@@ -201,7 +201,7 @@ fn flight_a_take_off_that_the_pilot_interrupts_goes_on_over_its_place() {
     let mut up = f32::INFINITY;
     assert!(station.run_until(60.0, |s| {
         up = up.min(s.place()[2]);
-        said(s, "Mission goes on where it was left")
+        said(s, "Mission resumed from interruption point")
     }));
     assert!(flat_m(station.place(), over) < BACK_M, "{:?} not over {over:?}", station.place());
     assert!(up > -14.0, "first back, then up: {up}");
@@ -233,7 +233,7 @@ fn flight_a_landing_that_is_paused_twice_sinks_on_from_there_and_not_from_above(
     station.run_ms(1_500);
     assert_eq!(state(&station), Some(MissionState::MISSION_STATE_PAUSED), "left on the way back");
     continued(&mut station, true);
-    assert!(station.run_until(60.0, |s| said(s, "Mission goes on where it was left")));
+    assert!(station.run_until(60.0, |s| said(s, "Mission resumed from interruption point")));
     let back = station.place();
     assert!(flat_m(back, left) < BACK_M && (back[2] - left[2]).abs() < BACK_M, "{left:?} {back:?}");
     station.run_ms(1_500);

@@ -172,9 +172,9 @@ fn wire_when_set_points_stop_it_holds_and_reports_it() {
     station.received.clear();
     // COM_OF_LOSS_T is one second as in PX4: not before.
     station.run_ms(900);
-    assert!(!station.texts().iter().any(|t| t.contains("set-points lost")), "{:?}", station.texts());
+    assert!(!station.texts().iter().any(|t| t.contains("setpoints lost")), "{:?}", station.texts());
     station.run_ms(1_300);
-    assert!(station.texts().iter().any(|t| t.contains("set-points lost")), "{:?}", station.texts());
+    assert!(station.texts().iter().any(|t| t.contains("setpoints lost")), "{:?}", station.texts());
     assert_eq!(station.mode(), Some(HOLD));
     station.run_ms(3_000);
     assert!(velocity(&station)[0].abs() < 0.3, "{:?}", velocity(&station));

@@ -79,7 +79,7 @@ fn regress_a_text_that_an_event_repeats_ends_with_a_tab() {
     grounded.run_ms(60);
     grounded.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, one(1.0));
     grounded.run_ms(10);
-    assert!(grounded.texts().contains(&"Arming denied: Sticks not centred".to_owned()), "{:?}", grounded.texts());
+    assert!(grounded.texts().contains(&"Arming denied: Sticks not centered".to_owned()), "{:?}", grounded.texts());
 }
 
 #[test]

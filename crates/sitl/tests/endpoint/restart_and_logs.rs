@@ -162,7 +162,7 @@ fn flight_a_respawned_vehicle_lands_and_disarms() {
         station.run_ms(20);
     }
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_FLIGHTTERMINATION, one(1.0)), OK);
-    assert!(station.run_until(30.0, |s| s.said("Put back at the last safe hover")));
+    assert!(station.run_until(30.0, |s| s.said("Respawned at last safe hover")));
     assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_LAND, p(&[])), OK);
     assert!(station.run_until(60.0, |s| s.said("Disarmed")), "{:?}", station.place());
     assert!(station.said("Disarmed by landing"), "{:?}", station.texts());

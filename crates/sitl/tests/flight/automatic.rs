@@ -32,7 +32,7 @@ fn flight_arming_is_refused_with_every_reason_named() {
     bench.run(0.1, |_| ());
     let outcome = bench.autopilot.request(AutopilotRequest::Arm { force: false }, bench.now);
     let RequestOutcome::TemporarilyRejected(why) = outcome else { panic!("{outcome:?}") };
-    assert!(why.contains("No GNSS fix") && why.contains("Sticks not centred"), "{why}");
+    assert!(why.contains("No GNSS fix") && why.contains("Sticks not centered"), "{why}");
     bench.ask(AutopilotRequest::Arm { force: true });
     assert!(bench.autopilot.status().armed);
 }
@@ -151,7 +151,7 @@ fn flight_external_set_points_are_followed_and_their_loss_leads_to_hold() {
     assert!((v - Vec3::new(2.0, -1.0, 0.0)).norm() < 0.3, "{v:?}");
     bench.run(8.0, |_| ());
     let status = bench.autopilot.status();
-    assert_eq!(status.failsafe.as_deref(), Some("external set-points lost"));
+    assert_eq!(status.failsafe.as_deref(), Some("external setpoints lost"));
     assert!(bench.state.rigid.velocity_m_s.norm() < 0.3, "{:?}", bench.state.rigid.velocity_m_s);
 }
 

@@ -356,7 +356,7 @@ fn flight_only_the_parts_of_the_fence_that_are_on_act_and_its_floor_is_kept() {
         tuning.rules.fence = parts(true, Some(3.0));
     });
     assert_eq!(bench.autopilot.status().fence.count, 0, "the way up through the floor is no breach");
-    assert_eq!(bench.autopilot.request(up(2.0), bench.now), RequestOutcome::Denied("Target lies outside the geofence".into()));
+    assert_eq!(bench.autopilot.request(up(2.0), bench.now), RequestOutcome::Denied("Target outside geofence".into()));
     bench.sticks = Some(Sticks::default());
     bench.run(0.2, |_| ());
     bench.ask(AutopilotRequest::SetMode(FlightMode::Position));

@@ -65,7 +65,7 @@ fn regress_a_barometer_stuck_in_a_climb_is_announced_and_the_climb_ends_where_it
         assert!(bench.faults.inject(FailureUnit::Barometer, None, 0, 4));
         bench.run(10.0, |_| ());
         let texts = said(&mut bench);
-        assert!(texts.iter().any(|text| text.contains("Barometer is back")), "{name}: {texts:?}");
+        assert!(texts.iter().any(|text| text.contains("Barometer recovered")), "{name}: {texts:?}");
         assert!((bench.position().down() + 12.0).abs() < HEIGHT_M, "{name}: {:?}", bench.position());
     }
 }

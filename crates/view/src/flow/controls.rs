@@ -1,33 +1,34 @@
-//! The controller is tried before the flight (the calibration of the paper's questionnaire): live sticks, and the wizard's questions.
+//! Controller check before the flight (the calibration of the paper's questionnaire): live stick display and the calibration
+//! wizard.
 
 use super::menu::{self, MenuRow};
 use super::sheet::{PageWriter, SMALL, TEXT, TITLE};
 use crate::hud::{HudColor, TextAlign};
 
-/// The controller as it stands.
+/// Current state of the controller.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ControllerStatus {
-    /// Its name; none: the keys fly.
+    /// Name of the device; `None` uses the keyboard.
     pub device: Option<String>,
-    /// It was there and is away: the keys fly.
+    /// Whether the device has been disconnected; the keyboard is used until it returns.
     pub lost: bool,
-    /// It has a profile.
+    /// Whether the device has a profile.
     pub calibrated: bool,
-    /// Which stick does what, 1 to 4.
+    /// Stick mode, 1 to 4.
     pub mode: i64,
-    /// Part of the way about the centre that counts as centred.
+    /// Dead band as a fraction of the travel around the center.
     pub dead_band: f64,
-    /// How much flatter the middle is than the ends, 0 to 1.
+    /// Expo, 0 (linear) to 1 (cubic).
     pub expo: f64,
-    /// Left stick up, left stick right, right stick up, right stick right, -1 to 1.
+    /// Left stick up, left stick right, right stick up, right stick right, each in [-1, 1].
     pub sticks: [f64; 4],
-    /// Raw axes: number, where it stands, the ends that were seen; of the range -1 to 1.
+    /// Raw axes: number, value, and minimum and maximum seen, all in [-1, 1].
     pub axes: Vec<(u32, f64, (f64, f64))>,
-    /// What the wizard asks; none: it does not run.
+    /// Prompt of the calibration wizard; `None` if it is not running.
     pub wizard: Option<String>,
-    /// Something to tell: why there is no controller, where its profile is kept.
+    /// Note for the user, such as why there is no controller or where its profile is stored.
     pub note: String,
-    /// What the keys do, a line each.
+    /// Key bindings, one per line.
     pub keys: String,
 }
 
@@ -50,24 +51,24 @@ impl Default for ControllerStatus {
 }
 
 impl ControllerStatus {
-    /// A device is connected.
+    /// Checks whether a device is connected.
     #[must_use]
     pub fn is_connected(&self) -> bool {
         self.device.is_some() && !self.lost
     }
 
-    /// In words: which device, and what flies.
+    /// Describes the device and the active input.
     fn standing(&self) -> String {
         match &self.device {
-            None => "No controller: the keys fly.".to_owned(),
-            Some(name) if self.lost => format!("{name} is not connected: the keys fly"),
+            None => "No controller found. Use the keyboard.".to_owned(),
+            Some(name) if self.lost => format!("{name} not connected: using keyboard"),
             Some(name) if self.calibrated => format!("{name}, calibrated"),
-            Some(name) => format!("{name}, not calibrated: the keys fly until it is"),
+            Some(name) => format!("{name}, not calibrated: using keyboard"),
         }
     }
 }
 
-/// What the ways of the left and the right stick do in a mode: up and down, left and right.
+/// Returns the functions of the left and right stick in a mode: vertical, horizontal.
 fn duties(mode: i64) -> [(&'static str, &'static str); 2] {
     let (pitch, throttle, roll, yaw) = ("forward, back", "up, down", "left, right", "turn");
     match mode {
@@ -104,17 +105,17 @@ pub fn page(pen: &mut PageWriter, controls: &ControllerStatus, rows: &[MenuRow],
             room,
             SMALL,
             HudColor::White,
-            "Press the keys that fly: the dots must follow. Tab and Enter, or the mouse, go on.",
+            "Press the flight keys: the dots must follow. Continue with Tab and Enter or the mouse.",
         );
     } else if controls.wizard.is_some() || !controls.calibrated {
         axes(pen, (x, below), room, &controls.axes);
     } else {
-        let words = "Move the sticks: the dots must follow, rest in the middle, and reach all edges.";
+        let words = "Move the sticks: the dots must follow, rest at the center, and reach all edges.";
         pen.lines((x, below), room, SMALL, HudColor::White, words);
     }
 }
 
-/// A square in which a dot follows the stick.
+/// Draws a square in which a dot follows the stick.
 fn stick(pen: &mut PageWriter, (x, y): (f64, f64), size: f64, (right, up): (f64, f64), [name, vertical, across]: [&str; 3]) {
     const DOT: f64 = 0.018;
     let (mx, my, r) = (x + 0.5 * size, y + 0.5 * size, 0.5 * size);
@@ -132,10 +133,10 @@ fn stick(pen: &mut PageWriter, (x, y): (f64, f64), size: f64, (right, up): (f64,
     pen.fill(&dot, HudColor::Yellow);
     pen.text((mx, y - 0.035), TextAlign::Middle, TEXT, HudColor::White, name);
     pen.text((mx, y + size + 0.03), TextAlign::Middle, SMALL, HudColor::Grey, format!("vertical: {vertical}"));
-    pen.text((mx, y + size + 0.07), TextAlign::Middle, SMALL, HudColor::Grey, format!("across: {across}"));
+    pen.text((mx, y + size + 0.07), TextAlign::Middle, SMALL, HudColor::Grey, format!("horizontal: {across}"));
 }
 
-/// Every raw axis as a bar: the ends that were seen, and where it stands.
+/// Draws every raw axis as a bar with its range and value.
 fn axes(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, all: &[(u32, f64, (f64, f64))]) {
     const MOST: usize = 7;
     const HIGH: f64 = 0.024;
@@ -143,18 +144,18 @@ fn axes(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, all: &[(u32, f64, 
     let at = |value: f64| from + full * (0.5 + 0.5 * value.clamp(-1.0, 1.0));
     for (k, (axis, value, (low, high))) in all.iter().take(MOST).enumerate() {
         let y = y + 0.042 * k as f64;
-        // The kind of an event stands in the upper half of its number on Linux; people count axes from 0.
+        // On Linux, the upper half of the number is the event type; users count axes from 0.
         pen.text((x, y + 0.5 * HIGH), TextAlign::Left, SMALL, HudColor::Grey, format!("axis {}", axis & 0xffff));
         pen.panel((from, y), (full, HIGH), HudColor::Card);
         pen.fill(&[(at(*low), y), (at(*high), y), (at(*high), y + HIGH), (at(*low), y + HIGH)], HudColor::Focus);
         pen.panel((at(*value) - 0.004, y - 0.004), (0.008, HIGH + 0.008), HudColor::Yellow);
     }
     if all.is_empty() {
-        pen.text((x, y), TextAlign::Left, SMALL, HudColor::Grey, "No axis has moved yet.");
+        pen.text((x, y), TextAlign::Left, SMALL, HudColor::Grey, "No axis moved yet.");
     }
 }
 
-/// Lines in two columns, as far as there is room: the key, what it does.
+/// Draws lines in two columns, as far as they fit: key and function.
 fn columns(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, text: &str) {
     const COLUMNS: usize = 2;
     const KEY: f64 = 0.17;

@@ -1,63 +1,63 @@
-//! Rows of a page: what can be chosen, typed and done, by keys as by clicks.
+//! Menu rows for choosing, typing and starting actions, with keys or clicks.
 
 use super::KeyPress;
 use super::sheet::{PageWriter, SMALL, TEXT, width_of};
 use crate::hud::{HudColor, TextAlign};
 
-/// Height of a row, and of the step to the next.
+/// Height of a row, and distance between rows.
 const HIGH: f64 = 0.06;
 pub const STEP: f64 = 0.07;
 
-/// What a row does.
+/// Action of a menu row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MenuAction {
-    /// Whose session it is.
+    /// Select the trainee.
     Trainee,
-    /// Which job.
+    /// Select the job.
     Scenario,
-    /// Practice or assessment.
+    /// Select practice or assessment.
     Purpose,
-    /// On to the controller.
+    /// Continue to the controller check.
     Check,
-    /// Read the tutorial.
+    /// Open the tutorial.
     Learn,
-    /// Sound on or off.
+    /// Toggle sound.
     Sound,
-    /// That was all.
+    /// Quit.
     Quit,
-    /// Look for a controller again.
+    /// Search for a controller.
     Look,
-    /// Calibrate it.
+    /// Calibrate the controller.
     Calibrate,
-    /// Which stick does what.
+    /// Select the stick mode.
     Mode,
-    /// How much about the centre counts as centred.
+    /// Set the dead band.
     DeadBand,
-    /// How much flatter the middle is.
+    /// Set the expo.
     Expo,
-    /// On to the flight.
+    /// Start the flight.
     Fly,
-    /// Back to the flight that went on.
+    /// Return to the running flight.
     Stay,
-    /// Where one came from.
+    /// Return to the previous page.
     Back,
-    /// The next page.
+    /// Go to the next page.
     Next,
-    /// Past the tutorial.
+    /// Skip the tutorial.
     Skip,
-    /// The wizard's Enter.
+    /// Confirm a wizard step.
     Confirm,
-    /// Leave the wizard.
+    /// Cancel the wizard.
     Cancel,
-    /// Fly on.
+    /// Resume the flight.
     Resume,
-    /// This attempt ends, a new one begins.
+    /// Restart the attempt.
     Restart,
-    /// This session ends.
+    /// End the session.
     End,
-    /// The same once more.
+    /// Fly the same job again.
     Again,
-    /// Choose anew.
+    /// Choose another job.
     Other,
     /// Open the report.
     Report,
@@ -65,48 +65,48 @@ pub enum MenuAction {
     Questions,
 }
 
-/// How a row is used.
+/// Interaction of a menu row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RowKind {
-    /// Enter or a click does it.
+    /// Activated with Enter or a click.
     Button,
-    /// Left and right change its value.
+    /// The left and right keys change the value.
     Choice,
-    /// Signs change its value, left and right take a known one.
+    /// Typing changes the value; the left and right keys select a known one.
     Typed,
 }
 
-/// A row.
+/// A menu row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MenuRow {
-    /// What it does.
+    /// Action of the row.
     pub deed: MenuAction,
-    /// How it is used.
+    /// Interaction of the row.
     pub kind: RowKind,
-    /// Its name.
+    /// Label.
     pub label: String,
-    /// Its value.
+    /// Current value.
     pub value: String,
 }
 
 impl MenuRow {
-    /// Something to do.
+    /// Creates a button.
     pub fn button(deed: MenuAction, label: impl Into<String>) -> Self {
         Self { deed, kind: RowKind::Button, label: label.into(), value: String::new() }
     }
 
-    /// Something to choose.
+    /// Creates a row with a choice of values.
     pub fn choice(deed: MenuAction, label: &str, value: impl Into<String>) -> Self {
         Self { deed, kind: RowKind::Choice, label: label.to_owned(), value: value.into() }
     }
 
-    /// Something to type.
+    /// Creates a row with a text value.
     pub fn typed_row(deed: MenuAction, label: &str, value: impl Into<String>) -> Self {
         Self { kind: RowKind::Typed, ..Self::choice(deed, label, value) }
     }
 }
 
-/// Draws rows one below the other; gives where the next thing would stand.
+/// Draws the rows below one another and returns the y position below the last.
 pub fn draw(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, rows: &[MenuRow], focus: usize) -> f64 {
     for (k, row) in rows.iter().enumerate() {
         one(pen, (x, y + STEP * k as f64), width, row, (k, k == focus));
@@ -119,7 +119,7 @@ fn one(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow, (k, 
     pen.panel((x, y), (width, HIGH), if lit { HudColor::Focus } else { HudColor::Card });
     pen.spot((x, y), (width, HIGH), KeyPress::Row(k));
     if lit {
-        // Not by colour alone: a bar at the edge says the same.
+        // A bar at the edge marks the focus in addition to the color.
         pen.panel((x - 0.014, y), (0.008, HIGH), HudColor::White);
     }
     let label = if row.kind == RowKind::Button { HudColor::White } else { HudColor::Grey };
@@ -140,6 +140,6 @@ fn one(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow, (k, 
     }
 }
 
-/// A value begins at this share of its row; its arrows have this width.
+/// Start of the value, as a fraction of the row's width, and width of its arrows.
 const VALUE: f64 = 0.3;
 const ARROW: f64 = 0.06;

@@ -1,5 +1,5 @@
-//! From a choice to a flight and its scores: which page the window shows, what its keys and clicks do there, and what is told to `train`.
-//! Pure: presses and messages in, pages and orders out.
+//! State machine of the window, from the start page through a flight to its scores: the current page, its keys and clicks, and
+//! the messages to `train`. Pure: inputs and messages in, pages and requests out.
 
 mod controls;
 mod menu;
@@ -28,33 +28,33 @@ use crate::hud::ScreenPoint;
 use pipe::{FlightChoice, FlightOptions, FlightStarted, FlightSummary, FromWindow, Purpose, ToWindow};
 use std::collections::{BTreeSet, VecDeque};
 
-/// Where the window stands.
+/// State of the window.
 #[derive(Debug, Clone)]
 pub struct WindowFlow {
     page: Page,
     focus: usize,
     offers: Option<FlightOptions>,
     choice: FlightChoice,
-    /// The controller as it stands.
+    /// Current state of the controller.
     pub controls: ControllerStatus,
     flying: Option<FlightStarted>,
     ended: Option<FlightSummary>,
     notice: Option<String>,
-    /// Who has read the tutorial, or flown a practice, in this window.
+    /// Trainees who have read the tutorial or flown a practice session in this window.
     tutorial_done: BTreeSet<String>,
     names: KeyNames,
-    /// What is waited for.
+    /// The operation in progress.
     waiting_for: &'static str,
-    /// How the views share the window.
+    /// Layout of the views.
     pub arrangement: ViewLayout,
-    /// The pause was asked for to begin anew.
+    /// Whether the pause was requested in order to restart.
     restart_requested: bool,
     sound: bool,
     out: VecDeque<WindowRequest>,
 }
 
 impl WindowFlow {
-    /// Nothing is known yet. `sound`: it is on; `names`: of the keys.
+    /// Creates the initial state. `sound`: whether sound is on; `names`: display names of the keys.
     #[must_use]
     pub fn new(sound: bool, names: KeyNames) -> Self {
         Self {
@@ -76,65 +76,65 @@ impl WindowFlow {
         }
     }
 
-    /// A flight that is watched without anybody who leads it: no page but the flight.
+    /// Creates the state for watching a flight without controlling it: only the flight page.
     #[must_use]
     pub fn watch_only(sound: bool, names: KeyNames) -> Self {
         Self { page: Page::Flight, ..Self::new(sound, names) }
     }
 
-    /// What is shown.
+    /// Returns the current page.
     #[must_use]
     pub fn page(&self) -> Page {
         self.page
     }
 
-    /// The choice as it stands.
+    /// Returns the current selection.
     #[must_use]
     pub fn choice(&self) -> &FlightChoice {
         &self.choice
     }
 
-    /// The keys that fly are tried: they do nothing else on this page.
+    /// Checks whether the flight keys are being tested on this page and have no other effect.
     #[must_use]
     pub fn is_key_test(&self) -> bool {
         self.page == Page::Controls && !self.controls.is_connected()
     }
 
-    /// The flight is seen under a question about it.
+    /// Checks whether a dialog is shown over the flight.
     #[must_use]
     pub fn is_asking(&self) -> bool {
         matches!(self.page, Page::Paused | Page::Leaving)
     }
 
-    /// Time stands still.
+    /// Checks whether the simulation is paused.
     #[must_use]
     pub fn is_paused(&self) -> bool {
         self.page == Page::Paused
     }
 
-    /// The reference paths may be shown.
+    /// Checks whether the reference paths may be shown.
     #[must_use]
     pub fn shows_map(&self) -> bool {
         self.flying.as_ref().is_none_or(|flying| flying.choice.purpose == Purpose::Practice)
     }
 
-    /// Words for the person, until the next press.
+    /// Returns the current notice for the user; the next key or click clears it.
     #[must_use]
     pub fn notice(&self) -> Option<&str> {
         self.notice.as_deref()
     }
 
-    /// Something went otherwise than was wished.
+    /// Shows a notice, such as an error.
     pub fn show_notice(&mut self, words: String) {
         self.notice = Some(words);
     }
 
-    /// Words that are told elsewhere.
+    /// Returns and clears the notice, for display elsewhere.
     pub fn take_notice(&mut self) -> Option<String> {
         self.notice.take()
     }
 
-    /// The next thing to do.
+    /// Returns the next pending request.
     pub fn poll(&mut self) -> Option<WindowRequest> {
         self.out.pop_front()
     }
@@ -147,7 +147,7 @@ impl WindowFlow {
         self.out.push_back(WindowRequest::Tell(message));
     }
 
-    /// The controller as it stands now. A wizard that has ended leads back to the controller.
+    /// Updates the controller's state. When the wizard ends, returns to the controller page.
     pub fn update_controls(&mut self, controls: ControllerStatus) {
         let wizard = controls.wizard.is_some();
         self.controls = controls;
@@ -156,11 +156,11 @@ impl WindowFlow {
             Page::Calibrating if !wizard => self.show_page(Page::Controls),
             _ => {}
         }
-        // A device that has gone takes rows with it.
+        // Disconnecting a device removes rows.
         self.focus = self.focus.min(self.rows().len().saturating_sub(1));
     }
 
-    /// `train` says something.
+    /// Handles a message from `train`.
     pub fn handle_message(&mut self, message: ToWindow) {
         match message {
             ToWindow::Offers(offers) => {
@@ -204,7 +204,7 @@ impl WindowFlow {
         }
     }
 
-    /// The key or the button for a pause was pressed: an assessment is asked whether it is to end.
+    /// Handles the pause key or button. In an assessment, it asks whether to end the session.
     pub fn pause(&mut self) {
         match (self.page, &self.flying) {
             (Page::Paused, _) => self.send(FromWindow::Resume),
@@ -215,22 +215,23 @@ impl WindowFlow {
         }
     }
 
-    /// The key for beginning anew was pressed: asked once more, on the page of the pause.
+    /// Handles the restart key: pauses and asks for confirmation.
     pub fn restart(&mut self) {
         match (self.page, &self.flying) {
             (Page::Flight, Some(flying)) if flying.choice.purpose == Purpose::Practice => {
                 self.restart_requested = true;
                 self.send(FromWindow::Pause);
             }
-            (Page::Flight, Some(_)) => self.notice = Some("An assessment is flown through: it does not begin anew.".into()),
+            (Page::Flight, Some(_)) => self.notice = Some("An assessment cannot be restarted.".into()),
             (Page::Paused, _) => self.focus = 1,
             _ => {}
         }
     }
 
-    /// A click at a place of a window of this aspect, shares to the right and down; true when something lies there.
+    /// Handles a click at a position (fractions of the window) in a window with this aspect ratio. Returns whether it hit
+    /// anything.
     pub fn click(&mut self, place: ScreenPoint, aspect: f64) -> bool {
-        // What was drawn last lies on top.
+        // The last item drawn is on top.
         let spots = self.sheet(aspect).spots;
         let Some(spot) = spots.iter().rev().find(|spot| spot.holds(place)) else { return false };
         if self.page == Page::Flight {
@@ -241,7 +242,7 @@ impl WindowFlow {
         true
     }
 
-    /// Sound on or off.
+    /// Toggles sound.
     pub fn toggle_sound(&mut self) {
         self.sound = !self.sound;
         self.out.push_back(WindowRequest::Sound(self.sound));

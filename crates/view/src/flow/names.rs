@@ -1,19 +1,19 @@
-//! What the keys are called that do something: they can be chosen, and pages name them.
+//! Display names of the key bindings, for use in page texts.
 
 use std::collections::BTreeMap;
 
-/// Keys for people, by what they do as files of keys name it.
+/// Display names of keys, by the binding's name in key files.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct KeyNames(BTreeMap<&'static str, String>);
 
 impl KeyNames {
-    /// Of these keys.
+    /// Creates the names from the bindings.
     #[must_use]
     pub fn new(keys: BTreeMap<&'static str, String>) -> Self {
         Self(keys)
     }
 
-    /// Words with `{duty}` wherever a key is named; what no key does stays as it is written.
+    /// Replaces each `{binding}` in a text with the name of its key; unknown bindings stay unchanged.
     #[must_use]
     pub fn fill(&self, words: &str) -> String {
         self.0.iter().fold(words.to_owned(), |words, (duty, key)| words.replace(&format!("{{{duty}}}"), key))

@@ -1,90 +1,90 @@
-//! What a person does, what is shown, and what the window is told to do.
+//! Input events, pages, and requests of the window.
 
 use super::pipe::{FlightStarted, FromWindow};
 
-/// What changes of a controller's profile; all else stays as it is.
+/// A change to a controller profile; everything else stays the same.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ProfileChange {
-    /// Which stick does what, 1 to 4.
+    /// Stick mode, 1 to 4.
     Mode(i64),
-    /// Dead band of every way, a part of it, 0 to 0.5.
+    /// Dead band of every axis as a fraction of the travel, 0 to 0.5.
     DeadBand(f64),
-    /// Expo of every way, 0 to 1.
+    /// Expo of every axis, 0 to 1.
     Expo(f64),
 }
 
-/// What a person did.
+/// A key press or click.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum KeyPress {
-    /// One row up.
+    /// Move the focus up one row.
     Up,
-    /// One row down.
+    /// Move the focus down one row.
     Down,
-    /// The value before.
+    /// Select the previous value.
     Left,
-    /// The next value.
+    /// Select the next value.
     Right,
-    /// Do it.
+    /// Activate the row.
     Enter,
-    /// Back, or on, whatever is harmless.
+    /// Go back or continue, whichever is harmless.
     Escape,
-    /// Without the last sign.
+    /// Delete the last character.
     Backspace,
-    /// A sign was typed.
+    /// A character was typed.
     Sign(char),
     /// A row was clicked.
     Row(usize),
-    /// An arrow beside a row's value was clicked: back, or on.
+    /// An arrow next to a row's value was clicked: `false` selects the previous value, `true` the next.
     Step(usize, bool),
 }
 
-/// What is shown.
+/// Pages of the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Page {
-    /// Nothing is known yet.
+    /// Waiting for the first message.
     Opening,
-    /// Who flies what.
+    /// Selection of trainee, job and purpose.
     Start,
-    /// The controller is tried.
+    /// Controller check.
     Controls,
-    /// And calibrated.
+    /// Controller calibration.
     Calibrating,
-    /// So many pages of the tutorial have been turned; whether a flight follows.
+    /// Tutorial: number of pages turned, and whether a flight follows.
     Tutorial(usize, bool),
-    /// The simulator starts.
+    /// The simulator is starting.
     Waiting,
-    /// The flight itself.
+    /// Flight in progress.
     Flight,
-    /// It stands still.
+    /// Paused.
     Paused,
-    /// An assessment flies on while its pilot is asked whether it is to end.
+    /// Confirmation to end an assessment; the flight continues meanwhile.
     Leaving,
     /// Scores.
     Over,
 }
 
-/// What the window is to do.
+/// A request to the window's host.
 #[derive(Debug, Clone, PartialEq)]
 pub enum WindowRequest {
-    /// Say this to `train`.
+    /// Send this message to `train`.
     Tell(FromWindow),
-    /// Show this flight.
+    /// Connect to this flight and show it.
     Fly(Box<FlightStarted>),
-    /// Let go of the flight.
+    /// Disconnect from the flight.
     Land,
-    /// Look for a controller again.
+    /// Search for a controller.
     Look,
-    /// Begin to calibrate.
+    /// Start the calibration.
     Calibrate,
-    /// The wizard's Enter.
+    /// Confirm the current wizard step.
     Confirm,
-    /// Leave the wizard.
+    /// Cancel the wizard.
     Cancel,
-    /// Change this of the controller's profile, and keep it.
+    /// Apply and save this change to the controller profile.
     Tune(ProfileChange),
-    /// Show an address in a browser.
+    /// Open an address in a browser.
     Open(String),
-    /// Sound on or off.
+    /// Turn sound on or off.
     Sound(bool),
     /// Close the window.
     Close,

@@ -1,4 +1,4 @@
-//! A flight that stands still, one that is to end, and the button for both.
+//! Pause page of a practice session, end confirmation of an assessment, and the button that opens them.
 
 use super::menu::{self, MenuRow};
 use super::pipe::Purpose;
@@ -6,12 +6,12 @@ use super::sheet::{PageLayout, PageWriter, SMALL, TITLE, width_of};
 use super::{KeyPress, WindowFlow};
 use crate::hud::{HudColor, TextAlign};
 
-/// A practice's head: what it says, and what that means.
-pub const STANDS: [&str; 2] = ["Paused", "Time stands still; it does not count."];
-/// An assessment's.
-pub const GOES_ON: [&str; 2] = ["End the assessment?", "Time goes on. Tasks that are not flown count as that."];
+/// Title and text of the pause page.
+pub const STANDS: [&str; 2] = ["Paused", "The clock is stopped."];
+/// Title and text of the end confirmation.
+pub const GOES_ON: [&str; 2] = ["End the assessment?", "The clock runs. Tasks not flown count as not attempted."];
 
-/// Over the flight, which is still seen.
+/// Draws the page over the flight, which remains visible.
 pub fn page(mut pen: PageWriter, [head, means]: &[&str; 2], rows: &[MenuRow], focus: usize) -> PageLayout {
     let width = 0.95_f64.min(pen.width - 0.04);
     let left = 0.5 * (pen.width - width);
@@ -19,14 +19,14 @@ pub fn page(mut pen: PageWriter, [head, means]: &[&str; 2], rows: &[MenuRow], fo
     pen.text((left + 0.05, 0.30), TextAlign::Left, TITLE, HudColor::White, *head);
     pen.text((left + 0.05, 0.375), TextAlign::Left, SMALL, HudColor::Grey, *means);
     menu::draw(&mut pen, (left + 0.05, 0.42), width - 0.1, rows, focus);
-    let help = "Up, down, Enter; or click.";
+    let help = "Use up, down and Enter, or click.";
     pen.text((left + 0.05, 0.68), TextAlign::Left, SMALL, HudColor::Grey, help);
     pen.done()
 }
 
-/// A practice is paused by a click, too, and an assessment ended.
+/// Draws the button that pauses a practice session or ends an assessment.
 pub fn button(flow: &WindowFlow, mut pen: PageWriter) -> PageLayout {
-    // In the inspector's view: the camera's has its display at all edges.
+    // In the inspector's view, because the HUD covers the edges of the camera view.
     let (across, down) = flow.arrangement.button();
     if let Some(flying) = &flow.flying {
         let words = match flying.choice.purpose {

@@ -1,22 +1,22 @@
-//! What `train` and its window tell each other: a JSON line each, over the window's standard input and output.
+//! Messages between `train` and its window: JSON lines over the window's standard input and output.
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::net::SocketAddr;
 
-/// Whether the flight may be interrupted.
+/// Purpose of a flight: whether it may be interrupted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Purpose {
-    /// It may stand still and begin anew; the map helps.
+    /// May be paused and restarted; the map is available.
     #[default]
     Practice,
-    /// It is flown through, without the map.
+    /// No pause, restart or map.
     Assessment,
 }
 
 impl Purpose {
-    /// As in files and on the command line.
+    /// Returns the name used in files and on the command line.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
@@ -26,161 +26,161 @@ impl Purpose {
     }
 }
 
-/// Somebody who has flown here.
+/// A trainee who has flown on this machine.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TraineeSummary {
     /// Pseudonym.
     pub name: String,
-    /// Sessions so far.
+    /// Number of sessions.
     pub sessions: u32,
-    /// How many of them were practices.
+    /// Number of practice sessions.
     pub practices: u32,
 }
 
-/// A job that can be flown.
+/// An available job.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct JobOffer {
-    /// Its name, or the path of its file.
+    /// Name, or path of the file.
     pub name: String,
-    /// Title for people.
+    /// Display title.
     pub title: String,
-    /// What kind of job it is, in a few words.
+    /// Short description of the type of job.
     pub kind: String,
 }
 
-/// Who flies what, and what for.
+/// Selection of trainee, job and purpose.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FlightChoice {
     /// Pseudonym.
     pub trainee: String,
     /// Name or path of the job.
     pub scenario: String,
-    /// What for.
+    /// Purpose of the flight.
     pub purpose: Purpose,
 }
 
-/// What can be chosen, and what is chosen unless somebody changes it.
+/// Available choices and the current selection.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FlightOptions {
-    /// Who has flown here.
+    /// Known trainees.
     pub trainees: Vec<TraineeSummary>,
-    /// Jobs.
+    /// Available jobs.
     pub scenarios: Vec<JobOffer>,
-    /// As asked for on the command line, or the usual.
+    /// Selection from the command line, or the default.
     pub choice: FlightChoice,
-    /// The pages of this machine's sessions, where they are served.
+    /// Address of the web pages with this machine's sessions, if they are served.
     pub web: Option<String>,
 }
 
-/// A flight that has begun.
+/// A flight that has started.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FlightStarted {
-    /// Who flies what.
+    /// Trainee, job and purpose.
     pub choice: FlightChoice,
-    /// With which aircraft: name or path.
+    /// Name or path of the aircraft.
     pub vehicle: String,
     /// The session's seed.
     pub seed: u64,
-    /// The vehicle's payload port: its telemetry.
+    /// Address of the vehicle's payload port, which sends telemetry.
     pub connect: SocketAddr,
-    /// Its port for ground stations, where it has one.
+    /// Address of its ground station port, if it has one.
     pub fly: Option<SocketAddr>,
 }
 
 /// A score.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FinalScore {
-    /// As the paper defines it.
+    /// Score as the paper defines it.
     pub raw: f64,
-    /// Of 100.
+    /// Score as a percentage.
     pub pct: f64,
 }
 
-/// The end of a flight.
+/// Result of a flight.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FlightSummary {
-    /// Conformity, efficiency, safety, accuracy; none where it does not apply.
+    /// Conformity, efficiency, safety, accuracy; `None` if not applicable.
     pub scores: [Option<FinalScore>; 4],
-    /// Sum, and the most that it can be here; none when the session is incomplete.
+    /// Sum and maximum possible sum; `None` if the session is incomplete.
     pub overall: Option<(f64, f64)>,
-    /// How much of the job was done, in words.
+    /// Completed part of the job, as text.
     pub completion: Option<String>,
-    /// The job was done and the drone landed at home.
+    /// Whether the job was completed and the drone landed at home.
     pub complete: bool,
-    /// Certified, or the requirement that failed.
+    /// "Certified", or the first requirement not met.
     pub verdict: Option<String>,
-    /// Why it ended, in words; or why there are no scores.
+    /// Reason for the end, as text, or why there are no scores.
     pub why: String,
-    /// Address of the report, where there is one.
+    /// Address of the report, if there is one.
     pub report: Option<String>,
-    /// Address of the questionnaire, where pages are served; else the command that asks it.
+    /// Address of the questionnaire if pages are served, otherwise the command that starts it.
     pub questionnaire: String,
 }
 
-/// Names of the four scores, in their order.
+/// Names of the four scores, in order.
 pub const SCORES: [&str; 4] = ["conformity", "efficiency", "safety", "accuracy"];
 
-/// From `train` to its window.
+/// Messages from `train` to its window.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "is", rename_all = "snake_case")]
 pub enum ToWindow {
-    /// What can be chosen.
+    /// Available choices.
     Offers(FlightOptions),
-    /// A flight has begun.
+    /// A flight has started.
     Flying(FlightStarted),
-    /// Time stands still, or runs again.
+    /// The simulation has been paused or resumed.
     Paused {
-        /// It stands still.
+        /// Whether it is paused.
         on: bool,
     },
-    /// What was wished for is not done.
+    /// A request was rejected.
     Refused {
-        /// Why.
+        /// Reason.
         words: String,
     },
-    /// The flight is over.
+    /// The flight has ended.
     Ended(FlightSummary),
 }
 
-/// From the window to `train`.
+/// Messages from the window to `train`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "is", rename_all = "snake_case")]
 pub enum FromWindow {
     /// The window is open.
     Ready,
-    /// Fly this.
+    /// Start this flight.
     Chosen(FlightChoice),
-    /// Time shall stand still.
+    /// Pause the simulation.
     Pause,
-    /// Time shall run again.
+    /// Resume the simulation.
     Resume,
-    /// End this attempt and begin the same job anew.
+    /// End this attempt and restart the same job.
     Restart,
     /// End the session now.
     End,
-    /// Fly the same once more.
+    /// Fly the same job again.
     Again,
-    /// That was all.
+    /// Quit.
     Quit,
 }
 
-/// A message as its line, without the line's end.
+/// Serializes a message as one line, without the line break.
 #[must_use]
 pub fn line<T: Serialize>(message: &T) -> String {
-    // Plain data with names for keys: nothing in it that JSON cannot say.
+    // Plain data with string keys: serialization cannot fail.
     serde_json::to_string(message).unwrap_or_default()
 }
 
-/// A line as a message.
+/// Parses a line.
 ///
 /// # Errors
-/// What is wrong with it, with the line itself.
+/// Reports the problem and the line itself.
 pub fn read<T: DeserializeOwned>(line: &str) -> Result<T, String> {
-    /// Enough of a line to find it again.
+    /// Maximum number of characters of the line in an error message.
     const SHOWN: usize = 120;
     serde_json::from_str(line).map_err(|error| {
         let shown: String = line.chars().take(SHOWN).collect();
-        format!("'{shown}' is no message between train and its window: {error}")
+        format!("'{shown}' is not a valid message between train and its window: {error}")
     })
 }
 
@@ -238,7 +238,7 @@ mod tests {
     fn exact_a_bad_line_is_named() {
         for bad in ["", "pause", r#"{"is":"dance"}"#, r#"{"is":"chosen","trainee":"a"}"#, "\u{0}\u{7f}"] {
             let told = read::<FromWindow>(bad).expect_err(bad);
-            assert!(told.contains("no message"), "{told}");
+            assert!(told.contains("not a valid message"), "{told}");
         }
         let long = "x".repeat(10_000);
         assert!(read::<ToWindow>(&long).expect_err("long").len() < 400);

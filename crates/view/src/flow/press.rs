@@ -1,18 +1,18 @@
-//! What keys and clicks do on a page.
+//! Handling of key presses and clicks on a page.
 
 use super::menu::{MenuAction, MenuRow, RowKind};
 use super::pipe::{FlightOptions, FlightSummary, FromWindow, Purpose};
 use super::{ControllerStatus, KeyPress, Page, ProfileChange, WindowFlow, WindowRequest, tutorial};
 
-/// Most signs of a pseudonym, as everywhere.
+/// Maximum length of a pseudonym.
 const NAME_MAX: usize = 32;
-const READY: &str = "The simulator gets ready ...";
-/// Steps of dead band and expo.
+const READY: &str = "Starting simulator ...";
+/// Step sizes of dead band and expo.
 const FINE: f64 = 0.01;
 const COARSE: f64 = 0.1;
 
 impl WindowFlow {
-    /// A key or a click on a page.
+    /// Handles a key press or click.
     pub fn press(&mut self, press: KeyPress) {
         self.notice = None;
         let rows = self.rows();
@@ -21,7 +21,7 @@ impl WindowFlow {
         match press {
             KeyPress::Up => self.focus = if self.focus == 0 { last } else { self.focus - 1 },
             KeyPress::Down => self.focus = if self.focus >= last { 0 } else { self.focus + 1 },
-            // A page may come under a key that flies: left and right change values, and nothing else.
+            // A page may appear while a flight key is pressed: left and right only change values.
             KeyPress::Left | KeyPress::Right if kind == Some(RowKind::Button) => {}
             KeyPress::Left => self.step(&rows, false),
             KeyPress::Right => self.step(&rows, true),
@@ -49,9 +49,9 @@ impl WindowFlow {
     fn type_character(&mut self, sign: char) {
         let fits = sign.is_ascii_alphanumeric() || (!self.choice.trainee.is_empty() && (sign == '-' || sign == '_'));
         if !fits {
-            self.notice = Some("A pseudonym has letters, digits, '-' and '_', and begins with a letter or a digit.".into());
+            self.notice = Some("Use letters, digits, '-' and '_'; start with a letter or digit.".into());
         } else if self.choice.trainee.len() >= NAME_MAX {
-            self.notice = Some(format!("A pseudonym has at most {NAME_MAX} signs."));
+            self.notice = Some(format!("At most {NAME_MAX} characters."));
         } else {
             self.choice.trainee.push(sign);
         }
@@ -102,7 +102,7 @@ impl WindowFlow {
         }
     }
 
-    /// Whoever has flown no practice here yet reads the tutorial before the first one.
+    /// Checks whether the trainee has neither flown a practice session here nor read the tutorial.
     pub(super) fn needs_tutorial(&self) -> bool {
         let flown = |offers: &FlightOptions| offers.trainees.iter().any(|p| p.name == self.choice.trainee && p.practices > 0);
         !self.tutorial_done.contains(&self.choice.trainee) && !self.offers.as_ref().is_some_and(flown)
@@ -119,7 +119,7 @@ impl WindowFlow {
             | MenuAction::Expo => {
                 self.focus = (self.focus + 1).min(rows.len().saturating_sub(1));
             }
-            MenuAction::Check if self.choice.trainee.is_empty() => self.notice = Some("Type a pseudonym first.".into()),
+            MenuAction::Check if self.choice.trainee.is_empty() => self.notice = Some("Enter a pseudonym first.".into()),
             MenuAction::Check => self.show_page(Page::Controls),
             MenuAction::Learn => self.show_page(Page::Tutorial(0, false)),
             MenuAction::Sound => self.toggle_sound(),
@@ -141,7 +141,7 @@ impl WindowFlow {
                 self.send(FromWindow::Restart);
             }
             MenuAction::End => {
-                self.send_and_wait("The flight is scored ...");
+                self.send_and_wait("Scoring flight ...");
                 self.send(FromWindow::End);
             }
             MenuAction::Again => {
@@ -158,7 +158,7 @@ impl WindowFlow {
         }
     }
 
-    /// The simulator works at what comes next.
+    /// Disconnects from the flight and waits for the simulator.
     fn send_and_wait(&mut self, awaited: &'static str) {
         self.out.push_back(WindowRequest::Land);
         self.wait(awaited);
@@ -211,7 +211,7 @@ impl WindowFlow {
     }
 }
 
-/// The name beside this one, round the end; the first for a name that is not among them.
+/// Returns the next or previous name, wrapping around; the first if `name` is not in the list.
 fn neighbour<'a>(names: &[&'a str], name: &str, on: bool) -> Option<&'a str> {
     let count = names.len();
     let at = names.iter().position(|known| *known == name);

@@ -1,10 +1,10 @@
-//! Which rows a page has.
+//! Menu rows of each page.
 
 use super::menu::{MenuAction, MenuRow};
 use super::{Page, WindowFlow, summary, tutorial};
 
 impl WindowFlow {
-    /// What can be done on this page.
+    /// Returns the menu rows of the current page.
     #[must_use]
     pub fn rows(&self) -> Vec<MenuRow> {
         match self.page {
@@ -12,18 +12,21 @@ impl WindowFlow {
             Page::Start => self.start_rows(),
             Page::Controls => self.controls_rows(),
             Page::Calibrating => {
-                vec![MenuRow::button(MenuAction::Confirm, "Go on (Enter)"), MenuRow::button(MenuAction::Cancel, "Leave (Esc)")]
+                vec![
+                    MenuRow::button(MenuAction::Confirm, "Continue (Enter)"),
+                    MenuRow::button(MenuAction::Cancel, "Cancel (Esc)"),
+                ]
             }
             Page::Tutorial(page, flight) => tutorial_rows(page, flight),
             Page::Paused => vec![
-                MenuRow::button(MenuAction::Resume, "Fly on (Esc)"),
-                MenuRow::button(MenuAction::Restart, "End this attempt, begin anew"),
-                MenuRow::button(MenuAction::End, "End the session"),
+                MenuRow::button(MenuAction::Resume, "Resume (Esc)"),
+                MenuRow::button(MenuAction::Restart, "Restart"),
+                MenuRow::button(MenuAction::End, "End session"),
             ],
             Page::Leaving => {
                 vec![
-                    MenuRow::button(MenuAction::Stay, "Fly on (Esc)"),
-                    MenuRow::button(MenuAction::End, "End it: score what was flown"),
+                    MenuRow::button(MenuAction::Stay, "Keep flying (Esc)"),
+                    MenuRow::button(MenuAction::End, "End and score flight"),
                 ]
             }
             Page::Over => summary::rows(self.ended.as_ref()),
@@ -37,21 +40,21 @@ impl WindowFlow {
             MenuRow::typed_row(MenuAction::Trainee, "Trainee", self.choice.trainee.clone()),
             MenuRow::choice(MenuAction::Scenario, "Job", title),
             MenuRow::choice(MenuAction::Purpose, "Purpose", self.choice.purpose.word()),
-            MenuRow::button(MenuAction::Check, "Go on: check the controller"),
+            MenuRow::button(MenuAction::Check, "Next: check controller"),
             MenuRow::button(MenuAction::Learn, "Read the tutorial"),
-            MenuRow::button(MenuAction::Sound, if self.sound { "Sound is on" } else { "Sound is off" }),
+            MenuRow::button(MenuAction::Sound, if self.sound { "Sound: on" } else { "Sound: off" }),
             MenuRow::button(MenuAction::Quit, "Quit"),
         ]
     }
 
     fn controls_rows(&self) -> Vec<MenuRow> {
         let controls = &self.controls;
-        let mut rows = vec![MenuRow::button(MenuAction::Fly, "Go on: fly")];
+        let mut rows = vec![MenuRow::button(MenuAction::Fly, "Start flight")];
         if controls.is_connected() {
             rows.push(MenuRow::button(MenuAction::Calibrate, if controls.calibrated { "Calibrate again" } else { "Calibrate" }));
             rows.push(MenuRow::choice(MenuAction::Mode, "Stick mode", controls.mode.to_string()));
         } else {
-            rows.push(MenuRow::button(MenuAction::Look, "Look for a controller again"));
+            rows.push(MenuRow::button(MenuAction::Look, "Search for controller"));
         }
         if controls.is_connected() && controls.calibrated {
             rows.push(MenuRow::choice(MenuAction::DeadBand, "Dead band", format!("{:.0} %", 100.0 * controls.dead_band)));
@@ -72,7 +75,7 @@ fn tutorial_rows(page: usize, flight: bool) -> Vec<MenuRow> {
     let mut rows = vec![MenuRow::button(MenuAction::Next, next)];
     rows.push(MenuRow::button(MenuAction::Back, "Back (Esc)"));
     if !last {
-        rows.push(MenuRow::button(MenuAction::Skip, if flight { "Skip, fly" } else { "Skip" }));
+        rows.push(MenuRow::button(MenuAction::Skip, if flight { "Skip and fly" } else { "Skip" }));
     }
     rows
 }

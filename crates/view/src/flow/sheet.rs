@@ -1,110 +1,111 @@
-//! A page as plain data: things to draw, places that a click means something at, pictures. Sizes are shares of the window's height, so that
-//! type grows with the window; across, places are reckoned in heights, too, and turned into shares of the width at the end.
+//! A page as plain data: items to draw, clickable areas and pictures. Sizes are fractions of the window's height, so that text
+//! scales with the window. Horizontal positions also use the height while laying out and become fractions of the width at the
+//! end.
 
 use super::KeyPress;
 use crate::hud::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
 
-/// Type sizes.
+/// Font size of titles, as a fraction of the window's height, like all sizes here.
 pub const TITLE: f64 = 0.075;
-/// Usual text.
+/// Font size of body text.
 pub const TEXT: f64 = 0.038;
-/// Lesser text.
+/// Font size of secondary text.
 pub const SMALL: f64 = 0.032;
-/// From one line of text to the next, heights of the text.
+/// Line spacing in multiples of the font size.
 pub const LINE: f64 = 1.35;
-/// The font's mean width of a sign as a share of its height (egui's Ubuntu Light, lower case; a little wide, so that nothing overflows).
+/// Mean character width as a fraction of the font size (egui's Ubuntu Light, lowercase; slightly wide to prevent overflow).
 const SIGN: f64 = 0.48;
-/// Pages are no wider than this many heights: lines stay readable on wide windows.
+/// Maximum width of a page; keeps lines readable on wide windows.
 pub const WIDEST: f64 = 2.3;
 
-/// A place that means something when it is clicked.
+/// A clickable area.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClickArea {
-    /// Upper left.
+    /// Upper left corner.
     pub from: ScreenPoint,
-    /// Lower right.
+    /// Lower right corner.
     pub to: ScreenPoint,
-    /// What.
+    /// Event that a click triggers.
     pub press: KeyPress,
 }
 
 impl ClickArea {
-    /// True for a place in it.
+    /// Checks whether the area contains a point.
     #[must_use]
     pub fn holds(&self, place: ScreenPoint) -> bool {
         (self.from.x..=self.to.x).contains(&place.x) && (self.from.y..=self.to.y).contains(&place.y)
     }
 }
 
-/// A picture of ours by its name, in its place.
+/// A picture at its position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlacedPicture {
-    /// Which.
+    /// Name of the picture.
     pub name: &'static str,
-    /// Upper left.
+    /// Upper left corner.
     pub from: ScreenPoint,
-    /// Lower right.
+    /// Lower right corner.
     pub to: ScreenPoint,
 }
 
-/// A page.
+/// A page layout.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PageLayout {
-    /// Pictures, below everything else.
+    /// Pictures, drawn below everything else.
     pub pictures: Vec<PlacedPicture>,
-    /// Things to draw, in their order.
+    /// Items to draw, in order.
     pub items: Vec<DrawItem>,
-    /// Places to click.
+    /// Clickable areas.
     pub spots: Vec<ClickArea>,
 }
 
-/// Writes a page in heights: x from the page's left edge, y from the window's upper edge.
+/// Writes a page in units of the window's height: x from the page's left edge, y from the window's top edge.
 #[derive(Debug)]
 pub struct PageWriter {
     sheet: PageLayout,
     aspect: f64,
     left: f64,
-    /// Width of the page, heights.
+    /// Width of the page.
     pub width: f64,
 }
 
 impl PageWriter {
-    /// An empty page for a window of this aspect (width over height).
+    /// Creates an empty page for a window with this aspect ratio (width over height).
     #[must_use]
     pub fn new(aspect: f64) -> Self {
         let width = aspect.min(WIDEST);
         Self { sheet: PageLayout::default(), aspect, left: 0.5 * (aspect - width), width }
     }
 
-    /// What a share of the window's width is on the page, heights.
+    /// Converts a fraction of the window's width to page units.
     #[must_use]
     pub fn across(&self, share: f64) -> f64 {
         share * self.aspect - self.left
     }
 
-    /// A place in shares of the window.
+    /// Converts page coordinates to fractions of the window.
     fn place(&self, x: f64, y: f64) -> ScreenPoint {
         at((self.left + x) / self.aspect, y)
     }
 
-    /// A rectangle.
+    /// Adds a rectangle.
     pub fn panel(&mut self, (x, y): (f64, f64), (width, height): (f64, f64), colour: HudColor) {
         let (from, to) = (self.place(x, y), self.place(x + width, y + height));
         self.sheet.items.push(DrawItem::Panel { from, to, colour });
     }
 
-    /// The whole window in one colour.
+    /// Fills the whole window with one color.
     pub fn ground(&mut self, colour: HudColor) {
         self.sheet.items.push(DrawItem::Fill { points: vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)], colour });
     }
 
-    /// A line of text.
+    /// Adds a line of text.
     pub fn text(&mut self, (x, y): (f64, f64), side: TextAlign, height: f64, colour: HudColor, words: impl Into<String>) {
         let place = self.place(x, y);
         self.sheet.items.push(DrawItem::Text { place, side, height, colour, words: words.into() });
     }
 
-    /// Text broken into lines of a width; gives where the next line would stand.
+    /// Adds text wrapped to a width and returns the y position of the next line.
     pub fn lines(&mut self, (x, y): (f64, f64), width: f64, height: f64, colour: HudColor, words: &str) -> f64 {
         let mut y = y;
         for line in wrapped(words, width, height) {
@@ -114,19 +115,19 @@ impl PageWriter {
         y
     }
 
-    /// A line through points.
+    /// Adds a polyline.
     pub fn line(&mut self, points: &[(f64, f64)], width: f64, colour: HudColor) {
         let points = points.iter().map(|(x, y)| self.place(*x, *y)).collect();
         self.sheet.items.push(DrawItem::Line { points, width, colour });
     }
 
-    /// A filled convex outline.
+    /// Adds a filled convex polygon.
     pub fn fill(&mut self, points: &[(f64, f64)], colour: HudColor) {
         let points = points.iter().map(|(x, y)| self.place(*x, *y)).collect();
         self.sheet.items.push(DrawItem::Fill { points, colour });
     }
 
-    /// An arrow from one place to another.
+    /// Adds an arrow.
     pub fn arrow(&mut self, from: (f64, f64), to: (f64, f64), colour: HudColor) {
         const HEAD: f64 = 0.022;
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
@@ -138,32 +139,32 @@ impl PageWriter {
         self.fill(&[to, wing(1.0), wing(-1.0)], colour);
     }
 
-    /// A picture.
+    /// Adds a picture.
     pub fn picture(&mut self, name: &'static str, (x, y): (f64, f64), (width, height): (f64, f64)) {
         let (from, to) = (self.place(x, y), self.place(x + width, y + height));
         self.sheet.pictures.push(PlacedPicture { name, from, to });
     }
 
-    /// A place to click.
+    /// Adds a clickable area.
     pub fn spot(&mut self, (x, y): (f64, f64), (width, height): (f64, f64), press: KeyPress) {
         let (from, to) = (self.place(x, y), self.place(x + width, y + height));
         self.sheet.spots.push(ClickArea { from, to, press });
     }
 
-    /// The page.
+    /// Returns the finished page.
     #[must_use]
     pub fn done(self) -> PageLayout {
         self.sheet
     }
 }
 
-/// Width of words in heights of the window, about.
+/// Approximate width of a text, as a fraction of the window's height.
 #[must_use]
 pub fn width_of(words: &str, height: f64) -> f64 {
     SIGN * height * words.chars().count() as f64
 }
 
-/// Breaks text at blanks; a line's end in it is kept. A word that is wider than a line is broken, too: addresses are.
+/// Wraps text at spaces and keeps its line breaks. Splits words that are wider than a line, such as addresses.
 #[must_use]
 pub fn wrapped(words: &str, width: f64, height: f64) -> Vec<String> {
     let most = ((width / (SIGN * height)).floor() as usize).max(8);

@@ -1,4 +1,4 @@
-//! The first page: who flies what, and what for. And what stands there while the simulator works.
+//! Start page, where the user chooses trainee, job and purpose, and the waiting page.
 
 use super::pipe::Purpose;
 use super::sheet::{LINE, PageLayout, PageWriter, SMALL, TEXT, TITLE, wrapped};
@@ -6,7 +6,7 @@ use super::{Page, WindowFlow, controls, menu, paused, summary, tutorial};
 use crate::hud::{HudColor, TextAlign};
 
 impl WindowFlow {
-    /// The page for a window of this aspect (width over height); nothing over a flight.
+    /// Returns the page for a window with this aspect ratio (width over height); empty over a flight.
     #[must_use]
     pub fn sheet(&self, aspect: f64) -> PageLayout {
         let rows = self.rows();
@@ -36,7 +36,7 @@ impl WindowFlow {
         pen.text((left, 0.08), TextAlign::Left, TITLE, HudColor::White, "Spandrel: inspect a bridge with a drone");
         let half = 0.56 * pen.width;
         menu::draw(pen, (left, 0.17), half, rows, self.focus);
-        let help = "Up and down choose a row, left and right its value, Enter does it; or click.";
+        let help = "Up/down select, left/right change, Enter confirm; or click.";
         pen.text((left, 0.70), TextAlign::Left, SMALL, HudColor::Grey, help);
         let (x, width) = (left + half + 0.06, pen.width - half - left - 0.08);
         let mut y = 0.19;
@@ -46,23 +46,23 @@ impl WindowFlow {
         }
     }
 
-    /// What the chosen values mean.
+    /// Explains the selected values.
     fn choice_explanation(&self) -> Vec<(&'static str, String)> {
         let offers = self.offers.as_ref();
         let known = offers.and_then(|o| o.trainees.iter().find(|p| p.name == self.choice.trainee)).map_or(0, |p| p.sessions);
         let who = match known {
-            _ if self.choice.trainee.is_empty() => "Type a pseudonym: no real name is kept.".to_owned(),
-            0 => "Has not flown here yet.".to_owned(),
-            1 => "Has flown one session here.".to_owned(),
-            n => format!("Has flown {n} sessions here."),
+            _ if self.choice.trainee.is_empty() => "Enter a pseudonym, not a real name.".to_owned(),
+            0 => "No sessions yet.".to_owned(),
+            1 => "One session so far.".to_owned(),
+            n => format!("{n} sessions so far."),
         };
         let new = !self.choice.trainee.is_empty() && self.needs_tutorial();
-        let who = if new { format!("{who} The tutorial comes before the first practice.") } else { who };
+        let who = if new { format!("{who} A tutorial precedes the first practice.") } else { who };
         let job = offers.and_then(|o| o.scenarios.iter().find(|job| job.name == self.choice.scenario));
         let job = job.map_or(String::new(), |job| format!("{} ({})", job.kind, job.name));
         let purpose = match self.choice.purpose {
-            Purpose::Practice => "May stand still and begin anew; the map shows the paths.",
-            Purpose::Assessment => "Flown through: no pause, no second beginning, no map.",
+            Purpose::Practice => "You can pause and restart; the map shows the paths.",
+            Purpose::Assessment => "One attempt: no pause, restart or map.",
         };
         let mut told = vec![("Trainee", who), ("Job", job), ("Purpose", purpose.to_owned())];
         if let Some(web) = offers.and_then(|o| o.web.as_ref()) {
@@ -72,7 +72,7 @@ impl WindowFlow {
     }
 }
 
-/// What a person is to read now, along the lower edge, over whatever stands there.
+/// Draws a notice along the bottom of the page, over its content.
 fn choice_explanation(pen: &mut PageWriter, words: &str) {
     let (width, margin) = (pen.width, 0.04);
     let lines = wrapped(words, width - 2.0 * margin, TEXT);

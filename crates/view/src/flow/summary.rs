@@ -1,25 +1,25 @@
-//! The end: four scores, where the report and the questionnaire are, and what comes next.
+//! Result page: four scores, links to the report and questionnaire, and the next steps.
 
 use super::menu::{self, MenuAction, MenuRow};
 use super::pipe::{FlightSummary, SCORES};
 use super::sheet::{PageWriter, SMALL, TEXT, TITLE, width_of};
 use crate::hud::{HudColor, TextAlign};
 
-/// An address that a browser can open.
+/// Checks whether a browser can open the address.
 fn is_openable(address: &str) -> bool {
     ["http://", "https://", "file://"].iter().any(|start| address.starts_with(start))
 }
 
-/// What can be done with an end.
+/// Returns the menu rows for a result.
 pub fn rows(ended: Option<&FlightSummary>) -> Vec<MenuRow> {
     let mut rows = Vec::new();
     if ended.is_some_and(|ended| ended.report.is_some()) {
-        rows.push(MenuRow::button(MenuAction::Report, "Open the report"));
+        rows.push(MenuRow::button(MenuAction::Report, "Open report"));
     }
     if ended.is_some_and(|ended| is_openable(&ended.questionnaire)) {
-        rows.push(MenuRow::button(MenuAction::Questions, "Open the questionnaire"));
+        rows.push(MenuRow::button(MenuAction::Questions, "Open questionnaire"));
     }
-    rows.push(MenuRow::button(MenuAction::Again, "Fly the same again"));
+    rows.push(MenuRow::button(MenuAction::Again, "Fly again"));
     rows.push(MenuRow::button(MenuAction::Other, "Choose another job"));
     rows.push(MenuRow::button(MenuAction::Quit, "Quit"));
     rows
@@ -33,7 +33,7 @@ pub fn page(pen: &mut PageWriter, ended: Option<&FlightSummary>, rows: &[MenuRow
         Some(words) if !ended.complete => (words.as_str(), format!("{}. Scores for the part that was flown:", ended.why)),
         _ => ("The flight is over", ended.why.clone()),
     };
-    // The headline has to fit on a line: how wide it is depends on the job.
+    // Shrinks the headline to fit on one line; its length depends on the job.
     let height = TITLE.min((pen.width - 2.0 * left) / width_of(title, 1.0));
     pen.text((left, 0.08), TextAlign::Left, height, HudColor::White, title);
     pen.lines((left, 0.155), pen.width - 2.0 * left, SMALL, HudColor::Grey, &note);
@@ -53,7 +53,7 @@ pub fn page(pen: &mut PageWriter, ended: Option<&FlightSummary>, rows: &[MenuRow
     }
     y = y.max(0.68) + 0.02;
     for (name, address) in
-        [("report", ended.report.as_deref().unwrap_or("none was written")), ("questionnaire", ended.questionnaire.as_str())]
+        [("report", ended.report.as_deref().unwrap_or("not available")), ("questionnaire", ended.questionnaire.as_str())]
     {
         pen.text((left, y), TextAlign::Left, SMALL, HudColor::Yellow, name);
         y = pen.lines((left + 0.26, y), pen.width - left - 0.30, SMALL, HudColor::White, address) + 0.02;
@@ -61,7 +61,7 @@ pub fn page(pen: &mut PageWriter, ended: Option<&FlightSummary>, rows: &[MenuRow
     menu::draw(pen, (left + half + 0.08, 0.20), pen.width - half - 2.0 * left - 0.08, rows, focus);
 }
 
-/// A score as a bar of 100 with its number.
+/// Draws a score as a bar from 0 to 100 with its value.
 fn bar(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, name: &str, pct: Option<f64>) {
     const HIGH: f64 = 0.05;
     let (from, full) = (x + 0.28, width - 0.44);

@@ -1,4 +1,4 @@
-//! The way through the pages by keys, what is refused where, and what stands on each page.
+//! Navigation through the pages by key, rejected actions, and page contents.
 
 use super::pipe::{
     FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FromWindow, JobOffer, Purpose, ToWindow,
@@ -46,7 +46,7 @@ fn ended() -> FlightSummary {
     }
 }
 
-/// Keys by names that nothing else on a page has.
+/// Key names that do not occur elsewhere on a page.
 fn names() -> KeyNames {
     let sticks = ["up", "down", "turn_left", "turn_right", "forward", "back", "left", "right"];
     let rest =
@@ -111,7 +111,7 @@ fn exact_a_new_trainee_reads_the_tutorial_first_and_may_skip_it() {
     assert!(matches!(orders(&mut flow).as_slice(), [WindowRequest::Tell(FromWindow::Chosen(choice))] if choice.trainee == "n3w"));
     flow.handle_message(ToWindow::Refused { words: "the port is taken".into() });
     assert_eq!((flow.page(), flow.notice()), (Page::Start, Some("the port is taken")));
-    // Read again from the first page, to its end.
+    // Opened again from the start page and read to the end.
     press(&mut flow, &[KeyPress::Row(4)]);
     (0..6).for_each(|_| flow.press(KeyPress::Enter));
     assert_eq!((flow.page(), orders(&mut flow).len()), (Page::Start, 0));
@@ -127,7 +127,7 @@ fn choose_practice(flow: &mut WindowFlow) {
 fn exact_every_trainee_reads_the_tutorial_before_the_first_practice() {
     let mut flow = in_flight(Purpose::Assessment);
     flow.handle_message(ToWindow::Ended(ended()));
-    // From the start page, by its rows: a name, on to the controller, fly.
+    // From the start page through its rows: name, controller check, flight.
     let named = |flow: &mut WindowFlow, name: &str| {
         flow.press(KeyPress::Row(0));
         press(flow, &[KeyPress::Backspace; 32]);
@@ -178,7 +178,7 @@ fn exact_a_controller_that_was_unplugged_is_reported_and_may_be_looked_for() {
     assert!(flow.focus < flow.rows().len(), "one of the rows is chosen");
     let told = words(&flow);
     assert!(
-        told.contains("Pad is not connected: the keys fly") && !told.contains("calibrated") && told.contains("climbs"),
+        told.contains("Pad not connected: using keyboard") && !told.contains("calibrated") && told.contains("climbs"),
         "{told}"
     );
     assert_eq!(deeds(&flow), [MenuAction::Fly, MenuAction::Look, MenuAction::Back]);
@@ -209,7 +209,7 @@ fn exact_pages_name_the_keys_as_they_are_set_and_what_is_waited_for() {
     assert!(["<swap>", "<follow>", "<lamp>", "<pause>"].into_iter().all(|key| seen.contains(key)), "{seen}");
     flight.handle_message(ToWindow::Paused { on: true });
     press(&mut flight, &[KeyPress::Row(2)]);
-    assert!(words(&flight).contains("scored"), "{}", words(&flight));
+    assert!(words(&flight).contains("Scoring"), "{}", words(&flight));
     flight.handle_message(ToWindow::Refused { words: "a word ".repeat(80) });
     let lines = words(&flight).lines().filter(|line| line.contains("a word")).count();
     assert!(lines > 2, "a long refusal is broken into lines: {lines}");
@@ -302,7 +302,7 @@ fn exact_the_profile_changes_by_steps_within_its_range() {
     assert_eq!(flow.page(), Page::Controls);
 }
 
-/// Every page that there is.
+/// Returns every page.
 fn every_page() -> Vec<(String, WindowFlow)> {
     let mut all = vec![("opening".to_owned(), WindowFlow::new(true, names())), ("start".to_owned(), started())];
     let mut controls = started();
@@ -366,7 +366,7 @@ fn prop_everything_stays_in_windows_of_any_shape_and_every_picture_is_there() {
     }
 }
 
-/// Every word of a page with its place in hundredths.
+/// Returns every text of a page with its position in hundredths.
 fn words(flow: &WindowFlow) -> String {
     let line = |item: &DrawItem| match item {
         DrawItem::Text { place, words, .. } => Some(format!("{:3.0} {:3.0} {words}\n", 100.0 * place.x, 100.0 * place.y)),

@@ -1,5 +1,5 @@
-//! A few pages before the first practice, as the paper's protocol has it: real pictures of ours with arrows and words, and the display as it
-//! is drawn in flight.
+//! Tutorial before the first practice session, as in the paper's protocol: simulator pictures with labels and arrows, and the HUD
+//! as drawn in flight.
 
 use super::KeyNames;
 use super::menu::{self, MenuRow, STEP};
@@ -8,7 +8,7 @@ use crate::hud::{DrawItem, GnssStatus, Hud, HudColor, MapPath, ScreenPoint, Text
 use spandrel_mavlink::contract::cue;
 use spandrel_model::frames::Vec3;
 
-/// Pictures by name, JPEG.
+/// JPEG pictures by name.
 pub const PICTURES: [(&str, &[u8]); 9] = [
     ("job", include_bytes!("pictures/job.jpg")),
     ("inspector", include_bytes!("pictures/inspector.jpg")),
@@ -21,57 +21,57 @@ pub const PICTURES: [(&str, &[u8]); 9] = [
     ("corrosion", include_bytes!("pictures/corrosion.jpg")),
 ];
 
-/// Shape of the large pictures.
+/// Aspect ratio of the large pictures.
 const WIDE: f64 = 16.0 / 9.0;
 
-/// A page: its title, what is drawn into the box on the left, what is said on the right; `{duty}` stands for a key.
+/// A page: title, function that draws the box on the left, and text on the right; `{binding}` stands for a key.
 type TutorialPage = (&'static str, fn(&mut PageWriter, PictureFrame, &KeyNames), &'static str);
 
 const LEAVES: [TutorialPage; PAGES] = [
     (
         "the job",
         job,
-        "You stand on the hillside with a drone. Fly along each task's path at the bridges, look for defects, photograph each once, \
-         come back and land on the pad.\n\nThe orange line is such a flight; the red dots are its photographs.",
+        "You are on the hillside with a drone. Fly along each task's path at the bridges, photograph each defect once, then return \
+         and land on the pad.\n\nThe orange line shows a flight; the red dots are its photos.",
     ),
     (
         "two views",
         views,
-        "On the left what you see from where you stand, on the right what the drone's camera sees.\n\n{swap} makes one of them large. \
-         Drag with the mouse to look around, turn the wheel to see nearer; {follow} looks at the drone again.",
+        "Left: the view from where you stand. Right: the view of the drone's camera.\n\n{swap} enlarges one of them. Drag with the \
+         mouse to look around, scroll to zoom; {follow} follows the drone again.",
     ),
     (
         "the display",
         display,
-        "Keep the speed below the limit while you are at a task. The battery is green, then yellow (a triangle), then red (an octagon \
-         that flashes): come home before it is empty.\n\nIn an assessment there is no map.",
+        "Stay below the speed limit during a task. The battery is green, then yellow (triangle), then red (flashing octagon): return \
+         before it is empty.\n\nAn assessment has no map.",
     ),
     (
         "warnings",
         warnings,
-        "Warnings come at the lower left, the gravest at the bottom, each with a shape of its own and, with sound, a tone of its own.\n\n\
-         Blue disc: back to the path.\nYellow triangle: slower.\nOrange diamond: away from the structure.\nRed octagon: you have hit \
-         something.",
+        "Warnings appear lower left, the most serious lowest. Each has its own shape and, with sound on, its own tone.\n\n\
+         Blue disc: return to the path.\nYellow triangle: slow down.\nOrange diamond: move away from the structure.\nRed octagon: \
+         you hit something.",
     ),
     (
         "defects",
         defects,
-        "The same defects from 1, 3 and 8 m, through the same lens. A photograph counts when the defect is inside the corner marks, lit, not seen \
-         edge-on, and a crack at least half a pixel wide: go near, or zoom ({camera_zoom_in}) with a camera that can.\n\nStains, form lines, closed cracks, webs and spray paint are no defects. \
-         Every photograph that shows nothing new costs accuracy.",
+        "The same defects from 1, 3 and 8 m with the same lens. A photo counts if the defect is inside the corner marks, lit, not \
+         seen edge-on, and, for a crack, at least half a pixel wide. Fly closer, or zoom ({camera_zoom_in}) if the camera can.\n\n\
+         Stains, form lines, closed cracks, webs and spray paint are not defects. Every photo that shows nothing new reduces accuracy.",
     ),
     (
-        "light, and what counts",
+        "light and scores",
         light,
-        "Dark places need the lamp ({lamp}): the same place without and with it.\n\nConformity: on the path, not too fast. Efficiency: home \
-         within 15 minutes. Safety: touch nothing; a person or a vehicle that is hit ends the session. Accuracy: every defect once.",
+        "Dark places need the lamp ({lamp}), as these pictures show.\n\nConformity: on the path, not too fast. Efficiency: home \
+         within 15 minutes. Safety: no contact; hitting a person or a vehicle ends the session. Accuracy: every defect once.",
     ),
 ];
 
-/// How many there are.
+/// Number of pages.
 pub const PAGES: usize = 6;
 
-/// Where a picture stands, in heights.
+/// Position of a picture, in units of the window's height.
 #[derive(Debug, Clone, Copy)]
 struct PictureFrame {
     x: f64,
@@ -103,12 +103,12 @@ pub fn page(pen: &mut PageWriter, page: usize, rows: &[MenuRow], focus: usize, n
     menu::draw(pen, (x, 0.97 - STEP * rows.len() as f64), room, rows, focus);
 }
 
-/// Words with an arrow to what they name; both in shares of the frame.
+/// Draws a label with an arrow; both positions are fractions of the frame.
 fn label(pen: &mut PageWriter, frame: PictureFrame, words: &str, from: (f64, f64), to: (f64, f64)) {
     let half = 0.5 * width_of(words, SMALL) + 0.012;
     let (x, y) = frame.at(from.0, from.1);
     let (tx, ty) = frame.at(to.0, to.1);
-    // The arrow leaves the words at the side that is nearer to what it points at.
+    // The arrow starts at the side of the label that is closer to its target.
     let foot = if (tx - x).abs() > half { (x + half * (tx - x).signum(), y) } else { (x, y + 0.025 * (ty - y).signum()) };
     pen.arrow(foot, (tx, ty), HudColor::Yellow);
     pen.panel((x - half, y - 0.025), (2.0 * half, 0.05), HudColor::Night);
@@ -120,7 +120,7 @@ fn job(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     label(pen, frame, "take off and land here", (0.26, 0.86), (0.075, 0.62));
     label(pen, frame, "suspension bridge", (0.62, 0.07), (0.55, 0.22));
     label(pen, frame, "arch bridge", (0.80, 0.86), (0.72, 0.58));
-    label(pen, frame, "round the pier: task 4", (0.24, 0.07), (0.235, 0.355));
+    label(pen, frame, "task 4: around the pier", (0.24, 0.07), (0.235, 0.355));
 }
 
 fn views(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
@@ -139,8 +139,8 @@ fn views(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
         frame.width,
         SMALL,
         HudColor::Grey,
-        "The bracket in your view stays on the drone and says how far away it is. The triangle on the map is the drone, the square the \
-         pad, the lines are the tasks' paths.",
+        "The bracket in your view marks the drone and shows its distance. On the map, the triangle is the drone, the square is the \
+         pad, and the lines are the tasks' paths.",
     );
 }
 
@@ -164,7 +164,7 @@ fn warnings(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     let display = Hud { hit: Some("pier".into()), battery_pct: Some(24.0), speed_m_s: 5.3, ..example(0b11_1100) };
     inset(pen, &layout(&display, WIDE), frame);
     label(pen, frame, "warnings", (0.62, 0.68), (0.36, 0.80));
-    label(pen, frame, "battery is red", (0.62, 0.22), (0.86, 0.085));
+    label(pen, frame, "low battery", (0.62, 0.22), (0.86, 0.085));
 }
 
 fn defects(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
@@ -174,7 +174,7 @@ fn defects(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
             .enumerate()
     {
         let strip = frame.part((0.0, 0.26 * k as f64), (1.0, 0.24));
-        // Strips are four times as wide as high.
+        // The strips have an aspect ratio of 4.
         let width = (4.0 * strip.height).min(strip.width);
         pen.picture(name, strip.at(0.0, 0.0), (width, 0.25 * width));
         let end = strip.x + width;
@@ -194,15 +194,15 @@ fn light(pen: &mut PageWriter, frame: PictureFrame, names: &KeyNames) {
     pen.picture("lamp", second.at(0.0, 0.0), (second.width, second.height));
     label(pen, first, "without the lamp", (0.5, 1.14), (0.5, 0.85));
     label(pen, second, "with the lamp", (0.3, 1.14), (0.38, 0.85));
-    label(pen, second, "look at such spots from near", (0.62, 0.68), (0.33, 0.33));
+    label(pen, second, "fly closer to such spots", (0.62, 0.68), (0.33, 0.33));
     let (x, y) = frame.at(0.0, 0.72);
-    let words = "Sticks let go: the drone keeps its place. Keys: {arm} motors on, {take_off} take-off, {up} {down} up and down, {turn_left} \
-                 {turn_right} turn, {forward} {back} {left} {right} fly, {lamp} lamp, {snapshot} photograph, {gimbal_up} {gimbal_down} turn \
+    let words = "Release the sticks to hover. Keys: {arm} arm, {take_off} take off, {up} {down} up and down, {turn_left} \
+                 {turn_right} turn, {forward} {back} {left} {right} fly, {lamp} lamp, {snapshot} photograph, {gimbal_up} {gimbal_down} tilt \
                  the camera, {land} land, {pause} pause.";
     pen.lines((x, y), frame.width, SMALL, HudColor::Grey, &names.fill(words));
 }
 
-/// A display in the middle of a flight.
+/// Example HUD in flight.
 fn example(cues: i32) -> Hud {
     let line = |id, path_m: [(f64, f64); 2]| MapPath {
         id,
@@ -227,7 +227,7 @@ fn example(cues: i32) -> Hud {
         lamp: false,
         left_s: 1104.0,
         pictures: 2,
-        // Red flashes: on in the first half of a second.
+        // Red elements blink: on in the first half of the period.
         shutter: false,
         time_s: if cues & cue::CRASH != 0 { 0.1 } else { 95.0 },
         position_m: Vec3::new(-60.0, 130.0, 12.0),
@@ -237,7 +237,7 @@ fn example(cues: i32) -> Hud {
     }
 }
 
-/// A display drawn into a frame.
+/// Draws a HUD into a frame.
 fn inset(pen: &mut PageWriter, items: &[DrawItem], frame: PictureFrame) {
     let place = |p: &ScreenPoint| frame.at(p.x, p.y);
     for item in items {

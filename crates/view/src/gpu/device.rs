@@ -1,77 +1,77 @@
-//! A graphics device, with or without a screen.
+//! A GPU device, with or without a window surface.
 
 use std::sync::{Arc, OnceLock};
 
-/// Why nothing can be drawn.
+/// Errors of the GPU.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum GpuError {
-    /// There is no device.
+    /// No graphics device is available.
     #[error(
-        "there is no Vulkan (or Metal, or Direct3D 12) device to draw with: install a graphics driver, or a software one \
-         (Debian and Ubuntu: apt-get install mesa-vulkan-drivers); everything else works without ({0})"
+        "no Vulkan, Metal or Direct3D 12 device found: install a graphics driver or a software renderer \
+         (Debian and Ubuntu: apt-get install mesa-vulkan-drivers); everything else works without one ({0})"
     )]
     NoDevice(String),
-    /// It stopped working.
+    /// The device stopped working.
     #[error("the graphics device failed: {0}")]
     Failed(String),
-    /// No texture of it holds such a picture: width, height and the device's longest side, px.
-    #[error("a picture of {0} x {1} px is too large for this graphics device, which draws at most {2} px a side")]
+    /// The picture exceeds the device's maximum texture size: width, height and maximum side, px.
+    #[error("picture of {0} x {1} px is too large for this graphics device (at most {2} px per side)")]
     TooLarge(u32, u32, u32),
 }
 
-/// An open device.
+/// An open GPU device.
 #[derive(Debug)]
 pub struct Gpu {
-    /// Makes things.
+    /// Logical device.
     pub device: wgpu::Device,
-    /// Does things.
+    /// Command queue.
     pub queue: wgpu::Queue,
-    /// What it calls itself.
+    /// Adapter name.
     pub name: String,
-    /// It is a program on the processor, not a graphics card.
+    /// Whether the device is a software renderer.
     pub software: bool,
-    /// Whose device it is.
+    /// Adapter of the device.
     pub adapter: wgpu::Adapter,
     fault: Arc<OnceLock<String>>,
 }
 
 impl Gpu {
-    /// Opens the best device for drawing without a window.
+    /// Opens the best available device for rendering without a window.
     ///
     /// # Errors
-    /// When there is none, or it does not open.
+    /// If there is no device or it cannot be opened.
     pub fn open() -> Result<Self, GpuError> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
         Self::open_for(&instance, None)
     }
 
-    /// Opens a renderer in software: slow, and the same on every machine.
+    /// Opens a software renderer: slow, but with the same results on every machine.
     ///
     /// # Errors
-    /// When there is none, or it does not open.
+    /// If there is none or it cannot be opened.
     pub fn open_software() -> Result<Self, GpuError> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
         Self::request(&instance, None, true)
     }
 
-    /// Opens a device that can draw on a window's surface.
+    /// Opens a device that can render to a window's surface.
     ///
     /// # Errors
-    /// When there is none, or it does not open.
+    /// If there is none or it cannot be opened.
     pub fn open_for(instance: &wgpu::Instance, surface: Option<&wgpu::Surface<'_>>) -> Result<Self, GpuError> {
         Self::request(instance, surface, false)
     }
 
-    /// What went wrong first since it was opened: what is drawn from then on is worth nothing.
+    /// Returns the first error since the device was opened. Pictures rendered after it are invalid.
     #[must_use]
     pub fn fault(&self) -> Option<GpuError> {
         self.fault.get().cloned().map(GpuError::Failed)
     }
 
-    /// Refuses a picture of a size, px, that no texture of the device holds.
+    /// Checks that a picture of this size, px, fits into a texture of the device.
     ///
     /// # Errors
-    /// When a side is longer than the device's longest.
+    /// If a side exceeds the device's maximum.
     pub fn check_size(&self, size_px: (u32, u32)) -> Result<(), GpuError> {
         fits(size_px, self.device.limits().max_texture_dimension_2d)
     }
@@ -84,7 +84,7 @@ impl Gpu {
             apply_limit_buckets: false,
         };
         let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(|e| GpuError::NoDevice(e.to_string()))?;
-        // The largest pictures that the device can draw, and buffers that they can be read back through.
+        // Maximum texture size, and buffers large enough to read such pictures back.
         let wgpu::Limits { max_texture_dimension_2d, max_buffer_size, .. } = adapter.limits();
         let limits = wgpu::Limits { max_texture_dimension_2d, max_buffer_size, ..wgpu::Limits::default() };
         let descriptor = wgpu::DeviceDescriptor { label: Some("spandrel"), required_limits: limits, ..Default::default() };
@@ -100,18 +100,17 @@ fn fits((width, height): (u32, u32), longest: u32) -> Result<(), GpuError> {
     if width.max(height) > longest { Err(GpuError::TooLarge(width, height, longest)) } else { Ok(()) }
 }
 
-/// Keeps what goes wrong beside any call (an error that nobody asks for, a card that is pulled out or hangs); by itself that would end the
-/// program by a panic.
+/// Records errors that occur outside of any call (an uncaptured error, a removed or hung GPU), which would otherwise panic.
 fn watch(device: &wgpu::Device) -> Arc<OnceLock<String>> {
     let fault = Arc::new(OnceLock::new());
-    // The first one counts: the others follow from it.
+    // Only the first error counts: the others are consequences.
     let keeps = fault.clone();
     device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| drop(keeps.set(error.to_string()))));
     let keeps = fault.clone();
     device.set_device_lost_callback(move |why, words| {
-        // Letting go of a device is no fault.
+        // Dropping a device is not an error.
         if why != wgpu::DeviceLostReason::Destroyed {
-            drop(keeps.set(format!("it is lost: {words}")));
+            drop(keeps.set(format!("device lost: {words}")));
         }
     });
     fault

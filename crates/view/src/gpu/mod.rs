@@ -1,4 +1,4 @@
-//! The only part of the view that knows a graphics device: uploads a scene, draws shots, reads pictures back.
+//! GPU rendering: uploads a scene, draws shots, and reads pictures back. No other part of the crate uses a GPU.
 
 mod device;
 mod overlay;

@@ -1,4 +1,4 @@
-//! The head-up display on a finished picture.
+//! Head-up display drawn over a rendered picture.
 
 use super::device::Gpu;
 use super::pipelines::PICTURE;
@@ -7,7 +7,7 @@ use crate::hud::{DrawItem, ScreenPoint, TextAlign};
 use egui::{Align2, Color32, FontId, Pos2, Rect, Shape, Stroke};
 use std::collections::BTreeMap;
 
-/// Text and shapes over pictures.
+/// Draws text and shapes over pictures.
 pub struct Overlay {
     context: egui::Context,
     renderer: egui_wgpu::Renderer,
@@ -20,14 +20,14 @@ impl std::fmt::Debug for Overlay {
 }
 
 impl Overlay {
-    /// For textures of finished pictures.
+    /// Creates an overlay for picture textures.
     #[must_use]
     pub fn new(gpu: &Gpu) -> Self {
         let renderer = egui_wgpu::Renderer::new(&gpu.device, PICTURE, egui_wgpu::RendererOptions::default());
         Self { context: egui::Context::default(), renderer }
     }
 
-    /// Draws items over what `target` (of this size, px) holds.
+    /// Draws items over the contents of `target`, which has this size, px.
     pub fn draw(&mut self, gpu: &Gpu, items: &[DrawItem], target: &wgpu::TextureView, size_px: (u32, u32)) {
         let size = egui::vec2(size_px.0 as f32, size_px.1 as f32);
         let input = egui::RawInput { screen_rect: Some(Rect::from_min_size(Pos2::ZERO, size)), ..egui::RawInput::default() };
@@ -70,12 +70,12 @@ impl Overlay {
     }
 }
 
-/// The pictures of pages, as textures of one context.
+/// Pictures of the pages, as textures of one context.
 #[derive(Default)]
 pub struct PageTextures(BTreeMap<&'static str, egui::TextureHandle>);
 
 impl PageTextures {
-    /// A picture by its name; decoded when it is first wanted. One that cannot be decoded is left out.
+    /// Returns a picture by name and decodes it on first use; `None` if it cannot be decoded.
     fn of(&mut self, context: &egui::Context, name: &'static str) -> Option<egui::TextureId> {
         if !self.0.contains_key(name) {
             let (_, bytes) = PICTURES.iter().find(|known| known.0 == name)?;
@@ -86,7 +86,7 @@ impl PageTextures {
     }
 }
 
-/// A JPEG as egui takes it.
+/// Decodes a JPEG into an egui image.
 fn decoded(bytes: &[u8]) -> Option<egui::ColorImage> {
     let mut decoder = zune_jpeg::JpegDecoder::new(zune_jpeg::zune_core::bytestream::ZCursor::new(bytes));
     let pixels = decoder.decode().ok()?;
@@ -94,9 +94,9 @@ fn decoded(bytes: &[u8]) -> Option<egui::ColorImage> {
     (pixels.len() == 3 * width * height).then(|| egui::ColorImage::from_rgb([width, height], &pixels))
 }
 
-/// Paints a page over a rectangle.
+/// Paints a page into a rectangle.
 pub fn paint_sheet(painter: &egui::Painter, sheet: &PageLayout, rect: Rect, pictures: &mut PageTextures) {
-    // The ground of a page lies below its pictures.
+    // The background of a page is below its pictures.
     let ground = usize::from(matches!(sheet.items.first(), Some(DrawItem::Fill { points, .. }) if points.len() == 4));
     let (ground, items) = sheet.items.split_at(ground.min(sheet.items.len()));
     paint(painter, ground, rect);
@@ -111,7 +111,7 @@ pub fn paint_sheet(painter: &egui::Painter, sheet: &PageLayout, rect: Rect, pict
     paint(painter, items, rect);
 }
 
-/// Paints items over the picture that fills a rectangle.
+/// Paints items over the picture in a rectangle.
 pub fn paint(painter: &egui::Painter, items: &[DrawItem], rect: Rect) {
     for item in items {
         paint_one(painter, item, rect);

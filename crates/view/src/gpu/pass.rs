@@ -1,4 +1,4 @@
-//! Recording of passes.
+//! Recording of render passes.
 
 use super::device::Gpu;
 use crate::looks::MaterialGroup;
@@ -7,7 +7,7 @@ use crate::scene::Instance;
 use std::ops::Range;
 use wgpu::util::DeviceExt;
 
-/// A mesh on the device; the triangles of one look lie together.
+/// A mesh on the GPU; triangles of one material group are contiguous.
 pub struct GpuMesh {
     vertices: wgpu::Buffer,
     indices: wgpu::Buffer,
@@ -15,19 +15,19 @@ pub struct GpuMesh {
     runs: Vec<(MaterialGroup, Range<u32>)>,
 }
 
-/// Copies of a mesh.
+/// Instances of a mesh.
 pub struct MeshInstances {
     buffer: wgpu::Buffer,
     count: u32,
 }
 
-/// Bytes on the device.
+/// Uploads bytes to a GPU buffer.
 pub fn upload(gpu: &Gpu, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
     gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: None, contents: bytes, usage })
 }
 
 impl GpuMesh {
-    /// Uploads a mesh; `None` for an empty one.
+    /// Uploads a mesh; `None` if it is empty.
     pub fn new(gpu: &Gpu, mesh: &Mesh) -> Option<Self> {
         if mesh.indices.is_empty() {
             return None;
@@ -41,24 +41,24 @@ impl GpuMesh {
         })
     }
 
-    /// Triangles.
+    /// Returns the number of triangles.
     pub fn triangles(&self) -> u32 {
         self.count / 3
     }
 
-    /// Draws it once, without instances.
+    /// Draws the mesh once, without instances.
     pub fn draw_alone(&self, pass: &mut wgpu::RenderPass) {
         pass.set_vertex_buffer(0, self.vertices.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
         pass.draw_indexed(0..self.count, 0, 0..1);
     }
 
-    /// Draws its copies, whatever they look like: for depth alone.
+    /// Draws all instances regardless of material, for depth passes.
     pub fn draw(&self, pass: &mut wgpu::RenderPass, copies: &MeshInstances) {
         self.draw_range(pass, copies, 0..self.count);
     }
 
-    /// Draws what has one look and returns how many triangles of each copy that are; `None`: nothing has it.
+    /// Draws the triangles of one material group and returns their number per instance, or `None` if there are none.
     pub fn draw_look(&self, pass: &mut wgpu::RenderPass, copies: &MeshInstances, look: MaterialGroup) -> Option<u32> {
         let (_, run) = self.runs.iter().find(|run| run.0 == look)?;
         self.draw_range(pass, copies, run.clone());
@@ -73,7 +73,7 @@ impl GpuMesh {
     }
 }
 
-/// Triangles by their look, and where each look's begin and end.
+/// Sorts triangles by material group and returns the index range of each group.
 fn sorted(mesh: &Mesh) -> (Vec<u32>, Vec<(MaterialGroup, Range<u32>)>) {
     let look = |corner: u32| {
         mesh.vertices.get(corner as usize).map_or(MaterialGroup::Simple, |vertex| MaterialGroup::of(vertex.material))
@@ -91,7 +91,7 @@ fn sorted(mesh: &Mesh) -> (Vec<u32>, Vec<(MaterialGroup, Range<u32>)>) {
 }
 
 impl MeshInstances {
-    /// Uploads instances; `None` for none.
+    /// Uploads instances; `None` if there are none.
     pub fn new(gpu: &Gpu, instances: &[Instance]) -> Option<Self> {
         (!instances.is_empty()).then(|| Self {
             buffer: upload(gpu, bytemuck::cast_slice(instances), wgpu::BufferUsages::VERTEX),
@@ -99,13 +99,13 @@ impl MeshInstances {
         })
     }
 
-    /// How many.
+    /// Returns the number of instances.
     pub fn count(&self) -> u32 {
         self.count
     }
 }
 
-/// Begins a pass on a colour target, cleared, with a depth that is cleared to infinity.
+/// Begins a pass with a cleared color target and a depth buffer cleared to infinity.
 pub fn begin<'a>(
     encoder: &'a mut wgpu::CommandEncoder,
     colour: &wgpu::TextureView,
@@ -127,7 +127,7 @@ pub fn begin<'a>(
     })
 }
 
-/// Begins a pass that only keeps depth.
+/// Begins a depth-only pass.
 pub fn begin_depth<'a>(encoder: &'a mut wgpu::CommandEncoder, depth: &wgpu::TextureView) -> wgpu::RenderPass<'a> {
     encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: None,

@@ -1,25 +1,25 @@
-//! Pictures to the device, and back from it.
+//! Upload and readback of pictures.
 
 use super::device::{Gpu, GpuError};
 use super::pipelines::PICTURE;
 use crate::picture::Picture;
 
-/// Texture copies must start rows at multiples of this, bytes.
+/// Row alignment of texture copies, bytes.
 const ROW: u32 = 256;
 
-/// A texture for a finished picture that can be drawn or filled, read back, and shown in a window.
+/// Creates a picture texture that can be rendered to or filled, read back, and shown in a window.
 pub fn picture_texture(gpu: &Gpu, size_px: (u32, u32)) -> wgpu::Texture {
     use wgpu::TextureUsages as Use;
     colour_texture(gpu, size_px, (PICTURE, Use::COPY_SRC | Use::COPY_DST | Use::TEXTURE_BINDING))
 }
 
-/// Fills such a texture with a picture of its size.
+/// Uploads a picture of the same size into a texture.
 pub fn fill(gpu: &Gpu, texture: &wgpu::Texture, picture: &Picture) {
     let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * picture.width), rows_per_image: None };
     gpu.queue.write_texture(texture.as_image_copy(), &picture.rgba, layout, texture.size());
 }
 
-/// A texture that is drawn into, and what else is done with it.
+/// Creates a color render target with additional usages.
 pub fn colour_texture(
     gpu: &Gpu,
     (width, height): (u32, u32),
@@ -40,13 +40,13 @@ pub fn colour_texture(
 /// Reads a texture back.
 ///
 /// # Errors
-/// When the device fails, or has failed before: then nothing says what the texture holds.
+/// If the device fails or has failed before; the contents are undefined then.
 pub fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Picture, GpuError> {
     let (width, height) = (texture.width(), texture.height());
     Ok(Picture { width, height, rgba: read_bytes(gpu, texture, 4)? })
 }
 
-/// Reads a texture's pixels back, so many bytes each.
+/// Reads the pixels of a texture back, `pixel` bytes each.
 pub fn read_bytes(gpu: &Gpu, texture: &wgpu::Texture, pixel: u32) -> Result<Vec<u8>, GpuError> {
     let (width, height) = (texture.width(), texture.height());
     let row = (pixel * width).div_ceil(ROW) * ROW;
@@ -68,7 +68,7 @@ pub fn read_bytes(gpu: &Gpu, texture: &wgpu::Texture, pixel: u32) -> Result<Vec<
     gpu.queue.submit([encoder.finish()]);
     buffer.map_async(wgpu::MapMode::Read, .., |_| {});
     gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| GpuError::Failed(error.to_string()))?;
-    // What fails in between ends no call: it would come back as black.
+    // A device failure does not fail the preceding calls; the picture would be black.
     gpu.fault().map_or(Ok(()), Err)?;
     let mapped = buffer.get_mapped_range(..).map_err(|error| GpuError::Failed(error.to_string()))?;
     let lines: Vec<&[u8]> = mapped.chunks(row as usize).map(|line| &line[..(pixel * width) as usize]).collect();

@@ -1,4 +1,4 @@
-//! How each kind of thing is drawn.
+//! Render pipelines.
 
 mod labels;
 
@@ -13,49 +13,49 @@ use wgpu::VertexFormat::{Float32, Float32x2, Float32x3, Float32x4, Uint32, Unorm
 
 pub use labels::LabelPipelines;
 
-/// Light on the sensor.
+/// Format of radiance targets.
 pub const LIGHT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
-/// Depth: 1 at the lens, 0 at infinity.
+/// Depth format: 1 at the near plane, 0 at infinity.
 pub const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-/// Finished pictures: encoded in sRGB by the shader.
+/// Format of rendered pictures; the shader encodes sRGB.
 pub const PICTURE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
-/// A pipeline for each look.
+/// One pipeline per material group.
 pub type MaterialPipelines = Vec<(MaterialGroup, wgpu::RenderPipeline)>;
 
-/// Layouts, samplers and pipelines.
+/// Layouts, samplers and pipelines of a renderer.
 pub struct Pipelines {
-    /// Globals, shadow maps and their sampler.
+    /// Layout of globals, shadow maps and their sampler.
     pub globals_layout: wgpu::BindGroupLayout,
-    /// The mirror and its sampler.
+    /// Layout of the water reflection and its sampler.
     pub water_layout: wgpu::BindGroupLayout,
-    /// What `develop` reads.
+    /// Layout of the inputs of `develop`.
     pub develop_layout: wgpu::BindGroupLayout,
-    /// A shadow map's projection.
+    /// Layout of a shadow map's projection.
     pub map_layout: wgpu::BindGroupLayout,
-    /// Linear between texels, ends at the edge.
+    /// Linear sampler, clamped to the edge.
     pub smooth: wgpu::Sampler,
-    /// Linear, repeats.
+    /// Linear sampler, repeating.
     pub tiled: wgpu::Sampler,
-    /// Compares with a shadow map.
+    /// Comparison sampler for shadow maps.
     pub compare: wgpu::Sampler,
-    /// Solids without and with the lamp.
+    /// Solids, without and with the lamp.
     pub surfaces: [MaterialPipelines; 2],
-    /// Solids, mirrored, without and with the lamp.
+    /// Reflected solids, without and with the lamp.
     pub surfaces_mirrored: [MaterialPipelines; 2],
-    /// What shines through.
+    /// Translucent surfaces.
     pub sheer: wgpu::RenderPipeline,
-    /// Defects, by their AASHTO code.
+    /// Defects, by AASHTO code.
     pub defects: Vec<(u32, wgpu::RenderPipeline)>,
-    /// The lake without and with the lamp.
+    /// Lake, without and with the lamp.
     pub water: [wgpu::RenderPipeline; 2],
-    /// The sky.
+    /// Sky.
     pub sky: wgpu::RenderPipeline,
-    /// The sky, mirrored.
+    /// Reflected sky.
     pub sky_mirrored: wgpu::RenderPipeline,
-    /// Depth in a shadow map.
+    /// Shadow map depth.
     pub shadow: wgpu::RenderPipeline,
-    /// From light to a picture, for eyes and for a camera.
+    /// Conversion of radiance to a picture, for eyes and for a camera.
     pub develop: [wgpu::RenderPipeline; 2],
 }
 
@@ -112,24 +112,24 @@ fn patches() -> wgpu::VertexBufferLayout<'static> {
     }
 }
 
-/// What sets one pipeline apart.
+/// Parameters of a pipeline.
 #[derive(Clone, Copy)]
 struct PipelineKey<'a> {
     module: &'a wgpu::ShaderModule,
-    /// The module's functions for corners and for pixels.
+    /// Vertex and fragment entry points of the module.
     entries: (&'static str, &'static str),
     layouts: &'a [Option<&'a wgpu::BindGroupLayout>],
     buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
     target: Option<wgpu::TextureFormat>,
     blend: Option<wgpu::BlendState>,
     writes: wgpu::ColorWrites,
-    /// Whether depth is kept, and how it decides; `None`: no depth at all.
+    /// Whether depth is written, and the comparison; `None` for no depth buffer.
     depth: Option<(bool, wgpu::CompareFunction)>,
     bias: i32,
     cull: Option<wgpu::Face>,
     front: wgpu::FrontFace,
     samples: u32,
-    /// What the shader's overrides are.
+    /// Values of the shader's override constants.
     constants: &'a [(&'a str, f64)],
 }
 
@@ -197,7 +197,7 @@ fn module(gpu: &Gpu, name: &str) -> wgpu::ShaderModule {
     gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(name), source })
 }
 
-/// Layouts of what is bound.
+/// Bind group layouts.
 struct BindLayouts {
     globals: wgpu::BindGroupLayout,
     water: wgpu::BindGroupLayout,
@@ -245,7 +245,7 @@ fn sampler(gpu: &Gpu, address: wgpu::AddressMode, compare: Option<wgpu::CompareF
     })
 }
 
-/// What a preset costs, for the shaders' overrides (common.wgsl).
+/// Returns the override constants of a preset (common.wgsl).
 fn costs(quality: &Quality) -> [(&'static str, f64); 5] {
     [
         ("CASCADES", f64::from(quality.cascades)),
@@ -256,13 +256,13 @@ fn costs(quality: &Quality) -> [(&'static str, f64); 5] {
     ]
 }
 
-/// A pipeline with more overrides.
+/// Builds a pipeline with additional override constants.
 fn special(gpu: &Gpu, kind: &PipelineKey, more: &[(&str, f64)]) -> wgpu::RenderPipeline {
     let constants = [kind.constants, more].concat();
     build(gpu, &PipelineKey { constants: &constants, ..*kind })
 }
 
-/// One pipeline for each look, without and with the lamp.
+/// Builds one pipeline per material group, without and with the lamp.
 fn surfaces(gpu: &Gpu, kind: &PipelineKey, quality: &Quality, mirrored: f64) -> [MaterialPipelines; 2] {
     by_lamp(quality, |lamp| {
         let of = |look: MaterialGroup| {
@@ -274,18 +274,19 @@ fn surfaces(gpu: &Gpu, kind: &PipelineKey, quality: &Quality, mirrored: f64) -> 
     })
 }
 
-/// What is drawn without and with the lamp: only a lean preset leaves the lamp out while it is off, the others have one for both.
+/// Builds a pair of pipelines without and with the lamp. Only a lean preset compiles a variant without the lamp; others use one
+/// for both.
 fn by_lamp<T: Clone>(quality: &Quality, of: impl Fn((&'static str, f64)) -> T) -> [T; 2] {
     let lit = of(("LAMP", 1.0));
     [if quality.lean { of(("LAMP", 0.0)) } else { lit.clone() }, lit]
 }
 
-/// Functions for corners and for pixels, as nearly every module calls them.
+/// Vertex and fragment entry points of most modules.
 const ENTRIES: (&str, &str) = ("vs", "fs");
-/// Those of the shader `lean`.
+/// Entry points of the shader `lean`.
 const LEAN: (&str, &str) = ("vs_lean", "fs_lean");
 
-/// Nearer is greater; what is as near as before is drawn over.
+/// Reversed depth: nearer is greater; equal depth overwrites.
 const NEARER: wgpu::CompareFunction = wgpu::CompareFunction::GreaterEqual;
 
 /// Light to picture: one triangle over the whole of it.
@@ -298,7 +299,7 @@ fn film<'a>(
 }
 
 impl Pipelines {
-    /// Compiles everything.
+    /// Compiles all pipelines.
     pub fn new(gpu: &Gpu, quality: &Quality) -> Self {
         let layouts = BindLayouts::new(gpu, quality);
         let [surface, sky, defect, water, shadow] = ["surface", "sky", "defect", "water", "shadow"].map(|name| module(gpu, name));
@@ -332,12 +333,12 @@ impl Pipelines {
         let back = PipelineKey { module: &sky, buffers: &[], depth: shown, cull: None, ..solid };
         let see_through = [costs.as_slice(), &[("LOOK", f64::from(MaterialGroup::Simple as u32))]].concat();
         let sheer = PipelineKey { blend: Some(wgpu::BlendState::ALPHA_BLENDING), depth: shown, constants: &see_through, ..solid };
-        // Towards the eye: in front of the faces that they lie in.
+        // Biased towards the camera, in front of the faces that they lie on.
         let flat =
             PipelineKey { module: &defect, buffers: &patch_buffers, blend: over, depth: shown, bias: 2, cull: None, ..solid };
         let lake =
             PipelineKey { module: &water, layouts: &lake_layouts, buffers: &water_buffers, blend: over, cull: None, ..solid };
-        // Away from the sun.
+        // Biased away from the sun.
         let dark = PipelineKey {
             module: &shadow,
             layouts: &map_layouts,

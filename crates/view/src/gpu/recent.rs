@@ -1,30 +1,30 @@
-//! What is made anew at some cost: the last few of a kind are kept.
+//! A small least-recently-used cache for resources that are expensive to recreate.
 
 use std::collections::VecDeque;
 
-/// So many are kept: for both views that of before a swap or a new window's size, too.
+/// Capacity: both views, including their state before a layout change or window resize.
 const KEPT: usize = 4;
 
-/// What was used last, by key.
+/// The most recently used values, by key.
 #[derive(Debug)]
 pub struct LruCache<K, V> {
-    /// The one that was used longest ago first.
+    /// Least recently used first.
     all: VecDeque<(K, V)>,
 }
 
 impl<K: PartialEq, V> LruCache<K, V> {
-    /// Nothing is kept yet.
+    /// Creates an empty cache.
     pub fn new() -> Self {
         Self { all: VecDeque::with_capacity(KEPT + 1) }
     }
 
-    /// Takes out what is kept under a key.
+    /// Removes and returns the value of a key.
     pub fn take(&mut self, key: &K) -> Option<V> {
         let at = self.all.iter().position(|(known, _)| known == key)?;
         self.all.remove(at).map(|(_, value)| value)
     }
 
-    /// Keeps what was used just now; beyond the last few, what was used longest ago goes.
+    /// Inserts a value as the most recently used and evicts the least recently used one if the cache is full.
     pub fn put(&mut self, key: K, value: V) {
         self.all.retain(|(known, _)| *known != key);
         self.all.push_back((key, value));
@@ -44,7 +44,7 @@ mod tests {
         for size in 0..KEPT {
             recent.put(size, 'a');
         }
-        // The oldest is used again, so the second goes when one more comes.
+        // The oldest is used again, so the second is evicted next.
         let again = recent.take(&0).unwrap();
         recent.put(0, again);
         recent.put(KEPT, 'b');

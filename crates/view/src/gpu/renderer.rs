@@ -1,4 +1,4 @@
-//! Draws shots of one scene.
+//! Renders shots of a scene.
 
 mod culling;
 mod labels;
@@ -22,35 +22,35 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::catalogue;
 use static_cells::{StaticCell, fixed};
 
-/// The sun's map over the whole site is drawn anew when the sun has moved so far (cosine of a quarter of a degree).
+/// The sun's whole-site shadow map is redrawn after the sun has moved this far (cosine of a quarter of a degree).
 const SUN_MOVED: f64 = 0.999_990_5;
 
-/// What one picture cost.
+/// Draw statistics of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct DrawCounts {
-    /// Triangles sent.
+    /// Number of triangles.
     pub triangles: u64,
-    /// Draw calls.
+    /// Number of draw calls.
     pub draws: u32,
 }
 
 impl DrawCounts {
-    /// Both together.
+    /// Returns the sum of both.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self { triangles: self.triangles + other.triangles, draws: self.draws + other.draws }
     }
 }
 
-/// A scene on the device, and how it is drawn.
+/// A scene on the GPU with its pipelines.
 pub struct Renderer {
     quality: Quality,
     pipelines: Pipelines,
-    /// Compiled when labels are first asked for.
+    /// Compiled on first use of labels.
     labels: Option<LabelPipelines>,
     fixed: Vec<StaticCell>,
     models: Vec<Option<GpuMesh>>,
-    /// How far models reach from their origin, m.
+    /// Distance from each model's origin to its farthest vertex, m.
     reaches_m: Vec<f64>,
     water: Vec<(GpuMesh, CellBounds)>,
     patches: Vec<(u32, wgpu::Buffer, u32)>,
@@ -77,7 +77,7 @@ impl Renderer {
             ..Default::default()
         });
         let noise = noise_texture(gpu);
-        // What only a lean preset reads costs the others nothing.
+        // Tiles that only lean presets read cost nothing in the others.
         let tile = |levels: fn() -> tiles::MipLevels| if quality.lean { tile_texture(gpu, &levels()) } else { noise.clone() };
         let (ground, concrete) = (tile(tiles::ground), tile(tiles::concrete));
         let bind = |data: &wgpu::Buffer| {
@@ -128,18 +128,18 @@ impl Renderer {
         }
     }
 
-    /// What the last picture cost.
+    /// Returns the draw statistics of the last picture.
     #[must_use]
     pub fn counts(&self) -> DrawCounts {
         self.counts
     }
 
-    /// Replaces the scene's defects.
+    /// Replaces the defects of the scene.
     pub fn set_patches(&mut self, gpu: &Gpu, all: &[DefectPatch]) {
         self.patches = patches(gpu, all);
     }
 
-    /// Draws a shot into `target` (a texture of [`wgpu::TextureFormat::Rgba8Unorm`] of the shot's size).
+    /// Draws a shot into `target` (a [`wgpu::TextureFormat::Rgba8Unorm`] texture of the shot's size).
     pub fn draw(&mut self, gpu: &Gpu, shot: &Shot, target: &wgpu::TextureView) {
         self.counts = DrawCounts::default();
         let sun_maps = shadows::sun_maps(&self.quality, &shot.eye, self.bounds_m, shot.sky.sun);
@@ -199,7 +199,7 @@ impl Renderer {
         (sun, lamp): (&[ShadowMap], Option<&ShadowMap>),
         moving: &[(MoverModel, MeshInstances)],
     ) {
-        // One map over the whole site holds what stands still and is kept while the sun stands.
+        // A single whole-site map contains static objects only and is kept while the sun does not move.
         let whole = self.quality.cascades <= 1;
         let kept = whole && self.site_map_sun.is_some_and(|was| was.dot(shot.sky.sun) > SUN_MOVED);
         for (k, map) in sun.iter().chain(lamp).enumerate() {
@@ -253,7 +253,7 @@ impl Renderer {
         counts
     }
 
-    /// Everything solid, look by look.
+    /// Draws all solids, one material group at a time.
     fn draw_solids(
         &self,
         pass: &mut wgpu::RenderPass,
@@ -266,7 +266,7 @@ impl Renderer {
             shown.may_show_cell(&fixed.bounds) && fixed.visible_range.shows(in_lake, fixed.bounds.ball.from_m(eye_m))
         };
         let mut still: Vec<&StaticCell> = self.fixed.iter().filter(shows).collect();
-        // Near things first: what they hide is not shaded.
+        // Front to back: hidden surfaces are not shaded.
         still.sort_by(|a, b| a.bounds.ball.from_m(eye_m).total_cmp(&b.bounds.ball.from_m(eye_m)));
         for (look, pipeline) in pipelines {
             pass.set_pipeline(pipeline);
@@ -279,7 +279,7 @@ impl Renderer {
         }
     }
 
-    /// Defects, each kind by its pipeline.
+    /// Draws the defects, each kind with its pipeline.
     fn draw_patches(&self, pass: &mut wgpu::RenderPass, pipelines: &[(u32, wgpu::RenderPipeline)]) -> DrawCounts {
         let mut counts = DrawCounts::default();
         for (kind, buffer, patches) in &self.patches {
@@ -314,7 +314,7 @@ impl Renderer {
             counts.draws += 1;
             counts.triangles += u64::from(water.triangles());
         }
-        // The lake has kept its depth: no sky is shaded behind it.
+        // The lake has written depth: no sky is shaded behind it.
         pass.set_pipeline(&self.pipelines.sky);
         pass.draw(0..3, 0..1);
         counts.draws += 1;
@@ -328,7 +328,7 @@ impl Renderer {
     }
 }
 
-/// Defects by kind.
+/// Uploads defects by kind.
 fn patches(gpu: &Gpu, all: &[DefectPatch]) -> Vec<(u32, wgpu::Buffer, u32)> {
     let of = |kind: &u32| {
         let same: Vec<DefectPatch> = all.iter().filter(|patch| patch.centre[3] as u32 == *kind).copied().collect();
@@ -338,7 +338,7 @@ fn patches(gpu: &Gpu, all: &[DefectPatch]) -> Vec<(u32, wgpu::Buffer, u32)> {
     catalogue::KINDS.iter().filter_map(of).collect()
 }
 
-/// What moves and is solid.
+/// Returns the solid moving objects.
 fn solids<'a>(
     models: &'a [Option<GpuMesh>],
     moving: &'a [(MoverModel, MeshInstances)],
@@ -356,7 +356,7 @@ fn uniform(gpu: &Gpu, size: usize) -> wgpu::Buffer {
     })
 }
 
-/// All shadow maps; at least two layers, or it would be no array to some drivers.
+/// Creates the shadow map array with at least two layers; some drivers do not treat a single layer as an array.
 fn maps_texture(gpu: &Gpu, quality: &Quality) -> wgpu::Texture {
     let layers = (quality.cascades + u32::from(quality.lamp_shadow)).clamp(2, MAPS as u32);
     gpu.device.create_texture(&wgpu::TextureDescriptor {
@@ -371,7 +371,7 @@ fn maps_texture(gpu: &Gpu, quality: &Quality) -> wgpu::Texture {
     })
 }
 
-/// One shadow map: where it is drawn, and its projection.
+/// Returns the view, projection buffer and bind group of a shadow map layer.
 fn layer(gpu: &Gpu, pipelines: &Pipelines, maps: &wgpu::Texture, k: u32) -> (wgpu::TextureView, wgpu::Buffer, wgpu::BindGroup) {
     let view = maps.create_view(&wgpu::TextureViewDescriptor {
         dimension: Some(wgpu::TextureViewDimension::D2),

@@ -1,30 +1,30 @@
-//! Textures that a picture of one size is made in.
+//! Render targets for one picture size.
 
 use super::device::Gpu;
 use super::pipelines::{DEPTH, LIGHT, Pipelines};
 use crate::quality::Quality;
 
-/// Textures and what binds them.
+/// Render targets and their bind groups.
 pub struct RenderTargets {
-    /// Light, with all samples.
+    /// Radiance, multisampled.
     pub light: wgpu::TextureView,
-    /// Light, one sample a pixel; `None` when that is [`Self::light`] itself.
+    /// Radiance, one sample per pixel; `None` if [`Self::light`] is not multisampled.
     pub resolved: Option<wgpu::TextureView>,
     /// Depth.
     pub depth: wgpu::TextureView,
-    /// What the water mirrors.
+    /// Water reflection.
     pub mirror: wgpu::TextureView,
-    /// Its depth.
+    /// Depth of the water reflection.
     pub mirror_depth: wgpu::TextureView,
-    /// For the shader `water`.
+    /// Bind group of the shader `water`.
     pub water: wgpu::BindGroup,
-    /// For the shader `develop`.
+    /// Bind group of the shader `develop`.
     pub develop: wgpu::BindGroup,
-    /// What `develop` reads of the shot.
+    /// Uniforms of `develop`.
     pub develop_data: wgpu::Buffer,
 }
 
-/// A texture to draw into and to read.
+/// Creates a texture to render to and sample.
 pub fn texture(gpu: &Gpu, size: (u32, u32), format: wgpu::TextureFormat, samples: u32) -> wgpu::TextureView {
     let descriptor = wgpu::TextureDescriptor {
         label: None,
@@ -40,7 +40,7 @@ pub fn texture(gpu: &Gpu, size: (u32, u32), format: wgpu::TextureFormat, samples
 }
 
 impl RenderTargets {
-    /// For pictures of one size.
+    /// Creates the targets for a picture size.
     pub fn new(gpu: &Gpu, pipelines: &Pipelines, quality: &Quality, size: (u32, u32)) -> Self {
         let light = texture(gpu, size, LIGHT, quality.samples);
         let resolved = (quality.samples > 1).then(|| texture(gpu, size, LIGHT, 1));
@@ -77,13 +77,13 @@ impl RenderTargets {
     }
 }
 
-/// The tile of noise.
+/// Creates the noise texture.
 pub fn noise_texture(gpu: &Gpu) -> wgpu::TextureView {
     let levels: Vec<_> = crate::noise::levels().into_iter().map(|level| (level.side, level.rgba)).collect();
     tile_texture(gpu, &levels)
 }
 
-/// A tile of four channels with its means, finest first.
+/// Creates a four-channel tile texture with mipmaps, finest first.
 pub fn tile_texture(gpu: &Gpu, levels: &[(usize, Vec<u8>)]) -> wgpu::TextureView {
     let side = |px: usize| wgpu::Extent3d { width: px as u32, height: px as u32, depth_or_array_layers: 1 };
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {

@@ -1,4 +1,4 @@
-//! What the shaders read, byte for byte as they declare it (common.wgsl, develop.wgsl).
+//! Uniform structures, with the layouts declared in the shaders (common.wgsl, develop.wgsl).
 
 use super::super::matrix::Matrix;
 use super::super::quality::Quality;
@@ -8,12 +8,12 @@ use nalgebra::Matrix4;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
-/// Shadow maps that a shader can hold.
+/// Maximum number of shadow maps in a shader.
 pub const MAPS: usize = 5;
-/// Haze: light lost per metre (estimate: 12 km of visual range, Koschmieder's 3.9 over it).
+/// Haze: extinction per meter (estimate: 12 km of visual range, Koschmieder's 3.9 divided by it).
 const HAZE_PER_M: f64 = 3.9 / 12_000.0;
 
-/// `Globals`.
+/// Uniforms `Globals`.
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct Globals {
@@ -35,7 +35,7 @@ pub struct Globals {
     shadow_proj: [[[f32; 4]; 4]; MAPS],
 }
 
-/// `DevelopUniforms`.
+/// Uniforms `DevelopUniforms`.
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct DevelopUniforms {
@@ -53,16 +53,16 @@ fn colour(rgb: [f64; 3], last: f64) -> [f32; 4] {
     [rgb[0] as f32, rgb[1] as f32, rgb[2] as f32, last as f32]
 }
 
-/// What a shot's maps are.
+/// Shadow maps of a shot.
 pub struct ShadowMaps<'a> {
-    /// Of the sun.
+    /// Maps of the sun.
     pub sun: &'a [ShadowMap],
-    /// Of the lamp.
+    /// Map of the lamp.
     pub lamp: Option<&'a ShadowMap>,
 }
 
 impl Globals {
-    /// For a shot, or for what the water at `water_m` mirrors of it.
+    /// Returns the globals of a shot, or of its reflection in the water at `water_m`.
     pub fn new(shot: &Shot, water_m: f64, maps: &ShadowMaps, mirrored: bool) -> Self {
         let flip = |v: Vec3<Enu>| if mirrored { Vec3::new(v.east(), v.north(), -v.up()) } else { v };
         let eye_m = shot.eye.position_m;
@@ -108,7 +108,7 @@ impl Globals {
 }
 
 impl DevelopUniforms {
-    /// For a shot.
+    /// Returns the uniforms of a shot.
     pub fn new(shot: &Shot, quality: &Quality) -> Self {
         let now = shot.eye.view_projection(shot.aspect());
         let moved = shot.finish.before.filter(|_| quality.blur_taps > 1);
@@ -118,7 +118,7 @@ impl DevelopUniforms {
             Some(before.view_projection(shot.aspect()).after(&Matrix(rows)))
         });
         let taps = if reproject.is_some() { quality.blur_taps } else { 1 };
-        // Another grain in every picture, the same for the same instant.
+        // Noise differs between pictures but is reproducible for the same time.
         let number = (shot.time_s * 1000.0).rem_euclid(1e6).round();
         let (width, height) = shot.size_px;
         Self {

@@ -1,4 +1,4 @@
-//! Upper right: a battery that empties, a number, and a shape for its state.
+//! Battery display at the upper right: level bar, percentage, and an icon for the state.
 
 use super::icons::IconShape;
 use super::layout::{EDGE, MIDDLE};
@@ -6,24 +6,24 @@ use super::pane::Pane;
 use super::state::Hud;
 use super::{DrawItem, HudColor, TextAlign};
 
-/// Width and height of its panel.
+/// Width and height of the panel.
 pub const WIDE: f64 = 0.27;
 const HIGH: f64 = 0.075;
-/// Flashes this often, Hz (two a second: seen, and far below what harms).
+/// Blink rate, Hz (noticeable, and well below rates that can trigger seizures).
 const FLASH_HZ: f64 = 2.0;
 
-/// What a charge looks like.
+/// Appearance of a battery level.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChargeStyle {
-    /// Colour of everything.
+    /// Color of all elements.
     pub colour: HudColor,
-    /// Its shape.
+    /// Icon shape.
     pub shape: IconShape,
-    /// It flashes, and is away just now.
+    /// Whether a blinking element is currently off.
     pub dark: bool,
 }
 
-/// The look of a charge in %.
+/// Returns the appearance for a battery level in %.
 pub fn charge(hud: &Hud, pct: f64) -> ChargeStyle {
     let (colour, shape) = if pct >= hud.green_pct {
         (HudColor::Green, IconShape::Disc)
@@ -56,7 +56,7 @@ pub fn battery(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     items
 }
 
-/// A battery with its left edge here, filled by a share.
+/// Draws a battery with its left edge at this position, filled to a fraction.
 fn battery_outline(pane: Pane, (low, y): (f64, f64), filled: Option<f64>, colour: HudColor) -> Vec<DrawItem> {
     let (high, half, inset) = (low + 0.08, 0.017, 0.004);
     let box_of =

@@ -1,22 +1,22 @@
-//! Symbols that tell by their shape alone: who cannot tell the colours apart reads the same.
+//! Icons that differ in shape as well as color, for users with color vision deficiency.
 
 use super::{DrawItem, HudColor, ScreenPoint, at};
 use spandrel_model::math;
 
-/// Shapes, from harmless to grave.
+/// Icon shapes in order of severity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum IconShape {
-    /// All is well, or worth knowing.
+    /// Normal or informational.
     Disc,
-    /// Take care.
+    /// Caution.
     Triangle,
-    /// Danger near.
+    /// Imminent danger.
     Diamond,
     /// Stop.
     Octagon,
 }
 
-/// A symbol with a dark rim; `size` is its height as a share of the picture's.
+/// Returns an icon with a dark outline; `size` is a fraction of the picture's height.
 pub fn symbol(shape: IconShape, middle: ScreenPoint, size: f64, aspect: f64, colour: HudColor) -> Vec<DrawItem> {
     let ring = |count: u32, turn: f64, radius: f64| -> Vec<ScreenPoint> {
         (0..count)

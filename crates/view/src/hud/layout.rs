@@ -1,4 +1,4 @@
-//! Where everything stands. Sizes and places are in units of `Pane`: shares of the height of a picture that is not narrow.
+//! Layout of the HUD. Sizes and positions are in units of `Pane`: fractions of the height, unless the picture is narrow.
 
 use super::battery::battery;
 use super::map::map;
@@ -11,22 +11,22 @@ use super::{DrawItem, HudColor, TextAlign};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::numbers::format_beside_limit;
 
-/// Distance of blocks from the picture's edges.
+/// Margin between blocks and the edges of the picture.
 pub(super) const EDGE: f64 = 0.025;
-/// Least distance of blocks from each other.
+/// Minimum gap between blocks.
 pub(super) const GAP: f64 = 0.01;
-/// Type sizes.
+/// Font sizes.
 const LARGE: f64 = 0.052;
 pub(super) const MIDDLE: f64 = 0.034;
 pub(super) const SMALL: f64 = 0.027;
-/// Type smaller than this is not read in flight, px (estimate: capitals of 6.5 px; in a picture 360 px high it is 9.7).
+/// Smallest legible font size in flight, px (estimate: capitals of 6.5 px; in a picture 360 px high the size is 9.7 px).
 const LEAST_PX: f64 = 9.5;
-/// Metres a second in a mile an hour.
+/// Meters per second in one mile per hour.
 pub(super) const M_S_PER_MPH: f64 = spandrel_model::math::M_S_PER_MPH;
-/// Share of the picture, from its middle, in which a defect counts.
+/// Central fraction of the picture in which a defect counts.
 const CENTRAL: f64 = 0.8;
 
-/// Everything on the display for a picture of this aspect (width over height).
+/// Returns all HUD items for a picture with this aspect ratio (width over height).
 #[must_use]
 pub fn layout(hud: &Hud, aspect: f64) -> Vec<DrawItem> {
     let pane = Pane::of(aspect);
@@ -40,15 +40,15 @@ pub fn layout(hud: &Hud, aspect: f64) -> Vec<DrawItem> {
     items
 }
 
-/// The same for a picture that has this size on the screen, px (of a screen of usual density): one that is too small for everything shows
-/// what is needed at once.
+/// Returns the HUD items for a picture of this size, px (at standard pixel density). A picture that is too small for all items
+/// shows only the essential ones.
 #[must_use]
 pub fn layout_px(hud: &Hud, (width, height): (f64, f64)) -> Vec<DrawItem> {
     let size_px = (width.max(1.0), height.max(1.0));
     if SMALL * Pane::unit(size_px) >= LEAST_PX { layout(hud, size_px.0 / size_px.1) } else { brief(hud, size_px) }
 }
 
-/// The middle, and the part of the picture in which a defect counts; below everything else.
+/// Crosshair and the part of the picture in which a defect counts; drawn below everything else.
 fn frame(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let mut items = Vec::new();
     let (low, high, arm) = (0.5 - 0.5 * CENTRAL, 0.5 + 0.5 * CENTRAL, 0.035);
@@ -64,13 +64,13 @@ fn frame(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     items
 }
 
-/// The speed, and its colour.
+/// Speed text and color.
 pub(super) fn speed_words(hud: &Hud) -> (HudColor, String) {
     let fast = hud.cues & cue::SPEEDING != 0;
     (if fast { HudColor::Yellow } else { HudColor::White }, format!("{:.1} m/s", hud.speed_m_s))
 }
 
-/// Upper left.
+/// Speed block, upper left.
 fn speed(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let inner = EDGE + 0.016;
     let mph = |m_s: f64| m_s / M_S_PER_MPH;
@@ -86,7 +86,7 @@ fn speed(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     ]
 }
 
-/// Below the battery: heights, distances, gimbal, time, lamp, pictures.
+/// Values below the battery: height, distance from home, gimbal, time, lamp, pictures.
 fn numbers(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let (right, top) = (pane.width - EDGE, EDGE + 0.085);
     let left = hud.left_s.max(0.0);

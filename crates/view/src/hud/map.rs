@@ -1,4 +1,4 @@
-//! The small map: reference paths, pad and drone, north up.
+//! Inset map: reference paths, landing pad and drone, north up.
 
 use super::pane::Pane;
 use super::state::Hud;
@@ -6,25 +6,25 @@ use super::{DrawItem, HudColor, TextAlign};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
-/// Half the map's side.
+/// Half the side length of the map.
 const HALF: f64 = 0.135;
-/// Middle of the map, from the right and lower edges.
+/// Distance of the map's center from the right and bottom edges.
 const FROM_EDGE: f64 = 0.16;
-/// A label's type, height and width.
+/// Font size, height and width of a label.
 const TYPE: f64 = 0.022;
 const HIGH: f64 = 0.02;
 const WIDE: f64 = 0.018;
-/// Room around what is shown, as a share.
+/// Margin factor around the displayed content.
 const ROOM: f64 = 1.12;
-/// The map shows at least this far from its middle, m.
+/// Minimum distance shown from the center, m.
 const LEAST_M: f64 = 20.0;
 
-/// The map's left edge, if there is a map.
+/// Left edge of the map, if it is shown.
 pub fn left(hud: &Hud, pane: Pane) -> Option<f64> {
     (!hud.tracks.is_empty()).then_some(pane.width - FROM_EDGE - HALF)
 }
 
-/// The map's items.
+/// Returns the items of the map.
 pub fn map(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     if hud.tracks.is_empty() {
         return Vec::new();
@@ -50,7 +50,7 @@ pub fn map(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     items
 }
 
-/// Where a place in the world stands on a map with this middle, so that all that is shown fits.
+/// Returns the projection from world to map coordinates that fits everything shown.
 fn scale(hud: &Hud, (x, y): (f64, f64)) -> impl Fn(Vec3<Enu>) -> (f64, f64) {
     let shown = hud.tracks.iter().flat_map(|t| t.path_m.iter().copied()).chain([hud.pad_m, hud.position_m]);
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
@@ -66,7 +66,7 @@ fn scale(hud: &Hud, (x, y): (f64, f64)) -> impl Fn(Vec3<Enu>) -> (f64, f64) {
     move |p| (x + share(p.east(), 0), y - share(p.north(), 1))
 }
 
-/// The place of a label: where it belongs, or beside those that stand there: to their right, or to their left where the map ends.
+/// Returns a label position that does not overlap others: the given place, or shifted right, or left at the map's edge.
 fn beside(labels: &[(f64, f64)], place: (f64, f64), right_most: f64) -> (f64, f64) {
     let covered = |here: (f64, f64)| {
         let covers = |there: &(f64, f64)| (there.0 - here.0).abs() < WIDE - 1e-9 && (there.1 - here.1).abs() < HIGH;
@@ -83,7 +83,7 @@ fn beside(labels: &[(f64, f64)], place: (f64, f64), right_most: f64) -> (f64, f6
     if right.0 <= right_most { right } else { walk(-WIDE) }
 }
 
-/// A dart that points along the heading.
+/// Arrowhead along the heading.
 fn arrow(tip: (f64, f64), heading_rad: f64) -> [(f64, f64); 3] {
     let (s, c) = math::sin_cos(heading_rad);
     [(0.0, 0.016), (0.010, -0.011), (-0.010, -0.011)].map(|(x, y): (f64, f64)| (tip.0 + (x * c + y * s), tip.1 - (y * c - x * s)))

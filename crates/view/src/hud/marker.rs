@@ -1,4 +1,4 @@
-//! In the inspector's view: where the drone is, small as it may look.
+//! Marker for the drone's position in the inspector's view.
 
 use super::super::camera::PinholeCamera;
 use super::text_metrics::width_of;
@@ -6,14 +6,15 @@ use super::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
-/// Half the bracket's side as a share of the picture's height, at least.
+/// Minimum half side of the bracket, as a fraction of the picture's height.
 const LEAST: f64 = 0.022;
-/// Height of the type as a share of the picture's height.
+/// Font size, as a fraction of the picture's height.
 const TYPE: f64 = 0.026;
-/// The bracket is this much wider than the drone, m from its centre.
+/// Half side of the bracket around the drone's center, m.
 const ROOM_M: f64 = 0.6;
 
-/// A bracket around the drone with its distance; nothing when it is outside the picture. Grey and dashed where something stands before it.
+/// Returns a bracket around the drone with its distance; empty if it is outside the picture. Gray and dashed if an object hides
+/// it.
 #[must_use]
 pub fn marker(eye: &PinholeCamera, aspect: f64, drone_m: Vec3<Enu>, hidden: bool) -> Vec<DrawItem> {
     let clip = eye.view_projection(aspect).apply(drone_m);
@@ -45,7 +46,7 @@ pub fn marker(eye: &PinholeCamera, aspect: f64, drone_m: Vec3<Enu>, hidden: bool
         .collect();
     let words = format!("{distance_m:.0} m{}", if hidden { ", hidden" } else { "" });
     let place = at(middle.x, (middle.y + half + 0.022).min(0.98));
-    // A pale sky is as bright as the words.
+    // The background keeps the text legible against a bright sky.
     let ground = (0.5 * (width_of(&words, TYPE) + 0.4 * TYPE) / aspect, 0.6 * TYPE);
     let side = |sign: f64| at(place.x + sign * ground.0, place.y + sign * ground.1);
     items.push(DrawItem::Panel { from: side(-1.0), to: side(1.0), colour: HudColor::Shade });

@@ -1,4 +1,4 @@
-//! Lower left: warnings, the gravest at the bottom.
+//! Warnings at the lower left, the most serious lowest.
 
 use super::icons::IconShape;
 use super::layout::{EDGE, GAP, M_S_PER_MPH, MIDDLE};
@@ -8,32 +8,32 @@ use super::text_metrics::{width_of, wrapped};
 use super::{DrawItem, HudColor, TextAlign, map};
 use spandrel_mavlink::contract::cue;
 
-/// Width of a sign, mean of capitals.
+/// Mean width of a capital letter.
 const SIGN: f64 = 0.0205;
-/// From a message's left edge to its words: its symbol stands there.
+/// Left padding of a message, which contains its icon.
 const INDENT: f64 = 0.07;
-/// And from the end of its words to its right edge.
+/// Right padding of a message.
 const MARGIN: f64 = 0.015;
-/// Height of a message of one line, and of each further line.
+/// Height of a single-line message, and of each additional line.
 const HIGH: f64 = 0.06;
 const STEP: f64 = 0.045;
-/// Who reads more lines than this does not fly.
+/// Maximum number of lines: longer texts cannot be read in flight.
 const LINES: usize = 2;
 
-/// A cue that is on.
+/// An active cue.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ActiveCue {
-    /// Its shape.
+    /// Icon shape.
     pub shape: IconShape,
-    /// Its colour.
+    /// Color.
     pub colour: HudColor,
-    /// What it says.
+    /// Text.
     pub text: &'static str,
-    /// And more exactly.
+    /// Additional detail.
     pub more: Option<String>,
 }
 
-/// Cues that are on, the gravest first.
+/// Returns the active cues, the most serious first.
 pub fn warnings(hud: &Hud) -> Vec<ActiveCue> {
     let limit = format!("limit {:.0} mph", hud.limit_m_s / M_S_PER_MPH);
     let all = [

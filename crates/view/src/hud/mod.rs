@@ -1,6 +1,6 @@
-//! The head-up display of the camera view: a pure function from what telemetry says to things to draw, placed as
-//! docs/src/reference/assessment.md, "Feedback during the flight", has them (speed upper left, battery upper right, messages
-//! lower left). Whoever draws needs to know nothing of what they mean.
+//! Head-up display of the camera view: a pure function from telemetry to draw items, laid out as in
+//! docs/src/reference/assessment.md, "Feedback during the flight" (speed upper left, battery upper right, messages lower left).
+//! Renderers need no knowledge of what the items mean.
 
 mod battery;
 mod icons;
@@ -23,52 +23,52 @@ pub use marker::marker;
 pub use state::{GnssStatus, Hud, MapPath};
 pub use status::SILENT_S;
 
-/// A place in the picture: 0..1 to the right and down.
+/// A position in the picture, as fractions of its width and height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScreenPoint {
-    /// To the right.
+    /// From the left edge.
     pub x: f64,
-    /// Down.
+    /// From the top edge.
     pub y: f64,
 }
 
-/// A place.
+/// Creates a position.
 #[must_use]
 pub const fn at(x: f64, y: f64) -> ScreenPoint {
     ScreenPoint { x, y }
 }
 
-/// Colours: safe to tell apart for the colour-blind (after Okabe and Ito), and never the only sign.
+/// HUD colors: distinguishable with color vision deficiency (after Okabe and Ito) and never the only cue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum HudColor {
     /// Text and lines.
     White,
-    /// Lesser text.
+    /// Secondary text.
     Grey,
-    /// Behind text; half transparent.
+    /// Background of text; half transparent.
     Shade,
-    /// All is well.
+    /// Normal.
     Green,
-    /// Take care.
+    /// Caution.
     Yellow,
-    /// Act now.
+    /// Immediate action required.
     Red,
-    /// Worth knowing.
+    /// Information.
     Blue,
     /// Too close.
     Orange,
-    /// Outlines of symbols.
+    /// Icon outlines.
     Black,
-    /// The ground of a page.
+    /// Background of a page.
     Night,
-    /// A field on it.
+    /// Input field on a page.
     Card,
-    /// The field that the keys act on.
+    /// Focused field.
     Focus,
 }
 
 impl HudColor {
-    /// Red, green, blue, opacity in sRGB.
+    /// Returns red, green, blue and opacity in sRGB.
     #[must_use]
     pub const fn rgba(self) -> [u8; 4] {
         match self {
@@ -88,56 +88,56 @@ impl HudColor {
     }
 }
 
-/// Which end of a text stands at its place.
+/// Horizontal alignment of a text at its position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TextAlign {
-    /// Its left end.
+    /// Left-aligned.
     Left,
-    /// Its middle.
+    /// Centered.
     Middle,
-    /// Its right end.
+    /// Right-aligned.
     Right,
 }
 
-/// One thing to draw, in the order of drawing. Heights and widths of strokes are shares of the picture's height.
+/// An item to draw, in drawing order. Font sizes and stroke widths are fractions of the picture's height.
 #[derive(Debug, Clone, PartialEq)]
 pub enum DrawItem {
     /// A rectangle with rounded corners.
     Panel {
-        /// Upper left.
+        /// Upper left corner.
         from: ScreenPoint,
-        /// Lower right.
+        /// Lower right corner.
         to: ScreenPoint,
-        /// Fill.
+        /// Fill color.
         colour: HudColor,
     },
-    /// A line of text, centred upright on its place.
+    /// A line of text, vertically centered on its position.
     Text {
-        /// Where.
+        /// Position.
         place: ScreenPoint,
-        /// Which end is there.
+        /// Horizontal alignment.
         side: TextAlign,
-        /// Height of the type.
+        /// Font size.
         height: f64,
-        /// Colour.
+        /// Color.
         colour: HudColor,
-        /// What it says.
+        /// Text.
         words: String,
     },
-    /// A filled convex outline.
+    /// A filled convex polygon.
     Fill {
         /// Corners.
         points: Vec<ScreenPoint>,
-        /// Fill.
+        /// Fill color.
         colour: HudColor,
     },
-    /// A line through points.
+    /// A polyline.
     Line {
         /// Points.
         points: Vec<ScreenPoint>,
-        /// Width of the stroke.
+        /// Stroke width.
         width: f64,
-        /// Colour.
+        /// Color.
         colour: HudColor,
     },
 }

@@ -1,4 +1,4 @@
-//! Nothing on the display lies over anything else, in pictures of any shape and size.
+//! Tests that HUD items do not overlap, in pictures of any aspect ratio and size.
 
 use super::tests::{ALL_CUES, hud};
 use super::text_metrics::width_of;
@@ -6,13 +6,13 @@ use super::*;
 use crate::arrange::{ViewKind, ViewLayout};
 use spandrel_model::frames::Vec3;
 
-/// A rectangle in the picture's measure: left, top, right, bottom, in heights.
+/// A rectangle: left, top, right, bottom, in units of the picture's height.
 type PictureRect = [f64; 4];
 
-/// Rounding.
+/// Rounding tolerance.
 const NOTHING: f64 = 1e-9;
 
-/// A block of the display: its ground, and what stands on it.
+/// A block of the HUD: its background and contents.
 #[derive(Debug)]
 struct DisplayBlock {
     ground: PictureRect,
@@ -36,7 +36,7 @@ fn written(place: ScreenPoint, side: TextAlign, height: f64, words: &str, aspect
     [left, place.y - 0.5 * height, left + wide, place.y + 0.5 * height]
 }
 
-/// The display's blocks; the frame below them all belongs to the picture.
+/// Returns the HUD's blocks; the frame below them belongs to the picture.
 fn blocks(items: Vec<DrawItem>, aspect: f64) -> Vec<DisplayBlock> {
     let mut found: Vec<DisplayBlock> = Vec::new();
     for item in items {
@@ -70,7 +70,7 @@ fn holds(outer: &PictureRect, inner: &PictureRect) -> bool {
         && inner[3] <= outer[3] + NOTHING
 }
 
-/// An area of a camera's picture in a window of that shape, shares of its width and height.
+/// Converts a rectangle of a camera picture to fractions of a window with this aspect ratio.
 fn in_window(area: &PictureRect, lens: f64, window: f64) -> PictureRect {
     let [camera, _] = ViewLayout::Camera.places();
     assert_eq!(camera.which, ViewKind::Camera);
@@ -79,7 +79,7 @@ fn in_window(area: &PictureRect, lens: f64, window: f64) -> PictureRect {
     [x(area[0]), y(area[1]), x(area[2]), y(area[3])]
 }
 
-/// The map is one picture: its paths cross, and their numbers stand on them.
+/// Checks whether the block is the map, whose paths and numbers may overlap.
 fn is_map(block: &DisplayBlock) -> bool {
     block.texts.iter().any(|(_, words)| words == "N")
 }
@@ -99,7 +99,7 @@ fn check_block(block: &DisplayBlock, what: &str) {
         assert!(block.shapes.iter().all(|shape| apart(place, shape)), "{what}: '{words}' lies over a shape");
     }
     for (k, one) in block.shapes.iter().enumerate() {
-        // A rim holds what it is around, a battery its charge.
+        // An outline may contain a shape, a battery its charge.
         let fine = |other: &PictureRect| apart(one, other) || holds(one, other) || holds(other, one);
         assert!(block.shapes[..k].iter().all(fine), "{what}: shapes of one block lie over each other");
     }
@@ -116,7 +116,7 @@ fn check(items: Vec<DrawItem>, aspect: f64, what: &str) {
     }
 }
 
-/// Every state with the longest words that it can have (the wire's texts have 50 signs), with and without the map.
+/// Returns HUD states with the longest possible texts (telemetry texts have at most 50 bytes), with and without the map.
 fn states() -> Vec<(&'static str, Hud)> {
     let dark = |satellites| Some(GnssStatus { fixed: false, satellites });
     let hit = |words: &str| Hud { cues: ALL_CUES, hit: Some(words.to_owned()), ..hud() };
@@ -183,7 +183,7 @@ fn prop_nothing_lies_over_anything_else_in_pictures_of_any_size() {
 
 #[test]
 fn prop_the_windows_own_words_cover_nothing_of_the_large_cameras_display() {
-    // Six lines of the window's type with their ground; from the picture's middle on a pilot aims.
+    // Six lines of the window's font with their background; the pilot aims from the center of the picture on.
     const WORDS: f64 = 0.2;
     let words = ViewLayout::Camera.words();
     let [_, eyes] = ViewLayout::Camera.places();
@@ -193,7 +193,8 @@ fn prop_the_windows_own_words_cover_nothing_of_the_large_cameras_display() {
     for (name, state) in states() {
         for window in [1.0, 4.0 / 3.0, 16.0 / 10.0, 16.0 / 9.0, 21.0 / 9.0] {
             for lens in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
-                // In a square window, where a wide picture begins lower, mode and link may be covered for a while; warnings stay free.
+                // In a square window, where a wide picture starts lower, mode and link may be covered briefly; warnings stay
+                // visible.
                 let counts = |block: &DisplayBlock| window > 1.0 || block.ground[1] > 0.5;
                 for block in blocks(layout(&state, lens), lens).into_iter().filter(counts) {
                     let covered = !apart(&in_window(&block.ground, lens, window), &room);

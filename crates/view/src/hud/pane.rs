@@ -1,13 +1,13 @@
-//! A picture in the display's own measure: places from its upper left corner, sizes in one unit for both directions.
+//! Coordinate system of the HUD: positions from the upper left corner, one unit for both directions.
 
 use super::icons::{self, IconShape};
 use super::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
 
-/// In pictures of this shape (width over height) and wider ones all blocks fit beside each other at their full size; in narrower ones
-/// everything shrinks with the width.
+/// Aspect ratio (width over height) from which all blocks fit at full size; in narrower pictures everything scales with the
+/// width.
 const FULL_ASPECT: f64 = 4.0 / 3.0;
 
-/// A picture's sides in units of the display. A place is how far to the right and how far down.
+/// Size of a picture in HUD units. Positions are measured to the right and down.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pane {
     /// Width.
@@ -17,28 +17,28 @@ pub struct Pane {
 }
 
 impl Pane {
-    /// For a shape: the unit is the height, less where the picture is narrow.
+    /// Creates the pane for an aspect ratio: the unit is the height, or less for a narrow picture.
     pub fn of(aspect: f64) -> Self {
         let unit = (aspect / FULL_ASPECT).min(1.0);
         Self { width: aspect / unit, height: 1.0 / unit }
     }
 
-    /// The unit of [`Self::of`] for a picture of a size, in the measure of that size.
+    /// Returns the unit of [`Self::of`] for a picture size, in the unit of that size.
     pub fn unit((width, height): (f64, f64)) -> f64 {
         height.min(width / FULL_ASPECT)
     }
 
-    /// A size as a share of the picture's height.
+    /// Converts a size to a fraction of the picture's height.
     pub fn share(self, size: f64) -> f64 {
         size / self.height
     }
 
-    /// A place as shares of the picture.
+    /// Converts a position to fractions of the picture.
     pub fn at(self, (x, y): (f64, f64)) -> ScreenPoint {
         at(x / self.width, y / self.height)
     }
 
-    /// The ground of a block, from its upper left to its lower right corner.
+    /// Background of a block, from its upper left to its lower right corner.
     pub fn panel(self, from: (f64, f64), to: (f64, f64)) -> DrawItem {
         DrawItem::Panel { from: self.at(from), to: self.at(to), colour: HudColor::Shade }
     }
@@ -48,17 +48,17 @@ impl Pane {
         DrawItem::Text { place: self.at(place), side, height: self.share(size), colour, words: words.into() }
     }
 
-    /// A filled convex outline.
+    /// A filled convex polygon.
     pub fn fill(self, points: &[(f64, f64)], colour: HudColor) -> DrawItem {
         DrawItem::Fill { points: self.all(points), colour }
     }
 
-    /// A line through points.
+    /// A polyline.
     pub fn line(self, points: &[(f64, f64)], width: f64, colour: HudColor) -> DrawItem {
         DrawItem::Line { points: self.all(points), width: self.share(width), colour }
     }
 
-    /// A symbol with a dark rim.
+    /// An icon with a dark outline.
     pub fn symbol(self, shape: IconShape, middle: (f64, f64), size: f64, colour: HudColor) -> Vec<DrawItem> {
         icons::symbol(shape, self.at(middle), self.share(size), self.width / self.height, colour)
     }

@@ -1,5 +1,4 @@
-//! The display of a picture that is too small for all of it: speed, battery and what is wrong, in type that can be read.
-//! Its unit is the height of its type.
+//! Reduced HUD for small pictures: speed, battery and warnings in a legible font size. The unit is the font size.
 
 use super::battery::{ChargeStyle, charge};
 use super::icons::IconShape;
@@ -11,24 +10,24 @@ use super::status::alarm;
 use super::text_metrics::width_of;
 use super::{DrawItem, HudColor, TextAlign};
 
-/// Height of type that is legible at a glance, px (estimate: capitals of 8 px).
+/// Font size that is legible at a glance, px (estimate: capitals of 8 px).
 const LEGIBLE_PX: f64 = 12.0;
-/// Height of the type as a share of the picture's, where that is more.
+/// Font size as a fraction of the picture's height, where that is larger.
 const SHARE: f64 = 0.05;
-/// What stands beside each other at most (speed and battery), and one below the other at least (with a lost link and a crash): in smaller
-/// pictures the type shrinks after all.
+/// Width of speed and battery next to each other, and height of the rows of a lost link and a crash, in units of the font
+/// size; in smaller pictures the font shrinks.
 const MOST_WIDE: f64 = 12.0;
 const LEAST_HIGH: f64 = 6.0;
-/// Distance from the picture's edges, and of blocks from each other.
+/// Margin at the edges of the picture, and gap between blocks.
 const EDGE: f64 = 0.35;
 const GAP: f64 = 0.15;
-/// Height of a block, room at its ends, width and height of its symbol.
+/// Height of a block, horizontal padding, width and height of its icon.
 const ROW: f64 = 1.5;
 const INSET: f64 = 0.4;
 const SIGN: f64 = 1.3;
 const SYMBOL: f64 = 0.8;
 
-/// The display for a picture of this size on the screen, px.
+/// Returns the HUD items for a picture of this size, px.
 pub fn brief(hud: &Hud, (width_px, height_px): (f64, f64)) -> Vec<DrawItem> {
     let wanted_px = (SHARE * Pane::unit((width_px, height_px))).max(LEGIBLE_PX);
     let type_px = wanted_px.min(width_px / MOST_WIDE).min(height_px / LEAST_HIGH);
@@ -63,7 +62,7 @@ fn width(words: &str, signed: bool) -> f64 {
     2.0 * INSET + width_of(words, 1.0) + if signed { SIGN } else { 0.0 }
 }
 
-/// Words on their ground, after a symbol if there is one, which may be away just now.
+/// Draws text on a background, after an optional icon that may currently be off (blinking).
 fn block(pane: Pane, (x, y): (f64, f64), sign: Option<(IconShape, bool)>, colour: HudColor, words: &str) -> Vec<DrawItem> {
     let middle = y + 0.5 * ROW;
     let mut items = vec![pane.panel((x, y), (x + width(words, sign.is_some()), y + ROW))];

@@ -1,39 +1,39 @@
-//! What the head-up display tells.
+//! Inputs of the head-up display.
 
 use spandrel_model::frames::{Enu, Vec3};
 
-/// Fix and satellites.
+/// GNSS fix and satellite count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct GnssStatus {
-    /// Has a fix in three dimensions.
+    /// Whether there is a 3D fix.
     pub fixed: bool,
-    /// Satellites used, as the wire counts them: [`Self::known`].
+    /// Number of satellites as received; see [`Self::known`].
     pub satellites: u8,
 }
 
 impl GnssStatus {
-    /// The wire's count where nobody counts (GPS_RAW_INT.satellites_visible).
+    /// Value of GPS_RAW_INT.satellites_visible if the count is unknown.
     const UNKNOWN: u8 = 255;
 
-    /// Satellites used, if that is known.
+    /// Returns the number of satellites, if it is known.
     #[must_use]
     pub fn known(self) -> Option<u8> {
         (self.satellites != Self::UNKNOWN).then_some(self.satellites)
     }
 }
 
-/// A task's reference path for the map.
+/// Reference path of a task for the map.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapPath {
-    /// Number for people.
+    /// Display number of the task.
     pub id: u32,
-    /// Points, m.
+    /// Points, ENU, m.
     pub path_m: Vec<Vec3<Enu>>,
-    /// It ends where it begins.
+    /// Whether the path is closed.
     pub closed: bool,
 }
 
-/// Everything on the display; plain data.
+/// Inputs of the HUD as plain data.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hud {
     /// Speed, m/s.
@@ -42,44 +42,44 @@ pub struct Hud {
     pub limit_m_s: f64,
     /// Battery, %.
     pub battery_pct: Option<f64>,
-    /// Battery is green from here, %.
+    /// Battery level from which the display is green, %.
     pub green_pct: f64,
-    /// And yellow from here, %.
+    /// Battery level from which the display is yellow, %.
     pub yellow_pct: f64,
-    /// Mask of cues as `cues` carries it (docs/src/reference/wire.md, "The monitor").
+    /// Mask of active cues, as in `cues` (docs/src/reference/wire.md, "The monitor").
     pub cues: i32,
-    /// What was hit, when the monitor has said so.
+    /// Object that was hit, if the monitor has reported it.
     pub hit: Option<String>,
-    /// Height over the pad, m.
+    /// Height above the pad, m.
     pub height_m: f64,
     /// Horizontal distance from the pad, m.
     pub home_m: f64,
-    /// Mode in words.
+    /// Name of the flight mode.
     pub mode: String,
-    /// Satellite navigation.
+    /// Satellite navigation status.
     pub gnss: Option<GnssStatus>,
-    /// Age of the newest telemetry, s.
+    /// Age of the latest telemetry, s.
     pub silent_s: f64,
     /// Gimbal pitch, rad, up positive.
     pub gimbal_rad: f64,
-    /// Zoom, 1 at the wide end.
+    /// Zoom factor, 1 at the wide end.
     pub zoom: f64,
-    /// The lamp is on.
+    /// Whether the lamp is on.
     pub lamp: bool,
-    /// Left of the flight's time, s.
+    /// Remaining flight time, s.
     pub left_s: f64,
-    /// Pictures taken.
+    /// Number of pictures taken.
     pub pictures: usize,
-    /// A picture was taken just now.
+    /// Whether a picture has just been taken.
     pub shutter: bool,
-    /// What flashes does so by this, s: time that goes on whatever is shown, the wall's where a flight is live.
+    /// Time base of blinking elements, s: never paused; wall-clock time in a live flight.
     pub time_s: f64,
-    /// Where the drone is, m.
+    /// Position of the drone, ENU, m.
     pub position_m: Vec3<Enu>,
     /// Heading, rad clockwise from north.
     pub heading_rad: f64,
-    /// The pad, m.
+    /// Position of the pad, ENU, m.
     pub pad_m: Vec3<Enu>,
-    /// Paths on the map; none: the map is hidden.
+    /// Paths on the map; if empty, the map is hidden.
     pub tracks: Vec<MapPath>,
 }

@@ -1,15 +1,15 @@
-//! Middle of the upper edge: mode, satellites, link.
+//! Status at the top center: flight mode, satellites, link.
 
 use super::layout::{EDGE, GAP, SMALL};
 use super::pane::Pane;
 use super::state::{GnssStatus, Hud};
 use super::{DrawItem, HudColor, TextAlign, battery};
 
-/// Telemetry older than this is a lost link, s.
+/// Telemetry age from which the link counts as lost, s.
 pub const SILENT_S: f64 = 1.5;
-/// Width of a sign: half again as much as the type's mean, the rest is the panel's margin.
+/// Character width: 1.5 times the font's mean; the excess is the panel's padding.
 const SIGN: f64 = 0.017;
-/// Height of the panel with one line, and of each further line.
+/// Height of the panel with one line, and of each additional line.
 const HIGH: f64 = 0.048;
 const STEP: f64 = 0.037;
 
@@ -30,14 +30,14 @@ fn link(hud: &Hud) -> String {
     if is_lost(hud) { format!("LINK LOST {:.0} s", hud.silent_s) } else { "link ok".into() }
 }
 
-/// What is wrong in one short line. Who hears nothing knows nothing of satellites.
+/// Returns the active alarm as a short line. With a lost link, the satellite status is unknown.
 pub fn alarm(hud: &Hud) -> Option<String> {
     if is_lost(hud) { Some(link(hud)) } else { hud.gnss.filter(|gnss| !gnss.fixed).map(satellites) }
 }
 
 pub fn status(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let place = format!("{}   {}", hud.mode, hud.gnss.map_or_else(|| "GNSS ?".to_owned(), satellites));
-    // Between speed and battery, which is the wider one.
+    // Between speed and battery; the battery panel is the wider one.
     let room = pane.width - 2.0 * (EDGE + battery::WIDE + GAP);
     let width = |words: &str| SIGN * words.chars().count() as f64;
     let whole = format!("{place}   {}", link(hud));

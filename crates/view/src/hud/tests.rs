@@ -1,14 +1,14 @@
-//! The words of the display, their colours and places.
+//! Texts of the HUD, their colors and positions.
 
 use super::*;
 use spandrel_mavlink::contract::cue;
 use spandrel_model::frames::Vec3;
 
 const WIDE: f64 = 16.0 / 9.0;
-/// Every cue of the lower left.
+/// All cues of the lower left.
 pub(super) const ALL_CUES: i32 = cue::SPEEDING | cue::OFF_PATH | cue::TOO_CLOSE | cue::CRASH;
 
-/// Calm flight.
+/// HUD of a normal flight.
 pub(super) fn hud() -> Hud {
     Hud {
         speed_m_s: 3.2,
@@ -49,7 +49,7 @@ fn find(hud: &Hud, part: &str) -> Option<(ScreenPoint, HudColor)> {
     texts(hud).into_iter().find(|(_, _, words)| words.contains(part)).map(|(place, colour, _)| (place, colour))
 }
 
-/// Every word of the display with its place in hundredths and its colour.
+/// Returns every text of the HUD with its position in hundredths and its color.
 fn snapshot(hud: &Hud) -> String {
     let line = |(place, colour, words): (ScreenPoint, HudColor, String)| {
         format!("{:3.0} {:3.0} {colour:?}: {words}\n", 100.0 * place.x, 100.0 * place.y)
@@ -131,7 +131,7 @@ fn exact_shapes_differ_where_colours_do() {
     assert_eq!([corners(90.0), corners(50.0), corners(10.0)], [Some(16), Some(3), Some(8)]);
 }
 
-/// What a state says that calm flight does not: colours and words.
+/// Returns the texts and colors of a state that a normal flight does not have.
 fn news(hud: &Hud) -> Vec<String> {
     let said = |hud: &Hud| texts(hud).into_iter().map(|(_, colour, words)| format!("{colour:?}: {words}")).collect::<Vec<_>>();
     let calm = said(&self::hud());
@@ -181,7 +181,7 @@ fn exact_a_small_picture_shows_speed_battery_and_what_is_wrong() {
         };
         layout_px(hud, size_px).into_iter().filter_map(of).collect::<Vec<_>>()
     };
-    // The sizes of the reference pictures, and the camera's place in a small window.
+    // The sizes of the reference pictures, and the camera's rectangle in a small window.
     for (width, height) in [(640.0, 360.0), (480.0, 360.0), (1280.0, 720.0)] {
         assert_eq!(layout_px(&hud(), (width, height)), layout(&hud(), width / height), "{width} x {height}");
     }

@@ -1,6 +1,6 @@
-//! How long words are when they are drawn, so that they can be kept apart: whoever lays out has no font.
+//! Estimates text widths for the layout, which has no access to the font.
 
-/// Width of a sign as a share of the type's height (egui's Ubuntu Light, in classes; a little wide, so that nothing overflows).
+/// Character width as a fraction of the font size (egui's Ubuntu Light, in classes; slightly wide to prevent overflow).
 fn glyph_width(sign: char) -> f64 {
     match sign {
         ' ' => 0.25,
@@ -9,17 +9,17 @@ fn glyph_width(sign: char) -> f64 {
         '0'..='9' => 0.57,
         'A'..='Z' => 0.64,
         sign if sign.is_ascii() => 0.58,
-        // Signs of other scripts are as wide as they are high.
+        // Characters of other scripts are as wide as they are tall.
         _ => 1.0,
     }
 }
 
-/// Width of a line of text in the measure of the type's height.
+/// Width of a line of text in the unit of the font size.
 pub fn width_of(words: &str, height: f64) -> f64 {
     height * words.chars().map(glyph_width).sum::<f64>()
 }
 
-/// The words as far as they fit by a measure, with a sign for what was cut off.
+/// Truncates a text until it fits and appends an ellipsis.
 pub fn cut(words: &str, fits: impl Fn(&str) -> bool) -> String {
     let mut kept = words.to_owned();
     let mut shown = kept.clone();
@@ -29,7 +29,7 @@ pub fn cut(words: &str, fits: impl Fn(&str) -> bool) -> String {
     shown
 }
 
-/// Words broken at spaces into lines that fit, so many at most; what does not fit then is cut off.
+/// Wraps a text at spaces into at most `most` lines that fit; truncates the rest.
 pub fn wrapped(words: &str, most: usize, fits: impl Fn(&str) -> bool) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in words.split(' ') {
@@ -62,7 +62,7 @@ mod tests {
 
     #[test]
     fn exact_lengths_are_those_of_the_font_and_a_little_more() {
-        // Advances of the font's own table, summed, as shares of the type's height.
+        // Sums of the font's own advance widths, as fractions of the font size.
         for (words, em) in [
             ("OFF THE PATH", 6.54),
             ("TOO CLOSE", 5.28),

@@ -1,22 +1,23 @@
-//! Which instant of the vehicle's clock is shown now: a little behind the newest telemetry, so that there is a sample on either side, and
-//! evenly, although datagrams come in bursts and the vehicle's clock may run faster or slower than the wall's.
+//! Playback clock of a live flight: shows the vehicle slightly behind the latest telemetry, so that there is a sample on either
+//! side, and advances smoothly although datagrams arrive in bursts and the vehicle's clock may run faster or slower than wall
+//! time.
 
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// How far behind the newest telemetry the picture is, s of wall time (three samples at 50 Hz; estimate: hides the usual jitter of a local
-/// network and is a tenth of a person's reaction).
+/// Delay of the picture behind the latest telemetry, s of wall time (three samples at 50 Hz; estimate: hides the usual jitter of
+/// a local network and is a tenth of human reaction time).
 pub const BEHIND_S: f64 = 0.06;
-/// The pace of the vehicle's clock is measured over this much wall time.
+/// Wall time window over which the speed of the vehicle's clock is measured.
 const MEASURED_OVER: SimTime = SimTime::from_ms(1_000);
-/// A picture that is this much beside the target, s of wall time, jumps there.
+/// Error from which the playback time jumps to the target, s of wall time.
 const JUMP_S: f64 = 0.5;
-/// Errors smaller than that are made up for within about this time, s.
+/// Time constant with which smaller errors are corrected, s.
 const SETTLE_S: f64 = 0.25;
-/// Silence for this long, s, is no jitter: the picture stands at the newest sample.
+/// Silence from which the picture stops at the latest sample, s; shorter gaps count as jitter.
 const PATIENCE_S: f64 = 0.1;
 
-/// The instant that is shown.
+/// Playback position.
 #[derive(Debug, Clone, Default)]
 pub struct Playhead {
     arrivals: VecDeque<(SimTime, SimTime)>,
@@ -24,7 +25,7 @@ pub struct Playhead {
 }
 
 impl Playhead {
-    /// A newest sample of the vehicle's clock came in at this wall time.
+    /// Records a new latest sample time that arrived at this wall time.
     pub fn handle_sample_time(&mut self, wall: SimTime, newest: SimTime) {
         if self.arrivals.back().is_some_and(|(_, last)| newest <= *last) {
             return;
@@ -37,12 +38,12 @@ impl Playhead {
         }
     }
 
-    /// The vehicle's clock has begun anew.
+    /// Resets the state after a restart of the vehicle's clock.
     pub fn restart(&mut self) {
         *self = Self::default();
     }
 
-    /// Seconds of the vehicle's clock in a second of wall time; 1 until it is known.
+    /// Returns the speed of the vehicle's clock relative to wall time; 1 until it is known.
     #[must_use]
     pub fn pace(&self) -> f64 {
         match (self.arrivals.front(), self.arrivals.back()) {
@@ -51,7 +52,7 @@ impl Playhead {
         }
     }
 
-    /// Moves on to a wall time and gives the instant to show; `None` while nothing has been heard.
+    /// Advances to a wall time and returns the time to show, or `None` before the first sample.
     pub fn advance(&mut self, wall: SimTime) -> Option<SimTime> {
         let (arrived, newest) = *self.arrivals.back()?;
         let pace = self.pace();
@@ -66,7 +67,7 @@ impl Playhead {
                 if error_s.abs() > JUMP_S * pace.max(1.0) {
                     target_s
                 } else {
-                    // Never back: a picture that runs backwards looks broken.
+                    // Never steps back: reversed motion is conspicuous.
                     (even_s + error_s * (step_s / SETTLE_S).min(1.0)).max(shown.s())
                 }
             }
@@ -81,7 +82,7 @@ impl Playhead {
 mod tests {
     use super::*;
 
-    /// Shown instants, s, for pictures every 1/60 s of a clock of this pace whose samples (50 Hz) come so many at once.
+    /// Returns the times shown, s, for pictures every 1/60 s with a clock of this speed whose samples (50 Hz) arrive in bursts.
     fn shown(pace: f64, burst: u32) -> Vec<f64> {
         let mut head = Playhead::default();
         let mut out = Vec::new();
@@ -106,7 +107,7 @@ mod tests {
             let settled = &all[120..];
             for pair in settled.windows(2) {
                 let step = pair[1] - pair[0];
-                // Bursts of 60 ms on a picture of 17 ms: unsmoothed, steps would be 0 or 3.6 times the even one.
+                // With bursts of 60 ms and pictures every 17 ms, unsmoothed steps would be 0 or 3.6 times the nominal step.
                 assert!(step > 0.8 * pace / 60.0 && step < 1.2 * pace / 60.0, "pace {pace}: a step of {step} s");
             }
             let end = settled[settled.len() - 1];

@@ -1,4 +1,4 @@
-//! Poses of a vehicle that says no truth, from its own estimate: ATTITUDE or ATTITUDE_QUATERNION, and GLOBAL_POSITION_INT.
+//! Poses of a vehicle without ground truth, from its own estimate: ATTITUDE or ATTITUDE_QUATERNION, and GLOBAL_POSITION_INT.
 
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::MavMessage;
@@ -6,14 +6,14 @@ use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::time::SimTime;
 
-/// The newest attitude, until a position comes with its time.
+/// Latest attitude, stored until a position arrives with its timestamp.
 #[derive(Debug, Clone, Default)]
 pub struct EstimatedPose {
     ned_from_frd: Option<Rotation<Frd, Ned>>,
 }
 
 impl EstimatedPose {
-    /// Takes a message; a position completes a pose.
+    /// Processes a message; a position completes a pose.
     pub fn take(&mut self, message: &MavMessage, plane: &LocalPlane) -> Option<Truth> {
         match message {
             MavMessage::ATTITUDE(a) => {

@@ -1,5 +1,6 @@
-//! A flight as it is heard over the wire: bytes in, the moment to draw out. One more subscriber of telemetry, so it shows any vehicle that
-//! speaks MAVLink, the simulated one by its truth and any other by its own estimate. No socket and no clock in here.
+//! A live flight from telemetry: takes datagrams and returns the moment to draw. Subscribes to telemetry like any other client,
+//! so it can show any MAVLink vehicle: the simulated one from ground truth, others from their own estimate. Accesses no socket or
+//! clock.
 
 pub mod clock;
 mod estimate;
@@ -30,29 +31,30 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 use std::collections::{BTreeSet, VecDeque};
 
-/// The system id of a view: no vehicle's and no ground station's (255 is QGroundControl's, 254 `spandrel rc`'s).
+/// System ID of a viewer, distinct from vehicles and ground stations (255 is QGroundControl, 254 is `spandrel rc`).
 pub const SYSTEM: u8 = 253;
-/// MAV_COMP_ID_ONBOARD_COMPUTER2: a listener beside the monitor.
+/// MAV_COMP_ID_ONBOARD_COMPUTER2: distinct from the monitor.
 const COMPONENT: u8 = 192;
 const AUTOPILOT: u8 = 1;
 const HEARTBEAT_EVERY: SimTime = SimTime::from_ms(1_000);
-/// A vehicle that says no truth for so long is a real one and is asked for what is drawn instead.
+/// Time without ground truth after which the vehicle counts as a real one and is asked for its estimates.
 const NO_TRUTH_AFTER: SimTime = SimTime::from_ms(3_000);
-/// And asked again, in case the question was lost.
+/// Interval at which requests are repeated, in case one was lost.
 const ASK_EVERY: SimTime = SimTime::from_ms(5_000);
-/// What is drawn instead of the truth, by message number and rate, Hz: ATTITUDE_QUATERNION, GLOBAL_POSITION_INT,
+/// Messages used instead of ground truth and their rates, Hz: ATTITUDE_QUATERNION, GLOBAL_POSITION_INT,
 /// GIMBAL_DEVICE_ATTITUDE_STATUS.
 const INSTEAD: [(u32, f32); 3] = [(31, 50.0), (33, 50.0), (285, 25.0)];
-/// SERVO_OUTPUT_RAW, asked for at this rate, Hz: the rotors are heard (a tenth of a second is a person's limit for sound and picture).
+/// SERVO_OUTPUT_RAW and its requested rate, Hz, for the rotor sound (people notice a delay of a tenth of a second between sound
+/// and picture).
 const ROTORS: (u32, f32) = (36, 20.0);
-/// FLIGHT_INFORMATION: when the vehicle took off, for who begins to listen in flight.
+/// FLIGHT_INFORMATION: contains the takeoff time, for viewers that connect in flight.
 const FLIGHT: u32 = 264;
-/// Pulses of outputs that are at rest and full, µs (SERVO_OUTPUT_RAW).
+/// Pulse widths of idle and full outputs, µs (SERVO_OUTPUT_RAW).
 const PULSE_US: (f64, f64) = (1_000.0, 2_000.0);
-/// A stream without a picture for so long has ended: a window that is hidden draws none.
+/// Time without a picture after which a video stream counts as ended: a hidden window renders none.
 const VIDEO_LASTS: SimTime = SimTime::from_ms(3_000);
 
-/// A flight as it is heard.
+/// State of a live flight.
 #[derive(Debug, Clone)]
 pub struct LiveFlight {
     plane: LocalPlane,
@@ -63,11 +65,11 @@ pub struct LiveFlight {
     next_heartbeat: SimTime,
     next_truth_request: Option<SimTime>,
     system: Option<u8>,
-    /// When the vehicle was first heard.
+    /// Wall time of the first message.
     first_heard: Option<SimTime>,
     seed: Option<u64>,
     scenario_crc: Option<u32>,
-    /// When the rotors' outputs are asked for next; none: nobody hears them.
+    /// Wall time of the next request for rotor outputs; `None` if nobody needs them.
     next_rotors: Option<SimTime>,
     truth_requested: bool,
     estimate: EstimatedPose,
@@ -75,41 +77,41 @@ pub struct LiveFlight {
     last_heard: Option<SimTime>,
     playhead: Playhead,
     state: SimulatorRun,
-    /// And when its last picture went out, wall time.
+    /// Video stream status and wall time of its last picture.
     video: Option<(VideoStatus, SimTime)>,
 }
 
-/// What begins anew with the simulator.
+/// State that a restart of the simulator resets.
 #[derive(Debug, Clone, Default)]
 struct SimulatorRun {
     feed: Feed,
     trace: MotionHistory,
     lamp: bool,
     armed: bool,
-    /// Outputs of the rotors, 0 to 1; none while they stand.
+    /// Rotor outputs, 0 to 1; `None` while disarmed.
     outputs: Option<[f64; 4]>,
     battery_pct: Option<f64>,
     lift_off: Option<SimTime>,
-    /// It flew already when it was first heard, and the vehicle is asked since when; when it is asked next.
+    /// Wall time of the next request for the takeoff time, if the vehicle was already flying when it was first received.
     since_when: Option<SimTime>,
     pictures: BTreeSet<(i32, Option<SimTime>)>,
     last_picture: Option<SimTime>,
     closures: BridgeClosures,
 }
 
-/// What is drawn at one instant.
+/// The moment to draw.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LiveMoment {
-    /// Where everything is.
+    /// State of the aircraft and its camera.
     pub moment: SceneMoment,
-    /// What the display tells besides.
+    /// Additional HUD inputs.
     pub hud: HudInputs,
-    /// When traffic was stopped and let go.
+    /// Times at which traffic was stopped and released.
     pub closures: BridgeClosures,
 }
 
 impl LiveFlight {
-    /// Nothing has been heard yet.
+    /// Creates the state before the first datagram.
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         Self {
@@ -135,43 +137,43 @@ impl LiveFlight {
         }
     }
 
-    /// The vehicle's system id, once it has been heard.
+    /// Returns the vehicle's system ID, once received.
     #[must_use]
     pub fn system(&self) -> Option<u8> {
         self.system
     }
 
-    /// The session's seed, once it has been said: it places defects and traffic.
+    /// Returns the session's seed, once received; it determines defects and traffic.
     #[must_use]
     pub fn seed(&self) -> Option<u64> {
         self.seed
     }
 
-    /// The checksum of the scenario that the simulator runs, once it has been said.
+    /// Returns the checksum of the simulator's scenario, once received.
     #[must_use]
     pub fn scenario_crc(&self) -> Option<u32> {
         self.scenario_crc
     }
 
-    /// The aircraft's poses are its own estimate: nobody says the truth.
+    /// Checks whether the poses are the vehicle's own estimate because no ground truth is available.
     #[must_use]
     pub fn is_estimated(&self) -> bool {
         self.last_heard.is_some() && !self.truth_requested
     }
 
-    /// Nobody says the truth, though it was asked for: no simulator of ours, and no seed will be said.
+    /// Checks whether no ground truth arrived although it was requested: this is not the simulator, and no seed will arrive.
     #[must_use]
     pub fn lacks_truth(&self, wall: SimTime) -> bool {
         !self.truth_requested && self.first_heard.is_some_and(|met| wall >= met + NO_TRUTH_AFTER + NO_TRUTH_AFTER)
     }
 
-    /// Mode, satellites, cues and words.
+    /// Returns the flight mode, satellites, cues and texts.
     #[must_use]
     pub fn feed(&self) -> &Feed {
         &self.state.feed
     }
 
-    /// A datagram, heard at a wall time.
+    /// Processes a datagram received at a wall time.
     pub fn handle_datagram(&mut self, bytes: &[u8], wall: SimTime) {
         for frame in self.decoder.datagram(bytes) {
             self.handle_frame(&frame, wall);
@@ -202,7 +204,7 @@ impl LiveFlight {
         if let (Some(MavMessage::FLIGHT_INFORMATION(flight)), Some(_)) = (&frame.message, self.state.since_when)
             && let Ok(took_off_us @ 1..) = i64::try_from(flight.takeoff_time_utc)
         {
-            // A time since boot, whatever the field is called (MAVLink common).
+            // Time since boot despite the field's name (MAVLink common).
             (self.state.lift_off, self.state.since_when) = (Some(SimTime::from_us(took_off_us)), None);
         }
         if !self.truth_requested
@@ -219,7 +221,7 @@ impl LiveFlight {
         match sample.content {
             SampleContent::Truth(truth) => {
                 if !self.truth_requested {
-                    // From now on the truth is drawn; estimates may run on another clock.
+                    // Ground truth takes over; the estimates may use a different clock.
                     self.truth_requested = true;
                     self.restart();
                 }
@@ -263,7 +265,7 @@ impl LiveFlight {
                 return;
             }
             self.restart();
-            // What has begun anew says its own.
+            // A restarted simulator sends its own.
             (self.seed, self.scenario_crc) = (None, None);
         }
         self.time_reversals = 0;
@@ -276,7 +278,7 @@ impl LiveFlight {
         self.state.trace.push(truth);
     }
 
-    /// Another seed is another session, even where its clock has not gone back.
+    /// A different seed means a new session, even if the clock has not gone back.
     fn handle_seed(&mut self, seed: u64) {
         if self.seed.is_some_and(|known| known != seed) {
             self.restart();
@@ -290,7 +292,8 @@ impl LiveFlight {
         self.state = SimulatorRun::default();
     }
 
-    /// The camera's view is streamed, a picture went out at a wall time; or it is not. The vehicle hears of it every second, and announces it.
+    /// Sets the status of the camera view's video stream and the wall time of its last picture; `None` if it is off. The vehicle
+    /// receives the status every second and announces it.
     pub fn set_video_status(&mut self, video: Option<VideoStatus>, wall: SimTime) {
         match video {
             Some(video) => self.video = Some((video, wall)),
@@ -304,7 +307,8 @@ impl LiveFlight {
         }
     }
 
-    /// Queues what is due to be said: a heartbeat, so that the vehicle knows its listener, and questions to one that says no truth.
+    /// Queues the messages that are due: a heartbeat, which registers this client with the vehicle, and requests to a vehicle
+    /// without ground truth.
     pub fn handle_timeout(&mut self, wall: SimTime) {
         if wall >= self.next_heartbeat {
             self.next_heartbeat = wall + HEARTBEAT_EVERY;
@@ -337,12 +341,12 @@ impl LiveFlight {
         }
     }
 
-    /// The rotors are heard from now on: their outputs are asked for, and again when they fall silent.
+    /// Requests rotor outputs from now on, and again whenever they stop.
     pub fn request_rotor_outputs(&mut self) {
         self.next_rotors.get_or_insert(SimTime::ZERO);
     }
 
-    /// How fast the rotors turn by what the autopilot puts out, rad/s; empty while they stand or nobody says.
+    /// Returns the rotor speeds from the autopilot's outputs, rad/s; empty if they are stopped or unknown.
     #[must_use]
     pub fn rotors_rad_s(&self, vehicle: &Vehicle) -> Vec<f64> {
         let (idle, full) = (vehicle.rotor.idle_speed_rad_s, vehicle.rotor.max_speed_rad_s);
@@ -355,12 +359,12 @@ impl LiveFlight {
         self.out.push_back(bytes);
     }
 
-    /// The next datagram to send.
+    /// Returns the next datagram to send.
     pub fn poll_transmit(&mut self) -> Option<Vec<u8>> {
         self.out.pop_front()
     }
 
-    /// What to draw at a wall time; `None` while nobody has said where the aircraft is.
+    /// Returns the moment to draw at a wall time, or `None` before the first position.
     pub fn moment(&mut self, wall: SimTime, vehicle: &Vehicle) -> Option<LiveMoment> {
         let at = self.playhead.advance(wall)?;
         let state = &self.state;
@@ -387,13 +391,13 @@ impl LiveFlight {
     }
 }
 
-/// The question for a message at a rate, Hz.
+/// Returns a request for a message at a rate, Hz.
 fn message_interval_request(system: u8, (id, rate_hz): (u32, f32)) -> MavMessage {
     let params = [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0];
     MavMessage::COMMAND_LONG(station::command(system, AUTOPILOT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params))
 }
 
-/// The question for a message, once.
+/// Returns a request for a single message.
 fn message_request(system: u8, id: u32) -> MavMessage {
     let params = [id as f32, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     MavMessage::COMMAND_LONG(station::command(system, AUTOPILOT, MavCmd::MAV_CMD_REQUEST_MESSAGE, params))

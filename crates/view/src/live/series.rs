@@ -1,17 +1,17 @@
-//! A number that is told now and then, and what holds between two tellings.
+//! A sparsely sampled value with interpolation.
 
 use super::trace::{GAP, KEPT, share};
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// What was told lately, in the order of time.
+/// Recent samples in time order.
 #[derive(Debug, Clone, Default)]
 pub struct TimeSeries {
     points: VecDeque<(SimTime, f64)>,
 }
 
 impl TimeSeries {
-    /// Takes what was told; what comes late finds its place.
+    /// Inserts a sample in time order.
     pub fn push(&mut self, time: SimTime, value: f64) {
         let after = self.points.partition_point(|known| known.0 <= time);
         self.points.insert(after, (time, value));
@@ -21,7 +21,7 @@ impl TimeSeries {
         }
     }
 
-    /// The value at a time; before the first telling as then, after the last as then. None: nothing has been told.
+    /// Returns the value at a time, clamped to the first and last sample; `None` without samples.
     #[must_use]
     pub fn at(&self, time: SimTime) -> Option<f64> {
         if let Some((before, next)) = self.around(time) {
@@ -31,13 +31,13 @@ impl TimeSeries {
         self.points.get(after.saturating_sub(1)).map(|point| point.1)
     }
 
-    /// How fast it changes at a time, 1/s; not at all where it is held.
+    /// Returns the rate of change at a time, 1/s; zero where the value is held.
     #[must_use]
     pub fn rate_at(&self, time: SimTime) -> f64 {
         self.around(time).map_or(0.0, |(before, next)| (next.1 - before.1) / (next.0 - before.0).s())
     }
 
-    /// What was told before and after a time that lies between them; nothing is made up in long gaps.
+    /// Returns the samples before and after a time; `None` in long gaps, which are not interpolated.
     fn around(&self, time: SimTime) -> Option<((SimTime, f64), (SimTime, f64))> {
         let after = self.points.partition_point(|known| known.0 <= time);
         let before = *self.points.get(after.checked_sub(1)?)?;

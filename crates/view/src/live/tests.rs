@@ -27,7 +27,7 @@ impl FakeVehicle {
         self.live.handle_datagram(&bytes, SimTime::from_ms(wall_ms));
     }
 
-    /// The truth at a time, so far east of the origin.
+    /// Sends ground truth at a time, this far east of the origin.
     fn truth(&mut self, sim_ms: i64, wall_ms: i64, east_m: f64) {
         let geo = self.live.plane.geo_from_enu(spandrel_model::frames::Vec3::new(east_m, 0.0, self.live.pad_up_m + 20.0));
         let truth = HIL_STATE_QUATERNION_DATA {
@@ -48,7 +48,7 @@ impl FakeVehicle {
     }
 }
 
-/// The wire rounds places to a centimetre (degE7).
+/// Telemetry rounds positions to about a centimeter (degE7).
 const WIRE_M: f64 = 0.02;
 
 #[test]
@@ -66,7 +66,7 @@ fn exact_the_moment_lies_between_samples_and_reports_what_was_received() {
         capture_result: MavBool::MAV_BOOL_TRUE,
         ..Default::default()
     };
-    // Sent again, it is the same picture.
+    // A retransmission is the same picture.
     wire.say(&MavMessage::CAMERA_IMAGE_CAPTURED(picture.clone()), 1_980);
     wire.say(&MavMessage::CAMERA_IMAGE_CAPTURED(picture), 1_980);
     let beat = HEARTBEAT_DATA { base_mode: MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED, custom_mode: 3 << 16, ..Default::default() };
@@ -122,7 +122,7 @@ fn exact_a_restarted_simulator_is_believed_when_it_reports_another_seed() {
     say_seed(&mut wire, 8, 1_400);
     assert_eq!(wire.live.seed(), Some(8));
     assert!(wire.now(1_400).is_some(), "one restart, not two");
-    // The next begins so soon that its clock does not go back by much: its seed tells.
+    // The next session starts before the clock has gone back by much: the seed identifies it.
     wire.say(&MavMessage::ILLUMINATOR_STATUS(ILLUMINATOR_STATUS_DATA { enable: 1, ..Default::default() }), 1_420);
     say_seed(&mut wire, 9, 1_440);
     assert_eq!((wire.live.seed(), wire.now(1_440)), (Some(9), None));
@@ -160,7 +160,7 @@ fn exact_a_vehicle_without_truth_is_asked_and_drawn_by_its_estimate() {
     let now = wire.now(3_600).expect("it is drawn");
     assert!((now.moment.drone.position_m.up() - 30.0).abs() < WIRE_M && wire.live.is_estimated());
     assert!((now.moment.drone.ned_from_frd.yaw_rad() - 1.0).abs() < 1e-6);
-    // The truth, once somebody says it, is drawn instead; and nobody is asked any more.
+    // Ground truth replaces the estimate once it arrives, and requests stop.
     for k in 0..10 {
         wire.truth(1_000 + 20 * k, 4_000 + 20 * k, 3.0);
     }

@@ -1,4 +1,4 @@
-//! The last seconds of what moves, and what holds between two samples of it.
+//! Recent motion of the aircraft, with interpolation between samples.
 
 use super::series::TimeSeries;
 use crate::stage::CameraTurnRate;
@@ -8,22 +8,22 @@ use spandrel_model::math;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// Samples older than this behind the newest are forgotten.
+/// Age relative to the latest sample beyond which samples are discarded.
 pub(super) const KEPT: SimTime = SimTime::from_ms(3_000);
-/// Between samples farther apart than this nothing is made up.
+/// Maximum gap between samples for interpolation.
 pub(super) const GAP: SimTime = SimTime::from_ms(1_000);
-/// The lens is drawn so much later than everything else: it is told at 5 Hz, and with what the picture is behind anyway
-/// ([`BEHIND_S`](super::clock::BEHIND_S)) its next telling has come by then, 20 ms of jitter included (estimate).
+/// Additional delay of the camera's field of view: it is sent at 5 Hz, and with the general delay
+/// ([`BEHIND_S`](super::clock::BEHIND_S)) the next sample has arrived by then, including 20 ms of jitter (estimate).
 const LENS_BEHIND: SimTime = SimTime::from_ms(160);
 
-/// Where the aircraft was and how it moved.
+/// Position and motion of the aircraft.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AircraftMotion {
-    /// Position, m.
+    /// Position, ENU, m.
     pub position_m: Vec3<Enu>,
-    /// Velocity, m/s.
+    /// Velocity, ENU, m/s.
     pub velocity_m_s: Vec3<Enu>,
-    /// Attitude.
+    /// Attitude (body FRD to NED).
     pub ned_from_frd: Rotation<Frd, Ned>,
 }
 
@@ -33,7 +33,7 @@ impl AircraftMotion {
     }
 }
 
-/// Recent samples in the order of time.
+/// Recent samples in time order.
 #[derive(Debug, Clone, Default)]
 pub struct MotionHistory {
     truths: VecDeque<Truth>,
@@ -42,7 +42,7 @@ pub struct MotionHistory {
 }
 
 impl MotionHistory {
-    /// Takes a sample; one that comes late finds its place, one that is known already changes nothing.
+    /// Inserts a sample in time order; ignores duplicates.
     pub fn push(&mut self, truth: Truth) {
         let after = self.truths.partition_point(|known| known.time <= truth.time);
         if after.checked_sub(1).is_some_and(|k| self.truths[k].time == truth.time) {
@@ -55,28 +55,28 @@ impl MotionHistory {
         }
     }
 
-    /// The gimbal's pitch over the horizon, rad, at a time.
+    /// Adds the gimbal's pitch above the horizon, rad.
     pub fn push_gimbal(&mut self, time: SimTime, pitch_rad: f64) {
         self.gimbal.push(time, pitch_rad);
     }
 
-    /// The camera's horizontal field of view, rad, at a time.
+    /// Adds the camera's horizontal field of view, rad.
     pub fn push_lens(&mut self, time: SimTime, hfov_rad: f64) {
         self.lens.push(time, hfov_rad);
     }
 
-    /// Forgets everything.
+    /// Discards all samples.
     pub fn clear(&mut self) {
         *self = Self::default();
     }
 
-    /// Time of the newest sample.
+    /// Returns the time of the latest sample.
     #[must_use]
     pub fn newest(&self) -> Option<SimTime> {
         self.truths.back().map(|truth| truth.time)
     }
 
-    /// The aircraft at a time; before the first sample as at the first, after the last as at the last.
+    /// Returns the motion at a time, clamped to the first and last sample.
     #[must_use]
     pub fn at(&self, time: SimTime) -> Option<AircraftMotion> {
         let Some((before, next)) = self.around(time) else {
@@ -91,25 +91,26 @@ impl MotionHistory {
         })
     }
 
-    /// The gimbal's pitch at a time, rad; level while nothing has been heard.
+    /// Returns the gimbal's pitch at a time, rad; level without samples.
     #[must_use]
     pub fn gimbal_at(&self, time: SimTime) -> f64 {
         self.gimbal.at(time).unwrap_or(0.0)
     }
 
-    /// The horizontal field of view that is drawn at a time, rad: a little late, so that a zoom goes evenly. None: nothing has been heard.
+    /// Returns the horizontal field of view to draw at a time, rad, with a delay that makes zooming smooth; `None` without
+    /// samples.
     #[must_use]
     pub fn lens_at(&self, time: SimTime) -> Option<f64> {
         self.lens.at(time.saturating_sub(LENS_BEHIND))
     }
 
-    /// The horizontal field of view at a time of a flight that is known whole, rad. None: nothing has been heard.
+    /// Returns the horizontal field of view at a time of a fully recorded flight, rad; `None` without samples.
     #[must_use]
     pub fn reported_lens_at(&self, time: SimTime) -> Option<f64> {
         self.lens.at(time)
     }
 
-    /// How fast the camera turns at a time: as evenly as between the samples; not at all where nothing is made up.
+    /// Returns the camera's turn rate at a time, interpolated between samples; zero where nothing is interpolated.
     #[must_use]
     pub fn turn_at(&self, time: SimTime) -> CameraTurnRate {
         let heading_rad_s = self.around(time).map_or(0.0, |(before, next)| {
@@ -118,7 +119,7 @@ impl MotionHistory {
         CameraTurnRate { heading_rad_s, pitch_rad_s: self.gimbal.rate_at(time) }
     }
 
-    /// The samples before and after a time, where the aircraft flew from one to the other.
+    /// Returns the samples before and after a time between which motion is interpolated.
     fn around(&self, time: SimTime) -> Option<(&Truth, &Truth)> {
         let after = self.truths.partition_point(|truth| truth.time <= time);
         let before = self.truths.get(after.checked_sub(1)?)?;
@@ -126,7 +127,7 @@ impl MotionHistory {
     }
 }
 
-/// How far a time is from one to another, 0 to 1.
+/// Returns the fraction of `at` between two times, 0 to 1.
 pub(super) fn share(from: SimTime, to: SimTime, at: SimTime) -> f64 {
     (at - from).s() / (to - from).s().max(1e-9)
 }
@@ -153,7 +154,7 @@ mod tests {
     fn exact_between_samples_everything_goes_evenly() {
         let mut trace = MotionHistory::default();
         assert_eq!(trace.at(SimTime::ZERO), None);
-        // The second comes late, and once more.
+        // The second sample arrives late, and twice.
         for sample in [truth(0, 0.0, 10.0), truth(40, 2.0, 14.0), truth(20, 1.0, 12.0), truth(20, 1.0, 12.0)] {
             trace.push(sample);
         }
@@ -170,7 +171,7 @@ mod tests {
     fn exact_the_camera_turns_as_fast_as_its_samples_lie_apart() {
         let mut trace = MotionHistory::default();
         assert_eq!(trace.turn_at(SimTime::ZERO), CameraTurnRate::default());
-        // Over south, where headings leap by a full turn.
+        // Across south, where the heading wraps around.
         for sample in [truth(0, 0.0, 179.0), truth(20, 0.0, 181.0), truth(40, 0.0, 181.0)] {
             trace.push(sample);
         }

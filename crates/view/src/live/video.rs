@@ -1,22 +1,22 @@
-//! The stream of the camera's view, as it is told.
+//! Status of the camera view's video stream.
 
 use spandrel_mavlink::dialect::{MavMessage, VIDEO_STREAM_STATUS_DATA, VideoStreamStatusFlags};
 
-/// A stream of the camera's view that runs.
+/// An active stream of the camera view.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VideoStatus {
     /// Width, px.
     pub width_px: u32,
     /// Height, px.
     pub height_px: u32,
-    /// Pictures a second.
+    /// Picture rate, Hz.
     pub rate_hz: f64,
-    /// Bits a second.
+    /// Bit rate, bit/s.
     pub bits_s: u32,
 }
 
 impl VideoStatus {
-    /// As the vehicle is told of it: that it runs, or that it has ended.
+    /// Returns the status message for the vehicle: running or ended.
     pub(super) fn status(&self, runs: bool) -> MavMessage {
         let side = |px: u32| u16::try_from(px).unwrap_or(u16::MAX);
         let running = VideoStreamStatusFlags::VIDEO_STREAM_STATUS_FLAGS_RUNNING;

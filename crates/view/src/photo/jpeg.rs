@@ -1,19 +1,20 @@
-//! The JPEG around it all, as good as its size allows.
+//! JPEG encoding at the best quality that a size limit allows.
 
 use super::PhotoError;
 use crate::picture::Picture;
 use jpeg_encoder::{ColorType, Encoder, SamplingFactor};
 
-/// Best and coarsest quality (of libjpeg's scale of 100): above the first one sees no difference, below the second cracks go.
+/// Highest and lowest quality (libjpeg's scale to 100): above the highest, no difference is visible; below the lowest, cracks
+/// disappear.
 const BEST: u8 = 92;
 const COARSEST: u8 = 20;
-/// XMP's name before its packet in an APP1 segment (XMP specification, part 3).
+/// Identifier of an XMP packet in an APP1 segment (XMP specification, part 3).
 const XMP: &[u8] = b"http://ns.adobe.com/xap/1.0/\0";
 
-/// EXIF and XMP of a photograph.
+/// EXIF and XMP metadata of a photo.
 pub type PhotoTags<'a> = (&'a [u8], &'a str);
 
-/// The best quality whose file is not larger than `most` bytes, by halving.
+/// Encodes at the highest quality whose file has at most `most` bytes, by bisection.
 pub fn encode(picture: &Picture, tags: Option<PhotoTags<'_>>, most: usize) -> Result<Vec<u8>, PhotoError> {
     let best = with_quality(picture, tags, BEST)?;
     if best.len() <= most {

@@ -1,4 +1,4 @@
-//! Photographs as cameras write them: JPEG with EXIF and XMP that tell where, when and how they were taken, for photogrammetry.
+//! Photos as cameras write them: JPEG with EXIF and XMP metadata of position, time and exposure, for photogrammetry.
 
 mod jpeg;
 mod tags;
@@ -11,53 +11,53 @@ use spandrel_model::math;
 use spandrel_model::site::CameraPose;
 use spandrel_model::vehicle::Camera;
 
-/// Why a photograph cannot be written.
+/// Errors of writing a photo.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum PhotoError {
-    /// It is larger than JPEG or EXIF can say.
+    /// The photo exceeds the limits of JPEG or EXIF.
     #[error("the picture cannot be written as JPEG: {0}")]
     Refused(String),
 }
 
-/// What a photograph tells of itself.
+/// Metadata of a photo.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PhotoInfo {
-    /// Running number, from 1.
+    /// Sequence number, from 1.
     pub number: u32,
-    /// Wall time of the press, µs since the Unix epoch.
+    /// Wall time of the shutter release, µs since the Unix epoch.
     pub taken_unix_us: u64,
-    /// The same for people, UTC: date (2026:06:20) and time (08:15:30) as EXIF writes them.
+    /// UTC date (2026:06:20) and time (08:15:30) in EXIF format.
     pub taken_utc: (String, String),
     /// Simulation time, s.
     pub at_s: f64,
-    /// Where the lens was.
+    /// Position of the lens.
     pub place: Geo,
-    /// Height over the take-off pad, m.
+    /// Height above the takeoff pad, m.
     pub over_pad_m: f64,
     /// Heading of the optical axis, degrees clockwise from true north, 0 to 360.
     pub yaw_deg: f64,
-    /// Pitch of the optical axis over the horizon, degrees, down negative.
+    /// Pitch of the optical axis above the horizon, degrees, down negative.
     pub pitch_deg: f64,
     /// Heading, pitch and roll of the aircraft, degrees.
     pub aircraft_deg: [f64; 3],
-    /// The lens as it was zoomed.
+    /// Lens at its current zoom.
     pub lens: Camera,
     /// Exposure time, s.
     pub exposure_s: f64,
     /// Sensitivity, ISO.
     pub iso: f64,
-    /// The lamp was on.
+    /// Whether the lamp was on.
     pub lamp: bool,
-    /// Distance to the surface in the middle of the picture, m; `None` when there is none near.
+    /// Distance to the surface at the center of the picture, m; `None` if there is none within range.
     pub distance_m: Option<f64>,
-    /// What took it.
+    /// Model of the aircraft.
     pub model: String,
-    /// Of which job.
+    /// Name of the job.
     pub job: String,
 }
 
 impl PhotoInfo {
-    /// Ground sampling distance in the middle of a picture of this width, mm a pixel.
+    /// Returns the ground sampling distance at the center of a picture of this width, mm/px.
     #[must_use]
     pub fn gsd_mm(&self, width_px: u32) -> Option<f64> {
         let wide = 2.0 * math::tan(0.5 * self.lens.hfov_rad);
@@ -65,34 +65,34 @@ impl PhotoInfo {
     }
 }
 
-/// Direction of a pose's optical axis: degrees clockwise from true north (0 to 360), degrees over the horizon.
+/// Direction of a pose's optical axis: heading clockwise from true north (0 to 360) and elevation, degrees.
 #[must_use]
 pub fn direction_deg(pose: &CameraPose) -> (f64, f64) {
     let (forward, right): (Vec3<Enu>, Vec3<Enu>) = (pose.forward, pose.right);
-    // From the image's right, which the gimbal holds level: straight up and down the axis itself has no heading.
+    // Uses the image's right axis, which the gimbal keeps level: a vertical optical axis has no heading of its own.
     let yaw = (math::atan2(right.east(), right.north()).to_degrees() - 90.0).rem_euclid(360.0);
     (yaw, math::asin(forward.up().clamp(-1.0, 1.0)).to_degrees())
 }
 
-/// Widest copy, px: what a report shows at most.
+/// Maximum width of a copy, px: the largest that a report shows.
 const COPY_WIDEST_PX: u32 = 1280;
-/// Narrowest copy, px: in a narrower one no defect would be seen.
+/// Minimum width of a copy, px: narrower ones would not show any defect.
 const COPY_NARROWEST_PX: u32 = 320;
 
-/// The photograph as a file, at the quality of which one sees no loss, however large.
+/// Encodes the photo without visible loss, regardless of size.
 ///
 /// # Errors
-/// When JPEG or EXIF cannot say it.
+/// If it exceeds the limits of JPEG or EXIF.
 pub fn jpeg(picture: &Picture, about: &PhotoInfo) -> Result<Vec<u8>, PhotoError> {
     let size = (picture.width, picture.height);
     jpeg::encode(picture, Some((&tags::write(about, size)?, &xmp::write(about, size))), usize::MAX)
 }
 
-/// A copy for a report that tells nothing of itself, as wide and as good as fits into `most` bytes; larger only where even the narrowest and
-/// coarsest is.
+/// Encodes a copy without metadata for a report, as wide and as good as fits into `most` bytes. Exceeds the limit only if even
+/// the narrowest copy at the lowest quality does.
 ///
 /// # Errors
-/// When JPEG cannot say it.
+/// If it exceeds the limits of JPEG.
 pub fn copy(picture: &Picture, most: usize) -> Result<Vec<u8>, PhotoError> {
     let mut small = picture.narrowed(COPY_WIDEST_PX);
     loop {
@@ -104,10 +104,11 @@ pub fn copy(picture: &Picture, most: usize) -> Result<Vec<u8>, PhotoError> {
     }
 }
 
-/// A picture that tells nothing of itself, as good as fits into `most` bytes; larger only where even the coarsest JPEG is.
+/// Encodes a picture without metadata at the best quality that fits into `most` bytes. Exceeds the limit only if even the lowest
+/// quality does.
 ///
 /// # Errors
-/// When JPEG cannot say it.
+/// If it exceeds the limits of JPEG.
 pub fn plain(picture: &Picture, most: usize) -> Result<Vec<u8>, PhotoError> {
     jpeg::encode(picture, None, most)
 }

@@ -1,4 +1,4 @@
-//! EXIF 2.32: what cameras tell of a picture.
+//! EXIF 2.32 metadata.
 
 use super::{PhotoError, PhotoInfo};
 use exif::experimental::Writer;
@@ -6,10 +6,10 @@ use exif::{Field, In, Rational, Tag, Value};
 use spandrel_model::vehicle::SENSOR_MM;
 use std::io::Cursor;
 
-/// Width of a frame of 35 mm film, mm.
+/// Width of a 35 mm film frame, mm.
 const FILM_MM: f64 = 36.0;
 
-/// The TIFF structure of an EXIF segment.
+/// Returns the TIFF structure of an EXIF segment.
 pub fn write(about: &PhotoInfo, size_px: (u32, u32)) -> Result<Vec<u8>, PhotoError> {
     let fields: Vec<Field> = camera(about, size_px)
         .into_iter()
@@ -24,7 +24,7 @@ pub fn write(about: &PhotoInfo, size_px: (u32, u32)) -> Result<Vec<u8>, PhotoErr
 }
 
 fn text(words: &str) -> Value {
-    // EXIF's text is ASCII.
+    // EXIF text is ASCII.
     let plain = |c: char| if c.is_ascii() && !c.is_ascii_control() { c as u8 } else { b'?' };
     Value::Ascii(vec![words.chars().map(plain).collect()])
 }
@@ -55,8 +55,8 @@ fn camera(about: &PhotoInfo, (width, height): (u32, u32)) -> Vec<(Tag, Value)> {
         (Tag::PixelYDimension, Value::Long(vec![height])),
         (Tag::FocalLength, one(focal_mm, 1000)),
         (Tag::FocalLengthIn35mmFilm, Value::Short(vec![(focal_mm * FILM_MM / SENSOR_MM).round() as u16])),
-        // Pixels of this picture over a centimetre of the sensor: with the focal length this is all that a bundle adjustment needs. EXIF knows
-        // inches and centimetres alone; a millimetre (4) is TIFF/EP's, and not every program reads it.
+        // Pixels of this picture per centimeter of the sensor; bundle adjustment needs only this and the focal length. EXIF
+        // defines only inches and centimeters; millimeters (4) are TIFF/EP, which not every program reads.
         (Tag::FocalPlaneXResolution, one(10.0 * f64::from(width) / SENSOR_MM, 1000)),
         (Tag::FocalPlaneYResolution, one(10.0 * f64::from(width) / SENSOR_MM, 1000)),
         (Tag::FocalPlaneResolutionUnit, Value::Short(vec![3])),
@@ -88,14 +88,14 @@ fn place(about: &PhotoInfo) -> Vec<(Tag, Value)> {
         (Tag::GPSDateStamp, text(&about.taken_utc.0)),
         (Tag::GPSMapDatum, text("WGS-84")),
         (Tag::GPSImgDirectionRef, text("T")),
-        // Hundredths, of which a full turn is none: 0 to 359.99.
+        // Hundredths below a full turn: 0 to 359.99.
         (Tag::GPSImgDirection, one((about.yaw_deg * 100.0).round().rem_euclid(36_000.0) / 100.0, 100)),
     ]
 }
 
-/// Degrees, minutes, seconds; the seconds to a ten-thousandth, 3 mm on the ground.
+/// Degrees, minutes, seconds; seconds to a ten-thousandth, 3 mm on the ground.
 fn degrees(angle_deg: f64) -> Value {
-    // In whole parts first, so that 59.99999 s never becomes 60.
+    // Rounds the whole angle first, so that 59.99999 s never becomes 60.
     let parts = (angle_deg.abs() * 3600.0 * 10_000.0).round();
     let whole = |size: f64| (parts / size).floor();
     Value::Rational(vec![

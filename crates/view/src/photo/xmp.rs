@@ -1,17 +1,17 @@
-//! XMP: attitude of gimbal and aircraft under the names that photogrammetry programs read of drones (Metashape, Pix4D, OpenDroneMap: DJI's),
-//! and what only a trainer knows under names of its own.
+//! XMP metadata: attitude of the gimbal and aircraft under the names that photogrammetry programs read for drones (DJI's, as in
+//! Metashape, Pix4D and OpenDroneMap), and simulator-specific values under the product's own names.
 
 use super::PhotoInfo;
 use std::fmt::Write;
 
-/// The packet.
+/// Returns the XMP packet.
 pub fn write(about: &PhotoInfo, (width, height): (u32, u32)) -> String {
     let mut fields = String::new();
     let mut field = |name: &str, value: String| {
         let _ = write!(fields, "\n   {name}=\"{value}\"");
     };
     let [yaw, pitch, roll] = about.aircraft_deg;
-    // DJI counts yaw from -180 to 180.
+    // DJI's yaw ranges from -180 to 180.
     let signed = |deg: f64| (deg + 180.0).rem_euclid(360.0) - 180.0;
     field("drone-dji:AbsoluteAltitude", format!("{:+.3}", about.place.altitude_m));
     field("drone-dji:RelativeAltitude", format!("{:+.3}", about.over_pad_m));

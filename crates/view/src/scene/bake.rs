@@ -1,20 +1,22 @@
-//! Indirect light at corners, by the light model of the measures: where a soffit is dark for the score it is dark in the picture.
+//! Baked indirect light at vertices, computed with the scoring's light model: a soffit that is dark for the score is dark in the
+//! picture.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::light::spread;
 use spandrel_model::site::{QueryTime, RayHit, Site};
 
-/// Samples keep this distance from the edges of their face, so that what touches the edge does not blacken it, m.
+/// Distance of samples from the edges of their face, m, so that adjoining members do not darken them.
 pub const INSET_M: f64 = 0.25;
-/// A sample with another solid nearer than this above it lies inside or under it, m.
+/// A sample with another solid closer than this above it is inside or below that solid, m.
 const BURIED_M: f64 = 0.04;
-/// Height over the surface at which that is looked for, m.
+/// Height of the probe above the surface, m.
 const PROBE_M: f64 = 0.05;
 
-/// Height over a face at which it is looked whether another member begins there, m (members that touch leave no gap of this width).
+/// Height above a face at which it is checked whether the point is inside another member, m (members in contact leave no gap of
+/// this width).
 const OVER_M: f64 = 0.005;
 
-/// Works light out at points of one site.
+/// Computes indirect light at points of a site.
 pub struct LightBaker<'a> {
     site: &'a Site,
     sun: Vec3<Enu>,
@@ -22,33 +24,33 @@ pub struct LightBaker<'a> {
 }
 
 impl<'a> LightBaker<'a> {
-    /// With so many rays at each point.
+    /// Creates a baker with this number of rays per point.
     pub fn new(site: &'a Site, sun: Vec3<Enu>, rays: usize) -> Self {
         Self { site, sun, rays: spread(rays) }
     }
 
-    /// Shares of sky and sun that arrive at a surface indirectly.
+    /// Returns the fractions of sky and sun illuminance that reach a surface indirectly.
     pub fn at(&self, position_m: Vec3<Enu>, normal: Vec3<Enu>) -> [f32; 2] {
         let cast = |o: Vec3<Enu>, d: Vec3<Enu>, max_m: f64| -> Option<RayHit> { self.site.geometry().ray(o, d, max_m) };
         let (sky, sun) = self.site.light().indirect_shares(position_m, normal, self.sun, &self.rays, &cast);
         [sky as f32, sun as f32]
     }
 
-    /// The same on a face of a member; `None` where another member covers it.
+    /// Returns the same for a point on a member's face, or `None` if another member covers it.
     pub fn on_member(&self, position_m: Vec3<Enu>, normal: Vec3<Enu>) -> Option<[f32; 2]> {
         let near = self.site.geometry().nearest_member(position_m + normal * PROBE_M, PROBE_M);
         let buried = near.is_some_and(|n| n.distance_m < BURIED_M);
         (!buried).then(|| self.at(position_m, normal))
     }
 
-    /// Just over a face it is inside another member: nobody sees it here.
+    /// Checks whether the point just above a face is inside another member and therefore not visible.
     pub fn is_inside(&self, position_m: Vec3<Enu>, normal: Vec3<Enu>) -> bool {
         let near = self.site.geometry().nearest_member(position_m + normal * OVER_M, OVER_M);
         near.is_some_and(|n| n.distance_m < 0.0)
     }
 }
 
-/// A grid of samples whose gaps take the mean of their neighbours.
+/// Fills the gaps of a sample grid with the mean of their neighbors.
 pub fn filled(samples: &[Option<[f32; 2]>], columns: usize) -> Vec<[f32; 2]> {
     let mut known = samples.to_vec();
     let rows = samples.len() / columns.max(1);
@@ -87,7 +89,7 @@ pub fn filled(samples: &[Option<[f32; 2]>], columns: usize) -> Vec<[f32; 2]> {
     known.into_iter().map(|sample| sample.unwrap_or([0.0, 0.0])).collect()
 }
 
-/// Light around a small thing in the air: on what faces up, and on what faces down.
+/// Indirect light around a small object in the air: on upward and on downward surfaces.
 pub fn around(site: &Site, position_m: Vec3<Enu>, at: QueryTime) -> [f32; 4] {
     const RAYS: usize = 24;
     let bake = LightBaker::new(site, site.light().daylight(at).sun, RAYS);

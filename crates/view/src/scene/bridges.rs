@@ -1,4 +1,4 @@
-//! Every member of every bridge, with coordinates in its faces and light at its corners.
+//! Meshes of all bridge members, with surface coordinates and indirect light per vertex.
 
 use super::super::mesh::{Material, Mesh, Vertex, single};
 use super::super::quality::Quality;
@@ -8,24 +8,24 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::bridges::Member;
 use spandrel_model::scenario::{Bridge, Scenario};
 
-/// Coat of the main steelwork, linear (a weathered green, as many old suspension bridges are painted; estimate).
+/// Paint of the main steelwork, linear (a weathered green, as on many old suspension bridges; estimate).
 pub(super) const COAT: [u8; 3] = [38, 68, 56];
-/// Coat of railings.
+/// Paint of railings.
 const RAIL: [u8; 3] = [58, 76, 74];
 /// Bearings: bare, greased steel.
 const BEARING: [u8; 3] = [38, 34, 30];
-/// Wires.
+/// Galvanized wire.
 const WIRE: [u8; 3] = [92, 94, 92];
 const WHITE: [u8; 3] = [255, 255, 255];
-/// Faces narrower than this have the same light across, m.
+/// Faces narrower than this have constant light across, m.
 const NARROW_M: f64 = 0.8;
-/// Shares of sky and sun may come out wrong by this where triangles are saved (a hundredth of what is there in the open is not seen; rays of a
-/// lean preset scatter more).
+/// Tolerance of the fractions of sky and sun light where triangles are saved (a hundredth of the open-air value is not visible;
+/// rays of a lean preset have more noise).
 const LIGHT_OFF: f32 = 0.03;
-/// And by this on what is slim.
+/// Tolerance on slender members.
 const LIGHT_OFF_SLIM: f32 = 0.12;
 
-/// What an element is made of, by its AASHTO number, and its coat.
+/// Material and paint of an element, by its AASHTO number.
 pub(super) fn matter(element: u32) -> (Material, [u8; 3]) {
     match element {
         147..=149 => (Material::Cable, WIRE),
@@ -36,7 +36,7 @@ pub(super) fn matter(element: u32) -> (Material, [u8; 3]) {
     }
 }
 
-/// Bridges' own axes for coordinates in faces.
+/// Axes of a bridge for surface coordinates.
 struct TextureAxes {
     origin_m: Vec3<Enu>,
     along: Vec3<Enu>,
@@ -44,22 +44,23 @@ struct TextureAxes {
     half_deck_m: f64,
 }
 
-/// Spacing at which it is looked whether a face is covered, and from its edges, m (estimate: what shows between is not seen).
+/// Spacing at which faces are probed for cover, and distance of the probes from the edges, m (estimate: smaller gaps are not
+/// visible).
 const PROBED_M: (f64, f64) = (0.5, 0.02);
-/// But everywhere it is looked in the middle too.
+/// Minimum number of probe steps, so that the center is always probed.
 const STEPS_MIN: f64 = 2.0;
-/// A face that rises so is level: the lake, from where one looks up, never shows it.
+/// Minimum vertical component of the normal of an upward face, which the lake's reflection never shows from above.
 const LEVEL: f64 = 0.999;
 
-/// Hangers and railings: what a small mirror of a far bridge shows nothing of.
+/// Hangers and railings, which are not visible in the small reflection of a distant bridge.
 const SLIM: [u32; 3] = [148, 330, 331];
 
-/// Of a face, by its element and normal: how far light between its corners may come out off; `None` leaves it out.
+/// Tolerance of the light between the corners of a face, by element and normal; `None` omits the face.
 type LightTolerance<'a> = &'a dyn Fn(u32, Vec3<Enu>) -> Option<f32>;
-/// Nothing is as near as this: every sample stays.
+/// Tolerance that keeps every sample.
 const WHOLE: f32 = f32::NEG_INFINITY;
 
-/// All members; where triangles are saved the lake has simpler ones.
+/// Builds all members; presets that save triangles use simpler ones for the lake's reflection.
 pub fn parts(scenario: &Scenario, bake: &LightBaker, quality: &Quality) -> Vec<SceneItem> {
     if !quality.sparse {
         let [mesh] = meshes(scenario, bake, quality, [&|_, _| Some(WHOLE)]);
@@ -67,7 +68,7 @@ pub fn parts(scenario: &Scenario, bake: &LightBaker, quality: &Quality) -> Vec<S
     }
     let is_slim = |element: u32| SLIM.contains(&element);
     let straight = |element: u32, _| Some(if is_slim(element) { LIGHT_OFF_SLIM } else { LIGHT_OFF });
-    // In the lake light is taken at the corners of faces alone.
+    // In the lake's reflection, light is sampled at the corners of faces only.
     let in_lake = |element: u32, normal: Vec3<Enu>| (!is_slim(element) && normal.up() < LEVEL).then_some(f32::INFINITY);
     let [straight, in_lake] = meshes(scenario, bake, quality, [&straight, &in_lake]);
     let (straight, in_lake) =
@@ -78,7 +79,7 @@ pub fn parts(scenario: &Scenario, bake: &LightBaker, quality: &Quality) -> Vec<S
     ]
 }
 
-/// A mesh for each way to thin out; light is worked out once for all of them.
+/// Builds one mesh per tolerance; light is computed once for all of them.
 fn meshes<const N: usize>(scenario: &Scenario, bake: &LightBaker, quality: &Quality, thinned: [LightTolerance; N]) -> [Mesh; N] {
     let mut meshes = [(); N].map(|()| Mesh::default());
     for bridge in &scenario.bridges {
@@ -131,17 +132,17 @@ fn add(
     }
 }
 
-/// A face with four corners.
+/// A quadrilateral face.
 struct Quad([Vec3<Enu>; 4]);
 
 impl Quad {
-    /// At shares of its first and its second side.
+    /// Returns a point at fractions of the first and the second side.
     fn at(&self, s: f64, t: f64) -> Vec3<Enu> {
         let [a, b, c, d] = self.0;
         a.lerp(b, s).lerp(d.lerp(c, s), t)
     }
 
-    /// The longer of its first and third side, of its second and fourth, m.
+    /// Returns the longer of the first and third side, and of the second and fourth, m.
     fn lengths_m(&self) -> (f64, f64) {
         let [a, b, c, d] = self.0;
         ((b - a).norm().max((c - d).norm()), (d - a).norm().max((c - b).norm()))
@@ -152,7 +153,7 @@ fn middle(corners: &[Vec3<Enu>]) -> Vec3<Enu> {
     corners.iter().fold(Vec3::zero(), |sum, c| sum + *c) / corners.len() as f64
 }
 
-/// Other members cover all of a face.
+/// Checks whether other members cover the whole face.
 fn is_covered(corners: &[Vec3<Enu>], normal: Vec3<Enu>, bake: &LightBaker) -> bool {
     let Ok(quad) = <[Vec3<Enu>; 4]>::try_from(corners).map(Quad) else {
         let middle = middle(corners);
@@ -181,7 +182,7 @@ fn normal(corners: &[Vec3<Enu>]) -> Vec3<Enu> {
     (0..count).fold(Vec3::zero(), |sum, k| sum + corners[k].cross(corners[(k + 1) % count])).unit()
 }
 
-/// Coordinates in a face: along the bridge and across it on level faces, level and up on walls.
+/// Surface coordinates: along and across the bridge on horizontal faces, horizontal and up on walls.
 fn uv(p: Vec3<Enu>, normal: Vec3<Enu>, axes: &TextureAxes) -> [f32; 2] {
     let from = p - axes.origin_m;
     if normal.up().abs() > 0.8 {
@@ -204,7 +205,7 @@ fn corner(p: Vec3<Enu>, look: &FaceLook, axes: &TextureAxes, light: [f32; 2]) ->
     }
 }
 
-/// Meshes that show a face, and how far its light may come out off in each.
+/// The meshes that contain a face, each with its light tolerance.
 trait FaceMeshes<'a>: Iterator<Item = (&'a mut Mesh, f32)> {}
 impl<'a, T: Iterator<Item = (&'a mut Mesh, f32)>> FaceMeshes<'a> for T {}
 
@@ -231,7 +232,7 @@ fn quad_face<'a>(
     let lengths = quad.lengths_m();
     let steps = |length: f64| ((length / light_cell_m).ceil() as usize).max(1);
     let (nu, nv) = if look.smooth { (1, 1) } else { (steps(lengths.0), steps(lengths.1)) };
-    // Samples stay a little inside; across a narrow face one is enough.
+    // Samples are inset; a narrow face needs only one across.
     let inside = |k: usize, n: usize, length: f64| {
         let margin = (INSET_M / length).min(0.25);
         if length < NARROW_M { 0.5 } else { (k as f64 / n as f64).clamp(margin, 1.0 - margin) }
@@ -281,7 +282,7 @@ fn quad_face<'a>(
     }
 }
 
-/// Of so many lines of samples the first, the last, and those between without which the light would come out off by more.
+/// Returns the indices of the sample lines to keep: the first, the last, and those needed to stay within the tolerance.
 fn kept(lines: usize, off: f32, line: &dyn Fn(usize) -> Vec<[f32; 2]>) -> Vec<usize> {
     let all: Vec<Vec<[f32; 2]>> = (0..lines).map(line).collect();
     let smooth = |from: usize, to: usize| {
@@ -302,7 +303,7 @@ fn kept(lines: usize, off: f32, line: &dyn Fn(usize) -> Vec<[f32; 2]>) -> Vec<us
     kept
 }
 
-/// Normal of a round bar at one of its corners: the mean of the sides that meet there.
+/// Vertex normal of a round bar: the mean of the adjacent sides.
 fn rounded(member: &Member, p: Vec3<Enu>, own: Vec3<Enu>) -> Vec3<Enu> {
     let solid = &member.solid;
     let meets = |face: &&Vec<u32>| face.len() == 4 && face.iter().any(|k| (solid.vertices_m[*k as usize] - p).norm() < 1e-6);
@@ -329,7 +330,7 @@ mod tests {
                     let corners: Vec<Vec3<Enu>> = face.iter().map(|k| member.solid.vertices_m[*k as usize]).collect();
                     let normal = normal(&corners);
                     let covered = is_covered(&corners, normal, &bake);
-                    // Bearings stand free on all sides; stringers hang under the slab, their webs between flanges.
+                    // All sides of bearings are exposed; stringers are below the slab, with webs between flanges.
                     let side = normal.up().abs() < 0.1;
                     assert!(!(covered && side && (311..=316).contains(&member.element)), "{}", member.name);
                     bearings += u32::from(side && (311..=316).contains(&member.element));

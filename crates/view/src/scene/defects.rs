@@ -1,4 +1,4 @@
-//! Defects as patches on their members' faces.
+//! Defects as patches on the faces of members.
 
 use super::bake::LightBaker;
 use super::bridges;
@@ -7,40 +7,40 @@ use spandrel_model::scenario::PlacedDefect;
 use spandrel_model::site::Site;
 use spandrel_model::site::catalogue;
 
-/// Rays for the light on a patch: as many as the measures use.
+/// Rays for the light on a patch: as many as in the scoring.
 const RAYS: usize = 64;
-/// Room around a line for what seeps out of it, m (the face goes on at least this far, `site::defects`).
+/// Margin around a line for leakage out of it, m (the face extends at least this far, `site::defects`).
 const SEEP_M: f64 = 0.03;
-/// Room around an area for its ragged edge, as a share of its size.
+/// Size factor of an area for its ragged edge.
 const RAGGED: f64 = 1.06;
 
-/// One defect for the shader `defect`.
+/// Instance data of a defect for the shader `defect`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "gpu", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C)]
 pub struct DefectPatch {
-    /// Centre, m; AASHTO code.
+    /// Center, m; AASHTO code.
     pub centre: [f32; 4],
-    /// Outward normal; a number of its own in 0..1.
+    /// Outward normal; a random number in 0..1.
     pub normal: [f32; 4],
-    /// Along the longest extent; length, m.
+    /// Direction of the longest extent; length, m.
     pub along: [f32; 4],
-    /// Width, m; condition state; down, along and across.
+    /// Width, m; condition state; downward direction along and across.
     pub size: [f32; 4],
-    /// Indirect light (shares of sky and sun); half sizes of what is drawn, m.
+    /// Indirect light (fractions of sky and sun); half sizes of the patch, m.
     pub light: [f32; 4],
-    /// The coat on steel, linear; the defect's number.
+    /// Paint on steel, linear; defect ID.
     pub tint: [f32; 4],
 }
 
-/// All defects of a site.
+/// Returns the patches of all defects of a site.
 pub fn patches(site: &Site, sun: Vec3<Enu>) -> Vec<DefectPatch> {
     let bake = LightBaker::new(site, sun, RAYS);
     site.defects().iter().map(|defect| patch(defect, bake.at(defect.position_m, defect.normal))).collect()
 }
 
-/// The code that a defect is drawn by. A resolved file may place kinds that no seed does: what is scored must be seen, so they look like a crack
-/// or like bare aggregate.
+/// Returns the code by which a defect is drawn. Resolved files may contain kinds that no seed generates; because scored defects
+/// must be visible, these look like a crack or exposed aggregate.
 fn look(defect: &PlacedDefect) -> u32 {
     match (catalogue::KINDS.contains(&defect.kind), defect.line) {
         (true, _) => defect.kind,
@@ -49,7 +49,7 @@ fn look(defect: &PlacedDefect) -> u32 {
     }
 }
 
-/// One defect under a light.
+/// Returns the patch of a defect with this indirect light.
 #[must_use]
 pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> DefectPatch {
     let four = |v: Vec3<Enu>, last: f64| {
@@ -63,7 +63,7 @@ pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> DefectPatch {
         (0.5 * RAGGED * defect.length_m, 0.5 * RAGGED * defect.width_m)
     };
     let [r, g, b] = bridges::matter(defect.element).1.map(|c| f32::from(c) / 255.0);
-    // Any number that differs between defects and stays the same for one.
+    // A number that differs between defects and is constant for each.
     let own = (f64::from(defect.id) * 0.618_034 + defect.length_m * 7.13).fract();
     DefectPatch {
         centre: four(defect.position_m, f64::from(look(defect))),

@@ -1,5 +1,5 @@
-//! The aircraft from its numbers: arms to the rotors, body, legs, camera on its gimbal, a cage where there is one. Own axes are the body's
-//! (forward, right, down); the mesh's x, y, z are these.
+//! Mesh of the aircraft from its parameters: arms, body, legs, gimbal camera, and a cage if it has one. The mesh axes x, y, z are
+//! the body axes (forward, right, down).
 
 use super::super::mesh::{Material, Mesh, SurfaceFinish};
 use spandrel_model::frames::{Enu, Frd, Vec3};
@@ -14,18 +14,18 @@ const BLADE: SurfaceFinish = SurfaceFinish::new(Material::Enamel, [120, 120, 118
 const CAGE: SurfaceFinish = SurfaceFinish::new(Material::Rubber, [24, 24, 26]);
 const RED: SurfaceFinish = SurfaceFinish::new(Material::Enamel, [190, 16, 10]);
 
-/// Body coordinates as the mesh's.
+/// Converts body coordinates to mesh coordinates.
 fn at(v: Vec3<Frd>) -> Vec3<Enu> {
     let [x, y, z] = v.array();
     Vec3::new(x, y, z)
 }
 
-/// All but the propellers.
+/// Builds everything except the propellers.
 pub fn body(vehicle: &Vehicle) -> Mesh {
     let mut mesh = Mesh::default();
     let [l, w, h] = vehicle.hull.body_half_extent_m;
     let thin = 0.09 * vehicle.rotor.radius_m.max(0.08);
-    // Down is +z: the block's upper face is the belly, pulled in a little.
+    // Down is +z: the block's upper face is the belly, slightly tapered.
     mesh.block([-l, -w, -h], [l, w, 0.3 * h], [0.0; 3], SHELL);
     mesh.block([-l, -w, 0.3 * h], [l, w, h], [0.25 * l, 0.25 * l, 0.25 * w], SHELL);
     mesh.block([0.92 * l, -0.5 * w, -0.5 * h], [1.01 * l, 0.5 * w, 0.1 * h], [0.0; 3], DARK);
@@ -35,7 +35,7 @@ pub fn body(vehicle: &Vehicle) -> Mesh {
         let end = hub + Vec3::new(0.0, 0.0, 0.6 * thin);
         mesh.round((root, 1.3 * thin), (end, 0.9 * thin), 8, ARM);
         mesh.round((hub + Vec3::new(0.0, 0.0, 1.8 * thin), 1.5 * thin), (hub, 1.3 * thin), 10, DARK);
-        // Front arms carry red bands, so that one sees where it points.
+        // Red bands on the front arms show the heading.
         if hub.east() > 0.0 && k < 8 {
             let (a, b) = (root.lerp(end, 0.5), root.lerp(end, 0.65));
             mesh.round((a, 1.35 * thin), (b, 1.3 * thin), 8, RED);
@@ -59,7 +59,7 @@ pub fn body(vehicle: &Vehicle) -> Mesh {
     mesh
 }
 
-/// Hoops of a ball around everything.
+/// Hoops of a spherical cage.
 fn cage(mesh: &mut Mesh, radius: f64) {
     const STEPS: u32 = 24;
     let point = |turn: u32, hoop: u32| {
@@ -83,7 +83,7 @@ fn cage(mesh: &mut Mesh, radius: f64) {
     }
 }
 
-/// Two twisted blades about the hub.
+/// Builds a propeller with two twisted blades.
 pub fn propeller(vehicle: &Vehicle) -> Mesh {
     let r = vehicle.rotor.radius_m;
     let mut mesh = Mesh::default();
@@ -106,7 +106,7 @@ pub fn propeller(vehicle: &Vehicle) -> Mesh {
     mesh
 }
 
-/// The disc of a fast propeller, seen from both sides.
+/// Builds the disk of a fast propeller, visible from both sides.
 pub fn disc(vehicle: &Vehicle) -> Mesh {
     const SIDES: u32 = 32;
     let mut mesh = Mesh::default();

@@ -1,4 +1,4 @@
-//! Which of the ground's corners are shown: all of them, or fewer where nobody sees the difference.
+//! Selects the ground triangles to draw: all, or fewer where the difference is not visible.
 
 use super::sparse::{self, GridSquare};
 use spandrel_model::frames::{Enu, Vec3};
@@ -6,25 +6,27 @@ use spandrel_model::math;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 
-/// Largest square that is drawn as two triangles, cells.
+/// Largest square drawn as two triangles, cells.
 const LARGEST: usize = 8;
-/// Ground may lie off by this angle from where people and aircraft are: four pixels of a view 640 px and 84 degrees wide, on hills that roll.
+/// Maximum angular error of the ground as seen from people and aircraft, rad: four pixels of a view 640 px and 84 degrees wide,
+/// on rolling hills.
 const ANGLE_RAD: f64 = 0.012;
-/// But never by more than this, m, nor is it asked to be nearer than that, m (estimates: a step that one overlooks, the thickness of grass).
+/// Minimum and maximum height error, m (estimates: the thickness of grass, and a barely noticeable step).
 const OFF_M: (f64, f64) = (0.15, 3.0);
-/// At the shore a little height moves the waterline far: the share of the tolerance there, and the heights over and under the water, m.
+/// Near the shore a small height error moves the waterline far: the factor on the tolerance, and the height above and below the
+/// water to which it applies, m.
 const SHORE: (f64, f64) = (0.4, 1.0);
-/// A bed deeper than this is not seen, m (the shader `water` loses 99 % of its light on the way there and back).
+/// Depth beyond which the lake bed is not visible, m (the shader `water` loses 99 % of its light on the way there and back).
 pub const UNSEEN_M: f64 = 5.0;
-/// Light is worked out this near to a bridge and changes from cell to cell: squares there have no more cells than that.
+/// Distance from a bridge within which light varies between cells, m, and the maximum square size there, cells.
 const LIT: (f64, usize) = (30.0, 2);
 
-/// The whole ground, triangle by triangle.
+/// Returns all triangles of the ground.
 pub fn all(site: &Site) -> Vec<[u32; 3]> {
     site.geometry().terrain.ground.triangles().1
 }
 
-/// The ground by fewer triangles, `rough` times farther off than where it is looked at itself.
+/// Returns the ground with fewer triangles; the error tolerance is `rough` times that of the direct view.
 pub fn sparse(scenario: &Scenario, site: &Site, rough: f64) -> Vec<[u32; 3]> {
     let (points, triangles) = site.geometry().terrain.ground.triangles();
     let side = points.len().isqrt();
@@ -35,14 +37,14 @@ pub fn sparse(scenario: &Scenario, site: &Site, rough: f64) -> Vec<[u32; 3]> {
     sparse::triangles(side, LARGEST, &|square| field.flat(square))
 }
 
-/// Those of the ground's triangles that do not lie deeper than `under_m` under the lake.
+/// Returns the triangles that are not deeper than `under_m` below the lake's surface.
 pub fn shallow(scenario: &Scenario, site: &Site, triangles: &[[u32; 3]], under_m: f64) -> Vec<[u32; 3]> {
     let (points, _) = site.geometry().terrain.ground.triangles();
     let bottom_m = scenario.terrain.water_level_m - under_m;
     triangles.iter().filter(|corners| corners.iter().any(|k| points[*k as usize].up() > bottom_m)).copied().collect()
 }
 
-/// Where people stand and aircraft fly.
+/// Returns positions of people and aircraft.
 fn eyes(scenario: &Scenario) -> Vec<Vec3<Enu>> {
     let team = &scenario.ground_team;
     let paths = scenario.tasks.iter().flat_map(|task| task.path_m.iter().step_by(4).copied());
@@ -59,7 +61,7 @@ struct GroundField<'a> {
 }
 
 impl GroundField<'_> {
-    /// A square may be drawn by its corners alone.
+    /// Checks whether a square may be drawn from its corners only.
     fn flat(&self, square: &GridSquare) -> bool {
         let corners = square.corners(self.side).map(|k| self.points[k]);
         let middle = corners[0].lerp(corners[2], 0.5);
@@ -78,14 +80,14 @@ impl GroundField<'_> {
         self.inside(square).all(|p| (p.up() - between(&corners, p)).abs() <= allowed_m)
     }
 
-    /// All corners of cells in a square.
+    /// Returns all grid points in a square.
     fn inside(&self, square: &GridSquare) -> impl Iterator<Item = Vec3<Enu>> {
         let (first, size) = (square.row * self.side + square.column, square.size);
         (0..=size).flat_map(move |row| (0..=size).map(move |column| self.points[first + row * self.side + column]))
     }
 }
 
-/// Height of the two triangles over a square at a place in it, m.
+/// Height of the two triangles of a square at a point, m.
 fn between([sw, se, ne, nw]: &[Vec3<Enu>; 4], p: Vec3<Enu>) -> f64 {
     let (x, y) = ((p.east() - sw.east()) / (ne.east() - sw.east()), (p.north() - sw.north()) / (ne.north() - sw.north()));
     if x >= y {

@@ -1,4 +1,4 @@
-//! Ground, mountains beyond it, the lake's surface and the pad.
+//! Ground, surrounding mountains, the lake's surface, and the landing pad.
 
 use super::super::mesh::{Material, Mesh, Vertex, single};
 use super::bake::LightBaker;
@@ -7,21 +7,22 @@ use spandrel_model::math;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 
-/// Around bridges and pad the light on the ground is worked out within this distance of a member, m.
+/// Distance from a member within which light on the ground is baked, m.
 const SHADED_M: f64 = 30.0;
-/// Rings of mountains, as shares of the field's half side: pictures only, nothing of a job reaches there.
+/// Rings of mountains, as fractions of the field's half side. Visual only; no job extends there.
 const RINGS: [f64; 15] = [0.98, 1.0, 1.1, 1.25, 1.45, 1.7, 2.0, 2.4, 2.9, 3.5, 4.3, 5.4, 6.8, 8.6, 11.0];
-/// Corners on each side of a ring.
+/// Vertices on each side of a ring.
 const SIDE: usize = 48;
-/// Inside the rim mountains begin so far under the ground, m: the rim has fewer corners than the ground and would leave gaps to see through.
+/// Depth below the ground at which the mountains start inside the rim, m: the rim has fewer vertices than the ground, and gaps
+/// would be visible.
 const UNDER_M: f64 = 8.0;
-/// How high mountains rise over the rim, m (estimate: a lake in a pre-alpine valley).
+/// Height of the mountains above the rim, m (estimate: a lake in a pre-alpine valley).
 const PEAKS_M: f64 = 620.0;
-/// The rim is land from this height over the water on, m.
+/// Height above the water from which the rim counts as land, m.
 const SHORE_M: f64 = 45.0;
-/// The lake reaches this far, m.
+/// Extent of the lake, m.
 const LAKE_M: f64 = 9_000.0;
-/// Depth that is as good as bottomless, m.
+/// Depth that counts as bottomless, m.
 const DEEP_M: f64 = 30.0;
 
 fn ground_vertex(p: Vec3<Enu>, normal: Vec3<Enu>, light: [f32; 2], over_water_m: f64) -> Vertex {
@@ -36,14 +37,14 @@ fn ground_vertex(p: Vec3<Enu>, normal: Vec3<Enu>, light: [f32; 2], over_water_m:
     }
 }
 
-/// The ground that collides, by those of its corners that are shown.
+/// Builds the ground mesh (the collision geometry) from the selected triangles.
 pub fn mesh(scenario: &Scenario, site: &Site, bake: &LightBaker, shown: &[[u32; 3]]) -> Mesh {
     let (points, triangles) = site.geometry().terrain.ground.triangles();
     let normals = smooth(&points, &triangles);
     let vertex = |k: u32| {
         let (p, n) = (&points[k as usize], &normals[k as usize]);
         let near = site.geometry().nearest_member(*p, SHADED_M).is_some();
-        // In the open a slope sees the sky over its own horizon and a little of the ground.
+        // On an open slope, light comes from the sky above its own horizon and slightly from the ground.
         let open = [0.5 + 0.5 * n.up() as f32, 0.02];
         let light = if near { bake.at(*p + *n * 0.3, *n) } else { open };
         ground_vertex(*p, *n, light, p.up() - scenario.terrain.water_level_m)
@@ -51,7 +52,7 @@ pub fn mesh(scenario: &Scenario, site: &Site, bake: &LightBaker, shown: &[[u32; 
     of_corners(points.len(), shown.iter().copied(), vertex)
 }
 
-/// A mesh of triangles whose corners are made when they are first met.
+/// Builds a mesh of triangles and creates each vertex on first use.
 fn of_corners(corners: usize, triangles: impl Iterator<Item = [u32; 3]>, vertex: impl Fn(u32) -> Vertex) -> Mesh {
     let mut mesh = Mesh::default();
     let mut placed: Vec<Option<u32>> = vec![None; corners];
@@ -78,8 +79,8 @@ fn smooth(points: &[Vec3<Enu>], triangles: &[[u32; 3]]) -> Vec<Vec3<Enu>> {
     sums.into_iter().map(Vec3::unit).collect()
 }
 
-/// Mountains around the field, rising from its rim; where the lake leaves the field it goes on between them. `coarse`: every second corner of
-/// every second ring beyond the rim.
+/// Builds the mountains around the field, rising from its rim; where the lake leaves the field, it continues between them.
+/// `coarse` uses every second vertex of every second ring beyond the rim.
 pub fn mountains(scenario: &Scenario, site: &Site, coarse: bool) -> Mesh {
     let half = 0.5 * scenario.terrain.size_m;
     let water = scenario.terrain.water_level_m;
@@ -107,7 +108,7 @@ pub fn mountains(scenario: &Scenario, site: &Site, coarse: bool) -> Mesh {
     for ring in 0..rings.len() - 1 {
         for k in 0..around {
             let i = |ring: usize, k: usize| (ring * around + k % around) as u32;
-            // The rim runs counter-clockwise: outward lies to its right.
+            // The rim is counterclockwise: outward is to its right.
             triangles.push([i(ring, k), i(ring + 1, k), i(ring + 1, k + 1)]);
             triangles.push([i(ring, k), i(ring + 1, k + 1), i(ring, k + 1)]);
         }
@@ -118,7 +119,7 @@ pub fn mountains(scenario: &Scenario, site: &Site, coarse: bool) -> Mesh {
     Mesh { vertices: vertices.collect(), indices: triangles.into_iter().flatten().collect() }
 }
 
-/// Places on the square's rim, -1..1, counter-clockwise from the south-west.
+/// Returns the point `k` on the square's rim, in -1..1, counterclockwise from the southwest.
 fn rim(k: usize) -> (f64, f64) {
     let t = 2.0 * (k % SIDE) as f64 / SIDE as f64 - 1.0;
     match k / SIDE {
@@ -129,24 +130,24 @@ fn rim(k: usize) -> (f64, f64) {
     }
 }
 
-/// Height over the water beyond the rim: the rim's own, then ridges; a lake stays a lake for a while.
+/// Height above the water beyond the rim: the rim's own height, then ridges; the lake continues for some distance.
 fn slope_up_m(rim_up_m: f64, share: f64, east: f64, north: f64) -> f64 {
     let ridges = 0.5
         + 0.30 * math::sin(east / 610.0 + 1.7 * math::sin(north / 930.0)) * math::cos(north / 480.0 - 0.8)
         + 0.20 * math::sin(east / 233.0 + 2.0) * math::sin(north / 271.0 + math::cos(east / 350.0));
-    // Between lake and land the rim goes over from one to the other, or a wall would stand there.
+    // Blends between lake and land along the rim to avoid a vertical wall.
     let wet = {
         let t = ((SHORE_M - rim_up_m) / SHORE_M).clamp(0.0, 1.0);
         t * t * (3.0 - 2.0 * t)
     };
     let beyond = (share - math::lerp(1.0, 2.2, wet)).max(0.0) / 2.4;
-    // It begins gently and steepens, as a valley's end does.
+    // Starts gently and steepens, like the end of a valley.
     let climb = 1.0 - math::exp(-beyond * beyond / (0.3 + beyond));
     let far = PEAKS_M * climb * (0.35 + 0.9 * ridges);
     rim_up_m * (1.0 - 0.4 * climb * (1.0 - wet)) + far
 }
 
-/// The lake: over the field a corner for each of the ground's with its depth, and far out a frame.
+/// Builds the lake: one vertex with depth per ground vertex in the field, and a frame beyond it.
 pub fn water(scenario: &Scenario, site: &Site, bake: &LightBaker, shown: &[[u32; 3]]) -> Mesh {
     let level = scenario.terrain.water_level_m;
     let (points, _) = site.geometry().terrain.ground.triangles();
@@ -188,7 +189,7 @@ fn water_vertex(p: Vec3<Enu>, light: [f32; 2], depth_m: f64) -> Vertex {
     }
 }
 
-/// The take-off pad, a hair over its slab.
+/// Builds the landing pad, slightly above its slab.
 pub fn pad(site: &Site) -> Mesh {
     let slab = &site.geometry().pad().solid.vertices_m;
     let top = slab.iter().map(|v| v.up()).fold(f64::NEG_INFINITY, f64::max);

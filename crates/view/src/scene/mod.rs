@@ -1,5 +1,5 @@
-//! A site as meshes: what stands still is built once, with its indirect light worked out at every corner; what moves is a list of instances
-//! for each picture.
+//! A site as meshes: static objects are built once with baked indirect light per vertex; moving objects are a list of instances
+//! per picture.
 
 mod bake;
 mod bridges;
@@ -23,25 +23,25 @@ use spandrel_model::site::movers::MoverKind;
 use spandrel_model::site::{QueryTime, Site};
 use spandrel_model::vehicle::Vehicle;
 
-/// Where one copy of a mesh stands.
+/// Transform and attributes of an instance of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "gpu", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C)]
 pub struct Instance {
-    /// Rows of the affine map from the mesh's own axes into the site.
+    /// Rows of the affine transform from mesh axes to the site.
     pub rows: [[f32; 4]; 3],
-    /// Colour of painted parts, linear; the last is 1 where it counts.
+    /// Color of painted parts, linear; the last component is 1 if it applies.
     pub paint: [f32; 4],
-    /// Indirect light on what faces up (shares of sky and sun), and down.
+    /// Indirect light on upward surfaces (fractions of sky and sun) and on downward surfaces.
     pub around: [f32; 4],
 }
 
 impl Instance {
-    /// Where the mesh was built, with its own light.
+    /// Identity transform; uses the mesh's own light.
     pub const HERE: Self =
         Self { rows: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]], paint: [0.0; 4], around: [1.0; 4] };
 
-    /// A mesh whose axes point along three vectors (their lengths scale it) from an origin.
+    /// Creates an instance from an origin and three axis vectors, whose lengths set the scale.
     #[must_use]
     pub fn placed(origin_m: Vec3<Enu>, axes: [Vec3<Enu>; 3], around: [f32; 4]) -> Self {
         let [x, y, z] = axes.map(single);
@@ -49,7 +49,7 @@ impl Instance {
         Self { rows: [0, 1, 2].map(|k| [x[k], y[k], z[k], o[k]]), paint: [0.0; 4], around }
     }
 
-    /// A corner of the mesh where this copy has it, lit as the shaders light copies.
+    /// Transforms and lights a vertex as the shaders do.
     fn transformed(&self, v: &Vertex) -> Vertex {
         let turned = |of: [f32; 3]| self.rows.map(|row| row[0] * of[0] + row[1] * of[1] + row[2] * of[2]);
         let [x, y, z] = turned(v.normal);
@@ -70,57 +70,57 @@ impl Instance {
     }
 }
 
-/// A mesh and where its copies stand.
+/// A mesh and its instances.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneItem {
-    /// What it is.
+    /// Name.
     pub name: &'static str,
-    /// Triangles.
+    /// Mesh.
     pub mesh: Mesh,
-    /// Copies.
+    /// Instances.
     pub instances: Vec<Instance>,
-    /// It throws shadows.
+    /// Whether it casts shadows.
     pub casts: bool,
-    /// From where it shows.
+    /// Distances at which it is drawn.
     pub visible_range: VisibleRange,
-    /// It stands around everything: cut into sectors.
+    /// Whether it belongs to the backdrop, which is split into sectors.
     pub backdrop: bool,
 }
 
-/// From where something shows: distances at which it begins and ends, m.
+/// Minimum and maximum distances at which an object is drawn, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VisibleRange {
-    /// Straight.
+    /// In the direct view.
     pub straight_m: [f64; 2],
-    /// In the lake.
+    /// In the lake's reflection.
     pub in_lake_m: [f64; 2],
 }
 
 impl VisibleRange {
-    /// From anywhere.
+    /// At any distance.
     pub const ALWAYS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
-    /// From nowhere.
+    /// Never.
     pub const NEVER: [f64; 2] = [f64::INFINITY, f64::INFINITY];
-    /// Straight and in the lake.
+    /// In the direct view and in the lake, at any distance.
     pub const EVERYWHERE: Self = Self { straight_m: Self::ALWAYS, in_lake_m: Self::ALWAYS };
-    /// Never in the lake.
+    /// In the direct view only.
     pub const STRAIGHT: Self = Self { in_lake_m: Self::NEVER, ..Self::EVERYWHERE };
-    /// In the lake alone: a simpler stand-in.
+    /// In the lake only: a simplified stand-in.
     pub const IN_LAKE: Self = Self { straight_m: Self::NEVER, ..Self::EVERYWHERE };
 
-    /// From nearer than this, m.
+    /// Returns a range closer than this distance, m.
     #[must_use]
     pub const fn within(most_m: f64) -> [f64; 2] {
         [f64::NEG_INFINITY, most_m]
     }
 
-    /// From this far on, m.
+    /// Returns a range from this distance on, m.
     #[must_use]
     pub const fn beyond(least_m: f64) -> [f64; 2] {
         [least_m, f64::INFINITY]
     }
 
-    /// Whether it shows straight or in the lake, at a distance.
+    /// Checks whether it is drawn at a distance, directly or in the lake.
     #[must_use]
     pub fn shows(&self, in_lake: bool, from_m: f64) -> bool {
         let [begins, ends] = if in_lake { self.in_lake_m } else { self.straight_m };
@@ -129,18 +129,18 @@ impl VisibleRange {
 }
 
 impl SceneItem {
-    /// What is built where it stands.
+    /// Creates an item with one instance at the identity transform.
     fn here(name: &'static str, mesh: Mesh, casts: bool) -> Self {
         Self { name, mesh, instances: vec![Instance::HERE], casts, visible_range: VisibleRange::EVERYWHERE, backdrop: false }
     }
 }
 
-/// Meshes of what moves.
+/// Models of moving objects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum MoverModel {
     /// A car.
     Car,
-    /// A lorry.
+    /// A truck.
     Truck,
     /// A person.
     Person,
@@ -148,50 +148,51 @@ pub enum MoverModel {
     Drone,
     /// One propeller.
     Propeller,
-    /// The disc that a fast propeller blurs into.
+    /// The disk of motion blur of a fast propeller.
     Disc,
 }
 
 impl MoverModel {
-    /// All, in order.
+    /// All models in order.
     pub const ALL: [Self; 6] = [Self::Car, Self::Truck, Self::Person, Self::Drone, Self::Propeller, Self::Disc];
 }
 
-/// The aircraft as it is drawn.
+/// Pose of the aircraft for rendering.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DronePose {
-    /// Centre of mass, m.
+    /// Center of mass, ENU, m.
     pub position_m: Vec3<Enu>,
-    /// Attitude.
+    /// Attitude (body FRD to NED).
     pub ned_from_frd: Rotation<Frd, Ned>,
-    /// Its propellers turn.
+    /// Whether the propellers are turning.
     pub spinning: bool,
 }
 
-/// Everything that is drawn of a site.
+/// A site for rendering.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// What stands still.
+    /// Static objects.
     pub parts: Vec<SceneItem>,
-    /// The lake's surface; `aux` of its corners is the depth, m.
+    /// Surface of the lake; `aux` of its vertices is the depth, m.
     pub water: Mesh,
     /// Defects.
     pub patches: Vec<DefectPatch>,
-    /// Meshes of [`MoverModel::ALL`].
+    /// Meshes in the order of [`MoverModel::ALL`].
     pub models: Vec<Mesh>,
-    /// Ball around everything that is built, m.
+    /// Bounding sphere of all structures, m.
     pub bounds_m: (Vec3<Enu>, f64),
     rotors: Vec<(Vec3<Frd>, f64)>,
     water_m: f64,
 }
 
-/// How many times farther off the ground may lie in the lake's mirror, which waves blur and which has fewer pixels.
+/// Factor on the ground's error tolerance in the lake's reflection, which is blurred by waves and has fewer pixels.
 const IN_LAKE: f64 = 4.0;
-/// Speed at which propellers are shown to turn, rad/s: slow enough not to stand still on a screen (the wire does not tell the true one).
+/// Displayed propeller speed, rad/s: slow enough to avoid stroboscopic standstill on a screen (telemetry does not include the
+/// actual speed).
 const SHOWN_SPIN_RAD_S: f64 = 43.0;
 
 impl Scene {
-    /// Builds a site's scene for the light at one instant.
+    /// Builds the scene of a site for the light at one time.
     #[must_use]
     pub fn build(scenario: &Scenario, site: &Site, vehicle: &Vehicle, quality: &Quality, at: QueryTime) -> Self {
         let sun = site.light().daylight(at).sun;
@@ -236,13 +237,13 @@ impl Scene {
         }
     }
 
-    /// Water surface, m up.
+    /// Returns the height of the water surface, m.
     #[must_use]
     pub fn water_m(&self) -> f64 {
         self.water_m
     }
 
-    /// What moves, at an instant.
+    /// Returns the instances of the moving objects at a time.
     #[must_use]
     pub fn moving(
         &self,
@@ -301,17 +302,17 @@ impl Scene {
     }
 }
 
-/// Light in the open: all of the sky above, half of what the ground throws back below (estimate).
+/// Light in the open: the whole sky from above, half of the ground's reflected light from below (estimate).
 const OPEN: [f32; 4] = [0.95, 0.02, 0.22, 0.10];
 
-/// A mesh with x forward, y left, z up that stands on its feet.
+/// Places a mesh (x forward, y left, z up) on the ground.
 fn place_on_ground(feet_m: Vec3<Enu>, forward: Vec3<Enu>, around: [f32; 4]) -> Instance {
     let level: Vec3<Enu> = Vec3::new(forward.east(), forward.north(), 0.0).unit();
     let left = Vec3::new(-level.north(), level.east(), 0.0);
     Instance::placed(feet_m, [level, left, Vec3::new(0.0, 0.0, 1.0)], around)
 }
 
-/// A ball around all members and the pad.
+/// Returns the bounding sphere of all members and the pad.
 fn bounds(site: &Site) -> (Vec3<Enu>, f64) {
     let members = site.members().iter().chain([site.geometry().pad()]);
     let points: Vec<Vec3<Enu>> = members.flat_map(|member| member.solid.vertices_m.iter().copied()).collect();

@@ -1,5 +1,4 @@
-//! Conifers and boulders for scale. They stand where nobody flies a task: clear of bridges, task paths and pad, since nothing collides with
-//! them.
+//! Conifers and boulders for visual scale. They do not collide and are therefore kept clear of bridges, task paths and the pad.
 
 use super::super::mesh::{Material, Mesh, SurfaceFinish, Vertex};
 use super::super::quality::Quality;
@@ -10,31 +9,31 @@ use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::{Scenario, TerrainSource};
 use spandrel_model::site::Site;
 
-/// From every member, m (a tree's crown and the room to fly around a bridge).
+/// Clearance from every member, m (a tree crown plus space to fly around a bridge).
 const CLEAR_BRIDGE_M: f64 = 14.0;
-/// From every point of a task's path, m.
+/// Clearance from every point of a task path, m.
 const CLEAR_PATH_M: f64 = 16.0;
-/// From the pad, m.
+/// Clearance from the pad, m.
 const CLEAR_PAD_M: f64 = 26.0;
-/// Trees stand at least this high over the water, m.
+/// Minimum height of trees above the water, m.
 const DRY_M: f64 = 2.2;
-/// And on ground no steeper than this (the normal's rise).
+/// Minimum vertical component of the ground normal for trees.
 const STEEP: f64 = 0.72;
-/// Where triangles are saved the lake mirrors trees no farther than this, m (there one is three pixels of its mirror).
+/// Maximum distance of trees in the lake's reflection where triangles are saved, m (a tree covers three pixels there).
 const MIRRORED_M: f64 = 160.0;
-/// And boulders end here, m: the largest are three pixels of a view 640 px and 84 degrees wide, most are one.
+/// Maximum distance of boulders, m: the largest cover three pixels of a view 640 px and 84 degrees wide, most cover one.
 const BOULDERS_M: f64 = 150.0;
-/// And trees have fewer boughs from here on, m: the tallest are 25 pixels high. Both kinds stand where one goes over into the other.
+/// Distance from which trees have fewer boughs, m: the tallest are 25 pixels high. Both variants are drawn in the overlap.
 const FAR_M: f64 = 220.0;
 const OVERLAP_M: f64 = 5.0;
-/// Side of the patches in which trees stand together, m.
+/// Size of groves of trees, m.
 const GROVE_M: f64 = 55.0;
 
 const NEEDLES: SurfaceFinish = SurfaceFinish::new(Material::Foliage, [17, 30, 15]);
 const BARK: SurfaceFinish = SurfaceFinish::new(Material::Bark, [42, 30, 22]);
 const STONE: SurfaceFinish = SurfaceFinish::new(Material::Rock, [74, 70, 64]);
 
-/// Trees and boulders of a site; their places come from the terrain's own seed.
+/// Builds the trees and boulders of a site; their positions come from the terrain's seed.
 pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<SceneItem> {
     let seed = match &scenario.terrain.source {
         TerrainSource::Valley { seed, .. } => *seed,
@@ -79,7 +78,7 @@ pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<SceneIt
         |name, mesh, instances, seen| SceneItem { name, mesh, instances, casts: true, visible_range: seen, backdrop: false };
     let boulders = copies("boulders", boulder(quality.boughs), rocks, on_shore);
     if quality.sparse {
-        // Software draws copies one by one: a wood in one piece takes less.
+        // Software renderers process instances one by one: a merged mesh is faster.
         let wood = |spruce: &Mesh, fir: &Mesh| {
             let mut wood = stamped(spruce, &tall);
             wood.append(&stamped(fir, &slim));
@@ -97,13 +96,13 @@ pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<SceneIt
     vec![copies("spruces", spruce, tall, VisibleRange::EVERYWHERE), copies("firs", fir, slim, VisibleRange::EVERYWHERE), boulders]
 }
 
-/// How likely a tree is here: groves and clearings.
+/// Tree density at a point: groves and clearings.
 fn grove(east: f64, north: f64) -> f64 {
     let wave = math::sin(east / GROVE_M + 1.3 * math::sin(north / (1.4 * GROVE_M))) * math::cos(north / GROVE_M - 0.5);
     (0.25 + 0.75 * wave).clamp(0.03, 1.0)
 }
 
-/// The ground at a place with room for a plant.
+/// Returns the ground point if there is space for a plant.
 fn room(scenario: &Scenario, site: &Site, east: f64, north: f64, over_water_m: f64) -> Option<Vec3<Enu>> {
     let (up, normal) = site.geometry().terrain.ground.ground(east, north);
     let at = Vec3::new(east, north, up);
@@ -119,7 +118,7 @@ fn room(scenario: &Scenario, site: &Site, east: f64, north: f64, over_water_m: f
     (fits && from_team && from_paths() && from_bridges()).then_some(at)
 }
 
-/// Under or beside a deck, or on its approach.
+/// Checks whether a point is below or next to a deck or approach.
 fn roofed(scenario: &Scenario, at: Vec3<Enu>) -> bool {
     scenario.bridges.iter().any(|bridge| {
         let [x, y, _] = bridge.placement().local(at);
@@ -133,9 +132,9 @@ fn grown(foot: Vec3<Enu>, size: f64, turn: f64) -> Instance {
     Instance::placed(foot, axes, [0.8, 0.02, 0.25, 0.06])
 }
 
-/// A conifer of height 1: whorls of drooping boughs with a ragged rim.
+/// A conifer of height 1: whorls of drooping boughs with a ragged edge.
 fn conifer(radius: f64, whorls: u32, boughs: u32) -> Mesh {
-    // Fewer boughs stand in fewer whorls.
+    // Fewer boughs per whorl also mean fewer whorls.
     let whorls = if boughs < 8 { whorls - 2 } else { whorls };
     let mut mesh = Mesh::default();
     if boughs < 8 {
@@ -150,7 +149,7 @@ fn conifer(radius: f64, whorls: u32, boughs: u32) -> Mesh {
         let wide = radius * (1.0 - 0.82 * share);
         let rim = |k: u32| {
             let (s, c) = math::sin_cos(math::TAU * (f64::from(k % boughs) + 0.37 * f64::from(whorl)) / f64::from(boughs));
-            // Boughs stick out by turns.
+            // Boughs alternate between long and short.
             let (ragged, droop) = if (k % boughs).is_multiple_of(2) { (1.0, -0.035) } else { (0.68, 0.01) };
             Vec3::new(wide * ragged * c, wide * ragged * s, low + droop)
         };
@@ -169,7 +168,7 @@ fn conifer(radius: f64, whorls: u32, boughs: u32) -> Mesh {
     mesh
 }
 
-/// A conifer of height 1 as it looks from afar: two whorls of four boughs.
+/// A distant conifer of height 1: two whorls of four boughs.
 fn distant(radius: f64) -> Mesh {
     const WHORLS: [(f64, f64, f64); 2] = [(0.08, 0.62, 1.0), (0.40, 1.0, 0.62)];
     let mut mesh = Mesh::default();
@@ -184,7 +183,7 @@ fn distant(radius: f64) -> Mesh {
     mesh
 }
 
-/// A whorl whose faces share their corners: a third of the corners of separate faces.
+/// A whorl with shared vertices: a third of the vertices of separate faces.
 fn cone(mesh: &mut Mesh, rim: &[Vec3<Enu>], top: Vec3<Enu>) {
     let (first, count) = (mesh.vertices.len() as u32, rim.len() as u32);
     mesh.polygon(rim, NEEDLES);
@@ -201,7 +200,7 @@ fn cone(mesh: &mut Mesh, rim: &[Vec3<Enu>], top: Vec3<Enu>) {
     mesh.indices.extend((0..count).flat_map(|k| [first + k, first + (k + 1) % count, first + count]));
 }
 
-/// A trunk of three faces.
+/// A trunk with three faces.
 fn trunk(mesh: &mut Mesh) {
     let foot = |k: u32| {
         let (s, c) = math::sin_cos(math::TAU * f64::from(k) / 3.0);
@@ -212,7 +211,7 @@ fn trunk(mesh: &mut Mesh) {
     }
 }
 
-/// All copies as one mesh where they stand, with their light.
+/// Merges all instances into one mesh, with their light.
 fn stamped(mesh: &Mesh, copies: &[Instance]) -> Mesh {
     let mut all = Mesh::default();
     for copy in copies {
@@ -223,7 +222,7 @@ fn stamped(mesh: &Mesh, copies: &[Instance]) -> Mesh {
     all
 }
 
-/// Needles scatter light: normals lean outward and up, and the inside is darker.
+/// Needles scatter light: tilts normals outward and up and darkens the inside.
 fn soften(mesh: &mut Mesh) {
     for v in &mut mesh.vertices {
         let [x, y, z] = v.position.map(f64::from);

@@ -1,4 +1,4 @@
-//! Cars, lorries and people, each within the boxes that collide (`site::movers`): x forward, y left, z up from the feet.
+//! Cars, trucks and people, each within its collision box (`site::movers`): x forward, y left, z up from the ground.
 
 use super::super::mesh::{Material, Mesh, SurfaceFinish};
 use spandrel_model::frames::{Enu, Vec3};
@@ -16,7 +16,7 @@ const SKIN: SurfaceFinish = SurfaceFinish::new(Material::Cloth, [120, 72, 50]);
 const TROUSERS: SurfaceFinish = SurfaceFinish::new(Material::Cloth, [16, 20, 34]);
 const HAIR: SurfaceFinish = SurfaceFinish::new(Material::Cloth, [22, 14, 8]);
 
-/// Colours of cars as they stand on car parks, linear.
+/// Common car colors, linear.
 const CARS: [[f32; 3]; 8] = [
     [0.62, 0.62, 0.60],
     [0.02, 0.02, 0.022],
@@ -27,17 +27,17 @@ const CARS: [[f32; 3]; 8] = [
     [0.55, 0.54, 0.50],
     [0.03, 0.09, 0.05],
 ];
-/// Cabs of lorries.
+/// Truck cab colors.
 const CABS: [[f32; 3]; 4] = [[0.45, 0.02, 0.015], [0.02, 0.08, 0.28], [0.6, 0.6, 0.58], [0.55, 0.25, 0.02]];
-/// Jackets.
+/// Jacket colors.
 const JACKETS: [[f32; 3]; 6] =
     [[0.35, 0.03, 0.03], [0.03, 0.07, 0.25], [0.4, 0.3, 0.05], [0.05, 0.2, 0.08], [0.3, 0.3, 0.3], [0.25, 0.05, 0.2]];
 /// The inspector's high-visibility vest.
 pub const VEST: [f32; 3] = [0.85, 0.28, 0.01];
-/// The crew's truck: white with a company's blue would need letters; safety yellow is seen from afar.
+/// Color of the crew's truck: safety yellow, visible from afar; white would need company lettering.
 pub const CREW_TRUCK: [f32; 3] = [0.75, 0.48, 0.03];
 
-/// The colour of the k-th mover.
+/// Returns the color of the k-th mover.
 pub fn colour(kind: MoverKind, k: usize) -> [f32; 3] {
     let pick = k.wrapping_mul(7) + 3;
     match kind {
@@ -47,17 +47,17 @@ pub fn colour(kind: MoverKind, k: usize) -> [f32; 3] {
     }
 }
 
-/// How round wheels and limbs are.
+/// Number of sides of wheels and limbs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RoundDetail {
-    /// As round as they look from a step away.
+    /// Full number of sides, for close views.
     Fine,
-    /// As round as they look across a road: with half the sides.
+    /// Half the number of sides, for views across a road.
     Plain,
 }
 
 impl RoundDetail {
-    /// Sides of what has so many at its finest.
+    /// Returns the number of sides for a part with `finest` sides at full detail.
     fn sides(self, finest: u32) -> u32 {
         match self {
             Self::Fine => finest,
@@ -65,7 +65,7 @@ impl RoundDetail {
         }
     }
 
-    /// Rings and sides of a ball.
+    /// Returns the number of rings and sides of a sphere.
     fn ball(self) -> (u32, u32) {
         match self {
             Self::Fine => (8, 12),
@@ -87,11 +87,11 @@ fn wheel(mesh: &mut Mesh, x: f64, y: f64, (radius, width): (f64, f64), rounds: R
 /// A family car, 4.5 m long.
 pub fn car(rounds: RoundDetail) -> Mesh {
     let mut mesh = Mesh::default();
-    // Sills, waist, bonnet and boot.
+    // Sills, waist, hood and trunk.
     mesh.block([-2.2, -0.86, 0.22], [2.2, 0.86, 0.55], [0.0, 0.0, -0.03], PAINT);
     mesh.block([-2.22, -0.89, 0.55], [2.22, 0.89, 0.86], [0.25, 0.10, 0.07], PAINT);
     mesh.block([0.85, -0.80, 0.84], [2.02, 0.80, 0.94], [0.55, 0.0, 0.06], PAINT);
-    // Windows all around under the roof.
+    // Windows around the cabin below the roof.
     mesh.block([-1.75, -0.80, 0.84], [1.02, 0.80, 1.36], [0.75, 0.55, 0.17], GLASS);
     mesh.block([-1.22, -0.64, 1.35], [0.30, 0.64, 1.45], [0.12, 0.12, 0.10], PAINT);
     // Pillars between the windows.
@@ -110,11 +110,11 @@ pub fn car(rounds: RoundDetail) -> Mesh {
     mesh
 }
 
-/// A lorry, 10 m long: a cab and a box body.
+/// A truck, 10 m long: a cab and a box body.
 pub fn truck(rounds: RoundDetail) -> Mesh {
     let mut mesh = Mesh::default();
     mesh.block([-5.0, -0.45, 0.55], [4.6, 0.45, 0.85], [0.0; 3], DARK);
-    // Cab with a raked windscreen.
+    // Cab with a raked windshield.
     mesh.block([2.9, -1.18, 0.55], [4.95, 1.18, 1.55], [0.02, 0.0, 0.0], PAINT);
     mesh.block([2.9, -1.18, 1.55], [4.93, 1.18, 2.55], [0.28, 0.0, 0.08], PAINT);
     mesh.block([3.05, -1.12, 2.55], [4.55, 1.12, 2.78], [0.35, 0.1, 0.12], PAINT);
@@ -125,7 +125,7 @@ pub fn truck(rounds: RoundDetail) -> Mesh {
         mesh.block([4.9, y - 0.17, 0.72], [4.985, y + 0.17, 0.92], [0.0; 3], LAMP);
         mesh.block([-5.0, y - 0.15, 0.72], [-4.96, y + 0.15, 0.86], [0.0; 3], TAIL);
     }
-    // Box body with a ribbed frame, and the gap and bars of its doors. No two faces lie in one plane: they would flicker.
+    // Box body with a ribbed frame, door gap and bars. No two faces are coplanar, to avoid z-fighting.
     mesh.block([-4.98, -1.22, 0.95], [2.56, 1.22, 3.46], [0.0; 3], BOX);
     mesh.block([-5.0, -1.25, 0.88], [2.58, 1.25, 1.02], [0.0; 3], DARK);
     for x in [-4.92, -2.45, 0.05, 2.5] {
@@ -167,7 +167,7 @@ pub fn person(rounds: RoundDetail) -> Mesh {
 mod tests {
     use super::*;
 
-    /// What is drawn keeps within this of what collides, m.
+    /// Tolerance between the rendered and the collision shape, m.
     const SLACK_M: f64 = 0.03;
 
     #[test]

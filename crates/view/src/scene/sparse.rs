@@ -1,18 +1,18 @@
-//! A square grid by fewer triangles: squares of several cells where the ground is nearly flat, single cells elsewhere, with no gap between them.
+//! Adaptive triangulation of a square grid: larger squares where the ground is nearly flat, single cells elsewhere, without gaps.
 
-/// A square of cells: column and row of its south-west corner, and cells along a side.
+/// A square of cells: column and row of its southwest corner, and cells per side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct GridSquare {
-    /// Column of its south-west corner.
+    /// Column of the southwest corner.
     pub column: usize,
-    /// Row of its south-west corner.
+    /// Row of the southwest corner.
     pub row: usize,
-    /// Cells along a side.
+    /// Cells per side.
     pub size: usize,
 }
 
 impl GridSquare {
-    /// Numbers of its corners in a grid with `side` corners a row: south-west, south-east, north-east, north-west.
+    /// Returns the indices of its corners in a grid with `side` vertices per row: southwest, southeast, northeast, northwest.
     #[must_use]
     pub const fn corners(&self, side: usize) -> [usize; 4] {
         let (low, high) = (self.row * side + self.column, (self.row + self.size) * side + self.column);
@@ -24,7 +24,7 @@ impl GridSquare {
         [(0, 0), (half, 0), (0, half), (half, half)].map(|(x, y)| Self { column: self.column + x, row: self.row + y, size: half })
     }
 
-    /// Corners of the grid on its rim, counter-clockwise from the south-west.
+    /// Returns the grid vertices on its boundary, counterclockwise from the southwest.
     fn rim(&self, side: usize) -> impl Iterator<Item = usize> {
         let [sw, se, ne, nw] = self.corners(side);
         let along = move |k: usize| [sw + k, se + k * side, ne - k, nw - k * side];
@@ -33,8 +33,9 @@ impl GridSquare {
     }
 }
 
-/// Triangles over a grid with `side` corners a row, as numbers of corners, counter-clockwise from above. Squares of at most `largest` cells (a
-/// power of two) stay whole where `whole` says so. The diagonal runs as in single cells: from south-west to north-east.
+/// Returns the triangles of a grid with `side` vertices per row as vertex indices, counterclockwise from above. Squares of up to
+/// `largest` cells (a power of two) stay whole where `whole` returns true. The diagonal runs from southwest to northeast, as in
+/// single cells.
 #[must_use]
 pub fn triangles(side: usize, largest: usize, whole: &dyn Fn(&GridSquare) -> bool) -> Vec<[u32; 3]> {
     let cells = side.saturating_sub(1);
@@ -53,7 +54,7 @@ pub fn triangles(side: usize, largest: usize, whole: &dyn Fn(&GridSquare) -> boo
     squares.iter().flat_map(|square| filled(square, side, &used)).collect()
 }
 
-/// A square's triangles: two, or a fan about its middle where smaller neighbours have corners on its rim.
+/// Returns the triangles of a square: two, or a fan around its center if smaller neighbors have vertices on its boundary.
 fn filled(square: &GridSquare, side: usize, used: &[bool]) -> Vec<[u32; 3]> {
     let rim: Vec<u32> = square.rim(side).filter(|corner| used[*corner]).map(|corner| corner as u32).collect();
     if let [sw, se, ne, nw] = *rim {
@@ -68,7 +69,7 @@ mod tests {
     use super::*;
     use std::collections::BTreeMap;
 
-    /// Squares stay whole away from a corner of the field.
+    /// A field whose squares stay whole away from one corner.
     fn field(side: usize) -> Vec<[u32; 3]> {
         triangles(side, 8, &|square| square.column + square.row > 6 + 2 * square.size)
     }
@@ -96,7 +97,7 @@ mod tests {
                 *edges.entry((from.min(to), from.max(to))).or_default() += if from < to { 1 } else { -1 };
             }
         }
-        // Inside the field every edge is run both ways; the rim alone is run once.
+        // Inside the field, every edge is used in both directions; only the boundary is used once.
         let rim = |k: u32| [0, 40].contains(&(k % SIDE as u32)) || [0, 40].contains(&(k / SIDE as u32));
         for ((a, b), sum) in edges {
             assert!(sum == 0 || (rim(a) && rim(b)), "edge {a} {b}: {sum}");

@@ -1,42 +1,43 @@
-// A branch on the material goes the same way over a whole triangle, so footprints found within it are right.
+// Branches on the material are uniform over a triangle, so derivatives taken inside them are valid.
 diagnostic(off, derivative_uniformity);
 
-// Light is carried as pi times radiance, in lux over the exposure's white: a white matte surface under the white illuminance is 1.
+// Radiance is stored as pi times radiance, in lux divided by the exposure's white: a white matte surface at white illuminance is
+// 1.
 
-// What a preset decides (pipelines.rs): shadow maps of the sun; texels a side of their filter; the lamp casts shadows; the lake mirrors.
+// Settings of the preset (pipelines.rs): number of sun shadow maps; filter size in texels; lamp shadows; lake reflection.
 override CASCADES: u32 = 4u;
 override TAPS: u32 = 3u;
 override LAMP_CASTS: bool = true;
 override MIRROR: bool = true;
-// Small things that cost much: ripples of light, the finest waves.
+// Expensive small details: light ripples, the finest waves.
 override DETAIL: bool = true;
-// The lamp is on.
+// Whether the lamp is on.
 override LAMP: bool = true;
-// What a pipeline draws has highlights and reflections.
+// Whether the pipeline draws highlights and reflections.
 override GLOSSY: bool = true;
 
 struct Globals {
     view_proj: mat4x4<f32>,
-    // Eye position; seconds.
+    // Camera position; time, s.
     eye: vec4<f32>,
-    // Right and up times the picture's half sizes at distance 1, and forward; w of the last: radians per pixel.
+    // Right and up, scaled by the half sizes of the picture at distance 1, and forward; w of the last: radians per pixel.
     right: vec4<f32>,
     up: vec4<f32>,
     forward: vec4<f32>,
-    // Towards the sun; its illuminance.
+    // Direction towards the sun; its illuminance.
     sun: vec4<f32>,
-    // Its colour; share of clouds.
+    // Color of the sun; cloud cover.
     sun_rgb: vec4<f32>,
-    // Colour of the sky's light; its horizontal illuminance.
+    // Color of the sky's light; its horizontal illuminance.
     sky_rgb: vec4<f32>,
     // Factor on the sky's relative radiance; water level; haze, 1/m.
     scene: vec4<f32>,
-    // Lamp: position, cosine of half the beam; direction, candela.
+    // Lamp: position, cosine of the half beam angle; direction, candela.
     lamp: vec4<f32>,
     lamp_dir: vec4<f32>,
     // 1/white; wind speed; wind direction (towards), east and north.
     look: vec4<f32>,
-    // Layer of the lamp's map, below zero without one.
+    // Layer of the lamp's map, negative if there is none.
     shadow: vec4<f32>,
     // Size of a texel in each map, m.
     texel: vec4<f32>,
@@ -48,7 +49,7 @@ struct Globals {
 @group(0) @binding(0) var<uniform> g: Globals;
 @group(0) @binding(1) var shadow_map: texture_depth_2d_array;
 @group(0) @binding(2) var shadow_sampler: sampler_comparison;
-// Noise of several octaves, of one octave, distance to the nearest of scattered points, that point's number (noise.rs).
+// Noise of several octaves, of one octave, distance to the nearest scattered point, number of that point (noise.rs).
 @group(0) @binding(3) var noise_map: texture_2d<f32>;
 @group(0) @binding(4) var noise_sampler: sampler;
 
@@ -64,21 +65,21 @@ fn hash2(p: vec2<i32>) -> f32 {
     return f32(h >> 8u) / 16777216.0;
 }
 
-// Smooth noise of one octave with cells of 1.
+// Smooth noise of one octave with cells of size 1.
 fn noise(p: vec2<f32>) -> f32 {
     return textureSampleLevel(noise_map, noise_sampler, p / 16.0, 0.0).g;
 }
 
-// Several octaves about 0.5, averaged over the footprint (in the units of p).
+// Several octaves, mean 0.5, averaged over the footprint (in the units of p).
 fn fbm(p: vec2<f32>, footprint: f32) -> f32 {
     if DETAIL {
         return textureSampleLevel(noise_map, noise_sampler, p / 16.0, log2(max(footprint * 32.0, 1.0))).r;
     }
-    // Software renderers find a pixel's footprint themselves for a third of that.
+    // Software renderers determine the footprint of a pixel themselves at a third of the cost.
     return textureSample(noise_map, noise_sampler, p / 16.0).r;
 }
 
-// Noise of which a preset that saves has its mean, or what is at hand.
+// Noise that cheaper presets replace with a given value.
 fn fine(p: vec2<f32>, footprint: f32, instead: f32) -> f32 {
     if DETAIL {
         return fbm(p, footprint);
@@ -86,19 +87,20 @@ fn fine(p: vec2<f32>, footprint: f32, instead: f32) -> f32 {
     return instead;
 }
 
-// Cells of a random pattern: distance to the nearest centre, and a number of that cell.
+// Cellular pattern: distance to the nearest center, and a number of that cell.
 fn pebbles(p: vec2<f32>) -> vec2<f32> {
     let found = textureSampleLevel(noise_map, noise_sampler, p / 16.0, 0.0);
     return vec2<f32>(found.b * 1.28, found.a);
 }
 
-// Share of a pixel `footprint` wide that a line of `width` at distance d covers.
+// Fraction of a pixel `footprint` wide that a line of `width` at distance d covers.
 fn cover(d: f32, width: f32, footprint: f32) -> f32 {
     let f = max(footprint, 1e-6);
     return clamp((0.5 * (width + f) - d) / f, 0.0, min(1.0, width / f));
 }
 
-// Mean of exp(-|x| / reach) over a pixel `footprint` wide at x: what seeps out of a line narrower than a pixel neither flickers nor steps.
+// Mean of exp(-|x| / reach) over a pixel `footprint` wide at x: keeps the leakage from a line narrower than a pixel free of
+// flicker and steps.
 fn seeping(x: f32, reach: f32, footprint: f32) -> f32 {
     let half = 0.5 * max(footprint, 1e-6);
     let ends = vec2<f32>(x - half, x + half);
@@ -106,7 +108,7 @@ fn seeping(x: f32, reach: f32, footprint: f32) -> f32 {
     return (sums.y - sums.x) / (2.0 * half);
 }
 
-// The same for lines repeated every `spacing`; far away their mean.
+// Same for lines repeated every `spacing`; their mean at a distance.
 fn lines(x: f32, spacing: f32, width: f32, footprint: f32) -> f32 {
     let d = abs(fract(x / spacing) - 0.5) * spacing;
     let mean = width / spacing;
@@ -132,7 +134,7 @@ fn compared(layer: i32, uv: vec2<f32>, depth: f32) -> f32 {
     return textureSampleCompareLevel(shadow_map, shadow_sampler, uv, layer, depth);
 }
 
-// Mean over a square of texels around a place in a map.
+// Mean over a square of texels around a point of a map.
 fn map_visible(layer: i32, q: vec3<f32>) -> f32 {
     let uv = vec2<f32>(0.5 + 0.5 * q.x, 0.5 - 0.5 * q.y);
     let s = 1.0 / f32(textureDimensions(shadow_map).x);
@@ -161,7 +163,7 @@ fn sun_visible(p: vec3<f32>, n: vec3<f32>) -> f32 {
     if g.sun.w <= 0.0 {
         return 0.0;
     }
-    // A step off the surface that grows as the sun grazes it keeps a surface from shading itself.
+    // Offset from the surface that grows at grazing sun, to prevent self-shadowing.
     let lean = 0.6 + 1.6 * (1.0 - clamp(dot(n, g.sun.xyz), 0.0, 1.0));
     var layer = 0;
     var q = in_map(0, p + n * (g.texel.x * lean));
@@ -194,9 +196,9 @@ struct Matter {
     roughness: f32,
     metal: f32,
     normal: vec3<f32>,
-    // Shares of the sky's and of the sun's illuminance that arrive indirectly.
+    // Fractions of the sky's and the sun's illuminance that arrive indirectly.
     light: vec2<f32>,
-    // Share of the direct sunlight that a fold of the surface itself lets through.
+    // Fraction of direct sunlight not blocked by the surface's own relief.
     sunlit: f32,
 }
 
@@ -238,7 +240,7 @@ fn lamp_lux(p: vec3<f32>, n: vec3<f32>) -> f32 {
     return g.lamp_dir.w * beam * seen * max(-dot(ray, n), 0.0) / max(distance * distance, 0.01);
 }
 
-// Ripples of light that waves throw up at what hangs over the water; at what hangs over land, too: what lies below is not known here.
+// Light ripples reflected by waves onto surfaces above the water, and also above land, because the surface below is unknown here.
 fn caustics(p: vec3<f32>) -> f32 {
     let t = g.eye.w;
     let q = p.xy * 0.55;
@@ -248,7 +250,7 @@ fn caustics(p: vec3<f32>) -> f32 {
     return clamp(ridge, 0.0, 1.0);
 }
 
-// What a ray off a surface meets: the sky, or land and lake by their mean.
+// Radiance that a reflected ray meets: the sky, or the mean of land and lake.
 fn surroundings(ray: vec3<f32>) -> vec3<f32> {
     if ray.z < 0.0 {
         return 0.12 * (g.sky_rgb.w * g.sky_rgb.xyz + g.sun.w * max(g.sun.z, 0.0) * g.sun_rgb.xyz);
@@ -296,7 +298,7 @@ fn shade(m: Matter, p: vec3<f32>) -> vec3<f32> {
     return haze(out, v, distance);
 }
 
-// Air between: things fade into the sky's horizon.
+// Haze: objects fade into the sky's horizon.
 fn haze(colour: vec3<f32>, v: vec3<f32>, distance: f32) -> vec3<f32> {
     let clear = exp(-distance * g.scene.z);
     if !DETAIL {
@@ -306,7 +308,8 @@ fn haze(colour: vec3<f32>, v: vec3<f32>, distance: f32) -> vec3<f32> {
     return mix(sky_radiance(horizon) * 0.85, colour, clear);
 }
 
-// The sky just over the horizon behind what is seen from v, with the sun's glow by powers: cheap, where it is but a veil.
+// Radiance of the sky just above the horizon in the direction of view, with the sun's glow as powers: a cheap approximation for
+// haze.
 fn horizon_radiance(v: vec3<f32>) -> vec3<f32> {
     let q = 0.5 - 0.5 * dot(v, g.sun.xyz);
     let q4 = q * q * q * q;

@@ -1,26 +1,26 @@
-// Defects, each a patch on its member, drawn by kind. Lines cover shares of pixels, so that a crack narrower than a pixel
-// fades with its width over the ground sampling distance, as it does on a sensor.
+// Defects, drawn by kind as patches on their members. Lines cover fractions of pixels, so that a crack narrower than a pixel
+// fades with the ratio of its width to the ground sampling distance, as on a sensor.
 
-// AASHTO code of what a pipeline draws.
+// AASHTO code of the pipeline's defects.
 override KIND: u32 = 0u;
-// It marks which defect a pixel shows.
+// Whether to write the defect ID instead of radiance.
 override MASK: bool = false;
-// Share of a pixel from which on it is marked: a line half a pixel wide, the least that is detected
-// (docs/src/reference/domain.md, "Resolution"), covers at least a quarter of one of the two pixels that it may lie across.
+// Fraction of a pixel from which it is labeled: a line half a pixel wide, the minimum for detection
+// (docs/src/reference/domain.md, "Resolution"), covers at least a quarter of one of the two pixels that it may straddle.
 const MARKED: f32 = 0.25;
 
 struct Patch {
-    // Centre; AASHTO code.
+    // Center; AASHTO code.
     @location(0) centre: vec4<f32>,
-    // Normal; a number of its own in 0..1.
+    // Normal; a random number in 0..1.
     @location(1) normal: vec4<f32>,
-    // Along the longest extent; length, m.
+    // Direction of the longest extent; length, m.
     @location(2) along: vec4<f32>,
-    // Width, m; condition state; down in the patch's own axes.
+    // Width, m; condition state; downward direction in the patch's axes.
     @location(3) size: vec4<f32>,
     // Indirect light; half sizes of the quad.
     @location(4) light: vec4<f32>,
-    // Colour of the coat on steel; the defect's number.
+    // Color of the paint on steel; defect ID.
     @location(5) tint: vec4<f32>,
 }
 
@@ -46,7 +46,7 @@ fn vs(@builtin(vertex_index) k: u32, d: Patch) -> Fragment {
     let across = cross(d.normal.xyz, d.along.xyz);
     var out: Fragment;
     out.p = d.centre.xyz + d.along.xyz * q.x + across * q.y;
-    // A little towards the eye: in front of the surface that it lies in.
+    // Offset towards the camera, in front of the surface.
     let shown = out.p + d.normal.xyz * 0.0015;
     out.clip = g.view_proj * vec4<f32>(shown, 1.0);
     out.q = q;
@@ -64,7 +64,7 @@ struct Look {
     alpha: f32,
 }
 
-// How far a crack's middle strays sideways at x, m: straight legs and kinks, no more than 25 mm.
+// Lateral offset of a crack's center line at x, m: straight segments with kinks, at most 25 mm.
 fn stray(x: f32, seed: f32, footprint: f32) -> f32 {
     let s = seed * 91.7;
     var y = 0.016 * (noise(vec2<f32>(x * 4.0 + s, s)) * 2.0 - 1.0);
@@ -73,7 +73,8 @@ fn stray(x: f32, seed: f32, footprint: f32) -> f32 {
     return y;
 }
 
-// Share of the pixel that the crack covers; its width goes from a quarter of the one that counts, at its ends, to 1.3 times that.
+// Fraction of the pixel covered by the crack; its width ranges from a quarter of the rated width at its ends to 1.3 times the
+// rated width.
 fn crack(in: Fragment, footprint: f32, off: f32) -> f32 {
     let half = 0.5 * in.along.w;
     let x = in.q.x;
@@ -83,7 +84,7 @@ fn crack(in: Fragment, footprint: f32, off: f32) -> f32 {
     return cover(abs(off), width, footprint) * inside;
 }
 
-// Ragged outline: below 1 inside, in shares of the half sizes.
+// Ragged outline: below 1 inside, in fractions of the half sizes.
 fn outline(q: vec2<f32>, half: vec2<f32>, seed: f32) -> f32 {
     let u = q / half;
     let angle = atan2(u.y, u.x);
@@ -95,15 +96,15 @@ fn outline(q: vec2<f32>, half: vec2<f32>, seed: f32) -> f32 {
     return e / ragged;
 }
 
-// Depth under the surface, m.
+// Depth below the surface, m.
 fn pit(q: vec2<f32>, half: vec2<f32>, seed: f32, deepest: f32) -> f32 {
     let e = outline(q, half, seed);
-    // It breaks around its stones: lumps of centimetres, nothing finer.
+    // Fracture surface around the aggregate: centimeter-sized lumps, nothing finer.
     let rough = lumps(q * 45.0 + seed * 10.0) - 0.5;
     return deepest * smoothstep(1.0, 0.80, e) * (0.8 + 0.36 * rough);
 }
 
-// Noise without its finer octaves, whatever the footprint.
+// Noise without its finer octaves, regardless of footprint.
 fn lumps(p: vec2<f32>) -> f32 {
     return textureSampleLevel(noise_map, noise_sampler, p / 16.0, 3.5).r;
 }
@@ -113,7 +114,7 @@ fn frame_normal(in: Fragment, slope: vec2<f32>) -> vec3<f32> {
     return normalize(in.normal.xyz - in.along.xyz * slope.x - across * slope.y);
 }
 
-// Share of sunlight that the lip of a pit leaves at a place in it.
+// Fraction of sunlight that the edge of a pit lets through at a point inside it.
 fn lip_shadow(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, towards: vec3<f32>) -> f32 {
     let across = cross(in.normal.xyz, in.along.xyz);
     let l = vec3<f32>(dot(towards, in.along.xyz), dot(towards, across), dot(towards, in.normal.xyz));
@@ -131,25 +132,26 @@ fn lip_shadow(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, towards
     return lit;
 }
 
-// Aggregate, so many stones a metre along and across; they are no discs: their outlines are bent by some of their size, m.
+// Aggregate with a number of stones per meter along and across; outlines are distorted by `bend_m`, m, so that they are not
+// round.
 fn stones(q: vec2<f32>, bend_m: f32, per_m: vec2<f32>, f: f32) -> vec2<f32> {
     let bent = q + bend_m * (vec2<f32>(fbm(q * 30.0, f * 30.0), fbm(q * 30.0 + 40.0, f * 30.0)) - 0.5);
     return pebbles(bent * per_m);
 }
 
-// How stones' faces tilt.
+// Tilt of the stones' faces.
 fn knobs(q: vec2<f32>) -> vec2<f32> {
     return vec2<f32>(noise(q * 42.0), noise(q * 42.0 + 11.0)) - 0.5;
 }
 
-// Broken concrete in a pit, with the edge's shadow.
+// Broken concrete in a pit, with the shadow of its edge.
 fn broken(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, f: f32, look: ptr<function, Look>) {
     let seed = in.normal.w;
     let e = outline(q, half, seed);
     let step = max(0.002, f);
     let here = pit(q, half, seed, deepest);
     let slope = -vec2<f32>(pit(q + vec2<f32>(step, 0.0), half, seed, deepest) - here, pit(q + vec2<f32>(0.0, step), half, seed, deepest) - here) / step;
-    // Stones stand out of the mortar, which is paler where it broke.
+    // Stones protrude from the mortar, which is paler where it broke.
     let stone = stones(q, 0.010, vec2<f32>(38.0, 45.0), f);
     let shown = 1.0 - smoothstep(0.006, 0.03, f);
     let stony = shown * (1.0 - smoothstep(0.30, 0.44, stone.x));
@@ -158,12 +160,12 @@ fn broken(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, f: f32, loo
     var colour = vec3<f32>(0.36, 0.335, 0.295) * (0.75 + 0.5 * fbm(q * 24.0 + seed, f * 24.0));
     let pebble = mix(vec3<f32>(0.20, 0.18, 0.16), vec3<f32>(0.42, 0.37, 0.31), stone.y);
     colour = mix(colour, pebble, 0.85 * stony);
-    // Mortar meets stone in a dark line.
+    // A dark line where mortar meets stone.
     colour *= 1.0 - 0.3 * shown * (1.0 - smoothstep(0.0, 0.08, abs(stone.x - 0.40)));
     let shelter = smoothstep(0.6, 1.0, e) * smoothstep(0.0, 0.06, deepest);
     (*look).matter.light *= 1.0 - 0.55 * shelter;
     (*look).matter.sunlit = lip_shadow(in, q, half, deepest, g.sun.xyz);
-    // The broken edge itself is a dark line.
+    // The broken edge is a dark line.
     let edge = fwidth(e);
     colour *= 1.0 - 0.55 * (1.0 - smoothstep(0.0, 0.06 + edge, abs(e - 0.96)));
     (*look).matter.albedo = colour;
@@ -189,26 +191,26 @@ fn rebar(in: Fragment, f: f32, look: ptr<function, Look>) {
     let t = clamp(lane / radius, -1.0, 1.0);
     let bar = cover(abs(lane), 2.0 * radius, f) * (1.0 - smoothstep(0.86, 0.94, outline(in.q, half, seed)));
     let rib = lines(in.q.x + 0.6 * lane, 0.012, 0.004, f);
-    // Rust has run over the concrete beside the bars.
+    // Rust stains on the concrete next to the bars.
     let bleed = exp(-pow(lane / (2.6 * radius), 2.0)) * smoothstep(0.3, 0.7, fbm(in.q * 14.0 + seed * 9.0, f * 14.0));
     (*look).matter.albedo = mix((*look).matter.albedo, vec3<f32>(0.34, 0.16, 0.07), 0.75 * bleed);
     let steel = rust(in.q + seed, f) * (1.25 + 0.5 * rib);
     (*look).matter.albedo = mix((*look).matter.albedo, steel, bar);
     let round = frame_normal(in, vec2<f32>(0.0, -1.3 * t));
     (*look).matter.normal = normalize(mix((*look).matter.normal, round, bar));
-    // Beside a bar lies its shadow.
+    // Shadow next to a bar.
     let under = (1.0 - bar) * (1.0 - smoothstep(radius, 2.2 * radius, abs(lane)));
     (*look).matter.albedo *= 1.0 - 0.5 * under * (1.0 - smoothstep(0.9, 1.0, outline(in.q, half, seed)));
 }
 
-// White lime that has run down from a joint or a crack; with rust where it is worse.
+// Efflorescence: white deposits that have run down from a joint or crack, with rust in worse states.
 fn lime(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
     let seed = in.normal.w;
     let u = in.q / half;
     let wall = abs(in.size.z) > 0.3;
     var body = 0.0;
-    // What runs down wanders.
+    // Irregular path of the runs.
     let y = in.q.y + 0.05 * (lumps(in.q * 13.0 + seed * 3.0) - 0.5) + 0.018 * (fbm(in.q * 31.0, f * 31.0) - 0.5);
     if wall {
         // x runs downhill: a source at the top, tongues below it.
@@ -224,7 +226,7 @@ fn lime(in: Fragment, f: f32, look: ptr<function, Look>) {
         body = (1.0 - smoothstep(0.02, 0.12, web)) * (1.0 - smoothstep(0.6, 1.0, outline(in.q, half, seed)));
         body = max(body, smoothstep(0.6, 0.72, fbm(in.q * 5.0 + seed * 8.0, f * 5.0)) * (1.0 - smoothstep(0.5, 0.9, length(u))));
     }
-    // It grows in crusts: thick ones are white, thin ones let the concrete through.
+    // Crusts: thick ones are white, thin ones are translucent.
     let crust = fbm(in.q * 60.0, f * 60.0);
     let patches = smoothstep(0.30, 0.70, fbm(in.q * vec2<f32>(11.0, 23.0) + seed * 5.0, f * 23.0));
     let thick = clamp(body * (0.25 + 0.75 * patches) + 0.7 * (crust - 0.5), 0.0, 1.0);
@@ -241,7 +243,7 @@ fn lime(in: Fragment, f: f32, look: ptr<function, Look>) {
     (*look).alpha = smoothstep(0.10, 0.60, thick) * min(1.0, 1.6 * body) * 0.94;
 }
 
-// The skin of the concrete is gone and its stones stand out.
+// Abrasion: the surface layer is gone and aggregate is exposed.
 fn worn(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
     let e = outline(in.q, half, in.normal.w) + 0.35 * (fbm(in.q * 12.0, f * 12.0) - 0.5);
@@ -256,7 +258,7 @@ fn worn(in: Fragment, f: f32, look: ptr<function, Look>) {
     (*look).alpha = 1.0 - smoothstep(0.78, 1.02, e);
 }
 
-// Coat gone, rust in flakes, a stain running down.
+// Corrosion: paint gone, flaking rust, a stain running down.
 fn corroded(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
     let seed = in.normal.w;
@@ -277,12 +279,12 @@ fn corroded(in: Fragment, f: f32, look: ptr<function, Look>) {
     (*look).alpha = max(core, max(0.85 * rim * stain, 0.55 * stain * smoothstep(0.35, 0.6, fbm(in.q * 6.0 + 4.0, f * 6.0))));
 }
 
-// Rows of bolts on a splice plate; some are gone, and rust bleeds from their holes.
+// Rows of bolts on a splice plate; some are missing, and rust bleeds from their holes.
 fn bolts(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
     let inside = max(abs(in.q.x) / half.x, abs(in.q.y) / half.y);
     let pitch = max(0.032, min(0.07, in.size.x * 0.45));
-    // Whole bolts only, their rows about the middle: a narrow plate has one.
+    // Whole bolts only, with rows centered: a narrow plate has one row.
     let count = max(vec2<f32>(1.0), floor(2.0 * half / pitch));
     let cell = clamp(floor(in.q / pitch + 0.5 * count), vec2<f32>(0.0), count - 1.0);
     let at = in.q - (cell + 0.5 - 0.5 * count) * pitch;
@@ -307,7 +309,7 @@ fn bolts(in: Fragment, f: f32, look: ptr<function, Look>) {
     (*look).alpha = 1.0 - smoothstep(0.98, 1.0, inside);
 }
 
-// A line in steel that bleeds rust, along the toe of a weld.
+// Fatigue crack: a line in steel that bleeds rust, along the toe of a weld.
 fn fatigue(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
     let line = crack(in, f, off);
     let half = 0.5 * in.along.w;
@@ -316,7 +318,7 @@ fn fatigue(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
     let sick = max(line, bleed);
     (*look).matter.albedo = mix(vec3<f32>(0.30, 0.12, 0.045), vec3<f32>(0.012), line);
     (*look).alpha = sick;
-    // The weld is sound: no mask marks it.
+    // The weld itself is sound and is not labeled.
     if !MASK {
         let bead = weld(in, f, half, look);
         (*look).matter.albedo = mix(in.tint * bead.y, (*look).matter.albedo, sick);
@@ -327,15 +329,15 @@ fn fatigue(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
 const WELD_M: f32 = 0.009;
 const RIPPLE_M: f32 = 0.0045;
 
-// A bead beside the crack, laid in ripples and painted over: how much of the pixel it covers, how bright its coat is.
+// Weld bead next to the crack, rippled and painted: pixel coverage and brightness of its paint.
 fn weld(in: Fragment, f: f32, half: f32, look: ptr<function, Look>) -> vec2<f32> {
     let across = in.q.y + 0.5 * WELD_M + 0.002;
     let round = max(abs(in.q.x) - half - 0.012, 0.0);
     let d = length(vec2<f32>(across, round));
     let t = clamp(across / (0.5 * WELD_M), -1.0, 1.0);
-    // Gone before a ripple is as fine as two pixels.
+    // Fades out before a ripple is as fine as two pixels.
     let near = 1.0 - smoothstep(0.25 * RIPPLE_M, 0.5 * RIPPLE_M, f);
-    // Scales of the bead bow along it.
+    // The ripples of the bead are curved.
     let scale = (fract((in.q.x - 0.35 * t * t * WELD_M) / RIPPLE_M) - 0.5) * near;
     (*look).matter.normal = frame_normal(in, vec2<f32>(0.30 * scale, -0.40 * t * near));
     return vec2<f32>(cover(d, WELD_M, f), 1.0 - 0.2 * abs(scale) - 0.1 * abs(t));
@@ -343,12 +345,12 @@ fn weld(in: Fragment, f: f32, half: f32, look: ptr<function, Look>) -> vec2<f32>
 
 fn cracked(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
     let line = crack(in, f, off);
-    // Lime has come out of some.
+    // Some cracks have lime deposits.
     let half = 0.5 * in.along.w;
     let limed = select(0.0, 1.0, fract(in.normal.w * 7.0) > 0.55);
     let rim = limed * seeping(off, 0.007, f) * smoothstep(0.45, 0.7, noise(vec2<f32>(in.q.x * 9.0, in.normal.w * 31.0)))
         * (1.0 - smoothstep(0.85 * half, half, abs(in.q.x)));
-    // The gap lies in the lime, not under it.
+    // The gap is in the lime, not below it.
     let veil = (1.0 - line) * 0.35 * rim;
     (*look).matter.albedo = mix(vec3<f32>(0.66, 0.65, 0.62), vec3<f32>(0.012, 0.011, 0.010), line / max(line + veil, 1e-4));
     (*look).matter.roughness = 0.95;
@@ -358,7 +360,7 @@ fn cracked(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
 @fragment
 fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let f = max(length(vec2<f32>(dpdx(in.q.x), dpdy(in.q.x))), length(vec2<f32>(dpdx(in.q.y), dpdy(in.q.y))));
-    // Along a weld a crack hardly strays.
+    // A crack along a weld hardly deviates.
     let off = in.q.y - select(1.0, 0.15, KIND == 1010u) * stray(in.q.x, in.normal.w, f);
     // Size of a pixel across the line.
     let across = length(vec2<f32>(dpdx(in.q.y), dpdy(in.q.y)));

@@ -1,14 +1,14 @@
-// From light on the sensor to a picture: motion blur, noise, tone curve, vignette.
+// From radiance on the sensor to a picture: motion blur, noise, tone curve, vignette.
 
-// The preset blurs what moves.
+// Whether the preset has motion blur.
 override BLUR: bool = true;
-// A camera's sensor and lens: noise, darker corners. A person's eyes have neither.
+// Whether to apply a camera's sensor noise and vignetting, which eyes do not have.
 override SENSOR: bool = true;
 
 struct Develop {
-    // From clip space of this picture to clip space where the eye was when the shutter opened.
+    // From clip space of this picture to clip space when the shutter opened.
     reproject: mat4x4<f32>,
-    // Noise at mid grey; running number; samples along the motion; vignette.
+    // Noise at mid-gray; picture number; motion blur samples; vignette.
     grain: vec4<f32>,
     // Size of the picture; its corner in the target.
     size: vec4<f32>,
@@ -33,7 +33,7 @@ fn vs(@builtin(vertex_index) k: u32) -> Fragment {
     return out;
 }
 
-// Four numbers in 0..1, in steps of 1/255.
+// Four random numbers in 0..1, in steps of 1/255.
 fn random(p: vec2<u32>, k: u32) -> vec4<f32> {
     var h = p.x * 0x8da6b343u + p.y * 0xd8163841u + k * 0xcb1ab31fu;
     h = (h ^ (h >> 15u)) * 0x2c1b3c6du;
@@ -42,16 +42,17 @@ fn random(p: vec2<u32>, k: u32) -> vec4<f32> {
     return unpack4x8unorm(h);
 }
 
-// How much steeper than light itself pictures are around mid grey of 0.26: a contrast of 1.3 (estimate: cameras' standard profiles, 1.2 to 1.5).
-// What lacks light by two stops is black to the eye, as it is for the score. This is (x / 0.26)^0.3 up to its limit of 1.25, within 0.2 of a step
-// of 255 in the picture.
+// Contrast of 1.3 around a mid-gray of 0.26 (estimate: standard camera profiles have 1.2 to 1.5). Surfaces two stops underexposed
+// look black, consistent with the score. Equals (x / 0.26)^0.3 up to its limit of 1.25, within 0.2 of a step of 255 in the
+// picture.
 fn steeper(x: f32) -> f32 {
     let s = sqrt(x);
     return (0.19498184 + 2.25033308 * s) / (1.0 + 0.66570929 * s);
 }
 
-// A curve like film's, with a soft toe and shoulder (fit of Narkowicz 2015 to the Academy's reference curve), encoded in sRGB: by a fraction of
-// the root of the light, within 0.8 of a step of 255. Software renderers have one root and one division for next to nothing, powers not.
+// Filmic curve with a soft toe and shoulder (Narkowicz 2015's fit to the Academy's reference curve), encoded in sRGB with a
+// rational function of the square root of radiance, within 0.8 of a step of 255. In software renderers, a square root and a
+// division are nearly free, powers are not.
 fn encoded(y: vec3<f32>) -> vec3<f32> {
     let s = sqrt(y);
     return ((5.75941549 * s - 0.05775244) * s - 0.00282203) / ((5.80176807 * s - 0.53043618) * s + 1.0);
@@ -60,7 +61,7 @@ fn encoded(y: vec3<f32>) -> vec3<f32> {
 fn developed(x: vec3<f32>) -> vec3<f32> {
     let brightness = dot(x, vec3<f32>(0.2126, 0.7152, 0.0722));
     let y = x * 0.82 * min(steeper(brightness), 1.25);
-    // From 8.1 on all is white; far beyond, the fraction falls again.
+    // White from 8.1 on; far beyond, the rational function decreases again.
     return clamp(encoded(min(y, vec3<f32>(12.0))), vec3<f32>(0.0), vec3<f32>(1.0));
 }
 
@@ -86,7 +87,7 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     if SENSOR {
         let out = in.uv - 0.5;
         colour *= 1.0 - d.grain.w * dot(out, out);
-        // Photon noise grows with the root of the light, over a floor.
+        // Photon noise grows with the square root of radiance, above a noise floor.
         let grains = random(pixel, u32(d.grain.y));
         let a = grains.x + grains.y + grains.z - 1.5;
         let c = grains.w - 0.5;

@@ -1,31 +1,31 @@
-// Everything solid, for presets that save (follows surface.wgsl): light without the sun's shadows, haze and reflections are worked out at
-// corners, and slow patterns come from ready tiles (tiles.rs).
+// Solids for cheaper presets (appended to surface.wgsl): light without sun shadows, haze and reflections are computed per vertex,
+// and slow patterns come from precomputed tiles (tiles.rs).
 
-// Ground: patches, blocks, beds, what is fine. Concrete: tone, and shares of streaks, soot, splashes.
+// Ground: patches, blocks, beds, fine detail. Concrete: tone, and fractions of streaks, soot, droppings.
 @group(0) @binding(5) var ground_tile: texture_2d<f32>;
 @group(0) @binding(6) var concrete_tile: texture_2d<f32>;
 const GROUND_M: f32 = 32.0;
 const CONCRETE_M: f32 = 38.4;
 
-// Fours are full: a software renderer works out the planes of all four numbers of each, used or not, for every triangle.
+// Vectors are fully used: a software renderer sets up all four components of each for every triangle, used or not.
 struct Lean {
     @builtin(position) clip: vec4<f32>,
-    // Where; `aux`.
+    // Position; `aux`.
     @location(0) place: vec4<f32>,
     // Normal; depth in the sun's map.
     @location(1) facing: vec4<f32>,
-    // Coordinates in the face; place in the sun's map.
+    // Surface coordinates; position in the sun's map.
     @location(2) spot: vec4<f32>,
-    // Indirect light; how much of the sun's there is where it shines. Both as haze leaves them, exposed.
+    // Indirect light; sunlight where it is not shadowed. Both attenuated by haze and exposed.
     @location(3) light: vec4<f32>,
-    // What is added: haze and reflections, exposed; share that haze leaves.
+    // Added light: haze and reflections, exposed; transmittance of the haze.
     @location(4) veil: vec4<f32>,
-    // Tint; wide patches of the ground instead of its opacity.
+    // Tint; large-scale ground patches instead of its opacity.
     @location(5) tint: vec4<f32>,
     @location(6) @interpolate(flat) material: u32,
 }
 
-// How smooth a material is that reflects; steel's coat by its mean.
+// Smoothness of a reflective material; mean for painted steel.
 fn gloss(material: u32) -> f32 {
     switch material {
         case 2u: { return 0.4; }
@@ -36,7 +36,7 @@ fn gloss(material: u32) -> f32 {
     }
 }
 
-// The sky in a surface, as in `shade`.
+// Reflection of the sky in a surface, as in `shade`.
 fn reflected(v: vec3<f32>, n: vec3<f32>, smooth_by: f32, light: vec2<f32>, indirect: vec3<f32>) -> vec3<f32> {
     let r = reflect(-v, n);
     let away = 1.0 - clamp(dot(n, v), 0.0, 1.0);
@@ -59,13 +59,13 @@ fn vs_lean(corner: Corner) -> Lean {
     if GLOSSY {
         veil += kept * reflected(towards, v.normal, gloss(v.material), v.light, indirect);
     }
-    // A step off the surface, as in `sun_visible`.
+    // Offset from the surface, as in `sun_visible`.
     let lean = 0.6 + 1.6 * (1.0 - clamp(facing, 0.0, 1.0));
     let at = g.shadow_proj[0] * vec4<f32>(v.p + v.normal * (g.texel.x * lean), 1.0);
     let q = at.xyz / at.w;
     var tint = v.tint;
     if LOOK == 4u {
-        // A level at which a texel is two metres and the pattern as wide as thirty.
+        // Mip level with texels of two meters and a pattern scale of thirty meters.
         tint.a = textureSampleLevel(noise_map, noise_sampler, v.p.xy * (0.03 / 16.0), 1.0).r;
     }
     var out: Lean;
@@ -80,7 +80,7 @@ fn vs_lean(corner: Corner) -> Lean {
     return out;
 }
 
-// As `concrete`, with the slow patterns ready.
+// As `concrete`, with precomputed slow patterns.
 fn lean_concrete(in: Fragment, fp: vec2<f32>, m: ptr<function, Matter>) {
     let uv = in.uv;
     let f = max(fp.x, fp.y);
@@ -108,7 +108,7 @@ fn lean_concrete(in: Fragment, fp: vec2<f32>, m: ptr<function, Matter>) {
     (*m).albedo = mix(colour, vec3<f32>(0.5, 0.48, 0.43), 0.35 * band);
 }
 
-// As `ground`, from one look at its tile: level ground by its place, rock by its place in the wall.
+// As `ground`, with one lookup of its tile: level ground by horizontal position, rock by position in the wall's plane.
 fn lean_ground(in: Fragment, broad: f32, m: ptr<function, Matter>) {
     let n = in.normal;
     let over = in.aux;

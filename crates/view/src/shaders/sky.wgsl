@@ -1,4 +1,4 @@
-// The sky behind everything.
+// Sky background.
 
 struct Fragment {
     @builtin(position) clip: vec4<f32>,
@@ -21,21 +21,21 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     var colour = sky_radiance(vec3<f32>(d.xy, max(d.z, 0.0)));
     let cloud = g.sun_rgb.w;
     if d.z > 0.015 && cloud > 0.02 {
-        // A layer of clouds 900 m up, drifting with the wind.
+        // A cloud layer at 900 m that drifts with the wind.
         let reach = 1.0 / (d.z + 0.06);
         let at = d.xy * reach * 1.4 + g.look.zw * g.eye.w * 0.002;
         let fine = g.forward.w * reach * reach;
         let heap = 0.62 * fbm(at * 0.5, fine * 0.5) + 0.38 * fbm(at * 2.3 + 5.0, fine * 2.3);
         let edge = mix(0.62, 0.30, cloud);
         let cover_at = smoothstep(edge - 0.06, edge + 0.16, heap);
-        // Sunlit heaps are brighter than the blue between them; closed cloud is the overcast sky.
+        // Sunlit clouds are brighter than the blue between them; full cover is the overcast sky.
         let thick = smoothstep(edge, edge + 0.35, heap);
         let sunny = g.sun.w * max(g.sun.z, 0.0) * (0.55 - 0.35 * thick) * g.sun_rgb.xyz;
         let shaded = (1.0 + 2.0 * d.z) / 3.0 * vec3<f32>(0.97, 1.0, 1.05) * g.sky_rgb.w * (1.15 - 0.45 * thick);
         colour = mix(colour, shaded + sunny, cover_at * min(1.0, 0.25 + 1.1 * cloud) * smoothstep(0.015, 0.16, d.z));
     }
-    // The disc, 0.53 degrees across, dimmed behind clouds.
-    // Its edge lies between 4 and 6 mrad: squares of small angles are twice what their cosines lack to 1.
+    // The sun's disk, 0.53 degrees across, dimmed behind clouds. Its edge is between 4 and 6 mrad: the square of a small angle is
+    // twice the difference of its cosine from 1.
     let off = 2.0 - 2.0 * dot(d, g.sun.xyz);
     colour += g.sun.w * g.sun_rgb.xyz * 40.0 * (1.0 - smoothstep(16e-6, 36e-6, off));
     return exposed(colour);

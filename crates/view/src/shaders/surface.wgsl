@@ -1,10 +1,10 @@
-// Everything solid.
+// Solids.
 
-// Which materials a pipeline draws (looks.rs): 0 concrete, 1 road, 2 steel, 3 what is simple, 4 ground.
+// Material group of the pipeline (looks.rs): 0 concrete, 1 deck, 2 steel, 3 simple, 4 ground.
 override LOOK: u32 = 3u;
-// It draws what the lake mirrors.
+// Whether to draw the lake's reflection.
 override MIRRORED: bool = false;
-// It marks which element of a bridge a pixel shows.
+// Whether to write the bridge element number instead of radiance.
 override MASK: bool = false;
 
 struct Corner {
@@ -19,7 +19,7 @@ struct Corner {
     @location(7) row1: vec4<f32>,
     @location(8) row2: vec4<f32>,
     @location(10) paint: vec4<f32>,
-    // Indirect light above (sky, sun) and below (sky, sun).
+    // Indirect light from above (sky, sun) and below (sky, sun).
     @location(11) around: vec4<f32>,
 }
 
@@ -42,9 +42,9 @@ fn placed(v: Corner) -> Fragment {
     out.clip = g.view_proj * vec4<f32>(out.p, 1.0);
     out.uv = v.uv;
     out.light = v.light * mix(v.around.zw, v.around.xy, 0.5 + 0.5 * out.normal.z);
-    // The element number stands above the material.
+    // The element number is stored above the material.
     out.material = select(v.material & 0xffu, v.material >> 8u, MASK);
-    // Paint replaces the colour of painted parts only.
+    // Only painted parts take the instance's paint.
     out.tint = select(v.tint, vec4<f32>(v.paint.rgb, 1.0), v.paint.w > 0.5 && (v.material & 0xffu) == 8u);
     out.aux = v.aux;
     return out;
@@ -55,16 +55,16 @@ fn vs(v: Corner) -> Fragment {
     return placed(v);
 }
 
-// Cells of concrete that may hold something to be taken for a defect.
+// Size of the cells of concrete that may contain a distractor, m.
 const FRIEND_M: vec2<f32> = vec2<f32>(5.3, 3.7);
-// Where paint is sprayed from: the ground, a boat, a ladder, so far over the water, m (estimate).
+// Maximum height above the water for spray paint, m, reached from the ground, a boat or a ladder (estimate).
 const REACHED_M: f32 = 12.0;
 
-// False friends that hands and spiders leave (docs/src/reference/domain.md, "Defects"): at most one in a cell, most cells have
-// none. What weather and formwork leave is drawn with the concrete.
+// Distractors left by people and spiders (docs/src/reference/domain.md, "Defects"): at most one per cell, most cells have none.
+// Marks of weather and formwork are drawn with the concrete.
 fn befriended(colour: vec3<f32>, in: Fragment, n: vec3<f32>, f: f32) -> vec3<f32> {
     let at = floor(in.uv / FRIEND_M);
-    // Parallel faces have the same coordinates, but not the same friends.
+    // Parallel faces have the same coordinates, but different distractors.
     let plane = i32(floor(0.7 * dot(in.p, n) + 0.377));
     let cell = vec2<i32>(at) + plane * vec2<i32>(31, 17);
     let luck = hash2(cell + vec2<i32>(401, 97));
@@ -85,7 +85,7 @@ fn befriended(colour: vec3<f32>, in: Fragment, n: vec3<f32>, f: f32) -> vec3<f32
     return webbed(colour, q - vec2<f32>(1.8, 1.2) * (vec2<f32>(own, fract(own * 7.0)) - 0.5), own, f);
 }
 
-// A crack that was closed: a band of resin with the round feet of the ports through which it was pressed in.
+// A sealed crack: a band of resin with the round marks of the injection ports.
 fn sealed(colour: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
     let turn = 0.9 * (own - 0.5);
     let axis = vec2<f32>(sin(turn), cos(turn));
@@ -101,7 +101,7 @@ fn sealed(colour: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
     return mix(sealed_over, vec3<f32>(0.17, 0.165, 0.155), cover(port, 0.016, f) * step(beyond, 0.0));
 }
 
-// A spider's web with the dust that it has caught.
+// A dusty spider's web.
 fn webbed(colour: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
     let d = length(q);
     let reach = 0.15 + 0.10 * own;
@@ -110,7 +110,7 @@ fn webbed(colour: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
     }
     let turns = atan2(q.y, q.x) / (2.0 * PI) * 14.0;
     let spoke = abs(fract(turns) - 0.5) * 2.0 * PI * d / 14.0;
-    // Between spokes the threads sag.
+    // Threads sag between spokes.
     let sag = 0.10 * d * (1.0 - 4.0 * (fract(turns) - 0.5) * (fract(turns) - 0.5));
     let threads = max(cover(0.22 * d - min(spoke, 0.22 * d), 0.0014, f), lines(d + sag, 0.014, 0.0010, f));
     let gone = smoothstep(0.68, 0.85, noise(q * 9.0 + own * 40.0)) + smoothstep(0.8 * reach, reach, d);
@@ -118,7 +118,7 @@ fn webbed(colour: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
     return mix(colour, vec3<f32>(0.60, 0.59, 0.56), clamp(0.75 * threads + dust, 0.0, 1.0) * (1.0 - min(gone, 1.0)));
 }
 
-// A name in spray paint: five letters of a hand's making, and a stroke under them.
+// A name in spray paint: five handwritten letters, underlined.
 fn sprayed(colour: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
     const LETTER_M: f32 = 0.46;
     let slanted = q.x - 0.22 * q.y;
@@ -142,13 +142,13 @@ fn sprayed(colour: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
     let nozzle = 0.065 + 0.02 * noise(q * 5.0 + own * 30.0);
     let soft = max(f, 0.014);
     let stroke = cover(min(body, under), nozzle, soft);
-    // Too much paint runs down.
+    // Runs of excess paint.
     let run = cover(abs(fract(q.x / 0.37 + own) - 0.5) * 0.37, 0.012, f) * step(q.y, -0.44) * step(-0.95 + 0.5 * noise(vec2<f32>(floor(q.x / 0.37 + own) * 3.3, own)), q.y);
     let paint = select(select(vec3<f32>(0.030, 0.030, 0.034), vec3<f32>(0.035, 0.09, 0.34), own > 0.35), vec3<f32>(0.42, 0.035, 0.04), own > 0.7);
     return mix(colour, paint, 0.92 * max(stroke, run * step(abs(q.x), 1.1)));
 }
 
-// Cast concrete: boards of the formwork, construction joints, tie holes, blotches, streaks of rain, green near the water.
+// Cast concrete: formwork boards, construction joints, tie holes, blotches, rain streaks, algae near the water.
 fn concrete(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>) {
     let uv = in.uv;
     let f = max(fp.x, fp.y);
@@ -157,33 +157,33 @@ fn concrete(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>)
     let grain = fbm(uv * 9.0 + 31.0, f * 9.0);
     let sand = fine(uv * 71.0 + 3.0, f * 71.0, grain);
     var tone = 0.82 + 0.55 * (blotch - 0.5) + 0.22 * (grain - 0.5) + 0.20 * (sand - 0.5);
-    // Boards lie along the member, 0.16 m wide, each with a tone of its own.
+    // Boards along the member, 0.16 m wide, each with its own tone.
     let board = floor(uv.y / 0.16);
     let board_tone = hash2(vec2<i32>(i32(board), i32(floor(uv.x / 2.4 + 0.37 * (board - 2.0 * floor(0.5 * board))))));
     tone += 0.07 * (board_tone - 0.5) * (1.0 - smoothstep(0.05, 0.2, fp.y));
-    // Weather has worn most of the lines between boards away: what is left is fainter than any crack, and straight.
+    // Most lines between boards have weathered away; the rest are straight and fainter than any crack.
     let kept = smoothstep(0.45, 0.7, fine(vec2<f32>(uv.x * 0.9, board * 3.7), fp.x * 0.9, blotch));
     let seams = lines(uv.y, 0.16, 0.003, fp.y) * kept;
     let joints = lines(uv.x + 0.6, 4.8, 0.010, fp.x) + 0.3 * lines(uv.x + 0.2, 2.4, 0.004, fp.x);
     tone *= 1.0 - 0.16 * seams - 0.30 * joints;
-    // Holes of form ties, 25 mm wide.
+    // Form tie holes, 25 mm wide.
     let cell = vec2<f32>(1.2, 0.8);
     let tie = length((fract(uv / cell + vec2<f32>(0.5, 0.25)) - 0.5) * cell);
     tone *= 1.0 - 0.5 * cover(tie, 0.025, f) * (1.0 - smoothstep(0.02, 0.08, f)) * wall;
-    // Rain runs down walls and leaves streaks.
+    // Rain streaks on walls.
     let streak = fbm(vec2<f32>(uv.x * 3.1, uv.y * 0.22 + 3.0), f * 3.1);
     tone *= 1.0 - wall * 0.42 * smoothstep(0.52, 0.78, streak);
-    // Air holes left by the formwork, a few millimetres wide.
+    // Air holes left by the formwork, a few millimeters wide.
     if DETAIL {
         let hole = pebbles(uv * 14.0 + 5.0);
         let bore = 0.03 + 0.09 * fract(hole.y * 7.3);
         tone *= 1.0 - 0.5 * step(0.72, hole.y) * cover(hole.x, bore, f * 14.0) * (1.0 - smoothstep(0.004, 0.012, f));
     }
     var colour = vec3<f32>(0.36, 0.345, 0.315) * tone;
-    // Soot and lichen in broad patches.
+    // Soot and lichen in large patches.
     let dark = smoothstep(0.6, 0.8, fbm(uv * 0.17 + 11.0, f * 0.17));
     colour = mix(colour, vec3<f32>(0.13, 0.127, 0.115), 0.5 * dark);
-    // Bird droppings: white splashes, nothing to report; none on what faces down.
+    // Bird droppings: white splashes, not reportable; none on downward faces.
     let spot = floor(uv / 1.7);
     let lucky = hash2(vec2<i32>(spot) + vec2<i32>(77, 19));
     if lucky > 0.93 && n.z > -0.3 {
@@ -194,7 +194,7 @@ fn concrete(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>)
     }
     let over = in.p.z - g.scene.y;
     colour = befriended(colour, in, n, f);
-    // Splash zone: algae and a wet foot.
+    // Splash zone: algae and a wet base.
     let reach = 0.8 + 0.5 * fine(uv * 0.8 + 4.0, f * 0.8, blotch);
     let slime = wall * (1.0 - smoothstep(0.15, reach, over));
     colour = mix(colour, vec3<f32>(0.055, 0.065, 0.04), 0.9 * slime);
@@ -204,7 +204,7 @@ fn concrete(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>)
     (*m).roughness = mix(0.92, 0.45, slime);
 }
 
-// The road: `aux` is half the deck's width; u runs along the bridge, v across from its middle.
+// The deck: `aux` is half the deck width; u runs along the bridge, v across it from the center.
 fn deck(in: Fragment, fp: vec2<f32>, m: ptr<function, Matter>) {
     let half = in.aux;
     let across = abs(in.uv.y);
@@ -225,7 +225,7 @@ fn deck(in: Fragment, fp: vec2<f32>, m: ptr<function, Matter>) {
     (*m).roughness = mix(0.9, 0.78, road);
 }
 
-// Painted plates with rows of rivets, chalked and freckled.
+// Painted plates with rows of rivets, chalked and speckled.
 fn steel(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>) {
     let uv = in.uv;
     let f = max(fp.x, fp.y);
@@ -235,7 +235,7 @@ fn steel(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>) {
     var colour = in.tint.rgb * (0.72 + 0.44 * chalk + 0.16 * skin);
     let streak = fbm(vec2<f32>(uv.x * 4.0, uv.y * 0.3 + 9.0), f * 4.0);
     colour *= 1.0 - wall * 0.3 * smoothstep(0.55, 0.8, streak);
-    // A butt strap every 6 m with two rows of rivets on either side.
+    // A butt strap every 6 m with two rows of rivets on each side.
     let seam = abs(fract(uv.x / 6.0 + 0.5) - 0.5) * 6.0;
     colour *= 1.0 - 0.45 * cover(seam, 0.006, fp.x);
     colour *= 1.0 - 0.12 * cover(abs(seam - 0.22), 0.008, fp.x);
@@ -245,7 +245,7 @@ fn steel(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>) {
     let shown = 1.0 - smoothstep(0.008, 0.03, f);
     let rivet = cover(head, 0.03, f) * shown;
     colour = mix(colour, colour * (1.25 - 0.9 * smoothstep(0.008, 0.016, head)), rivet);
-    // Freckles where the coat has gone: small, dry, superficial.
+    // Small, dry, superficial rust specks where paint is missing.
     let freckle = smoothstep(0.74, 0.82, fbm(uv * 2.3 + 40.0, f * 2.3)) * smoothstep(0.45, 0.7, fbm(uv * 0.3 + 2.0, f * 0.3));
     colour = mix(colour, vec3<f32>(0.19, 0.085, 0.04), 0.55 * freckle);
     (*m).albedo = colour;
@@ -260,7 +260,7 @@ fn ground(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
     let fine_at = fbm(at * 4.0 + 3.0, f * 4.0);
     let blades = fine(at * 19.0 + 7.0, f * 19.0, fine_at);
     let meadow = mix(vec3<f32>(0.085, 0.105, 0.032), vec3<f32>(0.17, 0.15, 0.065), smoothstep(0.35, 0.7, broad * 0.6 + near * 0.4));
-    // Rock stands upright: its pattern lies in the plane that it faces most, or it would be drawn out down the slope.
+    // Rock: the pattern is in the vertical plane closest to the face, so that it is not stretched down the slope.
     let east = abs(n.x) + 0.3 * (near - 0.5) > abs(n.y);
     let wall = vec2<f32>(select(in.p.x, in.p.y, east), in.p.z);
     let bed = fbm(vec2<f32>(wall.x * 0.12, wall.y * 0.7 + wall.x * 0.13 + 1.5 * near), f * 0.7);
@@ -274,9 +274,9 @@ fn ground(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
     colour = mix(colour, rock, steep);
     let shore = 1.0 - smoothstep(0.4, 1.9, over + 1.2 * (near - 0.5));
     colour = mix(colour, gravel, shore);
-    // Wet at the water's edge.
+    // Wet at the waterline.
     colour *= mix(0.45, 1.0, smoothstep(-0.1, 0.5, over));
-    // Forest on distant slopes, snow on the heights.
+    // Forest on distant slopes, snow at high elevation.
     let forest = smoothstep(25.0, 70.0, over) * (1.0 - smoothstep(260.0, 420.0, over + 120.0 * (broad - 0.5)));
     let canopy = fine(at * 0.09, f * 0.09, near);
     colour = mix(colour, vec3<f32>(0.028, 0.045, 0.022) * (0.5 + canopy), forest * smoothstep(0.38, 0.5, broad + 0.25 * (canopy - 0.5)) * (1.0 - 0.5 * steep));
@@ -332,7 +332,7 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let fp = max(fwidth(in.uv), vec2<f32>(1e-5));
     let f = max(length(dpdx(in.p)), length(dpdy(in.p)));
     let n = normalize(in.normal);
-    // In the lake's mirror only what stands over the water shows.
+    // The lake's reflection shows only objects above the water.
     if MIRRORED {
         if in.p.z < g.scene.y {
             discard;

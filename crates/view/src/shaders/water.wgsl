@@ -1,4 +1,4 @@
-// The lake: waves, Fresnel reflection of sky and shore, the bed shining through where it is shallow.
+// The lake: waves, Fresnel reflection of sky and shore, and the bed where the water is shallow.
 
 @group(1) @binding(0) var mirror: texture_2d<f32>;
 @group(1) @binding(1) var mirror_sampler: sampler;
@@ -14,11 +14,11 @@ struct Fragment {
     @location(0) p: vec3<f32>,
     @location(1) depth: f32,
     @location(2) light: vec2<f32>,
-    // Gusts, where a preset that saves has them at corners.
+    // Gusts per vertex, for cheaper presets.
     @location(3) gust: f32,
 }
 
-// Gusts roughen the lake in patches, which drift.
+// Gusts roughen the lake in drifting patches.
 fn gusts(at: vec2<f32>) -> vec2<f32> {
     return at * 0.012 + g.look.zw * g.eye.w * 0.01;
 }
@@ -37,16 +37,16 @@ fn vs(v: Corner) -> Fragment {
     return out;
 }
 
-// Slope of one train of waves.
+// Slope of one wave train.
 fn train(at: vec2<f32>, direction: vec2<f32>, length_m: f32, steep: f32, footprint: f32) -> vec2<f32> {
     let k = 6.2832 / length_m;
-    // Deep water: waves of a length travel at one speed.
+    // Deep water: the speed depends on the wavelength.
     let phase = k * dot(at, direction) - sqrt(9.81 * k) * g.eye.w;
     let shown = 1.0 - smoothstep(0.2, 0.5, footprint / length_m);
     return direction * (steep * shown * cos(phase));
 }
 
-// Two slow noises by which the trains are bent.
+// Two slow noise values that bend the wave trains.
 fn bends(at: vec2<f32>) -> vec2<f32> {
     if DETAIL {
         return vec2<f32>(noise(at * 0.13), noise(at * 0.13 + 50.0));
@@ -58,7 +58,7 @@ fn slope(at: vec2<f32>, footprint: f32, bend: vec2<f32>) -> vec2<f32> {
     let wind = g.look.zw;
     let side = vec2<f32>(-wind.y, wind.x);
     let strength = 0.018 + 0.010 * g.look.y;
-    // Slow noise bends the trains, so that no pattern repeats.
+    // Slow noise bends the wave trains, so that no pattern repeats.
     let bent = at + 1.3 * bend;
     var s = train(bent, normalize(wind + 0.15 * side), 5.3, 0.5 * strength, footprint);
     s += train(bent, normalize(wind - 0.45 * side), 2.9, 0.7 * strength, footprint);
@@ -90,7 +90,7 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let s = slope(in.p.xy, f, bend) * gust;
     let n = normalize(vec3<f32>(-s, 1.0));
     let facing = clamp(dot(n, v), 0.02, 1.0);
-    // Waves too small to see still blur and lift the mirror.
+    // Waves too small to resolve still blur and brighten the reflection.
     let rough = clamp(f * 0.02 + 0.02, 0.02, 0.22) * gust;
     let away_from = 1.0 - facing;
     let fresnel = 0.02 + 0.98 * (away_from * away_from) * (away_from * away_from) * away_from * (1.0 - rough);
@@ -107,8 +107,8 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let sun_seen = sun_visible(in.p, vec3<f32>(0.0, 0.0, 1.0));
     let spread = max(rough * 1.4, 0.045);
     let glint = PI * ggx(n, v, g.sun.xyz, vec3<f32>(0.02), sqrt(spread)) * g.sun.w * max(g.sun.z, 0.0) * sun_seen;
-    // What comes back out of the water: green-blue, brighter in the sun.
-    // Light that entered beside a shadow scatters under it: from above its edges are hardly seen.
+    // Light scattered back from the water: blue-green, brighter in the sun. Light that entered next to a shadow scatters below
+    // it, so its edges are hardly visible from above.
     let within = mix(0.65, 1.0, sun_seen);
     let lux = in.light.x * g.sky_rgb.w * g.sky_rgb.xyz + g.sun.w * max(g.sun.z, 0.0) * within * g.sun_rgb.xyz;
     var lamp = 0.0;
@@ -118,7 +118,7 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let body = vec3<f32>(0.012, 0.030, 0.032) * (lux + lamp);
     let path = max(in.depth, 0.0) * (1.0 + 0.6 / max(v.z, 0.12));
     let clear = exp(-path * 0.55);
-    // A line of foam where it laps ashore.
+    // A line of foam along the shore.
     var wander = bend.x;
     if DETAIL {
         wander = noise(in.p.xy * 0.7);

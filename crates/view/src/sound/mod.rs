@@ -1,4 +1,4 @@
-//! What a trainee hears, as samples: propellers by the rotors' speeds, tones for warnings. Pure; whoever plays it decides what time it is.
+//! Sound of a flight as samples: propellers from the rotor speeds, and warning tones. Pure; the caller provides the time base.
 
 mod propellers;
 mod warnings;
@@ -8,24 +8,24 @@ pub use warnings::spoken;
 use propellers::Propellers;
 use warnings::WarningTones;
 
-/// Samples a second: twice and more what the highest harmonic has.
+/// Sample rate, Hz: more than twice the highest harmonic.
 pub const RATE_HZ: u32 = 24_000;
-/// Levels change no faster than within this, s (estimate: quicker than a motor, slow enough to make no click).
+/// Time constant of level changes, s (estimate: faster than a motor, slow enough to prevent clicks).
 const SLEW_S: f64 = 0.02;
-/// Share of the full level that each part may take, so that nothing is ever clipped.
+/// Fraction of full scale available to each part, to prevent clipping.
 const PROPELLERS: f64 = 0.5;
 const WARNINGS: f64 = 0.45;
 
-/// What is on.
+/// Sound settings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SoundSettings {
-    /// Propellers.
+    /// Whether propeller sound is on.
     pub propellers: bool,
-    /// Tones for warnings.
+    /// Whether warning tones are on.
     pub warnings: bool,
-    /// Warnings in words.
+    /// Whether spoken warnings are on.
     pub speech: bool,
-    /// How loud, 0 to 1.
+    /// Volume, 0 to 1.
     pub volume: f64,
 }
 
@@ -35,32 +35,32 @@ impl Default for SoundSettings {
     }
 }
 
-/// What there is to hear now.
+/// Inputs of the sound.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SoundInputs {
-    /// Speeds of the rotors, rad/s; empty: nobody has said.
+    /// Rotor speeds, rad/s; empty if unknown.
     pub rotors_rad_s: Vec<f64>,
-    /// From the inspector to the drone, m.
+    /// Distance from the inspector to the drone, m.
     pub distance_m: f64,
-    /// Mask of cues, as the display shows them.
+    /// Mask of active cues, as in the HUD.
     pub cues: i32,
-    /// All is silent: switched off, or time stands still.
+    /// Whether all sound is muted: switched off or paused.
     pub silent: bool,
 }
 
-/// A value that follows another one without a jump.
+/// A value that follows its target without jumps.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct SmoothedValue(f64);
 
 impl SmoothedValue {
-    /// One sample on.
+    /// Advances by one sample.
     fn follow(&mut self, target: f64) -> f64 {
         self.0 += (target - self.0) / (SLEW_S * f64::from(RATE_HZ));
         self.0
     }
 }
 
-/// The sound of a flight.
+/// Sound of a flight.
 #[derive(Debug, Clone, Default)]
 pub struct FlightSound {
     settings: SoundSettings,
@@ -71,18 +71,18 @@ pub struct FlightSound {
 }
 
 impl FlightSound {
-    /// Silent until something is heard.
+    /// Creates a silent state.
     #[must_use]
     pub fn new(settings: SoundSettings) -> Self {
         Self { settings, ..Self::default() }
     }
 
-    /// What there is to hear from now on.
+    /// Sets the current inputs.
     pub fn set(&mut self, heard: SoundInputs) {
         self.inputs = heard;
     }
 
-    /// The next samples, each within -1 and 1.
+    /// Writes the next samples, each in [-1, 1].
     pub fn fill(&mut self, out: &mut [f32]) {
         let Self { settings, inputs: heard, propellers, warnings, volume } = self;
         for sample in out {

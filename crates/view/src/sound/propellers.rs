@@ -1,25 +1,26 @@
-//! Propellers: for each rotor the frequency at which its blades pass, and harmonics of it.
+//! Propeller sound: the blade-pass frequency of each rotor and its harmonics.
 
 use super::{RATE_HZ, SmoothedValue};
 use spandrel_model::math;
 
-/// Blades of a propeller (the aircraft of the paper, a DJI Phantom 2, has two-bladed ones of 9.4 inches; so have most of its size).
+/// Blades per propeller (the paper's aircraft, a DJI Phantom 2, has two-bladed propellers of 9.4 inches, as do most of its size).
 pub const BLADES: f64 = 2.0;
-/// Harmonics, each with this share of the level of the one before (estimate: 6 dB; small propellers' tones fall so from the second on).
+/// Number of harmonics, and level of each relative to the previous one (estimate: 6 dB, as with small propellers from the second
+/// harmonic on).
 const HARMONICS: u32 = 6;
 const FALL: f64 = 0.5;
-/// Rotors that can be told apart.
+/// Maximum number of distinguishable rotors.
 const MOST: usize = 8;
-/// The level is full at this speed, rad/s; it grows with its square, as thrust does (estimate: a small quadrotor's climb).
+/// Rotor speed at full level, rad/s; the level grows with its square, like thrust (estimate: climb of a small quadrotor).
 const FULL_RAD_S: f64 = 1_100.0;
-/// Within this distance, m, the level is full; beyond it falls with the distance, as of a point source in the open. Chosen so that a drone at
-/// 120 m is still heard over a usual loudspeaker (estimate).
+/// Distance up to which the level is constant, m; beyond it, the level decreases with distance, as for a point source in the
+/// open. Chosen so that a drone at 120 m is audible on typical speakers (estimate).
 const NEAR_M: f64 = 15.0;
 
-/// Slower than this, rad/s, nothing is heard.
+/// Rotor speed below which there is no sound, rad/s.
 const STANDS_RAD_S: f64 = 1e-3;
 
-/// Rotors as oscillators.
+/// Oscillators of the rotors.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Propellers {
     rotors: [RotorOscillator; MOST],
@@ -30,15 +31,15 @@ pub struct Propellers {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct RotorOscillator {
     speed: SmoothedValue,
-    /// Turns of the blades' fundamental, 0 to 1.
+    /// Phase of the blade-pass fundamental, 0 to 1.
     phase: f64,
 }
 
 impl Propellers {
-    /// The next sample, within -1 and 1, for rotors that turn so fast (rad/s) at this distance (m).
+    /// Returns the next sample, in [-1, 1], for these rotor speeds (rad/s) and distance (m).
     pub fn next(&mut self, rotors_rad_s: &[f64], distance_m: f64) -> f64 {
         let far = self.level.follow((NEAR_M / distance_m.max(NEAR_M)).clamp(0.0, 1.0));
-        // All rotors together are as loud as one is; no fewer than a quadrotor's, so that one alone is fainter.
+        // Normalizes by the number of rotors, at least four, so that a single rotor is quieter.
         let count = self.count.follow(rotors_rad_s.len().min(MOST) as f64).max(4.0);
         let mut sum = 0.0;
         for (k, rotor) in self.rotors.iter_mut().enumerate() {

@@ -1,4 +1,4 @@
-//! Frequencies, levels, silence, and no clicks.
+//! Tests of frequencies, levels, silence, and absence of clicks.
 
 use super::propellers::BLADES;
 use super::{FlightSound, RATE_HZ, SoundInputs, SoundSettings, spoken};
@@ -10,7 +10,7 @@ fn heard(rad_s: f64, distance_m: f64, cues: i32) -> SoundInputs {
     SoundInputs { rotors_rad_s: vec![rad_s; 4], distance_m, cues, silent: false }
 }
 
-/// So many seconds of a sound, after a second in which levels settle.
+/// Returns `seconds` of sound, after one second for levels to settle.
 fn played(sound: &mut FlightSound, heard: SoundInputs, seconds: f64) -> Vec<f64> {
     sound.set(heard);
     let mut out = vec![0.0_f32; RATE_HZ as usize + (seconds * f64::from(RATE_HZ)) as usize];
@@ -18,7 +18,7 @@ fn played(sound: &mut FlightSound, heard: SoundInputs, seconds: f64) -> Vec<f64>
     out[RATE_HZ as usize..].iter().map(|sample| f64::from(*sample)).collect()
 }
 
-/// Amplitude of one frequency (a bin of the discrete Fourier transform).
+/// Amplitude at one frequency (a bin of the discrete Fourier transform).
 fn amplitude(samples: &[f64], hz: f64) -> f64 {
     let step = math::TAU * hz / f64::from(RATE_HZ);
     let (mut re, mut im) = (0.0, 0.0);
@@ -35,7 +35,7 @@ fn only(propellers: bool, warnings: bool) -> SoundSettings {
 
 #[test]
 fn exact_the_blades_frequency_and_its_harmonics_are_heard_and_nothing_between() {
-    // 120 turns a second: two blades pass 240 times.
+    // 120 revolutions per second: two blades pass 240 times per second.
     let rad_s = 120.0 * math::TAU;
     let samples = played(&mut FlightSound::new(only(true, true)), heard(rad_s, 1.0, 0), 1.0);
     let first = amplitude(&samples, BLADES * 120.0);
@@ -84,7 +84,7 @@ fn exact_what_is_off_is_silent() {
     let peak = |settings: SoundSettings, heard: SoundInputs| {
         played(&mut FlightSound::new(settings), heard, 1.0).into_iter().fold(0.0, |most: f64, sample| most.max(sample.abs()))
     };
-    // What is left of a level a second after it was let go: exp(-50).
+    // Residual level one second after release: exp(-50).
     const REST: f64 = 1e-12;
     assert!(peak(only(true, true), flying.clone()) > 0.1);
     assert!(peak(only(false, false), flying.clone()) < REST);
@@ -95,11 +95,11 @@ fn exact_what_is_off_is_silent() {
 
 #[test]
 fn prop_the_sound_never_clips_or_clicks() {
-    // The steepest that steady parts can be: each at its full level with all its harmonics in step.
+    // Steepest possible slope in steady state: every part at full level with all harmonics in phase.
     let top_hz = BLADES * 2.0 * 1_100.0 / math::TAU;
     let harmonics: f64 = (1..=6).map(|k| f64::from(k) * math::pow(0.5, f64::from(k - 1))).sum::<f64>() / 1.968_75;
     let slope = |amplitude: f64, hz: f64| amplitude * math::TAU * hz / f64::from(RATE_HZ);
-    // Edges of tones and levels add a little.
+    // Transitions of tones and levels add a little.
     const MORE: f64 = 1.1;
     let steepest = MORE * (slope(0.5 * harmonics, top_hz) + slope(0.45, 1_050.0) + 0.45 / (0.008 * f64::from(RATE_HZ)));
     assert!(steepest < 0.5, "a click would be seen: {steepest}");

@@ -1,13 +1,13 @@
-//! Warnings as tones that are told apart by pitch and rhythm; the gravest one alone is heard.
+//! Warning tones, distinguished by pitch and rhythm; only the most serious one sounds.
 
 use super::RATE_HZ;
 use spandrel_mavlink::contract::cue;
 use spandrel_model::math;
 
-/// A tone grows and falls within this, s: no click, and still a clear beginning.
+/// Duration of a tone's attack and release, s: no click, but a clear onset.
 const EDGE_S: f64 = 0.008;
 
-/// A cue as a tone: pitch, Hz; on for so long of every period, s.
+/// Tone of a cue: pitch, Hz, and on-time and period, s.
 struct Tone {
     cue: i32,
     hz: f64,
@@ -16,8 +16,8 @@ struct Tone {
     speech: &'static str,
 }
 
-/// From the gravest to the mildest. Pitches and rhythms are estimates: a fifth or more apart, faster the more urgent (after the order of
-/// ISO 7731's and IEC 60601-1-8's bursts).
+/// Tones in order of severity. Pitches and rhythms are estimates: a fifth or more apart, faster for more urgent warnings (after
+/// the order of the bursts in ISO 7731 and IEC 60601-1-8).
 const TONES: [Tone; 5] = [
     Tone { cue: cue::CRASH, hz: 220.0, on_s: 0.35, period_s: 0.5, speech: "Crash" },
     Tone { cue: cue::TOO_CLOSE, hz: 1_050.0, on_s: 0.09, period_s: 0.18, speech: "Too close" },
@@ -26,13 +26,13 @@ const TONES: [Tone; 5] = [
     Tone { cue: cue::BATTERY_RED, hz: 330.0, on_s: 0.4, period_s: 3.0, speech: "Battery low" },
 ];
 
-/// The words for what has come up since, the gravest alone.
+/// Returns the speech for the most serious cue that has become active.
 #[must_use]
 pub fn spoken(before: i32, now: i32) -> Option<&'static str> {
     TONES.iter().find(|tone| now & !before & tone.cue != 0).map(|tone| tone.speech)
 }
 
-/// One oscillator.
+/// Oscillator of the warning tones.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct WarningTones {
     tone: Option<usize>,
@@ -42,11 +42,11 @@ pub struct WarningTones {
 }
 
 impl WarningTones {
-    /// The next sample, within -1 and 1, while these cues are on.
+    /// Returns the next sample, in [-1, 1], for these active cues.
     pub fn next(&mut self, cues: i32) -> f64 {
         let step_s = 1.0 / f64::from(RATE_HZ);
         let wanted = TONES.iter().position(|tone| cues & tone.cue != 0);
-        // Another tone waits until this one has faded.
+        // A different tone starts after the current one has faded out.
         if wanted != self.tone && self.gate <= 0.0 {
             (self.tone, self.clock_s) = (wanted, 0.0);
         }
@@ -56,7 +56,7 @@ impl WarningTones {
         self.gate = (self.gate + way * step_s / EDGE_S).clamp(0.0, 1.0);
         self.clock_s += step_s;
         self.phase = (self.phase + tone.hz * step_s).rem_euclid(1.0);
-        // A raised cosine has no corner at either end.
+        // A raised cosine is smooth at both ends.
         let level = 0.5 - 0.5 * math::cos(math::PI * self.gate);
         level * math::sin(math::TAU * self.phase)
     }

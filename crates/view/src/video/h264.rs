@@ -1,4 +1,4 @@
-//! H.264 by Cisco's encoder.
+//! H.264 encoding with Cisco's OpenH264.
 
 use super::VideoError;
 use crate::picture::Picture;
@@ -6,26 +6,27 @@ use openh264::OpenH264API;
 use openh264::encoder::{BitRate, EncoderConfig, FrameRate, FrameType, IntraFramePeriod, RateControlMode, UsageType, VuiConfig};
 use openh264::formats::{RgbaSliceU8, YUVBuffer};
 
-/// One encoded picture.
+/// An encoded picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct EncodedPicture {
-    /// Its network abstraction layer units, without start codes.
+    /// Network abstraction layer (NAL) units without start codes.
     pub units: Vec<Vec<u8>>,
-    /// It can be read without those before it.
+    /// Whether it is a key frame, decodable without earlier pictures.
     pub key: bool,
 }
 
-/// Pictures of one size into H.264.
+/// Encodes pictures of one size to H.264.
 pub struct H264Encoder {
     encoder: openh264::encoder::Encoder,
     size_px: (u32, u32),
 }
 
 impl H264Encoder {
-    /// For pictures of a size (even numbers of px), so many a second, so many bits a second; every `key_every`-th can be read by itself.
+    /// Creates an encoder for a picture size (even, px), picture rate, Hz, and bit rate, bit/s; every `key_every`-th picture is a
+    /// key frame.
     ///
     /// # Errors
-    /// When the encoder will not.
+    /// If the encoder rejects the parameters.
     pub fn new(size_px: (u32, u32), rate_hz: f64, bits_s: u32, key_every: u32) -> Result<Self, VideoError> {
         if size_px.0 % 2 == 1 || size_px.1 % 2 == 1 {
             return Err(VideoError::Encoder(format!("{} x {} px: both must be even", size_px.0, size_px.1)));
@@ -36,7 +37,7 @@ impl H264Encoder {
             .rate_control_mode(RateControlMode::Bitrate)
             .usage_type(UsageType::CameraVideoRealTime)
             .intra_frame_period(IntraFramePeriod::from_num_frames(key_every))
-            // Every picture counts: whoever reviews a flight wants the one with the defect.
+            // No frame is skipped: reviewers need the one that shows the defect.
             .skip_frames(false)
             .vui(VuiConfig::bt601());
         let refused = |error: openh264::Error| VideoError::Encoder(error.to_string());
@@ -44,13 +45,13 @@ impl H264Encoder {
         Ok(Self { encoder, size_px })
     }
 
-    /// The next picture.
+    /// Encodes the next picture.
     ///
     /// # Errors
-    /// When it has another size, or the encoder fails.
+    /// If its size differs, or the encoder fails.
     pub fn encode(&mut self, picture: &Picture) -> Result<EncodedPicture, VideoError> {
         if (picture.width, picture.height) != self.size_px {
-            return Err(VideoError::Encoder("a picture has another size than the video".into()));
+            return Err(VideoError::Encoder("picture size differs from the video size".into()));
         }
         let source = RgbaSliceU8::new(&picture.rgba, (picture.width as usize, picture.height as usize));
         let yuv = YUVBuffer::from_rgba8_source(source);
@@ -64,7 +65,7 @@ impl H264Encoder {
     }
 }
 
-/// Annex B begins units with 00 00 01 or 00 00 00 01.
+/// Annex B units start with 00 00 01 or 00 00 00 01.
 fn without_start_code(unit: &[u8]) -> &[u8] {
     unit.strip_prefix(&[0, 0, 0, 1]).or_else(|| unit.strip_prefix(&[0, 0, 1])).unwrap_or(unit)
 }

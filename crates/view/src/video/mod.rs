@@ -1,4 +1,4 @@
-//! Moving pictures: H.264, alone in RTP packets or with chapters in an MP4 file. Bytes only; who sends and writes them is elsewhere.
+//! Video: H.264 in RTP packets, or with chapters in an MP4 file. Produces bytes only; sending and writing are up to the caller.
 
 mod h264;
 mod mp4;
@@ -10,13 +10,13 @@ pub use h264::{EncodedPicture, H264Encoder};
 pub use mp4::{Mp4Chunk, Mp4Writer};
 pub use rate::PictureRate;
 
-/// Why there is no video.
+/// Errors of video encoding and writing.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum VideoError {
-    /// The encoder will not.
-    #[error("the video encoder refuses: {0}")]
+    /// The encoder rejected the input or failed.
+    #[error("the video encoder failed: {0}")]
     Encoder(String),
-    /// The file's structure will not hold it.
+    /// The file format cannot represent the data.
     #[error("the video file cannot be written: {0}")]
     File(String),
 }

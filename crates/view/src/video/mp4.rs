@@ -1,4 +1,4 @@
-//! An MP4 file that is written as pictures come: media data first, its index at the end.
+//! MP4 file that is written as pictures arrive: media data first, index at the end.
 
 use super::{EncodedPicture, VideoError};
 use shiguredo_mp4::boxes::{Avc1Box, AvccBox, SampleEntry, VisualSampleEntryFields};
@@ -6,22 +6,22 @@ use shiguredo_mp4::mux::{Mp4FileMuxer, Sample};
 use shiguredo_mp4::{TrackKind, Uint};
 use std::num::NonZeroU32;
 
-/// Ticks of the file's clock in a second.
+/// Ticks per second of the file's time base.
 const TICKS_S: u32 = 90_000;
-/// Types of units (H.264, table 7-1).
+/// NAL unit types (H.264, table 7-1).
 const SPS: u8 = 7;
 const PPS: u8 = 8;
 
-/// Bytes to write at a place of the file.
+/// Bytes to write at an offset of the file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mp4Chunk {
-    /// Where.
+    /// Offset, bytes.
     pub at: u64,
-    /// What.
+    /// Bytes.
     pub bytes: Vec<u8>,
 }
 
-/// A file that grows.
+/// An MP4 file in progress.
 pub struct Mp4Writer {
     muxer: Mp4FileMuxer,
     size_px: (u32, u32),
@@ -33,10 +33,10 @@ pub struct Mp4Writer {
 }
 
 impl Mp4Writer {
-    /// A file for pictures of one size, so many a second, and its first bytes.
+    /// Creates a file for pictures of one size and rate, Hz, and returns it with its first bytes.
     ///
     /// # Errors
-    /// When the structure will not hold them.
+    /// If the file format cannot represent them.
     pub fn new(size_px: (u32, u32), rate_hz: f64) -> Result<(Self, Mp4Chunk), VideoError> {
         let muxer = Mp4FileMuxer::new().map_err(|error| VideoError::File(error.to_string()))?;
         let head = muxer.initial_boxes_bytes().to_vec();
@@ -48,7 +48,7 @@ impl Mp4Writer {
     /// Adds a picture.
     ///
     /// # Errors
-    /// When the structure will not hold it.
+    /// If the file format cannot represent it.
     pub fn push(&mut self, encoded: &EncodedPicture) -> Result<Mp4Chunk, VideoError> {
         let mut bytes = Vec::new();
         for unit in encoded.units.iter().filter(|unit| !is_parameter(unit)) {
@@ -56,7 +56,7 @@ impl Mp4Writer {
             bytes.extend(unit);
         }
         self.pictures += 1;
-        // Whole ticks without drift: the end of picture n is n over the rate.
+        // Whole ticks without drift: picture n ends at n divided by the rate.
         let until = (self.pictures as f64 / self.rate_hz * f64::from(TICKS_S)).round() as u64;
         let sample = Sample {
             track_kind: TrackKind::Video,
@@ -75,10 +75,10 @@ impl Mp4Writer {
         Ok(piece)
     }
 
-    /// The index: the file is whole once these are written.
+    /// Returns the index, which completes the file.
     ///
     /// # Errors
-    /// When the structure will not close.
+    /// If the index cannot be built.
     pub fn finish(mut self) -> Result<Vec<Mp4Chunk>, VideoError> {
         let closed = self.muxer.finalize().map_err(|error| VideoError::File(error.to_string()))?;
         Ok(closed.offset_and_bytes_pairs().map(|(at, bytes)| Mp4Chunk { at, bytes: bytes.to_vec() }).collect())
@@ -93,12 +93,12 @@ fn is_parameter(unit: &[u8]) -> bool {
     matches!(kind(unit), SPS | PPS)
 }
 
-/// What a player must know before the first picture.
+/// Returns the decoder configuration that a player needs before the first picture.
 fn entry(units: &[Vec<u8>], (width, height): (u32, u32)) -> Result<SampleEntry, VideoError> {
     let of = |wanted: u8| units.iter().filter(|unit| kind(unit) == wanted).cloned().collect::<Vec<_>>();
     let (sps_list, pps_list) = (of(SPS), of(PPS));
     let Some([_, profile, compatibility, level, ..]) = sps_list.first().map(Vec::as_slice) else {
-        return Err(VideoError::File("the first picture comes without its parameters".into()));
+        return Err(VideoError::File("the first picture has no parameter sets".into()));
     };
     let side = |px: u32| u16::try_from(px).map_err(|_| VideoError::File(format!("{px} px is too large")));
     Ok(SampleEntry::Avc1(Avc1Box {

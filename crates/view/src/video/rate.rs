@@ -1,17 +1,17 @@
-//! How many pictures a second go out.
+//! Measures the picture rate of a stream.
 
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// The rate is a mean over this much wall time.
+/// Wall time window of the mean.
 const MEASURED_OVER: SimTime = SimTime::from_ms(2_000);
 
-/// Pictures a second, by when the last ones went out.
+/// Picture rate from the times of recent pictures.
 #[derive(Debug, Clone, Default)]
 pub struct PictureRate(VecDeque<SimTime>);
 
 impl PictureRate {
-    /// A picture went out at a wall time.
+    /// Records a picture sent at a wall time.
     pub fn count(&mut self, wall: SimTime) {
         self.0.push_back(wall);
         while self.0.len() > 2 && self.0.front().is_some_and(|first| wall.saturating_sub(*first) > MEASURED_OVER) {
@@ -19,7 +19,7 @@ impl PictureRate {
         }
     }
 
-    /// Pictures a second, Hz; `None` before the second picture.
+    /// Returns the picture rate, Hz, or `None` before the second picture.
     #[must_use]
     pub fn hz(&self) -> Option<f64> {
         let (first, last) = (self.0.front()?, self.0.back()?);

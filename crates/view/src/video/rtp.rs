@@ -1,29 +1,29 @@
-//! H.264 in RTP packets (RFC 3550, RFC 6184): small units whole, large ones in fragments (FU-A).
+//! H.264 in RTP packets (RFC 3550, RFC 6184): small units in single packets, large ones fragmented (FU-A).
 
 use spandrel_model::random::RandomStream;
 
-/// Payload type of the stream: the first dynamic one, which ground stations expect.
+/// Payload type of the stream: the first dynamic type, which ground stations expect.
 pub const PAYLOAD_TYPE: u8 = 96;
-/// RTP's clock for video, Hz.
+/// RTP clock rate for video, Hz.
 pub const CLOCK_HZ: f64 = 90_000.0;
-/// Largest packet, bytes: with IP and UDP below an Ethernet frame of 1500.
+/// Maximum packet size, bytes: with IP and UDP headers, below an Ethernet MTU of 1500.
 const MOST: usize = 1_400;
 const HEADER: usize = 12;
-/// Type of a fragment (RFC 6184, 5.8).
+/// NAL unit type of a fragment (RFC 6184, 5.8).
 const FU_A: u8 = 28;
 
-/// A sender's numbering.
+/// RTP sender state.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RtpPacketizer {
     sequence: u16,
     source: u32,
-    /// Time stamp of time zero.
+    /// Timestamp of time zero.
     zero: u32,
 }
 
 impl RtpPacketizer {
-    /// A stream whose identifier and first numbers come from a seed: another one for each stream, so that a receiver takes none for the
-    /// continuation of the one before (RFC 3550, 5.1).
+    /// Creates a stream with identifier and initial values from a seed. Use a different seed for each stream, so that receivers
+    /// do not mistake it for a continuation of the previous one (RFC 3550, 5.1).
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let mut random = RandomStream::new(seed, "rtp");
@@ -31,7 +31,7 @@ impl RtpPacketizer {
         Self { sequence: (bits() >> 16) as u16, source: bits(), zero: bits() }
     }
 
-    /// The packets of a picture that was taken at a time, s; the last one is marked.
+    /// Returns the packets of a picture taken at `at_s`, s; the last one has the marker bit.
     pub fn picture(&mut self, units: &[Vec<u8>], at_s: f64) -> Vec<Vec<u8>> {
         let stamp = self.zero.wrapping_add(((at_s * CLOCK_HZ).round() as i64) as u32);
         let payloads: Vec<Vec<u8>> = units.iter().flat_map(|unit| payloads(unit)).collect();
@@ -50,7 +50,7 @@ impl RtpPacketizer {
     }
 }
 
-/// A unit as it is, or cut.
+/// Returns a unit as one payload, or fragmented.
 fn payloads(unit: &[u8]) -> Vec<Vec<u8>> {
     let Some((head, body)) = unit.split_first() else { return Vec::new() };
     if unit.len() <= MOST - HEADER {

@@ -2,7 +2,7 @@ use super::*;
 use crate::picture::Picture;
 use spandrel_model::time::SimTime;
 
-/// A square that wanders over grey.
+/// A square that moves over a gray background.
 fn picture(k: u32) -> Picture {
     let (width, height) = (320, 180);
     let inside = |x: u32, y: u32| (8 * k..8 * k + 40).contains(&x) && (60..100).contains(&y);
@@ -27,7 +27,7 @@ fn val_a_decoder_sees_the_square_where_it_was_drawn() {
         assert_eq!(image.dimensions(), (320, 180));
         image.write_rgb8(&mut rgb);
         let red = |x: usize| rgb[3 * (80 * 320 + x)];
-        // Half a megabit a second blurs edges, not middles.
+        // Half a megabit per second blurs edges, not centers.
         assert!(red(8 * k + 20) > 180 && red(8 * k + 80) < 160, "picture {k}");
         seen += 1;
     }
@@ -117,7 +117,7 @@ fn exact_a_rate_is_reported_from_the_second_picture_on_and_forgets_after_two_sec
         rate.count(SimTime::from_ms(ms));
         rate.hz()
     };
-    // A first picture long after the stream was opened slows nothing.
+    // A first picture long after the stream was opened does not lower the rate.
     assert_eq!(after(60_000), None);
     assert_eq!(after(60_040), Some(25.0));
     assert_eq!(after(60_500), Some(4.0));

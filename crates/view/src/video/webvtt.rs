@@ -1,8 +1,8 @@
-//! Chapters of a video as a WebVTT track: players list them, people and programs read them.
+//! Chapters of a video as a WebVTT track, which players list and people and programs can read.
 
 use std::fmt::Write;
 
-/// A chapter: from when to when, s of the video, and what it is called.
+/// A chapter of a video.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chapter {
     /// Start, s.
@@ -13,7 +13,7 @@ pub struct Chapter {
     pub title: String,
 }
 
-/// The track.
+/// Returns the track.
 #[must_use]
 pub fn write(chapters: &[Chapter]) -> String {
     let mut out = String::from("WEBVTT\n");
@@ -28,7 +28,7 @@ fn stamp(s: f64) -> String {
     format!("{:02}:{:02}:{:02}.{:03}", ms / 3_600_000, ms / 60_000 % 60, ms / 1000 % 60, ms % 1000)
 }
 
-/// A title is one line, and its signs are no markup.
+/// Escapes markup and removes line breaks.
 fn escaped(title: &str) -> String {
     title.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace(['\n', '\r'], " ")
 }

@@ -1,22 +1,22 @@
-//! Alignment at rest: roll and pitch from gravity, heading from the magnetic field, gyroscope bias from stillness.
+//! Alignment at rest: roll and pitch from gravity, heading from the magnetic field, gyroscope bias from the mean rate.
 
 use crate::sensors::ImuReading;
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::math;
 
-/// Samples are averaged for this long, s.
+/// Averaging time, s.
 pub const ALIGN_S: f64 = 0.5;
-/// Faster turning than this is not rest, rad/s.
+/// Maximum angular rate at rest, rad/s.
 const STILL_RATE_RAD_S: f64 = 0.15;
-/// A specific force this far from 1 g is not rest, m/s².
+/// Maximum deviation of the specific force from 1 g at rest, m/s².
 const STILL_FORCE_M_S2: f64 = 1.5;
-/// A mean rate beyond this many standard deviations of the gyroscope's bias is motion, not bias.
+/// Mean rates beyond this many standard deviations of the gyroscope bias count as motion.
 const BIAS_SIGMAS: f64 = 5.0;
-/// A body that seems to rest still rocks this fast, as a share of the gyroscope's bias (1 sigma, estimate): the mean rate gives the bias no
-/// more accurately, the filter learns the rest in flight.
+/// Residual rocking of a body at rest, as a fraction of the gyroscope bias (1 sigma, estimate). It limits the accuracy of the
+/// bias from the mean rate; the filter estimates the rest in flight.
 pub const ROCKING_SHARE: f64 = 0.1;
 
-/// The gyroscope by its data sheet.
+/// Gyroscope characteristics from the data sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GyroSpec {
     /// Bias after calibration, rad/s (1 sigma).
@@ -26,14 +26,14 @@ pub struct GyroSpec {
 }
 
 impl GyroSpec {
-    /// Whether a mean rate of rest can be this gyroscope's bias, rad/s.
+    /// Returns true if a mean rate at rest is plausible as the bias of this gyroscope.
     fn allows(&self, mean_rad_s: Vec3<Frd>, samples: f64) -> bool {
         let sigma = math::hypot(self.bias_rad_s, self.sample_rad_s / samples.sqrt());
         mean_rad_s.array().iter().all(|rate| rate.abs() <= BIAS_SIGMAS * sigma)
     }
 }
 
-/// Sums while aligning.
+/// Sums of the samples collected for alignment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Alignment {
     gyro: GyroSpec,
@@ -45,7 +45,7 @@ pub struct Alignment {
     time_s: f64,
 }
 
-/// The outcome.
+/// Result of the alignment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AlignmentResult {
     /// Attitude.
@@ -54,21 +54,21 @@ pub struct AlignmentResult {
     pub gyro_bias_rad_s: Vec3<Frd>,
     /// Variance of the gyroscope bias, (rad/s)².
     pub gyro_variance: f64,
-    /// How many inertial samples were averaged.
+    /// Number of averaged inertial samples.
     pub samples: f64,
-    /// How many magnetic samples were averaged.
+    /// Number of averaged magnetometer samples.
     pub mag_samples: f64,
 }
 
 impl Alignment {
-    /// Nothing sampled yet.
+    /// Creates an alignment without samples.
     #[must_use]
     pub fn new(gyro: GyroSpec) -> Self {
         let zero = Vec3::zero();
         Self { gyro, force: zero, rates: zero, mag: Vec3::zero(), samples: 0, mag_samples: 0, time_s: 0.0 }
     }
 
-    /// Takes in an inertial sample; movement starts it over, so does a mean rate that is no bias.
+    /// Adds an inertial sample. Motion, or a mean rate too large for a bias, restarts the alignment.
     pub fn imu(&mut self, reading: &ImuReading, dt_s: f64) {
         let moving = reading.rates_rad_s.norm() > STILL_RATE_RAD_S
             || (reading.specific_force_m_s2.norm() - math::GRAVITY_M_S2).abs() > STILL_FORCE_M_S2;
@@ -87,7 +87,7 @@ impl Alignment {
         self.rates / f64::from(self.samples.max(1))
     }
 
-    /// Takes in a magnetic sample.
+    /// Adds a magnetometer sample.
     pub fn mag(&mut self, gauss: Vec3<Frd>) {
         self.mag += gauss;
         self.mag_samples += 1;
@@ -98,7 +98,7 @@ impl Alignment {
         self.gyro.sample_rad_s * self.gyro.sample_rad_s / samples + least * least
     }
 
-    /// The attitude, once enough was averaged. `field` is the earth's field at the site.
+    /// Returns the result once enough samples are averaged. `field` is the earth's magnetic field at the site.
     #[must_use]
     pub fn done(&self, field: Vec3<Ned>) -> Option<AlignmentResult> {
         if self.time_s < ALIGN_S || self.mag_samples == 0 {
@@ -142,7 +142,7 @@ mod tests {
             }
             alignment.done(field)
         };
-        // 20 sigma of the bias, as the caged aircraft rocked on its cage.
+        // 20 sigma of the bias, observed when the caged aircraft rocked on its cage.
         assert_eq!(feed(0.06, 800), None);
         let aligned = feed(0.002, 400).expect("at rest");
         assert!(aligned.gyro_variance >= 9e-8, "{}", aligned.gyro_variance);
@@ -163,7 +163,7 @@ mod tests {
         }
         let aligned = alignment.done(field);
         let error = aligned.map(|a| (a.attitude.inverse().then(truth)).raw().angle());
-        // Rounding of trigonometry.
+        // Rounding of trigonometric functions.
         assert!(error.is_some_and(|e| e < 1e-7), "{error:?}");
         assert!(aligned.is_some_and(|a| (a.gyro_bias_rad_s - Vec3::new(0.01, -0.02, 0.03)).norm() < 1e-12));
     }

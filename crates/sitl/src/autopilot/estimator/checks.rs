@@ -1,21 +1,22 @@
-//! Consistency of each source with the filter: a source whose measurements keep falling outside their gate is dropped, and comes back
-//! once they fit again.
+//! Innovation consistency checks. A source whose measurements keep failing their gate is rejected, and is used again once they
+//! fit.
 
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::time::SimTime;
 
-/// The share of refused measurements is averaged over this time, s (estimate: a second of refusals drops a source, single ones do not).
+/// Time constant of the average rejection rate, s (estimate: one second of rejected measurements drops a source, single outliers
+/// do not).
 const AVERAGED_S: f64 = 0.5;
-/// A source is dropped above this share of refused measurements.
+/// Rejection rate above which a source is dropped.
 const DROPPED: f64 = 0.8;
-/// It comes back below this one, after 2 s in which every measurement fits.
+/// Rejection rate below which a source is used again; reached after 2 s of consistent measurements.
 const BACK: f64 = 0.02;
-/// Measurements further apart than this count as this far apart, s: one refusal after a long gap drops nothing.
+/// Maximum interval between measurements in the average, s: one rejection after a long gap does not drop a source.
 const LONGEST_GAP_S: f64 = 0.25;
-/// A source that is refused for this long is believed again where nothing better is left, s.
+/// Time after which a rejected source is used again if no better one remains, s.
 pub const REFUSED_S: f64 = 3.0;
 
-/// How well one source fits the filter.
+/// Consistency of one source with the filter.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct InnovationCheck {
     refused_share: f64,
@@ -24,7 +25,7 @@ pub struct InnovationCheck {
 }
 
 impl InnovationCheck {
-    /// Takes note of a measurement that fits or not; true if it is to be fused.
+    /// Records whether a measurement passed its gate. Returns true if it should be fused.
     pub fn admits(&mut self, fits: bool, now: SimTime) -> bool {
         let gap_s = self.last.map_or(LONGEST_GAP_S, |last| (now - last).s()).min(LONGEST_GAP_S);
         self.last = Some(now);
@@ -34,31 +35,31 @@ impl InnovationCheck {
         fits && !self.dropped
     }
 
-    /// The source is not used.
+    /// Returns true if the source is not used.
     #[must_use]
     pub fn dropped(&self) -> bool {
         self.dropped
     }
 
-    /// Drops the source: others have shown that it is wrong.
+    /// Drops the source because other sources contradict it.
     pub fn reject(&mut self) {
         (self.refused_share, self.dropped) = (1.0, true);
     }
 
-    /// The filter has been set to the source.
+    /// Clears the check after the filter was reset to the source.
     pub fn forget(&mut self) {
         (self.refused_share, self.dropped) = (0.0, false);
     }
 }
 
-/// Whether a refused source agrees with itself: its distance from the filter stays the same, as after a jump, and is not noise.
+/// Detects whether a rejected source has a constant offset from the filter, as after a jump, rather than noise.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct RejectionMonitor {
     previous: Option<(Vec3<Ned>, SimTime)>,
 }
 
 impl RejectionMonitor {
-    /// Takes note of a distance from the filter, m; returns for how long it has stayed within `tolerance_m`, s.
+    /// Records an offset from the filter, m. Returns the time for which it has stayed within `tolerance_m`, s.
     pub fn hold_s(&mut self, distance_m: Vec3<Ned>, tolerance_m: f64, now: SimTime) -> f64 {
         match self.previous {
             Some((then, since)) if (distance_m - then).norm() <= tolerance_m => (now - since).s(),
@@ -69,7 +70,7 @@ impl RejectionMonitor {
         }
     }
 
-    /// The source fits again.
+    /// Clears the monitor once the source fits again.
     pub fn forget(&mut self) {
         self.previous = None;
     }
@@ -82,15 +83,15 @@ pub struct InnovationChecks {
     pub baro: InnovationCheck,
     /// Magnetometer.
     pub mag: InnovationCheck,
-    /// The receiver's horizontal position.
+    /// Horizontal GNSS position.
     pub gnss: InnovationCheck,
-    /// The receiver's height.
+    /// GNSS height.
     pub gnss_height: InnovationCheck,
-    /// The receiver's velocity.
+    /// GNSS velocity.
     pub gnss_velocity: InnovationCheck,
-    /// How steady the barometer is off.
+    /// Offset monitor of the barometer.
     pub baro_off: RejectionMonitor,
-    /// How steady the receiver is off.
+    /// Offset monitor of the GNSS receiver.
     pub gnss_off: RejectionMonitor,
 }
 

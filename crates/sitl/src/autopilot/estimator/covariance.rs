@@ -1,8 +1,8 @@
-//! The error covariance, 23 by 23, propagated by its few non-zero blocks instead of full products.
+//! The 23 by 23 error covariance, propagated by its few non-zero blocks instead of full matrix products.
 //!
-//! Errors are true minus believed, in this order: position, velocity, attitude (a rotation vector in NED, applied after the
-//! believed attitude), gyroscope bias, accelerometer bias (both body axes), GNSS drift, barometer offset,
-//! scale of the optical flow, magnetometer bias (body axes).
+//! Errors are true minus estimated, in this order: position, velocity, attitude (a rotation vector in NED, applied after the
+//! estimated attitude), gyroscope bias, accelerometer bias (both in body axes), GNSS drift, barometer offset, optical-flow scale,
+//! magnetometer bias (body axes).
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -22,12 +22,12 @@ pub const BA: usize = 12;
 pub const DRIFT: usize = 15;
 /// Index of the barometer offset error.
 pub const BARO: usize = 18;
-/// Index of the optical flow's scale error, a share of the velocity; it stays as it is all session.
+/// Index of the optical-flow scale error, a fraction of velocity; constant over a session.
 pub const FLOW: usize = 19;
-/// Index of the magnetometer bias error; it stays as it is all session.
+/// Index of the magnetometer bias error; constant over a session.
 pub const MAG: usize = 20;
 
-/// Spectral densities of the process noise, all in SI per second.
+/// Spectral densities of the process noise, SI units per second.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProcessNoise {
     /// Accelerometer, (m/s²)²/Hz.
@@ -46,20 +46,20 @@ pub struct ProcessNoise {
     pub baro_walk: f64,
 }
 
-/// A correction of all error states.
+/// Correction of all error states.
 pub type StateCorrection = [f64; STATES];
 
-/// A row's places: an even number of pairs, so that no loop over a row has a tail; what lies beyond the states stays zero.
+/// Row length, padded to a multiple of four so that loops over a row have no remainder. The padding stays zero.
 const WIDTH: usize = STATES.next_multiple_of(4);
 
-/// Symmetric covariance.
+/// Symmetric covariance matrix.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Covariance {
     m: [[f64; WIDTH]; STATES],
 }
 
 impl Covariance {
-    /// From the variances alone.
+    /// Creates a diagonal covariance from variances.
     #[must_use]
     pub fn diagonal(variances: &[f64; STATES]) -> Self {
         let mut m = [[0.0; WIDTH]; STATES];
@@ -69,7 +69,7 @@ impl Covariance {
         Self { m }
     }
 
-    /// Variance of one error.
+    /// Variance of one error state.
     #[must_use]
     pub fn variance(&self, i: usize) -> f64 {
         self.m[i][i]
@@ -81,13 +81,13 @@ impl Covariance {
         self.m[i][j]
     }
 
-    /// Sets one pair of elements.
+    /// Sets an element and its mirror.
     pub fn set(&mut self, i: usize, j: usize, value: f64) {
         self.m[i][j] = value;
         self.m[j][i] = value;
     }
 
-    /// Forgets all about `count` errors from `first`: independent of the rest, with one variance.
+    /// Resets `count` error states from `first` to one variance, uncorrelated with all others.
     pub fn reset(&mut self, first: usize, count: usize, variance: f64) {
         for i in first..first + count {
             for j in 0..STATES {
@@ -99,8 +99,8 @@ impl Covariance {
         }
     }
 
-    /// One step of `dt_s`. `gained_m_s` is the velocity that specific force gave in the step (NED), `attitude` the rotation matrix from
-    /// body to NED, `jolt` extra velocity variance for shocks, (m/s)².
+    /// Propagates the covariance by `dt_s`. `gained_m_s` is the velocity change from specific force in this step (NED),
+    /// `attitude` the rotation matrix from body to NED, `jolt` additional velocity variance for shocks, (m/s)².
     pub fn propagate(&mut self, attitude: &Matrix3<f64>, gained_m_s: &Vector3<f64>, dt_s: f64, noise: &ProcessNoise, jolt: f64) {
         let g = gained_m_s;
         // d(velocity)/d(attitude): theta x gained.
@@ -124,7 +124,7 @@ impl Covariance {
         self.mirror();
     }
 
-    /// F times the matrix, in place: every row is written before what it depends on changes.
+    /// Multiplies F by the matrix in place. Each row is written before its inputs change.
     fn rows(&mut self, a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], dt_s: f64) {
         for i in 0..3 {
             let v = self.m[V + i];
@@ -153,8 +153,8 @@ impl Covariance {
         }
     }
 
-    /// The matrix times F transposed, in place. F has more than its diagonal in the first rows alone, and below them lies the half that
-    /// is mirrored afterwards.
+    /// Multiplies the matrix by F transposed in place. F has off-diagonal elements only in its first rows; the half below them is
+    /// mirrored afterward.
     fn columns(&mut self, a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], dt_s: f64) {
         for row in &mut self.m[..BG] {
             for i in 0..3 {
@@ -180,7 +180,7 @@ impl Covariance {
         }
     }
 
-    /// Rounding must not make the two halves drift apart.
+    /// Copies one triangle to the other so that rounding cannot make them diverge.
     fn mirror(&mut self) {
         for i in 1..STATES {
             for j in 0..i {
@@ -189,7 +189,7 @@ impl Covariance {
         }
     }
 
-    /// Whether a scalar measurement would be fused; arguments as in [`Self::fuse`].
+    /// Returns true if a scalar measurement passes the gate; arguments as in [`Self::fuse`].
     #[must_use]
     pub fn accepts(&self, slopes: &[(usize, f64)], innovation: f64, variance: f64, gate: f64) -> bool {
         let product = |(i, a): &(usize, f64)| slopes.iter().map(|(j, b)| a * b * self.m[*i][*j]).sum::<f64>();
@@ -197,8 +197,9 @@ impl Covariance {
         expected > 0.0 && innovation.is_finite() && innovation * innovation <= gate * gate * expected
     }
 
-    /// Fuses one scalar: `slopes` are the few non-zero derivatives of the measurement by the errors, `innovation` is measured minus
-    /// expected. `None` when it lies outside `gate` standard deviations; the covariance then stays.
+    /// Fuses one scalar measurement. `slopes` holds the non-zero partial derivatives with respect to the errors, and `innovation`
+    /// is measured minus expected. Returns `None`, without changing the covariance, if the innovation exceeds `gate` standard
+    /// deviations.
     pub fn fuse(&mut self, slopes: &[(usize, f64)], innovation: f64, variance: f64, gate: f64) -> Option<StateCorrection> {
         let mut ph = [0.0; WIDTH];
         for (index, slope) in slopes {
@@ -228,7 +229,7 @@ mod tests {
     use nalgebra::SMatrix;
 
     type SquareMatrix = SMatrix<f64, STATES, STATES>;
-    /// Rounding of sums of products of order one, no unit.
+    /// Rounding of sums of products of order one, dimensionless.
     const ROUNDING: f64 = 1e-12;
 
     fn full(c: &Covariance) -> SquareMatrix {

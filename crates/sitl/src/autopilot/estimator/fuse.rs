@@ -1,5 +1,5 @@
-//! Fusing one measurement after the other, each as a scalar. Outliers are refused; a source that stays one is dropped, and the filter is
-//! set to it only where no other source contradicts it.
+//! Sequential scalar fusion of measurements. Outliers are rejected. A source that keeps failing is dropped, and the filter is
+//! reset to it only if no other source contradicts it.
 
 use super::Estimator;
 use super::checks::REFUSED_S;
@@ -9,23 +9,23 @@ use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
 
-/// Measurements further off than this are refused, standard deviations.
+/// Innovation gate, standard deviations.
 pub(super) const GATE: f64 = 5.0;
-/// What the receiver claims beyond its open-sky error is mostly multipath, which lasts for seconds: its variance counts this many
-/// times (about twice its time constant times the fix rate, halved because part of it is white).
+/// Weight of the reported GNSS variance beyond the open-sky error. That part is mostly multipath, which lasts for seconds (about
+/// twice its time constant times the fix rate, halved because part of it is white).
 const LASTING: f64 = 40.0;
-/// Optical flow counts as an independent witness of the velocity for this long after it was last fused, s.
+/// Time after its last fusion for which optical flow counts as an independent velocity source, s.
 const FLOW_FRESH_S: f64 = 1.0;
-/// A fix counts as current for this long, s (estimate: five at the usual rate).
+/// Time for which a fix counts as current, s (estimate: five fixes at the usual rate).
 const FIX_FRESH_S: f64 = 1.0;
-/// The receiver's slow error counts as contradicted by the barometer beyond this many standard deviations.
+/// Standard deviations beyond which the barometer contradicts the GNSS drift.
 const DRIFT_SIGMAS: f64 = 4.0;
-/// Receiver and filter agree on the height within this many standard deviations.
+/// Standard deviations within which GNSS and filter agree on height.
 const AGREED_SIGMAS: f64 = 1.5;
-/// What a barometer's offset may be once it is set anew, m (1 sigma; estimate).
+/// Standard deviation of the barometer offset after a reset, m (estimate).
 const NEW_OFFSET_M: f64 = 0.3;
 
-/// Slopes of one measurement.
+/// Non-zero elements of the Jacobian of one measurement.
 type MeasurementJacobian<'a> = &'a [(usize, f64)];
 
 impl Estimator {
@@ -48,7 +48,7 @@ impl Estimator {
         self.fuse_fix_velocity(fix, (n.gnss_velocity_m_s * stretch) * (n.gnss_velocity_m_s * stretch), now);
     }
 
-    /// How far a fix is from the filter, m.
+    /// Offset of a fix from the filter, m.
     fn fix_offset_m(&self, fix: &GnssReading) -> Vec3<Ned> {
         fix.position_m - self.position_m - self.drift_m
     }
@@ -66,7 +66,7 @@ impl Estimator {
             self.checks.gnss_off.forget();
             return;
         }
-        // Where optical flow sees no such jump, the receiver is wrong. Without a witness a steady jump is believed, noise never.
+        // If optical flow contradicts the jump, GNSS is wrong. Without optical flow, a constant offset is accepted, noise never.
         let off = self.fix_offset_m(fix);
         let flat = Vec3::new(off.north(), off.east(), 0.0);
         let steady_s = self.checks.gnss_off.hold_s(flat, GATE * (2.0 * variance).sqrt(), now);
@@ -79,7 +79,7 @@ impl Estimator {
         }
     }
 
-    /// The receiver is believed from here on: the position steps there.
+    /// Resets the position to the GNSS position.
     fn reset_place(&mut self, position_m: Vec3<Ned>) {
         self.place_step_m = Some(self.place_step_m.unwrap_or_default() + (position_m - self.position_m));
         self.position_m = position_m;
@@ -98,7 +98,7 @@ impl Estimator {
         if apart < AGREED_SIGMAS * math::hypot(slow, variance.sqrt()) {
             self.ground.samples_agree(self.position_m.down(), fix.position_m.down());
         }
-        // Where another sensor is the reference, the receiver may be off for good.
+        // With another height reference, the GNSS height may have a permanent offset.
         let drifted = self.follows_gnss() && self.drift_m.down().abs() > DRIFT_SIGMAS * slow;
         let contradicted = self.checks.gnss_height.dropped() || drifted;
         if contradicted && !self.checks.gnss.dropped() {
@@ -106,7 +106,7 @@ impl Estimator {
         }
     }
 
-    /// The receiver's slow error of height, m (1 sigma): its drift, and the multipath that it has claimed lately.
+    /// Slowly varying error of the GNSS height, m (1 sigma): drift and recently reported multipath.
     fn slow_height_error_m(&mut self, fix: &GnssReading, now: SimTime) -> f64 {
         let (drift, white) = (self.noise.gnss_drift_m[1], self.noise.gnss_white_m[1]);
         let since_s = self.latest_fix.map_or(0.0, |(_, at)| (now - at).s());
@@ -117,7 +117,8 @@ impl Estimator {
         (drift * drift + self.multipath_m2).sqrt()
     }
 
-    /// Receiver and barometer contradict each other: the range finder decides; where it cannot, the receiver is right.
+    /// Resolves a height conflict between GNSS and barometer with the range finder, or in favor of GNSS if the range finder
+    /// cannot decide.
     fn settle_heights(&mut self, fix: &GnssReading, now: SimTime) {
         let alone = self.checks.baro.dropped();
         if alone && (now - self.trust.height).s() <= REFUSED_S {
@@ -138,7 +139,7 @@ impl Estimator {
         self.covariance.reset(DRIFT + 2, 1, self.process.drift[2]);
     }
 
-    /// Height and climb rate by the receiver.
+    /// Resets height and climb rate to GNSS.
     fn set_height(&mut self, fix: &GnssReading, now: SimTime) {
         self.forget_height_drift();
         let (p, v) = (self.position_m, self.velocity_m_s);
@@ -187,7 +188,8 @@ impl Estimator {
         }
     }
 
-    /// No source of height fits the filter: the receiver gives it, else the climb goes on from here by the barometer, if that is steady.
+    /// Recovers when no height source fits the filter: resets to GNSS, or otherwise continues from the current height with the
+    /// barometer if its offset is constant.
     fn recover_height(&mut self, innovation_m: f64, now: SimTime) {
         let tolerance_m = GATE * (2.0 * self.noise.baro_m * self.noise.baro_m).sqrt();
         let steady_s = self.checks.baro_off.hold_s(Vec3::new(0.0, 0.0, innovation_m), tolerance_m, now);
@@ -207,7 +209,7 @@ impl Estimator {
         }
     }
 
-    /// Only the component that turns with the heading is used, so that a bent field never tilts the horizon.
+    /// Fuses the component that rotates with heading only, so that a disturbed field cannot tilt the attitude estimate.
     pub(super) fn fuse_mag(&mut self, gauss: Vec3<Frd>, share: f64, now: SimTime) {
         let field = self.field_gauss;
         let across = Vec3::<Ned>::new(-field.east(), field.north(), 0.0).unit();
@@ -231,7 +233,7 @@ impl Estimator {
         if fits {
             self.trust.heading = now;
         } else if (now - self.trust.heading).s() > REFUSED_S && (self.parked || self.checks.gnss_velocity.dropped()) {
-            // In flight the gyroscopes know the heading better, unless the velocities contradict it too.
+            // In flight the gyroscopes are the better heading source, unless the velocities contradict it too.
             let measured = self.attitude * gauss;
             let error = math::atan2(field.east(), field.north()) - math::atan2(measured.east(), measured.north());
             self.turn(Vec3::new(0.0, 0.0, math::wrap_pi(error)));
@@ -248,7 +250,7 @@ impl Estimator {
         let v = self.velocity_m_s;
         let (forward, right) = (c * v.north() + s * v.east(), c * v.east() - s * v.north());
         let k = self.flow_scale;
-        // A nose that is up or down turns its heading with the tilt error too.
+        // With the nose pitched up or down, the tilt error affects the heading too.
         let steep = -nose.down() / level;
         let turns = |share: f64| [(THETA, share * steep * c), (THETA + 1, share * steep * s), (THETA + 2, share)];
         let variance = self.noise.flow_m_s * self.noise.flow_m_s / reading.quality.clamp(0.1, 1.0);
@@ -295,7 +297,7 @@ impl Estimator {
         self.mag_bias += Vec3::new(d[MAG], d[MAG + 1], d[MAG + 2]);
     }
 
-    /// Turns the believed attitude by a small rotation vector in NED.
+    /// Rotates the estimated attitude by a small rotation vector in NED.
     fn turn(&mut self, by_rad: Vec3<Ned>) {
         self.attitude = self.attitude.turned_by(self.attitude.inverse() * by_rad);
     }

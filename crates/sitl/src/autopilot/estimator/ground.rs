@@ -1,10 +1,10 @@
-//! The range finder as a witness: which of two heights keeps the ground below where it is.
+//! Height arbitration by range finder: the height that keeps the ground level constant is correct.
 
-/// A contradiction of heights is decided by the range finder where it sides with one of them this clearly: the ground by the one has moved
-/// by less than this share of the contradiction, by the other by more than the rest.
+/// Decision threshold, as a fraction of the height difference: the ground level moves less than this with one height and more
+/// than the rest with the other.
 const CLEAR_SHARE: f64 = 0.3;
 
-/// Where the ground lies by the range finder, measured from each height, m down.
+/// Ground level from the range finder, relative to each height, m down.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct GroundEstimate {
     range_m: Option<f64>,
@@ -12,7 +12,7 @@ pub struct GroundEstimate {
 }
 
 impl GroundEstimate {
-    /// Takes in the vertical distance to the ground, m; infinite beyond reach.
+    /// Adds the vertical distance to the ground, m; infinite beyond reach.
     pub fn add_measurement(&mut self, range_m: f64) {
         self.range_m = Some(range_m).filter(|range| range.is_finite());
         if self.range_m.is_none() {
@@ -20,12 +20,12 @@ impl GroundEstimate {
         }
     }
 
-    /// The filter's height and the receiver's agree, m down.
+    /// Records the ground levels while filter height and GNSS height agree, m down.
     pub fn samples_agree(&mut self, filter_down_m: f64, receiver_down_m: f64) {
         self.agreed = self.range_m.map(|range| [filter_down_m + range, receiver_down_m + range]);
     }
 
-    /// They contradict each other, and the ground has moved by the receiver's height alone.
+    /// Returns true if only the GNSS height implies that the ground has moved.
     #[must_use]
     pub fn agrees_with_filter(&self, filter_down_m: f64, receiver_down_m: f64) -> bool {
         let (Some(range), Some([filter_then, receiver_then])) = (self.range_m, self.agreed) else { return false };
@@ -45,9 +45,9 @@ mod tests {
         let mut ground = GroundEstimate::default();
         ground.add_measurement(5.0);
         ground.samples_agree(-5.0, -5.2);
-        // The receiver climbs, the range does not.
+        // The GNSS height rises, the range stays constant.
         assert!(ground.agrees_with_filter(-5.1, -9.0));
-        // The filter stands, the range grows with the receiver.
+        // The filter height is constant, the range grows with the GNSS height.
         ground.add_measurement(9.0);
         assert!(!ground.agrees_with_filter(-5.0, -9.1));
         ground.add_measurement(f64::INFINITY);

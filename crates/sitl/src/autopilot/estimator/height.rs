@@ -1,5 +1,5 @@
-//! The sensor whose slow changes the height follows: the errors of the others count as large and slow, so that they give the fast changes
-//! alone. A reference that falls silent or contradicts the filter gives way to GNSS, to which the height then glides.
+//! Height reference selection. The other height sensors get large, slow errors so that they contribute only fast changes. If the
+//! reference falls silent or contradicts the filter, GNSS takes over and the height converges to it.
 
 use super::Estimator;
 use super::checks::{InnovationCheck, REFUSED_S, RejectionMonitor};
@@ -10,18 +10,19 @@ use crate::sensors::baro;
 use spandrel_model::frames::Vec3;
 use spandrel_model::time::SimTime;
 
-/// What the height of a sensor that is no reference may be off, m (1 sigma; estimate: a change of the weather by 1 hPa is 8 m).
+/// Height uncertainty of a sensor that is not the reference, m (1 sigma; estimate: a pressure change of 1 hPa corresponds to 8
+/// m).
 const LOOSE_M: f64 = 10.0;
-/// A reference that is silent for longer counts as gone, s (estimate: ten readings of a range finder at 10 Hz).
+/// Timeout of a height reference, s (estimate: ten readings of a range finder at 10 Hz).
 const SILENT_S: f64 = 1.0;
-/// The ground's roughness below the range finder, m (1 sigma; estimate: grass, gravel).
+/// Roughness of the ground below the range finder, m (1 sigma; estimate: grass, gravel).
 const ROUGH_M: f64 = 0.05;
 
-/// What the height follows now.
+/// The active height reference.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Followed {
     reference: HeightReference,
-    /// Where the ground lies by the range finder, m down.
+    /// Ground level from the range finder, m down.
     ground_down_m: Option<f64>,
     barometer: Option<SimTime>,
     range: Option<SimTime>,
@@ -30,24 +31,24 @@ pub struct Followed {
 }
 
 impl Followed {
-    /// The barometer was fused.
+    /// Records that the barometer was fused.
     pub fn note_barometer(&mut self, now: SimTime) {
         self.barometer = Some(now);
     }
 
-    /// The vehicle was put elsewhere: the ground is another one.
+    /// Clears the ground level after the vehicle was moved.
     pub fn forget_ground(&mut self) {
         (self.ground_down_m, self.check, self.off) = (None, InnovationCheck::default(), RejectionMonitor::default());
     }
 }
 
 impl Estimator {
-    /// Whether GNSS is the wanted reference.
+    /// Returns true if GNSS is the configured reference.
     pub(super) fn follows_gnss(&self) -> bool {
         self.wanted_reference == HeightReference::Gnss
     }
 
-    /// The wanted reference, while it works.
+    /// Selects the configured reference while it works, otherwise GNSS.
     pub(super) fn choose_reference(&mut self, now: SimTime) {
         let fresh = |at: Option<SimTime>| at.is_some_and(|at| (now - at).s() < SILENT_S);
         let works = match self.wanted_reference {
@@ -65,7 +66,7 @@ impl Estimator {
         }
     }
 
-    /// GNSS is the reference from now on: what it was believed to be off goes into the height, and the barometer's offset takes the step along.
+    /// Makes GNSS the reference: adds its estimated drift to the height and to the barometer offset.
     fn move_height_to_gnss(&mut self) {
         let step_m = self.drift_m.down();
         self.position_m += Vec3::new(0.0, 0.0, step_m);
@@ -75,7 +76,7 @@ impl Estimator {
         self.covariance.reset(P + 2, 1, usual * usual);
     }
 
-    /// Sets how far and how fast each sensor's height may be off. The height itself stays.
+    /// Sets the height error model of each sensor for a reference. Does not change the height.
     fn weigh_heights(&mut self, reference: HeightReference) {
         let loose = LOOSE_M * LOOSE_M;
         let usual = self.noise.gnss_drift_m[1] * self.noise.gnss_drift_m[1];
@@ -83,7 +84,7 @@ impl Estimator {
         let start = baro::START_OFFSET_M * baro::START_OFFSET_M;
         let (drift, walk, offset) = match reference {
             HeightReference::Gnss => (usual, self.noise.baro_walk, start),
-            // Its offset is what it is now.
+            // The offset stays at its current value.
             HeightReference::Barometer => (loose, 0.0, 0.0),
             HeightReference::RangeFinder => (loose, loose_walk, start),
         };
@@ -91,8 +92,8 @@ impl Estimator {
         self.covariance.reset(BARO, 1, offset);
     }
 
-    /// Height by the range finder, `below_m` over the ground. After a step of the ground (an edge, a truck) it follows the new ground from the
-    /// height that it has.
+    /// Corrects the height with the range finder at `below_m` above ground. After a step in the ground (an edge, a truck) it
+    /// keeps the height and uses the new ground level.
     pub(super) fn follow_range(&mut self, below_m: f64, now: SimTime) {
         if self.wanted_reference != HeightReference::RangeFinder || !below_m.is_finite() {
             self.followed.ground_down_m = None;

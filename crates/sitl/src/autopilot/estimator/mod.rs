@@ -1,9 +1,9 @@
-//! Error-state Kalman filter: the state at the inertial sensors' rate, the covariance at 100 Hz, position, velocity, attitude, sensor
-//! biases, the receiver's slow drift, the barometer's offset, the optical flow's scale, the compass's bias; fused from GNSS, barometer, magnetometer and
-//! optical flow.
+//! Error-state Kalman filter. The state runs at the inertial sample rate, the covariance at 100 Hz. States are position,
+//! velocity, attitude, inertial sensor biases, GNSS drift, barometer offset, optical-flow scale and magnetometer bias. It fuses
+//! GNSS, barometer, magnetometer and optical flow.
 //!
-//! The range finder is not fused: what lies below may be a deck, a truck or water. It decides where receiver and barometer contradict
-//! each other.
+//! The range finder is not fused by default, because the surface below may be a deck, a truck or water. It decides when GNSS and
+//! barometer contradict each other.
 
 pub mod align;
 mod checks;
@@ -27,20 +27,21 @@ use spandrel_model::math;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle;
 
-/// The covariance moves on when this much time has gathered, s.
+/// Accumulated time after which the covariance is propagated, s.
 const COVARIANCE_PERIOD_S: f64 = 0.0099;
-/// Horizontal velocity and position are usable for control up to these accuracies (1 sigma), m/s and m.
+/// Maximum standard deviations of horizontal velocity and position usable for control, m/s and m.
 const USABLE_VELOCITY_M_S: f64 = 0.7;
 const USABLE_POSITION_M: f64 = 12.0;
-/// Once lost they must be this much better, as a share, to count again.
+/// Fraction of these limits that must be reached to regain validity.
 const REGAIN_SHARE: f64 = 0.5;
-/// Specific force beyond this is a shock whose direction the sampling blurs, m/s², and the share of it that is distrusted.
+/// Specific force above which the sampling blurs the direction of a shock, m/s², and the fraction of it treated as uncertain.
 const SHOCK_M_S2: f64 = 40.0;
 const SHOCK_SHARE: f64 = 0.1;
-/// Fixes are averaged this long before the local frame gets its origin, s (estimate; PX4 asks for 10 s of good fixes, EKF2_REQ_GPS_H).
+/// Averaging time of fixes before the origin of the local frame is set, s (estimate; PX4 requires 10 s of good fixes,
+/// EKF2_REQ_GPS_H).
 const LOCAL_ORIGIN_AFTER_S: f64 = 1.5;
 
-/// Measurement noise, from the sensors' data sheets.
+/// Measurement noise from the sensors' data sheets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct MeasurementNoise {
     gnss_velocity_m_s: f64,
@@ -57,7 +58,7 @@ struct MeasurementNoise {
     range_m: f64,
 }
 
-/// When a source was last believed.
+/// Time at which each source was last fused.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct LastFused {
     velocity: SimTime,
@@ -67,13 +68,13 @@ struct LastFused {
 }
 
 impl LastFused {
-    /// All sources at once.
+    /// Sets all sources to one time.
     fn new(now: SimTime) -> Self {
         Self { velocity: now, flow: now, height: now, heading: now }
     }
 }
 
-/// Sources that the filter does not use because they contradict the others.
+/// Sources that the filter rejects because they contradict the others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct RejectedSources {
     /// Magnetometer.
@@ -84,7 +85,7 @@ pub struct RejectedSources {
     pub gnss: bool,
 }
 
-/// The filter: plain data.
+/// The filter. Plain data.
 #[derive(Debug, Clone)]
 pub struct Estimator {
     process: ProcessNoise,
@@ -116,22 +117,22 @@ pub struct Estimator {
     checks: InnovationChecks,
     ground: GroundEstimate,
     latest_fix: Option<(GnssReading, SimTime)>,
-    /// Variance of the receiver's height by the multipath that it has claimed lately, m².
+    /// Variance of the GNSS height due to recently reported multipath, m².
     multipath_m2: f64,
-    /// Motors are off.
+    /// Whether the motors are off.
     parked: bool,
-    /// Without a fused velocity for this long the position counts as lost, s.
+    /// Time without a fused velocity after which the position becomes invalid, s.
     pub(super) no_aid_s: f64,
-    /// What the height is to follow, where that works.
+    /// Configured height reference.
     pub wanted_reference: HeightReference,
     followed: Followed,
-    /// Steps of the position since somebody asked, m.
+    /// Accumulated position resets since the last query, m.
     place_step_m: Option<Vec3<Ned>>,
     usable: bool,
 }
 
 impl Estimator {
-    /// Unaligned. `origin` is where the local frame lies, for the magnetic model.
+    /// Creates an unaligned filter. `origin` is the origin of the local frame, used for the magnetic model.
     #[must_use]
     pub fn new(sensors: &vehicle::SensorSpec, origin: Geo) -> Self {
         let sq = |x: f64| x * x;
@@ -201,7 +202,7 @@ impl Estimator {
         }
     }
 
-    /// Takes in what the sensors gave in one tick.
+    /// Processes the readings of one tick.
     pub fn step(&mut self, readings: &Readings, now: SimTime) {
         if let Some(reading) = &readings.imu {
             let dt_s = self.last_imu.map_or(0.0, |last| (now - last).s());
@@ -238,7 +239,7 @@ impl Estimator {
         }
     }
 
-    /// The local frame's origin is where the vehicle is once the first fixes have been averaged.
+    /// Sets the origin of the local frame to the vehicle position once the first fixes are averaged.
     fn place_local_origin(&mut self, now: SimTime) {
         let first = *self.first_fix.get_or_insert(now);
         if !self.local_origin_set {
@@ -260,7 +261,8 @@ impl Estimator {
         }
     }
 
-    /// The covariance of a fresh alignment: tilt is known as well as the accelerometer is, so the two go together.
+    /// Initializes state and covariance from an alignment. The tilt uncertainty equals the accelerometer bias uncertainty, so the
+    /// two are correlated.
     fn start(&mut self, aligned: &AlignmentResult, now: SimTime) {
         let n = self.noise;
         let sq = |x: f64| x * x;
@@ -305,7 +307,7 @@ impl Estimator {
         self.aligned = true;
         self.local_origin_m = self.position_m;
         self.trust = LastFused::new(now);
-        // The heading came from this very measurement: fusing it with no innovation gives the matching covariance.
+        // The heading came from this measurement: fusing it with zero innovation gives the matching covariance.
         let level = aligned.attitude.inverse() * self.field_gauss;
         self.fuse_mag(level, 1.0 / aligned.mag_samples, now);
     }
@@ -314,7 +316,7 @@ impl Estimator {
         let rates = reading.rates_rad_s - self.gyro_bias;
         let force = reading.specific_force_m_s2 - self.accel_bias;
         let turn = rates * dt_s;
-        // Half the turn brings the force to the middle of the interval.
+        // Half the rotation refers the force to the middle of the interval.
         let gained = self.attitude * ((force + turn.cross(force) * 0.5) * dt_s);
         let dv = gained + Vec3::new(0.0, 0.0, math::GRAVITY_M_S2 * dt_s);
         self.position_m += (self.velocity_m_s + dv * 0.5) * dt_s;
@@ -334,7 +336,7 @@ impl Estimator {
         }
     }
 
-    /// Brings the covariance up to the state's time.
+    /// Propagates the covariance to the time of the state.
     fn settle(&mut self) {
         if self.gathered_s <= 0.0 {
             return;
@@ -365,7 +367,7 @@ impl Estimator {
         self.covariance.variance(P).max(self.covariance.variance(P + 1)).sqrt()
     }
 
-    /// Sets whether the motors are off: only then may the heading be set to the compass alone.
+    /// Sets whether the motors are off. The heading may be reset to the magnetometer alone only then.
     pub fn set_parked(&mut self, parked: bool) {
         self.parked = parked;
     }
@@ -381,12 +383,12 @@ impl Estimator {
         }
     }
 
-    /// The step by which the position was set to the receiver's since the last call, m.
+    /// Returns the accumulated position reset to GNSS since the last call, m.
     pub fn take_place_step(&mut self) -> Option<Vec3<Ned>> {
         self.place_step_m.take()
     }
 
-    /// Starts over at a known place (the vehicle was put there by hand); biases are kept.
+    /// Resets the filter to a known pose, for example after a respawn. Keeps the biases.
     pub fn reinitialise(&mut self, position_m: Vec3<Ned>, velocity_m_s: Vec3<Ned>, attitude: Rotation<Frd, Ned>, now: SimTime) {
         self.position_m = position_m;
         self.velocity_m_s = velocity_m_s;
@@ -425,7 +427,7 @@ impl Estimator {
         self.trust = LastFused::new(now);
     }
 
-    /// What is believed now.
+    /// Returns the current estimate.
     #[must_use]
     pub fn estimate(&self) -> Estimate {
         Estimate {
@@ -448,7 +450,7 @@ impl Estimator {
         self.acceleration_m_s2
     }
 
-    /// A place on earth was found at least once.
+    /// Returns true if the filter has ever had a global position.
     #[must_use]
     pub fn located(&self) -> bool {
         self.located
@@ -460,17 +462,18 @@ impl Estimator {
         &self.covariance
     }
 
-    /// Believed gyroscope (rad/s) and accelerometer (m/s²) biases.
+    /// Estimated gyroscope (rad/s) and accelerometer (m/s²) biases.
     #[must_use]
     pub fn biases(&self) -> (Vec3<Frd>, Vec3<Frd>) {
         (self.gyro_bias, self.accel_bias)
     }
 
-    /// Error of the estimate against a given truth, in the order of the covariance's first fifteen states, for consistency tests.
+    /// Estimation error relative to a known true state, in the order of the first fifteen covariance states, for consistency
+    /// tests.
     #[must_use]
     pub fn error(&self, truth: &SimulatedTruth) -> [f64; 15] {
         let turn = self.attitude.inverse().then(truth.attitude).raw();
-        // FRAME: believed-inverse then true is the small rotation in NED that turns the believed attitude into the true one.
+        // FRAME: inverse estimate then truth is the small rotation in NED that turns the estimated attitude into the true one.
         let theta: Vector3<f64> = turn.scaled_axis();
         let parts = [
             (truth.position_m - self.position_m).array(),
@@ -483,7 +486,7 @@ impl Estimator {
     }
 }
 
-/// A truth that a test compares with.
+/// A known true state for comparison in tests.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SimulatedTruth {
     /// Position, m.

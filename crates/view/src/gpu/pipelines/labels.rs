@@ -1,19 +1,19 @@
-//! How labels are drawn in place of light: which element, which defect.
+//! Pipelines that render element and defect labels instead of radiance.
 
 use super::{ENTRIES, LIGHT, NEARER, PipelineKey, build, copies, corners, module, patches, special};
 use crate::gpu::device::Gpu;
 use spandrel_model::site::catalogue;
 
-/// Pipelines whose targets hold numbers: red the element, green the defect. Half floats hold whole numbers to 2048 exactly.
+/// Pipelines with numeric targets: element in red, defect in green. Half floats represent integers up to 2048 exactly.
 pub struct LabelPipelines {
-    /// Everything solid, and the lake.
+    /// Solids and the lake.
     pub solid: wgpu::RenderPipeline,
-    /// Defects, by their AASHTO code.
+    /// Defects, by AASHTO code.
     pub defects: Vec<(u32, wgpu::RenderPipeline)>,
 }
 
 impl LabelPipelines {
-    /// Compiles them for what is bound by the layout of the other pipelines' globals.
+    /// Compiles the pipelines for the globals' bind group layout of the other pipelines.
     pub fn new(gpu: &Gpu, globals_layout: &wgpu::BindGroupLayout) -> Self {
         let [surface, defect] = ["surface", "defect"].map(|name| module(gpu, name));
         let globals = [Some(globals_layout)];

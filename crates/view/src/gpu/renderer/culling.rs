@@ -1,4 +1,4 @@
-//! What a shot can show.
+//! Visibility culling for a shot.
 
 use crate::camera::PinholeCamera;
 use crate::cells::{BoundingSphere, Frustum};
@@ -7,20 +7,20 @@ use crate::scene::{Instance, MoverModel};
 use crate::shot::Shot;
 use spandrel_model::frames::{Enu, Vec3};
 
-/// How a shot looks at the scene.
+/// View parameters of a shot.
 pub struct ShotView {
     projection: Matrix,
     water_m: f64,
-    /// From where.
+    /// Camera position, ENU, m.
     pub eye_m: Vec3<Enu>,
-    /// 1 while the lamp is on.
+    /// 1 if the lamp is on, otherwise 0.
     pub lamp: usize,
-    /// The lake may be in the picture.
+    /// Whether the lake may be in the picture.
     pub lake: bool,
 }
 
 impl ShotView {
-    /// Of a shot over water at a level.
+    /// Returns the parameters of a shot, with the water level, m.
     pub fn of(shot: &Shot, water_m: f64) -> Self {
         Self {
             projection: shot.eye.view_projection(shot.aspect()),
@@ -31,17 +31,18 @@ impl ShotView {
         }
     }
 
-    /// What it may show straight.
+    /// Returns the frustum of the direct view.
     pub fn direct_view(&self) -> Frustum {
         Frustum::of(&self.projection)
     }
 
-    /// What it may show in the lake.
+    /// Returns the frustum of the reflection in the lake.
     pub fn mirrored(&self) -> Frustum {
         Frustum::of(&self.projection.after(&Matrix::mirror(self.water_m)))
     }
 
-    /// Of what moves what it may show, straight or in the lake; `reaches_m`: how far each model reaches from its origin, m.
+    /// Returns the moving objects that may be visible directly or in the lake; `reaches_m` is each model's distance from its
+    /// origin to its farthest vertex, m.
     pub fn is_in_view(&self, moving: &[(MoverModel, Instance)], reaches_m: &[f64]) -> Vec<(MoverModel, Instance)> {
         let (straight, mirrored) = (self.direct_view(), self.mirrored());
         let shows = |(model, instance): &&(MoverModel, Instance)| {
@@ -54,7 +55,7 @@ impl ShotView {
     }
 }
 
-/// False where every ray of a picture from over the water points up.
+/// Returns false if every ray of a picture taken above the water points up.
 fn may_show_in_lake(eye: &PinholeCamera, aspect: f64, water_m: f64) -> bool {
     let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)];
     eye.position_m.up() <= water_m || corners.iter().any(|(x, y)| eye.ray(*x, *y, aspect).up() < 0.0)
@@ -66,7 +67,7 @@ mod tests {
 
     const ASPECT: f64 = 1.5;
 
-    /// From 10 m over the lake northwards, rising so far on 50 m.
+    /// A camera 10 m above the lake that looks north and rises by `rise_m` over 50 m.
     fn eye(rise_m: f64) -> PinholeCamera {
         PinholeCamera::at(Vec3::new(0.0, 0.0, 10.0), Vec3::new(0.0, 50.0, 10.0 + rise_m), 1.0, ASPECT)
     }
@@ -94,7 +95,7 @@ mod tests {
         let [ahead, behind, beside, above] =
             [at(0.0, 50.0, 10.0), at(0.0, -50.0, 10.0), at(90.0, 50.0, 10.0), at(0.0, 40.0, 40.0)];
         assert_eq!(is_visible(0.0, &[ahead, behind, beside, above]), [ahead]);
-        // Looking down into the lake one sees there what is ahead and what is above.
+        // Looking down into the lake, the reflection shows objects ahead and above.
         assert_eq!(is_visible(-45.0, &[ahead, behind, beside, above]), [ahead, above]);
         assert_eq!(is_visible(-400.0, &[ahead]), []);
     }

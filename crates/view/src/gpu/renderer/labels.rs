@@ -1,4 +1,4 @@
-//! Labels of a shot in place of its light.
+//! Label masks of a shot.
 
 use super::{Frustum, Renderer, solids};
 use crate::gpu::device::{Gpu, GpuError};
@@ -11,14 +11,14 @@ use crate::masks::LabelMask;
 use crate::scene::Instance;
 use crate::shot::Shot;
 
-/// Bytes of a pixel of labels: four half floats.
+/// Bytes per label pixel: four half floats.
 const PIXEL: u32 = 8;
 
 impl Renderer {
-    /// Which element of a bridge and which defect each pixel of a shot shows.
+    /// Returns the bridge element and defect at each pixel of a shot.
     ///
     /// # Errors
-    /// When the shot is too large for the device, or the device fails or has failed.
+    /// If the shot is too large for the device, or the device fails or has failed before.
     pub fn labels(&mut self, gpu: &Gpu, shot: &Shot) -> Result<LabelMask, GpuError> {
         gpu.check_size(shot.size_px)?;
         let globals = Globals::new(shot, self.water_m, &ShadowMaps { sun: &[], lamp: None }, false);

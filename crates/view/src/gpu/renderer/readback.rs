@@ -1,4 +1,4 @@
-//! Shots that are read back as pictures.
+//! Rendering of shots with readback.
 
 use super::Renderer;
 use crate::gpu::device::{Gpu, GpuError};
@@ -9,10 +9,10 @@ use crate::picture::Picture;
 use crate::shot::Shot;
 
 impl Renderer {
-    /// Draws a shot and reads it back.
+    /// Renders a shot and reads it back.
     ///
     /// # Errors
-    /// When the shot is too large for the device, or the device fails or has failed.
+    /// If the shot is too large for the device, or the device fails or has failed before.
     pub fn picture(&mut self, gpu: &Gpu, shot: &Shot) -> Result<Picture, GpuError> {
         gpu.check_size(shot.size_px)?;
         let texture = picture_texture(gpu, shot.size_px);
@@ -20,10 +20,10 @@ impl Renderer {
         read(gpu, &texture)
     }
 
-    /// Draws a shot with a display over it and reads it back.
+    /// Renders a shot with HUD items over it and reads it back.
     ///
     /// # Errors
-    /// When the shot is too large for the device, or the device fails or has failed.
+    /// If the shot is too large for the device, or the device fails or has failed before.
     pub fn picture_with(
         &mut self,
         gpu: &Gpu,

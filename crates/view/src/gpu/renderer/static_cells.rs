@@ -1,4 +1,4 @@
-//! What stands still, on the device.
+//! Static geometry on the GPU.
 
 use crate::cells::{self, CellBounds};
 use crate::gpu::device::Gpu;
@@ -6,21 +6,21 @@ use crate::gpu::pass::{GpuMesh, MeshInstances};
 use crate::scene::{Instance, Scene, VisibleRange};
 use std::sync::Arc;
 
-/// What stands in one cell.
+/// Static objects of one cell.
 pub struct StaticCell {
-    /// What.
+    /// Mesh.
     pub solid: Arc<GpuMesh>,
-    /// Where.
+    /// Instances.
     pub copies: MeshInstances,
-    /// It throws shadows.
+    /// Whether it casts shadows.
     pub casts: bool,
-    /// From how far it shows.
+    /// Distances at which it is drawn.
     pub visible_range: VisibleRange,
-    /// Where it may show.
+    /// Bounds for culling.
     pub bounds: CellBounds,
 }
 
-/// Everything that stands still, cell by cell.
+/// Uploads all static objects, one entry per cell.
 pub fn fixed(gpu: &Gpu, scene: &Scene) -> Vec<StaticCell> {
     let mut all = Vec::new();
     for part in &scene.parts {
