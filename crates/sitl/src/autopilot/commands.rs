@@ -130,7 +130,7 @@ impl Autopilot {
             return Some(RequestOutcome::TemporarilyRejected("No position estimate".into()));
         }
         if mode == FlightMode::SmartReturn && flying && self.flown_path.is_empty() {
-            return Some(RequestOutcome::Denied("No path recorded since take-off".into()));
+            return Some(RequestOutcome::Denied("No path recorded since takeoff".into()));
         }
         if mode == FlightMode::Follow && !self.tuning.follow.enabled {
             return Some(RequestOutcome::Denied("Set FOLL_ENABLE = 1".into()));
@@ -162,7 +162,7 @@ impl Autopilot {
             MissionNeeds::BothOrNeither => (landing, takeoff),
         };
         if needs_takeoff && !takeoff {
-            return Some("Mission has no take-off item".into());
+            return Some("Mission has no takeoff item".into());
         }
         if needs_landing && !landing {
             return Some("Mission has no landing item".into());
@@ -183,7 +183,7 @@ impl Autopilot {
 
     fn request_takeoff(&mut self, height_m: Option<f64>, now: SimTime) -> RequestOutcome {
         if height_m.is_some_and(|h| !h.is_finite() || h.abs() > FAR_M) {
-            return RequestOutcome::Denied("Take-off height out of range".into());
+            return RequestOutcome::Denied("Takeoff height out of range".into());
         }
         let here = self.estimate.position_m;
         let home_up = self.status.home_m.map_or(0.0, |h| -h.down());

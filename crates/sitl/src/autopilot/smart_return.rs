@@ -124,7 +124,7 @@ impl Autopilot {
         if last && left.norm() < OVER_M && slow {
             self.navigator.phase = ReturnPhase::Land;
             self.navigator.target_m = next;
-            self.push_event(Severity::Info, "Take-off point reached, landing");
+            self.push_event(Severity::Info, "Takeoff point reached, landing");
         }
         self.go(None, dt_s)
     }

@@ -297,11 +297,11 @@ fn flight_a_mission_that_lacks_what_is_requested_is_refused() {
     let place = waypoints()[0];
     let takeoff = MissionStep::Takeoff { up_m: Some(6.0) };
     let cases = [
-        (MissionNeeds::Takeoff, vec![place], Some("Mission has no take-off item")),
+        (MissionNeeds::Takeoff, vec![place], Some("Mission has no takeoff item")),
         (MissionNeeds::Takeoff, vec![takeoff, place], None),
         (MissionNeeds::Both, vec![takeoff, place], Some("Mission has no landing item")),
         (MissionNeeds::BothOrNeither, vec![place], None),
-        (MissionNeeds::BothOrNeither, vec![place, MissionStep::Return], Some("Mission has no take-off item")),
+        (MissionNeeds::BothOrNeither, vec![place, MissionStep::Return], Some("Mission has no takeoff item")),
         (MissionNeeds::Nothing, vec![place, MissionStep::Return], None),
     ];
     let mut bench = airborne(|_| ());
