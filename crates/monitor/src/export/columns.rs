@@ -1,34 +1,34 @@
-//! The columns of the frames export: the one list that CSV, Parquet and the data dictionary are made from.
+//! The columns of the frames export. CSV, Parquet and the data dictionary are all generated from this list.
 
 use super::FrameRow;
 use spandrel_model::frames::{Enu, Vec3};
 use std::fmt::Write;
 
-/// Type of a column and how its value is read from a row; `None` where the telemetry holds no value.
+/// Type of a column and the function that reads its value from a row; `None` if the telemetry has no value.
 #[derive(Debug, Clone, Copy)]
 pub enum Read {
-    /// Whole numbers.
+    /// Integer.
     Whole(fn(&FrameRow) -> Option<i64>),
-    /// Real numbers.
+    /// Floating-point number.
     Real(fn(&FrameRow) -> Option<f64>),
-    /// True or false; 1 or 0 in CSV.
+    /// Boolean; 1 or 0 in CSV.
     Flag(fn(&FrameRow) -> bool),
-    /// One of a fixed set of words.
+    /// One of a fixed set of strings.
     Word(fn(&FrameRow) -> &'static str),
 }
 
-/// One column.
+/// A column of the frames export.
 #[derive(Debug, Clone, Copy)]
 pub struct Column {
-    /// Name, with the unit at its end where it has one.
+    /// Name, with the unit as suffix where there is one.
     pub name: &'static str,
-    /// Unit as a symbol; empty for counts, shares, flags and words.
+    /// Unit symbol; empty for counts, fractions, flags and strings.
     pub unit: &'static str,
-    /// Coordinate frame or positive direction; empty where there is none.
+    /// Coordinate frame or positive direction; empty if none applies.
     pub frame: &'static str,
     /// Definition, one sentence.
     pub description: &'static str,
-    /// A row may hold no value: empty in CSV, null in Parquet.
+    /// Whether a row may have no value: empty in CSV, null in Parquet.
     pub optional: bool,
     /// Type and value.
     pub read: Read,
@@ -63,7 +63,7 @@ fn attitude_deg(row: &FrameRow, angle: usize) -> Option<f64> {
     row.roll_pitch_yaw_rad.map(|angles| angles[angle].to_degrees())
 }
 
-/// All columns in order. Released names and their order never change; new columns go to the end.
+/// All columns in order. Released names and their order never change; new columns are appended.
 pub const COLUMNS: &[Column] = &[
     column("frame", "", "", "Frame number; 1 is lift-off.", Read::Whole(|r| Some(i64::from(r.frame.index)))),
     column("t_s", "s", "", "Simulation time since lift-off.", Read::Real(|r| Some(r.since_lift_off_s))),
@@ -161,10 +161,10 @@ pub const COLUMNS: &[Column] = &[
     ),
 ];
 
-/// Bytes of a usual line, for the first allocation.
+/// Typical line length in bytes, used for the initial allocation.
 const LINE_BYTES: usize = 360;
 
-/// Frames as CSV, one line a frame after the header.
+/// Returns frames as CSV: a header, then one line per frame.
 #[must_use]
 pub fn frames_csv(rows: &[FrameRow]) -> String {
     let names: Vec<&str> = COLUMNS.iter().map(|column| column.name).collect();
@@ -183,7 +183,7 @@ pub fn frames_csv(rows: &[FrameRow]) -> String {
     csv
 }
 
-/// Writing to a string cannot fail.
+/// Writes one cell. Writing to a string cannot fail.
 fn write_cell(csv: &mut String, read: Read, row: &FrameRow) {
     let _ = match read {
         Read::Whole(value) => value(row).map_or(Ok(()), |value| write!(csv, "{value}")),

@@ -1,11 +1,11 @@
-//! Definitions of the fields of `assessment.json`, for the data dictionary. A test compares them with scored flights.
+//! Definitions of the fields of `assessment.json`, for the data dictionary. A test checks them against scored flights.
 
-/// One field.
+/// A field of `assessment.json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct JsonField {
-    /// Path: `[]` marks the elements of a list, `*` the keys of a map.
+    /// Path to the field: `[]` marks the elements of a list, `*` the keys of a map.
     pub path: &'static str,
-    /// Unit; empty for counts, words and pure numbers.
+    /// Unit; empty for counts, strings and dimensionless numbers.
     pub unit: &'static str,
     /// Definition, one sentence.
     pub description: &'static str,
@@ -15,7 +15,7 @@ const fn field(path: &'static str, unit: &'static str, description: &'static str
     JsonField { path, unit, description }
 }
 
-/// All fields in the order of the file.
+/// All fields in file order.
 pub const FIELDS: &[JsonField] = &[
     field("profile", "", "Profile of `scores`: always `paper`."),
     field("scores.conformity.raw", "", "Conformity, -100 to 100; the whole score is null for a job without tasks."),
