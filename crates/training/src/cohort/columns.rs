@@ -1,15 +1,16 @@
-//! Definitions of the columns of the cohort's tables, for the data dictionary. A test asks for one of every column.
+//! Definitions of the columns of the cohort tables, for the data dictionary. A test requires a definition for every column.
 
 /// Unit and definition of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Definition {
-    /// Unit; empty for counts, words and pure numbers.
+    /// Unit; empty for counts, strings and dimensionless numbers.
     pub unit: &'static str,
     /// Definition, one sentence.
     pub description: &'static str,
 }
 
-/// A name, where it ends in `*` its beginning, with unit and definition. The first one that fits counts; a name may be limited to a table.
+/// Table, column name (or prefix, if it ends in `*`), unit and definition. The first match applies; an empty table matches all
+/// tables.
 const COLUMNS: &[(&str, &str, &str, &str)] = &[
     ("learning_of_the_group.csv", "mean", "points", "Mean score of these people in this repetition."),
     ("learning_of_the_group.csv", "first", "points", "First repetition's score on the fitted curve."),
@@ -109,7 +110,7 @@ const COLUMNS: &[(&str, &str, &str, &str)] = &[
     ("", "warning", "", "A reason to doubt a figure of the cohort."),
 ];
 
-/// Returns the definition of a column of a table; `None` for one that has none.
+/// Returns the definition of a column of a table; `None` if there is none.
 #[must_use]
 pub fn definition(table: &str, column: &str) -> Option<Definition> {
     let fits = |name: &str| name.strip_suffix('*').map_or(name == column, |start| column.starts_with(start));

@@ -1,34 +1,34 @@
-//! What changed since last time.
+//! Changes since the previous session.
 
 use crate::record::SessionRecord;
 use serde::Serialize;
 
-/// Smaller changes of a score are not worth a word, points.
+/// Smaller score changes are not reported, points.
 const WORTH_A_WORD: f64 = 0.05;
 
-/// The newest session against the one before on the same job.
+/// The latest session compared with the previous one on the same job.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SessionChanges {
-    /// Session compared with.
+    /// Id of the session compared with.
     pub since: String,
-    /// What differs, scores first.
+    /// Measures that changed, scores first.
     pub changes: Vec<MeasureChange>,
 }
 
-/// One measure, then and now.
+/// Change of one measure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeasureChange {
-    /// What.
+    /// Name of the measure.
     pub what: String,
-    /// Then.
+    /// Previous value.
     pub before: f64,
-    /// Now.
+    /// Current value.
     pub now: f64,
-    /// Better, worse; absent when equal.
+    /// Whether the change is an improvement; `None` if the values are equal.
     pub better: Option<bool>,
 }
 
-/// Compares the newest record with the newest earlier one of its scenario.
+/// Compares the latest record with the previous one of the same scenario; `None` if there is none.
 pub fn changes(records: &[SessionRecord]) -> Option<SessionChanges> {
     let (last, earlier) = records.split_last()?;
     let before = earlier.iter().rev().find(|record| record.scenario == last.scenario)?;

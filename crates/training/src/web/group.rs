@@ -1,4 +1,4 @@
-//! The cohort's page: the sections of the offline page, with a form that chooses what counts.
+//! The cohort page: the sections of the offline page, with a form that selects the sessions.
 
 use super::access::Visitor;
 use super::frame::{page, section};
@@ -7,22 +7,22 @@ use crate::record::{IncompletePolicy, omitted_summary};
 use crate::report::page::cohort::{TableLinks, sections, summary_lines};
 use maud::{Markup, html};
 
-/// What was asked for.
+/// Selection shown in the form.
 #[derive(Debug, Clone, Copy)]
 pub struct GroupSelection<'a> {
     /// All scenarios that were flown.
     pub flown_scenarios: &'a [String],
-    /// Those that count.
+    /// Selected scenarios.
     pub scenarios: &'a [String],
-    /// Repetitions compared.
+    /// Number of repetitions compared.
     pub repetitions: usize,
     /// Whether incomplete sessions count.
     pub incomplete: IncompletePolicy,
-    /// Incomplete sessions that were left out.
+    /// Number of incomplete sessions excluded.
     pub left_out: usize,
 }
 
-/// The page; without sessions it says so.
+/// Renders the page, or a note if there are no sessions.
 #[must_use]
 pub fn group(visitor: &Visitor, chosen: &GroupSelection<'_>, cohort: Option<&Cohort>) -> Markup {
     let body = html! {

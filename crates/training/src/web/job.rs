@@ -1,4 +1,4 @@
-//! Scenarios: what there is, one in short with its drawing, and the upload of another; the upload of a recorded flight.
+//! Scenario list, scenario page and upload, and import of recorded flights.
 
 use super::access::{AccessLevel, Visitor};
 use super::frame::{message, page, section, table, token};
@@ -8,18 +8,18 @@ use maud::{Markup, html};
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 
-/// One line of the list.
+/// An entry of the scenario list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ScenarioEntry {
-    /// Name.
+    /// Scenario name.
     pub name: String,
-    /// Title.
+    /// Scenario title.
     pub title: String,
-    /// It came by an upload, so it may be taken away.
+    /// Whether it was uploaded and can be removed.
     pub uploaded: bool,
 }
 
-/// The list, with how an upload went.
+/// Renders the list, with the result of an upload.
 #[must_use]
 pub fn list(visitor: &Visitor, named: &[ScenarioEntry], told: Option<(&str, &str)>) -> Markup {
     let rows = html! {
@@ -39,7 +39,7 @@ pub fn list(visitor: &Visitor, named: &[ScenarioEntry], told: Option<(&str, &str
     page(visitor, "/scenarios", "Scenarios", &body)
 }
 
-/// Lines of words in one box: every problem of a file stands on a line of its own.
+/// Renders a message box with one line per problem.
 fn message_lines(kind: &str, words: &str) -> Markup {
     html! { div class={ "message " (kind) } role="status" { @for line in words.lines() { p { (line) } } } }
 }
@@ -55,7 +55,7 @@ fn upload(visitor: &Visitor) -> Markup {
     }
 }
 
-/// One scenario. The file itself is for instructors: it may say where the defects are, and its seed does.
+/// Renders one scenario. Only instructors can download the file, because it and its seed reveal the defects.
 #[must_use]
 pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenario, site: &Site, text: &str) -> Markup {
     let s = &scenario.scoring;
@@ -92,21 +92,21 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
     page(visitor, "/scenarios", &format!("Scenario {}", named.name), &body)
 }
 
-/// What is told of a recording that was not taken in.
+/// Reason why a recording was not imported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UploadMessage<'a> {
-    /// What is wrong with it.
+    /// The recording is invalid.
     Wrong(&'a str),
-    /// It is a session already.
+    /// The session exists already.
     There {
-        /// Session.
+        /// Session id.
         id: &'a str,
-        /// Whose.
+        /// Trainee of that session.
         trainee: &'a str,
     },
 }
 
-/// The form that takes in a recorded flight, with what became of the one before.
+/// Renders the import form for recorded flights, with the result of the previous import.
 #[must_use]
 pub fn recorded(visitor: &Visitor, scenarios: &[ScenarioEntry], vehicles: &[String], told: Option<UploadMessage<'_>>) -> Markup {
     let body = html! {

@@ -1,16 +1,16 @@
-//! The live page: map and side views that the script moves the drone on, what was said, and the instructor's actions.
+//! The live page: plan and side views with the moving drone, message log, and instructor actions.
 
 use super::access::Visitor;
 use super::assets;
 use super::frame::{scripted, section, token};
 use maud::{Markup, PreEscaped, html};
 
-/// Longest note, characters: it is one message on the wire.
+/// Maximum note length, characters; a note is sent as one MAVLink message.
 pub const NOTE_MOST: usize = 100;
-/// Strongest wind, m/s: the vehicle's parameter ends there.
+/// Maximum wind speed, m/s, the upper limit of the vehicle's parameter.
 pub const WIND_MOST_M_S: f64 = 25.0;
 
-/// What may fail, as the form and the wire name it: key, words, FAILURE_UNIT.
+/// Failures that can be injected: form key, label, FAILURE_UNIT.
 pub const UNITS: [(&str, &str, f32); 4] = [
     ("gnss", "Satellite navigation", 4.0),
     ("compass", "Compass", 2.0),
@@ -18,23 +18,23 @@ pub const UNITS: [(&str, &str, f32); 4] = [
     ("battery", "Battery", 100.0),
 ];
 
-/// The job that is flown, drawn.
+/// Drawings of the job being flown.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct DrawnJob {
-    /// Names the job and its seed.
+    /// Key that identifies job and seed.
     pub key: String,
-    /// Title.
+    /// Title of the job.
     pub title: String,
     /// Drawings: caption and SVG, made by `crate::report::plots::job`.
     pub drawings: Vec<(String, String)>,
 }
 
-/// Which of the vehicles is watched on a page.
+/// Vehicle selected on the page.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct VehicleChoice {
-    /// Addresses of all.
+    /// Addresses of all vehicles.
     pub vehicles: Vec<String>,
-    /// The number of the one that is watched, from 1.
+    /// Number of the selected vehicle, from 1.
     pub number: usize,
 }
 
@@ -44,7 +44,7 @@ impl VehicleChoice {
     }
 }
 
-/// The page.
+/// Renders the live page.
 #[must_use]
 pub fn live(visitor: &Visitor, drawn: Option<&DrawnJob>, choice: &VehicleChoice) -> Markup {
     let body = html! {
@@ -91,7 +91,7 @@ pub fn live(visitor: &Visitor, drawn: Option<&DrawnJob>, choice: &VehicleChoice)
     scripted(visitor, "/live", "Live flight", Some(assets::LIVE_NAME), &body)
 }
 
-/// The page of the one who flies: his own camera's picture, which the script keeps fresh.
+/// Renders the trainee's own flight page with the camera picture, which the script refreshes.
 #[must_use]
 pub fn own_flight(visitor: &Visitor) -> Markup {
     let body = html! {
@@ -107,7 +107,7 @@ pub fn own_flight(visitor: &Visitor) -> Markup {
     scripted(visitor, "/flight", "My flight", Some(assets::FLIGHT_NAME), &body)
 }
 
-/// Links to the other vehicles.
+/// Renders links to the other vehicles.
 fn others(choice: &VehicleChoice) -> Markup {
     html! {
         @if choice.vehicles.len() > 1 {

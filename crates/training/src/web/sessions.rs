@@ -1,4 +1,4 @@
-//! Lists of sessions, and one session's page.
+//! Session lists and the page of a session.
 
 use super::access::{AccessLevel, Visitor};
 use super::frame::{page, pages, section, table};
@@ -10,22 +10,22 @@ use crate::report::words;
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
 
-/// A part of the list of sessions.
+/// One page of the session list.
 #[derive(Debug, Clone, Copy)]
 pub struct SessionList<'a> {
-    /// The part.
+    /// Entries of this page.
     pub lines: &'a [SessionListEntry],
-    /// Only this trainee's were asked for.
+    /// Trainee that the list is filtered by, if any.
     pub trainee: Option<&'a str>,
-    /// The part's number, from 1.
+    /// Page number, from 1.
     pub page: u32,
-    /// The last part's.
+    /// Number of the last page.
     pub last: u32,
-    /// All sessions.
+    /// Total number of sessions.
     pub count: u64,
 }
 
-/// The list.
+/// Renders the list.
 #[must_use]
 pub fn list(visitor: &Visitor, listing: &SessionList<'_>) -> Markup {
     let address = match listing.trainee {
@@ -57,11 +57,11 @@ pub fn list(visitor: &Visitor, listing: &SessionList<'_>) -> Markup {
     page(visitor, "/sessions", "Sessions", &body)
 }
 
-/// Rows of sessions.
+/// Renders a table of sessions.
 #[must_use]
 pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Markup {
     let all = visitor.satisfies(AccessLevel::Instructor);
-    // What a phone shows without being moved comes first: when, who, how well.
+    // The columns visible on a phone without scrolling come first: date, trainee, score.
     let mut heads = vec![
         ("Started", false),
         ("Trainee", false),
@@ -94,16 +94,16 @@ pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Ma
     )
 }
 
-/// What a session's page needs besides its record.
+/// Data of a session's page in addition to its record.
 #[derive(Debug, Clone, Copy)]
 pub struct SessionPageData<'a> {
-    /// Its folder is here, so report, questionnaire and downloads are.
+    /// Whether the session folder exists, which report, questionnaire and downloads require.
     pub folder: bool,
     /// Other sessions of the same trainee.
     pub others: &'a [SessionListEntry],
 }
 
-/// One session.
+/// Renders the page of one session.
 #[must_use]
 pub fn session(visitor: &Visitor, record: &SessionRecord, beside: &SessionPageData<'_>) -> Markup {
     let body = html! {
@@ -143,7 +143,7 @@ fn actions(record: &SessionRecord, beside: &SessionPageData<'_>) -> Markup {
     }
 }
 
-/// The four scores by name, 0 to 100.
+/// Returns the four scores by name, 0 to 100.
 #[must_use]
 pub fn scores_by_name(record: &SessionRecord) -> [(&'static str, Option<f64>); 4] {
     let scores = &record.scores;
@@ -205,7 +205,7 @@ fn tasks(record: &SessionRecord) -> Markup {
     }
 }
 
-/// How far a task got, in words.
+/// Describes the completion of a task.
 fn task_completion_text(record: &SessionRecord, task: &TaskRecord) -> String {
     let done_share = record.completion.map_or(0.0, |completion| completion.done_share);
     task.state.zip(task.covered).map_or_else(|| "unknown".to_owned(), |(state, covered)| state.words(covered, done_share))

@@ -1,4 +1,4 @@
-//! What an administrator sets: who may log in, and how long sessions are kept.
+//! Administrator settings: login accounts and session retention.
 
 use super::access::Visitor;
 use super::frame::{message, page, section, table, token};
@@ -6,22 +6,22 @@ use super::login::PASSWORD_LENGTHS;
 use crate::trainee::{Role, Trainee};
 use maud::{Markup, html};
 
-/// What the page shows.
+/// Contents of the settings page.
 #[derive(Debug, Clone, Copy)]
 pub struct SettingsPage<'a> {
-    /// Everybody.
+    /// All users.
     pub people: &'a [Trainee],
-    /// Those who may log in.
+    /// Users who may log in.
     pub with_password: &'a [String],
-    /// Place of the database, without a password.
+    /// Location of the database, without a password.
     pub database: &'a str,
-    /// Folders of sessions.
+    /// Session folders.
     pub folders: &'a [String],
-    /// How a change went.
+    /// Result of a change.
     pub notice: Option<(&'a str, &'a str)>,
 }
 
-/// The page.
+/// Renders the page.
 #[must_use]
 pub fn settings(visitor: &Visitor, settings: &SettingsPage<'_>) -> Markup {
     let body = html! {

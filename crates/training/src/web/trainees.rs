@@ -1,4 +1,4 @@
-//! Trainees: who there is, and one's progress, plan, details, export and erasure.
+//! Trainee list and trainee page: progress, plan, details, export and erasure.
 
 use super::access::{AccessLevel, Visitor};
 use super::frame::{page, section, table, token};
@@ -12,10 +12,10 @@ use crate::trainee::{AGE_BANDS, EXPERIENCE, Trainee};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
 
-/// Before the name of a field: what it was when the page was opened, so that nobody's change is lost.
+/// Prefix of the fields with the values at the time when the page was opened, which detect conflicting edits.
 pub const BEFORE: &str = "before_";
 
-/// Everybody.
+/// Renders the list of trainees.
 #[must_use]
 pub fn trainee_list(visitor: &Visitor, people: &[Trainee]) -> Markup {
     let rows = html! {
@@ -39,22 +39,22 @@ pub fn trainee_list(visitor: &Visitor, people: &[Trainee]) -> Markup {
     page(visitor, "/trainees", "Trainees", &body)
 }
 
-/// What a trainee's page shows.
+/// Contents of a trainee's page.
 #[derive(Debug, Clone, Copy)]
 pub struct TraineeProfile<'a> {
-    /// Who.
+    /// The trainee.
     pub person: &'a Trainee,
-    /// His sessions in their order.
+    /// Sessions in chronological order.
     pub records: &'a [SessionRecord],
-    /// The same in short, the newest first.
+    /// The same sessions as list entries, newest first.
     pub listed: &'a [SessionListEntry],
-    /// What to fly next.
+    /// Training plan.
     pub plan: Option<&'a TrainingPlan>,
     /// Whether incomplete sessions count in progress and plan.
     pub incomplete: IncompletePolicy,
 }
 
-/// One trainee.
+/// Renders the page of one trainee.
 #[must_use]
 pub fn trainee_page(visitor: &Visitor, about: &TraineeProfile<'_>) -> Markup {
     let name = &about.person.pseudonym;
@@ -96,7 +96,7 @@ fn next(plan: &TrainingPlan) -> Markup {
     }
 }
 
-/// Each job by itself: practice on one says nothing of another.
+/// Renders the progress on each job separately, because practice on one says little about another.
 fn progress(name: &str, records: &[SessionRecord], incomplete: IncompletePolicy) -> Markup {
     let unfinished = records.iter().filter(|record| !record.is_complete()).count();
     html! {

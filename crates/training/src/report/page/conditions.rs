@@ -1,4 +1,4 @@
-//! The certification profile beside the paper's scores: gates, and what its scores are made of.
+//! The certification profile: requirements, and the components of its scores.
 
 use crate::report::Review;
 use crate::report::table::{Table, TableCell};
@@ -7,7 +7,7 @@ use maud::{Markup, html};
 use spandrel_model::site::catalogue::kind_name;
 use spandrel_monitor::score::completion::verdict;
 
-/// The section.
+/// Renders the section.
 pub fn section(review: &Review) -> Markup {
     let c = &review.assessment.certification;
     let gates = [

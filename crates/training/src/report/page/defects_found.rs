@@ -1,4 +1,4 @@
-//! Defects: found and missed, on the bridges, and for the missed ones how near the flight came and how they would have looked.
+//! Defects found and missed, marked on the bridges. For missed ones: how close the flight came, and how they would have looked.
 
 use super::figure;
 use super::gallery::{DefectMark, frame};
@@ -13,7 +13,7 @@ use maud::{Markup, html};
 use spandrel_model::scenario::Bridge;
 use spandrel_model::site::catalogue::kind_name;
 
-/// The section.
+/// Renders the section.
 pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
     if review.defects.is_empty() {
         return html! { p.calm { "No defects were placed in this job." } };

@@ -1,4 +1,4 @@
-//! Feedback that was given, and how fast the trainee's hands answered.
+//! Feedback given during the flight, and the trainee's response times.
 
 use super::{figure, scrolling};
 use crate::report::Review;
@@ -12,10 +12,10 @@ const WIDTH: f64 = 620.0;
 const LEFT: f64 = 96.0;
 const RIGHT: f64 = 600.0;
 const ROW: f64 = 34.0;
-/// Right end of the axis, s: what answers later is no answer.
+/// Right end of the axis, s; later movements do not count as a response.
 const LONGEST_S: f64 = 5.0;
 
-/// The section.
+/// Renders the section.
 pub fn section(review: &Review) -> Markup {
     let present: Vec<usize> = (0..KINDS.len()).filter(|kind| of(review, *kind).next().is_some()).collect();
     html! {
@@ -66,7 +66,7 @@ fn row(review: &Review, kind: usize) -> Markup {
     }
 }
 
-/// Where a reaction lies on the sheet.
+/// Returns the position of a response time on the sheet.
 fn fraction_text(answer_s: f64) -> f64 {
     LEFT + (RIGHT - LEFT) * (answer_s / LONGEST_S).clamp(0.0, 1.0)
 }
@@ -121,7 +121,7 @@ fn texts(review: &Review) -> Table {
     }
 }
 
-/// What an instructor noted while he watched; the trainee's screen did not show it.
+/// Returns the instructor's notes as a table. The trainee did not see them.
 fn notes(review: &Review) -> Table {
     let row = |(t_s, text): &(f64, String)| {
         let when = if *t_s < 0.0 { "before lift-off".into() } else { TableCell::Clock(*t_s) };

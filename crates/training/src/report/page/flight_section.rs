@@ -1,4 +1,4 @@
-//! The flight on the site, its time line and its series, tied together by the slider.
+//! The flight on the site, its timeline and its charts, linked by the slider.
 
 use super::{figure, legend, scrolling};
 use crate::report::cues::KINDS;
@@ -8,7 +8,7 @@ use crate::report::table::{Table, TableCell};
 use crate::report::{Review, words};
 use maud::{Markup, html};
 
-/// The series: id, title, and what the script draws (names of columns).
+/// Charts: id, title and the column names that the script draws.
 const CHARTS: [(&str, &str, &str); 5] = [
     ("speed", "Speed, m/s", "speed"),
     ("distance", "Distance to the path of the task flown, m", "distance"),
@@ -17,7 +17,7 @@ const CHARTS: [(&str, &str, &str); 5] = [
     ("sticks", "Sticks, full travel = 1", "fb rl ud rt"),
 ];
 
-/// The section.
+/// Renders the section.
 pub fn section(review: &Review) -> Markup {
     html! {
         (controls(review))
@@ -46,7 +46,7 @@ fn end_s(review: &Review) -> f64 {
     review.t_s(review.frames.len().saturating_sub(1))
 }
 
-/// The button that plays, the slider and its moment.
+/// Renders the play button, the slider and its readout.
 pub(super) fn slider() -> Markup {
     html! {
         button type="button" id="play" aria-pressed="false" { "Play" }
@@ -56,7 +56,7 @@ pub(super) fn slider() -> Markup {
     }
 }
 
-/// The slider, what holds at its moment, and the switch of colours.
+/// Renders the slider, the values at its time, and the color selection.
 fn controls(review: &Review) -> Markup {
     html! {
         div.controls id="controls" {
@@ -180,7 +180,7 @@ fn control_stretches(review: &Review) -> TimeStrip {
     TimeStrip { name: "flown by".into(), stretches: review.assessment.flown_by.iter().map(stretch).collect(), marks: Vec::new() }
 }
 
-/// Frames in a row that were not heard.
+/// Returns runs of consecutive frames without telemetry.
 fn gaps(review: &Review) -> TimeStrip {
     let mut stretches: Vec<(String, f64, f64, String)> = Vec::new();
     let mut open: Option<usize> = None;
@@ -200,7 +200,7 @@ fn gaps(review: &Review) -> TimeStrip {
     TimeStrip { name: "gaps".into(), stretches, marks: Vec::new() }
 }
 
-/// A row every few seconds: what the curves show.
+/// Returns the charts' data, sampled every few seconds.
 fn series_table(review: &Review) -> Table {
     let every_s = (end_s(review) / 60.0 / 5.0).ceil().max(1.0) * 5.0;
     let stride = (every_s * review.scenario.scoring.frame_rate_hz).round().max(1.0) as usize;

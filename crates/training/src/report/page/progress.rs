@@ -1,5 +1,5 @@
-//! One trainee on one job, repetition by repetition, as the paper shows its participant 18: scores, on-path by task, crashes by kind; from
-//! four repetitions on the learning curves. A part of the server's and the cohort's pages.
+//! Progress of one trainee on one job by repetition, as the paper shows for participant 18: scores, on-path share by task,
+//! crashes by kind and, from four repetitions on, learning curves. Part of the server's and the cohort's pages.
 
 use super::kinds::{KINDS, counted, segments};
 use super::{figure, legend};
@@ -12,15 +12,15 @@ use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
 
-/// The four scores, and the most that each can be.
+/// Names of the four scores.
 const SCORES: [&str; 4] = ["conformity", "efficiency", "safety", "accuracy"];
-/// The most that a score can be.
+/// Returns the maximum of a score.
 #[must_use]
 pub fn most(score: &str) -> f64 {
     if score == "overall" { 400.0 } else { 100.0 }
 }
 
-/// Everything of one job.
+/// Renders the progress on one job.
 #[must_use]
 pub fn on_job(job: &JobProgress) -> Markup {
     let progress = &job.progress;
@@ -37,7 +37,7 @@ pub fn on_job(job: &JobProgress) -> Markup {
     }
 }
 
-/// The three figures of the repetitions.
+/// Renders the three figures of the repetitions.
 pub fn pictures(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Markup {
     let scores = scores(progress);
     let shares = shares(progress, tasks);
@@ -164,7 +164,7 @@ fn on_path_numbers(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Table
     }
 }
 
-/// What the page says where nobody could have a curve, in words of the statistic.
+/// Returns the message shown when there are too few repetitions for a curve.
 pub fn too_few() -> String {
     format!("A learning curve needs {} repetitions of one job.", words::number(crate::statistics::LEARNING_NEEDS as f64, 0))
 }
@@ -190,7 +190,7 @@ mod tests {
     fn exact_scores_tasks_and_crashes_stand_repetition_by_repetition() {
         let text = progress_page(3).into_string();
         assert_eq!(text.matches("class=\"lines\"").count(), 2);
-        // Four lines of scores with three points each; of the tasks one point is missing, for that task was left out.
+        // Four score lines with three points each; one task point is missing because that task was not attempted.
         assert_eq!(text.matches("<circle class=\"dot-").count(), 12 + 11);
         assert!(text.contains("water: 2") && text.contains("person or vehicle: 1") && !text.contains("bridge: "), "{text}");
         assert!(text.contains("not attempted") && text.contains("&lt;b&gt;slab") && !text.contains("<b>slab"));

@@ -1,11 +1,11 @@
-//! What the report rests on: coverage of the telemetry, who flew when, the link, the files and their hashes.
+//! Basis of the report: telemetry coverage, control sources, link statistics, files and their hashes.
 
 use crate::report::Review;
 use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
 
-/// The section.
+/// Renders the section.
 pub fn section(review: &Review) -> Markup {
     let telemetry = &review.assessment.telemetry;
     html! {

@@ -1,4 +1,4 @@
-//! The head of the page and the four scores with what made them.
+//! Page header and the four scores with their components.
 
 use super::figure;
 use crate::report::Review;
@@ -10,7 +10,7 @@ use spandrel_monitor::assessment::Scores;
 use spandrel_monitor::score::Score;
 use spandrel_monitor::score::completion::verdict;
 
-/// Who, what, when, and the overall.
+/// Renders trainee, job, date and overall score.
 pub fn header(review: &Review) -> Markup {
     let scores = &review.assessment.scores;
     let end = &review.assessment.end;
@@ -40,7 +40,7 @@ pub fn header(review: &Review) -> Markup {
     }
 }
 
-/// RFC 3339 as people read it.
+/// Formats an RFC 3339 timestamp for display.
 fn utc(text: &str) -> String {
     text.replace('T', " ").trim_end_matches('Z').to_owned() + " UTC"
 }
@@ -54,7 +54,7 @@ fn cover(review: &Review) -> String {
     }
 }
 
-/// The diagram, the cards and their table.
+/// Renders the diagram, the score cards and their table.
 pub fn scores(review: &Review) -> Markup {
     let scores = &review.assessment.scores;
     let spokes: Vec<RadarAxis> = scores_by_name(scores)
@@ -79,7 +79,7 @@ pub fn scores(review: &Review) -> Markup {
     }
 }
 
-/// The scores in the order of the diagram.
+/// Returns the scores in the order of the diagram.
 pub fn scores_by_name(scores: &Scores) -> [(&'static str, Option<Score>); 4] {
     [
         ("Conformity", scores.conformity),

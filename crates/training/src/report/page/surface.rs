@@ -1,4 +1,4 @@
-//! Surface coverage by element: what the pictures show, and what they lack.
+//! Surface coverage by element: what the pictures show, and why the rest does not count.
 
 use super::{figure, legend};
 use crate::report::Review;
@@ -9,12 +9,12 @@ use crate::report::words;
 use maud::{Markup, html};
 use spandrel_model::site::visibility::INCIDENCE_MAX_RAD;
 
-/// Reasons in the summary's sentence at most.
+/// Maximum number of reasons in the summary.
 const REASONS: usize = 3;
-/// Less than this share of the surface is no reason worth a word.
+/// Minimum fraction of the surface for a reason to be listed.
 const LEAST_SHARE: f64 = 0.01;
 
-/// The section.
+/// Renders the section.
 pub fn section(review: &Review) -> Markup {
     let total = review.coverage.total();
     if total.inspectable_m2 <= 0.0 {
@@ -33,7 +33,7 @@ pub fn section(review: &Review) -> Markup {
         (figure("What became of each element's inspectable surface", &html! {
             (legend(&key))
             div.split {
-                // Two columns of about equal length.
+                // Splits the rows into two columns of about equal length.
                 @let rows = rows(&review.coverage);
                 @let (left, right) = rows.split_at(rows.len().div_ceil(2));
                 (stacks(left, "Surface coverage by element"))
@@ -44,7 +44,7 @@ pub fn section(review: &Review) -> Markup {
     }
 }
 
-/// The largest shares of what is not shown well, in words; `None` when next to nothing is left.
+/// Describes the main reasons why surface is not shown well; `None` if almost nothing is left.
 fn lacking(total: &ElementSurface) -> Option<String> {
     let share = |fate: &SurfaceOutcome| total.area_m2(*fate) / total.inspectable_m2;
     let mut rest: Vec<SurfaceOutcome> =

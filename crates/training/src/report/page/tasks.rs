@@ -1,4 +1,4 @@
-//! Per task: on the path, speeding, crashes by kind.
+//! Results by task: on-path share, speeding, crashes by kind.
 
 use super::{figure, legend};
 use crate::report::Review;
@@ -9,7 +9,7 @@ use maud::{Markup, html};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_monitor::score::completion::TaskState;
 
-/// Kinds of crashes in the order of the bars.
+/// Crash kinds in the order of the bars.
 const KINDS: [(ContactKind, &str); 6] = [
     (ContactKind::Bridge, "k-bridge"),
     (ContactKind::Terrain, "k-terrain"),
@@ -19,7 +19,7 @@ const KINDS: [(ContactKind, &str); 6] = [
     (ContactKind::Person, "k-grave"),
 ];
 
-/// The section.
+/// Renders the section.
 pub fn section(review: &Review) -> Markup {
     let done_share = review.assessment.completion.done_share;
     html! {

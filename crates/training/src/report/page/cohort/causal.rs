@@ -1,4 +1,4 @@
-//! The causal model: demand on strain on performance, with feedback as moderator.
+//! The causal model section: demand, strain and performance, with feedback as moderator.
 
 use super::super::{figure, scrolling};
 use crate::cohort::{Cohort, IndirectEffect, MediationModel, SENSIBLE_N};
@@ -9,7 +9,7 @@ use crate::report::words;
 use crate::statistics::{Coefficient, Regression};
 use maud::{Markup, html};
 
-/// The section.
+/// Renders the section.
 pub fn causal(cohort: &Cohort) -> Markup {
     html! {
         p { "Does a demanding flight strain, does strain cost performance, and does feedback during the flight soften the first of the two? Estimated from the first sessions of all who answered." }

@@ -1,4 +1,4 @@
-//! The first sessions: distributions, people and tasks, crashes.
+//! First sessions: distributions, trainees and tasks, crashes.
 
 use super::super::kinds::{KINDS, counted, segments};
 use super::super::{figure, legend};
@@ -9,7 +9,7 @@ use crate::report::plots::histogram::histogram;
 use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
 
-/// How the scores are distributed.
+/// Renders the score distributions.
 pub fn distributions(cohort: &Cohort) -> Markup {
     let rows = cohort.distributions.iter().map(|one| {
         let s = &one.summary;
@@ -32,7 +32,7 @@ pub fn distributions(cohort: &Cohort) -> Markup {
     }
 }
 
-/// Each person's scores and tasks; of too many people how they are distributed.
+/// Renders each trainee's scores and tasks, or their distributions if there are too many trainees.
 pub fn people(cohort: &Cohort) -> Markup {
     if people_shown(cohort) { one_by_one(cohort) } else { pooled::tasks(cohort) }
 }
@@ -85,7 +85,7 @@ fn one_by_one(cohort: &Cohort) -> Markup {
     }
 }
 
-/// What was hit, where, by whom.
+/// Renders crashes by kind, task and trainee.
 pub fn crashes(cohort: &Cohort) -> Markup {
     let table = &cohort.crashes;
     let key: Vec<(&str, String)> =

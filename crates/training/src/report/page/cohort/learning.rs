@@ -1,4 +1,4 @@
-//! Practice: the group's learning curves, and those who repeated one by one.
+//! Practice effects: the group's learning curves and the trainees with repeated sessions.
 
 use super::super::progress::{most, pictures, too_few};
 use super::super::{figure, legend};
@@ -8,12 +8,12 @@ use crate::report::table::{Table, TableCell};
 use crate::statistics::LearningCurve;
 use maud::{Markup, html};
 
-/// Curves of single people that are drawn behind the group's; more are a grey patch.
+/// Maximum number of individual curves drawn behind the group's curve; more would merge into a gray area.
 const CURVES_SHOWN: usize = 40;
-/// People who are shown one by one.
+/// Maximum number of trainees shown individually.
 const ONE_BY_ONE: usize = 24;
 
-/// The group's curves, or why there are none.
+/// Renders the group's curves, or the reason why there are none.
 pub fn curves(cohort: &Cohort) -> Markup {
     let key = [
         ("dot-1", "mean".to_owned()),
@@ -75,7 +75,7 @@ fn numbers(curves: &[GroupCurve]) -> Table {
     }
 }
 
-/// Those who flew more than once, each with his repetitions.
+/// Renders each trainee with more than one session.
 pub fn one_by_one(cohort: &Cohort) -> Markup {
     let repeated: Vec<&TraineeProgress> = repeated(cohort).collect();
     html! {
@@ -89,12 +89,12 @@ pub fn one_by_one(cohort: &Cohort) -> Markup {
     }
 }
 
-/// Those who flew more than once.
+/// Returns the trainees with more than one session.
 pub fn repeated(cohort: &Cohort) -> impl Iterator<Item = &TraineeProgress> {
     cohort.progress.iter().filter(|one| one.repetitions.len() > 1)
 }
 
-/// The tasks as the first session names them.
+/// Returns the tasks as named in the first session.
 fn tasks(cohort: &Cohort, one: &TraineeProgress) -> Vec<(u32, String)> {
     let first = cohort.individuals.iter().find(|first| first.trainee == one.trainee);
     first.map(|first| first.tasks.iter().map(|task| (task.id, task.name.clone())).collect()).unwrap_or_default()

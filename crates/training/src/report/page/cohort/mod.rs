@@ -1,5 +1,5 @@
-//! What a group of trainees shows, as one page or as sections of another: the paper's figures with the numbers behind them. Of more people
-//! than anybody reads the page shows distributions, and the files hold each of them.
+//! Cohort results, as a standalone page or as sections of another: the paper's figures with the underlying numbers. For large
+//! cohorts the page shows distributions, and the files contain the individual data.
 
 mod answers;
 mod causal;
@@ -14,24 +14,24 @@ use crate::record::omitted_summary;
 use crate::report::table::download;
 use maud::{Markup, html};
 
-/// People who are listed one by one.
+/// Maximum number of trainees listed individually.
 pub const PEOPLE_SHOWN: usize = 60;
 
-/// Where the tables are as files.
+/// Location of the table files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TableLinks<'a> {
-    /// In the page, as far as their people are listed in it.
+    /// Embedded in the page, for trainees who are listed in it.
     Inside,
-    /// Served: the address is this, the file's name, and a query.
+    /// Served: prefix of the address and a query, which enclose the file name.
     At(&'a str, &'a str),
 }
 
-/// The page lists people one by one.
+/// Returns whether the page lists trainees individually.
 fn people_shown(cohort: &Cohort) -> bool {
     cohort.trainees <= PEOPLE_SHOWN
 }
 
-/// The page that opens offline.
+/// Renders the standalone offline page.
 #[must_use]
 pub fn cohort(cohort: &Cohort) -> String {
     let sections = sections(cohort, TableLinks::Inside);
@@ -50,7 +50,7 @@ pub fn cohort(cohort: &Cohort) -> String {
     )
 }
 
-/// Who flew what.
+/// Renders the number of trainees and sessions.
 #[must_use]
 pub fn summary_lines(cohort: &Cohort) -> Markup {
     html! {
@@ -60,7 +60,7 @@ pub fn summary_lines(cohort: &Cohort) -> Markup {
     }
 }
 
-/// Id, name and body of each section; those with nothing to show are left out.
+/// Returns id, name and body of each section. Empty sections are skipped.
 #[must_use]
 pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>) -> Vec<(&'static str, &'static str, Markup)> {
     let mut sections = Vec::new();
@@ -90,7 +90,7 @@ pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>) -> Vec<(&'static str,
     sections
 }
 
-/// Tables that grow with the number of people.
+/// Tables whose size grows with the number of trainees.
 const BY_PERSON: [&str; 7] = [
     "individuals.csv",
     "conformity_by_task.csv",
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn exact_the_causal_model_is_drawn_with_its_warning_or_the_page_explains_why_not() {
-        // The made-up answers are all alike: nothing can be estimated.
+        // The test answers are all equal, so nothing can be estimated.
         let page = super::cohort(&of(
             &group(),
             &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::LeaveOut },
@@ -218,7 +218,7 @@ mod tests {
         assert!(!some.contains("individuals.csv\" href") && some.contains("t_tests.csv\" href"));
         assert!(some.contains("Histogram of crashes by person") && some.contains("On the path by task"));
         assert!(many.len() < some.len() + 2_000, "{} and {} bytes", some.len(), many.len());
-        // Served, every file has its address.
+        // When served, every file has an address.
         let cohort = people(PEOPLE_SHOWN + 1);
         let (_, _, files) = sections(&cohort, TableLinks::At("/cohort/", "?repetitions=2")).pop().unwrap();
         let files = files.into_string();

@@ -1,4 +1,4 @@
-//! What stands for a list of people where there are more than anybody reads: distributions over them.
+//! Distributions shown in place of individual lists for large cohorts.
 
 use super::super::figure;
 use crate::cohort::{Cohort, SelfRatingPair};
@@ -8,14 +8,14 @@ use crate::report::table::{Table, TableCell};
 use crate::statistics::{BoxPlot, HistogramBin, box_plot};
 use maud::{Markup, html};
 
-/// Bars of a histogram of crashes: beyond it several counts share one.
+/// Maximum number of histogram bins for crashes; above it, bins cover several counts.
 const BARS: usize = 20;
 
 fn too_many(cohort: &Cohort, file: &str) -> Markup {
     html! { p.note { (cohort.trainees) " people are not listed one by one: the figures show how they are distributed, the file " (file) " holds each of them." } }
 }
 
-/// A box with a name.
+/// A box plot with its label.
 type LabeledBox = (String, BoxPlot);
 
 fn drawn(of: &[LabeledBox], most: f64, title: &str) -> Markup {
@@ -32,7 +32,7 @@ fn table(name: &'static str, caption: &'static str, head: &'static str, of: &[La
     Table { name, caption, columns, rows: of.iter().map(row).collect() }
 }
 
-/// On-path shares by task.
+/// Renders on-path shares by task.
 pub fn tasks(cohort: &Cohort) -> Markup {
     let shares = |id: u32| -> Vec<f64> {
         let tasks = cohort.individuals.iter().flat_map(|one| &one.tasks);
@@ -49,7 +49,7 @@ pub fn tasks(cohort: &Cohort) -> Markup {
     }
 }
 
-/// How many crashes people had.
+/// Renders the number of crashes per trainee.
 pub fn crashes(cohort: &Cohort) -> Markup {
     let counts: Vec<usize> = cohort.crashes.rows.iter().map(|row| row.total).collect();
     let bins = bins(&counts);
@@ -64,7 +64,7 @@ pub fn crashes(cohort: &Cohort) -> Markup {
     }
 }
 
-/// Whole counts from 0 on, each bin as wide as the others.
+/// Returns bins of equal width over integer counts from 0.
 fn bins(counts: &[usize]) -> Vec<HistogramBin> {
     let most = counts.iter().copied().max().unwrap_or(0);
     let wide = (most + 1).div_ceil(BARS).max(1);
@@ -75,7 +75,7 @@ fn bins(counts: &[usize]) -> Vec<HistogramBin> {
     (0..=most).step_by(wide).map(bin).collect()
 }
 
-/// Measured shares by self-rating, to the nearest whole rating.
+/// Renders measured scores by self-rating, rounded to the nearest integer.
 pub fn self_rating(cohort: &Cohort) -> Markup {
     let rated = |rating: usize| {
         let people = cohort.self_rating.people.iter();

@@ -1,4 +1,4 @@
-//! What changed from one repetition to the next.
+//! Changes between repetitions.
 
 use super::super::figure;
 use crate::cohort::{Cohort, Comparison};
@@ -6,11 +6,11 @@ use crate::report::plots::boxes::{NamedBox, boxes};
 use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
 
-/// Scores in the order of showing, with the most that each can be.
+/// Scores in display order with their maximum.
 const SCORES: [(&str, f64); 5] =
     [("conformity", 100.0), ("efficiency", 100.0), ("safety", 100.0), ("accuracy", 100.0), ("overall", 400.0)];
 
-/// Box plots and tests by repetition.
+/// Renders box plots and tests by repetition.
 pub fn repetitions(cohort: &Cohort) -> Markup {
     html! {
         div.trio {

@@ -1,4 +1,4 @@
-//! Both flights on the site and in time, tied together by one slider.
+//! Both flights on the site and over time, linked by one slider.
 
 use super::super::flight_section::slider;
 use super::super::series::AlignmentEvent;
@@ -8,18 +8,18 @@ use crate::report::plots::overlay;
 use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
 
-/// Column of the series and title of its curves.
+/// Column of the series and title of each chart.
 const CHARTS: [(&str, &str); 4] = [
     ("speed", "Speed, m/s"),
     ("distance", "Distance to the path of the task flown, m"),
     ("clearance", "Clearance to the nearest surface, m"),
     ("battery", "Battery, %"),
 ];
-/// What the slider's table says: key for the script and head.
+/// Rows of the slider's readout: script key and heading.
 const READOUT: [(&str, &str); 5] =
     [("task", "Task"), ("distance", "Distance"), ("speed", "Speed"), ("clearance", "Clearance"), ("battery", "Battery")];
 
-/// The section. Flights of different jobs have no drawing in common.
+/// Renders the section. Flights of different jobs have no common drawing.
 pub fn section(both: [&Review; 2], same_job: bool, line_ups: &[AlignmentEvent], key: &[(&str, String)]) -> Markup {
     html! {
         (controls(line_ups, key))
@@ -75,7 +75,7 @@ fn drawings(both: [&Review; 2]) -> Markup {
     }
 }
 
-/// A row every few seconds since lift-off: what the curves show.
+/// Returns the charts' data, sampled every few seconds since lift-off.
 fn table(both: [&Review; 2]) -> Table {
     let end_s = |review: &Review| review.t_s(review.frames.len().saturating_sub(1));
     let longest_s = f64::max(end_s(both[0]), end_s(both[1]));

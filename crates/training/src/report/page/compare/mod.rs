@@ -1,4 +1,4 @@
-//! Two sessions side by side.
+//! Side-by-side comparison of two sessions.
 
 mod charts;
 
@@ -10,7 +10,7 @@ use crate::report::plots::radar::{RadarAxis, radar};
 use crate::report::table::{Table, TableCell};
 use maud::html;
 
-/// The page that compares two sessions.
+/// Renders the page that compares two sessions.
 #[must_use]
 pub fn comparison(first: &Review, second: &Review) -> String {
     let both = [first, second];
@@ -101,7 +101,7 @@ fn table(first: &Review, second: &Review) -> Table {
     Table { name: "comparison", caption: "both sessions in numbers", columns: vec!["what", "first", "second", "change"], rows }
 }
 
-/// Time with the cue "too close" or "off path" on, s.
+/// Returns the time with a "too close" or "off path" cue on, s.
 fn warned_s(review: &Review) -> f64 {
     let wanted = |kind: usize| matches!(crate::report::cues::KINDS[kind].name, "too close" | "off path");
     review.feedback.episodes.iter().filter(|e| wanted(e.kind)).map(|e| e.to_s - e.from_s).sum()
