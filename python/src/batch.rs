@@ -84,10 +84,10 @@ impl Batch {
         let kind = match kind {
             "hover" => Kind::Hover,
             "inspect" => Kind::Inspect,
-            _ => return Err(PyValueError::new_err(format!("{kind}: no such environment; choose hover or inspect"))),
+            _ => return Err(PyValueError::new_err(format!("unknown environment {kind}; allowed: hover, inspect"))),
         };
         if count == 0 {
-            return Err(PyValueError::new_err("at least one environment is needed"));
+            return Err(PyValueError::new_err("at least one environment is required"));
         }
         let threads = match threads {
             0 => thread::available_parallelism().map_or(1, usize::from),
@@ -145,14 +145,14 @@ impl Batch {
         match self.slots.try_lock() {
             Ok(slots) => Ok(slots),
             Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
-            Err(TryLockError::WouldBlock) => Err(SpandrelError::new_err("another thread steps these environments")),
+            Err(TryLockError::WouldBlock) => Err(SpandrelError::new_err("another thread is stepping these environments")),
         }
     }
 
     fn with_episode<T>(&self, index: usize, read: impl FnOnce(&Episode) -> T) -> PyResult<T> {
         let slots = self.lock()?;
         let episode = slots.get(index).and_then(|slot| slot.episode.as_ref());
-        episode.map(read).ok_or_else(|| PyIndexError::new_err(format!("environment {index} is not there or was never reset")))
+        episode.map(read).ok_or_else(|| PyIndexError::new_err(format!("environment {index} does not exist or was never reset")))
     }
 
     fn turn(&self, py: Python<'_>, seeds: Vec<Option<u64>>, actions: Option<Vec<f32>>) -> PyResult<Turn> {

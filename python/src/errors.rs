@@ -5,10 +5,10 @@ use pyo3::prelude::*;
 use spandrel_model::toml::Problems;
 use spandrel_sitl::testing::MissedExpectation;
 
-pyo3::create_exception!(spandrel, SpandrelError, PyException, "Any failure that this package reports.");
-pyo3::create_exception!(spandrel, JobError, SpandrelError, "A scenario or vehicle file is missing or wrong.");
-pyo3::create_exception!(spandrel, RefusedError, SpandrelError, "The vehicle refused a command or did not answer it.");
-pyo3::create_exception!(spandrel, LateError, SpandrelError, "A condition did not hold in time.");
+pyo3::create_exception!(spandrel, SpandrelError, PyException, "Base class of all errors raised by this package.");
+pyo3::create_exception!(spandrel, JobError, SpandrelError, "A scenario or vehicle file is missing or invalid.");
+pyo3::create_exception!(spandrel, RefusedError, SpandrelError, "The vehicle rejected a command or did not reply.");
+pyo3::create_exception!(spandrel, LateError, SpandrelError, "A condition was not met in time.");
 pyo3::create_exception!(spandrel, AssessmentError, SpandrelError, "A telemetry log cannot be scored.");
 
 /// Registers the exceptions in the module.

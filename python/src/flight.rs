@@ -109,7 +109,7 @@ impl Flight {
     /// Sends a command by its MAVLink number, optionally with a position in the scenario's frame (east, north, up), m.
     #[pyo3(signature = (command, params, place_enu_m=None))]
     fn ask(&self, py: Python<'_>, command: u32, params: Vec<f32>, place_enu_m: Option<(f64, f64, f64)>) -> PyResult<()> {
-        let command = MavCmd::from_u32(command).ok_or_else(|| PyValueError::new_err(format!("{command}: no such MAV_CMD")))?;
+        let command = MavCmd::from_u32(command).ok_or_else(|| PyValueError::new_err(format!("unknown MAV_CMD {command}")))?;
         py.detach(|| {
             let inner = &mut *self.lock();
             let message = match place_enu_m {
@@ -147,7 +147,7 @@ impl Flight {
     fn open_udp(&self, py: Python<'_>, kind: &str, peer: (String, u16), lockstep: bool) -> PyResult<(u32, u16)> {
         let kind = link_kind(kind)?;
         let (host, port) = peer;
-        let ip: IpAddr = host.parse().map_err(|_| PyValueError::new_err(format!("{host}: no IP address")))?;
+        let ip: IpAddr = host.parse().map_err(|_| PyValueError::new_err(format!("{host} is not an IP address")))?;
         let peer = SocketAddr::new(ip, port);
         let opened = py.detach(|| {
             let inner = &mut *self.lock();
@@ -216,8 +216,8 @@ impl Flight {
         });
         let Some((command, _)) = asked else { return SpandrelError::new_err("no command was sent") };
         match result.and_then(spandrel_mavlink::dialect::MavResult::from_u32) {
-            Some(result) => RefusedError::new_err(format!("{command:?} was answered {result:?}; the vehicle said: {said}")),
-            None => RefusedError::new_err(format!("{command:?} was not answered; the vehicle said: {said}")),
+            Some(result) => RefusedError::new_err(format!("{command:?} returned {result:?}; last status text: {said}")),
+            None => RefusedError::new_err(format!("no reply to {command:?}; last status text: {said}")),
         }
     }
 }
@@ -231,6 +231,6 @@ fn link_kind(kind: &str) -> PyResult<LinkKind> {
         "gcs" => Ok(LinkKind::GroundStation),
         "sdk" => Ok(LinkKind::Sdk),
         "payload" => Ok(LinkKind::Payload),
-        _ => Err(PyValueError::new_err(format!("{kind}: no such kind of link; choose gcs, sdk or payload"))),
+        _ => Err(PyValueError::new_err(format!("unknown kind of link {kind}; allowed: gcs, sdk, payload"))),
     }
 }

@@ -61,7 +61,7 @@ pub fn flavour(name: &str) -> PyResult<&'static Flavour> {
         "px4" => Ok(&px4::FLAVOUR),
         "ardupilot" => Ok(&ardupilot::FLAVOUR),
         "generic" => Ok(&generic::FLAVOUR),
-        _ => Err(JobError::new_err(format!("{name}: no such flavour; choose px4, ardupilot or generic"))),
+        _ => Err(JobError::new_err(format!("unknown flavour {name}; allowed: px4, ardupilot, generic"))),
     }
 }
 
@@ -72,6 +72,6 @@ pub fn after_crash(name: &str) -> PyResult<Option<AfterCrash>> {
         "continue" => Ok(Some(AfterCrash::Continue)),
         "respawn" => Ok(Some(AfterCrash::Respawn)),
         "end" => Ok(Some(AfterCrash::End)),
-        _ => Err(JobError::new_err(format!("{name}: no such rule; choose scenario, continue, respawn or end"))),
+        _ => Err(JobError::new_err(format!("unknown rule {name}; allowed: scenario, continue, respawn, end"))),
     }
 }
