@@ -39,10 +39,10 @@ pub enum AssessError {
     #[error("the drone never lifted off (more than 0.3 m above the pad), so there is no session to score")]
     NeverFlown,
     /// The telemetry contains no ground-truth message.
-    #[error("no HIL_STATE_QUATERNION in the telemetry: it carries the clock and the truth that the scores need")]
+    #[error("no HIL_STATE_QUATERNION in the telemetry; it provides the time and the true state that scoring requires")]
     NoTruth,
     /// The simulator runs a different scenario.
-    #[error("the simulator runs another scenario: its scn_crc is {heard:#010x}, that of `{name}` is {ours:#010x}")]
+    #[error("the simulator runs another scenario: its scn_crc is {heard:#010x}, but `{name}` has {ours:#010x}")]
     OtherScenario {
         /// Name of the session's scenario.
         name: String,
@@ -52,7 +52,7 @@ pub enum AssessError {
         ours: u32,
     },
     /// The simulator runs a different seed.
-    #[error("the simulator's seed is {heard}, the session's is {ours}: they would place other defects")]
+    #[error("the simulator's seed is {heard}, but the session's is {ours}, which places different defects")]
     OtherSeed {
         /// Seed received from the simulator.
         heard: u64,
@@ -60,7 +60,7 @@ pub enum AssessError {
         ours: u64,
     },
     /// Neither the telemetry, the scenario nor the command line provides a seed.
-    #[error("no seed: the telemetry holds no `seed` message, and neither scenario nor command line names one")]
+    #[error("no seed: the telemetry contains no `seed` message, and neither the scenario nor the command line provides one")]
     NoSeed,
     /// The telemetry log could not be read.
     #[error("the telemetry cannot be read: {0}")]

@@ -76,7 +76,7 @@ fn status_texts(flight: &Flight, unix_ns: impl Fn(SimTime) -> u64) -> Vec<Channe
     let mut hand = None;
     for (time, _, by) in flight.flown_by.all() {
         if hand != Some(*by) {
-            out.push(foxglove::log(unix_ns(*time), INFO, &format!("flown by: {}", by.label())));
+            out.push(foxglove::log(unix_ns(*time), INFO, &format!("control: {}", by.label())));
         }
         hand = Some(*by);
     }

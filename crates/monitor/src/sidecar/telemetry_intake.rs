@@ -117,7 +117,7 @@ impl Monitor {
     fn refuse(&mut self, error: AssessError) {
         if self.refusal.is_none() {
             self.event("refused", json!({ "why": error.to_string() }));
-            self.text("Monitor: other scenario or seed", MavSeverity::MAV_SEVERITY_WARNING);
+            self.text("Monitor: scenario or seed mismatch", MavSeverity::MAV_SEVERITY_WARNING);
             self.refusal = Some(error.clone());
             self.outcome = Some(Err(error));
         }

@@ -133,9 +133,9 @@ fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<C
         for pair in people {
             let (own, measured) = (pair.self_rating, pair.measured_pct);
             let words = if own >= WELL && measured < low {
-                format!("rates the own performance {own:.1} of 5; measured {measured:.0} %, among the lowest quarter")
+                format!("rated their own performance {own:.1} of 5, but scored {measured:.0} %, among the lowest quarter")
             } else if own < WELL && measured > high {
-                format!("rates the own performance {own:.1} of 5; measured {measured:.0} %, among the highest quarter")
+                format!("rated their own performance {own:.1} of 5, but scored {measured:.0} %, among the highest quarter")
             } else {
                 continue;
             };
@@ -147,9 +147,9 @@ fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<C
             let Some(answer) = answer_value(record, QuestionnaireItem::Overall(OverallItem::TimePressure)) else { continue };
             let minutes = record.seconds / 60.0;
             let words = if answer <= AGREE && record.seconds > slow {
-                format!("felt no time pressure; flew {minutes:.1} min, among the slowest quarter")
+                format!("felt no time pressure, but flew {minutes:.1} min, among the slowest quarter")
             } else if answer > AGREE + 1 && record.seconds < quick {
-                format!("felt time pressure; flew {minutes:.1} min, among the quickest quarter")
+                format!("felt time pressure, but flew {minutes:.1} min, among the fastest quarter")
             } else {
                 continue;
             };

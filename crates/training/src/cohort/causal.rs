@@ -64,8 +64,8 @@ pub fn causal(firsts: &[&SessionRecord], warnings: &mut Vec<String>) -> Option<M
     let n = people.len();
     if n < SENSIBLE_N {
         warnings.push(format!(
-            "demand, strain, performance: {n} people with whole answers; below {SENSIBLE_N} the model misses medium effects, \
-             read it as a description of these people only"
+            "demand, strain, performance: {n} trainees with complete answers; with fewer than {SENSIBLE_N} the model misses medium effects, \
+             so it only describes these trainees"
         ));
     }
     match estimate(&people) {

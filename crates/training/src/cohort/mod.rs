@@ -114,7 +114,7 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
     let causal = causal::causal(&firsts, &mut warnings);
     if repetitions > 1 && group.len() < SENSIBLE_PAIRS {
         warnings.push(format!(
-            "{} people flew {repetitions} times: below {SENSIBLE_PAIRS} a paired test misses most medium effects",
+            "{} trainees flew {repetitions} times; with fewer than {SENSIBLE_PAIRS}, a paired test misses most medium effects",
             group.len()
         ));
     }

@@ -71,7 +71,7 @@ struct StoredAnswers {
 impl<'de> Deserialize<'de> for Answers {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let kept = StoredAnswers::deserialize(deserializer)?;
-        let unknown = |key: &str| D::Error::custom(format!("{key} is no question"));
+        let unknown = |key: &str| D::Error::custom(format!("unknown question {key}"));
         let item = |(key, value): (&String, &u8)| {
             QuestionnaireItem::from_key(key).map(|item| (item, *value)).ok_or_else(|| unknown(key))
         };
@@ -171,7 +171,7 @@ impl AnswerReading<'_> {
                     found.insert(key, number);
                 }
                 (None, _) => self.invalid_answer(key, &shown(value), allowed_keys, &format!("unknown key in {name}")),
-                (Some(_), None) => self.invalid_answer(key, &shown(value), allowed, "no such answer"),
+                (Some(_), None) => self.invalid_answer(key, &shown(value), allowed, "invalid answer"),
             }
         }
         found
@@ -228,7 +228,7 @@ mod tests {
     #[test]
     fn exact_every_fault_is_reported_with_file_line_key_value_and_range() {
         let told = problems("{\"format\": 1, \"language\": \"en\",\n\"answers\": {\n\"frustration\": 6}}");
-        assert_eq!(told, "answers.json:3: frustration = 6: no such answer (allowed: whole number 1 to 5)");
+        assert_eq!(told, "answers.json:3: frustration = 6: invalid answer (allowed: whole number 1 to 5)");
         for (text, expected) in [
             ("[]", "not an object"),
             ("{\"format\": 1,", "syntax"),

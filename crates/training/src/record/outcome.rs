@@ -17,7 +17,7 @@ pub trait SessionOutcome {
 
     /// Describes the completion.
     fn completion_summary(&self) -> String {
-        self.completion().map_or_else(|| "Completion unknown: import this session again".to_owned(), Completion::headline)
+        self.completion().map_or_else(|| "Completion unknown: re-import this session".to_owned(), Completion::headline)
     }
 
     /// Returns the certification verdict: certified, or the first unmet requirement.

@@ -48,13 +48,13 @@ impl DefectOutcome {
         let (nearest_m, nearest_s) = chance.nearest;
         match &chance.best {
             Some((t_s, view)) if view.hit => format!(
-                "in plain view for {} s, first at {}; no picture was taken then",
+                "in plain view for {} s, first at {}, but no picture was taken",
                 words::number(chance.in_view_s, 1),
                 words::clock(*t_s)
             ),
             Some((t_s, view)) => format!("best seen at {}, but {}", words::clock(*t_s), view.reasons().join("; ")),
             None => format!(
-                "the camera never pointed at it; the drone came as near as {} m at {}",
+                "the camera never pointed at it; the drone came within {} m at {}",
                 words::number(nearest_m, 1),
                 words::clock(nearest_s)
             ),

@@ -151,13 +151,13 @@ pub fn verdict(found: &[u32], views: &[DefectView]) -> (PictureVerdict, String) 
     }
     let again: Vec<u32> = views.iter().filter(|view| view.hit).map(|view| view.defect_id).collect();
     if !again.is_empty() {
-        return (PictureVerdict::Repeat, format!("defect {} had been photographed before", list(&again)));
+        return (PictureVerdict::Repeat, format!("defect {} was already photographed", list(&again)));
     }
     let failing = |view: &&DefectView| view.conditions().iter().filter(|holds| !**holds).count();
     let nearest = views.iter().filter(|view| view.unoccluded).min_by_key(failing);
     let Some(view) = nearest else {
-        let behind = views.first().map(|view| format!(" (defect {} is there, behind something)", view.defect_id));
-        return (PictureVerdict::False, format!("no defect to be seen{}", behind.unwrap_or_default()));
+        let behind = views.first().map(|view| format!(" (defect {} is occluded)", view.defect_id));
+        return (PictureVerdict::False, format!("no defect visible{}", behind.unwrap_or_default()));
     };
     let [_, _, square, large, wide, lit] = view.conditions();
     let verdict = if !square {
@@ -237,14 +237,14 @@ mod tests {
             (DefectView { extent_px: 3.0, ..view() }, PictureVerdict::TooFar, "too small"),
             (DefectView { line: true, width_px: 0.2, ..view() }, PictureVerdict::TooFar, "line too thin"),
             (DefectView { incidence_rad: 1.2, ..view() }, PictureVerdict::TooOblique, "69 deg"),
-            (DefectView { unoccluded: false, ..view() }, PictureVerdict::False, "behind something"),
+            (DefectView { unoccluded: false, ..view() }, PictureVerdict::False, "is occluded"),
         ];
         for (case, expected, word) in cases {
             let (got, reason) = verdict(&[], &[case]);
             assert_eq!(got, expected, "{reason}");
             assert!(reason.contains(word), "{reason}");
         }
-        assert_eq!(verdict(&[], &[]), (PictureVerdict::False, "no defect to be seen".into()));
+        assert_eq!(verdict(&[], &[]), (PictureVerdict::False, "no defect visible".into()));
     }
 
     #[test]

@@ -59,7 +59,8 @@ pub fn homogeneity(table: &[Vec<usize>]) -> Result<Homogeneity, StatisticsError>
         df,
         p: above_chi_squared(chi_squared, df as f64).unwrap_or(1.0),
         smallest_expected: smallest,
-        warning: few.then(|| format!("an expected count is {smallest:.2}, below {LEAST_EXPECTED}: the p value is rough")),
+        warning: few
+            .then(|| format!("an expected count is {smallest:.2}, below {LEAST_EXPECTED}, so the p value is only approximate")),
     })
 }
 

@@ -22,7 +22,7 @@ pub use sample::{BoxPlot, HistogramBin, SampleSummary, box_plot, histogram, mean
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StatisticsError {
     /// There are too few values.
-    #[error("{n} values, and {needed} are needed")]
+    #[error("{n} values, but {needed} are required")]
     TooFew {
         /// Number of values given.
         n: usize,
@@ -38,7 +38,7 @@ pub enum StatisticsError {
         right: usize,
     },
     /// A value is infinite or NaN.
-    #[error("value {at} is {value}, which is no finite number")]
+    #[error("value {at} is {value}, which is not finite")]
     NotFinite {
         /// Position, from 1.
         at: usize,
@@ -49,7 +49,7 @@ pub enum StatisticsError {
     #[error("{0} does not vary")]
     Constant(&'static str),
     /// Predictors are collinear.
-    #[error("the predictors cannot be told apart in this sample")]
+    #[error("the predictors are collinear in this sample")]
     Collinear,
 }
 

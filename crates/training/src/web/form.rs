@@ -32,7 +32,7 @@ pub struct FormContext<'a> {
 
 /// Error for an invalid form value: field, value and allowed values.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{field} = {value}: no such answer (allowed: {allowed})")]
+#[error("{field} = {value}: invalid answer (allowed: {allowed})")]
 pub struct InvalidAnswer {
     /// Name of the field.
     pub field: String,
@@ -203,7 +203,7 @@ mod tests {
             [("frustration", "6", "1 to 5"), ("feedback", "<b>", "1 to 5"), ("tlx.effort", "33", "0 to 100 in steps of 5")]
         {
             let wrong = parse_answers(&mut answers, &fields(&[(field, value)]), &[1]).unwrap_err().to_string();
-            assert_eq!(wrong, format!("{field} = {value}: no such answer (allowed: {allowed})"));
+            assert_eq!(wrong, format!("{field} = {value}: invalid answer (allowed: {allowed})"));
         }
     }
 

@@ -46,7 +46,7 @@ pub fn in_language(visitor: &Visitor, at: &str, title: &str, (language, script):
                 @if let Some(script) = script { script src=(assets::address(script)) defer {} }
             }
             body.web {
-                a.skip href="#main" lang="en" { "Skip to the page" }
+                a.skip href="#main" lang="en" { "Skip to content" }
                 (bar(visitor, at))
                 main id="main" { h1 { (title) } (body) }
             }
@@ -72,7 +72,7 @@ fn bar(visitor: &Visitor, at: &str) -> Markup {
                     button type="submit" { "Log out" }
                 }
             } @else if visitor.open {
-                p.who { "open on this machine" }
+                p.who { "local access, no login" }
             }
         }
     }
@@ -136,7 +136,7 @@ pub fn refusal(visitor: &Visitor, title: &str, words: &str) -> Markup {
         visitor,
         "",
         title,
-        &html! { section { @for line in words.lines() { p { (line) } } p { a href="/" { "Back to the start" } } } },
+        &html! { section { @for line in words.lines() { p { (line) } } p { a href="/" { "Back to home" } } } },
     )
 }
 

@@ -46,11 +46,11 @@ fn message_lines(kind: &str, words: &str) -> Markup {
 
 fn upload(visitor: &Visitor) -> Markup {
     html! {
-        p { "One TOML file that names no other file. It is checked first; everything that is wrong with it is told." }
+        p { "One self-contained TOML file. It is validated before it is saved, and all errors are listed." }
         form.stacked method="post" action="/scenarios" enctype="multipart/form-data" {
             (token(visitor))
             label { "File" input type="file" name="file" accept=".toml" required; }
-            button type="submit" { "Check and keep" }
+            button type="submit" { "Validate and save" }
         }
     }
 }
@@ -67,7 +67,7 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
             dt { "Traffic" } dd { (scenario.traffic.cars) " cars, " (scenario.traffic.trucks) " trucks, " (scenario.traffic.pedestrians) " pedestrians" }
             dt { "Wind" } dd { (words::number(scenario.wind.speed_m_s, 1)) " m/s from " (words::number(scenario.wind.from_deg, 0)) "°" }
             dt { "Speed limit" } dd { (words::number(s.speed_limit_m_s, 2)) " m/s" }
-            dt { "Time" } dd { "full marks up to " (words::duration(s.time_best_s)) ", at most " (words::duration(s.time_max_s)) }
+            dt { "Time" } dd { "full score up to " (words::duration(s.time_best_s)) ", at most " (words::duration(s.time_max_s)) }
         }
     };
     let rows = html! {
@@ -79,13 +79,13 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
         p.lead { (scenario.title) }
         (section("facts", "In short", &facts))
         @if !scenario.tasks.is_empty() {
-            (section("tasks", "Tasks", &table("Tasks and how far their paths reach", &[("Task", false), ("On the path within, m", true)], &rows)))
+            (section("tasks", "Tasks", &table("Tasks and path tolerances", &[("Task", false), ("Path tolerance, m", true)], &rows)))
         }
         (section("site", "From above", &html! { figure.wide { div.scroll tabindex="0" role="region" aria-label="Drawing" { (job_plan(scenario, site)) } } }))
-        @if visitor.satisfies(AccessLevel::Instructor) { (section("file", "The file", &html! {
-            details { summary { "Show" } div.scroll tabindex="0" role="region" aria-label="Text of the file" { pre { code { (text) } } } }
+        @if visitor.satisfies(AccessLevel::Instructor) { (section("file", "File", &html! {
+            details { summary { "Show" } div.scroll tabindex="0" role="region" aria-label="File contents" { pre { code { (text) } } } }
             @if named.uploaded {
-                form method="post" action={ "/scenarios/" (named.name) "/remove" } { (token(visitor)) button.danger type="submit" { "Take this upload away" } }
+                form method="post" action={ "/scenarios/" (named.name) "/remove" } { (token(visitor)) button.danger type="submit" { "Delete upload" } }
             }
         })) }
     };
@@ -114,22 +114,22 @@ pub fn recorded(visitor: &Visitor, scenarios: &[ScenarioEntry], vehicles: &[Stri
             None => {},
             Some(UploadMessage::Wrong(words)) => (message("bad", words)),
             Some(UploadMessage::There { id, trainee }) => p.message.good role="status" {
-                "This recording is here already: it is " a href={ "/sessions/" (id) } { "a session of " (trainee) } ". Nothing was changed."
+                "This recording was already imported as " a href={ "/sessions/" (id) } { "a session of " (trainee) } ". No changes were made."
             },
         }
         section.narrow {
-            p { "A tlog as ground stations and the monitor write it, with the simulator's truth in it. It is scored before it is kept." }
+            p { "A .tlog file from a ground station or the monitor that includes the simulator's truth messages. It is scored before it is saved." }
             form.stacked method="post" action="/upload" enctype="multipart/form-data" {
                 (token(visitor))
                 label { "Trainee" input name="trainee" required maxlength="32" pattern="[A-Za-z0-9][A-Za-z0-9_\\-]*" autocapitalize="none"; }
                 label { "Scenario" select name="scenario" { @for one in scenarios { option value=(one.name) { (one.name) } } } }
                 label { "Aircraft" select name="vehicle" { @for one in vehicles { option value=(one) { (one) } } } }
                 label { "Recording" input type="file" name="file" accept=".tlog" required; }
-                button type="submit" { "Take in" }
+                button type="submit" { "Import" }
             }
         }
     };
-    page(visitor, "/sessions", "Take in a recorded flight", &body)
+    page(visitor, "/sessions", "Import flight", &body)
 }
 
 #[cfg(test)]

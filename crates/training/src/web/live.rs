@@ -54,13 +54,13 @@ pub fn live(visitor: &Visitor, drawn: Option<&DrawnJob>, choice: &VehicleChoice)
                 @match drawn {
                     Some(drawn) => b { (drawn.title) },
                     None => @match choice.address() {
-                        Some(address) => span { "Waiting for a flight at " code { (address) } ". This page follows as soon as one begins." },
-                        None => span { "This server watches no vehicle; " code { "spandrel serve --vehicle HOST:PORT" } " says which." },
+                        Some(address) => span { "Waiting for a flight at " code { (address) } ". This page updates when one starts." },
+                        None => span { "No vehicle configured. Start the server with " code { "spandrel serve --vehicle HOST:PORT" } "." },
                     },
                 }
                 " " span.state role="status" data-state { "not connected" }
             }
-            noscript { p.message.warn { "This page needs scripts: it follows the flight." } }
+            noscript { p.message.warn { "This page requires JavaScript." } }
             @if let Some(drawn) = drawn {
                 section aria-label="Now" {
                     dl.readout {
@@ -68,7 +68,7 @@ pub fn live(visitor: &Visitor, drawn: Option<&DrawnJob>, choice: &VehicleChoice)
                             div { dt { (words) } dd data-now=(key) { "–" } }
                         }
                     }
-                    ul.cues aria-label="Cues that are on" data-cues {}
+                    ul.cues aria-label="Active cues" data-cues {}
                 }
                 div.watch {
                     section aria-label="Site" {
@@ -78,11 +78,11 @@ pub fn live(visitor: &Visitor, drawn: Option<&DrawnJob>, choice: &VehicleChoice)
                     }
                     div {
                         figure.camera data-camera hidden {
-                            figcaption { "What the camera shows, about once a second" }
-                            img alt="The camera's view now" data-picture="";
+                            figcaption { "Camera view, updated about once per second" }
+                            img alt="Current camera view" data-picture="";
                         }
-                        (section("act", "Act in this flight", &actions(visitor, choice.number)))
-                        (section("said", "What is said", &html! { ol.said data-said tabindex="0" aria-label="Texts of the vehicle and the monitor, the newest first" {} }))
+                        (section("act", "Instructor actions", &actions(visitor, choice.number)))
+                        (section("said", "Message log", &html! { ol.said data-said tabindex="0" aria-label="Messages from the vehicle and the monitor, newest first" {} }))
                     }
                 }
             }
@@ -96,11 +96,11 @@ pub fn live(visitor: &Visitor, drawn: Option<&DrawnJob>, choice: &VehicleChoice)
 pub fn own_flight(visitor: &Visitor) -> Markup {
     let body = html! {
         div.own-flight data-flight {
-            p.lead role="status" data-state { "You are not flying now. This page follows as soon as you do." }
-            noscript { p.message.warn { "This page needs scripts: it follows the flight." } }
+            p.lead role="status" data-state { "You are not flying. This page updates when your flight starts." }
+            noscript { p.message.warn { "This page requires JavaScript." } }
             figure.camera data-camera hidden {
-                figcaption { "What your camera shows, about once a second" }
-                img alt="Your camera's view now" data-picture="";
+                figcaption { "Your camera view, updated about once per second" }
+                img alt="Your current camera view" data-picture="";
             }
         }
     };
@@ -125,29 +125,29 @@ fn actions(visitor: &Visitor, vehicle: usize) -> Markup {
     html! {
         form.stacked method="post" action="/live/act" data-act {
             (hidden("note"))
-            label { "Note at this moment" input name="text" required maxlength=(NOTE_MOST) autocomplete="off"; }
-            button type="submit" { "Note" }
+            label { "Note for the report" input name="text" required maxlength=(NOTE_MOST) autocomplete="off"; }
+            button type="submit" { "Add note" }
         }
         form.stacked method="post" action="/live/act" data-act {
             (hidden("wind"))
             label { "Wind, m/s" input type="number" name="speed" required min="0" max=(WIND_MOST_M_S) step="0.5" value="6"; }
             label { "From, degrees" input type="number" name="from" required min="0" max="360" step="5" value="270"; }
-            button type="submit" { "Set the wind" }
+            button type="submit" { "Set wind" }
         }
         form.stacked method="post" action="/live/act" data-act {
             (hidden("traffic"))
-            p.note { "Closed, who is on a bridge goes on, and nobody enters any more." }
+            p.note { "Closing stops new traffic; vehicles on the bridge leave." }
             div.row {
-                button type="submit" name="open" value="no" { "Close the bridges" }
-                button type="submit" name="open" value="yes" { "Open them" }
+                button type="submit" name="open" value="no" { "Close bridges" }
+                button type="submit" name="open" value="yes" { "Open bridges" }
             }
         }
         form.stacked method="post" action="/live/act" data-act {
             (hidden("failure"))
             label { "What" select name="unit" { @for (key, words, _) in UNITS { option value=(key) { (words) } } } }
             div.row {
-                button type="submit" name="fails" value="yes" { "Let it fail" }
-                button type="submit" name="fails" value="no" { "Make it whole" }
+                button type="submit" name="fails" value="yes" { "Inject failure" }
+                button type="submit" name="fails" value="no" { "Clear failure" }
             }
         }
     }
@@ -181,6 +181,6 @@ mod tests {
         assert_eq!(text.matches("name=\"vehicle\" value=\"2\"").count(), 4);
         assert!(text.contains("href=\"/live?vehicle=2\" aria-current=\"page\""), "{text}");
         let text = live(&administrator(), None, &VehicleChoice::default()).into_string();
-        assert!(!text.contains("data-live") && text.contains("watches no vehicle"), "nothing to listen to: {text}");
+        assert!(!text.contains("data-live") && text.contains("No vehicle configured"), "nothing to listen to: {text}");
     }
 }

@@ -50,10 +50,10 @@ pub fn account(visitor: &Visitor, told: Option<(&str, &str)>) -> Markup {
         "Account",
         &html! {
             p.lead { (name) ", " (visitor.role.word()) }
-            (section("password", "Change the password", &change))
+            (section("password", "Change password", &change))
             (section("data", "My data", &html! {
                 p { a href={ "/trainees/" (name) } { "My progress and plan" } }
-                p { a href={ "/trainees/" (name) "/export.json" } { "Download everything that is kept of me" } }
+                p { a href={ "/trainees/" (name) "/export.json" } { "Download all my data" } }
             }))
         },
     )
@@ -74,7 +74,7 @@ pub fn check(password: &str, name: &str) -> Result<(), String> {
     if estimate.score() < LEAST_STRENGTH {
         let why = estimate.feedback().and_then(|feedback| feedback.warning()).map(|warning| format!(" ({warning})"));
         let why = why.unwrap_or_default();
-        return Err(format!("the password is too easy to guess{why} Use several unrelated words."));
+        return Err(format!("the password is too easy to guess{why}; use several unrelated words"));
     }
     Ok(())
 }

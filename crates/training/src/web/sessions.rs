@@ -41,15 +41,15 @@ pub fn list(visitor: &Visitor, listing: &SessionList<'_>) -> Markup {
                         button type="submit" { "Show" }
                         @if listing.trainee.is_some() { a href="/sessions" { "Show all" } }
                     }
-                    a href="/upload" { "Take in a recorded flight" }
+                    a href="/upload" { "Import flight" }
                 } @else if let Some(name) = &visitor.name {
                     a href={ "/trainees/" (name) } { "My progress and plan" }
                 }
             }
             @if listing.lines.is_empty() {
-                p.calm { "There is no session yet. A flight appears here when it has ended." }
+                p.calm { "No sessions yet. Flights appear here after they end." }
             } @else {
-                (lines(visitor, &format!("{} sessions, the newest first", listing.count), listing.lines))
+                (lines(visitor, &format!("{} sessions, newest first", listing.count), listing.lines))
                 (pages(&address, listing.page, listing.last))
             }
         }
@@ -131,8 +131,8 @@ fn actions(record: &SessionRecord, beside: &SessionPageData<'_>) -> Markup {
                 li { a.button href={ "/sessions/" (record.id) "/report" } { "Open the report" } }
                 li { a.button href={ "/sessions/" (record.id) "/questions" } {
                     @if answered == 0 { "Answer the questionnaire" }
-                    @else if answered < all { "Go on with the questionnaire (" (answered) " of " (all) ")" }
-                    @else { "The questionnaire (all " (all) " answered)" }
+                    @else if answered < all { "Continue the questionnaire (" (answered) " of " (all) ")" }
+                    @else { "View the questionnaire (all " (all) " answered)" }
                 } }
                 li { a href={ "/sessions/" (record.id) "/frames.csv" } { "Frames (CSV)" } }
                 li { a href={ "/sessions/" (record.id) "/telemetry.tlog" } { "Telemetry (tlog)" } }
@@ -161,7 +161,7 @@ fn scores(record: &SessionRecord) -> Markup {
     html! {
         p { b { (record.completion_summary()) ". " (record.verdict()) "." } @if !record.is_complete() { " The scores below are for the part that was flown." } }
         div.split {
-            figure { figcaption { "The four scores, 0 in the middle, 100 at the rim" } (radar(&spokes, "Kiviat diagram of the four scores")) }
+            figure { figcaption { "The four scores, 0 at the center, 100 at the rim" } (radar(&spokes, "Radar chart of the four scores")) }
             div.cards {
                 @if record.is_complete() {
                     div.card { h3 { "Overall" } p.figure { (words::number(record.scores.overall, 0)) span.of { " of " (words::number(record.scores.overall_max, 0)) } } }
@@ -183,9 +183,9 @@ fn tasks(record: &SessionRecord) -> Markup {
     let rows: Vec<ShareRow> = record.tasks.iter().map(row).collect();
     html! {
         div.split {
-            figure { figcaption { "Share of each task's time on the path" } (shares(&rows, "On the path by task")) }
+            figure { figcaption { "On-path share of each task" } (shares(&rows, "On-path share by task")) }
             (table(
-                "Each task in numbers",
+                "Task results",
                 &[("Task", false), ("Path flown", false), ("On path, %", true), ("Too fast, s", true), ("Crashes", true), ("Defects found", true)],
                 &html! {
                     @for task in &record.tasks {
@@ -220,7 +220,7 @@ fn defects(record: &SessionRecord) -> Markup {
             record.hits,
             record.snapshots
         ),
-        &[("Defect", false), ("Task", true), ("Found", false), ("What the best picture lacked", false)],
+        &[("Defect", false), ("Task", true), ("Found", false), ("Best picture failed because", false)],
         &html! {
             @for defect in &record.defects {
                 tr {
@@ -237,7 +237,7 @@ fn defects(record: &SessionRecord) -> Markup {
 fn compare(record: &SessionRecord, others: &[SessionListEntry]) -> Markup {
     html! {
         @if others.is_empty() {
-            p.calm { "There is no other session of this trainee yet." }
+            p.calm { "No other sessions of this trainee yet." }
         } @else {
             form.inline method="get" action="/compare" {
                 input type="hidden" name="first" value=(record.id);

@@ -32,7 +32,7 @@ pub fn trainee_list(visitor: &Visitor, people: &[Trainee]) -> Markup {
     let heads = [("Pseudonym", false), ("Role", false), ("Age", false), ("Drones", false), ("Games", false)];
     let body = html! {
         section {
-            @if people.is_empty() { p.calm { "Nobody yet. Whoever flies appears here." } }
+            @if people.is_empty() { p.calm { "No trainees yet. Trainees appear here after their first flight." } }
             @else { (table(&format!("{} people", people.len()), &heads, &rows)) }
         }
     };
@@ -63,11 +63,11 @@ pub fn trainee_page(visitor: &Visitor, about: &TraineeProfile<'_>) -> Markup {
         @if !about.records.is_empty() { (section("progress", "Progress", &progress(name, about.records, about.incomplete))) }
         (section("sessions", "Sessions", &html! {
             @if about.listed.is_empty() { p.calm { "No session yet." } }
-            @else { (lines(visitor, &format!("{} sessions, the newest first", about.listed.len()), about.listed)) }
+            @else { (lines(visitor, &format!("{} sessions, newest first", about.listed.len()), about.listed)) }
         }))
         (section("details", "Details", &details(visitor, about.person)))
         (section("data", "Data", &html! {
-            p { a href={ "/trainees/" (name) "/export.json" } { "Download everything that is kept of " (name) } }
+            p { a href={ "/trainees/" (name) "/export.json" } { "Download all data of " (name) } }
             @if visitor.satisfies(AccessLevel::Administrator) { (erase(visitor, name)) }
         }))
     };
@@ -77,7 +77,7 @@ pub fn trainee_page(visitor: &Visitor, about: &TraineeProfile<'_>) -> Markup {
 fn next(plan: &TrainingPlan) -> Markup {
     let told = |change: &&MeasureChange| change.better.is_some();
     html! {
-        p { "Between " (minute(plan.from_unix_us)) " and " (minute(plan.until_unix_us)) "." @if plan.overdue { " " b { "The last flight is longer ago than skill lasts." } } }
+        p { "Between " (minute(plan.from_unix_us)) " and " (minute(plan.until_unix_us)) "." @if plan.overdue { " " b { "The last flight was too long ago to retain the skill." } } }
         ol.steps {
             @for step in &plan.steps {
                 li { b { a href={ "/scenarios/" (step.scenario) } { (step.scenario) } } ul { @for reason in &step.reasons { li { (reason.words) } } } }
@@ -86,7 +86,7 @@ fn next(plan: &TrainingPlan) -> Markup {
         @if let Some(words) = omitted_summary(plan.left_out) { p.note { (words) "." } }
         @if let Some(changes) = &plan.changes {
             h3 { "What changed" }
-            p.note { "Since " a href={ "/sessions/" (changes.since) } { "the session before on the same job" } "." }
+            p.note { "Since " a href={ "/sessions/" (changes.since) } { "the previous session on the same job" } "." }
             ul {
                 @for change in changes.changes.iter().filter(told) {
                     li { (change.what) ": " (words::number(change.before, 1)) " → " (words::number(change.now, 1)) ", " (if change.better == Some(true) { "better" } else { "worse" }) }
@@ -120,19 +120,19 @@ fn details(visitor: &Visitor, person: &Trainee) -> Markup {
             input type="hidden" name={ (BEFORE) (name) } value=(given.unwrap_or_default());
             label { (label)
                 select name=(name) {
-                    option value="" selected[given.is_none()] { "not said" }
+                    option value="" selected[given.is_none()] { "not specified" }
                     @for one in all { option value=(one) selected[given == Some(one)] { (one) } }
                 }
             }
         }
     };
     html! {
-        p { "Role: " (person.role.word()) ". What one tells of oneself is free, and kept for the study alone." }
+        p { "Role: " (person.role.word()) ". The information below is voluntary and used only for the study." }
         form.stacked method="post" action={ "/trainees/" (person.pseudonym) "/details" } {
             (token(visitor))
             (choice("age_band", "Age, years", person.age_band.as_deref(), AGE_BANDS))
             (choice("drone_experience", "Experience with drones", person.drone_experience.as_deref(), EXPERIENCE))
-            (choice("gaming_experience", "Experience with games", person.gaming_experience.as_deref(), EXPERIENCE))
+            (choice("gaming_experience", "Experience with video games", person.gaming_experience.as_deref(), EXPERIENCE))
             button type="submit" { "Save" }
         }
     }
@@ -145,8 +145,8 @@ fn erase(visitor: &Visitor, name: &str) -> Markup {
             form.stacked method="post" action={ "/trainees/" (name) "/erase" } {
                 (token(visitor))
                 p { "Erases " (name) " with all sessions, answers and session folders. This cannot be undone." }
-                label { "Write the pseudonym to go on" input name="again" required maxlength="32" autocomplete="off" autocapitalize="none"; }
-                button.danger type="submit" { "Erase for ever" }
+                label { "Enter the pseudonym to confirm" input name="again" required maxlength="32" autocomplete="off" autocapitalize="none"; }
+                button.danger type="submit" { "Erase permanently" }
             }
         }
     }
@@ -175,7 +175,7 @@ mod tests {
         };
         let text = trainee_page(&administrator(), &about).into_string();
         check(&text);
-        assert!(text.contains("Erase for ever") && text.contains("class=\"lines\"") && text.contains("What to fly next"));
+        assert!(text.contains("Erase permanently") && text.contains("class=\"lines\"") && text.contains("What to fly next"));
         assert_eq!(
             (text.matches("class=\"job\"").count(), text.matches("class=\"lines\"").count()),
             (2, 4),
@@ -194,7 +194,7 @@ mod tests {
         );
         assert!(with.contains(", 2 sessions<") && !with.contains("left out.") && with.contains("Leave out"), "{with}");
         let instructor = Visitor { role: Role::Instructor, ..administrator() };
-        assert!(!trainee_page(&instructor, &about).into_string().contains("Erase for ever"));
+        assert!(!trainee_page(&instructor, &about).into_string().contains("Erase permanently"));
         check(&trainee_list(&administrator(), &[person]).into_string());
     }
 }

@@ -27,9 +27,9 @@ pub fn section(review: &Review) -> Markup {
                 }
             }
             @if answered(review).next().is_some() {
-                (figure("From the cue to the first movement of a stick; a dot is one cue, the bar their median", &scrolling("Reaction times", &reactions(review))))
+                (figure("Time from the cue to the first stick movement; each dot is one cue, the bar is the median", &scrolling("Reaction times", &reactions(review))))
             }
-            p.note { "A stick answers when it moves by a tenth of its travel within five seconds. A hand that was moving already may answer by chance." }
+            p.note { "A reaction is a stick movement of at least a tenth of full travel within five seconds. A stick that was already moving may count by chance." }
         }
         @if !review.feedback.notes.is_empty() { (notes(review).shown()) }
         (episodes(review).folded())
@@ -105,7 +105,7 @@ fn episodes(review: &Review) -> Table {
     };
     Table {
         name: "feedback",
-        caption: "feedback as it was shown",
+        caption: "feedback shown",
         columns: vec!["time", "feedback", "on for, s", "stick moved after, s", "task"],
         rows: review.feedback.episodes.iter().map(row).collect(),
     }
@@ -115,7 +115,7 @@ fn texts(review: &Review) -> Table {
     let row = |(t_s, text): &(f64, String)| vec![TableCell::Clock(*t_s), text.clone().into()];
     Table {
         name: "texts",
-        caption: "texts as they were sent",
+        caption: "texts sent",
         columns: vec!["time", "text"],
         rows: review.feedback.texts.iter().map(row).collect(),
     }
@@ -129,7 +129,7 @@ fn notes(review: &Review) -> Table {
     };
     Table {
         name: "notes",
-        caption: "what the instructor noted",
+        caption: "instructor's notes",
         columns: vec!["time", "note"],
         rows: review.feedback.notes.iter().map(row).collect(),
     }

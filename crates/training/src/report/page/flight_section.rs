@@ -23,22 +23,22 @@ pub fn section(review: &Review) -> Markup {
         (controls(review))
         (marks_legend())
         (drawings(review))
-        (figure("The session in time", &html! {
+        (figure("Session timeline", &html! {
             (legend(&strip_legend()))
-            (scrolling("Time line", &strips(&rows(review), end_s(review), "Who flew, tasks, feedback, pictures and gaps over time")))
+            (scrolling("Time line", &strips(&rows(review), end_s(review), "Control source, tasks, feedback, pictures and gaps over time")))
         }))
         div.charts {
             @for (id, title, columns) in CHARTS {
                 figure {
                     figcaption { (title) @if id == "sticks" { (stick_legend()) } }
-                    div.chart id={ "chart-" (id) } data-columns=(columns) role="img" aria-label={ (title) " over time; the table below holds the numbers" } {}
+                    div.chart id={ "chart-" (id) } data-columns=(columns) role="img" aria-label={ (title) " over time; see the table below for the values" } {}
                 }
             }
         }
-        p.note { "Drag over a curve to look closer, double-click to see all again, click to move the slider." }
+        p.note { "Drag over a chart to zoom in, double-click to reset, click to move the slider." }
         (series_table(review).folded())
-        p.download { button type="button" id="series-csv" hidden { "Download the series as CSV" } " "
-            span.note { "Every frame in full: " code { "spandrel export SESSION --frames frames.csv" } } }
+        p.download { button type="button" id="series-csv" hidden { "Download the time series as CSV" } " "
+            span.note { "To export every frame: " code { "spandrel export SESSION --frames frames.csv" } } }
     }
 }
 
@@ -67,7 +67,7 @@ fn controls(review: &Review) -> Markup {
                 }
             }
             fieldset.switch {
-                legend { "Colour the flight by" }
+                legend { "Color the flight by" }
                 @for (k, (name, class)) in colors::COLOURINGS.iter().enumerate() {
                     label { input type="radio" name="colouring" value=(class) id=(class) checked[k == 0]; (name) }
                 }
@@ -106,10 +106,10 @@ fn drawings(review: &Review) -> Markup {
             (figure(&title, &scroll(&title, &map::elevation(review, bridge))))
         }
         figure.model id="model" {
-            figcaption { "In three dimensions " button type="button" id="model-open" hidden { "Turn it" } }
-            div.scroll.wide id="model-still" tabindex="0" role="region" aria-label="View in three dimensions" { (map::oblique(review)) }
+            figcaption { "3D view " button type="button" id="model-open" hidden { "Turn it" } }
+            div.scroll.wide id="model-still" tabindex="0" role="region" aria-label="3D view of the flight" { (map::oblique(review)) }
             div id="model-live" hidden {}
-            p.note id="model-note" hidden { "Drag or use the arrow keys to turn, + and − or the wheel to come closer." }
+            p.note id="model-note" hidden { "Drag or use the arrow keys to rotate, + and − or the wheel to zoom." }
         }
     }
 }
@@ -117,7 +117,7 @@ fn drawings(review: &Review) -> Markup {
 fn strip_legend() -> Vec<(&'static str, String)> {
     vec![
         ("h-pilot", "flown by the pilot".into()),
-        ("h-other", "by mission, script or autopilot".into()),
+        ("h-other", "flown by mission, script or autopilot".into()),
         ("w-task", "task window".into()),
         ("cue", "cue on".into()),
         ("gap", "telemetry missing".into()),
@@ -190,13 +190,13 @@ fn gaps(review: &Review) -> TimeStrip {
             None if gap => open = Some(i),
             Some(from) if !gap => {
                 let seconds = words::number(review.t_s(i) - review.t_s(from), 1);
-                stretches.push(("gap".into(), review.t_s(from), review.t_s(i), format!("{seconds} s not heard")));
+                stretches.push(("gap".into(), review.t_s(from), review.t_s(i), format!("no telemetry for {seconds} s")));
                 open = None;
             }
             None | Some(_) => {}
         }
     }
-    stretches.extend(open.map(|from| ("gap".into(), review.t_s(from), end_s(review), "not heard to the end".into())));
+    stretches.extend(open.map(|from| ("gap".into(), review.t_s(from), end_s(review), "no telemetry until the end".into())));
     TimeStrip { name: "gaps".into(), stretches, marks: Vec::new() }
 }
 
@@ -230,7 +230,7 @@ fn series_table(review: &Review) -> Table {
     };
     Table {
         name: "flight",
-        caption: "the flight, a row every few seconds",
+        caption: "the flight, sampled every few seconds",
         columns: vec![
             "time",
             "task",

@@ -24,7 +24,7 @@ pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
         @if review.pictures.is_empty() { p.calm { "No picture was taken." } } @else {
             p { (tally(review)) }
             @if review.about.pictures.is_empty() {
-                p.note { "The session holds no photographs: what the camera had before it is drawn from the bridges' geometry. The dashed frame is the part of the image that counts." }
+                p.note { "The session contains no photographs, so the camera's view is drawn from the bridges' geometry. Only defects inside the dashed frame count." }
             }
             ul.gallery { @for picture in &review.pictures { (card(review, picture, sketcher)) } }
         }
@@ -64,9 +64,9 @@ fn capitalized(words: &str) -> String {
 fn target(picture: &ReviewedPicture) -> String {
     let lamp = if picture.pose.lamp_on { "lamp on" } else { "lamp off" };
     match &picture.target {
-        None => format!("Sky in the middle, {lamp}"),
+        None => format!("Sky in the center, {lamp}"),
         Some(t) => format!(
-            "{} in the middle, {} m away, {}° off square, {} mm per pixel, {} lx ({lamp}), smear {} px",
+            "{} in the center, {} m away, {}° from normal, {} mm per pixel, {} lx ({lamp}), motion blur {} px",
             t.name,
             words::number(t.distance_m, 1),
             words::number(t.incidence_rad.to_degrees(), 0),
@@ -188,12 +188,12 @@ fn table(review: &Review) -> Table {
             "task",
             "verdict",
             "reason",
-            "in the middle",
+            "in the center",
             "distance, m",
-            "off square, deg",
+            "angle from normal, deg",
             "pixel, mm",
             "light, lx",
-            "light needed, lx",
+            "required light, lx",
             "smear, px",
             "lamp",
         ],

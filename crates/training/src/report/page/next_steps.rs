@@ -8,7 +8,7 @@ use maud::{Markup, html};
 /// Renders the section.
 pub fn section(review: &Review) -> Markup {
     html! {
-        p.note { "From this session alone; " code { "spandrel plan" } " looks at all of a trainee's sessions." }
+        p.note { "Based on this session alone; " code { "spandrel plan" } " considers all sessions of a trainee." }
         ol.steps {
             @for step in &review.next {
                 li {

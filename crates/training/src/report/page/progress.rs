@@ -55,9 +55,9 @@ pub fn pictures(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Markup {
     let seen: Vec<(&str, String)> = seen.collect();
     html! {
         div.three {
-            (figure("The four scores, repetition by repetition", &html! { (key(&scores)) (lines(&scores, 100.0, "Scores by repetition")) }))
+            (figure("The four scores by repetition", &html! { (key(&scores)) (lines(&scores, 100.0, "Scores by repetition")) }))
             @if !tasks.is_empty() {
-                (figure("Share of each task's time on the path, %", &html! { (key(&shares)) (lines(&shares, 100.0, "On the path by task and repetition")) }))
+                (figure("On-path share of each task, %", &html! { (key(&shares)) (lines(&shares, 100.0, "On-path share by task and repetition")) }))
             }
             (figure("Crashes by what was hit", &html! {
                 @if seen.is_empty() { p.calm { "None." } } @else { (legend(&seen)) (counts(&rows, "Crashes by kind and repetition")) }
@@ -105,7 +105,7 @@ fn learning(progress: &TraineeProgress) -> Markup {
                 (figure(&curve.score, &practice(&drawn, &format!("Learning curve of {}", curve.score))))
             }
         }
-        p.note { "A power law of practice fitted to the repetitions; the ring is what it expects of the next. It does not know that a score ends at its largest value." }
+        p.note { "A power law of practice fitted to the repetitions; the ring is the prediction for the next one. It may exceed the maximum of the score." }
         (curve_numbers(&progress.curves).folded())
     }
 }

@@ -86,13 +86,13 @@ pub fn classes(layer: usize) -> &'static [&'static str] {
 pub fn legend(layer: usize, limit_m_s: f64) -> Vec<String> {
     let speed = |share: f64| words::number(share * limit_m_s, 1);
     match layer {
-        0 => vec!["between tasks".into(), "on the path".into(), "off the path during a task".into()],
+        0 => vec!["between tasks".into(), "on the path".into(), "off path during a task".into()],
         1 => vec![
             format!("up to {} m/s", speed(0.25)),
             format!("to {}", speed(0.5)),
             format!("to {}", speed(0.75)),
             format!("to {}", speed(1.0)),
-            format!("over the limit of {} m/s", words::number(limit_m_s, 2)),
+            format!("above the limit of {} m/s", words::number(limit_m_s, 2)),
         ],
         _ => {
             let [a, b, c] = CLEARANCES_M.map(|limit| words::number(limit, 1));

@@ -98,7 +98,7 @@ pub fn oblique(review: &Review) -> Markup {
     let all = |_: &Frame| true;
     sheet(
         map.size,
-        "Flight from above and aside, looking north",
+        "Oblique view of the flight, looking north",
         "map",
         &html! {
             (structure(&review.site, &map, None))

@@ -51,7 +51,7 @@ pub fn model(effects: &PathEffects, title: &str) -> Markup {
             (labeled_arrow((DEMAND, ROW), "Demand", "mental, physical"))
             (labeled_arrow((STRAIN, ROW), "State", "pressure, frustration"))
             (labeled_arrow((PERFORMANCE, ROW), "Performance", "overall score, %"))
-            (labeled_arrow(FEEDBACK, "Feedback", "how much it helped"))
+            (labeled_arrow(FEEDBACK, "Feedback", "helpfulness"))
             (arrow(&[(from, middle), (to, middle)], &effects.on_strain))
             (effect_text((crossing, middle + 24.0), &effects.on_strain))
             (arrow(&[(STRAIN + BOX.0, middle), (PERFORMANCE, middle)], &effects.on_performance))

@@ -7,7 +7,7 @@ const image = camera.querySelector("img");
 const EVERY_MS = 1000;
 
 function show({ flying, picture }) {
-  if (!flying) state.textContent = "You are not flying now. This page follows as soon as you do.";
+  if (!flying) state.textContent = "You are not flying. This page updates when your flight starts.";
   else if (picture === null) state.textContent = "You are flying; there is no picture of the camera (the window keeps it).";
   else state.textContent = "You are flying.";
   camera.hidden = picture === null;

@@ -30,9 +30,9 @@ pub fn answers(cohort: &Cohort) -> Markup {
     let first = of(None);
     html! {
         (legend(&key))
-        (figure(&format!("All first sessions, {} answers at most", cohort.trainees), &chart(&first, "Answers of all first sessions")))
+        (figure(&format!("All first sessions, up to {} answers", cohort.trainees), &chart(&first, "Answers of all first sessions")))
         @for (k, questions) in &later {
-            details.numbers { summary { "Those who repeated, repetition " (k) } (chart(questions, &format!("Answers in repetition {k}"))) }
+            details.numbers { summary { "Trainees with repeated sessions, repetition " (k) } (chart(questions, &format!("Answers in repetition {k}"))) }
         }
     }
 }
@@ -78,7 +78,7 @@ fn rated(cohort: &Cohort) -> Table {
     });
     Table {
         name: "self_rating",
-        caption: "self-rating and measured share",
+        caption: "self-rating and measured score",
         columns: vec!["trainee", "self-rating, 1 to 5", "measured, %"],
         rows: rows.collect(),
     }

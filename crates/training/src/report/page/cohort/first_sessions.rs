@@ -25,7 +25,7 @@ pub fn distributions(cohort: &Cohort) -> Markup {
     html! {
         div.trio {
             @for one in &cohort.distributions {
-                (figure(&one.score, &histogram(&one.histogram, one.summary.mean, &format!("Histogram of {}, the line is the mean", one.score))))
+                (figure(&one.score, &histogram(&one.histogram, one.summary.mean, &format!("Histogram of {}; the line is the mean", one.score))))
             }
         }
         (table.shown())
@@ -76,11 +76,11 @@ fn one_by_one(cohort: &Cohort) -> Markup {
         ]
     });
     let columns = vec!["trainee", "conformity", "efficiency", "safety", "accuracy", "overall", "flight time"];
-    let table = Table { name: "individuals", caption: "first session of each person", columns, rows: table.collect() };
+    let table = Table { name: "individuals", caption: "first session of each trainee", columns, rows: table.collect() };
     html! {
         (table.shown())
-        details.numbers { summary { "Share of each task's time on the path, person by person" }
-            (figure("Share of the time on the path", &html! { (legend(&key)) (shares(&rows, "On the path by person and task")) }))
+        details.numbers { summary { "On-path share of each task, by trainee" }
+            (figure("Share of the time on the path", &html! { (legend(&key)) (shares(&rows, "On-path share by trainee and task")) }))
         }
     }
 }
@@ -101,7 +101,7 @@ pub fn crashes(cohort: &Cohort) -> Markup {
             (figure("By task", &counts(&by_task, "Crashes by task")))
         }
         @if people_shown(cohort) {
-            details.numbers { summary { "Person by person" } (figure("Crashes by person", &counts(&by_person(cohort), "Crashes by person"))) }
+            details.numbers { summary { "By trainee" } (figure("Crashes by trainee", &counts(&by_person(cohort), "Crashes by trainee"))) }
         } @else { (pooled::crashes(cohort)) }
     }
 }

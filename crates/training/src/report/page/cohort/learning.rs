@@ -22,7 +22,7 @@ pub fn curves(cohort: &Cohort) -> Markup {
     ];
     html! {
         @if cohort.learning.is_empty() {
-            p.calm { (too_few()) " Nobody has flown it so often." }
+            p.calm { (too_few()) " No trainee has flown it that often." }
         } @else {
             (legend(&key))
             div.trio {
@@ -32,7 +32,7 @@ pub fn curves(cohort: &Cohort) -> Markup {
                     (figure(&format!("{}, {}", one.score, people(one.people)), &practice(&drawn, &format!("Learning curve of {}", one.score))))
                 }
             }
-            p.note { "Power laws of practice; the ring is what the curve expects of the next repetition. The curve through the means is no single person's: it bends less." }
+            p.note { "Power laws of practice; the ring is the prediction for the next repetition. The curve through the means bends less than the curves of individual trainees." }
             (numbers(&cohort.learning).shown())
         }
     }
@@ -80,7 +80,7 @@ pub fn one_by_one(cohort: &Cohort) -> Markup {
     let repeated: Vec<&TraineeProgress> = repeated(cohort).collect();
     html! {
         @if repeated.len() > ONE_BY_ONE {
-            p.calm { (repeated.len()) " people flew more than once; more than " (ONE_BY_ONE) " are not shown one by one. The file progress.csv holds them all." }
+            p.calm { (repeated.len()) " trainees flew more than once; more than " (ONE_BY_ONE) " are not shown individually. See progress.csv for all of them." }
         } @else {
             @for one in repeated {
                 details.numbers { summary { (one.trainee) ", " (one.repetitions.len()) " times" } (pictures(one, &tasks(cohort, one))) }

@@ -65,23 +65,23 @@ pub fn summary_lines(cohort: &Cohort) -> Markup {
 pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>) -> Vec<(&'static str, &'static str, Markup)> {
     let mut sections = Vec::new();
     if !cohort.warnings.is_empty() {
-        sections.push(("mind", "To keep in mind", html! { ul { @for words in &cohort.warnings { li { (words) } } } }));
+        sections.push(("mind", "Cautions", html! { ul { @for words in &cohort.warnings { li { (words) } } } }));
     }
     sections.push(("distributions", "Scores of the first sessions", first_sessions::distributions(cohort)));
-    sections.push(("people", "People and tasks", first_sessions::people(cohort)));
+    sections.push(("people", "Trainees and tasks", first_sessions::people(cohort)));
     sections.push(("crashes", "Crashes", first_sessions::crashes(cohort)));
     if !cohort.boxes.is_empty() && cohort.repetitions > 1 {
         sections.push(("repetitions", "Repetitions", repetitions::repetitions(cohort)));
     }
     if learning::repeated(cohort).next().is_some() {
         sections.push(("learning", "Learning curves", learning::curves(cohort)));
-        sections.push(("one-by-one", "Who repeated, one by one", learning::one_by_one(cohort)));
+        sections.push(("one-by-one", "Individual progress", learning::one_by_one(cohort)));
     }
     if !cohort.likert.is_empty() {
         sections.push(("answers", "Answers", answers::answers(cohort)));
     }
     if !cohort.self_rating.people.is_empty() {
-        sections.push(("self-rating", "Self-rating and measurement", answers::self_rating(cohort)));
+        sections.push(("self-rating", "Self-rating and measured score", answers::self_rating(cohort)));
     }
     if !cohort.likert.is_empty() {
         sections.push(("causal", "Demand, state, performance", causal::causal(cohort)));
@@ -111,7 +111,7 @@ fn files(cohort: &Cohort, at: TableLinks<'_>) -> Markup {
             html! {
                 ul.actions { @for (name, csv) in tables(cohort).into_iter().filter(|(name, _)| inside(name)) { li { (download(name, &csv, name)) } } }
                 @if !people_shown(cohort) {
-                    p.note { "Files with a line for each of " (cohort.trainees) " people would make this page too large: " code { "spandrel cohort --csv FOLDER" } " writes " (BY_PERSON.join(", ")) "." }
+                    p.note { "Files with one line for each of " (cohort.trainees) " trainees would make this page too large: " code { "spandrel cohort --csv FOLDER" } " writes " (BY_PERSON.join(", ")) "." }
                 }
             }
         }
@@ -170,7 +170,7 @@ mod tests {
             &group(),
             &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::LeaveOut },
         ));
-        assert!(page.contains("No estimate can be made") && !page.contains("class=\"model-drawing\""));
+        assert!(page.contains("No estimate available") && !page.contains("class=\"model-drawing\""));
         let mut records: Vec<SessionRecord> = (0..20).map(|person| faultless(&format!("t{person}"), 1)).collect();
         let mut chance = spandrel_model::random::RandomStream::new(3, "made-up answers");
         for record in &mut records {
@@ -210,13 +210,13 @@ mod tests {
             of(&records, &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::LeaveOut })
         };
         let few = super::cohort(&people(PEOPLE_SHOWN));
-        assert!(few.contains("Person by person") && few.contains("individuals.csv\" href") && few.contains(">p59<"));
+        assert!(few.contains("By trainee") && few.contains("individuals.csv\" href") && few.contains(">p59<"));
         let (some, many) = (super::cohort(&people(PEOPLE_SHOWN + 1)), super::cohort(&people(20 * PEOPLE_SHOWN)));
         assert!(
-            !some.contains("Person by person") && !some.contains(">p59<") && some.contains("61 people are not listed one by one")
+            !some.contains("By trainee") && !some.contains(">p59<") && some.contains("61 trainees are not listed individually")
         );
         assert!(!some.contains("individuals.csv\" href") && some.contains("t_tests.csv\" href"));
-        assert!(some.contains("Histogram of crashes by person") && some.contains("On the path by task"));
+        assert!(some.contains("Histogram of crashes per trainee") && some.contains("On-path share by task"));
         assert!(many.len() < some.len() + 2_000, "{} and {} bytes", some.len(), many.len());
         // When served, every file has an address.
         let cohort = people(PEOPLE_SHOWN + 1);

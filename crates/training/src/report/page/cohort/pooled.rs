@@ -12,7 +12,7 @@ use maud::{Markup, html};
 const BARS: usize = 20;
 
 fn too_many(cohort: &Cohort, file: &str) -> Markup {
-    html! { p.note { (cohort.trainees) " people are not listed one by one: the figures show how they are distributed, the file " (file) " holds each of them." } }
+    html! { p.note { (cohort.trainees) " trainees are not listed individually: the figures show distributions, and the file " (file) " contains the individual data." } }
 }
 
 /// A box plot with its label.
@@ -43,8 +43,8 @@ pub fn tasks(cohort: &Cohort) -> Markup {
     html! {
         (too_many(cohort, "individuals.csv"))
         @if !all.is_empty() {
-            (figure("Share of each task's time on the path, %", &drawn(&all, 100.0, "On the path by task")))
-            (table("on_path_by_task", "on the path by task, %, of those who attempted it", "task", &all).shown())
+            (figure("On-path share of each task, %", &drawn(&all, 100.0, "On-path share by task")))
+            (table("on_path_by_task", "on-path share by task, %, for trainees who attempted it", "task", &all).shown())
         }
     }
 }
@@ -56,10 +56,14 @@ pub fn crashes(cohort: &Cohort) -> Markup {
     let mean = counts.iter().sum::<usize>() as f64 / counts.len().max(1) as f64;
     let row = |bin: &HistogramBin| vec![TableCell::Number(bin.from, 0), TableCell::Number(bin.to - 1.0, 0), bin.count.into()];
     let columns = vec!["crashes, from", "to", "people"];
-    let table =
-        Table { name: "crashes_by_person", caption: "people by their crashes", columns, rows: bins.iter().map(row).collect() };
+    let table = Table {
+        name: "crashes_by_person",
+        caption: "trainees by number of crashes",
+        columns,
+        rows: bins.iter().map(row).collect(),
+    };
     html! {
-        (figure("People by how often they crashed; the line is the mean", &histogram(&bins, mean, "Histogram of crashes by person")))
+        (figure("Trainees by number of crashes; the line is the mean", &histogram(&bins, mean, "Histogram of crashes per trainee")))
         (table.folded())
     }
 }
@@ -86,10 +90,10 @@ pub fn self_rating(cohort: &Cohort) -> Markup {
     html! {
         (too_many(cohort, "self_rating.csv"))
         @if !all.is_empty() {
-            (figure("Overall score, % of what could be had, by self-rating (5 is best)", &drawn(&all, 100.0, "Measured share by self-rating")))
-            (table("measured_by_self_rating", "measured share by self-rating, %", "self-rating", &all).shown())
+            (figure("Overall score, % of the maximum, by self-rating (5 is best)", &drawn(&all, 100.0, "Measured score by self-rating")))
+            (table("measured_by_self_rating", "measured score by self-rating, %", "self-rating", &all).shown())
         }
-        p { (cohort.self_rating.contradictions.len()) " contradictions of the two are in the file contradictions.csv." }
+        p { (cohort.self_rating.contradictions.len()) " contradictions are listed in contradictions.csv." }
     }
 }
 

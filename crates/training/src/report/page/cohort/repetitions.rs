@@ -19,7 +19,7 @@ pub fn repetitions(cohort: &Cohort) -> Markup {
                 @if !named.is_empty() { (figure(score, &boxes(&named, most, &format!("Box plots of {score} by repetition")))) }
             }
         }
-        p.note { "Boxes from the lower to the upper quartile with the median; the cross is the mean; whiskers reach to the last value within 1.5 interquartile ranges." }
+        p.note { "Boxes show the quartiles and the median, crosses the mean; whiskers extend to the last value within 1.5 interquartile ranges." }
         @if !cohort.tests.is_empty() { (t_tests(&cohort.tests).shown()) }
         @if !cohort.homogeneity.is_empty() { (homogeneity(cohort).shown()) }
     }
@@ -58,7 +58,7 @@ fn t_tests(tests: &[Comparison]) -> Table {
         "p two, Holm",
         "d_z",
     ];
-    Table { name: "t_tests", caption: "paired t tests, later less earlier", columns, rows: tests.iter().map(row).collect() }
+    Table { name: "t_tests", caption: "paired t tests, later minus earlier", columns, rows: tests.iter().map(row).collect() }
 }
 
 fn homogeneity(cohort: &Cohort) -> Table {
@@ -75,7 +75,7 @@ fn homogeneity(cohort: &Cohort) -> Table {
     });
     Table {
         name: "homogeneity",
-        caption: "first sessions of those who repeated against the others (low / middle / high)",
+        caption: "first sessions of the repeating group vs. the others (low / middle / high)",
         columns: vec!["score", "who repeated", "others", "chi-squared", "df", "p"],
         rows: rows.collect(),
     }

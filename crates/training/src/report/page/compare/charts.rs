@@ -28,11 +28,11 @@ pub fn section(both: [&Review; 2], same_job: bool, line_ups: &[AlignmentEvent], 
             @for (column, title) in CHARTS {
                 figure {
                     figcaption { (title) (legend(key)) }
-                    div.chart id={ "chart-" (column) } data-columns=(column) role="img" aria-label={ (title) " of both sessions over time; the table below holds the numbers" } {}
+                    div.chart id={ "chart-" (column) } data-columns=(column) role="img" aria-label={ (title) " of both sessions over time; see the table below for the values" } {}
                 }
             }
         }
-        p.note { "Drag over a curve to look closer, double-click to see all again, click to move the slider." }
+        p.note { "Drag over a chart to zoom in, double-click to reset, click to move the slider." }
         (table(both).folded())
     }
 }
@@ -42,9 +42,9 @@ fn controls(line_ups: &[AlignmentEvent], key: &[(&str, String)]) -> Markup {
         div.controls id="controls" {
             div.run hidden id="run" {
                 (slider())
-                label { "Lined up at " select id="line-up" { @for (k, line_up) in line_ups.iter().enumerate() { option value=(k) { (line_up.name) } } } }
+                label { "Aligned at " select id="line-up" { @for (k, line_up) in line_ups.iter().enumerate() { option value=(k) { (line_up.name) } } } }
             }
-            div.scroll id="readout" hidden tabindex="0" role="region" aria-label="Both sessions at the moment of the slider" {
+            div.scroll id="readout" hidden tabindex="0" role="region" aria-label="Both sessions at the slider's time" {
                 table.moment {
                     thead { tr { th scope="col" { "Session" } @for (_, head) in READOUT { th scope="col" { (head) } } } }
                     tbody {
@@ -69,7 +69,7 @@ fn drawings(both: [&Review; 2]) -> Markup {
             (figure("From the south", &scroll("Elevation", &overlay::from_south(both))))
         }
         @for bridge in &both[0].scenario.bridges {
-            @let title = format!("Bridge '{}' from the side, with what was flown near it", bridge.name);
+            @let title = format!("Bridge '{}' from the side, with nearby parts of the flights", bridge.name);
             (figure(&title, &scroll(&title, &overlay::elevation(both, bridge))))
         }
     }
@@ -114,5 +114,5 @@ fn table(both: [&Review; 2]) -> Table {
         "2: clearance, m",
         "2: battery, %",
     ];
-    Table { name: "both-flights", caption: "both flights, a row every few seconds since lift-off", columns, rows }
+    Table { name: "both-flights", caption: "both flights, sampled every few seconds since lift-off", columns, rows }
 }

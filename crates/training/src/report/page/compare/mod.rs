@@ -36,11 +36,11 @@ pub fn comparison(first: &Review, second: &Review) -> String {
                 }
             }
             main {
-                @if !same { p.note { "The sessions are of different jobs: their scores are only roughly comparable." } }
+                @if !same { p.note { "The sessions are of different jobs, so their scores are only roughly comparable." } }
                 section aria-labelledby="scores-head" {
                     h2 id="scores-head" { "Scores" }
                     div.split {
-                        (figure("The four scores, first / second", &html! { (legend(&key)) (radar(&spokes, "Kiviat diagram of both sessions")) }))
+                        (figure("The four scores, first / second", &html! { (legend(&key)) (radar(&spokes, "Radar chart of both sessions")) }))
                         (table(first, second).shown())
                     }
                 }
@@ -51,7 +51,7 @@ pub fn comparison(first: &Review, second: &Review) -> String {
                 @if same {
                     section aria-labelledby="tasks-head" {
                         h2 id="tasks-head" { "Tasks" }
-                        (figure("Share of each task's time on the path", &html! { (legend(&key)) (shares(&rows(first, second), "On the path by task, both sessions")) }))
+                        (figure("On-path share of each task", &html! { (legend(&key)) (shares(&rows(first, second), "On-path share by task, both sessions")) }))
                     }
                 }
             }
