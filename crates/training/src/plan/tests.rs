@@ -79,7 +79,7 @@ fn exact_poor_interlayer_flights_lead_to_the_gap_drill() {
     let words = &plan.steps[0].reasons[0].words;
     assert_eq!(
         words,
-        "The interlayer: off the path for 70 % of the time, mainly in height. Practise the narrow space by itself."
+        "The interlayer: off the path for 70 % of the time, mainly in height. Practice the narrow space separately."
     );
     assert_eq!(plan.steps[1].scenario, "drill-straight-line");
 }
