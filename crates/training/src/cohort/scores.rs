@@ -216,9 +216,7 @@ pub fn comparisons(group: &SessionsByTrainee<'_>, repetitions: usize, warnings: 
                         test,
                         p_holm: None,
                     }),
-                    Err(error) => {
-                        warnings.push(format!("{score}, {} vs. {}: test not possible: {error}", later + 1, earlier + 1))
-                    }
+                    Err(error) => warnings.push(format!("{score}, {} vs. {}: no test: {error}", later + 1, earlier + 1)),
                 }
             }
         }

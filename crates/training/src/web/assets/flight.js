@@ -1,4 +1,4 @@
-// Follows one's own flight: asks about once a second which picture is there now, and shows each once.
+// Follows the trainee's own flight: polls about once per second for the latest picture and shows each once.
 "use strict";
 const root = document.querySelector("[data-flight]");
 const state = root.querySelector("[data-state]");
@@ -18,7 +18,7 @@ function show({ flying, picture }) {
 
 async function look() {
   try {
-    // Who looks elsewhere needs no picture; a redirect leads to the login.
+    // A hidden page needs no picture; a redirect leads to the login.
     if (!document.hidden) {
       const answer = await fetch("/flight/now.json", { redirect: "manual" });
       if (answer.ok) show(await answer.json());
