@@ -58,7 +58,7 @@ fn exact_the_papers_design_gives_the_papers_tables() {
     assert_eq!(cohort.crashes.total, cohort.crashes.by_kind.total());
     assert_eq!(cohort.progress[0].repetitions.len(), 3);
     assert!(cohort.progress.iter().all(|one| one.curves.is_empty()), "three repetitions make no curve");
-    assert!(cohort.warnings.iter().any(|words| words.contains("22 people") && words.contains("78")), "{:?}", cohort.warnings);
+    assert!(cohort.warnings.iter().any(|words| words.contains("22 trainees") && words.contains("78")), "{:?}", cohort.warnings);
 }
 
 #[test]

@@ -86,7 +86,7 @@ pub struct Review {
     pub on_path: OnPath,
     /// Onsets of contact.
     pub crashes: Vec<Crash>,
-    /// What each task's window holds.
+    /// Measures of each task's window.
     pub tasks: Vec<track::TaskFacts>,
     /// Measures of each task's window.
     pub feedback: cues::CueText,

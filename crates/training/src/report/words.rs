@@ -73,7 +73,7 @@ pub fn control_source_label(by: Option<ControlSource>) -> &'static str {
         Some(ControlSource::Mission) => "mission",
         Some(ControlSource::Script) => "script",
         Some(ControlSource::Autopilot) => "autopilot",
-        None => "not known",
+        None => "unknown",
     }
 }
 

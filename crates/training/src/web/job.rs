@@ -77,7 +77,7 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
     };
     let body = html! {
         p.lead { (scenario.title) }
-        (section("facts", "In short", &facts))
+        (section("facts", "Summary", &facts))
         @if !scenario.tasks.is_empty() {
             (section("tasks", "Tasks", &table("Tasks and path tolerances", &[("Task", false), ("Path tolerance, m", true)], &rows)))
         }

@@ -22,7 +22,7 @@ pub fn section(review: &Review) -> Markup {
         @if present.is_empty() { p.calm { "No feedback was given." } } @else {
             div.scroll tabindex="0" role="region" aria-label="Feedback in numbers" {
                 table {
-                    thead { tr { th scope="col" { "feedback" } th scope="col" { "times" } th scope="col" { "on for, s" } th scope="col" { "sticks answered" } th scope="col" { "median reaction, s" } } }
+                    thead { tr { th scope="col" { "feedback" } th scope="col" { "times" } th scope="col" { "on for, s" } th scope="col" { "stick reactions" } th scope="col" { "median reaction, s" } } }
                     tbody { @for kind in &present { (row(review, *kind)) } }
                 }
             }

@@ -25,7 +25,7 @@ pub fn section(review: &Review) -> Markup {
         (drawings(review))
         (figure("Session timeline", &html! {
             (legend(&strip_legend()))
-            (scrolling("Time line", &strips(&rows(review), end_s(review), "Control source, tasks, feedback, pictures and gaps over time")))
+            (scrolling("Timeline", &strips(&rows(review), end_s(review), "Control source, tasks, feedback, pictures and gaps over time")))
         }))
         div.charts {
             @for (id, title, columns) in CHARTS {
@@ -106,7 +106,7 @@ fn drawings(review: &Review) -> Markup {
             (figure(&title, &scroll(&title, &map::elevation(review, bridge))))
         }
         figure.model id="model" {
-            figcaption { "3D view " button type="button" id="model-open" hidden { "Turn it" } }
+            figcaption { "3D view " button type="button" id="model-open" hidden { "Rotate" } }
             div.scroll.wide id="model-still" tabindex="0" role="region" aria-label="3D view of the flight" { (map::oblique(review)) }
             div id="model-live" hidden {}
             p.note id="model-note" hidden { "Drag or use the arrow keys to rotate, + and − or the wheel to zoom." }

@@ -194,7 +194,7 @@ fn table(review: &Review) -> Table {
             "pixel, mm",
             "light, lx",
             "required light, lx",
-            "smear, px",
+            "motion blur, px",
             "lamp",
         ],
         rows: review.pictures.iter().map(row).collect(),

@@ -142,7 +142,7 @@ fn numbers(scenario: &str, progress: &TraineeProgress) -> Table {
         row
     };
     let columns = ["repetition", "scenario", "conformity", "efficiency", "safety", "accuracy", "overall", "flight time"];
-    let crashes = ["into bridges", "ground", "water", "other", "persons, vehicles"];
+    let crashes = ["into bridges", "ground", "water", "other", "people, vehicles"];
     Table {
         name: "progress",
         caption: "each repetition: scores, time, crashes",

@@ -56,7 +56,7 @@ fn files(review: &Review) -> Table {
     let row = |name: &str, value: TableCell| vec![name.into(), value];
     Table {
         name: "record",
-        caption: "the record",
+        caption: "session data",
         columns: vec!["what", "value"],
         rows: vec![
             row("session", about.folder.clone().into()),
@@ -73,8 +73,8 @@ fn files(review: &Review) -> Table {
             row("frames scored", review.frames.len().into()),
             row("MAVLink frames received", TableCell::Number(link.frames as f64, 0)),
             row("lost on the link", TableCell::Number(link.lost as f64, 0)),
-            row("came twice", TableCell::Number(link.duplicated as f64, 0)),
-            row("came late", TableCell::Number(link.reordered as f64, 0)),
+            row("duplicates", TableCell::Number(link.duplicated as f64, 0)),
+            row("out of order", TableCell::Number(link.reordered as f64, 0)),
         ],
     }
 }

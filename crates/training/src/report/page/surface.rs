@@ -99,7 +99,7 @@ fn table(coverage: &SurfaceCoverage) -> Table {
         "pixel, mm",
         "angle from normal, deg",
         "light, lx",
-        "smear, px",
+        "motion blur, px",
     ]);
     Table {
         name: "coverage",

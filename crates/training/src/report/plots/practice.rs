@@ -66,7 +66,7 @@ pub fn practice(drawn: &PracticeChart<'_>, title: &str) -> Markup {
                 circle.dot-1 cx=(unit(x)) cy=(unit(y)) r="4" {}
             }
             @let (x, y) = at((count + 1) as f64, drawn.curve.next);
-            circle.expected cx=(unit(x)) cy=(unit(y)) r="4" { title { "expected next: " (words::number(drawn.curve.next.min(most), 1)) } }
+            circle.expected cx=(unit(x)) cy=(unit(y)) r="4" { title { "predicted next: " (words::number(drawn.curve.next.min(most), 1)) } }
         },
     )
 }

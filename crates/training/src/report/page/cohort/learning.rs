@@ -18,7 +18,7 @@ pub fn curves(cohort: &Cohort) -> Markup {
     let key = [
         ("dot-1", "mean".to_owned()),
         ("fitted-key", "curve through the means".into()),
-        ("one-of-many-key", "one person".into()),
+        ("one-of-many-key", "one trainee".into()),
     ];
     html! {
         @if cohort.learning.is_empty() {
@@ -39,7 +39,7 @@ pub fn curves(cohort: &Cohort) -> Markup {
 }
 
 fn people(count: usize) -> String {
-    if count == 1 { "one person".to_owned() } else { format!("{count} people") }
+    if count == 1 { "one trainee".to_owned() } else { format!("{count} trainees") }
 }
 
 fn of_people(cohort: &Cohort, score: &str) -> Vec<LearningCurve> {
@@ -70,7 +70,7 @@ fn numbers(curves: &[GroupCurve]) -> Table {
     Table {
         name: "learning_of_the_group",
         caption: "learning curves through the means",
-        columns: vec!["score", "people", "repetitions", "first mean", "last mean", "exponent", "R²", "next"],
+        columns: vec!["score", "trainees", "repetitions", "first mean", "last mean", "exponent", "R²", "next"],
         rows: curves.iter().map(row).collect(),
     }
 }

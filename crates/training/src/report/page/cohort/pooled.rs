@@ -55,7 +55,7 @@ pub fn crashes(cohort: &Cohort) -> Markup {
     let bins = bins(&counts);
     let mean = counts.iter().sum::<usize>() as f64 / counts.len().max(1) as f64;
     let row = |bin: &HistogramBin| vec![TableCell::Number(bin.from, 0), TableCell::Number(bin.to - 1.0, 0), bin.count.into()];
-    let columns = vec!["crashes, from", "to", "people"];
+    let columns = vec!["crashes, from", "to", "trainees"];
     let table = Table {
         name: "crashes_by_person",
         caption: "trainees by number of crashes",

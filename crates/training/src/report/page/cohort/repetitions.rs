@@ -76,7 +76,7 @@ fn homogeneity(cohort: &Cohort) -> Table {
     Table {
         name: "homogeneity",
         caption: "first sessions of the repeating group vs. the others (low / middle / high)",
-        columns: vec!["score", "who repeated", "others", "chi-squared", "df", "p"],
+        columns: vec!["score", "repeating group", "others", "chi-squared", "df", "p"],
         rows: rows.collect(),
     }
 }
