@@ -1,12 +1,12 @@
-"""Environment steps per second, beside gym-pybullet-drones in the same run. Run it by `tools/python --bench`.
+"""Environment steps per second, compared with gym-pybullet-drones in the same run. Run with `tools/python --bench`.
 
-    tools/python --bench                       fails below the floor
+    tools/python --bench                       fails below the minimum ratio
     tools/python --bench --peer DIR            gym-pybullet-drones from a checkout of its sources
 
-Both fly one task, hover, with all effects that they have: wind, gusts, ground effect, drag, sensor noise and an autopilot here; ground effect,
-drag and downwash there (PYB_GND_DRAG_DW). One process each, its fastest way to step: native threads here, one environment there, which has no
-vectorized stepping of its own. Rounds alternate, and the best of each counts: what else runs on the machine disturbs both. Measure on a machine
-at rest: threads that wait for a busy core gain nothing.
+Both run the hover task with all modeled effects: wind, gusts, ground effect, drag, sensor noise and an autopilot here; ground effect, drag and
+downwash there (PYB_GND_DRAG_DW). Each runs in one process in its fastest mode: native threads here, a single environment there, because it has
+no vectorized stepping. Rounds alternate and the best of each counts, to reduce the effect of other load. Measure on an idle machine: threads
+that wait for a busy core gain nothing.
 """
 
 import argparse
@@ -20,22 +20,22 @@ import numpy as np
 
 import spandrel.gymnasium_envs  # noqa: F401 (registers the environments)
 
-# Ours over theirs, in simulation time.
+# Minimum ratio of our throughput to theirs, in simulation time.
 FLOOR = 20.0
-# Where gym-pybullet-drones cannot be had: its figure from a run on a machine with two cores of its own, times real time.
+# Used if gym-pybullet-drones is not installed: its result on a dedicated machine with two cores, multiples of real time.
 STATED_PEER = 27.0
-# Seconds of wall time of one round, and rounds.
+# Wall time of one round, s, and number of rounds.
 ROUND_S, ROUNDS = 3.0, 5
-# Episodes do not end while steps are timed; resets are timed on their own.
+# Episodes do not end while steps are timed; resets are timed separately.
 ENDLESS = 10**9
-# Vehicles in a batch: some for each thread of a large machine.
+# Vehicles per batch: several per thread of a large machine.
 VEHICLES = 64
-# Its control rate that is nearest to our 50 Hz; physics at its own 240 Hz.
+# The control rate nearest to our 50 Hz; physics at the default 240 Hz.
 PEER_HZ, PEER_PHYSICS_HZ = 48, 240
 
 
 def timed(step, each):
-    """Steps per second of wall time; `each` environments are stepped by a call."""
+    """Returns steps per second of wall time; each call steps `each` environments."""
     calls, start = 0, time.perf_counter()
     while (passed := time.perf_counter() - start) < ROUND_S:
         step()
@@ -44,7 +44,7 @@ def timed(step, each):
 
 
 def ours(name, count, threads):
-    """A step of all environments of a batch under changing actions, and the simulation time that one takes, s."""
+    """Returns a function that steps all environments of a batch with varying actions, and the simulation time per step, s."""
     env = gymnasium.make_vec(
         name, num_envs=count, vectorization_mode="vector_entry_point", threads=threads, max_episode_steps=ENDLESS
     )
@@ -56,7 +56,7 @@ def ours(name, count, threads):
 
 
 def single(name):
-    """A step of one environment, and the simulation time that one takes, s."""
+    """Returns a function that steps one environment, and the simulation time per step, s."""
     env = gymnasium.make(name, max_episode_steps=ENDLESS)
     env.reset(seed=1)
     action = np.zeros(env.action_space.shape, np.float32)
@@ -64,7 +64,7 @@ def single(name):
 
 
 def reset_ms(env):
-    """Wall time of a reset with a fresh seed, ms: the best of ten."""
+    """Returns the wall time of a reset with a new seed, ms: the best of ten."""
     times = []
     for seed in range(10):
         start = time.perf_counter()
@@ -74,14 +74,14 @@ def reset_ms(env):
 
 
 def peer(checkout, action):
-    """A step of theirs, or None where it is not installed."""
+    """Returns a step function of gym-pybullet-drones, or None if it is not installed."""
     if checkout:
         sys.path.insert(0, checkout)
     try:
         from gym_pybullet_drones.envs.HoverAviary import HoverAviary
         from gym_pybullet_drones.utils.enums import ActionType, Physics
     except ImportError as error:
-        print(f"gym-pybullet-drones is not installed ({error}): name a checkout with --peer. Its stated figure counts.")
+        print(f"gym-pybullet-drones is not installed ({error}); pass a checkout with --peer. Using its published result.")
         return None
     with open(os.devnull, "w", encoding="utf-8") as nowhere:
         said, sys.stdout = sys.stdout, nowhere
@@ -93,7 +93,7 @@ def peer(checkout, action):
 
 
 def main():
-    """Measures, prints a table, and fails below the floor."""
+    """Runs the benchmark, prints a table and fails below the minimum ratio."""
     arguments = argparse.ArgumentParser()
     arguments.add_argument("--peer", help="checkout of gym-pybullet-drones")
     checkout = arguments.parse_args().peer
@@ -120,7 +120,7 @@ def main():
     speeds = {name: rates[name] * step_s for name, (_, step_s, _) in (rows | peers).items()}
     for name, rate in rates.items():
         print(f"{name}: {rate:.0f} steps/s, {speeds[name]:.0f} times real time")
-    # Like for like: velocity setpoints, flown by an autopilot here and by their controller there.
+    # Comparable tasks: velocity setpoints, tracked by our autopilot and by their controller.
     theirs = next((speeds[name] for name in peers if name.endswith("VEL")), STATED_PEER)
     ratio = max(speeds[name] for name in rows if name.startswith("Spandrel-Hover")) / theirs
     print(f"ratio under velocity setpoints: {ratio:.1f} (floor {FLOOR:.0f})")

@@ -1,4 +1,4 @@
-"""Flies a square of 5 m over the pad and checks every corner."""
+"""Flies a 5 m square above the pad and checks every corner."""
 
 import math
 

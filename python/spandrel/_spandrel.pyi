@@ -1,4 +1,4 @@
-"""Native parts. Use the classes of `spandrel` instead; these may change."""
+"""Native module, not a stable API. Use the classes of `spandrel` instead."""
 
 import os
 
@@ -11,29 +11,29 @@ class LateError(SpandrelError): ...
 class AssessmentError(SpandrelError): ...
 
 class State:
-    """The true state of the vehicle at one instant."""
+    """True state of the vehicle at one instant."""
 
     @property
     def time_s(self) -> float:
         """Simulation time, s."""
     @property
     def armed(self) -> bool:
-        """The motors are armed."""
+        """Whether the motors are armed."""
     @property
     def position_enu_m(self) -> tuple[float, float, float]:
         """Position in the scenario's frame: east, north, up, m."""
     @property
     def height_m(self) -> float:
-        """Height over the pad, m."""
+        """Height above the pad, m."""
     @property
     def velocity_enu_m_s(self) -> tuple[float, float, float]:
         """Velocity over ground: east, north, up, m/s."""
     @property
     def roll_rad(self) -> float:
-        """Roll, positive to the right, rad."""
+        """Roll, right side down positive, rad."""
     @property
     def pitch_rad(self) -> float:
-        """Pitch, positive nose up, rad."""
+        """Pitch, nose up positive, rad."""
     @property
     def heading_rad(self) -> float:
         """Heading, clockwise from north, -pi to pi, rad."""
@@ -42,25 +42,25 @@ class State:
         """Angular velocity of the body: forward, right, down axes, rad/s."""
     @property
     def battery_pct(self) -> float:
-        """Charge of the battery, %."""
+        """Remaining battery, %."""
     @property
     def gimbal_pitch_rad(self) -> float:
-        """Pitch of the gimbal over the horizon, positive up, rad."""
+        """Gimbal pitch above the horizon, up positive, rad."""
     @property
     def lamp_on(self) -> bool:
-        """The lamp is on."""
+        """Whether the lamp is on."""
     @property
     def pictures(self) -> int:
-        """Pictures taken."""
+        """Number of pictures taken."""
     @property
     def hits(self) -> int:
-        """Contacts so far, without gentle ones with the pad and the ground around it."""
+        """Number of contacts so far, excluding soft contacts with the pad and the surrounding ground."""
     @property
     def ended(self) -> str | None:
-        """Why the flight ended; None while it lasts."""
+        """Reason for the end of the flight; None while it is in progress."""
     @property
     def text(self) -> str:
-        """Newest status text of the vehicle; empty before the first."""
+        """Latest status text of the vehicle; empty before the first."""
 
 class Flight:
     def __init__(self, scenario: str, vehicle: str, seed: int, flavour: str, after_crash: str) -> None: ...

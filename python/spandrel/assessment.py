@@ -1,4 +1,4 @@
-"""Scores of a recorded flight."""
+"""Assessment of a recorded flight."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _KINDS: dict[str, Callable[[str], object]] = {
     **dict.fromkeys(("frame", "light", "snapshot", "missing", "on_path", "interpolated"), int),
     "contact": str,
 }
-"""Columns of the frames that are no floats."""
+"""Columns of the frames that are not floats."""
 
 
 def _number(text: str) -> float:
@@ -31,16 +31,16 @@ def _number(text: str) -> float:
 
 @dataclass(frozen=True)
 class Assessment:
-    """A scored flight. The tables need pandas."""
+    """A scored flight. The table properties require pandas."""
 
     data: dict[str, Any]
-    """Everything, as `spandrel assess --json` writes it."""
+    """The full assessment, as written by `spandrel assess --json`."""
     frames_csv: str
-    """The scored frames, as `spandrel export --frames` writes them."""
+    """The scored frames, as written by `spandrel export --frames`."""
 
     @property
     def scores(self) -> pandas.DataFrame:
-        """One row for each score that applies (index `score`): `raw`, and `pct` from 0 to 100. `overall` is the sum of the pct."""
+        """One row per applicable score (index `score`): `raw`, and `pct` from 0 to 100. `overall` is the sum of the `pct` values."""
         import pandas
 
         scores = self.data["scores"]
@@ -50,25 +50,25 @@ class Assessment:
 
     @property
     def tasks(self) -> pandas.DataFrame:
-        """One row for each task (index `id`)."""
+        """One row per task (index `id`)."""
         import pandas
 
         return pandas.DataFrame(self.data["tasks"]).set_index("id")
 
     @property
     def snapshots(self) -> pandas.DataFrame:
-        """One row for each picture: `frame`, `t_s` since lift-off, `hit`, the defects `found` first in it, and all `views`."""
+        """One row per picture: `frame`, `t_s` since lift-off, `hit`, the defects first `found` in it, and all `views`."""
         import pandas
 
         return pandas.DataFrame(self.data["snapshots"]["each"], columns=["frame", "t_s", "hit", "found", "views"])
 
     @property
     def frames(self) -> pandas.DataFrame:
-        """One row for each scored frame (index `frame`): time, sticks, position, speed, battery, contact."""
+        """One row per scored frame (index `frame`): time, sticks, position, speed, battery, contact."""
         import pandas
 
         rows = list(csv.DictReader(io.StringIO(self.frames_csv)))
-        # Read by Python, so that every number is the one that was written, to the last bit.
+        # Parsed by Python instead of pandas, so that every number round-trips exactly.
         columns = {name: [_KINDS.get(name, _number)(row[name]) for row in rows] for name in (rows[0] if rows else ())}
         return pandas.DataFrame(columns).set_index("frame")
 
@@ -76,9 +76,9 @@ class Assessment:
 def assess(
     tlog: str | os.PathLike[str], scenario: str | os.PathLike[str], vehicle: str | os.PathLike[str]
 ) -> Assessment:
-    """Scores a telemetry log against the scenario and the vehicle that it was flown with: names of shipped ones, or files.
+    """Scores a telemetry log. `scenario` and `vehicle` are those of the flight, given by shipped name or file path.
 
-    Raises AssessmentError when there is nothing to score, or when the log is of another scenario.
+    Raises AssessmentError if the log contains no session or belongs to a different scenario.
     """
     text, frames = _assess(os.fspath(tlog), os.fspath(scenario), os.fspath(vehicle))
     return Assessment(json.loads(text), frames)

@@ -1,4 +1,4 @@
-"""A pymavlink connection whose clock is the simulation's."""
+"""A pymavlink connection that runs on simulation time."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     from .vehicle import Vehicle
 
 STEP_S = 0.02
-"""A reader that waits lets this much simulation time pass before it looks again, s."""
+"""Simulation time between polls of a blocking read, s."""
 
 
 class LockstepConnection(mavutil.mavudp):  # type: ignore[misc]
-    """A `mavutil` connection over loopback UDP that answers the vehicle's TIMESYNC, and waits in simulation time."""
+    """A `mavutil` connection over loopback UDP that replies to the vehicle's TIMESYNC requests and waits in simulation time."""
 
     def __init__(self, vehicle: Vehicle) -> None:
         super().__init__("127.0.0.1:0", input=False)
@@ -29,18 +29,18 @@ class LockstepConnection(mavutil.mavudp):  # type: ignore[misc]
 
     @property
     def endpoint(self) -> tuple[str, int]:
-        """Host and port that the vehicle sends to."""
+        """Host and port to which the vehicle sends."""
         host, port = self.port.getsockname()
         return host, port
 
     def answer(self) -> bool:
-        """Reads everything that has arrived and answers the vehicle's question for lockstep; true when there was one."""
+        """Reads all received messages and replies to lockstep requests. Returns True if there was one."""
         answered = False
         while (message := self._read()) is not None:
             if message.get_type() == "TIMESYNC" and message.tc1 == 0:
                 self.mav.timesync_send(message.ts1, message.ts1)
                 answered = True
-            # Questions stay in the stream, too: a gap in the sequence numbers would count as a loss.
+            # Requests stay in the stream, because a gap in the sequence numbers would count as packet loss.
             self._pending.append(message)
         return answered
 
@@ -48,11 +48,11 @@ class LockstepConnection(mavutil.mavudp):  # type: ignore[misc]
         try:
             return self.mav.parse_char(self.recv())
         except (socket.error, ValueError):
-            # Closed.
+            # The socket is closed or has no data.
             return None
 
     def recv_msg(self) -> Any:
-        """The next message, or None."""
+        """Returns the next message, or None."""
         self.pre_message()
         self.answer()
         if not self._pending:
@@ -64,7 +64,7 @@ class LockstepConnection(mavutil.mavudp):  # type: ignore[misc]
     def recv_match(
         self, condition: Any = None, type: Any = None, blocking: bool = False, timeout: float | None = None
     ) -> Any:
-        """The next message that fits, as in pymavlink; `timeout` is in seconds of simulation time."""
+        """Returns the next matching message, as in pymavlink; `timeout` is in seconds of simulation time."""
         limit_s = None if timeout is None else self._vehicle.time_s + timeout
         while True:
             message = super().recv_match(condition, type)
@@ -75,6 +75,6 @@ class LockstepConnection(mavutil.mavudp):  # type: ignore[misc]
             self.select(STEP_S)
 
     def select(self, timeout: float) -> bool:
-        """Lets simulation time pass instead of waiting."""
+        """Advances simulation time instead of waiting."""
         self._vehicle.run_for(timeout)
         return bool(self._pending)

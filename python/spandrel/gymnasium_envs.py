@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 from ._spandrel import Batch
 
 SEEDS = 2**31
-"""Seeds of episodes are below this: what telemetry carries."""
+"""Upper bound of episode seeds, exclusive: the range that telemetry can carry."""
 MEASURES = {"hover": ("distance_m", "hits"), "inspect": ("flown_share", "found_share")}
-"""Keys of `info` by kind."""
+"""Keys of `info` by kind of environment."""
 HOVER_STEPS = 1_000
-"""20 s of simulation time."""
+"""Maximum episode length: 20 s of simulation time."""
 INSPECT_STEPS = 15_000
-"""25 minutes of simulation time, the time limit of the shipped inspection."""
+"""Maximum episode length: 25 minutes of simulation time, the time limit of the shipped inspection."""
 
 Observation = NDArray[np.float32]
 Action = NDArray[np.float32]
@@ -40,7 +40,7 @@ class _Native:
     def unpack(
         self, turn: tuple[bytes, bytes, bytes, bytes]
     ) -> tuple[Observation, NDArray[np.float64], NDArray[np.bool_], dict[str, Any]]:
-        """Observations, rewards, terminations and measures as arrays."""
+        """Returns observations, rewards, terminations and measures as arrays."""
         observations = np.frombuffer(turn[0], np.float32).reshape(self.count, self.width).copy()
         measures = np.frombuffer(turn[3], np.float64).reshape(self.count, 2)
         infos: dict[str, Any] = {key: measures[:, k].copy() for k, key in enumerate(self.keys)}
@@ -48,7 +48,7 @@ class _Native:
 
 
 class SpandrelEnv(gymnasium.Env[Observation, Action]):
-    """One vehicle. `kind` is hover or inspect; scenario and vehicle are names of shipped ones or files."""
+    """Environment with one vehicle. `kind` is hover or inspect; `scenario` and `vehicle` are shipped names or file paths."""
 
     metadata: dict[str, Any] = {"render_modes": []}
 
@@ -63,14 +63,14 @@ class SpandrelEnv(gymnasium.Env[Observation, Action]):
         self.step_s = self._native.batch.step_s()
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Observation, dict[str, Any]]:
-        """Starts an episode in the air over the pad. The same seed gives the same bits."""
+        """Starts an episode with the vehicle airborne above the pad. The same seed reproduces the episode bit for bit."""
         super().reset(seed=seed)
         episode = int(self.np_random.integers(SEEDS))
         observations, _, _, infos = self._native.unpack(self._native.batch.reset([episode]))
         return observations[0], {key: float(values[0]) for key, values in infos.items()}
 
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
-        """Flies one step. Values beyond the action space are held to it; one that is not finite raises ValueError."""
+        """Runs one step. Actions are clamped to the action space; a value that is not finite raises ValueError."""
         row = np.asarray(action, dtype=np.float32)
         observations, rewards, over, infos = self._native.unpack(self._native.batch.step(row.tobytes(), [None]))
         info = {key: float(values[0]) for key, values in infos.items()}
@@ -83,7 +83,7 @@ class SpandrelEnv(gymnasium.Env[Observation, Action]):
 
 
 class SpandrelVectorEnv(VectorEnv[Observation, Action, Any]):
-    """Several vehicles, stepped by native threads in one call (`threads=0`: one for each processor). Resets in the step after an end."""
+    """Several vehicles, stepped by native threads (`threads=0`: one per processor). Resets in the step after an episode ends."""
 
     metadata: dict[str, Any] = {"render_modes": [], "autoreset_mode": AutoresetMode.NEXT_STEP}
 
@@ -111,7 +111,7 @@ class SpandrelVectorEnv(VectorEnv[Observation, Action, Any]):
     def reset(
         self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observation, dict[str, Any]]:
-        """Starts all episodes. An integer seeds the environments with seed, seed + 1, ..., as Gymnasium's other vector environments do."""
+        """Starts all episodes. An integer seeds the environments with seed, seed + 1, ..., like Gymnasium's other vector environments."""
         seeds: list[int | None] = [seed + k for k in range(self.num_envs)] if isinstance(seed, int) else list(seed or [])
         for k, one in enumerate(seeds):
             if one is not None:
@@ -122,13 +122,13 @@ class SpandrelVectorEnv(VectorEnv[Observation, Action, Any]):
         return observations, self._masked(infos)
 
     def _masked(self, infos: dict[str, Any]) -> dict[str, Any]:
-        """With the mask that Gymnasium puts beside each key: every environment has every value."""
+        """Adds the mask that Gymnasium expects for each key; every environment provides every value."""
         return infos | {f"_{key}": np.ones(self.num_envs, dtype=np.bool_) for key in infos}
 
     def step(
         self, actions: Action
     ) -> tuple[Observation, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
-        """Flies one step in each environment, or begins the next episode where the last step ended one."""
+        """Runs one step in each environment, or starts the next episode where the previous step ended one."""
         seeds = [int(stream.integers(SEEDS)) if over else None for stream, over in zip(self._streams, self._over)]
         rows = np.ascontiguousarray(actions, dtype=np.float32)
         observations, rewards, terminated, infos = self._native.unpack(self._native.batch.step(rows.tobytes(), seeds))

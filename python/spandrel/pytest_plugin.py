@@ -1,4 +1,4 @@
-"""pytest: the fixture `spandrel_vehicle` and the marker that configures it."""
+"""pytest plugin: the fixture `spandrel_vehicle` and the marker `spandrel` that configures it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .vehicle import Vehicle
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Makes the marker known."""
+    """Registers the marker."""
     config.addinivalue_line(
         "markers", "spandrel(scenario, vehicle, seed, flavour, after_crash): arguments of spandrel.Vehicle for spandrel_vehicle"
     )
@@ -18,7 +18,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.fixture
 def spandrel_vehicle(request: pytest.FixtureRequest) -> Iterator[Vehicle]:
-    """A fresh vehicle for each test, on free ports, with the arguments of the marker `spandrel`. Seed 7 unless the marker gives another."""
+    """Provides a new vehicle for each test, on free ports, with the arguments of the marker `spandrel`. The default seed is 7."""
     arguments = {"seed": 7}
     for marker in reversed(list(request.node.iter_markers("spandrel"))):
         arguments.update(marker.kwargs)

@@ -1,4 +1,4 @@
-"""The vehicle in process."""
+"""The in-process vehicle."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ if TYPE_CHECKING:
 
 NS = 1_000_000_000
 TICK_NS = 1_000_000
-"""One physics tick, ns."""
+"""Physics time step, ns."""
 LOOK_NS = 20_000_000
-"""Conditions are checked, and datagrams exchanged, this often, ns of simulation time."""
+"""Interval at which conditions are checked and datagrams exchanged, ns of simulation time."""
 ANSWER_NS = NS
-"""A command that is not answered within this simulation time was lost, ns."""
+"""Timeout for the reply to a command, ns of simulation time."""
 RETRY_NS = NS // 2
-"""Arming is tried again after this simulation time, ns."""
+"""Interval between arming attempts, ns of simulation time."""
 SERVING_SLEEP_S = 0.002
-"""How long the serving thread rests between two looks at the clock, s of wall time."""
+"""Sleep time of the serving thread between steps, s of wall time."""
 
 ACCEPTED, IN_PROGRESS = 0, 5
 ARM_DISARM, TAKEOFF, LAND, REPOSITION, SET_MODE = 400, 22, 21, 192, 176
 
 
 def _free_port() -> int:
-    """A UDP port of the loopback that was free a moment ago."""
+    """Returns a UDP port that is currently free on the loopback interface."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
         probe.bind(("127.0.0.1", 0))
         port: int = probe.getsockname()[1]
@@ -41,33 +41,33 @@ def _free_port() -> int:
 
 
 class Link:
-    """A MAVLink link of your own: datagrams in and out, without a socket."""
+    """A MAVLink link without a socket: send and receive datagrams directly."""
 
     def __init__(self, flight: Flight, number: int) -> None:
         self._flight, self._number = flight, number
 
     def send(self, datagram: bytes) -> None:
-        """Sends MAVLink frames to the vehicle; they act at the next tick."""
+        """Sends MAVLink frames to the vehicle, which handles them in the next tick."""
         self._flight.send(self._number, datagram)
 
     def receive(self) -> list[bytes]:
-        """Returns the datagrams that the vehicle has sent since the last call, oldest first."""
+        """Returns the datagrams received from the vehicle since the last call, oldest first."""
         return self._flight.take(self._number)
 
     def close(self) -> None:
-        """Closes the link. Raises SpandrelError when it is closed already."""
+        """Closes the link. Raises SpandrelError if it is already closed."""
         self._flight.close(self._number)
 
 
 class Vehicle:
-    """A simulated drone on its pad, motors off.
+    """A simulated drone, initially on its pad and disarmed.
 
-    `scenario` and `vehicle` are the name of a shipped one (`spandrel.scenarios()`, `spandrel.vehicles()`) or the path of a TOML file.
-    `seed` decides gusts, sensor noise, traffic and defects. `flavour` is the autopilot protocol: px4, ardupilot or generic.
+    `scenario` and `vehicle` are shipped names (`spandrel.scenarios()`, `spandrel.vehicles()`) or paths of TOML files.
+    `seed` determines gusts, sensor noise, traffic and defects. `flavour` is the autopilot protocol: px4, ardupilot or generic.
     `after_crash` is continue, respawn, end or scenario (the scenario's own rule).
 
-    Simulation time passes only inside `step`, `run_for`, `run_until` and the commands, as fast as the machine allows, or in real time
-    while `serve` is active. The same calls give the same bits in every run: compare `digest`.
+    Simulation time advances only inside `step`, `run_for`, `run_until` and the commands, as fast as the machine allows, or in real time
+    while `serve` is active. Identical calls produce bit-identical results in every run; compare `digest` to check.
     """
 
     def __init__(
@@ -87,7 +87,7 @@ class Vehicle:
 
     @property
     def state(self) -> State:
-        """The true state now."""
+        """Current true state."""
         return self._flight.state()
 
     @property
@@ -103,21 +103,21 @@ class Vehicle:
     def step(self, n: int = 1) -> State:
         """Runs `n` physics ticks of 1 ms and returns the state after them."""
         if n < 0:
-            raise ValueError(f"n is {n}; allowed: 0 and more")
+            raise ValueError(f"n is {n}; allowed: 0 or more")
         self._advance_to(self._flight.now_ns() + n * TICK_NS)
         return self.state
 
     def run_for(self, sim_s: float) -> State:
         """Runs for `sim_s` seconds of simulation time and returns the state after them."""
         if not 0.0 <= sim_s < math.inf:
-            raise ValueError(f"sim_s is {sim_s}; allowed: 0 and more")
+            raise ValueError(f"sim_s is {sim_s}; allowed: 0 or more")
         self._advance_to(self._flight.now_ns() + round(sim_s * NS))
         return self.state
 
     def run_until(self, condition: Callable[[State], bool], sim_s: float) -> State:
-        """Runs until `condition(state)` holds and returns that state.
+        """Runs until `condition(state)` is true and returns that state.
 
-        The condition is checked every 20 ms of simulation time. Raises LateError when it does not hold within `sim_s` seconds of
+        The condition is checked every 20 ms of simulation time. Raises LateError if it is not met within `sim_s` seconds of
         simulation time.
         """
         limit = self._flight.now_ns() + round(sim_s * NS)
@@ -125,7 +125,7 @@ class Vehicle:
             now = self._flight.now_ns()
             if now >= limit:
                 raise LateError(
-                    f"the condition did not hold within {sim_s} s of simulation time; the vehicle said: {state.text}"
+                    f"the condition was not met within {sim_s} s of simulation time; last status text: {state.text}"
                 )
             self._advance_to(min(limit, now + LOOK_NS))
         return state
@@ -133,10 +133,10 @@ class Vehicle:
     def command(
         self, command: int, *params: float, place_enu_m: tuple[float, float, float] | None = None
     ) -> None:
-        """Sends a MAVLink command by its number and waits for the answer.
+        """Sends a MAVLink command by number and waits for the reply.
 
-        With `place_enu_m` it goes as COMMAND_INT at that place of the scenario's frame (east, north, up, m), else as COMMAND_LONG.
-        Raises RefusedError when it is refused, or not answered within a second of simulation time.
+        Uses COMMAND_INT if `place_enu_m`, a position in the scenario's frame (east, north, up, m), is given, otherwise COMMAND_LONG.
+        Raises RefusedError if the command is rejected, or if there is no reply within one second of simulation time.
         """
         self._flight.ask(int(command), list(params), place_enu_m)
         limit = self._flight.now_ns() + ANSWER_NS
@@ -163,7 +163,7 @@ class Vehicle:
                 return
 
     def take_off(self, height_m: float) -> None:
-        """Starts a take-off to a height over the pad, m. Returns when the command is accepted: `run_until` waits for the height."""
+        """Starts a takeoff to a height above the pad, m. Returns once the command is accepted; use `run_until` to wait for the height."""
         guided = self._flight.guided_mode()
         if guided is not None:
             self.command(SET_MODE, 1.0, float(guided))
@@ -174,25 +174,25 @@ class Vehicle:
         self.command(TAKEOFF, 0.0, 0.0, 0.0, math.nan, place_enu_m=(east, north, up + height_m - state.height_m))
 
     def go_to(self, east_m: float, north_m: float, up_m: float) -> None:
-        """Starts a flight to a place of the scenario's frame, m, and a hold there. Returns when the command is accepted."""
-        # Parameter 2, bit 0: change to the mode that flies there.
+        """Starts a flight to a position in the scenario's frame, m, to hold there. Returns once the command is accepted."""
+        # Parameter 2, bit 0: switch to the mode that executes the command.
         self.command(REPOSITION, -1.0, 1.0, 0.0, math.nan, place_enu_m=(east_m, north_m, up_m))
 
     def land(self) -> None:
-        """Starts a landing where the vehicle is. Returns when the command is accepted."""
+        """Starts a landing at the current position. Returns once the command is accepted."""
         self.command(LAND, 0.0, 0.0, 0.0, math.nan)
 
     def sticks(self, forward: float, right: float, up: float, yaw: float) -> None:
-        """Sends the sticks once: forward, right and yaw from -1 to 1, up from 0 to 1 with 0.5 to hold. Send them twice a second or more."""
+        """Sends one manual control input: forward, right and yaw from -1 to 1, up from 0 to 1 (0.5 holds). Repeat at 2 Hz or more."""
         self._flight.sticks(forward, right, up, yaw)
 
     def open_link(self, kind: str = "gcs") -> Link:
-        """Opens a MAVLink link without a socket. `kind` decides the usual streams: gcs, sdk, or payload (truth and scoring values)."""
+        """Opens a MAVLink link without a socket. `kind` selects the default streams: gcs, sdk, or payload (truth and scoring values)."""
         return Link(self._flight, self._flight.open_mailbox(kind))
 
     @contextmanager
     def record(self, path: str | os.PathLike[str]) -> Iterator[None]:
-        """Writes the telemetry into a .tlog file meanwhile: `spandrel.assess` scores it, QGroundControl and Mission Planner open it."""
+        """Records telemetry to a .tlog file within the context, for `spandrel.assess`, QGroundControl or Mission Planner."""
         link = self._flight.open_log(path)
         try:
             yield
@@ -202,13 +202,13 @@ class Vehicle:
     def connect(self) -> LockstepConnection:
         """Returns a pymavlink connection over UDP in lockstep with the vehicle.
 
-        It is a `mavutil` connection in all respects but one: its clock is the simulation's. `recv_match(blocking=True, timeout=5)` lets
-        simulation time pass until the message is there, 5 s at most. Needs pymavlink.
+        It behaves like any `mavutil` connection, except that it runs on simulation time: `recv_match(blocking=True, timeout=5)` advances
+        the simulation until the message arrives, by at most 5 s. Requires pymavlink.
         """
         from .connection import LockstepConnection
 
         if self._server is not None:
-            raise SpandrelError("the vehicle is served in real time: connect before serve() or use a connection of your own")
+            raise SpandrelError("the vehicle is served in real time; call connect() before serve() or open your own connection")
         connection = LockstepConnection(self)
         _, port = self._flight.open_udp("gcs", connection.endpoint, True)
         connection.destination_addr = ("127.0.0.1", port)
@@ -217,14 +217,14 @@ class Vehicle:
 
     @contextmanager
     def serve(self, speed: float = 1.0, kind: str = "sdk") -> Iterator[str]:
-        """Serves the vehicle over UDP for clients with a clock of their own, such as MAVSDK.
+        """Serves the vehicle over UDP for clients that run on wall time, such as MAVSDK.
 
-        Yields the address for MAVSDK's `add_any_connection`, `udpin://127.0.0.1:PORT`: the vehicle sends to that port, which was free, and
-        the client listens there. Meanwhile simulation time runs `speed` times as fast as the wall clock, in a thread. What such a client
-        sends arrives when the operating system delivers it, so two runs differ in their bits.
+        Yields the address for MAVSDK's `add_any_connection`, `udpin://127.0.0.1:PORT`: the client listens on that port, and the vehicle
+        sends to it. Within the context, a thread runs the simulation at `speed` times wall time. The arrival time of the client's
+        datagrams depends on the operating system, so runs are not reproducible.
         """
         if self._server is not None or self._connections:
-            raise SpandrelError("the vehicle is connected already: serve() needs it alone")
+            raise SpandrelError("the vehicle is already connected; serve() requires exclusive access")
         if not 0.0 < speed <= 100.0:
             raise ValueError(f"speed is {speed}; allowed: more than 0, at most 100")
         port = _free_port()
@@ -253,7 +253,7 @@ class Vehicle:
         self.close()
 
     def _keep_pace(self, speed: float) -> None:
-        """Runs what is due by the wall clock until `serve` ends."""
+        """Keeps simulation time in step with wall time until `serve` ends."""
         begun_ns, begun = self._flight.now_ns(), time.monotonic()
         while not self._stop.wait(SERVING_SLEEP_S):
             self._flight.run(begun_ns + round(speed * (time.monotonic() - begun) * NS))
@@ -261,7 +261,7 @@ class Vehicle:
                 self._advanced.notify_all()
 
     def _advance_to(self, until_ns: int) -> None:
-        """Lets simulation time pass: by running it, or by waiting while the vehicle is served."""
+        """Advances to a simulation time, by running the simulation or, while the vehicle is served, by waiting."""
         if self._server is not None:
             with self._advanced:
                 self._advanced.wait_for(lambda: self._stop.is_set() or self._flight.now_ns() >= until_ns)
@@ -269,4 +269,4 @@ class Vehicle:
         while self._flight.run(until_ns):
             answered = [connection.answer() for connection in self._connections]
             if not any(answered):
-                raise SpandrelError("a connection in lockstep does not answer: was it closed without Vehicle.close()?")
+                raise SpandrelError("a lockstep connection does not reply; was it closed without Vehicle.close()?")

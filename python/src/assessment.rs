@@ -1,4 +1,4 @@
-//! The scorer for telemetry logs.
+//! Python binding of the telemetry log scorer.
 
 use crate::errors::AssessmentError;
 use crate::job;

@@ -1,4 +1,4 @@
-//! Environments that are stepped together, on several threads, without Python's lock.
+//! Environments stepped together on several threads, with the GIL released.
 
 use crate::environment::{Episode, Kind, World};
 use crate::errors::{self, SpandrelError};
@@ -10,13 +10,13 @@ use spandrel_sitl::testing::MissedExpectation;
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 use std::thread;
 
-/// One environment: its episode, and what it was reset with.
+/// One environment: its episode and pending reset.
 #[derive(Debug, Default)]
 struct Slot {
     episode: Option<Episode>,
-    /// The start of the newest seed: the same seed again is a copy, and the same bits.
+    /// Seed and initial state of the latest reset. Resetting with the same seed copies it and is bit-identical.
     started: Option<(u64, Episode)>,
-    /// Reset with this in the next turn.
+    /// Seed of the reset to perform in the next turn.
     reset: Option<u64>,
     result: SlotResult,
 }
@@ -31,7 +31,7 @@ struct SlotResult {
 }
 
 impl Slot {
-    /// A reset where one is due, else a step.
+    /// Resets the environment if a reset is pending, otherwise steps it.
     fn turn(&mut self, world: &Arc<World>, action: Option<&[f32]>) {
         self.result.reward = 0.0;
         self.result.terminated = false;
@@ -66,10 +66,10 @@ impl Slot {
     }
 }
 
-/// Observations (float32), rewards (float64), terminations (bool), measures (float64, two for each), all as bytes.
+/// Observations (float32), rewards (float64), terminations (bool) and measures (float64, two per environment), all as bytes.
 type Turn = (Py<PyBytes>, Py<PyBytes>, Py<PyBytes>, Py<PyBytes>);
 
-/// Several environments of one kind. Python's environments wrap it.
+/// Several environments of one kind, wrapped by the Gymnasium environments.
 #[pyclass(frozen, module = "spandrel._spandrel")]
 pub struct Batch {
     world: Arc<World>,
@@ -84,10 +84,10 @@ impl Batch {
         let kind = match kind {
             "hover" => Kind::Hover,
             "inspect" => Kind::Inspect,
-            _ => return Err(PyValueError::new_err(format!("{kind}: no such environment; choose hover or inspect"))),
+            _ => return Err(PyValueError::new_err(format!("unknown environment {kind}; allowed: hover, inspect"))),
         };
         if count == 0 {
-            return Err(PyValueError::new_err("at least one environment is needed"));
+            return Err(PyValueError::new_err("at least one environment is required"));
         }
         let threads = match threads {
             0 => thread::available_parallelism().map_or(1, usize::from),
@@ -98,27 +98,27 @@ impl Batch {
         Ok(Self { world: Arc::new(world), threads: threads.min(count), slots: Mutex::new(slots) })
     }
 
-    /// Seconds of simulation time in a step.
+    /// Returns the simulation time per step, s.
     fn step_s(&self) -> f64 {
         self.world.kind.step().s()
     }
 
-    /// Length of an observation.
+    /// Returns the length of an observation.
     fn observations(&self) -> usize {
         self.world.kind.observations()
     }
 
-    /// Lowest and highest value of each part of an action.
+    /// Returns the minimum and maximum of each action component.
     fn action_limits(&self) -> Vec<(f64, f64)> {
         self.world.action_limits()
     }
 
-    /// Resets those that have a seed and leaves the others as they are.
+    /// Resets the environments that have a seed; the others are unchanged.
     fn reset(&self, py: Python<'_>, seeds: Vec<Option<u64>>) -> PyResult<Turn> {
         self.turn(py, seeds, None)
     }
 
-    /// Steps those without a seed by their actions (float32, one row for each), and resets those with one.
+    /// Steps the environments without a seed by their actions (float32, one row each), and resets those with one.
     fn step(&self, py: Python<'_>, actions: &[u8], seeds: Vec<Option<u64>>) -> PyResult<Turn> {
         let (floats, _) = actions.as_chunks::<4>();
         let actions: Vec<f32> = floats.iter().map(|bytes| f32::from_ne_bytes(*bytes)).collect();
@@ -128,31 +128,31 @@ impl Batch {
         self.turn(py, seeds, Some(actions))
     }
 
-    /// SHA-256 over every tick's state of one environment's episode, as 64 hexadecimal digits.
+    /// Returns the SHA-256 over every tick's state of one environment's episode, as 64 hexadecimal digits.
     fn digest(&self, index: usize) -> PyResult<String> {
         self.with_episode(index, |episode| episode.digest().iter().map(|byte| format!("{byte:02x}")).collect())
     }
 
-    /// Simulation time of one environment, s.
+    /// Returns the simulation time of one environment, s.
     fn time_s(&self, index: usize) -> PyResult<f64> {
         self.with_episode(index, Episode::time_s)
     }
 }
 
 impl Batch {
-    /// Never waits: whoever holds the lock needs Python's to finish.
+    /// Acquires the lock without blocking, because its holder may need the GIL to finish.
     fn lock(&self) -> PyResult<MutexGuard<'_, Vec<Slot>>> {
         match self.slots.try_lock() {
             Ok(slots) => Ok(slots),
             Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
-            Err(TryLockError::WouldBlock) => Err(SpandrelError::new_err("another thread steps these environments")),
+            Err(TryLockError::WouldBlock) => Err(SpandrelError::new_err("another thread is stepping these environments")),
         }
     }
 
     fn with_episode<T>(&self, index: usize, read: impl FnOnce(&Episode) -> T) -> PyResult<T> {
         let slots = self.lock()?;
         let episode = slots.get(index).and_then(|slot| slot.episode.as_ref());
-        episode.map(read).ok_or_else(|| PyIndexError::new_err(format!("environment {index} is not there or was never reset")))
+        episode.map(read).ok_or_else(|| PyIndexError::new_err(format!("environment {index} does not exist or was never reset")))
     }
 
     fn turn(&self, py: Python<'_>, seeds: Vec<Option<u64>>, actions: Option<Vec<f32>>) -> PyResult<Turn> {
@@ -177,7 +177,7 @@ impl Batch {
         Ok(collect(py, slots))
     }
 
-    /// Each thread takes its share of the environments.
+    /// Steps the environments, divided evenly over the threads.
     fn run(&self, slots: &mut [Slot], actions: Option<&[f32]>, width: usize) {
         let share = slots.len().div_ceil(self.threads);
         let world = &self.world;

@@ -1,10 +1,10 @@
-//! MAVLink messages that the package sends for a script.
+//! MAVLink messages that scripts send through the package.
 
 use spandrel_mavlink::dialect::{COMMAND_INT_DATA, COMMAND_LONG_DATA, MavCmd, MavFrame, MavMessage};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::geodesy::LocalPlane;
 
-/// A command to the autopilot; parameters that are not given are 0.
+/// Creates a command to the autopilot; missing parameters are 0.
 pub fn long(command: MavCmd, params: &[f32]) -> MavMessage {
     let p = |k: usize| params.get(k).copied().unwrap_or(0.0);
     MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
@@ -22,7 +22,7 @@ pub fn long(command: MavCmd, params: &[f32]) -> MavMessage {
     })
 }
 
-/// A command at a place of the scenario's frame, m.
+/// Creates a command at a position in the scenario's frame (east, north, up), m.
 pub fn at_place(command: MavCmd, params: &[f32], place_m: Vec3<Enu>, plane: &LocalPlane) -> MavMessage {
     let p = |k: usize| params.get(k).copied().unwrap_or(0.0);
     let geo = plane.geo_from_enu(place_m);

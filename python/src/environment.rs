@@ -1,6 +1,7 @@
-//! One environment for reinforcement learning: a vehicle that flies by velocity setpoints, and a task that observes and rewards.
+//! A reinforcement learning environment: a vehicle controlled by velocity setpoints, and a task that defines observations and
+//! rewards.
 //!
-//! Axes are forward, left, up. "Heading axes" turn with the heading and stay level; "body axes" turn with the body.
+//! Axes are forward, left, up. Heading axes rotate with the heading and stay level; body axes rotate with the body.
 
 use crate::commands;
 use crate::hover::Hover;
@@ -17,30 +18,30 @@ use spandrel_sitl::sim::Sim;
 use spandrel_sitl::testing::{MissedExpectation, STATION, Vehicle};
 use std::sync::Arc;
 
-/// The link that setpoints come over. It gets answers and no streams: nobody reads them.
+/// Link on which setpoints are sent. It receives replies but no telemetry streams, which would be unused.
 const LINK: LinkId = LinkId(9);
-/// MAVLink ids of a companion computer, which fly by setpoints.
+/// MAVLink system and component id of a companion computer, which controls the vehicle by setpoints.
 const COMPANION: (u8, u8) = (1, 191);
-/// PX4's number of the mode Offboard.
+/// PX4's mode number of Offboard.
 const OFFBOARD: f32 = 6.0;
-/// An aircraft that is not ready after this has a fault.
+/// Timeout for the aircraft to become ready; exceeding it indicates a fault.
 const READY: SimTime = SimTime::from_ms(60_000);
-/// Distance from the height of an episode's start, m (estimate: what a take-off keeps in light wind).
+/// Height tolerance at the start of an episode, m (estimate: what a takeoff holds in light wind).
 const AT_HEIGHT_M: f64 = 0.3;
-/// Values of an observation that are the same for every task: see [`Episode::motion`].
+/// Number of observation values common to all tasks; see [`Episode::motion`].
 pub const MOTION: usize = 10;
 
-/// Which task.
+/// Kind of task.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// Hold a point.
+    /// Hold a position.
     Hover,
-    /// Fly the paths of the job and photograph its defects.
+    /// Fly the job's paths and photograph its defects.
     Inspect,
 }
 
 impl Kind {
-    /// Time between two steps.
+    /// Returns the time between two steps.
     pub fn step(self) -> SimTime {
         match self {
             Self::Hover => SimTime::from_ms(20),
@@ -48,7 +49,7 @@ impl Kind {
         }
     }
 
-    /// Length of an action.
+    /// Returns the length of an action.
     pub fn actions(self) -> usize {
         match self {
             Self::Hover => 4,
@@ -56,7 +57,7 @@ impl Kind {
         }
     }
 
-    /// Length of an observation.
+    /// Returns the length of an observation.
     pub fn observations(self) -> usize {
         match self {
             Self::Hover => Hover::OBSERVATIONS,
@@ -65,24 +66,24 @@ impl Kind {
     }
 }
 
-/// What all episodes of an environment share.
+/// Data shared by all episodes of an environment.
 #[derive(Debug)]
 pub struct World {
-    /// Which task.
+    /// Kind of task.
     pub kind: Kind,
-    /// The job.
+    /// Scenario that defines the job.
     pub job: Scenario,
-    /// The aircraft.
+    /// Vehicle to fly.
     pub aircraft: Aircraft,
 }
 
 impl World {
-    /// Largest velocity setpoint in any direction, m/s: the job's speed limit.
+    /// Returns the maximum velocity setpoint in any direction, m/s: the job's speed limit.
     pub fn speed_m_s(&self) -> f64 {
         self.job.scoring.speed_limit_m_s
     }
 
-    /// Lowest and highest value of each part of an action.
+    /// Returns the minimum and maximum of each action component.
     pub fn action_limits(&self) -> Vec<(f64, f64)> {
         let (speed, turn) = (self.speed_m_s(), self.aircraft.limits.yaw_rate_rad_s);
         let camera = &self.aircraft.camera;
@@ -100,18 +101,18 @@ struct Setpoint {
     forward_m_s: f64,
     left_m_s: f64,
     up_m_s: f64,
-    /// Counterclockwise from above.
+    /// Yaw rate, counterclockwise from above.
     yaw_rate_rad_s: f64,
 }
 
-/// What a step brought.
+/// Outcome of one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outcome {
-    /// Reward.
+    /// Reward of the step.
     pub reward: f64,
-    /// The episode is over: a crash, an empty battery, or everything done.
+    /// Whether the episode is over: a crash, an empty battery, or everything done.
     pub terminated: bool,
-    /// Two measures of the task, for `info`.
+    /// Two task-specific measures, for `info`.
     pub measures: [f64; 2],
 }
 
@@ -121,7 +122,7 @@ enum Task {
     Inspect(Box<Inspect>),
 }
 
-/// One flight from its start to its end.
+/// One flight from start to end.
 #[derive(Debug, Clone)]
 pub struct Episode {
     world: Arc<World>,
@@ -131,7 +132,7 @@ pub struct Episode {
 }
 
 impl Episode {
-    /// A vehicle in the air over the pad, in mode Offboard.
+    /// Starts an episode with the vehicle airborne above the pad in Offboard mode.
     pub fn start(world: &Arc<World>, seed: u64) -> Result<Self, MissedExpectation> {
         let builder = Vehicle::builder().seed(seed).after_crash(AfterCrash::End);
         let mut vehicle = builder.build_from(world.job.clone(), world.aircraft.clone());
@@ -142,12 +143,12 @@ impl Episode {
             }
             Kind::Inspect => (Task::Inspect(Box::new(Inspect::new(&world.job))), Inspect::START_HEIGHT_M),
         };
-        // Answers alone: what nobody reads would take half of a reset's time.
+        // Subscribes to replies only; unused telemetry streams would take half of the reset time.
         vehicle.sim.await_heartbeat(STATION);
         vehicle.arm(READY)?;
         vehicle.take_off(height_m)?;
         vehicle.run_until(|v| (v.height_m() - height_m).abs() < AT_HEIGHT_M, READY)?;
-        // A setpoint comes first: without one, Offboard is refused.
+        // Offboard is rejected unless a setpoint was received before.
         let mut encoder = Encoder::new(COMPANION.0, COMPANION.1);
         let hold = encoder.encode(&message(Setpoint { forward_m_s: 0.0, left_m_s: 0.0, up_m_s: 0.0, yaw_rate_rad_s: 0.0 }));
         vehicle.sim.open_link(LINK, LinkKind::Sdk, false);
@@ -158,7 +159,7 @@ impl Episode {
         Ok(Self { world: Arc::clone(world), sim: vehicle.into_sim(), encoder, task })
     }
 
-    /// Runs one step. The action is one of [`World::action_limits`] and is held to it.
+    /// Runs one step. The action is clamped to [`World::action_limits`].
     pub fn step(&mut self, action: &[f32]) -> Outcome {
         let limits = self.world.action_limits();
         let held = |k: usize| {
@@ -181,7 +182,7 @@ impl Episode {
         }
     }
 
-    /// Gimbal, lamp and shutter.
+    /// Commands gimbal, lamp and shutter.
     fn work(&mut self, gimbal_rad: f64, lamp_on: bool, snapshot: bool) {
         let skip = f32::NAN;
         let pitch_deg = gimbal_rad.to_degrees() as f32;
@@ -191,7 +192,7 @@ impl Episode {
         }
         if snapshot {
             self.send(&commands::long(MavCmd::MAV_CMD_IMAGE_START_CAPTURE, &[0.0, 0.0, 1.0, 0.0]));
-            // The picture is taken in the first tick: it is judged where it was taken.
+            // The picture is taken in the first tick, so it is evaluated at that position.
             let before = self.pictures();
             self.sim.handle_timeout(self.sim.poll_timeout());
             if self.pictures() > before
@@ -219,24 +220,25 @@ impl Episode {
         }
     }
 
-    /// SHA-256 over every tick's state.
+    /// Returns the SHA-256 over every tick's state.
     pub fn digest(&self) -> [u8; 32] {
         self.sim.digest()
     }
 
-    /// Simulation time, s.
+    /// Returns the simulation time, s.
     pub fn time_s(&self) -> f64 {
         self.sim.now().s()
     }
 }
 
-/// A vector in heading axes.
+/// Transforms a vector to heading axes.
 pub fn in_heading(vector: Vec3<Enu>, attitude: Rotation<Frd, Ned>) -> [f64; 3] {
     let (sin, cos) = math::sin_cos(attitude.yaw_rad());
     [vector.east() * sin + vector.north() * cos, vector.north() * sin - vector.east() * cos, vector.up()]
 }
 
-/// Velocity in heading axes (3, m/s), the direction of up in body axes (3), angular velocity in body axes (3, rad/s), battery (0 to 1).
+/// Returns velocity in heading axes (3, m/s), the up direction in body axes (3), angular velocity in body axes (3, rad/s) and
+/// battery (0 to 1).
 pub fn motion(sim: &Sim) -> [f64; MOTION] {
     let truth = sim.truth();
     let rigid = &truth.rigid;
@@ -247,12 +249,12 @@ pub fn motion(sim: &Sim) -> [f64; MOTION] {
     [v[0], v[1], v[2], up.forward(), -up.right(), -up.down(), w.forward(), -w.right(), -w.down(), battery]
 }
 
-/// Appends numbers as an observation holds them.
+/// Appends values as 32-bit floats.
 pub fn append(out: &mut Vec<f32>, values: &[f64]) {
     out.extend(values.iter().map(|value| *value as f32));
 }
 
-/// A velocity about the heading, as MAVLink says it: forward, right, down.
+/// Creates the setpoint message with a velocity in MAVLink's heading-aligned axes: forward, right, down.
 fn message(setpoint: Setpoint) -> MavMessage {
     use PositionTargetTypemask as Ignore;
     MavMessage::SET_POSITION_TARGET_LOCAL_NED(SET_POSITION_TARGET_LOCAL_NED_DATA {

@@ -1,17 +1,17 @@
-//! Failures as Python exceptions. The words are those of the crates.
+//! Errors as Python exceptions, with the messages of the Rust crates.
 
 use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
 use spandrel_model::toml::Problems;
 use spandrel_sitl::testing::MissedExpectation;
 
-pyo3::create_exception!(spandrel, SpandrelError, PyException, "Any failure that this package reports.");
-pyo3::create_exception!(spandrel, JobError, SpandrelError, "A scenario or vehicle file is missing or wrong.");
-pyo3::create_exception!(spandrel, RefusedError, SpandrelError, "The vehicle refused a command or did not answer it.");
-pyo3::create_exception!(spandrel, LateError, SpandrelError, "A condition did not hold in time.");
+pyo3::create_exception!(spandrel, SpandrelError, PyException, "Base class of all errors raised by this package.");
+pyo3::create_exception!(spandrel, JobError, SpandrelError, "A scenario or vehicle file is missing or invalid.");
+pyo3::create_exception!(spandrel, RefusedError, SpandrelError, "The vehicle rejected a command or did not reply.");
+pyo3::create_exception!(spandrel, LateError, SpandrelError, "A condition was not met in time.");
 pyo3::create_exception!(spandrel, AssessmentError, SpandrelError, "A telemetry log cannot be scored.");
 
-/// Adds the exceptions to the module.
+/// Registers the exceptions in the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let python = module.py();
     module.add("SpandrelError", python.get_type::<SpandrelError>())?;
@@ -21,12 +21,12 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("AssessmentError", python.get_type::<AssessmentError>())
 }
 
-/// Every problem of a scenario or vehicle file.
+/// Converts all errors of a scenario or vehicle file to an exception.
 pub fn problems(problems: &Problems) -> PyErr {
     JobError::new_err(problems.to_string())
 }
 
-/// What the vehicle did not do.
+/// Converts an unmet expectation to an exception.
 pub fn failure(failure: &MissedExpectation) -> PyErr {
     match failure {
         MissedExpectation::Refused { .. } | MissedExpectation::Silent(_) => RefusedError::new_err(failure.to_string()),

@@ -1,4 +1,4 @@
-//! One vehicle that a script steps.
+//! A vehicle stepped by a script.
 
 use crate::commands;
 use crate::errors::{RefusedError, SpandrelError};
@@ -20,7 +20,7 @@ use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// A vehicle, its links, and the command that waits for its answer.
+/// A vehicle, its links, and the command that awaits its reply.
 #[derive(Debug)]
 struct Inner {
     vehicle: Vehicle,
@@ -31,7 +31,7 @@ struct Inner {
 }
 
 impl Inner {
-    /// Runs up to a time, or up to where a peer in lockstep owes an answer; then true. Datagrams are exchanged every 20 ms.
+    /// Runs until the given time, or returns true earlier if a lockstep peer owes a reply. Datagrams are exchanged every 20 ms.
     fn run(&mut self, until: SimTime) -> bool {
         loop {
             self.links.receive(&mut self.vehicle.sim);
@@ -48,7 +48,7 @@ impl Inner {
             while let Some(transmit) = self.vehicle.poll_transmit() {
                 self.links.deliver(transmit.link, transmit.bytes, stamp_us);
             }
-            // There is no card to read: clients get that as the answer.
+            // There is no SD card to read, and clients get that as the reply.
             while let Some(job) = self.vehicle.sim.poll_file_job() {
                 self.vehicle.sim.file_job_done(job.ticket, Err(FileError::NotFound));
             }
@@ -56,7 +56,7 @@ impl Inner {
     }
 }
 
-/// One vehicle in process. Python's `spandrel.Vehicle` wraps it.
+/// A vehicle in this process, wrapped by Python's `spandrel.Vehicle`.
 #[pyclass(frozen, module = "spandrel._spandrel")]
 pub struct Flight {
     inner: Mutex<Inner>,
@@ -85,31 +85,31 @@ impl Flight {
         Ok(Self { inner: Mutex::new(inner), guided_mode: flavour.errands })
     }
 
-    /// Simulation time, ns.
+    /// Returns the simulation time, ns.
     fn now_ns(&self, py: Python<'_>) -> i64 {
         py.detach(|| self.lock().vehicle.now().ns())
     }
 
-    /// State now.
+    /// Returns the current state.
     fn state(&self, py: Python<'_>) -> State {
         py.detach(|| State::of(&self.lock().vehicle))
     }
 
-    /// SHA-256 over every tick's state so far, as 64 hexadecimal digits.
+    /// Returns the SHA-256 over every tick's state so far, as 64 hexadecimal digits.
     fn digest(&self, py: Python<'_>) -> String {
         let digest = py.detach(|| self.lock().vehicle.sim.digest());
         digest.iter().map(|byte| format!("{byte:02x}")).collect()
     }
 
-    /// Runs up to a simulation time, ns. True when a peer in lockstep owes an answer before that.
+    /// Runs until a simulation time, ns. Returns true if a lockstep peer owes a reply before that.
     fn run(&self, py: Python<'_>, until_ns: i64) -> bool {
         py.detach(|| self.lock().run(SimTime::from_ns(until_ns)))
     }
 
-    /// Sends a command by its MAVLink number, at a place of the scenario's frame (m) where one is given.
+    /// Sends a command by its MAVLink number, optionally with a position in the scenario's frame (east, north, up), m.
     #[pyo3(signature = (command, params, place_enu_m=None))]
     fn ask(&self, py: Python<'_>, command: u32, params: Vec<f32>, place_enu_m: Option<(f64, f64, f64)>) -> PyResult<()> {
-        let command = MavCmd::from_u32(command).ok_or_else(|| PyValueError::new_err(format!("{command}: no such MAV_CMD")))?;
+        let command = MavCmd::from_u32(command).ok_or_else(|| PyValueError::new_err(format!("unknown MAV_CMD {command}")))?;
         py.detach(|| {
             let inner = &mut *self.lock();
             let message = match place_enu_m {
@@ -124,7 +124,7 @@ impl Flight {
         Ok(())
     }
 
-    /// The answer to the last command, as MAV_RESULT; `None` before there is one.
+    /// Returns the reply to the last command as MAV_RESULT; `None` until there is one.
     fn answer(&self, py: Python<'_>) -> Option<u32> {
         py.detach(|| {
             let inner = self.lock();
@@ -137,7 +137,7 @@ impl Flight {
         })
     }
 
-    /// Holds the sticks once.
+    /// Sends one manual control input.
     fn sticks(&self, py: Python<'_>, forward: f64, right: f64, up: f64, yaw: f64) {
         py.detach(|| self.lock().vehicle.sticks(forward, right, up, yaw));
     }
@@ -147,7 +147,7 @@ impl Flight {
     fn open_udp(&self, py: Python<'_>, kind: &str, peer: (String, u16), lockstep: bool) -> PyResult<(u32, u16)> {
         let kind = link_kind(kind)?;
         let (host, port) = peer;
-        let ip: IpAddr = host.parse().map_err(|_| PyValueError::new_err(format!("{host}: no IP address")))?;
+        let ip: IpAddr = host.parse().map_err(|_| PyValueError::new_err(format!("{host} is not an IP address")))?;
         let peer = SocketAddr::new(ip, port);
         let opened = py.detach(|| {
             let inner = &mut *self.lock();
@@ -156,7 +156,7 @@ impl Flight {
         opened.map(|(link, port)| (link.0, port)).map_err(|error| PyOSError::new_err(error.to_string()))
     }
 
-    /// Opens a link that Python empties itself.
+    /// Opens a link whose datagrams Python reads with `take`.
     fn open_mailbox(&self, py: Python<'_>, kind: &str) -> PyResult<u32> {
         let kind = link_kind(kind)?;
         Ok(py.detach(|| {
@@ -165,7 +165,7 @@ impl Flight {
         }))
     }
 
-    /// Writes a telemetry log until the link is closed.
+    /// Opens a telemetry log, which is written until the link is closed.
     fn open_log(&self, py: Python<'_>, path: PathBuf) -> PyResult<u32> {
         let opened = py.detach(|| {
             let inner = &mut *self.lock();
@@ -174,7 +174,7 @@ impl Flight {
         opened.map(|link| link.0).map_err(|error| PyOSError::new_err(format!("{}: {error}", path.display())))
     }
 
-    /// Hands a datagram to the vehicle.
+    /// Sends a datagram to the vehicle.
     fn send(&self, py: Python<'_>, link: u32, datagram: &[u8]) -> PyResult<()> {
         py.detach(|| {
             let inner = &mut *self.lock();
@@ -186,7 +186,7 @@ impl Flight {
         })
     }
 
-    /// Takes the datagrams that the vehicle has sent over a link of Python's own.
+    /// Returns and removes the datagrams received from the vehicle on a mailbox link.
     fn take(&self, py: Python<'_>, link: u32) -> PyResult<Vec<Vec<u8>>> {
         py.detach(|| self.lock().links.take(LinkId(link)).ok_or_else(|| no_link(link)))
     }
@@ -203,12 +203,12 @@ impl Flight {
         })
     }
 
-    /// The number of the mode that take-offs are commanded in; `None` where any mode will do.
+    /// Returns the mode number in which takeoffs must be commanded; `None` if any mode is allowed.
     fn guided_mode(&self) -> Option<u32> {
         self.guided_mode
     }
 
-    /// The refusal of a command in words.
+    /// Returns the exception for a rejected command.
     fn refusal(&self, py: Python<'_>, result: Option<u32>) -> PyErr {
         let (asked, said) = py.detach(|| {
             let inner = self.lock();
@@ -216,8 +216,8 @@ impl Flight {
         });
         let Some((command, _)) = asked else { return SpandrelError::new_err("no command was sent") };
         match result.and_then(spandrel_mavlink::dialect::MavResult::from_u32) {
-            Some(result) => RefusedError::new_err(format!("{command:?} was answered {result:?}; the vehicle said: {said}")),
-            None => RefusedError::new_err(format!("{command:?} was not answered; the vehicle said: {said}")),
+            Some(result) => RefusedError::new_err(format!("{command:?} returned {result:?}; last status text: {said}")),
+            None => RefusedError::new_err(format!("no reply to {command:?}; last status text: {said}")),
         }
     }
 }
@@ -231,6 +231,6 @@ fn link_kind(kind: &str) -> PyResult<LinkKind> {
         "gcs" => Ok(LinkKind::GroundStation),
         "sdk" => Ok(LinkKind::Sdk),
         "payload" => Ok(LinkKind::Payload),
-        _ => Err(PyValueError::new_err(format!("{kind}: no such kind of link; choose gcs, sdk or payload"))),
+        _ => Err(PyValueError::new_err(format!("unknown kind of link {kind}; allowed: gcs, sdk, payload"))),
     }
 }

@@ -1,27 +1,27 @@
-//! Hover: hold the first point of the job's first path.
+//! Hover task: hold the first point of the job's first path.
 
 use crate::environment::{self, MOTION, Outcome};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::Scenario;
 use spandrel_sitl::sim::Sim;
 
-/// A point to hold.
+/// The hover task.
 #[derive(Debug, Clone, Copy)]
 pub struct Hover {
     point_m: Vec3<Enu>,
 }
 
 impl Hover {
-    /// Vector to the point in heading axes, m; then the motion.
+    /// Length of an observation: vector to the point in heading axes (3, m), then the motion.
     pub const OBSERVATIONS: usize = 3 + MOTION;
 
-    /// The first point of the first task; a job without tasks is held over its pad.
+    /// Uses the first point of the first task, or a point above the pad for a job without tasks.
     pub fn new(job: &Scenario) -> Self {
         let point_m = job.tasks.first().and_then(|task| task.path_m.first()).copied();
         Self { point_m: point_m.unwrap_or(job.ground_team.pad_m + Vec3::new(0.0, 0.0, 5.0)) }
     }
 
-    /// The point, m.
+    /// Returns the target point, m.
     pub fn point_m(&self) -> Vec3<Enu> {
         self.point_m
     }
@@ -36,7 +36,8 @@ impl Hover {
         environment::append(out, &environment::motion(sim));
     }
 
-    /// The reward is minus the distance to the point, m. Measures: that distance, m, and contacts.
+    /// Evaluates a step. The reward is the negative distance to the point, m. Measures: that distance, m, and the number of
+    /// contacts.
     pub fn judge(&self, sim: &Sim, over: bool) -> Outcome {
         let distance_m = self.offset_m(sim).norm();
         Outcome { reward: -distance_m, terminated: over, measures: [distance_m, f64::from(sim.hits())] }

@@ -1,4 +1,4 @@
-//! Inspect: fly the reference paths of the job and photograph its defects, judged by the monitor's measures.
+//! Inspect task: fly the job's reference paths and photograph its defects, evaluated with the monitor's measures.
 
 use crate::environment::{self, MOTION, Outcome};
 use spandrel_model::frames::{Enu, Vec3};
@@ -11,10 +11,10 @@ use spandrel_monitor::measures::on_path::ReferencePaths;
 use spandrel_sitl::sim::Sim;
 use std::collections::BTreeSet;
 
-/// Clearance is looked for this far, m (the vehicle's own limit for the scoring's clearance).
+/// Maximum clearance measured, m (the vehicle's own limit for the clearance used in scoring).
 const REACH_M: f64 = 30.0;
 
-/// How far an inspection is.
+/// Progress of an inspection.
 #[derive(Debug, Clone)]
 pub struct Inspect {
     paths: ReferencePaths,
@@ -26,13 +26,14 @@ pub struct Inspect {
 }
 
 impl Inspect {
-    /// Height over the pad at the start, m (estimate: out of the ground's effect on the rotors).
+    /// Height above the pad at the start, m (estimate: out of ground effect).
     pub const START_HEIGHT_M: f64 = 5.0;
-    /// Vector to the next point (3, m) and where the camera should look from there (3), both in heading axes; the motion; gimbal pitch, rad;
-    /// lamp; clearance, m; share of the paths' length flown; share of the defects found.
+    /// Length of an observation: vector to the next point (3, m) and the camera's target direction from there (3), both in
+    /// heading axes; the motion; gimbal pitch, rad; lamp; clearance, m; fraction of the paths' length flown; fraction of the
+    /// defects found.
     pub const OBSERVATIONS: usize = 6 + MOTION + 5;
 
-    /// Nothing flown, nothing found.
+    /// Creates an inspection with nothing flown or found.
     pub fn new(job: &Scenario) -> Self {
         let paths = ReferencePaths::new(job);
         let flown = (0..paths.len()).map(|task| FlownPath::new(paths.path(task), paths.threshold_m(task))).collect();
@@ -40,7 +41,7 @@ impl Inspect {
         Self { paths, look, flown, on: None, found: BTreeSet::new(), before: 0.0 }
     }
 
-    /// Flown share of the length of all paths.
+    /// Returns the fraction of the length of all paths that was flown.
     fn flown_share(&self) -> f64 {
         let all = self.flown.iter().map(FlownPath::coverage);
         let (flown_m, length_m) = all.fold((0.0, 0.0), |(f, l), one| (f + one.share * one.length_m, l + one.length_m));
@@ -52,7 +53,7 @@ impl Inspect {
         if placed > 0 { self.found.len() as f64 / placed as f64 } else { 0.0 }
     }
 
-    /// The nearest point that was not flown, m, and where a camera there should look.
+    /// Returns the nearest point not yet flown, m, and the camera's target direction there.
     fn next(&self, position_m: Vec3<Enu>) -> Option<(Vec3<Enu>, Vec3<Enu>)> {
         let mut best: Option<(f64, usize, usize)> = None;
         for (task, flown) in self.flown.iter().enumerate() {
@@ -86,7 +87,7 @@ impl Inspect {
         environment::append(out, &[payload.gimbal.pitch_rad, lamp, clearance_m, self.flown_share(), self.found_share(sim)]);
     }
 
-    /// Takes a picture from where the vehicle is into account: defects that it shows count as found.
+    /// Evaluates a picture from the vehicle's current pose; defects that it shows count as found.
     pub fn judge_picture(&mut self, sim: &Sim, aircraft: &Aircraft) {
         let rigid = &sim.truth().rigid;
         let payload = sim.payload();
@@ -96,8 +97,8 @@ impl Inspect {
         self.found.extend(shown.iter().filter(|view| view.hit).map(|view| view.defect_id));
     }
 
-    /// The reward is how much the two shares, of the paths and of the defects, have grown: an episode that flies and finds everything earns
-    /// 2, or 1 at a job without defects. Measures: the two shares.
+    /// Evaluates a step. The reward is the increase of two fractions, of paths flown and defects found: a complete episode earns
+    /// 2, or 1 for a job without defects. Measures: the two fractions.
     pub fn judge(&mut self, sim: &Sim, over: bool) -> Outcome {
         let on = self.paths.on(sim.truth().rigid.position_m.enu(), self.on);
         if let Some((task, _)) = on {

@@ -1,4 +1,4 @@
-//! Scenarios, vehicles and autopilot protocols by the name of a shipped one, or by the path of a file.
+//! Scenarios, vehicles and autopilot protocols, given by shipped name or file path.
 
 use crate::errors::{self, JobError};
 use pyo3::prelude::*;
@@ -9,19 +9,19 @@ use spandrel_sitl::endpoint::flavour::{Flavour, ardupilot, generic, px4};
 use std::fs;
 use std::path::Path;
 
-/// Names of the shipped scenarios.
+/// Returns the names of the shipped scenarios.
 #[pyfunction]
 pub fn scenarios() -> Vec<&'static str> {
     shipped::SCENARIOS.iter().map(|(name, _)| *name).collect()
 }
 
-/// Names of the shipped vehicles.
+/// Returns the names of the shipped vehicles.
 #[pyfunction]
 pub fn vehicles() -> Vec<&'static str> {
     shipped::VEHICLES.iter().map(|(name, _)| *name).collect()
 }
 
-/// Reads a scenario: the name of a shipped one, or a file. Height fields lie beside the file.
+/// Reads a scenario by shipped name or file path. Height maps are read from the file's folder.
 pub fn read_scenario(name: &str) -> PyResult<Scenario> {
     let text = text_of(name, "scenario", shipped::SCENARIOS)?;
     let folder = Path::new(name).parent().unwrap_or(Path::new("."));
@@ -29,7 +29,7 @@ pub fn read_scenario(name: &str) -> PyResult<Scenario> {
     scenario::read(&file_name(name), &text, &sibling).map_err(|problems| errors::problems(&problems))
 }
 
-/// Reads a vehicle: the name of a shipped one, or a file.
+/// Reads a vehicle by shipped name or file path.
 pub fn read_vehicle(name: &str) -> PyResult<Vehicle> {
     let text = text_of(name, "vehicle", shipped::VEHICLES)?;
     vehicle::read(&file_name(name), &text).map_err(|problems| errors::problems(&problems))
@@ -39,7 +39,7 @@ fn file_name(name: &str) -> String {
     if is_file(name) { name.to_owned() } else { format!("{name}.toml") }
 }
 
-/// A shipped name has neither an ending nor a folder.
+/// Returns whether the name is a path; shipped names have neither an extension nor a folder.
 fn is_file(name: &str) -> bool {
     name.contains(['.', '/', '\\'])
 }
@@ -55,23 +55,23 @@ fn text_of(name: &str, what: &str, shipped: &[(&str, &str)]) -> PyResult<String>
     })
 }
 
-/// An autopilot protocol by its name.
+/// Returns an autopilot protocol by name.
 pub fn flavour(name: &str) -> PyResult<&'static Flavour> {
     match name {
         "px4" => Ok(&px4::FLAVOUR),
         "ardupilot" => Ok(&ardupilot::FLAVOUR),
         "generic" => Ok(&generic::FLAVOUR),
-        _ => Err(JobError::new_err(format!("{name}: no such flavour; choose px4, ardupilot or generic"))),
+        _ => Err(JobError::new_err(format!("unknown flavour {name}; allowed: px4, ardupilot, generic"))),
     }
 }
 
-/// What follows a crash; `None` is the scenario's own rule.
+/// Returns the rule after a crash; `None` for the scenario's own rule.
 pub fn after_crash(name: &str) -> PyResult<Option<AfterCrash>> {
     match name {
         "scenario" => Ok(None),
         "continue" => Ok(Some(AfterCrash::Continue)),
         "respawn" => Ok(Some(AfterCrash::Respawn)),
         "end" => Ok(Some(AfterCrash::End)),
-        _ => Err(JobError::new_err(format!("{name}: no such rule; choose scenario, continue, respawn or end"))),
+        _ => Err(JobError::new_err(format!("unknown rule {name}; allowed: scenario, continue, respawn, end"))),
     }
 }

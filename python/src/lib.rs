@@ -1,5 +1,5 @@
-//! The native half of the Python package `spandrel`: the vehicle in process, environments that are stepped together, and the scorer.
-//! Everything that blocks or computes releases Python's lock.
+//! The native part of the Python package `spandrel`: the in-process vehicle, batched environments and the scorer. Everything that
+//! blocks or computes releases the GIL.
 
 mod assessment;
 mod batch;
@@ -15,7 +15,7 @@ mod state;
 
 use pyo3::prelude::*;
 
-/// Native parts of `spandrel`.
+/// Native module of `spandrel`.
 #[pymodule]
 fn _spandrel(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;

@@ -1,4 +1,4 @@
-//! Ways in and out of a vehicle: UDP sockets on the loopback, mailboxes that Python empties, and telemetry logs.
+//! Links of a vehicle: UDP sockets on the loopback interface, mailboxes read by Python, and telemetry logs.
 
 use spandrel_mavlink::codec::Decoder;
 use spandrel_mavlink::telemetry::tlog;
@@ -10,14 +10,14 @@ use std::io::{self, BufWriter, Write};
 use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 use std::path::Path;
 
-/// The harness's own link is 1; those of Python count from here.
+/// First link id for Python; link 1 belongs to the test harness.
 const FIRST: u32 = 2;
-/// The longest datagram that UDP carries, bytes.
+/// Maximum size of a UDP datagram, bytes.
 const DATAGRAM: usize = 65_535;
-/// Datagrams that a mailbox keeps, some minutes of all streams; the oldest are dropped.
+/// Maximum number of datagrams in a mailbox, a few minutes of all streams; the oldest are dropped.
 const MAILBOX: usize = 50_000;
 
-/// One way in and out.
+/// Transport of a link.
 #[derive(Debug)]
 enum Way {
     Udp { socket: UdpSocket, peer: SocketAddr },
@@ -25,7 +25,7 @@ enum Way {
     Log(Log),
 }
 
-/// A telemetry log that is being written.
+/// A telemetry log being written.
 #[derive(Debug)]
 struct Log {
     file: BufWriter<File>,
@@ -34,7 +34,7 @@ struct Log {
 }
 
 impl Log {
-    /// Writes each frame of a datagram as a record; after a failure nothing more.
+    /// Writes each frame of a datagram as a record; stops after a write error.
     fn write(&mut self, stamp_us: u64, datagram: &[u8]) {
         for frame in self.decoder.datagram(datagram) {
             if self.failure.is_none() {
@@ -48,7 +48,7 @@ impl Log {
     }
 }
 
-/// All of them by link.
+/// All transports by link id.
 #[derive(Debug)]
 pub struct Links {
     ways: BTreeMap<LinkId, Way>,
@@ -57,7 +57,7 @@ pub struct Links {
 }
 
 impl Links {
-    /// None yet.
+    /// Creates an empty set of links.
     pub fn new() -> Self {
         Self { ways: BTreeMap::new(), next: FIRST, buffer: vec![0; DATAGRAM] }
     }
@@ -69,7 +69,7 @@ impl Links {
         link
     }
 
-    /// Opens a socket on a free loopback port. Returns link and port.
+    /// Opens a UDP socket on a free loopback port. Returns link and port.
     pub fn open_udp(&mut self, sim: &mut Sim, kind: LinkKind, peer: SocketAddr, lockstep: bool) -> io::Result<(LinkId, u16)> {
         let socket = UdpSocket::bind((Ipv4Addr::LOCALHOST, 0))?;
         socket.set_nonblocking(true)?;
@@ -86,7 +86,7 @@ impl Links {
         link
     }
 
-    /// Writes the telemetry that a monitor gets into a new file.
+    /// Opens a link that writes the monitor's telemetry to a new file.
     pub fn open_log(&mut self, sim: &mut Sim, path: &Path) -> io::Result<LinkId> {
         let log = Log { file: BufWriter::new(File::create(path)?), decoder: Decoder::new(), failure: None };
         let link = self.add(Way::Log(log));
@@ -94,7 +94,7 @@ impl Links {
         Ok(link)
     }
 
-    /// Closes a link. Errors if there is none, or if a log could not be written.
+    /// Closes a link. Errors if it does not exist, or if its log could not be written.
     pub fn close(&mut self, sim: &mut Sim, link: LinkId) -> io::Result<()> {
         sim.close_link(link);
         match self.ways.remove(&link) {
@@ -104,12 +104,12 @@ impl Links {
         }
     }
 
-    /// Whether the link is a mailbox.
+    /// Returns whether the link is a mailbox.
     pub fn is_mailbox(&self, link: LinkId) -> bool {
         matches!(self.ways.get(&link), Some(Way::Mailbox(_)))
     }
 
-    /// The datagrams in a mailbox, oldest first; `None` for a link that is none.
+    /// Returns and removes the datagrams in a mailbox, oldest first; `None` if the link is not a mailbox.
     pub fn take(&mut self, link: LinkId) -> Option<Vec<Vec<u8>>> {
         match self.ways.get_mut(&link)? {
             Way::Mailbox(mail) => Some(mail.drain(..).collect()),
@@ -117,8 +117,8 @@ impl Links {
         }
     }
 
-    /// Sends a datagram of the vehicle; a log stamps it with `stamp_us`, microseconds since the Unix epoch. Nobody there is no failure: UDP
-    /// peers come and go.
+    /// Delivers a datagram from the vehicle; a log timestamps it with `stamp_us`, µs since the Unix epoch. UDP send errors are
+    /// ignored, because peers come and go.
     pub fn deliver(&mut self, link: LinkId, bytes: Vec<u8>, stamp_us: u64) {
         match self.ways.get_mut(&link) {
             Some(Way::Udp { socket, peer }) => {
@@ -135,7 +135,7 @@ impl Links {
         }
     }
 
-    /// Hands everything that has arrived to the vehicle. Datagrams from others than a link's peer are ignored.
+    /// Passes all received datagrams to the vehicle. Datagrams from addresses other than the link's peer are ignored.
     pub fn receive(&mut self, sim: &mut Sim) {
         for (link, way) in &self.ways {
             let Way::Udp { socket, peer } = way else { continue };
@@ -148,7 +148,7 @@ impl Links {
     }
 }
 
-/// The next datagram. A refusal that an earlier one met is skipped.
+/// Returns the next datagram. Skips connection-refused errors caused by earlier sends.
 fn next(socket: &UdpSocket, buffer: &mut [u8]) -> Option<(usize, SocketAddr)> {
     loop {
         match socket.recv_from(buffer) {

@@ -1,48 +1,48 @@
-//! The vehicle's state as Python sees it.
+//! The vehicle's state as exposed to Python.
 
 use pyo3::prelude::*;
 use spandrel_sitl::testing::Vehicle;
 
-/// The true state of the vehicle at one instant.
+/// True state of the vehicle at one instant.
 #[pyclass(frozen, get_all, module = "spandrel")]
 #[derive(Debug, Clone)]
 pub struct State {
     /// Simulation time, s.
     time_s: f64,
-    /// The motors are armed.
+    /// Whether the motors are armed.
     armed: bool,
     /// Position in the scenario's frame: east, north, up, m.
     position_enu_m: (f64, f64, f64),
-    /// Height over the pad, m.
+    /// Height above the pad, m.
     height_m: f64,
     /// Velocity over ground: east, north, up, m/s.
     velocity_enu_m_s: (f64, f64, f64),
-    /// Roll, positive to the right, rad.
+    /// Roll, right side down positive, rad.
     roll_rad: f64,
-    /// Pitch, positive nose up, rad.
+    /// Pitch, nose up positive, rad.
     pitch_rad: f64,
     /// Heading, clockwise from north, -pi to pi, rad.
     heading_rad: f64,
     /// Angular velocity of the body: forward, right, down axes, rad/s.
     rates_frd_rad_s: (f64, f64, f64),
-    /// Charge of the battery, %.
+    /// Remaining battery, %.
     battery_pct: f64,
-    /// Pitch of the gimbal over the horizon, positive up, rad.
+    /// Gimbal pitch above the horizon, up positive, rad.
     gimbal_pitch_rad: f64,
-    /// The lamp is on.
+    /// Whether the lamp is on.
     lamp_on: bool,
-    /// Pictures taken.
+    /// Number of pictures taken.
     pictures: usize,
-    /// Contacts so far, without gentle ones with the pad and the ground around it.
+    /// Number of contacts so far, excluding soft contacts with the pad and the surrounding ground.
     hits: i32,
-    /// Why the flight ended; `None` while it lasts.
+    /// Reason for the end of the flight; `None` while it is in progress.
     ended: Option<String>,
-    /// Newest status text of the vehicle; empty before the first.
+    /// Latest status text of the vehicle; empty before the first.
     text: String,
 }
 
 impl State {
-    /// Of a vehicle now.
+    /// Returns the current state of a vehicle.
     pub fn of(vehicle: &Vehicle) -> Self {
         let sim = &vehicle.sim;
         let (truth, payload) = (sim.truth(), sim.payload());

@@ -1,4 +1,4 @@
-"""Scores of a flight that this package has recorded."""
+"""Scores of a flight recorded by this package."""
 
 import json
 import math
@@ -14,7 +14,7 @@ JOB, AIRCRAFT = "drill-straight-line", "phantom2"
 
 @pytest.fixture(scope="module")
 def flight(tmp_path_factory):
-    """A recorded flight from the pad and back."""
+    """Records a flight that starts and ends on the pad."""
     path = tmp_path_factory.mktemp("flight") / "flight.tlog"
     vehicle = spandrel.Vehicle(JOB, AIRCRAFT, seed=7)
     with vehicle.record(path):

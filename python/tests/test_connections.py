@@ -1,4 +1,4 @@
-"""Connections of pymavlink (in lockstep) and of MAVSDK (in real time)."""
+"""Connections with pymavlink (lockstep) and MAVSDK (real time)."""
 
 import time
 
@@ -9,9 +9,9 @@ from mavsdk.plugins.telemetry import Telemetry
 
 import spandrel
 
-# Wall seconds that only keep a broken run from hanging.
+# Wall-clock timeout, s, so that a failing test does not hang.
 FOUND_S = 60.0
-# Simulation time runs this much faster than the wall clock; MAVSDK keeps its own clock.
+# Speed of simulation time relative to wall time; MAVSDK uses wall time.
 SPEED = 4.0
 
 
@@ -33,7 +33,7 @@ def test_wire_pymavlink_loses_nothing_while_the_script_computes():
         while (message := connection.recv_match(type="ATTITUDE")) is not None:
             times.append(message.time_boot_ms)
         assert times[-1] - times[0] > 59_000
-        # 50 a second, stamped in whole milliseconds.
+        # 50 Hz, with timestamps in whole milliseconds.
         assert {later - earlier for earlier, later in zip(times, times[1:])} <= {19, 20, 21}
 
 
@@ -48,7 +48,7 @@ def test_wire_two_pymavlink_connections_in_lockstep():
 def test_exact_a_closed_connection_is_an_error_and_no_hang():
     vehicle = spandrel.Vehicle(seed=7)
     vehicle.connect().close()
-    with pytest.raises(spandrel.SpandrelError, match="does not answer"):
+    with pytest.raises(spandrel.SpandrelError, match="does not reply"):
         vehicle.run_for(1.0)
 
 
@@ -80,7 +80,7 @@ def test_exact_serving_and_lockstep_exclude_each_other():
         with pytest.raises(spandrel.SpandrelError, match="served in real time"):
             vehicle.connect()
     vehicle.connect()
-    with pytest.raises(spandrel.SpandrelError, match="connected already"), vehicle.serve():
+    with pytest.raises(spandrel.SpandrelError, match="already connected"), vehicle.serve():
         pass
     vehicle.close()
     with pytest.raises(ValueError, match="speed is 0"), vehicle.serve(speed=0):

@@ -10,12 +10,12 @@ from gymnasium.utils.env_checker import check_env
 import spandrel.gymnasium_envs
 
 HOVER, INSPECT = "Spandrel-Hover-v0", "Spandrel-Inspect-v0"
-# Seeds of episodes that are compared.
+# Seeds of the episodes to compare.
 SEED = 5
 
 
 def towards(observation, limit):
-    """A velocity towards the point that an observation begins with, m/s: 1/s times the distance."""
+    """Returns a velocity toward the point at the start of an observation, m/s: 1/s times the distance."""
     return np.clip(observation[:3], -limit, limit)
 
 
@@ -24,7 +24,7 @@ def hover_action(observation):
 
 
 def inspect_action(observation, snapshot):
-    """Flies to the next point, level until it is near, turns the camera to what is inspected there, and takes pictures."""
+    """Flies to the next point, level until close, points the camera at the target there, and takes pictures."""
     velocity = towards(observation, 3.0)
     if np.hypot(observation[0], observation[1]) > 8.0:
         velocity[2] = 0.0
@@ -36,7 +36,7 @@ def inspect_action(observation, snapshot):
 @pytest.mark.parametrize("name", [HOVER, INSPECT])
 def test_gymnasiums_own_checker(name):
     with warnings.catch_warnings():
-        # Advice only: actions and observations carry SI units, not shares.
+        # A recommendation only: actions and observations are in SI units, not normalized.
         warnings.filterwarnings("ignore", message=".*(symmetric and normalized|infinity).*")
         check_env(gymnasium.make(name).unwrapped)
 
@@ -54,7 +54,7 @@ def test_exact_the_same_seed_gives_the_same_bits(name):
 
 
 def test_exact_a_fresh_environment_gives_the_bits_of_a_kept_one():
-    """What is kept of the newest seed's start changes nothing."""
+    """The cached start of the latest seed does not change results."""
     kept, digests = gymnasium.make(HOVER), []
     for env in (kept, kept, gymnasium.make(HOVER)):
         env.reset(seed=SEED)
@@ -94,7 +94,7 @@ def test_flight_actions_fly_the_way_that_they_say():
 def test_flight_a_crash_ends_the_episode():
     env = gymnasium.make(HOVER)
     env.reset(seed=SEED)
-    # To the side first: touching the pad gently is a landing.
+    # Move sideways first, because a soft contact with the pad is a landing.
     for _ in range(200):
         env.step(np.array([4.0, 0.0, 0.0, 0.0], np.float32))
     for _ in range(600):

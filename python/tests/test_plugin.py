@@ -1,4 +1,4 @@
-"""The pytest plugin, as a user's own pytest loads it."""
+"""The pytest plugin, loaded the way a user's pytest loads it."""
 
 import pathlib
 
@@ -21,7 +21,7 @@ FLIGHT = """
 
 
 def digest(pytester):
-    """The digest that a run of the flight prints."""
+    """Returns the digest printed by a run of the flight."""
     result = pytester.runpytest_subprocess("-s", "-p", "no:cacheprovider")
     result.assert_outcomes(passed=1)
     (line,) = [line for line in result.outlines if "digest" in line]
@@ -54,4 +54,4 @@ def test_the_example_fails_where_a_corner_is_wrong(pytester):
     pytester.makepyfile(test_square=text)
     result = pytester.runpytest_subprocess()
     result.assert_outcomes(failed=1)
-    result.stdout.fnmatch_lines(["*LateError: the condition did not hold within 30 s of simulation time*"])
+    result.stdout.fnmatch_lines(["*LateError: the condition was not met within 30 s of simulation time*"])

@@ -1,4 +1,4 @@
-"""The vehicle in process: stepping, commands, failures, links, and the same bits twice."""
+"""The in-process vehicle: stepping, commands, errors, links and reproducibility."""
 
 import math
 import threading
@@ -9,7 +9,7 @@ import spandrel
 
 
 def flown(seed):
-    """A vehicle after take-off."""
+    """Returns a vehicle after takeoff."""
     vehicle = spandrel.Vehicle(seed=seed)
     vehicle.arm()
     vehicle.take_off(5)
@@ -80,13 +80,13 @@ def test_stepping_lets_other_python_threads_run():
     while thread.is_alive():
         turns += 1
     assert vehicle.time_s == 120.0
-    # Holding the lock, the other thread would leave a handful of turns.
+    # If the other thread held the lock, only a few turns would remain.
     assert turns > 1_000
 
 
 def test_exact_a_condition_that_never_holds_is_late():
     vehicle = spandrel.Vehicle()
-    with pytest.raises(spandrel.LateError, match="did not hold within 2 s of simulation time"):
+    with pytest.raises(spandrel.LateError, match="was not met within 2 s of simulation time"):
         vehicle.run_until(lambda state: state.armed, sim_s=2)
     assert vehicle.time_s == 2.0
 
@@ -97,8 +97,8 @@ def test_exact_a_condition_that_never_holds_is_late():
         ({"scenario": "three-bridges"}, "three-bridges: no such scenario; .*two-bridges"),
         ({"vehicle": "phantom9"}, "phantom9: no such vehicle; .*phantom2"),
         ({"scenario": "missing.toml"}, "missing.toml: "),
-        ({"flavour": "betaflight"}, "choose px4, ardupilot or generic"),
-        ({"after_crash": "cry"}, "choose scenario, continue, respawn or end"),
+        ({"flavour": "betaflight"}, "unknown flavour betaflight; allowed: px4, ardupilot, generic"),
+        ({"after_crash": "cry"}, "unknown rule cry; allowed: scenario, continue, respawn, end"),
     ],
 )
 def test_exact_a_wrong_job_is_refused_in_words(arguments, words):
@@ -115,18 +115,18 @@ def test_exact_every_problem_of_a_file_is_listed(tmp_path):
 
 
 def test_exact_a_refused_command_raises_with_the_answer():
-    with pytest.raises(spandrel.RefusedError, match="MAV_CMD_USER_1 was answered MAV_RESULT_UNSUPPORTED"):
+    with pytest.raises(spandrel.RefusedError, match="MAV_CMD_USER_1 returned MAV_RESULT_UNSUPPORTED"):
         spandrel.Vehicle().command(31010)
-    with pytest.raises(ValueError, match="65000: no such MAV_CMD"):
+    with pytest.raises(ValueError, match="unknown MAV_CMD 65000"):
         spandrel.Vehicle().command(65000)
 
 
 def test_exact_what_makes_no_sense_is_a_value_error():
     vehicle = spandrel.Vehicle()
     for wrong in (lambda: vehicle.step(-1), lambda: vehicle.run_for(-1.0), lambda: vehicle.run_for(math.nan)):
-        with pytest.raises(ValueError, match="allowed: 0 and more"):
+        with pytest.raises(ValueError, match="allowed: 0 or more"):
             wrong()
-    with pytest.raises(ValueError, match="no such kind of link"):
+    with pytest.raises(ValueError, match="unknown kind of link"):
         vehicle.open_link("carrier pigeon")
 
 

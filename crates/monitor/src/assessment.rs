@@ -1,4 +1,4 @@
-//! The assessment: the names of its parts are the names in `assessment.json`, which other tools read.
+//! The assessment of a flight. Field names are the keys of `assessment.json`, which external tools read.
 
 use super::measures::attention::{self, SiteSurvey, Snapshot};
 use super::measures::coverage::{self, PathCoverage};
@@ -21,48 +21,48 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
 use std::collections::BTreeSet;
 
-/// What is scored against.
+/// The job that a flight is scored against.
 #[derive(Debug, Clone, Copy)]
 pub struct ScoringJob<'a> {
-    /// Scenario.
+    /// Scenario of the session.
     pub scenario: &'a Scenario,
-    /// Aircraft.
+    /// Vehicle that was flown.
     pub vehicle: &'a Vehicle,
-    /// Site of this session's seed.
+    /// Site built from the session's seed, for defect visibility.
     pub survey: &'a dyn SiteSurvey,
 }
 
-/// Why there is nothing to score.
+/// Reasons why a flight cannot be scored.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum AssessError {
-    /// The drone never rose.
+    /// The drone never exceeded the lift-off height.
     #[error("the drone never lifted off (more than 0.3 m above the pad), so there is no session to score")]
     NeverFlown,
-    /// No truth in the telemetry.
-    #[error("no HIL_STATE_QUATERNION in the telemetry: it carries the clock and the truth that the scores need")]
+    /// The telemetry contains no ground-truth message.
+    #[error("no HIL_STATE_QUATERNION in the telemetry; it provides the time and the true state that scoring requires")]
     NoTruth,
-    /// The simulator runs another scenario.
-    #[error("the simulator runs another scenario: its scn_crc is {heard:#010x}, that of `{name}` is {ours:#010x}")]
+    /// The simulator runs a different scenario.
+    #[error("the simulator runs another scenario: its scn_crc is {heard:#010x}, but `{name}` has {ours:#010x}")]
     OtherScenario {
-        /// Our scenario.
+        /// Name of the session's scenario.
         name: String,
-        /// Heard.
+        /// `scn_crc` received from the simulator.
         heard: u32,
-        /// Ours.
+        /// CRC of the session's scenario.
         ours: u32,
     },
-    /// The simulator runs another seed.
-    #[error("the simulator's seed is {heard}, the session's is {ours}: they would place other defects")]
+    /// The simulator runs a different seed.
+    #[error("the simulator's seed is {heard}, but the session's is {ours}, which places different defects")]
     OtherSeed {
-        /// Heard.
+        /// Seed received from the simulator.
         heard: u64,
-        /// Ours.
+        /// Seed of the session.
         ours: u64,
     },
-    /// No seed anywhere.
-    #[error("no seed: the telemetry holds no `seed` message, and neither scenario nor command line names one")]
+    /// Neither the telemetry, the scenario nor the command line provides a seed.
+    #[error("no seed: the telemetry contains no `seed` message, and neither the scenario nor the command line provides one")]
     NoSeed,
-    /// The telemetry cannot be read.
+    /// The telemetry log could not be read.
     #[error("the telemetry cannot be read: {0}")]
     Unreadable(String),
 }
@@ -73,144 +73,144 @@ impl From<std::io::Error> for AssessError {
     }
 }
 
-/// Both profiles of one session.
+/// Assessment of one session under both profiles.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Assessment {
-    /// Profile of `scores`: always `paper`.
+    /// Profile of `scores`; always `paper`.
     pub profile: &'static str,
     /// The four scores and their sum.
     pub scores: Scores,
-    /// How much of the job was done.
+    /// Completion of the job.
     pub completion: Completion,
-    /// Tasks in file order.
+    /// Results per task, in scenario order.
     pub tasks: Vec<TaskResult>,
-    /// Crashes.
+    /// Crash counts.
     pub crashes: CrashCounts,
-    /// Pictures.
+    /// Picture counts and per-picture results.
     pub snapshots: SnapshotCounts,
-    /// The end.
+    /// End of the session.
     pub end: SessionEnd,
-    /// How much was seen.
+    /// Telemetry coverage.
     pub telemetry: TelemetryCoverage,
-    /// Who flew when; it changes no score.
+    /// Control source over time. Does not affect any score.
     pub flown_by: Vec<ControlStretch>,
-    /// The other profile.
+    /// Result of the certification profile.
     pub certification: Certification,
 }
 
-/// Frames in a row that one hand flew.
+/// A run of consecutive frames under one control source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct ControlStretch {
     /// First frame.
     pub from_frame: u32,
-    /// Last frame, included.
+    /// Last frame, inclusive.
     pub to_frame: u32,
-    /// Who; `None` before the first heartbeat.
+    /// Control source; `None` before the first heartbeat.
     pub by: Option<ControlSource>,
 }
 
-/// The paper's scores.
+/// Scores as defined in the paper.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Scores {
-    /// `None` for a job without tasks.
+    /// Conformity; `None` for a job without tasks.
     pub conformity: Option<Score>,
-    /// Time.
+    /// Efficiency: flight time and return.
     pub efficiency: Score,
-    /// Crashes.
+    /// Safety: crashes.
     pub safety: Score,
-    /// `None` when no defect was placed.
+    /// Accuracy; `None` when no defect was placed.
     pub accuracy: Option<Score>,
-    /// Plain sum of the percentages.
+    /// Sum of the scores' percentages.
     pub overall: f64,
-    /// What the sum is out of: 100 for each score that applies.
+    /// Maximum of `overall`: 100 for each score that applies.
     pub overall_max: f64,
 }
 
-/// One task.
+/// Result of one task.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TaskResult {
-    /// Number.
+    /// Task number.
     pub id: u32,
-    /// Its path was entered; false is the flag `not_attempted`.
+    /// Whether its path was entered; if false, the task has the flag `not_attempted`.
     pub attempted: bool,
-    /// Done, part or not attempted.
+    /// Done, partly done or not attempted.
     pub state: TaskState,
-    /// Share of its path that was flown, 0 to 1.
+    /// Fraction of its path that was flown, 0 to 1.
     pub covered: f64,
     /// First on-path frame.
     pub first_frame: Option<u32>,
     /// Last on-path frame.
     pub last_frame: Option<u32>,
-    /// P_p.
+    /// Fraction of the window's frames that are on the path (P_p), 0 to 1.
     pub on_path: f64,
-    /// P_s.
+    /// Speeding loss (P_s).
     pub speeding: f64,
 }
 
-/// Crashes.
+/// Number of crashes by what was hit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CrashCounts {
-    /// X_o.
+    /// Onsets of contact with anything but a person or a vehicle (X_o).
     pub other: usize,
-    /// X_h.
+    /// 1 if a person was hit, otherwise 0 (X_h).
     pub person: usize,
-    /// X_v.
+    /// 1 if a vehicle was hit, otherwise 0 (X_v).
     pub vehicle: usize,
-    /// All crashes by task number, and `outside`.
+    /// Crashes by task number; those outside all task windows under `outside`.
     pub by_task: serde_json::Map<String, serde_json::Value>,
 }
 
-/// Pictures.
+/// Pictures taken and defects found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SnapshotCounts {
-    /// X_pd.
+    /// Pictures taken (X_pd).
     pub taken: usize,
-    /// Pictures that show a defect for the first time.
+    /// Pictures that are the first to show a defect.
     pub hits: usize,
-    /// X_td.
+    /// Distinct defects shown (X_td).
     pub defects_found: usize,
-    /// X_d.
+    /// Defects placed (X_d).
     pub defects_placed: usize,
-    /// hits / taken.
+    /// Precision: `hits` / `taken`.
     pub precision: f64,
-    /// found / placed.
+    /// Recall: `defects_found` / `defects_placed`; `None` when no defect was placed.
     pub recall: Option<f64>,
-    /// F.
+    /// F-measure; `None` when no defect was placed.
     pub f_beta: Option<f64>,
-    /// Each picture, with what failed.
+    /// All pictures in order, with the conditions that failed.
     pub each: Vec<Snapshot>,
 }
 
-/// The end.
+/// When and why the session ended.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SessionEnd {
-    /// Why.
+    /// Reason for the end.
     pub reason: EndReason,
-    /// N.
+    /// Number of frames (N).
     pub frames: usize,
-    /// N/f.
+    /// Duration: frames over frame rate (N/f), s.
     pub seconds: f64,
-    /// X_b.
+    /// Whether the session ended by an empty battery or the time limit (X_b).
     pub battery_failed: bool,
 }
 
-/// How much of the session telemetry covers.
+/// Fraction of the session covered by telemetry, and its gaps.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TelemetryCoverage {
-    /// Frames in gaps over 1 s: held.
+    /// Frames in gaps longer than 1 s; position and velocity are held.
     pub missing_frames: usize,
-    /// Frames in gaps of 0.2 to 1 s: interpolated.
+    /// Frames in gaps of 0.2 to 1 s; position and velocity are interpolated.
     pub interpolated_frames: usize,
-    /// Gaps over 0.2 s.
+    /// Number of gaps longer than 0.2 s.
     pub gaps: usize,
-    /// Share of the frames that are not missing.
+    /// Fraction of frames that are not missing, 0 to 1.
     pub covered: f64,
 }
 
-/// An assessment with the frames behind it.
+/// An assessment and the frames that it was computed from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AssessedSession {
-    /// Scores.
+    /// Scores and measures.
     pub assessment: Assessment,
     /// Frames 1 to N.
     pub frames: Vec<Frame>,
@@ -218,10 +218,10 @@ pub struct AssessedSession {
     pub seed: u64,
 }
 
-/// Scores one flight.
+/// Scores one flight and returns the assessment and its frames.
 ///
 /// # Errors
-/// When there is no session in it.
+/// If the flight has no truth samples or never lifted off.
 pub fn assess(flight: &Flight, job: &ScoringJob<'_>) -> Result<(Assessment, Vec<Frame>), AssessError> {
     if flight.truths.is_empty() {
         return Err(AssessError::NoTruth);
@@ -276,10 +276,10 @@ pub fn assess(flight: &Flight, job: &ScoringJob<'_>) -> Result<(Assessment, Vec<
     Ok((assessment, session.frames))
 }
 
-/// Scores a telemetry log.
+/// Scores a telemetry log. `build` builds the site from a seed.
 ///
 /// # Errors
-/// When the log cannot be read, is of another scenario or seed, or holds no session.
+/// If the log cannot be read, belongs to a different scenario or seed, or contains no session.
 pub fn assess_log(
     log: &(impl TelemetryLog + ?Sized),
     scenario: &Scenario,
@@ -289,17 +289,17 @@ pub fn assess_log(
     let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
     timeline.push_log(log)?;
     let (flight, seed) = identified_flight(&timeline, scenario, vehicle)?;
-    // The flight holds all that counts: two copies would double the memory.
+    // The flight contains everything that is needed; keeping both would double the memory.
     drop(timeline);
     let survey = attention::with_traffic_at(build(scenario, seed), &flight);
     let (assessment, frames) = assess(&flight, &ScoringJob { scenario, vehicle, survey: survey.as_ref() })?;
     Ok(AssessedSession { assessment, frames, seed })
 }
 
-/// The flight that counts, and its seed.
+/// Returns the scored flight and its seed.
 ///
 /// # Errors
-/// When the telemetry is of another scenario or seed, or holds no session.
+/// If the telemetry belongs to a different scenario or seed, or contains no session.
 pub fn identified_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> Result<(Flight, u64), AssessError> {
     let flight = scored_flight(timeline, scenario, vehicle);
     if flight.truths.is_empty() {
@@ -309,13 +309,13 @@ pub fn identified_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Veh
     Ok((flight, seed))
 }
 
-/// The flight that counts: the first one that lifted off, else the last.
+/// Returns the scored flight: the first one that lifted off, otherwise the last.
 #[must_use]
 pub fn scored_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> Flight {
     scored_epoch(timeline, scenario, vehicle).1
 }
 
-/// The same, with how many flights of the timeline came before it.
+/// Returns the scored flight with the number of simulator runs that precede it in the timeline.
 #[must_use]
 pub fn scored_epoch(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> (usize, Flight) {
     let height_m = lift_off_height_m(vehicle);
@@ -329,10 +329,10 @@ pub fn scored_epoch(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle)
     last
 }
 
-/// The session's seed, when telemetry, scenario and command line agree on scenario and seed.
+/// Returns the session's seed after checking that telemetry, scenario and command line agree on scenario and seed.
 ///
 /// # Errors
-/// When they do not, or when nobody names a seed.
+/// If the scenario or seed differs, or if no seed is available.
 pub fn check_identity(flight: &Flight, scenario: &Scenario, asked: Option<u64>) -> Result<u64, AssessError> {
     for (_, _, heard) in flight.scenario_crcs.all() {
         check_scenario(scenario, *heard)?;
@@ -345,10 +345,10 @@ pub fn check_identity(flight: &Flight, scenario: &Scenario, asked: Option<u64>) 
     seed.ok_or(AssessError::NoSeed)
 }
 
-/// Refuses another scenario.
+/// Checks the scenario CRC received from the simulator.
 ///
 /// # Errors
-/// When the CRCs differ.
+/// If the CRCs differ.
 pub fn check_scenario(scenario: &Scenario, heard: u32) -> Result<(), AssessError> {
     if heard == scenario.crc {
         return Ok(());
@@ -356,10 +356,10 @@ pub fn check_scenario(scenario: &Scenario, heard: u32) -> Result<(), AssessError
     Err(AssessError::OtherScenario { name: scenario.name.clone(), heard, ours: scenario.crc })
 }
 
-/// Refuses another seed.
+/// Checks the seed received from the simulator.
 ///
 /// # Errors
-/// When one is known and differs.
+/// If the session already has a different seed.
 pub fn check_seed(ours: Option<u64>, heard: u64) -> Result<(), AssessError> {
     match ours {
         Some(ours) if ours != heard => Err(AssessError::OtherSeed { heard, ours }),
@@ -378,7 +378,7 @@ fn shares(scenario: &Scenario, session: &Session, on_path: &OnPath) -> Vec<TaskS
     on_path.windows.iter().enumerate().map(one).collect()
 }
 
-/// The paper's scores from what they are made of.
+/// Computes the paper's scores from the measures.
 #[must_use]
 pub fn scores(scenario: &Scenario, shares: &[TaskShares], end: &SessionEnd, crashes: &[Crash], counts: MatchCounts) -> Scores {
     let scoring = &scenario.scoring;

@@ -1,5 +1,5 @@
-//! Exports with fixed names: frames as columns, and the scored part of a scenario as JSON. Numbers are written with the fewest digits
-//! that read back to the same bits.
+//! Exports with stable names: frames as columns, and the scored part of a scenario as JSON. Numbers are written with the fewest
+//! digits that round-trip exactly.
 
 pub mod columns;
 pub mod fields;
@@ -32,7 +32,7 @@ pub struct DefectExport {
     size_m: f64,
 }
 
-/// What a scorer needs of a scenario.
+/// The part of a scenario that a scorer needs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ScenarioExport {
     name: String,
@@ -41,14 +41,14 @@ pub struct ScenarioExport {
     max_speed_m_s: f64,
     time_best_s: f64,
     time_max_s: f64,
-    /// A number, or the word `inf`, which JSON has no number for.
+    /// A number, or the string `inf`, because JSON has no infinity.
     beta: serde_json::Value,
     tasks: Vec<TaskExport>,
     defects: Vec<DefectExport>,
 }
 
 impl ScenarioExport {
-    /// From a scenario and the session's defects.
+    /// Creates the export from a scenario and the session's defects.
     #[must_use]
     pub fn new(scenario: &Scenario, defects: &[PlacedDefect]) -> Self {
         let scoring = &scenario.scoring;
@@ -82,9 +82,9 @@ impl ScenarioExport {
     }
 }
 
-/// JSON text of any export, indented, with a newline at the end.
+/// Serializes an export as indented JSON with a trailing newline.
 #[must_use]
 pub fn json_text(value: &impl Serialize) -> String {
-    // Maps have string keys and no value here fails to serialise; an empty text would show at once.
+    // Serialization cannot fail here: maps have string keys. An empty text would be noticed immediately.
     serde_json::to_string_pretty(value).map(|text| text + "\n").unwrap_or_default()
 }

@@ -1,44 +1,44 @@
-//! What the session folder says about itself: the names of its files and `session.json`. The shell writes them.
+//! Layout of the session folder: file names and the contents of `session.json`. The application writes the files.
 
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 use spandrel_mavlink::telemetry::timeline::LinkCounts;
 
-/// Every MAVLink frame as it came.
+/// All MAVLink frames as received.
 pub const TELEMETRY: &str = "telemetry.tlog";
-/// Scenario as resolved.
+/// The resolved scenario.
 pub const SCENARIO: &str = "scenario.toml";
-/// Vehicle as resolved.
+/// The resolved vehicle.
 pub const VEHICLE: &str = "vehicle.toml";
-/// Who, when, versions, hashes.
+/// Session metadata: trainee, time, versions, hashes.
 pub const SESSION: &str = "session.json";
-/// What happened, one JSON object per line.
+/// Event log, one JSON object per line.
 pub const EVENTS: &str = "events.jsonl";
-/// The event in it that says that the simulator has begun anew.
+/// Name of the event logged when the simulator restarts.
 pub const SIMULATOR_RESTARTED: &str = "simulator_restarted";
-/// Scores.
+/// Scores and measures.
 pub const ASSESSMENT: &str = "assessment.json";
-/// The page for people.
+/// The HTML report.
 pub const REPORT: &str = "report.html";
-/// Folder of the photographs.
+/// Folder of the pictures.
 pub const SNAPSHOTS: &str = "snapshots";
-/// Folder in it: their copies for the report, of the same names.
+/// Subfolder of reduced copies for the report, with the same file names.
 pub const SMALL: &str = "small";
 
-/// `session.json`.
+/// Contents of `session.json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SessionInfo {
-    /// Who flew.
+    /// Trainee name.
     pub trainee: String,
-    /// Wall time of simulation time zero, µs since the Unix epoch.
+    /// Wall-clock time of simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// The same for people, UTC, RFC 3339.
+    /// The start time in UTC, RFC 3339.
     pub started_utc: String,
-    /// Version of this program.
+    /// Version of Spandrel.
     pub spandrel_version: String,
     /// Scenario name.
     pub scenario: String,
-    /// Its `scn_crc`, hexadecimal.
+    /// The scenario's `scn_crc`, hexadecimal.
     pub scenario_crc: String,
     /// SHA-256 of `scenario.toml`, hexadecimal.
     pub scenario_sha256: String,
@@ -46,20 +46,20 @@ pub struct SessionInfo {
     pub vehicle: String,
     /// SHA-256 of `vehicle.toml`, hexadecimal.
     pub vehicle_sha256: String,
-    /// Seed, once heard.
+    /// Seed, once received.
     pub seed: Option<u64>,
-    /// Practice or assessment, where somebody chose.
+    /// Purpose of the session, practice or assessment, if chosen.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub purpose: Option<String>,
-    /// Times that the monitor was started on this folder.
+    /// Number of times that the monitor was started for this folder.
     pub monitor_starts: u32,
-    /// The link, as far as this monitor saw it.
+    /// Link statistics collected by this monitor.
     pub link: LinkCounts,
-    /// Bytes that were no MAVLink.
+    /// Number of received bytes that were not valid MAVLink.
     pub bad_bytes: u64,
 }
 
-/// SHA-256 in hexadecimal.
+/// Returns the SHA-256 of `bytes` in hexadecimal.
 #[must_use]
 pub fn sha256_hex(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()

@@ -1,17 +1,17 @@
-//! The monitor: watches an inspection flight through its telemetry alone, gives cues while it lasts, and scores it when it is over. It cannot
-//! look inside the simulator, because it does not depend on it; so it scores a real autopilot just as well.
+//! The monitor observes an inspection flight through telemetry only, gives feedback during the flight and scores it afterward. It
+//! does not depend on the simulator, so it scores flights with a real autopilot the same way.
 //!
-//! [`assessment::assess`] is the one scorer. The live [`watch::Monitor`] and [`assess_log`] on its recording both end there, so a stored flight
-//! can be scored again to the last digit:
+//! [`assessment::assess`] is the only scorer. Both the live [`Monitor`] and [`assess_log`] call it, so rescoring a stored flight
+//! reproduces its scores exactly:
 //!
 //! ```
-//! use spandrel_monitor::{AssessError, assess_log, watch::build_site};
+//! use spandrel_monitor::{AssessError, assess_log, sidecar::build_site};
 //! use spandrel_model::{scenario, shipped, vehicle};
 //!
 //! # fn main() -> Result<(), spandrel_model::toml::Problems> {
 //! let job = scenario::read("two-bridges.toml", shipped::TWO_BRIDGES, &|file| Err(format!("{file} is not there")))?;
 //! let aircraft = vehicle::read("phantom2.toml", shipped::PHANTOM2)?;
-//! // The bytes of a telemetry.tlog; an empty one holds nothing to score, and that is said.
+//! // The bytes of a telemetry.tlog. An empty log contains no flight, which is an error.
 //! let log: &[u8] = &[];
 //! let graded = assess_log(log, &job, &aircraft, build_site);
 //! assert_eq!(graded.err(), Some(AssessError::NoTruth));
@@ -19,8 +19,8 @@
 //! # }
 //! ```
 //!
-//! [`measures`] turn frames into what happened (on the path, too fast, too close, what a picture shows), [`feedback`] into cues, [`score`] into
-//! conformity, efficiency, safety and accuracy; [`session`] says when a session begins and ends.
+//! [`measures`] derives measures from frames (on path, speeding, crashes, picture contents), [`feedback`] raises cues, [`score`]
+//! computes conformity, efficiency, safety and accuracy, and [`session`] determines where a session begins and ends.
 
 pub mod assessment;
 pub mod export;

@@ -1,5 +1,5 @@
-//! A flight that was heard over MAVLink, for Foxglove: frames of drone and camera, battery, what the scores are made of, and in words
-//! what happened.
+//! Converts a flight received over MAVLink to a Foxglove recording: drone and camera frames, battery, scoring data and log
+//! messages.
 
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::telemetry::Flight;
@@ -9,15 +9,15 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 
-/// Frames come no closer than this.
+/// Minimum interval between frames.
 const FRAME_STEP: SimTime = SimTime::from_ms(40);
-/// The rest comes with every so many frames.
+/// All other data is written once per this many frames.
 const SLOW_EVERY: usize = 25;
-/// MAVLink severities of the words.
+/// MAVLink severities of log messages.
 const CRITICAL: u8 = 2;
 const INFO: u8 = 6;
 
-/// All messages in the order of their time.
+/// Returns all messages in time order.
 #[must_use]
 pub fn messages(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Vec<ChannelMessage> {
     let unix_ns = |time: SimTime| (scenario.light.start_unix_s * 1_000_000_000 + time.ns()).max(0).cast_unsigned();
@@ -76,7 +76,7 @@ fn status_texts(flight: &Flight, unix_ns: impl Fn(SimTime) -> u64) -> Vec<Channe
     let mut hand = None;
     for (time, _, by) in flight.flown_by.all() {
         if hand != Some(*by) {
-            out.push(foxglove::log(unix_ns(*time), INFO, &format!("flown by: {}", by.label())));
+            out.push(foxglove::log(unix_ns(*time), INFO, &format!("control: {}", by.label())));
         }
         hand = Some(*by);
     }

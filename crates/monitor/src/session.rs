@@ -1,4 +1,4 @@
-//! From lift-off to the end: which frames a session has, and why it ended.
+//! Session boundaries: its frames from lift-off to the end, and the reason for the end.
 
 use super::measures::crash;
 use serde::Serialize;
@@ -10,19 +10,20 @@ use spandrel_model::scenario::{AfterCrash, Scenario};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 
-/// Lift-off and landing height of the drone's centre over the pad, m (docs/src/reference/assessment.md, "Frames").
+/// Lift-off and landing height of the drone's center above the pad, m (docs/src/reference/assessment.md, "Frames").
 const LIFT_OFF_M: f64 = 0.3;
-/// An aircraft whose centre stands higher than the rule's height lifts off this much over its stand, m (estimate).
+/// Margin above the resting height for aircraft whose center rests higher than the rule's height, m (estimate).
 const OVER_STAND_M: f64 = 0.05;
-/// Slower than this is at rest, m/s (estimate: above the truth stream's resolution of 0.01 m/s, below any controlled drift).
+/// Speeds below this count as at rest, m/s (estimate: above the truth stream's resolution of 0.01 m/s, below any controlled
+/// drift).
 const REST_M_S: f64 = 0.2;
-/// At rest for this long is a landing (docs/src/reference/assessment.md, "Frames").
+/// Being at rest for this long counts as a landing (docs/src/reference/assessment.md, "Frames").
 const REST_FOR: SimTime = SimTime::from_ms(3_000);
 
-/// The words `armed` and `on the ground` come once a second and may be this old.
+/// Maximum age of the armed and on-ground states, which are sent once per second.
 const WORDS_OLD: SimTime = SimTime::from_ms(1_500);
 
-/// Why a session ended.
+/// Reason for the end of a session.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(into = "&'static str")]
 pub enum EndReason {
@@ -30,17 +31,17 @@ pub enum EndReason {
     Landed,
     /// Battery empty.
     Battery,
-    /// Longest flight time passed.
+    /// The maximum flight time was exceeded.
     TimeLimit,
     /// Hit a person.
     Person,
     /// Hit a vehicle.
     Vehicle,
-    /// A crash, where the scenario ends the session on any.
+    /// A crash, if the scenario ends the session on any crash.
     Crash,
-    /// Stopped by somebody, or the telemetry ends.
+    /// Stopped by the user, or the telemetry ended.
     Abort,
-    /// The simulator was started anew in mid-flight.
+    /// The simulator was restarted in flight.
     Restart,
 }
 
@@ -51,7 +52,7 @@ impl From<EndReason> for &'static str {
 }
 
 impl EndReason {
-    /// The word of `assessment.json`.
+    /// Returns the value used in `assessment.json`.
     #[must_use]
     pub fn label(self) -> &'static str {
         match self {
@@ -67,29 +68,29 @@ impl EndReason {
     }
 }
 
-/// What the end rule looks at.
+/// Input of the end rule at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EndRuleInput {
     /// Simulation time.
     pub time: SimTime,
-    /// Flight time that this moment completes, s.
+    /// Flight time including this instant, s.
     pub flown_s: f64,
     /// Position, m.
     pub position_m: Vec3<Enu>,
     /// Speed, m/s.
     pub speed_m_s: f64,
-    /// Contact after the pad rule.
+    /// Contact after applying the pad rule.
     pub contact: ContactKind,
-    /// Battery, %.
+    /// Remaining battery, %.
     pub battery_pct: f64,
-    /// Armed, if known.
+    /// Whether the drone is armed, if known.
     pub armed: Option<bool>,
-    /// The autopilot says that it stands.
+    /// Whether the autopilot reports that it is on the ground.
     pub on_ground: bool,
 }
 
-/// Watches for the end, moment after moment. A landing counts from the moment at which the drone came to rest, so it is known only
-/// when the rest has lasted, and what happens meanwhile (an empty battery) does not undo it.
+/// Detects the end of a session. A landing counts from the moment at which the drone came to rest but is confirmed only after the
+/// rest time; events in between, such as an empty battery, do not override it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EndRule {
     pad_m: Vec3<Enu>,
@@ -105,7 +106,7 @@ pub struct EndRule {
 }
 
 impl EndRule {
-    /// For one session.
+    /// Creates the rule for one session.
     #[must_use]
     pub fn new(scenario: &Scenario, vehicle: &Vehicle) -> Self {
         Self {
@@ -122,7 +123,7 @@ impl EndRule {
         }
     }
 
-    /// Once the drone has been put back elsewhere, what was said of it before says nothing about there.
+    /// Discards armed and on-ground states that predate a respawn.
     fn strip_legacy_fields(&mut self, moment: &EndRuleInput) -> EndRuleInput {
         let jumped = self.last.is_some_and(|last| {
             let step_m = (moment.position_m - last.position_m).norm();
@@ -139,7 +140,7 @@ impl EndRule {
         EndRuleInput { armed: moment.armed.filter(|armed| *armed), on_ground: moment.on_ground && down, ..*moment }
     }
 
-    /// The end, when this moment decides it; the time is that of the last frame.
+    /// Returns the end if this instant decides it, with the time of the last frame.
     pub fn update(&mut self, moment: &EndRuleInput) -> Option<(SimTime, EndReason)> {
         let moment = &self.strip_legacy_fields(moment);
         match moment.contact {
@@ -150,7 +151,7 @@ impl EndRule {
             }
             ContactKind::None | ContactKind::Bridge | ContactKind::Terrain | ContactKind::Water | ContactKind::Other => {}
         }
-        // The word `disarmed` is a second old at most, and means a landing only after the word `armed`.
+        // The armed state may be a second old; disarmed means a landing only after armed was received.
         self.seen_armed |= moment.armed == Some(true);
         self.rest_since = self.has_landed_at_home(moment).then(|| self.rest_since.unwrap_or(moment.time));
         if let Some(since) = self.rest_since
@@ -167,7 +168,7 @@ impl EndRule {
         if self.rest_since.is_none() { self.pending } else { None }
     }
 
-    /// The end that was waiting for a landing to be confirmed, when no more moments come.
+    /// Returns the end that was deferred until a landing is confirmed, for use when the telemetry ends.
     #[must_use]
     pub fn pending(&self) -> Option<(SimTime, EndReason)> {
         self.pending
@@ -180,31 +181,31 @@ impl EndRule {
     }
 }
 
-/// Height over the pad at which this aircraft has lifted off, m.
+/// Returns the height of the drone's center above the pad at which this aircraft has lifted off, m.
 #[must_use]
 pub fn lift_off_height_m(vehicle: &Vehicle) -> f64 {
     let stand = vehicle.hull.feet_m.iter().map(|foot| foot.down()).fold(vehicle.hull.body_half_extent_m[2], f64::max);
     LIFT_OFF_M.max(stand + OVER_STAND_M)
 }
 
-/// Frames are looked at this long past the time limit: longer than a landing takes to be confirmed.
+/// Frames are evaluated this long past the time limit, longer than it takes to confirm a landing.
 const OVERTIME: SimTime = SimTime::from_ms(10_000);
 
 /// The frames of a session and its end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Session {
-    /// Frame 1 to N; contacts after the pad rule.
+    /// Frames 1 to N, with the pad rule applied to their contacts.
     pub frames: Vec<Frame>,
-    /// Why frame N is the last.
+    /// Reason why frame N is the last.
     pub reason: EndReason,
 }
 
 impl Session {
-    /// Cuts a flight into its session; `None` when it never lifted off.
+    /// Extracts the session from a flight; `None` if it never lifted off.
     #[must_use]
     pub fn truncate(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Option<Self> {
         let start = flight.lift_off(scenario.ground_team.pad_m.up(), lift_off_height_m(vehicle))?;
-        // The time limit ends every session; a broken clock must not make frames without end.
+        // The time limit bounds the frame count even if the clock is corrupt.
         let end = flight.end()?.min(start + SimTime::from_s(scenario.scoring.time_max_s) + OVERTIME);
         let rate = scenario.scoring.frame_rate_hz;
         let mut frames = all_frames(flight, start, end, rate);
@@ -217,7 +218,7 @@ impl Session {
         Some(Self { frames, reason })
     }
 
-    /// N/f, s.
+    /// Returns the duration (N/f), s.
     #[must_use]
     pub fn seconds(&self, frame_rate_hz: f64) -> f64 {
         self.frames.len() as f64 / frame_rate_hz
@@ -226,7 +227,7 @@ impl Session {
 
 fn all_frames(flight: &Flight, start: SimTime, end: SimTime, rate: f64) -> Vec<Frame> {
     let at = |k: u32| start + SimTime::from_s(f64::from(k) / rate);
-    // Frame 1 has no frame before it: it sees its own instant only.
+    // Frame 1 has no predecessor; its interval contains only its own instant.
     let before = SimTime::from_ns(start.ns() - 1);
     (0u32..)
         .take_while(|k| at(*k) <= end)
@@ -258,7 +259,7 @@ mod tests {
         EndRule::new(&read(include_str!("../../../scenarios/two-bridges.toml")), &vehicle)
     }
 
-    /// The first end within eight seconds at a fixed place, seen 30 times a second from `from_ms` on.
+    /// Returns the first end within eight seconds at a fixed position, sampled 30 times per second from `from_ms`.
     fn end(rule: &mut EndRule, from_ms: i64, position_m: Vec3<Enu>, words: impl Fn(i64) -> (bool, bool)) -> Option<EndReason> {
         (0..240).find_map(|k| {
             let (armed, on_ground) = words(k);
@@ -284,10 +285,11 @@ mod tests {
         let pad_m = rule.pad_m;
         let over_home = pad_m + Vec3::new(1.0, 0.0, 5.0);
         assert_eq!(end(&mut rule, 0, over_home, |_| (true, false)), None);
-        // In the lake it disarms; put back it is armed, but for a second the wire still says that it lies there disarmed.
+        // The drone disarms in the lake. After the respawn it is armed, but telemetry still reports disarmed on the ground for a
+        // second.
         assert_eq!(end(&mut rule, 8_000, pad_m + Vec3::new(80.0, 0.0, -5.0), |_| (false, true)), None);
         assert_eq!(end(&mut rule, 16_000, over_home, |k| (k >= 30, k < 30)), None);
-        // What is said later counts: it stands on something near home and disarms.
+        // Later samples count: the drone rests on something near home and disarms.
         assert_eq!(end(&mut rule, 24_000, over_home, |_| (false, true)), Some(EndReason::Landed));
     }
 }

@@ -1,6 +1,7 @@
-//! What comes after a scored flight, as pure functions: a record of each session ([`record`]), statistics ([`statistics`]), what to fly next
-//! ([`plan`]), how a group does ([`cohort`]), what trainees say of themselves ([`questionnaire`]), statements for learning record stores
-//! ([`xapi`]), the report of one session ([`report`]) and the pages of the server ([`web`]). The program reads folders, keeps the database and
+//! Evaluation after the flight, as pure functions: session records ([`record`]), statistics ([`statistics`]), training plans
+//! ([`plan`]), cohort analysis ([`cohort`]), questionnaires ([`questionnaire`]), statements for learning record stores
+//! ([`xapi`]), the report of a session ([`report`]) and the pages of the server ([`web`]). The application reads folders,
+//! maintains the database and serves the pages.
 //! serves the pages.
 //!
 //! ```

@@ -1,10 +1,10 @@
-//! Made-up sessions for tests.
+//! Synthetic sessions for tests.
 
 use super::questionnaire::{Answers, QuestionnaireItem};
 use super::record::{Crashes, DefectRecord, FORMAT, Scores, SessionRecord, TaskRecord};
 use spandrel_monitor::score::completion::{Completion, TaskState};
 
-/// The paper's job flown without a fault, with all 24 answers "agree".
+/// Returns a perfect flight of the paper's job, with all 24 answers "agree".
 pub fn faultless(trainee: &str, number: usize) -> SessionRecord {
     let mut answers = Answers { language: "en".into(), ..Answers::default() };
     answers.given.extend(QuestionnaireItem::all(&[1, 2, 3, 4]).into_iter().map(|item| (item, 2)));
@@ -59,7 +59,7 @@ pub fn faultless(trainee: &str, number: usize) -> SessionRecord {
     }
 }
 
-/// The same, but only the first task was flown, and to 60 % of its path; then the attempt was ended.
+/// Returns a session that was ended early: only the first task was flown, to 60 % of its path.
 pub fn broken_off(trainee: &str, number: usize) -> SessionRecord {
     let mut record = faultless(trainee, number);
     record.completion =

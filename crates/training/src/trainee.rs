@@ -1,36 +1,36 @@
-//! Who trains: a pseudonym, a role, and what the paper's study recorded of its participants, if they like to say it.
+//! Trainees: pseudonym, role, and the optional background information collected in the paper's study.
 
 use serde::{Deserialize, Serialize};
 
 /// Age bands, years.
 pub const AGE_BANDS: &[&str] = &["18-24", "25-34", "35-44", "45-54", "55-64", "65+"];
-/// Experience with drones, and with games.
+/// Levels of experience with drones and with video games.
 pub const EXPERIENCE: &[&str] = &["none", "some", "regular"];
 
-/// What somebody may do.
+/// Role of a user.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Role {
-    /// Flies, and sees only what is his.
+    /// Flies, and sees only their own data.
     Trainee,
-    /// Sees all sessions, acts in flights.
+    /// Sees all sessions and controls flights.
     Instructor,
-    /// Manages people and retention, too.
+    /// Also manages users and data retention.
     Administrator,
 }
 
-/// One person.
+/// A user.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Trainee {
-    /// Pseudonym; who is behind it is written elsewhere, or nowhere.
+    /// Pseudonym. The identity behind it is not stored here.
     pub pseudonym: String,
-    /// What he may do.
+    /// Role.
     pub role: Role,
-    /// One of [`AGE_BANDS`].
+    /// Age band; one of [`AGE_BANDS`].
     pub age_band: Option<String>,
-    /// One of [`EXPERIENCE`].
+    /// Experience with drones; one of [`EXPERIENCE`].
     pub drone_experience: Option<String>,
-    /// One of [`EXPERIENCE`].
+    /// Experience with video games; one of [`EXPERIENCE`].
     pub gaming_experience: Option<String>,
 }
 
@@ -38,7 +38,7 @@ impl Role {
     /// All roles.
     pub const ALL: [Self; 3] = [Self::Trainee, Self::Instructor, Self::Administrator];
 
-    /// Word in files and databases.
+    /// Returns the value used in files and databases.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -48,7 +48,7 @@ impl Role {
         }
     }
 
-    /// The role of a word.
+    /// Returns the role for a stored value.
     #[must_use]
     pub fn from_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|role| role.word() == word)
@@ -56,7 +56,7 @@ impl Role {
 }
 
 impl Trainee {
-    /// Somebody of whom only the pseudonym is known.
+    /// Creates a trainee with only a pseudonym.
     #[must_use]
     pub fn new(pseudonym: &str) -> Self {
         let pseudonym = pseudonym.to_owned();

@@ -1,5 +1,5 @@
-//! A session as xAPI statements (Experience API 1.0.3) for a learning record store. A statement's id is made from what it says, so that
-//! one that is sent twice is stored once, and another flight is another statement.
+//! Exports a session as xAPI statements (Experience API 1.0.3) for a learning record store. A statement's id is derived from its
+//! content, so that resending it does not duplicate it.
 
 use super::record::{SessionOutcome, SessionRecord, TaskRecord};
 use serde_json::{Value, json};
@@ -7,20 +7,20 @@ use spandrel_model::calendar::utc;
 use spandrel_monitor::score::completion::TaskState;
 use uuid::Uuid;
 
-/// Version of the interface, as its header names it.
+/// xAPI version for the request header.
 pub const VERSION: &str = "1.0.3";
-/// Where pseudonyms are accounts, unless told otherwise.
+/// Default home page of the accounts that represent pseudonyms.
 pub const HOME: &str = "https://spandrel.invalid/trainees";
-/// Statements' ids are names below this one (RFC 9562, version 5): any UUID of our own.
+/// Namespace UUID of the statement ids (RFC 9562, version 5).
 const NAMES: Uuid = Uuid::from_u128(0x7f0c_4e0a_93c1_4d43_9b0e_5d61_5c1e_7a10);
-/// Extension of a session's result: how much of the job was done.
+/// Extension of a session's result: completion of the job.
 const COMPLETION: &str = "urn:spandrel:completion";
-/// Extension of a task's result: share of its path that was flown.
+/// Extension of a task's result: fraction of its path that was flown.
 const COVERED: &str = "urn:spandrel:covered";
-/// Verbs of ADL's vocabulary.
+/// Prefix of the verbs in ADL's vocabulary.
 const VERBS: &str = "http://adlnet.gov/expapi/verbs/";
 
-/// All statements of a session: the flight itself, its scores, the tasks that were flown, and the answers.
+/// Returns all statements of a session: the flight, its scores, the tasks flown, and the answers.
 #[must_use]
 pub fn statements(record: &SessionRecord, home: &str) -> Vec<Value> {
     let mut out = vec![flight(record, home)];
@@ -54,7 +54,7 @@ fn flight(record: &SessionRecord, home: &str) -> Value {
         "duration": format!("PT{:.2}S", record.seconds),
         "response": if complete { record.verdict() } else { record.completion_summary() },
     });
-    // The sum says something of the whole job alone.
+    // The sum is meaningful only for the whole job.
     if complete {
         result["score"] = score(record.scores.overall, record.scores.overall_max);
     }
@@ -78,12 +78,12 @@ fn of_task(record: &SessionRecord, home: &str, task: &TaskRecord) -> Value {
 }
 
 fn score(raw: f64, max: f64) -> Value {
-    // `scaled` is from -1 to 1 by the standard, and 1 is the best.
+    // The standard defines `scaled` from -1 to 1, where 1 is the best.
     let scaled = if max > 0.0 { (raw / max).clamp(-1.0, 1.0) } else { 0.0 };
     json!({ "scaled": scaled, "raw": raw, "min": 0.0, "max": max.max(raw) })
 }
 
-/// One statement about the job (`below` empty) or a part of it.
+/// Creates a statement about the job (`below` empty) or a part of it.
 fn statement(record: &SessionRecord, home: &str, below: &str, (verb, name): (&str, &str), result: Value) -> Value {
     let slash = if below.is_empty() { "" } else { "/" };
     let activity = format!("urn:spandrel:scenario:{}{slash}{below}", record.scenario);
@@ -103,7 +103,7 @@ fn statement(record: &SessionRecord, home: &str, below: &str, (verb, name): (&st
         },
         "timestamp": utc(record.started_unix_us).0,
     });
-    // Over everything that it says: a changed answer is another statement, the same one never is.
+    // The id covers the whole content: a changed answer yields a new id, an unchanged statement the same one.
     let id = id(&statement.to_string());
     if let Some(fields) = statement.as_object_mut() {
         fields.insert("id".to_owned(), Value::String(id));
@@ -115,7 +115,7 @@ fn id(text: &str) -> String {
     Uuid::new_v5(&NAMES, text.as_bytes()).to_string()
 }
 
-/// Statements as JSON lines.
+/// Formats statements as JSON lines.
 #[must_use]
 pub fn lines(statements: &[Value]) -> String {
     statements.iter().map(|one| one.to_string() + "\n").collect()

@@ -50,17 +50,13 @@ fn exact_an_instructors_note_stands_in_the_report_and_not_among_the_texts() {
     let (tape, job) = (flown(&two_bridges(), 200.0, 9), two_bridges());
     let plain = review(&tape, &job);
     assert_eq!(plain.feedback.notes, []);
-    assert!(!page::session(&plain).contains("what the instructor noted"));
+    assert!(!page::session(&plain).contains("instructor's notes"));
     let review = review(&noted(tape, "watch the pier"), &job);
     let [(t_s, text)] = review.feedback.notes.as_slice() else { panic!("{:?}", review.feedback.notes) };
     assert!(text == "watch the pier" && (20.0..180.0).contains(t_s), "{t_s}");
     assert_eq!(review.feedback.texts, plain.feedback.texts, "nobody's screen showed it");
     let page = page::session(&review);
-    assert!(
-        page.contains("what the instructor noted")
-            && page.contains("note: watch the pier")
-            && page.contains("class=\"note-dot\"")
-    );
+    assert!(page.contains("instructor's notes") && page.contains("note: watch the pier") && page.contains("class=\"note-dot\""));
 }
 
 /// Attributes by which a browser fetches something.
@@ -220,7 +216,7 @@ fn exact_a_job_with_nothing_in_it_has_a_page() {
     let review = Review::of(&tape.log(0), &job, &vehicle(), about()).unwrap();
     let page = page::session(&review);
     for words in
-        ["No picture was taken", "No defects were placed", "Nothing was touched", "n/a", "1 gaps over 0.2 s", "not heard"]
+        ["No picture was taken", "No defects were placed", "No contacts", "n/a", "1 gaps longer than 0.2 s", "no telemetry for"]
     {
         assert!(page.contains(words), "{words}");
     }

@@ -1,34 +1,34 @@
-//! The columns of the frames export: the one list that CSV, Parquet and the data dictionary are made from.
+//! The columns of the frames export. CSV, Parquet and the data dictionary are all generated from this list.
 
 use super::FrameRow;
 use spandrel_model::frames::{Enu, Vec3};
 use std::fmt::Write;
 
-/// Type of a column and how its value is read from a row; `None` where the telemetry holds no value.
+/// Type of a column and the function that reads its value from a row; `None` if the telemetry has no value.
 #[derive(Debug, Clone, Copy)]
 pub enum Read {
-    /// Whole numbers.
+    /// Integer.
     Whole(fn(&FrameRow) -> Option<i64>),
-    /// Real numbers.
+    /// Floating-point number.
     Real(fn(&FrameRow) -> Option<f64>),
-    /// True or false; 1 or 0 in CSV.
+    /// Boolean; 1 or 0 in CSV.
     Flag(fn(&FrameRow) -> bool),
-    /// One of a fixed set of words.
+    /// One of a fixed set of strings.
     Word(fn(&FrameRow) -> &'static str),
 }
 
-/// One column.
+/// A column of the frames export.
 #[derive(Debug, Clone, Copy)]
 pub struct Column {
-    /// Name, with the unit at its end where it has one.
+    /// Name, with the unit as suffix where there is one.
     pub name: &'static str,
-    /// Unit as a symbol; empty for counts, shares, flags and words.
+    /// Unit symbol; empty for counts, fractions, flags and strings.
     pub unit: &'static str,
-    /// Coordinate frame or positive direction; empty where there is none.
+    /// Coordinate frame or positive direction; empty if none applies.
     pub frame: &'static str,
     /// Definition, one sentence.
     pub description: &'static str,
-    /// A row may hold no value: empty in CSV, null in Parquet.
+    /// Whether a row may have no value: empty in CSV, null in Parquet.
     pub optional: bool,
     /// Type and value.
     pub read: Read,
@@ -63,7 +63,7 @@ fn attitude_deg(row: &FrameRow, angle: usize) -> Option<f64> {
     row.roll_pitch_yaw_rad.map(|angles| angles[angle].to_degrees())
 }
 
-/// All columns in order. Released names and their order never change; new columns go to the end.
+/// All columns in order. Released names and their order never change; new columns are appended.
 pub const COLUMNS: &[Column] = &[
     column("frame", "", "", "Frame number; 1 is lift-off.", Read::Whole(|r| Some(i64::from(r.frame.index)))),
     column("t_s", "s", "", "Simulation time since lift-off.", Read::Real(|r| Some(r.since_lift_off_s))),
@@ -72,7 +72,7 @@ pub const COLUMNS: &[Column] = &[
     column("ud", "", STICK, "Stick, up positive.", Read::Real(|r| Some(r.frame.sticks[2]))),
     column("rt", "", STICK, "Stick, clockwise positive.", Read::Real(|r| Some(r.frame.sticks[3]))),
     column("light", "", "", "Lamp on.", Read::Flag(|r| r.frame.light)),
-    column("snapshot", "", "", "A picture was taken since the frame before.", Read::Flag(|r| r.frame.snapshot)),
+    column("snapshot", "", "", "A picture was taken since the previous frame.", Read::Flag(|r| r.frame.snapshot)),
     column("east_m", "m", ENU, "True position, east.", Read::Real(|r| Some(r.frame.position_m.east()))),
     column("north_m", "m", ENU, "True position, north.", Read::Real(|r| Some(r.frame.position_m.north()))),
     column("up_m", "m", ENU, "True position, up.", Read::Real(|r| Some(r.frame.position_m.up()))),
@@ -88,7 +88,7 @@ pub const COLUMNS: &[Column] = &[
         "contact",
         "",
         "",
-        "Most severe contact since the frame before: none, bridge, terrain, water, vehicle, person or other. Touch-down and \
+        "Most severe contact since the previous frame: none, bridge, terrain, water, vehicle, person or other. Touch-down and \
          take-off at home count as none.",
         Read::Word(|r| r.frame.contact.label()),
     ),
@@ -128,7 +128,7 @@ pub const COLUMNS: &[Column] = &[
         "task",
         "",
         "",
-        "Task whose path the drone is on, otherwise the one entered last; empty before the first.",
+        "Task whose path the drone is on, otherwise the last one entered; empty before the first.",
         Read::Whole(|r| r.task.map(|task| i64::from(task.id))),
     ),
     column("on_path", "", "", "On the path of a task.", Read::Flag(|r| r.on_path)),
@@ -136,7 +136,7 @@ pub const COLUMNS: &[Column] = &[
         "path_distance_m",
         "m",
         "",
-        "Distance to the path of `task`, by the scenario's path rule.",
+        "Distance to the path of `task`, measured by the scenario's path rule.",
         Read::Real(|r| r.task.and_then(|task| task.distance_m)),
     ),
     optional(
@@ -146,9 +146,9 @@ pub const COLUMNS: &[Column] = &[
         "Distance from the drone's center to the nearest surface, pad excluded.",
         Read::Real(|r| r.clearance_m),
     ),
-    optional("wind_east_m_s", "m/s", ENU_VELOCITY, "Velocity of the air over ground, east.", Read::Real(|r| east(r.wind_m_s))),
-    optional("wind_north_m_s", "m/s", ENU_VELOCITY, "Velocity of the air over ground, north.", Read::Real(|r| north(r.wind_m_s))),
-    optional("wind_up_m_s", "m/s", ENU_VELOCITY, "Velocity of the air over ground, up.", Read::Real(|r| up(r.wind_m_s))),
+    optional("wind_east_m_s", "m/s", ENU_VELOCITY, "Wind velocity over ground, east.", Read::Real(|r| east(r.wind_m_s))),
+    optional("wind_north_m_s", "m/s", ENU_VELOCITY, "Wind velocity over ground, north.", Read::Real(|r| north(r.wind_m_s))),
+    optional("wind_up_m_s", "m/s", ENU_VELOCITY, "Wind velocity over ground, up.", Read::Real(|r| up(r.wind_m_s))),
     optional("estimated_east_m", "m", ENU, "Position estimated by the autopilot, east.", Read::Real(|r| east(r.estimate_m))),
     optional("estimated_north_m", "m", ENU, "Position estimated by the autopilot, north.", Read::Real(|r| north(r.estimate_m))),
     optional("estimated_up_m", "m", ENU, "Position estimated by the autopilot, up.", Read::Real(|r| up(r.estimate_m))),
@@ -161,10 +161,10 @@ pub const COLUMNS: &[Column] = &[
     ),
 ];
 
-/// Bytes of a usual line, for the first allocation.
+/// Typical line length in bytes, used for the initial allocation.
 const LINE_BYTES: usize = 360;
 
-/// Frames as CSV, one line a frame after the header.
+/// Returns frames as CSV: a header, then one line per frame.
 #[must_use]
 pub fn frames_csv(rows: &[FrameRow]) -> String {
     let names: Vec<&str> = COLUMNS.iter().map(|column| column.name).collect();
@@ -183,7 +183,7 @@ pub fn frames_csv(rows: &[FrameRow]) -> String {
     csv
 }
 
-/// Writing to a string cannot fail.
+/// Writes one cell. Writing to a string cannot fail.
 fn write_cell(csv: &mut String, read: Read, row: &FrameRow) {
     let _ = match read {
         Read::Whole(value) => value(row).map_or(Ok(()), |value| write!(csv, "{value}")),

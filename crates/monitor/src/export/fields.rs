@@ -1,11 +1,11 @@
-//! Definitions of the fields of `assessment.json`, for the data dictionary. A test compares them with scored flights.
+//! Definitions of the fields of `assessment.json`, for the data dictionary. A test checks them against scored flights.
 
-/// One field.
+/// A field of `assessment.json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct JsonField {
-    /// Path: `[]` marks the elements of a list, `*` the keys of a map.
+    /// Path to the field: `[]` marks the elements of a list, `*` the keys of a map.
     pub path: &'static str,
-    /// Unit; empty for counts, words and pure numbers.
+    /// Unit; empty for counts, strings and dimensionless numbers.
     pub unit: &'static str,
     /// Definition, one sentence.
     pub description: &'static str,
@@ -15,7 +15,7 @@ const fn field(path: &'static str, unit: &'static str, description: &'static str
     JsonField { path, unit, description }
 }
 
-/// All fields in the order of the file.
+/// All fields in file order.
 pub const FIELDS: &[JsonField] = &[
     field("profile", "", "Profile of `scores`: always `paper`."),
     field("scores.conformity.raw", "", "Conformity, -100 to 100; the whole score is null for a job without tasks."),
@@ -30,18 +30,22 @@ pub const FIELDS: &[JsonField] = &[
     field("scores.overall_max", "points", "Highest sum possible: 100 for each score that applies."),
     field("completion.complete", "", "Every task is done, and the session ended by landing at home."),
     field("completion.tasks_done", "", "Number of tasks done."),
-    field("completion.tasks", "", "Number of tasks of the job."),
-    field("completion.path_share", "", "Flown share of the length of all paths, 0 to 1."),
+    field("completion.tasks", "", "Number of tasks in the job."),
+    field("completion.path_share", "", "Fraction of the total path length that was flown, 0 to 1."),
     field("completion.landed_at_home", "", "The session ended by landing at home."),
-    field("completion.done_share", "", "Share of its path from which on a task is done, 0 to 1."),
+    field("completion.done_share", "", "Fraction of its path at which a task counts as done, 0 to 1."),
     field("tasks[].id", "", "Task number."),
     field("tasks[].attempted", "", "The path was entered."),
     field("tasks[].state", "", "`done`, `part` or `not_attempted`."),
-    field("tasks[].covered", "", "Flown share of the path's length, 0 to 1."),
+    field("tasks[].covered", "", "Fraction of the path's length that was flown, 0 to 1."),
     field("tasks[].first_frame", "", "First on-path frame; null when the path was not entered."),
     field("tasks[].last_frame", "", "Last on-path frame; null when the path was not entered."),
-    field("tasks[].on_path", "", "Share of the window's frames on the path, 0 to 1 (P_p)."),
-    field("tasks[].speeding", "", "Sum of speed over limit of the speeding frames, over all frames of the window (P_s)."),
+    field("tasks[].on_path", "", "Fraction of the window's frames on the path, 0 to 1 (P_p)."),
+    field(
+        "tasks[].speeding",
+        "",
+        "Sum of speed divided by limit over the speeding frames, divided by all frames of the window (P_s).",
+    ),
     field("crashes.other", "", "Number of onsets of contact with bridge, terrain, water or anything else (X_o)."),
     field("crashes.person", "", "1 when a person was hit, otherwise 0 (X_h)."),
     field("crashes.vehicle", "", "1 when a vehicle was hit, otherwise 0 (X_v)."),
@@ -50,34 +54,34 @@ pub const FIELDS: &[JsonField] = &[
     field("snapshots.hits", "", "Number of pictures that are the first to show a defect."),
     field("snapshots.defects_found", "", "Number of distinct defects shown (X_td)."),
     field("snapshots.defects_placed", "", "Number of defects placed (X_d)."),
-    field("snapshots.precision", "", "Hits over pictures, 0 to 1."),
-    field("snapshots.recall", "", "Defects found over defects placed, 0 to 1; null without defects."),
+    field("snapshots.precision", "", "Hits divided by pictures, 0 to 1."),
+    field("snapshots.recall", "", "Defects found divided by defects placed, 0 to 1; null without defects."),
     field("snapshots.f_beta", "", "F-measure, 0 to 1; null without defects."),
-    field("snapshots.each[].frame", "", "Frame of the press."),
+    field("snapshots.each[].frame", "", "Frame in which the picture was taken."),
     field("snapshots.each[].t_s", "s", "Simulation time since lift-off."),
-    field("snapshots.each[].hit", "", "It is the first picture to show some defect."),
-    field("snapshots.each[].found[]", "", "Numbers of the defects that it is the first to show."),
+    field("snapshots.each[].hit", "", "The picture is the first to show at least one defect."),
+    field("snapshots.each[].found[]", "", "Numbers of the defects that the picture is the first to show."),
     field("snapshots.each[].views[].defect", "", "Number of a defect in the picture."),
-    field("snapshots.each[].views[].shown", "", "All conditions of a hit hold for it."),
-    field("snapshots.each[].views[].fails[]", "", "Conditions that do not hold, in words."),
+    field("snapshots.each[].views[].shown", "", "All conditions of a hit are met."),
+    field("snapshots.each[].views[].fails[]", "", "Conditions that are not met, as text."),
     field("end.reason", "", "`landed`, `battery`, `time_limit`, `person`, `vehicle`, `crash`, `abort` or `restart`."),
     field("end.frames", "", "Number of frames (N)."),
-    field("end.seconds", "s", "Duration of the session, N over the frame rate."),
+    field("end.seconds", "s", "Duration of the session, N divided by the frame rate."),
     field("end.battery_failed", "", "The session ended by an empty battery or the time limit (X_b)."),
     field("telemetry.missing_frames", "", "Number of frames in gaps of more than 1 s."),
     field("telemetry.interpolated_frames", "", "Number of frames in gaps of 0.2 to 1 s."),
     field("telemetry.gaps", "", "Number of gaps of more than 0.2 s."),
-    field("telemetry.covered", "", "Share of the frames that are not missing, 0 to 1."),
-    field("flown_by[].from_frame", "", "First frame of a stretch under one control source."),
-    field("flown_by[].to_frame", "", "Last frame of the stretch."),
+    field("telemetry.covered", "", "Fraction of frames received, 0 to 1."),
+    field("flown_by[].from_frame", "", "First frame of an interval under one control source."),
+    field("flown_by[].to_frame", "", "Last frame of the interval."),
     field("flown_by[].by", "", "`pilot`, `mission`, `script` or `autopilot`; null before the first heartbeat."),
     field("certification.passed", "", "All requirements are met."),
     field("certification.gates.session_complete", "", "The session is complete."),
     field("certification.gates.all_tasks_attempted", "", "Every path was entered."),
-    field("certification.gates.no_person_or_vehicle_hit", "", "No person and no vehicle was hit."),
+    field("certification.gates.no_person_or_vehicle_hit", "", "No person or vehicle was hit."),
     field("certification.gates.landed_at_home", "", "The session ended by landing at home."),
     field("certification.gates.battery_reserve", "", "Landed with at least 20 % battery."),
-    field("certification.unmet[]", "", "Requirements that failed, with the value reached and the value needed."),
+    field("certification.unmet[]", "", "Requirements not met, with the value reached and the value required."),
     field(
         "certification.scores.conformity",
         "points",
@@ -89,19 +93,19 @@ pub const FIELDS: &[JsonField] = &[
     field("certification.flags[]", "", "`not_attempted:ID` for each such task, `no_evidence` when no path was entered."),
     field("certification.tasks[].id", "", "Task number."),
     field("certification.tasks[].visits[][]", "", "First and last frame of each visit."),
-    field("certification.tasks[].coverage", "", "Flown share of the path's length, 0 to 1."),
-    field("certification.tasks[].on_path", "", "Share of the visits' frames on the path, 0 to 1."),
+    field("certification.tasks[].coverage", "", "Fraction of the path's length that was flown, 0 to 1."),
+    field("certification.tasks[].on_path", "", "Fraction of the visits' frames on the path, 0 to 1."),
     field("certification.tasks[].speeding", "", "Speeding loss over the visits' frames."),
     field("certification.crashes[].frame", "", "First frame of a merged crash."),
     field("certification.crashes[].t_s", "s", "Simulation time since lift-off."),
-    field("certification.crashes[].with", "", "Most severe thing hit: bridge, terrain, water, vehicle, person or other."),
-    field("certification.crashes[].speed_m_s", "m/s", "Fastest speed around the onset."),
+    field("certification.crashes[].with", "", "Most severe object hit: bridge, terrain, water, vehicle, person or other."),
+    field("certification.crashes[].speed_m_s", "m/s", "Maximum speed around the onset."),
     field("certification.crashes[].loss", "points", "Points lost."),
-    field("certification.crashes[].task", "", "Task in whose window it lies; null outside of all."),
+    field("certification.crashes[].task", "", "Task whose window contains the crash; null outside all windows."),
     field("certification.crash_onsets", "", "Number of onsets before merging."),
-    field("certification.exposure_s", "s", "Time spent closer than the clearance, outside the home radius."),
+    field("certification.exposure_s", "s", "Time spent below the minimum clearance, outside the home radius."),
     field("certification.battery_at_end_pct", "%", "Battery in the last frame."),
-    field("certification.detection.detection_only", "", "True: the naming of defects is not graded."),
+    field("certification.detection.detection_only", "", "Always true: identification of the defect type is not graded."),
     field("certification.detection.by_element.*.found", "", "Number of defects found, by AASHTO MBEI element."),
     field("certification.detection.by_element.*.placed", "", "Number of defects placed, by AASHTO MBEI element."),
     field("certification.detection.by_kind.*.found", "", "Number of defects found, by AASHTO MBEI defect code."),

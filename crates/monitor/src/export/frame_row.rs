@@ -1,4 +1,4 @@
-//! A frame with what stands beside it in the export: attitude, gimbal, task, path, wind and estimate.
+//! A frame of the export with its associated data: attitude, gimbal, task, path, wind and estimated position.
 
 use crate::assessment::{AssessError, check_identity, scored_epoch};
 use crate::measures::on_path::{OnPath, ReferencePaths};
@@ -11,7 +11,7 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
 use std::ops::ControlFlow;
 
-/// The drone's place relative to a task's path.
+/// Distance of the drone to a task's path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TaskDistance {
     /// Task number.
@@ -20,7 +20,7 @@ pub struct TaskDistance {
     pub distance_m: Option<f64>,
 }
 
-/// One row of the frames export. `None` is a value that the telemetry does not hold at this frame.
+/// One row of the frames export. `None` means that the telemetry has no value at this frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrameRow {
     /// The scored frame.
@@ -29,24 +29,24 @@ pub struct FrameRow {
     pub since_lift_off_s: f64,
     /// True roll, pitch and yaw, rad.
     pub roll_pitch_yaw_rad: Option<[f64; 3]>,
-    /// Pitch of the camera over the horizon, rad, up positive.
+    /// Camera pitch above the horizon, rad, up positive.
     pub gimbal_pitch_rad: Option<f64>,
-    /// Task whose path the drone is on, otherwise the one entered last.
+    /// Task whose path the drone is on, otherwise the last one entered.
     pub task: Option<TaskDistance>,
-    /// On the path of a task.
+    /// Whether the drone is on a task's path.
     pub on_path: bool,
     /// Distance to the nearest surface, m.
     pub clearance_m: Option<f64>,
-    /// Velocity of the air over ground, m/s.
+    /// Wind velocity over ground, m/s.
     pub wind_m_s: Option<Vec3<Enu>>,
     /// Position estimated by the autopilot, m.
     pub estimate_m: Option<Vec3<Enu>>,
 }
 
-/// Reads the scored frames of a log with everything that stands beside them.
+/// Reads the scored frames of a log, with all export columns.
 ///
 /// # Errors
-/// When the log cannot be read, is of another scenario or seed, or holds no session.
+/// If the log cannot be read, belongs to a different scenario or seed, or contains no session.
 pub fn frame_rows(
     log: &(impl TelemetryLog + ?Sized),
     scenario: &Scenario,
@@ -69,7 +69,7 @@ pub fn frame_rows(
     Ok(rows(session.frames, &flight, &navigation.of(epoch), scenario))
 }
 
-/// Completes the frames of one flight.
+/// Adds the remaining export data to the frames of one flight.
 #[must_use]
 pub fn rows(frames: Vec<Frame>, flight: &Flight, navigation: &Navigation, scenario: &Scenario) -> Vec<FrameRow> {
     let Some(start) = frames.first().map(|frame| frame.time) else { return Vec::new() };
@@ -85,7 +85,7 @@ pub fn rows(frames: Vec<Frame>, flight: &Flight, navigation: &Navigation, scenar
         });
         let attitude = flight.between(frame.time).filter(|_| known).map(|between| between.ned_from_frd.euler());
         FrameRow {
-            // Divided, not multiplied by 1e-9: the nearest number to a decimal one, so that it is written short.
+            // Division instead of multiplication by 1e-9 yields the double nearest to the decimal value, which prints short.
             since_lift_off_s: (frame.time - start).ns() as f64 / 1e9,
             roll_pitch_yaw_rad: attitude.map(|(roll, pitch, yaw)| [roll, pitch, yaw]),
             gimbal_pitch_rad: flight.gimbal.at(frame.time).filter(|_| known),

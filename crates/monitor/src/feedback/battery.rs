@@ -1,22 +1,22 @@
-//! Battery: green, yellow, red. A text only when the colour gets worse.
+//! Battery cue: green, yellow or red. A text is sent only when the color gets worse.
 
 use super::{FeedbackInput, PilotText};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::FeedbackThresholds;
 
-/// Colour of the display.
+/// Color of the battery display.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub enum BatteryColor {
-    /// From `battery_green_pct`.
+    /// At or above `battery_green_pct`.
     #[default]
     Green,
-    /// From `battery_yellow_pct`.
+    /// At or above `battery_yellow_pct`.
     Yellow,
-    /// Below; flashes.
+    /// Below `battery_yellow_pct`; the display flashes.
     Red,
 }
 
-/// Colour of a charge, %.
+/// Returns the display color for a battery level, %.
 #[must_use]
 pub fn color(battery_pct: f64, limits: &FeedbackThresholds) -> BatteryColor {
     if battery_pct >= limits.battery_green_pct {
@@ -28,14 +28,14 @@ pub fn color(battery_pct: f64, limits: &FeedbackThresholds) -> BatteryColor {
     }
 }
 
-/// The rule. It never goes back to a better colour within a session: batteries do not charge in the air.
+/// The battery rule. The color never improves within a session, because the battery does not charge in flight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct BatteryCue {
     worst: BatteryColor,
 }
 
 impl BatteryCue {
-    /// Cue and text at one instant.
+    /// Updates the rule and returns the cue bits and a text, if one is due.
     pub fn update(&mut self, moment: &FeedbackInput, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let now = moment.battery_pct.map_or(BatteryColor::Green, |pct| color(pct, limits));
         let worse = now > self.worst;

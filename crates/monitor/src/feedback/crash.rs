@@ -1,4 +1,5 @@
-//! Crash: the onset of any contact, with what was hit. Said at once and before all else; a chatter of onsets is said once.
+//! Crash cue: raised at the onset of any contact, with the name of the object hit. Its text precedes all others; onsets in quick
+//! succession produce one text.
 
 use super::{CoolDown, FeedbackInput, PilotText};
 use spandrel_mavlink::contract::contact::ContactKind;
@@ -6,13 +7,13 @@ use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::FeedbackThresholds;
 use spandrel_model::time::SimTime;
 
-/// The cue stays this long after the last contact (estimate: time to read it).
+/// The cue stays on for this long after the last contact (estimate: time to read it).
 const SHOWN_FOR: SimTime = SimTime::from_ms(2_000);
-/// Onsets this close together are one bump (docs/src/reference/assessment.md, "Certification": contacts less than a second
+/// Onsets within this interval count as one crash (docs/src/reference/assessment.md, "Certification": contacts less than a second
 /// apart).
 const SAME_BUMP: SimTime = SimTime::from_ms(1_000);
 
-/// The rule.
+/// The crash rule.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CrashCue {
     before: ContactKind,
@@ -21,12 +22,12 @@ pub struct CrashCue {
 }
 
 impl CrashCue {
-    /// Cue and text at one instant.
+    /// Updates the rule and returns the cue bits and a text, if one is due.
     pub fn update(&mut self, moment: &FeedbackInput, _limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let contact = if moment.in_session { moment.contact } else { ContactKind::None };
         let worse = contact.severity() > self.before.severity();
         self.before = contact;
-        // A person or a vehicle is no chatter of the bump before.
+        // Contact with a person or a vehicle always gets its own text.
         if worse && matches!(contact, ContactKind::Person | ContactKind::Vehicle) {
             self.cool_down = CoolDown::default();
         }

@@ -1,5 +1,5 @@
-//! In-task feedback: one rule per file, all fed with the same [`FeedbackInput`], each answering whether its cue is on and what to say when
-//! that begins. Thresholds come from the scenario. Everything runs on simulation time.
+//! In-task feedback, one rule per file. Each rule takes the same [`FeedbackInput`] and returns whether its cue is on and, when
+//! the cue turns on, a text. Thresholds come from the scenario. All times are simulation time.
 
 pub mod battery;
 pub mod crash;
@@ -13,58 +13,58 @@ use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::time::SimTime;
 
-/// One task as the drone stands to it.
+/// Position of the drone relative to one task.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TaskProximity {
-    /// l*, m.
+    /// Distance to the task's path (l*), m.
     pub distance_m: f64,
-    /// Threshold, m.
+    /// On-path threshold of the task, m.
     pub threshold_m: f64,
-    /// The task's own too-close distance, m.
+    /// Too-close distance specific to the task, m.
     pub too_close_m: Option<f64>,
-    /// Number for people.
+    /// Task number.
     pub id: u32,
-    /// Flying away from here ends the task: it has been flown, or the nearest point is an end of its path.
+    /// Whether moving away ends the task: its path has been flown, or the nearest point is an end of the path.
     pub may_leave: bool,
 }
 
-/// What the rules see, at one instant.
+/// Input of the feedback rules at one instant.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FeedbackInput {
     /// Simulation time.
     pub time: SimTime,
-    /// Between lift-off and the end.
+    /// Whether the session is running, from lift-off to its end.
     pub in_session: bool,
-    /// In the air (a standing drone is close to the ground and that is no news).
+    /// Whether the drone is airborne. On the ground, proximity warnings are suppressed.
     pub airborne: bool,
     /// Speed, m/s.
     pub speed_m_s: f64,
-    /// Battery, %.
+    /// Remaining battery, %.
     pub battery_pct: Option<f64>,
-    /// Nearest surface, m.
+    /// Distance to the nearest surface, m.
     pub clearance_m: Option<f64>,
-    /// Contact after the pad rule.
+    /// Contact after applying the pad rule.
     pub contact: ContactKind,
-    /// Name of what is touched, if the site knows.
+    /// Name of the object in contact, if the site provides one.
     pub touched: Option<String>,
-    /// All tasks.
+    /// Proximity to each task, in scenario order.
     pub tasks: Vec<TaskProximity>,
-    /// Task whose path the drone is on.
+    /// Index of the task whose path the drone is on.
     pub current_task: Option<usize>,
-    /// Task entered last.
+    /// Index of the last task entered.
     pub last: Option<usize>,
 }
 
-/// What to say, and how urgent it is: lower goes first.
+/// A text for the pilot.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PilotText {
-    /// Bit of the rule that says it.
+    /// Cue bit of the rule that raised the text.
     pub cue: i32,
-    /// At most 50 bytes.
+    /// Text, at most 50 bytes.
     pub text: String,
 }
 
-/// All rules.
+/// All feedback rules.
 #[derive(Debug, Clone)]
 pub struct FeedbackRules {
     speed_limit_m_s: f64,
@@ -77,7 +77,7 @@ pub struct FeedbackRules {
 }
 
 impl FeedbackRules {
-    /// Rules with the scenario's thresholds.
+    /// Creates the rules with the scenario's thresholds.
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         Self {
@@ -91,7 +91,7 @@ impl FeedbackRules {
         }
     }
 
-    /// Runs all rules: the mask of cues that are on, and texts in order of urgency.
+    /// Updates all rules and returns the mask of active cues and the texts, most urgent first.
     pub fn update(&mut self, moment: &FeedbackInput) -> (i32, Vec<PilotText>) {
         let mut mask = 0;
         let mut texts = Vec::new();
@@ -108,7 +108,7 @@ impl FeedbackRules {
     }
 }
 
-/// Text of a rule with a cool-down of its own: said when the cue begins, and not again within the interval.
+/// Rate limit for a rule's texts: sends one when the cue turns on, then none until the interval has passed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct CoolDown {
     last_sent: Option<SimTime>,

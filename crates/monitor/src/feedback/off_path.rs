@@ -1,18 +1,21 @@
-//! Off path: beyond the threshold but still within reach of the task last entered. Who has not entered a task yet, or leaves one by its end
-//! or when it is flown, is between tasks (docs/src/reference/assessment.md, "Feedback during the flight").
+//! Off-path cue: the drone is beyond the threshold but still within reach of the last task entered. Before the first task, and
+//! after leaving a task at an end of its path or once it is flown, the drone is in transit (docs/src/reference/assessment.md,
+//! "Feedback during the flight").
 
 use super::{CoolDown, FeedbackInput, PilotText, TaskProximity};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::FeedbackThresholds;
 use spandrel_model::time::SimTime;
 
-/// Leaving counts as done after this much time of moving away (docs/src/reference/assessment.md, "Feedback during the flight").
+/// A task counts as left after moving away from it for this long (docs/src/reference/assessment.md, "Feedback during the
+/// flight").
 const LEFT_AFTER: SimTime = SimTime::from_ms(2_000);
-/// A distance changes that moves by so much, m, within so much time (estimate: half the slowest inspection speed; the wire rounds to 1 cm).
+/// Minimum change of distance that counts as movement, m, and the time that it stays valid (estimate: half the slowest inspection
+/// speed; the wire format rounds to 1 cm).
 const CHANGE_M: f64 = 0.15;
 const CHANGE_WITHIN: SimTime = SimTime::from_ms(600);
 
-/// The rule: shows after the state has lasted, and is held for a while.
+/// The off-path rule. The cue turns on after a delay and stays on for a minimum time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct OffPathCue {
     since: Option<SimTime>,
@@ -21,19 +24,19 @@ pub struct OffPathCue {
     transit: Transit,
 }
 
-/// How the drone leaves a task.
+/// Tracks whether the drone is leaving a task.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Transit {
-    /// Task, and the distance (m) and time of its last change: growing or not.
+    /// Task id, distance (m) and time of the last change, and whether the distance grew.
     change: Option<(u32, f64, SimTime, bool)>,
-    /// Leaving since.
+    /// Time at which the drone began to leave.
     leaving: Option<SimTime>,
-    /// It has left the task.
+    /// Whether the drone has left the task.
     left: bool,
 }
 
 impl Transit {
-    /// Whether the drone leaves the task or has left it.
+    /// Returns whether the drone is leaving or has left the task.
     fn update(&mut self, now: SimTime, task: &TaskProximity) -> bool {
         let kept = self.change.filter(|(id, ..)| *id == task.id);
         if kept.is_none() || task.distance_m <= task.threshold_m {
@@ -56,7 +59,7 @@ impl Transit {
 }
 
 impl OffPathCue {
-    /// Cue and text at one instant.
+    /// Updates the rule and returns the cue bits and a text, if one is due.
     pub fn update(&mut self, moment: &FeedbackInput, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let now = moment.time;
         if !moment.in_session {
@@ -81,7 +84,7 @@ impl OffPathCue {
         (if self.shown_since.is_some() { cue::OFF_PATH } else { 0 }, text)
     }
 
-    /// Task and distance when off path.
+    /// Returns the task id and distance, m, if the drone is off path.
     fn off_path_distance(&mut self, moment: &FeedbackInput, reach_m: f64) -> Option<(u32, f64)> {
         let task = &moment.tasks[moment.last?];
         let between = self.transit.update(moment.time, task);

@@ -1,6 +1,6 @@
-//! Speed: always shown, upper left. It is a number for displays and never a text.
+//! Speed display, always shown at the upper left. It never produces a text.
 
-/// What a display writes, from a speed in m/s.
+/// Formats a speed in m/s for display.
 #[must_use]
 pub fn display(speed_m_s: f64) -> String {
     format!("{speed_m_s:.1} m/s")

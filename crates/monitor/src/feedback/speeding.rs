@@ -1,4 +1,5 @@
-//! Speeding: over the limit while on any path, or near the one last entered. (The score knows a window's end, this cannot.)
+//! Speeding cue: over the limit while on any path or near the last one entered. (Unlike the scorer, the live rule does not know
+//! where a task window ends.)
 
 use super::{CoolDown, FeedbackInput, PilotText};
 use spandrel_mavlink::contract::cue;
@@ -6,18 +7,18 @@ use spandrel_model::math::M_S_PER_MPH;
 use spandrel_model::numbers::{format_beside_limit, limit};
 use spandrel_model::scenario::FeedbackThresholds;
 
-/// The rule. It clears only after the speed was at or under the limit for `CLEAR_MS`, so that it does not chatter.
+/// The speeding rule. The cue clears only after the speed has stayed at or below the limit for `CLEAR_MS`, to avoid flicker.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SpeedingCue {
     over_limit_since: Option<spandrel_model::time::SimTime>,
     cool_down: CoolDown,
 }
 
-/// Longest time that the cue outlives the speeding, ms (estimate: half a second is read as "now").
+/// Delay before the cue clears, ms (estimate: half a second still reads as "now").
 const CLEAR_MS: i64 = 500;
 
 impl SpeedingCue {
-    /// Cue and text at one instant.
+    /// Updates the rule and returns the cue bits and a text, if one is due.
     pub fn update(&mut self, moment: &FeedbackInput, limit_m_s: f64, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let near_last = moment.last.is_some_and(|task| moment.tasks[task].distance_m <= limits.off_path_max_m);
         let speeding = moment.in_session && moment.speed_m_s > limit_m_s && (moment.current_task.is_some() || near_last);

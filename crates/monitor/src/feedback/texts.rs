@@ -1,19 +1,19 @@
-//! The way of texts to the wire: one at a time, a crash before all else, nothing stale.
+//! Queue of pilot texts: sent one at a time, crashes first, stale ones dropped.
 
 use super::PilotText;
 use spandrel_mavlink::contract::cue;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// Shortest time between two texts that are no crash (estimate: one can be read; docs/src/reference/wire.md, "The monitor", has
-/// the reason).
+/// Minimum interval between two texts other than crashes (estimate: time to read one; docs/src/reference/wire.md, "The monitor",
+/// gives the reason).
 const APART: SimTime = SimTime::from_ms(1_000);
-/// A text that has waited this long is dropped: it would speak of the past.
+/// Texts that have waited this long are stale and dropped.
 const STALE: SimTime = SimTime::from_ms(2_000);
-/// Texts that wait at most; a crash drives out the others.
+/// Maximum queue length; a crash displaces other texts.
 const WAITING: usize = 4;
 
-/// Texts that wait.
+/// Queue of texts to send.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TextQueue {
     waiting: VecDeque<(SimTime, PilotText)>,
@@ -21,7 +21,7 @@ pub struct TextQueue {
 }
 
 impl TextQueue {
-    /// Takes texts in order of urgency; a newer one of the same rule replaces the older.
+    /// Enqueues texts, most urgent first. A new text replaces a queued one from the same rule.
     pub fn put(&mut self, now: SimTime, texts: Vec<PilotText>) {
         for text in texts {
             self.waiting.retain(|(_, waiting)| waiting.cue != text.cue);
@@ -34,7 +34,7 @@ impl TextQueue {
         self.waiting.truncate(WAITING);
     }
 
-    /// The next text that is due.
+    /// Returns the next text that is due.
     pub fn next(&mut self, now: SimTime) -> Option<PilotText> {
         self.waiting.retain(|(put, _)| now - *put < STALE);
         let crash = self.waiting.front()?.1.cue == cue::CRASH;

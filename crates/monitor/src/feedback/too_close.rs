@@ -1,11 +1,11 @@
-//! Too close: anything nearer to the drone's centre than the limit, with a gap between on and off.
+//! Too-close cue: the distance from the drone's center to the nearest surface is below the limit, with hysteresis.
 
 use super::{CoolDown, FeedbackInput, PilotText};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::numbers::format_beside_limit;
 use spandrel_model::scenario::FeedbackThresholds;
 
-/// The rule.
+/// The too-close rule.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TooCloseCue {
     on: bool,
@@ -13,13 +13,14 @@ pub struct TooCloseCue {
 }
 
 impl TooCloseCue {
-    /// Cue and text at one instant.
+    /// Updates the rule and returns the cue bits and a text, if one is due.
     pub fn update(&mut self, moment: &FeedbackInput, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let Some(clearance) = moment.clearance_m.filter(|_| moment.in_session && moment.airborne) else {
             self.on = false;
             return (0, None);
         };
-        // A task's own limit holds on its path, and near it while no path is flown: who enters or leaves a cramped place is not warned.
+        // A task's own limit applies on its path, and near it when off all paths, so that entering or leaving a confined space
+        // raises no warning.
         let near = moment.tasks.iter().filter(|task| task.distance_m <= limits.off_path_max_m);
         let own = match moment.current_task {
             Some(task) => moment.tasks[task].too_close_m,

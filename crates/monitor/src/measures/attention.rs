@@ -1,4 +1,4 @@
-//! Visual attention: what each picture shows, by geometry and light.
+//! Visual attention: determines which defects each picture shows, from geometry and lighting.
 
 use serde::Serialize;
 use spandrel_mavlink::telemetry::{Flight, Frame};
@@ -11,28 +11,28 @@ use spandrel_model::vehicle::{Camera, Lamp, Vehicle};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// What the scorer asks of the site; the site itself answers, and tests answer with what they have built.
+/// Queries that the scorer makes of the site. [`Site`] implements it; tests use their own implementations.
 pub trait SiteSurvey: std::fmt::Debug + Send + Sync {
-    /// The session's defects.
+    /// Returns the session's defects.
     fn defects(&self) -> &[PlacedDefect];
-    /// How each defect within reach shows in a picture.
+    /// Returns the visibility of each defect in range for a picture.
     fn view_defects(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: SimTime) -> Vec<DefectView>;
-    /// Name of the nearest thing within `max_m`, for messages.
+    /// Returns the name of the nearest object within `max_m`, for messages.
     fn name_near(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<String>;
-    /// The same where traffic was stopped and let go so; `None` where none moves.
+    /// Returns a copy with these bridge closures applied; `None` if the site has no moving traffic.
     fn with_closures(&self, _: BridgeClosures) -> Option<Arc<dyn SiteSurvey>> {
         None
     }
 }
 
-/// A survey that knows when traffic was stopped and let go in a flight.
+/// Applies the bridge closures of a flight to a survey.
 #[must_use]
 pub fn with_traffic_at(survey: Arc<dyn SiteSurvey>, flight: &Flight) -> Arc<dyn SiteSurvey> {
     let gates = gates(flight);
     if gates.is_empty() { survey } else { survey.with_closures(gates).unwrap_or(survey) }
 }
 
-/// When traffic was stopped and let go in a flight.
+/// Returns the bridge closures during a flight.
 #[must_use]
 pub fn gates(flight: &Flight) -> BridgeClosures {
     BridgeClosures::from_codes(flight.traffic.all().iter().map(|said| said.2))
@@ -53,36 +53,36 @@ impl SiteSurvey for Site {
     }
 }
 
-/// Fields of view that differ by less are the same, rad: the wire tells degrees in 24 bits.
+/// Fields of view that differ by less are treated as equal, rad: the telemetry carries degrees with 24-bit precision.
 const SAME_RAD: f64 = 1e-6;
 
-/// One picture.
+/// Result of one picture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Snapshot {
-    /// Frame of the press, from 1.
+    /// Frame in which the picture was taken, from 1.
     pub frame: u32,
-    /// Since lift-off, s.
+    /// Time since lift-off, s.
     pub t_s: f64,
-    /// It shows at least one defect that no earlier picture has shown.
+    /// Whether it shows at least one defect that no earlier picture shows.
     pub hit: bool,
     /// Defects that it is the first to show.
     pub found: Vec<u32>,
-    /// What it was pointed at and how that failed or not.
+    /// All defects in view, with the conditions that failed.
     pub views: Vec<DefectSighting>,
 }
 
-/// One defect in one picture.
+/// Visibility of one defect in one picture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DefectSighting {
-    /// Defect.
+    /// Defect number.
     pub defect: u32,
-    /// All conditions hold.
+    /// Whether all conditions hold.
     pub shown: bool,
-    /// Conditions that fail.
+    /// Conditions that do not hold.
     pub fails: Vec<String>,
 }
 
-/// Judges every picture taken in `frames`. A frame holds one press at most: pictures of one frame are one press.
+/// Evaluates all pictures taken in `frames`. Pictures taken within one frame count as one.
 #[must_use]
 pub fn snapshots(flight: &Flight, frames: &[Frame], vehicle: &Vehicle, survey: &dyn SiteSurvey) -> Vec<Snapshot> {
     let Some(first) = frames.first() else { return Vec::new() };
@@ -110,7 +110,7 @@ fn views(flight: &Flight, time: SimTime, vehicle: &Vehicle, survey: &dyn SiteSur
     looks.iter().filter(|look| look.in_frame || look.hit).map(view).collect()
 }
 
-/// The camera with the field of view that it had; who says none has a fixed lens.
+/// Returns the camera at its recorded field of view; if none was recorded, the lens is assumed to be fixed.
 #[must_use]
 pub fn camera(flight: &Flight, time: SimTime, camera: &Camera) -> Camera {
     match flight.field_of_view.at(time) {
@@ -119,7 +119,7 @@ pub fn camera(flight: &Flight, time: SimTime, camera: &Camera) -> Camera {
     }
 }
 
-/// Where the camera was.
+/// Returns the camera pose at `time`; `None` if the telemetry does not cover it.
 #[must_use]
 pub fn pose(flight: &Flight, time: SimTime, vehicle: &Vehicle) -> Option<CameraPose> {
     let state = flight.between(time)?;

@@ -1,8 +1,8 @@
-//! How much of each task's reference path was flown, by length: the one measure of coverage.
+//! Coverage: the fraction of each task's reference path that was flown, by length.
 
 use super::on_path::{OnPath, ReferencePath, ReferencePaths};
 
-/// Between two frames in a row, the path between their nearest points counts as flown up to this length, m (estimate: frames are at most
+/// Maximum path length between the nearest points of two consecutive frames that counts as flown, m (estimate: frames are at most
 /// 1.4 m apart at 13.4 m/s and 10 Hz; the nearest point jumps farther where the drone cuts a corner within the threshold).
 const JOINED_M: f64 = 5.0;
 
@@ -11,11 +11,11 @@ const JOINED_M: f64 = 5.0;
 pub struct PathCoverage {
     /// Length of the path, m; 0 for a single point.
     pub length_m: f64,
-    /// Share of the length that was flown, 0 to 1; of a path no longer than its threshold 1 once the drone was there.
+    /// Fraction of the length that was flown, 0 to 1. For a path no longer than its threshold: 1 once it was reached.
     pub share: f64,
 }
 
-/// Coverage of every path, in the order of the tasks.
+/// Computes the coverage of every path, in task order.
 #[must_use]
 pub fn coverage(paths: &ReferencePaths, on_path: &OnPath) -> Vec<PathCoverage> {
     (0..paths.len()).map(|task| of_task(paths.path(task), paths.threshold_m(task), task, on_path)).collect()
@@ -29,10 +29,10 @@ fn of_task(path: &ReferencePath, threshold_m: f64, task: usize, on_path: &OnPath
     flown.coverage()
 }
 
-/// The part of one path that was flown, frame by frame.
+/// The part of one path flown so far, updated frame by frame.
 ///
-/// A point stands for half of each segment that touches it. It is covered when it was the nearest one in an on-path frame, or lies between
-/// the nearest points of two on-path frames in a row.
+/// A point represents half of each adjacent segment. It is covered if it was the nearest point in an on-path frame or lies
+/// between the nearest points of two consecutive on-path frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlownPath {
     along_m: Vec<f64>,
@@ -43,14 +43,15 @@ pub struct FlownPath {
 }
 
 impl FlownPath {
-    /// Starts with no part of the path flown.
+    /// Creates a tracker with nothing flown.
     #[must_use]
     pub fn new(path: &ReferencePath, threshold_m: f64) -> Self {
         let covered = vec![false; path.points_m().len()];
         Self { along_m: path.along_m(), weights_m: path.lengths_by_point_m(), threshold_m, covered, before: None }
     }
 
-    /// Adds a frame: the nearest point of the path while the drone is on it, else `None`. An index outside the path counts as `None`.
+    /// Adds a frame: the index of the nearest path point while the drone is on the path, otherwise `None`. An index out of range
+    /// counts as `None`.
     pub fn note(&mut self, point: Option<usize>) {
         let point = point.filter(|point| *point < self.covered.len());
         if let Some(point) = point {
@@ -61,21 +62,21 @@ impl FlownPath {
         self.before = point;
     }
 
-    /// For each point of the path, whether it was flown.
+    /// Returns, for each point of the path, whether it was flown.
     #[must_use]
     pub fn points(&self) -> &[bool] {
         &self.covered
     }
 
-    /// Length and flown share of the path.
+    /// Returns the length and the flown fraction of the path.
     #[must_use]
     pub fn coverage(&self) -> PathCoverage {
         let length_m: f64 = self.weights_m.iter().sum();
         let flown = self.weights_m.iter().zip(&self.covered).filter(|(_, covered)| **covered);
         let covered_m = flown.fold(0.0, |sum, (weight, _)| sum + weight);
         let any = f64::from(u8::from(self.covered.iter().any(|covered| *covered)));
-        // A path no longer than its threshold is a place to hold: whoever is there is on all of it. Every point covered is the whole path,
-        // whatever the sums round to.
+        // A path no longer than its threshold is a hold position: reaching it covers all of it. If every point is covered, the
+        // share is exactly 1 regardless of rounding.
         let whole = length_m <= self.threshold_m || self.covered.iter().all(|covered| *covered);
         let share = if whole { any } else { covered_m / length_m };
         PathCoverage { length_m, share }

@@ -1,4 +1,4 @@
-//! Crash analysis: the pad rule, lost contacts, onsets, and which task a crash belongs to.
+//! Crash analysis: pad rule, lost contact messages, onsets, and assignment of crashes to tasks.
 
 use super::on_path::OnPath;
 use spandrel_mavlink::contract::contact::ContactKind;
@@ -6,11 +6,11 @@ use spandrel_mavlink::telemetry::{Flight, Frame};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::GroundTeam;
 
-/// A touch of the pad is no crash below this vertical speed, m/s (docs/src/reference/assessment.md, "Crashes").
+/// Contact with the pad below this vertical speed is not a crash, m/s (docs/src/reference/assessment.md, "Crashes").
 const SOFT_TOUCH_M_S: f64 = 1.0;
-/// What is touched higher over the pad than this is not the ground around it, m (estimate: any aircraft's centre when tilted).
+/// Contacts higher above the pad than this are not with the surrounding ground, m (estimate: center of any aircraft when tilted).
 const PAD_REACH_M: f64 = 1.0;
-/// The impact's own speed is read this many frames back at most: at the onset the drone may already stand.
+/// Number of frames to look back for the impact speed, because the drone may already have stopped at the onset.
 const LOOK_BACK_FRAMES: usize = 2;
 
 /// One onset of contact.
@@ -18,17 +18,18 @@ const LOOK_BACK_FRAMES: usize = 2;
 pub struct Crash {
     /// Index of the frame, from 0.
     pub frame: usize,
-    /// Index of the last frame of the same contact.
+    /// Index of the last frame of the same contact, from 0.
     pub last: usize,
     /// What was hit.
     pub with: ContactKind,
-    /// Fastest speed around the onset, m/s.
+    /// Maximum speed around the onset, m/s.
     pub speed_m_s: f64,
-    /// Task in whose window it lies.
+    /// Index of the task whose window contains it.
     pub task: Option<usize>,
 }
 
-/// Fills in contacts whose messages were lost, then clears touch-downs and lift-offs on the pad. Touches frames' `contact` only.
+/// Restores contacts whose messages were lost, then clears touchdowns and lift-offs on the pad. Changes only the frames'
+/// `contact`.
 pub fn settle_contacts(frames: &mut [Frame], flight: &Flight, team: &GroundTeam) {
     for time in flight.missed_contacts() {
         let i = frames.partition_point(|frame| frame.time < time);
@@ -55,14 +56,14 @@ fn is_soft_touch(frames: &[Frame], onset: usize, team: &GroundTeam) -> bool {
     may_touch_pad(frames[onset].position_m, vertical.fold(0.0, f64::max), team)
 }
 
-/// Whether a contact with ground or pad here and at this vertical speed is a touch-down or lift-off, and no crash.
+/// Returns whether contact with ground or pad at this position and vertical speed is a touchdown or lift-off rather than a crash.
 #[must_use]
 pub fn may_touch_pad(position_m: Vec3<Enu>, vertical_m_s: f64, team: &GroundTeam) -> bool {
     let from_pad = position_m - team.pad_m;
     from_pad.horizontal_norm() <= team.home_radius_m && from_pad.up() < PAD_REACH_M && vertical_m_s.abs() < SOFT_TOUCH_M_S
 }
 
-/// All onsets: frames where the contact goes from none to something, or gets as bad as a vehicle or a person.
+/// Returns all onsets: frames in which contact begins or escalates to a vehicle or a person.
 #[must_use]
 pub fn crashes(frames: &[Frame], on_path: &OnPath) -> Vec<Crash> {
     let mut found: Vec<Crash> = Vec::new();
@@ -83,7 +84,8 @@ pub fn crashes(frames: &[Frame], on_path: &OnPath) -> Vec<Crash> {
     found
 }
 
-/// The task in whose window frame `i` lies. Where windows overlap: the one flown, else the one flown last, else the lowest.
+/// Returns the task whose window contains frame `i`. Where windows overlap: the task being flown, otherwise the last one flown,
+/// otherwise the lowest index.
 fn task_of(i: usize, on_path: &OnPath) -> Option<usize> {
     let holds = |task: usize| on_path.windows[task].is_some_and(|window| window.contains(i));
     let open: Vec<usize> = (0..on_path.windows.len()).filter(|task| holds(*task)).collect();
@@ -94,7 +96,7 @@ fn task_of(i: usize, on_path: &OnPath) -> Option<usize> {
     flown.filter(|task| open.contains(task)).or(open.first().copied())
 }
 
-/// Crashes less than `apart_frames` frames apart counted as one (the certification profile's merging).
+/// Merges crashes less than `apart_frames` frames apart, as the certification profile requires.
 #[must_use]
 pub fn merged(crashes: &[Crash], apart_frames: f64) -> Vec<Crash> {
     let mut merged: Vec<Crash> = Vec::new();

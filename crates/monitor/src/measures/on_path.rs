@@ -1,14 +1,14 @@
-//! On-path analysis (the paper's algorithm 1) and the task windows.
+//! On-path analysis (the paper's algorithm 1) and task windows.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::Scenario;
 
-/// Points per block of the search. Blocks whose box is farther than the best point so far are skipped; the answer stays exact.
+/// Points per search block. Blocks whose bounding box is farther than the best point so far are skipped; the result is exact.
 const BLOCK: usize = 16;
-/// Room for rounding when a box is ruled out, relative.
+/// Relative tolerance for rounding when a box is excluded.
 const BOX_SLACK: f64 = 1.0 + 1e-9;
 
-/// A reference path, ready for nearest-point queries.
+/// A reference path indexed for nearest-point queries.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferencePath {
     points_m: Vec<Vec3<Enu>>,
@@ -39,32 +39,33 @@ impl Aabb {
     }
 }
 
-/// The nearest place of a path.
+/// Nearest point on a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearestOnPath {
-    /// n*: index of the nearest reference point; in `exact` mode of the nearest segment's first point.
+    /// Index of the nearest reference point (n*); in `exact` mode, of the first point of the nearest segment.
     pub point: usize,
-    /// l*, m.
+    /// Distance to the path (l*), m.
     pub distance_m: f64,
 }
 
 impl ReferencePath {
-    /// A path of at least one point.
+    /// Creates a path from at least one point; `closed` joins the last point to the first.
     #[must_use]
     pub fn new(points_m: &[Vec3<Enu>], closed: bool) -> Self {
         let count = points_m.len();
-        // Each block also holds the end of its last segment, so that one set of boxes serves points and segments.
+        // Each block also includes the end of its last segment, so that the same boxes work for points and segments.
         let block = |start: usize| Aabb::around((start..=(start + BLOCK).min(count)).map(|k| &points_m[k % count]));
         Self { points_m: points_m.to_vec(), closed, blocks: (0..count).step_by(BLOCK).map(block).collect() }
     }
 
-    /// Reference points.
+    /// Returns the reference points, m.
     #[must_use]
     pub fn points_m(&self) -> &[Vec3<Enu>] {
         &self.points_m
     }
 
-    /// The paper's rule: the nearest reference point (lowest index on ties), then the segments that touch it.
+    /// Applies the paper's rule: finds the nearest reference point (lowest index on ties), then measures to its adjacent
+    /// segments.
     #[must_use]
     pub fn paper(&self, position_m: Vec3<Enu>) -> Option<NearestOnPath> {
         let point = self.search(position_m, |k| (position_m - self.points_m[k]).norm_squared())?;
@@ -76,7 +77,7 @@ impl ReferencePath {
         Some(NearestOnPath { point, distance_m: squared.sqrt() })
     }
 
-    /// The distance to the whole polyline.
+    /// Measures the distance to the whole polyline.
     #[must_use]
     pub fn exact(&self, position_m: Vec3<Enu>) -> Option<NearestOnPath> {
         let to_segment = |k: usize| {
@@ -87,7 +88,7 @@ impl ReferencePath {
         Some(NearestOnPath { point, distance_m: to_segment(point).sqrt() })
     }
 
-    /// The nearest place on the whole polyline, m.
+    /// Returns the nearest position on the whole polyline, m.
     #[must_use]
     pub fn closest_on_segment(&self, position_m: Vec3<Enu>) -> Option<Vec3<Enu>> {
         let point = self.exact(position_m)?.point;
@@ -95,14 +96,14 @@ impl ReferencePath {
         Some(a.lerp(b, along(position_m, a, b)))
     }
 
-    /// Nothing of the path is within `distance_m`.
+    /// Returns whether no part of the path is within `distance_m`.
     #[must_use]
     pub fn is_beyond(&self, position_m: Vec3<Enu>, distance_m: f64) -> bool {
         let limit = distance_m * distance_m * BOX_SLACK;
         self.blocks.iter().all(|block| block.distance_squared(position_m.array()) > limit)
     }
 
-    /// Length of the path from its first point to each point, m.
+    /// Returns the distance along the path from its first point to each point, m.
     #[must_use]
     pub fn along_m(&self) -> Vec<f64> {
         let steps = self.points_m.windows(2).map(|pair| (pair[1] - pair[0]).norm());
@@ -114,7 +115,7 @@ impl ReferencePath {
         self.points_m.first().map(|_| 0.0).into_iter().chain(later).collect()
     }
 
-    /// Length that each point stands for, m: half of each segment that touches it.
+    /// Returns the length that each point represents, m: half of each adjacent segment.
     #[must_use]
     pub fn lengths_by_point_m(&self) -> Vec<f64> {
         let mut lengths_m = vec![0.0; self.points_m.len()];
@@ -127,13 +128,14 @@ impl ReferencePath {
         lengths_m
     }
 
-    /// The segment that starts at point `k`.
+    /// Returns the segment that starts at point `k`.
     fn segment(&self, k: usize) -> Option<(Vec3<Enu>, Vec3<Enu>)> {
         let next = if k + 1 < self.points_m.len() { Some(k + 1) } else { self.closed.then_some(0) }?;
         Some((self.points_m[k], self.points_m[next]))
     }
 
-    /// Index with the smallest cost, the lowest on ties; a cost is never below the distance to its block's box.
+    /// Returns the index with the lowest cost (lowest index on ties). A cost must be at least the squared distance to its block's
+    /// box.
     fn search(&self, position_m: Vec3<Enu>, cost: impl Fn(usize) -> f64) -> Option<usize> {
         let point = position_m.array();
         let mut best: Option<(f64, usize)> = None;
@@ -156,14 +158,14 @@ fn to_segment_squared(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>) -> f64 {
     (p - (a + (b - a) * along(p, a, b))).norm_squared()
 }
 
-/// Where the foot of `p` lies between `a` (0) and `b` (1).
+/// Returns the parameter of the point nearest to `p` on the segment from `a` (0) to `b` (1).
 fn along(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>) -> f64 {
     let way = b - a;
     let length_squared = way.norm_squared();
     if length_squared > 0.0 { ((p - a).dot(way) / length_squared).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// The paths of all tasks.
+/// Reference paths of all tasks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferencePaths {
     paths: Vec<ReferencePath>,
@@ -172,7 +174,7 @@ pub struct ReferencePaths {
 }
 
 impl ReferencePaths {
-    /// From a scenario's tasks.
+    /// Creates the paths of a scenario's tasks.
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         Self {
@@ -182,38 +184,38 @@ impl ReferencePaths {
         }
     }
 
-    /// Number of tasks.
+    /// Returns the number of tasks.
     #[must_use]
     pub fn len(&self) -> usize {
         self.paths.len()
     }
 
-    /// No tasks.
+    /// Returns whether there are no tasks.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.paths.is_empty()
     }
 
-    /// Path of a task.
+    /// Returns the path of a task.
     #[must_use]
     pub fn path(&self, task: usize) -> &ReferencePath {
         &self.paths[task]
     }
 
-    /// Threshold of a task, m.
+    /// Returns the on-path threshold of a task, m.
     #[must_use]
     pub fn threshold_m(&self, task: usize) -> f64 {
         self.thresholds_m[task]
     }
 
-    /// l* and n* of a task.
+    /// Returns the nearest point of a task's path and the distance to it (n* and l*).
     #[must_use]
     pub fn nearest(&self, task: usize, position_m: Vec3<Enu>) -> Option<NearestOnPath> {
         if self.exact { self.paths[task].exact(position_m) } else { self.paths[task].paper(position_m) }
     }
 
-    /// The task whose path the drone is on: of those within their threshold the one with the smallest l*/threshold; a tie keeps
-    /// `current`, else the lowest index.
+    /// Returns the task whose path the drone is on: among the tasks within their threshold, the one with the smallest
+    /// l*/threshold. Ties go to `current`, then to the lowest index.
     #[must_use]
     pub fn on(&self, position_m: Vec3<Enu>, current: Option<usize>) -> Option<(usize, NearestOnPath)> {
         let mut best: Option<(f64, usize, NearestOnPath)> = None;
@@ -241,37 +243,37 @@ impl ReferencePaths {
 /// First and last on-path frame of a task, as indices from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct OnPathWindow {
-    /// First.
+    /// First frame.
     pub first: usize,
-    /// Last, included.
+    /// Last frame, inclusive.
     pub last: usize,
 }
 
 impl OnPathWindow {
-    /// Frames in it.
+    /// Returns the number of frames in the window.
     #[must_use]
     pub fn frames(&self) -> usize {
         self.last - self.first + 1
     }
 
-    /// Whether frame `i` lies in it.
+    /// Returns whether the window contains frame `i`.
     #[must_use]
     pub fn contains(&self, i: usize) -> bool {
         (self.first..=self.last).contains(&i)
     }
 }
 
-/// X_t,i of all frames: at most one task per frame.
+/// On-path state of all frames (X_t,i): at most one task per frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OnPath {
-    /// Per frame the task and the nearest point of its path.
+    /// For each frame, the task and the index of the nearest point of its path.
     pub task: Vec<Option<(usize, usize)>>,
-    /// Per task its window; `None` when its path was never entered.
+    /// For each task, its window; `None` if its path was never entered.
     pub windows: Vec<Option<OnPathWindow>>,
 }
 
 impl OnPath {
-    /// Runs over positions in frame order.
+    /// Measures positions given in frame order.
     pub fn measure(paths: &ReferencePaths, positions_m: impl Iterator<Item = Vec3<Enu>>) -> Self {
         let mut windows: Vec<Option<OnPathWindow>> = vec![None; paths.len()];
         let mut current = None;
@@ -288,7 +290,7 @@ impl OnPath {
         Self { task, windows }
     }
 
-    /// P_p,t: share of the window's frames that are on the path; 0 when it was never entered.
+    /// Returns the fraction of the window's frames that are on the path (P_p,t); 0 if it was never entered.
     #[must_use]
     pub fn share(&self, task: usize) -> f64 {
         let Some(window) = self.windows[task] else { return 0.0 };

@@ -2,7 +2,7 @@
 
 use super::on_path::OnPathWindow;
 
-/// X_s,i: over the limit (strictly) inside the union of the windows.
+/// Returns, for each frame, whether the speed exceeds the limit inside any task window (X_s,i).
 #[must_use]
 pub fn speeding(speeds_m_s: &[f64], windows: &[Option<OnPathWindow>], limit_m_s: f64) -> Vec<bool> {
     let mut inside = vec![false; speeds_m_s.len()];
@@ -12,13 +12,14 @@ pub fn speeding(speeds_m_s: &[f64], windows: &[Option<OnPathWindow>], limit_m_s:
     speeds_m_s.iter().zip(inside).map(|(speed, inside)| inside && *speed > limit_m_s).collect()
 }
 
-/// P_s,t: the sum of v/limit over speeding frames, divided by all frames of the window; 0 without a window.
+/// Returns the speeding loss (P_s,t): the sum of v/limit over speeding frames, divided by all frames of the window; 0 without a
+/// window.
 #[must_use]
 pub fn loss(speeds_m_s: &[f64], speeding: &[bool], window: Option<OnPathWindow>, limit_m_s: f64) -> f64 {
     let Some(window) = window else { return 0.0 };
     let range = window.first..=window.last;
     let weights = speeds_m_s[range.clone()].iter().zip(&speeding[range]).filter(|(_, on)| **on).map(|(v, _)| v / limit_m_s);
-    // An empty sum of floats is -0; adding 0 makes it 0.
+    // An empty sum of floats is -0.0; adding 0.0 makes it +0.0.
     (weights.sum::<f64>() + 0.0) / window.frames() as f64
 }
 

@@ -1,6 +1,6 @@
-//! The certification profile: beside the paper's four numbers, never instead. It closes the paper's loopholes with gates, counts
-//! only the part of a path that was flown, and weighs a crash by its speed. The weights are this project's estimates and are written
-//! into the output with it.
+//! The certification profile, computed in addition to the paper's four scores. It adds pass/fail requirements, counts only the
+//! part of a path that was flown and weights crashes by speed. The weights are estimates of this project and are included in the
+//! output.
 
 use crate::measures::coverage::PathCoverage;
 use crate::measures::crash::{self, Crash};
@@ -15,90 +15,91 @@ use spandrel_model::numbers::{format_beside_limit, limit};
 use spandrel_model::scenario::{PlacedDefect, Scenario};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// On-path stretches less than this apart are one visit, s (docs/src/reference/assessment.md, "Certification").
+/// On-path intervals less than this apart count as one visit, s (docs/src/reference/assessment.md, "Certification").
 const VISIT_APART_S: f64 = 10.0;
-/// Contacts less than this apart are one crash, s (docs/src/reference/assessment.md, "Certification").
+/// Contacts less than this apart count as one crash, s (docs/src/reference/assessment.md, "Certification").
 const CRASH_APART_S: f64 = 1.0;
-/// Least battery at landing, % (docs/src/reference/assessment.md, "Certification").
+/// Minimum battery at landing, % (docs/src/reference/assessment.md, "Certification").
 const BATTERY_AT_HOME_PCT: f64 = 20.0;
-/// Loss of the gentlest crash, points (the paper's loss for any).
+/// Minimum loss per crash, points (the paper's loss for any crash).
 const CRASH_LOSS: f64 = 3.0;
-/// A crash at this speed costs twice the gentlest, at twice the speed five times (energy goes with the square), m/s (estimate).
+/// A crash at this speed costs twice the minimum, at twice this speed five times (energy is proportional to speed squared), m/s
+/// (estimate).
 const CRASH_SPEED_M_S: f64 = 2.0;
-/// Largest loss of one crash, points (estimate).
+/// Maximum loss per crash, points (estimate).
 const CRASH_LOSS_MAX: f64 = 30.0;
-/// Points lost per second spent closer than allowed (estimate: a minute costs as much as two gentle crashes).
+/// Points lost per second below the minimum clearance (estimate: a minute costs as much as two minimum crashes).
 const EXPOSURE_LOSS_PER_S: f64 = 0.1;
-/// Largest loss for closeness alone, points (estimate).
+/// Maximum loss for low clearance alone, points (estimate).
 const EXPOSURE_LOSS_MAX: f64 = 50.0;
 
-/// The profile's output.
+/// Output of the certification profile.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Certification {
-    /// All requirements are met.
+    /// Whether all requirements are met.
     pub passed: bool,
-    /// Gates.
+    /// Requirements.
     pub gates: Requirements,
-    /// Each requirement that failed, in words, with what was reached and what is needed.
+    /// Requirements that were not met, as text with the value reached and the value needed.
     pub unmet: Vec<String>,
-    /// Scores, 0 to 100; conformity is absent when there is no evidence (no path entered), accuracy when no defect was placed.
+    /// Scores, 0 to 100. Conformity is absent if no path was entered, accuracy if no defect was placed.
     pub scores: CertificationScores,
-    /// `not_attempted:ID` per task, `no_evidence`.
+    /// Flags: `not_attempted:ID` per task, `no_evidence`.
     pub flags: Vec<String>,
-    /// Tasks by visits.
+    /// Results per task, by visits.
     pub tasks: Vec<TaskVisits>,
-    /// Crashes, merged when less than a second apart.
+    /// Crashes, merged if less than a second apart.
     pub crashes: Vec<MergedCrash>,
-    /// Onsets before merging.
+    /// Number of contact onsets before merging.
     pub crash_onsets: usize,
-    /// Time spent closer than the scenario's clearance, s.
+    /// Time spent below the scenario's clearance, s.
     pub exposure_s: f64,
     /// Battery at the last frame, %.
     pub battery_at_end_pct: f64,
-    /// What was found, by element, kind and condition state.
+    /// Defects found and placed, by element, kind and condition state.
     pub detection: Detection,
 }
 
-/// What must hold.
+/// Certification requirements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Requirements {
     /// Every task is done, and the session ended by landing at home.
     pub session_complete: bool,
     /// Every task's path was entered.
     pub all_tasks_attempted: bool,
-    /// Nobody and no vehicle was hit.
+    /// No person or vehicle was hit.
     pub no_person_or_vehicle_hit: bool,
-    /// Landed near the ground team.
+    /// The drone landed near the ground team.
     pub landed_at_home: bool,
-    /// With at least 20 % battery.
+    /// The drone landed with at least 20 % battery.
     pub battery_reserve: bool,
 }
 
-/// 0 to 100 each.
+/// Scores of the certification profile, 0 to 100 each.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct CertificationScores {
-    /// Weighted by coverage.
+    /// Conformity, weighted by coverage.
     pub conformity: Option<f64>,
-    /// 0 after an early end or with a task skipped.
+    /// Efficiency; 0 if the session ended early or a task was skipped.
     pub efficiency: f64,
-    /// By contact speed and closeness.
+    /// Safety, from contact speed and clearance.
     pub safety: f64,
-    /// Detection only.
+    /// Accuracy of detection only.
     pub accuracy: Option<f64>,
 }
 
-/// One task by its visits.
+/// Visits to one task.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TaskVisits {
     /// Task number.
     pub id: u32,
     /// First and last frame of each visit.
     pub visits: Vec<(u32, u32)>,
-    /// Share of the reference path that was flown.
+    /// Fraction of the reference path that was flown, 0 to 1.
     pub coverage: f64,
-    /// Share of the visits' frames on the path.
+    /// Fraction of the visits' frames that are on the path, 0 to 1.
     pub on_path: f64,
-    /// The paper's weighted speeding over the visits' frames.
+    /// The paper's speeding loss over the visits' frames.
     pub speeding: f64,
 }
 
@@ -107,31 +108,31 @@ pub struct TaskVisits {
 pub struct MergedCrash {
     /// First frame.
     pub frame: u32,
-    /// Since lift-off, s.
+    /// Time since lift-off, s.
     pub t_s: f64,
-    /// What was hit.
+    /// Most severe object hit.
     pub with: ContactKind,
-    /// Fastest speed around the onset, m/s.
+    /// Maximum speed around the onset, m/s.
     pub speed_m_s: f64,
     /// Points lost.
     pub loss: f64,
-    /// Task number, if it happened in a task's window.
+    /// Task number, if the crash lies in a task's window.
     pub task: Option<u32>,
 }
 
-/// Found and placed.
+/// Number of defects found and placed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct DetectionCounts {
-    /// Found.
+    /// Defects found.
     pub found: usize,
-    /// Placed.
+    /// Defects placed.
     pub placed: usize,
 }
 
-/// Detection broken down.
+/// Detection by element, kind and condition state.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Detection {
-    /// True: trainees give no labels in this version, so only detection is graded, not the naming of kind or condition state.
+    /// Always true: trainees do not label defects in this version, so only detection is graded, not the kind or condition state.
     pub detection_only: bool,
     /// By AASHTO MBEI element.
     pub by_element: BTreeMap<u32, DetectionCounts>,
@@ -141,16 +142,16 @@ pub struct Detection {
     pub by_condition_state: BTreeMap<u8, DetectionCounts>,
 }
 
-/// Everything the profile looks at.
+/// Input of the certification profile.
 #[derive(Debug)]
 pub struct CertificationInputs<'a> {
-    /// The job.
+    /// Scenario.
     pub scenario: &'a Scenario,
-    /// Its paths.
+    /// Reference paths of the scenario's tasks.
     pub paths: &'a ReferencePaths,
-    /// The session.
+    /// Session being graded.
     pub session: &'a Session,
-    /// On-path measure.
+    /// On-path measure of the session.
     pub on_path: &'a OnPath,
     /// Coverage of each task's path.
     pub covered: &'a [PathCoverage],
@@ -158,17 +159,17 @@ pub struct CertificationInputs<'a> {
     pub states: &'a [TaskState],
     /// Completion of the session.
     pub completion: Completion,
-    /// Crashes.
+    /// Crashes before merging.
     pub crashes: &'a [Crash],
-    /// Counts of the pictures.
+    /// Picture and defect counts.
     pub counts: accuracy::MatchCounts,
     /// Defects placed.
     pub defects: &'a [PlacedDefect],
-    /// Defects found.
+    /// Ids of the defects found.
     pub found: &'a BTreeSet<u32>,
 }
 
-/// Grades.
+/// Grades a session.
 #[must_use]
 pub fn grade(evidence: &CertificationInputs<'_>) -> Certification {
     let scenario = evidence.scenario;
@@ -215,7 +216,7 @@ fn gates(evidence: &CertificationInputs<'_>, all_tasks_attempted: bool, battery_
     }
 }
 
-/// The requirements that failed. A battery that was not landed with is not one by itself, nor is a skipped task beside its own line.
+/// Returns the unmet requirements. Battery reserve is omitted if the drone did not land, and skipped tasks are not listed twice.
 fn unmet(evidence: &CertificationInputs<'_>, gates: &Requirements, battery_pct: f64) -> Vec<String> {
     let done_share = evidence.completion.done_share;
     let tasks = evidence.scenario.tasks.iter().zip(evidence.states).zip(evidence.covered);
@@ -247,7 +248,7 @@ fn paper_efficiency(evidence: &CertificationInputs<'_>) -> f64 {
     efficiency::score(evidence.session.seconds(scoring.frame_rate_hz), false, scoring.time_best_s, scoring.time_max_s).pct
 }
 
-/// Visits of a task: on-path stretches less than [`VISIT_APART_S`] apart, joined.
+/// Returns the visits to a task: on-path intervals less than `apart_frames` apart, joined.
 fn visit_ranges(on_path: &OnPath, task: usize, apart_frames: f64) -> Vec<(usize, usize)> {
     let mut ranges: Vec<(usize, usize)> = Vec::new();
     for (i, _) in on_path.task.iter().enumerate().filter(|(_, on)| on.is_some_and(|(t, _)| t == task)) {
@@ -311,7 +312,7 @@ fn merged(evidence: &CertificationInputs<'_>) -> Vec<MergedCrash> {
         .collect()
 }
 
-/// Frames closer than the scenario's clearance, or than the smaller distance of the task last entered, as the feedback has it.
+/// Returns the time spent below the scenario's clearance or, where smaller, that of the last task entered, as in the feedback, s.
 fn exposure_s(evidence: &CertificationInputs<'_>) -> f64 {
     let scenario = evidence.scenario;
     let mut current: Option<usize> = None;

@@ -1,10 +1,10 @@
-//! How much of the job was done: it stands beside every score, so that a flight that did not do the job never looks good.
+//! Completion of the job. It is shown with every score, so that an incomplete flight is never mistaken for a good one.
 
 use crate::measures::coverage::PathCoverage;
 use serde::{Deserialize, Serialize};
 use spandrel_model::numbers::{format_beside_limit, limit};
 
-/// How far a task got.
+/// Progress on a task.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TaskState {
@@ -17,7 +17,7 @@ pub enum TaskState {
 }
 
 impl TaskState {
-    /// From the share of a path that was flown.
+    /// Determines the state from the fraction of the path that was flown.
     #[must_use]
     pub fn of(attempted: bool, covered: f64, done_share: f64) -> Self {
         match (attempted, covered >= done_share) {
@@ -27,7 +27,7 @@ impl TaskState {
         }
     }
 
-    /// In words, with the share of the path.
+    /// Returns the state as text, with the percentage of the path.
     #[must_use]
     pub fn words(self, covered: f64, done_share: f64) -> String {
         match self {
@@ -41,29 +41,29 @@ impl TaskState {
 /// Completion of a session.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Completion {
-    /// Every task is done, and the session ended by landing at home.
+    /// Whether every task is done and the session ended by landing at home.
     pub complete: bool,
-    /// Tasks done.
+    /// Number of tasks done.
     pub tasks_done: usize,
-    /// Tasks of the job.
+    /// Number of tasks in the job.
     pub tasks: usize,
-    /// Share of the length of all paths that was flown, 0 to 1.
+    /// Fraction of the total path length that was flown, 0 to 1.
     pub path_share: f64,
-    /// The session ended by landing at home.
+    /// Whether the session ended by landing at home.
     pub landed_at_home: bool,
-    /// Share of its path from which on a task is done, 0 to 1.
+    /// Fraction of its path at which a task counts as done, 0 to 1.
     pub done_share: f64,
 }
 
 impl Completion {
-    /// Of all tasks' states and coverage.
+    /// Computes the completion from the states and coverage of all tasks.
     #[must_use]
     pub fn of(states: &[TaskState], covered: &[PathCoverage], landed_at_home: bool, done_share: f64) -> Self {
         let tasks_done = states.iter().filter(|state| **state == TaskState::Done).count();
         let length_m: f64 = covered.iter().map(|one| one.length_m).sum();
         let flown_m = covered.iter().fold(0.0, |sum, one| sum + one.length_m * one.share);
         let count = states.len().max(1) as f64;
-        // Jobs of single points have no length: each point counts the same.
+        // Paths of single points have no length; each point has the same weight.
         let by_count = covered.iter().fold(0.0, |sum, one| sum + one.share) / count;
         Self {
             complete: landed_at_home && tasks_done == states.len(),
@@ -75,18 +75,18 @@ impl Completion {
         }
     }
 
-    /// Tasks and path in words, such as "Incomplete: 1 of 4 tasks, 31 % of the path".
+    /// Returns tasks and path as text, such as "Incomplete: 1 of 4 tasks, 31 % of the path".
     #[must_use]
     pub fn short(&self) -> String {
         let word = if self.complete { "Complete" } else { "Incomplete" };
-        // Of one task the share decides; over several tasks it only informs.
+        // With one task the share determines completion; with several it is only informative.
         let share =
             if self.tasks == 1 { percent(self.path_share, self.done_share) } else { format!("{:.0}", 100.0 * self.path_share) };
         let tasks = if self.tasks == 1 { "task" } else { "tasks" };
         format!("{word}: {} of {} {tasks}, {share} % of the path", self.tasks_done, self.tasks)
     }
 
-    /// The headline: [`Self::short`], and the landing where nothing else is missing.
+    /// Returns the headline: [`Self::short`], plus the missing landing if nothing else is missing.
     #[must_use]
     pub fn headline(&self) -> String {
         let only_landing = !self.landed_at_home && self.tasks_done == self.tasks;
@@ -94,13 +94,13 @@ impl Completion {
     }
 }
 
-/// A share as a percentage with the digits that show on which side of the limit it lies.
+/// Formats a fraction as a percentage with enough digits to show on which side of the limit it lies.
 #[must_use]
 pub fn percent(share: f64, done_share: f64) -> String {
     format_beside_limit(100.0 * share, 100.0 * done_share, 0)
 }
 
-/// A task that is not done, in words; `None` for one that is.
+/// Describes an incomplete task; `None` if it is done.
 #[must_use]
 pub fn missing(id: u32, state: TaskState, covered: f64, done_share: f64) -> Option<String> {
     match state {
@@ -114,7 +114,7 @@ pub fn missing(id: u32, state: TaskState, covered: f64, done_share: f64) -> Opti
     }
 }
 
-/// The verdict of the certification profile in words: certified, or the first requirement that failed.
+/// Returns the certification verdict as text: certified, or the first unmet requirement.
 #[must_use]
 pub fn verdict(certified: bool, unmet: &[String]) -> String {
     match (certified, unmet) {

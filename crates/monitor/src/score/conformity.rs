@@ -1,18 +1,18 @@
-//! Conformity (the paper's P_C): on path and on speed.
+//! Conformity (the paper's P_C): adherence to the path and the speed limit.
 
 use super::Score;
 
-/// P_p and P_s of one task.
+/// On-path share and speeding loss of one task (P_p and P_s).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TaskShares {
-    /// P_p,t.
+    /// Fraction of the window's frames that are on the path (P_p,t), 0 to 1.
     pub on_path: f64,
-    /// P_s,t.
+    /// Speeding loss (P_s,t).
     pub speeding: f64,
 }
 
-/// Conformity over all tasks; `None` for a job without tasks. The weights follow from the number of tasks and the two speeds and
-/// are 25 and -25/3 in the paper's job.
+/// Computes conformity over all tasks; `None` for a job without tasks. The weights depend on the number of tasks and the two
+/// speeds; in the paper's job they are 25 and -25/3.
 #[must_use]
 pub fn score(tasks: &[TaskShares], speed_limit_m_s: f64, max_speed_m_s: f64) -> Option<Score> {
     if tasks.is_empty() {

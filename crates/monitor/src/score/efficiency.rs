@@ -1,8 +1,9 @@
-//! Efficiency (the paper's P_E): time, and whether the drone came home.
+//! Efficiency (the paper's P_E): flight time, and whether the drone returned.
 
 use super::Score;
 
-/// Full marks up to `time_best_s`, then linearly to 0 at `time_max_s`; -100 when the battery failed (X_b).
+/// Computes efficiency: full score up to `time_best_s`, then linearly down to 0 at `time_max_s`; -100 if the battery failed
+/// (X_b).
 #[must_use]
 pub fn score(seconds: f64, battery_failed: bool, time_best_s: f64, time_max_s: f64) -> Score {
     let over = (seconds - time_best_s).max(0.0);

@@ -1,4 +1,4 @@
-//! From measures to scores: the paper's four, and the certification profile beside them.
+//! Scores computed from the measures: the paper's four scores and the certification profile.
 
 pub mod accuracy;
 pub mod certification;
@@ -9,23 +9,23 @@ pub mod safety;
 
 use serde::Serialize;
 
-/// Version of the scorer: it grows whenever the same flight may get other scores, so that records know which of them compare.
+/// Scorer version. It increases whenever the same flight may score differently, so that only comparable records are compared.
 pub const SCORER_VERSION: u32 = 2;
 
-/// A score on its own scale and on 0 to 100. Full precision; only what is shown is rounded.
+/// A score on its own scale and as a percentage. Full precision; rounding happens only on display.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Score {
-    /// As the formula gives it.
+    /// Value of the formula, clamped to its scale.
     pub raw: f64,
-    /// (raw - least) / (greatest - least) * 100.
+    /// Percentage: (raw - least) / (greatest - least) * 100.
     pub pct: f64,
 }
 
 impl Score {
-    /// A raw value on the scale from `least` to `greatest`, clamped into it.
+    /// Creates a score from a raw value, clamped to the range from `least` to `greatest`.
     #[must_use]
     pub fn on_scale(raw: f64, least: f64, greatest: f64) -> Self {
-        // Adding 0 turns -0 into 0.
+        // Adding 0.0 turns -0.0 into +0.0.
         let raw = raw.clamp(least, greatest) + 0.0;
         Self { raw, pct: (raw - least) / (greatest - least) * 100.0 }
     }

@@ -1,13 +1,13 @@
-//! Safety (the paper's P_S): what was hit.
+//! Safety (the paper's P_S): crashes by what was hit.
 
 use super::Score;
 
-/// Loss for a person or a vehicle.
+/// Points lost for hitting a person, and for hitting a vehicle.
 const TRAFFIC_LOSS: f64 = 100.0;
-/// Loss for each other crash.
+/// Points lost per other crash.
 const OTHER_LOSS: f64 = 3.0;
 
-/// `others` counts the onsets of contact with bridge, terrain, water or anything else.
+/// Computes safety. `others` is the number of contact onsets with bridge, terrain, water or anything else.
 #[must_use]
 pub fn score(person: bool, vehicle: bool, others: usize) -> Score {
     let traffic = f64::from(u8::from(person)) + f64::from(u8::from(vehicle));

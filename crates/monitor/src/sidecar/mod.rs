@@ -1,4 +1,5 @@
-//! The live sidecar, sans-IO: datagrams and clock in, datagrams and file contents out. The shell owns sockets and files.
+//! The live monitor, sans-IO: takes datagrams and the clock, returns datagrams and file contents. The application owns sockets
+//! and files.
 //!
 //! ```text
 //! monitor.handle_datagram(bytes)   then, until empty: poll_transmit(), poll_record()
@@ -33,71 +34,71 @@ use std::sync::Arc;
 mod messages;
 mod telemetry_intake;
 
-/// The monitor's component id (MAV_COMP_ID_ONBOARD_COMPUTER).
+/// Component id of the monitor (MAV_COMP_ID_ONBOARD_COMPUTER).
 pub const COMPONENT: u8 = 191;
-/// The autopilot's component id (MAV_COMP_ID_AUTOPILOT1).
+/// Component id of the autopilot (MAV_COMP_ID_AUTOPILOT1).
 const AUTOPILOT: u8 = 1;
-/// `cues` are repeated at 5 Hz (docs/src/reference/wire.md, "Scoring data").
+/// Interval at which `cues` is repeated, 5 Hz (docs/src/reference/wire.md, "Scoring data").
 const CUES_EVERY: SimTime = SimTime::from_ms(200);
-/// Heartbeats run on simulation time, so that a run flat out says the same in every run.
+/// Heartbeat interval in simulation time, so that accelerated runs are reproducible.
 const HEARTBEAT_EVERY: SimTime = SimTime::from_ms(1_000);
-/// Without simulation time, heartbeats run on wall time at this distance.
+/// Heartbeat interval in wall time while no simulation time is received.
 const HEARTBEAT_SILENT: SimTime = SimTime::from_ms(2_000);
-/// Late datagrams are waited for this long before the score is made.
+/// Wait for late datagrams before scoring.
 const SETTLE: SimTime = SimTime::from_ms(500);
-/// When the scorer sees no end where the live view saw one, the next try waits this long.
+/// Delay before the next attempt if the live rule detected an end but the scorer did not.
 const RETRY: SimTime = SimTime::from_ms(5_000);
-/// After an end in sight, silence of this much wall time closes the session.
+/// Wall time without telemetry after which the session is closed, once an end was detected.
 const SILENCE_CLOSES: SimTime = SimTime::from_ms(3_000);
-/// How far from the drone's centre the thing that it touches is looked for, m (estimate: half the largest aircraft).
+/// Search radius around the drone's center for the object in contact, m (estimate: half the largest aircraft).
 const TOUCH_REACH_M: f64 = 1.5;
 
-/// Makes the site of a seed.
+/// Function that builds the site of a seed.
 pub type SurveyBuilder = fn(&Scenario, u64) -> Arc<dyn SiteSurvey>;
 
-/// Builds the real site.
+/// Builds the actual site.
 #[must_use]
 pub fn build_site(scenario: &Scenario, seed: u64) -> Arc<dyn SiteSurvey> {
     Arc::new(Site::build(scenario, seed))
 }
 
-/// What a monitor needs to know.
+/// Configuration of a monitor.
 #[derive(Debug, Clone)]
 pub struct MonitorConfig {
     /// Scenario.
     pub scenario: Scenario,
     /// Aircraft.
     pub vehicle: Vehicle,
-    /// Who flies.
+    /// Trainee name.
     pub trainee: String,
-    /// What for, where somebody chose: practice or assessment.
+    /// Purpose of the session, practice or assessment, if chosen.
     pub purpose: Option<String>,
-    /// Wall time of the session's start, µs since the Unix epoch; on a restart that of the first start.
+    /// Wall-clock time of the session's start, µs since the Unix epoch; after a monitor restart, that of the first start.
     pub started_unix_us: u64,
-    /// System id until the vehicle has been heard: 1 + instance.
+    /// System id used until the vehicle is detected: 1 + instance.
     pub system_id: u8,
-    /// Seed asked for on the command line; another one on the wire is refused.
+    /// Seed requested on the command line; telemetry with a different seed is rejected.
     pub seed: Option<u64>,
-    /// Makes the site; [`build_site`] outside tests.
+    /// Builds the site; [`build_site`] except in tests.
     pub survey_builder: SurveyBuilder,
 }
 
-/// Something to write.
+/// Data to write to the session folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SessionOutput {
-    /// Append to `telemetry.tlog`.
+    /// Bytes to append to `telemetry.tlog`.
     Telemetry(Vec<u8>),
-    /// Append to `events.jsonl` (a line, with its line end).
+    /// Line to append to `events.jsonl`, including its line end.
     Event(String),
 }
 
-/// State of the live view.
+/// State of the live flight.
 #[derive(Debug, Clone, PartialEq)]
 struct LiveState {
     truth: Option<Truth>,
     battery_pct: Option<f64>,
     contact: ContactKind,
-    /// The running contact is a soft touch of the pad.
+    /// The current contact is a soft pad contact.
     on_pad: bool,
     clearance_m: Option<f64>,
     armed: Option<bool>,
@@ -106,7 +107,7 @@ struct LiveState {
     lift_off: Option<SimTime>,
     current_task: Option<usize>,
     last_task: Option<usize>,
-    /// Per task the points of its path that the drone was nearest to while on it.
+    /// For each task, the path points that were nearest to the drone while it was on the path.
     visited_points: Vec<Vec<bool>>,
     rule: EndRule,
     end: Option<(SimTime, EndReason)>,
@@ -117,7 +118,7 @@ struct LiveState {
     closures: BridgeClosures,
 }
 
-/// The sidecar.
+/// The live monitor.
 #[derive(Debug, Clone)]
 pub struct Monitor {
     config: MonitorConfig,
@@ -125,7 +126,7 @@ pub struct Monitor {
     decoder: Decoder,
     encoder: Encoder,
     timeline: Timeline,
-    /// Wall time of simulation time zero, µs since the Unix epoch, once a truth has come.
+    /// Wall-clock time of simulation time zero, µs since the Unix epoch, once a truth sample was received.
     zero_unix_us: Option<u64>,
     feedback: FeedbackRules,
     texts: TextQueue,
@@ -144,7 +145,7 @@ pub struct Monitor {
 }
 
 impl Monitor {
-    /// A monitor at the start of a session.
+    /// Creates a monitor at the start of a session.
     #[must_use]
     pub fn new(config: MonitorConfig) -> Self {
         let scenario = &config.scenario;
@@ -172,11 +173,11 @@ impl Monitor {
         }
     }
 
-    /// A monitor that goes on where a killed one stopped: `log` is what `telemetry.tlog` holds. The shell cuts the file to
-    /// [`tlog::whole_len`] before it appends.
+    /// Creates a monitor that resumes an interrupted session from `log`, the contents of `telemetry.tlog`. The application
+    /// truncates the file to [`tlog::whole_len`] before appending.
     ///
     /// # Errors
-    /// When the log cannot be read.
+    /// If the log cannot be read.
     pub fn resume(config: MonitorConfig, log: &(impl TelemetryLog + ?Sized)) -> std::io::Result<Self> {
         let mut monitor = Self::new(config);
         monitor.replaying = true;
@@ -193,8 +194,8 @@ impl Monitor {
         Ok(monitor)
     }
 
-    /// Whether the vehicle sends this datagram: it holds a frame of the autopilot's component, and of the system whose flight is scored as
-    /// soon as there is one.
+    /// Returns whether this datagram comes from the vehicle: it contains a frame of the autopilot component and, once a scored
+    /// flight exists, of its system.
     #[must_use]
     pub fn is_from_vehicle(&self, bytes: &[u8]) -> bool {
         let system = self.timeline.system();
@@ -207,7 +208,7 @@ impl Monitor {
         Decoder::new().datagram(bytes).iter().any(|frame| fits(frame) && beats(frame))
     }
 
-    /// Takes one datagram from the vehicle. The site is built while the first `seed` is handled, which may take a while.
+    /// Handles one datagram from the vehicle. The first `seed` message builds the site, which may take a while.
     pub fn handle_datagram(&mut self, bytes: &[u8]) {
         self.vehicle_heard = true;
         for received in self.decoder.datagram(bytes) {
@@ -221,7 +222,7 @@ impl Monitor {
         }
     }
 
-    /// Tells the wall time since some fixed instant; needed only while simulation time stands still.
+    /// Updates the wall time, measured from a fixed instant; needed only while simulation time does not advance.
     pub fn handle_timeout(&mut self, wall: SimTime) {
         if std::mem::take(&mut self.vehicle_heard) || self.last_heard_wall.is_none() {
             self.last_heard_wall = Some(wall);
@@ -236,29 +237,29 @@ impl Monitor {
         }
     }
 
-    /// The next datagram for the vehicle.
+    /// Returns the next datagram to send to the vehicle.
     pub fn poll_transmit(&mut self) -> Option<Vec<u8>> {
         self.out.pop_front()
     }
 
-    /// The next thing to write.
+    /// Returns the next data to write.
     pub fn poll_record(&mut self) -> Option<SessionOutput> {
         self.records.pop_front()
     }
 
-    /// The result, once the session is over.
+    /// Returns the result once the session is over.
     #[must_use]
     pub fn finished(&self) -> Option<&Result<AssessedSession, AssessError>> {
         self.outcome.as_ref()
     }
 
-    /// Why this simulator's telemetry is refused.
+    /// Returns why this simulator's telemetry was rejected.
     #[must_use]
     pub fn refused(&self) -> Option<&AssessError> {
         self.refusal.as_ref()
     }
 
-    /// Ends the session now (somebody aborts, or the link is closed) and scores what there is.
+    /// Ends the session now (aborted by the user, or link closed) and scores the flight so far.
     pub fn close(&mut self) {
         if self.outcome.is_none() {
             let outcome = self.score();
@@ -271,7 +272,7 @@ impl Monitor {
         self.text(words, severity);
     }
 
-    /// Frees the flight once its session is over and written; the assessment stays.
+    /// Frees the flight data once the session is over and written; the assessment remains available.
     pub fn release_flight(&mut self) {
         self.timeline = Timeline::new(LocalPlane::new(self.config.scenario.origin));
         self.survey = None;
@@ -281,55 +282,55 @@ impl Monitor {
         }
     }
 
-    /// Newest simulation time.
+    /// Returns the latest simulation time.
     #[must_use]
     pub fn now(&self) -> SimTime {
         self.timeline.newest().unwrap_or(SimTime::ZERO)
     }
 
-    /// Flight time so far; `None` before lift-off.
+    /// Returns the flight time so far; `None` before lift-off.
     #[must_use]
     pub fn flight_time(&self) -> Option<SimTime> {
         self.live.lift_off.map(|start| self.now().saturating_sub(start))
     }
 
-    /// Mask of the cues that are on.
+    /// Returns the mask of active cues.
     #[must_use]
     pub fn cues(&self) -> i32 {
         self.live.cues
     }
 
-    /// Number of the task whose path the drone is on.
+    /// Returns the number of the task whose path the drone is on.
     #[must_use]
     pub fn task(&self) -> Option<u32> {
         self.live.current_task.map(|task| self.config.scenario.tasks[task].id)
     }
 
-    /// Battery, %.
+    /// Returns the remaining battery, %.
     #[must_use]
     pub fn battery_pct(&self) -> Option<f64> {
         self.live.battery_pct
     }
 
-    /// What the link did.
+    /// Returns the link statistics.
     #[must_use]
     pub fn link(&self) -> LinkCounts {
         self.timeline.counts()
     }
 
-    /// Seed, once known.
+    /// Returns the seed, once known.
     #[must_use]
     pub fn seed(&self) -> Option<u64> {
         self.seed
     }
 
-    /// The site, once the seed is known.
+    /// Returns the site, once the seed is known.
     #[must_use]
     pub fn survey(&self) -> Option<&Arc<dyn SiteSurvey>> {
         self.survey.as_ref()
     }
 
-    /// `session.json`; the shell gives the hashes and the UTC text.
+    /// Returns the contents of `session.json`; the caller provides the files and the UTC text.
     #[must_use]
     pub fn session_info(
         &self,

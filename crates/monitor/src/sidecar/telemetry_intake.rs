@@ -1,4 +1,4 @@
-//! Taking in: one frame at a time, from the stamp in the log to the end of the session.
+//! Telemetry intake: processes one frame at a time, from its log timestamp to the end of the session.
 
 use super::{COMPONENT, HEARTBEAT_EVERY, LiveState, Monitor, RETRY, SETTLE, TOUCH_REACH_M};
 use crate::assessment::{self, AssessError, AssessedSession, ScoringJob};
@@ -19,7 +19,8 @@ use spandrel_mavlink::telemetry::timeline::FrameDisposition;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::time::SimTime;
 impl Monitor {
-    /// Session start plus the simulation time since the first truth; after a simulator's restart the stamps go on rising.
+    /// Returns the log timestamp, µs: session start plus simulation time since the first truth sample. It keeps increasing after
+    /// a simulator restart.
     pub(super) fn stamp_us(&mut self, received: &ReceivedFrame) -> u64 {
         let own = spandrel_mavlink::telemetry::sample::truth_time(&received.bytes);
         let since_zero = |own: SimTime| u64::try_from(own.us()).unwrap_or(0);
@@ -41,7 +42,7 @@ impl Monitor {
         }
     }
 
-    /// An instructor's note at this moment.
+    /// Records an instructor's note at the current time.
     pub(super) fn take_note(&mut self, received: &ReceivedFrame) {
         if let Some(((system, COMPONENT), text)) = note::decode(received)
             && system == self.encoder.system_id()
@@ -116,13 +117,13 @@ impl Monitor {
     fn refuse(&mut self, error: AssessError) {
         if self.refusal.is_none() {
             self.event("refused", json!({ "why": error.to_string() }));
-            self.text("Monitor: other scenario or seed", MavSeverity::MAV_SEVERITY_WARNING);
+            self.text("Monitor: scenario or seed mismatch", MavSeverity::MAV_SEVERITY_WARNING);
             self.refusal = Some(error.clone());
             self.outcome = Some(Err(error));
         }
     }
 
-    /// Traffic was stopped or let go: what stands near is asked about under the same traffic as the simulator's.
+    /// Handles a bridge closure or reopening, so that nearby objects are determined under the simulator's traffic.
     fn handle_traffic(&mut self, code: i32) {
         let before = self.live.closures.clone();
         self.live.closures.apply_codes(code);
@@ -240,7 +241,8 @@ impl Monitor {
         }
     }
 
-    /// The live rule sees samples, the scorer frames: the scorer decides. When it sees no end yet, the watch goes on.
+    /// Scores the session. The live rule uses samples, the scorer uses frames; if the scorer finds no end yet, monitoring
+    /// continues.
     fn try_to_finish(&mut self, now: SimTime) {
         let outcome = self.score();
         match &outcome {

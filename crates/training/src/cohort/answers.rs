@@ -1,4 +1,4 @@
-//! Answers of a group: counted by question, and against what was measured.
+//! Questionnaire answers of a cohort: counts per question, and comparison with measured scores.
 
 use super::SessionsByTrainee;
 use crate::questionnaire::{InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE};
@@ -6,56 +6,56 @@ use crate::record::SessionRecord;
 use crate::statistics::{Correlation, quantile, spearman};
 use serde::Serialize;
 
-/// Answers up to here agree.
+/// Highest answer that counts as agreement.
 const AGREE: u8 = 2;
-/// A self-rating from here on says "done well".
+/// Lowest mean self-rating that counts as "done well".
 const WELL: f64 = 4.0;
 
-/// One question's answers.
+/// Distribution of the answers to one question.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Likert {
     /// Key of the question.
     pub question: String,
-    /// Repetition of the group; absent: all first sessions.
+    /// Repetition of the group; `None` for all first sessions.
     pub repetition: Option<usize>,
-    /// From strongly agree to strongly disagree.
+    /// Counts from strongly agree to strongly disagree.
     pub counts: [usize; 5],
-    /// Answers.
+    /// Number of answers.
     pub n: usize,
-    /// Share that agrees or strongly agrees.
+    /// Fraction of answers that agree or strongly agree, 0 to 1.
     pub agree: f64,
 }
 
-/// Self-rating against measurement, first sessions.
+/// Self-ratings compared with measured scores, first sessions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SelfRating {
-    /// People who answered.
+    /// Trainees who answered.
     pub people: Vec<SelfRatingPair>,
-    /// Spearman's, self-rating with the overall score; absent when it cannot be told.
+    /// Spearman correlation of self-rating and overall score; `None` if it is undefined.
     pub overall: Option<Correlation>,
-    /// By task number: self-rating of the task with the share on its path.
+    /// For each task number, the correlation of the task's self-rating and its on-path share.
     pub tasks: Vec<(u32, Option<Correlation>)>,
-    /// Where the two say the opposite.
+    /// Trainees whose self-rating contradicts the measurement.
     pub contradictions: Vec<Contradiction>,
 }
 
-/// One person.
+/// Self-rating and measured score of one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SelfRatingPair {
-    /// Who.
+    /// Trainee name.
     pub trainee: String,
-    /// Mean over the phases, 1 to 5, more is better.
+    /// Mean over the phases, 1 to 5; higher is better.
     pub self_rating: f64,
-    /// Overall score as a share of what could be had, %.
+    /// Overall score as a percentage of the maximum possible.
     pub measured_pct: f64,
 }
 
-/// One contradiction.
+/// A contradiction between self-rating and measurement.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Contradiction {
-    /// Who.
+    /// Trainee name.
     pub trainee: String,
-    /// In words.
+    /// Description.
     pub words: String,
 }
 
@@ -84,7 +84,7 @@ fn count(records: &[&SessionRecord], repetition: Option<usize>) -> Vec<Likert> {
     QuestionnaireItem::all(&tasks).into_iter().filter_map(row).collect()
 }
 
-/// Overall as a share of what could be had, %.
+/// Returns the overall score as a percentage of the maximum possible.
 pub fn measured_pct(record: &SessionRecord) -> f64 {
     100.0 * record.scores.overall / record.scores.overall_max
 }
@@ -121,8 +121,8 @@ fn answer_value(record: &SessionRecord, item: QuestionnaireItem) -> Option<u8> {
     record.answers.as_ref()?.given.get(&item).copied()
 }
 
-/// As the paper's examples: thinks well of a flight among the poorest quarter, or not of one among the best; without time pressure
-/// among the slowest, or with it among the quickest.
+/// Returns contradictions like those in the paper's examples: a high self-rating in the lowest quarter of scores or a low one in
+/// the highest quarter; no time pressure among the slowest or time pressure among the fastest.
 fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<Contradiction> {
     let mut found = Vec::new();
     let ends = |mut values: Vec<f64>| {
@@ -133,9 +133,9 @@ fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<C
         for pair in people {
             let (own, measured) = (pair.self_rating, pair.measured_pct);
             let words = if own >= WELL && measured < low {
-                format!("rates the own performance {own:.1} of 5; measured {measured:.0} %, among the lowest quarter")
+                format!("rated their own performance {own:.1} of 5, but scored {measured:.0} %, among the lowest quarter")
             } else if own < WELL && measured > high {
-                format!("rates the own performance {own:.1} of 5; measured {measured:.0} %, among the highest quarter")
+                format!("rated their own performance {own:.1} of 5, but scored {measured:.0} %, among the highest quarter")
             } else {
                 continue;
             };
@@ -147,9 +147,9 @@ fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<C
             let Some(answer) = answer_value(record, QuestionnaireItem::Overall(OverallItem::TimePressure)) else { continue };
             let minutes = record.seconds / 60.0;
             let words = if answer <= AGREE && record.seconds > slow {
-                format!("felt no time pressure; flew {minutes:.1} min, among the slowest quarter")
+                format!("felt no time pressure, but flew {minutes:.1} min, among the slowest quarter")
             } else if answer > AGREE + 1 && record.seconds < quick {
-                format!("felt time pressure; flew {minutes:.1} min, among the quickest quarter")
+                format!("felt time pressure, but flew {minutes:.1} min, among the fastest quarter")
             } else {
                 continue;
             };

@@ -1,6 +1,6 @@
-//! The paper's causal model: demand raises strain, strain lowers performance, and helpful in-task feedback softens the first of the two.
-//! Two regressions on first sessions; the indirect effect with an interval by resampling people (Preacher, Rucker and Hayes 2007,
-//! moderated mediation).
+//! The paper's causal model: demand increases strain, strain decreases performance, and helpful in-task feedback moderates the
+//! effect of demand on strain. Two regressions on first sessions; the interval of the indirect effect comes from bootstrapping
+//! over trainees (Preacher, Rucker and Hayes 2007, moderated mediation).
 
 use super::answers::measured_pct;
 use crate::record::SessionRecord;
@@ -8,45 +8,46 @@ use crate::statistics::{Regression, least_squares, mean, quantile, sd, solve};
 use serde::Serialize;
 use spandrel_model::random::RandomStream;
 
-/// People for a power of 0.8 with medium effects by percentile resampling (Fritz and MacKinnon 2007); fewer are warned of.
+/// Sample size for a power of 0.8 with medium effects and percentile bootstrap (Fritz and MacKinnon 2007). Smaller samples
+/// produce a warning.
 pub const SENSIBLE_N: usize = 78;
-/// Draws of people with replacement.
+/// Number of bootstrap samples.
 const RESAMPLES: usize = 2_000;
-/// Fewest draws, for cohorts so large that more would take seconds.
+/// Minimum number of bootstrap samples, for cohorts so large that more would take seconds.
 const RESAMPLES_MIN: usize = 200;
-/// People drawn in all, at most.
+/// Maximum number of trainees drawn over all bootstrap samples.
 const DRAWN_MAX: usize = 1_000_000;
-/// The resampling is the same in every run.
+/// Fixed seed, so that the bootstrap is reproducible.
 const SEED: u64 = 20_221;
-/// The least and the most that feedback can have helped, as answers go.
+/// Range of the feedback scale.
 const SCALE: [f64; 2] = [1.0, 5.0];
 
-/// The model.
+/// Estimated moderated mediation model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MediationModel {
-    /// People with whole answers.
+    /// Number of trainees with complete answers.
     pub n: usize,
-    /// Strain on demand, feedback and their product; demand and feedback about their means.
+    /// Regression of strain on demand, feedback and their product; demand and feedback are mean-centered.
     pub strain: Regression,
-    /// Performance (overall, % of what could be had) on strain and demand.
+    /// Regression of performance (overall, % of the maximum) on strain and demand.
     pub performance: Regression,
-    /// Points of performance per step of demand through strain: where feedback helped little (a standard deviation below the mean), at
-    /// the mean, where it helped much (a standard deviation above); never beyond the scale of answers.
+    /// Indirect effect of demand on performance through strain, points per unit of demand: at low feedback (one standard
+    /// deviation below the mean), at the mean, and at high feedback (one standard deviation above); clamped to the answer scale.
     pub indirect: [IndirectEffect; 3],
-    /// How much that effect changes per step of feedback: the moderation itself.
+    /// Change of the indirect effect per unit of feedback (index of moderated mediation).
     pub moderation: IndirectEffect,
-    /// Draws that could be estimated.
+    /// Number of bootstrap samples that could be estimated.
     pub resamples: usize,
 }
 
-/// An effect with its interval.
+/// An indirect effect with its interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct IndirectEffect {
-    /// Feedback at which it holds, 1 to 5; for the moderation its mean.
+    /// Feedback value at which the effect applies, 1 to 5; for the moderation, the mean.
     pub feedback: f64,
-    /// Estimate.
+    /// Point estimate.
     pub effect: f64,
-    /// 95 %, by resampling; absent when too few draws could be estimated.
+    /// 95 % bootstrap interval; `None` if too few samples could be estimated.
     pub interval_95: Option<[f64; 2]>,
 }
 
@@ -57,14 +58,14 @@ struct PersonRow {
     performance: f64,
 }
 
-/// Estimates the model; what stands against it is added to the warnings.
+/// Estimates the model. Adds reasons for caution to `warnings`.
 pub fn causal(firsts: &[&SessionRecord], warnings: &mut Vec<String>) -> Option<MediationModel> {
     let people: Vec<PersonRow> = firsts.iter().filter_map(|record| person(record)).collect();
     let n = people.len();
     if n < SENSIBLE_N {
         warnings.push(format!(
-            "demand, strain, performance: {n} people with whole answers; below {SENSIBLE_N} the model misses medium effects, \
-             read it as a description of these people only"
+            "demand, strain, performance: {n} trainees with complete answers; with fewer than {SENSIBLE_N} the model misses medium effects, \
+             so it only describes these trainees"
         ));
     }
     match estimate(&people) {
@@ -124,7 +125,7 @@ fn estimate(people: &[PersonRow]) -> Result<MediationModel, String> {
     })
 }
 
-/// Of each draw the indirect effect at the mean feedback, and its change per step of feedback.
+/// Returns, for each bootstrap sample, the indirect effect at the mean feedback and its change per unit of feedback.
 fn resample(rows: &[[f64; 3]], strain: &[f64], second: &[[f64; 2]], performance: &[f64]) -> Vec<(f64, f64)> {
     let n = rows.len();
     let draws = (DRAWN_MAX / n.max(1)).clamp(RESAMPLES_MIN, RESAMPLES);

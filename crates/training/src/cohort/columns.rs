@@ -1,21 +1,22 @@
-//! Definitions of the columns of the cohort's tables, for the data dictionary. A test asks for one of every column.
+//! Definitions of the columns of the cohort tables, for the data dictionary. A test requires a definition for every column.
 
 /// Unit and definition of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Definition {
-    /// Unit; empty for counts, words and pure numbers.
+    /// Unit; empty for counts, strings and dimensionless numbers.
     pub unit: &'static str,
     /// Definition, one sentence.
     pub description: &'static str,
 }
 
-/// A name, where it ends in `*` its beginning, with unit and definition. The first one that fits counts; a name may be limited to a table.
+/// Table, column name (or prefix, if it ends in `*`), unit and definition. The first match applies; an empty table matches all
+/// tables.
 const COLUMNS: &[(&str, &str, &str, &str)] = &[
-    ("learning_of_the_group.csv", "mean", "points", "Mean score of these people in this repetition."),
-    ("learning_of_the_group.csv", "first", "points", "First repetition's score on the fitted curve."),
-    ("learning_curves.csv", "first", "points", "First session's score on the fitted curve."),
+    ("learning_of_the_group.csv", "mean", "points", "Mean score of these trainees in this repetition."),
+    ("learning_of_the_group.csv", "first", "points", "Score of the fitted curve in the first repetition."),
+    ("learning_curves.csv", "first", "points", "Score of the fitted curve in the first session."),
     ("learning_curves.csv", "n", "", "Number of sessions in the fit."),
-    ("causal.csv", "t", "", "Estimate over its standard error."),
+    ("causal.csv", "t", "", "Estimate divided by its standard error."),
     ("causal.csv", "p", "", "Two-tailed p value of the estimate."),
     ("causal.csv", "low_95", "", "Lower end of the 95 % interval of the estimate."),
     ("causal.csv", "high_95", "", "Upper end of the 95 % interval of the estimate."),
@@ -25,7 +26,7 @@ const COLUMNS: &[(&str, &str, &str, &str)] = &[
     ("homogeneity.csv", "df", "", "Degrees of freedom of the chi-squared test."),
     ("homogeneity.csv", "p", "", "p value of the chi-squared test."),
     ("likert.csv", "n", "", "Number of answers."),
-    ("likert.csv", "repetition", "", "Repetition, or `all first` for the first sessions of everybody."),
+    ("likert.csv", "repetition", "", "Repetition, or `all first` for the first sessions of all trainees."),
     ("", "score", "", "Name of the score: conformity, efficiency, safety, accuracy or overall."),
     ("", "n", "", "Number of values."),
     ("", "mean", "points", "Mean."),
@@ -36,11 +37,11 @@ const COLUMNS: &[(&str, &str, &str, &str)] = &[
     ("", "q3", "points", "Third quartile."),
     ("", "max", "points", "Largest value."),
     ("", "range", "points", "Largest minus smallest value."),
-    ("", "skewness", "", "Sample skewness; empty where it is not defined."),
+    ("", "skewness", "", "Sample skewness; empty if undefined."),
     ("", "from", "points", "Lower edge of the bin."),
     ("", "to", "points", "Upper edge of the bin."),
     ("", "count", "", "Number of values in the bin."),
-    ("", "trainee", "", "Name of the trainee; `all` for the sum."),
+    ("", "trainee", "", "Name of the trainee; `all` for the total."),
     ("", "session", "", "Name of the session folder."),
     ("", "conformity", "points", "Conformity, 0 to 100; empty where it does not apply."),
     ("", "efficiency", "points", "Efficiency, 0 to 100."),
@@ -48,21 +49,21 @@ const COLUMNS: &[(&str, &str, &str, &str)] = &[
     ("", "accuracy", "points", "Accuracy, 0 to 100; empty where it does not apply."),
     ("", "overall", "points", "Sum of the scores that apply."),
     ("", "seconds", "s", "Duration of the flight."),
-    ("", "purpose", "", "`practice` or `assessment`; empty where nobody chose."),
+    ("", "purpose", "", "`practice` or `assessment`; empty if not chosen."),
     ("", "task", "", "Task number."),
     ("", "name", "", "Task name."),
     ("", "attempted", "", "1 when the path was entered, otherwise 0."),
-    ("", "on_path", "", "Share of the task's window on the path, 0 to 1."),
+    ("", "on_path", "", "Fraction of the task's window on the path, 0 to 1."),
     ("", "speeding", "", "Speeding loss of the task."),
     ("", "task_*", "", "Number of crashes in the window of this task."),
     ("", "outside", "", "Number of crashes outside all windows."),
-    ("", "total", "", "Number of all crashes."),
+    ("", "total", "", "Total number of crashes."),
     ("", "repetition", "", "Repetition, from 1."),
     ("", "low_whisker", "points", "Smallest value within 1.5 interquartile ranges of the first quartile."),
     ("", "high_whisker", "points", "Largest value within 1.5 interquartile ranges of the third quartile."),
     ("", "outliers", "points", "Values beyond the whiskers, separated by spaces."),
-    ("", "earlier", "", "Repetition that is subtracted."),
-    ("", "later", "", "Repetition that it is subtracted from."),
+    ("", "earlier", "", "Earlier repetition, which is subtracted."),
+    ("", "later", "", "Later repetition, from which the earlier is subtracted."),
     ("", "mean_difference", "points", "Mean of later minus earlier."),
     ("", "sd_difference", "points", "Standard deviation of later minus earlier."),
     ("", "df", "", "Degrees of freedom."),
@@ -70,31 +71,31 @@ const COLUMNS: &[(&str, &str, &str, &str)] = &[
     ("", "p_upper", "", "Probability of a larger t."),
     ("", "p_lower", "", "Probability of a smaller t."),
     ("", "p_two", "", "Two-tailed p value."),
-    ("", "effect_size_dz", "", "Mean difference over the standard deviation of the differences."),
+    ("", "effect_size_dz", "", "Mean difference divided by the standard deviation of the differences."),
     ("", "p_upper_holm", "", "`p_upper` after Holm's correction over all tests of the table."),
     ("", "p_lower_holm", "", "`p_lower` after Holm's correction over all tests of the table."),
     ("", "p_two_holm", "", "`p_two` after Holm's correction over all tests of the table."),
     ("", "low_up_to", "points", "Upper edge of the low class."),
     ("", "middle_up_to", "points", "Upper edge of the middle class."),
-    ("", "group_*", "", "Number of people of the repeating group in this class."),
-    ("", "others_*", "", "Number of other people in this class."),
+    ("", "group_*", "", "Number of trainees of the repeating group in this class."),
+    ("", "others_*", "", "Number of other trainees in this class."),
     ("", "chi_squared", "", "Chi-squared statistic of group against others."),
     ("", "smallest_expected", "", "Smallest expected count; below 5 the p value is unreliable."),
     ("", "question", "", "Key of the question."),
-    ("", "strongly_agree", "", "Number of answers 1."),
-    ("", "agree", "", "Number of answers 2."),
-    ("", "neutral", "", "Number of answers 3."),
-    ("", "disagree", "", "Number of answers 4."),
-    ("", "strongly_disagree", "", "Number of answers 5."),
-    ("", "agreeing", "", "Share of answers 1 and 2, 0 to 1."),
+    ("", "strongly_agree", "", "Number of answers with value 1."),
+    ("", "agree", "", "Number of answers with value 2."),
+    ("", "neutral", "", "Number of answers with value 3."),
+    ("", "disagree", "", "Number of answers with value 4."),
+    ("", "strongly_disagree", "", "Number of answers with value 5."),
+    ("", "agreeing", "", "Fraction of answers with value 1 or 2, 0 to 1."),
     ("", "self_rating", "", "Mean of the answers about performance, 1 to 5, higher is better."),
-    ("", "measured_pct", "%", "Measured overall score as a share of the highest possible."),
+    ("", "measured_pct", "%", "Measured overall score as a percentage of the maximum possible."),
     ("", "words", "", "Contradiction between self-rating and measured score."),
     ("", "model", "", "`strain`, `performance`, or `resampled` for bootstrapped effects."),
     ("", "term", "", "Name of the coefficient or effect."),
     ("", "estimate", "", "Value of the coefficient or effect."),
     ("", "standard_error", "", "Standard error of the estimate; empty for resampled effects."),
-    ("", "on_path_*", "", "Share of this task's window on the path, 0 to 1; empty where it was not attempted."),
+    ("", "on_path_*", "", "Fraction of this task's window on the path, 0 to 1; empty if it was not attempted."),
     ("", "bridge", "", "Number of crashes into a bridge."),
     ("", "terrain", "", "Number of crashes into the ground."),
     ("", "water", "", "Number of crashes into water."),
@@ -102,14 +103,14 @@ const COLUMNS: &[(&str, &str, &str, &str)] = &[
     ("", "vehicle", "", "Number of crashes into a vehicle."),
     ("", "person", "", "Number of crashes into a person."),
     ("", "exponent", "", "Exponent of the fitted power law."),
-    ("", "r_squared", "", "Share of the variance that the curve explains; empty where it is not defined."),
+    ("", "r_squared", "", "Fraction of the variance explained by the curve; empty if undefined."),
     ("", "next", "points", "Score that the curve predicts for the next session."),
-    ("", "people", "", "Number of people with all repetitions."),
+    ("", "people", "", "Number of trainees with all repetitions."),
     ("", "fitted", "points", "Score of the fitted curve in this repetition."),
-    ("", "warning", "", "A reason to doubt a figure of the cohort."),
+    ("", "warning", "", "A reason for caution in interpreting the cohort's results."),
 ];
 
-/// Returns the definition of a column of a table; `None` for one that has none.
+/// Returns the definition of a column of a table; `None` if there is none.
 #[must_use]
 pub fn definition(table: &str, column: &str) -> Option<Definition> {
     let fits = |name: &str| name.strip_suffix('*').map_or(name == column, |start| column.starts_with(start));

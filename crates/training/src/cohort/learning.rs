@@ -1,25 +1,25 @@
-//! The group's learning curve: of each score the mean over those who flew often enough, and the curve through it.
+//! The group's learning curves: for each score, the mean over trainees with enough sessions and a curve fitted to it.
 
 use super::progress::TraineeProgress;
 use super::{SCORES, progress::Repetition};
 use crate::statistics::{LEARNING_NEEDS, LearningCurve, learning_curve, mean};
 use serde::Serialize;
 
-/// One score.
+/// Learning curve of one score.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GroupCurve {
-    /// Score.
+    /// Name of the score.
     pub score: String,
-    /// People with a curve of their own in this score.
+    /// Number of trainees with their own curve for this score.
     pub people: usize,
-    /// Their mean by repetition, as far as all of them flew.
+    /// Mean score by repetition, up to the last repetition that all of them flew.
     pub means: Vec<f64>,
-    /// The curve through the means.
+    /// Curve fitted to the means.
     #[serde(flatten)]
     pub curve: LearningCurve,
 }
 
-/// The curves of those who flew at least [`LEARNING_NEEDS`] times; none when nobody did.
+/// Computes the curves of trainees with at least [`LEARNING_NEEDS`] sessions; empty if there are none.
 pub fn learning(progress: &[TraineeProgress]) -> Vec<GroupCurve> {
     SCORES.into_iter().filter_map(|(score, _)| of_score(score, progress)).collect()
 }

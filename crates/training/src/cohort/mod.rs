@@ -1,5 +1,5 @@
-//! What a group of trainees shows: everything that the paper's tables and figures show of its pilot study. A session is a trainee's n-th
-//! on the job; first sessions describe the whole group, repetitions those who flew as often as asked.
+//! Cohort analysis: reproduces the tables and figures of the paper's pilot study. Sessions are numbered per trainee on the job.
+//! First sessions describe the whole cohort; repetitions describe the group that flew at least the requested number of sessions.
 
 mod answers;
 mod causal;
@@ -20,66 +20,66 @@ use super::record::{IncompletePolicy, SessionRecord};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Below so many people the paired tests say little (a medium effect, d = 0.5, needs 34 pairs for a power of 0.8 at 0.05, two-tailed;
-/// Cohen 1988).
+/// Minimum number of pairs for meaningful paired tests (a medium effect, d = 0.5, needs 34 pairs for a power of 0.8 at 0.05,
+/// two-tailed; Cohen 1988).
 const SENSIBLE_PAIRS: usize = 34;
 
-/// Which sessions, and how many repetitions.
+/// Sessions and number of repetitions to analyze.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Selection {
-    /// Scenarios that count as the job; empty: the one flown most often.
+    /// Scenarios that count as the job; if empty, the one flown most often.
     pub scenarios: Vec<String>,
-    /// Repetitions that are compared.
+    /// Number of repetitions to compare.
     pub repetitions: usize,
     /// Whether incomplete sessions count.
     pub incomplete: IncompletePolicy,
 }
 
-/// Everything.
+/// Result of the cohort analysis.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Cohort {
     /// Scenarios that count as the job.
     pub scenarios: Vec<String>,
-    /// Sessions on it.
+    /// Number of sessions on the job.
     pub sessions: usize,
-    /// Incomplete sessions on it that were left out.
+    /// Number of incomplete sessions excluded.
     pub left_out: usize,
-    /// People who flew it.
+    /// Number of trainees who flew the job.
     pub trainees: usize,
-    /// Repetitions that are compared.
+    /// Number of repetitions compared.
     pub repetitions: usize,
-    /// Those who flew that often.
+    /// Trainees with at least that number of sessions.
     pub group: Vec<String>,
-    /// First sessions: each score's distribution.
+    /// First sessions: distribution of each score.
     pub distributions: Vec<Distribution>,
-    /// First sessions: each person's scores and tasks.
+    /// First sessions: scores and tasks of each trainee.
     pub individuals: Vec<Individual>,
-    /// First sessions: crashes by person, task and kind.
+    /// First sessions: crashes by trainee, task and kind.
     pub crashes: CrashTable,
     /// The group: each score by repetition.
     pub boxes: Vec<RepetitionBox>,
     /// The group: paired comparisons of the repetitions.
     pub tests: Vec<Comparison>,
-    /// Whether the group scores as the others do.
+    /// Tests of whether the group's scores are distributed like those of the other trainees.
     pub homogeneity: Vec<GroupTest>,
-    /// Answers counted: of all first sessions, and of the group by repetition.
+    /// Answer counts: over all first sessions, and for the group by repetition.
     pub likert: Vec<Likert>,
-    /// What people think of their flight against what was measured.
+    /// Self-ratings compared with measured scores.
     pub self_rating: SelfRating,
-    /// Demand, state, performance, with feedback as moderator; absent when it cannot be estimated.
+    /// Demand, strain and performance with feedback as moderator; `None` if the model cannot be estimated.
     pub causal: Option<MediationModel>,
-    /// Each person over the repetitions.
+    /// Progress of each trainee over the repetitions.
     pub progress: Vec<TraineeProgress>,
-    /// Learning curves of those who flew often enough for one, together; empty when nobody did.
+    /// Learning curves over all trainees with enough sessions; empty if there are none.
     pub learning: Vec<GroupCurve>,
-    /// What to keep in mind.
+    /// Reasons for caution in interpreting the results.
     pub warnings: Vec<String>,
 }
 
-/// A score by name.
+/// Function that returns a score of a record.
 pub(super) type ScorePicker = fn(&SessionRecord) -> Option<f64>;
 
-/// The five scores.
+/// The five scores by name.
 pub(super) const SCORES: [(&str, ScorePicker); 5] = [
     ("conformity", |record| record.scores.conformity),
     ("efficiency", |record| Some(record.scores.efficiency)),
@@ -89,10 +89,10 @@ pub(super) const SCORES: [(&str, ScorePicker); 5] = [
 ];
 const OVERALL: (&str, ScorePicker) = ("overall", |record| Some(record.scores.overall));
 
-/// Sessions of each trainee on the job, in their order.
+/// Sessions of each trainee on the job, in chronological order.
 pub(super) type SessionsByTrainee<'a> = BTreeMap<&'a str, Vec<&'a SessionRecord>>;
 
-/// Works everything out.
+/// Analyzes a cohort.
 #[must_use]
 pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
     let scenarios = scenarios(records, selection);
@@ -114,7 +114,7 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
     let causal = causal::causal(&firsts, &mut warnings);
     if repetitions > 1 && group.len() < SENSIBLE_PAIRS {
         warnings.push(format!(
-            "{} people flew {repetitions} times: below {SENSIBLE_PAIRS} a paired test misses most medium effects",
+            "{} trainees flew {repetitions} times; with fewer than {SENSIBLE_PAIRS}, a paired test misses most medium effects",
             group.len()
         ));
     }
@@ -142,7 +142,8 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
     }
 }
 
-/// The scenarios asked for, else the one flown most often (of several the first by name), by the sessions that count if there are any.
+/// Returns the selected scenarios, otherwise the one flown most often (ties: first by name). Counts only eligible sessions, if
+/// there are any.
 fn scenarios(records: &[SessionRecord], selection: &Selection) -> Vec<String> {
     if !selection.scenarios.is_empty() {
         return selection.scenarios.clone();

@@ -1,4 +1,4 @@
-//! One trainee over the repetitions: the paper's figure of participant 18.
+//! Progress of one trainee over the repetitions, as in the paper's figure of participant 18.
 
 use super::SCORES;
 use crate::record::{Crashes, IncompletePolicy, SessionRecord};
@@ -6,69 +6,69 @@ use crate::statistics::{LearningCurve, learning_curve};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// One trainee.
+/// Sessions and learning curves of one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TraineeProgress {
-    /// Who.
+    /// Trainee name.
     pub trainee: String,
-    /// Sessions on the job in their order.
+    /// Sessions on the job, in chronological order.
     pub repetitions: Vec<Repetition>,
-    /// Learning curves of the scores, from four repetitions on.
+    /// Learning curves of the scores, if there are at least four repetitions.
     pub curves: Vec<ScoreCurve>,
 }
 
-/// One session.
+/// One repetition.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Repetition {
-    /// 1, 2, ...
+    /// Number of the repetition, from 1.
     pub number: usize,
-    /// Session.
+    /// Session id.
     pub session: String,
-    /// µs since the Unix epoch.
+    /// Start time, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// 0 to 100.
+    /// Conformity, 0 to 100; `None` if it does not apply.
     pub conformity: Option<f64>,
-    /// 0 to 100.
+    /// Efficiency, 0 to 100.
     pub efficiency: f64,
-    /// 0 to 100.
+    /// Safety, 0 to 100.
     pub safety: f64,
-    /// 0 to 100.
+    /// Accuracy, 0 to 100; `None` if it does not apply.
     pub accuracy: Option<f64>,
-    /// Sum.
+    /// Sum of the scores that apply.
     pub overall: f64,
     /// Flight time, s.
     pub seconds: f64,
-    /// By task number: share on the path, absent for a task that was left out.
+    /// For each task number, the on-path share; `None` if the task was not attempted.
     pub on_path: Vec<(u32, Option<f64>)>,
-    /// By kind.
+    /// Crashes by kind.
     pub crashes: Crashes,
 }
 
-/// One score's curve.
+/// Learning curve of one score.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ScoreCurve {
-    /// Score.
+    /// Name of the score.
     pub score: String,
-    /// Its curve.
+    /// Fitted curve.
     #[serde(flatten)]
     pub curve: LearningCurve,
 }
 
-/// One trainee on one job: practice on a drill says nothing about practice on another job.
+/// Progress of one trainee on one job. Jobs are kept separate because practice on one says little about another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JobProgress {
-    /// Scenario.
+    /// Scenario name.
     pub scenario: String,
-    /// Numbers and names of its tasks, as flown last.
+    /// Numbers and names of its tasks, as of the latest session.
     pub tasks: Vec<(u32, String)>,
-    /// The sessions on it that count; perhaps none.
+    /// Eligible sessions; may be empty.
     pub progress: TraineeProgress,
-    /// Incomplete sessions on it that were left out.
+    /// Number of incomplete sessions excluded.
     pub left_out: usize,
 }
 
 impl Repetition {
-    /// A score by its name; `None` when it does not apply.
+    /// Returns a score by name; `None` if it does not apply.
     #[must_use]
     pub fn score(&self, name: &str) -> Option<f64> {
         match name {
@@ -82,7 +82,7 @@ impl Repetition {
     }
 }
 
-/// One trainee's sessions apart by scenario: the job with the most tasks first, then by name.
+/// Groups one trainee's sessions by scenario: the job with the most tasks first, then by name.
 #[must_use]
 pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy) -> Vec<JobProgress> {
     let mut jobs: BTreeMap<&str, Vec<&SessionRecord>> = BTreeMap::new();
@@ -104,7 +104,7 @@ pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy) -> Vec<Jo
     found
 }
 
-/// One trainee's sessions in their order.
+/// Computes the progress over one trainee's sessions, given in chronological order.
 pub fn progress(trainee: &str, sessions: &[&SessionRecord]) -> TraineeProgress {
     let curve = |(score, pick): (&str, super::ScorePicker)| {
         let values: Option<Vec<f64>> = sessions.iter().map(|record| pick(record)).collect();

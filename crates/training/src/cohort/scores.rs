@@ -1,4 +1,4 @@
-//! Scores of a group: distributions, people, crashes, repetitions and their tests.
+//! Score statistics of a cohort: distributions, individuals, crashes, repetitions and tests.
 
 use super::{OVERALL, SCORES, ScorePicker, SessionsByTrainee};
 use crate::record::{Crashes, SessionRecord};
@@ -8,126 +8,127 @@ use crate::statistics::{
 };
 use serde::Serialize;
 
-/// Bars of a score's histogram.
+/// Number of histogram bins.
 const BARS: usize = 20;
 
-/// One score over the first sessions.
+/// Distribution of one score over the first sessions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Distribution {
-    /// Score.
+    /// Name of the score.
     pub score: String,
-    /// Its figures.
+    /// Summary statistics.
     pub summary: SampleSummary,
-    /// Bars over the score's whole range.
+    /// Bins over the score's full range.
     pub histogram: Vec<HistogramBin>,
 }
 
-/// One person's first session.
+/// First session of one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Individual {
-    /// Who.
+    /// Trainee name.
     pub trainee: String,
-    /// Session.
+    /// Session id.
     pub session: String,
-    /// `practice` or `assessment`, where somebody chose.
+    /// `practice` or `assessment`, if chosen.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub purpose: Option<String>,
-    /// 0 to 100.
+    /// Conformity, 0 to 100; `None` if it does not apply.
     pub conformity: Option<f64>,
-    /// 0 to 100.
+    /// Efficiency, 0 to 100.
     pub efficiency: f64,
-    /// 0 to 100.
+    /// Safety, 0 to 100.
     pub safety: f64,
-    /// 0 to 100.
+    /// Accuracy, 0 to 100; `None` if it does not apply.
     pub accuracy: Option<f64>,
-    /// Sum.
+    /// Sum of the scores that apply.
     pub overall: f64,
     /// Flight time, s.
     pub seconds: f64,
-    /// On-path and speeding by task.
+    /// On-path share and speeding by task.
     pub tasks: Vec<TaskShare>,
 }
 
-/// What a task adds to conformity and takes from it.
+/// Contribution of one task to conformity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TaskShare {
-    /// Number.
+    /// Task number.
     pub id: u32,
-    /// Name.
+    /// Task name.
     pub name: String,
-    /// Entered.
+    /// Whether the task's path was entered.
     pub attempted: bool,
-    /// P_p, 0 to 1.
+    /// On-path share (P_p), 0 to 1.
     pub on_path: f64,
-    /// P_s.
+    /// Speeding loss (P_s).
     pub speeding: f64,
 }
 
 /// Crashes of the first sessions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CrashTable {
-    /// All.
+    /// Total number of crashes.
     pub total: usize,
-    /// By kind.
+    /// Crashes by kind.
     pub by_kind: Crashes,
-    /// Task numbers; each row has one count for each, and one for outside.
+    /// Task numbers. Each row has one count per task and one for crashes outside all tasks.
     pub tasks: Vec<u32>,
-    /// Sum over people by task, the last outside all tasks.
+    /// Sum over trainees for each task; the last element counts crashes outside all tasks.
     pub by_task: Vec<usize>,
-    /// People.
+    /// One row per trainee.
     pub rows: Vec<CrashRow>,
 }
 
-/// Crashes of one person.
+/// Crashes of one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CrashRow {
-    /// Who.
+    /// Trainee name.
     pub trainee: String,
-    /// By task, the last outside all tasks.
+    /// Count for each task; the last element counts crashes outside all tasks.
     pub by_task: Vec<usize>,
-    /// All.
+    /// Total number of crashes.
     pub total: usize,
 }
 
-/// One score in one repetition of the group.
+/// Box plot of one score in one repetition of the group.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RepetitionBox {
-    /// Score.
+    /// Name of the score.
     pub score: String,
-    /// 1, 2, ...
+    /// Number of the repetition, from 1.
     pub repetition: usize,
-    /// Its figures.
+    /// Box plot data.
     pub plot: BoxPlot,
 }
 
-/// One score, two repetitions of the group.
+/// Paired comparison of one score between two repetitions of the group.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Comparison {
-    /// Score.
+    /// Name of the score.
     pub score: String,
-    /// Earlier repetition.
+    /// Number of the earlier repetition.
     pub earlier: usize,
-    /// Later repetition.
+    /// Number of the later repetition.
     pub later: usize,
-    /// Later less earlier.
+    /// Paired test of later minus earlier.
     #[serde(flatten)]
     pub test: PairedTest,
-    /// p values after Holm's correction, each tail by itself; the four scores' comparisons are one family, the overall's another.
+    /// Holm-corrected p values, separately for each tail. The comparisons of the four scores form one family, those of the
+    /// overall score another.
     pub p_holm: Option<TailProbabilities>,
 }
 
-/// Whether the group's first sessions spread over low, middle and high as the others' do.
+/// Test of whether the group's first sessions are distributed over low, middle and high like those of the other trainees.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GroupTest {
-    /// Score.
+    /// Name of the score.
     pub score: String,
-    /// Upper ends of low and middle: the thirds of all first sessions.
+    /// Upper bounds of low and middle: the terciles of all first sessions.
     pub cuts: [f64; 2],
-    /// The group's counts.
+    /// Counts of the group.
     pub group: Vec<usize>,
-    /// The others' counts.
+    /// Counts of the other trainees.
     pub others: Vec<usize>,
-    /// The test.
+    /// Result of the homogeneity test.
     #[serde(flatten)]
     pub test: Homogeneity,
 }
@@ -215,7 +216,7 @@ pub fn comparisons(group: &SessionsByTrainee<'_>, repetitions: usize, warnings: 
                         test,
                         p_holm: None,
                     }),
-                    Err(error) => warnings.push(format!("{score}, {} against {}: no test: {error}", later + 1, earlier + 1)),
+                    Err(error) => warnings.push(format!("{score}, {} vs. {}: no test: {error}", later + 1, earlier + 1)),
                 }
             }
         }
@@ -226,7 +227,7 @@ pub fn comparisons(group: &SessionsByTrainee<'_>, repetitions: usize, warnings: 
     tests
 }
 
-/// Holm's correction of one family, tail by tail.
+/// Applies Holm's correction to one family, separately for each tail.
 fn correct(mut family: Vec<&mut Comparison>) {
     family.retain(|test| test.test.p.is_some());
     let tail = |pick: fn(&TailProbabilities) -> f64| {

@@ -1,4 +1,4 @@
-//! The cohort as tables: CSV (RFC 4180), one file per table, numbers with the fewest digits that read back to the same bits.
+//! Cohort tables as CSV (RFC 4180), one file per table. Numbers are written with the fewest digits that round-trip exactly.
 
 use super::Cohort;
 use crate::statistics::{Regression, TailProbabilities};
@@ -24,7 +24,7 @@ pub const TABLES: [&str; 16] = [
     "warnings.csv",
 ];
 
-/// One table by its file name; `None` when there is none of this name.
+/// Returns one table by file name; `None` if there is no such table.
 #[must_use]
 pub fn table(cohort: &Cohort, name: &str) -> Option<String> {
     Some(match name {
@@ -48,7 +48,7 @@ pub fn table(cohort: &Cohort, name: &str) -> Option<String> {
     })
 }
 
-/// File names and contents.
+/// Returns the file names and contents of all tables.
 #[must_use]
 pub fn tables(cohort: &Cohort) -> Vec<(&'static str, String)> {
     TABLES.iter().filter_map(|name| Some((*name, table(cohort, name)?))).collect()
@@ -70,7 +70,7 @@ impl NamedTable {
     }
 }
 
-/// A field of text: quoted when it must be; a spreadsheet takes no field for a formula.
+/// Returns a text field, quoted if necessary and escaped so that spreadsheets do not interpret it as a formula.
 fn text(value: &str) -> String {
     let formula = value.starts_with(['=', '+', '-', '@', '\t', '\r']);
     let value = if formula { format!("'{value}") } else { value.to_owned() };

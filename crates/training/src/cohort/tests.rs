@@ -3,7 +3,8 @@ use crate::questionnaire::{InspectionPhase, OverallItem, PhaseAspect, Questionna
 use crate::testing::{broken_off, faultless};
 use spandrel_model::random::RandomStream;
 
-/// 22 people, the first eight of them three times, with scores and answers by chance: demand raises strain, strain lowers safety.
+/// Returns records of 22 trainees, the first eight with three sessions each, with random scores and answers: demand increases
+/// strain, strain decreases safety.
 fn pilot() -> Vec<SessionRecord> {
     let mut stream = RandomStream::new(11, "made-up cohort");
     let mut records = Vec::new();
@@ -50,14 +51,14 @@ fn exact_the_papers_design_gives_the_papers_tables() {
     assert_eq!(cohort.distributions[4].histogram.iter().map(|bar| bar.count).sum::<usize>(), 22);
     assert_eq!(cohort.boxes.len(), 15);
     assert_eq!(cohort.tests.len(), 15);
-    // 24 questions: of all first sessions, and of each of the three repetitions.
+    // 24 questions: over all first sessions, and for each of the three repetitions.
     assert_eq!(cohort.likert.len(), 96);
     assert_eq!(cohort.crashes.rows.len(), 22);
     assert_eq!(cohort.crashes.total, cohort.crashes.by_task.iter().sum::<usize>());
     assert_eq!(cohort.crashes.total, cohort.crashes.by_kind.total());
     assert_eq!(cohort.progress[0].repetitions.len(), 3);
     assert!(cohort.progress.iter().all(|one| one.curves.is_empty()), "three repetitions make no curve");
-    assert!(cohort.warnings.iter().any(|words| words.contains("22 people") && words.contains("78")), "{:?}", cohort.warnings);
+    assert!(cohort.warnings.iter().any(|words| words.contains("22 trainees") && words.contains("78")), "{:?}", cohort.warnings);
 }
 
 #[test]
@@ -75,7 +76,7 @@ fn exact_repetitions_follow_time_and_compare_the_same_people() {
     assert!((test.test.mean_difference - (of(2) - of(0))).abs() < 1e-9);
     let holm = test.p_holm.unwrap();
     assert!(holm.upper >= test.test.p.unwrap().upper && holm.two <= 1.0);
-    // Efficiency is 100 in all: no t, and no part in the family.
+    // Efficiency is always 100, so t is undefined and the test is not part of the family.
     let flat = expected.tests.iter().find(|test| test.score == "efficiency").unwrap();
     assert_eq!((flat.test.t, flat.p_holm), (None, None));
 }
@@ -88,7 +89,7 @@ fn exact_the_causal_model_finds_what_made_the_data() {
     };
     assert_eq!(model.n, 22);
     assert!((of(&model.strain, "demand") - 0.7).abs() < 0.25, "{:?}", model.strain.coefficients);
-    // 12 points of 400 per step of strain are 3 %.
+    // 12 of 400 points per unit of strain are 3 %.
     assert!((of(&model.performance, "strain") + 3.0).abs() < 1.5, "{:?}", model.performance.coefficients);
     let middle = model.indirect[1];
     let interval = middle.interval_95.unwrap();
@@ -129,8 +130,8 @@ fn exact_four_repetitions_make_a_learning_curve() {
 fn exact_the_groups_curve_goes_through_the_means_of_those_who_flew_often_enough() {
     let safety = |first: f64, k: usize| first * spandrel_model::math::pow(k as f64, 0.3);
     let mut records = Vec::new();
-    // Two people with curves of one exponent: their mean has it, too. Of the longer series only what both flew counts; a third person
-    // flew too seldom, a fourth has no accuracy once.
+    // Two trainees have curves with the same exponent, so their mean has it too. Only the repetitions that both flew count. A
+    // third trainee has too few sessions, and a fourth lacks one accuracy score.
     for (who, first, times) in [("anna", 30.0, 6), ("ben", 50.0, 4), ("cleo", 90.0, 3), ("dan", 40.0, 4)] {
         for k in 1..=times {
             let mut record = faultless(who, k);

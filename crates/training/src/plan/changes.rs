@@ -1,34 +1,34 @@
-//! What changed since last time.
+//! Changes since the previous session.
 
 use crate::record::SessionRecord;
 use serde::Serialize;
 
-/// Smaller changes of a score are not worth a word, points.
+/// Smaller score changes are not reported, points.
 const WORTH_A_WORD: f64 = 0.05;
 
-/// The newest session against the one before on the same job.
+/// The latest session compared with the previous one on the same job.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SessionChanges {
-    /// Session compared with.
+    /// Id of the session compared with.
     pub since: String,
-    /// What differs, scores first.
+    /// Measures that changed, scores first.
     pub changes: Vec<MeasureChange>,
 }
 
-/// One measure, then and now.
+/// Change of one measure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeasureChange {
-    /// What.
+    /// Name of the measure.
     pub what: String,
-    /// Then.
+    /// Previous value.
     pub before: f64,
-    /// Now.
+    /// Current value.
     pub now: f64,
-    /// Better, worse; absent when equal.
+    /// Whether the change is an improvement; `None` if the values are equal.
     pub better: Option<bool>,
 }
 
-/// Compares the newest record with the newest earlier one of its scenario.
+/// Compares the latest record with the previous one of the same scenario; `None` if there is none.
 pub fn changes(records: &[SessionRecord]) -> Option<SessionChanges> {
     let (last, earlier) = records.split_last()?;
     let before = earlier.iter().rev().find(|record| record.scenario == last.scenario)?;
@@ -47,8 +47,8 @@ pub fn changes(records: &[SessionRecord]) -> Option<SessionChanges> {
     add("accuracy".into(), then.accuracy, now.accuracy, true);
     for task in &last.tasks {
         let Some(then) = before.tasks.iter().find(|other| other.id == task.id) else { continue };
-        add(format!("{}: on the path, %", task.name), Some(100.0 * then.on_path), Some(100.0 * task.on_path), true);
-        add(format!("{}: over the speed limit, s", task.name), Some(then.speeding_s), Some(task.speeding_s), false);
+        add(format!("{}: on path, %", task.name), Some(100.0 * then.on_path), Some(100.0 * task.on_path), true);
+        add(format!("{}: above the speed limit, s", task.name), Some(then.speeding_s), Some(task.speeding_s), false);
         let crashes = (then.crashes.total() as f64, task.crashes.total() as f64);
         add(format!("{}: crashes", task.name), Some(crashes.0), Some(crashes.1), false);
     }

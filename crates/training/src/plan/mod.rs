@@ -1,5 +1,5 @@
-//! The training plan: from scores and their causes to what to fly next, with the reason in words; when; and what changed since last
-//! time. The rules are a data file.
+//! The training plan: derives from scores and their causes which scenarios to fly next, why and when, and reports what changed
+//! since the previous session. The rules come from a data file.
 
 mod changes;
 mod rules;
@@ -12,74 +12,74 @@ use serde::Serialize;
 use spandrel_model::numbers::format_beside_limit;
 use std::cmp::Ordering;
 
-/// Condition state from which on a missed defect is severe: poor (AASHTO MBEI).
+/// Minimum condition state at which a missed defect is severe: poor (AASHTO MBEI).
 const SEVERE_STATE: u8 = 3;
-/// Missed defects named in a reason.
+/// Maximum number of missed defects named in a reason.
 const DEFECTS_NAMED: usize = 3;
-/// µs in a day.
+/// Length of a day, µs.
 const DAY_US: f64 = 86_400e6;
-/// A landing below this is late, % (docs/src/reference/assessment.md, "Certification").
+/// A landing with less battery than this is late, % (docs/src/reference/assessment.md, "Certification").
 const BATTERY_RESERVE_PCT: f64 = 20.0;
-/// Points lost per minute beyond the time for full efficiency (the paper's).
+/// Points lost per minute beyond the time for full efficiency (from the paper).
 const EFFICIENCY_LOSS_PER_MIN: f64 = 10.0;
-/// Off the path in one direction this many times as far as in the other is said to be off in that one alone.
+/// A deviation is reported in one direction only if it is this many times larger than in the other.
 const MAINLY: f64 = 2.0;
 
-/// What to do next.
+/// A training plan.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TrainingPlan {
-    /// Who.
+    /// Trainee name.
     pub trainee: String,
-    /// Newest session, which the plan answers to.
+    /// Id of the latest session, on which the plan is based.
     pub session: String,
-    /// What to fly, the most urgent first; never empty.
+    /// Scenarios to fly, most urgent first; never empty.
     pub steps: Vec<PlanStep>,
-    /// Not before, µs since the Unix epoch.
+    /// Earliest time of the next session, µs since the Unix epoch.
     pub from_unix_us: u64,
-    /// Not later than, µs since the Unix epoch.
+    /// Latest time of the next session, µs since the Unix epoch.
     pub until_unix_us: u64,
-    /// The last flight is longer ago than skill lasts.
+    /// Whether the time since the last flight exceeds the skill retention period.
     pub overdue: bool,
-    /// Against the session before on the same job, if there is one.
+    /// Changes since the previous session on the same job, if there is one.
     pub changes: Option<SessionChanges>,
-    /// Incomplete sessions that were left out.
+    /// Number of incomplete sessions excluded.
     pub left_out: usize,
 }
 
 /// One scenario to fly.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlanStep {
-    /// Scenario.
+    /// Scenario name.
     pub scenario: String,
-    /// Sum over its rules of weight times value over limit.
+    /// Sum over the rules that recommend it of weight times value over limit.
     pub urgency: f64,
-    /// Why, the most urgent first.
+    /// Reasons, most urgent first.
     pub reasons: Vec<PlanReason>,
 }
 
-/// Why a scenario should be flown.
+/// Reason to fly a scenario.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlanReason {
-    /// Rule.
+    /// Name of the rule.
     pub rule: String,
-    /// Session that it looked at.
+    /// Id of the session that was evaluated.
     pub session: String,
-    /// In words.
+    /// Explanation for the trainee.
     pub words: String,
-    /// What was measured; shares from 0 to 1.
+    /// Measured value; fractions from 0 to 1.
     pub value: f64,
-    /// Above which the rule fires.
+    /// Limit above which the rule applies.
     pub limit: f64,
 }
 
-/// What a rule found.
+/// A measured value that a rule evaluates.
 struct Finding<'a> {
     value: f64,
     task: Option<&'a TaskRecord>,
     record: &'a SessionRecord,
 }
 
-/// Plans for one trainee from his records in the order of their start; `None` without any.
+/// Creates a plan from one trainee's records in chronological order; `None` without records.
 #[must_use]
 pub fn plan(records: &[SessionRecord], rules: &PlanRules, now_unix_us: u64) -> Option<TrainingPlan> {
     let last = records.last()?;
@@ -116,7 +116,7 @@ pub fn plan(records: &[SessionRecord], rules: &PlanRules, now_unix_us: u64) -> O
     })
 }
 
-/// The same from those sessions that count. Without one the plan is to fly the job.
+/// Creates a plan from the eligible sessions only. Without any, the plan is to fly the job.
 #[must_use]
 pub fn plan_counting(
     mut records: Vec<SessionRecord>,
@@ -154,7 +154,8 @@ fn single(scenario: &str, record: &SessionRecord, (rule, words): (&str, String),
     PlanStep { scenario: scenario.to_owned(), urgency: 0.0, reasons: vec![reason] }
 }
 
-/// Values that a rule looks at: of tasks the newest flight of each, of whole sessions the newest that says something on it.
+/// Returns the values for a rule: for task rules, from the latest flight of each task; for session rules, from the latest session
+/// with a value.
 fn findings<'a>(rule: &PlanRule, records: &'a [SessionRecord]) -> Vec<Finding<'a>> {
     match rule.measure {
         RuleMeasure::OffPath
@@ -182,14 +183,14 @@ fn findings<'a>(rule: &PlanRule, records: &'a [SessionRecord]) -> Vec<Finding<'a
     }
 }
 
-/// Of each task (by its kind, free ones by their name) the newest flight.
+/// Returns the latest flight of each task, matched by kind; free tasks are matched by name.
 fn newest_tasks(records: &[SessionRecord]) -> Vec<(&SessionRecord, &TaskRecord)> {
     let mut newest: Vec<(&SessionRecord, &TaskRecord)> = Vec::new();
     for (record, task) in records.iter().rev().flat_map(|record| record.tasks.iter().map(move |task| (record, task))) {
         let same = |(_, other): &(&SessionRecord, &TaskRecord)| {
             other.kind == task.kind && (task.kind != "free" || other.name == task.name)
         };
-        // One session may fly two tasks of a kind: both count.
+        // A session may contain two tasks of the same kind; both count.
         if !newest.iter().any(|seen| same(seen) && seen.0.id != record.id) {
             newest.push((record, task));
         }
@@ -234,7 +235,7 @@ fn of_session(rule: &PlanRule, record: &SessionRecord) -> Option<f64> {
             Some(longest_s)
         }
         RuleMeasure::FalseSnapshots => share(record.snapshots - record.hits.min(record.snapshots), record.snapshots),
-        // The score of 0 to 100 stands for -100 to 100 points; who ran out of battery has no points that tell the time.
+        // The score of 0 to 100 maps to -100 to 100 points. After a battery failure, the points do not reflect the time.
         RuleMeasure::Overtime => {
             let points = 2.0 * record.scores.efficiency - 100.0;
             (!record.battery_failed).then(|| (100.0 - points) / EFFICIENCY_LOSS_PER_MIN)
@@ -249,7 +250,7 @@ fn of_session(rule: &PlanRule, record: &SessionRecord) -> Option<f64> {
     }
 }
 
-/// The missed defects that a rule is about: the severe ones, or those that were in plain view; the gravest first.
+/// Returns the missed defects that a rule applies to (severe ones, or those in plain view), most severe first.
 fn missed<'a>(rule: &PlanRule, record: &'a SessionRecord) -> Vec<&'a DefectRecord> {
     let about = |defect: &&DefectRecord| match rule.measure {
         RuleMeasure::MissedInView => defect.in_view_s.is_some_and(|seconds| seconds > rule.limit),
@@ -264,7 +265,7 @@ fn missed<'a>(rule: &PlanRule, record: &'a SessionRecord) -> Vec<&'a DefectRecor
     missed
 }
 
-/// The same in words, at most [`DEFECTS_NAMED`] by name.
+/// Describes these defects, naming at most [`DEFECTS_NAMED`].
 fn missed_summary(rule: &PlanRule, record: &SessionRecord) -> String {
     let missed = missed(rule, record);
     let name = |defect: &&DefectRecord| {
@@ -293,12 +294,12 @@ fn reason(rule: &PlanRule, finding: &Finding<'_>) -> PlanReason {
     let words = rule.reason.replace("{value}", &displayed_value(rule.measure, finding.value, rule.limit));
     let words = words.replace("{limit}", &displayed_value(rule.measure, rule.limit, rule.limit));
     let words = words.replace("{defects}", &missed_summary(rule, finding.record));
-    // What a scenario's author wrote comes last, so that braces in it mean nothing.
+    // Scenario text is substituted last, so that braces in it are not expanded.
     let words = words.replace("{axis}", axis).replace("{fastest}", &format!("{fastest:.1} m/s")).replace("{task}", &task);
     PlanReason { rule: rule.name.clone(), session: finding.record.id.clone(), words, value: finding.value, limit: rule.limit }
 }
 
-/// In which direction a task was off its path.
+/// Describes the direction in which the drone was off the task's path.
 fn axis(task: &TaskRecord) -> &'static str {
     match (task.off_sideways_m, task.off_height_m) {
         (Some(sideways), Some(height)) if sideways > MAINLY * height => "mainly to the side",
@@ -308,7 +309,7 @@ fn axis(task: &TaskRecord) -> &'static str {
     }
 }
 
-/// A value with the digits that show on which side of the limit it lies.
+/// Formats a value with enough digits to show on which side of the limit it lies.
 fn displayed_value(measure: RuleMeasure, value: f64, limit: f64) -> String {
     match measure {
         RuleMeasure::OffPath | RuleMeasure::Speeding | RuleMeasure::Missed | RuleMeasure::FalseSnapshots => {

@@ -1,43 +1,43 @@
-//! The rules file.
+//! Training plan rules and their file format.
 
 use spandrel_model::toml::{Problems, Reader, Section};
 
-/// The shipped rules.
+/// The default rules.
 pub const RULES: &str = include_str!("rules.toml");
 
-/// Format of the file.
+/// Format version of the file.
 const FORMAT: i64 = 1;
 
-/// What a rule looks at.
+/// Measure that a rule evaluates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RuleMeasure {
-    /// Share of a task's time off its path.
+    /// Fraction of a task's time off its path.
     OffPath,
     /// Mean vertical distance from a task's path while off it, m.
     OffHeight,
-    /// Share of a task's time over the speed limit.
+    /// Fraction of a task's time above the speed limit.
     Speeding,
-    /// Crashes in a task's window.
+    /// Number of crashes in a task's window.
     Crashes,
-    /// Crashes in no window.
+    /// Number of crashes outside all windows.
     CrashesOutside,
-    /// Crashes anywhere.
+    /// Total number of crashes.
     CrashesAll,
-    /// 1 for a task that was left out.
+    /// 1 for a task that was not attempted.
     NotAttempted,
-    /// Share of the defects that no picture shows.
+    /// Fraction of defects shown in no picture.
     Missed,
-    /// Missed defects in condition state 3 (poor) or worse.
+    /// Number of missed defects in condition state 3 (poor) or worse.
     MissedSevere,
-    /// Longest time that a missed defect was in plain view, s; known in a session's report alone.
+    /// Longest time that a missed defect was in plain view, s; available only in a session's report.
     MissedInView,
-    /// Share of the pictures without a new defect.
+    /// Fraction of pictures without a new defect.
     FalseSnapshots,
-    /// Flight time beyond that for full efficiency, minutes.
+    /// Flight time beyond the time for full efficiency, minutes.
     Overtime,
-    /// 1 when the flight did not end on the pad.
+    /// 1 if the flight did not end on the pad.
     NotLanded,
-    /// 1 when the battery was below 20 % at the end.
+    /// 1 if the battery was below 20 % at the end.
     BatteryLow,
 }
 
@@ -75,54 +75,54 @@ const WITH: &[(&str, Option<&str>)] = &[
     ("person", Some("person")),
 ];
 
-/// One rule.
+/// A rule of the training plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanRule {
-    /// Name, unique.
+    /// Unique name.
     pub name: String,
-    /// What it looks at.
+    /// Measure to evaluate.
     pub measure: RuleMeasure,
-    /// Kind of task, or any.
+    /// Kind of task; `None` for any.
     pub task: Option<&'static str>,
-    /// What was hit, or anything.
+    /// Kind of object hit; `None` for any.
     pub with: Option<&'static str>,
-    /// What a missed defect's best picture lacked; empty for whatever.
+    /// Condition that a missed defect's best picture failed; empty for any.
     pub lacked: String,
-    /// The rule fires above this.
+    /// Limit above which the rule applies.
     pub limit: f64,
-    /// How much it counts beside others.
+    /// Weight relative to other rules.
     pub weight: f64,
-    /// What to fly.
+    /// Scenario to fly.
     pub scenario: String,
-    /// Why, with places for values.
+    /// Reason template with placeholders for values.
     pub reason: String,
 }
 
-/// All rules.
+/// Rules and parameters of the training plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanRules {
-    /// Longest pause, days.
+    /// Maximum pause between sessions, days.
     pub retention_days: f64,
-    /// What to fly after a longer one.
+    /// Scenario to fly after a longer pause.
     pub retention_scenario: String,
-    /// Why.
+    /// Reason for the retention scenario.
     pub retention_reason: String,
-    /// Shortest pause, days.
+    /// Minimum pause between sessions, days.
     pub rest_days: f64,
-    /// What to fly when nothing stands out.
+    /// Scenario to fly if no rule applies.
     pub job: String,
-    /// Why.
+    /// Reason for flying the job.
     pub job_reason: String,
-    /// Most scenarios that a plan names.
+    /// Maximum number of scenarios in a plan.
     pub steps: usize,
-    /// The rules, in file order.
+    /// Rules in file order.
     pub rules: Vec<PlanRule>,
 }
 
-/// Reads rules.
+/// Reads the rules from TOML.
 ///
 /// # Errors
-/// Everything that is wrong with the file.
+/// All errors in the file.
 pub fn read_rules(file: &str, text: &str) -> Result<PlanRules, Problems> {
     let mut reader = Reader::new(file, text);
     let rules = reader.parse().map(|document| {

@@ -7,11 +7,11 @@ fn rules() -> PlanRules {
     read_rules("rules.toml", RULES).unwrap()
 }
 
-/// Made just as bad as a rule looks for: `factor` times its limit.
+/// Returns a record in which the rule's measure is `factor` times its limit.
 fn suffering(rule: &PlanRule, factor: f64) -> SessionRecord {
     let mut record = faultless("anna", 1);
     let value = factor * rule.limit;
-    // Counts: above a limit of one half is one, below it none.
+    // Counts are integers: with a limit of one half, one is above it and zero below.
     let count = if factor > 1.0 { value.ceil().max(1.0) as usize } else { 0 };
     let mut crashes = Crashes::default();
     match rule.with {
@@ -79,7 +79,7 @@ fn exact_poor_interlayer_flights_lead_to_the_gap_drill() {
     let words = &plan.steps[0].reasons[0].words;
     assert_eq!(
         words,
-        "The interlayer: off the path for 70 % of the time, mainly in height. Practise the narrow space by itself."
+        "The interlayer: off the path for 70 % of the time, mainly in height. Practice the narrow space separately."
     );
     assert_eq!(plan.steps[1].scenario, "drill-straight-line");
 }

@@ -1,4 +1,4 @@
-//! `answers.json`: what a trainee has answered so far.
+//! `answers.json`: a trainee's answers so far.
 
 use super::language::is_tag;
 use super::{QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, TlxScale};
@@ -9,33 +9,33 @@ use serde_json::Value;
 use spandrel_model::toml::{Problem, Problems};
 use std::collections::BTreeMap;
 
-/// Name of the file in a session folder.
+/// File name in the session folder.
 pub const ANSWERS: &str = "answers.json";
 
-/// Format of the file.
+/// Format version of the file.
 const FORMAT: u64 = 1;
-/// Largest file that is read, bytes: far above 24 answers.
+/// Maximum file size, bytes; far larger than 24 answers need.
 const LARGEST: usize = 64 * 1024;
 
-/// Answers of one session, perhaps not yet all.
+/// Answers of one session, possibly incomplete.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Answers {
-    /// Language that they were given in.
+    /// Language in which they were given.
     pub language: String,
     /// Answers from 1 (strongly agree) to 5 (strongly disagree).
     pub given: BTreeMap<QuestionnaireItem, u8>,
-    /// NASA-TLX, 0 to 100 in steps of 5; empty when it was not asked.
+    /// NASA-TLX ratings, 0 to 100 in steps of 5; empty if it was not asked.
     pub tlx: BTreeMap<TlxScale, u8>,
 }
 
 impl Answers {
-    /// The questions that are still open, in the order of asking.
+    /// Returns the unanswered questions in questionnaire order.
     #[must_use]
     pub fn open(&self, tasks: &[u32]) -> Vec<QuestionnaireItem> {
         QuestionnaireItem::all(tasks).into_iter().filter(|item| !self.given.contains_key(item)).collect()
     }
 
-    /// All questions of a job with these tasks are answered.
+    /// Returns whether all questions of a job with these tasks are answered.
     #[must_use]
     pub fn complete(&self, tasks: &[u32]) -> bool {
         self.open(tasks).is_empty()
@@ -58,7 +58,7 @@ impl Serialize for Answers {
     }
 }
 
-/// As kept in records: what was read once is not judged again, but what is no question is refused.
+/// Answers as stored in records. They were validated when first read; only unknown questions are rejected.
 #[derive(Deserialize)]
 struct StoredAnswers {
     language: String,
@@ -71,7 +71,7 @@ struct StoredAnswers {
 impl<'de> Deserialize<'de> for Answers {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let kept = StoredAnswers::deserialize(deserializer)?;
-        let unknown = |key: &str| D::Error::custom(format!("{key} is no question"));
+        let unknown = |key: &str| D::Error::custom(format!("unknown question {key}"));
         let item = |(key, value): (&String, &u8)| {
             QuestionnaireItem::from_key(key).map(|item| (item, *value)).ok_or_else(|| unknown(key))
         };
@@ -85,10 +85,10 @@ impl<'de> Deserialize<'de> for Answers {
     }
 }
 
-/// Reads `answers.json` of a job with these tasks. Answers may be missing, none may be wrong.
+/// Reads the `answers.json` of a job with these tasks. Answers may be missing but must be valid.
 ///
 /// # Errors
-/// Everything that is wrong with it: file, line, key, value, what is allowed.
+/// All errors in the file, with file, line, key, value and allowed values.
 pub fn read_answers(file: &str, text: &str, tasks: &[u32]) -> Result<Answers, Problems> {
     let mut reading = AnswerReading { file, text, problems: Vec::new() };
     if text.len() > LARGEST {
@@ -171,7 +171,7 @@ impl AnswerReading<'_> {
                     found.insert(key, number);
                 }
                 (None, _) => self.invalid_answer(key, &shown(value), allowed_keys, &format!("unknown key in {name}")),
-                (Some(_), None) => self.invalid_answer(key, &shown(value), allowed, "no such answer"),
+                (Some(_), None) => self.invalid_answer(key, &shown(value), allowed, "invalid answer"),
             }
         }
         found
@@ -228,7 +228,7 @@ mod tests {
     #[test]
     fn exact_every_fault_is_reported_with_file_line_key_value_and_range() {
         let told = problems("{\"format\": 1, \"language\": \"en\",\n\"answers\": {\n\"frustration\": 6}}");
-        assert_eq!(told, "answers.json:3: frustration = 6: no such answer (allowed: whole number 1 to 5)");
+        assert_eq!(told, "answers.json:3: frustration = 6: invalid answer (allowed: whole number 1 to 5)");
         for (text, expected) in [
             ("[]", "not an object"),
             ("{\"format\": 1,", "syntax"),

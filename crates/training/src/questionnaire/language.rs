@@ -1,32 +1,33 @@
-//! The languages that the questionnaire is asked in: shipped ones, and a site's own; and which of them somebody understands.
+//! Questionnaire languages, shipped and site-specific, and language selection.
 
 use super::wording::{Wording, read_wording};
 use spandrel_model::toml::Problems;
 
-/// File names and texts of the shipped wordings.
+/// File names and contents of the shipped wordings.
 pub const SHIPPED: [(&str, &str); 3] =
     [("en.toml", include_str!("en.toml")), ("de.toml", include_str!("de.toml")), ("es.toml", include_str!("es.toml"))];
-/// Longest language tag, characters (BCP 47 asks for 35).
+/// Maximum length of a language tag, characters (BCP 47 requires support for 35).
 const TAG_MAX: usize = 35;
-/// Languages of an Accept-Language header that are looked at.
+/// Maximum number of Accept-Language entries evaluated.
 const ACCEPTED_MOST: usize = 20;
 
-/// A language tag, by its form alone.
+/// Returns whether the string has the form of a language tag.
 #[must_use]
 pub fn is_tag(tag: &str) -> bool {
     let parts = || tag.split('-');
     tag.len() <= TAG_MAX && parts().all(|part| (1..=8).contains(&part.len()) && part.chars().all(|c| c.is_ascii_alphanumeric()))
 }
 
-/// All languages; the first one is asked in when nothing is known of a person.
+/// All available languages. The first is the default.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Languages(Vec<Wording>);
 
 impl Languages {
-    /// A site's own wordings, in their order, then the shipped ones; a language that is there keeps its first wording.
+    /// Creates the list from site-specific wordings, in order, followed by the shipped ones. The first wording of a language
+    /// takes precedence.
     ///
     /// # Errors
-    /// Never in practice: tests read what is shipped.
+    /// If a shipped wording is invalid, which tests rule out.
     pub fn with(own: Vec<Wording>) -> Result<Self, Problems> {
         let mut all = own;
         for (file, text) in SHIPPED {
@@ -38,13 +39,13 @@ impl Languages {
         Ok(Self(all))
     }
 
-    /// All of them.
+    /// Returns all wordings.
     #[must_use]
     pub fn all(&self) -> &[Wording] {
         &self.0
     }
 
-    /// The wording in a language, or in the same language of another country.
+    /// Returns the wording for a language tag, or for the same language in another region.
     #[must_use]
     pub fn of(&self, tag: &str) -> Option<&Wording> {
         let primary = |tag: &str| tag.split('-').next().unwrap_or_default().to_ascii_lowercase();
@@ -52,17 +53,17 @@ impl Languages {
         exactly.or_else(|| self.0.iter().find(|known| primary(&known.language) == primary(tag)))
     }
 
-    /// The wording that an Accept-Language header likes best (RFC 9110, 12.5.4); the first one when it likes none.
+    /// Returns the wording preferred by an Accept-Language header (RFC 9110, 12.5.4); the default if none matches.
     #[must_use]
     pub fn accepted(&self, header: &str) -> &Wording {
         let mut wanted: Vec<(&str, f64)> = header.split(',').take(ACCEPTED_MOST).filter_map(accept_language).collect();
-        // Equal ones stay in the browser's order.
+        // Entries of equal weight keep the browser's order.
         wanted.sort_by(|a, b| b.1.total_cmp(&a.1));
         wanted.into_iter().find_map(|(tag, _)| self.of(tag)).unwrap_or(&self.0[0])
     }
 }
 
-/// A tag and how much it is wished for; nothing for what is not wanted or is no tag.
+/// Parses an Accept-Language entry into tag and weight; `None` if the weight is zero or the tag is invalid.
 fn accept_language(part: &str) -> Option<(&str, f64)> {
     let (tag, parameter) = part.split_once(';').unwrap_or((part, "q=1"));
     let weight: f64 = parameter.trim().strip_prefix("q=")?.parse().ok()?;

@@ -1,6 +1,6 @@
-//! The questionnaire after a session: three statements on the whole and three on each phase (24 for a job of four tasks), answered from
-//! 1 (strongly agree, the most positive) to 5 (strongly disagree); and NASA-TLX without weights as an option. The wording is a data
-//! file, ready for translation; the keys of the answers are the same in every language.
+//! The questionnaire after a session: three statements on the whole inspection and three on each phase (24 for a job with four
+//! tasks), rated from 1 (strongly agree, the most positive) to 5 (strongly disagree), and optionally unweighted NASA-TLX. The
+//! wording is a translatable data file; the answer keys are the same in every language.
 
 mod answers;
 mod language;
@@ -18,77 +18,77 @@ use std::fmt;
 pub const STRONGLY_AGREE: u8 = 1;
 /// Most negative answer.
 pub const STRONGLY_DISAGREE: u8 = 5;
-/// Steps of a NASA-TLX scale, points.
+/// Step of a NASA-TLX scale, points.
 pub const TLX_STEP: u8 = 5;
-/// Upper end of a NASA-TLX scale, points.
+/// Maximum of a NASA-TLX scale, points.
 pub const TLX_MAX: u8 = 100;
 
-/// What is asked of the whole inspection.
+/// Statements on the whole inspection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum OverallItem {
-    /// Without stress for time.
+    /// There was no time pressure.
     TimePressure,
-    /// Never insecure, irritated, stressed.
+    /// The trainee was never insecure, irritated or stressed.
     Frustration,
-    /// In-task feedback helped.
+    /// In-task feedback was helpful.
     Feedback,
 }
 
-/// What is asked of each phase.
+/// Statements on each phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PhaseAspect {
-    /// Done well.
+    /// The phase went well.
     Performance,
-    /// Was easy.
+    /// The phase was easy.
     MentalDemand,
-    /// Needed no physical activity.
+    /// The phase required no physical effort.
     PhysicalDemand,
 }
 
 /// A phase of the inspection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum InspectionPhase {
-    /// Getting ready.
+    /// Preparation.
     Calibration,
-    /// Taking off.
+    /// Takeoff.
     TakingOff,
-    /// A task, by its number.
+    /// A task, by number.
     Task(u32),
     /// Landing.
     Landing,
 }
 
-/// One question.
+/// A question of the questionnaire.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum QuestionnaireItem {
-    /// Of the whole.
+    /// Question about the whole inspection.
     Overall(OverallItem),
-    /// Of a phase.
+    /// Question about one phase.
     Phase(InspectionPhase, PhaseAspect),
 }
 
-/// One scale of NASA-TLX.
+/// A NASA-TLX scale.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum TlxScale {
-    /// Thinking.
+    /// Mental demand.
     MentalDemand,
-    /// Body.
+    /// Physical demand.
     PhysicalDemand,
-    /// Pace.
+    /// Temporal demand.
     TemporalDemand,
-    /// 0 is perfect, 100 failure.
+    /// Performance; 0 is perfect, 100 is failure.
     Performance,
-    /// Work for it.
+    /// Effort.
     Effort,
-    /// Annoyance.
+    /// Frustration.
     Frustration,
 }
 
 impl OverallItem {
-    /// In the order of asking.
+    /// All statements in questionnaire order.
     pub const ALL: [Self; 3] = [Self::TimePressure, Self::Frustration, Self::Feedback];
 
-    /// Key.
+    /// Returns the key.
     #[must_use]
     pub fn key(self) -> &'static str {
         match self {
@@ -100,10 +100,10 @@ impl OverallItem {
 }
 
 impl PhaseAspect {
-    /// In the order of asking.
+    /// All statements in questionnaire order.
     pub const ALL: [Self; 3] = [Self::Performance, Self::MentalDemand, Self::PhysicalDemand];
 
-    /// Key.
+    /// Returns the key.
     #[must_use]
     pub fn key(self) -> &'static str {
         match self {
@@ -115,7 +115,7 @@ impl PhaseAspect {
 }
 
 impl InspectionPhase {
-    /// All phases of a job with these tasks, in flying order.
+    /// Returns all phases of a job with these tasks, in flight order.
     #[must_use]
     pub fn all(tasks: &[u32]) -> Vec<Self> {
         let before = [Self::Calibration, Self::TakingOff].into_iter();
@@ -135,7 +135,7 @@ impl fmt::Display for InspectionPhase {
 }
 
 impl QuestionnaireItem {
-    /// All questions of a job with these tasks, in the order of asking: 24 for four tasks.
+    /// Returns all questions of a job with these tasks, in questionnaire order: 24 for four tasks.
     #[must_use]
     pub fn all(tasks: &[u32]) -> Vec<Self> {
         let phases = InspectionPhase::all(tasks);
@@ -143,7 +143,7 @@ impl QuestionnaireItem {
         OverallItem::ALL.map(Self::Overall).into_iter().chain(by_phase).collect()
     }
 
-    /// The question with this key, of whatever job.
+    /// Returns the question with this key, regardless of the job.
     #[must_use]
     pub fn from_key(key: &str) -> Option<Self> {
         let Some((phase, aspect)) = key.split_once('.') else {
@@ -157,7 +157,7 @@ impl QuestionnaireItem {
             task => InspectionPhase::Task(task.strip_prefix("task_")?.parse().ok()?),
         };
         let item = Self::Phase(phase, aspect);
-        // `task_01` would be a second name of the same question.
+        // Rejects `task_01`, which would be a second key for the same question.
         (item.to_string() == key).then_some(item)
     }
 }
@@ -172,11 +172,11 @@ impl fmt::Display for QuestionnaireItem {
 }
 
 impl TlxScale {
-    /// In the order of asking.
+    /// All scales in questionnaire order.
     pub const ALL: [Self; 6] =
         [Self::MentalDemand, Self::PhysicalDemand, Self::TemporalDemand, Self::Performance, Self::Effort, Self::Frustration];
 
-    /// Key.
+    /// Returns the key.
     #[must_use]
     pub fn key(self) -> &'static str {
         match self {
@@ -189,7 +189,7 @@ impl TlxScale {
         }
     }
 
-    /// The scale with this key.
+    /// Returns the scale with this key.
     #[must_use]
     pub fn from_key(key: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|scale| scale.key() == key)

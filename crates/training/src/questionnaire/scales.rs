@@ -1,26 +1,27 @@
-//! What the answers add up to: the causal factors, states and the moderator that the paper names.
+//! Scale scores computed from the answers: the paper's causal factors, psychological states and moderator.
 
 use super::{Answers, InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TlxScale};
 use serde::{Deserialize, Serialize};
 
-/// Scales from 1 to 5; more is more of what the name says. A scale stands when at least half of its questions are answered.
+/// Scale scores from 1 to 5; higher means more of the named quality. A scale is present if at least half of its questions are
+/// answered.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ScaleScores {
-    /// Mental demand over the phases.
+    /// Mean mental demand over the phases.
     pub mental_demand: Option<f64>,
-    /// Physical demand over the phases.
+    /// Mean physical demand over the phases.
     pub physical_demand: Option<f64>,
-    /// Both: the paper's causal factors.
+    /// Mental and physical demand combined: the paper's causal factors.
     pub demand: Option<f64>,
     /// Time pressure and frustration: the paper's psychological states.
     pub strain: Option<f64>,
-    /// How helpful the in-task feedback was: the paper's moderator.
+    /// Helpfulness of the in-task feedback: the paper's moderator.
     pub feedback: Option<f64>,
-    /// How well the trainee thinks it went, over the phases.
+    /// Mean self-rated performance over the phases.
     pub self_rating: Option<f64>,
 }
 
-/// Scales of one session's answers.
+/// Computes the scales of one session's answers.
 #[must_use]
 pub fn scales(answers: &Answers, tasks: &[u32]) -> ScaleScores {
     let of = |aspects: &[PhaseAspect]| {
@@ -29,7 +30,8 @@ pub fn scales(answers: &Answers, tasks: &[u32]) -> ScaleScores {
         average(answers, items.collect())
     };
     let whole = |which: &[OverallItem]| average(answers, which.iter().map(|one| QuestionnaireItem::Overall(*one)).collect());
-    // The statements on demand and strain deny it, so that disagreeing means much; those on feedback and performance affirm.
+    // Statements on demand and strain are worded negatively, so disagreement means a high value; those on feedback and
+    // performance are reversed here.
     let affirmed = |mean: f64| f64::from(STRONGLY_AGREE + STRONGLY_DISAGREE) - mean;
     ScaleScores {
         mental_demand: of(&[PhaseAspect::MentalDemand]),
@@ -46,7 +48,7 @@ fn average(answers: &Answers, items: Vec<QuestionnaireItem>) -> Option<f64> {
     (!given.is_empty() && 2 * given.len() >= items.len()).then(|| given.iter().sum::<f64>() / given.len() as f64)
 }
 
-/// NASA-TLX without weights: the mean of its six scales, 0 to 100; `None` until all are answered.
+/// Returns unweighted NASA-TLX: the mean of its six scales, 0 to 100; `None` unless all are answered.
 #[must_use]
 pub fn raw_tlx(answers: &Answers) -> Option<f64> {
     let given: Option<Vec<f64>> =

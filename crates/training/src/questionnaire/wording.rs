@@ -1,4 +1,4 @@
-//! The words of the questionnaire, from a TOML file.
+//! Questionnaire wording, read from a TOML file.
 
 use super::language::is_tag;
 use super::{
@@ -6,25 +6,25 @@ use super::{
 };
 use spandrel_model::toml::{Problems, Reader, Section};
 
-/// Format of the file.
+/// Format version of the file.
 const FORMAT: i64 = 1;
-/// Places for a task's number and name.
+/// Placeholders for a task's number and name.
 const NUMBER: &str = "{number}";
 const NAME: &str = "{name}";
 /// The questionnaire in one language.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Wording {
-    /// Language (BCP 47), for records and browsers.
+    /// Language tag (BCP 47), for records and browsers.
     pub language: String,
-    /// The language's name for those who speak it.
+    /// Native name of the language.
     pub language_name: String,
-    /// Title.
+    /// Title of the questionnaire.
     pub title: String,
-    /// Said before the first question.
+    /// Introduction shown before the first question.
     pub introduction: String,
     /// The five answers, from strongly agree to strongly disagree.
     pub scale: [String; 5],
-    /// Heading of the questions on the whole.
+    /// Heading of the questions on the whole inspection.
     pub overall_heading: String,
     overall: [String; 3],
     aspects: [String; 3],
@@ -32,47 +32,47 @@ pub struct Wording {
     taking_off: String,
     task: String,
     landing: String,
-    /// Title of NASA-TLX.
+    /// Title of the NASA-TLX section.
     pub tlx_title: String,
-    /// Said before its first scale.
+    /// Introduction shown before the first NASA-TLX scale.
     pub tlx_introduction: String,
     tlx: [String; 6],
     tlx_ends: [String; 4],
-    /// What stands around the questions.
+    /// Text of the form's controls and messages.
     pub form: FormWording,
 }
 
-/// What stands around the questions: buttons, messages, the terminal's words.
+/// Text of the form's controls and messages, including the terminal version.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FormWording {
-    /// How many are answered; `{answered}` and `{all}` are still to be filled in.
+    /// Progress text with the placeholders `{answered}` and `{all}`.
     pub answered: String,
-    /// That nothing is lost.
+    /// Note that answers are saved immediately.
     pub at_once: String,
-    /// It is saved.
+    /// Message after a successful save.
     pub saved: String,
-    /// It is not.
+    /// Message after a failed save.
     pub not_saved: String,
-    /// The button.
+    /// Label of the save button.
     pub save: String,
-    /// The way back.
+    /// Label of the link back.
     pub back: String,
-    /// Before the choice of languages.
+    /// Label of the language selection.
     pub choose_language: String,
-    /// Its button.
+    /// Label of the button that changes the language.
     pub change_language: String,
-    /// What the keys of the terminal do.
+    /// Key help of the terminal version.
     pub keys: String,
     please_whole: String,
     please_steps: String,
-    /// How to go on in the terminal.
+    /// Instructions for continuing later in the terminal.
     pub later: String,
 }
 
-/// Reads a wording.
+/// Reads a wording from TOML.
 ///
 /// # Errors
-/// Everything that is wrong with it.
+/// All errors in the file.
 pub fn read_wording(file: &str, text: &str) -> Result<Wording, Problems> {
     let mut reader = Reader::new(file, text);
     let wording = reader.parse().map(|document| {
@@ -134,7 +134,7 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Wording {
     }
 }
 
-/// Texts around the questions, each with the places where something is filled in.
+/// Reads the form texts, each with its required placeholders.
 fn form(reader: &mut Reader<'_>, section: &mut Section<'_>) -> FormWording {
     let mut text = |key: &'static str, filled_in: &[&str]| {
         let text = reader.text(section, key, None);
@@ -167,19 +167,19 @@ fn form(reader: &mut Reader<'_>, section: &mut Section<'_>) -> FormWording {
 }
 
 impl FormWording {
-    /// How many of all questions are answered.
+    /// Returns the progress text: number of questions answered, out of all.
     #[must_use]
     pub fn answered(&self, answered: usize, all: usize) -> String {
         self.answered.replace("{answered}", &answered.to_string()).replace("{all}", &all.to_string())
     }
 
-    /// What may be typed to a statement.
+    /// Returns the input instruction for a statement.
     #[must_use]
     pub fn integer_instruction(&self) -> String {
         self.please_whole.replace("{from}", &STRONGLY_AGREE.to_string()).replace("{to}", &STRONGLY_DISAGREE.to_string())
     }
 
-    /// What may be typed to a scale of NASA-TLX.
+    /// Returns the input instruction for a NASA-TLX scale.
     #[must_use]
     pub fn step_instruction(&self) -> String {
         let text = self.please_steps.replace("{from}", "0").replace("{to}", &TLX_MAX.to_string());
@@ -192,7 +192,7 @@ fn texts<const N: usize>(reader: &mut Reader<'_>, section: &mut Section<'_>, key
 }
 
 impl Wording {
-    /// The statement of a question.
+    /// Returns the statement of a question.
     #[must_use]
     pub fn statement(&self, item: QuestionnaireItem) -> &str {
         match item {
@@ -205,7 +205,7 @@ impl Wording {
         }
     }
 
-    /// What a question is about: the whole, or its phase. `name` tells a task's name by its number.
+    /// Returns the heading of a question: the whole inspection or its phase. `name` returns a task's name for its number.
     pub fn heading(&self, item: QuestionnaireItem, name: impl Fn(u32) -> String) -> String {
         match item {
             QuestionnaireItem::Overall(_) => self.overall_heading.clone(),
@@ -213,7 +213,7 @@ impl Wording {
         }
     }
 
-    /// A phase in words. `name` tells a task's name by its number.
+    /// Returns the name of a phase. `name` returns a task's name for its number.
     pub fn phase(&self, phase: InspectionPhase, name: impl Fn(u32) -> String) -> String {
         match phase {
             InspectionPhase::Calibration => self.calibration.clone(),
@@ -223,7 +223,7 @@ impl Wording {
         }
     }
 
-    /// A NASA-TLX scale: question, words at 0, words at 100.
+    /// Returns a NASA-TLX scale: question, label at 0, label at 100.
     #[must_use]
     pub fn tlx(&self, scale: TlxScale) -> (&str, &str, &str) {
         let [low, high, best, worst] = &self.tlx_ends;

@@ -1,4 +1,4 @@
-//! What a session suffered from: read off its frames, task by task.
+//! Causes of a session's scores, computed from its frames for each task.
 
 use super::{Crashes, DefectRecord, RecordSource, TaskRecord, kind_word};
 use spandrel_mavlink::telemetry::Frame;
@@ -10,17 +10,17 @@ use spandrel_monitor::measures::crash::{self, Crash};
 use spandrel_monitor::measures::on_path::{OnPath, OnPathWindow, ReferencePaths};
 use spandrel_monitor::measures::on_speed;
 
-/// Farther from the path than this the drone is elsewhere, not off the path, m (docs/src/reference/assessment.md, "Feedback
-/// during the flight").
+/// Farther from the path than this, the drone counts as elsewhere rather than off the path, m (docs/src/reference/assessment.md,
+/// "Feedback during the flight").
 const OFF_PATH_WITHIN_M: f64 = 8.0;
 
-/// Everything of a record that is read off the frames.
+/// The parts of a record that are computed from frames.
 pub struct ScoreCauses {
-    /// Tasks in file order.
+    /// Tasks in scenario order.
     pub tasks: Vec<TaskRecord>,
-    /// Crashes outside all windows.
+    /// Crashes outside all task windows.
     pub crashes_outside: Crashes,
-    /// Defects in placing order.
+    /// Defects in placement order.
     pub defects: Vec<DefectRecord>,
 }
 
@@ -33,7 +33,7 @@ struct FlownSession<'a> {
     frame_s: f64,
 }
 
-/// Reads the causes.
+/// Computes the causes.
 pub fn causes(source: &RecordSource<'_>) -> ScoreCauses {
     let (scenario, frames) = (source.scenario, &source.graded.frames);
     let paths = ReferencePaths::new(scenario);
@@ -84,7 +84,8 @@ fn task_causes(source: &RecordSource<'_>, flown: &FlownSession<'_>, task: usize,
     }
 }
 
-/// Horizontal and vertical distance from the path, m, of the frames in the window that are on no path but within 8 m of this one.
+/// Returns the horizontal and vertical distances from the path, m, for frames in the window that are on no path but within 8 m of
+/// this one.
 fn off_path(flown: &FlownSession<'_>, task: usize, window: OnPathWindow) -> Vec<(f64, f64)> {
     let frames = (window.first..=window.last).filter(|k| flown.on_path.task[*k].is_none());
     let offset = |k: usize| {

@@ -1,5 +1,5 @@
-//! What is kept of a session: everything that progress, cohorts and plans need, and nothing that is not in its folder. A record is made
-//! from the folder alone and can be made again.
+//! Session records: all data that progress, cohorts and plans need. A record is derived from the session folder alone and can be
+//! recreated from it at any time.
 
 mod causes;
 mod outcome;
@@ -15,34 +15,34 @@ use spandrel_monitor::folder::sha256_hex;
 use spandrel_monitor::score::completion::{Completion, TaskState};
 use spandrel_monitor::score::{SCORER_VERSION, Score};
 
-/// Format of a record; it grows when a record says more, so that older ones are made again.
+/// Format version of a record. It increases when fields are added, so that older records are recreated.
 pub const FORMAT: u32 = 2;
 
-/// One session.
+/// Record of one session.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SessionRecord {
-    /// Format of this record.
+    /// Format version of this record.
     pub format: u32,
-    /// Name of the session's folder: it holds time, pseudonym, scenario and a short unique id.
+    /// Name of the session folder, which contains time, pseudonym, scenario and a short unique id.
     pub id: String,
-    /// Over everything that this record was made from.
+    /// Hash over all inputs of this record.
     pub fingerprint: String,
-    /// Pseudonym.
+    /// Pseudonym of the trainee.
     pub trainee: String,
-    /// `practice` or `assessment`, where somebody chose.
+    /// `practice` or `assessment`, if chosen.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub purpose: Option<String>,
-    /// Wall time of simulation time zero, µs since the Unix epoch.
+    /// Wall-clock time of simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// Version of the program that recorded the session.
+    /// Version of Spandrel that recorded the session.
     pub spandrel_version: String,
-    /// Version of the scorer that made the scores.
+    /// Version of the scorer that computed the scores.
     pub scorer_version: u32,
-    /// Scenario.
+    /// Scenario name.
     pub scenario: String,
     /// SHA-256 of `scenario.toml` as flown, hexadecimal.
     pub scenario_sha256: String,
-    /// Vehicle.
+    /// Vehicle id.
     pub vehicle: String,
     /// SHA-256 of `vehicle.toml`, hexadecimal.
     pub vehicle_sha256: String,
@@ -50,191 +50,191 @@ pub struct SessionRecord {
     pub telemetry_sha256: String,
     /// Seed of defects and traffic.
     pub seed: u64,
-    /// The paper's scores.
+    /// Scores as defined in the paper.
     pub scores: Scores,
-    /// How much of the job was done; absent in a record of format 1.
+    /// Completion of the job; absent in records of format 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub completion: Option<Completion>,
-    /// Tasks in file order.
+    /// Tasks in scenario order.
     pub tasks: Vec<TaskRecord>,
-    /// Crashes outside all tasks' windows.
+    /// Crashes outside all task windows.
     pub crashes_outside: Crashes,
-    /// Defects, found or not.
+    /// All defects, found or missed.
     pub defects: Vec<DefectRecord>,
-    /// Snapshots taken.
+    /// Number of snapshots taken.
     pub snapshots: usize,
-    /// Snapshots that show a defect for the first time.
+    /// Number of snapshots that are the first to show a defect.
     pub hits: usize,
-    /// Why it ended: `landed`, `battery`, `time_limit`, `person`, `vehicle`, `crash`, `abort`, `restart`.
+    /// Reason for the end: `landed`, `battery`, `time_limit`, `person`, `vehicle`, `crash`, `abort`, `restart`.
     pub end_reason: String,
     /// Flight time, s.
     pub seconds: f64,
-    /// Battery empty or time over.
+    /// Whether the battery was empty or the time limit exceeded.
     pub battery_failed: bool,
     /// Battery at the last frame, %.
     pub battery_at_end_pct: f64,
-    /// Share of the frames that telemetry covers.
+    /// Fraction of frames covered by telemetry, 0 to 1.
     pub covered: f64,
-    /// The certification profile is passed.
+    /// Whether the certification profile is passed.
     pub certified: bool,
-    /// Requirements of the certification profile that failed, in words.
+    /// Unmet requirements of the certification profile, as text.
     #[serde(default)]
     pub unmet: Vec<String>,
-    /// Answers to the questionnaire, perhaps not all; absent when none was begun.
+    /// Questionnaire answers, possibly incomplete; `None` if the questionnaire was not started.
     pub answers: Option<Answers>,
 }
 
 /// Scores from 0 to 100 each.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Scores {
-    /// Absent for a job without tasks.
+    /// Conformity; absent for a job without tasks.
     pub conformity: Option<f64>,
-    /// Time.
+    /// Efficiency: flight time and return.
     pub efficiency: f64,
-    /// Crashes.
+    /// Safety: crashes.
     pub safety: f64,
-    /// Absent when no defect was placed.
+    /// Accuracy; absent if no defect was placed.
     pub accuracy: Option<f64>,
-    /// Sum of those that apply.
+    /// Sum of the scores that apply.
     pub overall: f64,
-    /// What the sum is out of.
+    /// Maximum of `overall`: 100 for each score that applies.
     pub overall_max: f64,
 }
 
-/// One task of a session, with what it suffered from.
+/// One task of a session, with the causes of its score.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TaskRecord {
-    /// Number.
+    /// Task number.
     pub id: u32,
-    /// Name.
+    /// Task name.
     pub name: String,
-    /// `slab_side`, `arch_bottom`, `interlayer`, `pier_circle`, `free`.
+    /// Task kind: `slab_side`, `arch_bottom`, `interlayer`, `pier_circle`, `free`.
     pub kind: String,
-    /// Its path was entered.
+    /// Whether its path was entered.
     pub attempted: bool,
-    /// Done, part or not attempted; absent in a record of format 1.
+    /// Done, partly done or not attempted; absent in records of format 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<TaskState>,
-    /// Share of its path that was flown, 0 to 1; absent in a record of format 1.
+    /// Fraction of its path that was flown, 0 to 1; absent in records of format 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub covered: Option<f64>,
-    /// From first to last on-path frame, s.
+    /// Time from the first to the last on-path frame, s.
     pub seconds: f64,
-    /// Share of that time on the path, 0 to 1.
+    /// Fraction of that time on the path, 0 to 1.
     pub on_path: f64,
-    /// The paper's weighted share of that time over the speed limit.
+    /// Speeding loss as defined in the paper.
     pub speeding: f64,
-    /// Over the limit, s.
+    /// Time above the speed limit, s.
     pub speeding_s: f64,
-    /// Fastest in that time, m/s.
+    /// Maximum speed in that time, m/s.
     pub fastest_m_s: f64,
-    /// Off the path but within 8 m of it, s.
+    /// Time off the path but within 8 m of it, s.
     pub off_path_s: f64,
-    /// Mean horizontal distance from the path while off it, m; absent when never off.
+    /// Mean horizontal distance from the path while off it, m; `None` if never off.
     pub off_sideways_m: Option<f64>,
-    /// Mean vertical distance from the path while off it, m; absent when never off.
+    /// Mean vertical distance from the path while off it, m; `None` if never off.
     pub off_height_m: Option<f64>,
     /// Crashes in its window.
     pub crashes: Crashes,
-    /// Defects that lie nearest to its path.
+    /// Number of defects nearest to its path.
     pub defects_placed: usize,
-    /// Of these, found.
+    /// Number of these defects that were found.
     pub defects_found: usize,
 }
 
-/// Crashes by what was hit.
+/// Number of crashes by what was hit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Crashes {
-    /// Bridges.
+    /// Crashes into bridges.
     pub bridge: usize,
-    /// The ground.
+    /// Crashes into the ground.
     pub terrain: usize,
-    /// The water.
+    /// Crashes into water.
     pub water: usize,
-    /// Anything else that is no traffic.
+    /// Crashes into anything else except traffic.
     pub other: usize,
-    /// Cars and trucks.
+    /// Crashes into cars and trucks.
     pub vehicle: usize,
-    /// Persons.
+    /// Crashes into people.
     pub person: usize,
 }
 
 /// One defect of a session.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DefectRecord {
-    /// Number.
+    /// Defect number.
     pub id: u32,
-    /// Code (AASHTO MBEI).
+    /// Defect code (AASHTO MBEI).
     pub kind: u32,
-    /// Plain name of the code.
+    /// Plain name of the defect code.
     pub kind_name: String,
-    /// Element (AASHTO MBEI).
+    /// Element number (AASHTO MBEI).
     pub element: u32,
-    /// Condition state.
+    /// Condition state, 1 to 4 (AASHTO MBEI).
     pub condition_state: u8,
-    /// Number of the task whose path is nearest; absent without tasks.
+    /// Number of the task with the nearest path; `None` without tasks.
     pub task: Option<u32>,
-    /// A snapshot shows it.
+    /// Whether a snapshot shows it.
     pub found: bool,
-    /// Of one that was not found: what its best picture lacked; empty when no picture was near it.
+    /// For a missed defect: conditions that its best picture failed; empty if no picture was near it.
     pub lacked: Vec<String>,
-    /// Of one that was not found: time for which one press would have been a hit, s. Only a session's report works it out.
+    /// For a missed defect: time during which a picture would have shown it, s. Computed only for a session's report.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub in_view_s: Option<f64>,
 }
 
-/// One line of a list of sessions.
+/// An entry in a list of sessions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SessionListEntry {
-    /// Session.
+    /// Session id.
     pub id: String,
-    /// Pseudonym.
+    /// Pseudonym of the trainee.
     pub trainee: String,
-    /// `practice` or `assessment`, where somebody chose.
+    /// `practice` or `assessment`, if chosen.
     pub purpose: Option<String>,
-    /// µs since the Unix epoch.
+    /// Start time, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// Job.
+    /// Scenario name.
     pub scenario: String,
     /// Sum of the scores.
     pub overall: f64,
-    /// What it is out of.
+    /// Maximum of `overall`.
     pub overall_max: f64,
-    /// Why it ended.
+    /// Reason for the end.
     pub end_reason: String,
-    /// How much of the job was done; absent in a record of format 1.
+    /// Completion of the job; absent in records of format 1.
     pub completion: Option<Completion>,
-    /// The certification profile is passed.
+    /// Whether the certification profile is passed.
     pub certified: bool,
-    /// Requirements of it that failed, in words.
+    /// Unmet requirements, as text.
     pub unmet: Vec<String>,
 }
 
 /// Whether incomplete sessions count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum IncompletePolicy {
-    /// They are left out.
+    /// Excludes incomplete sessions.
     #[default]
     LeaveOut,
-    /// They count as any other.
+    /// Includes incomplete sessions.
     Include,
 }
 
 impl IncompletePolicy {
-    /// From a switch.
+    /// Returns the policy for a switch that includes incomplete sessions.
     #[must_use]
     pub fn included(include: bool) -> Self {
         if include { Self::Include } else { Self::LeaveOut }
     }
 
-    /// Whether a session counts.
+    /// Returns whether a session counts under this policy.
     #[must_use]
     pub fn counts(self, record: &SessionRecord) -> bool {
         self == Self::Include || record.is_complete()
     }
 }
 
-/// How many incomplete sessions were left out, in words; `None` for none.
+/// Describes how many incomplete sessions were excluded; `None` if none.
 #[must_use]
 pub fn omitted_summary(count: usize) -> Option<String> {
     match count {
@@ -253,55 +253,56 @@ impl SessionOutcome for SessionListEntry {
     }
 }
 
-/// What a record is made from.
+/// Inputs of a record.
 #[derive(Debug, Clone, Copy)]
 pub struct RecordSource<'a> {
-    /// Name of the session's folder.
+    /// Name of the session folder.
     pub id: &'a str,
-    /// Pseudonym.
+    /// Pseudonym of the trainee.
     pub trainee: &'a str,
-    /// `practice` or `assessment`, where somebody chose.
+    /// `practice` or `assessment`, if chosen.
     pub purpose: Option<&'a str>,
-    /// Wall time of simulation time zero, µs since the Unix epoch.
+    /// Wall-clock time of simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// Version of the program that recorded it.
+    /// Version of Spandrel that recorded the session.
     pub spandrel_version: &'a str,
-    /// Job.
+    /// Scenario of the session.
     pub scenario: &'a Scenario,
-    /// Id of the aircraft.
+    /// Vehicle id.
     pub vehicle: &'a str,
-    /// Its hashes.
+    /// Hashes of the source files.
     pub hashes: &'a SourceHashes,
     /// Scores and frames.
     pub graded: &'a AssessedSession,
-    /// Defects of the session's seed.
+    /// Defects placed by the session's seed.
     pub placed: &'a [PlacedDefect],
-    /// Answers, if begun.
+    /// Questionnaire answers, if started.
     pub answers: Option<&'a Answers>,
 }
 
 /// SHA-256 of a session's source files, hexadecimal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SourceHashes {
-    /// `scenario.toml`.
+    /// Hash of `scenario.toml`.
     pub scenario: String,
-    /// `vehicle.toml`.
+    /// Hash of `vehicle.toml`.
     pub vehicle: String,
-    /// `telemetry.tlog`.
+    /// Hash of `telemetry.tlog`.
     pub telemetry: String,
-    /// `answers.json`; of nothing when there is none.
+    /// Hash of `answers.json`; of the empty string if there is none.
     pub answers: String,
 }
 
 impl SourceHashes {
-    /// Of the files' bytes.
+    /// Computes the hashes of the files' bytes.
     #[must_use]
     pub fn of(scenario: &[u8], vehicle: &[u8], telemetry: &[u8], answers: &[u8]) -> Self {
         let hex = sha256_hex;
         Self { scenario: hex(scenario), vehicle: hex(vehicle), telemetry: hex(telemetry), answers: hex(answers) }
     }
 
-    /// One hash over all, the scorer and the record's format: while it stays the same, so does the record.
+    /// Returns one hash over all files, the scorer version and the record format. As long as it is unchanged, the record is up to
+    /// date.
     #[must_use]
     pub fn fingerprint(&self) -> String {
         let Self { scenario, vehicle, telemetry, answers } = self;
@@ -309,7 +310,7 @@ impl SourceHashes {
     }
 }
 
-/// Makes the record of a session.
+/// Creates the record of a session.
 #[must_use]
 pub fn record(source: &RecordSource<'_>) -> SessionRecord {
     let assessment = &source.graded.assessment;
@@ -365,28 +366,28 @@ impl SessionOutcome for SessionRecord {
 }
 
 impl SessionRecord {
-    /// Numbers of the tasks.
+    /// Returns the task numbers.
     #[must_use]
     pub fn task_ids(&self) -> Vec<u32> {
         self.tasks.iter().map(|task| task.id).collect()
     }
 
-    /// All crashes.
+    /// Returns the sum of all crashes.
     #[must_use]
     pub fn crashes(&self) -> Crashes {
         self.tasks.iter().map(|task| task.crashes).fold(self.crashes_outside, Crashes::with_added)
     }
 
-    /// What the answers add up to.
+    /// Returns the scale scores of the answers.
     #[must_use]
     pub fn scales(&self) -> Option<ScaleScores> {
         self.answers.as_ref().map(|answers| scales(answers, &self.task_ids()))
     }
 
-    /// Refuses numbers that no session has.
+    /// Validates the numbers of a record read from storage.
     ///
     /// # Errors
-    /// The key, the value and what is allowed.
+    /// The key, the value and the allowed range.
     pub fn check(&self) -> Result<(), String> {
         let scores = &self.scores;
         let hundred = [
@@ -408,7 +409,7 @@ impl SessionRecord {
                 return Err(format!("{key} = {value} (allowed: 0 to {most})"));
             }
         }
-        // What an older format does not say is unknown, and such a session counts as incomplete.
+        // Data missing in an older format is unknown, and such a session counts as incomplete.
         if !(1..=FORMAT).contains(&self.format) {
             return Err(format!("format = {} (allowed: 1 to {FORMAT})", self.format));
         }
@@ -417,7 +418,7 @@ impl SessionRecord {
 }
 
 impl Crashes {
-    /// Counts one.
+    /// Adds one crash.
     fn add(&mut self, with: ContactKind) {
         match with {
             ContactKind::None => {}
@@ -430,7 +431,7 @@ impl Crashes {
         }
     }
 
-    /// Both together.
+    /// Returns the sum of both.
     #[must_use]
     pub fn with_added(self, more: Self) -> Self {
         Self {
@@ -443,7 +444,7 @@ impl Crashes {
         }
     }
 
-    /// Each kind with its word.
+    /// Returns each kind with its key.
     #[must_use]
     pub fn by_kind(&self) -> [(&'static str, usize); 6] {
         [
@@ -456,7 +457,7 @@ impl Crashes {
         ]
     }
 
-    /// All of them.
+    /// Returns the total number of crashes.
     #[must_use]
     pub fn total(&self) -> usize {
         self.by_kind().iter().map(|(_, count)| count).sum()

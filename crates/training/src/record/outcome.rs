@@ -1,13 +1,13 @@
-//! Completion and certification of a session, in words: the same for a whole record and for a line of a list.
+//! Text for completion and certification of a session, shared by full records and list entries.
 
 use spandrel_monitor::score::completion::{self, Completion};
 
-/// A session whose outcome is known.
+/// A session with a known outcome.
 pub trait SessionOutcome {
-    /// Share of the job that was done; `None` in a record of format 1.
+    /// Returns the completion of the job; `None` in records of format 1.
     fn completion(&self) -> Option<&Completion>;
 
-    /// Whether the certification profile is passed, and the requirements that failed.
+    /// Returns whether the certification profile is passed, and the unmet requirements.
     fn certification(&self) -> (bool, &[String]);
 
     /// Returns true if the job was done and the drone landed at home.
@@ -15,12 +15,12 @@ pub trait SessionOutcome {
         self.completion().is_some_and(|completion| completion.complete)
     }
 
-    /// How much of the job was done, in words.
+    /// Describes the completion.
     fn completion_summary(&self) -> String {
-        self.completion().map_or_else(|| "Completion unknown: import this session again".to_owned(), Completion::headline)
+        self.completion().map_or_else(|| "Completion unknown: re-import this session".to_owned(), Completion::headline)
     }
 
-    /// Certified, or the requirement that failed.
+    /// Returns the certification verdict: certified, or the first unmet requirement.
     fn verdict(&self) -> String {
         let (certified, unmet) = self.certification();
         completion::verdict(certified, unmet)

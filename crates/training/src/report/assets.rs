@@ -1,37 +1,37 @@
-//! What a page carries with it: our style and script, and two libraries from npm as their makers published them. The page's policy names
-//! every script and style by its hash and allows no request.
+//! Assets embedded in a page: our style sheet and scripts, and two npm libraries as published. The page's content security policy
+//! lists every script and style by hash and allows no requests.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use sha2::{Digest, Sha256};
 
-/// Style of our pages.
+/// Style sheet of our pages.
 pub const STYLE: &str = include_str!("assets/report.css");
-/// What the scripts of our pages share.
+/// Script shared by our pages.
 pub const COMMON: &str = include_str!("assets/common.js");
-/// Script of a session's page.
+/// Script of the session report.
 pub const SCRIPT: &str = include_str!("assets/report.js");
 /// Script of the page that compares two sessions.
 pub const COMPARE: &str = include_str!("assets/compare.js");
 /// uPlot 1.6.32 (MIT, assets/uPlot.LICENSE): `dist/uPlot.iife.min.js` of the npm package `uplot`.
 pub const UPLOT: &str = include_str!("assets/uPlot.iife.min.js");
-/// Its style, `dist/uPlot.min.css`.
+/// uPlot's style sheet, `dist/uPlot.min.css`.
 pub const UPLOT_STYLE: &str = include_str!("assets/uPlot.min.css");
 /// three.js r184 (MIT, assets/three.LICENSE): `build/three.core.min.js` of the npm package `three` 0.184.0.
 pub const THREE_CORE: &str = include_str!("assets/three.core.min.js");
-/// Its renderer, `build/three.module.min.js`; imports the core by [`THREE_CORE_NAME`].
+/// The three.js renderer, `build/three.module.min.js`; imports the core as [`THREE_CORE_NAME`].
 pub const THREE: &str = include_str!("assets/three.module.min.js");
-/// How the renderer names the core. The page's script puts the core's own address in its place.
+/// Module specifier of the core in the renderer. The page's script replaces it with the actual address.
 pub const THREE_CORE_NAME: &str = "./three.core.min.js";
 
-/// Base64 of some bytes.
+/// Encodes bytes as Base64.
 #[must_use]
 pub fn base64(bytes: &[u8]) -> String {
     STANDARD.encode(bytes)
 }
 
-/// Content security policy of a page with these scripts and styles: nothing but them, and pictures that the page holds itself. `blob:` lets
-/// the page's own script start the model's library, which lies in the page as text.
+/// Returns the content security policy of a page with these scripts and styles: only they and embedded images are allowed.
+/// `blob:` lets the page's script load the model library, which is embedded as text.
 #[must_use]
 pub fn policy(scripts: &[&str], styles: &[&str]) -> String {
     let hashes = |texts: &[&str]| {
@@ -45,7 +45,7 @@ pub fn policy(scripts: &[&str], styles: &[&str]) -> String {
     )
 }
 
-/// Policy of the pages that this version writes.
+/// Returns the policy of the pages that this version writes.
 #[must_use]
 pub fn page_policy() -> String {
     policy(&[UPLOT, COMMON, SCRIPT, COMPARE], &[STYLE, UPLOT_STYLE])
@@ -83,7 +83,7 @@ mod tests {
 
     #[test]
     fn exact_the_policy_names_what_runs_and_nothing_else() {
-        // SHA-256 of the empty text, base64.
+        // SHA-256 of the empty string, Base64.
         let empty = "'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='";
         let policy = policy(&[""], &[""]);
         assert!(policy.starts_with("default-src 'none'; "));

@@ -1,4 +1,4 @@
-//! The feedback that was given, found by letting the sidecar hear the log again, and what the trainee's hands did about it.
+//! Feedback given during the session, recovered by replaying the log through the monitor, and the trainee's stick responses.
 
 use super::ReviewContext;
 use super::track::TaskProximityStep;
@@ -11,13 +11,13 @@ use spandrel_monitor::sidecar::build_site;
 use spandrel_monitor::{Monitor, MonitorConfig, SessionOutput};
 use std::ops::ControlFlow;
 
-/// A stick that moves this far from where it was when the cue came is an answer, full travel = 1 (estimate: beyond any hand's tremor, below
-/// any correction).
+/// Minimum stick movement from its position at the cue that counts as a response, full travel = 1 (estimate: larger than hand
+/// tremor, smaller than any correction).
 const STICK_MOVE: f64 = 0.1;
-/// What comes later is no answer to the cue, s (estimate).
+/// Maximum response time; later movements are not a response to the cue, s (estimate).
 const ANSWER_WITHIN_S: f64 = 5.0;
 
-/// The cues in the order of their rows.
+/// The cues in display order.
 pub const KINDS: [CueKind; 6] = [
     CueKind { bit: cue::CRASH, name: "crash", wants_answer: true },
     CueKind { bit: cue::TOO_CLOSE, name: "too close", wants_answer: true },
@@ -27,44 +27,44 @@ pub const KINDS: [CueKind; 6] = [
     CueKind { bit: cue::BATTERY_RED, name: "battery red", wants_answer: false },
 ];
 
-/// One kind of cue.
+/// A kind of cue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CueKind {
-    /// Its bit.
+    /// Cue bit.
     pub bit: i32,
-    /// Its name.
+    /// Display name.
     pub name: &'static str,
-    /// The sticks can do something about it.
+    /// Whether a stick response is expected.
     pub wants_answer: bool,
 }
 
-/// One time that a cue was on.
+/// An interval in which a cue was on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CueEpisode {
     /// Index into [`KINDS`].
     pub kind: usize,
-    /// Since lift-off, s.
+    /// Start, s since lift-off.
     pub from_s: f64,
-    /// Until, s.
+    /// End, s since lift-off.
     pub to_s: f64,
-    /// Until a stick moved, s; `None` when none did in time.
+    /// Time until a stick moved, s; `None` if there was no response in time.
     pub answer_s: Option<f64>,
-    /// Index of the task then flown.
+    /// Index of the task being flown.
     pub task: Option<usize>,
 }
 
-/// What was said.
+/// Feedback given during a session.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CueText {
-    /// Cues, by the time at which they came on.
+    /// Cues by start time.
     pub episodes: Vec<CueEpisode>,
     /// Texts with their times, s since lift-off.
     pub texts: Vec<(f64, String)>,
-    /// What an instructor noted, with its time, s since lift-off; before it below zero. No trainee's screen showed it.
+    /// Instructor's notes with their times, s since lift-off; negative before it. They were not shown to the trainee.
     pub notes: Vec<(f64, String)>,
 }
 
-/// Collects the feedback among the sidecar's events.
+/// Collects the feedback from the monitor's events.
 #[must_use]
 pub fn cue_text(events: Vec<LoggedEvent>, scene: &ReviewContext<'_>, track: &[TaskProximityStep]) -> CueText {
     let (Some(first), Some(last)) = (scene.frames.first(), scene.frames.last()) else { return CueText::default() };
@@ -103,13 +103,13 @@ pub fn cue_text(events: Vec<LoggedEvent>, scene: &ReviewContext<'_>, track: &[Ta
     said
 }
 
-/// Simulation time, s, and a line of `events.jsonl`.
+/// Simulation time, s, and the content of a line of `events.jsonl`.
 pub type LoggedEvent = (f64, serde_json::Value);
 
-/// Plays a log to the monitor and returns its events.
+/// Replays a log through the monitor and returns its events.
 ///
 /// # Errors
-/// When the log cannot be read.
+/// If the log cannot be read.
 pub fn events(log: &(impl TelemetryLog + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> std::io::Result<Vec<LoggedEvent>> {
     let mut monitor = Monitor::new(MonitorConfig {
         scenario: scenario.clone(),
@@ -155,7 +155,7 @@ fn episode(kind: usize, (from_s, to_s): (f64, f64), scene: &ReviewContext<'_>, t
     }
 }
 
-/// The middle of some values; `None` of none.
+/// Returns the median; `None` for an empty list.
 #[must_use]
 pub fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);

@@ -1,4 +1,4 @@
-//! What became of each defect, and for one that no picture shows: how near the flight came to it.
+//! Outcome of each defect and, for missed ones, how close the flight came to showing them.
 
 use super::ReviewContext;
 use super::words;
@@ -11,35 +11,35 @@ use spandrel_model::vehicle::Camera;
 use spandrel_monitor::assessment::Assessment;
 use spandrel_monitor::measures::attention;
 
-/// How often the flight is asked.
+/// Sampling interval of the flight.
 const STEP: SimTime = SimTime::from_ms(500);
-/// Stand-off of the view that is drawn of a missed defect, m (estimate: from where a crack at the states' limit can be told).
+/// Stand-off of the view drawn of a missed defect, m (estimate: close enough to see a crack at the condition state limit).
 const SHOWN_FROM_M: f64 = 4.0;
 
-/// One defect.
+/// Outcome of one defect.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DefectOutcome {
     /// The defect.
     pub defect: PlacedDefect,
-    /// Number of the picture that showed it first.
+    /// Number of the first picture that shows it; `None` if it was missed.
     pub found_by: Option<u32>,
-    /// How near the flight came, when no picture shows it.
+    /// Best approach, if no picture shows it.
     pub chance: Option<BestApproach>,
 }
 
-/// How near the flight came to a picture of a defect.
+/// How close the flight came to a picture of a defect.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BestApproach {
-    /// Time for which one press would have been a hit, s.
+    /// Time during which a picture would have been a hit, s.
     pub in_view_s: f64,
-    /// The best moment, s since lift-off: the first that would have been a hit, else the one with the fewest conditions failing.
+    /// Best moment, s since lift-off: the first that would have been a hit, otherwise the one with the fewest failed conditions.
     pub best: Option<(f64, DefectView)>,
-    /// The drone's least distance and when, m and s.
+    /// Minimum distance of the drone, m, and its time, s.
     pub nearest: (f64, f64),
 }
 
 impl DefectOutcome {
-    /// What happened, in words.
+    /// Describes the outcome.
     #[must_use]
     pub fn words(&self) -> String {
         let Some(chance) = &self.chance else {
@@ -48,31 +48,31 @@ impl DefectOutcome {
         let (nearest_m, nearest_s) = chance.nearest;
         match &chance.best {
             Some((t_s, view)) if view.hit => format!(
-                "in plain view for {} s, first at {}; no picture was taken then",
+                "in plain view for {} s, first at {}, but no picture was taken",
                 words::number(chance.in_view_s, 1),
                 words::clock(*t_s)
             ),
             Some((t_s, view)) => format!("best seen at {}, but {}", words::clock(*t_s), view.reasons().join("; ")),
             None => format!(
-                "the camera never pointed at it; the drone came as near as {} m at {}",
+                "the camera never pointed at it; the drone came within {} m at {}",
                 words::number(nearest_m, 1),
                 words::clock(nearest_s)
             ),
         }
     }
 
-    /// Where a camera would show it well.
+    /// Returns a camera pose that would show the defect well.
     #[must_use]
     pub fn good_view(&self) -> CameraPose {
         let forward = self.defect.normal * -1.0;
         let up = Vec3::new(0.0, 0.0, 1.0);
-        // Straight up or down, any horizontal direction is to the right.
+        // When looking straight up or down, any horizontal direction can be "right".
         let right = if forward.up().abs() > 0.999 { Vec3::new(1.0, 0.0, 0.0) } else { forward.cross(up).unit() };
         CameraPose { position_m: self.defect.position_m + self.defect.normal * SHOWN_FROM_M, forward, right, lamp_on: true }
     }
 }
 
-/// All defects of a session.
+/// Determines the outcomes of all defects of a session.
 #[must_use]
 pub fn fates(scene: &ReviewContext<'_>, assessment: &Assessment) -> Vec<DefectOutcome> {
     let each = &assessment.snapshots.each;
@@ -89,7 +89,7 @@ fn chance(scene: &ReviewContext<'_>, defect: &PlacedDefect) -> BestApproach {
     let rate_hz = scene.scenario.scoring.frame_rate_hz;
     let stride = (STEP.s() * rate_hz).round().max(1.0) as usize;
     let mut chance = BestApproach { in_view_s: 0.0, best: None, nearest: (f64::INFINITY, 0.0) };
-    // The sun moves little in a flight: its light on the defect is asked for once.
+    // The sun moves little during a flight, so its light on the defect is computed once.
     let mut ambient_lux = None;
     for frame in scene.frames.iter().step_by(stride) {
         let t_s = scene.time_since_lift_off_s(frame.time);
@@ -118,12 +118,12 @@ fn chance(scene: &ReviewContext<'_>, defect: &PlacedDefect) -> BestApproach {
     chance
 }
 
-/// Conditions that do not hold; what is hidden is farther from a picture than what is badly seen.
+/// Returns the number of failed conditions. A hidden defect ranks worse than a poorly visible one.
 fn failing(view: &DefectView) -> usize {
     view.conditions().iter().filter(|holds| !**holds).count() + if view.unoccluded { 0 } else { 6 }
 }
 
-/// False only when the point is outside the image.
+/// Returns false if the point is certainly outside the image.
 fn could_be_visible(pose: &CameraPose, camera: &Camera, point_m: Vec3<Enu>) -> bool {
     let to = point_m - pose.position_m;
     let depth = to.dot(pose.forward);

@@ -1,8 +1,8 @@
-//! A finished session made into one page that opens offline: [`Review::of`] reads the telemetry again by the scorer's own code and works out
-//! what the page tells, [`page::session`] writes it. Pure: bytes and names in, text out.
+//! The report of a finished session, a single page that works offline. [`Review::of`] reads the telemetry with the scorer's code
+//! and computes the contents; [`page::session`] renders the page. Pure functions: bytes and names in, text out.
 //!
-//! Whatever a user wrote (names, titles) reaches the page through maud's escaping, the tables of [`table`] or the data block of
-//! [`page::series`], and through nothing else.
+//! User-provided text (names, titles) reaches the page only through maud's escaping, the tables of [`table`] or the data block of
+//! [`page::series`].
 
 pub mod assets;
 pub mod coverage;
@@ -33,16 +33,16 @@ use spandrel_monitor::measures::crash::{self, Crash};
 use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths};
 use spandrel_monitor::{AssessError, AssessedSession, ScoringJob, assess};
 
-/// What the folder says besides the flight itself.
+/// Session metadata from the session folder.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct SessionFacts {
-    /// Who flew.
+    /// Trainee name.
     pub trainee: String,
-    /// `practice` or `assessment`, where somebody chose.
+    /// `practice` or `assessment`, if chosen.
     pub purpose: Option<String>,
-    /// Wall time of simulation time zero, µs since the Unix epoch.
+    /// Wall-clock time of simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// The same for people, UTC.
+    /// The start time in UTC as text.
     pub started_utc: String,
     /// Name of the session folder.
     pub folder: String,
@@ -52,68 +52,68 @@ pub struct SessionFacts {
     pub vehicle_sha256: String,
     /// SHA-256 of the telemetry, hexadecimal.
     pub telemetry_sha256: String,
-    /// Pictures by their running number in the folder, small enough to be shown as they are.
+    /// Pictures by sequence number in the folder, small enough to embed.
     pub pictures: Vec<(u32, Jpeg)>,
 }
 
-/// A picture's file.
+/// A JPEG file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Jpeg {
-    /// JPEG.
+    /// File contents.
     pub bytes: Vec<u8>,
 }
 
-/// Everything that a report tells of one session, worked out once.
+/// All data of a session report.
 #[derive(Debug)]
 pub struct Review {
-    /// Who, when, which files.
+    /// Session metadata.
     pub about: SessionFacts,
-    /// The job.
+    /// Scenario of the session.
     pub scenario: Scenario,
-    /// The aircraft.
+    /// Vehicle that was flown.
     pub vehicle: Vehicle,
-    /// The site of this session's seed.
+    /// Site built from the session's seed.
     pub site: Site,
-    /// Seed.
+    /// Seed of the session.
     pub seed: u64,
-    /// The scores.
+    /// Assessment of the session.
     pub assessment: Assessment,
     /// Frames 1 to N.
     pub frames: Vec<Frame>,
-    /// Frame by frame, how the drone stood to the tasks.
+    /// Position relative to the tasks, frame by frame.
     pub track: Vec<track::TaskProximityStep>,
-    /// Windows and on-path frames.
+    /// Task windows and on-path frames.
     pub on_path: OnPath,
     /// Onsets of contact.
     pub crashes: Vec<Crash>,
-    /// What each task's window holds.
+    /// Measures of each task's window.
     pub tasks: Vec<track::TaskFacts>,
-    /// Feedback and what the trainee did.
+    /// Measures of each task's window.
     pub feedback: cues::CueText,
-    /// Pictures.
+    /// Feedback and the trainee's responses.
     pub pictures: Vec<pictures::ReviewedPicture>,
-    /// Defects.
+    /// Pictures with their verdicts.
     pub defects: Vec<defects::DefectOutcome>,
-    /// Surface seen, by element.
+    /// Surface coverage by element.
     pub coverage: coverage::SurfaceCoverage,
-    /// What to fly next, by this session alone and the shipped rules.
+    /// Recommended next steps, based on this session alone and the default rules.
     pub next: Vec<PlanStep>,
-    /// What the link did.
+    /// Link statistics.
     pub link: LinkCounts,
 }
 
 impl Review {
-    /// Reads a session's telemetry again.
+    /// Reads a session's telemetry and computes the review.
     ///
     /// # Errors
-    /// When the log cannot be read, is of another scenario or seed, or holds no session.
+    /// If the log cannot be read, belongs to a different scenario or seed, or contains no session.
     pub fn of(
         log: &(impl TelemetryLog + ?Sized),
         scenario: &Scenario,
         vehicle: &Vehicle,
         about: SessionFacts,
     ) -> Result<Self, AssessError> {
-        // Before the flight is in memory: the sidecar that hears the log holds a second one until it has ended.
+        // Runs before the flight is loaded, because the monitor keeps its own copy until it is done.
         let events = cues::events(log, scenario, vehicle)?;
         let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
         timeline.push_log(log)?;
@@ -154,7 +154,7 @@ impl Review {
         })
     }
 
-    /// Flight time of a frame, s since lift-off.
+    /// Returns the time of a frame, s since lift-off.
     #[must_use]
     pub fn t_s(&self, frame: usize) -> f64 {
         let first = self.frames.first().map_or(0.0, |frame| frame.time.s());
@@ -162,7 +162,7 @@ impl Review {
     }
 }
 
-/// What the shipped rules say of one session; nothing when they cannot be read, which a test excludes.
+/// Evaluates the default rules for one session; empty if the rules are invalid, which tests rule out.
 fn next(
     about: &SessionFacts,
     scenario: &Scenario,
@@ -197,23 +197,23 @@ fn next(
     rules.and_then(|rules| plan::plan(&[record], &rules, about.started_unix_us)).map_or_else(Vec::new, |plan| plan.steps)
 }
 
-/// What the parts of a review look at.
+/// Inputs shared by the parts of a review.
 #[derive(Debug, Clone, Copy)]
 pub struct ReviewContext<'a> {
-    /// The flight.
+    /// Telemetry of the flight.
     pub flight: &'a Flight,
-    /// Its frames.
+    /// Frames of the session.
     pub frames: &'a [Frame],
-    /// The job.
+    /// Scenario of the session.
     pub scenario: &'a Scenario,
-    /// The aircraft.
+    /// Vehicle that was flown.
     pub vehicle: &'a Vehicle,
-    /// The site.
+    /// Site of the session.
     pub site: &'a Site,
 }
 
 impl ReviewContext<'_> {
-    /// Seconds since lift-off of a simulation time.
+    /// Converts a simulation time to seconds since lift-off.
     #[must_use]
     pub fn time_since_lift_off_s(&self, time: spandrel_model::time::SimTime) -> f64 {
         self.frames.first().map_or(0.0, |first| (time - first.time).s())

@@ -1,52 +1,52 @@
-//! The site as drawn lines: parallel views of it, the silhouettes of its members in a view, and its triangles for the model that can be
-//! turned. All from the geometry that collides; what is too small to be seen is left out.
+//! Line drawings of the site: parallel projections, member silhouettes, and the triangle mesh of the 3D model. All are derived
+//! from the collision geometry; details too small to see are skipped.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::Bridge;
 use spandrel_model::scenario::bridges::Member;
 
-/// A parallel view: what is to the right of the sheet, and what is up on it.
+/// A parallel projection, defined by the sheet's right and up directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ParallelView {
-    /// Unit vector to the right.
+    /// Unit vector to the right on the sheet.
     pub right: Vec3<Enu>,
-    /// Unit vector up the sheet.
+    /// Unit vector up on the sheet.
     pub up: Vec3<Enu>,
 }
 
-/// The silhouette of one member.
+/// Silhouette of one member.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MemberOutline {
-    /// AASHTO MBEI number.
+    /// Element number (AASHTO MBEI).
     pub element: u32,
-    /// Corners on the sheet, counter-clockwise, m right and up.
+    /// Corners on the sheet, counterclockwise, m right and up.
     pub corners: Vec<(f64, f64)>,
-    /// How near it is to who looks, m.
+    /// Depth toward the viewer, m; larger is nearer.
     pub near_m: f64,
 }
 
 impl ParallelView {
-    /// From above, north up.
+    /// Returns the plan view, north up.
     #[must_use]
     pub fn plan() -> Self {
         Self { right: Vec3::new(1.0, 0.0, 0.0), up: Vec3::new(0.0, 1.0, 0.0) }
     }
 
-    /// A bridge from its right side: along the deck to the right, up is up.
+    /// Returns the side view of a bridge from its right, with the deck running to the right.
     #[must_use]
     pub fn side(bridge: &Bridge) -> Self {
         let (s, c) = math::sin_cos(bridge.heading_deg.to_radians());
         Self { right: Vec3::new(s, c, 0.0), up: Vec3::new(0.0, 0.0, 1.0) }
     }
 
-    /// From the south.
+    /// Returns the view from the south.
     #[must_use]
     pub fn from_south() -> Self {
         Self { right: Vec3::new(1.0, 0.0, 0.0), up: Vec3::new(0.0, 0.0, 1.0) }
     }
 
-    /// From above and aside: looking towards `azimuth_deg` (clockwise from north), down by `down_deg`.
+    /// Returns an oblique view toward `azimuth_deg` (clockwise from north), tilted down by `down_deg`.
     #[must_use]
     pub fn oblique(azimuth_deg: f64, down_deg: f64) -> Self {
         let (s, c) = math::sin_cos(azimuth_deg.to_radians());
@@ -54,20 +54,20 @@ impl ParallelView {
         Self { right: Vec3::new(c, -s, 0.0), up: Vec3::new(s * sd, c * sd, cd) }
     }
 
-    /// A point on the sheet, m right and up.
+    /// Projects a point to the sheet, m right and up.
     #[must_use]
     pub fn at(&self, point_m: Vec3<Enu>) -> (f64, f64) {
         (point_m.dot(self.right), point_m.dot(self.up))
     }
 
-    /// Towards who looks.
+    /// Returns the unit vector toward the viewer.
     #[must_use]
     pub fn towards(&self) -> Vec3<Enu> {
         self.right.cross(self.up)
     }
 }
 
-/// Convex hull, counter-clockwise, without points on its edges (Andrew's monotone chain).
+/// Returns the convex hull, counterclockwise, without collinear points (Andrew's monotone chain).
 #[must_use]
 pub fn hull(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut sorted = points.to_vec();
@@ -93,7 +93,7 @@ pub fn hull(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     lower
 }
 
-/// Silhouettes of the members, the farthest first; those smaller than `least_m` either way are left out.
+/// Returns the silhouettes of the members, farthest first. Those smaller than `least_m` in both directions are skipped.
 #[must_use]
 pub fn outlines<'a>(members: impl Iterator<Item = &'a Member>, view: &ParallelView, least_m: f64) -> Vec<MemberOutline> {
     let towards = view.towards();
@@ -107,7 +107,7 @@ pub fn outlines<'a>(members: impl Iterator<Item = &'a Member>, view: &ParallelVi
     found
 }
 
-/// The larger side of the box around some corners, m.
+/// Returns the larger side of the corners' bounding box, m.
 fn extent(corners: &[(f64, f64)]) -> f64 {
     let span = |f: fn(&(f64, f64)) -> f64| {
         let (low, high) = corners.iter().map(f).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
@@ -116,20 +116,20 @@ fn extent(corners: &[(f64, f64)]) -> f64 {
     span(|c| c.0).max(span(|c| c.1))
 }
 
-/// Triangles in whole centimetres about a corner of the site, for 16-bit numbers.
+/// A triangle mesh quantized to 16-bit integers relative to a corner of the site.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct QuantizedMesh {
-    /// What zero means, m east, north, up.
+    /// Origin, m east, north, up.
     pub origin_m: [f64; 3],
-    /// What one means, m.
+    /// Quantization step, m.
     pub step_m: f64,
-    /// Corners.
+    /// Vertices.
     pub corners: Vec<[u16; 3]>,
-    /// Triangles.
+    /// Triangles as vertex indices.
     pub triangles: Vec<[u16; 3]>,
 }
 
-/// The members as triangles; those that would not fit 65,536 corners are left out, the smallest first.
+/// Converts the members to triangles. If they exceed 65,536 vertices, the smallest are skipped.
 #[must_use]
 pub fn mesh(members: &[Member]) -> QuantizedMesh {
     let size = |member: &Member| {
@@ -176,7 +176,7 @@ mod tests {
         }
         assert!((ParallelView::plan().towards() - Vec3::new(0.0, 0.0, 1.0)).norm() < 1e-12, "seen from above");
         assert!((ParallelView::from_south().towards() - Vec3::new(0.0, -1.0, 0.0)).norm() < 1e-12);
-        // Looking north and down: who looks stands south and above.
+        // The view looks north and down, so the viewer is to the south and above.
         let towards = ParallelView::oblique(0.0, 30.0).towards();
         assert!((towards - Vec3::new(0.0, -math::cos(30f64.to_radians()), 0.5)).norm() < 1e-12, "{towards:?}");
     }

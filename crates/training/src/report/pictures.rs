@@ -1,4 +1,4 @@
-//! Each picture with its verdict, by the same geometry and light as the score.
+//! Pictures with their verdicts, from the same geometry and lighting as the score.
 
 use super::ReviewContext;
 use super::track::TaskProximityStep;
@@ -10,31 +10,31 @@ use spandrel_model::vehicle::Camera;
 use spandrel_monitor::assessment::Assessment;
 use spandrel_monitor::measures::attention;
 
-/// How far the middle of a picture is looked for, m.
+/// Search distance for the surface in the center of a picture, m.
 const TARGET_REACH_M: f64 = 120.0;
 
-/// What a picture was worth.
+/// Verdict on a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PictureVerdict {
     /// It is the first to show a defect.
     Hit,
-    /// It shows defects that earlier pictures have shown.
+    /// It shows only defects that earlier pictures show.
     Repeat,
-    /// A defect is there, but there is too little light.
+    /// A defect is in view, but there is too little light.
     TooDark,
-    /// A defect is there, but it covers too few pixels.
+    /// A defect is in view, but it covers too few pixels.
     TooFar,
-    /// A defect is there, but it is seen too much from the side.
+    /// A defect is in view, but at too oblique an angle.
     TooOblique,
-    /// No defect is there to be seen.
+    /// No defect is in view.
     False,
 }
 
 impl PictureVerdict {
-    /// All, in the order of the legend.
+    /// All verdicts, in legend order.
     pub const ALL: [Self; 6] = [Self::Hit, Self::Repeat, Self::TooDark, Self::TooFar, Self::TooOblique, Self::False];
 
-    /// In words.
+    /// Returns the display name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -47,7 +47,7 @@ impl PictureVerdict {
         }
     }
 
-    /// Name of its style.
+    /// Returns the CSS class.
     #[must_use]
     pub fn class(self) -> &'static str {
         match self {
@@ -59,57 +59,57 @@ impl PictureVerdict {
     }
 }
 
-/// What stands in the middle of a picture.
+/// Object in the center of a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PictureSubject {
-    /// Its name.
+    /// Name of the object.
     pub name: String,
     /// Distance, m.
     pub distance_m: f64,
-    /// Angle off its normal, rad.
+    /// Incidence angle from the surface normal, rad.
     pub incidence_rad: f64,
-    /// Size of a pixel on it, square on, m.
+    /// Ground sampling distance at normal incidence, m.
     pub gsd_m: f64,
-    /// Light on it, lamp included, lx.
+    /// Illuminance including the lamp, lx.
     pub lux: f64,
-    /// What the camera needs there, lx.
+    /// Illuminance that the camera needs at this distance, lx.
     pub needed_lux: f64,
-    /// Smear by the drone's speed across the line of sight at the shortest exposure that this light allows, px.
+    /// Motion blur from the drone's speed across the line of sight, at the shortest exposure possible in this light, px.
     pub blur_px: f64,
 }
 
-/// One picture.
+/// A picture and its evaluation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReviewedPicture {
-    /// Running number in this report, from 1.
+    /// Sequence number in this report, from 1.
     pub number: u32,
-    /// The camera's own number.
+    /// Image index reported by the camera.
     pub index: i32,
-    /// Frame of the press, from 1.
+    /// Frame in which the picture was taken, from 1.
     pub frame: u32,
-    /// Since lift-off, s.
+    /// Time since lift-off, s.
     pub t_s: f64,
     /// Simulation time.
     pub time: SimTime,
-    /// Where the camera was.
+    /// Camera pose.
     pub pose: CameraPose,
-    /// The camera as it was zoomed.
+    /// Camera at its zoom setting.
     pub camera: Camera,
-    /// Worth.
+    /// Verdict.
     pub verdict: PictureVerdict,
-    /// Why, in words.
+    /// Explanation of the verdict.
     pub reason: String,
     /// Defects that it is the first to show.
     pub found: Vec<u32>,
-    /// Defects in the middle of the image, shown or not.
+    /// Defects in the central part of the image, shown or not.
     pub views: Vec<DefectView>,
-    /// What stands in its middle; `None` for sky.
+    /// Object in the center; `None` for sky.
     pub target: Option<PictureSubject>,
-    /// Index of the task then flown.
+    /// Index of the task being flown.
     pub task: Option<usize>,
 }
 
-/// All pictures of a session.
+/// Evaluates all pictures of a session.
 #[must_use]
 pub fn judged(scene: &ReviewContext<'_>, assessment: &Assessment, track: &[TaskProximityStep]) -> Vec<ReviewedPicture> {
     let each = assessment.snapshots.each.iter().enumerate();
@@ -142,7 +142,7 @@ pub fn judged(scene: &ReviewContext<'_>, assessment: &Assessment, track: &[TaskP
     .collect()
 }
 
-/// What a picture is worth, from what it is the first to show and what it has in its middle.
+/// Returns the verdict on a picture and its explanation, from the defects that it is the first to show and those in view.
 #[must_use]
 pub fn verdict(found: &[u32], views: &[DefectView]) -> (PictureVerdict, String) {
     let list = |ids: &[u32]| ids.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
@@ -151,13 +151,13 @@ pub fn verdict(found: &[u32], views: &[DefectView]) -> (PictureVerdict, String) 
     }
     let again: Vec<u32> = views.iter().filter(|view| view.hit).map(|view| view.defect_id).collect();
     if !again.is_empty() {
-        return (PictureVerdict::Repeat, format!("defect {} had been photographed before", list(&again)));
+        return (PictureVerdict::Repeat, format!("defect {} was already photographed", list(&again)));
     }
     let failing = |view: &&DefectView| view.conditions().iter().filter(|holds| !**holds).count();
     let nearest = views.iter().filter(|view| view.unoccluded).min_by_key(failing);
     let Some(view) = nearest else {
-        let behind = views.first().map(|view| format!(" (defect {} is there, behind something)", view.defect_id));
-        return (PictureVerdict::False, format!("no defect to be seen{}", behind.unwrap_or_default()));
+        let behind = views.first().map(|view| format!(" (defect {} is occluded)", view.defect_id));
+        return (PictureVerdict::False, format!("no defect visible{}", behind.unwrap_or_default()));
     };
     let [_, _, square, large, wide, lit] = view.conditions();
     let verdict = if !square {
@@ -199,7 +199,8 @@ fn member(scene: &ReviewContext<'_>, object: ObjectId) -> String {
     scene.site.members().get(object.0 as usize).map_or_else(|| scene.site.object_name(object), |member| member.name.clone())
 }
 
-/// Shortest exposure that a light of `lux` allows at the camera's highest sensitivity, s; never beyond its longest.
+/// Returns the shortest exposure for an illuminance of `lux` at the camera's maximum sensitivity, s; at most its maximum
+/// exposure.
 #[must_use]
 pub fn exposure_s(camera: &Camera, lux: f64) -> f64 {
     (needed_lux(camera) * camera.exposure_max_s / lux.max(f64::MIN_POSITIVE)).min(camera.exposure_max_s)
@@ -236,14 +237,14 @@ mod tests {
             (DefectView { extent_px: 3.0, ..view() }, PictureVerdict::TooFar, "too small"),
             (DefectView { line: true, width_px: 0.2, ..view() }, PictureVerdict::TooFar, "line too thin"),
             (DefectView { incidence_rad: 1.2, ..view() }, PictureVerdict::TooOblique, "69 deg"),
-            (DefectView { unoccluded: false, ..view() }, PictureVerdict::False, "behind something"),
+            (DefectView { unoccluded: false, ..view() }, PictureVerdict::False, "is occluded"),
         ];
         for (case, expected, word) in cases {
             let (got, reason) = verdict(&[], &[case]);
             assert_eq!(got, expected, "{reason}");
             assert!(reason.contains(word), "{reason}");
         }
-        assert_eq!(verdict(&[], &[]), (PictureVerdict::False, "no defect to be seen".into()));
+        assert_eq!(verdict(&[], &[]), (PictureVerdict::False, "no defect visible".into()));
     }
 
     #[test]

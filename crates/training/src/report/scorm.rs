@@ -1,4 +1,5 @@
-//! A session's result as a SCORM 1.2 package for a learning-management system: a page that tells the system score, status and time by its
+//! Exports a session as a SCORM 1.2 package for a learning management system (LMS): a page that reports score, status and time to
+//! the LMS and shows the report.
 //! script interface, and shows the report.
 
 use super::Review;
@@ -8,10 +9,10 @@ use serde_json::{Value, json};
 use spandrel_monitor::Assessment;
 use spandrel_monitor::score::completion::verdict;
 
-/// Script that talks to the system; reads what to say from the page.
+/// Script that communicates with the LMS; reads the result from the page.
 const SCRIPT: &str = include_str!("assets/scorm.js");
 
-/// Names and contents of the package's files, the report's page given.
+/// Returns names and contents of the package's files; `report` is the HTML report.
 #[must_use]
 pub fn files(review: &Review, report: &str) -> Vec<(&'static str, String)> {
     vec![
@@ -24,7 +25,7 @@ pub fn files(review: &Review, report: &str) -> Vec<(&'static str, String)> {
 
 fn manifest(review: &Review) -> String {
     let title = title(review);
-    // maud escapes as XML does.
+    // maud's escaping is also valid for XML.
     let body = html! {
         manifest identifier={ "spandrel-" (review.about.telemetry_sha256.get(..16).unwrap_or_default()) } version="1.0"
             xmlns="http://www.imsproject.org/xsd/imscp_rootv1p1p2" xmlns:adlcp="http://www.adlnet.org/xsd/adlcp_rootv1p2" {
@@ -49,7 +50,7 @@ fn title(review: &Review) -> String {
     format!("{}, {}", review.scenario.title, review.about.started_utc)
 }
 
-/// What the system gets, and the same in words. An incomplete session has no score: a sum over a part of the job would look like one.
+/// Returns the result for the LMS, and as text. An incomplete session has no score, because a partial sum would be misleading.
 fn result(assessment: &Assessment) -> (Value, String) {
     let (scores, certification) = (&assessment.scores, &assessment.certification);
     let time = span(assessment.end.seconds);
@@ -89,7 +90,7 @@ fn index(review: &Review) -> String {
     page.into_string()
 }
 
-/// HHHH:MM:SS.SS, as the standard's CMITimespan.
+/// Formats a duration as HHHH:MM:SS.SS, the standard's CMITimespan.
 fn span(seconds: f64) -> String {
     let hundredths = (seconds.max(0.0) * 100.0).round() as u64;
     let (s, rest) = (hundredths / 100, hundredths % 100);

@@ -1,5 +1,5 @@
-//! A picture of what a camera had before it, drawn from the geometry that collides: flat shades, edges, haze, the lamp's light, and
-//! darkness where there is too little. It is a drawing and says so; a photograph it is not.
+//! Draws a camera's view from the collision geometry: flat shading, edges, haze, lamp light, and darkness where there is too
+//! little light. The result is labeled as a drawing, not a photograph.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
@@ -9,15 +9,15 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Camera;
 use std::collections::BTreeMap;
 
-/// Width of a drawing, px; its height follows the camera's.
+/// Width of a drawing, px; the height follows the camera's aspect ratio.
 pub const WIDTH_PX: usize = 400;
-/// Nearest depth that is drawn, m.
+/// Near plane distance, m.
 const NEAR_M: f64 = 0.05;
-/// Members farther than this are left out, m.
+/// Maximum distance of drawn members, m.
 const REACH_M: f64 = 400.0;
-/// Side of the squares that ground and water are drawn by, m.
+/// Side length of ground and water squares, m.
 const GROUND_STEP_M: f64 = 12.0;
-/// Distance at which haze hides two thirds, m (for the look alone).
+/// Distance at which haze hides two thirds, m (for appearance only).
 const HAZE_M: f64 = 700.0;
 const SKY: [f64; 3] = [0.80, 0.87, 0.93];
 
@@ -26,12 +26,12 @@ struct Facet {
     shade: ShadeIndex,
 }
 
-/// A colour by its number: faces of one shade have one.
+/// Index of a color in the palette; faces of the same shade share one.
 type ShadeIndex = u32;
-/// The sky's.
+/// Index of the sky color.
 const BLUE: ShadeIndex = 0;
 
-/// All colours of a site. A drawing writes numbers: they are a sixth as long.
+/// Colors of a site. A drawing stores indices, which take a sixth of the space.
 struct Palette {
     colours: Vec<[f64; 3]>,
     numbers: BTreeMap<[u64; 3], ShadeIndex>,
@@ -57,23 +57,23 @@ struct SketchBody {
     facets: Vec<Facet>,
 }
 
-/// The site, shaded and ready to be drawn from anywhere.
+/// The shaded site, ready to draw from any camera.
 pub struct Sketcher {
     bodies: Vec<SketchBody>,
     colours: Vec<[f64; 3]>,
 }
 
-/// Light for one drawing.
+/// Lighting of one drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SketchExposure {
-    /// Light in the middle as a share of what the camera needs there.
+    /// Light at the center as a fraction of what the camera needs there.
     pub light: f64,
-    /// The lamp gives most of it.
+    /// Whether most of the light comes from the lamp.
     pub by_lamp: bool,
 }
 
 impl Sketcher {
-    /// Shades a site by the sun of its job.
+    /// Shades a site by the job's sun.
     #[must_use]
     pub fn new(site: &Site, scenario: &Scenario, at: SimTime) -> Self {
         let sun = sun::direction(scenario.light.start_unix_s as f64 + at.s(), scenario.origin);
@@ -83,10 +83,10 @@ impl Sketcher {
         Self { bodies, colours: palette.colours }
     }
 
-    /// Draws a PNG file.
+    /// Draws a view as a PNG file.
     ///
     /// # Errors
-    /// When it cannot be encoded.
+    /// If it cannot be encoded.
     pub fn png(&self, pose: &CameraPose, camera: &Camera, exposure: SketchExposure) -> Result<Vec<u8>, png::EncodingError> {
         let height = (WIDTH_PX * camera.height_px as usize / (camera.width_px as usize).max(1)).clamp(1, 4 * WIDTH_PX);
         let mut sheet = SketchSheet::new(height, camera.focal_px() * WIDTH_PX as f64 / f64::from(camera.width_px));
@@ -120,12 +120,12 @@ fn structure(member: &spandrel_model::scenario::bridges::Member, sun: Vec3<Enu>,
 
 fn facet(corners: [Vec3<Enu>; 3], base: [f64; 3], sun: Vec3<Enu>, palette: &mut Palette) -> Facet {
     let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).unit();
-    // Sky from above, a little from the side so that faces differ, the sun where it shines.
+    // Skylight from above with a slight directional term so that faces differ, plus direct sun.
     let light = 0.50 + 0.16 * normal.up() + 0.06 * normal.east() + 0.10 * normal.north().abs() + 0.25 * normal.dot(sun).max(0.0);
     Facet { corners, shade: palette.number(base.map(|c| c * light)) }
 }
 
-/// Ground and water in squares.
+/// Shades ground and water in squares.
 fn ground(site: &Site, scenario: &Scenario, sun: Vec3<Enu>, palette: &mut Palette) -> Vec<SketchBody> {
     let half = 0.5 * scenario.terrain.size_m;
     let water_m = scenario.terrain.water_level_m;
@@ -166,13 +166,13 @@ struct SketchLens<'a> {
 }
 
 impl SketchLens<'_> {
-    /// Right, down, ahead.
+    /// Transforms a point to camera axes: right, down, forward.
     fn project(&self, point_m: Vec3<Enu>) -> [f64; 3] {
         let to = point_m - self.pose.position_m;
         [to.dot(self.pose.right), to.dot(self.down), to.dot(self.pose.forward)]
     }
 
-    /// False only when all of a body is behind the lens, too far or beside the image.
+    /// Returns false if the body is certainly behind the lens, too far away or outside the image.
     fn may_show(&self, body: &SketchBody) -> bool {
         let [x, y, depth] = self.project(body.centre_m);
         let r = body.radius_m;
@@ -184,7 +184,7 @@ impl SketchLens<'_> {
 struct SketchSheet {
     height: usize,
     focal_px: f64,
-    /// 1/depth, 0 for the sky.
+    /// Inverse depth, 0 for the sky.
     near: Vec<f64>,
     shade: Vec<ShadeIndex>,
 }
@@ -202,19 +202,19 @@ impl SketchSheet {
         }
     }
 
-    /// Fills a triangle whose corners lie before the lens and run counter-clockwise as seen; the backs of faces are not drawn.
+    /// Fills a triangle in front of the lens whose corners appear counterclockwise; back faces are not drawn.
     fn fill(&mut self, corners: [[f64; 3]; 3], shade: ShadeIndex) {
         let (w, h) = (WIDTH_PX as f64, self.height as f64);
         let p = corners.map(|[x, y, z]| (0.5 * w + self.focal_px * x / z, 0.5 * h + self.focal_px * y / z, 1.0 / z));
         let area = (p[1].0 - p[0].0) * (p[2].1 - p[0].1) - (p[1].1 - p[0].1) * (p[2].0 - p[0].0);
-        // Counter-clockwise, with rows that run downwards, is negative.
+        // With rows running downward, counterclockwise area is negative.
         if area > -1e-9 || !area.is_finite() {
             return;
         }
         let (low, high) = p.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), q| (l.min(q.1), h.max(q.1)));
         for y in low.floor().clamp(0.0, h) as usize..high.ceil().clamp(0.0, h) as usize {
             let cy = y as f64 + 0.5;
-            // Each corner's share in the middle of the row's first pixel, and its change from pixel to pixel.
+            // Barycentric coordinates at the center of the row's first pixel, and their change per pixel.
             let share = |k: usize| {
                 let (b, c) = (p[(k + 1) % 3], p[(k + 2) % 3]);
                 let at = ((b.0 - 0.5) * (c.1 - cy) - (b.1 - cy) * (c.0 - 0.5)) / area;
@@ -235,7 +235,7 @@ impl SketchSheet {
         }
     }
 
-    /// Edges, haze and light, to 8 bits.
+    /// Applies edges, haze and light, and converts to 8 bits.
     fn shaded(&self, colours: &[[f64; 3]], exposure: SketchExposure) -> Vec<u8> {
         let dim = exposure.light.clamp(0.0, 1.0).sqrt().max(0.06);
         let mut rgb = Vec::with_capacity(3 * self.near.len());
@@ -257,7 +257,7 @@ impl SketchSheet {
         rgb
     }
 
-    /// Another face or depth begins to the right or below.
+    /// Returns whether another face or depth begins to the right or below.
     fn is_edge(&self, x: usize, y: usize) -> bool {
         let at = y * WIDTH_PX + x;
         let differs = |other: usize| {
@@ -267,7 +267,7 @@ impl SketchSheet {
         (x + 1 < WIDTH_PX && differs(at + 1)) || (y + 1 < self.height && differs(at + WIDTH_PX))
     }
 
-    /// The lamp's light falls off towards the sides.
+    /// Returns the lamp's falloff toward the sides.
     fn beam(&self, x: usize, y: usize) -> f64 {
         let (dx, dy) = (x as f64 - 0.5 * WIDTH_PX as f64, y as f64 - 0.5 * self.height as f64);
         let away = math::hypot(dx, dy) / (0.5 * WIDTH_PX as f64);
@@ -275,7 +275,7 @@ impl SketchSheet {
     }
 }
 
-/// The pixels of a row in which no share is negative.
+/// Returns the pixels of a row in which no barycentric coordinate is negative.
 fn span(shares: &[(f64, f64); 3]) -> Option<(usize, usize)> {
     let (mut from, mut to) = (0.0, WIDTH_PX as f64);
     for (at, step) in shares {
@@ -290,7 +290,7 @@ fn span(shares: &[(f64, f64); 3]) -> Option<(usize, usize)> {
     (from < to).then_some((from as usize, to as usize))
 }
 
-/// A triangle cut off at the near plane.
+/// Clips a triangle at the near plane.
 fn clip(corners: &[[f64; 3]; 3]) -> Vec<[f64; 3]> {
     let mut kept = Vec::with_capacity(4);
     for k in 0..3 {
@@ -312,7 +312,7 @@ fn encode(rgb: &[u8], width: usize, height: usize) -> Result<Vec<u8>, png::Encod
     let mut encoder = png::Encoder::new(&mut file, side(width), side(height));
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
-    // Flat shades pack best, and fastest, as they are.
+    // Flat shades compress best and fastest unfiltered.
     encoder.set_filter(png::Filter::NoFilter);
     encoder.write_header()?.write_image_data(rgb)?;
     Ok(file)
@@ -350,7 +350,7 @@ mod tests {
 
     #[test]
     fn exact_a_face_covers_its_pixels_and_its_back_none() {
-        // Corners at pixels (10, 10), (10, 30), (30, 10), counter-clockwise as seen; focal length 100 px, a metre away.
+        // Corners at pixels (10, 10), (10, 30), (30, 10), counterclockwise in the image; focal length 100 px, 1 m away.
         let corner = |x: f64, y: f64| [(x - 200.0) / 100.0, (y - 150.0) / 100.0, 1.0];
         let face = [corner(10.0, 10.0), corner(10.0, 30.0), corner(30.0, 10.0)];
         let filled = |corners: [[f64; 3]; 3]| {
@@ -358,7 +358,7 @@ mod tests {
             sheet.fill(corners, 1);
             sheet.shade.iter().filter(|shade| **shade == 1).count()
         };
-        // Pixel middles with x + y < 40 from a corner at 10: 19 + 18 + ... + 1, and the 20 on the edge.
+        // Pixel centers with x + y < 40 from a corner at 10: 19 + 18 + ... + 1, plus the 20 on the edge.
         assert!((190..=210).contains(&filled(face)), "{}", filled(face));
         assert_eq!(filled([face[0], face[2], face[1]]), 0);
     }

@@ -1,18 +1,18 @@
-//! Numbers behind a figure: one table, shown rounded, downloaded whole.
+//! Data tables behind figures: rounded for display, full precision for download.
 
 use super::words;
 use maud::{Markup, html};
 
-/// One cell.
+/// A table cell.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TableCell {
-    /// Words.
+    /// Text.
     Text(String),
-    /// A number and the digits after its point that are shown.
+    /// A number and its displayed decimal places.
     Number(f64, usize),
     /// Flight time, s.
     Clock(f64),
-    /// Nothing to tell.
+    /// Empty cell.
     Empty,
 }
 
@@ -54,7 +54,7 @@ impl TableCell {
         matches!(self, Self::Number(..) | Self::Clock(_))
     }
 
-    /// As a field of a CSV file. Words that a spreadsheet would take for a formula get an apostrophe before them.
+    /// Returns the cell as a CSV field. Text that a spreadsheet would interpret as a formula gets a leading apostrophe.
     fn field(&self) -> String {
         match self {
             Self::Number(value, _) | Self::Clock(value) if value.is_finite() => value.to_string(),
@@ -68,21 +68,21 @@ impl TableCell {
     }
 }
 
-/// A table.
+/// A data table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// File name without its ending.
+    /// File name without extension.
     pub name: &'static str,
-    /// What it tells.
+    /// Caption.
     pub caption: &'static str,
-    /// Heads, as shown.
+    /// Column headings, as displayed.
     pub columns: Vec<&'static str>,
     /// Rows, each as long as `columns`.
     pub rows: Vec<Vec<TableCell>>,
 }
 
 impl Table {
-    /// Folded away below its figure.
+    /// Renders the table collapsed below its figure.
     #[must_use]
     pub fn folded(&self) -> Markup {
         html! {
@@ -93,7 +93,7 @@ impl Table {
         }
     }
 
-    /// In full, with its download.
+    /// Renders the full table with its download link.
     #[must_use]
     pub fn shown(&self) -> Markup {
         html! {
@@ -117,7 +117,7 @@ impl Table {
         }
     }
 
-    /// The file: full precision, one head line.
+    /// Returns the table as CSV: full precision, one header line.
     #[must_use]
     pub fn csv(&self) -> String {
         let mut csv = self.columns.iter().map(|column| TableCell::from(*column).field()).collect::<Vec<_>>().join(",");
@@ -130,7 +130,7 @@ impl Table {
     }
 }
 
-/// A link that holds the file that it downloads.
+/// Renders a download link that embeds the file.
 #[must_use]
 pub fn download(name: &str, csv: &str, words: &str) -> Markup {
     let mut link = String::from("data:text/csv;charset=utf-8,");

@@ -1,45 +1,45 @@
-//! Frame by frame: how far from the path of the task being flown, and what that adds up to in each task's window.
+//! Position relative to the tasks for each frame, and totals for each task's window.
 
 use super::ReviewContext;
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths};
 use spandrel_monitor::measures::on_speed;
 
-/// How the drone stood to the tasks at one frame.
+/// Position of the drone relative to the tasks in one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TaskProximityStep {
-    /// The task that the distance is to: the one entered last, before that the nearest. An index.
+    /// Index of the task that the distance refers to: the last one entered, before that the nearest.
     pub task: Option<usize>,
     /// Distance to its path, m.
     pub distance_m: Option<f64>,
-    /// On some task's path.
+    /// Whether the drone is on some task's path.
     pub on: bool,
-    /// Inside some task's window.
+    /// Whether the frame is inside some task's window.
     pub inside: bool,
-    /// Over the limit inside a window.
+    /// Whether the speed exceeds the limit inside a window.
     pub speeding: bool,
 }
 
-/// One task's window in numbers.
+/// Measures of one task's window.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TaskFacts {
-    /// From first to last on-path frame, s.
+    /// Time from the first to the last on-path frame, s.
     pub time_s: f64,
-    /// Off the path meanwhile, s.
+    /// Time off the path in the window, s.
     pub off_path_s: f64,
-    /// Over the limit meanwhile, s.
+    /// Time above the speed limit in the window, s.
     pub speeding_s: f64,
     /// Mean distance to the path, m.
     pub mean_distance_m: f64,
-    /// Greatest distance to the path, m.
+    /// Maximum distance to the path, m.
     pub max_distance_m: f64,
-    /// Greatest speed, m/s.
+    /// Maximum speed, m/s.
     pub max_speed_m_s: f64,
-    /// Smallest clearance, m.
+    /// Minimum clearance, m.
     pub least_clearance_m: f64,
 }
 
-/// All frames.
+/// Computes the position relative to the tasks for all frames.
 #[must_use]
 pub fn steps(paths: &ReferencePaths, on_path: &OnPath, scene: &ReviewContext<'_>) -> Vec<TaskProximityStep> {
     let speeds: Vec<f64> = scene.frames.iter().map(Frame::speed_m_s).collect();
@@ -65,7 +65,7 @@ pub fn steps(paths: &ReferencePaths, on_path: &OnPath, scene: &ReviewContext<'_>
     scene.frames.iter().enumerate().map(step).collect()
 }
 
-/// All tasks.
+/// Computes the measures of all tasks.
 #[must_use]
 pub fn tasks(scene: &ReviewContext<'_>, on_path: &OnPath, steps: &[TaskProximityStep]) -> Vec<TaskFacts> {
     let paths = ReferencePaths::new(scene.scenario);

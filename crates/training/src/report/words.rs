@@ -1,21 +1,21 @@
-//! Names and numbers as people read them. Nothing is rounded before it comes here.
+//! Display names and number formats. Values are not rounded before they get here.
 
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::modes::ControlSource;
 use spandrel_monitor::session::EndReason;
 
-/// A number with so many digits after the point; a dash for what is not known.
+/// Formats a number with `digits` decimal places; a dash if it is not finite.
 #[must_use]
 pub fn number(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return "–".into();
     }
     let text = format!("{value:.digits$}");
-    // A rounded zero has no sign.
+    // A value that rounds to zero has no sign.
     if text.starts_with('-') && text.bytes().all(|byte| matches!(byte, b'-' | b'0' | b'.')) { text[1..].to_owned() } else { text }
 }
 
-/// Flight time as minutes and seconds.
+/// Formats a flight time as minutes and seconds.
 #[must_use]
 pub fn clock(t_s: f64) -> String {
     if !t_s.is_finite() {
@@ -25,7 +25,7 @@ pub fn clock(t_s: f64) -> String {
     format!("{}:{:02}", whole / 60, whole % 60)
 }
 
-/// Minutes and seconds in words.
+/// Formats minutes and seconds as text.
 #[must_use]
 pub fn duration(t_s: f64) -> String {
     let whole = t_s.max(0.0).round() as u64;
@@ -36,7 +36,7 @@ pub fn duration(t_s: f64) -> String {
     }
 }
 
-/// How a session ended.
+/// Returns the display name of an end reason.
 #[must_use]
 pub fn end_reason_label(reason: EndReason) -> &'static str {
     match reason {
@@ -51,7 +51,7 @@ pub fn end_reason_label(reason: EndReason) -> &'static str {
     }
 }
 
-/// What was hit.
+/// Returns the display name of a contact kind.
 #[must_use]
 pub fn contact_label(with: ContactKind) -> &'static str {
     match with {
@@ -65,7 +65,7 @@ pub fn contact_label(with: ContactKind) -> &'static str {
     }
 }
 
-/// Who flew.
+/// Returns the display name of a control source.
 #[must_use]
 pub fn control_source_label(by: Option<ControlSource>) -> &'static str {
     match by {
@@ -73,11 +73,11 @@ pub fn control_source_label(by: Option<ControlSource>) -> &'static str {
         Some(ControlSource::Mission) => "mission",
         Some(ControlSource::Script) => "script",
         Some(ControlSource::Autopilot) => "autopilot",
-        None => "not known",
+        None => "unknown",
     }
 }
 
-/// Name of a bridge element (AASHTO Manual for Bridge Element Inspection), by its number.
+/// Returns the name of a bridge element (AASHTO Manual for Bridge Element Inspection) by number.
 #[must_use]
 pub fn element(number: u32) -> &'static str {
     match number {

@@ -1,24 +1,24 @@
-//! Do two measures of the same people go together?
+//! Correlation of two measures of the same trainees.
 
 use super::distribution::tails_of_t;
 use super::{StatisticsError, mean};
 use serde::Serialize;
 
-/// A correlation and its two-tailed p value (by t with n - 2 degrees of freedom).
+/// A correlation and its two-tailed p value (t distribution with n - 2 degrees of freedom).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Correlation {
-    /// Pairs.
+    /// Number of pairs.
     pub n: usize,
-    /// From -1 to 1.
+    /// Correlation coefficient, -1 to 1.
     pub r: f64,
-    /// Two-tailed; absent below three pairs.
+    /// Two-tailed p value; `None` below three pairs.
     pub p: Option<f64>,
 }
 
-/// Pearson's correlation.
+/// Computes Pearson's correlation.
 ///
 /// # Errors
-/// When there are fewer than two pairs, a list does not vary, or holds what is no number.
+/// If there are fewer than two pairs, a list does not vary, or a value is not finite.
 pub fn pearson(x: &[f64], y: &[f64]) -> Result<Correlation, StatisticsError> {
     StatisticsError::pairs(x, y, 2)?;
     let n = x.len();
@@ -30,16 +30,16 @@ pub fn pearson(x: &[f64], y: &[f64]) -> Result<Correlation, StatisticsError> {
     }
     let r = (xy / (xx.sqrt() * yy.sqrt())).clamp(-1.0, 1.0);
     let df = n as f64 - 2.0;
-    // At r = 1 t is infinite and p is zero.
+    // At r = 1, t is infinite and p is zero.
     let t = r * (df / ((1.0 - r) * (1.0 + r))).sqrt();
     let p = (df > 0.0).then(|| tails_of_t(t, df).map_or(0.0, |tails| tails.two));
     Ok(Correlation { n, r, p })
 }
 
-/// Spearman's rank correlation; equal values share their mean rank.
+/// Computes Spearman's rank correlation. Ties get their mean rank.
 ///
 /// # Errors
-/// As [`pearson`].
+/// See [`pearson`].
 pub fn spearman(x: &[f64], y: &[f64]) -> Result<Correlation, StatisticsError> {
     StatisticsError::pairs(x, y, 2)?;
     pearson(&ranks(x), &ranks(y))

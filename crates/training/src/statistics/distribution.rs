@@ -1,23 +1,23 @@
-//! The library's distributions behind one door.
+//! Wrapper around the statistics library's distributions.
 
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, Continuous, ContinuousCDF, FisherSnedecor, StudentsT};
 
-/// Newton steps that bring the library's quantile (some 1e-6) to rounding; each doubles the digits.
+/// Newton steps that refine the library's quantile (accurate to about 1e-6) to rounding; each doubles the digits.
 const POLISHING: usize = 4;
 
-/// The p values of one t by its tails.
+/// One- and two-tailed p values of a t statistic.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TailProbabilities {
-    /// Against "no increase".
+    /// Upper tail, for the alternative "increase".
     pub upper: f64,
-    /// Against "no decrease".
+    /// Lower tail, for the alternative "decrease".
     pub lower: f64,
-    /// Against "no change".
+    /// Two-tailed, for the alternative "change".
     pub two: f64,
 }
 
-/// The p values of `t` with `df` degrees of freedom; `None` without any degree of freedom or for what is no number.
+/// Returns the p values of `t` with `df` degrees of freedom; `None` without degrees of freedom or if `t` is NaN.
 #[must_use]
 pub fn tails_of_t(t: f64, df: f64) -> Option<TailProbabilities> {
     let student = student(df)?;
@@ -28,7 +28,7 @@ pub fn tails_of_t(t: f64, df: f64) -> Option<TailProbabilities> {
     Some(TailProbabilities { upper, lower, two: (2.0 * lower.min(upper)).min(1.0) })
 }
 
-/// The t below which `share` of the distribution lies.
+/// Returns the quantile of the t distribution at `share`.
 pub(super) fn quantile_of_t(share: f64, df: f64) -> Option<f64> {
     let student = student(df).filter(|_| share > 0.0 && share < 1.0)?;
     let mut t = student.inverse_cdf(share);
@@ -41,13 +41,13 @@ pub(super) fn quantile_of_t(share: f64, df: f64) -> Option<f64> {
     t.is_finite().then_some(t)
 }
 
-/// Share of chi-squared with `df` above `statistic`.
+/// Returns the upper tail probability of the chi-squared distribution with `df` degrees of freedom.
 pub(super) fn above_chi_squared(statistic: f64, df: f64) -> Option<f64> {
     let distribution = ChiSquared::new(df).ok()?;
     (statistic >= 0.0).then(|| distribution.sf(statistic))
 }
 
-/// Share of F with the two degrees of freedom above `statistic`.
+/// Returns the upper tail probability of the F distribution.
 pub(super) fn above_f(statistic: f64, df_model: f64, df_residual: f64) -> Option<f64> {
     let distribution = FisherSnedecor::new(df_model, df_residual).ok()?;
     (statistic >= 0.0).then(|| if statistic.is_finite() { distribution.sf(statistic) } else { 0.0 })
@@ -61,12 +61,12 @@ fn student(df: f64) -> Option<StudentsT> {
 mod tests {
     use super::*;
 
-    /// Rounding of the library's series.
+    /// Rounding error of the library's series.
     const CLOSE: f64 = 1e-12;
 
     #[test]
     fn exact_one_degree_of_freedom_is_cauchy() {
-        // Closed form: P(T > 1) = 1/4 for one degree of freedom; the 97.5 % point is tan(0.475 pi).
+        // Closed form: P(T > 1) = 1/4 for one degree of freedom; the 97.5 % quantile is tan(0.475 pi).
         let tails = tails_of_t(1.0, 1.0).unwrap();
         assert!((tails.upper - 0.25).abs() < CLOSE && (tails.lower - 0.75).abs() < CLOSE && (tails.two - 0.5).abs() < CLOSE);
         let exact = spandrel_model::math::tan(0.475 * spandrel_model::math::PI);
@@ -89,7 +89,7 @@ mod tests {
 
     #[test]
     fn val_tails_are_those_that_the_papers_table_prints() {
-        /// Half a unit of the last digit printed, and a little, for the table's t is itself rounded (0.475 lies 1e-7 beside the half).
+        /// Half a unit of the last printed digit, plus a margin because the table's t is rounded (0.475 is off by 1e-7).
         const PRINTED: f64 = 0.5e-4 + 2e-7;
         let table = [
             (2.609, 0.0175, 0.9825, 0.0350),

@@ -1,32 +1,32 @@
-//! Do several groups answer, or score, alike?
+//! Homogeneity of several groups' answers or scores.
 
 use super::StatisticsError;
 use super::distribution::above_chi_squared;
 use serde::Serialize;
 
-/// Below this expected count in any cell the approximation is poor (Cochran 1954).
+/// The approximation is poor if any cell's expected count is below this (Cochran 1954).
 const LEAST_EXPECTED: f64 = 5.0;
 
-/// A chi-squared test of homogeneity.
+/// Result of a chi-squared test of homogeneity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Homogeneity {
-    /// Sum of (observed - expected)^2 / expected.
+    /// Test statistic: sum of (observed - expected)^2 / expected.
     pub chi_squared: f64,
-    /// Degrees of freedom, over the rows and columns that are not empty.
+    /// Degrees of freedom, over the nonempty rows and columns.
     pub df: usize,
-    /// Chance of so much difference between groups that are alike.
+    /// p value: probability of a difference at least this large between homogeneous groups.
     pub p: f64,
-    /// Smallest expected count.
+    /// Smallest expected count of any cell.
     pub smallest_expected: f64,
-    /// Told when an expected count is below five.
+    /// Warning if an expected count is below five.
     pub warning: Option<String>,
 }
 
-/// Tests whether the rows of a table of counts (groups) spread alike over its columns (categories). Rows and columns without any count
-/// say nothing and are left out.
+/// Tests whether the rows (groups) of a count table have the same distribution over its columns (categories). Empty rows and
+/// columns are skipped.
 ///
 /// # Errors
-/// When the rows differ in length, or fewer than two rows or columns hold counts.
+/// If the rows differ in length, or fewer than two rows or columns are nonempty.
 pub fn homogeneity(table: &[Vec<usize>]) -> Result<Homogeneity, StatisticsError> {
     let columns = table.first().map_or(0, Vec::len);
     if let Some(other) = table.iter().find(|row| row.len() != columns) {
@@ -59,7 +59,8 @@ pub fn homogeneity(table: &[Vec<usize>]) -> Result<Homogeneity, StatisticsError>
         df,
         p: above_chi_squared(chi_squared, df as f64).unwrap_or(1.0),
         smallest_expected: smallest,
-        warning: few.then(|| format!("an expected count is {smallest:.2}, below {LEAST_EXPECTED}: the p value is rough")),
+        warning: few
+            .then(|| format!("an expected count is {smallest:.2}, below {LEAST_EXPECTED}, so the p value is only approximate")),
     })
 }
 

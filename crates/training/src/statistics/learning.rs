@@ -1,45 +1,45 @@
-//! The learning curve: how a measure changes with practice, as a power law (Newell and Rosenbloom 1981).
+//! Learning curve: change of a measure with practice, as a power law (Newell and Rosenbloom 1981).
 
 use super::{StatisticsError, mean};
 use serde::Serialize;
 use spandrel_model::math;
 
-/// Fewest repetitions for a curve: with three, two parameters nearly always fit.
+/// Minimum number of repetitions for a curve; with three, two parameters almost always fit.
 pub const LEARNING_NEEDS: usize = 4;
-/// Exponents that are looked at; practice never changes a measure faster.
+/// Range of exponents searched; practice never changes a measure faster.
 const EXPONENTS: (f64, f64) = (-4.0, 4.0);
-/// Steps of the first look.
+/// Steps of the initial grid search.
 const GRID: usize = 400;
-/// Halvings of the bracket, down to rounding.
+/// Bisection steps, enough to reach rounding error.
 const NARROWING: usize = 120;
 
-/// `first * n^exponent` for the n-th repetition.
+/// A power law: `first * n^exponent` for the n-th repetition.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LearningCurve {
-    /// Repetitions.
+    /// Number of repetitions.
     pub n: usize,
-    /// Fitted value of the first.
+    /// Fitted value of the first repetition.
     pub first: f64,
-    /// Above zero the measure grows with practice, below it falls.
+    /// Exponent; positive if the measure increases with practice.
     pub exponent: f64,
-    /// Share of the variance that the curve explains; absent when the measure does not vary.
+    /// Fraction of the variance explained by the curve; `None` if the measure does not vary.
     pub r_squared: Option<f64>,
-    /// What the curve expects of the next repetition. A score does not pass its largest value, the curve does not know that.
+    /// Prediction for the next repetition. It may exceed the maximum of a score, which the curve does not take into account.
     pub next: f64,
 }
 
 impl LearningCurve {
-    /// What the curve says of the n-th repetition (from 1; between two for drawing).
+    /// Returns the value of the curve at a repetition (from 1; fractional values for drawing).
     #[must_use]
     pub fn at(&self, repetition: f64) -> f64 {
         self.first * math::pow(repetition, self.exponent)
     }
 }
 
-/// Fits the curve to repetitions in their order by least squares on the values themselves (zeros are allowed).
+/// Fits the curve to repetitions in order, by least squares on the values themselves (zeros are allowed).
 ///
 /// # Errors
-/// When there are fewer than [`LEARNING_NEEDS`] or a value is no number.
+/// If there are fewer than [`LEARNING_NEEDS`] values, or a value is not finite.
 pub fn learning_curve(values: &[f64]) -> Result<LearningCurve, StatisticsError> {
     if values.len() < LEARNING_NEEDS {
         return Err(StatisticsError::TooFew { n: values.len(), needed: LEARNING_NEEDS });
@@ -61,8 +61,8 @@ pub fn learning_curve(values: &[f64]) -> Result<LearningCurve, StatisticsError> 
     })
 }
 
-/// The slope of the misfit over the exponent changes its sign at the minimum: halving finds it to rounding, where comparing misfits
-/// would stop at half the digits.
+/// Refines the exponent by bisection: the slope of the residual over the exponent changes sign at the minimum. Comparing
+/// residuals would stop at half the digits.
 fn refine_interval(values: &[f64], mut low: f64, mut high: f64) -> f64 {
     for _ in 0..NARROWING {
         let middle = 0.5 * (low + high);
@@ -79,7 +79,7 @@ fn practice(exponent: f64, count: usize) -> impl Iterator<Item = (f64, f64)> {
     (1..=count).map(move |k| (math::ln(k as f64), math::pow(k as f64, exponent)))
 }
 
-/// Best first value for an exponent.
+/// Returns the best first value for an exponent.
 fn height(values: &[f64], exponent: f64) -> f64 {
     let (mut both, mut own) = (0.0, 0.0);
     for ((_, power), value) in practice(exponent, values.len()).zip(values) {
@@ -94,7 +94,8 @@ fn residual(values: &[f64], exponent: f64) -> f64 {
     practice(exponent, values.len()).zip(values).map(|((_, power), value)| value - first * power).map(|off| off * off).sum()
 }
 
-/// Of the misfit over the exponent, up to a positive factor (the best height moves along, its own slope is zero).
+/// Returns the derivative of the residual by the exponent, up to a positive factor (at the best first value, its own derivative
+/// is zero).
 fn slope(values: &[f64], exponent: f64) -> f64 {
     let first = height(values, exponent);
     let terms = practice(exponent, values.len()).zip(values);

@@ -1,6 +1,6 @@
-//! Statistics over trainees and repetitions. The distributions behind the p values are those of the library statrs; tests compare every
-//! figure with SciPy's and with the values that the project's paper prints. These numbers describe people, they steer no flight: the
-//! library's own logarithms may differ in the last bit between machines.
+//! Statistics over trainees and repetitions. The distributions behind p values come from the statrs library; tests compare all
+//! results with SciPy and with the values published in the paper. These results do not affect the simulation: the library's
+//! logarithms may differ in the last bit between machines.
 
 mod correlation;
 mod distribution;
@@ -18,38 +18,38 @@ pub use paired::{PairedTest, holm, paired_t};
 pub use regression::{Coefficient, Regression, least_squares, solve};
 pub use sample::{BoxPlot, HistogramBin, SampleSummary, box_plot, histogram, mean, quantile, sd, summary};
 
-/// Why there is no figure.
+/// Reason why a statistic cannot be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StatisticsError {
-    /// Too few values.
-    #[error("{n} values, and {needed} are needed")]
+    /// There are too few values.
+    #[error("{n} values, but {needed} are required")]
     TooFew {
-        /// Values given.
+        /// Number of values given.
         n: usize,
-        /// Values needed.
+        /// Number of values needed.
         needed: usize,
     },
-    /// Two lists that should belong together differ in length.
+    /// Paired lists differ in length.
     #[error("{left} values cannot be paired with {right}")]
     Unpaired {
-        /// One length.
+        /// Length of the first list.
         left: usize,
-        /// The other.
+        /// Length of the second list.
         right: usize,
     },
-    /// A value is infinite or no number.
-    #[error("value {at} is {value}, which is no finite number")]
+    /// A value is infinite or NaN.
+    #[error("value {at} is {value}, which is not finite")]
     NotFinite {
         /// Position, from 1.
         at: usize,
         /// The value.
         value: f64,
     },
-    /// Nothing varies, so that nothing can be estimated.
+    /// A measure does not vary, so nothing can be estimated.
     #[error("{0} does not vary")]
     Constant(&'static str),
-    /// Predictors say the same as one another.
-    #[error("the predictors cannot be told apart in this sample")]
+    /// Predictors are collinear.
+    #[error("the predictors are collinear in this sample")]
     Collinear,
 }
 

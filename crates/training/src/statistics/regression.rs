@@ -1,4 +1,4 @@
-//! Ordinary least squares with an intercept, and what may be believed of its coefficients.
+//! Ordinary least squares with an intercept, and inference on its coefficients.
 
 use super::StatisticsError;
 use super::distribution::{above_f, quantile_of_t, tails_of_t};
@@ -6,50 +6,50 @@ use super::paired::UPPER_END_95;
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
-/// A column whose own part is smaller than this share of its length says nothing that the columns before it do not say.
+/// A column is collinear if its component orthogonal to the preceding columns is a smaller fraction of its length than this.
 const INDEPENDENT: f64 = 1e-9;
 
-/// One coefficient.
+/// A regression coefficient.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Coefficient {
-    /// Predictor; `intercept` for the first.
+    /// Name of the predictor; `intercept` for the first.
     pub name: String,
     /// Estimate.
     pub estimate: f64,
     /// Standard error.
     pub standard_error: f64,
-    /// Estimate over its error; absent when the fit is perfect.
+    /// t statistic: estimate over standard error; `None` if the fit is perfect.
     pub t: Option<f64>,
-    /// Two-tailed; absent with t.
+    /// Two-tailed p value; `None` if t is.
     pub p: Option<f64>,
-    /// Of the estimate.
+    /// 95 % interval of the estimate.
     pub interval_95: [f64; 2],
 }
 
-/// A fitted model.
+/// A fitted regression model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Regression {
-    /// Observations.
+    /// Number of observations.
     pub n: usize,
-    /// Intercept first, then the predictors as given.
+    /// Intercept first, then the predictors in the given order.
     pub coefficients: Vec<Coefficient>,
-    /// Degrees of freedom of the residuals.
+    /// Residual degrees of freedom.
     pub df: usize,
     /// Standard deviation of the residuals.
     pub residual_sd: f64,
-    /// Share of the variance that the predictors explain; absent when the outcome does not vary.
+    /// Fraction of the variance explained by the predictors; `None` if the outcome does not vary.
     pub r_squared: Option<f64>,
-    /// Of the whole model against the mean alone; absent with `r_squared`.
+    /// F statistic of the model against the mean alone; `None` if `r_squared` is.
     pub f: Option<f64>,
-    /// Chance of so large an F without any effect.
+    /// p value of the F statistic.
     pub p: Option<f64>,
 }
 
-/// Regresses `outcome` on named predictors, each a list as long as the outcome.
+/// Regresses `outcome` on named predictors, each a list of the same length.
 ///
 /// # Errors
-/// When lists differ in length or hold what is no number, when there are no more observations than coefficients, or when predictors
-/// cannot be told apart.
+/// If lists differ in length, a value is not finite, there are no more observations than coefficients, or predictors are
+/// collinear.
 pub fn least_squares(outcome: &[f64], predictors: &[(&str, &[f64])]) -> Result<Regression, StatisticsError> {
     let (n, p) = (outcome.len(), predictors.len() + 1);
     for (_, values) in predictors {
@@ -101,9 +101,9 @@ fn coefficient(name: &str, estimate: f64, standard_error: f64, df: f64) -> Coeff
     }
 }
 
-/// The estimates alone, by the normal equations, with every observation counted `weights` times: for resampling, where the whole
-/// [`Regression`] would be too slow. Rows hold the predictors without the intercept, which comes first in the answer. `None` when the
-/// predictors cannot be told apart.
+/// Returns the estimates only, by normal equations, with each observation weighted by `weights`. For bootstrapping, where a full
+/// [`Regression`] would be too slow. Rows contain the predictors without the intercept, which comes first in the result. `None`
+/// if the predictors are collinear.
 #[must_use]
 pub fn solve<const P: usize>(rows: &[[f64; P]], outcome: &[f64], weights: &[u32]) -> Option<Vec<f64>> {
     let mut normal = DMatrix::<f64>::zeros(P + 1, P + 1);
@@ -121,7 +121,7 @@ pub fn solve<const P: usize>(rows: &[[f64; P]], outcome: &[f64], weights: &[u32]
     }
     let factor = normal.clone().cholesky()?;
     let lower = factor.l();
-    // The factor's diagonal is what a column adds to those before it.
+    // The factor's diagonal is the component of a column orthogonal to the preceding ones.
     let distinct = (0..=P).all(|k| lower[(k, k)] > INDEPENDENT.sqrt() * normal[(k, k)].sqrt());
     distinct.then(|| factor.solve(&right).iter().copied().collect())
 }
@@ -130,17 +130,18 @@ pub fn solve<const P: usize>(rows: &[[f64; P]], outcome: &[f64], weights: &[u32]
 mod tests {
     use super::*;
 
-    /// Rounding of a small decomposition.
+    /// Rounding error of a small decomposition.
     const EXACT: f64 = 1e-11;
 
     #[test]
     fn exact_a_line_through_three_points_matches_the_closed_form() {
-        // y = 1, 3, 2 at x = 0, 1, 2: slope 1/2, intercept 3/2, residual sum 3/2, slope's error sqrt(3/2/2) = sqrt 3/2.
+        // y = 1, 3, 2 at x = 0, 1, 2: slope 1/2, intercept 3/2, residual sum 3/2, standard error of the slope sqrt(3/2/2) = sqrt
+        // 3/2.
         let model = least_squares(&[1.0, 3.0, 2.0], &[("x", &[0.0, 1.0, 2.0])]).unwrap();
         assert!((model.coefficients[0].estimate - 1.5).abs() < EXACT && (model.coefficients[1].estimate - 0.5).abs() < EXACT);
         assert!((model.coefficients[1].standard_error - 0.75f64.sqrt()).abs() < EXACT);
         assert!((model.r_squared.unwrap() - 0.25).abs() < EXACT);
-        // One predictor: F is the square of its t, with the same p.
+        // With one predictor, F is the square of its t and has the same p.
         let t = model.coefficients[1].t.unwrap();
         assert!((model.f.unwrap() - t * t).abs() < EXACT);
         assert!((model.p.unwrap() - model.coefficients[1].p.unwrap()).abs() < EXACT);

@@ -1,75 +1,75 @@
-//! One sample: its distribution, quartiles and box plot.
+//! Statistics of one sample: summary, quartiles and box plot.
 
 use super::StatisticsError;
 use serde::Serialize;
 
-/// Whiskers reach to the last value within this many interquartile ranges of the box (Tukey 1977).
+/// Whiskers extend to the last value within this many interquartile ranges of the box (Tukey 1977).
 const WHISKER_IQR: f64 = 1.5;
 
-/// What a distribution is told by.
+/// Summary statistics of a sample.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SampleSummary {
-    /// Values.
+    /// Number of values.
     pub n: usize,
     /// Arithmetic mean.
     pub mean: f64,
-    /// Standard deviation with n - 1; absent for one value.
+    /// Standard deviation (n - 1); `None` for one value.
     pub sd: Option<f64>,
-    /// Smallest.
+    /// Minimum.
     pub min: f64,
-    /// Lower quartile.
+    /// First quartile.
     pub q1: f64,
     /// Median.
     pub median: f64,
-    /// Upper quartile.
+    /// Third quartile.
     pub q3: f64,
-    /// Largest.
+    /// Maximum.
     pub max: f64,
-    /// Largest less smallest.
+    /// Maximum minus minimum.
     pub range: f64,
-    /// Third standardised moment (with n, not n - 1); below zero when the low end is the long one. Absent when all values are equal.
+    /// Third standardized moment (with n, not n - 1); negative if the lower tail is longer. `None` if all values are equal.
     pub skewness: Option<f64>,
 }
 
-/// A box with whiskers.
+/// Data of a box plot.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BoxPlot {
-    /// Lower quartile.
+    /// First quartile.
     pub q1: f64,
     /// Median.
     pub median: f64,
-    /// Upper quartile.
+    /// Third quartile.
     pub q3: f64,
-    /// Smallest value that is no outlier.
+    /// Smallest value that is not an outlier.
     pub low_whisker: f64,
-    /// Largest value that is no outlier.
+    /// Largest value that is not an outlier.
     pub high_whisker: f64,
     /// Values beyond the whiskers, ascending.
     pub outliers: Vec<f64>,
     /// Arithmetic mean.
     pub mean: f64,
-    /// Values.
+    /// Number of values.
     pub n: usize,
 }
 
-/// One bar of a histogram: values in [from, to), the last bar with its upper end.
+/// A histogram bin: values in [from, to); the last bin includes its upper end.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct HistogramBin {
-    /// Lower end.
+    /// Lower bound.
     pub from: f64,
-    /// Upper end.
+    /// Upper bound.
     pub to: f64,
-    /// Values in it.
+    /// Number of values in the bin.
     pub count: usize,
 }
 
-/// Arithmetic mean; `None` for an empty sample.
+/// Returns the arithmetic mean; `None` for an empty sample.
 #[must_use]
 pub fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
-/// Standard deviation with n - 1; `None` below two values.
+/// Returns the standard deviation (n - 1); `None` below two values.
 #[must_use]
 pub fn sd(values: &[f64]) -> Option<f64> {
     let mean = mean(values).filter(|_| values.len() > 1)?;
@@ -77,7 +77,7 @@ pub fn sd(values: &[f64]) -> Option<f64> {
     Some((squares / (values.len() - 1) as f64).sqrt())
 }
 
-/// The quantile between order statistics by straight lines (Hyndman and Fan 1996, type 7; what numpy and R do by default).
+/// Returns a quantile, linearly interpolated between order statistics (Hyndman and Fan 1996, type 7; the default of NumPy and R).
 #[must_use]
 pub fn quantile(ascending: &[f64], share: f64) -> Option<f64> {
     let last = ascending.len().checked_sub(1)?;
@@ -87,10 +87,10 @@ pub fn quantile(ascending: &[f64], share: f64) -> Option<f64> {
     Some(ascending[below] + (ascending[above] - ascending[below]) * (at - below as f64))
 }
 
-/// Sums up a sample.
+/// Computes the summary statistics of a sample.
 ///
 /// # Errors
-/// When it is empty or holds what is no number.
+/// If the sample is empty or a value is not finite.
 pub fn summary(values: &[f64]) -> Result<SampleSummary, StatisticsError> {
     let sorted = ascending(values)?;
     let quarter = |share| quantile(&sorted, share).unwrap_or_default();
@@ -116,10 +116,10 @@ fn skewness(values: &[f64], mean: f64) -> Option<f64> {
     (variance > 0.0).then(|| moment(|d| d * d * d) / (variance * variance.sqrt()))
 }
 
-/// Makes a box plot.
+/// Computes the box plot of a sample.
 ///
 /// # Errors
-/// When the sample is empty or holds what is no number.
+/// If the sample is empty or a value is not finite.
 pub fn box_plot(values: &[f64]) -> Result<BoxPlot, StatisticsError> {
     let sorted = ascending(values)?;
     let quarter = |share| quantile(&sorted, share).unwrap_or_default();
@@ -138,7 +138,7 @@ pub fn box_plot(values: &[f64]) -> Result<BoxPlot, StatisticsError> {
     })
 }
 
-/// Counts values in `bars` equal bars over [low, high]; what lies outside counts in the nearest bar.
+/// Counts values in `bars` bins of equal width over [low, high]. Values outside count in the nearest bin.
 #[must_use]
 pub fn histogram(values: &[f64], (low, high): (f64, f64), bars: usize) -> Vec<HistogramBin> {
     let width = (high - low) / bars.max(1) as f64;
@@ -167,7 +167,7 @@ fn ascending(values: &[f64]) -> Result<Vec<f64>, StatisticsError> {
 mod tests {
     use super::*;
 
-    /// Rounding of a few additions.
+    /// Rounding error of a few additions.
     const EXACT: f64 = 1e-12;
 
     #[test]

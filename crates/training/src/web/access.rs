@@ -1,13 +1,13 @@
-//! Who is asking, and what he may do.
+//! Visitors and their access rights.
 
 use crate::trainee::Role;
 
-/// Who may open a page or act.
+/// Access level that a page or action requires.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AccessLevel {
-    /// Anybody, logged in or not.
+    /// Anyone, logged in or not.
     Nothing,
-    /// Whoever is logged in; what belongs to a trainee is judged by [`Visitor::may_see`].
+    /// Any logged-in user. Access to a trainee's data is checked by [`Visitor::may_see`].
     Login,
     /// Instructors and administrators.
     Instructor,
@@ -15,27 +15,27 @@ pub enum AccessLevel {
     Administrator,
 }
 
-/// Who is asking.
+/// A visitor of the website.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Visitor {
-    /// Pseudonym; `None` for a stranger.
+    /// Pseudonym; `None` if not logged in.
     pub name: Option<String>,
-    /// What he may do; a stranger's does not count.
+    /// Role; ignored if not logged in.
     pub role: Role,
-    /// Nobody has a password and the server is reached from this machine alone: whoever sits here does everything.
+    /// Whether access is unrestricted: no passwords are set and the server is reachable only from this machine.
     pub open: bool,
-    /// Goes with every form, so that no other site can send one.
+    /// CSRF token included in every form.
     pub token: String,
 }
 
 impl Visitor {
-    /// Logged in, or in no need to be.
+    /// Returns whether the visitor is logged in or login is not required.
     #[must_use]
     pub fn is_known(&self) -> bool {
         self.open || self.name.is_some()
     }
 
-    /// Meets what a page needs.
+    /// Returns whether the visitor has the required access level.
     #[must_use]
     pub fn satisfies(&self, needs: AccessLevel) -> bool {
         match needs {
@@ -46,13 +46,13 @@ impl Visitor {
         }
     }
 
-    /// What belongs to this trainee is shown: his own, or to whom trains him.
+    /// Returns whether the visitor may see this trainee's data: their own, or all for instructors and administrators.
     #[must_use]
     pub fn may_see(&self, trainee: &str) -> bool {
         self.satisfies(AccessLevel::Instructor) || self.name.as_deref() == Some(trainee)
     }
 
-    /// The trainee that lists are limited to; `None` for whoever sees all.
+    /// Returns the trainee that lists are restricted to; `None` for visitors who may see all.
     #[must_use]
     pub fn limited_to(&self) -> Option<&str> {
         if self.satisfies(AccessLevel::Instructor) { None } else { Some(self.name.as_deref().unwrap_or_default()) }

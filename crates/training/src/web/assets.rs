@@ -1,17 +1,17 @@
-//! Files that the pages use: our style, which begins with the reports', and our scripts. Their addresses end in a hash, so that a browser
-//! keeps them until they change.
+//! Files used by the pages: our style sheet, which extends that of the reports, and our scripts. Their addresses end in a hash,
+//! so that browsers cache them until they change.
 
 use crate::report::assets as report;
 use spandrel_monitor::folder::sha256_hex;
 
-/// Name of the style.
+/// File name of the style sheet.
 pub const STYLE_NAME: &str = "style.css";
-/// Name of the questionnaire's script.
+/// File name of the questionnaire's script.
 pub const FORM_NAME: &str = "form.js";
-/// Name of the live page's script.
+/// File name of the live page's script.
 pub const LIVE_NAME: &str = "live.js";
 
-/// Name of the script of the page of one's own flight.
+/// File name of the script of the trainee's own flight page.
 pub const FLIGHT_NAME: &str = "flight.js";
 
 const STYLE: &str = include_str!("assets/web.css");
@@ -19,7 +19,7 @@ const FORM: &str = include_str!("assets/form.js");
 const LIVE: &str = include_str!("assets/live.js");
 const FLIGHT: &str = include_str!("assets/flight.js");
 
-/// Text and type of a file; `None` when there is none of that name.
+/// Returns content and media type of a file; `None` if there is no such file.
 #[must_use]
 pub fn file(name: &str) -> Option<(String, &'static str)> {
     let script = "text/javascript; charset=utf-8";
@@ -32,7 +32,7 @@ pub fn file(name: &str) -> Option<(String, &'static str)> {
     }
 }
 
-/// Where a file is served.
+/// Returns the address of a file.
 #[must_use]
 pub fn address(name: &str) -> String {
     let hash = file(name).map(|(text, _)| sha256_hex(text.as_bytes())).unwrap_or_default();

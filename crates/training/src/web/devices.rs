@@ -1,20 +1,20 @@
-//! Browsers that somebody has logged in with before, after the device cookies of OWASP: their failed logins count apart from those of their
-//! address, so that a stranger at the same address cannot keep the owner of a name out. Kept in memory by a hash over cookie and name;
-//! after a restart the next login makes a browser known again. Time and randomness are arguments.
+//! Browsers that have logged in before, after OWASP's device cookies. Their failed logins are counted separately from those of
+//! their address, so that others at the same address cannot lock out the owner of a name. Kept in memory as a hash over cookie
+//! and name; after a restart, a browser becomes known again at its next login. Time and randomness are arguments.
 
 use super::visits::{TokenBytes, text_of};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
-/// A browser is forgotten after this time without a login, us: 90 days, longer than a course pauses.
+/// A browser is forgotten after this time without a login, µs: 90 days, longer than a break between courses.
 const FORGOTTEN_US: u64 = 90 * 24 * 3_600_000_000;
-/// Browsers that are remembered; beyond it those whose login is longest ago are forgotten.
+/// Maximum number of known browsers; the ones with the oldest login are forgotten first.
 const DEVICES: usize = 10_000;
 
-/// A known browser of one person.
+/// Hash that identifies a known browser of one user.
 pub type KnownBrowser = [u8; 32];
 
-/// All known browsers, with the time of their last login, us.
+/// Known browsers with the time of their last login, µs.
 #[derive(Debug, Default)]
 pub struct KnownBrowsers(BTreeMap<KnownBrowser, u64>);
 
@@ -26,7 +26,7 @@ impl KnownBrowsers {
         self.0.get(&device).filter(|login_us| now_us.saturating_sub(**login_us) < FORGOTTEN_US).map(|_| device)
     }
 
-    /// Remembers a browser after a login of `name` and returns its cookie: the one that it has if it is known, otherwise a new one.
+    /// Records a login of `name` and returns the browser's cookie: the existing one if known, otherwise a new one.
     pub fn remember(&mut self, cookie: Option<&str>, name: &str, secret: &TokenBytes, now_us: u64) -> String {
         let known = cookie.filter(|cookie| self.find(cookie, name, now_us).is_some());
         let cookie = known.map_or_else(|| text_of(secret), str::to_owned);
@@ -41,7 +41,7 @@ impl KnownBrowsers {
 }
 
 fn device(cookie: &str, name: &str) -> KnownBrowser {
-    // No cookie of ours holds a zero byte: a cookie and a name cannot be split at another place.
+    // Our cookies contain no zero byte, so cookie and name cannot be split differently.
     Sha256::new().chain_update(cookie).chain_update([0]).chain_update(name).finalize().into()
 }
 

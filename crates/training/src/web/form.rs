@@ -1,5 +1,5 @@
-//! The questionnaire as a form. Every answer is saved by itself as soon as it is given (by a small script; without it by the button), so that
-//! one can leave at any time and go on later.
+//! The questionnaire as a web form. A small script saves every answer immediately (without it, the button does), so that users
+//! can leave at any time and continue later.
 
 use super::access::Visitor;
 use super::assets;
@@ -10,42 +10,42 @@ use crate::questionnaire::{
 };
 use maud::{Markup, html};
 
-/// Before the key of a NASA-TLX scale in a form.
+/// Prefix of NASA-TLX keys in the form.
 const TLX: &str = "tlx.";
 
-/// What the form is about.
+/// Data of the form.
 #[derive(Debug, Clone, Copy)]
 pub struct FormContext<'a> {
-    /// Session.
+    /// Session id.
     pub id: &'a str,
-    /// Numbers and names of its tasks.
+    /// Numbers and names of the session's tasks.
     pub tasks: &'a [(u32, String)],
-    /// Words.
+    /// Wording to use.
     pub wording: &'a Wording,
-    /// All languages that one can choose.
+    /// All available languages.
     pub languages: &'a [Wording],
     /// Answers so far.
     pub answers: &'a Answers,
-    /// Something was just saved.
+    /// Whether answers were just saved.
     pub saved: bool,
 }
 
-/// Why an answer of a form is refused: field, value, and what is allowed.
+/// Error for an invalid form value: field, value and allowed values.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{field} = {value}: no such answer (allowed: {allowed})")]
+#[error("{field} = {value}: invalid answer (allowed: {allowed})")]
 pub struct InvalidAnswer {
-    /// Field.
+    /// Name of the field.
     pub field: String,
-    /// Value.
+    /// Submitted value.
     pub value: String,
-    /// What is allowed.
+    /// Allowed values.
     pub allowed: String,
 }
 
-/// Puts the answers of a form to those that are there. Fields that are no questions are left alone (the token is one).
+/// Merges the answers of a form into existing ones. Ignores fields that are not questions, such as the token.
 ///
 /// # Errors
-/// At the first answer that is none; then nothing should be saved.
+/// At the first invalid answer; nothing should be saved then.
 pub fn parse_answers(answers: &mut Answers, fields: &[(String, String)], tasks: &[u32]) -> Result<usize, InvalidAnswer> {
     let items = QuestionnaireItem::all(tasks);
     let mut taken = 0;
@@ -73,7 +73,7 @@ fn number(field: &str, value: &str, fits: impl Fn(u8) -> bool, allowed: impl Fn(
     value.parse().ok().filter(|value| fits(*value)).ok_or_else(wrong)
 }
 
-/// The page.
+/// Renders the page.
 #[must_use]
 pub fn page(visitor: &Visitor, asked: &FormContext<'_>) -> Markup {
     let tasks: Vec<u32> = asked.tasks.iter().map(|(id, _)| *id).collect();
@@ -102,7 +102,7 @@ pub fn page(visitor: &Visitor, asked: &FormContext<'_>) -> Markup {
     in_language(visitor, "/sessions", &asked.wording.title, (&asked.wording.language, Some(assets::FORM_NAME)), &body)
 }
 
-/// The choice of languages, each in its own words. Answers are saved at once: another language loses none.
+/// Renders the language selection, each language in its own name. Answers are saved immediately, so switching loses none.
 fn switch(asked: &FormContext<'_>) -> Markup {
     let words = &asked.wording.form;
     html! {
@@ -203,7 +203,7 @@ mod tests {
             [("frustration", "6", "1 to 5"), ("feedback", "<b>", "1 to 5"), ("tlx.effort", "33", "0 to 100 in steps of 5")]
         {
             let wrong = parse_answers(&mut answers, &fields(&[(field, value)]), &[1]).unwrap_err().to_string();
-            assert_eq!(wrong, format!("{field} = {value}: no such answer (allowed: {allowed})"));
+            assert_eq!(wrong, format!("{field} = {value}: invalid answer (allowed: {allowed})"));
         }
     }
 

@@ -1,12 +1,12 @@
-//! What all pages share: head, navigation, tables of links, forms with their token.
+//! Page elements shared by all pages: head, navigation, tables, forms with their token.
 
 use super::access::{AccessLevel, Visitor};
 use super::assets;
 use maud::{DOCTYPE, Markup, html};
 
-/// For trainees: instructors have the live page.
+/// Address of the trainee's own flight; instructors use the live page.
 const OWN_FLIGHT: &str = "/flight";
-/// Places of the navigation: address, words, who sees it.
+/// Navigation entries: address, label, required access.
 const PLACES: [(&str, &str, AccessLevel); 8] = [
     ("/sessions", "Sessions", AccessLevel::Login),
     (OWN_FLIGHT, "My flight", AccessLevel::Login),
@@ -18,19 +18,19 @@ const PLACES: [(&str, &str, AccessLevel); 8] = [
     ("/account", "Account", AccessLevel::Login),
 ];
 
-/// A whole page. `at` is the navigation's place that it belongs to.
+/// Renders a page. `at` is its navigation entry.
 #[must_use]
 pub fn page(visitor: &Visitor, at: &str, title: &str, body: &Markup) -> Markup {
     scripted(visitor, at, title, None, body)
 }
 
-/// A whole page with a script of ours.
+/// Renders a page with one of our scripts.
 #[must_use]
 pub fn scripted(visitor: &Visitor, at: &str, title: &str, script: Option<&str>, body: &Markup) -> Markup {
     in_language(visitor, at, title, ("en", script), body)
 }
 
-/// A whole page whose body is in this language; the bar around it stays English, and says so.
+/// Renders a page whose body is in another language; the navigation stays English and is marked as such.
 #[must_use]
 pub fn in_language(visitor: &Visitor, at: &str, title: &str, (language, script): (&str, Option<&str>), body: &Markup) -> Markup {
     html! {
@@ -46,7 +46,7 @@ pub fn in_language(visitor: &Visitor, at: &str, title: &str, (language, script):
                 @if let Some(script) = script { script src=(assets::address(script)) defer {} }
             }
             body.web {
-                a.skip href="#main" lang="en" { "Skip to the page" }
+                a.skip href="#main" lang="en" { "Skip to content" }
                 (bar(visitor, at))
                 main id="main" { h1 { (title) } (body) }
             }
@@ -72,31 +72,31 @@ fn bar(visitor: &Visitor, at: &str) -> Markup {
                     button type="submit" { "Log out" }
                 }
             } @else if visitor.open {
-                p.who { "open on this machine" }
+                p.who { "local access, no login" }
             }
         }
     }
 }
 
-/// The hidden field that says that a form is ours.
+/// Renders the hidden field with the CSRF token.
 #[must_use]
 pub fn token(visitor: &Visitor) -> Markup {
     html! { input type="hidden" name="token" value=(visitor.token); }
 }
 
-/// A message in a box of its own.
+/// Renders a message box.
 #[must_use]
 pub fn message(kind: &str, words: &str) -> Markup {
     html! { p class={ "message " (kind) } role="status" { (words) } }
 }
 
-/// A section with its heading.
+/// Renders a section with its heading.
 #[must_use]
 pub fn section(id: &str, heading: &str, body: &Markup) -> Markup {
     html! { section aria-labelledby={ (id) "-head" } id=(id) { h2 id={ (id) "-head" } { (heading) } (body) } }
 }
 
-/// A table that scrolls sideways where it must.
+/// Renders a table that scrolls horizontally if necessary.
 #[must_use]
 pub fn table(caption: &str, heads: &[(&str, bool)], rows: &Markup) -> Markup {
     html! {
@@ -110,7 +110,7 @@ pub fn table(caption: &str, heads: &[(&str, bool)], rows: &Markup) -> Markup {
     }
 }
 
-/// Links to the pages of a list, the first is 1.
+/// Renders links to the pages of a list, numbered from 1.
 #[must_use]
 pub fn pages(address: &str, at: u32, last: u32) -> Markup {
     let link = |page: u32, words: &str, here: bool| {
@@ -129,14 +129,14 @@ pub fn pages(address: &str, at: u32, last: u32) -> Markup {
     }
 }
 
-/// What went wrong, as a page.
+/// Renders an error page.
 #[must_use]
 pub fn refusal(visitor: &Visitor, title: &str, words: &str) -> Markup {
     page(
         visitor,
         "",
         title,
-        &html! { section { @for line in words.lines() { p { (line) } } p { a href="/" { "Back to the start" } } } },
+        &html! { section { @for line in words.lines() { p { (line) } } p { a href="/" { "Back to home" } } } },
     )
 }
 
@@ -145,14 +145,14 @@ pub(super) mod tests {
     use super::*;
     use crate::trainee::Role;
 
-    /// Somebody who tries to be a script.
+    /// A name that attempts script injection.
     pub(crate) const EVIL: &str = "<script>alert(1)</script>\"'&";
 
     pub(crate) fn administrator() -> Visitor {
         Visitor { name: Some(EVIL.into()), role: Role::Administrator, open: false, token: "t0ken".into() }
     }
 
-    /// Fails on anything that the policy would stop or that was not escaped.
+    /// Fails if the page contains anything unescaped or blocked by the policy.
     pub(crate) fn check(page: &str) {
         assert!(!page.contains("<script>") && !page.contains(" style=") && !page.contains(" onclick="), "{page}");
         for form in page.split("<form").skip(1) {

@@ -1,4 +1,4 @@
-//! The cohort's page: the sections of the offline page, with a form that chooses what counts.
+//! The cohort page: the sections of the offline page, with a form that selects the sessions.
 
 use super::access::Visitor;
 use super::frame::{page, section};
@@ -7,22 +7,22 @@ use crate::record::{IncompletePolicy, omitted_summary};
 use crate::report::page::cohort::{TableLinks, sections, summary_lines};
 use maud::{Markup, html};
 
-/// What was asked for.
+/// Selection shown in the form.
 #[derive(Debug, Clone, Copy)]
 pub struct GroupSelection<'a> {
     /// All scenarios that were flown.
     pub flown_scenarios: &'a [String],
-    /// Those that count.
+    /// Selected scenarios.
     pub scenarios: &'a [String],
-    /// Repetitions compared.
+    /// Number of repetitions compared.
     pub repetitions: usize,
     /// Whether incomplete sessions count.
     pub incomplete: IncompletePolicy,
-    /// Incomplete sessions that were left out.
+    /// Number of incomplete sessions excluded.
     pub left_out: usize,
 }
 
-/// The page; without sessions it says so.
+/// Renders the page, or a note if there are no sessions.
 #[must_use]
 pub fn group(visitor: &Visitor, chosen: &GroupSelection<'_>, cohort: Option<&Cohort>) -> Markup {
     let body = html! {
@@ -37,11 +37,11 @@ pub fn group(visitor: &Visitor, chosen: &GroupSelection<'_>, cohort: Option<&Coh
                 label { "Repetitions " input type="number" name="repetitions" min="1" max="100" value=(chosen.repetitions); }
                 label { input type="checkbox" name="incomplete" value="1" checked[chosen.incomplete == IncompletePolicy::Include]; " Include incomplete sessions" }
                 button type="submit" { "Show" }
-                @if cohort.is_some() { a href={ "/cohort/report.html?" (query(chosen)) } { "As a page that opens offline" } }
+                @if cohort.is_some() { a href={ "/cohort/report.html?" (query(chosen)) } { "Download as an offline page" } }
             }
             @match cohort {
                 Some(cohort) => (summary_lines(cohort)),
-                None => p.calm { "There is no session yet." @if let Some(words) = omitted_summary(chosen.left_out) { " " (words) "." } },
+                None => p.calm { "No sessions yet." @if let Some(words) = omitted_summary(chosen.left_out) { " " (words) "." } },
             }
         }
         @if let Some(cohort) = cohort {
@@ -87,7 +87,7 @@ mod tests {
         check(&text);
         assert!(text.contains("href=\"/cohort/tables/t_tests.csv?scenario="), "{text}");
         assert!(text.contains("2 trainees, 2 sessions") && text.contains("class=\"histogram\""), "{text}");
-        assert!(group(&administrator(), &chosen, None).into_string().contains("no session yet"));
+        assert!(group(&administrator(), &chosen, None).into_string().contains("No sessions yet"));
         let chosen = GroupSelection { incomplete: IncompletePolicy::Include, ..chosen };
         let text = group(&administrator(), &chosen, Some(&cohort)).into_string();
         assert!(text.contains("incomplete=1") && text.contains("value=\"1\" checked"), "{text}");

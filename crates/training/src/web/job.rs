@@ -1,4 +1,4 @@
-//! Scenarios: what there is, one in short with its drawing, and the upload of another; the upload of a recorded flight.
+//! Scenario list, scenario page and upload, and import of recorded flights.
 
 use super::access::{AccessLevel, Visitor};
 use super::frame::{message, page, section, table, token};
@@ -8,18 +8,18 @@ use maud::{Markup, html};
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 
-/// One line of the list.
+/// An entry of the scenario list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ScenarioEntry {
-    /// Name.
+    /// Scenario name.
     pub name: String,
-    /// Title.
+    /// Scenario title.
     pub title: String,
-    /// It came by an upload, so it may be taken away.
+    /// Whether it was uploaded and can be removed.
     pub uploaded: bool,
 }
 
-/// The list, with how an upload went.
+/// Renders the list, with the result of an upload.
 #[must_use]
 pub fn list(visitor: &Visitor, named: &[ScenarioEntry], told: Option<(&str, &str)>) -> Markup {
     let rows = html! {
@@ -39,23 +39,23 @@ pub fn list(visitor: &Visitor, named: &[ScenarioEntry], told: Option<(&str, &str
     page(visitor, "/scenarios", "Scenarios", &body)
 }
 
-/// Lines of words in one box: every problem of a file stands on a line of its own.
+/// Renders a message box with one line per problem.
 fn message_lines(kind: &str, words: &str) -> Markup {
     html! { div class={ "message " (kind) } role="status" { @for line in words.lines() { p { (line) } } } }
 }
 
 fn upload(visitor: &Visitor) -> Markup {
     html! {
-        p { "One TOML file that names no other file. It is checked first; everything that is wrong with it is told." }
+        p { "One self-contained TOML file. It is validated before it is saved, and all errors are listed." }
         form.stacked method="post" action="/scenarios" enctype="multipart/form-data" {
             (token(visitor))
             label { "File" input type="file" name="file" accept=".toml" required; }
-            button type="submit" { "Check and keep" }
+            button type="submit" { "Validate and save" }
         }
     }
 }
 
-/// One scenario. The file itself is for instructors: it may say where the defects are, and its seed does.
+/// Renders one scenario. Only instructors can download the file, because it and its seed reveal the defects.
 #[must_use]
 pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenario, site: &Site, text: &str) -> Markup {
     let s = &scenario.scoring;
@@ -67,7 +67,7 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
             dt { "Traffic" } dd { (scenario.traffic.cars) " cars, " (scenario.traffic.trucks) " trucks, " (scenario.traffic.pedestrians) " pedestrians" }
             dt { "Wind" } dd { (words::number(scenario.wind.speed_m_s, 1)) " m/s from " (words::number(scenario.wind.from_deg, 0)) "°" }
             dt { "Speed limit" } dd { (words::number(s.speed_limit_m_s, 2)) " m/s" }
-            dt { "Time" } dd { "full marks up to " (words::duration(s.time_best_s)) ", at most " (words::duration(s.time_max_s)) }
+            dt { "Time" } dd { "full score up to " (words::duration(s.time_best_s)) ", at most " (words::duration(s.time_max_s)) }
         }
     };
     let rows = html! {
@@ -77,36 +77,36 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
     };
     let body = html! {
         p.lead { (scenario.title) }
-        (section("facts", "In short", &facts))
+        (section("facts", "Summary", &facts))
         @if !scenario.tasks.is_empty() {
-            (section("tasks", "Tasks", &table("Tasks and how far their paths reach", &[("Task", false), ("On the path within, m", true)], &rows)))
+            (section("tasks", "Tasks", &table("Tasks and path tolerances", &[("Task", false), ("Path tolerance, m", true)], &rows)))
         }
         (section("site", "From above", &html! { figure.wide { div.scroll tabindex="0" role="region" aria-label="Drawing" { (job_plan(scenario, site)) } } }))
-        @if visitor.satisfies(AccessLevel::Instructor) { (section("file", "The file", &html! {
-            details { summary { "Show" } div.scroll tabindex="0" role="region" aria-label="Text of the file" { pre { code { (text) } } } }
+        @if visitor.satisfies(AccessLevel::Instructor) { (section("file", "File", &html! {
+            details { summary { "Show" } div.scroll tabindex="0" role="region" aria-label="File contents" { pre { code { (text) } } } }
             @if named.uploaded {
-                form method="post" action={ "/scenarios/" (named.name) "/remove" } { (token(visitor)) button.danger type="submit" { "Take this upload away" } }
+                form method="post" action={ "/scenarios/" (named.name) "/remove" } { (token(visitor)) button.danger type="submit" { "Delete upload" } }
             }
         })) }
     };
     page(visitor, "/scenarios", &format!("Scenario {}", named.name), &body)
 }
 
-/// What is told of a recording that was not taken in.
+/// Reason why a recording was not imported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UploadMessage<'a> {
-    /// What is wrong with it.
+    /// The recording is invalid.
     Wrong(&'a str),
-    /// It is a session already.
+    /// The session exists already.
     There {
-        /// Session.
+        /// Session id.
         id: &'a str,
-        /// Whose.
+        /// Trainee of that session.
         trainee: &'a str,
     },
 }
 
-/// The form that takes in a recorded flight, with what became of the one before.
+/// Renders the import form for recorded flights, with the result of the previous import.
 #[must_use]
 pub fn recorded(visitor: &Visitor, scenarios: &[ScenarioEntry], vehicles: &[String], told: Option<UploadMessage<'_>>) -> Markup {
     let body = html! {
@@ -114,22 +114,22 @@ pub fn recorded(visitor: &Visitor, scenarios: &[ScenarioEntry], vehicles: &[Stri
             None => {},
             Some(UploadMessage::Wrong(words)) => (message("bad", words)),
             Some(UploadMessage::There { id, trainee }) => p.message.good role="status" {
-                "This recording is here already: it is " a href={ "/sessions/" (id) } { "a session of " (trainee) } ". Nothing was changed."
+                "This recording was already imported as " a href={ "/sessions/" (id) } { "a session of " (trainee) } ". No changes were made."
             },
         }
         section.narrow {
-            p { "A tlog as ground stations and the monitor write it, with the simulator's truth in it. It is scored before it is kept." }
+            p { "A .tlog file from a ground station or the monitor that includes the simulator's truth messages. It is scored before it is saved." }
             form.stacked method="post" action="/upload" enctype="multipart/form-data" {
                 (token(visitor))
                 label { "Trainee" input name="trainee" required maxlength="32" pattern="[A-Za-z0-9][A-Za-z0-9_\\-]*" autocapitalize="none"; }
                 label { "Scenario" select name="scenario" { @for one in scenarios { option value=(one.name) { (one.name) } } } }
                 label { "Aircraft" select name="vehicle" { @for one in vehicles { option value=(one) { (one) } } } }
                 label { "Recording" input type="file" name="file" accept=".tlog" required; }
-                button type="submit" { "Take in" }
+                button type="submit" { "Import" }
             }
         }
     };
-    page(visitor, "/sessions", "Take in a recorded flight", &body)
+    page(visitor, "/sessions", "Import flight", &body)
 }
 
 #[cfg(test)]

@@ -1,16 +1,16 @@
-//! The live page: map and side views that the script moves the drone on, what was said, and the instructor's actions.
+//! The live page: plan and side views with the moving drone, message log, and instructor actions.
 
 use super::access::Visitor;
 use super::assets;
 use super::frame::{scripted, section, token};
 use maud::{Markup, PreEscaped, html};
 
-/// Longest note, characters: it is one message on the wire.
+/// Maximum note length, characters; a note is sent as one MAVLink message.
 pub const NOTE_MOST: usize = 100;
-/// Strongest wind, m/s: the vehicle's parameter ends there.
+/// Maximum wind speed, m/s, the upper limit of the vehicle's parameter.
 pub const WIND_MOST_M_S: f64 = 25.0;
 
-/// What may fail, as the form and the wire name it: key, words, FAILURE_UNIT.
+/// Failures that can be injected: form key, label, FAILURE_UNIT.
 pub const UNITS: [(&str, &str, f32); 4] = [
     ("gnss", "Satellite navigation", 4.0),
     ("compass", "Compass", 2.0),
@@ -18,23 +18,23 @@ pub const UNITS: [(&str, &str, f32); 4] = [
     ("battery", "Battery", 100.0),
 ];
 
-/// The job that is flown, drawn.
+/// Drawings of the job being flown.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct DrawnJob {
-    /// Names the job and its seed.
+    /// Key that identifies job and seed.
     pub key: String,
-    /// Title.
+    /// Title of the job.
     pub title: String,
     /// Drawings: caption and SVG, made by `crate::report::plots::job`.
     pub drawings: Vec<(String, String)>,
 }
 
-/// Which of the vehicles is watched on a page.
+/// Vehicle selected on the page.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct VehicleChoice {
-    /// Addresses of all.
+    /// Addresses of all vehicles.
     pub vehicles: Vec<String>,
-    /// The number of the one that is watched, from 1.
+    /// Number of the selected vehicle, from 1.
     pub number: usize,
 }
 
@@ -44,7 +44,7 @@ impl VehicleChoice {
     }
 }
 
-/// The page.
+/// Renders the live page.
 #[must_use]
 pub fn live(visitor: &Visitor, drawn: Option<&DrawnJob>, choice: &VehicleChoice) -> Markup {
     let body = html! {
@@ -54,21 +54,21 @@ pub fn live(visitor: &Visitor, drawn: Option<&DrawnJob>, choice: &VehicleChoice)
                 @match drawn {
                     Some(drawn) => b { (drawn.title) },
                     None => @match choice.address() {
-                        Some(address) => span { "Waiting for a flight at " code { (address) } ". This page follows as soon as one begins." },
-                        None => span { "This server watches no vehicle; " code { "spandrel serve --vehicle HOST:PORT" } " says which." },
+                        Some(address) => span { "Waiting for a flight at " code { (address) } ". This page updates when one starts." },
+                        None => span { "No vehicle configured. Start the server with " code { "spandrel serve --vehicle HOST:PORT" } "." },
                     },
                 }
                 " " span.state role="status" data-state { "not connected" }
             }
-            noscript { p.message.warn { "This page needs scripts: it follows the flight." } }
+            noscript { p.message.warn { "This page requires JavaScript." } }
             @if let Some(drawn) = drawn {
                 section aria-label="Now" {
                     dl.readout {
-                        @for (key, words) in [("task", "Task"), ("time", "Time"), ("speed", "Speed"), ("height", "Height"), ("clearance", "Clearance"), ("battery", "Battery"), ("contact", "Touches"), ("traffic", "Traffic")] {
+                        @for (key, words) in [("task", "Task"), ("time", "Time"), ("speed", "Speed"), ("height", "Height"), ("clearance", "Clearance"), ("battery", "Battery"), ("contact", "Contact"), ("traffic", "Traffic")] {
                             div { dt { (words) } dd data-now=(key) { "–" } }
                         }
                     }
-                    ul.cues aria-label="Cues that are on" data-cues {}
+                    ul.cues aria-label="Active cues" data-cues {}
                 }
                 div.watch {
                     section aria-label="Site" {
@@ -78,11 +78,11 @@ pub fn live(visitor: &Visitor, drawn: Option<&DrawnJob>, choice: &VehicleChoice)
                     }
                     div {
                         figure.camera data-camera hidden {
-                            figcaption { "What the camera shows, about once a second" }
-                            img alt="The camera's view now" data-picture="";
+                            figcaption { "Camera view, updated about once per second" }
+                            img alt="Current camera view" data-picture="";
                         }
-                        (section("act", "Act in this flight", &actions(visitor, choice.number)))
-                        (section("said", "What is said", &html! { ol.said data-said tabindex="0" aria-label="Texts of the vehicle and the monitor, the newest first" {} }))
+                        (section("act", "Instructor actions", &actions(visitor, choice.number)))
+                        (section("said", "Message log", &html! { ol.said data-said tabindex="0" aria-label="Messages from the vehicle and the monitor, newest first" {} }))
                     }
                 }
             }
@@ -91,23 +91,23 @@ pub fn live(visitor: &Visitor, drawn: Option<&DrawnJob>, choice: &VehicleChoice)
     scripted(visitor, "/live", "Live flight", Some(assets::LIVE_NAME), &body)
 }
 
-/// The page of the one who flies: his own camera's picture, which the script keeps fresh.
+/// Renders the trainee's own flight page with the camera picture, which the script refreshes.
 #[must_use]
 pub fn own_flight(visitor: &Visitor) -> Markup {
     let body = html! {
         div.own-flight data-flight {
-            p.lead role="status" data-state { "You are not flying now. This page follows as soon as you do." }
-            noscript { p.message.warn { "This page needs scripts: it follows the flight." } }
+            p.lead role="status" data-state { "You are not flying. This page updates when your flight starts." }
+            noscript { p.message.warn { "This page requires JavaScript." } }
             figure.camera data-camera hidden {
-                figcaption { "What your camera shows, about once a second" }
-                img alt="Your camera's view now" data-picture="";
+                figcaption { "Your camera view, updated about once per second" }
+                img alt="Your current camera view" data-picture="";
             }
         }
     };
     scripted(visitor, "/flight", "My flight", Some(assets::FLIGHT_NAME), &body)
 }
 
-/// Links to the other vehicles.
+/// Renders links to the other vehicles.
 fn others(choice: &VehicleChoice) -> Markup {
     html! {
         @if choice.vehicles.len() > 1 {
@@ -125,29 +125,29 @@ fn actions(visitor: &Visitor, vehicle: usize) -> Markup {
     html! {
         form.stacked method="post" action="/live/act" data-act {
             (hidden("note"))
-            label { "Note at this moment" input name="text" required maxlength=(NOTE_MOST) autocomplete="off"; }
-            button type="submit" { "Note" }
+            label { "Note for the report" input name="text" required maxlength=(NOTE_MOST) autocomplete="off"; }
+            button type="submit" { "Add note" }
         }
         form.stacked method="post" action="/live/act" data-act {
             (hidden("wind"))
             label { "Wind, m/s" input type="number" name="speed" required min="0" max=(WIND_MOST_M_S) step="0.5" value="6"; }
             label { "From, degrees" input type="number" name="from" required min="0" max="360" step="5" value="270"; }
-            button type="submit" { "Set the wind" }
+            button type="submit" { "Set wind" }
         }
         form.stacked method="post" action="/live/act" data-act {
             (hidden("traffic"))
-            p.note { "Closed, who is on a bridge goes on, and nobody enters any more." }
+            p.note { "Closing stops new traffic; vehicles on the bridge leave." }
             div.row {
-                button type="submit" name="open" value="no" { "Close the bridges" }
-                button type="submit" name="open" value="yes" { "Open them" }
+                button type="submit" name="open" value="no" { "Close bridges" }
+                button type="submit" name="open" value="yes" { "Open bridges" }
             }
         }
         form.stacked method="post" action="/live/act" data-act {
             (hidden("failure"))
             label { "What" select name="unit" { @for (key, words, _) in UNITS { option value=(key) { (words) } } } }
             div.row {
-                button type="submit" name="fails" value="yes" { "Let it fail" }
-                button type="submit" name="fails" value="no" { "Make it whole" }
+                button type="submit" name="fails" value="yes" { "Inject failure" }
+                button type="submit" name="fails" value="no" { "Clear failure" }
             }
         }
     }
@@ -181,6 +181,6 @@ mod tests {
         assert_eq!(text.matches("name=\"vehicle\" value=\"2\"").count(), 4);
         assert!(text.contains("href=\"/live?vehicle=2\" aria-current=\"page\""), "{text}");
         let text = live(&administrator(), None, &VehicleChoice::default()).into_string();
-        assert!(!text.contains("data-live") && text.contains("watches no vehicle"), "nothing to listen to: {text}");
+        assert!(!text.contains("data-live") && text.contains("No vehicle configured"), "nothing to listen to: {text}");
     }
 }

@@ -1,5 +1,5 @@
-//! A flight as an instructor sees it while it goes on: telemetry in, one small document per moment out. Sans-IO; it hears what any
-//! subscriber of the payload port hears.
+//! State of a running flight for the instructor's live page: takes telemetry, returns a JSON snapshot. Sans-IO. Uses only data
+//! that is available to every subscriber of the payload port.
 
 use serde_json::{Value, json};
 use spandrel_mavlink::codec::ReceivedFrame;
@@ -16,20 +16,20 @@ use spandrel_model::site::bridge_closures::BridgeClosures;
 use spandrel_monitor::measures::on_path::ReferencePaths;
 use std::collections::VecDeque;
 
-/// Where positions are read from before the job is known; none of them is shown.
+/// Origin for decoding positions before the job is known; none of them is shown.
 const NOWHERE: Geo = Geo { latitude_deg: 0.0, longitude_deg: 0.0, altitude_m: 0.0 };
-/// Words that are shown, the newest last.
+/// Maximum number of messages shown, newest last.
 const WORDS: usize = 40;
-/// What identifies the job that is flown.
+/// Identifies the job being flown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct JobKey {
     /// CRC of the scenario.
     pub crc: u32,
-    /// Seed.
+    /// Seed of the session.
     pub seed: u64,
 }
 
-/// The job that positions are read with.
+/// Job used to decode positions.
 #[derive(Debug)]
 struct TrackedJob {
     key: JobKey,
@@ -39,7 +39,7 @@ struct TrackedJob {
     tasks: Vec<(u32, String)>,
 }
 
-/// The flight.
+/// Live state of the flight.
 #[derive(Debug)]
 pub struct LiveFlightState {
     crc: Option<u32>,
@@ -55,9 +55,9 @@ pub struct LiveFlightState {
     cues: i32,
     messages: VecDeque<(u64, f64, &'static str, String)>,
     message_count: u64,
-    /// System id of the vehicle, once heard.
+    /// System id of the vehicle, once received.
     pub system: Option<u8>,
-    /// Whose interface it speaks, once heard.
+    /// Autopilot type, once received.
     pub autopilot: Option<MavAutopilot>,
 }
 
@@ -68,7 +68,7 @@ impl Default for LiveFlightState {
 }
 
 impl LiveFlightState {
-    /// Nothing heard yet.
+    /// Creates an empty state.
     #[must_use]
     pub fn new() -> Self {
         Self {
@@ -90,27 +90,27 @@ impl LiveFlightState {
         }
     }
 
-    /// The job that is flown, once the wire has told it.
+    /// Returns the key of the job being flown, once received in telemetry.
     #[must_use]
     pub fn missing_job(&self) -> Option<JobKey> {
         let key = JobKey { crc: self.crc?, seed: self.seed? };
         Some(key)
     }
 
-    /// The job that positions are read with.
+    /// Returns the job used to decode positions.
     #[must_use]
     pub fn job(&self) -> Option<JobKey> {
         self.job.as_ref().map(|job| job.key)
     }
 
-    /// The shell has found the job.
+    /// Sets the job after the application has loaded it.
     pub fn set_job(&mut self, key: JobKey, scenario: &Scenario) {
         let tasks = scenario.tasks.iter().map(|task| (task.id, task.name.clone())).collect();
         self.job = Some(TrackedJob { key, plane: LocalPlane::new(scenario.origin), paths: ReferencePaths::new(scenario), tasks });
         self.truth = None;
     }
 
-    /// Takes a frame.
+    /// Handles a received frame.
     pub fn handle_frame(&mut self, frame: &ReceivedFrame) {
         self.note_sender(frame);
         match &frame.message {
@@ -126,7 +126,7 @@ impl LiveFlightState {
             }
             None => {}
         }
-        // Before the job is known only what needs no place on the earth is read right; the rest comes again.
+        // Until the job is known, only data without a position can be decoded; the rest is sent again.
         let nowhere = LocalPlane::new(NOWHERE);
         let plane = self.job.as_ref().map_or(&nowhere, |job| &job.plane);
         if let Some(sample) = sample::read(&frame.bytes, plane) {
@@ -166,7 +166,7 @@ impl LiveFlightState {
 
     fn truth(&mut self, truth: Truth) {
         let Some(job) = &self.job else { return };
-        // A clock that goes back is another flight; what was said in the one before stays readable.
+        // A clock that jumps back indicates a new flight; earlier messages remain visible.
         if self.truth.is_some_and(|before| truth.time < before.time) {
             (self.current_task, self.cues, self.gates) = (None, 0, BridgeClosures::default());
         }
@@ -174,7 +174,7 @@ impl LiveFlightState {
         self.truth = Some(truth);
     }
 
-    /// Adds a line to what was said.
+    /// Adds a line to the message log.
     pub fn push_message(&mut self, kind: &'static str, words: String) {
         self.message_count += 1;
         let t_s = self.truth.map_or(0.0, |truth| truth.time.s());
@@ -184,7 +184,7 @@ impl LiveFlightState {
         }
     }
 
-    /// This moment, for the page's script. `heard` says whether the vehicle has spoken lately.
+    /// Returns the current state for the page's script. `heard` indicates whether the vehicle was received recently.
     #[must_use]
     pub fn to_json(&self, heard: bool) -> Value {
         let key = self.job().map(|key| format!("{:08x}-{}", key.crc, key.seed));
@@ -263,7 +263,7 @@ mod tests {
         number(&mut watch, "traffic", -1_500);
         let moment = watch.to_json(true);
         assert_eq!(moment["traffic"], json!("closed"));
-        // degE7 is a centimetre, the wire's height a millimetre.
+        // degE7 has a resolution of about 1 cm, the MAVLink altitude of 1 mm.
         let place: Vec<f64> = moment["place"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
         assert!(place[0].abs() < 0.02 && place[1].abs() < 0.02 && (place[2] - 12.0).abs() < 0.02, "{moment}");
         assert_eq!((&moment["speed_m_s"], &moment["t_s"]), (&json!(3.0), &json!(2.0)));

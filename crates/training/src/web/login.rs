@@ -1,16 +1,16 @@
-//! Logging in, and one's own account.
+//! Login page and account page.
 
 use super::access::Visitor;
 use super::frame::{message, page, section, token};
 use maud::{Markup, html};
 
-/// Characters of a password.
+/// Allowed password length, characters.
 pub const PASSWORD_LENGTHS: std::ops::RangeInclusive<usize> = 12..=256;
 
-/// Least strength of a new password: more than 10^8 guesses by zxcvbn's estimate, which it calls safe where each guess is slow.
+/// Minimum strength of a new password: more than 10^8 guesses by zxcvbn's estimate, which it rates as safe against slow hashing.
 const LEAST_STRENGTH: zxcvbn::Score = zxcvbn::Score::Three;
 
-/// The login, with what was wrong before.
+/// Renders the login page, with the error of the previous attempt.
 #[must_use]
 pub fn login(visitor: &Visitor, name: &str, wrong: Option<&str>) -> Markup {
     page(
@@ -31,7 +31,7 @@ pub fn login(visitor: &Visitor, name: &str, wrong: Option<&str>) -> Markup {
     )
 }
 
-/// One's own account, with how a change went.
+/// Renders the user's account page, with the result of a change.
 #[must_use]
 pub fn account(visitor: &Visitor, told: Option<(&str, &str)>) -> Markup {
     let name = visitor.name.as_deref().unwrap_or_default();
@@ -39,7 +39,7 @@ pub fn account(visitor: &Visitor, told: Option<(&str, &str)>) -> Markup {
         @if let Some((kind, words)) = told { (message(kind, words)) }
         form.stacked method="post" action="/account" {
             (token(visitor))
-            label { "Present password" input type="password" name="present" required maxlength=(PASSWORD_LENGTHS.end()) autocomplete="current-password"; }
+            label { "Current password" input type="password" name="present" required maxlength=(PASSWORD_LENGTHS.end()) autocomplete="current-password"; }
             label { "New password, at least " (PASSWORD_LENGTHS.start()) " characters" input type="password" name="new" required minlength=(PASSWORD_LENGTHS.start()) maxlength=(PASSWORD_LENGTHS.end()) autocomplete="new-password"; }
             button type="submit" { "Change" }
         }
@@ -50,31 +50,31 @@ pub fn account(visitor: &Visitor, told: Option<(&str, &str)>) -> Markup {
         "Account",
         &html! {
             p.lead { (name) ", " (visitor.role.word()) }
-            (section("password", "Change the password", &change))
+            (section("password", "Change password", &change))
             (section("data", "My data", &html! {
                 p { a href={ "/trainees/" (name) } { "My progress and plan" } }
-                p { a href={ "/trainees/" (name) "/export.json" } { "Download everything that is kept of me" } }
+                p { a href={ "/trainees/" (name) "/export.json" } { "Download all my data" } }
             }))
         },
     )
 }
 
-/// Why a new password is refused.
+/// Checks a new password.
 ///
 /// # Errors
-/// What is wrong with it; the message never shows it.
+/// Describes the problem without including the password.
 pub fn check(password: &str, name: &str) -> Result<(), String> {
     let length = password.chars().count();
     let (least, most) = (PASSWORD_LENGTHS.start(), PASSWORD_LENGTHS.end());
     if !PASSWORD_LENGTHS.contains(&length) || password.len() > 4 * most {
         return Err(format!("the password has {length} characters (allowed: {least} to {most})"));
     }
-    // Common passwords, names, keyboard rows, repeats and dates, and what is little more than them.
+    // Detects common passwords, names, keyboard rows, repeats and dates, and slight variations of them.
     let estimate = zxcvbn::zxcvbn(password, &[name, "spandrel"]);
     if estimate.score() < LEAST_STRENGTH {
         let why = estimate.feedback().and_then(|feedback| feedback.warning()).map(|warning| format!(" ({warning})"));
         let why = why.unwrap_or_default();
-        return Err(format!("the password is too easy to guess{why} Use several unrelated words."));
+        return Err(format!("the password is too easy to guess{why}; use several unrelated words"));
     }
     Ok(())
 }

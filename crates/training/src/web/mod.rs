@@ -1,6 +1,6 @@
-//! The pages of `spandrel serve`, and who may see them: pure functions from data to HTML, and the tables of visits and failed logins with
-//! time as an argument. What a user wrote goes through maud's escaping; scripts and styles are files of their own, so that the pages'
-//! policy allows nothing inline.
+//! The pages of `spandrel serve` and their access control: pure functions from data to HTML, and the tables of login sessions and
+//! failed logins with time as an argument. User-provided text goes through maud's escaping. Scripts and styles are separate
+//! files, so that the pages' policy allows nothing inline.
 
 pub mod access;
 pub mod assets;

@@ -1,4 +1,4 @@
-//! Lists of sessions, and one session's page.
+//! Session lists and the page of a session.
 
 use super::access::{AccessLevel, Visitor};
 use super::frame::{page, pages, section, table};
@@ -10,22 +10,22 @@ use crate::report::words;
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
 
-/// A part of the list of sessions.
+/// One page of the session list.
 #[derive(Debug, Clone, Copy)]
 pub struct SessionList<'a> {
-    /// The part.
+    /// Entries of this page.
     pub lines: &'a [SessionListEntry],
-    /// Only this trainee's were asked for.
+    /// Trainee that the list is filtered by, if any.
     pub trainee: Option<&'a str>,
-    /// The part's number, from 1.
+    /// Page number, from 1.
     pub page: u32,
-    /// The last part's.
+    /// Number of the last page.
     pub last: u32,
-    /// All sessions.
+    /// Total number of sessions.
     pub count: u64,
 }
 
-/// The list.
+/// Renders the list.
 #[must_use]
 pub fn list(visitor: &Visitor, listing: &SessionList<'_>) -> Markup {
     let address = match listing.trainee {
@@ -41,15 +41,15 @@ pub fn list(visitor: &Visitor, listing: &SessionList<'_>) -> Markup {
                         button type="submit" { "Show" }
                         @if listing.trainee.is_some() { a href="/sessions" { "Show all" } }
                     }
-                    a href="/upload" { "Take in a recorded flight" }
+                    a href="/upload" { "Import flight" }
                 } @else if let Some(name) = &visitor.name {
                     a href={ "/trainees/" (name) } { "My progress and plan" }
                 }
             }
             @if listing.lines.is_empty() {
-                p.calm { "There is no session yet. A flight appears here when it has ended." }
+                p.calm { "No sessions yet. Flights appear here after they end." }
             } @else {
-                (lines(visitor, &format!("{} sessions, the newest first", listing.count), listing.lines))
+                (lines(visitor, &format!("{} sessions, newest first", listing.count), listing.lines))
                 (pages(&address, listing.page, listing.last))
             }
         }
@@ -57,11 +57,11 @@ pub fn list(visitor: &Visitor, listing: &SessionList<'_>) -> Markup {
     page(visitor, "/sessions", "Sessions", &body)
 }
 
-/// Rows of sessions.
+/// Renders a table of sessions.
 #[must_use]
 pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Markup {
     let all = visitor.satisfies(AccessLevel::Instructor);
-    // What a phone shows without being moved comes first: when, who, how well.
+    // The columns visible on a phone without scrolling come first: date, trainee, score.
     let mut heads = vec![
         ("Started", false),
         ("Trainee", false),
@@ -94,16 +94,16 @@ pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Ma
     )
 }
 
-/// What a session's page needs besides its record.
+/// Data of a session's page in addition to its record.
 #[derive(Debug, Clone, Copy)]
 pub struct SessionPageData<'a> {
-    /// Its folder is here, so report, questionnaire and downloads are.
+    /// Whether the session folder exists, which report, questionnaire and downloads require.
     pub folder: bool,
     /// Other sessions of the same trainee.
     pub others: &'a [SessionListEntry],
 }
 
-/// One session.
+/// Renders the page of one session.
 #[must_use]
 pub fn session(visitor: &Visitor, record: &SessionRecord, beside: &SessionPageData<'_>) -> Markup {
     let body = html! {
@@ -131,8 +131,8 @@ fn actions(record: &SessionRecord, beside: &SessionPageData<'_>) -> Markup {
                 li { a.button href={ "/sessions/" (record.id) "/report" } { "Open the report" } }
                 li { a.button href={ "/sessions/" (record.id) "/questions" } {
                     @if answered == 0 { "Answer the questionnaire" }
-                    @else if answered < all { "Go on with the questionnaire (" (answered) " of " (all) ")" }
-                    @else { "The questionnaire (all " (all) " answered)" }
+                    @else if answered < all { "Continue the questionnaire (" (answered) " of " (all) ")" }
+                    @else { "View the questionnaire (all " (all) " answered)" }
                 } }
                 li { a href={ "/sessions/" (record.id) "/frames.csv" } { "Frames (CSV)" } }
                 li { a href={ "/sessions/" (record.id) "/telemetry.tlog" } { "Telemetry (tlog)" } }
@@ -143,7 +143,7 @@ fn actions(record: &SessionRecord, beside: &SessionPageData<'_>) -> Markup {
     }
 }
 
-/// The four scores by name, 0 to 100.
+/// Returns the four scores by name, 0 to 100.
 #[must_use]
 pub fn scores_by_name(record: &SessionRecord) -> [(&'static str, Option<f64>); 4] {
     let scores = &record.scores;
@@ -161,7 +161,7 @@ fn scores(record: &SessionRecord) -> Markup {
     html! {
         p { b { (record.completion_summary()) ". " (record.verdict()) "." } @if !record.is_complete() { " The scores below are for the part that was flown." } }
         div.split {
-            figure { figcaption { "The four scores, 0 in the middle, 100 at the rim" } (radar(&spokes, "Kiviat diagram of the four scores")) }
+            figure { figcaption { "The four scores, 0 at the center, 100 at the rim" } (radar(&spokes, "Radar chart of the four scores")) }
             div.cards {
                 @if record.is_complete() {
                     div.card { h3 { "Overall" } p.figure { (words::number(record.scores.overall, 0)) span.of { " of " (words::number(record.scores.overall_max, 0)) } } }
@@ -183,9 +183,9 @@ fn tasks(record: &SessionRecord) -> Markup {
     let rows: Vec<ShareRow> = record.tasks.iter().map(row).collect();
     html! {
         div.split {
-            figure { figcaption { "Share of each task's time on the path" } (shares(&rows, "On the path by task")) }
+            figure { figcaption { "On-path share of each task" } (shares(&rows, "On-path share by task")) }
             (table(
-                "Each task in numbers",
+                "Task results",
                 &[("Task", false), ("Path flown", false), ("On path, %", true), ("Too fast, s", true), ("Crashes", true), ("Defects found", true)],
                 &html! {
                     @for task in &record.tasks {
@@ -205,7 +205,7 @@ fn tasks(record: &SessionRecord) -> Markup {
     }
 }
 
-/// How far a task got, in words.
+/// Describes the completion of a task.
 fn task_completion_text(record: &SessionRecord, task: &TaskRecord) -> String {
     let done_share = record.completion.map_or(0.0, |completion| completion.done_share);
     task.state.zip(task.covered).map_or_else(|| "unknown".to_owned(), |(state, covered)| state.words(covered, done_share))
@@ -220,7 +220,7 @@ fn defects(record: &SessionRecord) -> Markup {
             record.hits,
             record.snapshots
         ),
-        &[("Defect", false), ("Task", true), ("Found", false), ("What the best picture lacked", false)],
+        &[("Defect", false), ("Task", true), ("Found", false), ("Best picture failed because", false)],
         &html! {
             @for defect in &record.defects {
                 tr {
@@ -237,7 +237,7 @@ fn defects(record: &SessionRecord) -> Markup {
 fn compare(record: &SessionRecord, others: &[SessionListEntry]) -> Markup {
     html! {
         @if others.is_empty() {
-            p.calm { "There is no other session of this trainee yet." }
+            p.calm { "No other sessions of this trainee yet." }
         } @else {
             form.inline method="get" action="/compare" {
                 input type="hidden" name="first" value=(record.id);

@@ -1,4 +1,4 @@
-//! What an administrator sets: who may log in, and how long sessions are kept.
+//! Administrator settings: login accounts and session retention.
 
 use super::access::Visitor;
 use super::frame::{message, page, section, table, token};
@@ -6,30 +6,30 @@ use super::login::PASSWORD_LENGTHS;
 use crate::trainee::{Role, Trainee};
 use maud::{Markup, html};
 
-/// What the page shows.
+/// Contents of the settings page.
 #[derive(Debug, Clone, Copy)]
 pub struct SettingsPage<'a> {
-    /// Everybody.
+    /// All users.
     pub people: &'a [Trainee],
-    /// Those who may log in.
+    /// Users who may log in.
     pub with_password: &'a [String],
-    /// Place of the database, without a password.
+    /// Location of the database, without a password.
     pub database: &'a str,
-    /// Folders of sessions.
+    /// Session folders.
     pub folders: &'a [String],
-    /// How a change went.
+    /// Result of a change.
     pub notice: Option<(&'a str, &'a str)>,
 }
 
-/// The page.
+/// Renders the page.
 #[must_use]
 pub fn settings(visitor: &Visitor, settings: &SettingsPage<'_>) -> Markup {
     let body = html! {
         @if let Some((kind, words)) = settings.notice { (message(kind, words)) }
         (section("logins", "Who may log in", &logins(visitor, settings)))
-        (section("add", "Add a person, or set a password and a role", &add(visitor)))
+        (section("add", "Add a user, or set a password and role", &add(visitor)))
         (section("retention", "Retention", &retention(visitor)))
-        (section("place", "Where things are", &html! {
+        (section("place", "Storage", &html! {
             dl {
                 dt { "Database" } dd { (settings.database) }
                 dt { "Session folders" } dd { @for folder in settings.folders { (folder) " " } }
@@ -43,9 +43,9 @@ pub fn settings(visitor: &Visitor, settings: &SettingsPage<'_>) -> Markup {
 fn logins(visitor: &Visitor, settings: &SettingsPage<'_>) -> Markup {
     let role = |name: &String| settings.people.iter().find(|one| one.pseudonym == *name).map_or("", |one| one.role.word());
     html! {
-        @if visitor.open { (message("warn", "Nobody has a password: whoever uses this machine may do everything, and the server can be reached from this machine alone. With the first password everybody has to log in; make it an administrator's.")) }
+        @if visitor.open { (message("warn", "No passwords are set: anyone using this machine has full access, and the server is reachable only from this machine. Once the first password is set, everyone must log in; set it for an administrator.")) }
         @if !settings.with_password.is_empty() {
-            (table("People with a password", &[("Name", false), ("Role", false), ("Change", false)], &html! {
+            (table("Users with a password", &[("Name", false), ("Role", false), ("Change", false)], &html! {
                 @for name in settings.with_password {
                     tr {
                         th scope="row" { (name) }
@@ -55,7 +55,7 @@ fn logins(visitor: &Visitor, settings: &SettingsPage<'_>) -> Markup {
                                 form method="post" action="/settings/no-login" {
                                     (token(visitor))
                                     input type="hidden" name="name" value=(name);
-                                    button type="submit" aria-label={ "No more login for " (name) } { "No more login" }
+                                    button type="submit" aria-label={ "Disable login for " (name) } { "Disable login" }
                                 }
                             }
                         }
@@ -82,8 +82,8 @@ fn retention(visitor: &Visitor) -> Markup {
     html! {
         form.stacked method="post" action="/settings/retention" {
             (token(visitor))
-            label { "Erase sessions and their folders that are older than so many days" input type="number" name="days" required min="1" max="36525"; }
-            label { input type="checkbox" name="sure" value="yes" required; " This cannot be undone; erase them" }
+            label { "Erase sessions and their folders older than, days" input type="number" name="days" required min="1" max="36525"; }
+            label { input type="checkbox" name="sure" value="yes" required; " I understand that this cannot be undone" }
             button.danger type="submit" { "Erase" }
         }
     }
@@ -108,8 +108,8 @@ mod tests {
         let text = settings(&administrator(), &shown).into_string();
         check(&text);
         assert_eq!(text.matches("/settings/no-login").count(), 1, "of two only the other's");
-        assert!(!text.contains("Nobody has a password"));
+        assert!(!text.contains("No passwords are set"));
         let open = Visitor { open: true, name: None, ..administrator() };
-        assert!(settings(&open, &shown).into_string().contains("Nobody has a password"));
+        assert!(settings(&open, &shown).into_string().contains("No passwords are set"));
     }
 }

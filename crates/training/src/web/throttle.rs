@@ -1,48 +1,49 @@
-//! Failed logins: after a few for one name from one address, or many from one address, each further try waits longer, up to a minute. A longer
-//! lock would let anyone behind the same address keep the owner of a name out; a minute leaves a guesser some 60 tries an hour against
-//! passwords that `login::check` accepts. A browser that the owner of a name has logged in with before counts apart ([`super::devices`]):
-//! failures of others at its address do not delay it.
+//! Throttling of failed logins. After a few failures for one name from one address, or many from one address, each further
+//! attempt must wait longer, up to one minute. A longer lockout would let anyone behind the same address lock out the owner of a
+//! name; one minute allows some 60 guesses per hour against passwords that `login::check` accepts. A browser from which the owner
+//! of a name has logged in before is counted separately ([`super::devices`]): failures of others at its address do not delay it.
 
 use super::devices::KnownBrowser;
 use std::collections::BTreeMap;
 use std::net::IpAddr;
 
-/// Failures that are remembered for so long, µs.
+/// Failures are remembered for this long, µs.
 const WINDOW_US: u64 = 15 * 60_000_000;
-/// First wait beyond the limit, µs; each further failure doubles it. Estimate: long enough to notice, short enough for a typing error.
+/// First wait beyond the limit, µs; doubled by each further failure (estimate: long enough to notice, short enough after a typing
+/// error).
 const FIRST_WAIT_US: u64 = 4_000_000;
-/// Longest wait, µs.
+/// Maximum wait, µs.
 const LONGEST_WAIT_US: u64 = 60_000_000;
-/// Failures in that time for one name from one address.
+/// Failures allowed in that time for one name from one address.
 const OF_NAME: usize = 5;
-/// Failures in that time from one address, whatever the names.
+/// Failures allowed in that time from one address, over all names.
 const OF_ADDRESS: usize = 20;
-/// Addresses and known browsers that are remembered; beyond it those that failed longest ago are forgotten.
+/// Maximum number of addresses and known browsers; the ones with the oldest failure are forgotten first.
 const ADDRESSES: usize = 10_000;
 
-/// Where a login comes from, as far as failures are counted together.
+/// Origin of a login, by which failures are counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum LoginOrigin {
-    /// Anyone at an address or, with IPv6, in a network.
+    /// An address or, for IPv6, a network.
     Network(IpAddr),
     /// A browser known for the name.
     Known(KnownBrowser),
 }
 
 impl LoginOrigin {
-    /// The browser if it is known, otherwise the network of the address.
+    /// Returns the browser if it is known, otherwise the network of the address.
     #[must_use]
     pub fn for_address(from: IpAddr, known: Option<KnownBrowser>) -> Self {
         known.map_or_else(|| Self::Network(network(from)), Self::Known)
     }
 }
 
-/// Failed logins by origin: when, and for which name.
+/// Failed logins by origin, with time and name.
 #[derive(Debug, Default)]
 pub struct LoginThrottle(BTreeMap<LoginOrigin, Vec<(u64, String)>>);
 
 impl LoginThrottle {
-    /// How long a login has to wait, µs; `None` when it may be tried.
+    /// Returns how long a login must wait, µs; `None` if it may be attempted now.
     #[must_use]
     pub fn wait_us(&self, from: LoginOrigin, name: &str, now_us: u64) -> Option<u64> {
         let failures = self.0.get(&from)?;
@@ -55,7 +56,7 @@ impl LoginThrottle {
         left(of_name, OF_NAME).max(left(recent.iter().map(|(at, _)| *at).collect(), OF_ADDRESS))
     }
 
-    /// Notes a failure.
+    /// Records a failed login.
     pub fn record_failure(&mut self, from: LoginOrigin, name: &str, now_us: u64) {
         if self.0.len() >= ADDRESSES {
             self.forget(now_us);
@@ -65,7 +66,7 @@ impl LoginThrottle {
         failures.push((now_us, tracked(name)));
     }
 
-    /// A login that went well clears its name.
+    /// Clears the failures of a name after a successful login.
     pub fn clear_failures(&mut self, from: LoginOrigin, name: &str) {
         if let Some(failures) = self.0.get_mut(&from) {
             let name = tracked(name);
@@ -84,7 +85,7 @@ impl LoginThrottle {
     }
 }
 
-/// The wait after so many failures beyond the limit, µs.
+/// Returns the wait after `beyond` failures above the limit, µs.
 fn wait_after(beyond: usize) -> u64 {
     let doublings = u32::try_from(beyond).unwrap_or(u32::MAX);
     FIRST_WAIT_US
@@ -93,12 +94,12 @@ fn wait_after(beyond: usize) -> u64 {
         .map_or(LONGEST_WAIT_US, |wait| wait.min(LONGEST_WAIT_US))
 }
 
-/// An attacker chooses the names; only their beginning is kept.
+/// Truncates a name for storage, because an attacker controls its length.
 fn tracked(name: &str) -> String {
     name.chars().take(64).collect()
 }
 
-/// One subscriber of IPv6 has a whole /64 of addresses.
+/// Returns the network of an address; an IPv6 subscriber has a whole /64.
 fn network(from: IpAddr) -> IpAddr {
     match from.to_canonical() {
         IpAddr::V6(v6) => IpAddr::V6((v6.to_bits() >> 64 << 64).into()),

@@ -1,4 +1,4 @@
-//! Trainees: who there is, and one's progress, plan, details, export and erasure.
+//! Trainee list and trainee page: progress, plan, details, export and erasure.
 
 use super::access::{AccessLevel, Visitor};
 use super::frame::{page, section, table, token};
@@ -12,10 +12,10 @@ use crate::trainee::{AGE_BANDS, EXPERIENCE, Trainee};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
 
-/// Before the name of a field: what it was when the page was opened, so that nobody's change is lost.
+/// Prefix of the fields with the values at the time when the page was opened, which detect conflicting edits.
 pub const BEFORE: &str = "before_";
 
-/// Everybody.
+/// Renders the list of trainees.
 #[must_use]
 pub fn trainee_list(visitor: &Visitor, people: &[Trainee]) -> Markup {
     let rows = html! {
@@ -32,29 +32,29 @@ pub fn trainee_list(visitor: &Visitor, people: &[Trainee]) -> Markup {
     let heads = [("Pseudonym", false), ("Role", false), ("Age", false), ("Drones", false), ("Games", false)];
     let body = html! {
         section {
-            @if people.is_empty() { p.calm { "Nobody yet. Whoever flies appears here." } }
+            @if people.is_empty() { p.calm { "No trainees yet. Trainees appear here after their first flight." } }
             @else { (table(&format!("{} people", people.len()), &heads, &rows)) }
         }
     };
     page(visitor, "/trainees", "Trainees", &body)
 }
 
-/// What a trainee's page shows.
+/// Contents of a trainee's page.
 #[derive(Debug, Clone, Copy)]
 pub struct TraineeProfile<'a> {
-    /// Who.
+    /// The trainee.
     pub person: &'a Trainee,
-    /// His sessions in their order.
+    /// Sessions in chronological order.
     pub records: &'a [SessionRecord],
-    /// The same in short, the newest first.
+    /// The same sessions as list entries, newest first.
     pub listed: &'a [SessionListEntry],
-    /// What to fly next.
+    /// Training plan.
     pub plan: Option<&'a TrainingPlan>,
     /// Whether incomplete sessions count in progress and plan.
     pub incomplete: IncompletePolicy,
 }
 
-/// One trainee.
+/// Renders the page of one trainee.
 #[must_use]
 pub fn trainee_page(visitor: &Visitor, about: &TraineeProfile<'_>) -> Markup {
     let name = &about.person.pseudonym;
@@ -63,11 +63,11 @@ pub fn trainee_page(visitor: &Visitor, about: &TraineeProfile<'_>) -> Markup {
         @if !about.records.is_empty() { (section("progress", "Progress", &progress(name, about.records, about.incomplete))) }
         (section("sessions", "Sessions", &html! {
             @if about.listed.is_empty() { p.calm { "No session yet." } }
-            @else { (lines(visitor, &format!("{} sessions, the newest first", about.listed.len()), about.listed)) }
+            @else { (lines(visitor, &format!("{} sessions, newest first", about.listed.len()), about.listed)) }
         }))
         (section("details", "Details", &details(visitor, about.person)))
         (section("data", "Data", &html! {
-            p { a href={ "/trainees/" (name) "/export.json" } { "Download everything that is kept of " (name) } }
+            p { a href={ "/trainees/" (name) "/export.json" } { "Download all data of " (name) } }
             @if visitor.satisfies(AccessLevel::Administrator) { (erase(visitor, name)) }
         }))
     };
@@ -77,7 +77,7 @@ pub fn trainee_page(visitor: &Visitor, about: &TraineeProfile<'_>) -> Markup {
 fn next(plan: &TrainingPlan) -> Markup {
     let told = |change: &&MeasureChange| change.better.is_some();
     html! {
-        p { "Between " (minute(plan.from_unix_us)) " and " (minute(plan.until_unix_us)) "." @if plan.overdue { " " b { "The last flight is longer ago than skill lasts." } } }
+        p { "Between " (minute(plan.from_unix_us)) " and " (minute(plan.until_unix_us)) "." @if plan.overdue { " " b { "The last flight was too long ago to retain the skill." } } }
         ol.steps {
             @for step in &plan.steps {
                 li { b { a href={ "/scenarios/" (step.scenario) } { (step.scenario) } } ul { @for reason in &step.reasons { li { (reason.words) } } } }
@@ -86,7 +86,7 @@ fn next(plan: &TrainingPlan) -> Markup {
         @if let Some(words) = omitted_summary(plan.left_out) { p.note { (words) "." } }
         @if let Some(changes) = &plan.changes {
             h3 { "What changed" }
-            p.note { "Since " a href={ "/sessions/" (changes.since) } { "the session before on the same job" } "." }
+            p.note { "Since " a href={ "/sessions/" (changes.since) } { "the previous session on the same job" } "." }
             ul {
                 @for change in changes.changes.iter().filter(told) {
                     li { (change.what) ": " (words::number(change.before, 1)) " → " (words::number(change.now, 1)) ", " (if change.better == Some(true) { "better" } else { "worse" }) }
@@ -96,7 +96,7 @@ fn next(plan: &TrainingPlan) -> Markup {
     }
 }
 
-/// Each job by itself: practice on one says nothing of another.
+/// Renders the progress on each job separately, because practice on one says little about another.
 fn progress(name: &str, records: &[SessionRecord], incomplete: IncompletePolicy) -> Markup {
     let unfinished = records.iter().filter(|record| !record.is_complete()).count();
     html! {
@@ -120,19 +120,19 @@ fn details(visitor: &Visitor, person: &Trainee) -> Markup {
             input type="hidden" name={ (BEFORE) (name) } value=(given.unwrap_or_default());
             label { (label)
                 select name=(name) {
-                    option value="" selected[given.is_none()] { "not said" }
+                    option value="" selected[given.is_none()] { "not specified" }
                     @for one in all { option value=(one) selected[given == Some(one)] { (one) } }
                 }
             }
         }
     };
     html! {
-        p { "Role: " (person.role.word()) ". What one tells of oneself is free, and kept for the study alone." }
+        p { "Role: " (person.role.word()) ". The information below is voluntary and used only for the study." }
         form.stacked method="post" action={ "/trainees/" (person.pseudonym) "/details" } {
             (token(visitor))
             (choice("age_band", "Age, years", person.age_band.as_deref(), AGE_BANDS))
             (choice("drone_experience", "Experience with drones", person.drone_experience.as_deref(), EXPERIENCE))
-            (choice("gaming_experience", "Experience with games", person.gaming_experience.as_deref(), EXPERIENCE))
+            (choice("gaming_experience", "Experience with video games", person.gaming_experience.as_deref(), EXPERIENCE))
             button type="submit" { "Save" }
         }
     }
@@ -145,8 +145,8 @@ fn erase(visitor: &Visitor, name: &str) -> Markup {
             form.stacked method="post" action={ "/trainees/" (name) "/erase" } {
                 (token(visitor))
                 p { "Erases " (name) " with all sessions, answers and session folders. This cannot be undone." }
-                label { "Write the pseudonym to go on" input name="again" required maxlength="32" autocomplete="off" autocapitalize="none"; }
-                button.danger type="submit" { "Erase for ever" }
+                label { "Enter the pseudonym to confirm" input name="again" required maxlength="32" autocomplete="off" autocapitalize="none"; }
+                button.danger type="submit" { "Erase permanently" }
             }
         }
     }
@@ -175,7 +175,7 @@ mod tests {
         };
         let text = trainee_page(&administrator(), &about).into_string();
         check(&text);
-        assert!(text.contains("Erase for ever") && text.contains("class=\"lines\"") && text.contains("What to fly next"));
+        assert!(text.contains("Erase permanently") && text.contains("class=\"lines\"") && text.contains("What to fly next"));
         assert_eq!(
             (text.matches("class=\"job\"").count(), text.matches("class=\"lines\"").count()),
             (2, 4),
@@ -194,7 +194,7 @@ mod tests {
         );
         assert!(with.contains(", 2 sessions<") && !with.contains("left out.") && with.contains("Leave out"), "{with}");
         let instructor = Visitor { role: Role::Instructor, ..administrator() };
-        assert!(!trainee_page(&instructor, &about).into_string().contains("Erase for ever"));
+        assert!(!trainee_page(&instructor, &about).into_string().contains("Erase permanently"));
         check(&trainee_list(&administrator(), &[person]).into_string());
     }
 }

@@ -1,39 +1,39 @@
-//! Visits: what a browser's cookie stands for. Kept in memory by the hash of the cookie's token, so that neither a dump nor a log holds
-//! what would open a session; a restart logs everybody out. Time and randomness are arguments.
+//! Login sessions of browsers, identified by a cookie. Kept in memory by the hash of the cookie's token, so that neither a memory
+//! dump nor a log reveals a usable token; a restart logs everyone out. Time and randomness are arguments.
 
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
-/// A visit that is not used ends after this, µs: two hours, so that a flight does not log anybody out.
+/// An unused login session expires after this, µs: two hours, so that a flight does not log the user out.
 const IDLE_US: u64 = 2 * 3_600_000_000;
-/// Every visit ends after this, µs: a working day.
+/// Every login session expires after this, µs: a working day.
 const LONGEST_US: u64 = 12 * 3_600_000_000;
-/// Strangers' visits that are kept; a robot that drops its cookies must not fill the memory.
+/// Maximum number of anonymous browser sessions, which bounds the memory that clients without cookies can use.
 const STRANGERS: usize = 4_096;
 
 /// Random bytes of a token.
 pub type TokenBytes = [u8; 32];
-/// Stands for a password and a role: a visit holds while it is the one of its login, wherever the change is made.
+/// Hash of password and role. A login session is valid only while this matches the user's current credential.
 pub type CredentialHash = [u8; 32];
 
-/// One browser.
+/// State of one browser.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BrowserSession {
-    /// Who logged in.
+    /// Name of the logged-in user, if any.
     pub name: Option<String>,
-    /// By which password and in which role; a stranger has none.
+    /// Credential used for the login; `None` if not logged in.
     pub credential: Option<CredentialHash>,
-    /// Goes with every form.
+    /// CSRF token included in every form.
     pub token: String,
     began_us: u64,
     used_us: u64,
 }
 
-/// All browsers.
+/// Login sessions of all browsers.
 #[derive(Debug, Default)]
 pub struct BrowserSessions(BTreeMap<[u8; 32], BrowserSession>);
 
-/// A secret as text for a cookie or a form.
+/// Encodes a secret as text for a cookie or a form.
 #[must_use]
 pub fn text_of(secret: &TokenBytes) -> String {
     secret.iter().map(|byte| format!("{byte:02x}")).collect()
@@ -44,7 +44,7 @@ fn key(cookie: &str) -> [u8; 32] {
 }
 
 impl BrowserSessions {
-    /// The visit of a cookie, if it lives; using it keeps it alive.
+    /// Returns the session of a cookie if it is still valid, and extends it.
     pub fn find(&mut self, cookie: &str, now_us: u64) -> Option<BrowserSession> {
         let key = key(cookie);
         let visit = self.0.get_mut(&key)?;
@@ -57,8 +57,8 @@ impl BrowserSessions {
         Some(visit.clone())
     }
 
-    /// Begins a visit: a stranger's, or that of somebody who has just logged in. The cookie is new in either case, so that one that was
-    /// planted before the login opens nothing after it. Returns the cookie's text and the visit.
+    /// Starts a session, anonymous or after a login. The cookie is always new, so that a cookie planted before the login is
+    /// useless after it (session fixation). Returns the cookie's text and the session.
     pub fn begin(
         &mut self,
         who: Option<(&str, CredentialHash)>,
@@ -75,25 +75,25 @@ impl BrowserSessions {
         (cookie, visit)
     }
 
-    /// Ends a visit.
+    /// Ends a session.
     pub fn end(&mut self, cookie: &str) {
         self.0.remove(&key(cookie));
     }
 
-    /// The visit of this cookie goes on under a new password or role: whoever has just changed his own stays logged in here.
+    /// Updates the credential of a cookie's session, so that users who change their own password stay logged in.
     pub fn renew(&mut self, cookie: &str, credential: CredentialHash) {
         if let Some(visit) = self.0.get_mut(&key(cookie)).filter(|visit| visit.name.is_some()) {
             visit.credential = Some(credential);
         }
     }
 
-    /// Ends all visits of a person (a new password, an erasure) but that of one cookie.
+    /// Ends all sessions of a user (password change, erasure), except that of one cookie.
     pub fn end_all_of(&mut self, name: &str, but: Option<&str>) {
         let kept = but.map(key);
         self.0.retain(|key, visit| visit.name.as_deref() != Some(name) || Some(*key) == kept);
     }
 
-    /// Forgets what is over, and of too many strangers those who were here longest ago.
+    /// Removes expired sessions and, above the limit, the anonymous ones that were idle longest.
     fn evict_oldest(&mut self, now_us: u64) {
         if self.0.len() < STRANGERS {
             return;
@@ -103,7 +103,7 @@ impl BrowserSessions {
             self.0.iter().filter(|(_, visit)| visit.name.is_none()).map(|(key, visit)| (visit.used_us, *key)).collect();
         if strangers.len() >= STRANGERS {
             strangers.sort_unstable();
-            // A quarter at once, so that not every further stranger costs a look at all.
+            // Removes a quarter at once, so that not every further anonymous request triggers a scan.
             for (_, key) in strangers.into_iter().take(STRANGERS / 4) {
                 self.0.remove(&key);
             }
@@ -111,7 +111,7 @@ impl BrowserSessions {
     }
 }
 
-/// Equal, in a time that does not tell how many characters are.
+/// Compares two strings in constant time, independent of how many characters match.
 #[must_use]
 pub fn constant_time_eq(a: &str, b: &str) -> bool {
     a.len() == b.len() && a.bytes().zip(b.bytes()).fold(0, |different, (x, y)| different | (x ^ y)) == 0

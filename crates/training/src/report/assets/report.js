@@ -1,5 +1,5 @@
-// What moves in a report: the slider with the drone on every drawing, the curves, the model that can be turned. All words come from the page or
-// go in as text, never as markup.
+// Interactive parts of a report: the slider with the drone in every drawing, the charts, and the 3D model. Text is inserted as text,
+// never as markup.
 (function () {
   'use strict';
   const { byId, all, clock, number, colour } = Flight;
@@ -75,7 +75,7 @@
   listeners.push(curves.follow);
   Flight.whenColoursChange(() => { curves.draw(); if (model) model.paint(); });
 
-  // The series as a file, made here and handed to the browser.
+  // Builds the series file in the page and offers it as a download.
   const csv = byId('series-csv');
   csv.hidden = false;
   csv.addEventListener('click', () => {
@@ -95,7 +95,7 @@
     setTimeout(() => URL.revokeObjectURL(link.href), 10000);
   });
 
-  // The model. Its library lies in the page as text and is started only when somebody asks for it.
+  // The 3D model. Its library is embedded as text and started only on request.
   let model = null;
   const open = byId('model-open');
   const probe = document.createElement('canvas').getContext('webgl2');
@@ -129,7 +129,7 @@
   }
 
   function turnable(T, host) {
-    // The site's east, north, up become x, -z, y.
+    // Maps the site's east, north, up to x, -z, y.
     const place = (p) => new T.Vector3(p[0], p[2], -p[1]);
     const scene = new T.Scene();
     const camera = new T.PerspectiveCamera(42, 1, 0.5, 4000);
@@ -189,7 +189,7 @@
     const track = line(flown, new T.LineBasicMaterial({ vertexColors: true }));
     track.geometry.setAttribute('color', new T.BufferAttribute(new Float32Array(3 * count), 3));
     scene.add(track);
-    // Lines are a pixel wide on most machines: dots along it make it thicker.
+    // Lines are one pixel wide on most machines; dots make them thicker.
     scene.add(new T.Points(track.geometry, new T.PointsMaterial({ size: 3.5, sizeAttenuation: false, vertexColors: true })));
     const shared = {};
     const ball = (at, kind, radius) => {
@@ -233,7 +233,7 @@
     }
     all('input[name="colouring"]').forEach((input) => input.addEventListener('change', paint));
 
-    // Turning: around a point in the middle of the bridges.
+    // Rotation about the center of the bridges.
     const box = new T.Box3().setFromObject(structure.geometry.getAttribute('position').count ? structure : track);
     const target = box.getCenter(new T.Vector3());
     let yaw = 0.5, pitch = 0.42, distance = Math.max(30, box.getSize(new T.Vector3()).length() * 0.62);

@@ -1,4 +1,4 @@
-// Tells a learning-management system the result, by the interface of SCORM 1.2 that it offers in a window above or behind this one.
+// Reports the result to a learning management system through the SCORM 1.2 API of a parent or opener window.
 "use strict";
 const told = document.getElementById("told");
 

@@ -1,30 +1,30 @@
-//! Sums over surface: by element, by fate, and what the pictures are like.
+//! Surface totals by element and outcome, and average picture quality.
 
 use super::outcome::SurfaceOutcome;
 use spandrel_model::math;
 use std::collections::BTreeMap;
 
-/// What was seen.
+/// Surface coverage of a session.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SurfaceCoverage {
-    /// By element, in the order of their numbers.
+    /// Coverage by element, in ascending element number.
     pub elements: Vec<ElementSurface>,
 }
 
-/// One element's surface.
+/// Surface coverage of one element.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ElementSurface {
-    /// AASHTO MBEI number; 0 for all together.
+    /// Element number (AASHTO MBEI); 0 for the total.
     pub element: u32,
-    /// What could be seen well from the reference paths, m².
+    /// Surface that can be inspected from the reference paths, m².
     pub inspectable_m2: f64,
-    /// Of it, by what became of it, m².
+    /// This surface by outcome, m².
     pub by_fate_m2: BTreeMap<SurfaceOutcome, f64>,
-    /// Of what was photographed at the required size and angle, the best pictures: areas times values.
+    /// Area-weighted sums over the best pictures at the required pixel size and angle.
     pub(in crate::report) sums: PictureSums,
 }
 
-/// Sums over area of what the best pictures are like.
+/// Area-weighted sums of the best pictures' properties.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(in crate::report) struct PictureSums {
     area_m2: f64,
@@ -34,20 +34,20 @@ pub(in crate::report) struct PictureSums {
     ln_lux: f64,
 }
 
-/// What the pictures of a surface are like on average over its area.
+/// Area-weighted average properties of the pictures of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AveragePicture {
-    /// Angle off square, rad.
+    /// Incidence angle from the surface normal, rad.
     pub incidence_rad: f64,
-    /// Size of a pixel on the surface, m.
+    /// Ground sampling distance: size of a pixel on the surface, m.
     pub gsd_m: f64,
-    /// Smear by the drone's motion, px.
+    /// Motion blur, px.
     pub blur_px: f64,
-    /// Light on it, lamp included, lx (geometric mean: light goes by factors).
+    /// Illuminance including the lamp, lx (geometric mean, because brightness is perceived as ratios).
     pub lux: f64,
 }
 
-/// The best picture of a patch so far.
+/// Best picture of a patch so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct BestPicture {
     pub fate: SurfaceOutcome,
@@ -58,7 +58,7 @@ pub(super) struct BestPicture {
 }
 
 impl ElementSurface {
-    /// Takes a piece of surface in, with its fate and its best picture.
+    /// Adds a surface patch with its outcome and best picture.
     pub(super) fn add(&mut self, area_m2: f64, fate: SurfaceOutcome, best: Option<&BestPicture>) {
         self.inspectable_m2 += area_m2;
         *self.by_fate_m2.entry(fate).or_default() += area_m2;
@@ -83,25 +83,25 @@ impl ElementSurface {
         sums.ln_lux += more.ln_lux;
     }
 
-    /// What became so, m².
+    /// Returns the area with this outcome, m².
     #[must_use]
     pub fn area_m2(&self, fate: SurfaceOutcome) -> f64 {
         self.by_fate_m2.get(&fate).copied().unwrap_or_default()
     }
 
-    /// What became so or better, m².
+    /// Returns the area with this outcome or a better one, m².
     #[must_use]
     pub fn at_least_m2(&self, fate: SurfaceOutcome) -> f64 {
         self.by_fate_m2.range(fate..).map(|(_, area_m2)| area_m2).sum()
     }
 
-    /// What pictures show at the required size of a pixel and angle, m².
+    /// Returns the area pictured at the required pixel size and angle, m².
     #[must_use]
     pub fn pictured_m2(&self) -> f64 {
         self.at_least_m2(SurfaceOutcome::DarkLampOff)
     }
 
-    /// What the pictures at that size and angle are like; `None` without any.
+    /// Returns the average properties of those pictures; `None` if there are none.
     #[must_use]
     pub fn typical(&self) -> Option<AveragePicture> {
         let PictureSums { area_m2, incidence_rad, gsd_m, blur_px, ln_lux } = self.sums;
@@ -115,7 +115,7 @@ impl ElementSurface {
 }
 
 impl SurfaceCoverage {
-    /// All elements together.
+    /// Returns the total over all elements.
     #[must_use]
     pub fn total(&self) -> ElementSurface {
         let mut total = ElementSurface::default();

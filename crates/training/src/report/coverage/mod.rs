@@ -1,5 +1,5 @@
-//! Surface coverage: which share of what could be inspected from the reference paths the pictures show well enough, what the rest of it
-//! lacked, and how much of it the camera had in view while flying. Size, angle and light are judged by the score's own functions.
+//! Surface coverage: the fraction of the inspectable surface that the pictures show well enough, what the rest lacked, and how
+//! much was in the camera's view during the flight. Size, angle and light are evaluated with the scorer's functions.
 
 mod element;
 mod outcome;
@@ -21,29 +21,29 @@ use spandrel_model::vehicle::Camera;
 use spandrel_monitor::measures::attention;
 use std::collections::BTreeMap;
 
-/// A crack of this width separates condition states 2 and 3 of reinforced concrete (0.05 in, AASHTO MBEI), m.
+/// Crack width that separates condition states 2 and 3 of reinforced concrete (0.05 in, AASHTO MBEI), m.
 const CRACK_M: f64 = 0.001_27;
-/// Size of a pixel on the surface at which that crack covers the half pixel that a hit needs, m.
+/// Pixel size on the surface at which that crack covers the half pixel required for a hit, m.
 pub const REQUIRED_GSD_M: f64 = CRACK_M / LINE_WIDTH_MIN_PX;
-/// Smear beyond this is blurred, px (published practice for detection: one pixel).
+/// Maximum motion blur, px (published practice for detection: one pixel).
 pub const BLUR_MAX_PX: f64 = 1.0;
-/// Beyond so many times the distance at which a pixel has the required size, surface is background and no picture of it.
+/// Surface beyond this multiple of the distance with the required pixel size counts as background.
 const BACKGROUND: f64 = 3.0;
-/// A sight line ends so far before the surface, m.
+/// Sight lines end at this distance before the surface, m.
 const CLEAR_M: f64 = 0.02;
-/// The camera's view while flying is asked this often.
+/// Sampling interval of the camera's view during the flight.
 const VIEW_STEP: SimTime = SimTime::from_ms(2_000);
-/// Patches of one orientation within this distance share their ambient light, m.
+/// Patches with the same orientation within this distance share their ambient light, m.
 const LIGHT_CELL_M: f64 = 5.0;
 
-/// A patch and what became of it.
+/// A patch and its outcome.
 struct JudgedPatch {
     patch: SurfacePatch,
     in_view: bool,
     best: Option<BestPicture>,
 }
 
-/// Works out the coverage of a session.
+/// Computes the surface coverage of a session.
 #[must_use]
 pub fn covered(scene: &ReviewContext<'_>, pictures: &[ReviewedPicture]) -> SurfaceCoverage {
     let whole = inspectable(scene).into_iter().map(|patch| JudgedPatch { patch, in_view: false, best: None });
@@ -69,7 +69,7 @@ impl JudgedPatch {
     }
 }
 
-/// Distance at which a pixel covers the required size, m.
+/// Returns the distance at which a pixel has the required size, m.
 #[must_use]
 pub fn reach_m(camera: &Camera) -> f64 {
     REQUIRED_GSD_M * camera.focal_px()
@@ -81,7 +81,8 @@ fn is_clear(from: Vec3<Enu>, to: Vec3<Enu>, scene: &ReviewContext<'_>) -> bool {
     reach <= 0.0 || scene.site.geometry().ray(from, line.unit(), reach).is_none()
 }
 
-/// Distance, m, and cosine of the angle off square of a patch that is inside the image and turned to the camera; sight lines are not asked.
+/// Returns the distance, m, and the cosine of the incidence angle of a patch that is inside the image and faces the camera. Does
+/// not test sight lines.
 fn framed(patch: &SurfacePatch, pose: &CameraPose, camera: &Camera, farthest_m: f64) -> Option<(f64, f64)> {
     let to = patch.point_m - pose.position_m;
     let away_m = to.norm();
@@ -103,7 +104,7 @@ fn add_picture(pieces: &mut [JudgedPatch], picture: &ReviewedPicture, light: &mu
     let reach = reach_m(camera);
     for piece in pieces {
         let Some((away_m, cosine)) = framed(&piece.patch, pose, camera, BACKGROUND * reach) else { continue };
-        // The best that this picture can be for the patch: when a better one is there, no sight line is asked.
+        // Upper bound for this picture; if a better one exists already, the sight line test is skipped.
         let most = if away_m > reach {
             SurfaceOutcome::TooFar
         } else if cosine < math::cos(INCIDENCE_MAX_RAD) {
@@ -128,7 +129,7 @@ fn add_picture(pieces: &mut [JudgedPatch], picture: &ReviewedPicture, light: &mu
     }
 }
 
-/// What a picture near and square enough is worth by its light and smear.
+/// Evaluates light and blur of a picture that meets the required pixel size and angle.
 fn judged(lux: f64, blur_px: f64, picture: &ReviewedPicture) -> SurfaceOutcome {
     if lux < needed_lux(&picture.camera) {
         if picture.pose.lamp_on { SurfaceOutcome::DarkLampOn } else { SurfaceOutcome::DarkLampOff }
@@ -145,7 +146,7 @@ fn add_flight(pieces: &mut [JudgedPatch], scene: &ReviewContext<'_>) {
     for frame in scene.frames.iter().step_by(stride) {
         let Some(pose) = attention::pose(scene.flight, frame.time, scene.vehicle) else { continue };
         let camera = attention::camera(scene.flight, frame.time, &scene.vehicle.camera);
-        // Of what a picture shows its picture is told.
+        // Pictured surface is already evaluated.
         for piece in pieces.iter_mut().filter(|piece| !piece.in_view && piece.best.is_none()) {
             let near = framed(&piece.patch, &pose, &camera, reach_m(&camera));
             piece.in_view =
@@ -154,14 +155,15 @@ fn add_flight(pieces: &mut [JudgedPatch], scene: &ReviewContext<'_>) {
     }
 }
 
-/// Ambient light, asked for once per neighbourhood and orientation.
+/// Cache of ambient light by cell and orientation.
 struct LightCache<'a> {
     scene: &'a ReviewContext<'a>,
     cells: BTreeMap<[i64; 6], f64>,
 }
 
 impl LightCache<'_> {
-    /// Light on a patch in a picture, lamp included, lx, and its smear, px, at the shortest exposure that this light allows.
+    /// Returns the illuminance of a patch in a picture including the lamp, lx, and the motion blur, px, at the shortest exposure
+    /// possible in this light.
     fn with_motion_blur(&mut self, patch: &SurfacePatch, picture: &ReviewedPicture) -> (f64, f64) {
         let (pose, camera) = (&picture.pose, &picture.camera);
         let lamp = lamp_lux(&self.scene.vehicle.lamp, pose, patch.point_m, patch.normal);

@@ -1,28 +1,28 @@
-//! What can become of a piece of surface.
+//! Outcomes of surface coverage.
 
-/// What became of a piece of surface, from nothing to all that is asked for: its best picture counts.
+/// Coverage outcome of a surface patch, from worst to best. The best picture counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SurfaceOutcome {
-    /// The camera never had it before it, near and square enough.
+    /// Never in the camera's view at the required distance and angle.
     Unseen,
-    /// The camera had, and no picture was taken.
+    /// In view but not photographed.
     Unpictured,
-    /// A pixel covers too much of it.
+    /// Photographed from too far away: the pixel size is too large.
     TooFar,
-    /// More than 60 degrees off square.
+    /// Photographed at more than 60 degrees from the surface normal.
     TooOblique,
-    /// Too little light, and the lamp was off.
+    /// Too dark, with the lamp off.
     DarkLampOff,
-    /// Too little light, though the lamp was on.
+    /// Too dark, even with the lamp on.
     DarkLampOn,
-    /// Smeared by the drone's motion.
+    /// Motion blur is too large.
     Blurred,
-    /// A picture shows it well.
+    /// Shown well by a picture.
     Shown,
 }
 
 impl SurfaceOutcome {
-    /// All, the best first: the order of legends and columns.
+    /// All outcomes, best first, in the order of legends and columns.
     pub const ALL: [Self; 8] = [
         Self::Shown,
         Self::Blurred,
@@ -34,7 +34,7 @@ impl SurfaceOutcome {
         Self::Unseen,
     ];
 
-    /// In words.
+    /// Returns the display name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -49,7 +49,7 @@ impl SurfaceOutcome {
         }
     }
 
-    /// Name of its style.
+    /// Returns the CSS class.
     #[must_use]
     pub fn class(self) -> &'static str {
         match self {

@@ -1,4 +1,4 @@
-//! The surface that counts: what some point of a reference path sees well, sampled by patches of about a square metre.
+//! Inspectable surface: the part visible from some point of a reference path, sampled in patches of about one square meter.
 
 use super::{is_clear, reach_m};
 use crate::report::ReviewContext;
@@ -7,31 +7,31 @@ use spandrel_model::math;
 use spandrel_model::scenario::bridges::Solid;
 use spandrel_model::site::visibility::INCIDENCE_MAX_RAD;
 
-/// Side of a patch, m.
+/// Patch side length, m.
 const PATCH_M: f64 = 1.0;
-/// Smaller faces are left out: edges of plates and posts, m².
+/// Minimum face area; smaller faces such as plate and post edges are skipped, m².
 const LEAST_FACE_M2: f64 = 0.1;
-/// Start of a sight line over the surface, m.
+/// Offset of a sight line's start from the surface, m.
 const LIFT_M: f64 = 0.02;
-/// Points of the reference paths that are asked per patch, nearest first.
+/// Number of reference points tested per patch, nearest first.
 const TRIES: usize = 8;
 
-/// A piece of a member's surface.
+/// A patch of a member's surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfacePatch {
-    /// AASHTO MBEI number of its element.
+    /// Element number (AASHTO MBEI).
     pub element: u32,
-    /// A little above its middle, so that a sight line can end there.
+    /// Point slightly above the center, as the end of sight lines, m.
     pub above_m: Vec3<Enu>,
-    /// Its middle.
+    /// Center, m.
     pub point_m: Vec3<Enu>,
-    /// Outward.
+    /// Outward unit normal.
     pub normal: Vec3<Enu>,
-    /// What it stands for, m².
+    /// Area that the patch represents, m².
     pub area_m2: f64,
 }
 
-/// Patches that some point of a reference path sees well.
+/// Returns the patches that can be inspected from some point of a reference path.
 #[must_use]
 pub fn inspectable(scene: &ReviewContext<'_>) -> Vec<SurfacePatch> {
     let reach = reach_m(&scene.vehicle.camera);
@@ -52,7 +52,7 @@ pub fn inspectable(scene: &ReviewContext<'_>) -> Vec<SurfacePatch> {
     patches
 }
 
-/// The stations within reach of a solid's bounding box.
+/// Returns the reference points within reach of a solid's bounding box.
 fn near_to(solid: &Solid, stations: &[Vec3<Enu>], reach_m: f64) -> Vec<Vec3<Enu>> {
     let empty = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     let (low, high) =
@@ -63,7 +63,7 @@ fn near_to(solid: &Solid, stations: &[Vec3<Enu>], reach_m: f64) -> Vec<Vec3<Enu>
     stations.iter().copied().filter(|s| away_squared(s.array()) <= reach_m * reach_m).collect()
 }
 
-/// Points, outward normals and areas that stand for a solid's faces.
+/// Samples a solid's faces as points, outward normals and areas.
 fn sampled(solid: &Solid) -> Vec<(Vec3<Enu>, Vec3<Enu>, f64)> {
     let mut samples = Vec::new();
     for face in &solid.faces {
@@ -81,7 +81,7 @@ fn sampled(solid: &Solid) -> Vec<(Vec3<Enu>, Vec3<Enu>, f64)> {
     samples
 }
 
-/// Grid points of a convex polygon, [`PATCH_M`] apart; its centre when it is smaller than that.
+/// Returns grid points of a convex polygon, [`PATCH_M`] apart; the center if it is smaller than that.
 fn grid(corners: &[Vec3<Enu>], normal: Vec3<Enu>) -> Vec<Vec3<Enu>> {
     let u = (corners[1] - corners[0]).unit();
     let v = normal.cross(u);
@@ -109,7 +109,7 @@ fn grid(corners: &[Vec3<Enu>], normal: Vec3<Enu>) -> Vec<Vec3<Enu>> {
     points
 }
 
-/// Inside a convex polygon whose corners run counter-clockwise.
+/// Returns whether a point is inside a convex polygon with counterclockwise corners.
 fn is_inside(flat: &[(f64, f64)], p: (f64, f64)) -> bool {
     (0..flat.len()).all(|k| {
         let (a, b) = (flat[k], flat[(k + 1) % flat.len()]);
@@ -132,7 +132,7 @@ fn seen_from(stations: &[Vec3<Enu>], (point_m, normal): (Vec3<Enu>, Vec3<Enu>), 
 mod tests {
     use super::*;
 
-    /// A box of 4 by 3 by 2 m.
+    /// Returns a box of 4 by 3 by 2 m.
     fn block() -> Solid {
         let corner = |k: u32| {
             let pick = |bit: u32, length: f64| if k >> bit & 1 == 1 { length } else { 0.0 };

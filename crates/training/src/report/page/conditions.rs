@@ -1,4 +1,4 @@
-//! The certification profile beside the paper's scores: gates, and what its scores are made of.
+//! The certification profile: requirements, and the components of its scores.
 
 use crate::report::Review;
 use crate::report::table::{Table, TableCell};
@@ -7,7 +7,7 @@ use maud::{Markup, html};
 use spandrel_model::site::catalogue::kind_name;
 use spandrel_monitor::score::completion::verdict;
 
-/// The section.
+/// Renders the section.
 pub fn section(review: &Review) -> Markup {
     let c = &review.assessment.certification;
     let gates = [
@@ -18,7 +18,7 @@ pub fn section(review: &Review) -> Markup {
         ("at least 20 % battery left at landing", c.gates.battery_reserve),
     ];
     html! {
-        p { "A second profile with gates that close the paper's loopholes; it stands beside the four scores, never instead of them. "
+        p { "A second profile with pass/fail requirements that close loopholes in the paper's scores. It complements the four scores. "
             b { @if c.passed { "All requirements met." } @else { (verdict(false, &c.unmet)) "." } } }
         ul.gates {
             @for (words, open) in gates {
@@ -26,8 +26,8 @@ pub fn section(review: &Review) -> Markup {
             }
         }
         @if !c.unmet.is_empty() { p { "Not met: " (c.unmet.join("; ")) "." } }
-        p { "Closer than " (words::number(review.scenario.scoring.clearance_m, 1)) " m to something for " (words::number(c.exposure_s, 1))
-            " s; " (c.crash_onsets) " contacts, " (c.crashes.len()) " when those less than a second apart count as one; "
+        p { "Closer than " (words::number(review.scenario.scoring.clearance_m, 1)) " m to a surface for " (words::number(c.exposure_s, 1))
+            " s; " (c.crash_onsets) " contacts, " (c.crashes.len()) " after merging those less than a second apart; "
             (words::number(c.battery_at_end_pct, 0)) " % battery at the end." }
         (visits(review).folded())
         (detection(review).folded())

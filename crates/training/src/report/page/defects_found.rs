@@ -1,4 +1,4 @@
-//! Defects: found and missed, on the bridges, and for the missed ones how near the flight came and how they would have looked.
+//! Defects found and missed, marked on the bridges. For missed ones: how close the flight came, and how they would have looked.
 
 use super::figure;
 use super::gallery::{DefectMark, frame};
@@ -13,7 +13,7 @@ use maud::{Markup, html};
 use spandrel_model::scenario::Bridge;
 use spandrel_model::site::catalogue::kind_name;
 
-/// The section.
+/// Renders the section.
 pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
     if review.defects.is_empty() {
         return html! { p.calm { "No defects were placed in this job." } };
@@ -29,8 +29,8 @@ pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
             @if review.defects.iter().any(|fate| fate.defect.member.starts_with(&format!("{}/", bridge.name))) { (drawings(review, bridge)) }
         }
         @if !missed.is_empty() {
-            h3 { "What was missed" }
-            p.note { "Each is drawn as a camera four metres square on would have had it, with the lamp on." }
+            h3 { "Missed defects" }
+            p.note { "Each drawing shows the view from four meters at a right angle, with the lamp on." }
             ul.gallery { @for fate in &missed { (card(review, fate, sketcher)) } }
         }
         (table(review).folded())
@@ -51,7 +51,7 @@ fn drawings(review: &Review, bridge: &Bridge) -> Markup {
 fn card(review: &Review, fate: &DefectOutcome, sketcher: &Sketcher) -> Markup {
     let defect = &fate.defect;
     let marks = [DefectMark { id: defect.id, at_m: defect.position_m, long_m: defect.length_m, class: "missed", hidden: false }];
-    let alt = format!("Where defect {} is, from four metres", defect.id);
+    let alt = format!("Location of defect {}, seen from four meters", defect.id);
     let exposure = SketchExposure { light: 1.0, by_lamp: true };
     html! {
         li.shot {

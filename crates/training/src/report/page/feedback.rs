@@ -1,4 +1,4 @@
-//! Feedback that was given, and how fast the trainee's hands answered.
+//! Feedback given during the flight, and the trainee's response times.
 
 use super::{figure, scrolling};
 use crate::report::Review;
@@ -12,24 +12,24 @@ const WIDTH: f64 = 620.0;
 const LEFT: f64 = 96.0;
 const RIGHT: f64 = 600.0;
 const ROW: f64 = 34.0;
-/// Right end of the axis, s: what answers later is no answer.
+/// Right end of the axis, s; later movements do not count as a response.
 const LONGEST_S: f64 = 5.0;
 
-/// The section.
+/// Renders the section.
 pub fn section(review: &Review) -> Markup {
     let present: Vec<usize> = (0..KINDS.len()).filter(|kind| of(review, *kind).next().is_some()).collect();
     html! {
         @if present.is_empty() { p.calm { "No feedback was given." } } @else {
             div.scroll tabindex="0" role="region" aria-label="Feedback in numbers" {
                 table {
-                    thead { tr { th scope="col" { "feedback" } th scope="col" { "times" } th scope="col" { "on for, s" } th scope="col" { "sticks answered" } th scope="col" { "median reaction, s" } } }
+                    thead { tr { th scope="col" { "feedback" } th scope="col" { "times" } th scope="col" { "on for, s" } th scope="col" { "stick reactions" } th scope="col" { "median reaction, s" } } }
                     tbody { @for kind in &present { (row(review, *kind)) } }
                 }
             }
             @if answered(review).next().is_some() {
-                (figure("From the cue to the first movement of a stick; a dot is one cue, the bar their median", &scrolling("Reaction times", &reactions(review))))
+                (figure("Time from the cue to the first stick movement; each dot is one cue, the bar is the median", &scrolling("Reaction times", &reactions(review))))
             }
-            p.note { "A stick answers when it moves by a tenth of its travel within five seconds. A hand that was moving already may answer by chance." }
+            p.note { "A reaction is a stick movement of at least a tenth of full travel within five seconds. A stick that was already moving may count by chance." }
         }
         @if !review.feedback.notes.is_empty() { (notes(review).shown()) }
         (episodes(review).folded())
@@ -66,7 +66,7 @@ fn row(review: &Review, kind: usize) -> Markup {
     }
 }
 
-/// Where a reaction lies on the sheet.
+/// Returns the position of a response time on the sheet.
 fn fraction_text(answer_s: f64) -> f64 {
     LEFT + (RIGHT - LEFT) * (answer_s / LONGEST_S).clamp(0.0, 1.0)
 }
@@ -105,7 +105,7 @@ fn episodes(review: &Review) -> Table {
     };
     Table {
         name: "feedback",
-        caption: "feedback as it was shown",
+        caption: "feedback shown",
         columns: vec!["time", "feedback", "on for, s", "stick moved after, s", "task"],
         rows: review.feedback.episodes.iter().map(row).collect(),
     }
@@ -115,13 +115,13 @@ fn texts(review: &Review) -> Table {
     let row = |(t_s, text): &(f64, String)| vec![TableCell::Clock(*t_s), text.clone().into()];
     Table {
         name: "texts",
-        caption: "texts as they were sent",
+        caption: "texts sent",
         columns: vec!["time", "text"],
         rows: review.feedback.texts.iter().map(row).collect(),
     }
 }
 
-/// What an instructor noted while he watched; the trainee's screen did not show it.
+/// Returns the instructor's notes as a table. The trainee did not see them.
 fn notes(review: &Review) -> Table {
     let row = |(t_s, text): &(f64, String)| {
         let when = if *t_s < 0.0 { "before lift-off".into() } else { TableCell::Clock(*t_s) };
@@ -129,7 +129,7 @@ fn notes(review: &Review) -> Table {
     };
     Table {
         name: "notes",
-        caption: "what the instructor noted",
+        caption: "instructor's notes",
         columns: vec!["time", "note"],
         rows: review.feedback.notes.iter().map(row).collect(),
     }

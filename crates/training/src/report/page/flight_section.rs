@@ -1,4 +1,4 @@
-//! The flight on the site, its time line and its series, tied together by the slider.
+//! The flight on the site, its timeline and its charts, linked by the slider.
 
 use super::{figure, legend, scrolling};
 use crate::report::cues::KINDS;
@@ -8,7 +8,7 @@ use crate::report::table::{Table, TableCell};
 use crate::report::{Review, words};
 use maud::{Markup, html};
 
-/// The series: id, title, and what the script draws (names of columns).
+/// Charts: id, title and the column names that the script draws.
 const CHARTS: [(&str, &str, &str); 5] = [
     ("speed", "Speed, m/s", "speed"),
     ("distance", "Distance to the path of the task flown, m", "distance"),
@@ -17,28 +17,28 @@ const CHARTS: [(&str, &str, &str); 5] = [
     ("sticks", "Sticks, full travel = 1", "fb rl ud rt"),
 ];
 
-/// The section.
+/// Renders the section.
 pub fn section(review: &Review) -> Markup {
     html! {
         (controls(review))
         (marks_legend())
         (drawings(review))
-        (figure("The session in time", &html! {
+        (figure("Session timeline", &html! {
             (legend(&strip_legend()))
-            (scrolling("Time line", &strips(&rows(review), end_s(review), "Who flew, tasks, feedback, pictures and gaps over time")))
+            (scrolling("Timeline", &strips(&rows(review), end_s(review), "Control source, tasks, feedback, pictures and gaps over time")))
         }))
         div.charts {
             @for (id, title, columns) in CHARTS {
                 figure {
                     figcaption { (title) @if id == "sticks" { (stick_legend()) } }
-                    div.chart id={ "chart-" (id) } data-columns=(columns) role="img" aria-label={ (title) " over time; the table below holds the numbers" } {}
+                    div.chart id={ "chart-" (id) } data-columns=(columns) role="img" aria-label={ (title) " over time; see the table below for the values" } {}
                 }
             }
         }
-        p.note { "Drag over a curve to look closer, double-click to see all again, click to move the slider." }
+        p.note { "Drag over a chart to zoom in, double-click to reset, click to move the slider." }
         (series_table(review).folded())
-        p.download { button type="button" id="series-csv" hidden { "Download the series as CSV" } " "
-            span.note { "Every frame in full: " code { "spandrel export SESSION --frames frames.csv" } } }
+        p.download { button type="button" id="series-csv" hidden { "Download the time series as CSV" } " "
+            span.note { "To export every frame: " code { "spandrel export SESSION --frames frames.csv" } } }
     }
 }
 
@@ -46,7 +46,7 @@ fn end_s(review: &Review) -> f64 {
     review.t_s(review.frames.len().saturating_sub(1))
 }
 
-/// The button that plays, the slider and its moment.
+/// Renders the play button, the slider and its readout.
 pub(super) fn slider() -> Markup {
     html! {
         button type="button" id="play" aria-pressed="false" { "Play" }
@@ -56,7 +56,7 @@ pub(super) fn slider() -> Markup {
     }
 }
 
-/// The slider, what holds at its moment, and the switch of colours.
+/// Renders the slider, the values at its time, and the color selection.
 fn controls(review: &Review) -> Markup {
     html! {
         div.controls id="controls" {
@@ -67,7 +67,7 @@ fn controls(review: &Review) -> Markup {
                 }
             }
             fieldset.switch {
-                legend { "Colour the flight by" }
+                legend { "Color the flight by" }
                 @for (k, (name, class)) in colors::COLOURINGS.iter().enumerate() {
                     label { input type="radio" name="colouring" value=(class) id=(class) checked[k == 0]; (name) }
                 }
@@ -106,10 +106,10 @@ fn drawings(review: &Review) -> Markup {
             (figure(&title, &scroll(&title, &map::elevation(review, bridge))))
         }
         figure.model id="model" {
-            figcaption { "In three dimensions " button type="button" id="model-open" hidden { "Turn it" } }
-            div.scroll.wide id="model-still" tabindex="0" role="region" aria-label="View in three dimensions" { (map::oblique(review)) }
+            figcaption { "3D view " button type="button" id="model-open" hidden { "Rotate" } }
+            div.scroll.wide id="model-still" tabindex="0" role="region" aria-label="3D view of the flight" { (map::oblique(review)) }
             div id="model-live" hidden {}
-            p.note id="model-note" hidden { "Drag or use the arrow keys to turn, + and − or the wheel to come closer." }
+            p.note id="model-note" hidden { "Drag or use the arrow keys to rotate, + and − or the wheel to zoom." }
         }
     }
 }
@@ -117,7 +117,7 @@ fn drawings(review: &Review) -> Markup {
 fn strip_legend() -> Vec<(&'static str, String)> {
     vec![
         ("h-pilot", "flown by the pilot".into()),
-        ("h-other", "by mission, script or autopilot".into()),
+        ("h-other", "flown by mission, script or autopilot".into()),
         ("w-task", "task window".into()),
         ("cue", "cue on".into()),
         ("gap", "telemetry missing".into()),
@@ -180,7 +180,7 @@ fn control_stretches(review: &Review) -> TimeStrip {
     TimeStrip { name: "flown by".into(), stretches: review.assessment.flown_by.iter().map(stretch).collect(), marks: Vec::new() }
 }
 
-/// Frames in a row that were not heard.
+/// Returns runs of consecutive frames without telemetry.
 fn gaps(review: &Review) -> TimeStrip {
     let mut stretches: Vec<(String, f64, f64, String)> = Vec::new();
     let mut open: Option<usize> = None;
@@ -190,17 +190,17 @@ fn gaps(review: &Review) -> TimeStrip {
             None if gap => open = Some(i),
             Some(from) if !gap => {
                 let seconds = words::number(review.t_s(i) - review.t_s(from), 1);
-                stretches.push(("gap".into(), review.t_s(from), review.t_s(i), format!("{seconds} s not heard")));
+                stretches.push(("gap".into(), review.t_s(from), review.t_s(i), format!("no telemetry for {seconds} s")));
                 open = None;
             }
             None | Some(_) => {}
         }
     }
-    stretches.extend(open.map(|from| ("gap".into(), review.t_s(from), end_s(review), "not heard to the end".into())));
+    stretches.extend(open.map(|from| ("gap".into(), review.t_s(from), end_s(review), "no telemetry until the end".into())));
     TimeStrip { name: "gaps".into(), stretches, marks: Vec::new() }
 }
 
-/// A row every few seconds: what the curves show.
+/// Returns the charts' data, sampled every few seconds.
 fn series_table(review: &Review) -> Table {
     let every_s = (end_s(review) / 60.0 / 5.0).ceil().max(1.0) * 5.0;
     let stride = (every_s * review.scenario.scoring.frame_rate_hz).round().max(1.0) as usize;
@@ -230,7 +230,7 @@ fn series_table(review: &Review) -> Table {
     };
     Table {
         name: "flight",
-        caption: "the flight, a row every few seconds",
+        caption: "the flight, sampled every few seconds",
         columns: vec![
             "time",
             "task",

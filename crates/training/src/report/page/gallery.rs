@@ -1,4 +1,4 @@
-//! The pictures with their verdicts. Where the session holds the photograph it is shown, else a drawing of what the camera had before it.
+//! Pictures with their verdicts. Shows the photograph if the session contains it, otherwise a drawing of the camera's view.
 
 use crate::report::Review;
 use crate::report::assets::base64;
@@ -12,19 +12,19 @@ use spandrel_model::site::CameraPose;
 use spandrel_model::site::visibility::CENTRAL_SHARE;
 use spandrel_model::vehicle::Camera;
 
-/// The site as it is drawn in all pictures: by the light of mid-flight.
+/// Prepares the site for all drawings, in the light of mid-flight.
 pub fn sketcher(review: &Review) -> Sketcher {
     let middle = review.frames.get(review.frames.len() / 2).map_or(spandrel_model::time::SimTime::ZERO, |frame| frame.time);
     Sketcher::new(&review.site, &review.scenario, middle)
 }
 
-/// The section.
+/// Renders the section.
 pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
     html! {
         @if review.pictures.is_empty() { p.calm { "No picture was taken." } } @else {
             p { (tally(review)) }
             @if review.about.pictures.is_empty() {
-                p.note { "The session holds no photographs: what the camera had before it is drawn from the bridges' geometry. The dashed frame is the part of the image that counts." }
+                p.note { "The session contains no photographs, so the camera's view is drawn from the bridges' geometry. Only defects inside the dashed frame count." }
             }
             ul.gallery { @for picture in &review.pictures { (card(review, picture, sketcher)) } }
         }
@@ -64,9 +64,9 @@ fn capitalized(words: &str) -> String {
 fn target(picture: &ReviewedPicture) -> String {
     let lamp = if picture.pose.lamp_on { "lamp on" } else { "lamp off" };
     match &picture.target {
-        None => format!("Sky in the middle, {lamp}"),
+        None => format!("Sky in the center, {lamp}"),
         Some(t) => format!(
-            "{} in the middle, {} m away, {}° off square, {} mm per pixel, {} lx ({lamp}), smear {} px",
+            "{} in the center, {} m away, {}° from normal, {} mm per pixel, {} lx ({lamp}), motion blur {} px",
             t.name,
             words::number(t.distance_m, 1),
             words::number(t.incidence_rad.to_degrees(), 0),
@@ -107,21 +107,21 @@ fn image(review: &Review, picture: &ReviewedPicture, sketcher: &Sketcher) -> Mar
     frame(sketcher, (&picture.pose, &picture.camera), exposure, &marks, &words)
 }
 
-/// A defect to be marked in a drawing.
+/// A defect to mark in a drawing.
 pub struct DefectMark {
-    /// Its number.
+    /// Defect number.
     pub id: u32,
-    /// Where it is.
+    /// Position, m.
     pub at_m: spandrel_model::frames::Vec3<spandrel_model::frames::Enu>,
-    /// Its longest extent, m.
+    /// Longest extent, m.
     pub long_m: f64,
-    /// Style.
+    /// CSS class.
     pub class: &'static str,
-    /// Something stands before it.
+    /// Whether it is occluded.
     pub hidden: bool,
 }
 
-/// A drawing with its marks.
+/// Renders a drawing with its marks.
 pub fn frame(
     sketcher: &Sketcher,
     (pose, camera): (&CameraPose, &Camera),
@@ -139,7 +139,7 @@ pub fn frame(
         (middle, (0.5 * focal * mark.long_m / depth).clamp(7.0, 0.5 * w))
     };
     let edge = 0.5 * (1.0 - CENTRAL_SHARE);
-    // A drawing that cannot be encoded is left out; its words stay.
+    // If encoding fails, the drawing is omitted and the text remains.
     let drawing = sketcher.png(pose, camera, exposure).map(|png| base64(&png)).unwrap_or_default();
     html! {
         svg.frame viewBox={ "0 0 " (unit(w)) " " (unit(h)) } role="img" aria-label=(words) {
@@ -188,13 +188,13 @@ fn table(review: &Review) -> Table {
             "task",
             "verdict",
             "reason",
-            "in the middle",
+            "in the center",
             "distance, m",
-            "off square, deg",
+            "angle from normal, deg",
             "pixel, mm",
             "light, lx",
-            "light needed, lx",
-            "smear, px",
+            "required light, lx",
+            "motion blur, px",
             "lamp",
         ],
         rows: review.pictures.iter().map(row).collect(),

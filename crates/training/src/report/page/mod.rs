@@ -1,4 +1,5 @@
-//! The page, section by section. What a user wrote goes through maud's escaping; what the page's script reads goes through [`series`].
+//! The report page, section by section. User-provided text goes through maud's escaping; data for the page's script goes through
+//! [`series`].
 
 pub mod cohort;
 mod compare;
@@ -22,7 +23,7 @@ use super::Review;
 use super::assets;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-/// The page of one session.
+/// Renders the page of one session.
 #[must_use]
 pub fn session(review: &Review) -> String {
     let title = format!("Session of {}, {}", review.about.trainee, review.about.started_utc);
@@ -55,17 +56,18 @@ pub fn session(review: &Review) -> String {
     )
 }
 
-/// What moves on a page: its data block, and with it its scripts.
+/// Interactive content of a page: its data block and the scripts that it needs.
 enum PageScripts {
-    /// Nothing.
+    /// No scripts.
     Nothing,
-    /// A session's slider, curves and model.
+    /// Slider, charts and model of a session.
     Session(String),
-    /// The slider and curves of two sessions.
+    /// Slider and charts of two sessions.
     Comparison(String),
 }
 
-/// A whole document: policy, styles, the body, data and scripts. Styles and scripts are ours and the libraries', never a user's words.
+/// Renders a complete document: policy, styles, body, data and scripts. Styles and scripts are ours or a library's and contain no
+/// user input.
 fn document(title: &str, moves: &PageScripts, body: &Markup) -> String {
     html! {
         (DOCTYPE)
@@ -106,17 +108,17 @@ fn scripts(texts: &[&str]) -> Markup {
     html! { @for text in texts { script { (PreEscaped(text)) } } }
 }
 
-/// What is wider than a phone moves in a frame of its own, by finger or keys.
+/// Wraps wide content in a scrollable frame for small screens and keyboard use.
 fn scrolling(label: &str, body: &Markup) -> Markup {
     html! { div.scroll tabindex="0" role="region" aria-label=(label) { (body) } }
 }
 
-/// A figure with its caption.
+/// Renders a figure with its caption.
 fn figure(caption: &str, body: &Markup) -> Markup {
     html! { figure { figcaption { (caption) } (body) } }
 }
 
-/// A legend: style of the swatch and words.
+/// Renders a legend from style and text of each entry.
 fn legend(entries: &[(&str, String)]) -> Markup {
     html! {
         ul.legend {

@@ -1,14 +1,14 @@
-//! What to fly next, by the rules of the training plan and this session alone.
+//! Recommended next steps by the training plan's rules, based on this session alone.
 
 use crate::plan::PlanStep;
 use crate::report::Review;
 use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
 
-/// The section.
+/// Renders the section.
 pub fn section(review: &Review) -> Markup {
     html! {
-        p.note { "From this session alone; " code { "spandrel plan" } " looks at all of a trainee's sessions." }
+        p.note { "Based on this session alone; " code { "spandrel plan" } " considers all sessions of a trainee." }
         ol.steps {
             @for step in &review.next {
                 li {

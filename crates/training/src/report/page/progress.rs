@@ -1,5 +1,5 @@
-//! One trainee on one job, repetition by repetition, as the paper shows its participant 18: scores, on-path by task, crashes by kind; from
-//! four repetitions on the learning curves. A part of the server's and the cohort's pages.
+//! Progress of one trainee on one job by repetition, as the paper shows for participant 18: scores, on-path share by task,
+//! crashes by kind and, from four repetitions on, learning curves. Part of the server's and the cohort's pages.
 
 use super::kinds::{KINDS, counted, segments};
 use super::{figure, legend};
@@ -12,15 +12,15 @@ use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
 
-/// The four scores, and the most that each can be.
+/// Names of the four scores.
 const SCORES: [&str; 4] = ["conformity", "efficiency", "safety", "accuracy"];
-/// The most that a score can be.
+/// Returns the maximum of a score.
 #[must_use]
 pub fn most(score: &str) -> f64 {
     if score == "overall" { 400.0 } else { 100.0 }
 }
 
-/// Everything of one job.
+/// Renders the progress on one job.
 #[must_use]
 pub fn on_job(job: &JobProgress) -> Markup {
     let progress = &job.progress;
@@ -37,7 +37,7 @@ pub fn on_job(job: &JobProgress) -> Markup {
     }
 }
 
-/// The three figures of the repetitions.
+/// Renders the three figures of the repetitions.
 pub fn pictures(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Markup {
     let scores = scores(progress);
     let shares = shares(progress, tasks);
@@ -55,9 +55,9 @@ pub fn pictures(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Markup {
     let seen: Vec<(&str, String)> = seen.collect();
     html! {
         div.three {
-            (figure("The four scores, repetition by repetition", &html! { (key(&scores)) (lines(&scores, 100.0, "Scores by repetition")) }))
+            (figure("The four scores by repetition", &html! { (key(&scores)) (lines(&scores, 100.0, "Scores by repetition")) }))
             @if !tasks.is_empty() {
-                (figure("Share of each task's time on the path, %", &html! { (key(&shares)) (lines(&shares, 100.0, "On the path by task and repetition")) }))
+                (figure("On-path share of each task, %", &html! { (key(&shares)) (lines(&shares, 100.0, "On-path share by task and repetition")) }))
             }
             (figure("Crashes by what was hit", &html! {
                 @if seen.is_empty() { p.calm { "None." } } @else { (legend(&seen)) (counts(&rows, "Crashes by kind and repetition")) }
@@ -105,7 +105,7 @@ fn learning(progress: &TraineeProgress) -> Markup {
                 (figure(&curve.score, &practice(&drawn, &format!("Learning curve of {}", curve.score))))
             }
         }
-        p.note { "A power law of practice fitted to the repetitions; the ring is what it expects of the next. It does not know that a score ends at its largest value." }
+        p.note { "A power law of practice fitted to the repetitions; the ring is the prediction for the next one. It may exceed the maximum of the score." }
         (curve_numbers(&progress.curves).folded())
     }
 }
@@ -142,7 +142,7 @@ fn numbers(scenario: &str, progress: &TraineeProgress) -> Table {
         row
     };
     let columns = ["repetition", "scenario", "conformity", "efficiency", "safety", "accuracy", "overall", "flight time"];
-    let crashes = ["into bridges", "ground", "water", "other", "persons, vehicles"];
+    let crashes = ["into bridges", "ground", "water", "other", "people, vehicles"];
     Table {
         name: "progress",
         caption: "each repetition: scores, time, crashes",
@@ -164,7 +164,7 @@ fn on_path_numbers(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Table
     }
 }
 
-/// What the page says where nobody could have a curve, in words of the statistic.
+/// Returns the message shown when there are too few repetitions for a curve.
 pub fn too_few() -> String {
     format!("A learning curve needs {} repetitions of one job.", words::number(crate::statistics::LEARNING_NEEDS as f64, 0))
 }
@@ -190,7 +190,7 @@ mod tests {
     fn exact_scores_tasks_and_crashes_stand_repetition_by_repetition() {
         let text = progress_page(3).into_string();
         assert_eq!(text.matches("class=\"lines\"").count(), 2);
-        // Four lines of scores with three points each; of the tasks one point is missing, for that task was left out.
+        // Four score lines with three points each; one task point is missing because that task was not attempted.
         assert_eq!(text.matches("<circle class=\"dot-").count(), 12 + 11);
         assert!(text.contains("water: 2") && text.contains("person or vehicle: 1") && !text.contains("bridge: "), "{text}");
         assert!(text.contains("not attempted") && text.contains("&lt;b&gt;slab") && !text.contains("<b>slab"));

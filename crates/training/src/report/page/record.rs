@@ -1,31 +1,31 @@
-//! What the report rests on: coverage of the telemetry, who flew when, the link, the files and their hashes.
+//! Basis of the report: telemetry coverage, control sources, link statistics, files and their hashes.
 
 use crate::report::Review;
 use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
 
-/// The section.
+/// Renders the section.
 pub fn section(review: &Review) -> Markup {
     let telemetry = &review.assessment.telemetry;
     html! {
         p { (gaps(review)) }
         @if telemetry.missing_frames > 0 {
-            p.note { "Frames in gaps over a second hold the last position and are scored as they stand." }
+            p.note { "In gaps longer than one second, frames hold the last position and are scored with it." }
         }
         (control_stretches(review).shown())
         (files(review).shown())
-        p.note { "Everything here is worked out from the telemetry and the two files, by the code that scores. The same three files make the same report." }
+        p.note { "This report is computed from the telemetry and the two files by the scorer's code. The same three files always produce the same report." }
     }
 }
 
 fn gaps(review: &Review) -> String {
     let t = &review.assessment.telemetry;
     if t.gaps == 0 {
-        return "The telemetry has no gap over 0.2 s.".into();
+        return "The telemetry has no gaps longer than 0.2 s.".into();
     }
     format!(
-        "The telemetry has {} gaps over 0.2 s: {} frames in between were interpolated, {} are missing; {} % of the session is covered.",
+        "The telemetry has {} gaps longer than 0.2 s: {} frames were interpolated, {} are missing; {} % of the session is covered.",
         t.gaps,
         t.interpolated_frames,
         t.missing_frames,
@@ -44,7 +44,7 @@ fn control_stretches(review: &Review) -> Table {
     };
     Table {
         name: "flown-by",
-        caption: "who flew when",
+        caption: "control source over time",
         columns: vec!["from", "to", "flown by"],
         rows: review.assessment.flown_by.iter().map(row).collect(),
     }
@@ -56,12 +56,12 @@ fn files(review: &Review) -> Table {
     let row = |name: &str, value: TableCell| vec![name.into(), value];
     Table {
         name: "record",
-        caption: "the record",
+        caption: "session data",
         columns: vec!["what", "value"],
         rows: vec![
             row("session", about.folder.clone().into()),
             row("trainee", about.trainee.clone().into()),
-            row("purpose", about.purpose.clone().unwrap_or_else(|| "not said".into()).into()),
+            row("purpose", about.purpose.clone().unwrap_or_else(|| "not specified".into()).into()),
             row("started", about.started_utc.clone().into()),
             row("scenario", review.scenario.name.clone().into()),
             row("scenario, SHA-256", about.scenario_sha256.clone().into()),
@@ -71,10 +71,10 @@ fn files(review: &Review) -> Table {
             row("seed", review.seed.to_string().into()),
             row("scorer", concat!("spandrel ", env!("CARGO_PKG_VERSION")).into()),
             row("frames scored", review.frames.len().into()),
-            row("MAVLink frames heard", TableCell::Number(link.frames as f64, 0)),
+            row("MAVLink frames received", TableCell::Number(link.frames as f64, 0)),
             row("lost on the link", TableCell::Number(link.lost as f64, 0)),
-            row("came twice", TableCell::Number(link.duplicated as f64, 0)),
-            row("came late", TableCell::Number(link.reordered as f64, 0)),
+            row("duplicates", TableCell::Number(link.duplicated as f64, 0)),
+            row("out of order", TableCell::Number(link.reordered as f64, 0)),
         ],
     }
 }

@@ -1,5 +1,5 @@
-//! The data block that the page's script reads: the flight's series, marks, reference paths and the model. JSON in which no `<` is left, so
-//! that nothing in it can end its element.
+//! The data block for the page's script: time series, marks, reference paths and the model. The JSON contains no `<`, so that it
+//! cannot end its element.
 
 use crate::report::Review;
 use crate::report::assets::base64;
@@ -9,16 +9,16 @@ use serde_json::{Value, json};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::frames::{Enu, Vec3};
 
-/// Samples per second at most.
+/// Maximum sampling rate, Hz.
 const RATE_HZ: f64 = 10.0;
-/// Samples at most.
+/// Maximum number of samples.
 const MOST: usize = 15_000;
 /// Ground samples along each side of the model.
 const GROUND: usize = 72;
-/// A defect is marked this far before its surface, so that it does not show on the other side, m.
+/// Offset of a defect's mark from its surface, so that it is not visible from the other side, m.
 const BEFORE_M: f64 = 0.5;
 
-/// The block's text.
+/// Returns the data block of a session.
 #[must_use]
 pub fn data(review: &Review) -> String {
     let block = json!({
@@ -38,7 +38,7 @@ pub fn data(review: &Review) -> String {
     closed(&block.to_string())
 }
 
-/// The block of a comparison: both flights' series, and when each began and entered each task.
+/// Returns the data block of a comparison: the time series of both flights, and the events at which they can be aligned.
 #[must_use]
 pub fn comparison(both: [&Review; 2], line_ups: &[AlignmentEvent]) -> String {
     let flight = |k: usize| {
@@ -54,16 +54,16 @@ pub fn comparison(both: [&Review; 2], line_ups: &[AlignmentEvent]) -> String {
     closed(&block.to_string())
 }
 
-/// An event of both flights at which their times are lined up.
+/// An event in both flights at which their times can be aligned.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AlignmentEvent {
-    /// In words.
+    /// Display name.
     pub name: String,
-    /// When it was in each, since lift-off, s.
+    /// Time of the event in each flight, s since lift-off.
     pub at_s: [f64; 2],
 }
 
-/// Lift-off, and, of flights of one job, the entry into each task that both entered.
+/// Returns lift-off and, for flights of the same job, the entry into each task that both entered.
 #[must_use]
 pub fn line_ups(both: [&Review; 2], same_job: bool) -> Vec<AlignmentEvent> {
     let mut found = vec![AlignmentEvent { name: "lift-off".into(), at_s: [0.0, 0.0] }];
@@ -75,7 +75,7 @@ pub fn line_ups(both: [&Review; 2], same_job: bool) -> Vec<AlignmentEvent> {
     found
 }
 
-/// JSON that cannot end the element that it stands in.
+/// Escapes JSON so that it cannot end its element.
 fn closed(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
@@ -107,7 +107,7 @@ fn mesh(mesh: &QuantizedMesh) -> Value {
         "triangles": base64(&bytes(&mesh.triangles)) })
 }
 
-/// Heights over a square around the origin, row by row from the south-west, m.
+/// Returns terrain heights over a square around the origin, row by row from the southwest, m.
 fn ground(review: &Review) -> Value {
     let half = 0.5 * review.scenario.terrain.size_m;
     let coordinate = |k: usize| -half + 2.0 * half * k as f64 / (GROUND - 1) as f64;
@@ -121,14 +121,14 @@ fn place(point: Vec3<Enu>) -> [Value; 3] {
     point.array().map(|value| rounded(value, 2))
 }
 
-/// What is drawn needs no more digits.
+/// Rounds a value to the digits needed for drawing.
 fn rounded(value: f64, digits: i32) -> Value {
     let scale = match digits {
         0 => 1.0,
         1 => 10.0,
         _ => 100.0,
     };
-    // What JSON has no number for is nothing.
+    // JSON has no NaN or infinity; they become null.
     json!((value * scale).round() / scale)
 }
 

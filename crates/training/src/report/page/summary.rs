@@ -1,4 +1,4 @@
-//! The head of the page and the four scores with what made them.
+//! Page header and the four scores with their components.
 
 use super::figure;
 use crate::report::Review;
@@ -10,7 +10,7 @@ use spandrel_monitor::assessment::Scores;
 use spandrel_monitor::score::Score;
 use spandrel_monitor::score::completion::verdict;
 
-/// Who, what, when, and the overall.
+/// Renders trainee, job, date and overall score.
 pub fn header(review: &Review) -> Markup {
     let scores = &review.assessment.scores;
     let end = &review.assessment.end;
@@ -40,7 +40,7 @@ pub fn header(review: &Review) -> Markup {
     }
 }
 
-/// RFC 3339 as people read it.
+/// Formats an RFC 3339 timestamp for display.
 fn utc(text: &str) -> String {
     text.replace('T', " ").trim_end_matches('Z').to_owned() + " UTC"
 }
@@ -48,13 +48,13 @@ fn utc(text: &str) -> String {
 fn cover(review: &Review) -> String {
     let telemetry = &review.assessment.telemetry;
     if telemetry.missing_frames == 0 {
-        "The telemetry covers all of it.".into()
+        "The telemetry is complete.".into()
     } else {
-        format!("The telemetry covers {} % of it.", words::number(100.0 * telemetry.covered, 1))
+        format!("The telemetry covers {} % of the session.", words::number(100.0 * telemetry.covered, 1))
     }
 }
 
-/// The diagram, the cards and their table.
+/// Renders the diagram, the score cards and their table.
 pub fn scores(review: &Review) -> Markup {
     let scores = &review.assessment.scores;
     let spokes: Vec<RadarAxis> = scores_by_name(scores)
@@ -64,7 +64,7 @@ pub fn scores(review: &Review) -> Markup {
     html! {
         p { (review.assessment.completion.headline()) "." @if !review.assessment.completion.complete { " The scores below are for the part that was flown." } }
         div.split {
-            (figure("The four scores, 0 in the middle, 100 at the rim", &radar(&spokes, "Kiviat diagram of the four scores")))
+            (figure("The four scores, 0 at the center, 100 at the rim", &radar(&spokes, "Radar chart of the four scores")))
             div.cards {
                 @for (name, score) in scores_by_name(scores) {
                     div.card {
@@ -79,7 +79,7 @@ pub fn scores(review: &Review) -> Markup {
     }
 }
 
-/// The scores in the order of the diagram.
+/// Returns the scores in the order of the diagram.
 pub fn scores_by_name(scores: &Scores) -> [(&'static str, Option<Score>); 4] {
     [
         ("Conformity", scores.conformity),
@@ -96,17 +96,17 @@ fn end_reason_text(review: &Review, name: &str) -> String {
         "Efficiency" => {
             let best = words::duration(review.scenario.scoring.time_best_s);
             if assessment.end.battery_failed {
-                "not landed at home before the battery or the time ran out".into()
+                "did not land at home before the battery or time ran out".into()
             } else {
-                format!("{} of flight; full marks up to {best}", words::duration(assessment.end.seconds))
+                format!("{} of flight; full score up to {best}", words::duration(assessment.end.seconds))
             }
         }
         "Safety" => {
             let crashes = &assessment.crashes;
             match (crashes.person + crashes.vehicle, crashes.other) {
-                (0, 0) => "nothing was touched".into(),
-                (0, 1) => "touched something once, 3 points".into(),
-                (0, other) => format!("touched something {other} times, 3 points each"),
+                (0, 0) => "no contacts".into(),
+                (0, 1) => "1 contact, 3 points".into(),
+                (0, other) => format!("{other} contacts, 3 points each"),
                 _ => "a person or a vehicle was hit: all points are lost".into(),
             }
         }
@@ -126,18 +126,14 @@ fn conformity(review: &Review) -> String {
     let Some(worst) = tasks.iter().min_by(|a, b| a.on_path.total_cmp(&b.on_path)) else { return "no tasks in this job".into() };
     let skipped = tasks.iter().filter(|task| !task.attempted).count();
     if skipped == tasks.len() {
-        return "no task attempted (the paper's formula gives 50)".into();
+        return "no task attempted (the paper's formula yields 50)".into();
     }
     if skipped > 0 {
         return format!("{skipped} of {} tasks not attempted", tasks.len());
     }
     let speeding: f64 = review.tasks.iter().map(|task| task.speeding_s).sum();
     let lowest = words::number(100.0 * worst.on_path, 0);
-    format!(
-        "on the path {lowest} % of the time or more (least in task {}); too fast for {} s",
-        worst.id,
-        words::number(speeding, 0)
-    )
+    format!("lowest on-path share: {lowest} % (task {}); too fast for {} s", worst.id, words::number(speeding, 0))
 }
 
 fn table(review: &Review) -> Table {

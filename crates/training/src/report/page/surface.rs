@@ -1,4 +1,4 @@
-//! Surface coverage by element: what the pictures show, and what they lack.
+//! Surface coverage by element: what the pictures show, and why the rest does not count.
 
 use super::{figure, legend};
 use crate::report::Review;
@@ -9,31 +9,31 @@ use crate::report::words;
 use maud::{Markup, html};
 use spandrel_model::site::visibility::INCIDENCE_MAX_RAD;
 
-/// Reasons in the summary's sentence at most.
+/// Maximum number of reasons in the summary.
 const REASONS: usize = 3;
-/// Less than this share of the surface is no reason worth a word.
+/// Minimum fraction of the surface for a reason to be listed.
 const LEAST_SHARE: f64 = 0.01;
 
-/// The section.
+/// Renders the section.
 pub fn section(review: &Review) -> Markup {
     let total = review.coverage.total();
     if total.inspectable_m2 <= 0.0 {
-        return html! { p.calm { "No surface of a bridge lies within the camera's reach of a reference path." } };
+        return html! { p.calm { "No bridge surface can be inspected from a reference path: all of it is beyond the camera's range." } };
     }
     let share = |area: f64| words::number(100.0 * area / total.inspectable_m2, 0);
     let key: Vec<(&str, String)> = SurfaceOutcome::ALL.map(|fate| (fate.class(), fate.name().to_owned())).to_vec();
     html! {
         p { "Of " (words::number(total.inspectable_m2, 0)) " m² that can be inspected from the reference paths, pictures show "
             b { (share(total.area_m2(SurfaceOutcome::Shown))) " %" } " well enough." @if let Some(why) = lacking(&total) { " The rest: " (why) "." } }
-        p.note { "Inspectable is what some point of a reference path sees at " (words::number(1000.0 * REQUIRED_GSD_M, 2))
+        p.note { "Surface is inspectable if it is visible from some point of a reference path at " (words::number(1000.0 * REQUIRED_GSD_M, 2))
             " mm per pixel or finer (a crack of 1.27 mm, the limit between condition states 2 and 3, then covers half a pixel; with this camera that is "
             (words::number(reach_m(&review.vehicle.camera), 1)) " m) and at most "
-            (words::number(INCIDENCE_MAX_RAD.to_degrees(), 0)) "° off square. Shown well: at that size and angle, with light enough for an exposure within the camera's limits, lamp included, and at most "
-            (words::number(BLUR_MAX_PX, 0)) " px of smear by the drone's speed. Of several pictures the best counts." }
-        (figure("What became of each element's inspectable surface", &html! {
+            (words::number(INCIDENCE_MAX_RAD.to_degrees(), 0)) "° from normal. It is shown well if a picture has that size and angle, enough light (including the lamp) for an exposure within the camera's limits, and at most "
+            (words::number(BLUR_MAX_PX, 0)) " px of motion blur. The best of several pictures counts." }
+        (figure("Coverage of each element's inspectable surface", &html! {
             (legend(&key))
             div.split {
-                // Two columns of about equal length.
+                // Splits the rows into two columns of about equal length.
                 @let rows = rows(&review.coverage);
                 @let (left, right) = rows.split_at(rows.len().div_ceil(2));
                 (stacks(left, "Surface coverage by element"))
@@ -44,7 +44,7 @@ pub fn section(review: &Review) -> Markup {
     }
 }
 
-/// The largest shares of what is not shown well, in words; `None` when next to nothing is left.
+/// Describes the main reasons why surface is not shown well; `None` if almost nothing is left.
 fn lacking(total: &ElementSurface) -> Option<String> {
     let share = |fate: &SurfaceOutcome| total.area_m2(*fate) / total.inspectable_m2;
     let mut rest: Vec<SurfaceOutcome> =
@@ -97,13 +97,13 @@ fn table(coverage: &SurfaceCoverage) -> Table {
         "in view, no picture, m²",
         "never in view, m²",
         "pixel, mm",
-        "off square, deg",
+        "angle from normal, deg",
         "light, lx",
-        "smear, px",
+        "motion blur, px",
     ]);
     Table {
         name: "coverage",
-        caption: "surface coverage, and what the pictures near and square enough are like on average",
+        caption: "surface coverage, and average values of the pictures at the required size and angle",
         columns,
         rows,
     }

@@ -1,4 +1,4 @@
-//! Per task: on the path, speeding, crashes by kind.
+//! Results by task: on-path share, speeding, crashes by kind.
 
 use super::{figure, legend};
 use crate::report::Review;
@@ -9,7 +9,7 @@ use maud::{Markup, html};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_monitor::score::completion::TaskState;
 
-/// Kinds of crashes in the order of the bars.
+/// Crash kinds in the order of the bars.
 const KINDS: [(ContactKind, &str); 6] = [
     (ContactKind::Bridge, "k-bridge"),
     (ContactKind::Terrain, "k-terrain"),
@@ -19,18 +19,18 @@ const KINDS: [(ContactKind, &str); 6] = [
     (ContactKind::Person, "k-grave"),
 ];
 
-/// The section.
+/// Renders the section.
 pub fn section(review: &Review) -> Markup {
     let done_share = review.assessment.completion.done_share;
     html! {
         div.split {
-            (figure("Share of each task's time on the path and over the speed limit", &html! {
-                (legend(&[("b-on", "on the path".into()), ("b-speeding", "over the speed limit".into())]))
-                (bars::shares(&rows(review), "On the path and speeding by task"))
+            (figure("Fraction of each task's time on the path and above the speed limit", &html! {
+                (legend(&[("b-on", "on the path".into()), ("b-speeding", "above the speed limit".into())]))
+                (bars::shares(&rows(review), "On-path share and speeding by task"))
             }))
-            (figure("Contacts by task and by what was touched", &html! {
+            (figure("Contacts by task and object", &html! {
                 (legend(&contact_kinds(review)))
-                @if review.crashes.is_empty() { p.calm { "Nothing was touched." } }
+                @if review.crashes.is_empty() { p.calm { "No contacts." } }
                 @else { (bars::counts(&counts(review), "Contacts by task and kind")) }
             }))
         }
@@ -121,9 +121,9 @@ fn task_table(review: &Review) -> Table {
             "speeding, s",
             "speeding loss",
             "mean distance, m",
-            "greatest distance, m",
-            "greatest speed, m/s",
-            "least clearance, m",
+            "maximum distance, m",
+            "maximum speed, m/s",
+            "minimum clearance, m",
         ],
         rows: review.assessment.tasks.iter().enumerate().map(row).collect(),
     }

@@ -1,4 +1,4 @@
-//! Water and ground behind a drawing.
+//! Water and ground in the background of a drawing.
 
 use super::map::PlotMap;
 use super::{line, simplified, unit};
@@ -7,10 +7,10 @@ use spandrel_model::frames::Vec3;
 use spandrel_model::scenario::{Bridge, Scenario};
 use spandrel_model::site::Site;
 
-/// Distance between the samples of lake and ground, m.
+/// Sampling interval of lake and ground, m.
 const GROUND_STEP_M: f64 = 5.0;
 
-/// Water as seen from above, in strips between its shores.
+/// Draws the water in plan view, in strips between its shores.
 pub(super) fn lake(scenario: &Scenario, site: &Site, map: &PlotMap) -> Markup {
     let terrain = &scenario.terrain;
     let half = 0.5 * terrain.size_m;
@@ -49,12 +49,12 @@ pub(super) fn lake(scenario: &Scenario, site: &Site, map: &PlotMap) -> Markup {
     }
 }
 
-/// Where a value that changes its sign between two places is zero.
+/// Returns the position of the zero crossing between two samples.
 fn crossing(a: (f64, f64), b: (f64, f64)) -> f64 {
     if (a.1 > 0.0) == (b.1 > 0.0) { b.0 } else { a.0 + (b.0 - a.0) * a.1 / (a.1 - b.1) }
 }
 
-/// The ground under a bridge's axis, and the water.
+/// Draws the ground under a bridge's axis, and the water.
 pub(super) fn ground(scenario: &Scenario, site: &Site, map: &PlotMap, bridge: &Bridge) -> Markup {
     let axis = map.view.right;
     let middle = map.view.at(bridge.centre_m).0;

@@ -1,4 +1,4 @@
-//! Bars: shares of a whole in rows, and counts in rows by kind.
+//! Bar charts: fractions of a whole, and counts by kind, in rows.
 
 use super::{sheet, unit};
 use crate::report::words;
@@ -9,24 +9,24 @@ const LEFT: f64 = 4.0;
 const RIGHT: f64 = 372.0;
 const BAR: f64 = 14.0;
 
-/// A row of shares.
+/// A row of fractions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShareRow {
-    /// What it is of.
+    /// Label.
     pub name: String,
-    /// Bars below each other: style and share, 0 to 1.
+    /// Bars in the row, from top to bottom: style and fraction, 0 to 1.
     pub bars: Vec<(&'static str, f64)>,
-    /// Said instead of bars, when there is nothing to show.
+    /// Text shown if there are no bars.
     pub instead: Option<&'static str>,
 }
 
-/// Length of a bar for a share of `full`.
+/// Returns the length of a bar for a fraction of `full`.
 #[must_use]
 pub fn length(share: f64, full: f64) -> f64 {
     if full > 0.0 { (RIGHT - LEFT) * (share / full).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// Rows of shares, each name above its bars.
+/// Draws rows of fractions, each label above its bars.
 #[must_use]
 pub fn shares(rows: &[ShareRow], title: &str) -> Markup {
     let mut y = 4.0;
@@ -60,13 +60,13 @@ pub fn shares(rows: &[ShareRow], title: &str) -> Markup {
 /// A row of counts, one segment per kind.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CountRow {
-    /// What it is of.
+    /// Label.
     pub name: String,
     /// Style and count, from left to right.
     pub kinds: Vec<(&'static str, usize)>,
 }
 
-/// Rows of counts on one scale.
+/// Draws rows of counts on a common scale.
 #[must_use]
 pub fn counts(rows: &[CountRow], title: &str) -> Markup {
     let sum = |row: &CountRow| row.kinds.iter().map(|(_, count)| count).sum::<usize>();
@@ -94,13 +94,13 @@ pub fn counts(rows: &[CountRow], title: &str) -> Markup {
 /// A whole and its parts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StackedBar {
-    /// What it is of.
+    /// Label.
     pub name: String,
-    /// Style and share of the whole, 0 to 1, from left to right; the first one is also said in figures.
+    /// Style and fraction of the whole, 0 to 1, from left to right. The first is also shown as a number.
     pub parts: Vec<(&'static str, f64)>,
 }
 
-/// Rows of wholes, each as long as the others.
+/// Draws stacked bars of equal length.
 #[must_use]
 pub fn stacks(rows: &[StackedBar], title: &str) -> Markup {
     sheet(
@@ -122,7 +122,7 @@ pub fn stacks(rows: &[StackedBar], title: &str) -> Markup {
     )
 }
 
-/// Style, what is before it, its size; nothing for one that is nothing.
+/// Returns style, offset and length of each nonempty part.
 fn parts(parts: &[(&'static str, f64)]) -> Vec<(&'static str, f64, f64)> {
     let mut before = 0.0;
     let mut out = Vec::new();

@@ -1,4 +1,4 @@
-//! Box plots beside each other on one scale.
+//! Box plots side by side on a common scale.
 
 use super::{line, sheet, ticks, unit};
 use crate::report::words;
@@ -11,26 +11,26 @@ const BOTTOM: f64 = 190.0;
 const STEP: f64 = 56.0;
 const HALF: f64 = 15.0;
 
-/// One box with its name.
+/// A box plot with its label.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedBox<'a> {
-    /// Name below it.
+    /// Label below the box.
     pub name: String,
-    /// The box.
+    /// Box plot data.
     pub plot: &'a BoxPlot,
 }
 
-/// Height of a value on a scale from `low` to `high`.
+/// Returns the vertical position of a value on a scale from `low` to `high`.
 #[must_use]
 pub fn y_of(value: f64, (low, high): (f64, f64)) -> f64 {
     let share = if high > low { (value - low) / (high - low) } else { 0.5 };
     BOTTOM - (BOTTOM - TOP) * share.clamp(0.0, 1.0)
 }
 
-/// Boxes on a scale from 0 to `most`.
+/// Draws boxes on a scale from 0 to `most`.
 #[must_use]
 pub fn boxes(named: &[NamedBox<'_>], most: f64, title: &str) -> Markup {
-    // Few boxes are not drawn larger than many.
+    // A few boxes are drawn at the same size as many.
     let width = LEFT + STEP * named.len().max(5) as f64 + 10.0;
     let y = |value: f64| y_of(value, (0.0, most));
     sheet(
@@ -63,7 +63,7 @@ pub fn boxes(named: &[NamedBox<'_>], most: f64, title: &str) -> Markup {
     )
 }
 
-/// Places of the outliers (ascending) on the sheet, to a whole unit: those that fall onto one another are one circle.
+/// Returns the positions of the outliers (ascending) on the sheet, rounded to whole units; overlapping ones are merged.
 fn places(outliers: &[f64], y: impl Fn(f64) -> f64) -> Vec<String> {
     let mut places: Vec<String> = outliers.iter().map(|value| unit(y(*value).round())).collect();
     places.dedup();

@@ -1,4 +1,4 @@
-//! The track in its three colourings: what each shows, its legend, and the pieces of one colour.
+//! The track's three color modes: value shown, legend, and segments of equal color.
 
 use super::map::{PlotMap, TRACK_WITHIN};
 use super::{line, simplified};
@@ -7,26 +7,25 @@ use crate::report::words;
 use spandrel_mavlink::contract::continuity::is_jump;
 use spandrel_mavlink::telemetry::Frame;
 
-/// Limits of the clearance colours, m: below the first is closest.
+/// Limits of the clearance colors, m, from nearest to farthest.
 pub const CLEARANCES_M: [f64; 3] = [1.0, 2.5, 5.0];
 
-/// How the track may be coloured: name of the switch, class of the layer.
+/// Color modes of the track: name in the selection, class of the layer.
 pub const COLOURINGS: [(&str, &str); 3] = [("on path", "by-path"), ("speed", "by-speed"), ("clearance", "by-clearance")];
 
-/// The track in pieces of one colour: class and path data, in the order of the classes.
+/// Returns the track in segments of one color: class and path data, in class order.
 pub(super) fn track(review: &Review, map: &PlotMap, layer: usize, shown: &dyn Fn(&Frame) -> bool) -> Vec<(&'static str, String)> {
     let names = classes(layer);
     let pieces = pieces(review, map, names.len(), &|i| class_of(review, i, layer), shown);
     names.iter().copied().zip(pieces).filter(|(_, data)| !data.is_empty()).collect()
 }
 
-/// The whole track in one colour.
+/// Returns the whole track in one color.
 pub(super) fn plain_color(review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> bool) -> String {
     pieces(review, map, 1, &|_| 0, shown).swap_remove(0)
 }
 
-/// Path data by colour.
-/// The drone was put back between two frames.
+/// Returns whether the drone was respawned between two frames.
 fn jumped(before: &Frame, next: &Frame) -> bool {
     let step_m = (next.position_m - before.position_m).norm();
     is_jump(step_m, before.velocity_m_s.norm().max(next.velocity_m_s.norm()), next.time - before.time)
@@ -59,7 +58,7 @@ fn pieces(
         let now = colour_of(i);
         let here = map.at(frame.position_m);
         if now != colour {
-            // The step between two colours belongs to the one that ends.
+            // The step between two colors belongs to the segment that ends.
             if !run.is_empty() {
                 run.push(here);
             }
@@ -72,7 +71,7 @@ fn pieces(
     pieces
 }
 
-/// Classes of a colouring, as in its legend.
+/// Returns the classes of a color mode, in legend order.
 #[must_use]
 pub fn classes(layer: usize) -> &'static [&'static str] {
     match layer {
@@ -82,18 +81,18 @@ pub fn classes(layer: usize) -> &'static [&'static str] {
     }
 }
 
-/// Words of a colouring's legend, in the order of its classes.
+/// Returns the legend texts of a color mode, in class order.
 #[must_use]
 pub fn legend(layer: usize, limit_m_s: f64) -> Vec<String> {
     let speed = |share: f64| words::number(share * limit_m_s, 1);
     match layer {
-        0 => vec!["between tasks".into(), "on the path".into(), "off the path during a task".into()],
+        0 => vec!["between tasks".into(), "on the path".into(), "off path during a task".into()],
         1 => vec![
             format!("up to {} m/s", speed(0.25)),
             format!("to {}", speed(0.5)),
             format!("to {}", speed(0.75)),
             format!("to {}", speed(1.0)),
-            format!("over the limit of {} m/s", words::number(limit_m_s, 2)),
+            format!("above the limit of {} m/s", words::number(limit_m_s, 2)),
         ],
         _ => {
             let [a, b, c] = CLEARANCES_M.map(|limit| words::number(limit, 1));
@@ -102,7 +101,7 @@ pub fn legend(layer: usize, limit_m_s: f64) -> Vec<String> {
     }
 }
 
-/// Index into [`classes`] for a frame.
+/// Returns the index into [`classes`] for a frame.
 fn class_of(review: &Review, i: usize, layer: usize) -> usize {
     let frame = &review.frames[i];
     match layer {
@@ -116,7 +115,7 @@ fn class_of(review: &Review, i: usize, layer: usize) -> usize {
     }
 }
 
-/// Quarters of the limit, and what is over it (strictly, as the score has it).
+/// Returns the speed class: quarters of the limit, then strictly above it, as in the score.
 fn speed_class(speed_m_s: f64, limit_m_s: f64) -> usize {
     if speed_m_s > limit_m_s { 4 } else { ((speed_m_s / limit_m_s * 4.0).ceil() as usize).clamp(1, 4) - 1 }
 }

@@ -1,4 +1,4 @@
-//! Estimates with their intervals, one below the other about a line at zero.
+//! Estimates with their intervals, in rows around a zero line.
 
 use super::{line, sheet, ticks, unit};
 use crate::report::words;
@@ -8,21 +8,21 @@ const WIDTH: f64 = 620.0;
 const LEFT: f64 = 220.0;
 const RIGHT: f64 = 600.0;
 const ROW: f64 = 34.0;
-/// Room beyond the farthest end, as a share of the axis.
+/// Margin beyond the outermost value, as a fraction of the axis.
 const ROOM: f64 = 0.08;
 
-/// One estimate.
+/// An estimate with its interval.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IntervalEstimate {
-    /// What it is of.
+    /// Label.
     pub name: String,
-    /// Its value.
+    /// Point estimate.
     pub value: f64,
-    /// Its interval; absent when there is none.
+    /// Interval, if there is one.
     pub interval: Option<[f64; 2]>,
 }
 
-/// Ends of the axis: all estimates, their intervals and zero, with some room.
+/// Returns the ends of the axis, which covers all estimates, their intervals and zero, with a margin.
 #[must_use]
 pub fn ends(estimates: &[IntervalEstimate]) -> (f64, f64) {
     let all = estimates.iter().flat_map(|one| [Some(one.value), one.interval.map(|i| i[0]), one.interval.map(|i| i[1])]);
@@ -31,13 +31,13 @@ pub fn ends(estimates: &[IntervalEstimate]) -> (f64, f64) {
     (low - room, high + room)
 }
 
-/// Where a value lies between the ends.
+/// Returns the horizontal position of a value between the ends.
 #[must_use]
 pub fn x_of(value: f64, (low, high): (f64, f64)) -> f64 {
     LEFT + (RIGHT - LEFT) * if high > low { ((value - low) / (high - low)).clamp(0.0, 1.0) } else { 0.5 }
 }
 
-/// All estimates on one axis; `axis` names it.
+/// Draws all estimates on one axis labeled `axis`.
 #[must_use]
 pub fn intervals(estimates: &[IntervalEstimate], axis: &str, title: &str) -> Markup {
     let ends = ends(estimates);

@@ -1,4 +1,4 @@
-//! A job drawn without a flight: what a scenario's page shows, and the ground that a live flight moves on.
+//! Drawings of a job without a flight, for the scenario page and as the background of the live page.
 
 use super::backdrop::{ground, lake};
 use super::map::{PlotMap, extent, label_distance, north, pad, references, scale, structure};
@@ -9,12 +9,12 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{Bridge, Scenario};
 use spandrel_model::site::Site;
 
-/// Room around a bridge in its side view, m.
+/// Margin around a bridge in its side view, m.
 const BESIDE_M: f64 = 25.0;
-/// Room above it, m: a drone over the deck stays on the sheet.
+/// Margin above a bridge, m, so that a drone above the deck stays on the sheet.
 const ABOVE_M: f64 = 15.0;
 
-/// From above, north up.
+/// Draws the plan view, north up.
 #[must_use]
 pub fn job_plan(scenario: &Scenario, site: &Site) -> Markup {
     let map = PlotMap::around(ParallelView::plan(), &extent(scenario, site));
@@ -34,7 +34,7 @@ pub fn job_plan(scenario: &Scenario, site: &Site) -> Markup {
     )
 }
 
-/// One bridge from its side.
+/// Draws the side view of one bridge.
 #[must_use]
 pub fn job_side(scenario: &Scenario, site: &Site, bridge: &Bridge) -> Markup {
     let view = ParallelView::side(bridge);
@@ -66,7 +66,7 @@ pub fn job_side(scenario: &Scenario, site: &Site, bridge: &Bridge) -> Markup {
     )
 }
 
-/// A job without bridges, from the south.
+/// Draws a job without bridges from the south.
 #[must_use]
 pub fn job_south(scenario: &Scenario, site: &Site) -> Markup {
     let pad_m = scenario.ground_team.pad_m;
@@ -78,7 +78,8 @@ pub fn job_south(scenario: &Scenario, site: &Site) -> Markup {
     sheet(map.size, "The job from the south", "map", &body)
 }
 
-/// The drone and its trail, which a script moves; hidden until it does, and in the side view of a bridge that it is not near.
+/// Renders the drone and its trail, which a script moves. Hidden until the script runs, and in the side views of bridges that it
+/// is not near.
 fn drone(map: &PlotMap, bridge: Option<&Bridge>) -> Markup {
     html! {
         path.trail data-matrix=(map.matrix()) data-near=[bridge.map(label_distance)] d="" {}

@@ -1,29 +1,28 @@
-//! Answers from strongly agree to strongly disagree: rows of shares that meet at the middle of "neutral", so that agreement goes to the
-//! left and disagreement to the right.
+//! Likert charts: diverging bars centered on "neutral", with agreement to the left and disagreement to the right.
 
 use super::{sheet, unit};
 use maud::{Markup, html};
 
 const WIDTH: f64 = 640.0;
 const MIDDLE: f64 = 320.0;
-/// Units of the sheet for all answers together: a row that agrees as a whole ends before the sheet does.
+/// Width of 100 % in sheet units. A row with full agreement still fits on the sheet.
 const WHOLE: f64 = 300.0;
-/// Height of a question with its bar; a name in more lines needs more.
+/// Height of a question with its bar; multi-line names add to it.
 const ROW: f64 = 42.0;
 const LINE: f64 = 15.0;
-/// Characters of a name that fit in a line (a wide sans-serif at the size of the sheet's labels).
+/// Maximum characters per line of a name (wide sans-serif at the label size).
 const LINE_CHARACTERS: usize = 84;
 
-/// One question.
+/// A question with its answer counts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LikertQuestion {
-    /// What was asked.
+    /// Text of the question.
     pub name: String,
-    /// From strongly agree to strongly disagree.
+    /// Counts from strongly agree to strongly disagree.
     pub counts: [usize; 5],
 }
 
-/// Left end and width of each answer's bar, from strongly agree to strongly disagree.
+/// Returns left end and width of each answer's bar, from strongly agree to strongly disagree.
 #[must_use]
 pub fn bars(counts: [usize; 5]) -> [(f64, f64); 5] {
     let n = counts.iter().sum::<usize>().max(1) as f64;
@@ -36,7 +35,7 @@ pub fn bars(counts: [usize; 5]) -> [(f64, f64); 5] {
     })
 }
 
-/// A name in lines that fit, broken between words.
+/// Wraps a name into lines that fit.
 fn lines(name: &str) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in name.split_whitespace() {
@@ -52,7 +51,7 @@ fn lines(name: &str) -> Vec<String> {
     lines
 }
 
-/// Rows of answers.
+/// Draws the rows of answers.
 #[must_use]
 pub fn likert(questions: &[LikertQuestion], title: &str) -> Markup {
     let mut height = 0.0;

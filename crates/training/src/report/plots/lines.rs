@@ -1,4 +1,4 @@
-//! Values over repetitions: one line per score or task, a point per session.
+//! Line chart over repetitions: one line per score or task, one point per session.
 
 use super::{line, sheet, ticks, unit};
 use crate::report::words;
@@ -9,32 +9,32 @@ const LEFT: f64 = 36.0;
 const RIGHT: f64 = 408.0;
 const TOP: f64 = 10.0;
 const BOTTOM: f64 = 206.0;
-/// Colours that lines have.
+/// Number of line colors.
 const COLOURS: usize = 4;
 
-/// One line.
+/// A line of the chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChartLine {
-    /// Name.
+    /// Label.
     pub name: String,
-    /// Style number, 1 to 4; beyond it they come again, broken.
+    /// Style number from 1. Styles above 4 repeat the colors with dashed lines.
     pub style: usize,
-    /// A value for each session; `None` does not apply.
+    /// Value for each session; `None` where it does not apply.
     pub values: Vec<Option<f64>>,
 }
 
-/// Where session `k` of `count` (from 0) with a value out of `most` lies.
+/// Returns the position of a value out of `most` in session `k` of `count` (from 0).
 #[must_use]
 pub fn place(k: usize, count: usize, value: f64, most: f64) -> (f64, f64) {
     let share = if count > 1 { k as f64 / (count - 1) as f64 } else { 0.5 };
     (LEFT + 14.0 + (RIGHT - LEFT - 28.0) * share, BOTTOM - (BOTTOM - TOP) * (value / most).clamp(0.0, 1.0))
 }
 
-/// Lines from 0 to `most`, sessions numbered below.
+/// Draws lines from 0 to `most`, with session numbers below.
 #[must_use]
 pub fn lines(lines: &[ChartLine], most: f64, title: &str) -> Markup {
     let count = lines.iter().map(|line| line.values.len()).max().unwrap_or(0);
-    // Of many sessions only some are numbered.
+    // With many sessions, only some are numbered.
     let step = count.div_ceil(12).max(1);
     sheet(
         SIZE,
@@ -59,7 +59,7 @@ pub fn lines(lines: &[ChartLine], most: f64, title: &str) -> Markup {
     )
 }
 
-/// A style's colour, 1 to 4.
+/// Returns the color of a style, 1 to 4.
 #[must_use]
 pub fn colour(style: usize) -> usize {
     (style.max(1) - 1) % COLOURS + 1

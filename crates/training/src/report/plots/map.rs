@@ -1,4 +1,4 @@
-//! The flight drawn on the site in a parallel view: silhouettes of the members, reference paths, the track in one of three colourings,
+//! The flight on the site in a parallel projection: member silhouettes, reference paths, the track in one of three color modes,
 //! marks for pictures, crashes and defects, and the drone, which the page's slider moves.
 
 use super::backdrop::{ground, lake};
@@ -16,32 +16,32 @@ use spandrel_model::site::Site;
 /// Width of the sheet.
 const WIDTH: f64 = 900.0;
 const MARGIN: f64 = 26.0;
-/// Tallest and flattest sheet.
+/// Minimum and maximum height of the sheet.
 const HEIGHTS: (f64, f64) = (110.0, 760.0);
-/// What is smaller on the sheet is left out.
+/// Minimum size on the sheet; smaller shapes are skipped.
 const LEAST: f64 = 1.6;
-/// A track is drawn to this precision on the sheet.
+/// Tolerance for simplifying a track, in sheet units.
 pub(super) const TRACK_WITHIN: f64 = 0.35;
-/// Farther to the side of a bridge than this the flight is not drawn in its elevation, m.
+/// Frames farther to the side of a bridge than this are not drawn in its elevation, m.
 const BESIDE_M: f64 = 45.0;
-/// With more pictures than this, their marks are small and without numbers.
+/// With more pictures than this, their marks are small and unnumbered.
 const MANY: usize = 40;
 
-/// A view fitted to a sheet.
+/// A projection fitted to a sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlotMap {
-    /// The view.
+    /// The projection.
     pub view: ParallelView,
-    /// Left and upper end of what is shown, m right and up.
+    /// Upper left corner of the drawing, m right and up.
     pub(super) corner_m: (f64, f64),
-    /// Units of the sheet per metre.
+    /// Sheet units per meter.
     pub(super) scale: f64,
-    /// Size of the sheet.
+    /// Size of the sheet, in sheet units.
     pub size: (f64, f64),
 }
 
 impl PlotMap {
-    /// Fits a view to points.
+    /// Fits a projection to points.
     #[must_use]
     pub fn around(view: ParallelView, points_m: &[Vec3<Enu>]) -> Self {
         let flat: Vec<(f64, f64)> = points_m.iter().map(|point| view.at(*point)).collect();
@@ -53,12 +53,12 @@ impl PlotMap {
         let (wide, tall) = ((right - left).max(10.0), (high - low).max(5.0));
         let scale = ((WIDTH - 2.0 * MARGIN) / wide).min((HEIGHTS.1 - 2.0 * MARGIN) / tall);
         let height = (tall * scale + 2.0 * MARGIN).max(HEIGHTS.0);
-        // What does not fill the sheet stands in its middle.
+        // Content that does not fill the sheet is centered.
         let aside = (0.5 * (WIDTH / scale - (right - left)), 0.5 * (height / scale - (high - low)));
         Self { view, corner_m: (left - aside.0, high + aside.1), scale, size: (WIDTH, height) }
     }
 
-    /// Where a point of the site lies on the sheet.
+    /// Returns the position of a site point on the sheet.
     #[must_use]
     pub fn at(&self, point_m: Vec3<Enu>) -> (f64, f64) {
         self.on_sheet(self.view.at(point_m))
@@ -68,7 +68,7 @@ impl PlotMap {
         ((right_m - self.corner_m.0) * self.scale, (self.corner_m.1 - up_m) * self.scale)
     }
 
-    /// The same for the page's script: x = m0 e + m1 n + m2 u + m3, y = m4 e + m5 n + m6 u + m7.
+    /// Returns the projection matrix for the page's script: x = m0 e + m1 n + m2 u + m3, y = m4 e + m5 n + m6 u + m7.
     #[must_use]
     pub fn matrix(&self) -> String {
         let (r, u, k) = (self.view.right.array(), self.view.up.array(), self.scale);
@@ -77,7 +77,7 @@ impl PlotMap {
     }
 }
 
-/// From above.
+/// Draws the plan view.
 #[must_use]
 pub fn plan(review: &Review) -> Markup {
     let map = PlotMap::around(ParallelView::plan(), &everything(review));
@@ -91,14 +91,14 @@ pub fn plan(review: &Review) -> Markup {
     sheet(map.size, "Flight from above, north up", "map", &body)
 }
 
-/// From above and aside.
+/// Draws the oblique view.
 #[must_use]
 pub fn oblique(review: &Review) -> Markup {
     let map = PlotMap::around(ParallelView::oblique(25.0, 22.0), &everything(review));
     let all = |_: &Frame| true;
     sheet(
         map.size,
-        "Flight from above and aside, looking north",
+        "Oblique view of the flight, looking north",
         "map",
         &html! {
             (structure(&review.site, &map, None))
@@ -107,7 +107,7 @@ pub fn oblique(review: &Review) -> Markup {
     )
 }
 
-/// One bridge from its side, with the flight near it.
+/// Draws one bridge from the side, with the flight near it.
 #[must_use]
 pub fn elevation(review: &Review, bridge: &Bridge) -> Markup {
     let near = is_beside(bridge);
@@ -126,7 +126,8 @@ pub fn elevation(review: &Review, bridge: &Bridge) -> Markup {
     )
 }
 
-/// The same for the page's script: east and north of the middle, of the axis along the bridge, and how far along and beside counts, m.
+/// Returns the nearness test for the page's script: east and north of the center and of the bridge axis, and the limits along and
+/// beside it, m.
 pub(super) fn label_distance(bridge: &Bridge) -> String {
     let axis = ParallelView::side(bridge).right;
     let half_m = 0.5 * bridge.deck_length_m() + 25.0;
@@ -135,7 +136,7 @@ pub(super) fn label_distance(bridge: &Bridge) -> String {
         .join(" ")
 }
 
-/// The flight belongs into the side view of this bridge.
+/// Returns a predicate for whether a frame belongs in the side view of this bridge.
 pub(super) fn is_beside(bridge: &Bridge) -> impl Fn(&Frame) -> bool + use<> {
     let (view, centre_m) = (ParallelView::side(bridge), bridge.centre_m);
     let (axis, towards) = (view.right, view.towards());
@@ -146,20 +147,20 @@ pub(super) fn is_beside(bridge: &Bridge) -> impl Fn(&Frame) -> bool + use<> {
     }
 }
 
-/// The side view of a bridge, with room for these frames.
+/// Fits the side view of a bridge, with room for these frames.
 pub(super) fn beside<'a>(scenario: &Scenario, site: &Site, bridge: &Bridge, flown: impl Iterator<Item = &'a Frame>) -> PlotMap {
     let prefix = format!("{}/", bridge.name);
     let members = site.members().iter().filter(|member| member.name.starts_with(&prefix));
     let mut points: Vec<Vec3<Enu>> = members.flat_map(|member| member.solid.vertices_m.iter().copied()).collect();
     points.extend(flown.map(|frame| frame.position_m));
     let water_m = scenario.terrain.water_level_m;
-    // Foundations deep in the ground would make all else small.
+    // Deep foundations would make everything else too small.
     points.retain(|point| point.up() > water_m - 6.0);
     points.push(Vec3::new(bridge.centre_m.east(), bridge.centre_m.north(), water_m - 4.0));
     PlotMap::around(ParallelView::side(bridge), &points)
 }
 
-/// A job without bridges, from the south.
+/// Draws a job without bridges from the south.
 #[must_use]
 pub fn south_elevation(review: &Review) -> Markup {
     let map = PlotMap::around(ParallelView::from_south(), &everything(review));
@@ -172,7 +173,7 @@ pub fn south_elevation(review: &Review) -> Markup {
     )
 }
 
-/// One bridge with its defects only: what was found and what was missed.
+/// Draws one bridge with its defects only, found and missed.
 #[must_use]
 pub fn findings(review: &Review, bridge: &Bridge, view: ParallelView, title: &str) -> Markup {
     let prefix = format!("{}/", bridge.name);
@@ -206,7 +207,7 @@ pub(super) fn everything(review: &Review) -> Vec<Vec3<Enu>> {
     all
 }
 
-/// Everything that a job consists of, above its foundations.
+/// Returns the points that bound a job, above its foundations.
 pub(super) fn extent(scenario: &Scenario, site: &Site) -> Vec<Vec3<Enu>> {
     let water_m = scenario.terrain.water_level_m;
     let members = site.members().iter().flat_map(|member| member.solid.vertices_m.iter().copied());
@@ -227,7 +228,7 @@ pub(super) fn structure(site: &Site, map: &PlotMap, prefix: Option<&str>) -> Mar
     }
 }
 
-/// Reference paths (of one bridge or of all), track, marks, the drone and a scale.
+/// Draws reference paths (of one bridge or of all), track, marks, the drone and a scale.
 fn job(review: &Review, map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     html! {
         (references(&review.scenario, map, bridge.map(|bridge| bridge.name.as_str())))
@@ -242,7 +243,7 @@ fn job(review: &Review, map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&
     }
 }
 
-/// Reference paths of one bridge, or of all.
+/// Draws the reference paths of one bridge, or of all.
 pub(super) fn references(scenario: &Scenario, map: &PlotMap, bridge: Option<&str>) -> Markup {
     let of = |task: &&Task| {
         let own = task.bridge.and_then(|k| scenario.bridges.get(k)).map(|own| own.name.as_str());
@@ -285,7 +286,7 @@ fn marks(review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> bool) -> Mark
     }
 }
 
-/// Where flights begin and end.
+/// Draws the landing pad.
 pub(super) fn pad(scenario: &Scenario, map: &PlotMap) -> Markup {
     let (x, y) = map.at(scenario.ground_team.pad_m);
     html! { g.pad transform={ "translate(" (unit(x)) " " (unit(y)) ")" } { path d="M-6 -6H6V6H-6Z" {} title { "pad" } } }
@@ -325,7 +326,7 @@ mod tests {
             assert!(y >= MARGIN - 1e-9 && y <= map.size.1 - MARGIN + 1e-9, "{y}");
             let m: Vec<f64> = map.matrix().split(' ').map(|value| value.parse().unwrap()).collect();
             let [e, n, u] = point.array();
-            // Four digits after the point, over at most 60 m.
+            // Four decimal places, over at most 60 m.
             assert!((m[0] * e + m[1] * n + m[2] * u + m[3] - x).abs() < 0.02);
             assert!((m[4] * e + m[5] * n + m[6] * u + m[7] - y).abs() < 0.02);
         }

@@ -1,5 +1,5 @@
-//! Figures as SVG, one file each. Colours are classes of the style sheet, so that light, dark and print have theirs; sizes are in units of
-//! the figure's own sheet. What a figure shows its table tells again.
+//! Figures as SVG, one file each. Colors are CSS classes, so that light mode, dark mode and print can differ. Sizes are in sheet
+//! units. Every figure has a table with the same data.
 
 mod backdrop;
 pub mod bars;
@@ -19,7 +19,7 @@ pub mod strips;
 
 use maud::{Markup, html};
 
-/// A coordinate with one digit, without a needless point.
+/// Formats a coordinate with one decimal place, omitting ".0".
 #[must_use]
 pub fn unit(value: f64) -> String {
     let text = format!("{value:.1}");
@@ -27,7 +27,7 @@ pub fn unit(value: f64) -> String {
     if text == "-0" { "0".into() } else { text.to_owned() }
 }
 
-/// Path data of a polyline.
+/// Returns the path data of a polyline.
 #[must_use]
 pub fn line(points: &[(f64, f64)], closed: bool) -> String {
     let mut data = String::new();
@@ -43,7 +43,7 @@ pub fn line(points: &[(f64, f64)], closed: bool) -> String {
     data
 }
 
-/// Points of a polyline that matter: no point left out is farther than `within` from what is drawn (Ramer, Douglas, Peucker).
+/// Simplifies a polyline: every omitted point is at most `within` from the result (Ramer, Douglas, Peucker).
 #[must_use]
 pub fn simplified(points: &[(f64, f64)], within: f64) -> Vec<(f64, f64)> {
     if points.len() < 3 {
@@ -65,7 +65,7 @@ pub fn simplified(points: &[(f64, f64)], within: f64) -> Vec<(f64, f64)> {
     points.iter().zip(keep).filter_map(|(point, kept)| kept.then_some(*point)).collect()
 }
 
-/// Distance of a point to a segment.
+/// Returns the distance from a point to a segment.
 fn away(p: (f64, f64), a: (f64, f64), b: (f64, f64)) -> f64 {
     let (dx, dy) = (b.0 - a.0, b.1 - a.1);
     let length_squared = dx * dx + dy * dy;
@@ -73,7 +73,7 @@ fn away(p: (f64, f64), a: (f64, f64), b: (f64, f64)) -> f64 {
     spandrel_model::math::hypot(p.0 - a.0 - t * dx, p.1 - a.1 - t * dy)
 }
 
-/// Round steps of an axis from 0 to `most`: at most `about` + 1 of them.
+/// Returns round axis ticks from 0 to `most`, at most `about` + 1 of them.
 #[must_use]
 pub fn ticks(most: f64, about: usize) -> Vec<f64> {
     if most.is_nan() || most <= 0.0 || about == 0 {
@@ -91,7 +91,7 @@ pub fn ticks(most: f64, about: usize) -> Vec<f64> {
     (0..=about).map(|k| k as f64 * step).take_while(|tick| *tick <= most * (1.0 + 1e-9)).collect()
 }
 
-/// A figure with a title that screen readers read.
+/// Wraps a figure with a title for screen readers.
 #[must_use]
 pub fn sheet((width, height): (f64, f64), title: &str, class: &str, body: &Markup) -> Markup {
     html! {

@@ -1,4 +1,5 @@
-//! The causal model as a drawing: demand acts on strain, strain on performance, feedback on the first of the two.
+//! Path diagram of the causal model: demand acts on strain, strain on performance, and feedback moderates the effect of demand on
+//! strain.
 
 use super::{line, sheet, unit};
 use maud::{Markup, html};
@@ -11,32 +12,32 @@ const DEMAND: f64 = 12.0;
 const STRAIN: f64 = 352.0;
 const PERFORMANCE: f64 = 692.0;
 const FEEDBACK: (f64, f64) = (182.0, 10.0);
-/// Half of an arrow head.
+/// Half width of an arrowhead.
 const HEAD: f64 = 5.0;
 
-/// An arrow's words: the estimate, and whether zero lies in its interval.
+/// Label of an arrow, and whether the effect is distinguishable from zero.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PathEffect {
-    /// Estimate and interval.
+    /// Estimate and interval as text.
     pub words: String,
-    /// Zero lies in the interval.
+    /// Whether the interval contains zero.
     pub may_be_none: bool,
 }
 
-/// The four effects.
+/// The four effects of the model.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PathEffects {
-    /// Demand on strain.
+    /// Effect of demand on strain.
     pub on_strain: PathEffect,
-    /// Strain on performance.
+    /// Effect of strain on performance.
     pub on_performance: PathEffect,
-    /// Demand on performance past strain.
+    /// Direct effect of demand on performance.
     pub direct: PathEffect,
-    /// Feedback on the first.
+    /// Moderation by feedback of the effect of demand on strain.
     pub moderation: PathEffect,
 }
 
-/// The drawing.
+/// Draws the diagram.
 #[must_use]
 pub fn model(effects: &PathEffects, title: &str) -> Markup {
     let middle = ROW + 0.5 * BOX.1;
@@ -50,7 +51,7 @@ pub fn model(effects: &PathEffects, title: &str) -> Markup {
             (labeled_arrow((DEMAND, ROW), "Demand", "mental, physical"))
             (labeled_arrow((STRAIN, ROW), "State", "pressure, frustration"))
             (labeled_arrow((PERFORMANCE, ROW), "Performance", "overall score, %"))
-            (labeled_arrow(FEEDBACK, "Feedback", "how much it helped"))
+            (labeled_arrow(FEEDBACK, "Feedback", "helpfulness"))
             (arrow(&[(from, middle), (to, middle)], &effects.on_strain))
             (effect_text((crossing, middle + 24.0), &effects.on_strain))
             (arrow(&[(STRAIN + BOX.0, middle), (PERFORMANCE, middle)], &effects.on_performance))
@@ -84,7 +85,7 @@ fn arrow(points: &[(f64, f64)], effect: &PathEffect) -> Markup {
     }
 }
 
-/// The three corners of the head at the end of a line whose last part runs along an axis.
+/// Returns the corners of the arrowhead at the end of a line whose last segment is parallel to an axis.
 fn head(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let [.., (x0, y0), (x, y)] = points else { return Vec::new() };
     let (dx, dy) = ((x - x0).signum() * f64::from(u8::from(x != x0)), (y - y0).signum() * f64::from(u8::from(y != y0)));

@@ -1,4 +1,4 @@
-//! Two flights of one job on the same drawing, each in its own colour, with the drone of each for the page's slider.
+//! Two flights of one job on the same drawing, each in its own color, with both drones controlled by the page's slider.
 
 use super::backdrop::{ground, lake};
 use super::colors::plain_color;
@@ -11,7 +11,7 @@ use maud::{Markup, html};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::scenario::Bridge;
 
-/// From above, north up.
+/// Draws the plan view, north up.
 #[must_use]
 pub fn plan(both: [&Review; 2]) -> Markup {
     let map = PlotMap::around(ParallelView::plan(), &both.map(everything).concat());
@@ -28,7 +28,7 @@ pub fn plan(both: [&Review; 2]) -> Markup {
     )
 }
 
-/// One bridge from its side, with what both flew near it.
+/// Draws one bridge from the side, with both flights near it.
 #[must_use]
 pub fn elevation(both: [&Review; 2], bridge: &Bridge) -> Markup {
     let near = is_beside(bridge);
@@ -47,7 +47,7 @@ pub fn elevation(both: [&Review; 2], bridge: &Bridge) -> Markup {
     )
 }
 
-/// A job without bridges, from the south.
+/// Draws a job without bridges from the south.
 #[must_use]
 pub fn from_south(both: [&Review; 2]) -> Markup {
     let map = PlotMap::around(ParallelView::from_south(), &both.map(everything).concat());

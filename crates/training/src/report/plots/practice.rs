@@ -1,4 +1,4 @@
-//! A score by repetition with the learning curve through it, one step beyond the last.
+//! A score by repetition with its learning curve, extended by one repetition.
 
 use super::{line, sheet, ticks, unit};
 use crate::report::words;
@@ -10,32 +10,33 @@ const LEFT: f64 = 34.0;
 const RIGHT: f64 = 298.0;
 const TOP: f64 = 8.0;
 const BOTTOM: f64 = 140.0;
-/// Points of the curve between two repetitions.
+/// Curve points between two repetitions.
 const FINE: usize = 6;
-/// Repetitions that are numbered at most.
+/// Maximum number of numbered repetitions.
 const NUMBERED: usize = 10;
 
-/// What is drawn.
+/// Contents of the chart.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PracticeChart<'a> {
-    /// The score, repetition by repetition.
+    /// Score of each repetition.
     pub values: &'a [f64],
-    /// The curve through them.
+    /// Curve fitted to the scores.
     pub curve: &'a LearningCurve,
-    /// Curves of single people behind it, each as far as it was flown.
+    /// Individual curves in the background, each up to its last repetition.
     pub others: &'a [LearningCurve],
-    /// The most that the score can be.
+    /// Maximum of the score.
     pub most: f64,
 }
 
-/// Where the n-th repetition (from 1) of `count` with this value lies; the place after the last is that of the next.
+/// Returns the position of a value in repetition `repetition` (from 1) of `count`; the position after the last is that of the
+/// prediction.
 #[must_use]
 pub fn place(repetition: f64, count: usize, value: f64, most: f64) -> (f64, f64) {
     let share = (repetition - 1.0) / count.max(1) as f64;
     (LEFT + 8.0 + (RIGHT - LEFT - 16.0) * share.clamp(0.0, 1.0), BOTTOM - (BOTTOM - TOP) * (value / most).clamp(0.0, 1.0))
 }
 
-/// Dots for what was flown, the curve, and a ring where it expects the next.
+/// Draws dots for flown repetitions, the curve, and a ring for the predicted next one.
 #[must_use]
 pub fn practice(drawn: &PracticeChart<'_>, title: &str) -> Markup {
     let (count, most) = (drawn.values.len(), drawn.most);
@@ -65,7 +66,7 @@ pub fn practice(drawn: &PracticeChart<'_>, title: &str) -> Markup {
                 circle.dot-1 cx=(unit(x)) cy=(unit(y)) r="4" {}
             }
             @let (x, y) = at((count + 1) as f64, drawn.curve.next);
-            circle.expected cx=(unit(x)) cy=(unit(y)) r="4" { title { "expected next: " (words::number(drawn.curve.next.min(most), 1)) } }
+            circle.expected cx=(unit(x)) cy=(unit(y)) r="4" { title { "predicted next: " (words::number(drawn.curve.next.min(most), 1)) } }
         },
     )
 }

@@ -1,4 +1,4 @@
-//! The Kiviat diagram: one spoke per score, 0 in the middle, 100 at the rim.
+//! Radar (Kiviat) diagram: one axis per score, 0 at the center, 100 at the rim.
 
 use super::{line, sheet, unit};
 use crate::report::words;
@@ -9,16 +9,17 @@ const SIZE: (f64, f64) = (420.0, 360.0);
 const MIDDLE: (f64, f64) = (210.0, 186.0);
 const RADIUS: f64 = 118.0;
 
-/// One spoke.
+/// One axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RadarAxis {
-    /// Name.
+    /// Label.
     pub name: &'static str,
-    /// 0 to 100 of each session; `None` does not apply.
+    /// Value for each session, 0 to 100; `None` where it does not apply.
     pub values: Vec<Option<f64>>,
 }
 
-/// Where `pct` of spoke `k` of `count` lies, from the middle, right and down; the first spoke points up, the others follow clockwise.
+/// Returns the position of `pct` on axis `k` of `count`, right and down from the center. The first axis points up; the others
+/// follow clockwise.
 #[must_use]
 pub fn place(k: usize, count: usize, pct: f64) -> (f64, f64) {
     let (s, c) = math::sin_cos(math::TAU * k as f64 / count.max(1) as f64);
@@ -26,7 +27,7 @@ pub fn place(k: usize, count: usize, pct: f64) -> (f64, f64) {
     (r * s, -r * c)
 }
 
-/// The diagram of one session, or of several laid over each other.
+/// Draws the diagram of one session, or of several overlaid.
 #[must_use]
 pub fn radar(spokes: &[RadarAxis], title: &str) -> Markup {
     let count = spokes.len();
@@ -66,7 +67,7 @@ pub fn radar(spokes: &[RadarAxis], title: &str) -> Markup {
     )
 }
 
-/// Two lines of words stand above the upper rim, not on it.
+/// Returns the position of a label; two-line labels at the top are placed above the rim.
 fn label((x, y): (f64, f64)) -> (f64, f64) {
     (x, if y < MIDDLE.1 - RADIUS { y - 18.0 } else { y })
 }
@@ -85,7 +86,7 @@ fn anchor(x: f64) -> &'static str {
 mod tests {
     use super::*;
 
-    /// Rounding of libm's sine at the four quarters, units of the sheet.
+    /// Rounding error of libm's sine at multiples of 90 degrees, sheet units.
     const ROUNDING: f64 = 1e-12;
 
     #[test]

@@ -1,4 +1,4 @@
-//! The session in time: who flew, which task, what was said, pictures, gaps; one row each on one axis.
+//! Timeline of the session: control source, task, feedback, pictures and gaps, one row each on a common axis.
 
 use super::{line, sheet, ticks, unit};
 use crate::report::words;
@@ -12,25 +12,25 @@ const ROW: f64 = 26.0;
 /// One row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimeStrip {
-    /// Name.
+    /// Label.
     pub name: String,
-    /// Stretches: style, from, to (s), and what is said of it.
+    /// Intervals: style, start and end (s), and description.
     pub stretches: Vec<(String, f64, f64, String)>,
-    /// Instants: style, time (s), and what is said of it.
+    /// Events: style, time (s), and description.
     pub marks: Vec<(String, f64, String)>,
 }
 
-/// Where an instant lies on the sheet.
+/// Returns the horizontal position of a time on the sheet.
 #[must_use]
 pub fn x_of(t_s: f64, end_s: f64) -> f64 {
     LEFT + (RIGHT - LEFT) * if end_s > 0.0 { (t_s / end_s).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// All rows from 0 to `end_s`.
+/// Draws all rows from 0 to `end_s`.
 #[must_use]
 pub fn strips(rows: &[TimeStrip], end_s: f64, title: &str) -> Markup {
     let bottom = 6.0 + ROW * rows.len() as f64;
-    // Whole and half minutes read better than tenths of them.
+    // Ticks at whole and half minutes read better than at tenths.
     let minutes = ticks(end_s / 60.0, 8);
     sheet(
         (WIDTH, bottom + 26.0),

@@ -1,4 +1,4 @@
-// Follows one's own flight: asks about once a second which picture is there now, and shows each once.
+// Follows the trainee's own flight: polls about once per second for the latest picture and shows each once.
 "use strict";
 const root = document.querySelector("[data-flight]");
 const state = root.querySelector("[data-state]");
@@ -7,7 +7,7 @@ const image = camera.querySelector("img");
 const EVERY_MS = 1000;
 
 function show({ flying, picture }) {
-  if (!flying) state.textContent = "You are not flying now. This page follows as soon as you do.";
+  if (!flying) state.textContent = "You are not flying. This page updates when your flight starts.";
   else if (picture === null) state.textContent = "You are flying; there is no picture of the camera (the window keeps it).";
   else state.textContent = "You are flying.";
   camera.hidden = picture === null;
@@ -18,7 +18,7 @@ function show({ flying, picture }) {
 
 async function look() {
   try {
-    // Who looks elsewhere needs no picture; a redirect leads to the login.
+    // A hidden page needs no picture; a redirect leads to the login.
     if (!document.hidden) {
       const answer = await fetch("/flight/now.json", { redirect: "manual" });
       if (answer.ok) show(await answer.json());

@@ -1,8 +1,8 @@
-// Saves every answer as soon as it is given; one after the other, so that the last one counts. Without this script the form's button does.
+// Saves every answer immediately, one request at a time, so that the last one wins. Without this script, use the button.
 "use strict";
 const form = document.querySelector("form[data-save]");
 const status = form.querySelector("[data-status]");
-// What the server has not confirmed yet: it goes with the next save.
+// Answers not yet confirmed by the server; they are included in the next save.
 const unsaved = new Map();
 let queue = Promise.resolve();
 
@@ -18,7 +18,7 @@ async function save() {
     status.classList.toggle("bad", bad);
   };
   try {
-    // Alive after the page is left; a redirect leads to the login and saves nothing.
+    // Continues after the page is closed; a redirect leads to the login and saves nothing.
     const headers = { Accept: "application/json" };
     const answer = await fetch(form.action, { method: "POST", body, headers, keepalive: true, redirect: "manual" });
     if (!answer.ok) throw new Error(`the server says ${answer.status || "log in"}`);

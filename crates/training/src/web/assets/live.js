@@ -1,4 +1,4 @@
-// Follows a flight: server-sent events move the drone on every drawing and fill the read-outs. Words of others become text, never markup.
+// Follows a flight: server-sent events update the drawings and readouts. Received text is inserted as text, never as markup.
 "use strict";
 const root = document.querySelector(".live-page");
 const state = root.querySelector("[data-state]");
@@ -19,7 +19,7 @@ function onSheet(matrix, [e, n, u]) {
   return [m[0] * e + m[1] * n + m[2] * u + m[3], m[4] * e + m[5] * n + m[6] * u + m[7]];
 }
 
-// In the side view of a bridge only what is near it is shown: middle, axis along the bridge, and how far along and beside counts, m.
+// The side view of a bridge shows only what is near it: center, axis, and limits along and beside the bridge, m.
 function isNear(node, [e, n]) {
   if (!node.dataset.near) return true;
   const [east, north, alongEast, alongNorth, along, beside] = node.dataset.near.split(" ").map(Number);
@@ -55,7 +55,7 @@ function move(place) {
 function tell(words) {
   const list = root.querySelector("[data-said]");
   if (!list) return;
-  // The server has started again and counts from the beginning.
+  // The server was restarted and counts from the beginning.
   if (words.at(-1)?.id < newest) newest = 0;
   for (const one of words) {
     if (one.id <= newest) continue;
@@ -106,7 +106,7 @@ function show(now) {
   tell(now.words);
 }
 
-// Each picture has a name of its own and is asked for once; the one before stays until it is there.
+// Each picture has a unique name and is requested once; the previous one stays until it is loaded.
 function picture(version) {
   const camera = root.querySelector("[data-camera]");
   if (!camera) return;
@@ -117,7 +117,7 @@ function picture(version) {
   image.src = `/live/camera.jpg?vehicle=${root.dataset.vehicle}&v=${version}`;
 }
 
-// Without a vehicle there is nothing to listen to.
+// Without a vehicle there are no events.
 if ("live" in root.dataset) {
   const source = new EventSource(`/live/stream?vehicle=${root.dataset.vehicle}`);
   source.onmessage = (event) => show(JSON.parse(event.data));
@@ -132,7 +132,7 @@ for (const form of root.querySelectorAll("form[data-act]")) {
     event.preventDefault();
     const body = new URLSearchParams(new FormData(form, event.submitter));
     try {
-      // A redirect leads to the login: nothing was done.
+      // A redirect leads to the login: the action was not performed.
       const answer = await fetch(form.action, { method: "POST", body, headers: { Accept: "application/json" }, redirect: "manual" });
       if (answer.ok) form.querySelector("input[name=text]")?.form.reset();
       else state.textContent = `not done: the server says ${answer.status || "log in"}`;

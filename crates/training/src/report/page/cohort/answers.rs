@@ -1,4 +1,4 @@
-//! The questionnaire's answers, and how they stand to what was measured.
+//! Questionnaire answers, and their relation to measured scores.
 
 use super::super::{figure, legend, scrolling};
 use super::{people_shown, pooled};
@@ -9,7 +9,7 @@ use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
 
-/// The five answers.
+/// The five answers with their styles.
 const ANSWERS: [(&str, &str); 5] = [
     ("answer-1", "strongly agree"),
     ("answer-2", "agree"),
@@ -18,7 +18,7 @@ const ANSWERS: [(&str, &str); 5] = [
     ("answer-5", "strongly disagree"),
 ];
 
-/// Likert charts.
+/// Renders the Likert charts.
 pub fn answers(cohort: &Cohort) -> Markup {
     let key: Vec<(&str, String)> = ANSWERS.iter().map(|(class, words)| (*class, (*words).to_owned())).collect();
     let of = |repetition: Option<usize>| -> Vec<LikertQuestion> {
@@ -30,9 +30,9 @@ pub fn answers(cohort: &Cohort) -> Markup {
     let first = of(None);
     html! {
         (legend(&key))
-        (figure(&format!("All first sessions, {} answers at most", cohort.trainees), &chart(&first, "Answers of all first sessions")))
+        (figure(&format!("All first sessions, up to {} answers", cohort.trainees), &chart(&first, "Answers of all first sessions")))
         @for (k, questions) in &later {
-            details.numbers { summary { "Those who repeated, repetition " (k) } (chart(questions, &format!("Answers in repetition {k}"))) }
+            details.numbers { summary { "Trainees with repeated sessions, repetition " (k) } (chart(questions, &format!("Answers in repetition {k}"))) }
         }
     }
 }
@@ -41,7 +41,7 @@ fn chart(questions: &[LikertQuestion], title: &str) -> Markup {
     scrolling(title, &likert(questions, title))
 }
 
-/// A question in the shipped words; its key when they have none.
+/// Returns the text of a question in the shipped wording, or its key if there is none.
 fn asked(one: &Likert) -> String {
     let wording = read_wording(SHIPPED[0].0, SHIPPED[0].1).ok();
     match (QuestionnaireItem::from_key(&one.question), wording) {
@@ -57,7 +57,7 @@ fn asked(one: &Likert) -> String {
     }
 }
 
-/// Self-rating beside the measured share.
+/// Renders self-rating against the measured score.
 pub fn self_rating(cohort: &Cohort) -> Markup {
     let rating = &cohort.self_rating;
     html! {
@@ -78,7 +78,7 @@ fn rated(cohort: &Cohort) -> Table {
     });
     Table {
         name: "self_rating",
-        caption: "self-rating and measured share",
+        caption: "self-rating and measured score",
         columns: vec!["trainee", "self-rating, 1 to 5", "measured, %"],
         rows: rows.collect(),
     }

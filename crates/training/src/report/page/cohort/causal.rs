@@ -1,4 +1,4 @@
-//! The causal model: demand on strain on performance, with feedback as moderator.
+//! The causal model section: demand, strain and performance, with feedback as moderator.
 
 use super::super::{figure, scrolling};
 use crate::cohort::{Cohort, IndirectEffect, MediationModel, SENSIBLE_N};
@@ -9,13 +9,13 @@ use crate::report::words;
 use crate::statistics::{Coefficient, Regression};
 use maud::{Markup, html};
 
-/// The section.
+/// Renders the section.
 pub fn causal(cohort: &Cohort) -> Markup {
     html! {
-        p { "Does a demanding flight strain, does strain cost performance, and does feedback during the flight soften the first of the two? Estimated from the first sessions of all who answered." }
+        p { "Does demand increase strain, does strain reduce performance, and does in-flight feedback weaken the effect of demand on strain? Estimated from the first sessions of all trainees who answered." }
         @match &cohort.causal {
             Some(model) => (estimated(model)),
-            None => p.caution { "No estimate can be made from these people: too few answered, or their answers do not vary. At least " (SENSIBLE_N) " people with whole answers are sensible." },
+            None => p.caution { "No estimate available: too few trainees answered, or their answers do not vary. At least " (SENSIBLE_N) " trainees with complete answers are recommended." },
         }
     }
 }
@@ -23,18 +23,18 @@ pub fn causal(cohort: &Cohort) -> Markup {
 fn estimated(model_: &MediationModel) -> Markup {
     html! {
         @if model_.n < SENSIBLE_N {
-            p.caution { b { (model_.n) " people with whole answers." } " With fewer than " (SENSIBLE_N) " the model misses effects of medium size: read it as a description of these people, and as no proof." }
+            p.caution { b { (model_.n) " trainees with complete answers." } " With fewer than " (SENSIBLE_N) " the model misses medium effects. It describes these trainees but proves nothing." }
         }
-        (figure("The model; an arrow is dashed where zero lies in the 95 % interval of its effect", &scrolling("The causal model", &model(&effects(model_), "Demand, state, performance, and feedback"))))
-        p.note { "Demand, strain and feedback are answers from 1 to 5; performance is the overall score in % of what could be had." }
-        (figure("Points of performance that a step of demand costs or brings by way of strain, by how much feedback helped, with 95 % intervals", &scrolling("Indirect effects", &intervals(&indirect(model_), "% of the overall score per step of demand", "Indirect effect of demand by helpfulness of feedback"))))
+        (figure("Path diagram; dashed arrows mark effects whose 95 % interval contains zero", &scrolling("The causal model", &model(&effects(model_), "Demand, strain, performance and feedback"))))
+        p.note { "Demand, strain and feedback are scales from 1 to 5; performance is the overall score in % of the maximum." }
+        (figure("Indirect effect of one unit of demand on performance through strain, by helpfulness of feedback, with 95 % intervals", &scrolling("Indirect effects", &intervals(&indirect(model_), "% of the overall score per unit of demand", "Indirect effect of demand by helpfulness of feedback"))))
         (effects_table(model_).shown())
         (coefficients(model_).folded())
     }
 }
 
 fn named(at: usize) -> &'static str {
-    ["feedback helped little", "feedback at the mean", "feedback helped much"].get(at).copied().unwrap_or_default()
+    ["low feedback", "mean feedback", "high feedback"].get(at).copied().unwrap_or_default()
 }
 
 fn indirect(model: &MediationModel) -> Vec<IntervalEstimate> {
@@ -73,10 +73,10 @@ fn effects_table(model: &MediationModel) -> Table {
         vec![name.into(), TableCell::Number(one.feedback, 2), TableCell::Number(one.effect, 2), ends(one, 0), ends(one, 1)]
     };
     let mut rows: Vec<Vec<TableCell>> = model.indirect.iter().enumerate().map(|(k, one)| row(named(k), one)).collect();
-    rows.push(row("moderation: change per step of feedback", &model.moderation));
+    rows.push(row("moderation: change per unit of feedback", &model.moderation));
     Table {
         name: "indirect_effects",
-        caption: "performance per step of demand by way of strain; intervals by resampling people",
+        caption: "performance per unit of demand through strain; bootstrap intervals",
         columns: vec!["where", "feedback", "effect, %", "95 % from", "to"],
         rows,
     }

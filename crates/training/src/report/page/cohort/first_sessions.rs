@@ -1,4 +1,4 @@
-//! The first sessions: distributions, people and tasks, crashes.
+//! First sessions: distributions, trainees and tasks, crashes.
 
 use super::super::kinds::{KINDS, counted, segments};
 use super::super::{figure, legend};
@@ -9,7 +9,7 @@ use crate::report::plots::histogram::histogram;
 use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
 
-/// How the scores are distributed.
+/// Renders the score distributions.
 pub fn distributions(cohort: &Cohort) -> Markup {
     let rows = cohort.distributions.iter().map(|one| {
         let s = &one.summary;
@@ -25,14 +25,14 @@ pub fn distributions(cohort: &Cohort) -> Markup {
     html! {
         div.trio {
             @for one in &cohort.distributions {
-                (figure(&one.score, &histogram(&one.histogram, one.summary.mean, &format!("Histogram of {}, the line is the mean", one.score))))
+                (figure(&one.score, &histogram(&one.histogram, one.summary.mean, &format!("Histogram of {}; the line is the mean", one.score))))
             }
         }
         (table.shown())
     }
 }
 
-/// Each person's scores and tasks; of too many people how they are distributed.
+/// Renders each trainee's scores and tasks, or their distributions if there are too many trainees.
 pub fn people(cohort: &Cohort) -> Markup {
     if people_shown(cohort) { one_by_one(cohort) } else { pooled::tasks(cohort) }
 }
@@ -76,16 +76,16 @@ fn one_by_one(cohort: &Cohort) -> Markup {
         ]
     });
     let columns = vec!["trainee", "conformity", "efficiency", "safety", "accuracy", "overall", "flight time"];
-    let table = Table { name: "individuals", caption: "first session of each person", columns, rows: table.collect() };
+    let table = Table { name: "individuals", caption: "first session of each trainee", columns, rows: table.collect() };
     html! {
         (table.shown())
-        details.numbers { summary { "Share of each task's time on the path, person by person" }
-            (figure("Share of the time on the path", &html! { (legend(&key)) (shares(&rows, "On the path by person and task")) }))
+        details.numbers { summary { "On-path share of each task, by trainee" }
+            (figure("Share of the time on the path", &html! { (legend(&key)) (shares(&rows, "On-path share by trainee and task")) }))
         }
     }
 }
 
-/// What was hit, where, by whom.
+/// Renders crashes by kind, task and trainee.
 pub fn crashes(cohort: &Cohort) -> Markup {
     let table = &cohort.crashes;
     let key: Vec<(&str, String)> =
@@ -101,7 +101,7 @@ pub fn crashes(cohort: &Cohort) -> Markup {
             (figure("By task", &counts(&by_task, "Crashes by task")))
         }
         @if people_shown(cohort) {
-            details.numbers { summary { "Person by person" } (figure("Crashes by person", &counts(&by_person(cohort), "Crashes by person"))) }
+            details.numbers { summary { "By trainee" } (figure("Crashes by trainee", &counts(&by_person(cohort), "Crashes by trainee"))) }
         } @else { (pooled::crashes(cohort)) }
     }
 }

@@ -1,4 +1,4 @@
-//! Practice: the group's learning curves, and those who repeated one by one.
+//! Practice effects: the group's learning curves and the trainees with repeated sessions.
 
 use super::super::progress::{most, pictures, too_few};
 use super::super::{figure, legend};
@@ -8,21 +8,21 @@ use crate::report::table::{Table, TableCell};
 use crate::statistics::LearningCurve;
 use maud::{Markup, html};
 
-/// Curves of single people that are drawn behind the group's; more are a grey patch.
+/// Maximum number of individual curves drawn behind the group's curve; more would merge into a gray area.
 const CURVES_SHOWN: usize = 40;
-/// People who are shown one by one.
+/// Maximum number of trainees shown individually.
 const ONE_BY_ONE: usize = 24;
 
-/// The group's curves, or why there are none.
+/// Renders the group's curves, or the reason why there are none.
 pub fn curves(cohort: &Cohort) -> Markup {
     let key = [
         ("dot-1", "mean".to_owned()),
         ("fitted-key", "curve through the means".into()),
-        ("one-of-many-key", "one person".into()),
+        ("one-of-many-key", "one trainee".into()),
     ];
     html! {
         @if cohort.learning.is_empty() {
-            p.calm { (too_few()) " Nobody has flown it so often." }
+            p.calm { (too_few()) " No trainee has flown it that often." }
         } @else {
             (legend(&key))
             div.trio {
@@ -32,14 +32,14 @@ pub fn curves(cohort: &Cohort) -> Markup {
                     (figure(&format!("{}, {}", one.score, people(one.people)), &practice(&drawn, &format!("Learning curve of {}", one.score))))
                 }
             }
-            p.note { "Power laws of practice; the ring is what the curve expects of the next repetition. The curve through the means is no single person's: it bends less." }
+            p.note { "Power laws of practice; the ring is the prediction for the next repetition. The curve through the means bends less than the curves of individual trainees." }
             (numbers(&cohort.learning).shown())
         }
     }
 }
 
 fn people(count: usize) -> String {
-    if count == 1 { "one person".to_owned() } else { format!("{count} people") }
+    if count == 1 { "one trainee".to_owned() } else { format!("{count} trainees") }
 }
 
 fn of_people(cohort: &Cohort, score: &str) -> Vec<LearningCurve> {
@@ -70,17 +70,17 @@ fn numbers(curves: &[GroupCurve]) -> Table {
     Table {
         name: "learning_of_the_group",
         caption: "learning curves through the means",
-        columns: vec!["score", "people", "repetitions", "first mean", "last mean", "exponent", "R²", "next"],
+        columns: vec!["score", "trainees", "repetitions", "first mean", "last mean", "exponent", "R²", "next"],
         rows: curves.iter().map(row).collect(),
     }
 }
 
-/// Those who flew more than once, each with his repetitions.
+/// Renders each trainee with more than one session.
 pub fn one_by_one(cohort: &Cohort) -> Markup {
     let repeated: Vec<&TraineeProgress> = repeated(cohort).collect();
     html! {
         @if repeated.len() > ONE_BY_ONE {
-            p.calm { (repeated.len()) " people flew more than once; more than " (ONE_BY_ONE) " are not shown one by one. The file progress.csv holds them all." }
+            p.calm { (repeated.len()) " trainees flew more than once; more than " (ONE_BY_ONE) " are not shown individually. See progress.csv for all of them." }
         } @else {
             @for one in repeated {
                 details.numbers { summary { (one.trainee) ", " (one.repetitions.len()) " times" } (pictures(one, &tasks(cohort, one))) }
@@ -89,12 +89,12 @@ pub fn one_by_one(cohort: &Cohort) -> Markup {
     }
 }
 
-/// Those who flew more than once.
+/// Returns the trainees with more than one session.
 pub fn repeated(cohort: &Cohort) -> impl Iterator<Item = &TraineeProgress> {
     cohort.progress.iter().filter(|one| one.repetitions.len() > 1)
 }
 
-/// The tasks as the first session names them.
+/// Returns the tasks as named in the first session.
 fn tasks(cohort: &Cohort, one: &TraineeProgress) -> Vec<(u32, String)> {
     let first = cohort.individuals.iter().find(|first| first.trainee == one.trainee);
     first.map(|first| first.tasks.iter().map(|task| (task.id, task.name.clone())).collect()).unwrap_or_default()

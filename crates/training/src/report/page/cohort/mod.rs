@@ -1,5 +1,5 @@
-//! What a group of trainees shows, as one page or as sections of another: the paper's figures with the numbers behind them. Of more people
-//! than anybody reads the page shows distributions, and the files hold each of them.
+//! Cohort results, as a standalone page or as sections of another: the paper's figures with the underlying numbers. For large
+//! cohorts the page shows distributions, and the files contain the individual data.
 
 mod answers;
 mod causal;
@@ -14,24 +14,24 @@ use crate::record::omitted_summary;
 use crate::report::table::download;
 use maud::{Markup, html};
 
-/// People who are listed one by one.
+/// Maximum number of trainees listed individually.
 pub const PEOPLE_SHOWN: usize = 60;
 
-/// Where the tables are as files.
+/// Location of the table files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TableLinks<'a> {
-    /// In the page, as far as their people are listed in it.
+    /// Embedded in the page, for trainees who are listed in it.
     Inside,
-    /// Served: the address is this, the file's name, and a query.
+    /// Served: prefix of the address and a query, which enclose the file name.
     At(&'a str, &'a str),
 }
 
-/// The page lists people one by one.
+/// Returns whether the page lists trainees individually.
 fn people_shown(cohort: &Cohort) -> bool {
     cohort.trainees <= PEOPLE_SHOWN
 }
 
-/// The page that opens offline.
+/// Renders the standalone offline page.
 #[must_use]
 pub fn cohort(cohort: &Cohort) -> String {
     let sections = sections(cohort, TableLinks::Inside);
@@ -50,7 +50,7 @@ pub fn cohort(cohort: &Cohort) -> String {
     )
 }
 
-/// Who flew what.
+/// Renders the number of trainees and sessions.
 #[must_use]
 pub fn summary_lines(cohort: &Cohort) -> Markup {
     html! {
@@ -60,28 +60,28 @@ pub fn summary_lines(cohort: &Cohort) -> Markup {
     }
 }
 
-/// Id, name and body of each section; those with nothing to show are left out.
+/// Returns id, name and body of each section. Empty sections are skipped.
 #[must_use]
 pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>) -> Vec<(&'static str, &'static str, Markup)> {
     let mut sections = Vec::new();
     if !cohort.warnings.is_empty() {
-        sections.push(("mind", "To keep in mind", html! { ul { @for words in &cohort.warnings { li { (words) } } } }));
+        sections.push(("mind", "Cautions", html! { ul { @for words in &cohort.warnings { li { (words) } } } }));
     }
     sections.push(("distributions", "Scores of the first sessions", first_sessions::distributions(cohort)));
-    sections.push(("people", "People and tasks", first_sessions::people(cohort)));
+    sections.push(("people", "Trainees and tasks", first_sessions::people(cohort)));
     sections.push(("crashes", "Crashes", first_sessions::crashes(cohort)));
     if !cohort.boxes.is_empty() && cohort.repetitions > 1 {
         sections.push(("repetitions", "Repetitions", repetitions::repetitions(cohort)));
     }
     if learning::repeated(cohort).next().is_some() {
         sections.push(("learning", "Learning curves", learning::curves(cohort)));
-        sections.push(("one-by-one", "Who repeated, one by one", learning::one_by_one(cohort)));
+        sections.push(("one-by-one", "Individual progress", learning::one_by_one(cohort)));
     }
     if !cohort.likert.is_empty() {
         sections.push(("answers", "Answers", answers::answers(cohort)));
     }
     if !cohort.self_rating.people.is_empty() {
-        sections.push(("self-rating", "Self-rating and measurement", answers::self_rating(cohort)));
+        sections.push(("self-rating", "Self-rating and measured score", answers::self_rating(cohort)));
     }
     if !cohort.likert.is_empty() {
         sections.push(("causal", "Demand, state, performance", causal::causal(cohort)));
@@ -90,7 +90,7 @@ pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>) -> Vec<(&'static str,
     sections
 }
 
-/// Tables that grow with the number of people.
+/// Tables whose size grows with the number of trainees.
 const BY_PERSON: [&str; 7] = [
     "individuals.csv",
     "conformity_by_task.csv",
@@ -111,7 +111,7 @@ fn files(cohort: &Cohort, at: TableLinks<'_>) -> Markup {
             html! {
                 ul.actions { @for (name, csv) in tables(cohort).into_iter().filter(|(name, _)| inside(name)) { li { (download(name, &csv, name)) } } }
                 @if !people_shown(cohort) {
-                    p.note { "Files with a line for each of " (cohort.trainees) " people would make this page too large: " code { "spandrel cohort --csv FOLDER" } " writes " (BY_PERSON.join(", ")) "." }
+                    p.note { "Files with one line for each of " (cohort.trainees) " trainees would make this page too large: " code { "spandrel cohort --csv FOLDER" } " writes " (BY_PERSON.join(", ")) "." }
                 }
             }
         }
@@ -165,12 +165,12 @@ mod tests {
 
     #[test]
     fn exact_the_causal_model_is_drawn_with_its_warning_or_the_page_explains_why_not() {
-        // The made-up answers are all alike: nothing can be estimated.
+        // The test answers are all equal, so nothing can be estimated.
         let page = super::cohort(&of(
             &group(),
             &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::LeaveOut },
         ));
-        assert!(page.contains("No estimate can be made") && !page.contains("class=\"model-drawing\""));
+        assert!(page.contains("No estimate available") && !page.contains("class=\"model-drawing\""));
         let mut records: Vec<SessionRecord> = (0..20).map(|person| faultless(&format!("t{person}"), 1)).collect();
         let mut chance = spandrel_model::random::RandomStream::new(3, "made-up answers");
         for record in &mut records {
@@ -199,7 +199,7 @@ mod tests {
         let (three, four) = (flown(3), flown(4));
         assert!(three.contains("needs 4 repetitions") && !three.contains("class=\"practice\""));
         assert_eq!((four.matches("class=\"practice\"").count(), four.matches("one-of-many\"").count()), (5, 10));
-        assert!(three.contains("anna, 3 times") && four.contains("overall, 2 people"));
+        assert!(three.contains("anna, 3 times") && four.contains("overall, 2 trainees"));
     }
 
     #[test]
@@ -210,15 +210,15 @@ mod tests {
             of(&records, &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::LeaveOut })
         };
         let few = super::cohort(&people(PEOPLE_SHOWN));
-        assert!(few.contains("Person by person") && few.contains("individuals.csv\" href") && few.contains(">p59<"));
+        assert!(few.contains("By trainee") && few.contains("individuals.csv\" href") && few.contains(">p59<"));
         let (some, many) = (super::cohort(&people(PEOPLE_SHOWN + 1)), super::cohort(&people(20 * PEOPLE_SHOWN)));
         assert!(
-            !some.contains("Person by person") && !some.contains(">p59<") && some.contains("61 people are not listed one by one")
+            !some.contains("By trainee") && !some.contains(">p59<") && some.contains("61 trainees are not listed individually")
         );
         assert!(!some.contains("individuals.csv\" href") && some.contains("t_tests.csv\" href"));
-        assert!(some.contains("Histogram of crashes by person") && some.contains("On the path by task"));
+        assert!(some.contains("Histogram of crashes per trainee") && some.contains("On-path share by task"));
         assert!(many.len() < some.len() + 2_000, "{} and {} bytes", some.len(), many.len());
-        // Served, every file has its address.
+        // When served, every file has an address.
         let cohort = people(PEOPLE_SHOWN + 1);
         let (_, _, files) = sections(&cohort, TableLinks::At("/cohort/", "?repetitions=2")).pop().unwrap();
         let files = files.into_string();

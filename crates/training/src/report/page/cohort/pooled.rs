@@ -1,4 +1,4 @@
-//! What stands for a list of people where there are more than anybody reads: distributions over them.
+//! Distributions shown in place of individual lists for large cohorts.
 
 use super::super::figure;
 use crate::cohort::{Cohort, SelfRatingPair};
@@ -8,14 +8,14 @@ use crate::report::table::{Table, TableCell};
 use crate::statistics::{BoxPlot, HistogramBin, box_plot};
 use maud::{Markup, html};
 
-/// Bars of a histogram of crashes: beyond it several counts share one.
+/// Maximum number of histogram bins for crashes; above it, bins cover several counts.
 const BARS: usize = 20;
 
 fn too_many(cohort: &Cohort, file: &str) -> Markup {
-    html! { p.note { (cohort.trainees) " people are not listed one by one: the figures show how they are distributed, the file " (file) " holds each of them." } }
+    html! { p.note { (cohort.trainees) " trainees are not listed individually: the figures show distributions, and the file " (file) " contains the individual data." } }
 }
 
-/// A box with a name.
+/// A box plot with its label.
 type LabeledBox = (String, BoxPlot);
 
 fn drawn(of: &[LabeledBox], most: f64, title: &str) -> Markup {
@@ -32,7 +32,7 @@ fn table(name: &'static str, caption: &'static str, head: &'static str, of: &[La
     Table { name, caption, columns, rows: of.iter().map(row).collect() }
 }
 
-/// On-path shares by task.
+/// Renders on-path shares by task.
 pub fn tasks(cohort: &Cohort) -> Markup {
     let shares = |id: u32| -> Vec<f64> {
         let tasks = cohort.individuals.iter().flat_map(|one| &one.tasks);
@@ -43,28 +43,32 @@ pub fn tasks(cohort: &Cohort) -> Markup {
     html! {
         (too_many(cohort, "individuals.csv"))
         @if !all.is_empty() {
-            (figure("Share of each task's time on the path, %", &drawn(&all, 100.0, "On the path by task")))
-            (table("on_path_by_task", "on the path by task, %, of those who attempted it", "task", &all).shown())
+            (figure("On-path share of each task, %", &drawn(&all, 100.0, "On-path share by task")))
+            (table("on_path_by_task", "on-path share by task, %, for trainees who attempted it", "task", &all).shown())
         }
     }
 }
 
-/// How many crashes people had.
+/// Renders the number of crashes per trainee.
 pub fn crashes(cohort: &Cohort) -> Markup {
     let counts: Vec<usize> = cohort.crashes.rows.iter().map(|row| row.total).collect();
     let bins = bins(&counts);
     let mean = counts.iter().sum::<usize>() as f64 / counts.len().max(1) as f64;
     let row = |bin: &HistogramBin| vec![TableCell::Number(bin.from, 0), TableCell::Number(bin.to - 1.0, 0), bin.count.into()];
-    let columns = vec!["crashes, from", "to", "people"];
-    let table =
-        Table { name: "crashes_by_person", caption: "people by their crashes", columns, rows: bins.iter().map(row).collect() };
+    let columns = vec!["crashes, from", "to", "trainees"];
+    let table = Table {
+        name: "crashes_by_person",
+        caption: "trainees by number of crashes",
+        columns,
+        rows: bins.iter().map(row).collect(),
+    };
     html! {
-        (figure("People by how often they crashed; the line is the mean", &histogram(&bins, mean, "Histogram of crashes by person")))
+        (figure("Trainees by number of crashes; the line is the mean", &histogram(&bins, mean, "Histogram of crashes per trainee")))
         (table.folded())
     }
 }
 
-/// Whole counts from 0 on, each bin as wide as the others.
+/// Returns bins of equal width over integer counts from 0.
 fn bins(counts: &[usize]) -> Vec<HistogramBin> {
     let most = counts.iter().copied().max().unwrap_or(0);
     let wide = (most + 1).div_ceil(BARS).max(1);
@@ -75,7 +79,7 @@ fn bins(counts: &[usize]) -> Vec<HistogramBin> {
     (0..=most).step_by(wide).map(bin).collect()
 }
 
-/// Measured shares by self-rating, to the nearest whole rating.
+/// Renders measured scores by self-rating, rounded to the nearest integer.
 pub fn self_rating(cohort: &Cohort) -> Markup {
     let rated = |rating: usize| {
         let people = cohort.self_rating.people.iter();
@@ -86,10 +90,10 @@ pub fn self_rating(cohort: &Cohort) -> Markup {
     html! {
         (too_many(cohort, "self_rating.csv"))
         @if !all.is_empty() {
-            (figure("Overall score, % of what could be had, by self-rating (5 is best)", &drawn(&all, 100.0, "Measured share by self-rating")))
-            (table("measured_by_self_rating", "measured share by self-rating, %", "self-rating", &all).shown())
+            (figure("Overall score, % of the maximum, by self-rating (5 is best)", &drawn(&all, 100.0, "Measured score by self-rating")))
+            (table("measured_by_self_rating", "measured score by self-rating, %", "self-rating", &all).shown())
         }
-        p { (cohort.self_rating.contradictions.len()) " contradictions of the two are in the file contradictions.csv." }
+        p { (cohort.self_rating.contradictions.len()) " contradictions are listed in contradictions.csv." }
     }
 }
 

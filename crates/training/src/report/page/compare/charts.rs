@@ -1,4 +1,4 @@
-//! Both flights on the site and in time, tied together by one slider.
+//! Both flights on the site and over time, linked by one slider.
 
 use super::super::flight_section::slider;
 use super::super::series::AlignmentEvent;
@@ -8,18 +8,18 @@ use crate::report::plots::overlay;
 use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
 
-/// Column of the series and title of its curves.
+/// Column of the series and title of each chart.
 const CHARTS: [(&str, &str); 4] = [
     ("speed", "Speed, m/s"),
     ("distance", "Distance to the path of the task flown, m"),
     ("clearance", "Clearance to the nearest surface, m"),
     ("battery", "Battery, %"),
 ];
-/// What the slider's table says: key for the script and head.
+/// Rows of the slider's readout: script key and heading.
 const READOUT: [(&str, &str); 5] =
     [("task", "Task"), ("distance", "Distance"), ("speed", "Speed"), ("clearance", "Clearance"), ("battery", "Battery")];
 
-/// The section. Flights of different jobs have no drawing in common.
+/// Renders the section. Flights of different jobs have no common drawing.
 pub fn section(both: [&Review; 2], same_job: bool, line_ups: &[AlignmentEvent], key: &[(&str, String)]) -> Markup {
     html! {
         (controls(line_ups, key))
@@ -28,11 +28,11 @@ pub fn section(both: [&Review; 2], same_job: bool, line_ups: &[AlignmentEvent], 
             @for (column, title) in CHARTS {
                 figure {
                     figcaption { (title) (legend(key)) }
-                    div.chart id={ "chart-" (column) } data-columns=(column) role="img" aria-label={ (title) " of both sessions over time; the table below holds the numbers" } {}
+                    div.chart id={ "chart-" (column) } data-columns=(column) role="img" aria-label={ (title) " of both sessions over time; see the table below for the values" } {}
                 }
             }
         }
-        p.note { "Drag over a curve to look closer, double-click to see all again, click to move the slider." }
+        p.note { "Drag over a chart to zoom in, double-click to reset, click to move the slider." }
         (table(both).folded())
     }
 }
@@ -42,9 +42,9 @@ fn controls(line_ups: &[AlignmentEvent], key: &[(&str, String)]) -> Markup {
         div.controls id="controls" {
             div.run hidden id="run" {
                 (slider())
-                label { "Lined up at " select id="line-up" { @for (k, line_up) in line_ups.iter().enumerate() { option value=(k) { (line_up.name) } } } }
+                label { "Aligned at " select id="line-up" { @for (k, line_up) in line_ups.iter().enumerate() { option value=(k) { (line_up.name) } } } }
             }
-            div.scroll id="readout" hidden tabindex="0" role="region" aria-label="Both sessions at the moment of the slider" {
+            div.scroll id="readout" hidden tabindex="0" role="region" aria-label="Both sessions at the slider's time" {
                 table.moment {
                     thead { tr { th scope="col" { "Session" } @for (_, head) in READOUT { th scope="col" { (head) } } } }
                     tbody {
@@ -69,13 +69,13 @@ fn drawings(both: [&Review; 2]) -> Markup {
             (figure("From the south", &scroll("Elevation", &overlay::from_south(both))))
         }
         @for bridge in &both[0].scenario.bridges {
-            @let title = format!("Bridge '{}' from the side, with what was flown near it", bridge.name);
+            @let title = format!("Bridge '{}' from the side, with nearby parts of the flights", bridge.name);
             (figure(&title, &scroll(&title, &overlay::elevation(both, bridge))))
         }
     }
 }
 
-/// A row every few seconds since lift-off: what the curves show.
+/// Returns the charts' data, sampled every few seconds since lift-off.
 fn table(both: [&Review; 2]) -> Table {
     let end_s = |review: &Review| review.t_s(review.frames.len().saturating_sub(1));
     let longest_s = f64::max(end_s(both[0]), end_s(both[1]));
@@ -114,5 +114,5 @@ fn table(both: [&Review; 2]) -> Table {
         "2: clearance, m",
         "2: battery, %",
     ];
-    Table { name: "both-flights", caption: "both flights, a row every few seconds since lift-off", columns, rows }
+    Table { name: "both-flights", caption: "both flights, sampled every few seconds since lift-off", columns, rows }
 }

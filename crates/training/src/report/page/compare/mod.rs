@@ -1,4 +1,4 @@
-//! Two sessions side by side.
+//! Side-by-side comparison of two sessions.
 
 mod charts;
 
@@ -10,7 +10,7 @@ use crate::report::plots::radar::{RadarAxis, radar};
 use crate::report::table::{Table, TableCell};
 use maud::html;
 
-/// The page that compares two sessions.
+/// Renders the page that compares two sessions.
 #[must_use]
 pub fn comparison(first: &Review, second: &Review) -> String {
     let both = [first, second];
@@ -36,11 +36,11 @@ pub fn comparison(first: &Review, second: &Review) -> String {
                 }
             }
             main {
-                @if !same { p.note { "The sessions are of different jobs: their scores are only roughly comparable." } }
+                @if !same { p.note { "The sessions are of different jobs, so their scores are only roughly comparable." } }
                 section aria-labelledby="scores-head" {
                     h2 id="scores-head" { "Scores" }
                     div.split {
-                        (figure("The four scores, first / second", &html! { (legend(&key)) (radar(&spokes, "Kiviat diagram of both sessions")) }))
+                        (figure("The four scores, first / second", &html! { (legend(&key)) (radar(&spokes, "Radar chart of both sessions")) }))
                         (table(first, second).shown())
                     }
                 }
@@ -51,7 +51,7 @@ pub fn comparison(first: &Review, second: &Review) -> String {
                 @if same {
                     section aria-labelledby="tasks-head" {
                         h2 id="tasks-head" { "Tasks" }
-                        (figure("Share of each task's time on the path", &html! { (legend(&key)) (shares(&rows(first, second), "On the path by task, both sessions")) }))
+                        (figure("On-path share of each task", &html! { (legend(&key)) (shares(&rows(first, second), "On-path share by task, both sessions")) }))
                     }
                 }
             }
@@ -101,7 +101,7 @@ fn table(first: &Review, second: &Review) -> Table {
     Table { name: "comparison", caption: "both sessions in numbers", columns: vec!["what", "first", "second", "change"], rows }
 }
 
-/// Time with the cue "too close" or "off path" on, s.
+/// Returns the time with a "too close" or "off path" cue on, s.
 fn warned_s(review: &Review) -> f64 {
     let wanted = |kind: usize| matches!(crate::report::cues::KINDS[kind].name, "too close" | "off path");
     review.feedback.episodes.iter().filter(|e| wanted(e.kind)).map(|e| e.to_s - e.from_s).sum()
