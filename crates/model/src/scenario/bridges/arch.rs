@@ -326,7 +326,7 @@ impl Default for Arch {
     }
 }
 
-/// Builds posts every 2 m and three rails along one edge of a deck.
+/// Builds posts every 2 m and three rails along both edges of a deck.
 pub(super) fn railing(b: &mut MemberBuilder, length_m: f64, edge_y_m: f64, height_m: f64, element: u32) {
     const POST_M: f64 = 0.15;
     let posts = (length_m / 2.0).floor() as i32;
