@@ -174,7 +174,7 @@ impl LightModel {
         self.sum(rays.map(|direction| self.trace_ray(origin, direction, sun, cast)), day)
     }
 
-    /// Traces a ray; skips the shadow test if the sun is not up.
+    /// Traces a ray; skips the shadow test if there is no direct sun.
     fn trace_ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, (sun, shines): (Vec3<Enu>, bool), cast: RayCast) -> RayOutcome {
         let Some(hit) = cast(origin, direction, SKY_REACH_M) else {
             return if direction.up() > 0.0 { RayOutcome::Sky } else { RayOutcome::Far };

@@ -128,7 +128,7 @@ fn bridge_earthworks(height: f64, east: f64, north: f64, bridge: &Bridge, spacin
     })
 }
 
-/// Returns the depth of the bridge's foundation below the deck at the ends of the opening, m.
+/// Returns the depth of the bridge's underside below the deck at the ends of the opening, m.
 fn clear_depth_m(bridge: &Bridge) -> f64 {
     match &bridge.kind {
         crate::scenario::BridgeKind::Arch(arch) => -arch.intrados_z_m(0.5 * arch.span_m),
