@@ -1,10 +1,11 @@
-//! Spandrel's MAVLink implementation, without sockets: framing ([`codec`]), signing ([`signing`]), routing ([`router`]), file transfer
-//! ([`ftp`]), unit conversions ([`units`]), the interface between vehicle and monitor ([`contract`]), and telemetry processing
-//! ([`telemetry`]).
+//! Spandrel's MAVLink implementation, without sockets: framing ([`codec`]), signing ([`signing`]), routing ([`router`]), file
+//! transfer ([`ftp`]), unit conversions ([`units`]), the interface between vehicle and monitor ([`contract`]), and telemetry
+//! processing ([`telemetry`]).
 //!
 //! Invalid bytes are counted and skipped; they never cause a panic. Telemetry is processed in three steps: a frame becomes a
-//! [`telemetry::sample::Sample`], samples become a [`telemetry::timeline::Timeline`] with known gaps, and the timeline is resampled
-//! into scoring frames at a fixed rate. Recorded logs ([`telemetry::tlog`]) and live links use the same code, so their results are equal.
+//! [`telemetry::sample::Sample`], samples become a [`telemetry::timeline::Timeline`] with known gaps, and the timeline is
+//! resampled into scoring frames at a fixed rate. Recorded logs ([`telemetry::tlog`]) and live links use the same code, so their
+//! results are equal.
 //!
 //! ```
 //! use spandrel_mavlink::codec::{Decoder, Encoder};

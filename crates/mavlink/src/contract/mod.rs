@@ -1,5 +1,5 @@
 //! The interface between a vehicle and the clients that score, display and control it: messages published in addition to standard
-//! telemetry, and how they are interpreted. Version [`VERSION`]; specified in `docs/src/reference/contract.md`, so that third-party
+//! telemetry, and their interpretation. Version [`VERSION`]; specified in `docs/src/reference/contract.md`, so that third-party
 //! vehicles can be scored.
 //!
 //! Both sides use the same code: the vehicle to encode, the monitor to decode.

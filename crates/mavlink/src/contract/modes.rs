@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-/// What controls the aircraft.
+/// The source of control of the aircraft.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ControlSource {

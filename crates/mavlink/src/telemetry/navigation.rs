@@ -26,8 +26,8 @@ pub struct Navigation {
 }
 
 impl Navigation {
-    /// Returns the estimated position at `time`, interpolated between two reports at most 1 s apart, m. `None` outside of them, and across a
-    /// respawn.
+    /// Returns the estimated position at `time`, interpolated between two reports at most 1 s apart, m. `None` outside of them,
+    /// and across a respawn.
     #[must_use]
     pub fn estimate_m(&self, flight: &Flight, time: SimTime) -> Option<Vec3<Enu>> {
         let reports = self.estimate_m.all();

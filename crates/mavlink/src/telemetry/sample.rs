@@ -57,7 +57,7 @@ pub enum SampleValue {
     Beat {
         /// The motors are armed.
         armed: bool,
-        /// What controls the aircraft.
+        /// Control source.
         by: ControlSource,
     },
     /// The autopilot reports that the aircraft is on the ground.

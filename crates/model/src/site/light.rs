@@ -83,7 +83,7 @@ pub struct LightModel {
     disc: Vec<(f64, f64)>,
 }
 
-/// What a ray hits.
+/// Type of surface that a ray hits.
 #[derive(Debug, Clone, Copy)]
 enum RayOutcome {
     /// The sky.

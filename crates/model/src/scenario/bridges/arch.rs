@@ -1,4 +1,5 @@
-//! Open-spandrel deck arch: two parabolic ribs with struts, spandrel columns, floorbeams, stringers, deck slab, railings, abutments.
+//! Open-spandrel deck arch: two parabolic ribs with struts, spandrel columns, floorbeams, stringers, deck slab, railings,
+//! abutments.
 
 use super::solid::MemberBuilder;
 use super::{BridgeField, Footing, Inconsistency, InconsistencyList};
