@@ -1,5 +1,5 @@
-//! Messages of ArduPilot's own dialect that the codec does not know: number, name and fields as data. Order on the wire and checksum seed follow
-//! from them (MAVLink guide, serialization).
+//! Messages of ArduPilot's dialect that the codec does not include: ID, name and fields as data. The wire order and CRC_EXTRA are
+//! derived from them (MAVLink guide, serialization).
 
 use super::codec::{Encodable, Encoder};
 
@@ -40,16 +40,16 @@ impl FieldType {
     }
 }
 
-/// A message's definition, its fields in the order of `ardupilotmega.xml`.
+/// A message definition, with its fields in the order of `ardupilotmega.xml`.
 #[derive(Debug, PartialEq)]
 pub struct MessageDefinition {
-    /// Number.
+    /// Message ID.
     pub id: u32,
-    /// Name.
+    /// Message name.
     pub name: &'static str,
-    /// Fields.
+    /// Base fields.
     pub fields: &'static [(&'static str, FieldType)],
-    /// Fields after the extension mark.
+    /// Extension fields.
     pub extensions: &'static [(&'static str, FieldType)],
 }
 
@@ -115,13 +115,13 @@ pub const EKF_STATUS_REPORT: MessageDefinition = MessageDefinition {
 };
 
 impl MessageDefinition {
-    /// Places of the fields in the order of the wire: the larger types first, otherwise as they are listed.
+    /// Indices of the fields in wire order: larger types first, otherwise in definition order.
     fn order(&self) -> impl Iterator<Item = usize> {
         let places = |long: bool| (0..self.fields.len()).filter(move |k| self.fields[*k].1.is_long() == long);
         places(true).chain(places(false))
     }
 
-    /// The seed of the checksum.
+    /// Returns CRC_EXTRA, the checksum seed of the message.
     #[must_use]
     pub fn crc_extra(&self) -> u8 {
         let fields = self.order().map(|k| format!("{} {} ", self.fields[k].1.name(), self.fields[k].0));
@@ -131,14 +131,14 @@ impl MessageDefinition {
         (crc as u8) ^ (crc >> 8) as u8
     }
 
-    /// A message of this definition, its values in the order of the fields, those of extensions last.
+    /// Creates a message from values in definition order, base fields before extension fields.
     #[must_use]
     pub fn message(&'static self, values: &[f64]) -> DialectMessage {
         DialectMessage { definition: self, values: values.to_vec() }
     }
 }
 
-/// A message with its values.
+/// A dialect message and its field values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DialectMessage {
     definition: &'static MessageDefinition,

@@ -1,4 +1,4 @@
-//! MAVLink framing: bytes in, whole frames out. Bad bytes are counted and skipped; they never stop a link.
+//! MAVLink framing: splits bytes into complete frames. Invalid bytes are counted and skipped; they never stop a link.
 
 use super::dialect::MavMessage;
 use mavlink::{MAVLinkV2MessageRaw, MavHeader, MavlinkVersion, Message};
@@ -8,25 +8,25 @@ const STX_V2: u8 = 0xFD;
 const FLAG_SIGNED: u8 = 0x01;
 const SIGNATURE_LEN: usize = 13;
 
-/// A message with its sender, and the bytes it came in.
+/// A received frame: its message, its sender and its raw bytes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReceivedFrame {
-    /// Sender's system id (1..=255).
+    /// System ID of the sender (1..=255).
     pub system_id: u8,
-    /// Sender's component id.
+    /// Component ID of the sender.
     pub component_id: u8,
     /// Sequence number.
     pub sequence: u8,
-    /// Message id, also when the body is unknown.
+    /// Message ID, set even if the payload could not be decoded.
     pub message_id: u32,
-    /// The decoded body; `None` for a well-formed frame of a message that the dialect does not know, or whose body does not parse.
+    /// The decoded message; `None` for a valid frame whose message is not in the dialect or whose payload cannot be parsed.
     pub message: Option<MavMessage>,
     /// The frame exactly as received, for routing and logging.
     pub bytes: Vec<u8>,
 }
 
 impl ReceivedFrame {
-    /// The payload padded with zeros to `len` bytes (MAVLink 2 cuts trailing zeros).
+    /// Returns the payload padded with zeros to `len` bytes (MAVLink 2 truncates trailing zeros).
     #[must_use]
     pub fn payload(&self, len: usize) -> Vec<u8> {
         let start = if self.bytes.first() == Some(&STX_V2) { 10 } else { 6 };
@@ -37,7 +37,7 @@ impl ReceivedFrame {
     }
 }
 
-/// Splits a byte stream (or datagrams, one after the other) into frames.
+/// Splits a byte stream, or consecutive datagrams, into frames.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Decoder {
     buffer: Vec<u8>,
@@ -51,19 +51,19 @@ enum ParseStep {
 }
 
 impl Decoder {
-    /// An empty decoder.
+    /// Creates an empty decoder.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Bytes that belonged to no valid frame so far.
+    /// Returns the number of bytes so far that belonged to no valid frame.
     #[must_use]
     pub fn bad_bytes(&self) -> u64 {
         self.bad_bytes
     }
 
-    /// Feeds bytes of a stream; incomplete tails are kept for the next call.
+    /// Decodes bytes of a stream. An incomplete frame at the end is kept for the next call.
     pub fn push(&mut self, bytes: &[u8]) -> Vec<ReceivedFrame> {
         self.buffer.extend_from_slice(bytes);
         let mut frames = Vec::new();
@@ -82,8 +82,9 @@ impl Decoder {
         frames
     }
 
-    /// Feeds one datagram: whole frames only; an incomplete tail counts as bad and is dropped. One look at each byte, and one checksum of
-    /// at most 267 bytes for each that could begin a frame: the cost is linear in the datagram's length, whatever it holds.
+    /// Decodes one datagram. Frames must be complete: an incomplete frame at the end is counted as bad and dropped. Each byte is
+    /// examined once, and each possible frame start costs one checksum of at most 267 bytes, so the cost is linear in the length
+    /// of the datagram for any content.
     pub fn datagram(&mut self, bytes: &[u8]) -> Vec<ReceivedFrame> {
         self.buffer.clear();
         let mut frames = Vec::new();
@@ -96,7 +97,7 @@ impl Decoder {
                     len
                 }
                 ParseStep::Skip(len) => self.count_bad(len),
-                // The start of a frame that does not end here: a frame may still begin within it.
+                // A frame header without its end: another frame may still start within these bytes.
                 ParseStep::NeedMore => self.count_bad(1),
             };
         }
@@ -109,7 +110,7 @@ impl Decoder {
     }
 }
 
-/// What stands at the start of `bytes`.
+/// Parses the start of `bytes`.
 fn next(bytes: &[u8]) -> ParseStep {
     let Some(start) = bytes.iter().position(|b| *b == STX_V1 || *b == STX_V2) else {
         return if bytes.is_empty() { ParseStep::NeedMore } else { ParseStep::Skip(bytes.len()) };
@@ -125,7 +126,7 @@ fn next_v2(bytes: &[u8]) -> ParseStep {
         return ParseStep::NeedMore;
     }
     let flags = bytes[2];
-    // Frames with an incompatibility flag that we do not know must not be read (MAVLink guide, serialization).
+    // Frames with unknown incompatibility flags must be discarded (MAVLink guide, serialization).
     if flags & !FLAG_SIGNED != 0 {
         return ParseStep::Skip(1);
     }
@@ -137,7 +138,7 @@ fn next_v2(bytes: &[u8]) -> ParseStep {
     let message_id = u32::from_le_bytes([bytes[7], bytes[8], bytes[9], 0]);
     let crc = u16::from_le_bytes([bytes[body_end], bytes[body_end + 1]]);
     let extra = known(message_id).then(|| MavMessage::extra_crc(message_id));
-    // A message outside the dialect cannot be checked; it is passed on for routing only.
+    // The checksum of a message outside the dialect cannot be verified; the frame is only routed.
     if extra.is_some_and(|extra| mavlink::calculate_crc(&bytes[1..body_end], extra) != crc) {
         return ParseStep::Skip(1);
     }
@@ -184,9 +185,9 @@ fn known(message_id: u32) -> bool {
     MavMessage::default_message_from_id(message_id).is_some()
 }
 
-/// Content that an encoder can frame.
+/// A message that an [`Encoder`] can frame.
 pub trait Encodable {
-    /// The whole frame.
+    /// Returns the complete frame.
     fn frame(&self, encoder: &mut Encoder) -> Vec<u8>;
 }
 
@@ -196,7 +197,7 @@ impl Encodable for MavMessage {
     }
 }
 
-/// Writes frames of one sender, numbering them.
+/// Encodes frames for one sender and assigns their sequence numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Encoder {
     system_id: u8,
@@ -205,31 +206,31 @@ pub struct Encoder {
 }
 
 impl Encoder {
-    /// A sender.
+    /// Creates an encoder for one sender.
     #[must_use]
     pub fn new(system_id: u8, component_id: u8) -> Self {
         Self { system_id, component_id, sequence: 0 }
     }
 
-    /// The sender's system id.
+    /// System ID of the sender.
     #[must_use]
     pub fn system_id(&self) -> u8 {
         self.system_id
     }
 
-    /// The sender's component id.
+    /// Component ID of the sender.
     #[must_use]
     pub fn component_id(&self) -> u8 {
         self.component_id
     }
 
-    /// One MAVLink 2 frame from a raw payload, for numbers that the dialect's types cannot hold (an acknowledgement of an unknown
-    /// command). Trailing zeros are cut as the protocol asks.
+    /// Encodes one MAVLink 2 frame from a raw payload, for values that the dialect's types cannot represent (such as an
+    /// acknowledgment of an unknown command). Trailing zeros are truncated, as the protocol requires.
     pub fn encode_payload(&mut self, message_id: u32, payload: &[u8]) -> Vec<u8> {
         self.encode_foreign(message_id, MavMessage::extra_crc(message_id), payload)
     }
 
-    /// The same for a message of another dialect, whose checksum seed is given.
+    /// Encodes one frame like [`Self::encode_payload`], for a message of another dialect with the given CRC_EXTRA.
     pub fn encode_foreign(&mut self, message_id: u32, crc_extra: u8, payload: &[u8]) -> Vec<u8> {
         let used = payload.iter().rposition(|b| *b != 0).map_or(1, |last| last + 1).min(255).min(payload.len());
         let id = message_id.to_le_bytes();
@@ -241,7 +242,7 @@ impl Encoder {
         out
     }
 
-    /// One MAVLink 2 frame.
+    /// Encodes one MAVLink 2 frame.
     pub fn encode(&mut self, message: &MavMessage) -> Vec<u8> {
         let mut raw = MAVLinkV2MessageRaw::new();
         let header = MavHeader { system_id: u32::from(self.system_id), component_id: self.component_id, sequence: self.sequence };
@@ -274,7 +275,7 @@ mod tests {
     fn exact_a_frame_within_the_reach_of_a_false_start_is_found_and_every_other_byte_is_counted() {
         let message = MavMessage::HEARTBEAT(HEARTBEAT_DATA::default());
         let frame = Encoder::new(1, 191).encode(&message);
-        // False starts that claim more bytes than the datagram has, by the thousand.
+        // Thousands of false frame starts that claim more bytes than the datagram contains.
         let mut bytes = [0xFD, 0xFF, 0x00].repeat(20_000);
         bytes.extend(&frame);
         bytes.extend([0xFE, 0xFF]);

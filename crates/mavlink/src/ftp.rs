@@ -1,56 +1,56 @@
-//! MAVLink FTP: the 251 bytes inside FILE_TRANSFER_PROTOCOL (<https://mavlink.io/en/services/ftp.html>).
+//! MAVLink FTP: the 251-byte payload of FILE_TRANSFER_PROTOCOL (<https://mavlink.io/en/services/ftp.html>).
 
-/// Bytes of data that one packet carries.
+/// Maximum data bytes per packet.
 pub const DATA_MAX: usize = 239;
-/// Bytes of a whole payload.
+/// Size of the payload, bytes.
 pub const PAYLOAD: usize = 251;
 const HEADER: usize = 12;
 
-/// What a client asks for. Numbers as on the wire.
+/// Requests of a client, by opcode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Opcode {
-    /// Ignored, acknowledged.
+    /// No operation; always acknowledged.
     None = 0,
-    /// Ends one session.
+    /// Terminates one session.
     TerminateSession = 1,
-    /// Ends all of the asker's sessions.
+    /// Terminates all sessions of the client.
     ResetSessions = 2,
-    /// Lists a directory from the entry numbered by the offset.
+    /// Lists a directory, starting at the entry index in the offset.
     ListDirectory = 3,
-    /// Opens a file to be read; answers its size.
+    /// Opens a file for reading and returns its size.
     OpenFileRo = 4,
-    /// Reads at an offset.
+    /// Reads data at an offset.
     ReadFile = 5,
-    /// Creates a file to be written.
+    /// Creates a file for writing.
     CreateFile = 6,
-    /// Writes at an offset.
+    /// Writes data at an offset.
     WriteFile = 7,
     /// Removes a file.
     RemoveFile = 8,
-    /// Makes a directory.
+    /// Creates a directory.
     CreateDirectory = 9,
     /// Removes an empty directory.
     RemoveDirectory = 10,
-    /// Opens a file to be written.
+    /// Opens a file for writing.
     OpenFileWo = 11,
-    /// Cuts a file to the length in the offset.
+    /// Truncates a file to the length in the offset.
     TruncateFile = 12,
-    /// Renames: two paths with a zero between.
+    /// Renames a file or directory: two paths separated by a null byte.
     Rename = 13,
-    /// Checksum of a whole file.
+    /// Computes the CRC-32 of a file.
     CalcFileCrc32 = 14,
-    /// Reads in one stream of packets.
+    /// Reads a file as a burst of packets.
     BurstReadFile = 15,
 }
 
-/// Opcode of a good answer.
+/// Opcode of a positive response.
 pub const ACK: u8 = 128;
-/// Opcode of a refusal.
+/// Opcode of a negative response.
 pub const NAK: u8 = 129;
 
 impl Opcode {
-    /// All that a client may send.
+    /// All client requests.
     pub const ALL: [Self; 16] = [
         Self::None,
         Self::TerminateSession,
@@ -70,60 +70,60 @@ impl Opcode {
         Self::BurstReadFile,
     ];
 
-    /// By its number on the wire.
+    /// Returns the request with the given opcode; `None` if there is none.
     #[must_use]
     pub fn of(number: u8) -> Option<Self> {
         Self::ALL.get(usize::from(number)).copied()
     }
 }
 
-/// Why a request is refused. Numbers as on the wire.
+/// Error codes of a negative response.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
 pub enum FtpError {
-    /// For a reason without a number.
+    /// Unspecified failure.
     Fail = 1,
-    /// The size field is larger than the data.
+    /// The size field exceeds the data size.
     InvalidDataSize = 3,
-    /// No such session of this asker.
+    /// The client has no such session.
     InvalidSession = 4,
-    /// All sessions are taken.
+    /// All sessions are in use.
     NoSessionsAvailable = 5,
-    /// The offset lies at or past the end.
+    /// The offset is at or past the end of the file.
     EndOfFile = 6,
-    /// No such opcode.
+    /// Unknown opcode.
     UnknownCommand = 7,
-    /// A thing of that name is there.
+    /// The file or directory already exists.
     FileExists = 8,
-    /// It may not be written.
+    /// The file is write-protected.
     FileProtected = 9,
-    /// There is none.
+    /// The file or directory does not exist.
     FileNotFound = 10,
 }
 
-/// One packet.
+/// One FTP packet.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FtpPacket {
-    /// Counts up with every packet of a conversation.
+    /// Sequence number, incremented with each packet of an exchange.
     pub sequence: u16,
-    /// Which open file.
+    /// Session ID of the open file.
     pub session: u8,
     /// [`Opcode`], [`ACK`] or [`NAK`].
     pub opcode: u8,
-    /// The size field: bytes of data, or bytes wanted by a read.
+    /// Size field: number of data bytes, or number of bytes requested by a read.
     pub size: u8,
-    /// In an answer: what was asked.
+    /// In a response: opcode of the request.
     pub request: u8,
     /// Last packet of a burst.
     pub burst_complete: bool,
-    /// Offset in a file, number of a directory entry, or length.
+    /// Offset in a file, index of a directory entry, or length.
     pub offset: u32,
-    /// All data bytes, used or not.
+    /// The entire data field, including unused bytes.
     pub data: [u8; DATA_MAX],
 }
 
 impl FtpPacket {
-    /// Reads a payload; every 251 bytes are a packet.
+    /// Decodes a payload. Any 251 bytes are a valid packet.
     #[must_use]
     pub fn read(bytes: &[u8; PAYLOAD]) -> Self {
         let mut data = [0; DATA_MAX];
@@ -140,7 +140,7 @@ impl FtpPacket {
         }
     }
 
-    /// The payload.
+    /// Encodes the payload.
     #[must_use]
     pub fn write(&self) -> [u8; PAYLOAD] {
         let mut bytes = [0; PAYLOAD];
@@ -155,13 +155,13 @@ impl FtpPacket {
         bytes
     }
 
-    /// The data that the size field covers; `None` when it claims more than a packet holds.
+    /// Returns the data covered by the size field; `None` if the size exceeds the packet's capacity.
     #[must_use]
     pub fn sized(&self) -> Option<&[u8]> {
         self.data.get(..usize::from(self.size))
     }
 
-    /// The answer to this request with so much data (cut to what a packet holds).
+    /// Creates a positive response to this request with the given data, truncated to the packet's capacity.
     #[must_use]
     pub fn acknowledge(&self, data: &[u8]) -> Self {
         let length = data.len().min(DATA_MAX);
@@ -170,7 +170,7 @@ impl FtpPacket {
         out
     }
 
-    /// The refusal of this request.
+    /// Creates a negative response to this request.
     #[must_use]
     pub fn error_reply(&self, why: FtpError) -> Self {
         let mut out = Self { opcode: NAK, size: 1, data: [0; DATA_MAX], ..self.reply() };
@@ -183,8 +183,8 @@ impl FtpPacket {
     }
 }
 
-/// The checksum of CalcFileCRC32, continued from `sum` (0 to begin): CRC-32 with the reflected polynomial 0xEDB88320, begun at zero and
-/// not inverted at the end, as PX4 and MAVSDK have it.
+/// Updates the checksum of CalcFileCRC32 from `sum` (initially 0): CRC-32 with the reflected polynomial 0xEDB88320, zero initial
+/// value and no final inversion, as in PX4 and MAVSDK.
 #[must_use]
 pub fn checksum(sum: u32, bytes: &[u8]) -> u32 {
     let mut crc = crc32fast::Hasher::new_with_initial(!sum);
@@ -225,7 +225,7 @@ mod tests {
 
     #[test]
     fn val_the_checksum_is_crc32_without_its_inversions() {
-        // CRC-32/ISO-HDLC of "123456789" is cbf43926 (the check value of the CRC catalogue): begun and ended with inverted bits.
+        // CRC-32/ISO-HDLC of "123456789" is cbf43926 (check value of the CRC catalogue), with inverted initial and final values.
         assert_eq!(!checksum(!0, b"123456789"), 0xcbf4_3926);
         assert_eq!(checksum(checksum(0, b"1234"), b"56789"), checksum(0, b"123456789"));
     }

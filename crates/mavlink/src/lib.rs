@@ -1,9 +1,11 @@
-//! MAVLink as Spandrel speaks it, without sockets: bytes to frames and back ([`codec`]), signing ([`signing`]), routing ([`router`]), file
-//! transfer ([`ftp`]), units ([`units`]), the contract between vehicle and monitor ([`contract`]), and what a flight's messages add up to ([`telemetry`]).
+//! Spandrel's MAVLink implementation, without sockets: framing ([`codec`]), signing ([`signing`]), routing ([`router`]), file
+//! transfer ([`ftp`]), unit conversions ([`units`]), the interface between vehicle and monitor ([`contract`]), and telemetry
+//! processing ([`telemetry`]).
 //!
-//! Bytes that belong to no frame are counted and skipped; nothing panics on them. Telemetry goes three steps: a frame becomes a
-//! [`telemetry::sample::Sample`], samples become a [`telemetry::timeline::Timeline`] with its gaps marked, and the timeline gives scored
-//! frames at a fixed rate. A recorded log ([`telemetry::tlog`]) takes the same way as a live link, so both give the same numbers.
+//! Invalid bytes are counted and skipped; they never cause a panic. Telemetry is processed in three steps: a frame becomes a
+//! [`telemetry::sample::Sample`], samples become a [`telemetry::timeline::Timeline`] with known gaps, and the timeline is
+//! resampled into scoring frames at a fixed rate. Recorded logs ([`telemetry::tlog`]) and live links use the same code, so their
+//! results are equal.
 //!
 //! ```
 //! use spandrel_mavlink::codec::{Decoder, Encoder};

@@ -1,18 +1,18 @@
-//! An instructor's note to the sidecar: a TUNNEL message with a type of our own, so that it goes to the sidecar alone and shows on no
-//! trainee's screen. It is part of the telemetry, as all that is said on the wire.
+//! An instructor's note to the monitor: a TUNNEL message with a private payload type, so that only the monitor receives it and no
+//! trainee's display shows it. It is recorded with the rest of the telemetry.
 
 use super::codec::{Encoder, ReceivedFrame};
 
-/// Message id of TUNNEL.
+/// Message ID of TUNNEL.
 const TUNNEL: u32 = 385;
-/// Payload type; those from 32768 on are for private use.
+/// Payload type; types from 32768 up are reserved for private use.
 const TYPE: u16 = 33_077;
-/// Bytes before the text: type, target system, target component, length.
+/// Number of bytes before the text: type, target system, target component, length.
 const HEAD: usize = 5;
-/// Longest text, bytes.
+/// Maximum length of the text, bytes.
 pub const LONGEST: usize = 128;
 
-/// A frame with a note for a component; what is longer than [`LONGEST`] is cut at a character.
+/// Encodes a note for a component. Text longer than [`LONGEST`] is truncated at a character boundary.
 #[must_use]
 pub fn encode(encoder: &mut Encoder, system: u8, component: u8, text: &str) -> Vec<u8> {
     let end = (0..=LONGEST.min(text.len())).rfind(|at| text.is_char_boundary(*at)).unwrap_or(0);
@@ -23,7 +23,7 @@ pub fn encode(encoder: &mut Encoder, system: u8, component: u8, text: &str) -> V
     encoder.encode_payload(TUNNEL, &payload)
 }
 
-/// Target and text of a frame that is a note.
+/// Decodes the target and text of a note; `None` if the frame is not a note.
 #[must_use]
 pub fn decode(frame: &ReceivedFrame) -> Option<((u8, u8), String)> {
     if frame.message_id != TUNNEL {
@@ -65,7 +65,7 @@ mod tests {
         let mut encoder = Encoder::new(1, 1);
         let other = Decoder::new().datagram(&encoder.encode_payload(TUNNEL, &[1, 0, 1, 191, 2, b'h', b'i'])).remove(0);
         assert_eq!(decode(&other), None);
-        // A length beyond the payload.
+        // A length that exceeds the payload.
         let [low, high] = TYPE.to_le_bytes();
         let long = Decoder::new().datagram(&encoder.encode_payload(TUNNEL, &[low, high, 1, 191, 200, b'h'])).remove(0);
         assert_eq!(decode(&long), None);

@@ -1,30 +1,30 @@
-//! Which links a frame goes on to (MAVLink guide, routing): broadcasts to all others, addressed frames to where their target was heard,
-//! never back where they came from, key exchange to nobody.
+//! Frame routing (MAVLink guide, routing): broadcasts go to all other links, addressed frames to the links where their target was
+//! seen, never back to the source link. Key exchange is never forwarded.
 
 use super::codec::ReceivedFrame;
 use super::dialect::MavMessage;
 use mavlink::{MavlinkVersion, Message};
 use std::collections::BTreeMap;
 
-/// SETUP_SIGNING carries a key and is never passed on.
+/// SETUP_SIGNING carries a key and is never forwarded.
 const SETUP_SIGNING: u32 = 256;
-/// Senders that are remembered; a link that claims to be thousands of them must not fill the memory.
+/// Maximum number of senders stored, so that a link that spoofs thousands of senders cannot exhaust memory.
 const MOST_SENDERS: usize = 1_024;
 
-/// Who has been heard on which link. `L` names a link.
+/// Routing table: senders seen on each link. `L` identifies a link.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Router<L> {
     links_by_sender: BTreeMap<(u8, u8), Vec<L>>,
 }
 
 impl<L: Copy + Ord> Router<L> {
-    /// Nobody heard yet.
+    /// Creates an empty routing table.
     #[must_use]
     pub fn new() -> Self {
         Self { links_by_sender: BTreeMap::new() }
     }
 
-    /// Notes the sender of a frame.
+    /// Records the sender of a frame.
     pub fn note(&mut self, link: L, frame: &ReceivedFrame) {
         let sender = (frame.system_id, frame.component_id);
         if self.links_by_sender.len() >= MOST_SENDERS && !self.links_by_sender.contains_key(&sender) {
@@ -36,19 +36,19 @@ impl<L: Copy + Ord> Router<L> {
         }
     }
 
-    /// True when a system's component has been heard on a link.
+    /// Returns true if a component has been seen on a link.
     #[must_use]
     pub fn note_sender(&self, peer: (u8, u8), link: L) -> bool {
         self.links_by_sender.get(&peer).is_some_and(|links| links.contains(&link))
     }
 
-    /// Forgets a link.
+    /// Removes a link.
     pub fn forget_link(&mut self, link: L) {
         self.links_by_sender.values_mut().for_each(|links| links.retain(|l| *l != link));
         self.links_by_sender.retain(|_, links| !links.is_empty());
     }
 
-    /// Links among `all` that the frame goes on to.
+    /// Returns the links among `all` to which the frame is forwarded.
     #[must_use]
     pub fn targets_of(&self, from: L, frame: &ReceivedFrame, all: &[L]) -> Vec<L> {
         if frame.message_id == SETUP_SIGNING {
@@ -68,21 +68,21 @@ impl<L: Copy + Ord> Default for Router<L> {
     }
 }
 
-/// Target system and component of a frame; 0 for everybody. A frame of an unknown message counts as a broadcast.
+/// Returns the target system and component of a frame; 0 means broadcast. A frame with an unknown message counts as a broadcast.
 #[must_use]
 pub fn target(frame: &ReceivedFrame) -> (u8, u8) {
     if let Some(message) = &frame.message {
         let system = message.target_system_id().unwrap_or(0);
         return (system, message.target_component_id().unwrap_or(0));
     }
-    // A body that the dialect's enumerations cannot hold still names its target, at the place where the codec would write it.
+    // A payload with invalid enum values still has a target, at the offset where the codec would write it.
     let [system, component] = target_places(frame.message_id);
     let payload = frame.payload(255);
     let byte = |place: Option<usize>| place.and_then(|at| payload.get(at)).copied().unwrap_or(0);
     (byte(system), byte(component))
 }
 
-/// Where a message's payload holds its target system and component: what changes when they are written.
+/// Returns the payload offsets of target system and component, found by comparing encodings with different targets.
 fn target_places(message_id: u32) -> [Option<usize>; 2] {
     let place = |field: fn(&mut MavMessage) -> Option<&mut u8>| {
         let mut message = MavMessage::default_message_from_id(message_id)?;

@@ -1,4 +1,4 @@
-//! MAVLink 2 message signing (<https://mavlink.io/en/guide/message_signing.html>): sign, verify, refuse what was heard before.
+//! MAVLink 2 message signing (<https://mavlink.io/en/guide/message_signing.html>): signs and verifies frames and rejects replays.
 
 use super::codec::ReceivedFrame;
 use super::dialect::MavMessage;
@@ -6,30 +6,30 @@ use mavlink::Message;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
-/// First byte, place of the incompatibility flags and of the message id, and length of the header of a MAVLink 2 frame.
+/// Layout of a MAVLink 2 frame: start byte, offset of the incompatibility flags, offset of the message ID, header length.
 const STX: u8 = 0xFD;
 const FLAGS: usize = 2;
 const MESSAGE_ID: usize = 7;
 const HEADER: usize = 10;
 /// Incompatibility flag of a signed frame.
 const SIGNED: u8 = 0x01;
-/// Link id, 48-bit timestamp, 48-bit signature.
+/// Length of the signature block: link ID, 48-bit timestamp, 48-bit signature.
 const SIGNATURE: usize = 13;
-/// RADIO_STATUS comes from radios, which know no key.
+/// RADIO_STATUS is sent by telemetry radios, which have no signing key.
 const RADIO_STATUS: u32 = 109;
-/// A stream that speaks for the first time may be this far behind, in timestamp units (one minute).
+/// Maximum lag of the first timestamp of a new stream, in timestamp units (one minute).
 const SLACK: u64 = 6_000_000;
-/// A frame may be this far ahead of a clock that is set, in timestamp units (one day: a clock in the wrong time zone passes). What is
-/// further ahead would make every honest frame too old, now and after every restart.
+/// Maximum lead of a timestamp over a valid clock, in timestamp units (one day, to tolerate a wrong time zone). A later timestamp
+/// would make every valid frame too old, even after a restart.
 const AHEAD_MAX: u64 = 8_640_000_000;
-/// 2024-01-01T00:00:00Z; a clock that shows less has not been set.
+/// 2024-01-01T00:00:00Z; an earlier clock has not been set.
 const CLOCK_SET: u64 = 28_401_840_000_000;
-/// Streams (system, component, link id) whose newest timestamp is kept.
+/// Maximum number of streams (system, component, link ID) with a stored timestamp.
 const STREAMS_MAX: usize = 512;
-/// 2015-01-01T00:00:00Z in Unix microseconds, from when timestamps count.
+/// 2015-01-01T00:00:00Z in Unix microseconds, the epoch of signing timestamps.
 const EPOCH_UNIX_US: u64 = 1_420_070_400_000_000;
 
-/// A secret shared by both ends.
+/// Signing key, a secret shared by both ends.
 #[derive(Clone, PartialEq, Eq)]
 pub struct SigningKey(pub [u8; 32]);
 
@@ -40,7 +40,7 @@ impl std::fmt::Debug for SigningKey {
 }
 
 impl SigningKey {
-    /// The key of a passphrase: its SHA-256, as MAVProxy, Mission Planner and QGroundControl make it.
+    /// Derives the key from a passphrase by SHA-256, like MAVProxy, Mission Planner and QGroundControl.
     #[must_use]
     pub fn from_passphrase(text: &str) -> Self {
         Self(Sha256::digest(text.as_bytes()).into())
@@ -54,55 +54,55 @@ impl SigningKey {
     }
 }
 
-/// A signing timestamp, units of 10 microseconds since 2015, from Unix time in microseconds.
+/// Converts Unix time in microseconds to a signing timestamp, in units of 10 microseconds since 2015.
 #[must_use]
 pub fn stamp(unix_us: u64) -> u64 {
     unix_us.saturating_sub(EPOCH_UNIX_US) / 10
 }
 
-/// The largest timestamp of 48 bits.
+/// Maximum 48-bit timestamp.
 const STAMP_MAX: u64 = (1 << 48) - 1;
 
 fn is_valid_timestamp(stamp: &u64) -> bool {
     *stamp <= STAMP_MAX
 }
 
-/// What a frame is worth.
+/// Result of verifying a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SignatureVerdict {
-    /// Signed with our key, and new.
+    /// Signed with the correct key, and not a replay.
     Good,
     /// Not signed.
     Unsigned,
-    /// Signed with another key, or altered.
+    /// Signed with another key, or modified.
     Forged,
-    /// Signed with our key, but heard before, or too old.
+    /// Signed with the correct key, but replayed or too old.
     Replayed,
-    /// Signed with our key, but further in the future than a clock may be wrong.
+    /// Signed with the correct key, but too far in the future.
     Ahead,
 }
 
-/// Signs and verifies for one end of one link.
+/// Signs and verifies frames for one end of a link.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Signing {
     key: SigningKey,
     link_id: u8,
-    /// Newest timestamp sent or heard.
+    /// Latest timestamp sent or received.
     newest: u64,
-    /// Newest timestamp of our own clock.
+    /// Latest timestamp of the local clock.
     clock: u64,
     last_timestamps: BTreeMap<(u8, u8, u8), u64>,
 }
 
 impl Signing {
-    /// Begins with a timestamp that must not lie before the last one used with this key.
+    /// Starts at a timestamp that must not be earlier than the last one used with this key.
     #[must_use]
     pub fn new(key: SigningKey, link_id: u8, stamp: u64) -> Self {
         Self { key, link_id, newest: stamp, clock: stamp, last_timestamps: BTreeMap::new() }
     }
 
-    /// Signs a whole MAVLink 2 frame of the dialect; every call has a newer timestamp. What is signed already, or is no such frame, is
-    /// left as it is.
+    /// Signs a complete MAVLink 2 frame of the dialect; each call uses a later timestamp. A frame that is already signed, or is
+    /// not such a frame, is returned unchanged.
     #[must_use]
     pub fn sign(&mut self, mut frame: Vec<u8>, stamp: u64) -> Vec<u8> {
         let whole = frame.first() == Some(&STX) && frame.len() >= HEADER + 2 && frame.len() == HEADER + usize::from(frame[1]) + 2;
@@ -123,24 +123,24 @@ impl Signing {
         frame
     }
 
-    /// Newest timestamp sent or heard.
+    /// Returns the latest timestamp sent or received.
     #[must_use]
     pub fn newest(&self) -> u64 {
         self.newest
     }
 
-    /// The time that a new stream is compared with: our clock if it is set, otherwise the newest time sent or heard.
+    /// Reference time for a new stream: the local clock if it is set, otherwise the latest timestamp sent or received.
     fn present(&self) -> u64 {
         if self.clock >= CLOCK_SET { self.clock } else { self.newest }
     }
 
-    /// The newest timestamp that is believed.
+    /// Returns the latest timestamp that is accepted.
     fn latest(&self) -> u64 {
         if self.clock >= CLOCK_SET { self.clock + AHEAD_MAX } else { STAMP_MAX }
     }
 
-    /// What the next start with this key must know, so that nothing heard until now is taken once more: the newest timestamp, then system,
-    /// component, link id and newest timestamp of each stream. One line each.
+    /// Serializes the state needed to reject replays after a restart with the same key: the latest timestamp, then system,
+    /// component, link ID and latest timestamp of each stream, one per line.
     #[must_use]
     pub fn save(&self) -> String {
         let lines =
@@ -148,11 +148,11 @@ impl Signing {
         std::iter::once(format!("{}\n", self.newest)).chain(lines).collect()
     }
 
-    /// Takes up such a memory, but for timestamps that are further ahead than a clock may be wrong: they were never honest, and with them
-    /// nothing that is would be taken.
+    /// Restores saved state. Timestamps further ahead than the allowed clock error are ignored: they were never valid and would
+    /// cause every valid frame to be rejected.
     ///
     /// # Errors
-    /// The number of the first line that is no such line, from 1; then nothing is taken up.
+    /// The number of the first invalid line, from 1; the state is unchanged.
     pub fn restore(&mut self, memory: &str) -> Result<(), usize> {
         let stream = |line: &str| -> Option<((u8, u8, u8), u64)> {
             let words: Vec<&str> = line.split(' ').collect();
@@ -172,7 +172,7 @@ impl Signing {
         Ok(())
     }
 
-    /// Judges a frame and remembers its timestamp if it is good.
+    /// Verifies a frame and records its timestamp if it is accepted.
     pub fn verify(&mut self, frame: &ReceivedFrame, stamp: u64) -> SignatureVerdict {
         let bytes = &frame.bytes;
         if bytes.first() != Some(&STX) || bytes.get(FLAGS).is_none_or(|flags| flags & SIGNED == 0) || bytes.len() < SIGNATURE {
@@ -192,7 +192,7 @@ impl Signing {
         let present = self.present();
         let stream = (frame.system_id, frame.component_id, tail[0]);
         if self.last_timestamps.len() >= STREAMS_MAX {
-            // Frames of these are too old for a new stream as well: nothing is taken twice.
+            // Frames of the removed streams are too old even for a new stream, so no frame is accepted twice.
             self.last_timestamps.retain(|_, last| *last + SLACK >= present);
         }
         let new = match self.last_timestamps.get(&stream) {
@@ -208,7 +208,7 @@ impl Signing {
     }
 }
 
-/// Whether a link that demands signatures lets a frame pass.
+/// Returns true if a link that requires signatures accepts the frame.
 #[must_use]
 pub fn is_newer(frame: &ReceivedFrame, verdict: SignatureVerdict) -> bool {
     verdict == SignatureVerdict::Good || (verdict == SignatureVerdict::Unsigned && frame.message_id == RADIO_STATUS)
@@ -323,13 +323,14 @@ mod tests {
         assert_eq!(again.verify(&after, soon), SignatureVerdict::Good, "who has a slow clock goes on");
         let other = read(&Signing::new(SigningKey::from_passphrase("bridge"), 5, NOW).sign(frame(2), NOW));
         assert_eq!(again.verify(&other, soon), SignatureVerdict::Good, "and a new stream may lag as ever");
-        // A clock that was set back does not make our own frames older than they were.
+        // A clock that was set back does not make outgoing frames older.
         let mut set_back = Signing::new(SigningKey::from_passphrase("bridge"), 0, 5);
         set_back.restore(&again.save()).unwrap();
         assert!(set_back.newest() >= soon);
     }
 
-    /// One frame with a clock gone wrong, or kept by somebody who once had the key, made every other too old, and through the memory for ever.
+    /// A single frame from a wrong clock, or from a former key holder, made all other frames too old, permanently through the
+    /// saved state.
     #[test]
     fn regress_a_frame_from_the_far_future_is_refused_and_leaves_nothing_behind() {
         let (mut ours, mut theirs) = pair();
@@ -341,14 +342,14 @@ mod tests {
         assert_eq!(theirs.verify(&far(NOW + AHEAD_MAX), NOW), SignatureVerdict::Good, "a clock a day ahead");
         let honest = read(&ours.sign(frame(1), NOW));
         assert_eq!(theirs.verify(&honest, NOW), SignatureVerdict::Good, "beside it, one that is right");
-        // A memory that has been poisoned before: it heals.
+        // State saved with such a timestamp recovers.
         let mut again = Signing::new(SigningKey::from_passphrase("bridge"), 0, NOW);
         again.restore(&format!("{STAMP_MAX}\n7 1 9 {STAMP_MAX}\n1 1 3 {NOW}\n")).unwrap();
         assert_eq!((again.newest(), again.last_timestamps.len()), (NOW, 1));
         let next = read(&ours.sign(frame(1), NOW));
         assert_eq!(again.verify(&next, NOW), SignatureVerdict::Good);
         assert_eq!(again.verify(&next, NOW), SignatureVerdict::Replayed);
-        // A machine whose clock was never set believes what it hears.
+        // A system whose clock was never set accepts the timestamps it receives.
         let mut clockless = Signing::new(SigningKey::from_passphrase("bridge"), 0, 5);
         assert_eq!(clockless.verify(&honest, 5), SignatureVerdict::Good);
     }

@@ -1,15 +1,15 @@
-//! What every client says as a ground station: its heartbeat, commands, the mode in which sticks command velocity.
+//! Messages that every ground station client sends: heartbeat, commands, and the mode in which the sticks command velocity.
 
 use super::dialect::{
     COMMAND_LONG_DATA, HEARTBEAT_DATA, MavAutopilot, MavCmd, MavMessage, MavModeFlag, MavStandardMode, MavState, MavType,
 };
 
-/// PX4's main mode number of position control (what a PX4-compatible vehicle calls POSCTL).
+/// PX4 main mode number of position control (POSCTL).
 const PX4_POSITION: f32 = 3.0;
-/// ArduCopter's number of POSHOLD.
+/// ArduCopter mode number of POSHOLD.
 const COPTER_POSHOLD: f32 = 16.0;
 
-/// A ground station's heartbeat.
+/// Creates a ground station heartbeat.
 #[must_use]
 pub fn heartbeat() -> MavMessage {
     MavMessage::HEARTBEAT(HEARTBEAT_DATA {
@@ -20,7 +20,8 @@ pub fn heartbeat() -> MavMessage {
     })
 }
 
-/// The heartbeat of who listens beside the vehicle and flies nothing: the sidecar, and whoever watches. The dialect's default says armed.
+/// Creates the heartbeat of a companion that does not control the vehicle, such as the monitor or an observer. The dialect's
+/// default heartbeat reports armed.
 #[must_use]
 pub fn companion_heartbeat() -> MavMessage {
     MavMessage::HEARTBEAT(HEARTBEAT_DATA {
@@ -33,7 +34,7 @@ pub fn companion_heartbeat() -> MavMessage {
     })
 }
 
-/// A command to one of a vehicle's components, said for the first time.
+/// Creates a command for a component of a vehicle, with confirmation 0.
 #[must_use]
 pub fn command(system: u8, component: u8, command: MavCmd, params: [f32; 7]) -> COMMAND_LONG_DATA {
     COMMAND_LONG_DATA {
@@ -51,7 +52,8 @@ pub fn command(system: u8, component: u8, command: MavCmd, params: [f32; 7]) -> 
     }
 }
 
-/// The command for the mode in which the sticks command velocity, each autopilot by its own number, any other by the standard's.
+/// Returns the command for the mode in which the sticks command velocity: the native mode of the autopilot, or the standard mode
+/// for any other.
 #[must_use]
 pub fn position_mode(autopilot: Option<MavAutopilot>) -> (MavCmd, [f32; 7]) {
     let (command, [a, b]) = match autopilot {

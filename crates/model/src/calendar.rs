@@ -1,13 +1,13 @@
-//! Wall time as people read it. The clock itself is read by the shells alone.
+//! Human-readable wall-clock time. Only the program itself reads the clock; this module converts.
 
-/// UTC for people and file names: (RFC 3339 with seconds, compact `YYYYMMDDThhmmssZ`).
+/// Formats a time as UTC: RFC 3339 with seconds, and compact `YYYYMMDDThhmmssZ` for file names.
 #[must_use]
 pub fn utc(unix_us: u64) -> (String, String) {
     let time = i64::try_from(unix_us).ok().and_then(|us| jiff::Timestamp::from_microsecond(us).ok()).unwrap_or_default();
     (time.strftime("%Y-%m-%dT%H:%M:%SZ").to_string(), time.strftime("%Y%m%dT%H%M%SZ").to_string())
 }
 
-/// The same as a line of a page: `2023-11-14 22:13 UTC`.
+/// Formats a time as UTC to the minute: `2023-11-14 22:13 UTC`.
 #[must_use]
 pub fn minute(unix_us: u64) -> String {
     let (readable, _) = utc(unix_us);

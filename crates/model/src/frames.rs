@@ -1,11 +1,12 @@
-//! Frames in the type. A [`Vec3`] carries the frame it is expressed in; a [`Rotation`] carries from which frame into which.
+//! Coordinate frames in the type system. A [`Vec3`] carries the frame in which it is expressed; a [`Rotation`] carries its source
+//! and target frames.
 //!
-//! * [`Ned`]: local tangent plane at the scenario origin, axes north, east, down. Flight and MAVLink live here.
-//! * [`LocalNed`]: MAVLink's local frame, the same axes as [`Ned`] about the place where the vehicle's estimator was initialized.
-//! * [`Enu`]: the same plane and origin, axes east, north, up. Site, scenario and assessment live here.
-//! * [`Frd`]: body, axes forward, right, down, origin at the centre of mass.
+//! * [`Ned`]: local tangent plane at the scenario origin, axes north, east, down. Used by flight control and MAVLink.
+//! * [`LocalNed`]: MAVLink's local frame, with the axes of [`Ned`] and the origin where the vehicle's estimator was initialized.
+//! * [`Enu`]: the same plane and origin, axes east, north, up. Used by site, scenario and assessment.
+//! * [`Frd`]: body frame, axes forward, right, down, origin at the center of mass.
 //!
-//! Free conversion exists only between [`Ned`] and [`Enu`]; everything else needs a [`Rotation`].
+//! Only [`Ned`] and [`Enu`] convert directly; all other conversions require a [`Rotation`].
 
 use super::math;
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
@@ -22,18 +23,18 @@ pub struct LocalNed;
 /// Local tangent plane: x east, y north, z up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Enu;
-/// Body: x forward, y right, z down.
+/// Body frame: x forward, y right, z down.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Frd;
 
-/// Three components expressed in frame `F`. The quantity and its unit are in the variable's name.
+/// Three components expressed in frame `F`. The variable's name contains the quantity and its unit.
 pub struct Vec3<F> {
     v: Vector3<f64>,
     frame: PhantomData<F>,
 }
 
 impl<F> Vec3<F> {
-    /// From the three components in the frame's axis order.
+    /// Creates a vector from its components in the frame's axis order.
     #[must_use]
     pub const fn new(x: f64, y: f64, z: f64) -> Self {
         Self { v: Vector3::new(x, y, z), frame: PhantomData }
@@ -45,31 +46,31 @@ impl<F> Vec3<F> {
         Self::new(0.0, 0.0, 0.0)
     }
 
-    /// Claims that raw components are expressed in `F`. Say why at the call: `// FRAME: …`.
+    /// Declares that raw components are expressed in `F`. State the reason at the call: `// FRAME: …`.
     #[must_use]
     pub const fn assume(v: Vector3<f64>) -> Self {
         Self { v, frame: PhantomData }
     }
 
-    /// The raw components, for matrix algebra.
+    /// Returns the raw components, for matrix algebra.
     #[must_use]
     pub const fn raw(self) -> Vector3<f64> {
         self.v
     }
 
-    /// The components as an array.
+    /// Returns the components as an array.
     #[must_use]
     pub fn array(self) -> [f64; 3] {
         [self.v.x, self.v.y, self.v.z]
     }
 
-    /// Scalar product.
+    /// Dot product.
     #[must_use]
     pub fn dot(self, other: Self) -> f64 {
         self.v.dot(&other.v)
     }
 
-    /// Vector product.
+    /// Cross product.
     #[must_use]
     pub fn cross(self, other: Self) -> Self {
         Self::assume(self.v.cross(&other.v))
@@ -87,27 +88,27 @@ impl<F> Vec3<F> {
         self.v.norm_squared()
     }
 
-    /// The unit vector of the same direction; zero for a vector shorter than 1e-300.
+    /// Returns the unit vector in the same direction; zero for a vector shorter than 1e-300.
     #[must_use]
     pub fn unit(self) -> Self {
         let norm = self.norm();
         if norm < 1e-300 { Self::zero() } else { self / norm }
     }
 
-    /// The vector shortened to `limit` when it is longer.
+    /// Returns the vector with its length limited to `limit`.
     #[must_use]
     pub fn limited(self, limit: f64) -> Self {
         let norm = self.norm();
         if norm > limit { self * (limit / norm) } else { self }
     }
 
-    /// True when no component is NaN or infinite.
+    /// Returns true if all components are finite.
     #[must_use]
     pub fn is_finite(self) -> bool {
         self.v.iter().all(|c| c.is_finite())
     }
 
-    /// Linear interpolation to `other`.
+    /// Interpolates linearly to `other`.
     #[must_use]
     pub fn lerp(self, other: Self, t: f64) -> Self {
         self + (other - self) * t
@@ -130,7 +131,7 @@ impl Vec3<Ned> {
     pub fn down(self) -> f64 {
         self.v.z
     }
-    /// The same vector with east, north, up components.
+    /// Converts the vector to east, north, up.
     #[must_use]
     pub fn enu(self) -> Vec3<Enu> {
         Vec3::new(self.v.y, self.v.x, -self.v.z)
@@ -158,7 +159,7 @@ impl Vec3<Enu> {
     pub fn up(self) -> f64 {
         self.v.z
     }
-    /// The same vector with north, east, down components.
+    /// Converts the vector to north, east, down.
     #[must_use]
     pub fn ned(self) -> Vec3<Ned> {
         Vec3::new(self.v.y, self.v.x, -self.v.z)
@@ -250,27 +251,27 @@ impl<F> Div<f64> for Vec3<F> {
     }
 }
 
-/// Turns a vector's components from frame `From` into frame `To` (`to_from * vector_in_from`). `Rotation<Frd, Ned>` is the
-/// attitude of the body, the quaternion that MAVLink sends.
+/// Converts a vector's components from frame `From` to frame `To` (`to_from * vector_in_from`). `Rotation<Frd, Ned>` is the
+/// attitude of the body: the quaternion that MAVLink sends.
 pub struct Rotation<From, To> {
     q: UnitQuaternion<f64>,
     frames: PhantomData<(From, To)>,
 }
 
 impl<A, B> Rotation<A, B> {
-    /// Both frames' axes coincide.
+    /// Returns the identity: the axes of both frames coincide.
     #[must_use]
     pub fn identity() -> Self {
         Self::assume(UnitQuaternion::identity())
     }
 
-    /// Claims that a raw quaternion rotates from `A` into `B`. Say why at the call: `// FRAME: …`.
+    /// Declares that a raw quaternion rotates from `A` to `B`. State the reason at the call: `// FRAME: …`.
     #[must_use]
     pub fn assume(q: UnitQuaternion<f64>) -> Self {
         Self { q, frames: PhantomData }
     }
 
-    /// From the components w, x, y, z, normalised; `None` when they are not finite or all near zero.
+    /// Creates a rotation from the components w, x, y, z, which are normalized; `None` if they are not finite or all near zero.
     #[must_use]
     pub fn from_wxyz(wxyz: [f64; 4]) -> Option<Self> {
         let q = Quaternion::new(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
@@ -278,54 +279,54 @@ impl<A, B> Rotation<A, B> {
         (norm.is_finite() && norm > 1e-9).then(|| Self::assume(UnitQuaternion::new_normalize(q)))
     }
 
-    /// The components w, x, y, z.
+    /// Returns the components w, x, y, z.
     #[must_use]
     pub fn wxyz(self) -> [f64; 4] {
         [self.q.w, self.q.i, self.q.j, self.q.k]
     }
 
-    /// The raw quaternion.
+    /// Returns the raw quaternion.
     #[must_use]
     pub fn raw(self) -> UnitQuaternion<f64> {
         self.q
     }
 
-    /// The rotation matrix.
+    /// Returns the rotation matrix.
     #[must_use]
     pub fn matrix(self) -> Matrix3<f64> {
         *self.q.to_rotation_matrix().matrix()
     }
 
-    /// The way back.
+    /// Returns the inverse rotation.
     #[must_use]
     pub fn inverse(self) -> Rotation<B, A> {
         Rotation::assume(self.q.inverse())
     }
 
-    /// First `self` (A to B), then `next` (B to C).
+    /// Composes two rotations: first `self` (A to B), then `next` (B to C).
     #[must_use]
     pub fn then<C>(self, next: Rotation<B, C>) -> Rotation<A, C> {
         Rotation::assume(next.q * self.q)
     }
 
-    /// Part of the shorter way to another rotation: 0 is here, 1 is there. Between close rotations it turns evenly to the fourth order of
-    /// their angle.
+    /// Interpolates along the shorter arc to another rotation: 0 is this rotation, 1 is the other. For nearby rotations the
+    /// angular rate is constant up to fourth order in their angle.
     #[must_use]
     pub fn lerp(self, other: Self, t: f64) -> Self {
         let (a, b) = (self.q.into_inner(), other.q.into_inner());
         let b = if a.dot(&b) < 0.0 { -b } else { b };
         let between = a * (1.0 - t) + b * t;
-        // Opposite quaternions are the same rotation, so the sum never vanishes; a rotation by half a turn has no shorter way.
+        // Opposite quaternions are the same rotation, so the sum never vanishes; at half a turn neither arc is shorter.
         if between.norm() > 1e-9 { Self::assume(UnitQuaternion::new_normalize(between)) } else { self }
     }
 
-    /// Turned further by a rotation vector (axis times angle in radians) expressed in the source frame `A`.
+    /// Applies a further rotation by a rotation vector (axis times angle in radians) expressed in the source frame `A`.
     #[must_use]
     pub fn turned_by(self, rotation_vector_rad: Vec3<A>) -> Self {
         let v = rotation_vector_rad.raw();
         let angle = v.norm();
         let (s, c) = math::sin_cos(angle * 0.5);
-        // The series keeps the quotient finite where the angle vanishes.
+        // The series keeps the quotient finite as the angle approaches zero.
         let k = if angle > 1e-9 { s / angle } else { 0.5 };
         let dq = Quaternion::new(c, v.x * k, v.y * k, v.z * k);
         Self::assume(UnitQuaternion::new_normalize(self.q.into_inner() * dq))
@@ -333,7 +334,7 @@ impl<A, B> Rotation<A, B> {
 }
 
 impl Rotation<Frd, Ned> {
-    /// From roll, pitch and yaw in radians (intrinsic z-y-x, as MAVLink's ATTITUDE).
+    /// Creates a rotation from roll, pitch and yaw in radians (intrinsic z-y-x, as in MAVLink's ATTITUDE).
     #[must_use]
     pub fn from_euler(roll_rad: f64, pitch_rad: f64, yaw_rad: f64) -> Self {
         let (sr, cr) = math::sin_cos(roll_rad * 0.5);
@@ -347,7 +348,7 @@ impl Rotation<Frd, Ned> {
         )))
     }
 
-    /// Roll, pitch and yaw in radians (intrinsic z-y-x).
+    /// Returns roll, pitch and yaw in radians (intrinsic z-y-x).
     #[must_use]
     pub fn euler(self) -> (f64, f64, f64) {
         let [w, x, y, z] = self.wxyz();
@@ -357,7 +358,7 @@ impl Rotation<Frd, Ned> {
         (roll, pitch, yaw)
     }
 
-    /// Yaw in radians, clockwise from north.
+    /// Returns yaw in radians, clockwise from north.
     #[must_use]
     pub fn yaw_rad(self) -> f64 {
         let [w, x, y, z] = self.wxyz();
@@ -392,7 +393,7 @@ impl<A, B> Mul<Vec3<A>> for Rotation<A, B> {
 mod tests {
     use super::*;
 
-    /// Rounding of a handful of f64 operations, no unit.
+    /// Rounding error of a few f64 operations, dimensionless.
     const ROUNDING: f64 = 1e-14;
 
     #[test]

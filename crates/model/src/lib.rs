@@ -1,13 +1,14 @@
-//! What vehicle and monitor share, and the only thing that they share beside the MAVLink wire: time, frames, geodesy, random streams, and a
-//! job's scenario, aircraft and site.
+//! The base shared by vehicle and monitor, which otherwise communicate only over MAVLink: time, coordinate frames, geodesy,
+//! random streams, and a job's scenario, aircraft and site.
 //!
-//! Time is a whole number of nanoseconds ([`time::SimTime`]). A vector carries its frame in its type ([`frames`]: `Enu`, `Ned`, `Frd`), a
-//! number carries its unit in its name. Whatever is random comes from a stream with a name and a seed ([`random`]), and sines and logarithms
-//! come from [`math`] alone, so that the same inputs give the same bits on every machine.
+//! Time is an integer number of nanoseconds ([`time::SimTime`]). A vector's type includes its frame ([`frames`]: `Enu`, `Ned`,
+//! `Frd`), and a number's name includes its unit. All random numbers come from named, seeded streams ([`random`]), and all
+//! transcendental functions from [`math`], so that the same inputs yield the same bits on every machine.
 //!
-//! A job is a [`scenario::Scenario`], read from TOML with every problem of the file reported at once; an aircraft is a [`vehicle::Vehicle`].
-//! [`site::Site`] is built from a scenario and a seed and answers queries about it: distance to the nearest surface, what a ray hits, how
-//! bright it is, which defects a picture shows. What moves takes the time as an argument.
+//! A job is a [`scenario::Scenario`], parsed from TOML with all problems of the file reported at once; an aircraft is a
+//! [`vehicle::Vehicle`]. [`site::Site`] is built from a scenario and a seed and answers queries: distance to the nearest surface,
+//! first hit of a ray, illuminance, and visibility of defects in a photo. Queries that involve moving objects take the time as an
+//! argument.
 //!
 //! ```
 //! use spandrel_model::frames::Vec3;

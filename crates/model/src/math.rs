@@ -1,11 +1,11 @@
-//! The one door to transcendental functions: libm gives the same bits on every machine, the platform's own do not.
+//! The only module with transcendental functions: libm returns the same bits on every machine, the platform's functions do not.
 //! Clippy bans the std methods elsewhere (`clippy.toml`). `sqrt`, `abs`, `floor` and the four operations are exact in IEEE 754.
 
 pub use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Standard gravity, m/s² (CGPM 1901).
 pub const GRAVITY_M_S2: f64 = 9.806_65;
-/// Metres per second in one mile per hour (exact by definition).
+/// Meters per second in one mile per hour (exact by definition).
 pub const M_S_PER_MPH: f64 = 0.447_04;
 
 /// Sine of an angle in radians.
@@ -78,7 +78,7 @@ pub fn tanh(x: f64) -> f64 {
 pub fn cbrt(x: f64) -> f64 {
     libm::cbrt(x)
 }
-/// Length of (x, y) without undue overflow.
+/// Length of (x, y), without overflow of intermediate results.
 #[must_use]
 pub fn hypot(x: f64, y: f64) -> f64 {
     libm::hypot(x, y)

@@ -1,20 +1,20 @@
-//! Numbers in text where a limit decides about them.
+//! Formats numbers that are compared with a limit.
 
-/// Digits after the point at most; numbers that still read like the limit differ by less than any measure here resolves.
+/// Maximum number of decimals; values that still round to the limit differ by less than any measurement resolves.
 const MOST_DIGITS: usize = 6;
 
-/// A value with at least `digits` after the point, and as many more as it takes to show on which side of `limit` it lies.
+/// Formats a value with at least `digits` decimals, and as many more as needed to show on which side of `limit` it lies.
 #[must_use]
 pub fn format_beside_limit(value: f64, limit: f64, digits: usize) -> String {
     let text = |digits: usize| format!("{value:.digits$}");
-    // Against the limit as it is shown: one that was converted from another unit is a rounding off.
+    // Compare with the limit as displayed: a limit converted from another unit has a rounding error.
     let limit = self::limit(limit).parse::<f64>().unwrap_or(limit);
     let wanted = value.partial_cmp(&limit);
     let same_side = |text: &String| text.parse::<f64>().is_ok_and(|shown| shown.partial_cmp(&limit) == wanted);
     (digits..=MOST_DIGITS).map(text).find(same_side).unwrap_or_else(|| text(MOST_DIGITS))
 }
 
-/// A limit with the digits that it has, at most three after the point.
+/// Formats a limit with the decimals that it needs, at most three.
 #[must_use]
 pub fn limit(value: f64) -> String {
     let text = format!("{value:.3}");

@@ -1,18 +1,18 @@
-//! Named random streams: one per consumer, so that a new consumer never shifts another's numbers.
+//! Named random streams: one per consumer, so that a new consumer never changes the numbers of another.
 
 use super::math;
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use sha2::{Digest, Sha256};
 
-/// A reproducible stream of random numbers; plain data, so it is part of a snapshot.
+/// A reproducible stream of random numbers. Plain data, so it can be part of a snapshot.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RandomStream {
     generator: Xoshiro256PlusPlus,
 }
 
 impl RandomStream {
-    /// The stream called `name` under `seed`: SHA-256 of both seeds xoshiro256++.
+    /// Creates the stream `name` for `seed`: the SHA-256 of both seeds xoshiro256++.
     #[must_use]
     pub fn new(seed: u64, name: &str) -> Self {
         let mut hasher = Sha256::new();
@@ -23,27 +23,27 @@ impl RandomStream {
         Self { generator: Xoshiro256PlusPlus::from_seed(key) }
     }
 
-    /// 64 random bits.
+    /// Returns 64 random bits.
     pub fn bits(&mut self) -> u64 {
         self.generator.next_u64()
     }
 
-    /// Uniform in [0, 1), 53 bits.
+    /// Returns a uniform number in [0, 1) with 53 random bits.
     pub fn uniform(&mut self) -> f64 {
         (self.bits() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
     }
 
-    /// Uniform in [low, high).
+    /// Returns a uniform number in [low, high).
     pub fn range(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.uniform()
     }
 
-    /// A whole number in 0..n; zero when n is zero.
+    /// Returns an integer in 0..n; zero if n is zero.
     pub fn below(&mut self, n: usize) -> usize {
         ((u128::from(self.bits()) * n as u128) >> 64) as usize
     }
 
-    /// Standard normal, by Marsaglia's polar method (the second value is not kept, so the state stays plain).
+    /// Returns a standard normal number by Marsaglia's polar method (the second value is discarded to keep the state simple).
     pub fn normal(&mut self) -> f64 {
         loop {
             let u = self.range(-1.0, 1.0);
@@ -55,7 +55,7 @@ impl RandomStream {
         }
     }
 
-    /// Two independent standard normals for little more than the price of one.
+    /// Returns two independent standard normal numbers for little more than the cost of one.
     pub fn normal_pair(&mut self) -> (f64, f64) {
         loop {
             let u = self.range(-1.0, 1.0);
@@ -68,7 +68,7 @@ impl RandomStream {
         }
     }
 
-    /// Three independent standard normals.
+    /// Returns three independent standard normal numbers.
     pub fn normal3(&mut self) -> [f64; 3] {
         [self.normal(), self.normal(), self.normal()]
     }

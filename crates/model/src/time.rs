@@ -1,75 +1,75 @@
-//! Simulation time as an integer: no float ever accumulates a clock.
+//! Simulation time as an integer, so that no floating-point error accumulates.
 
 use std::fmt;
 use std::ops::{Add, AddAssign, Sub};
 
-/// An instant on the simulation clock, in nanoseconds since the simulation started. Also used for spans of simulation time.
+/// A time on the simulation clock, in nanoseconds since simulation start. Also used for durations of simulation time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct SimTime {
     ns: i64,
 }
 
 impl SimTime {
-    /// The start of the simulation, and the empty span.
+    /// Simulation start, or a zero duration.
     pub const ZERO: Self = Self { ns: 0 };
-    /// Later than everything that happens.
+    /// Later than any event.
     pub const NEVER: Self = Self { ns: i64::MAX };
 
-    /// From whole nanoseconds.
+    /// Creates a time from integer nanoseconds.
     #[must_use]
     pub const fn from_ns(ns: i64) -> Self {
         Self { ns }
     }
 
-    /// From whole microseconds.
+    /// Creates a time from integer microseconds.
     #[must_use]
     pub const fn from_us(us: i64) -> Self {
         Self { ns: us * 1_000 }
     }
 
-    /// From whole milliseconds.
+    /// Creates a time from integer milliseconds.
     #[must_use]
     pub const fn from_ms(ms: i64) -> Self {
         Self { ns: ms * 1_000_000 }
     }
 
-    /// From seconds, rounded to the nearest nanosecond. Values beyond the range saturate; NaN becomes zero.
+    /// Creates a time from seconds, rounded to the nearest nanosecond. Out-of-range values saturate; NaN becomes zero.
     #[must_use]
     pub fn from_s(s: f64) -> Self {
         Self { ns: (s * 1e9).round() as i64 }
     }
 
-    /// The span of one period at `rate_hz`, rounded to the nearest nanosecond.
+    /// Returns the period of `rate_hz`, rounded to the nearest nanosecond.
     #[must_use]
     pub fn period(rate_hz: f64) -> Self {
         Self::from_s(1.0 / rate_hz)
     }
 
-    /// Nanoseconds.
+    /// Returns nanoseconds.
     #[must_use]
     pub const fn ns(self) -> i64 {
         self.ns
     }
 
-    /// Whole microseconds, rounded toward zero.
+    /// Returns microseconds, rounded toward zero.
     #[must_use]
     pub const fn us(self) -> i64 {
         self.ns / 1_000
     }
 
-    /// Whole milliseconds, rounded toward zero.
+    /// Returns milliseconds, rounded toward zero.
     #[must_use]
     pub const fn ms(self) -> i64 {
         self.ns / 1_000_000
     }
 
-    /// Seconds.
+    /// Returns seconds.
     #[must_use]
     pub fn s(self) -> f64 {
         self.ns as f64 * 1e-9
     }
 
-    /// `self - other`, never below zero.
+    /// Returns `self - other`, or zero if negative.
     #[must_use]
     pub fn saturating_sub(self, other: Self) -> Self {
         Self { ns: self.ns.saturating_sub(other.ns).max(0) }
@@ -102,7 +102,7 @@ impl fmt::Display for SimTime {
     }
 }
 
-/// Fires at a fixed rate without drift: the k-th due time is the start plus k periods, each rounded on its own.
+/// A fixed-rate schedule without drift: the k-th due time is the start plus k periods, each rounded separately.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Schedule {
     rate_hz: f64,
@@ -111,19 +111,19 @@ pub struct Schedule {
 }
 
 impl Schedule {
-    /// First due at `start`, then `rate_hz` times a second. A rate of zero or less never fires.
+    /// Creates a schedule that is first due at `start`, then `rate_hz` times per second. A rate of zero or less never fires.
     #[must_use]
     pub fn new(start: SimTime, rate_hz: f64) -> Self {
         Self { rate_hz, count: 0, start }
     }
 
-    /// When it fires next.
+    /// Returns the next due time.
     #[must_use]
     pub fn next_due(&self) -> SimTime {
         if self.rate_hz <= 0.0 { SimTime::NEVER } else { self.start + SimTime::from_s(self.count as f64 / self.rate_hz) }
     }
 
-    /// True once per due time at or before `now`; what was missed in between is skipped, not repeated.
+    /// Returns true once for each due time at or before `now`; missed due times are skipped, not repeated.
     pub fn fire(&mut self, now: SimTime) -> bool {
         if now < self.next_due() {
             return false;

@@ -1,25 +1,25 @@
-//! Reads TOML into numbers with ranges and collects every problem with its place, instead of stopping at the first. What was asked for
-//! is recorded, so that the documentation of the keys can be checked against the code.
+//! Reads numbers with ranges from TOML and collects all problems with their locations instead of stopping at the first. Records
+//! the keys that are read, so that the documentation of the keys can be checked against the code.
 
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
 use toml_edit::{Document, Item, TableLike, Value};
 
-/// One thing wrong in a file.
+/// One problem in a file.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Problem {
-    /// File name as given.
+    /// File name as given by the caller.
     pub file: String,
     /// Line, from 1.
     pub line: usize,
     /// Key with its path, e.g. `wind.speed_m_s`.
     pub key: String,
-    /// The value as written; empty when it is missing.
+    /// Value as written; empty if missing.
     pub value: String,
-    /// What is allowed.
+    /// Allowed values.
     pub allowed: String,
-    /// What is wrong.
+    /// Description of the problem.
     pub message: String,
 }
 
@@ -37,17 +37,17 @@ impl fmt::Display for Problem {
     }
 }
 
-/// Problems that are listed one by one; of the others the number is reported. A page or terminal holds some 50.
+/// Maximum number of problems listed; the others are only counted. A page or terminal shows about 50.
 const LISTED_MOST: usize = 50;
 
-/// The first problems of a list, and how many follow.
+/// Returns the first problems of a list and the number of further problems.
 #[must_use]
 pub fn listed(problems: &[Problem]) -> (&[Problem], usize) {
     let count = problems.len().min(LISTED_MOST);
     (&problems[..count], problems.len() - count)
 }
 
-/// Everything wrong in a file; as text one problem a line, and after the first 50 how many more there are.
+/// All problems of a file. Formatted as one problem per line; after the first 50, the number of further problems.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Problems(pub Vec<Problem>);
 
@@ -66,27 +66,27 @@ impl fmt::Display for Problems {
 
 impl std::error::Error for Problems {}
 
-/// What the code asks of a key: for the documentation test.
+/// Documentation of a key, as defined by the code (for the documentation test).
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct DocumentedKey {
-    /// What is allowed, in words.
+    /// Description of the allowed values.
     pub allowed: String,
     /// Default as written, or `required`.
     pub default: String,
 }
 
-/// Problems and the record of keys of one reading.
+/// Parser state of one file: problems and keys read.
 #[derive(Debug)]
 pub struct Reader<'a> {
     file: &'a str,
     text: &'a str,
-    /// What is wrong so far.
+    /// Problems so far.
     pub problems: Vec<Problem>,
-    /// Every key asked for; repeated tables count once.
+    /// All keys read; repeated tables count once.
     pub documented_keys: BTreeMap<String, DocumentedKey>,
 }
 
-/// A table of the file and the keys asked of it so far.
+/// A table of the file and the keys read from it so far.
 pub struct Section<'d> {
     path: String,
     table: Option<&'d dyn TableLike>,
@@ -95,13 +95,13 @@ pub struct Section<'d> {
 }
 
 impl<'a> Reader<'a> {
-    /// A reader of one file.
+    /// Creates a reader for one file.
     #[must_use]
     pub fn new(file: &'a str, text: &'a str) -> Self {
         Self { file, text, problems: Vec::new(), documented_keys: BTreeMap::new() }
     }
 
-    /// Parses the text; a syntax error becomes a problem.
+    /// Parses the text; a syntax error is recorded as a problem.
     pub fn parse(&mut self) -> Option<Document<&'a str>> {
         match Document::parse(self.text) {
             Ok(document) => Some(document),
@@ -121,7 +121,7 @@ impl<'a> Reader<'a> {
         item.span().map(|span| self.line_at(span.start))
     }
 
-    /// Notes a problem.
+    /// Records a problem.
     pub fn problem(&mut self, line: usize, key: &str, value: &str, allowed: &str, message: &str) {
         self.problems.push(Problem {
             file: self.file.into(),
@@ -133,25 +133,25 @@ impl<'a> Reader<'a> {
         });
     }
 
-    /// Notes what is wrong with a key beyond its own range, at the key's line, or the table's when it is missing.
+    /// Records a problem with a key other than its range, at the line of the key, or of the table if the key is missing.
     pub fn add_problem(&mut self, section: &Section, key: &str, value: &str, allowed: &str, message: &str) {
         let line = section.table.and_then(|t| t.get(key)).and_then(|i| self.line_of(i)).unwrap_or(section.line);
         self.problem(line, &section.full(key), value, allowed, message);
     }
 
-    /// Says in words what the default of a key asked for depends on.
+    /// Documents the condition on which the default of a key depends.
     pub fn default_depends(&mut self, section: &Section, key: &str, words: &str) {
         if let Some(asked) = self.documented_keys.get_mut(&section.full(key)) {
             asked.default = words.into();
         }
     }
 
-    /// The file's top.
+    /// Returns the root table.
     pub fn root<'d>(&self, document: &'d Document<&'a str>) -> Section<'d> {
         Section { path: String::new(), table: Some(document.as_table()), line: 1, read_keys: Vec::new() }
     }
 
-    /// A table inside another; when it is missing, its keys take their defaults.
+    /// Returns a nested table; if it is missing, its keys take their defaults.
     pub fn section<'d>(&mut self, parent: &mut Section<'d>, key: &'static str) -> Section<'d> {
         let path = parent.full(key);
         let (item, line) = self.item(parent, key);
@@ -162,7 +162,7 @@ impl<'a> Reader<'a> {
         Section { path, table, line, read_keys: Vec::new() }
     }
 
-    /// The tables of an array of tables.
+    /// Returns the tables of an array of tables.
     pub fn sections<'d>(&mut self, parent: &mut Section<'d>, key: &'static str) -> Vec<Section<'d>> {
         let path = parent.full(key);
         let (item, line) = self.item(parent, key);
@@ -200,7 +200,7 @@ impl<'a> Reader<'a> {
         self.documented_keys.entry(path).or_insert_with(|| DocumentedKey { allowed: allowed.into(), default });
     }
 
-    /// A number within [min, max]. Without a default it is required.
+    /// Reads a number within [min, max]; required if there is no default.
     pub fn number(&mut self, section: &mut Section, key: &'static str, (min, max): (f64, f64), default: Option<f64>) -> f64 {
         let path = section.full(key);
         let allowed = format!("{min} to {max}");
@@ -225,7 +225,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A number that may be left out.
+    /// Reads an optional number.
     pub fn optional(&mut self, section: &mut Section, key: &'static str, range: (f64, f64)) -> Option<f64> {
         let present = section.has(key);
         let path = section.full(key);
@@ -234,7 +234,7 @@ impl<'a> Reader<'a> {
         present.then_some(value)
     }
 
-    /// A whole number within [min, max].
+    /// Reads an integer within [min, max].
     pub fn integer(&mut self, section: &mut Section, key: &'static str, (min, max): (i64, i64), default: Option<i64>) -> i64 {
         let path = section.full(key);
         let allowed = format!("whole number {min} to {max}");
@@ -259,7 +259,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A whole number that may be left out.
+    /// Reads an optional integer.
     pub fn optional_integer(&mut self, section: &mut Section, key: &'static str, range: (i64, i64)) -> Option<i64> {
         let present = section.has(key);
         let value = self.integer(section, key, range, Some(range.0));
@@ -267,7 +267,7 @@ impl<'a> Reader<'a> {
         present.then_some(value)
     }
 
-    /// true or false.
+    /// Reads true or false.
     pub fn flag(&mut self, section: &mut Section, key: &'static str, default: bool) -> bool {
         let path = section.full(key);
         self.record(&path, "true or false", default.to_string());
@@ -279,7 +279,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// A text. Without a default it is required.
+    /// Reads a string; required if there is no default.
     pub fn text(&mut self, section: &mut Section, key: &'static str, default: Option<&str>) -> String {
         let path = section.full(key);
         self.record(&path, "text", default.map_or("required".into(), str::to_string));
@@ -299,7 +299,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// One of several words.
+    /// Reads one of several keywords.
     pub fn choice<T: Copy>(
         &mut self,
         section: &mut Section,
@@ -328,7 +328,7 @@ impl<'a> Reader<'a> {
         )
     }
 
-    /// A list of exactly `n` numbers, each within [min, max].
+    /// Reads a list of exactly `n` numbers, each within [min, max].
     pub fn numbers<const N: usize>(
         &mut self,
         section: &mut Section,
@@ -354,7 +354,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// A list of points of three numbers; empty when left out.
+    /// Reads a list of points of three numbers each; empty if missing.
     pub fn points(&mut self, section: &mut Section, key: &'static str, range: (f64, f64)) -> Vec<[f64; 3]> {
         let path = section.full(key);
         let allowed = format!("list of [east, north, up], each {} to {}", range.0, range.1);
@@ -369,7 +369,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// A list of whole numbers; empty when left out.
+    /// Reads a list of integers; empty if missing.
     pub fn integers(&mut self, section: &mut Section, key: &'static str, (min, max): (i64, i64)) -> Vec<i64> {
         let path = section.full(key);
         let allowed = format!("list of whole numbers, each {min} to {max}");
@@ -384,7 +384,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Complains of keys that nobody asked for. Call it when all keys of the table have been asked for.
+    /// Reports unknown keys. Call this after all keys of the table have been read.
     pub fn finish(&mut self, section: &Section) {
         let Some(table) = section.table else { return };
         for (key, item) in table.iter() {
@@ -402,19 +402,19 @@ impl<'a> Reader<'a> {
 }
 
 impl Section<'_> {
-    /// The key with its path.
+    /// Returns the key with its path.
     #[must_use]
     pub fn full(&self, key: &str) -> String {
         if self.path.is_empty() { key.to_string() } else { format!("{}.{key}", self.path) }
     }
 
-    /// The table's line.
+    /// Returns the line of the table.
     #[must_use]
     pub fn line(&self) -> usize {
         self.line
     }
 
-    /// True when the file has the key.
+    /// Returns true if the file contains the key.
     #[must_use]
     pub fn has(&self, key: &str) -> bool {
         self.table.is_some_and(|t| t.contains_key(key))
@@ -430,24 +430,24 @@ fn list(value: &Value, (min, max): (f64, f64)) -> Option<Vec<f64>> {
     value.as_array()?.iter().map(one).collect()
 }
 
-/// Without line breaks and other control characters, so that one problem stays one line.
+/// Removes line breaks and other control characters so that each problem stays on one line.
 fn one_line(text: &str) -> String {
     text.replace(char::is_control, " ")
 }
 
-/// The value as written, cut short.
+/// Returns the value as written, truncated.
 fn displayed(item: &Item) -> String {
     const LONGEST: usize = 60;
     let text: String = item.to_string().trim().replace('\n', " ").chars().take(LONGEST + 1).collect();
     if text.chars().count() > LONGEST { format!("{}…", text.chars().take(LONGEST).collect::<String>()) } else { text }
 }
 
-/// Two keys that differ by a slip of the pen: at most two edits in five characters.
+/// Returns true if two keys differ by a likely typing error: at most two edits per five characters.
 fn is_near_miss(known: &str, key: &str) -> bool {
     5 * difference(known, key) <= 2 * known.chars().count().max(key.chars().count())
 }
 
-/// Levenshtein distance, for suggestions.
+/// Returns the Levenshtein distance, for suggestions.
 fn difference(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();

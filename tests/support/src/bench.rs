@@ -1,4 +1,4 @@
-//! An aircraft in the air over flat ground.
+//! A test bench: an aircraft in flight above flat ground, without MAVLink.
 
 use crate::shipped::scenario;
 use spandrel_model::frames::{Ned, Vec3};
@@ -26,13 +26,13 @@ pub struct Bench {
     pub now: SimTime,
     pub sticks: Option<Sticks>,
     pub actuators: Actuators,
-    /// The receiver hears nothing.
+    /// The GNSS receiver has no signal.
     pub jammed: bool,
-    /// The flow sensor sees nothing.
+    /// The optical-flow sensor has no valid image.
     pub dark: bool,
-    /// Changes what the sensors read.
+    /// Modifies the sensor readings.
     pub tamper: Option<fn(&mut Readings, SimTime)>,
-    /// What an instructor breaks.
+    /// Failures injected by the instructor.
     pub faults: Faults,
     control: Schedule,
     stick_clock: Schedule,
@@ -103,7 +103,7 @@ impl Bench {
         self.state.rigid.position_m
     }
 
-    /// Ready, armed and hovering at a height.
+    /// Creates a bench with the aircraft ready, armed and hovering at a height, m.
     pub fn airborne(vehicle: &Vehicle, seed: u64, height_m: f64) -> Self {
         let mut bench = Self::new(vehicle, seed);
         bench.take_off(height_m);
@@ -119,7 +119,7 @@ impl Bench {
         assert_eq!((status.mode, status.landed), (FlightMode::Hold, LandedState::InAir), "{:?}", self.position());
     }
 
-    /// Hovering with centred sticks in position mode.
+    /// Creates a bench with the aircraft hovering in position mode with centered sticks.
     pub fn by_hand(vehicle: &Vehicle, seed: u64, height_m: f64) -> Self {
         let mut bench = Self::airborne(vehicle, seed, height_m);
         bench.sticks = Some(Sticks::default());
@@ -129,7 +129,7 @@ impl Bench {
         bench
     }
 
-    /// Back to an earlier instant, for a state that was kept from there.
+    /// Resets the clock to an earlier time, for a saved state.
     pub fn rewind(&mut self, to: SimTime) {
         self.now = to;
         self.control = Schedule::new(SimTime::ZERO, CONTROL_HZ);

@@ -1,4 +1,4 @@
-//! A small job, a site that answers what a test wrote down, and a tape of datagrams as a vehicle would send them.
+//! A small job, a site with predefined query results, and a recorder of datagrams as a vehicle would send them.
 
 use spandrel_mavlink::codec::Encoder;
 use spandrel_mavlink::dialect::*;
@@ -13,11 +13,11 @@ use spandrel_monitor::assessment::{AssessedSession, assess_log};
 use spandrel_monitor::measures::attention::SiteSurvey;
 use std::sync::Arc;
 
-/// Frames per second of the test job; a divisor of the truth's 50 Hz, so that frames fall on samples.
+/// Frame rate of the test job, Hz; a divisor of the truth rate of 50 Hz, so that frames coincide with samples.
 pub const RATE_HZ: f64 = 25.0;
-/// CRC that the test job claims.
+/// Scenario CRC of the test job.
 pub const CRC: u32 = 0xC0FF_EE00;
-/// Seed that the tape announces.
+/// Session seed on the tape.
 pub const SEED: u64 = 7;
 
 pub fn line(from: (f64, f64, f64), to: (f64, f64, f64)) -> Vec<Vec3<Enu>> {
@@ -197,7 +197,7 @@ pub fn vehicle() -> Vehicle {
     }
 }
 
-/// Shows defect k (from 1) to every camera that is within a metre of 10 k m east.
+/// Makes defect k (from 1) visible to every camera within one meter of 10 k m east.
 #[derive(Debug)]
 pub struct Fence {
     pub defects: Vec<PlacedDefect>,
@@ -253,18 +253,18 @@ pub fn fence_of_ten(_: &Scenario, _: u64) -> Arc<dyn SiteSurvey> {
     Arc::new(Fence::of(10))
 }
 
-/// Datagrams in sending order, one frame each.
+/// Recorded datagrams in sending order, one frame each.
 #[derive(Debug, Clone)]
 pub struct Tape {
     plane: LocalPlane,
     encoder: Encoder,
-    /// What was sent.
+    /// Datagrams sent.
     pub datagrams: Vec<Vec<u8>>,
-    /// What the simulator's clock showed at the beginning, ms.
+    /// Simulator time at the start of the tape, ms.
     epoch_ms: u64,
-    /// Time of the last truth since then, ms.
+    /// Time of the last truth sample since the start of the tape, ms.
     pub now_ms: u32,
-    /// Where the last truth was.
+    /// Position of the last truth sample, m.
     pub at_m: Vec3<Enu>,
     /// Heading, rad clockwise from north.
     pub yaw_rad: f64,
@@ -277,17 +277,17 @@ impl Default for Tape {
 }
 
 impl Tape {
-    /// Armed on the pad at simulation time zero, with seed and scenario announced.
+    /// Creates a tape with the aircraft armed on the pad at simulation time zero, and seed and scenario published.
     pub fn new() -> Self {
         Self::of(&scenario(Vec::new()))
     }
 
-    /// The same in any job.
+    /// Creates such a tape for any job.
     pub fn of(job: &Scenario) -> Self {
         Self::starting_at(0, job)
     }
 
-    /// The same of a simulator that has run so long, ms.
+    /// Creates such a tape for a simulator that has already run for `epoch_ms`, ms.
     pub fn starting_at(epoch_ms: u64, job: &Scenario) -> Self {
         let plane = LocalPlane::new(job.origin);
         let at_m = job.ground_team.pad_m + Vec3::new(0.0, 0.0, 0.15);
@@ -304,7 +304,7 @@ impl Tape {
         tape
     }
 
-    /// The clock of 32-bit milliseconds.
+    /// Returns the clock of 32-bit milliseconds.
     fn clock_ms(&self) -> u32 {
         (self.epoch_ms + u64::from(self.now_ms)) as u32
     }
@@ -364,7 +364,7 @@ impl Tape {
         self.send(&MavMessage::ILLUMINATOR_STATUS(lamp));
     }
 
-    /// Points the gimbal, rad over the horizon.
+    /// Sets the gimbal pitch, rad above the horizon.
     pub fn gimbal(&mut self, pitch_rad: f64) {
         self.send(&MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(GIMBAL_DEVICE_ATTITUDE_STATUS_DATA {
             time_boot_ms: self.clock_ms(),
@@ -391,7 +391,7 @@ impl Tape {
         }));
     }
 
-    /// Straight and level to `to` at `speed_m_s`, a truth and the sticks every 20 ms.
+    /// Flies straight and level to `to` at `speed_m_s`, with a truth sample and the sticks every 20 ms.
     pub fn fly(&mut self, to: (f64, f64, f64), speed_m_s: f64) {
         let to: Vec3<Enu> = Vec3::new(to.0, to.1, to.2);
         let (from, way) = (self.at_m, to - self.at_m);
@@ -404,7 +404,7 @@ impl Tape {
         }
     }
 
-    /// Stays for `seconds`.
+    /// Holds position for `seconds`.
     pub fn hold(&mut self, seconds: f64) {
         for _ in 0..(seconds * 50.0).round() as u32 {
             self.now_ms += 20;
@@ -413,7 +413,7 @@ impl Tape {
         }
     }
 
-    /// Nothing is heard for so long, while the drone stays.
+    /// Records nothing for `ms` while the drone holds position.
     pub fn silence(&mut self, ms: u32) {
         self.now_ms += ms;
     }
@@ -431,7 +431,7 @@ impl Tape {
         }));
     }
 
-    /// Home, down, disarmed.
+    /// Returns home, lands and disarms.
     pub fn land(&mut self) {
         self.fly((0.0, 0.0, 10.0), 4.0);
         self.fly((0.0, 0.0, 0.15), 0.8);
@@ -440,7 +440,7 @@ impl Tape {
         self.hold(1.0);
     }
 
-    /// As a telemetry log that starts at Unix time `start_us`.
+    /// Converts the tape to a telemetry log that starts at Unix time `start_us`.
     pub fn log(&self, start_us: u64) -> Vec<u8> {
         log_of(&self.datagrams, start_us)
     }
@@ -454,12 +454,12 @@ pub fn log_of(datagrams: &[Vec<u8>], start_us: u64) -> Vec<u8> {
     datagrams.iter().flat_map(|datagram| tlog::record(start_us, datagram)).collect()
 }
 
-/// One straight task along the east axis, 10 m up, from 10 to 60 m.
+/// Creates a job with one straight task along the east axis, 10 m up, from 10 to 60 m.
 pub fn one_task() -> Scenario {
     scenario(vec![task(1, line((10.0, 0.0, 10.0), (60.0, 0.0, 10.0)), 3.0)])
 }
 
-/// Takes off, flies the task's path once at 4 m/s, comes home and lands.
+/// Takes off, flies the task's path once at 4 m/s, returns home and lands.
 pub fn clean_flight() -> Tape {
     let mut tape = Tape::new();
     tape.hold(1.0);
@@ -469,7 +469,7 @@ pub fn clean_flight() -> Tape {
     tape
 }
 
-/// What the scorer makes of a tape.
+/// Scores a tape.
 pub fn grade(tape: &Tape, scenario: &Scenario) -> AssessedSession {
     assess_log(&tape.log(1_000_000), scenario, &vehicle(), fence_of_ten).unwrap()
 }

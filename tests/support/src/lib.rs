@@ -1,15 +1,15 @@
-//! What Spandrel's own tests and benches share. Never part of what ships.
+//! Shared code of Spandrel's tests and benchmarks. Not shipped.
 //!
-//! | module | feature | what it is |
+//! | module | feature | contents |
 //! |---|---|---|
 //! | [`shipped`] | | the shipped scenarios and vehicles by name |
-//! | [`aircraft`] | | a quadrotor with round numbers, for closed forms |
-//! | `station` | `vehicle` | a ground station on a vehicle in process |
-//! | `plans` | `vehicle` | plans for the drill ground, and their upload |
-//! | `bench` | `vehicle` | an autopilot and its aircraft in the air, without MAVLink |
-//! | `job` | `telemetry` | a small job, and a tape of the datagrams that a flight over it sends |
-//! | `inspection` | `telemetry` | a long inspection of the paper's job on such a tape |
-//! | `studio` | `view` | a site ready to be drawn by software, and cameras in it |
+//! | [`aircraft`] | | a quadrotor with round numbers, for closed-form tests |
+//! | `station` | `vehicle` | a ground station on an in-process vehicle |
+//! | `plans` | `vehicle` | plans for the drill site, and their upload |
+//! | `bench` | `vehicle` | an autopilot and its aircraft in flight, without MAVLink |
+//! | `job` | `telemetry` | a small job, and a recorder of the datagrams of a flight |
+//! | `inspection` | `telemetry` | a recorded long inspection of the paper's job |
+//! | `studio` | `view` | a site prepared for software rendering, and cameras in it |
 #![allow(clippy::unwrap_used, reason = "a test")]
 #![allow(missing_docs, reason = "test support")]
 

@@ -1,11 +1,11 @@
-//! Plans for the drill ground: items, and an upload as the vehicle asks for it.
+//! Plans for the drill site: mission items and uploads that answer the vehicle's requests.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use crate::station::Station;
 use spandrel_mavlink::dialect::*;
 
 const NAN: f32 = f32::NAN;
-/// Degrees north for a metre on the ground (40,000 km round).
+/// Degrees of latitude per meter (40,000 km circumference).
 const DEGREES_A_METRE: f64 = 360.0 / 40_000_000.0;
 
 pub fn origin() -> (i32, i32) {
@@ -30,7 +30,7 @@ pub fn item(seq: u16, command: MavCmd, north_m: f64, z: f32) -> MISSION_ITEM_INT
     }
 }
 
-/// Where the pad is, m north of the origin.
+/// Returns the position of the landing pad, m north of the origin.
 pub fn home_north(station: &Station) -> f64 {
     station.site_place()[0]
 }
@@ -54,7 +54,7 @@ pub fn result(m: &MavMessage) -> Option<MavMissionResult> {
 pub const PLAN: MavMissionType = MavMissionType::MAV_MISSION_TYPE_MISSION;
 pub const ACCEPTED: MavMissionResult = MavMissionResult::MAV_MISSION_ACCEPTED;
 
-/// Uploads as asked; the last acknowledgement.
+/// Uploads the requested items and returns the final acknowledgment.
 pub fn upload(station: &mut Station, items: &[MISSION_ITEM_INT_DATA]) -> MavMissionResult {
     let kind = items.first().map_or(PLAN, |i| i.mission_type);
     let mut wanted = station.ask(&count(items.len() as u16, kind), asked);

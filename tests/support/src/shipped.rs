@@ -1,10 +1,10 @@
-//! The shipped scenarios and vehicles by name.
+//! Shipped scenarios and vehicles by name.
 
 use spandrel_model::scenario::{self, Scenario};
 use spandrel_model::shipped::{SCENARIOS, VEHICLES};
 use spandrel_model::vehicle::{self, Vehicle};
 
-/// The text of a shipped file; `path` is relative to the workspace's root, as in `scenarios/drill-hover.toml`.
+/// Returns the text of a shipped file; `path` is relative to the workspace root, such as `scenarios/drill-hover.toml`.
 pub fn text(path: &str) -> String {
     std::fs::read_to_string(format!("{}/../../{path}", env!("CARGO_MANIFEST_DIR")))
         .unwrap_or_else(|error| panic!("{path}: {error}"))

@@ -1,4 +1,4 @@
-//! A ground station and a monitor's place on an in-process vehicle: no sockets, no clock.
+//! A ground station and a monitor link on an in-process vehicle, without sockets or a clock.
 
 use crate::shipped;
 use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
@@ -13,24 +13,24 @@ use spandrel_sitl::endpoint::flavour::{self, Flavour};
 use spandrel_sitl::testing::{STATION, Vehicle};
 use std::ops::{Deref, DerefMut};
 
-/// The station's link.
+/// Link of the ground station.
 pub const GCS: LinkId = STATION;
 
-/// A command's parameters; those that are not given are 0.
+/// Returns command parameters; missing ones are 0.
 pub fn p(values: &[f32]) -> [f32; 7] {
     std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
 }
 
-/// A command's first parameter alone.
+/// Returns command parameters with only the first one set.
 pub fn one(value: f32) -> [f32; 7] {
     p(&[value])
 }
 
-/// [`Vehicle`] for tests: what does not happen in time panics, and answers come at once.
+/// [`Vehicle`] for tests: a missed deadline panics, and responses are immediate.
 #[derive(Debug, Clone)]
 pub struct Station {
     pub vehicle: Vehicle,
-    /// Reads the datagrams of all links.
+    /// Decoder for the datagrams of all links.
     decoder: Decoder,
 }
 
@@ -52,22 +52,22 @@ impl Station {
         Self::of(shipped::scenario(scenario_name), "phantom2", seed)
     }
 
-    /// On a job and with an aircraft of one's own.
+    /// Creates a station for a custom job and aircraft.
     pub fn of(scenario: Scenario, vehicle: &str, seed: u64) -> Self {
         Self::start(&flavour::px4::FLAVOUR, scenario, vehicle, (seed, 0), None)
     }
 
-    /// As another autopilot.
+    /// Creates a station for another autopilot protocol.
     pub fn speaking(flavour: &'static Flavour, scenario_name: &str, seed: u64) -> Self {
         Self::start(flavour, shipped::scenario(scenario_name), "phantom2", (seed, 0), None)
     }
 
-    /// As one of several vehicles.
+    /// Creates a station for one of several vehicles.
     pub fn numbered(scenario_name: &str, seed: u64, instance: u8) -> Self {
         Self::start(&flavour::px4::FLAVOUR, shipped::scenario(scenario_name), "phantom2", (seed, instance), None)
     }
 
-    /// With a rule for crashes other than the scenario's.
+    /// Creates a station with a crash rule that overrides the scenario's.
     pub fn ruled(scenario_name: &str, seed: u64, rule: Option<AfterCrash>) -> Self {
         Self::start(&flavour::px4::FLAVOUR, shipped::scenario(scenario_name), "phantom2", (seed, 0), rule)
     }
@@ -86,13 +86,13 @@ impl Station {
         Self { vehicle: builder.build_from(scenario, shipped::vehicle(vehicle)), decoder: Decoder::new() }
     }
 
-    /// Sends a payload laid out by hand, for numbers that the dialect does not know.
+    /// Sends a raw payload, for values that the dialect cannot represent.
     pub fn send_payload(&mut self, id: u32, payload: &[u8]) {
         let bytes = self.vehicle.encoder.encode_payload(id, payload);
         self.sim.handle_datagram(GCS, &bytes);
     }
 
-    /// Runs for a while and collects what the vehicle says.
+    /// Runs for a time, ms, and collects the vehicle's messages.
     pub fn run_ms(&mut self, ms: i64) {
         let until = self.sim.now() + SimTime::from_ms(ms);
         self.sim.handle_timeout(until);
@@ -103,39 +103,39 @@ impl Station {
         }
     }
 
-    /// The frames of one of the vehicle's datagrams.
+    /// Decodes one of the vehicle's datagrams.
     pub fn read(&mut self, bytes: &[u8]) -> Vec<ReceivedFrame> {
         self.decoder.datagram(bytes)
     }
 
-    /// All messages that a filter likes, in order.
+    /// Returns all received messages that a filter accepts, in order.
     pub fn all<T>(&self, pick: impl Fn(&MavMessage) -> Option<T>) -> Vec<T> {
         self.received.iter().filter_map(|f| f.message.as_ref()).filter_map(pick).collect()
     }
 
-    /// What the vehicle has said in words.
+    /// Returns all status texts received from the vehicle.
     pub fn texts(&self) -> Vec<String> {
         self.all(|m| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None })
     }
 
-    /// It has said something with these words.
+    /// Returns true if a status text contains this text.
     pub fn said(&self, what: &str) -> bool {
         self.texts().iter().any(|text| text.contains(what))
     }
 
-    /// How fast it is over the ground, m/s.
+    /// Returns the ground speed, m/s.
     pub fn speed(&self) -> f32 {
         self.last_message(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some(p.vx.hypot(p.vy)) } else { None }).unwrap()
     }
 
-    /// The gimbal's pitch, deg.
+    /// Returns the gimbal pitch, deg.
     pub fn gimbal_deg(&self) -> f32 {
         let q =
             self.last_message(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(g.q) } else { None }).unwrap();
         (2.0 * q[2].atan2(q[0])).to_degrees()
     }
 
-    /// Sends a message and returns the first answer that a filter likes, which must come at once.
+    /// Sends a message and returns the first response that a filter accepts; the response must be immediate.
     pub fn ask<T>(&mut self, message: &MavMessage, pick: impl Fn(&MavMessage) -> Option<T>) -> Option<T> {
         self.received.clear();
         self.send(message);
@@ -143,18 +143,18 @@ impl Station {
         self.received.iter().filter_map(|f| f.message.as_ref()).find_map(pick)
     }
 
-    /// Sets a parameter, whose value travels as these bits; the value shown in the answer.
+    /// Sets a parameter from the bits of its wire value and returns the value in the response.
     pub fn set(&mut self, name: &str, param_value: f32, param_type: MavParamType) -> Option<f32> {
         let set = PARAM_SET_DATA { param_value, target_system: 1, target_component: 1, param_id: name.into(), param_type };
         self.ask(&MavMessage::PARAM_SET(set), |m| if let MavMessage::PARAM_VALUE(v) = m { Some(v.param_value) } else { None })
     }
 
-    /// As another sender on the same link.
+    /// Changes the sender's system and component ID on the same link.
     pub fn speak_as(&mut self, system: u8, component: u8) {
         self.vehicle.encoder = Encoder::new(system, component);
     }
 
-    /// Runs until a condition holds; false when it does not within the time.
+    /// Runs until a condition is met; returns false if it is not met within the time limit.
     pub fn run_until(&mut self, limit_s: f64, mut done: impl FnMut(&mut Self) -> bool) -> bool {
         let end = self.sim.now() + SimTime::from_s(limit_s);
         while self.sim.now() < end {
@@ -169,7 +169,7 @@ impl Station {
         false
     }
 
-    /// The vehicle's mode as its heartbeat names it.
+    /// Returns the custom mode of the vehicle's heartbeat.
     pub fn mode(&self) -> Option<u32> {
         self.received.iter().rev().filter(|f| f.component_id == 1).find_map(|f| match &f.message {
             Some(MavMessage::HEARTBEAT(beat)) => Some(beat.custom_mode),
@@ -177,7 +177,7 @@ impl Station {
         })
     }
 
-    /// The place as the vehicle reports it: north, east, down, m.
+    /// Returns the reported local position: north, east, down, m.
     pub fn place(&self) -> [f32; 3] {
         self.last_message(|m| match m {
             MavMessage::LOCAL_POSITION_NED(p) => Some([p.x, p.y, p.z]),
@@ -186,7 +186,7 @@ impl Station {
         .unwrap()
     }
 
-    /// The place as the vehicle reports it on the globe, m north, east, down of the scenario's origin.
+    /// Returns the reported geographic position as north, east, down of the scenario origin, m.
     pub fn site_place(&self) -> [f64; 3] {
         let place = self.last_message(|m| match m {
             MavMessage::GLOBAL_POSITION_INT(g) => Some(Geo {
@@ -199,13 +199,13 @@ impl Station {
         self.sim.site().plane().enu_from_geo(place.unwrap()).ned().array()
     }
 
-    /// The place after a while.
+    /// Returns the position after a time, ms.
     pub fn place_after(&mut self, ms: i64) -> [f32; 3] {
         self.run_ms(ms.max(25));
         self.place()
     }
 
-    /// Sends a command and returns the result of its acknowledgement, which must come at once.
+    /// Sends a command and returns the result of its acknowledgment, which must be immediate.
     pub fn command(&mut self, component: u8, command: MavCmd, p: [f32; 7]) -> MavResult {
         self.received.clear();
         self.send(&MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
@@ -240,14 +240,14 @@ impl Station {
         }));
     }
 
-    /// Armed and climbing by hand to about five metres.
+    /// Creates a station with the vehicle armed and climbing under manual control to about five meters.
     pub fn airborne(scenario_name: &str, seed: u64) -> Self {
         let mut station = Self::new(scenario_name, seed);
         station.climb_by_hand();
         station
     }
 
-    /// Ready, armed and up by hand to about five metres.
+    /// Arms the vehicle when ready and climbs to about five meters under manual control.
     pub fn climb_by_hand(&mut self) {
         self.run_ms(2500);
         self.sticks(0, 0, 500, 0);

@@ -1,4 +1,4 @@
-//! A site ready to be drawn, and cameras in it.
+//! A site prepared for rendering, and cameras in it.
 
 use spandrel_model::frames::{Enu, Rotation, Vec3};
 use spandrel_model::math;
@@ -16,7 +16,7 @@ use spandrel_view::shot::Shot;
 use spandrel_view::stage::{SceneMoment, Stage, camera_aimed_at, drone_on_pad};
 use std::sync::Arc;
 
-/// A midsummer forenoon, 2026-06-21 09:00 UTC: high sun in the south-east.
+/// A midsummer morning, 2026-06-21 09:00 UTC: high sun in the southeast.
 pub const FORENOON: i64 = 1_782_032_400;
 
 pub fn at(east: f64, north: f64, up: f64) -> Vec3<Enu> {
@@ -29,7 +29,7 @@ pub fn two_bridges() -> Scenario {
     spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap()
 }
 
-/// The same on a bright summer day.
+/// The paper's job on a bright summer day.
 pub fn sunny() -> Scenario {
     let mut scenario = two_bridges();
     scenario.light.start_unix_s = FORENOON;
@@ -37,33 +37,33 @@ pub fn sunny() -> Scenario {
     scenario
 }
 
-/// The same at dusk: forty minutes later than the job begins, with the sun just down.
+/// The paper's job at dusk: forty minutes after its start time, just after sunset.
 pub fn dusk() -> Scenario {
     let mut scenario = two_bridges();
     scenario.light.start_unix_s += 2_400;
     scenario
 }
 
-/// The aircraft that it is flown with.
+/// The aircraft used for it.
 pub fn phantom() -> Vehicle {
     spandrel_model::vehicle::read("phantom2.toml", spandrel_model::shipped::PHANTOM2).unwrap()
 }
 
-/// A site and what draws it.
+/// A site and its renderer.
 pub struct Studio {
     pub scenario: Scenario,
     pub vehicle: Vehicle,
     pub site: Site,
     pub scene: Arc<Scene>,
     pub gpu: Gpu,
-    /// Simulation time of its pictures.
+    /// Simulation time of the images.
     pub at: SimTime,
     renderer: Renderer,
     overlay: Overlay,
 }
 
 impl Studio {
-    /// Drawn by software, as on any machine.
+    /// Creates a studio with the software renderer, which works on any machine.
     pub fn new(scenario: Scenario, seed: u64, quality: &str, at: SimTime) -> Self {
         Self::on(Gpu::open_software().unwrap(), scenario, seed, quality, at)
     }
@@ -94,12 +94,12 @@ impl Studio {
         (&self.gpu, &mut self.renderer)
     }
 
-    /// Takes the site's own defects out of the pictures.
+    /// Removes the site's defects from the images.
     pub fn without_defects(&mut self) {
         self.renderer.set_patches(&self.gpu, &[]);
     }
 
-    /// What the aircraft's camera sees from one point towards another; `hfov_deg` instead of its own lens.
+    /// Renders the view of the aircraft's camera from one point toward another, with a horizontal field of view of `hfov_deg`.
     pub fn seen(&self, from: Vec3<Enu>, look: Vec3<Enu>, hfov_deg: f64, lamp: bool, size_px: (u32, u32)) -> Shot {
         let lens = Camera { hfov_rad: hfov_deg.to_radians(), ..self.vehicle.camera };
         let pose = camera_aimed_at(from, look, lamp);
@@ -107,7 +107,7 @@ impl Studio {
         self.stage().through(PinholeCamera::of(&pose, &lens), Some(&pose), &lens, Some(&standing), (self.at, size_px))
     }
 
-    /// The aircraft in flight here, looking there.
+    /// Returns a scene with the aircraft in flight at `from`, its camera aimed at `look`.
     pub fn moment(&self, from: Vec3<Enu>, look: Vec3<Enu>, lamp: bool, velocity_m_s: Vec3<Enu>) -> SceneMoment {
         let to = look - from;
         let yaw = math::atan2(to.east(), to.north());

@@ -1,12 +1,12 @@
-//! What the aircraft touches: the codes of the named value `contact`.
+//! Contact types: the codes of the named value `contact`.
 
 use serde::Serialize;
 
-/// What the aircraft touches.
+/// The type of object that the aircraft touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Default)]
 #[serde(rename_all = "lowercase")]
 pub enum ContactKind {
-    /// Nothing.
+    /// No contact.
     #[default]
     None,
     /// A bridge.
@@ -19,21 +19,21 @@ pub enum ContactKind {
     Vehicle,
     /// A pedestrian or the crew.
     Person,
-    /// Anything else, and every code that is not known here.
+    /// Anything else, including unknown codes.
     Other,
 }
 
 impl ContactKind {
-    /// All of them, by code.
+    /// All contact types, indexed by code.
     pub const ALL: [Self; 7] = [Self::None, Self::Bridge, Self::Terrain, Self::Water, Self::Vehicle, Self::Person, Self::Other];
 
-    /// From the code on the wire.
+    /// Converts a wire code; unknown codes become [`Self::Other`].
     #[must_use]
     pub fn from_code(code: i32) -> Self {
         usize::try_from(code).ok().and_then(|code| Self::ALL.get(code)).copied().unwrap_or(Self::Other)
     }
 
-    /// The code on the wire.
+    /// Returns the wire code.
     #[must_use]
     pub fn code(self) -> i32 {
         match self {
@@ -47,7 +47,7 @@ impl ContactKind {
         }
     }
 
-    /// The word in exported files.
+    /// Returns the label used in exported files.
     #[must_use]
     pub fn label(self) -> &'static str {
         match self {
@@ -61,7 +61,8 @@ impl ContactKind {
         }
     }
 
-    /// Of several contacts at once the one with the highest severity is published: person, vehicle, bridge, terrain, water, other, none.
+    /// Returns the severity rank. When several contacts occur at once, only the most severe is published: person, vehicle,
+    /// bridge, terrain, water, other, none.
     #[must_use]
     pub fn severity(self) -> u8 {
         match self {
@@ -75,7 +76,7 @@ impl ContactKind {
         }
     }
 
-    /// Counted by the paper's X_o: neither a person nor a vehicle.
+    /// Returns true if the contact counts toward the paper's X_o: neither a person nor a vehicle.
     #[must_use]
     pub fn is_other_crash(self) -> bool {
         matches!(self, Self::Bridge | Self::Terrain | Self::Water | Self::Other)

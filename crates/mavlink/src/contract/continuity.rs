@@ -1,21 +1,24 @@
-//! When two samples of the truth do not belong to one flight.
+//! Detects when two truth samples do not belong to the same flight.
 //!
-//! A jump in time is a restart of the simulator: the clock runs back by more than [`RESTART_AFTER`] in [`RESTART_CONFIRM`] samples in a
-//! row, so that one late datagram is none. A jump in place is an aircraft that was put back: nothing is drawn, measured or interpolated
-//! between its two ends.
+//! A time jump is a restart of the simulator: the clock runs backward by more than [`RESTART_AFTER`] in [`RESTART_CONFIRM`]
+//! consecutive samples, so that a single late datagram does not count. A position jump is a respawn of the aircraft: nothing is
+//! drawn, measured or interpolated across it.
 
 use spandrel_model::time::SimTime;
 
-/// A clock that runs back by more than this is another simulator's, or a restarted one's.
+/// A clock that runs backward by more than this belongs to another or a restarted simulator.
 pub const RESTART_AFTER: SimTime = SimTime::from_ms(1_000);
-/// Samples in a row that must say so.
+/// Number of consecutive samples required to confirm a restart.
 pub const RESTART_CONFIRM: usize = 3;
-/// How far beyond flight a step may reach, m (estimate: a hover shaken by a gust through a second's silence moves less).
+/// Constant part of the jump threshold, m (estimate: larger than the movement of a hovering aircraft in a gust during one second
+/// without data).
 const SLACK_M: f64 = 1.5;
-/// And how many times faster than at the faster of its two ends (estimate: no aircraft here gains so much within a gap).
+/// Factor on the higher of the two speeds in the jump threshold (estimate: no supported aircraft accelerates this much within a
+/// gap).
 const FACTOR: f64 = 4.0;
 
-/// True when a step of `distance_m` within `span` is no flight. `fastest_m_s` is the speed at the faster of its two ends.
+/// Returns true if a displacement of `distance_m` within `span` is too large to have been flown. `fastest_m_s` is the higher of
+/// the speeds at its two ends.
 #[must_use]
 pub fn is_jump(distance_m: f64, fastest_m_s: f64, span: SimTime) -> bool {
     distance_m > SLACK_M + FACTOR * fastest_m_s * span.s()
@@ -31,7 +34,7 @@ mod tests {
         assert!(!is_jump(0.4, 20.0, span));
         assert!(!is_jump(1.6, 2.0, span));
         assert!(is_jump(1.7, 2.0, span));
-        // A second of silence at 5 m/s.
+        // One second without data at 5 m/s.
         assert!(!is_jump(21.0, 5.0, SimTime::from_ms(1_000)));
         assert!(is_jump(22.0, 5.0, SimTime::from_ms(1_000)));
     }

@@ -1,19 +1,19 @@
-//! Bits of the monitor's `cues`: the feedback that is on.
+//! Bit flags of the monitor's `cues` value: the active cues.
 
-/// Battery is yellow.
+/// Battery level is yellow.
 pub const BATTERY_YELLOW: i32 = 1;
-/// Battery is red.
+/// Battery level is red.
 pub const BATTERY_RED: i32 = 1 << 1;
-/// Faster than the speed limit.
+/// Above the speed limit.
 pub const SPEEDING: i32 = 1 << 2;
-/// Off the path, but near it.
+/// Off the path, but within the off-path band.
 pub const OFF_PATH: i32 = 1 << 3;
-/// Closer to a surface than the task allows.
+/// Closer to a surface than the minimum distance of the task.
 pub const TOO_CLOSE: i32 = 1 << 4;
-/// Something was hit.
+/// The aircraft hit something.
 pub const CRASH: i32 = 1 << 5;
 
-/// All cues with their names, the most serious first.
+/// All cues and their names, the most serious first.
 pub const ALL: [(i32, &str); 6] = [
     (CRASH, "crash"),
     (TOO_CLOSE, "too close"),

@@ -1,17 +1,18 @@
-//! The contract between a vehicle and those who score, show and fly it: what is published beside standard telemetry, and how it is read.
-//! Version [`VERSION`]; the same in words stands in `docs/src/reference/contract.md`, so that somebody else's vehicle can be scored.
+//! The interface between a vehicle and the clients that score, display and control it: messages published in addition to standard
+//! telemetry, and their interpretation. Version [`VERSION`]; specified in `docs/src/reference/contract.md`, so that third-party
+//! vehicles can be scored.
 //!
-//! Everything here is used by both sides: the vehicle encodes with what the monitor decodes with.
+//! Both sides use the same code: the vehicle to encode, the monitor to decode.
 //!
-//! | module | what it fixes |
+//! | module | contents |
 //! |---|---|
-//! | [`truth`] | the truth feed: HIL_STATE_QUATERNION, its clock and its units |
+//! | [`truth`] | ground truth: HIL_STATE_QUATERNION, its timestamps and units |
 //! | [`named`] | NAMED_VALUE_INT and NAMED_VALUE_FLOAT: names, types, meaning |
-//! | [`contact`] | codes of what the aircraft touches, and which of several counts |
-//! | [`cue`] | bits of the feedback that the monitor gives in flight |
-//! | [`modes`] | flight modes of PX4 and ArduCopter: names, and what controls the aircraft in them |
+//! | [`contact`] | contact codes and their order of severity |
+//! | [`cue`] | bit flags of the monitor's cues in flight |
+//! | [`modes`] | flight modes of PX4 and ArduCopter: name and control source |
 //! | [`sticks`] | scaling of stick positions |
-//! | [`continuity`] | when two samples do not belong to one flight: a jump in time or in place |
+//! | [`continuity`] | detection of restarts and respawns between two samples |
 
 pub mod contact;
 pub mod continuity;
@@ -21,5 +22,5 @@ pub mod named;
 pub mod sticks;
 pub mod truth;
 
-/// Grows with every change that a vehicle or a monitor of an older version would read wrongly.
+/// Contract version. Incremented for each change that an older vehicle or monitor would misinterpret.
 pub const VERSION: u32 = 1;

@@ -1,19 +1,19 @@
-//! Flight modes by their numbers: PX4's layout (`px4_custom_mode.h`: main mode in the third byte, sub-mode in the fourth) and ArduCopter's
-//! (`mode.h`). Names are those that ground stations show.
+//! Flight modes by number: PX4 (`px4_custom_mode.h`: main mode in the third byte, sub-mode in the fourth) and ArduCopter
+//! (`mode.h`). Names match those shown by ground stations.
 
 use serde::Serialize;
 
-/// What controls the aircraft.
+/// The source of control of the aircraft.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ControlSource {
-    /// A person at the sticks.
+    /// A pilot at the sticks.
     Pilot,
     /// The uploaded mission.
     Mission,
-    /// A program's external setpoints.
+    /// External setpoints from a program.
     Script,
-    /// The autopilot's own behavior: hold, take-off, return, land.
+    /// The autopilot itself: hold, takeoff, return, land.
     Autopilot,
 }
 
@@ -22,7 +22,7 @@ use ControlSource::{Autopilot, Mission, Pilot, Script};
 /// MAV_AUTOPILOT_ARDUPILOTMEGA.
 const ARDUPILOT: u8 = 3;
 
-/// PX4: main mode, sub-mode (`None`: any other), name, what controls the aircraft.
+/// PX4: main mode, sub-mode (`None` matches any other), name, control source.
 const PX4: [(u8, Option<u8>, &str, ControlSource); 14] = [
     (1, None, "Manual", Pilot),
     (2, None, "Altitude", Pilot),
@@ -40,7 +40,7 @@ const PX4: [(u8, Option<u8>, &str, ControlSource); 14] = [
     (7, None, "Stabilized", Pilot),
 ];
 
-/// ArduCopter: number, name, what controls the aircraft.
+/// ArduCopter: mode number, name, control source.
 const COPTER: [(u32, &str, ControlSource); 15] = [
     (0, "Stabilize", Pilot),
     (1, "Acro", Pilot),
@@ -59,7 +59,8 @@ const COPTER: [(u32, &str, ControlSource); 15] = [
     (27, "Auto RTL", Autopilot),
 ];
 
-/// Name and control source of a mode number; `None` when it is not known. A vehicle that names no autopilot is read as PX4, as SDKs do.
+/// Looks up the name and control source of a mode; `None` if the mode is unknown. A generic autopilot type is treated as PX4, as
+/// SDKs do.
 fn known(autopilot: u8, custom_mode: u32) -> Option<(&'static str, ControlSource)> {
     if autopilot == ARDUPILOT {
         return COPTER.iter().find(|(number, ..)| *number == custom_mode).map(|(_, name, source)| (*name, *source));
@@ -69,20 +70,20 @@ fn known(autopilot: u8, custom_mode: u32) -> Option<(&'static str, ControlSource
     row.map(|(.., name, source)| (*name, *source))
 }
 
-/// The mode's name as ground stations show it, or its number.
+/// Returns the mode name as shown by ground stations, or the mode number if it is unknown.
 #[must_use]
 pub fn name(autopilot: u8, custom_mode: u32) -> String {
     known(autopilot, custom_mode).map_or_else(|| format!("mode {custom_mode}"), |(name, _)| name.to_owned())
 }
 
 impl ControlSource {
-    /// From HEARTBEAT's autopilot and custom mode; a mode that is not known counts as flown by hand.
+    /// Returns the control source for HEARTBEAT's autopilot and custom mode. Unknown modes count as manual flight.
     #[must_use]
     pub fn of(autopilot: u8, custom_mode: u32) -> Self {
         known(autopilot, custom_mode).map_or(Self::Pilot, |(_, source)| source)
     }
 
-    /// The word in records.
+    /// Returns the label used in records.
     #[must_use]
     pub fn label(self) -> &'static str {
         match self {

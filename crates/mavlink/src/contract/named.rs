@@ -1,37 +1,39 @@
-//! Named values: what the scoring needs beside motion, and the monitor's cues.
+//! Named values: scoring data other than motion, and the monitor's cues.
 //!
-//! Whole numbers travel as NAMED_VALUE_INT, others as NAMED_VALUE_FLOAT. `time_boot_ms` is simulation time.
+//! Integers are sent as NAMED_VALUE_INT, other numbers as NAMED_VALUE_FLOAT. `time_boot_ms` is simulation time.
 
 use super::contact::ContactKind;
 use crate::dialect::{MavMessage, NAMED_VALUE_FLOAT_DATA, NAMED_VALUE_INT_DATA};
 
-/// A named value and what it says.
+/// A named value and its content.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Named {
-    /// `contact`: what is touched from now on, the most severe of several. On change and at 10 Hz.
+    /// `contact`: the current contact, the most severe if there are several. Sent on change and at 10 Hz.
     Contact(ContactKind),
-    /// `hits`: onsets of contact since simulation start, so that none is lost between two `contact`s. On change and every 5 s.
+    /// `hits`: number of contact onsets since simulation start, so that an onset between two `contact` messages is not lost. Sent
+    /// on change and every 5 s.
     Hits(i32),
-    /// `respawns`: how often the aircraft was put back. On change and every 5 s.
+    /// `respawns`: number of respawns since simulation start. Sent on change and every 5 s.
     Respawns(i32),
-    /// `traffic`: when traffic was stopped (negative) or let go, ms since simulation start. On change and every 5 s, once it was stopped.
+    /// `traffic`: time when the bridges were closed to traffic (negative) or opened again, ms since simulation start. Sent on
+    /// change and every 5 s once they have been closed.
     Traffic(i32),
-    /// `seed`: the session's seed; the field's 32 bits are read as unsigned. Every 5 s.
+    /// `seed`: session seed; the 32-bit field is read as unsigned. Sent every 5 s.
     Seed(u32),
-    /// `scn_crc`: CRC-32 of the scenario that the simulator runs. Every 5 s.
+    /// `scn_crc`: CRC-32 of the active scenario. Sent every 5 s.
     ScenarioCrc(u32),
-    /// `clearance`: distance from the drone's center to the nearest surface, m, the pad left out. At 30 Hz.
+    /// `clearance`: distance from the center of the drone to the nearest surface other than the landing pad, m. Sent at 30 Hz.
     ClearanceM(f64),
-    /// `lux`: ambient light at the drone, lx. For displays only. At 5 Hz.
+    /// `lux`: ambient light at the drone, lx. For display only. Sent at 5 Hz.
     Lux(f64),
-    /// `pace`: simulation seconds in a second, where it is not 1. Every 5 s.
+    /// `pace`: simulation speed as a multiple of real time. Sent every 5 s unless it is 1.
     Pace(f64),
-    /// `cues`: the monitor's feedback that is on, bits of [`super::cue`]. On change and at 5 Hz.
+    /// `cues`: active cues of the monitor, as bits of [`super::cue`]. Sent on change and at 5 Hz.
     Cues(i32),
 }
 
 impl Named {
-    /// The name on the wire.
+    /// Returns the name on the wire.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -48,7 +50,7 @@ impl Named {
         }
     }
 
-    /// The message at a simulation time, ms modulo 2^32.
+    /// Encodes the message with a simulation timestamp, ms modulo 2^32.
     #[must_use]
     pub fn message(self, time_boot_ms: u32) -> MavMessage {
         let name = self.name();
@@ -62,7 +64,7 @@ impl Named {
         }
     }
 
-    /// From a NAMED_VALUE_INT or NAMED_VALUE_FLOAT; `None` for other messages, for other names and for numbers that are not finite.
+    /// Decodes a NAMED_VALUE_INT or NAMED_VALUE_FLOAT. Returns `None` for other messages, unknown names and non-finite values.
     #[must_use]
     pub fn of(message: &MavMessage) -> Option<Self> {
         match message {
@@ -72,7 +74,7 @@ impl Named {
         }
     }
 
-    /// From a NAMED_VALUE_INT.
+    /// Decodes a NAMED_VALUE_INT; `None` for an unknown name.
     #[must_use]
     pub fn from_int(named: &NAMED_VALUE_INT_DATA) -> Option<Self> {
         let value = named.value;
@@ -88,7 +90,7 @@ impl Named {
         })
     }
 
-    /// From a NAMED_VALUE_FLOAT.
+    /// Decodes a NAMED_VALUE_FLOAT; `None` for an unknown name or a non-finite value.
     #[must_use]
     pub fn from_float(named: &NAMED_VALUE_FLOAT_DATA) -> Option<Self> {
         let value = f64::from(named.value);
@@ -132,7 +134,7 @@ mod tests {
         ];
         for value in all {
             assert_eq!(Named::of(&value.message(7)), Some(value), "{}", value.name());
-            // MAVLink's field.
+            // Length of MAVLink's name field.
             assert!(value.name().len() <= 10);
         }
         assert_eq!(Named::of(&float(7, "clearance", f64::NAN)), None);

@@ -1,17 +1,17 @@
-//! Stick positions on the wire: RC_CHANNELS 1 to 4 are roll, pitch, throttle and yaw, 1500 us at center and 500 us to full travel, forward,
-//! right, up and clockwise positive.
+//! Stick positions on the wire: RC_CHANNELS 1 to 4 are roll, pitch, throttle and yaw. 1500 us is center and 500 us is full
+//! travel; forward, right, up and clockwise are positive.
 
-/// Microseconds at center.
+/// Pulse width at center, us.
 const CENTER_US: i16 = 1500;
-/// Microseconds from center to full travel.
+/// Pulse width from center to full travel, us.
 const TRAVEL_US: i16 = 500;
 
-/// Stick positions in steps of the wire: forward, right, up, clockwise.
+/// Stick positions in wire resolution: forward, right, up, clockwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sticks([i16; 4]);
 
 impl Sticks {
-    /// From the pulse widths of RC_CHANNELS 1 to 4, us: roll, pitch, throttle, yaw. Widths beyond full travel count as full.
+    /// Converts the pulse widths of RC_CHANNELS 1 to 4, us: roll, pitch, throttle, yaw. Widths beyond full travel are clamped.
     #[must_use]
     pub fn from_us(channels: [u16; 4]) -> Self {
         let [right, forward, up, clockwise] = channels.map(|us| {
@@ -21,14 +21,14 @@ impl Sticks {
         Self([forward, right, up, clockwise])
     }
 
-    /// Forward, right, up, clockwise, each in [-1, 1].
+    /// Returns the positions forward, right, up, clockwise, each in [-1, 1].
     #[must_use]
     pub fn axes(self) -> [f64; 4] {
         self.0.map(|step| f64::from(step) / f64::from(TRAVEL_US))
     }
 }
 
-/// Pulse widths of RC_CHANNELS 1 to 4, us, for stick positions forward, right, up and clockwise in [-1, 1].
+/// Returns the pulse widths of RC_CHANNELS 1 to 4, us, for stick positions forward, right, up and clockwise in [-1, 1].
 #[must_use]
 pub fn to_us([forward, right, up, clockwise]: [f64; 4]) -> [u16; 4] {
     [right, forward, up, clockwise].map(|axis| (f64::from(CENTER_US) + f64::from(TRAVEL_US) * axis).round() as u16)

@@ -1,4 +1,4 @@
-//! The truth feed: HIL_STATE_QUATERNION at 50 Hz. `time_usec` counts from simulation start and is the one clock of a flight.
+//! Ground truth: HIL_STATE_QUATERNION at 50 Hz. `time_usec` counts from simulation start and is the reference clock of a flight.
 
 use super::continuity::is_jump;
 use crate::dialect::HIL_STATE_QUATERNION_DATA;
@@ -7,12 +7,12 @@ use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::time::SimTime;
 
-/// The simulator's truth at one instant, as a reader of the wire has it.
+/// Ground truth of the simulator at one instant, as received.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Truth {
-    /// Since simulation start.
+    /// Time since simulation start.
     pub time: SimTime,
-    /// Position, m from the scenario's origin.
+    /// Position relative to the scenario origin, m.
     pub position_m: Vec3<Enu>,
     /// Velocity, m/s.
     pub velocity_m_s: Vec3<Enu>,
@@ -21,7 +21,7 @@ pub struct Truth {
 }
 
 impl Truth {
-    /// The aircraft was put back between this sample and a later one ([`is_jump`]).
+    /// Returns true if the aircraft was respawned between this sample and a later one ([`is_jump`]).
     #[must_use]
     pub fn jumps_to(&self, next: &Self) -> bool {
         let fastest_m_s = self.velocity_m_s.norm().max(next.velocity_m_s.norm());
@@ -29,27 +29,27 @@ impl Truth {
     }
 }
 
-/// What the vehicle publishes, in SI units.
+/// Ground truth as published by the vehicle, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Published {
-    /// Since simulation start, us.
+    /// Time since simulation start, us.
     pub time_us: u64,
-    /// Position over the WGS84 ellipsoid as the scenario's plane has it.
+    /// Position above the WGS84 ellipsoid, converted by the scenario's local plane.
     pub place: Geo,
     /// Velocity, m/s.
     pub velocity_m_s: Vec3<Ned>,
     /// Attitude.
     pub ned_from_frd: Rotation<Frd, Ned>,
-    /// Turn rates, rad/s.
+    /// Angular rates, rad/s.
     pub rates_rad_s: Vec3<Frd>,
     /// Specific force, m/s^2.
     pub specific_force_m_s2: Vec3<Frd>,
-    /// Speed through the air, m/s.
+    /// True airspeed, m/s.
     pub airspeed_m_s: f64,
 }
 
 impl Published {
-    /// The message.
+    /// Encodes the MAVLink message.
     #[must_use]
     pub fn message(&self) -> HIL_STATE_QUATERNION_DATA {
         let (w, v, force) = (self.rates_rad_s, self.velocity_m_s, self.specific_force_m_s2);
@@ -74,14 +74,14 @@ impl Published {
     }
 }
 
-/// The clock of a truth message. One beyond the range of [`SimTime`] (292 years) is a broken frame; saturating keeps it in order instead
-/// of wrapping.
+/// Converts the timestamp of a truth message. A value beyond the range of [`SimTime`] (292 years) is invalid; it saturates
+/// instead of wrapping, which preserves the order.
 #[must_use]
 pub fn clock(time_usec: u64) -> SimTime {
     SimTime::from_us(i64::try_from(time_usec).unwrap_or(i64::MAX).min(i64::MAX / 1_000))
 }
 
-/// Reads a truth message; `None` when its attitude is no rotation.
+/// Decodes a truth message; `None` if its quaternion is not a rotation.
 #[must_use]
 pub fn read(wire: &HIL_STATE_QUATERNION_DATA, plane: &LocalPlane) -> Option<Truth> {
     let geo = Geo {

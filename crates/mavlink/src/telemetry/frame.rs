@@ -1,4 +1,4 @@
-//! A flight read at the scorer's rate. Frame i stands for the 1/f s that end at its time; frame 1 is lift-off.
+//! Resamples a flight at the scoring rate. Frame i represents the 1/f s that end at its time; frame 1 is lift-off.
 
 use super::timeline::Flight;
 use crate::contract::contact::ContactKind;
@@ -6,25 +6,25 @@ use crate::contract::truth::Truth;
 use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use spandrel_model::time::SimTime;
 
-/// Silence of the truth beyond this is a gap (docs/src/reference/assessment.md, "Frames").
+/// Truth samples further apart than this leave a gap (docs/src/reference/assessment.md, "Frames").
 pub const GAP_AFTER: SimTime = SimTime::from_ms(200);
-/// A gap up to this long is interpolated; the frames of a longer one are missing.
+/// Maximum length of a gap that is interpolated; the frames of a longer gap are missing.
 pub const INTERPOLATED_UP_TO: SimTime = SimTime::from_ms(1_000);
-/// A contact's own message may follow the count of onsets by this much (it is repeated at 10 Hz).
+/// Maximum delay of a `contact` message after the `hits` count that includes it (`contact` is repeated at 10 Hz).
 const HIT_REPORT_WITHIN: SimTime = SimTime::from_ms(200);
 
-/// One frame.
+/// One scoring frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
-    /// 1, 2, …
+    /// Frame number, from 1.
     pub index: u32,
     /// Simulation time.
     pub time: SimTime,
-    /// Forward, right, up, clockwise, each in [-1, 1].
+    /// Stick positions: forward, right, up, clockwise, each in [-1, 1].
     pub sticks: [f64; 4],
-    /// Lamp on.
+    /// The lamp is on.
     pub light: bool,
-    /// A picture was taken since the frame before.
+    /// A photo was taken since the previous frame.
     pub snapshot: bool,
     /// Position, m.
     pub position_m: Vec3<Enu>,
@@ -32,57 +32,58 @@ pub struct Frame {
     pub velocity_m_s: Vec3<Enu>,
     /// Battery, %.
     pub battery_pct: f64,
-    /// Most severe contact since the frame before, as the wire said it.
+    /// Most severe contact since the previous frame, as received.
     pub contact: ContactKind,
-    /// In a gap too long to interpolate.
+    /// The frame lies in a gap too long to interpolate.
     pub missing: bool,
-    /// In a shorter gap.
+    /// The frame lies in a gap short enough to interpolate.
     pub interpolated: bool,
-    /// Nearest surface, m, if known.
+    /// Distance to the nearest surface, m, if known.
     pub clearance_m: Option<f64>,
-    /// Motors armed, if known.
+    /// The motors are armed, if known.
     pub armed: Option<bool>,
-    /// The autopilot says that it stands.
+    /// The autopilot reports that the aircraft is on the ground.
     pub on_ground: bool,
 }
 
 impl Frame {
-    /// Speed in three dimensions, m/s.
+    /// Returns the 3D speed, m/s.
     #[must_use]
     pub fn speed_m_s(&self) -> f64 {
         self.velocity_m_s.norm()
     }
 }
 
-/// State between samples.
+/// Aircraft state interpolated between two truth samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrameAccumulator {
     /// Position, m.
     pub position_m: Vec3<Enu>,
     /// Velocity, m/s.
     pub velocity_m_s: Vec3<Enu>,
-    /// Attitude of the sample before.
+    /// Attitude of the preceding sample.
     pub ned_from_frd: Rotation<Frd, Ned>,
-    /// In a gap too long to interpolate.
+    /// The time lies in a gap too long to interpolate.
     pub missing: bool,
-    /// In a shorter gap.
+    /// The time lies in a gap short enough to interpolate.
     pub interpolated: bool,
 }
 
 impl Flight {
-    /// When truth was first more than `height_m` above `pad_up_m`.
+    /// Returns the time at which the aircraft was first more than `height_m` above `pad_up_m`, a height in the scenario frame, m.
     #[must_use]
     pub fn lift_off(&self, pad_up_m: f64, height_m: f64) -> Option<SimTime> {
         self.truths.iter().find(|truth| truth.position_m.up() - pad_up_m > height_m).map(|truth| truth.time)
     }
 
-    /// Last truth sample's time.
+    /// Returns the time of the last truth sample.
     #[must_use]
     pub fn end(&self) -> Option<SimTime> {
         self.truths.last().map(|truth| truth.time)
     }
 
-    /// Where the drone was at `time`; before the first sample as at the first, after the last as at the last.
+    /// Returns the aircraft state at `time`. Times before the first or after the last sample yield that sample. `None` if there
+    /// are no samples.
     #[must_use]
     pub fn between(&self, time: SimTime) -> Option<FrameAccumulator> {
         let after = self.truths.partition_point(|truth| truth.time <= time);
@@ -116,14 +117,14 @@ impl Flight {
     }
 
     fn respawned_between(&self, before: &Truth, next: &Truth) -> bool {
-        // The message of a respawn may be lost.
+        // The respawn message may be lost.
         if before.jumps_to(next) {
             return true;
         }
         self.respawns.at(before.time) != self.respawns.at(next.time) && self.respawns.at(before.time).is_some()
     }
 
-    /// The frame at `time`, with what happened since `since`.
+    /// Returns the frame at `time`, with the events since `since`. `None` if there are no truth samples.
     #[must_use]
     pub fn frame(&self, index: u32, since: SimTime, time: SimTime) -> Option<Frame> {
         let between = self.between(time)?;
@@ -135,7 +136,7 @@ impl Flight {
             snapshot: !self.snapshots.between(since, time).is_empty(),
             position_m: between.position_m,
             velocity_m_s: between.velocity_m_s,
-            // A vehicle that has not spoken of its battery yet is taken as full.
+            // The battery counts as full until the vehicle has reported its level.
             battery_pct: self.battery.at(time).unwrap_or(100.0),
             contact: if between.missing { ContactKind::None } else { self.contact_in(since, time) },
             missing: between.missing,
@@ -146,14 +147,14 @@ impl Flight {
         })
     }
 
-    /// The contact that holds at `time`, or the most severe that came and went since `since`.
+    /// Returns the contact at `time`, or the most severe contact that began since `since`.
     fn contact_in(&self, since: SimTime, time: SimTime) -> ContactKind {
         let changes = self.contact.between(since, time);
         let now = self.contact.at(time).unwrap_or_default();
         changes.iter().map(|change| change.2).chain([now]).max_by_key(|contact| contact.severity()).unwrap_or_default()
     }
 
-    /// Instants at which the count of onsets rose although no contact was reported for it: contacts whose messages were lost.
+    /// Returns the times at which the onset count rose without a matching contact: contacts whose messages were lost.
     #[must_use]
     pub fn missed_contacts(&self) -> Vec<SimTime> {
         let mut lost = Vec::new();
@@ -162,7 +163,7 @@ impl Flight {
         for (time, _, count) in self.hits.all() {
             let surplus = i64::from(*count) - onsets.until(self, *time + HIT_REPORT_WITHIN);
             match accounted {
-                // What happened before the monitor heard anything is not this flight's.
+                // Contacts before the first message do not belong to this flight.
                 None => accounted = Some(surplus.max(0)),
                 Some(known) if surplus > known => {
                     lost.push(*time);
@@ -175,7 +176,7 @@ impl Flight {
     }
 }
 
-/// Onsets in the contact signal, counted as time goes on.
+/// Running count of onsets in the contact signal.
 #[derive(Default)]
 struct ContactOnsets {
     read: usize,

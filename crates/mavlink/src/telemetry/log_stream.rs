@@ -1,18 +1,18 @@
-//! A telemetry log that arrives in pieces: a log of any length is read in bounded memory.
+//! Reads a telemetry log in chunks, so that a log of any length fits in bounded memory.
 
 use super::sample::FrameHeader;
 use super::tlog::{STAMP_BYTES, TlogReader, TlogRecord, record_at};
 use std::ops::ControlFlow;
 
-/// Longest record: stamp, and a MAVLink 2 frame with the largest payload and a signature (MAVLink guide, "Serialization").
+/// Maximum record length: timestamp, and a MAVLink 2 frame with maximum payload and signature (MAVLink guide, "Serialization").
 const RECORD_MOST: usize = STAMP_BYTES + 10 + 255 + 2 + 13;
 
-/// A telemetry log that can be read more than once.
+/// A telemetry log that can be read several times.
 pub trait TelemetryLog {
-    /// Calls `take` with each whole record in file order, until it breaks or the log ends.
+    /// Calls `take` with each complete record in file order, until it returns `Break` or the log ends.
     ///
     /// # Errors
-    /// When the log cannot be read.
+    /// If the log cannot be read.
     fn for_each_record(&self, take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> std::io::Result<()>;
 }
 
@@ -29,20 +29,20 @@ impl TelemetryLog for Vec<u8> {
     }
 }
 
-/// Splits pieces of a log into records, by the same rules as [`TlogReader`].
+/// Splits chunks of a log into records, by the same rules as [`TlogReader`].
 #[derive(Debug, Clone, Default)]
 pub struct RecordSplitter {
     bytes: Vec<u8>,
     at: usize,
-    /// Bytes of the log before `bytes`.
+    /// Number of log bytes before `bytes`.
     before: u64,
     end_of_whole: u64,
-    /// Damage was met: the next record is the next one with a right checksum.
+    /// After corrupt data: search for the next record with a valid checksum.
     searching: bool,
 }
 
 impl RecordSplitter {
-    /// Takes the next piece and hands out the records that it completes.
+    /// Appends a chunk and calls `take` with the records that are now certain to be complete.
     pub fn feed(&mut self, piece: &[u8], take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> ControlFlow<()> {
         self.bytes.drain(..self.at);
         self.before += self.at as u64;
@@ -51,18 +51,18 @@ impl RecordSplitter {
         self.split(RECORD_MOST, take)
     }
 
-    /// Hands out the last records: the log has ended.
+    /// Calls `take` with the remaining records at the end of the log.
     pub fn end(&mut self, take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> ControlFlow<()> {
         self.split(1, take)
     }
 
-    /// Length of the log up to the end of its last whole record so far, bytes.
+    /// Returns the length of the log up to the end of its last complete record so far, bytes.
     #[must_use]
     pub fn end_of_whole(&self) -> u64 {
         self.end_of_whole
     }
 
-    /// Splits while `least` bytes are left: with fewer a record might go on in the next piece.
+    /// Splits while at least `least` bytes remain; a record in fewer bytes may continue in the next chunk.
     fn split(&mut self, least: usize, take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> ControlFlow<()> {
         let Self { bytes, at, before, end_of_whole, searching } = self;
         while bytes.len() - *at >= least {

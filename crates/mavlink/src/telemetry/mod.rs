@@ -1,6 +1,6 @@
-//! What came over the wire, made into frames: a MAVLink frame becomes a [`sample::Sample`], samples become a
-//! [`timeline::Flight`] (sorted, gaps known), and a flight is read at the scorer's rate as [`frame::Frame`]s. [`tlog`] is the
-//! file format in between, [`log_stream`] reads it in pieces. Read by monitor, pilot, view and report; knows nothing of the scoring.
+//! Telemetry processing: a MAVLink frame becomes a [`sample::Sample`], samples become a [`timeline::Flight`] (sorted, with known
+//! gaps), and a flight is resampled at the scoring rate into [`frame::Frame`]s. [`tlog`] is the log file format; [`log_stream`]
+//! reads it in chunks. Monitor, pilot, view and report use this module. It does not depend on scoring.
 
 pub mod frame;
 pub mod log_stream;

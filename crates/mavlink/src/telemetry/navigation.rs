@@ -1,5 +1,4 @@
-//! Wind and the autopilot's estimated position. No score uses them, so scoring keeps no memory for them: they are read for the export
-//! alone.
+//! Wind and the autopilot's estimated position. Scoring uses neither, so they are read for the export only.
 
 use super::frame::INTERPOLATED_UP_TO;
 use super::sample::FrameHeader;
@@ -11,11 +10,12 @@ use spandrel_model::frames::{Enu, Ned, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::time::SimTime;
 
-/// Component id of the autopilot, the only one that estimates the vehicle's position.
+/// Component ID of the autopilot, the only component that estimates the vehicle's position.
 const AUTOPILOT: u8 = 1;
-/// A message's own clock is believed within this span of the truth's; otherwise it takes the time of the truth before it.
+/// Maximum difference from truth time at which a message's own timestamp is used; otherwise the message gets the time of the
+/// preceding truth sample.
 const OWN_CLOCK_WITHIN: SimTime = SimTime::from_ms(2_000);
-/// Wind older than this is not shown: it is sent once a second, and one message may be lost (estimate).
+/// Maximum age of a wind report: it is sent once per second, and one message may be lost (estimate).
 const WIND_LASTS: SimTime = SimTime::from_ms(2_500);
 
 /// Wind and estimated position of one flight.
@@ -26,8 +26,8 @@ pub struct Navigation {
 }
 
 impl Navigation {
-    /// Returns the estimated position at `time`, interpolated between two reports at most 1 s apart, m. `None` outside of them, and across a
-    /// respawn.
+    /// Returns the estimated position at `time`, interpolated between two reports at most 1 s apart, m. `None` outside of them,
+    /// and across a respawn.
     #[must_use]
     pub fn estimate_m(&self, flight: &Flight, time: SimTime) -> Option<Vec3<Enu>> {
         let reports = self.estimate_m.all();
@@ -51,7 +51,7 @@ impl Navigation {
     }
 }
 
-/// Collects wind and estimated position from a log while a timeline reads it.
+/// Collects wind and estimated positions from a log while a timeline reads it.
 #[derive(Debug)]
 pub struct NavigationReader {
     plane: LocalPlane,
@@ -60,13 +60,14 @@ pub struct NavigationReader {
 }
 
 impl NavigationReader {
-    /// Creates a reader; positions are taken in `plane`.
+    /// Creates a reader that converts positions by `plane`.
     #[must_use]
     pub fn new(plane: LocalPlane) -> Self {
         Self { plane, epochs: Vec::new(), count: 0 }
     }
 
-    /// Takes a frame that `timeline` has just taken. Ignores all but GLOBAL_POSITION_INT and WIND_COV of the vehicle's autopilot.
+    /// Processes a frame that `timeline` has just processed. Ignores all messages but GLOBAL_POSITION_INT and WIND_COV from the
+    /// vehicle's autopilot.
     pub fn take(&mut self, frame: &[u8], timeline: &Timeline) {
         let Some(header) = FrameHeader::peek(frame) else { return };
         let wanted = matches!(header.message_id, GLOBAL_POSITION_INT_DATA::ID | WIND_COV_DATA::ID);
@@ -84,7 +85,7 @@ impl NavigationReader {
         }
     }
 
-    /// Returns what was collected of one of the timeline's epochs, in the order of time.
+    /// Returns the data collected in one epoch of the timeline, sorted by time.
     #[must_use]
     pub fn of(mut self, epoch: usize) -> Navigation {
         let mut navigation = if epoch < self.epochs.len() { self.epochs.swap_remove(epoch) } else { Navigation::default() };

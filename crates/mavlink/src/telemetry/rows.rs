@@ -1,12 +1,12 @@
-//! A list that only grows and is never copied: a vector that doubles keeps two copies of a flight in memory while it moves.
+//! An append-only list whose rows are never moved: a growing vector holds two copies of a flight while it reallocates.
 
-/// Rows in one block.
+/// Rows per block.
 const BLOCK: usize = 1_024;
 
-/// Rows in the order in which they came.
+/// Rows in insertion order.
 #[derive(Debug, Clone)]
 pub struct Rows<T> {
-    /// All but the last are full.
+    /// All blocks but the last are full.
     blocks: Vec<Vec<T>>,
 }
 
@@ -17,7 +17,7 @@ impl<T> Default for Rows<T> {
 }
 
 impl<T> Rows<T> {
-    /// Adds a row.
+    /// Appends a row.
     pub fn push(&mut self, row: T) {
         match self.blocks.last_mut() {
             Some(block) if block.len() < BLOCK => block.push(row),
@@ -29,7 +29,7 @@ impl<T> Rows<T> {
         }
     }
 
-    /// All rows.
+    /// Iterates over all rows.
     pub fn iter(&self) -> impl Iterator<Item = &T> {
         self.blocks.iter().flatten()
     }

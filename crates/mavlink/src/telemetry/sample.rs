@@ -1,5 +1,5 @@
-//! One MAVLink frame -> one [`Sample`], if it says anything that the timeline keeps. The header is looked at first, so that the
-//! many frames of no interest cost a few nanoseconds. Wire units (degE7, mm, cm/s, µs, permille) stop here.
+//! Converts one MAVLink frame to a [`Sample`] if it contains data that the timeline keeps. The header is checked first, so that
+//! the many irrelevant frames cost only a few nanoseconds. Wire units (degE7, mm, cm/s, µs, permille) are converted here.
 
 use crate::contract::contact::ContactKind;
 use crate::contract::modes::ControlSource;
@@ -20,86 +20,86 @@ use spandrel_model::time::SimTime;
 /// Content of a sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SampleContent {
-    /// Truth; its clock is the one clock.
+    /// Ground truth; its timestamp is the reference clock.
     Truth(Truth),
-    /// Anything else.
+    /// Any other value.
     Value(SampleValue),
 }
 
-/// Content of a sample other than truth. A timeline keeps hundreds of thousands of these, so a variant's payload is 8 bytes at most.
+/// Content of a sample other than truth. A timeline keeps hundreds of thousands of these, so payloads are limited to 8 bytes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SampleValue {
-    /// Sticks.
+    /// Stick positions.
     Sticks(Sticks),
-    /// Lamp on.
+    /// The lamp is on.
     Light(bool),
     /// Battery, %.
     Battery(f64),
-    /// What is touched from now on.
+    /// Current contact.
     Contact(ContactKind),
-    /// Onsets of contact since simulation start.
+    /// Number of contact onsets since simulation start.
     Hits(i32),
-    /// How often the drone was put back.
+    /// Number of respawns since simulation start.
     Respawns(i32),
-    /// When traffic was stopped (negative) or let go, ms since simulation start, as the wire says it.
+    /// Time when the bridges were closed to traffic (negative) or opened, ms since simulation start, as on the wire.
     Traffic(i32),
-    /// The session's seed.
+    /// Session seed.
     Seed(u64),
-    /// CRC of the scenario that the simulator runs.
+    /// CRC of the active scenario.
     ScenarioCrc(u32),
-    /// Nearest surface to the drone's centre, m.
+    /// Distance from the center of the drone to the nearest surface, m.
     Clearance(f64),
-    /// Gimbal pitch over the horizon, rad, up positive.
+    /// Gimbal pitch above the horizon, rad, up positive.
     GimbalPitch(f64),
     /// Horizontal field of view of the camera, rad.
     FieldOfView(f64),
-    /// Motors are armed.
+    /// Heartbeat of the autopilot.
     Beat {
-        /// Motors may turn.
+        /// The motors are armed.
         armed: bool,
-        /// What controls the aircraft.
+        /// Control source.
         by: ControlSource,
     },
-    /// The autopilot believes that it stands.
+    /// The autopilot reports that the aircraft is on the ground.
     OnGround(bool),
-    /// A picture with this running number was taken.
+    /// A photo with this index was taken.
     Snapshot(i32),
 }
 
-/// One message of interest.
+/// One decoded message that the timeline keeps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// System and component id of the sender.
+    /// System and component ID of the sender.
     pub sender: (u8, u8),
-    /// Sender's sequence number.
+    /// Sequence number assigned by the sender.
     pub sequence: u8,
-    /// The frame's checksum, to tell a duplicate from a later frame with the same number.
+    /// Checksum of the frame, to distinguish a duplicate from a later frame with the same sequence number.
     pub checksum: u16,
-    /// The time that the message itself carries.
+    /// Timestamp contained in the message.
     pub own_time: Option<SimTime>,
-    /// What it says.
+    /// The decoded value.
     pub content: SampleContent,
 }
 
-/// The part of a frame's header that routing and reading need.
+/// The parts of a frame header needed for routing and decoding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FrameHeader {
-    /// Message id.
+    /// Message ID.
     pub message_id: u32,
-    /// System and component id.
+    /// System and component ID of the sender.
     pub sender: (u8, u8),
     /// Sequence number.
     pub sequence: u8,
-    /// Where the payload starts.
+    /// Offset of the payload.
     pub payload_at: usize,
-    /// Where the payload ends and the checksum starts.
+    /// End of the payload and offset of the checksum.
     pub payload_end: usize,
-    /// Length of the whole frame.
+    /// Total length of the frame.
     pub total: usize,
 }
 
 impl FrameHeader {
-    /// Reads the header of the frame that `bytes` start with; the frame itself may be longer than `bytes`.
+    /// Parses the header of the frame at the start of `bytes`; the frame may extend beyond `bytes`.
     #[must_use]
     pub fn peek(bytes: &[u8]) -> Option<Self> {
         match bytes {
@@ -124,16 +124,16 @@ impl FrameHeader {
         Some(u16::from_le_bytes([tail[0], tail[1]]))
     }
 
-    /// The frame is of a kind that we can check, and its checksum is right.
+    /// Returns true if the message type is known and the checksum is valid.
     #[must_use]
     pub fn verified(frame: &[u8]) -> bool {
         let Some(header) = Self::peek(frame) else { return false };
-        // The dialect answers 0 for a message that it does not know.
+        // The dialect returns 0 for an unknown message.
         let extra = MavMessage::extra_crc(header.message_id);
         extra != 0 && header.checksum(frame) == frame.get(1..header.payload_end).map(|body| mavlink::calculate_crc(body, extra))
     }
 
-    /// False only when the frame is of a kind that we keep and its checksum is wrong.
+    /// Returns false only if the timeline keeps messages of this type and the checksum is invalid.
     #[must_use]
     pub fn is_plausible(frame: &[u8]) -> bool {
         match Self::peek(frame) {
@@ -143,7 +143,7 @@ impl FrameHeader {
     }
 }
 
-/// Messages that the timeline keeps.
+/// Returns true if the timeline keeps messages of this type.
 fn is_of_interest(message_id: u32) -> bool {
     matches!(
         message_id,
@@ -161,7 +161,7 @@ fn is_of_interest(message_id: u32) -> bool {
     )
 }
 
-/// The clock of a truth frame, since simulation start; `None` for other frames.
+/// Returns the timestamp of a truth frame since simulation start; `None` for other frames.
 #[must_use]
 pub fn truth_time(frame: &[u8]) -> Option<SimTime> {
     let header = FrameHeader::peek(frame)?;
@@ -172,7 +172,7 @@ pub fn truth_time(frame: &[u8]) -> Option<SimTime> {
     HIL_STATE_QUATERNION_DATA::deser(MavlinkVersion::V2, payload).ok().map(|truth| clock(truth.time_usec))
 }
 
-/// Reads one frame whose checksum has been checked. `None` when it says nothing that the timeline keeps.
+/// Decodes one frame with a verified checksum. `None` if it contains nothing that the timeline keeps.
 #[must_use]
 pub fn read(frame: &[u8], plane: &LocalPlane) -> Option<Sample> {
     let header = FrameHeader::peek(frame)?;
@@ -254,7 +254,7 @@ fn decode_value(header: &FrameHeader, payload: &[u8]) -> Option<(Option<SimTime>
     }
 }
 
-/// What of the named values the timeline keeps.
+/// Converts the named values that the timeline keeps.
 fn kept_value(named: Named) -> Option<SampleValue> {
     Some(match named {
         Named::Contact(contact) => SampleValue::Contact(contact),

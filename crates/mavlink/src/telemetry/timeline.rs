@@ -1,8 +1,8 @@
-//! Samples in the order of arrival -> a [`Flight`] in the order of time, with what the link did to them counted.
+//! Sorts samples from arrival order into a [`Flight`] in time order and counts link errors.
 //!
-//! The truth's clock is the one clock. A message with a time of its own keeps it when it is near the truth's; any other takes the
-//! time of the truth sample before it in its sender's numbering, so that shuffled or doubled datagrams change nothing. A clock that
-//! goes back is a restarted simulator: a new epoch begins, and the old one stays.
+//! Truth time is the reference clock. A message keeps its own timestamp if it is close to truth time; any other message gets the
+//! time of the preceding truth sample in its sender's sequence, so that reordered or duplicate datagrams change nothing. A clock
+//! that runs backward means that the simulator was restarted: a new epoch starts, and the previous one is kept.
 
 use super::log_stream::TelemetryLog;
 use super::rows::Rows;
@@ -17,40 +17,40 @@ use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::time::SimTime;
 use std::ops::ControlFlow;
 
-/// A message's own clock is believed within this span of the truth's.
+/// Maximum difference from truth time at which a message's own timestamp is used.
 const OWN_CLOCK_WITHIN: SimTime = SimTime::from_ms(2_000);
-/// The truth sample found by number is believed within this span of the one found by arrival.
+/// Maximum difference between the truth sample found by sequence number and the one found by arrival.
 const NUMBER_WITHIN: SimTime = SimTime::from_ms(500);
-/// A sequence number that seems this far back, or less, is a late frame; further back it is a big loss (numbers wrap at 256).
+/// A sequence number at most this far back is a late frame; further back it indicates a large loss (numbers wrap at 256).
 const LATE_WITHIN: i64 = 64;
-/// Component id of the monitor itself.
+/// Component ID of the monitor itself.
 const MONITOR_COMPONENT: u8 = 191;
-/// Clocks of 32-bit milliseconds start again after so long: 49.7 days.
+/// Period after which a clock of 32-bit milliseconds wraps: 49.7 days.
 const CLOCK_MS: i64 = 1 << 32;
 
-/// A time of 32-bit milliseconds as the clock of `near` has it: the one of its repetitions that lies nearest, none before zero.
+/// Unwraps a timestamp of 32-bit milliseconds to the value nearest to `near` that is not negative.
 fn unwrapped(own: SimTime, near: SimTime) -> SimTime {
     let rounds = (near.ms() - own.ms() + CLOCK_MS / 2).div_euclid(CLOCK_MS);
     // A clock at the end of its range saturates.
     SimTime::from_ms((own.ms() + CLOCK_MS * rounds.max(0)).min(i64::MAX / 1_000_000))
 }
 
-/// What the link did.
+/// Link statistics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct LinkCounts {
-    /// Frames of the vehicle's system taken in.
+    /// Frames received from the vehicle's system.
     pub frames: u64,
-    /// Sequence numbers never seen.
+    /// Frames lost, by sequence number.
     pub lost: u64,
-    /// Frames that came again.
+    /// Duplicate frames.
     pub duplicated: u64,
-    /// Frames that came after a later one.
+    /// Frames that arrived after a later one.
     pub reordered: u64,
-    /// Times that the simulator's clock went back for good.
+    /// Simulator restarts.
     pub restarts: u32,
 }
 
-/// One sender's numbering, unrolled.
+/// Unwrapped sequence numbers of one sender.
 #[derive(Debug, Clone, PartialEq)]
 struct SequenceUnwrapper {
     sender: (u8, u8),
@@ -66,12 +66,13 @@ enum FrameOrder {
 
 impl SequenceUnwrapper {
     fn new(sender: (u8, u8), sequence: u8) -> Self {
-        // High enough that late frames before the first keep positive numbers.
+        // High enough that late frames before the first one get positive numbers.
         let newest = 256 * 1_000 + i64::from(sequence) - 1;
         Self { sender, newest, newest_truth: -1, epochs: vec![(-1, 0); 256] }
     }
 
-    /// `ahead`: the frame is a truth later than all before; a number before the newest truth's cannot be its own.
+    /// `ahead`: the frame is a truth sample later than all previous ones, so its number cannot be below that of the latest truth
+    /// sample.
     fn place(&mut self, sequence: u8, checksum: u16, ahead: bool) -> FrameOrder {
         let difference = i64::from((i64::from(sequence) - self.newest).rem_euclid(256) as u8 as i8);
         let mut order = self.newest + difference;
@@ -94,24 +95,24 @@ impl SequenceUnwrapper {
     }
 }
 
-/// One sample with what is known of its place.
+/// One sample with the data that determines its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct TimedSample {
     value: SampleValue,
     order: i64,
-    /// Newest truth when it arrived.
+    /// Latest truth time on arrival.
     arrival: OptionalTime,
     own_time: OptionalTime,
     epoch: u32,
     sender: (u8, u8),
 }
 
-/// A time that may be unknown, in 8 bytes instead of the 16 of an `Option`.
+/// An optional time in 8 bytes instead of the 16 of an `Option`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct OptionalTime(i64);
 
 impl OptionalTime {
-    /// No clock on the wire reaches this: times begin at zero.
+    /// No wire timestamp has this value: times start at zero.
     const UNKNOWN: i64 = i64::MIN;
 
     fn of(time: Option<SimTime>) -> Self {
@@ -131,7 +132,7 @@ struct TruthEntry {
     sender: (u8, u8),
 }
 
-/// Takes frames as they come.
+/// Collects frames in arrival order.
 #[derive(Debug, Clone)]
 pub struct Timeline {
     plane: LocalPlane,
@@ -140,26 +141,26 @@ pub struct Timeline {
     entries: Rows<TimedSample>,
     suspects: Vec<TruthEntry>,
     newest: Option<SimTime>,
-    /// Last truth times of the epochs before.
+    /// Last truth times of the completed epochs.
     ended: Vec<SimTime>,
-    /// System that sends the truth.
+    /// System that sends the truth samples.
     system: Option<u8>,
     counts: LinkCounts,
 }
 
-/// What a pushed frame turned out to be.
+/// Result of processing a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FrameDisposition {
-    /// Nothing that is kept, or a duplicate.
+    /// The frame is not kept, or is a duplicate.
     Nothing,
-    /// A sample of the running epoch.
+    /// The frame is a sample of the current epoch.
     Kept(Sample),
-    /// The simulator has started again; this is the first truth that proves it.
+    /// The simulator was restarted; this is the truth sample that confirms it.
     Restarted(Sample),
 }
 
 impl Timeline {
-    /// An empty timeline; positions are taken in `plane`.
+    /// Creates an empty timeline that converts positions by `plane`.
     #[must_use]
     pub fn new(plane: LocalPlane) -> Self {
         Self {
@@ -175,40 +176,41 @@ impl Timeline {
         }
     }
 
-    /// Newest truth time of the running epoch.
+    /// Returns the latest truth time of the current epoch.
     #[must_use]
     pub fn newest(&self) -> Option<SimTime> {
         self.newest
     }
 
-    /// The system whose flight this is, once a truth has come: nothing that others send belongs to it.
+    /// Returns the system whose flight this is, known from the first truth sample. Messages from other systems are not part of
+    /// the flight.
     #[must_use]
     pub fn system(&self) -> Option<u8> {
         self.system
     }
 
-    /// Counts of the link so far.
+    /// Returns the link statistics so far.
     #[must_use]
     pub fn counts(&self) -> LinkCounts {
         self.counts
     }
 
-    /// Epochs so far: one more than the simulator's restarts.
+    /// Returns the number of epochs so far: one more than the number of restarts.
     #[must_use]
     pub fn simulator_runs(&self) -> usize {
         self.ended.len() + 1
     }
 
-    /// How long the epochs before this one took together, each from its clock's zero to its last truth.
+    /// Returns the total duration of the epochs before `epoch`, each from time zero to its last truth sample.
     #[must_use]
     pub fn apply_pushed(&self, epoch: usize) -> SimTime {
         self.ended.iter().take(epoch).fold(SimTime::ZERO, |sum, last| sum + *last)
     }
 
-    /// Reads all whole records of a log.
+    /// Processes all complete records of a log.
     ///
     /// # Errors
-    /// When the log cannot be read.
+    /// If the log cannot be read.
     pub fn push_log(&mut self, log: &(impl TelemetryLog + ?Sized)) -> std::io::Result<()> {
         log.for_each_record(&mut |record| {
             self.push(record.frame);
@@ -216,13 +218,13 @@ impl Timeline {
         })
     }
 
-    /// Takes one whole frame.
+    /// Processes one complete frame.
     pub fn push(&mut self, frame: &[u8]) -> FrameDisposition {
         let Some(header) = FrameHeader::peek(frame) else { return FrameDisposition::Nothing };
         if header.sender.1 == MONITOR_COMPONENT || frame.len() < header.payload_end + 2 {
             return FrameDisposition::Nothing;
         }
-        // Other systems' words are routed here too; once the vehicle is known they are nothing to the flight.
+        // Messages from other systems are routed here too. They are ignored once the vehicle is known.
         let sample = sample::read(frame, &self.plane).filter(|s| self.system.is_none_or(|system| system == s.sender.0));
         let checksum = u16::from_le_bytes([frame[header.payload_end], frame[header.payload_end + 1]]);
         let ahead = matches!(sample.map(|s| s.content), Some(SampleContent::Truth(truth)) if self.newest.is_none_or(|newest| truth.time > newest));
@@ -241,7 +243,7 @@ impl Timeline {
             self.sequencers.push(SequenceUnwrapper::new(header.sender, header.sequence));
             self.sequencers.len() - 1
         });
-        // Ground stations reach the monitor in part only; their numbers have gaps that are no loss.
+        // Only some ground station frames are routed to the monitor, so gaps in their sequence numbers are not losses.
         let counted = self.system == Some(header.sender.0);
         match self.sequencers[index].place(header.sequence, checksum, ahead) {
             FrameOrder::Duplicate => {
@@ -252,7 +254,7 @@ impl Timeline {
                 if counted {
                     self.counts.frames += 1;
                     self.counts.reordered += u64::from(late);
-                    // A late frame was counted as lost when the later one came.
+                    // A late frame was counted as lost when the later one arrived.
                     self.counts.lost = self.counts.lost.saturating_add_signed(skipped);
                 }
                 Some(order)
@@ -276,7 +278,7 @@ impl Timeline {
             self.suspects.push(entry);
             return if self.suspects.len() < RESTART_CONFIRM { FrameDisposition::Kept(sample) } else { self.restart(sample) };
         }
-        // Stragglers after all: they belong where their time says.
+        // These were late frames rather than a restart; they are sorted by their timestamps.
         self.truths.extend(self.suspects.drain(..));
         self.truths.push(entry);
         self.newest = Some(self.newest.map_or(truth.time, |newest| newest.max(truth.time)));
@@ -284,7 +286,7 @@ impl Timeline {
     }
 
     fn epoch(&self) -> u32 {
-        // Each restart takes several frames: no log is long enough for the count to saturate.
+        // A restart takes several frames, so no log is long enough for the count to saturate.
         u32::try_from(self.ended.len()).unwrap_or(u32::MAX)
     }
 
@@ -297,7 +299,7 @@ impl Timeline {
         FrameDisposition::Restarted(sample)
     }
 
-    /// The flight of one epoch, in the order of time.
+    /// Returns the flight of one epoch, sorted by time.
     #[must_use]
     pub fn flight(&self, epoch: usize) -> Flight {
         let mut flight = Flight { ended_by_restart: epoch < self.ended.len(), ..Flight::default() };
@@ -315,17 +317,17 @@ impl Timeline {
     }
 }
 
-/// Key by which truths are found for other messages of the same sender.
+/// Sort key to look up the truth samples of a sender by sequence number.
 fn numbering(entry: &TruthEntry) -> ((u8, u8), i64, SimTime) {
     (entry.sender, entry.order, entry.truth.time)
 }
 
-/// Returns the time of a sample; `numbered` are the flight's truths by [`numbering`].
+/// Returns the time of a sample; `numbered` contains the truth samples of the flight, sorted by [`numbering`].
 fn time_of(entry: &TimedSample, numbered: &[&TruthEntry]) -> SimTime {
     let near = |a: SimTime, b: SimTime, within: SimTime| a.saturating_sub(b) <= within && b.saturating_sub(a) <= within;
     let arrival = entry.arrival.get();
     if let Some(own) = entry.own_time.get() {
-        // A picture that was missed is sent again much later and still says when it was taken.
+        // A lost photo message is sent again much later with its original timestamp.
         let late = matches!(entry.value, SampleValue::Snapshot(_)) && arrival.is_some_and(|arrival| own <= arrival);
         if late || arrival.is_none_or(|arrival| near(own, arrival, OWN_CLOCK_WITHIN)) {
             return own;
@@ -339,42 +341,42 @@ fn time_of(entry: &TimedSample, numbered: &[&TruthEntry]) -> SimTime {
     }
 }
 
-/// One flight, in the order of time.
+/// One flight, sorted by time.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Flight {
-    /// Truth samples, strictly rising in time.
+    /// Truth samples with strictly increasing times.
     pub truths: Vec<Truth>,
-    /// Forward, right, up, clockwise.
+    /// Stick positions: forward, right, up, clockwise, each in [-1, 1].
     pub sticks: Signal<[f64; 4]>,
-    /// Lamp.
+    /// The lamp is on.
     pub light: Signal<bool>,
     /// Battery, %.
     pub battery: Signal<f64>,
     /// Contact.
     pub contact: Signal<ContactKind>,
-    /// Cumulative onsets.
+    /// Number of contact onsets.
     pub hits: Signal<i32>,
-    /// Cumulative respawns.
+    /// Number of respawns.
     pub respawns: Signal<i32>,
-    /// When traffic was stopped and let go, as the wire says it.
+    /// Times when the bridges were closed to traffic and opened, as on the wire.
     pub traffic: Signal<i32>,
-    /// Nearest surface, m.
+    /// Distance to the nearest surface, m.
     pub clearance: Signal<f64>,
     /// Gimbal pitch, rad.
     pub gimbal: Signal<f64>,
-    /// The camera's horizontal field of view, rad.
+    /// Horizontal field of view of the camera, rad.
     pub field_of_view: Signal<f64>,
-    /// Armed.
+    /// The motors are armed.
     pub armed: Signal<bool>,
-    /// Who flies, to the second of the heartbeat.
+    /// Control source, at the rate of the heartbeat (1 s).
     pub flown_by: Signal<ControlSource>,
-    /// Autopilot says on the ground.
+    /// The autopilot reports that the aircraft is on the ground.
     pub on_ground: Signal<bool>,
-    /// Pictures taken, once each: number, and when by the camera's own clock.
+    /// Photos, once each: index, and time by the camera's own clock.
     pub snapshots: Signal<(i32, Option<SimTime>)>,
-    /// Seeds announced.
+    /// Published session seeds.
     pub seeds: Signal<u64>,
-    /// Scenario CRCs announced.
+    /// Published scenario CRCs.
     pub scenario_crcs: Signal<u32>,
     /// The simulator was restarted after this flight.
     pub ended_by_restart: bool,
@@ -402,7 +404,8 @@ impl Flight {
             }
             SampleValue::OnGround(v) => self.on_ground.push(time, order, v),
             SampleValue::Snapshot(v) => {
-                // A picture sent again keeps its number and its time; the earliest report of it stands. On a formatted card numbers begin again.
+                // A repeated photo message has the same index and time; the first report is kept. Formatting the card resets the
+                // index.
                 let picture = (v, entry.own_time.get());
                 match self.snapshots.all_mut().iter_mut().find(|known| known.2 == picture) {
                     Some(known) => known.0 = known.0.min(time),

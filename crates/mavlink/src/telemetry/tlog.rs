@@ -1,24 +1,24 @@
-//! The telemetry log: one record per MAVLink frame, an 8-byte big-endian stamp in microseconds since the Unix epoch and then the
-//! frame as it came. QGroundControl, Mission Planner and MAVProxy open it.
+//! The telemetry log: one record per MAVLink frame, consisting of an 8-byte big-endian timestamp in microseconds since the Unix
+//! epoch and the unmodified frame. Compatible with QGroundControl, Mission Planner and MAVProxy.
 //!
-//! A file may end anywhere (a killed monitor): every whole record is read and the rest is left alone. Damage in the middle costs
-//! the damaged records only.
+//! A file may be truncated at any byte, for example if the monitor was killed: all complete records are read and the remainder is
+//! ignored. Corrupt data in the middle affects only the damaged records.
 
 use super::sample::FrameHeader;
 
-/// Bytes before each frame.
+/// Length of the timestamp before each frame, bytes.
 pub const STAMP_BYTES: usize = 8;
 
 /// One record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TlogRecord<'a> {
-    /// Microseconds since the Unix epoch: session start plus simulation time.
+    /// Timestamp: session start plus simulation time, microseconds since the Unix epoch.
     pub stamp_us: u64,
     /// The MAVLink frame.
     pub frame: &'a [u8],
 }
 
-/// The bytes of one record.
+/// Encodes one record.
 #[must_use]
 pub fn record(stamp_us: u64, frame: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(STAMP_BYTES + frame.len());
@@ -27,7 +27,7 @@ pub fn record(stamp_us: u64, frame: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// Reads the whole records of a log, in file order.
+/// Reads the complete records of a log in file order.
 #[derive(Debug, Clone)]
 pub struct TlogReader<'a> {
     bytes: &'a [u8],
@@ -37,19 +37,20 @@ pub struct TlogReader<'a> {
 }
 
 impl<'a> TlogReader<'a> {
-    /// A reader at the start of `bytes`.
+    /// Creates a reader at the start of `bytes`.
     #[must_use]
     pub fn new(bytes: &'a [u8]) -> Self {
         Self { bytes, at: 0, end_of_whole: 0, skipped: 0 }
     }
 
-    /// Length up to the end of the last whole record read so far: where a restarted monitor cuts the file and goes on.
+    /// Returns the length up to the end of the last complete record read so far, where a restarted monitor truncates the file and
+    /// continues.
     #[must_use]
     pub fn end_of_whole(&self) -> usize {
         self.end_of_whole
     }
 
-    /// Bytes that belonged to no record, so far.
+    /// Returns the number of bytes so far that belonged to no record.
     #[must_use]
     pub fn skipped(&self) -> usize {
         self.skipped
@@ -59,14 +60,14 @@ impl<'a> TlogReader<'a> {
         record_at(self.bytes, at)
     }
 
-    /// Where the next record starts: here, or after damage at the next place whose frame carries a right checksum.
+    /// Returns the offset of the next record: the current one or, after corrupt data, the next one with a valid checksum.
     fn resynchronise(&self) -> Option<usize> {
         (self.at + 1..self.bytes.len())
             .find(|at| self.record_at(*at).is_some_and(|(record, _)| FrameHeader::verified(record.frame)))
     }
 }
 
-/// The record that starts at `at`, and where it ends.
+/// Parses the record at offset `at` and returns it with its end offset.
 pub(super) fn record_at(bytes: &[u8], at: usize) -> Option<(TlogRecord<'_>, usize)> {
     let stamp = bytes.get(at..at + STAMP_BYTES)?;
     let rest = &bytes[at + STAMP_BYTES..];
@@ -86,7 +87,7 @@ impl<'a> Iterator for TlogReader<'a> {
             self.at = next;
         }
         let (record, end) = self.record_at(self.at)?;
-        // A right magic byte after a wrong length leads into the middle of a record; the checksum of what is known tells.
+        // A matching magic byte after a wrong length may lie inside a record; the checksum of known messages detects this.
         if !FrameHeader::is_plausible(record.frame) {
             let next = self.resynchronise()?;
             self.skipped += next - self.at;
@@ -99,7 +100,7 @@ impl<'a> Iterator for TlogReader<'a> {
     }
 }
 
-/// Length of the part of a log that holds whole records: cut here before appending.
+/// Returns the length of the part of a log that contains complete records. Truncate here before appending.
 #[must_use]
 pub fn complete_len(bytes: &[u8]) -> usize {
     let mut reader = TlogReader::new(bytes);
@@ -107,19 +108,21 @@ pub fn complete_len(bytes: &[u8]) -> usize {
     reader.end_of_whole()
 }
 
-/// Unix time of a log's beginning, µs; `None` for an empty log.
+/// Returns the Unix time of the first record of a log, µs; `None` for an empty log.
 #[must_use]
 pub fn session_start_us(bytes: &[u8]) -> Option<u64> {
     TlogReader::new(bytes).next().map(|first| first.stamp_us)
 }
 
-/// Unix time of simulation time zero, µs: the stamp of a log's first truth less the truth's own time; `None` for a log without one.
+/// Returns the Unix time of simulation time zero, µs: the timestamp of the first truth record minus its simulation time. `None`
+/// for a log without truth.
 #[must_use]
 pub fn simulation_zero_us(bytes: &[u8]) -> Option<u64> {
     TlogReader::new(bytes).find_map(|record| zero_us(&record))
 }
 
-/// Unix time of simulation time zero, µs, by one record: its stamp less the truth's own time; `None` unless it is a truth.
+/// Returns the Unix time of simulation time zero, µs, from one record: its timestamp minus its simulation time. `None` if it is
+/// not a truth record.
 #[must_use]
 pub fn zero_us(record: &TlogRecord<'_>) -> Option<u64> {
     let time = super::sample::truth_time(record.frame)?;

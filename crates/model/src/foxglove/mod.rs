@@ -1,7 +1,8 @@
-//! What is logged for Foxglove: its well-known messages as JSON, by the names that it looks for (Frame transforms, location fix, log,
-//! camera calibration, scene update; <https://docs.foxglove.dev/docs/sdk/schemas>), and two of our own.
+//! Messages for Foxglove: its well-known message types as JSON, by schema name (frame transforms, location fix, log, camera
+//! calibration, scene update; <https://docs.foxglove.dev/docs/sdk/schemas>), and two custom types.
 //!
-//! Frames: `site` is east, north, up about the scenario's origin, m; `drone` forward, left, up; `camera` right, down, ahead.
+//! Frames: `site` is east, north, up about the scenario origin, m; `drone` is forward, left, up; `camera` is right, down,
+//! forward.
 
 mod schema;
 
@@ -10,46 +11,46 @@ use super::geodesy::Geo;
 use nalgebra::{Quaternion, UnitQuaternion};
 use serde_json::{Value, json};
 
-/// Where the drone is believed to be.
+/// Frame of the estimated aircraft pose.
 pub const BELIEVED: &str = "drone_estimate";
-/// Where it is.
+/// Frame of the true aircraft pose.
 pub const DRONE: &str = "drone";
-/// Its camera.
+/// Camera frame.
 pub const CAMERA: &str = "camera";
-/// East, north, up.
+/// Site frame: east, north, up.
 pub const SITE: &str = "site";
 
-/// What a message is about; the number is its place in [`CHANNELS`].
+/// Message topic; the value is the index into [`CHANNELS`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Topic {
-    /// Frames of drone and camera.
+    /// Transforms of the drone and camera frames.
     Transforms = 0,
-    /// Where the vehicle believes to be on the globe.
+    /// Estimated geographic position.
     Fix,
-    /// Texts.
+    /// Log messages.
     Log,
-    /// Lens.
+    /// Camera calibration.
     Camera,
-    /// The site's geometry.
+    /// Site geometry.
     Site,
-    /// Battery.
+    /// Battery state.
     Battery,
-    /// Clearance, light, contact.
+    /// Clearance, light and contact.
     Scoring,
 }
 
-/// A channel: topic, name of its schema, and the schema.
+/// A channel: a topic and its schema.
 #[derive(Debug, Clone, Copy)]
 pub struct Channel {
-    /// Name of the topic.
+    /// Topic name.
     pub topic: &'static str,
-    /// Name of the schema.
+    /// Schema name.
     pub schema: &'static str,
     fields: fn() -> Value,
 }
 
 impl Channel {
-    /// JSON schema of its messages.
+    /// Returns the JSON schema of the channel's messages.
     #[must_use]
     pub fn json_schema(&self) -> String {
         let mut schema = (self.fields)();
@@ -69,14 +70,14 @@ pub const CHANNELS: [Channel; 7] = [
     Channel { topic: "/scoring", schema: "spandrel.Scoring", fields: schema::scoring },
 ];
 
-/// One message.
+/// One message on a channel.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ChannelMessage {
-    /// What it is about.
+    /// Topic of the message.
     pub topic: Topic,
     /// UTC, nanoseconds since the Unix epoch.
     pub unix_ns: u64,
-    /// The message.
+    /// Message content.
     pub json: String,
 }
 
@@ -99,19 +100,20 @@ fn enu_from_ned() -> UnitQuaternion<f64> {
 }
 
 impl FramePose {
-    /// Of a drone.
+    /// Creates the pose of a drone.
     #[must_use]
     pub fn drone(position_m: Vec3<Ned>, attitude: Rotation<Frd, Ned>) -> Self {
-        // Half a turn about the nose.
+        // Half a turn about the forward axis.
         let frd_from_flu = UnitQuaternion::new_unchecked(Quaternion::new(0.0, 1.0, 0.0, 0.0));
         let rotation = enu_from_ned() * attitude.raw() * frd_from_flu;
         Self { position_m: position_m.enu().array(), rotation }
     }
 
-    /// Of a level camera at `pitch_rad` about the horizon, whose lens sits at `lens_m` of the drone.
+    /// Creates the pose of a roll-stabilized camera at `pitch_rad` above the horizon, with the lens at `lens_m` in the body
+    /// frame.
     #[must_use]
     pub fn camera(position_m: Vec3<Ned>, attitude: Rotation<Frd, Ned>, lens_m: Vec3<Frd>, pitch_rad: f64) -> Self {
-        // Right, down, ahead of what points ahead, right, down.
+        // Converts forward, right, down to right, down, forward.
         let frd_from_optical = UnitQuaternion::new_unchecked(Quaternion::new(0.5, 0.5, 0.5, 0.5));
         let looks = Rotation::from_euler(0.0, pitch_rad, attitude.yaw_rad());
         let rotation = enu_from_ned() * looks.raw() * frd_from_optical;
@@ -127,7 +129,7 @@ fn xyz([x, y, z]: [f64; 3]) -> Value {
     json!({ "x": x, "y": y, "z": z })
 }
 
-/// Frames in `site`.
+/// Creates the transforms of frames in `site`.
 #[must_use]
 pub fn transforms(unix_ns: u64, frames: &[(&str, FramePose)]) -> ChannelMessage {
     let one = |(name, pose): &(&str, FramePose)| {
@@ -143,7 +145,7 @@ pub fn transforms(unix_ns: u64, frames: &[(&str, FramePose)]) -> ChannelMessage 
     ChannelMessage::new(Topic::Transforms, unix_ns, &json!({ "transforms": frames.iter().map(one).collect::<Vec<_>>() }))
 }
 
-/// A place on the globe with its accuracy, m (1 sigma).
+/// Creates a location fix with its accuracy, m (1 sigma).
 #[must_use]
 pub fn fix(unix_ns: u64, geo: Geo, horizontal_m: f64, vertical_m: f64) -> ChannelMessage {
     let (h, v) = (horizontal_m * horizontal_m, vertical_m * vertical_m);
@@ -160,7 +162,7 @@ pub fn fix(unix_ns: u64, geo: Geo, horizontal_m: f64, vertical_m: f64) -> Channe
     ChannelMessage::new(Topic::Fix, unix_ns, &value)
 }
 
-/// A text with MAVLink's severity (0 emergency to 7 debug).
+/// Creates a log message with MAVLink's severity (0 emergency to 7 debug).
 #[must_use]
 pub fn log(unix_ns: u64, severity: u8, text: &str) -> ChannelMessage {
     // FATAL 5, ERROR 4, WARNING 3, INFO 2, DEBUG 1
@@ -175,7 +177,7 @@ pub fn log(unix_ns: u64, severity: u8, text: &str) -> ChannelMessage {
     ChannelMessage::new(Topic::Log, unix_ns, &value)
 }
 
-/// An ideal pinhole: focal length, width and height of its picture, px.
+/// Creates the calibration of an ideal pinhole camera: focal length, image width and height, px.
 #[must_use]
 pub fn camera(unix_ns: u64, focal_px: f64, (width_px, height_px): (u32, u32)) -> ChannelMessage {
     let (f, w, h) = (focal_px, width_px, height_px);
@@ -194,7 +196,7 @@ pub fn camera(unix_ns: u64, focal_px: f64, (width_px, height_px): (u32, u32)) ->
     ChannelMessage::new(Topic::Camera, unix_ns, &value)
 }
 
-/// The site as a model that is shown for good; `glb_base64` is binary glTF.
+/// Creates a permanent scene update with the site's model; `glb_base64` is binary glTF.
 #[must_use]
 pub fn site(unix_ns: u64, glb_base64: &str) -> ChannelMessage {
     let none: [Value; 0] = [];
@@ -222,7 +224,7 @@ pub fn site(unix_ns: u64, glb_base64: &str) -> ChannelMessage {
     ChannelMessage::new(Topic::Site, unix_ns, &value)
 }
 
-/// Battery: V and A where they are known, and what is left, %.
+/// Creates a battery state: voltage and current, V and A, if known, and remaining charge, %.
 #[must_use]
 pub fn battery(unix_ns: u64, volts_amperes: Option<(f64, f64)>, remaining_pct: f64) -> ChannelMessage {
     let value = json!({
@@ -234,18 +236,18 @@ pub fn battery(unix_ns: u64, volts_amperes: Option<(f64, f64)>, remaining_pct: f
     ChannelMessage::new(Topic::Battery, unix_ns, &value)
 }
 
-/// What the scores are made of.
+/// Signals used for scoring.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ScoringSignals {
-    /// Nearest surface to the drone's centre, m.
+    /// Distance from the center of the drone to the nearest surface, m.
     pub clearance_m: f64,
-    /// Light at the drone, lux, if known.
+    /// Ambient light at the drone, lx, if known.
     pub lux: Option<f64>,
-    /// What it touches, in a word.
+    /// Contact label.
     pub contact: &'static str,
-    /// Contacts so far.
+    /// Number of contacts so far.
     pub hits: i32,
-    /// Times put back.
+    /// Number of respawns so far.
     pub respawns: i32,
     /// The lamp is on.
     pub lamp_on: bool,
@@ -253,10 +255,10 @@ pub struct ScoringSignals {
     pub speed_m_s: f64,
 }
 
-/// What the scores are made of, as a message.
+/// Creates a message with the scoring signals.
 #[must_use]
 pub fn scoring(unix_ns: u64, s: &ScoringSignals) -> ChannelMessage {
-    // JSON has no infinity; nothing within reach is no distance.
+    // JSON has no infinity: null means that no surface is within range.
     let clearance = if s.clearance_m.is_finite() { json!(s.clearance_m) } else { Value::Null };
     let value = json!({
         "timestamp": time(unix_ns),
@@ -295,7 +297,7 @@ mod tests {
         same(turned(&drone, [1.0, 0.0, 0.0]), [1.0, 0.0, 0.0]);
         same(turned(&drone, [0.0, 1.0, 0.0]), [0.0, 1.0, 0.0]);
         same(turned(&drone, [0.0, 0.0, 1.0]), [0.0, 0.0, 1.0]);
-        // Straight up at a soffit: ahead is up, the picture's top is behind.
+        // Looking straight up at a soffit: forward points up, and the image's top points backward.
         let up = FramePose::camera(Vec3::zero(), east, Vec3::new(0.1, 0.0, 0.0), std::f64::consts::FRAC_PI_2);
         same(up.position_m, [0.1, 0.0, 0.0]);
         same(turned(&up, [0.0, 0.0, 1.0]), [0.0, 0.0, 1.0]);
@@ -305,7 +307,7 @@ mod tests {
         same(turned(&level, [0.0, 1.0, 0.0]), [0.0, 0.0, -1.0]);
     }
 
-    /// Every field of a message is in its schema, with its type, and the other way round.
+    /// Checks that a message and its schema have the same fields with the same types.
     fn fits(value: &Value, schema: &Value, at: &str) {
         match (schema["type"].as_str().expect("typed"), value) {
             ("object", Value::Object(fields)) => {

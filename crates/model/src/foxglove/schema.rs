@@ -1,4 +1,4 @@
-//! JSON schemas of the messages: by them Foxglove knows which fields there are.
+//! JSON schemas of the messages, which define their fields for Foxglove.
 
 use serde_json::{Value, json};
 
@@ -95,7 +95,7 @@ pub(super) fn site() -> Value {
         ("frame_locked", kind("boolean")),
         ("metadata", list(&pair)),
     ];
-    // Foxglove wants every list of shapes named; none but models is used.
+    // Foxglove requires all shape lists; only models are used.
     let shapes = ["arrows", "cubes", "spheres", "cylinders", "lines", "triangles", "texts"];
     fields.extend(shapes.map(|name| (name, list(&object(&[])))));
     fields.push(("models", list(&model)));

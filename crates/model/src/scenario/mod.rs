@@ -1,6 +1,6 @@
-//! The job: one TOML file per job in `scenarios/`, read into validated types. Everything here is plain data in SI units and,
-//! where a position, in the local frame [`Enu`] about the scenario origin (x east, y north, z up; up = 0 at the origin's altitude).
-//! scenarios/README.md documents every key; a test checks it against this code.
+//! The job: one TOML file per job in `scenarios/`, parsed into validated types. All values are in SI units; positions are in the
+//! local frame [`Enu`] at the scenario origin (x east, y north, z up; up = 0 at the origin's altitude). scenarios/README.md
+//! documents every key; a test checks it against this code.
 
 pub mod bridges;
 mod read;
@@ -18,29 +18,29 @@ use crate::time::SimTime;
 /// A validated job.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scenario {
-    /// Machine name, `[a-z0-9-]+`, used in session folder names.
+    /// Machine-readable name, `[a-z0-9-]+`, used in session folder names.
     pub name: String,
-    /// One line for people.
+    /// One-line display title.
     pub title: String,
-    /// Seed for everything random (defects, traffic, gusts, sensors); `None`: another one every session.
+    /// Seed for everything random (defects, traffic, gusts, sensors); `None`: a new seed for each session.
     pub seed: Option<u64>,
-    /// Where the local frame sits on the earth.
+    /// Geographic position of the local frame's origin.
     pub origin: Geo,
     /// Ground and water.
     pub terrain: TerrainSpec,
-    /// Inspector, truck and pad.
+    /// Inspector, truck and landing pad.
     pub ground_team: GroundTeam,
     /// The bridges, in file order.
     pub bridges: Vec<Bridge>,
-    /// The tasks, in file order; their index is the scorer's t.
+    /// The tasks, in file order; the index is t in the scoring formulas.
     pub tasks: Vec<Task>,
-    /// Defects to place.
+    /// Defect settings.
     pub defects: DefectSpec,
-    /// Cars, trucks, pedestrians.
+    /// Traffic settings.
     pub traffic: TrafficSpec,
-    /// Wind.
+    /// Wind settings.
     pub wind: WindSpec,
-    /// Sun, sky and water light.
+    /// Sun, cloud cover and surface reflection.
     pub light: LightSpec,
     /// Session rules.
     pub rules: SessionRules,
@@ -48,32 +48,32 @@ pub struct Scenario {
     pub feedback: FeedbackThresholds,
     /// Scoring parameters.
     pub scoring: ScoringParams,
-    /// CRC-32 (IEEE) of the file's bytes without the seed and placed defects: the wire's `scn_crc`.
+    /// CRC-32 (IEEE) of the file without seed and placed defects, sent as `scn_crc`.
     pub crc: u32,
 }
 
-/// Height field and water level.
+/// Height grid and water level.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TerrainSpec {
-    /// Side length of the square field centred on the origin, m.
+    /// Side length of the square terrain, centered on the origin, m.
     pub size_m: f64,
     /// Grid spacing, m.
     pub spacing_m: f64,
-    /// Water surface, m up.
+    /// Water level, m up.
     pub water_level_m: f64,
-    /// Where heights come from.
+    /// Source of the heights.
     pub source: TerrainSource,
 }
 
-/// Where the height field comes from.
+/// Source of the terrain heights.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TerrainSource {
-    /// Flat ground at one height, m up.
+    /// Level ground at one height.
     Flat {
         /// Height, m up.
         height_m: f64,
     },
-    /// A lake valley between mountains, from a seed of its own (the site is the same in every session).
+    /// A lake valley between mountains, generated from a separate seed (the terrain is the same in every session).
     Valley {
         /// Terrain seed.
         seed: u64,
@@ -81,51 +81,51 @@ pub enum TerrainSource {
         lake_width_m: f64,
         /// Direction of the valley's axis, degrees clockwise from north.
         axis_deg: f64,
-        /// Height of the mountains over the water, m.
+        /// Height of the mountains above the water, m.
         relief_m: f64,
-        /// Deepest point of the lake under the water level, m.
+        /// Depth of the lake at its deepest point, m.
         lake_depth_m: f64,
     },
-    /// Heights read from a file beside the scenario (rows south to north, columns west to east, metres up, comma separated).
+    /// Heights read from a file next to the scenario (rows south to north, columns west to east, meters up, comma-separated).
     File {
         /// Row-major heights, m up: `heights_m[row][column]`.
         heights_m: Vec<Vec<f64>>,
     },
 }
 
-/// The crew's place. The pad is level ground at `pad_m`; take-off and landing happen there.
+/// Positions of the ground crew. The landing pad is level at `pad_m`; takeoff and landing take place there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GroundTeam {
-    /// Centre of the pad's upper surface, m.
+    /// Center of the landing pad's upper surface, m.
     pub pad_m: Vec3<Enu>,
-    /// Heading of the drone on the pad, degrees clockwise from north.
+    /// Initial heading of the drone on the pad, degrees clockwise from north.
     pub pad_heading_deg: f64,
-    /// Half side of the level square pad, m.
+    /// Half side length of the square pad, m.
     pub pad_half_m: f64,
-    /// Feet of the inspector, m (counts as a person).
+    /// Position of the inspector's feet, m (contact type: person).
     pub inspector_m: Vec3<Enu>,
-    /// Truck: centre of its footprint on the ground, m (counts as a vehicle).
+    /// Center of the truck's footprint on the ground, m (contact type: vehicle).
     pub truck_m: Vec3<Enu>,
     /// Truck heading, degrees clockwise from north.
     pub truck_heading_deg: f64,
-    /// A landing within this horizontal distance of the pad's centre is at home, m.
+    /// Maximum horizontal distance from the pad's center for a landing at home, m.
     pub home_radius_m: f64,
 }
 
-/// A bridge of any type and where it stands.
+/// A bridge of any type, with its position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bridge {
     /// Name used by tasks and exports.
     pub name: String,
-    /// Middle of the deck's upper surface in plan; its height is the deck's level at midspan, m.
+    /// Horizontal center of the deck's upper surface; its height is the deck level at midspan, m.
     pub centre_m: Vec3<Enu>,
     /// Direction of the bridge's x axis (along the deck), degrees clockwise from north.
     pub heading_deg: f64,
-    /// Type and numbers.
+    /// Bridge type and dimensions.
     pub kind: BridgeKind,
 }
 
-/// One variant per bridge type; each type's numbers, geometry and task paths live in one file (`bridges/`).
+/// One variant per bridge type; the dimensions, geometry and task paths of each type are in one file (`bridges/`).
 #[derive(Debug, Clone, PartialEq)]
 pub enum BridgeKind {
     /// Open-spandrel deck arch.
@@ -134,16 +134,16 @@ pub enum BridgeKind {
     Suspension(bridges::suspension::Suspension),
 }
 
-/// An inspection task with its reference path derived from a bridge.
+/// An inspection task with the reference path derived from a bridge.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Task {
-    /// Number shown to people and written to exports, from 1 in file order.
+    /// Task number for display and export, from 1 in file order.
     pub id: u32,
-    /// Name.
+    /// Task name.
     pub name: String,
     /// Index into [`Scenario::bridges`], or `None` for a free path (drills).
     pub bridge: Option<usize>,
-    /// Which part of the bridge: `slab_side`, `arch_bottom`, `interlayer`, `pier_circle`, or `free`.
+    /// Path type: `slab_side`, `arch_bottom`, `interlayer`, `pier_circle`, or `free`.
     pub kind: TaskKind,
     /// On-path threshold, m (< 8).
     pub threshold_m: f64,
@@ -151,79 +151,79 @@ pub struct Task {
     pub closed: bool,
     /// Reference points, resampled to at most 1 m spacing, m. A closed path does not repeat its first point.
     pub path_m: Vec<Vec3<Enu>>,
-    /// Where a camera on the path would look, one unit vector per path point (towards the inspected surface).
+    /// Viewing directions: one unit vector per path point, toward the inspected surface.
     pub look: Vec<Vec3<Enu>>,
-    /// Overrides the too-close distance, m.
+    /// Overrides the minimum surface distance of the job, m.
     pub too_close_m: Option<f64>,
     /// Suggested lamp state, for briefings and the synthetic trainee.
     pub dark: bool,
 }
 
-/// The kinds of task paths.
+/// Types of task path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TaskKind {
     /// Straight line along one side of the deck slab.
     SlabSide,
-    /// Curve under the arch.
+    /// Curve below the arch.
     ArchBottom,
-    /// Through the space between deck and arch.
+    /// Line through the space between deck and arch.
     Interlayer,
     /// Closed loop around a pier near the water.
     PierCircle,
-    /// Points written in the scenario.
+    /// Points listed in the scenario.
     Free,
 }
 
-/// How many defects of what size, or where they are (a resolved file).
+/// Number and size of the defects, or their positions (in a resolved file).
 #[derive(Debug, Clone, PartialEq)]
 pub struct DefectSpec {
-    /// How many to place.
+    /// Number of defects to place.
     pub count: usize,
-    /// Factor on the catalogue's sizes (smaller is harder).
+    /// Scale factor on the catalogue's sizes (smaller is harder).
     pub size_factor: f64,
-    /// Bridge elements (AASHTO MBEI numbers) that may carry one; empty: all legal ones.
+    /// Bridge elements (AASHTO MBEI numbers) that may have defects; empty: all permitted elements.
     pub elements: Vec<u32>,
-    /// Defect codes (AASHTO MBEI) to draw from; empty: all legal ones.
+    /// Defect codes (AASHTO MBEI) to draw from; empty: all permitted codes.
     pub kinds: Vec<u32>,
-    /// Already placed, in a resolved file; then nothing is drawn.
+    /// Placed defects of a resolved file; if set, none are drawn.
     pub placed: Option<Vec<PlacedDefect>>,
 }
 
 /// One defect on a surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlacedDefect {
-    /// 1, 2, … in placing order.
+    /// Defect ID, from 1 in placement order.
     pub id: u32,
     /// AASHTO MBEI element number.
     pub element: u32,
-    /// Name of the member that carries it.
+    /// Name of the member with the defect.
     pub member: String,
     /// AASHTO MBEI defect code (1130 cracking, 1080 spall, …).
     pub kind: u32,
     /// Condition state 2 or 3.
     pub condition_state: u8,
-    /// Centre on the surface, m.
+    /// Center on the surface, m.
     pub position_m: Vec3<Enu>,
-    /// Outward surface normal, unit.
+    /// Outward unit normal of the surface.
     pub normal: Vec3<Enu>,
-    /// Unit vector in the surface along the longest extent.
+    /// Unit vector in the surface along the longest dimension.
     pub along: Vec3<Enu>,
-    /// Longest extent, m.
+    /// Length along the longest dimension, m.
     pub length_m: f64,
-    /// Width across it; for a crack the crack's width, m.
+    /// Width perpendicular to it, m; for a crack the crack width.
     pub width_m: f64,
-    /// A crack or another line, whose width must be resolved.
+    /// A crack or other line defect, whose width must be resolved in a photo.
     pub line: bool,
 }
 
-/// Traffic on the decks.
+/// Traffic on the bridges.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrafficSpec {
-    /// Cars on all bridges together.
+    /// Number of cars on all bridges together.
     pub cars: usize,
-    /// Trucks.
+    /// Number of trucks.
     pub trucks: usize,
-    /// Pedestrians on the walkways.
+    /// Number of pedestrians on the walkways.
     pub pedestrians: usize,
     /// Mean speed of cars, m/s.
     pub car_speed_m_s: f64,
@@ -232,54 +232,54 @@ pub struct TrafficSpec {
 /// Wind.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WindSpec {
-    /// Force or field.
+    /// Wind model: force or velocity field.
     pub model: WindModel,
-    /// Mean speed at 20 ft (6.096 m) over the water, m/s. Levels: light 2.2 mph, gentle 11 mph, medium 22 mph.
+    /// Mean wind speed at 20 ft (6.096 m) above the water, m/s. Levels: light 2.2 mph, gentle 11 mph, medium 22 mph.
     pub speed_m_s: f64,
     /// Constant force of the `paper` model, N.
     pub paper_force_n: f64,
-    /// The wind comes from here, degrees clockwise from north.
+    /// Direction from which the wind blows, degrees clockwise from north.
     pub from_deg: f64,
-    /// Vertical component, m/s up (any direction).
+    /// Vertical wind component, m/s up (any wind direction).
     pub up_m_s: f64,
-    /// Turbulence intensity factor on the Dryden standard, 1 = MIL-F-8785C.
+    /// Scale factor on the Dryden turbulence intensity; 1 = MIL-F-8785C.
     pub turbulence: f64,
-    /// Events, in time order.
+    /// Wind events, sorted by time.
     pub events: Vec<WindEvent>,
 }
 
-/// How wind acts.
+/// Wind models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WindModel {
-    /// The paper's constant force at the centre of mass.
+    /// The paper's constant force at the center of mass.
     Paper,
-    /// A velocity field with turbulence through the vehicle's own drag.
+    /// A velocity field with turbulence, which acts through the vehicle's drag.
     Physical,
 }
 
-/// A gust or a change of weather.
+/// A gust or a change of the mean wind.
 #[derive(Debug, Clone, PartialEq)]
 pub enum WindEvent {
-    /// 1-cosine gust (MIL-F-8785C) on top of the mean.
+    /// 1-cosine gust (MIL-F-8785C) added to the mean wind.
     Gust {
-        /// Start.
+        /// Start time.
         at: SimTime,
-        /// Length in time.
+        /// Duration.
         duration: SimTime,
-        /// Peak, m/s.
+        /// Peak speed, m/s.
         peak_m_s: f64,
-        /// Comes from, degrees clockwise from north.
+        /// Direction from which it blows, degrees clockwise from north.
         from_deg: f64,
     },
-    /// The mean moves linearly to new values.
+    /// Linear change of the mean wind.
     Change {
-        /// Start.
+        /// Start time.
         at: SimTime,
-        /// Ramp.
+        /// Duration of the change.
         over: SimTime,
         /// New speed at 20 ft, m/s.
         speed_m_s: f64,
-        /// New direction, degrees clockwise from north.
+        /// New direction from which it blows, degrees clockwise from north.
         from_deg: f64,
     },
 }
@@ -287,41 +287,41 @@ pub enum WindEvent {
 /// Sun and sky.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LightSpec {
-    /// UTC date and time at simulation start, seconds since the Unix epoch.
+    /// UTC date and time of simulation start, seconds since the Unix epoch.
     pub start_unix_s: i64,
-    /// Share of the sky under cloud, 0..1.
+    /// Fraction of the sky covered by clouds, 0 to 1.
     pub cloud_cover: f64,
-    /// Share of downward light that the water throws up, 0..1.
+    /// Fraction of downward light reflected by the water, 0 to 1.
     pub water_albedo: f64,
-    /// Share that ground and concrete throw back, 0..1.
+    /// Fraction of downward light reflected by ground and concrete, 0 to 1.
     pub ground_albedo: f64,
 }
 
 /// Session rules.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SessionRules {
-    /// What a survivable crash leads to.
+    /// Consequence of a survivable crash.
     pub after_crash: AfterCrash,
-    /// Which battery model flies.
+    /// Battery model in use.
     pub battery: BatteryModel,
-    /// Return when the battery is low (off in the paper's job).
+    /// Return to launch at low battery (disabled in the paper's job).
     pub low_battery_return: bool,
-    /// Battery share at which the low warning and, if on, the return start, %.
+    /// Low battery level, at which the warning and, if enabled, the return to launch start, %.
     pub low_battery_pct: f64,
-    /// Battery share at which the vehicle lands, if `low_battery_return`, %.
+    /// Critical battery level, at which the vehicle lands if `low_battery_return` is set, %.
     pub critical_battery_pct: f64,
-    /// GNSS is shadowed by the structures (sky view decides the satellites).
+    /// Structures block GNSS satellites (the sky view determines how many are visible).
     pub gnss_shadow: bool,
-    /// Wait before a lying drone is put back, of simulation time.
+    /// Simulation time before a crashed drone is respawned.
     pub respawn_after: SimTime,
 }
 
-/// What a crash into bridge, terrain or water leads to.
+/// Consequences of a crash into bridge, terrain or water.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AfterCrash {
-    /// Fly on if it can; never put back.
+    /// Continue to fly if possible; never respawn.
     Continue,
-    /// Put back at the last safe hover when it lies still or touches water.
+    /// Respawn at the last safe hover position once the drone rests or touches water.
     Respawn,
     /// The session ends.
     End,
@@ -330,30 +330,30 @@ pub enum AfterCrash {
 /// Battery models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BatteryModel {
-    /// Linear from 100 % to 0 over the aircraft's paper endurance, from lift-off.
+    /// Linear from 100 % to 0 % over the aircraft's paper endurance, starting at lift-off.
     Paper,
-    /// Open-circuit voltage, internal resistance, power drawn.
+    /// Open-circuit voltage, internal resistance and power consumption.
     Physical,
 }
 
 /// Feedback thresholds (docs/src/reference/assessment.md, "Feedback during the flight").
 #[derive(Debug, Clone, PartialEq)]
 pub struct FeedbackThresholds {
-    /// Anything nearer than this to the drone's centre, m.
+    /// Minimum distance from the center of the drone to any surface, m.
     pub too_close_m: f64,
-    /// The warning clears beyond this, m.
+    /// Distance at which the too-close warning clears, m.
     pub too_close_clear_m: f64,
-    /// Outer end of the off-path band, m.
+    /// Outer limit of the off-path band, m.
     pub off_path_max_m: f64,
-    /// Off path for this long before the cue shows.
+    /// Time off path before the cue is shown.
     pub off_path_after: SimTime,
-    /// The cue stays at least this long.
+    /// Minimum time for which the cue is shown.
     pub off_path_hold: SimTime,
-    /// Battery is green from here, %.
+    /// Minimum battery level shown in green, %.
     pub battery_green_pct: f64,
-    /// Battery is yellow from here, red below, %.
+    /// Minimum battery level shown in yellow; red below, %.
     pub battery_yellow_pct: f64,
-    /// Shortest time between two texts of one rule.
+    /// Minimum interval between two texts of the same rule.
     pub text_interval: SimTime,
 }
 
@@ -364,18 +364,18 @@ pub struct ScoringParams {
     pub frame_rate_hz: f64,
     /// Speed limit during inspection, m/s.
     pub speed_limit_m_s: f64,
-    /// Maximum speed of the scale, m/s (30 mph in the paper).
+    /// Maximum speed of the scoring scale, m/s (30 mph in the paper).
     pub max_speed_m_s: f64,
-    /// Full efficiency up to here, s.
+    /// Maximum flight time for full efficiency, s.
     pub time_best_s: f64,
     /// Flight time limit, s.
     pub time_max_s: f64,
-    /// F-measure's beta; `f64::INFINITY` is recall.
+    /// Beta of the F-measure; `f64::INFINITY` yields the recall.
     pub beta: f64,
-    /// Distance to the polyline instead of the paper's nearest point rule.
+    /// Use the distance to the polyline instead of the paper's nearest-point rule.
     pub exact_path: bool,
-    /// Clearance below which the certification profile counts exposure, m.
+    /// Clearance below which the certification profile counts exposure time, m.
     pub clearance_m: f64,
-    /// Share of its path from which on a task is done, 0 to 1.
+    /// Fraction of its path that completes a task, 0 to 1.
     pub task_done_share: f64,
 }

@@ -1,4 +1,4 @@
-//! Scenario files into [`Scenario`]: every key with its unit, range and default.
+//! Parses scenario files into [`Scenario`]: every key with its unit, range and default.
 
 use super::bridges::{BridgeField, Inconsistency};
 use super::{
@@ -12,27 +12,27 @@ use crate::time::SimTime;
 use crate::toml::{DocumentedKey, Problems, Reader, Section};
 use std::collections::BTreeMap;
 
-/// Newest format that this program reads.
+/// Latest supported format version.
 pub const FORMAT: i64 = 1;
-/// Farthest from the origin that anything may stand, m.
+/// Maximum distance of any object from the origin, m.
 const FAR_M: f64 = 5_000.0;
-/// Most cells along one side of the height field: 4 million in all take a second to build and 32 MB.
+/// Maximum number of cells along one side of the height grid: 4 million cells take a second to build and 32 MB.
 const MOST_CELLS: f64 = 2_000.0;
-/// Most bridges of one site (estimate: far more than one flight reaches).
+/// Maximum number of bridges per site (estimate: far more than one flight can reach).
 const MOST_BRIDGES: usize = 16;
 
-/// Loads a file that lies beside the scenario, by name.
+/// Loads a file next to the scenario, by name.
 pub type SiblingLoader<'a> = &'a dyn Fn(&str) -> Result<String, String>;
 
-/// Reads a scenario file. `file` is its name for messages.
+/// Parses a scenario file. `file` is the file name used in messages.
 ///
 /// # Errors
-/// Everything that is wrong with the file, each with line, key, value and allowed range.
+/// All problems of the file, each with line, key, value and allowed range.
 pub fn read(file: &str, text: &str, siblings: SiblingLoader) -> Result<Scenario, Problems> {
     read_asked(file, text, siblings).0
 }
 
-/// Reads a scenario file and tells which keys were asked for (for the documentation test).
+/// Parses a scenario file and returns the keys that were read (for the documentation test).
 pub fn read_asked(
     file: &str,
     text: &str,
@@ -57,7 +57,7 @@ fn as_integer(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) -> Sc
     r.integer(root, "format", (1, FORMAT), None);
     let name = name(r, root, "name");
     let title = r.text(root, "title", None);
-    // The seed travels in a signed 32-bit wire field.
+    // The seed is sent in a signed 32-bit field.
     let seed = r.optional_integer(root, "seed", (0, i64::from(i32::MAX))).map(|seed| seed as u64);
     let origin = origin(r, root);
     let terrain = terrain(r, root, siblings);
@@ -87,7 +87,7 @@ fn as_integer(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) -> Sc
     }
 }
 
-/// A machine name: lower-case letters, digits and hyphens.
+/// Reads a machine-readable name: lowercase letters, digits and hyphens.
 fn name(r: &mut Reader, s: &mut Section, key: &'static str) -> String {
     let before = r.problems.len();
     let name = r.text(s, key, None);

@@ -1,4 +1,5 @@
-//! A scenario as it was flown: the source text with the session's seed and the placed defects written in. Its CRC is that of the source.
+//! Resolved scenarios: the source text with the session's seed and the placed defects inserted. The CRC equals that of the
+//! source.
 
 use super::PlacedDefect;
 use super::read::point;
@@ -6,11 +7,11 @@ use crate::frames::{Enu, Vec3};
 use crate::toml::{Reader, Section};
 use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, value};
 
-/// Room for vectors that a person has rounded to three decimals.
+/// Tolerance on the length of unit vectors, for vectors rounded to three decimals.
 const UNIT_TOLERANCE: f64 = 2e-3;
 
-/// The source text with seed and defects written in; reading it again gives the same job with exactly these defects. A text that is no
-/// TOML comes back unchanged.
+/// Inserts seed and defects into the source text; parsing the result yields the same job with exactly these defects. Invalid TOML
+/// is returned unchanged.
 #[must_use]
 pub fn resolve(text: &str, seed: u64, placed: &[PlacedDefect]) -> String {
     let Ok(mut document) = text.parse::<DocumentMut>() else { return text.to_string() };
@@ -47,7 +48,7 @@ fn table(defect: &PlacedDefect) -> Table {
     t
 }
 
-/// The defects of a resolved file; `None` in a source file.
+/// Reads the defects of a resolved file; `None` for a source file.
 pub(super) fn with_placed_defects(r: &mut Reader, s: &mut Section) -> Option<Vec<PlacedDefect>> {
     let none_placed = r.flag(s, "none_placed", false);
     let mut out = Vec::new();
@@ -82,7 +83,8 @@ fn one(r: &mut Reader, t: &mut Section) -> PlacedDefect {
     }
 }
 
-/// CRC-32 of the text without seed and placed defects, in a canonical form, so that a resolved file has the CRC of its source.
+/// Returns the CRC-32 of the text in canonical form without seed and placed defects, so that a resolved file has the CRC of its
+/// source.
 #[must_use]
 pub fn crc(text: &str) -> u32 {
     let Ok(mut document) = text.parse::<DocumentMut>() else { return crc32fast::hash(text.as_bytes()) };
@@ -94,7 +96,7 @@ pub fn crc(text: &str) -> u32 {
     crc32fast::hash(canonical(document.as_item()).as_bytes())
 }
 
-/// Keys sorted, comments and layout gone, so that only what is said counts.
+/// Returns the canonical form: sorted keys, no comments, no formatting.
 fn canonical(item: &Item) -> String {
     let mut out = String::new();
     write(item, "", &mut out);

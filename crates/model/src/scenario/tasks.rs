@@ -6,14 +6,14 @@ use super::{Bridge, Task, TaskKind};
 use crate::frames::{Enu, Vec3};
 use crate::toml::{Reader, Section};
 
-/// Tasks 1, 2 and 4 keep at least this much distance from what they inspect, m (so that the too-close alert at 2.5 m stays silent).
+/// Minimum stand-off distance of tasks 1, 2 and 4, m (avoids the too-close alert at 2.5 m).
 const LEAST_STAND_OFF_M: f64 = 4.0;
-/// A threshold must stay under the outer end of the off-path band, m.
+/// Maximum on-path threshold, m; it must be below the outer limit of the off-path band.
 const MOST_THRESHOLD_M: f64 = 7.999;
 
-/// Most tasks of one job (estimate: the paper has four).
+/// Maximum number of tasks per job (estimate: the paper has four).
 const MOST_TASKS: usize = 64;
-/// Longest path written in a file, m (estimate: twice what a battery flies); longer ones would only be slips of a digit.
+/// Maximum length of a path in a file, m (estimate: twice the range of a battery); a longer one is a typing error.
 const LONGEST_PATH_M: f64 = 20_000.0;
 
 const KINDS: [(&str, TaskKind); 5] = [
@@ -24,7 +24,8 @@ const KINDS: [(&str, TaskKind); 5] = [
     ("free", TaskKind::Free),
 ];
 
-/// Thresholds of the paper's tasks, m (docs/src/reference/assessment.md, "On path"; the paper gives none).
+/// Default on-path thresholds of the paper's tasks, m (docs/src/reference/assessment.md, "On path"; the paper does not specify
+/// any).
 fn usual_threshold_m(kind: TaskKind) -> f64 {
     match kind {
         TaskKind::SlabSide | TaskKind::ArchBottom => 3.0,
@@ -95,7 +96,7 @@ fn bridge_of(r: &mut Reader, s: &mut Section, kind: TaskKind, bridges: &[Bridge]
     found
 }
 
-/// A path written in the file, resampled; looks along the path unless told where.
+/// Reads a path from the file and resamples it. The camera looks along the path unless a target is given.
 fn free(r: &mut Reader, s: &mut Section, kind: TaskKind, points: &[[f64; 3]], look_at: &[[f64; 3]], closed: bool) -> TaskPath {
     let points: Vec<Vec3<Enu>> = points.iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
     if points.is_empty() && kind == TaskKind::Free {
@@ -121,7 +122,7 @@ fn look(path: &[Vec3<Enu>], k: usize, target: Option<Vec3<Enu>>) -> Vec3<Enu> {
     if ahead.norm() > 1e-9 { ahead.unit() } else { Vec3::new(0.0, 1.0, 0.0) }
 }
 
-/// The same line with points at most the spacing apart; a closed one does not repeat its first point.
+/// Resamples a polyline to the maximum point spacing; a closed one does not repeat its first point.
 #[must_use]
 pub fn resample(points: &[Vec3<Enu>], closed: bool) -> Vec<Vec3<Enu>> {
     let n = points.len();

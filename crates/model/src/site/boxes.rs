@@ -1,12 +1,12 @@
-//! Oriented boxes: the solids of everything that moves or is parked, with their exact distance, ray and contact queries.
+//! Oriented boxes: the solids of all moving or parked objects, with exact distance, ray and contact queries.
 
 use super::HullProbe;
 use crate::frames::{Enu, Vec3};
 
-/// A box with any orientation.
+/// An oriented box.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OrientedBox {
-    /// Centre, m.
+    /// Center, m.
     pub centre_m: Vec3<Enu>,
     /// Unit vectors along length, width and height.
     pub axes: [Vec3<Enu>; 3],
@@ -14,15 +14,15 @@ pub struct OrientedBox {
     pub half_m: [f64; 3],
 }
 
-/// Steps of the golden-section search along a capsule's axis: it narrows 10 m to below a micrometre.
+/// Number of steps of the golden-section search along a capsule's axis: reduces 10 m to less than a micrometer.
 const SEARCH_STEPS: usize = 36;
 /// (√5 - 1)/2.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
-/// Ends of a capsule count as contacts of their own from this axis length, m.
+/// Minimum axis length at which the ends of a capsule count as separate contacts, m.
 const AXIS_MIN_M: f64 = 1e-6;
 
 impl OrientedBox {
-    /// Radius of the ball around the centre that holds the box, m.
+    /// Returns the radius of the bounding sphere about the center, m.
     #[must_use]
     pub fn radius_m(&self) -> f64 {
         self.half_m.iter().map(|h| h * h).sum::<f64>().sqrt()
@@ -37,7 +37,7 @@ impl OrientedBox {
         self.axes[0] * local[0] + self.axes[1] * local[1] + self.axes[2] * local[2]
     }
 
-    /// Signed distance (m, negative inside), surface point and outward unit normal nearest to a point.
+    /// Returns the signed distance (m, negative inside), surface point and outward unit normal nearest to a point.
     #[must_use]
     pub fn nearest(&self, point_m: Vec3<Enu>) -> (f64, Vec3<Enu>, Vec3<Enu>) {
         let p = self.local(point_m);
@@ -53,8 +53,8 @@ impl OrientedBox {
         (-depth[k], point_m + normal * depth[k], normal)
     }
 
-    /// First hit of a ray from outside within `max_m`: distance and outward normal. A ray that starts inside hits at once,
-    /// against its direction.
+    /// Returns the distance and outward normal of the first hit of a ray within `max_m`. A ray that starts inside hits
+    /// immediately, with its reversed direction as the normal.
     #[must_use]
     pub fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<(f64, Vec3<Enu>)> {
         let (mut enter, mut leave, mut normal) = (0.0_f64, max_m, -direction);
@@ -76,8 +76,8 @@ impl OrientedBox {
         (enter <= leave).then_some((enter, normal))
     }
 
-    /// Calls `found` with gap, surface point and normal of every near-contact of a convex probe: for a ball one, for a capsule the
-    /// deepest and both ends (so that a capsule lying on a face rests on two points).
+    /// Calls `found` with gap, surface point and normal of each near-contact of a convex probe: one for a ball; the deepest point
+    /// and both ends for a capsule (so that a capsule lying on a face rests on two points).
     pub fn contacts(&self, probe: &HullProbe, margin_m: f64, mut found: impl FnMut(f64, Vec3<Enu>, Vec3<Enu>)) {
         let mut test = |centre: Vec3<Enu>, radius: f64| {
             let (distance, point, normal) = self.nearest(centre);
@@ -101,8 +101,8 @@ impl OrientedBox {
         }
     }
 
-    /// Share of the way from `a` to `b` where the signed distance is least; it is convex along a line, so a golden section
-    /// finds it.
+    /// Returns the fraction of the segment from `a` to `b` at which the signed distance is minimal. The distance is convex along
+    /// a line, so a golden-section search finds the minimum.
     fn closest_share(&self, a_m: Vec3<Enu>, b_m: Vec3<Enu>) -> f64 {
         let at = |t: f64| self.nearest(a_m.lerp(b_m, t)).0;
         let (mut low, mut high) = (0.0, 1.0);
@@ -123,7 +123,7 @@ impl OrientedBox {
     }
 }
 
-/// Distance from a probe's centre line to its farthest point from `centre`, and that centre: a ball around the probe.
+/// Returns the bounding sphere of a probe: its center and radius, m.
 #[must_use]
 pub fn bounding_ball(probe: &HullProbe) -> (Vec3<Enu>, f64) {
     match *probe {

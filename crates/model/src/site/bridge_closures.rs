@@ -1,22 +1,23 @@
-//! When the bridges were open to traffic: an instructor may close them. Who is on a bridge by then goes on; nobody enters any more.
+//! Bridge closures: an instructor may close the bridges to traffic. Traffic already on a bridge leaves it; new traffic does not
+//! enter.
 
 use crate::time::SimTime;
 
-/// The changes so far, in the order of time; open before the first. Plain data, so that traffic stays a function of time.
+/// Closures and openings so far, sorted by time; initially open. Plain data, so that traffic remains a function of time.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct BridgeClosures(Vec<(SimTime, bool)>);
 
 impl BridgeClosures {
-    /// The wire's number of a change (NAMED_VALUE_INT `traffic`): the time of an opening, ms, or of a closing, negative. It carries
-    /// all there is to know, so that it may come late, twice, or after a later one.
+    /// Returns the wire code of a change (NAMED_VALUE_INT `traffic`): its time, ms, positive for an opening and negative for a
+    /// closure. Each code is self-contained, so it may be delayed, duplicated or reordered.
     #[must_use]
     pub fn code(at: SimTime, open: bool) -> i32 {
-        // At the very start is a millisecond later: 0 has no sign.
+        // 0 has no sign, so a change at the very start is encoded 1 ms later.
         let ms = i32::try_from(at.ns() / 1_000_000).unwrap_or(i32::MAX).max(1);
         if open { ms } else { -ms }
     }
 
-    /// From the wire's numbers, in whatever order.
+    /// Creates closures from wire codes in any order.
     #[must_use]
     pub fn from_codes(codes: impl IntoIterator<Item = i32>) -> Self {
         let mut gates = Self::default();
@@ -24,7 +25,7 @@ impl BridgeClosures {
         gates
     }
 
-    /// Takes a number of the wire; 0 tells nothing.
+    /// Adds the change with the given wire code; 0 is ignored.
     pub fn apply_codes(&mut self, code: i32) {
         let change = (SimTime::from_ms(i64::from(code.unsigned_abs())), code > 0);
         if code != 0 && !self.0.contains(&change) {
@@ -33,7 +34,8 @@ impl BridgeClosures {
         }
     }
 
-    /// Numbers of the last two changes, 0 for none: who begins to listen now knows who is still on the bridges.
+    /// Returns the codes of the last two changes, 0 for none: enough for a new subscriber to reconstruct the traffic on the
+    /// bridges.
     #[must_use]
     pub fn last_codes(&self) -> [i32; 2] {
         let mut last = self.0.iter().rev().map(|(at, open)| Self::code(*at, *open));
@@ -41,13 +43,13 @@ impl BridgeClosures {
         [last.next().unwrap_or(0), newest]
     }
 
-    /// Whether somebody who comes at this time, s, may enter.
+    /// Returns true if traffic that arrives at this time, s, may enter.
     #[must_use]
     pub fn is_open_at(&self, t_s: f64) -> bool {
         self.0.iter().rev().find(|(since, _)| since.s() <= t_s).is_none_or(|(_, open)| *open)
     }
 
-    /// Nothing was ever changed.
+    /// Returns true if there was no change.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()

@@ -1,6 +1,5 @@
-//! What may be wrong with which element: AASHTO MBEI defect codes by element material (docs/src/reference/domain.md, "Defects")
-//! and sizes by condition state ("Condition states" on that page has the limits; a size without a
-//! limit there is an estimate).
+//! Defects permitted on each element: AASHTO MBEI defect codes by element material (docs/src/reference/domain.md, "Defects") and
+//! sizes by condition state (the limits are in "Condition states" on that page; sizes without a limit there are estimates).
 
 use crate::random::RandomStream;
 
@@ -33,10 +32,10 @@ const RC_KINDS: &[u32] = &[SPALL, REBAR, EFFLORESCENCE, CRACK, ABRASION];
 const PSC_KINDS: &[u32] = &[SPALL, REBAR, PSC_CRACK, EFFLORESCENCE, ABRASION];
 const STEEL_KINDS: &[u32] = &[CORROSION, FATIGUE, CONNECTION];
 
-/// Every defect code that may be drawn, in ascending order.
+/// All defect codes that may be drawn, in ascending order.
 pub const KINDS: &[u32] = &[CORROSION, FATIGUE, CONNECTION, SPALL, REBAR, PSC_CRACK, EFFLORESCENCE, CRACK, ABRASION];
 
-/// The defect codes that an element may carry; empty for an element that carries none here.
+/// Returns the defect codes permitted on an element; empty if the element has none.
 #[must_use]
 pub fn legal_kinds(element: u32) -> &'static [u32] {
     if RC.contains(&element) {
@@ -50,13 +49,13 @@ pub fn legal_kinds(element: u32) -> &'static [u32] {
     }
 }
 
-/// True for the kinds that are lines, whose width must be resolved.
+/// Returns true for line defects, whose width must be resolved in a photo.
 #[must_use]
 pub fn is_line(kind: u32) -> bool {
     matches!(kind, FATIGUE | PSC_CRACK | CRACK)
 }
 
-/// Plain name of a defect code.
+/// Returns the plain name of a defect code.
 #[must_use]
 pub fn kind_name(kind: u32) -> &'static str {
     match kind {
@@ -73,21 +72,21 @@ pub fn kind_name(kind: u32) -> &'static str {
     }
 }
 
-/// Ranges of one kind in one condition state: length in m; width in m for lines, else as a share of the length.
+/// Size ranges of a defect kind in one condition state: length in m; width in m for lines, otherwise as a fraction of the length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SizeRanges {
-    /// Shortest and longest extent, m.
+    /// Minimum and maximum length, m.
     pub length_m: (f64, f64),
-    /// Narrowest and widest: m for lines, a share of the length for areas.
+    /// Minimum and maximum width: m for lines, a fraction of the length for areas.
     pub width: (f64, f64),
 }
 
-/// Sizes by kind and condition state (2 or 3).
+/// Returns the size ranges of a defect kind and condition state (2 or 3).
 #[must_use]
 pub fn sizes(kind: u32, condition_state: u8) -> SizeRanges {
     let poor = condition_state >= 3;
     let (length_m, width) = match (kind, poor) {
-        // 6 in = 0.152 m divides the states.
+        // 6 in = 0.152 m separates the condition states.
         (SPALL, false) => ((0.10, 0.152), (0.6, 0.9)),
         (SPALL, true) => ((0.16, 0.80), (0.5, 0.9)),
         (REBAR, false) => ((0.15, 0.40), (0.15, 0.3)),
@@ -112,7 +111,7 @@ pub fn sizes(kind: u32, condition_state: u8) -> SizeRanges {
     SizeRanges { length_m, width }
 }
 
-/// Draws length and width in m, both times `factor`.
+/// Draws length and width, m, and multiplies both by `factor`.
 pub fn draw(kind: u32, condition_state: u8, factor: f64, stream: &mut RandomStream) -> (f64, f64) {
     let s = sizes(kind, condition_state);
     let length = stream.range(s.length_m.0, s.length_m.1);

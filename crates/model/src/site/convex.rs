@@ -1,19 +1,20 @@
-//! A convex polyhedron and the questions one may ask of it. Its signed distance is a convex function, which makes the nearest point of
-//! a capsule's axis a one-dimensional search with one answer.
+//! Queries on a convex polyhedron. Its signed distance is a convex function, so the nearest point on a capsule's axis is the
+//! unique solution of a one-dimensional search.
 
 use crate::frames::{Enu, Vec3};
 use crate::scenario::bridges::Solid;
 
-/// Rounds of the search along a capsule's axis; it ends sooner when nothing lower by [`LEVEL_M`] can be left.
+/// Maximum number of iterations of the search along a capsule's axis; it stops earlier once the result can improve by less than
+/// [`LEVEL_M`].
 const SEARCH_ROUNDS: usize = 40;
-/// Differences of distance below this count as none, m: what lies flat is found to lie flat.
+/// Tolerance on equal distances, m: identifies segments that lie flat on a face.
 const LEVEL_M: f64 = 1e-7;
-/// A point nearer to the surface than this has the face's own normal, m.
+/// Distance from the surface below which a point gets the normal of the face, m.
 const TOUCHING_M: f64 = 1e-9;
-/// How square the faces of a box are, as the cosine between their normals.
+/// Tolerance on the cosine between the normals of a box's faces.
 const SQUARE: f64 = 1e-12;
 
-/// A convex polyhedron ready for queries.
+/// A convex polyhedron prepared for queries.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Convex {
     shape: ConvexShape,
@@ -21,20 +22,20 @@ pub struct Convex {
     high_m: Vec3<Enu>,
 }
 
-/// A point of the surface and how far it is.
+/// A surface point and its distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfacePoint {
     /// Signed distance, m; negative inside.
     pub distance_m: f64,
     /// The surface point, m.
     pub point_m: Vec3<Enu>,
-    /// Outward unit normal towards the query point.
+    /// Outward unit normal, toward the query point.
     pub normal: Vec3<Enu>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
 enum ConvexShape {
-    /// A box: the same six faces as a hull would have, three at a time.
+    /// A box: equivalent to a hull with six faces, evaluated three at a time.
     Box {
         centre: Vec3<Enu>,
         axes: [Vec3<Enu>; 3],
@@ -43,7 +44,7 @@ enum ConvexShape {
     Hull(Vec<HullFace>),
 }
 
-/// One face: its plane and its edges, counter-clockwise seen from outside.
+/// One face: its plane and its edges, counterclockwise seen from outside.
 #[derive(Debug, Clone, PartialEq)]
 struct HullFace {
     normal: Vec3<Enu>,
@@ -55,13 +56,13 @@ struct HullFace {
 struct HullEdge {
     start: Vec3<Enu>,
     along: Vec3<Enu>,
-    /// In the face's plane, square to the edge, away from the face; not of unit length.
+    /// Direction in the plane of the face, perpendicular to the edge and pointing outward; not normalized.
     outward: Vec3<Enu>,
     inverse_length_squared: f64,
 }
 
 impl Convex {
-    /// From a member's solid.
+    /// Creates the polyhedron from a member's solid.
     #[must_use]
     pub fn new(solid: &Solid) -> Self {
         let corners = |face: &Vec<u32>| face.iter().map(|k| solid.vertices_m[*k as usize]).collect::<Vec<_>>();
@@ -78,13 +79,13 @@ impl Convex {
         Self { shape, low_m, high_m }
     }
 
-    /// Corners of the axis-aligned box around it, m.
+    /// Returns the corners of the axis-aligned bounding box, m.
     #[must_use]
     pub fn bounds(&self) -> (Vec3<Enu>, Vec3<Enu>) {
         (self.low_m, self.high_m)
     }
 
-    /// The nearest surface point.
+    /// Returns the nearest surface point.
     #[must_use]
     pub fn nearest(&self, p: Vec3<Enu>) -> SurfacePoint {
         match &self.shape {
@@ -93,7 +94,7 @@ impl Convex {
         }
     }
 
-    /// Distance along a ray to the surface and the normal there; a ray that starts inside hits at once.
+    /// Returns the distance along a ray to the surface and the normal there; a ray that starts inside hits immediately.
     #[must_use]
     pub fn ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<(f64, Vec3<Enu>)> {
         let mut clip = RayInterval { enter: f64::NEG_INFINITY, leave: max_m, normal: -direction };
@@ -120,14 +121,15 @@ impl Convex {
         Some(if clip.enter > 0.0 { (clip.enter, clip.normal) } else { (0.0, -direction) })
     }
 
-    /// The deepest point of a segment's inside, where it comes nearer than both of its ends: it lies across an edge. The ends' own
-    /// nearest points are given. Where it lies flat on a face and sticks out over the edge, that edge's point.
+    /// Returns the deepest interior point of a segment if it is deeper than both ends, as for a segment across an edge. `ends`
+    /// contains the nearest surface points of the ends. For a segment that lies flat on a face and extends over an edge, returns
+    /// the point at that edge.
     #[must_use]
     pub fn between(&self, a: Vec3<Enu>, b: Vec3<Enu>, ends: [&SurfacePoint; 2], enough_m: f64) -> Option<SurfacePoint> {
         let along = b - a;
         let length = along.norm();
         let (at_a, at_b) = (ends[0].distance_m, ends[1].distance_m);
-        // Distance changes no faster than one metre a metre.
+        // Distance changes by at most one meter per meter.
         if 0.5 * (at_a + at_b - length) > enough_m || length < TOUCHING_M {
             return None;
         }
@@ -135,7 +137,7 @@ impl Convex {
         if lowest.1.distance_m < at_a.min(at_b) - LEVEL_M {
             return Some(lowest.1);
         }
-        // Flat at one end only: where the flat stretch ends.
+        // Only one end lies flat: find the end of the flat part.
         let (from, to) = if at_a <= at_b { (a, b) } else { (b, a) };
         let least = at_a.min(at_b);
         if (at_a - at_b).abs() <= LEVEL_M {
@@ -149,8 +151,8 @@ impl Convex {
         (flat > 0.02).then(|| self.nearest(from.lerp(to, flat)))
     }
 
-    /// The lowest point along a segment by its tangents: two of them bracket the lowest point of a convex function, and where they cross
-    /// nothing lower can be.
+    /// Finds the lowest point along a segment by tangents: two tangents bracket the minimum of a convex function, and their
+    /// intersection is a lower bound.
     fn lowest(&self, a: Vec3<Enu>, along: Vec3<Enu>, ends: [&SurfacePoint; 2]) -> (f64, SurfacePoint) {
         let slope = |near: &SurfacePoint| near.normal.dot(along);
         let (mut left, mut right) = ((0.0, *ends[0]), (1.0, *ends[1]));
@@ -169,7 +171,8 @@ impl Convex {
             if best.1.distance_m - floor < 0.1 * LEVEL_M {
                 break;
             }
-            // Tangents alone creep towards a round corner from one side; halving now and then keeps the bracket shrinking.
+            // Tangents alone converge slowly from one side near a rounded minimum; occasional bisection keeps the bracket
+            // shrinking.
             let t = left.0 + if round % 3 == 2 { 0.5 * width } else { step.clamp(0.0, width) };
             let near = self.nearest(a + along * t);
             if near.distance_m < best.1.distance_m {
@@ -181,7 +184,7 @@ impl Convex {
     }
 }
 
-/// The part of a ray that lies behind all planes so far.
+/// The interval of a ray that lies behind all planes so far.
 struct RayInterval {
     enter: f64,
     leave: f64,
@@ -189,7 +192,7 @@ struct RayInterval {
 }
 
 impl RayInterval {
-    /// One more plane: height of the origin over it and how fast the ray climbs from it.
+    /// Clips the interval by another plane, given the height of the origin above it and the rate at which the ray climbs from it.
     fn plane(&mut self, height: f64, rate: f64, normal: impl Fn() -> Vec3<Enu>) {
         if rate == 0.0 {
             if height > 0.0 {
@@ -213,7 +216,7 @@ fn nearest_of_box(p: Vec3<Enu>, centre: Vec3<Enu>, axes: &[Vec3<Enu>; 3], half: 
     let highest = if over[0] >= over[1] && over[0] >= over[2] { 0 } else { 1 + usize::from(over[2] > over[1]) };
     let before = over.iter().filter(|o| **o > 0.0).count();
     if before <= 1 {
-        // Inside, or before one face alone: that face decides.
+        // Inside the box, or in front of a single face: that face determines the nearest point.
         let normal = axes[highest] * 1f64.copysign(at[highest]);
         return SurfacePoint { distance_m: over[highest], point_m: p - normal * over[highest], normal };
     }
@@ -236,7 +239,7 @@ fn nearest_of_hull(p: Vec3<Enu>, faces: &[HullFace]) -> SurfacePoint {
         if height > highest.0 {
             highest = (height, k);
         }
-        // Only faces that the point lies before can hold the nearest point, and none nearer than its plane.
+        // Only faces in front of which the point lies can contain the nearest point, at no less than the distance to their plane.
         if height > 0.0 && height * height < best.0 {
             let q = face.nearest(p, height);
             let d = (p - q).norm_squared();
@@ -254,7 +257,7 @@ fn nearest_of_hull(p: Vec3<Enu>, faces: &[HullFace]) -> SurfacePoint {
     SurfacePoint { distance_m, point_m: best.1, normal }
 }
 
-/// Six faces in three square pairs are a box.
+/// Returns a box if the faces are three perpendicular pairs.
 fn as_box(faces: &[HullFace]) -> Option<ConvexShape> {
     if faces.len() != 6 || faces.iter().any(|f| f.edges.len() != 4) {
         return None;
@@ -279,7 +282,7 @@ fn as_box(faces: &[HullFace]) -> Option<ConvexShape> {
 
 impl HullFace {
     fn new(corners: &[Vec3<Enu>]) -> Self {
-        // Newell's sum: exact for planar polygons whatever corners are close together.
+        // Newell's sum: exact for planar polygons even if corners nearly coincide.
         let n = corners.len();
         let mut sum = Vec3::zero();
         for k in 0..n {
@@ -299,7 +302,7 @@ impl HullFace {
         Self { normal, offset, edges: (0..n).map(edge).collect() }
     }
 
-    /// Nearest point of the polygon to a point at `height` over its plane.
+    /// Returns the point of the polygon nearest to a point at `height` above its plane.
     fn nearest(&self, p: Vec3<Enu>, height: f64) -> Vec3<Enu> {
         let mut best = (f64::INFINITY, Vec3::zero());
         let mut within = true;
@@ -325,7 +328,7 @@ mod tests {
     use crate::random::RandomStream;
     use crate::scenario::bridges::solid::{MemberBuilder, Placement};
 
-    /// m; rounding at the scale of the test shapes.
+    /// Rounding error at the scale of the test shapes, m.
     const ROUNDING_M: f64 = 1e-12;
 
     fn cube() -> Convex {
@@ -334,7 +337,7 @@ mod tests {
         Convex::new(&b.finish()[0].solid)
     }
 
-    /// The same solids as boxes and as hulls, and an eight-sided rod.
+    /// Returns the same solids as boxes and as hulls, and an eight-sided rod.
     fn shapes() -> Vec<Convex> {
         let mut b = MemberBuilder::new("t", Placement::new(Vec3::new(0.3, -0.2, 0.1), 37.0));
         b.block("block", 12, [-1.0, -0.5, -0.2], [1.3, 0.4, 0.1]);
@@ -356,7 +359,7 @@ mod tests {
 
     #[test]
     fn prop_a_box_answers_as_its_faces_do() {
-        // m; the corners of a turned box are rounded at 1e-16 of its size.
+        // Corners of a rotated box are rounded to 1e-16 of its size, m.
         const SAME_M: f64 = 1e-9;
         let mut b = MemberBuilder::new("t", Placement::new(Vec3::new(11.0, -40.0, 7.0), 71.0));
         b.block("block", 12, [-3.0, -0.5, -0.2], [1.3, 0.4, 0.1]);
@@ -397,7 +400,7 @@ mod tests {
 
     #[test]
     fn prop_no_point_of_a_segment_lies_deeper_than_the_contact_between_its_ends() {
-        // m; what counts as level, and the spacing of the points tried times the steepest slope.
+        // Tolerance on equal distances, and the spacing of the sample points times the steepest slope, m.
         const DEEPER_M: f64 = 2e-7;
         let mut random = RandomStream::new(8, "segments");
         let mut across = 0;
@@ -424,7 +427,7 @@ mod tests {
         let (a, b) = (Vec3::new(0.0, 2.0, 2.0), Vec3::new(0.0, 2.0, -6.0));
         let near = cube.between(a, b, [&cube.nearest(a), &cube.nearest(b)], 2.0).unwrap();
         assert!((near.distance_m - 1.0).abs() < ROUNDING_M);
-        // Across the top edge, 45 degrees: the edge itself.
+        // Across the top edge at 45 degrees: the edge itself.
         let (a, b) = (Vec3::new(0.0, 0.0, 2.5), Vec3::new(0.0, 2.5, 0.0));
         let near = cube.between(a, b, [&cube.nearest(a), &cube.nearest(b)], 2.0).unwrap();
         assert!((near.point_m - Vec3::new(0.0, 1.0, 1.0)).norm() < 1e-6 && (near.distance_m - 0.125f64.sqrt()).abs() < LEVEL_M);
@@ -437,7 +440,7 @@ mod tests {
         assert_eq!(ends(Vec3::new(-0.5, 0.2, 1.1), Vec3::new(0.5, 0.1, 1.1)), None);
         let over = ends(Vec3::new(0.0, 0.0, 1.1), Vec3::new(0.0, 3.0, 1.1)).unwrap();
         assert!((over.point_m - Vec3::new(0.0, 1.0, 1.0)).norm() < 1e-3, "{over:?}");
-        // Standing on its end: nothing between.
+        // Upright on its end: no interior minimum.
         assert_eq!(ends(Vec3::new(0.0, 0.0, 1.1), Vec3::new(0.0, 0.0, 2.1)), None);
     }
 }

@@ -1,6 +1,6 @@
-//! Places defects by seed: a sight line from a task's path finds a face that really is exposed and within reach, the catalogue
-//! says what may be wrong there, and the judgement of [`super::look`] says whether it can be photographed from within the
-//! task's threshold. Other places for every seed.
+//! Places defects from the seed: a line of sight from a task's path finds an exposed face within reach, the catalogue provides
+//! the defects permitted there, and [`super::visibility`] decides whether it can be photographed from within the task's
+//! threshold. Each seed yields different positions.
 
 use super::catalogue;
 use super::faces::{MemberFace, face_at};
@@ -14,9 +14,9 @@ use crate::scenario::bridges::Member;
 use crate::scenario::{DefectSpec, PlacedDefect, Task, TaskKind};
 use crate::vehicle::{Camera, Lamp};
 
-/// The camera for which every placed defect is photographable: coarser than those shipped (3000 px over 100 degrees; estimate
-/// of a small inspection drone's low end), with the gimbal's full range. Placement must not depend on the aircraft, since
-/// simulator and monitor both place from scenario and seed alone.
+/// The camera with which every placed defect can be photographed: lower resolution than the shipped cameras (3000 px over 100
+/// degrees; estimate for a small low-end inspection drone), with the full gimbal range. Placement must not depend on the aircraft
+/// because simulator and monitor both place defects from scenario and seed alone.
 pub const REFERENCE_CAMERA: Camera = Camera {
     position_m: Vec3::new(0.0, 0.0, 0.0),
     width_px: 3000,
@@ -30,44 +30,45 @@ pub const REFERENCE_CAMERA: Camera = Camera {
     gimbal_pitch_max_rad: math::FRAC_PI_2,
     gimbal_rate_rad_s: 1.0,
 };
-/// The lamp that goes with it (estimate: a small clip-on light).
+/// The lamp of the reference camera (estimate: a small clip-on light).
 pub const REFERENCE_LAMP: Lamp = Lamp { flux_lm: 1000.0, beam_rad: math::PI / 3.0 };
 
-/// Nearest that the reference photograph may be taken to any surface, m (half of 0.59 m tip to tip and a hand's breadth more).
+/// Minimum distance of the reference photo to any surface, m (half of 0.59 m tip to tip, plus a margin).
 pub const CLEARANCE_M: f64 = 0.8;
-/// Shares of the threshold by which the reference photographer leaves the path towards the defect (0.9: within, with room).
+/// Distances from the path toward the defect at which the reference camera is tried, as fractions of the threshold (0.9 leaves a
+/// margin).
 const APPROACH: [f64; 4] = [0.0, 0.3, 0.6, 0.9];
-/// Half angle of the cone about the path's look direction in which faces are sought, rad (estimate: pan and tilt of a sweep).
+/// Half angle of the search cone about the path's viewing direction, rad (estimate: camera pan and tilt).
 const SEARCH_CONE_RAD: f64 = 0.9;
-/// Upward.
+/// Up direction.
 const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
-/// Farthest face that is sought, m (estimate; thin lines fail the judgement long before).
+/// Maximum search distance for faces, m (estimate; thin lines fail the visibility check at much shorter distances).
 const SEARCH_REACH_M: f64 = 20.0;
-/// Bare surface that must surround a defect, m: keeps defects off joints and edges.
+/// Minimum margin of bare surface around a defect, m: keeps defects away from joints and edges.
 const MARGIN_M: f64 = 0.03;
-/// Room above the surface that must be free, m.
+/// Minimum free space above the surface, m.
 const ROOM_M: f64 = 0.5;
-/// Least distance between two defects' centres, m; one photograph should rarely show two.
+/// Minimum distance between the centers of two defects, m; one photo should rarely show two.
 const SEPARATION_M: f64 = 2.0;
-/// Attempts per defect; the first third keeps the separation, the rest give it up bit by bit.
+/// Number of attempts per defect; the first third enforces the full separation, the others reduce it gradually.
 const ATTEMPTS: usize = 3000;
-/// Path points tried as the reference photographer's place, nearest first.
+/// Number of path points tried as the reference camera position, nearest first.
 const PLACES: usize = 5;
 
-/// In what an aircraft's camera or lamp falls short of the reference for which placed defects are photographable, in words with
-/// both numbers; empty when it covers the reference.
+/// Returns the properties in which an aircraft's camera or lamp falls short of the reference, with both values; empty if it meets
+/// the reference.
 #[must_use]
 pub fn reference_shortfalls(camera: &Camera, lamp: &Lamp) -> Vec<String> {
     let candela = |l: &Lamp| l.flux_lm / (math::TAU * (1.0 - math::cos(0.5 * l.beam_rad)));
     let wanting = [
         ("focal length, px", camera.focal_px(), REFERENCE_CAMERA.focal_px()),
         ("lamp intensity, cd", candela(lamp), candela(&REFERENCE_LAMP)),
-        // As sensitivity, so that more is better in all lines.
+        // As sensitivity, so that a higher value is better in all rows.
         ("1/light needed, 1/lx", 1.0 / visibility::needed_lux(camera), 1.0 / visibility::needed_lux(&REFERENCE_CAMERA)),
         ("gimbal up, rad", camera.gimbal_pitch_max_rad, REFERENCE_CAMERA.gimbal_pitch_max_rad),
         ("gimbal down, rad", -camera.gimbal_pitch_min_rad, -REFERENCE_CAMERA.gimbal_pitch_min_rad),
     ];
-    // Angles written in degrees come back a rounding off.
+    // Angles converted from degrees have a rounding error.
     let short = |has: f64, needs: f64| has.is_nan() || has < needs * (1.0 - 1e-9);
     wanting
         .iter()
@@ -76,23 +77,24 @@ pub fn reference_shortfalls(camera: &Camera, lamp: &Lamp) -> Vec<String> {
         .collect()
 }
 
-/// What placing needs of the site.
+/// Site data needed for placement.
 #[derive(Clone, Copy)]
 pub struct PlacementContext<'a> {
-    /// All bridge members; a hit's object number is an index into them.
+    /// All bridge members; the object number of a hit is an index into them.
     pub members: &'a [Member],
-    /// The job's tasks.
+    /// The tasks of the job.
     pub tasks: &'a [Task],
-    /// Rays against what stands still.
+    /// Ray queries against static geometry.
     pub cast: RayCast<'a>,
-    /// Ambient light at the start of the session by position and normal, lx.
+    /// Ambient light at session start by position and normal, lx.
     pub ambient: visibility::AmbientLight<'a>,
-    /// Distance to the nearest surface up to [`CLEARANCE_M`], else infinity, m.
+    /// Distance to the nearest surface up to [`CLEARANCE_M`], m; infinity beyond.
     pub clearance_m: &'a dyn Fn(Vec3<Enu>) -> f64,
 }
 
-/// The defects of a session: those of a resolved file, else drawn from the seed. Fewer than asked come back only where the
-/// settings leave no photographable place (no bridge within reach of a task, say, or kinds that no element in reach may carry).
+/// Returns the defects of a session: those of a resolved file, otherwise drawn from the seed. Returns fewer than requested only
+/// if the settings leave no position that can be photographed (for example no bridge within reach of a task, or defect kinds that
+/// no element in reach permits).
 #[must_use]
 pub fn place(settings: &DefectSpec, ground: &PlacementContext, seed: u64) -> Vec<PlacedDefect> {
     if let Some(placed) = &settings.placed {
@@ -118,7 +120,7 @@ pub fn place(settings: &DefectSpec, ground: &PlacementContext, seed: u64) -> Vec
     defects
 }
 
-/// One draw: sight line, kind, size, then every check; `None` when any fails.
+/// Draws one line of sight, kind and size and checks them; `None` if any check fails.
 fn try_place(
     settings: &DefectSpec,
     ground: &PlacementContext,
@@ -128,7 +130,7 @@ fn try_place(
 ) -> Option<PlacedDefect> {
     let n = stream.below(task.path_m.len());
     let direction = match task.kind {
-        // A free path says where it leads, not where the structure is.
+        // The viewing direction of a free path does not indicate where the structure is.
         TaskKind::Free => in_cone(UP, math::PI, stream),
         TaskKind::SlabSide | TaskKind::ArchBottom | TaskKind::Interlayer | TaskKind::PierCircle => {
             in_cone(task.look.get(n).copied().unwrap_or(UP), SEARCH_CONE_RAD, stream)
@@ -170,7 +172,7 @@ fn choose_kind(settings: &DefectSpec, element: u32, draw: f64) -> Option<u32> {
     legal.get((draw * legal.len() as f64) as usize).copied()
 }
 
-/// Stains run downward on walls; corrosion and rebar follow the member; all else lies at a random angle.
+/// Stains run down walls; corrosion and exposed reinforcement follow the member; all others have a random angle.
 fn along(kind: u32, face: &MemberFace, roll_rad: f64) -> Vec3<Enu> {
     let down = Vec3::new(0.0, 0.0, -1.0);
     let downhill = down - face.normal * face.normal.dot(down);
@@ -185,7 +187,7 @@ fn along(kind: u32, face: &MemberFace, roll_rad: f64) -> Vec3<Enu> {
     }
 }
 
-/// The four ends of the defect's extents.
+/// Returns the four end points of the defect's length and width.
 fn ends(defect: &PlacedDefect, margin_m: f64) -> [Vec3<Enu>; 4] {
     let across = defect.normal.cross(defect.along);
     let (l, w) = (0.5 * defect.length_m + margin_m, 0.5 * defect.width_m + margin_m);
@@ -193,12 +195,13 @@ fn ends(defect: &PlacedDefect, margin_m: f64) -> [Vec3<Enu>; 4] {
     [c + defect.along * l, c - defect.along * l, c + across * w, c - across * w]
 }
 
-/// The whole defect lies inside its face.
+/// Returns true if the entire defect lies inside its face.
 fn has_room(defect: &PlacedDefect, face: &MemberFace) -> bool {
     ends(defect, MARGIN_M).iter().all(|p| face.inset_m(*p) > 0.0)
 }
 
-/// No other member covers it or touches its surroundings: looking back from a little above, every end shows this member first.
+/// Returns true if no other member covers the defect or touches its surroundings: seen from slightly above, this member is the
+/// first hit at every end.
 fn exposed(defect: &PlacedDefect, object: u32, ground: &PlacementContext) -> bool {
     let mut points = ends(defect, MARGIN_M).to_vec();
     points.push(defect.position_m);
@@ -210,8 +213,8 @@ fn exposed(defect: &PlacedDefect, object: u32, ground: &PlacementContext) -> boo
     })
 }
 
-/// A pose within the task's threshold of its path, with air around, from which the reference camera takes a picture that hits
-/// the defect; `None` when there is none among those tried.
+/// Returns a pose within the task's threshold of its path, clear of surfaces, from which the reference camera captures the
+/// defect; `None` if none of the candidates qualifies.
 #[must_use]
 pub fn best_view(defect: &PlacedDefect, task: &Task, ground: &PlacementContext) -> Option<CameraPose> {
     let mut order: Vec<usize> = (0..task.path_m.len()).collect();
@@ -224,7 +227,7 @@ pub fn best_view(defect: &PlacedDefect, task: &Task, ground: &PlacementContext) 
             let to = defect.position_m - task.path_m[*k];
             let step = (share * task.threshold_m).min(to.norm() - CLEARANCE_M).max(0.0);
             let pose = camera_aimed_at(task.path_m[*k] + to.unit() * step, defect.position_m);
-            // Cheap conditions first: the sight line and the pixels, then the air around, then the light.
+            // Cheapest conditions first: line of sight and pixels, then clearance, then light.
             let bright = visibility::judge(defect, &pose, (&REFERENCE_CAMERA, &REFERENCE_LAMP), ground.cast, &|_, _| 1e9);
             let air = || (ground.clearance_m)(pose.position_m) >= CLEARANCE_M;
             let lit = || {
@@ -237,7 +240,7 @@ pub fn best_view(defect: &PlacedDefect, task: &Task, ground: &PlacementContext) 
     })
 }
 
-/// A level camera with the lamp on that looks at a point.
+/// Returns a level camera aimed at a point with the lamp on.
 fn camera_aimed_at(position_m: Vec3<Enu>, at_m: Vec3<Enu>) -> CameraPose {
     let forward = (at_m - position_m).unit();
     let level = forward.cross(Vec3::new(0.0, 0.0, 1.0));
@@ -245,7 +248,7 @@ fn camera_aimed_at(position_m: Vec3<Enu>, at_m: Vec3<Enu>) -> CameraPose {
     CameraPose { position_m, forward, right, lamp_on: true }
 }
 
-/// A direction uniformly spread over a cone about an axis.
+/// Draws a direction uniformly within a cone about an axis.
 fn in_cone(axis: Vec3<Enu>, half_angle_rad: f64, stream: &mut RandomStream) -> Vec3<Enu> {
     let z = stream.range(math::cos(half_angle_rad), 1.0);
     let (s, c) = math::sin_cos(stream.range(0.0, math::TAU));
@@ -264,7 +267,7 @@ mod tests {
 
     const SEEDS: u64 = 50;
 
-    /// A box member from corner to corner, faces counter-clockwise from outside.
+    /// Creates a box member between two corners, faces counterclockwise seen from outside.
     fn member(name: &str, element: u32, low: [f64; 3], high: [f64; 3]) -> Member {
         let vertices_m = (0..8)
             .map(|k| {
@@ -276,7 +279,7 @@ mod tests {
         Member { name: name.into(), element, solid: Solid { vertices_m, faces: faces.map(|f| f.to_vec()).to_vec() } }
     }
 
-    /// A concrete wall with a steel girder in front of part of it, and a path 4 m south of the wall.
+    /// Creates a concrete wall, with a steel girder in front of part of it; the path is 4 m south of the wall.
     fn members() -> Vec<Member> {
         vec![
             member("test/wall", 210, [0.0, 0.0, 0.0], [40.0, 1.0, 10.0]),
@@ -316,7 +319,7 @@ mod tests {
         DefectSpec { count: 10, size_factor: 1.0, elements: vec![], kinds: vec![], placed: None }
     }
 
-    /// Runs `with` on the test ground.
+    /// Runs `with` on the test site.
     fn on_ground<T>(lux: f64, with: impl FnOnce(&PlacementContext, &[OrientedBox]) -> T) -> T {
         let (members, tasks) = (members(), [task()]);
         let solids = solids(&members);
@@ -342,7 +345,7 @@ mod tests {
 
     #[test]
     fn prop_defects_are_legal_on_the_surface_and_photographable_for_fifty_seeds() {
-        /// How far a defect's ends may lie off its member, m.
+        /// Maximum distance of a defect's ends from its member, m.
         const ON_SURFACE_M: f64 = 1e-3;
         on_ground(1000.0, |ground, solids| {
             for seed in 0..SEEDS {

@@ -1,5 +1,5 @@
-//! What a session adds to the standing structure: traffic and crew, defects, light. Every question takes the static geometry's
-//! own answer as an argument, so that this file knows nothing of how that is found.
+//! Session-specific content of a site: traffic and crew, defects, light. Every query takes the result for the static geometry as
+//! an argument and is therefore independent of its implementation.
 
 use super::defects::{self, PlacementContext};
 use super::light::{LightModel, RayCast};
@@ -12,23 +12,23 @@ use crate::scenario::{PlacedDefect, Scenario};
 use crate::time::SimTime;
 use crate::vehicle::{Camera, Lamp};
 
-/// Traffic plan, defects and light of one session: plain data, immutable once built.
+/// Traffic plan, defects and light of one session: plain data, immutable after construction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dynamics {
     /// Cars, trucks, pedestrians and the crew.
     pub traffic: TrafficPlan,
     /// Sun, sky and reflections.
     pub light: LightModel,
-    /// The defects of this session.
+    /// Defects of the session.
     pub defects: Vec<PlacedDefect>,
 }
 
-/// The static geometry's own queries, as [`Dynamics::build`] needs them: rays, and the nearest surface within a reach.
+/// Queries on the static geometry for [`Dynamics::build`]: rays, and the nearest surface within a maximum distance.
 #[derive(Clone, Copy)]
 pub struct StaticQueries<'a> {
-    /// First hit of a ray.
+    /// Returns the first hit of a ray.
     pub cast: RayCast<'a>,
-    /// Nearest surface of a point within a reach, m.
+    /// Returns the nearest surface of a point within a maximum distance, m.
     pub nearest: &'a dyn Fn(Vec3<Enu>, f64) -> Option<NearestPoint>,
 }
 
@@ -45,14 +45,14 @@ impl Dynamics {
         Self { traffic: TrafficPlan::new(lanes, &scenario.traffic, &scenario.ground_team, seed), light, defects: placed }
     }
 
-    /// The nearer of the static answer and traffic or crew within `max_m`.
+    /// Returns the nearer of the static result and traffic or crew within `max_m`.
     #[must_use]
     pub fn nearest(&self, still: Option<NearestPoint>, position_m: Vec3<Enu>, max_m: f64, at: QueryTime) -> Option<NearestPoint> {
         let reach = still.map_or(max_m, |s| s.distance_m);
         self.traffic.nearest(position_m, reach, at).or(still)
     }
 
-    /// The nearer of the static hit and traffic or crew within `max_m`.
+    /// Returns the nearer of the static hit and traffic or crew within `max_m`.
     #[must_use]
     pub fn ray(
         &self,
@@ -66,8 +66,8 @@ impl Dynamics {
         self.traffic.ray(origin_m, direction, reach, at).or(still)
     }
 
-    /// How every defect within [`look::REACH_M`] and in front shows in a picture; traffic may stand in the way, but throws no
-    /// shadow.
+    /// Returns the visibility in a photo of every defect within [`visibility::REACH_M`] in front of the camera. Traffic may block
+    /// the view, but casts no shadow.
     #[must_use]
     pub fn look(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: QueryTime, still: RayCast) -> Vec<DefectView> {
         let cast = |o, d, max| self.ray(still(o, d, max), o, d, max, at);
@@ -84,7 +84,7 @@ mod tests {
     use crate::scenario::bridges::{arch::Arch, suspension::Suspension};
     use crate::scenario::*;
 
-    /// Seeds over which the placement is checked.
+    /// Number of seeds with which the placement is checked.
     const SEEDS: u64 = 50;
     const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 
@@ -160,7 +160,7 @@ mod tests {
         (rules, feedback, scoring)
     }
 
-    /// Two bridges over a lake with steep shores, at noon in June.
+    /// Creates a site with two bridges over a lake with steep shores, at noon in June.
     fn scenario(cloud_cover: f64) -> Scenario {
         let bridges = bridges();
         let tasks = tasks(&bridges);
@@ -208,7 +208,7 @@ mod tests {
 
     #[test]
     fn prop_on_both_bridges_defects_are_legal_on_the_surface_spread_and_photographable() {
-        /// How far a defect may lie off its member, m.
+        /// Maximum distance of a defect from its member, m.
         const ON_SURFACE_M: f64 = 1e-3;
         let mut scenario = scenario(0.5);
         let mut all: Vec<[f64; 3]> = Vec::new();
@@ -254,7 +254,7 @@ mod tests {
         assert_eq!(Site::build(&scenario, 8).defects(), &once.defects()[..3]);
     }
 
-    /// Light on the slab's soffit between the stringers, lx, at places along the crown.
+    /// Returns the light on the slab's soffit between the stringers at positions along the crown, lx.
     fn soffit_lux(scenario: &Scenario) -> Vec<f64> {
         let site = Site::build(scenario, 1);
         let placement = scenario.bridges[0].placement();
@@ -269,8 +269,7 @@ mod tests {
     #[test]
     fn val_light_on_the_bridges_lies_in_the_published_ranges() {
         // docs/src/reference/domain.md, "Light levels": sun 50 to 100 klx (with the sky up to 125), overcast 5 to 20, under a 12
-        // m deck with water reflection
-        // 200 to 2000 lx (a level of bright overcast: sun on the lake throws up more).
+        // m deck with water reflection 200 to 2000 lx (for bright overcast; reflected sun on the lake yields more).
         for (cloud, range) in [(0.0, 50e3..125e3), (1.0, 5e3..20.5e3)] {
             let site = Site::build(&scenario(cloud), 1);
             let over = site.ambient_lux(Vec3::new(0.0, 0.0, 55.0), Some(UP), SimTime::ZERO);
@@ -278,7 +277,8 @@ mod tests {
         }
         let overcast = soffit_lux(&scenario(1.0));
         assert!(overcast.iter().all(|lux| (200.0..2000.0).contains(lux)), "{overcast:?}");
-        // 19:10 UTC: the sun stands about 5 deg high behind cloud, and the soffits fall to the 20 to 200 lx of dark places.
+        // 19:10 UTC: the sun is about 5 deg above the horizon behind clouds, and the soffits drop to the 20 to 200 lx of dark
+        // areas.
         let mut evening = scenario(1.0);
         evening.light.start_unix_s += 7 * 3600 + 600;
         let dark = soffit_lux(&evening);
@@ -295,7 +295,7 @@ mod tests {
 
     #[test]
     fn prop_traffic_stands_on_the_decks_and_touches_no_member() {
-        // Vehicles may clip nothing of the bridge but the deck they stand on: a point 0.3 m over every box's floor is free.
+        // Vehicles may intersect only the deck: a point 0.3 m above the bottom of every box is free.
         let scenario = scenario(0.0);
         let site = Site::build(&scenario, 4);
         for s in 0..120 {

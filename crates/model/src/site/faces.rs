@@ -1,4 +1,4 @@
-//! Faces of solids, and what lies within them.
+//! Faces of solids, and tests for points inside them.
 
 use crate::frames::{Enu, Vec3};
 use crate::scenario::bridges::Solid;
@@ -12,9 +12,9 @@ pub(super) struct MemberFace {
     corners_m: Vec<Vec3<Enu>>,
 }
 
-/// The face of a solid that a point lies on, with the point moved exactly onto its plane.
+/// Returns the face of a solid on which a point lies, with the point projected onto its plane.
 pub(super) fn face_at(solid: &Solid, point_m: Vec3<Enu>) -> Option<MemberFace> {
-    /// Farther from every face than this the point is not on the solid, m.
+    /// Maximum distance from a face for a point on the solid, m.
     const ON_FACE_M: f64 = 0.002;
     let mut best: Option<(f64, MemberFace)> = None;
     for indices in &solid.faces {
@@ -31,14 +31,14 @@ pub(super) fn face_at(solid: &Solid, point_m: Vec3<Enu>) -> Option<MemberFace> {
     best.map(|b| b.1)
 }
 
-/// Unit normal of a planar polygon by Newell's sum, robust against collinear corners.
+/// Returns the unit normal of a planar polygon by Newell's sum, which is robust against collinear corners.
 fn newell(corners_m: &[Vec3<Enu>]) -> Vec3<Enu> {
     let count = corners_m.len();
     (0..count).fold(Vec3::zero(), |sum, k| sum + corners_m[k].cross(corners_m[(k + 1) % count])).unit()
 }
 
 impl MemberFace {
-    /// Distance from a point in the plane to the nearest edge, m; negative outside.
+    /// Returns the distance from a point in the plane to the nearest edge, m; negative outside.
     pub(super) fn inset_m(&self, point_m: Vec3<Enu>) -> f64 {
         let count = self.corners_m.len();
         (0..count)
@@ -49,7 +49,7 @@ impl MemberFace {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// Direction in the face of its longest edge.
+    /// Returns the direction of the longest edge of the face.
     pub(super) fn long_axis(&self) -> Vec3<Enu> {
         let count = self.corners_m.len();
         let edges = (0..count).map(|k| self.corners_m[(k + 1) % count] - self.corners_m[k]);

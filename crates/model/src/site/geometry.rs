@@ -1,5 +1,5 @@
-//! What stands still: bridge members, ground, water, pad. Members are found through a bounding-volume tree (parry's, in f64); the
-//! exact questions are answered by [`Convex`] and [`HeightGrid`](super::heights::HeightGrid).
+//! Static geometry: bridge members, ground, water, landing pad. A bounding-volume tree (parry, in f64) finds candidate members;
+//! [`Convex`] and [`HeightGrid`](super::heights::HeightGrid) answer the exact queries.
 
 use super::convex::{Convex, SurfacePoint};
 use super::terrain::Terrain;
@@ -12,15 +12,15 @@ use rapier3d::parry::bounding_volume::Aabb;
 use rapier3d::parry::math::Vector;
 use rapier3d::parry::partitioning::{Bvh, BvhBuildStrategy, BvhLeafCost, BvhNode};
 
-/// The ground.
+/// Object ID of the ground.
 pub const GROUND: ObjectId = ObjectId(900_000);
-/// The water.
+/// Object ID of the water.
 pub const WATER: ObjectId = ObjectId(900_001);
-/// The pad.
+/// Object ID of the landing pad.
 pub const PAD: ObjectId = ObjectId(900_002);
 
 const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
-/// The pad reaches this far under its upper surface, m (the ground under it lies 0.05 m lower).
+/// Thickness of the landing pad below its upper surface, m (the ground below it is 0.05 m lower).
 const PAD_THICK_M: f64 = 0.3;
 
 /// Static geometry of a site.
@@ -41,7 +41,7 @@ fn vector(v: Vec3<Enu>) -> Vector {
     Vector::new(v.east(), v.north(), v.up())
 }
 
-/// A leaf of the tree that was found, in order of its distance.
+/// A leaf found in the tree, ordered by distance.
 struct LeafHit<T> {
     distance_m: f64,
     what: T,
@@ -54,7 +54,7 @@ impl<T> BvhLeafCost for LeafHit<T> {
 }
 
 impl Geometry {
-    /// Builds bridges, ground and pad.
+    /// Builds bridges, ground and landing pad.
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         let members: Vec<Member> = scenario.bridges.iter().flat_map(crate::scenario::Bridge::members).collect();
@@ -73,19 +73,19 @@ impl Geometry {
         Self { members, shapes, tree, terrain: Terrain::new(scenario), pad, pad_shape, pad_m, pad_half_m }
     }
 
-    /// Bridge members.
+    /// Returns the bridge members.
     #[must_use]
     pub fn members(&self) -> &[Member] {
         &self.members
     }
 
-    /// The pad: a level square slab, let into the ground.
+    /// Returns the landing pad: a level square slab embedded in the ground.
     #[must_use]
     pub fn pad(&self) -> &Member {
         &self.pad
     }
 
-    /// The shape of a member.
+    /// Returns the shape of a member.
     #[must_use]
     pub fn shape(&self, member: usize) -> Option<&Convex> {
         self.shapes.get(member)
@@ -95,22 +95,22 @@ impl Geometry {
         (p.east() - self.pad_m.east()).abs() <= self.pad_half_m && (p.north() - self.pad_m.north()).abs() <= self.pad_half_m
     }
 
-    /// Height of ground or pad under a point, m up.
+    /// Returns the height of ground or pad below a point, m up.
     #[must_use]
     pub fn ground_up_m(&self, east_m: f64, north_m: f64) -> f64 {
         let height = self.terrain.ground.ground(east_m, north_m).0;
         if self.over_pad(Vec3::new(east_m, north_m, 0.0)) { height.max(self.pad_m.up()) } else { height }
     }
 
-    /// The nearest member within `max_m`.
+    /// Returns the nearest member within `max_m`.
     #[must_use]
     pub fn nearest_member(&self, p: Vec3<Enu>, max_m: f64) -> Option<NearestPoint> {
         let at = vector(p);
-        // The tree looks for costs below the limit; a member at the limit itself counts.
+        // The tree search excludes the limit itself, but a member at exactly that distance counts.
         let limit = max_m.next_up();
         let to_box = |node: &BvhNode, _: f64| {
             let over = (node.mins() - at).max(at - node.maxs());
-            // Inside a box nothing in it can be deeper than the box's nearest side.
+            // Inside a bounding box, the depth cannot exceed the distance to the nearest side.
             if over.max_element() < 0.0 { over.max_element() } else { over.max(Vector::ZERO).length() }
         };
         let to_member = |leaf: u32, best_m: f64| {
@@ -122,7 +122,7 @@ impl Geometry {
         Some(NearestPoint { distance_m, point_m, normal, surface: Surface::Bridge, object: ObjectId(leaf) })
     }
 
-    /// The nearest of members, ground and water within `max_m`; over the pad the ground does not count.
+    /// Returns the nearest of members, ground and water within `max_m`; the ground is ignored over the landing pad.
     #[must_use]
     pub fn nearest(&self, p: Vec3<Enu>, max_m: f64) -> Option<NearestPoint> {
         let mut best: Option<NearestPoint> = None;
@@ -140,8 +140,8 @@ impl Geometry {
         self.nearest_member(p, reach).or(best)
     }
 
-    /// Distance to the nearest solid thing, pad and water included, if it is less than `max_m`: nothing still can touch what keeps inside a
-    /// ball of this radius around `p`.
+    /// Returns the distance to the nearest solid surface, including landing pad and water, if it is less than `max_m`. Nothing
+    /// inside a sphere of this radius about `p` can touch static geometry.
     #[must_use]
     pub fn free_radius(&self, p: Vec3<Enu>, max_m: f64) -> Option<f64> {
         let slab = self.pad_shape.nearest(p).distance_m.min(max_m);
@@ -150,13 +150,14 @@ impl Geometry {
         (free < max_m).then_some(free)
     }
 
-    /// The nearest thing along a straight piece of a path, and where, if it comes nearer than `less_than_m`; to within a millimetre.
+    /// Returns the point of a segment that is nearest to any surface, and that surface point, if the distance is below
+    /// `less_than_m`; accurate to one millimeter.
     #[must_use]
     pub fn tightest(&self, from: Vec3<Enu>, to: Vec3<Enu>, less_than_m: f64) -> Option<(Vec3<Enu>, NearestPoint)> {
         const CLOSE_M: f64 = 1e-3;
         let middle = (from + to) * 0.5;
         let half_m = 0.5 * (to - from).norm();
-        // Distance changes no faster than one metre a metre.
+        // Distance changes by at most one meter per meter.
         let near = self.nearest(middle, less_than_m + half_m)?;
         if near.distance_m - half_m >= less_than_m {
             return None;
@@ -175,7 +176,7 @@ impl Geometry {
         SurfacePoint { distance_m, point_m: p - UP * distance_m, normal: UP }
     }
 
-    /// The first member, ground, pad or water along a ray.
+    /// Returns the first hit of a ray with members, ground, pad or water.
     #[must_use]
     pub fn ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<RayHit> {
         let mut best: Option<RayHit> = None;
@@ -201,7 +202,7 @@ impl Geometry {
         let inverse = Vector::new(1.0 / direction.east(), 1.0 / direction.north(), 1.0 / direction.up());
         let to_box = |node: &BvhNode, best_m: f64| {
             let (low, high) = ((node.mins() - from) * inverse, (node.maxs() - from) * inverse);
-            // A component that does not move gives 0/0 where the origin lies on a side; min and max pass over it.
+            // A zero direction component yields 0/0 if the origin lies on a side; min and max ignore NaN.
             let enter = low.x.min(high.x).max(low.y.min(high.y)).max(low.z.min(high.z)).max(0.0);
             let leave = low.x.max(high.x).min(low.y.max(high.y)).min(low.z.max(high.z));
             if enter <= leave && enter <= best_m { enter } else { f64::MAX }
@@ -214,7 +215,7 @@ impl Geometry {
         Some(RayHit { distance_m: found.distance_m, normal: found.what, surface: Surface::Bridge, object: ObjectId(leaf) })
     }
 
-    /// Appends contacts of a probe with members, ground, pad and water.
+    /// Appends the contacts of a probe with members, ground, landing pad and water.
     pub fn contacts(&self, probe: &HullProbe, margin_m: f64, out: &mut Vec<Contact>) {
         let (low, high) = probe_bounds(probe, margin_m);
         let around = Aabb::new(vector(low), vector(high));
@@ -222,7 +223,7 @@ impl Geometry {
         for leaf in self.tree.intersect_aabb(&around) {
             touch(probe, margin_m, &self.shapes[leaf as usize], (Surface::Bridge, ObjectId(leaf)), out);
         }
-        // The tree's order depends on its shape; members are reported in their own order.
+        // The search order depends on the shape of the tree; contacts are reported in member order.
         out[first..].sort_by_key(|c| c.object.0);
         if near_pad(&self.pad_shape, low, high) {
             touch(probe, margin_m, &self.pad_shape, (Surface::Pad, PAD), out);
@@ -239,14 +240,14 @@ impl Geometry {
         }
         for (p, radius) in probe_ends(probe) {
             let water = self.over_water(p);
-            // Water lies only where the ground is lower.
+            // There is water only where the ground is below the water level.
             if water.distance_m <= radius + margin_m && self.terrain.ground.ground(p.east(), p.north()).0 < self.terrain.water_m {
                 out.push(contact(water, radius, Surface::Water, WATER));
             }
         }
     }
 
-    /// Contacts at a probe's ends, and between them where it lies across a ridge.
+    /// Adds the ground contacts at a probe's ends, and between them if it lies across a ridge.
     fn ground_contacts(&self, probe: &HullProbe, margin_m: f64, out: &mut Vec<Contact>) {
         let mut ends_m = f64::INFINITY;
         for (p, radius) in probe_ends(probe) {
@@ -294,7 +295,7 @@ fn probe_ends(probe: &HullProbe) -> impl Iterator<Item = (Vec3<Enu>, f64)> {
     ends.into_iter().take(count).map(move |p| (p, radius))
 }
 
-/// Corners of the axis-aligned box around a probe and its margin.
+/// Returns the corners of the axis-aligned bounding box of a probe including its margin.
 fn probe_bounds(probe: &HullProbe, margin_m: f64) -> (Vec3<Enu>, Vec3<Enu>) {
     let (a, b, radius) = match *probe {
         HullProbe::Ball { centre_m, radius_m } => (centre_m.array(), centre_m.array(), radius_m),
@@ -305,7 +306,8 @@ fn probe_bounds(probe: &HullProbe, margin_m: f64) -> (Vec3<Enu>, Vec3<Enu>) {
     (pick(f64::min, -reach), pick(f64::max, reach))
 }
 
-/// Contacts of a probe with one convex thing: at a ball's centre; at a capsule's ends, and between them where it lies across an edge.
+/// Adds the contacts of a probe with one convex shape: at the center of a ball; at the ends of a capsule, and between them if it
+/// lies across an edge.
 fn touch(probe: &HullProbe, margin_m: f64, shape: &Convex, (surface, object): (Surface, ObjectId), out: &mut Vec<Contact>) {
     let mut offer = |near: SurfacePoint, radius_m: f64| {
         if near.distance_m - radius_m <= margin_m {

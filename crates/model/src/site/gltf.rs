@@ -1,5 +1,6 @@
-//! The geometry that collides, as binary glTF 2.0: one node per bridge member, named, with its element number in `extras`; the ground,
-//! the water and the pad beside them. Positions are 32-bit floats (3e-5 m at 500 m); axes as glTF wants them: x east, y up, z south.
+//! Exports the collision geometry as binary glTF 2.0: one named node per bridge member, with its element number in `extras`, plus
+//! ground, water and landing pad. Positions are 32-bit floats (3e-5 m at 500 m); axes follow the glTF convention: x east, y up, z
+//! south.
 
 use super::Site;
 use crate::frames::{Enu, Vec3};
@@ -12,11 +13,11 @@ const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
-/// Colours: (name, red, green, blue).
+/// Materials: (name, red, green, blue).
 const MATERIALS: [(&str, f64, f64, f64); 4] =
     [("structure", 0.62, 0.60, 0.57), ("ground", 0.33, 0.40, 0.25), ("water", 0.16, 0.30, 0.38), ("pad", 0.85, 0.55, 0.10)];
 
-/// The parts of a binary glTF file while it grows.
+/// Buffers of a binary glTF file under construction.
 #[derive(Default)]
 struct GlbWriter {
     positions: Vec<u8>,
@@ -26,7 +27,7 @@ struct GlbWriter {
     nodes: Vec<Value>,
 }
 
-/// Writes the whole site.
+/// Exports the entire site.
 #[must_use]
 pub fn glb(site: &Site) -> Vec<u8> {
     let mut parts = GlbWriter::default();
@@ -46,14 +47,14 @@ pub fn glb(site: &Site) -> Vec<u8> {
     parts.file()
 }
 
-/// Two triangles that look up.
+/// Two triangles that face up.
 const SQUARE: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 
 fn square([west, south]: [f64; 2], [east, north]: [f64; 2], up: f64) -> [Vec3<Enu>; 4] {
     [Vec3::new(west, south, up), Vec3::new(east, south, up), Vec3::new(east, north, up), Vec3::new(west, north, up)]
 }
 
-/// East, north, up to glTF's right-handed y-up axes.
+/// Converts east, north, up to glTF's right-handed y-up axes.
 fn axes(point: &Vec3<Enu>) -> [f32; 3] {
     [point.east() as f32, point.up() as f32, -point.north() as f32]
 }
@@ -105,7 +106,8 @@ impl GlbWriter {
     }
 }
 
-/// The GLB container: header, JSON chunk padded with spaces, binary chunk padded with zeros (glTF 2.0 specification, section 4.4).
+/// Builds the GLB container: header, JSON chunk padded with spaces, binary chunk padded with zeros (glTF 2.0 specification,
+/// section 4.4).
 fn container(mut json: Vec<u8>, mut binary: Vec<u8>) -> Vec<u8> {
     json.resize(json.len().next_multiple_of(4), b' ');
     binary.resize(binary.len().next_multiple_of(4), 0);
@@ -135,7 +137,7 @@ mod tests {
 
     #[test]
     fn val_another_reader_finds_every_member_with_its_element_and_its_corners() {
-        // A 32-bit float carries positions within 1 km to 6e-5 m.
+        // 32-bit floats represent positions within 1 km to 6e-5 m.
         const ROUNDING_M: f64 = 6e-5;
         let site = Site::build(&two_bridges(), 1);
         let (document, buffers, _) = gltf::import_slice(glb(&site)).unwrap();

@@ -1,20 +1,20 @@
-//! The ground as a surface of triangles over a square grid, and the exact questions one may ask of it: height under a point, nearest point,
-//! first hit of a ray. Beyond the grid its rim goes on level.
+//! The ground as a triangulated surface over a square grid, with exact queries: height at a point, nearest point, first hit of a
+//! ray. Outside the grid, the heights of its border continue horizontally.
 
 use super::convex::SurfacePoint;
 use super::nearest::{nearest_of_triangle, over_crease};
 use crate::frames::{Enu, Vec3};
 
-/// Cells are pruned by the lowest and highest ground of squares of this many cells a side.
+/// Side length of the blocks, in cells, whose minimum and maximum heights are used to skip cells.
 const BLOCK: i64 = 8;
-/// A point nearer to the surface than this has the triangle's own normal, m.
+/// Distance from the surface below which a point gets the normal of the triangle, m.
 const TOUCHING_M: f64 = 1e-9;
-/// Differences of distance below this count as none, m.
+/// Tolerance on equal distances, m.
 const LEVEL_M: f64 = 1e-7;
-/// Rays are followed no farther than this, m (scenario files allow fields of 4 km).
+/// Maximum length of a ray, m (scenario files allow terrain of 4 km).
 const FARTHEST_M: f64 = 20_000.0;
 
-/// Heights at the corners of a square grid of square cells, each split into two triangles from its south-west to its north-east corner.
+/// Heights at the corners of square grid cells, each split into two triangles from its southwest to its northeast corner.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeightGrid {
     heights_m: Vec<f64>,
@@ -26,7 +26,7 @@ pub struct HeightGrid {
     highest_m: f64,
 }
 
-/// A cell's south-west corner in grid steps and the heights of its corners.
+/// A cell: its southwest corner in grid steps, and the heights of its corners.
 struct TerrainCell {
     column: i64,
     row: i64,
@@ -45,25 +45,25 @@ impl TerrainCell {
         self.sw.max(self.se).max(self.nw.max(self.ne))
     }
 
-    /// Rise per cell to the east and to the north in the triangle of the given side of the diagonal.
+    /// Returns the slope per cell to the east and to the north of the triangle on the given side of the diagonal.
     fn rise(&self, south_east: bool) -> (f64, f64) {
         if south_east { (self.se - self.sw, self.ne - self.se) } else { (self.ne - self.nw, self.nw - self.sw) }
     }
 }
 
-/// Where a ray is once it has passed over a block.
+/// Position of a ray after it has skipped a block.
 struct RayClearance {
     column: i64,
     row: i64,
     t: f64,
 }
 
-/// Distance along a ray at which it leaves a column or row of cells, through the side that it moves towards.
+/// Returns the distance along a ray at which it leaves a column or row of cells in its direction of travel.
 fn exit_distance(cell: i64, from: f64, rate: f64) -> f64 {
     if rate == 0.0 { f64::INFINITY } else { ((cell + i64::from(rate > 0.0)) as f64 - from) / rate }
 }
 
-/// The row or column in which a ray is after it has crossed all the sides that it crosses before something else.
+/// Returns the row or column of a ray after it has crossed all cell sides for which `before` is true.
 fn lane(mut cell: i64, from: f64, rate: f64, before: impl Fn(f64) -> bool) -> i64 {
     let forward = if rate > 0.0 { 1 } else { -1 };
     while before(exit_distance(cell, from, rate)) {
@@ -73,10 +73,11 @@ fn lane(mut cell: i64, from: f64, rate: f64, before: impl Fn(f64) -> bool) -> i6
 }
 
 impl HeightGrid {
-    /// From heights row by row from the south, each row from the west; the grid is centred on the scenario's origin.
+    /// Creates the grid from heights row by row from the south, each row from the west; the grid is centered on the scenario
+    /// origin.
     ///
     /// # Panics
-    /// When there are fewer than four heights or they do not fill a square.
+    /// If there are fewer than four heights or their number is not a square.
     #[must_use]
     pub fn new(heights_m: Vec<f64>, spacing_m: f64) -> Self {
         let side = heights_m.len().isqrt();
@@ -97,7 +98,7 @@ impl HeightGrid {
         heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)))
     }
 
-    /// Lowest and highest ground of a block; blocks beyond the rim continue it.
+    /// Returns the minimum and maximum height of a block; blocks outside the grid extend its border.
     fn block(&self, row: i64, column: i64) -> (f64, f64) {
         let last = self.blocks_a_side as i64 - 1;
         self.blocks[row.clamp(0, last) as usize * self.blocks_a_side + column.clamp(0, last) as usize]
@@ -112,7 +113,7 @@ impl HeightGrid {
         TerrainCell { column, row, sw: h[south + west], se: h[south + east], nw: h[north + west], ne: h[north + east] }
     }
 
-    /// A point in grid steps from the south-west corner.
+    /// Converts a point to grid steps from the southwest corner.
     fn steps(&self, p: Vec3<Enu>) -> (f64, f64) {
         ((p.east() - self.origin_m) / self.spacing_m, (p.north() - self.origin_m) / self.spacing_m)
     }
@@ -121,7 +122,7 @@ impl HeightGrid {
         Vec3::new(-east, -north, self.spacing_m).unit()
     }
 
-    /// Height and upward unit normal of the ground under a point.
+    /// Returns the height and upward unit normal of the ground at a point.
     #[must_use]
     pub fn ground(&self, east_m: f64, north_m: f64) -> (f64, Vec3<Enu>) {
         let (x, y) = self.steps(Vec3::new(east_m, north_m, 0.0));
@@ -131,8 +132,8 @@ impl HeightGrid {
         (cell.sw + u * rise.0 + v * rise.1, self.normal(rise))
     }
 
-    /// The nearest point of the surface within `max_m`, with the distance negative for a point under the ground, which is found however
-    /// deep it lies.
+    /// Returns the nearest surface point within `max_m`. The distance is negative for a point below the ground, which is found at
+    /// any depth.
     #[must_use]
     pub fn nearest(&self, p: Vec3<Enu>, max_m: f64) -> Option<SurfacePoint> {
         let (height, normal) = self.ground(p.east(), p.north());
@@ -141,7 +142,7 @@ impl HeightGrid {
             return None;
         }
         let below = above < 0.0;
-        // The ground straight below or above is one point of the surface: none farther away need be looked at.
+        // The ground directly above or below is one surface point, so points farther away need not be checked.
         let reach = if below { -above } else { above.min(max_m) };
         let mut best = (reach * reach, Vec3::new(p.east(), p.north(), height));
         let mut found = below || above <= max_m;
@@ -155,7 +156,7 @@ impl HeightGrid {
         Some(SurfacePoint { distance_m: signed, point_m: best.1, normal })
     }
 
-    /// Nowhere over this rectangle does the ground reach up to `up_m`; says so only where it is certain.
+    /// Returns true only if the ground is certainly below `up_m` everywhere in this rectangle.
     #[must_use]
     pub fn lies_under(&self, low: Vec3<Enu>, high: Vec3<Enu>, up_m: f64) -> bool {
         let ((west, south), (east, north)) = (self.steps(low), self.steps(high));
@@ -163,8 +164,8 @@ impl HeightGrid {
             .all(|row| (west.floor() as i64..=east.floor() as i64).all(|column| self.cell(column, row).highest() < up_m))
     }
 
-    /// Where a segment comes nearer to a crease of the ground than `enough_m` and nearer than both of its ends, whose distances are given:
-    /// it lies across a ridge.
+    /// Returns the point at which a segment across a ridge is closer to a crease of the ground than `enough_m` and than both of
+    /// its ends, which are at `ends_m`.
     #[must_use]
     pub fn between(&self, a: Vec3<Enu>, b: Vec3<Enu>, ends_m: f64, enough_m: f64) -> Option<SurfacePoint> {
         let ((xa, ya), (xb, yb)) = (self.steps(a), self.steps(b));
@@ -180,7 +181,7 @@ impl HeightGrid {
                 };
                 let sw = corner(0, 0, cell.sw);
                 for to in [corner(1, 0, cell.se), corner(0, 1, cell.nw), corner(1, 1, cell.ne)] {
-                    // A crease that the segment has gone through comes before all others, the deepest first.
+                    // Creases that the segment penetrates take precedence, the deepest first.
                     let (rank, near) = over_crease((a, b), (sw, to));
                     if near.distance_m.abs() > TOUCHING_M && nearest.is_none_or(|n| rank < n.0) {
                         nearest = Some((rank, near));
@@ -211,7 +212,7 @@ impl HeightGrid {
         }
     }
 
-    /// Squared distance to the box over a square of cells (column, row, cells a side) between two heights.
+    /// Returns the squared distance to the box over a square of cells (column, row, cells per side) between two heights.
     fn gap_squared(&self, p: Vec3<Enu>, (column, row, cells): (i64, i64, i64), (low, high): (f64, f64)) -> f64 {
         let west = self.origin_m + column as f64 * self.spacing_m;
         let south = self.origin_m + row as f64 * self.spacing_m;
@@ -241,14 +242,14 @@ impl HeightGrid {
         }
     }
 
-    /// Distance along a ray to the ground and the normal there; a ray that starts under the ground hits at once.
+    /// Returns the distance along a ray to the ground and the normal there; a ray that starts below the ground hits immediately.
     #[must_use]
     pub fn ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<(f64, Vec3<Enu>)> {
         let (height, normal) = self.ground(origin.east(), origin.north());
         if origin.up() <= height {
             return Some((0.0, normal));
         }
-        // Over the highest ground there is nothing to hit.
+        // Above the highest ground there is nothing to hit.
         let to_top = (self.highest_m - origin.up()) / direction.up();
         let (start, end) = match (origin.up() > self.highest_m, direction.up() < 0.0) {
             (true, false) => return None,
@@ -257,11 +258,11 @@ impl HeightGrid {
             (false, false) => (0.0, if direction.up() > 0.0 { max_m.min(to_top) } else { max_m }),
         };
         let (start, end) = (start.max(0.0), end.min(FARTHEST_M));
-        // What all but runs level comes down to the highest ground farther away than cells can be counted.
+        // A nearly level ray may reach the maximum ground height too far away for cell indices.
         if start < end { self.walk_cells(origin, direction, start, end) } else { None }
     }
 
-    /// Follows the cells under a ray.
+    /// Walks along the cells below a ray.
     fn walk_cells(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, start: f64, end: f64) -> Option<(f64, Vec3<Enu>)> {
         let (x0, y0) = self.steps(origin);
         let (dx, dy) = (direction.east() / self.spacing_m, direction.north() / self.spacing_m);
@@ -278,7 +279,7 @@ impl HeightGrid {
                 (next_x, next_y) = (exit_distance(column, x0, dx), exit_distance(row, y0, dy));
                 continue;
             }
-            // Rounding may put a cell's side a hair behind.
+            // Rounding may place a cell's side slightly behind the ray.
             let leave = next_x.min(next_y).min(end).max(t);
             let cell = self.cell(column, row);
             let low = (origin.up() + direction.up() * t).min(origin.up() + direction.up() * leave);
@@ -299,7 +300,8 @@ impl HeightGrid {
         None
     }
 
-    /// Passes over the rest of a block whose ground lies all below the ray, to the very cell that going from cell to cell would come to.
+    /// Skips the rest of a block whose ground is entirely below the ray and continues at the same cell as a walk through every
+    /// cell.
     fn over_block(
         &self,
         (origin, direction): (Vec3<Enu>, Vec3<Enu>),
@@ -309,7 +311,7 @@ impl HeightGrid {
         (t, end): (f64, f64),
     ) -> Option<RayClearance> {
         let block = (cell.0.div_euclid(BLOCK), cell.1.div_euclid(BLOCK));
-        // The cell of the block that the ray leaves it by, along one axis.
+        // The last cell of the block along one axis.
         let last = |block: i64, rate: f64| block * BLOCK + if rate > 0.0 { BLOCK - 1 } else { 0 };
         let (last_column, last_row) = (last(block.0, rate.0), last(block.1, rate.1));
         let (out_x, out_y) = (exit_distance(last_column, from.0, rate.0), exit_distance(last_row, from.1, rate.1));
@@ -320,7 +322,7 @@ impl HeightGrid {
         }
         let forward = |rate: f64| if rate > 0.0 { 1 } else { -1 };
         let (column, row) = if out_x <= out_y {
-            // Of two sides met at once the eastern or western one is crossed first.
+            // If two sides are crossed at once, the eastern or western one is crossed first.
             (last_column + forward(rate.0), lane(cell.1, from.1, rate.1, |side| side < out_x))
         } else {
             (lane(cell.0, from.0, rate.0, |side| side <= out_y), last_row + forward(rate.1))
@@ -328,7 +330,7 @@ impl HeightGrid {
         Some(RayClearance { column, row, t: leave })
     }
 
-    /// The first point at which the ray is no longer over the cell's two triangles, between two distances.
+    /// Returns the first point between two distances at which the ray is no longer above the cell's two triangles.
     fn hit_in_cell(
         &self,
         cell: &TerrainCell,
@@ -353,7 +355,8 @@ impl HeightGrid {
         None
     }
 
-    /// The surface for export: corner positions, row by row, and the corners of each triangle, counter-clockwise from above.
+    /// Returns the surface for export: vertex positions, row by row, and the vertex indices of each triangle, counterclockwise
+    /// from above.
     #[must_use]
     pub fn triangles(&self) -> (Vec<Vec3<Enu>>, Vec<[u32; 3]>) {
         let along = |n: usize| self.origin_m + n as f64 * self.spacing_m;

@@ -1,8 +1,8 @@
-//! Light in lux: direct sun, sky, what water and ground throw up, and what the structure passes on inside.
+//! Illuminance in lux: direct sun, sky, reflection from water and ground, and interreflection within the structure.
 //!
-//! A fixed set of rays samples the surroundings (no random numbers, no memory: the same point gives the same light). Sky
-//! luminance is uniform. A ray that ends on water, ground or structure brings that surface's first reflection; light that
-//! bounces between members is closed as in an enclosure: the structure seen is taken to be as bright as it is here.
+//! A fixed set of rays samples the surroundings (no random numbers and no state: the same point always yields the same light).
+//! Sky luminance is uniform. A ray that hits water, ground or structure contributes that surface's first reflection;
+//! interreflection between members is modeled as an enclosure: the visible structure is assumed to be as bright as this point.
 
 use super::sun;
 use super::{RayHit, Surface};
@@ -12,18 +12,18 @@ use crate::math;
 use crate::scenario::LightSpec;
 use crate::time::SimTime;
 
-/// A ray query against what stands still: origin, unit direction, reach in m.
+/// A ray query against static geometry: origin, unit direction, maximum length in m.
 pub type RayCast<'a> = &'a dyn Fn(Vec3<Enu>, Vec3<Enu>, f64) -> Option<RayHit>;
 
-/// Rays of one estimate. 64 keep the error of a half-open sky at a few per cent and the cost below 200 us.
+/// Number of rays per estimate. 64 keep the error for a half-open sky at a few percent and the cost below 200 us.
 const RAYS: usize = 64;
-/// Rays that decide the sky view (upper hemisphere).
+/// Number of rays for the sky view (upper hemisphere).
 const SKY_RAYS: usize = 64;
-/// How far a structure still shades the sky, m (estimate: beyond, it covers less than one ray's share).
+/// Maximum distance at which a structure obstructs the sky, m (estimate: beyond, it covers less than one ray).
 const SKY_REACH_M: f64 = 250.0;
-/// How far a shadow falls, m (estimate).
+/// Maximum length of a shadow, m (estimate).
 const SHADOW_REACH_M: f64 = 600.0;
-/// Start of a ray above the surface it leaves, m.
+/// Offset of a ray's start from its surface, m.
 const LIFT_M: f64 = 0.01;
 /// Extraterrestrial solar illuminance, lx (IES RP-21, 127.5 klx).
 const SOLAR_LUX: f64 = 127_500.0;
@@ -31,25 +31,25 @@ const SOLAR_LUX: f64 = 127_500.0;
 const CLEAR_EXTINCTION: f64 = 0.21;
 /// Reflectance of weathered concrete and steel under the deck (estimate; fresh concrete 0.3 to 0.4).
 const STRUCTURE_ALBEDO: f64 = 0.25;
-/// Illuminance decays below the horizon by this rate per degree: from 800 lx at sunset to the 3.4 lx published for the end of
-/// civil twilight at -6 deg.
+/// Decay rate of illuminance per degree of sun elevation below the horizon: from 800 lx at sunset to the published 3.4 lx at the
+/// end of civil twilight at -6 deg.
 const TWILIGHT_DECAY_PER_DEG: f64 = 0.91;
-/// A night sky without a moon, lx (published order of magnitude).
+/// Illuminance of a moonless night sky, lx (published order of magnitude).
 const NIGHT_LUX: f64 = 0.002;
 
-/// What the sky gives at one instant.
+/// Sun and sky light at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Daylight {
-    /// Unit vector towards the sun.
+    /// Unit vector toward the sun.
     pub sun: Vec3<Enu>,
-    /// Direct sun on a surface that faces it, lx.
+    /// Direct solar illuminance on a surface facing the sun, lx.
     pub direct_normal_lux: f64,
-    /// Horizontal illuminance of the whole sky without the sun, lx.
+    /// Horizontal illuminance of the entire sky without the sun, lx.
     pub sky_lux: f64,
 }
 
 impl Daylight {
-    /// IES RP-21 daylight availability, clear and overcast mixed by cloud cover, for a direction of the sun.
+    /// Computes IES RP-21 daylight availability for a sun direction, with clear and overcast skies mixed by cloud cover.
     #[must_use]
     pub fn at(sun: Vec3<Enu>, cloud_cover: f64) -> Self {
         let s = sun.up();
@@ -73,7 +73,7 @@ impl Daylight {
     }
 }
 
-/// The light of one job: plain data, made once.
+/// Light model of one job: plain data, immutable after construction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LightModel {
     light: LightSpec,
@@ -83,20 +83,20 @@ pub struct LightModel {
     disc: Vec<(f64, f64)>,
 }
 
-/// What one ray meets.
+/// Type of surface that a ray hits.
 #[derive(Debug, Clone, Copy)]
 enum RayOutcome {
     /// The sky.
     Sky,
     /// Land or water beyond the ray's reach.
     Far,
-    /// Ground or water: its albedo, the share of the sun's light on it, its normal's height.
+    /// Ground or water: its albedo, the fraction of sunlight it receives, and the vertical component of its normal.
     Outdoors { albedo: f64, sun: f64, up: f64 },
-    /// A member, or what drives and walks: the share of the sun's light on it.
+    /// A member or traffic: the fraction of sunlight it receives.
     Structure { sun: f64 },
 }
 
-/// Sums over one bundle of rays: mean luminance share by what the rays met, times π.
+/// Sums over one bundle of rays, by hit type.
 #[derive(Debug, Clone, Copy, Default)]
 struct LightSums {
     outside_lux: f64,
@@ -105,27 +105,27 @@ struct LightSums {
 }
 
 impl LightModel {
-    /// For a scenario's light at the place of its origin.
+    /// Creates the model from a scenario's light settings and the position of its origin.
     #[must_use]
     pub fn new(light: &LightSpec, place: Geo) -> Self {
         Self { light: light.clone(), place, sphere: fibonacci(RAYS, -1.0), upper: fibonacci(SKY_RAYS, 0.0), disc: spiral(RAYS) }
     }
 
-    /// Sun and sky at an instant.
+    /// Returns the sun and sky light at an instant.
     #[must_use]
     pub fn daylight(&self, at: SimTime) -> Daylight {
         Daylight::at(sun::direction(self.light.start_unix_s as f64 + at.s(), self.place), self.light.cloud_cover)
     }
 
-    /// Share of the upper hemisphere (by solid angle) that is open sky, 0..1.
+    /// Returns the fraction of the upper hemisphere (by solid angle) that is open sky, 0 to 1.
     #[must_use]
     pub fn sky_view(&self, position_m: Vec3<Enu>, cast: RayCast) -> f64 {
         let open = self.upper.iter().filter(|d| cast(position_m, **d, SKY_REACH_M).is_none()).count();
         open as f64 / self.upper.len() as f64
     }
 
-    /// Illuminance, lx, on a surface with this outward normal, or for `None` the mean over all orientations (a quarter of what a
-    /// ball receives). No lamp.
+    /// Returns the illuminance on a surface with this outward normal, lx; for `None`, the mean over all orientations (a quarter
+    /// of the light that a sphere receives). Excludes the lamp.
     #[must_use]
     pub fn ambient_lux(&self, position_m: Vec3<Enu>, normal: Option<Vec3<Enu>>, at: SimTime, cast: RayCast) -> f64 {
         let day = self.daylight(at);
@@ -140,9 +140,9 @@ impl LightModel {
         direct + gathered.indirect_lux()
     }
 
-    /// What a surface receives besides the sun itself, by the same model as [`Self::ambient_lux`]: as a share of the sky's horizontal
-    /// illuminance and as a share of the sun's on a surface that faces it. So a picture of the same place at another brightness of the
-    /// day needs no new rays. `rays` (see [`spread`]) may be fewer than the measures use.
+    /// Returns the indirect light on a surface, by the same model as [`Self::ambient_lux`]: as a fraction of the sky's horizontal
+    /// illuminance, and as a fraction of the sun's illuminance on a surface that faces it. An image of the same place at another
+    /// daylight level then needs no new rays. `rays` (see [`spread`]) may be fewer than for measurements.
     #[must_use]
     pub fn indirect_shares(
         &self,
@@ -174,7 +174,7 @@ impl LightModel {
         self.sum(rays.map(|direction| self.trace_ray(origin, direction, sun, cast)), day)
     }
 
-    /// What a ray meets; where the sun does not shine, no shadow is looked for.
+    /// Traces a ray; skips the shadow test if there is no direct sun.
     fn trace_ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, (sun, shines): (Vec3<Enu>, bool), cast: RayCast) -> RayOutcome {
         let Some(hit) = cast(origin, direction, SKY_REACH_M) else {
             return if direction.up() > 0.0 { RayOutcome::Sky } else { RayOutcome::Far };
@@ -196,7 +196,7 @@ impl LightModel {
                 RayOutcome::Sky => sum.outside_lux += share * day.sky_lux,
                 RayOutcome::Far => sum.outside_lux += share * self.far_lux(day),
                 RayOutcome::Outdoors { albedo, sun, up } => {
-                    // Ground and water see most of the sky wherever they are seen from (estimate: the share above the horizon).
+                    // Visible ground and water are assumed to see most of the sky (estimate: the fraction above the horizon).
                     sum.outside_lux += share * albedo * (sun * day.direct_normal_lux + day.sky_lux * 0.5 * (1.0 + up));
                 }
                 RayOutcome::Structure { sun } => {
@@ -208,7 +208,7 @@ impl LightModel {
         sum
     }
 
-    /// What comes from beyond the reach of a downward ray: land and water far away, in the sun.
+    /// Returns the illuminance from beyond the range of a downward ray: distant sunlit land and water.
     fn far_lux(&self, day: &Daylight) -> f64 {
         let albedo = 0.5 * (self.light.water_albedo + self.light.ground_albedo);
         albedo * (day.sky_lux + day.direct_normal_lux * day.sun.up().max(0.0))
@@ -224,37 +224,37 @@ impl LightModel {
 }
 
 impl LightSums {
-    /// Enclosure: what is seen of the structure receives, beside its own direct sun, the same indirect light as this point.
+    /// Enclosure model: visible structure receives the same indirect light as this point, in addition to its own direct sun.
     fn indirect_lux(&self) -> f64 {
         (self.outside_lux + self.structure_lux) / (1.0 - STRUCTURE_ALBEDO * self.structure_share)
     }
 }
 
-/// Nothing shades a point from the sun.
+/// Returns true if nothing blocks the sun at a point.
 fn is_sunlit(point: Vec3<Enu>, sun: Vec3<Enu>, cast: RayCast) -> bool {
     cast(point, sun, SHADOW_REACH_M).is_none()
 }
 
-/// A cosine-weighted bundle over the hemisphere about `n`.
+/// Returns a cosine-weighted bundle over the hemisphere about `n`.
 fn over(n: Vec3<Enu>, disc: &[(f64, f64)]) -> impl ExactSizeIterator<Item = Vec3<Enu>> + '_ {
     let (a, b) = tangents(n);
     disc.iter().map(move |(x, y)| a * *x + b * *y + n * (1.0 - x * x - y * y).max(0.0).sqrt())
 }
 
-/// Rays of a bundle of any size for [`LightModel::indirect_shares`].
+/// Returns a bundle of any size for [`LightModel::indirect_shares`].
 #[must_use]
 pub fn spread(count: usize) -> Vec<(f64, f64)> {
     spiral(count.max(1))
 }
 
-/// Two unit vectors that complete a right-handed frame with `n`.
+/// Returns two unit vectors that form a right-handed frame with `n`.
 pub(super) fn tangents(n: Vec3<Enu>) -> (Vec3<Enu>, Vec3<Enu>) {
     let reference = if n.up().abs() < 0.9 { Vec3::new(0.0, 0.0, 1.0) } else { Vec3::new(1.0, 0.0, 0.0) };
     let a = reference.cross(n).unit();
     (a, n.cross(a))
 }
 
-/// Directions spread evenly (golden-angle spiral) over the part of the unit sphere from height `lowest` to 1.
+/// Returns directions distributed evenly (golden-angle spiral) over the part of the unit sphere from height `lowest` to 1.
 fn fibonacci(count: usize, lowest: f64) -> Vec<Vec3<Enu>> {
     (0..count)
         .map(|k| {
@@ -266,7 +266,8 @@ fn fibonacci(count: usize, lowest: f64) -> Vec<Vec3<Enu>> {
         .collect()
 }
 
-/// Points spread evenly over the unit disc; lifted to the hemisphere they are cosine-weighted (Malley's method).
+/// Returns points distributed evenly over the unit disc; projected onto the hemisphere they are cosine-weighted (Malley's
+/// method).
 fn spiral(count: usize) -> Vec<(f64, f64)> {
     (0..count)
         .map(|k| {
@@ -290,7 +291,7 @@ mod tests {
     const PLACE: Geo = Geo { latitude_deg: 46.5, longitude_deg: 0.0, altitude_m: 0.0 };
 
     fn model(cloud_cover: f64) -> LightModel {
-        // 2024-06-20 12:00 UTC: within a minute of local noon, sun 67 deg high.
+        // 2024-06-20 12:00 UTC: within a minute of local noon, sun elevation 67 deg.
         let light = LightSpec { start_unix_s: 1_718_884_800, cloud_cover, water_albedo: 0.08, ground_albedo: 0.2 };
         LightModel::new(&light, PLACE)
     }
@@ -346,14 +347,14 @@ mod tests {
         assert!((5e3..=20.5e3).contains(&open(&model(1.0))), "{}", open(&model(1.0)));
         let soffit = |cloud| model(cloud).ambient_lux(Vec3::new(0.0, 0.0, 20.0), Some(DOWN), at, &deck(12.0));
         assert!((200.0..=2000.0).contains(&soffit(1.0)), "{}", soffit(1.0));
-        // In full sun the lake throws up 8 % of 100 klx, more than that range, which has no sun on the water.
+        // In full sun the lake reflects 8 % of 100 klx, above that range, which assumes no sun on the water.
         assert!((2000.0..=10_000.0).contains(&soffit(0.0)), "{}", soffit(0.0));
     }
 
     #[test]
     fn exact_the_sky_view_under_a_long_deck_is_the_analytic_solid_angle() {
-        // Under the middle of an endless strip, h below and w wide, the open share of the hemisphere is 1 - 2/π atan(w/2h).
-        // Tolerance: two rays of the set.
+        // At the center of an infinite strip of width w, at distance h below it, the open fraction of the hemisphere is 1 - 2/π
+        // atan(w/2h). Tolerance: two rays.
         let tolerance = 2.0 / SKY_RAYS as f64;
         for (width, height) in [(10.0, 5.0), (20.0, 4.0), (4.0, 12.0)] {
             let below = Vec3::new(0.0, 0.0, 20.0 - height);

@@ -1,5 +1,5 @@
-//! What stands at the job, built from a scenario and a seed, and the questions one may ask of it. Positions are in the
-//! scenario's local frame [`Enu`], metres. All queries are pure functions of their arguments: traffic and wind take the time.
+//! The site of a job, built from a scenario and a seed, and its geometry, light and visibility queries. Positions are in the
+//! scenario's local frame [`Enu`], meters. All queries are pure functions of their arguments; traffic and wind take the time.
 
 pub mod boxes;
 pub mod catalogue;
@@ -34,8 +34,8 @@ use dynamics::{Dynamics, StaticQueries};
 use geometry::Geometry;
 use std::sync::Arc;
 
-/// What something is made of for contact, clearance and the wire's `contact` code (docs/src/reference/wire.md, "Scoring data": 0
-/// none, 1 bridge, 2 terrain, 3 water, 4 vehicle, 5 person, 6 other).
+/// Surface type for contact, clearance and the wire's `contact` code (docs/src/reference/wire.md, "Scoring data": 0 none, 1
+/// bridge, 2 terrain, 3 water, 4 vehicle, 5 person, 6 other).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Surface {
     /// A bridge member.
@@ -50,11 +50,11 @@ pub enum Surface {
     Person,
     /// Anything else.
     Other,
-    /// The take-off pad: solid, but neither a crash nor counted as clearance.
+    /// The landing pad: solid, but neither a crash nor included in the clearance.
     Pad,
 }
 
-/// Identifies what was hit or is near, for messages: an index into [`Site::members`] for bridges, else a running number.
+/// Identifies an object in messages: the index into [`Site::members`] for bridges, otherwise a unique number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ObjectId(pub u32);
 
@@ -65,24 +65,24 @@ pub struct NearestPoint {
     pub distance_m: f64,
     /// The surface point, m.
     pub point_m: Vec3<Enu>,
-    /// Outward unit normal there (from the object towards the query point).
+    /// Outward unit normal at that point (from the object toward the query point).
     pub normal: Vec3<Enu>,
-    /// What it belongs to.
+    /// Surface type.
     pub surface: Surface,
-    /// Which object.
+    /// Object ID.
     pub object: ObjectId,
 }
 
-/// A ray's first hit.
+/// The first hit of a ray.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RayHit {
     /// Distance along the ray, m.
     pub distance_m: f64,
-    /// Outward unit normal.
+    /// Outward unit normal of the surface.
     pub normal: Vec3<Enu>,
-    /// What it belongs to.
+    /// Surface type.
     pub surface: Surface,
-    /// Which object.
+    /// Object ID.
     pub object: ObjectId,
 }
 
@@ -91,24 +91,24 @@ pub struct RayHit {
 pub struct Contact {
     /// Point on the object's surface, m.
     pub point_m: Vec3<Enu>,
-    /// Outward unit normal of the object, towards the aircraft.
+    /// Outward unit normal of the object, toward the aircraft.
     pub normal: Vec3<Enu>,
     /// Gap along the normal, m; negative when they overlap.
     pub gap_m: f64,
     /// Velocity of the object at that point, m/s (traffic moves).
     pub velocity_m_s: Vec3<Enu>,
-    /// What it belongs to.
+    /// Surface type.
     pub surface: Surface,
-    /// Which object.
+    /// Object ID.
     pub object: ObjectId,
 }
 
-/// Convex parts that the aircraft's hull is made of, placed in site coordinates.
+/// Convex parts of the aircraft's hull, in site coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum HullProbe {
     /// A ball.
     Ball {
-        /// Centre, m.
+        /// Center, m.
         centre_m: Vec3<Enu>,
         /// Radius, m.
         radius_m: f64,
@@ -124,25 +124,25 @@ pub enum HullProbe {
     },
 }
 
-/// The instant of a query: what moves is where it is at this simulation time.
+/// Simulation time of a query, which determines the position of moving objects.
 pub type QueryTime = SimTime;
 
-/// Where a camera is and how it looks at one instant.
+/// Position and orientation of a camera at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CameraPose {
     /// Lens position, m.
     pub position_m: Vec3<Enu>,
     /// Unit vector of the optical axis.
     pub forward: Vec3<Enu>,
-    /// Unit vector to the image's right.
+    /// Unit vector toward the right side of the image.
     pub right: Vec3<Enu>,
-    /// The lamp is on (it looks where the camera looks).
+    /// The lamp is on (it points along the optical axis).
     pub lamp_on: bool,
 }
 
 impl CameraPose {
-    /// The camera of an aircraft in a pose: the attitude gives the heading, the gimbal holds roll level and its pitch over the horizon, rad,
-    /// up positive.
+    /// Returns the camera pose for an aircraft pose: the attitude determines the heading; the gimbal keeps roll level and holds
+    /// its pitch above the horizon, rad, up positive.
     #[must_use]
     pub fn on(
         camera: &Camera,
@@ -160,36 +160,36 @@ impl CameraPose {
     }
 }
 
-/// How one defect shows in a picture: every condition on its own, so that a report can name what failed.
+/// Visibility of one defect in a photo, with each condition listed separately for reports.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DefectView {
-    /// [`PlacedDefect::id`].
+    /// Defect ID ([`PlacedDefect::id`]).
     pub defect_id: u32,
     /// Inside the central 80 % of the image.
     pub in_frame: bool,
-    /// Nothing stands between lens and defect.
+    /// Nothing blocks the line of sight.
     pub unoccluded: bool,
     /// Angle between the line of sight and the defect's normal, rad.
     pub incidence_rad: f64,
-    /// Longest visible extent, px.
+    /// Longest visible dimension, px.
     pub extent_px: f64,
-    /// Width across, px (only lines must pass a limit).
+    /// Width, px (only lines have a minimum).
     pub width_px: f64,
-    /// Light at the defect, lux (sun, sky, water, lamp).
+    /// Illuminance at the defect, lx (sun, sky, water, lamp).
     pub illuminance_lux: f64,
-    /// Light needed for an exposure within the camera's limits, lux.
+    /// Illuminance needed for an exposure within the camera's limits, lx.
     pub needed_lux: f64,
-    /// Distance, m.
+    /// Distance from the lens, m.
     pub distance_m: f64,
-    /// A line, whose width must pass a limit.
+    /// A line defect, which has a minimum width.
     pub line: bool,
     /// The lamp was on.
     pub lamp_on: bool,
-    /// All conditions hold.
+    /// All conditions are met.
     pub hit: bool,
 }
 
-/// The job's site: immutable once built; what moves is a function of time.
+/// The site of a job: immutable after construction; moving objects are a function of time.
 #[derive(Debug, Clone)]
 pub struct Site {
     geometry: Arc<Geometry>,
@@ -199,7 +199,7 @@ pub struct Site {
 }
 
 impl Site {
-    /// Builds geometry, traffic, defects and light from a scenario and the session's seed (which decides defects and traffic).
+    /// Builds geometry, traffic, defects and light from a scenario and the session's seed (which determines defects and traffic).
     #[must_use]
     pub fn build(scenario: &Scenario, seed: u64) -> Self {
         let lanes: Vec<Lane> = scenario.bridges.iter().enumerate().flat_map(|(k, bridge)| bridge.lanes(k)).collect();
@@ -211,43 +211,43 @@ impl Site {
         Self { geometry, plane: LocalPlane::new(scenario.origin), lanes, dynamics }
     }
 
-    /// Every bridge member of the site.
+    /// Returns all bridge members.
     #[must_use]
     pub fn members(&self) -> &[Member] {
         self.geometry.members()
     }
 
-    /// What stands still.
+    /// Returns the static geometry.
     #[must_use]
     pub fn geometry(&self) -> &Geometry {
         &self.geometry
     }
 
-    /// Lanes and walkways of all bridges.
+    /// Returns the lanes and walkways of all bridges.
     #[must_use]
     pub fn lanes(&self) -> &[Lane] {
         &self.lanes
     }
 
-    /// The local plane of the scenario's origin.
+    /// Returns the local plane at the scenario origin.
     #[must_use]
     pub fn plane(&self) -> &LocalPlane {
         &self.plane
     }
 
-    /// Sun, sky and what they leave in the shade.
+    /// Returns the light model.
     #[must_use]
     pub fn light(&self) -> &light::LightModel {
         &self.dynamics.light
     }
 
-    /// Cars, trucks and people, and where they are when.
+    /// Returns the traffic plan: vehicles and people, and their positions over time.
     #[must_use]
     pub fn traffic(&self) -> &traffic::TrafficPlan {
         &self.dynamics.traffic
     }
 
-    /// The same site whose traffic was stopped and let go so; what stands still is shared.
+    /// Returns the same site with the given bridge closures; static geometry is shared.
     #[must_use]
     pub fn with_closures(&self, closures: BridgeClosures) -> Self {
         let mut other = self.clone();
@@ -255,65 +255,66 @@ impl Site {
         other
     }
 
-    /// The defects of this session.
+    /// Returns the defects of the session.
     #[must_use]
     pub fn defects(&self) -> &[PlacedDefect] {
         &self.dynamics.defects
     }
 
-    /// The nearest surface within `max_m` (bridges, terrain, water, traffic, crew, truck; never the pad).
+    /// Returns the nearest surface within `max_m` (bridges, terrain, water, traffic, crew, truck; never the landing pad).
     #[must_use]
     pub fn nearest(&self, position_m: Vec3<Enu>, max_m: f64, at: QueryTime) -> Option<NearestPoint> {
         self.dynamics.nearest(self.geometry.nearest(position_m, max_m), position_m, max_m, at)
     }
 
-    /// Distance to the nearest solid thing within `max_m`, whatever it is (the pad too): what keeps inside a ball of this radius touches
-    /// nothing now.
+    /// Returns the distance to the nearest solid surface of any type within `max_m` (including the landing pad). Nothing inside a
+    /// sphere of this radius has contact at this time.
     #[must_use]
     pub fn free_radius(&self, position_m: Vec3<Enu>, max_m: f64, at: QueryTime) -> Option<f64> {
         let still = self.geometry.free_radius(position_m, max_m);
         self.dynamics.traffic.nearest(position_m, still.unwrap_or(max_m), at).map(|n| n.distance_m).or(still)
     }
 
-    /// The first hit of a ray within `max_m`, everything included (the pad and the water too). `direction` is a unit vector.
+    /// Returns the first hit of a ray within `max_m` with any object (including landing pad and water). `direction` is a unit
+    /// vector.
     #[must_use]
     pub fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: QueryTime) -> Option<RayHit> {
         self.dynamics.ray(self.geometry.ray(origin_m, direction, max_m), origin_m, direction, max_m, at)
     }
 
-    /// Appends every contact or near-contact (gap <= `margin_m`) of a convex probe with the site, the pad included.
+    /// Appends all contacts and near-contacts (gap <= `margin_m`) of a convex probe with the site, including the landing pad.
     #[allow(clippy::ptr_arg, reason = "it appends")]
     pub fn contacts(&self, probe: &HullProbe, margin_m: f64, at: QueryTime, out: &mut Vec<Contact>) {
         self.geometry.contacts(probe, margin_m, out);
         self.dynamics.traffic.contacts(probe, margin_m, at, out);
     }
 
-    /// Height of ground or pad (not water) under a point, m up.
+    /// Returns the height of ground or pad (not water) below a point, m up.
     #[must_use]
     pub fn ground_up_m(&self, east_m: f64, north_m: f64) -> f64 {
         self.geometry.ground_up_m(east_m, north_m)
     }
 
-    /// Share of the upper hemisphere that is open sky, 0..1 (static geometry only; deterministic rays).
+    /// Returns the fraction of the upper hemisphere that is open sky, 0 to 1 (static geometry only; deterministic rays).
     #[must_use]
     pub fn sky_view(&self, position_m: Vec3<Enu>) -> f64 {
         self.dynamics.light.sky_view(position_m, &self.cast())
     }
 
-    /// Ambient illuminance (sun, sky, water, ground bounce; no lamp), lux, on a surface with this outward normal, or for `None`
-    /// the mean over all directions at a point in the air.
+    /// Returns the ambient illuminance (sun, sky, water, ground reflection; no lamp), lx, on a surface with this outward normal,
+    /// or for `None` the mean over all orientations at a point in the air.
     #[must_use]
     pub fn ambient_lux(&self, position_m: Vec3<Enu>, normal: Option<Vec3<Enu>>, at: QueryTime) -> f64 {
         self.dynamics.light.ambient_lux(position_m, normal, at, &self.cast())
     }
 
-    /// How every defect within reach shows in a picture taken from `pose`; only defects within 60 m and in front are listed.
+    /// Returns the visibility of each defect in a photo from `pose`; only defects within 60 m in front of the camera are listed.
     #[must_use]
     pub fn view_defects(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: QueryTime) -> Vec<DefectView> {
         self.dynamics.look(pose, camera, lamp, at, &self.cast())
     }
 
-    /// Name of an object for messages, e.g. `arch/rib-left/07 (144)`, `car 12`, `inspector`.
+    /// Returns the name of an object for messages, such as `arch/rib-left/07 (144)`, `car 12` or `inspector`.
     #[must_use]
     pub fn object_name(&self, object: ObjectId) -> String {
         match object {
@@ -327,7 +328,7 @@ impl Site {
         }
     }
 
-    /// Rays against what stands still.
+    /// Returns the ray query against static geometry.
     fn cast(&self) -> impl Fn(Vec3<Enu>, Vec3<Enu>, f64) -> Option<RayHit> + '_ {
         |origin, direction, max_m| self.geometry.ray(origin, direction, max_m)
     }

@@ -1,10 +1,10 @@
-//! What moves on the decks: its size as boxes, and where it is.
+//! Moving objects on the decks: solids, sizes and positions.
 
 use super::Surface;
 use super::boxes::OrientedBox;
 use crate::frames::{Enu, Vec3};
 
-/// What an object on the deck is.
+/// Types of moving object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MoverKind {
     /// 4.5 x 1.8 x 1.5 m, body and cabin.
@@ -15,7 +15,8 @@ pub enum MoverKind {
     Pedestrian,
 }
 
-/// One solid of an object: where its centre is relative to the object's place on the road (along, up) and its half extents, m.
+/// One solid of an object: position of its center relative to the object's position on the road (along, up), and half dimensions,
+/// m.
 struct MoverPart {
     along_m: f64,
     up_m: f64,
@@ -33,9 +34,9 @@ const TRUCK: &[MoverPart] = &[
 const PERSON: &[MoverPart] = &[MoverPart { along_m: 0.0, up_m: 0.875, half_m: [0.15, 0.25, 0.875] }];
 
 impl MoverKind {
-    /// All kinds.
+    /// All types.
     pub(super) const ALL: [Self; 3] = [Self::Car, Self::Truck, Self::Pedestrian];
-    /// The longest reach of a kind and half its length, m.
+    /// Largest reach of any type plus half its length, m.
     pub(super) const LARGEST_REACH_M: f64 = 6.3 + 5.0;
 
     fn parts(self) -> &'static [MoverPart] {
@@ -46,7 +47,7 @@ impl MoverKind {
         }
     }
 
-    /// Half its length, m.
+    /// Returns half the object's length, m.
     #[must_use]
     pub fn half_length_m(self) -> f64 {
         match self {
@@ -56,7 +57,7 @@ impl MoverKind {
         }
     }
 
-    /// Radius of the ball around the object's place on the road that holds it, m.
+    /// Returns the radius of the bounding sphere about the object's position on the road, m.
     pub(super) fn reach_m(self) -> f64 {
         match self {
             Self::Car => 2.9,
@@ -73,18 +74,18 @@ impl MoverKind {
     }
 }
 
-/// Where an object is at one instant.
+/// Position and motion of an object at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MoverPlacement {
-    /// Its place on the road, m.
+    /// Position on the road, m.
     pub position_m: Vec3<Enu>,
-    /// Unit vector of travel.
+    /// Unit vector in the direction of travel.
     pub forward: Vec3<Enu>,
     /// Velocity, m/s.
     pub velocity_m_s: Vec3<Enu>,
 }
 
-/// The solids of an object.
+/// Returns the solids of an object.
 pub(super) fn boxes(kind: MoverKind, placed: MoverPlacement) -> impl Iterator<Item = OrientedBox> {
     kind.parts().iter().map(move |part| upright(&placed, part))
 }

@@ -1,15 +1,16 @@
-//! Where the sun stands: Meeus, Astronomical Algorithms (2nd ed.), chapter 25, low accuracy (0.01 deg in longitude), with the
-//! sidereal time of chapter 12. Good to 0.1 deg between 1950 and 2050, without refraction.
+//! Position of the sun: Meeus, Astronomical Algorithms (2nd ed.), chapter 25, low accuracy (0.01 deg in longitude), with the
+//! sidereal time of chapter 12. Accurate to 0.1 deg between 1950 and 2050, without refraction.
 
 use crate::frames::{Enu, Vec3};
 use crate::geodesy::Geo;
 use crate::math;
 
-/// Seconds since the Unix epoch at J2000.0 (2000-01-01 12:00 UTC; the minute between UTC and TT is 0.0007 deg here).
+/// Seconds since the Unix epoch at J2000.0 (2000-01-01 12:00 UTC; the one-minute difference between UTC and TT is 0.0007 deg
+/// here).
 const J2000_UNIX_S: f64 = 946_728_000.0;
 const DAY_S: f64 = 86_400.0;
 
-/// Right ascension and declination of the apparent sun, and the true distance.
+/// Right ascension and declination of the apparent sun.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SunCoordinates {
     /// Right ascension, rad in (-π, π].
@@ -18,7 +19,7 @@ pub struct SunCoordinates {
     pub declination_rad: f64,
 }
 
-/// The sun's equatorial coordinates at a time (UTC, seconds since the Unix epoch).
+/// Returns the sun's equatorial coordinates at a time (UTC, seconds since the Unix epoch).
 #[must_use]
 pub fn equatorial(unix_s: f64) -> SunCoordinates {
     let t = (unix_s - J2000_UNIX_S) / DAY_S / 36_525.0;
@@ -37,7 +38,7 @@ pub fn equatorial(unix_s: f64) -> SunCoordinates {
     }
 }
 
-/// Unit vector from a place towards the centre of the sun (UTC, seconds since the Unix epoch).
+/// Returns the unit vector from a position toward the center of the sun (UTC, seconds since the Unix epoch).
 #[must_use]
 pub fn direction(unix_s: f64, place: Geo) -> Vec3<Enu> {
     let sun = equatorial(unix_s);
@@ -51,7 +52,7 @@ pub fn direction(unix_s: f64, place: Geo) -> Vec3<Enu> {
     Vec3::new(-cd * sh, sd * cl - cd * ch * sl, sd * sl + cd * ch * cl).unit()
 }
 
-/// Elevation over the horizon in rad of a direction.
+/// Returns the elevation of a direction above the horizon, rad.
 #[must_use]
 pub fn elevation_rad(direction: Vec3<Enu>) -> f64 {
     math::asin(direction.up())
@@ -61,7 +62,7 @@ pub fn elevation_rad(direction: Vec3<Enu>) -> f64 {
 mod tests {
     use super::*;
 
-    /// The low-accuracy series' own claim and the sampling of the published values, deg.
+    /// Stated accuracy of the series plus the rounding of the published values, deg.
     const TOLERANCE_DEG: f64 = 0.1;
 
     fn azimuth_deg(d: Vec3<Enu>) -> f64 {
@@ -88,7 +89,7 @@ mod tests {
 
     #[test]
     fn val_equinox_and_solstice_of_2024() {
-        // Published instants: equinox 2024-03-20 03:06 UTC, solstice 2024-06-20 20:51 UTC (obliquity 23.436 deg).
+        // Published times: equinox 2024-03-20 03:06 UTC, solstice 2024-06-20 20:51 UTC (obliquity 23.436 deg).
         assert!(equatorial(1_710_903_960.0).declination_rad.to_degrees().abs() < TOLERANCE_DEG);
         assert!((equatorial(1_718_916_660.0).declination_rad.to_degrees() - 23.436).abs() < TOLERANCE_DEG);
     }

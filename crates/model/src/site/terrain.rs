@@ -1,5 +1,5 @@
-//! How the ground of a scenario is shaped: flat, a valley with a lake, or a file; with the bridges' approaches, the openings under them and
-//! the level ground around the pad worked into it.
+//! Terrain of a scenario: flat, a valley with a lake, or from a file, with bridge approaches, openings under bridges, and level
+//! ground around the landing pad.
 
 use super::heights::HeightGrid;
 use crate::frames::Vec3;
@@ -7,28 +7,28 @@ use crate::math;
 use crate::random::RandomStream;
 use crate::scenario::{Bridge, GroundTeam, Scenario, TerrainSource, TerrainSpec as Settings};
 
-/// Level ground around the pad, m from its centre.
+/// Radius of level ground around the landing pad, m.
 const LEVEL_M: f64 = 16.0;
-/// Slope of earthworks: one up on this many along.
+/// Slope of earthworks: horizontal distance per unit of height.
 const SLOPE: f64 = 1.2;
-/// Fall of the roads that lead away from the bridges (estimate: the steepest that highways allow in mountains).
+/// Downgrade of the roads away from the bridges (estimate: maximum grade of mountain highways).
 const ROAD_GRADE: f64 = 0.07;
-/// Room under an arch's springings that is dug free, m.
+/// Depth of the clearance excavated below an arch's springings, m.
 const DIG_M: f64 = 1.0;
-/// What stands on the ground reaches at least this far into it, m.
+/// Minimum embedment of structures in the ground, m.
 const HOLD_M: f64 = 0.5;
 
-/// The ground and the water level.
+/// Ground and water level.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Terrain {
-    /// The ground's surface.
+    /// Ground surface.
     pub ground: HeightGrid,
-    /// Water surface, m up.
+    /// Water level, m up.
     pub water_m: f64,
 }
 
 impl Terrain {
-    /// From a scenario.
+    /// Creates the terrain of a scenario.
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         let settings = &scenario.terrain;
@@ -48,7 +48,7 @@ impl Terrain {
     }
 }
 
-/// Heights before earthworks.
+/// Source of the heights before earthworks.
 enum HeightSource<'a> {
     Flat(f64),
     Valley { noise: ValueNoise, settings: &'a Settings, axis: (f64, f64), lake_half_m: f64, relief_m: f64, depth_m: f64 },
@@ -79,7 +79,7 @@ impl<'a> HeightSource<'a> {
                 row[column.min(row.len() - 1)]
             }
             Self::Valley { noise, settings, axis, lake_half_m, relief_m, depth_m } => {
-                // Distance from the valley's axis, its shore wavering by a tenth of the lake's width.
+                // Distance from the valley's axis; the shore varies by a tenth of the lake's width.
                 let across = east * axis.1 - north * axis.0;
                 let waver = 0.1 * lake_half_m * (noise.at(east / 90.0, north / 90.0) - 0.5);
                 let d = across.abs() - lake_half_m + waver;
@@ -96,7 +96,7 @@ impl<'a> HeightSource<'a> {
     }
 }
 
-/// The height after earthworks: openings under bridges, approaches to their ends, level ground around the pad.
+/// Returns the height after earthworks: openings under bridges, approaches to their ends, level ground around the landing pad.
 fn apply_earthworks(natural: f64, east: f64, north: f64, scenario: &Scenario) -> f64 {
     let spacing_m = scenario.terrain.spacing_m;
     let height = scenario.bridges.iter().fold(natural, |h, bridge| bridge_earthworks(h, east, north, bridge, spacing_m));
@@ -110,16 +110,17 @@ fn bridge_earthworks(height: f64, east: f64, north: f64, bridge: &Bridge, spacin
     let opening = bridge.opening_half_m();
     let off_side = (y.abs() - 0.5 * bridge.deck_width_m() - 2.0).max(0.0);
     let cut = if x.abs() < opening + 4.0 {
-        // The ground under the span falls away from the springings so that nothing of the bridge is buried.
+        // The ground under the span slopes down from the springings so that it covers no part of the bridge.
         let inside = (opening + 4.0 - x.abs()).max(0.0);
         height.min(deck - clear_depth_m(bridge) - DIG_M - 0.3 * inside + off_side / SLOPE)
     } else {
-        // Approaches rise to just under the road's surface, which goes on level for a while and then falls to the natural ground.
+        // Approaches rise to just below the road surface, continue level for a short distance, and then descend to the natural
+        // ground.
         let beyond = (x.abs() - half_length - 12.0).max(0.0);
         let reach = if x.abs() > half_length { 0.0 } else { half_length - x.abs() };
         height.max(deck - 0.15 - off_side / SLOPE - ROAD_GRADE * beyond - reach * 2.5)
     };
-    // Under what stands on it the ground comes up, a cell of the grid farther out than the foot.
+    // The ground rises to meet each footing, extending one grid cell beyond it.
     bridge.footings().iter().fold(cut, |height, foot| {
         let out = |at: f64, (low, high): (f64, f64)| (low - at).max(at - high).max(0.0);
         let away = (math::hypot(out(x, foot.x_m), out(y, foot.y_m)) - spacing_m).max(0.0);
@@ -127,7 +128,7 @@ fn bridge_earthworks(height: f64, east: f64, north: f64, bridge: &Bridge, spacin
     })
 }
 
-/// How far below the deck the bridge's foot reaches at the opening's ends, m.
+/// Returns the depth of the bridge's underside below the deck at the ends of the opening, m.
 fn clear_depth_m(bridge: &Bridge) -> f64 {
     match &bridge.kind {
         crate::scenario::BridgeKind::Arch(arch) => -arch.intrados_z_m(0.5 * arch.span_m),
@@ -138,11 +139,11 @@ fn clear_depth_m(bridge: &Bridge) -> f64 {
 fn level_pad(height: f64, east: f64, north: f64, team: &GroundTeam) -> f64 {
     let away = math::hypot(east - team.pad_m.east(), north - team.pad_m.north());
     let blend = ((away - LEVEL_M) / 10.0).clamp(0.0, 1.0);
-    // The pad itself lies a hand's breadth over the levelled ground.
+    // The surface of the pad is slightly above the leveled ground.
     math::lerp(team.pad_m.up() - 0.05, height, blend)
 }
 
-/// Smooth noise in 0..1 on a unit lattice, two octaves.
+/// Smooth noise in 0 to 1 on a unit lattice, two octaves.
 struct ValueNoise {
     lattice: Vec<f64>,
 }

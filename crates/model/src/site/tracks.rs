@@ -1,4 +1,4 @@
-//! Lanes as polylines with arc length, for what moves along them.
+//! Lanes as polylines with arc length, for moving objects.
 
 use super::movers::MoverPlacement;
 use crate::frames::{Enu, Vec3};
@@ -18,7 +18,7 @@ pub(super) struct LaneTrack {
 }
 
 impl LaneTrack {
-    /// Place at an arc length; beyond the ends it goes straight on.
+    /// Returns the position and motion at an arc length; the lane is extended straight beyond its ends.
     pub(super) fn at(&self, s_m: f64) -> MoverPlacement {
         let last = self.points_m.len() - 2;
         let k = self.arc_m[1..=last].partition_point(|arc| *arc <= s_m).min(last);
@@ -27,7 +27,7 @@ impl LaneTrack {
         MoverPlacement { position_m, forward, velocity_m_s: forward * self.speed_m_s }
     }
 
-    /// Arc length of the place that is nearest to a point, m; up to `beyond_m` off the ends.
+    /// Returns the arc length of the point nearest to the given one, m; up to `beyond_m` beyond the ends.
     pub(super) fn lateral_distance_m(&self, point_m: Vec3<Enu>, beyond_m: f64) -> f64 {
         let last = self.points_m.len() - 2;
         let place = |k: usize| {
@@ -50,7 +50,8 @@ impl LaneTrack {
         squared.fold(f64::INFINITY, f64::min).sqrt()
     }
 
-    /// False when the ray surely misses everything on this lane (its height band, widened by the reach, decides).
+    /// Returns false only if the ray certainly misses everything on this lane (tests the lane's height range, extended by the
+    /// reach).
     pub(super) fn ray_passes(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> bool {
         let (low, high) = self.band_m;
         let end = origin_m.up() + direction.up() * max_m;
@@ -59,9 +60,9 @@ impl LaneTrack {
     }
 }
 
-/// The polyline without its collinear points: a straight deck is one segment, however finely it was drawn.
+/// Returns the polyline without collinear points: a straight deck is one segment, regardless of its point spacing.
 pub(super) fn simplified(points_m: &[Vec3<Enu>]) -> Vec<Vec3<Enu>> {
-    /// Deviation that counts as straight, m.
+    /// Maximum deviation of a straight segment, m.
     const STRAIGHT_M: f64 = 1e-4;
     let mut kept: Vec<Vec3<Enu>> = Vec::new();
     for p in points_m {

@@ -1,6 +1,6 @@
-//! Cars, trucks and pedestrians on the decks, and the crew: a plan drawn from the seed, positions a pure function of simulation
-//! time. Everything on one lane has one speed (so nothing drives through another) and runs in a loop that is longer than the
-//! lane: objects come and go beyond the bridge's ends.
+//! Cars, trucks and pedestrians on the decks, and the ground crew: a plan drawn from the seed, with positions as a pure function
+//! of simulation time. All objects in a lane have the same speed (so none overtakes another) and follow a loop longer than the
+//! lane: they enter and leave beyond the ends of the bridge.
 
 use super::boxes::{OrientedBox, bounding_ball};
 use super::bridge_closures::BridgeClosures;
@@ -14,38 +14,38 @@ use crate::scenario::bridges::Lane;
 use crate::scenario::{GroundTeam, TrafficSpec as TrafficSettings};
 use crate::time::SimTime;
 
-/// Object numbers of traffic and crew start here; below are bridge members and the rest of the static site.
+/// First object number of traffic and crew; lower numbers are bridge members and other static objects.
 pub const FIRST_OBJECT: u32 = 1_000_000;
-/// The crew's inspector.
+/// Object ID of the inspector.
 pub const INSPECTOR: ObjectId = ObjectId(FIRST_OBJECT - 2);
-/// The crew's truck.
+/// Object ID of the crew's truck.
 pub const CREW_TRUCK: ObjectId = ObjectId(FIRST_OBJECT - 1);
 
-/// Least spacing of vehicles in a lane, centre to centre, m (estimate: a truck and a gap).
+/// Minimum spacing of vehicles in a lane, center to center, m (estimate: a truck and a gap).
 const VEHICLE_SPACING_M: f64 = 24.0;
-/// Least spacing of pedestrians on one walkway, m (estimate).
+/// Minimum spacing of pedestrians on a walkway, m (estimate).
 const PEDESTRIAN_SPACING_M: f64 = 4.0;
-/// Stretch of the loop beyond the lane's ends, m (estimate).
+/// Length of the loop beyond the ends of the lane, m (estimate).
 const GAP_M: f64 = 40.0;
-/// Share of the slot by which an object is shifted from even spacing.
+/// Maximum offset of an object from even spacing, as a fraction of the slot.
 const JITTER: f64 = 0.25;
 /// Walking speed, m/s: 1.34 mean and 0.26 standard deviation (Fruin, Pedestrian Planning and Design).
 const WALKING_M_S: (f64, f64) = (1.34, 0.26);
-/// Spread of the speed of one lane about the mean car speed (estimate).
+/// Spread of lane speeds about the mean car speed (estimate).
 const LANE_SPEED_SPREAD: f64 = 0.1;
 
-/// One object of the plan.
+/// One moving object of the plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mover {
-    /// What it is.
+    /// Object type.
     pub kind: MoverKind,
-    /// Number within its kind, from 1.
+    /// Number within its type, from 1.
     pub number: u32,
     track: usize,
     phase_m: f64,
 }
 
-/// The plan of a session; it keeps no state.
+/// Traffic plan of a session; stateless.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrafficPlan {
     tracks: Vec<LaneTrack>,
@@ -55,7 +55,8 @@ pub struct TrafficPlan {
 }
 
 impl TrafficPlan {
-    /// Draws the plan. Objects are spread over the lanes in turn; what has no lane (no walkway, say) is left out.
+    /// Draws the plan. Objects are assigned to the lanes in turn; objects without a lane (such as pedestrians without a walkway)
+    /// are omitted.
     #[must_use]
     pub fn new(lanes: &[Lane], settings: &TrafficSettings, team: &GroundTeam, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "site.traffic");
@@ -65,7 +66,7 @@ impl TrafficPlan {
         let walkways: Vec<&Lane> = lanes.iter().filter(|l| l.walkway && l.points_m.len() >= 2).collect();
         let mut vehicles = vec![MoverKind::Car; settings.cars];
         vehicles.extend(vec![MoverKind::Truck; settings.trucks]);
-        // Fisher-Yates: trucks land anywhere in the row of cars.
+        // Fisher-Yates shuffle: mixes trucks among the cars.
         for k in (1..vehicles.len()).rev() {
             vehicles.swap(k, stream.below(k + 1));
         }
@@ -95,7 +96,7 @@ impl TrafficPlan {
         if kinds.is_empty() || length_m <= 0.0 {
             return;
         }
-        // Slots keep their spacing in spite of the jitter, whatever the count: a crowded lane gets a longer loop.
+        // Slots keep their spacing despite the offsets for any count: a crowded lane gets a longer loop.
         let loop_m = (length_m + GAP_M).max(kinds.len() as f64 * spacing_m / (1.0 - 2.0 * JITTER));
         let slot_m = loop_m / kinds.len() as f64;
         let turn_m = stream.range(0.0, loop_m);
@@ -111,24 +112,25 @@ impl TrafficPlan {
         self.tracks.push(LaneTrack { band_m, points_m, arc_m, length_m, loop_m, speed_m_s, first, count: kinds.len(), reach_m });
     }
 
-    /// Traffic was stopped and let go so.
+    /// Sets the bridge closures.
     pub fn set_closures(&mut self, gates: BridgeClosures) {
         self.closures = gates;
     }
 
-    /// When it was stopped and let go.
+    /// Returns the bridge closures.
     #[must_use]
     pub fn gates(&self) -> &BridgeClosures {
         &self.closures
     }
 
-    /// The objects on the decks.
+    /// Returns the objects on the decks.
     #[must_use]
     pub fn movers(&self) -> &[Mover] {
         &self.movers
     }
 
-    /// Where a mover is; `None` while it is beyond the bridge's ends, and on a round that it could not begin because the bridge was closed.
+    /// Returns the position of an object; `None` while it is beyond the ends of the bridge, and in a round that it could not
+    /// start because the bridge was closed.
     #[must_use]
     pub fn place(&self, mover: &Mover, at: SimTime) -> Option<MoverPlacement> {
         let track = &self.tracks[mover.track];
@@ -139,7 +141,7 @@ impl TrafficPlan {
         entered.then(|| track.at(s))
     }
 
-    /// Solids of everything there is at an instant, for drawing and tests.
+    /// Returns the solids of all objects at an instant, for rendering and tests.
     #[must_use]
     pub fn solids(&self, at: SimTime) -> Vec<(ObjectId, Surface, OrientedBox)> {
         let mut all = self.crew.clone();
@@ -150,7 +152,7 @@ impl TrafficPlan {
         all
     }
 
-    /// Nearest traffic or crew within `max_m`.
+    /// Returns the nearest traffic or crew within `max_m`.
     #[must_use]
     pub fn nearest(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<NearestPoint> {
         let mut best: Option<NearestPoint> = None;
@@ -163,8 +165,8 @@ impl TrafficPlan {
         best
     }
 
-    /// Least distance within `max_m` that anything on the decks may ever come to a point, m: every lane carries all vehicles of the plan, or all
-    /// who walk.
+    /// Returns the minimum distance that traffic may ever have from a point, m, if it is below `max_m`. Assumes that each lane
+    /// carries all vehicle types of the plan, and each walkway all pedestrians.
     #[must_use]
     pub fn min_distance_ever_m(&self, position_m: Vec3<Enu>, max_m: f64) -> Option<f64> {
         let mut least: Option<f64> = None;
@@ -184,7 +186,7 @@ impl TrafficPlan {
         self.movers.iter().any(|mover| mover.kind == kind)
     }
 
-    /// First traffic or crew that a ray hits within `max_m`.
+    /// Returns the first hit of a ray with traffic or crew within `max_m`.
     #[must_use]
     pub fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<RayHit> {
         let mut best: Option<RayHit> = None;
@@ -215,7 +217,7 @@ impl TrafficPlan {
         best
     }
 
-    /// Appends contacts of a probe with traffic and crew; a mover's velocity is the contact's.
+    /// Appends the contacts of a probe with traffic and crew; the contact velocity is that of the object.
     pub fn contacts(&self, probe: &HullProbe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>) {
         let (centre_m, radius_m) = bounding_ball(probe);
         self.near(centre_m, radius_m + margin_m, at, |object, surface, solid, velocity_m_s| {
@@ -225,7 +227,7 @@ impl TrafficPlan {
         });
     }
 
-    /// Name of an object of the traffic or the crew.
+    /// Returns the name of a traffic or crew object.
     #[must_use]
     pub fn name(&self, object: ObjectId) -> Option<String> {
         if object == INSPECTOR {
@@ -243,7 +245,7 @@ impl TrafficPlan {
         Some(format!("{kind} {}", mover.number))
     }
 
-    /// Visits every solid that may lie within `reach_m` of a point. Far from all lanes it costs one distance per lane segment.
+    /// Visits each solid that may be within `reach_m` of a point. Far from all lanes, the cost is one distance per lane segment.
     fn near(
         &self,
         point_m: Vec3<Enu>,
@@ -274,7 +276,7 @@ impl TrafficPlan {
     }
 }
 
-/// Deals objects to lanes in turn.
+/// Assigns objects to lanes in turn.
 fn assign_lanes<'a>(lanes: &[&'a Lane], kinds: &[MoverKind]) -> Vec<(&'a Lane, Vec<MoverKind>)> {
     let mut dealt: Vec<(&Lane, Vec<MoverKind>)> = lanes.iter().map(|l| (*l, Vec::new())).collect();
     for (k, kind) in kinds.iter().enumerate().take(if lanes.is_empty() { 0 } else { usize::MAX }) {
@@ -337,7 +339,7 @@ mod tests {
             for ms in (10..60_000).step_by(10) {
                 let now = plan.place(mover, SimTime::from_ms(ms));
                 if let (Some(a), Some(b)) = (last, now) {
-                    // A centimetre of slack where the lane bends.
+                    // Tolerance of one centimeter where the lane bends.
                     assert!((b.position_m - a.position_m).norm() < track.speed_m_s * 0.01 + 0.01, "jump at {ms} ms");
                 }
                 last = now;
@@ -374,7 +376,7 @@ mod tests {
         let (closed_s, opened_s) = (40.0, 130.0);
         let mut gated = open.clone();
         gated.set_closures(BridgeClosures::from_codes([-40_000, 130_000]));
-        // The slowest walker needs so long for 200 m, and then the decks are empty; half a lane later they are full again.
+        // Time for the slowest pedestrian to walk 200 m, after which the decks are empty; half a lane later they are full again.
         let (mut least, mut shown) = (usize::MAX, [None; 17]);
         for tenth in 0..4_000 {
             let t_s = 0.1 * f64::from(tenth);
@@ -382,7 +384,7 @@ mod tests {
             let mut vehicles = 0;
             for (k, mover) in open.movers().iter().enumerate() {
                 let (free, held) = (open.place(mover, at), gated.place(mover, at));
-                // A gate moves nobody: who is there is where he would be.
+                // A closure does not change the position of any object on the bridge.
                 assert!(held.is_none() || held == free, "{mover:?} at {t_s} s");
                 if t_s < closed_s {
                     assert_eq!(held, free);

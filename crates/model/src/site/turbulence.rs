@@ -1,28 +1,28 @@
-//! Dryden turbulence (MIL-F-8785C, low altitude): its scales, and the filters that shape white noise into it.
+//! Dryden turbulence (MIL-F-8785C, low altitude): its scales, and the filters that shape white noise.
 
 use crate::math;
 use crate::random::RandomStream;
 
-/// Metres in a foot.
+/// Meters per foot.
 const FT_M: f64 = 0.3048;
-/// Range of heights in which MIL-F-8785C 3.7.3.4 gives low-altitude scales, ft.
+/// Height range for which MIL-F-8785C 3.7.3.4 specifies low-altitude scales, ft.
 const DRYDEN_HEIGHT_FT: (f64, f64) = (10.0, 1000.0);
 
 /// Standard deviations (m/s) and length scales (m) of the Dryden model at one height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dryden {
-    /// Along and across the mean wind, m/s.
+    /// Standard deviation along and across the mean wind, m/s.
     pub sigma_horizontal_m_s: f64,
-    /// Vertical, m/s.
+    /// Vertical standard deviation, m/s.
     pub sigma_vertical_m_s: f64,
-    /// Along and across, m.
+    /// Length scale along and across the mean wind, m.
     pub length_horizontal_m: f64,
-    /// Vertical, m.
+    /// Vertical length scale, m.
     pub length_vertical_m: f64,
 }
 
 impl Dryden {
-    /// MIL-F-8785C low-altitude model at a height over the surface, for the wind at 20 ft.
+    /// Returns the MIL-F-8785C low-altitude model at a height above the surface, for the wind at 20 ft.
     #[must_use]
     pub fn at(height_m: f64, wind_20ft_m_s: f64) -> Self {
         let h_ft = (height_m / FT_M).clamp(DRYDEN_HEIGHT_FT.0, DRYDEN_HEIGHT_FT.1);
@@ -37,7 +37,7 @@ impl Dryden {
     }
 }
 
-/// Unit-variance first-order Dryden filter (longitudinal spectrum), discretised exactly.
+/// Unit-variance first-order Dryden filter (longitudinal spectrum), discretized exactly.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct FirstOrder {
     x: f64,
@@ -55,9 +55,9 @@ impl FirstOrder {
     }
 }
 
-/// Unit-variance second-order Dryden filter (1 + √3 T s)/(1 + T s)² (lateral and vertical spectra). With
-/// x1' = (n - x1)/T and x2' = (x1 - x2)/T the output is √3 x1 + (1 - √3) x2, and the stationary covariance of the states for
-/// unit output variance is [[1/2, 1/4], [1/4, 1/4]]; each step draws exactly what that covariance loses.
+/// Unit-variance second-order Dryden filter (1 + √3 T s)/(1 + T s)² (lateral and vertical spectra). With x1' = (n - x1)/T and x2'
+/// = (x1 - x2)/T the output is √3 x1 + (1 - √3) x2, and the stationary covariance of the states for unit output variance is
+/// [[1/2, 1/4], [1/4, 1/4]]; each step adds exactly the covariance lost to decay.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct SecondOrder {
     x1: f64,
@@ -91,7 +91,7 @@ impl SecondOrder {
     }
 }
 
-/// Cholesky factor of a symmetric 2x2 covariance; rounding may leave the last pivot a hair below zero.
+/// Returns the Cholesky factor of a symmetric 2x2 covariance; rounding may make the last pivot slightly negative.
 fn lower(q11: f64, q12: f64, q22: f64) -> (f64, f64, f64) {
     let l11 = q11.max(0.0).sqrt();
     let l21 = if l11 > 0.0 { q12 / l11 } else { 0.0 };
@@ -105,7 +105,7 @@ mod tests {
     #[test]
     fn val_sigma_and_length_match_the_tabulated_values_at_ten_metres() {
         // MIL-F-8785C low-altitude Dryden model (docs/src/reference/domain.md, "Wind and turbulence"): W20 11 mph, 10 m: L_u 67
-        // m, sigma_u 0.93, sigma_w 0.49 m/s; to half a unit of the last digit printed.
+        // m, sigma_u 0.93, sigma_w 0.49 m/s; tolerance half a unit of the last printed digit.
         let d = Dryden::at(10.0, 11.0 * math::M_S_PER_MPH);
         assert!((d.length_horizontal_m - 67.0).abs() < 0.5, "{}", d.length_horizontal_m);
         assert!((d.sigma_horizontal_m_s - 0.93).abs() < 0.005, "{}", d.sigma_horizontal_m_s);

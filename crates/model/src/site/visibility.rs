@@ -1,7 +1,7 @@
-//! How a defect shows in a picture, by the rule for a hit in docs/src/reference/assessment.md, "Photographs": inside the central
-//! 80 % of the image, unoccluded, at most 60 degrees off its normal, at least 10 px along its longest visible extent, a line at
-//! least 0.5 px wide, and lit well enough for an exposure within the camera's limits. An ideal pinhole; the lamp sits at the lens
-//! and looks where it looks.
+//! Visibility of a defect in a photo, by the rule in docs/src/reference/assessment.md, "Photographs": inside the central 80 % of
+//! the image, unoccluded, at most 60 degrees off its normal, at least 10 px along its longest visible dimension, at least 0.5 px
+//! wide if it is a line, and lit well enough for an exposure within the camera's limits. The camera is an ideal pinhole; the lamp
+//! is at the lens and points along the optical axis.
 
 use super::light::RayCast;
 use super::{CameraPose, DefectView};
@@ -11,35 +11,35 @@ use crate::numbers::{format_beside_limit, limit};
 use crate::scenario::PlacedDefect;
 use crate::vehicle::{Camera, Lamp};
 
-/// Defects farther than this are not listed, m.
+/// Maximum distance at which defects are listed, m.
 pub const REACH_M: f64 = 60.0;
-/// Share of the image, from its centre, that counts.
+/// Fraction of the image, about its center, in which defects count.
 pub const CENTRAL_SHARE: f64 = 0.8;
-/// Largest angle off the defect's normal, rad.
+/// Maximum angle between line of sight and the defect's normal, rad.
 pub const INCIDENCE_MAX_RAD: f64 = math::PI / 3.0;
-/// Least longest extent, px.
+/// Minimum visible length, px.
 pub const EXTENT_MIN_PX: f64 = 10.0;
-/// Least width of a line, px.
+/// Minimum width of a line, px.
 pub const LINE_WIDTH_MIN_PX: f64 = 0.5;
 /// Incident-light meter calibration constant, lx s ISO (ISO 2720 gives 240 to 400).
 const CALIBRATION: f64 = 250.0;
-/// Points along the defect at which occlusion is tested, as shares of its length from the centre.
+/// Sample points along the defect for the occlusion test, as fractions of its length from the center.
 const SAMPLES: [f64; 5] = [-0.48, -0.24, 0.0, 0.24, 0.48];
-/// Height over the surface at which a sight line may end, m.
+/// Height above the surface of the end of a line of sight, m.
 const LIFT_M: f64 = 0.005;
-/// Share of the lens-to-defect line that may not be hit, m short of its end.
+/// Length at the end of a line of sight that is excluded from the occlusion test, m.
 const CLEAR_M: f64 = 0.01;
 
-/// What decides the light on a defect: ambient light by position and normal, lx.
+/// Query for ambient light on a defect by position and normal, lx.
 pub type AmbientLight<'a> = &'a dyn Fn(Vec3<Enu>, Vec3<Enu>) -> f64;
 
-/// Illuminance, lx, that an exposure within the camera's limits needs: C N²/(t S).
+/// Returns the illuminance needed for an exposure within the camera's limits, lx: C N²/(t S).
 #[must_use]
 pub fn needed_lux(camera: &Camera) -> f64 {
     CALIBRATION * camera.f_number * camera.f_number / (camera.exposure_max_s * camera.iso_max)
 }
 
-/// Illuminance, lx, of a lamp at the lens on a surface: flux over the beam's solid angle, the inverse square and the cosine.
+/// Returns the illuminance of a lamp at the lens on a surface, lx: flux over the beam's solid angle, inverse square and cosine.
 #[must_use]
 pub fn lamp_lux(lamp: &Lamp, pose: &CameraPose, point_m: Vec3<Enu>, normal: Vec3<Enu>) -> f64 {
     let to = point_m - pose.position_m;
@@ -56,8 +56,8 @@ pub fn lamp_lux(lamp: &Lamp, pose: &CameraPose, point_m: Vec3<Enu>, normal: Vec3
     candela * (-ray.dot(normal)).max(0.0) / (distance * distance)
 }
 
-/// Judges one defect; `None` when it is out of reach or behind the camera. `cast` is asked for the sight lines, `ambient` only
-/// once and only for defects that are listed.
+/// Evaluates one defect; `None` if it is too far away or behind the camera. `cast` is called for the lines of sight; `ambient` is
+/// called once, and only for defects that are listed.
 #[must_use]
 pub fn judge(
     defect: &PlacedDefect,
@@ -74,9 +74,9 @@ pub fn judge(
     let incidence_rad = math::acos(-to.dot(defect.normal) / distance_m.max(1e-9));
     let samples = SAMPLES.map(|s| defect.position_m + defect.along * (s * defect.length_m));
     let seen = samples.map(|p| has_line_of_sight(pose.position_m, p + defect.normal * LIFT_M, cast));
-    // Most of it must be seen: three of five sample points.
+    // A majority must be visible: three of five sample points.
     let unoccluded = 2 * seen.iter().filter(|s| **s).count() > SAMPLES.len();
-    // What is hidden fails for being hidden, not for being small too.
+    // A hidden defect fails only the occlusion condition, not the size condition as well.
     let counted = if unoccluded { seen } else { [true; SAMPLES.len()] };
     let in_frame = project(pose, camera, defect.position_m).is_some_and(|px| is_in_frame(px, camera, CENTRAL_SHARE));
     let width_px = length_px(pose, camera, defect, defect.normal.cross(defect.along), defect.width_m);
@@ -100,8 +100,8 @@ pub fn judge(
 }
 
 impl DefectView {
-    /// The six conditions of a hit, in the order of docs/src/reference/assessment.md, "Photographs": framed, unoccluded,
-    /// incidence, extent, line width, light.
+    /// Returns the six conditions in the order of docs/src/reference/assessment.md, "Photographs": framed, unoccluded, incidence,
+    /// extent, line width, light.
     #[must_use]
     pub fn conditions(&self) -> [bool; 6] {
         [
@@ -114,12 +114,12 @@ impl DefectView {
         ]
     }
 
-    /// Why it is no hit, in words; empty for a hit.
+    /// Returns the reasons why the photo does not capture the defect; empty if it does.
     #[must_use]
     pub fn reasons(&self) -> Vec<String> {
         let lamp = if self.lamp_on { "lamp on" } else { "lamp off" };
         let (incidence_deg, incidence_max_deg) = (self.incidence_rad.to_degrees(), INCIDENCE_MAX_RAD.to_degrees());
-        // The light needed is shown as a whole number unless the measured light lies between that and the real limit.
+        // The required light is shown as an integer unless the measured light lies between the rounded and the exact limit.
         let whole = self.needed_lux.round();
         let needed_lux = if self.illuminance_lux < whole { whole } else { self.needed_lux };
         let words = [
@@ -151,7 +151,7 @@ fn has_line_of_sight(from: Vec3<Enu>, to: Vec3<Enu>, cast: RayCast) -> bool {
     reach <= 0.0 || cast(from, line.unit(), reach).is_none()
 }
 
-/// Pixel coordinates from the image centre, right and down; `None` behind the lens.
+/// Returns pixel coordinates from the image center, right and down; `None` behind the lens.
 fn project(pose: &CameraPose, camera: &Camera, point_m: Vec3<Enu>) -> Option<(f64, f64)> {
     let to = point_m - pose.position_m;
     let depth = to.dot(pose.forward);
@@ -164,7 +164,7 @@ fn is_in_frame(px: (f64, f64), camera: &Camera, share: f64) -> bool {
     px.0.abs() <= 0.5 * share * f64::from(camera.width_px) && px.1.abs() <= 0.5 * share * f64::from(camera.height_px)
 }
 
-/// Extent in pixels, along the defect, of the samples that count and lie inside the image; each stands for its share.
+/// Returns the visible length along the defect, px: each counted sample inside the image represents its fraction of the length.
 fn visible_px<'a>(
     pose: &CameraPose,
     camera: &Camera,
@@ -176,14 +176,14 @@ fn visible_px<'a>(
     length_px(pose, camera, defect, defect.along, defect.length_m) * shown as f64 / SAMPLES.len() as f64
 }
 
-/// Pixels that a short stretch of `length_m` along a unit direction through the defect's centre covers (at the centre's scale, so
-/// that a sub-pixel width keeps its precision).
+/// Returns the length in pixels of a short segment of `length_m` along a unit direction through the defect's center (at the scale
+/// of the center, which preserves the precision of sub-pixel widths).
 fn length_px(pose: &CameraPose, camera: &Camera, defect: &PlacedDefect, direction: Vec3<Enu>, length_m: f64) -> f64 {
     let to = defect.position_m - pose.position_m;
     let distance = to.norm().max(1e-9);
     let ray = to / distance;
     let across = (direction - ray * direction.dot(ray)).norm();
-    // Pixels per radian grow off the axis of a pinhole; the value on the axis is the conservative one.
+    // Pixels per radian increase off the axis of a pinhole; the on-axis value is conservative.
     camera.focal_px() * across * length_m / distance
 }
 
@@ -207,7 +207,7 @@ mod tests {
     };
     const LAMP: Lamp = Lamp { flux_lm: 2200.0, beam_rad: math::PI / 3.0 };
 
-    /// A crack 0.5 m long and 2 mm wide, 3 m north of the camera, facing it.
+    /// Creates a crack 0.5 m long and 2 mm wide, 3 m north of the camera, facing it.
     fn crack() -> PlacedDefect {
         PlacedDefect {
             id: 1,
@@ -267,7 +267,7 @@ mod tests {
     #[test]
     fn exact_each_condition_fails_alone() {
         let mut aside = pose();
-        // 40 deg aside: tan 40 = 0.839, just outside 0.8 of the half image, still in front.
+        // 40 deg off axis: tan 40 = 0.839, just outside 0.8 of the half image, still in front of the camera.
         let (s, c) = math::sin_cos(40.0_f64.to_radians());
         (aside.forward, aside.right) = (Vec3::new(s, c, 0.0), Vec3::new(c, -s, 0.0));
         only_failing(&view_defects(&crack(), &aside, &open, 1000.0), 0, "central");
@@ -290,8 +290,8 @@ mod tests {
 
     #[test]
     fn val_the_lamp_gives_the_tabulated_illuminance() {
-        // docs/src/reference/domain.md, "Light levels": a 2200 lm, 60 deg light: 2600, 650, 290, 105 lx at 1, 2, 3, 5 m; to the
-        // rounding of the table.
+        // docs/src/reference/domain.md, "Light levels": a 2200 lm, 60 deg light: 2600, 650, 290, 105 lx at 1, 2, 3, 5 m;
+        // tolerance is the table's rounding.
         let lit = CameraPose { lamp_on: true, ..pose() };
         for (distance, lux) in [(1.0, 2600.0), (2.0, 650.0), (3.0, 290.0), (5.0, 105.0)] {
             let got = lamp_lux(&LAMP, &lit, Vec3::new(0.0, distance, 0.0), Vec3::new(0.0, -1.0, 0.0));
@@ -313,7 +313,7 @@ mod tests {
 
     #[test]
     fn exact_a_half_hidden_crack_shows_the_visible_part() {
-        // Sight lines to the right half are blocked: three of five samples remain.
+        // Lines of sight to the right half are blocked: three of five samples remain.
         let right_blocked = |_: Vec3<Enu>, d: Vec3<Enu>, _: f64| {
             (d.east() > 0.01).then_some(RayHit { distance_m: 1.0, normal: -d, surface: Surface::Other, object: ObjectId(0) })
         };

@@ -1,14 +1,14 @@
-//! Whether rotors at their places can hold an aircraft in the air and turn it about every axis.
+//! Checks that the rotor layout can keep an aircraft in the air and rotate it about every axis.
 
 use super::{Rotor, RotorModel};
 use crate::math::{self, GRAVITY_M_S2};
 use nalgebra::{DMatrix, DVector};
 
-/// Smallest singular value, as a share of the largest, of the map from rotor thrusts to lift and moments (lengths in units of the
-/// longest arm, yaw in units of one spin) that still counts as authority (estimate; a square quadrotor has 0.7).
+/// Minimum ratio of the smallest to the largest singular value of the map from rotor thrusts to lift and moments (lengths in
+/// units of the longest arm, yaw in units of one spin) for control authority (estimate; a square quadrotor has 0.7).
 const LEAST_SHARE: f64 = 0.05;
 
-/// What is wrong, or `None`.
+/// Returns the unmet requirement, or `None`.
 #[must_use]
 pub fn missing_axes(rotors: &[Rotor], model: &RotorModel, mass_kg: f64) -> Option<&'static str> {
     let arm_m = rotors.iter().map(|rotor| math::hypot(rotor.position_m.forward(), rotor.position_m.right())).fold(0.0, f64::max);

@@ -1,5 +1,5 @@
-//! The aircraft: one TOML file per aircraft in `vehicle-params/`, read into validated types. Every key carries its unit;
-//! every number its source or the word estimate (vehicle-params/README.md, checked against this code by a test).
+//! The aircraft: one TOML file per aircraft in `vehicle-params/`, parsed into validated types. Each key includes its unit; each
+//! number has a source or the word estimate (vehicle-params/README.md, checked against this code by a test).
 
 mod authority;
 mod read;
@@ -9,28 +9,28 @@ pub use read::{FORMAT, read, read_asked};
 use crate::frames::{Frd, Vec3};
 use crate::math;
 
-/// A validated aircraft. Body frame: forward, right, down from the centre of mass.
+/// A validated aircraft. Body frame: forward, right, down from the center of mass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vehicle {
     /// File stem, e.g. `phantom2`.
     pub id: String,
     /// Display name.
     pub name: String,
-    /// Take-off mass, kg.
+    /// Takeoff mass, kg.
     pub mass_kg: f64,
     /// Principal moments of inertia about forward, right, down, kg m².
     pub inertia_kg_m2: [f64; 3],
     /// Rotors in motor order (PX4 quad-x: front right, rear left, front left, rear right).
     pub rotors: Vec<Rotor>,
-    /// What all rotors share.
+    /// Model shared by all rotors.
     pub rotor: RotorModel,
     /// Body drag.
     pub drag: Drag,
-    /// Collision hull and contact behaviour.
+    /// Collision hull and contact behavior.
     pub hull: Hull,
     /// Battery.
     pub battery: BatterySpec,
-    /// What the flight controller allows.
+    /// Limits of the flight controller.
     pub limits: FlightLimits,
     /// Sensor errors and rates.
     pub sensors: SensorSpec,
@@ -40,12 +40,13 @@ pub struct Vehicle {
     pub lamp: Lamp,
 }
 
-/// Where one rotor sits and how it turns.
+/// Position and rotation direction of one rotor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rotor {
     /// Hub position, m.
     pub position_m: Vec3<Frd>,
-    /// +1 when it turns counter-clockwise seen from above (its reaction torque turns the body clockwise, positive yaw), else -1.
+    /// +1 for counterclockwise rotation seen from above (its reaction torque turns the body clockwise, positive yaw), otherwise
+    /// -1.
     pub spin: f64,
 }
 
@@ -66,9 +67,9 @@ pub struct RotorModel {
     pub idle_speed_rad_s: f64,
     /// Rotor moment of inertia about its axis, kg m².
     pub inertia_kg_m2: f64,
-    /// In-plane rotor drag (H-force) per rotor: N per (rad/s) per (m/s) of in-plane air speed.
+    /// In-plane rotor drag (H-force) per rotor: N per (rad/s) per (m/s) of in-plane airspeed.
     pub drag_coefficient_n_s2_m: f64,
-    /// Share of electrical power that becomes induced power in hover, 0..1.
+    /// Fraction of electrical power that becomes induced power in hover, 0 to 1.
     pub efficiency: f64,
 }
 
@@ -81,14 +82,14 @@ pub struct Drag {
     pub angular_n_m_s: [f64; 3],
 }
 
-/// What touches: the hull is the union of convex parts built from these numbers (arms, rotor discs or cage, feet, body).
+/// Collision hull: the union of convex parts built from these dimensions (arms, rotor discs or cage, feet, body).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hull {
-    /// Distance between the outermost points of opposite rotor tips (or the cage's diameter), m.
+    /// Distance between opposite rotor tips (or the cage's diameter), m.
     pub tip_to_tip_m: f64,
-    /// A cage or bumpers all around: a contact does not touch the rotors.
+    /// The rotors are protected by a cage or bumpers on all sides: a contact does not touch them.
     pub caged: bool,
-    /// Body box half extents forward, right, down, m.
+    /// Half dimensions of the body box: forward, right, down, m.
     pub body_half_extent_m: [f64; 3],
     /// Landing-gear contact points, m.
     pub feet_m: Vec<Vec3<Frd>>,
@@ -107,7 +108,7 @@ pub struct BatterySpec {
     pub capacity_ah: f64,
     /// Internal resistance of the pack, ohm.
     pub internal_resistance_ohm: f64,
-    /// Open-circuit voltage per cell at state of charge 0, 0.1, … 1.0, V (11 values, rising).
+    /// Open-circuit voltage per cell at state of charge 0, 0.1, … 1.0, V (11 increasing values).
     pub ocv_cell_v: [f64; 11],
     /// Avionics load, W.
     pub avionics_w: f64,
@@ -117,7 +118,7 @@ pub struct BatterySpec {
     pub paper_endurance_s: f64,
 }
 
-/// What the flight controller lets a pilot command.
+/// Maximum speeds, rates and tilt that a pilot can command.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlightLimits {
     /// Forward and backward speed at full stick in position mode, m/s.
@@ -130,26 +131,26 @@ pub struct FlightLimits {
     pub descend_m_s: f64,
     /// Yaw rate at full stick, rad/s.
     pub yaw_rate_rad_s: f64,
-    /// Largest tilt, rad.
+    /// Maximum tilt, rad.
     pub tilt_rad: f64,
-    /// Largest roll and pitch rate, rad/s.
+    /// Maximum roll and pitch rate, rad/s.
     pub rate_rad_s: f64,
-    /// Time from full speed to rest when the stick is let go, s (the paper's slow-down time).
+    /// Time from full speed to rest after the stick is released, s (the paper's slow-down time).
     pub slow_down_time_s: f64,
 }
 
-/// Sensor rates and errors: white noise as standard deviation per sample, bias as standard deviation at start.
+/// Sensor rates and errors: white noise as standard deviation per sample, bias as standard deviation at startup.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorSpec {
     /// Accelerometer and gyroscope rate, Hz.
     pub imu_rate_hz: f64,
     /// Accelerometer noise density, m/s²/sqrt(Hz).
     pub accel_noise_density: f64,
-    /// Accelerometer bias at start, m/s².
+    /// Accelerometer bias at startup, m/s².
     pub accel_bias_m_s2: f64,
     /// Gyroscope noise density, rad/s/sqrt(Hz).
     pub gyro_noise_density: f64,
-    /// Gyroscope bias at start, rad/s.
+    /// Gyroscope bias at startup, rad/s.
     pub gyro_bias_rad_s: f64,
     /// GNSS rate, Hz.
     pub gnss_rate_hz: f64,
@@ -169,7 +170,7 @@ pub struct SensorSpec {
     pub mag_rate_hz: f64,
     /// Magnetometer noise, gauss.
     pub mag_noise_gauss: f64,
-    /// Magnetometer bias in each body axis: what calibration leaves of the aircraft's own field, gauss.
+    /// Magnetometer bias per body axis after calibration, gauss.
     pub mag_bias_gauss: f64,
     /// Range finder rate, Hz.
     pub range_rate_hz: f64,
@@ -177,9 +178,9 @@ pub struct SensorSpec {
     pub range_noise_m: f64,
     /// Bias of each range finder, m.
     pub range_bias_m: f64,
-    /// Range finder reach, m.
+    /// Maximum range of the range finders, m.
     pub range_max_m: f64,
-    /// Optical-flow horizontal velocity noise, m/s, where light and texture suffice; 0 means that none is fitted.
+    /// Optical-flow horizontal velocity noise, m/s, with sufficient light and texture; 0 means that there is no sensor.
     pub flow_velocity_m_s: f64,
 }
 
@@ -192,53 +193,53 @@ pub struct Camera {
     pub width_px: u32,
     /// Image height, px.
     pub height_px: u32,
-    /// Horizontal field of view, rad; of a zoom lens at its wide end.
+    /// Horizontal field of view, rad; for a zoom lens, at the wide end.
     pub hfov_rad: f64,
-    /// Longest focal length of the lens over its shortest; 1 for a lens that does not zoom.
+    /// Zoom ratio: longest focal length over shortest; 1 for a fixed lens.
     pub zoom_max: f64,
     /// f-number.
     pub f_number: f64,
-    /// Largest ISO sensitivity.
+    /// Maximum ISO sensitivity.
     pub iso_max: f64,
-    /// Longest exposure that still counts as sharp, s.
+    /// Maximum exposure time for a sharp image, s.
     pub exposure_max_s: f64,
-    /// Gimbal pitch range, rad; negative looks down.
+    /// Minimum gimbal pitch, rad; negative looks down.
     pub gimbal_pitch_min_rad: f64,
-    /// Upper end of the gimbal range, rad.
+    /// Maximum gimbal pitch, rad.
     pub gimbal_pitch_max_rad: f64,
     /// Gimbal rate, rad/s.
     pub gimbal_rate_rad_s: f64,
 }
 
-/// Width of the sensor, mm (1/2.3 inch; estimate): focal lengths in mm follow from the field of view.
+/// Sensor width, mm (1/2.3 inch; estimate), used to derive focal lengths in mm from the field of view.
 pub const SENSOR_MM: f64 = 6.17;
 
 impl Camera {
-    /// Focal length, mm.
+    /// Returns the focal length, mm.
     #[must_use]
     pub fn focal_mm(&self) -> f64 {
         0.5 * SENSOR_MM / math::tan(0.5 * self.hfov_rad)
     }
 
-    /// Width of its pictures over their height.
+    /// Returns the aspect ratio, width over height.
     #[must_use]
     pub fn aspect(&self) -> f64 {
         f64::from(self.width_px) / f64::from(self.height_px)
     }
 
-    /// Focal length in pixels of the ideal pinhole.
+    /// Returns the focal length of the ideal pinhole, px.
     #[must_use]
     pub fn focal_px(&self) -> f64 {
         0.5 * f64::from(self.width_px) / math::tan(0.5 * self.hfov_rad)
     }
 
-    /// Vertical field of view, rad.
+    /// Returns the vertical field of view, rad.
     #[must_use]
     pub fn vfov_rad(&self) -> f64 {
         2.0 * math::atan2(0.5 * f64::from(self.height_px), self.focal_px())
     }
 
-    /// The camera at `ratio` times its shortest focal length; at the wide end it is the same to the bit.
+    /// Returns the camera at `ratio` times its shortest focal length; bit-identical at the wide end.
     #[must_use]
     pub fn zoomed(&self, ratio: f64) -> Self {
         if ratio <= 1.0 {
@@ -248,10 +249,10 @@ impl Camera {
     }
 }
 
-/// Lamp that looks where the camera looks.
+/// Lamp aligned with the camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lamp {
-    /// Luminous flux, lm; 0 means that none is fitted.
+    /// Luminous flux, lm; 0 means that there is no lamp.
     pub flux_lm: f64,
     /// Full beam angle, rad.
     pub beam_rad: f64,

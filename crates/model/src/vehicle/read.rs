@@ -1,4 +1,4 @@
-//! Vehicle files into [`Vehicle`]: every key with its unit, range and default.
+//! Parses vehicle files into [`Vehicle`]: every key with its unit, range and default.
 
 use super::{BatterySpec, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, SensorSpec, Vehicle};
 use crate::frames::Vec3;
@@ -6,21 +6,21 @@ use crate::math::{self, GRAVITY_M_S2};
 use crate::toml::{DocumentedKey, Problems, Reader, Section};
 use std::collections::BTreeMap;
 
-/// Newest format that this program reads.
+/// Latest supported format version.
 pub const FORMAT: i64 = 1;
 const MOST_ROTORS: usize = 8;
-/// Full thrust over weight that control needs (estimate; multicopters in use have 1.8 and more).
+/// Minimum ratio of maximum thrust to weight for control (estimate; typical multicopters have 1.8 or more).
 const LEAST_LIFT: f64 = 1.2;
 
-/// Reads a vehicle file. `file` is its name for messages; its stem becomes [`Vehicle::id`].
+/// Parses a vehicle file. `file` is the file name used in messages; its stem becomes [`Vehicle::id`].
 ///
 /// # Errors
-/// Everything that is wrong with the file, each with line, key, value and allowed range.
+/// All problems of the file, each with line, key, value and allowed range.
 pub fn read(file: &str, text: &str) -> Result<Vehicle, Problems> {
     read_asked(file, text).0
 }
 
-/// Reads a vehicle file and tells which keys were asked for (for the documentation test).
+/// Parses a vehicle file and returns the keys that were read (for the documentation test).
 pub fn read_asked(file: &str, text: &str) -> (Result<Vehicle, Problems>, BTreeMap<String, DocumentedKey>) {
     let mut reader = Reader::new(file, text);
     let vehicle = reader.parse().map(|document| {
@@ -112,7 +112,7 @@ fn drag(r: &mut Reader, root: &mut Section) -> Drag {
     drag
 }
 
-/// Feet that a body stands on.
+/// Minimum number of feet for a stable stand.
 const LEAST_FEET: usize = 3;
 
 fn hull(r: &mut Reader, root: &mut Section) -> Hull {
@@ -125,7 +125,7 @@ fn hull(r: &mut Reader, root: &mut Section) -> Hull {
         restitution: r.number(&mut s, "restitution", (0.0, 0.95), None),
         friction: r.number(&mut s, "friction", (0.0, 2.0), None),
     };
-    // A ball does not stand: wind rolls it.
+    // A spherical cage without feet would roll in the wind.
     let cage_m = 0.5 * hull.tip_to_tip_m;
     let carrying = hull.feet_m.iter().filter(|foot| foot.down() >= cage_m).count();
     if hull.caged && carrying < LEAST_FEET {
@@ -166,7 +166,8 @@ fn limits(r: &mut Reader, root: &mut Section) -> FlightLimits {
         rate_rad_s: r.number(&mut s, "rate_deg_s", (20.0, 1500.0), None).to_radians(),
         slow_down_time_s: r.number(&mut s, "slow_down_time_s", (0.2, 10.0), None),
     };
-    // Tilted as far as it may, it brakes with g tan(tilt); air drag and the time to tilt about cancel (flown for every shipped aircraft).
+    // At maximum tilt the braking deceleration is g tan(tilt); air drag and the time to tilt roughly cancel (verified in
+    // simulation for every shipped aircraft).
     let least_s = limits.forward_m_s.max(limits.sideward_m_s) / (GRAVITY_M_S2 * math::tan(limits.tilt_rad));
     if limits.slow_down_time_s < least_s && r.problems.is_empty() {
         let allowed = format!("at least {least_s:.2}: full speed over g tan(tilt_deg)");

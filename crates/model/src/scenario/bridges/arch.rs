@@ -1,24 +1,25 @@
-//! Open-spandrel deck arch: two parabolic ribs with struts, spandrel columns, floorbeams, stringers, deck slab, railings, abutments.
+//! Open-spandrel deck arch: two parabolic ribs with struts, spandrel columns, floorbeams, stringers, deck slab, railings,
+//! abutments.
 
 use super::solid::MemberBuilder;
 use super::{BridgeField, Footing, Inconsistency, InconsistencyList};
 use crate::math;
 
-/// Floorbeams end this far inside the deck's edge, m (estimate).
+/// Distance from the ends of the floorbeams to the deck's edge, m (estimate).
 const BEAM_INSET_M: f64 = 0.4;
-/// Abutments and skewbacks reach this far under the springings' intrados, m (estimate).
+/// Depth of abutments and skewbacks below the intrados at the springings, m (estimate).
 const FOUNDATION_M: f64 = 3.5;
 /// Length of the skewbacks, m (estimate).
 const SKEWBACK_M: f64 = 3.0;
-/// Shorter columns are left out, m (estimate).
+/// Minimum length of a column, m; shorter ones are omitted (estimate).
 const SHORTEST_COLUMN_M: f64 = 0.25;
 
-/// The numbers of an open-spandrel deck arch. Own axes: x along the deck, y left, z up, origin on the deck at midspan.
+/// Dimensions of an open-spandrel deck arch. Bridge axes: x along the deck, y left, z up, origin on the deck at midspan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Arch {
     /// Distance between the springings, m.
     pub span_m: f64,
-    /// Height of the crown's axis over the springings' axis, m.
+    /// Height of the rib axis at the crown above the springings, m.
     pub rise_m: f64,
     /// Depth of a rib at the crown, m.
     pub crown_depth_m: f64,
@@ -28,29 +29,29 @@ pub struct Arch {
     pub rib_width_m: f64,
     /// Distance between the ribs' axes, m.
     pub rib_spacing_m: f64,
-    /// Clear height between slab soffit and crown extrados, m.
+    /// Vertical clearance between slab soffit and crown extrados, m.
     pub crown_gap_m: f64,
-    /// Number of panels between springings (columns stand at the inner panel points).
+    /// Number of panels between the springings (columns stand at the inner panel points).
     pub panels: f64,
-    /// Side of the square spandrel columns, m.
+    /// Side length of the square spandrel columns, m.
     pub column_m: f64,
     /// Deck width, m.
     pub deck_width_m: f64,
     /// Slab thickness, m.
     pub slab_m: f64,
-    /// Floorbeam depth under the slab, m.
+    /// Floorbeam depth below the slab, m.
     pub floorbeam_depth_m: f64,
     /// Floorbeam width, m.
     pub floorbeam_width_m: f64,
-    /// Lines of stringers.
+    /// Number of stringer lines.
     pub stringers: f64,
-    /// Stringer depth under the slab, m.
+    /// Stringer depth below the slab, m.
     pub stringer_depth_m: f64,
     /// Stringer width, m.
     pub stringer_width_m: f64,
     /// Railing height, m.
     pub railing_m: f64,
-    /// Deck beyond each springing, m.
+    /// Deck length beyond each springing, m.
     pub approach_m: f64,
 }
 
@@ -81,7 +82,7 @@ impl Arch {
         field("approach_m", 2.0, 60.0, 12.0, "deck beyond each springing (estimate)"),
     ];
 
-    /// From values in the order of [`Arch::FIELDS`].
+    /// Creates an arch from values in the order of [`Arch::FIELDS`].
     #[must_use]
     pub fn from_values(v: &[f64]) -> Self {
         let get = |k: usize| v.get(k).copied().unwrap_or(Self::FIELDS[k].default);
@@ -113,46 +114,46 @@ impl Arch {
         self.span_m + 2.0 * self.approach_m
     }
 
-    /// Height of the rib axis at x, own axes: z_crown - 4 r x² / L².
+    /// Height of the rib axis at x, bridge axes, m: z_crown - 4 r x² / L².
     #[must_use]
     pub fn axis_z_m(&self, x: f64) -> f64 {
         let u = 2.0 * x / self.span_m;
         -(self.slab_m + self.crown_gap_m + 0.5 * self.crown_depth_m) - self.rise_m * u * u
     }
 
-    /// Vertical depth of the rib at x: d_c + (d_s - d_c)(2x/L)².
+    /// Vertical depth of the rib at x, m: d_c + (d_s - d_c)(2x/L)².
     #[must_use]
     pub fn depth_m(&self, x: f64) -> f64 {
         let u = 2.0 * x / self.span_m;
         self.crown_depth_m + (self.springing_depth_m - self.crown_depth_m) * u * u
     }
 
-    /// Top of the rib at x.
+    /// Height of the top of the rib at x, m.
     #[must_use]
     pub fn extrados_z_m(&self, x: f64) -> f64 {
         self.axis_z_m(x) + 0.5 * self.depth_m(x)
     }
 
-    /// Underside of the rib at x.
+    /// Height of the underside of the rib at x, m.
     #[must_use]
     pub fn intrados_z_m(&self, x: f64) -> f64 {
         self.axis_z_m(x) - 0.5 * self.depth_m(x)
     }
 
-    /// The intrados falls by this times x² from the crown, 1/m.
+    /// Curvature coefficient of the intrados: it drops by this times x² from the crown, 1/m.
     #[must_use]
     pub fn intrados_bend_per_m(&self) -> f64 {
         (4.0 * self.rise_m + 2.0 * (self.springing_depth_m - self.crown_depth_m)) / (self.span_m * self.span_m)
     }
 
-    /// Ends of the ribs' straight segments, from springing to springing: two segments a panel.
+    /// Ends of the straight rib segments from springing to springing: two segments per panel.
     #[must_use]
     pub fn rib_nodes(&self) -> Vec<f64> {
         let n = 2 * self.panels.round() as i32;
         (0..=n).map(|k| self.span_m * (f64::from(k) / f64::from(n) - 0.5)).collect()
     }
 
-    /// Top of the rib as built, straight between its nodes, which lie on [`Self::extrados_z_m`].
+    /// Height of the top of the rib as built, straight between nodes that lie on [`Self::extrados_z_m`], m.
     #[must_use]
     pub fn rib_top_z_m(&self, x: f64) -> f64 {
         let step = self.span_m / (2.0 * self.panels.round());
@@ -160,20 +161,21 @@ impl Arch {
         math::lerp(self.extrados_z_m(from), self.extrados_z_m(from + step), (x - from) / step)
     }
 
-    /// Underside of the floorbeams.
+    /// Height of the underside of the floorbeams, m.
     #[must_use]
     pub fn floorbeam_z_m(&self) -> f64 {
         -self.slab_m - self.floorbeam_depth_m
     }
 
-    /// Panel points between the springings, the springings left out.
+    /// Panel points between the springings, excluding the springings.
     #[must_use]
     pub fn panel_points(&self) -> Vec<f64> {
         let n = self.panels.round() as i32;
         (1..n).map(|k| self.span_m * (f64::from(k) / f64::from(n) - 0.5)).collect()
     }
 
-    /// Numbers that do not fit together: none, or every member has a volume, stands on another, and the interlayer is open.
+    /// Returns all inconsistent dimensions. If there are none, every member has a volume and a support, and the interlayer is
+    /// open.
     #[must_use]
     pub fn misfits(&self) -> Vec<Inconsistency> {
         let panel_m = self.span_m / self.panels.round();
@@ -196,7 +198,7 @@ impl Arch {
         m.0
     }
 
-    /// Builds every member.
+    /// Builds all members.
     pub fn build(&self, b: &mut MemberBuilder) {
         self.ribs(b);
         self.columns(b);
@@ -226,16 +228,16 @@ impl Arch {
         let half = 0.5 * self.column_m;
         let top = self.floorbeam_z_m();
         for (k, x) in self.panel_points().into_iter().enumerate() {
-            // The rib slopes under the column: it starts where both of its edges are inside the rib.
+            // The rib slopes under the column, so the column starts where both of its edges are inside the rib.
             let foot = self.rib_top_z_m(x + half).min(self.rib_top_z_m(x - half));
-            // Where the deck comes down to the crown, the floorbeam lies on the rib itself.
+            // Near the crown the floorbeam rests directly on the rib.
             if top - foot < SHORTEST_COLUMN_M {
                 continue;
             }
             for (side, y) in [("left", 0.5 * self.rib_spacing_m), ("right", -0.5 * self.rib_spacing_m)] {
                 b.block(&format!("column-{side}/{k:02}"), 205, [x - half, y - half, foot], [x + half, y + half, top]);
             }
-            // Struts join tall pairs at a third of their height, well under the interlayer's flight space.
+            // Struts connect tall pairs at a third of their height, well below the flight space of the interlayer.
             if top - foot > 9.0 {
                 let z = foot + (top - foot) / 3.0;
                 let inner = 0.5 * self.rib_spacing_m - half;
@@ -279,13 +281,13 @@ impl Arch {
         railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, 331);
     }
 
-    /// Underside of abutments and skewbacks.
+    /// Height of the underside of abutments and skewbacks, m.
     #[must_use]
     pub fn foot_z_m(&self) -> f64 {
         self.intrados_z_m(0.5 * self.span_m) - FOUNDATION_M
     }
 
-    /// Abutments and skewbacks.
+    /// Returns abutments and skewbacks.
     #[must_use]
     pub fn footings(&self) -> Vec<Footing> {
         let (inner, outer) = (0.5 * self.span_m, 0.5 * self.deck_length_m());
@@ -304,7 +306,7 @@ impl Arch {
     }
 
     fn abutments(&self, b: &mut MemberBuilder) {
-        // Skewbacks carry the ribs.
+        // Skewbacks support the ribs.
         let under_deck = -self.slab_m - self.stringer_depth_m;
         let over_ribs = self.extrados_z_m(0.5 * self.span_m) + 0.8;
         let names = [
@@ -325,7 +327,7 @@ impl Default for Arch {
     }
 }
 
-/// Posts every 2 m and three rails along both edges of a deck.
+/// Builds posts every 2 m and three rails along both edges of a deck.
 pub(super) fn railing(b: &mut MemberBuilder, length_m: f64, edge_y_m: f64, height_m: f64, element: u32) {
     const POST_M: f64 = 0.15;
     let posts = (length_m / 2.0).floor() as i32;

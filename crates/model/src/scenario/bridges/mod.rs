@@ -1,5 +1,5 @@
-//! Bridge geometry: a bridge type turns its numbers into members, lanes and task paths. A new type is one new file here plus one
-//! variant of [`BridgeKind`].
+//! Bridge geometry: each bridge type converts its dimensions to members, lanes and task paths. A new type takes one new file here
+//! and one variant of [`BridgeKind`].
 
 pub mod arch;
 pub mod path;
@@ -10,28 +10,28 @@ use super::{Bridge, BridgeKind, TaskKind};
 use crate::frames::{Enu, Vec3};
 use solid::{MemberBuilder, Placement};
 
-/// One structural member. What collides, what is drawn, what carries defects and what is exported is this solid and nothing else.
+/// One structural member. Collision, rendering, defects and export all use the same solid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Member {
     /// Unique within the site, e.g. `arch/rib-left/07`.
     pub name: String,
     /// AASHTO MBEI element number.
     pub element: u32,
-    /// The member's solid, in site coordinates.
+    /// Solid of the member, in site coordinates.
     pub solid: Solid,
 }
 
 /// A closed convex polyhedron.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solid {
-    /// Corners, m.
+    /// Vertices, m.
     pub vertices_m: Vec<Vec3<Enu>>,
-    /// Planar faces: corner indices counter-clockwise seen from outside, three or more each.
+    /// Planar faces: three or more vertex indices each, counterclockwise seen from outside.
     pub faces: Vec<Vec<u32>>,
 }
 
 impl Solid {
-    /// The faces as triangles, fanned from each face's first corner.
+    /// Returns the faces as triangle fans from each face's first vertex.
     #[must_use]
     pub fn triangles(&self) -> Vec<[u32; 3]> {
         let fan = |face: &Vec<u32>| (2..face.len()).map(|k| [face[0], face[k - 1], face[k]]).collect::<Vec<_>>();
@@ -39,44 +39,44 @@ impl Solid {
     }
 }
 
-/// A lane or walkway along which traffic moves: a polyline on the deck's upper surface.
+/// A traffic lane or walkway: a polyline on the deck's upper surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lane {
-    /// Which bridge.
+    /// Index of the bridge.
     pub bridge: usize,
     /// Points in the direction of travel, m.
     pub points_m: Vec<Vec3<Enu>>,
-    /// Vehicles or pedestrians.
+    /// True for a walkway, false for a traffic lane.
     pub walkway: bool,
 }
 
-/// A number of a bridge type as scenario files write it.
+/// A numeric key of a bridge type in scenario files.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BridgeField {
-    /// Key, with its unit.
+    /// Key, including its unit.
     pub key: &'static str,
-    /// Smallest value allowed.
+    /// Minimum value.
     pub min: f64,
-    /// Largest value allowed.
+    /// Maximum value.
     pub max: f64,
-    /// Value when the key is left out.
+    /// Default value.
     pub default: f64,
-    /// Meaning, with its source.
+    /// Description, with its source.
     pub doc: &'static str,
 }
 
-/// Numbers of a bridge that are legal one by one but not together.
+/// A dimension that is in range but inconsistent with other dimensions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inconsistency {
     /// Key to change.
     pub key: &'static str,
     /// Its value.
     pub value: f64,
-    /// What the other numbers allow.
+    /// Allowed values, given the other dimensions.
     pub allowed: String,
 }
 
-/// Collects misfits while a type's numbers are compared.
+/// Collects inconsistencies while the dimensions of a bridge are compared.
 #[derive(Debug, Default)]
 struct InconsistencyList(Vec<Inconsistency>);
 
@@ -101,7 +101,7 @@ impl InconsistencyList {
 }
 
 impl BridgeKind {
-    /// Numbers that do not fit together: none, or the bridge cannot be built.
+    /// Returns all inconsistent dimensions; if there are any, the bridge cannot be built.
     #[must_use]
     pub fn misfits(&self) -> Vec<Inconsistency> {
         match self {
@@ -111,36 +111,36 @@ impl BridgeKind {
     }
 }
 
-/// Where a bridge stands on the ground, in its own axes, m.
+/// A part of a bridge that rests on the ground, in bridge axes, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Footing {
-    /// From and to along the bridge.
+    /// Start and end along the bridge.
     pub x_m: (f64, f64),
-    /// From and to across.
+    /// Start and end across the bridge.
     pub y_m: (f64, f64),
-    /// Its underside.
+    /// Height of its underside.
     pub up_m: f64,
 }
 
-/// A task's reference path with the line of sight at each point.
+/// Reference path of a task, with a viewing direction at each point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TaskPath {
     /// Points, at most 1 m apart, m. A closed path does not repeat its first point.
     pub path_m: Vec<Vec3<Enu>>,
-    /// Unit vectors towards the inspected surface.
+    /// Unit vectors toward the inspected surface.
     pub look: Vec<Vec3<Enu>>,
     /// The path returns to its start.
     pub closed: bool,
 }
 
 impl Bridge {
-    /// Where the bridge's own axes stand.
+    /// Returns the position and heading of the bridge axes.
     #[must_use]
     pub fn placement(&self) -> Placement {
         Placement::new(self.centre_m, self.heading_deg)
     }
 
-    /// All members.
+    /// Returns all members.
     #[must_use]
     pub fn members(&self) -> Vec<Member> {
         let mut builder = MemberBuilder::new(&self.name, self.placement());
@@ -169,7 +169,7 @@ impl Bridge {
         }
     }
 
-    /// Half length of the opening that the ground must leave free, m.
+    /// Half length of the opening under the bridge that terrain must not fill, m.
     #[must_use]
     pub fn opening_half_m(&self) -> f64 {
         match &self.kind {
@@ -178,7 +178,7 @@ impl Bridge {
         }
     }
 
-    /// Everything that stands on the ground.
+    /// Returns everything that rests on the ground.
     #[must_use]
     pub fn footings(&self) -> Vec<Footing> {
         match &self.kind {
@@ -187,7 +187,7 @@ impl Bridge {
         }
     }
 
-    /// Two lanes and two walkways; `index` is this bridge's place in the scenario.
+    /// Returns two lanes and two walkways; `index` is the index of this bridge in the scenario.
     #[must_use]
     pub fn lanes(&self, index: usize) -> Vec<Lane> {
         let placement = self.placement();
@@ -197,14 +197,14 @@ impl Bridge {
             let ends = if y < 0.0 { [-half, half] } else { [half, -half] };
             Lane { bridge: index, points_m: ends.map(|x| placement.point([x, y, 0.0])).to_vec(), walkway }
         };
-        // Right-hand traffic: who drives along +x keeps to the right, y < 0. Walkways run inside the railings.
+        // Right-hand traffic: vehicles traveling in +x use the right side, y < 0. Walkways are inside the railings.
         vec![lane(-0.19 * width, false), lane(0.19 * width, false), lane(-0.43 * width, true), lane(0.43 * width, true)]
     }
 
-    /// The reference path of a task kind at a stand-off.
+    /// Returns the reference path of a task kind at a stand-off distance, m.
     ///
     /// # Errors
-    /// When this bridge type has no such path, in words.
+    /// If this bridge type has no such path; describes the supported paths.
     pub fn task_path(&self, kind: TaskKind, stand_off_m: f64) -> Result<TaskPath, String> {
         let placement = self.placement();
         let drawn = match (&self.kind, kind) {

@@ -1,4 +1,4 @@
-//! Reference paths of the tasks, derived from a bridge's numbers, in its own axes.
+//! Reference paths of the tasks, derived from the dimensions of a bridge, in bridge axes.
 
 use super::TaskPath;
 use super::arch::Arch;
@@ -9,7 +9,7 @@ use crate::math;
 /// Spacing of reference points, m (at most 1 m: docs/src/reference/assessment.md, "On path").
 pub const SPACING_M: f64 = 0.8;
 
-/// A path before it is placed in the site.
+/// A path in bridge axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LocalPath {
     points: Vec<LocalPoint>,
@@ -18,7 +18,7 @@ pub struct LocalPath {
 }
 
 impl LocalPath {
-    /// Carried into the site.
+    /// Transforms the path to site coordinates.
     #[must_use]
     pub fn placed(&self, placement: &Placement) -> TaskPath {
         TaskPath {
@@ -29,13 +29,13 @@ impl LocalPath {
     }
 }
 
-/// Values from `a` to `b` in even steps of at most the spacing.
+/// Returns values from `a` to `b` in equal steps of at most the spacing.
 fn steps(a: f64, b: f64) -> Vec<f64> {
     let n = ((b - a).abs() / SPACING_M).ceil().max(1.0);
     (0..=n as i32).map(|k| a + (b - a) * f64::from(k) / n).collect()
 }
 
-/// Task 1: a straight line along the right side of the deck, level with the slab, looking at it.
+/// Task 1: a straight line along the right side of the deck at the height of the slab, facing it.
 pub(super) fn slab_side(arch: &Arch, stand_off_m: f64) -> LocalPath {
     let half = 0.5 * arch.span_m;
     let y = -0.5 * arch.deck_width_m - stand_off_m;
@@ -43,11 +43,11 @@ pub(super) fn slab_side(arch: &Arch, stand_off_m: f64) -> LocalPath {
     LocalPath { look: vec![[0.0, 1.0, 0.0]; points.len()], points, closed: false }
 }
 
-/// Task 2: under the arch between the ribs, at the stand-off square to the intrados, looking up and ahead at it.
+/// Task 2: under the arch between the ribs, at the stand-off distance perpendicular to the intrados, looking up and ahead at it.
 pub(super) fn arch_bottom(arch: &Arch, stand_off_m: f64) -> LocalPath {
     let reach = 0.5 * arch.span_m * 0.78;
     let bend = arch.intrados_bend_per_m();
-    // The ribs are built straight between their nodes, which lie on the curve: at most this far inside it.
+    // The ribs are straight between nodes on the curve, so they lie at most this far inside it.
     let step = 0.5 * arch.span_m / arch.panels.round();
     let off = stand_off_m + 0.25 * bend * step * step;
     let steepest = 2.0 * bend * reach;
@@ -64,18 +64,19 @@ pub(super) fn arch_bottom(arch: &Arch, stand_off_m: f64) -> LocalPath {
     LocalPath { points, look, closed: false }
 }
 
-/// Up at the soffits a little ahead, swinging slowly from the left rib over the struts to the right rib.
+/// Returns the viewing direction: up at the soffits and slightly ahead, panning slowly from the left rib across the struts to the
+/// right rib.
 fn under_arch_look(arch: &Arch, from: LocalPoint, off: f64, k: usize) -> LocalPoint {
     const PERIOD_POINTS: f64 = 30.0;
     let side = math::sin(math::TAU * k as f64 / PERIOD_POINTS);
-    // Straight over a point of the path the arch is farther away than the stand-off: seen square to it, it lies out from the crown.
+    // The arch vertically above a path point is farther away than the stand-off; its closest point lies outward from the crown.
     let bend = 2.0 * arch.intrados_bend_per_m();
     let square = from[0] / (1.0 - off * bend / (1.0 + (bend * from[0]) * (bend * from[0])).sqrt());
     let ahead = (square + 0.3 * off).min(0.5 * arch.span_m);
     [ahead - from[0], 0.5 * arch.rib_spacing_m * side, arch.intrados_z_m(ahead) - from[2]]
 }
 
-/// Task 3: between deck and arch on the centreline, half way between floorbeams and crown, level.
+/// Task 3: level between deck and arch on the centerline, halfway between floorbeams and crown.
 pub(super) fn interlayer(arch: &Arch) -> LocalPath {
     let half = 0.3 * arch.span_m;
     let z = 0.5 * (arch.floorbeam_z_m() + arch.extrados_z_m(0.0));
@@ -84,15 +85,15 @@ pub(super) fn interlayer(arch: &Arch) -> LocalPath {
     LocalPath { points, look, closed: false }
 }
 
-/// Alternately up at the deck's underside and down at the ribs, swinging to both sides.
+/// Returns the viewing direction: alternately up at the deck's underside and down at the ribs, panning to both sides.
 fn interlayer_look(k: usize) -> LocalPoint {
     const PERIOD_POINTS: f64 = 20.0;
     let phase = math::TAU * k as f64 / PERIOD_POINTS;
     [0.6, 0.5 * math::sin(0.5 * phase), 0.8 * math::sin(phase)]
 }
 
-/// Task 4: once around the start pier at the stand-off from its faces (corners rounded), 2 m under its top or as far under the girders
-/// as the stand-off asks, looking at it.
+/// Task 4: one loop around the start pier at the stand-off distance from its faces (rounded at the corners), facing it, 2 m below
+/// its top or lower if the stand-off from the girders requires it.
 pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<LocalPath, String> {
     let centre = [-0.5 * suspension.main_span_m, 0.0];
     let (hx, hy) = (0.5 * suspension.pier_x_m, 0.5 * suspension.pier_y_m);
@@ -114,7 +115,7 @@ pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<L
             let (s, c) = math::sin_cos(angle);
             add(cx + stand_off_m * c, cy + stand_off_m * s, c, s);
         }
-        // Along the face to the next corner, both ends left to the corners.
+        // Along the face to the next corner, without both ends, which belong to the corners.
         let (nx, ny, _) = corners[(k + 1) % 4];
         let (s, c) = math::sin_cos(from + math::FRAC_PI_2);
         let along = steps(0.0, (nx - cx).abs().max((ny - cy).abs()));

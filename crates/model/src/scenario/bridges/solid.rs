@@ -1,14 +1,14 @@
-//! Convex building blocks in a bridge's own axes: x along the deck, y to the left, z up, origin on the deck's upper surface at
-//! midspan. [`Placement`] carries them into the site.
+//! Convex building blocks in bridge axes: x along the deck, y left, z up, origin on the deck's upper surface at midspan.
+//! [`Placement`] transforms them to site coordinates.
 
 use super::{Member, Solid};
 use crate::frames::{Enu, Vec3};
 use crate::math;
 
-/// A point in a bridge's own axes, m.
+/// A point in bridge axes, m.
 pub type LocalPoint = [f64; 3];
 
-/// Where a bridge's own axes stand in the site.
+/// Position and heading of the bridge axes in the site.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
     origin_m: Vec3<Enu>,
@@ -17,26 +17,26 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// Axes at `origin_m` with x pointing `heading_deg` clockwise from north.
+    /// Creates axes at `origin_m` with x pointing `heading_deg` clockwise from north.
     #[must_use]
     pub fn new(origin_m: Vec3<Enu>, heading_deg: f64) -> Self {
         let (s, c) = math::sin_cos(heading_deg.to_radians());
         Self { origin_m, along: Vec3::new(s, c, 0.0), left: Vec3::new(-c, s, 0.0) }
     }
 
-    /// A point in the site.
+    /// Converts a point to site coordinates.
     #[must_use]
     pub fn point(&self, p: LocalPoint) -> Vec3<Enu> {
         self.origin_m + self.direction(p)
     }
 
-    /// A direction in the site.
+    /// Converts a direction to site coordinates.
     #[must_use]
     pub fn direction(&self, d: LocalPoint) -> Vec3<Enu> {
         self.along * d[0] + self.left * d[1] + Vec3::new(0.0, 0.0, d[2])
     }
 
-    /// A site point in the bridge's own axes.
+    /// Converts a site point to bridge axes.
     #[must_use]
     pub fn local(&self, p: Vec3<Enu>) -> LocalPoint {
         let d = p - self.origin_m;
@@ -49,20 +49,20 @@ impl Placement {
 pub enum BeamDirection {
     /// Along the bridge, x.
     Along,
-    /// Across it, y.
+    /// Across the bridge, y.
     Across,
 }
 
 /// Plate thicknesses of a steel beam, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlateThickness {
-    /// Of both flanges.
+    /// Thickness of both flanges.
     pub flange_m: f64,
-    /// Of the web.
+    /// Thickness of the web.
     pub web_m: f64,
 }
 
-/// Collects members under one bridge's name.
+/// Collects the members of one bridge.
 #[derive(Debug)]
 pub struct MemberBuilder {
     bridge: String,
@@ -71,13 +71,13 @@ pub struct MemberBuilder {
 }
 
 impl MemberBuilder {
-    /// An empty collection.
+    /// Creates an empty builder.
     #[must_use]
     pub fn new(bridge: &str, placement: Placement) -> Self {
         Self { bridge: bridge.to_string(), placement, members: Vec::new() }
     }
 
-    /// What has been built.
+    /// Returns the members.
     #[must_use]
     pub fn finish(self) -> Vec<Member> {
         self.members
@@ -89,14 +89,13 @@ impl MemberBuilder {
         self.members.push(Member { name, element, solid: Solid { vertices_m, faces } });
     }
 
-    /// A box between two opposite corners.
+    /// Adds a box between two opposite corners.
     pub fn block(&mut self, part: &str, element: u32, low: LocalPoint, high: LocalPoint) {
         let profile = [[low[0], low[2]], [high[0], low[2]], [high[0], high[2]], [low[0], high[2]]];
         self.across(part, element, &profile, low[1], high[1]);
     }
 
-    /// A rolled or welded steel beam between two opposite corners: two flanges and a web, each a member of its own. It runs along x, or
-    /// across along y.
+    /// Adds a rolled or welded steel beam between two opposite corners: two flanges and a web, each a separate member.
     pub fn steel_beam(
         &mut self,
         part: &str,
@@ -118,7 +117,7 @@ impl MemberBuilder {
         self.block(&format!("{part}/bottom"), element, low, [high[0], high[1], web_low[2]]);
     }
 
-    /// A convex profile in the x-z plane (counter-clockwise seen with x right and z up), extruded from `y_low` to `y_high`.
+    /// Adds a convex profile in the x-z plane (counterclockwise with x right and z up), extruded from `y_low` to `y_high`.
     pub fn across(&mut self, part: &str, element: u32, profile: &[[f64; 2]], y_low: f64, y_high: f64) {
         let near = profile.iter().map(|p| [p[0], y_low, p[1]]);
         let far = profile.iter().map(|p| [p[0], y_high, p[1]]);
@@ -126,14 +125,14 @@ impl MemberBuilder {
         self.push(part, element, &corners, prism_faces(profile.len()));
     }
 
-    /// A regular prism of `sides` around the line from `a` to `b`, whose corners lie at `radius_m`.
+    /// Adds a regular prism with `sides` faces around the line from `a` to `b`, with its corners at `radius_m`.
     pub fn rod(&mut self, part: &str, element: u32, a: LocalPoint, b: LocalPoint, radius_m: f64, sides: u32) {
         let axis = unit(sub(b, a));
         self.cut_rod(part, element, [(a, axis), (b, axis)], radius_m, sides);
     }
 
-    /// Rods from point to point in an upright plane along the bridge, mitred so that each ends where the next begins; the pieces are
-    /// numbered.
+    /// Adds rods between consecutive points in a vertical plane along the bridge, mitered so that each one ends where the next
+    /// begins. The rods are numbered.
     pub fn cable(&mut self, part: &str, element: u32, points: &[LocalPoint], radius_m: f64, sides: u32) {
         let last = points.len() - 1;
         let cut = |k: usize| {
@@ -148,10 +147,10 @@ impl MemberBuilder {
         }
     }
 
-    /// A prism along the line between two points, cut off at each by the plane with the normal given.
+    /// Adds a prism along the line between two points, cut at each end by the plane with the given normal.
     fn cut_rod(&mut self, part: &str, element: u32, ends: [(LocalPoint, LocalPoint); 2], radius_m: f64, sides: u32) {
         let axis = unit(sub(ends[1].0, ends[0].0));
-        // Any direction that is not along the axis will do; the deck's left side keeps cables and hangers alike.
+        // Any direction not along the axis works; using the deck's left side orients cables and hangers alike.
         let helper = if axis[1].abs() > 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
         let u = unit(cross(helper, axis));
         let v = cross(axis, u);
@@ -163,13 +162,13 @@ impl MemberBuilder {
                 [0, 1, 2].map(|i| centre[i] + out[i] + slide * axis[i])
             })
         };
-        // Seen from the first end the ring runs clockwise, which is counter-clockwise seen from outside its first face.
+        // Seen from the first end the ring runs clockwise, which is counterclockwise seen from outside its first face.
         let corners: Vec<LocalPoint> = ring(ends[1]).chain(ring(ends[0])).collect();
         self.push(part, element, &corners, prism_faces(sides as usize));
     }
 }
 
-/// Faces of a prism whose first `n` corners are one end, counter-clockwise seen from outside that end, and the next `n` the other.
+/// Returns the faces of a prism: the first `n` vertices form one end, counterclockwise seen from outside, the next `n` the other.
 fn prism_faces(n: usize) -> Vec<Vec<u32>> {
     let n = n as u32;
     let mut faces = vec![(0..n).collect::<Vec<u32>>(), (n..2 * n).rev().collect()];

@@ -4,37 +4,37 @@ use super::arch::railing;
 use super::solid::{BeamDirection, MemberBuilder, PlateThickness};
 use super::{BridgeField, Footing, Inconsistency, InconsistencyList};
 
-/// Girders stand this far out over the deck's edge, m (estimate).
+/// Distance of the girders beyond the deck's edge, m (estimate).
 const GIRDER_OUT_M: f64 = 0.2;
-/// Plates of the welded stiffening girders (estimate).
+/// Plate thicknesses of the welded stiffening girders (estimate).
 const GIRDER: PlateThickness = PlateThickness { flange_m: 0.04, web_m: 0.016 };
-/// Plates of the floorbeams (estimate).
+/// Plate thicknesses of the floorbeams (estimate).
 const FLOORBEAM: PlateThickness = PlateThickness { flange_m: 0.025, web_m: 0.012 };
-/// Plates of the stringers, those of a rolled W21 (estimate).
+/// Plate thicknesses of the stringers, those of a rolled W21 (estimate).
 const STRINGER: PlateThickness = PlateThickness { flange_m: 0.02, web_m: 0.012 };
-/// Between girder and tower leg, m (estimate).
+/// Gap between girder and tower leg, m (estimate).
 const LEG_GAP_M: f64 = 0.02;
-/// Height of the bearings under the girders, m (estimate).
+/// Height of the bearings below the girders, m (estimate).
 const BEARING_M: f64 = 0.2;
-/// Depth of the towers' portal struts, m (estimate).
+/// Depth of the portal struts of the towers, m (estimate).
 const PORTAL_M: f64 = 1.2;
-/// Foot of the anchorages under the deck, m (estimate).
+/// Depth of the anchorages below the deck, m (estimate).
 const ANCHORAGE_FOOT_M: f64 = 12.0;
-/// The cables reach this far into the anchorages' blocks, which are twice as long, m (estimate).
+/// Length of the cables inside the anchorage blocks, which are twice as long, m (estimate).
 const GRIP_M: f64 = 1.0;
-/// Steel between cable and tower leg, m (estimate).
+/// Height of the saddle between cable and tower leg, m (estimate).
 const SADDLE_M: f64 = 0.1;
 
-/// The numbers of a suspension bridge. Own axes: x along the deck, y left, z up, origin on the deck at midspan.
+/// Dimensions of a suspension bridge. Bridge axes: x along the deck, y left, z up, origin on the deck at midspan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Suspension {
     /// Distance between the towers, m.
     pub main_span_m: f64,
-    /// From a tower to its anchorage, m.
+    /// Distance from a tower to its anchorage, m.
     pub side_span_m: f64,
     /// Sag of the main cable at midspan, m.
     pub sag_m: f64,
-    /// Height of the cable over the deck at midspan, m.
+    /// Height of the cable above the deck at midspan, m.
     pub cable_clearance_m: f64,
     /// Corner radius of the cables' prisms, m.
     pub cable_radius_m: f64,
@@ -50,15 +50,15 @@ pub struct Suspension {
     pub girder_depth_m: f64,
     /// Depth of the floorbeams, m.
     pub floorbeam_depth_m: f64,
-    /// Tower leg along the bridge, m.
+    /// Length of a tower leg along the bridge, m.
     pub leg_x_m: f64,
-    /// Tower leg across, m.
+    /// Width of a tower leg across the bridge, m.
     pub leg_y_m: f64,
-    /// Pier along the bridge, m.
+    /// Length of a pier along the bridge, m.
     pub pier_x_m: f64,
-    /// Pier across, m.
+    /// Width of a pier across the bridge, m.
     pub pier_y_m: f64,
-    /// Pier top under the deck, m.
+    /// Depth of the pier top below the deck, m.
     pub pier_top_m: f64,
     /// Height of the pier, m.
     pub pier_height_m: f64,
@@ -96,7 +96,7 @@ impl Suspension {
         field("railing_m", 0.6, 2.0, 1.0, "railing height; 32 to 42 in (estimate)"),
     ];
 
-    /// From values in the order of [`Suspension::FIELDS`].
+    /// Creates a suspension bridge from values in the order of [`Suspension::FIELDS`].
     #[must_use]
     pub fn from_values(v: &[f64]) -> Self {
         let get = |k: usize| v.get(k).copied().unwrap_or(Self::FIELDS[k].default);
@@ -129,7 +129,7 @@ impl Suspension {
         self.main_span_m + 2.0 * (self.side_span_m + self.anchorage_m)
     }
 
-    /// Height of the cable at x: a parabola in the main span, straight lines to the anchorages.
+    /// Height of the cable at x, m: a parabola in the main span, straight lines to the anchorages.
     #[must_use]
     pub fn cable_z_m(&self, x: f64) -> f64 {
         let half = 0.5 * self.main_span_m;
@@ -142,25 +142,25 @@ impl Suspension {
         }
     }
 
-    /// Distance of cables, hangers and tower legs from the deck's middle, m: the legs clear the girders.
+    /// Lateral distance of cables, hangers and tower legs from the deck's centerline, m; keeps the legs clear of the girders.
     #[must_use]
     pub fn cable_y_m(&self) -> f64 {
         0.5 * self.deck_width_m + GIRDER_OUT_M + LEG_GAP_M + 0.5 * self.leg_y_m
     }
 
-    /// Underside of the girders.
+    /// Height of the underside of the girders, m.
     #[must_use]
     pub fn girder_z_m(&self) -> f64 {
         -self.slab_m - self.girder_depth_m
     }
 
-    /// Where the cables end and the anchorages begin, from midspan, m.
+    /// Distance from midspan to the point where the cables enter the anchorages, m.
     #[must_use]
     pub fn anchor_x_m(&self) -> f64 {
         0.5 * self.main_span_m + self.side_span_m
     }
 
-    /// Floorbeams: at every hanger, and at the same spacing in the side spans, whose girders need no hangers.
+    /// Floorbeam positions: one at every hanger, and the same spacing in the side spans, whose girders have no hangers.
     #[must_use]
     pub fn floorbeams(&self) -> Vec<f64> {
         let n = (self.side_span_m / self.hanger_spacing_m).round().max(1.0) as i32;
@@ -172,7 +172,7 @@ impl Suspension {
         out
     }
 
-    /// Ends of the deck's panels: at the deck's ends, anchorages, towers and floorbeams.
+    /// Ends of the deck panels: at the deck's ends, anchorages, towers and floorbeams.
     #[must_use]
     pub fn panel_ends(&self) -> Vec<f64> {
         let half = 0.5 * self.main_span_m;
@@ -183,7 +183,8 @@ impl Suspension {
         out
     }
 
-    /// Numbers that do not fit together: none, or the towers stand on their piers, the girders clear them and all members meet.
+    /// Returns all inconsistent dimensions. If there are none, the towers stand on their piers, clear the girders, and all
+    /// members connect.
     #[must_use]
     pub fn misfits(&self) -> Vec<Inconsistency> {
         let legs_m = 2.0 * self.cable_y_m() + self.leg_y_m;
@@ -200,14 +201,14 @@ impl Suspension {
         m.0
     }
 
-    /// Hanger places: evenly spaced in the main span, none at the towers.
+    /// Hanger positions: evenly spaced in the main span, none at the towers.
     #[must_use]
     pub fn hangers(&self) -> Vec<f64> {
         let n = (self.main_span_m / self.hanger_spacing_m).round() as i32;
         (1..n).map(|k| self.main_span_m * (f64::from(k) / f64::from(n) - 0.5)).collect()
     }
 
-    /// Builds every member.
+    /// Builds all members.
     pub fn build(&self, b: &mut MemberBuilder) {
         self.towers(b);
         self.cables(b);
@@ -216,12 +217,12 @@ impl Suspension {
         self.anchorages(b);
     }
 
-    /// Top of the tower legs: under the cables, which come down on either side of the saddle.
+    /// Height of the top of the tower legs, below the cables on either side of the saddle.
     fn leg_top_m(&self) -> f64 {
         self.saddle_edge_z_m() - self.cable_radius_m - SADDLE_M
     }
 
-    /// Height of the cable where it leaves the saddle, at the legs' faces.
+    /// Height of the cable at the faces of the legs, where it leaves the saddle.
     fn saddle_edge_z_m(&self) -> f64 {
         let (half, reach) = (0.5 * self.main_span_m, 0.5 * self.leg_x_m);
         self.cable_z_m(half - reach).min(self.cable_z_m(half + reach))
@@ -237,7 +238,7 @@ impl Suspension {
             for (side, y) in [("left", self.cable_y_m()), ("right", -self.cable_y_m())] {
                 b.block(&format!("tower-{name}/{side}"), 207, [x - lx, y - ly, foot], [x + lx, y + ly, top]);
                 self.saddle(b, &format!("tower-{name}/saddle-{side}"), x, y);
-                // Fixed at one tower, movable at the other.
+                // Fixed bearings at one tower, movable bearings at the other.
                 let element = if x < 0.0 { 313 } else { 311 };
                 self.bearing(b, &format!("bearing-{name}/{side}"), element, x, y.signum());
             }
@@ -248,7 +249,7 @@ impl Suspension {
         }
     }
 
-    /// Carries the cable over the leg: up to the middle of the cable, whose lower half lies in it.
+    /// Builds a saddle, which supports the cable above the leg up to the middle of the cable.
     fn saddle(&self, b: &mut MemberBuilder, name: &str, x: f64, y: f64) {
         let (reach, half) = (0.5 * self.leg_x_m, self.cable_radius_m + SADDLE_M);
         let (low, edge, crown) = (self.leg_top_m(), self.saddle_edge_z_m(), self.cable_z_m(0.5 * self.main_span_m));
@@ -256,7 +257,7 @@ impl Suspension {
         b.across(name, 207, &profile, y - half, y + half);
     }
 
-    /// Between a girder and what carries it.
+    /// Builds a bearing between a girder and its support.
     fn bearing(&self, b: &mut MemberBuilder, name: &str, element: u32, x: f64, side: f64) {
         let y = side * 0.5 * self.deck_width_m;
         let z = self.girder_z_m();
@@ -296,7 +297,7 @@ impl Suspension {
                 b.steel_beam(&name, 113, corners, BeamDirection::Along, STRINGER);
             }
         }
-        // In the main span they reach out to the hangers, which hold them.
+        // In the main span they extend to the hangers, which support them.
         let held = self.cable_y_m() + 0.15;
         for (k, x) in self.floorbeams().into_iter().enumerate() {
             let reach = if x.abs() < 0.5 * self.main_span_m { held } else { half_width };
@@ -306,12 +307,12 @@ impl Suspension {
         }
     }
 
-    /// Half width of the anchorages.
+    /// Half width of the anchorages, m.
     fn anchorage_half_m(&self) -> f64 {
         self.cable_y_m() + self.cable_radius_m + 0.45
     }
 
-    /// Piers and anchorages.
+    /// Returns piers and anchorages.
     #[must_use]
     pub fn footings(&self) -> Vec<Footing> {
         let (px, py) = (0.5 * self.pier_x_m, 0.5 * self.pier_y_m);
@@ -334,7 +335,7 @@ impl Suspension {
         for (name, foot) in ["start", "end"].into_iter().zip(&self.footings()[2..]) {
             let (low, high, far) = (foot.x_m.0, foot.x_m.1, foot.y_m.1);
             b.block(&format!("anchorage-{name}"), 220, [low, -far, foot.up_m], [high, far, top]);
-            // The cables come down beside the deck into a block on either side; the girders end on movable bearings.
+            // On each side of the deck the cable enters a block; the girders end on movable bearings.
             for (side, low_y, high_y) in [("left", near, far), ("right", -far, -near)] {
                 let grip = if low < 0.0 { high - 2.0 * GRIP_M } else { low };
                 let block = format!("anchorage-{name}/{side}");
