@@ -187,14 +187,14 @@ impl Arch {
         m.at_least("rise_m", self.rise_m, self.span_m / 12.0, "not too flat for span_m");
         m.at_most("rise_m", self.rise_m, self.span_m / 2.0, "not too steep for span_m");
         m.at_least("springing_depth_m", self.springing_depth_m, self.crown_depth_m, "no thinner than the crown (crown_depth_m)");
-        m.at_most("rib_width_m", self.rib_width_m, self.rib_spacing_m - 1.0, "rib_spacing_m less 1 m for the struts");
+        m.at_most("rib_width_m", self.rib_width_m, self.rib_spacing_m - 1.0, "rib_spacing_m minus 1 m for the struts");
         m.at_most("column_m", self.column_m, self.rib_width_m, "no wider than the rib (rib_width_m)");
         m.at_most("column_m", self.column_m, 0.5 * panel_m, "half a panel (span_m, panels)");
         m.at_most("floorbeam_width_m", self.floorbeam_width_m, 0.5 * panel_m, "half a panel (span_m, panels)");
-        m.at_most("floorbeam_depth_m", self.floorbeam_depth_m, self.crown_gap_m - 0.5, "crown_gap_m less 0.5 m");
-        m.at_least("deck_width_m", self.deck_width_m, over_columns_m, "out over the columns (rib_spacing_m, column_m)");
-        m.at_most("stringer_width_m", self.stringer_width_m, line_m, "side by side under the deck (stringers, deck_width_m)");
-        m.at_most("stringer_depth_m", self.stringer_depth_m, self.crown_gap_m - 0.5, "crown_gap_m less 0.5 m");
+        m.at_most("floorbeam_depth_m", self.floorbeam_depth_m, self.crown_gap_m - 0.5, "crown_gap_m minus 0.5 m");
+        m.at_least("deck_width_m", self.deck_width_m, over_columns_m, "wide enough for the columns (rib_spacing_m, column_m)");
+        m.at_most("stringer_width_m", self.stringer_width_m, line_m, "room for all stringers (stringers, deck_width_m)");
+        m.at_most("stringer_depth_m", self.stringer_depth_m, self.crown_gap_m - 0.5, "crown_gap_m minus 0.5 m");
         m.0
     }
 

@@ -212,8 +212,8 @@ impl Bridge {
             (BridgeKind::Arch(arch), TaskKind::ArchBottom) => path::arch_bottom(arch, stand_off_m),
             (BridgeKind::Arch(arch), TaskKind::Interlayer) => path::interlayer(arch),
             (BridgeKind::Suspension(suspension), TaskKind::PierCircle) => path::pier_circle(suspension, stand_off_m)?,
-            (BridgeKind::Arch(_), _) => return Err("an arch has slab_side, arch_bottom and interlayer".into()),
-            (BridgeKind::Suspension(_), _) => return Err("a suspension bridge has pier_circle".into()),
+            (BridgeKind::Arch(_), _) => return Err("for an arch: slab_side, arch_bottom, interlayer".into()),
+            (BridgeKind::Suspension(_), _) => return Err("for a suspension bridge: pier_circle".into()),
         };
         Ok(drawn.placed(&placement))
     }

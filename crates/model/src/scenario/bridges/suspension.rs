@@ -196,7 +196,7 @@ impl Suspension {
         m.at_least("leg_y_m", self.leg_y_m, 2.0 * self.cable_radius_m, "no narrower than the cable (cable_radius_m)");
         m.at_most("leg_x_m", self.leg_x_m, self.pier_x_m, "no wider than the pier (pier_x_m)");
         m.at_least("pier_y_m", self.pier_y_m, legs_m, "wide enough for both tower legs (deck_width_m, leg_y_m)");
-        m.at_least("pier_top_m", self.pier_top_m, portal_m, "under girders and portal (slab_m, girder_depth_m)");
+        m.at_least("pier_top_m", self.pier_top_m, portal_m, "below girders and portal (slab_m, girder_depth_m)");
         m.at_least("girder_depth_m", self.girder_depth_m, self.floorbeam_depth_m, "no shallower than the floorbeams");
         m.0
     }
