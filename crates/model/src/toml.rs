@@ -11,7 +11,7 @@ use toml_edit::{Document, Item, TableLike, Value};
 pub struct Problem {
     /// File name as given by the caller.
     pub file: String,
-    /// Line, from 1.
+    /// Line number, from 1.
     pub line: usize,
     /// Key with its path, e.g. `wind.speed_m_s`.
     pub key: String,

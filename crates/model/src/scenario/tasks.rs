@@ -1,4 +1,4 @@
-//! Tasks: reference paths derived from a bridge or written point by point.
+//! Tasks: reference paths derived from a bridge or listed point by point.
 
 use super::bridges::TaskPath;
 use super::bridges::path::SPACING_M;
