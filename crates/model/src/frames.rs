@@ -427,7 +427,7 @@ mod tests {
         let deg = |yaw: f64| Rotation::from_euler(0.0, 0.0, yaw.to_radians());
         let yaw = |a: f64, b: f64, t: f64| deg(a).lerp(deg(b), t).yaw_rad().to_degrees();
         assert!((yaw(10.0, 50.0, 0.5) - 30.0).abs() < 1e-9);
-        assert!((yaw(170.0, -170.0, 0.5).abs() - 180.0).abs() < 1e-9, "the shorter way");
+        assert!((yaw(170.0, -170.0, 0.5).abs() - 180.0).abs() < 1e-9, "the shorter arc");
         assert!((yaw(0.0, 4.0, 0.25) - 1.0).abs() < 1e-4);
     }
 
