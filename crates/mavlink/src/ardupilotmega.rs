@@ -3,16 +3,16 @@
 
 use super::codec::{Encodable, Encoder};
 
-/// Type of a field.
+/// Wire type of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FieldType {
-    /// uint16_t.
+    /// MAVLink `uint16_t`.
     U16,
-    /// uint32_t.
+    /// MAVLink `uint32_t`.
     U32,
-    /// int32_t.
+    /// MAVLink `int32_t`.
     I32,
-    /// float.
+    /// MAVLink `float`.
     F32,
 }
 
@@ -55,14 +55,14 @@ pub struct MessageDefinition {
 
 use FieldType::{F32, I32, U16, U32};
 
-/// MEMINFO.
+/// Definition of MEMINFO.
 pub const MEMINFO: MessageDefinition = MessageDefinition {
     id: 152,
     name: "MEMINFO",
     fields: &[("brkval", U16), ("freemem", U16)],
     extensions: &[("freemem32", U32)],
 };
-/// AHRS.
+/// Definition of AHRS.
 pub const AHRS: MessageDefinition = MessageDefinition {
     id: 163,
     name: "AHRS",
@@ -77,7 +77,7 @@ pub const AHRS: MessageDefinition = MessageDefinition {
     ],
     extensions: &[],
 };
-/// SIMSTATE.
+/// Definition of SIMSTATE.
 pub const SIMSTATE: MessageDefinition = MessageDefinition {
     id: 164,
     name: "SIMSTATE",
@@ -96,10 +96,10 @@ pub const SIMSTATE: MessageDefinition = MessageDefinition {
     ],
     extensions: &[],
 };
-/// WIND.
+/// Definition of WIND.
 pub const WIND: MessageDefinition =
     MessageDefinition { id: 168, name: "WIND", fields: &[("direction", F32), ("speed", F32), ("speed_z", F32)], extensions: &[] };
-/// EKF_STATUS_REPORT.
+/// Definition of EKF_STATUS_REPORT.
 pub const EKF_STATUS_REPORT: MessageDefinition = MessageDefinition {
     id: 193,
     name: "EKF_STATUS_REPORT",

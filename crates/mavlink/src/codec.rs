@@ -11,11 +11,11 @@ const SIGNATURE_LEN: usize = 13;
 /// A received frame: its message, its sender and its raw bytes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReceivedFrame {
-    /// System ID of the sender (1..=255).
+    /// System ID of the sender (1 to 255).
     pub system_id: u8,
     /// Component ID of the sender.
     pub component_id: u8,
-    /// Sequence number.
+    /// Sequence number of the frame.
     pub sequence: u8,
     /// Message ID, set even if the payload could not be decoded.
     pub message_id: u32,
@@ -212,13 +212,13 @@ impl Encoder {
         Self { system_id, component_id, sequence: 0 }
     }
 
-    /// System ID of the sender.
+    /// Returns the sender's system ID.
     #[must_use]
     pub fn system_id(&self) -> u8 {
         self.system_id
     }
 
-    /// Component ID of the sender.
+    /// Returns the sender's component ID.
     #[must_use]
     pub fn component_id(&self) -> u8 {
         self.component_id

@@ -26,11 +26,11 @@ pub enum Opcode {
     CreateFile = 6,
     /// Writes data at an offset.
     WriteFile = 7,
-    /// Removes a file.
+    /// Deletes a file.
     RemoveFile = 8,
     /// Creates a directory.
     CreateDirectory = 9,
-    /// Removes an empty directory.
+    /// Deletes an empty directory.
     RemoveDirectory = 10,
     /// Opens a file for writing.
     OpenFileWo = 11,

@@ -56,7 +56,7 @@ mod tests {
             assert_eq!(decode(&frame), Some(((1, 191), text.to_owned())));
             assert_eq!(target(&frame), (1, 191));
         }
-        assert_eq!(decode(&sent(&"ü".repeat(100))).map(|(_, text)| text), Some("ü".repeat(64)), "cut at a character");
+        assert_eq!(decode(&sent(&"ü".repeat(100))).map(|(_, text)| text), Some("ü".repeat(64)), "truncated by character");
         assert_eq!(decode(&sent("a\nb")).map(|(_, text)| text), Some("a b".into()));
     }
 

@@ -245,7 +245,7 @@ mod tests {
         assert_eq!(first.message, read(&frame(1)).message);
         assert_eq!(theirs.verify(&first, NOW), SignatureVerdict::Good);
         assert_eq!(theirs.verify(&first, NOW), SignatureVerdict::Replayed);
-        assert_eq!(theirs.verify(&second, NOW), SignatureVerdict::Good, "the clock stood still, the timestamp did not");
+        assert_eq!(theirs.verify(&second, NOW), SignatureVerdict::Good, "unchanged clock, later timestamp");
         assert_eq!(theirs.verify(&first, NOW), SignatureVerdict::Replayed);
     }
 
@@ -263,7 +263,7 @@ mod tests {
         let bare = read(&frame(1));
         assert_eq!(theirs.verify(&bare, NOW), SignatureVerdict::Unsigned);
         assert!(!is_newer(&bare, SignatureVerdict::Unsigned));
-        assert_eq!(theirs.verify(&read(&good), NOW), SignatureVerdict::Good, "what failed before has not used up the timestamp");
+        assert_eq!(theirs.verify(&read(&good), NOW), SignatureVerdict::Good, "rejected frames do not consume the timestamp");
     }
 
     #[test]
@@ -280,7 +280,7 @@ mod tests {
         let early = ours.sign(frame(1), NOW);
         let late = ours.sign(frame(2), NOW + 500);
         assert_eq!(theirs.verify(&read(&late), NOW), SignatureVerdict::Good);
-        assert_eq!(theirs.verify(&read(&early), NOW), SignatureVerdict::Good, "another system has its own order");
+        assert_eq!(theirs.verify(&read(&early), NOW), SignatureVerdict::Good, "each system has its own sequence");
         for link in 0..=255 {
             for system in 10..14 {
                 let mut one = Signing::new(SigningKey::from_passphrase("bridge"), link, NOW);
@@ -315,14 +315,14 @@ mod tests {
         assert_eq!(theirs.verify(&before, NOW), SignatureVerdict::Good);
         let soon = NOW + SLACK / 2;
         let mut forgetful = Signing::new(SigningKey::from_passphrase("bridge"), 0, soon);
-        assert_eq!(forgetful.verify(&before, soon), SignatureVerdict::Good, "which is why there is a memory");
+        assert_eq!(forgetful.verify(&before, soon), SignatureVerdict::Good, "without saved state the replay is accepted");
         let mut again = Signing::new(SigningKey::from_passphrase("bridge"), 0, soon);
         again.restore(&theirs.save()).unwrap();
         assert_eq!(again.verify(&before, soon), SignatureVerdict::Replayed);
         let after = read(&ours.sign(frame(1), NOW));
-        assert_eq!(again.verify(&after, soon), SignatureVerdict::Good, "who has a slow clock goes on");
+        assert_eq!(again.verify(&after, soon), SignatureVerdict::Good, "a slow clock remains accepted");
         let other = read(&Signing::new(SigningKey::from_passphrase("bridge"), 5, NOW).sign(frame(2), NOW));
-        assert_eq!(again.verify(&other, soon), SignatureVerdict::Good, "and a new stream may lag as ever");
+        assert_eq!(again.verify(&other, soon), SignatureVerdict::Good, "a new stream may still lag");
         // A clock that was set back does not make outgoing frames older.
         let mut set_back = Signing::new(SigningKey::from_passphrase("bridge"), 0, 5);
         set_back.restore(&again.save()).unwrap();
@@ -341,7 +341,7 @@ mod tests {
         assert_eq!((theirs.newest(), theirs.last_timestamps.len()), (NOW, 0));
         assert_eq!(theirs.verify(&far(NOW + AHEAD_MAX), NOW), SignatureVerdict::Good, "a clock a day ahead");
         let honest = read(&ours.sign(frame(1), NOW));
-        assert_eq!(theirs.verify(&honest, NOW), SignatureVerdict::Good, "beside it, one that is right");
+        assert_eq!(theirs.verify(&honest, NOW), SignatureVerdict::Good, "a correct clock in parallel");
         // State saved with such a timestamp recovers.
         let mut again = Signing::new(SigningKey::from_passphrase("bridge"), 0, NOW);
         again.restore(&format!("{STAMP_MAX}\n7 1 9 {STAMP_MAX}\n1 1 3 {NOW}\n")).unwrap();

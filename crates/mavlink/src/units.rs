@@ -26,7 +26,7 @@ pub fn cm_u16(metres: f64) -> u16 {
     (metres * 100.0).round() as u16
 }
 
-/// Converts radians to centidegrees in 0..36000.
+/// Converts radians to centidegrees from 0 to 35999.
 #[must_use]
 pub fn heading_cdeg(rad: f64) -> u16 {
     ((rad.to_degrees().rem_euclid(360.0) * 100.0).round() as u32 % 36_000) as u16

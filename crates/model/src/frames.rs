@@ -40,7 +40,7 @@ impl<F> Vec3<F> {
         Self { v: Vector3::new(x, y, z), frame: PhantomData }
     }
 
-    /// The zero vector.
+    /// Returns the zero vector.
     #[must_use]
     pub const fn zero() -> Self {
         Self::new(0.0, 0.0, 0.0)
@@ -64,25 +64,25 @@ impl<F> Vec3<F> {
         [self.v.x, self.v.y, self.v.z]
     }
 
-    /// Dot product.
+    /// Returns the dot product.
     #[must_use]
     pub fn dot(self, other: Self) -> f64 {
         self.v.dot(&other.v)
     }
 
-    /// Cross product.
+    /// Returns the cross product.
     #[must_use]
     pub fn cross(self, other: Self) -> Self {
         Self::assume(self.v.cross(&other.v))
     }
 
-    /// Euclidean length.
+    /// Returns the Euclidean length.
     #[must_use]
     pub fn norm(self) -> f64 {
         self.v.norm()
     }
 
-    /// Squared length.
+    /// Returns the squared length.
     #[must_use]
     pub fn norm_squared(self) -> f64 {
         self.v.norm_squared()
@@ -116,17 +116,17 @@ impl<F> Vec3<F> {
 }
 
 impl Vec3<Ned> {
-    /// North component.
+    /// Returns the north component.
     #[must_use]
     pub fn north(self) -> f64 {
         self.v.x
     }
-    /// East component.
+    /// Returns the east component.
     #[must_use]
     pub fn east(self) -> f64 {
         self.v.y
     }
-    /// Down component.
+    /// Returns the down component.
     #[must_use]
     pub fn down(self) -> f64 {
         self.v.z
@@ -136,7 +136,7 @@ impl Vec3<Ned> {
     pub fn enu(self) -> Vec3<Enu> {
         Vec3::new(self.v.y, self.v.x, -self.v.z)
     }
-    /// Horizontal length.
+    /// Returns the horizontal length.
     #[must_use]
     pub fn horizontal_norm(self) -> f64 {
         (self.v.x * self.v.x + self.v.y * self.v.y).sqrt()
@@ -144,17 +144,17 @@ impl Vec3<Ned> {
 }
 
 impl Vec3<Enu> {
-    /// East component.
+    /// Returns the east component.
     #[must_use]
     pub fn east(self) -> f64 {
         self.v.x
     }
-    /// North component.
+    /// Returns the north component.
     #[must_use]
     pub fn north(self) -> f64 {
         self.v.y
     }
-    /// Up component.
+    /// Returns the up component.
     #[must_use]
     pub fn up(self) -> f64 {
         self.v.z
@@ -164,7 +164,7 @@ impl Vec3<Enu> {
     pub fn ned(self) -> Vec3<Ned> {
         Vec3::new(self.v.y, self.v.x, -self.v.z)
     }
-    /// Horizontal length.
+    /// Returns the horizontal length.
     #[must_use]
     pub fn horizontal_norm(self) -> f64 {
         (self.v.x * self.v.x + self.v.y * self.v.y).sqrt()
@@ -172,17 +172,17 @@ impl Vec3<Enu> {
 }
 
 impl Vec3<Frd> {
-    /// Forward component.
+    /// Returns the forward component.
     #[must_use]
     pub fn forward(self) -> f64 {
         self.v.x
     }
-    /// Right component.
+    /// Returns the right component.
     #[must_use]
     pub fn right(self) -> f64 {
         self.v.y
     }
-    /// Down component.
+    /// Returns the down component.
     #[must_use]
     pub fn down(self) -> f64 {
         self.v.z
@@ -427,7 +427,7 @@ mod tests {
         let deg = |yaw: f64| Rotation::from_euler(0.0, 0.0, yaw.to_radians());
         let yaw = |a: f64, b: f64, t: f64| deg(a).lerp(deg(b), t).yaw_rad().to_degrees();
         assert!((yaw(10.0, 50.0, 0.5) - 30.0).abs() < 1e-9);
-        assert!((yaw(170.0, -170.0, 0.5).abs() - 180.0).abs() < 1e-9, "the shorter way");
+        assert!((yaw(170.0, -170.0, 0.5).abs() - 180.0).abs() < 1e-9, "the shorter arc");
         assert!((yaw(0.0, 4.0, 0.25) - 1.0).abs() < 1e-4);
     }
 

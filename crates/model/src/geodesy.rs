@@ -95,7 +95,7 @@ fn geo_from_ecef(p: [f64; 3]) -> Geo {
         lat = math::atan2(p[2] + E2 * n * s, r);
     }
     let (s, c) = math::sin_cos(lat);
-    // Valid at the poles too, unlike r / cos(lat) - n.
+    // Also valid at the poles, unlike r / cos(lat) - n.
     let altitude_m = r * c + p[2] * s - n * (1.0 - E2 * s * s);
     Geo { latitude_deg: lat.to_degrees(), longitude_deg: math::atan2(p[1], p[0]).to_degrees(), altitude_m }
 }

@@ -8,88 +8,88 @@ pub const GRAVITY_M_S2: f64 = 9.806_65;
 /// Meters per second in one mile per hour (exact by definition).
 pub const M_S_PER_MPH: f64 = 0.447_04;
 
-/// Sine of an angle in radians.
+/// Returns the sine of an angle in radians.
 #[must_use]
 pub fn sin(x: f64) -> f64 {
     libm::sin(x)
 }
-/// Cosine of an angle in radians.
+/// Returns the cosine of an angle in radians.
 #[must_use]
 pub fn cos(x: f64) -> f64 {
     libm::cos(x)
 }
-/// Sine and cosine of an angle in radians.
+/// Returns the sine and cosine of an angle in radians.
 #[must_use]
 pub fn sin_cos(x: f64) -> (f64, f64) {
     libm::sincos(x)
 }
-/// Tangent of an angle in radians.
+/// Returns the tangent of an angle in radians.
 #[must_use]
 pub fn tan(x: f64) -> f64 {
     libm::tan(x)
 }
-/// Arc sine in radians; the argument is clamped to [-1, 1].
+/// Returns the arc sine in radians; the argument is clamped to [-1, 1].
 #[must_use]
 pub fn asin(x: f64) -> f64 {
     libm::asin(x.clamp(-1.0, 1.0))
 }
-/// Arc cosine in radians; the argument is clamped to [-1, 1].
+/// Returns the arc cosine in radians; the argument is clamped to [-1, 1].
 #[must_use]
 pub fn acos(x: f64) -> f64 {
     libm::acos(x.clamp(-1.0, 1.0))
 }
-/// Four-quadrant arc tangent of y/x in radians.
+/// Returns the four-quadrant arc tangent of y/x in radians.
 #[must_use]
 pub fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)
 }
-/// Arc tangent in radians.
+/// Returns the arc tangent in radians.
 #[must_use]
 pub fn atan(x: f64) -> f64 {
     libm::atan(x)
 }
-/// e to the x.
+/// Returns e to the power of x.
 #[must_use]
 pub fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
-/// Natural logarithm.
+/// Returns the natural logarithm.
 #[must_use]
 pub fn ln(x: f64) -> f64 {
     libm::log(x)
 }
-/// Decimal logarithm.
+/// Returns the decimal logarithm.
 #[must_use]
 pub fn log10(x: f64) -> f64 {
     libm::log10(x)
 }
-/// x to the y.
+/// Returns x to the power of y.
 #[must_use]
 pub fn pow(x: f64, y: f64) -> f64 {
     libm::pow(x, y)
 }
-/// Hyperbolic tangent.
+/// Returns the hyperbolic tangent.
 #[must_use]
 pub fn tanh(x: f64) -> f64 {
     libm::tanh(x)
 }
-/// Cube root.
+/// Returns the cube root.
 #[must_use]
 pub fn cbrt(x: f64) -> f64 {
     libm::cbrt(x)
 }
-/// Length of (x, y), without overflow of intermediate results.
+/// Returns the length of (x, y), without overflow of intermediate results.
 #[must_use]
 pub fn hypot(x: f64, y: f64) -> f64 {
     libm::hypot(x, y)
 }
-/// Angle wrapped into (-π, π].
+/// Wraps an angle to (-π, π].
 #[must_use]
 pub fn wrap_pi(angle_rad: f64) -> f64 {
     let turned = angle_rad - TAU * (angle_rad / TAU).round();
     if turned <= -PI { turned + TAU } else { turned }
 }
-/// Linear interpolation; `t` = 0 gives `a`, 1 gives `b`.
+/// Interpolates linearly: `t` = 0 yields `a`, 1 yields `b`.
 #[must_use]
 pub fn lerp(a: f64, b: f64, t: f64) -> f64 {
     a + (b - a) * t

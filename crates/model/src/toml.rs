@@ -11,7 +11,7 @@ use toml_edit::{Document, Item, TableLike, Value};
 pub struct Problem {
     /// File name as given by the caller.
     pub file: String,
-    /// Line, from 1.
+    /// Line number, from 1.
     pub line: usize,
     /// Key with its path, e.g. `wind.speed_m_s`.
     pub key: String,
@@ -287,7 +287,7 @@ impl<'a> Reader<'a> {
         match (item, item.and_then(Item::as_str)) {
             (_, Some(value)) => value.to_string(),
             (Some(item), None) => {
-                self.problem(line, &path, &displayed(item), "text", "not a text");
+                self.problem(line, &path, &displayed(item), "text", "not a string");
                 default.unwrap_or_default().to_string()
             }
             (None, None) => {
@@ -349,7 +349,7 @@ impl<'a> Reader<'a> {
         };
         let values = item.as_value().and_then(|v| list(v, range)).and_then(|v| <[f64; N]>::try_from(v).ok());
         values.unwrap_or_else(|| {
-            self.problem(line, &path, &displayed(item), &allowed, "not such a list");
+            self.problem(line, &path, &displayed(item), &allowed, "not a valid list");
             fallback
         })
     }
@@ -364,7 +364,7 @@ impl<'a> Reader<'a> {
         let point = |v: &Value| list(v, range).and_then(|p| <[f64; 3]>::try_from(p).ok());
         let points = item.as_array().map(|array| array.iter().map(point).collect::<Option<Vec<_>>>());
         points.flatten().unwrap_or_else(|| {
-            self.problem(line, &path, &displayed(item), &allowed, "not such a list");
+            self.problem(line, &path, &displayed(item), &allowed, "not a valid list");
             Vec::new()
         })
     }
@@ -379,7 +379,7 @@ impl<'a> Reader<'a> {
         let one = |v: &Value| v.as_integer().filter(|i| (min..=max).contains(i));
         let values = item.as_array().map(|array| array.iter().map(one).collect::<Option<Vec<_>>>());
         values.flatten().unwrap_or_else(|| {
-            self.problem(line, &path, &displayed(item), &allowed, "not such a list");
+            self.problem(line, &path, &displayed(item), &allowed, "not a valid list");
             Vec::new()
         })
     }

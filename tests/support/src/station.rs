@@ -98,7 +98,7 @@ impl Station {
         self.sim.handle_timeout(until);
         while let Some(transmit) = self.vehicle.sim.poll_transmit() {
             let frames = self.decoder.datagram(&transmit.bytes);
-            assert_eq!(self.decoder.bad_bytes(), 0, "whole frames only");
+            assert_eq!(self.decoder.bad_bytes(), 0, "complete frames only");
             self.vehicle.received.extend(frames);
         }
     }

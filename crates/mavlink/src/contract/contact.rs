@@ -9,11 +9,11 @@ pub enum ContactKind {
     /// No contact.
     #[default]
     None,
-    /// A bridge.
+    /// A bridge member.
     Bridge,
-    /// The ground.
+    /// Ground (terrain).
     Terrain,
-    /// The water.
+    /// Water surface.
     Water,
     /// A car or truck.
     Vehicle,

@@ -9,7 +9,7 @@ use serde::Serialize;
 pub enum ControlSource {
     /// A pilot at the sticks.
     Pilot,
-    /// The uploaded mission.
+    /// The uploaded mission plan.
     Mission,
     /// External setpoints from a program.
     Script,

@@ -16,7 +16,7 @@ pub struct Truth {
     pub position_m: Vec3<Enu>,
     /// Velocity, m/s.
     pub velocity_m_s: Vec3<Enu>,
-    /// Attitude.
+    /// Attitude: rotation from body to NED.
     pub ned_from_frd: Rotation<Frd, Ned>,
 }
 
@@ -38,7 +38,7 @@ pub struct Published {
     pub place: Geo,
     /// Velocity, m/s.
     pub velocity_m_s: Vec3<Ned>,
-    /// Attitude.
+    /// Attitude: rotation from body to NED.
     pub ned_from_frd: Rotation<Frd, Ned>,
     /// Angular rates, rad/s.
     pub rates_rad_s: Vec3<Frd>,

@@ -30,7 +30,7 @@ pub struct Frame {
     pub position_m: Vec3<Enu>,
     /// Velocity, m/s.
     pub velocity_m_s: Vec3<Enu>,
-    /// Battery, %.
+    /// Battery level, %.
     pub battery_pct: f64,
     /// Most severe contact since the previous frame, as received.
     pub contact: ContactKind,

@@ -33,7 +33,7 @@ pub enum SampleValue {
     Sticks(Sticks),
     /// The lamp is on.
     Light(bool),
-    /// Battery, %.
+    /// Battery level, %.
     Battery(f64),
     /// Current contact.
     Contact(ContactKind),

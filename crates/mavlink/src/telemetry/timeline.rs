@@ -350,9 +350,9 @@ pub struct Flight {
     pub sticks: Signal<[f64; 4]>,
     /// The lamp is on.
     pub light: Signal<bool>,
-    /// Battery, %.
+    /// Battery level, %.
     pub battery: Signal<f64>,
-    /// Contact.
+    /// Contact type.
     pub contact: Signal<ContactKind>,
     /// Number of contact onsets.
     pub hits: Signal<i32>,

@@ -9,7 +9,7 @@ use super::sample::FrameHeader;
 /// Length of the timestamp before each frame, bytes.
 pub const STAMP_BYTES: usize = 8;
 
-/// One record.
+/// One log record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TlogRecord<'a> {
     /// Timestamp: session start plus simulation time, microseconds since the Unix epoch.

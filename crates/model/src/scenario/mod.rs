@@ -15,7 +15,7 @@ use crate::frames::{Enu, Vec3};
 use crate::geodesy::Geo;
 use crate::time::SimTime;
 
-/// A validated job.
+/// A job, parsed and validated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scenario {
     /// Machine-readable name, `[a-z0-9-]+`, used in session folder names.
@@ -229,7 +229,7 @@ pub struct TrafficSpec {
     pub car_speed_m_s: f64,
 }
 
-/// Wind.
+/// Wind of a job.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WindSpec {
     /// Wind model: force or velocity field.
@@ -284,7 +284,7 @@ pub enum WindEvent {
     },
 }
 
-/// Sun and sky.
+/// Sun and sky of a job.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LightSpec {
     /// UTC date and time of simulation start, seconds since the Unix epoch.
@@ -297,7 +297,7 @@ pub struct LightSpec {
     pub ground_albedo: f64,
 }
 
-/// Session rules.
+/// Rules of a session.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SessionRules {
     /// Consequence of a survivable crash.
@@ -357,7 +357,7 @@ pub struct FeedbackThresholds {
     pub text_interval: SimTime,
 }
 
-/// Scoring parameters.
+/// Parameters of the scoring formulas.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScoringParams {
     /// Frame rate f, Hz.

@@ -94,7 +94,7 @@ fn name(r: &mut Reader, s: &mut Section, key: &'static str) -> String {
     let legal =
         !name.is_empty() && name.len() <= 40 && name.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-');
     if !legal && r.problems.len() == before {
-        r.add_problem(s, key, &name, "1 to 40 of a-z, 0-9 and -", "not a machine name");
+        r.add_problem(s, key, &name, "1 to 40 characters: a-z, 0-9 and -", "invalid name");
     }
     name
 }
@@ -128,7 +128,7 @@ fn terrain(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) -> Terra
     let spacing_m = r.number(&mut s, "spacing_m", (1.0, 50.0), Some(4.0));
     if size_m / spacing_m > MOST_CELLS {
         let allowed = format!("at least {} for this size_m", size_m / MOST_CELLS);
-        r.add_problem(&s, "spacing_m", &spacing_m.to_string(), &allowed, "more than 2000 cells a side");
+        r.add_problem(&s, "spacing_m", &spacing_m.to_string(), &allowed, "more than 2000 cells per side");
     }
     let water_level_m = r.number(&mut s, "water_level_m", (-500.0, 500.0), Some(-100.0));
     let source =
@@ -156,7 +156,7 @@ fn height_file(r: &mut Reader, s: &mut Section, siblings: SiblingLoader) -> Terr
     }
     let rows = siblings(&file).and_then(|text| heights(&text));
     let heights_m = rows.unwrap_or_else(|problem| {
-        r.add_problem(s, "file", &file, "rows of comma-separated heights in metres", &problem);
+        r.add_problem(s, "file", &file, "rows of comma-separated heights in meters", &problem);
         vec![vec![0.0]]
     });
     TerrainSource::File { heights_m }
@@ -168,7 +168,7 @@ fn heights(text: &str) -> Result<Vec<Vec<f64>>, String> {
         let row: Result<Vec<f64>, _> = line.split(',').map(|cell| cell.trim().parse::<f64>()).collect();
         let row = row.map_err(|e| format!("row {}: {e}", k + 1))?;
         if row.iter().any(|h| !h.is_finite() || h.abs() > 1_000.0) {
-            return Err(format!("row {}: heights lie within 1000 m of the origin", k + 1));
+            return Err(format!("row {}: heights must be within 1000 m of the origin", k + 1));
         }
         if rows.first().is_some_and(|first| first.len() != row.len()) {
             return Err(format!("row {} has {} columns, the first has {}", k + 1, row.len(), rows[0].len()));
@@ -204,7 +204,7 @@ fn bridges_of(r: &mut Reader, root: &mut Section) -> Vec<Bridge> {
     for mut s in r.sections(root, "bridges") {
         let bridge_name = name(r, &mut s, "name");
         if out.iter().any(|b| b.name == bridge_name) {
-            r.add_problem(&s, "name", &bridge_name, "a name of its own", "this name is taken");
+            r.add_problem(&s, "name", &bridge_name, "a unique name", "duplicate name");
         }
         let centre_m = point(r, &mut s, "centre_m", None);
         let heading_deg = r.number(&mut s, "heading_deg", (0.0, 360.0), Some(90.0));
@@ -236,7 +236,7 @@ fn fields(
     let mut s = r.section(s, table);
     let values: Vec<f64> = fields.iter().map(|f| r.number(&mut s, f.key, (f.min, f.max), Some(f.default))).collect();
     for misfit in misfits(&values) {
-        r.add_problem(&s, misfit.key, &misfit.value.to_string(), &misfit.allowed, "does not fit the other numbers");
+        r.add_problem(&s, misfit.key, &misfit.value.to_string(), &misfit.allowed, "inconsistent with other values");
     }
     r.finish(&s);
     values

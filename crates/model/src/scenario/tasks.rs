@@ -1,4 +1,4 @@
-//! Tasks: reference paths derived from a bridge or written point by point.
+//! Tasks: reference paths derived from a bridge or listed point by point.
 
 use super::bridges::TaskPath;
 use super::bridges::path::SPACING_M;
@@ -42,7 +42,7 @@ pub(super) fn read(r: &mut Reader, root: &mut Section, bridges: &[Bridge]) -> Ve
         r.finish(&s);
     }
     if out.is_empty() {
-        r.problem(1, "tasks", "", "at least one [[tasks]]", "no task");
+        r.problem(1, "tasks", "", "at least one [[tasks]]", "no tasks");
     }
     if out.len() > MOST_TASKS {
         r.add_problem(root, "tasks", &out.len().to_string(), "at most 64 [[tasks]]", "too many");
@@ -62,7 +62,7 @@ fn task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Task {
     let look_at = r.points(s, "look_at_m", (-5_000.0, 5_000.0));
     let path = match bridge {
         Some(index) => bridges[index].task_path(kind, stand_off_m).unwrap_or_else(|problem| {
-            r.add_problem(s, "kind", "", &problem, "this bridge has no such path");
+            r.add_problem(s, "kind", "", &problem, "not available for this bridge");
             TaskPath { path_m: Vec::new(), look: Vec::new(), closed }
         }),
         None => free(r, s, kind, &points, &look_at, closed),
@@ -91,7 +91,7 @@ fn bridge_of(r: &mut Reader, s: &mut Section, kind: TaskKind, bridges: &[Bridge]
     let found = bridges.iter().position(|b| b.name == wanted);
     if found.is_none() {
         let names = bridges.iter().map(|b| b.name.as_str()).collect::<Vec<_>>().join(", ");
-        r.add_problem(s, "bridge", &wanted, &format!("a bridge of this file: {names}"), "no such bridge");
+        r.add_problem(s, "bridge", &wanted, &format!("a bridge in this file: {names}"), "no such bridge");
     }
     found
 }

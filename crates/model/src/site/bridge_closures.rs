@@ -68,7 +68,7 @@ mod tests {
         let gates = BridgeClosures::from_codes([open, 0, close, close]);
         assert_eq!(gates, BridgeClosures::from_codes([close, open]));
         assert_eq!([0.0, 3.999, 4.0, 8.999, 9.0, 1e6].map(|t| gates.is_open_at(t)), [true, true, false, false, true, true]);
-        assert!(gates.is_open_at(-50.0) && BridgeClosures::default().is_open_at(f64::NAN), "before the start they were open");
+        assert!(gates.is_open_at(-50.0) && BridgeClosures::default().is_open_at(f64::NAN), "open before the first closure");
         assert_eq!(BridgeClosures::from_codes(gates.last_codes()), gates);
         assert_eq!(
             (BridgeClosures::default().last_codes(), BridgeClosures::from_codes([close]).last_codes()),

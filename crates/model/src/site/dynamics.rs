@@ -109,7 +109,7 @@ mod tests {
             (1, TaskKind::PierCircle, 4.5, 2.0),
         ];
         let task = |(k, (bridge, kind, stand_off_m, threshold_m)): (usize, (usize, TaskKind, f64, f64))| {
-            let path = bridges[bridge].task_path(kind, stand_off_m).expect("this bridge has it");
+            let path = bridges[bridge].task_path(kind, stand_off_m).expect("path available for this bridge");
             Task {
                 id: k as u32 + 1,
                 name: format!("{kind:?}"),
@@ -245,7 +245,7 @@ mod tests {
                 assert!(view.hit || traffic.is_some_and(|h| h.surface != Surface::Bridge), "{d:?} {:?}", view.reasons());
             }
             assert!(per_task.iter().all(|n| *n >= 2), "seed {seed}: {per_task:?}");
-            assert!(site.defects().iter().all(|d| !all.contains(&d.position_m.array())), "a place of another seed again");
+            assert!(site.defects().iter().all(|d| !all.contains(&d.position_m.array())), "position repeated from another seed");
             all.extend(site.defects().iter().map(|d| d.position_m.array()));
         }
         let once = Site::build(&scenario, 7);

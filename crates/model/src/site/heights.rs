@@ -81,7 +81,7 @@ impl HeightGrid {
     #[must_use]
     pub fn new(heights_m: Vec<f64>, spacing_m: f64) -> Self {
         let side = heights_m.len().isqrt();
-        assert!(side >= 2 && side * side == heights_m.len(), "{} heights make no square grid", heights_m.len());
+        assert!(side >= 2 && side * side == heights_m.len(), "{} heights do not form a square grid", heights_m.len());
         let highest_m = heights_m.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let origin_m = -0.5 * spacing_m * (side - 1) as f64;
         let blocks_a_side = (side - 1).div_ceil(BLOCK as usize);

@@ -106,14 +106,14 @@ pub struct Contact {
 /// Convex parts of the aircraft's hull, in site coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum HullProbe {
-    /// A ball.
+    /// A sphere.
     Ball {
         /// Center, m.
         centre_m: Vec3<Enu>,
         /// Radius, m.
         radius_m: f64,
     },
-    /// A capsule.
+    /// A capsule around a segment.
     Capsule {
         /// One end of the axis, m.
         a_m: Vec3<Enu>,

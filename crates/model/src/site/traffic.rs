@@ -400,9 +400,9 @@ mod tests {
                 least = least.min(vehicles);
             }
         }
-        assert_eq!(least, 0, "the roads run empty");
+        assert_eq!(least, 0, "the roads become empty");
         let late = SimTime::from_s(399.0);
-        assert_eq!(gated.solids(late), open.solids(late), "and are as full as ever in the end");
+        assert_eq!(gated.solids(late), open.solids(late), "and finally full again");
     }
 
     #[test]

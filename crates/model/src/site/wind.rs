@@ -169,7 +169,7 @@ fn direction_towards(from_rad: f64) -> Vec3<Ned> {
     Vec3::new(-c, -s, 0.0)
 }
 
-/// Logarithmic profile over water: ratio of the speed at a height to the speed at 20 ft.
+/// Returns the logarithmic profile over water: the ratio of the speed at a height to the speed at 20 ft.
 #[must_use]
 pub fn profile(height_m: f64) -> f64 {
     log_profile(height_m, WATER_ROUGHNESS_M)

@@ -13,7 +13,7 @@ const LEAST_SHARE: f64 = 0.05;
 pub fn missing_axes(rotors: &[Rotor], model: &RotorModel, mass_kg: f64) -> Option<&'static str> {
     let arm_m = rotors.iter().map(|rotor| math::hypot(rotor.position_m.forward(), rotor.position_m.right())).fold(0.0, f64::max);
     if rotors.len() < 4 || arm_m <= 0.0 {
-        return Some("four rotors at least, away from the centre of mass, lift and turn about three axes");
+        return Some("at least four rotors, away from the center of mass");
     }
     let entry = |row: usize, column: usize| match (row, &rotors[column]) {
         (0, _) => 1.0,
@@ -23,13 +23,13 @@ pub fn missing_axes(rotors: &[Rotor], model: &RotorModel, mass_kg: f64) -> Optio
     };
     let map = DMatrix::from_fn(4, rotors.len(), entry).svd(true, true);
     if map.singular_values.min() < LEAST_SHARE * map.singular_values.max() {
-        return Some("not in a line, and some of each spin, so that they turn it about three axes");
+        return Some("rotors not in a line, and in both directions of spin");
     }
     let weight = DVector::from_vec(vec![mass_kg * GRAVITY_M_S2, 0.0, 0.0, 0.0]);
     let most_n = model.thrust_coefficient_n_s2 * model.max_speed_rad_s * model.max_speed_rad_s;
     let hover = map.solve(&weight, 0.0).ok()?;
     let holds = hover.iter().all(|thrust_n| (0.0..=most_n).contains(thrust_n));
-    (!holds).then_some("around the centre of mass, so that a level hover takes from each what it can give")
+    (!holds).then_some("rotors around the center of mass, so that each can provide its thrust in a level hover")
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use crate::math;
 /// A validated aircraft. Body frame: forward, right, down from the center of mass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vehicle {
-    /// File stem, e.g. `phantom2`.
+    /// ID: the file stem, such as `phantom2`.
     pub id: String,
     /// Display name.
     pub name: String,
@@ -53,11 +53,11 @@ pub struct Rotor {
 /// The rotor model shared by all rotors: T = k_T w², Q = k_Q w².
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RotorModel {
-    /// Rotor disc radius, m.
+    /// Rotor disk radius, m.
     pub radius_m: f64,
-    /// k_T, N/(rad/s)².
+    /// Thrust coefficient k_T, N/(rad/s)².
     pub thrust_coefficient_n_s2: f64,
-    /// k_Q, N m/(rad/s)².
+    /// Torque coefficient k_Q, N m/(rad/s)².
     pub torque_coefficient_n_m_s2: f64,
     /// First-order motor lag, s.
     pub time_constant_s: f64,
@@ -82,7 +82,7 @@ pub struct Drag {
     pub angular_n_m_s: [f64; 3],
 }
 
-/// Collision hull: the union of convex parts built from these dimensions (arms, rotor discs or cage, feet, body).
+/// Collision hull: the union of convex parts built from these dimensions (arms, rotor disks or cage, feet, body).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hull {
     /// Distance between opposite rotor tips (or the cage's diameter), m.
@@ -93,7 +93,7 @@ pub struct Hull {
     pub body_half_extent_m: [f64; 3],
     /// Landing-gear contact points, m.
     pub feet_m: Vec<Vec3<Frd>>,
-    /// Coefficient of restitution, 0..1.
+    /// Coefficient of restitution, 0 to 1.
     pub restitution: f64,
     /// Coulomb friction coefficient.
     pub friction: f64,
@@ -123,7 +123,7 @@ pub struct BatterySpec {
 pub struct FlightLimits {
     /// Forward and backward speed at full stick in position mode, m/s.
     pub forward_m_s: f64,
-    /// Sideward speed at full stick, m/s.
+    /// Sideways speed at full stick, m/s.
     pub sideward_m_s: f64,
     /// Climb speed at full stick, m/s.
     pub climb_m_s: f64,
@@ -197,7 +197,7 @@ pub struct Camera {
     pub hfov_rad: f64,
     /// Zoom ratio: longest focal length over shortest; 1 for a fixed lens.
     pub zoom_max: f64,
-    /// f-number.
+    /// Aperture as an f-number.
     pub f_number: f64,
     /// Maximum ISO sensitivity.
     pub iso_max: f64,

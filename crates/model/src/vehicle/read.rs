@@ -57,7 +57,7 @@ fn whole(r: &mut Reader, root: &mut Section, file: &str) -> Vehicle {
         && let Some(allowed) = super::authority::missing_axes(&rotors, &rotor, mass_kg)
     {
         let places = rotors.iter().map(|rotor| format!("{:?}", rotor.position_m.array())).collect::<Vec<_>>().join(", ");
-        r.add_problem(root, "rotors.position_m", &places, allowed, "the rotors cannot hold and turn it");
+        r.add_problem(root, "rotors.position_m", &places, allowed, "no control authority about all axes");
     }
     Vehicle {
         id: stem(file),
@@ -130,7 +130,7 @@ fn hull(r: &mut Reader, root: &mut Section) -> Hull {
     let carrying = hull.feet_m.iter().filter(|foot| foot.down() >= cage_m).count();
     if hull.caged && carrying < LEAST_FEET {
         let allowed = format!("at least {LEAST_FEET} feet {cage_m} m or more below the center");
-        r.add_problem(&s, "feet_m", "", &allowed, "the aircraft would stand on its round cage and roll");
+        r.add_problem(&s, "feet_m", "", &allowed, "the aircraft would rest on its spherical cage and roll");
     }
     r.finish(&s);
     hull
@@ -148,7 +148,7 @@ fn battery(r: &mut Reader, root: &mut Section) -> BatterySpec {
         paper_endurance_s: r.number(&mut s, "paper_endurance_s", (10.0, 10_000.0), Some(1500.0)),
     };
     if battery.ocv_cell_v.windows(2).any(|w| w[1] < w[0]) {
-        r.add_problem(&s, "ocv_cell_v", "", "11 rising values", "the open-circuit voltage falls with charge");
+        r.add_problem(&s, "ocv_cell_v", "", "11 increasing values", "open-circuit voltage decreases with charge");
     }
     r.finish(&s);
     battery
@@ -171,7 +171,7 @@ fn limits(r: &mut Reader, root: &mut Section) -> FlightLimits {
     let least_s = limits.forward_m_s.max(limits.sideward_m_s) / (GRAVITY_M_S2 * math::tan(limits.tilt_rad));
     if limits.slow_down_time_s < least_s && r.problems.is_empty() {
         let allowed = format!("at least {least_s:.2}: full speed over g tan(tilt_deg)");
-        r.add_problem(&s, "slow_down_time_s", &limits.slow_down_time_s.to_string(), &allowed, "no tilt stops it so soon");
+        r.add_problem(&s, "slow_down_time_s", &limits.slow_down_time_s.to_string(), &allowed, "too short for the maximum tilt");
     }
     r.finish(&s);
     limits

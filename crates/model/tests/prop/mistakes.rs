@@ -93,7 +93,7 @@ fn regress_the_words_for_a_wrong_type() {
     says(
         "pad_m = [-112.0, 78.0, 5.0]",
         "pad_m = [-112.0, 78.0]",
-        "job.toml:23: ground_team.pad_m = [-112.0, 78.0]: not such a list (allowed: 3 numbers, each -5000 to 5000)",
+        "job.toml:23: ground_team.pad_m = [-112.0, 78.0]: not a valid list (allowed: 3 numbers, each -5000 to 5000)",
     );
 }
 
@@ -107,7 +107,7 @@ fn regress_the_words_for_an_unknown_bridge() {
     says(
         "bridge = \"suspension\"",
         "bridge = \"suspenson\"",
-        "job.toml:64: tasks[].bridge = suspenson: no such bridge (allowed: a bridge of this file: arch, suspension)",
+        "job.toml:64: tasks[].bridge = suspenson: no such bridge (allowed: a bridge in this file: arch, suspension)",
     );
 }
 
@@ -117,13 +117,13 @@ fn regress_the_words_for_numbers_that_do_not_fit_together() {
     says(
         "size_m = 800.0\nspacing_m = 4.0",
         "size_m = 4000.0\nspacing_m = 1.0",
-        "job.toml:13: terrain.spacing_m = 1: more than 2000 cells a side (allowed: at least 2 for this size_m)",
+        "job.toml:13: terrain.spacing_m = 1: more than 2000 cells per side (allowed: at least 2 for this size_m)",
     );
     says(
         "centre_m = [0.0, 0.0, 34.0]\n",
         "centre_m = [0.0, 0.0, 34.0]\narch = { floorbeam_depth_m = 3.0 }\n",
-        "job.toml:35: bridges[].arch.floorbeam_depth_m = 3: does not fit the other numbers \
-         (allowed: crown_gap_m less 0.5 m: at most 2.90)",
+        "job.toml:35: bridges[].arch.floorbeam_depth_m = 3: inconsistent with other values \
+         (allowed: crown_gap_m minus 0.5 m: at most 2.90)",
     );
 }
 

@@ -108,52 +108,52 @@ impl Arch {
         }
     }
 
-    /// Length of the deck, m.
+    /// Returns the length of the deck, m.
     #[must_use]
     pub fn deck_length_m(&self) -> f64 {
         self.span_m + 2.0 * self.approach_m
     }
 
-    /// Height of the rib axis at x, bridge axes, m: z_crown - 4 r x² / L².
+    /// Returns the height of the rib axis at x in bridge axes, m: z_crown - 4 r x² / L².
     #[must_use]
     pub fn axis_z_m(&self, x: f64) -> f64 {
         let u = 2.0 * x / self.span_m;
         -(self.slab_m + self.crown_gap_m + 0.5 * self.crown_depth_m) - self.rise_m * u * u
     }
 
-    /// Vertical depth of the rib at x, m: d_c + (d_s - d_c)(2x/L)².
+    /// Returns the vertical depth of the rib at x, m: d_c + (d_s - d_c)(2x/L)².
     #[must_use]
     pub fn depth_m(&self, x: f64) -> f64 {
         let u = 2.0 * x / self.span_m;
         self.crown_depth_m + (self.springing_depth_m - self.crown_depth_m) * u * u
     }
 
-    /// Height of the top of the rib at x, m.
+    /// Returns the height of the top of the rib at x, m.
     #[must_use]
     pub fn extrados_z_m(&self, x: f64) -> f64 {
         self.axis_z_m(x) + 0.5 * self.depth_m(x)
     }
 
-    /// Height of the underside of the rib at x, m.
+    /// Returns the height of the underside of the rib at x, m.
     #[must_use]
     pub fn intrados_z_m(&self, x: f64) -> f64 {
         self.axis_z_m(x) - 0.5 * self.depth_m(x)
     }
 
-    /// Curvature coefficient of the intrados: it drops by this times x² from the crown, 1/m.
+    /// Returns the curvature coefficient of the intrados: it drops by this times x² from the crown, 1/m.
     #[must_use]
     pub fn intrados_bend_per_m(&self) -> f64 {
         (4.0 * self.rise_m + 2.0 * (self.springing_depth_m - self.crown_depth_m)) / (self.span_m * self.span_m)
     }
 
-    /// Ends of the straight rib segments from springing to springing: two segments per panel.
+    /// Returns the ends of the straight rib segments from springing to springing: two segments per panel.
     #[must_use]
     pub fn rib_nodes(&self) -> Vec<f64> {
         let n = 2 * self.panels.round() as i32;
         (0..=n).map(|k| self.span_m * (f64::from(k) / f64::from(n) - 0.5)).collect()
     }
 
-    /// Height of the top of the rib as built, straight between nodes that lie on [`Self::extrados_z_m`], m.
+    /// Returns the height of the top of the rib as built, straight between nodes that lie on [`Self::extrados_z_m`], m.
     #[must_use]
     pub fn rib_top_z_m(&self, x: f64) -> f64 {
         let step = self.span_m / (2.0 * self.panels.round());
@@ -161,13 +161,13 @@ impl Arch {
         math::lerp(self.extrados_z_m(from), self.extrados_z_m(from + step), (x - from) / step)
     }
 
-    /// Height of the underside of the floorbeams, m.
+    /// Returns the height of the underside of the floorbeams, m.
     #[must_use]
     pub fn floorbeam_z_m(&self) -> f64 {
         -self.slab_m - self.floorbeam_depth_m
     }
 
-    /// Panel points between the springings, excluding the springings.
+    /// Returns the panel points between the springings, excluding the springings.
     #[must_use]
     pub fn panel_points(&self) -> Vec<f64> {
         let n = self.panels.round() as i32;
@@ -187,14 +187,14 @@ impl Arch {
         m.at_least("rise_m", self.rise_m, self.span_m / 12.0, "not too flat for span_m");
         m.at_most("rise_m", self.rise_m, self.span_m / 2.0, "not too steep for span_m");
         m.at_least("springing_depth_m", self.springing_depth_m, self.crown_depth_m, "no thinner than the crown (crown_depth_m)");
-        m.at_most("rib_width_m", self.rib_width_m, self.rib_spacing_m - 1.0, "rib_spacing_m less 1 m for the struts");
+        m.at_most("rib_width_m", self.rib_width_m, self.rib_spacing_m - 1.0, "rib_spacing_m minus 1 m for the struts");
         m.at_most("column_m", self.column_m, self.rib_width_m, "no wider than the rib (rib_width_m)");
         m.at_most("column_m", self.column_m, 0.5 * panel_m, "half a panel (span_m, panels)");
         m.at_most("floorbeam_width_m", self.floorbeam_width_m, 0.5 * panel_m, "half a panel (span_m, panels)");
-        m.at_most("floorbeam_depth_m", self.floorbeam_depth_m, self.crown_gap_m - 0.5, "crown_gap_m less 0.5 m");
-        m.at_least("deck_width_m", self.deck_width_m, over_columns_m, "out over the columns (rib_spacing_m, column_m)");
-        m.at_most("stringer_width_m", self.stringer_width_m, line_m, "side by side under the deck (stringers, deck_width_m)");
-        m.at_most("stringer_depth_m", self.stringer_depth_m, self.crown_gap_m - 0.5, "crown_gap_m less 0.5 m");
+        m.at_most("floorbeam_depth_m", self.floorbeam_depth_m, self.crown_gap_m - 0.5, "crown_gap_m minus 0.5 m");
+        m.at_least("deck_width_m", self.deck_width_m, over_columns_m, "wide enough for the columns (rib_spacing_m, column_m)");
+        m.at_most("stringer_width_m", self.stringer_width_m, line_m, "room for all stringers (stringers, deck_width_m)");
+        m.at_most("stringer_depth_m", self.stringer_depth_m, self.crown_gap_m - 0.5, "crown_gap_m minus 0.5 m");
         m.0
     }
 
@@ -281,7 +281,7 @@ impl Arch {
         railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, 331);
     }
 
-    /// Height of the underside of abutments and skewbacks, m.
+    /// Returns the height of the underside of abutments and skewbacks, m.
     #[must_use]
     pub fn foot_z_m(&self) -> f64 {
         self.intrados_z_m(0.5 * self.span_m) - FOUNDATION_M

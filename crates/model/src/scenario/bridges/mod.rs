@@ -13,7 +13,7 @@ use solid::{MemberBuilder, Placement};
 /// One structural member. Collision, rendering, defects and export all use the same solid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Member {
-    /// Unique within the site, e.g. `arch/rib-left/07`.
+    /// Member name, unique within the site, such as `arch/rib-left/07`.
     pub name: String,
     /// AASHTO MBEI element number.
     pub element: u32,
@@ -151,7 +151,7 @@ impl Bridge {
         builder.finish()
     }
 
-    /// Length of the deck, m.
+    /// Returns the length of the deck, m.
     #[must_use]
     pub fn deck_length_m(&self) -> f64 {
         match &self.kind {
@@ -160,7 +160,7 @@ impl Bridge {
         }
     }
 
-    /// Width of the deck, m.
+    /// Returns the width of the deck, m.
     #[must_use]
     pub fn deck_width_m(&self) -> f64 {
         match &self.kind {
@@ -169,7 +169,7 @@ impl Bridge {
         }
     }
 
-    /// Half length of the opening under the bridge that terrain must not fill, m.
+    /// Returns half the length of the opening under the bridge that terrain must not fill, m.
     #[must_use]
     pub fn opening_half_m(&self) -> f64 {
         match &self.kind {
@@ -212,8 +212,8 @@ impl Bridge {
             (BridgeKind::Arch(arch), TaskKind::ArchBottom) => path::arch_bottom(arch, stand_off_m),
             (BridgeKind::Arch(arch), TaskKind::Interlayer) => path::interlayer(arch),
             (BridgeKind::Suspension(suspension), TaskKind::PierCircle) => path::pier_circle(suspension, stand_off_m)?,
-            (BridgeKind::Arch(_), _) => return Err("an arch has slab_side, arch_bottom and interlayer".into()),
-            (BridgeKind::Suspension(_), _) => return Err("a suspension bridge has pier_circle".into()),
+            (BridgeKind::Arch(_), _) => return Err("for an arch: slab_side, arch_bottom, interlayer".into()),
+            (BridgeKind::Suspension(_), _) => return Err("for a suspension bridge: pier_circle".into()),
         };
         Ok(drawn.placed(&placement))
     }

@@ -99,7 +99,7 @@ pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<L
     let (hx, hy) = (0.5 * suspension.pier_x_m, 0.5 * suspension.pier_y_m);
     let z = (-suspension.pier_top_m - 2.0).min(suspension.girder_z_m() - stand_off_m);
     if z < -suspension.pier_top_m - suspension.pier_height_m {
-        return Err("a pier that reaches down to stand_off_m under the girders".into());
+        return Err("a pier that extends to stand_off_m below the girders".into());
     }
     let mut points = Vec::new();
     let mut look = Vec::new();

@@ -123,13 +123,13 @@ impl Suspension {
         }
     }
 
-    /// Length of the deck between the anchorages' far ends, m.
+    /// Returns the length of the deck between the anchorages' far ends, m.
     #[must_use]
     pub fn deck_length_m(&self) -> f64 {
         self.main_span_m + 2.0 * (self.side_span_m + self.anchorage_m)
     }
 
-    /// Height of the cable at x, m: a parabola in the main span, straight lines to the anchorages.
+    /// Returns the height of the cable at x, m: a parabola in the main span, straight lines to the anchorages.
     #[must_use]
     pub fn cable_z_m(&self, x: f64) -> f64 {
         let half = 0.5 * self.main_span_m;
@@ -142,25 +142,27 @@ impl Suspension {
         }
     }
 
-    /// Lateral distance of cables, hangers and tower legs from the deck's centerline, m; keeps the legs clear of the girders.
+    /// Returns the lateral distance of cables, hangers and tower legs from the deck's centerline, m; keeps the legs clear of the
+    /// girders.
     #[must_use]
     pub fn cable_y_m(&self) -> f64 {
         0.5 * self.deck_width_m + GIRDER_OUT_M + LEG_GAP_M + 0.5 * self.leg_y_m
     }
 
-    /// Height of the underside of the girders, m.
+    /// Returns the height of the underside of the girders, m.
     #[must_use]
     pub fn girder_z_m(&self) -> f64 {
         -self.slab_m - self.girder_depth_m
     }
 
-    /// Distance from midspan to the point where the cables enter the anchorages, m.
+    /// Returns the distance from midspan to the point where the cables enter the anchorages, m.
     #[must_use]
     pub fn anchor_x_m(&self) -> f64 {
         0.5 * self.main_span_m + self.side_span_m
     }
 
-    /// Floorbeam positions: one at every hanger, and the same spacing in the side spans, whose girders have no hangers.
+    /// Returns the floorbeam positions: one at every hanger, and the same spacing in the side spans, where the girders have no
+    /// hangers.
     #[must_use]
     pub fn floorbeams(&self) -> Vec<f64> {
         let n = (self.side_span_m / self.hanger_spacing_m).round().max(1.0) as i32;
@@ -172,7 +174,7 @@ impl Suspension {
         out
     }
 
-    /// Ends of the deck panels: at the deck's ends, anchorages, towers and floorbeams.
+    /// Returns the ends of the deck panels: at the deck's ends, anchorages, towers and floorbeams.
     #[must_use]
     pub fn panel_ends(&self) -> Vec<f64> {
         let half = 0.5 * self.main_span_m;
@@ -196,12 +198,12 @@ impl Suspension {
         m.at_least("leg_y_m", self.leg_y_m, 2.0 * self.cable_radius_m, "no narrower than the cable (cable_radius_m)");
         m.at_most("leg_x_m", self.leg_x_m, self.pier_x_m, "no wider than the pier (pier_x_m)");
         m.at_least("pier_y_m", self.pier_y_m, legs_m, "wide enough for both tower legs (deck_width_m, leg_y_m)");
-        m.at_least("pier_top_m", self.pier_top_m, portal_m, "under girders and portal (slab_m, girder_depth_m)");
+        m.at_least("pier_top_m", self.pier_top_m, portal_m, "below girders and portal (slab_m, girder_depth_m)");
         m.at_least("girder_depth_m", self.girder_depth_m, self.floorbeam_depth_m, "no shallower than the floorbeams");
         m.0
     }
 
-    /// Hanger positions: evenly spaced in the main span, none at the towers.
+    /// Returns the hanger positions: evenly spaced in the main span, none at the towers.
     #[must_use]
     pub fn hangers(&self) -> Vec<f64> {
         let n = (self.main_span_m / self.hanger_spacing_m).round() as i32;
@@ -217,12 +219,12 @@ impl Suspension {
         self.anchorages(b);
     }
 
-    /// Height of the top of the tower legs, below the cables on either side of the saddle.
+    /// Returns the height of the top of the tower legs, below the cables on either side of the saddle.
     fn leg_top_m(&self) -> f64 {
         self.saddle_edge_z_m() - self.cable_radius_m - SADDLE_M
     }
 
-    /// Height of the cable at the faces of the legs, where it leaves the saddle.
+    /// Returns the height of the cable at the faces of the legs, where it leaves the saddle.
     fn saddle_edge_z_m(&self) -> f64 {
         let (half, reach) = (0.5 * self.main_span_m, 0.5 * self.leg_x_m);
         self.cable_z_m(half - reach).min(self.cable_z_m(half + reach))
@@ -307,7 +309,7 @@ impl Suspension {
         }
     }
 
-    /// Half width of the anchorages, m.
+    /// Returns half the width of the anchorages, m.
     fn anchorage_half_m(&self) -> f64 {
         self.cable_y_m() + self.cable_radius_m + 0.45
     }
