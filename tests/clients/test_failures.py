@@ -72,7 +72,7 @@ def test_wire_mavsdk_stops_a_motor_in_flight_and_the_vehicle_falls_until_it_turn
     wait_for("its words", lambda: "Crash detected" in texts)
     failure.inject(FailureUnit.SYSTEM_MOTOR, FailureType.OK, 1)
     told = len(texts)
-    wait_for("being put back", lambda: any(text.startswith("Put back") for text in texts[told:]))
+    wait_for("being put back", lambda: any(text.startswith("Respawned at") for text in texts[told:]))
 
     def hovers():
         euler = telemetry.attitude_euler()

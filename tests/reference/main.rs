@@ -34,8 +34,12 @@ fn check(page: &str, text: &str) {
 /// Keys of scenario and vehicle files have their tables beside the files; the pages include them.
 #[test]
 fn exact_pages_of_keys_include_the_tables_that_are_compared_with_the_readers() {
-    for (page, table) in [("scenario-keys.md", "scenarios/README.md"), ("vehicle-keys.md", "vehicle-params/README.md")] {
-        check(page, &format!("{{{{#include ../../../{table}}}}}\n"));
-        assert!(Path::new(env!("CARGO_MANIFEST_DIR")).join(table).is_file(), "{table}");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let read = |file: &str| std::fs::read_to_string(root.join(file)).unwrap();
+    let pages = [("scenario-keys.md", "scenarios/README.md", ":keys"), ("vehicle-keys.md", "vehicle-params/README.md", "")];
+    for (page, table, part) in pages {
+        let include = format!("{{{{#include ../../../{table}{part}}}}}");
+        assert!(read(&format!("docs/src/reference/{page}")).contains(&include), "{page} lacks {include}");
+        assert!(read(table).contains(if part.is_empty() { "|" } else { "<!-- ANCHOR: keys -->" }), "{table}");
     }
 }

@@ -33,7 +33,7 @@ fn regress_a_soft_landing_away_from_home_stays_and_takes_off_again() {
         _ => None,
     });
     assert_eq!(armed, Some(false), "{:?}", station.texts());
-    assert!(!station.said("Put back"), "{:?}", station.texts());
+    assert!(!station.said("Respawned at"), "{:?}", station.texts());
     let stands_m = station.sim.truth().rigid.position_m;
     assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, one(1.0)), MavResult::MAV_RESULT_ACCEPTED);
     let takeoff = MavCmd::MAV_CMD_NAV_TAKEOFF;
@@ -42,7 +42,7 @@ fn regress_a_soft_landing_away_from_home_stays_and_takes_off_again() {
     station.run_ms(8_000);
     let risen_m = (station.sim.truth().rigid.position_m - stands_m).down();
     // m: the take-off's height is 2.5 m over home.
-    assert!(risen_m < -1.5 && !station.said("Put back"), "{risen_m} {:?}", station.texts());
+    assert!(risen_m < -1.5 && !station.said("Respawned at"), "{risen_m} {:?}", station.texts());
 }
 
 /// Falls from 5 m with its motors stopped; the number of times that it is put back in 15 s.
@@ -53,7 +53,7 @@ fn respawns_after_a_fall(rule: Option<AfterCrash>) -> usize {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, p(&[0.0, 21196.0])), MavResult::MAV_RESULT_ACCEPTED);
     station.received.clear();
     station.run_ms(15_000);
-    station.texts().iter().filter(|text| text.contains("Put back")).count()
+    station.texts().iter().filter(|text| text.contains("Respawned at")).count()
 }
 
 #[test]

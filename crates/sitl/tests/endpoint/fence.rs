@@ -181,7 +181,7 @@ fn wire_a_mission_that_the_pilot_interrupts_goes_on_where_it_was_left() {
     let ended = station.run_until(90.0, |s| {
         let p = s.place();
         let from_left = ((p[0] - left[0]).powi(2) + (p[1] - left[1]).powi(2)).sqrt();
-        if !s.said("goes on where it was left") {
+        if !s.said("Mission resumed from interruption point") {
             furthest_before = furthest_before.max(p[0]);
         }
         nearest = nearest.min(from_left);
