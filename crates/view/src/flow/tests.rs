@@ -257,7 +257,7 @@ fn exact_pause_and_restart_are_for_practice_alone() {
     let mut flow = in_flight(Purpose::Assessment);
     assert!(!flow.shows_map());
     flow.restart();
-    assert!(flow.notice().is_some_and(|words| words.contains("anew")));
+    assert!(flow.notice().is_some_and(|words| words.contains("restarted")));
     flow.pause();
     assert!(flow.page() == Page::Leaving && !flow.is_paused(), "it flies on");
     flow.press(KeyPress::Escape);
