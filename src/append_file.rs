@@ -49,7 +49,7 @@ impl AppendFile {
     /// Opens or creates the file. `whole` returns the length of the whole records at the start of some bytes.
     ///
     /// # Errors
-    /// When it cannot be opened.
+    /// If it cannot be opened.
     pub fn open(path: PathBuf, whole: fn(&[u8]) -> usize) -> Result<Self, WriteRefused> {
         let open = || {
             let file = OpenOptions::new().create(true).append(true).open(&path)?;
@@ -88,7 +88,7 @@ impl AppendFile {
     /// Cuts the file to this length.
     ///
     /// # Errors
-    /// When the disk refuses.
+    /// If the disk cannot be written.
     pub fn cut(&mut self, len: u64) -> Result<(), WriteRefused> {
         self.file.set_len(len).map_err(|error| self.refused(error))?;
         self.len = len;
@@ -118,7 +118,7 @@ impl AppendFile {
     /// Writes what is pending. After an error the file holds whole records, and the rest stays pending.
     ///
     /// # Errors
-    /// When the disk refuses.
+    /// If the disk cannot be written.
     pub fn flush(&mut self) -> Result<(), WriteRefused> {
         if self.torn {
             self.cut(self.len)?;
@@ -143,7 +143,7 @@ impl AppendFile {
     /// Waits until what was written is on the disk itself.
     ///
     /// # Errors
-    /// When the disk refuses.
+    /// If the disk cannot be written.
     pub fn sync(&self) -> Result<(), WriteRefused> {
         self.file.sync_all().map_err(|error| self.refused(error))
     }

@@ -7,10 +7,10 @@ use spandrel_view::flow::pipe;
 use std::net::{IpAddr, SocketAddr, ToSocketAddrs};
 use std::str::FromStr;
 
-/// Largest seed: the wire carries it as a signed 32-bit number.
+/// Maximum seed: MAVLink messages carry it as a signed 32-bit integer.
 const SEED_MAX: u64 = i32::MAX as u64;
 
-/// Which job with which aircraft.
+/// Scenario, aircraft and seed.
 #[derive(Debug, Clone, clap::Args)]
 pub struct JobArgs {
     /// Scenario: a file, or the name of a shipped one
@@ -25,7 +25,7 @@ pub struct JobArgs {
 }
 
 impl JobArgs {
-    /// The seed asked for, else the scenario's, else a new one.
+    /// Returns the requested seed, else the scenario's, else a new one.
     pub fn seed_for(&self, scenario: &Scenario) -> u64 {
         self.seed.or(scenario.seed).unwrap_or_else(random_seed)
     }
@@ -36,7 +36,7 @@ pub fn seed(text: &str) -> Result<u64, String> {
     text.parse().ok().filter(|seed| *seed <= SEED_MAX).ok_or_else(|| format!("'{text}' is no seed (allowed: 0 to {SEED_MAX})"))
 }
 
-/// A seed that differs from session to session, from the wall clock.
+/// Returns a new seed from the wall clock.
 pub fn random_seed() -> u64 {
     spandrel_model::random::RandomStream::new(clock::unix_us(), "session seed").bits() & SEED_MAX
 }
@@ -53,7 +53,7 @@ pub enum Flavour {
 }
 
 impl Flavour {
-    /// The interface itself.
+    /// Returns the autopilot protocol.
     pub fn display_name(self) -> &'static endpoint::Flavour {
         match self {
             Self::Px4 => &endpoint::px4::FLAVOUR,
@@ -62,13 +62,13 @@ impl Flavour {
         }
     }
 
-    /// As arguments of a child process.
+    /// Returns the option as arguments for a child process.
     pub fn to_args(self) -> Vec<String> {
         vec!["--flavour".to_owned(), self.display_name().name.to_owned()]
     }
 }
 
-/// What a flight is for.
+/// Purpose of a flight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Purpose {
     /// You can pause or restart
@@ -92,10 +92,10 @@ impl Purpose {
     }
 }
 
-/// An address to send to, or nowhere.
+/// A destination address, or none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Destination {
-    /// Nobody.
+    /// No destination.
     None,
     /// This address.
     Address(SocketAddr),
@@ -116,12 +116,12 @@ pub fn address(text: &str) -> Result<SocketAddr, String> {
     found.into_iter().find(|address| address.port() != 0).ok_or_else(|| format!("'{text}' names no usable address and port"))
 }
 
-/// A port, or none.
+/// A port number, or none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PortChoice {
-    /// Not opened.
+    /// The port is not opened.
     None,
-    /// This one; 0 lets the system choose.
+    /// A port number; 0 lets the system choose a free one.
     Number(u16),
 }
 
@@ -135,7 +135,7 @@ impl FromStr for PortChoice {
     }
 }
 
-/// A name that goes into folder names and records.
+/// Trainee ID, valid in folder names and records.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TraineeId(String);
 
@@ -158,7 +158,7 @@ impl FromStr for TraineeId {
     }
 }
 
-/// Parses the address to bind; loopback unless told otherwise.
+/// Parses the local address to bind.
 pub fn listen(text: &str) -> Result<IpAddr, String> {
     text.parse().map_err(|_| format!("'{text}' is no IP address (127.0.0.1 for this machine only, 0.0.0.0 for all networks)"))
 }

@@ -9,22 +9,23 @@ use spandrel_model::site::{NearestPoint, Site, defects};
 use spandrel_model::toml::{Problem, listed};
 use spandrel_model::vehicle::{self, Vehicle};
 
-/// Room that a path leaves around the aircraft's half width, m (issue 2, section 2).
+/// Minimum margin between path and obstacles beyond the aircraft's half width, m (issue 2, section 2).
 const MARGIN_M: f64 = 0.5;
 
-/// Seeds tried for a scenario without a seed of its own: one tells whether its tasks reach a bridge, three whether there is room (estimate).
+/// Number of seeds tried for a scenario without its own seed: one shows whether its tasks reach a bridge, three whether there is
+/// room (estimate).
 const SEEDS_TRIED: [u64; 3] = [1, 2, 3];
 
 /// Check scenario and vehicle files
 ///
-/// Reports everything that is wrong at once, each with file, line, key, value and allowed range. For a scenario it also builds the site
-/// and refuses a task whose reference path leaves the aircraft less room than half its width from tip to tip plus 0.5 m, and says where. It
-/// warns where fewer defects can be placed than the scenario asks for.
+/// Reports all errors at once, each with file, line, key, value and allowed range. For a scenario, it also builds the site and
+/// reports every task whose reference path has less clearance than half the aircraft's tip-to-tip width plus 0.5 m, with the
+/// location. It warns if fewer defects can be placed than the scenario requests.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel check my-bridge.toml                        the paths are checked for the default aircraft
-  spandrel check my-bridge.toml --vehicle m30          ... for another one
+  spandrel check my-bridge.toml                        checks the paths for the default aircraft
+  spandrel check my-bridge.toml --vehicle m30          ... for another aircraft
   spandrel check scenarios/*.toml vehicle-params/*.toml --json
 
 {EXIT_CODES}"))]
@@ -32,7 +33,7 @@ pub struct Args {
     /// Scenario and vehicle files, or names of shipped ones
     #[arg(value_name = "FILE", required = true)]
     files: Vec<String>,
-    /// Aircraft that must fit along the paths: a file, or the name of a shipped one
+    /// Aircraft for the clearance check: a file, or the name of a shipped one
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     vehicle: String,
     /// Print {"problems": [{file, line, key, value, allowed, message}], "warnings": [...], "notes": [...]} on standard output
@@ -50,7 +51,7 @@ struct Findings {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When anything is wrong with a file.
+/// If any file is invalid.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let aircraft = files::vehicle(&args.vehicle)?.vehicle;
     let mut findings = Findings::default();
@@ -116,7 +117,8 @@ fn check_scenario(source: &SourceFile, aircraft: &Vehicle, findings: &mut Findin
     }
 }
 
-/// What only vehicle files, and what only scenarios say at their top: whatever one of them lacks, the rest tells which it is.
+/// Top-level keys that occur only in vehicle files or only in scenarios. They identify the kind of a file, even if some are
+/// missing.
 const OF_VEHICLES: [&str; 10] =
     ["mass_kg", "inertia_kg_m2", "rotors", "drag", "hull", "battery", "limits", "sensors", "camera", "lamp"];
 const OF_SCENARIOS: [&str; 13] = [
@@ -174,7 +176,7 @@ fn tight_passages(source: &SourceFile, scenario: &Scenario, aircraft: &Vehicle) 
     scenario.tasks.iter().enumerate().filter_map(tight).collect()
 }
 
-/// Fewer defects than asked for: the scenario's own seed is tried, else the first few.
+/// Warns if fewer defects can be placed than requested: tries the scenario's own seed, or the first few seeds.
 fn too_few_defects(source: &SourceFile, scenario: &Scenario) -> Option<String> {
     let wanted = scenario.defects.count;
     if wanted == 0 || scenario.defects.placed.is_some() {
@@ -198,7 +200,7 @@ fn defects_not_placed(scenario: &Scenario) -> scenario::DefectSpec {
     scenario::DefectSpec { count: 0, placed: Some(Vec::new()), ..scenario.defects.clone() }
 }
 
-/// The place with the least room, when that is less than needed, anywhere along the straight pieces between the path's points.
+/// Returns the point with the least clearance if it is below the minimum, anywhere along the straight segments of the path.
 fn tightest(task: &Task, site: &Site, needed_m: f64) -> Option<(Vec3<Enu>, f64, String)> {
     let points = &task.path_m;
     let wrap = if task.closed { points.first() } else { points.last() };
@@ -209,7 +211,7 @@ fn tightest(task: &Task, site: &Site, needed_m: f64) -> Option<(Vec3<Enu>, f64, 
     Some((at_m, near.distance_m, site.object_name(near.object)))
 }
 
-/// Lines on which the tasks begin.
+/// Returns the line on which each task begins.
 fn task_lines(text: &str) -> Vec<usize> {
     let heads = text.lines().enumerate().filter(|(_, line)| {
         let line: String = line.chars().filter(|c| !c.is_whitespace()).collect();

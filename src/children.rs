@@ -29,7 +29,7 @@ impl Child {
     /// Starts `spandrel SUBCOMMAND ARGS`.
     ///
     /// # Errors
-    /// When it cannot be started.
+    /// If it cannot be started.
     pub fn start(name: &'static str, args: &[String]) -> Result<Self, AppError> {
         Self::start_sibling(name, args, &[])
     }
@@ -37,7 +37,7 @@ impl Child {
     /// Starts it with further variables in its environment.
     ///
     /// # Errors
-    /// When it cannot be started.
+    /// If it cannot be started.
     pub fn start_sibling(name: &'static str, args: &[String], environment: &[(&str, String)]) -> Result<Self, AppError> {
         let failed = |error: std::io::Error| AppError::failed(format!("cannot start the {name}: {error}"));
         let program = std::env::current_exe().map_err(failed)?;

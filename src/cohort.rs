@@ -10,18 +10,18 @@ use spandrel_training::report::page::cohort as page;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// Contradictions told in words; all are in the tables.
+/// Maximum number of contradictions printed as text; the tables list all of them.
 const CONTRADICTIONS: usize = 12;
 
-/// Show what a group of trainees shows
+/// Summarize the results of a group of trainees
 ///
-/// Distributions of the scores, people and tasks, box plots by repetition, crashes, answers counted, self-rating against measurement,
-/// paired t tests with effect size, interval and Holm's correction, homogeneity, the causal model of demand, strain and performance, and
-/// each trainee's progress: as words, JSON, or CSV tables.
+/// Reports distributions of the scores, people and tasks, box plots by repetition, crashes, answer counts, self-ratings against
+/// measurements, paired t tests with effect size, interval and Holm's correction, homogeneity, the causal model of demand, strain
+/// and performance, and each trainee's progress. Output is text, JSON, CSV tables or a page.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel cohort                                       the short of it
+  spandrel cohort                                       a summary
   spandrel cohort --json cohort.json --csv tables       everything
   spandrel cohort --report cohort.html                  all figures as one page that opens offline
   spandrel cohort --scenario two-bridges --scenario two-bridges-small --repetitions 2
@@ -31,25 +31,25 @@ Examples:
 pub struct Args {
     #[command(flatten)]
     place: RecordsLocation,
-    /// Records as `spandrel records export` writes them, instead of a database
+    /// Read records from this file, as written by `spandrel records export`, instead of a database
     #[arg(long, value_name = "FILE")]
     records: Option<PathBuf>,
-    /// Scenario that counts as the job; may be repeated [default: the one flown most often]
+    /// Scenario to include; may be repeated [default: the one flown most often]
     #[arg(long, value_name = "NAME")]
     scenario: Vec<String>,
-    /// Repetitions that are compared, among those who flew so often (1 to 100)
+    /// Number of repetitions to compare, among trainees who flew at least that many (1 to 100)
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=100))]
     repetitions: u8,
-    /// Count incomplete sessions as well; they are left out otherwise
+    /// Include incomplete sessions
     #[arg(long)]
     include_incomplete: bool,
-    /// Everything as JSON here; '-' for standard output
+    /// Write all results as JSON; '-' for standard output
     #[arg(long, value_name = "FILE")]
     json: Option<String>,
-    /// All figures as one page that opens offline; '-' for standard output
+    /// Write all figures as one page that opens offline; '-' for standard output
     #[arg(long, value_name = "FILE")]
     report: Option<String>,
-    /// Every table as a CSV file in this folder
+    /// Write every table as a CSV file into this folder
     #[arg(long, value_name = "DIR")]
     csv: Option<PathBuf>,
 }
@@ -57,7 +57,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When files or the database are wrong, or nothing can be written.
+/// If files or the database are invalid, or output cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let records = match &args.records {
         Some(file) => from_lines(file)?,
@@ -95,7 +95,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     }
 }
 
-/// Who flew what, and the first sessions in numbers.
+/// Prints the sessions by trainee and the main figures of the first sessions.
 fn first_sessions(cohort: &Cohort) -> String {
     let mut out = format!("{} trainees, {} sessions of {}\n", cohort.trainees, cohort.sessions, cohort.scenarios.join(", "));
     if let Some(words) = omitted_summary(cohort.left_out) {

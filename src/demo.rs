@@ -12,9 +12,9 @@ use super::train;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Between two looks at the children.
+/// Interval between checks of the child processes.
 const LOOK: Duration = Duration::from_millis(20);
-/// Once the pilot is done, the monitor has this much wall time to see the end by itself (three seconds of simulation time at rest).
+/// Wall time for the monitor to detect the end after the pilot is done (it takes three seconds of simulation time at rest).
 const GRACE: Duration = Duration::from_secs(15);
 
 /// Fly a whole session automatically
@@ -55,7 +55,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When files are wrong, a process fails, or the flight cannot be scored.
+/// If files are invalid, a process fails, or the flight cannot be scored.
 pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     let scenario = files::scenario(&args.job.scenario)?.scenario;
     files::vehicle(&args.job.vehicle)?;
@@ -105,7 +105,7 @@ fn sim_args(args: &Args, monitor_port: u64, pilot_port: u64) -> Vec<String> {
     out
 }
 
-/// Waits until the session is over. A pilot that is done and no end in sight, or a process that ends too early, ends it.
+/// Waits for the end of the session. Stops it if the pilot is done without an end, or if a process exits early.
 fn wait(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &StopRequest) -> Option<AppError> {
     let mut pilot_done: Option<Stopwatch> = None;
     loop {

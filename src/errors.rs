@@ -1,4 +1,4 @@
-//! How a run ends when it does not end well: told once, here, with the exit code that design and scripts rely on.
+//! Errors of a run: reported once, with an exit code that scripts can rely on.
 
 use spandrel_model::toml::Problems;
 use std::process::ExitCode;
@@ -6,7 +6,7 @@ use std::process::ExitCode;
 /// Shown under every help text.
 pub const EXIT_CODES: &str = "Exit codes: 0 done; 1 the thing asked for failed; 2 the arguments or a file are wrong.";
 
-/// Why a subcommand did not do what was asked.
+/// Error of a subcommand.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum AppError {
     /// Arguments or a file are wrong (exit code 2).
@@ -28,7 +28,7 @@ impl AppError {
         Self::Failed(message.into())
     }
 
-    /// Tells it on standard error and gives the exit code.
+    /// Logs the error on standard error and returns the exit code.
     pub(super) fn report(&self) -> ExitCode {
         let (code, message) = match self {
             Self::Wrong(message) => (2, message),

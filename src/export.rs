@@ -25,11 +25,11 @@ use std::collections::BTreeMap;
 use std::io::{Cursor, Write};
 use std::path::Path;
 
-/// Write frames, scenario, flight plan, geometry or a recording for other programs
+/// Export frames, scenario, flight plan, geometry or a recording for other programs
 ///
-/// Frames (one line per scored frame, CSV) need a session; the scored part of the scenario (JSON: paths, defects, limits) and the
-/// geometry that collides (binary glTF, every member named with its element number) work for a session or a scenario. A recording (MCAP,
-/// for Foxglove) needs a session, or a recording that broke off, which is recovered up to its last whole chunk.
+/// Frames (CSV, one line per scored frame) need a session. The scored part of the scenario (JSON: paths, defects, limits) and the
+/// collision geometry (binary glTF, each member named with its element number) are available for a session or a scenario. A
+/// recording (MCAP, for Foxglove) needs a session, or a truncated recording, which is recovered up to its last complete chunk.
 #[derive(Debug, clap::Args)]
 #[command(group(clap::ArgGroup::new("what").required(true).multiple(true).args(["frames", "scenario", "glb", "plan", "mcap", "parquet", "xapi", "scorm"])))]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
@@ -40,7 +40,7 @@ Examples:
   spandrel export two-bridges --glb bridges.glb              open it in any 3D viewer
   spandrel export sessions/20260801T... --mcap flight.mcap   open it in Foxglove
   spandrel export sessions/20260801T... --parquet frames.parquet --xapi statements.jsonl --scorm result.zip
-  spandrel export broken.mcap --mcap whole.mcap              recover a recording that broke off
+  spandrel export broken.mcap --mcap whole.mcap              recover a truncated recording
 
 {EXIT_CODES}"))]
 pub struct Args {
@@ -53,17 +53,17 @@ pub struct Args {
     /// The scored part of the scenario as JSON; '-' for standard output
     #[arg(long, value_name = "FILE")]
     scenario: Option<String>,
-    /// The tasks' reference paths as a plan of QGroundControl: take-off, transits clear of the bridges, every task with gimbal, lamp and
-    /// pictures, return; '-' for standard output
+    /// The tasks' reference paths as a QGroundControl plan: takeoff, transits clear of the bridges, each task with gimbal, lamp
+    /// and pictures, and return; '-' for standard output
     #[arg(long, value_name = "FILE")]
     plan: Option<String>,
-    /// Aircraft that the plan keeps clear of things: a file, or the name of a shipped one; of a session its own
+    /// Aircraft for the plan's clearance: a file, or the name of a shipped one; a session uses its own
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2", requires = "plan")]
     vehicle: String,
-    /// Autopilot that the plan is for: it goes into the plan's firmwareType, which ground stations compare with the vehicle's
+    /// Autopilot for the plan's firmwareType, which ground stations compare with the vehicle's
     #[arg(long, value_name = "NAME", default_value = "px4", requires = "plan")]
     flavour: args::Flavour,
-    /// Geometry as binary glTF 2.0, metres, y up; '-' for standard output
+    /// Geometry as binary glTF 2.0, m, y up; '-' for standard output
     #[arg(long, value_name = "FILE")]
     glb: Option<String>,
     /// The flight as MCAP: drone, camera and site, battery, clearance, contacts; '-' for standard output
@@ -72,10 +72,10 @@ pub struct Args {
     /// Frames as Parquet, with the columns of --frames, each with its unit, frame and definition in the metadata; '-' for standard output
     #[arg(long, value_name = "FILE")]
     parquet: Option<String>,
-    /// The session as xAPI statements, one JSON object a line; '-' for standard output
+    /// The session as xAPI statements, one JSON object per line; '-' for standard output
     #[arg(long, value_name = "FILE")]
     xapi: Option<String>,
-    /// The result as a SCORM 1.2 package for a learning-management system; '-' for standard output
+    /// The result as a SCORM 1.2 package for a learning management system; '-' for standard output
     #[arg(long, value_name = "FILE")]
     scorm: Option<String>,
     /// Seed that places the defects of a scenario without a seed of its own
@@ -86,7 +86,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When files are wrong, there is nothing to export, or the target cannot be written.
+/// If files are invalid, there is no data to export, or the output cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let path = Path::new(&args.from);
     if let Some(target) = &args.mcap
@@ -146,7 +146,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     Ok(())
 }
 
-/// What other systems take of a session.
+/// Exports a session for learning systems.
 fn exchanged(args: &Args, stored: Option<&StoredSession>) -> Result<(), AppError> {
     let needed =
         |flag: &str| stored.ok_or_else(|| AppError::wrong(format!("{flag} needs a session folder, and '{}' is none", args.from)));
@@ -167,7 +167,7 @@ fn exchanged(args: &Args, stored: Option<&StoredSession>) -> Result<(), AppError
     Ok(())
 }
 
-/// Files as a ZIP archive, the same for the same files.
+/// Packs files into a ZIP archive. The same files produce the same bytes.
 fn zipped(files: &[(&str, String)]) -> Result<Vec<u8>, AppError> {
     let write = || {
         let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
@@ -183,7 +183,7 @@ fn zipped(files: &[(&str, String)]) -> Result<Vec<u8>, AppError> {
     write().map_err(|error: zip::result::ZipError| AppError::failed(format!("the package cannot be made: {error}")))
 }
 
-/// A session's flight as a recording.
+/// Exports a session's flight as a recording.
 fn recorded(stored: &StoredSession) -> Result<Vec<u8>, AppError> {
     let (scenario, vehicle) = (&stored.scenario.scenario, &stored.vehicle.vehicle);
     let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
@@ -204,7 +204,7 @@ fn recorded(stored: &StoredSession) -> Result<Vec<u8>, AppError> {
     write().map_err(|error: ::mcap::McapError| AppError::failed(format!("the recording cannot be made: {error}")))
 }
 
-/// Writes anew what a recording that broke off still holds.
+/// Recovers the readable part of a truncated recording.
 fn recover(path: &Path, target: &str) -> Result<(), AppError> {
     let shown = path.display();
     let file = std::fs::read(path).map_err(|error| AppError::wrong(format!("{shown}: {error}")))?;

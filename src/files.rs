@@ -51,7 +51,7 @@ pub fn vehicle_names() -> Vec<&'static str> {
 /// Loads and validates a scenario.
 ///
 /// # Errors
-/// When it cannot be read or is wrong: everything that is wrong with it.
+/// If it cannot be read or is wrong: everything that is wrong with it.
 pub fn scenario(argument: &str) -> Result<ScenarioFile, AppError> {
     scenario_from(source(argument, "scenario", shipped::SCENARIOS)?)
 }
@@ -59,7 +59,7 @@ pub fn scenario(argument: &str) -> Result<ScenarioFile, AppError> {
 /// Loads and validates a vehicle.
 ///
 /// # Errors
-/// When it cannot be read or is wrong: everything that is wrong with it.
+/// If it cannot be read or is wrong: everything that is wrong with it.
 pub fn vehicle(argument: &str) -> Result<VehicleFile, AppError> {
     let source = source(argument, "vehicle", shipped::VEHICLES)?;
     let vehicle = vehicle::read(&source.file, &source.text)?;
@@ -122,7 +122,7 @@ pub fn any_source(argument: &str) -> Result<SourceFile, AppError> {
 /// Reads a text file.
 ///
 /// # Errors
-/// When it cannot be read.
+/// If it cannot be read.
 pub fn read(path: &Path) -> Result<String, AppError> {
     let bytes = std::fs::read(path).map_err(|error| AppError::wrong(format!("{}: cannot be read: {error}", path.display())))?;
     String::from_utf8(bytes).map_err(|error| {
@@ -133,7 +133,7 @@ pub fn read(path: &Path) -> Result<String, AppError> {
 /// Writes a result to a file, or to standard output for `-`. A file is replaced as a whole: a full disk or a kill leaves the old one.
 ///
 /// # Errors
-/// When it cannot be written.
+/// If it cannot be written.
 pub fn write(target: &str, bytes: &[u8]) -> Result<(), AppError> {
     use std::io::Write;
     let path = Path::new(target);

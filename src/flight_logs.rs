@@ -10,7 +10,7 @@ const ENDINGS: [&str; 2] = [".ulg", ".mcap"];
 /// files for each flight, named by its time of day; other files are left alone and not counted. Returns how many flights were deleted.
 ///
 /// # Errors
-/// When a folder cannot be read or a file not be deleted.
+/// If a folder cannot be read or a file not be deleted.
 pub fn make_room(root: &Dir, folder: &str, most: u64) -> std::io::Result<usize> {
     let flights = flights(root, folder)?;
     let mut total: u64 = flights.values().map(|flight| flight.bytes).sum();

@@ -25,7 +25,7 @@ impl LogFile {
     /// Finds the file.
     ///
     /// # Errors
-    /// When it cannot be read.
+    /// If it cannot be read.
     pub fn open(path: &Path) -> Result<Self, AppError> {
         let len = File::open(path).and_then(|file| file.metadata()).map_err(|error| unreadable(path, &error))?.len();
         Ok(Self { path: path.to_path_buf(), len })
@@ -39,7 +39,7 @@ impl LogFile {
     /// Length of the part that holds whole records, bytes.
     ///
     /// # Errors
-    /// When it cannot be read.
+    /// If it cannot be read.
     pub fn whole_len(&self) -> Result<u64, AppError> {
         let mut splitter = RecordSplitter::default();
         let mut skip = |_: TlogRecord<'_>| ControlFlow::Continue(());
@@ -52,7 +52,7 @@ impl LogFile {
     /// Unix time of simulation time zero, µs; `None` for an empty log.
     ///
     /// # Errors
-    /// When it cannot be read.
+    /// If it cannot be read.
     pub fn session_start_us(&self) -> Result<Option<u64>, AppError> {
         Ok(tlog::session_start_us(&self.read(HEAD)?))
     }
@@ -60,7 +60,7 @@ impl LogFile {
     /// SHA-256 in hexadecimal.
     ///
     /// # Errors
-    /// When it cannot be read.
+    /// If it cannot be read.
     pub fn sha256(&self) -> Result<String, AppError> {
         let mut hash = Sha256::new();
         let mut update = |piece: &[u8]| {
@@ -74,7 +74,7 @@ impl LogFile {
     /// The whole log in memory.
     ///
     /// # Errors
-    /// When it cannot be read.
+    /// If it cannot be read.
     #[cfg(feature = "view")]
     pub fn bytes(&self) -> Result<Vec<u8>, AppError> {
         self.read(self.len)

@@ -1,4 +1,4 @@
-//! Logs on standard error; standard output belongs to results.
+//! Logs on standard error; standard output is reserved for results.
 
 use std::io::{IsTerminal, stderr};
 use tracing::Level;

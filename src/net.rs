@@ -138,7 +138,7 @@ impl SocketHub {
     /// Binds a UDP port (0: any free one). `flag` is named in the message when the port is taken.
     ///
     /// # Errors
-    /// When it cannot be bound.
+    /// If it cannot be bound.
     pub fn bind(&mut self, ip: IpAddr, port: u16, flag: &str) -> Result<SocketId, AppError> {
         let socket = UdpSocket::bind((ip, port)).map_err(|error| port_in_use("UDP", ip, port, flag, &error))?;
         let reader = socket.try_clone().map_err(|error| AppError::failed(format!("UDP port {port}: {error}")))?;
@@ -152,7 +152,7 @@ impl SocketHub {
     /// Listens for TCP clients and says on which port.
     ///
     /// # Errors
-    /// When it cannot be bound.
+    /// If it cannot be bound.
     pub fn serve(&self, ip: IpAddr, port: u16, flag: &str) -> Result<u16, AppError> {
         let listener = TcpListener::bind((ip, port)).map_err(|error| port_in_use("TCP", ip, port, flag, &error))?;
         let bound = listener.local_addr().map_or(port, |address| address.port());
@@ -164,7 +164,7 @@ impl SocketHub {
     /// Opens a serial port; when it vanishes it is opened again as soon as it is back.
     ///
     /// # Errors
-    /// When it cannot be opened.
+    /// If it cannot be opened.
     pub fn serve_serial(&mut self, device: &SerialDevice) -> Result<(), AppError> {
         let port = device.open().map_err(|error| AppError::failed(format!("--serial {device}: {error}")))?;
         // Numbered from the other end, so that they never meet those of TCP clients.

@@ -41,7 +41,7 @@ impl ParamFile {
     /// Writes it as a whole: whoever reads it meanwhile, and whoever finds it after a crash, sees the old or the new one.
     ///
     /// # Errors
-    /// When it cannot be written; the old one is left.
+    /// If it cannot be written; the old one is left.
     pub fn write(&self, text: &str) -> Result<(), AppError> {
         let failed = |error: std::io::Error| AppError::failed(format!("--params {}: {error}", self.path.display()));
         let beside = beside(&self.path);

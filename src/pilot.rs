@@ -17,31 +17,31 @@ use std::time::Duration;
 
 /// Longest wait for a datagram.
 const WAIT: Duration = Duration::from_millis(50);
-/// A vehicle that was heard and then is silent for this much wall time is gone.
+/// Wall time without a datagram after which a connected vehicle counts as lost.
 const SILENT: Duration = Duration::from_secs(10);
 
-/// How well the synthetic trainee flies.
+/// Skill level of the synthetic trainee.
 #[derive(Debug, Clone, clap::Args)]
 pub struct SkillArgs {
     /// Skill of the synthetic trainee: novice, trained or expert
     #[arg(long, value_name = "SKILL", default_value = "trained", value_parser = ["novice", "trained", "expert"])]
     pub skill: String,
-    /// Take these numbers from the expert instead, to see what each is worth: delay, gain, noise, preview, lapses
+    /// Take these parameters from the expert instead, to measure the effect of each: delay, gain, noise, preview, lapses
     #[arg(long, value_name = "FACTOR,...", value_delimiter = ',', value_parser = SkillFactor::from_str)]
     pub expert_in: Vec<SkillFactor>,
 }
 
 impl SkillArgs {
-    /// The pilot's numbers.
+    /// Returns the parameters of the synthetic trainee.
     ///
     /// # Errors
-    /// When there is no such skill.
+    /// If there is no such skill.
     pub fn skill(&self) -> Result<Skill, AppError> {
         let base = self.skill.parse::<Skill>().map_err(AppError::wrong)?;
         Ok(self.expert_in.iter().fold(base, |pilot, factor| pilot.with(*factor, Skill::EXPERT)))
     }
 
-    /// As arguments of a child process.
+    /// Returns the options as arguments for a child process.
     pub fn to_args(&self) -> Vec<String> {
         let mut args = vec!["--skill".to_owned(), self.skill.clone()];
         if !self.expert_in.is_empty() {
@@ -54,9 +54,9 @@ impl SkillArgs {
 
 /// Fly the job as a synthetic trainee
 ///
-/// Connects to the vehicle over UDP as a person's ground station does and flies with manual control, lamp, gimbal and snapshot commands
-/// alone: takes off, does the tasks in order, photographs what it notices, lands. Its errors come out of reaction delay, gain, noise,
-/// preview and lapses of attention.
+/// Connects to the vehicle over UDP as a ground station does, and uses only manual control, lamp, gimbal and snapshot commands:
+/// takes off, flies the tasks in order, photographs the defects it notices, and lands. Its errors result from reaction delay,
+/// gain, noise, preview and lapses of attention.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -72,19 +72,19 @@ pub struct Args {
     job: JobArgs,
     #[command(flatten)]
     skill: SkillArgs,
-    /// Dial the vehicle here
+    /// Address of the vehicle
     #[arg(long, value_name = "HOST:PORT", value_parser = args::address, default_value = "127.0.0.1:18570")]
     connect: SocketAddr,
-    /// Wait for the vehicle's first datagram on this UDP port instead of dialling; 0 for any free one
+    /// Wait for the vehicle's first datagram on this UDP port instead of connecting to an address; 0 for any free port
     #[arg(long, value_name = "PORT", conflicts_with = "connect")]
     port: Option<u16>,
     /// Local address to bind
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = args::listen)]
     listen: IpAddr,
-    /// Print one JSON line {"port"} on standard output first
+    /// Print one JSON line {"port"} on standard output at startup
     #[arg(long)]
     announce: bool,
-    /// Finish when standard input closes (for a parent process); until then keep the link alive after the flight
+    /// Exit when standard input closes (for a parent process); until then keep the link alive after the flight
     #[arg(long)]
     leash: bool,
 }
@@ -92,7 +92,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When files or ports are wrong, the vehicle never answers or vanishes, or the flight could not begin.
+/// If files or ports are invalid, the vehicle never responds or is lost, or the flight could not begin.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let stop = StopRequest::install(args.leash)?;
     let scenario = files::scenario(&args.job.scenario)?.scenario;

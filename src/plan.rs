@@ -11,10 +11,10 @@ use spandrel_training::record::{IncompletePolicy, omitted_summary};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// Say what a trainee should fly next, and why
+/// Recommend a trainee's next exercises, with reasons
 ///
-/// Reads the trainee's records (see `spandrel records import`): which task, which axis, speeding where, crashing into what, defects
-/// missed by what the picture lacked. The rules are a file; --rules takes another.
+/// Analyzes the trainee's records (see `spandrel records import`): the weakest tasks and axes, where they were speeding, what
+/// they hit, and why pictures missed defects. The rules come from a file; --rules selects another one.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -24,21 +24,21 @@ Examples:
 
 {EXIT_CODES}"))]
 pub struct Args {
-    /// Pseudonym
+    /// Trainee ID (pseudonym)
     #[arg(value_name = "ID")]
     trainee: TraineeId,
     #[command(flatten)]
     place: RecordsLocation,
-    /// Records as `spandrel records export` writes them, instead of a database
+    /// Read records from this file, as written by `spandrel records export`, instead of a database
     #[arg(long, value_name = "FILE")]
     records: Option<PathBuf>,
-    /// Other rules than the shipped ones
+    /// Rules file to use instead of the shipped rules
     #[arg(long, value_name = "FILE")]
     rules: Option<PathBuf>,
-    /// Plan by incomplete sessions as well; they are left out otherwise
+    /// Include incomplete sessions
     #[arg(long)]
     include_incomplete: bool,
-    /// As JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }
@@ -46,7 +46,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When files or the database are wrong, or the trainee has no session.
+/// If files or the database are invalid, or the trainee has no session.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let trainee = args.trainee.as_str();
     let mut records = match &args.records {
@@ -65,10 +65,10 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     files::write("-", if args.json { json_text(&plan) } else { words(&plan) }.as_bytes())
 }
 
-/// The shipped rules, or those of a file.
+/// Returns the shipped rules, or the rules of a file.
 ///
 /// # Errors
-/// When the file cannot be read or is wrong.
+/// If the file cannot be read or is invalid.
 pub fn rules(file: Option<&Path>) -> Result<PlanRules, AppError> {
     match file {
         Some(path) => Ok(read_rules(&path.display().to_string(), &files::read(path)?)?),

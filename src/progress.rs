@@ -31,7 +31,7 @@ impl ProgressLog {
         Self { bar, stopwatch: Stopwatch::start(), lines: 0 }
     }
 
-    /// Tells where things stand; call as often as you like.
+    /// Reports the progress; can be called at any rate.
     pub fn report(&mut self, message: impl FnOnce() -> String) {
         match &self.bar {
             Some(bar) => bar.set_message(message()),

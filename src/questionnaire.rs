@@ -12,16 +12,17 @@ use spandrel_training::questionnaire::{
 use std::io::{BufRead, Write};
 use std::path::{Path, PathBuf};
 
-/// Answer the questions after a flight
+/// Answer the questionnaire after a flight
 ///
-/// Asks how far you agree with three statements on the whole session and three on each phase (24 for the paper's job). Every answer is
-/// saved at once in the session's answers.json; leave when you like, the same command goes on where you were.
+/// Asks for your agreement with three statements about the whole session and three about each phase (24 for the paper's job).
+/// Every answer is saved immediately in the session's answers.json. You can leave at any time and continue later with the same
+/// command.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel questionnaire sessions/20260801T...             asks what is still open
-  spandrel questionnaire sessions/20260801T... --tlx       and the six scales of NASA-TLX
-  spandrel questionnaire sessions/20260801T... --again     asks everything once more; Enter keeps an answer
+  spandrel questionnaire sessions/20260801T...             asks the open questions
+  spandrel questionnaire sessions/20260801T... --tlx       also asks the six scales of NASA-TLX
+  spandrel questionnaire sessions/20260801T... --again     asks everything again; Enter keeps an answer
   spandrel questionnaire sessions/20260801T... --language de    in German (en, de, es)
 
 {EXIT_CODES}"))]
@@ -29,28 +30,28 @@ pub struct Args {
     /// Session folder
     #[arg(value_name = "SESSION")]
     session: PathBuf,
-    /// Ask the six scales of NASA-TLX, too
+    /// Also ask for the six scales of NASA-TLX
     #[arg(long)]
     tlx: bool,
-    /// Ask what is already answered, too
+    /// Ask all questions again, including those already answered
     #[arg(long)]
     again: bool,
-    /// Wording of your own (a copy of a shipped one with other texts)
+    /// Custom wording (a copy of a shipped one with other texts)
     #[arg(long, value_name = "FILE", conflicts_with = "language")]
     wording: Option<PathBuf>,
-    /// Language to ask in: en, de or es [default: that of the answers so far, else the terminal's, else en]
+    /// Language: en, de or es [default: that of the saved answers, else the terminal's, else en]
     #[arg(long, value_name = "TAG")]
     language: Option<String>,
 }
 
-/// One thing to ask.
+/// A single question.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum PromptQuestion {
     Likert(QuestionnaireItem),
     Tlx(TlxScale),
 }
 
-/// What a person typed.
+/// Input that a person typed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum TypedInput {
     Answer(u8),
@@ -63,7 +64,7 @@ enum TypedInput {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When the session or a file is wrong, or answers cannot be written.
+/// If the session or a file is invalid, or answers cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let scenario = StoredSession::scenario_of(&args.session)?.scenario;
     let mut answers = stored(&args.session, &scenario)?.unwrap_or_default();
@@ -81,10 +82,10 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Answers of a session so far; `None` when none was begun.
+/// Returns the saved answers of a session, or `None` if there are none.
 ///
 /// # Errors
-/// When the file cannot be read or is wrong.
+/// If the file cannot be read or is invalid.
 pub fn stored(session: &Path, scenario: &Scenario) -> Result<Option<Answers>, AppError> {
     let path = session.join(ANSWERS);
     if !path.is_file() {
@@ -93,21 +94,21 @@ pub fn stored(session: &Path, scenario: &Scenario) -> Result<Option<Answers>, Ap
     Ok(Some(read_answers(&path.display().to_string(), &files::read(&path)?, &task_ids(scenario))?))
 }
 
-/// Numbers of the tasks, as the questions use them.
+/// Returns the task numbers as used in the questions.
 pub fn task_ids(scenario: &Scenario) -> Vec<u32> {
     scenario.tasks.iter().map(|task| task.id).collect()
 }
 
-/// A site's own wordings and the shipped ones.
+/// Returns the custom wordings and the shipped ones.
 ///
 /// # Errors
-/// When a file cannot be read or is wrong.
+/// If a file cannot be read or is invalid.
 pub fn languages(own: &[PathBuf]) -> Result<Languages, AppError> {
     let read = |path: &PathBuf| Ok(read_wording(&path.display().to_string(), &files::read(path)?)?);
     Ok(Languages::with(own.iter().map(read).collect::<Result<Vec<_>, AppError>>()?)?)
 }
 
-/// The language that is asked for, that of the file, that of the answers so far, or that of the terminal.
+/// Returns the language: the requested one, that of the file, that of the saved answers, or that of the terminal.
 fn chosen<'a>(args: &Args, languages: &'a Languages, answers: &Answers) -> Result<&'a Wording, AppError> {
     if let Some(tag) = &args.language {
         let names: Vec<&str> = languages.all().iter().map(|wording| wording.language.as_str()).collect();
@@ -119,7 +120,7 @@ fn chosen<'a>(args: &Args, languages: &'a Languages, answers: &Answers) -> Resul
     Ok(if args.wording.is_some() { first } else { begun().or_else(|| languages.of(&terminal_language()?)).unwrap_or(first) })
 }
 
-/// The language of the terminal: `de_CH.UTF-8` is de-CH.
+/// Returns the terminal's language as a language tag: `de_CH.UTF-8` becomes de-CH.
 fn terminal_language() -> Option<String> {
     let set = |name: &&str| std::env::var(name).ok().filter(|value| !value.is_empty());
     let value = ["LC_ALL", "LC_MESSAGES", "LANG"].iter().find_map(set)?;
@@ -133,7 +134,7 @@ fn questions(args: &Args, scenario: &Scenario, answers: &Answers) -> Vec<PromptQ
     likert.map(PromptQuestion::Likert).chain(tlx.map(PromptQuestion::Tlx)).collect()
 }
 
-/// Asks one question after the other until all are answered or the person leaves.
+/// Asks the questions in order until all are answered or the person leaves.
 fn ask_questions(
     questions: &[PromptQuestion],
     wording: &Wording,
@@ -219,7 +220,7 @@ mod tests {
     use super::*;
     use spandrel_training::questionnaire::{InspectionPhase, OverallItem, PhaseAspect};
 
-    /// Types lines into a questionnaire of the paper's job; returns the answers, what was shown, how often it was saved.
+    /// Enters lines into a questionnaire of the paper's job. Returns the answers, the output and the number of saves.
     fn type_in(questions: &[PromptQuestion], answers: &mut Answers, lines: &str) -> (String, usize) {
         let scenario = files::scenario("two-bridges").unwrap().scenario;
         let (mut shown, mut saved) = (Vec::new(), 0);

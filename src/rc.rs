@@ -19,68 +19,68 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
-/// Longest wait for a datagram: a quarter of the time between two stick samples.
+/// Longest wait for a datagram: a quarter of the interval between two stick samples.
 const WAIT: Duration = Duration::from_millis(5);
-/// A vehicle that was heard and then is silent for this much wall time is gone.
+/// Wall time without a datagram after which a connected vehicle counts as lost.
 const SILENT: Duration = Duration::from_secs(10);
-/// A vehicle that has not been heard after this much wall time is told to be waited for.
+/// Wall time without a first datagram after which a waiting message is shown.
 const PATIENCE: Duration = Duration::from_secs(3);
-/// The key that ends flying in the terminal.
+/// Key that ends flying in the terminal.
 const ENDS: &str = "escape";
-/// Between two looks of the wizard at the device.
+/// Interval at which the calibration wizard polls the device.
 const LOOK: Duration = Duration::from_millis(5);
 const NO_ENTER: &str = "nothing was kept: calibrating asks for Enter, and standard input has ended (run it in a terminal, or calibrate in the window of `spandrel train`)";
 
-/// Fly with a gamepad, a transmitter or the keyboard
+/// Fly with a gamepad, an RC transmitter or the keyboard
 ///
-/// Sends a controller's sticks to the vehicle as MANUAL_CONTROL, 50 times a second, and its buttons as commands. A device is calibrated
-/// once (--calibrate) and known from then on. When it is lost, the sticks are centred for a moment and then silent, so that the vehicle's
-/// own failsafe acts.
+/// Sends the sticks to the vehicle as MANUAL_CONTROL at 50 Hz, and the buttons as commands. Calibrate each device once
+/// (--calibrate); it is recognized from then on. If the device is lost, the sticks are centered briefly and then no longer sent,
+/// so that the vehicle's own failsafe acts.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel rc --list                       what is connected, and whether it is calibrated
+  spandrel rc --list                       connected devices, and whether they are calibrated
   spandrel rc --calibrate                  asks which stick is which, in the terminal
   spandrel rc                              fly the simulator on this machine
-  spandrel rc --keyboard                   W S A D and arrows, B lamp, P snapshot, T take-off, L land, Escape ends
-  spandrel rc --record flight.jsonl        keeps what the device reports; --replay flies it again
+  spandrel rc --keyboard                   W S A D and arrows, B lamp, P snapshot, T take-off, L land, Escape exits
+  spandrel rc --record flight.jsonl        records the device's input; --replay replays it
 
 {EXIT_CODES}"))]
 pub struct Args {
-    /// Dial the vehicle here
+    /// Address of the vehicle
     #[arg(long, value_name = "HOST:PORT", value_parser = args::address, default_value = "127.0.0.1:18570")]
     connect: SocketAddr,
     /// Local address to bind
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = args::listen)]
     listen: IpAddr,
-    /// Print the connected devices, one a line, and end
+    /// Print the connected devices, one per line, and exit
     #[arg(long)]
     list: bool,
-    /// Ask which axis is which stick, and keep the answer
+    /// Calibrate: ask which axis belongs to which stick, and save the profile
     #[arg(long, conflicts_with_all = ["list", "keyboard", "replay"])]
     calibrate: bool,
-    /// Which device, by a part of its name or its id [default: the only one]
+    /// Device, by its ID or part of its name [default: the only one]
     #[arg(long, value_name = "NAME")]
     device: Option<String>,
-    /// Which stick does what, 1 to 4, when calibrating; 2 has throttle and yaw on the left
+    /// Stick mode for the calibration, 1 to 4; mode 2 has throttle and yaw on the left
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(i64).range(1..=4))]
     stick_mode: i64,
-    /// Folder of calibration profiles [default: spandrel/controllers in the user's configuration]
+    /// Folder of calibration profiles [default: spandrel/controllers in the user's configuration folder]
     #[arg(long, value_name = "DIR")]
     profiles: Option<PathBuf>,
-    /// Use this profile, whatever the device
+    /// Use this profile for any device
     #[arg(long, value_name = "FILE")]
     profile: Option<PathBuf>,
-    /// Fly with the terminal's keyboard
+    /// Fly with the keyboard in the terminal
     #[arg(long, conflicts_with_all = ["replay", "device", "profile"])]
     keyboard: bool,
-    /// Which key does what (TOML: format = 1, push, [sticks], [actions], [window]); the same file as that of `spandrel view`
+    /// Key bindings (TOML: format = 1, push, [sticks], [actions], [window]); the same file as for `spandrel view`
     #[arg(long, value_name = "FILE", requires = "keyboard")]
     keys: Option<PathBuf>,
-    /// Write down what the device reports, or what --replay plays
+    /// Record the device's input, or the input of --replay, to this file
     #[arg(long, value_name = "FILE", conflicts_with = "keyboard")]
     record: Option<PathBuf>,
-    /// Play what was written down instead of a device, and end with it
+    /// Replay recorded input instead of a device, and exit at its end
     #[arg(long, value_name = "FILE", conflicts_with = "device")]
     replay: Option<PathBuf>,
 }
@@ -88,7 +88,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When there is no device or terminal, it is not calibrated, files are wrong, or the vehicle vanishes.
+/// If there is no device or terminal, the device is not calibrated, files are invalid, or the vehicle is lost.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let profiles = ProfileFolder::at(args.profiles.clone());
     if args.list {
@@ -118,7 +118,7 @@ fn list(profiles: &ProfileFolder) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Who holds the sticks.
+/// Source of the stick input.
 enum StickSource {
     Device(Box<CalibratedController>),
     Keyboard { terminal: RawTerminal, board: KeyboardState },
@@ -155,7 +155,7 @@ fn pilot(args: &Args, profiles: &ProfileFolder) -> Result<StickSource, AppError>
     )?)))
 }
 
-/// A line on standard error that also begins at the left when the terminal gives single keys.
+/// Writes a line to standard error, with a carriage return so that it starts at the left in raw terminal mode.
 fn print_line(text: &str) {
     eprint!("{}\r\n", text.replace('\n', "\r\n"));
 }
@@ -275,7 +275,7 @@ fn run_wizard(
     Err(AppError::failed("stopped: nothing was kept"))
 }
 
-/// Lines of standard input, for Enter.
+/// Receives lines from standard input, to detect Enter.
 fn is_enter() -> Receiver<()> {
     let (sender, receiver) = channel();
     std::thread::spawn(move || {

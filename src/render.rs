@@ -16,12 +16,13 @@ mod video;
 #[cfg(feature = "view")]
 pub(super) use draw::{png, quality, size};
 
-/// Draw any moment of a recorded session, or a scenario from anywhere, as a PNG picture
+/// Render any moment of a recorded session, or a scenario from any viewpoint, as a PNG picture
 ///
-/// Of a session: what the aircraft's camera saw at a simulation time, what the inspector at the pad saw, or both side by side, with the
-/// head-up display. Of a scenario: from any point towards another. No window and no graphics card are needed: a software Vulkan driver
-/// does (Debian and Ubuntu: mesa-vulkan-drivers). --snapshots draws all photographs of a session as JPEG files with EXIF and XMP into its
-/// folder, --video a film of the camera's view with the photographs as chapters beside it (WebVTT).
+/// For a session: the view of the aircraft's camera at a simulation time, the inspector's view from the landing pad, or both side
+/// by side, with head-up display. For a scenario: from any point toward another. No window or graphics card is needed: a software
+/// Vulkan driver is enough (Debian and Ubuntu: mesa-vulkan-drivers). --snapshots renders all photographs of a session into its
+/// folder as JPEG files with EXIF and XMP; --video renders the camera's view, with the photographs as chapters in a separate file
+/// (WebVTT).
 #[cfg_attr(not(feature = "view"), allow(dead_code, reason = "help and errors are the same with and without the view"))]
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
@@ -39,66 +40,67 @@ pub struct Args {
     /// Session folder, scenario file, or the name of a shipped scenario
     #[arg(value_name = "SESSION|SCENARIO")]
     what: String,
-    /// Simulation time, s; of a session without it: the middle of the flight
+    /// Simulation time, s [default for a session: the middle of the flight]
     #[arg(long, value_name = "S")]
     at: Option<f64>,
-    /// Where the picture goes; '-' for standard output
+    /// Output file; '-' for standard output
     #[arg(long, value_name = "FILE", default_value = "picture.png")]
     out: String,
-    /// Which view of a session
+    /// View of a session to render
     #[arg(long, value_name = "VIEW", value_parser = ["camera", "inspector", "both"], default_value = "both")]
     view: String,
-    /// Size of each view, px; the camera's, and photographs, keep its sensor's shape within it [default: 1280x720; of photographs the
-    /// camera's, without a graphics card smaller]
+    /// Size of each view, px; the camera's view and photographs keep the sensor's aspect ratio within it [default: 1280x720; for
+    /// photographs the camera's, smaller without a graphics card]
     #[arg(long, value_name = "WxH")]
     size: Option<String>,
-    /// How much the picture may cost: low, medium, high or ultra
+    /// Rendering quality: low, medium, high or ultra
     #[arg(long, value_name = "PRESET", default_value = "high")]
     quality: String,
-    /// Beside each picture what its pixels show, to train detectors: NAME.elements.png (AASHTO element numbers), NAME.defects.png (numbers of
-    /// defects), both 16 bits grey, and NAME.masks.json (kind, condition state, box of each defect)
+    /// Write label masks for each picture, to train detectors: NAME.elements.png (AASHTO element numbers), NAME.defects.png
+    /// (defect numbers), both 16-bit grayscale, and NAME.masks.json (kind, condition state and box of each defect)
     #[arg(long, conflicts_with = "video")]
     masks: bool,
-    /// Without the head-up display
+    /// Hide the head-up display
     #[arg(long)]
     no_hud: bool,
-    /// All photographs of a session into its folder snapshots (JPEG), small copies for the report into its folder small, and the report anew
+    /// Render all photographs of a session into its folder snapshots (JPEG), with small copies for the report in its folder
+    /// small, and rewrite the report
     #[arg(long, conflicts_with_all = ["at", "out", "view", "video"])]
     snapshots: bool,
-    /// A film of a session's camera view (MP4, H.264), and beside it its chapters (.vtt)
+    /// Render a session's camera view as a video (MP4, H.264), with chapters in a .vtt file next to it
     #[arg(long, value_name = "FILE", conflicts_with_all = ["at", "out", "view"])]
     video: Option<PathBuf>,
-    /// Pictures a second of the film, 1 to 60
+    /// Video frame rate, frames per second, 1 to 60
     #[arg(long, value_name = "HZ", default_value_t = 15.0, requires = "video")]
     fps: f64,
-    /// Part of the flight in the film, s of simulation time [default: all of it]
+    /// Part of the flight in the video, s of simulation time [default: all]
     #[arg(long, value_name = "FROM,TO", requires = "video")]
     span: Option<String>,
-    /// Where the eye is, m from the scenario's origin: east, north, up; only of a scenario
+    /// Viewpoint, m from the scenario's origin: east, north, up; scenarios only
     #[arg(long, value_name = "E,N,U", allow_hyphen_values = true, requires = "look")]
     from: Option<String>,
-    /// What it looks at, m
+    /// Point to look at, m
     #[arg(long, value_name = "E,N,U", allow_hyphen_values = true, requires = "from")]
     look: Option<String>,
-    /// Horizontal field of view, deg; without it the aircraft's camera's; only of a scenario
+    /// Horizontal field of view, deg [default: that of the aircraft's camera]; scenarios only
     #[arg(long, value_name = "DEG")]
     fov: Option<f64>,
-    /// The lamp is on, at the eye; only of a scenario
+    /// Turn on the lamp, at the viewpoint; scenarios only
     #[arg(long)]
     lamp: bool,
-    /// Another start of the session, UTC, for another sun (2026-06-20T08:00:00Z); only of a scenario
+    /// Start time for the position of the sun, UTC (2026-06-20T08:00:00Z); scenarios only
     #[arg(long, value_name = "UTC")]
     utc: Option<String>,
-    /// Another share of clouds, 0 to 1; only of a scenario
+    /// Cloud cover, 0 to 1; scenarios only
     #[arg(long, value_name = "SHARE")]
     cloud: Option<f64>,
-    /// Aircraft of a scenario: a file, or the name of a shipped one
+    /// Aircraft for a scenario: a file, or the name of a shipped one
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     vehicle: String,
-    /// Leave the processor to others who want it
+    /// Run at low CPU priority
     #[arg(long)]
     nice: bool,
-    /// Seed that places defects and traffic of a scenario [default: its own]
+    /// Seed for a scenario's defects and traffic [default: its own]
     #[arg(long, value_name = "N", value_parser = args::seed)]
     seed: Option<u64>,
 }
@@ -106,7 +108,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When files are wrong, there is no such moment, or nothing to draw with.
+/// If files are invalid, the time is outside the session, or there is no graphics adapter.
 #[cfg(feature = "view")]
 pub fn run(args: &Args) -> Result<(), AppError> {
     if args.nice {
@@ -115,7 +117,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     draw::run(args)
 }
 
-/// Says what is missing.
+/// Reports that the program was built without the view.
 ///
 /// # Errors
 /// Always.

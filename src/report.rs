@@ -10,16 +10,16 @@ use spandrel_monitor::folder::{REPORT, SMALL, SNAPSHOTS, sha256_hex};
 use spandrel_training::report::{Jpeg, Review, SessionFacts, page, scorm};
 use std::path::{Path, PathBuf};
 
-/// A photograph larger than this is a sketch in the page, bytes.
+/// Maximum size of a photograph in the page, bytes; larger ones are replaced by a sketch.
 const PICTURE_MOST: u64 = 400_000;
-/// All photographs in a page together, bytes: with the rest it stays below 10 MB.
+/// Maximum total size of photographs in a page, bytes; keeps the page below 10 MB.
 const PICTURES_MOST: u64 = 4_000_000;
 
 /// Write the report of a session
 ///
-/// One page that opens in any browser, offline, and prints: scores, tasks, the flight on the site, pictures and what was missed, feedback and
-/// reactions, surface coverage. Made from the telemetry and the two files of the session folder; live sessions end by writing it too. With two
-/// sessions it compares them.
+/// The report is one printable page that opens offline in any browser: scores, tasks, the flight on the site, pictures and missed
+/// defects, feedback and reactions, and surface coverage. It uses the telemetry and the two files of the session folder. Live
+/// sessions write it automatically at the end. With two sessions, the page compares them.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -32,10 +32,10 @@ pub struct Args {
     /// Session folder
     #[arg(value_name = "SESSION")]
     session: PathBuf,
-    /// A second session folder, to compare with the first
+    /// Second session folder to compare with the first
     #[arg(value_name = "SESSION", requires = "out")]
     other: Option<PathBuf>,
-    /// Write the page here, '-' for standard output [default: report.html in the session folder]
+    /// Output file; '-' for standard output [default: report.html in the session folder]
     #[arg(long, value_name = "FILE")]
     out: Option<String>,
 }
@@ -43,7 +43,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When files are wrong, there is nothing to report, or the page cannot be written.
+/// If files are invalid, the session has no data to report, or the page cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let progress = ProgressLog::start("writing the report");
     let text = match &args.other {
@@ -70,7 +70,7 @@ pub fn write(session: &Path) -> Result<(), AppError> {
     replace(&session.join(REPORT), page::session(&review(session)?).as_bytes())
 }
 
-/// Names and contents of a session's SCORM package.
+/// Returns names and contents of the files in a session's SCORM package.
 ///
 /// # Errors
 /// As [`run`].
@@ -79,7 +79,7 @@ pub fn package(session: &Path) -> Result<Vec<(&'static str, String)>, AppError> 
     Ok(scorm::files(&review, &page::session(&review)))
 }
 
-/// The page that compares two sessions.
+/// Returns the page that compares two sessions.
 ///
 /// # Errors
 /// As [`run`].
@@ -87,7 +87,7 @@ pub fn compared(first: &Path, second: &Path) -> Result<String, AppError> {
     Ok(page::comparison(&review(first)?, &review(second)?))
 }
 
-/// A session's pictures with their verdicts.
+/// Returns a session's pictures with their assessments.
 ///
 /// # Errors
 /// As [`run`].
@@ -97,14 +97,14 @@ pub fn pictures(session: &Path) -> Result<Vec<spandrel_training::report::picture
     Ok(reviewed(session, Vec::new())?.pictures)
 }
 
-/// Largest file, bytes, of each of so many photographs, if the page is to hold all of them.
+/// Returns the maximum size of each photograph, bytes, if the page contains this many.
 #[cfg(feature = "view")]
 pub fn max_pictures(count: usize) -> usize {
     let share = PICTURES_MOST / (count.max(1) as u64);
     share.min(PICTURE_MOST) as usize
 }
 
-/// A file's address for a browser.
+/// Returns the URL of a file for a browser.
 pub fn address(path: &Path) -> String {
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
     let mut address = String::from("file://");
@@ -147,7 +147,8 @@ fn session_facts(session: &Path, stored: &StoredSession) -> Result<SessionFacts,
     })
 }
 
-/// The photographs that the page can hold, by the number that ends their names; each as its copy, where there is one.
+/// Returns the photographs that fit into the page, keyed by the number at the end of their names, each as its small copy if there
+/// is one.
 fn photographs(folder: &Path) -> Vec<(u32, Jpeg)> {
     let files = numbered(folder);
     let (mut left, mut found) = (PICTURES_MOST, Vec::new());
@@ -174,7 +175,7 @@ fn photographs(folder: &Path) -> Vec<(u32, Jpeg)> {
     found
 }
 
-/// Photographs by the number that ends their names, or their copies.
+/// Returns the photographs or their copies, keyed by the number at the end of their names.
 fn numbered(folder: &Path) -> Vec<(u32, PathBuf)> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let mut names: Vec<_> = entries.flatten().map(|entry| entry.file_name()).collect();
@@ -184,7 +185,7 @@ fn numbered(folder: &Path) -> Vec<(u32, PathBuf)> {
     names.iter().filter_map(|name| Some((number_of(Path::new(name))?, file(name)))).collect()
 }
 
-/// The number that ends the name of a JPEG file.
+/// Returns the number at the end of a JPEG file's name.
 fn number_of(path: &Path) -> Option<u32> {
     let ending = path.extension()?.to_str()?.to_ascii_lowercase();
     let stem = path.file_stem()?.to_str()?;

@@ -52,7 +52,7 @@ impl SessionFolder {
     /// Makes `SESSIONS/<utc>-<trainee>-<scenario>-<short id>/`.
     ///
     /// # Errors
-    /// When it cannot be made or written.
+    /// If it cannot be made or written.
     pub fn create(
         sessions: &Path,
         trainee: &str,
@@ -143,7 +143,7 @@ impl SessionFolder {
     /// Waits until the session is on the disk itself.
     ///
     /// # Errors
-    /// When the disk refuses.
+    /// If the disk cannot be written.
     pub fn sync(&self) -> Result<(), WriteRefused> {
         self.telemetry.sync()?;
         self.events.sync()?;
@@ -154,7 +154,7 @@ impl SessionFolder {
     /// Writes the seed and the placed defects into `scenario.toml`.
     ///
     /// # Errors
-    /// When the disk refuses; the next call tries again.
+    /// If the disk cannot be written; the next call retries.
     pub fn resolve(&mut self, seed: u64, placed: &[PlacedDefect]) -> Result<(), WriteRefused> {
         let resolved = scenario::resolve(&self.scenario_toml, seed, placed);
         replace_durably(&self.path.join(SCENARIO), resolved.as_bytes())?;
@@ -165,7 +165,7 @@ impl SessionFolder {
     /// Writes `session.json`.
     ///
     /// # Errors
-    /// When the disk refuses.
+    /// If the disk cannot be written.
     pub fn describe(&self, info: impl FnOnce(&[u8], &[u8], String, u32) -> SessionInfo) -> Result<(), WriteRefused> {
         let (scenario, vehicle) = (self.scenario_toml.as_bytes(), self.vehicle_toml.as_bytes());
         let info = info(scenario, vehicle, self.started_utc.clone(), self.starts);
@@ -175,7 +175,7 @@ impl SessionFolder {
     /// Writes `assessment.json`.
     ///
     /// # Errors
-    /// When the disk refuses.
+    /// If the disk cannot be written.
     pub fn assessment(&self, json: &str) -> Result<(), WriteRefused> {
         replace_durably(&self.path.join(ASSESSMENT), json.as_bytes())
     }
@@ -310,7 +310,7 @@ fn new_folder(sessions: &Path, stem: &str, started_unix_us: u64) -> Result<PathB
 /// Writes beside and renames, so that a reader or a kill never sees half a file.
 ///
 /// # Errors
-/// When the disk refuses.
+/// If the disk cannot be written.
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
     Ok(replaced(path, bytes, |_| Ok(()))?)
 }
@@ -318,7 +318,7 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
 /// As [`replace`], and not even a power failure leaves half a file.
 ///
 /// # Errors
-/// When the disk refuses.
+/// If the disk cannot be written.
 pub fn replace_durably(path: &Path, bytes: &[u8]) -> Result<(), WriteRefused> {
     replaced(path, bytes, File::sync_data)
 }

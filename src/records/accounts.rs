@@ -35,7 +35,7 @@ impl Database {
     /// A person; `None` when nobody has this name.
     ///
     /// # Errors
-    /// When the database refuses.
+    /// If the database fails.
     pub fn account(&self, name: &str) -> Result<Option<Account>, AppError> {
         self.run(async {
             let row = sqlx::query(ACCOUNT).bind(name.to_owned()).fetch_optional(&self.pool).await?;
@@ -46,7 +46,7 @@ impl Database {
     /// Adds a person or sets his role, and his password, in one change; his details stay.
     ///
     /// # Errors
-    /// When the database refuses.
+    /// If the database fails.
     pub fn set_login(&self, name: &str, role: Role, hash: &str) -> Result<(), AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -60,7 +60,7 @@ impl Database {
     /// Changes somebody's password, if it still is the one that was checked; false when it is not.
     ///
     /// # Errors
-    /// When the database refuses.
+    /// If the database fails.
     pub fn change_password(&self, name: &str, before: &str, after: &str) -> Result<bool, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -73,7 +73,7 @@ impl Database {
     /// Takes somebody's password away: he logs in no more. False when he had none.
     ///
     /// # Errors
-    /// When the database refuses.
+    /// If the database fails.
     pub fn drop_password(&self, name: &str) -> Result<bool, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -86,7 +86,7 @@ impl Database {
     /// Those who may log in.
     ///
     /// # Errors
-    /// When the database refuses.
+    /// If the database fails.
     pub fn with_password(&self) -> Result<Vec<String>, AppError> {
         self.run(async {
             let rows = sqlx::query("SELECT pseudonym FROM passwords ORDER BY pseudonym").fetch_all(&self.pool).await?;

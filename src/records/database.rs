@@ -112,7 +112,7 @@ impl Database {
     /// Returns a text that differs from an earlier answer of the same handle whenever another handle has changed the database since.
     ///
     /// # Errors
-    /// When the database refuses.
+    /// If the database fails.
     pub fn version(&self) -> Result<String, AppError> {
         self.run(async {
             match self.kind {

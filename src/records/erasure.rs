@@ -39,7 +39,7 @@ pub(super) fn name_of(folder: &Path) -> String {
 /// Removes folders that the database has marked (`Database::erase`, `Database::delete_sessions`).
 ///
 /// # Errors
-/// When the disk or the database refuses; the next start tries again.
+/// If the disk or the database refuses; the next start tries again.
 pub(super) fn remove_folders(database: &Database, folders: &[PathBuf]) -> Result<(), AppError> {
     for folder in folders {
         let name = name_of(folder);
@@ -60,7 +60,7 @@ pub(super) fn remove_folders(database: &Database, folders: &[PathBuf]) -> Result
 /// Finishes the erasures that a kill has cut off.
 ///
 /// # Errors
-/// When the disk or the database refuses.
+/// If the disk or the database refuses.
 pub(super) fn finish(database: &Database, sessions: &[PathBuf]) -> Result<(), AppError> {
     let marked = database.erasing()?;
     for entry in sessions.iter().filter_map(|folder| std::fs::read_dir(folder).ok()).flatten().flatten() {

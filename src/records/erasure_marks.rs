@@ -57,7 +57,7 @@ impl Database {
     /// What was erased so far.
     ///
     /// # Errors
-    /// When the database refuses.
+    /// If the database fails.
     pub fn erased(&self) -> Result<ErasureMarks, AppError> {
         self.run(async {
             let rows = sqlx::query("SELECT what, sha256, erased_unix_us FROM erased").fetch_all(&self.pool).await?;

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 /// Session folders directly inside these, in the order of their names (that is, of their times).
 ///
 /// # Errors
-/// When a folder cannot be read.
+/// If a folder cannot be read.
 pub fn session_folders(sessions: &[PathBuf]) -> Result<Vec<PathBuf>, AppError> {
     let mut found = Vec::new();
     for folder in sessions {

@@ -31,18 +31,18 @@ use spandrel_training::record::{SessionOutcome, SessionRecord};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// µs in a day.
+/// Microseconds in one day.
 const DAY_US: u64 = 86_400_000_000;
-/// Longest retention that can be asked for, days: a century.
+/// Maximum retention time, days (100 years).
 const RETENTION_MAX_DAYS: i64 = 36_525;
-/// Records go into the database in parcels of so many, so that a kill costs little work.
+/// Maximum number of records per database transaction, so that an interrupted import loses little work.
 const PARCEL: usize = 64;
 
 /// Keep sessions, trainees and answers in a database
 ///
-/// SQLite in a file beside the sessions, or PostgreSQL by URL for a training centre where many stations write at once (a password
-/// comes from PGPASSWORD or ~/.pgpass, so that no process list shows it). The session folders stay the source: `rebuild` makes the
-/// database again.
+/// Uses an SQLite file next to the sessions, or PostgreSQL by URL for a training center where many stations write at once. The
+/// PostgreSQL password comes from PGPASSWORD or ~/.pgpass, so process lists do not show it. The session folders remain the source
+/// of truth: `rebuild` recreates the database from them.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -51,8 +51,8 @@ Examples:
   spandrel records import --database 'postgres://spandrel@db/training?sslmode=verify-full&sslrootcert=centre.pem'
   spandrel records list
   spandrel records trainee anna --age-band 25-34 --drone-experience none --gaming-experience some
-  spandrel records export --trainee anna --out anna.json    everything that is kept of her
-  spandrel records export --out all.jsonl                   all records, one a line, for spandrel cohort --records
+  spandrel records export --trainee anna --out anna.json    all her stored data
+  spandrel records export --out all.jsonl                   all records, one per line, for spandrel cohort --records
   spandrel records push https://lrs.example/xapi            xAPI statements to a learning record store
   spandrel records erase --trainee anna                     says what would go; with --yes it goes, folders too
   spandrel records retention --days 730                     the same for everything older than two years
@@ -66,85 +66,85 @@ pub struct Args {
     what: RecordsCommand,
 }
 
-/// Where records and sessions are.
+/// Locations of the database and the session folders.
 #[derive(Debug, Clone, clap::Args)]
 pub struct RecordsLocation {
-    /// Folder with session folders; may be repeated
+    /// Folder that contains session folders; may be repeated
     #[arg(long, global = true, value_name = "DIR", default_value = "sessions")]
     pub sessions: Vec<PathBuf>,
     /// Database: a file, or postgres://USER@HOST/NAME [default: records.sqlite in the first folder of sessions]
     ///
-    /// A URL of PostgreSQL says after a '?' how the line is kept secret: sslmode=disable, prefer (without it: TLS where the server has it,
-    /// whoever it is), require (TLS, whoever it is) or verify-full (signed by a known authority for this host's name: what a network
-    /// wants). Known are the authorities of this machine and those in sslrootcert=FILE; sslcert=FILE and sslkey=FILE show a certificate of
-    /// our own. All files are PEM.
+    /// For PostgreSQL, sslmode in the URL's query selects the encryption: disable; prefer (the default: TLS if the server
+    /// supports it, without verifying its certificate); require (TLS, without verifying the certificate); or verify-full (a
+    /// certificate for this host name from a trusted authority; recommended on a network). Trusted authorities are those of this
+    /// machine and those in sslrootcert=FILE; sslcert=FILE and sslkey=FILE set a client certificate. All files are PEM.
     #[arg(long, global = true, value_name = "FILE|URL")]
     pub database: Option<String>,
 }
 
 #[derive(Debug, clap::Subcommand)]
 enum RecordsCommand {
-    /// Take sessions in; what is there unchanged stays untouched (every folder is read to know; name a session to be quick)
+    /// Import new and changed sessions (reads every folder; name the sessions to be quick)
     Import {
         /// Session folders [default: all of --sessions]
         #[arg(value_name = "SESSION")]
         folders: Vec<PathBuf>,
     },
-    /// Make the sessions whose folders are here again; trainees and their details stay, and what was erased stays erased
+    /// Rebuild the sessions whose folders are on this machine; trainee details are kept, and erased sessions stay erased
     Rebuild {
-        /// Also delete sessions whose folders are not here (other stations may have them)
+        /// Also delete sessions whose folders are not on this machine (they may be on other stations)
         #[arg(long)]
         yes: bool,
     },
     /// List sessions
     List {
-        /// Only this trainee's
+        /// Only this trainee's sessions
         #[arg(long, value_name = "ID")]
         trainee: Option<TraineeId>,
-        /// So many at most, the newest first
+        /// Maximum number of sessions, newest first
         #[arg(long, value_name = "N", default_value_t = 50, conflicts_with = "json")]
         last: u32,
-        /// All of them as JSON, the oldest first, with everything that is kept
+        /// All sessions as JSON, oldest first, with every stored field
         #[arg(long)]
         json: bool,
     },
     /// Write one trainee's data, or all records
     Export {
-        /// Everything that is kept of this trainee, as one JSON document; without it all records, one JSON object a line
+        /// All stored data of this trainee as one JSON document [default: all records, one JSON object per line]
         #[arg(long, value_name = "ID")]
         trainee: Option<TraineeId>,
-        /// Where to; '-' for standard output
+        /// Output file; '-' for standard output
         #[arg(long, value_name = "FILE", default_value = "-")]
         out: String,
     },
-    /// Erase a trainee: database and session folders
+    /// Erase a trainee from the database and the session folders
     Erase {
-        /// Who
+        /// Trainee to erase
         #[arg(long, value_name = "ID")]
         trainee: TraineeId,
-        /// Do it; without, only told what would go
+        /// Erase; without this option, only list what would be erased
         #[arg(long)]
         yes: bool,
     },
-    /// Erase what is older than so many days: database and session folders
+    /// Erase everything older than this many days from the database and the session folders
     Retention {
         /// Age, days (1 to 36525)
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(i64).range(1..=RETENTION_MAX_DAYS))]
         days: i64,
-        /// Do it; without, only told what would go
+        /// Erase; without this option, only list what would be erased
         #[arg(long)]
         yes: bool,
     },
-    /// Send sessions as xAPI statements to a learning record store; what it has already is not sent twice
+    /// Send sessions as xAPI statements to a learning record store; statements already there are not sent twice
     Push(push::PushArgs),
-    /// Show or set what is known of a trainee
+    /// Show or set a trainee's details
     Trainee(PersonArgs),
 }
 
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When arguments, folders or the database are wrong.
+/// If arguments, folders or the database are invalid.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let place = &args.place;
     match &args.what {
@@ -167,10 +167,10 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 }
 
 impl RecordsLocation {
-    /// Opens the database, and finishes erasures that a kill has cut off.
+    /// Opens the database and completes interrupted erasures.
     ///
     /// # Errors
-    /// When it cannot be opened.
+    /// If the database cannot be opened.
     pub fn open(&self) -> Result<Database, AppError> {
         let database = match &self.database {
             Some(target) => Database::open(target),
@@ -186,16 +186,16 @@ impl RecordsLocation {
     }
 }
 
-/// Records as JSON lines.
+/// Returns the records as JSON lines.
 ///
 /// # Errors
-/// Never in practice: every record can be written as JSON.
+/// If a record cannot be serialized as JSON (not expected in practice).
 pub fn lines(records: &[SessionRecord]) -> Result<String, AppError> {
     let line = |record: &SessionRecord| serde_json::to_string(record).map(|text| text + "\n");
     records.iter().map(line).collect::<Result<String, _>>().map_err(|error| AppError::failed(error.to_string()))
 }
 
-/// Takes in what is new or changed; what cannot be scored is told and left out.
+/// Imports new and changed sessions. Logs and skips sessions that cannot be scored.
 fn import_folders(place: &RecordsLocation, named: &[PathBuf]) -> Result<(), AppError> {
     let folders = if named.is_empty() { import::session_folders(&place.sessions)? } else { named.to_vec() };
     let database = place.open()?;
@@ -216,19 +216,20 @@ fn erasure_note(erased: usize) -> String {
     format!(", {erased} not taken in because they or their trainees were erased (records erase removes the folders, too)")
 }
 
-/// What became of some folders.
+/// Number of session folders by import result.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 struct ImportCounts {
-    /// New or changed.
+    /// New or changed folders.
     changed: usize,
-    /// Not to be read.
+    /// Unreadable folders.
     left_out: usize,
-    /// Erased before.
+    /// Folders of erased sessions.
     erased: usize,
 }
 
 impl ImportCounts {
-    /// The record of a folder, unless it was erased, `known` holds it unchanged, or it cannot be read: `otherwise` says what becomes of it then.
+    /// Returns the record of a folder, or `None` if the session was erased, is unchanged in `known`, or cannot be read.
+    /// `otherwise` is logged as the consequence in the last case.
     fn read(
         &mut self,
         folder: &Path,
@@ -325,10 +326,10 @@ fn retention(place: &RecordsLocation, days: u64, yes: bool) -> Result<(), AppErr
     Ok(())
 }
 
-/// Records from a file of JSON lines, as `records export` writes them.
+/// Reads records from a JSON lines file, as written by `records export`.
 ///
 /// # Errors
-/// When it cannot be read or a line is no record.
+/// If the file cannot be read or a line is not a valid record.
 pub fn from_lines(path: &Path) -> Result<Vec<SessionRecord>, AppError> {
     let text = files::read(path)?;
     let numbered = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());

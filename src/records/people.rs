@@ -11,13 +11,13 @@ use spandrel_training::record::SessionRecord;
 use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE, Role, Trainee};
 use std::path::{Path, PathBuf};
 
-/// What is set of a person.
+/// Details to set for a person.
 #[derive(Debug, clap::Args)]
 pub struct PersonArgs {
     /// Pseudonym
     #[arg(value_name = "ID")]
     id: TraineeId,
-    /// What the person may do
+    /// Role, which sets the person's permissions
     #[arg(long, value_name = "ROLE", value_parser = Role::ALL.map(Role::word))]
     role: Option<String>,
     /// Age, years
@@ -31,7 +31,7 @@ pub struct PersonArgs {
     gaming_experience: Option<String>,
 }
 
-/// Everything that is kept of one trainee.
+/// All stored data of one trainee.
 #[derive(Debug, Serialize)]
 pub struct TraineeData {
     trainee: Trainee,
@@ -40,7 +40,8 @@ pub struct TraineeData {
 }
 
 impl TraineeData {
-    /// The same with the folders' names alone: where they are on a server is nobody's business who asks by the web.
+    /// Returns the same data with folder names instead of full paths, so that web responses do not reveal the server's file
+    /// system.
     #[must_use]
     pub fn without_places(mut self) -> Self {
         for folder in &mut self.folders {
@@ -51,10 +52,10 @@ impl TraineeData {
     }
 }
 
-/// Shows a person, after setting what was given.
+/// Sets the given details of a person, then prints them.
 ///
 /// # Errors
-/// When the database refuses, or there is neither such a person nor anything to set.
+/// If the database fails, or the person does not exist and no details were given.
 pub fn set(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
     let name = args.id.as_str();
     let details = [&args.age_band, &args.drone_experience, &args.gaming_experience].map(|value| value.as_deref());
@@ -66,10 +67,11 @@ pub fn set(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
     files::write("-", json_text(&person).as_bytes())
 }
 
-/// Everything that is kept of a trainee: details, sessions and answers from the database, names of the folders; `None` when it is nothing.
+/// Returns all stored data of a trainee: details, sessions and answers from the database, and folder names. `None` if there is no
+/// data.
 ///
 /// # Errors
-/// When the database or a folder cannot be read.
+/// If the database or a folder cannot be read.
 pub fn kept(database: &Database, place: &RecordsLocation, trainee: &str) -> Result<Option<TraineeData>, AppError> {
     let sessions = database.records(Some(trainee))?;
     let folders = folders_of(place, trainee)?;
@@ -81,10 +83,10 @@ pub fn kept(database: &Database, place: &RecordsLocation, trainee: &str) -> Resu
     Ok(Some(TraineeData { trainee: known.unwrap_or_else(|| Trainee::new(trainee)), sessions, folders }))
 }
 
-/// Writes everything that is kept of a trainee.
+/// Writes all stored data of a trainee.
 ///
 /// # Errors
-/// When nothing is kept, or the database or the target refuses.
+/// If there is no data, or the database or the output fails.
 pub fn export(place: &RecordsLocation, trainee: &str, out: &str) -> Result<(), AppError> {
     let database = place.open()?;
     let kept = kept(&database, place, trainee)?;
@@ -92,10 +94,10 @@ pub fn export(place: &RecordsLocation, trainee: &str, out: &str) -> Result<(), A
     files::write(out, json_text(&kept).as_bytes())
 }
 
-/// Erases a trainee, or says what would go.
+/// Erases a trainee, or lists what would be erased.
 ///
 /// # Errors
-/// When a folder or the database refuses.
+/// If a folder or the database cannot be changed.
 pub fn erase(place: &RecordsLocation, trainee: &str, yes: bool) -> Result<(), AppError> {
     let database = place.open()?;
     let folders = folders_of(place, trainee)?;
@@ -117,10 +119,10 @@ pub fn erase(place: &RecordsLocation, trainee: &str, yes: bool) -> Result<(), Ap
     Ok(())
 }
 
-/// Erases a trainee. Returns whether anything was kept, and how many sessions the database had.
+/// Erases a trainee. Returns whether any data existed, and the number of sessions in the database.
 ///
 /// # Errors
-/// When a folder or the database refuses.
+/// If a folder or the database cannot be changed.
 pub fn erase_person(database: &Database, place: &RecordsLocation, trainee: &str) -> Result<(bool, u64), AppError> {
     let folders = folders_of(place, trainee)?;
     let (known, sessions) = database.erase(trainee, &folders)?;
@@ -136,10 +138,11 @@ fn folders_of(place: &RecordsLocation, trainee: &str) -> Result<Vec<PathBuf>, Ap
     folders_where(&place.sessions, |owner, _| owner == trainee)
 }
 
-/// Session folders whose trainee and start (µs since the Unix epoch) are so; what cannot be read is told, for it may be one of them.
+/// Returns the session folders whose trainee and start (µs since the Unix epoch) satisfy the predicate. Logs unreadable folders,
+/// because they may match.
 ///
 /// # Errors
-/// When the folder of sessions cannot be read.
+/// If the folder of sessions cannot be read.
 fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result<Vec<PathBuf>, AppError> {
     let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
     let mut found = Vec::new();
@@ -153,11 +156,11 @@ fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result
     Ok(found)
 }
 
-/// Erases all sessions and session folders that started before this instant, µs since the Unix epoch. Returns how many sessions and how many
-/// folders there were.
+/// Erases all sessions and session folders that started before this time, µs since the Unix epoch. Returns the numbers of
+/// sessions and folders.
 ///
 /// # Errors
-/// When a folder or the database refuses.
+/// If a folder or the database cannot be changed.
 pub fn erase_older(database: &Database, place: &RecordsLocation, limit_us: u64) -> Result<(u64, usize), AppError> {
     let folders = folders_older(place, limit_us)?;
     let ids: Vec<String> = database.older_than(limit_us)?.into_iter().map(|(id, _)| id).collect();
@@ -166,10 +169,10 @@ pub fn erase_older(database: &Database, place: &RecordsLocation, limit_us: u64) 
     Ok((deleted, folders.len()))
 }
 
-/// Session folders that started before this instant, µs since the Unix epoch.
+/// Returns the session folders that started before this time, µs since the Unix epoch.
 ///
 /// # Errors
-/// When the folder of sessions cannot be read.
+/// If the folder of sessions cannot be read.
 pub fn folders_older(place: &RecordsLocation, limit_us: u64) -> Result<Vec<PathBuf>, AppError> {
     folders_where(&place.sessions, |_, started_unix_us| started_unix_us < limit_us)
 }

@@ -11,11 +11,11 @@ use spandrel_training::xapi::{self, HOME};
 use std::path::Path;
 use std::time::Duration;
 
-/// File of a session's statements, beside its telemetry.
+/// Name of the file with a session's statements, in the session folder.
 pub const STATEMENTS: &str = "xapi.jsonl";
-/// Statements in one request.
+/// Maximum number of statements per request.
 const PARCEL: usize = 50;
-/// A store that does not answer, or answers that it cannot now, is asked again after these waits.
+/// Delays before retries if the store does not respond or is temporarily unavailable.
 const WAITS: [Duration; 5] = [
     Duration::from_millis(200),
     Duration::from_secs(1),
@@ -23,28 +23,28 @@ const WAITS: [Duration; 5] = [
     Duration::from_secs(10),
     Duration::from_secs(30),
 ];
-/// An answer may take this long.
+/// Timeout of a request.
 const PATIENCE: Duration = Duration::from_secs(60);
-/// Where name and password come from, so that no process list shows them.
+/// Environment variables with user name and password, so that process lists do not show them.
 const USER: &str = "SPANDREL_LRS_USER";
 const PASSWORD: &str = "SPANDREL_LRS_PASSWORD";
 
-/// Where statements go.
+/// Destination of the statements.
 #[derive(Debug, clap::Args)]
 pub struct PushArgs {
-    /// Address of the store's xAPI endpoint, e.g. https://lrs.example/xapi; name and password for it come from SPANDREL_LRS_USER and
+    /// URL of the store's xAPI endpoint, such as https://lrs.example/xapi; user name and password come from SPANDREL_LRS_USER and
     /// SPANDREL_LRS_PASSWORD
     #[arg(value_name = "URL", value_parser = endpoint)]
     url: String,
     /// Only this trainee's sessions
     #[arg(long, value_name = "ID")]
     trainee: Option<crate::args::TraineeId>,
-    /// Address whose accounts the pseudonyms are, as statements name it
+    /// Account home page (xAPI homePage) of the pseudonyms in the statements
     #[arg(long, value_name = "URL", default_value = HOME)]
     home: String,
 }
 
-/// What a store did with statements.
+/// Number of statements by the store's response.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 struct PushCounts {
     sent: usize,
@@ -59,10 +59,10 @@ fn endpoint(text: &str) -> Result<String, String> {
     Ok(text.trim_end_matches('/').to_owned())
 }
 
-/// Pushes all sessions of the database, the oldest first.
+/// Sends all sessions of the database, oldest first.
 ///
 /// # Errors
-/// When the store refuses, or is not to be reached; what it has taken until then it has.
+/// If the store rejects statements or cannot be reached. Statements accepted before the error stay in the store.
 pub fn push(place: &RecordsLocation, database: &Database, args: &PushArgs) -> Result<(), AppError> {
     let records = database.records(args.trainee.as_ref().map(crate::args::TraineeId::as_str))?;
     let store = LearningRecordStore::new(&args.url)?;
@@ -82,7 +82,7 @@ pub fn push(place: &RecordsLocation, database: &Database, args: &PushArgs) -> Re
     Ok(())
 }
 
-/// Writes the statements beside a session whose folder is here.
+/// Writes the statements into the session folder, if it is on this machine.
 fn keep(place: &RecordsLocation, record: &SessionRecord, statements: &[Value]) -> Result<(), AppError> {
     let here = |folder: &Path| crate::session_folder::is_session(&folder.join(&record.id));
     match place.sessions.iter().find(|folder| here(folder)) {
@@ -114,7 +114,7 @@ impl LearningRecordStore {
         Ok(Self { agent: config.into(), url: url.to_owned(), authorization })
     }
 
-    /// Sends statements. A conflict says that one of them is there, then each is sent by itself.
+    /// Sends statements. On a conflict (at least one already exists), sends each one separately.
     fn take(&self, statements: &[Value]) -> Result<PushCounts, AppError> {
         match self.send(statements)? {
             SentCount::Taken => Ok(PushCounts { sent: statements.len(), there_already: 0 }),
@@ -144,7 +144,7 @@ impl LearningRecordStore {
         }
     }
 
-    /// One request. An error of the line is worth another try.
+    /// Sends one request. Connection errors can be retried.
     fn once(&self, address: &str, body: &str) -> Result<PushOutcome, String> {
         let mut request =
             self.agent.post(address).header("Content-Type", "application/json").header("X-Experience-API-Version", xapi::VERSION);

@@ -37,7 +37,7 @@ impl Database {
     /// were new or changed.
     ///
     /// # Errors
-    /// When the database refuses; then nothing is taken in.
+    /// If the database fails; nothing is imported then.
     pub fn put(&self, records: &[SessionRecord]) -> Result<usize, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -50,7 +50,7 @@ impl Database {
     /// and so do trainees and their details. Returns how many were made.
     ///
     /// # Errors
-    /// When the database refuses; then all stays as it was.
+    /// If the database fails; nothing is changed then.
     pub fn rebuild(&self, records: &[SessionRecord], gone: &[String]) -> Result<usize, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -65,7 +65,7 @@ impl Database {
     /// The session that was made from this telemetry (SHA-256, hexadecimal), and its trainee.
     ///
     /// # Errors
-    /// When the database refuses.
+    /// If the database fails.
     pub fn of_telemetry(&self, sha256: &str) -> Result<Option<(String, String)>, AppError> {
         self.run(async {
             let query = sqlx::query("SELECT id, trainee FROM sessions WHERE telemetry_sha256 = $1 ORDER BY id LIMIT 1");
@@ -77,7 +77,7 @@ impl Database {
     /// Fingerprints of all sessions by their id.
     ///
     /// # Errors
-    /// When the database refuses.
+    /// If the database fails.
     pub fn fingerprints(&self) -> Result<BTreeMap<String, String>, AppError> {
         self.run(async {
             let rows = sqlx::query("SELECT id, fingerprint FROM sessions").fetch_all(&self.pool).await?;
@@ -88,7 +88,7 @@ impl Database {
     /// Records in the order of their start: all, or one trainee's.
     ///
     /// # Errors
-    /// When the database refuses or holds what is no record.
+    /// If the database fails or contains an invalid record.
     pub fn records(&self, trainee: Option<&str>) -> Result<Vec<SessionRecord>, AppError> {
         let rows: Vec<(String, String)> = self.run(async {
             let rows = match trainee {
@@ -109,7 +109,7 @@ impl Database {
     /// One session's record.
     ///
     /// # Errors
-    /// When the database refuses or holds what is no record.
+    /// If the database fails or contains an invalid record.
     pub fn record(&self, id: &str) -> Result<Option<SessionRecord>, AppError> {
         let text: Option<String> = self.run(async {
             let query = sqlx::query("SELECT record FROM sessions WHERE id = $1").bind(id.to_owned());
@@ -122,7 +122,7 @@ impl Database {
     /// How many sessions there are: all, or one trainee's.
     ///
     /// # Errors
-    /// When the database refuses.
+    /// If the database fails.
     pub fn count(&self, trainee: Option<&str>) -> Result<u64, AppError> {
         let counted: i64 = self.run(async {
             let query = match trainee {
@@ -137,7 +137,7 @@ impl Database {
     /// Sessions in short, the newest first: all, or one trainee's; so many after the first `skip`.
     ///
     /// # Errors
-    /// When the database refuses.
+    /// If the database fails.
     pub fn list(&self, trainee: Option<&str>, most: u32, skip: u32) -> Result<Vec<SessionListEntry>, AppError> {
         let query = if trainee.is_some() { LIST_OF_ONE } else { LIST };
         self.run(async {
@@ -150,7 +150,7 @@ impl Database {
     /// Ids and trainees of the sessions that started before this instant, µs since the Unix epoch.
     ///
     /// # Errors
-    /// When the database refuses.
+    /// If the database fails.
     pub fn older_than(&self, unix_us: u64) -> Result<Vec<(String, String)>, AppError> {
         self.run(async {
             let query = "SELECT id, trainee FROM sessions WHERE started_unix_us < $1 ORDER BY started_unix_us, id";
@@ -163,7 +163,7 @@ impl Database {
     /// sessions there were.
     ///
     /// # Errors
-    /// When the database refuses; then all stays as it was.
+    /// If the database fails; nothing is changed then.
     pub fn delete_sessions(&self, ids: &[String], folders: &[PathBuf]) -> Result<u64, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -182,7 +182,7 @@ impl Database {
     /// [`super::erasing::remove_folders`]. Returns whether the trainee was known, and how many sessions there were.
     ///
     /// # Errors
-    /// When the database refuses; then all stays as it was.
+    /// If the database fails; nothing is changed then.
     pub fn erase(&self, trainee: &str, folders: &[PathBuf]) -> Result<(bool, u64), AppError> {
         self.run(async {
             let mut change = self.begin().await?;

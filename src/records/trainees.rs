@@ -23,7 +23,7 @@ impl Database {
     /// All trainees.
     ///
     /// # Errors
-    /// When the database refuses.
+    /// If the database fails.
     pub fn trainees(&self) -> Result<Vec<Trainee>, AppError> {
         self.run(async {
             let rows = sqlx::query(TRAINEES).fetch_all(&self.pool).await?;
@@ -34,7 +34,7 @@ impl Database {
     /// Adds a trainee, or sets what is given of him: his role, and of his details (age, drones, games) those that are there.
     ///
     /// # Errors
-    /// When the database refuses.
+    /// If the database fails.
     pub fn set_given(&self, name: &str, role: Option<Role>, details: [Option<&str>; 3]) -> Result<(), AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -47,7 +47,7 @@ impl Database {
     /// has this name: then nothing is changed.
     ///
     /// # Errors
-    /// When the database refuses.
+    /// If the database fails.
     pub fn set_details(&self, name: &str, before: [&str; 3], after: [&str; 3]) -> Result<bool, AppError> {
         self.run(async {
             let mut change = self.begin().await?;

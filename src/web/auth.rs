@@ -83,7 +83,7 @@ impl Authenticator {
     /// Nobody has a password: whoever reaches the server does everything.
     ///
     /// # Errors
-    /// When the database refuses.
+    /// If the database fails.
     pub fn is_open(&self, database: &Database) -> Result<bool, AppError> {
         if self.somebody_has_a_password.load(Ordering::SeqCst) {
             return Ok(false);

@@ -40,7 +40,7 @@ impl FigureCache {
     /// Opens a connection of its own.
     ///
     /// # Errors
-    /// When the database cannot be opened.
+    /// If the database cannot be opened.
     pub fn open(place: &RecordsLocation) -> Result<Self, AppError> {
         Ok(Self { database: place.open()?, cache: Mutex::default() })
     }
@@ -48,7 +48,7 @@ impl FigureCache {
     /// Returns the figures of a selection.
     ///
     /// # Errors
-    /// When the database refuses or holds what is no record.
+    /// If the database fails or contains an invalid record.
     pub fn of(&self, selection: &Selection) -> Result<Arc<CohortFigures>, AppError> {
         let mut kept = lock(&self.cache);
         let version = self.database.version()?;

@@ -60,7 +60,7 @@ impl HashingSlot<'_> {
     /// Returns the password's hash.
     ///
     /// # Errors
-    /// When the system has no randomness.
+    /// If the system has no randomness.
     pub fn hash(&self, password: &str) -> Result<String, WebError> {
         Ok(self.with_memory(|memory| passwords::hash(password, memory))?)
     }

@@ -41,17 +41,18 @@ use std::path::PathBuf;
 
 /// Show sessions, trainees, cohorts and live flights in a browser
 ///
-/// Everything is served from this machine: no page makes a request elsewhere. By default only this machine reaches the server, and whoever
-/// sits at it may do everything; with the first password everybody has to log in. Trainees see only what is theirs, instructors see all and
-/// act in flights, administrators manage people. Beyond this machine the server wants a password and TLS, by its own files or by a proxy.
+/// Serves everything from this machine: no page loads anything from elsewhere. By default only this machine can connect, without
+/// a login and with full access; once the first password is set, everybody must log in. Trainees see only their own data,
+/// instructors see all data and can act in flights, and administrators manage people. To accept connections from other machines,
+/// the server needs a password and TLS, either with its own certificate or through a proxy.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel serve                                             http://127.0.0.1:8080, this machine only
-  spandrel serve --set-password maria --role administrator   asks for the password, keeps its argon2 hash, and ends
+  spandrel serve --set-password maria --role administrator   asks for the password, stores its argon2 hash, and exits
   spandrel serve --vehicle 127.0.0.1:14280 --vehicle 127.0.0.1:14281   two flights at once (instances 0 and 1)
   spandrel serve --listen 0.0.0.0:8443 --tls-cert cert.pem --tls-key key.pem --host trainer.example
-  spandrel serve --listen 127.0.0.1:8080 --behind-proxy --host trainer.example    a proxy on this machine speaks TLS
+  spandrel serve --listen 127.0.0.1:8080 --behind-proxy --host trainer.example    a proxy on this machine terminates TLS
   spandrel serve --listen 10.0.0.7:8080 --behind-proxy --trusted-proxy 10.0.0.2 --host trainer.example
   spandrel serve --database 'postgres://spandrel@db/training?sslmode=verify-full&sslrootcert=centre.pem' --sessions /srv/sessions
 
@@ -61,54 +62,55 @@ pub struct Args {
     place: RecordsLocation,
     #[command(flatten)]
     listen: ListenArgs,
-    /// Folder of uploaded scenarios [default: scenarios in the first folder of sessions]
+    /// Folder for uploaded scenarios [default: scenarios in the first folder of sessions]
     #[arg(long, value_name = "DIR")]
     scenarios: Option<PathBuf>,
-    /// Wording of the questionnaire in a language of your own, or instead of a shipped one; may be repeated
+    /// Questionnaire wording in another language, or one that replaces a shipped one; may be repeated
     ///
-    /// A copy of a shipped wording with other texts. English, German and Spanish are shipped; people choose, at first their browser does;
-    /// the first file named is what those get whose language is not there.
+    /// Copy a shipped wording and change its texts. English, German and Spanish are shipped. The browser's language is selected
+    /// at first, and people can change it; the first file given is used if there is no wording in their language.
     #[arg(long, value_name = "FILE")]
     wording: Vec<PathBuf>,
-    /// Vehicle that the live page watches: its payload port; or none; may be repeated
+    /// Vehicle on the live page: address of its payload port, or none; may be repeated
     #[arg(long, value_name = "HOST:PORT|none", default_value = "127.0.0.1:14280")]
     vehicle: Vec<args::Destination>,
-    /// Where `spandrel view --picture FILE` keeps the camera's view, for the live page; may be repeated in the order of --vehicle
+    /// Picture file that `spandrel view --picture FILE` writes, for the live page; may be repeated, in the order of --vehicle
     #[arg(long, value_name = "FILE")]
     picture: Vec<PathBuf>,
-    /// Set this person's password (typed, or from standard input) and end
+    /// Set this user's password (typed, or from standard input) and exit
     #[arg(long, value_name = "USER", requires = "role")]
     set_password: Option<TraineeId>,
-    /// What the person of --set-password may do
+    /// Role of the user of --set-password
     #[arg(long, value_name = "ROLE", value_parser = Role::ALL.map(Role::word), requires = "set_password")]
     role: Option<String>,
-    /// Print one JSON line {"address"} on standard output first
+    /// Print one JSON line {"address"} on standard output at startup
     #[arg(long)]
     announce: bool,
-    /// Finish when standard input closes (for a parent process)
+    /// Exit when standard input closes (for a parent process)
     #[arg(long)]
     leash: bool,
 }
 
-/// Where the server listens, and who may reach it.
+/// Listening address, TLS files, and proxy settings.
 #[derive(Debug, Clone, clap::Args)]
 pub struct ListenArgs {
-    /// Address and port; port 0 for any free one
+    /// Address and port to listen on; port 0 for any free port
     #[arg(long, value_name = "ADDR:PORT", default_value = "127.0.0.1:8080", value_parser = listen)]
     pub listen: SocketAddr,
-    /// Certificate chain, PEM
+    /// TLS certificate chain, PEM
     #[arg(long, value_name = "FILE", requires = "tls_key")]
     pub tls_cert: Option<PathBuf>,
-    /// Its private key, PEM
+    /// Private key of the certificate, PEM
     #[arg(long, value_name = "FILE", requires = "tls_cert")]
     pub tls_key: Option<PathBuf>,
-    /// A proxy in front speaks TLS, sets X-Forwarded-For and passes the Host header on; nobody else reaches the server
+    /// A reverse proxy terminates TLS, sets X-Forwarded-For and passes the Host header on; the server must not be reachable in
+    /// any other way
     #[arg(long, conflicts_with = "tls_cert")]
     pub behind_proxy: bool,
-    /// Address or network of that proxy, such as 10.0.0.2 or 10.0.0.0/24; may be repeated [default: this machine]
+    /// Address or network of the proxy, such as 10.0.0.2 or 10.0.0.0/24; may be repeated [default: this machine]
     #[arg(long, value_name = "ADDR[/BITS]", requires = "behind_proxy", value_parser = proxy)]
     pub trusted_proxy: Vec<IpNet>,
-    /// Name by which browsers reach the server; may be repeated. localhost and addresses always work
+    /// Host name that browsers may use for the server; may be repeated. localhost and IP addresses are always accepted
     #[arg(long, value_name = "NAME", value_parser = host_name)]
     pub host: Vec<String>,
 }
@@ -139,7 +141,7 @@ fn listen(text: &str) -> Result<SocketAddr, String> {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When arguments, files, the port or the database are wrong.
+/// If arguments, files, the port or the database are invalid.
 pub fn run(args: &Args) -> Result<(), AppError> {
     if let (Some(name), Some(role)) = (&args.set_password, args.role.as_deref().and_then(Role::from_word)) {
         return passwords::set(&args.place, name.as_str(), role);
@@ -158,7 +160,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Each vehicle with its picture.
+/// Pairs each vehicle with its picture file.
 fn watched(vehicles: &[args::Destination], pictures: &[PathBuf]) -> Result<Vec<WatchedVehicle>, AppError> {
     let addresses = vehicles.iter().filter_map(|target| match target {
         args::Destination::None => None,

@@ -32,7 +32,7 @@ impl HashingMemory {
 /// Returns the password's hash in the PHC string format.
 ///
 /// # Errors
-/// When the system has no randomness.
+/// If the system has no randomness.
 pub fn hash(password: &str, memory: &mut HashingMemory) -> Result<String, AppError> {
     let failed = |error: &dyn std::fmt::Display| AppError::failed(format!("the password cannot be hashed: {error}"));
     let mut salt = [0; 16];

@@ -1,4 +1,4 @@
-//! What a request is answered with, and the headers that every answer carries.
+//! HTTP responses, and the headers that every response carries.
 
 use crate::errors::AppError;
 use axum::body::Body;

@@ -40,7 +40,7 @@ impl WebServer {
     /// Opens the port and serves.
     ///
     /// # Errors
-    /// When arguments, files, the port or the database are wrong.
+    /// If arguments, files, the port or the database are wrong.
     pub fn start(args: &ListenArgs, setup: ServerSetup) -> Result<Self, AppError> {
         let secure = args.tls_cert.is_some() || args.behind_proxy;
         let tls = tls::config(args)?;

@@ -22,7 +22,7 @@ impl SessionImporter {
     /// Starts to look. It has a connection of its own, so that pages do not wait for it.
     ///
     /// # Errors
-    /// When the database cannot be opened.
+    /// If the database cannot be opened.
     pub fn start(place: &RecordsLocation) -> Result<Self, AppError> {
         let (sender, changed) = channel::<PathBuf>();
         let database = place.open()?;

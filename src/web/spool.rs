@@ -42,7 +42,7 @@ impl SpooledUpload {
     /// Returns the whole file.
     ///
     /// # Errors
-    /// When the disk refuses.
+    /// If the disk cannot be written.
     pub fn bytes(&self) -> Result<Cow<'_, [u8]>, AppError> {
         match self {
             Self::Memory(bytes) => Ok(Cow::Borrowed(bytes)),

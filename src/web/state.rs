@@ -1,4 +1,4 @@
-//! What all requests share.
+//! State shared by all requests.
 
 use super::auth::{AllowedOrigins, Authenticator};
 use super::figures::FigureCache;
@@ -24,7 +24,7 @@ pub struct ServerSetup {
     pub wordings: Vec<PathBuf>,
 }
 
-/// What all requests share.
+/// State shared by all requests.
 #[derive(Debug)]
 pub struct ServerState {
     /// Records.

@@ -35,7 +35,7 @@ pub fn check(args: &ListenArgs, somebody_has_a_password: bool) -> Result<(), App
 /// The files' TLS, if there are any.
 ///
 /// # Errors
-/// When a file cannot be read or is no certificate or key.
+/// If a file cannot be read or is no certificate or key.
 pub fn config(args: &ListenArgs) -> Result<Option<RustlsConfig>, AppError> {
     let (Some(chain), Some(key)) = (&args.tls_cert, &args.tls_key) else { return Ok(None) };
     let wrong =

@@ -136,7 +136,7 @@ fn free_folder(sessions: &Path, name: &str) -> PathBuf {
 /// Removes what a killed server was taking in.
 ///
 /// # Errors
-/// When the disk refuses.
+/// If the disk cannot be written.
 pub fn remove_partial_imports(sessions: &Path) -> Result<(), AppError> {
     let aside = sessions.join(ASIDE);
     match std::fs::remove_dir_all(&aside) {

@@ -29,7 +29,7 @@ fn val_the_pilots_design_gives_its_tables_and_figures() {
     assert_eq!((study.likert.len(), study.crashes.rows.len(), study.progress.len()), (96, 22, 22));
     assert_eq!(study.self_rating.people.len(), 22);
     assert!(study.causal.is_some() && study.homogeneity.len() >= 3);
-    assert!(study.warnings.iter().any(|words| words.contains("below 78")));
+    assert!(study.warnings.iter().any(|words| words.contains("fewer than 78")));
     // Three times make no learning curve.
     let no_curves = ["learning_curves.csv", "learning_of_the_group.csv"];
     assert!(tables(&study).iter().all(|(name, table)| (table.lines().count() > 1) != no_curves.contains(name)));

@@ -163,7 +163,8 @@ impl CommandQueue {
     }
 }
 
-/// Whether a message answers a step: done, or refused and why. What answers somebody else answers nothing here.
+/// Checks whether a message is the response to this step: success, or rejection with a reason. Ignores responses addressed to
+/// other systems.
 fn answer(step: &CommandStep, message: &MavMessage) -> Option<Result<(), &'static str>> {
     let ours = |system: u8, component: u8| (system, component) == (SYSTEM, COMPONENT);
     match (step, message) {

@@ -114,7 +114,7 @@ fn regress_the_mavlink_console_answers() {
         _ => None,
     });
     assert!(armed.unwrap().contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED));
-    assert!(console(&mut station, "commander mode nowhere").contains("no mode nowhere"));
+    assert!(console(&mut station, "commander mode nowhere").contains("unknown mode nowhere"));
     assert!(console(&mut station, "reboot now").contains("reboot: command not found"));
     let mut copter = Station::speaking(&spandrel_sitl::endpoint::flavour::ardupilot::FLAVOUR, "drill-hover", 7);
     copter.run_ms(1_000);
