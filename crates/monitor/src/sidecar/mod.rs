@@ -174,7 +174,7 @@ impl Monitor {
     }
 
     /// Creates a monitor that resumes an interrupted session from `log`, the contents of `telemetry.tlog`. The application
-    /// truncates the file to [`tlog::whole_len`] before appending.
+    /// truncates the file to [`tlog::complete_len`] before appending.
     ///
     /// # Errors
     /// If the log cannot be read.
