@@ -10,7 +10,7 @@ use std::path::PathBuf;
 /// Name of the subcommand.
 pub const NAME: &str = "generate";
 
-/// What to generate.
+/// Files to generate.
 #[derive(Debug, Subcommand)]
 pub enum What {
     /// Write the manual pages of the program and its subcommands

@@ -125,7 +125,7 @@ impl CalibratedController {
 /// What the window needs besides, where the controller is tried and calibrated.
 #[cfg(feature = "view")]
 impl CalibratedController {
-    /// What is known of the device.
+    /// Returns the calibration profile in use.
     pub fn profile(&self) -> &ControllerProfile {
         &self.profile
     }

@@ -19,21 +19,21 @@ use std::net::SocketAddr;
 use std::sync::Arc;
 use tokio::sync::Semaphore;
 
-/// A client that found no room may try again after this, s.
+/// Retry-After for a client that was refused for lack of capacity, s.
 const BUSY_S: u64 = 5;
 
-/// What the requests' tasks share.
+/// State shared by the tasks that handle requests.
 #[derive(Debug, Clone)]
 pub struct PipelineState {
-    /// What all requests share.
+    /// State of the server.
     pub state: Arc<ServerState>,
-    /// Room for uploads that arrive.
+    /// Limits the number of concurrent uploads.
     pub uploads: Arc<Semaphore>,
-    /// Held while a recording is scored or a cohort's figures are computed; who waits for it holds no thread.
+    /// Held while a recording is scored or a cohort's figures are computed. Waiting for it occupies no thread.
     pub working: Arc<Semaphore>,
 }
 
-/// A request for a row of the table.
+/// Handles a request for a route in the table.
 pub async fn through(shared: PipelineState, route: &'static Route, request: Request) -> Response<Body> {
     let secure = shared.state.auth.is_secure();
     let mut response = asked(shared, route, request).await;
@@ -41,7 +41,7 @@ pub async fn through(shared: PipelineState, route: &'static Route, request: Requ
     response
 }
 
-/// What a request says before its body is read.
+/// A request before its body is read.
 struct RequestHead {
     request: WebRequest,
     identity: Option<Identified>,
@@ -166,7 +166,7 @@ fn error_response(
     response
 }
 
-/// What is not in the table.
+/// Handles a request for a path that is not in the table.
 pub async fn nothing(shared: PipelineState, request: Request) -> Response<Body> {
     let status = if request.method() == Method::GET || request.method() == Method::HEAD {
         WebError::NotFound

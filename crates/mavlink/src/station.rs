@@ -1,8 +1,11 @@
 //! Messages that every ground station client sends: heartbeat, commands, and the mode in which the sticks command velocity.
 
 use super::dialect::{
-    COMMAND_LONG_DATA, HEARTBEAT_DATA, MavAutopilot, MavCmd, MavMessage, MavModeFlag, MavStandardMode, MavState, MavType,
+    COMMAND_INT_DATA, COMMAND_LONG_DATA, HEARTBEAT_DATA, MavAutopilot, MavCmd, MavFrame, MavMessage, MavModeFlag,
+    MavStandardMode, MavState, MavType,
 };
+use super::units::deg_e7;
+use spandrel_model::geodesy::Geo;
 
 /// PX4 main mode number of position control (POSCTL).
 const PX4_POSITION: f32 = 3.0;
@@ -50,6 +53,31 @@ pub fn command(system: u8, component: u8, command: MavCmd, params: [f32; 7]) -> 
         target_component: component,
         confirmation: 0,
     }
+}
+
+/// Creates a command for a component of a vehicle at a position above mean sea level. Parameters 5 to 7 are the position.
+#[must_use]
+pub fn command_at(system: u8, component: u8, command: MavCmd, params: [f32; 4], place: Geo) -> COMMAND_INT_DATA {
+    COMMAND_INT_DATA {
+        command,
+        frame: MavFrame::MAV_FRAME_GLOBAL,
+        param1: params[0],
+        param2: params[1],
+        param3: params[2],
+        param4: params[3],
+        x: deg_e7(place.latitude_deg),
+        y: deg_e7(place.longitude_deg),
+        z: place.altitude_m as f32,
+        target_system: system,
+        target_component: component,
+        ..COMMAND_INT_DATA::default()
+    }
+}
+
+/// Returns the first `N` parameters of a command; missing ones are 0.
+#[must_use]
+pub fn params<const N: usize>(given: &[f32]) -> [f32; N] {
+    std::array::from_fn(|k| given.get(k).copied().unwrap_or(0.0))
 }
 
 /// Returns the command for the mode in which the sticks command velocity: the native mode of the autopilot, or the standard mode

@@ -22,9 +22,8 @@ use crate::endpoint::flavour::{Flavour, px4};
 use crate::endpoint::{LinkId, LinkKind, Transmit};
 use crate::sim::{Sim, SimConfig};
 use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
-use spandrel_mavlink::dialect::{
-    COMMAND_INT_DATA, COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavFrame, MavMessage, MavModeFlag, MavResult,
-};
+use spandrel_mavlink::dialect::{MANUAL_CONTROL_DATA, MavCmd, MavMessage, MavModeFlag, MavResult};
+use spandrel_mavlink::station;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{self, AfterCrash, Scenario};
 use spandrel_model::site::Site;
@@ -292,23 +291,7 @@ impl Vehicle {
     /// # Errors
     /// The command was rejected, or there was no response within one second.
     pub fn command(&mut self, command: MavCmd, params: &[f32]) -> Result<(), MissedExpectation> {
-        let p = |k: usize| params.get(k).copied().unwrap_or(0.0);
-        self.request(
-            command,
-            &MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
-                command,
-                param1: p(0),
-                param2: p(1),
-                param3: p(2),
-                param4: p(3),
-                param5: p(4),
-                param6: p(5),
-                param7: p(6),
-                target_system: 1,
-                target_component: 1,
-                confirmation: 0,
-            }),
-        )
+        self.request(command, &MavMessage::COMMAND_LONG(station::command(1, 1, command, station::params(params))))
     }
 
     fn request(&mut self, command: MavCmd, message: &MavMessage) -> Result<(), MissedExpectation> {
@@ -356,9 +339,9 @@ impl Vehicle {
             self.command(MavCmd::MAV_CMD_DO_SET_MODE, &[1.0, guided as f32])?;
             return self.command(MavCmd::MAV_CMD_NAV_TAKEOFF, &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, height_m as f32]);
         }
-        let place = self.place_at(self.position_m() + Vec3::new(0.0, 0.0, height_m - self.height_m()));
+        let place_m = self.position_m() + Vec3::new(0.0, 0.0, height_m - self.height_m());
         let command = MavCmd::MAV_CMD_NAV_TAKEOFF;
-        self.request(command, &at(command, place, [0.0, 0.0, 0.0, f32::NAN]))
+        self.request(command, &self.command_at(command, place_m, [0.0, 0.0, 0.0, f32::NAN]))
     }
 
     /// Flies to a position in the scenario's frame, m, and holds there.
@@ -367,9 +350,8 @@ impl Vehicle {
     /// The command was rejected.
     pub fn go_to(&mut self, place_m: Vec3<Enu>) -> Result<(), MissedExpectation> {
         let command = MavCmd::MAV_CMD_DO_REPOSITION;
-        let place = self.place_at(place_m);
         // Parameter 2, bit 0: change to a mode that can fly there.
-        self.request(command, &at(command, place, [-1.0, 1.0, 0.0, f32::NAN]))
+        self.request(command, &self.command_at(command, place_m, [-1.0, 1.0, 0.0, f32::NAN]))
     }
 
     /// Lands at the current position.
@@ -393,27 +375,9 @@ impl Vehicle {
         }));
     }
 
-    /// Latitude and longitude, 1e-7 deg, and altitude above mean sea level, m.
-    fn place_at(&self, place_m: Vec3<Enu>) -> (i32, i32, f32) {
-        let geo = self.sim.site().plane().geo_from_enu(place_m);
-        ((1e7 * geo.latitude_deg).round() as i32, (1e7 * geo.longitude_deg).round() as i32, geo.altitude_m as f32)
+    /// Returns a command to the autopilot at a position in the scenario's frame, m.
+    fn command_at(&self, command: MavCmd, place_m: Vec3<Enu>, params: [f32; 4]) -> MavMessage {
+        let place = self.sim.site().plane().geo_from_enu(place_m);
+        MavMessage::COMMAND_INT(station::command_at(1, 1, command, params, place))
     }
-}
-
-/// Returns a command with a position above mean sea level.
-fn at(command: MavCmd, (x, y, z): (i32, i32, f32), params: [f32; 4]) -> MavMessage {
-    MavMessage::COMMAND_INT(COMMAND_INT_DATA {
-        command,
-        frame: MavFrame::MAV_FRAME_GLOBAL,
-        param1: params[0],
-        param2: params[1],
-        param3: params[2],
-        param4: params[3],
-        x,
-        y,
-        z,
-        target_system: 1,
-        target_component: 1,
-        ..COMMAND_INT_DATA::default()
-    })
 }

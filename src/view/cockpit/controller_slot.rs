@@ -8,9 +8,9 @@ use spandrel_clients::rc::{ControllerProfile, RawInput, StickMode, Sticks};
 use spandrel_model::time::SimTime;
 use spandrel_view::flow::{ControllerStatus, ProfileChange};
 
-/// What is known of the device.
+/// State of the controller.
 enum DeviceState {
-    /// There is none; who waits for one.
+    /// No controller; the watcher reports a new one.
     Nothing(DeviceWatcher),
     /// It has no profile yet.
     Raw(EventSource, RawInput),
@@ -117,7 +117,7 @@ impl ControllerSlot {
         }
     }
 
-    /// What the device is called.
+    /// Returns the name of the controller, if there is one.
     pub fn name(&self) -> Option<&str> {
         match &self.held {
             DeviceState::Nothing(_) => None,

@@ -2,9 +2,8 @@
 
 use crate::shipped;
 use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
-use spandrel_mavlink::dialect::{
-    COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage, MavParamType, MavResult, PARAM_SET_DATA,
-};
+use spandrel_mavlink::dialect::{MANUAL_CONTROL_DATA, MavCmd, MavMessage, MavParamType, MavResult, PARAM_SET_DATA};
+use spandrel_mavlink::station;
 use spandrel_model::geodesy::Geo;
 use spandrel_model::scenario::{AfterCrash, Scenario};
 use spandrel_model::time::SimTime;
@@ -18,7 +17,7 @@ pub const GCS: LinkId = STATION;
 
 /// Returns command parameters; missing ones are 0.
 pub fn p(values: &[f32]) -> [f32; 7] {
-    std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
+    station::params(values)
 }
 
 /// Returns command parameters with only the first one set.
@@ -208,19 +207,7 @@ impl Station {
     /// Sends a command and returns the result of its acknowledgment, which must be immediate.
     pub fn command(&mut self, component: u8, command: MavCmd, p: [f32; 7]) -> MavResult {
         self.received.clear();
-        self.send(&MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
-            command,
-            param1: p[0],
-            param2: p[1],
-            param3: p[2],
-            param4: p[3],
-            param5: p[4],
-            param6: p[5],
-            param7: p[6],
-            target_system: 1,
-            target_component: component,
-            confirmation: 0,
-        }));
+        self.send(&MavMessage::COMMAND_LONG(station::command(1, component, command, p)));
         self.run_ms(2);
         self.last_message(|m| match m {
             MavMessage::COMMAND_ACK(ack) if ack.command == command && ack.target_system == 255 => Some(ack.result),

@@ -27,7 +27,7 @@ fn definitions() -> BTreeMap<u32, String> {
     out
 }
 
-/// What the client shows of the events so far, with their external log levels.
+/// Returns the texts of all events so far as a client shows them, with their external log levels.
 fn shown(station: &Station) -> Vec<(String, u8)> {
     let known = definitions();
     station.all(|m| {
