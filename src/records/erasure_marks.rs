@@ -2,8 +2,8 @@
 
 use super::database::Database;
 use super::sessions::signed;
-use crate::clock;
 use crate::errors::AppError;
+use crate::io::clock;
 use spandrel_monitor::folder::sha256_hex;
 use spandrel_training::record::SessionRecord;
 use sqlx::{Any, Row, Transaction};

@@ -1,11 +1,11 @@
 //! From session folders to records.
 
 use super::erasure_marks::ErasureMarks;
-use crate::assess;
+use crate::cli::assess;
+use crate::cli::questionnaire;
 use crate::errors::AppError;
-use crate::log_file::LogFile;
-use crate::questionnaire;
-use crate::session_folder::{StoredSession, is_session, session_owner};
+use crate::io::log_file::LogFile;
+use crate::io::session_folder::{StoredSession, is_session, session_owner};
 use spandrel_monitor::folder::{SCENARIO, TELEMETRY, VEHICLE};
 use spandrel_monitor::sidecar::build_site;
 use spandrel_training::questionnaire::ANSWERS;

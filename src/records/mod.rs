@@ -20,11 +20,11 @@ pub use database::Database;
 pub use import::{id as session_id, is_erased, read as read_session, session_folders};
 pub use people::{erase_older, erase_person, kept};
 
-use super::args::TraineeId;
-use super::clock;
 use super::errors::{AppError, EXIT_CODES};
-use super::files;
-use super::progress::ProgressLog;
+use crate::cli::args::TraineeId;
+use crate::io::clock;
+use crate::io::files;
+use crate::io::progress::ProgressLog;
 use erasure_marks::ErasureMarks;
 use people::PersonArgs;
 use spandrel_training::record::{SessionOutcome, SessionRecord};

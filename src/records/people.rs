@@ -1,10 +1,10 @@
 //! Trainees: what is known of them, everything that is kept of one, and erasing it.
 
 use super::{Database, RecordsLocation, erasure, import};
-use crate::args::TraineeId;
+use crate::cli::args::TraineeId;
 use crate::errors::AppError;
-use crate::files;
-use crate::session_folder::session_owner;
+use crate::io::files;
+use crate::io::session_folder::session_owner;
 use serde::Serialize;
 use spandrel_monitor::export::json_text;
 use spandrel_training::record::SessionRecord;

@@ -3,8 +3,8 @@
 
 use super::{Database, RecordsLocation};
 use crate::errors::AppError;
-use crate::progress::ProgressLog;
-use crate::session_folder::replace;
+use crate::io::progress::ProgressLog;
+use crate::io::session_folder::replace;
 use serde_json::Value;
 use spandrel_training::record::SessionRecord;
 use spandrel_training::xapi::{self, HOME};
@@ -38,7 +38,7 @@ pub struct PushArgs {
     url: String,
     /// Only this trainee's sessions
     #[arg(long, value_name = "ID")]
-    trainee: Option<crate::args::TraineeId>,
+    trainee: Option<crate::cli::args::TraineeId>,
     /// Account home page (xAPI homePage) of the pseudonyms in the statements
     #[arg(long, value_name = "URL", default_value = HOME)]
     home: String,
@@ -64,7 +64,7 @@ fn endpoint(text: &str) -> Result<String, String> {
 /// # Errors
 /// If the store rejects statements or cannot be reached. Statements accepted before the error stay in the store.
 pub fn push(place: &RecordsLocation, database: &Database, args: &PushArgs) -> Result<(), AppError> {
-    let records = database.records(args.trainee.as_ref().map(crate::args::TraineeId::as_str))?;
+    let records = database.records(args.trainee.as_ref().map(crate::cli::args::TraineeId::as_str))?;
     let store = LearningRecordStore::new(&args.url)?;
     let mut progress = ProgressLog::start("sending statements");
     let mut all = PushCounts::default();
@@ -84,7 +84,7 @@ pub fn push(place: &RecordsLocation, database: &Database, args: &PushArgs) -> Re
 
 /// Writes the statements into the session folder, if it is on this machine.
 fn keep(place: &RecordsLocation, record: &SessionRecord, statements: &[Value]) -> Result<(), AppError> {
-    let here = |folder: &Path| crate::session_folder::is_session(&folder.join(&record.id));
+    let here = |folder: &Path| crate::io::session_folder::is_session(&folder.join(&record.id));
     match place.sessions.iter().find(|folder| here(folder)) {
         Some(folder) => replace(&folder.join(&record.id).join(STATEMENTS), xapi::lines(statements).as_bytes()),
         None => Ok(()),

@@ -29,11 +29,11 @@ pub use live::WatchedVehicle;
 pub use server::WebServer;
 pub use state::ServerSetup;
 
-use super::args::{self, TraineeId};
 use super::errors::{AppError, EXIT_CODES};
-use super::files;
 use super::records::RecordsLocation;
-use super::stop::StopRequest;
+use crate::cli::args::{self, TraineeId};
+use crate::io::files;
+use crate::io::stop::StopRequest;
 use ipnet::IpNet;
 use spandrel_training::trainee::Role;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};

@@ -197,8 +197,8 @@ impl WebError {
     }
 }
 
-impl From<crate::append_file::WriteRefused> for WebError {
-    fn from(refused: crate::append_file::WriteRefused) -> Self {
+impl From<crate::io::append_file::WriteRefused> for WebError {
+    fn from(refused: crate::io::append_file::WriteRefused) -> Self {
         Self::Failed(refused.to_string())
     }
 }

@@ -6,7 +6,7 @@ use super::routes::{FORM_MOST, ROUTES, Route, RouteKind, STREAM};
 use super::state::{ServerSetup, ServerState};
 use super::{ListenArgs, tls};
 use crate::errors::AppError;
-use crate::stop::StopRequest;
+use crate::io::stop::StopRequest;
 use axum::Router;
 use axum::extract::{DefaultBodyLimit, Request};
 use axum::routing::{MethodRouter, get, post};

@@ -3,9 +3,9 @@
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::state::ServerState;
-use crate::args::TraineeId;
-use crate::session_folder::StoredSession;
-use crate::{assess, report};
+use crate::cli::args::TraineeId;
+use crate::cli::{assess, report};
+use crate::io::session_folder::StoredSession;
 use spandrel_monitor::export;
 use spandrel_monitor::folder::{REPORT, TELEMETRY};
 use spandrel_training::record::SessionRecord;

@@ -4,8 +4,8 @@ use super::auth::{AllowedOrigins, Authenticator};
 use super::figures::FigureCache;
 use super::live::{LiveVehicle, WatchedVehicle};
 use super::session_importer::SessionImporter;
+use crate::cli::questionnaire;
 use crate::errors::AppError;
-use crate::questionnaire;
 use crate::records::{Database, RecordsLocation};
 use spandrel_training::questionnaire::Languages;
 use std::path::PathBuf;
@@ -87,7 +87,7 @@ impl ServerState {
         if !is_plain(id) {
             return None;
         }
-        self.place.sessions.iter().map(|folder| folder.join(id)).find(|path| crate::session_folder::is_session(path))
+        self.place.sessions.iter().map(|folder| folder.join(id)).find(|path| crate::io::session_folder::is_session(path))
     }
 }
 

@@ -3,9 +3,10 @@
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::state::ServerState;
-use crate::args::TraineeId;
+use crate::cli::args::TraineeId;
+use crate::cli::plan;
+use crate::io::clock;
 use crate::records::{erase_person, kept};
-use crate::{clock, plan};
 use spandrel_monitor::export::json_text;
 use spandrel_training::cohort::{Selection, TABLES, table};
 use spandrel_training::plan::plan_counting;

@@ -9,7 +9,7 @@ fn regress_a_simulator_without_a_session_leaves_a_crashed_vehicle_where_it_is() 
     let rule = help.split("--after-crash").nth(1).expect("the option is there");
     assert!(rule.split("--").next().is_some_and(|text| text.contains("[default: continue]")), "{rule}");
     // A session brings the job's own rule.
-    for source in ["src/demo.rs", "src/train/flight_processes.rs"] {
+    for source in ["src/cli/demo.rs", "src/cli/train/flight_processes.rs"] {
         assert!(text(source).contains("\"--after-crash\""), "{source}");
     }
 }

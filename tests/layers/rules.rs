@@ -196,7 +196,7 @@ mod tests {
         assert_eq!(check("crates/training/src/report/mod.rs", "use spandrel_sitl::{sim::Sim, endpoint};"), 2);
         assert_eq!(check("crates/sitl/src/sim.rs", "fn f() { spandrel_monitor::assess(); }"), 1);
         assert_eq!(check("crates/clients/src/pilot/mod.rs", "use spandrel_sitl::physics::RigidState;"), 1);
-        assert_eq!(check("src/demo.rs", "use spandrel_monitor::Monitor; use spandrel_sitl::sim::Sim;"), 0);
+        assert_eq!(check("src/cli/demo.rs", "use spandrel_monitor::Monitor; use spandrel_sitl::sim::Sim;"), 0);
     }
 
     #[test]
@@ -235,7 +235,7 @@ mod tests {
         ] {
             assert_eq!(check("crates/monitor/src/sidecar.rs", outside), 1, "{outside}");
             assert_eq!(check("crates/sitl/src/sim.rs", outside), 1, "{outside}");
-            assert_eq!(check("src/net.rs", outside), 0, "{outside}");
+            assert_eq!(check("src/io/net.rs", outside), 0, "{outside}");
         }
         assert_eq!(check("crates/monitor/src/sidecar.rs", "use std::time::Duration; use std::collections::BTreeMap;"), 0);
     }

@@ -1,7 +1,7 @@
 //! Whose flight it is that a vehicle flies: the session that the sidecar is writing just now for this job and seed.
 
+use crate::io::session_folder::ongoing_session;
 use crate::records::session_folders;
-use crate::session_folder::ongoing_session;
 use spandrel_training::web::live_state::JobKey;
 use std::path::PathBuf;
 use std::time::Duration;

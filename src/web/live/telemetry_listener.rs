@@ -2,9 +2,9 @@
 
 use super::command_queue::{COMPONENT, CommandQueue, InstructorCommand, SYSTEM};
 use super::{flight_owner, picture};
-use crate::clock::Stopwatch;
 use crate::errors::AppError;
-use crate::net::{NetEvent, SocketHub, SocketId};
+use crate::io::clock::Stopwatch;
+use crate::io::net::{NetEvent, SocketHub, SocketId};
 use crate::web::scenarios;
 use crate::web::state::lock;
 use serde_json::Value;
@@ -193,7 +193,7 @@ impl LiveListener {
             let folders = crate::records::session_folders(&here).ok()?;
             // The newest are last.
             folders.iter().rev().take(20).find_map(|folder| {
-                let scenario = crate::session_folder::StoredSession::scenario_of(folder).ok()?.scenario;
+                let scenario = crate::io::session_folder::StoredSession::scenario_of(folder).ok()?.scenario;
                 (scenario.crc == crc).then_some(scenario)
             })
         })

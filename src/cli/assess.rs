@@ -1,0 +1,103 @@
+//! `spandrel assess`: scores a stored flight again.
+
+use super::table;
+use crate::errors::{AppError, EXIT_CODES};
+use crate::io::files;
+use crate::io::log_file::LogFile;
+use crate::io::session_folder::StoredSession;
+use serde_json::json;
+use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::vehicle::Vehicle;
+use spandrel_monitor::export::FrameRow;
+use spandrel_monitor::sidecar::build_site;
+use spandrel_monitor::{AssessError, AssessedSession, assess_log, export};
+use std::path::PathBuf;
+
+/// Score a stored flight again
+///
+/// Scores a session folder, or a telemetry log with its scenario and vehicle, from the telemetry alone. The result is byte for byte that of
+/// the live session.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel assess sessions/20260801T...                       the scores as a table
+  spandrel assess sessions/20260801T... --json -              the scores as JSON, as in assessment.json
+  spandrel assess flight.tlog --scenario two-bridges --vehicle phantom2 --json scores.json
+
+{EXIT_CODES}"))]
+pub struct Args {
+    /// Session folder, or a telemetry log (.tlog)
+    #[arg(value_name = "SESSION|TLOG")]
+    flight: PathBuf,
+    /// Scenario of a telemetry log: a file, or the name of a shipped one
+    #[arg(long, value_name = "FILE|NAME")]
+    scenario: Option<String>,
+    /// Aircraft of a telemetry log: a file, or the name of a shipped one
+    #[arg(long, value_name = "FILE|NAME")]
+    vehicle: Option<String>,
+    /// Write the assessment as JSON to this file, '-' for standard output [default: print a table]
+    #[arg(long, value_name = "FILE")]
+    json: Option<String>,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When files are wrong or there is nothing to score.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let (scenario, vehicle, log) = inputs(args)?;
+    let graded = grade(&log, &scenario, &vehicle)?;
+    match &args.json {
+        Some(target) => files::write(target, export::json_text(&graded.assessment).as_bytes()),
+        None => files::write("-", table::scores(&json!(graded.assessment)).as_bytes()),
+    }
+}
+
+/// Scores a log.
+///
+/// # Errors
+/// When there is nothing to score.
+pub fn grade(log: &(impl TelemetryLog + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> Result<AssessedSession, AppError> {
+    assess_log(log, scenario, vehicle, build_site).map_err(|error| refused(&error))
+}
+
+/// Reads the scored frames of a stored session, for exports.
+///
+/// # Errors
+/// When there is nothing to score.
+pub fn frame_rows(stored: &StoredSession) -> Result<Vec<FrameRow>, AppError> {
+    let rows = export::frame_rows(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle);
+    rows.map_err(|error| refused(&error))
+}
+
+fn refused(error: &AssessError) -> AppError {
+    match error {
+        AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => {
+            AppError::wrong(format!("{error}: score the log against the scenario that was flown"))
+        }
+        _ => AppError::failed(error.to_string()),
+    }
+}
+
+fn inputs(args: &Args) -> Result<(Scenario, Vehicle, LogFile), AppError> {
+    if args.flight.is_dir() {
+        let stored = StoredSession::read(&args.flight)?;
+        let scenario = match &args.scenario {
+            Some(other) => files::scenario(other)?.scenario,
+            None => stored.scenario.scenario,
+        };
+        let vehicle = match &args.vehicle {
+            Some(other) => files::vehicle(other)?.vehicle,
+            None => stored.vehicle.vehicle,
+        };
+        return Ok((scenario, vehicle, stored.log));
+    }
+    let (Some(scenario), Some(vehicle)) = (&args.scenario, &args.vehicle) else {
+        return Err(AppError::wrong(format!(
+            "{}: is no session folder; a telemetry log needs --scenario and --vehicle",
+            args.flight.display()
+        )));
+    };
+    Ok((files::scenario(scenario)?.scenario, files::vehicle(vehicle)?.vehicle, LogFile::open(&args.flight)?))
+}

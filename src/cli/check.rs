@@ -1,0 +1,316 @@
+//! `spandrel check`: everything that is wrong with scenario and vehicle files, at once.
+
+use crate::errors::{AppError, EXIT_CODES};
+use crate::io::files::{self, SourceFile};
+use serde_json::json;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::{self, Scenario, Task};
+use spandrel_model::site::{NearestPoint, Site, defects};
+use spandrel_model::toml::{Problem, listed};
+use spandrel_model::vehicle::{self, Vehicle};
+
+/// Minimum margin between path and obstacles beyond the aircraft's half width, m (issue 2, section 2).
+const MARGIN_M: f64 = 0.5;
+
+/// Number of seeds tried for a scenario without its own seed: one shows whether its tasks reach a bridge, three whether there is
+/// room (estimate).
+const SEEDS_TRIED: [u64; 3] = [1, 2, 3];
+
+/// Check scenario and vehicle files
+///
+/// Reports all errors at once, each with file, line, key, value and allowed range. For a scenario, it also builds the site and
+/// reports every task whose reference path has less clearance than half the aircraft's tip-to-tip width plus 0.5 m, with the
+/// location. It warns if fewer defects can be placed than the scenario requests.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel check my-bridge.toml                        checks the paths for the default aircraft
+  spandrel check my-bridge.toml --vehicle m30          ... for another aircraft
+  spandrel check scenarios/*.toml vehicle-params/*.toml --json
+
+{EXIT_CODES}"))]
+pub struct Args {
+    /// Scenario and vehicle files, or names of shipped ones
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<String>,
+    /// Aircraft for the clearance check: a file, or the name of a shipped one
+    #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
+    vehicle: String,
+    /// Print {"problems": [{file, line, key, value, allowed, message}], "warnings": [...], "notes": [...]} on standard output
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Default)]
+struct Findings {
+    problems: Vec<Problem>,
+    warnings: Vec<String>,
+    notes: Vec<String>,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// If any file is invalid.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let aircraft = files::vehicle(&args.vehicle)?.vehicle;
+    let mut findings = Findings::default();
+    for file in &args.files {
+        match files::any_source(file) {
+            Ok(source) => check_scenario(&source, &aircraft, &mut findings),
+            Err(error) => findings.problems.push(unreadable(file, &error)),
+        }
+    }
+    let Findings { problems, warnings, notes } = &findings;
+    let (first, more) = listed(problems);
+    if args.json {
+        println!("{:#}", json!({ "problems": first, "more_problems": more, "warnings": warnings, "notes": notes }));
+    } else {
+        notes.iter().for_each(|note| println!("note: {note}"));
+        warnings.iter().for_each(|warning| println!("warning: {warning}"));
+        // A file that cannot be read has no line to name.
+        first.iter().for_each(|problem| if problem.line == 0 { println!("{}", problem.message) } else { println!("{problem}") });
+        if more > 0 {
+            println!("and {more} more problems");
+        }
+    }
+    match problems.len() {
+        0 if args.json => Ok(()),
+        0 => {
+            let files = count(args.files.len(), "file");
+            match warnings.len() {
+                0 => println!("{files} right"),
+                many => println!("{files} without errors, {}", count(many, "warning")),
+            }
+            Ok(())
+        }
+        many => Err(AppError::wrong(format!("{} in {}", count(many, "problem"), count(args.files.len(), "file")))),
+    }
+}
+
+fn count(number: usize, what: &str) -> String {
+    if number == 1 { format!("1 {what}") } else { format!("{number} {what}s") }
+}
+
+fn unreadable(file: &str, error: &AppError) -> Problem {
+    let text = String::new;
+    Problem { file: file.into(), line: 0, key: text(), value: text(), allowed: text(), message: error.to_string() }
+}
+
+fn check_scenario(source: &SourceFile, aircraft: &Vehicle, findings: &mut Findings) {
+    if is_vehicle(&source.text) {
+        match vehicle::read(&source.file, &source.text) {
+            Ok(vehicle) => {
+                let short = defects::reference_shortfalls(&vehicle.camera, &vehicle.lamp);
+                findings.notes.extend(short.into_iter().map(|what| format!("{}: {what}", source.file)));
+            }
+            Err(wrong) => findings.problems.extend(wrong.0),
+        }
+        return;
+    }
+    match scenario::read(&source.file, &source.text, &|name| source.sibling(name)) {
+        Ok(scenario) => {
+            findings.problems.extend(tight_passages(source, &scenario, aircraft));
+            findings.warnings.extend(too_few_defects(source, &scenario));
+        }
+        Err(wrong) => findings.problems.extend(wrong.0),
+    }
+}
+
+/// Top-level keys that occur only in vehicle files or only in scenarios. They identify the kind of a file, even if some are
+/// missing.
+const OF_VEHICLES: [&str; 10] =
+    ["mass_kg", "inertia_kg_m2", "rotors", "drag", "hull", "battery", "limits", "sensors", "camera", "lamp"];
+const OF_SCENARIOS: [&str; 13] = [
+    "title",
+    "seed",
+    "origin",
+    "terrain",
+    "ground_team",
+    "bridges",
+    "tasks",
+    "defects",
+    "traffic",
+    "wind",
+    "light",
+    "rules",
+    "scoring",
+];
+
+fn is_vehicle(text: &str) -> bool {
+    let mut in_table = false;
+    let words = text.lines().filter_map(|line| {
+        let line = line.trim();
+        let head = line.starts_with('[');
+        in_table |= head;
+        let word = line.trim_start_matches(['[', ' ']).split(['.', ']', '=', ' ', '\t']).next();
+        word.filter(|_| head || !in_table)
+    });
+    let weigh = |word: &str| i32::from(OF_VEHICLES.contains(&word)) - i32::from(OF_SCENARIOS.contains(&word));
+    words.map(weigh).sum::<i32>() > 0
+}
+
+fn tight_passages(source: &SourceFile, scenario: &Scenario, aircraft: &Vehicle) -> Vec<Problem> {
+    let needed_m = 0.5 * aircraft.hull.tip_to_tip_m + MARGIN_M;
+    // Defects and traffic are not asked about, so any seed does.
+    let site = Site::build(&Scenario { defects: defects_not_placed(scenario), ..scenario.clone() }, 0);
+    let lines: Vec<usize> = task_lines(&source.text);
+    let tight = |(k, task): (usize, &Task)| {
+        let (at_m, clearance_m, object) = tightest(task, &site, needed_m)?;
+        let [east, north, up] = at_m.array();
+        Some(Problem {
+            file: source.file.clone(),
+            line: lines.get(k).copied().unwrap_or(1),
+            key: format!("tasks.{k}"),
+            value: format!("{clearance_m:.2} m"),
+            allowed: format!(
+                "at least {needed_m:.2} m for {}: half its {:.2} m tip to tip plus {MARGIN_M} m",
+                aircraft.id, aircraft.hull.tip_to_tip_m
+            ),
+            message: format!(
+                "the path of task {} '{}' passes too close to {object} at east {east:.1} m, north {north:.1} m, up {up:.1} m",
+                task.id, task.name
+            ),
+        })
+    };
+    scenario.tasks.iter().enumerate().filter_map(tight).collect()
+}
+
+/// Warns if fewer defects can be placed than requested: tries the scenario's own seed, or the first few seeds.
+fn too_few_defects(source: &SourceFile, scenario: &Scenario) -> Option<String> {
+    let wanted = scenario.defects.count;
+    if wanted == 0 || scenario.defects.placed.is_some() {
+        return None;
+    }
+    let seeds = scenario.seed.map_or_else(|| SEEDS_TRIED.to_vec(), |seed| vec![seed]);
+    let placed = seeds.iter().map(|seed| (Site::build(scenario, *seed).defects().len(), *seed));
+    let (least, seed) = placed.min()?;
+    let line = source.text.lines().position(|line| line.trim_start().starts_with("[defects]")).map_or(1, |k| k + 1);
+    (least < wanted).then(|| {
+        format!(
+            "{}:{line}: defects.count = {wanted}, but only {least} could be placed (seed {seed}): no other spot on a bridge can be \
+             photographed from within a task's threshold; fly the tasks nearer to the structure, widen defects.elements or \
+             defects.kinds, or ask for {least}",
+            source.file
+        )
+    })
+}
+
+fn defects_not_placed(scenario: &Scenario) -> scenario::DefectSpec {
+    scenario::DefectSpec { count: 0, placed: Some(Vec::new()), ..scenario.defects.clone() }
+}
+
+/// Returns the point with the least clearance if it is below the minimum, anywhere along the straight segments of the path.
+fn tightest(task: &Task, site: &Site, needed_m: f64) -> Option<(Vec3<Enu>, f64, String)> {
+    let points = &task.path_m;
+    let wrap = if task.closed { points.first() } else { points.last() };
+    let pieces = points.iter().zip(points.iter().skip(1).chain(wrap));
+    let (at_m, near) = pieces.fold(None, |best: Option<(Vec3<Enu>, NearestPoint)>, (from, to)| {
+        site.geometry().tightest(*from, *to, best.map_or(needed_m, |b| b.1.distance_m)).or(best)
+    })?;
+    Some((at_m, near.distance_m, site.object_name(near.object)))
+}
+
+/// Returns the line on which each task begins.
+fn task_lines(text: &str) -> Vec<usize> {
+    let heads = text.lines().enumerate().filter(|(_, line)| {
+        let line: String = line.chars().filter(|c| !c.is_whitespace()).collect();
+        line.starts_with("[[task]]") || line.starts_with("[[tasks]]")
+    });
+    heads.map(|(k, _)| k + 1).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_task_lines_are_found_by_their_heads() {
+        assert_eq!(task_lines("a = 1\n[[tasks]]\nx = 2\n [[ tasks ]]\n[wind]\n"), [2, 4]);
+    }
+
+    #[test]
+    fn exact_every_shipped_path_fits_the_default_aircraft() {
+        let aircraft = files::vehicle("phantom2").unwrap().vehicle;
+        for name in files::scenario_names() {
+            let mut findings = Findings::default();
+            check_scenario(&files::any_source(name).unwrap(), &aircraft, &mut findings);
+            assert_eq!(findings.problems, [], "{name}");
+        }
+    }
+
+    #[test]
+    fn regress_fewer_defects_than_asked_for_are_a_warning() {
+        let aircraft = files::vehicle("phantom2").unwrap().vehicle;
+        let mut source = files::any_source("drill-straight-line").unwrap();
+        let found = |source: &SourceFile| {
+            let mut findings = Findings::default();
+            check_scenario(source, &aircraft, &mut findings);
+            assert_eq!(findings.problems, []);
+            findings.warnings
+        };
+        assert_eq!(found(&source), Vec::<String>::new(), "no defects are asked for");
+        source.text = source.text.replace("[defects]\ncount = 0", "[defects]\ncount = 4");
+        let line = source.text.lines().position(|line| line == "[defects]").unwrap() + 1;
+        let warnings = found(&source);
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
+        assert!(warnings[0].contains(&format!(":{line}: defects.count = 4, but only 0 could be placed")), "{warnings:?}");
+    }
+
+    #[test]
+    fn regress_only_near_names_are_suggested() {
+        let message = |key: &str| {
+            let mut source = files::any_source("drill-straight-line").unwrap();
+            source.text = source.text.replace("[defects]\n", &format!("[defects]\n{key} = 1\n"));
+            let wrong = scenario::read(&source.file, &source.text, &|name| source.sibling(name)).unwrap_err();
+            wrong.0.first().map(|problem| problem.message.clone()).unwrap()
+        };
+        assert_eq!(message("model"), "unknown key");
+        assert_eq!(message("wether"), "unknown key");
+        assert_eq!(message("kind"), "unknown key; did you mean kinds?");
+        assert_eq!(message("size_facter"), "unknown key; did you mean size_factor?");
+    }
+
+    #[test]
+    fn exact_a_path_that_is_too_tight_is_refused_with_its_place() {
+        let mut aircraft = files::vehicle("phantom2").unwrap().vehicle;
+        aircraft.hull.tip_to_tip_m = 30.0;
+        let mut findings = Findings::default();
+        check_scenario(&files::any_source("two-bridges").unwrap(), &aircraft, &mut findings);
+        assert_eq!(findings.problems.len(), 4, "{:?}", findings.problems);
+        let problem = findings.problems[2].to_string();
+        assert!(problem.contains("interlayer") || problem.contains("task 3"), "{problem}");
+        assert!(problem.contains("allowed: at least 15.50 m") && problem.contains("up "), "{problem}");
+    }
+
+    #[test]
+    fn exact_a_path_is_refused_from_the_very_size_that_no_longer_fits() {
+        // m; the search along the path stops within a millimetre of the tightest place.
+        const CLOSE_M: f64 = 2e-3;
+        let source = files::any_source("drill-gap").unwrap();
+        let scenario = scenario::read(&source.file, &source.text, &|name| source.sibling(name)).unwrap();
+        let site = Site::build(&scenario, 0);
+        let room = |p: &Vec3<Enu>| site.geometry().nearest(*p, 100.0).map_or(100.0, |near| near.distance_m);
+        let path = &scenario.tasks[0].path_m;
+        let tightest_m = path.windows(2).flat_map(|w| (0..200).map(|k| w[0].lerp(w[1], f64::from(k) / 200.0)));
+        let tightest_m = tightest_m.map(|p| room(&p)).fold(f64::INFINITY, f64::min);
+        let problems = |tip_to_tip_m: f64| {
+            let mut aircraft = files::vehicle("phantom2").unwrap().vehicle;
+            aircraft.hull.tip_to_tip_m = tip_to_tip_m;
+            tight_passages(&source, &scenario, &aircraft)
+        };
+        let fits_m = 2.0 * (tightest_m - MARGIN_M);
+        assert_eq!(problems(fits_m - CLOSE_M), []);
+        let refused = problems(fits_m + 2.0 * CLOSE_M);
+        assert_eq!(refused.len(), 1);
+        assert_eq!(task_lines(&source.text), [refused[0].line]);
+        // It says where: the place has the room that is complained of.
+        let number = |after: &str| {
+            let rest = refused[0].message.split(after).nth(1).unwrap();
+            rest.trim_start().split(' ').next().unwrap().parse::<f64>().unwrap()
+        };
+        let at = Vec3::new(number("at east"), number("north"), number("up"));
+        assert!((room(&at) - tightest_m).abs() < 0.1, "{}", refused[0].message);
+        assert!(refused[0].value == format!("{tightest_m:.2} m"), "{}", refused[0].value);
+    }
+}

@@ -1,0 +1,186 @@
+//! `spandrel cohort`: what a group of trainees shows.
+
+use crate::errors::{AppError, EXIT_CODES};
+use crate::io::files;
+use crate::records::{RecordsLocation, from_lines};
+use spandrel_monitor::export::json_text;
+use spandrel_training::cohort::{Cohort, Selection, cohort, tables};
+use spandrel_training::record::{IncompletePolicy, omitted_summary};
+use spandrel_training::report::page::cohort as page;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// Maximum number of contradictions printed as text; the tables list all of them.
+const CONTRADICTIONS: usize = 12;
+
+/// Summarize the results of a group of trainees
+///
+/// Reports distributions of the scores, people and tasks, box plots by repetition, crashes, answer counts, self-ratings against
+/// measurements, paired t tests with effect size, interval and Holm's correction, homogeneity, the causal model of demand, strain
+/// and performance, and each trainee's progress. Output is text, JSON, CSV tables or a page.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel cohort                                       a summary
+  spandrel cohort --json cohort.json --csv tables       everything
+  spandrel cohort --report cohort.html                  all figures as one page that opens offline
+  spandrel cohort --scenario two-bridges --scenario two-bridges-small --repetitions 2
+  spandrel cohort --records all.jsonl --json -
+
+{EXIT_CODES}"))]
+pub struct Args {
+    #[command(flatten)]
+    place: RecordsLocation,
+    /// Read records from this file, as written by `spandrel records export`, instead of a database
+    #[arg(long, value_name = "FILE")]
+    records: Option<PathBuf>,
+    /// Scenario to include; may be repeated [default: the one flown most often]
+    #[arg(long, value_name = "NAME")]
+    scenario: Vec<String>,
+    /// Number of repetitions to compare, among trainees who flew at least that many (1 to 100)
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=100))]
+    repetitions: u8,
+    /// Include incomplete sessions
+    #[arg(long)]
+    include_incomplete: bool,
+    /// Write all results as JSON; '-' for standard output
+    #[arg(long, value_name = "FILE")]
+    json: Option<String>,
+    /// Write all figures as one page that opens offline; '-' for standard output
+    #[arg(long, value_name = "FILE")]
+    report: Option<String>,
+    /// Write every table as a CSV file into this folder
+    #[arg(long, value_name = "DIR")]
+    csv: Option<PathBuf>,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// If files or the database are invalid, or output cannot be written.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let records = match &args.records {
+        Some(file) => from_lines(file)?,
+        None => args.place.open()?.records(None)?,
+    };
+    let selection = Selection {
+        scenarios: args.scenario.clone(),
+        repetitions: usize::from(args.repetitions),
+        incomplete: IncompletePolicy::included(args.include_incomplete),
+    };
+    let cohort = cohort(&records, &selection);
+    if cohort.sessions == 0
+        && let Some(words) = omitted_summary(cohort.left_out)
+    {
+        return Err(AppError::wrong(format!(
+            "there is no complete session of the job: {words} (--include-incomplete counts them)"
+        )));
+    }
+    if cohort.sessions == 0 {
+        return Err(AppError::wrong("there is no session of the job in the records; spandrel records import takes sessions in"));
+    }
+    if let Some(folder) = &args.csv {
+        let cannot = |error: std::io::Error| AppError::failed(format!("{}: cannot be made: {error}", folder.display()));
+        std::fs::create_dir_all(folder).map_err(cannot)?;
+        for (name, table) in tables(&cohort) {
+            files::write(&folder.join(name).display().to_string(), table.as_bytes())?;
+        }
+    }
+    if let Some(target) = &args.report {
+        files::write(target, page::cohort(&cohort).as_bytes())?;
+    }
+    match &args.json {
+        Some(target) => files::write(target, json_text(&cohort).as_bytes()),
+        None => files::write("-", words(&cohort).as_bytes()),
+    }
+}
+
+/// Prints the sessions by trainee and the main figures of the first sessions.
+fn first_sessions(cohort: &Cohort) -> String {
+    let mut out = format!("{} trainees, {} sessions of {}\n", cohort.trainees, cohort.sessions, cohort.scenarios.join(", "));
+    if let Some(words) = omitted_summary(cohort.left_out) {
+        let _ = writeln!(out, "{words} (--include-incomplete counts them)");
+    }
+    out.push('\n');
+    let _ = writeln!(out, "{:<12}{:>5}{:>9}{:>8}{:>8}{:>8}{:>8}", "first", "n", "mean", "sd", "min", "median", "max");
+    for one in &cohort.distributions {
+        let s = &one.summary;
+        let sd = s.sd.map_or("-".to_owned(), |sd| format!("{sd:.2}"));
+        let _ = writeln!(out, "{:<12}{:>5}{:>9.2}{sd:>8}{:>8.1}{:>8.1}{:>8.1}", one.score, s.n, s.mean, s.min, s.median, s.max);
+    }
+    let crashes = cohort.crashes.by_kind.by_kind().into_iter().filter(|(_, count)| *count > 0);
+    let kinds: Vec<String> = crashes.map(|(kind, count)| format!("{kind} {count}")).collect();
+    let _ = writeln!(
+        out,
+        "{} crashes in them: {}",
+        cohort.crashes.total,
+        if kinds.is_empty() { "none".into() } else { kinds.join(", ") }
+    );
+    out
+}
+
+fn words(cohort: &Cohort) -> String {
+    let mut out = first_sessions(cohort);
+    if !cohort.tests.is_empty() {
+        let _ = writeln!(out, "\n{} people, {} repetitions", cohort.group.len(), cohort.repetitions);
+        let _ = writeln!(
+            out,
+            "{:<12}{:<9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>10}",
+            "paired t", "", "change", "t", "p upper", "p lower", "p two", "d_z", "Holm two"
+        );
+    }
+    for one in &cohort.tests {
+        let shown = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.3}"));
+        let (t, p) = (&one.test, one.test.p);
+        let _ = writeln!(
+            out,
+            "{:<12}{:<9}{:>9.2}{:>9}{:>9}{:>9}{:>9}{:>9}{:>10}",
+            one.score,
+            format!("{} vs. {}", one.earlier, one.later),
+            t.mean_difference,
+            shown(t.t),
+            shown(p.map(|p| p.upper)),
+            shown(p.map(|p| p.lower)),
+            shown(p.map(|p| p.two)),
+            shown(t.effect_size_dz),
+            shown(one.p_holm.map(|p| p.two)),
+        );
+    }
+    for one in &cohort.homogeneity {
+        let (score, test) = (&one.score, &one.test);
+        let _ = writeln!(
+            out,
+            "{score}: the group against the others, chi-squared {:.2}, df {}, p {:.3}",
+            test.chi_squared, test.df, test.p
+        );
+    }
+    if let Some(model) = &cohort.causal {
+        let _ = writeln!(out, "\ndemand -> strain -> performance, {} people", model.n);
+        for one in &model.indirect {
+            let ends = one.interval_95.map_or(String::new(), |[low, high]| format!(" [{low:.2}, {high:.2}]"));
+            let _ = writeln!(out, "at feedback {:.1}: {:.2} % per step of demand{ends}", one.feedback, one.effect);
+        }
+    }
+    for one in &cohort.learning {
+        let (first, last) = (one.means.first().copied().unwrap_or_default(), one.means.last().copied().unwrap_or_default());
+        let _ = writeln!(
+            out,
+            "{}: from {first:.1} to {last:.1} over {} repetitions of {} people, learning exponent {:.3}",
+            one.score,
+            one.means.len(),
+            one.people,
+            one.curve.exponent
+        );
+    }
+    let contradictions = &cohort.self_rating.contradictions;
+    for one in contradictions.iter().take(CONTRADICTIONS) {
+        let _ = writeln!(out, "{}: {}", one.trainee, one.words);
+    }
+    if contradictions.len() > CONTRADICTIONS {
+        let _ = writeln!(out, "and {} more such contradictions (--json, --csv)", contradictions.len() - CONTRADICTIONS);
+    }
+    for warning in &cohort.warnings {
+        let _ = writeln!(out, "note: {warning}");
+    }
+    out
+}

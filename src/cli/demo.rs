@@ -1,0 +1,132 @@
+//! `spandrel demo`: simulator, monitor and synthetic trainee as three processes over real UDP, in lockstep, on ports of their own.
+
+use super::args::{self, JobArgs};
+use super::pilot::SkillArgs;
+use super::train;
+use crate::errors::{AppError, EXIT_CODES};
+use crate::io::children::Child;
+use crate::io::clock::Stopwatch;
+use crate::io::files;
+use crate::io::pacing::SimulationSpeed;
+use crate::io::stop::StopRequest;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// Interval between checks of the child processes.
+const LOOK: Duration = Duration::from_millis(20);
+/// Wall time for the monitor to detect the end after the pilot is done (it takes three seconds of simulation time at rest).
+const GRACE: Duration = Duration::from_secs(15);
+
+/// Fly a whole session automatically
+///
+/// Runs simulator, monitor and a synthetic trainee as three processes over UDP on free ports, in lockstep: no data is lost at any speed, and
+/// the same seed gives the same frames. Prints the four scores, their sum, crashes, snapshots and the session folder at the end. Several
+/// demos can run at the same time.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel demo                                         five times real time
+  spandrel demo --skill novice --seed 7 --speed max     as fast as possible
+  spandrel demo --speed 1 --gcs 127.0.0.1:14550         watch it in QGroundControl
+
+{EXIT_CODES}"))]
+pub struct Args {
+    #[command(flatten)]
+    job: JobArgs,
+    #[command(flatten)]
+    skill: SkillArgs,
+    /// Trainee to record the session for: letters, digits, '-' and '_', at most 32 characters [default: synthetic-SKILL]
+    #[arg(long, value_name = "ID")]
+    trainee: Option<args::TraineeId>,
+    /// Simulation speed: a multiple of real time (0.1 to 100), or max
+    #[arg(long, value_name = "X|max", default_value = "5")]
+    speed: SimulationSpeed,
+    /// Autopilot protocol; the flight dynamics are the same in all of them
+    #[arg(long, value_name = "NAME", default_value = "px4")]
+    flavour: args::Flavour,
+    /// Folder for session folders
+    #[arg(long, value_name = "DIR", default_value = "sessions")]
+    sessions: PathBuf,
+    /// Ground station to send telemetry to, or none; may be repeated
+    #[arg(long, value_name = "HOST:PORT|none", default_value = "none")]
+    gcs: Vec<args::Destination>,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// If files are invalid, a process fails, or the flight cannot be scored.
+pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
+    let scenario = files::scenario(&args.job.scenario)?.scenario;
+    files::vehicle(&args.job.vehicle)?;
+    let stop = StopRequest::install(false)?;
+    let seed = args.job.seed_for(&scenario);
+    let job = JobArgs { seed: Some(seed), ..args.job.clone() };
+    let quiet = if log == tracing::Level::INFO { tracing::Level::WARN } else { log };
+    let mut monitor = Child::start("monitor", &[train::common_args(&job, log), monitor_args(args)].concat())?;
+    let announced = monitor.announced()?;
+    let session = PathBuf::from(announced["session"].as_str().unwrap_or_default());
+    let pilot_args = [train::common_args(&job, quiet), args.skill.to_args(), vec!["--port".to_owned(), "0".to_owned()]];
+    let mut pilot = Child::start("pilot", &pilot_args.concat())?;
+    let pilot_port = pilot.announced()?["port"].as_u64().unwrap_or_default();
+    let monitor_port = announced["port"].as_u64().unwrap_or_default();
+    let sim_args = [train::common_args(&job, quiet), args.flavour.to_args(), sim_args(args, monitor_port, pilot_port)];
+    let mut sim = Child::start("sim", &sim_args.concat())?;
+    sim.announced()?;
+    tracing::info!("seed {seed}, {} pilot, speed {}", args.skill.skill, args.speed);
+    let lost = wait(&mut monitor, &mut pilot, &mut sim, &stop);
+    monitor.finish();
+    sim.finish();
+    pilot.finish();
+    let told = train::report_outcome(&session);
+    match lost {
+        Some(error) => Err(error),
+        None => told,
+    }
+}
+
+fn monitor_args(args: &Args) -> Vec<String> {
+    let trainee = args.trainee.as_ref().map_or_else(|| format!("synthetic-{}", args.skill.skill), |id| id.as_str().to_owned());
+    ["--sessions", &args.sessions.display().to_string(), "--trainee", &trainee, "--port", "0"].map(str::to_owned).to_vec()
+}
+
+fn sim_args(args: &Args, monitor_port: u64, pilot_port: u64) -> Vec<String> {
+    let (monitor, pilot) = (monitor_port.to_string(), format!("127.0.0.1:{pilot_port}"));
+    let speed = args.speed.to_string();
+    let mut out =
+        ["--ports", "ephemeral", "--speed", &speed, "--monitor-port", &monitor, "--gcs", &pilot].map(str::to_owned).to_vec();
+    out.extend(["--after-crash", "scenario"].map(str::to_owned));
+    out.extend(["--lockstep".to_owned(), pilot, "--lockstep".to_owned(), format!("127.0.0.1:{monitor}")]);
+    for target in &args.gcs {
+        if let args::Destination::Address(address) = target {
+            out.extend(["--gcs".to_owned(), address.to_string()]);
+        }
+    }
+    out
+}
+
+/// Waits for the end of the session. Stops it if the pilot is done without an end, or if a process exits early.
+fn wait(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &StopRequest) -> Option<AppError> {
+    let mut pilot_done: Option<Stopwatch> = None;
+    loop {
+        if monitor.ended().is_some() || stop.is_requested() {
+            return None;
+        }
+        if let Some(report) = pilot.line() {
+            tracing::info!("the pilot is done: {report}");
+            pilot_done = Some(Stopwatch::start());
+        }
+        if pilot_done.is_some_and(|since| since.elapsed() > GRACE) {
+            return None;
+        }
+        for (name, child) in [("simulator", &mut *sim), ("pilot", &mut *pilot)] {
+            // The monitor ends a moment before the others notice.
+            if let Some(status) = child.ended()
+                && monitor.ended().is_none()
+            {
+                return Some(AppError::failed(format!("the {name} ended early ({status})")));
+            }
+        }
+        std::thread::sleep(LOOK);
+    }
+}

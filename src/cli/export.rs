@@ -1,0 +1,215 @@
+//! `spandrel export`: frames, scenario, flight plan, geometry and recordings for other programs.
+
+use super::args;
+use super::assess;
+use super::report;
+use crate::errors::{AppError, EXIT_CODES};
+use crate::io::files;
+use crate::io::mcap::{self, McapRecording};
+use crate::io::progress::ProgressLog;
+use crate::io::session_folder::StoredSession;
+use crate::records::read_session;
+use spandrel_clients::pilot::flight_plan;
+use spandrel_clients::pilot::goals::PlanningContext;
+use spandrel_mavlink::telemetry::Timeline;
+use spandrel_model::foxglove;
+use spandrel_model::geodesy::LocalPlane;
+use spandrel_model::site::Site;
+use spandrel_model::site::gltf;
+use spandrel_model::time::SimTime;
+use spandrel_monitor::assessment::scored_flight;
+use spandrel_monitor::export::{ScenarioExport, frames_csv, json_text};
+use spandrel_monitor::recording;
+use spandrel_training::xapi;
+use std::collections::BTreeMap;
+use std::io::{Cursor, Write};
+use std::path::Path;
+
+/// Export frames, scenario, flight plan, geometry or a recording for other programs
+///
+/// Frames (CSV, one line per scored frame) need a session. The scored part of the scenario (JSON: paths, defects, limits) and the
+/// collision geometry (binary glTF, each member named with its element number) are available for a session or a scenario. A
+/// recording (MCAP, for Foxglove) needs a session, or a truncated recording, which is recovered up to its last complete chunk.
+#[derive(Debug, clap::Args)]
+#[command(group(clap::ArgGroup::new("what").required(true).multiple(true).args(["frames", "scenario", "glb", "plan", "mcap", "parquet", "xapi", "scorm"])))]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel export sessions/20260801T... --frames frames.csv
+  spandrel export two-bridges --seed 7 --scenario -          paths and the defects that seed 7 places
+  spandrel export two-bridges --plan tasks.plan              open it in QGroundControl, upload, start
+  spandrel export two-bridges --glb bridges.glb              open it in any 3D viewer
+  spandrel export sessions/20260801T... --mcap flight.mcap   open it in Foxglove
+  spandrel export sessions/20260801T... --parquet frames.parquet --xapi statements.jsonl --scorm result.zip
+  spandrel export broken.mcap --mcap whole.mcap              recover a truncated recording
+
+{EXIT_CODES}"))]
+pub struct Args {
+    /// Session folder, scenario file, or the name of a shipped scenario; with --mcap also a recording
+    #[arg(value_name = "SESSION|SCENARIO|MCAP")]
+    from: String,
+    /// Frames as CSV; '-' for standard output
+    #[arg(long, value_name = "FILE")]
+    frames: Option<String>,
+    /// The scored part of the scenario as JSON; '-' for standard output
+    #[arg(long, value_name = "FILE")]
+    scenario: Option<String>,
+    /// The tasks' reference paths as a QGroundControl plan: takeoff, transits clear of the bridges, each task with gimbal, lamp
+    /// and pictures, and return; '-' for standard output
+    #[arg(long, value_name = "FILE")]
+    plan: Option<String>,
+    /// Aircraft for the plan's clearance: a file, or the name of a shipped one; a session uses its own
+    #[arg(long, value_name = "FILE|NAME", default_value = "phantom2", requires = "plan")]
+    vehicle: String,
+    /// Autopilot for the plan's firmwareType, which ground stations compare with the vehicle's
+    #[arg(long, value_name = "NAME", default_value = "px4", requires = "plan")]
+    flavour: args::Flavour,
+    /// Geometry as binary glTF 2.0, m, y up; '-' for standard output
+    #[arg(long, value_name = "FILE")]
+    glb: Option<String>,
+    /// The flight as MCAP: drone, camera and site, battery, clearance, contacts; '-' for standard output
+    #[arg(long, value_name = "FILE")]
+    mcap: Option<String>,
+    /// Frames as Parquet, with the columns of --frames, each with its unit, frame and definition in the metadata; '-' for standard output
+    #[arg(long, value_name = "FILE")]
+    parquet: Option<String>,
+    /// The session as xAPI statements, one JSON object per line; '-' for standard output
+    #[arg(long, value_name = "FILE")]
+    xapi: Option<String>,
+    /// The result as a SCORM 1.2 package for a learning management system; '-' for standard output
+    #[arg(long, value_name = "FILE")]
+    scorm: Option<String>,
+    /// Seed that places the defects of a scenario without a seed of its own
+    #[arg(long, value_name = "N", value_parser = args::seed)]
+    seed: Option<u64>,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// If files are invalid, there is no data to export, or the output cannot be written.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let path = Path::new(&args.from);
+    if let Some(target) = &args.mcap
+        && path.extension().is_some_and(|ending| ending == "mcap")
+    {
+        return recover(path, target);
+    }
+    let stored = if path.is_dir() { Some(StoredSession::read(path)?) } else { None };
+    if let Some(target) = &args.frames {
+        let Some(stored) = &stored else {
+            return Err(AppError::wrong(format!("--frames needs a session folder, and '{}' is none", args.from)));
+        };
+        files::write(target, frames_csv(&assess::frame_rows(stored)?).as_bytes())?;
+    }
+    if let Some(target) = &args.mcap {
+        let Some(stored) = &stored else {
+            return Err(AppError::wrong(format!(
+                "--mcap needs a session folder or a recording (.mcap), and '{}' is neither",
+                args.from
+            )));
+        };
+        files::write(target, &recorded(stored)?)?;
+    }
+    exchanged(args, stored.as_ref())?;
+    if args.scenario.is_none() && args.glb.is_none() && args.plan.is_none() {
+        return Ok(());
+    }
+    let (scenario, own) = match stored {
+        Some(stored) => (stored.scenario.scenario, Some(stored.vehicle.vehicle)),
+        None => (files::scenario(&args.from)?.scenario, None),
+    };
+    let seed = args.seed.or(scenario.seed);
+    if args.scenario.is_some() && seed.is_none() && scenario.defects.count > 0 && scenario.defects.placed.is_none() {
+        return Err(AppError::wrong(format!(
+            "'{}' places its defects anew in every session: say which ones with --seed N",
+            args.from
+        )));
+    }
+    let progress = ProgressLog::start("building the site");
+    // Without a seed only the geometry is asked for, and no seed moves that.
+    let site = Site::build(&scenario, seed.unwrap_or_default());
+    progress.end();
+    if let Some(target) = &args.scenario {
+        files::write(target, json_text(&ScenarioExport::new(&scenario, site.defects())).as_bytes())?;
+    }
+    if let Some(target) = &args.plan {
+        let vehicle = match own {
+            Some(vehicle) => vehicle,
+            None => files::vehicle(&args.vehicle)?.vehicle,
+        };
+        let map = PlanningContext { scenario: &scenario, site: &site, vehicle: &vehicle, at: SimTime::ZERO, keep_clear_m: None };
+        files::write(target, json_text(&flight_plan::plan(&map, args.flavour.display_name().autopilot)).as_bytes())?;
+    }
+    if let Some(target) = &args.glb {
+        files::write(target, &gltf::glb(&site))?;
+    }
+    Ok(())
+}
+
+/// Exports a session for learning systems.
+fn exchanged(args: &Args, stored: Option<&StoredSession>) -> Result<(), AppError> {
+    let needed =
+        |flag: &str| stored.ok_or_else(|| AppError::wrong(format!("{flag} needs a session folder, and '{}' is none", args.from)));
+    if let Some(target) = &args.parquet {
+        let stored = needed("--parquet")?;
+        files::write(target, &crate::io::parquet::frames(&assess::frame_rows(stored)?)?)?;
+    }
+    if let Some(target) = &args.xapi {
+        needed("--xapi")?;
+        let record = read_session(Path::new(&args.from), &BTreeMap::new())?;
+        let record = record.ok_or_else(|| AppError::failed("the session has no record"))?;
+        files::write(target, xapi::lines(&xapi::statements(&record, xapi::HOME)).as_bytes())?;
+    }
+    if let Some(target) = &args.scorm {
+        needed("--scorm")?;
+        files::write(target, &zipped(&report::package(Path::new(&args.from))?)?)?;
+    }
+    Ok(())
+}
+
+/// Packs files into a ZIP archive. The same files produce the same bytes.
+fn zipped(files: &[(&str, String)]) -> Result<Vec<u8>, AppError> {
+    let write = || {
+        let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
+        let options = zip::write::SimpleFileOptions::default()
+            .compression_method(zip::CompressionMethod::Stored)
+            .last_modified_time(zip::DateTime::default());
+        for (name, text) in files {
+            archive.start_file(*name, options)?;
+            archive.write_all(text.as_bytes())?;
+        }
+        archive.finish().map(Cursor::into_inner)
+    };
+    write().map_err(|error: zip::result::ZipError| AppError::failed(format!("the package cannot be made: {error}")))
+}
+
+/// Exports a session's flight as a recording.
+fn recorded(stored: &StoredSession) -> Result<Vec<u8>, AppError> {
+    let (scenario, vehicle) = (&stored.scenario.scenario, &stored.vehicle.vehicle);
+    let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
+    timeline.push_log(&stored.log).map_err(|error| AppError::failed(format!("the telemetry cannot be read: {error}")))?;
+    let flight = scored_flight(&timeline, scenario, vehicle);
+    let messages = recording::messages(&flight, scenario, vehicle);
+    let Some(first) = messages.first() else {
+        return Err(AppError::failed("the session holds no flight to record"));
+    };
+    // No seed moves the geometry.
+    let glb = gltf::glb(&Site::build(scenario, 0));
+    let write = || {
+        let mut out = McapRecording::begin(Cursor::new(Vec::new()))?;
+        out.write(&foxglove::site(first.unix_ns, &mcap::base64(&glb)))?;
+        messages.iter().try_for_each(|message| out.write(message))?;
+        out.end().map(Cursor::into_inner)
+    };
+    write().map_err(|error: ::mcap::McapError| AppError::failed(format!("the recording cannot be made: {error}")))
+}
+
+/// Recovers the readable part of a truncated recording.
+fn recover(path: &Path, target: &str) -> Result<(), AppError> {
+    let shown = path.display();
+    let file = std::fs::read(path).map_err(|error| AppError::wrong(format!("{shown}: {error}")))?;
+    let recovered = mcap::recover(&file).map_err(|error| AppError::wrong(format!("{shown} is no recording (MCAP): {error}")))?;
+    let why = recovered.broken.as_deref().unwrap_or("it was whole");
+    tracing::info!("{shown}: {} messages ({why})", recovered.messages);
+    files::write(target, &recovered.bytes)
+}

@@ -1,0 +1,124 @@
+//! The shells: the only sockets, files, clocks, threads and processes. One file per subcommand; each turns arguments into a run of a
+//! sans-IO core. Results go to standard output, everything else to standard error.
+
+pub mod args;
+pub mod assess;
+mod check;
+mod cohort;
+mod demo;
+mod export;
+mod generate;
+pub mod monitor;
+mod pilot;
+pub mod plan;
+pub mod questionnaire;
+mod rc;
+pub mod render;
+pub mod report;
+mod sim;
+mod table;
+mod train;
+pub mod view;
+
+use crate::errors::{self, AppError};
+use crate::io::logging;
+use crate::{records, web};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Open trainer for bridge inspectors who fly a drone: a simulated MAVLink vehicle, a monitor that scores the flight from its telemetry, and
+/// a synthetic trainee.
+///
+/// First steps: `spandrel demo` flies a whole session automatically; `spandrel train` waits for your ground station (QGroundControl
+/// connects automatically) and scores your flight.
+#[derive(Debug, Parser)]
+#[command(name = "spandrel", version, max_term_width = 110, after_help = errors::EXIT_CODES)]
+pub struct Cli {
+    /// Level of messages on standard error: error, warn, info, debug or trace
+    #[arg(long, global = true, value_name = "LEVEL", default_value = "info")]
+    log: tracing::Level,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Train(train::Args),
+    Demo(demo::Args),
+    Sim(sim::Args),
+    Monitor(monitor::Args),
+    Pilot(pilot::Args),
+    Rc(rc::Args),
+    Assess(assess::Args),
+    Export(export::Args),
+    Questionnaire(questionnaire::Args),
+    Records(records::Args),
+    Plan(plan::Args),
+    Cohort(cohort::Args),
+    Report(report::Args),
+    Serve(web::Args),
+    Render(render::Args),
+    View(view::Args),
+    Check(check::Args),
+}
+
+/// Runs the program: arguments in, exit code out (0 done, 1 failed, 2 wrong arguments or files).
+#[must_use]
+pub fn main() -> ExitCode {
+    let matches = Cli::command().subcommand(generate::subcommand()).get_matches();
+    let done = match matches.subcommand() {
+        Some((generate::NAME, inner)) => {
+            let what = generate::What::from_arg_matches(inner).unwrap_or_else(|error| error.exit());
+            generate::run(&what, Cli::command())
+        }
+        _ => run(&Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => error.report(),
+    }
+}
+
+fn run(cli: &Cli) -> Result<(), AppError> {
+    logging::start(cli.log);
+    match &cli.command {
+        Command::Train(args) => train::run(args, cli.log),
+        Command::Demo(args) => demo::run(args, cli.log),
+        Command::Sim(args) => sim::run(args),
+        Command::Monitor(args) => monitor::run(args),
+        Command::Pilot(args) => pilot::run(args),
+        Command::Rc(args) => rc::run(args),
+        Command::Assess(args) => assess::run(args),
+        Command::Export(args) => export::run(args),
+        Command::Questionnaire(args) => questionnaire::run(args),
+        Command::Records(args) => records::run(args),
+        Command::Plan(args) => plan::run(args),
+        Command::Cohort(args) => cohort::run(args),
+        Command::Report(args) => report::run(args),
+        Command::Serve(args) => web::run(args),
+        Command::Render(args) => render::run(args),
+        Command::View(args) => view::run(args),
+        Command::Check(args) => check::run(args),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn exact_every_subcommand_explains_itself_with_an_example() {
+        for command in Cli::command().get_subcommands() {
+            let help = command.clone().render_long_help().to_string();
+            assert!(help.contains("Examples:"), "{}: no examples", command.get_name());
+            for argument in command.get_arguments().filter(|argument| !argument.is_hide_set()) {
+                assert!(argument.get_help().is_some(), "{} {}: no help", command.get_name(), argument.get_id());
+            }
+        }
+    }
+}

@@ -1,0 +1,367 @@
+//! `spandrel monitor`: sockets, clock and session folder around the sans-IO sidecar.
+
+use super::args::{self, JobArgs, TraineeId};
+use super::report;
+use super::table;
+use crate::errors::{AppError, EXIT_CODES};
+use crate::io::append_file::WriteRefused;
+use crate::io::clock::{self, Stopwatch};
+use crate::io::files::{self, ScenarioFile, VehicleFile};
+use crate::io::net::{NetEvent, SocketHub, SocketId};
+use crate::io::pacing::SimulationSpeed;
+use crate::io::progress::ProgressLog;
+use crate::io::session_folder::{SessionFolder, StoredSession};
+use crate::io::stop::StopRequest;
+use serde_json::json;
+use spandrel_mavlink::dialect::MavSeverity;
+use spandrel_model::time::SimTime;
+use spandrel_monitor::sidecar::build_site;
+use spandrel_monitor::{AssessError, AssessedSession, Monitor, MonitorConfig, export};
+use std::net::{IpAddr, SocketAddr};
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// First monitor port; each instance has the next one.
+pub const FIRST_PORT: u16 = 14030;
+/// Longest wait for a datagram: the core wants to see the wall clock every 100 ms.
+const WAIT: Duration = Duration::from_millis(50);
+/// What is taken reaches the disk at least this often.
+const FLUSH_EVERY: Duration = Duration::from_millis(250);
+/// A vehicle that is silent this long may come back from another address.
+const SILENT: Duration = Duration::from_secs(3);
+/// While the disk refuses, the pilot is warned this often.
+const WARN_EVERY: Duration = Duration::from_secs(30);
+/// Datagrams taken before the answers go out.
+const BATCH: usize = 256;
+
+/// Monitor a flight and score it
+///
+/// Receives the vehicle's MAVLink telemetry, warns the pilot by status texts (off path, too close, speeding, crash, battery), and writes the
+/// session folder. When the session ends (landing near the ground team, empty battery, time limit, or a person or vehicle hit), it writes
+/// the assessment. Telemetry is its only source. To continue after a monitor was killed, use --session DIR. While the disk is full, it keeps
+/// telemetry in memory, warns the pilot, and tries again.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel monitor --trainee anna                      score instance 0 of the simulator (UDP 14030)
+  spandrel monitor --connect 127.0.0.1:14280 --port 0  connect as an additional monitor, to the vehicle's payload port
+  spandrel monitor --session sessions/20260801T...     continue in mid-flight after a kill
+
+{EXIT_CODES}"))]
+pub struct Args {
+    #[command(flatten)]
+    job: JobArgs,
+    /// Folder for session folders
+    #[arg(long, value_name = "DIR", default_value = "sessions")]
+    sessions: PathBuf,
+    /// Trainee: letters, digits, '-' and '_', at most 32 characters
+    #[arg(long, value_name = "ID", default_value = "anonymous")]
+    trainee: TraineeId,
+    /// Purpose of the flight, for session.json [default: not recorded]
+    #[arg(long, value_name = "PURPOSE")]
+    purpose: Option<args::Purpose>,
+    /// Accepted for compatibility with train and demo; has no effect, because the monitor takes its clock from the telemetry
+    #[arg(long, value_name = "X|max")]
+    speed: Option<SimulationSpeed>,
+    /// Continue this session after its monitor was killed (scenario, vehicle and trainee come from the folder)
+    #[arg(long, value_name = "DIR")]
+    session: Option<PathBuf>,
+    /// Vehicle instance: sets the default port
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=200))]
+    instance: u8,
+    /// UDP port to listen on, 0 for any free one [default: 14030 + instance]
+    #[arg(long, value_name = "PORT")]
+    port: Option<u16>,
+    /// Send to the vehicle at this address instead of waiting for its first datagram
+    #[arg(long, value_name = "HOST:PORT", value_parser = args::address)]
+    connect: Option<SocketAddr>,
+    /// Local address to bind
+    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = args::listen)]
+    listen: IpAddr,
+    /// Print one line of JSON {"port", "session"} on standard output at startup, and no table at the end
+    #[arg(long)]
+    announce: bool,
+    /// Stop when standard input closes (for a parent process)
+    #[arg(long)]
+    leash: bool,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When files or ports are wrong, or the session cannot be scored.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let stop = StopRequest::install(args.leash)?;
+    // Files first, then the port, then the folder: what is refused leaves nothing behind.
+    let start = SessionStart::read(args)?;
+    let mut hub = SocketHub::new();
+    let port = args.port.unwrap_or(FIRST_PORT + u16::from(args.instance));
+    let socket = hub.bind(args.listen, port, "--port")?;
+    let (config, monitor, folder) = start.open(args)?;
+    if args.announce {
+        println!("{}", json!({ "port": hub.port(socket), "session": folder.path() }));
+    }
+    tracing::info!("listening on UDP {}, writing {}", hub.port(socket), folder.path().display());
+    let watch = Stopwatch::start();
+    let resolved = config.scenario.defects.placed.is_some();
+    let mut shell = MonitorProcess {
+        hub,
+        socket,
+        peer: args.connect,
+        last_heard: Duration::ZERO,
+        monitor,
+        folder,
+        resolved,
+        described: false,
+        flushed: Duration::ZERO,
+        warned: None,
+        stopwatch: watch,
+    };
+    shell.save_and_report();
+    let mut progress = ProgressLog::start("waiting for the vehicle");
+    while shell.monitor.finished().is_none() {
+        if stop.is_requested() || shell.monitor.refused().is_some() {
+            shell.monitor.close();
+        } else {
+            shell.step();
+        }
+        progress.report(|| shell.status_line());
+    }
+    progress.end();
+    shell.end(args.announce, &stop)
+}
+
+/// What is started: a new session, or an old one taken up again.
+enum SessionStart {
+    New(Box<(ScenarioFile, VehicleFile)>),
+    Again(PathBuf, Box<StoredSession>),
+}
+
+impl SessionStart {
+    /// Reads the files; nothing is written yet.
+    fn read(args: &Args) -> Result<Self, AppError> {
+        match &args.session {
+            Some(path) => Ok(Self::Again(path.clone(), Box::new(StoredSession::read(path)?))),
+            None => Ok(Self::New(Box::new((files::scenario(&args.job.scenario)?, files::vehicle(&args.job.vehicle)?)))),
+        }
+    }
+
+    fn open(&self, args: &Args) -> Result<(MonitorConfig, Monitor, SessionFolder), AppError> {
+        let config = |scenario: &ScenarioFile, vehicle: &VehicleFile, trainee: &str, purpose, started_unix_us| MonitorConfig {
+            scenario: scenario.scenario.clone(),
+            vehicle: vehicle.vehicle.clone(),
+            trainee: trainee.to_owned(),
+            purpose,
+            started_unix_us,
+            system_id: args.instance + 1,
+            seed: args.job.seed,
+            survey_builder: build_site,
+        };
+        match self {
+            Self::New(files) => {
+                let (scenario, vehicle) = files.as_ref();
+                let started_unix_us = clock::unix_us();
+                let folder = SessionFolder::create(&args.sessions, args.trainee.as_str(), started_unix_us, scenario, vehicle)?;
+                let purpose = args.purpose.map(|purpose| purpose.word().to_owned());
+                let config = config(scenario, vehicle, args.trainee.as_str(), purpose, started_unix_us);
+                Ok((config.clone(), Monitor::new(config), folder))
+            }
+            Self::Again(path, stored) => {
+                let folder = SessionFolder::resume(path, stored)?;
+                let purpose = stored.purpose.clone();
+                let config = config(&stored.scenario, &stored.vehicle, &stored.trainee, purpose, stored.started_unix_us);
+                let monitor = Monitor::resume(config.clone(), &stored.log)
+                    .map_err(|error| AppError::failed(format!("{}: the telemetry cannot be read: {error}", path.display())))?;
+                Ok((config, monitor, folder))
+            }
+        }
+    }
+}
+
+struct MonitorProcess {
+    hub: SocketHub,
+    socket: SocketId,
+    peer: Option<SocketAddr>,
+    last_heard: Duration,
+    monitor: Monitor,
+    folder: SessionFolder,
+    /// `scenario.toml` holds the seed and the placed defects.
+    resolved: bool,
+    /// `session.json` is up to date.
+    described: bool,
+    flushed: Duration,
+    /// When the pilot was last warned of a disk that refuses; `None` while it takes everything.
+    warned: Option<Duration>,
+    stopwatch: Stopwatch,
+}
+
+impl MonitorProcess {
+    /// Takes in what has come, lets the core answer, writes what is to be kept.
+    fn step(&mut self) {
+        let mut wait = WAIT;
+        for _ in 0..BATCH {
+            let Some(arrival) = self.hub.next(wait) else { break };
+            wait = Duration::ZERO;
+            self.take(&arrival);
+        }
+        let wall = self.stopwatch.elapsed();
+        self.monitor.handle_timeout(SimTime::from_s(wall.as_secs_f64()));
+        self.write_records();
+        self.save_when_due();
+        self.send();
+    }
+
+    fn take(&mut self, arrival: &NetEvent) {
+        let NetEvent::Datagram { from, bytes, .. } = arrival else { return };
+        let wall = self.stopwatch.elapsed();
+        if self.peer != Some(*from) {
+            let current_is_alive = self.peer.is_some() && wall.saturating_sub(self.last_heard) < SILENT;
+            if current_is_alive {
+                tracing::debug!("a datagram from the stranger {from} is left alone");
+                return;
+            }
+            if !self.monitor.is_from_vehicle(bytes) {
+                tracing::debug!("a datagram from {from} is not the vehicle's");
+                return;
+            }
+            tracing::info!("hearing {from}");
+            self.peer = Some(*from);
+        }
+        self.last_heard = wall;
+        self.monitor.handle_datagram(bytes);
+    }
+
+    fn send(&mut self) {
+        while let Some(bytes) = self.monitor.poll_transmit() {
+            if let Some(peer) = self.peer {
+                self.hub.send(self.socket, peer, &bytes);
+            }
+        }
+    }
+
+    /// Hands the core's records to the folder.
+    fn write_records(&mut self) {
+        while let Some(record) = self.monitor.poll_record() {
+            self.folder.record(record);
+        }
+    }
+
+    fn save_when_due(&mut self) {
+        if self.stopwatch.elapsed().saturating_sub(self.flushed) >= FLUSH_EVERY {
+            self.save_and_report();
+        }
+    }
+
+    fn save_and_report(&mut self) {
+        self.flushed = self.stopwatch.elapsed();
+        let saved = self.save();
+        self.report_disk(saved.err());
+    }
+
+    /// Writes everything that is pending.
+    fn save(&mut self) -> Result<(), WriteRefused> {
+        self.folder.flush()?;
+        if !self.resolved
+            && let (Some(seed), Some(survey)) = (self.monitor.seed(), self.monitor.survey())
+        {
+            self.folder.resolve(seed, survey.defects())?;
+            self.resolved = true;
+            self.described = false;
+        }
+        if !self.described {
+            self.folder.describe(|scenario, vehicle, utc, starts| self.monitor.session_info(scenario, vehicle, utc, starts))?;
+            self.described = true;
+        }
+        Ok(())
+    }
+
+    /// Warns log and pilot when the disk begins to refuse, now and then while it does, and when it no longer does.
+    fn report_disk(&mut self, refused: Option<WriteRefused>) {
+        let wall = self.stopwatch.elapsed();
+        match refused {
+            None if self.warned.take().is_some() => {
+                tracing::info!("the disk takes the session again");
+                self.monitor.notify_pilot("Recording resumed", MavSeverity::MAV_SEVERITY_INFO);
+            }
+            Some(refused) if self.warned.is_none_or(|last| wall.saturating_sub(last) >= WARN_EVERY) => {
+                self.warned = Some(wall);
+                let (pending, dropped) = (self.folder.pending() / 1000, self.folder.dropped());
+                tracing::warn!("{refused}; {pending} kB wait in memory, {dropped} records are lost; trying again");
+                let words = if refused.is_full() { "Disk full: recording paused" } else { "Disk error: recording paused" };
+                self.monitor.notify_pilot(words, MavSeverity::MAV_SEVERITY_ERROR);
+            }
+            None | Some(_) => {}
+        }
+    }
+
+    /// Writes the whole session; while the disk refuses, until somebody asks to stop.
+    fn complete(&mut self, json: Option<&str>, stop: &StopRequest) -> Result<(), AppError> {
+        loop {
+            self.write_records();
+            self.described = false;
+            let saved = self.save().and_then(|()| json.map_or(Ok(()), |json| self.folder.assessment(json)));
+            match saved {
+                Err(refused) if stop.is_requested() => return Err(refused.into()),
+                saved => {
+                    let done = saved.is_ok();
+                    self.report_disk(saved.err());
+                    self.send();
+                    if done {
+                        return Ok(());
+                    }
+                }
+            }
+            // The vehicle goes on talking: its queue is emptied, and heartbeats go out.
+            self.step();
+        }
+    }
+
+    fn end(&mut self, announce: bool, stop: &StopRequest) -> Result<(), AppError> {
+        if self.hub.dropped() > 0 {
+            tracing::warn!("{} datagrams found the queue full", self.hub.dropped());
+        }
+        let json = self.outcome().ok().map(|graded| export::json_text(&graded.assessment));
+        self.send();
+        self.complete(json.as_deref(), stop)?;
+        // The report reads the telemetry again: two copies of the flight would double the memory.
+        self.monitor.release_flight();
+        // The scores stand; a page that cannot be written can be made later.
+        if json.is_some()
+            && let Err(error) = report::write(self.folder.path())
+        {
+            tracing::warn!("no report was written: {error}");
+        }
+        if let Err(refused) = self.folder.sync() {
+            tracing::warn!("{refused}; a power failure could damage the session");
+        }
+        let graded = self.outcome()?;
+        if !announce {
+            print!("{}", table::scores(&json!(graded.assessment)));
+            table::places(self.folder.path());
+        }
+        Ok(())
+    }
+
+    fn outcome(&self) -> Result<&AssessedSession, AppError> {
+        let place = self.folder.path().display();
+        match self.monitor.finished() {
+            Some(Ok(graded)) => Ok(graded),
+            Some(Err(error @ (AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. }))) => Err(AppError::wrong(
+                format!("{error}: give simulator and monitor the same --scenario and --seed (telemetry is in {place})"),
+            )),
+            Some(Err(error)) => Err(AppError::failed(format!("{error} (telemetry is in {place})"))),
+            None => Err(AppError::failed(format!("the session has not ended (telemetry is in {place})"))),
+        }
+    }
+
+    fn status_line(&self) -> String {
+        let monitor = &self.monitor;
+        let Some(flown) = monitor.flight_time() else {
+            return if self.peer.is_some() { "connected, on the ground".into() } else { "waiting for the vehicle".into() };
+        };
+        let seconds = flown.ms() / 1000;
+        let task = monitor.task().map_or("off path".to_owned(), |task| format!("on task {task}"));
+        let battery = monitor.battery_pct().map_or(String::new(), |pct| format!(", battery {pct:.0} %"));
+        format!("{:02}:{:02} of flight, {task}{battery}", seconds / 60, seconds % 60)
+    }
+}

@@ -1,0 +1,175 @@
+//! `spandrel pilot`: a socket and a clock around the sans-IO synthetic trainee.
+
+use super::args::{self, JobArgs};
+use crate::errors::{AppError, EXIT_CODES};
+use crate::io::clock::Stopwatch;
+use crate::io::files;
+use crate::io::net::{NetEvent, SocketHub};
+use crate::io::progress::ProgressLog;
+use crate::io::stop::StopRequest;
+use serde_json::json;
+use spandrel_clients::pilot::{Pilot, PilotConfig, Skill, SkillFactor};
+use spandrel_model::time::SimTime;
+use std::net::{IpAddr, SocketAddr};
+use std::str::FromStr;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Longest wait for a datagram.
+const WAIT: Duration = Duration::from_millis(50);
+/// Wall time without a datagram after which a connected vehicle counts as lost.
+const SILENT: Duration = Duration::from_secs(10);
+
+/// Skill level of the synthetic trainee.
+#[derive(Debug, Clone, clap::Args)]
+pub struct SkillArgs {
+    /// Skill of the synthetic trainee: novice, trained or expert
+    #[arg(long, value_name = "SKILL", default_value = "trained", value_parser = ["novice", "trained", "expert"])]
+    pub skill: String,
+    /// Take these parameters from the expert instead, to measure the effect of each: delay, gain, noise, preview, lapses
+    #[arg(long, value_name = "FACTOR,...", value_delimiter = ',', value_parser = SkillFactor::from_str)]
+    pub expert_in: Vec<SkillFactor>,
+}
+
+impl SkillArgs {
+    /// Returns the parameters of the synthetic trainee.
+    ///
+    /// # Errors
+    /// If there is no such skill.
+    pub fn skill(&self) -> Result<Skill, AppError> {
+        let base = self.skill.parse::<Skill>().map_err(AppError::wrong)?;
+        Ok(self.expert_in.iter().fold(base, |pilot, factor| pilot.with(*factor, Skill::EXPERT)))
+    }
+
+    /// Returns the options as arguments for a child process.
+    pub fn to_args(&self) -> Vec<String> {
+        let mut args = vec!["--skill".to_owned(), self.skill.clone()];
+        if !self.expert_in.is_empty() {
+            let factors: Vec<String> = self.expert_in.iter().map(|factor| format!("{factor:?}").to_lowercase()).collect();
+            args.extend(["--expert-in".to_owned(), factors.join(",")]);
+        }
+        args
+    }
+}
+
+/// Fly the job as a synthetic trainee
+///
+/// Connects to the vehicle over UDP as a ground station does, and uses only manual control, lamp, gimbal and snapshot commands:
+/// takes off, flies the tasks in order, photographs the defects it notices, and lands. Its errors result from reaction delay,
+/// gain, noise, preview and lapses of attention.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel pilot --skill novice --seed 3 --connect 127.0.0.1:18570   dial a running simulator
+  spandrel pilot --skill novice --expert-in delay,noise              with the expert's delay and noise
+  spandrel pilot --port 0 --announce                                 wait for a simulator to call (--gcs)
+
+Prints one JSON line when the flight is over.
+
+{EXIT_CODES}"))]
+pub struct Args {
+    #[command(flatten)]
+    job: JobArgs,
+    #[command(flatten)]
+    skill: SkillArgs,
+    /// Address of the vehicle
+    #[arg(long, value_name = "HOST:PORT", value_parser = args::address, default_value = "127.0.0.1:18570")]
+    connect: SocketAddr,
+    /// Wait for the vehicle's first datagram on this UDP port instead of connecting to an address; 0 for any free port
+    #[arg(long, value_name = "PORT", conflicts_with = "connect")]
+    port: Option<u16>,
+    /// Local address to bind
+    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = args::listen)]
+    listen: IpAddr,
+    /// Print one JSON line {"port"} on standard output at startup
+    #[arg(long)]
+    announce: bool,
+    /// Exit when standard input closes (for a parent process); until then keep the link alive after the flight
+    #[arg(long)]
+    leash: bool,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// If files or ports are invalid, the vehicle never responds or is lost, or the flight could not begin.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let stop = StopRequest::install(args.leash)?;
+    let scenario = files::scenario(&args.job.scenario)?.scenario;
+    let config = PilotConfig {
+        seed: args.job.seed_for(&scenario),
+        scenario: Arc::new(scenario),
+        vehicle: Arc::new(files::vehicle(&args.job.vehicle)?.vehicle),
+        skill: args.skill.skill()?,
+    };
+    let mut hub = SocketHub::new();
+    let socket = hub.bind(args.listen, args.port.unwrap_or(0), "--port")?;
+    if args.announce {
+        println!("{}", json!({ "port": hub.port(socket) }));
+    }
+    let mut pilot = Pilot::new(config);
+    let mut peer = args.port.is_none().then_some(args.connect);
+    let (watch, mut heard, mut reported) = (Stopwatch::start(), None, false);
+    let mut progress = ProgressLog::start("waiting for the vehicle");
+    while !stop.is_requested() {
+        let arrival = hub.next(WAIT);
+        if let Some(NetEvent::Datagram { from, bytes, .. }) = arrival
+            && *peer.get_or_insert(from) == from
+        {
+            heard = Some(watch.elapsed());
+            pilot.handle_datagram(&bytes);
+        }
+        // A vehicle that calls needs no greeting, and greetings by the wall clock would differ from run to run.
+        if args.port.is_none() {
+            pilot.handle_timeout(SimTime::from_s(watch.elapsed().as_secs_f64()));
+        }
+        while let Some(bytes) = pilot.poll_transmit() {
+            if let Some(peer) = peer {
+                hub.send(socket, peer, &bytes);
+            }
+        }
+        progress.report(|| format!("pilot: {}", pilot.status_text()));
+        if let Some(report) = pilot.finished()
+            && !reported
+        {
+            reported = true;
+            println!(
+                "{}",
+                json!({ "reason": report.reason, "at_s": report.at.s(), "tasks_flown": report.tasks_flown, "pictures": report.pictures })
+            );
+            if !args.leash {
+                break;
+            }
+        }
+        if let Some(last) = heard
+            && watch.elapsed().saturating_sub(last) > SILENT
+        {
+            let message = format!("the vehicle has been silent for {} s", SILENT.as_secs());
+            return if reported { Ok(()) } else { Err(AppError::failed(message)) };
+        }
+    }
+    progress.end();
+    ended(&pilot)
+}
+
+fn ended(pilot: &Pilot) -> Result<(), AppError> {
+    match pilot.finished() {
+        Some(report) if report.reason == "landed" => Ok(()),
+        Some(report) => Err(AppError::failed(report.reason.clone())),
+        None => Err(AppError::failed(format!("stopped in mid-flight ({})", pilot.status_text()))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_borrowed_numbers_reach_the_child_and_come_back() {
+        let args = SkillArgs { skill: "novice".into(), expert_in: vec![SkillFactor::Delay, SkillFactor::Lapses] };
+        assert_eq!(args.to_args(), ["--skill", "novice", "--expert-in", "delay,lapses"]);
+        let skill = args.skill().unwrap();
+        assert_eq!((skill.delay_s, skill.lapses_per_min), (Skill::EXPERT.delay_s, Skill::EXPERT.lapses_per_min));
+        assert_eq!(skill.gain, Skill::NOVICE.gain);
+    }
+}

@@ -1,0 +1,114 @@
+//! `spandrel plan`: what to fly next.
+
+use super::args::TraineeId;
+use crate::errors::{AppError, EXIT_CODES};
+use crate::io::clock;
+use crate::io::files;
+use crate::records::{RecordsLocation, from_lines};
+use spandrel_monitor::export::json_text;
+use spandrel_training::plan::{MeasureChange, PlanRules, RULES, TrainingPlan, plan_counting, read_rules};
+use spandrel_training::record::{IncompletePolicy, omitted_summary};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// Recommend a trainee's next exercises, with reasons
+///
+/// Analyzes the trainee's records (see `spandrel records import`): the weakest tasks and axes, where they were speeding, what
+/// they hit, and why pictures missed defects. The rules come from a file; --rules selects another one.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel plan anna
+  spandrel plan anna --json
+  spandrel plan anna --rules our-rules.toml
+
+{EXIT_CODES}"))]
+pub struct Args {
+    /// Trainee ID (pseudonym)
+    #[arg(value_name = "ID")]
+    trainee: TraineeId,
+    #[command(flatten)]
+    place: RecordsLocation,
+    /// Read records from this file, as written by `spandrel records export`, instead of a database
+    #[arg(long, value_name = "FILE")]
+    records: Option<PathBuf>,
+    /// Rules file to use instead of the shipped rules
+    #[arg(long, value_name = "FILE")]
+    rules: Option<PathBuf>,
+    /// Include incomplete sessions
+    #[arg(long)]
+    include_incomplete: bool,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// If files or the database are invalid, or the trainee has no session.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let trainee = args.trainee.as_str();
+    let mut records = match &args.records {
+        Some(file) => from_lines(file)?,
+        None => args.place.open()?.records(Some(trainee))?,
+    };
+    records.retain(|record| record.trainee == trainee);
+    records.sort_by(|a, b| (a.started_unix_us, &a.id).cmp(&(b.started_unix_us, &b.id)));
+    let rules = rules(args.rules.as_deref())?;
+    let incomplete = IncompletePolicy::included(args.include_incomplete);
+    let Some(plan) = plan_counting(records, incomplete, &rules, clock::unix_us()) else {
+        return Err(AppError::wrong(format!(
+            "there is no session of '{trainee}' in the records; spandrel records import takes them in"
+        )));
+    };
+    files::write("-", if args.json { json_text(&plan) } else { words(&plan) }.as_bytes())
+}
+
+/// Returns the shipped rules, or the rules of a file.
+///
+/// # Errors
+/// If the file cannot be read or is invalid.
+pub fn rules(file: Option<&Path>) -> Result<PlanRules, AppError> {
+    match file {
+        Some(path) => Ok(read_rules(&path.display().to_string(), &files::read(path)?)?),
+        None => Ok(read_rules("rules.toml", RULES)?),
+    }
+}
+
+fn words(plan: &TrainingPlan) -> String {
+    let day = |unix_us: u64| clock::utc(unix_us).0.chars().take(10).collect::<String>();
+    let mut out = format!("After {}, fly between {} and {}:\n", plan.session, day(plan.from_unix_us), day(plan.until_unix_us));
+    for (k, step) in plan.steps.iter().enumerate() {
+        let _ = writeln!(out, "{}. {}", k + 1, step.scenario);
+        for reason in &step.reasons {
+            let _ = writeln!(out, "   {}", reason.words);
+        }
+    }
+    if let Some(words) = omitted_summary(plan.left_out) {
+        let _ = writeln!(out, "{words} (--include-incomplete counts them)");
+    }
+    if let Some(changes) = &plan.changes {
+        let _ = writeln!(out, "Since {}:", changes.since);
+        let told = |change: &&MeasureChange| change.better.is_some();
+        for change in changes.changes.iter().filter(told) {
+            let better = if change.better == Some(true) { "better" } else { "worse" };
+            let _ = writeln!(out, "   {}: {:.1} -> {:.1}, {better}", change.what, change.before, change.now);
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_every_scenario_that_a_rule_names_is_shipped() {
+        let rules = rules(None).unwrap();
+        let names = rules.rules.iter().map(|rule| &rule.scenario).chain([&rules.job, &rules.retention_scenario]);
+        for name in names {
+            assert!(files::scenario_names().contains(&name.as_str()), "{name}");
+        }
+    }
+}

@@ -1,0 +1,283 @@
+//! `spandrel questionnaire`: the questions after a flight, in a terminal.
+
+use crate::errors::{AppError, EXIT_CODES};
+use crate::io::files;
+use crate::io::session_folder::{self, StoredSession};
+use spandrel_model::scenario::Scenario;
+use spandrel_monitor::export::json_text;
+use spandrel_training::questionnaire::{
+    ANSWERS, Answers, FormWording, Languages, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, TlxScale,
+    Wording, read_answers, read_wording,
+};
+use std::io::{BufRead, Write};
+use std::path::{Path, PathBuf};
+
+/// Answer the questionnaire after a flight
+///
+/// Asks for your agreement with three statements about the whole session and three about each phase (24 for the paper's job).
+/// Every answer is saved immediately in the session's answers.json. You can leave at any time and continue later with the same
+/// command.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel questionnaire sessions/20260801T...             asks the open questions
+  spandrel questionnaire sessions/20260801T... --tlx       also asks the six scales of NASA-TLX
+  spandrel questionnaire sessions/20260801T... --again     asks everything again; Enter keeps an answer
+  spandrel questionnaire sessions/20260801T... --language de    in German (en, de, es)
+
+{EXIT_CODES}"))]
+pub struct Args {
+    /// Session folder
+    #[arg(value_name = "SESSION")]
+    session: PathBuf,
+    /// Also ask for the six scales of NASA-TLX
+    #[arg(long)]
+    tlx: bool,
+    /// Ask all questions again, including those already answered
+    #[arg(long)]
+    again: bool,
+    /// Custom wording (a copy of a shipped one with other texts)
+    #[arg(long, value_name = "FILE", conflicts_with = "language")]
+    wording: Option<PathBuf>,
+    /// Language: en, de or es [default: that of the saved answers, else the terminal's, else en]
+    #[arg(long, value_name = "TAG")]
+    language: Option<String>,
+}
+
+/// A single question.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum PromptQuestion {
+    Likert(QuestionnaireItem),
+    Tlx(TlxScale),
+}
+
+/// Input that a person typed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum TypedInput {
+    Answer(u8),
+    Keep,
+    Back,
+    Leave,
+    Nonsense,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// If the session or a file is invalid, or answers cannot be written.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let scenario = StoredSession::scenario_of(&args.session)?.scenario;
+    let mut answers = stored(&args.session, &scenario)?.unwrap_or_default();
+    let languages = languages(args.wording.as_slice())?;
+    let wording = chosen(args, &languages, &answers)?;
+    answers.language.clone_from(&wording.language);
+    let questions = questions(args, &scenario, &answers);
+    let (mut input, mut output) = (std::io::stdin().lock(), std::io::stdout().lock());
+    let mut save = |answers: &Answers| session_folder::replace(&args.session.join(ANSWERS), json_text(answers).as_bytes());
+    ask_questions(&questions, wording, &scenario, &mut answers, (&mut input, &mut output), &mut save)?;
+    let tasks = task_ids(&scenario);
+    let (all, open) = (QuestionnaireItem::all(&tasks).len(), answers.open(&tasks).len());
+    let again = if open > 0 { format!("; {}", wording.form.later) } else { String::new() };
+    let _ = writeln!(output, "\n{}{again}", wording.form.answered(all - open, all));
+    Ok(())
+}
+
+/// Returns the saved answers of a session, or `None` if there are none.
+///
+/// # Errors
+/// If the file cannot be read or is invalid.
+pub fn stored(session: &Path, scenario: &Scenario) -> Result<Option<Answers>, AppError> {
+    let path = session.join(ANSWERS);
+    if !path.is_file() {
+        return Ok(None);
+    }
+    Ok(Some(read_answers(&path.display().to_string(), &files::read(&path)?, &task_ids(scenario))?))
+}
+
+/// Returns the task numbers as used in the questions.
+pub fn task_ids(scenario: &Scenario) -> Vec<u32> {
+    scenario.tasks.iter().map(|task| task.id).collect()
+}
+
+/// Returns the custom wordings and the shipped ones.
+///
+/// # Errors
+/// If a file cannot be read or is invalid.
+pub fn languages(own: &[PathBuf]) -> Result<Languages, AppError> {
+    let read = |path: &PathBuf| Ok(read_wording(&path.display().to_string(), &files::read(path)?)?);
+    Ok(Languages::with(own.iter().map(read).collect::<Result<Vec<_>, AppError>>()?)?)
+}
+
+/// Returns the language: the requested one, that of the file, that of the saved answers, or that of the terminal.
+fn chosen<'a>(args: &Args, languages: &'a Languages, answers: &Answers) -> Result<&'a Wording, AppError> {
+    if let Some(tag) = &args.language {
+        let names: Vec<&str> = languages.all().iter().map(|wording| wording.language.as_str()).collect();
+        let none = || AppError::wrong(format!("--language {tag}: not there (allowed: {})", names.join(", ")));
+        return languages.of(tag).ok_or_else(none);
+    }
+    let begun = || languages.of(&answers.language).filter(|_| !answers.language.is_empty());
+    let first = &languages.all()[0];
+    Ok(if args.wording.is_some() { first } else { begun().or_else(|| languages.of(&terminal_language()?)).unwrap_or(first) })
+}
+
+/// Returns the terminal's language as a language tag: `de_CH.UTF-8` becomes de-CH.
+fn terminal_language() -> Option<String> {
+    let set = |name: &&str| std::env::var(name).ok().filter(|value| !value.is_empty());
+    let value = ["LC_ALL", "LC_MESSAGES", "LANG"].iter().find_map(set)?;
+    Some(value.split(['.', '@']).next().unwrap_or_default().replace('_', "-"))
+}
+
+fn questions(args: &Args, scenario: &Scenario, answers: &Answers) -> Vec<PromptQuestion> {
+    let likert =
+        QuestionnaireItem::all(&task_ids(scenario)).into_iter().filter(|item| args.again || !answers.given.contains_key(item));
+    let tlx = TlxScale::ALL.into_iter().filter(|scale| args.tlx && (args.again || !answers.tlx.contains_key(scale)));
+    likert.map(PromptQuestion::Likert).chain(tlx.map(PromptQuestion::Tlx)).collect()
+}
+
+/// Asks the questions in order until all are answered or the person leaves.
+fn ask_questions(
+    questions: &[PromptQuestion],
+    wording: &Wording,
+    scenario: &Scenario,
+    answers: &mut Answers,
+    (input, output): (&mut impl BufRead, &mut impl Write),
+    save: &mut impl FnMut(&Answers) -> Result<(), AppError>,
+) -> Result<(), AppError> {
+    let told = |error: std::io::Error| AppError::failed(format!("the terminal does not answer: {error}"));
+    if questions.is_empty() {
+        return Ok(());
+    }
+    writeln!(output, "{}\n{}\n{}", wording.title, wording.introduction, help(wording)).map_err(told)?;
+    let mut at = 0;
+    while let Some(question) = questions.get(at) {
+        write!(output, "\n[{}/{}] {}", at + 1, questions.len(), asked(*question, wording, scenario, answers)).map_err(told)?;
+        output.flush().map_err(told)?;
+        let mut line = String::new();
+        if input.read_line(&mut line).map_err(told)? == 0 {
+            return Ok(());
+        }
+        match parse_input(&line, *question) {
+            TypedInput::Answer(value) => {
+                match question {
+                    PromptQuestion::Likert(item) => answers.given.insert(*item, value),
+                    PromptQuestion::Tlx(scale) => answers.tlx.insert(*scale, value),
+                };
+                save(answers)?;
+                at += 1;
+            }
+            TypedInput::Keep => at += 1,
+            TypedInput::Back => at = at.saturating_sub(1),
+            TypedInput::Leave => return Ok(()),
+            TypedInput::Nonsense => writeln!(output, "{}", allowed(*question, &wording.form)).map_err(told)?,
+        }
+    }
+    Ok(())
+}
+
+fn help(wording: &Wording) -> String {
+    let scale: Vec<String> = wording.scale.iter().enumerate().map(|(k, word)| format!("{} {word}", k + 1)).collect();
+    format!("{}\n{}", scale.join("   "), wording.form.keys)
+}
+
+fn asked(question: PromptQuestion, wording: &Wording, scenario: &Scenario, answers: &Answers) -> String {
+    let name = |id: u32| scenario.tasks.iter().find(|task| task.id == id).map_or(String::new(), |task| task.name.clone());
+    let before = |given: Option<&u8>| given.map_or(String::new(), |value| format!(" [{value}]"));
+    match question {
+        PromptQuestion::Likert(item) => {
+            let (heading, statement) = (wording.heading(item, name), wording.statement(item));
+            format!("{heading}\n  {statement}\n  {STRONGLY_AGREE}-{STRONGLY_DISAGREE}{}: ", before(answers.given.get(&item)))
+        }
+        PromptQuestion::Tlx(scale) => {
+            let (question, low, high) = wording.tlx(scale);
+            let given = before(answers.tlx.get(&scale));
+            format!("{}\n  {question}\n  0 {low} - {TLX_MAX} {high}, steps of {TLX_STEP}{given}: ", wording.tlx_title)
+        }
+    }
+}
+
+fn allowed(question: PromptQuestion, form: &FormWording) -> String {
+    match question {
+        PromptQuestion::Likert(_) => form.integer_instruction(),
+        PromptQuestion::Tlx(_) => form.step_instruction(),
+    }
+}
+
+fn parse_input(line: &str, question: PromptQuestion) -> TypedInput {
+    let fits = |value: &u8| match question {
+        PromptQuestion::Likert(_) => (STRONGLY_AGREE..=STRONGLY_DISAGREE).contains(value),
+        PromptQuestion::Tlx(_) => *value <= TLX_MAX && value.is_multiple_of(TLX_STEP),
+    };
+    match line.trim() {
+        "" => TypedInput::Keep,
+        "b" | "B" => TypedInput::Back,
+        "q" | "Q" => TypedInput::Leave,
+        number => number.parse().ok().filter(fits).map_or(TypedInput::Nonsense, TypedInput::Answer),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_training::questionnaire::{InspectionPhase, OverallItem, PhaseAspect};
+
+    /// Enters lines into a questionnaire of the paper's job. Returns the answers, the output and the number of saves.
+    fn type_in(questions: &[PromptQuestion], answers: &mut Answers, lines: &str) -> (String, usize) {
+        let scenario = files::scenario("two-bridges").unwrap().scenario;
+        let (mut shown, mut saved) = (Vec::new(), 0);
+        let mut save = |_: &Answers| {
+            saved += 1;
+            Ok(())
+        };
+        ask_questions(
+            questions,
+            &languages(&[]).unwrap().all()[0],
+            &scenario,
+            answers,
+            (&mut lines.as_bytes(), &mut shown),
+            &mut save,
+        )
+        .unwrap();
+        (String::from_utf8(shown).unwrap(), saved)
+    }
+
+    fn all() -> Vec<PromptQuestion> {
+        QuestionnaireItem::all(&[1, 2, 3, 4]).into_iter().map(PromptQuestion::Likert).collect()
+    }
+
+    #[test]
+    fn exact_answers_are_taken_in_order_and_saved_one_by_one() {
+        let mut answers = Answers::default();
+        let (shown, saved) = type_in(&all(), &mut answers, &"2\n".repeat(24));
+        assert_eq!((answers.given.len(), saved), (24, 24));
+        assert!(answers.given.values().all(|answer| *answer == 2));
+        assert!(shown.contains("[24/24] Landing"), "{shown}");
+    }
+
+    #[test]
+    fn exact_leaving_keeps_the_answers_and_nonsense_is_asked_again() {
+        let mut answers = Answers::default();
+        let (shown, saved) = type_in(&all(), &mut answers, "1\n6\nfive\n0\n4\nq\n3\n");
+        assert_eq!((answers.given.len(), saved), (2, 2));
+        assert_eq!(answers.given[&QuestionnaireItem::Overall(OverallItem::Frustration)], 4);
+        assert_eq!(shown.matches("Please a whole number from 1 to 5").count(), 3);
+        // The end of the input is a way to leave, too.
+        assert_eq!(type_in(&all(), &mut answers, "").1, 0);
+    }
+
+    #[test]
+    fn exact_one_goes_back_and_enter_keeps() {
+        let mut answers = Answers::default();
+        type_in(&all(), &mut answers, "1\n1\nb\n5\n\n3\nq\n");
+        assert_eq!(answers.given[&QuestionnaireItem::Overall(OverallItem::Frustration)], 5);
+        assert_eq!(answers.given.get(&QuestionnaireItem::Overall(OverallItem::Feedback)), None);
+        assert_eq!(answers.given[&QuestionnaireItem::Phase(InspectionPhase::Calibration, PhaseAspect::Performance)], 3);
+    }
+
+    #[test]
+    fn exact_workload_scales_go_in_fives() {
+        let mut answers = Answers::default();
+        let questions: Vec<PromptQuestion> = TlxScale::ALL.into_iter().map(PromptQuestion::Tlx).collect();
+        type_in(&questions, &mut answers, "7\n105\n35\n100\n0\n5\n10\n15\n");
+        assert_eq!(answers.tlx.values().copied().collect::<Vec<u8>>(), [35, 100, 0, 5, 10, 15]);
+    }
+}

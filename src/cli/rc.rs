@@ -1,0 +1,318 @@
+//! `spandrel rc`: a controller, a clock and a socket around the sans-IO bridge to MANUAL_CONTROL.
+
+use super::args;
+use crate::errors::{AppError, EXIT_CODES};
+use crate::io::clock::Stopwatch;
+use crate::io::controller::{self, CalibratedController, ControllerReading, EventSource, ProfileFolder, RawTerminal};
+use crate::io::files;
+use crate::io::net::{NetEvent, SocketHub, SocketId};
+use crate::io::stop::StopRequest;
+use spandrel_clients::rc::controller_link::ControllerLink;
+use spandrel_clients::rc::input_recording::InputRecording;
+use spandrel_clients::rc::keyboard::KeyboardState;
+use spandrel_clients::rc::wizard::CalibrationWizard;
+use spandrel_clients::rc::{ControllerProfile, StickMode};
+use spandrel_model::time::SimTime;
+use std::io::BufRead;
+use std::net::{IpAddr, SocketAddr};
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::time::Duration;
+
+/// Longest wait for a datagram: a quarter of the interval between two stick samples.
+const WAIT: Duration = Duration::from_millis(5);
+/// Wall time without a datagram after which a connected vehicle counts as lost.
+const SILENT: Duration = Duration::from_secs(10);
+/// Wall time without a first datagram after which a waiting message is shown.
+const PATIENCE: Duration = Duration::from_secs(3);
+/// Key that ends flying in the terminal.
+const ENDS: &str = "escape";
+/// Interval at which the calibration wizard polls the device.
+const LOOK: Duration = Duration::from_millis(5);
+const NO_ENTER: &str = "nothing was kept: calibrating asks for Enter, and standard input has ended (run it in a terminal, or calibrate in the window of `spandrel train`)";
+
+/// Fly with a gamepad, an RC transmitter or the keyboard
+///
+/// Sends the sticks to the vehicle as MANUAL_CONTROL at 50 Hz, and the buttons as commands. Calibrate each device once
+/// (--calibrate); it is recognized from then on. If the device is lost, the sticks are centered briefly and then no longer sent,
+/// so that the vehicle's own failsafe acts.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel rc --list                       connected devices, and whether they are calibrated
+  spandrel rc --calibrate                  asks which stick is which, in the terminal
+  spandrel rc                              fly the simulator on this machine
+  spandrel rc --keyboard                   W S A D and arrows, B lamp, P snapshot, T take-off, L land, Escape exits
+  spandrel rc --record flight.jsonl        records the device's input; --replay replays it
+
+{EXIT_CODES}"))]
+pub struct Args {
+    /// Address of the vehicle
+    #[arg(long, value_name = "HOST:PORT", value_parser = args::address, default_value = "127.0.0.1:18570")]
+    connect: SocketAddr,
+    /// Local address to bind
+    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = args::listen)]
+    listen: IpAddr,
+    /// Print the connected devices, one per line, and exit
+    #[arg(long)]
+    list: bool,
+    /// Calibrate: ask which axis belongs to which stick, and save the profile
+    #[arg(long, conflicts_with_all = ["list", "keyboard", "replay"])]
+    calibrate: bool,
+    /// Device, by its ID or part of its name [default: the only one]
+    #[arg(long, value_name = "NAME")]
+    device: Option<String>,
+    /// Stick mode for the calibration, 1 to 4; mode 2 has throttle and yaw on the left
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(i64).range(1..=4))]
+    stick_mode: i64,
+    /// Folder of calibration profiles [default: spandrel/controllers in the user's configuration folder]
+    #[arg(long, value_name = "DIR")]
+    profiles: Option<PathBuf>,
+    /// Use this profile for any device
+    #[arg(long, value_name = "FILE")]
+    profile: Option<PathBuf>,
+    /// Fly with the keyboard in the terminal
+    #[arg(long, conflicts_with_all = ["replay", "device", "profile"])]
+    keyboard: bool,
+    /// Key bindings (TOML: format = 1, push, [sticks], [actions], [window]); the same file as for `spandrel view`
+    #[arg(long, value_name = "FILE", requires = "keyboard")]
+    keys: Option<PathBuf>,
+    /// Record the device's input, or the input of --replay, to this file
+    #[arg(long, value_name = "FILE", conflicts_with = "keyboard")]
+    record: Option<PathBuf>,
+    /// Replay recorded input instead of a device, and exit at its end
+    #[arg(long, value_name = "FILE", conflicts_with = "device")]
+    replay: Option<PathBuf>,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// If there is no device or terminal, the device is not calibrated, files are invalid, or the vehicle is lost.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let profiles = ProfileFolder::at(args.profiles.clone());
+    if args.list {
+        return list(&profiles);
+    }
+    let stop = StopRequest::install(false)?;
+    if args.calibrate {
+        return calibrate(args, &profiles, &stop);
+    }
+    let mut pilot = pilot(args, &profiles)?;
+    let mut hub = SocketHub::new();
+    let socket = hub.bind(args.listen, 0, "--listen")?;
+    let flown = fly(&mut pilot, &mut hub, socket, args.connect, &stop);
+    drop(pilot);
+    flown
+}
+
+fn list(profiles: &ProfileFolder) -> Result<(), AppError> {
+    let devices = controller::connected()?;
+    for device in &devices {
+        let known = if profiles.find(device)?.is_some() { "calibrated" } else { "not calibrated" };
+        println!("{}  {}  {known}", device.id, device.name);
+    }
+    if devices.is_empty() {
+        tracing::info!("no gamepad or transmitter is connected");
+    }
+    Ok(())
+}
+
+/// Source of the stick input.
+enum StickSource {
+    Device(Box<CalibratedController>),
+    Keyboard { terminal: RawTerminal, board: KeyboardState },
+}
+
+fn pilot(args: &Args, profiles: &ProfileFolder) -> Result<StickSource, AppError> {
+    if args.keyboard {
+        let keys = controller::keys(args.keys.as_deref())?;
+        if let Some(duty) = keys.binding_name(ENDS) {
+            let file = args.keys.as_ref().map_or(String::new(), |path| format!("{}: ", path.display()));
+            return Err(AppError::wrong(format!("{file}{duty} = \"{ENDS}\": in the terminal this key ends; give another one")));
+        }
+        let words = keys.help_text();
+        let terminal = RawTerminal::take()?;
+        print_line(&format!("{words}\n{ENDS:10} end"));
+        if !terminal.tells_releases {
+            print_line(
+                "this terminal does not tell when a key comes up: sticks let go by themselves, and what a key does once it does again after a rest of 0.7 s",
+            );
+        }
+        return Ok(StickSource::Keyboard { terminal, board: KeyboardState::new(keys) });
+    }
+    let source = match &args.replay {
+        Some(path) => {
+            EventSource::Record(InputRecording::read(&path.display().to_string(), &files::read(path)?).map_err(AppError::wrong)?)
+        }
+        None => EventSource::device(args.device.as_deref())?,
+    };
+    Ok(StickSource::Device(Box::new(CalibratedController::take(
+        source,
+        profiles,
+        args.profile.as_deref(),
+        args.record.as_deref(),
+    )?)))
+}
+
+/// Writes a line to standard error, with a carriage return so that it starts at the left in raw terminal mode.
+fn print_line(text: &str) {
+    eprint!("{}\r\n", text.replace('\n', "\r\n"));
+}
+
+impl StickSource {
+    fn show_axes(&mut self, link: &mut ControllerLink, flown: SimTime, now: SimTime) -> Result<ControllerReading, AppError> {
+        match self {
+            Self::Device(hand) => Ok(hand.poll(link, flown, now)),
+            Self::Keyboard { terminal, board } => {
+                let mut over = false;
+                while let Some(key) = terminal.next() {
+                    match key {
+                        controller::TerminalKey::Down(key) => {
+                            board.press(&key, terminal.tells_releases, now).into_iter().for_each(|action| link.act(action, now))
+                        }
+                        controller::TerminalKey::Up(key) => board.release(&key),
+                        controller::TerminalKey::LetGo => board.release_all(),
+                        controller::TerminalKey::End => over = true,
+                    }
+                }
+                Ok(ControllerReading { sticks: Some(board.sticks(now)), over })
+            }
+        }
+    }
+}
+
+fn fly(
+    pilot: &mut StickSource,
+    hub: &mut SocketHub,
+    socket: SocketId,
+    vehicle: SocketAddr,
+    stop: &StopRequest,
+) -> Result<(), AppError> {
+    let (watch, mut link, mut heard) = (Stopwatch::start(), ControllerLink::default(), None);
+    // A record begins when the vehicle is there.
+    let (mut begin, mut told) = (None, false);
+    if let StickSource::Keyboard { board, .. } = pilot {
+        link.set_arm_key(&board.keys().label("arm"));
+    }
+    while !stop.is_requested() {
+        if let Some(NetEvent::Datagram { from, bytes, .. }) = hub.next(WAIT)
+            && from == vehicle
+        {
+            if heard.is_none() {
+                print_line(&format!("the vehicle at {vehicle} answers"));
+            }
+            heard = Some(watch.elapsed());
+            link.receive(&bytes);
+        }
+        if heard.is_none() && !told && watch.elapsed() > PATIENCE {
+            print_line(&format!("no vehicle on {vehicle} yet; waiting"));
+            told = true;
+        }
+        let now = SimTime::from_s(watch.elapsed().as_secs_f64());
+        if link.vehicle.system.is_some() {
+            begin.get_or_insert(now);
+        }
+        let flown = begin.map_or(SimTime::ZERO, |begin| now - begin);
+        let look = pilot.show_axes(&mut link, flown, now)?;
+        link.set_sticks(look.sticks, now);
+        link.handle_timeout(now);
+        while let Some(bytes) = link.poll_transmit() {
+            hub.send(socket, vehicle, &bytes);
+        }
+        while let Some(text) = link.poll_message() {
+            print_line(&text);
+        }
+        if look.over {
+            return Ok(());
+        }
+        if heard.is_some_and(|last| watch.elapsed().saturating_sub(last) > SILENT) {
+            return Err(AppError::failed(format!("the vehicle has been silent for {} s", SILENT.as_secs())));
+        }
+    }
+    Ok(())
+}
+
+fn calibrate(args: &Args, profiles: &ProfileFolder, stop: &StopRequest) -> Result<(), AppError> {
+    // What cannot be kept is not asked for.
+    profiles.folder()?;
+    let mut source = EventSource::device(args.device.as_deref())?;
+    let mode = StickMode::numbered(args.stick_mode).unwrap_or(StickMode::Two);
+    let profile = run_wizard(&mut source, mode, &is_enter(), stop)?;
+    println!("{}", profiles.keep(&profile)?.display());
+    Ok(())
+}
+
+fn run_wizard(
+    source: &mut EventSource,
+    mode: StickMode,
+    enters: &Receiver<()>,
+    stop: &StopRequest,
+) -> Result<ControllerProfile, AppError> {
+    let mut wizard = CalibrationWizard::new(source.of().clone(), mode);
+    let watch = Stopwatch::start();
+    let mut told = String::new();
+    while !stop.is_requested() {
+        let now = SimTime::from_s(watch.elapsed().as_secs_f64());
+        while let Some(event) = source.next(now) {
+            wizard.handle(event, now);
+        }
+        match enters.recv_timeout(LOOK) {
+            Ok(()) => wizard.confirm(now),
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => return Err(AppError::failed(NO_ENTER)),
+        }
+        wizard.handle_timeout(now);
+        if let Some(profile) = wizard.profile() {
+            return Ok(profile);
+        }
+        let prompt = wizard.prompt();
+        if prompt != told {
+            print_line(&prompt);
+            told = prompt;
+        }
+    }
+    Err(AppError::failed("stopped: nothing was kept"))
+}
+
+/// Receives lines from standard input, to detect Enter.
+fn is_enter() -> Receiver<()> {
+    let (sender, receiver) = channel();
+    std::thread::spawn(move || {
+        for _ in std::io::stdin().lock().lines().map_while(Result::ok) {
+            if sender.send(()).is_err() {
+                break;
+            }
+        }
+    });
+    receiver
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Debug, Parser)]
+    struct Line {
+        #[command(flatten)]
+        args: Args,
+    }
+
+    #[test]
+    fn exact_a_calibration_that_cannot_be_kept_is_not_begun() {
+        let args = Line::parse_from(["rc", "--calibrate"]).args;
+        let told = calibrate(&args, &ProfileFolder::default(), &StopRequest::default()).unwrap_err().to_string();
+        assert!(told.contains("name a folder with --profiles"), "{told}");
+    }
+
+    #[test]
+    fn exact_a_calibration_whose_input_has_ended_ends() {
+        let record = InputRecording::read("r", "{\"format\":1,\"device\":\"Pad\",\"id\":\"1:2\"}").unwrap();
+        let (_, enters) = channel();
+        let told = run_wizard(&mut EventSource::Record(record), StickMode::Two, &enters, &StopRequest::default())
+            .unwrap_err()
+            .to_string();
+        assert!(told.starts_with("nothing was kept") && told.contains("standard input has ended"), "{told}");
+    }
+}

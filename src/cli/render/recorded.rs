@@ -1,0 +1,326 @@
+//! A recorded session as it is drawn: where everything was at any time, and what the display told.
+
+use crate::errors::AppError;
+use crate::io::files;
+use crate::io::session_folder::StoredSession;
+use spandrel_mavlink::telemetry::sample::{FrameHeader, truth_time};
+use spandrel_mavlink::telemetry::timeline::FrameDisposition;
+use spandrel_mavlink::telemetry::{Flight, Timeline, tlog};
+use spandrel_model::geodesy::LocalPlane;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::CameraPose;
+use spandrel_model::site::bridge_closures::BridgeClosures;
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::{Camera, Vehicle};
+use spandrel_monitor::assessment::scored_epoch;
+use spandrel_monitor::folder::{EVENTS, SIMULATOR_RESTARTED};
+use spandrel_monitor::measures::attention;
+use spandrel_view::feed::Feed;
+use spandrel_view::live::MotionHistory;
+use spandrel_view::scene::DronePose;
+use spandrel_view::stage::SceneMoment;
+use std::path::{Path, PathBuf};
+
+/// A session folder that holds a flight.
+pub struct RecordedFlight {
+    /// Where it is.
+    pub folder: PathBuf,
+    /// What it holds.
+    pub stored: StoredSession,
+    /// Wall time of simulation time zero, microseconds since 1970.
+    zero_unix_us: u64,
+    /// Its telemetry: pictures look at the records in any order.
+    log: Vec<u8>,
+    /// The flight.
+    pub flight: Flight,
+    /// So many flights before it are in the log: the simulator has begun anew.
+    before: usize,
+    /// How long these took.
+    current_time: SimTime,
+    /// So many records of the log are theirs.
+    records_before: usize,
+}
+
+impl RecordedFlight {
+    /// Reads a session folder.
+    ///
+    /// # Errors
+    /// When it is none, a file is wrong, or it holds no flight.
+    pub fn read(folder: &Path) -> Result<Self, AppError> {
+        let stored = StoredSession::read(folder)?;
+        let mut timeline = Timeline::new(LocalPlane::new(stored.scenario.scenario.origin));
+        let log = stored.log.bytes()?;
+        let begun: Vec<usize> = tlog::TlogReader::new(&log)
+            .enumerate()
+            .filter_map(|(k, record)| matches!(timeline.push(record.frame), FrameDisposition::Restarted(_)).then_some(k))
+            .collect();
+        let (before, flight) = scored_epoch(&timeline, &stored.scenario.scenario, &stored.vehicle.vehicle);
+        if flight.truths.is_empty() {
+            return Err(AppError::failed("the session holds no flight to draw"));
+        }
+        let zero_unix_us = tlog::simulation_zero_us(&log).unwrap_or(stored.started_unix_us);
+        let (passed, records_before) = (timeline.apply_pushed(before), before.checked_sub(1).map_or(0, |k| begun[k]));
+        Ok(Self { folder: folder.to_owned(), stored, log, zero_unix_us, flight, before, current_time: passed, records_before })
+    }
+
+    /// A simulation time of the flight as the clock of the world had it, microseconds since 1970.
+    pub fn unix_us(&self, at: SimTime) -> u64 {
+        self.zero_unix_us + u64::try_from((self.current_time + at).us()).unwrap_or(0)
+    }
+
+    /// The job.
+    pub fn scenario(&self) -> &Scenario {
+        &self.stored.scenario.scenario
+    }
+
+    /// The aircraft.
+    pub fn vehicle(&self) -> &Vehicle {
+        &self.stored.vehicle.vehicle
+    }
+
+    /// First and last instant.
+    pub fn span(&self) -> (SimTime, SimTime) {
+        let time = |truth: Option<&spandrel_mavlink::contract::truth::Truth>| truth.map_or(SimTime::ZERO, |truth| truth.time);
+        (time(self.flight.truths.first()), time(self.flight.truths.last()))
+    }
+
+    /// The seed that placed defects and traffic.
+    pub fn seed(&self) -> u64 {
+        self.scenario().seed.or(self.flight.seeds.all().first().map(|said| said.2)).unwrap_or_default()
+    }
+
+    /// When traffic was stopped and let go.
+    pub fn gates(&self) -> BridgeClosures {
+        attention::gates(&self.flight)
+    }
+
+    /// Where everything was.
+    ///
+    /// # Errors
+    /// Where the telemetry says nothing.
+    pub fn moment(&self, at: SimTime) -> Result<SceneMoment, AppError> {
+        let (first, last) = self.span();
+        moment(&self.flight, at, self.vehicle()).ok_or_else(|| {
+            let (at, first, last) = (at.s(), first.s(), last.s());
+            AppError::failed(format!("the session holds nothing at {at:.1} s: it goes from {first:.1} to {last:.1} s"))
+        })
+    }
+
+    /// What the display tells besides the flight, from the beginning on.
+    pub fn heard(&self) -> RecordedFeed<'_> {
+        // A session without its record of events is drawn without cues.
+        let events = files::read(&self.folder.join(EVENTS)).unwrap_or_default();
+        let mut events = events.lines().filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok());
+        for _ in 0..self.before {
+            events.find(|event| event["event"] == SIMULATOR_RESTARTED);
+        }
+        let mut events: Vec<(SimTime, serde_json::Value)> =
+            events.filter_map(|event| Some((event["t_s"].as_f64().map(SimTime::from_s)?, event))).collect();
+        // Taken from the end; those of one time stay in their order.
+        events.sort_by_key(|event| event.0);
+        events.reverse();
+        let records = tlog::TlogReader::new(&self.log).skip(self.records_before);
+        RecordedFeed { feed: Feed::default(), now: SimTime::ZERO, records, next: None, events }
+    }
+}
+
+/// Mode, satellites, cues and words as they were told, up to a time that only goes on.
+pub struct RecordedFeed<'a> {
+    feed: Feed,
+    now: SimTime,
+    records: std::iter::Skip<tlog::TlogReader<'a>>,
+    next: Option<&'a [u8]>,
+    events: Vec<(SimTime, serde_json::Value)>,
+}
+
+impl RecordedFeed<'_> {
+    /// What had been told by then: the telemetry's part, and the monitor's own cues and words from its record.
+    pub fn advance_to(&mut self, at: SimTime) -> &Feed {
+        while let Some(frame) = self.next.take().or_else(|| self.records.next().map(|record| record.frame)) {
+            let now = truth_time(frame).unwrap_or(self.now);
+            if now > at {
+                self.next = Some(frame);
+                break;
+            }
+            self.now = now;
+            if FrameHeader::peek(frame).is_some_and(|header| Feed::is_relevant(header.message_id)) {
+                self.feed.handle_datagram(frame, now);
+            }
+        }
+        while let Some((time, event)) = self.events.pop_if(|(time, _)| *time <= at) {
+            if let Some(mask) = event["cues"].as_i64() {
+                self.feed.set_cues(i32::try_from(mask).unwrap_or(0), time);
+            }
+            if let Some(words) = event["text"].as_str() {
+                self.feed.handle_text(words);
+            }
+        }
+        &self.feed
+    }
+}
+
+/// Where everything was, `None` where the telemetry says nothing. Attitude, gimbal and zoom go evenly between what was told, as in the live view; the
+/// measures take what was told last.
+fn moment(flight: &Flight, at: SimTime, vehicle: &Vehicle) -> Option<SceneMoment> {
+    let state = flight.between(at)?;
+    let trace = trace(flight, at);
+    let ned_from_frd = trace.at(at).filter(|_| !state.missing).map_or(state.ned_from_frd, |pose| pose.ned_from_frd);
+    let lamp_on = flight.light.at(at).unwrap_or(false);
+    Some(SceneMoment {
+        at,
+        drone: DronePose { position_m: state.position_m, ned_from_frd, spinning: flight.armed.at(at).unwrap_or(false) },
+        velocity_m_s: state.velocity_m_s,
+        camera: CameraPose::on(&vehicle.camera, (state.position_m, ned_from_frd), trace.gimbal_at(at), lamp_on),
+        lens: trace.reported_lens_at(at).map_or(vehicle.camera, |hfov_rad| Camera { hfov_rad, ..vehicle.camera }),
+        turn: trace.turn_at(at),
+    })
+}
+
+/// What was told last by a time, and next.
+fn trace(flight: &Flight, at: SimTime) -> MotionHistory {
+    let near = |after: usize, count: usize| after.saturating_sub(1)..count.min(after + 1);
+    let (truths, pitches) = (&flight.truths, flight.gimbal.all());
+    let mut trace = MotionHistory::default();
+    let around = near(truths.partition_point(|truth| truth.time <= at), truths.len());
+    truths[around].iter().for_each(|truth| trace.push(*truth));
+    let around = near(pitches.partition_point(|told| told.0 <= at), pitches.len());
+    pitches[around].iter().for_each(|told| trace.push_gimbal(told.0, told.2));
+    let fields = flight.field_of_view.all();
+    let around = near(fields.partition_point(|told| told.0 <= at), fields.len());
+    fields[around].iter().for_each(|told| trace.push_lens(told.0, told.2));
+    trace
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::io::session_folder::SessionFolder;
+    use serde_json::json;
+    use spandrel_mavlink::codec::Encoder;
+    use spandrel_mavlink::contract::truth::Truth;
+    use spandrel_mavlink::dialect::{HEARTBEAT_DATA, HIL_STATE_QUATERNION_DATA, MavMessage, MavModeFlag};
+    use spandrel_model::frames::{Rotation, Vec3};
+    use spandrel_monitor::SessionOutput;
+    use spandrel_view::stage::CameraTurnRate;
+
+    const STARTED_US: u64 = 1_700_000_000_000_000;
+    /// Between two truths, ms: 50 Hz.
+    const STEP_MS: i64 = 20;
+
+    /// A session's records as a vehicle and a monitor would make them.
+    struct ReplayTelemetry {
+        folder: SessionFolder,
+        vehicle: Encoder,
+        other: Encoder,
+        scenario: Scenario,
+        newest: Option<SimTime>,
+    }
+
+    impl ReplayTelemetry {
+        fn hear(&mut self, frame: &[u8]) {
+            self.folder.record(SessionOutput::Telemetry(tlog::record(STARTED_US, frame)));
+        }
+
+        fn event(&mut self, value: &serde_json::Value) {
+            self.folder.record(SessionOutput::Event(format!("{value}\n")));
+        }
+
+        /// One truth, so high over the pad.
+        fn truth(&mut self, ms: i64, height_m: f64, other: bool) {
+            let pad = self.scenario.ground_team.pad_m;
+            let place = LocalPlane::new(self.scenario.origin).geo_from_enu(pad + Vec3::new(0.0, 0.0, height_m));
+            let truth = MavMessage::HIL_STATE_QUATERNION(HIL_STATE_QUATERNION_DATA {
+                time_usec: u64::try_from(1_000 * ms).unwrap(),
+                attitude_quaternion: [1.0, 0.0, 0.0, 0.0],
+                lat: (place.latitude_deg * 1e7).round() as i32,
+                lon: (place.longitude_deg * 1e7).round() as i32,
+                alt: (place.altitude_m * 1e3).round() as i32,
+                ..Default::default()
+            });
+            let frame = if other { self.other.encode(&truth) } else { self.vehicle.encode(&truth) };
+            self.hear(&frame);
+        }
+
+        /// A flight whose clock begins at zero, in this mode of PX4's, which then says these words.
+        fn flight(&mut self, until_ms: i64, height_m: f64, mode: u32, words: &str) {
+            for ms in (0..=until_ms).step_by(STEP_MS as usize) {
+                self.truth(ms, height_m, false);
+                let again = self.newest.is_some() && ms == 2 * STEP_MS;
+                if again {
+                    self.event(&json!({ "t_s": 0.04, "event": SIMULATOR_RESTARTED }));
+                }
+                if ms == 100 {
+                    let beat = HEARTBEAT_DATA {
+                        custom_mode: mode << 16,
+                        base_mode: MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED,
+                        ..Default::default()
+                    };
+                    let frame = self.vehicle.encode(&MavMessage::HEARTBEAT(beat));
+                    self.hear(&frame);
+                    self.event(&json!({ "t_s": 0.1, "event": "cue", "cues": mode, "text": words }));
+                }
+            }
+            self.newest = Some(SimTime::from_ms(until_ms));
+        }
+    }
+
+    #[test]
+    fn exact_a_simulator_that_restarted_shows_the_flight_that_counts_with_its_own_words_and_clock() {
+        let sessions = tempfile::tempdir().unwrap();
+        let shipped = |path: &str| format!("{}/{path}", env!("CARGO_MANIFEST_DIR"));
+        let scenario = files::scenario(&shipped("scenarios/two-bridges.toml")).unwrap();
+        let vehicle = files::vehicle(&shipped("vehicle-params/phantom2.toml")).unwrap();
+        let folder = SessionFolder::create(sessions.path(), "anna", STARTED_US, &scenario, &vehicle).unwrap();
+        let (vehicle, other) = (Encoder::new(1, 1), Encoder::new(2, 1));
+        let mut tape = ReplayTelemetry { folder, vehicle, other, scenario: scenario.scenario, newest: None };
+        // On the ground; three late truths of another system begin nothing.
+        tape.flight(30_000, 0.0, 2, "Crash: simulator_restarted");
+        (0..3).for_each(|k| tape.truth(STEP_MS * k, 0.0, true));
+        tape.flight(20_000, 10.0, 3, "Crash: the second");
+        tape.folder.flush().unwrap();
+
+        let recorded = RecordedFlight::read(tape.folder.path()).unwrap();
+        assert_eq!(recorded.span(), (SimTime::ZERO, SimTime::from_ms(20_000)));
+        let second = SimTime::from_ms(1_000);
+        assert_eq!(recorded.unix_us(second), STARTED_US + 31_000_000);
+        assert!(recorded.moment(second).unwrap().drone.position_m.up() > 5.0 + tape.scenario.ground_team.pad_m.up());
+        let mut heard = recorded.heard();
+        let early = heard.advance_to(SimTime::from_ms(40)).clone();
+        assert_eq!(
+            (early.mode(), early.cues(SimTime::from_ms(40), true), early.hit()),
+            ("no mode", 0, None),
+            "nothing of the first flight"
+        );
+        let later = heard.advance_to(second);
+        assert_eq!((later.mode(), later.cues(second, true), later.hit()), ("Position", 3, Some("the second")));
+    }
+
+    #[test]
+    fn exact_a_recorded_camera_turned_as_its_samples_say() {
+        let truth = |ms: i64, yaw_deg: f64| Truth {
+            time: SimTime::from_ms(ms),
+            position_m: Vec3::new(0.0, 0.0, 10.0),
+            velocity_m_s: Vec3::new(0.0, 0.0, 0.0),
+            ned_from_frd: Rotation::from_euler(0.0, 0.0, yaw_deg.to_radians()),
+        };
+        let mut flight = Flight::default();
+        assert_eq!(trace(&flight, SimTime::ZERO).turn_at(SimTime::ZERO), CameraTurnRate::default());
+        flight.truths = [(0, 0.0), (20, 2.0), (40, 2.0), (60, 1.0)].map(|(ms, yaw_deg)| truth(ms, yaw_deg)).to_vec();
+        for (ms, pitch_rad) in [(0, 0.0), (50, 0.05), (100, 0.0)] {
+            flight.gimbal.push(SimTime::from_ms(ms), ms, pitch_rad);
+        }
+        for (ms, heading_deg_s, pitch_rad_s) in
+            [(10, 100.0, 1.0), (20, 0.0, 1.0), (55, -50.0, -1.0), (60, 0.0, -1.0), (100, 0.0, 0.0)]
+        {
+            let found = trace(&flight, SimTime::from_ms(ms)).turn_at(SimTime::from_ms(ms));
+            let near =
+                (found.heading_rad_s.to_degrees() - heading_deg_s).abs() < 1e-6 && (found.pitch_rad_s - pitch_rad_s).abs() < 1e-9;
+            assert!(near, "{ms} ms: {found:?}");
+        }
+        let vehicle =
+            spandrel_model::vehicle::read("phantom2.toml", include_str!("../../../vehicle-params/phantom2.toml")).unwrap();
+        let between = moment(&flight, SimTime::from_ms(10), &vehicle).unwrap();
+        assert!((between.drone.ned_from_frd.yaw_rad().to_degrees() - 1.0).abs() < 1e-6, "halfway");
+        assert!((between.camera.forward.up() - spandrel_model::math::sin(0.01)).abs() < 1e-9, "{:?}", between.camera.forward);
+    }
+}

@@ -1,0 +1,100 @@
+//! The photographs of a session, drawn after the flight from its telemetry and written as the camera would have.
+
+use super::super::report;
+use super::draw::{SceneDrawing, quality, size};
+use super::recorded::RecordedFlight;
+use super::{Args, masks};
+use crate::errors::AppError;
+use crate::io::clock;
+use crate::io::progress::ProgressLog;
+use crate::io::session_folder::replace;
+use spandrel_model::geodesy::LocalPlane;
+use spandrel_monitor::folder::{SMALL, SNAPSHOTS};
+use spandrel_training::report::pictures::ReviewedPicture;
+use spandrel_view::arrange::{drawn_px, fitted_px};
+use spandrel_view::photo::{self, PhotoError, PhotoInfo};
+use spandrel_view::shot::Shot;
+use spandrel_view::stage::SceneMoment;
+
+/// Without a graphics card pictures have at most so many pixels unless a size is asked for: a second each, not a minute.
+const SOFTWARE_PX: f64 = 1280.0 * 960.0;
+
+impl From<PhotoError> for AppError {
+    fn from(error: PhotoError) -> Self {
+        Self::failed(error.to_string())
+    }
+}
+
+/// Draws all of a session's photographs into its folder, and its report anew.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let preset = quality(&args.quality)?;
+    let asked = args.size.as_deref().map(size).transpose()?;
+    let recorded = RecordedFlight::read(std::path::Path::new(&args.what))?;
+    let taken = report::pictures(&recorded.folder)?;
+    if taken.is_empty() {
+        tracing::info!("no picture was taken");
+        return Ok(());
+    }
+    let drawing = SceneDrawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, taken[0].time)?;
+    let drawing = drawing.with_gates(recorded.gates());
+    let camera = &recorded.vehicle().camera;
+    let most = drawing.gpu.software.then_some(SOFTWARE_PX);
+    let size_px = match asked {
+        Some(within) => fitted_px(within, camera.aspect()),
+        None => drawn_px((f64::from(camera.width_px), f64::from(camera.height_px)), most),
+    };
+    if size_px != (camera.width_px, camera.height_px) {
+        tracing::info!("drawn at {} x {} px, not the camera's {} x {}", size_px.0, size_px.1, camera.width_px, camera.height_px);
+    }
+    let folder = recorded.folder.join(SNAPSHOTS);
+    let copies = folder.join(SMALL);
+    std::fs::create_dir_all(&copies).map_err(|error| AppError::failed(format!("{}: {error}", copies.display())))?;
+    let mut brush = drawing.brush();
+    let mut progress = ProgressLog::start("drawing pictures");
+    for (k, picture) in taken.iter().enumerate() {
+        progress.report(|| format!("picture {} of {}", k + 1, taken.len()));
+        let moment = recorded.moment(picture.time)?;
+        let shot = drawing.stage(recorded.scenario(), recorded.vehicle()).camera(&moment, size_px);
+        let drawn = brush.draw(&shot, &[])?;
+        let name = format!("{:04}.jpg", picture.index.max(0));
+        let path = folder.join(&name);
+        replace(&path, &photo::jpeg(&drawn, &about(&recorded, picture, &moment, &shot))?)?;
+        replace(&copies.join(&name), &photo::copy(&drawn, report::max_pictures(taken.len()))?)?;
+        if args.masks {
+            masks::write(&mut brush, &shot, drawing.defects(), &path)?;
+        }
+    }
+    progress.end();
+    report::write(&recorded.folder)?;
+    println!("pictures      {} in {}", taken.len(), folder.display());
+    Ok(())
+}
+
+/// What is known of a photograph: as it was drawn, with attitude and gimbal between what was told.
+fn about(recorded: &RecordedFlight, picture: &ReviewedPicture, moment: &SceneMoment, shot: &Shot) -> PhotoInfo {
+    let (scenario, vehicle) = (recorded.scenario(), recorded.vehicle());
+    let taken_unix_us = recorded.unix_us(picture.time);
+    let (utc, _) = clock::utc(taken_unix_us);
+    let (date, time) = utc.trim_end_matches('Z').split_once('T').unwrap_or(("", ""));
+    let pose = &moment.camera;
+    let (yaw_deg, pitch_deg) = photo::direction_deg(pose);
+    let (roll, pitch, yaw) = moment.drone.ned_from_frd.euler();
+    PhotoInfo {
+        number: picture.number,
+        taken_unix_us,
+        taken_utc: (date.replace('-', ":"), time.to_owned()),
+        at_s: picture.time.s(),
+        place: LocalPlane::new(scenario.origin).geo_from_enu(pose.position_m),
+        over_pad_m: (pose.position_m - scenario.ground_team.pad_m).up(),
+        yaw_deg,
+        pitch_deg,
+        aircraft_deg: [yaw, pitch, roll].map(f64::to_degrees),
+        lens: moment.lens,
+        exposure_s: shot.finish.exposure.time_s,
+        iso: shot.finish.exposure.iso,
+        lamp: pose.lamp_on,
+        distance_m: picture.target.as_ref().map(|target| target.distance_m),
+        model: format!("{} inspection camera", vehicle.name),
+        job: scenario.name.clone(),
+    }
+}

@@ -1,0 +1,148 @@
+//! A session's camera view as a film, with its photographs as chapters.
+
+use super::super::report;
+use super::Args;
+use super::draw::{SceneDrawing, aspect, instant, quality, size};
+use super::recorded::RecordedFlight;
+use crate::errors::AppError;
+use crate::io::progress::ProgressLog;
+use crate::io::session_folder::replace;
+use spandrel_model::time::SimTime;
+use spandrel_training::report::pictures::ReviewedPicture;
+use spandrel_view::arrange::fitted_px;
+use spandrel_view::exposure::ExposureMeter;
+use spandrel_view::hud;
+use spandrel_view::stage;
+use spandrel_view::video::{H264Encoder, Mp4Chunk, Mp4Writer, VideoError, webvtt};
+use std::fs::File;
+use std::io::{Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+/// Bits for a pixel of a picture (estimate: 1080p30 then has 6 Mbit/s, as small cameras record).
+const BITS_PX: f64 = 0.1;
+/// One picture in so many s can be read by itself: as far as a player jumps.
+const KEY_EVERY_S: f64 = 2.0;
+/// A photograph's chapter lasts this long, s, or until the next.
+const CHAPTER_S: f64 = 4.0;
+
+impl From<VideoError> for AppError {
+    fn from(error: VideoError) -> Self {
+        Self::failed(error.to_string())
+    }
+}
+
+/// Draws the film to `path`, and its chapters beside it.
+pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
+    let preset = quality(&args.quality)?;
+    let within_px = size(args.size.as_deref().unwrap_or("1280x720"))?;
+    if !(1.0..=60.0).contains(&args.fps) {
+        return Err(AppError::wrong(format!("--fps {}: give pictures a second, 1 to 60", args.fps)));
+    }
+    let track = path.with_extension("vtt");
+    if track == path {
+        return Err(AppError::wrong(format!(
+            "--video {}: its chapters go there; give the film another ending, as .mp4",
+            path.display()
+        )));
+    }
+    let recorded = RecordedFlight::read(Path::new(&args.what))?;
+    let (from, to) = span(args, &recorded)?;
+    let size_px = fitted_px(within_px, recorded.vehicle().camera.aspect());
+    let drawing = SceneDrawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, from)?;
+    let drawing = drawing.with_gates(recorded.gates());
+    let bits_s = BITS_PX * f64::from(size_px.0) * f64::from(size_px.1) * args.fps;
+    let mut encoder = H264Encoder::new(size_px, args.fps, bits_s as u32, (KEY_EVERY_S * args.fps).ceil() as u32)?;
+    let (mut film, head) = Mp4Writer::new(size_px, args.fps)?;
+    let mut file = VideoFile::create(path)?;
+    file.write(&head)?;
+    let (mut brush, mut heard, mut progress) = (drawing.brush(), recorded.heard(), ProgressLog::start("drawing the film"));
+    let mut meter = ExposureMeter::default();
+    let count = ((to - from).s() * args.fps).floor() as u32 + 1;
+    let picture_s = 1.0 / args.fps;
+    for k in 0..count {
+        let at = from + SimTime::from_s(f64::from(k) / args.fps);
+        progress.report(|| format!("{:.1} of {:.1} s", (at - from).s(), (to - from).s()));
+        let moment = recorded.moment(at)?;
+        let stage = drawing.stage(recorded.scenario(), recorded.vehicle());
+        let items = if args.no_hud {
+            Vec::new()
+        } else {
+            hud::layout(&stage::hud(&stage, &moment, &recorded.flight, (heard.advance_to(at), true), true), aspect(size_px))
+        };
+        let picture = brush.draw(&stage.camera_frame(&moment, size_px, &mut meter), &items)?;
+        file.write(&film.push(&encoder.encode(&picture)?)?)?;
+    }
+    for piece in film.finish()? {
+        file.write(&piece)?;
+    }
+    file.finish()?;
+    progress.end();
+    replace(&track, webvtt::write(&chapters(&report::pictures(&recorded.folder)?, (from, to), picture_s)).as_bytes())?;
+    println!("film          {} ({count} pictures), chapters {}", path.display(), track.display());
+    Ok(())
+}
+
+/// From when to when, of the flight.
+fn span(args: &Args, recorded: &RecordedFlight) -> Result<(SimTime, SimTime), AppError> {
+    let (first, last) = recorded.span();
+    let Some(text) = &args.span else { return Ok((first, last)) };
+    let wrong = || {
+        let (first, last) = (first.s(), last.s());
+        AppError::wrong(format!("--span {text}: give from,to in s of simulation time within {first:.1} to {last:.1}, as 60,90"))
+    };
+    let (from, to) = text.split_once(',').ok_or_else(wrong)?;
+    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| wrong());
+    let (from, to) = (instant("span", number(from)?)?, instant("span", number(to)?)?);
+    if from < first || to > last || from >= to { Err(wrong()) } else { Ok((from, to)) }
+}
+
+/// A chapter for each photograph of the span, named by its verdict; one that would have no length has a picture's, s.
+fn chapters(taken: &[ReviewedPicture], (from, to): (SimTime, SimTime), picture_s: f64) -> Vec<webvtt::Chapter> {
+    let within: Vec<&ReviewedPicture> = taken.iter().filter(|picture| (from..=to).contains(&picture.time)).collect();
+    let next = |k: usize| within.get(k + 1).map_or(to, |next: &&ReviewedPicture| next.time);
+    within
+        .iter()
+        .enumerate()
+        .map(|(k, picture)| webvtt::Chapter {
+            from_s: (picture.time - from).s(),
+            to_s: match (picture.time + SimTime::from_s(CHAPTER_S)).min(next(k)) {
+                end if end > picture.time => (end - from).s(),
+                _ => (picture.time - from).s() + picture_s,
+            },
+            title: format!("Picture {}: {} ({})", picture.number, picture.verdict.name(), picture.reason),
+        })
+        .collect()
+}
+
+/// The file, under another name until it is whole: a film that was there before stays until then.
+struct VideoFile<'a> {
+    path: &'a Path,
+    part: PathBuf,
+    file: File,
+}
+
+impl<'a> VideoFile<'a> {
+    fn create(path: &'a Path) -> Result<Self, AppError> {
+        let mut part = path.to_path_buf().into_os_string();
+        part.push(".part");
+        let part = PathBuf::from(part);
+        let file = File::create(&part).map_err(|error| AppError::wrong(format!("{}: {error}", part.display())))?;
+        Ok(Self { path, part, file })
+    }
+
+    fn write(&mut self, piece: &Mp4Chunk) -> Result<(), AppError> {
+        let written = self.file.seek(SeekFrom::Start(piece.at)).and_then(|_| self.file.write_all(&piece.bytes));
+        written.map_err(|error| AppError::failed(format!("{}: {error}", self.part.display())))
+    }
+
+    fn finish(self) -> Result<(), AppError> {
+        std::fs::rename(&self.part, self.path).map_err(|error| AppError::failed(format!("{}: {error}", self.path.display())))
+    }
+}
+
+impl Drop for VideoFile<'_> {
+    fn drop(&mut self) {
+        // Finished, it is there no longer; otherwise it is half a film.
+        let _ = std::fs::remove_file(&self.part);
+    }
+}

@@ -1,0 +1,333 @@
+//! `spandrel sim`: vehicles at a site, each in a thread of its own.
+
+use super::args::{self, JobArgs};
+use crate::errors::{AppError, EXIT_CODES};
+use crate::io::files;
+use crate::io::key;
+use crate::io::links::Links;
+use crate::io::pacing::{Lateness, SimulationSpeed};
+use crate::io::params::ParamFile;
+use crate::io::pause::PauseSwitch;
+use crate::io::ports::PortArgs;
+use crate::io::progress::ProgressLog;
+use crate::io::shell::{SigningConfig, VehicleFiles, VehicleShell};
+use crate::io::signing_store::SigningStore;
+use crate::io::stop::StopRequest;
+use crate::io::store::FileStore;
+use spandrel_model::scenario::AfterCrash;
+use spandrel_model::site::{Site, gltf};
+use spandrel_model::time::SimTime;
+use spandrel_sitl::endpoint::LinkKind;
+use spandrel_sitl::sim::{Sim, SimConfig};
+use std::net::SocketAddr;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Simulate the vehicle
+///
+/// Runs a quadrotor with its autopilot at the job's site, as a MAVLink vehicle with the interface of PX4 or ArduPilot (it is neither). It
+/// sends to a ground station and an SDK without being asked, accepts other connections, feeds the monitor, and drops peers that go silent.
+/// It runs until interrupted.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel sim                                      two bridges, real time, fixed ports
+  spandrel sim --instance 1 --speed 4               a second vehicle beside it, four times real time
+  spandrel sim --instances 3                        three vehicles in one process: system IDs 1 to 3, consecutive ports
+  spandrel sim --serial /dev/ttyUSB0:57600          also on a telemetry radio, within its data rate
+  spandrel sim --flavour ardupilot                  for Mission Planner, MAVProxy and scripts written for ArduCopter
+  spandrel sim --ports ephemeral --announce         free ports, printed as one line of JSON
+  spandrel sim --speed max --gcs 127.0.0.1:9000 --lockstep 127.0.0.1:9000
+                                                    as fast as possible, in lockstep with a client that answers TIMESYNC
+
+{EXIT_CODES}"))]
+pub struct Args {
+    #[command(flatten)]
+    job: JobArgs,
+    /// Simulation speed: a multiple of real time (0.1 to 100), or max for as fast as possible
+    #[arg(long, value_name = "X|max", default_value = "1")]
+    speed: SimulationSpeed,
+    /// Run in lockstep with this peer (one that the vehicle sends to, such as --gcs): every 20 ms of simulation time the simulator sends
+    /// TIMESYNC and waits for the answer. At startup the simulation waits up to 10 s for the first answer, sending heartbeats only; after
+    /// that it runs unsynchronized until the peer answers. May be repeated
+    #[arg(long, value_name = "HOST:PORT", value_parser = args::address)]
+    lockstep: Vec<SocketAddr>,
+    /// Autopilot protocol; the flight dynamics are the same in all of them
+    #[arg(long, value_name = "NAME", default_value = "px4")]
+    flavour: args::Flavour,
+    /// Heartbeats of the camera component (100). Turn them off for simple clients that take every heartbeat for the vehicle's (DroneKit,
+    /// mavpilot); the camera still takes pictures. The parameter SPAN_CAMERA changes this in flight
+    #[arg(long, value_name = "on|off", default_value = "on")]
+    camera: AnnouncedComponents,
+    /// Action after a crash. Use `scenario` when a monitor scores the flight, as train and demo do
+    #[arg(long, value_name = "RULE", default_value = "continue")]
+    after_crash: AfterCrashArg,
+    #[command(flatten)]
+    ports: PortArgs,
+    /// Number of vehicles in this process, 1 to 50, side by side at the same site; they do not collide with each other. System IDs and
+    /// ports count up from --instance and from every port given
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=50), conflicts_with = "lockstep")]
+    instances: u8,
+    /// Folder to serve over MAVLink FTP. Flight logs (ULog, and MCAP for Foxglove) go to its subfolder `log`, where clients can only read and
+    /// delete; files that clients upload may take up to 256 MiB. With several vehicles, each has a subfolder named by its system ID
+    /// [default: no files served, no logs written]
+    #[arg(long, value_name = "DIR")]
+    files: Option<PathBuf>,
+    /// Space for flight logs in the folder of --files, MB; the oldest logs are deleted before a flight to stay within it
+    #[arg(long, value_name = "MB", default_value_t = 1024, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    log_space: u64,
+    /// File that keeps parameters between runs: read at startup if it exists, written after every change, in QGroundControl's .params
+    /// format. With several vehicles, each has its own file, with the system ID appended [default: parameters are not kept]
+    #[arg(long, value_name = "FILE")]
+    params: Option<PathBuf>,
+    /// File with the MAVLink signing key, readable only by its owner: 64 hexadecimal digits, or a passphrase as in MAVProxy. Messages not
+    /// signed with it are ignored. Signature timestamps are kept in FILE.heard.N for system N, so that old messages cannot be replayed even
+    /// after a restart [default: no signing]
+    #[arg(long, value_name = "FILE")]
+    signing_key: Option<PathBuf>,
+    /// Kind of link that needs no signature; may be repeated. Use it only for links that nobody else can reach
+    #[arg(long, value_name = "KIND", requires = "signing_key")]
+    unsigned: Vec<TrustedLink>,
+    /// Stop after this much simulation time, s
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    end_after: Option<SimTime>,
+    /// Print the digest of every tick's state at the end: the same scenario, seed and inputs give the same digest
+    #[arg(long)]
+    digest: bool,
+    /// Print one line of JSON {"latest_ms", "slips", "slipped_ms"} for each vehicle at the end: the longest delay of a tick, how often a delay
+    /// exceeded 250 ms so that the simulation clock skipped it, and the total skipped; all in wall time
+    #[arg(long)]
+    lateness: bool,
+    /// Print one line of JSON {"gcs_port", "payload_port", "tcp_port", "seed"} on standard output at startup
+    #[arg(long)]
+    announce: bool,
+    /// Stop when standard input closes (for a parent process). There the lines `pause` and `resume` stop and restart the simulation
+    #[arg(long)]
+    leash: bool,
+}
+
+fn seconds(text: &str) -> Result<SimTime, String> {
+    let s: f64 = text.parse().map_err(|_| format!("'{text}' is no number of seconds"))?;
+    if (0.0..=1e6).contains(&s) {
+        Ok(SimTime::from_s(s))
+    } else {
+        Err(format!("'{text}' is out of range (allowed: 0 to 1000000 s)"))
+    }
+}
+
+/// Whether heartbeats are sent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum AnnouncedComponents {
+    /// Send heartbeats
+    On,
+    /// Send no heartbeats
+    Off,
+}
+
+/// Action after a crash, as named on the command line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum AfterCrashArg {
+    /// The flight continues; the vehicle stays where it fell
+    Continue,
+    /// The vehicle is put back to its last safe hover
+    Respawn,
+    /// The flight ends
+    End,
+    /// As the scenario file says
+    Scenario,
+}
+
+impl AfterCrashArg {
+    /// `None` for the scenario's own rule.
+    fn rule(self) -> Option<AfterCrash> {
+        match self {
+            Self::Continue => Some(AfterCrash::Continue),
+            Self::Respawn => Some(AfterCrash::Respawn),
+            Self::End => Some(AfterCrash::End),
+            Self::Scenario => None,
+        }
+    }
+}
+
+/// A kind of link, as named on the command line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum TrustedLink {
+    /// Ground stations over UDP
+    Gcs,
+    /// The SDK of --sdk
+    Sdk,
+    /// Monitor and other payload clients
+    Payload,
+    /// Ground stations over TCP
+    Tcp,
+    /// Serial ports
+    Serial,
+}
+
+impl TrustedLink {
+    fn kind(self) -> LinkKind {
+        match self {
+            Self::Gcs => LinkKind::GroundStation,
+            Self::Sdk => LinkKind::Sdk,
+            Self::Payload => LinkKind::Payload,
+            Self::Tcp => LinkKind::Tcp,
+            Self::Serial => LinkKind::Serial,
+        }
+    }
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When files or ports are wrong, or a lockstep peer vanishes.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let stop = StopRequest::install(false)?;
+    let still = if args.leash { PauseSwitch::listen(&stop) } else { PauseSwitch::default() };
+    let scenario = Arc::new(files::scenario(&args.job.scenario)?.scenario);
+    let vehicle = Arc::new(files::vehicle(&args.job.vehicle)?.vehicle);
+    let seed = args.job.seed_for(&scenario);
+    let signing = signing(args)?;
+    let mut doors = (0..args.instances).map(|more| VehicleIo::open(args, more)).collect::<Result<Vec<_>, _>>()?;
+    let progress = ProgressLog::start("building the site");
+    let site = Arc::new(Site::build(&scenario, seed));
+    let glb = args.files.is_some().then(|| gltf::glb(&site));
+    for door in &mut doors {
+        if let (Some(store), Some(glb)) = (&mut door.files.store, &glb) {
+            store.show_site(glb);
+        }
+        door.links.bound["seed"] = seed.into();
+        if args.announce {
+            println!("{}", door.links.bound);
+        }
+        tracing::info!("{} with {}, seed {seed}, ports {}", scenario.name, vehicle.name, door.links.bound);
+    }
+    let shells: Vec<VehicleShell> = doors
+        .into_iter()
+        .map(|VehicleIo { links, files: kept, instance }| {
+            let config = SimConfig {
+                scenario: scenario.clone(),
+                vehicle: vehicle.clone(),
+                seed,
+                instance,
+                flavour: args.flavour.display_name(),
+                after_crash: args.after_crash.rule(),
+            };
+            let mut shell = VehicleShell::new(Sim::new(config, site.clone()), links, args.speed, kept, signing.clone())?;
+            shell.set_pause_switch(still.clone());
+            if args.camera == AnnouncedComponents::Off {
+                shell.core.mute_camera_heartbeat();
+            }
+            Ok(shell)
+        })
+        .collect::<Result<_, AppError>>()?;
+    let flown = fly(shells, args.end_after.unwrap_or(SimTime::NEVER), &stop, progress)?;
+    for VehicleResult { digest, late } in flown {
+        if args.digest {
+            println!("{}", digest.iter().map(|byte| format!("{byte:02x}")).collect::<String>());
+        }
+        if args.lateness {
+            println!("{}", told(late));
+        }
+    }
+    Ok(())
+}
+
+fn told(late: Lateness) -> serde_json::Value {
+    let ms = |time: Duration| 1e3 * time.as_secs_f64();
+    serde_json::json!({ "latest_ms": ms(late.latest), "slips": late.slips, "slipped_ms": ms(late.slipped) })
+}
+
+/// What is left of a vehicle at the end.
+struct VehicleResult {
+    digest: [u8; 32],
+    late: Lateness,
+}
+
+fn signing(args: &Args) -> Result<Option<SigningConfig>, AppError> {
+    let listen = args.ports.listen;
+    let key = args.signing_key.as_deref().map(key::read).transpose()?;
+    if key.is_none() && !listen.is_loopback() {
+        tracing::warn!("--listen {listen} without --signing-key: whoever reaches this machine can fly the vehicle");
+    }
+    let unsigned: Vec<LinkKind> = args.unsigned.iter().map(|trusted| trusted.kind()).collect();
+    if !unsigned.is_empty() && !listen.is_loopback() {
+        tracing::warn!("--listen {listen} with --unsigned: whoever reaches these ports can fly the vehicle");
+    }
+    Ok(key.map(|key| SigningConfig { key, unsigned }))
+}
+
+/// What one vehicle has of the outside world.
+struct VehicleIo {
+    links: Links,
+    files: VehicleFiles,
+    instance: u8,
+}
+
+impl VehicleIo {
+    fn open(args: &Args, more: u8) -> Result<Self, AppError> {
+        let ports = args.ports.of(more);
+        let instance = ports.instance;
+        let folder = |root: &PathBuf| if args.instances == 1 { root.clone() } else { root.join((instance + 1).to_string()) };
+        let store =
+            args.files.as_ref().map(folder).map(|folder| FileStore::open(&folder, args.log_space * 1_000_000)).transpose()?;
+        let params =
+            args.params.as_ref().map(|path| if args.instances == 1 { path.clone() } else { numbered(path, instance + 1) });
+        let heard = args.signing_key.as_ref().map(|key| SigningStore::of(key, instance + 1));
+        let kept = VehicleFiles { store, params: params.map(ParamFile::new), signing_store: heard };
+        Ok(Self { links: Links::open(&ports, &args.lockstep)?, files: kept, instance })
+    }
+}
+
+fn numbered(path: &Path, system_id: u8) -> PathBuf {
+    let mut name = path.as_os_str().to_os_string();
+    name.push(format!(".{system_id}"));
+    PathBuf::from(name)
+}
+
+/// Every vehicle in a thread of its own until the end; what goes wrong with one ends all.
+fn fly(
+    shells: Vec<VehicleShell>,
+    end: SimTime,
+    stop: &StopRequest,
+    progress: ProgressLog,
+) -> Result<Vec<VehicleResult>, AppError> {
+    let mut progress = Some(progress);
+    std::thread::scope(|scope| {
+        let threads: Vec<_> = shells
+            .into_iter()
+            .map(|shell| {
+                let progress = progress.take();
+                scope.spawn(move || fly_one(shell, end, stop, progress))
+            })
+            .collect();
+        let ended = threads.into_iter().map(|thread| {
+            thread
+                .join()
+                .unwrap_or_else(|_| Err(AppError::failed("a vehicle's thread broke off: this is a fault of the program")))
+        });
+        ended.collect::<Vec<_>>().into_iter().collect()
+    })
+}
+
+fn fly_one(
+    mut shell: VehicleShell,
+    end: SimTime,
+    stop: &StopRequest,
+    mut progress: Option<ProgressLog>,
+) -> Result<VehicleResult, AppError> {
+    while !stop.is_requested() && shell.core.now() < end {
+        if let Err(error) = shell.run_until(end) {
+            stop.request();
+            return Err(error);
+        }
+        if let Some(progress) = &mut progress {
+            progress.report(|| format!("simulation time {}", shell.core.now()));
+        }
+    }
+    if let Some(progress) = progress {
+        progress.end();
+    }
+    shell.finish();
+    Ok(VehicleResult { digest: shell.core.digest(), late: shell.lateness() })
+}

@@ -1,0 +1,241 @@
+//! One flight: a simulator and a monitor of its own, and what its window wishes of it.
+
+use super::window::WindowProcess;
+use super::{Args, how_to_connect};
+use crate::cli::args::JobArgs;
+use crate::errors::AppError;
+use crate::io::children::Child;
+use crate::io::files;
+use crate::io::pause::{PAUSE, RESUME};
+use crate::io::stop::StopRequest;
+use serde_json::Value;
+use spandrel_view::flow::pipe::{FlightChoice, FlightStarted, FromWindow, Purpose, ToWindow};
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::path::{Path, PathBuf};
+use std::process::ExitStatus;
+use std::time::Duration;
+
+/// Between two looks at the children.
+const LOOK: Duration = Duration::from_millis(50);
+/// Folder in the session folder for the vehicle's files, flight logs among them: they are erased with the session.
+const VEHICLE_FILES: &str = "vehicle";
+/// A monitor that dies more often than this is not started again.
+const MONITOR_RESTARTS_MOST: u32 = 10;
+
+/// A flight that goes on.
+pub struct FlightProcesses {
+    monitor: Child,
+    sim: Child,
+    /// What the simulator announced.
+    pub ports: Value,
+    /// Where it listens.
+    host: IpAddr,
+    session: PathBuf,
+    choice: FlightChoice,
+    title: String,
+    paused: bool,
+    /// Arguments that start a monitor again on the same session and port.
+    monitor_again: Vec<String>,
+    monitor_restarts: u32,
+}
+
+/// Why a flight is not waited for any longer.
+pub enum FlightOutcome {
+    /// The session is over, or somebody ended it.
+    Over,
+    /// The same shall begin anew.
+    Restart,
+    /// A process ended too early.
+    Lost(AppError),
+}
+
+impl FlightProcesses {
+    /// Starts the processes.
+    ///
+    /// # Errors
+    /// When files or ports are wrong.
+    pub fn start(args: &Args, choice: &FlightChoice, log: tracing::Level) -> Result<Self, AppError> {
+        let job = args.job(&choice.scenario);
+        let title = files::scenario(&job.scenario)?.scenario.title;
+        let common = super::common_args(&job, log);
+        let monitor_args = [common.clone(), monitor_args(args, choice)].concat();
+        let with_port = |port: String| [monitor_args.clone(), vec!["--port".to_owned(), port]].concat();
+        let mut monitor = Child::start("monitor", &with_port(args.ports.monitor_port().to_string()))?;
+        let announced = monitor.announced()?;
+        let session = PathBuf::from(announced["session"].as_str().unwrap_or_default());
+        let monitor_port = announced["port"].as_u64().unwrap_or_default().to_string();
+        let monitor_again =
+            [with_port(monitor_port.clone()), vec!["--session".to_owned(), session.display().to_string()]].concat();
+        let files = session.join(VEHICLE_FILES).display().to_string();
+        let sim_args = [
+            common,
+            args.ports.to_args(),
+            args.flavour.to_args(),
+            vec!["--speed".into(), args.speed.to_string(), "--monitor-port".into(), monitor_port],
+            vec!["--files".into(), files, "--after-crash".into(), "scenario".into()],
+        ];
+        let mut sim = Child::start("sim", &sim_args.concat())?;
+        let ports = sim.announced()?;
+        let listen = args.ports.listen;
+        let here = if listen.is_unspecified() { IpAddr::V4(Ipv4Addr::LOCALHOST) } else { listen };
+        Ok(Self {
+            monitor,
+            sim,
+            ports,
+            host: here,
+            session,
+            choice: choice.clone(),
+            title,
+            paused: false,
+            monitor_again,
+            monitor_restarts: 0,
+        })
+    }
+
+    /// Its folder.
+    pub fn session(&self) -> &Path {
+        &self.session
+    }
+
+    /// A port of the vehicle on this machine.
+    pub fn port(&self, key: &str) -> Option<SocketAddr> {
+        let port = self.ports[key].as_u64().and_then(|port| u16::try_from(port).ok())?;
+        Some(SocketAddr::new(self.host, port))
+    }
+
+    /// What the window needs to show it.
+    pub fn flying(&self, args: &Args) -> Option<ToWindow> {
+        Some(ToWindow::Flying(FlightStarted {
+            choice: self.choice.clone(),
+            vehicle: args.vehicle.clone(),
+            seed: self.ports["seed"].as_u64().unwrap_or_default(),
+            connect: self.port("payload_port")?,
+            fly: self.port("gcs_port"),
+        }))
+    }
+
+    /// How ground stations and scripts reach it.
+    pub fn connection_info(&self, args: &Args, web: Option<&str>, window: bool) -> String {
+        how_to_connect(&self.title, &args.ports, &self.ports, &self.session, (web, window))
+    }
+
+    /// Waits until the session is over, somebody interrupts, or a process ends too early; meanwhile the window's wishes are done.
+    pub fn wait(&mut self, window: &mut Option<WindowProcess>, stop: &StopRequest) -> FlightOutcome {
+        loop {
+            if let Some(window) = window {
+                let wishes: Vec<FromWindow> = std::iter::from_fn(|| window.receive()).collect();
+                for wish in wishes {
+                    if let Some(outcome) = self.handle_window_message(&wish, window) {
+                        return outcome;
+                    }
+                }
+                if !window.is_open() && self.paused {
+                    // Nobody is left who could let time run again.
+                    self.set_paused(false);
+                }
+            }
+            if stop.is_requested() {
+                return FlightOutcome::Over;
+            }
+            match self.monitor.ended() {
+                Some(status) if has_finished(status) => return FlightOutcome::Over,
+                Some(status) => {
+                    if let Err(error) = self.restart_monitor(status) {
+                        return FlightOutcome::Lost(error);
+                    }
+                }
+                None => {}
+            }
+            if let Some(status) = self.sim.ended() {
+                return FlightOutcome::Lost(AppError::failed(format!("the simulator ended early ({status})")));
+            }
+            std::thread::sleep(LOOK);
+        }
+    }
+
+    fn handle_window_message(&mut self, wish: &FromWindow, window: &mut WindowProcess) -> Option<FlightOutcome> {
+        let practice = self.choice.purpose == Purpose::Practice;
+        match wish {
+            FromWindow::Ready => {}
+            FromWindow::Pause | FromWindow::Resume if practice => {
+                self.set_paused(*wish == FromWindow::Pause);
+                window.send(&ToWindow::Paused { on: self.paused });
+            }
+            FromWindow::Restart if practice => return Some(FlightOutcome::Restart),
+            FromWindow::End => return Some(FlightOutcome::Over),
+            FromWindow::Pause | FromWindow::Resume | FromWindow::Restart => {
+                window.send(&ToWindow::Refused { words: "An assessment is flown through.".into() });
+            }
+            FromWindow::Chosen(_) | FromWindow::Again | FromWindow::Quit => {
+                window.send(&ToWindow::Refused { words: "A flight is under way: end it first.".into() });
+            }
+        }
+        None
+    }
+
+    fn set_paused(&mut self, still: bool) {
+        self.paused = still;
+        self.sim.send_line(if still { PAUSE } else { RESUME });
+        tracing::info!("{}", if still { "time stands still" } else { "time runs again" });
+    }
+
+    /// Starts a monitor again that died in flight: it reads the session's telemetry and goes on.
+    fn restart_monitor(&mut self, status: ExitStatus) -> Result<(), AppError> {
+        self.monitor_restarts += 1;
+        if self.monitor_restarts > MONITOR_RESTARTS_MOST {
+            return Err(AppError::failed(format!(
+                "the monitor died {} times, the last time with {status}",
+                self.monitor_restarts
+            )));
+        }
+        tracing::warn!("the monitor died ({status}); it starts again on the same session");
+        self.monitor = Child::start("monitor", &self.monitor_again)?;
+        self.monitor.announced().map(|_| ())
+    }
+
+    /// Ends the monitor: the session is scored and complete. The vehicle stays connected.
+    pub fn end_session(&mut self) {
+        self.monitor.finish();
+        if self.paused {
+            self.set_paused(false);
+        }
+    }
+
+    /// How the simulator ended, if it has.
+    pub fn vehicle_ended(&mut self) -> Option<ExitStatus> {
+        self.sim.ended()
+    }
+
+    /// Ends both processes; the session is written down.
+    pub fn finish(&mut self) {
+        self.monitor.finish();
+        self.sim.finish();
+    }
+}
+
+/// True when a monitor ended with a result or a reason of its own; false when it was killed or broke off.
+fn has_finished(status: ExitStatus) -> bool {
+    status.code().is_some_and(|code| (0..=2).contains(&code))
+}
+
+fn monitor_args(args: &Args, choice: &FlightChoice) -> Vec<String> {
+    [
+        "--sessions",
+        &args.sessions.display().to_string(),
+        "--trainee",
+        &choice.trainee,
+        "--purpose",
+        choice.purpose.word(),
+        "--instance",
+        &args.ports.instance.to_string(),
+    ]
+    .map(str::to_owned)
+    .to_vec()
+}
+
+impl Args {
+    /// The job of a scenario, with the aircraft and the seed that were asked for.
+    pub fn job(&self, scenario: &str) -> JobArgs {
+        JobArgs { scenario: scenario.to_owned(), vehicle: self.vehicle.clone(), seed: self.seed }
+    }
+}

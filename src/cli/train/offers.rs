@@ -1,0 +1,170 @@
+//! What the start page offers and what the end page tells.
+
+use crate::cli::report;
+use crate::io::files;
+use crate::io::session_folder::{purpose, session_owner};
+use crate::records::session_folders;
+use serde::Deserialize;
+use serde_json::Value;
+use spandrel_model::scenario::Scenario;
+use spandrel_monitor::folder::{ASSESSMENT, REPORT};
+use spandrel_monitor::score::completion::{Completion, verdict};
+use spandrel_view::flow::pipe::{
+    FinalScore, FlightChoice, FlightOptions, FlightSummary, JobOffer, Purpose, SCORES, TraineeSummary,
+};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// What can be chosen here.
+pub fn offers(sessions: &Path, choice: &FlightChoice, web: Option<&str>) -> FlightOptions {
+    let mut names: Vec<String> = files::scenario_names().into_iter().map(str::to_owned).collect();
+    if !names.contains(&choice.scenario) {
+        names.push(choice.scenario.clone());
+    }
+    let job = |name: String| {
+        let scenario = files::scenario(&name).ok()?.scenario;
+        Some(JobOffer { name, title: scenario.title.clone(), kind: job_kind(&scenario) })
+    };
+    FlightOptions {
+        trainees: trainee_summaries(sessions),
+        scenarios: names.into_iter().filter_map(job).collect(),
+        choice: choice.clone(),
+        web: web.map(str::to_owned),
+    }
+}
+
+/// Who has flown here, how often, and how often for practice.
+fn trainee_summaries(sessions: &Path) -> Vec<TraineeSummary> {
+    // A folder that is not there yet holds nobody.
+    let folders = session_folders(&[sessions.to_path_buf()]).unwrap_or_default();
+    let mut count: BTreeMap<String, (u32, u32)> = BTreeMap::new();
+    for folder in &folders {
+        let Ok((trainee, _)) = session_owner(folder) else { continue };
+        let practice = purpose(folder).as_deref() == Some(Purpose::Practice.word());
+        let (sessions, practices) = count.entry(trainee).or_default();
+        (*sessions, *practices) = (*sessions + 1, *practices + u32::from(practice));
+    }
+    count.into_iter().map(|(name, (sessions, practices))| TraineeSummary { name, sessions, practices }).collect()
+}
+
+fn job_kind(scenario: &Scenario) -> String {
+    let some = |count: usize, one: &str, many: &str| match count {
+        1 => format!("1 {one}"),
+        n => format!("{n} {many}"),
+    };
+    let mut parts = vec![some(scenario.tasks.len(), "task", "tasks")];
+    if !scenario.bridges.is_empty() {
+        parts.push(some(scenario.bridges.len(), "bridge", "bridges"));
+    }
+    if scenario.defects.count > 0 {
+        parts.push(some(scenario.defects.count, "defect", "defects"));
+    }
+    parts.join(", ")
+}
+
+/// How a session ended. `trouble`: why it has no scores, where somebody knows.
+pub fn ended(session: &Path, web: Option<&str>, trouble: Option<String>) -> FlightSummary {
+    let text = std::fs::read_to_string(session.join(ASSESSMENT)).unwrap_or_default();
+    let assessment: Value = serde_json::from_str(&text).unwrap_or_default();
+    let scores = &assessment["scores"];
+    let one = |name: &str| Some(FinalScore { raw: scores[name]["raw"].as_f64()?, pct: scores[name]["pct"].as_f64()? });
+    let page = session.join(REPORT);
+    let id = session.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let completion = Completion::deserialize(&assessment["completion"]).ok();
+    let complete = completion.is_none_or(|completion| completion.complete);
+    let certification = &assessment["certification"];
+    let unmet = Vec::<String>::deserialize(&certification["unmet"]).unwrap_or_default();
+    FlightSummary {
+        scores: SCORES.map(one),
+        overall: scores["overall"].as_f64().zip(scores["overall_max"].as_f64()).filter(|_| complete),
+        completion: completion.map(|completion| completion.headline()),
+        complete,
+        verdict: certification["passed"].as_bool().map(|passed| verdict(passed, &unmet)),
+        why: trouble.unwrap_or_else(|| end_reason_text(&assessment["end"], session)),
+        report: page.is_file().then(|| report::address(&page)),
+        questionnaire: match web {
+            Some(web) => format!("{web}/sessions/{id}/questions"),
+            None => format!("spandrel questionnaire {}", session.display()),
+        },
+    }
+}
+
+fn end_reason_text(end: &Value, session: &Path) -> String {
+    match (end["reason"].as_str(), end["seconds"].as_f64()) {
+        (Some(reason), Some(seconds)) => {
+            format!("{reason} after {:.0} min {:.0} s of flight", (seconds / 60.0).floor(), (seconds % 60.0).floor())
+        }
+        _ => format!("The session was not scored; what was recorded is in {}", session.display()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_monitor::folder::{SESSION, TELEMETRY};
+
+    fn choice() -> FlightChoice {
+        FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice }
+    }
+
+    #[test]
+    fn exact_every_shipped_job_is_offered_with_its_kind() {
+        let folder = tempfile::tempdir().unwrap();
+        let offers = offers(&folder.path().join("none-yet"), &choice(), None);
+        assert_eq!(offers.trainees, []);
+        let kind = |name: &str| offers.scenarios.iter().find(|job| job.name == name).map(|job| job.kind.clone());
+        assert_eq!(kind("two-bridges").as_deref(), Some("4 tasks, 2 bridges, 10 defects"));
+        assert_eq!(kind("drill-hover").as_deref(), Some("1 task"));
+    }
+
+    #[test]
+    fn exact_people_are_counted_by_sessions_and_by_practices() {
+        let sessions = tempfile::tempdir().unwrap();
+        for (k, (trainee, purpose)) in
+            [("anna", Some("practice")), ("anna", Some("assessment")), ("anna", None), ("bert", Some("assessment"))]
+                .into_iter()
+                .enumerate()
+        {
+            let folder = sessions.path().join(k.to_string());
+            std::fs::create_dir(&folder).unwrap();
+            std::fs::write(folder.join(TELEMETRY), "").unwrap();
+            let session = serde_json::json!({ "trainee": trainee, "started_unix_us": 1, "purpose": purpose });
+            std::fs::write(folder.join(SESSION), session.to_string()).unwrap();
+        }
+        let person = |name: &str, sessions, practices| TraineeSummary { name: name.into(), sessions, practices };
+        assert_eq!(trainee_summaries(sessions.path()), [person("anna", 3, 1), person("bert", 1, 0)]);
+    }
+
+    #[test]
+    fn exact_the_end_reports_scores_and_places_and_what_is_missing() {
+        let folder = tempfile::tempdir().unwrap();
+        let none = ended(folder.path(), None, None);
+        assert!(none.overall.is_none() && none.report.is_none() && none.why.contains("not scored"), "{none:?}");
+        assert!(none.questionnaire.starts_with("spandrel questionnaire "), "{none:?}");
+        let text = r#"{"scores": {"conformity": {"raw": 62.0, "pct": 81.0}, "efficiency": {"raw": 100.0, "pct": 100.0},
+            "safety": {"raw": -9.0, "pct": 91.0}, "accuracy": null, "overall": 272.0, "overall_max": 300.0},
+            "end": {"reason": "landed", "seconds": 750.9}}"#;
+        std::fs::write(folder.path().join(ASSESSMENT), text).unwrap();
+        std::fs::write(folder.path().join(REPORT), "page").unwrap();
+        let ended = ended(folder.path(), Some("http://127.0.0.1:9"), None);
+        assert_eq!(ended.why, "landed after 12 min 30 s of flight");
+        assert_eq!((ended.scores[2].map(|s| s.raw), ended.scores[3], ended.overall), (Some(-9.0), None, Some((272.0, 300.0))));
+        assert!(ended.report.is_some_and(|address| address.starts_with("file:///")));
+        assert!(ended.questionnaire.starts_with("http://127.0.0.1:9/sessions/") && ended.questionnaire.ends_with("/questions"));
+    }
+
+    #[test]
+    fn regress_an_attempt_that_flew_nothing_ends_without_a_sum() {
+        let folder = tempfile::tempdir().unwrap();
+        let text = r#"{"scores": {"conformity": {"raw": 0.0, "pct": 50.0}, "efficiency": {"raw": 100.0, "pct": 100.0},
+            "safety": {"raw": 0.0, "pct": 100.0}, "accuracy": null, "overall": 250.0, "overall_max": 300.0},
+            "completion": {"complete": false, "tasks_done": 0, "tasks": 4, "path_share": 0.0, "landed_at_home": false, "done_share": 0.8},
+            "certification": {"passed": false, "unmet": ["task 1 not attempted", "not landed at home"]},
+            "end": {"reason": "abort", "seconds": 23.0}}"#;
+        std::fs::write(folder.path().join(ASSESSMENT), text).unwrap();
+        let ended = ended(folder.path(), None, None);
+        assert_eq!((ended.overall, ended.complete), (None, false));
+        assert_eq!(ended.completion.as_deref(), Some("Incomplete: 0 of 4 tasks, 0 % of the path"));
+        assert_eq!(ended.verdict.as_deref(), Some("Not certified: task 1 not attempted (and 1 more)"));
+    }
+}

@@ -1,0 +1,44 @@
+//! Whether the questions after a flight are still to be answered.
+
+use crate::cli::questionnaire::{stored, task_ids};
+use crate::io::session_folder::StoredSession;
+use std::path::Path;
+
+/// Some of a session's questions have no answer yet.
+pub fn has_unanswered(session: &Path) -> bool {
+    let Ok(job) = StoredSession::scenario_of(session) else { return false };
+    match stored(session, &job.scenario) {
+        Ok(answers) => !answers.unwrap_or_default().complete(&task_ids(&job.scenario)),
+        // A page that cannot read them takes no answer either.
+        Err(_) => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::io::files;
+    use spandrel_monitor::export::json_text;
+    use spandrel_monitor::folder::{SCENARIO, TELEMETRY};
+    use spandrel_training::questionnaire::{ANSWERS, Answers, QuestionnaireItem};
+
+    #[test]
+    fn exact_questions_are_open_until_the_last_one_is_answered() {
+        let folder = tempfile::tempdir().unwrap();
+        let (session, job) = (folder.path(), files::scenario("drill-hover").unwrap());
+        assert!(!has_unanswered(session), "no session asks nothing");
+        std::fs::write(session.join(TELEMETRY), "").unwrap();
+        std::fs::write(session.join(SCENARIO), &job.text).unwrap();
+        assert!(has_unanswered(session), "nothing is answered");
+        let mut answers = Answers { language: "en".into(), ..Answers::default() };
+        let items = QuestionnaireItem::all(&task_ids(&job.scenario));
+        for (k, item) in items.iter().enumerate() {
+            assert!(has_unanswered(session), "{k} of {} are answered", items.len());
+            answers.given.insert(*item, 2);
+            std::fs::write(session.join(ANSWERS), json_text(&answers)).unwrap();
+        }
+        assert!(!has_unanswered(session));
+        std::fs::write(session.join(ANSWERS), "{}").unwrap();
+        assert!(!has_unanswered(session), "a wrong file is waited for by nobody");
+    }
+}

@@ -1,0 +1,373 @@
+//! One flight after the other: what the window asks for, or what the command line says, once.
+
+use super::flight_processes::{FlightOutcome, FlightProcesses};
+use super::offers;
+use super::photographs::PhotographJobs;
+use super::prompt::{PromptAnswer, TerminalPrompt};
+use super::questionnaire_state;
+use super::window::WindowProcess;
+use super::{Args, USUAL, camera, report_outcome};
+use crate::cli::args::{self, TraineeId};
+use crate::errors::AppError;
+use crate::io::files;
+use crate::io::stop::StopRequest;
+use crate::records::RecordsLocation;
+use crate::web::{ListenArgs, ServerSetup, WatchedVehicle, WebServer};
+use spandrel_view::flow::pipe::{FlightChoice, FromWindow, ToWindow};
+use std::net::SocketAddr;
+use std::path::Path;
+use std::time::Duration;
+
+/// Between two looks at the window.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// The pages of the sessions, and whose live flight they show.
+struct ServedPages {
+    server: WebServer,
+    vehicle: Option<SocketAddr>,
+}
+
+/// A run of `train`.
+pub struct TrainRun<'a> {
+    args: &'a Args,
+    log: tracing::Level,
+    stop: StopRequest,
+    /// The window while it is there.
+    window: Option<WindowProcess>,
+    /// Somebody closed the window: this machine draws, although none is there any more.
+    closed: bool,
+    web: Option<ServedPages>,
+    web_announced: bool,
+    photographs: PhotographJobs,
+    /// The vehicle of the last flight. It stays connected until the next flight or the end of the run: ground stations download its logs.
+    vehicle: Option<FlightProcesses>,
+    prompt: TerminalPrompt,
+}
+
+/// What comes after a flight.
+enum NextFlight {
+    Fly(FlightChoice),
+    /// Somebody wants no further flight.
+    Leave,
+    /// There is no window that could ask.
+    Nobody,
+}
+
+impl<'a> TrainRun<'a> {
+    /// Nothing is started yet.
+    pub fn new(args: &'a Args, log: tracing::Level, stop: StopRequest) -> Self {
+        Self {
+            args,
+            log,
+            stop,
+            window: None,
+            closed: false,
+            web: None,
+            web_announced: false,
+            photographs: PhotographJobs::default(),
+            vehicle: None,
+            prompt: TerminalPrompt::default(),
+        }
+    }
+
+    /// Flies as often as is asked for.
+    ///
+    /// # Errors
+    /// When a flight cannot be started or scored: the last one's error.
+    pub fn run(mut self) -> Result<(), AppError> {
+        self.window = WindowProcess::open(self.args, self.log);
+        let usual = FlightChoice {
+            trainee: self.args.trainee.as_str().to_owned(),
+            scenario: self.args.scenario.clone().unwrap_or_else(|| USUAL.to_owned()),
+            purpose: self.args.purpose.display_name(),
+        };
+        let mut next = if self.args.choose || self.args.scenario.is_none() {
+            self.first_choice(&usual)
+        } else {
+            self.command_line_choice(&usual)
+        };
+        let mut result = Ok(());
+        let mut last = None;
+        while let NextFlight::Fly(choice) = next {
+            let (flown, session) = match self.fly(&choice) {
+                Ok(done) => done,
+                // The first flight's error ends the run, as it does without a window; later ones are told in the window.
+                Err(error) if last.is_none() && !self.window_asks() => return Err(error),
+                Err(error) => {
+                    tracing::warn!("no flight: {error}");
+                    self.send_to_window(&ToWindow::Refused { words: error.to_string() });
+                    result = Err(error);
+                    next = self.next_choice(&choice);
+                    continue;
+                }
+            };
+            result = flown;
+            last = Some(session);
+            next = self.next_choice(&choice);
+        }
+        // Who leaves by the window has seen the end; what is still asked is answered from the pages.
+        let seen = matches!(next, NextFlight::Leave) && !last.as_deref().is_some_and(questionnaire_state::has_unanswered);
+        self.end_vehicle();
+        if let Some(window) = self.window.take() {
+            window.close();
+        }
+        if let (Some(session), false, true) = (&last, seen || self.prompt.answered, result.is_ok()) {
+            self.keep_serving(session);
+        }
+        self.photographs.finish(&self.stop);
+        result
+    }
+
+    /// There is a window; one that is over is let go of.
+    fn is_open(&mut self) -> bool {
+        let Some(window) = &mut self.window else { return false };
+        let open = window.is_open();
+        if !open {
+            self.closed |= window.closed;
+            self.window = None;
+        }
+        open
+    }
+
+    /// Waits until the window stands; false when there is none that does.
+    fn wait_for_window(&mut self) -> bool {
+        let ready = self.window.as_mut().is_some_and(|window| window.is_ready(&self.stop));
+        self.is_open() && ready
+    }
+
+    /// The window stands on a display.
+    fn has_display(&mut self) -> bool {
+        self.is_open() && self.window.as_ref().is_some_and(|window| window.ready)
+    }
+
+    /// The window asks, and not the command line alone.
+    fn window_asks(&mut self) -> bool {
+        self.web_announced && self.is_open()
+    }
+
+    fn send_to_window(&mut self, message: &ToWindow) {
+        if let Some(window) = &mut self.window {
+            window.send(message);
+        }
+    }
+
+    /// The command line's choice, once the window stands or is known not to: nobody flies before there is something to see.
+    fn command_line_choice(&mut self, usual: &FlightChoice) -> NextFlight {
+        self.wait_for_window();
+        if self.stop.is_requested() { NextFlight::Leave } else { NextFlight::Fly(usual.clone()) }
+    }
+
+    /// The first choice: the window's, or without one the command line's.
+    fn first_choice(&mut self, usual: &FlightChoice) -> NextFlight {
+        if self.wait_for_window() {
+            self.serve(None);
+            self.offer(usual);
+            match self.next_choice(usual) {
+                NextFlight::Nobody => {}
+                next => return next,
+            }
+            // Who closes the window wants no flight; one that breaks off is done without.
+            if self.closed {
+                return NextFlight::Leave;
+            }
+        }
+        if self.stop.is_requested() {
+            return NextFlight::Leave;
+        }
+        tracing::info!(
+            "nobody is asked: {} flies {}; say --trainee, --scenario and --purpose for another choice",
+            usual.trainee,
+            usual.scenario
+        );
+        NextFlight::Fly(usual.clone())
+    }
+
+    fn offer(&mut self, choice: &FlightChoice) {
+        let web = self.web.as_ref().map(|web| web.server.address().to_owned());
+        let offers = offers::offers(&self.args.sessions, choice, web.as_deref());
+        self.web_announced = true;
+        self.send_to_window(&ToWindow::Offers(offers));
+    }
+
+    /// Waits for what the window asks for next.
+    fn next_choice(&mut self, last: &FlightChoice) -> NextFlight {
+        while let Some(window) = &mut self.window {
+            while let Some(said) = window.receive() {
+                match said {
+                    FromWindow::Again => return NextFlight::Fly(last.clone()),
+                    FromWindow::Quit => return NextFlight::Leave,
+                    FromWindow::Chosen(choice) => match validate_choice(&choice) {
+                        Ok(()) => return NextFlight::Fly(choice),
+                        Err(error) => window.send(&ToWindow::Refused { words: error.to_string() }),
+                    },
+                    // What belongs to a flight that has just ended by itself.
+                    FromWindow::Ready | FromWindow::Pause | FromWindow::Resume | FromWindow::Restart | FromWindow::End => {}
+                }
+            }
+            self.check_vehicle();
+            if self.stop.is_requested() {
+                return NextFlight::Nobody;
+            }
+            if self.is_open() {
+                std::thread::sleep(LOOK);
+            }
+        }
+        self.prompt_at_terminal(last)
+    }
+
+    /// Keeps the vehicle connected when no window can ask what comes next, until the trainee answers at the terminal or interrupts.
+    fn prompt_at_terminal(&mut self, last: &FlightChoice) -> NextFlight {
+        if self.args.once || self.closed || self.vehicle.is_none() {
+            return NextFlight::Nobody;
+        }
+        println!("{}", self.prompt.help_text());
+        if let (Some(web), Some(vehicle)) = (&self.web, &self.vehicle) {
+            println!("in a browser  {}", offers::ended(vehicle.session(), Some(web.server.address()), None).questionnaire);
+        }
+        while self.vehicle.is_some() && !self.stop.is_requested() {
+            match self.prompt.answer() {
+                Some(PromptAnswer::Again) => return NextFlight::Fly(last.clone()),
+                Some(PromptAnswer::Quit) => return NextFlight::Leave,
+                None => {}
+            }
+            self.check_vehicle();
+            std::thread::sleep(LOOK);
+        }
+        NextFlight::Leave
+    }
+
+    /// Drops a vehicle that has ended by itself.
+    fn check_vehicle(&mut self) {
+        if let Some(status) = self.vehicle.as_mut().and_then(FlightProcesses::vehicle_ended) {
+            tracing::warn!("the simulator ended early ({status}): ground stations have lost the vehicle");
+            self.vehicle = None;
+        }
+    }
+
+    fn end_vehicle(&mut self) {
+        if let Some(mut flight) = self.vehicle.take() {
+            flight.finish();
+        }
+    }
+
+    /// One flight, begun anew as often as is wished, to its end. Gives how it went and its folder.
+    fn fly(&mut self, choice: &FlightChoice) -> Result<(Result<(), AppError>, std::path::PathBuf), AppError> {
+        loop {
+            self.end_vehicle();
+            let mut flight = FlightProcesses::start(self.args, choice, self.log)?;
+            self.serve(flight.port("payload_port"));
+            if let Some(flying) = flight.flying(self.args) {
+                self.send_to_window(&flying);
+            }
+            let shown = self.has_display();
+            let web = self.web.as_ref().map(|web| web.server.address());
+            print!("{}", flight.connection_info(self.args, web, shown));
+            let outcome = flight.wait(&mut self.window, &self.stop);
+            if matches!(outcome, FlightOutcome::Over) && self.stop.is_requested() {
+                // Who interrupts is not asked again.
+                self.window.take().into_iter().for_each(WindowProcess::close);
+            }
+            flight.end_session();
+            let session = flight.session().to_path_buf();
+            if matches!(outcome, FlightOutcome::Restart) {
+                tracing::info!("this attempt ended; what was recorded is in {}", session.display());
+                flight.finish();
+                continue;
+            }
+            if matches!(outcome, FlightOutcome::Over) && !self.stop.is_requested() {
+                self.vehicle = Some(flight);
+            }
+            return Ok((self.end(choice, &session, outcome), session));
+        }
+    }
+
+    /// Tells the end at the terminal and in the window.
+    fn end(&mut self, choice: &FlightChoice, session: &Path, outcome: FlightOutcome) -> Result<(), AppError> {
+        let told = report_outcome(session);
+        if told.is_ok() {
+            println!("questions     spandrel questionnaire {}", session.display());
+        }
+        let result = match outcome {
+            FlightOutcome::Lost(error) => Err(error),
+            FlightOutcome::Over | FlightOutcome::Restart => told,
+        };
+        let open = self.is_open();
+        // Where the window broke off nothing can be drawn; who interrupts waits for no pictures.
+        if (open || self.closed) && result.is_ok() && !self.stop.is_requested() {
+            self.photographs.draw(session);
+        }
+        if open {
+            self.offer(choice);
+            let web = self.web.as_ref().map(|web| web.server.address());
+            let trouble = result.as_ref().err().map(ToString::to_string);
+            let ended = offers::ended(session, web, trouble);
+            self.send_to_window(&ToWindow::Ended(ended));
+        }
+        result
+    }
+
+    /// Serves the pages of the sessions and of this vehicle's flight, from one address throughout. Without them one flies all the same.
+    fn serve(&mut self, vehicle: Option<SocketAddr>) {
+        let args::PortChoice::Number(mut port) = self.args.web else { return };
+        match self.web.take() {
+            Some(web) if web.vehicle == vehicle => {
+                self.web = Some(web);
+                return;
+            }
+            Some(web) => port = port_of(web.server.address()).unwrap_or(port),
+            None => {}
+        }
+        // The records lie beside the sessions; the first session may not have begun.
+        let made = std::fs::create_dir_all(&self.args.sessions);
+        let watched = vehicle.map(|vehicle| WatchedVehicle { vehicle, picture: Some(camera(self.args)) });
+        let place = RecordsLocation { sessions: vec![self.args.sessions.clone()], database: None };
+        let setup = ServerSetup { place, scenarios: None, watched: watched.into_iter().collect(), wordings: Vec::new() };
+        let started = made
+            .map_err(|error| AppError::failed(format!("{}: {error}", self.args.sessions.display())))
+            .and_then(|()| WebServer::start(&ListenArgs::local(port), setup));
+        match started {
+            Ok(server) => self.web = Some(ServedPages { server, vehicle }),
+            Err(error) => tracing::warn!("no web pages: {error}"),
+        }
+    }
+
+    /// Keeps the pages for whoever sits at the terminal: the questionnaire comes after the flight.
+    fn keep_serving(&mut self, session: &Path) {
+        let (Some(web), true, false) = (&self.web, self.prompt.is_open(), self.stop.is_requested()) else { return };
+        let address = offers::ended(session, Some(web.server.address()), None).questionnaire;
+        println!("in a browser  {address}   (the pages stay until you press Enter)");
+        // Enter ends the pages alone: the photographs are still waited for.
+        while self.prompt.answer().is_none() && !self.stop.is_requested() {
+            std::thread::sleep(LOOK);
+        }
+    }
+}
+
+/// A choice of the window is as good as one of the command line.
+fn validate_choice(choice: &FlightChoice) -> Result<(), AppError> {
+    choice.trainee.parse::<TraineeId>().map_err(AppError::wrong)?;
+    files::scenario(&choice.scenario).map(|_| ())
+}
+
+fn port_of(address: &str) -> Option<u16> {
+    address.rsplit(':').next()?.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::parsed;
+    use super::*;
+    use spandrel_view::flow::pipe::Purpose;
+
+    #[test]
+    fn exact_a_window_that_breaks_off_is_released_before_the_flight_is_reported() {
+        let args = parsed(&["--scenario", "drill-hover"]);
+        let mut course = TrainRun::new(&args, tracing::Level::WARN, StopRequest::default());
+        course.window = Some(WindowProcess::failing());
+        let choice = FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice };
+        assert!(matches!(course.command_line_choice(&choice), NextFlight::Fly(flown) if flown == choice));
+        assert!(course.window.is_none() && !course.has_display() && !course.closed);
+        course.stop.request();
+        assert!(matches!(course.command_line_choice(&choice), NextFlight::Leave), "who interrupts wants no flight");
+    }
+}

@@ -1,0 +1,127 @@
+//! Calibration profiles on disk: one file per kind of device.
+
+use crate::errors::AppError;
+use crate::io::files;
+use crate::io::session_folder::replace;
+use spandrel_clients::rc::{ControllerProfile, Device};
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+const NO_HOME: &str = "no home folder is known: name a folder with --profiles";
+
+/// The folder of profiles, where one is known: without one, devices have no profiles, and all else goes on.
+#[derive(Debug, Clone, Default)]
+pub struct ProfileFolder(Option<PathBuf>);
+
+impl ProfileFolder {
+    /// This folder, or the user's own (`$XDG_CONFIG_HOME` or `~/.config`, below `spandrel/controllers`).
+    pub fn at(folder: Option<PathBuf>) -> Self {
+        Self(folder.or_else(|| usual(std::env::var_os("XDG_CONFIG_HOME"), std::env::var_os("HOME"))))
+    }
+
+    /// Where profiles are kept.
+    ///
+    /// # Errors
+    /// When no folder was named and the user has no home.
+    pub fn folder(&self) -> Result<&Path, AppError> {
+        self.0.as_deref().ok_or_else(|| AppError::wrong(NO_HOME))
+    }
+
+    /// Where a device's profile lies.
+    pub fn path(&self, device: &Device) -> Option<PathBuf> {
+        self.0.as_ref().map(|folder| folder.join(file_of(device)))
+    }
+
+    /// Why a device has no profile.
+    pub fn missing(&self, device: &Device) -> String {
+        self.path(device).map_or(NO_HOME.to_owned(), |path| format!("no {}", path.display()))
+    }
+
+    /// A device's profile, when it has one.
+    ///
+    /// # Errors
+    /// When the file cannot be read or is wrong.
+    pub fn find(&self, device: &Device) -> Result<Option<ControllerProfile>, AppError> {
+        self.path(device).filter(|path| path.exists()).map(|path| read(&path)).transpose()
+    }
+
+    /// Keeps a profile; the old one stays until the new one is whole.
+    ///
+    /// # Errors
+    /// When there is no folder, or it cannot be written.
+    pub fn keep(&self, profile: &ControllerProfile) -> Result<PathBuf, AppError> {
+        let folder = self.folder()?;
+        let path = folder.join(file_of(&profile.device));
+        std::fs::create_dir_all(folder).map_err(|error| AppError::failed(format!("{}: {error}", folder.display())))?;
+        replace(&path, profile.write().as_bytes())?;
+        Ok(path)
+    }
+}
+
+/// The user's own folder, from the two variables that tell where it is.
+fn usual(config: Option<OsString>, home: Option<OsString>) -> Option<PathBuf> {
+    let known = |place: Option<OsString>| place.filter(|place| !place.is_empty()).map(PathBuf::from);
+    let config = known(config).or_else(|| known(home).map(|home| home.join(".config")));
+    config.map(|config| config.join("spandrel").join("controllers"))
+}
+
+fn file_of(device: &Device) -> String {
+    let harmless = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
+    let name: String = format!("{}-{}", device.name, device.id).chars().map(harmless).collect();
+    format!("{name}.toml")
+}
+
+/// Reads a profile.
+///
+/// # Errors
+/// When the file cannot be read or is wrong: everything that is wrong with it.
+pub fn read(path: &Path) -> Result<ControllerProfile, AppError> {
+    Ok(ControllerProfile::read(&path.display().to_string(), &files::read(path)?)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_clients::rc::StickMode;
+    use spandrel_clients::rc::axis::AxisCalibration;
+    use spandrel_clients::rc::profile::WAYS;
+
+    fn profile(device: &Device) -> ControllerProfile {
+        let axis = |axis| AxisCalibration { axis, low: -1.0, centre: 0.0, high: 1.0, dead_band: 0.05, expo: 0.3 };
+        let ways = WAYS.iter().zip(0..).map(|((_, way, _), n)| (*way, axis(n))).collect();
+        ControllerProfile { device: device.clone(), mode: StickMode::Four, axes: ways, buttons: [].into() }
+    }
+
+    #[test]
+    fn exact_a_profile_outlives_the_program_and_a_broken_one_is_reported() {
+        let folder = tempfile::tempdir().unwrap();
+        let profiles = ProfileFolder::at(Some(folder.path().join("deep")));
+        let device = Device { name: "../Odd/Näme".into(), id: "1:2".into() };
+        assert_eq!(profiles.find(&device).unwrap(), None);
+        let profile = profile(&device);
+        let path = profiles.keep(&profile).unwrap();
+        assert_eq!(path.parent(), Some(folder.path().join("deep").as_path()), "no name leaves the folder");
+        assert_eq!(profiles.find(&device).unwrap(), Some(profile));
+        std::fs::write(&path, "format = 9\n").unwrap();
+        let told = profiles.find(&device).unwrap_err().to_string();
+        assert!(told.contains(".toml:1: format = 9"), "{told}");
+    }
+
+    #[test]
+    fn exact_without_a_home_nothing_is_found_and_what_is_kept_is_reported() {
+        let device = Device { name: "Pad".into(), id: "1:2".into() };
+        let nowhere = ProfileFolder::default();
+        assert_eq!((nowhere.find(&device).unwrap(), nowhere.path(&device)), (None, None));
+        for told in [nowhere.keep(&profile(&device)).unwrap_err().to_string(), nowhere.missing(&device)] {
+            assert_eq!(told, "no home folder is known: name a folder with --profiles");
+        }
+    }
+
+    #[test]
+    fn exact_the_usual_folder_lies_in_the_users_configuration() {
+        let place = |config: &str, home: &str| usual(Some(config.into()), Some(home.into()));
+        assert_eq!(place("/c", "/home/a"), Some("/c/spandrel/controllers".into()));
+        assert_eq!(place("", "/home/a"), Some("/home/a/.config/spandrel/controllers".into()));
+        assert_eq!((place("", ""), usual(None, None)), (None, None), "a variable that is empty says nothing");
+    }
+}

@@ -1,0 +1,83 @@
+//! The MAVLink signing key from its file.
+
+use crate::errors::AppError;
+use spandrel_mavlink::signing::SigningKey;
+use std::path::Path;
+
+/// A passphrase is at least this long, characters.
+const SHORTEST: usize = 8;
+
+/// Reads a key: 64 hexadecimal digits are the key itself, anything else on the one line is a passphrase.
+///
+/// # Errors
+/// When the file cannot be read, others may read it, or it holds no key. The message never shows what it holds.
+pub fn read(path: &Path) -> Result<SigningKey, AppError> {
+    let wrong = |what: &str| AppError::wrong(format!("--signing-key {}: {what}", path.display()));
+    let text = std::fs::read_to_string(path).map_err(|error| wrong(&error.to_string()))?;
+    if let Some(mode) = open_to_others(path) {
+        return Err(wrong(&format!("others may read it (mode {mode:o}); allowed: 600 or less (chmod 600)")));
+    }
+    let text = text.trim_end_matches(['\r', '\n']);
+    if text.contains('\n') {
+        return Err(wrong("it has several lines; allowed: one"));
+    }
+    match hex(text) {
+        Some(key) => Ok(SigningKey(key)),
+        None if text.chars().count() >= SHORTEST => Ok(SigningKey::from_passphrase(text)),
+        None => Err(wrong(&format!(
+            "its line is too short; allowed: 64 hexadecimal digits, or a passphrase of {SHORTEST} characters or more"
+        ))),
+    }
+}
+
+#[cfg(unix)]
+fn open_to_others(path: &Path) -> Option<u32> {
+    use std::os::unix::fs::PermissionsExt;
+    let mode = std::fs::metadata(path).ok()?.permissions().mode() & 0o777;
+    (mode & 0o077 != 0).then_some(mode)
+}
+
+#[cfg(not(unix))]
+fn open_to_others(_: &Path) -> Option<u32> {
+    None
+}
+
+fn hex(text: &str) -> Option<[u8; 32]> {
+    let digits: Vec<u8> = text.chars().map(|c| c.to_digit(16).map(|digit| digit as u8)).collect::<Option<_>>()?;
+    let bytes: Vec<u8> = digits.chunks_exact(2).map(|pair| pair[0] << 4 | pair[1]).collect();
+    if digits.len() == 64 { bytes.try_into().ok() } else { None }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::os::unix::fs::PermissionsExt;
+
+    fn file(text: &str, mode: u32) -> tempfile::TempPath {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), text).unwrap();
+        std::fs::set_permissions(file.path(), std::fs::Permissions::from_mode(mode)).unwrap();
+        file.into_temp_path()
+    }
+
+    #[test]
+    fn exact_digits_are_the_key_and_words_are_hashed() {
+        assert_eq!(
+            read(&file(&format!("{}\n", "0aFf".repeat(16)), 0o600)).unwrap(),
+            SigningKey([0x0a, 0xff].repeat(16).try_into().unwrap())
+        );
+        assert_eq!(read(&file("bridge over water", 0o400)).unwrap(), SigningKey::from_passphrase("bridge over water"));
+    }
+
+    #[test]
+    fn exact_what_others_may_read_or_is_no_key_is_refused_without_being_shown() {
+        for (text, mode, said) in [
+            ("bridge over water", 0o640, "others may read"),
+            ("hunter2", 0o600, "too short"),
+            ("one line\ntwo lines", 0o600, "several lines"),
+        ] {
+            let Err(error) = read(&file(text, mode)) else { panic!("{said}") };
+            assert!(error.to_string().contains(said) && !error.to_string().contains(text), "{error}");
+        }
+    }
+}

@@ -1,0 +1,400 @@
+//! Who is behind the vehicle's ports: fixed targets that are called unasked, peers learned by their source address, clients over TCP
+//! and serial ports.
+
+use super::clock::Stopwatch;
+use super::net::{NetEvent, SocketHub, SocketId, StreamId, StreamOrigin};
+use super::ports::{GCS_PORT, PAYLOAD_PORT, PortArgs, local};
+use crate::errors::AppError;
+use spandrel_mavlink::codec::Decoder;
+use spandrel_sitl::endpoint::LinkKind;
+use std::collections::{BTreeMap, VecDeque};
+use std::net::SocketAddr;
+use std::time::Duration;
+
+/// A learned peer that is silent this long is forgotten.
+const FORGET: Duration = Duration::from_secs(15);
+/// Peers that are learned at most on each port: a flood of source addresses neither grows without bound nor keeps the peers of another
+/// port off.
+const LEARNED_MAX: usize = 64;
+
+/// What happened to links.
+#[derive(Debug, Clone, PartialEq)]
+pub enum LinkChange {
+    /// A peer is there from now on.
+    Opened {
+        /// Its link.
+        link: u32,
+        /// Its kind.
+        kind: LinkKind,
+        /// It is asked to keep step.
+        lockstep: bool,
+        /// Nobody called it: it is known by its source address alone, which anybody can forge.
+        learned: bool,
+        /// What it carries, bytes a second, if that is limited.
+        limit: Option<f64>,
+    },
+    /// Bytes: a datagram, or one whole frame of a stream.
+    Bytes {
+        /// From which link.
+        link: u32,
+        /// What.
+        bytes: Vec<u8>,
+    },
+    /// The peer is gone.
+    Closed {
+        /// Its link.
+        link: u32,
+    },
+}
+
+#[derive(Debug)]
+enum LinkRoute {
+    Fixed { socket: SocketId, peer: SocketAddr },
+    Learned { socket: SocketId, peer: SocketAddr, heard: Duration },
+    Stream { stream: StreamId, decoder: Decoder },
+}
+
+/// All links of the vehicle.
+#[derive(Debug)]
+pub struct Links {
+    hub: SocketHub,
+    kinds: BTreeMap<SocketId, LinkKind>,
+    routes: BTreeMap<u32, LinkRoute>,
+    by_peer: BTreeMap<(SocketId, SocketAddr), u32>,
+    by_stream: BTreeMap<StreamId, u32>,
+    lockstep: Vec<SocketAddr>,
+    limit: Option<f64>,
+    changes: VecDeque<LinkChange>,
+    opened: u32,
+    bad_bytes: u64,
+    stopwatch: Stopwatch,
+    /// The ports that were bound, as announced.
+    pub bound: serde_json::Value,
+}
+
+impl Links {
+    /// Opens every port and the links to those who are called unasked. Fixed links are numbered in one order in every run.
+    ///
+    /// # Errors
+    /// When a port cannot be opened, or a lockstep peer is not among those who are called.
+    pub fn open(args: &PortArgs, lockstep: &[SocketAddr]) -> Result<Self, AppError> {
+        let mut hub = SocketHub::new();
+        let bind = |hub: &mut SocketHub, port: Option<u16>, flag| port.map(|port| hub.bind(args.listen, port, flag)).transpose();
+        let stations = args.ground_stations();
+        let gcs = bind(&mut hub, args.port(args.gcs_port, GCS_PORT).or((!stations.is_empty()).then_some(0)), "--gcs-port")?;
+        let payload = bind(&mut hub, args.port(args.payload_port, PAYLOAD_PORT), "--payload-port")?;
+        let sdk = bind(&mut hub, args.sdk().map(|_| 0), "--sdk")?;
+        let tcp = args.tcp().map(|port| hub.serve(args.listen, port, "--tcp-port")).transpose()?;
+        for device in &args.serial {
+            hub.serve_serial(device)?;
+        }
+        let port = |socket: Option<SocketId>| socket.map(|socket| hub.port(socket));
+        let bound = serde_json::json!({ "system_id": args.instance + 1, "gcs_port": port(gcs), "payload_port": port(payload), "tcp_port": tcp });
+        let kinds = [(gcs, LinkKind::GroundStation), (payload, LinkKind::Payload), (sdk, LinkKind::Sdk)];
+        let mut links = Self {
+            hub,
+            kinds: kinds.into_iter().filter_map(|(socket, kind)| Some((socket?, kind))).collect(),
+            routes: BTreeMap::new(),
+            by_peer: BTreeMap::new(),
+            by_stream: BTreeMap::new(),
+            lockstep: lockstep.to_vec(),
+            limit: args.gcs_limit.map(f64::from),
+            changes: VecDeque::new(),
+            opened: 0,
+            bad_bytes: 0,
+            stopwatch: Stopwatch::start(),
+            bound,
+        };
+        let monitor = Some(args.monitor_port()).filter(|port| *port != 0).map(local);
+        let fixed = stations.iter().map(|peer| (gcs, *peer));
+        let fixed = fixed.chain(monitor.map(|peer| (payload.or(gcs), peer))).chain(args.sdk().map(|peer| (sdk, peer)));
+        for (socket, peer) in fixed {
+            if let Some(socket) = socket {
+                links.add(socket, peer, None);
+            }
+        }
+        links.all_lockstep_peers_dialed()?;
+        Ok(links)
+    }
+
+    fn all_lockstep_peers_dialed(&self) -> Result<(), AppError> {
+        let called = |peer: &SocketAddr| self.by_peer.keys().any(|(_, known)| known == peer);
+        match self.lockstep.iter().find(|peer| !called(peer)) {
+            Some(peer) => Err(AppError::wrong(format!(
+                "--lockstep {peer} names nobody who is called: name it with --gcs, --sdk or --monitor-port as well"
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// Waits at most so long for something to happen.
+    pub fn wait(&mut self, wait: Duration) {
+        if !self.changes.is_empty() {
+            return;
+        }
+        if let Some(arrival) = self.hub.next(wait) {
+            self.take(arrival, self.stopwatch.elapsed());
+        }
+    }
+
+    /// The next change.
+    pub fn poll(&mut self) -> Option<LinkChange> {
+        if self.changes.is_empty() {
+            self.wait(Duration::ZERO);
+        }
+        self.changes.pop_front()
+    }
+
+    /// Forgets learned peers that have gone silent.
+    pub fn drop_silent_peers(&mut self) {
+        self.forget(self.stopwatch.elapsed());
+    }
+
+    fn forget(&mut self, wall: Duration) {
+        let silent = |(link, route): (&u32, &LinkRoute)| match route {
+            LinkRoute::Learned { heard, .. } if wall.saturating_sub(*heard) > FORGET => Some(*link),
+            LinkRoute::Learned { .. } | LinkRoute::Fixed { .. } | LinkRoute::Stream { .. } => None,
+        };
+        let silent: Vec<u32> = self.routes.iter().filter_map(silent).collect();
+        for link in silent {
+            if let Some(LinkRoute::Learned { socket, peer, .. }) = self.routes.remove(&link) {
+                tracing::info!("{peer} has been silent for {} s and is forgotten", FORGET.as_secs());
+                self.by_peer.remove(&(socket, peer));
+                self.changes.push_back(LinkChange::Closed { link });
+            }
+        }
+    }
+
+    /// Sends to one link.
+    pub fn send(&mut self, link: u32, bytes: Vec<u8>) {
+        match self.routes.get(&link) {
+            Some(LinkRoute::Fixed { socket, peer } | LinkRoute::Learned { socket, peer, .. }) => {
+                self.hub.send(*socket, *peer, &bytes)
+            }
+            Some(LinkRoute::Stream { stream, .. }) => self.hub.send_stream(*stream, bytes),
+            None => {}
+        }
+    }
+
+    /// Bytes of TCP clients that belonged to no frame; those of datagrams the vehicle counts.
+    pub fn bad_bytes(&self) -> u64 {
+        self.bad_bytes
+    }
+
+    /// What found a queue full.
+    pub fn take_dropped(&self) -> u64 {
+        self.hub.dropped()
+    }
+
+    fn number(&mut self) -> u32 {
+        self.opened += 1;
+        self.opened
+    }
+
+    /// A peer that is called unasked, or one that was heard at a time.
+    fn add(&mut self, socket: SocketId, peer: SocketAddr, heard: Option<Duration>) -> u32 {
+        let link = self.number();
+        let route = heard.map_or(LinkRoute::Fixed { socket, peer }, |heard| LinkRoute::Learned { socket, peer, heard });
+        self.routes.insert(link, route);
+        self.by_peer.insert((socket, peer), link);
+        let kind = self.kinds.get(&socket).copied().unwrap_or(LinkKind::GroundStation);
+        let limit = self.limit.filter(|_| kind == LinkKind::GroundStation);
+        let lockstep = self.lockstep.contains(&peer);
+        self.changes.push_back(LinkChange::Opened { link, kind, lockstep, learned: heard.is_some(), limit });
+        link
+    }
+
+    fn take(&mut self, arrival: NetEvent, wall: Duration) {
+        match arrival {
+            NetEvent::Datagram { socket, from, bytes } => self.take_datagram(socket, from, bytes, wall),
+            NetEvent::Connected(stream, origin) => self.take_stream(stream, &origin),
+            NetEvent::Bytes(stream, bytes) => {
+                let Some(link) = self.by_stream.get(&stream).copied() else { return };
+                let Some(LinkRoute::Stream { decoder, .. }) = self.routes.get_mut(&link) else { return };
+                let before = decoder.bad_bytes();
+                let frames = decoder.push(&bytes).into_iter();
+                self.changes.extend(frames.map(|frame| LinkChange::Bytes { link, bytes: frame.bytes }));
+                self.bad_bytes += decoder.bad_bytes() - before;
+            }
+            NetEvent::Closed(stream) => {
+                let Some(link) = self.by_stream.remove(&stream) else { return };
+                self.routes.remove(&link);
+                self.changes.push_back(LinkChange::Closed { link });
+            }
+        }
+    }
+
+    fn take_stream(&mut self, stream: StreamId, origin: &StreamOrigin) {
+        if self.by_stream.len() >= LEARNED_MAX {
+            tracing::warn!("{origin} is not let in: {LEARNED_MAX} clients are connected");
+            self.hub.drop_stream(stream);
+            return;
+        }
+        let link = self.number();
+        tracing::info!("{origin} is connected");
+        let (kind, limit) = match origin {
+            StreamOrigin::Tcp(_) => (LinkKind::Tcp, self.limit),
+            StreamOrigin::Serial(device) => (LinkKind::Serial, Some(device.bytes_s())),
+        };
+        self.routes.insert(link, LinkRoute::Stream { stream, decoder: Decoder::new() });
+        self.by_stream.insert(stream, link);
+        self.changes.push_back(LinkChange::Opened { link, kind, lockstep: false, learned: false, limit });
+    }
+
+    /// A new peer, if what it sends is MAVLink and its port has room.
+    fn add_peer(&mut self, socket: SocketId, from: SocketAddr, bytes: &[u8], wall: Duration) -> Option<u32> {
+        if !is_mavlink(bytes) {
+            tracing::debug!("a datagram of the stranger {from} holds no MAVLink message");
+            self.bad_bytes += bytes.len() as u64;
+            return None;
+        }
+        let on_socket = |route: &&LinkRoute| matches!(route, LinkRoute::Learned { socket: other, .. } if *other == socket);
+        if self.routes.values().filter(on_socket).count() >= LEARNED_MAX {
+            tracing::debug!("{from} is not let in: {LEARNED_MAX} peers are connected to this port");
+            return None;
+        }
+        tracing::info!("{from} has dialled in");
+        Some(self.add(socket, from, Some(wall)))
+    }
+
+    fn take_datagram(&mut self, socket: SocketId, from: SocketAddr, bytes: Vec<u8>, wall: Duration) {
+        let link = match self.by_peer.get(&(socket, from)) {
+            Some(link) => *link,
+            None => {
+                let Some(link) = self.add_peer(socket, from, &bytes, wall) else { return };
+                link
+            }
+        };
+        if let Some(LinkRoute::Learned { heard, .. }) = self.routes.get_mut(&link) {
+            *heard = wall;
+        }
+        self.changes.push_back(LinkChange::Bytes { link, bytes });
+    }
+}
+
+/// A datagram holds a message that we know, with a correct checksum.
+fn is_mavlink(bytes: &[u8]) -> bool {
+    Decoder::new().datagram(bytes).iter().any(|frame| frame.message.is_some())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::ports::local;
+    use super::*;
+    use clap::Parser;
+    use spandrel_mavlink::codec::Encoder;
+    use spandrel_mavlink::station;
+    use std::net::UdpSocket;
+
+    #[derive(Debug, Parser)]
+    struct Line {
+        #[command(flatten)]
+        ports: PortArgs,
+    }
+
+    fn send_hello() -> Vec<u8> {
+        Encoder::new(255, 190).encode(&station::heartbeat())
+    }
+
+    fn parse(words: &[&str]) -> PortArgs {
+        Line::parse_from(["test"].iter().chain(words)).ports
+    }
+
+    #[test]
+    fn wire_a_stranger_is_learned_by_its_address_and_answered() {
+        let mut links = Links::open(&parse(&["--ports", "ephemeral"]), &[]).unwrap();
+        let port = u16::try_from(links.bound["payload_port"].as_u64().unwrap()).unwrap();
+        let sidecar = UdpSocket::bind(local(0)).unwrap();
+        // What is no MAVLink makes nobody a peer.
+        sidecar.send_to(b"h", local(port)).unwrap();
+        sidecar.send_to(&send_hello(), local(port)).unwrap();
+        let (watch, limit) = (Stopwatch::start(), Duration::from_secs(60));
+        while links.changes.is_empty() && watch.elapsed() < limit {
+            links.wait(Duration::from_secs(1));
+        }
+        let opened = LinkChange::Opened { link: 1, kind: LinkKind::Payload, lockstep: false, learned: true, limit: None };
+        assert_eq!((links.poll(), links.bad_bytes()), (Some(opened), 1));
+        assert_eq!(links.poll(), Some(LinkChange::Bytes { link: 1, bytes: send_hello() }));
+        links.send(1, b"welcome".to_vec());
+        let mut heard = [0u8; 16];
+        let (len, from) = sidecar.recv_from(&mut heard).unwrap();
+        assert_eq!((&heard[..len], from.port()), (b"welcome".as_slice(), port));
+    }
+
+    #[test]
+    fn exact_a_lockstep_peer_that_was_not_dialed_is_refused() {
+        let Err(error) = Links::open(&parse(&["--ports", "ephemeral"]), &[local(9)]) else { panic!("accepted") };
+        assert!(error.to_string().contains("--lockstep 127.0.0.1:9"));
+        let args = parse(&["--ports", "ephemeral", "--gcs", "127.0.0.1:9"]);
+        let mut links = Links::open(&args, &[local(9)]).unwrap();
+        let opened = LinkChange::Opened { link: 1, kind: LinkKind::GroundStation, lockstep: true, learned: false, limit: None };
+        assert_eq!(links.poll(), Some(opened));
+    }
+
+    /// Links with one peer that is called, and the socket for those who dial in.
+    fn called(peer: &str) -> (Links, SocketId) {
+        let mut links = Links::open(&parse(&["--ports", "ephemeral", "--gcs", peer]), &[]).unwrap();
+        assert!(matches!(links.poll(), Some(LinkChange::Opened { link: 1, .. })));
+        let socket = *links.kinds.iter().find(|(_, kind)| **kind == LinkKind::GroundStation).unwrap().0;
+        (links, socket)
+    }
+
+    /// The link that speaks up at a time, and whether it is new.
+    fn note_received(links: &mut Links, socket: SocketId, port: u16, at_s: u64) -> Option<(u32, bool)> {
+        links.take(NetEvent::Datagram { socket, from: local(port), bytes: send_hello() }, Duration::from_secs(at_s));
+        let new = matches!(links.changes.front(), Some(LinkChange::Opened { .. }));
+        let changes = std::mem::take(&mut links.changes);
+        changes.iter().find_map(|change| if let LinkChange::Bytes { link, .. } = change { Some((*link, new)) } else { None })
+    }
+
+    #[test]
+    fn exact_a_silent_peer_is_forgotten_one_that_speaks_is_not_and_one_that_is_called_never() {
+        let (mut links, socket) = called("127.0.0.1:9");
+        let (silent, speaking) = (4_001, 4_002);
+        assert_eq!(note_received(&mut links, socket, silent, 100), Some((2, true)));
+        assert_eq!(note_received(&mut links, socket, speaking, 100), Some((3, true)));
+        assert_eq!(note_received(&mut links, socket, speaking, 110), Some((3, false)));
+        links.forget(Duration::from_secs(100) + FORGET);
+        assert!(links.changes.is_empty(), "not yet");
+        links.forget(Duration::from_secs(101) + FORGET);
+        assert_eq!(std::mem::take(&mut links.changes), [LinkChange::Closed { link: 2 }]);
+        assert_eq!(note_received(&mut links, socket, silent, 120), Some((4, true)), "it is new again");
+        links.forget(Duration::from_secs(1_000_000));
+        let closed = [3, 4].map(|link| LinkChange::Closed { link });
+        assert_eq!(std::mem::take(&mut links.changes), closed, "but not the one that is called");
+        assert_eq!(note_received(&mut links, socket, 9, 2_000_000), Some((1, false)));
+    }
+
+    #[test]
+    fn regress_a_flood_on_one_port_keeps_nobody_off_another_and_rubbish_takes_no_place() {
+        let mut links = Links::open(&parse(&["--ports", "ephemeral", "--gcs", "127.0.0.1:9"]), &[]).unwrap();
+        assert!(matches!(links.poll(), Some(LinkChange::Opened { link: 1, .. })));
+        let of = |links: &Links, kind| *links.kinds.iter().find(|(_, other)| **other == kind).unwrap().0;
+        let (stations, sidecars) = (of(&links, LinkKind::GroundStation), of(&links, LinkKind::Payload));
+        for port in 10_000..10_000 + 2 * LEARNED_MAX as u16 {
+            links.take(NetEvent::Datagram { socket: sidecars, from: local(port), bytes: vec![0xFD] }, Duration::from_secs(1));
+        }
+        assert_eq!((links.changes.len(), links.bad_bytes()), (0, 2 * LEARNED_MAX as u64));
+        assert_eq!(note_received(&mut links, sidecars, 4_001, 1), Some((2, true)));
+        let taken = (10_000..11_000).filter_map(|port| note_received(&mut links, stations, port, 1)).count();
+        assert_eq!(taken, LEARNED_MAX);
+        assert!(note_received(&mut links, sidecars, 4_002, 1).is_some_and(|(_, new)| new));
+        assert_eq!(note_received(&mut links, stations, 4_003, 1), None);
+    }
+
+    #[test]
+    fn exact_a_flood_of_new_peers_is_bounded_and_keeps_nobody_out_for_ever() {
+        let (mut links, socket) = called("127.0.0.1:9");
+        assert_eq!(note_received(&mut links, socket, 4_000, 1), Some((2, true)));
+        let taken: usize = (10_000..60_000).filter_map(|port| note_received(&mut links, socket, port, 2)).count();
+        let all = LEARNED_MAX + 1;
+        assert_eq!((taken, links.routes.len(), links.by_peer.len()), (LEARNED_MAX - 1, all, all), "the one that is called, too");
+        assert_eq!(note_received(&mut links, socket, 4_000, 3), Some((2, false)), "who was there before is heard");
+        assert_eq!(note_received(&mut links, socket, 9, 3), Some((1, false)), "and so is who is called");
+        assert_eq!(note_received(&mut links, socket, 4_003, 3), None, "a stranger is not");
+        links.forget(Duration::from_secs(3) + FORGET);
+        links.changes.clear();
+        assert_eq!((links.routes.len(), links.by_peer.len()), (2, 2), "the flood has ebbed away");
+        assert!(note_received(&mut links, socket, 4_003, 19).is_some_and(|(_, new)| new));
+    }
+}

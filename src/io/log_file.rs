@@ -1,0 +1,122 @@
+//! A session's telemetry on disk, read in pieces: its length costs no memory.
+
+use crate::errors::AppError;
+use sha2::{Digest, Sha256};
+use spandrel_mavlink::telemetry::log_stream::{RecordSplitter, TelemetryLog};
+use spandrel_mavlink::telemetry::tlog::{self, TlogRecord};
+use std::fs::File;
+use std::io::Read;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+/// Bytes read at once.
+const PIECE: usize = 256 * 1024;
+/// The first record lies within this many bytes.
+const HEAD: u64 = 64 * 1024;
+
+/// A telemetry log. Every reading ends where the file ended when it was opened: a session may still be recorded.
+#[derive(Debug, Clone)]
+pub struct LogFile {
+    path: PathBuf,
+    len: u64,
+}
+
+impl LogFile {
+    /// Finds the file.
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    pub fn open(path: &Path) -> Result<Self, AppError> {
+        let len = File::open(path).and_then(|file| file.metadata()).map_err(|error| unreadable(path, &error))?.len();
+        Ok(Self { path: path.to_path_buf(), len })
+    }
+
+    /// Length, bytes.
+    pub fn len(&self) -> u64 {
+        self.len
+    }
+
+    /// Length of the part that holds whole records, bytes.
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    pub fn whole_len(&self) -> Result<u64, AppError> {
+        let mut splitter = RecordSplitter::default();
+        let mut skip = |_: TlogRecord<'_>| ControlFlow::Continue(());
+        self.pieces(&mut |piece| splitter.feed(piece, &mut skip)).map_err(|error| unreadable(&self.path, &error))?;
+        // The end of the file completes the last records.
+        let _ = splitter.end(&mut skip);
+        Ok(splitter.end_of_whole())
+    }
+
+    /// Unix time of simulation time zero, µs; `None` for an empty log.
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    pub fn session_start_us(&self) -> Result<Option<u64>, AppError> {
+        Ok(tlog::session_start_us(&self.read(HEAD)?))
+    }
+
+    /// SHA-256 in hexadecimal.
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    pub fn sha256(&self) -> Result<String, AppError> {
+        let mut hash = Sha256::new();
+        let mut update = |piece: &[u8]| {
+            hash.update(piece);
+            ControlFlow::Continue(())
+        };
+        self.pieces(&mut update).map_err(|error| unreadable(&self.path, &error))?;
+        Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+    }
+
+    /// The whole log in memory.
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    #[cfg(feature = "view")]
+    pub fn bytes(&self) -> Result<Vec<u8>, AppError> {
+        self.read(self.len)
+    }
+
+    fn read(&self, most: u64) -> Result<Vec<u8>, AppError> {
+        let mut bytes = Vec::new();
+        let read = File::open(&self.path).and_then(|file| file.take(most.min(self.len)).read_to_end(&mut bytes));
+        read.map(|_| bytes).map_err(|error| unreadable(&self.path, &error))
+    }
+
+    fn pieces(&self, take: &mut dyn FnMut(&[u8]) -> ControlFlow<()>) -> std::io::Result<()> {
+        let mut file = File::open(&self.path)?.take(self.len);
+        let mut piece = vec![0; PIECE];
+        loop {
+            let length = match file.read(&mut piece) {
+                Err(error) if error.kind() == std::io::ErrorKind::Interrupted => continue,
+                other => other?,
+            };
+            if length == 0 || take(&piece[..length]).is_break() {
+                return Ok(());
+            }
+        }
+    }
+}
+
+impl TelemetryLog for LogFile {
+    fn for_each_record(&self, take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> std::io::Result<()> {
+        let mut splitter = RecordSplitter::default();
+        let mut broken = false;
+        self.pieces(&mut |piece| {
+            let flow = splitter.feed(piece, take);
+            broken = flow.is_break();
+            flow
+        })?;
+        if !broken {
+            let _ = splitter.end(take);
+        }
+        Ok(())
+    }
+}
+
+fn unreadable(path: &Path, error: &std::io::Error) -> AppError {
+    AppError::wrong(format!("{}: cannot be read: {error}", path.display()))
+}

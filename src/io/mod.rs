@@ -1,0 +1,26 @@
+//! The outside world for the subcommands: sockets and links, clock, files, serial ports, child processes, pacing, stores and controllers.
+
+pub mod append_file;
+pub mod children;
+pub mod clock;
+pub mod controller;
+pub mod files;
+pub mod flight_logs;
+pub mod key;
+pub mod links;
+pub mod log_file;
+pub mod logging;
+pub mod mcap;
+pub mod net;
+pub mod pacing;
+pub mod params;
+pub mod parquet;
+pub mod pause;
+pub mod ports;
+pub mod progress;
+pub mod serial;
+pub mod session_folder;
+pub mod shell;
+pub mod signing_store;
+pub mod stop;
+pub mod store;

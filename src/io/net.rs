@@ -1,0 +1,361 @@
+//! Sockets as one queue of arrivals. A thread per socket empties the kernel's buffer even while the core computes; the queue is
+//! bounded, and what does not fit is counted. A bad peer never ends a reader.
+
+use super::serial::{self, SerialDevice};
+use crate::errors::AppError;
+use std::collections::BTreeMap;
+use std::io::{ErrorKind, Read, Write};
+use std::net::{IpAddr, Shutdown, SocketAddr, TcpListener, TcpStream, UdpSocket};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
+use std::time::Duration;
+
+/// Arrivals that wait for the core: some ten seconds of a busy link.
+const QUEUE: usize = 16_384;
+/// Frames that wait for one slow TCP client before new ones are dropped.
+const STREAM_QUEUE: usize = 2_048;
+/// Rest after an unexpected socket error, so that a broken interface does not spin.
+const REST: Duration = Duration::from_millis(50);
+/// Larger than any UDP payload.
+const DATAGRAM_MAX: usize = 65_536;
+
+/// Which UDP socket.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct SocketId(usize);
+
+/// Which TCP connection or serial port.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct StreamId(u32);
+
+/// Where a stream of bytes comes from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum StreamOrigin {
+    /// A client over TCP.
+    Tcp(SocketAddr),
+    /// Whoever is at the other end of a serial port.
+    Serial(SerialDevice),
+}
+
+impl std::fmt::Display for StreamOrigin {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Tcp(from) => write!(f, "TCP client {from}"),
+            Self::Serial(device) => write!(f, "serial port {device}"),
+        }
+    }
+}
+
+/// Something came in.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum NetEvent {
+    /// A datagram.
+    Datagram {
+        /// On which socket.
+        socket: SocketId,
+        /// Its sender.
+        from: SocketAddr,
+        /// Its payload.
+        bytes: Vec<u8>,
+    },
+    /// A client connected, or a serial port was opened.
+    Connected(StreamId, StreamOrigin),
+    /// Bytes of one.
+    Bytes(StreamId, Vec<u8>),
+    /// It is gone.
+    Closed(StreamId),
+}
+
+/// What the threads put into the queue.
+enum QueuedEvent {
+    Plain(NetEvent),
+    Client(StreamId, StreamOrigin, StreamWriter),
+}
+
+/// The sending side of a stream.
+#[derive(Debug)]
+struct StreamWriter {
+    queue: SyncSender<Vec<u8>>,
+    socket: Option<TcpStream>,
+}
+
+impl Drop for StreamWriter {
+    fn drop(&mut self) {
+        // Ends the reader as well; an error means that the connection is gone already.
+        let _ = self.socket.as_ref().map(|socket| socket.shutdown(Shutdown::Both));
+    }
+}
+
+/// Hands the sending side of a stream to the core and gives what it wants sent; `None` when the core is gone.
+fn announce(
+    stream: StreamId,
+    origin: StreamOrigin,
+    socket: Option<TcpStream>,
+    queue: &SyncSender<QueuedEvent>,
+) -> Option<Receiver<Vec<u8>>> {
+    let (sender, frames) = sync_channel(STREAM_QUEUE);
+    queue.send(QueuedEvent::Client(stream, origin, StreamWriter { queue: sender, socket })).ok()?;
+    Some(frames)
+}
+
+/// All sockets of one process.
+#[derive(Debug)]
+pub struct SocketHub {
+    sender: SyncSender<QueuedEvent>,
+    receiver: Receiver<QueuedEvent>,
+    sockets: Vec<UdpSocket>,
+    streams: BTreeMap<StreamId, StreamWriter>,
+    devices: u32,
+    dropped: Arc<AtomicU64>,
+    reported_errors: BTreeMap<SocketAddr, ErrorKind>,
+}
+
+impl std::fmt::Debug for QueuedEvent {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Plain(arrival) => arrival.fmt(f),
+            Self::Client(stream, from, _) => write!(f, "Client({stream:?}, {from})"),
+        }
+    }
+}
+
+impl SocketHub {
+    /// No sockets yet.
+    pub fn new() -> Self {
+        let (sender, receiver) = sync_channel(QUEUE);
+        let dropped = Arc::new(AtomicU64::new(0));
+        Self {
+            sender,
+            receiver,
+            sockets: Vec::new(),
+            streams: BTreeMap::new(),
+            devices: 0,
+            dropped,
+            reported_errors: BTreeMap::new(),
+        }
+    }
+
+    /// Binds a UDP port (0: any free one). `flag` is named in the message when the port is taken.
+    ///
+    /// # Errors
+    /// If it cannot be bound.
+    pub fn bind(&mut self, ip: IpAddr, port: u16, flag: &str) -> Result<SocketId, AppError> {
+        let socket = UdpSocket::bind((ip, port)).map_err(|error| port_in_use("UDP", ip, port, flag, &error))?;
+        let reader = socket.try_clone().map_err(|error| AppError::failed(format!("UDP port {port}: {error}")))?;
+        let id = SocketId(self.sockets.len());
+        self.sockets.push(socket);
+        let (queue, dropped) = (self.sender.clone(), self.dropped.clone());
+        std::thread::spawn(move || read_datagrams(&reader, id, &queue, &dropped));
+        Ok(id)
+    }
+
+    /// Listens for TCP clients and says on which port.
+    ///
+    /// # Errors
+    /// If it cannot be bound.
+    pub fn serve(&self, ip: IpAddr, port: u16, flag: &str) -> Result<u16, AppError> {
+        let listener = TcpListener::bind((ip, port)).map_err(|error| port_in_use("TCP", ip, port, flag, &error))?;
+        let bound = listener.local_addr().map_or(port, |address| address.port());
+        let queue = self.sender.clone();
+        std::thread::spawn(move || accept_clients(&listener, &queue));
+        Ok(bound)
+    }
+
+    /// Opens a serial port; when it vanishes it is opened again as soon as it is back.
+    ///
+    /// # Errors
+    /// If it cannot be opened.
+    pub fn serve_serial(&mut self, device: &SerialDevice) -> Result<(), AppError> {
+        let port = device.open().map_err(|error| AppError::failed(format!("--serial {device}: {error}")))?;
+        // Numbered from the other end, so that they never meet those of TCP clients.
+        let stream = StreamId(u32::MAX - self.devices);
+        self.devices += 1;
+        let (queue, device) = (self.sender.clone(), device.clone());
+        std::thread::spawn(move || {
+            let give = |bytes: &[u8]| queue.send(QueuedEvent::Plain(NetEvent::Bytes(stream, bytes.to_vec()))).is_ok();
+            let begin = || announce(stream, StreamOrigin::Serial(device.clone()), None, &queue);
+            let end = || queue.send(QueuedEvent::Plain(NetEvent::Closed(stream))).is_ok();
+            serial::keep(&device, port, begin, give, end);
+        });
+        Ok(())
+    }
+
+    /// Ends a stream.
+    pub fn drop_stream(&mut self, stream: StreamId) {
+        self.streams.remove(&stream);
+    }
+
+    /// The port that a socket is bound to.
+    pub fn port(&self, socket: SocketId) -> u16 {
+        self.sockets.get(socket.0).and_then(|socket| socket.local_addr().ok()).map_or(0, |address| address.port())
+    }
+
+    /// The next arrival, waiting at most so long.
+    pub fn next(&mut self, wait: Duration) -> Option<NetEvent> {
+        let inner = if wait.is_zero() { self.receiver.try_recv().ok() } else { self.receiver.recv_timeout(wait).ok() };
+        match inner? {
+            QueuedEvent::Plain(arrival) => {
+                if let NetEvent::Closed(stream) = arrival {
+                    self.streams.remove(&stream);
+                }
+                Some(arrival)
+            }
+            QueuedEvent::Client(stream, from, writer) => {
+                self.streams.insert(stream, writer);
+                Some(NetEvent::Connected(stream, from))
+            }
+        }
+    }
+
+    /// Sends one datagram. A peer that is not there yet is normal; other trouble is told once for each peer.
+    pub fn send(&mut self, socket: SocketId, to: SocketAddr, bytes: &[u8]) {
+        let Some(socket) = self.sockets.get(socket.0) else { return };
+        let Err(error) = socket.send_to(bytes, to) else { return };
+        let kind = error.kind();
+        if kind != ErrorKind::ConnectionRefused && self.reported_errors.insert(to, kind) != Some(kind) {
+            tracing::warn!("cannot send to {to}: {error} (only this machine can be reached unless --listen says otherwise)");
+        }
+    }
+
+    /// Sends to a TCP client; a client that does not read loses frames, never holds anybody up.
+    pub fn send_stream(&self, stream: StreamId, bytes: Vec<u8>) {
+        let Some(writer) = self.streams.get(&stream) else { return };
+        if let Err(TrySendError::Full(_)) = writer.queue.try_send(bytes) {
+            self.dropped.fetch_add(1, Ordering::Relaxed);
+        }
+    }
+
+    /// Arrivals and frames that found their queue full.
+    pub fn dropped(&self) -> u64 {
+        self.dropped.load(Ordering::Relaxed)
+    }
+}
+
+fn port_in_use(kind: &str, ip: IpAddr, port: u16, flag: &str, error: &std::io::Error) -> AppError {
+    match error.kind() {
+        ErrorKind::AddrInUse => AppError::failed(format!(
+            "{kind} port {port} on {ip} is in use: does another simulator or ground station run? Choose another with {flag} or \
+             --instance (0 takes any free port where a port is asked for)"
+        )),
+        ErrorKind::AddrNotAvailable => AppError::wrong(format!("{ip} is no address of this machine (--listen)")),
+        ErrorKind::PermissionDenied => AppError::failed(format!("{kind} port {port} may not be opened by this user ({flag})")),
+        _ => AppError::failed(format!("{kind} port {port} on {ip} cannot be opened: {error}")),
+    }
+}
+
+fn read_datagrams(socket: &UdpSocket, id: SocketId, queue: &SyncSender<QueuedEvent>, dropped: &AtomicU64) {
+    let mut buffer = vec![0u8; DATAGRAM_MAX];
+    loop {
+        match socket.recv_from(&mut buffer) {
+            Ok((len, from)) => {
+                let arrival = NetEvent::Datagram { socket: id, from, bytes: buffer[..len].to_vec() };
+                match queue.try_send(QueuedEvent::Plain(arrival)) {
+                    Ok(()) => {}
+                    Err(TrySendError::Full(_)) => {
+                        dropped.fetch_add(1, Ordering::Relaxed);
+                    }
+                    Err(TrySendError::Disconnected(_)) => return,
+                }
+            }
+            // ICMP "port unreachable" for something sent before: the peer is not there yet, or no more.
+            Err(error) if matches!(error.kind(), ErrorKind::ConnectionRefused | ErrorKind::ConnectionReset) => {}
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Err(_) => std::thread::sleep(REST),
+        }
+    }
+}
+
+fn accept_clients(listener: &TcpListener, queue: &SyncSender<QueuedEvent>) {
+    for number in 0.. {
+        let Ok((socket, from)) = listener.accept() else {
+            std::thread::sleep(REST);
+            continue;
+        };
+        if serve_client(StreamId(number), socket, from, queue).is_err() {
+            tracing::warn!("TCP client {from} was lost while it connected");
+        }
+    }
+}
+
+fn serve_client(stream: StreamId, socket: TcpStream, from: SocketAddr, queue: &SyncSender<QueuedEvent>) -> std::io::Result<()> {
+    socket.set_nodelay(true)?;
+    let (mut to_read, mut to_write) = (socket.try_clone()?, socket.try_clone()?);
+    let Some(frames) = announce(stream, StreamOrigin::Tcp(from), Some(socket), queue) else { return Ok(()) };
+    std::thread::spawn(move || {
+        for frame in frames {
+            if to_write.write_all(&frame).is_err() {
+                break;
+            }
+        }
+    });
+    let queue = queue.clone();
+    std::thread::spawn(move || {
+        let mut buffer = [0u8; 4096];
+        while let Ok(len @ 1..) = to_read.read(&mut buffer) {
+            if queue.send(QueuedEvent::Plain(NetEvent::Bytes(stream, buffer[..len].to_vec()))).is_err() {
+                return;
+            }
+        }
+        // When the main thread is gone there is nobody to tell.
+        let _ = queue.send(QueuedEvent::Plain(NetEvent::Closed(stream)));
+    });
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::net::Ipv4Addr;
+
+    const LOOPBACK: IpAddr = IpAddr::V4(Ipv4Addr::LOCALHOST);
+    /// Only keeps a broken test from hanging.
+    const LONG: Duration = Duration::from_secs(60);
+
+    #[test]
+    fn wire_datagrams_pass_between_two_hubs() {
+        let (mut a, mut b) = (SocketHub::new(), SocketHub::new());
+        let (from, to) = (a.bind(LOOPBACK, 0, "--a").unwrap(), b.bind(LOOPBACK, 0, "--b").unwrap());
+        a.send(from, (LOOPBACK, b.port(to)).into(), b"hello");
+        let expected = NetEvent::Datagram { socket: to, from: (LOOPBACK, a.port(from)).into(), bytes: b"hello".to_vec() };
+        assert_eq!(b.next(LONG), Some(expected));
+    }
+
+    #[test]
+    fn wire_a_port_in_use_is_named_with_its_flag() {
+        let mut hub = SocketHub::new();
+        let first = hub.bind(LOOPBACK, 0, "--a").unwrap();
+        let port = hub.port(first);
+        let Err(error) = hub.bind(LOOPBACK, port, "--payload-port") else { panic!("bound twice") };
+        let message = error.to_string();
+        assert!(message.contains("in use") && message.contains("--payload-port") && message.contains(&port.to_string()));
+    }
+
+    #[test]
+    fn wire_sending_to_nobody_is_no_error_and_the_socket_lives_on() {
+        let mut hub = SocketHub::new();
+        let gone = { UdpSocket::bind((LOOPBACK, 0)).unwrap().local_addr().unwrap() };
+        let socket = hub.bind(LOOPBACK, 0, "--a").unwrap();
+        for _ in 0..10 {
+            hub.send(socket, gone, b"anybody?");
+        }
+        let itself = (LOOPBACK, hub.port(socket)).into();
+        hub.send(socket, itself, b"still here");
+        assert!(matches!(hub.next(LONG), Some(NetEvent::Datagram { bytes, .. }) if bytes == b"still here"));
+    }
+
+    #[test]
+    fn wire_a_tcp_client_comes_speaks_receives_and_goes() {
+        let mut hub = SocketHub::new();
+        let port = hub.serve(LOOPBACK, 0, "--tcp-port").unwrap();
+        let mut client = TcpStream::connect((LOOPBACK, port)).unwrap();
+        let Some(NetEvent::Connected(stream, StreamOrigin::Tcp(_))) = hub.next(LONG) else { panic!("nobody connected") };
+        client.write_all(b"in").unwrap();
+        assert_eq!(hub.next(LONG), Some(NetEvent::Bytes(stream, b"in".to_vec())));
+        hub.send_stream(stream, b"out".to_vec());
+        let mut heard = [0u8; 3];
+        client.read_exact(&mut heard).unwrap();
+        assert_eq!(&heard, b"out");
+        drop(client);
+        assert_eq!(hub.next(LONG), Some(NetEvent::Closed(stream)));
+    }
+}

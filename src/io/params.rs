@@ -1,0 +1,76 @@
+//! The file that keeps a vehicle's parameters.
+
+use crate::errors::AppError;
+use spandrel_sitl::endpoint::params::text::ParamFileProblem;
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// The file.
+#[derive(Debug)]
+pub struct ParamFile {
+    path: PathBuf,
+    /// Changes of parameters that it holds.
+    pub saved_changes: u64,
+}
+
+impl ParamFile {
+    /// A file that may not be there yet.
+    pub fn new(path: PathBuf) -> Self {
+        Self { path, saved_changes: 0 }
+    }
+
+    /// What it says; `None` when it is not there.
+    ///
+    /// # Errors
+    /// When it is there and cannot be read.
+    pub fn text(&self) -> Result<Option<String>, AppError> {
+        match std::fs::read_to_string(&self.path) {
+            Ok(text) => Ok(Some(text)),
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(AppError::wrong(format!("--params {}: {error}", self.path.display()))),
+        }
+    }
+
+    /// What is wrong with it, as one message.
+    pub fn wrong(&self, problems: &[ParamFileProblem]) -> AppError {
+        let lines: Vec<String> =
+            problems.iter().map(|problem| format!("{}:{}: {}", self.path.display(), problem.line, problem.what)).collect();
+        AppError::wrong(lines.join("\n"))
+    }
+
+    /// Writes it as a whole: whoever reads it meanwhile, and whoever finds it after a crash, sees the old or the new one.
+    ///
+    /// # Errors
+    /// If it cannot be written; the old one is left.
+    pub fn write(&self, text: &str) -> Result<(), AppError> {
+        let failed = |error: std::io::Error| AppError::failed(format!("--params {}: {error}", self.path.display()));
+        let beside = beside(&self.path);
+        let mut file = std::fs::File::create(&beside).map_err(failed)?;
+        file.write_all(text.as_bytes()).and_then(|()| file.sync_all()).map_err(failed)?;
+        std::fs::rename(&beside, &self.path).map_err(failed)
+    }
+}
+
+fn beside(path: &Path) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_os_string();
+    name.push(".new");
+    path.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_missing_file_is_none_and_a_written_one_reads_back_with_nothing_beside_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = ParamFile::new(folder.path().join("drone.params"));
+        assert_eq!(file.text(), Ok(None));
+        file.write("first").unwrap();
+        file.write("second").unwrap();
+        assert_eq!(file.text(), Ok(Some("second".to_owned())));
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        let nowhere = ParamFile::new(folder.path().join("none").join("drone.params"));
+        assert!(nowhere.write("x").unwrap_err().to_string().contains("drone.params"));
+    }
+}

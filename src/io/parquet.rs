@@ -1,0 +1,107 @@
+//! Frames as Parquet, for notebooks and databases: the columns of the CSV export, typed, each with its unit, frame and definition in the
+//! metadata of its field.
+
+mod arrow_schema;
+
+use crate::errors::AppError;
+use arrow_schema::{Field, Kind};
+use base64::Engine;
+use parquet::basic::Compression;
+use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::schema::parser::parse_message_type;
+use spandrel_monitor::export::columns::Read;
+use spandrel_monitor::export::{COLUMNS, Column, FrameRow};
+use std::sync::Arc;
+
+/// Key under which readers built on Arrow look for the types and metadata of fields.
+const ARROW_SCHEMA: &str = "ARROW:schema";
+
+/// Writes frames as a Parquet file.
+///
+/// # Errors
+/// Never in practice: it is written to memory.
+pub fn frames(rows: &[FrameRow]) -> Result<Vec<u8>, AppError> {
+    write(rows).map_err(|error| AppError::failed(format!("the Parquet file cannot be made: {error}")))
+}
+
+fn write(rows: &[FrameRow]) -> Result<Vec<u8>, ParquetError> {
+    let schema = Arc::new(parse_message_type(&message_type())?);
+    let properties = WriterProperties::builder()
+        .set_compression(Compression::UNCOMPRESSED)
+        .set_key_value_metadata(Some(vec![KeyValue::new(ARROW_SCHEMA.to_owned(), arrow_metadata())]))
+        .set_created_by(concat!("spandrel ", env!("CARGO_PKG_VERSION")).to_owned());
+    let mut file = SerializedFileWriter::new(Vec::new(), schema, Arc::new(properties.build()))?;
+    let mut group = file.next_row_group()?;
+    for column in COLUMNS {
+        write_column(&mut group, column, rows)?;
+    }
+    group.close()?;
+    file.into_inner()
+}
+
+/// The schema in Parquet's own notation.
+fn message_type() -> String {
+    let line = |column: &Column| {
+        let (kind, annotation) = match column.read {
+            Read::Whole(_) => ("int64", ""),
+            Read::Real(_) => ("double", ""),
+            Read::Flag(_) => ("boolean", ""),
+            Read::Word(_) => ("binary", " (utf8)"),
+        };
+        let repetition = if column.optional { "optional" } else { "required" };
+        format!("{repetition} {kind} {}{annotation};", column.name)
+    };
+    format!("message frames {{ {} }}", COLUMNS.iter().map(line).collect::<Vec<_>>().join(" "))
+}
+
+/// The same schema in Arrow's form, with units, frames and definitions.
+fn arrow_metadata() -> String {
+    let field = |column: &Column| Field {
+        name: column.name,
+        nullable: column.optional,
+        kind: match column.read {
+            Read::Whole(_) => Kind::Int64,
+            Read::Real(_) => Kind::Double,
+            Read::Flag(_) => Kind::Bool,
+            Read::Word(_) => Kind::Utf8,
+        },
+        metadata: [("unit", column.unit), ("frame", column.frame), ("description", column.description)]
+            .into_iter()
+            .filter(|(_, text)| !text.is_empty())
+            .collect(),
+    };
+    let message = arrow_schema::message(&COLUMNS.iter().map(field).collect::<Vec<_>>());
+    base64::engine::general_purpose::STANDARD.encode(message)
+}
+
+type Group<'a> = SerializedRowGroupWriter<'a, Vec<u8>>;
+
+fn write_column(group: &mut Group<'_>, column: &Column, rows: &[FrameRow]) -> Result<(), ParquetError> {
+    match column.read {
+        Read::Whole(value) => next::<Int64Type>(group, column, rows.iter().map(value)),
+        Read::Real(value) => next::<DoubleType>(group, column, rows.iter().map(value)),
+        Read::Flag(value) => next::<BoolType>(group, column, rows.iter().map(|row| Some(value(row)))),
+        Read::Word(value) => next::<ByteArrayType>(group, column, rows.iter().map(|row| Some(ByteArray::from(value(row))))),
+    }
+}
+
+/// Writes the next column; a level of 1 marks a value, 0 a null.
+fn next<T: DataType>(
+    group: &mut Group<'_>,
+    column: &Column,
+    values: impl Iterator<Item = Option<T::T>>,
+) -> Result<(), ParquetError> {
+    let cells: Vec<Option<T::T>> = values.collect();
+    let levels: Vec<i16> = cells.iter().map(|cell| i16::from(cell.is_some())).collect();
+    let known: Vec<T::T> = cells.into_iter().flatten().collect();
+    if !column.optional && known.len() != levels.len() {
+        return Err(ParquetError::General(format!("the column {} must not be empty", column.name)));
+    }
+    let mut writer = group.next_column()?.ok_or_else(|| ParquetError::General("more columns than the schema has".into()))?;
+    writer.typed::<T>().write_batch(&known, column.optional.then_some(&levels), None)?;
+    writer.close()
+}

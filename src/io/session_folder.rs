@@ -1,0 +1,380 @@
+//! The session folder on disk: created once, appended to, flushed; a killed monitor finds its place again.
+
+use super::append_file::{AppendFile, WriteRefused, sync_folder, whole_lines};
+use super::clock;
+use super::files::{self, ScenarioFile, VehicleFile};
+use super::log_file::LogFile;
+use crate::errors::AppError;
+use spandrel_mavlink::telemetry::tlog;
+use spandrel_model::scenario::{self, PlacedDefect};
+use spandrel_monitor::folder::{ASSESSMENT, EVENTS, REPORT, SCENARIO, SESSION, SessionInfo, TELEMETRY, VEHICLE, sha256_hex};
+use spandrel_monitor::{SessionOutput, export};
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
+
+/// An open session folder.
+#[derive(Debug)]
+pub struct SessionFolder {
+    path: PathBuf,
+    telemetry: AppendFile,
+    events: AppendFile,
+    scenario_toml: String,
+    vehicle_toml: String,
+    started_utc: String,
+    starts: u32,
+}
+
+/// What a session folder holds, read back.
+#[derive(Debug)]
+pub struct StoredSession {
+    /// The job as resolved.
+    pub scenario: ScenarioFile,
+    /// The aircraft.
+    pub vehicle: VehicleFile,
+    /// The telemetry.
+    pub log: LogFile,
+    /// Who flew.
+    pub trainee: String,
+    /// What for, where somebody chose.
+    pub purpose: Option<String>,
+    /// Wall time of simulation time zero, µs since the Unix epoch.
+    pub started_unix_us: u64,
+    /// Starts of the monitor so far.
+    pub starts: u32,
+    /// Version of the program that recorded it; empty when nothing says so.
+    pub spandrel_version: String,
+}
+
+impl SessionFolder {
+    /// Makes `SESSIONS/<utc>-<trainee>-<scenario>-<short id>/`.
+    ///
+    /// # Errors
+    /// If it cannot be made or written.
+    pub fn create(
+        sessions: &Path,
+        trainee: &str,
+        started_unix_us: u64,
+        scenario: &ScenarioFile,
+        vehicle: &VehicleFile,
+    ) -> Result<Self, AppError> {
+        let (readable, compact) = clock::utc(started_unix_us);
+        std::fs::create_dir_all(sessions).map_err(|error| io_error(sessions, &error))?;
+        let stem = format!("{compact}-{trainee}-{}", scenario.scenario.name);
+        let path = new_folder(sessions, &stem, started_unix_us)?;
+        for (name, text) in &scenario.siblings {
+            let file = path.join(name);
+            if let Some(folder) = file.parent() {
+                std::fs::create_dir_all(folder).map_err(|error| io_error(folder, &error))?;
+            }
+            replace_durably(&file, text.as_bytes())?;
+        }
+        replace_durably(&path.join(SCENARIO), scenario.text.as_bytes())?;
+        replace_durably(&path.join(VEHICLE), vehicle.text.as_bytes())?;
+        Self::open(path, scenario.text.clone(), vehicle.text.clone(), readable, 1)
+    }
+
+    /// Opens a folder in which a monitor was killed; telemetry and events are cut to whole records and lines.
+    ///
+    /// # Errors
+    /// When it is no session folder, another monitor records it, or it cannot be written.
+    pub fn resume(path: &Path, stored: &StoredSession) -> Result<Self, AppError> {
+        let (readable, _) = clock::utc(stored.started_unix_us);
+        let (scenario, vehicle) = (stored.scenario.text.clone(), stored.vehicle.text.clone());
+        let mut folder = Self::open(path.to_path_buf(), scenario, vehicle, readable, stored.starts + 1)?;
+        // Another monitor may have ended between the reading and the lock.
+        if folder.telemetry.len() != stored.log.len() {
+            return Err(AppError::failed(format!("{}: the session grew while it was read: try again", path.display())));
+        }
+        folder.telemetry.cut(stored.log.whole_len()?)?;
+        let events_path = path.join(EVENTS);
+        let events = std::fs::read(&events_path).map_err(|error| io_error(&events_path, &error))?;
+        folder.events.cut(whole_lines(&events) as u64)?;
+        Ok(folder)
+    }
+
+    fn open(
+        path: PathBuf,
+        scenario_toml: String,
+        vehicle_toml: String,
+        started_utc: String,
+        starts: u32,
+    ) -> Result<Self, AppError> {
+        let telemetry = AppendFile::open(path.join(TELEMETRY), tlog::complete_len)?;
+        telemetry.lock()?;
+        let events = AppendFile::open(path.join(EVENTS), whole_lines)?;
+        Ok(Self { path, telemetry, events, scenario_toml, vehicle_toml, started_utc, starts })
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Takes a record; it reaches the disk with the next [`Self::flush`].
+    pub fn record(&mut self, record: SessionOutput) {
+        match record {
+            SessionOutput::Telemetry(bytes) => self.telemetry.push(&bytes),
+            SessionOutput::Event(line) => self.events.push(line.as_bytes()),
+        }
+    }
+
+    /// Writes pending records.
+    ///
+    /// # Errors
+    /// When the disk refuses; the files then hold whole records, and the next call tries again.
+    pub fn flush(&mut self) -> Result<(), WriteRefused> {
+        let telemetry = self.telemetry.flush();
+        self.events.flush().and(telemetry)
+    }
+
+    /// Bytes that the disk has not taken yet.
+    pub fn pending(&self) -> usize {
+        self.telemetry.pending() + self.events.pending()
+    }
+
+    /// Records that were dropped because the disk refused for too long.
+    pub fn dropped(&self) -> u64 {
+        self.telemetry.dropped() + self.events.dropped()
+    }
+
+    /// Waits until the session is on the disk itself.
+    ///
+    /// # Errors
+    /// If the disk cannot be written.
+    pub fn sync(&self) -> Result<(), WriteRefused> {
+        self.telemetry.sync()?;
+        self.events.sync()?;
+        sync_folder(&self.path, &[SCENARIO, VEHICLE, SESSION, ASSESSMENT, REPORT])?;
+        self.path.parent().map_or(Ok(()), |sessions| sync_folder(sessions, &[]))
+    }
+
+    /// Writes the seed and the placed defects into `scenario.toml`.
+    ///
+    /// # Errors
+    /// If the disk cannot be written; the next call retries.
+    pub fn resolve(&mut self, seed: u64, placed: &[PlacedDefect]) -> Result<(), WriteRefused> {
+        let resolved = scenario::resolve(&self.scenario_toml, seed, placed);
+        replace_durably(&self.path.join(SCENARIO), resolved.as_bytes())?;
+        self.scenario_toml = resolved;
+        Ok(())
+    }
+
+    /// Writes `session.json`.
+    ///
+    /// # Errors
+    /// If the disk cannot be written.
+    pub fn describe(&self, info: impl FnOnce(&[u8], &[u8], String, u32) -> SessionInfo) -> Result<(), WriteRefused> {
+        let (scenario, vehicle) = (self.scenario_toml.as_bytes(), self.vehicle_toml.as_bytes());
+        let info = info(scenario, vehicle, self.started_utc.clone(), self.starts);
+        replace_durably(&self.path.join(SESSION), export::json_text(&info).as_bytes())
+    }
+
+    /// Writes `assessment.json`.
+    ///
+    /// # Errors
+    /// If the disk cannot be written.
+    pub fn assessment(&self, json: &str) -> Result<(), WriteRefused> {
+        replace_durably(&self.path.join(ASSESSMENT), json.as_bytes())
+    }
+}
+
+impl StoredSession {
+    /// The job of a session folder alone.
+    ///
+    /// # Errors
+    /// When it is no session folder or the file is wrong.
+    pub fn scenario_of(path: &Path) -> Result<ScenarioFile, AppError> {
+        if !is_session(path) {
+            return Err(no_session(path));
+        }
+        files::scenario(&path.join(SCENARIO).display().to_string())
+    }
+
+    /// Reads a session folder. The log and the two TOMLs are the source; without `session.json` the folder's name tells the trainee.
+    ///
+    /// # Errors
+    /// When one of these is missing or a file is wrong.
+    pub fn read(path: &Path) -> Result<Self, AppError> {
+        if !is_session(path) {
+            return Err(no_session(path));
+        }
+        let session = described(&path.join(SESSION))?;
+        let text = |key: &str| session.get(key).and_then(serde_json::Value::as_str).map(str::to_owned);
+        let number = |key: &str| session.get(key).and_then(serde_json::Value::as_u64);
+        let log = LogFile::open(&path.join(TELEMETRY))?;
+        let started_unix_us = match number("started_unix_us") {
+            Some(told) => Some(told),
+            None => log.session_start_us()?,
+        };
+        let scenario = files::scenario(&path.join(SCENARIO).display().to_string())?;
+        let vehicle_path = path.join(VEHICLE);
+        Ok(Self {
+            vehicle: match text("vehicle") {
+                Some(id) => files::vehicle_named(&vehicle_path, &id)?,
+                None => files::vehicle(&vehicle_path.display().to_string())?,
+            },
+            trainee: text("trainee").or_else(|| trainee_of(path, &scenario.scenario.name)).unwrap_or_default(),
+            purpose: text("purpose"),
+            started_unix_us: started_unix_us.unwrap_or_default(),
+            spandrel_version: text("spandrel_version").unwrap_or_default(),
+            starts: u32::try_from(number("monitor_starts").unwrap_or_default()).unwrap_or(u32::MAX - 1),
+            scenario,
+            log,
+        })
+    }
+}
+
+/// Whose session it is, and the wall time of its simulation time zero, µs since the Unix epoch; quicker than reading all of it.
+///
+/// # Errors
+/// When it is no session folder or a file is wrong.
+pub fn session_owner(path: &Path) -> Result<(String, u64), AppError> {
+    let session = described(&path.join(SESSION))?;
+    match (session["trainee"].as_str(), session["started_unix_us"].as_u64()) {
+        (Some(trainee), Some(started_unix_us)) => Ok((trainee.to_owned(), started_unix_us)),
+        (_, _) => StoredSession::read(path).map(|stored| (stored.trainee, stored.started_unix_us)),
+    }
+}
+
+/// What a session was flown for, where somebody chose and `session.json` can be read; quicker than reading all of it.
+pub fn purpose(path: &Path) -> Option<String> {
+    described(&path.join(SESSION)).ok()?["purpose"].as_str().map(str::to_owned)
+}
+
+/// A session that is being flown.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OngoingSession {
+    /// Who flies.
+    pub trainee: String,
+    /// CRC of the job.
+    pub crc: u32,
+    /// Its seed.
+    pub seed: u64,
+}
+
+/// What a session says of itself that has not ended, and whose telemetry has grown within this time; `None` of any other.
+pub fn ongoing_session(path: &Path, within: Duration) -> Option<OngoingSession> {
+    let grown = path.join(TELEMETRY).metadata().and_then(|about| about.modified()).ok()?;
+    // A clock that was put back makes nothing old.
+    if path.join(ASSESSMENT).exists() || grown.elapsed().unwrap_or_default() > within {
+        return None;
+    }
+    let session = described(&path.join(SESSION)).ok()?;
+    let crc = u32::from_str_radix(session["scenario_crc"].as_str()?, 16).ok()?;
+    Some(OngoingSession { trainee: session["trainee"].as_str()?.to_owned(), crc, seed: session["seed"].as_u64()? })
+}
+
+/// True for a folder that holds a session's telemetry.
+pub fn is_session(path: &Path) -> bool {
+    path.join(TELEMETRY).is_file()
+}
+
+fn no_session(path: &Path) -> AppError {
+    AppError::wrong(format!("{}: is no session folder (it has no {TELEMETRY})", path.display()))
+}
+
+/// `session.json`, null when there is none.
+fn described(path: &Path) -> Result<serde_json::Value, AppError> {
+    if !path.is_file() {
+        return Ok(serde_json::Value::Null);
+    }
+    serde_json::from_str(&files::read(path)?)
+        .map_err(|error| AppError::wrong(format!("{}: line {}: {error}", path.display(), error.line())))
+}
+
+/// The trainee in `<utc>-<trainee>-<scenario>-<short id>`.
+fn trainee_of(path: &Path, scenario: &str) -> Option<String> {
+    let name = path.file_name()?.to_str()?;
+    let (_, rest) = name.split_once('-')?;
+    let (rest, _) = rest.rsplit_once('-')?;
+    Some(rest.strip_suffix(scenario)?.strip_suffix('-')?.to_owned())
+}
+
+/// A folder of its own even when two sessions start in the same second.
+fn new_folder(sessions: &Path, stem: &str, started_unix_us: u64) -> Result<PathBuf, AppError> {
+    for attempt in 0..1000u32 {
+        let key = format!("{started_unix_us} {} {attempt}", std::process::id());
+        let path = sessions.join(format!("{stem}-{}", &sha256_hex(key.as_bytes())[..6]));
+        match std::fs::create_dir(&path) {
+            Ok(()) => return Ok(path),
+            Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(io_error(&path, &error)),
+        }
+    }
+    Err(AppError::failed(format!("{}: no free folder name for {stem}", sessions.display())))
+}
+
+/// Writes beside and renames, so that a reader or a kill never sees half a file.
+///
+/// # Errors
+/// If the disk cannot be written.
+pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
+    Ok(replaced(path, bytes, |_| Ok(()))?)
+}
+
+/// As [`replace`], and not even a power failure leaves half a file.
+///
+/// # Errors
+/// If the disk cannot be written.
+pub fn replace_durably(path: &Path, bytes: &[u8]) -> Result<(), WriteRefused> {
+    replaced(path, bytes, File::sync_data)
+}
+
+fn replaced(path: &Path, bytes: &[u8], settle: fn(&File) -> std::io::Result<()>) -> Result<(), WriteRefused> {
+    // A name of its own: two who write the same file at once must not rename each other's half.
+    static WRITTEN: AtomicU64 = AtomicU64::new(0);
+    let mut beside = path.to_path_buf().into_os_string();
+    beside.push(format!(".{}-{}.new", std::process::id(), WRITTEN.fetch_add(1, Ordering::Relaxed)));
+    let write = || {
+        let mut file = File::create(&beside)?;
+        file.write_all(bytes)?;
+        settle(&file)?;
+        drop(file);
+        std::fs::rename(&beside, path)
+    };
+    write().map_err(|error| {
+        // Nobody else would ever write over it.
+        let _ = std::fs::remove_file(&beside);
+        WriteRefused { path: path.to_path_buf(), error }
+    })
+}
+
+fn io_error(path: &Path, error: &std::io::Error) -> AppError {
+    AppError::failed(format!("{}: cannot be written: {error}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_two_sessions_of_one_instant_get_two_folders() {
+        let sessions = tempfile::tempdir().unwrap();
+        let make = || new_folder(sessions.path(), "20231114T221320Z-anna-two-bridges", 5).unwrap();
+        let (a, b) = (make(), make());
+        assert_ne!(a, b);
+        assert!(a.is_dir() && b.is_dir());
+    }
+
+    #[test]
+    fn exact_a_chosen_purpose_is_reported() {
+        let folder = tempfile::tempdir().unwrap();
+        assert_eq!(purpose(folder.path()), None, "nothing describes it");
+        for (text, told) in
+            [("{}", None), ("no JSON", None), (r#"{"purpose": null}"#, None), (r#"{"purpose": "practice"}"#, Some("practice"))]
+        {
+            std::fs::write(folder.path().join(SESSION), text).unwrap();
+            assert_eq!(purpose(folder.path()).as_deref(), told, "{text}");
+        }
+    }
+
+    #[test]
+    fn exact_what_is_no_session_is_refused_by_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let Err(error) = StoredSession::read(folder.path()) else { panic!("read it") };
+        assert!(error.to_string().contains("is no session folder"));
+    }
+}

@@ -1,0 +1,359 @@
+//! The controller in the window: tried, calibrated, flown with.
+
+use crate::errors::AppError;
+use crate::io::controller::{CalibratedController, DeviceWatcher, EventSource, ProfileFolder};
+use spandrel_clients::rc::controller_link::ControllerLink;
+use spandrel_clients::rc::wizard::CalibrationWizard;
+use spandrel_clients::rc::{ControllerProfile, RawInput, StickMode, Sticks};
+use spandrel_model::time::SimTime;
+use spandrel_view::flow::{ControllerStatus, ProfileChange};
+
+/// State of the controller.
+enum DeviceState {
+    /// No controller; the watcher reports a new one.
+    Nothing(DeviceWatcher),
+    /// It has no profile yet.
+    Raw(EventSource, RawInput),
+    /// It flies.
+    Hand(Box<CalibratedController>),
+    /// It is being calibrated.
+    Calibrating(EventSource, Box<CalibrationWizard>),
+}
+
+/// The controller, or none.
+pub struct ControllerSlot {
+    requested_device: Option<String>,
+    profiles: ProfileFolder,
+    held: DeviceState,
+    /// Waits for another device while the one in hand is away.
+    away: Option<DeviceWatcher>,
+    mode: StickMode,
+    note: String,
+}
+
+impl ControllerSlot {
+    /// Looks for the device of this name, or the only one.
+    pub fn new(wanted: Option<String>, profiles: ProfileFolder) -> Self {
+        let mut desk = Self {
+            requested_device: wanted,
+            profiles,
+            held: DeviceState::Nothing(DeviceWatcher::default()),
+            away: None,
+            mode: StickMode::Two,
+            note: String::new(),
+        };
+        desk.find_device();
+        desk
+    }
+
+    /// Looks for the device again.
+    pub fn find_device(&mut self) {
+        match EventSource::device(self.requested_device.as_deref()) {
+            Ok(source) => self.open_controller(source),
+            Err(error) => {
+                self.held = DeviceState::Nothing(DeviceWatcher::start());
+                // What follows is the command line's business.
+                let why = error.to_string();
+                let why = why.rsplit_once(';').map_or(why.as_str(), |(why, _)| why);
+                let mut signs = why.chars();
+                self.note = signs.next().map_or(String::new(), |first| format!("{}{}.", first.to_uppercase(), signs.as_str()));
+            }
+        }
+    }
+
+    /// Sits down with a device that has come where there was none. True when one has, whether it is calibrated or not.
+    pub fn load_profile(&mut self) -> bool {
+        let DeviceState::Nothing(watch) = &mut self.held else { return self.take_over() };
+        if !watch.is_available() {
+            return false;
+        }
+        self.find_device();
+        !matches!(self.held, DeviceState::Nothing(_))
+    }
+
+    /// Sits down with a device that has come while the one in hand is away: that one is waited for unless the other can do as much.
+    fn take_over(&mut self) -> bool {
+        if !self.lost() || matches!(self.held, DeviceState::Calibrating(..)) {
+            self.away = None;
+            return false;
+        }
+        if !self.away.get_or_insert_with(DeviceWatcher::start).is_available() {
+            return false;
+        }
+        let Ok(source) = EventSource::device(self.requested_device.as_deref()) else { return false };
+        if self.flies() && !matches!(self.profiles.find(source.of()), Ok(Some(_))) {
+            return false;
+        }
+        self.open_controller(source);
+        true
+    }
+
+    fn open_controller(&mut self, source: EventSource) {
+        let device = source.of().clone();
+        (self.held, self.note) = match self.profiles.find(&device) {
+            Ok(Some(profile)) => {
+                self.mode = profile.mode;
+                let place = self.profiles.path(&device);
+                let note = place.map_or(String::new(), |path| format!("Its profile is {}.", path.display()));
+                (DeviceState::Hand(Box::new(CalibratedController::with(source, profile))), note)
+            }
+            Ok(None) => (DeviceState::Raw(source, RawInput::default()), format!("'{}' is not calibrated yet.", device.name)),
+            Err(error) => (DeviceState::Raw(source, RawInput::default()), error.to_string()),
+        };
+    }
+
+    /// A controller flies, or would if it were not lost.
+    pub fn flies(&self) -> bool {
+        matches!(self.held, DeviceState::Hand(_))
+    }
+
+    /// The device was there and is away.
+    pub fn lost(&self) -> bool {
+        match &self.held {
+            DeviceState::Nothing(_) => false,
+            DeviceState::Raw(_, raw) => raw.lost,
+            DeviceState::Hand(hand) => hand.raw().lost,
+            DeviceState::Calibrating(_, wizard) => wizard.lost(),
+        }
+    }
+
+    /// Returns the name of the controller, if there is one.
+    pub fn name(&self) -> Option<&str> {
+        match &self.held {
+            DeviceState::Nothing(_) => None,
+            DeviceState::Raw(source, _) | DeviceState::Calibrating(source, _) => Some(&source.of().name),
+            DeviceState::Hand(hand) => Some(&hand.profile().device.name),
+        }
+    }
+
+    /// Why only keys fly; `None` while a controller does.
+    pub fn keyboard_reason(&self) -> Option<String> {
+        match self.name() {
+            Some(name) if self.lost() => Some(format!("'{name}' is not connected.")),
+            _ => (!self.flies()).then(|| self.note.clone()),
+        }
+    }
+
+    /// Why none does, or where its profile lies.
+    pub fn note(&self) -> &str {
+        &self.note
+    }
+
+    /// Begins to ask which axis is which stick. A device that is away is looked for first.
+    pub fn calibrate(&mut self) {
+        if self.lost() {
+            self.find_device();
+        }
+        self.held = match self.take() {
+            DeviceState::Nothing(watch) => DeviceState::Nothing(watch),
+            DeviceState::Raw(source, _) | DeviceState::Calibrating(source, _) => self.start_wizard(source),
+            DeviceState::Hand(hand) => self.start_wizard(hand.release()),
+        };
+    }
+
+    fn take(&mut self) -> DeviceState {
+        std::mem::replace(&mut self.held, DeviceState::Nothing(DeviceWatcher::default()))
+    }
+
+    fn start_wizard(&self, source: EventSource) -> DeviceState {
+        let wizard = CalibrationWizard::new(source.of().clone(), self.mode);
+        DeviceState::Calibrating(source, Box::new(wizard))
+    }
+
+    /// The wizard's Enter.
+    pub fn confirm(&mut self, now: SimTime) {
+        if let DeviceState::Calibrating(_, wizard) = &mut self.held {
+            wizard.confirm(now);
+        }
+    }
+
+    /// Leaves the wizard; what was known before counts. A device that went away in it is looked for: it must not come back as one that is
+    /// there and holds still.
+    pub fn cancel(&mut self) {
+        let lost = self.lost();
+        match self.take() {
+            DeviceState::Calibrating(..) if lost => self.find_device(),
+            DeviceState::Calibrating(source, _) => self.open_controller(source),
+            held => self.held = held,
+        }
+    }
+
+    /// Changes this of the profile, and keeps it.
+    pub fn adjust_profile(&mut self, tune: ProfileChange) {
+        if let ProfileChange::Mode(number) = tune {
+            self.mode = StickMode::numbered(number).unwrap_or(self.mode);
+        }
+        let DeviceState::Hand(hand) = &mut self.held else { return };
+        let profile = adjusted_profile(hand.profile(), tune);
+        hand.set(profile.clone());
+        self.keep(&profile);
+    }
+
+    fn keep(&mut self, profile: &ControllerProfile) {
+        self.note = match self.profiles.keep(profile) {
+            Ok(path) => format!("Kept in {}.", path.display()),
+            Err(error) => format!("Not kept: {error}."),
+        };
+    }
+
+    /// The device's sticks by now, when it flies; its buttons act on the link.
+    ///
+    /// # Errors
+    /// When it is given up.
+    pub fn sticks(&mut self, link: &mut ControllerLink, now: SimTime) -> Result<Option<Sticks>, AppError> {
+        match &mut self.held {
+            DeviceState::Nothing(_) => Ok(None),
+            DeviceState::Raw(source, raw) => {
+                std::iter::from_fn(|| source.next(now)).for_each(|event| raw.apply(event));
+                Ok(None)
+            }
+            DeviceState::Hand(hand) => Ok(hand.poll(link, now, now).sticks),
+            DeviceState::Calibrating(source, wizard) => {
+                std::iter::from_fn(|| source.next(now)).for_each(|event| wizard.handle(event, now));
+                wizard.handle_timeout(now);
+                if let Some(profile) = wizard.profile() {
+                    self.keep(&profile);
+                    if let DeviceState::Calibrating(source, _) = self.take() {
+                        self.held = DeviceState::Hand(Box::new(CalibratedController::with(source, profile)));
+                    }
+                }
+                Ok(None)
+            }
+        }
+    }
+
+    /// Gives the device up.
+    pub fn cancel_wizard(&mut self, why: &AppError) {
+        self.held = DeviceState::Nothing(DeviceWatcher::start());
+        self.note = format!("The controller is given up: {why}.");
+    }
+
+    /// How it stands, for the page; `keyboard`: the keys' sticks.
+    pub fn controls(&self, keyboard: Sticks, keys: &str) -> ControllerStatus {
+        let plain = ControllerStatus {
+            device: self.name().map(str::to_owned),
+            lost: self.lost(),
+            mode: self.mode.number(),
+            note: self.note.clone(),
+            keys: keys.to_owned(),
+            ..ControllerStatus::default()
+        };
+        let from_rest = |(axis, value): (&u32, &f64)| (*axis, *value, (value.min(0.0), value.max(0.0)));
+        match &self.held {
+            DeviceState::Calibrating(_, wizard) => {
+                ControllerStatus { axes: wizard.axes().collect(), wizard: Some(wizard.prompt()), ..plain }
+            }
+            _ if plain.device.is_none() || plain.lost => {
+                ControllerStatus { mode: 2, sticks: StickMode::Two.sticks_by_hand(keyboard), calibrated: self.flies(), ..plain }
+            }
+            DeviceState::Nothing(_) => plain,
+            DeviceState::Raw(_, raw) => ControllerStatus { axes: raw.axes.iter().map(from_rest).collect(), ..plain },
+            DeviceState::Hand(hand) => {
+                let profile = hand.profile();
+                let axis = profile.axes.values().next();
+                ControllerStatus {
+                    calibrated: true,
+                    dead_band: axis.map_or(0.0, |axis| axis.dead_band),
+                    expo: axis.map_or(0.0, |axis| axis.expo),
+                    sticks: profile.mode.sticks_by_hand(profile.sticks(hand.raw())),
+                    ..plain
+                }
+            }
+        }
+    }
+}
+
+/// A profile with this changed: an axis keeps what the wizard measured of it, or a person wrote, until that itself is asked for.
+fn adjusted_profile(profile: &ControllerProfile, tune: ProfileChange) -> ControllerProfile {
+    let mut profile = profile.clone();
+    match tune {
+        ProfileChange::Mode(number) => profile.mode = StickMode::numbered(number).unwrap_or(profile.mode),
+        ProfileChange::DeadBand(part) => profile.axes.values_mut().for_each(|axis| axis.dead_band = part),
+        ProfileChange::Expo(expo) => profile.axes.values_mut().for_each(|axis| axis.expo = expo),
+    }
+    profile
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_clients::rc::axis::AxisCalibration;
+    use spandrel_clients::rc::profile::WAYS;
+    use spandrel_clients::rc::{Device, DeviceEvent, input_recording};
+
+    /// A desk with a calibrated device that reports this.
+    fn held(events: &[(f64, DeviceEvent)]) -> ControllerSlot {
+        let axis = |n: u32| AxisCalibration { axis: n, low: -1.0, centre: 0.0, high: 1.0, dead_band: 0.0, expo: 0.0 };
+        let ways = WAYS.iter().zip(0..).map(|((_, way, _), n)| (*way, axis(n))).collect();
+        let device = Device { name: "Pad".into(), id: "1:2".into() };
+        let lines = events.iter().map(|(s, event)| input_recording::line(SimTime::from_s(*s), *event));
+        let text: Vec<String> = std::iter::once(input_recording::head(&device)).chain(lines).collect();
+        let source = EventSource::Record(input_recording::InputRecording::read("pad.jsonl", &text.join("\n")).unwrap());
+        let profile = ControllerProfile { device, mode: StickMode::Two, axes: ways, buttons: [].into() };
+        ControllerSlot {
+            // None of this machine's devices is meant.
+            requested_device: Some("no device is called so".into()),
+            profiles: ProfileFolder::at(None),
+            held: DeviceState::Hand(Box::new(CalibratedController::with(source, profile))),
+            away: None,
+            mode: StickMode::Two,
+            note: String::new(),
+        }
+    }
+
+    fn close_controller(desk: &mut ControllerSlot, s: f64) -> Option<Sticks> {
+        desk.load_profile();
+        desk.sticks(&mut ControllerLink::default(), SimTime::from_s(s)).unwrap()
+    }
+
+    #[test]
+    fn exact_a_lost_device_holds_no_sticks_is_reported_lost_and_flies_when_it_is_back() {
+        let pushed = DeviceEvent::Axis { axis: 0, value: 1.0 };
+        let mut desk = held(&[(0.0, pushed), (1.0, DeviceEvent::Lost), (2.0, DeviceEvent::Found)]);
+        assert!(close_controller(&mut desk, 0.5).is_some() && desk.keyboard_reason().is_none());
+        assert_eq!(close_controller(&mut desk, 1.5), None);
+        let keys = Sticks { up: 1.0, ..Sticks::default() };
+        let shown = desk.controls(keys, "");
+        assert!(shown.lost && !shown.is_connected() && shown.sticks == StickMode::Two.sticks_by_hand(keys), "{shown:?}");
+        assert_eq!(desk.keyboard_reason().as_deref(), Some("'Pad' is not connected."));
+        assert_eq!(close_controller(&mut desk, 2.5), Some(Sticks::default()));
+        assert!(!desk.controls(keys, "").lost);
+    }
+
+    #[test]
+    fn regress_a_device_that_is_lost_in_the_wizard_does_not_come_back_from_it_holding_still() {
+        for lost_s in [1.0, 3.0] {
+            let mut desk = held(&[(lost_s, DeviceEvent::Lost)]);
+            close_controller(&mut desk, 2.0);
+            desk.calibrate();
+            close_controller(&mut desk, 4.0);
+            desk.cancel();
+            assert_eq!(close_controller(&mut desk, 5.0), None, "lost at {lost_s} s");
+            assert!(!desk.flies() && !desk.note().is_empty(), "why is said");
+        }
+        let mut desk = held(&[]);
+        desk.cancel();
+        assert!(desk.flies(), "leaving a wizard that has ended takes nothing away");
+    }
+
+    #[test]
+    fn exact_what_is_not_asked_for_stays_as_every_axis_has_it() {
+        let axis = |n: u32| {
+            let own = f64::from(n) / 10.0;
+            AxisCalibration { axis: n, low: -1.0, centre: 0.0, high: 1.0, dead_band: own, expo: 2.0 * own }
+        };
+        let ways = WAYS.iter().zip(0..).map(|((_, way, _), n)| (*way, axis(n))).collect();
+        let device = Device { name: "Pad".into(), id: "1:2".into() };
+        let before = ControllerProfile { device, mode: StickMode::Two, axes: ways, buttons: [].into() };
+        let of = |profile: &ControllerProfile| profile.axes.values().map(|axis| (axis.dead_band, axis.expo)).collect::<Vec<_>>();
+        let own = of(&before);
+        assert_eq!(
+            adjusted_profile(&before, ProfileChange::Mode(4)),
+            ControllerProfile { mode: StickMode::Four, ..before.clone() }
+        );
+        let still = adjusted_profile(&before, ProfileChange::DeadBand(0.07));
+        assert_eq!(of(&still), own.iter().map(|(_, expo)| (0.07, *expo)).collect::<Vec<_>>());
+        let straight = adjusted_profile(&before, ProfileChange::Expo(0.0));
+        assert_eq!(of(&straight), own.iter().map(|(dead_band, _)| (*dead_band, 0.0)).collect::<Vec<_>>());
+    }
+}

@@ -1,0 +1,224 @@
+//! The two views as textures of the window.
+
+use super::screen::WindowSurface;
+use crate::errors::AppError;
+use crate::window::secondary_renderer::SecondaryRenderer;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::Site;
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Vehicle;
+use spandrel_view::arrange::{ViewKind, ViewRect, drawn_px};
+use spandrel_view::exposure::ExposureMeter;
+use spandrel_view::feed::Feed;
+use spandrel_view::gpu::{Renderer, fill, picture_texture, read};
+use spandrel_view::hud::{self, DrawItem};
+use spandrel_view::inspector_camera::InspectorCamera;
+use spandrel_view::live::LiveMoment;
+use spandrel_view::picture::Picture;
+use spandrel_view::quality::Quality;
+use spandrel_view::scene::Scene;
+use spandrel_view::shot::Shot;
+use spandrel_view::stage::{self, Stage};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Without a graphics card a view has so many pixels, whatever its size on the screen (issue: 640 x 360 each on two cores).
+const SOFTWARE_PX: f64 = 640.0 * 360.0;
+
+/// A job that can be drawn.
+pub struct RenderJob {
+    /// What is to do.
+    pub scenario: Scenario,
+    /// With what.
+    pub vehicle: Vehicle,
+    site: Site,
+    scene: Arc<Scene>,
+}
+
+impl RenderJob {
+    /// Builds site and scene: seconds of work.
+    pub fn build(scenario: Scenario, vehicle: Vehicle, seed: u64, quality: &Quality, at: SimTime) -> Self {
+        let site = Site::build(&scenario, seed);
+        let scene = Arc::new(Scene::build(&scenario, &site, &vehicle, quality, at));
+        Self { scenario, vehicle, site, scene }
+    }
+
+    fn stage(&self) -> Stage<'_> {
+        Stage { scenario: &self.scenario, vehicle: &self.vehicle, site: &self.site, scene: &self.scene }
+    }
+}
+
+/// A view's picture.
+struct ViewPane {
+    whole: wgpu::Texture,
+    texture: wgpu::TextureView,
+    id: egui::TextureId,
+    size_px: (u32, u32),
+}
+
+/// Both views.
+pub struct ViewPanes {
+    job: RenderJob,
+    renderer: Renderer,
+    /// Draws what the camera sees, where the window's own device is software too.
+    secondary: Option<SecondaryRenderer>,
+    panes: BTreeMap<u8, ViewPane>,
+    /// What was drawn aside last.
+    last_picture: Option<Picture>,
+    /// How the views follow the light: the inspector's, the camera's.
+    meters: [ExposureMeter; 2],
+}
+
+/// One view as it is to be shown.
+pub struct PaneContent {
+    /// Where.
+    pub place: ViewRect,
+    /// Its picture.
+    pub picture: egui::TextureId,
+    /// What lies over it.
+    pub items: Vec<DrawItem>,
+}
+
+impl ViewPanes {
+    /// Uploads a job's scene.
+    pub fn new(screen: &WindowSurface, quality: Quality, job: RenderJob) -> Self {
+        let open = || {
+            SecondaryRenderer::open(quality, Arc::clone(&job.scene))
+                .inspect_err(|error| tracing::info!("one device draws both views: {error}"))
+        };
+        let aside = if screen.gpu.software { open().ok() } else { None };
+        let renderer = Renderer::new(&screen.gpu, quality, &job.scene);
+        Self { renderer, secondary: aside, job, panes: BTreeMap::new(), last_picture: None, meters: Default::default() }
+    }
+
+    /// From where the inspector stands to the aircraft, m.
+    pub fn to_aircraft(&self, now: &LiveMoment) -> spandrel_model::frames::Vec3<spandrel_model::frames::Enu> {
+        now.moment.drone.position_m - self.job.scenario.ground_team.inspector_m
+    }
+
+    /// Gives back what it holds of the window's painter.
+    pub fn close(self, screen: &mut WindowSurface) {
+        self.panes.values().for_each(|pane| screen.painter.free_texture(&pane.id));
+    }
+
+    /// Draws both views.
+    ///
+    /// # Errors
+    /// When a device fails.
+    pub fn draw(
+        &mut self,
+        screen: &mut WindowSurface,
+        places: &[ViewRect],
+        now: &LiveMoment,
+        feed: &Feed,
+        gaze: &InspectorCamera,
+        map: bool,
+    ) -> Result<Vec<PaneContent>, AppError> {
+        if self.job.site.traffic().gates() != &now.closures {
+            self.job.site = self.job.site.with_closures(now.closures.clone());
+        }
+        // What is drawn aside begins first: the other view is worked out and drawn meanwhile.
+        let mut order: Vec<&ViewRect> = places.iter().collect();
+        order.sort_by_key(|place| place.which != ViewKind::Camera);
+        let (mut shown, mut begun) = (Vec::new(), false);
+        for place in order {
+            let place = self.framed(screen, *place);
+            let (shot, items) = self.render(screen, &place, now, feed, gaze, map);
+            let pane = pane(&mut self.panes, screen, place.which, shot.size_px);
+            shown.push(PaneContent { place, picture: pane.id, items });
+            match &self.secondary {
+                Some(aside) if place.which == ViewKind::Camera => {
+                    aside.start(shot)?;
+                    begun = true;
+                }
+                _ => self.renderer.draw(&screen.gpu, &shot, &pane.texture),
+            }
+        }
+        if begun {
+            self.take_secondary(screen)?;
+        }
+        // One over the other as they were placed.
+        shown.sort_by_key(|view| places.iter().position(|place| place.which == view.place.which));
+        Ok(shown)
+    }
+
+    fn take_secondary(&mut self, screen: &WindowSurface) -> Result<(), AppError> {
+        let Some(aside) = &self.secondary else { return Ok(()) };
+        let (picture, _) = aside.picture()?;
+        if let Some(pane) = self.panes.get(&(ViewKind::Camera as u8)) {
+            fill(&screen.gpu, &pane.whole, &picture);
+        }
+        self.last_picture = Some(picture);
+        Ok(())
+    }
+
+    /// The camera's view as it was drawn last, without its display.
+    pub fn camera(&self, screen: &WindowSurface) -> Result<Option<Picture>, AppError> {
+        if self.secondary.is_some() {
+            return Ok(self.last_picture.clone());
+        }
+        Ok(self.panes.get(&(ViewKind::Camera as u8)).map(|pane| read(&screen.gpu, &pane.whole)).transpose()?)
+    }
+
+    /// A view's picture in its place: the camera's has its sensor's shape.
+    fn framed(&self, screen: &WindowSurface, place: ViewRect) -> ViewRect {
+        let window = screen.window.inner_size();
+        match place.which {
+            ViewKind::Inspector => place,
+            ViewKind::Camera => {
+                let shape = f64::from(window.width.max(1)) / f64::from(window.height.max(1));
+                place.fit_aspect(self.job.vehicle.camera.aspect(), shape)
+            }
+        }
+    }
+
+    /// What a view shows, and what lies over it.
+    fn render(
+        &mut self,
+        screen: &WindowSurface,
+        place: &ViewRect,
+        now: &LiveMoment,
+        feed: &Feed,
+        gaze: &InspectorCamera,
+        map: bool,
+    ) -> (Shot, Vec<DrawItem>) {
+        let window = screen.window.inner_size();
+        let on_screen = (place.width * f64::from(window.width), place.height * f64::from(window.height));
+        let size_px = drawn_px(on_screen, screen.gpu.software.then_some(SOFTWARE_PX));
+        let moment = &now.moment;
+        let (stage, [eyes, film]) = (self.job.stage(), &mut self.meters);
+        match place.which {
+            ViewKind::Inspector => {
+                let shot = stage.inspector_view(gaze, moment, size_px, eyes);
+                let items = stage.drone_marker(&shot, moment);
+                (shot, items)
+            }
+            ViewKind::Camera => {
+                let display = stage::display(&stage, moment, &now.hud, (feed, false), map);
+                // Type is as large as it is read: a display of a larger scale has more pixels for it.
+                let scale = screen.window.scale_factor();
+                (stage.camera_frame(moment, size_px, film), hud::layout_px(&display, (on_screen.0 / scale, on_screen.1 / scale)))
+            }
+        }
+    }
+}
+
+/// The texture of a view, made anew when its size has changed.
+fn pane<'a>(
+    panes: &'a mut BTreeMap<u8, ViewPane>,
+    screen: &mut WindowSurface,
+    which: ViewKind,
+    size_px: (u32, u32),
+) -> &'a ViewPane {
+    let key = which as u8;
+    if panes.get(&key).is_none_or(|pane| pane.size_px != size_px) {
+        if let Some(old) = panes.remove(&key) {
+            screen.painter.free_texture(&old.id);
+        }
+        let whole = picture_texture(&screen.gpu, size_px);
+        let texture = whole.create_view(&wgpu::TextureViewDescriptor::default());
+        let id = screen.painter.register_native_texture(&screen.gpu.device, &texture, wgpu::FilterMode::Linear);
+        panes.insert(key, ViewPane { whole, texture, id, size_px });
+    }
+    &panes[&key]
+}

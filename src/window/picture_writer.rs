@@ -1,0 +1,103 @@
+//! The camera's view in a file, about once a second, for who watches elsewhere. A thread of its own makes the JPEG and waits for the disk:
+//! neither costs the window a picture.
+
+use crate::errors::AppError;
+use crate::io::session_folder::replace;
+use spandrel_view::photo;
+use spandrel_view::picture::Picture;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+/// Between two pictures.
+const EVERY: Duration = Duration::from_secs(1);
+/// Largest file, bytes: a phone's line carries it in a second.
+const MOST: usize = 150_000;
+
+/// Hands pictures to the thread that keeps them; the file goes with it.
+pub struct PictureWriter {
+    sender: Option<SyncSender<Picture>>,
+    thread: Option<JoinHandle<()>>,
+    due: Duration,
+}
+
+impl PictureWriter {
+    /// Starts the thread.
+    pub fn start(path: PathBuf) -> Self {
+        // One picture may wait; while it does, the next one is not worth keeping.
+        let (sender, receiver) = sync_channel(1);
+        let thread = std::thread::spawn(move || keep(&path, &receiver));
+        Self { sender: Some(sender), thread: Some(thread), due: Duration::ZERO }
+    }
+
+    /// A picture is wanted now. Then none for a second.
+    pub fn is_due(&mut self, now: Duration) -> bool {
+        if now < self.due {
+            return false;
+        }
+        self.due = now + EVERY;
+        true
+    }
+
+    /// Hands a picture over, unless the one before still waits.
+    pub fn take(&self, picture: Picture) {
+        if let Some(sender) = &self.sender {
+            let _ = sender.try_send(picture);
+        }
+    }
+}
+
+impl Drop for PictureWriter {
+    fn drop(&mut self) {
+        self.sender = None;
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+fn keep(path: &Path, pictures: &Receiver<Picture>) {
+    let mut told = false;
+    for picture in pictures {
+        if let Err(error) = write(path, &picture) {
+            // Once: it will hardly be another reason a second later.
+            if !std::mem::replace(&mut told, true) {
+                tracing::warn!("the camera's view is not kept: {error}");
+            }
+        }
+    }
+    // What is no more of now is not left behind.
+    let _ = std::fs::remove_file(path);
+}
+
+fn write(path: &Path, picture: &Picture) -> Result<(), AppError> {
+    let jpeg = photo::plain(picture, MOST).map_err(|error| AppError::failed(error.to_string()))?;
+    replace(path, &jpeg)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_pictures_are_kept_one_a_second_and_go_with_the_window() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("camera.jpg");
+        let mut keeper = PictureWriter::start(path.clone());
+        let due: Vec<bool> = [0, 400, 999, 1_000, 1_500, 2_600].map(|ms| keeper.is_due(Duration::from_millis(ms))).to_vec();
+        assert_eq!(due, [true, false, false, true, false, true]);
+        let grey = |value: u8| Picture { width: 64, height: 48, rgba: [value, value, value, 255].repeat(64 * 48) };
+        for value in [40, 200] {
+            write(&path, &grey(value)).unwrap();
+            let bytes = std::fs::read(&path).unwrap();
+            assert_eq!(image::load_from_memory(&bytes).unwrap().to_luma8().dimensions(), (64, 48));
+            assert!(bytes.len() <= MOST);
+        }
+        keeper.take(grey(90));
+        keeper.take(grey(91));
+        keeper.take(grey(92));
+        drop(keeper);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is left behind");
+    }
+}

@@ -1,0 +1,171 @@
+//! Samples to a loudspeaker, by whatever program of the system plays raw samples, and words by one that speaks. No sound library: those need
+//! headers of the system to build.
+
+use crate::io::clock::Stopwatch;
+use spandrel_clients::rc::keyboard::SoundPreferences;
+use spandrel_view::sound::{FlightSound, RATE_HZ, SoundInputs, SoundSettings, spoken};
+use std::io::Write;
+use std::process::{Child, Command, Stdio};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+/// Programs that play 16-bit samples from their standard input, the better first: PulseAudio's and PipeWire's, ALSA's.
+const PLAYERS: [(&str, &[&str]); 2] = [
+    ("pacat", &["--playback", "--raw", "--format=s16le", "--channels=1", "--rate=24000", "--latency-msec=60"]),
+    ("aplay", &["-q", "-t", "raw", "-f", "S16_LE", "-c", "1", "-r", "24000", "--buffer-time=120000"]),
+];
+/// Programs that speak their last argument.
+const VOICES: [&str; 2] = ["spd-say", "espeak-ng"];
+/// Samples are made in pieces of this many: 10 ms.
+const PIECE: usize = RATE_HZ as usize / 100;
+/// So much is handed over before it is due: more is heard late, less breaks off on a busy machine (estimate).
+const AHEAD: Duration = Duration::from_millis(80);
+/// Between two pieces.
+const REST: Duration = Duration::from_millis(5);
+
+/// The loudspeaker of the window; its thread begins with the first sound.
+pub struct AudioOutput {
+    settings: SoundSettings,
+    on: bool,
+    started: bool,
+    inputs: Arc<Mutex<SoundInputs>>,
+}
+
+impl AudioOutput {
+    /// `on`: it is not switched off from the beginning.
+    pub fn new(sounds: SoundPreferences, on: bool) -> Self {
+        let SoundPreferences { propellers, warnings, speech, volume } = sounds;
+        let heard = Arc::new(Mutex::new(SoundInputs { silent: true, ..SoundInputs::default() }));
+        Self { settings: SoundSettings { propellers, warnings, speech, volume }, on, started: false, inputs: heard }
+    }
+
+    /// Something may be heard.
+    pub fn is_on(&self) -> bool {
+        self.on
+    }
+
+    /// Switches it on or off.
+    pub fn set_on(&mut self, on: bool) {
+        self.on = on;
+        if !on {
+            self.stop_speech();
+        }
+    }
+
+    /// Nothing is to be heard now.
+    pub fn stop_speech(&self) {
+        locked(&self.inputs).silent = true;
+    }
+
+    /// What there is to hear now.
+    pub fn set(&mut self, heard: SoundInputs) {
+        if !self.on {
+            return;
+        }
+        *locked(&self.inputs) = heard;
+        if !self.started {
+            self.started = true;
+            let (heard, settings) = (self.inputs.clone(), self.settings);
+            std::thread::spawn(move || play(&heard, settings));
+        }
+    }
+}
+
+fn locked(heard: &Mutex<SoundInputs>) -> MutexGuard<'_, SoundInputs> {
+    heard.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Plays until the window is gone, by the first player that can.
+fn play(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
+    let mut tried = Vec::new();
+    for (name, args) in PLAYERS {
+        match run_output(name, args, heard, settings) {
+            Ok(()) => return,
+            Err(why) => tried.push(format!("{name}: {why}")),
+        }
+    }
+    tracing::warn!(
+        "no sound ({}); Debian and Ubuntu: apt-get install pulseaudio-utils or alsa-utils; everything else goes on",
+        tried.join("; ")
+    );
+    speak(heard, settings);
+}
+
+/// Speaks until the window is gone: a voice needs no player.
+fn speak(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
+    let mut voice = SpeechVoice::new(settings.speech);
+    while Arc::strong_count(heard) > 1 && voice.on {
+        voice.update_inputs(&locked(heard).clone());
+        std::thread::sleep(REST);
+    }
+}
+
+/// Plays until the window is gone.
+///
+/// # Errors
+/// Why this player cannot.
+fn run_output(name: &str, args: &[&str], heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) -> std::io::Result<()> {
+    let mut command = Command::new(name);
+    let mut player = command.args(args).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn()?;
+    let Some(mut stdin) = player.stdin.take() else { return Err(std::io::ErrorKind::BrokenPipe.into()) };
+    let (mut sound, mut voice) = (FlightSound::new(settings), SpeechVoice::new(settings.speech));
+    let (watch, mut made) = (Stopwatch::start(), Duration::ZERO);
+    while Arc::strong_count(heard) > 1 {
+        let now = locked(heard).clone();
+        voice.update_inputs(&now);
+        sound.set(now);
+        // A machine that stood still does not make up for the silence.
+        made = made.max(watch.elapsed());
+        while made < watch.elapsed() + AHEAD {
+            if stdin.write_all(&piece(&mut sound)).is_err() {
+                return Err(std::io::Error::other(format!("it ended ({})", player.wait()?)));
+            }
+            made += Duration::from_secs_f64(PIECE as f64 / f64::from(RATE_HZ));
+        }
+        std::thread::sleep(REST);
+    }
+    drop(stdin);
+    // It plays what it has, and ends.
+    player.wait().map(|_| ())
+}
+
+fn piece(sound: &mut FlightSound) -> Vec<u8> {
+    let mut samples = [0.0_f32; PIECE];
+    sound.fill(&mut samples);
+    samples.iter().flat_map(|sample| ((sample * f32::from(i16::MAX)) as i16).to_le_bytes()).collect()
+}
+
+/// Says what has come up, one thing at a time.
+struct SpeechVoice {
+    on: bool,
+    cues: i32,
+    speaking: Option<Child>,
+}
+
+impl SpeechVoice {
+    fn new(on: bool) -> Self {
+        Self { on, cues: 0, speaking: None }
+    }
+
+    fn update_inputs(&mut self, now: &SoundInputs) {
+        self.follow(if now.silent { 0 } else { now.cues });
+    }
+
+    fn follow(&mut self, cues: i32) {
+        let words = spoken(std::mem::replace(&mut self.cues, cues), cues);
+        let busy = self.speaking.as_mut().is_some_and(|child| matches!(child.try_wait(), Ok(None)));
+        let (Some(words), true, false) = (words, self.on, busy) else { return };
+        let started = VOICES.iter().find_map(|name| {
+            let mut command = Command::new(name);
+            command.arg(words).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok()
+        });
+        if started.is_none() {
+            self.on = false;
+            tracing::warn!(
+                "no spoken warnings: none of {} is there (Debian and Ubuntu: apt-get install espeak-ng)",
+                VOICES.join(", ")
+            );
+        }
+        self.speaking = started;
+    }
+}

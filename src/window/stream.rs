@@ -1,0 +1,212 @@
+//! The camera's view as H.264 over RTP, encoded and sent in a thread of its own: a slow network or encoder costs pictures of the stream, none
+//! of the window.
+
+use crate::errors::AppError;
+use crate::io::clock::Stopwatch;
+use spandrel_model::time::SimTime;
+use spandrel_sitl::endpoint::camera::stream::PORT;
+use spandrel_view::live::VideoStatus;
+use spandrel_view::picture::Picture;
+use spandrel_view::video::rtp::RtpPacketizer;
+use spandrel_view::video::{EncodedPicture, H264Encoder, PictureRate, VideoError};
+use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr, UdpSocket};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+/// Bits for a pixel of a picture (estimate: 720p25 then has 2 Mbit/s, which wireless networks carry).
+const BITS_PX: f64 = 0.1;
+/// A receiver that begins in the middle waits this many pictures at most.
+const KEY_EVERY: u32 = 25;
+/// Least time between two pictures: 30 a second, as drones' cameras send (estimate; docs/src/reference/wire.md, "Camera, gimbal
+/// and lamp"); a window may be drawn more often.
+const LEAST: Duration = Duration::from_nanos(33_000_000);
+
+/// A stream of pictures to somebody.
+pub struct StreamSender {
+    /// Taken when the stream ends.
+    pictures: Option<SyncSender<Picture>>,
+    sender: Option<JoinHandle<StreamReportItem>>,
+    /// The last picture could not be encoded.
+    fails: Arc<AtomicBool>,
+    stopwatch: Stopwatch,
+    rate: PictureRate,
+    last: Option<Stopwatch>,
+}
+
+/// What went out.
+#[derive(Debug, Clone, Copy, Default)]
+struct StreamReportItem {
+    pictures: u64,
+    /// Wall time of encoding, all pictures together.
+    encoding: Duration,
+}
+
+impl StreamSender {
+    /// Opens a stream to a receiver; its numbers come from a seed, another one for each stream.
+    ///
+    /// # Errors
+    /// When no socket can be opened, or nothing leads to the receiver.
+    pub fn open(to: SocketAddr, seed: u64) -> Result<Self, AppError> {
+        let socket = socket(to).map_err(|error| AppError::failed(format!("--stream {to}: {error}")))?;
+        if to.port() != PORT {
+            tracing::warn!("--stream {to}: the vehicle announces port {PORT} all the same: tell the receiver its port by hand");
+        }
+        // One waits while one is encoded; a third comes too late to be worth it.
+        let (pictures, wanted) = sync_channel(1);
+        let fails = Arc::new(AtomicBool::new(false));
+        let line = Line { socket, to, packets: RtpPacketizer::new(seed), watch: Stopwatch::start(), told: false };
+        let sender = std::thread::spawn({
+            let fails = Arc::clone(&fails);
+            move || send(&wanted, line, &fails)
+        });
+        let (watch, rate) = (Stopwatch::start(), PictureRate::default());
+        Ok(Self { pictures: Some(pictures), sender: Some(sender), fails, stopwatch: watch, rate, last: None })
+    }
+
+    /// Whether it is time for another picture.
+    pub fn is_due(&self) -> bool {
+        self.last.is_none_or(|last| last.elapsed() >= LEAST)
+    }
+
+    /// Hands a picture on, if the encoder has time for it, and says what the stream is like, once there is more than one picture of it and
+    /// while it can be encoded.
+    pub fn push(&mut self, picture: Picture) -> Option<VideoStatus> {
+        let (width_px, height_px) = (picture.width, picture.height);
+        self.last = Some(Stopwatch::start());
+        match self.pictures.as_ref()?.try_send(picture) {
+            Ok(()) => self.rate.count(SimTime::from_s(self.stopwatch.elapsed().as_secs_f64())),
+            Err(TrySendError::Full(_)) => {}
+            Err(TrySendError::Disconnected(_)) => return None,
+        }
+        if self.fails.load(Ordering::Relaxed) {
+            return None;
+        }
+        Some(VideoStatus { width_px, height_px, rate_hz: self.rate.hz()?, bits_s: bits_s((width_px, height_px)) })
+    }
+}
+
+impl Drop for StreamSender {
+    fn drop(&mut self) {
+        drop(self.pictures.take());
+        // A sender that panicked has nothing to tell.
+        if let Some(Ok(sent)) = self.sender.take().map(JoinHandle::join) {
+            let each_ms = 1e3 * sent.encoding.as_secs_f64() / (sent.pictures.max(1) as f64);
+            tracing::info!("{} pictures streamed, encoded in {each_ms:.1} ms each", sent.pictures);
+        }
+    }
+}
+
+/// A socket that only sends, and only there.
+fn socket(to: SocketAddr) -> std::io::Result<UdpSocket> {
+    let any =
+        if to.is_ipv4() { SocketAddr::from((Ipv4Addr::UNSPECIFIED, 0)) } else { SocketAddr::from((Ipv6Addr::UNSPECIFIED, 0)) };
+    let socket = UdpSocket::bind(any)?;
+    socket.connect(to)?;
+    Ok(socket)
+}
+
+fn bits_s((width, height): (u32, u32)) -> u32 {
+    (BITS_PX * f64::from(width) * f64::from(height) * f64::from(KEY_EVERY)) as u32
+}
+
+/// Where packets go.
+struct Line {
+    socket: UdpSocket,
+    to: SocketAddr,
+    packets: RtpPacketizer,
+    watch: Stopwatch,
+    /// It has been told that packets are lost.
+    told: bool,
+}
+
+impl Line {
+    /// Sends a picture that is taken now.
+    fn send(&mut self, units: &[Vec<u8>]) {
+        for packet in self.packets.picture(units, self.watch.elapsed().as_secs_f64()) {
+            // Nobody listens yet: a player may come later.
+            if let Err(error) = self.socket.send(&packet)
+                && error.kind() != std::io::ErrorKind::ConnectionRefused
+                && !std::mem::replace(&mut self.told, true)
+            {
+                tracing::warn!("the stream to {} loses packets: {error}", self.to);
+            }
+        }
+    }
+}
+
+/// An encoder for pictures of whatever size comes.
+#[derive(Default)]
+struct StreamSize(Option<(H264Encoder, (u32, u32))>);
+
+impl StreamSize {
+    fn encode(&mut self, picture: &Picture) -> Result<EncodedPicture, VideoError> {
+        let size = (picture.width, picture.height);
+        let (mut encoder, of) = match self.0.take().filter(|(_, of)| *of == size) {
+            Some(made) => made,
+            None => (H264Encoder::new(size, f64::from(KEY_EVERY), bits_s(size), KEY_EVERY)?, size),
+        };
+        let encoded = encoder.encode(picture);
+        self.0 = Some((encoder, of));
+        encoded
+    }
+}
+
+/// What has been told to be wrong.
+#[derive(Debug, Default)]
+struct LastError(Option<VideoError>);
+
+impl LastError {
+    /// What is wrong now, if that is news; what went well in between makes it news again.
+    fn new_error(&mut self, wrong: Option<VideoError>) -> Option<&VideoError> {
+        if self.0 == wrong {
+            return None;
+        }
+        self.0 = wrong;
+        self.0.as_ref()
+    }
+}
+
+/// Encodes and sends until the window is closed.
+fn send(wanted: &Receiver<Picture>, mut line: Line, fails: &AtomicBool) -> StreamReportItem {
+    let (mut encoder, mut complaint, mut sent) = (StreamSize::default(), LastError::default(), StreamReportItem::default());
+    while let Ok(picture) = wanted.recv() {
+        let began = Stopwatch::start();
+        let encoded = encoder.encode(&picture);
+        fails.store(encoded.is_err(), Ordering::Relaxed);
+        if let Some(error) = complaint.new_error(encoded.as_ref().err().cloned()) {
+            tracing::warn!("pictures are missing in the stream: {error}");
+        }
+        if let Ok(encoded) = encoded {
+            sent.encoding += began.elapsed();
+            sent.pictures += u64::from(!encoded.units.is_empty());
+            line.send(&encoded.units);
+        }
+    }
+    sent
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_fault_is_reported_once_until_it_is_another_or_comes_again() {
+        let (odd, even) = (VideoError::Encoder("odd".into()), VideoError::Encoder("even".into()));
+        let mut complaint = LastError::default();
+        let told = [Some(&odd), Some(&odd), Some(&even), None, None, Some(&even)]
+            .map(|wrong| complaint.new_error(wrong.cloned()).cloned());
+        assert_eq!(told, [Some(odd.clone()), None, Some(even.clone()), None, None, Some(even.clone())]);
+    }
+
+    #[test]
+    fn exact_pictures_of_another_size_have_an_encoder_of_their_own() {
+        let grey = |width, height| Picture { width, height, rgba: vec![90; 4 * (width * height) as usize] };
+        let mut encoder = StreamSize::default();
+        let keys =
+            [(64, 48), (64, 48), (96, 64), (95, 64), (96, 64)].map(|(w, h)| encoder.encode(&grey(w, h)).map(|one| one.key).ok());
+        assert_eq!(keys, [Some(true), Some(false), Some(true), None, Some(true)], "a receiver can begin at each size");
+    }
+}

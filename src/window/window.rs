@@ -1,0 +1,308 @@
+//! The window's loop: events in, pages and views out.
+
+use super::display;
+use super::flight_view::FlightView;
+use super::keys::{self, HeldKeys, KeyChange};
+use super::picture_writer::PictureWriter;
+use super::pilot::{PilotCommand, PilotThread};
+use super::screen::WindowSurface;
+use super::sound::AudioOutput;
+use super::stream::StreamSender;
+use super::train_pipe::TrainPipe;
+use super::window_config::WindowConfig;
+use crate::errors::AppError;
+use crate::io::clock::Stopwatch;
+use crate::io::stop::StopRequest;
+use spandrel_clients::rc::keyboard::{KeyBindings, WindowAction};
+use spandrel_view::arrange::ViewKind;
+use spandrel_view::flow::pipe::FromWindow;
+use spandrel_view::flow::{Page, WindowFlow};
+use spandrel_view::gpu::PageTextures;
+use spandrel_view::hud;
+use spandrel_view::inspector_camera::InspectorCamera;
+use spandrel_view::quality::{PRESETS, Quality};
+use std::time::Duration;
+use winit::application::ApplicationHandler;
+use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow};
+use winit::window::WindowId;
+
+/// No more pictures than this, 1/s: what a screen shows; without a graphics card, what a person still sees as motion.
+const MOST_HZ: (f64, f64) = (120.0, 25.0);
+/// Pages move by keys alone, and with the sticks, 1/s.
+const PAGES_HZ: f64 = 20.0;
+/// Rest after a picture without a graphics card, as a share of what it took: the machine has other work.
+const REST: f64 = 0.25;
+/// A notch of the wheel zooms so many times.
+const ZOOM_NOTCH: f64 = 1.15;
+
+/// Who stands behind the window.
+pub struct WindowThreads {
+    /// Whoever flies from it.
+    pub pilot: Option<PilotThread>,
+    /// Whoever says what is flown.
+    pub lead: Option<TrainPipe>,
+    /// The flight that is shown from the beginning.
+    pub flight: Option<FlightView>,
+    /// Whoever hands the camera's view on.
+    pub stream: Option<StreamSender>,
+}
+
+/// The window with everything behind it.
+pub struct Cockpit {
+    pub(super) plan: WindowConfig,
+    pub(super) keys: KeyBindings,
+    pub(super) flow: WindowFlow,
+    pub(super) crew: WindowThreads,
+    pub(super) keeper: Option<PictureWriter>,
+    pub(super) speaker: AudioOutput,
+    pub(super) stop: StopRequest,
+    pub(super) screen: Option<WindowSurface>,
+    pub(super) pictures: PageTextures,
+    pub(super) gaze: InspectorCamera,
+    pub(super) map: bool,
+    pub(super) held: HeldKeys,
+    /// The pilot has been told that time stands still.
+    pub(super) stood: bool,
+    mouse: Option<(f64, f64)>,
+    dragging: bool,
+    pub(super) notices: Vec<(String, Duration)>,
+    pub(super) stopwatch: Stopwatch,
+    pub(super) frame_at: Duration,
+    due: Duration,
+    failed: Option<AppError>,
+}
+
+impl Cockpit {
+    /// Nothing is open yet.
+    pub fn new(
+        plan: WindowConfig,
+        keys: KeyBindings,
+        flow: WindowFlow,
+        crew: WindowThreads,
+        speaker: AudioOutput,
+        stop: StopRequest,
+    ) -> Self {
+        Self {
+            map: plan.map,
+            keeper: crew.flight.as_ref().and(plan.keep.clone()).map(PictureWriter::start),
+            plan,
+            keys,
+            flow,
+            crew,
+            speaker,
+            stop,
+            screen: None,
+            pictures: PageTextures::default(),
+            gaze: InspectorCamera::default(),
+            held: HeldKeys::default(),
+            stood: false,
+            mouse: None,
+            dragging: false,
+            notices: Vec::new(),
+            stopwatch: Stopwatch::start(),
+            frame_at: Duration::ZERO,
+            due: Duration::ZERO,
+            failed: None,
+        }
+    }
+
+    /// Opens the window and stays until it is closed.
+    pub fn run(mut self) -> Result<(), AppError> {
+        let events = display::open()?;
+        events.run_app(&mut self).map_err(|error| AppError::failed(format!("the window broke off: {error}")))?;
+        self.handle_release();
+        self.failed.map_or(Ok(()), Err)
+    }
+
+    pub(super) fn quality(&self, screen: &WindowSurface) -> Quality {
+        let usual = if screen.gpu.software { "low" } else { "high" };
+        self.plan.quality.or_else(|| Quality::named(usual)).unwrap_or(PRESETS[0])
+    }
+
+    /// Lets go of the flight that is shown.
+    pub(super) fn handle_release(&mut self) {
+        self.keeper = None;
+        if let Some(flight) = self.crew.flight.take() {
+            let wall = flight.listener.wall();
+            flight.listener.live().set_video_status(None, wall);
+            let watch = self.stopwatch;
+            flight.end(self.screen.as_mut(), |first| watch.elapsed().saturating_sub(first));
+        }
+    }
+
+    /// True while the views are shown, and keys fly.
+    fn flies(&self) -> bool {
+        self.flow.page() == Page::Flight
+    }
+
+    fn key(&mut self, event: &KeyEvent, made_up: bool) {
+        if self.held.pressed_elsewhere(event, made_up) {
+            return;
+        }
+        let change = self.held.take(event);
+        if !self.flies() {
+            self.key_on_page(event, change);
+            return;
+        }
+        match change {
+            Some(KeyChange::Down(key)) => {
+                self.handle_action(&key);
+                if self.flies() {
+                    self.forward_key(PilotCommand::Down(key));
+                }
+            }
+            Some(KeyChange::Up(key)) => self.forward_key(PilotCommand::Up(key)),
+            None => {}
+        }
+    }
+
+    fn key_on_page(&mut self, event: &KeyEvent, change: Option<KeyChange>) {
+        let trying = self.flow.page() == Page::Controls;
+        match change {
+            Some(KeyChange::Down(key)) if self.flow.is_asking() && self.keys.window_action(&key) == Some(WindowAction::Pause) => {
+                self.flow.pause();
+                return;
+            }
+            // On the page of the controller the keys' sticks are seen.
+            Some(KeyChange::Down(key)) if trying => self.forward_key(PilotCommand::Down(key)),
+            Some(KeyChange::Up(key)) => self.forward_key(PilotCommand::Up(key)),
+            _ => {}
+        }
+        // Keys that are tried there do nothing else.
+        let tried = self.flow.is_key_test() && keys::name(&event.logical_key).is_some_and(|key| self.keys.is_stick(&key));
+        if let Some(press) = keys::press(event).filter(|_| !tried) {
+            self.flow.press(press);
+        }
+    }
+
+    fn handle_action(&mut self, key: &str) {
+        match self.keys.window_action(key) {
+            Some(WindowAction::Swap) => self.flow.arrangement = self.flow.arrangement.next(),
+            Some(WindowAction::Map) => self.map = !self.map,
+            Some(WindowAction::Follow) => self.gaze = InspectorCamera::default(),
+            Some(WindowAction::Pause) => self.flow.pause(),
+            Some(WindowAction::Restart) => self.flow.restart(),
+            Some(WindowAction::Sound) => self.flow.toggle_sound(),
+            Some(
+                WindowAction::LookLeft
+                | WindowAction::LookRight
+                | WindowAction::LookUp
+                | WindowAction::LookDown
+                | WindowAction::ZoomIn
+                | WindowAction::ZoomOut,
+            )
+            | None => {}
+        }
+    }
+
+    pub(super) fn forward_key(&self, ask: PilotCommand) {
+        if let Some(pilot) = &self.crew.pilot {
+            pilot.send_command(ask);
+        }
+    }
+
+    fn click(&mut self, pressed: bool) {
+        self.dragging = false;
+        let (Some(screen), Some((x, y)), true) = (&self.screen, self.mouse, pressed) else { return };
+        let size = screen.window.inner_size();
+        let (width, height) = (f64::from(size.width.max(1)), f64::from(size.height.max(1)));
+        let hit = self.flow.click(hud::at(x / width, y / height), width / height);
+        self.dragging = !hit && self.flies();
+    }
+
+    fn moved(&mut self, x: f64, y: f64) {
+        if let (true, Some((from_x, from_y)), Some(flight)) = (self.dragging, self.mouse, &self.crew.flight)
+            && let (Some(panes), Some(now)) = (flight.panes(), flight.now())
+        {
+            // The world is dragged along: what is under the pointer stays there.
+            let to = panes.to_aircraft(&now);
+            let rad_px = self.gaze.rad_px(self.eyes_px(), to);
+            self.gaze.turn(rad_px * (from_x - x), rad_px * (y - from_y), to);
+        }
+        self.mouse = Some((x, y));
+    }
+
+    /// Height of the inspector's view on the screen, px.
+    fn eyes_px(&self) -> f64 {
+        let window = self.screen.as_ref().map_or(1.0, |screen| f64::from(screen.window.inner_size().height.max(1)));
+        let eyes = self.flow.arrangement.places().into_iter().find(|place| place.which == ViewKind::Inspector);
+        window * eyes.map_or(1.0, |place| place.height)
+    }
+
+    fn redraw(&mut self, events: &ActiveEventLoop) {
+        let started = self.stopwatch.elapsed();
+        if let Err(error) = self.frame() {
+            self.failed = Some(error);
+            events.exit();
+        }
+        let software = self.screen.as_ref().is_some_and(|screen| screen.gpu.software);
+        let took = self.stopwatch.elapsed().saturating_sub(started);
+        let shown = if software { MOST_HZ.1 } else { MOST_HZ.0 };
+        let most_hz = if self.flies() { shown } else { PAGES_HZ };
+        let rest = if software { took.mul_f64(REST) } else { Duration::ZERO };
+        self.due = started + Duration::from_secs_f64(1.0 / most_hz).max(took + rest);
+    }
+}
+
+impl ApplicationHandler for Cockpit {
+    fn resumed(&mut self, events: &ActiveEventLoop) {
+        if self.screen.is_some() {
+            return;
+        }
+        let title = self.crew.flight.as_ref().map_or("Spandrel".to_owned(), |flight| format!("Spandrel: {}", flight.job.0.title));
+        match WindowSurface::open(events, &title, self.plan.size_px) {
+            Ok(screen) => {
+                self.screen = Some(screen);
+                if let Some(lead) = &self.crew.lead {
+                    lead.send(&FromWindow::Ready);
+                }
+            }
+            Err(error) => {
+                self.failed = Some(error);
+                events.exit();
+            }
+        }
+    }
+
+    fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        if let Some(screen) = &mut self.screen {
+            screen.take(&event);
+        }
+        match event {
+            WindowEvent::CloseRequested => events.exit(),
+            WindowEvent::RedrawRequested => self.redraw(events),
+            WindowEvent::KeyboardInput { event, is_synthetic, .. } => self.key(&event, is_synthetic),
+            WindowEvent::Focused(false) => {
+                self.held.let_go();
+                self.forward_key(PilotCommand::LetGo);
+            }
+            WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => self.click(state == ElementState::Pressed),
+            WindowEvent::CursorMoved { position, .. } => self.moved(position.x, position.y),
+            WindowEvent::MouseWheel { delta, .. } => {
+                let notches = match delta {
+                    MouseScrollDelta::LineDelta(_, lines) => f64::from(lines),
+                    // A notch of usual wheels is some 50 px (estimate).
+                    MouseScrollDelta::PixelDelta(px) => px.y / 50.0,
+                };
+                self.gaze.zoom(spandrel_model::math::pow(ZOOM_NOTCH, notches.clamp(-10.0, 10.0)));
+            }
+            _ => {}
+        }
+    }
+
+    fn about_to_wait(&mut self, events: &ActiveEventLoop) {
+        if self.stop.is_requested() {
+            events.exit();
+            return;
+        }
+        let now = self.stopwatch.elapsed();
+        if now >= self.due {
+            if let Some(screen) = &self.screen {
+                screen.window.request_redraw();
+            }
+            self.due = now + Duration::from_millis(100);
+        }
+        events.set_control_flow(ControlFlow::wait_duration(self.due.saturating_sub(now)));
+    }
+}
