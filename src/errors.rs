@@ -1,6 +1,8 @@
 //! Errors of a run: reported once, with an exit code that scripts can rely on.
 
 use spandrel_model::toml::Problems;
+#[cfg(feature = "view")]
+use spandrel_view::{gpu::GpuError, photo::PhotoError, video::VideoError};
 use std::process::ExitCode;
 
 /// Shown under every help text.
@@ -42,5 +44,29 @@ impl AppError {
 impl From<Problems> for AppError {
     fn from(problems: Problems) -> Self {
         Self::Wrong(problems.to_string())
+    }
+}
+
+#[cfg(feature = "view")]
+impl From<GpuError> for AppError {
+    fn from(error: GpuError) -> Self {
+        match error {
+            GpuError::TooLarge(..) => Self::wrong(format!("{error}: give a smaller --size")),
+            GpuError::NoDevice(_) | GpuError::Failed(_) => Self::failed(error.to_string()),
+        }
+    }
+}
+
+#[cfg(feature = "view")]
+impl From<PhotoError> for AppError {
+    fn from(error: PhotoError) -> Self {
+        Self::failed(error.to_string())
+    }
+}
+
+#[cfg(feature = "view")]
+impl From<VideoError> for AppError {
+    fn from(error: VideoError) -> Self {
+        Self::failed(error.to_string())
     }
 }

@@ -4,8 +4,6 @@ use crate::io::clock;
 use spandrel_model::scenario::Scenario;
 use spandrel_sitl::endpoint::flavour as endpoint;
 use spandrel_view::flow::pipe;
-use std::net::{IpAddr, SocketAddr, ToSocketAddrs};
-use std::str::FromStr;
 
 /// Maximum seed: MAVLink messages carry it as a signed 32-bit integer.
 const SEED_MAX: u64 = i32::MAX as u64;
@@ -92,101 +90,19 @@ impl Purpose {
     }
 }
 
-/// A destination address, or none.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Destination {
-    /// No destination.
-    None,
-    /// This address.
-    Address(SocketAddr),
-}
-
-impl FromStr for Destination {
-    type Err = String;
-    fn from_str(text: &str) -> Result<Self, String> {
-        if text == "none" { Ok(Self::None) } else { address(text).map(Self::Address) }
+/// Arguments that all children share.
+pub fn common_args(job: &JobArgs, log: tracing::Level) -> Vec<String> {
+    let mut args = vec!["--log".to_owned(), log.to_string().to_lowercase()];
+    args.extend(["--scenario", &job.scenario, "--vehicle", &job.vehicle].map(str::to_owned));
+    if let Some(seed) = job.seed {
+        args.extend(["--seed".to_owned(), seed.to_string()]);
     }
-}
-
-/// Reads and resolves HOST:PORT, IPv4 before IPv6.
-pub fn address(text: &str) -> Result<SocketAddr, String> {
-    let mut found: Vec<SocketAddr> =
-        text.to_socket_addrs().map_err(|error| format!("'{text}' is no HOST:PORT such as 127.0.0.1:14550 ({error})"))?.collect();
-    found.sort_by_key(|address| !address.is_ipv4());
-    found.into_iter().find(|address| address.port() != 0).ok_or_else(|| format!("'{text}' names no usable address and port"))
-}
-
-/// A port number, or none.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PortChoice {
-    /// The port is not opened.
-    None,
-    /// A port number; 0 lets the system choose a free one.
-    Number(u16),
-}
-
-impl FromStr for PortChoice {
-    type Err = String;
-    fn from_str(text: &str) -> Result<Self, String> {
-        if text == "none" {
-            return Ok(Self::None);
-        }
-        text.parse().map(Self::Number).map_err(|_| format!("'{text}' is no port (allowed: 0 to 65535, or none)"))
-    }
-}
-
-/// Trainee ID, valid in folder names and records.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct TraineeId(String);
-
-impl TraineeId {
-    /// As text.
-    pub fn as_str(&self) -> &str {
-        &self.0
-    }
-}
-
-impl FromStr for TraineeId {
-    type Err = String;
-    fn from_str(text: &str) -> Result<Self, String> {
-        let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-        let starts = text.starts_with(|c: char| c.is_ascii_alphanumeric());
-        if starts && text.len() <= 32 && text.chars().all(fits) {
-            return Ok(Self(text.to_owned()));
-        }
-        Err(format!("'{text}' is no trainee id (allowed: 1 to 32 letters, digits, '-' or '_', first a letter or digit)"))
-    }
-}
-
-/// Parses the local address to bind.
-pub fn listen(text: &str) -> Result<IpAddr, String> {
-    text.parse().map_err(|_| format!("'{text}' is no IP address (127.0.0.1 for this machine only, 0.0.0.0 for all networks)"))
+    args
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn exact_trainee_ids_stay_harmless_in_paths() {
-        for good in ["anna", "t-07", "A_1", "7"] {
-            assert_eq!(good.parse::<TraineeId>().map(|id| id.0), Ok(good.to_owned()));
-        }
-        for bad in ["", "-x", "../up", "a b", "é", "a/b", "123456789012345678901234567890123"] {
-            assert!(bad.parse::<TraineeId>().is_err(), "{bad}");
-        }
-    }
-
-    #[test]
-    fn exact_targets_and_ports_parse() {
-        assert_eq!("none".parse(), Ok(Destination::None));
-        assert_eq!("127.0.0.1:14550".parse(), Ok(Destination::Address(SocketAddr::from(([127, 0, 0, 1], 14550)))));
-        assert!("14550".parse::<Destination>().is_err());
-        assert!("127.0.0.1:0".parse::<Destination>().is_err());
-        assert_eq!("0".parse(), Ok(PortChoice::Number(0)));
-        assert_eq!("none".parse(), Ok(PortChoice::None));
-        assert!("70000".parse::<PortChoice>().is_err());
-    }
 
     #[test]
     fn exact_seeds_fit_the_wire() {

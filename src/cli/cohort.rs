@@ -1,8 +1,9 @@
 //! `spandrel cohort`: what a group of trainees shows.
 
+use super::records::RecordsArgs;
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files;
-use crate::records::{RecordsLocation, from_lines};
+use crate::records::from_lines;
 use spandrel_monitor::export::json_text;
 use spandrel_training::cohort::{Cohort, Selection, cohort, tables};
 use spandrel_training::record::{IncompletePolicy, omitted_summary};
@@ -30,7 +31,7 @@ Examples:
 {EXIT_CODES}"))]
 pub struct Args {
     #[command(flatten)]
-    place: RecordsLocation,
+    place: RecordsArgs,
     /// Read records from this file, as written by `spandrel records export`, instead of a database
     #[arg(long, value_name = "FILE")]
     records: Option<PathBuf>,
@@ -61,7 +62,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), AppError> {
     let records = match &args.records {
         Some(file) => from_lines(file)?,
-        None => args.place.open()?.records(None)?,
+        None => args.place.location().open()?.records(None)?,
     };
     let selection = Selection {
         scenarios: args.scenario.clone(),

@@ -2,13 +2,15 @@
 
 use super::args::{self, JobArgs};
 use super::pilot::SkillArgs;
-use super::train;
+use super::table;
 use crate::errors::{AppError, EXIT_CODES};
+use crate::io::addresses;
 use crate::io::children::Child;
 use crate::io::clock::Stopwatch;
 use crate::io::files;
 use crate::io::pacing::SimulationSpeed;
 use crate::io::stop::StopRequest;
+use crate::io::trainee_id::TraineeId;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -37,7 +39,7 @@ pub struct Args {
     skill: SkillArgs,
     /// Trainee to record the session for: letters, digits, '-' and '_', at most 32 characters [default: synthetic-SKILL]
     #[arg(long, value_name = "ID")]
-    trainee: Option<args::TraineeId>,
+    trainee: Option<TraineeId>,
     /// Simulation speed: a multiple of real time (0.1 to 100), or max
     #[arg(long, value_name = "X|max", default_value = "5")]
     speed: SimulationSpeed,
@@ -49,7 +51,7 @@ pub struct Args {
     sessions: PathBuf,
     /// Ground station to send telemetry to, or none; may be repeated
     #[arg(long, value_name = "HOST:PORT|none", default_value = "none")]
-    gcs: Vec<args::Destination>,
+    gcs: Vec<addresses::Destination>,
 }
 
 /// Runs the subcommand.
@@ -63,14 +65,14 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     let seed = args.job.seed_for(&scenario);
     let job = JobArgs { seed: Some(seed), ..args.job.clone() };
     let quiet = if log == tracing::Level::INFO { tracing::Level::WARN } else { log };
-    let mut monitor = Child::start("monitor", &[train::common_args(&job, log), monitor_args(args)].concat())?;
+    let mut monitor = Child::start("monitor", &[args::common_args(&job, log), monitor_args(args)].concat())?;
     let announced = monitor.announced()?;
     let session = PathBuf::from(announced["session"].as_str().unwrap_or_default());
-    let pilot_args = [train::common_args(&job, quiet), args.skill.to_args(), vec!["--port".to_owned(), "0".to_owned()]];
+    let pilot_args = [args::common_args(&job, quiet), args.skill.to_args(), vec!["--port".to_owned(), "0".to_owned()]];
     let mut pilot = Child::start("pilot", &pilot_args.concat())?;
     let pilot_port = pilot.announced()?["port"].as_u64().unwrap_or_default();
     let monitor_port = announced["port"].as_u64().unwrap_or_default();
-    let sim_args = [train::common_args(&job, quiet), args.flavour.to_args(), sim_args(args, monitor_port, pilot_port)];
+    let sim_args = [args::common_args(&job, quiet), args.flavour.to_args(), sim_args(args, monitor_port, pilot_port)];
     let mut sim = Child::start("sim", &sim_args.concat())?;
     sim.announced()?;
     tracing::info!("seed {seed}, {} pilot, speed {}", args.skill.skill, args.speed);
@@ -78,7 +80,7 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     monitor.finish();
     sim.finish();
     pilot.finish();
-    let told = train::report_outcome(&session);
+    let told = table::report_outcome(&session);
     match lost {
         Some(error) => Err(error),
         None => told,
@@ -98,7 +100,7 @@ fn sim_args(args: &Args, monitor_port: u64, pilot_port: u64) -> Vec<String> {
     out.extend(["--after-crash", "scenario"].map(str::to_owned));
     out.extend(["--lockstep".to_owned(), pilot, "--lockstep".to_owned(), format!("127.0.0.1:{monitor}")]);
     for target in &args.gcs {
-        if let args::Destination::Address(address) = target {
+        if let addresses::Destination::Address(address) = target {
             out.extend(["--gcs".to_owned(), address.to_string()]);
         }
     }

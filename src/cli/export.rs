@@ -1,12 +1,12 @@
 //! `spandrel export`: frames, scenario, flight plan, geometry and recordings for other programs.
 
 use super::args;
-use super::assess;
-use super::report;
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files;
 use crate::io::mcap::{self, McapRecording};
 use crate::io::progress::ProgressLog;
+use crate::io::report;
+use crate::io::scoring;
 use crate::io::session_folder::StoredSession;
 use crate::records::read_session;
 use spandrel_clients::pilot::flight_plan;
@@ -99,7 +99,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         let Some(stored) = &stored else {
             return Err(AppError::wrong(format!("--frames needs a session folder, and '{}' is none", args.from)));
         };
-        files::write(target, frames_csv(&assess::frame_rows(stored)?).as_bytes())?;
+        files::write(target, frames_csv(&scoring::frame_rows(stored)?).as_bytes())?;
     }
     if let Some(target) = &args.mcap {
         let Some(stored) = &stored else {
@@ -152,7 +152,7 @@ fn exchanged(args: &Args, stored: Option<&StoredSession>) -> Result<(), AppError
         |flag: &str| stored.ok_or_else(|| AppError::wrong(format!("{flag} needs a session folder, and '{}' is none", args.from)));
     if let Some(target) = &args.parquet {
         let stored = needed("--parquet")?;
-        files::write(target, &crate::io::parquet::frames(&assess::frame_rows(stored)?)?)?;
+        files::write(target, &crate::io::parquet::frames(&scoring::frame_rows(stored)?)?)?;
     }
     if let Some(target) = &args.xapi {
         needed("--xapi")?;

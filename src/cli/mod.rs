@@ -1,28 +1,32 @@
 //! The shells: the only sockets, files, clocks, threads and processes. One file per subcommand; each turns arguments into a run of a
 //! sans-IO core. Results go to standard output, everything else to standard error.
 
-pub mod args;
-pub mod assess;
+mod args;
+mod assess;
 mod check;
 mod cohort;
 mod demo;
 mod export;
 mod generate;
-pub mod monitor;
+mod monitor;
+#[cfg(feature = "view")]
+mod picture_args;
 mod pilot;
-pub mod plan;
-pub mod questionnaire;
+mod plan;
+mod ports;
+mod questionnaire;
 mod rc;
-pub mod render;
-pub mod report;
+mod records;
+mod render;
+mod report;
+mod serve;
 mod sim;
 mod table;
 mod train;
-pub mod view;
+mod view;
 
 use crate::errors::{self, AppError};
 use crate::io::logging;
-use crate::{records, web};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -56,7 +60,7 @@ enum Command {
     Plan(plan::Args),
     Cohort(cohort::Args),
     Report(report::Args),
-    Serve(web::Args),
+    Serve(serve::Args),
     Render(render::Args),
     View(view::Args),
     Check(check::Args),
@@ -95,7 +99,7 @@ fn run(cli: &Cli) -> Result<(), AppError> {
         Command::Plan(args) => plan::run(args),
         Command::Cohort(args) => cohort::run(args),
         Command::Report(args) => report::run(args),
-        Command::Serve(args) => web::run(args),
+        Command::Serve(args) => serve::run(args),
         Command::Render(args) => render::run(args),
         Command::View(args) => view::run(args),
         Command::Check(args) => check::run(args),

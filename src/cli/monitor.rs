@@ -1,17 +1,20 @@
 //! `spandrel monitor`: sockets, clock and session folder around the sans-IO sidecar.
 
-use super::args::{self, JobArgs, TraineeId};
-use super::report;
+use super::args::{self, JobArgs};
+use super::ports::MONITOR_PORT;
 use super::table;
 use crate::errors::{AppError, EXIT_CODES};
+use crate::io::addresses;
 use crate::io::append_file::WriteRefused;
 use crate::io::clock::{self, Stopwatch};
 use crate::io::files::{self, ScenarioFile, VehicleFile};
 use crate::io::net::{NetEvent, SocketHub, SocketId};
 use crate::io::pacing::SimulationSpeed;
 use crate::io::progress::ProgressLog;
+use crate::io::report;
 use crate::io::session_folder::{SessionFolder, StoredSession};
 use crate::io::stop::StopRequest;
+use crate::io::trainee_id::TraineeId;
 use serde_json::json;
 use spandrel_mavlink::dialect::MavSeverity;
 use spandrel_model::time::SimTime;
@@ -21,8 +24,6 @@ use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// First monitor port; each instance has the next one.
-pub const FIRST_PORT: u16 = 14030;
 /// Longest wait for a datagram: the core wants to see the wall clock every 100 ms.
 const WAIT: Duration = Duration::from_millis(50);
 /// What is taken reaches the disk at least this often.
@@ -73,10 +74,10 @@ pub struct Args {
     #[arg(long, value_name = "PORT")]
     port: Option<u16>,
     /// Send to the vehicle at this address instead of waiting for its first datagram
-    #[arg(long, value_name = "HOST:PORT", value_parser = args::address)]
+    #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address)]
     connect: Option<SocketAddr>,
     /// Local address to bind
-    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = args::listen)]
+    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = addresses::listen)]
     listen: IpAddr,
     /// Print one line of JSON {"port", "session"} on standard output at startup, and no table at the end
     #[arg(long)]
@@ -95,7 +96,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     // Files first, then the port, then the folder: what is refused leaves nothing behind.
     let start = SessionStart::read(args)?;
     let mut hub = SocketHub::new();
-    let port = args.port.unwrap_or(FIRST_PORT + u16::from(args.instance));
+    let port = args.port.unwrap_or(MONITOR_PORT + u16::from(args.instance));
     let socket = hub.bind(args.listen, port, "--port")?;
     let (config, monitor, folder) = start.open(args)?;
     if args.announce {

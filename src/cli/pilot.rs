@@ -1,7 +1,8 @@
 //! `spandrel pilot`: a socket and a clock around the sans-IO synthetic trainee.
 
-use super::args::{self, JobArgs};
+use super::args::JobArgs;
 use crate::errors::{AppError, EXIT_CODES};
+use crate::io::addresses;
 use crate::io::clock::Stopwatch;
 use crate::io::files;
 use crate::io::net::{NetEvent, SocketHub};
@@ -73,13 +74,13 @@ pub struct Args {
     #[command(flatten)]
     skill: SkillArgs,
     /// Address of the vehicle
-    #[arg(long, value_name = "HOST:PORT", value_parser = args::address, default_value = "127.0.0.1:18570")]
+    #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address, default_value = "127.0.0.1:18570")]
     connect: SocketAddr,
     /// Wait for the vehicle's first datagram on this UDP port instead of connecting to an address; 0 for any free port
     #[arg(long, value_name = "PORT", conflicts_with = "connect")]
     port: Option<u16>,
     /// Local address to bind
-    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = args::listen)]
+    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = addresses::listen)]
     listen: IpAddr,
     /// Print one JSON line {"port"} on standard output at startup
     #[arg(long)]

@@ -1,15 +1,17 @@
 //! `spandrel plan`: what to fly next.
 
-use super::args::TraineeId;
+use super::records::RecordsArgs;
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::clock;
 use crate::io::files;
-use crate::records::{RecordsLocation, from_lines};
+use crate::io::plan_rules::rules;
+use crate::io::trainee_id::TraineeId;
+use crate::records::from_lines;
 use spandrel_monitor::export::json_text;
-use spandrel_training::plan::{MeasureChange, PlanRules, RULES, TrainingPlan, plan_counting, read_rules};
+use spandrel_training::plan::{MeasureChange, TrainingPlan, plan_counting};
 use spandrel_training::record::{IncompletePolicy, omitted_summary};
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Recommend a trainee's next exercises, with reasons
 ///
@@ -28,7 +30,7 @@ pub struct Args {
     #[arg(value_name = "ID")]
     trainee: TraineeId,
     #[command(flatten)]
-    place: RecordsLocation,
+    place: RecordsArgs,
     /// Read records from this file, as written by `spandrel records export`, instead of a database
     #[arg(long, value_name = "FILE")]
     records: Option<PathBuf>,
@@ -51,7 +53,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let trainee = args.trainee.as_str();
     let mut records = match &args.records {
         Some(file) => from_lines(file)?,
-        None => args.place.open()?.records(Some(trainee))?,
+        None => args.place.location().open()?.records(Some(trainee))?,
     };
     records.retain(|record| record.trainee == trainee);
     records.sort_by(|a, b| (a.started_unix_us, &a.id).cmp(&(b.started_unix_us, &b.id)));
@@ -63,17 +65,6 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         )));
     };
     files::write("-", if args.json { json_text(&plan) } else { words(&plan) }.as_bytes())
-}
-
-/// Returns the shipped rules, or the rules of a file.
-///
-/// # Errors
-/// If the file cannot be read or is invalid.
-pub fn rules(file: Option<&Path>) -> Result<PlanRules, AppError> {
-    match file {
-        Some(path) => Ok(read_rules(&path.display().to_string(), &files::read(path)?)?),
-        None => Ok(read_rules("rules.toml", RULES)?),
-    }
 }
 
 fn words(plan: &TrainingPlan) -> String {

@@ -1,16 +1,17 @@
 //! `spandrel questionnaire`: the questions after a flight, in a terminal.
 
 use crate::errors::{AppError, EXIT_CODES};
-use crate::io::files;
-use crate::io::session_folder::{self, StoredSession};
+use crate::io::answers::{languages, stored, task_ids};
+use crate::io::replace::replace;
+use crate::io::session_folder::StoredSession;
 use spandrel_model::scenario::Scenario;
 use spandrel_monitor::export::json_text;
 use spandrel_training::questionnaire::{
     ANSWERS, Answers, FormWording, Languages, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, TlxScale,
-    Wording, read_answers, read_wording,
+    Wording,
 };
 use std::io::{BufRead, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Answer the questionnaire after a flight
 ///
@@ -73,39 +74,13 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     answers.language.clone_from(&wording.language);
     let questions = questions(args, &scenario, &answers);
     let (mut input, mut output) = (std::io::stdin().lock(), std::io::stdout().lock());
-    let mut save = |answers: &Answers| session_folder::replace(&args.session.join(ANSWERS), json_text(answers).as_bytes());
+    let mut save = |answers: &Answers| replace(&args.session.join(ANSWERS), json_text(answers).as_bytes());
     ask_questions(&questions, wording, &scenario, &mut answers, (&mut input, &mut output), &mut save)?;
     let tasks = task_ids(&scenario);
     let (all, open) = (QuestionnaireItem::all(&tasks).len(), answers.open(&tasks).len());
     let again = if open > 0 { format!("; {}", wording.form.later) } else { String::new() };
     let _ = writeln!(output, "\n{}{again}", wording.form.answered(all - open, all));
     Ok(())
-}
-
-/// Returns the saved answers of a session, or `None` if there are none.
-///
-/// # Errors
-/// If the file cannot be read or is invalid.
-pub fn stored(session: &Path, scenario: &Scenario) -> Result<Option<Answers>, AppError> {
-    let path = session.join(ANSWERS);
-    if !path.is_file() {
-        return Ok(None);
-    }
-    Ok(Some(read_answers(&path.display().to_string(), &files::read(&path)?, &task_ids(scenario))?))
-}
-
-/// Returns the task numbers as used in the questions.
-pub fn task_ids(scenario: &Scenario) -> Vec<u32> {
-    scenario.tasks.iter().map(|task| task.id).collect()
-}
-
-/// Returns the custom wordings and the shipped ones.
-///
-/// # Errors
-/// If a file cannot be read or is invalid.
-pub fn languages(own: &[PathBuf]) -> Result<Languages, AppError> {
-    let read = |path: &PathBuf| Ok(read_wording(&path.display().to_string(), &files::read(path)?)?);
-    Ok(Languages::with(own.iter().map(read).collect::<Result<Vec<_>, AppError>>()?)?)
 }
 
 /// Returns the language: the requested one, that of the file, that of the saved answers, or that of the terminal.
@@ -218,6 +193,7 @@ fn parse_input(line: &str, question: PromptQuestion) -> TypedInput {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::io::files;
     use spandrel_training::questionnaire::{InspectionPhase, OverallItem, PhaseAspect};
 
     /// Enters lines into a questionnaire of the paper's job. Returns the answers, the output and the number of saves.

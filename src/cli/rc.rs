@@ -1,7 +1,7 @@
 //! `spandrel rc`: a controller, a clock and a socket around the sans-IO bridge to MANUAL_CONTROL.
 
-use super::args;
 use crate::errors::{AppError, EXIT_CODES};
+use crate::io::addresses;
 use crate::io::clock::Stopwatch;
 use crate::io::controller::{self, CalibratedController, ControllerReading, EventSource, ProfileFolder, RawTerminal};
 use crate::io::files;
@@ -48,10 +48,10 @@ Examples:
 {EXIT_CODES}"))]
 pub struct Args {
     /// Address of the vehicle
-    #[arg(long, value_name = "HOST:PORT", value_parser = args::address, default_value = "127.0.0.1:18570")]
+    #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address, default_value = "127.0.0.1:18570")]
     connect: SocketAddr,
     /// Local address to bind
-    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = args::listen)]
+    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = addresses::listen)]
     listen: IpAddr,
     /// Print the connected devices, one per line, and exit
     #[arg(long)]

@@ -1,14 +1,15 @@
 //! `spandrel sim`: vehicles at a site, each in a thread of its own.
 
 use super::args::{self, JobArgs};
+use super::ports::PortArgs;
 use crate::errors::{AppError, EXIT_CODES};
+use crate::io::addresses;
 use crate::io::files;
 use crate::io::key;
 use crate::io::links::Links;
 use crate::io::pacing::{Lateness, SimulationSpeed};
 use crate::io::params::ParamFile;
 use crate::io::pause::PauseSwitch;
-use crate::io::ports::PortArgs;
 use crate::io::progress::ProgressLog;
 use crate::io::shell::{SigningConfig, VehicleFiles, VehicleShell};
 use crate::io::signing_store::SigningStore;
@@ -51,7 +52,7 @@ pub struct Args {
     /// Run in lockstep with this peer (one that the vehicle sends to, such as --gcs): every 20 ms of simulation time the simulator sends
     /// TIMESYNC and waits for the answer. At startup the simulation waits up to 10 s for the first answer, sending heartbeats only; after
     /// that it runs unsynchronized until the peer answers. May be repeated
-    #[arg(long, value_name = "HOST:PORT", value_parser = args::address)]
+    #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address)]
     lockstep: Vec<SocketAddr>,
     /// Autopilot protocol; the flight dynamics are the same in all of them
     #[arg(long, value_name = "NAME", default_value = "px4")]
@@ -275,7 +276,7 @@ impl VehicleIo {
             args.params.as_ref().map(|path| if args.instances == 1 { path.clone() } else { numbered(path, instance + 1) });
         let heard = args.signing_key.as_ref().map(|key| SigningStore::of(key, instance + 1));
         let kept = VehicleFiles { store, params: params.map(ParamFile::new), signing_store: heard };
-        Ok(Self { links: Links::open(&ports, &args.lockstep)?, files: kept, instance })
+        Ok(Self { links: Links::open(&ports.resolve(), &args.lockstep)?, files: kept, instance })
     }
 }
 

@@ -1,6 +1,7 @@
 //! The assessment for people, from its JSON: the numbers are rounded here and nowhere before.
 
-use super::report;
+use crate::errors::AppError;
+use crate::io::report;
 use serde::Deserialize;
 use serde_json::Value;
 use spandrel_monitor::folder::REPORT;
@@ -15,6 +16,20 @@ pub fn places(session: &Path) {
     if page.is_file() {
         println!("report        {}", report::address(&page));
     }
+}
+
+/// Prints the scores of a session folder and its place.
+///
+/// # Errors
+/// When it holds no assessment.
+pub fn report_outcome(session: &Path) -> Result<(), AppError> {
+    let path = session.join(spandrel_monitor::folder::ASSESSMENT);
+    let text = std::fs::read_to_string(&path)
+        .map_err(|_| AppError::failed(format!("the session was not scored; what was recorded is in {}", session.display())))?;
+    let assessment = serde_json::from_str(&text).map_err(|error| AppError::failed(format!("{}: {error}", path.display())))?;
+    print!("{}", scores(&assessment));
+    places(session);
+    Ok(())
 }
 
 /// The scores, tasks, crashes, pictures and the end of one session.

@@ -1,11 +1,20 @@
 //! `spandrel view`: a window with the inspector's view and the camera's, live from telemetry.
 
-use super::args::{self, JobArgs};
-use crate::errors::{AppError, EXIT_CODES};
+use super::args::JobArgs;
 #[cfg(feature = "view")]
-use crate::window;
+use super::picture_args::{quality_or_auto, size};
+use crate::errors::{AppError, EXIT_CODES};
+use crate::io::addresses;
+#[cfg(feature = "view")]
+use crate::io::{controller, files};
+#[cfg(feature = "view")]
+use crate::window::{self, CaptureRequest, WindowConfig, WindowSetup};
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
+
+/// Longest time to the picture that can be asked for, s.
+#[cfg(feature = "view")]
+const AFTER_MAX_S: f64 = 3_600.0;
 
 /// Watch a flight live in a window: the inspector's view and the camera's view, with head-up display
 ///
@@ -27,62 +36,62 @@ Examples:
 {EXIT_CODES}"))]
 pub struct Args {
     #[command(flatten)]
-    pub job: JobArgs,
+    job: JobArgs,
     /// Address of the vehicle's payload port
-    #[arg(long, value_name = "HOST:PORT", value_parser = args::address, default_value = "127.0.0.1:14280")]
-    pub connect: SocketAddr,
+    #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address, default_value = "127.0.0.1:14280")]
+    connect: SocketAddr,
     /// Local address to bind
-    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = args::listen)]
-    pub listen: IpAddr,
+    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = addresses::listen)]
+    listen: IpAddr,
     /// Fly from the window: send sticks and commands to the vehicle's ground station port
-    #[arg(long, value_name = "HOST:PORT", value_parser = args::address, group = "pilot")]
-    pub fly: Option<SocketAddr>,
+    #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address, group = "pilot")]
+    fly: Option<SocketAddr>,
     /// Key bindings (TOML: format = 1, push, [sticks], [actions], [window], [sound]); the same file as for `spandrel rc
     /// --keyboard`
     #[arg(long, value_name = "FILE")]
-    pub keys: Option<PathBuf>,
+    keys: Option<PathBuf>,
     /// Controller, by its ID or part of its name [default: the only one]
     #[arg(long, value_name = "NAME", requires = "pilot")]
-    pub device: Option<String>,
+    device: Option<String>,
     /// Folder of calibration profiles [default: spandrel/controllers in the user's configuration folder]
     #[arg(long, value_name = "DIR", requires = "pilot")]
-    pub profiles: Option<PathBuf>,
+    profiles: Option<PathBuf>,
     /// Rendering quality: low, medium, high, ultra, or auto (high with a graphics card, low without)
     #[arg(long, value_name = "PRESET", default_value = "auto")]
-    pub quality: String,
+    quality: String,
     /// Window size, px
     #[arg(long, value_name = "WxH", default_value = "1600x560")]
-    pub size: String,
+    size: String,
     /// Disable sound; [sound] in the key bindings file sets propellers, warnings, speech and volume
     #[arg(long)]
-    pub no_sound: bool,
+    no_sound: bool,
     /// Disable the map of the reference paths, for an assessment; M does not show it
     #[arg(long)]
-    pub no_map: bool,
+    no_map: bool,
     /// Send the camera's view to this address as H.264 over RTP; the vehicle then announces the stream, and ground stations show
     /// it (QGroundControl listens on UDP port 5600). The vehicle always announces port 5600: configure any other port in the
     /// ground station
-    #[arg(long, value_name = "HOST:PORT", value_parser = args::address)]
-    pub stream: Option<SocketAddr>,
+    #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address)]
+    stream: Option<SocketAddr>,
     /// Save a picture of the window (PNG) and exit
     #[arg(long, value_name = "FILE", requires = "after")]
-    pub screenshot: Option<PathBuf>,
+    screenshot: Option<PathBuf>,
     /// Wall time from the first drawn frame to the picture, s
     #[arg(long, value_name = "S", requires = "screenshot")]
-    pub after: Option<f64>,
+    after: Option<f64>,
     /// Save the camera's view to this file (JPEG) about once a second, for the live page of `spandrel serve --picture FILE`
     #[arg(long, value_name = "FILE")]
-    pub picture: Option<PathBuf>,
+    picture: Option<PathBuf>,
     /// Print one JSON line {"device", "quality", "width", "height"} on standard output when both views are drawn
     #[arg(long)]
-    pub announce: bool,
+    announce: bool,
     /// Exit when standard input closes (for a parent process)
     #[arg(long)]
-    pub leash: bool,
+    leash: bool,
     /// Receive pages and flights from the parent process as JSON lines on standard input; send the user's actions on standard
     /// output
     #[arg(long, requires = "leash", hide = true, group = "pilot")]
-    pub led: bool,
+    led: bool,
 }
 
 /// Runs the subcommand.
@@ -91,16 +100,43 @@ pub struct Args {
 /// If files are invalid, or there is no display or no graphics adapter.
 #[cfg(feature = "view")]
 pub fn run(args: &Args) -> Result<(), AppError> {
-    window::run(args)
+    let scenario = files::scenario(&args.job.scenario)?.scenario;
+    let vehicle = files::vehicle(&args.job.vehicle)?.vehicle;
+    let keys = controller::keys(args.keys.as_deref())?;
+    let config = WindowConfig {
+        listen: args.listen,
+        quality: quality_or_auto(&args.quality)?,
+        size_px: size(&args.size)?,
+        map: !args.no_map,
+        picture: picture(args)?,
+        keep: args.picture.clone(),
+        // Led, its standard output belongs to the pipe.
+        announce: args.announce && !args.led,
+    };
+    window::run(WindowSetup {
+        config,
+        scenario,
+        vehicle,
+        seed: args.job.seed,
+        keys,
+        connect: args.connect,
+        fly: args.fly,
+        device: args.device.clone(),
+        profiles: args.profiles.clone(),
+        stream: args.stream,
+        sound: !args.no_sound,
+        led: args.led,
+        leash: args.leash,
+    })
 }
 
-/// Checks the name of a quality preset.
-///
-/// # Errors
-/// If there is no preset with this name.
 #[cfg(feature = "view")]
-pub fn check_quality(name: &str) -> Result<(), AppError> {
-    window::window_config::quality(name).map(|_| ())
+fn picture(args: &Args) -> Result<Option<CaptureRequest>, AppError> {
+    let (Some(path), Some(after)) = (&args.screenshot, args.after) else { return Ok(None) };
+    if !(0.0..=AFTER_MAX_S).contains(&after) {
+        return Err(AppError::wrong(format!("--after {after}: give seconds, 0 to {AFTER_MAX_S}")));
+    }
+    Ok(Some(CaptureRequest { path: path.clone(), after: std::time::Duration::from_secs_f64(after) }))
 }
 
 /// Reports that the program was built without the view.

@@ -142,7 +142,7 @@ pub fn write(target: &str, bytes: &[u8]) -> Result<(), AppError> {
     let done = match target {
         "-" => std::io::stdout().lock().write_all(bytes),
         _ if real.exists() && !real.is_file() => std::fs::write(&real, bytes),
-        _ => return super::session_folder::replace(&real, bytes),
+        _ => return super::replace::replace(&real, bytes),
     };
     done.map_err(|error| AppError::failed(format!("{target}: cannot be written: {error}")))
 }

@@ -3,7 +3,7 @@
 
 use super::clock::Stopwatch;
 use super::net::{NetEvent, SocketHub, SocketId, StreamId, StreamOrigin};
-use super::ports::{GCS_PORT, PAYLOAD_PORT, PortArgs, local};
+use super::vehicle_ports::VehiclePorts;
 use crate::errors::AppError;
 use spandrel_mavlink::codec::Decoder;
 use spandrel_sitl::endpoint::LinkKind;
@@ -77,19 +77,18 @@ impl Links {
     ///
     /// # Errors
     /// When a port cannot be opened, or a lockstep peer is not among those who are called.
-    pub fn open(args: &PortArgs, lockstep: &[SocketAddr]) -> Result<Self, AppError> {
+    pub fn open(ports: &VehiclePorts, lockstep: &[SocketAddr]) -> Result<Self, AppError> {
         let mut hub = SocketHub::new();
-        let bind = |hub: &mut SocketHub, port: Option<u16>, flag| port.map(|port| hub.bind(args.listen, port, flag)).transpose();
-        let stations = args.ground_stations();
-        let gcs = bind(&mut hub, args.port(args.gcs_port, GCS_PORT).or((!stations.is_empty()).then_some(0)), "--gcs-port")?;
-        let payload = bind(&mut hub, args.port(args.payload_port, PAYLOAD_PORT), "--payload-port")?;
-        let sdk = bind(&mut hub, args.sdk().map(|_| 0), "--sdk")?;
-        let tcp = args.tcp().map(|port| hub.serve(args.listen, port, "--tcp-port")).transpose()?;
-        for device in &args.serial {
+        let bind = |hub: &mut SocketHub, port: Option<u16>, flag| port.map(|port| hub.bind(ports.listen, port, flag)).transpose();
+        let gcs = bind(&mut hub, ports.gcs, "--gcs-port")?;
+        let payload = bind(&mut hub, ports.payload, "--payload-port")?;
+        let sdk = bind(&mut hub, ports.sdk.map(|_| 0), "--sdk")?;
+        let tcp = ports.tcp.map(|port| hub.serve(ports.listen, port, "--tcp-port")).transpose()?;
+        for device in &ports.serial {
             hub.serve_serial(device)?;
         }
         let port = |socket: Option<SocketId>| socket.map(|socket| hub.port(socket));
-        let bound = serde_json::json!({ "system_id": args.instance + 1, "gcs_port": port(gcs), "payload_port": port(payload), "tcp_port": tcp });
+        let bound = serde_json::json!({ "system_id": ports.system_id, "gcs_port": port(gcs), "payload_port": port(payload), "tcp_port": tcp });
         let kinds = [(gcs, LinkKind::GroundStation), (payload, LinkKind::Payload), (sdk, LinkKind::Sdk)];
         let mut links = Self {
             hub,
@@ -98,16 +97,15 @@ impl Links {
             by_peer: BTreeMap::new(),
             by_stream: BTreeMap::new(),
             lockstep: lockstep.to_vec(),
-            limit: args.gcs_limit.map(f64::from),
+            limit: ports.gcs_limit.map(f64::from),
             changes: VecDeque::new(),
             opened: 0,
             bad_bytes: 0,
             stopwatch: Stopwatch::start(),
             bound,
         };
-        let monitor = Some(args.monitor_port()).filter(|port| *port != 0).map(local);
-        let fixed = stations.iter().map(|peer| (gcs, *peer));
-        let fixed = fixed.chain(monitor.map(|peer| (payload.or(gcs), peer))).chain(args.sdk().map(|peer| (sdk, peer)));
+        let fixed = ports.stations.iter().map(|peer| (gcs, *peer));
+        let fixed = fixed.chain(ports.monitor.map(|peer| (payload.or(gcs), peer))).chain(ports.sdk.map(|peer| (sdk, peer)));
         for (socket, peer) in fixed {
             if let Some(socket) = socket {
                 links.add(socket, peer, None);
@@ -279,30 +277,35 @@ fn is_mavlink(bytes: &[u8]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::ports::local;
     use super::*;
-    use clap::Parser;
+    use crate::io::vehicle_ports::local;
     use spandrel_mavlink::codec::Encoder;
     use spandrel_mavlink::station;
     use std::net::UdpSocket;
-
-    #[derive(Debug, Parser)]
-    struct Line {
-        #[command(flatten)]
-        ports: PortArgs,
-    }
 
     fn send_hello() -> Vec<u8> {
         Encoder::new(255, 190).encode(&station::heartbeat())
     }
 
-    fn parse(words: &[&str]) -> PortArgs {
-        Line::parse_from(["test"].iter().chain(words)).ports
+    /// Any free ports, and these ground stations.
+    fn ephemeral(stations: &[SocketAddr]) -> VehiclePorts {
+        VehiclePorts {
+            system_id: 1,
+            listen: local(0).ip(),
+            gcs: Some(0),
+            payload: Some(0),
+            tcp: None,
+            serial: Vec::new(),
+            stations: stations.to_vec(),
+            sdk: None,
+            monitor: None,
+            gcs_limit: None,
+        }
     }
 
     #[test]
     fn wire_a_stranger_is_learned_by_its_address_and_answered() {
-        let mut links = Links::open(&parse(&["--ports", "ephemeral"]), &[]).unwrap();
+        let mut links = Links::open(&ephemeral(&[]), &[]).unwrap();
         let port = u16::try_from(links.bound["payload_port"].as_u64().unwrap()).unwrap();
         let sidecar = UdpSocket::bind(local(0)).unwrap();
         // What is no MAVLink makes nobody a peer.
@@ -323,9 +326,9 @@ mod tests {
 
     #[test]
     fn exact_a_lockstep_peer_that_was_not_dialed_is_refused() {
-        let Err(error) = Links::open(&parse(&["--ports", "ephemeral"]), &[local(9)]) else { panic!("accepted") };
+        let Err(error) = Links::open(&ephemeral(&[]), &[local(9)]) else { panic!("accepted") };
         assert!(error.to_string().contains("--lockstep 127.0.0.1:9"));
-        let args = parse(&["--ports", "ephemeral", "--gcs", "127.0.0.1:9"]);
+        let args = ephemeral(&[local(9)]);
         let mut links = Links::open(&args, &[local(9)]).unwrap();
         let opened = LinkChange::Opened { link: 1, kind: LinkKind::GroundStation, lockstep: true, learned: false, limit: None };
         assert_eq!(links.poll(), Some(opened));
@@ -333,7 +336,7 @@ mod tests {
 
     /// Links with one peer that is called, and the socket for those who dial in.
     fn called(peer: &str) -> (Links, SocketId) {
-        let mut links = Links::open(&parse(&["--ports", "ephemeral", "--gcs", peer]), &[]).unwrap();
+        let mut links = Links::open(&ephemeral(&[peer.parse().unwrap()]), &[]).unwrap();
         assert!(matches!(links.poll(), Some(LinkChange::Opened { link: 1, .. })));
         let socket = *links.kinds.iter().find(|(_, kind)| **kind == LinkKind::GroundStation).unwrap().0;
         (links, socket)
@@ -367,7 +370,7 @@ mod tests {
 
     #[test]
     fn regress_a_flood_on_one_port_keeps_nobody_off_another_and_rubbish_takes_no_place() {
-        let mut links = Links::open(&parse(&["--ports", "ephemeral", "--gcs", "127.0.0.1:9"]), &[]).unwrap();
+        let mut links = Links::open(&ephemeral(&[local(9)]), &[]).unwrap();
         assert!(matches!(links.poll(), Some(LinkChange::Opened { link: 1, .. })));
         let of = |links: &Links, kind| *links.kinds.iter().find(|(_, other)| **other == kind).unwrap().0;
         let (stations, sidecars) = (of(&links, LinkKind::GroundStation), of(&links, LinkKind::Payload));

@@ -1,5 +1,7 @@
 //! The outside world for the subcommands: sockets and links, clock, files, serial ports, child processes, pacing, stores and controllers.
 
+pub mod addresses;
+pub mod answers;
 pub mod append_file;
 pub mod children;
 pub mod clock;
@@ -16,11 +18,18 @@ pub mod pacing;
 pub mod params;
 pub mod parquet;
 pub mod pause;
-pub mod ports;
+pub mod plan_rules;
+#[cfg(feature = "view")]
+pub mod png;
 pub mod progress;
+pub mod replace;
+pub mod report;
+pub mod scoring;
 pub mod serial;
 pub mod session_folder;
 pub mod shell;
 pub mod signing_store;
 pub mod stop;
 pub mod store;
+pub mod trainee_id;
+pub mod vehicle_ports;

@@ -1,6 +1,6 @@
 //! What was heard with a signing key, kept beside the key's file: a program that starts again refuses what it has obeyed before.
 
-use super::session_folder::replace;
+use super::replace::replace;
 use crate::errors::AppError;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};

@@ -457,7 +457,7 @@ mod tests {
         assert_eq!(logs, [&DirectoryEntry::File("14_13_20-1.ulg".into(), 3), &DirectoryEntry::File("14_13_20.ulg".into(), 3)]);
         for name in ["14_13_20.mcap", "14_13_20-1.mcap"] {
             let file = std::fs::read(base.join("root/log/2026-09-21").join(name)).unwrap();
-            assert_eq!(super::super::mcap::recover(&file).unwrap().broken, None, "{name}");
+            assert_eq!(crate::io::mcap::recover(&file).unwrap().broken, None, "{name}");
         }
         std::fs::remove_dir_all(base).unwrap();
     }

@@ -166,3 +166,8 @@ async fn prepare(connection: &mut AnyConnection) -> Result<(), sqlx::Error> {
     let _ = connection.execute("PRAGMA journal_mode = WAL").await;
     Ok(())
 }
+
+/// Times and versions fit in 63 bits.
+pub(super) fn signed(number: u64) -> i64 {
+    i64::try_from(number).unwrap_or(i64::MAX)
+}

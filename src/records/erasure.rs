@@ -2,7 +2,7 @@
 //! records; then each folder gets a name under which nothing reads it, and is deleted. Whoever opens the place next finishes what is left.
 
 use super::database::Database;
-use super::erasure_marks::{self, ErasedKind};
+use super::erasure_marks::{self, ErasedKind, name_of};
 use crate::errors::AppError;
 use sqlx::Row;
 use std::collections::BTreeSet;
@@ -29,11 +29,6 @@ impl Database {
             change.commit().await
         })
     }
-}
-
-/// A folder's own name.
-pub(super) fn name_of(folder: &Path) -> String {
-    folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
 /// Removes folders that the database has marked (`Database::erase`, `Database::delete_sessions`).

@@ -1,13 +1,13 @@
 //! What was erased stays so: a mark in the database that every import and rebuild looks at, whichever station has a folder of it still.
 
-use super::database::Database;
-use super::sessions::signed;
+use super::database::{Database, signed};
 use crate::errors::AppError;
 use crate::io::clock;
 use spandrel_monitor::folder::sha256_hex;
 use spandrel_training::record::SessionRecord;
 use sqlx::{Any, Row, Transaction};
 use std::collections::BTreeMap;
+use std::path::Path;
 
 const MARK: &str = "INSERT INTO erased (what, sha256, erased_unix_us) VALUES ($1, $2, $3) \
     ON CONFLICT (what, sha256) DO UPDATE SET erased_unix_us = excluded.erased_unix_us";
@@ -46,6 +46,11 @@ impl ErasureMarks {
         let at = |what: ErasedKind, name: &str| self.0.get(&(what.word().to_owned(), hash(name)));
         at(ErasedKind::Session, id).is_some() || at(ErasedKind::Trainee, trainee).is_some_and(|erased| *erased >= started_unix_us)
     }
+}
+
+/// A folder's own name.
+pub(super) fn name_of(folder: &Path) -> String {
+    folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
 /// A name is not kept where it was to be forgotten.

@@ -1,10 +1,10 @@
 //! From session folders to records.
 
 use super::erasure_marks::ErasureMarks;
-use crate::cli::assess;
-use crate::cli::questionnaire;
 use crate::errors::AppError;
+use crate::io::answers;
 use crate::io::log_file::LogFile;
+use crate::io::scoring;
 use crate::io::session_folder::{StoredSession, is_session, session_owner};
 use spandrel_monitor::folder::{SCENARIO, TELEMETRY, VEHICLE};
 use spandrel_monitor::sidecar::build_site;
@@ -55,12 +55,12 @@ pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<S
     }
     let stored = StoredSession::read(session)?;
     let scenario = &stored.scenario.scenario;
-    let graded = assess::grade(&stored.log, scenario, &stored.vehicle.vehicle)
+    let graded = scoring::grade(&stored.log, scenario, &stored.vehicle.vehicle)
         .map_err(|error| AppError::failed(format!("{}: {error}", session.display())))?;
     // A monitor that was killed early has not written the defects' places yet; the seed gives the same ones.
     let survey = scenario.defects.placed.is_none().then(|| build_site(scenario, graded.seed));
     let placed = scenario.defects.placed.as_deref().or_else(|| survey.as_ref().map(|survey| survey.defects()));
-    let answers = questionnaire::stored(session, scenario)?;
+    let answers = answers::stored(session, scenario)?;
     Ok(Some(record(&RecordSource {
         id: &id,
         trainee: &stored.trainee,

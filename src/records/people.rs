@@ -1,35 +1,14 @@
 //! Trainees: what is known of them, everything that is kept of one, and erasing it.
 
-use super::{Database, RecordsLocation, erasure, import};
-use crate::cli::args::TraineeId;
+use super::database::Database;
+use super::location::RecordsLocation;
+use super::{erasure, import};
 use crate::errors::AppError;
-use crate::io::files;
 use crate::io::session_folder::session_owner;
 use serde::Serialize;
-use spandrel_monitor::export::json_text;
 use spandrel_training::record::SessionRecord;
-use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE, Role, Trainee};
+use spandrel_training::trainee::Trainee;
 use std::path::{Path, PathBuf};
-
-/// Details to set for a person.
-#[derive(Debug, clap::Args)]
-pub struct PersonArgs {
-    /// Pseudonym
-    #[arg(value_name = "ID")]
-    id: TraineeId,
-    /// Role, which sets the person's permissions
-    #[arg(long, value_name = "ROLE", value_parser = Role::ALL.map(Role::word))]
-    role: Option<String>,
-    /// Age, years
-    #[arg(long, value_name = "BAND", value_parser = AGE_BANDS.to_vec())]
-    age_band: Option<String>,
-    /// Experience with drones
-    #[arg(long, value_name = "HOW", value_parser = EXPERIENCE.to_vec())]
-    drone_experience: Option<String>,
-    /// Experience with games
-    #[arg(long, value_name = "HOW", value_parser = EXPERIENCE.to_vec())]
-    gaming_experience: Option<String>,
-}
 
 /// All stored data of one trainee.
 #[derive(Debug, Serialize)]
@@ -52,21 +31,6 @@ impl TraineeData {
     }
 }
 
-/// Sets the given details of a person, then prints them.
-///
-/// # Errors
-/// If the database fails, or the person does not exist and no details were given.
-pub fn set(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
-    let name = args.id.as_str();
-    let details = [&args.age_band, &args.drone_experience, &args.gaming_experience].map(|value| value.as_deref());
-    if args.role.is_some() || details.iter().any(Option::is_some) {
-        database.set_given(name, args.role.as_deref().and_then(Role::from_word), details)?;
-    }
-    let person = find(database, name)?;
-    let person = person.ok_or_else(|| AppError::wrong(format!("{}: there is no '{name}'", database.name())))?;
-    files::write("-", json_text(&person).as_bytes())
-}
-
 /// Returns all stored data of a trainee: details, sessions and answers from the database, and folder names. `None` if there is no
 /// data.
 ///
@@ -83,42 +47,6 @@ pub fn kept(database: &Database, place: &RecordsLocation, trainee: &str) -> Resu
     Ok(Some(TraineeData { trainee: known.unwrap_or_else(|| Trainee::new(trainee)), sessions, folders }))
 }
 
-/// Writes all stored data of a trainee.
-///
-/// # Errors
-/// If there is no data, or the database or the output fails.
-pub fn export(place: &RecordsLocation, trainee: &str, out: &str) -> Result<(), AppError> {
-    let database = place.open()?;
-    let kept = kept(&database, place, trainee)?;
-    let kept = kept.ok_or_else(|| AppError::wrong(format!("{}: nothing is kept of '{trainee}'", database.name())))?;
-    files::write(out, json_text(&kept).as_bytes())
-}
-
-/// Erases a trainee, or lists what would be erased.
-///
-/// # Errors
-/// If a folder or the database cannot be changed.
-pub fn erase(place: &RecordsLocation, trainee: &str, yes: bool) -> Result<(), AppError> {
-    let database = place.open()?;
-    let folders = folders_of(place, trainee)?;
-    if !yes {
-        let sessions = database.records(Some(trainee))?.len();
-        let known = if find(&database, trainee)?.is_some() { "known" } else { "not known" };
-        println!(
-            "'{trainee}' is {known}: {sessions} sessions in {} and {} folders; --yes erases them",
-            database.name(),
-            folders.len()
-        );
-        return Ok(());
-    }
-    let (known, sessions) = erase_person(&database, place, trainee)?;
-    if !known {
-        return Err(AppError::wrong(format!("{}: nothing was kept of '{trainee}'", database.name())));
-    }
-    println!("'{trainee}' is erased: {sessions} sessions in {}, {} folders", database.name(), folders.len());
-    Ok(())
-}
-
 /// Erases a trainee. Returns whether any data existed, and the number of sessions in the database.
 ///
 /// # Errors
@@ -130,11 +58,19 @@ pub fn erase_person(database: &Database, place: &RecordsLocation, trainee: &str)
     Ok((known || !folders.is_empty(), sessions))
 }
 
-fn find(database: &Database, trainee: &str) -> Result<Option<Trainee>, AppError> {
+/// Returns a person, or `None` if nobody has this name.
+///
+/// # Errors
+/// If the database fails.
+pub fn find(database: &Database, trainee: &str) -> Result<Option<Trainee>, AppError> {
     Ok(database.account(trainee)?.map(|account| account.person))
 }
 
-fn folders_of(place: &RecordsLocation, trainee: &str) -> Result<Vec<PathBuf>, AppError> {
+/// Returns the session folders of a trainee.
+///
+/// # Errors
+/// If the folder of sessions cannot be read.
+pub fn folders_of(place: &RecordsLocation, trainee: &str) -> Result<Vec<PathBuf>, AppError> {
     folders_where(&place.sessions, |owner, _| owner == trainee)
 }
 

@@ -1,13 +1,13 @@
 //! `spandrel records push`: sessions as xAPI statements to a learning record store. What is there already is not sent twice: a statement's
 //! id is made from what it says.
 
-use super::{Database, RecordsLocation};
+use super::location::RecordsLocation;
 use crate::errors::AppError;
 use crate::io::progress::ProgressLog;
-use crate::io::session_folder::replace;
+use crate::io::replace::replace;
 use serde_json::Value;
 use spandrel_training::record::SessionRecord;
-use spandrel_training::xapi::{self, HOME};
+use spandrel_training::xapi;
 use std::path::Path;
 use std::time::Duration;
 
@@ -29,29 +29,20 @@ const PATIENCE: Duration = Duration::from_secs(60);
 const USER: &str = "SPANDREL_LRS_USER";
 const PASSWORD: &str = "SPANDREL_LRS_PASSWORD";
 
-/// Destination of the statements.
-#[derive(Debug, clap::Args)]
-pub struct PushArgs {
-    /// URL of the store's xAPI endpoint, such as https://lrs.example/xapi; user name and password come from SPANDREL_LRS_USER and
-    /// SPANDREL_LRS_PASSWORD
-    #[arg(value_name = "URL", value_parser = endpoint)]
-    url: String,
-    /// Only this trainee's sessions
-    #[arg(long, value_name = "ID")]
-    trainee: Option<crate::cli::args::TraineeId>,
-    /// Account home page (xAPI homePage) of the pseudonyms in the statements
-    #[arg(long, value_name = "URL", default_value = HOME)]
-    home: String,
-}
-
 /// Number of statements by the store's response.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-struct PushCounts {
-    sent: usize,
-    there_already: usize,
+pub struct PushCounts {
+    /// Statements that were new to the store.
+    pub sent: usize,
+    /// Statements that the store had already.
+    pub there_already: usize,
 }
 
-fn endpoint(text: &str) -> Result<String, String> {
+/// Checks the URL of an endpoint and removes slashes at its end.
+///
+/// # Errors
+/// If it has another scheme, no host, or a user, query or fragment.
+pub fn endpoint(text: &str) -> Result<String, String> {
     let rest = text.strip_prefix("https://").or_else(|| text.strip_prefix("http://")).unwrap_or_default();
     if rest.is_empty() || rest.starts_with('/') || text.contains(['?', '#', ' ', '@']) {
         return Err(format!("'{text}' is no endpoint (allowed: http:// or https://, host, path; no user, query or fragment)"));
@@ -59,18 +50,17 @@ fn endpoint(text: &str) -> Result<String, String> {
     Ok(text.trim_end_matches('/').to_owned())
 }
 
-/// Sends all sessions of the database, oldest first.
+/// Sends these sessions in their order.
 ///
 /// # Errors
 /// If the store rejects statements or cannot be reached. Statements accepted before the error stay in the store.
-pub fn push(place: &RecordsLocation, database: &Database, args: &PushArgs) -> Result<(), AppError> {
-    let records = database.records(args.trainee.as_ref().map(crate::cli::args::TraineeId::as_str))?;
-    let store = LearningRecordStore::new(&args.url)?;
+pub fn push(place: &RecordsLocation, records: &[SessionRecord], url: &str, home: &str) -> Result<PushCounts, AppError> {
+    let store = LearningRecordStore::new(url)?;
     let mut progress = ProgressLog::start("sending statements");
     let mut all = PushCounts::default();
     for (k, record) in records.iter().enumerate() {
         progress.report(|| format!("session {} of {}", k + 1, records.len()));
-        let statements = xapi::statements(record, &args.home);
+        let statements = xapi::statements(record, home);
         keep(place, record, &statements)?;
         for parcel in statements.chunks(PARCEL) {
             let done = store.take(parcel)?;
@@ -78,8 +68,7 @@ pub fn push(place: &RecordsLocation, database: &Database, args: &PushArgs) -> Re
         }
     }
     progress.end();
-    println!("{}: {} sessions, {} statements sent, {} there already", args.url, records.len(), all.sent, all.there_already);
-    Ok(())
+    Ok(all)
 }
 
 /// Writes the statements into the session folder, if it is on this machine.

@@ -1,8 +1,7 @@
 //! Sessions in the database: taken in, listed, deleted.
 
-use super::database::Database;
-use super::erasure::name_of;
-use super::erasure_marks::{self, ErasedKind};
+use super::database::{Database, signed};
+use super::erasure_marks::{self, ErasedKind, name_of};
 use crate::errors::AppError;
 use spandrel_monitor::score::completion::Completion;
 use spandrel_training::record::{SessionListEntry, SessionRecord};
@@ -298,9 +297,4 @@ fn listed(row: &AnyRow) -> Result<SessionListEntry, sqlx::Error> {
         certified: shown.certified,
         unmet: shown.unmet,
     })
-}
-
-/// Times and versions fit in 63 bits.
-pub(super) fn signed(number: u64) -> i64 {
-    i64::try_from(number).unwrap_or(i64::MAX)
 }

@@ -5,8 +5,8 @@ mod origin;
 pub use origin::{AllowedOrigins, is_host_name};
 
 use super::hashing::HashingQueue;
+use super::lock::lock;
 use super::response::WebError;
-use super::state::lock;
 use crate::errors::AppError;
 use crate::io::clock;
 use crate::records::{Account, Database};
@@ -68,6 +68,22 @@ impl Authenticator {
             secure,
             reach,
         }
+    }
+
+    /// Checks where a request comes from, as [`AllowedOrigins::check_origin`].
+    ///
+    /// # Errors
+    /// As [`AllowedOrigins::check_origin`].
+    pub fn check_origin(&self, headers: &HeaderMap, changes: bool, open: bool) -> Result<(), WebError> {
+        self.reach.check_origin(headers, changes, open)
+    }
+
+    /// Returns the client's address, as [`AllowedOrigins::address`].
+    ///
+    /// # Errors
+    /// As [`AllowedOrigins::address`].
+    pub fn address(&self, socket: IpAddr, headers: &HeaderMap) -> Result<IpAddr, WebError> {
+        self.reach.address(socket, headers)
     }
 
     /// Requests come over TLS.

@@ -2,7 +2,7 @@
 //! reload of a cohort page needs the same figures. They are read over a connection of their own, so that lists do not wait for them; the
 //! request pipeline (`door`) lets one such request through at a time.
 
-use super::state::lock;
+use super::lock::lock;
 use crate::errors::AppError;
 use crate::records::{Database, RecordsLocation};
 use spandrel_training::cohort::{Cohort, Selection, cohort};

@@ -1,9 +1,9 @@
 //! A bounded queue for password hashing. Each hash costs 19 MiB and some 50 ms of one core, and anyone who reaches the server can ask for one:
 //! without a bound a flood of logins takes all memory and every thread that pages need.
 
+use super::lock::lock;
 use super::passwords::{self, HashingMemory};
 use super::response::WebError;
-use super::state::lock;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 

@@ -1,88 +1,22 @@
 //! The flights that are watched: for each a thread that is one more subscriber of the vehicle's payload port, the stream of what it sees,
 //! and what an instructor asks of the vehicle.
 
+mod camera_picture;
 mod command_queue;
 mod flight_owner;
 mod instructor_actions;
 mod own_flight;
+mod page;
 mod picture;
 mod stream;
 mod telemetry_listener;
+mod vehicle;
+mod vehicle_choice;
 
+pub use camera_picture::show as camera;
 pub use instructor_actions::run_action;
 pub use own_flight::{camera as own_camera, current as own_now, page as own_page};
-pub use picture::show as camera;
+pub use page::page;
 pub use stream::stream;
-
-use super::request::WebRequest;
-use super::response::{HandlerResult, WebError, WebResponse};
-use super::state::{ServerState, lock};
-use crate::errors::AppError;
-use command_queue::InstructorCommand;
-use spandrel_training::web::live as pages;
-use spandrel_training::web::live_state::LiveFlightState;
-use std::net::SocketAddr;
-use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Sender, channel};
-use telemetry_listener::{ListenerPaths, LiveListener, SharedKnowledge};
-use tokio::sync::watch;
-
-/// A vehicle to watch.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct WatchedVehicle {
-    /// Its payload port.
-    pub vehicle: SocketAddr,
-    /// Where a window keeps the camera's view of it.
-    pub picture: Option<PathBuf>,
-}
-
-/// A flight that is watched.
-#[derive(Debug)]
-pub struct LiveVehicle {
-    vehicle: SocketAddr,
-    picture: Option<PathBuf>,
-    moments: watch::Receiver<String>,
-    known: SharedKnowledge,
-    orders: Sender<InstructorCommand>,
-}
-
-impl LiveVehicle {
-    /// Starts to listen.
-    ///
-    /// # Errors
-    /// When no socket can be opened.
-    pub fn start(watched: &WatchedVehicle, sessions: &[PathBuf], scenarios: &Path) -> Result<Self, AppError> {
-        let WatchedVehicle { vehicle, picture } = watched.clone();
-        let (sender, moments) = watch::channel(LiveFlightState::new().to_json(false).to_string());
-        let (orders, received) = channel();
-        let known = SharedKnowledge::default();
-        let places = ListenerPaths { sessions: sessions.to_vec(), scenarios: scenarios.to_path_buf(), picture: picture.clone() };
-        let mut ear = LiveListener::open(vehicle, known.clone(), places)?;
-        std::thread::spawn(move || ear.listen(&sender, &received));
-        Ok(Self { vehicle, picture, moments, known, orders })
-    }
-}
-
-/// The flight with this number, from 1, and its number; without a word the first one.
-///
-/// # Errors
-/// When no vehicle is watched, or not so many.
-pub fn chosen<'a>(state: &'a ServerState, word: Option<&str>) -> Result<(usize, &'a LiveVehicle), WebError> {
-    if state.live.is_empty() {
-        return Err(WebError::BadRequest("no vehicle is watched (--vehicle)".into()));
-    }
-    let number = word.map_or(Some(1), |word| word.parse().ok());
-    let found = number.and_then(|number: usize| Some((number, state.live.get(number.checked_sub(1)?)?)));
-    found.ok_or_else(|| WebError::BadRequest(format!("vehicle: no such number (allowed: 1 to {})", state.live.len())))
-}
-
-/// The page.
-pub fn page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    if state.live.is_empty() {
-        return Ok(WebResponse::page(pages::live(&asked.visitor, None, &pages::VehicleChoice::default())));
-    }
-    let (number, live) = chosen(state, asked.query_value("vehicle"))?;
-    let drawn = lock(&live.known.drawn).clone();
-    let vehicles = state.live.iter().map(|live| live.vehicle.to_string()).collect();
-    Ok(WebResponse::page(pages::live(&asked.visitor, drawn.as_ref(), &pages::VehicleChoice { vehicles, number })))
-}
+pub use vehicle::{LiveVehicle, WatchedVehicle};
+pub use vehicle_choice::chosen;

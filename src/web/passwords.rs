@@ -1,12 +1,8 @@
 //! Password hashing: argon2id with the parameters that OWASP recommends (19 MiB, 2 passes, 1 lane), the library's defaults.
 
 use crate::errors::AppError;
-use crate::records::RecordsLocation;
 use argon2::password_hash::{Output, PasswordHash, SaltString};
 use argon2::{ARGON2ID_IDENT, Algorithm, Argon2, Block, Params, Version};
-use spandrel_training::trainee::Role;
-use spandrel_training::web::login;
-use std::io::{BufRead, IsTerminal};
 
 /// Checked for a name without a password, so that the answer takes as long as for a name with one.
 const NOBODY: &str = "$argon2id$v=19$m=19456,t=2,p=1$c3BhbmRyZWxzcGFuZHJlbA$lpYT1oVDUN5U6kPGGjEw5xOVQbQTkgO2xbCVrTQEzDM";
@@ -72,31 +68,6 @@ fn matches(password: &str, stored: &PasswordHash<'_>, memory: &mut HashingMemory
     memory.output(&Argon2::new(algorithm, version, params), password, salt, out).ok()?;
     // Output compares in constant time.
     Some(Output::new(out).ok()? == expected)
-}
-
-/// Asks for a password and stores its hash.
-///
-/// # Errors
-/// When the password is refused, or the database refuses.
-pub fn set(place: &RecordsLocation, name: &str, role: Role) -> Result<(), AppError> {
-    let password = prompt_password(name)?;
-    login::check(&password, name).map_err(|wrong| AppError::wrong(format!("--set-password {name}: {wrong}")))?;
-    let database = place.open()?;
-    database.set_login(name, role, &hash(&password, &mut HashingMemory::default())?)?;
-    println!("{}: '{name}' may log in as {}", database.name(), role.word());
-    Ok(())
-}
-
-fn prompt_password(name: &str) -> Result<String, AppError> {
-    let failed = |error: std::io::Error| AppError::failed(format!("no password was read: {error}"));
-    if std::io::stdin().is_terminal() {
-        let first = rpassword::prompt_password(format!("Password for {name}: ")).map_err(failed)?;
-        let again = rpassword::prompt_password("Again: ").map_err(failed)?;
-        return if first == again { Ok(first) } else { Err(AppError::wrong("the two passwords differ")) };
-    }
-    let mut line = String::new();
-    std::io::stdin().lock().read_line(&mut line).map_err(failed)?;
-    Ok(line.trim_end_matches(['\r', '\n']).to_owned())
 }
 
 #[cfg(test)]

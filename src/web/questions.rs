@@ -1,11 +1,13 @@
 //! The questionnaire: every answer is written to `answers.json` as soon as it comes.
 
+use super::lock::lock;
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::sessions;
-use super::state::{ServerState, lock};
-use crate::cli::questionnaire::{stored, task_ids};
-use crate::io::session_folder::{self, StoredSession};
+use super::state::ServerState;
+use crate::io::answers::{stored, task_ids};
+use crate::io::replace::replace;
+use crate::io::session_folder::StoredSession;
 use serde_json::json;
 use spandrel_model::scenario::Scenario;
 use spandrel_monitor::export::json_text;
@@ -60,7 +62,7 @@ pub fn save(state: &ServerState, asked: &WebRequest) -> HandlerResult {
         let mut answers = stored(&folder, &scenario)?.unwrap_or_default();
         form::parse_answers(&mut answers, &asked.form, &tasks).map_err(|wrong| WebError::BadRequest(wrong.to_string()))?;
         answers.language.clone_from(&language(state, asked, &answers)?.language);
-        session_folder::replace(&folder.join(ANSWERS), json_text(&answers).as_bytes())?;
+        replace(&folder.join(ANSWERS), json_text(&answers).as_bytes())?;
         answers
     };
     state.importer.rescan(folder);

@@ -1,10 +1,11 @@
 //! The server: its port, its threads, and the table of routes as axum takes it.
 
 use super::auth::AllowedOrigins;
+use super::listening::ListenConfig;
 use super::request_pipeline::{self, PipelineState};
 use super::routes::{FORM_MOST, ROUTES, Route, RouteKind, STREAM};
 use super::state::{ServerSetup, ServerState};
-use super::{ListenArgs, tls};
+use super::tls;
 use crate::errors::AppError;
 use crate::io::stop::StopRequest;
 use axum::Router;
@@ -41,7 +42,7 @@ impl WebServer {
     ///
     /// # Errors
     /// If arguments, files, the port or the database are wrong.
-    pub fn start(args: &ListenArgs, setup: ServerSetup) -> Result<Self, AppError> {
+    pub fn start(args: &ListenConfig, setup: ServerSetup) -> Result<Self, AppError> {
         let secure = args.tls_cert.is_some() || args.behind_proxy;
         let tls = tls::config(args)?;
         let reach = if args.behind_proxy {

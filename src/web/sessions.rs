@@ -3,9 +3,10 @@
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::state::ServerState;
-use crate::cli::args::TraineeId;
-use crate::cli::{assess, report};
+use crate::io::report;
+use crate::io::scoring;
 use crate::io::session_folder::StoredSession;
+use crate::io::trainee_id::TraineeId;
 use spandrel_monitor::export;
 use spandrel_monitor::folder::{REPORT, TELEMETRY};
 use spandrel_training::record::SessionRecord;
@@ -102,7 +103,7 @@ pub fn compare(state: &ServerState, asked: &WebRequest) -> HandlerResult {
 pub fn frames(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let id = asked.path_part("id");
     let stored = StoredSession::read(&folder(state, asked, id)?)?;
-    let csv = export::frames_csv(&assess::frame_rows(&stored)?);
+    let csv = export::frames_csv(&scoring::frame_rows(&stored)?);
     Ok(WebResponse::download(&format!("{id}-frames.csv"), "text/csv; charset=utf-8", csv.into_bytes()))
 }
 

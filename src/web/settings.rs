@@ -3,8 +3,8 @@
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::state::ServerState;
-use crate::cli::args::TraineeId;
 use crate::io::clock;
+use crate::io::trainee_id::TraineeId;
 use crate::records::{Account, erase_older};
 use spandrel_training::trainee::{Role, Trainee};
 use spandrel_training::web::{login, settings as pages};

@@ -3,13 +3,15 @@
 use super::auth::{AllowedOrigins, Authenticator};
 use super::figures::FigureCache;
 use super::live::{LiveVehicle, WatchedVehicle};
+use super::safe_names::is_plain;
 use super::session_importer::SessionImporter;
-use crate::cli::questionnaire;
+use super::temp_files;
 use crate::errors::AppError;
+use crate::io::answers;
 use crate::records::{Database, RecordsLocation};
 use spandrel_training::questionnaire::Languages;
 use std::path::PathBuf;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::Mutex;
 
 /// What a server is made from.
 #[derive(Debug, Clone)]
@@ -56,13 +58,13 @@ impl ServerState {
     /// When a wording is wrong, or the database or a link to a vehicle cannot be opened.
     pub fn open(setup: ServerSetup, secure: bool, reach: AllowedOrigins) -> Result<Self, AppError> {
         let ServerSetup { place, scenarios, watched, wordings } = setup;
-        let languages = questionnaire::languages(&wordings)?;
+        let languages = answers::languages(&wordings)?;
         let first = place.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"));
         std::fs::create_dir_all(&first)
             .map_err(|error| AppError::failed(format!("{}: cannot be made: {error}", first.display())))?;
-        super::uploads::remove_partial_imports(&first)?;
+        temp_files::remove_partial_imports(&first)?;
         let scenarios = scenarios.unwrap_or_else(|| first.join("scenarios"));
-        super::temp_files::remove_stale(&place.sessions, &scenarios);
+        temp_files::remove_stale(&place.sessions, &scenarios);
         let (database, figures) = (place.open()?, FigureCache::open(&place)?);
         let guard = Authenticator::new(!database.with_password()?.is_empty(), secure, reach);
         let start = |watched: &WatchedVehicle| LiveVehicle::start(watched, &place.sessions, &scenarios);
@@ -74,7 +76,7 @@ impl ServerState {
 
     /// Where uploads lie while they arrive and sessions while they are made.
     pub fn spool(&self) -> PathBuf {
-        self.default_folder().join(super::uploads::ASIDE)
+        self.default_folder().join(temp_files::ASIDE)
     }
 
     /// The folder of sessions that new ones go into.
@@ -88,31 +90,5 @@ impl ServerState {
             return None;
         }
         self.place.sessions.iter().map(|folder| folder.join(id)).find(|path| crate::io::session_folder::is_session(path))
-    }
-}
-
-/// A name that stays in its folder, whatever the system takes for a separator.
-pub fn is_plain(name: &str) -> bool {
-    let fits = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
-    !name.is_empty() && name.len() <= 200 && !name.starts_with('.') && name.chars().all(fits)
-}
-
-/// A lock whose holder broke off is as good as new: what it guards is whole between two statements.
-pub fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn exact_names_that_leave_their_folder_are_none() {
-        for good in ["20260801T101010Z-anna-two-bridges-1a2b3c", "session-anna-001", "x.y"] {
-            assert!(is_plain(good), "{good}");
-        }
-        for bad in ["", ".", "..", "../x", "a/b", "a\\b", "/etc", "a\0b", ".hidden", "é", &"x".repeat(201)] {
-            assert!(!is_plain(bad), "{bad}");
-        }
     }
 }

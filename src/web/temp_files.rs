@@ -1,9 +1,12 @@
 //! What a kill left of a file that was just being written: `NAME.PID-N.new`, which nobody would ever rename any more.
 
+use crate::errors::AppError;
 use crate::records::session_folders;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+/// Where a session lies while it is taken in; its name is no session's.
+pub const ASIDE: &str = ".taking-in";
 /// Nobody writes a file for so long; a program of another machine on the same disk may have any process id.
 const ABANDONED: Duration = Duration::from_secs(600);
 
@@ -23,7 +26,21 @@ pub fn remove_stale(sessions: &[PathBuf], scenarios: &Path) {
     }
 }
 
-/// Named as `session_folder::replace` names what it writes, by a program that runs no more, long ago.
+/// Removes what a killed server was taking in.
+///
+/// # Errors
+/// If the disk cannot be written.
+pub fn remove_partial_imports(sessions: &Path) -> Result<(), AppError> {
+    let aside = sessions.join(ASIDE);
+    match std::fs::remove_dir_all(&aside) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            Err(AppError::failed(format!("{}: cannot be removed: {error}", aside.display())))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Named as `io::replace` names what it writes, by a program that runs no more, long ago.
 fn is_stale(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let Some(writer) = writer_pid(name) else { return false };

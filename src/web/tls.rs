@@ -1,6 +1,6 @@
 //! TLS by files, and what listening beyond this machine needs.
 
-use super::ListenArgs;
+use super::listening::ListenConfig;
 use crate::errors::AppError;
 use axum_server::tls_rustls::RustlsConfig;
 use rustls::ServerConfig;
@@ -13,7 +13,7 @@ use std::sync::Arc;
 ///
 /// # Errors
 /// What is missing.
-pub fn check(args: &ListenArgs, somebody_has_a_password: bool) -> Result<(), AppError> {
+pub fn check(args: &ListenConfig, somebody_has_a_password: bool) -> Result<(), AppError> {
     let beyond = !args.listen.ip().is_loopback();
     if (beyond || args.behind_proxy) && !somebody_has_a_password {
         return Err(AppError::wrong(format!(
@@ -36,7 +36,7 @@ pub fn check(args: &ListenArgs, somebody_has_a_password: bool) -> Result<(), App
 ///
 /// # Errors
 /// If a file cannot be read or is no certificate or key.
-pub fn config(args: &ListenArgs) -> Result<Option<RustlsConfig>, AppError> {
+pub fn config(args: &ListenConfig) -> Result<Option<RustlsConfig>, AppError> {
     let (Some(chain), Some(key)) = (&args.tls_cert, &args.tls_key) else { return Ok(None) };
     let wrong =
         |flag: &str, path: &Path, error: &dyn std::fmt::Display| AppError::wrong(format!("{flag} {}: {error}", path.display()));
@@ -62,8 +62,8 @@ pub fn config(args: &ListenArgs) -> Result<Option<RustlsConfig>, AppError> {
 mod tests {
     use super::*;
 
-    fn args(listen: &str, behind_proxy: bool) -> ListenArgs {
-        ListenArgs { listen: listen.parse().unwrap(), behind_proxy, ..ListenArgs::local(0) }
+    fn args(listen: &str, behind_proxy: bool) -> ListenConfig {
+        ListenConfig { listen: listen.parse().unwrap(), behind_proxy, ..ListenConfig::local(0) }
     }
 
     #[test]
@@ -79,7 +79,7 @@ mod tests {
             assert!(check(&bad, password).unwrap_err().to_string().contains(said));
         }
         let tls =
-            ListenArgs { tls_cert: Some("no-such.pem".into()), tls_key: Some("no-key.pem".into()), ..args("0.0.0.0:0", false) };
+            ListenConfig { tls_cert: Some("no-such.pem".into()), tls_key: Some("no-key.pem".into()), ..args("0.0.0.0:0", false) };
         assert_eq!(check(&tls, true), Ok(()));
         assert!(config(&tls).unwrap_err().to_string().contains("--tls-cert no-such.pem"));
         assert!(matches!(config(&args("127.0.0.1:0", false)), Ok(None)));

@@ -3,9 +3,9 @@
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::state::ServerState;
-use crate::cli::args::TraineeId;
-use crate::cli::plan;
 use crate::io::clock;
+use crate::io::plan_rules;
+use crate::io::trainee_id::TraineeId;
 use crate::records::{erase_person, kept};
 use spandrel_monitor::export::json_text;
 use spandrel_training::cohort::{Selection, TABLES, table};
@@ -38,7 +38,7 @@ pub fn trainee_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let records = state.database.records(Some(&person.pseudonym))?;
     let listed = state.database.list(Some(&person.pseudonym), SESSIONS, 0)?;
     let incomplete = incomplete(asked);
-    let plan = plan_counting(records.clone(), incomplete, &plan::rules(None)?, clock::unix_us());
+    let plan = plan_counting(records.clone(), incomplete, &plan_rules::rules(None)?, clock::unix_us());
     let about = pages::TraineeProfile { person: &person, records: &records, listed: &listed, plan: plan.as_ref(), incomplete };
     Ok(WebResponse::page(pages::trainee_page(&asked.visitor, &about)))
 }

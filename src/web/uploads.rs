@@ -1,13 +1,15 @@
 //! A recorded flight becomes a session: scored first, kept only when it can be.
 
+use super::lock::lock;
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
-use super::scenarios;
-use super::state::{ServerState, lock};
-use crate::cli::args::TraineeId;
-use crate::cli::{assess, report};
+use super::scenario_library as scenarios;
+use super::state::ServerState;
 use crate::errors::AppError;
+use crate::io::report;
+use crate::io::scoring;
 use crate::io::session_folder::SessionFolder;
+use crate::io::trainee_id::TraineeId;
 use crate::io::{clock, files};
 use axum::http::StatusCode;
 use spandrel_mavlink::telemetry::tlog;
@@ -17,9 +19,6 @@ use spandrel_monitor::sidecar::build_site;
 use spandrel_monitor::{Monitor, MonitorConfig, SessionOutput};
 use spandrel_training::web::job as pages;
 use std::path::{Path, PathBuf};
-
-/// Where a session lies while it is taken in; its name is no session's.
-pub const ASIDE: &str = ".taking-in";
 
 /// The form.
 pub fn page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
@@ -79,7 +78,7 @@ fn import_recording(state: &ServerState, asked: &WebRequest) -> Result<UploadOut
     }
     // What cannot be scored is the file's fault, whatever the scorer calls it.
     let unfit = |error: AppError| WebError::BadRequest(format!("this recording cannot be taken in: {error}"));
-    let graded = assess::grade(log, &scenario.scenario, &vehicle.vehicle).map_err(unfit)?;
+    let graded = scoring::grade(log, &scenario.scenario, &vehicle.vehicle).map_err(unfit)?;
     let started_unix_us = tlog::session_start_us(log).unwrap_or_else(clock::unix_us);
     if state.database.erased()?.contains("", trainee.as_str(), started_unix_us) {
         let words = format!("trainee = {}: was erased after this flight; it is not taken in again", trainee.as_str());
@@ -132,20 +131,6 @@ fn free_folder(sessions: &Path, name: &str) -> PathBuf {
     let others = (1..).map(|k: u32| format!("{stem}-{}", &sha256_hex(format!("{name} {k}").as_bytes())[..6]));
     let mut places = std::iter::once(name.to_owned()).chain(others).map(|name| sessions.join(name));
     places.find(|place| !place.exists()).unwrap_or_else(|| sessions.join(name))
-}
-
-/// Removes what a killed server was taking in.
-///
-/// # Errors
-/// If the disk cannot be written.
-pub fn remove_partial_imports(sessions: &Path) -> Result<(), AppError> {
-    let aside = sessions.join(ASIDE);
-    match std::fs::remove_dir_all(&aside) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-            Err(AppError::failed(format!("{}: cannot be removed: {error}", aside.display())))
-        }
-        _ => Ok(()),
-    }
 }
 
 #[cfg(test)]

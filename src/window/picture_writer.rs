@@ -2,7 +2,7 @@
 //! neither costs the window a picture.
 
 use crate::errors::AppError;
-use crate::io::session_folder::replace;
+use crate::io::replace::replace;
 use spandrel_view::photo;
 use spandrel_view::picture::Picture;
 use std::path::{Path, PathBuf};

@@ -1,7 +1,6 @@
 //! Flying from the window, in a thread of its own: sticks go out fifty times a second, however long a picture takes.
 
 use super::controller_slot::ControllerSlot;
-use crate::cli::view::Args;
 use crate::errors::AppError;
 use crate::io::clock::Stopwatch;
 use crate::io::controller::ProfileFolder;
@@ -11,7 +10,8 @@ use spandrel_clients::rc::keyboard::{KeyBindings, KeyboardState};
 use spandrel_clients::rc::{ControllerAction, Sticks};
 use spandrel_model::time::SimTime;
 use spandrel_view::flow::{ControllerStatus, ProfileChange};
-use std::net::SocketAddr;
+use std::net::{IpAddr, SocketAddr};
+use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -61,11 +61,10 @@ impl PilotThread {
     ///
     /// # Errors
     /// When no socket can be opened, or a file is wrong.
-    pub fn start(args: &Args, keys: KeyBindings) -> Result<Self, AppError> {
+    pub fn start(listen: IpAddr, device: Option<String>, profiles: Option<PathBuf>, keys: KeyBindings) -> Result<Self, AppError> {
         let mut hub = SocketHub::new();
-        let socket = hub.bind(args.listen, 0, "--listen")?;
-        let profiles = ProfileFolder::at(args.profiles.clone());
-        let device = args.device.clone();
+        let socket = hub.bind(listen, 0, "--listen")?;
+        let profiles = ProfileFolder::at(profiles);
         let (asks, asked) = channel();
         let (teller, told) = channel();
         let controls = Arc::new(Mutex::new(ControllerStatus::default()));

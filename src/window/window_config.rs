@@ -1,8 +1,10 @@
 //! What is asked of the window on the command line.
 
-use crate::errors::AppError;
+use spandrel_clients::rc::keyboard::KeyBindings;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::vehicle::Vehicle;
 use spandrel_view::quality::Quality;
-use std::net::IpAddr;
+use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -34,7 +36,33 @@ pub struct CaptureRequest {
     pub after: Duration,
 }
 
-/// The preset of a name; `None` for auto.
-pub fn quality(name: &str) -> Result<Option<Quality>, AppError> {
-    if name == "auto" { Ok(None) } else { crate::cli::render::quality(name).map(Some) }
+/// Everything that the window starts with.
+#[derive(Debug)]
+pub struct WindowSetup {
+    /// The window itself.
+    pub config: WindowConfig,
+    /// The job to show.
+    pub scenario: Scenario,
+    /// The aircraft to show.
+    pub vehicle: Vehicle,
+    /// Seed until the vehicle reports one.
+    pub seed: Option<u64>,
+    /// Key bindings.
+    pub keys: KeyBindings,
+    /// Payload port of the vehicle to watch.
+    pub connect: SocketAddr,
+    /// Ground station port of the vehicle to fly.
+    pub fly: Option<SocketAddr>,
+    /// Controller, by its ID or part of its name; `None` for the only one.
+    pub device: Option<String>,
+    /// Folder of calibration profiles; `None` for the user's.
+    pub profiles: Option<PathBuf>,
+    /// Destination of the camera's view as H.264 over RTP.
+    pub stream: Option<SocketAddr>,
+    /// Sound is on.
+    pub sound: bool,
+    /// Pages and flights come from a parent process over standard input.
+    pub led: bool,
+    /// The window closes when standard input closes.
+    pub leash: bool,
 }

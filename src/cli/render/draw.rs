@@ -1,39 +1,22 @@
 //! Pictures, by whatever device there is.
 
-use super::Args;
+use super::args::Args;
 use super::recorded::RecordedFlight;
+use super::scene_drawing::{SceneDrawing, aspect, instant};
 use super::{masks, snapshots, video};
+use crate::cli::picture_args::{quality, size};
 use crate::errors::AppError;
 use crate::io::files;
-use crate::io::progress::ProgressLog;
+use crate::io::png::png;
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::scenario::{PlacedDefect, Scenario};
-use spandrel_model::site::Site;
-use spandrel_model::site::bridge_closures::BridgeClosures;
-use spandrel_model::time::SimTime;
-use spandrel_model::vehicle::{Camera, Vehicle};
+use spandrel_model::vehicle::Camera;
 use spandrel_view::arrange::fitted_px;
 use spandrel_view::camera::PinholeCamera;
-use spandrel_view::gpu::{Gpu, GpuError, Overlay, Renderer};
 use spandrel_view::hud;
-use spandrel_view::masks::LabelMask;
 use spandrel_view::picture::Picture;
-use spandrel_view::quality::{PRESETS, Quality};
-use spandrel_view::scene::Scene;
+use spandrel_view::quality::Quality;
 use spandrel_view::shot::Shot;
-use spandrel_view::stage::{self, Stage, camera_aimed_at, drone_on_pad};
-
-/// Largest side of a picture, px.
-const LARGEST_PX: u32 = 8192;
-
-impl From<GpuError> for AppError {
-    fn from(error: GpuError) -> Self {
-        match error {
-            GpuError::TooLarge(..) => Self::wrong(format!("{error}: give a smaller --size")),
-            GpuError::NoDevice(_) | GpuError::Failed(_) => Self::failed(error.to_string()),
-        }
-    }
-}
+use spandrel_view::stage::{self, camera_aimed_at, drone_on_pad};
 
 /// Draws what was asked for.
 pub fn run(args: &Args) -> Result<(), AppError> {
@@ -72,34 +55,11 @@ fn only_of_scenarios(args: &Args) -> Result<(), AppError> {
     }
 }
 
-/// The preset of a name.
-pub fn quality(name: &str) -> Result<Quality, AppError> {
-    let names: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
-    Quality::named(name).ok_or_else(|| AppError::wrong(format!("--quality {name}: give one of {}", names.join(", "))))
-}
-
-/// Width and height from the command line, px.
-pub fn size(text: &str) -> Result<(u32, u32), AppError> {
-    let wrong = || AppError::wrong(format!("--size {text}: give width x height in px, each 16 to {LARGEST_PX}, as 1280x720"));
-    let (width, height) = text.split_once('x').ok_or_else(wrong)?;
-    let side = |text: &str| text.parse::<u32>().ok().filter(|px| (16..=LARGEST_PX).contains(px)).ok_or_else(wrong);
-    Ok((side(width)?, side(height)?))
-}
-
 fn point(name: &str, text: &str) -> Result<Vec3<Enu>, AppError> {
     let numbers: Vec<f64> = text.split(',').filter_map(|part| part.trim().parse().ok()).collect();
     match numbers[..] {
         [east, north, up] if numbers.iter().all(|x| x.is_finite() && x.abs() < 1e5) => Ok(Vec3::new(east, north, up)),
         _ => Err(AppError::wrong(format!("--{name} {text}: give east,north,up in m from the origin, as 10,-25,30"))),
-    }
-}
-
-/// A time from an option (`at`) of the command line.
-pub fn instant(name: &str, seconds: f64) -> Result<SimTime, AppError> {
-    if (0.0..=86_400.0).contains(&seconds) {
-        Ok(SimTime::from_s(seconds))
-    } else {
-        Err(AppError::wrong(format!("--{name} {seconds}: give seconds of simulation time, 0 to 86400")))
     }
 }
 
@@ -133,7 +93,7 @@ fn of_scenario(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pictur
     let pose = camera_aimed_at(from, look, args.lamp);
     let standing = drone_on_pad(&scenario, &vehicle);
     let shot = stage.through(PinholeCamera::of(&pose, &lens), Some(&pose), &lens, Some(&standing), (at, size));
-    drawing.draw(args, &[(shot, Vec::new())])
+    draw(&drawing, args, &[(shot, Vec::new())])
 }
 
 /// A moment of a session.
@@ -157,87 +117,17 @@ fn of_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture
         let size = fitted_px(size, vehicle.camera.aspect());
         views.push((stage.camera(&moment, size), if args.no_hud { Vec::new() } else { hud::layout(&display, aspect(size)) }));
     }
-    drawing.draw(args, &views)
+    draw(&drawing, args, &views)
 }
 
-/// Width over height.
-pub fn aspect((width, height): (u32, u32)) -> f64 {
-    f64::from(width) / f64::from(height)
-}
-
-/// A site and what draws it.
-pub struct SceneDrawing {
-    /// The device.
-    pub gpu: Gpu,
-    site: Site,
-    scene: Scene,
-    quality: Quality,
-}
-
-impl SceneDrawing {
-    /// Opens a device and builds the site: seconds of work.
-    pub fn new(scenario: &Scenario, vehicle: &Vehicle, seed: u64, quality: Quality, at: SimTime) -> Result<Self, AppError> {
-        let gpu = Gpu::open()?;
-        tracing::info!("drawing with {}", gpu.name);
-        let progress = ProgressLog::start("building the site and its light");
-        let site = Site::build(scenario, seed);
-        let scene = Scene::build(scenario, &site, vehicle, &quality, at);
-        progress.end();
-        Ok(Self { gpu, site, scene, quality })
+/// Shots side by side, each with what lies over it; and the labels of the one that there is, if they are wanted.
+fn draw(drawing: &SceneDrawing, args: &Args, views: &[(Shot, Vec<hud::DrawItem>)]) -> Result<Picture, AppError> {
+    let mut brush = drawing.brush();
+    if let (true, [(shot, _)]) = (args.masks, views) {
+        masks::write(&mut brush, shot, drawing.defects(), std::path::Path::new(&args.out))?;
     }
-
-    /// The same where traffic was stopped and let go so.
-    pub fn with_gates(self, gates: BridgeClosures) -> Self {
-        Self { site: self.site.with_closures(gates), ..self }
-    }
-
-    /// What does not change during a session.
-    pub fn stage<'a>(&'a self, scenario: &'a Scenario, vehicle: &'a Vehicle) -> Stage<'a> {
-        Stage { scenario, vehicle, site: &self.site, scene: &self.scene }
-    }
-
-    /// What draws one picture after the other.
-    pub fn brush(&self) -> SceneRenderer<'_> {
-        SceneRenderer {
-            gpu: &self.gpu,
-            renderer: Renderer::new(&self.gpu, self.quality, &self.scene),
-            overlay: Overlay::new(&self.gpu),
-        }
-    }
-
-    /// The defects of the site.
-    pub fn defects(&self) -> &[PlacedDefect] {
-        self.site.defects()
-    }
-
-    /// Shots side by side, each with what lies over it; and the labels of the one that there is, if they are wanted.
-    fn draw(&self, args: &Args, views: &[(Shot, Vec<hud::DrawItem>)]) -> Result<Picture, AppError> {
-        let mut brush = self.brush();
-        if let (true, [(shot, _)]) = (args.masks, views) {
-            masks::write(&mut brush, shot, self.defects(), std::path::Path::new(&args.out))?;
-        }
-        let pictures = views.iter().map(|(shot, items)| brush.draw(shot, items)).collect::<Result<Vec<_>, _>>()?;
-        Ok(beside(&pictures))
-    }
-}
-
-/// A scene on the device.
-pub struct SceneRenderer<'a> {
-    gpu: &'a Gpu,
-    renderer: Renderer,
-    overlay: Overlay,
-}
-
-impl SceneRenderer<'_> {
-    /// A picture with what lies over it.
-    pub fn draw(&mut self, shot: &Shot, items: &[hud::DrawItem]) -> Result<Picture, AppError> {
-        Ok(self.renderer.picture_with(self.gpu, shot, &mut self.overlay, items)?)
-    }
-
-    /// What its pixels show.
-    pub fn labels(&mut self, shot: &Shot) -> Result<LabelMask, AppError> {
-        Ok(self.renderer.labels(self.gpu, shot)?)
-    }
+    let pictures = views.iter().map(|(shot, items)| brush.draw(shot, items)).collect::<Result<Vec<_>, _>>()?;
+    Ok(beside(&pictures))
 }
 
 /// Pictures in a row; lower ones stand in the middle of black.
@@ -251,17 +141,4 @@ fn beside(pictures: &[Picture]) -> Picture {
     };
     let rgba = (0..height).flat_map(|y| pictures.iter().flat_map(move |p| row(p, y))).collect();
     Picture { width, height, rgba }
-}
-
-/// A picture as a PNG file.
-pub fn png(picture: &Picture) -> Result<Vec<u8>, AppError> {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, picture.width, picture.height);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    let rgb: Vec<u8> = picture.rgba.chunks(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
-    let mut writer = encoder.write_header().map_err(|error| AppError::failed(error.to_string()))?;
-    writer.write_image_data(&rgb).map_err(|error| AppError::failed(error.to_string()))?;
-    writer.finish().map_err(|error| AppError::failed(error.to_string()))?;
-    Ok(bytes)
 }

@@ -1,9 +1,9 @@
 //! Labels beside pictures: which element and which defect each pixel shows.
 
-use super::Args;
-use super::draw::SceneRenderer;
+use super::args::Args;
+use super::scene_drawing::SceneRenderer;
 use crate::errors::AppError;
-use crate::io::session_folder::replace;
+use crate::io::replace::replace;
 use spandrel_model::scenario::PlacedDefect;
 use spandrel_view::shot::Shot;
 use std::path::Path;

@@ -1,29 +1,25 @@
 //! The photographs of a session, drawn after the flight from its telemetry and written as the camera would have.
 
-use super::super::report;
-use super::draw::{SceneDrawing, quality, size};
+use super::args::Args;
+use super::masks;
 use super::recorded::RecordedFlight;
-use super::{Args, masks};
+use super::scene_drawing::SceneDrawing;
+use crate::cli::picture_args::{quality, size};
 use crate::errors::AppError;
 use crate::io::clock;
 use crate::io::progress::ProgressLog;
-use crate::io::session_folder::replace;
+use crate::io::replace::replace;
+use crate::io::report;
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_monitor::folder::{SMALL, SNAPSHOTS};
 use spandrel_training::report::pictures::ReviewedPicture;
 use spandrel_view::arrange::{drawn_px, fitted_px};
-use spandrel_view::photo::{self, PhotoError, PhotoInfo};
+use spandrel_view::photo::{self, PhotoInfo};
 use spandrel_view::shot::Shot;
 use spandrel_view::stage::SceneMoment;
 
 /// Without a graphics card pictures have at most so many pixels unless a size is asked for: a second each, not a minute.
 const SOFTWARE_PX: f64 = 1280.0 * 960.0;
-
-impl From<PhotoError> for AppError {
-    fn from(error: PhotoError) -> Self {
-        Self::failed(error.to_string())
-    }
-}
 
 /// Draws all of a session's photographs into its folder, and its report anew.
 pub fn run(args: &Args) -> Result<(), AppError> {

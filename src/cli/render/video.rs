@@ -1,19 +1,20 @@
 //! A session's camera view as a film, with its photographs as chapters.
 
-use super::super::report;
-use super::Args;
-use super::draw::{SceneDrawing, aspect, instant, quality, size};
+use super::args::Args;
 use super::recorded::RecordedFlight;
+use super::scene_drawing::{SceneDrawing, aspect, instant};
+use crate::cli::picture_args::{quality, size};
 use crate::errors::AppError;
 use crate::io::progress::ProgressLog;
-use crate::io::session_folder::replace;
+use crate::io::replace::replace;
+use crate::io::report;
 use spandrel_model::time::SimTime;
 use spandrel_training::report::pictures::ReviewedPicture;
 use spandrel_view::arrange::fitted_px;
 use spandrel_view::exposure::ExposureMeter;
 use spandrel_view::hud;
 use spandrel_view::stage;
-use spandrel_view::video::{H264Encoder, Mp4Chunk, Mp4Writer, VideoError, webvtt};
+use spandrel_view::video::{H264Encoder, Mp4Chunk, Mp4Writer, webvtt};
 use std::fs::File;
 use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -24,12 +25,6 @@ const BITS_PX: f64 = 0.1;
 const KEY_EVERY_S: f64 = 2.0;
 /// A photograph's chapter lasts this long, s, or until the next.
 const CHAPTER_S: f64 = 4.0;
-
-impl From<VideoError> for AppError {
-    fn from(error: VideoError) -> Self {
-        Self::failed(error.to_string())
-    }
-}
 
 /// Draws the film to `path`, and its chapters beside it.
 pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {

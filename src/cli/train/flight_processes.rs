@@ -1,8 +1,9 @@
 //! One flight: a simulator and a monitor of its own, and what its window wishes of it.
 
+use super::args::Args;
+use super::connection_info::how_to_connect;
 use super::window::WindowProcess;
-use super::{Args, how_to_connect};
-use crate::cli::args::JobArgs;
+use crate::cli::args::common_args;
 use crate::errors::AppError;
 use crate::io::children::Child;
 use crate::io::files;
@@ -57,7 +58,7 @@ impl FlightProcesses {
     pub fn start(args: &Args, choice: &FlightChoice, log: tracing::Level) -> Result<Self, AppError> {
         let job = args.job(&choice.scenario);
         let title = files::scenario(&job.scenario)?.scenario.title;
-        let common = super::common_args(&job, log);
+        let common = common_args(&job, log);
         let monitor_args = [common.clone(), monitor_args(args, choice)].concat();
         let with_port = |port: String| [monitor_args.clone(), vec!["--port".to_owned(), port]].concat();
         let mut monitor = Child::start("monitor", &with_port(args.ports.monitor_port().to_string()))?;
@@ -231,11 +232,4 @@ fn monitor_args(args: &Args, choice: &FlightChoice) -> Vec<String> {
     ]
     .map(str::to_owned)
     .to_vec()
-}
-
-impl Args {
-    /// The job of a scenario, with the aircraft and the seed that were asked for.
-    pub fn job(&self, scenario: &str) -> JobArgs {
-        JobArgs { scenario: scenario.to_owned(), vehicle: self.vehicle.clone(), seed: self.seed }
-    }
 }

@@ -1,7 +1,7 @@
 //! What the start page offers and what the end page tells.
 
-use crate::cli::report;
 use crate::io::files;
+use crate::io::report;
 use crate::io::session_folder::{purpose, session_owner};
 use crate::records::session_folders;
 use serde::Deserialize;

@@ -1,6 +1,6 @@
 //! Whether the questions after a flight are still to be answered.
 
-use crate::cli::questionnaire::{stored, task_ids};
+use crate::io::answers::{stored, task_ids};
 use crate::io::session_folder::StoredSession;
 use std::path::Path;
 

@@ -1,18 +1,20 @@
 //! One flight after the other: what the window asks for, or what the command line says, once.
 
+use super::args::{Args, USUAL, camera};
 use super::flight_processes::{FlightOutcome, FlightProcesses};
 use super::offers;
 use super::photographs::PhotographJobs;
 use super::prompt::{PromptAnswer, TerminalPrompt};
 use super::questionnaire_state;
 use super::window::WindowProcess;
-use super::{Args, USUAL, camera, report_outcome};
-use crate::cli::args::{self, TraineeId};
+use crate::cli::table::report_outcome;
 use crate::errors::AppError;
+use crate::io::addresses;
 use crate::io::files;
 use crate::io::stop::StopRequest;
+use crate::io::trainee_id::TraineeId;
 use crate::records::RecordsLocation;
-use crate::web::{ListenArgs, ServerSetup, WatchedVehicle, WebServer};
+use crate::web::{ListenConfig, ServerSetup, WatchedVehicle, WebServer};
 use spandrel_view::flow::pipe::{FlightChoice, FromWindow, ToWindow};
 use std::net::SocketAddr;
 use std::path::Path;
@@ -308,7 +310,7 @@ impl<'a> TrainRun<'a> {
 
     /// Serves the pages of the sessions and of this vehicle's flight, from one address throughout. Without them one flies all the same.
     fn serve(&mut self, vehicle: Option<SocketAddr>) {
-        let args::PortChoice::Number(mut port) = self.args.web else { return };
+        let addresses::PortChoice::Number(mut port) = self.args.web else { return };
         match self.web.take() {
             Some(web) if web.vehicle == vehicle => {
                 self.web = Some(web);
@@ -324,7 +326,7 @@ impl<'a> TrainRun<'a> {
         let setup = ServerSetup { place, scenarios: None, watched: watched.into_iter().collect(), wordings: Vec::new() };
         let started = made
             .map_err(|error| AppError::failed(format!("{}: {error}", self.args.sessions.display())))
-            .and_then(|()| WebServer::start(&ListenArgs::local(port), setup));
+            .and_then(|()| WebServer::start(&ListenConfig::local(port), setup));
         match started {
             Ok(server) => self.web = Some(ServedPages { server, vehicle }),
             Err(error) => tracing::warn!("no web pages: {error}"),
@@ -355,7 +357,7 @@ fn port_of(address: &str) -> Option<u16> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::parsed;
+    use super::super::args::parsed;
     use super::*;
     use spandrel_view::flow::pipe::Purpose;
 

@@ -1,7 +1,7 @@
 //! The window as a process of its own, and the pipe to it. The session depends on neither.
 
-use super::Args;
-use crate::cli::args::PortChoice;
+use super::args::{Args, camera};
+use crate::io::addresses::PortChoice;
 use crate::io::children::Child;
 use crate::io::clock::Stopwatch;
 use crate::io::stop::StopRequest;
@@ -114,7 +114,7 @@ fn window_args(args: &Args, log: tracing::Level) -> Vec<String> {
         ("--device", args.device.clone()),
         ("--profiles", args.profiles.as_ref().map(|folder| folder.display().to_string())),
         ("--stream", args.stream.map(|to| to.to_string())),
-        ("--picture", Some(super::camera(args).display().to_string())),
+        ("--picture", Some(camera(args).display().to_string())),
     ];
     for (name, value) in given {
         words.extend(value.map(|value| [name.to_owned(), value]).into_iter().flatten());
@@ -154,7 +154,7 @@ mod tests {
     #[test]
     fn exact_window_events_reach_train_once() {
         let told = ["--stream", "127.0.0.1:5600", "--device", "Pad", "--no-sound", "--quality", "low"];
-        let words = window_args(&super::super::tests::parsed(&told), tracing::Level::WARN);
+        let words = window_args(&super::super::args::parsed(&told), tracing::Level::WARN);
         for pair in [["--stream", "127.0.0.1:5600"], ["--device", "Pad"], ["--quality", "low"], ["--log", "warn"]] {
             assert_eq!(words.windows(2).filter(|two| *two == pair).count(), 1, "{pair:?}: {words:?}");
         }

@@ -2,7 +2,7 @@
 
 use crate::errors::AppError;
 use crate::io::files;
-use crate::io::session_folder::replace;
+use crate::io::replace::replace;
 use spandrel_clients::rc::{ControllerProfile, Device};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};

@@ -1,6 +1,5 @@
 //! Where a request comes from: a page of ours, by one of our names, and which address.
 
-use super::Authenticator;
 use crate::web::response::WebError;
 use axum::http::{HeaderMap, header};
 use ipnet::IpNet;
@@ -35,9 +34,7 @@ impl AllowedOrigins {
             }
         }
     }
-}
 
-impl Authenticator {
     /// Checks that a request names this server, and, if it changes something, that it comes from a page of ours, as far as the browser says.
     /// A server without passwords answers to this machine alone, by a name that no other site can take over (DNS rebinding).
     ///
@@ -51,7 +48,7 @@ impl Authenticator {
         if open && !host.is_this_machine() {
             return Err(WebError::Forbidden("Without a password the server answers to localhost and 127.0.0.1 alone.".into()));
         }
-        if !self.reach.is_allowed_host(&host) {
+        if !self.is_allowed_host(&host) {
             let words = "The server does not know this host name. Its administrator can add it with --host NAME.";
             return Err(WebError::Forbidden(words.into()));
         }
@@ -71,17 +68,17 @@ impl Authenticator {
     /// # Errors
     /// When a proxy is required and the socket is not its.
     pub fn address(&self, socket: IpAddr, headers: &HeaderMap) -> Result<IpAddr, WebError> {
-        if self.reach.proxies.is_empty() {
+        if self.proxies.is_empty() {
             return Ok(socket);
         }
-        if !self.reach.trusts(socket) {
+        if !self.trusts(socket) {
             return Err(WebError::Forbidden("This server answers to its proxy alone (--trusted-proxy).".into()));
         }
         let lines = headers.get_all("x-forwarded-for").iter().rev().map(|line| line.to_str().unwrap_or_default());
         // Each proxy appends the address that it saw; whatever stands before the last one that is not ours is the sender's to choose.
         for entry in lines.flat_map(|line| line.rsplit(',')) {
             match entry.trim().parse::<IpAddr>() {
-                Ok(address) if self.reach.trusts(address) => {}
+                Ok(address) if self.trusts(address) => {}
                 Ok(address) => return Ok(address),
                 Err(_) => break,
             }
@@ -148,6 +145,7 @@ pub fn is_host_name(name: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::web::auth::Authenticator;
 
     fn headers(pairs: &[(&'static str, &str)]) -> HeaderMap {
         let mut all = HeaderMap::new();

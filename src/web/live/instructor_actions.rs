@@ -1,6 +1,7 @@
 //! What an instructor asks for, from the form to an order.
 
 use super::command_queue::InstructorCommand;
+use super::vehicle_choice::chosen;
 use crate::web::request::WebRequest;
 use crate::web::response::{HandlerResult, WebError, WebResponse};
 use crate::web::state::ServerState;
@@ -9,7 +10,7 @@ use spandrel_training::web::live::{self as pages, UNITS};
 
 /// An instructor's action. It is under way when this answers; what became of it is said in the stream.
 pub fn run_action(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let (number, live) = super::chosen(state, asked.form_field("vehicle"))?;
+    let (number, live) = chosen(state, asked.form_field("vehicle"))?;
     let order = parse_command(asked)?;
     live.orders.send(order).map_err(|_| WebError::Failed("the live link has ended: start the server again".into()))?;
     let back = format!("/live?vehicle={number}");

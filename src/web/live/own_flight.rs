@@ -1,9 +1,11 @@
 //! What a trainee sees of the own flight: the camera's picture. Map, cues and actions are the instructor's, for an assessment has none of them.
 
-use super::{LiveVehicle, picture};
+use super::vehicle::LiveVehicle;
+use super::{camera_picture, picture};
+use crate::web::lock::lock;
 use crate::web::request::WebRequest;
 use crate::web::response::{HandlerResult, WebError, WebResponse};
-use crate::web::state::{ServerState, lock};
+use crate::web::state::ServerState;
 use serde_json::json;
 use spandrel_training::web::live as pages;
 
@@ -27,5 +29,5 @@ pub fn current(state: &ServerState, asked: &WebRequest) -> HandlerResult {
 
 /// The picture.
 pub fn camera(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    picture::of(flight(state, asked).ok_or(WebError::NotFound)?)
+    camera_picture::of(flight(state, asked).ok_or(WebError::NotFound)?)
 }

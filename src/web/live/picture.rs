@@ -1,9 +1,5 @@
 //! The camera's view, as a window keeps it in a file about once a second.
 
-use super::LiveVehicle;
-use crate::web::request::WebRequest;
-use crate::web::response::{HandlerResult, WebError, WebResponse};
-use crate::web::state::ServerState;
 use std::path::Path;
 use std::time::{Duration, UNIX_EPOCH};
 
@@ -11,9 +7,6 @@ use std::time::{Duration, UNIX_EPOCH};
 const FRESH: Duration = Duration::from_secs(10);
 /// Largest picture that is shown, bytes: a view in full HD has some hundred thousand.
 const MOST: u64 = 4 * 1024 * 1024;
-/// How every JPEG begins (ITU-T T.81, B.1.1.3: SOI, then a marker).
-const JPEG: [u8; 3] = [0xff, 0xd8, 0xff];
-
 /// Names the picture that is there now, so that a browser asks for each once; `None` when it is no more of now.
 pub fn version(path: &Path) -> Option<u64> {
     let about = path.metadata().ok().filter(|about| about.is_file() && about.len() <= MOST)?;
@@ -24,29 +17,11 @@ pub fn version(path: &Path) -> Option<u64> {
     (age < FRESH).then(|| u64::try_from(since.as_millis()).ok()).flatten()
 }
 
-/// The picture, for those who may watch the flight.
-pub fn show(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let (_, live) = super::chosen(state, asked.query_value("vehicle"))?;
-    of(live)
-}
-
-/// The picture of a flight.
-///
-/// # Errors
-/// When there is none of now.
-pub fn of(live: &LiveVehicle) -> HandlerResult {
-    let path = live.picture.as_deref().filter(|path| version(path).is_some()).ok_or(WebError::NotFound)?;
-    let bytes = std::fs::read(path).map_err(|_| WebError::NotFound)?;
-    // Whatever else the file may hold, a browser gets pictures from here alone.
-    if !bytes.starts_with(&JPEG) {
-        return Err(WebError::NotFound);
-    }
-    Ok(WebResponse::picture(bytes))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const JPEG: [u8; 3] = [0xff, 0xd8, 0xff];
 
     #[test]
     fn exact_only_a_picture_of_now_has_a_version() {

@@ -1,6 +1,6 @@
 //! Values as they come, as server-sent events.
 
-use super::LiveVehicle;
+use super::vehicle::LiveVehicle;
 use crate::web::state::ServerState;
 use axum::body::Body;
 use axum::http::{Response, header};

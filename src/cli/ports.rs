@@ -1,13 +1,16 @@
 //! The vehicle's ports, as asked for on the command line.
 
-use super::serial::SerialDevice;
-use crate::cli::args::{self, Destination, PortChoice};
-use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use crate::io::addresses::{self, Destination, PortChoice};
+use crate::io::serial::SerialDevice;
+use crate::io::vehicle_ports::{VehiclePorts, local};
+use std::net::{IpAddr, SocketAddr};
 
 const GCS_TARGET: u16 = 14550;
 const SDK_TARGET: u16 = 14540;
-pub const GCS_PORT: u16 = 18570;
-pub const PAYLOAD_PORT: u16 = 14280;
+const GCS_PORT: u16 = 18570;
+const PAYLOAD_PORT: u16 = 14280;
+/// First monitor port; each instance has the next one.
+pub const MONITOR_PORT: u16 = 14030;
 const TCP_PORT: u16 = 5760;
 /// Ports of the vehicle.
 #[derive(Debug, Clone, clap::Args)]
@@ -42,7 +45,7 @@ pub struct PortArgs {
     #[arg(long, value_name = "BYTES_S", value_parser = clap::value_parser!(u32).range(500..=100_000_000))]
     pub gcs_limit: Option<u32>,
     /// Local address to bind: 127.0.0.1 for this machine only, 0.0.0.0 for all network interfaces
-    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = args::listen)]
+    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = addresses::listen)]
     pub listen: IpAddr,
     /// Default ports: the fixed numbers above, or any free ports and no --gcs or --sdk
     #[arg(long, value_name = "fixed|ephemeral", default_value = "fixed", value_parser = ["fixed", "ephemeral"])]
@@ -84,7 +87,7 @@ impl PortArgs {
         }
     }
 
-    pub fn port(&self, given: Option<PortChoice>, first: u16) -> Option<u16> {
+    fn port(&self, given: Option<PortChoice>, first: u16) -> Option<u16> {
         match given {
             Some(PortChoice::None) => None,
             Some(PortChoice::Number(port)) => Some(port),
@@ -118,16 +121,33 @@ impl PortArgs {
             Some(PortChoice::Number(port)) => port,
             Some(PortChoice::None) => 0,
             None if self.ephemeral() => 0,
-            None => self.moved(crate::cli::monitor::FIRST_PORT),
+            None => self.moved(MONITOR_PORT),
         }
     }
 
-    pub fn tcp(&self) -> Option<u16> {
+    fn tcp(&self) -> Option<u16> {
         match self.tcp_port {
             Some(PortChoice::None) => None,
             Some(PortChoice::Number(port)) => Some(port),
             None if self.ephemeral() => None,
             None => Some(TCP_PORT + 10 * u16::from(self.instance)),
+        }
+    }
+
+    /// Returns the ports to open and the addresses to send to.
+    pub fn resolve(&self) -> VehiclePorts {
+        let stations = self.ground_stations();
+        VehiclePorts {
+            system_id: self.instance + 1,
+            listen: self.listen,
+            gcs: self.port(self.gcs_port, GCS_PORT).or((!stations.is_empty()).then_some(0)),
+            payload: self.port(self.payload_port, PAYLOAD_PORT),
+            tcp: self.tcp(),
+            serial: self.serial.clone(),
+            stations,
+            sdk: self.sdk(),
+            monitor: Some(self.monitor_port()).filter(|port| *port != 0).map(local),
+            gcs_limit: self.gcs_limit,
         }
     }
 
@@ -154,10 +174,6 @@ impl PortArgs {
         }
         out
     }
-}
-
-pub fn local(port: u16) -> SocketAddr {
-    SocketAddr::from((Ipv4Addr::LOCALHOST, port))
 }
 
 #[cfg(test)]

@@ -1,0 +1,332 @@
+//! `spandrel records`: the database of sessions, trainees and answers.
+
+use crate::errors::{AppError, EXIT_CODES};
+use crate::io::progress::ProgressLog;
+use crate::io::trainee_id::TraineeId;
+use crate::io::{clock, files};
+use crate::records::{
+    Database, ImportCounts, RecordsLocation, erase_older, erase_person, find, folders_of, folders_older, import_into, kept,
+    lines, push, session_folders, session_id,
+};
+use spandrel_monitor::export::json_text;
+use spandrel_training::record::SessionOutcome;
+use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE, Role};
+use spandrel_training::xapi::HOME;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+
+/// Microseconds in one day.
+const DAY_US: u64 = 86_400_000_000;
+/// Maximum retention time, days (100 years).
+const RETENTION_MAX_DAYS: i64 = 36_525;
+
+/// Keep sessions, trainees and answers in a database
+///
+/// Uses an SQLite file next to the sessions, or PostgreSQL by URL for a training center where many stations write at once. The
+/// PostgreSQL password comes from PGPASSWORD or ~/.pgpass, so process lists do not show it. The session folders remain the source
+/// of truth: `rebuild` recreates the database from them.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel records import                                   all new or changed sessions of ./sessions
+  spandrel records import --database postgres://spandrel@db/training
+  spandrel records import --database 'postgres://spandrel@db/training?sslmode=verify-full&sslrootcert=centre.pem'
+  spandrel records list
+  spandrel records trainee anna --age-band 25-34 --drone-experience none --gaming-experience some
+  spandrel records export --trainee anna --out anna.json    all her stored data
+  spandrel records export --out all.jsonl                   all records, one per line, for spandrel cohort --records
+  spandrel records push https://lrs.example/xapi            xAPI statements to a learning record store
+  spandrel records erase --trainee anna                     says what would go; with --yes it goes, folders too
+  spandrel records retention --days 730                     the same for everything older than two years
+  spandrel records rebuild                                  makes the database again from the folders
+
+{EXIT_CODES}"))]
+pub struct Args {
+    #[command(flatten)]
+    place: RecordsArgs,
+    #[command(subcommand)]
+    what: RecordsCommand,
+}
+
+/// Locations of the database and the session folders.
+#[derive(Debug, Clone, clap::Args)]
+pub struct RecordsArgs {
+    /// Folder that contains session folders; may be repeated
+    #[arg(long, global = true, value_name = "DIR", default_value = "sessions")]
+    pub sessions: Vec<PathBuf>,
+    /// Database: a file, or postgres://USER@HOST/NAME [default: records.sqlite in the first folder of sessions]
+    ///
+    /// For PostgreSQL, sslmode in the URL's query selects the encryption: disable; prefer (the default: TLS if the server
+    /// supports it, without verifying its certificate); require (TLS, without verifying the certificate); or verify-full (a
+    /// certificate for this host name from a trusted authority; recommended on a network). Trusted authorities are those of this
+    /// machine and those in sslrootcert=FILE; sslcert=FILE and sslkey=FILE set a client certificate. All files are PEM.
+    #[arg(long, global = true, value_name = "FILE|URL")]
+    pub database: Option<String>,
+}
+
+impl RecordsArgs {
+    /// Returns the locations.
+    pub fn location(&self) -> RecordsLocation {
+        RecordsLocation { sessions: self.sessions.clone(), database: self.database.clone() }
+    }
+}
+
+#[derive(Debug, clap::Subcommand)]
+enum RecordsCommand {
+    /// Import new and changed sessions (reads every folder; name the sessions to be quick)
+    Import {
+        /// Session folders [default: all of --sessions]
+        #[arg(value_name = "SESSION")]
+        folders: Vec<PathBuf>,
+    },
+    /// Rebuild the sessions whose folders are on this machine; trainee details are kept, and erased sessions stay erased
+    Rebuild {
+        /// Also delete sessions whose folders are not on this machine (they may be on other stations)
+        #[arg(long)]
+        yes: bool,
+    },
+    /// List sessions
+    List {
+        /// Only this trainee's sessions
+        #[arg(long, value_name = "ID")]
+        trainee: Option<TraineeId>,
+        /// Maximum number of sessions, newest first
+        #[arg(long, value_name = "N", default_value_t = 50, conflicts_with = "json")]
+        last: u32,
+        /// All sessions as JSON, oldest first, with every stored field
+        #[arg(long)]
+        json: bool,
+    },
+    /// Write one trainee's data, or all records
+    Export {
+        /// All stored data of this trainee as one JSON document [default: all records, one JSON object per line]
+        #[arg(long, value_name = "ID")]
+        trainee: Option<TraineeId>,
+        /// Output file; '-' for standard output
+        #[arg(long, value_name = "FILE", default_value = "-")]
+        out: String,
+    },
+    /// Erase a trainee from the database and the session folders
+    Erase {
+        /// Trainee to erase
+        #[arg(long, value_name = "ID")]
+        trainee: TraineeId,
+        /// Erase; without this option, only list what would be erased
+        #[arg(long)]
+        yes: bool,
+    },
+    /// Erase everything older than this many days from the database and the session folders
+    Retention {
+        /// Age, days (1 to 36525)
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(i64).range(1..=RETENTION_MAX_DAYS))]
+        days: i64,
+        /// Erase; without this option, only list what would be erased
+        #[arg(long)]
+        yes: bool,
+    },
+    /// Send sessions as xAPI statements to a learning record store; statements already there are not sent twice
+    Push(PushArgs),
+    /// Show or set a trainee's details
+    Trainee(PersonArgs),
+}
+
+/// Details to set for a person.
+#[derive(Debug, clap::Args)]
+pub struct PersonArgs {
+    /// Pseudonym
+    #[arg(value_name = "ID")]
+    id: TraineeId,
+    /// Role, which sets the person's permissions
+    #[arg(long, value_name = "ROLE", value_parser = Role::ALL.map(Role::word))]
+    role: Option<String>,
+    /// Age, years
+    #[arg(long, value_name = "BAND", value_parser = AGE_BANDS.to_vec())]
+    age_band: Option<String>,
+    /// Experience with drones
+    #[arg(long, value_name = "HOW", value_parser = EXPERIENCE.to_vec())]
+    drone_experience: Option<String>,
+    /// Experience with games
+    #[arg(long, value_name = "HOW", value_parser = EXPERIENCE.to_vec())]
+    gaming_experience: Option<String>,
+}
+
+/// Destination of the statements.
+#[derive(Debug, clap::Args)]
+pub struct PushArgs {
+    /// URL of the store's xAPI endpoint, such as https://lrs.example/xapi; user name and password come from SPANDREL_LRS_USER and
+    /// SPANDREL_LRS_PASSWORD
+    #[arg(value_name = "URL", value_parser = push::endpoint)]
+    url: String,
+    /// Only this trainee's sessions
+    #[arg(long, value_name = "ID")]
+    trainee: Option<TraineeId>,
+    /// Account home page (xAPI homePage) of the pseudonyms in the statements
+    #[arg(long, value_name = "URL", default_value = HOME)]
+    home: String,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// If arguments, folders or the database are invalid.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let place = &args.place.location();
+    match &args.what {
+        RecordsCommand::Import { folders } => import_folders(place, folders),
+        RecordsCommand::Rebuild { yes } => rebuild(place, *yes),
+        RecordsCommand::List { trainee, json: true, .. } => {
+            let records = place.open()?.records(trainee.as_ref().map(TraineeId::as_str))?;
+            files::write("-", spandrel_monitor::export::json_text(&records).as_bytes())
+        }
+        RecordsCommand::List { trainee, last, .. } => list(&place.open()?, trainee.as_ref().map(TraineeId::as_str), *last),
+        RecordsCommand::Export { trainee, out } => match trainee {
+            Some(trainee) => export(place, trainee.as_str(), out),
+            None => files::write(out, lines(&place.open()?.records(None)?)?.as_bytes()),
+        },
+        RecordsCommand::Erase { trainee, yes } => erase(place, trainee.as_str(), *yes),
+        RecordsCommand::Retention { days, yes } => retention(place, days.unsigned_abs(), *yes),
+        RecordsCommand::Push(args) => push_sessions(place, args),
+        RecordsCommand::Trainee(person) => set_details(&place.open()?, person),
+    }
+}
+
+/// Imports new and changed sessions. Logs and skips sessions that cannot be scored.
+fn import_folders(place: &RecordsLocation, named: &[PathBuf]) -> Result<(), AppError> {
+    let folders = if named.is_empty() { session_folders(&place.sessions)? } else { named.to_vec() };
+    let database = place.open()?;
+    let ImportCounts { changed, left_out, erased } = import_into(&database, &folders)?;
+    let unchanged = folders.len() - changed - left_out - erased;
+    let note = erasure_note(erased);
+    println!("{}: {changed} new or changed, {unchanged} unchanged, {left_out} left out{note}", database.name());
+    if left_out + erased > 0 && !named.is_empty() {
+        return Err(AppError::failed(format!("{} of the sessions named were left out", left_out + erased)));
+    }
+    Ok(())
+}
+
+fn erasure_note(erased: usize) -> String {
+    if erased == 0 {
+        return String::new();
+    }
+    format!(", {erased} not taken in because they or their trainees were erased (records erase removes the folders, too)")
+}
+
+fn rebuild(place: &RecordsLocation, yes: bool) -> Result<(), AppError> {
+    let folders = session_folders(&place.sessions)?;
+    let here = folders.iter().map(|folder| session_id(folder)).collect::<Result<BTreeSet<String>, _>>()?;
+    let database = place.open()?;
+    // What other stations add from now on is not among them.
+    let gone: Vec<String> = database.fingerprints()?.into_keys().filter(|id| !here.contains(id)).collect();
+    if !gone.is_empty() && !yes {
+        return Err(AppError::wrong(format!(
+            "{}: {} sessions have no folder here and would be lost (such as {}); name all folders with --sessions, or say --yes to delete them",
+            database.name(),
+            gone.len(),
+            gone[0]
+        )));
+    }
+    // As if it knew nothing: all are read.
+    let (none, erased) = (BTreeMap::new(), database.erased()?);
+    let mut progress = ProgressLog::start("reading sessions");
+    let mut records = Vec::new();
+    let mut taken = ImportCounts::default();
+    for (k, folder) in folders.iter().enumerate() {
+        progress.report(|| format!("session {} of {}", k + 1, folders.len()));
+        records.extend(taken.read(folder, (&none, &erased), "left as it was"));
+    }
+    progress.end();
+    let made = database.rebuild(&records, &gone)?;
+    let deleted = if gone.is_empty() { String::new() } else { format!(", {} without a folder here deleted", gone.len()) };
+    println!("{}: {made} sessions, {} left out{deleted}{}", database.name(), taken.left_out, erasure_note(taken.erased));
+    Ok(())
+}
+
+fn list(database: &Database, trainee: Option<&str>, last: u32) -> Result<(), AppError> {
+    let mut table = format!(
+        "{:<22}{:<16}{:<22}{:>8}{:>6}  {:<12}{}\n",
+        "started", "trainee", "scenario", "overall", "of", "end", "session, result"
+    );
+    for one in database.list(trainee, last, 0)? {
+        let started = clock::utc(one.started_unix_us).0;
+        let (who, job, end, id) = (&one.trainee, &one.scenario, &one.end_reason, &one.id);
+        let (overall, most) = match one.is_complete() {
+            true => (format!("{:.1}", one.overall), format!("{:.0}", one.overall_max)),
+            false => ("-".to_owned(), "-".to_owned()),
+        };
+        let result = format!("{}. {}", one.completion_summary(), one.verdict());
+        table.push_str(&format!("{started:<22}{who:<16}{job:<22}{overall:>8}{most:>6}  {end:<12}{id}  {result}\n"));
+    }
+    files::write("-", table.as_bytes())
+}
+
+fn retention(place: &RecordsLocation, days: u64, yes: bool) -> Result<(), AppError> {
+    let limit_us = clock::unix_us().saturating_sub(days.saturating_mul(DAY_US));
+    let database = place.open()?;
+    let before = clock::utc(limit_us).0;
+    if !yes {
+        let (old, folders) = (database.older_than(limit_us)?, folders_older(place, limit_us)?);
+        println!("{} sessions and {} folders are from before {before}; --yes erases them", old.len(), folders.len());
+        return Ok(());
+    }
+    let (deleted, folders) = erase_older(&database, place, limit_us)?;
+    println!("{deleted} sessions and {folders} folders from before {before} are erased");
+    Ok(())
+}
+
+/// Sets the given details of a person, then prints them.
+///
+/// # Errors
+/// If the database fails, or the person does not exist and no details were given.
+fn set_details(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
+    let name = args.id.as_str();
+    let details = [&args.age_band, &args.drone_experience, &args.gaming_experience].map(|value| value.as_deref());
+    if args.role.is_some() || details.iter().any(Option::is_some) {
+        database.set_given(name, args.role.as_deref().and_then(Role::from_word), details)?;
+    }
+    let person = find(database, name)?;
+    let person = person.ok_or_else(|| AppError::wrong(format!("{}: there is no '{name}'", database.name())))?;
+    files::write("-", json_text(&person).as_bytes())
+}
+
+/// Writes all stored data of a trainee.
+///
+/// # Errors
+/// If there is no data, or the database or the output fails.
+fn export(place: &RecordsLocation, trainee: &str, out: &str) -> Result<(), AppError> {
+    let database = place.open()?;
+    let kept = kept(&database, place, trainee)?;
+    let kept = kept.ok_or_else(|| AppError::wrong(format!("{}: nothing is kept of '{trainee}'", database.name())))?;
+    files::write(out, json_text(&kept).as_bytes())
+}
+
+/// Erases a trainee, or lists what would be erased.
+///
+/// # Errors
+/// If a folder or the database cannot be changed.
+fn erase(place: &RecordsLocation, trainee: &str, yes: bool) -> Result<(), AppError> {
+    let database = place.open()?;
+    let folders = folders_of(place, trainee)?;
+    if !yes {
+        let sessions = database.records(Some(trainee))?.len();
+        let known = if find(&database, trainee)?.is_some() { "known" } else { "not known" };
+        println!(
+            "'{trainee}' is {known}: {sessions} sessions in {} and {} folders; --yes erases them",
+            database.name(),
+            folders.len()
+        );
+        return Ok(());
+    }
+    let (known, sessions) = erase_person(&database, place, trainee)?;
+    if !known {
+        return Err(AppError::wrong(format!("{}: nothing was kept of '{trainee}'", database.name())));
+    }
+    println!("'{trainee}' is erased: {sessions} sessions in {}, {} folders", database.name(), folders.len());
+    Ok(())
+}
+
+fn push_sessions(place: &RecordsLocation, args: &PushArgs) -> Result<(), AppError> {
+    let records = place.open()?.records(args.trainee.as_ref().map(TraineeId::as_str))?;
+    let all = push::push(place, &records, &args.url, &args.home)?;
+    println!("{}: {} sessions, {} statements sent, {} there already", args.url, records.len(), all.sent, all.there_already);
+    Ok(())
+}

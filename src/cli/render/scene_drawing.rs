@@ -1,0 +1,96 @@
+//! A site on a graphics device, drawn one picture after the other.
+
+use crate::errors::AppError;
+use crate::io::progress::ProgressLog;
+use spandrel_model::scenario::{PlacedDefect, Scenario};
+use spandrel_model::site::Site;
+use spandrel_model::site::bridge_closures::BridgeClosures;
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Vehicle;
+use spandrel_view::gpu::{Gpu, Overlay, Renderer};
+use spandrel_view::hud;
+use spandrel_view::masks::LabelMask;
+use spandrel_view::picture::Picture;
+use spandrel_view::quality::Quality;
+use spandrel_view::scene::Scene;
+use spandrel_view::shot::Shot;
+use spandrel_view::stage::Stage;
+
+/// Width over height.
+pub fn aspect((width, height): (u32, u32)) -> f64 {
+    f64::from(width) / f64::from(height)
+}
+
+/// A time from an option (`at`) of the command line.
+pub fn instant(name: &str, seconds: f64) -> Result<SimTime, AppError> {
+    if (0.0..=86_400.0).contains(&seconds) {
+        Ok(SimTime::from_s(seconds))
+    } else {
+        Err(AppError::wrong(format!("--{name} {seconds}: give seconds of simulation time, 0 to 86400")))
+    }
+}
+
+/// A site and what draws it.
+pub struct SceneDrawing {
+    /// The device.
+    pub gpu: Gpu,
+    site: Site,
+    scene: Scene,
+    quality: Quality,
+}
+
+impl SceneDrawing {
+    /// Opens a device and builds the site: seconds of work.
+    pub fn new(scenario: &Scenario, vehicle: &Vehicle, seed: u64, quality: Quality, at: SimTime) -> Result<Self, AppError> {
+        let gpu = Gpu::open()?;
+        tracing::info!("drawing with {}", gpu.name);
+        let progress = ProgressLog::start("building the site and its light");
+        let site = Site::build(scenario, seed);
+        let scene = Scene::build(scenario, &site, vehicle, &quality, at);
+        progress.end();
+        Ok(Self { gpu, site, scene, quality })
+    }
+
+    /// The same where traffic was stopped and let go so.
+    pub fn with_gates(self, gates: BridgeClosures) -> Self {
+        Self { site: self.site.with_closures(gates), ..self }
+    }
+
+    /// What does not change during a session.
+    pub fn stage<'a>(&'a self, scenario: &'a Scenario, vehicle: &'a Vehicle) -> Stage<'a> {
+        Stage { scenario, vehicle, site: &self.site, scene: &self.scene }
+    }
+
+    /// What draws one picture after the other.
+    pub fn brush(&self) -> SceneRenderer<'_> {
+        SceneRenderer {
+            gpu: &self.gpu,
+            renderer: Renderer::new(&self.gpu, self.quality, &self.scene),
+            overlay: Overlay::new(&self.gpu),
+        }
+    }
+
+    /// The defects of the site.
+    pub fn defects(&self) -> &[PlacedDefect] {
+        self.site.defects()
+    }
+}
+
+/// A scene on the device.
+pub struct SceneRenderer<'a> {
+    gpu: &'a Gpu,
+    renderer: Renderer,
+    overlay: Overlay,
+}
+
+impl SceneRenderer<'_> {
+    /// A picture with what lies over it.
+    pub fn draw(&mut self, shot: &Shot, items: &[hud::DrawItem]) -> Result<Picture, AppError> {
+        Ok(self.renderer.picture_with(self.gpu, shot, &mut self.overlay, items)?)
+    }
+
+    /// What its pixels show.
+    pub fn labels(&mut self, shot: &Shot) -> Result<LabelMask, AppError> {
+        Ok(self.renderer.labels(self.gpu, shot)?)
+    }
+}

@@ -1,0 +1,56 @@
+//! Text that tells how to connect a ground station or a script.
+
+use crate::cli::ports::PortArgs;
+use std::path::Path;
+
+/// Returns the text for one flight; `web` is the address of the pages, and `window` is true if a window shows the flight.
+pub fn how_to_connect(
+    title: &str,
+    args: &PortArgs,
+    ports: &serde_json::Value,
+    session: &Path,
+    (web, window): (Option<&str>, bool),
+) -> String {
+    let port = |key: &str| ports[key].as_u64().map_or("not opened".to_owned(), |port| port.to_string());
+    let targets: Vec<String> = args.ground_stations().iter().map(ToString::to_string).collect();
+    let (auto, targets) = if targets.is_empty() { ("no", "nobody".to_owned()) } else { ("yes", targets.join(", ")) };
+    format!(
+        "\
+{title}
+  QGroundControl   connects by itself: {auto} (the vehicle calls {targets})
+  dial in          UDP {} or TCP {} at {}
+  MAVSDK           {}
+  pymavlink        udpout:127.0.0.1:{}
+  session folder   {}
+  web pages        {}
+{}
+Take off, do the tasks, land on the pad; the scores follow, and the vehicle stays connected. Ctrl-C ends the session early.
+",
+        port("gcs_port"),
+        port("tcp_port"),
+        args.listen,
+        args.sdk().map_or("nobody is called".to_owned(), |sdk| format!("udpin://0.0.0.0:{}", sdk.port())),
+        port("gcs_port"),
+        session.display(),
+        web.unwrap_or("none"),
+        if window {
+            "A window shows both views, says which key does what, and flies with them; a ground station or a script may fly as well."
+        } else {
+            "No window: fly by the ground station's map and instruments, or by a script."
+        },
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::train::args::parsed;
+
+    #[test]
+    fn exact_a_window_is_reported_only_where_there_is_one() {
+        let ports = parsed(&[]).ports;
+        let told = |window| how_to_connect("Drill", &ports, &serde_json::Value::Null, Path::new("s"), (None, window));
+        assert!(told(true).contains("A window shows") && !told(true).contains("No window"), "{}", told(true));
+        assert!(told(false).contains("No window: fly by") && !told(false).contains("A window shows"), "{}", told(false));
+    }
+}

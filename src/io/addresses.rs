@@ -1,0 +1,68 @@
+//! Addresses and ports as users write them.
+
+use std::net::{IpAddr, SocketAddr, ToSocketAddrs};
+use std::str::FromStr;
+
+/// A destination address, or none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Destination {
+    /// No destination.
+    None,
+    /// This address.
+    Address(SocketAddr),
+}
+
+impl FromStr for Destination {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "none" { Ok(Self::None) } else { address(text).map(Self::Address) }
+    }
+}
+
+/// Reads and resolves HOST:PORT, IPv4 before IPv6.
+pub fn address(text: &str) -> Result<SocketAddr, String> {
+    let mut found: Vec<SocketAddr> =
+        text.to_socket_addrs().map_err(|error| format!("'{text}' is no HOST:PORT such as 127.0.0.1:14550 ({error})"))?.collect();
+    found.sort_by_key(|address| !address.is_ipv4());
+    found.into_iter().find(|address| address.port() != 0).ok_or_else(|| format!("'{text}' names no usable address and port"))
+}
+
+/// A port number, or none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PortChoice {
+    /// The port is not opened.
+    None,
+    /// A port number; 0 lets the system choose a free one.
+    Number(u16),
+}
+
+impl FromStr for PortChoice {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "none" {
+            return Ok(Self::None);
+        }
+        text.parse().map(Self::Number).map_err(|_| format!("'{text}' is no port (allowed: 0 to 65535, or none)"))
+    }
+}
+
+/// Parses the local address to bind.
+pub fn listen(text: &str) -> Result<IpAddr, String> {
+    text.parse().map_err(|_| format!("'{text}' is no IP address (127.0.0.1 for this machine only, 0.0.0.0 for all networks)"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_targets_and_ports_parse() {
+        assert_eq!("none".parse(), Ok(Destination::None));
+        assert_eq!("127.0.0.1:14550".parse(), Ok(Destination::Address(SocketAddr::from(([127, 0, 0, 1], 14550)))));
+        assert!("14550".parse::<Destination>().is_err());
+        assert!("127.0.0.1:0".parse::<Destination>().is_err());
+        assert_eq!("0".parse(), Ok(PortChoice::Number(0)));
+        assert_eq!("none".parse(), Ok(PortChoice::None));
+        assert!("70000".parse::<PortChoice>().is_err());
+    }
+}

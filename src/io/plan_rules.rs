@@ -1,0 +1,17 @@
+//! Rules of training plans, from a file or the shipped ones.
+
+use super::files;
+use crate::errors::AppError;
+use spandrel_training::plan::{PlanRules, RULES, read_rules};
+use std::path::Path;
+
+/// Returns the shipped rules, or the rules of a file.
+///
+/// # Errors
+/// If the file cannot be read or is invalid.
+pub fn rules(file: Option<&Path>) -> Result<PlanRules, AppError> {
+    match file {
+        Some(path) => Ok(read_rules(&path.display().to_string(), &files::read(path)?)?),
+        None => Ok(read_rules("rules.toml", RULES)?),
+    }
+}

@@ -1,0 +1,189 @@
+//! The report of a session, from what its folder holds.
+
+use super::clock;
+use super::replace::replace;
+use super::session_folder::StoredSession;
+use crate::errors::AppError;
+use spandrel_monitor::AssessError;
+use spandrel_monitor::folder::{REPORT, SMALL, SNAPSHOTS, sha256_hex};
+use spandrel_training::report::{Jpeg, Review, SessionFacts, page, scorm};
+use std::path::{Path, PathBuf};
+
+/// Maximum size of a photograph in the page, bytes; larger ones are replaced by a sketch.
+const PICTURE_MOST: u64 = 400_000;
+/// Maximum total size of photographs in a page, bytes; keeps the page below 10 MB.
+const PICTURES_MOST: u64 = 4_000_000;
+
+/// Writes the report into a session folder.
+///
+/// # Errors
+/// If files are invalid, the session has no data to report, or the page cannot be written.
+pub fn write(session: &Path) -> Result<(), AppError> {
+    replace(&session.join(REPORT), page::session(&review(session)?).as_bytes())
+}
+
+/// Returns names and contents of the files in a session's SCORM package.
+///
+/// # Errors
+/// If files are invalid, the session has no data to report, or the page cannot be written.
+pub fn package(session: &Path) -> Result<Vec<(&'static str, String)>, AppError> {
+    let review = review(session)?;
+    Ok(scorm::files(&review, &page::session(&review)))
+}
+
+/// Returns the page that compares two sessions.
+///
+/// # Errors
+/// If files are invalid, the session has no data to report, or the page cannot be written.
+pub fn compared(first: &Path, second: &Path) -> Result<String, AppError> {
+    Ok(page::comparison(&review(first)?, &review(second)?))
+}
+
+/// Returns a session's pictures with their assessments.
+///
+/// # Errors
+/// If files are invalid, the session has no data to report, or the page cannot be written.
+#[cfg(feature = "view")]
+pub fn pictures(session: &Path) -> Result<Vec<spandrel_training::report::pictures::ReviewedPicture>, AppError> {
+    // Who asks is about to draw the photographs.
+    Ok(reviewed(session, Vec::new())?.pictures)
+}
+
+/// Returns the maximum size of each photograph, bytes, if the page contains this many.
+#[cfg(feature = "view")]
+pub fn max_pictures(count: usize) -> usize {
+    let share = PICTURES_MOST / (count.max(1) as u64);
+    share.min(PICTURE_MOST) as usize
+}
+
+/// Returns the URL of a file for a browser.
+pub fn address(path: &Path) -> String {
+    let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    let mut address = String::from("file://");
+    for byte in whole.to_string_lossy().bytes() {
+        if byte.is_ascii_alphanumeric() || b"-._~/".contains(&byte) {
+            address.push(char::from(byte));
+        } else {
+            address.push_str(&format!("%{byte:02X}"));
+        }
+    }
+    address
+}
+
+/// Returns everything that the page of a session shows.
+///
+/// # Errors
+/// If files are invalid, or the session has no data to report.
+pub fn review(session: &Path) -> Result<Review, AppError> {
+    reviewed(session, photographs(&session.join(SNAPSHOTS)))
+}
+
+fn reviewed(session: &Path, pictures: Vec<(u32, Jpeg)>) -> Result<Review, AppError> {
+    let stored = StoredSession::read(session)?;
+    let about = SessionFacts { pictures, ..session_facts(session, &stored)? };
+    Review::of(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle, about).map_err(|error| match error {
+        AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => AppError::wrong(error.to_string()),
+        _ => AppError::failed(error.to_string()),
+    })
+}
+
+fn session_facts(session: &Path, stored: &StoredSession) -> Result<SessionFacts, AppError> {
+    let name =
+        std::path::absolute(session).ok().and_then(|path| path.file_name().map(|name| name.to_string_lossy().into_owned()));
+    Ok(SessionFacts {
+        trainee: stored.trainee.clone(),
+        started_unix_us: stored.started_unix_us,
+        purpose: stored.purpose.clone(),
+        started_utc: clock::utc(stored.started_unix_us).0,
+        folder: name.unwrap_or_default(),
+        scenario_sha256: sha256_hex(stored.scenario.text.as_bytes()),
+        vehicle_sha256: sha256_hex(stored.vehicle.text.as_bytes()),
+        telemetry_sha256: stored.log.sha256()?,
+        pictures: Vec::new(),
+    })
+}
+
+/// Returns the photographs that fit into the page, keyed by the number at the end of their names, each as its small copy if there
+/// is one.
+fn photographs(folder: &Path) -> Vec<(u32, Jpeg)> {
+    let files = numbered(folder);
+    let (mut left, mut found) = (PICTURES_MOST, Vec::new());
+    for (number, path) in &files {
+        let size = path.metadata().map_or(u64::MAX, |about| about.len());
+        if size <= PICTURE_MOST.min(left)
+            && let Ok(bytes) = std::fs::read(path)
+        {
+            left -= size;
+            found.push((*number, Jpeg { bytes }));
+        }
+    }
+    let sketched = files.len() - found.len();
+    if sketched > 0 {
+        tracing::warn!(
+            "{}: {sketched} of {} photographs are sketches in the report, which takes in {} kB of each and {} kB of all: `spandrel render \
+             SESSION --snapshots` makes copies that fit",
+            folder.display(),
+            files.len(),
+            PICTURE_MOST / 1000,
+            PICTURES_MOST / 1000
+        );
+    }
+    found
+}
+
+/// Returns the photographs or their copies, keyed by the number at the end of their names.
+fn numbered(folder: &Path) -> Vec<(u32, PathBuf)> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+    let mut names: Vec<_> = entries.flatten().map(|entry| entry.file_name()).collect();
+    names.sort();
+    let small = |name| Some(folder.join(SMALL).join(name)).filter(|copy| copy.is_file());
+    let file = |name| small(name).unwrap_or_else(|| folder.join(name));
+    names.iter().filter_map(|name| Some((number_of(Path::new(name))?, file(name)))).collect()
+}
+
+/// Returns the number at the end of a JPEG file's name.
+fn number_of(path: &Path) -> Option<u32> {
+    let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+    let stem = path.file_stem()?.to_str()?;
+    let digits = stem.len() - stem.bytes().rev().take_while(u8::is_ascii_digit).count();
+    if matches!(ending.as_str(), "jpg" | "jpeg") { stem[digits..].parse().ok() } else { None }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_photographs_are_known_by_the_number_that_ends_their_name() {
+        for (name, number) in
+            [("0007.jpg", Some(7)), ("snap-12.JPEG", Some(12)), ("snap.jpg", None), ("7.png", None), ("7", None)]
+        {
+            assert_eq!(number_of(Path::new(name)), number, "{name}");
+        }
+    }
+
+    #[test]
+    fn exact_a_page_holds_copies_and_leaves_what_is_too_large() {
+        let folder = tempfile::tempdir().unwrap();
+        let put = |name: &str, bytes: u64| std::fs::write(folder.path().join(name), vec![0; bytes as usize]).unwrap();
+        std::fs::create_dir(folder.path().join(SMALL)).unwrap();
+        put("0001.jpg", 3 * PICTURE_MOST);
+        put("small/0001.jpg", 70);
+        put("0002.jpg", PICTURE_MOST + 1);
+        (3..14).for_each(|k| put(&format!("{k:04}.jpg"), PICTURE_MOST));
+        let found: Vec<(u32, u64)> = photographs(folder.path()).iter().map(|(k, file)| (*k, file.bytes.len() as u64)).collect();
+        let whole = (3..=11).map(|k| (k, PICTURE_MOST));
+        assert_eq!(found, [(1, 70)].into_iter().chain(whole).collect::<Vec<_>>(), "ten times the most of one, less the copy");
+    }
+
+    #[test]
+    #[cfg(feature = "view")]
+    fn exact_every_photograph_has_its_share() {
+        assert_eq!([0, 1, 10, 100].map(max_pictures), [400_000, 400_000, 400_000, 40_000]);
+    }
+
+    #[test]
+    fn exact_an_address_is_percent_encoded() {
+        assert_eq!(address(Path::new("/a b/ü.html")), "file:///a%20b/%C3%BC.html");
+    }
+}

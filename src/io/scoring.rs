@@ -1,0 +1,36 @@
+//! Scores of logs and stored sessions.
+
+use super::session_folder::StoredSession;
+use crate::errors::AppError;
+use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::vehicle::Vehicle;
+use spandrel_monitor::export::FrameRow;
+use spandrel_monitor::sidecar::build_site;
+use spandrel_monitor::{AssessError, AssessedSession, assess_log, export};
+
+/// Scores a log.
+///
+/// # Errors
+/// When there is nothing to score.
+pub fn grade(log: &(impl TelemetryLog + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> Result<AssessedSession, AppError> {
+    assess_log(log, scenario, vehicle, build_site).map_err(|error| refused(&error))
+}
+
+/// Reads the scored frames of a stored session, for exports.
+///
+/// # Errors
+/// When there is nothing to score.
+pub fn frame_rows(stored: &StoredSession) -> Result<Vec<FrameRow>, AppError> {
+    let rows = export::frame_rows(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle);
+    rows.map_err(|error| refused(&error))
+}
+
+fn refused(error: &AssessError) -> AppError {
+    match error {
+        AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => {
+            AppError::wrong(format!("{error}: score the log against the scenario that was flown"))
+        }
+        _ => AppError::failed(error.to_string()),
+    }
+}

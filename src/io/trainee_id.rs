@@ -1,0 +1,41 @@
+//! Trainee IDs as they appear in folder names and records.
+
+use std::str::FromStr;
+
+/// Trainee ID, valid in folder names and records.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TraineeId(String);
+
+impl TraineeId {
+    /// As text.
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+impl FromStr for TraineeId {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Self, String> {
+        let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+        let starts = text.starts_with(|c: char| c.is_ascii_alphanumeric());
+        if starts && text.len() <= 32 && text.chars().all(fits) {
+            return Ok(Self(text.to_owned()));
+        }
+        Err(format!("'{text}' is no trainee id (allowed: 1 to 32 letters, digits, '-' or '_', first a letter or digit)"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_trainee_ids_stay_harmless_in_paths() {
+        for good in ["anna", "t-07", "A_1", "7"] {
+            assert_eq!(good.parse::<TraineeId>().map(|id| id.0), Ok(good.to_owned()));
+        }
+        for bad in ["", "-x", "../up", "a b", "é", "a/b", "123456789012345678901234567890123"] {
+            assert!(bad.parse::<TraineeId>().is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! Locations of the database and the session folders.
+
+use super::database::Database;
+use super::erasure;
+use crate::errors::AppError;
+use std::path::PathBuf;
+
+/// Locations of the database and the session folders.
+#[derive(Debug, Clone)]
+pub struct RecordsLocation {
+    /// Folders that contain session folders.
+    pub sessions: Vec<PathBuf>,
+    /// Database: a file, or a PostgreSQL URL; `None` for `records.sqlite` in the first folder of sessions.
+    pub database: Option<String>,
+}
+
+impl RecordsLocation {
+    /// Opens the database and completes interrupted erasures.
+    ///
+    /// # Errors
+    /// If the database cannot be opened.
+    pub fn open(&self) -> Result<Database, AppError> {
+        let database = match &self.database {
+            Some(target) => Database::open(target),
+            None => {
+                let folder = self.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"));
+                Database::open(&folder.join("records.sqlite").display().to_string())
+            }
+        }?;
+        if let Err(error) = erasure::finish(&database, &self.sessions) {
+            tracing::warn!("an erasure is not finished: {error}");
+        }
+        Ok(database)
+    }
+}

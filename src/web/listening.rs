@@ -1,0 +1,32 @@
+//! Where and how the server listens.
+
+use ipnet::IpNet;
+use std::net::{Ipv4Addr, SocketAddr};
+use std::path::PathBuf;
+
+/// Listening address, TLS files, and proxy settings.
+#[derive(Debug, Clone)]
+pub struct ListenConfig {
+    /// Address and port to listen on; port 0 for any free port
+    pub listen: SocketAddr,
+    /// TLS certificate chain, PEM
+    pub tls_cert: Option<PathBuf>,
+    /// Private key of the certificate, PEM
+    pub tls_key: Option<PathBuf>,
+    /// A reverse proxy terminates TLS, sets X-Forwarded-For and passes the Host header on; the server must not be reachable in
+    /// any other way
+    pub behind_proxy: bool,
+    /// Address or network of the proxy, such as 10.0.0.2 or 10.0.0.0/24; may be repeated [default: this machine]
+    pub trusted_proxy: Vec<IpNet>,
+    /// Host name that browsers may use for the server; may be repeated. localhost and IP addresses are always accepted
+    pub host: Vec<String>,
+}
+
+impl ListenConfig {
+    /// This machine alone.
+    pub fn local(port: u16) -> Self {
+        let listen = SocketAddr::from((Ipv4Addr::LOCALHOST, port));
+        let (trusted_proxy, host) = (Vec::new(), Vec::new());
+        Self { listen, tls_cert: None, tls_key: None, behind_proxy: false, trusted_proxy, host }
+    }
+}

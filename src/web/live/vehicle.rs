@@ -1,0 +1,46 @@
+//! A flight that is watched.
+
+use super::command_queue::InstructorCommand;
+use super::telemetry_listener::{ListenerPaths, LiveListener, SharedKnowledge};
+use crate::errors::AppError;
+use spandrel_training::web::live_state::LiveFlightState;
+use std::net::SocketAddr;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Sender, channel};
+use tokio::sync::watch;
+
+/// A vehicle to watch.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct WatchedVehicle {
+    /// Its payload port.
+    pub vehicle: SocketAddr,
+    /// Where a window keeps the camera's view of it.
+    pub picture: Option<PathBuf>,
+}
+
+/// A flight that is watched.
+#[derive(Debug)]
+pub struct LiveVehicle {
+    pub vehicle: SocketAddr,
+    pub picture: Option<PathBuf>,
+    pub moments: watch::Receiver<String>,
+    pub known: SharedKnowledge,
+    pub orders: Sender<InstructorCommand>,
+}
+
+impl LiveVehicle {
+    /// Starts to listen.
+    ///
+    /// # Errors
+    /// When no socket can be opened.
+    pub fn start(watched: &WatchedVehicle, sessions: &[PathBuf], scenarios: &Path) -> Result<Self, AppError> {
+        let WatchedVehicle { vehicle, picture } = watched.clone();
+        let (sender, moments) = watch::channel(LiveFlightState::new().to_json(false).to_string());
+        let (orders, received) = channel();
+        let known = SharedKnowledge::default();
+        let places = ListenerPaths { sessions: sessions.to_vec(), scenarios: scenarios.to_path_buf(), picture: picture.clone() };
+        let mut ear = LiveListener::open(vehicle, known.clone(), places)?;
+        std::thread::spawn(move || ear.listen(&sender, &received));
+        Ok(Self { vehicle, picture, moments, known, orders })
+    }
+}

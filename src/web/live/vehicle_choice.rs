@@ -1,0 +1,18 @@
+//! Choice of a vehicle by its number in a request.
+
+use super::vehicle::LiveVehicle;
+use crate::web::response::WebError;
+use crate::web::state::ServerState;
+
+/// The flight with this number, from 1, and its number; without a word the first one.
+///
+/// # Errors
+/// When no vehicle is watched, or not so many.
+pub fn chosen<'a>(state: &'a ServerState, word: Option<&str>) -> Result<(usize, &'a LiveVehicle), WebError> {
+    if state.live.is_empty() {
+        return Err(WebError::BadRequest("no vehicle is watched (--vehicle)".into()));
+    }
+    let number = word.map_or(Some(1), |word| word.parse().ok());
+    let found = number.and_then(|number: usize| Some((number, state.live.get(number.checked_sub(1)?)?)));
+    found.ok_or_else(|| WebError::BadRequest(format!("vehicle: no such number (allowed: 1 to {})", state.live.len())))
+}

@@ -1,0 +1,22 @@
+//! Names that come from browsers and are used as names of files.
+
+/// A name that stays in its folder, whatever the system takes for a separator.
+pub fn is_plain(name: &str) -> bool {
+    let fits = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+    !name.is_empty() && name.len() <= 200 && !name.starts_with('.') && name.chars().all(fits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_names_that_leave_their_folder_are_none() {
+        for good in ["20260801T101010Z-anna-two-bridges-1a2b3c", "session-anna-001", "x.y"] {
+            assert!(is_plain(good), "{good}");
+        }
+        for bad in ["", ".", "..", "../x", "a/b", "a\\b", "/etc", "a\0b", ".hidden", "é", &"x".repeat(201)] {
+            assert!(!is_plain(bad), "{bad}");
+        }
+    }
+}
