@@ -2,6 +2,7 @@
 //! tests plant each kind of violation, so that a rule that no longer bites is noticed.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
+mod circles;
 mod paths;
 mod rules;
 
@@ -31,6 +32,26 @@ fn exact_every_path_in_the_house_is_allowed() {
         })
         .collect();
     assert!(violations.is_empty(), "\n{}", violations.join("\n"));
+}
+
+#[test]
+fn exact_no_circle_of_imports_between_files() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut found = Vec::new();
+    for folder in rules::crates().map(|folder| format!("crates/{folder}")).chain([".".to_owned()]) {
+        let place = root.join(&folder).join("src");
+        let name = |path: &PathBuf| path.strip_prefix(&place).unwrap().display().to_string();
+        let files = sources(&place).into_iter().map(|path| (name(&path), std::fs::read_to_string(&path).unwrap()));
+        // The program's entry point is a crate of its own.
+        let files: Vec<(String, String)> = files.filter(|(name, _)| name != "main.rs").collect();
+        let read = circles::CrateFiles::read(files.iter().map(|(name, text)| (name.as_str(), text.as_str())));
+        found.extend(
+            read.circles()
+                .into_iter()
+                .map(|circle| format!("{folder}/src, {} files:\n    {}", circle.len(), circle.join("\n    "))),
+        );
+    }
+    assert!(found.is_empty(), "{} circles of imports:\n{}", found.len(), found.join("\n"));
 }
 
 #[test]

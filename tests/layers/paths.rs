@@ -102,12 +102,144 @@ pub fn named(code: &str, module: &[String], roots: &[&str]) -> Vec<Named> {
     found.into_iter().filter_map(|(line, path)| Some((line, resolve(path, module)?))).collect()
 }
 
-fn is_word(token: &str) -> bool {
+/// A token with its line.
+pub type Token = (usize, String);
+
+/// One name of a `use` declaration.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Import {
+    /// It is handed on to other modules.
+    pub public: bool,
+    /// As written, e.g. ["super", "site", "Site"].
+    pub path: Vec<String>,
+    /// Name in the file; `*` for everything.
+    pub name: String,
+}
+
+/// Returns the code without items that are compiled for tests only.
+pub fn without_tests(code: &[Token]) -> Vec<Token> {
+    const MARK: [&str; 7] = ["#", "[", "cfg", "(", "test", ")", "]"];
+    let mut out = Vec::new();
+    let mut at = 0;
+    while at < code.len() {
+        if code[at..].iter().map(|token| token.1.as_str()).take(MARK.len()).eq(MARK) {
+            at = item_end(code, at + MARK.len());
+        } else {
+            out.push(code[at].clone());
+            at += 1;
+        }
+    }
+    out
+}
+
+/// Where an item ends: after its `;` or its last brace.
+fn item_end(code: &[Token], mut at: usize) -> usize {
+    let mut depth = 0_u32;
+    while let Some((_, token)) = code.get(at) {
+        match token.as_str() {
+            "{" | "(" | "[" => depth += 1,
+            "}" | ")" | "]" if depth == 0 => return at,
+            "}" if depth == 1 => return at + 1,
+            "}" | ")" | "]" => depth -= 1,
+            ";" if depth == 0 => return at + 1,
+            _ => {}
+        }
+        at += 1;
+    }
+    at
+}
+
+/// Returns every name of every `use` declaration.
+pub fn imports(code: &[Token]) -> Vec<Import> {
+    let mut out = Vec::new();
+    for at in (0..code.len()).filter(|at| code[*at].1 == "use") {
+        // `pub use`, or the end of `pub(crate) use`.
+        let public = at > 0 && (code[at - 1].1 == "pub" || code[at - 1].1 == ")");
+        import_tree(code, at + 1, &mut Vec::new(), public, &mut out);
+    }
+    out
+}
+
+/// Reads one `use` tree from `at`; returns where it ends.
+fn import_tree(code: &[Token], mut at: usize, prefix: &mut Vec<String>, public: bool, out: &mut Vec<Import>) -> usize {
+    let depth = prefix.len();
+    while let Some((_, token)) = code.get(at) {
+        match token.as_str() {
+            "::" => at += 1,
+            "{" => {
+                at += 1;
+                while code.get(at).is_some_and(|token| token.1 != "}") {
+                    at = if code[at].1 == "," { at + 1 } else { import_tree(code, at, prefix, public, out) };
+                }
+                prefix.truncate(depth);
+                return at + 1;
+            }
+            word if is_word(word) || word == "*" => {
+                prefix.push(word.to_owned());
+                at += 1;
+                if code.get(at).is_none_or(|next| next.1 != "::") {
+                    break;
+                }
+            }
+            _ => break,
+        }
+    }
+    if prefix.len() > depth {
+        if prefix.len() > 1 && prefix.last().is_some_and(|last| last == "self") {
+            prefix.pop();
+        }
+        let renamed = code.get(at).is_some_and(|token| token.1 == "as");
+        let name = if renamed { code.get(at + 1).map(|token| token.1.clone()) } else { prefix.last().cloned() };
+        out.push(Import { public, path: prefix.clone(), name: name.unwrap_or_default() });
+        at += if renamed { 2 } else { 0 };
+    }
+    prefix.truncate(depth);
+    // Whatever else stands here ends the tree.
+    if code.get(at).is_some_and(|token| [",", "}", ";"].contains(&token.1.as_str())) { at } else { at + 1 }
+}
+
+/// Returns the code without `use` declarations.
+pub fn without_imports(code: &[Token]) -> Vec<Token> {
+    let mut out = Vec::new();
+    let mut inside = false;
+    for (at, token) in code.iter().enumerate() {
+        // `use<'a>` in a type is no import.
+        inside |= token.1 == "use" && code.get(at + 1).is_some_and(|next| next.1 != "<");
+        if !inside {
+            out.push(token.clone());
+        }
+        inside &= token.1 != ";";
+    }
+    out
+}
+
+/// Returns the paths of two or more parts that begin with a module, `crate`, `self` or `super`.
+pub fn inline_paths(code: &[Token]) -> Vec<Vec<String>> {
+    let mut out = Vec::new();
+    let mut at = 0;
+    while at < code.len() {
+        let begins = code[at].1.starts_with(|c: char| c.is_ascii_lowercase() || c == '_');
+        let mut parts = vec![code[at].1.clone()];
+        at += 1;
+        while code.get(at).is_some_and(|token| token.1 == "::") && code.get(at + 1).is_some_and(|token| is_word(&token.1)) {
+            parts.push(code[at + 1].1.clone());
+            at += 2;
+        }
+        if begins && parts.len() > 1 {
+            out.push(parts);
+        }
+    }
+    out
+}
+
+/// True for a name or a keyword.
+pub fn is_word(token: &str) -> bool {
     token.starts_with(|c: char| c.is_alphabetic() || c == '_')
 }
 
-fn tokens(code: &str) -> Vec<(usize, String)> {
-    let mut out: Vec<(usize, String)> = Vec::new();
+/// Splits code (see [`code_only`]) into words, `::` and single signs.
+pub fn tokens(code: &str) -> Vec<Token> {
+    let mut out: Vec<Token> = Vec::new();
     for (number, line) in code.lines().enumerate() {
         let mut rest = line;
         while let Some(first) = rest.chars().next() {

@@ -1,0 +1,226 @@
+//! Circles of imports between the files of a crate: files that cannot be understood, tested or moved without one another.
+
+use crate::paths::{Import, Token, code_only, imports, inline_paths, is_word, tokens, without_imports, without_tests};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// One file of a crate.
+struct SourceModule {
+    /// Path below the crate's `src`.
+    file: String,
+    /// Names that the file defines.
+    items: BTreeSet<String>,
+    /// Its `use` declarations.
+    imports: Vec<Import>,
+    /// Everything else that it says.
+    body: Vec<Token>,
+}
+
+/// All files of a crate by their module paths.
+pub struct CrateFiles {
+    modules: BTreeMap<Vec<String>, SourceModule>,
+}
+
+/// Files by module path, with the module paths of the files that they import from.
+type Edges = BTreeMap<Vec<String>, BTreeSet<Vec<String>>>;
+
+impl CrateFiles {
+    /// Reads a crate from its files, each with its path below `src` and its text. Test modules are left out.
+    pub fn read<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
+        let mut modules = BTreeMap::new();
+        let mut for_tests = Vec::new();
+        for (file, source) in files {
+            let path = module_path(file);
+            let all = tokens(&code_only(source));
+            let code = without_tests(&all);
+            for_tests.extend(declared(&all).difference(&declared(&code)).map(|name| [&path[..], &[name.clone()]].concat()));
+            let items = items(&code);
+            let (imports, body) = (imports(&code), without_imports(&code));
+            modules.insert(path, SourceModule { file: file.to_owned(), items, imports, body });
+        }
+        modules.retain(|path, _| !for_tests.iter().any(|test| path.starts_with(test)));
+        Self { modules }
+    }
+
+    /// Returns the circles, each as lines `file -> files of the same circle`.
+    pub fn circles(&self) -> Vec<Vec<String>> {
+        let edges: Edges = self.modules.keys().map(|path| (path.clone(), self.imported(path))).collect();
+        let reachable: Edges = edges.keys().map(|path| (path.clone(), reachable(path, &edges))).collect();
+        let mut seen = BTreeSet::new();
+        let mut found = Vec::new();
+        for (path, reached) in &reachable {
+            if !reached.contains(path) || seen.contains(path) {
+                continue;
+            }
+            let circle: BTreeSet<&Vec<String>> = reached.iter().filter(|other| reachable[*other].contains(path)).collect();
+            seen.extend(circle.iter().map(|path| (*path).clone()));
+            found.push(circle.iter().map(|path| self.line(path, &edges[*path], &circle)).collect());
+        }
+        found
+    }
+
+    fn line(&self, path: &[String], imported: &BTreeSet<Vec<String>>, circle: &BTreeSet<&Vec<String>>) -> String {
+        let name = |path: &Vec<String>| self.modules[path].file.clone();
+        let others: Vec<String> = imported.iter().filter(|path| circle.contains(path)).map(name).collect();
+        format!("{} -> {}", self.modules[path].file, others.join(", "))
+    }
+
+    /// Returns the files that a file imports from. A public import hands a name on and makes no edge; a file is charged for the module that
+    /// defines the name, not for the modules that hand it on.
+    fn imported(&self, path: &[String]) -> BTreeSet<Vec<String>> {
+        let module = &self.modules[path];
+        let mut found = BTreeSet::new();
+        let mut imported_modules = BTreeMap::new();
+        for import in module.imports.iter().filter(|import| !import.public) {
+            match self.absolute(path, &import.path) {
+                Some(whole) if self.modules.contains_key(&whole) => {
+                    imported_modules.insert(import.name.clone(), import.path.clone());
+                }
+                _ => found.extend(self.home(path, &import.path, 0)),
+            }
+        }
+        for named in inline_paths(&module.body) {
+            let whole = match imported_modules.get(&named[0]) {
+                Some(start) => [&start[..], &named[1..]].concat(),
+                None => named,
+            };
+            found.extend(self.home(path, &whole, 0));
+        }
+        found.remove(path);
+        found
+    }
+
+    /// Returns a path from the crate's root; `None` if it leads out of the crate.
+    fn absolute(&self, from: &[String], path: &[String]) -> Option<Vec<String>> {
+        let ups = path.iter().take_while(|part| *part == "super").count();
+        let (base, rest) = match path.first()?.as_str() {
+            "crate" => (&from[..0], &path[1..]),
+            "self" => (from, &path[1..]),
+            "super" => (&from[..from.len().checked_sub(ups)?], &path[ups..]),
+            first if self.modules.contains_key(&[from, &[first.to_owned()]].concat()) => (from, path),
+            _ => return None,
+        };
+        Some([base, rest].concat())
+    }
+
+    /// Returns the module that defines what a path names, through public imports.
+    fn home(&self, from: &[String], path: &[String], depth: u32) -> Option<Vec<String>> {
+        let whole = self.absolute(from, path)?;
+        let mut len = 0;
+        while len < whole.len() && self.modules.contains_key(&whole[..=len]) {
+            len += 1;
+        }
+        let (home, rest) = whole.split_at(len);
+        let module = self.modules.get(home)?;
+        let Some(name) = rest.first() else { return Some(home.to_vec()) };
+        if name == "*" || module.items.contains(name) {
+            return Some(home.to_vec());
+        }
+        // Names handed on in a circle have no home.
+        if depth > 16 {
+            return None;
+        }
+        if let Some(import) = module.imports.iter().find(|import| import.name == *name) {
+            return self.home(home, &[&import.path[..], &rest[1..]].concat(), depth + 1);
+        }
+        let globs = module.imports.iter().filter(|import| import.public && import.name == "*");
+        globs.filter_map(|glob| self.home(home, &[&glob.path[..glob.path.len() - 1], rest].concat(), depth + 1)).next()
+    }
+}
+
+fn reachable(from: &[String], edges: &Edges) -> BTreeSet<Vec<String>> {
+    let mut found = BTreeSet::new();
+    let mut open: Vec<&Vec<String>> = edges[from].iter().collect();
+    while let Some(path) = open.pop() {
+        if found.insert(path.clone()) {
+            open.extend(&edges[path]);
+        }
+    }
+    found
+}
+
+/// `a/b/mod.rs` and `a/b.rs` are the module `a::b`.
+fn module_path(file: &str) -> Vec<String> {
+    let mut parts: Vec<String> = file.trim_end_matches(".rs").split(['/', '\\']).map(str::to_owned).collect();
+    if parts.last().is_some_and(|last| ["mod", "lib", "main"].contains(&last.as_str())) {
+        parts.pop();
+    }
+    parts
+}
+
+/// Names of the modules that a file declares.
+fn declared(code: &[Token]) -> BTreeSet<String> {
+    let declared = code.windows(3).filter(|three| three[0].1 == "mod" && is_word(&three[1].1) && three[2].1 == ";");
+    declared.map(|three| three[1].1.clone()).collect()
+}
+
+/// Names of the items that a file defines.
+fn items(code: &[Token]) -> BTreeSet<String> {
+    const KINDS: [&str; 8] = ["fn", "struct", "enum", "trait", "type", "const", "static", "union"];
+    let named =
+        code.windows(2).filter(|two| KINDS.contains(&two[0].1.as_str()) && is_word(&two[1].1)).map(|two| two[1].1.clone());
+    let macros = code.windows(3).filter(|three| three[0].1 == "macro_rules" && three[1].1 == "!").map(|three| three[2].1.clone());
+    named.chain(macros).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn circles(files: &[(&str, &str)]) -> Vec<Vec<String>> {
+        CrateFiles::read(files.iter().copied()).circles()
+    }
+
+    #[test]
+    fn exact_files_that_import_each_other_are_a_circle() {
+        let files =
+            [("lib.rs", "mod a; mod b;"), ("a.rs", "use crate::b::B; pub struct A;"), ("b.rs", "pub struct B(super::a::A);")];
+        assert_eq!(circles(&files), [["a.rs -> b.rs", "b.rs -> a.rs"]]);
+        let files = [("lib.rs", "mod a; mod b;"), ("a.rs", "use crate::b::B; pub struct A;"), ("b.rs", "pub struct B;")];
+        assert!(circles(&files).is_empty());
+    }
+
+    #[test]
+    fn exact_a_name_is_charged_to_the_file_that_defines_it() {
+        let handed_on = [("a/mod.rs", "mod b; mod c; pub use c::C;"), ("a/b.rs", "use super::C;"), ("a/c.rs", "pub struct C;")];
+        assert!(circles(&handed_on).is_empty());
+        let defined = [("a/mod.rs", "mod b; use b::B; pub struct C;"), ("a/b.rs", "use super::C; pub struct B;")];
+        assert_eq!(circles(&defined), [["a/mod.rs -> a/b.rs", "a/b.rs -> a/mod.rs"]]);
+        let through_glob = [
+            ("a/mod.rs", "mod b; mod c; pub use c::*;"),
+            ("a/b.rs", "use super::C;"),
+            ("a/c.rs", "use super::b::B; pub enum C {}"),
+        ];
+        assert!(circles(&through_glob).is_empty(), "b defines no B");
+    }
+
+    #[test]
+    fn exact_a_module_that_is_imported_counts_where_it_is_used() {
+        let used = [("a.rs", "use crate::b; fn f() { b::g() }"), ("b.rs", "pub fn g() { crate::a::f() }")];
+        assert_eq!(circles(&used), [["a.rs -> b.rs", "b.rs -> a.rs"]]);
+        let unused = [("a.rs", "use crate::b; fn f() {}"), ("b.rs", "pub fn g() { crate::a::f() }")];
+        assert!(circles(&unused).is_empty());
+        let renamed = [("a.rs", "use crate::b::g as h; fn f() { h() }"), ("b.rs", "pub fn g() { crate::a::f() }")];
+        assert_eq!(circles(&renamed).len(), 1);
+    }
+
+    #[test]
+    fn exact_tests_make_no_circle() {
+        let inside =
+            [("a.rs", "fn f() {} #[cfg(test)] mod tests { use crate::b::g; }"), ("b.rs", "pub fn g() { crate::a::f() }")];
+        assert!(circles(&inside).is_empty());
+        let beside =
+            [("a.rs", "#[cfg(test)]\nmod checks; fn f() { self::checks::g() }"), ("a/checks.rs", "pub fn g() { super::f() }")];
+        assert!(circles(&beside).is_empty());
+    }
+
+    #[test]
+    fn exact_a_long_circle_lists_every_file_once() {
+        let files = [
+            ("a.rs", "use crate::b::B; pub struct A;"),
+            ("b.rs", "use crate::c::{self, C}; pub struct B;"),
+            ("c.rs", "use crate::a; pub struct C; fn f() -> a::A { a::A }"),
+            ("d.rs", "use crate::a::A; use std::fmt::Debug; pub struct D;"),
+        ];
+        assert_eq!(circles(&files), [["a.rs -> b.rs", "b.rs -> c.rs", "c.rs -> a.rs"]]);
+    }
+}
