@@ -1,9 +1,9 @@
 //! One picture of the window: a page, or a flight with its displays; and what the pages order.
 
+use super::cockpit::Cockpit;
 use super::flight_view::FlightView;
 use super::panes::PaneContent;
 use super::pilot::{PilotCommand, PilotThread};
-use super::window::Cockpit;
 use super::window_text::{WindowText, compose_text, help, waiting};
 use crate::errors::AppError;
 use crate::io::files;

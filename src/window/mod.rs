@@ -1,6 +1,7 @@
 //! The window and what stands behind it: a thread that listens, a thread that builds the scene, a thread that flies, the pipe to whoever
 //! leads it, and the loop that draws.
 
+mod cockpit;
 mod controller_slot;
 mod display;
 mod flight_view;
@@ -16,20 +17,19 @@ pub mod secondary_renderer;
 mod sound;
 mod stream;
 mod train_pipe;
-mod window;
 mod window_config;
 mod window_text;
 
 use crate::errors::AppError;
 use crate::io::clock;
 use crate::io::stop::StopRequest;
+use cockpit::{Cockpit, WindowThreads};
 use flight_view::FlightView;
 use pilot::{PilotCommand, PilotThread};
 use sound::AudioOutput;
 use spandrel_view::flow::{KeyNames, WindowFlow};
 use stream::StreamSender;
 use train_pipe::TrainPipe;
-use window::{Cockpit, WindowThreads};
 
 pub use window_config::{CaptureRequest, WindowConfig, WindowSetup};
 

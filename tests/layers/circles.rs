@@ -32,7 +32,8 @@ impl CrateFiles {
             let path = module_path(file);
             let all = tokens(&code_only(source));
             let code = without_tests(&all);
-            for_tests.extend(declared(&all).difference(&declared(&code)).map(|name| [&path[..], &[name.clone()]].concat()));
+            for_tests
+                .extend(declared(&all).difference(&declared(&code)).map(|name| [&path[..], std::slice::from_ref(name)].concat()));
             let items = items(&code);
             let (imports, body) = (imports(&code), without_imports(&code));
             modules.insert(path, SourceModule { file: file.to_owned(), items, imports, body });
