@@ -4,6 +4,7 @@
 
 mod circles;
 mod paths;
+mod picture;
 mod rules;
 
 use std::path::{Path, PathBuf};
@@ -18,11 +19,16 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
+/// The sources of all crates and of the program.
+fn all_sources(root: &Path) -> Vec<PathBuf> {
+    let folders = rules::crates().map(|folder| root.join("crates").join(folder)).chain([root.to_owned()]);
+    folders.flat_map(|folder| sources(&folder.join("src"))).collect()
+}
+
 #[test]
 fn exact_every_path_in_the_house_is_allowed() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let folders = rules::crates().map(|folder| root.join("crates").join(folder)).chain([root.to_owned()]);
-    let files: Vec<PathBuf> = folders.flat_map(|folder| sources(&folder.join("src"))).collect();
+    let files = all_sources(root);
     assert!(files.len() > 500, "only {} files were read", files.len());
     let violations: Vec<String> = files
         .iter()
@@ -32,6 +38,22 @@ fn exact_every_path_in_the_house_is_allowed() {
         })
         .collect();
     assert!(violations.is_empty(), "\n{}", violations.join("\n"));
+}
+
+#[test]
+fn exact_the_picture_of_the_rooms_shows_the_imports_of_the_code() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut imports = picture::Imports::new();
+    for path in all_sources(root) {
+        let file = path.strip_prefix(root).unwrap().display().to_string();
+        rules::count_imports(&file, &std::fs::read_to_string(&path).unwrap(), &mut imports);
+    }
+    let (path, drawn) = (root.join("docs/src/images/rooms.svg"), picture::svg(&imports));
+    if std::env::var_os("SPANDREL_REFERENCE").is_some_and(|value| value == "write") {
+        std::fs::write(&path, &drawn).unwrap();
+    }
+    let same = std::fs::read_to_string(&path).is_ok_and(|committed| committed == drawn);
+    assert!(same, "docs/src/images/rooms.svg shows other imports than the code has; rewrite it with SPANDREL_REFERENCE=write");
 }
 
 #[test]

@@ -89,14 +89,18 @@ fn character(text: &[char], at: usize) -> usize {
 /// Every path of two or more parts in `code` that begins with one of `roots`, with `use` groups spread out. `module` is the file's own
 /// module path, for `self` and `super`.
 pub fn named(code: &str, module: &[String], roots: &[&str]) -> Vec<Named> {
-    let tokens = tokens(code);
+    named_in(&tokens(code), module, roots)
+}
+
+/// As [`named`], in code that is split already.
+pub fn named_in(tokens: &[Token], module: &[String], roots: &[&str]) -> Vec<Named> {
     let mut found = Vec::new();
     for at in 0..tokens.len() {
         let begins = roots.contains(&tokens[at].1.as_str()) || ["self", "super"].contains(&tokens[at].1.as_str());
         let continues = at > 0 && tokens[at - 1].1 == "::" && at > 1 && is_word(&tokens[at - 2].1);
         if begins && !continues && tokens.get(at + 1).is_some_and(|next| next.1 == "::") {
             let mut parts = Vec::new();
-            tree(&tokens, at, &mut parts, &mut found);
+            tree(tokens, at, &mut parts, &mut found);
         }
     }
     found.into_iter().filter_map(|(line, path)| Some((line, resolve(path, module)?))).collect()

@@ -1,9 +1,12 @@
 //! What Cargo cannot hold: the table of rooms within crates, and the capital rules of ARCHITECTURE.md.
 
-use crate::paths::{code_only, named};
+use crate::paths::{code_only, named, named_in, tokens, without_tests};
+use crate::picture::Imports;
 
-/// Each crate with the modules that are rooms of their own, as (module, room); every other module belongs to the room named last.
-const CRATES: &[(&str, &[(&str, &str)], &str)] = &[
+/// A module of a crate, and the room that it is.
+type OwnRoom = (&'static str, &'static str);
+/// Each crate with the modules that are rooms of their own; every other module belongs to the room named last.
+const CRATES: &[(&str, &[OwnRoom], &str)] = &[
     ("model", &[("scenario", "scenario"), ("vehicle", "vehicle"), ("site", "site")], "base"),
     ("mavlink", &[("telemetry", "telemetry")], "mav"),
     ("sitl", &[], "sitl"),
@@ -14,7 +17,7 @@ const CRATES: &[(&str, &[(&str, &str)], &str)] = &[
     (PROGRAM, &[("errors", "errors"), ("io", "io"), ("records", "records"), ("web", "server"), ("window", "window")], "cli"),
 ];
 /// The package at the workspace's root.
-pub const PROGRAM: &str = "";
+const PROGRAM: &str = "";
 /// Each room with the rooms that it may know. The rooms of the program may know every library, too.
 const TABLE: &[(&str, &[&str])] = &[
     ("base", &[]),
@@ -105,12 +108,12 @@ pub fn may_depend_on(folder: &str) -> Vec<&'static str> {
 
 /// The crate that a room lies in.
 fn home(room: &str) -> &'static str {
-    let holds = |own: &[(&str, &str)], rest: &str| rest == room || own.iter().any(|(_, name)| *name == room);
+    let holds = |own: &[OwnRoom], rest: &str| rest == room || own.iter().any(|(_, name)| *name == room);
     CRATES.iter().find(|(_, own, rest)| holds(own, rest)).map_or(PROGRAM, |(folder, ..)| *folder)
 }
 
 /// The room of a crate's module.
-pub fn room_of(folder: &str, module: Option<&str>) -> Option<&'static str> {
+fn room_of(folder: &str, module: Option<&str>) -> Option<&'static str> {
     let (_, own, rest) = CRATES.iter().find(|(name, ..)| *name == folder)?;
     Some(own.iter().find(|(name, _)| Some(*name) == module).map_or(rest, |(_, room)| room))
 }
@@ -133,6 +136,33 @@ pub fn violations(file: &str, source: &str) -> Vec<String> {
     found
 }
 
+/// Adds the names that a file imports from other rooms, tests left out.
+pub fn count_imports(file: &str, source: &str, imports: &mut Imports) {
+    let Some((folder, module)) = place_of(file) else { return };
+    let Some(room) = room_of(folder, module.first().map(String::as_str)) else { return };
+    for (_, path) in named_in(&without_tests(&tokens(&code_only(source))), &module, ROOTS) {
+        let path: Vec<&str> = path.iter().map(String::as_str).collect();
+        if let Some(target) = target_of(folder, &path).filter(|target| *target != room) {
+            *imports.entry((room, target)).or_default() += 1;
+        }
+    }
+}
+
+/// Folder of a room's crate, for people.
+pub fn place_name(room: &str) -> String {
+    match home(room) {
+        PROGRAM => "src".to_owned(),
+        folder => format!("crates/{folder}"),
+    }
+}
+
+/// The room that a path leads to.
+fn target_of(folder: &str, path: &[&str]) -> Option<&'static str> {
+    let (root, rest) = path.split_first()?;
+    let other = if *root == "crate" { folder } else { root.strip_prefix("spandrel_")? };
+    room_of(other, rest.first().copied())
+}
+
 /// `Instant::now()` and its like, also through an imported name.
 fn clock_readings(folder: &str, file: &str, code: &str) -> Vec<String> {
     let reads = |line: &str| folder != PROGRAM && line.contains("::now()");
@@ -141,7 +171,7 @@ fn clock_readings(folder: &str, file: &str, code: &str) -> Vec<String> {
 }
 
 /// `crates/sitl/src/autopilot/core.rs` is the module `autopilot::core` of the crate `sitl`.
-pub fn place_of(file: &str) -> Option<(&'static str, Vec<String>)> {
+fn place_of(file: &str) -> Option<(&'static str, Vec<String>)> {
     let parts: Vec<&str> = file.trim_end_matches(".rs").split(['/', '\\']).collect();
     let (folder, module) = match &parts[..] {
         ["crates", folder, "src", module @ ..] => (*folder, module),
@@ -158,9 +188,8 @@ fn forbidden(folder: &str, room: &str, module: &[String], path: &[&str]) -> Opti
     if folder != PROGRAM && OUTSIDE.iter().any(|outside| path.starts_with(outside)) && !PLAIN_DATA.contains(&path) {
         return Some("ONLY THE PROGRAM TOUCHES THE OUTSIDE WORLD".into());
     }
-    let (root, rest) = path.split_first()?;
-    let other = if *root == "crate" { folder } else { root.strip_prefix("spandrel_")? };
-    let target = room_of(other, rest.first().copied())?;
+    let target = target_of(folder, path)?;
+    let rest = &path[1..];
     let (_, allowed) = TABLE.iter().find(|(name, _)| *name == room)?;
     let library = folder == PROGRAM && home(target) != PROGRAM;
     if target != room && !library && !allowed.contains(&target) {
