@@ -83,7 +83,9 @@ fn reviewed(session: &Path, pictures: Vec<(u32, Jpeg)>) -> Result<Review, AppErr
     let about = SessionFacts { pictures, ..session_facts(session, &stored)? };
     Review::of(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle, about).map_err(|error| match error {
         AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => AppError::wrong(error.to_string()),
-        _ => AppError::failed(error.to_string()),
+        AssessError::NeverFlown | AssessError::NoTruth | AssessError::NoSeed | AssessError::Unreadable(_) => {
+            AppError::failed(error.to_string())
+        }
     })
 }
 

@@ -31,6 +31,8 @@ fn refused(error: &AssessError) -> AppError {
         AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => {
             AppError::wrong(format!("{error}: score the log against the scenario that was flown"))
         }
-        _ => AppError::failed(error.to_string()),
+        AssessError::NeverFlown | AssessError::NoTruth | AssessError::NoSeed | AssessError::Unreadable(_) => {
+            AppError::failed(error.to_string())
+        }
     }
 }

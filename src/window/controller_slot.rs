@@ -174,7 +174,7 @@ impl ControllerSlot {
         match self.take() {
             DeviceState::Calibrating(..) if lost => self.find_device(),
             DeviceState::Calibrating(source, _) => self.open_controller(source),
-            held => self.held = held,
+            held @ (DeviceState::Nothing(_) | DeviceState::Raw(..) | DeviceState::Hand(_)) => self.held = held,
         }
     }
 

@@ -46,7 +46,13 @@ impl Cockpit {
         }
         match self.flow.page() {
             Page::Flight | Page::Paused | Page::Leaving => self.fly(),
-            _ => {
+            Page::Opening
+            | Page::Start
+            | Page::Controls
+            | Page::Calibrating
+            | Page::Tutorial(..)
+            | Page::Waiting
+            | Page::Over => {
                 self.speaker.stop_speech();
                 self.page()
             }

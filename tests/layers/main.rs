@@ -6,6 +6,7 @@ mod circles;
 mod paths;
 mod picture;
 mod rules;
+mod wildcards;
 
 use std::path::{Path, PathBuf};
 
@@ -74,6 +75,20 @@ fn exact_no_circle_of_imports_between_files() {
         );
     }
     assert!(found.is_empty(), "{} circles of imports:\n{}", found.len(), found.join("\n"));
+}
+
+#[test]
+fn exact_no_match_on_an_enum_of_ours_has_an_arm_for_all_further_variants() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let code = |path: &PathBuf| paths::without_tests(&paths::tokens(&paths::code_only(&std::fs::read_to_string(path).unwrap())));
+    let files: Vec<_> = all_sources(root).into_iter().map(|path| (code(&path), path)).collect();
+    let enums = files.iter().flat_map(|(code, _)| wildcards::enums(code)).collect();
+    let mut found = Vec::new();
+    for (code, path) in &files {
+        let file = path.strip_prefix(root).unwrap().display();
+        found.extend(wildcards::found(code, &enums).into_iter().map(|(line, name)| format!("{file}:{line}: {name}")));
+    }
+    assert!(found.is_empty(), "{} arms for all further variants:\n{}", found.len(), found.join("\n"));
 }
 
 #[test]

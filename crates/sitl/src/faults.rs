@@ -138,7 +138,9 @@ impl Faults {
             }
             FailureUnit::Sticks => self.sticks = kind,
             FailureUnit::Battery => {}
-            sensor => self.sensors[place(sensor)] = kind,
+            FailureUnit::Magnetometer | FailureUnit::Barometer | FailureUnit::Gnss | FailureUnit::Flow | FailureUnit::Ranges => {
+                self.sensors[place(unit)] = kind
+            }
         }
         true
     }
@@ -203,7 +205,7 @@ impl Faults {
             let [n, e, d] = match kind {
                 FailureType::Wrong => [JUMP_M, JUMP_M, 0.0],
                 FailureType::Garbage => noise(&mut self.stream, GARBAGE_M),
-                _ => [0.0; 3],
+                FailureType::Off | FailureType::Stuck | FailureType::Intermittent => [0.0; 3],
             };
             fix.position_m += Vec3::<Ned>::new(n, e, d);
             // A receiver without signal still reports that it has no fix.
@@ -218,7 +220,7 @@ impl Faults {
             let rise = match kind {
                 FailureType::Wrong => RISE_M,
                 FailureType::Garbage => self.stream.normal() * GARBAGE_UP_M,
-                _ => 0.0,
+                FailureType::Off | FailureType::Stuck | FailureType::Intermittent => 0.0,
             };
             fresh.baro_up_m = frozen(kind, fresh.baro_up_m.map(|up| up + rise), held.baro_up_m, now);
         }
@@ -226,7 +228,9 @@ impl Faults {
             let turned = |field: Vec3<Frd>, [x, y, z]: [f64; 3]| match kind {
                 // Rotated by 90 degrees, like the effect of a magnet near the sensor.
                 FailureType::Wrong => Vec3::new(-field.right(), field.forward(), field.down()),
-                _ => field + Vec3::new(x, y, z),
+                FailureType::Off | FailureType::Stuck | FailureType::Garbage | FailureType::Intermittent => {
+                    field + Vec3::new(x, y, z)
+                }
             };
             let scale = if kind == FailureType::Garbage { GARBAGE_GAUSS } else { 0.0 };
             let spoilt = fresh.mag_gauss.map(|field| turned(field, noise(&mut self.stream, scale)));
@@ -239,7 +243,7 @@ impl Faults {
             let factor = match kind {
                 FailureType::Wrong => RANGE_FACTOR,
                 FailureType::Garbage => 0.2 + self.stream.uniform(),
-                _ => 1.0,
+                FailureType::Off | FailureType::Stuck | FailureType::Intermittent => 1.0,
             };
             fresh.range_down_m = frozen(kind, fresh.range_down_m.map(|m| m * factor), held.range_down_m, now);
             fresh.range_up_m = frozen(kind, fresh.range_up_m.map(|m| m * factor), held.range_up_m, now);
@@ -264,7 +268,7 @@ fn place(sensor: FailureUnit) -> usize {
         FailureUnit::Barometer => 1,
         FailureUnit::Gnss => 2,
         FailureUnit::Flow => 3,
-        _ => 4,
+        FailureUnit::Ranges | FailureUnit::Battery | FailureUnit::Motor | FailureUnit::Sticks => 4,
     }
 }
 

@@ -166,7 +166,7 @@ impl<'a> TrainRun<'a> {
             self.offer(usual);
             match self.next_choice(usual) {
                 NextFlight::Nobody => {}
-                next => return next,
+                next @ (NextFlight::Fly(_) | NextFlight::Leave) => return next,
             }
             // Who closes the window wants no flight; one that breaks off is done without.
             if self.closed {

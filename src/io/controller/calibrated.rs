@@ -106,7 +106,7 @@ impl CalibratedController {
                 }
                 DeviceEvent::Lost => tracing::warn!("'{}' is lost: sticks centred, then silent", self.profile.device.name),
                 DeviceEvent::Found => tracing::info!("'{}' is there", self.profile.device.name),
-                _ => {}
+                DeviceEvent::Axis { .. } | DeviceEvent::Button { .. } => {}
             }
         }
         ControllerReading { sticks: (!self.raw.lost).then(|| self.profile.sticks(&self.raw)), over: self.source.is_over() }

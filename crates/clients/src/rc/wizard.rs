@@ -238,7 +238,7 @@ impl CalibrationWizard {
                 self.start_step(WizardStep::Push(k), now);
             }
             WizardStep::Push(k) => self.push(k, now),
-            _ => {}
+            WizardStep::LetGo | WizardStep::Range | WizardStep::Middle(_) | WizardStep::Button(_) | WizardStep::Done => {}
         }
     }
 

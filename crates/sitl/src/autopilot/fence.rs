@@ -256,7 +256,19 @@ impl Autopilot {
                     let over = from.unwrap_or(home);
                     Vec3::new(over.north(), over.east(), -up_m.unwrap_or_else(|| self.default_takeoff_up_m()))
                 }
-                _ => continue,
+                MissionStep::Land { position_m: None }
+                | MissionStep::Return
+                | MissionStep::Speed(_)
+                | MissionStep::Delay(_)
+                | MissionStep::DelayUntil(_)
+                | MissionStep::Jump { .. }
+                | MissionStep::LookAt(_)
+                | MissionStep::Turn { .. }
+                | MissionStep::Near(_)
+                | MissionStep::Home(_)
+                | MissionStep::Fence(_)
+                | MissionStep::LandingSequence
+                | MissionStep::Payload => continue,
             };
             if self.breach_at(to).is_some() {
                 return Some(outside);

@@ -84,7 +84,20 @@ impl MissionStep {
         match self {
             Self::Waypoint { position_m, .. } | Self::Land { position_m: Some(position_m) } => Some(position_m),
             Self::Circle { centre_m, .. } => Some(centre_m),
-            _ => None,
+            Self::Takeoff { .. }
+            | Self::Land { position_m: None }
+            | Self::Return
+            | Self::Speed(_)
+            | Self::Delay(_)
+            | Self::DelayUntil(_)
+            | Self::Jump { .. }
+            | Self::LookAt(_)
+            | Self::Turn { .. }
+            | Self::Near(_)
+            | Self::Home(_)
+            | Self::Fence(_)
+            | Self::LandingSequence
+            | Self::Payload => None,
         }
     }
 
@@ -170,7 +183,19 @@ impl Mission {
             MissionStep::Waypoint { position_m, .. } => Some(position_m),
             MissionStep::Circle { centre_m, .. } => Some(centre_m),
             MissionStep::Land { position_m } => position_m,
-            _ => None,
+            MissionStep::Takeoff { .. }
+            | MissionStep::Return
+            | MissionStep::Speed(_)
+            | MissionStep::Delay(_)
+            | MissionStep::DelayUntil(_)
+            | MissionStep::Jump { .. }
+            | MissionStep::LookAt(_)
+            | MissionStep::Turn { .. }
+            | MissionStep::Near(_)
+            | MissionStep::Home(_)
+            | MissionStep::Fence(_)
+            | MissionStep::LandingSequence
+            | MissionStep::Payload => None,
         }
     }
 
@@ -261,7 +286,19 @@ impl Mission {
             MissionStep::Land { position_m: Some(place) } => {
                 MissionStep::Land { position_m: Some(place - Vec3::new(0.0, 0.0, rise_m)) }
             }
-            other => other,
+            unchanged @ (MissionStep::Land { position_m: None }
+            | MissionStep::Return
+            | MissionStep::Speed(_)
+            | MissionStep::Delay(_)
+            | MissionStep::DelayUntil(_)
+            | MissionStep::Jump { .. }
+            | MissionStep::LookAt(_)
+            | MissionStep::Turn { .. }
+            | MissionStep::Near(_)
+            | MissionStep::Home(_)
+            | MissionStep::Fence(_)
+            | MissionStep::LandingSequence
+            | MissionStep::Payload) => unchanged,
         };
         let open = self.unnamed.get(index).copied().unwrap_or_default();
         if let (Some(place_m), Some(began_m)) = (step.position_mut(), self.began_m.filter(|_| index == self.current)) {

@@ -67,7 +67,17 @@ impl Autopilot {
             MissionStep::Waypoint { .. } | MissionStep::Near(_) | MissionStep::Delay(_) | MissionStep::Turn { .. } => {
                 self.follow_trajectory(dt_s).unwrap_or_else(|| self.go(speed, dt_s))
             }
-            _ => self.go(speed, dt_s),
+            MissionStep::Land { .. }
+            | MissionStep::Return
+            | MissionStep::Speed(_)
+            | MissionStep::DelayUntil(_)
+            | MissionStep::Jump { .. }
+            | MissionStep::LookAt(_)
+            | MissionStep::Circle { .. }
+            | MissionStep::Home(_)
+            | MissionStep::Fence(_)
+            | MissionStep::LandingSequence
+            | MissionStep::Payload => self.go(speed, dt_s),
         }
     }
 
@@ -168,7 +178,19 @@ impl Autopilot {
                 MissionStep::Fence(on) => {
                     self.enable_fence(on);
                 }
-                _ => {}
+                MissionStep::Waypoint { .. }
+                | MissionStep::Takeoff { .. }
+                | MissionStep::Land { .. }
+                | MissionStep::Return
+                | MissionStep::Speed(_)
+                | MissionStep::Delay(_)
+                | MissionStep::DelayUntil(_)
+                | MissionStep::Jump { .. }
+                | MissionStep::Circle { .. }
+                | MissionStep::Turn { .. }
+                | MissionStep::Near(_)
+                | MissionStep::LandingSequence
+                | MissionStep::Payload => {}
             }
         }
     }
@@ -253,7 +275,15 @@ impl Autopilot {
                 self.navigator.target_yaw_rad = None;
                 self.extend_trajectory();
             }
-            _ => {}
+            MissionStep::Speed(_)
+            | MissionStep::Delay(_)
+            | MissionStep::DelayUntil(_)
+            | MissionStep::Jump { .. }
+            | MissionStep::LookAt(_)
+            | MissionStep::Home(_)
+            | MissionStep::Fence(_)
+            | MissionStep::LandingSequence
+            | MissionStep::Payload => {}
         }
         if let Some(left) = self.mission.left_course.take() {
             self.resume_step(step, left);
@@ -278,7 +308,20 @@ impl Autopilot {
                 course.target_m = before;
                 course.phase = left.phase;
             }
-            _ => {}
+            MissionStep::Waypoint { .. }
+            | MissionStep::Return
+            | MissionStep::Speed(_)
+            | MissionStep::Delay(_)
+            | MissionStep::DelayUntil(_)
+            | MissionStep::Jump { .. }
+            | MissionStep::LookAt(_)
+            | MissionStep::Circle { .. }
+            | MissionStep::Turn { .. }
+            | MissionStep::Near(_)
+            | MissionStep::Home(_)
+            | MissionStep::Fence(_)
+            | MissionStep::LandingSequence
+            | MissionStep::Payload => {}
         }
     }
 
@@ -312,7 +355,15 @@ impl Autopilot {
                 let yaw = self.estimate.attitude.yaw_rad();
                 self.navigator.target_yaw_rad.is_none_or(|wanted| math::wrap_pi(wanted - yaw).abs() < TURNED_RAD)
             }
-            _ => false,
+            MissionStep::Land { .. }
+            | MissionStep::Return
+            | MissionStep::Speed(_)
+            | MissionStep::Jump { .. }
+            | MissionStep::LookAt(_)
+            | MissionStep::Home(_)
+            | MissionStep::Fence(_)
+            | MissionStep::LandingSequence
+            | MissionStep::Payload => false,
         }
     }
 

@@ -171,7 +171,14 @@ impl Autopilot {
                     self.end_mission(now);
                 }
             }
-            _ => {}
+            FlightMode::Stabilized
+            | FlightMode::Altitude
+            | FlightMode::Position
+            | FlightMode::Hold
+            | FlightMode::Land
+            | FlightMode::Offboard
+            | FlightMode::Orbit
+            | FlightMode::Acro => {}
         }
         if self.status.landed == LandedState::Landing {
             self.status.landed = LandedState::InAir;

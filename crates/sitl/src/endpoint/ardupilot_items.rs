@@ -77,6 +77,9 @@ pub(super) fn fly_now(e: &mut Endpoint, item: &MISSION_ITEM_INT_DATA, a: &mut In
     let request = AutopilotRequest::GoTo { north_east_m, up_m: Some(-target.down()), yaw_rad: None, speed_m_s: None };
     match a.autopilot.request(request, a.view.now) {
         RequestOutcome::Accepted => MavMissionResult::MAV_MISSION_ACCEPTED,
-        _ => MavMissionResult::MAV_MISSION_DENIED,
+        RequestOutcome::TemporarilyRejected(_)
+        | RequestOutcome::Denied(_)
+        | RequestOutcome::Failed(_)
+        | RequestOutcome::Unsupported => MavMissionResult::MAV_MISSION_DENIED,
     }
 }

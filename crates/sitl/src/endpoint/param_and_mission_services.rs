@@ -244,7 +244,7 @@ pub(super) fn mission_write_partial(e: &mut Endpoint, w: &MISSION_WRITE_PARTIAL_
 pub(super) fn unknown_item(e: &mut Endpoint, mission_type: u8, a: &mut InboundMessage) {
     match e.plans.receive_unknown(a.from) {
         PlanReply::Nothing => unknown_plan(e, mission_type, a),
-        reply => apply_plan_reply(e, reply, a),
+        reply @ (PlanReply::Say(_) | PlanReply::New(..)) => apply_plan_reply(e, reply, a),
     }
 }
 

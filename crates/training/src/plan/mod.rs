@@ -254,7 +254,19 @@ fn of_session(rule: &PlanRule, record: &SessionRecord) -> Option<f64> {
 fn missed<'a>(rule: &PlanRule, record: &'a SessionRecord) -> Vec<&'a DefectRecord> {
     let about = |defect: &&DefectRecord| match rule.measure {
         RuleMeasure::MissedInView => defect.in_view_s.is_some_and(|seconds| seconds > rule.limit),
-        _ => defect.condition_state >= SEVERE_STATE,
+        RuleMeasure::OffPath
+        | RuleMeasure::OffHeight
+        | RuleMeasure::Speeding
+        | RuleMeasure::Crashes
+        | RuleMeasure::CrashesOutside
+        | RuleMeasure::CrashesAll
+        | RuleMeasure::NotAttempted
+        | RuleMeasure::Missed
+        | RuleMeasure::MissedSevere
+        | RuleMeasure::FalseSnapshots
+        | RuleMeasure::Overtime
+        | RuleMeasure::NotLanded
+        | RuleMeasure::BatteryLow => defect.condition_state >= SEVERE_STATE,
     };
     let mut missed: Vec<&DefectRecord> = record.defects.iter().filter(|defect| !defect.found).filter(about).collect();
     missed.sort_by(|a, b| {

@@ -160,7 +160,13 @@ impl LiveFlightState {
             SampleValue::Seed(seed) => self.seed = Some(seed),
             SampleValue::ScenarioCrc(crc) => self.crc = Some(crc),
             SampleValue::Snapshot(index) => self.push_message("info", format!("picture {index}")),
-            _ => {}
+            SampleValue::Sticks(_)
+            | SampleValue::Light(_)
+            | SampleValue::Hits(_)
+            | SampleValue::Respawns(_)
+            | SampleValue::GimbalPitch(_)
+            | SampleValue::FieldOfView(_)
+            | SampleValue::OnGround(_) => {}
         }
     }
 

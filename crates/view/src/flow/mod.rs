@@ -154,7 +154,16 @@ impl WindowFlow {
         match self.page {
             Page::Controls if wizard => self.show_page(Page::Calibrating),
             Page::Calibrating if !wizard => self.show_page(Page::Controls),
-            _ => {}
+            Page::Opening
+            | Page::Start
+            | Page::Controls
+            | Page::Calibrating
+            | Page::Tutorial(..)
+            | Page::Waiting
+            | Page::Flight
+            | Page::Paused
+            | Page::Leaving
+            | Page::Over => {}
         }
         // Disconnecting a device removes rows.
         self.focus = self.focus.min(self.rows().len().saturating_sub(1));

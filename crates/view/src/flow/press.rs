@@ -82,7 +82,26 @@ impl WindowFlow {
                 let expo = (expo + COARSE * way).clamp(0.0, 1.0);
                 self.out.push_back(WindowRequest::Tune(ProfileChange::Expo(expo)));
             }
-            _ => {}
+            MenuAction::Check
+            | MenuAction::Learn
+            | MenuAction::Sound
+            | MenuAction::Quit
+            | MenuAction::Look
+            | MenuAction::Calibrate
+            | MenuAction::Fly
+            | MenuAction::Stay
+            | MenuAction::Back
+            | MenuAction::Next
+            | MenuAction::Skip
+            | MenuAction::Confirm
+            | MenuAction::Cancel
+            | MenuAction::Resume
+            | MenuAction::Restart
+            | MenuAction::End
+            | MenuAction::Again
+            | MenuAction::Other
+            | MenuAction::Report
+            | MenuAction::Questions => {}
         }
     }
 
@@ -188,7 +207,16 @@ impl WindowFlow {
         self.tutorial_done.insert(self.choice.trainee.clone());
         match self.page {
             Page::Tutorial(_, true) => self.choose(),
-            _ => self.show_page(Page::Start),
+            Page::Opening
+            | Page::Start
+            | Page::Controls
+            | Page::Calibrating
+            | Page::Tutorial(..)
+            | Page::Waiting
+            | Page::Flight
+            | Page::Paused
+            | Page::Leaving
+            | Page::Over => self.show_page(Page::Start),
         }
     }
 

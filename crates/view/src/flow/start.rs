@@ -15,7 +15,13 @@ impl WindowFlow {
             Page::Flight => return paused::button(self, pen),
             Page::Paused => return paused::page(pen, &paused::STANDS, &rows, self.focus),
             Page::Leaving => return paused::page(pen, &paused::GOES_ON, &rows, self.focus),
-            _ => pen.ground(HudColor::Night),
+            Page::Opening
+            | Page::Start
+            | Page::Controls
+            | Page::Calibrating
+            | Page::Tutorial(..)
+            | Page::Waiting
+            | Page::Over => pen.ground(HudColor::Night),
         }
         match self.page {
             Page::Start => self.start(&mut pen, &rows),

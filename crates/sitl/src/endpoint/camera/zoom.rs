@@ -81,7 +81,7 @@ impl ZoomLens {
             ZoomCommand::FieldOfView(rad) if rad > 0.0 && rad < math::PI => {
                 level_of(math::tan(0.5 * camera.hfov_rad) / math::tan(0.5 * rad)).map(ZoomDrive::To)
             }
-            _ => None,
+            ZoomCommand::Step(_) | ZoomCommand::Rate(_) | ZoomCommand::Level(_) | ZoomCommand::FieldOfView(_) => None,
         };
         if let Some(drive) = drive {
             self.drive = drive;
@@ -101,7 +101,7 @@ impl ZoomLens {
         self.level = match self.drive {
             // Reach the ends exactly, so that the wide end is bit-identical.
             ZoomDrive::To(target) if (target - before).abs() <= most => target,
-            _ => (before + moved).clamp(0.0, 1.0),
+            ZoomDrive::Rest | ZoomDrive::To(_) | ZoomDrive::Rate(_) => (before + moved).clamp(0.0, 1.0),
         };
         let arrived = match self.drive {
             ZoomDrive::To(target) => self.level == target,

@@ -315,7 +315,15 @@ impl FileServer {
             FileAction::Read(path, offset, most) => {
                 self.generated.get(path).map(|content| Ok(FileJobResult::Bytes(cut(content, *offset, *most))))
             }
-            _ => None,
+            FileAction::List(_)
+            | FileAction::Create(_)
+            | FileAction::Write(..)
+            | FileAction::Remove(_)
+            | FileAction::MakeDirectory(_)
+            | FileAction::RemoveDirectory(_)
+            | FileAction::Truncate(..)
+            | FileAction::Rename(..)
+            | FileAction::Checksum { .. } => None,
         }
         .or_else(|| (!self.stored).then(|| Self::nothing_stored(action)))
     }
@@ -324,7 +332,15 @@ impl FileServer {
         match action {
             FileAction::List(path) if path.is_root() => Ok(FileJobResult::Entries(Vec::new())),
             FileAction::Create(_) | FileAction::MakeDirectory(_) => Err(FileError::Protected),
-            _ => Err(FileError::NotFound),
+            FileAction::List(_)
+            | FileAction::Size(_)
+            | FileAction::Read(..)
+            | FileAction::Write(..)
+            | FileAction::Remove(_)
+            | FileAction::RemoveDirectory(_)
+            | FileAction::Truncate(..)
+            | FileAction::Rename(..)
+            | FileAction::Checksum { .. } => Err(FileError::NotFound),
         }
     }
 

@@ -197,7 +197,7 @@ impl Flavour {
                 RequestOutcome::TemporarilyRejected(why) => RequestOutcome::TemporarilyRejected((self.mode_words)(row, why)),
                 RequestOutcome::Denied(why) => RequestOutcome::Denied((self.mode_words)(row, why)),
                 RequestOutcome::Failed(why) => RequestOutcome::Failed((self.mode_words)(row, why)),
-                other => other,
+                unchanged @ (RequestOutcome::Accepted | RequestOutcome::Unsupported) => unchanged,
             };
         }
         *chosen = row.number;
