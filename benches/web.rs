@@ -71,14 +71,15 @@ impl Drop for Server {
     }
 }
 
+/// Adds one session.
+const INSERT: &str = "INSERT INTO sessions (id, trainee, started_unix_us, scenario, scenario_sha256, vehicle, vehicle_sha256, \
+    telemetry_sha256, spandrel_version, scorer_version, end_reason, seconds, conformity, efficiency, safety, accuracy, overall, overall_max, \
+    fingerprint, record) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)";
+
 /// Copies of the study's records; the tables are there already.
 async fn fill(file: &Path) -> Result<String, sqlx::Error> {
     let originals: Vec<SessionRecord> = RECORDS.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
     let mut database = SqliteConnection::connect(&format!("sqlite://{}", file.display())).await?;
-    let columns = "id, trainee, started_unix_us, scenario, scenario_sha256, vehicle, vehicle_sha256, telemetry_sha256, spandrel_version, \
-        scorer_version, end_reason, seconds, conformity, efficiency, safety, accuracy, overall, overall_max, fingerprint, record";
-    let places = vec!["?"; 20].join(", ");
-    let insert = format!("INSERT INTO sessions ({columns}) VALUES ({places})");
     let mut change = database.begin().await?;
     let mut last = String::new();
     for k in 0..SESSIONS {
@@ -88,7 +89,7 @@ async fn fill(file: &Path) -> Result<String, sqlx::Error> {
         let add = "INSERT OR IGNORE INTO trainees (pseudonym, role) VALUES (?, 'trainee')";
         sqlx::query(add).bind(&r.trainee).execute(&mut *change).await?;
         let text = serde_json::to_string(&r).unwrap_or_default();
-        let query = sqlx::query(&insert).bind(&r.id).bind(&r.trainee).bind(r.started_unix_us.cast_signed()).bind(&r.scenario);
+        let query = sqlx::query(INSERT).bind(&r.id).bind(&r.trainee).bind(r.started_unix_us.cast_signed()).bind(&r.scenario);
         let query = query.bind(&r.scenario_sha256).bind(&r.vehicle).bind(&r.vehicle_sha256).bind(&r.telemetry_sha256);
         let query = query.bind(&r.spandrel_version).bind(r.scorer_version).bind(&r.end_reason).bind(r.seconds);
         let s = r.scores;

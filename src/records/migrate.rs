@@ -33,7 +33,7 @@ impl Database {
             ));
         };
         for migration in missing {
-            sqlx::raw_sql(migration).execute(&mut *change).await?;
+            sqlx::raw_sql(*migration).execute(&mut *change).await?;
         }
         if !missing.is_empty() {
             change.execute("DELETE FROM schema_version").await?;

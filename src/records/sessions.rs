@@ -245,7 +245,7 @@ async fn put(change: &mut Transaction<'static, Any>, record: &SessionRecord) -> 
     Ok(true)
 }
 
-fn bind<'q>(query: Query<'q, Any, AnyArguments<'q>>, record: &SessionRecord, text: String) -> Query<'q, Any, AnyArguments<'q>> {
+fn bind<'q>(query: Query<'q, Any, AnyArguments>, record: &SessionRecord, text: String) -> Query<'q, Any, AnyArguments> {
     let scores = &record.scores;
     query
         .bind(record.id.clone())

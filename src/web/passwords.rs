@@ -2,7 +2,7 @@
 
 use crate::errors::AppError;
 use crate::records::RecordsLocation;
-use argon2::password_hash::{Output, PasswordHash, SaltString};
+use argon2::password_hash::phc::{Output, PasswordHash, Salt};
 use argon2::{ARGON2ID_IDENT, Algorithm, Argon2, Block, Params, Version};
 use spandrel_training::trainee::Role;
 use spandrel_training::web::login;
@@ -40,13 +40,12 @@ pub fn hash(password: &str, memory: &mut HashingMemory) -> Result<String, AppErr
     let argon2 = Argon2::default();
     let mut out = [0; Params::DEFAULT_OUTPUT_LEN];
     memory.output(&argon2, password, &salt, &mut out).map_err(|error| failed(&error))?;
-    let salt = SaltString::encode_b64(&salt).map_err(|error| failed(&error))?;
     let params = argon2.params().try_into().map_err(|error: argon2::password_hash::Error| failed(&error))?;
     let parsed = PasswordHash {
         algorithm: ARGON2ID_IDENT,
         version: Some(Version::V0x13.into()),
         params,
-        salt: Some(salt.as_salt()),
+        salt: Some(Salt::new(&salt).map_err(|error| failed(&error))?),
         hash: Some(Output::new(&out).map_err(|error| failed(&error))?),
     };
     Ok(parsed.to_string())
@@ -60,16 +59,15 @@ pub fn verify(password: &str, hash: Option<&str>, memory: &mut HashingMemory) ->
 }
 
 /// `None` for a hash that cannot be computed here.
-fn matches(password: &str, stored: &PasswordHash<'_>, memory: &mut HashingMemory) -> Option<bool> {
+fn matches(password: &str, stored: &PasswordHash, memory: &mut HashingMemory) -> Option<bool> {
     let params = Params::try_from(stored).ok().filter(|p| p.m_cost() <= MOST_MEMORY_KIB && p.t_cost() <= MOST_PASSES)?;
-    let algorithm = Algorithm::try_from(stored.algorithm).ok()?;
+    let algorithm = Algorithm::try_from(stored.algorithm.as_str()).ok()?;
     let version = stored.version.map_or(Ok(Version::default()), Version::try_from).ok()?;
     let expected = stored.hash?;
-    let mut salt = [0; 64];
-    let salt = stored.salt?.decode_b64(&mut salt).ok()?;
+    let salt = stored.salt?;
     let mut out = [0; Output::MAX_LENGTH];
     let out = out.get_mut(..expected.len())?;
-    memory.output(&Argon2::new(algorithm, version, params), password, salt, out).ok()?;
+    memory.output(&Argon2::new(algorithm, version, params), password, &salt, out).ok()?;
     // Output compares in constant time.
     Some(Output::new(out).ok()? == expected)
 }
@@ -124,10 +122,9 @@ mod tests {
         let ours = hash("correct horse battery", memory).unwrap();
         let parsed = PasswordHash::new(&ours).unwrap();
         assert!(Argon2::default().verify_password(b"correct horse battery", &parsed).is_ok());
-        let salt = SaltString::encode_b64(&[7; 16]).unwrap();
         // Another cost than ours, as an older database may hold.
         let other = Argon2::new(Algorithm::Argon2id, Version::V0x13, Params::new(8_192, 3, 2, None).unwrap());
-        let theirs = other.hash_password(b"correct horse battery", &salt).unwrap().to_string();
+        let theirs = other.hash_password_with_salt(b"correct horse battery", &[7; 16]).unwrap().to_string();
         assert!(verify("correct horse battery", Some(&theirs), memory) && !verify("another", Some(&theirs), memory));
         let greedy = theirs.replace("m=8192", "m=4194304");
         assert!(!verify("correct horse battery", Some(&greedy), memory));
