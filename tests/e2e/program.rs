@@ -22,7 +22,7 @@ fn wire_wrong_arguments_and_files_end_with_two_and_report_what_is_allowed() {
         (vec!["sim", "--flavour", "slugs"], "ardupilot"),
         (vec!["monitor", "--scenario", "no-such-job"], "two-bridges"),
         (vec!["monitor", "--vehicle", "no-such-drone"], "phantom2"),
-        (vec!["monitor", "--session", "no-such-folder"], "is no session folder"),
+        (vec!["monitor", "--session", "no-such-folder"], "not a session folder"),
         (vec!["pilot", "--connect", "somewhere"], "HOST:PORT"),
         (vec!["assess", "no-such.tlog"], "--scenario and --vehicle"),
         (vec!["export", "two-bridges", "--frames", "-"], "needs a session folder"),
