@@ -432,7 +432,7 @@ def test_a_recorded_flight_is_taken_in(browser, server, sessions, tmp_path):
     person.page.select_option("[name=scenario]", "two-bridges")
     person.page.set_input_files("[name=file]", log)
     person.page.click("text=Import >> nth=-1")
-    expect(person.page.locator(".message")).to_contain_text("cannot be taken in")
+    expect(person.page.locator(".message")).to_contain_text("cannot import this recording")
     assert len(ids(sessions, "carl")) == 1
 
 
@@ -538,7 +538,7 @@ def test_an_instructor_watches_and_acts(browser, tmp_path):
         page.click("text=Inject failure")
         expect(said).to_contain_text("instructor: compass fails", timeout=PATIENCE_MS)
         page.click("text=Clear failure")
-        expect(said).to_contain_text("instructor: compass is whole again", timeout=PATIENCE_MS)
+        expect(said).to_contain_text("instructor: compass restored", timeout=PATIENCE_MS)
         for size, scheme in [("desktop", "light"), ("phone", "dark")]:
             page.set_viewport_size({"width": SIZES[size][0], "height": SIZES[size][1]})
             page.emulate_media(color_scheme=scheme)
