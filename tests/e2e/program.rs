@@ -70,7 +70,7 @@ fn wire_check_reports_every_problem_of_every_file_as_text_and_as_json() {
     let good = write("good.toml", job);
     let bad = write("bad.toml", &job.replace("spacing_m = 8.0", "spacing_m = -8.0").replace("turbulence", "turbulance"));
     let (code, out, _) = told(&spandrel(&["check", &good]));
-    assert_eq!((code, out.trim()), (Some(0), "1 file right"));
+    assert_eq!((code, out.trim()), (Some(0), "1 file valid"));
 
     let (code, out, err) = told(&spandrel(&["check", &good, &bad]));
     assert_eq!(code, Some(2));
