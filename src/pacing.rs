@@ -252,7 +252,7 @@ mod tests {
     fn regress_only_blocked_time_counts_toward_the_timeout() {
         let mut patience = LockstepTimeout::default();
         for (reached, wall) in (0..100).map(|step| SimTime::from_ms(20 * step)).zip((0..100).map(Duration::from_secs)) {
-            assert!(!patience.is_over(reached, wall), "a long run in step is no silence");
+            assert!(!patience.is_over(reached, wall), "a long run in lockstep is not a timeout");
         }
         let (stuck, since) = (SimTime::from_ms(20 * 99), Duration::from_secs(99));
         assert!(!patience.is_over(stuck, since + PATIENCE));

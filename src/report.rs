@@ -217,7 +217,7 @@ mod tests {
         (3..14).for_each(|k| put(&format!("{k:04}.jpg"), PICTURE_MOST));
         let found: Vec<(u32, u64)> = photographs(folder.path()).iter().map(|(k, file)| (*k, file.bytes.len() as u64)).collect();
         let whole = (3..=11).map(|k| (k, PICTURE_MOST));
-        assert_eq!(found, [(1, 70)].into_iter().chain(whole).collect::<Vec<_>>(), "ten times the most of one, less the copy");
+        assert_eq!(found, [(1, 70)].into_iter().chain(whole).collect::<Vec<_>>(), "ten times the limit of one, less the small copy");
     }
 
     #[test]

@@ -56,7 +56,7 @@ impl FromStr for SerialDevice {
 }
 
 /// Reads a port until its bytes are no longer needed. `begin` returns the frames to write, `give` receives the bytes read, and `end` is called when
-/// the port disconnects; the port is then reopened as soon as it is back.
+/// the port disconnects; the port is then reopened as soon as possible.
 pub fn keep(
     device: &SerialDevice,
     mut port: SerialPort,

@@ -252,7 +252,7 @@ impl VehicleShell {
         if self.core.waiting() {
             if self.lockstep_timeout.is_over(self.core.now(), wall) {
                 return Err(AppError::failed(format!(
-                    "a peer in lockstep has not answered TIMESYNC for {} s at {} and seems to be gone",
+                    "a lockstep peer has not answered TIMESYNC for {} s (simulation time {}) and seems to be gone",
                     PATIENCE.as_secs(),
                     self.core.now()
                 )));
@@ -274,7 +274,7 @@ impl VehicleShell {
             FirstAnswerAction::Wait => {}
             FirstAnswerAction::Announce => self.core.send_first_contact(),
             FirstAnswerAction::Proceed => {
-                tracing::info!("a peer in lockstep has not answered TIMESYNC yet: it is served in real time until it does");
+                tracing::info!("a lockstep peer has not answered TIMESYNC yet: serving it in real time until it does");
                 self.core.skip_first_answers();
                 return;
             }

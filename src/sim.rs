@@ -66,7 +66,7 @@ pub struct Args {
     #[command(flatten)]
     ports: PortArgs,
     /// Number of vehicles in this process, 1 to 50, side by side at the same site; they do not collide with each other. System IDs and
-    /// ports count up from --instance and from every port given
+    /// ports count up from --instance and from every port that you specify
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=50), conflicts_with = "lockstep")]
     instances: u8,
     /// Folder to serve over MAVLink FTP. Flight logs (ULog, and MCAP for Foxglove) go to its subfolder `log`, where clients can only read and

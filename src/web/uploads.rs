@@ -41,7 +41,7 @@ enum UploadOutcome {
 
 /// Imports an uploaded recording.
 pub fn recording(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    // One import at a time, so that two simultaneous uploads of the same recording give one session.
+    // One import at a time, so that two simultaneous uploads of the same recording create only one session.
     let _one_at_a_time = lock(&state.scoring);
     match import_recording(state, asked) {
         Ok(UploadOutcome::Session(folder)) => {
