@@ -43,7 +43,7 @@ impl InputLog {
     fn line(&mut self, mut line: String) -> std::io::Result<()> {
         line.push('\n');
         self.file.write_all(line.as_bytes()).inspect_err(|_| {
-            // A partial line would make the whole recording unreadable.
+            // A partial line would make the entire recording unreadable.
             let _ = self.file.set_len(self.whole);
         })?;
         self.whole += line.len() as u64;
