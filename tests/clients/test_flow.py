@@ -164,7 +164,7 @@ def test_wire_a_session_from_the_choice_to_the_scores_by_keys_alone(screen, tmp_
 
         def flies():
             again.if_due()
-            return "lift-off" in training.told().split("this attempt ended")[-1]
+            return "lift-off" in training.told().split("attempt ended; the recorded data")[-1]
 
         spandrel.wait_for("lift-off", flies, LIMIT_S)
 

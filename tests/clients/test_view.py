@@ -174,7 +174,7 @@ def test_wire_training_goes_on_without_a_display(tmp_path, asked, title):
     try:
         told = tmp_path / "train.txt"
         spandrel.wait_for("it goes on", lambda: "the session continues without it" in told.read_text(encoding="utf-8"), DRAW_LIMIT_S)
-        spandrel.wait_for("it flies", lambda: "Take off, do the tasks" in told.read_text(encoding="utf-8"), DRAW_LIMIT_S)
+        spandrel.wait_for("it flies", lambda: "Take off, fly the tasks" in told.read_text(encoding="utf-8"), DRAW_LIMIT_S)
         assert title in told.read_text(encoding="utf-8")
         assert "no display" in told.read_text(encoding="utf-8") and training.poll() is None
         assert "A window shows" not in told.read_text(encoding="utf-8"), "a window that is not there is not told of"

@@ -18,7 +18,7 @@ pub fn open() -> Result<EventLoop<()>, AppError> {
         Err(_) => "a library is missing; Debian and Ubuntu: apt-get install libxkbcommon-x11-0 libx11-xcb1 libxcursor1 libxi6 libxrandr2"
             .to_owned(),
     };
-    Err(AppError::failed(format!("cannot open a window ({why}); everything else works without a display")))
+    Err(AppError::failed(format!("there is no display to open a window on ({why}); everything else works without one")))
 }
 
 /// Describes the configured display; the library's own message would refer to its source code.
