@@ -31,7 +31,7 @@ impl JobArgs {
     }
 }
 
-/// Parses a seed.
+/// Parses a seed for `--seed`, 0 to 2147483647.
 pub fn seed(text: &str) -> Result<u64, String> {
     text.parse().ok().filter(|seed| *seed <= SEED_MAX).ok_or_else(|| format!("'{text}' is not a seed (allowed: 0 to {SEED_MAX})"))
 }
@@ -41,7 +41,7 @@ pub fn random_seed() -> u64 {
     spandrel_model::random::RandomStream::new(clock::unix_us(), "session seed").bits() & SEED_MAX
 }
 
-/// Autopilot protocol.
+/// Autopilot protocol that the vehicle uses toward its clients.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Flavour {
     /// PX4; best supported by ground stations and SDKs
@@ -95,9 +95,9 @@ impl Purpose {
 /// A destination address, or none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Destination {
-    /// No destination.
+    /// Nothing is sent (`none` on the command line).
     None,
-    /// This address.
+    /// Address to send to.
     Address(SocketAddr),
 }
 
@@ -119,7 +119,7 @@ pub fn address(text: &str) -> Result<SocketAddr, String> {
 /// A port number, or none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PortChoice {
-    /// Closed port.
+    /// The port stays closed (`none` on the command line).
     None,
     /// A port number; 0 lets the system choose a free one.
     Number(u16),

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 pub struct Stopwatch(Instant);
 
 impl Stopwatch {
-    /// Starts the stopwatch.
+    /// Starts a stopwatch at zero.
     #[expect(clippy::disallowed_methods, reason = "the only read of the monotonic clock")]
     pub fn start() -> Self {
         Self(Instant::now())

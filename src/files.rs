@@ -11,20 +11,20 @@ use std::path::{Component, Path, PathBuf};
 /// A scenario with its source text.
 #[derive(Debug, Clone)]
 pub struct ScenarioFile {
-    /// Source text (TOML).
+    /// Source text of the scenario (TOML).
     pub text: String,
     /// Files that the scenario refers to (height fields), by the name that it uses.
     pub siblings: BTreeMap<String, String>,
-    /// Parsed scenario.
+    /// Scenario parsed from the text.
     pub scenario: Scenario,
 }
 
 /// A vehicle with its source text.
 #[derive(Debug, Clone)]
 pub struct VehicleFile {
-    /// Source text (TOML).
+    /// Source text of the vehicle (TOML).
     pub text: String,
-    /// Parsed vehicle.
+    /// Vehicle parsed from the text.
     pub vehicle: Vehicle,
 }
 

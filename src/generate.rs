@@ -10,7 +10,7 @@ use std::path::PathBuf;
 /// Name of the subcommand.
 pub const NAME: &str = "generate";
 
-/// Output to generate.
+/// Kind of output: manual pages or shell completions.
 #[derive(Debug, Subcommand)]
 pub enum What {
     /// Write the manual pages of the program and its subcommands

@@ -35,7 +35,7 @@ pub enum LinkChange {
     Bytes {
         /// Link that the data arrived on.
         link: u32,
-        /// Received bytes.
+        /// Received MAVLink bytes.
         bytes: Vec<u8>,
     },
     /// A link was closed.

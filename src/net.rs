@@ -31,9 +31,9 @@ pub struct StreamId(u32);
 /// Origin of a byte stream.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum StreamOrigin {
-    /// TCP client.
+    /// A client that connected over TCP.
     Tcp(SocketAddr),
-    /// Serial port.
+    /// A device at a serial port.
     Serial(SerialDevice),
 }
 
@@ -180,7 +180,7 @@ impl SocketHub {
         Ok(())
     }
 
-    /// Closes a stream.
+    /// Closes a TCP connection or stops using a serial port.
     pub fn drop_stream(&mut self, stream: StreamId) {
         self.streams.remove(&stream);
     }

@@ -62,7 +62,7 @@ pub struct Lateness {
     pub latest: Duration,
     /// Number of delays beyond the limit, at which the clock slipped.
     pub slips: u32,
-    /// Total time slipped.
+    /// Total wall time that the clock has slipped.
     pub slipped: Duration,
 }
 
@@ -142,7 +142,7 @@ pub struct FirstAnswerWait {
 /// Action while the peer's first answer is outstanding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FirstAnswerAction {
-    /// Keep waiting.
+    /// Keep waiting for the peer.
     Wait,
     /// Announce the vehicle again.
     Announce,

@@ -5,7 +5,7 @@ use spandrel_sitl::endpoint::params::text::ParamFileProblem;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// A parameter file.
+/// A file with a vehicle's parameters, in QGroundControl's .params format.
 #[derive(Debug)]
 pub struct ParamFile {
     path: PathBuf,

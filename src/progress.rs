@@ -43,7 +43,7 @@ impl ProgressLog {
         }
     }
 
-    /// Removes the spinner.
+    /// Removes the spinner from the terminal.
     pub fn end(&self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();

@@ -50,7 +50,7 @@ enum PromptQuestion {
     Tlx(TlxScale),
 }
 
-/// Parsed keyboard input.
+/// Line typed at the terminal, parsed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum TypedInput {
     Answer(u8),

@@ -34,7 +34,7 @@ pub struct StoredSession {
     pub scenario: ScenarioFile,
     /// Aircraft of the session.
     pub vehicle: VehicleFile,
-    /// Recorded telemetry.
+    /// Telemetry log of the session.
     pub log: LogFile,
     /// ID of the trainee.
     pub trainee: String,

@@ -27,16 +27,16 @@ const BEAT: Duration = Duration::from_secs(1);
 pub struct VehicleFiles {
     /// Files that clients can access, and flight logs.
     pub store: Option<FileStore>,
-    /// Saved parameters.
+    /// File that stores the parameters, if any.
     pub params: Option<ParamFile>,
     /// Saved state of MAVLink signing.
     pub signing_store: Option<SigningStore>,
 }
 
-/// MAVLink signing settings.
+/// MAVLink signing key, and the links that need no signature.
 #[derive(Debug, Clone)]
 pub struct SigningConfig {
-    /// Signing key.
+    /// Key that all other links must sign with.
     pub key: SigningKey,
     /// Kinds of links whose unsigned frames are accepted.
     pub unsigned: Vec<LinkKind>,

@@ -117,7 +117,7 @@ fn seconds(text: &str) -> Result<SimTime, String> {
     }
 }
 
-/// Setting for heartbeats.
+/// Setting for the heartbeats of a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum AnnouncedComponents {
     /// Send heartbeats
@@ -135,7 +135,7 @@ enum AfterCrashArg {
     Respawn,
     /// The flight ends
     End,
-    /// As the scenario file says
+    /// Use the rule of the scenario file
     Scenario,
 }
 
@@ -156,7 +156,7 @@ impl AfterCrashArg {
 enum TrustedLink {
     /// Ground stations over UDP
     Gcs,
-    /// The SDK of --sdk
+    /// SDK set with --sdk
     Sdk,
     /// Monitor and other payload clients
     Payload,

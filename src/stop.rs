@@ -61,7 +61,7 @@ impl StopRequest {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// Requests a stop.
+    /// Requests that all threads stop.
     pub fn request(&self) {
         self.0.store(true, Ordering::Relaxed);
     }

@@ -36,7 +36,7 @@ pub struct GamepadWatcher(Gilrs);
 
 #[cfg(feature = "view")]
 impl GamepadWatcher {
-    /// Starts watching.
+    /// Starts watching for devices to be connected.
     pub fn start() -> Result<Self, AppError> {
         system().map(Self)
     }

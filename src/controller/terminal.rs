@@ -10,12 +10,12 @@ use crossterm::{execute, terminal};
 use std::io::{IsTerminal, stderr, stdin};
 use std::time::Duration;
 
-/// A key event.
+/// A key event of the terminal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum TerminalKey {
     /// Key pressed. Repeated while the key is held if the terminal cannot tell presses from repetitions.
     Down(String),
-    /// Key released.
+    /// Key released, with its name.
     Up(String),
     /// The terminal lost the focus, so it no longer receives key releases.
     LetGo,

@@ -19,7 +19,7 @@ const HOLDS: &str = "SELECT COUNT(*) FROM erased WHERE (what = 'trainee' AND sha
 pub(super) enum ErasedKind {
     /// All sessions of a trainee that started before the mark.
     Trainee,
-    /// A single session.
+    /// A single session, by its ID.
     Session,
     /// A folder on this machine that still has to be removed.
     Folder,

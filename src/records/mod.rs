@@ -221,7 +221,7 @@ fn erasure_note(erased: usize) -> String {
 struct ImportCounts {
     /// New or changed folders.
     changed: usize,
-    /// Unreadable folders.
+    /// Folders that could not be read.
     left_out: usize,
     /// Folders of erased sessions.
     erased: usize,

@@ -167,7 +167,7 @@ pub fn aspect((width, height): (u32, u32)) -> f64 {
 
 /// A site with its scene and the device to render it.
 pub struct SceneDrawing {
-    /// Rendering device.
+    /// Graphics device or software renderer.
     pub gpu: Gpu,
     site: Site,
     scene: Scene,

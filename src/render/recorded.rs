@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 
 /// A recorded flight with its session folder.
 pub struct RecordedFlight {
-    /// Session folder.
+    /// Folder of the recorded session.
     pub folder: PathBuf,
     /// Contents of the session folder.
     pub stored: StoredSession,
@@ -31,7 +31,7 @@ pub struct RecordedFlight {
     zero_unix_us: u64,
     /// Complete telemetry log in memory, because images can need its records in any order.
     log: Vec<u8>,
-    /// Flight to render.
+    /// The scored flight of the session, which is rendered.
     pub flight: Flight,
     /// Number of flights before it in the log, because the simulator was restarted.
     before: usize,

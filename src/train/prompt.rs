@@ -11,7 +11,7 @@ const AGAIN: &str = "again";
 pub enum PromptAnswer {
     /// Fly the same job again.
     Again,
-    /// Quit.
+    /// Quit the program.
     Quit,
 }
 

@@ -39,7 +39,7 @@ pub struct Authenticator {
 /// Origin of a login.
 #[derive(Debug, Clone, Copy)]
 pub struct LoginClient<'a> {
-    /// IP address.
+    /// IP address of the client.
     pub from: IpAddr,
     /// Cookie of a browser that has logged in before.
     pub device: Option<&'a str>,

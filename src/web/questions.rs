@@ -12,7 +12,7 @@ use spandrel_monitor::export::json_text;
 use spandrel_training::questionnaire::{ANSWERS, Answers, QuestionnaireItem, Wording};
 use spandrel_training::web::form;
 
-/// Shows the form.
+/// Shows the questionnaire of a session.
 pub fn page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     render_form(state, asked, false)
 }

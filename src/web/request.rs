@@ -7,7 +7,7 @@ use spandrel_training::web::access::Visitor;
 use std::collections::BTreeMap;
 use std::net::IpAddr;
 
-/// An uploaded file.
+/// A file that was uploaded with a form.
 #[derive(Debug)]
 pub struct UploadedFile {
     /// File name as sent by the browser; never used as a path.
@@ -29,9 +29,9 @@ pub struct WebRequest {
     pub device: Option<String>,
     /// Path parameters, by their names in the table of routes.
     pub path: BTreeMap<String, String>,
-    /// Query parameters.
+    /// Query parameters as name and value.
     pub query: Vec<(String, String)>,
-    /// Form fields.
+    /// Form fields as name and value.
     pub form: Vec<(String, String)>,
     /// Uploaded file, if any.
     pub upload: Option<UploadedFile>,

@@ -19,7 +19,7 @@ pub struct WebResponse {
     download: Option<String>,
     keep: bool,
     retry_after_s: Option<u64>,
-    /// Complete Set-Cookie values.
+    /// Complete values of Set-Cookie headers.
     pub cookies: Vec<String>,
     body: Vec<u8>,
 }

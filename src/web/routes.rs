@@ -21,7 +21,7 @@ pub const RECORDING_MOST: usize = 96 * 1024 * 1024;
 pub enum RouteKind {
     /// A static asset, the same for every visitor.
     File,
-    /// A read-only page.
+    /// A page or download that changes nothing.
     Show,
     /// Like `Show`, but may take seconds to compute; one request at a time.
     Compute,
@@ -45,7 +45,7 @@ pub struct Route {
     pub path: &'static str,
     /// Kind of the route.
     pub how: RouteKind,
-    /// Required access level.
+    /// Access level that the visitor needs.
     pub needs: AccessLevel,
     /// Handler of the request.
     pub handler: Handler,

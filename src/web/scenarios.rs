@@ -21,9 +21,9 @@ const ANY_SEED: u64 = 0;
 pub struct StoredScenario {
     /// Name, title and origin.
     pub named: ScenarioEntry,
-    /// Parsed scenario.
+    /// Scenario parsed from the text.
     pub scenario: Scenario,
-    /// Source text (TOML).
+    /// Source text of the scenario (TOML).
     pub text: String,
 }
 
@@ -87,7 +87,7 @@ fn render_list(state: &ServerState, asked: &WebRequest, told: Option<(&str, &str
     Ok(WebResponse::page(pages::list(&asked.visitor, &named, told)))
 }
 
-/// Shows one scenario.
+/// Shows the page of one scenario with drawings of its site.
 pub fn scenario_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let job = find(&state.scenarios, asked.path_part("name")).ok_or(WebError::NotFound)?;
     let site = Site::build(&job.scenario, ANY_SEED);

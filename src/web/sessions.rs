@@ -56,7 +56,7 @@ pub fn folder(state: &ServerState, asked: &WebRequest, id: &str) -> Result<PathB
     state.folder(id).ok_or(WebError::NotFound)
 }
 
-/// Shows one session.
+/// Shows the page of one session.
 pub fn session_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let record = record(state, asked, asked.path_part("id"))?;
     let mut others = state.database.list(Some(&record.trainee), OTHERS, 0)?;

@@ -39,7 +39,7 @@ pub fn log_in(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     }
 }
 
-/// Logs out.
+/// Ends the visitor's browser session.
 pub fn log_out(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     state.auth.log_out(asked.cookie.as_deref());
     Ok(WebResponse::redirect("/login"))

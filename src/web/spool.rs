@@ -20,7 +20,7 @@ const LEAST_RATE: u64 = 8 * 1024;
 /// A complete uploaded file.
 #[derive(Debug)]
 pub enum SpooledUpload {
-    /// Contents in memory.
+    /// Contents of a small file.
     Memory(Vec<u8>),
     /// File on disk, deleted when this is dropped.
     Disk(SpoolFile),
@@ -106,7 +106,7 @@ impl<'a> UploadSpool<'a> {
         Ok((file, on_disk))
     }
 
-    /// Completes the upload.
+    /// Completes the upload and returns the file.
     pub fn end(self) -> SpooledUpload {
         match self.disk {
             Some((_, on_disk)) => SpooledUpload::Disk(on_disk),

@@ -27,9 +27,9 @@ pub struct ServerSetup {
 /// Server state that all requests share.
 #[derive(Debug)]
 pub struct ServerState {
-    /// Database of records.
+    /// Database of sessions, trainees and answers.
     pub database: Database,
-    /// Cached cohort figures.
+    /// Cache of the cohort figures.
     pub figures: FigureCache,
     /// Location of the database and the session folders.
     pub place: RecordsLocation,

@@ -19,7 +19,7 @@ const SESSIONS: u32 = 200;
 /// Default number of repetitions to compare.
 const REPETITIONS: usize = 3;
 
-/// Shows all trainees.
+/// Shows the list of all trainees.
 pub fn trainee_list(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     Ok(WebResponse::page(pages::trainee_list(&asked.visitor, &state.database.trainees()?)))
 }
@@ -31,7 +31,7 @@ fn person(state: &ServerState, asked: &WebRequest) -> Result<Trainee, WebError> 
     state.database.account(name)?.map(|account| account.person).ok_or(WebError::NotFound)
 }
 
-/// Shows one trainee.
+/// Shows a trainee's sessions, progress and training plan.
 pub fn trainee_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let person = person(state, asked)?;
     let records = state.database.records(Some(&person.pseudonym))?;

@@ -14,7 +14,7 @@ use std::path::PathBuf;
 
 /// Number of stations that write at the same time.
 const STATIONS: usize = 20;
-/// Sessions per station.
+/// Number of sessions that each station writes.
 const EACH: usize = 8;
 
 /// Returns a made-up session record.

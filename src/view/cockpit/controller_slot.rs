@@ -16,7 +16,7 @@ enum DeviceState {
     Raw(EventSource, RawInput),
     /// Calibrated and used for flying.
     Hand(Box<CalibratedController>),
-    /// Being calibrated.
+    /// In the calibration wizard.
     Calibrating(EventSource, Box<CalibrationWizard>),
 }
 
@@ -222,7 +222,7 @@ impl ControllerSlot {
         }
     }
 
-    /// Stops using the device.
+    /// Disables the controller and notes the reason.
     pub fn cancel_wizard(&mut self, why: &AppError) {
         self.held = DeviceState::Nothing(DeviceWatcher::start());
         self.note = format!("Controller disabled: {why}.");

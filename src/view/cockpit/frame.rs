@@ -53,7 +53,7 @@ impl Cockpit {
         }
     }
 
-    /// Updates the sound.
+    /// Passes rotor speeds, distance and warnings to the sound output.
     fn sound(&mut self, now: Option<&LiveMoment>) {
         // Without recent telemetry, the rotor speeds are unknown, so no sound is played.
         let now = now.filter(|now| now.hud.silent_s <= hud::SILENT_S && !self.flow.is_paused());

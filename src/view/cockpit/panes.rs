@@ -73,7 +73,7 @@ pub struct ViewPanes {
 pub struct PaneContent {
     /// Position in the window.
     pub place: ViewRect,
-    /// Rendered image.
+    /// egui texture with the rendered image.
     pub picture: egui::TextureId,
     /// Overlay of the view.
     pub items: Vec<DrawItem>,

@@ -23,7 +23,7 @@ pub struct PictureWriter {
 }
 
 impl PictureWriter {
-    /// Starts the thread.
+    /// Starts the thread that saves images to `path`.
     pub fn start(path: PathBuf) -> Self {
         // At most one image waits; further ones are dropped meanwhile.
         let (sender, receiver) = sync_channel(1);

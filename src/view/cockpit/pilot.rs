@@ -24,9 +24,9 @@ const SHOW: SimTime = SimTime::from_ms(30);
 /// A command from the window to the pilot thread.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PilotCommand {
-    /// Key pressed.
+    /// A key with this name was pressed.
     Down(String),
-    /// Key released.
+    /// A key with this name was released.
     Up(String),
     /// Release all keys, because the window lost the focus or shows a page.
     LetGo,
@@ -42,7 +42,7 @@ pub enum PilotCommand {
     Calibrate,
     /// Confirm a step of the wizard.
     Confirm,
-    /// Leave the wizard.
+    /// Leave the calibration wizard without saving.
     Cancel,
     /// Change the controller's profile and save it.
     Tune(ProfileChange),
@@ -97,7 +97,7 @@ impl PilotThread {
         Ok(Self { commands: asks, messages: told, controls })
     }
 
-    /// Sends a command.
+    /// Sends a command to the pilot thread.
     pub fn send_command(&self, ask: PilotCommand) {
         // The thread lives as long as the window.
         let _ = self.commands.send(ask);

@@ -12,7 +12,7 @@ use winit::window::Window;
 pub struct WindowSurface {
     /// Window of the operating system.
     pub window: Arc<Window>,
-    /// Graphics device.
+    /// Graphics device that renders to the window.
     pub gpu: Gpu,
     /// egui's painter, which the views' textures are registered with.
     pub painter: egui_wgpu::Renderer,

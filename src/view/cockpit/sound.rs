@@ -19,7 +19,7 @@ const VOICES: [&str; 2] = ["spd-say", "espeak-ng"];
 const PIECE: usize = RATE_HZ as usize / 100;
 /// Playback lead: a longer one delays the sound, a shorter one causes dropouts on a busy machine (estimate).
 const AHEAD: Duration = Duration::from_millis(80);
-/// Interval between chunks.
+/// Pause between checks whether another chunk is needed.
 const REST: Duration = Duration::from_millis(5);
 
 /// Sound output of the window; its thread starts with the first sound.
@@ -51,7 +51,7 @@ impl AudioOutput {
         }
     }
 
-    /// Silences the output.
+    /// Silences the output until the next inputs.
     pub fn stop_speech(&self) {
         locked(&self.inputs).silent = true;
     }

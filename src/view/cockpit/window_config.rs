@@ -13,11 +13,11 @@ pub struct WindowConfig {
     pub listen: IpAddr,
     /// Quality preset; `None` to choose by the device.
     pub quality: Option<Quality>,
-    /// Window size, px.
+    /// Size of the window, px: width, height.
     pub size_px: (u32, u32),
     /// True if the map may be shown.
     pub map: bool,
-    /// Screenshot to save.
+    /// Screenshot to save before exiting, if any.
     pub picture: Option<CaptureRequest>,
     /// File to save the camera's view to.
     pub keep: Option<PathBuf>,
@@ -28,7 +28,7 @@ pub struct WindowConfig {
 /// A screenshot of the window.
 #[derive(Debug, Clone)]
 pub struct CaptureRequest {
-    /// Output file.
+    /// PNG file for the screenshot.
     pub path: PathBuf,
     /// Delay after the first rendered frame.
     pub after: Duration,

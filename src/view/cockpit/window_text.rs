@@ -12,7 +12,7 @@ use spandrel_view::gpu::paint;
 pub struct WindowText {
     /// Status while the scene is not ready.
     pub waiting: String,
-    /// Recent messages.
+    /// Recent messages, shown for a few seconds.
     pub lines: Vec<String>,
     /// Help about the keys.
     pub help: String,

@@ -16,7 +16,7 @@ const TRIES: u32 = 20;
 /// failsafe.
 pub const SYSTEM: u8 = 252;
 pub const COMPONENT: u8 = 192;
-/// FAILURE_TYPE_OK and FAILURE_TYPE_OFF.
+/// FAILURE_TYPE_OK and FAILURE_TYPE_OFF of MAV_CMD_INJECT_FAILURE.
 const WHOLE: f32 = 0.0;
 const OFF: f32 = 1.0;
 
@@ -27,7 +27,7 @@ pub enum InstructorCommand {
     Note(String),
     /// Sets the mean wind.
     Wind {
-        /// Speed, m/s.
+        /// Mean wind speed, m/s.
         speed_m_s: f64,
         /// Wind direction (where the wind comes from), degrees clockwise from north.
         from_deg: f64,
@@ -91,7 +91,7 @@ struct QueuedCommand {
 pub struct CommandQueue(VecDeque<QueuedCommand>);
 
 impl CommandQueue {
-    /// Adds a command.
+    /// Appends an instructor's command to the queue.
     pub fn push(&mut self, order: InstructorCommand) {
         let (steps, words) = match order {
             InstructorCommand::Note(text) => (vec![CommandStep::Note(text.clone())], format!("note: {text}")),
