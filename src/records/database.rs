@@ -109,7 +109,7 @@ impl Database {
         runtime.block_on(work).map_err(|error| AppError::failed(format!("{}: {error}", self.name)))
     }
 
-    /// Returns a text that differs from an earlier answer of the same handle whenever another handle has changed the database since.
+    /// Returns a version string, which changes whenever another connection has modified the database.
     ///
     /// # Errors
     /// If the database fails.

@@ -19,7 +19,7 @@ use std::net::SocketAddr;
 use std::sync::Arc;
 use tokio::sync::Semaphore;
 
-/// Retry-After for a client that was refused for lack of capacity, s.
+/// Retry-After for a client that was rejected for lack of capacity, s.
 const BUSY_S: u64 = 5;
 
 /// State shared by the tasks that handle requests.
