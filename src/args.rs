@@ -1,4 +1,4 @@
-//! Arguments that several subcommands share, with their ranges.
+//! Arguments that several subcommands share, with their allowed ranges.
 
 use super::clock;
 use spandrel_model::scenario::Scenario;
@@ -10,7 +10,7 @@ use std::str::FromStr;
 /// Maximum seed: MAVLink messages carry it as a signed 32-bit integer.
 const SEED_MAX: u64 = i32::MAX as u64;
 
-/// Scenario, aircraft and seed.
+/// Scenario, aircraft and seed of a flight.
 #[derive(Debug, Clone, clap::Args)]
 pub struct JobArgs {
     /// Scenario: a file, or the name of a shipped one
@@ -31,9 +31,9 @@ impl JobArgs {
     }
 }
 
-/// Reads a seed.
+/// Parses a seed for `--seed`, 0 to 2147483647.
 pub fn seed(text: &str) -> Result<u64, String> {
-    text.parse().ok().filter(|seed| *seed <= SEED_MAX).ok_or_else(|| format!("'{text}' is no seed (allowed: 0 to {SEED_MAX})"))
+    text.parse().ok().filter(|seed| *seed <= SEED_MAX).ok_or_else(|| format!("'{text}' is not a seed (allowed: 0 to {SEED_MAX})"))
 }
 
 /// Returns a new seed from the wall clock.
@@ -41,14 +41,14 @@ pub fn random_seed() -> u64 {
     spandrel_model::random::RandomStream::new(clock::unix_us(), "session seed").bits() & SEED_MAX
 }
 
-/// Autopilot protocol.
+/// Autopilot protocol that the vehicle uses toward its clients.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Flavour {
     /// PX4; best supported by ground stations and SDKs
     Px4,
     /// ArduCopter: its modes, parameter names, missions that begin with home, streams on request
     Ardupilot,
-    /// The MAVLink standard only: QGroundControl shows the vehicle, but offers no modes and no guided flight
+    /// The MAVLink standard only: QGroundControl shows the vehicle, but offers no flight modes and no guided flight
     Generic,
 }
 
@@ -78,7 +78,7 @@ pub enum Purpose {
 }
 
 impl Purpose {
-    /// As the window and the session's files say it.
+    /// Converts to the type that the window and the session files use.
     pub fn display_name(self) -> pipe::Purpose {
         match self {
             Self::Practice => pipe::Purpose::Practice,
@@ -86,7 +86,7 @@ impl Purpose {
         }
     }
 
-    /// In a word.
+    /// Returns the purpose as one word.
     pub fn word(self) -> &'static str {
         self.display_name().word()
     }
@@ -95,9 +95,9 @@ impl Purpose {
 /// A destination address, or none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Destination {
-    /// No destination.
+    /// Nothing is sent (`none` on the command line).
     None,
-    /// This address.
+    /// Address to send to.
     Address(SocketAddr),
 }
 
@@ -108,18 +108,18 @@ impl FromStr for Destination {
     }
 }
 
-/// Reads and resolves HOST:PORT, IPv4 before IPv6.
+/// Parses and resolves HOST:PORT; prefers IPv4 to IPv6.
 pub fn address(text: &str) -> Result<SocketAddr, String> {
     let mut found: Vec<SocketAddr> =
-        text.to_socket_addrs().map_err(|error| format!("'{text}' is no HOST:PORT such as 127.0.0.1:14550 ({error})"))?.collect();
+        text.to_socket_addrs().map_err(|error| format!("'{text}' is not HOST:PORT, for example 127.0.0.1:14550 ({error})"))?.collect();
     found.sort_by_key(|address| !address.is_ipv4());
-    found.into_iter().find(|address| address.port() != 0).ok_or_else(|| format!("'{text}' names no usable address and port"))
+    found.into_iter().find(|address| address.port() != 0).ok_or_else(|| format!("'{text}' has no usable address and port"))
 }
 
 /// A port number, or none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PortChoice {
-    /// The port is not opened.
+    /// The port stays closed (`none` on the command line).
     None,
     /// A port number; 0 lets the system choose a free one.
     Number(u16),
@@ -131,7 +131,7 @@ impl FromStr for PortChoice {
         if text == "none" {
             return Ok(Self::None);
         }
-        text.parse().map(Self::Number).map_err(|_| format!("'{text}' is no port (allowed: 0 to 65535, or none)"))
+        text.parse().map(Self::Number).map_err(|_| format!("'{text}' is not a port (allowed: 0 to 65535, or none)"))
     }
 }
 
@@ -140,7 +140,7 @@ impl FromStr for PortChoice {
 pub struct TraineeId(String);
 
 impl TraineeId {
-    /// As text.
+    /// Returns the ID as text.
     pub fn as_str(&self) -> &str {
         &self.0
     }
@@ -154,13 +154,13 @@ impl FromStr for TraineeId {
         if starts && text.len() <= 32 && text.chars().all(fits) {
             return Ok(Self(text.to_owned()));
         }
-        Err(format!("'{text}' is no trainee id (allowed: 1 to 32 letters, digits, '-' or '_', first a letter or digit)"))
+        Err(format!("'{text}' is not a trainee ID (allowed: 1 to 32 letters, digits, '-' or '_', starting with a letter or digit)"))
     }
 }
 
 /// Parses the local address to bind.
 pub fn listen(text: &str) -> Result<IpAddr, String> {
-    text.parse().map_err(|_| format!("'{text}' is no IP address (127.0.0.1 for this machine only, 0.0.0.0 for all networks)"))
+    text.parse().map_err(|_| format!("'{text}' is not an IP address (127.0.0.1 for this machine only, 0.0.0.0 for all networks)"))
 }
 
 #[cfg(test)]

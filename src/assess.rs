@@ -1,4 +1,4 @@
-//! `spandrel assess`: scores a stored flight again.
+//! `spandrel assess`: scores a recorded flight again.
 
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
@@ -14,15 +14,15 @@ use spandrel_monitor::sidecar::build_site;
 use spandrel_monitor::{AssessError, AssessedSession, assess_log, export};
 use std::path::PathBuf;
 
-/// Score a stored flight again
+/// Score a recorded flight again
 ///
-/// Scores a session folder, or a telemetry log with its scenario and vehicle, from the telemetry alone. The result is byte for byte that of
-/// the live session.
+/// Scores a session folder, or a telemetry log with its scenario and vehicle, using only the telemetry. The result is byte for byte that of the live
+/// session.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel assess sessions/20260801T...                       the scores as a table
-  spandrel assess sessions/20260801T... --json -              the scores as JSON, as in assessment.json
+  spandrel assess sessions/20260801T...                       print the scores as a table
+  spandrel assess sessions/20260801T... --json -              print the scores as JSON, as in assessment.json
   spandrel assess flight.tlog --scenario two-bridges --vehicle phantom2 --json scores.json
 
 {EXIT_CODES}"))]
@@ -44,7 +44,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When files are wrong or there is nothing to score.
+/// If files are invalid or there is nothing to score.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let (scenario, vehicle, log) = inputs(args)?;
     let graded = grade(&log, &scenario, &vehicle)?;
@@ -57,15 +57,15 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 /// Scores a log.
 ///
 /// # Errors
-/// When there is nothing to score.
+/// If there is nothing to score.
 pub fn grade(log: &(impl TelemetryLog + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> Result<AssessedSession, AppError> {
     assess_log(log, scenario, vehicle, build_site).map_err(|error| refused(&error))
 }
 
-/// Reads the scored frames of a stored session, for exports.
+/// Returns the scored frames of a stored session, for exports.
 ///
 /// # Errors
-/// When there is nothing to score.
+/// If there is nothing to score.
 pub fn frame_rows(stored: &StoredSession) -> Result<Vec<FrameRow>, AppError> {
     let rows = export::frame_rows(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle);
     rows.map_err(|error| refused(&error))
@@ -74,7 +74,7 @@ pub fn frame_rows(stored: &StoredSession) -> Result<Vec<FrameRow>, AppError> {
 fn refused(error: &AssessError) -> AppError {
     match error {
         AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => {
-            AppError::wrong(format!("{error}: score the log against the scenario that was flown"))
+            AppError::wrong(format!("{error}: use the scenario and seed of the flight"))
         }
         _ => AppError::failed(error.to_string()),
     }
@@ -95,7 +95,7 @@ fn inputs(args: &Args) -> Result<(Scenario, Vehicle, LogFile), AppError> {
     }
     let (Some(scenario), Some(vehicle)) = (&args.scenario, &args.vehicle) else {
         return Err(AppError::wrong(format!(
-            "{}: is no session folder; a telemetry log needs --scenario and --vehicle",
+            "{}: not a session folder; a telemetry log needs --scenario and --vehicle",
             args.flight.display()
         )));
     };

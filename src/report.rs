@@ -1,4 +1,4 @@
-//! `spandrel report`: the page of a session, from what its folder holds.
+//! `spandrel report`: writes the report page of a session from its folder.
 
 use super::clock;
 use super::errors::{AppError, EXIT_CODES};
@@ -23,9 +23,9 @@ const PICTURES_MOST: u64 = 4_000_000;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel report sessions/20260801T...                      writes report.html into the session folder
-  spandrel report sessions/20260801T... --out anna.html      writes it elsewhere, '-' for standard output
-  spandrel report sessions/first sessions/second --out c.html    compares two sessions
+  spandrel report sessions/20260801T...                      write report.html into the session folder
+  spandrel report sessions/20260801T... --out anna.html      write it elsewhere; '-' for standard output
+  spandrel report sessions/first sessions/second --out c.html    compare two sessions
 
 {EXIT_CODES}"))]
 pub struct Args {
@@ -65,7 +65,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 /// Writes the report into a session folder.
 ///
 /// # Errors
-/// As [`run`].
+/// Like [`run`].
 pub fn write(session: &Path) -> Result<(), AppError> {
     replace(&session.join(REPORT), page::session(&review(session)?).as_bytes())
 }
@@ -73,7 +73,7 @@ pub fn write(session: &Path) -> Result<(), AppError> {
 /// Returns names and contents of the files in a session's SCORM package.
 ///
 /// # Errors
-/// As [`run`].
+/// Like [`run`].
 pub fn package(session: &Path) -> Result<Vec<(&'static str, String)>, AppError> {
     let review = review(session)?;
     Ok(scorm::files(&review, &page::session(&review)))
@@ -82,7 +82,7 @@ pub fn package(session: &Path) -> Result<Vec<(&'static str, String)>, AppError> 
 /// Returns the page that compares two sessions.
 ///
 /// # Errors
-/// As [`run`].
+/// Like [`run`].
 pub fn compared(first: &Path, second: &Path) -> Result<String, AppError> {
     Ok(page::comparison(&review(first)?, &review(second)?))
 }
@@ -90,14 +90,14 @@ pub fn compared(first: &Path, second: &Path) -> Result<String, AppError> {
 /// Returns a session's pictures with their assessments.
 ///
 /// # Errors
-/// As [`run`].
+/// Like [`run`].
 #[cfg(feature = "view")]
 pub fn pictures(session: &Path) -> Result<Vec<spandrel_training::report::pictures::ReviewedPicture>, AppError> {
-    // Who asks is about to draw the photographs.
+    // The caller is about to draw the photographs.
     Ok(reviewed(session, Vec::new())?.pictures)
 }
 
-/// Returns the maximum size of each photograph, bytes, if the page contains this many.
+/// Returns the maximum size of each photograph, bytes, for a page with `count` photographs.
 #[cfg(feature = "view")]
 pub fn max_pictures(count: usize) -> usize {
     let share = PICTURES_MOST / (count.max(1) as u64);
@@ -147,7 +147,7 @@ fn session_facts(session: &Path, stored: &StoredSession) -> Result<SessionFacts,
     })
 }
 
-/// Returns the photographs that fit into the page, keyed by the number at the end of their names, each as its small copy if there
+/// Returns the photographs that fit into the page, keyed by the number at the end of their file names. Uses the small copy of a photograph if there
 /// is one.
 fn photographs(folder: &Path) -> Vec<(u32, Jpeg)> {
     let files = numbered(folder);
@@ -164,8 +164,8 @@ fn photographs(folder: &Path) -> Vec<(u32, Jpeg)> {
     let sketched = files.len() - found.len();
     if sketched > 0 {
         tracing::warn!(
-            "{}: {sketched} of {} photographs are sketches in the report, which takes in {} kB of each and {} kB of all: `spandrel render \
-             SESSION --snapshots` makes copies that fit",
+            "{}: {sketched} of {} photographs are shown as sketches in the report, because the limit is {} kB each and {} kB in total: `spandrel render \
+             SESSION --snapshots` creates copies that fit",
             folder.display(),
             files.len(),
             PICTURE_MOST / 1000,
@@ -217,7 +217,7 @@ mod tests {
         (3..14).for_each(|k| put(&format!("{k:04}.jpg"), PICTURE_MOST));
         let found: Vec<(u32, u64)> = photographs(folder.path()).iter().map(|(k, file)| (*k, file.bytes.len() as u64)).collect();
         let whole = (3..=11).map(|k| (k, PICTURE_MOST));
-        assert_eq!(found, [(1, 70)].into_iter().chain(whole).collect::<Vec<_>>(), "ten times the most of one, less the copy");
+        assert_eq!(found, [(1, 70)].into_iter().chain(whole).collect::<Vec<_>>(), "ten times the limit of one, less the small copy");
     }
 
     #[test]

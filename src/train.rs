@@ -1,4 +1,4 @@
-//! `spandrel train`: simulator and monitor for a person's ground station, and a window that leads from one flight to the next.
+//! `spandrel train`: starts a simulator and a monitor for a trainee, and a window to choose, fly and review flights.
 
 mod flight_processes;
 mod offers;
@@ -19,7 +19,7 @@ use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 use train_run::TrainRun;
 
-/// The job that is flown unless another one is asked for: the paper's.
+/// Default scenario: the one of the TASBID paper.
 const USUAL: &str = "two-bridges";
 
 /// Fly a session yourself
@@ -31,10 +31,10 @@ const USUAL: &str = "two-bridges";
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel train                                  choose in the window; without a display: the paper's job
-  spandrel train --trainee anna --scenario drill-hover          fly right away; QGroundControl on this machine connects automatically
-  spandrel train --scenario my-job.toml --choose  choose in the window, with this job in the list
-  spandrel train --no-view                        without the window
+  spandrel train                                  choose in the window (without a display: two-bridges)
+  spandrel train --trainee anna --scenario drill-hover          start this flight; QGroundControl on this machine connects automatically
+  spandrel train --scenario my-job.toml --choose  choose in the window, with this scenario in the list
+  spandrel train --no-view                        don't open the window
   spandrel train --listen 0.0.0.0 --gcs 192.168.1.20:14550     a ground station on another machine
 
 {EXIT_CODES}"))]
@@ -101,9 +101,9 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When files or ports are wrong, a process fails, or the flight cannot be scored.
+/// If files or ports are invalid, a process fails, or the flight cannot be scored.
 pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
-    // What is wrong with the files is told before anything starts.
+    // Errors in the files are reported before any process starts.
     files::scenario(args.scenario.as_deref().unwrap_or(USUAL))?;
     files::vehicle(&args.vehicle)?;
     super::controller::keys(args.keys.as_deref())?;
@@ -111,7 +111,7 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     TrainRun::new(args, log, StopRequest::install(false)?).run()
 }
 
-/// Refuses a preset that there is not; a build without the window has none.
+/// Checks the name of a quality preset. Without the `view` feature, every name is accepted.
 fn check_quality(name: &str) -> Result<(), AppError> {
     #[cfg(feature = "view")]
     super::view::check_quality(name)?;
@@ -119,12 +119,13 @@ fn check_quality(name: &str) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Where the window keeps the camera's view for the live page: a place that nobody else can write to, one for each process.
+/// Returns the file to which the window saves the camera's view for the live page: in the folder of sessions, one per process, so that no one else
+/// can write to it.
 fn camera(args: &Args) -> PathBuf {
     args.sessions.join(format!(".camera-{}.jpg", std::process::id()))
 }
 
-/// Arguments that all children share.
+/// Returns the arguments that all child processes share.
 pub fn common_args(job: &JobArgs, log: tracing::Level) -> Vec<String> {
     let mut args = vec!["--log".to_owned(), log.to_string().to_lowercase()];
     args.extend(["--scenario", &job.scenario, "--vehicle", &job.vehicle].map(str::to_owned));
@@ -134,14 +135,14 @@ pub fn common_args(job: &JobArgs, log: tracing::Level) -> Vec<String> {
     args
 }
 
-/// Prints the scores of a session folder and its place.
+/// Prints the scores of a session and the location of its files.
 ///
 /// # Errors
-/// When it holds no assessment.
+/// If the session has no assessment.
 pub fn report_outcome(session: &Path) -> Result<(), AppError> {
     let path = session.join(spandrel_monitor::folder::ASSESSMENT);
     let text = std::fs::read_to_string(&path)
-        .map_err(|_| AppError::failed(format!("the session was not scored; what was recorded is in {}", session.display())))?;
+        .map_err(|_| AppError::failed(format!("the session was not scored; the recorded data is in {}", session.display())))?;
     let assessment = serde_json::from_str(&text).map_err(|error| AppError::failed(format!("{}: {error}", path.display())))?;
     print!("{}", table::scores(&assessment));
     table::places(session);
@@ -157,30 +158,30 @@ fn how_to_connect(
 ) -> String {
     let port = |key: &str| ports[key].as_u64().map_or("not opened".to_owned(), |port| port.to_string());
     let targets: Vec<String> = args.ground_stations().iter().map(ToString::to_string).collect();
-    let (auto, targets) = if targets.is_empty() { ("no", "nobody".to_owned()) } else { ("yes", targets.join(", ")) };
+    let (auto, targets) = if targets.is_empty() { ("no", "none".to_owned()) } else { ("yes", targets.join(", ")) };
     format!(
         "\
 {title}
-  QGroundControl   connects by itself: {auto} (the vehicle calls {targets})
-  dial in          UDP {} or TCP {} at {}
+  QGroundControl   connects automatically: {auto} (the vehicle sends to {targets})
+  connect to       UDP {} or TCP {} at {}
   MAVSDK           {}
   pymavlink        udpout:127.0.0.1:{}
   session folder   {}
   web pages        {}
 {}
-Take off, do the tasks, land on the pad; the scores follow, and the vehicle stays connected. Ctrl-C ends the session early.
+Take off, fly the tasks and land on the pad. The scores follow, and the vehicle stays connected. Ctrl-C ends the session early.
 ",
         port("gcs_port"),
         port("tcp_port"),
         args.listen,
-        args.sdk().map_or("nobody is called".to_owned(), |sdk| format!("udpin://0.0.0.0:{}", sdk.port())),
+        args.sdk().map_or("none".to_owned(), |sdk| format!("udpin://0.0.0.0:{}", sdk.port())),
         port("gcs_port"),
         session.display(),
         web.unwrap_or("none"),
         if window {
-            "A window shows both views, says which key does what, and flies with them; a ground station or a script may fly as well."
+            "A window shows both views and the keys to fly with; you can also fly with a ground station or a script."
         } else {
-            "No window: fly by the ground station's map and instruments, or by a script."
+            "No window: fly with the ground station's map and instruments, or with a script."
         },
     )
 }
@@ -196,7 +197,7 @@ mod tests {
         args: Args,
     }
 
-    /// Arguments as on a command line.
+    /// Parses arguments as on a command line.
     pub fn parsed(words: &[&str]) -> Args {
         Line::parse_from(["train"].iter().chain(words)).args
     }
@@ -206,6 +207,6 @@ mod tests {
         let ports = parsed(&[]).ports;
         let told = |window| how_to_connect("Drill", &ports, &serde_json::Value::Null, Path::new("s"), (None, window));
         assert!(told(true).contains("A window shows") && !told(true).contains("No window"), "{}", told(true));
-        assert!(told(false).contains("No window: fly by") && !told(false).contains("A window shows"), "{}", told(false));
+        assert!(told(false).contains("No window: fly with") && !told(false).contains("A window shows"), "{}", told(false));
     }
 }

@@ -9,11 +9,11 @@ use std::path::PathBuf;
 
 /// Watch a flight live in a window: the inspector's view and the camera's view, with head-up display
 ///
-/// Uses only the vehicle's telemetry and the scenario, so it also works with a real autopilot and on another machine. Defects and
-/// traffic follow the seed that the simulator reports, also after a restart; --seed applies until then, or if the vehicle reports
-/// none. With --fly, the keyboard in the window (and a calibrated controller, if one is connected) flies the vehicle. Tab swaps
-/// the views, the mouse turns the inspector's view, the wheel zooms, F follows the aircraft again, M hides the map. No graphics
-/// card is needed: a software Vulkan driver is enough (Debian and Ubuntu: mesa-vulkan-drivers).
+/// Uses only the vehicle's telemetry and the scenario, so it also works with a real autopilot and on another computer. Defects and traffic follow the
+/// seed that the simulator reports, also after a restart; --seed applies until then, or if the vehicle reports none. With --fly, the keyboard in the
+/// window (and a calibrated controller, if one is connected) flies the vehicle. Tab swaps the views, the mouse turns the inspector's view, the wheel
+/// zooms, F follows the aircraft again, M hides the map. No graphics card is needed: a software Vulkan driver is enough (Debian and Ubuntu:
+/// mesa-vulkan-drivers).
 #[cfg_attr(not(feature = "view"), allow(dead_code, reason = "help and errors are the same with and without the view"))]
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\

@@ -1,5 +1,5 @@
-//! `spandrel records`: the database of sessions, trainees and answers. The session folders are the source; the database can be made
-//! again from them at any time (all but what trainees told of themselves).
+//! `spandrel records`: database of sessions, trainees and answers. The session folders are the source of truth; the database can be rebuilt from them
+//! at any time, except for the details that trainees entered.
 
 mod accounts;
 mod address;
@@ -40,23 +40,23 @@ const PARCEL: usize = 64;
 
 /// Keep sessions, trainees and answers in a database
 ///
-/// Uses an SQLite file next to the sessions, or PostgreSQL by URL for a training center where many stations write at once. The
-/// PostgreSQL password comes from PGPASSWORD or ~/.pgpass, so process lists do not show it. The session folders remain the source
-/// of truth: `rebuild` recreates the database from them.
+/// Uses an SQLite file next to the sessions, or PostgreSQL by URL for a training center where many stations write at the same time. The PostgreSQL
+/// password comes from PGPASSWORD or ~/.pgpass, so process lists do not show it. The session folders remain the source of truth: `rebuild` recreates
+/// the database from them.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel records import                                   all new or changed sessions of ./sessions
+  spandrel records import                                   import all new or changed sessions of ./sessions
   spandrel records import --database postgres://spandrel@db/training
   spandrel records import --database 'postgres://spandrel@db/training?sslmode=verify-full&sslrootcert=centre.pem'
   spandrel records list
   spandrel records trainee anna --age-band 25-34 --drone-experience none --gaming-experience some
-  spandrel records export --trainee anna --out anna.json    all her stored data
-  spandrel records export --out all.jsonl                   all records, one per line, for spandrel cohort --records
-  spandrel records push https://lrs.example/xapi            xAPI statements to a learning record store
-  spandrel records erase --trainee anna                     says what would go; with --yes it goes, folders too
+  spandrel records export --trainee anna --out anna.json    write all stored data of this trainee
+  spandrel records export --out all.jsonl                   write all records, one per line, for spandrel cohort --records
+  spandrel records push https://lrs.example/xapi            send xAPI statements to a learning record store
+  spandrel records erase --trainee anna                     list what would be erased; --yes erases it, including folders
   spandrel records retention --days 730                     the same for everything older than two years
-  spandrel records rebuild                                  makes the database again from the folders
+  spandrel records rebuild                                  rebuild the database from the folders
 
 {EXIT_CODES}"))]
 pub struct Args {
@@ -84,7 +84,7 @@ pub struct RecordsLocation {
 
 #[derive(Debug, clap::Subcommand)]
 enum RecordsCommand {
-    /// Import new and changed sessions (reads every folder; name the sessions to be quick)
+    /// Import new and changed sessions (reads all folders; faster if you name the sessions)
     Import {
         /// Session folders [default: all of --sessions]
         #[arg(value_name = "SESSION")]
@@ -104,7 +104,7 @@ enum RecordsCommand {
         /// Maximum number of sessions, newest first
         #[arg(long, value_name = "N", default_value_t = 50, conflicts_with = "json")]
         last: u32,
-        /// All sessions as JSON, oldest first, with every stored field
+        /// Write all sessions as JSON, oldest first, with every stored field
         #[arg(long)]
         json: bool,
     },
@@ -180,7 +180,7 @@ impl RecordsLocation {
             }
         }?;
         if let Err(error) = erasure::finish(&database, &self.sessions) {
-            tracing::warn!("an erasure is not finished: {error}");
+            tracing::warn!("cannot finish an interrupted erasure: {error}");
         }
         Ok(database)
     }
@@ -202,9 +202,9 @@ fn import_folders(place: &RecordsLocation, named: &[PathBuf]) -> Result<(), AppE
     let ImportCounts { changed, left_out, erased } = import_into(&database, &folders)?;
     let unchanged = folders.len() - changed - left_out - erased;
     let note = erasure_note(erased);
-    println!("{}: {changed} new or changed, {unchanged} unchanged, {left_out} left out{note}", database.name());
+    println!("{}: {changed} new or changed, {unchanged} unchanged, {left_out} skipped{note}", database.name());
     if left_out + erased > 0 && !named.is_empty() {
-        return Err(AppError::failed(format!("{} of the sessions named were left out", left_out + erased)));
+        return Err(AppError::failed(format!("{} of the specified sessions were skipped", left_out + erased)));
     }
     Ok(())
 }
@@ -213,7 +213,7 @@ fn erasure_note(erased: usize) -> String {
     if erased == 0 {
         return String::new();
     }
-    format!(", {erased} not taken in because they or their trainees were erased (records erase removes the folders, too)")
+    format!(", {erased} not imported because they or their trainees were erased (records erase also removes the folders)")
 }
 
 /// Number of session folders by import result.
@@ -221,7 +221,7 @@ fn erasure_note(erased: usize) -> String {
 struct ImportCounts {
     /// New or changed folders.
     changed: usize,
-    /// Unreadable folders.
+    /// Folders that could not be read.
     left_out: usize,
     /// Folders of erased sessions.
     erased: usize,
@@ -256,7 +256,7 @@ fn import_into(database: &Database, folders: &[PathBuf]) -> Result<ImportCounts,
         let mut records = Vec::new();
         for (k, folder) in part.iter().enumerate() {
             progress.report(|| format!("session {} of {}", parcel * PARCEL + k + 1, folders.len()));
-            records.extend(taken.read(folder, (&known, &erased), "left out"));
+            records.extend(taken.read(folder, (&known, &erased), "skipped"));
         }
         taken.changed += database.put(&records)?;
     }
@@ -268,29 +268,29 @@ fn rebuild(place: &RecordsLocation, yes: bool) -> Result<(), AppError> {
     let folders = import::session_folders(&place.sessions)?;
     let here = folders.iter().map(|folder| import::id(folder)).collect::<Result<BTreeSet<String>, _>>()?;
     let database = place.open()?;
-    // What other stations add from now on is not among them.
+    // Sessions that other stations add from now on are not affected.
     let gone: Vec<String> = database.fingerprints()?.into_keys().filter(|id| !here.contains(id)).collect();
     if !gone.is_empty() && !yes {
         return Err(AppError::wrong(format!(
-            "{}: {} sessions have no folder here and would be lost (such as {}); name all folders with --sessions, or say --yes to delete them",
+            "{}: {} sessions have no folder on this machine and would be lost (for example {}); specify all folders with --sessions, or use --yes to delete them",
             database.name(),
             gone.len(),
             gone[0]
         )));
     }
-    // As if it knew nothing: all are read.
+    // Without known fingerprints, all folders are read.
     let (none, erased) = (BTreeMap::new(), database.erased()?);
     let mut progress = ProgressLog::start("reading sessions");
     let mut records = Vec::new();
     let mut taken = ImportCounts::default();
     for (k, folder) in folders.iter().enumerate() {
         progress.report(|| format!("session {} of {}", k + 1, folders.len()));
-        records.extend(taken.read(folder, (&none, &erased), "left as it was"));
+        records.extend(taken.read(folder, (&none, &erased), "kept unchanged"));
     }
     progress.end();
     let made = database.rebuild(&records, &gone)?;
-    let deleted = if gone.is_empty() { String::new() } else { format!(", {} without a folder here deleted", gone.len()) };
-    println!("{}: {made} sessions, {} left out{deleted}{}", database.name(), taken.left_out, erasure_note(taken.erased));
+    let deleted = if gone.is_empty() { String::new() } else { format!(", {} without a folder on this machine deleted", gone.len()) };
+    println!("{}: {made} sessions, {} skipped{deleted}{}", database.name(), taken.left_out, erasure_note(taken.erased));
     Ok(())
 }
 
@@ -322,7 +322,7 @@ fn retention(place: &RecordsLocation, days: u64, yes: bool) -> Result<(), AppErr
         return Ok(());
     }
     let (deleted, folders) = people::erase_older(&database, place, limit_us)?;
-    println!("{deleted} sessions and {folders} folders from before {before} are erased");
+    println!("erased {deleted} sessions and {folders} folders from before {before}");
     Ok(())
 }
 
@@ -335,7 +335,7 @@ pub fn from_lines(path: &Path) -> Result<Vec<SessionRecord>, AppError> {
     let numbered = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let read = |(k, line): (usize, &str)| {
         let wrong = |message: String| AppError::wrong(format!("{}:{}: {message}", path.display(), k + 1));
-        let record: SessionRecord = serde_json::from_str(line).map_err(|error| wrong(format!("no record: {error}")))?;
+        let record: SessionRecord = serde_json::from_str(line).map_err(|error| wrong(format!("not a valid record: {error}")))?;
         record.check().map_err(wrong)?;
         Ok(record)
     };

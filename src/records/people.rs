@@ -1,4 +1,4 @@
-//! Trainees: what is known of them, everything that is kept of one, and erasing it.
+//! Details of trainees, and the export and erasure of all data of a trainee.
 
 use super::{Database, RecordsLocation, erasure, import};
 use crate::args::TraineeId;
@@ -63,7 +63,7 @@ pub fn set(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
         database.set_given(name, args.role.as_deref().and_then(Role::from_word), details)?;
     }
     let person = find(database, name)?;
-    let person = person.ok_or_else(|| AppError::wrong(format!("{}: there is no '{name}'", database.name())))?;
+    let person = person.ok_or_else(|| AppError::wrong(format!("{}: unknown person '{name}'", database.name())))?;
     files::write("-", json_text(&person).as_bytes())
 }
 
@@ -90,7 +90,7 @@ pub fn kept(database: &Database, place: &RecordsLocation, trainee: &str) -> Resu
 pub fn export(place: &RecordsLocation, trainee: &str, out: &str) -> Result<(), AppError> {
     let database = place.open()?;
     let kept = kept(&database, place, trainee)?;
-    let kept = kept.ok_or_else(|| AppError::wrong(format!("{}: nothing is kept of '{trainee}'", database.name())))?;
+    let kept = kept.ok_or_else(|| AppError::wrong(format!("{}: no data about '{trainee}'", database.name())))?;
     files::write(out, json_text(&kept).as_bytes())
 }
 
@@ -103,7 +103,7 @@ pub fn erase(place: &RecordsLocation, trainee: &str, yes: bool) -> Result<(), Ap
     let folders = folders_of(place, trainee)?;
     if !yes {
         let sessions = database.records(Some(trainee))?.len();
-        let known = if find(&database, trainee)?.is_some() { "known" } else { "not known" };
+        let known = if find(&database, trainee)?.is_some() { "in the database" } else { "not in the database" };
         println!(
             "'{trainee}' is {known}: {sessions} sessions in {} and {} folders; --yes erases them",
             database.name(),
@@ -113,9 +113,9 @@ pub fn erase(place: &RecordsLocation, trainee: &str, yes: bool) -> Result<(), Ap
     }
     let (known, sessions) = erase_person(&database, place, trainee)?;
     if !known {
-        return Err(AppError::wrong(format!("{}: nothing was kept of '{trainee}'", database.name())));
+        return Err(AppError::wrong(format!("{}: no data about '{trainee}'", database.name())));
     }
-    println!("'{trainee}' is erased: {sessions} sessions in {}, {} folders", database.name(), folders.len());
+    println!("erased '{trainee}': {sessions} sessions in {}, {} folders", database.name(), folders.len());
     Ok(())
 }
 
@@ -150,7 +150,7 @@ fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result
         match session_owner(&path) {
             Ok((trainee, started_unix_us)) if is(&trainee, started_unix_us) => found.push(path),
             Ok(_) => {}
-            Err(error) => tracing::warn!("cannot tell whose this is: {error}"),
+            Err(error) => tracing::warn!("cannot determine the trainee of a session folder: {error}"),
         }
     }
     Ok(found)

@@ -1,5 +1,5 @@
-//! `spandrel records push`: sessions as xAPI statements to a learning record store. What is there already is not sent twice: a statement's
-//! id is made from what it says.
+//! `spandrel records push`: sends sessions as xAPI statements to a learning record store. The ID of a statement is derived from its contents, so
+//! statements that the store already has are not sent twice.
 
 use super::{Database, RecordsLocation};
 use crate::errors::AppError;
@@ -44,7 +44,7 @@ pub struct PushArgs {
     home: String,
 }
 
-/// Number of statements by the store's response.
+/// Number of statements by the store's answer.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 struct PushCounts {
     sent: usize,
@@ -54,7 +54,7 @@ struct PushCounts {
 fn endpoint(text: &str) -> Result<String, String> {
     let rest = text.strip_prefix("https://").or_else(|| text.strip_prefix("http://")).unwrap_or_default();
     if rest.is_empty() || rest.starts_with('/') || text.contains(['?', '#', ' ', '@']) {
-        return Err(format!("'{text}' is no endpoint (allowed: http:// or https://, host, path; no user, query or fragment)"));
+        return Err(format!("'{text}' is not an xAPI endpoint (allowed: http:// or https://, host, path; no user, query or fragment)"));
     }
     Ok(text.trim_end_matches('/').to_owned())
 }
@@ -78,7 +78,7 @@ pub fn push(place: &RecordsLocation, database: &Database, args: &PushArgs) -> Re
         }
     }
     progress.end();
-    println!("{}: {} sessions, {} statements sent, {} there already", args.url, records.len(), all.sent, all.there_already);
+    println!("{}: {} sessions, {} statements sent, {} already there", args.url, records.len(), all.sent, all.there_already);
     Ok(())
 }
 
@@ -139,7 +139,7 @@ impl LearningRecordStore {
             let Some(wait) = waits.next() else {
                 return Err(AppError::failed(format!("{address}: {why}, after {} tries", WAITS.len() + 1)));
             };
-            tracing::info!("{address}: {why}; again in {:.1} s", wait.as_secs_f64());
+            tracing::info!("{address}: {why}; retrying in {:.1} s", wait.as_secs_f64());
             std::thread::sleep(*wait);
         }
     }

@@ -1,4 +1,4 @@
-//! Pictures, by whatever device there is.
+//! Renders images on a graphics card or in software.
 
 use super::super::errors::AppError;
 use super::super::files;
@@ -23,19 +23,19 @@ use spandrel_view::scene::Scene;
 use spandrel_view::shot::Shot;
 use spandrel_view::stage::{self, Stage, camera_aimed_at, drone_on_pad};
 
-/// Largest side of a picture, px.
+/// Maximum width or height of an image, px.
 const LARGEST_PX: u32 = 8192;
 
 impl From<GpuError> for AppError {
     fn from(error: GpuError) -> Self {
         match error {
-            GpuError::TooLarge(..) => Self::wrong(format!("{error}: give a smaller --size")),
+            GpuError::TooLarge(..) => Self::wrong(format!("{error}: choose a smaller --size")),
             GpuError::NoDevice(_) | GpuError::Failed(_) => Self::failed(error.to_string()),
         }
     }
 }
 
-/// Draws what was asked for.
+/// Renders the requested image, photographs or video.
 pub fn run(args: &Args) -> Result<(), AppError> {
     masks::check(args)?;
     if std::path::Path::new(&args.what).is_dir() {
@@ -54,7 +54,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     files::write(&args.out, &png(&picture)?)
 }
 
-/// Options that a session has an answer of its own for.
+/// Rejects options that a session determines itself.
 fn only_of_scenarios(args: &Args) -> Result<(), AppError> {
     let given = [
         ("--from", args.from.is_some()),
@@ -67,20 +67,20 @@ fn only_of_scenarios(args: &Args) -> Result<(), AppError> {
     match given.into_iter().find(|(_, given)| *given) {
         None => Ok(()),
         Some((name, _)) => {
-            Err(AppError::wrong(format!("{name}: '{}' is a session, drawn as it was flown: {name} is for scenarios", args.what)))
+            Err(AppError::wrong(format!("{name}: '{}' is a session, which is rendered as flown; {name} is for scenarios only", args.what)))
         }
     }
 }
 
-/// The preset of a name.
+/// Returns the quality preset with this name.
 pub fn quality(name: &str) -> Result<Quality, AppError> {
     let names: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
-    Quality::named(name).ok_or_else(|| AppError::wrong(format!("--quality {name}: give one of {}", names.join(", "))))
+    Quality::named(name).ok_or_else(|| AppError::wrong(format!("--quality {name}: unknown preset (allowed: {})", names.join(", "))))
 }
 
-/// Width and height from the command line, px.
+/// Parses width and height, px.
 pub fn size(text: &str) -> Result<(u32, u32), AppError> {
-    let wrong = || AppError::wrong(format!("--size {text}: give width x height in px, each 16 to {LARGEST_PX}, as 1280x720"));
+    let wrong = || AppError::wrong(format!("--size {text}: not a size (allowed: WIDTHxHEIGHT in px, each 16 to {LARGEST_PX}, for example 1280x720)"));
     let (width, height) = text.split_once('x').ok_or_else(wrong)?;
     let side = |text: &str| text.parse::<u32>().ok().filter(|px| (16..=LARGEST_PX).contains(px)).ok_or_else(wrong);
     Ok((side(width)?, side(height)?))
@@ -90,42 +90,42 @@ fn point(name: &str, text: &str) -> Result<Vec3<Enu>, AppError> {
     let numbers: Vec<f64> = text.split(',').filter_map(|part| part.trim().parse().ok()).collect();
     match numbers[..] {
         [east, north, up] if numbers.iter().all(|x| x.is_finite() && x.abs() < 1e5) => Ok(Vec3::new(east, north, up)),
-        _ => Err(AppError::wrong(format!("--{name} {text}: give east,north,up in m from the origin, as 10,-25,30"))),
+        _ => Err(AppError::wrong(format!("--{name} {text}: not a point (allowed: east,north,up in m from the origin, for example 10,-25,30)"))),
     }
 }
 
-/// A time from an option (`at`) of the command line.
+/// Converts an option's value in seconds to a simulation time.
 pub fn instant(name: &str, seconds: f64) -> Result<SimTime, AppError> {
     if (0.0..=86_400.0).contains(&seconds) {
         Ok(SimTime::from_s(seconds))
     } else {
-        Err(AppError::wrong(format!("--{name} {seconds}: give seconds of simulation time, 0 to 86400")))
+        Err(AppError::wrong(format!("--{name} {seconds}: out of range (allowed: 0 to 86400 s of simulation time)")))
     }
 }
 
-/// A scenario from anywhere.
+/// Renders a scenario from any viewpoint.
 fn of_scenario(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture, AppError> {
     let mut scenario = files::scenario(&args.what)?.scenario;
     let vehicle = files::vehicle(&args.vehicle)?.vehicle;
     if let Some(utc) = &args.utc {
         let time: jiff::Timestamp =
-            utc.parse().map_err(|error| AppError::wrong(format!("--utc {utc}: {error} (as 2026-06-20T08:00:00Z)")))?;
+            utc.parse().map_err(|error| AppError::wrong(format!("--utc {utc}: {error} (example: 2026-06-20T08:00:00Z)")))?;
         scenario.light.start_unix_s = time.as_second();
     }
     if let Some(cloud) = args.cloud {
         if !(0.0..=1.0).contains(&cloud) {
-            return Err(AppError::wrong(format!("--cloud {cloud}: give a share, 0 to 1")));
+            return Err(AppError::wrong(format!("--cloud {cloud}: out of range (allowed: 0 to 1)")));
         }
         scenario.light.cloud_cover = cloud;
     }
     let (Some(from), Some(look)) = (&args.from, &args.look) else {
-        return Err(AppError::wrong("of a scenario --from E,N,U and --look E,N,U say what to draw"));
+        return Err(AppError::wrong("a scenario needs a viewpoint: --from E,N,U and --look E,N,U"));
     };
     let (from, look) = (point("from", from)?, point("look", look)?);
     let at = instant("at", args.at.unwrap_or(0.0))?;
     let lens = match args.fov {
         Some(deg) if (1.0..=150.0).contains(&deg) => Camera { hfov_rad: deg.to_radians(), ..vehicle.camera },
-        Some(deg) => return Err(AppError::wrong(format!("--fov {deg}: give degrees, 1 to 150"))),
+        Some(deg) => return Err(AppError::wrong(format!("--fov {deg}: out of range (allowed: 1 to 150 deg)"))),
         None => vehicle.camera,
     };
     let drawing = SceneDrawing::new(&scenario, &vehicle, args.seed.or(scenario.seed).unwrap_or_default(), quality, at)?;
@@ -136,7 +136,7 @@ fn of_scenario(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pictur
     drawing.draw(args, &[(shot, Vec::new())])
 }
 
-/// A moment of a session.
+/// Renders a moment of a session.
 fn of_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture, AppError> {
     let recorded = RecordedFlight::read(std::path::Path::new(&args.what))?;
     let (scenario, vehicle) = (recorded.scenario(), recorded.vehicle());
@@ -160,14 +160,14 @@ fn of_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture
     drawing.draw(args, &views)
 }
 
-/// Width over height.
+/// Returns width divided by height.
 pub fn aspect((width, height): (u32, u32)) -> f64 {
     f64::from(width) / f64::from(height)
 }
 
-/// A site and what draws it.
+/// A site with its scene and the device to render it.
 pub struct SceneDrawing {
-    /// The device.
+    /// Graphics device or software renderer.
     pub gpu: Gpu,
     site: Site,
     scene: Scene,
@@ -175,28 +175,28 @@ pub struct SceneDrawing {
 }
 
 impl SceneDrawing {
-    /// Opens a device and builds the site: seconds of work.
+    /// Opens a device and builds the site, which takes seconds.
     pub fn new(scenario: &Scenario, vehicle: &Vehicle, seed: u64, quality: Quality, at: SimTime) -> Result<Self, AppError> {
         let gpu = Gpu::open()?;
-        tracing::info!("drawing with {}", gpu.name);
-        let progress = ProgressLog::start("building the site and its light");
+        tracing::info!("rendering with {}", gpu.name);
+        let progress = ProgressLog::start("loading scene");
         let site = Site::build(scenario, seed);
         let scene = Scene::build(scenario, &site, vehicle, &quality, at);
         progress.end();
         Ok(Self { gpu, site, scene, quality })
     }
 
-    /// The same where traffic was stopped and let go so.
+    /// Sets the bridge closures of a recorded flight.
     pub fn with_gates(self, gates: BridgeClosures) -> Self {
         Self { site: self.site.with_closures(gates), ..self }
     }
 
-    /// What does not change during a session.
+    /// Returns the parts of the scene that do not change during a session.
     pub fn stage<'a>(&'a self, scenario: &'a Scenario, vehicle: &'a Vehicle) -> Stage<'a> {
         Stage { scenario, vehicle, site: &self.site, scene: &self.scene }
     }
 
-    /// What draws one picture after the other.
+    /// Creates a renderer for a sequence of images.
     pub fn brush(&self) -> SceneRenderer<'_> {
         SceneRenderer {
             gpu: &self.gpu,
@@ -205,12 +205,12 @@ impl SceneDrawing {
         }
     }
 
-    /// The defects of the site.
+    /// Returns the defects of the site.
     pub fn defects(&self) -> &[PlacedDefect] {
         self.site.defects()
     }
 
-    /// Shots side by side, each with what lies over it; and the labels of the one that there is, if they are wanted.
+    /// Renders shots side by side, each with its overlay. Also writes the label masks if there is a single shot and they are requested.
     fn draw(&self, args: &Args, views: &[(Shot, Vec<hud::DrawItem>)]) -> Result<Picture, AppError> {
         let mut brush = self.brush();
         if let (true, [(shot, _)]) = (args.masks, views) {
@@ -221,7 +221,7 @@ impl SceneDrawing {
     }
 }
 
-/// A scene on the device.
+/// Renders shots of a scene on its device.
 pub struct SceneRenderer<'a> {
     gpu: &'a Gpu,
     renderer: Renderer,
@@ -229,18 +229,18 @@ pub struct SceneRenderer<'a> {
 }
 
 impl SceneRenderer<'_> {
-    /// A picture with what lies over it.
+    /// Renders a shot with its overlay.
     pub fn draw(&mut self, shot: &Shot, items: &[hud::DrawItem]) -> Result<Picture, AppError> {
         Ok(self.renderer.picture_with(self.gpu, shot, &mut self.overlay, items)?)
     }
 
-    /// What its pixels show.
+    /// Returns the elements and defects that each pixel of a shot shows.
     pub fn labels(&mut self, shot: &Shot) -> Result<LabelMask, AppError> {
         Ok(self.renderer.labels(self.gpu, shot)?)
     }
 }
 
-/// Pictures in a row; lower ones stand in the middle of black.
+/// Places images side by side; lower ones are centered vertically on black.
 fn beside(pictures: &[Picture]) -> Picture {
     const BLACK: [u8; 4] = [0, 0, 0, 255];
     let height = pictures.iter().map(|p| p.height).max().unwrap_or(0);
@@ -253,7 +253,7 @@ fn beside(pictures: &[Picture]) -> Picture {
     Picture { width, height, rgba }
 }
 
-/// A picture as a PNG file.
+/// Encodes an image as PNG.
 pub fn png(picture: &Picture) -> Result<Vec<u8>, AppError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, picture.width, picture.height);

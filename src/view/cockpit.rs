@@ -1,5 +1,5 @@
-//! The window and what stands behind it: a thread that listens, a thread that builds the scene, a thread that flies, the pipe to whoever
-//! leads it, and the loop that draws.
+//! The window and its threads: one receives telemetry, one builds the scene, one flies, and the pipe to `train` controls the window. The main loop
+//! renders.
 
 mod controller_slot;
 mod display;
@@ -35,10 +35,10 @@ use stream::StreamSender;
 use train_pipe::TrainPipe;
 use window::{Cockpit, WindowThreads};
 
-/// Longest time to the picture that can be asked for, s.
+/// Longest delay of a screenshot, s.
 const AFTER_MAX_S: f64 = 3_600.0;
 
-/// Opens the window and stays until it is closed.
+/// Opens the window and runs it until it is closed.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let scenario = files::scenario(&args.job.scenario)?.scenario;
     let vehicle = files::vehicle(&args.job.vehicle)?.vehicle;
@@ -50,7 +50,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         map: !args.no_map,
         picture: picture(args)?,
         keep: args.picture.clone(),
-        // Led, its standard output belongs to the pipe.
+        // With --led, standard output belongs to the pipe.
         announce: args.announce && !args.led,
     };
     let stop = StopRequest::install(args.leash && !args.led)?;
@@ -69,13 +69,13 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     if let (Some(pilot), Some(vehicle)) = (&crew.pilot, args.fly) {
         pilot.send_command(PilotCommand::Fly(vehicle));
     }
-    // On Linux every thread has a niceness of its own, that of the thread which began it: sticks are sent by one that began before, pictures
-    // are encoded by one that begins after.
+    // On Linux, each thread inherits its nice value from the thread that starts it: the pilot thread has started before and keeps its priority, the
+    // encoder starts later and gets the lower one.
     priority::lower_priority();
     crew.stream = match args.stream.map(|to| StreamSender::open(to, clock::unix_us())).transpose() {
-        // A trainee's window is worth more than what it sends elsewhere.
+        // The trainee's window is more important than the stream.
         Err(error) if args.led => {
-            tracing::warn!("no stream: {error}");
+            tracing::warn!("cannot stream: {error}");
             None
         }
         opened => opened?,
@@ -87,7 +87,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 fn picture(args: &Args) -> Result<Option<window_config::CaptureRequest>, AppError> {
     let (Some(path), Some(after)) = (&args.screenshot, args.after) else { return Ok(None) };
     if !(0.0..=AFTER_MAX_S).contains(&after) {
-        return Err(AppError::wrong(format!("--after {after}: give seconds, 0 to {AFTER_MAX_S}")));
+        return Err(AppError::wrong(format!("--after {after}: out of range (allowed: 0 to {AFTER_MAX_S} s)")));
     }
     Ok(Some(window_config::CaptureRequest { path: path.clone(), after: Duration::from_secs_f64(after) }))
 }

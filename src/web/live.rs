@@ -1,5 +1,4 @@
-//! The flights that are watched: for each a thread that is one more subscriber of the vehicle's payload port, the stream of what it sees,
-//! and what an instructor asks of the vehicle.
+//! Live flights. Each vehicle has a thread that subscribes to its payload port, streams its values to the pages and sends the instructor's commands.
 
 mod command_queue;
 mod flight_owner;
@@ -27,16 +26,16 @@ use std::sync::mpsc::{Sender, channel};
 use telemetry_listener::{ListenerPaths, LiveListener, SharedKnowledge};
 use tokio::sync::watch;
 
-/// A vehicle to watch.
+/// A vehicle to show on the live page.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WatchedVehicle {
-    /// Its payload port.
+    /// Address of its payload port.
     pub vehicle: SocketAddr,
-    /// Where a window keeps the camera's view of it.
+    /// File to which a window saves the camera's view.
     pub picture: Option<PathBuf>,
 }
 
-/// A flight that is watched.
+/// A vehicle on the live page, with its listener thread.
 #[derive(Debug)]
 pub struct LiveVehicle {
     vehicle: SocketAddr,
@@ -47,10 +46,10 @@ pub struct LiveVehicle {
 }
 
 impl LiveVehicle {
-    /// Starts to listen.
+    /// Starts the listener thread.
     ///
     /// # Errors
-    /// When no socket can be opened.
+    /// If the socket cannot be opened.
     pub fn start(watched: &WatchedVehicle, sessions: &[PathBuf], scenarios: &Path) -> Result<Self, AppError> {
         let WatchedVehicle { vehicle, picture } = watched.clone();
         let (sender, moments) = watch::channel(LiveFlightState::new().to_json(false).to_string());
@@ -63,20 +62,20 @@ impl LiveVehicle {
     }
 }
 
-/// The flight with this number, from 1, and its number; without a word the first one.
+/// Returns the vehicle with this number, from 1, and the number; without a number, the first one.
 ///
 /// # Errors
-/// When no vehicle is watched, or not so many.
+/// If no vehicle is configured, or the number is too large.
 pub fn chosen<'a>(state: &'a ServerState, word: Option<&str>) -> Result<(usize, &'a LiveVehicle), WebError> {
     if state.live.is_empty() {
-        return Err(WebError::BadRequest("no vehicle is watched (--vehicle)".into()));
+        return Err(WebError::BadRequest("no vehicle is configured (--vehicle)".into()));
     }
     let number = word.map_or(Some(1), |word| word.parse().ok());
     let found = number.and_then(|number: usize| Some((number, state.live.get(number.checked_sub(1)?)?)));
-    found.ok_or_else(|| WebError::BadRequest(format!("vehicle: no such number (allowed: 1 to {})", state.live.len())))
+    found.ok_or_else(|| WebError::BadRequest(format!("vehicle: invalid number (allowed: 1 to {})", state.live.len())))
 }
 
-/// The page.
+/// Shows the instructor's live page.
 pub fn page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     if state.live.is_empty() {
         return Ok(WebResponse::page(pages::live(&asked.visitor, None, &pages::VehicleChoice::default())));

@@ -1,4 +1,4 @@
-//! The camera's view, as a window keeps it in a file about once a second.
+//! Camera image of a live flight, which a window saves to a file about once a second.
 
 use super::LiveVehicle;
 use crate::web::request::WebRequest;
@@ -7,37 +7,37 @@ use crate::web::state::ServerState;
 use std::path::Path;
 use std::time::{Duration, UNIX_EPOCH};
 
-/// An older picture shows nothing of now.
+/// Age above which an image is outdated.
 const FRESH: Duration = Duration::from_secs(10);
-/// Largest picture that is shown, bytes: a view in full HD has some hundred thousand.
+/// Maximum size of an image, bytes; a full HD view has several hundred thousand.
 const MOST: u64 = 4 * 1024 * 1024;
-/// How every JPEG begins (ITU-T T.81, B.1.1.3: SOI, then a marker).
+/// First bytes of every JPEG file (ITU-T T.81, B.1.1.3: SOI, then a marker).
 const JPEG: [u8; 3] = [0xff, 0xd8, 0xff];
 
-/// Names the picture that is there now, so that a browser asks for each once; `None` when it is no more of now.
+/// Returns the version of the current image, so that browsers request each image only once; `None` if it is outdated.
 pub fn version(path: &Path) -> Option<u64> {
     let about = path.metadata().ok().filter(|about| about.is_file() && about.len() <= MOST)?;
     let kept = about.modified().ok()?;
-    // A clock that was put back makes no picture old.
+    // If the clock was set back, the image counts as current.
     let age = kept.elapsed().unwrap_or_default();
     let since = kept.duration_since(UNIX_EPOCH).ok()?;
     (age < FRESH).then(|| u64::try_from(since.as_millis()).ok()).flatten()
 }
 
-/// The picture, for those who may watch the flight.
+/// Responds with a vehicle's image to an instructor.
 pub fn show(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let (_, live) = super::chosen(state, asked.query_value("vehicle"))?;
     of(live)
 }
 
-/// The picture of a flight.
+/// Responds with a vehicle's image.
 ///
 /// # Errors
-/// When there is none of now.
+/// If there is no current image.
 pub fn of(live: &LiveVehicle) -> HandlerResult {
     let path = live.picture.as_deref().filter(|path| version(path).is_some()).ok_or(WebError::NotFound)?;
     let bytes = std::fs::read(path).map_err(|_| WebError::NotFound)?;
-    // Whatever else the file may hold, a browser gets pictures from here alone.
+    // Only JPEG images are served, whatever the file contains.
     if !bytes.starts_with(&JPEG) {
         return Err(WebError::NotFound);
     }
@@ -60,7 +60,7 @@ mod tests {
         at(Duration::from_secs(1));
         let first = version(&path).unwrap();
         at(Duration::ZERO);
-        assert!(version(&path).unwrap() > first, "every picture has a name of its own");
+        assert!(version(&path).unwrap() > first, "every image has its own version");
         at(2 * FRESH);
         assert_eq!((version(&path), version(folder.path())), (None, None));
     }
