@@ -5,7 +5,7 @@
 
 Both packages run the hover task with all effects that they model. Spandrel models wind, gusts, ground effect, drag, sensor noise and an autopilot.
 gym-pybullet-drones models ground effect, drag and downwash (PYB_GND_DRAG_DW). Each package runs in one process in its fastest mode: Spandrel with
-native threads, gym-pybullet-drones as a single environment, because it has no vectorized stepping. To reduce the effect of other load, the rounds
+native threads, gym-pybullet-drones as one environment, because it has no vectorized stepping. To reduce the effect of other load, the rounds
 alternate and only the best round of each counts. Measure on an idle computer, because threads gain nothing on busy cores.
 """
 
@@ -26,7 +26,7 @@ FLOOR = 20.0
 STATED_PEER = 27.0
 # Wall time of one round, s, and number of rounds.
 ROUND_S, ROUNDS = 3.0, 5
-# Episodes do not end while steps are timed; resets are timed separately.
+# Episodes do not end while steps are measured. Resets are measured separately.
 ENDLESS = 10**9
 # Vehicles per batch: several per thread of a large machine.
 VEHICLES = 64
