@@ -1,4 +1,4 @@
-//! What the site's still geometry costs per question, by place: in the open, near the structure, in the interlayer, over the ground.
+//! Cost of queries to the site's static geometry by location: in the open, near the structure, in the interlayer, over the ground.
 
 #[path = "support/best.rs"]
 mod best;
@@ -23,7 +23,7 @@ fn say<T>(what: &str, points: &[Vec3<Enu>], ask: impl Fn(Vec3<Enu>) -> T) {
     println!("{what:<44} {:>8.0} ns", taken.as_secs_f64() * 1e9 / points.len() as f64);
 }
 
-/// Points strewn around a polyline.
+/// Returns random points around a polyline.
 fn around(path: &[Vec3<Enu>], spread_m: f64, seed: u64) -> Vec<Vec3<Enu>> {
     let mut random = RandomStream::new(seed, "bench");
     let mut jitter = || random.range(-spread_m, spread_m);
@@ -53,7 +53,7 @@ fn main() {
         say(&format!("nearest within 200 m, {place}"), points, |p| geometry.nearest(p, 200.0));
         say(&format!("ray up 30 m, {place}"), points, |p| geometry.ray(p, Vec3::new(0.0, 0.0, 1.0), 30.0));
         say(&format!("ray down 30 m, {place}"), points, |p| geometry.ray(p, Vec3::new(0.0, 0.0, -1.0), 30.0));
-        say(&format!("ray aslant 200 m, {place}"), points, |p| geometry.ray(p, diagonal, 200.0));
+        say(&format!("diagonal ray 200 m, {place}"), points, |p| geometry.ray(p, diagonal, 200.0));
         let mut found = Vec::new();
         let taken = best(ROUNDS, || {
             for p in points {

@@ -1,6 +1,6 @@
-//! How soon a running simulator answers over loopback, in real time: command to acknowledgement, stick to first changed telemetry (their
-//! echo, and in flight the roll rate); and whether a peer that floods it makes it miss ticks. Beside each figure stands the control tick,
-//! 2.5 ms.
+//! Response times of a running simulator over loopback, in real time: command to acknowledgment, and stick to the first changed telemetry (its echo
+//! and, in flight, the roll rate). Also measures whether the simulator misses ticks while a peer floods it. Each result is also printed in control
+//! ticks of 2.5 ms.
 
 #[path = "support/running.rs"]
 mod running;
@@ -12,25 +12,25 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 const TICK_MS: f64 = 2.5;
-/// The issue's target for the 99th percentile: two control ticks.
+/// Target for the 99th percentile, from the issue: two control ticks.
 const TARGET_MS: f64 = 2.0 * TICK_MS;
 const ROUNDS: usize = 1_000;
-/// Between two questions; no multiple of any period in the vehicle, so that every phase is met.
+/// Pause between measurements. Not a multiple of any period in the vehicle, so that all phases occur.
 const PAUSE: Duration = Duration::from_micros(7_310);
-/// Messages a second of the peer that floods, and for how long.
+/// Message rate and duration of the flood.
 const FLOOD_HZ: u64 = 50_000;
 const FLOOD_FOR: Duration = Duration::from_secs(5);
-/// Simulation time that passes under the flood, as a share of wall time: the floor.
+/// Minimum simulation time per wall time during the flood.
 const PACE_FLOOR: f64 = 0.99;
 
-/// Steps of the stick in flight, and how long it is centred before each, so that the vehicle is at rest.
+/// Number of stick steps in flight, and time with centered stick before each, so that the vehicle is at rest.
 const STEPS: usize = 150;
 const CENTRED_FOR: Duration = Duration::from_millis(400);
-/// A ground station's sticks in flight.
+/// Interval between stick samples in flight.
 const STICKS_EVERY: Duration = Duration::from_millis(20);
-/// A roll rate this many standard deviations off its mean at rest is an answer.
+/// Deviation of the roll rate from its mean at rest that counts as a response, in standard deviations.
 const SIGMAS: f64 = 6.0;
-/// PX4's numbers: automatic take-off and holding, altitude by hand.
+/// PX4's mode numbers: automatic takeoff, hold, and altitude mode.
 const TAKE_OFF: [f32; 3] = [1.0, 4.0, 2.0];
 const HOLDING: u32 = 4 << 16 | 3 << 24;
 const ALTITUDE: [f32; 3] = [1.0, 2.0, 0.0];
@@ -47,7 +47,7 @@ fn long(command: MavCmd, p: [f32; 3]) -> MavMessage {
     })
 }
 
-/// Median and 99th percentile, ms.
+/// Returns the median and the 99th percentile, ms.
 fn spread(mut times: Vec<f64>) -> (f64, f64) {
     times.sort_by(f64::total_cmp);
     (times[times.len() / 2], times[times.len() * 99 / 100])
@@ -70,7 +70,7 @@ fn commands(client: &mut Client) -> (f64, f64) {
 }
 
 fn sticks(client: &mut Client) -> (f64, f64) {
-    // RC_CHANNELS as often as the control loop runs.
+    // Requests RC_CHANNELS at the rate of the control loop.
     client.send(&long(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [65.0, 2_500.0, 0.0]));
     let one = |k: usize| {
         std::thread::sleep(PAUSE);
@@ -99,7 +99,7 @@ fn roll_rate(client: &mut Client) -> f64 {
     client.wait(|m| if let MavMessage::ATTITUDE(a) = m { Some(f64::from(a.rollspeed)) } else { None })
 }
 
-/// Roll rates while the stick is centred, rad/s.
+/// Returns the roll rates while the stick is centered, rad/s.
 fn at_rest(client: &mut Client, time: Duration) -> Vec<f64> {
     let (begin, mut sent) = (now(), None::<Instant>);
     let mut rates = Vec::new();
@@ -113,7 +113,7 @@ fn at_rest(client: &mut Client, time: Duration) -> Vec<f64> {
     rates
 }
 
-/// From a step of the stick in flight to the first roll rate that is no noise: rotors and airframe are in it.
+/// Measures from a step of the stick in flight to the first roll rate outside the noise, which includes rotors and airframe.
 fn rates(client: &mut Client) -> (f64, f64) {
     order(client, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [30.0, 2_500.0, 0.0]);
     at_rest(client, CENTRED_FOR);
@@ -138,7 +138,7 @@ fn rates(client: &mut Client) -> (f64, f64) {
     spread
 }
 
-/// Simulation time in a second of wall time, as a calm peer sees it while another floods; and messages sent a second.
+/// Returns the simulation time per second of wall time, as observed by one peer while another one floods, and the messages per second.
 fn under_flood(client: &mut Client, port: u16) -> (f64, f64) {
     let (stop, sent) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicU64::new(0)));
     let flood = {
@@ -152,7 +152,7 @@ fn under_flood(client: &mut Client, port: u16) -> (f64, f64) {
                 let due = (begin.elapsed().as_secs_f64() * FLOOD_HZ as f64) as u64;
                 let before = sent.load(Ordering::Relaxed);
                 for _ in before..due {
-                    // A full buffer of the system's loses it, as it would on a network.
+                    // A full system buffer drops the message, as a network would.
                     let _ = rude.socket.send(&frame);
                 }
                 sent.store(due.max(before), Ordering::Relaxed);
@@ -173,7 +173,7 @@ fn main() {
     client.wait(|m| matches!(m, MavMessage::HEARTBEAT(_)).then_some(()));
     let mut good = true;
     for (what, (median, p99)) in
-        [("command to acknowledgement", commands(&mut client)), ("stick to its echo in telemetry", sticks(&mut client))]
+        [("command to acknowledgment", commands(&mut client)), ("stick to its echo in telemetry", sticks(&mut client))]
     {
         println!(
             "{what}: median {median:.2} ms ({:.2} ticks), p99 {p99:.2} ms ({:.2} ticks; target 2)",
@@ -184,12 +184,12 @@ fn main() {
     }
     let (median, p99) = rates(&mut client);
     println!(
-        "stick to the roll rate's first change: median {median:.2} ms ({:.2} ticks), p99 {p99:.2} ms ({:.2} ticks)",
+        "stick to first change of the roll rate: median {median:.2} ms ({:.2} ticks), p99 {p99:.2} ms ({:.2} ticks)",
         median / TICK_MS,
         p99 / TICK_MS
     );
     let (pace, rate) = under_flood(&mut client, port);
-    println!("under {rate:.0} messages a second of one peer: {pace:.4} s of simulation time in a second (floor {PACE_FLOOR})");
+    println!("with {rate:.0} messages per second from one peer: {pace:.4} s of simulation time per second (minimum {PACE_FLOOR})");
     good &= pace >= PACE_FLOOR;
-    assert!(good, "a target is missed");
+    assert!(good, "target missed");
 }

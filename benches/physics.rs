@@ -1,6 +1,6 @@
-//! What one physics step costs: free, near a bridge, standing on one and scraping along it. Medians, in nanoseconds and as ratios to a
-//! floor measured in the same run: a Runge-Kutta quadrotor on plain arrays with lagged rotors and drag, and nothing else. Ratios hold on
-//! busy and slow machines alike; one beyond its limit ends the bench with an error.
+//! Cost of a physics step: in free flight, near a bridge, standing on one, and scraping along it. Prints medians in nanoseconds and as ratios to a
+//! baseline measured in the same run: a minimal Runge-Kutta quadrotor on plain arrays with rotor lag and drag. The ratios are valid on busy and slow
+//! machines alike; exceeding a limit ends the benchmark with an error.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{BatteryModel, Scenario};
@@ -13,19 +13,19 @@ use std::path::Path;
 use std::process::ExitCode;
 
 const STEP: SimTime = SimTime::from_ms(1);
-/// Steps in one sample; each sample starts from the same state, so that every one does the same work.
+/// Steps per sample. Each sample starts from the same state, so that all do the same work.
 const STEPS: i64 = 500;
-/// Samples per median; the cases take turns, so that a busy spell of the machine meets all of them.
+/// Samples per median. The cases alternate, so that a busy period of the machine affects all of them.
 const SAMPLES: usize = 61;
 
-/// Largest medians, in floors.
+/// Maximum medians, as ratios to the baseline.
 const FREE: f64 = 4.0;
 const NEAR: f64 = 8.0;
 const CLOSE: f64 = 20.0;
 const STANDING: f64 = 200.0;
 const SCRAPING: f64 = 200.0;
 
-/// The floor: thirteen numbers of a rigid body and four rotors, all integrated, in the leanest form.
+/// Baseline: position, velocity, attitude and rates of a rigid body (13 numbers) and four rotor speeds, integrated in minimal code.
 mod floor {
     pub type Y = [f64; 17];
 
@@ -78,13 +78,13 @@ mod floor {
 
 struct Case {
     name: &'static str,
-    /// Largest median, in floors.
+    /// Maximum median, as a ratio to the baseline.
     limit: f64,
     start: PhysicsState,
-    /// The instant that the state is of.
+    /// Simulation time of the state.
     since: SimTime,
     actuators: Actuators,
-    /// It touches the deck in every step.
+    /// True if it touches the deck in almost every step.
     touches: bool,
     samples: Vec<f64>,
 }
@@ -94,7 +94,7 @@ impl Case {
         Self { name, limit, start, since: SimTime::ZERO, actuators, touches: false, samples: Vec::new() }
     }
 
-    /// On the deck, from a state of [`SETTLED`] on.
+    /// Creates a case on the deck that starts at [`SETTLED`].
     fn on_deck(name: &'static str, limit: f64, start: PhysicsState) -> Self {
         Self { since: SETTLED, touches: true, ..Self::new(name, limit, start, Actuators::default()) }
     }
@@ -128,10 +128,10 @@ fn vehicle() -> Vehicle {
     spandrel_model::vehicle::read(file, &shipped(file)).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// A spot on a bridge's deck with nothing but the road around it, found from above.
+/// Finds a point on a bridge's deck with only the road around it.
 fn deck(site: &Site) -> Vec3<Enu> {
     let lane = site.lanes().iter().find(|lane| !lane.walkway).expect("a road lane");
-    // A lane begins and ends on the road that leads to the bridge.
+    // A lane starts and ends on the road that leads to the bridge.
     let (first, last) = (lane.points_m[0], lane.points_m[lane.points_m.len() - 1]);
     let above = (first + last) * 0.5 + Vec3::new(0.0, 0.0, 3.0);
     let hit = site.ray(above, Vec3::new(0.0, 0.0, -1.0), 6.0, SimTime::ZERO).expect("the deck under its lane");
@@ -149,10 +149,10 @@ fn hovering(model: &AirframeModel, place: Vec3<Enu>) -> PhysicsState {
     state
 }
 
-/// When an aircraft that was set down has settled.
+/// Time after which an aircraft that was placed on the deck has settled.
 const SETTLED: SimTime = SimTime::from_ms(2000);
 
-/// Settled on its feet at [`SETTLED`].
+/// Returns the state of an aircraft standing on the deck at [`SETTLED`].
 fn standing(model: &AirframeModel, site: &Site, vehicle: &Vehicle, deck: Vec3<Enu>) -> PhysicsState {
     let feet = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max);
     let mut state = at(deck + Vec3::new(0.0, 0.0, feet + 0.03));
@@ -161,7 +161,7 @@ fn standing(model: &AirframeModel, site: &Site, vehicle: &Vehicle, deck: Vec3<En
         model.advance(&mut state, &Actuators::default(), &AirState::STILL, site, PowerLoad::default(), now, STEP);
         now += STEP;
     }
-    assert!(state.contact.touching(), "it stands");
+    assert!(state.contact.touching(), "the aircraft stands");
     state
 }
 
@@ -218,14 +218,14 @@ fn main() -> ExitCode {
         }
     }
     let floor = median(&mut floors);
-    println!("{:<36} {floor:>9.0} ns", "floor: bare Runge-Kutta quadrotor");
+    println!("{:<36} {floor:>9.0} ns", "baseline: minimal Runge-Kutta quadrotor");
     let mut held = true;
     for case in &mut cases {
         let taken = median(&mut case.samples);
         let ratio = taken / floor;
         let verdict = if ratio <= case.limit { "" } else { "  EXCEEDED" };
         held &= ratio <= case.limit;
-        println!("{:<36} {taken:>9.0} ns {ratio:>7.1} floors, limit {:>5.0}{verdict}", case.name, case.limit);
+        println!("{:<36} {taken:>9.0} ns {ratio:>7.1} x baseline, limit {:>5.0}{verdict}", case.name, case.limit);
     }
     if held { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }

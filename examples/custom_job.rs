@@ -1,15 +1,16 @@
-//! Makes a job of one's own from a shipped one, and asks the site what stands where. Run it by `cargo run --example custom_job`.
+//! Creates a job from a shipped scenario and queries its site for members, defects and distances. Run it with `cargo run --example
+//! custom_job`.
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 use spandrel_model::{scenario, shipped};
 
-/// Makes the job and asks.
+/// Builds the site of the job and prints facts about it.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // A job is a TOML file; scenarios/README.md explains every key. This one gets other traffic and a name.
+    // A job is a TOML file. scenarios/README.md documents its keys. This job has another name and no cars or trucks.
     let text = shipped::TWO_BRIDGES.replace("name = \"two-bridges\"", "name = \"quiet-bridges\"");
-    let mut job = scenario::read("quiet-bridges.toml", &text, &|file| Err(format!("{file} is not there")))?;
+    let mut job = scenario::read("quiet-bridges.toml", &text, &|file| Err(format!("{file} does not exist")))?;
     job.traffic.cars = 0;
     job.traffic.trucks = 0;
 
@@ -21,7 +22,7 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let over_the_pad = job.ground_team.pad_m + Vec3::new(0.0, 0.0, 10.0);
     if let Some(nearest) = site.nearest(over_the_pad, 200.0, SimTime::ZERO) {
-        println!("nearest to 10 m over the pad: {} at {:.1} m", site.object_name(nearest.object), nearest.distance_m);
+        println!("10 m above the pad, the nearest object is {}, {:.1} m away", site.object_name(nearest.object), nearest.distance_m);
     }
     Ok(())
 }

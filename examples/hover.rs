@@ -1,4 +1,4 @@
-//! Takes off, hovers for ten seconds in gusts, and says how far it strayed. Run it by `cargo run --example hover`.
+//! Takes off, hovers in gusts for ten seconds, prints the largest position error, and lands. Run it with `cargo run --example hover`.
 
 use spandrel_model::shipped;
 use spandrel_model::time::SimTime;
@@ -7,7 +7,7 @@ use spandrel_sitl::testing::Vehicle;
 const HEIGHT_M: f64 = 5.0;
 const LIMIT: SimTime = SimTime::from_ms(30_000);
 
-/// One flight.
+/// Flies one flight and prints the results.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut vehicle = Vehicle::builder().scenario(shipped::DRILL_HOVER).vehicle(shipped::M30).seed(7).build()?;
     vehicle.arm(LIMIT)?;
@@ -20,7 +20,7 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
         vehicle.run(SimTime::from_ms(100));
         strayed_m = strayed_m.max((vehicle.position_m() - start_m).norm());
     }
-    println!("strayed {strayed_m:.2} m in ten seconds");
+    println!("largest position error in ten seconds: {strayed_m:.2} m");
     vehicle.land()?;
     vehicle.run_until(|v| !v.armed(), LIMIT)?;
     println!("landed after {:.1} s", vehicle.now().s());

@@ -1,4 +1,4 @@
-//! Scores a telemetry log by the scenario and the vehicle that it was flown with:
+//! Scores a telemetry log. The scenario and the vehicle must be those of the recorded flight. Run it with
 //! `cargo run --example score_tlog -- flight.tlog scenario.toml vehicle.toml`.
 
 use spandrel_model::{scenario, vehicle};
@@ -8,19 +8,19 @@ use std::error::Error;
 use std::fs;
 use std::path::Path;
 
-/// Scores what the command line names.
+/// Scores the telemetry log from the command line.
 pub fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     score(&arguments)
 }
 
-/// Prints the scores of a log; without three files, what it wants.
+/// Prints the scores of a log, or the usage if the arguments are not three files.
 pub fn score(arguments: &[String]) -> Result<(), Box<dyn Error>> {
     let [log, job, aircraft] = arguments else {
-        println!("score_tlog TLOG SCENARIO VEHICLE");
+        println!("usage: score_tlog TLOG SCENARIO VEHICLE");
         return Ok(());
     };
-    // A height field that a scenario names lies beside it.
+    // If the scenario uses a height field, the file is in the same folder as the scenario.
     let beside = Path::new(job).parent().unwrap_or(Path::new(".")).to_owned();
     let sibling = |name: &str| fs::read_to_string(beside.join(name)).map_err(|error| error.to_string());
     let scenario = scenario::read(job, &fs::read_to_string(job)?, &sibling)?;

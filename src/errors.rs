@@ -1,36 +1,36 @@
-//! Errors of a run: reported once, with an exit code that scripts can rely on.
+//! Errors of a subcommand, with exit codes that scripts can rely on. Each error is reported once.
 
 use spandrel_model::toml::Problems;
 #[cfg(feature = "view")]
 use spandrel_view::{gpu::GpuError, photo::PhotoError, video::VideoError};
 use std::process::ExitCode;
 
-/// Shown under every help text.
-pub const EXIT_CODES: &str = "Exit codes: 0 done; 1 the thing asked for failed; 2 the arguments or a file are wrong.";
+/// Exit codes, shown below every help text.
+pub const EXIT_CODES: &str = "Exit codes: 0 success; 1 failure; 2 invalid arguments or files.";
 
 /// Error of a subcommand.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum AppError {
-    /// Arguments or a file are wrong (exit code 2).
+    /// Invalid arguments or files (exit code 2).
     #[error("{0}")]
     Wrong(String),
-    /// The thing asked for failed (exit code 1).
+    /// Failure of the operation (exit code 1).
     #[error("{0}")]
     Failed(String),
 }
 
 impl AppError {
-    /// Arguments or a file are wrong.
+    /// Creates an error for invalid arguments or files.
     pub fn wrong(message: impl Into<String>) -> Self {
         Self::Wrong(message.into())
     }
 
-    /// The thing asked for failed.
+    /// Creates an error for an operation that failed.
     pub fn failed(message: impl Into<String>) -> Self {
         Self::Failed(message.into())
     }
 
-    /// Logs the error on standard error and returns the exit code.
+    /// Prints the error on standard error and returns the exit code.
     pub(super) fn report(&self) -> ExitCode {
         let (code, message) = match self {
             Self::Wrong(message) => (2, message),
@@ -51,7 +51,7 @@ impl From<Problems> for AppError {
 impl From<GpuError> for AppError {
     fn from(error: GpuError) -> Self {
         match error {
-            GpuError::TooLarge(..) => Self::wrong(format!("{error}: give a smaller --size")),
+            GpuError::TooLarge(..) => Self::wrong(format!("{error}: choose a smaller --size")),
             GpuError::NoDevice(_) | GpuError::Failed(_) => Self::failed(error.to_string()),
         }
     }

@@ -1,4 +1,4 @@
-# Shared by the scripts beside it: finds what is missing and, on Debian and Ubuntu, installs it; builds the program. Sourced, not run.
+# Functions shared by the scripts in this folder. They install missing packages (on Debian and Ubuntu) and build the program. This file is sourced, not run.
 
 say() {
     printf '%s\n' "$*" >&2
@@ -14,7 +14,7 @@ need_rust() {
     fi
 }
 
-# need_packages COMMAND:PACKAGE...: installs the packages whose command is not there. A COMMAND with a '/' is a file.
+# need_packages COMMAND:PACKAGE...: installs each package whose command is missing. A COMMAND that contains a '/' is the path of a file.
 need_packages() {
     local pair command missing=()
     for pair in "$@"; do
@@ -29,8 +29,8 @@ need_packages() {
     fi
 }
 
-# need_build_packages KIND: what a headless build or one with windows needs. Headless: a C compiler. Windows: the video encoder is C++, and
-# gamepads are found through udev.
+# need_build_packages KIND: installs the packages for a headless build or a build with windows. A headless build requires a C compiler. A build with
+# windows also requires a C++ compiler for the video encoder, and udev to find gamepads.
 need_build_packages() {
     local packages=(cc:gcc objcopy:binutils)
     if [ "$(uname)" = Linux ]; then
@@ -42,8 +42,8 @@ need_build_packages() {
     need_packages "${packages[@]}"
 }
 
-# build_program KIND: builds the program, and puts it without its debug symbols into target/run/KIND. The symbols lie beside it in
-# spandrel.debug, where debuggers and panics find them.
+# build_program KIND: builds the program and copies it without its debug symbols to target/run/KIND. The symbols are in spandrel.debug in the same
+# folder, where debuggers and panic backtraces find them.
 build_program() {
     local features=()
     if [ "$1" = window ]; then
@@ -53,7 +53,7 @@ build_program() {
     split_symbols target/release/spandrel "target/run/$1"
 }
 
-# split_symbols PROGRAM FOLDER: a copy of the program without its symbols, and its symbols, if they are older than the program.
+# split_symbols PROGRAM FOLDER: writes a copy of the program without symbols and a file with its symbols, unless both are up to date.
 split_symbols() {
     local program=$1 folder=$2 name
     name=$(basename "$program")
@@ -67,7 +67,7 @@ split_symbols() {
         objcopy --only-keep-debug "$program" "$folder/$name.debug"
         objcopy --strip-all --add-gnu-debuglink="$folder/$name.debug" "$program" "$folder/$name.new"
     fi
-    # Whoever runs the old one goes on with it.
+    # Renaming, instead of overwriting, keeps running copies of the old program working.
     mv "$folder/$name.new" "$folder/$name"
 }
 
@@ -95,11 +95,11 @@ install_packages() {
     fi
     say "Installing: $*"
     "${root[@]}" apt-get update
-    # What is installed stays as it is, unless a new package depends on a newer version of it.
+    # Don't upgrade installed packages unless a new package requires a newer version.
     local options=(--no-install-recommends --no-upgrade --no-remove) upgraded
     upgraded=$(apt-get install --simulate "${options[@]}" "$@" | sed -n 's/^Inst \([^ ]*\) \[.*/\1/p' | tr '\n' ' ')
     if [ -n "$upgraded" ]; then
-        say "They depend on newer versions of these, which are upgraded: $upgraded"
+        say "These installed packages must be upgraded: $upgraded"
     fi
     "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y "${options[@]}" "$@"
 }

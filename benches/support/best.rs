@@ -1,9 +1,9 @@
-//! The best of several runs: what a shared machine's other work disturbs least.
+//! Measures the fastest of several runs, which is least affected by other load on the machine.
 
 use std::hint::black_box;
 use std::time::Duration;
 
-/// Least wall time of so many runs.
+/// Returns the shortest wall time of `rounds` runs.
 #[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
 pub fn best<T>(rounds: usize, mut work: impl FnMut() -> T) -> Duration {
     let once = |_| {

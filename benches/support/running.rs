@@ -1,4 +1,4 @@
-//! A real simulator beside a bench, in real time, and who talks to it.
+//! A real simulator process in real time, and a client for it.
 #![allow(dead_code, reason = "each bench uses its part")]
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
@@ -8,7 +8,7 @@ use std::net::UdpSocket;
 use std::process::{Child, ChildStdout, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// A simulator that says nothing for so long is gone.
+/// Time without data after which the simulator counts as gone.
 const GONE: Duration = Duration::from_secs(5);
 
 #[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
@@ -16,22 +16,22 @@ pub fn now() -> Instant {
     Instant::now()
 }
 
-/// A simulator that ends with this.
+/// A simulator process that ends when this is dropped.
 pub struct Running {
     child: Child,
     told: BufReader<ChildStdout>,
 }
 
-/// How late a simulator was, in wall time.
+/// Delays of a simulator, in wall time.
 pub struct Lateness {
-    /// The most that its ticks were late, ms.
+    /// Longest delay of a tick, ms.
     pub latest_ms: f64,
-    /// How often they were so late that its clock let time go.
+    /// Number of times that the simulation clock skipped a delay.
     pub slips: u64,
 }
 
 impl Running {
-    /// Ends it, and reads how late it was.
+    /// Ends the simulator and reads its delays.
     pub fn end(mut self) -> Lateness {
         drop(self.child.stdin.take());
         let told = self.line();
@@ -48,13 +48,13 @@ impl Running {
 
 impl Drop for Running {
     fn drop(&mut self) {
-        // Its standard input closes, which ends it; a child that is gone already is no error.
+        // Closing standard input ends the simulator. It may already have exited.
         drop(self.child.stdin.take());
         let _ = self.child.wait();
     }
 }
 
-/// A ground station.
+/// A ground station client.
 pub struct Client {
     pub socket: UdpSocket,
     pub encoder: Encoder,
@@ -75,7 +75,7 @@ impl Client {
         self.socket.send(&frame).expect("loopback takes it");
     }
 
-    /// Simulation time in a second of wall time, over at least so much of it; and how much it was, s.
+    /// Returns the simulation time per wall time over at least this duration, and the measured wall time, s.
     pub fn pace(&mut self, over: Duration) -> (f64, f64) {
         let (sim_begin, wall_begin) = self.clock();
         let (mut sim_end, mut wall_end) = (sim_begin, wall_begin);
@@ -92,7 +92,7 @@ impl Client {
 
     pub fn wait<T>(&mut self, mut pick: impl FnMut(&MavMessage) -> Option<T>) -> T {
         loop {
-            let len = self.socket.recv(&mut self.buffer).expect("the simulator speaks");
+            let len = self.socket.recv(&mut self.buffer).expect("the simulator sends");
             let frames = self.decoder.datagram(&self.buffer[..len]);
             if let Some(found) = frames.iter().filter_map(|frame| frame.message.as_ref()).find_map(&mut pick) {
                 return found;
@@ -101,7 +101,7 @@ impl Client {
     }
 }
 
-/// A simulator in real time, and the port that ground stations dial.
+/// Starts a simulator in real time and returns the port for ground stations.
 pub fn start() -> (Running, u16) {
     let job = ["sim", "--scenario", "drill-hover", "--seed", "7", "--ports", "ephemeral", "--log", "warn"];
     let mut child = Command::new(env!("CARGO_BIN_EXE_spandrel"))

@@ -1,5 +1,5 @@
-//! Any bytes as datagrams (a length byte before each) to the codec and the monitor, as they stand or (by their first byte) as the fields of
-//! some message with the checksum mended: never a panic, and every good frame is whole.
+//! Feeds arbitrary bytes to the codec and the monitor as datagrams, each preceded by a length byte. Depending on its first byte, a datagram is used
+//! unchanged, or as the fields of a message with a corrected checksum. There must be no panic, and frames must not be longer than their datagram.
 #![no_main]
 
 use mavlink::Message;
@@ -24,7 +24,7 @@ static MONITOR: LazyLock<Monitor> = LazyLock::new(|| {
     })
 });
 
-/// A frame of the vehicle around the bytes of a payload.
+/// Creates a frame of the vehicle with these payload bytes.
 fn framed(choice: u16, payload: &[u8]) -> Vec<u8> {
     let ids = MavMessage::all_ids();
     let id = ids[usize::from(choice) % ids.len()];

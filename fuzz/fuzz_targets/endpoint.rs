@@ -1,5 +1,5 @@
-//! Any bytes to the vehicle in flight, as chunks with a length byte before each. A chunk is a datagram as it stands, or (by its first
-//! byte) the fields of a message that the vehicle handles, framed with the right checksum: never a panic, and the state stays numbers.
+//! Feeds arbitrary bytes to the vehicle in flight, in chunks with a length byte before each. Depending on its first byte, a chunk is a datagram, or
+//! the fields of a message that the vehicle handles, with a correct checksum. There must be no panic, and the state must stay finite.
 #![no_main]
 
 use mavlink::Message;
@@ -42,7 +42,7 @@ static FLYING: LazyLock<Sim> = LazyLock::new(|| {
     sim
 });
 
-/// A frame around the bytes of a payload, the checksum right.
+/// Creates a frame with these payload bytes and a correct checksum.
 fn framed(choice: u8, payload: &[u8]) -> Vec<u8> {
     let id = HANDLED[usize::from(choice) % HANDLED.len()];
     let [a, b, c, _] = id.to_le_bytes();

@@ -1,4 +1,4 @@
-//! Any text: a scenario or named problems, never a panic.
+//! Feeds arbitrary text to the scenario parser, which must return a scenario or a list of problems without a panic.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|text: &str| {

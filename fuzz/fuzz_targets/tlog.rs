@@ -1,4 +1,4 @@
-//! Any bytes as a telemetry log: a score or a reason, never a panic.
+//! Feeds arbitrary bytes to the scorer as a telemetry log; it must return a score or an error without a panic.
 #![no_main]
 
 use spandrel_model::{scenario::Scenario, vehicle::Vehicle};

@@ -1,4 +1,4 @@
-//! Any text: an aircraft or named problems, never a panic.
+//! Feeds arbitrary text to the vehicle parser, which must return an aircraft or a list of problems without a panic.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|text: &str| {

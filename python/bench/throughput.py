@@ -3,10 +3,10 @@
     tools/python --bench                       fails below the minimum ratio
     tools/python --bench --peer DIR            gym-pybullet-drones from a checkout of its sources
 
-Both run the hover task with all modeled effects: wind, gusts, ground effect, drag, sensor noise and an autopilot here; ground effect, drag and
-downwash there (PYB_GND_DRAG_DW). Each runs in one process in its fastest mode: native threads here, a single environment there, because it has
-no vectorized stepping. Rounds alternate and the best of each counts, to reduce the effect of other load. Measure on an idle machine: threads
-that wait for a busy core gain nothing.
+Both packages run the hover task with all effects that they model. Spandrel models wind, gusts, ground effect, drag, sensor noise and an autopilot.
+gym-pybullet-drones models ground effect, drag and downwash (PYB_GND_DRAG_DW). Each package runs in one process in its fastest mode: Spandrel with
+native threads, gym-pybullet-drones as one environment, because it has no vectorized stepping. To reduce the effect of other load, the rounds
+alternate and only the best round of each counts. Measure on an idle computer, because threads gain nothing on busy cores.
 """
 
 import argparse
@@ -26,7 +26,7 @@ FLOOR = 20.0
 STATED_PEER = 27.0
 # Wall time of one round, s, and number of rounds.
 ROUND_S, ROUNDS = 3.0, 5
-# Episodes do not end while steps are timed; resets are timed separately.
+# Episodes do not end while steps are measured. Resets are measured separately.
 ENDLESS = 10**9
 # Vehicles per batch: several per thread of a large machine.
 VEHICLES = 64
@@ -87,7 +87,7 @@ def peer(checkout, action):
         said, sys.stdout = sys.stdout, nowhere
         env = HoverAviary(physics=Physics.PYB_GND_DRAG_DW, pyb_freq=PEER_PHYSICS_HZ, ctrl_freq=PEER_HZ, act=ActionType[action])
         sys.stdout = said
-    print(f"gym-pybullet-drones, a reset: {reset_ms(env):.1f} ms")
+    print(f"gym-pybullet-drones, time per reset: {reset_ms(env):.1f} ms")
     still = np.zeros(env.action_space.shape, np.float32)
     return lambda: env.step(still), 1.0 / PEER_HZ
 
@@ -100,7 +100,7 @@ def main():
     warnings.filterwarnings("ignore")
     cores = len(os.sched_getaffinity(0))
     for name in ("Spandrel-Hover-v0", "Spandrel-Inspect-v0"):
-        print(f"{name}, a reset (a flight from the pad to the start): {reset_ms(gymnasium.make(name)):.1f} ms")
+        print(f"{name}, time per reset (a flight from the pad to the start position): {reset_ms(gymnasium.make(name)):.1f} ms")
     rows = {
         f"Spandrel-Hover-v0, {VEHICLES} vehicles, {cores} threads": (*ours("Spandrel-Hover-v0", VEHICLES, cores), VEHICLES),
         f"Spandrel-Hover-v0, {VEHICLES} vehicles, 1 thread": (*ours("Spandrel-Hover-v0", VEHICLES, 1), VEHICLES),
@@ -123,7 +123,7 @@ def main():
     # Comparable tasks: velocity setpoints, tracked by our autopilot and by their controller.
     theirs = next((speeds[name] for name in peers if name.endswith("VEL")), STATED_PEER)
     ratio = max(speeds[name] for name in rows if name.startswith("Spandrel-Hover")) / theirs
-    print(f"ratio under velocity setpoints: {ratio:.1f} (floor {FLOOR:.0f})")
+    print(f"ratio with velocity setpoints: {ratio:.1f} (minimum {FLOOR:.0f})")
     sys.exit(0 if ratio >= FLOOR else 1)
 
 

@@ -122,13 +122,13 @@ class SpandrelVectorEnv(VectorEnv[Observation, Action, Any]):
         return observations, self._masked(infos)
 
     def _masked(self, infos: dict[str, Any]) -> dict[str, Any]:
-        """Adds the mask that Gymnasium expects for each key; every environment provides every value."""
+        """Adds the mask that Gymnasium expects for each key. All masks are true, because every environment provides every value."""
         return infos | {f"_{key}": np.ones(self.num_envs, dtype=np.bool_) for key in infos}
 
     def step(
         self, actions: Action
     ) -> tuple[Observation, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
-        """Runs one step in each environment, or starts the next episode where the previous step ended one."""
+        """Runs one step in each environment. If the previous step ended an episode, starts the next one instead."""
         seeds = [int(stream.integers(SEEDS)) if over else None for stream, over in zip(self._streams, self._over)]
         rows = np.ascontiguousarray(actions, dtype=np.float32)
         observations, rewards, terminated, infos = self._native.unpack(self._native.batch.step(rows.tobytes(), seeds))

@@ -41,7 +41,7 @@ def _free_port() -> int:
 
 
 class Link:
-    """A MAVLink link without a socket: send and receive datagrams directly."""
+    """A MAVLink link without a socket. Your code sends and receives the datagrams directly."""
 
     def __init__(self, flight: Flight, number: int) -> None:
         self._flight, self._number = flight, number

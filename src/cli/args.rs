@@ -1,4 +1,4 @@
-//! Arguments that several subcommands share, with their ranges.
+//! Arguments that several subcommands share, with their allowed ranges.
 
 use crate::io::clock;
 use spandrel_model::scenario::Scenario;
@@ -8,7 +8,7 @@ use spandrel_view::flow::pipe;
 /// Maximum seed: MAVLink messages carry it as a signed 32-bit integer.
 const SEED_MAX: u64 = i32::MAX as u64;
 
-/// Scenario, aircraft and seed.
+/// Scenario, aircraft and seed of a flight.
 #[derive(Debug, Clone, clap::Args)]
 pub struct JobArgs {
     /// Scenario: a file, or the name of a shipped one
@@ -29,9 +29,9 @@ impl JobArgs {
     }
 }
 
-/// Reads a seed.
+/// Parses a seed for `--seed`, 0 to 2147483647.
 pub fn seed(text: &str) -> Result<u64, String> {
-    text.parse().ok().filter(|seed| *seed <= SEED_MAX).ok_or_else(|| format!("'{text}' is no seed (allowed: 0 to {SEED_MAX})"))
+    text.parse().ok().filter(|seed| *seed <= SEED_MAX).ok_or_else(|| format!("'{text}' is not a seed (allowed: 0 to {SEED_MAX})"))
 }
 
 /// Returns a new seed from the wall clock.
@@ -39,14 +39,14 @@ pub fn random_seed() -> u64 {
     spandrel_model::random::RandomStream::new(clock::unix_us(), "session seed").bits() & SEED_MAX
 }
 
-/// Autopilot protocol.
+/// Autopilot protocol that the vehicle uses toward its clients.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Flavour {
     /// PX4; best supported by ground stations and SDKs
     Px4,
     /// ArduCopter: its modes, parameter names, missions that begin with home, streams on request
     Ardupilot,
-    /// The MAVLink standard only: QGroundControl shows the vehicle, but offers no modes and no guided flight
+    /// The MAVLink standard only: QGroundControl shows the vehicle, but offers no flight modes and no guided flight
     Generic,
 }
 
@@ -76,7 +76,7 @@ pub enum Purpose {
 }
 
 impl Purpose {
-    /// As the window and the session's files say it.
+    /// Converts to the type that the window and the session files use.
     pub fn display_name(self) -> pipe::Purpose {
         match self {
             Self::Practice => pipe::Purpose::Practice,
@@ -84,13 +84,13 @@ impl Purpose {
         }
     }
 
-    /// In a word.
+    /// Returns the purpose as one word.
     pub fn word(self) -> &'static str {
         self.display_name().word()
     }
 }
 
-/// Arguments that all children share.
+/// Returns the arguments that all child processes share.
 pub fn common_args(job: &JobArgs, log: tracing::Level) -> Vec<String> {
     let mut args = vec!["--log".to_owned(), log.to_string().to_lowercase()];
     args.extend(["--scenario", &job.scenario, "--vehicle", &job.vehicle].map(str::to_owned));

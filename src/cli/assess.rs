@@ -1,4 +1,4 @@
-//! `spandrel assess`: scores a stored flight again.
+//! `spandrel assess`: scores a recorded flight again.
 
 use super::table;
 use crate::errors::{AppError, EXIT_CODES};
@@ -12,15 +12,15 @@ use spandrel_model::vehicle::Vehicle;
 use spandrel_monitor::export;
 use std::path::PathBuf;
 
-/// Score a stored flight again
+/// Score a recorded flight again
 ///
-/// Scores a session folder, or a telemetry log with its scenario and vehicle, from the telemetry alone. The result is byte for byte that of
-/// the live session.
+/// Scores a session folder, or a telemetry log with its scenario and vehicle, using only the telemetry. The result is byte for byte that of the live
+/// session.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel assess sessions/20260801T...                       the scores as a table
-  spandrel assess sessions/20260801T... --json -              the scores as JSON, as in assessment.json
+  spandrel assess sessions/20260801T...                       print the scores as a table
+  spandrel assess sessions/20260801T... --json -              print the scores as JSON, as in assessment.json
   spandrel assess flight.tlog --scenario two-bridges --vehicle phantom2 --json scores.json
 
 {EXIT_CODES}"))]
@@ -42,7 +42,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When files are wrong or there is nothing to score.
+/// If files are invalid or there is nothing to score.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let (scenario, vehicle, log) = inputs(args)?;
     let graded = grade(&log, &scenario, &vehicle)?;
@@ -67,7 +67,7 @@ fn inputs(args: &Args) -> Result<(Scenario, Vehicle, LogFile), AppError> {
     }
     let (Some(scenario), Some(vehicle)) = (&args.scenario, &args.vehicle) else {
         return Err(AppError::wrong(format!(
-            "{}: is no session folder; a telemetry log needs --scenario and --vehicle",
+            "{}: not a session folder; a telemetry log needs --scenario and --vehicle",
             args.flight.display()
         )));
     };

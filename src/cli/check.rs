@@ -1,4 +1,4 @@
-//! `spandrel check`: everything that is wrong with scenario and vehicle files, at once.
+//! `spandrel check`: reports all errors in scenario and vehicle files at once.
 
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files::{self, SourceFile};
@@ -9,11 +9,11 @@ use spandrel_model::site::{NearestPoint, Site, defects};
 use spandrel_model::toml::{Problem, listed};
 use spandrel_model::vehicle::{self, Vehicle};
 
-/// Minimum margin between path and obstacles beyond the aircraft's half width, m (issue 2, section 2).
+/// Minimum clearance between path and obstacles, in addition to half the aircraft's width, m (issue 2, section 2).
 const MARGIN_M: f64 = 0.5;
 
-/// Number of seeds tried for a scenario without its own seed: one shows whether its tasks reach a bridge, three whether there is
-/// room (estimate).
+/// Seeds tried for a scenario without its own seed. One seed shows whether a task reaches a bridge, three whether there is enough room for the
+/// defects (estimate).
 const SEEDS_TRIED: [u64; 3] = [1, 2, 3];
 
 /// Check scenario and vehicle files
@@ -24,8 +24,8 @@ const SEEDS_TRIED: [u64; 3] = [1, 2, 3];
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel check my-bridge.toml                        checks the paths for the default aircraft
-  spandrel check my-bridge.toml --vehicle m30          ... for another aircraft
+  spandrel check my-bridge.toml                        check the paths for the default aircraft
+  spandrel check my-bridge.toml --vehicle m30          check them for another aircraft
   spandrel check scenarios/*.toml vehicle-params/*.toml --json
 
 {EXIT_CODES}"))]
@@ -68,7 +68,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     } else {
         notes.iter().for_each(|note| println!("note: {note}"));
         warnings.iter().for_each(|warning| println!("warning: {warning}"));
-        // A file that cannot be read has no line to name.
+        // An unreadable file has no line number.
         first.iter().for_each(|problem| if problem.line == 0 { println!("{}", problem.message) } else { println!("{problem}") });
         if more > 0 {
             println!("and {more} more problems");
@@ -79,7 +79,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         0 => {
             let files = count(args.files.len(), "file");
             match warnings.len() {
-                0 => println!("{files} right"),
+                0 => println!("{files} valid"),
                 many => println!("{files} without errors, {}", count(many, "warning")),
             }
             Ok(())
@@ -117,8 +117,7 @@ fn check_scenario(source: &SourceFile, aircraft: &Vehicle, findings: &mut Findin
     }
 }
 
-/// Top-level keys that occur only in vehicle files or only in scenarios. They identify the kind of a file, even if some are
-/// missing.
+/// Top-level keys that occur only in vehicle files or only in scenarios. They identify the kind of a file even if some keys are missing.
 const OF_VEHICLES: [&str; 10] =
     ["mass_kg", "inertia_kg_m2", "rotors", "drag", "hull", "battery", "limits", "sensors", "camera", "lamp"];
 const OF_SCENARIOS: [&str; 13] = [
@@ -152,7 +151,7 @@ fn is_vehicle(text: &str) -> bool {
 
 fn tight_passages(source: &SourceFile, scenario: &Scenario, aircraft: &Vehicle) -> Vec<Problem> {
     let needed_m = 0.5 * aircraft.hull.tip_to_tip_m + MARGIN_M;
-    // Defects and traffic are not asked about, so any seed does.
+    // The result does not depend on defects or traffic, so any seed works.
     let site = Site::build(&Scenario { defects: defects_not_placed(scenario), ..scenario.clone() }, 0);
     let lines: Vec<usize> = task_lines(&source.text);
     let tight = |(k, task): (usize, &Task)| {
@@ -188,9 +187,9 @@ fn too_few_defects(source: &SourceFile, scenario: &Scenario) -> Option<String> {
     let line = source.text.lines().position(|line| line.trim_start().starts_with("[defects]")).map_or(1, |k| k + 1);
     (least < wanted).then(|| {
         format!(
-            "{}:{line}: defects.count = {wanted}, but only {least} could be placed (seed {seed}): no other spot on a bridge can be \
-             photographed from within a task's threshold; fly the tasks nearer to the structure, widen defects.elements or \
-             defects.kinds, or ask for {least}",
+            "{}:{line}: defects.count = {wanted}, but only {least} could be placed (seed {seed}): no other place on a bridge can be \
+             photographed from within a task's threshold; move the tasks closer to the structure, extend defects.elements or \
+             defects.kinds, or set the count to {least}",
             source.file
         )
     })
@@ -200,7 +199,7 @@ fn defects_not_placed(scenario: &Scenario) -> scenario::DefectSpec {
     scenario::DefectSpec { count: 0, placed: Some(Vec::new()), ..scenario.defects.clone() }
 }
 
-/// Returns the point with the least clearance if it is below the minimum, anywhere along the straight segments of the path.
+/// Returns the point with the least clearance along the path, if it is below the minimum.
 fn tightest(task: &Task, site: &Site, needed_m: f64) -> Option<(Vec3<Enu>, f64, String)> {
     let points = &task.path_m;
     let wrap = if task.closed { points.first() } else { points.last() };
@@ -211,7 +210,7 @@ fn tightest(task: &Task, site: &Site, needed_m: f64) -> Option<(Vec3<Enu>, f64, 
     Some((at_m, near.distance_m, site.object_name(near.object)))
 }
 
-/// Returns the line on which each task begins.
+/// Returns the line number of each task's table.
 fn task_lines(text: &str) -> Vec<usize> {
     let heads = text.lines().enumerate().filter(|(_, line)| {
         let line: String = line.chars().filter(|c| !c.is_whitespace()).collect();
@@ -249,7 +248,7 @@ mod tests {
             assert_eq!(findings.problems, []);
             findings.warnings
         };
-        assert_eq!(found(&source), Vec::<String>::new(), "no defects are asked for");
+        assert_eq!(found(&source), Vec::<String>::new(), "no defects requested");
         source.text = source.text.replace("[defects]\ncount = 0", "[defects]\ncount = 4");
         let line = source.text.lines().position(|line| line == "[defects]").unwrap() + 1;
         let warnings = found(&source);
@@ -285,7 +284,7 @@ mod tests {
 
     #[test]
     fn exact_a_path_is_refused_from_the_very_size_that_no_longer_fits() {
-        // m; the search along the path stops within a millimetre of the tightest place.
+        // Tolerance, m: the search along the path stops within 1 mm of the tightest point.
         const CLOSE_M: f64 = 2e-3;
         let source = files::any_source("drill-gap").unwrap();
         let scenario = scenario::read(&source.file, &source.text, &|name| source.sibling(name)).unwrap();
@@ -304,7 +303,7 @@ mod tests {
         let refused = problems(fits_m + 2.0 * CLOSE_M);
         assert_eq!(refused.len(), 1);
         assert_eq!(task_lines(&source.text), [refused[0].line]);
-        // It says where: the place has the room that is complained of.
+        // The reported point has the reported clearance.
         let number = |after: &str| {
             let rest = refused[0].message.split(after).nth(1).unwrap();
             rest.trim_start().split(' ').next().unwrap().parse::<f64>().unwrap()

@@ -1,4 +1,4 @@
-//! `spandrel cohort`: what a group of trainees shows.
+//! `spandrel cohort`: statistics of a group of trainees.
 
 use super::records::RecordsArgs;
 use crate::errors::{AppError, EXIT_CODES};
@@ -22,9 +22,9 @@ const CONTRADICTIONS: usize = 12;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel cohort                                       a summary
-  spandrel cohort --json cohort.json --csv tables       everything
-  spandrel cohort --report cohort.html                  all figures as one page that opens offline
+  spandrel cohort                                       print a summary
+  spandrel cohort --json cohort.json --csv tables       write all results
+  spandrel cohort --report cohort.html                  write all figures as one page that opens offline
   spandrel cohort --scenario two-bridges --scenario two-bridges-small --repetitions 2
   spandrel cohort --records all.jsonl --json -
 
@@ -74,14 +74,16 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         && let Some(words) = omitted_summary(cohort.left_out)
     {
         return Err(AppError::wrong(format!(
-            "there is no complete session of the job: {words} (--include-incomplete counts them)"
+            "there is no complete session of this scenario: {words} (--include-incomplete counts them)"
         )));
     }
     if cohort.sessions == 0 {
-        return Err(AppError::wrong("there is no session of the job in the records; spandrel records import takes sessions in"));
+        return Err(AppError::wrong(
+            "there is no session of this scenario in the records; use spandrel records import to add sessions",
+        ));
     }
     if let Some(folder) = &args.csv {
-        let cannot = |error: std::io::Error| AppError::failed(format!("{}: cannot be made: {error}", folder.display()));
+        let cannot = |error: std::io::Error| AppError::failed(format!("{}: cannot create the folder: {error}", folder.display()));
         std::fs::create_dir_all(folder).map_err(cannot)?;
         for (name, table) in tables(&cohort) {
             files::write(&folder.join(name).display().to_string(), table.as_bytes())?;
@@ -96,7 +98,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     }
 }
 
-/// Prints the sessions by trainee and the main figures of the first sessions.
+/// Returns the number of sessions and the main statistics of the first sessions as text.
 fn first_sessions(cohort: &Cohort) -> String {
     let mut out = format!("{} trainees, {} sessions of {}\n", cohort.trainees, cohort.sessions, cohort.scenarios.join(", "));
     if let Some(words) = omitted_summary(cohort.left_out) {
@@ -113,7 +115,7 @@ fn first_sessions(cohort: &Cohort) -> String {
     let kinds: Vec<String> = crashes.map(|(kind, count)| format!("{kind} {count}")).collect();
     let _ = writeln!(
         out,
-        "{} crashes in them: {}",
+        "{} crashes in first sessions: {}",
         cohort.crashes.total,
         if kinds.is_empty() { "none".into() } else { kinds.join(", ") }
     );
@@ -151,7 +153,7 @@ fn words(cohort: &Cohort) -> String {
         let (score, test) = (&one.score, &one.test);
         let _ = writeln!(
             out,
-            "{score}: the group against the others, chi-squared {:.2}, df {}, p {:.3}",
+            "{score}: this group compared with the others, chi-squared {:.2}, df {}, p {:.3}",
             test.chi_squared, test.df, test.p
         );
     }
@@ -178,7 +180,7 @@ fn words(cohort: &Cohort) -> String {
         let _ = writeln!(out, "{}: {}", one.trainee, one.words);
     }
     if contradictions.len() > CONTRADICTIONS {
-        let _ = writeln!(out, "and {} more such contradictions (--json, --csv)", contradictions.len() - CONTRADICTIONS);
+        let _ = writeln!(out, "and {} more contradictions (--json, --csv)", contradictions.len() - CONTRADICTIONS);
     }
     for warning in &cohort.warnings {
         let _ = writeln!(out, "note: {warning}");

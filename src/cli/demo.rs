@@ -1,4 +1,4 @@
-//! `spandrel demo`: simulator, monitor and synthetic trainee as three processes over real UDP, in lockstep, on ports of their own.
+//! `spandrel demo`: runs the simulator, the monitor and a synthetic trainee as three processes over UDP, in lockstep, on free ports.
 
 use super::args::{self, JobArgs};
 use super::pilot::SkillArgs;
@@ -14,9 +14,10 @@ use crate::io::trainee_id::TraineeId;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Interval between checks of the child processes.
+/// Interval at which the child processes are checked.
 const LOOK: Duration = Duration::from_millis(20);
-/// Wall time for the monitor to detect the end after the pilot is done (it takes three seconds of simulation time at rest).
+/// Wall time that the monitor gets to detect the end of the session after the pilot has finished (it needs 3 s of simulation time with the aircraft
+/// at rest).
 const GRACE: Duration = Duration::from_secs(15);
 
 /// Fly a whole session automatically
@@ -107,7 +108,8 @@ fn sim_args(args: &Args, monitor_port: u64, pilot_port: u64) -> Vec<String> {
     out
 }
 
-/// Waits for the end of the session. Stops it if the pilot is done without an end, or if a process exits early.
+/// Waits for the end of the session. Returns early if the monitor does not detect an end after the pilot has finished, or with an error if a process
+/// exits too soon.
 fn wait(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &StopRequest) -> Option<AppError> {
     let mut pilot_done: Option<Stopwatch> = None;
     loop {
@@ -115,14 +117,14 @@ fn wait(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &StopRequ
             return None;
         }
         if let Some(report) = pilot.line() {
-            tracing::info!("the pilot is done: {report}");
+            tracing::info!("pilot finished: {report}");
             pilot_done = Some(Stopwatch::start());
         }
         if pilot_done.is_some_and(|since| since.elapsed() > GRACE) {
             return None;
         }
         for (name, child) in [("simulator", &mut *sim), ("pilot", &mut *pilot)] {
-            // The monitor ends a moment before the others notice.
+            // The monitor exits slightly before the other processes do.
             if let Some(status) = child.ended()
                 && monitor.ended().is_none()
             {

@@ -1,4 +1,4 @@
-//! `spandrel export`: frames, scenario, flight plan, geometry and recordings for other programs.
+//! `spandrel export`: writes frames, scenario, flight plan, geometry and recordings for other programs.
 
 use super::args;
 use crate::errors::{AppError, EXIT_CODES};
@@ -35,10 +35,10 @@ use std::path::Path;
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel export sessions/20260801T... --frames frames.csv
-  spandrel export two-bridges --seed 7 --scenario -          paths and the defects that seed 7 places
-  spandrel export two-bridges --plan tasks.plan              open it in QGroundControl, upload, start
-  spandrel export two-bridges --glb bridges.glb              open it in any 3D viewer
-  spandrel export sessions/20260801T... --mcap flight.mcap   open it in Foxglove
+  spandrel export two-bridges --seed 7 --scenario -          paths, and defects as placed by seed 7
+  spandrel export two-bridges --plan tasks.plan              open in QGroundControl, upload, start
+  spandrel export two-bridges --glb bridges.glb              for any 3D viewer
+  spandrel export sessions/20260801T... --mcap flight.mcap   for Foxglove
   spandrel export sessions/20260801T... --parquet frames.parquet --xapi statements.jsonl --scorm result.zip
   spandrel export broken.mcap --mcap whole.mcap              recover a truncated recording
 
@@ -78,7 +78,7 @@ pub struct Args {
     /// The result as a SCORM 1.2 package for a learning management system; '-' for standard output
     #[arg(long, value_name = "FILE")]
     scorm: Option<String>,
-    /// Seed that places the defects of a scenario without a seed of its own
+    /// Seed that places the defects, for a scenario that sets none
     #[arg(long, value_name = "N", value_parser = args::seed)]
     seed: Option<u64>,
 }
@@ -97,14 +97,14 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let stored = if path.is_dir() { Some(StoredSession::read(path)?) } else { None };
     if let Some(target) = &args.frames {
         let Some(stored) = &stored else {
-            return Err(AppError::wrong(format!("--frames needs a session folder, and '{}' is none", args.from)));
+            return Err(AppError::wrong(format!("--frames needs a session folder, but '{}' is not one", args.from)));
         };
         files::write(target, frames_csv(&scoring::frame_rows(stored)?).as_bytes())?;
     }
     if let Some(target) = &args.mcap {
         let Some(stored) = &stored else {
             return Err(AppError::wrong(format!(
-                "--mcap needs a session folder or a recording (.mcap), and '{}' is neither",
+                "--mcap needs a session folder or a recording (.mcap), but '{}' is neither",
                 args.from
             )));
         };
@@ -121,12 +121,12 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let seed = args.seed.or(scenario.seed);
     if args.scenario.is_some() && seed.is_none() && scenario.defects.count > 0 && scenario.defects.placed.is_none() {
         return Err(AppError::wrong(format!(
-            "'{}' places its defects anew in every session: say which ones with --seed N",
+            "'{}' places its defects differently in every session: choose a seed with --seed N",
             args.from
         )));
     }
     let progress = ProgressLog::start("building the site");
-    // Without a seed only the geometry is asked for, and no seed moves that.
+    // Without a seed, only the geometry is exported, which is the same for every seed.
     let site = Site::build(&scenario, seed.unwrap_or_default());
     progress.end();
     if let Some(target) = &args.scenario {
@@ -146,10 +146,11 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Exports a session for learning systems.
+/// Exports a session as Parquet, xAPI or SCORM.
 fn exchanged(args: &Args, stored: Option<&StoredSession>) -> Result<(), AppError> {
-    let needed =
-        |flag: &str| stored.ok_or_else(|| AppError::wrong(format!("{flag} needs a session folder, and '{}' is none", args.from)));
+    let needed = |flag: &str| {
+        stored.ok_or_else(|| AppError::wrong(format!("{flag} needs a session folder, but '{}' is not one", args.from)))
+    };
     if let Some(target) = &args.parquet {
         let stored = needed("--parquet")?;
         files::write(target, &crate::io::parquet::frames(&scoring::frame_rows(stored)?)?)?;
@@ -167,7 +168,7 @@ fn exchanged(args: &Args, stored: Option<&StoredSession>) -> Result<(), AppError
     Ok(())
 }
 
-/// Packs files into a ZIP archive. The same files produce the same bytes.
+/// Packs files into a ZIP archive; the same files give the same bytes.
 fn zipped(files: &[(&str, String)]) -> Result<Vec<u8>, AppError> {
     let write = || {
         let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
@@ -180,20 +181,20 @@ fn zipped(files: &[(&str, String)]) -> Result<Vec<u8>, AppError> {
         }
         archive.finish().map(Cursor::into_inner)
     };
-    write().map_err(|error: zip::result::ZipError| AppError::failed(format!("the package cannot be made: {error}")))
+    write().map_err(|error: zip::result::ZipError| AppError::failed(format!("cannot create the package: {error}")))
 }
 
-/// Exports a session's flight as a recording.
+/// Exports the flight of a session as an MCAP recording.
 fn recorded(stored: &StoredSession) -> Result<Vec<u8>, AppError> {
     let (scenario, vehicle) = (&stored.scenario.scenario, &stored.vehicle.vehicle);
     let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
-    timeline.push_log(&stored.log).map_err(|error| AppError::failed(format!("the telemetry cannot be read: {error}")))?;
+    timeline.push_log(&stored.log).map_err(|error| AppError::failed(format!("cannot read the telemetry: {error}")))?;
     let flight = scored_flight(&timeline, scenario, vehicle);
     let messages = recording::messages(&flight, scenario, vehicle);
     let Some(first) = messages.first() else {
-        return Err(AppError::failed("the session holds no flight to record"));
+        return Err(AppError::failed("the session contains no flight to record"));
     };
-    // No seed moves the geometry.
+    // The geometry is the same for every seed.
     let glb = gltf::glb(&Site::build(scenario, 0));
     let write = || {
         let mut out = McapRecording::begin(Cursor::new(Vec::new()))?;
@@ -201,15 +202,15 @@ fn recorded(stored: &StoredSession) -> Result<Vec<u8>, AppError> {
         messages.iter().try_for_each(|message| out.write(message))?;
         out.end().map(Cursor::into_inner)
     };
-    write().map_err(|error: ::mcap::McapError| AppError::failed(format!("the recording cannot be made: {error}")))
+    write().map_err(|error: ::mcap::McapError| AppError::failed(format!("cannot create the recording: {error}")))
 }
 
 /// Recovers the readable part of a truncated recording.
 fn recover(path: &Path, target: &str) -> Result<(), AppError> {
     let shown = path.display();
     let file = std::fs::read(path).map_err(|error| AppError::wrong(format!("{shown}: {error}")))?;
-    let recovered = mcap::recover(&file).map_err(|error| AppError::wrong(format!("{shown} is no recording (MCAP): {error}")))?;
-    let why = recovered.broken.as_deref().unwrap_or("it was whole");
+    let recovered = mcap::recover(&file).map_err(|error| AppError::wrong(format!("{shown}: not an MCAP recording: {error}")))?;
+    let why = recovered.broken.as_deref().unwrap_or("complete");
     tracing::info!("{shown}: {} messages ({why})", recovered.messages);
     files::write(target, &recovered.bytes)
 }

@@ -1,4 +1,4 @@
-//! `spandrel generate`: manual pages and shell completions, for packages. Help, manual and completions leave it out.
+//! `spandrel generate`: writes manual pages and shell completions, for packages. Hidden from help, manual and completions.
 
 use crate::errors::AppError;
 use crate::io::files;
@@ -10,7 +10,7 @@ use std::path::PathBuf;
 /// Name of the subcommand.
 pub const NAME: &str = "generate";
 
-/// Files to generate.
+/// Kind of output: manual pages or shell completions.
 #[derive(Debug, Subcommand)]
 pub enum What {
     /// Write the manual pages of the program and its subcommands
@@ -31,7 +31,7 @@ pub fn subcommand() -> Command {
     What::augment_subcommands(Command::new(NAME).hide(true).subcommand_required(true))
 }
 
-/// Runs the subcommand for a command line that does not contain it.
+/// Runs the subcommand. `documented` is the program's command line without this subcommand.
 ///
 /// # Errors
 /// If a file or standard output cannot be written.
@@ -52,7 +52,7 @@ pub fn run(what: &What, mut documented: Command) -> Result<(), AppError> {
     }
 }
 
-/// Returns file name and text of each manual page.
+/// Returns the file name and text of each manual page.
 fn pages(documented: Command) -> Result<Vec<(String, Vec<u8>)>, AppError> {
     let mut command = documented.disable_help_subcommand(true);
     command.build();
@@ -60,7 +60,7 @@ fn pages(documented: Command) -> Result<Vec<(String, Vec<u8>)>, AppError> {
     let mut waiting = vec![command];
     while let Some(command) = waiting.pop() {
         waiting.extend(command.get_subcommands().filter(|one| !one.is_hide_set()).cloned());
-        out.push(page(command).map_err(|error| AppError::failed(format!("the manual cannot be written: {error}")))?);
+        out.push(page(command).map_err(|error| AppError::failed(format!("cannot write the manual: {error}")))?);
     }
     Ok(out)
 }
@@ -71,7 +71,7 @@ fn page(command: Command) -> std::io::Result<(String, Vec<u8>)> {
     let man = Man::new(plain).manual("Spandrel manual").source(concat!("Spandrel ", env!("CARGO_PKG_VERSION")));
     let mut text = Vec::new();
     man.render(&mut text)?;
-    // Examples and exit codes are paragraphs after their heading; their lines stay as they are.
+    // Each section is a heading and its lines, which are not reflowed.
     let mut sections = Roff::new();
     for part in after.split("\n\n").filter(|part| !part.is_empty()) {
         let (heading, body) = part.split_once(':').unwrap_or(("Notes", part));

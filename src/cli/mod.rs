@@ -1,5 +1,5 @@
-//! The shells: the only sockets, files, clocks, threads and processes. One file per subcommand; each turns arguments into a run of a
-//! sans-IO core. Results go to standard output, everything else to standard error.
+//! The command line: one file per subcommand, each of which parses its arguments and runs a sans-IO core. Results go to standard output,
+//! everything else to standard error.
 
 mod args;
 mod assess;
@@ -30,8 +30,8 @@ use crate::io::logging;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::process::ExitCode;
 
-/// Open trainer for bridge inspectors who fly a drone: a simulated MAVLink vehicle, a monitor that scores the flight from its telemetry, and
-/// a synthetic trainee.
+/// Open trainer for bridge inspectors who fly a drone: a simulated MAVLink vehicle, a monitor that scores the flight from its telemetry, and a
+/// synthetic trainee.
 ///
 /// First steps: `spandrel demo` flies a whole session automatically; `spandrel train` waits for your ground station (QGroundControl
 /// connects automatically) and scores your flight.
@@ -66,7 +66,7 @@ enum Command {
     Check(check::Args),
 }
 
-/// Runs the program: arguments in, exit code out (0 done, 1 failed, 2 wrong arguments or files).
+/// Runs the program and returns its exit code: 0 success, 1 failure, 2 invalid arguments or files.
 #[must_use]
 pub fn main() -> ExitCode {
     let matches = Cli::command().subcommand(generate::subcommand()).get_matches();

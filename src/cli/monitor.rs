@@ -1,4 +1,4 @@
-//! `spandrel monitor`: sockets, clock and session folder around the sans-IO sidecar.
+//! `spandrel monitor`: runs the sans-IO monitor with its sockets, clock and session folder.
 
 use super::args::{self, JobArgs};
 use super::ports::MONITOR_PORT;
@@ -24,23 +24,23 @@ use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Longest wait for a datagram: the core wants to see the wall clock every 100 ms.
+/// Longest wait for a datagram, because the core needs the wall clock every 100 ms.
 const WAIT: Duration = Duration::from_millis(50);
-/// What is taken reaches the disk at least this often.
+/// Interval at which received data is written to disk.
 const FLUSH_EVERY: Duration = Duration::from_millis(250);
-/// A vehicle that is silent this long may come back from another address.
+/// Time without data after which the vehicle may use another address.
 const SILENT: Duration = Duration::from_secs(3);
-/// While the disk refuses, the pilot is warned this often.
+/// Interval at which the pilot is warned while the disk cannot be written.
 const WARN_EVERY: Duration = Duration::from_secs(30);
-/// Datagrams taken before the answers go out.
+/// Maximum number of datagrams processed before answers are sent.
 const BATCH: usize = 256;
 
 /// Monitor a flight and score it
 ///
-/// Receives the vehicle's MAVLink telemetry, warns the pilot by status texts (off path, too close, speeding, crash, battery), and writes the
-/// session folder. When the session ends (landing near the ground team, empty battery, time limit, or a person or vehicle hit), it writes
-/// the assessment. Telemetry is its only source. To continue after a monitor was killed, use --session DIR. While the disk is full, it keeps
-/// telemetry in memory, warns the pilot, and tries again.
+/// Receives the vehicle's MAVLink telemetry, warns the pilot by status texts (off path, too close, speeding, crash, battery), and writes the session
+/// folder. When the session ends (landing near the ground team, empty battery, time limit, or a person or vehicle hit), it writes the assessment. It
+/// uses only the telemetry. To continue after a monitor was killed, use --session DIR. While the disk is full, it keeps telemetry in memory, warns
+/// the pilot, and retries.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -90,10 +90,10 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When files or ports are wrong, or the session cannot be scored.
+/// If files or ports are invalid, or the session cannot be scored.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let stop = StopRequest::install(args.leash)?;
-    // Files first, then the port, then the folder: what is refused leaves nothing behind.
+    // First the files, then the port, then the folder, so that an error leaves nothing behind.
     let start = SessionStart::read(args)?;
     let mut hub = SocketHub::new();
     let port = args.port.unwrap_or(MONITOR_PORT + u16::from(args.instance));
@@ -132,14 +132,14 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     shell.end(args.announce, &stop)
 }
 
-/// What is started: a new session, or an old one taken up again.
+/// A new session, or an existing one to resume.
 enum SessionStart {
     New(Box<(ScenarioFile, VehicleFile)>),
     Again(PathBuf, Box<StoredSession>),
 }
 
 impl SessionStart {
-    /// Reads the files; nothing is written yet.
+    /// Reads the files without writing anything.
     fn read(args: &Args) -> Result<Self, AppError> {
         match &args.session {
             Some(path) => Ok(Self::Again(path.clone(), Box::new(StoredSession::read(path)?))),
@@ -172,7 +172,7 @@ impl SessionStart {
                 let purpose = stored.purpose.clone();
                 let config = config(&stored.scenario, &stored.vehicle, &stored.trainee, purpose, stored.started_unix_us);
                 let monitor = Monitor::resume(config.clone(), &stored.log)
-                    .map_err(|error| AppError::failed(format!("{}: the telemetry cannot be read: {error}", path.display())))?;
+                    .map_err(|error| AppError::failed(format!("{}: cannot read the telemetry: {error}", path.display())))?;
                 Ok((config, monitor, folder))
             }
         }
@@ -186,18 +186,18 @@ struct MonitorProcess {
     last_heard: Duration,
     monitor: Monitor,
     folder: SessionFolder,
-    /// `scenario.toml` holds the seed and the placed defects.
+    /// True once `scenario.toml` contains the seed and the placed defects.
     resolved: bool,
-    /// `session.json` is up to date.
+    /// True if `session.json` is up to date.
     described: bool,
     flushed: Duration,
-    /// When the pilot was last warned of a disk that refuses; `None` while it takes everything.
+    /// Time of the last warning about the disk; `None` while it can be written.
     warned: Option<Duration>,
     stopwatch: Stopwatch,
 }
 
 impl MonitorProcess {
-    /// Takes in what has come, lets the core answer, writes what is to be kept.
+    /// Processes received data, sends the core's answers and saves its records.
     fn step(&mut self) {
         let mut wait = WAIT;
         for _ in 0..BATCH {
@@ -218,14 +218,14 @@ impl MonitorProcess {
         if self.peer != Some(*from) {
             let current_is_alive = self.peer.is_some() && wall.saturating_sub(self.last_heard) < SILENT;
             if current_is_alive {
-                tracing::debug!("a datagram from the stranger {from} is left alone");
+                tracing::debug!("ignored a datagram from another address {from}");
                 return;
             }
             if !self.monitor.is_from_vehicle(bytes) {
-                tracing::debug!("a datagram from {from} is not the vehicle's");
+                tracing::debug!("ignored a datagram from {from} that is not the vehicle's");
                 return;
             }
-            tracing::info!("hearing {from}");
+            tracing::info!("receiving from {from}");
             self.peer = Some(*from);
         }
         self.last_heard = wall;
@@ -240,7 +240,7 @@ impl MonitorProcess {
         }
     }
 
-    /// Hands the core's records to the folder.
+    /// Adds the core's records to the folder.
     fn write_records(&mut self) {
         while let Some(record) = self.monitor.poll_record() {
             self.folder.record(record);
@@ -259,7 +259,7 @@ impl MonitorProcess {
         self.report_disk(saved.err());
     }
 
-    /// Writes everything that is pending.
+    /// Writes all pending data.
     fn save(&mut self) -> Result<(), WriteRefused> {
         self.folder.flush()?;
         if !self.resolved
@@ -276,18 +276,18 @@ impl MonitorProcess {
         Ok(())
     }
 
-    /// Warns log and pilot when the disk begins to refuse, now and then while it does, and when it no longer does.
+    /// Warns in the log and tells the pilot when the disk fails, repeatedly while it does, and when it works again.
     fn report_disk(&mut self, refused: Option<WriteRefused>) {
         let wall = self.stopwatch.elapsed();
         match refused {
             None if self.warned.take().is_some() => {
-                tracing::info!("the disk takes the session again");
+                tracing::info!("recording to disk resumed");
                 self.monitor.notify_pilot("Recording resumed", MavSeverity::MAV_SEVERITY_INFO);
             }
             Some(refused) if self.warned.is_none_or(|last| wall.saturating_sub(last) >= WARN_EVERY) => {
                 self.warned = Some(wall);
                 let (pending, dropped) = (self.folder.pending() / 1000, self.folder.dropped());
-                tracing::warn!("{refused}; {pending} kB wait in memory, {dropped} records are lost; trying again");
+                tracing::warn!("{refused}; {pending} kB in memory, {dropped} records lost; retrying");
                 let words = if refused.is_full() { "Disk full: recording paused" } else { "Disk error: recording paused" };
                 self.monitor.notify_pilot(words, MavSeverity::MAV_SEVERITY_ERROR);
             }
@@ -295,7 +295,7 @@ impl MonitorProcess {
         }
     }
 
-    /// Writes the whole session; while the disk refuses, until somebody asks to stop.
+    /// Writes the complete session. While the disk fails, retries until a stop is requested.
     fn complete(&mut self, json: Option<&str>, stop: &StopRequest) -> Result<(), AppError> {
         loop {
             self.write_records();
@@ -312,25 +312,25 @@ impl MonitorProcess {
                     }
                 }
             }
-            // The vehicle goes on talking: its queue is emptied, and heartbeats go out.
+            // The vehicle keeps sending: empties its queue and sends heartbeats.
             self.step();
         }
     }
 
     fn end(&mut self, announce: bool, stop: &StopRequest) -> Result<(), AppError> {
         if self.hub.dropped() > 0 {
-            tracing::warn!("{} datagrams found the queue full", self.hub.dropped());
+            tracing::warn!("dropped {} datagrams because the queue was full", self.hub.dropped());
         }
         let json = self.outcome().ok().map(|graded| export::json_text(&graded.assessment));
         self.send();
         self.complete(json.as_deref(), stop)?;
-        // The report reads the telemetry again: two copies of the flight would double the memory.
+        // The report reads the telemetry again; a second copy of the flight would double the memory.
         self.monitor.release_flight();
-        // The scores stand; a page that cannot be written can be made later.
+        // The scores are saved; the report can be written again later.
         if json.is_some()
             && let Err(error) = report::write(self.folder.path())
         {
-            tracing::warn!("no report was written: {error}");
+            tracing::warn!("cannot write the report: {error}");
         }
         if let Err(refused) = self.folder.sync() {
             tracing::warn!("{refused}; a power failure could damage the session");
@@ -348,7 +348,7 @@ impl MonitorProcess {
         match self.monitor.finished() {
             Some(Ok(graded)) => Ok(graded),
             Some(Err(error @ (AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. }))) => Err(AppError::wrong(
-                format!("{error}: give simulator and monitor the same --scenario and --seed (telemetry is in {place})"),
+                format!("{error}: use the same --scenario and --seed for simulator and monitor (telemetry is in {place})"),
             )),
             Some(Err(error)) => Err(AppError::failed(format!("{error} (telemetry is in {place})"))),
             None => Err(AppError::failed(format!("the session has not ended (telemetry is in {place})"))),

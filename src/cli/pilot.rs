@@ -1,4 +1,4 @@
-//! `spandrel pilot`: a socket and a clock around the sans-IO synthetic trainee.
+//! `spandrel pilot`: runs the sans-IO synthetic trainee with a socket and a clock.
 
 use super::args::JobArgs;
 use crate::errors::{AppError, EXIT_CODES};
@@ -36,7 +36,7 @@ impl SkillArgs {
     /// Returns the parameters of the synthetic trainee.
     ///
     /// # Errors
-    /// If there is no such skill.
+    /// If there is no such skill level.
     pub fn skill(&self) -> Result<Skill, AppError> {
         let base = self.skill.parse::<Skill>().map_err(AppError::wrong)?;
         Ok(self.expert_in.iter().fold(base, |pilot, factor| pilot.with(*factor, Skill::EXPERT)))
@@ -61,11 +61,11 @@ impl SkillArgs {
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel pilot --skill novice --seed 3 --connect 127.0.0.1:18570   dial a running simulator
-  spandrel pilot --skill novice --expert-in delay,noise              with the expert's delay and noise
-  spandrel pilot --port 0 --announce                                 wait for a simulator to call (--gcs)
+  spandrel pilot --skill novice --seed 3 --connect 127.0.0.1:18570   connect to a running simulator
+  spandrel pilot --skill novice --expert-in delay,noise              use the expert's delay and noise
+  spandrel pilot --port 0 --announce                                 wait for a simulator to connect (--gcs)
 
-Prints one JSON line when the flight is over.
+Prints one JSON line at the end of the flight.
 
 {EXIT_CODES}"))]
 pub struct Args {
@@ -93,7 +93,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files or ports are invalid, the vehicle never responds or is lost, or the flight could not begin.
+/// If files or ports are invalid, the vehicle does not respond or is lost, or the flight could not start.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let stop = StopRequest::install(args.leash)?;
     let scenario = files::scenario(&args.job.scenario)?.scenario;
@@ -120,7 +120,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             heard = Some(watch.elapsed());
             pilot.handle_datagram(&bytes);
         }
-        // A vehicle that calls needs no greeting, and greetings by the wall clock would differ from run to run.
+        // If the vehicle connects first, the pilot sends nothing before; messages timed by the wall clock would differ between runs.
         if args.port.is_none() {
             pilot.handle_timeout(SimTime::from_s(watch.elapsed().as_secs_f64()));
         }
@@ -145,7 +145,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         if let Some(last) = heard
             && watch.elapsed().saturating_sub(last) > SILENT
         {
-            let message = format!("the vehicle has been silent for {} s", SILENT.as_secs());
+            let message = format!("no data from the vehicle for {} s", SILENT.as_secs());
             return if reported { Ok(()) } else { Err(AppError::failed(message)) };
         }
     }

@@ -1,4 +1,4 @@
-//! `spandrel plan`: what to fly next.
+//! `spandrel plan`: recommends a trainee's next exercises.
 
 use super::records::RecordsArgs;
 use crate::errors::{AppError, EXIT_CODES};
@@ -61,7 +61,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let incomplete = IncompletePolicy::included(args.include_incomplete);
     let Some(plan) = plan_counting(records, incomplete, &rules, clock::unix_us()) else {
         return Err(AppError::wrong(format!(
-            "there is no session of '{trainee}' in the records; spandrel records import takes them in"
+            "there is no session of '{trainee}' in the records; use spandrel records import to add sessions"
         )));
     };
     files::write("-", if args.json { json_text(&plan) } else { words(&plan) }.as_bytes())

@@ -1,4 +1,4 @@
-//! The vehicle's ports, as asked for on the command line.
+//! Network and serial ports of a vehicle, from the command line.
 
 use crate::io::addresses::{self, Destination, PortChoice};
 use crate::io::serial::SerialDevice;
@@ -9,20 +9,20 @@ const GCS_TARGET: u16 = 14550;
 const SDK_TARGET: u16 = 14540;
 const GCS_PORT: u16 = 18570;
 const PAYLOAD_PORT: u16 = 14280;
-/// First monitor port; each instance has the next one.
+/// UDP port of the first monitor; each further instance uses the next one.
 pub const MONITOR_PORT: u16 = 14030;
 const TCP_PORT: u16 = 5760;
-/// Ports of the vehicle.
+/// Port options of a vehicle.
 #[derive(Debug, Clone, clap::Args)]
 #[command(next_help_heading = "Ports")]
 pub struct PortArgs {
     /// Vehicle instance, 0 to 200: sets the system ID to 1 + N and shifts every default port
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=200))]
     pub instance: u8,
-    /// Ground station to send to without being asked, or none; may be repeated [default: 127.0.0.1:14550]
+    /// Ground station to send to unprompted, or none; may be repeated [default: 127.0.0.1:14550]
     #[arg(long, value_name = "HOST:PORT|none")]
     pub gcs: Vec<Destination>,
-    /// SDK to send to without being asked, or none [default: 127.0.0.1:14540 + instance]
+    /// SDK to send to unprompted, or none [default: 127.0.0.1:14540 + instance]
     #[arg(long, value_name = "HOST:PORT|none")]
     pub sdk: Option<Destination>,
     /// UDP port for incoming ground stations, or none [default: 18570 + instance]
@@ -61,8 +61,8 @@ impl PortArgs {
         first + u16::from(self.instance)
     }
 
-    /// The ports of the vehicle `more` places further on in one process: every number that is not chosen by the system moves. Serial ports
-    /// belong to the first.
+    /// Returns the ports of the vehicle number `more` after this one in the same process. All port numbers shift, except those that the system
+    /// chooses. Only the first vehicle has serial ports.
     pub fn of(&self, more: u8) -> Self {
         let port = |port: PortChoice, step: u16| match port {
             PortChoice::Number(number @ 1..) => PortChoice::Number(number.saturating_add(step * u16::from(more))),
@@ -96,7 +96,7 @@ impl PortArgs {
         }
     }
 
-    /// Ground stations that are called.
+    /// Returns the addresses of the ground stations to send to unprompted.
     pub fn ground_stations(&self) -> Vec<SocketAddr> {
         let given = self.gcs.iter().filter_map(|target| match target {
             Destination::None => None,
@@ -105,7 +105,7 @@ impl PortArgs {
         if self.gcs.is_empty() && !self.ephemeral() { vec![local(GCS_TARGET)] } else { given.collect() }
     }
 
-    /// The SDK that is called.
+    /// Returns the address of the SDK to send to unprompted.
     pub fn sdk(&self) -> Option<SocketAddr> {
         match self.sdk {
             Some(Destination::Address(address)) => Some(address),
@@ -115,7 +115,7 @@ impl PortArgs {
         }
     }
 
-    /// Where the monitor listens.
+    /// Returns the monitor's UDP port on this machine, 0 for none.
     pub fn monitor_port(&self) -> u16 {
         match self.monitor_port {
             Some(PortChoice::Number(port)) => port,
@@ -151,7 +151,7 @@ impl PortArgs {
         }
     }
 
-    /// As arguments of a child process, without the monitor's port.
+    /// Returns the options as arguments for a child process, without the monitor's port.
     pub fn to_args(&self) -> Vec<String> {
         let mut out = vec!["--instance".to_owned(), self.instance.to_string(), "--listen".to_owned(), self.listen.to_string()];
         out.extend(["--ports".to_owned(), self.ports.clone()]);

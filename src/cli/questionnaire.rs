@@ -1,4 +1,4 @@
-//! `spandrel questionnaire`: the questions after a flight, in a terminal.
+//! `spandrel questionnaire`: asks the questions after a flight in a terminal.
 
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::answers::{languages, stored, task_ids};
@@ -15,15 +15,14 @@ use std::path::PathBuf;
 
 /// Answer the questionnaire after a flight
 ///
-/// Asks for your agreement with three statements about the whole session and three about each phase (24 for the paper's job).
-/// Every answer is saved immediately in the session's answers.json. You can leave at any time and continue later with the same
-/// command.
+/// Asks for your agreement with three statements about the whole session and three about each phase (24 for the default scenario). Every answer is
+/// saved immediately in the session's answers.json. You can leave at any time and continue later with the same command.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel questionnaire sessions/20260801T...             asks the open questions
-  spandrel questionnaire sessions/20260801T... --tlx       also asks the six scales of NASA-TLX
-  spandrel questionnaire sessions/20260801T... --again     asks everything again; Enter keeps an answer
+  spandrel questionnaire sessions/20260801T...             ask the questions that are still open
+  spandrel questionnaire sessions/20260801T... --tlx       also ask the six NASA-TLX scales
+  spandrel questionnaire sessions/20260801T... --again     ask everything again; Enter keeps an answer
   spandrel questionnaire sessions/20260801T... --language de    in German (en, de, es)
 
 {EXIT_CODES}"))]
@@ -31,13 +30,13 @@ pub struct Args {
     /// Session folder
     #[arg(value_name = "SESSION")]
     session: PathBuf,
-    /// Also ask for the six scales of NASA-TLX
+    /// Also ask the six NASA-TLX scales
     #[arg(long)]
     tlx: bool,
     /// Ask all questions again, including those already answered
     #[arg(long)]
     again: bool,
-    /// Custom wording (a copy of a shipped one with other texts)
+    /// Custom wording (a copy of a shipped wording with changed texts)
     #[arg(long, value_name = "FILE", conflicts_with = "language")]
     wording: Option<PathBuf>,
     /// Language: en, de or es [default: that of the saved answers, else the terminal's, else en]
@@ -45,14 +44,14 @@ pub struct Args {
     language: Option<String>,
 }
 
-/// A single question.
+/// A question of either questionnaire.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum PromptQuestion {
     Likert(QuestionnaireItem),
     Tlx(TlxScale),
 }
 
-/// Input that a person typed.
+/// Line typed at the terminal, parsed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum TypedInput {
     Answer(u8),
@@ -83,11 +82,11 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Returns the language: the requested one, that of the file, that of the saved answers, or that of the terminal.
+/// Returns the wording to use: the requested language, the custom wording, the language of the saved answers, or that of the terminal.
 fn chosen<'a>(args: &Args, languages: &'a Languages, answers: &Answers) -> Result<&'a Wording, AppError> {
     if let Some(tag) = &args.language {
         let names: Vec<&str> = languages.all().iter().map(|wording| wording.language.as_str()).collect();
-        let none = || AppError::wrong(format!("--language {tag}: not there (allowed: {})", names.join(", ")));
+        let none = || AppError::wrong(format!("--language {tag}: unknown language (allowed: {})", names.join(", ")));
         return languages.of(tag).ok_or_else(none);
     }
     let begun = || languages.of(&answers.language).filter(|_| !answers.language.is_empty());
@@ -109,7 +108,7 @@ fn questions(args: &Args, scenario: &Scenario, answers: &Answers) -> Vec<PromptQ
     likert.map(PromptQuestion::Likert).chain(tlx.map(PromptQuestion::Tlx)).collect()
 }
 
-/// Asks the questions in order until all are answered or the person leaves.
+/// Asks the questions in order until all are answered or the trainee leaves.
 fn ask_questions(
     questions: &[PromptQuestion],
     wording: &Wording,
@@ -118,7 +117,7 @@ fn ask_questions(
     (input, output): (&mut impl BufRead, &mut impl Write),
     save: &mut impl FnMut(&Answers) -> Result<(), AppError>,
 ) -> Result<(), AppError> {
-    let told = |error: std::io::Error| AppError::failed(format!("the terminal does not answer: {error}"));
+    let told = |error: std::io::Error| AppError::failed(format!("cannot use the terminal: {error}"));
     if questions.is_empty() {
         return Ok(());
     }
@@ -196,7 +195,7 @@ mod tests {
     use crate::io::files;
     use spandrel_training::questionnaire::{InspectionPhase, OverallItem, PhaseAspect};
 
-    /// Enters lines into a questionnaire of the paper's job. Returns the answers, the output and the number of saves.
+    /// Types lines into a questionnaire of the default scenario. Returns the output and the number of saves.
     fn type_in(questions: &[PromptQuestion], answers: &mut Answers, lines: &str) -> (String, usize) {
         let scenario = files::scenario("two-bridges").unwrap().scenario;
         let (mut shown, mut saved) = (Vec::new(), 0);
@@ -236,7 +235,7 @@ mod tests {
         assert_eq!((answers.given.len(), saved), (2, 2));
         assert_eq!(answers.given[&QuestionnaireItem::Overall(OverallItem::Frustration)], 4);
         assert_eq!(shown.matches("Please a whole number from 1 to 5").count(), 3);
-        // The end of the input is a way to leave, too.
+        // The end of the input also leaves the questionnaire.
         assert_eq!(type_in(&all(), &mut answers, "").1, 0);
     }
 

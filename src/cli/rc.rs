@@ -1,4 +1,4 @@
-//! `spandrel rc`: a controller, a clock and a socket around the sans-IO bridge to MANUAL_CONTROL.
+//! `spandrel rc`: runs the sans-IO bridge from sticks to MANUAL_CONTROL with a controller, a clock and a socket.
 
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::addresses;
@@ -19,17 +19,17 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
-/// Longest wait for a datagram: a quarter of the interval between two stick samples.
+/// Longest wait for a datagram: a quarter of the interval between stick samples.
 const WAIT: Duration = Duration::from_millis(5);
 /// Wall time without a datagram after which a connected vehicle counts as lost.
 const SILENT: Duration = Duration::from_secs(10);
 /// Wall time without a first datagram after which a waiting message is shown.
 const PATIENCE: Duration = Duration::from_secs(3);
-/// Key that ends flying in the terminal.
+/// Key that quits in the terminal.
 const ENDS: &str = "escape";
 /// Interval at which the calibration wizard polls the device.
 const LOOK: Duration = Duration::from_millis(5);
-const NO_ENTER: &str = "nothing was kept: calibrating asks for Enter, and standard input has ended (run it in a terminal, or calibrate in the window of `spandrel train`)";
+const NO_ENTER: &str = "nothing was saved: the calibration needs the Enter key, but standard input has ended (run it in a terminal, or calibrate in the window of `spandrel train`)";
 
 /// Fly with a gamepad, an RC transmitter or the keyboard
 ///
@@ -39,11 +39,11 @@ const NO_ENTER: &str = "nothing was kept: calibrating asks for Enter, and standa
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel rc --list                       connected devices, and whether they are calibrated
-  spandrel rc --calibrate                  asks which stick is which, in the terminal
+  spandrel rc --list                       list connected devices, and whether they are calibrated
+  spandrel rc --calibrate                  calibrate a device in the terminal
   spandrel rc                              fly the simulator on this machine
   spandrel rc --keyboard                   W S A D and arrows, B lamp, P snapshot, T take-off, L land, Escape exits
-  spandrel rc --record flight.jsonl        records the device's input; --replay replays it
+  spandrel rc --record flight.jsonl        record the device's input; --replay replays it
 
 {EXIT_CODES}"))]
 pub struct Args {
@@ -129,14 +129,16 @@ fn pilot(args: &Args, profiles: &ProfileFolder) -> Result<StickSource, AppError>
         let keys = controller::keys(args.keys.as_deref())?;
         if let Some(duty) = keys.binding_name(ENDS) {
             let file = args.keys.as_ref().map_or(String::new(), |path| format!("{}: ", path.display()));
-            return Err(AppError::wrong(format!("{file}{duty} = \"{ENDS}\": in the terminal this key ends; give another one")));
+            return Err(AppError::wrong(format!(
+                "{file}{duty} = \"{ENDS}\": this key quits in the terminal; choose another one"
+            )));
         }
         let words = keys.help_text();
         let terminal = RawTerminal::take()?;
-        print_line(&format!("{words}\n{ENDS:10} end"));
+        print_line(&format!("{words}\n{ENDS:10} quit"));
         if !terminal.tells_releases {
             print_line(
-                "this terminal does not tell when a key comes up: sticks let go by themselves, and what a key does once it does again after a rest of 0.7 s",
+                "this terminal does not report key releases: sticks return to center automatically, and a key repeats its action only after a pause of 0.7 s",
             );
         }
         return Ok(StickSource::Keyboard { terminal, board: KeyboardState::new(keys) });
@@ -190,7 +192,7 @@ fn fly(
     stop: &StopRequest,
 ) -> Result<(), AppError> {
     let (watch, mut link, mut heard) = (Stopwatch::start(), ControllerLink::default(), None);
-    // A record begins when the vehicle is there.
+    // A recording starts with the first contact with the vehicle.
     let (mut begin, mut told) = (None, false);
     if let StickSource::Keyboard { board, .. } = pilot {
         link.set_arm_key(&board.keys().label("arm"));
@@ -200,13 +202,13 @@ fn fly(
             && from == vehicle
         {
             if heard.is_none() {
-                print_line(&format!("the vehicle at {vehicle} answers"));
+                print_line(&format!("connected to the vehicle at {vehicle}"));
             }
             heard = Some(watch.elapsed());
             link.receive(&bytes);
         }
         if heard.is_none() && !told && watch.elapsed() > PATIENCE {
-            print_line(&format!("no vehicle on {vehicle} yet; waiting"));
+            print_line(&format!("no vehicle at {vehicle} yet; waiting"));
             told = true;
         }
         let now = SimTime::from_s(watch.elapsed().as_secs_f64());
@@ -227,14 +229,14 @@ fn fly(
             return Ok(());
         }
         if heard.is_some_and(|last| watch.elapsed().saturating_sub(last) > SILENT) {
-            return Err(AppError::failed(format!("the vehicle has been silent for {} s", SILENT.as_secs())));
+            return Err(AppError::failed(format!("no data from the vehicle for {} s", SILENT.as_secs())));
         }
     }
     Ok(())
 }
 
 fn calibrate(args: &Args, profiles: &ProfileFolder, stop: &StopRequest) -> Result<(), AppError> {
-    // What cannot be kept is not asked for.
+    // Fails early if the profile could not be saved.
     profiles.folder()?;
     let mut source = EventSource::device(args.device.as_deref())?;
     let mode = StickMode::numbered(args.stick_mode).unwrap_or(StickMode::Two);
@@ -272,10 +274,10 @@ fn run_wizard(
             told = prompt;
         }
     }
-    Err(AppError::failed("stopped: nothing was kept"))
+    Err(AppError::failed("stopped: nothing was saved"))
 }
 
-/// Receives lines from standard input, to detect Enter.
+/// Returns a channel that receives a message for every line on standard input (Enter).
 fn is_enter() -> Receiver<()> {
     let (sender, receiver) = channel();
     std::thread::spawn(move || {
@@ -303,7 +305,7 @@ mod tests {
     fn exact_a_calibration_that_cannot_be_kept_is_not_begun() {
         let args = Line::parse_from(["rc", "--calibrate"]).args;
         let told = calibrate(&args, &ProfileFolder::default(), &StopRequest::default()).unwrap_err().to_string();
-        assert!(told.contains("name a folder with --profiles"), "{told}");
+        assert!(told.contains("specify a folder with --profiles"), "{told}");
     }
 
     #[test]
@@ -313,6 +315,6 @@ mod tests {
         let told = run_wizard(&mut EventSource::Record(record), StickMode::Two, &enters, &StopRequest::default())
             .unwrap_err()
             .to_string();
-        assert!(told.starts_with("nothing was kept") && told.contains("standard input has ended"), "{told}");
+        assert!(told.starts_with("nothing was saved") && told.contains("standard input has ended"), "{told}");
     }
 }

@@ -22,23 +22,23 @@ const RETENTION_MAX_DAYS: i64 = 36_525;
 
 /// Keep sessions, trainees and answers in a database
 ///
-/// Uses an SQLite file next to the sessions, or PostgreSQL by URL for a training center where many stations write at once. The
-/// PostgreSQL password comes from PGPASSWORD or ~/.pgpass, so process lists do not show it. The session folders remain the source
-/// of truth: `rebuild` recreates the database from them.
+/// Uses an SQLite file next to the sessions, or PostgreSQL by URL for a training center where many stations write at the same time. The PostgreSQL
+/// password comes from PGPASSWORD or ~/.pgpass, so process lists do not show it. The session folders remain the source of truth: `rebuild` recreates
+/// the database from them.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel records import                                   all new or changed sessions of ./sessions
+  spandrel records import                                   import all new or changed sessions of ./sessions
   spandrel records import --database postgres://spandrel@db/training
   spandrel records import --database 'postgres://spandrel@db/training?sslmode=verify-full&sslrootcert=centre.pem'
   spandrel records list
   spandrel records trainee anna --age-band 25-34 --drone-experience none --gaming-experience some
-  spandrel records export --trainee anna --out anna.json    all her stored data
-  spandrel records export --out all.jsonl                   all records, one per line, for spandrel cohort --records
-  spandrel records push https://lrs.example/xapi            xAPI statements to a learning record store
-  spandrel records erase --trainee anna                     says what would go; with --yes it goes, folders too
+  spandrel records export --trainee anna --out anna.json    write all stored data of this trainee
+  spandrel records export --out all.jsonl                   write all records, one per line, for spandrel cohort --records
+  spandrel records push https://lrs.example/xapi            send xAPI statements to a learning record store
+  spandrel records erase --trainee anna                     list what would be erased; --yes erases it, including folders
   spandrel records retention --days 730                     the same for everything older than two years
-  spandrel records rebuild                                  makes the database again from the folders
+  spandrel records rebuild                                  rebuild the database from the folders
 
 {EXIT_CODES}"))]
 pub struct Args {
@@ -73,7 +73,7 @@ impl RecordsArgs {
 
 #[derive(Debug, clap::Subcommand)]
 enum RecordsCommand {
-    /// Import new and changed sessions (reads every folder; name the sessions to be quick)
+    /// Import new and changed sessions (reads all folders; faster if you name the sessions)
     Import {
         /// Session folders [default: all of --sessions]
         #[arg(value_name = "SESSION")]
@@ -93,7 +93,7 @@ enum RecordsCommand {
         /// Maximum number of sessions, newest first
         #[arg(long, value_name = "N", default_value_t = 50, conflicts_with = "json")]
         last: u32,
-        /// All sessions as JSON, oldest first, with every stored field
+        /// Write all sessions as JSON, oldest first, with every stored field
         #[arg(long)]
         json: bool,
     },
@@ -197,9 +197,9 @@ fn import_folders(place: &RecordsLocation, named: &[PathBuf]) -> Result<(), AppE
     let ImportCounts { changed, left_out, erased } = import_into(&database, &folders)?;
     let unchanged = folders.len() - changed - left_out - erased;
     let note = erasure_note(erased);
-    println!("{}: {changed} new or changed, {unchanged} unchanged, {left_out} left out{note}", database.name());
+    println!("{}: {changed} new or changed, {unchanged} unchanged, {left_out} skipped{note}", database.name());
     if left_out + erased > 0 && !named.is_empty() {
-        return Err(AppError::failed(format!("{} of the sessions named were left out", left_out + erased)));
+        return Err(AppError::failed(format!("{} of the specified sessions were skipped", left_out + erased)));
     }
     Ok(())
 }
@@ -208,36 +208,37 @@ fn erasure_note(erased: usize) -> String {
     if erased == 0 {
         return String::new();
     }
-    format!(", {erased} not taken in because they or their trainees were erased (records erase removes the folders, too)")
+    format!(", {erased} not imported because they or their trainees were erased (records erase also removes the folders)")
 }
 
 fn rebuild(place: &RecordsLocation, yes: bool) -> Result<(), AppError> {
     let folders = session_folders(&place.sessions)?;
     let here = folders.iter().map(|folder| session_id(folder)).collect::<Result<BTreeSet<String>, _>>()?;
     let database = place.open()?;
-    // What other stations add from now on is not among them.
+    // Sessions that other stations add from now on are not affected.
     let gone: Vec<String> = database.fingerprints()?.into_keys().filter(|id| !here.contains(id)).collect();
     if !gone.is_empty() && !yes {
         return Err(AppError::wrong(format!(
-            "{}: {} sessions have no folder here and would be lost (such as {}); name all folders with --sessions, or say --yes to delete them",
+            "{}: {} sessions have no folder on this machine and would be lost (for example {}); specify all folders with --sessions, or use --yes to delete them",
             database.name(),
             gone.len(),
             gone[0]
         )));
     }
-    // As if it knew nothing: all are read.
+    // Without known fingerprints, all folders are read.
     let (none, erased) = (BTreeMap::new(), database.erased()?);
     let mut progress = ProgressLog::start("reading sessions");
     let mut records = Vec::new();
     let mut taken = ImportCounts::default();
     for (k, folder) in folders.iter().enumerate() {
         progress.report(|| format!("session {} of {}", k + 1, folders.len()));
-        records.extend(taken.read(folder, (&none, &erased), "left as it was"));
+        records.extend(taken.read(folder, (&none, &erased), "kept unchanged"));
     }
     progress.end();
     let made = database.rebuild(&records, &gone)?;
-    let deleted = if gone.is_empty() { String::new() } else { format!(", {} without a folder here deleted", gone.len()) };
-    println!("{}: {made} sessions, {} left out{deleted}{}", database.name(), taken.left_out, erasure_note(taken.erased));
+    let deleted =
+        if gone.is_empty() { String::new() } else { format!(", {} without a folder on this machine deleted", gone.len()) };
+    println!("{}: {made} sessions, {} skipped{deleted}{}", database.name(), taken.left_out, erasure_note(taken.erased));
     Ok(())
 }
 
@@ -269,7 +270,7 @@ fn retention(place: &RecordsLocation, days: u64, yes: bool) -> Result<(), AppErr
         return Ok(());
     }
     let (deleted, folders) = erase_older(&database, place, limit_us)?;
-    println!("{deleted} sessions and {folders} folders from before {before} are erased");
+    println!("erased {deleted} sessions and {folders} folders from before {before}");
     Ok(())
 }
 
@@ -284,7 +285,7 @@ fn set_details(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
         database.set_given(name, args.role.as_deref().and_then(Role::from_word), details)?;
     }
     let person = find(database, name)?;
-    let person = person.ok_or_else(|| AppError::wrong(format!("{}: there is no '{name}'", database.name())))?;
+    let person = person.ok_or_else(|| AppError::wrong(format!("{}: unknown person '{name}'", database.name())))?;
     files::write("-", json_text(&person).as_bytes())
 }
 
@@ -295,7 +296,7 @@ fn set_details(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
 fn export(place: &RecordsLocation, trainee: &str, out: &str) -> Result<(), AppError> {
     let database = place.open()?;
     let kept = kept(&database, place, trainee)?;
-    let kept = kept.ok_or_else(|| AppError::wrong(format!("{}: nothing is kept of '{trainee}'", database.name())))?;
+    let kept = kept.ok_or_else(|| AppError::wrong(format!("{}: no data about '{trainee}'", database.name())))?;
     files::write(out, json_text(&kept).as_bytes())
 }
 
@@ -308,7 +309,7 @@ fn erase(place: &RecordsLocation, trainee: &str, yes: bool) -> Result<(), AppErr
     let folders = folders_of(place, trainee)?;
     if !yes {
         let sessions = database.records(Some(trainee))?.len();
-        let known = if find(&database, trainee)?.is_some() { "known" } else { "not known" };
+        let known = if find(&database, trainee)?.is_some() { "in the database" } else { "not in the database" };
         println!(
             "'{trainee}' is {known}: {sessions} sessions in {} and {} folders; --yes erases them",
             database.name(),
@@ -318,15 +319,15 @@ fn erase(place: &RecordsLocation, trainee: &str, yes: bool) -> Result<(), AppErr
     }
     let (known, sessions) = erase_person(&database, place, trainee)?;
     if !known {
-        return Err(AppError::wrong(format!("{}: nothing was kept of '{trainee}'", database.name())));
+        return Err(AppError::wrong(format!("{}: no data about '{trainee}'", database.name())));
     }
-    println!("'{trainee}' is erased: {sessions} sessions in {}, {} folders", database.name(), folders.len());
+    println!("erased '{trainee}': {sessions} sessions in {}, {} folders", database.name(), folders.len());
     Ok(())
 }
 
 fn push_sessions(place: &RecordsLocation, args: &PushArgs) -> Result<(), AppError> {
     let records = place.open()?.records(args.trainee.as_ref().map(TraineeId::as_str))?;
     let all = push::push(place, &records, &args.url, &args.home)?;
-    println!("{}: {} sessions, {} statements sent, {} there already", args.url, records.len(), all.sent, all.there_already);
+    println!("{}: {} sessions, {} statements sent, {} already there", args.url, records.len(), all.sent, all.there_already);
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! `spandrel report`: the page of a session, from what its folder holds.
+//! `spandrel report`: writes the report page of a session from its folder.
 
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files;
@@ -17,9 +17,9 @@ use std::path::PathBuf;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel report sessions/20260801T...                      writes report.html into the session folder
-  spandrel report sessions/20260801T... --out anna.html      writes it elsewhere, '-' for standard output
-  spandrel report sessions/first sessions/second --out c.html    compares two sessions
+  spandrel report sessions/20260801T...                      write report.html into the session folder
+  spandrel report sessions/20260801T... --out anna.html      write it elsewhere; '-' for standard output
+  spandrel report sessions/first sessions/second --out c.html    compare two sessions
 
 {EXIT_CODES}"))]
 pub struct Args {

@@ -18,15 +18,15 @@ use std::path::PathBuf;
 
 /// Show sessions, trainees, cohorts and live flights in a browser
 ///
-/// Serves everything from this machine: no page loads anything from elsewhere. By default only this machine can connect, without
-/// a login and with full access; once the first password is set, everybody must log in. Trainees see only their own data,
-/// instructors see all data and can act in flights, and administrators manage people. To accept connections from other machines,
-/// the server needs a password and TLS, either with its own certificate or through a proxy.
+/// Serves everything from this machine: no page loads anything from other sites. By default only this machine can connect, without a login and with
+/// full access; once the first password is set, everybody must log in. Trainees see only their own data, instructors see all data and can act in
+/// flights, and administrators manage people. To accept connections from other machines, the server needs a password and TLS, either with its own
+/// certificate or through a proxy.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel serve                                             http://127.0.0.1:8080, this machine only
-  spandrel serve --set-password maria --role administrator   asks for the password, stores its argon2 hash, and exits
+  spandrel serve --set-password maria --role administrator   prompt for the password, store its argon2 hash, and exit
   spandrel serve --vehicle 127.0.0.1:14280 --vehicle 127.0.0.1:14281   two flights at once (instances 0 and 1)
   spandrel serve --listen 0.0.0.0:8443 --tls-cert cert.pem --tls-key key.pem --host trainer.example
   spandrel serve --listen 127.0.0.1:8080 --behind-proxy --host trainer.example    a proxy on this machine terminates TLS
@@ -107,16 +107,16 @@ impl ListenArgs {
 
 fn proxy(text: &str) -> Result<IpNet, String> {
     let network = text.parse().or_else(|_| text.parse().map(|address: IpAddr| IpNet::from(address)));
-    network.map_err(|_| format!("'{text}' is no address or network (allowed: such as 10.0.0.2, 10.0.0.0/24 or fd00::/8)"))
+    network.map_err(|_| format!("'{text}' is not an address or network (examples: 10.0.0.2, 10.0.0.0/24, fd00::/8)"))
 }
 
 fn host_name(text: &str) -> Result<String, String> {
-    let wrong = || format!("'{text}' is no host name (allowed: letters, digits, hyphens and dots, without a port)");
+    let wrong = || format!("'{text}' is not a host name (allowed: letters, digits, hyphens and dots, without a port)");
     is_host_name(text).then(|| text.to_owned()).ok_or_else(wrong)
 }
 
 fn listen(text: &str) -> Result<SocketAddr, String> {
-    text.parse().map_err(|_| format!("'{text}' is no ADDR:PORT such as 127.0.0.1:8080 or 0.0.0.0:8443"))
+    text.parse().map_err(|_| format!("'{text}' is not ADDR:PORT (examples: 127.0.0.1:8080, 0.0.0.0:8443)"))
 }
 
 /// Runs the subcommand.
@@ -158,24 +158,24 @@ fn watched(vehicles: &[Destination], pictures: &[PathBuf]) -> Result<Vec<Watched
     Ok(addresses.into_iter().map(|vehicle| WatchedVehicle { vehicle, picture: pictures.next() }).collect())
 }
 
-/// Asks for a password and stores its hash.
+/// Prompts for a password and stores its hash.
 ///
 /// # Errors
-/// When the password is refused, or the database refuses.
+/// If the password is not acceptable, or the database fails.
 fn set_password(place: &RecordsLocation, name: &str, role: Role) -> Result<(), AppError> {
     let password = prompt_password(name)?;
     login::check(&password, name).map_err(|wrong| AppError::wrong(format!("--set-password {name}: {wrong}")))?;
     let database = place.open()?;
     database.set_login(name, role, &passwords::hash(&password, &mut HashingMemory::default())?)?;
-    println!("{}: '{name}' may log in as {}", database.name(), role.word());
+    println!("{}: '{name}' can log in as {}", database.name(), role.word());
     Ok(())
 }
 
 fn prompt_password(name: &str) -> Result<String, AppError> {
-    let failed = |error: std::io::Error| AppError::failed(format!("no password was read: {error}"));
+    let failed = |error: std::io::Error| AppError::failed(format!("cannot read the password: {error}"));
     if std::io::stdin().is_terminal() {
         let first = rpassword::prompt_password(format!("Password for {name}: ")).map_err(failed)?;
-        let again = rpassword::prompt_password("Again: ").map_err(failed)?;
+        let again = rpassword::prompt_password("Repeat password: ").map_err(failed)?;
         return if first == again { Ok(first) } else { Err(AppError::wrong("the two passwords differ")) };
     }
     let mut line = String::new();

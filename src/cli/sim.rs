@@ -1,4 +1,4 @@
-//! `spandrel sim`: vehicles at a site, each in a thread of its own.
+//! `spandrel sim`: runs one or more vehicles at a site, each in its own thread.
 
 use super::args::{self, JobArgs};
 use super::ports::PortArgs;
@@ -27,14 +27,14 @@ use std::time::Duration;
 
 /// Simulate the vehicle
 ///
-/// Runs a quadrotor with its autopilot at the job's site, as a MAVLink vehicle with the interface of PX4 or ArduPilot (it is neither). It
-/// sends to a ground station and an SDK without being asked, accepts other connections, feeds the monitor, and drops peers that go silent.
-/// It runs until interrupted.
+/// Runs a quadrotor with its autopilot at the scenario's site, as a MAVLink vehicle with the interface of PX4 or ArduPilot (it is neither). It sends
+/// to a ground station and an SDK unprompted, accepts other connections, feeds the monitor, and drops peers that go silent. It runs until
+/// interrupted.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel sim                                      two bridges, real time, fixed ports
-  spandrel sim --instance 1 --speed 4               a second vehicle beside it, four times real time
+  spandrel sim --instance 1 --speed 4               a second vehicle, four times real time
   spandrel sim --instances 3                        three vehicles in one process: system IDs 1 to 3, consecutive ports
   spandrel sim --serial /dev/ttyUSB0:57600          also on a telemetry radio, within its data rate
   spandrel sim --flavour ardupilot                  for Mission Planner, MAVProxy and scripts written for ArduCopter
@@ -57,7 +57,7 @@ pub struct Args {
     /// Autopilot protocol; the flight dynamics are the same in all of them
     #[arg(long, value_name = "NAME", default_value = "px4")]
     flavour: args::Flavour,
-    /// Heartbeats of the camera component (100). Turn them off for simple clients that take every heartbeat for the vehicle's (DroneKit,
+    /// Heartbeats of the camera component (100). Turn them off for simple clients that assume every heartbeat to be the vehicle's (DroneKit,
     /// mavpilot); the camera still takes pictures. The parameter SPAN_CAMERA changes this in flight
     #[arg(long, value_name = "on|off", default_value = "on")]
     camera: AnnouncedComponents,
@@ -67,7 +67,7 @@ pub struct Args {
     #[command(flatten)]
     ports: PortArgs,
     /// Number of vehicles in this process, 1 to 50, side by side at the same site; they do not collide with each other. System IDs and
-    /// ports count up from --instance and from every port given
+    /// ports count up from --instance and from every port that you specify
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=50), conflicts_with = "lockstep")]
     instances: u8,
     /// Folder to serve over MAVLink FTP. Flight logs (ULog, and MCAP for Foxglove) go to its subfolder `log`, where clients can only read and
@@ -78,16 +78,16 @@ pub struct Args {
     /// Space for flight logs in the folder of --files, MB; the oldest logs are deleted before a flight to stay within it
     #[arg(long, value_name = "MB", default_value_t = 1024, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     log_space: u64,
-    /// File that keeps parameters between runs: read at startup if it exists, written after every change, in QGroundControl's .params
-    /// format. With several vehicles, each has its own file, with the system ID appended [default: parameters are not kept]
+    /// File that stores parameters between runs: read at startup if it exists, written after every change, in QGroundControl's .params format. With
+    /// several vehicles, each has its own file, with the system ID appended [default: parameters are not saved]
     #[arg(long, value_name = "FILE")]
     params: Option<PathBuf>,
-    /// File with the MAVLink signing key, readable only by its owner: 64 hexadecimal digits, or a passphrase as in MAVProxy. Messages not
-    /// signed with it are ignored. Signature timestamps are kept in FILE.heard.N for system N, so that old messages cannot be replayed even
-    /// after a restart [default: no signing]
+    /// File with the MAVLink signing key, readable only by its owner: 64 hexadecimal digits, or a passphrase as in MAVProxy. Messages not signed with
+    /// it are ignored. Signature timestamps are stored in FILE.heard.N for system N, so that old messages cannot be replayed even after a restart
+    /// [default: no signing]
     #[arg(long, value_name = "FILE")]
     signing_key: Option<PathBuf>,
-    /// Kind of link that needs no signature; may be repeated. Use it only for links that nobody else can reach
+    /// Kind of link that needs no signature; may be repeated. Use it only for links that no one else can reach
     #[arg(long, value_name = "KIND", requires = "signing_key")]
     unsigned: Vec<TrustedLink>,
     /// Stop after this much simulation time, s
@@ -103,13 +103,14 @@ pub struct Args {
     /// Print one line of JSON {"gcs_port", "payload_port", "tcp_port", "seed"} on standard output at startup
     #[arg(long)]
     announce: bool,
-    /// Stop when standard input closes (for a parent process). There the lines `pause` and `resume` stop and restart the simulation
+    /// Stop when standard input closes (for a parent process). Meanwhile, the lines `pause` and `resume` on standard input pause and resume the
+    /// simulation
     #[arg(long)]
     leash: bool,
 }
 
 fn seconds(text: &str) -> Result<SimTime, String> {
-    let s: f64 = text.parse().map_err(|_| format!("'{text}' is no number of seconds"))?;
+    let s: f64 = text.parse().map_err(|_| format!("'{text}' is not a number of seconds"))?;
     if (0.0..=1e6).contains(&s) {
         Ok(SimTime::from_s(s))
     } else {
@@ -117,7 +118,7 @@ fn seconds(text: &str) -> Result<SimTime, String> {
     }
 }
 
-/// Whether heartbeats are sent.
+/// Setting for the heartbeats of a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum AnnouncedComponents {
     /// Send heartbeats
@@ -131,16 +132,16 @@ enum AnnouncedComponents {
 enum AfterCrashArg {
     /// The flight continues; the vehicle stays where it fell
     Continue,
-    /// The vehicle is put back to its last safe hover
+    /// The vehicle respawns at its last safe hover
     Respawn,
     /// The flight ends
     End,
-    /// As the scenario file says
+    /// Use the rule of the scenario file
     Scenario,
 }
 
 impl AfterCrashArg {
-    /// `None` for the scenario's own rule.
+    /// Returns the rule; `None` for the scenario's rule.
     fn rule(self) -> Option<AfterCrash> {
         match self {
             Self::Continue => Some(AfterCrash::Continue),
@@ -151,12 +152,12 @@ impl AfterCrashArg {
     }
 }
 
-/// A kind of link, as named on the command line.
+/// Kind of link, as named on the command line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum TrustedLink {
     /// Ground stations over UDP
     Gcs,
-    /// The SDK of --sdk
+    /// SDK set with --sdk
     Sdk,
     /// Monitor and other payload clients
     Payload,
@@ -181,7 +182,7 @@ impl TrustedLink {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When files or ports are wrong, or a lockstep peer vanishes.
+/// If files or ports are invalid, or a lockstep peer disappears.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let stop = StopRequest::install(false)?;
     let still = if args.leash { PauseSwitch::listen(&stop) } else { PauseSwitch::default() };
@@ -239,7 +240,7 @@ fn told(late: Lateness) -> serde_json::Value {
     serde_json::json!({ "latest_ms": ms(late.latest), "slips": late.slips, "slipped_ms": ms(late.slipped) })
 }
 
-/// What is left of a vehicle at the end.
+/// Results of a vehicle at the end.
 struct VehicleResult {
     digest: [u8; 32],
     late: Lateness,
@@ -249,16 +250,16 @@ fn signing(args: &Args) -> Result<Option<SigningConfig>, AppError> {
     let listen = args.ports.listen;
     let key = args.signing_key.as_deref().map(key::read).transpose()?;
     if key.is_none() && !listen.is_loopback() {
-        tracing::warn!("--listen {listen} without --signing-key: whoever reaches this machine can fly the vehicle");
+        tracing::warn!("--listen {listen} without --signing-key: anyone who can reach this machine can fly the vehicle");
     }
     let unsigned: Vec<LinkKind> = args.unsigned.iter().map(|trusted| trusted.kind()).collect();
     if !unsigned.is_empty() && !listen.is_loopback() {
-        tracing::warn!("--listen {listen} with --unsigned: whoever reaches these ports can fly the vehicle");
+        tracing::warn!("--listen {listen} with --unsigned: anyone who can reach these ports can fly the vehicle");
     }
     Ok(key.map(|key| SigningConfig { key, unsigned }))
 }
 
-/// What one vehicle has of the outside world.
+/// Links and files of one vehicle.
 struct VehicleIo {
     links: Links,
     files: VehicleFiles,
@@ -286,7 +287,7 @@ fn numbered(path: &Path, system_id: u8) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Every vehicle in a thread of its own until the end; what goes wrong with one ends all.
+/// Runs every vehicle in its own thread until the end. An error of one vehicle ends all.
 fn fly(
     shells: Vec<VehicleShell>,
     end: SimTime,
@@ -303,9 +304,7 @@ fn fly(
             })
             .collect();
         let ended = threads.into_iter().map(|thread| {
-            thread
-                .join()
-                .unwrap_or_else(|_| Err(AppError::failed("a vehicle's thread broke off: this is a fault of the program")))
+            thread.join().unwrap_or_else(|_| Err(AppError::failed("a vehicle's thread panicked: please report this bug")))
         });
         ended.collect::<Vec<_>>().into_iter().collect()
     })

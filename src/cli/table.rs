@@ -1,4 +1,4 @@
-//! The assessment for people, from its JSON: the numbers are rounded here and nowhere before.
+//! Prints the assessment from its JSON; numbers are rounded only here.
 
 use crate::errors::AppError;
 use crate::io::report;
@@ -9,7 +9,7 @@ use spandrel_monitor::score::completion::{self, Completion, TaskState};
 use std::fmt::Write;
 use std::path::Path;
 
-/// Prints where a session lies, and its report's address.
+/// Prints the location of a session and the address of its report.
 pub fn places(session: &Path) {
     println!("session       {}", session.display());
     let page = session.join(REPORT);
@@ -18,21 +18,21 @@ pub fn places(session: &Path) {
     }
 }
 
-/// Prints the scores of a session folder and its place.
+/// Prints the scores of a session and the location of its files.
 ///
 /// # Errors
-/// When it holds no assessment.
+/// If the session has no assessment.
 pub fn report_outcome(session: &Path) -> Result<(), AppError> {
     let path = session.join(spandrel_monitor::folder::ASSESSMENT);
     let text = std::fs::read_to_string(&path)
-        .map_err(|_| AppError::failed(format!("the session was not scored; what was recorded is in {}", session.display())))?;
+        .map_err(|_| AppError::failed(format!("the session was not scored; the recorded data is in {}", session.display())))?;
     let assessment = serde_json::from_str(&text).map_err(|error| AppError::failed(format!("{}: {error}", path.display())))?;
     print!("{}", scores(&assessment));
     places(session);
     Ok(())
 }
 
-/// The scores, tasks, crashes, pictures and the end of one session.
+/// Returns the scores, tasks, crashes, pictures and the end of a session as text.
 pub fn scores(assessment: &Value) -> String {
     let mut out = String::new();
     let scores = &assessment["scores"];
@@ -97,13 +97,13 @@ fn crashes(out: &mut String, crashes: &Value) {
     let places = if places.is_empty() { String::new() } else { format!(" ({})", places.join(", ")) };
     let (other, person, vehicle) = (count("other"), count("person"), count("vehicle"));
     let _ =
-        writeln!(out, "crashes       {other} with structures or ground, {person} with persons, {vehicle} with vehicles{places}");
+        writeln!(out, "crashes       {other} with structures or ground, {person} with people, {vehicle} with vehicles{places}");
 }
 
 fn picture_table(out: &mut String, snapshots: &Value) {
     let count = |key: &str| snapshots[key].as_u64().unwrap_or_default();
     let (taken, hits, found, placed) = (count("taken"), count("hits"), count("defects_found"), count("defects_placed"));
-    let _ = writeln!(out, "snapshots     {taken} taken, {hits} of them hits; {found} of {placed} defects found");
+    let _ = writeln!(out, "snapshots     {taken} taken, {hits} with defects; {found} of {placed} defects found");
 }
 
 fn end(out: &mut String, assessment: &Value) {
@@ -150,8 +150,8 @@ accuracy           not applicable
 overall                    272.06  of 300
 Not certified: 12 % battery at landing, 20 % needed
 task 1        done, 93 % of its path, on path 87.5 % of the time, speeding loss 0.250
-crashes       3 with structures or ground, 0 with persons, 0 with vehicles (task 1: 2, outside: 1)
-snapshots     5 taken, 3 of them hits; 4 of 10 defects found
+crashes       3 with structures or ground, 0 with people, 0 with vehicles (task 1: 2, outside: 1)
+snapshots     5 taken, 3 with defects; 4 of 10 defects found
 end           landed after 12 min 30 s of flight, 0 frames missing
 ";
         assert_eq!(scores(&assessment), expected);

@@ -12,17 +12,17 @@ use crate::window::{self, CaptureRequest, WindowConfig, WindowSetup};
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 
-/// Longest time to the picture that can be asked for, s.
+/// Longest delay of a screenshot, s.
 #[cfg(feature = "view")]
 const AFTER_MAX_S: f64 = 3_600.0;
 
 /// Watch a flight live in a window: the inspector's view and the camera's view, with head-up display
 ///
-/// Uses only the vehicle's telemetry and the scenario, so it also works with a real autopilot and on another machine. Defects and
-/// traffic follow the seed that the simulator reports, also after a restart; --seed applies until then, or if the vehicle reports
-/// none. With --fly, the keyboard in the window (and a calibrated controller, if one is connected) flies the vehicle. Tab swaps
-/// the views, the mouse turns the inspector's view, the wheel zooms, F follows the aircraft again, M hides the map. No graphics
-/// card is needed: a software Vulkan driver is enough (Debian and Ubuntu: mesa-vulkan-drivers).
+/// Uses only the vehicle's telemetry and the scenario, so it also works with a real autopilot and on another computer. Defects and traffic follow the
+/// seed that the simulator reports, also after a restart; --seed applies until then, or if the vehicle reports none. With --fly, the keyboard in the
+/// window (and a calibrated controller, if one is connected) flies the vehicle. Tab swaps the views, the mouse turns the inspector's view, the wheel
+/// zooms, F follows the aircraft again, M hides the map. No graphics card is needed: a software Vulkan driver is enough (Debian and Ubuntu:
+/// mesa-vulkan-drivers).
 #[cfg_attr(not(feature = "view"), allow(dead_code, reason = "help and errors are the same with and without the view"))]
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
@@ -110,7 +110,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         map: !args.no_map,
         picture: picture(args)?,
         keep: args.picture.clone(),
-        // Led, its standard output belongs to the pipe.
+        // With --led, standard output belongs to the pipe.
         announce: args.announce && !args.led,
     };
     window::run(WindowSetup {
@@ -134,7 +134,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 fn picture(args: &Args) -> Result<Option<CaptureRequest>, AppError> {
     let (Some(path), Some(after)) = (&args.screenshot, args.after) else { return Ok(None) };
     if !(0.0..=AFTER_MAX_S).contains(&after) {
-        return Err(AppError::wrong(format!("--after {after}: give seconds, 0 to {AFTER_MAX_S}")));
+        return Err(AppError::wrong(format!("--after {after}: out of range (allowed: 0 to {AFTER_MAX_S} s)")));
     }
     Ok(Some(CaptureRequest { path: path.clone(), after: std::time::Duration::from_secs_f64(after) }))
 }

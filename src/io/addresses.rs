@@ -6,9 +6,9 @@ use std::str::FromStr;
 /// A destination address, or none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Destination {
-    /// No destination.
+    /// Nothing is sent (`none` on the command line).
     None,
-    /// This address.
+    /// Address to send to.
     Address(SocketAddr),
 }
 
@@ -19,18 +19,20 @@ impl FromStr for Destination {
     }
 }
 
-/// Reads and resolves HOST:PORT, IPv4 before IPv6.
+/// Parses and resolves HOST:PORT; prefers IPv4 to IPv6.
 pub fn address(text: &str) -> Result<SocketAddr, String> {
-    let mut found: Vec<SocketAddr> =
-        text.to_socket_addrs().map_err(|error| format!("'{text}' is no HOST:PORT such as 127.0.0.1:14550 ({error})"))?.collect();
+    let mut found: Vec<SocketAddr> = text
+        .to_socket_addrs()
+        .map_err(|error| format!("'{text}' is not HOST:PORT, for example 127.0.0.1:14550 ({error})"))?
+        .collect();
     found.sort_by_key(|address| !address.is_ipv4());
-    found.into_iter().find(|address| address.port() != 0).ok_or_else(|| format!("'{text}' names no usable address and port"))
+    found.into_iter().find(|address| address.port() != 0).ok_or_else(|| format!("'{text}' has no usable address and port"))
 }
 
 /// A port number, or none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PortChoice {
-    /// The port is not opened.
+    /// The port stays closed (`none` on the command line).
     None,
     /// A port number; 0 lets the system choose a free one.
     Number(u16),
@@ -42,13 +44,13 @@ impl FromStr for PortChoice {
         if text == "none" {
             return Ok(Self::None);
         }
-        text.parse().map(Self::Number).map_err(|_| format!("'{text}' is no port (allowed: 0 to 65535, or none)"))
+        text.parse().map(Self::Number).map_err(|_| format!("'{text}' is not a port (allowed: 0 to 65535, or none)"))
     }
 }
 
 /// Parses the local address to bind.
 pub fn listen(text: &str) -> Result<IpAddr, String> {
-    text.parse().map_err(|_| format!("'{text}' is no IP address (127.0.0.1 for this machine only, 0.0.0.0 for all networks)"))
+    text.parse().map_err(|_| format!("'{text}' is not an IP address (127.0.0.1 for this machine only, 0.0.0.0 for all networks)"))
 }
 
 #[cfg(test)]

@@ -23,7 +23,7 @@ pub fn task_ids(scenario: &Scenario) -> Vec<u32> {
     scenario.tasks.iter().map(|task| task.id).collect()
 }
 
-/// Returns the custom wordings and the shipped ones.
+/// Returns the custom wordings followed by the shipped ones.
 ///
 /// # Errors
 /// If a file cannot be read or is invalid.

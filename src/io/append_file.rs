@@ -1,25 +1,25 @@
-//! A file that only grows, by whole records: what the disk refuses stays in memory and is written once it can be.
+//! Append-only files of complete records. Data that cannot be written stays in memory and is written later.
 
 use crate::errors::AppError;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// Bytes kept in memory while the disk refuses them: some 20 minutes of a session's telemetry (50 kB/s, estimate).
+/// Maximum data kept in memory while the disk cannot be written, bytes: about 20 minutes of telemetry (50 kB/s, estimate).
 const PENDING_MOST: usize = 64 * 1024 * 1024;
 
-/// The disk did not take a write.
+/// A write that failed.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: cannot be written: {error}", path.display())]
+#[error("{}: cannot write: {error}", path.display())]
 pub struct WriteRefused {
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
-    /// The reason.
+    /// Error of the operating system.
     pub error: std::io::Error,
 }
 
 impl WriteRefused {
-    /// Returns true when space is missing, and not the disk itself at fault.
+    /// Returns true if the disk is full, rather than faulty.
     pub fn is_full(&self) -> bool {
         matches!(self.error.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded)
     }
@@ -31,14 +31,14 @@ impl From<WriteRefused> for AppError {
     }
 }
 
-/// The file.
+/// An append-only file with pending data.
 #[derive(Debug)]
 pub struct AppendFile {
     file: File,
     path: PathBuf,
-    /// Length on disk, whole records only.
+    /// Length of the complete records on disk, bytes.
     len: u64,
-    /// The file may hold a part of a record beyond `len`.
+    /// True if the file may contain a partial record beyond `len`.
     torn: bool,
     pending: Vec<u8>,
     dropped: u64,
@@ -46,10 +46,10 @@ pub struct AppendFile {
 }
 
 impl AppendFile {
-    /// Opens or creates the file. `whole` returns the length of the whole records at the start of some bytes.
+    /// Opens or creates the file. `whole` returns the length of the complete records at the start of a buffer.
     ///
     /// # Errors
-    /// If it cannot be opened.
+    /// If the file cannot be opened.
     pub fn open(path: PathBuf, whole: fn(&[u8]) -> usize) -> Result<Self, WriteRefused> {
         let open = || {
             let file = OpenOptions::new().create(true).append(true).open(&path)?;
@@ -62,30 +62,30 @@ impl AppendFile {
         }
     }
 
-    /// Locks the file against another process that would append to it, until it is closed.
+    /// Locks the file against other processes until it is closed.
     ///
     /// # Errors
-    /// When another process holds the lock. A file system without locks is no error.
+    /// If another process has locked it. A file system without locks is not an error.
     pub fn lock(&self) -> Result<(), AppError> {
         match self.file.try_lock() {
             Ok(()) => Ok(()),
             Err(TryLockError::WouldBlock) => Err(AppError::wrong(format!(
-                "{}: another monitor records this session: end that one, or leave --session out to start a new session",
+                "{}: another monitor is recording this session: stop that monitor, or omit --session to start a new session",
                 self.path.display()
             ))),
             Err(TryLockError::Error(error)) => {
-                tracing::warn!("{}: cannot be locked: {error}", self.path.display());
+                tracing::warn!("{}: cannot lock: {error}", self.path.display());
                 Ok(())
             }
         }
     }
 
-    /// Length on disk, bytes.
+    /// Returns the length on disk, bytes.
     pub fn len(&self) -> u64 {
         self.len
     }
 
-    /// Cuts the file to this length.
+    /// Truncates the file.
     ///
     /// # Errors
     /// If the disk cannot be written.
@@ -96,7 +96,7 @@ impl AppendFile {
         Ok(())
     }
 
-    /// Takes whole records; they reach the disk with the next [`Self::flush`]. Beyond a limit they are dropped and counted.
+    /// Adds complete records, which are written with the next [`Self::flush`]. Above a limit they are dropped and counted.
     pub fn push(&mut self, records: &[u8]) {
         if self.pending.len() > PENDING_MOST {
             self.dropped += 1;
@@ -105,17 +105,17 @@ impl AppendFile {
         }
     }
 
-    /// Pushes that were dropped.
+    /// Returns the number of calls of [`Self::push`] whose records were dropped.
     pub fn dropped(&self) -> u64 {
         self.dropped
     }
 
-    /// Bytes that the disk has not taken.
+    /// Returns the size of the data that has not been written, bytes.
     pub fn pending(&self) -> usize {
         self.pending.len()
     }
 
-    /// Writes what is pending. After an error the file holds whole records, and the rest stays pending.
+    /// Writes the pending data. After an error, the file contains complete records only, and the rest stays pending.
     ///
     /// # Errors
     /// If the disk cannot be written.
@@ -128,19 +128,19 @@ impl AppendFile {
         self.len += kept as u64;
         self.pending.drain(..kept);
         if self.pending.is_empty() {
-            // A disk that was full for long leaves no large buffer behind.
+            // Frees the memory of a large buffer after a long disk failure.
             self.pending.shrink_to(PENDING_MOST / 64);
         }
         let Err(error) = result else { return Ok(()) };
         self.torn = written > kept;
         if self.torn {
-            // A failure here is no other one: the next flush tries again.
+            // If this fails, too, the next flush repeats it.
             let _ = self.cut(self.len);
         }
         Err(self.refused(error))
     }
 
-    /// Waits until what was written is on the disk itself.
+    /// Waits until the written data is on the physical disk.
     ///
     /// # Errors
     /// If the disk cannot be written.
@@ -153,7 +153,7 @@ impl AppendFile {
     }
 }
 
-/// Writes until the end or an error, and returns how many bytes were taken.
+/// Writes until the end or an error, and returns the number of bytes written.
 fn write_available(file: &mut impl Write, bytes: &[u8]) -> (usize, std::io::Result<()>) {
     let mut written = 0;
     while written < bytes.len() {
@@ -167,21 +167,21 @@ fn write_available(file: &mut impl Write, bytes: &[u8]) -> (usize, std::io::Resu
     (written, Ok(()))
 }
 
-/// Syncs files that were written and closed, and the folder that names them.
+/// Syncs closed files and their folder.
 ///
 /// # Errors
-/// When the disk refuses; files that do not exist are skipped.
+/// If the disk cannot be written. Missing files are skipped.
 pub fn sync_folder(folder: &Path, names: &[&str]) -> Result<(), WriteRefused> {
     let sync = |path: PathBuf| match File::open(&path).and_then(|file| file.sync_all()) {
         Err(error) if error.kind() != ErrorKind::NotFound => Err(WriteRefused { path, error }),
         Ok(()) | Err(_) => Ok(()),
     };
     names.iter().try_for_each(|name| sync(folder.join(name)))?;
-    // Only Unix opens folders as files.
+    // Only Unix can open folders as files.
     if cfg!(unix) { sync(folder.to_path_buf()) } else { Ok(()) }
 }
 
-/// Length of the whole lines at the start of some bytes.
+/// Returns the length of the complete lines at the start of a buffer.
 pub fn whole_lines(bytes: &[u8]) -> usize {
     bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1)
 }

@@ -1,5 +1,5 @@
-//! Child processes of `train` and `demo`: this same program with another subcommand. Each hangs on a leash (its standard input): when
-//! the parent ends, in whatever way, the leash ends and the child finishes.
+//! Child processes of `train` and `demo`: the same program with another subcommand. The parent holds the write end of each child's standard input;
+//! when the parent exits for any reason, the pipe closes and the child finishes (`--leash`).
 
 use super::clock::Stopwatch;
 use crate::errors::AppError;
@@ -9,14 +9,14 @@ use std::process::{ChildStdin, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
-/// A child has this long to open its sockets and build its site on a busy machine.
+/// Time limit for a child to open its sockets and load its site on a busy machine.
 const START_LIMIT: Duration = Duration::from_secs(60);
-/// A child has this long to finish cleanly.
+/// Time limit for a child to finish cleanly.
 const END_LIMIT: Duration = Duration::from_secs(10);
-/// Between two looks at a child that is ending.
+/// Interval at which a finishing child is checked.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// A running child.
+/// A running child process.
 #[derive(Debug)]
 pub struct Child {
     name: &'static str,
@@ -26,18 +26,18 @@ pub struct Child {
 }
 
 impl Child {
-    /// Starts `spandrel SUBCOMMAND ARGS`.
+    /// Starts `spandrel NAME ARGS`.
     ///
     /// # Errors
-    /// If it cannot be started.
+    /// If the process cannot be started.
     pub fn start(name: &'static str, args: &[String]) -> Result<Self, AppError> {
         Self::start_sibling(name, args, &[])
     }
 
-    /// Starts it with further variables in its environment.
+    /// Starts `spandrel NAME ARGS` with additional environment variables.
     ///
     /// # Errors
-    /// If it cannot be started.
+    /// If the process cannot be started.
     pub fn start_sibling(name: &'static str, args: &[String], environment: &[(&str, String)]) -> Result<Self, AppError> {
         let failed = |error: std::io::Error| AppError::failed(format!("cannot start the {name}: {error}"));
         let program = std::env::current_exe().map_err(failed)?;
@@ -55,7 +55,7 @@ impl Child {
         if let Some(stdout) = process.stdout.take() {
             std::thread::spawn(move || {
                 for line in BufReader::new(stdout).lines().map_while(Result::ok) {
-                    // The parent may have stopped listening; the pipe is emptied all the same.
+                    // Drains the pipe even after the parent has stopped listening, so that the child does not block.
                     let _ = sender.send(line);
                 }
             });
@@ -63,15 +63,15 @@ impl Child {
         Ok(Self { name, process, stdin: leash, lines })
     }
 
-    /// Waits for the line that announces ports and places.
+    /// Waits for the JSON line in which the child announces its ports and paths.
     ///
     /// # Errors
-    /// When the child ends first, or says something else.
+    /// If the child exits first, or prints anything else.
     pub fn announced(&mut self) -> Result<Value, AppError> {
         let name = self.name;
         let line = self.lines.recv_timeout(START_LIMIT).map_err(|error| match self.ended_after(error) {
             Some(status) => {
-                let why = format!("the {name} did not start ({status}); its message is in the terminal");
+                let why = format!("the {name} did not start ({status}); see its message in the terminal");
                 if status.code() == Some(2) { AppError::wrong(why) } else { AppError::failed(why) }
             }
             None => AppError::failed(format!("the {name} has not started after {} s", START_LIMIT.as_secs())),
@@ -79,39 +79,39 @@ impl Child {
         serde_json::from_str(&line).map_err(|error| AppError::failed(format!("the {name} announced '{line}': {error}")))
     }
 
-    /// How it ended that has not announced anything.
+    /// Returns the exit status of a child that has announced nothing, if it has exited.
     fn ended_after(&mut self, error: RecvTimeoutError) -> Option<ExitStatus> {
         match error {
             RecvTimeoutError::Timeout => self.ended(),
-            // Its output ends a moment before the process does.
+            // The child's output closes slightly before the process exits.
             RecvTimeoutError::Disconnected => self.finish(),
         }
     }
 
-    /// A further line of its results, if there is one by now.
+    /// Returns the next line of the child's output, if one has arrived.
     pub fn line(&self) -> Option<String> {
         self.lines.try_recv().ok()
     }
 
-    /// Says a line to it. One that has ended, or that has been asked to finish, hears nothing: that is told elsewhere.
+    /// Sends a line to the child. A child that has exited or is finishing ignores it; the exit is reported elsewhere.
     pub fn send_line(&mut self, line: &str) {
         let told = self.stdin.as_mut().map(|leash| writeln!(leash, "{line}").and_then(|()| leash.flush()));
         if let Some(Err(error)) = told {
-            tracing::debug!("the {} does not hear '{line}': {error}", self.name);
+            tracing::debug!("cannot send '{line}' to the {}: {error}", self.name);
         }
     }
 
-    /// How it ended, if it has.
+    /// Returns the exit status, if the child has exited.
     pub fn ended(&mut self) -> Option<ExitStatus> {
         self.process.try_wait().ok().flatten()
     }
 
-    /// Asks it to finish.
+    /// Closes the child's standard input, which asks it to finish.
     pub fn detach(&mut self) {
         self.stdin = None;
     }
 
-    /// Asks it to finish and waits; a child that does not is ended.
+    /// Asks the child to finish and waits; kills it after the time limit.
     pub fn finish(&mut self) -> Option<ExitStatus> {
         self.detach();
         let watch = Stopwatch::start();
@@ -121,8 +121,8 @@ impl Child {
             }
             std::thread::sleep(LOOK);
         }
-        tracing::warn!("the {} does not finish and is ended", self.name);
-        // Both fail only when it has just ended by itself.
+        tracing::warn!("the {} does not finish and is killed", self.name);
+        // Both calls fail only if the child has just exited.
         let _ = self.process.kill();
         self.process.wait().ok()
     }
@@ -142,9 +142,9 @@ mod tests {
 
     #[test]
     fn exact_a_child_that_does_not_start_is_reported_and_where_its_message_is() {
-        // The tests' own program knows no --announce: it says so, and ends.
+        // The test executable does not accept `--announce`: it prints an error and exits.
         let mut child = Child::start("view", &[]).unwrap();
         let told = child.announced().unwrap_err().to_string();
-        assert!(told.starts_with("the view did not start (") && told.ends_with("its message is in the terminal"), "{told}");
+        assert!(told.starts_with("the view did not start (") && told.ends_with("see its message in the terminal"), "{told}");
     }
 }

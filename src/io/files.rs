@@ -1,4 +1,4 @@
-//! Scenario and vehicle files: from a path, from a session folder, or from what is compiled in.
+//! Scenario and vehicle files: from a path, from a session folder, or built in.
 
 use crate::errors::AppError;
 use spandrel_model::scenario::{self, Scenario};
@@ -8,42 +8,42 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
-/// A scenario with the text that it came from.
+/// A scenario with its source text.
 #[derive(Debug, Clone)]
 pub struct ScenarioFile {
-    /// The text.
+    /// Source text of the scenario (TOML).
     pub text: String,
-    /// Files that it names, by the name that it uses (height fields).
+    /// Files that the scenario refers to (height fields), by the name that it uses.
     pub siblings: BTreeMap<String, String>,
-    /// The job.
+    /// Scenario parsed from the text.
     pub scenario: Scenario,
 }
 
-/// A vehicle with the text that it came from.
+/// A vehicle with its source text.
 #[derive(Debug, Clone)]
 pub struct VehicleFile {
-    /// The text.
+    /// Source text of the vehicle (TOML).
     pub text: String,
-    /// The aircraft.
+    /// Vehicle parsed from the text.
     pub vehicle: Vehicle,
 }
 
-/// A file's text and where it lies.
+/// Text of a file with its location.
 pub struct SourceFile {
-    /// Name for messages.
+    /// Name of the file in messages.
     pub file: String,
-    /// The text.
+    /// Contents of the file.
     pub text: String,
-    /// Its folder; `None` for a shipped file.
+    /// Folder of the file; `None` for a shipped file.
     folder: Option<PathBuf>,
 }
 
-/// Names of the shipped scenarios.
+/// Returns the names of the shipped scenarios.
 pub fn scenario_names() -> Vec<&'static str> {
     shipped::SCENARIOS.iter().map(|(name, _)| *name).collect()
 }
 
-/// Names of the shipped vehicles.
+/// Returns the names of the shipped vehicles.
 pub fn vehicle_names() -> Vec<&'static str> {
     shipped::VEHICLES.iter().map(|(name, _)| *name).collect()
 }
@@ -51,7 +51,7 @@ pub fn vehicle_names() -> Vec<&'static str> {
 /// Loads and validates a scenario.
 ///
 /// # Errors
-/// If it cannot be read or is wrong: everything that is wrong with it.
+/// If it cannot be read or is invalid; all problems are listed.
 pub fn scenario(argument: &str) -> Result<ScenarioFile, AppError> {
     scenario_from(source(argument, "scenario", shipped::SCENARIOS)?)
 }
@@ -59,17 +59,17 @@ pub fn scenario(argument: &str) -> Result<ScenarioFile, AppError> {
 /// Loads and validates a vehicle.
 ///
 /// # Errors
-/// If it cannot be read or is wrong: everything that is wrong with it.
+/// If it cannot be read or is invalid; all problems are listed.
 pub fn vehicle(argument: &str) -> Result<VehicleFile, AppError> {
     let source = source(argument, "vehicle", shipped::VEHICLES)?;
     let vehicle = vehicle::read(&source.file, &source.text)?;
     Ok(VehicleFile { text: source.text, vehicle })
 }
 
-/// Loads a vehicle whose id is known apart from its file name (a session's `vehicle.toml`).
+/// Loads a vehicle whose ID differs from its file name (a session's `vehicle.toml`).
 ///
 /// # Errors
-/// As [`vehicle`].
+/// Like [`vehicle`].
 pub fn vehicle_named(path: &Path, id: &str) -> Result<VehicleFile, AppError> {
     let text = read(path)?;
     let mut vehicle = vehicle::read(&path.display().to_string(), &text)?;
@@ -77,10 +77,10 @@ pub fn vehicle_named(path: &Path, id: &str) -> Result<VehicleFile, AppError> {
     Ok(VehicleFile { text, vehicle })
 }
 
-/// Validates a scenario's text; files that it names are looked for beside it.
+/// Validates a scenario's text; files that it refers to are looked up in its folder.
 ///
 /// # Errors
-/// Everything that is wrong with it.
+/// If it is invalid; all problems are listed.
 pub fn scenario_from(source: SourceFile) -> Result<ScenarioFile, AppError> {
     let seen = RefCell::new(BTreeMap::new());
     let sibling = |name: &str| {
@@ -92,10 +92,10 @@ pub fn scenario_from(source: SourceFile) -> Result<ScenarioFile, AppError> {
     Ok(ScenarioFile { text: source.text, siblings: seen.into_inner(), scenario })
 }
 
-/// Finds the text behind an argument: a path, or a name among `library`.
+/// Finds the file for an argument: a path, or a name in `library`.
 ///
 /// # Errors
-/// When there is no such file and no such name.
+/// If there is no such file or name.
 pub fn source(argument: &str, what: &str, library: &[(&'static str, &'static str)]) -> Result<SourceFile, AppError> {
     let path = Path::new(argument);
     let looks_like_a_path = argument.contains(['/', '\\']) || path.extension().is_some_and(|end| end == "toml");
@@ -105,54 +105,55 @@ pub fn source(argument: &str, what: &str, library: &[(&'static str, &'static str
     }
     let names: Vec<&str> = library.iter().map(|(name, _)| *name).collect();
     let (name, text) = library.iter().find(|(name, _)| *name == argument).ok_or_else(|| {
-        AppError::wrong(format!("there is no {what} '{argument}': give a file, or one of {}", names.join(", ")))
+        AppError::wrong(format!("there is no {what} '{argument}': specify a file or one of {}", names.join(", ")))
     })?;
     Ok(SourceFile { file: format!("{name}.toml"), text: (*text).to_owned(), folder: None })
 }
 
-/// Any file for `check`: shipped names of both kinds are looked up too.
+/// Finds any file for `check`: a path, or the name of a shipped scenario or vehicle.
 ///
 /// # Errors
-/// When there is no such file and no such name.
+/// If there is no such file or name.
 pub fn any_source(argument: &str) -> Result<SourceFile, AppError> {
     let library: Vec<_> = shipped::SCENARIOS.iter().chain(shipped::VEHICLES).copied().collect();
     source(argument, "scenario or vehicle", &library)
 }
 
-/// Reads a text file.
+/// Reads a text file (UTF-8).
 ///
 /// # Errors
 /// If it cannot be read.
 pub fn read(path: &Path) -> Result<String, AppError> {
-    let bytes = std::fs::read(path).map_err(|error| AppError::wrong(format!("{}: cannot be read: {error}", path.display())))?;
+    let bytes = std::fs::read(path).map_err(|error| AppError::wrong(format!("{}: cannot read: {error}", path.display())))?;
     String::from_utf8(bytes).map_err(|error| {
-        AppError::wrong(format!("{}: is not UTF-8 text (byte {})", path.display(), error.utf8_error().valid_up_to()))
+        AppError::wrong(format!("{}: not UTF-8 text (byte {})", path.display(), error.utf8_error().valid_up_to()))
     })
 }
 
-/// Writes a result to a file, or to standard output for `-`. A file is replaced as a whole: a full disk or a kill leaves the old one.
+/// Writes a result to a file, or to standard output for `-`. The file is replaced as a whole: if the disk is full or the process is killed, the old
+/// file remains.
 ///
 /// # Errors
 /// If it cannot be written.
 pub fn write(target: &str, bytes: &[u8]) -> Result<(), AppError> {
     use std::io::Write;
     let path = Path::new(target);
-    // A link is followed; a pipe or a device cannot be replaced.
+    // Symbolic links are followed; pipes and devices cannot be replaced.
     let real = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
     let done = match target {
         "-" => std::io::stdout().lock().write_all(bytes),
         _ if real.exists() && !real.is_file() => std::fs::write(&real, bytes),
         _ => return super::replace::replace(&real, bytes),
     };
-    done.map_err(|error| AppError::failed(format!("{target}: cannot be written: {error}")))
+    done.map_err(|error| AppError::failed(format!("{target}: cannot write: {error}")))
 }
 
 impl SourceFile {
-    /// Reads a file that this one names. Only names beside or below it are followed.
+    /// Reads a file that this one refers to. Only files in the same folder or below are allowed.
     pub fn sibling(&self, name: &str) -> Result<String, String> {
-        let Some(folder) = &self.folder else { return Err("a shipped scenario has no files beside it".into()) };
+        let Some(folder) = &self.folder else { return Err("a shipped scenario cannot refer to other files".into()) };
         if !Path::new(name).components().all(|part| matches!(part, Component::Normal(_))) {
-            return Err("only files beside or below the scenario can be named".into());
+            return Err("only files in the scenario's folder or below are allowed".into());
         }
         std::fs::read_to_string(folder.join(name)).map_err(|error| error.to_string())
     }

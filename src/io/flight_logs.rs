@@ -1,16 +1,16 @@
-//! Old flight logs make room for new ones.
+//! Deletes old flight logs so that new ones fit.
 
 use cap_std::fs::Dir;
 use std::collections::BTreeMap;
 
-/// Endings of the files that belong to one flight.
+/// Extensions of the files of a flight.
 const ENDINGS: [&str; 2] = [".ulg", ".mcap"];
 
-/// Deletes the oldest flights' logs until the others take at most `most` bytes. `folder` holds a folder for each day, and these a pair of
-/// files for each flight, named by its time of day; other files are left alone and not counted. Returns how many flights were deleted.
+/// Deletes the logs of the oldest flights until the rest takes at most `most` bytes. `folder` contains one folder per day with two files per flight,
+/// named by the time of day; other files are neither counted nor deleted. Returns the number of flights deleted.
 ///
 /// # Errors
-/// If a folder cannot be read or a file not be deleted.
+/// If a folder cannot be read or a file cannot be deleted.
 pub fn make_room(root: &Dir, folder: &str, most: u64) -> std::io::Result<usize> {
     let flights = flights(root, folder)?;
     let mut total: u64 = flights.values().map(|flight| flight.bytes).sum();
@@ -22,7 +22,7 @@ pub fn make_room(root: &Dir, folder: &str, most: u64) -> std::io::Result<usize> 
         flight.files.iter().try_for_each(|file| root.remove_file(file))?;
         total -= flight.bytes;
         deleted += 1;
-        // A day without logs goes too; one that holds other files stays, and that is no error.
+        // Also removes the folder of a day without logs. Removal fails if it contains other files, which is fine.
         let _ = root.remove_dir(&flight.day);
     }
     Ok(deleted)
@@ -35,7 +35,7 @@ struct LoggedFlight {
     bytes: u64,
 }
 
-/// The flights by day and time, the oldest first: names sort as times do, and the second flight of a second, `-1`, follows the first.
+/// Returns the flights ordered by day and time, oldest first. The names sort by time; a second flight in the same second has the suffix `-1`.
 fn flights(root: &Dir, folder: &str) -> std::io::Result<BTreeMap<(String, String, u32), LoggedFlight>> {
     let mut flights: BTreeMap<(String, String, u32), LoggedFlight> = BTreeMap::new();
     for day in root.read_dir(folder)? {
@@ -87,8 +87,8 @@ mod tests {
         assert_eq!(there().count(), files.len(), "all of them fit");
         assert_eq!(make_room(&root, "log", 250).unwrap(), 2);
         let left = ["2026-09-21/01_00_00-2.ulg", "2026-09-21/01_00_00-10.ulg", "2026-09-21/notes.txt"];
-        assert_eq!(there().collect::<Vec<_>>(), left, "the oldest went, with both files");
-        assert!(!place.path().join("log/2026-09-20").exists(), "a day without logs goes too");
+        assert_eq!(there().collect::<Vec<_>>(), left, "the oldest flights were deleted with both files");
+        assert!(!place.path().join("log/2026-09-20").exists(), "folders of days without logs are removed");
         assert_eq!(make_room(&root, "log", 0).unwrap(), 2);
         assert_eq!(there().collect::<Vec<_>>(), ["2026-09-21/notes.txt"]);
     }

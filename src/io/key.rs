@@ -1,32 +1,32 @@
-//! The MAVLink signing key from its file.
+//! Reads the MAVLink signing key from a file.
 
 use crate::errors::AppError;
 use spandrel_mavlink::signing::SigningKey;
 use std::path::Path;
 
-/// A passphrase is at least this long, characters.
+/// Minimum length of a passphrase, characters.
 const SHORTEST: usize = 8;
 
-/// Reads a key: 64 hexadecimal digits are the key itself, anything else on the one line is a passphrase.
+/// Reads a signing key from a file with one line: 64 hexadecimal digits are the key, anything else is a passphrase.
 ///
 /// # Errors
-/// When the file cannot be read, others may read it, or it holds no key. The message never shows what it holds.
+/// If the file cannot be read, is readable by other users, or contains no key. The message never shows the file's contents.
 pub fn read(path: &Path) -> Result<SigningKey, AppError> {
     let wrong = |what: &str| AppError::wrong(format!("--signing-key {}: {what}", path.display()));
     let text = std::fs::read_to_string(path).map_err(|error| wrong(&error.to_string()))?;
     if let Some(mode) = open_to_others(path) {
-        return Err(wrong(&format!("others may read it (mode {mode:o}); allowed: 600 or less (chmod 600)")));
+        return Err(wrong(&format!("other users can read it (mode {mode:o}); allowed: 600 or stricter (chmod 600)")));
     }
     let text = text.trim_end_matches(['\r', '\n']);
     if text.contains('\n') {
-        return Err(wrong("it has several lines; allowed: one"));
+        return Err(wrong("it has more than one line"));
     }
     match hex(text) {
         Some(key) => Ok(SigningKey(key)),
         None if text.chars().count() >= SHORTEST => Ok(SigningKey::from_passphrase(text)),
-        None => Err(wrong(&format!(
-            "its line is too short; allowed: 64 hexadecimal digits, or a passphrase of {SHORTEST} characters or more"
-        ))),
+        None => {
+            Err(wrong(&format!("too short; allowed: 64 hexadecimal digits, or a passphrase of {SHORTEST} characters or more")))
+        }
     }
 }
 
@@ -72,9 +72,9 @@ mod tests {
     #[test]
     fn exact_what_others_may_read_or_is_no_key_is_refused_without_being_shown() {
         for (text, mode, said) in [
-            ("bridge over water", 0o640, "others may read"),
+            ("bridge over water", 0o640, "other users can read"),
             ("hunter2", 0o600, "too short"),
-            ("one line\ntwo lines", 0o600, "several lines"),
+            ("one line\ntwo lines", 0o600, "more than one line"),
         ] {
             let Err(error) = read(&file(text, mode)) else { panic!("{said}") };
             assert!(error.to_string().contains(said) && !error.to_string().contains(text), "{error}");

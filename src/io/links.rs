@@ -1,5 +1,4 @@
-//! Who is behind the vehicle's ports: fixed targets that are called unasked, peers learned by their source address, clients over TCP
-//! and serial ports.
+//! Links of the vehicle: configured destinations that it sends to unprompted, peers that connect to its UDP ports, TCP clients and serial ports.
 
 use super::clock::Stopwatch;
 use super::net::{NetEvent, SocketHub, SocketId, StreamId, StreamOrigin};
@@ -11,38 +10,37 @@ use std::collections::{BTreeMap, VecDeque};
 use std::net::SocketAddr;
 use std::time::Duration;
 
-/// A learned peer that is silent this long is forgotten.
+/// Time after which a silent learned peer is removed.
 const FORGET: Duration = Duration::from_secs(15);
-/// Peers that are learned at most on each port: a flood of source addresses neither grows without bound nor keeps the peers of another
-/// port off.
+/// Maximum number of learned peers per port, so that a flood of source addresses neither uses unlimited memory nor blocks the peers of another port.
 const LEARNED_MAX: usize = 64;
 
-/// What happened to links.
+/// A change of the links, or received data.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LinkChange {
-    /// A peer is there from now on.
+    /// A link was opened.
     Opened {
-        /// Its link.
+        /// Number of the link.
         link: u32,
-        /// Its kind.
+        /// Kind of the link.
         kind: LinkKind,
-        /// It is asked to keep step.
+        /// True if the peer runs in lockstep.
         lockstep: bool,
-        /// Nobody called it: it is known by its source address alone, which anybody can forge.
+        /// True if the peer contacted the vehicle first; its source address may be forged.
         learned: bool,
-        /// What it carries, bytes a second, if that is limited.
+        /// Capacity of the link, bytes/s, if limited.
         limit: Option<f64>,
     },
-    /// Bytes: a datagram, or one whole frame of a stream.
+    /// A datagram, or one complete frame of a stream.
     Bytes {
-        /// From which link.
+        /// Link that the data arrived on.
         link: u32,
-        /// What.
+        /// Received MAVLink bytes.
         bytes: Vec<u8>,
     },
-    /// The peer is gone.
+    /// A link was closed.
     Closed {
-        /// Its link.
+        /// Number of the link.
         link: u32,
     },
 }
@@ -54,7 +52,7 @@ enum LinkRoute {
     Stream { stream: StreamId, decoder: Decoder },
 }
 
-/// All links of the vehicle.
+/// All links of one vehicle.
 #[derive(Debug)]
 pub struct Links {
     hub: SocketHub,
@@ -68,15 +66,15 @@ pub struct Links {
     opened: u32,
     bad_bytes: u64,
     stopwatch: Stopwatch,
-    /// The ports that were bound, as announced.
+    /// Ports in use, as announced to the parent process.
     pub bound: serde_json::Value,
 }
 
 impl Links {
-    /// Opens every port and the links to those who are called unasked. Fixed links are numbered in one order in every run.
+    /// Opens all ports and the links to the configured destinations. Their numbers are the same in every run.
     ///
     /// # Errors
-    /// When a port cannot be opened, or a lockstep peer is not among those who are called.
+    /// If a port cannot be opened, or a lockstep peer is not a configured destination.
     pub fn open(ports: &VehiclePorts, lockstep: &[SocketAddr]) -> Result<Self, AppError> {
         let mut hub = SocketHub::new();
         let bind = |hub: &mut SocketHub, port: Option<u16>, flag| port.map(|port| hub.bind(ports.listen, port, flag)).transpose();
@@ -119,13 +117,13 @@ impl Links {
         let called = |peer: &SocketAddr| self.by_peer.keys().any(|(_, known)| known == peer);
         match self.lockstep.iter().find(|peer| !called(peer)) {
             Some(peer) => Err(AppError::wrong(format!(
-                "--lockstep {peer} names nobody who is called: name it with --gcs, --sdk or --monitor-port as well"
+                "--lockstep {peer}: not a destination of the vehicle; also specify it with --gcs, --sdk or --monitor-port"
             ))),
             None => Ok(()),
         }
     }
 
-    /// Waits at most so long for something to happen.
+    /// Waits up to `wait` for an event.
     pub fn wait(&mut self, wait: Duration) {
         if !self.changes.is_empty() {
             return;
@@ -135,7 +133,7 @@ impl Links {
         }
     }
 
-    /// The next change.
+    /// Returns the next change, if there is one.
     pub fn poll(&mut self) -> Option<LinkChange> {
         if self.changes.is_empty() {
             self.wait(Duration::ZERO);
@@ -143,7 +141,7 @@ impl Links {
         self.changes.pop_front()
     }
 
-    /// Forgets learned peers that have gone silent.
+    /// Removes learned peers that have been silent for too long.
     pub fn drop_silent_peers(&mut self) {
         self.forget(self.stopwatch.elapsed());
     }
@@ -156,14 +154,14 @@ impl Links {
         let silent: Vec<u32> = self.routes.iter().filter_map(silent).collect();
         for link in silent {
             if let Some(LinkRoute::Learned { socket, peer, .. }) = self.routes.remove(&link) {
-                tracing::info!("{peer} has been silent for {} s and is forgotten", FORGET.as_secs());
+                tracing::info!("{peer} disconnected after {} s of silence", FORGET.as_secs());
                 self.by_peer.remove(&(socket, peer));
                 self.changes.push_back(LinkChange::Closed { link });
             }
         }
     }
 
-    /// Sends to one link.
+    /// Sends bytes to a link.
     pub fn send(&mut self, link: u32, bytes: Vec<u8>) {
         match self.routes.get(&link) {
             Some(LinkRoute::Fixed { socket, peer } | LinkRoute::Learned { socket, peer, .. }) => {
@@ -174,12 +172,12 @@ impl Links {
         }
     }
 
-    /// Bytes of TCP clients that belonged to no frame; those of datagrams the vehicle counts.
+    /// Returns the number of bytes from TCP clients that were not part of a frame. The vehicle counts those of datagrams.
     pub fn bad_bytes(&self) -> u64 {
         self.bad_bytes
     }
 
-    /// What found a queue full.
+    /// Returns the number of arrivals and frames dropped because a queue was full.
     pub fn take_dropped(&self) -> u64 {
         self.hub.dropped()
     }
@@ -189,7 +187,7 @@ impl Links {
         self.opened
     }
 
-    /// A peer that is called unasked, or one that was heard at a time.
+    /// Adds a configured peer, or a learned one if `heard` is the time of its first datagram.
     fn add(&mut self, socket: SocketId, peer: SocketAddr, heard: Option<Duration>) -> u32 {
         let link = self.number();
         let route = heard.map_or(LinkRoute::Fixed { socket, peer }, |heard| LinkRoute::Learned { socket, peer, heard });
@@ -224,12 +222,12 @@ impl Links {
 
     fn take_stream(&mut self, stream: StreamId, origin: &StreamOrigin) {
         if self.by_stream.len() >= LEARNED_MAX {
-            tracing::warn!("{origin} is not let in: {LEARNED_MAX} clients are connected");
+            tracing::warn!("rejected {origin}: {LEARNED_MAX} clients are connected");
             self.hub.drop_stream(stream);
             return;
         }
         let link = self.number();
-        tracing::info!("{origin} is connected");
+        tracing::info!("{origin} has connected");
         let (kind, limit) = match origin {
             StreamOrigin::Tcp(_) => (LinkKind::Tcp, self.limit),
             StreamOrigin::Serial(device) => (LinkKind::Serial, Some(device.bytes_s())),
@@ -239,19 +237,19 @@ impl Links {
         self.changes.push_back(LinkChange::Opened { link, kind, lockstep: false, learned: false, limit });
     }
 
-    /// A new peer, if what it sends is MAVLink and its port has room.
+    /// Adds a new peer if it sends MAVLink and its port has room for another one.
     fn add_peer(&mut self, socket: SocketId, from: SocketAddr, bytes: &[u8], wall: Duration) -> Option<u32> {
         if !is_mavlink(bytes) {
-            tracing::debug!("a datagram of the stranger {from} holds no MAVLink message");
+            tracing::debug!("ignored a datagram without a MAVLink message from unknown address {from}");
             self.bad_bytes += bytes.len() as u64;
             return None;
         }
         let on_socket = |route: &&LinkRoute| matches!(route, LinkRoute::Learned { socket: other, .. } if *other == socket);
         if self.routes.values().filter(on_socket).count() >= LEARNED_MAX {
-            tracing::debug!("{from} is not let in: {LEARNED_MAX} peers are connected to this port");
+            tracing::debug!("rejected {from}: {LEARNED_MAX} peers are connected to this port");
             return None;
         }
-        tracing::info!("{from} has dialled in");
+        tracing::info!("{from} has connected");
         Some(self.add(socket, from, Some(wall)))
     }
 
@@ -270,7 +268,7 @@ impl Links {
     }
 }
 
-/// A datagram holds a message that we know, with a correct checksum.
+/// Returns true if a datagram contains a known message with a correct checksum.
 fn is_mavlink(bytes: &[u8]) -> bool {
     Decoder::new().datagram(bytes).iter().any(|frame| frame.message.is_some())
 }
@@ -308,7 +306,7 @@ mod tests {
         let mut links = Links::open(&ephemeral(&[]), &[]).unwrap();
         let port = u16::try_from(links.bound["payload_port"].as_u64().unwrap()).unwrap();
         let sidecar = UdpSocket::bind(local(0)).unwrap();
-        // What is no MAVLink makes nobody a peer.
+        // Data other than MAVLink does not add a peer.
         sidecar.send_to(b"h", local(port)).unwrap();
         sidecar.send_to(&send_hello(), local(port)).unwrap();
         let (watch, limit) = (Stopwatch::start(), Duration::from_secs(60));
@@ -334,7 +332,7 @@ mod tests {
         assert_eq!(links.poll(), Some(opened));
     }
 
-    /// Links with one peer that is called, and the socket for those who dial in.
+    /// Returns links with one configured peer, and the socket for ground stations.
     fn called(peer: &str) -> (Links, SocketId) {
         let mut links = Links::open(&ephemeral(&[peer.parse().unwrap()]), &[]).unwrap();
         assert!(matches!(links.poll(), Some(LinkChange::Opened { link: 1, .. })));
@@ -342,7 +340,7 @@ mod tests {
         (links, socket)
     }
 
-    /// The link that speaks up at a time, and whether it is new.
+    /// Simulates a datagram from a port. Returns its link, and whether the link is new.
     fn note_received(links: &mut Links, socket: SocketId, port: u16, at_s: u64) -> Option<(u32, bool)> {
         links.take(NetEvent::Datagram { socket, from: local(port), bytes: send_hello() }, Duration::from_secs(at_s));
         let new = matches!(links.changes.front(), Some(LinkChange::Opened { .. }));
@@ -361,10 +359,10 @@ mod tests {
         assert!(links.changes.is_empty(), "not yet");
         links.forget(Duration::from_secs(101) + FORGET);
         assert_eq!(std::mem::take(&mut links.changes), [LinkChange::Closed { link: 2 }]);
-        assert_eq!(note_received(&mut links, socket, silent, 120), Some((4, true)), "it is new again");
+        assert_eq!(note_received(&mut links, socket, silent, 120), Some((4, true)), "a new link");
         links.forget(Duration::from_secs(1_000_000));
         let closed = [3, 4].map(|link| LinkChange::Closed { link });
-        assert_eq!(std::mem::take(&mut links.changes), closed, "but not the one that is called");
+        assert_eq!(std::mem::take(&mut links.changes), closed, "but not the configured destination");
         assert_eq!(note_received(&mut links, socket, 9, 2_000_000), Some((1, false)));
     }
 
@@ -391,13 +389,17 @@ mod tests {
         assert_eq!(note_received(&mut links, socket, 4_000, 1), Some((2, true)));
         let taken: usize = (10_000..60_000).filter_map(|port| note_received(&mut links, socket, port, 2)).count();
         let all = LEARNED_MAX + 1;
-        assert_eq!((taken, links.routes.len(), links.by_peer.len()), (LEARNED_MAX - 1, all, all), "the one that is called, too");
-        assert_eq!(note_received(&mut links, socket, 4_000, 3), Some((2, false)), "who was there before is heard");
-        assert_eq!(note_received(&mut links, socket, 9, 3), Some((1, false)), "and so is who is called");
-        assert_eq!(note_received(&mut links, socket, 4_003, 3), None, "a stranger is not");
+        assert_eq!(
+            (taken, links.routes.len(), links.by_peer.len()),
+            (LEARNED_MAX - 1, all, all),
+            "including the configured destination"
+        );
+        assert_eq!(note_received(&mut links, socket, 4_000, 3), Some((2, false)), "known peers are still received");
+        assert_eq!(note_received(&mut links, socket, 9, 3), Some((1, false)), "and so is the configured destination");
+        assert_eq!(note_received(&mut links, socket, 4_003, 3), None, "new peers are not");
         links.forget(Duration::from_secs(3) + FORGET);
         links.changes.clear();
-        assert_eq!((links.routes.len(), links.by_peer.len()), (2, 2), "the flood has ebbed away");
+        assert_eq!((links.routes.len(), links.by_peer.len()), (2, 2), "the flood's peers have been removed");
         assert!(note_received(&mut links, socket, 4_003, 19).is_some_and(|(_, new)| new));
     }
 }

@@ -1,4 +1,4 @@
-//! A session's telemetry on disk, read in pieces: its length costs no memory.
+//! Telemetry log of a session on disk, read in chunks, so that long logs do not use more memory.
 
 use crate::errors::AppError;
 use sha2::{Digest, Sha256};
@@ -9,12 +9,12 @@ use std::io::Read;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-/// Bytes read at once.
+/// Size of a chunk, bytes.
 const PIECE: usize = 256 * 1024;
-/// The first record lies within this many bytes.
+/// Number of bytes at the start of the file that contain the first record.
 const HEAD: u64 = 64 * 1024;
 
-/// A telemetry log. Every reading ends where the file ended when it was opened: a session may still be recorded.
+/// A telemetry log. Reads end where the file ended when it was opened, because the session may still be recording.
 #[derive(Debug, Clone)]
 pub struct LogFile {
     path: PathBuf,
@@ -22,45 +22,45 @@ pub struct LogFile {
 }
 
 impl LogFile {
-    /// Finds the file.
+    /// Opens the log and notes its length.
     ///
     /// # Errors
-    /// If it cannot be read.
+    /// If the file cannot be read.
     pub fn open(path: &Path) -> Result<Self, AppError> {
         let len = File::open(path).and_then(|file| file.metadata()).map_err(|error| unreadable(path, &error))?.len();
         Ok(Self { path: path.to_path_buf(), len })
     }
 
-    /// Length, bytes.
+    /// Returns the length, bytes.
     pub fn len(&self) -> u64 {
         self.len
     }
 
-    /// Length of the part that holds whole records, bytes.
+    /// Returns the length of all complete records, bytes.
     ///
     /// # Errors
-    /// If it cannot be read.
+    /// If the file cannot be read.
     pub fn whole_len(&self) -> Result<u64, AppError> {
         let mut splitter = RecordSplitter::default();
         let mut skip = |_: TlogRecord<'_>| ControlFlow::Continue(());
         self.pieces(&mut |piece| splitter.feed(piece, &mut skip)).map_err(|error| unreadable(&self.path, &error))?;
-        // The end of the file completes the last records.
+        // The last record is complete only at the end of the file.
         let _ = splitter.end(&mut skip);
         Ok(splitter.end_of_whole())
     }
 
-    /// Unix time of simulation time zero, µs; `None` for an empty log.
+    /// Returns the Unix time of simulation time zero, µs; `None` for an empty log.
     ///
     /// # Errors
-    /// If it cannot be read.
+    /// If the file cannot be read.
     pub fn session_start_us(&self) -> Result<Option<u64>, AppError> {
         Ok(tlog::session_start_us(&self.read(HEAD)?))
     }
 
-    /// SHA-256 in hexadecimal.
+    /// Returns the SHA-256 of the log, hexadecimal.
     ///
     /// # Errors
-    /// If it cannot be read.
+    /// If the file cannot be read.
     pub fn sha256(&self) -> Result<String, AppError> {
         let mut hash = Sha256::new();
         let mut update = |piece: &[u8]| {
@@ -71,10 +71,10 @@ impl LogFile {
         Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
     }
 
-    /// The whole log in memory.
+    /// Returns the whole log.
     ///
     /// # Errors
-    /// If it cannot be read.
+    /// If the file cannot be read.
     #[cfg(feature = "view")]
     pub fn bytes(&self) -> Result<Vec<u8>, AppError> {
         self.read(self.len)
@@ -118,5 +118,5 @@ impl TelemetryLog for LogFile {
 }
 
 fn unreadable(path: &Path, error: &std::io::Error) -> AppError {
-    AppError::wrong(format!("{}: cannot be read: {error}", path.display()))
+    AppError::wrong(format!("{}: cannot read: {error}", path.display()))
 }

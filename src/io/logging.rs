@@ -1,11 +1,11 @@
-//! Logs on standard error; standard output is reserved for results.
+//! Sets up logging on standard error; standard output is reserved for results.
 
 use std::io::{IsTerminal, stderr};
 use tracing::Level;
 use tracing_subscriber::EnvFilter;
 
-/// Starts logging at this level. The libraries below speak up from warnings on; those of windows and graphics drivers tell the loader's and
-/// the display's troubles one by one, which the one message of the view sums up: they speak when somebody looks for a fault.
+/// Starts logging at this level. Dependencies log warnings and errors only. The window and graphics libraries are quieter still: their driver
+/// messages repeat what the view reports in one message, so they appear only at debug level and below.
 pub fn start(level: Level) {
     let graphics = if level > Level::INFO { "" } else { ",winit=error,wgpu_hal=off" };
     let filter = EnvFilter::new(format!("warn{graphics},spandrel={level}").to_lowercase());
@@ -16,6 +16,6 @@ pub fn start(level: Level) {
         .with_target(false)
         .without_time()
         .try_init();
-    // A second start (tests) keeps the first one's settings.
+    // In tests, a second call keeps the settings of the first.
     drop(done);
 }

@@ -1,7 +1,7 @@
-//! Recordings in MCAP, and the recovery of one that broke off.
+//! MCAP recordings, and the recovery of truncated ones.
 //!
-//! A chunk goes to the disk whole once it has gathered 16 KiB or a second of the flight, so that a program that is killed loses no more than
-//! that; a file without its end is read up to its last whole chunk.
+//! A chunk is written as a whole after 16 KiB or one second of flight, so that a killed program loses no more than that. A file without an end can be
+//! read up to its last complete chunk.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -11,17 +11,17 @@ use spandrel_model::foxglove::{CHANNELS, ChannelMessage};
 use std::collections::BTreeMap;
 use std::io::{Seek, Write};
 
-/// Bytes of a chunk.
+/// Size of a chunk, bytes.
 const CHUNK: u64 = 16 * 1024;
-/// A chunk is written after so much of the flight at the latest, ns.
+/// Maximum flight time in a chunk, ns.
 const FLUSH_AFTER_NS: u64 = 1_000_000_000;
 
 fn options() -> WriteOptions {
-    // Without seeking no half-written chunk is ever on the disk with a length that is still to come.
+    // Without seeking, chunks are never on disk before their length is known.
     WriteOptions::new().compression(None).library("spandrel").chunk_size(Some(CHUNK)).disable_seeking(true)
 }
 
-/// A recording under way.
+/// A recording in progress.
 pub struct McapRecording<W: Write + Seek> {
     writer: Writer<W>,
     channels: Vec<u16>,
@@ -36,10 +36,10 @@ impl<W: Write + Seek> std::fmt::Debug for McapRecording<W> {
 }
 
 impl<W: Write + Seek> McapRecording<W> {
-    /// Begins a file with all schemas and channels.
+    /// Starts a file with all schemas and channels.
     ///
     /// # Errors
-    /// When the disk does not take it.
+    /// If the disk cannot be written.
     pub fn begin(to: W) -> McapResult<Self> {
         let mut writer = options().create(to)?;
         let mut channels = Vec::new();
@@ -53,7 +53,7 @@ impl<W: Write + Seek> McapRecording<W> {
     /// Adds a message.
     ///
     /// # Errors
-    /// When the disk does not take it.
+    /// If the disk cannot be written.
     pub fn write(&mut self, message: &ChannelMessage) -> McapResult<()> {
         let topic = message.topic as usize;
         let at = message.unix_ns;
@@ -68,37 +68,37 @@ impl<W: Write + Seek> McapRecording<W> {
         Ok(())
     }
 
-    /// Writes the index and the end.
+    /// Writes the index and the end of the file.
     ///
     /// # Errors
-    /// When the disk does not take it.
+    /// If the disk cannot be written.
     pub fn end(mut self) -> McapResult<W> {
         self.writer.finish()?;
         Ok(self.writer.into_inner())
     }
 }
 
-/// Bytes as text.
+/// Encodes bytes as base64.
 #[must_use]
 pub fn base64(bytes: &[u8]) -> String {
     STANDARD.encode(bytes)
 }
 
-/// What came of a recovery.
+/// Result of a recovery.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RecoveryResult {
-    /// The whole file.
+    /// The complete recovered file.
     pub bytes: Vec<u8>,
-    /// Messages in it.
+    /// Number of messages in the file.
     pub messages: usize,
-    /// Why reading stopped, where the file had no proper end.
+    /// Reason why reading stopped, if the file was truncated.
     pub broken: Option<String>,
 }
 
-/// Reads a file as far as it goes and writes it anew, with its index and its end.
+/// Reads as much of a file as possible and writes it again, with index and end.
 ///
 /// # Errors
-/// When it is no MCAP file.
+/// If it is not an MCAP file.
 pub fn recover(file: &[u8]) -> McapResult<RecoveryResult> {
     if !file.starts_with(MAGIC) {
         return Err(McapError::BadMagic);
@@ -157,7 +157,7 @@ mod tests {
         assert_eq!(recover(&file).unwrap().broken, None);
     }
 
-    /// Wherever it breaks off, what is lost is at most the chunk that was being written.
+    /// Wherever the file is truncated, only the chunk that was being written is lost.
     #[test]
     fn exact_a_file_that_broke_off_anywhere_is_recovered_to_its_last_whole_chunk() {
         let file = recorded(600);

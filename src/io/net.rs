@@ -1,5 +1,5 @@
-//! Sockets as one queue of arrivals. A thread per socket empties the kernel's buffer even while the core computes; the queue is
-//! bounded, and what does not fit is counted. A bad peer never ends a reader.
+//! Collects the data of all sockets in one queue. A thread per socket drains the kernel's buffer while the core computes. The queue is bounded; data
+//! that does not fit is dropped and counted. A misbehaving peer never ends a reader thread.
 
 use super::serial::{self, SerialDevice};
 use crate::errors::AppError;
@@ -11,29 +11,29 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::time::Duration;
 
-/// Arrivals that wait for the core: some ten seconds of a busy link.
+/// Maximum number of events that wait for the core: about ten seconds of a busy link.
 const QUEUE: usize = 16_384;
-/// Frames that wait for one slow TCP client before new ones are dropped.
+/// Maximum number of frames that wait for a slow TCP client; further ones are dropped.
 const STREAM_QUEUE: usize = 2_048;
-/// Rest after an unexpected socket error, so that a broken interface does not spin.
+/// Delay after an unexpected socket error, so that a broken network interface does not cause a busy loop.
 const REST: Duration = Duration::from_millis(50);
-/// Larger than any UDP payload.
+/// Buffer size, larger than any UDP payload.
 const DATAGRAM_MAX: usize = 65_536;
 
-/// Which UDP socket.
+/// Number of a UDP socket.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct SocketId(usize);
 
-/// Which TCP connection or serial port.
+/// Number of a TCP connection or a serial port.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct StreamId(u32);
 
-/// Where a stream of bytes comes from.
+/// Origin of a byte stream.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum StreamOrigin {
-    /// A client over TCP.
+    /// A client that connected over TCP.
     Tcp(SocketAddr),
-    /// Whoever is at the other end of a serial port.
+    /// A device at a serial port.
     Serial(SerialDevice),
 }
 
@@ -46,33 +46,33 @@ impl std::fmt::Display for StreamOrigin {
     }
 }
 
-/// Something came in.
+/// An event of a socket.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum NetEvent {
-    /// A datagram.
+    /// A datagram was received.
     Datagram {
-        /// On which socket.
+        /// Socket that received it.
         socket: SocketId,
-        /// Its sender.
+        /// Address of the sender.
         from: SocketAddr,
-        /// Its payload.
+        /// Payload of the datagram.
         bytes: Vec<u8>,
     },
     /// A client connected, or a serial port was opened.
     Connected(StreamId, StreamOrigin),
-    /// Bytes of one.
+    /// Bytes were received on a stream.
     Bytes(StreamId, Vec<u8>),
-    /// It is gone.
+    /// The stream was closed.
     Closed(StreamId),
 }
 
-/// What the threads put into the queue.
+/// An entry of the event queue.
 enum QueuedEvent {
     Plain(NetEvent),
     Client(StreamId, StreamOrigin, StreamWriter),
 }
 
-/// The sending side of a stream.
+/// Sending side of a stream.
 #[derive(Debug)]
 struct StreamWriter {
     queue: SyncSender<Vec<u8>>,
@@ -81,12 +81,12 @@ struct StreamWriter {
 
 impl Drop for StreamWriter {
     fn drop(&mut self) {
-        // Ends the reader as well; an error means that the connection is gone already.
+        // Also ends the reader thread. An error means that the connection is already closed.
         let _ = self.socket.as_ref().map(|socket| socket.shutdown(Shutdown::Both));
     }
 }
 
-/// Hands the sending side of a stream to the core and gives what it wants sent; `None` when the core is gone.
+/// Reports a new stream to the core. Returns the frames to send; `None` if the core has stopped.
 fn announce(
     stream: StreamId,
     origin: StreamOrigin,
@@ -120,7 +120,7 @@ impl std::fmt::Debug for QueuedEvent {
 }
 
 impl SocketHub {
-    /// No sockets yet.
+    /// Creates a hub without sockets.
     pub fn new() -> Self {
         let (sender, receiver) = sync_channel(QUEUE);
         let dropped = Arc::new(AtomicU64::new(0));
@@ -135,10 +135,10 @@ impl SocketHub {
         }
     }
 
-    /// Binds a UDP port (0: any free one). `flag` is named in the message when the port is taken.
+    /// Binds a UDP port (0 for any free one). If the port is in use, the error message mentions the option `flag`.
     ///
     /// # Errors
-    /// If it cannot be bound.
+    /// If the port cannot be bound.
     pub fn bind(&mut self, ip: IpAddr, port: u16, flag: &str) -> Result<SocketId, AppError> {
         let socket = UdpSocket::bind((ip, port)).map_err(|error| port_in_use("UDP", ip, port, flag, &error))?;
         let reader = socket.try_clone().map_err(|error| AppError::failed(format!("UDP port {port}: {error}")))?;
@@ -149,10 +149,10 @@ impl SocketHub {
         Ok(id)
     }
 
-    /// Listens for TCP clients and says on which port.
+    /// Listens for TCP clients and returns the port number.
     ///
     /// # Errors
-    /// If it cannot be bound.
+    /// If the port cannot be bound.
     pub fn serve(&self, ip: IpAddr, port: u16, flag: &str) -> Result<u16, AppError> {
         let listener = TcpListener::bind((ip, port)).map_err(|error| port_in_use("TCP", ip, port, flag, &error))?;
         let bound = listener.local_addr().map_or(port, |address| address.port());
@@ -161,13 +161,13 @@ impl SocketHub {
         Ok(bound)
     }
 
-    /// Opens a serial port; when it vanishes it is opened again as soon as it is back.
+    /// Opens a serial port and reopens it after it has been disconnected.
     ///
     /// # Errors
-    /// If it cannot be opened.
+    /// If the port cannot be opened.
     pub fn serve_serial(&mut self, device: &SerialDevice) -> Result<(), AppError> {
         let port = device.open().map_err(|error| AppError::failed(format!("--serial {device}: {error}")))?;
-        // Numbered from the other end, so that they never meet those of TCP clients.
+        // Numbered downward from the maximum, so that the numbers differ from those of TCP clients.
         let stream = StreamId(u32::MAX - self.devices);
         self.devices += 1;
         let (queue, device) = (self.sender.clone(), device.clone());
@@ -180,17 +180,17 @@ impl SocketHub {
         Ok(())
     }
 
-    /// Ends a stream.
+    /// Closes a TCP connection or stops using a serial port.
     pub fn drop_stream(&mut self, stream: StreamId) {
         self.streams.remove(&stream);
     }
 
-    /// The port that a socket is bound to.
+    /// Returns the port number of a socket.
     pub fn port(&self, socket: SocketId) -> u16 {
         self.sockets.get(socket.0).and_then(|socket| socket.local_addr().ok()).map_or(0, |address| address.port())
     }
 
-    /// The next arrival, waiting at most so long.
+    /// Returns the next event; waits for it at most this long.
     pub fn next(&mut self, wait: Duration) -> Option<NetEvent> {
         let inner = if wait.is_zero() { self.receiver.try_recv().ok() } else { self.receiver.recv_timeout(wait).ok() };
         match inner? {
@@ -207,17 +207,17 @@ impl SocketHub {
         }
     }
 
-    /// Sends one datagram. A peer that is not there yet is normal; other trouble is told once for each peer.
+    /// Sends a datagram. A peer that does not listen yet is no error; any other error is logged once per peer.
     pub fn send(&mut self, socket: SocketId, to: SocketAddr, bytes: &[u8]) {
         let Some(socket) = self.sockets.get(socket.0) else { return };
         let Err(error) = socket.send_to(bytes, to) else { return };
         let kind = error.kind();
         if kind != ErrorKind::ConnectionRefused && self.reported_errors.insert(to, kind) != Some(kind) {
-            tracing::warn!("cannot send to {to}: {error} (only this machine can be reached unless --listen says otherwise)");
+            tracing::warn!("cannot send to {to}: {error} (by default only this machine can be reached; see --listen)");
         }
     }
 
-    /// Sends to a TCP client; a client that does not read loses frames, never holds anybody up.
+    /// Sends to a stream. A client that does not read loses frames, but never blocks the sender.
     pub fn send_stream(&self, stream: StreamId, bytes: Vec<u8>) {
         let Some(writer) = self.streams.get(&stream) else { return };
         if let Err(TrySendError::Full(_)) = writer.queue.try_send(bytes) {
@@ -225,7 +225,7 @@ impl SocketHub {
         }
     }
 
-    /// Arrivals and frames that found their queue full.
+    /// Returns the number of events and frames dropped because a queue was full.
     pub fn dropped(&self) -> u64 {
         self.dropped.load(Ordering::Relaxed)
     }
@@ -234,12 +234,12 @@ impl SocketHub {
 fn port_in_use(kind: &str, ip: IpAddr, port: u16, flag: &str, error: &std::io::Error) -> AppError {
     match error.kind() {
         ErrorKind::AddrInUse => AppError::failed(format!(
-            "{kind} port {port} on {ip} is in use: does another simulator or ground station run? Choose another with {flag} or \
-             --instance (0 takes any free port where a port is asked for)"
+            "{kind} port {port} on {ip} is in use, perhaps by another simulator or ground station: choose another one with {flag} or \
+             --instance (port 0 selects any free port)"
         )),
-        ErrorKind::AddrNotAvailable => AppError::wrong(format!("{ip} is no address of this machine (--listen)")),
-        ErrorKind::PermissionDenied => AppError::failed(format!("{kind} port {port} may not be opened by this user ({flag})")),
-        _ => AppError::failed(format!("{kind} port {port} on {ip} cannot be opened: {error}")),
+        ErrorKind::AddrNotAvailable => AppError::wrong(format!("{ip} is not an address of this machine (--listen)")),
+        ErrorKind::PermissionDenied => AppError::failed(format!("no permission to open {kind} port {port} ({flag})")),
+        _ => AppError::failed(format!("cannot open {kind} port {port} on {ip}: {error}")),
     }
 }
 
@@ -257,7 +257,7 @@ fn read_datagrams(socket: &UdpSocket, id: SocketId, queue: &SyncSender<QueuedEve
                     Err(TrySendError::Disconnected(_)) => return,
                 }
             }
-            // ICMP "port unreachable" for something sent before: the peer is not there yet, or no more.
+            // ICMP "port unreachable" for an earlier datagram: the peer is not listening.
             Err(error) if matches!(error.kind(), ErrorKind::ConnectionRefused | ErrorKind::ConnectionReset) => {}
             Err(error) if error.kind() == ErrorKind::Interrupted => {}
             Err(_) => std::thread::sleep(REST),
@@ -272,7 +272,7 @@ fn accept_clients(listener: &TcpListener, queue: &SyncSender<QueuedEvent>) {
             continue;
         };
         if serve_client(StreamId(number), socket, from, queue).is_err() {
-            tracing::warn!("TCP client {from} was lost while it connected");
+            tracing::warn!("TCP client {from} disconnected during connection setup");
         }
     }
 }
@@ -296,7 +296,7 @@ fn serve_client(stream: StreamId, socket: TcpStream, from: SocketAddr, queue: &S
                 return;
             }
         }
-        // When the main thread is gone there is nobody to tell.
+        // Fails if the core has stopped; there is nothing to report in that case.
         let _ = queue.send(QueuedEvent::Plain(NetEvent::Closed(stream)));
     });
     Ok(())
@@ -308,7 +308,7 @@ mod tests {
     use std::net::Ipv4Addr;
 
     const LOOPBACK: IpAddr = IpAddr::V4(Ipv4Addr::LOCALHOST);
-    /// Only keeps a broken test from hanging.
+    /// Keeps a failing test from hanging.
     const LONG: Duration = Duration::from_secs(60);
 
     #[test]

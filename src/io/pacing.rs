@@ -1,18 +1,17 @@
-//! How simulation time follows wall time: real time, N times, or flat out. Pure: the wall clock is an argument.
+//! Maps wall time to simulation time: real time, N times real time, or as fast as possible. The wall clock is an argument.
 
 use spandrel_model::time::SimTime;
 use std::str::FromStr;
 use std::time::Duration;
 
-/// Largest step of simulation time between two looks at the sockets: the lockstep interval (docs/src/reference/wire.md, "One
-/// simulation step").
+/// Longest step of simulation time between two polls of the sockets: the lockstep interval (docs/src/reference/wire.md, "One simulation step").
 pub const STEP: SimTime = SimTime::from_ms(20);
-/// A lockstep peer that does not answer for this much wall time ends the run.
+/// Wall time after which a lockstep peer that does not answer ends the run.
 pub const PATIENCE: Duration = Duration::from_secs(10);
-/// A host that falls behind by more wall time than this does not catch up: the clock slips, and the slip is reported.
+/// Wall-clock delay above which the simulation does not catch up: the clock slips, and the slip is reported.
 const SLACK: Duration = Duration::from_millis(250);
 
-/// How fast simulation time runs.
+/// Speed of the simulation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SimulationSpeed {
     /// Multiple of real time.
@@ -21,11 +20,12 @@ pub enum SimulationSpeed {
     Max,
 }
 
-/// Largest multiple of real time.
+/// Highest speed, as a multiple of real time.
 const FASTEST: f64 = 100.0;
 
 impl SimulationSpeed {
-    /// Simulation seconds per second of a client outside lockstep. Unknown at `max`, which counts as the largest multiple.
+    /// Returns the simulation seconds per second of a client outside lockstep, at least 1. At `max` the speed is unknown; the highest multiple is
+    /// returned.
     pub fn client_speed_factor(self) -> f64 {
         match self {
             Self::Times(times) => times.max(1.0),
@@ -62,11 +62,11 @@ pub struct Lateness {
     pub latest: Duration,
     /// Number of delays beyond the limit, at which the clock slipped.
     pub slips: u32,
-    /// Total time slipped.
+    /// Total wall time that the clock has slipped.
     pub slipped: Duration,
 }
 
-/// Maps wall time to the simulation time that is due.
+/// Computes the simulation time that the wall clock asks for.
 #[derive(Debug, Clone)]
 pub struct WallPacer {
     speed: SimulationSpeed,
@@ -76,12 +76,12 @@ pub struct WallPacer {
 }
 
 impl WallPacer {
-    /// Simulation time zero is now.
+    /// Creates a pacer whose simulation time is zero at wall time `wall`.
     pub fn new(speed: SimulationSpeed, wall: Duration) -> Self {
         Self { speed, wall, sim: SimTime::ZERO, late: Lateness::default() }
     }
 
-    /// The simulation time to run to, at most [`STEP`] past `reached`.
+    /// Returns the simulation time to run to, at most [`STEP`] past `reached`.
     pub fn target(&mut self, wall: Duration, reached: SimTime) -> SimTime {
         let SimulationSpeed::Times(times) = self.speed else { return reached + STEP };
         let due = self.due(wall, times);
@@ -97,7 +97,7 @@ impl WallPacer {
         due.min(reached + STEP)
     }
 
-    /// Runs at another speed from now on.
+    /// Changes the speed from now on.
     pub fn set_speed(&mut self, speed: SimulationSpeed, wall: Duration, reached: SimTime) {
         if self.speed != speed {
             self.speed = speed;
@@ -105,19 +105,19 @@ impl WallPacer {
         }
     }
 
-    /// Time stands still: what passes on the wall does not count, and no machine was too slow.
+    /// Moves the reference point to now, so that a pause does not count as a delay.
     pub fn hold(&mut self, wall: Duration, reached: SimTime) {
         (self.wall, self.sim) = (wall, reached);
     }
 
-    /// Wall time to sleep until `next` is due.
+    /// Returns the wall time to sleep until simulation time `next`.
     pub fn sleep(&self, wall: Duration, next: SimTime) -> Duration {
         let SimulationSpeed::Times(times) = self.speed else { return Duration::ZERO };
         let due_s = (next.saturating_sub(self.sim)).s() / times;
         (self.wall + Duration::from_secs_f64(due_s)).saturating_sub(wall)
     }
 
-    /// How late the machine has been.
+    /// Returns the delay of the simulation so far.
     pub fn lateness(&self) -> Lateness {
         self.late
     }
@@ -127,11 +127,11 @@ impl WallPacer {
     }
 }
 
-/// A peer that speaks but does not answer TIMESYNC is waited for so long, and served in real time afterwards.
+/// Time after which a peer that sends data but does not answer TIMESYNC is served in real time.
 const FIRST_ANSWER: Duration = Duration::from_secs(3);
 
-/// How long time stands still for a peer's first answer: nothing of the flight has passed then, so that a peer that answers soon is in step from
-/// the first tick on.
+/// Pauses the simulation until a peer's first answer. No simulation time passes until then, so a peer that answers soon is in lockstep from the first
+/// tick.
 #[derive(Debug, Clone, Default)]
 pub struct FirstAnswerWait {
     since: Option<Duration>,
@@ -142,16 +142,16 @@ pub struct FirstAnswerWait {
 /// Action while the peer's first answer is outstanding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FirstAnswerAction {
-    /// Wait.
+    /// Keep waiting for the peer.
     Wait,
-    /// Say again that the vehicle is there.
+    /// Announce the vehicle again.
     Announce,
-    /// Go on without it.
+    /// Continue without the peer.
     Proceed,
 }
 
 impl FirstAnswerWait {
-    /// What is to be done at wall time `wall`; `heard`: something has come from the peer.
+    /// Returns the action at wall time `wall`; `heard` is true once data has arrived from the peer, `every` is the announcement interval.
     pub fn action_due(&mut self, heard: bool, wall: Duration, every: Duration) -> FirstAnswerAction {
         let since = *self.since.get_or_insert(wall);
         let over = |since: Duration, most: Duration| wall.saturating_sub(since) > most;
@@ -170,7 +170,7 @@ impl FirstAnswerWait {
     }
 }
 
-/// Limits how long the simulation waits for lockstep peers. Only waiting without progress counts: at `max` speed it waits at every step.
+/// Limits how long the simulation waits for lockstep peers. Only waiting without progress counts, because at `max` speed every step waits.
 #[derive(Debug, Clone, Default)]
 pub struct LockstepTimeout {
     stalled_since: Option<(SimTime, Duration)>,
@@ -252,7 +252,7 @@ mod tests {
     fn regress_only_blocked_time_counts_toward_the_timeout() {
         let mut patience = LockstepTimeout::default();
         for (reached, wall) in (0..100).map(|step| SimTime::from_ms(20 * step)).zip((0..100).map(Duration::from_secs)) {
-            assert!(!patience.is_over(reached, wall), "a long run in step is no silence");
+            assert!(!patience.is_over(reached, wall), "a long run in lockstep is not a timeout");
         }
         let (stuck, since) = (SimTime::from_ms(20 * 99), Duration::from_secs(99));
         assert!(!patience.is_over(stuck, since + PATIENCE));

@@ -1,28 +1,28 @@
-//! The file that keeps a vehicle's parameters.
+//! File that stores a vehicle's parameters.
 
 use crate::errors::AppError;
 use spandrel_sitl::endpoint::params::text::ParamFileProblem;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// The file.
+/// A file with a vehicle's parameters, in QGroundControl's .params format.
 #[derive(Debug)]
 pub struct ParamFile {
     path: PathBuf,
-    /// Changes of parameters that it holds.
+    /// Change counter of the parameters when the file was last saved.
     pub saved_changes: u64,
 }
 
 impl ParamFile {
-    /// A file that may not be there yet.
+    /// Creates a handle for a file that may not exist yet.
     pub fn new(path: PathBuf) -> Self {
         Self { path, saved_changes: 0 }
     }
 
-    /// What it says; `None` when it is not there.
+    /// Returns the contents; `None` if the file does not exist.
     ///
     /// # Errors
-    /// When it is there and cannot be read.
+    /// If the file exists and cannot be read.
     pub fn text(&self) -> Result<Option<String>, AppError> {
         match std::fs::read_to_string(&self.path) {
             Ok(text) => Ok(Some(text)),
@@ -31,17 +31,17 @@ impl ParamFile {
         }
     }
 
-    /// What is wrong with it, as one message.
+    /// Combines the problems of the file into one error.
     pub fn wrong(&self, problems: &[ParamFileProblem]) -> AppError {
         let lines: Vec<String> =
             problems.iter().map(|problem| format!("{}:{}: {}", self.path.display(), problem.line, problem.what)).collect();
         AppError::wrong(lines.join("\n"))
     }
 
-    /// Writes it as a whole: whoever reads it meanwhile, and whoever finds it after a crash, sees the old or the new one.
+    /// Replaces the whole file, so that concurrent readers, or a reader after a crash, see either the old or the new one.
     ///
     /// # Errors
-    /// If it cannot be written; the old one is left.
+    /// If the file cannot be written; the old one remains.
     pub fn write(&self, text: &str) -> Result<(), AppError> {
         let failed = |error: std::io::Error| AppError::failed(format!("--params {}: {error}", self.path.display()));
         let beside = beside(&self.path);

@@ -1,5 +1,5 @@
-//! Frames as Parquet, for notebooks and databases: the columns of the CSV export, typed, each with its unit, frame and definition in the
-//! metadata of its field.
+//! Writes frames as Parquet, for notebooks and databases. The typed columns are those of the CSV export; the metadata of each field gives its unit,
+//! frame and definition.
 
 mod arrow_schema;
 
@@ -17,15 +17,15 @@ use spandrel_monitor::export::columns::Read;
 use spandrel_monitor::export::{COLUMNS, Column, FrameRow};
 use std::sync::Arc;
 
-/// Key under which readers built on Arrow look for the types and metadata of fields.
+/// Metadata key under which Arrow-based readers look for the types and metadata of fields.
 const ARROW_SCHEMA: &str = "ARROW:schema";
 
-/// Writes frames as a Parquet file.
+/// Returns the frames as a Parquet file.
 ///
 /// # Errors
-/// Never in practice: it is written to memory.
+/// Does not happen in practice, because the file is written to memory.
 pub fn frames(rows: &[FrameRow]) -> Result<Vec<u8>, AppError> {
-    write(rows).map_err(|error| AppError::failed(format!("the Parquet file cannot be made: {error}")))
+    write(rows).map_err(|error| AppError::failed(format!("cannot create the Parquet file: {error}")))
 }
 
 fn write(rows: &[FrameRow]) -> Result<Vec<u8>, ParquetError> {
@@ -43,7 +43,7 @@ fn write(rows: &[FrameRow]) -> Result<Vec<u8>, ParquetError> {
     file.into_inner()
 }
 
-/// The schema in Parquet's own notation.
+/// Returns the schema in Parquet's notation.
 fn message_type() -> String {
     let line = |column: &Column| {
         let (kind, annotation) = match column.read {
@@ -58,7 +58,7 @@ fn message_type() -> String {
     format!("message frames {{ {} }}", COLUMNS.iter().map(line).collect::<Vec<_>>().join(" "))
 }
 
-/// The same schema in Arrow's form, with units, frames and definitions.
+/// Returns the same schema in Arrow's format, with units, frames and definitions.
 fn arrow_metadata() -> String {
     let field = |column: &Column| Field {
         name: column.name,
@@ -89,7 +89,7 @@ fn write_column(group: &mut Group<'_>, column: &Column, rows: &[FrameRow]) -> Re
     }
 }
 
-/// Writes the next column; a level of 1 marks a value, 0 a null.
+/// Writes the next column. Definition level 1 marks a value, 0 a null.
 fn next<T: DataType>(
     group: &mut Group<'_>,
     column: &Column,

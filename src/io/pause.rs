@@ -1,20 +1,20 @@
-//! Time that stands still because the parent process says so: lines `pause` and `resume` on standard input.
+//! Pauses the simulation on request of the parent process: lines `pause` and `resume` on standard input.
 
 use super::stop::StopRequest;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The line that stops time.
+/// Line that pauses the simulation.
 pub const PAUSE: &str = "pause";
-/// The line that lets it run again.
+/// Line that resumes the simulation.
 pub const RESUME: &str = "resume";
 
-/// Whether time stands still, shared by all vehicles of a process.
+/// Pause flag, shared by all vehicles of a process.
 #[derive(Debug, Clone, Default)]
 pub struct PauseSwitch(Arc<AtomicBool>);
 
 impl PauseSwitch {
-    /// Does from now on what standard input says; its end ends the process.
+    /// Follows the `pause` and `resume` lines on standard input. When standard input closes, the process is asked to stop.
     pub fn listen(stop: &StopRequest) -> Self {
         let (still, lines) = (Self::default(), stop.lines());
         let heeding = still.clone();
@@ -23,14 +23,14 @@ impl PauseSwitch {
                 match line.trim() {
                     PAUSE => heeding.0.store(true, Ordering::Relaxed),
                     RESUME => heeding.0.store(false, Ordering::Relaxed),
-                    other => tracing::warn!("'{other}' on standard input is left alone (allowed: {PAUSE}, {RESUME})"),
+                    other => tracing::warn!("ignored '{other}' on standard input (allowed: {PAUSE}, {RESUME})"),
                 }
             }
         });
         still
     }
 
-    /// It stands still now.
+    /// Returns true while the simulation is paused.
     pub fn is_paused(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }

@@ -3,7 +3,7 @@
 use crate::errors::AppError;
 use spandrel_view::picture::Picture;
 
-/// A picture as a PNG file.
+/// Encodes an image as PNG.
 pub fn png(picture: &Picture) -> Result<Vec<u8>, AppError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, picture.width, picture.height);

@@ -1,14 +1,14 @@
-//! Progress on standard error: one moving line on a terminal, a log line now and then elsewhere.
+//! Shows progress on standard error: a spinner on a terminal, otherwise a log line every 15 s.
 
 use super::clock::Stopwatch;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{IsTerminal, stderr};
 use std::time::Duration;
 
-/// Between two log lines when standard error is no terminal.
+/// Interval between log lines when standard error is not a terminal.
 const LINE_EVERY: Duration = Duration::from_secs(15);
 
-/// Something that takes longer than a second.
+/// Progress display of a long operation.
 #[derive(Debug)]
 pub struct ProgressLog {
     bar: Option<ProgressBar>,
@@ -17,7 +17,7 @@ pub struct ProgressLog {
 }
 
 impl ProgressLog {
-    /// Starts with a first word.
+    /// Starts the display with a first message.
     pub fn start(what: &str) -> Self {
         let bar = stderr().is_terminal().then(|| {
             let bar = ProgressBar::new_spinner();
@@ -31,7 +31,7 @@ impl ProgressLog {
         Self { bar, stopwatch: Stopwatch::start(), lines: 0 }
     }
 
-    /// Reports the progress; can be called at any rate.
+    /// Updates the message; can be called at any rate.
     pub fn report(&mut self, message: impl FnOnce() -> String) {
         match &self.bar {
             Some(bar) => bar.set_message(message()),
@@ -43,7 +43,7 @@ impl ProgressLog {
         }
     }
 
-    /// Clears the line.
+    /// Removes the spinner from the terminal.
     pub fn end(&self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();

@@ -7,7 +7,7 @@ use std::io::Write;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Writes beside and renames, so that a reader or a kill never sees half a file.
+/// Writes a temporary file next to the target and renames it, so that neither a reader nor a killed process leaves a partial file.
 ///
 /// # Errors
 /// If the disk cannot be written.
@@ -15,7 +15,7 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
     Ok(replaced(path, bytes, |_| Ok(()))?)
 }
 
-/// As [`replace`], and not even a power failure leaves half a file.
+/// Like [`replace`], but also safe against a power failure.
 ///
 /// # Errors
 /// If the disk cannot be written.
@@ -24,7 +24,7 @@ pub fn replace_durably(path: &Path, bytes: &[u8]) -> Result<(), WriteRefused> {
 }
 
 fn replaced(path: &Path, bytes: &[u8], settle: fn(&File) -> std::io::Result<()>) -> Result<(), WriteRefused> {
-    // A name of its own: two who write the same file at once must not rename each other's half.
+    // The temporary name is unique: two writers of the same file must not rename each other's partial file.
     static WRITTEN: AtomicU64 = AtomicU64::new(0);
     let mut beside = path.to_path_buf().into_os_string();
     beside.push(format!(".{}-{}.new", std::process::id(), WRITTEN.fetch_add(1, Ordering::Relaxed)));
@@ -36,7 +36,7 @@ fn replaced(path: &Path, bytes: &[u8], settle: fn(&File) -> std::io::Result<()>)
         std::fs::rename(&beside, path)
     };
     write().map_err(|error| {
-        // Nobody else would ever write over it.
+        // No later write reuses this name, so the file would remain.
         let _ = std::fs::remove_file(&beside);
         WriteRefused { path: path.to_path_buf(), error }
     })

@@ -45,11 +45,11 @@ pub fn compared(first: &Path, second: &Path) -> Result<String, AppError> {
 /// If files are invalid, the session has no data to report, or the page cannot be written.
 #[cfg(feature = "view")]
 pub fn pictures(session: &Path) -> Result<Vec<spandrel_training::report::pictures::ReviewedPicture>, AppError> {
-    // Who asks is about to draw the photographs.
+    // The caller is about to draw the photographs.
     Ok(reviewed(session, Vec::new())?.pictures)
 }
 
-/// Returns the maximum size of each photograph, bytes, if the page contains this many.
+/// Returns the maximum size of each photograph, bytes, for a page with `count` photographs.
 #[cfg(feature = "view")]
 pub fn max_pictures(count: usize) -> usize {
     let share = PICTURES_MOST / (count.max(1) as u64);
@@ -105,7 +105,7 @@ fn session_facts(session: &Path, stored: &StoredSession) -> Result<SessionFacts,
     })
 }
 
-/// Returns the photographs that fit into the page, keyed by the number at the end of their names, each as its small copy if there
+/// Returns the photographs that fit into the page, keyed by the number at the end of their file names. Uses the small copy of a photograph if there
 /// is one.
 fn photographs(folder: &Path) -> Vec<(u32, Jpeg)> {
     let files = numbered(folder);
@@ -122,8 +122,8 @@ fn photographs(folder: &Path) -> Vec<(u32, Jpeg)> {
     let sketched = files.len() - found.len();
     if sketched > 0 {
         tracing::warn!(
-            "{}: {sketched} of {} photographs are sketches in the report, which takes in {} kB of each and {} kB of all: `spandrel render \
-             SESSION --snapshots` makes copies that fit",
+            "{}: {sketched} of {} photographs are shown as sketches in the report, because the limit is {} kB each and {} kB in total: `spandrel render \
+             SESSION --snapshots` creates copies that fit",
             folder.display(),
             files.len(),
             PICTURE_MOST / 1000,
@@ -175,7 +175,11 @@ mod tests {
         (3..14).for_each(|k| put(&format!("{k:04}.jpg"), PICTURE_MOST));
         let found: Vec<(u32, u64)> = photographs(folder.path()).iter().map(|(k, file)| (*k, file.bytes.len() as u64)).collect();
         let whole = (3..=11).map(|k| (k, PICTURE_MOST));
-        assert_eq!(found, [(1, 70)].into_iter().chain(whole).collect::<Vec<_>>(), "ten times the most of one, less the copy");
+        assert_eq!(
+            found,
+            [(1, 70)].into_iter().chain(whole).collect::<Vec<_>>(),
+            "ten times the limit of one, less the small copy"
+        );
     }
 
     #[test]

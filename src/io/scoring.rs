@@ -12,15 +12,15 @@ use spandrel_monitor::{AssessError, AssessedSession, assess_log, export};
 /// Scores a log.
 ///
 /// # Errors
-/// When there is nothing to score.
+/// If there is nothing to score.
 pub fn grade(log: &(impl TelemetryLog + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> Result<AssessedSession, AppError> {
     assess_log(log, scenario, vehicle, build_site).map_err(|error| refused(&error))
 }
 
-/// Reads the scored frames of a stored session, for exports.
+/// Returns the scored frames of a stored session, for exports.
 ///
 /// # Errors
-/// When there is nothing to score.
+/// If there is nothing to score.
 pub fn frame_rows(stored: &StoredSession) -> Result<Vec<FrameRow>, AppError> {
     let rows = export::frame_rows(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle);
     rows.map_err(|error| refused(&error))
@@ -29,7 +29,7 @@ pub fn frame_rows(stored: &StoredSession) -> Result<Vec<FrameRow>, AppError> {
 fn refused(error: &AssessError) -> AppError {
     match error {
         AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => {
-            AppError::wrong(format!("{error}: score the log against the scenario that was flown"))
+            AppError::wrong(format!("{error}: use the scenario and seed of the flight"))
         }
         AssessError::NeverFlown | AssessError::NoTruth | AssessError::NoSeed | AssessError::Unreadable(_) => {
             AppError::failed(error.to_string())

@@ -1,4 +1,4 @@
-//! Serial ports: a telemetry radio or a cable.
+//! Serial ports for telemetry radios and cables.
 
 use serial2::SerialPort;
 use std::fmt;
@@ -8,11 +8,11 @@ use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 use std::time::Duration;
 
-/// Bits on the line for a byte: start, eight, stop.
+/// Bits per byte on the wire: one start bit, eight data bits, one stop bit.
 const BITS_A_BYTE: f64 = 10.0;
-/// Between two looks for a port that has vanished.
+/// Interval between attempts to reopen a disconnected port.
 const AGAIN: Duration = Duration::from_secs(1);
-/// Baud rates that radios and cables use; the system refuses what its hardware cannot do.
+/// Baud rates in use by radios and cables. The system rejects rates that its hardware does not support.
 const BAUD: std::ops::RangeInclusive<u32> = 1_200..=4_000_000;
 
 /// A serial port and its speed.
@@ -23,15 +23,15 @@ pub struct SerialDevice {
 }
 
 impl SerialDevice {
-    /// What it carries, bytes a second.
+    /// Returns the capacity, bytes/s.
     pub fn bytes_s(&self) -> f64 {
         f64::from(self.baud) / BITS_A_BYTE
     }
 
-    /// Opens it raw: no flow control, no parity.
+    /// Opens the port in raw mode, without flow control or parity.
     ///
     /// # Errors
-    /// When it is not there, is in use, or cannot do the baud rate.
+    /// If the port does not exist, is in use, or does not support the baud rate.
     pub fn open(&self) -> std::io::Result<SerialPort> {
         SerialPort::open(&self.path, self.baud)
     }
@@ -47,7 +47,11 @@ impl FromStr for SerialDevice {
     type Err = String;
     fn from_str(text: &str) -> Result<Self, String> {
         let wrong = || {
-            format!("'{text}' is no DEVICE:BAUD such as /dev/ttyUSB0:57600 (allowed: {} to {} baud)", BAUD.start(), BAUD.end())
+            format!(
+                "'{text}' is not DEVICE:BAUD, for example /dev/ttyUSB0:57600 (allowed: {} to {} baud)",
+                BAUD.start(),
+                BAUD.end()
+            )
         };
         let (path, baud) = text.rsplit_once(':').ok_or_else(wrong)?;
         let baud = baud.parse().ok().filter(|baud| BAUD.contains(baud)).ok_or_else(wrong)?;
@@ -55,8 +59,8 @@ impl FromStr for SerialDevice {
     }
 }
 
-/// Reads a port until nobody wants its bytes any more: `begin` gives what is to be written, `give` takes what was read, `end` is told
-/// when the port vanishes; then it is looked for until it is back.
+/// Reads a port until its bytes are no longer needed. `begin` returns the frames to write, `give` receives the bytes read, and `end` is called when
+/// the port disconnects; the port is then reopened as soon as possible.
 pub fn keep(
     device: &SerialDevice,
     mut port: SerialPort,
@@ -69,7 +73,7 @@ pub fn keep(
         if !read(port, frames, &give) || !end() {
             return;
         }
-        tracing::warn!("serial port {device} is gone; it is opened again when it is back");
+        tracing::warn!("serial port {device} disconnected; it is reopened when it is back");
         port = loop {
             std::thread::sleep(AGAIN);
             if let Ok(port) = device.open() {
@@ -79,13 +83,13 @@ pub fn keep(
     }
 }
 
-/// False when nobody wants the bytes; true when the port is gone.
+/// Reads the port while a thread writes `frames` to it. Returns false if the bytes are no longer needed, true if the port disconnected.
 fn read(port: SerialPort, frames: Receiver<Vec<u8>>, give: &impl Fn(&[u8]) -> bool) -> bool {
     let port = Arc::new(port);
     let to_write = Arc::clone(&port);
     std::thread::spawn(move || {
         for frame in frames {
-            // A port that is gone is told by its reader; a radio that is full loses what it cannot take.
+            // The reader detects a disconnected port; a radio whose buffer is full drops the frame.
             let _ = to_write.write_all(&frame);
         }
     });

@@ -1,4 +1,4 @@
-//! The session folder on disk: created once, appended to, flushed; a killed monitor finds its place again.
+//! Session folder on disk: created once, appended to and flushed. A monitor that was killed can resume in it.
 
 use super::append_file::{AppendFile, WriteRefused, sync_folder, whole_lines};
 use super::clock;
@@ -25,32 +25,32 @@ pub struct SessionFolder {
     starts: u32,
 }
 
-/// What a session folder holds, read back.
+/// Contents of a session folder, read back.
 #[derive(Debug)]
 pub struct StoredSession {
-    /// The job as resolved.
+    /// Scenario with the seed and the placed defects.
     pub scenario: ScenarioFile,
-    /// The aircraft.
+    /// Aircraft of the session.
     pub vehicle: VehicleFile,
-    /// The telemetry.
+    /// Telemetry log of the session.
     pub log: LogFile,
-    /// Who flew.
+    /// ID of the trainee.
     pub trainee: String,
-    /// What for, where somebody chose.
+    /// Purpose of the flight, if one was chosen.
     pub purpose: Option<String>,
     /// Wall time of simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// Starts of the monitor so far.
+    /// Number of monitor starts so far.
     pub starts: u32,
-    /// Version of the program that recorded it; empty when nothing says so.
+    /// Version of the program that recorded the session; empty if unknown.
     pub spandrel_version: String,
 }
 
 impl SessionFolder {
-    /// Makes `SESSIONS/<utc>-<trainee>-<scenario>-<short id>/`.
+    /// Creates `SESSIONS/<utc>-<trainee>-<scenario>-<short id>/`.
     ///
     /// # Errors
-    /// If it cannot be made or written.
+    /// If the folder cannot be created or written.
     pub fn create(
         sessions: &Path,
         trainee: &str,
@@ -74,17 +74,17 @@ impl SessionFolder {
         Self::open(path, scenario.text.clone(), vehicle.text.clone(), readable, 1)
     }
 
-    /// Opens a folder in which a monitor was killed; telemetry and events are cut to whole records and lines.
+    /// Opens a folder in which a monitor was killed; truncates telemetry and events to complete records and lines.
     ///
     /// # Errors
-    /// When it is no session folder, another monitor records it, or it cannot be written.
+    /// If this is not a session folder, another monitor is recording to it, or it cannot be written.
     pub fn resume(path: &Path, stored: &StoredSession) -> Result<Self, AppError> {
         let (readable, _) = clock::utc(stored.started_unix_us);
         let (scenario, vehicle) = (stored.scenario.text.clone(), stored.vehicle.text.clone());
         let mut folder = Self::open(path.to_path_buf(), scenario, vehicle, readable, stored.starts + 1)?;
-        // Another monitor may have ended between the reading and the lock.
+        // Another monitor may have finished between reading and locking.
         if folder.telemetry.len() != stored.log.len() {
-            return Err(AppError::failed(format!("{}: the session grew while it was read: try again", path.display())));
+            return Err(AppError::failed(format!("{}: the session grew while it was being read; try again", path.display())));
         }
         folder.telemetry.cut(stored.log.whole_len()?)?;
         let events_path = path.join(EVENTS);
@@ -106,12 +106,12 @@ impl SessionFolder {
         Ok(Self { path, telemetry, events, scenario_toml, vehicle_toml, started_utc, starts })
     }
 
-    /// Where it is.
+    /// Returns the path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Takes a record; it reaches the disk with the next [`Self::flush`].
+    /// Adds a record, which is written with the next [`Self::flush`].
     pub fn record(&mut self, record: SessionOutput) {
         match record {
             SessionOutput::Telemetry(bytes) => self.telemetry.push(&bytes),
@@ -122,23 +122,23 @@ impl SessionFolder {
     /// Writes pending records.
     ///
     /// # Errors
-    /// When the disk refuses; the files then hold whole records, and the next call tries again.
+    /// If the disk cannot be written. The files then contain complete records only, and the next call retries.
     pub fn flush(&mut self) -> Result<(), WriteRefused> {
         let telemetry = self.telemetry.flush();
         self.events.flush().and(telemetry)
     }
 
-    /// Bytes that the disk has not taken yet.
+    /// Returns the number of bytes that have not been written yet.
     pub fn pending(&self) -> usize {
         self.telemetry.pending() + self.events.pending()
     }
 
-    /// Records that were dropped because the disk refused for too long.
+    /// Returns the number of records dropped because the disk could not be written for too long.
     pub fn dropped(&self) -> u64 {
         self.telemetry.dropped() + self.events.dropped()
     }
 
-    /// Waits until the session is on the disk itself.
+    /// Waits until the session has been written to the physical disk.
     ///
     /// # Errors
     /// If the disk cannot be written.
@@ -149,7 +149,7 @@ impl SessionFolder {
         self.path.parent().map_or(Ok(()), |sessions| sync_folder(sessions, &[]))
     }
 
-    /// Writes the seed and the placed defects into `scenario.toml`.
+    /// Saves the seed and the placed defects in `scenario.toml`.
     ///
     /// # Errors
     /// If the disk cannot be written; the next call retries.
@@ -180,10 +180,10 @@ impl SessionFolder {
 }
 
 impl StoredSession {
-    /// The job of a session folder alone.
+    /// Reads only the scenario of a session folder.
     ///
     /// # Errors
-    /// When it is no session folder or the file is wrong.
+    /// If this is not a session folder, or the file is invalid.
     pub fn scenario_of(path: &Path) -> Result<ScenarioFile, AppError> {
         if !is_session(path) {
             return Err(no_session(path));
@@ -191,10 +191,11 @@ impl StoredSession {
         files::scenario(&path.join(SCENARIO).display().to_string())
     }
 
-    /// Reads a session folder. The log and the two TOMLs are the source; without `session.json` the folder's name tells the trainee.
+    /// Reads a session folder. The telemetry log and the two TOML files are required; without `session.json`, the trainee is taken from the folder
+    /// name.
     ///
     /// # Errors
-    /// When one of these is missing or a file is wrong.
+    /// If one of these files is missing or invalid.
     pub fn read(path: &Path) -> Result<Self, AppError> {
         if !is_session(path) {
             return Err(no_session(path));
@@ -225,10 +226,10 @@ impl StoredSession {
     }
 }
 
-/// Whose session it is, and the wall time of its simulation time zero, µs since the Unix epoch; quicker than reading all of it.
+/// Returns the trainee of a session and the wall time of its simulation time zero, µs since the Unix epoch. Faster than reading the whole session.
 ///
 /// # Errors
-/// When it is no session folder or a file is wrong.
+/// If this is not a session folder, or a file is invalid.
 pub fn session_owner(path: &Path) -> Result<(String, u64), AppError> {
     let session = described(&path.join(SESSION))?;
     match (session["trainee"].as_str(), session["started_unix_us"].as_u64()) {
@@ -237,26 +238,26 @@ pub fn session_owner(path: &Path) -> Result<(String, u64), AppError> {
     }
 }
 
-/// What a session was flown for, where somebody chose and `session.json` can be read; quicker than reading all of it.
+/// Returns the purpose of a session, if one was chosen and `session.json` is readable. Faster than reading the whole session.
 pub fn purpose(path: &Path) -> Option<String> {
     described(&path.join(SESSION)).ok()?["purpose"].as_str().map(str::to_owned)
 }
 
-/// A session that is being flown.
+/// A session that is being recorded.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OngoingSession {
-    /// Who flies.
+    /// ID of the trainee.
     pub trainee: String,
-    /// CRC of the job.
+    /// CRC of the scenario.
     pub crc: u32,
-    /// Its seed.
+    /// Seed of the session.
     pub seed: u64,
 }
 
-/// What a session says of itself that has not ended, and whose telemetry has grown within this time; `None` of any other.
+/// Returns a session that has not ended and whose telemetry has grown within this time; `None` for any other.
 pub fn ongoing_session(path: &Path, within: Duration) -> Option<OngoingSession> {
     let grown = path.join(TELEMETRY).metadata().and_then(|about| about.modified()).ok()?;
-    // A clock that was put back makes nothing old.
+    // If the clock was set back, the file counts as new.
     if path.join(ASSESSMENT).exists() || grown.elapsed().unwrap_or_default() > within {
         return None;
     }
@@ -265,16 +266,16 @@ pub fn ongoing_session(path: &Path, within: Duration) -> Option<OngoingSession> 
     Some(OngoingSession { trainee: session["trainee"].as_str()?.to_owned(), crc, seed: session["seed"].as_u64()? })
 }
 
-/// True for a folder that holds a session's telemetry.
+/// Returns true for a folder that contains a session's telemetry.
 pub fn is_session(path: &Path) -> bool {
     path.join(TELEMETRY).is_file()
 }
 
 fn no_session(path: &Path) -> AppError {
-    AppError::wrong(format!("{}: is no session folder (it has no {TELEMETRY})", path.display()))
+    AppError::wrong(format!("{}: not a session folder (it has no {TELEMETRY})", path.display()))
 }
 
-/// `session.json`, null when there is none.
+/// Returns the contents of `session.json`, or null if there is no such file.
 fn described(path: &Path) -> Result<serde_json::Value, AppError> {
     if !path.is_file() {
         return Ok(serde_json::Value::Null);
@@ -283,7 +284,7 @@ fn described(path: &Path) -> Result<serde_json::Value, AppError> {
         .map_err(|error| AppError::wrong(format!("{}: line {}: {error}", path.display(), error.line())))
 }
 
-/// The trainee in `<utc>-<trainee>-<scenario>-<short id>`.
+/// Returns the trainee part of the folder name `<utc>-<trainee>-<scenario>-<short id>`.
 fn trainee_of(path: &Path, scenario: &str) -> Option<String> {
     let name = path.file_name()?.to_str()?;
     let (_, rest) = name.split_once('-')?;
@@ -291,7 +292,7 @@ fn trainee_of(path: &Path, scenario: &str) -> Option<String> {
     Some(rest.strip_suffix(scenario)?.strip_suffix('-')?.to_owned())
 }
 
-/// A folder of its own even when two sessions start in the same second.
+/// Creates a new folder, even if two sessions start in the same second.
 fn new_folder(sessions: &Path, stem: &str, started_unix_us: u64) -> Result<PathBuf, AppError> {
     for attempt in 0..1000u32 {
         let key = format!("{started_unix_us} {} {attempt}", std::process::id());
@@ -306,7 +307,7 @@ fn new_folder(sessions: &Path, stem: &str, started_unix_us: u64) -> Result<PathB
 }
 
 fn io_error(path: &Path, error: &std::io::Error) -> AppError {
-    AppError::failed(format!("{}: cannot be written: {error}", path.display()))
+    AppError::failed(format!("{}: cannot write: {error}", path.display()))
 }
 
 #[cfg(test)]
@@ -338,6 +339,6 @@ mod tests {
     fn exact_what_is_no_session_is_refused_by_name() {
         let folder = tempfile::tempdir().unwrap();
         let Err(error) = StoredSession::read(folder.path()) else { panic!("read it") };
-        assert!(error.to_string().contains("is no session folder"));
+        assert!(error.to_string().contains("not a session folder"));
     }
 }

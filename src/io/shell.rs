@@ -1,4 +1,4 @@
-//! One vehicle's shell: sockets, files and pace around the sans-IO core.
+//! Connects one vehicle's sans-IO core to its sockets, its files and the wall clock.
 
 use super::clock::{self, Stopwatch};
 use super::links::{LinkChange, Links};
@@ -15,36 +15,36 @@ use spandrel_sitl::endpoint::{LinkId, LinkKind, StorageRequest};
 use spandrel_sitl::sim::{Sim, SimEvent};
 use std::time::Duration;
 
-/// Longest wait, so that requests to stop and silent peers are noticed.
+/// Longest wait on the sockets, so that stop requests and silent peers are noticed.
 const LOOK: Duration = Duration::from_millis(100);
-/// Shortest sleep: ticks every millisecond would only keep the machine awake, and an arrival ends the sleep anyway.
+/// Shortest sleep. Waking every millisecond would only load the processor, and incoming data ends the sleep anyway.
 const REST: Duration = Duration::from_millis(2);
-/// Heartbeats while time stands still, of wall time: clients take a vehicle for lost after some 3 to 5 s.
+/// Wall-clock interval of heartbeats while the simulation is paused. Clients consider a vehicle lost after about 3 to 5 s without one.
 const BEAT: Duration = Duration::from_secs(1);
 
-/// What a vehicle keeps on disk.
+/// Files that belong to one vehicle.
 #[derive(Debug)]
 pub struct VehicleFiles {
-    /// Files for clients, and flight logs.
+    /// Files that clients can access, and flight logs.
     pub store: Option<FileStore>,
-    /// Parameters.
+    /// File that stores the parameters, if any.
     pub params: Option<ParamFile>,
-    /// What was heard with the signing key.
+    /// Saved state of MAVLink signing.
     pub signing_store: Option<SigningStore>,
 }
 
-/// Signatures that are demanded.
+/// MAVLink signing key, and the links that need no signature.
 #[derive(Debug, Clone)]
 pub struct SigningConfig {
-    /// The key.
+    /// Key that all other links must sign with.
     pub key: SigningKey,
-    /// Kinds of links whose frames act without one.
+    /// Kinds of links whose unsigned frames are accepted.
     pub unsigned: Vec<LinkKind>,
 }
 
-/// One vehicle between its sockets, its files and the clock.
+/// One vehicle with its sockets, its files and its pacing.
 pub struct VehicleShell {
-    /// The vehicle.
+    /// Vehicle core (simulation and MAVLink endpoint).
     pub core: Sim,
     links: Links,
     pacer: WallPacer,
@@ -60,10 +60,10 @@ pub struct VehicleShell {
 }
 
 impl VehicleShell {
-    /// Time begins now.
+    /// Loads the saved files and starts the vehicle's clock.
     ///
     /// # Errors
-    /// When a file that is kept is wrong.
+    /// If a saved file is invalid.
     pub fn new(
         mut core: Sim,
         links: Links,
@@ -110,12 +110,12 @@ impl VehicleShell {
         })
     }
 
-    /// Time stands still whenever this says so.
+    /// Pauses the simulation whenever this switch is on.
     pub fn set_pause_switch(&mut self, still: PauseSwitch) {
         self.pause = still;
     }
 
-    /// Time stands still: heartbeats go out, and what comes in does nothing.
+    /// Sends heartbeats and discards incoming data while the simulation is paused.
     fn run_paused(&mut self) {
         while let Some(change) = self.links.poll() {
             if !matches!(change, LinkChange::Bytes { .. }) {
@@ -135,10 +135,10 @@ impl VehicleShell {
         self.links.wait(LOOK);
     }
 
-    /// Takes in what has come, lets time pass, sends what is due, rests.
+    /// Handles incoming data, advances the simulation toward `end` as far as the wall clock allows, sends outgoing data and waits for the next tick.
     ///
     /// # Errors
-    /// When a peer in step is gone.
+    /// If a lockstep peer has disappeared.
     pub fn run_until(&mut self, end: SimTime) -> Result<(), AppError> {
         if self.pause.is_paused() {
             self.run_paused();
@@ -173,7 +173,7 @@ impl VehicleShell {
         self.wait_for_next_tick()
     }
 
-    /// Runs the ticks up to a time, and what clients ask of files between them.
+    /// Runs the ticks up to `target`, and serves the clients' file requests between them.
     fn advance_to(&mut self, target: SimTime) {
         loop {
             self.core.handle_timeout(target);
@@ -184,7 +184,7 @@ impl VehicleShell {
         }
     }
 
-    /// Does what clients ask of files, and writes the log.
+    /// Carries out the clients' file requests and appends to the flight log.
     fn serve_file_jobs(&mut self) {
         while let Some(job) = self.core.poll_file_job() {
             let outcome = self.store.as_mut().map_or(Err(FileError::NotFound), |store| store.work(&job.action));
@@ -192,12 +192,12 @@ impl VehicleShell {
         }
         while let Some(piece) = self.core.poll_log() {
             if let Some(Err(error)) = self.store.as_mut().map(|store| store.log(&piece)) {
-                tracing::warn!("the flight's log is not written: {error}");
+                tracing::warn!("cannot write the flight log: {error}");
             }
         }
     }
 
-    /// Writes parameters that have changed, and reads the file again when a client asks for it.
+    /// Saves changed parameters, and reads the file again when a client requests it.
     fn save_parameters(&mut self) {
         let Some(file) = &mut self.params else { return };
         let wish = self.core.poll_storage();
@@ -212,11 +212,11 @@ impl VehicleShell {
         };
         file.saved_changes = self.core.parameter_changes();
         if let Err(error) = told {
-            tracing::warn!("the parameters are not kept: {error}");
+            tracing::warn!("cannot save the parameters: {error}");
         }
     }
 
-    /// Writes what was heard with the signing key, now and then or at the end.
+    /// Saves the signing state if it is due or `at_once` is true.
     fn save_signing_state(&mut self, at_once: bool) {
         let wall = self.stopwatch.elapsed();
         if let Some(file) = self.signing_store.as_mut().filter(|file| at_once || file.is_due(wall))
@@ -242,7 +242,7 @@ impl VehicleShell {
         }
     }
 
-    /// Waits for the next tick, or for the peers that time waits for.
+    /// Waits for the next tick, or for the lockstep peers.
     fn wait_for_next_tick(&mut self) -> Result<(), AppError> {
         let wall = self.stopwatch.elapsed();
         if let Some(heard) = self.core.awaits_first_answer() {
@@ -252,7 +252,7 @@ impl VehicleShell {
         if self.core.waiting() {
             if self.lockstep_timeout.is_over(self.core.now(), wall) {
                 return Err(AppError::failed(format!(
-                    "a peer in lockstep has not answered TIMESYNC for {} s at {} and seems to be gone",
+                    "a lockstep peer has not answered TIMESYNC for {} s (simulation time {}) and seems to be gone",
                     PATIENCE.as_secs(),
                     self.core.now()
                 )));
@@ -267,14 +267,14 @@ impl VehicleShell {
         Ok(())
     }
 
-    /// Lockstep begins with a peer's first answer: it must find the vehicle to give one.
+    /// Waits for a peer's first TIMESYNC answer. The vehicle announces itself meanwhile, because a peer has to find it before it can answer.
     fn await_first_answer(&mut self, heard: bool, wall: Duration) {
         self.pacer.hold(wall, self.core.now());
         match self.first_answer.action_due(heard, wall, BEAT) {
             FirstAnswerAction::Wait => {}
             FirstAnswerAction::Announce => self.core.send_first_contact(),
             FirstAnswerAction::Proceed => {
-                tracing::info!("a peer in lockstep has not answered TIMESYNC yet: it is served in real time until it does");
+                tracing::info!("a lockstep peer has not answered TIMESYNC yet: serving it in real time until it does");
                 self.core.skip_first_answers();
                 return;
             }
@@ -289,37 +289,37 @@ impl VehicleShell {
         let now = self.core.now();
         match event {
             SimEvent::LiftOff => tracing::info!("{now}: lift-off"),
-            SimEvent::Crash { what, impact_m_s } => tracing::info!("{now}: touched {what} at {impact_m_s:.1} m/s"),
-            SimEvent::Respawn => tracing::info!("{now}: put back at the last safe hover"),
-            SimEvent::BatteryEmpty => tracing::info!("{now}: the battery is empty"),
-            SimEvent::Ended { reason } => tracing::info!("{now}: the flight is over: {reason}"),
+            SimEvent::Crash { what, impact_m_s } => tracing::info!("{now}: hit {what} at {impact_m_s:.1} m/s"),
+            SimEvent::Respawn => tracing::info!("{now}: respawned at the last safe hover"),
+            SimEvent::BatteryEmpty => tracing::info!("{now}: battery empty"),
+            SimEvent::Ended { reason } => tracing::info!("{now}: flight ended: {reason}"),
         }
     }
 
-    /// How late the machine has been.
+    /// Returns the delay of the simulation behind the wall clock.
     pub fn lateness(&self) -> Lateness {
         self.pacer.lateness()
     }
 
-    /// Finishes the log and tells what was lost.
+    /// Closes the flight log, saves the signing state and logs all losses.
     pub fn finish(&mut self) {
         self.core.close_flight_log();
         self.serve_file_jobs();
         self.save_signing_state(true);
         let slipped = self.lateness().slipped;
         if slipped >= Duration::from_secs(1) {
-            tracing::warn!("the machine could not keep up: {:.1} s of wall time were lost", slipped.as_secs_f64());
+            tracing::warn!("the computer could not keep up: {:.1} s of wall time lost", slipped.as_secs_f64());
         }
         let bad = self.core.bad_bytes() + self.links.bad_bytes();
         if bad > 0 {
-            tracing::warn!("{bad} bytes belonged to no MAVLink frame and were skipped");
+            tracing::warn!("skipped {bad} bytes that are not part of a MAVLink frame");
         }
         if self.core.rejected_frames() > 0 {
-            tracing::warn!("{} frames without a good signature did nothing", self.core.rejected_frames());
+            tracing::warn!("ignored {} frames without a valid signature", self.core.rejected_frames());
         }
         let dropped = self.core.dropped() + self.links.take_dropped();
         if dropped > 0 {
-            tracing::warn!("{dropped} datagrams came faster than they may, or were more than a link carries, and were dropped");
+            tracing::warn!("dropped {dropped} datagrams that exceeded the rate limit or the capacity of their link");
         }
     }
 }

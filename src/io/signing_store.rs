@@ -1,4 +1,4 @@
-//! What was heard with a signing key, kept beside the key's file: a program that starts again refuses what it has obeyed before.
+//! Timestamps of signed MAVLink messages, saved next to the key file, so that a restarted program rejects messages that it has already processed.
 
 use super::replace::replace;
 use crate::errors::AppError;
@@ -6,10 +6,10 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Between two writings; what was heard within this before a kill may be played back for a minute.
+/// Interval at which the timestamps are saved. Messages received after the last save before a kill could be replayed within one minute.
 const EVERY: Duration = Duration::from_secs(1);
 
-/// The memory's file.
+/// File of the signing timestamps of one vehicle.
 #[derive(Debug)]
 pub struct SigningStore {
     path: PathBuf,
@@ -19,17 +19,17 @@ pub struct SigningStore {
 }
 
 impl SigningStore {
-    /// Beside the key's file, one for each vehicle.
+    /// Returns the store of a vehicle, next to the key file.
     pub fn of(key: &Path, system_id: u8) -> Self {
         let mut name = key.file_name().unwrap_or_default().to_os_string();
         name.push(format!(".heard.{system_id}"));
         Self { path: key.with_file_name(name), saved_text: String::new(), written: Duration::ZERO, error_reported: false }
     }
 
-    /// What it says; `None` when it is not there.
+    /// Returns the contents; `None` if the file does not exist.
     ///
     /// # Errors
-    /// When it is there and cannot be read.
+    /// If the file exists and cannot be read.
     pub fn text(&self) -> Result<Option<String>, AppError> {
         match std::fs::read_to_string(&self.path) {
             Ok(text) => Ok(Some(text)),
@@ -38,21 +38,21 @@ impl SigningStore {
         }
     }
 
-    /// What is wrong with it.
+    /// Returns the error for an invalid line.
     pub fn parse_error(&self, line: usize) -> AppError {
         AppError::wrong(format!(
-            "{}:{line}: this is not what was heard with a signing key (allowed: a timestamp on line 1, then system, component, link and \
-             timestamp); without the file nothing is known of earlier runs",
+            "{}:{line}: not a signing timestamp (allowed: a timestamp on line 1, then system, component, link and \
+             timestamp); if you delete the file, messages of earlier runs could be replayed",
             self.path.display()
         ))
     }
 
-    /// Time to write again?
+    /// Returns true if the file should be saved again.
     pub fn is_due(&self, wall: Duration) -> bool {
         wall.saturating_sub(self.written) >= EVERY
     }
 
-    /// Writes what has changed; that it cannot be written is told once.
+    /// Saves the timestamps if they have changed. A failure is logged once.
     pub fn save(&mut self, memory: String, wall: Duration) {
         self.written = wall;
         if memory == self.saved_text {
@@ -62,7 +62,9 @@ impl SigningStore {
             Ok(()) => self.saved_text = memory,
             Err(error) if !self.error_reported => {
                 self.error_reported = true;
-                tracing::warn!("after a restart, signed frames of the last minute could be played back: {error}");
+                tracing::warn!(
+                    "cannot save signing timestamps, so messages of the last minute could be replayed after a restart: {error}"
+                );
             }
             Err(_) => {}
         }

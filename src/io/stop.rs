@@ -1,4 +1,4 @@
-//! When to stop: on SIGINT or SIGTERM, or when the process that holds the leash ends. Runs look at the flag and finish cleanly.
+//! Stop requests: on SIGINT or SIGTERM, or when the parent process exits. Long runs check the flag and finish cleanly.
 
 use crate::errors::AppError;
 use std::io::{BufRead, Read};
@@ -6,16 +6,16 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, channel};
 
-/// A request to finish, shared by all threads of the process.
+/// A request to stop, shared by all threads of the process.
 #[derive(Debug, Clone, Default)]
 pub struct StopRequest(Arc<AtomicBool>);
 
 impl StopRequest {
-    /// Listens for SIGINT and SIGTERM, and with `leash` for the end of standard input: a parent that dies in whatever way closes it,
-    /// so no child outlives its parent.
+    /// Listens for SIGINT and SIGTERM, and with `leash` also for the end of standard input: it closes when the parent exits for any reason, so no
+    /// child outlives its parent.
     ///
     /// # Errors
-    /// When the system refuses the listener.
+    /// If the system rejects the listener.
     pub fn install(leash: bool) -> Result<Self, AppError> {
         let stop = Self::default();
         let runtime = tokio::runtime::Builder::new_current_thread()
@@ -36,14 +36,14 @@ impl StopRequest {
         Ok(stop)
     }
 
-    /// Lines of standard input, from a parent process; their end asks to finish, as a leash does.
+    /// Returns the lines that the parent process writes to standard input. When standard input closes, the process is asked to stop.
     pub fn lines(&self) -> Receiver<String> {
         let (sender, lines) = channel();
         let on_end = self.clone();
         std::thread::spawn(move || {
             let mut stdin = std::io::stdin().lock();
             let mut line = Vec::new();
-            // Bytes that are no text are a bad line, not the end of the parent.
+            // Bytes that are not UTF-8 make an invalid line, but do not end the input.
             while matches!(stdin.read_until(b'\n', &mut line), Ok(1..)) {
                 let text = String::from_utf8_lossy(&line).trim_end().to_owned();
                 line.clear();
@@ -56,18 +56,18 @@ impl StopRequest {
         lines
     }
 
-    /// True once somebody has asked.
+    /// Returns true after a stop request.
     pub fn is_requested(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// Asks everybody who looks to end.
+    /// Requests that all threads stop.
     pub fn request(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
     async fn signals(self) {
-        // The first asks, the second insists.
+        // The first signal requests a stop, the second exits immediately.
         if one_signal().await.is_ok() {
             self.request();
             if one_signal().await.is_ok() {

@@ -1,5 +1,5 @@
-//! The vehicle's files on disk: one folder that no path of a client leaves, whatever it asks. The folder is opened as a capability:
-//! links and names that lead out of it are refused by the operating system's own look-up, not by comparing text.
+//! The vehicle's files on disk, in one folder that no client can leave. The folder is opened as a capability: the operating system's path lookup, not
+//! a text comparison, rejects links and names that point outside.
 
 use super::flight_logs;
 use super::mcap::{McapRecording, base64};
@@ -14,43 +14,43 @@ use spandrel_sitl::log::LogOutput;
 use std::io::{ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-/// Quota for all clients' files, bytes.
+/// Quota for the files of all clients, bytes.
 const QUOTA_BYTES: u64 = 256 * 1024 * 1024;
-/// Files and directories of clients in all: a listing looks at each.
+/// Maximum number of files and directories of all clients, because a listing reads each of them.
 const QUOTA_ENTRIES: u64 = 1_000;
-/// Logs are kept here, in a folder for each day, as PX4 keeps them. They are the vehicle's: clients read and remove them, and they do not
-/// count against the quota.
+/// Folder of the flight logs, with one folder per day, as in PX4. The logs belong to the vehicle: clients can read and remove them, and they do not
+/// count toward the quota.
 const LOGS: &str = "log";
 
-/// The folder.
+/// Folder of the vehicle's files, with the log of the current flight.
 #[derive(Debug)]
 pub struct FileStore {
     root: Dir,
     path: PathBuf,
-    /// Bytes that flight logs may take before the oldest make room.
+    /// Maximum size of all flight logs, bytes; the oldest are deleted first.
     log_room: u64,
-    /// The site as binary glTF in base64: every recording begins with it.
+    /// Site geometry as binary glTF in base64, written at the start of every recording.
     site: Option<String>,
-    /// Space used by clients' files.
+    /// Space used by the clients' files.
     used: StorageUsage,
     log: Option<FlightLog>,
     recording: Option<McapRecording<std::fs::File>>,
 }
 
-/// The log of the running flight.
+/// Log of the current flight.
 #[derive(Debug)]
 struct FlightLog {
     file: File,
     name: String,
-    /// Length of the pieces that the disk has taken, bytes.
+    /// Length that has been written successfully, bytes.
     whole: u64,
 }
 
 impl FlightLog {
-    /// Adds a piece whole or not at all: a reader finds no message of the log after half of one.
+    /// Appends a message completely or not at all, so that readers never find a message after a partial one.
     fn write(&mut self, piece: &[u8]) -> std::io::Result<()> {
         self.file.write_all(piece).inspect_err(|_| {
-            // A disk that refuses this too leaves half a message at the end, where readers expect it.
+            // If this fails too, the partial message is at the end of the file, where readers expect one.
             let _ = self.file.set_len(self.whole);
         })?;
         self.whole += piece.len() as u64;
@@ -59,10 +59,10 @@ impl FlightLog {
 }
 
 impl FileStore {
-    /// Opens the folder, and makes it if it is not there.
+    /// Opens the folder and creates it if necessary.
     ///
     /// # Errors
-    /// When it can neither be opened nor made.
+    /// If the folder can neither be opened nor created.
     pub fn open(path: &Path, log_room: u64) -> Result<Self, AppError> {
         let failed = |error: std::io::Error| AppError::failed(format!("--files {}: {error}", path.display()));
         std::fs::create_dir_all(path).map_err(failed)?;
@@ -72,15 +72,15 @@ impl FileStore {
         Ok(Self { root, path: path.to_owned(), log_room, site: None, used, log: None, recording: None })
     }
 
-    /// Recordings show this site from now on, binary glTF.
+    /// Sets the site geometry (binary glTF) for future recordings.
     pub fn show_site(&mut self, glb: &[u8]) {
         self.site = Some(base64(glb));
     }
 
-    /// Does what a client asked.
+    /// Carries out a client's file request.
     ///
     /// # Errors
-    /// Why it cannot be done, as the wire says it.
+    /// The reason as a MAVLink FTP error.
     pub fn work(&mut self, action: &FileAction) -> Result<FileJobResult, FileError> {
         self.act(action).map_err(|error| match error.kind() {
             ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory => FileError::NotFound,
@@ -120,7 +120,7 @@ impl FileStore {
         }
     }
 
-    /// Makes a file or a directory, unless clients have too many.
+    /// Creates a file or a directory, unless the clients' quota is exhausted.
     fn make(&mut self, path: &FilePath, act: impl FnOnce(&Dir) -> std::io::Result<()>) -> std::io::Result<FileJobResult> {
         client_file(path)?;
         if self.used.entries >= QUOTA_ENTRIES && StorageUsage::of(&self.root, path).entries == 0 {
@@ -129,7 +129,7 @@ impl FileStore {
         self.change(path, act)
     }
 
-    /// Writes to a file, which is then at most so long or as long as it was, unless clients' files take too much.
+    /// Writes to a file, whose length then is at most `length` or its previous length, unless the clients' quota is exhausted.
     fn write(
         &mut self,
         path: &FilePath,
@@ -144,7 +144,7 @@ impl FileStore {
         self.change(path, |root| act(&mut root.open_with(path.as_str(), OpenOptions::new().write(true))?))
     }
 
-    /// Does something to a path and counts what it takes then.
+    /// Changes a path and updates the space used.
     fn change(&mut self, path: &FilePath, act: impl FnOnce(&Dir) -> std::io::Result<()>) -> std::io::Result<FileJobResult> {
         let before = StorageUsage::of(&self.root, path);
         let done = act(&self.root);
@@ -189,10 +189,10 @@ impl FileStore {
         Ok(FileJobResult::Checksum { sum: checksum(sum, &bytes), bytes: u32::try_from(bytes.len()).unwrap_or(CHECKSUM_SLICE) })
     }
 
-    /// Writes a piece of the vehicle's log to `log/<date>/<time>.ulg`, and of the recording beside it to the same name with `.mcap`.
+    /// Appends to the vehicle's log `log/<date>/<time>.ulg` or to the recording with the same name and `.mcap`.
     ///
     /// # Errors
-    /// When the disk does not take it. The file then ends with what came before; the next flight begins another one.
+    /// If the disk cannot be written. The file then ends with the previous data; the next flight starts a new one.
     pub fn log(&mut self, piece: &LogOutput) -> Result<(), AppError> {
         match piece {
             LogOutput::Bytes(bytes) => {
@@ -209,7 +209,7 @@ impl FileStore {
         }
     }
 
-    /// Begins or ends a flight's log.
+    /// Starts or ends a flight's log.
     fn rotate_logs(&mut self, piece: &LogOutput) -> std::io::Result<()> {
         match piece {
             LogOutput::Begin(unix_us) => {
@@ -217,7 +217,7 @@ impl FileStore {
                 let (date, time) = readable.split_at(10);
                 let deleted = flight_logs::make_room(&self.root, LOGS, self.log_room)?;
                 if deleted > 0 {
-                    tracing::info!("the logs of {deleted} old flights made room for a new one");
+                    tracing::info!("deleted the logs of {deleted} old flights to make space for a new one");
                 }
                 let folder = format!("{LOGS}/{date}");
                 self.root.create_dir_all(&folder)?;
@@ -247,7 +247,7 @@ impl FileStore {
         Ok(())
     }
 
-    /// Two flights that begin in the same second of simulated UTC have logs of their own.
+    /// Creates a log file; flights that start in the same second of simulated UTC get separate files.
     fn new_log(&self, stem: &str) -> std::io::Result<(File, String)> {
         let mut name = stem.to_owned();
         for number in 1.. {
@@ -261,20 +261,20 @@ impl FileStore {
 }
 
 fn io_error(root: &Path, name: &str, error: &dyn std::fmt::Display) -> AppError {
-    AppError::failed(format!("{}: cannot be written: {error}; it ends here", root.join(name).display()))
+    AppError::failed(format!("{}: cannot write: {error}; the file ends here", root.join(name).display()))
 }
 
-/// A path in the vehicle's own part of the folder.
+/// Returns true for a path in the vehicle's log folder.
 fn is_log(path: &FilePath) -> bool {
     path.as_str() == LOGS || path.as_str().strip_prefix(LOGS).is_some_and(|rest| rest.starts_with('/'))
 }
 
-/// Refuses what clients may not write.
+/// Rejects paths that clients must not write.
 fn client_file(path: &FilePath) -> std::io::Result<()> {
     if is_log(path) { Err(ErrorKind::PermissionDenied.into()) } else { Ok(()) }
 }
 
-/// Space used by clients' files.
+/// Space used by the clients' files.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 struct StorageUsage {
     bytes: u64,
@@ -282,14 +282,14 @@ struct StorageUsage {
 }
 
 impl StorageUsage {
-    /// What a folder holds beside its logs. One that holds too much from the start can be read and emptied.
+    /// Measures a folder without its logs. A folder over the quota can still be read and emptied.
     fn resolve(root: &Dir) -> Self {
         let mut used = Self::default();
         used.count(root, true);
         used
     }
 
-    /// Adds what can be read of a directory; no further than to the quota, so that a large folder does not delay the start.
+    /// Adds the contents of a directory. Stops at the quota, so that a large folder does not delay the start.
     fn count(&mut self, directory: &Dir, is_root: bool) {
         let Ok(entries) = directory.entries() else { return };
         for entry in entries.flatten().filter(|entry| !(is_root && entry.file_name() == LOGS)) {
@@ -305,7 +305,7 @@ impl StorageUsage {
         }
     }
 
-    /// What a path takes, logs nothing.
+    /// Measures a single path; logs count as zero.
     fn of(root: &Dir, path: &FilePath) -> Self {
         let metadata = root.symlink_metadata(path.as_str()).ok().filter(|_| !is_log(path));
         let bytes = metadata.as_ref().filter(|metadata| metadata.is_file()).map_or(0, |metadata| metadata.len());
@@ -326,7 +326,7 @@ mod tests {
         FilePath::of(text.as_bytes()).unwrap()
     }
 
-    /// A folder of this test, with a sibling whose name begins alike, and a secret beside them.
+    /// Creates a test folder, a sibling with a similar name, and a secret next to them.
     fn place(name: &str) -> (PathBuf, FileStore) {
         let base = std::env::temp_dir().join(format!("spandrel-store-{name}-{}", std::process::id()));
         let _ = std::fs::remove_dir_all(&base);
@@ -398,7 +398,7 @@ mod tests {
         store.work(&FileAction::Write(path("b"), 5, vec![1; 5])).unwrap();
         assert_eq!(StorageUsage::resolve(&store.root), store.used);
         let again = FileStore::open(&base.join("root"), u64::MAX).unwrap();
-        assert_eq!(again.used, StorageUsage { bytes: QUOTA_BYTES, entries: 2 }, "the next start counts the same");
+        assert_eq!(again.used, StorageUsage { bytes: QUOTA_BYTES, entries: 2 }, "the next start measures the same");
         store.work(&FileAction::Remove(path("a"))).unwrap();
         store.work(&FileAction::Truncate(path("b"), 11)).unwrap();
         for k in 1..QUOTA_ENTRIES {
@@ -428,11 +428,11 @@ mod tests {
         let (base, mut store) = place("refused");
         store.log(&LogOutput::Begin(1_790_000_000_000_000)).unwrap();
         store.log(&LogOutput::Bytes("one".into())).unwrap();
-        // A descriptor that cannot be written to refuses as a full disk does.
+        // A read-only descriptor fails like a full disk.
         let name = "log/2026-09-21/14_13_20.ulg";
         store.log.as_mut().unwrap().file = store.root.open(name).unwrap();
         let refused = store.log(&LogOutput::Bytes("two".into())).unwrap_err().to_string();
-        assert!(refused.contains(name) && refused.contains("it ends here"), "{refused}");
+        assert!(refused.contains(name) && refused.contains("the file ends here"), "{refused}");
         store.log(&LogOutput::Bytes("three".into())).unwrap();
         assert_eq!(std::fs::read(base.join("root").join(name)).unwrap(), b"one");
         store.log(&LogOutput::End).unwrap();

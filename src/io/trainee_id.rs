@@ -7,7 +7,7 @@ use std::str::FromStr;
 pub struct TraineeId(String);
 
 impl TraineeId {
-    /// As text.
+    /// Returns the ID as text.
     pub fn as_str(&self) -> &str {
         &self.0
     }
@@ -21,7 +21,9 @@ impl FromStr for TraineeId {
         if starts && text.len() <= 32 && text.chars().all(fits) {
             return Ok(Self(text.to_owned()));
         }
-        Err(format!("'{text}' is no trainee id (allowed: 1 to 32 letters, digits, '-' or '_', first a letter or digit)"))
+        Err(format!(
+            "'{text}' is not a trainee ID (allowed: 1 to 32 letters, digits, '-' or '_', starting with a letter or digit)"
+        ))
     }
 }
 

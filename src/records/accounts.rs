@@ -1,4 +1,4 @@
-//! Who may log in to `spandrel serve`.
+//! Accounts that can log in to `spandrel serve`.
 
 use super::database::Database;
 use super::trainees::{set_given, trainee};
@@ -13,17 +13,17 @@ const ACCOUNT: &str = "SELECT trainees.pseudonym, role, age_band, drone_experien
 const SET_PASSWORD: &str = "INSERT INTO passwords (pseudonym, hash) VALUES ($1, $2) \
     ON CONFLICT (pseudonym) DO UPDATE SET hash = excluded.hash";
 
-/// A person and, where he may log in, the hash of his password.
+/// A person with the hash of their password.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Account {
-    /// Who.
+    /// Pseudonym, role and details.
     pub person: Trainee,
-    /// Argon2, PHC form.
+    /// Argon2 hash in PHC format; `None` for a person who cannot log in.
     pub hash: Option<String>,
 }
 
 impl Account {
-    /// What a visit rests on: another password or role is another one. `None` for who may not log in.
+    /// Returns a hash of the password and the role. Browser sessions end when it changes. `None` for a person who cannot log in.
     #[must_use]
     pub fn credential(&self) -> Option<CredentialHash> {
         let hash = self.hash.as_ref()?;
@@ -32,7 +32,7 @@ impl Account {
 }
 
 impl Database {
-    /// A person; `None` when nobody has this name.
+    /// Returns a person; `None` if there is no such name.
     ///
     /// # Errors
     /// If the database fails.
@@ -43,7 +43,7 @@ impl Database {
         })
     }
 
-    /// Adds a person or sets his role, and his password, in one change; his details stay.
+    /// Adds a person or sets their role, and sets their password, in one transaction; the details are kept.
     ///
     /// # Errors
     /// If the database fails.
@@ -57,7 +57,7 @@ impl Database {
         })
     }
 
-    /// Changes somebody's password, if it still is the one that was checked; false when it is not.
+    /// Changes a person's password if the stored hash is still `before`; returns false otherwise.
     ///
     /// # Errors
     /// If the database fails.
@@ -70,7 +70,7 @@ impl Database {
         })
     }
 
-    /// Takes somebody's password away: he logs in no more. False when he had none.
+    /// Removes a person's password, so that they can no longer log in. Returns false if there was none.
     ///
     /// # Errors
     /// If the database fails.
@@ -83,7 +83,7 @@ impl Database {
         })
     }
 
-    /// Those who may log in.
+    /// Returns the names of all people with a password.
     ///
     /// # Errors
     /// If the database fails.

@@ -1,31 +1,31 @@
-//! Where a database is: a file, or a URL of PostgreSQL, whose words on TLS are looked at here: a wrong one would be told in the driver's
-//! words, or mean less than it seems to.
+//! Addresses of databases: a file, or a PostgreSQL URL. The TLS options of a URL are checked here, because the driver's error messages are unclear
+//! and some options do less than their names suggest.
 
 use rustls::pki_types::pem::PemObject;
 use rustls::pki_types::{CertificateDer, PrivateKeyDer};
 use std::path::Path;
 
-/// What `sslmode` may be. `allow` is left out: here it would mean `disable`; and `verify-ca`: the driver (sqlx 0.8.6) asks for the right
-/// name all the same, with rustls of today, and its message would speak of a name that nobody asked about.
+/// Allowed values of `sslmode`. `allow` is excluded because the driver would treat it as `disable`, and `verify-ca` because the driver (sqlx 0.8.6
+/// with rustls) verifies the host name anyway, with a misleading error message.
 const MODES: [&str; 4] = ["disable", "prefer", "require", "verify-full"];
-/// Without it the certificate of PostgreSQL is not looked at.
+/// The only mode that verifies PostgreSQL's certificate.
 const VERIFYING: &str = "verify-full";
 
-/// A URL of PostgreSQL, no file.
+/// Returns true for a PostgreSQL URL, false for a file.
 pub fn is_url(target: &str) -> bool {
     target.starts_with("postgres://") || target.starts_with("postgresql://")
 }
 
-/// Checks what a URL says of TLS.
+/// Checks the TLS options of a URL.
 ///
 /// # Errors
-/// The key that is wrong, its value, and what is allowed.
+/// If an option is invalid: its name, its value and the allowed values.
 pub fn check(target: &str) -> Result<(), String> {
     let Some((_, query)) = target.split_once('?').filter(|_| is_url(target)) else { return Ok(()) };
     let said: Vec<(String, String)> = form_urlencoded::parse(query.as_bytes()).into_owned().collect();
     let value = |key: &str| said.iter().rev().find(|(name, _)| name == key).map(|(_, value)| value.as_str());
     let known = ["sslmode", "sslrootcert", "sslcert", "sslkey"];
-    // A misspelt word of safety must not be passed over in silence.
+    // The driver ignores unknown options; a misspelled security option must not be ignored.
     if let Some((name, _)) = said.iter().find(|(name, _)| is_of_tls(name) && !known.contains(&name.as_str())) {
         return Err(format!("{name}: unknown (allowed: {})", known.join(", ")));
     }
@@ -35,7 +35,7 @@ pub fn check(target: &str) -> Result<(), String> {
     }
     if let Some(file) = value("sslrootcert") {
         if mode != Some(VERIFYING) {
-            return Err(format!("sslrootcert = '{file}' counts with sslmode={VERIFYING} alone"));
+            return Err(format!("sslrootcert = '{file}' requires sslmode={VERIFYING}"));
         }
         certificates("sslrootcert", file)?;
     }
@@ -46,43 +46,40 @@ pub fn check(target: &str) -> Result<(), String> {
             let read = PrivateKeyDer::from_pem_file(Path::new(key));
             read.map(|_| ()).map_err(|error| format!("sslkey = '{key}': {error}"))
         }
-        _ => Err("sslcert and sslkey go together: one of them is missing".into()),
+        _ => Err("sslcert and sslkey must be used together".into()),
     }
 }
 
-/// A key that means TLS, however it is written: the driver passes over `SSLMODE`.
+/// Returns true if an option concerns TLS, in upper or lower case: the driver ignores `SSLMODE`.
 fn is_of_tls(key: &str) -> bool {
     key.to_ascii_lowercase().starts_with("ssl")
 }
 
-/// A file holds at least one certificate.
+/// Checks that a file contains at least one certificate.
 fn certificates(key: &str, file: &str) -> Result<(), String> {
     let read = CertificateDer::pem_file_iter(Path::new(file)).and_then(Iterator::collect::<Result<Vec<_>, _>>);
     match read {
-        Ok(found) if found.is_empty() => Err(format!("{key} = '{file}' holds no certificate (PEM)")),
+        Ok(found) if found.is_empty() => Err(format!("{key} = '{file}' contains no certificate (PEM)")),
         Ok(_) => Ok(()),
         Err(error) => Err(format!("{key} = '{file}': {error}")),
     }
 }
 
-/// An error of the connection, and what can be done where the driver's words leave it open.
+/// Describes a connection error, with advice where the driver's message is unclear.
 pub fn connection_error(error: &sqlx::Error) -> String {
     let said = error.to_string();
     let advice = [
         (
             "UnknownIssuer",
-            "whoever signed the server's certificate is not known here: name the authority's file with sslrootcert=FILE",
+            "the server's certificate was issued by an unknown authority: specify the authority's certificate with sslrootcert=FILE",
         ),
-        ("not valid for name", "the server's certificate is for another name: call the host by that name"),
+        ("not valid for name", "the server's certificate is for another host name: use that name in the URL"),
         (
             "CaUsedAsEndEntity",
-            "the server's certificate is an authority's own: it has to be signed by the authority for the host's name",
+            "the server uses an authority's certificate as its own: issue a server certificate for its host name",
         ),
-        ("certificate expired", "the server's certificate is too old, or a clock is wrong"),
-        (
-            "server does not support TLS",
-            "switch TLS on there (ssl = on), or take sslmode=disable on a line that nobody else hears",
-        ),
+        ("certificate expired", "the server's certificate has expired, or a clock is wrong"),
+        ("server does not support TLS", "enable TLS on the server (ssl = on), or use sslmode=disable on a trusted network"),
     ];
     match advice.iter().find(|(sign, _)| said.contains(sign)) {
         Some((_, advice)) => format!("{said} ({advice})"),
@@ -90,7 +87,7 @@ pub fn connection_error(error: &sqlx::Error) -> String {
     }
 }
 
-/// A file name as a URL; a missing file is made.
+/// Returns the URL of an SQLite file; SQLite creates a missing file.
 pub fn sqlite_url(file: &str) -> String {
     let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"/._-~".contains(&byte);
     let encoded: String =
@@ -98,7 +95,7 @@ pub fn sqlite_url(file: &str) -> String {
     format!("sqlite://{encoded}?mode=rwc")
 }
 
-/// `postgres://user:secret@host/db` without the secret.
+/// Removes the password from a URL: `postgres://user:secret@host/db` becomes `postgres://user@host/db`.
 pub fn without_password(target: &str) -> String {
     let Some((scheme, rest)) = target.split_once("://").filter(|_| is_url(target)) else { return target.to_owned() };
     let (address, _) = rest.split_once('?').unwrap_or((rest, ""));
@@ -124,11 +121,11 @@ mod tests {
             ("sslmode=verify-ca", "sslmode = 'verify-ca'"),
             ("sslmod=verify-full", "sslmod: unknown (allowed: sslmode, sslrootcert, sslcert, sslkey)"),
             ("SSLMODE=verify-full", "SSLMODE: unknown (allowed: sslmode, sslrootcert, sslcert, sslkey)"),
-            ("sslrootcert=/none.pem", "counts with sslmode=verify-full alone"),
-            ("sslmode=require&sslrootcert=/none.pem", "counts with sslmode=verify-full alone"),
+            ("sslrootcert=/none.pem", "requires sslmode=verify-full"),
+            ("sslmode=require&sslrootcert=/none.pem", "requires sslmode=verify-full"),
             ("sslmode=verify-full&sslrootcert=/none.pem", "sslrootcert = '/none.pem': "),
-            (empty.as_str(), "holds no certificate (PEM)"),
-            ("sslcert=/none.pem", "sslcert and sslkey go together"),
+            (empty.as_str(), "contains no certificate (PEM)"),
+            ("sslcert=/none.pem", "sslcert and sslkey must be used together"),
         ] {
             let wrong = check(&format!("postgres://spandrel@db/training?{query}")).unwrap_err();
             assert!(wrong.contains(said), "{query}: {wrong}");

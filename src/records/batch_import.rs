@@ -17,7 +17,7 @@ const PARCEL: usize = 64;
 pub struct ImportCounts {
     /// New or changed folders.
     pub changed: usize,
-    /// Unreadable folders.
+    /// Folders that could not be read.
     pub left_out: usize,
     /// Folders of erased sessions.
     pub erased: usize,
@@ -56,7 +56,7 @@ pub fn import_into(database: &Database, folders: &[PathBuf]) -> Result<ImportCou
         let mut records = Vec::new();
         for (k, folder) in part.iter().enumerate() {
             progress.report(|| format!("session {} of {}", parcel * PARCEL + k + 1, folders.len()));
-            records.extend(taken.read(folder, (&known, &erased), "left out"));
+            records.extend(taken.read(folder, (&known, &erased), "skipped"));
         }
         taken.changed += database.put(&records)?;
     }

@@ -1,6 +1,6 @@
-//! The database of records: SQLite in a file, or PostgreSQL by URL; the same statements and migrations on both. Blocking, as the other
-//! shells are. Every change is one transaction that takes the write lock first, so that stations that write at once wait for one another
-//! and a kill at any moment leaves all of a session or nothing.
+//! Database of records: SQLite in a file, or PostgreSQL by URL, with the same statements and migrations. All calls block. Every change is one
+//! transaction that takes the write lock first, so that stations that write at the same time wait for one another, and an interrupted program leaves
+//! either all of a session or nothing.
 
 use super::address::{self, sqlite_url, without_password};
 use crate::errors::AppError;
@@ -10,25 +10,25 @@ use std::future::Future;
 use std::path::Path;
 use std::time::Duration;
 
-/// SQLite waits so long for other writers, ms.
+/// Time that SQLite waits for other writers, ms.
 const PATIENCE: &str = "PRAGMA busy_timeout = 60000";
-/// What is deleted is overwritten.
+/// SQLite overwrites deleted data with zeros.
 const FORGET: &str = "PRAGMA secure_delete = ON";
-/// Names the lock that PostgreSQL holds during a change: any number that nobody else uses. Without it two stations that take in the same
-/// new trainees in different orders would wait for each other, and one would be thrown out.
+/// Advisory lock that PostgreSQL holds during a change; the number is arbitrary. Without it, two stations that add the same new trainees in different
+/// orders would deadlock, and one transaction would be aborted.
 const WRITE_LOCK: &str = "SELECT pg_advisory_xact_lock(7301420226)";
 
-/// Whose dialect is spoken.
+/// SQL dialect of a database.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum SqlDialect {
     Sqlite,
     Postgres,
 }
 
-/// An open database with its tables made.
+/// An open database with up-to-date tables.
 #[derive(Debug)]
 pub struct Database {
-    /// Taken out when it ends.
+    /// `None` only while it is being dropped.
     runtime: Option<tokio::runtime::Runtime>,
     pub(super) pool: AnyPool,
     pub(super) kind: SqlDialect,
@@ -36,10 +36,10 @@ pub struct Database {
 }
 
 impl Database {
-    /// Opens `postgres://...`, or a file, which is made when it is not there; brings its tables up to date.
+    /// Opens `postgres://...` or a file, which is created if it does not exist, and brings its tables up to date.
     ///
     /// # Errors
-    /// When the URL is wrong, or it cannot be opened or is of a newer version.
+    /// If the URL is invalid, or the database cannot be opened or has a newer version.
     pub fn open(target: &str) -> Result<Self, AppError> {
         sqlx::any::install_default_drivers();
         let kind = if address::is_url(target) { SqlDialect::Postgres } else { SqlDialect::Sqlite };
@@ -47,34 +47,34 @@ impl Database {
         address::check(target).map_err(|wrong| AppError::wrong(format!("{name}: {wrong}")))?;
         if let (SqlDialect::Sqlite, Some(folder)) = (kind, Path::new(target).parent()) {
             std::fs::create_dir_all(folder)
-                .map_err(|error| AppError::failed(format!("{}: cannot be made: {error}", folder.display())))?;
+                .map_err(|error| AppError::failed(format!("{}: cannot create the folder: {error}", folder.display())))?;
         }
         let runtime = tokio::runtime::Builder::new_current_thread()
             .enable_all()
             .build()
-            .map_err(|error| AppError::failed(format!("{name}: no runtime for the database: {error}")))?;
+            .map_err(|error| AppError::failed(format!("{name}: cannot start the database runtime: {error}")))?;
         let url = if kind == SqlDialect::Sqlite { sqlite_url(target) } else { target.to_owned() };
-        // SQLite's version of its data counts within one connection: it stays open.
+        // SQLite's data_version is only meaningful within one connection, so the connection stays open.
         let lives = |seconds| (kind == SqlDialect::Postgres).then(|| Duration::from_secs(seconds));
         let options = AnyPoolOptions::new().max_connections(1).idle_timeout(lives(600)).max_lifetime(lives(1800)).after_connect(
             move |connection, _| {
                 Box::pin(async move { if kind == SqlDialect::Sqlite { prepare(connection).await } else { Ok(()) } })
             },
         );
-        // The pool would try a server that refuses again and again; one that does not answer at once is told at once.
+        // The pool would retry a server that refuses connections; a separate first connection reports the error immediately.
         let open = async {
             AnyConnection::connect(&url).await?.close().await?;
             options.connect(&url).await
         };
         let refused =
-            |error: sqlx::Error| AppError::failed(format!("{name}: cannot be opened: {}", address::connection_error(&error)));
+            |error: sqlx::Error| AppError::failed(format!("{name}: cannot open: {}", address::connection_error(&error)));
         let pool = runtime.block_on(open).map_err(refused)?;
         let database = Self { runtime: Some(runtime), pool, kind, name };
         database.run(database.migrate())?;
         Ok(database)
     }
 
-    /// Says that its tables are of another version.
+    /// Sets the stored version of the tables.
     #[cfg(test)]
     pub fn pretend_version(&self, version: i64) -> Result<(), AppError> {
         self.run(async {
@@ -83,7 +83,7 @@ impl Database {
         })
     }
 
-    /// Begins to write and does not end.
+    /// Starts a write transaction and leaves it open.
     #[cfg(test)]
     pub fn keep_writing(&self) -> Result<(), AppError> {
         self.run(async {
@@ -98,18 +98,18 @@ impl Database {
         })
     }
 
-    /// Its place, without a password, for messages.
+    /// Returns the database's address without a password, for messages.
     pub fn name(&self) -> &str {
         &self.name
     }
 
     pub(super) fn run<T>(&self, work: impl Future<Output = Result<T, sqlx::Error>>) -> Result<T, AppError> {
-        let ended = || AppError::failed(format!("{}: is being closed", self.name));
+        let ended = || AppError::failed(format!("{}: the database is being closed", self.name));
         let runtime = self.runtime.as_ref().ok_or_else(ended)?;
         runtime.block_on(work).map_err(|error| AppError::failed(format!("{}: {error}", self.name)))
     }
 
-    /// Returns a text that differs from an earlier answer of the same handle whenever another handle has changed the database since.
+    /// Returns a version string, which changes whenever another connection has modified the database.
     ///
     /// # Errors
     /// If the database fails.
@@ -120,7 +120,7 @@ impl Database {
                     let version: i64 = sqlx::query("PRAGMA data_version").fetch_one(&self.pool).await?.try_get(0)?;
                     Ok(version.to_string())
                 }
-                // Any transaction of the server that writes changes it: figures are computed too often rather than too seldom.
+                // Every write transaction on the server changes this value: results are recomputed too often rather than too rarely.
                 SqlDialect::Postgres => {
                     sqlx::query("SELECT txid_current_snapshot()::text").fetch_one(&self.pool).await?.try_get(0)
                 }
@@ -139,7 +139,7 @@ impl Database {
         }
     }
 
-    /// What was deleted leaves SQLite's journal, too.
+    /// Removes deleted data from SQLite's write-ahead log as well.
     pub(super) async fn forget(&self) -> Result<(), sqlx::Error> {
         match self.kind {
             SqlDialect::Sqlite => self.pool.execute("PRAGMA wal_checkpoint(TRUNCATE)").await.map(|_| ()),
@@ -150,7 +150,7 @@ impl Database {
 
 impl Drop for Database {
     fn drop(&mut self) {
-        // The last to let go of it may be a task of the web server, which must not wait: an ordinary end of a runtime does.
+        // The last reference may be dropped in a task of the web server, which must not block; dropping the runtime normally would block.
         if let Some(runtime) = self.runtime.take() {
             runtime.shutdown_background();
         }
@@ -161,13 +161,13 @@ async fn prepare(connection: &mut AnyConnection) -> Result<(), sqlx::Error> {
     for pragma in [PATIENCE, FORGET] {
         connection.execute(pragma).await?;
     }
-    // A journal beside the file lets readers read while somebody writes. While another station has the file open it may be refused;
-    // then the other one asks for it as well, and until then only patience is needed.
+    // The write-ahead log lets readers work while another process writes. SQLite may reject the switch while another station has the file open; that
+    // station then requests it too, and until then the busy timeout is sufficient.
     let _ = connection.execute("PRAGMA journal_mode = WAL").await;
     Ok(())
 }
 
-/// Times and versions fit in 63 bits.
+/// Converts to the database's integer type. Times and versions fit in 63 bits.
 pub(super) fn signed(number: u64) -> i64 {
     i64::try_from(number).unwrap_or(i64::MAX)
 }

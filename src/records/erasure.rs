@@ -1,5 +1,5 @@
-//! Removal of session folders that a kill cannot leave half done. The database names the folders in the same transaction that erases their
-//! records; then each folder gets a name under which nothing reads it, and is deleted. Whoever opens the place next finishes what is left.
+//! Removes session folders so that an interrupted program leaves nothing half done. The transaction that erases the records also marks their folders;
+//! each folder is then renamed, so that nothing reads it anymore, and deleted. The next start finishes interrupted removals.
 
 use super::database::Database;
 use super::erasure_marks::{self, ErasedKind, name_of};
@@ -9,11 +9,11 @@ use std::collections::BTreeSet;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// Beginning of the name of a folder that is being deleted.
+/// Prefix of the name of a folder that is being deleted.
 const ASIDE: &str = ".erasing-";
 
 impl Database {
-    /// Hashes of the folders whose removal has begun.
+    /// Returns the hashes of the folders that are marked for removal.
     fn erasing(&self) -> Result<BTreeSet<String>, AppError> {
         self.run(async {
             let query = sqlx::query("SELECT sha256 FROM erased WHERE what = $1").bind(ErasedKind::Folder.word().to_owned());
@@ -21,7 +21,7 @@ impl Database {
         })
     }
 
-    /// A folder is gone.
+    /// Removes the mark of a deleted folder.
     fn removed(&self, name: &str) -> Result<(), AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -34,14 +34,14 @@ impl Database {
 /// Removes folders that the database has marked (`Database::erase`, `Database::delete_sessions`).
 ///
 /// # Errors
-/// If the disk or the database refuses; the next start tries again.
+/// If the disk or the database fails; the next start tries again.
 pub(super) fn remove_folders(database: &Database, folders: &[PathBuf]) -> Result<(), AppError> {
     for folder in folders {
         let name = name_of(folder);
         let aside = folder.with_file_name(format!("{ASIDE}{name}"));
         delete(&aside)?;
         match std::fs::rename(folder, &aside) {
-            // Another process finishes the same erasure.
+            // Another process is finishing the same erasure.
             Err(error) if error.kind() == ErrorKind::NotFound => {}
             moved => moved.map_err(|error| io_error(folder, &error))?,
         }
@@ -52,10 +52,10 @@ pub(super) fn remove_folders(database: &Database, folders: &[PathBuf]) -> Result
     Ok(())
 }
 
-/// Finishes the erasures that a kill has cut off.
+/// Finishes interrupted erasures.
 ///
 /// # Errors
-/// If the disk or the database refuses.
+/// If the disk or the database fails.
 pub(super) fn finish(database: &Database, sessions: &[PathBuf]) -> Result<(), AppError> {
     let marked = database.erasing()?;
     for entry in sessions.iter().filter_map(|folder| std::fs::read_dir(folder).ok()).flatten().flatten() {
@@ -78,14 +78,14 @@ fn delete(folder: &Path) -> Result<(), AppError> {
     }
 }
 
-/// The new name is on the disk before anything under it goes.
+/// Syncs the parent folder, so that the new name is on disk before the contents are deleted.
 fn sync_parent(folder: &Path) -> Result<(), AppError> {
     let Some(parent) = folder.parent().filter(|parent| !parent.as_os_str().is_empty()) else { return Ok(()) };
     std::fs::File::open(parent).and_then(|parent| parent.sync_all()).map_err(|error| io_error(parent, &error))
 }
 
 fn io_error(path: &Path, error: &std::io::Error) -> AppError {
-    AppError::failed(format!("{}: cannot be erased: {error}", path.display()))
+    AppError::failed(format!("{}: cannot erase: {error}", path.display()))
 }
 
 #[cfg(test)]
@@ -114,7 +114,7 @@ mod tests {
         let here = [place.path().to_path_buf()];
         let database = Database::open(&place.path().join("records.sqlite").display().to_string()).unwrap();
         session(place.path(), "b-ben");
-        // Cut off after the transaction, after the new name, and half deleted.
+        // Interrupted after the transaction, after the rename, and during the deletion.
         let [marked, renamed, half] = ["a-anna", "c-anna", "d-anna"].map(|name| session(place.path(), name));
         database.erase("anna", &[marked, renamed.clone(), half.clone()]).unwrap();
         for folder in [&renamed, &half] {
@@ -124,7 +124,7 @@ mod tests {
         finish(&database, &here).unwrap();
         assert_eq!(left(place.path()), ["b-ben"]);
         assert_eq!(database.erasing(), Ok(BTreeSet::new()));
-        // A folder that comes back from elsewhere is not removed without being asked for.
+        // A folder that is copied back later is not removed without a request.
         session(place.path(), "a-anna");
         finish(&database, &here).unwrap();
         assert_eq!(left(place.path()), ["a-anna", "b-ben"]);

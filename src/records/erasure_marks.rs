@@ -1,4 +1,4 @@
-//! What was erased stays so: a mark in the database that every import and rebuild looks at, whichever station has a folder of it still.
+//! Marks of erased data in the database. Every import and rebuild checks them, so that erased sessions do not return from folders on other stations.
 
 use super::database::{Database, signed};
 use crate::errors::AppError;
@@ -14,14 +14,14 @@ const MARK: &str = "INSERT INTO erased (what, sha256, erased_unix_us) VALUES ($1
 const HOLDS: &str = "SELECT COUNT(*) FROM erased WHERE (what = 'trainee' AND sha256 = $1 AND erased_unix_us >= $2) \
     OR (what = 'session' AND sha256 = $3)";
 
-/// What is marked as erased.
+/// Kind of an erasure mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ErasedKind {
-    /// All sessions of a trainee that began before.
+    /// All sessions of a trainee that started before the mark.
     Trainee,
-    /// One session.
+    /// A single session, by its ID.
     Session,
-    /// A folder here that is still to be removed.
+    /// A folder on this machine that still has to be removed.
     Folder,
 }
 
@@ -35,12 +35,12 @@ impl ErasedKind {
     }
 }
 
-/// All marks, by what and the hash of its name, with their times, µs since the Unix epoch.
+/// All marks: time of erasure by kind and hash of the name, µs since the Unix epoch.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct ErasureMarks(BTreeMap<(String, String), u64>);
 
 impl ErasureMarks {
-    /// A session must not come back: it was erased, or its trainee after it had begun.
+    /// Returns true if the session was erased, or its trainee was erased after it had started.
     #[must_use]
     pub fn contains(&self, id: &str, trainee: &str, started_unix_us: u64) -> bool {
         let at = |what: ErasedKind, name: &str| self.0.get(&(what.word().to_owned(), hash(name)));
@@ -48,18 +48,18 @@ impl ErasureMarks {
     }
 }
 
-/// A folder's own name.
+/// Returns the last component of a folder's path.
 pub(super) fn name_of(folder: &Path) -> String {
     folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-/// A name is not kept where it was to be forgotten.
+/// Returns the hash under which a name is marked; storing the name itself would defeat the erasure.
 pub(super) fn hash(name: &str) -> String {
     sha256_hex(format!("erased: {name}").as_bytes())
 }
 
 impl Database {
-    /// What was erased so far.
+    /// Returns all erasure marks.
     ///
     /// # Errors
     /// If the database fails.
@@ -75,19 +75,19 @@ impl Database {
     }
 }
 
-/// Marks a name as erased now, within the change that erases it.
+/// Marks a name as erased now, within the transaction that erases it.
 pub(super) async fn mark(change: &mut Transaction<'static, Any>, what: ErasedKind, name: &str) -> Result<(), sqlx::Error> {
     let query = sqlx::query(MARK).bind(what.word().to_owned()).bind(hash(name)).bind(signed(clock::unix_us()));
     query.execute(&mut **change).await.map(|_| ())
 }
 
-/// Takes a mark away, within a change.
+/// Removes a mark, within a transaction.
 pub(super) async fn unmark(change: &mut Transaction<'static, Any>, what: ErasedKind, name: &str) -> Result<(), sqlx::Error> {
     let query = sqlx::query("DELETE FROM erased WHERE what = $1 AND sha256 = $2");
     query.bind(what.word().to_owned()).bind(hash(name)).execute(&mut **change).await.map(|_| ())
 }
 
-/// The same as [`ErasureMarks::contains`], within a change: nobody erases between this answer and the change's end.
+/// Like [`ErasureMarks::contains`], but within a transaction: nothing can be erased between this check and the commit.
 pub(super) async fn contains(change: &mut Transaction<'static, Any>, record: &SessionRecord) -> Result<bool, sqlx::Error> {
     let query = sqlx::query(HOLDS).bind(hash(&record.trainee)).bind(signed(record.started_unix_us)).bind(hash(&record.id));
     let count: i64 = query.fetch_one(&mut **change).await?.try_get(0)?;

@@ -1,4 +1,4 @@
-//! From session folders to records.
+//! Creates records from session folders.
 
 use super::erasure_marks::ErasureMarks;
 use crate::errors::AppError;
@@ -13,40 +13,40 @@ use spandrel_training::record::{RecordSource, SessionRecord, SourceHashes, recor
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Session folders directly inside these, in the order of their names (that is, of their times).
+/// Returns the session folders directly inside these folders, ordered by name (that is, by time).
 ///
 /// # Errors
 /// If a folder cannot be read.
 pub fn session_folders(sessions: &[PathBuf]) -> Result<Vec<PathBuf>, AppError> {
     let mut found = Vec::new();
     for folder in sessions {
-        let entries = std::fs::read_dir(folder)
-            .map_err(|error| AppError::wrong(format!("{}: cannot be read: {error}", folder.display())))?;
+        let entries =
+            std::fs::read_dir(folder).map_err(|error| AppError::wrong(format!("{}: cannot read: {error}", folder.display())))?;
         found.extend(entries.flatten().map(|entry| entry.path()).filter(|path| is_session(path) && !is_hidden(path)));
     }
     found.sort_by(|a, b| a.file_name().cmp(&b.file_name()));
     Ok(found)
 }
 
-/// Folders that are being erased or made have such names.
+/// Returns true for folders that are being erased or created; their names start with a dot.
 fn is_hidden(path: &Path) -> bool {
     path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"."))
 }
 
-/// The id of a session: its folder's name.
+/// Returns the ID of a session: the name of its folder.
 ///
 /// # Errors
-/// When the folder has none that is text.
+/// If the name of the folder is not valid UTF-8.
 pub fn id(session: &Path) -> Result<String, AppError> {
     let path = session.canonicalize().map_err(|error| AppError::wrong(format!("{}: {error}", session.display())))?;
     let name = path.file_name().and_then(|name| name.to_str());
-    name.map(str::to_owned).ok_or_else(|| AppError::wrong(format!("{}: the folder's name is no text", session.display())))
+    name.map(str::to_owned).ok_or_else(|| AppError::wrong(format!("{}: the folder name is not valid UTF-8", session.display())))
 }
 
-/// Makes the record of a session folder, unless `known` holds it unchanged.
+/// Creates the record of a session folder. Returns `None` if `known` contains it unchanged.
 ///
 /// # Errors
-/// When the folder is wrong or holds nothing to score.
+/// If the folder is invalid or contains nothing to score.
 pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<SessionRecord>, AppError> {
     let id = id(session)?;
     let hashes = hashes(session)?;
@@ -57,7 +57,7 @@ pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<S
     let scenario = &stored.scenario.scenario;
     let graded = scoring::grade(&stored.log, scenario, &stored.vehicle.vehicle)
         .map_err(|error| AppError::failed(format!("{}: {error}", session.display())))?;
-    // A monitor that was killed early has not written the defects' places yet; the seed gives the same ones.
+    // A monitor that was killed early has not saved the positions of the defects; the seed gives the same ones.
     let survey = scenario.defects.placed.is_none().then(|| build_site(scenario, graded.seed));
     let placed = scenario.defects.placed.as_deref().or_else(|| survey.as_ref().map(|survey| survey.defects()));
     let answers = answers::stored(session, scenario)?;
@@ -76,7 +76,8 @@ pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<S
     })))
 }
 
-/// A folder's session was erased, or its trainee after it had begun: it does not come back. One that cannot be read is told by [`read`].
+/// Returns true if the session of a folder was erased, or its trainee was erased after it had started. Unreadable folders return false, because
+/// [`read`] reports them.
 pub fn is_erased(session: &Path, erased: &ErasureMarks) -> bool {
     let (Ok(id), Ok((trainee, started_unix_us))) = (id(session), session_owner(session)) else { return false };
     erased.contains(&id, &trainee, started_unix_us)
@@ -85,7 +86,7 @@ pub fn is_erased(session: &Path, erased: &ErasureMarks) -> bool {
 fn hashes(session: &Path) -> Result<SourceHashes, AppError> {
     let bytes = |name: &str| {
         let path = session.join(name);
-        std::fs::read(&path).map_err(|error| AppError::wrong(format!("{}: cannot be read: {error}", path.display())))
+        std::fs::read(&path).map_err(|error| AppError::wrong(format!("{}: cannot read: {error}", path.display())))
     };
     let telemetry = LogFile::open(&session.join(TELEMETRY))?.sha256()?;
     let answers = if session.join(ANSWERS).is_file() { bytes(ANSWERS)? } else { Vec::new() };

@@ -23,7 +23,7 @@ pub fn from_lines(path: &Path) -> Result<Vec<SessionRecord>, AppError> {
     let numbered = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let read = |(k, line): (usize, &str)| {
         let wrong = |message: String| AppError::wrong(format!("{}:{}: {message}", path.display(), k + 1));
-        let record: SessionRecord = serde_json::from_str(line).map_err(|error| wrong(format!("no record: {error}")))?;
+        let record: SessionRecord = serde_json::from_str(line).map_err(|error| wrong(format!("not a valid record: {error}")))?;
         record.check().map_err(wrong)?;
         Ok(record)
     };

@@ -28,7 +28,7 @@ impl RecordsLocation {
             }
         }?;
         if let Err(error) = erasure::finish(&database, &self.sessions) {
-            tracing::warn!("an erasure is not finished: {error}");
+            tracing::warn!("cannot finish an interrupted erasure: {error}");
         }
         Ok(database)
     }

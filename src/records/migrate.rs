@@ -1,9 +1,9 @@
-//! The database's tables, brought up to date.
+//! Brings the database's tables up to date.
 
 use super::database::Database;
 use sqlx::{Executor, Row};
 
-/// Migrations in their order; a database of version n has seen the first n. What is released here never changes, a new one is added.
+/// Migrations in order; a database of version n has the first n. Released migrations never change; new ones are appended.
 const MIGRATIONS: &[&str] = &[
     include_str!("migrations/0001_first.sql"),
     include_str!("migrations/0002_passwords.sql"),
@@ -12,9 +12,9 @@ const MIGRATIONS: &[&str] = &[
 ];
 
 impl Database {
-    /// Runs what this database has not seen, under the lock of a change.
+    /// Runs the missing migrations in one transaction under the write lock.
     pub(super) async fn migrate(&self) -> Result<(), sqlx::Error> {
-        // Who finds the tables made takes no lock: readers do not wait for writers.
+        // If the tables are up to date, no lock is taken, so that readers do not wait for writers.
         let version = sqlx::query("SELECT version FROM schema_version").fetch_optional(&self.pool).await;
         if let Ok(Some(row)) = version
             && row.try_get::<i64, _>(0).is_ok_and(|version| usize::try_from(version) == Ok(MIGRATIONS.len()))
@@ -29,11 +29,14 @@ impl Database {
         let Some(missing) = MIGRATIONS.get(done..) else {
             let newest = MIGRATIONS.len();
             return Err(sqlx::Error::Configuration(
-                format!("its tables are of version {version}, this program knows {newest}: use a newer one").into(),
+                format!(
+                    "the database has version {version}, but this program supports only {newest}: use a newer version of spandrel"
+                )
+                .into(),
             ));
         };
         for migration in missing {
-            sqlx::raw_sql(migration).execute(&mut *change).await?;
+            sqlx::raw_sql(*migration).execute(&mut *change).await?;
         }
         if !missing.is_empty() {
             change.execute("DELETE FROM schema_version").await?;

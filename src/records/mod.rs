@@ -1,5 +1,5 @@
-//! The database of sessions, trainees and answers. The session folders are the source; the database can be made
-//! again from them at any time (all but what trainees told of themselves).
+//! Database of sessions, trainees and answers. The session folders are the source of truth; the database can be rebuilt from them
+//! at any time, except for the details that trainees entered.
 
 mod accounts;
 mod address;

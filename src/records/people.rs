@@ -1,4 +1,4 @@
-//! Trainees: what is known of them, everything that is kept of one, and erasing it.
+//! Details of trainees, and the export and erasure of all data of a trainee.
 
 use super::database::Database;
 use super::location::RecordsLocation;
@@ -86,7 +86,7 @@ fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result
         match session_owner(&path) {
             Ok((trainee, started_unix_us)) if is(&trainee, started_unix_us) => found.push(path),
             Ok(_) => {}
-            Err(error) => tracing::warn!("cannot tell whose this is: {error}"),
+            Err(error) => tracing::warn!("cannot determine the trainee of a session folder: {error}"),
         }
     }
     Ok(found)

@@ -1,5 +1,5 @@
-//! `spandrel records push`: sessions as xAPI statements to a learning record store. What is there already is not sent twice: a statement's
-//! id is made from what it says.
+//! `spandrel records push`: sends sessions as xAPI statements to a learning record store. The ID of a statement is derived from its contents, so
+//! statements that the store already has are not sent twice.
 
 use super::location::RecordsLocation;
 use crate::errors::AppError;
@@ -29,7 +29,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 const USER: &str = "SPANDREL_LRS_USER";
 const PASSWORD: &str = "SPANDREL_LRS_PASSWORD";
 
-/// Number of statements by the store's response.
+/// Number of statements by the store's answer.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct PushCounts {
     /// Statements that were new to the store.
@@ -45,7 +45,9 @@ pub struct PushCounts {
 pub fn endpoint(text: &str) -> Result<String, String> {
     let rest = text.strip_prefix("https://").or_else(|| text.strip_prefix("http://")).unwrap_or_default();
     if rest.is_empty() || rest.starts_with('/') || text.contains(['?', '#', ' ', '@']) {
-        return Err(format!("'{text}' is no endpoint (allowed: http:// or https://, host, path; no user, query or fragment)"));
+        return Err(format!(
+            "'{text}' is not an xAPI endpoint (allowed: http:// or https://, host, path; no user, query or fragment)"
+        ));
     }
     Ok(text.trim_end_matches('/').to_owned())
 }
@@ -128,7 +130,7 @@ impl LearningRecordStore {
             let Some(wait) = waits.next() else {
                 return Err(AppError::failed(format!("{address}: {why}, after {} tries", WAITS.len() + 1)));
             };
-            tracing::info!("{address}: {why}; again in {:.1} s", wait.as_secs_f64());
+            tracing::info!("{address}: {why}; retrying in {:.1} s", wait.as_secs_f64());
             std::thread::sleep(*wait);
         }
     }

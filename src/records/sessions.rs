@@ -1,4 +1,4 @@
-//! Sessions in the database: taken in, listed, deleted.
+//! Sessions in the database: import, list, delete.
 
 use super::database::{Database, signed};
 use super::erasure_marks::{self, ErasedKind, name_of};
@@ -25,18 +25,18 @@ const UPSERT: &str = "INSERT INTO sessions (id, trainee, started_unix_us, scenar
     fingerprint = excluded.fingerprint, record = excluded.record, purpose = excluded.purpose \
     WHERE sessions.fingerprint <> excluded.fingerprint";
 const ADD_TRAINEE: &str = "INSERT INTO trainees (pseudonym, role) VALUES ($1, $2) ON CONFLICT (pseudonym) DO NOTHING";
-// The inner question is answered from an index alone; only what is shown is read whole.
+// The subquery needs only an index; complete rows are read only for the sessions that are shown.
 const LIST: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
     (SELECT id FROM sessions ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
 const LIST_OF_ONE: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
     (SELECT id FROM sessions WHERE trainee = $3 ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
 
 impl Database {
-    /// Takes records in, each with its trainee; a session that is there unchanged stays untouched, what was erased stays so. Returns how many
-    /// were new or changed.
+    /// Adds records with their trainees. Unchanged sessions stay untouched, and erased sessions are not added again. Returns the number of new or
+    /// changed sessions.
     ///
     /// # Errors
-    /// If the database fails; nothing is imported then.
+    /// If the database fails; nothing is imported in that case.
     pub fn put(&self, records: &[SessionRecord]) -> Result<usize, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -45,11 +45,11 @@ impl Database {
         })
     }
 
-    /// Makes these sessions anew and deletes those of the ids in `gone`; all others, which another station may have added meanwhile, stay,
-    /// and so do trainees and their details. Returns how many were made.
+    /// Replaces these sessions and deletes those with the IDs in `gone`. All other sessions, which another station may have added meanwhile, are
+    /// kept, and so are the trainees and their details. Returns the number of sessions added.
     ///
     /// # Errors
-    /// If the database fails; nothing is changed then.
+    /// If the database fails; nothing is changed in that case.
     pub fn rebuild(&self, records: &[SessionRecord], gone: &[String]) -> Result<usize, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -61,7 +61,7 @@ impl Database {
         })
     }
 
-    /// The session that was made from this telemetry (SHA-256, hexadecimal), and its trainee.
+    /// Returns the ID and the trainee of the session with this telemetry (SHA-256, hexadecimal).
     ///
     /// # Errors
     /// If the database fails.
@@ -73,7 +73,7 @@ impl Database {
         })
     }
 
-    /// Fingerprints of all sessions by their id.
+    /// Returns the fingerprints of all sessions by session ID.
     ///
     /// # Errors
     /// If the database fails.
@@ -84,7 +84,7 @@ impl Database {
         })
     }
 
-    /// Records in the order of their start: all, or one trainee's.
+    /// Returns the records of all trainees, or of one, in the order of their start.
     ///
     /// # Errors
     /// If the database fails or contains an invalid record.
@@ -105,7 +105,7 @@ impl Database {
         rows.into_iter().map(read).collect()
     }
 
-    /// One session's record.
+    /// Returns the record of one session.
     ///
     /// # Errors
     /// If the database fails or contains an invalid record.
@@ -118,7 +118,7 @@ impl Database {
         text.map(|text| serde_json::from_str(&text).map_err(wrong)).transpose()
     }
 
-    /// How many sessions there are: all, or one trainee's.
+    /// Returns the number of sessions of all trainees, or of one.
     ///
     /// # Errors
     /// If the database fails.
@@ -133,7 +133,7 @@ impl Database {
         Ok(u64::try_from(counted).unwrap_or_default())
     }
 
-    /// Sessions in short, the newest first: all, or one trainee's; so many after the first `skip`.
+    /// Returns up to `most` list entries of all trainees, or of one, newest first; skips the first `skip`.
     ///
     /// # Errors
     /// If the database fails.
@@ -146,7 +146,7 @@ impl Database {
         })
     }
 
-    /// Ids and trainees of the sessions that started before this instant, µs since the Unix epoch.
+    /// Returns the IDs and trainees of the sessions that started before this time, µs since the Unix epoch.
     ///
     /// # Errors
     /// If the database fails.
@@ -158,11 +158,11 @@ impl Database {
         })
     }
 
-    /// Erases sessions: they do not come back from a folder elsewhere. Marks `folders` for [`super::erasing::remove_folders`]. Returns how many
-    /// sessions there were.
+    /// Erases sessions, so that they cannot be imported again from folders on other stations. Marks `folders` for [`super::erasure::remove_folders`].
+    /// Returns the number of sessions deleted.
     ///
     /// # Errors
-    /// If the database fails; nothing is changed then.
+    /// If the database fails; nothing is changed in that case.
     pub fn delete_sessions(&self, ids: &[String], folders: &[PathBuf]) -> Result<u64, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -177,11 +177,11 @@ impl Database {
         })
     }
 
-    /// Erases a trainee with everything: sessions flown so far do not come back from a folder elsewhere. Marks `folders` for
-    /// [`super::erasing::remove_folders`]. Returns whether the trainee was known, and how many sessions there were.
+    /// Erases a trainee with all data, so that the sessions so far cannot be imported again from folders on other stations. Marks `folders` for
+    /// [`super::erasure::remove_folders`]. Returns whether the trainee existed, and the number of sessions deleted.
     ///
     /// # Errors
-    /// If the database fails; nothing is changed then.
+    /// If the database fails; nothing is changed in that case.
     pub fn erase(&self, trainee: &str, folders: &[PathBuf]) -> Result<(bool, u64), AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -214,7 +214,7 @@ async fn put_all(change: &mut Transaction<'static, Any>, records: &[SessionRecor
     Ok(changed)
 }
 
-/// Deletes one session. Returns how many there were.
+/// Deletes one session. Returns the number of rows deleted.
 async fn delete(change: &mut Transaction<'static, Any>, id: &str) -> Result<u64, sqlx::Error> {
     sqlx::query("DELETE FROM answers WHERE session = $1").bind(id.to_owned()).execute(&mut **change).await?;
     let done = sqlx::query("DELETE FROM sessions WHERE id = $1").bind(id.to_owned()).execute(&mut **change).await?;
@@ -244,7 +244,7 @@ async fn put(change: &mut Transaction<'static, Any>, record: &SessionRecord) -> 
     Ok(true)
 }
 
-fn bind<'q>(query: Query<'q, Any, AnyArguments<'q>>, record: &SessionRecord, text: String) -> Query<'q, Any, AnyArguments<'q>> {
+fn bind<'q>(query: Query<'q, Any, AnyArguments>, record: &SessionRecord, text: String) -> Query<'q, Any, AnyArguments> {
     let scores = &record.scores;
     query
         .bind(record.id.clone())
@@ -270,7 +270,7 @@ fn bind<'q>(query: Query<'q, Any, AnyArguments<'q>>, record: &SessionRecord, tex
         .bind(record.purpose.clone())
 }
 
-/// Fields of a record that lists show besides its columns.
+/// Fields of the JSON record that lists show in addition to the columns.
 #[derive(serde::Deserialize)]
 struct ListFields {
     #[serde(default)]

@@ -1,4 +1,4 @@
-//! Trainees in the database: who there is and what is known of them.
+//! Trainees in the database.
 
 use super::database::Database;
 use crate::errors::AppError;
@@ -6,21 +6,21 @@ use spandrel_training::trainee::{Role, Trainee};
 use sqlx::any::AnyRow;
 use sqlx::{Any, Row, Transaction};
 
-/// What is not given stays as it is: nobody else's change is lost.
+/// Empty values keep the stored ones, so that no concurrent change is lost.
 const SET_GIVEN: &str = "INSERT INTO trainees (pseudonym, role, age_band, drone_experience, gaming_experience) \
     VALUES ($1, CASE WHEN $2 = '' THEN 'trainee' ELSE $2 END, NULLIF($3, ''), NULLIF($4, ''), NULLIF($5, '')) \
     ON CONFLICT (pseudonym) DO UPDATE SET role = CASE WHEN $2 = '' THEN trainees.role ELSE excluded.role END, \
     age_band = COALESCE(excluded.age_band, trainees.age_band), \
     drone_experience = COALESCE(excluded.drone_experience, trainees.drone_experience), \
     gaming_experience = COALESCE(excluded.gaming_experience, trainees.gaming_experience)";
-/// Only while they are still what they were on the page that was filled in.
+/// Updates the details only if they are still the same as when the form was loaded.
 const SET_DETAILS: &str = "UPDATE trainees SET age_band = NULLIF($1, ''), drone_experience = NULLIF($2, ''), \
     gaming_experience = NULLIF($3, '') WHERE pseudonym = $4 AND COALESCE(age_band, '') = $5 AND COALESCE(drone_experience, '') = $6 \
     AND COALESCE(gaming_experience, '') = $7";
 const TRAINEES: &str = "SELECT pseudonym, role, age_band, drone_experience, gaming_experience FROM trainees ORDER BY pseudonym";
 
 impl Database {
-    /// All trainees.
+    /// Returns all trainees, ordered by pseudonym.
     ///
     /// # Errors
     /// If the database fails.
@@ -31,7 +31,7 @@ impl Database {
         })
     }
 
-    /// Adds a trainee, or sets what is given of him: his role, and of his details (age, drones, games) those that are there.
+    /// Adds a trainee, or sets the role and those details (age, drones, games) that are given.
     ///
     /// # Errors
     /// If the database fails.
@@ -43,8 +43,8 @@ impl Database {
         })
     }
 
-    /// Sets a person's details (age, drones, games; empty: not said), if they still are as in `before`. False when they are not, or nobody
-    /// has this name: then nothing is changed.
+    /// Sets a person's details (age, drones, games; empty for no answer) if they are still as in `before`. Returns false if they are not, or if there
+    /// is no such person; nothing is changed in that case.
     ///
     /// # Errors
     /// If the database fails.
@@ -59,7 +59,7 @@ impl Database {
     }
 }
 
-/// Adds a trainee or sets what is given, within a change.
+/// Adds a trainee or sets the given details, within a transaction.
 pub(super) async fn set_given(
     change: &mut Transaction<'static, Any>,
     name: &str,
@@ -75,7 +75,7 @@ pub(super) fn trainee(row: &AnyRow) -> Result<Trainee, sqlx::Error> {
     let role: String = row.try_get(1)?;
     Ok(Trainee {
         pseudonym: row.try_get(0)?,
-        role: Role::from_word(&role).ok_or_else(|| sqlx::Error::Decode(format!("'{role}' is no role").into()))?,
+        role: Role::from_word(&role).ok_or_else(|| sqlx::Error::Decode(format!("unknown role '{role}'").into()))?,
         age_band: row.try_get(2)?,
         drone_experience: row.try_get(3)?,
         gaming_experience: row.try_get(4)?,

@@ -1,11 +1,11 @@
-//! Style and scripts.
+//! Serves the style sheet and the scripts.
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::state::ServerState;
 use spandrel_training::web::assets;
 
-/// A file of ours.
+/// Responds with an asset of the pages.
 pub fn file(_: &ServerState, asked: &WebRequest) -> HandlerResult {
     let (text, kind) = assets::file(asked.path_part("name")).ok_or(WebError::NotFound)?;
     Ok(WebResponse::asset(kind, text))

@@ -1,4 +1,4 @@
-//! Who is who: cookies and logins. The rules are `spandrel_training::web`'s; here are clock and randomness.
+//! Authentication: cookies and logins. The rules are in `spandrel_training::web`; this module adds the clock and random numbers.
 
 mod origin;
 
@@ -20,44 +20,44 @@ use std::net::IpAddr;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A browser keeps the cookie by which it is known this long; the server forgets it after the same time.
+/// Lifetime of the cookie that identifies a browser; the server forgets the browser after the same time.
 const DEVICE_KEPT: cookie::time::Duration = cookie::time::Duration::days(90);
 
-/// The guard.
+/// Keeps the browser sessions, the known browsers and the failed logins.
 #[derive(Debug)]
 pub struct Authenticator {
     visits: Mutex<BrowserSessions>,
     throttle: Mutex<LoginThrottle>,
     devices: Mutex<KnownBrowsers>,
-    /// The queue for password hashing.
+    /// Queue for password hashing.
     pub hashing: HashingQueue,
     somebody_has_a_password: AtomicBool,
     secure: bool,
     reach: AllowedOrigins,
 }
 
-/// Where a login comes from.
+/// Origin of a login.
 #[derive(Debug, Clone, Copy)]
 pub struct LoginClient<'a> {
-    /// Address.
+    /// IP address of the client.
     pub from: IpAddr,
-    /// Cookie of a browser that somebody has logged in with before.
+    /// Cookie of a browser that has logged in before.
     pub device: Option<&'a str>,
 }
 
-/// A visitor with his cookie, and the cookie to set when it is new.
+/// A visitor with their session cookie.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Identified {
-    /// Who.
+    /// Visitor with name and role.
     pub visitor: Visitor,
-    /// His cookie.
+    /// Value of the session cookie.
     pub cookie: String,
-    /// To be set.
+    /// True if the cookie is new and must be set.
     pub fresh: bool,
 }
 
 impl Authenticator {
-    /// A guard; `secure` says that all requests come over TLS.
+    /// Creates an authenticator; `secure` is true if all requests use TLS.
     pub fn new(somebody_has_a_password: bool, secure: bool, reach: AllowedOrigins) -> Self {
         Self {
             visits: Mutex::default(),
@@ -86,17 +86,17 @@ impl Authenticator {
         self.reach.address(socket, headers)
     }
 
-    /// Requests come over TLS.
+    /// Returns true if all requests use TLS.
     pub fn is_secure(&self) -> bool {
         self.secure
     }
 
-    /// From now on everybody has to log in.
+    /// Requires a login from now on.
     pub fn require_login(&self) {
         self.somebody_has_a_password.store(true, Ordering::SeqCst);
     }
 
-    /// Nobody has a password: whoever reaches the server does everything.
+    /// Returns true if there is no password, so that every visitor has full access.
     ///
     /// # Errors
     /// If the database fails.
@@ -104,7 +104,7 @@ impl Authenticator {
         if self.somebody_has_a_password.load(Ordering::SeqCst) {
             return Ok(false);
         }
-        // The command line may have set the first one meanwhile. Once closed the server stays so until it is started again.
+        // The command line may have set the first password meanwhile. Once logins are required, they stay required until a restart.
         if !database.with_password()?.is_empty() {
             self.require_login();
             return Ok(false);
@@ -112,16 +112,16 @@ impl Authenticator {
         Ok(true)
     }
 
-    /// Who sends this cookie. Without a living one a stranger's visit begins.
+    /// Identifies the visitor by this cookie. Without a valid one, a new anonymous browser session starts.
     ///
     /// # Errors
-    /// When the database refuses or the system has no randomness.
+    /// If the database or the system's random number generator fails.
     pub fn identify(&self, database: &Database, cookie: Option<String>) -> Result<Identified, WebError> {
         let open = self.is_open(database)?;
         let now_us = clock::unix_us();
         let found = cookie.and_then(|cookie| lock(&self.visits).find(&cookie, now_us).map(|visit| (cookie, visit)));
-        // Asked for again with every request: who was degraded, erased or given another password is put out at once, whoever did it, here,
-        // by another server or at the command line.
+        // Checked with every request, so that a change of role, an erasure or a new password ends the browser session immediately, even if another
+        // server or the command line made the change.
         let account = found.as_ref().and_then(|(_, visit)| visit.name.as_deref());
         let account = account.map(|name| database.account(name)).transpose()?.flatten();
         let over =
@@ -141,11 +141,11 @@ impl Authenticator {
         Ok(Identified { visitor: visitor(open, person, visit), cookie, fresh: false })
     }
 
-    /// Logs in: checks name and password, ends the visit before, begins a new one. Returns the new cookie and that of the browser, which is
-    /// known for this name from now on.
+    /// Logs in: checks name and password, ends the previous browser session and starts a new one. Returns the new session cookie and the cookie of
+    /// the browser, which is known for this name from now on.
     ///
     /// # Errors
-    /// When it has to wait, or name and password do not fit; which of the two is not told.
+    /// If there were too many failures, or name and password do not match; the message does not tell which of the two is wrong.
     pub fn log_in(
         &self,
         database: &Database,
@@ -165,10 +165,10 @@ impl Authenticator {
         Ok((cookie, device))
     }
 
-    /// Checks a password, within the limits on failures. Returns whose it is, as it was when it fitted.
+    /// Checks a password within the limits on failed logins. Returns the account as it was when the password matched.
     ///
     /// # Errors
-    /// As [`Self::log_in`].
+    /// Like [`Self::log_in`].
     pub fn check(&self, database: &Database, name: &str, password: &str, client: &LoginClient<'_>) -> Result<Account, WebError> {
         let now_us = clock::unix_us();
         let known = client.device.and_then(|cookie| lock(&self.devices).find(cookie, name, now_us));
@@ -176,76 +176,76 @@ impl Authenticator {
         if let Some(wait_us) = lock(&self.throttle).wait_us(from, name, now_us) {
             return Err(WebError::RateLimited(wait_us.div_ceil(1_000_000)));
         }
-        // A full queue refuses before the failure counts: a flood from elsewhere must not lock anybody out.
+        // If the queue is full, the request is rejected before it counts as a failure: a flood from elsewhere must not lock out other users.
         let turn = self.hashing.acquire()?;
-        // Counted before the slow part, so that a flood at once is a flood, too.
+        // Counted before the slow hashing, so that simultaneous attempts count, too.
         lock(&self.throttle).record_failure(from, name, now_us);
         let account = database.account(name)?;
         let hash = account.as_ref().and_then(|account| account.hash.as_deref());
         if !turn.verify(password, hash) {
-            tracing::info!("a login from {} failed", client.from);
+            tracing::info!("failed login from {}", client.from);
             return Err(wrong_credentials());
         }
         lock(&self.throttle).clear_failures(from, name);
         account.ok_or_else(wrong_credentials)
     }
 
-    /// Ends a visit.
+    /// Ends a browser session.
     pub fn log_out(&self, cookie: Option<&str>) {
         cookie.iter().for_each(|cookie| lock(&self.visits).end(cookie));
     }
 
-    /// Ends all visits of a person but that of one cookie.
+    /// Ends all browser sessions of a person except the one with the cookie `but`.
     pub fn end_other_sessions(&self, name: &str, but: Option<&str>) {
         lock(&self.visits).end_all_of(name, but);
     }
 
-    /// The visit of a cookie goes on under this account's new password or role.
+    /// Continues a browser session after a change of its account's password or role.
     pub fn renew(&self, cookie: Option<&str>, account: &Account) {
         if let (Some(cookie), Some(credential)) = (cookie, account.credential()) {
             lock(&self.visits).renew(cookie, credential);
         }
     }
 
-    /// The token of a form is the visitor's.
+    /// Checks that the form token is the visitor's.
     ///
     /// # Errors
-    /// When it is not: another site's form, or one from before a login.
+    /// If it is not: the form belongs to another site, or was loaded before a login.
     pub fn check_token(visitor: &Visitor, given: Option<&str>) -> Result<(), WebError> {
         if given.is_some_and(|given| constant_time_eq(given, &visitor.token)) {
             return Ok(());
         }
-        Err(WebError::Forbidden("This form is not of this visit. Please open its page again and send it once more.".into()))
+        Err(WebError::Forbidden("This form has expired. Please reload its page and submit it again.".into()))
     }
 
-    /// Name of our cookie.
+    /// Returns the name of the session cookie.
     fn cookie_name(&self) -> &'static str {
         if self.secure { "__Host-spandrel" } else { "spandrel" }
     }
 
-    /// Name of the cookie of a known browser.
+    /// Returns the name of the cookie that identifies a browser.
     fn device_name(&self) -> &'static str {
         if self.secure { "__Host-spandrel-device" } else { "spandrel-device" }
     }
 
-    /// Our cookie's value in a request.
+    /// Returns the value of the session cookie in a request.
     pub fn cookie_of(&self, headers: &HeaderMap) -> Option<String> {
         value_of(headers, self.cookie_name())
     }
 
-    /// The value of a known browser's cookie in a request.
+    /// Returns the value of the browser cookie in a request.
     pub fn device_of(&self, headers: &HeaderMap) -> Option<String> {
         value_of(headers, self.device_name())
     }
 
-    /// The cookie of a known browser, to be set. It opens nothing: it only counts failed logins apart.
+    /// Returns the Set-Cookie value for a known browser. It grants no access; failed logins of known browsers are only counted separately.
     pub fn device_cookie(&self, value: &str) -> String {
         let built = cookie::Cookie::build((self.device_name(), value)).path("/").http_only(true).secure(self.secure);
         built.same_site(cookie::SameSite::Strict).max_age(DEVICE_KEPT).build().to_string()
     }
 
-    /// Our cookie, to be set. Lax, for with Strict a link in a mail would come without it and be given a stranger's in its place: logged
-    /// out by a link. What changes something has a form's token and is asked where it comes from.
+    /// Returns the Set-Cookie value of the session. The policy is Lax: with Strict, a link in an e-mail would arrive without the cookie, and the new
+    /// anonymous session would log the user out. Requests that change anything need a form token and are checked for their origin.
     pub fn cookie(&self, value: &str) -> String {
         let built = cookie::Cookie::build((self.cookie_name(), value)).path("/").http_only(true).secure(self.secure);
         built.same_site(cookie::SameSite::Lax).build().to_string()
@@ -259,7 +259,7 @@ fn value_of(headers: &HeaderMap, name: &str) -> Option<String> {
 }
 
 fn wrong_credentials() -> WebError {
-    WebError::Forbidden("Name and password do not fit.".into())
+    WebError::Forbidden("Wrong user name or password.".into())
 }
 
 fn visitor(open: bool, person: Option<Trainee>, visit: BrowserSession) -> Visitor {
@@ -270,7 +270,8 @@ fn visitor(open: bool, person: Option<Trainee>, visit: BrowserSession) -> Visito
 fn secrets() -> Result<[TokenBytes; 2], WebError> {
     let mut secrets = [[0; 32]; 2];
     for secret in &mut secrets {
-        getrandom::fill(secret).map_err(|error| WebError::Failed(format!("the system has no randomness: {error}")))?;
+        getrandom::fill(secret)
+            .map_err(|error| WebError::Failed(format!("the system's random number generator failed: {error}")))?;
     }
     Ok(secrets)
 }

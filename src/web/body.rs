@@ -1,4 +1,4 @@
-//! What a request brings: the fields of a form, or a file with them.
+//! Reads request bodies: form fields and uploaded files.
 
 use super::auth::Authenticator;
 use super::request::{UploadedFile, WebRequest};
@@ -11,17 +11,17 @@ use axum::extract::{FromRequest, Multipart, Request};
 use std::path::Path;
 use std::time::Duration;
 
-/// A browser has this long to send a form.
+/// Time limit for a form without a file.
 const FORM_WAIT: Duration = Duration::from_secs(30);
-/// And this long for a recording, over a slow line.
+/// Time limit for an uploaded file, over a slow line.
 const UPLOAD_WAIT: Duration = Duration::from_secs(600);
 
-/// Reads the body, and holds it to the visitor's token. Large files go to `spool` meanwhile.
+/// Reads the body and checks the form token. Large files are written to `spool` while they arrive.
 ///
 /// # Errors
-/// When it is too large, too slow, no form, or not of this visit.
+/// If the body is too large, too slow, not a form, or its token is wrong.
 pub async fn read(asked: &mut WebRequest, how: RouteKind, request: Request, spool: &Path) -> Result<(), WebError> {
-    let late = |_| WebError::BadRequest("the form came too slowly".into());
+    let late = |_| WebError::BadRequest("the form arrived too slowly".into());
     match how {
         RouteKind::File | RouteKind::Show | RouteKind::Compute => Ok(()),
         RouteKind::Change => {
@@ -36,7 +36,7 @@ pub async fn read(asked: &mut WebRequest, how: RouteKind, request: Request, spoo
     }
 }
 
-/// Reads a form with a file. The token comes first: without it nothing more is read.
+/// Reads a form with a file. The token must come first; without it, nothing else is read.
 async fn read_parts(asked: &mut WebRequest, most: usize, request: Request, spool: &Path) -> Result<(), WebError> {
     let mut parts = Multipart::from_request(request, &()).await.map_err(|_| no_form())?;
     let too_large = |error: MultipartError| unreadable(&error, most);
@@ -47,7 +47,7 @@ async fn read_parts(asked: &mut WebRequest, most: usize, request: Request, spool
             Authenticator::check_token(&asked.visitor, asked.form_field("token"))?;
         }
         match file {
-            Some(_) if asked.upload.is_some() => return Err(WebError::BadRequest("one file at a time".into())),
+            Some(_) if asked.upload.is_some() => return Err(WebError::BadRequest("only one file is allowed".into())),
             Some(file) => {
                 asked.upload = Some(UploadedFile { name: file, file: arrive(&mut part, UploadSpool::new(spool, most)).await? })
             }
@@ -63,19 +63,19 @@ async fn read_parts(asked: &mut WebRequest, most: usize, request: Request, spool
     Authenticator::check_token(&asked.visitor, asked.form_field("token"))
 }
 
-/// Reads a file as it arrives.
+/// Reads a file while it arrives.
 async fn arrive(part: &mut Field<'_>, mut spool: UploadSpool<'_>) -> Result<SpooledUpload, WebError> {
     let begun = tokio::time::Instant::now();
     let most = spool.most();
     while let Some(chunk) = part.chunk().await.map_err(|error| unreadable(&error, most))? {
-        // A write to the page cache; the other threads of the runtime go on should the disk be slow.
+        // Usually only a write to the page cache; if the disk is slow, the runtime's other threads continue.
         tokio::task::block_in_place(|| spool.take(&chunk, begun.elapsed()))?;
     }
     Ok(spool.end())
 }
 
 fn no_form() -> WebError {
-    WebError::BadRequest("this is no form with a file".into())
+    WebError::BadRequest("this is not a form with a file".into())
 }
 
 fn unreadable(error: &MultipartError, most: usize) -> WebError {

@@ -1,6 +1,6 @@
-//! Figures of cohorts, computed once for each state of the database. Reading ten thousand records takes seconds of processor time, and every
-//! reload of a cohort page needs the same figures. They are read over a connection of their own, so that lists do not wait for them; the
-//! request pipeline (`door`) lets one such request through at a time.
+//! Cohort figures, computed once for each state of the database. Reading ten thousand records takes seconds of processor time, and every reload of a
+//! cohort page needs the same figures. They use a separate database connection, so that lists do not have to wait; the request pipeline processes one
+//! such request at a time.
 
 use super::lock::lock;
 use crate::errors::AppError;
@@ -10,26 +10,26 @@ use spandrel_training::record::SessionRecord;
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex};
 
-/// Selections whose figures are kept at once; beyond it the oldest goes. Estimate: more than an instructor compares.
+/// Maximum number of cached selections; the oldest is removed first. Estimate: more than an instructor compares.
 const SELECTIONS: usize = 8;
 
-/// The figures of one selection.
+/// Figures of one selection.
 #[derive(Debug)]
 pub struct CohortFigures {
-    /// The cohort, which may hold no session that counts.
+    /// Cohort, which may contain no sessions.
     pub cohort: Cohort,
-    /// The scenarios that were flown at all.
+    /// Names of all scenarios with at least one session.
     pub flown_scenarios: Vec<String>,
 }
 
 impl CohortFigures {
-    /// The cohort, if any session counts.
+    /// Returns the cohort, or `None` if it contains no sessions.
     pub fn non_empty(&self) -> Option<&Cohort> {
         (self.cohort.sessions > 0).then_some(&self.cohort)
     }
 }
 
-/// Computes figures, and keeps them while the database stays as it is.
+/// Computes figures and caches them until the database changes.
 #[derive(Debug)]
 pub struct FigureCache {
     database: Database,
@@ -37,7 +37,7 @@ pub struct FigureCache {
 }
 
 impl FigureCache {
-    /// Opens a connection of its own.
+    /// Opens a separate database connection.
     ///
     /// # Errors
     /// If the database cannot be opened.
@@ -61,7 +61,7 @@ fn figured(records: &[SessionRecord], selection: &Selection) -> CohortFigures {
     CohortFigures { cohort: cohort(records, selection), flown_scenarios: flown.into_iter().map(str::to_owned).collect() }
 }
 
-/// Values of one version of their source, by what they were computed for.
+/// Cached values for one version of their source, by key.
 #[derive(Debug)]
 struct VersionedCache<K, V> {
     version: String,
@@ -108,14 +108,14 @@ mod tests {
             value.map(|value| *value)
         };
         assert_eq!(ask("1", 7), Ok(1));
-        assert_eq!(ask("1", 7), Ok(1), "kept");
+        assert_eq!(ask("1", 7), Ok(1), "cached");
         assert_eq!(ask("1", 8), Ok(2), "another selection");
-        assert_eq!(ask("1", 7), Ok(1), "both are kept");
+        assert_eq!(ask("1", 7), Ok(1), "both are cached");
         assert_eq!(ask("2", 7), Ok(3), "the database has changed");
         for key in 100..100 + u32::try_from(SELECTIONS).unwrap() {
             ask("2", key).unwrap();
         }
-        assert_eq!(ask("2", 7), Ok(4 + u32::try_from(SELECTIONS).unwrap()), "the oldest made room");
+        assert_eq!(ask("2", 7), Ok(4 + u32::try_from(SELECTIONS).unwrap()), "the oldest was removed");
         assert!(kept.values.len() <= SELECTIONS);
     }
 

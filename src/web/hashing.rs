@@ -1,5 +1,5 @@
-//! A bounded queue for password hashing. Each hash costs 19 MiB and some 50 ms of one core, and anyone who reaches the server can ask for one:
-//! without a bound a flood of logins takes all memory and every thread that pages need.
+//! Bounded queue for password hashing. Each hash costs 19 MiB and about 50 ms of one core, and anyone who can reach the server can request one:
+//! without a limit, a flood of logins would use up all memory and all threads that pages need.
 
 use super::lock::lock;
 use super::passwords::{self, HashingMemory};
@@ -7,13 +7,13 @@ use super::response::WebError;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Requests that hash or wait for their turn at once; each holds one of the server's threads (`server::WAITING_THREADS`), so this stays well
-/// below their number.
+/// Maximum number of requests that hash or wait at the same time. Each occupies one of the server's threads (`server::WAITING_THREADS`), so this is
+/// well below their number.
 const MOST_WAITING: usize = 6;
-/// A refused client may try again after this, s.
+/// Time after which a rejected client may retry, s.
 const RETRY_AFTER_S: u64 = 2;
 
-/// The queue and its working memory.
+/// Hashing queue with its working memory.
 #[derive(Debug)]
 pub struct HashingQueue {
     lanes: Vec<Mutex<HashingMemory>>,
@@ -21,13 +21,13 @@ pub struct HashingQueue {
     waiting: AtomicUsize,
 }
 
-/// A place in the queue; leaving it is dropping it.
+/// A slot in the queue, released when it is dropped.
 #[derive(Debug)]
 pub struct HashingSlot<'a>(&'a HashingQueue);
 
 impl Default for HashingQueue {
     fn default() -> Self {
-        // One core stays free for pages.
+        // Leaves one core free for pages.
         let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         let lanes = (cores / 2).clamp(1, 2);
         Self { lanes: (0..lanes).map(|_| Mutex::default()).collect(), next: AtomicUsize::new(0), waiting: AtomicUsize::new(0) }
@@ -35,10 +35,10 @@ impl Default for HashingQueue {
 }
 
 impl HashingQueue {
-    /// Enters the queue.
+    /// Reserves a slot in the queue.
     ///
     /// # Errors
-    /// [`WebError::Busy`] when the queue is full.
+    /// [`WebError::Busy`] if the queue is full.
     pub fn acquire(&self) -> Result<HashingSlot<'_>, WebError> {
         let enter = |waiting| (waiting < MOST_WAITING).then_some(waiting + 1);
         let entered = self.waiting.fetch_update(Ordering::AcqRel, Ordering::Acquire, enter);
@@ -52,7 +52,7 @@ impl HashingSlot<'_> {
         work(&mut lock(&self.0.lanes[lane]))
     }
 
-    /// Returns whether the password has this hash.
+    /// Returns true if the password matches the hash.
     pub fn verify(&self, password: &str, hash: Option<&str>) -> bool {
         self.with_memory(|memory| passwords::verify(password, hash, memory))
     }
@@ -60,7 +60,7 @@ impl HashingSlot<'_> {
     /// Returns the password's hash.
     ///
     /// # Errors
-    /// If the system has no randomness.
+    /// If the system's random number generator fails.
     pub fn hash(&self, password: &str) -> Result<String, WebError> {
         Ok(self.with_memory(|memory| passwords::hash(password, memory))?)
     }

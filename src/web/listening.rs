@@ -23,7 +23,7 @@ pub struct ListenConfig {
 }
 
 impl ListenConfig {
-    /// This machine alone.
+    /// Returns the settings for connections from this machine only.
     pub fn local(port: u16) -> Self {
         let listen = SocketAddr::from((Ipv4Addr::LOCALHOST, port));
         let (trusted_proxy, host) = (Vec::new(), Vec::new());

@@ -1,5 +1,4 @@
-//! The flights that are watched: for each a thread that is one more subscriber of the vehicle's payload port, the stream of what it sees,
-//! and what an instructor asks of the vehicle.
+//! Live flights. Each vehicle has a thread that subscribes to its payload port, streams its values to the pages and sends the instructor's commands.
 
 mod camera_picture;
 mod command_queue;

@@ -1,17 +1,17 @@
-//! Password hashing: argon2id with the parameters that OWASP recommends (19 MiB, 2 passes, 1 lane), the library's defaults.
+//! Password hashing with argon2id and the parameters that OWASP recommends (19 MiB, 2 passes, 1 lane), which are the library's defaults.
 
 use crate::errors::AppError;
-use argon2::password_hash::{Output, PasswordHash, SaltString};
+use argon2::password_hash::phc::{Output, PasswordHash, Salt};
 use argon2::{ARGON2ID_IDENT, Algorithm, Argon2, Block, Params, Version};
 
-/// Checked for a name without a password, so that the answer takes as long as for a name with one.
+/// Verified for a name without a password, so that the response takes as long as for a name with one.
 const NOBODY: &str = "$argon2id$v=19$m=19456,t=2,p=1$c3BhbmRyZWxzcGFuZHJlbA$lpYT1oVDUN5U6kPGGjEw5xOVQbQTkgO2xbCVrTQEzDM";
-/// Largest memory cost of a stored hash, KiB: a database from elsewhere must not choose how much memory a login takes. Estimate: 3 times ours.
+/// Maximum memory cost of a stored hash, KiB, so that a foreign database cannot exhaust the memory. Estimate: about three times the default.
 const MOST_MEMORY_KIB: u32 = 65_536;
-/// Largest number of passes of a stored hash, for the same reason. Estimate.
+/// Maximum number of passes of a stored hash, for the same reason. Estimate.
 const MOST_PASSES: u32 = 10;
 
-/// Working memory of one hash at a time, allocated once and used again.
+/// Working memory for hashing, allocated once and reused.
 #[derive(Debug, Default)]
 pub struct HashingMemory(Vec<Block>);
 
@@ -25,48 +25,46 @@ impl HashingMemory {
     }
 }
 
-/// Returns the password's hash in the PHC string format.
+/// Returns the password's hash in PHC string format.
 ///
 /// # Errors
-/// If the system has no randomness.
+/// If the system's random number generator fails.
 pub fn hash(password: &str, memory: &mut HashingMemory) -> Result<String, AppError> {
-    let failed = |error: &dyn std::fmt::Display| AppError::failed(format!("the password cannot be hashed: {error}"));
+    let failed = |error: &dyn std::fmt::Display| AppError::failed(format!("cannot hash the password: {error}"));
     let mut salt = [0; 16];
     getrandom::fill(&mut salt).map_err(|error| failed(&error))?;
     let argon2 = Argon2::default();
     let mut out = [0; Params::DEFAULT_OUTPUT_LEN];
     memory.output(&argon2, password, &salt, &mut out).map_err(|error| failed(&error))?;
-    let salt = SaltString::encode_b64(&salt).map_err(|error| failed(&error))?;
     let params = argon2.params().try_into().map_err(|error: argon2::password_hash::Error| failed(&error))?;
     let parsed = PasswordHash {
         algorithm: ARGON2ID_IDENT,
         version: Some(Version::V0x13.into()),
         params,
-        salt: Some(salt.as_salt()),
+        salt: Some(Salt::new(&salt).map_err(|error| failed(&error))?),
         hash: Some(Output::new(&out).map_err(|error| failed(&error))?),
     };
     Ok(parsed.to_string())
 }
 
-/// Returns whether the password has this hash. Without a hash it takes as long and returns false.
+/// Returns true if the password matches the hash. Without a hash, takes the same time and returns false.
 pub fn verify(password: &str, hash: Option<&str>, memory: &mut HashingMemory) -> bool {
     let stored = PasswordHash::new(hash.unwrap_or(NOBODY));
     let fits = stored.ok().and_then(|stored| matches(password, &stored, memory)).unwrap_or(false);
     fits && hash.is_some()
 }
 
-/// `None` for a hash that cannot be computed here.
-fn matches(password: &str, stored: &PasswordHash<'_>, memory: &mut HashingMemory) -> Option<bool> {
+/// Computes the hash and compares it. Returns `None` for a hash that is not supported or too costly.
+fn matches(password: &str, stored: &PasswordHash, memory: &mut HashingMemory) -> Option<bool> {
     let params = Params::try_from(stored).ok().filter(|p| p.m_cost() <= MOST_MEMORY_KIB && p.t_cost() <= MOST_PASSES)?;
-    let algorithm = Algorithm::try_from(stored.algorithm).ok()?;
+    let algorithm = Algorithm::try_from(stored.algorithm.as_str()).ok()?;
     let version = stored.version.map_or(Ok(Version::default()), Version::try_from).ok()?;
     let expected = stored.hash?;
-    let mut salt = [0; 64];
-    let salt = stored.salt?.decode_b64(&mut salt).ok()?;
+    let salt = stored.salt?;
     let mut out = [0; Output::MAX_LENGTH];
     let out = out.get_mut(..expected.len())?;
-    memory.output(&Argon2::new(algorithm, version, params), password, salt, out).ok()?;
-    // Output compares in constant time.
+    memory.output(&Argon2::new(algorithm, version, params), password, &salt, out).ok()?;
+    // `Output` compares in constant time.
     Some(Output::new(out).ok()? == expected)
 }
 
@@ -85,7 +83,7 @@ mod tests {
         assert!(!verify("correct horse batterz", Some(&first), memory));
         assert!(!verify("correct horse battery", None, memory));
         assert!(!verify("x", Some("no hash"), memory));
-        // The stand-in is a hash like any other, so that the time taken tells nobody whether a name exists.
+        // The dummy hash must be valid, so that the response time does not reveal whether a name exists.
         assert!(PasswordHash::new(NOBODY).is_ok());
     }
 
@@ -95,10 +93,9 @@ mod tests {
         let ours = hash("correct horse battery", memory).unwrap();
         let parsed = PasswordHash::new(&ours).unwrap();
         assert!(Argon2::default().verify_password(b"correct horse battery", &parsed).is_ok());
-        let salt = SaltString::encode_b64(&[7; 16]).unwrap();
-        // Another cost than ours, as an older database may hold.
+        // A different cost, as an older database may contain.
         let other = Argon2::new(Algorithm::Argon2id, Version::V0x13, Params::new(8_192, 3, 2, None).unwrap());
-        let theirs = other.hash_password(b"correct horse battery", &salt).unwrap().to_string();
+        let theirs = other.hash_password_with_salt(b"correct horse battery", &[7; 16]).unwrap().to_string();
         assert!(verify("correct horse battery", Some(&theirs), memory) && !verify("another", Some(&theirs), memory));
         let greedy = theirs.replace("m=8192", "m=4194304");
         assert!(!verify("correct horse battery", Some(&greedy), memory));

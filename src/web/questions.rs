@@ -1,4 +1,4 @@
-//! The questionnaire: every answer is written to `answers.json` as soon as it comes.
+//! Questionnaire pages. Every answer is saved in `answers.json` immediately.
 
 use super::lock::lock;
 use super::request::WebRequest;
@@ -14,7 +14,7 @@ use spandrel_monitor::export::json_text;
 use spandrel_training::questionnaire::{ANSWERS, Answers, QuestionnaireItem, Wording};
 use spandrel_training::web::form;
 
-/// The form.
+/// Shows the questionnaire of a session.
 pub fn page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     render_form(state, asked, false)
 }
@@ -31,13 +31,13 @@ fn render_form(state: &ServerState, asked: &WebRequest, saved: bool) -> HandlerR
     Ok(WebResponse::page(form::page(&asked.visitor, &about)))
 }
 
-/// The language asked for, that of the answers so far, or the one that the browser likes best.
+/// Returns the wording in the requested language, that of the saved answers, or the browser's preferred one.
 fn language<'a>(state: &'a ServerState, asked: &WebRequest, answers: &Answers) -> Result<&'a Wording, WebError> {
     if let Some(tag) = asked.form_field("language").or_else(|| asked.query_value("language")) {
         return state
             .languages
             .of(tag)
-            .ok_or_else(|| WebError::BadRequest(format!("language: not there (allowed: {})", names_of(state))));
+            .ok_or_else(|| WebError::BadRequest(format!("language: unknown (allowed: {})", names_of(state))));
     }
     let begun = state.languages.of(&answers.language).filter(|_| !answers.language.is_empty());
     Ok(begun.unwrap_or_else(|| state.languages.accepted(&asked.languages)))
@@ -51,7 +51,7 @@ fn names(scenario: &Scenario) -> Vec<(u32, String)> {
     scenario.tasks.iter().map(|task| (task.id, task.name.clone())).collect()
 }
 
-/// Saves what a form brings.
+/// Saves the answers of a submitted form.
 pub fn save(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let id = asked.path_part("id");
     let folder = sessions::folder(state, asked, id)?;

@@ -1,4 +1,4 @@
-//! A request, read.
+//! A parsed HTTP request.
 
 use super::auth::LoginClient;
 use super::response::WebError;
@@ -7,73 +7,74 @@ use spandrel_training::web::access::Visitor;
 use std::collections::BTreeMap;
 use std::net::IpAddr;
 
-/// A file of a form.
+/// A file that was uploaded with a form.
 #[derive(Debug)]
 pub struct UploadedFile {
-    /// Its name as the browser sent it; never used as a path.
+    /// File name as sent by the browser; never used as a path.
     pub name: String,
-    /// Its contents.
+    /// Contents of the file.
     pub file: SpooledUpload,
 }
 
-/// A request, read: who, what, with which words.
+/// A parsed request with its visitor.
 #[derive(Debug)]
 pub struct WebRequest {
-    /// Who.
+    /// Visitor who sent the request.
     pub visitor: Visitor,
-    /// His cookie.
+    /// Value of the session cookie.
     pub cookie: Option<String>,
-    /// From where.
+    /// Address of the client.
     pub from: IpAddr,
-    /// Cookie of a browser that somebody has logged in with before.
+    /// Cookie of a browser that has logged in before.
     pub device: Option<String>,
-    /// Parts of the path by their names in the table of routes.
+    /// Path parameters, by their names in the table of routes.
     pub path: BTreeMap<String, String>,
-    /// Words after the question mark.
+    /// Query parameters as name and value.
     pub query: Vec<(String, String)>,
-    /// Fields of the form.
+    /// Form fields as name and value.
     pub form: Vec<(String, String)>,
-    /// Its file.
+    /// Uploaded file, if any.
     pub upload: Option<UploadedFile>,
-    /// Languages that the browser likes (Accept-Language).
+    /// Preferred languages of the browser (Accept-Language).
     pub languages: String,
-    /// A script of ours asks and reads JSON.
+    /// True for requests of the pages' scripts, which expect JSON.
     pub by_script: bool,
 }
 
 impl WebRequest {
-    /// Where a login comes from.
+    /// Returns the origin of a login.
     pub fn client(&self) -> LoginClient<'_> {
         LoginClient { from: self.from, device: self.device.as_deref() }
     }
 
-    /// A part of the path.
+    /// Returns a path parameter, or an empty string.
     pub fn path_part(&self, name: &str) -> &str {
         self.path.get(name).map_or("", String::as_str)
     }
 
-    /// A word after the question mark.
+    /// Returns a non-empty query parameter.
     pub fn query_value(&self, name: &str) -> Option<&str> {
         self.query.iter().find(|(key, _)| key == name).map(|(_, value)| value.as_str()).filter(|value| !value.is_empty())
     }
 
-    /// A field of the form.
+    /// Returns a form field.
     pub fn form_field(&self, name: &str) -> Option<&str> {
         self.form.iter().find(|(key, _)| key == name).map(|(_, value)| value.as_str())
     }
 
-    /// A field that must be there.
+    /// Returns a form field that must not be empty.
     ///
     /// # Errors
-    /// When it is not.
+    /// If the field is missing or empty.
     pub fn required_field(&self, name: &str) -> Result<&str, WebError> {
         self.form_field(name).filter(|value| !value.is_empty()).ok_or_else(|| WebError::BadRequest(format!("{name}: missing")))
     }
 
-    /// What belongs to this trainee is shown to him and to whoever trains him; to others it is not there.
+    /// Checks that the visitor may see this trainee's data: the trainee, instructors and administrators may. To others it looks as if it did not
+    /// exist.
     ///
     /// # Errors
-    /// When it is not his.
+    /// If the visitor has no access.
     pub fn require_access(&self, trainee: &str) -> Result<(), WebError> {
         if self.visitor.may_see(trainee) { Ok(()) } else { Err(WebError::NotFound) }
     }

@@ -1,5 +1,5 @@
-//! The door. Every request goes the same way: who is it, may he, is the form his, then the row's handler, on a thread that
-//! may wait for disk and database.
+//! Request pipeline. Every request is identified, authorized and checked for its form token; then the route's handler runs on a thread that may block
+//! on disk and database access.
 
 use super::auth::Identified;
 use super::body;
@@ -19,7 +19,7 @@ use std::net::SocketAddr;
 use std::sync::Arc;
 use tokio::sync::Semaphore;
 
-/// Retry-After for a client that was refused for lack of capacity, s.
+/// Retry-After for a client that was rejected for lack of capacity, s.
 const BUSY_S: u64 = 5;
 
 /// State shared by the tasks that handle requests.
@@ -29,7 +29,7 @@ pub struct PipelineState {
     pub state: Arc<ServerState>,
     /// Limits the number of concurrent uploads.
     pub uploads: Arc<Semaphore>,
-    /// Held while a recording is scored or a cohort's figures are computed. Waiting for it occupies no thread.
+    /// Acquired while a recording is scored or cohort figures are computed. Waiting for it occupies no thread.
     pub working: Arc<Semaphore>,
 }
 
@@ -63,14 +63,14 @@ async fn asked(shared: PipelineState, route: &'static Route, mut request: Reques
         };
         body::read(&mut asked, route.how, request, &shared.state.spool()).await?;
         let turn = match route.how {
-            RouteKind::Upload(_) | RouteKind::Compute => {
-                Some(shared.working.clone().acquire_owned().await.map_err(|_| WebError::Failed("the server ends".into()))?)
-            }
+            RouteKind::Upload(_) | RouteKind::Compute => Some(
+                shared.working.clone().acquire_owned().await.map_err(|_| WebError::Failed("the server is stopping".into()))?,
+            ),
             RouteKind::File | RouteKind::Show | RouteKind::Change => None,
         };
         let state = shared.state.clone();
         blocking(move || {
-            // The handler goes on when its client leaves, and keeps its turn.
+            // The handler continues if its client disconnects, and keeps its permit.
             let _turn = turn;
             (route.handler)(&state, &asked)
         })
@@ -102,7 +102,8 @@ async fn head(shared: &PipelineState, route: &'static Route, request: &mut Reque
     blocking(move || {
         let open = state.auth.is_open(&state.database)?;
         state.auth.check_origin(&headers, changes, open)?;
-        let from = state.auth.address(socket.ok_or_else(|| WebError::Failed("a request from nowhere".into()))?, &headers)?;
+        let from =
+            state.auth.address(socket.ok_or_else(|| WebError::Failed("the request has no client address".into()))?, &headers)?;
         let recognised = if file { None } else { Some(state.auth.identify(&state.database, state.auth.cookie_of(&headers))?) };
         let visitor = recognised.as_ref().map_or_else(anonymous_visitor, |recognised| recognised.visitor.clone());
         let cookie = recognised.as_ref().map(|recognised| recognised.cookie.clone());
@@ -129,7 +130,7 @@ fn accepts_json(headers: &HeaderMap) -> bool {
     headers.get(header::ACCEPT).is_some_and(|value| value.as_bytes() == b"application/json")
 }
 
-/// The visitor may ask this.
+/// Checks that the visitor has the access level of the route.
 fn authorize(asked: &WebRequest, route: &Route) -> Result<(), WebError> {
     if asked.visitor.satisfies(route.needs) {
         return Ok(());
@@ -138,13 +139,13 @@ fn authorize(asked: &WebRequest, route: &Route) -> Result<(), WebError> {
         return Err(WebError::LoginRequired);
     }
     let who = if route.needs == AccessLevel::Administrator { "administrators" } else { "instructors" };
-    Err(WebError::Forbidden(format!("This is for {who}.")))
+    Err(WebError::Forbidden(format!("This page is for {who} only.")))
 }
 
-/// Runs what may wait for disk or database.
+/// Runs a function that may block on disk or database access.
 async fn blocking<T: Send + 'static>(work: impl FnOnce() -> Result<T, WebError> + Send + 'static) -> Result<T, WebError> {
     let done = tokio::task::spawn_blocking(work).await;
-    done.unwrap_or_else(|_| Err(WebError::Failed("a handler broke off: this is a fault of the program".into())))
+    done.unwrap_or_else(|_| Err(WebError::Failed("a request handler panicked: please report this bug".into())))
 }
 
 fn error_response(
@@ -171,12 +172,12 @@ pub async fn nothing(shared: PipelineState, request: Request) -> Response<Body> 
     let status = if request.method() == Method::GET || request.method() == Method::HEAD {
         WebError::NotFound
     } else {
-        WebError::Forbidden("There is nothing to change here.".into())
+        WebError::Forbidden("This address does not accept changes.".into())
     };
     error_response(&shared, None, &status)
 }
 
-/// Live values, as long as the browser listens and the visitor may.
+/// Streams live values while the browser is connected and the visitor has access.
 pub async fn live_stream(shared: PipelineState, mut request: Request) -> Response<Body> {
     static ROUTE: Route =
         Route { path: STREAM, how: RouteKind::Show, needs: AccessLevel::Instructor, handler: unreachable_handler };

@@ -5,11 +5,11 @@ use axum::body::Body;
 use axum::http::{HeaderName, HeaderValue, Response, StatusCode, header};
 use maud::Markup;
 
-/// Policy of our pages: our own files, nothing inline, no request elsewhere.
+/// Content security policy of the pages: only the server's own files, no inline code, no requests to other sites.
 const PAGES: &str = "default-src 'none'; style-src 'self'; script-src 'self'; img-src 'self' data:; connect-src 'self'; \
     form-action 'self'; base-uri 'none'; frame-ancestors 'none'";
 
-/// An answer.
+/// HTTP response of a handler.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WebResponse {
     status: StatusCode,
@@ -19,29 +19,29 @@ pub struct WebResponse {
     download: Option<String>,
     keep: bool,
     retry_after_s: Option<u64>,
-    /// Cookies to set, whole.
+    /// Complete values of Set-Cookie headers.
     pub cookies: Vec<String>,
     body: Vec<u8>,
 }
 
-/// Why there is none.
+/// Error of a handler, with its HTTP status.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum WebError {
-    /// There is no such thing, or none that this visitor may see: the two look alike, so that nobody learns by guessing.
+    /// The resource does not exist, or this visitor may not see it. Both look the same, so that guessing reveals nothing.
     NotFound,
-    /// Log in first.
+    /// The visitor must log in first.
     LoginRequired,
-    /// This visitor may not.
+    /// The visitor has no permission; with a message.
     Forbidden(String),
-    /// The request is wrong.
+    /// The request is invalid; with a message.
     BadRequest(String),
-    /// More than so many bytes.
+    /// The body is larger than this maximum, bytes.
     TooLarge(usize),
-    /// Too often; seconds to wait.
+    /// Too many failed logins; time to wait, s.
     RateLimited(u64),
-    /// Too much is asked for at once; seconds to wait.
+    /// The server is overloaded; time to wait, s.
     Busy(u64),
-    /// Our fault; the log says more than the page.
+    /// Internal error. The message is logged, but not shown.
     Failed(String),
 }
 
@@ -63,61 +63,61 @@ impl WebResponse {
         }
     }
 
-    /// A page.
+    /// Responds with a page.
     pub fn page(markup: Markup) -> Self {
         Self::new("text/html; charset=utf-8", markup.into_string().into_bytes())
     }
 
-    /// A page that brings its own policy and scripts (a report): it runs in a box of its own, without our cookies.
+    /// Responds with a page that brings its own policy and scripts (a report). It is sandboxed, without access to the cookies.
     pub fn sandboxed_page(page: Vec<u8>, policy: &str) -> Self {
         let policy = format!("{policy}; frame-ancestors 'none'; sandbox allow-scripts allow-downloads");
         Self { policy, ..Self::new("text/html; charset=utf-8", page) }
     }
 
-    /// JSON for a script of ours.
+    /// Responds with JSON for the pages' scripts.
     pub fn json(value: &serde_json::Value) -> Self {
         Self::new("application/json", value.to_string().into_bytes())
     }
 
-    /// A file to keep.
+    /// Responds with a file to download.
     pub fn download(name: &str, kind: &'static str, bytes: Vec<u8>) -> Self {
         Self { download: Some(name.to_owned()), ..Self::new(kind, bytes) }
     }
 
-    /// A picture to be shown once.
+    /// Responds with an image that is not cached.
     pub fn picture(jpeg: Vec<u8>) -> Self {
         Self::new("image/jpeg", jpeg)
     }
 
-    /// A file that a browser may keep until its address changes.
+    /// Responds with a file that browsers may cache until its URL changes.
     pub fn asset(kind: &'static str, text: String) -> Self {
         Self { keep: true, ..Self::new(kind, text.into_bytes()) }
     }
 
-    /// Go there next.
+    /// Redirects to another page.
     pub fn redirect(address: &str) -> Self {
         let there = Self::new("text/plain; charset=utf-8", Vec::new());
         Self { status: StatusCode::SEE_OTHER, location: Some(address.to_owned()), ..there }
     }
 
-    /// The same with another status.
+    /// Sets the status code.
     pub fn with_status(mut self, status: StatusCode) -> Self {
         self.status = status;
         self
     }
 
-    /// The same, to be asked again later.
+    /// Sets the time after which the client may retry, s.
     pub fn retry_after(mut self, seconds: Option<u64>) -> Self {
         self.retry_after_s = seconds;
         self
     }
 
-    /// For the wire.
+    /// Converts to an axum response.
     pub fn into_response(self) -> Response<Body> {
         let mut response = Response::new(Body::from(self.body));
         *response.status_mut() = self.status;
         let mut set = |name: HeaderName, value: &str| {
-            // Every value is ours or checked to be plain; one that is not is left out rather than sent.
+            // All values are generated or validated, so this cannot fail; an invalid value would be omitted rather than sent.
             if let Ok(value) = HeaderValue::from_str(value) {
                 response.headers_mut().insert(name, value);
             }
@@ -141,7 +141,7 @@ impl WebResponse {
     }
 }
 
-/// Headers of every answer, whatever made it.
+/// Sets the headers of every response, including error responses.
 pub fn set_security_headers(headers: &mut axum::http::HeaderMap, secure: bool) {
     let mut set = |name: HeaderName, value: &'static str| headers.insert(name, HeaderValue::from_static(value));
     set(header::X_CONTENT_TYPE_OPTIONS, "nosniff");
@@ -157,7 +157,7 @@ pub fn set_security_headers(headers: &mut axum::http::HeaderMap, secure: bool) {
 }
 
 impl WebError {
-    /// Seconds after which the client may try again, where waiting helps.
+    /// Returns the time after which the client may retry, s, if waiting helps.
     pub fn retry_after_s(&self) -> Option<u64> {
         match self {
             Self::RateLimited(seconds) | Self::Busy(seconds) => Some(*seconds),
@@ -170,15 +170,17 @@ impl WebError {
         }
     }
 
-    /// Status, title and words for people.
+    /// Returns status, title and message for the error page.
     pub fn status_and_text(&self) -> (StatusCode, &'static str, String) {
         match self {
-            Self::NotFound => (StatusCode::NOT_FOUND, "Not found", "There is nothing here, or nothing that you may see.".into()),
+            Self::NotFound => {
+                (StatusCode::NOT_FOUND, "Not found", "This page does not exist, or you do not have access to it.".into())
+            }
             Self::LoginRequired => (StatusCode::UNAUTHORIZED, "Log in", "Please log in first.".into()),
             Self::Forbidden(words) => (StatusCode::FORBIDDEN, "Not allowed", words.clone()),
-            Self::BadRequest(words) => (StatusCode::UNPROCESSABLE_ENTITY, "That is not right", words.clone()),
+            Self::BadRequest(words) => (StatusCode::UNPROCESSABLE_ENTITY, "Invalid request", words.clone()),
             Self::TooLarge(most) => {
-                (StatusCode::PAYLOAD_TOO_LARGE, "Too large", format!("What was sent is too large (allowed: {most} bytes)."))
+                (StatusCode::PAYLOAD_TOO_LARGE, "Too large", format!("The request is too large (allowed: {most} bytes)."))
             }
             Self::RateLimited(seconds) => {
                 let words = format!("Too many failed logins. Please wait {seconds} s.");
@@ -190,8 +192,8 @@ impl WebError {
             }
             Self::Failed(_) => (
                 StatusCode::INTERNAL_SERVER_ERROR,
-                "Something failed",
-                "The server's log says what. Please tell who runs it.".into(),
+                "Internal error",
+                "Details are in the server's log. Please contact the administrator.".into(),
             ),
         }
     }

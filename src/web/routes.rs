@@ -1,4 +1,4 @@
-//! The one table of what may be asked: path, who may, what is done. Whoever asks for something that is not in it finds nothing.
+//! Table of routes: path, required access level and handler. Any other path gives "not found".
 
 use super::request::WebRequest;
 use super::response::HandlerResult;
@@ -6,48 +6,48 @@ use super::state::ServerState;
 use super::{assets, live, questions, scenarios, sessions, settings, trainees, uploads};
 use spandrel_training::web::access::AccessLevel;
 
-/// Does what was asked.
+/// Function that handles a request.
 pub type Handler = fn(&ServerState, &WebRequest) -> HandlerResult;
 
-/// Largest form without a file, bytes.
+/// Maximum size of a form without a file, bytes.
 pub const FORM_MOST: usize = 64 * 1024;
-/// Largest uploaded scenario, bytes: the shipped ones have some ten thousand.
+/// Maximum size of an uploaded scenario, bytes; the shipped ones have about ten thousand.
 pub const SCENARIO_MOST: usize = 256 * 1024;
-/// Largest uploaded recording, bytes: an hour of telemetry is about a third of it.
+/// Maximum size of an uploaded recording, bytes; an hour of telemetry is about a third of this.
 pub const RECORDING_MOST: usize = 96 * 1024 * 1024;
 
-/// How something is asked for.
+/// Kind of a route.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RouteKind {
-    /// A file of ours, the same for everybody.
+    /// A static asset, the same for every visitor.
     File,
-    /// Looking changes nothing.
+    /// A page or download that changes nothing.
     Show,
-    /// As `Show`, but it may take seconds to work out: one at a time.
+    /// Like `Show`, but may take seconds to compute; one request at a time.
     Compute,
-    /// A form changes something; it must carry the visitor's token.
+    /// A form that changes something; it must contain the visitor's token.
     Change,
-    /// A form with one file of at most so many bytes.
+    /// A form with one file of at most this many bytes.
     Upload(usize),
 }
 
 impl RouteKind {
-    /// Changes nothing.
+    /// Returns true if the route changes nothing.
     pub fn is_read_only(self) -> bool {
         matches!(self, Self::File | Self::Show | Self::Compute)
     }
 }
 
-/// One row.
+/// A row of the table.
 #[derive(Debug, Clone, Copy)]
 pub struct Route {
-    /// Path; parts in braces are named.
+    /// Path, with parameters in braces.
     pub path: &'static str,
-    /// How.
+    /// Kind of the route.
     pub how: RouteKind,
-    /// Who may.
+    /// Access level that the visitor needs.
     pub needs: AccessLevel,
-    /// What is done.
+    /// Handler of the request.
     pub handler: Handler,
 }
 
@@ -67,10 +67,10 @@ const fn upload(path: &'static str, most: usize, needs: AccessLevel, handler: Ha
     Route { path, how: RouteKind::Upload(most), needs, handler }
 }
 
-/// Where live values stream from; not in the table, because it does not end.
+/// Path of the stream of live values. It is not in the table, because its response does not end.
 pub const STREAM: &str = "/live/stream";
 
-/// The table. What belongs to one trainee is judged by its handler, which knows whose it is.
+/// All routes except the stream. Handlers of a trainee's data also check whether the visitor may access that trainee.
 pub const ROUTES: &[Route] = &[
     show("/", AccessLevel::Nothing, sessions::start),
     Route { path: "/assets/{name}", how: RouteKind::File, needs: AccessLevel::Nothing, handler: assets::file },

@@ -1,6 +1,6 @@
 //! Names that come from browsers and are used as names of files.
 
-/// A name that stays in its folder, whatever the system takes for a separator.
+/// Returns true for a name that stays inside its folder on every operating system.
 pub fn is_plain(name: &str) -> bool {
     let fits = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
     !name.is_empty() && name.len() <= 200 && !name.starts_with('.') && name.chars().all(fits)

@@ -8,17 +8,17 @@ use spandrel_model::scenario::{self, Scenario};
 use spandrel_training::web::job::ScenarioEntry;
 use std::path::{Path, PathBuf};
 
-/// A scenario with its text.
+/// A scenario with its source text.
 pub struct StoredScenario {
-    /// Name, title, origin.
+    /// Name, title and origin.
     pub named: ScenarioEntry,
-    /// The job.
+    /// Scenario parsed from the text.
     pub scenario: Scenario,
-    /// Its file.
+    /// Source text of the scenario (TOML).
     pub text: String,
 }
 
-/// All of them: shipped, then uploaded.
+/// Returns all shipped scenarios, then the uploaded ones.
 pub fn all(folder: &Path) -> Vec<StoredScenario> {
     let shipped = files::scenario_names().into_iter().filter_map(|name| {
         let file = files::scenario(name).ok()?;
@@ -32,7 +32,7 @@ pub fn all(folder: &Path) -> Vec<StoredScenario> {
     shipped.chain(uploaded).collect()
 }
 
-/// One by its name.
+/// Finds a scenario by name.
 pub fn find(folder: &Path, name: &str) -> Option<StoredScenario> {
     if !is_plain(name) {
         return None;
@@ -52,15 +52,15 @@ pub fn uploaded(folder: &Path) -> Vec<PathBuf> {
     paths
 }
 
-/// Reads an uploaded text: it stands alone.
+/// Parses an uploaded scenario, which cannot refer to other files.
 pub fn read(file: &str, text: &str) -> Result<Scenario, AppError> {
-    let alone = |_: &str| Err("an uploaded scenario names no other file".to_owned());
+    let alone = |_: &str| Err("an uploaded scenario cannot refer to other files".to_owned());
     Ok(scenario::read(file, text, &alone)?)
 }
 
-/// The argument that names an uploaded scenario for the rest of the program, else the name itself.
+/// Returns the argument for the rest of the program: the path of an uploaded scenario, or the name of a shipped one.
 pub fn argument(folder: &Path, name: &str) -> Result<String, WebError> {
-    let job = find(folder, name).ok_or_else(|| WebError::BadRequest("scenario: there is none of this name".into()))?;
+    let job = find(folder, name).ok_or_else(|| WebError::BadRequest("scenario: unknown name".into()))?;
     Ok(if job.named.uploaded { place(folder, name).display().to_string() } else { job.named.name })
 }
 

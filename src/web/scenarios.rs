@@ -1,4 +1,4 @@
-//! Scenarios: shipped and uploaded.
+//! Pages of the shipped and uploaded scenarios.
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
@@ -12,12 +12,12 @@ use axum::http::StatusCode;
 use spandrel_model::site::Site;
 use spandrel_training::web::job::{self as pages, ScenarioEntry};
 
-/// Uploaded scenarios that are kept at once.
+/// Maximum number of uploaded scenarios.
 const UPLOADS_MOST: usize = 200;
-/// No seed moves the geometry.
+/// Seed for drawing the site; the geometry is the same for every seed.
 const ANY_SEED: u64 = 0;
 
-/// The list.
+/// Shows the list of scenarios.
 pub fn scenario_list(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     render_list(state, asked, None)
 }
@@ -27,17 +27,17 @@ fn render_list(state: &ServerState, asked: &WebRequest, told: Option<(&str, &str
     Ok(WebResponse::page(pages::list(&asked.visitor, &named, told)))
 }
 
-/// One.
+/// Shows the page of one scenario with drawings of its site.
 pub fn scenario_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let job = find(&state.scenarios, asked.path_part("name")).ok_or(WebError::NotFound)?;
     let site = Site::build(&job.scenario, ANY_SEED);
     Ok(WebResponse::page(pages::scenario_page(&asked.visitor, &job.named, &job.scenario, &site, &job.text)))
 }
 
-/// Takes one in, after all of it was checked.
+/// Validates and saves an uploaded scenario.
 pub fn upload(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     match save_upload(state, asked) {
-        Ok(name) => render_list(state, asked, Some(("good", &format!("{name} is kept.")))),
+        Ok(name) => render_list(state, asked, Some(("good", &format!("{name} was saved.")))),
         Err(AppError::Wrong(words)) => {
             Ok(render_list(state, asked, Some(("bad", &words)))?.with_status(StatusCode::UNPROCESSABLE_ENTITY))
         }
@@ -50,9 +50,9 @@ fn save_upload(state: &ServerState, asked: &WebRequest) -> Result<String, AppErr
     let shown: String = upload.name.chars().filter(|c| !c.is_control()).take(60).collect();
     let bytes = upload.file.bytes()?;
     let text = std::str::from_utf8(&bytes)
-        .map_err(|error| AppError::wrong(format!("{shown}: is not UTF-8 text (byte {})", error.valid_up_to())))?;
+        .map_err(|error| AppError::wrong(format!("{shown}: not UTF-8 text (byte {})", error.valid_up_to())))?;
     let scenario = read(&shown, text)?;
-    // The name goes into folder names; the reader of scenarios allows [a-z0-9-] alone.
+    // The name becomes part of folder names; the scenario parser allows only [a-z0-9-].
     if !is_plain(&scenario.name) || scenario.name.len() > 60 {
         return Err(AppError::wrong(format!("{shown}: the name is too long (allowed: 60 characters)")));
     }
@@ -61,18 +61,18 @@ fn save_upload(state: &ServerState, asked: &WebRequest) -> Result<String, AppErr
     }
     let target = place(&state.scenarios, &scenario.name);
     if !target.is_file() && uploaded(&state.scenarios).len() >= UPLOADS_MOST {
-        return Err(AppError::wrong(format!("{UPLOADS_MOST} uploaded scenarios are kept already: take one away first")));
+        return Err(AppError::wrong(format!("there are already {UPLOADS_MOST} uploaded scenarios: remove one first")));
     }
     std::fs::create_dir_all(&state.scenarios)
-        .map_err(|error| AppError::failed(format!("{}: cannot be made: {error}", state.scenarios.display())))?;
+        .map_err(|error| AppError::failed(format!("{}: cannot create the folder: {error}", state.scenarios.display())))?;
     replace(&target, text.as_bytes())?;
     Ok(scenario.name)
 }
 
-/// Takes an upload away.
+/// Removes an uploaded scenario.
 pub fn remove(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let job = find(&state.scenarios, asked.path_part("name")).filter(|job| job.named.uploaded).ok_or(WebError::NotFound)?;
     let path = place(&state.scenarios, &job.named.name);
-    std::fs::remove_file(&path).map_err(|error| WebError::Failed(format!("{}: cannot be removed: {error}", path.display())))?;
+    std::fs::remove_file(&path).map_err(|error| WebError::Failed(format!("{}: cannot remove: {error}", path.display())))?;
     Ok(WebResponse::redirect("/scenarios"))
 }

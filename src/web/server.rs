@@ -1,4 +1,4 @@
-//! The server: its port, its threads, and the table of routes as axum takes it.
+//! The server: its port, its threads and its axum router.
 
 use super::auth::AllowedOrigins;
 use super::listening::ListenConfig;
@@ -18,18 +18,18 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 use tokio::sync::Semaphore;
 
-/// A browser has this long to send the head of a request.
+/// Time limit for a client to send the header of a request.
 const HEAD_WAIT: Duration = Duration::from_secs(30);
-/// Uploads that arrive at once; each takes up to `RECORDING_MOST` of disk. Estimate: a class of thirty.
+/// Maximum number of simultaneous uploads; each takes up to `RECORDING_MOST` of disk space. Estimate: a class of thirty.
 const UPLOADS: usize = 32;
-/// What is under way when the server ends has this long.
+/// Time that requests in progress get when the server stops.
 const FAREWELL: Duration = Duration::from_secs(2);
-/// Between two looks whether to end.
+/// Interval at which stop requests are checked.
 const LOOK: Duration = Duration::from_millis(50);
-/// Threads that wait for disk and database.
+/// Number of threads for blocking disk and database access.
 const WAITING_THREADS: usize = 16;
 
-/// A running server; it ends when it is dropped.
+/// A running server, stopped when it is dropped.
 #[derive(Debug)]
 pub struct WebServer {
     address: String,
@@ -38,10 +38,10 @@ pub struct WebServer {
 }
 
 impl WebServer {
-    /// Opens the port and serves.
+    /// Opens the port and starts serving.
     ///
     /// # Errors
-    /// If arguments, files, the port or the database are wrong.
+    /// If arguments, files, the port or the database are invalid.
     pub fn start(args: &ListenConfig, setup: ServerSetup) -> Result<Self, AppError> {
         let secure = args.tls_cert.is_some() || args.behind_proxy;
         let tls = tls::config(args)?;
@@ -52,7 +52,7 @@ impl WebServer {
         };
         let state = ServerState::open(setup, secure, reach)?;
         tls::check(args, !state.database.with_password()?.is_empty())?;
-        let taken = |error: std::io::Error| AppError::failed(format!("--listen {}: cannot be opened: {error}", args.listen));
+        let taken = |error: std::io::Error| AppError::failed(format!("--listen {}: cannot open: {error}", args.listen));
         let listener = TcpListener::bind(args.listen).map_err(taken)?;
         listener.set_nonblocking(true).map_err(taken)?;
         let bound = listener.local_addr().map_err(taken)?;
@@ -62,7 +62,7 @@ impl WebServer {
             .max_blocking_threads(WAITING_THREADS)
             .enable_all()
             .build()
-            .map_err(|error| AppError::failed(format!("no runtime for the server: {error}")))?;
+            .map_err(|error| AppError::failed(format!("cannot start the server runtime: {error}")))?;
         let handle = Handle::new();
         let shared = PipelineState {
             state: Arc::new(state),
@@ -73,20 +73,20 @@ impl WebServer {
         let thread = std::thread::spawn(move || {
             let ended = runtime.block_on(serve(listener, tls, own, router));
             if let Err(error) = ended {
-                tracing::error!("the server ended: {error}");
+                tracing::error!("the server stopped: {error}");
             }
-            // Streams and slow handlers are not waited for.
+            // Does not wait for streams and slow handlers.
             runtime.shutdown_background();
         });
         Ok(Self { address, handle, thread: Some(thread) })
     }
 
-    /// Where a browser finds it.
+    /// Returns the URL of the server.
     pub fn address(&self) -> &str {
         &self.address
     }
 
-    /// Serves until somebody asks to stop.
+    /// Serves until a stop is requested.
     pub fn serve_until(&self, stop: &StopRequest) {
         while !stop.is_requested() && self.thread.as_ref().is_some_and(|thread| !thread.is_finished()) {
             std::thread::sleep(LOOK);
@@ -100,7 +100,7 @@ impl Drop for WebServer {
         if let Some(thread) = self.thread.take()
             && thread.join().is_err()
         {
-            tracing::error!("the server's thread broke off: this is a fault of the program");
+            tracing::error!("the server thread panicked: please report this bug");
         }
     }
 }
@@ -126,7 +126,7 @@ async fn serve(
     }
 }
 
-/// Who opens connections and says nothing is put out.
+/// Closes connections that send no complete header in time.
 fn limit(builder: &mut hyper_util::server::conn::auto::Builder<hyper_util::rt::TokioExecutor>) {
     builder.http1().timer(hyper_util::rt::TokioTimer::new()).header_read_timeout(HEAD_WAIT);
 }
@@ -150,7 +150,7 @@ fn method(route: &'static Route, shared: &PipelineState) -> MethodRouter {
     match route.how {
         RouteKind::File | RouteKind::Show | RouteKind::Compute => get(handle),
         RouteKind::Change => post(handle),
-        // The fields beside the file need room, too.
+        // The other fields of the form need space, too.
         RouteKind::Upload(most) => post(handle).layer(DefaultBodyLimit::max(most + FORM_MOST)),
     }
 }

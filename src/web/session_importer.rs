@@ -1,5 +1,5 @@
-//! New sessions into the database: a thread that looks for folders that have ended, and takes in again whatever it is told has changed. The
-//! folders stay the source: a kill at any moment, or a database that is away, costs nothing but a later look.
+//! Imports new sessions into the database. A thread scans the folders for sessions that have ended and imports changed ones again on request. The
+//! folders remain the source of truth: after a kill or a database failure, a later scan imports everything.
 
 use crate::errors::AppError;
 use crate::records::{Database, RecordsLocation, is_erased, read_session, session_folders, session_id};
@@ -11,15 +11,15 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
-/// Between two looks at the folders.
+/// Interval between scans of the folders.
 const LOOK: Duration = Duration::from_secs(2);
 
-/// The thread's ear.
+/// Handle of the importer thread.
 #[derive(Debug)]
 pub struct SessionImporter(Sender<PathBuf>);
 
 impl SessionImporter {
-    /// Starts to look. It has a connection of its own, so that pages do not wait for it.
+    /// Starts the thread with a separate database connection, so that pages do not have to wait.
     ///
     /// # Errors
     /// If the database cannot be opened.
@@ -33,7 +33,7 @@ impl SessionImporter {
                 looked.scan(&database, &sessions);
                 match changed.recv_timeout(LOOK) {
                     Ok(folder) => {
-                        // Answers come in quick succession; the session is read once for all that wait.
+                        // Answers are saved in quick succession; the session is imported once for all pending requests.
                         let mut folders = BTreeSet::from([folder]);
                         folders.extend(changed.try_iter());
                         folders.iter().for_each(|folder| looked.import(&database, folder, &BTreeMap::new()));
@@ -46,36 +46,36 @@ impl SessionImporter {
         Ok(Self(sender))
     }
 
-    /// A session has changed.
+    /// Requests that a changed session be imported again.
     pub fn rescan(&self, folder: PathBuf) {
         if self.0.send(folder).is_err() {
-            tracing::warn!("sessions are no longer taken in: start the server again");
+            tracing::warn!("new sessions are no longer imported: restart the server");
         }
     }
 }
 
-/// What the thread knows of the folders.
+/// State of the importer thread.
 #[derive(Debug, Default)]
 struct ImportProgress {
-    /// The answers that a kill left out were looked for.
+    /// True once changed answers from before the start have been looked for.
     caught_up: bool,
-    /// Not to be read; told once.
+    /// Unreadable folders, each logged once.
     unreadable: BTreeSet<PathBuf>,
-    /// Read, but refused by the database: tried again at every look.
+    /// Sessions that the database did not accept; retried at every scan.
     refused: BTreeSet<PathBuf>,
-    /// Erased, with the folder still here; told once.
+    /// Folders of erased sessions, each logged once.
     erased: BTreeSet<PathBuf>,
 }
 
 impl ImportProgress {
-    /// Takes in the folders that have ended and that the database does not know, those that it refused, and the first time those whose
-    /// answers have changed.
+    /// Imports ended sessions that are missing in the database, those that it did not accept before, and, on the first scan, those with changed
+    /// answers.
     fn scan(&mut self, database: &Database, sessions: &[PathBuf]) {
         let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
         let (known, erased, folders) = match (database.fingerprints(), database.erased(), session_folders(&here)) {
             (Ok(known), Ok(erased), Ok(folders)) => (known, erased, folders),
             (Err(error), _, _) | (_, Err(error), _) | (_, _, Err(error)) => {
-                tracing::warn!("no sessions are taken in now: {error}");
+                tracing::warn!("cannot import sessions now: {error}");
                 return;
             }
         };
@@ -97,25 +97,25 @@ impl ImportProgress {
     fn skip(&mut self, folder: PathBuf) {
         if !self.erased.contains(&folder) {
             tracing::warn!(
-                "{}: not taken in, it or its trainee was erased; spandrel records erase removes the folder, too",
+                "{}: not imported because it or its trainee was erased; spandrel records erase also removes the folder",
                 folder.display()
             );
             self.erased.insert(folder);
         }
     }
 
-    /// Takes in one folder, unless `known` holds it unchanged.
+    /// Imports one folder, unless `known` contains it unchanged.
     fn import(&mut self, database: &Database, folder: &Path, known: &BTreeMap<String, String>) {
         match read_session(folder, known) {
             Ok(record) => {
                 self.unreadable.remove(folder);
                 self.save_record(database, folder, record);
             }
-            // Erased meanwhile, or not to be read.
+            // The folder was erased meanwhile, or is unreadable.
             Err(error) => {
                 self.refused.remove(folder);
                 if self.unreadable.insert(folder.to_path_buf()) && folder.is_dir() {
-                    tracing::warn!("left out: {error}");
+                    tracing::warn!("skipped: {error}");
                 }
             }
         }
@@ -128,7 +128,7 @@ impl ImportProgress {
             }
             Err(error) => {
                 if self.refused.insert(folder.to_path_buf()) {
-                    tracing::warn!("not taken in yet: {error}");
+                    tracing::warn!("not imported yet: {error}");
                 }
             }
         }

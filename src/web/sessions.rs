@@ -1,4 +1,4 @@
-//! Sessions: lists, one with its report and files, two beside each other.
+//! Session pages: list, one session with its report and files, and the comparison of two sessions.
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
@@ -14,17 +14,17 @@ use spandrel_training::report::assets;
 use spandrel_training::web::sessions as pages;
 use std::path::{Path, PathBuf};
 
-/// Sessions on a page.
+/// Sessions per page of the list.
 const PAGE: u32 = 50;
-/// Other sessions that one can be compared with.
+/// Maximum number of other sessions offered for comparison.
 const OTHERS: u32 = 50;
 
-/// The first page: sessions, or the login.
+/// Redirects the start page to the sessions, or to the login.
 pub fn start(_: &ServerState, asked: &WebRequest) -> HandlerResult {
     Ok(WebResponse::redirect(if asked.visitor.is_known() { "/sessions" } else { "/login" }))
 }
 
-/// A list of sessions: all, or one trainee's.
+/// Shows a list of sessions of all trainees, or of one.
 pub fn session_list(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let wanted = asked.query_value("trainee");
     let trainee = asked.visitor.limited_to().or(wanted);
@@ -32,32 +32,32 @@ pub fn session_list(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let last = u32::try_from(count.div_ceil(u64::from(PAGE))).unwrap_or(u32::MAX).max(1);
     let page = asked.query_value("page").and_then(|page| page.parse().ok()).unwrap_or(1).clamp(1, last);
     let lines = state.database.list(trainee, PAGE, (page - 1).saturating_mul(PAGE))?;
-    // A name goes on into links; what can be none is shown empty.
+    // Links contain the name, so an invalid one is shown as empty.
     let trainee = wanted.filter(|name| asked.visitor.limited_to().is_none() && name.parse::<TraineeId>().is_ok());
     let listing = pages::SessionList { lines: &lines, trainee, page, last, count };
     Ok(WebResponse::page(pages::list(&asked.visitor, &listing)))
 }
 
-/// A session's record, if the visitor may see it.
+/// Returns a session's record, if the visitor may see it.
 ///
 /// # Errors
-/// When there is none, or it is not his.
+/// If there is no such session, or the visitor has no access to it.
 pub fn record(state: &ServerState, asked: &WebRequest, id: &str) -> Result<SessionRecord, WebError> {
     let record = state.database.record(id)?.ok_or(WebError::NotFound)?;
     asked.require_access(&record.trainee)?;
     Ok(record)
 }
 
-/// A session's folder, if the visitor may see it.
+/// Returns a session's folder, if the visitor may see it.
 ///
 /// # Errors
-/// When it is not here, or not his.
+/// If the folder is not on this machine, or the visitor has no access to it.
 pub fn folder(state: &ServerState, asked: &WebRequest, id: &str) -> Result<PathBuf, WebError> {
     record(state, asked, id)?;
     state.folder(id).ok_or(WebError::NotFound)
 }
 
-/// One session.
+/// Shows the page of one session.
 pub fn session_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let record = record(state, asked, asked.path_part("id"))?;
     let mut others = state.database.list(Some(&record.trainee), OTHERS, 0)?;
@@ -66,7 +66,7 @@ pub fn session_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     Ok(WebResponse::page(pages::session(&asked.visitor, &record, &pages::SessionPageData { folder, others: &others })))
 }
 
-/// A session's report, under its own policy. One that another version wrote, or that is missing, is made again.
+/// Responds with a session's report under its own policy. Creates the report again if it is missing or was written by another version.
 pub fn report(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let folder = folder(state, asked, asked.path_part("id"))?;
     let policy = assets::page_policy();
@@ -82,24 +82,25 @@ pub fn report(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     Ok(WebResponse::sandboxed_page(page, &policy))
 }
 
-/// A page of this version names the same policy in its head.
+/// Returns true if the page's head contains the policy of this version.
 fn has_current_policy(page: &[u8], policy: &str) -> bool {
     let head = &page[..page.len().min(2_000)];
     let escaped = maud::html! { (policy) }.into_string();
     String::from_utf8_lossy(head).contains(&escaped)
 }
 
-/// Two sessions beside each other.
+/// Responds with a comparison of two sessions.
 pub fn compare(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let folder = |word: &str| {
-        let id = asked.query_value(word).ok_or_else(|| WebError::BadRequest(format!("{word}: missing (allowed: a session)")))?;
+        let id =
+            asked.query_value(word).ok_or_else(|| WebError::BadRequest(format!("{word}: missing (allowed: a session ID)")))?;
         folder(state, asked, id)
     };
     let page = report::compared(&folder("first")?, &folder("second")?)?;
     Ok(WebResponse::sandboxed_page(page.into_bytes(), &assets::page_policy()))
 }
 
-/// Frames as CSV.
+/// Responds with the frames as CSV.
 pub fn frames(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let id = asked.path_part("id");
     let stored = StoredSession::read(&folder(state, asked, id)?)?;
@@ -107,7 +108,7 @@ pub fn frames(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     Ok(WebResponse::download(&format!("{id}-frames.csv"), "text/csv; charset=utf-8", csv.into_bytes()))
 }
 
-/// The telemetry as it came.
+/// Responds with the unmodified telemetry log.
 pub fn telemetry(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let id = asked.path_part("id");
     let path = folder(state, asked, id)?.join(TELEMETRY);
@@ -115,7 +116,7 @@ pub fn telemetry(state: &ServerState, asked: &WebRequest) -> HandlerResult {
 }
 
 fn bytes(path: &Path) -> Result<Vec<u8>, WebError> {
-    std::fs::read(path).map_err(|error| WebError::Failed(format!("{}: cannot be read: {error}", path.display())))
+    std::fs::read(path).map_err(|error| WebError::Failed(format!("{}: cannot read: {error}", path.display())))
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Logins, accounts, retention.
+//! Pages for login, account and server settings.
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
@@ -9,10 +9,10 @@ use crate::records::{Account, erase_older};
 use spandrel_training::trainee::{Role, Trainee};
 use spandrel_training::web::{login, settings as pages};
 
-/// µs in a day.
+/// Microseconds in one day.
 const DAY_US: u64 = 86_400_000_000;
 
-/// The login.
+/// Shows the login form.
 pub fn login_page(_: &ServerState, asked: &WebRequest) -> HandlerResult {
     if asked.visitor.is_known() {
         return Ok(WebResponse::redirect("/sessions"));
@@ -20,7 +20,7 @@ pub fn login_page(_: &ServerState, asked: &WebRequest) -> HandlerResult {
     Ok(WebResponse::page(login::login(&asked.visitor, "", None)))
 }
 
-/// Logs in.
+/// Logs in with the submitted name and password.
 pub fn log_in(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let name = asked.form_field("name").unwrap_or_default().trim();
     let password = asked.form_field("password").unwrap_or_default();
@@ -39,13 +39,13 @@ pub fn log_in(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     }
 }
 
-/// Logs out.
+/// Ends the visitor's browser session.
 pub fn log_out(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     state.auth.log_out(asked.cookie.as_deref());
     Ok(WebResponse::redirect("/login"))
 }
 
-/// One's own account.
+/// Shows the visitor's account.
 pub fn account_page(_: &ServerState, asked: &WebRequest) -> HandlerResult {
     if asked.visitor.name.is_none() {
         return Ok(WebResponse::redirect("/settings"));
@@ -53,11 +53,11 @@ pub fn account_page(_: &ServerState, asked: &WebRequest) -> HandlerResult {
     Ok(WebResponse::page(login::account(&asked.visitor, None)))
 }
 
-/// Changes one's own password; all other visits of that person end.
+/// Changes the visitor's password and ends all their other browser sessions.
 pub fn change_password(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let name = asked.visitor.name.as_deref().ok_or(WebError::NotFound)?;
     let told = match change(state, asked, name) {
-        Ok(()) => ("good", "The password is changed. Wherever else you were logged in, you are so no more.".to_owned()),
+        Ok(()) => ("good", "Password changed. You have been logged out everywhere else.".to_owned()),
         Err(refusal @ (WebError::Forbidden(_) | WebError::BadRequest(_) | WebError::RateLimited(_) | WebError::Busy(_))) => {
             ("bad", refusal.status_and_text().2)
         }
@@ -72,14 +72,14 @@ fn change(state: &ServerState, asked: &WebRequest, name: &str) -> Result<(), Web
     login::check(new, name).map_err(WebError::BadRequest)?;
     let before = account.hash.replace(state.auth.hashing.acquire()?.hash(new)?).unwrap_or_default();
     if !state.database.change_password(name, &before, account.hash.as_deref().unwrap_or_default())? {
-        return Err(WebError::BadRequest("somebody has changed your password meanwhile: log in with that one".into()));
+        return Err(WebError::BadRequest("your password was changed elsewhere: log in again with the new one".into()));
     }
     state.auth.end_other_sessions(name, asked.cookie.as_deref());
     state.auth.renew(asked.cookie.as_deref(), &account);
     Ok(())
 }
 
-/// The administrator's page.
+/// Shows the administrator's settings.
 pub fn page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     render_settings(state, asked, None)
 }
@@ -104,13 +104,12 @@ pub fn set_login(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let password = asked.required_field("password")?;
     login::check(password, name).map_err(WebError::BadRequest)?;
     if asked.visitor.open && role != Role::Administrator {
-        let words =
-            "the first password must be an administrator's: with it everybody has to log in, and nobody else could set more";
+        let words = "the first password must be an administrator's, because everyone must log in from then on and only administrators can add users";
         return Err(WebError::BadRequest(words.into()));
     }
     let own = asked.visitor.name.as_deref() == Some(name);
     if own && role != Role::Administrator {
-        return Err(WebError::BadRequest("you would shut yourself out: let another administrator change your role".into()));
+        return Err(WebError::BadRequest("you would lock yourself out: ask another administrator to change your role".into()));
     }
     let hash = state.auth.hashing.acquire()?.hash(password)?;
     state.database.set_login(name, role, &hash)?;
@@ -123,32 +122,32 @@ pub fn set_login(state: &ServerState, asked: &WebRequest) -> HandlerResult {
         state.auth.require_login();
         return Ok(WebResponse::redirect("/login"));
     }
-    render_settings(state, asked, Some(("good", &format!("{name} may log in as {}.", role.word()))))
+    render_settings(state, asked, Some(("good", &format!("{name} can now log in as {}.", role.word()))))
 }
 
-/// Takes a login away.
+/// Removes a person's password.
 pub fn drop_login(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let name = asked.required_field("name")?;
     if asked.visitor.name.as_deref() == Some(name) {
-        return Err(WebError::BadRequest("you would shut yourself out".into()));
+        return Err(WebError::BadRequest("you would lock yourself out".into()));
     }
     let had = state.database.drop_password(name)?;
     state.auth.end_other_sessions(name, None);
     if had { Ok(WebResponse::redirect("/settings")) } else { Err(WebError::BadRequest("this person has no password".into())) }
 }
 
-/// Erases what is older than so many days.
+/// Erases all sessions older than the given number of days.
 pub fn retention(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let days: u64 = asked
         .required_field("days")?
         .parse()
         .ok()
         .filter(|days| (1..=36_525).contains(days))
-        .ok_or_else(|| WebError::BadRequest("days: no such number (allowed: 1 to 36525)".into()))?;
+        .ok_or_else(|| WebError::BadRequest("days: invalid number (allowed: 1 to 36525)".into()))?;
     if asked.required_field("sure")? != "yes" {
-        return Err(WebError::BadRequest("sure: not said (allowed: yes)".into()));
+        return Err(WebError::BadRequest("sure: not confirmed (allowed: yes)".into()));
     }
     let limit_us = clock::unix_us().saturating_sub(days * DAY_US);
     let (deleted, folders) = erase_older(&state.database, &state.place, limit_us)?;
-    render_settings(state, asked, Some(("good", &format!("{deleted} sessions and {folders} folders are erased."))))
+    render_settings(state, asked, Some(("good", &format!("Erased {deleted} sessions and {folders} folders."))))
 }

@@ -1,5 +1,5 @@
-//! Files of forms. A small one stays in memory; a large one goes to disk while it arrives, so that slow senders hold neither memory nor a place
-//! in a queue, and a sender that is too slow is put out.
+//! Uploaded files. A small file stays in memory; a large one is written to disk while it arrives, so that slow clients occupy neither memory nor a
+//! slot in a queue. Clients that are too slow are disconnected.
 
 use super::response::WebError;
 use crate::errors::AppError;
@@ -10,39 +10,39 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-/// A file up to this size stays in memory, bytes.
+/// Maximum size of a file that stays in memory, bytes.
 const IN_MEMORY: usize = 512 * 1024;
-/// A sender has this long before its rate counts.
+/// Time before the minimum rate applies to an upload.
 const GRACE: Duration = Duration::from_secs(30);
-/// Lowest rate after that, bytes a second. Estimate: a sixteenth of a 1 Mbit/s line.
+/// Minimum rate after that, bytes/s. Estimate: one sixteenth of a 1 Mbit/s line.
 const LEAST_RATE: u64 = 8 * 1024;
 
-/// A file of a form, complete.
+/// A complete uploaded file.
 #[derive(Debug)]
 pub enum SpooledUpload {
-    /// In memory.
+    /// Contents of a small file.
     Memory(Vec<u8>),
-    /// On disk, removed when this is dropped.
+    /// File on disk, deleted when this is dropped.
     Disk(SpoolFile),
 }
 
-/// A file that is removed when this is dropped.
+/// A file that is deleted when this is dropped.
 #[derive(Debug)]
 pub struct SpoolFile(PathBuf);
 
 impl Drop for SpoolFile {
     fn drop(&mut self) {
         if let Err(error) = std::fs::remove_file(&self.0) {
-            tracing::warn!("{}: cannot be removed: {error}", self.0.display());
+            tracing::warn!("{}: cannot remove: {error}", self.0.display());
         }
     }
 }
 
 impl SpooledUpload {
-    /// Returns the whole file.
+    /// Returns the contents of the file.
     ///
     /// # Errors
-    /// If the disk cannot be written.
+    /// If the file cannot be read.
     pub fn bytes(&self) -> Result<Cow<'_, [u8]>, AppError> {
         match self {
             Self::Memory(bytes) => Ok(Cow::Borrowed(bytes)),
@@ -51,7 +51,7 @@ impl SpooledUpload {
     }
 }
 
-/// A file that is arriving.
+/// An upload in progress.
 #[derive(Debug)]
 pub struct UploadSpool<'a> {
     folder: &'a Path,
@@ -62,27 +62,27 @@ pub struct UploadSpool<'a> {
 }
 
 impl<'a> UploadSpool<'a> {
-    /// An empty file of at most `max_bytes` bytes, which may be kept in this folder meanwhile.
+    /// Creates an empty upload of at most `most` bytes, which can be written to this folder.
     pub fn new(folder: &'a Path, most: usize) -> Self {
         Self { folder, max_bytes: most, size: 0, head: Vec::new(), disk: None }
     }
 
-    /// Largest size, bytes.
+    /// Returns the maximum size, bytes.
     pub fn most(&self) -> usize {
         self.max_bytes
     }
 
-    /// Takes what has arrived after this time.
+    /// Appends a chunk that arrived `elapsed` after the start of the upload.
     ///
     /// # Errors
-    /// When the file is too large or its sender too slow, or the disk refuses.
+    /// If the file is too large, the client is too slow, or the disk cannot be written.
     pub fn take(&mut self, bytes: &[u8], elapsed: Duration) -> Result<(), WebError> {
         self.size += bytes.len();
         if self.size > self.max_bytes {
             return Err(WebError::TooLarge(self.max_bytes));
         }
         if is_below_min_rate(self.size, elapsed) {
-            return Err(WebError::BadRequest(format!("the file came too slowly (allowed: {} KiB/s or more)", LEAST_RATE / 1024)));
+            return Err(WebError::BadRequest(format!("the upload was too slow (allowed: {} KiB/s or more)", LEAST_RATE / 1024)));
         }
         if self.disk.is_none() && self.head.len() + bytes.len() > IN_MEMORY {
             self.disk = Some(self.begin()?);
@@ -106,7 +106,7 @@ impl<'a> UploadSpool<'a> {
         Ok((file, on_disk))
     }
 
-    /// The file is complete.
+    /// Completes the upload and returns the file.
     pub fn end(self) -> SpooledUpload {
         match self.disk {
             Some((_, on_disk)) => SpooledUpload::Disk(on_disk),

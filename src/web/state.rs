@@ -1,4 +1,4 @@
-//! State shared by all requests.
+//! Server state that all requests share.
 
 use super::auth::{AllowedOrigins, Authenticator};
 use super::figures::FigureCache;
@@ -13,55 +13,55 @@ use spandrel_training::questionnaire::Languages;
 use std::path::PathBuf;
 use std::sync::Mutex;
 
-/// What a server is made from.
+/// Settings of a server.
 #[derive(Debug, Clone)]
 pub struct ServerSetup {
-    /// Records and sessions.
+    /// Location of the database and the session folders.
     pub place: RecordsLocation,
-    /// Folder of uploaded scenarios; `None` for the usual one.
+    /// Folder of uploaded scenarios; `None` for the default.
     pub scenarios: Option<PathBuf>,
-    /// Vehicles that are watched.
+    /// Vehicles on the live page.
     pub watched: Vec<WatchedVehicle>,
-    /// Wordings of the questionnaire beside the shipped ones.
+    /// Files with custom questionnaire wordings.
     pub wordings: Vec<PathBuf>,
 }
 
-/// State shared by all requests.
+/// Server state that all requests share.
 #[derive(Debug)]
 pub struct ServerState {
-    /// Records.
+    /// Database of sessions, trainees and answers.
     pub database: Database,
-    /// Figures of cohorts.
+    /// Cache of the cohort figures.
     pub figures: FigureCache,
-    /// Where they and the sessions are.
+    /// Location of the database and the session folders.
     pub place: RecordsLocation,
     /// Folder of uploaded scenarios.
     pub scenarios: PathBuf,
-    /// Who is who.
+    /// Logins, browser sessions and cookies.
     pub auth: Authenticator,
     /// Languages of the questionnaire.
     pub languages: Languages,
-    /// The flights that are watched.
+    /// Vehicles on the live page.
     pub live: Vec<LiveVehicle>,
-    /// Takes new sessions in.
+    /// Imports new sessions into the database.
     pub importer: SessionImporter,
-    /// Held while a file of answers is read, changed and written.
+    /// Locked while an answers file is read, changed and written.
     pub answers: Mutex<()>,
-    /// Held while a recording is scored: one at a time costs enough.
+    /// Locked while a recording is scored, because scoring is expensive.
     pub scoring: Mutex<()>,
 }
 
 impl ServerState {
-    /// Opens everything.
+    /// Opens the database and the links to the vehicles, and removes stale temporary files.
     ///
     /// # Errors
-    /// When a wording is wrong, or the database or a link to a vehicle cannot be opened.
+    /// If a wording is invalid, or the database or a link to a vehicle cannot be opened.
     pub fn open(setup: ServerSetup, secure: bool, reach: AllowedOrigins) -> Result<Self, AppError> {
         let ServerSetup { place, scenarios, watched, wordings } = setup;
         let languages = answers::languages(&wordings)?;
         let first = place.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"));
         std::fs::create_dir_all(&first)
-            .map_err(|error| AppError::failed(format!("{}: cannot be made: {error}", first.display())))?;
+            .map_err(|error| AppError::failed(format!("{}: cannot create the folder: {error}", first.display())))?;
         temp_files::remove_partial_imports(&first)?;
         let scenarios = scenarios.unwrap_or_else(|| first.join("scenarios"));
         temp_files::remove_stale(&place.sessions, &scenarios);
@@ -74,17 +74,17 @@ impl ServerState {
         Ok(Self { database, figures, place, scenarios, auth: guard, languages, live, importer: taking_in, answers, scoring })
     }
 
-    /// Where uploads lie while they arrive and sessions while they are made.
+    /// Returns the folder for uploads and imports in progress.
     pub fn spool(&self) -> PathBuf {
         self.default_folder().join(temp_files::ASIDE)
     }
 
-    /// The folder of sessions that new ones go into.
+    /// Returns the folder for new sessions.
     pub fn default_folder(&self) -> PathBuf {
         self.place.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"))
     }
 
-    /// The folder of a session; `None` when it is not on this machine, or the id is no plain name.
+    /// Returns the folder of a session; `None` if it is not on this machine or the ID is not a plain name.
     pub fn folder(&self, id: &str) -> Option<PathBuf> {
         if !is_plain(id) {
             return None;

@@ -1,17 +1,18 @@
-//! What a kill left of a file that was just being written: `NAME.PID-N.new`, which nobody would ever rename any more.
+//! Removes temporary files (`NAME.PID-N.new`) of processes that were killed while writing.
 
 use crate::errors::AppError;
 use crate::records::session_folders;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Where a session lies while it is taken in; its name is no session's.
+/// Folder of sessions that are being imported; the name cannot be that of a session.
 pub const ASIDE: &str = ".taking-in";
-/// Nobody writes a file for so long; a program of another machine on the same disk may have any process id.
+/// Age above which a temporary file counts as abandoned. A process on another computer that shares the disk may have any process ID, so the age must
+/// be longer than any write takes.
 const ABANDONED: Duration = Duration::from_secs(600);
 
-/// Removes the leftovers in the folders of sessions, directly in them and in their sessions, and in that of scenarios. What cannot be
-/// looked at or removed is left: nothing reads it.
+/// Removes stale temporary files from the folders of sessions, from the session folders in them, and from the folder of scenarios. Files that cannot
+/// be checked or removed stay; they do no harm.
 pub fn remove_stale(sessions: &[PathBuf], scenarios: &Path) {
     let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
     let inside = session_folders(&here).unwrap_or_default();
@@ -19,14 +20,14 @@ pub fn remove_stale(sessions: &[PathBuf], scenarios: &Path) {
         let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
         for path in entries.map(|entry| entry.path()).filter(|path| is_stale(path)) {
             match std::fs::remove_file(&path) {
-                Ok(()) => tracing::info!("{}: left by a program that was killed, removed", path.display()),
-                Err(error) => tracing::warn!("{}: cannot be removed: {error}", path.display()),
+                Ok(()) => tracing::info!("{}: removed a temporary file of a killed process", path.display()),
+                Err(error) => tracing::warn!("{}: cannot remove: {error}", path.display()),
             }
         }
     }
 }
 
-/// Removes what a killed server was taking in.
+/// Removes imports that a killed server has left incomplete.
 ///
 /// # Errors
 /// If the disk cannot be written.
@@ -34,13 +35,13 @@ pub fn remove_partial_imports(sessions: &Path) -> Result<(), AppError> {
     let aside = sessions.join(ASIDE);
     match std::fs::remove_dir_all(&aside) {
         Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-            Err(AppError::failed(format!("{}: cannot be removed: {error}", aside.display())))
+            Err(AppError::failed(format!("{}: cannot remove: {error}", aside.display())))
         }
         _ => Ok(()),
     }
 }
 
-/// Named as `io::replace` names what it writes, by a program that runs no more, long ago.
+/// Returns true if the name is one of `io::replace`, the process no longer runs, and the file is old.
 fn is_stale(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let Some(writer) = writer_pid(name) else { return false };
@@ -48,7 +49,7 @@ fn is_stale(path: &Path) -> bool {
     old && path.is_file() && !is_alive(writer)
 }
 
-/// The process in `NAME.PID-N.new`.
+/// Returns the process ID in `NAME.PID-N.new`.
 fn writer_pid(name: &str) -> Option<u32> {
     let (rest, number) = name.strip_suffix(".new")?.rsplit_once('-')?;
     let (original, process) = rest.rsplit_once('.')?;
@@ -56,7 +57,7 @@ fn writer_pid(name: &str) -> Option<u32> {
     process.parse().ok()
 }
 
-/// The process runs, or nobody can tell.
+/// Returns true if the process runs, or if the system has no /proc to tell.
 fn is_alive(process: u32) -> bool {
     let all = Path::new("/proc");
     !all.join("self").exists() || all.join(process.to_string()).exists()
@@ -80,7 +81,7 @@ mod tests {
         let session = sessions.path().join("a-session");
         fs::create_dir(&session).unwrap();
         fs::write(session.join("telemetry.tlog"), "x").unwrap();
-        // Linux gives no process a number beyond 2^22.
+        // Linux process IDs do not exceed 2^22.
         let (dead, alive) = (4_194_305, std::process::id());
         let gone = [
             session.join(format!("answers.json.{dead}-7.new")),

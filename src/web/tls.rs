@@ -1,4 +1,4 @@
-//! TLS by files, and what listening beyond this machine needs.
+//! TLS certificates, and the requirements for access from other machines.
 
 use super::listening::ListenConfig;
 use crate::errors::AppError;
@@ -9,33 +9,33 @@ use rustls::pki_types::{CertificateDer, PrivateKeyDer};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Refuses to be reached from elsewhere without a password or without TLS.
+/// Checks that a server that other machines can reach has a password and TLS.
 ///
 /// # Errors
-/// What is missing.
+/// If one of them is missing.
 pub fn check(args: &ListenConfig, somebody_has_a_password: bool) -> Result<(), AppError> {
     let beyond = !args.listen.ip().is_loopback();
     if (beyond || args.behind_proxy) && !somebody_has_a_password {
         return Err(AppError::wrong(format!(
-            "--listen {}: others could reach the server, and nobody has a password: set one first with --set-password USER --role \
+            "--listen {}: other machines could reach the server, and no password is set: set one first with --set-password USER --role \
              administrator",
             args.listen
         )));
     }
     if beyond && args.tls_cert.is_none() && !args.behind_proxy {
         return Err(AppError::wrong(format!(
-            "--listen {}: passwords would travel in the clear: give --tls-cert and --tls-key, or --behind-proxy when a proxy in front \
-             speaks TLS",
+            "--listen {}: passwords would be sent unencrypted: use --tls-cert and --tls-key, or --behind-proxy if a proxy \
+             terminates TLS",
             args.listen
         )));
     }
     Ok(())
 }
 
-/// The files' TLS, if there are any.
+/// Returns the TLS configuration, or `None` without certificate files.
 ///
 /// # Errors
-/// If a file cannot be read or is no certificate or key.
+/// If a file cannot be read, or is not a certificate or key.
 pub fn config(args: &ListenConfig) -> Result<Option<RustlsConfig>, AppError> {
     let (Some(chain), Some(key)) = (&args.tls_cert, &args.tls_key) else { return Ok(None) };
     let wrong =
@@ -44,7 +44,7 @@ pub fn config(args: &ListenConfig) -> Result<Option<RustlsConfig>, AppError> {
         .and_then(Iterator::collect::<Result<Vec<_>, _>>)
         .map_err(|error| wrong("--tls-cert", chain, &error))?;
     if certificates.is_empty() {
-        return Err(wrong("--tls-cert", chain, &"it holds no certificate (PEM)"));
+        return Err(wrong("--tls-cert", chain, &"the file contains no certificate (PEM)"));
     }
     let private = PrivateKeyDer::from_pem_file(key).map_err(|error| wrong("--tls-key", key, &error))?;
     let provider = Arc::new(rustls::crypto::ring::default_provider());

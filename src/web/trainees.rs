@@ -1,4 +1,4 @@
-//! Trainees and groups of them.
+//! Pages of trainees and cohorts.
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
@@ -15,24 +15,24 @@ use spandrel_training::report::{assets, page::cohort as report};
 use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE, Role, Trainee};
 use spandrel_training::web::{group, trainees as pages};
 
-/// Sessions on a trainee's page.
+/// Maximum number of sessions on a trainee's page.
 const SESSIONS: u32 = 200;
-/// Repetitions compared unless asked otherwise.
+/// Default number of repetitions to compare.
 const REPETITIONS: usize = 3;
 
-/// Everybody.
+/// Shows the list of all trainees.
 pub fn trainee_list(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     Ok(WebResponse::page(pages::trainee_list(&asked.visitor, &state.database.trainees()?)))
 }
 
-/// The person of the path, if the visitor may see him.
+/// Returns the person in the path, if the visitor may see them.
 fn person(state: &ServerState, asked: &WebRequest) -> Result<Trainee, WebError> {
     let name = asked.path_part("name");
     asked.require_access(name)?;
     state.database.account(name)?.map(|account| account.person).ok_or(WebError::NotFound)
 }
 
-/// One trainee.
+/// Shows a trainee's sessions, progress and training plan.
 pub fn trainee_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let person = person(state, asked)?;
     let records = state.database.records(Some(&person.pseudonym))?;
@@ -43,7 +43,7 @@ pub fn trainee_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     Ok(WebResponse::page(pages::trainee_page(&asked.visitor, &about)))
 }
 
-/// Everything that is kept of one.
+/// Responds with all stored data of a trainee.
 pub fn export(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let person = person(state, asked)?;
     let kept = kept(&state.database, &state.place, &person.pseudonym)?.ok_or(WebError::NotFound)?;
@@ -51,11 +51,11 @@ pub fn export(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     Ok(WebResponse::download(&name, "application/json", json_text(&kept.without_places()).into_bytes()))
 }
 
-/// What one tells of oneself: field, and what it may be.
+/// Detail fields of a person, with their allowed values.
 const DETAILS: [(&str, &[&str]); 3] =
     [("age_band", AGE_BANDS), ("drone_experience", EXPERIENCE), ("gaming_experience", EXPERIENCE)];
 
-/// Takes what one tells of oneself, unless somebody else has changed it since the page was opened.
+/// Saves a person's details, unless they were changed elsewhere since the page was loaded.
 pub fn details(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let person = person(state, asked)?;
     let (mut before, mut after) = ([""; 3], [""; 3]);
@@ -71,30 +71,30 @@ pub fn details(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     }
     if !state.database.set_details(&person.pseudonym, before, after)? {
         return Err(WebError::BadRequest(
-            "somebody has changed these details meanwhile: open the page again and look at them".into(),
+            "these details were changed elsewhere meanwhile: reload the page and check them".into(),
         ));
     }
     Ok(WebResponse::redirect(&format!("/trainees/{}", asked.path_part("name"))))
 }
 
-/// Erases one with everything; the name must be written once more.
+/// Erases a trainee with all data, after the pseudonym has been typed as confirmation.
 pub fn erase(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let person = person(state, asked)?;
     let name = &person.pseudonym;
     if asked.required_field("again")? != name {
-        return Err(WebError::BadRequest(format!("the pseudonym that was written is not {name}: nothing is erased")));
+        return Err(WebError::BadRequest(format!("the pseudonym you typed is not {name}: nothing was erased")));
     }
-    // Whoever erases is an administrator who stays: so the last one is never erased.
+    // Administrators cannot erase themselves, so one always remains.
     if person.role == Role::Administrator && asked.visitor.name.as_deref() == Some(name) {
-        return Err(WebError::BadRequest("you would shut yourself out: let another administrator erase you".into()));
+        return Err(WebError::BadRequest("you would lock yourself out: ask another administrator to erase you".into()));
     }
     erase_person(&state.database, &state.place, name)?;
     state.auth.end_other_sessions(name, None);
-    tracing::info!("a trainee was erased");
+    tracing::info!("erased a trainee");
     Ok(WebResponse::redirect("/trainees"))
 }
 
-/// Incomplete sessions count where the page's switch is on.
+/// Returns whether incomplete sessions count, from the page's switch.
 fn incomplete(asked: &WebRequest) -> IncompletePolicy {
     IncompletePolicy::included(asked.query_value("incomplete").is_some())
 }
@@ -106,13 +106,13 @@ fn chosen(asked: &WebRequest) -> Result<Selection, WebError> {
             .parse()
             .ok()
             .filter(|count| (1..=100).contains(count))
-            .ok_or_else(|| WebError::BadRequest("repetitions: no such number (allowed: 1 to 100)".into()))?,
+            .ok_or_else(|| WebError::BadRequest("repetitions: invalid number (allowed: 1 to 100)".into()))?,
     };
     let scenarios = asked.query.iter().filter(|(key, _)| key == "scenario").map(|(_, name)| name.clone()).collect();
     Ok(Selection { scenarios, repetitions, incomplete: incomplete(asked) })
 }
 
-/// The group's page.
+/// Shows the cohort page.
 pub fn cohort_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let selection = chosen(asked)?;
     let figured = state.figures.of(&selection)?;
@@ -128,7 +128,7 @@ pub fn cohort_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     Ok(WebResponse::page(group::group(&asked.visitor, &chosen, counted)))
 }
 
-/// One of its tables as a file.
+/// Responds with one of the cohort's tables as CSV.
 pub fn cohort_table(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let name = TABLES.into_iter().find(|name| *name == asked.path_part("name")).ok_or(WebError::NotFound)?;
     let figured = state.figures.of(&chosen(asked)?)?;
@@ -136,10 +136,10 @@ pub fn cohort_table(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     Ok(WebResponse::download(name, "text/csv; charset=utf-8", csv.into_bytes()))
 }
 
-/// The same as one page that opens offline.
+/// Responds with the cohort report as a single page that works offline.
 pub fn cohort_report(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let figured = state.figures.of(&chosen(asked)?)?;
-    let nothing = || WebError::BadRequest("there is no session of these scenarios that counts".into());
+    let nothing = || WebError::BadRequest("no session of these scenarios counts".into());
     let cohort = figured.non_empty().ok_or_else(nothing)?;
     Ok(WebResponse::sandboxed_page(report::cohort(cohort).into_bytes(), &assets::page_policy()))
 }

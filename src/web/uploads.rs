@@ -1,4 +1,4 @@
-//! A recorded flight becomes a session: scored first, kept only when it can be.
+//! Imports recorded flights as sessions. A recording is scored first and kept only if that succeeds.
 
 use super::lock::lock;
 use super::request::WebRequest;
@@ -20,7 +20,7 @@ use spandrel_monitor::{Monitor, MonitorConfig, SessionOutput};
 use spandrel_training::web::job as pages;
 use std::path::{Path, PathBuf};
 
-/// The form.
+/// Shows the upload form.
 pub fn page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     shown(state, asked, None)
 }
@@ -31,17 +31,17 @@ fn shown(state: &ServerState, asked: &WebRequest, told: Option<pages::UploadMess
     Ok(WebResponse::page(pages::recorded(&asked.visitor, &named, &vehicles, told)))
 }
 
-/// What became of an upload.
+/// Result of an upload.
 enum UploadOutcome {
-    /// It is a session now.
+    /// Folder of the new session.
     Session(PathBuf),
-    /// It is one already: its id and trainee.
+    /// ID and trainee of the existing session with the same recording.
     There(String, String),
 }
 
-/// Takes a recording in.
+/// Imports an uploaded recording.
 pub fn recording(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    // The same recording twice at once is one session, too.
+    // One import at a time, so that two simultaneous uploads of the same recording create only one session.
     let _one_at_a_time = lock(&state.scoring);
     match import_recording(state, asked) {
         Ok(UploadOutcome::Session(folder)) => {
@@ -67,21 +67,21 @@ fn import_recording(state: &ServerState, asked: &WebRequest) -> Result<UploadOut
     let scenario = files::scenario(&scenarios::argument(&state.scenarios, asked.required_field("scenario")?)?)?;
     let vehicle = asked.required_field("vehicle")?;
     if !files::vehicle_names().contains(&vehicle) {
-        return Err(WebError::BadRequest("vehicle: there is none of this name".into()));
+        return Err(WebError::BadRequest("vehicle: unknown name".into()));
     }
     let vehicle = files::vehicle(vehicle)?;
     let log = &*asked.upload.as_ref().ok_or_else(|| WebError::BadRequest("file: missing".into()))?.file.bytes()?;
-    // The telemetry is kept as it came, to its last whole record.
+    // The telemetry is stored unmodified, up to its last complete record.
     let kept = &log[..tlog::complete_len(log)];
     if let Some((id, trainee)) = state.database.of_telemetry(&sha256_hex(kept))? {
         return Ok(UploadOutcome::There(id, trainee));
     }
-    // What cannot be scored is the file's fault, whatever the scorer calls it.
-    let unfit = |error: AppError| WebError::BadRequest(format!("this recording cannot be taken in: {error}"));
+    // A recording that cannot be scored is an error of the file, whatever kind of error the scorer reports.
+    let unfit = |error: AppError| WebError::BadRequest(format!("cannot import this recording: {error}"));
     let graded = scoring::grade(log, &scenario.scenario, &vehicle.vehicle).map_err(unfit)?;
     let started_unix_us = tlog::session_start_us(log).unwrap_or_else(clock::unix_us);
     if state.database.erased()?.contains("", trainee.as_str(), started_unix_us) {
-        let words = format!("trainee = {}: was erased after this flight; it is not taken in again", trainee.as_str());
+        let words = format!("trainee = {}: erased after this flight, so it cannot be imported again", trainee.as_str());
         return Err(WebError::BadRequest(words));
     }
     let first = state.default_folder();
@@ -97,7 +97,7 @@ fn import_recording(state: &ServerState, asked: &WebRequest) -> Result<UploadOut
         seed: None,
         survey_builder: build_site,
     };
-    // The sidecar hears the recording as it would have heard the flight, so that the folder says the same of it.
+    // The monitor replays the recording, so that the folder has the same contents as after a live flight.
     let mut monitor = Monitor::new(config);
     for record in tlog::TlogReader::new(log) {
         monitor.handle_datagram(record.frame);
@@ -115,17 +115,17 @@ fn import_recording(state: &ServerState, asked: &WebRequest) -> Result<UploadOut
     }
     folder.describe(|scenario, vehicle, utc, starts| monitor.session_info(scenario, vehicle, utc, starts))?;
     if let Err(error) = report::write(folder.path()) {
-        tracing::warn!("no report was written: {error}");
+        tracing::warn!("cannot write the report: {error}");
     }
     folder.assessment(&json_text(&graded.assessment))?;
-    // Whole, it takes its place among the others; a kill before leaves nothing there.
+    // The complete folder is moved to the others; if the server is killed before that, nothing appears there.
     let place = free_folder(&first, &folder.path().file_name().unwrap_or_default().to_string_lossy());
     let moved = std::fs::rename(folder.path(), &place);
-    moved.map_err(|error| WebError::Failed(format!("{}: cannot be moved: {error}", place.display())))?;
+    moved.map_err(|error| WebError::Failed(format!("{}: cannot move: {error}", place.display())))?;
     Ok(UploadOutcome::Session(place))
 }
 
-/// A place of this name, or of one like it: another recording of the same instant may be there.
+/// Returns a path with this name, or with a similar one if another recording with the same start time has the name already.
 fn free_folder(sessions: &Path, name: &str) -> PathBuf {
     let stem = name.rsplit_once('-').map_or(name, |(stem, _)| stem);
     let others = (1..).map(|k: u32| format!("{stem}-{}", &sha256_hex(format!("{name} {k}").as_bytes())[..6]));

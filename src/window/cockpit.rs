@@ -1,4 +1,4 @@
-//! The window's loop: events in, pages and views out.
+//! Main loop of the window: handles events and shows pages and views.
 
 use super::display;
 use super::flight_view::FlightView;
@@ -27,28 +27,28 @@ use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, Window
 use winit::event_loop::{ActiveEventLoop, ControlFlow};
 use winit::window::WindowId;
 
-/// No more pictures than this, 1/s: what a screen shows; without a graphics card, what a person still sees as motion.
+/// Maximum frame rates of the views, 1/s: with a graphics card, that of fast screens; without one, a rate that still looks fluid.
 const MOST_HZ: (f64, f64) = (120.0, 25.0);
-/// Pages move by keys alone, and with the sticks, 1/s.
+/// Frame rate of pages, which only change by keys and sticks, 1/s.
 const PAGES_HZ: f64 = 20.0;
-/// Rest after a picture without a graphics card, as a share of what it took: the machine has other work.
+/// Pause after each frame without a graphics card, as a share of the frame time, so that other processes can run.
 const REST: f64 = 0.25;
-/// A notch of the wheel zooms so many times.
+/// Zoom factor per notch of the mouse wheel.
 const ZOOM_NOTCH: f64 = 1.15;
 
-/// Who stands behind the window.
+/// Threads and connections of the window.
 pub struct WindowThreads {
-    /// Whoever flies from it.
+    /// Pilot thread, if the window can fly.
     pub pilot: Option<PilotThread>,
-    /// Whoever says what is flown.
+    /// Pipe to `train`, if it started the window.
     pub lead: Option<TrainPipe>,
-    /// The flight that is shown from the beginning.
+    /// Flight to show from the start.
     pub flight: Option<FlightView>,
-    /// Whoever hands the camera's view on.
+    /// Video stream of the camera's view.
     pub stream: Option<StreamSender>,
 }
 
-/// The window with everything behind it.
+/// The window with its state.
 pub struct Cockpit {
     pub(super) plan: WindowConfig,
     pub(super) keys: KeyBindings,
@@ -62,7 +62,7 @@ pub struct Cockpit {
     pub(super) gaze: InspectorCamera,
     pub(super) map: bool,
     pub(super) held: HeldKeys,
-    /// The pilot has been told that time stands still.
+    /// Pause state that was last sent to the pilot thread.
     pub(super) stood: bool,
     mouse: Option<(f64, f64)>,
     dragging: bool,
@@ -74,7 +74,7 @@ pub struct Cockpit {
 }
 
 impl Cockpit {
-    /// Nothing is open yet.
+    /// Creates the state; the window is opened later.
     pub fn new(
         plan: WindowConfig,
         keys: KeyBindings,
@@ -107,10 +107,10 @@ impl Cockpit {
         }
     }
 
-    /// Opens the window and stays until it is closed.
+    /// Opens the window and runs it until it is closed.
     pub fn run(mut self) -> Result<(), AppError> {
         let events = display::open()?;
-        events.run_app(&mut self).map_err(|error| AppError::failed(format!("the window broke off: {error}")))?;
+        events.run_app(&mut self).map_err(|error| AppError::failed(format!("the window failed: {error}")))?;
         self.handle_release();
         self.failed.map_or(Ok(()), Err)
     }
@@ -120,7 +120,7 @@ impl Cockpit {
         self.plan.quality.or_else(|| Quality::named(usual)).unwrap_or(PRESETS[0])
     }
 
-    /// Lets go of the flight that is shown.
+    /// Stops showing the current flight.
     pub(super) fn handle_release(&mut self) {
         self.keeper = None;
         if let Some(flight) = self.crew.flight.take() {
@@ -131,7 +131,7 @@ impl Cockpit {
         }
     }
 
-    /// True while the views are shown, and keys fly.
+    /// Returns true while the views are shown and the keys fly.
     fn flies(&self) -> bool {
         self.flow.page() == Page::Flight
     }
@@ -164,12 +164,12 @@ impl Cockpit {
                 self.flow.pause();
                 return;
             }
-            // On the page of the controller the keys' sticks are seen.
+            // The controller page shows the stick positions of the keyboard.
             Some(KeyChange::Down(key)) if trying => self.forward_key(PilotCommand::Down(key)),
             Some(KeyChange::Up(key)) => self.forward_key(PilotCommand::Up(key)),
             _ => {}
         }
-        // Keys that are tried there do nothing else.
+        // Keys that are being tested there have no other effect.
         let tried = self.flow.is_key_test() && keys::name(&event.logical_key).is_some_and(|key| self.keys.is_stick(&key));
         if let Some(press) = keys::press(event).filter(|_| !tried) {
             self.flow.press(press);
@@ -215,7 +215,7 @@ impl Cockpit {
         if let (true, Some((from_x, from_y)), Some(flight)) = (self.dragging, self.mouse, &self.crew.flight)
             && let (Some(panes), Some(now)) = (flight.panes(), flight.now())
         {
-            // The world is dragged along: what is under the pointer stays there.
+            // The scene is dragged along, so that the object under the pointer stays there.
             let to = panes.to_aircraft(&now);
             let rad_px = self.gaze.rad_px(self.eyes_px(), to);
             self.gaze.turn(rad_px * (from_x - x), rad_px * (y - from_y), to);
@@ -223,7 +223,7 @@ impl Cockpit {
         self.mouse = Some((x, y));
     }
 
-    /// Height of the inspector's view on the screen, px.
+    /// Returns the height of the inspector's view on the screen, px.
     fn eyes_px(&self) -> f64 {
         let window = self.screen.as_ref().map_or(1.0, |screen| f64::from(screen.window.inner_size().height.max(1)));
         let eyes = self.flow.arrangement.places().into_iter().find(|place| place.which == ViewKind::Inspector);
@@ -282,7 +282,7 @@ impl ApplicationHandler for Cockpit {
             WindowEvent::MouseWheel { delta, .. } => {
                 let notches = match delta {
                     MouseScrollDelta::LineDelta(_, lines) => f64::from(lines),
-                    // A notch of usual wheels is some 50 px (estimate).
+                    // A notch of common mouse wheels is about 50 px (estimate).
                     MouseScrollDelta::PixelDelta(px) => px.y / 50.0,
                 };
                 self.gaze.zoom(spandrel_model::math::pow(ZOOM_NOTCH, notches.clamp(-10.0, 10.0)));

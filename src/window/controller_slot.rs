@@ -1,4 +1,4 @@
-//! The controller in the window: tried, calibrated, flown with.
+//! The controller in the window: detection, test, calibration and flying.
 
 use crate::errors::AppError;
 use crate::io::controller::{CalibratedController, DeviceWatcher, EventSource, ProfileFolder};
@@ -10,29 +10,29 @@ use spandrel_view::flow::{ControllerStatus, ProfileChange};
 
 /// State of the controller.
 enum DeviceState {
-    /// No controller; the watcher reports a new one.
+    /// No controller; the watcher detects a new one.
     Nothing(DeviceWatcher),
-    /// It has no profile yet.
+    /// Connected, but not calibrated.
     Raw(EventSource, RawInput),
-    /// It flies.
+    /// Calibrated and used for flying.
     Hand(Box<CalibratedController>),
-    /// It is being calibrated.
+    /// In the calibration wizard.
     Calibrating(EventSource, Box<CalibrationWizard>),
 }
 
-/// The controller, or none.
+/// The window's controller, or none.
 pub struct ControllerSlot {
     requested_device: Option<String>,
     profiles: ProfileFolder,
     held: DeviceState,
-    /// Waits for another device while the one in hand is away.
+    /// Watches for another device while the current one is disconnected.
     away: Option<DeviceWatcher>,
     mode: StickMode,
     note: String,
 }
 
 impl ControllerSlot {
-    /// Looks for the device of this name, or the only one.
+    /// Finds the device with this name, or the only one.
     pub fn new(wanted: Option<String>, profiles: ProfileFolder) -> Self {
         let mut desk = Self {
             requested_device: wanted,
@@ -46,13 +46,13 @@ impl ControllerSlot {
         desk
     }
 
-    /// Looks for the device again.
+    /// Searches for the device again.
     pub fn find_device(&mut self) {
         match EventSource::device(self.requested_device.as_deref()) {
             Ok(source) => self.open_controller(source),
             Err(error) => {
                 self.held = DeviceState::Nothing(DeviceWatcher::start());
-                // What follows is the command line's business.
+                // The rest of the message is advice for the command line.
                 let why = error.to_string();
                 let why = why.rsplit_once(';').map_or(why.as_str(), |(why, _)| why);
                 let mut signs = why.chars();
@@ -61,7 +61,7 @@ impl ControllerSlot {
         }
     }
 
-    /// Sits down with a device that has come where there was none. True when one has, whether it is calibrated or not.
+    /// Opens a newly connected device. Returns true if there is one, whether calibrated or not.
     pub fn load_profile(&mut self) -> bool {
         let DeviceState::Nothing(watch) = &mut self.held else { return self.take_over() };
         if !watch.is_available() {
@@ -71,7 +71,7 @@ impl ControllerSlot {
         !matches!(self.held, DeviceState::Nothing(_))
     }
 
-    /// Sits down with a device that has come while the one in hand is away: that one is waited for unless the other can do as much.
+    /// Opens a device that was connected while the current one is disconnected, unless the current one is calibrated and the new one is not.
     fn take_over(&mut self) -> bool {
         if !self.lost() || matches!(self.held, DeviceState::Calibrating(..)) {
             self.away = None;
@@ -94,7 +94,7 @@ impl ControllerSlot {
             Ok(Some(profile)) => {
                 self.mode = profile.mode;
                 let place = self.profiles.path(&device);
-                let note = place.map_or(String::new(), |path| format!("Its profile is {}.", path.display()));
+                let note = place.map_or(String::new(), |path| format!("Profile: {}.", path.display()));
                 (DeviceState::Hand(Box::new(CalibratedController::with(source, profile))), note)
             }
             Ok(None) => (DeviceState::Raw(source, RawInput::default()), format!("'{}' is not calibrated yet.", device.name)),
@@ -102,12 +102,12 @@ impl ControllerSlot {
         };
     }
 
-    /// A controller flies, or would if it were not lost.
+    /// Returns true if the controller is calibrated, even if it is disconnected.
     pub fn flies(&self) -> bool {
         matches!(self.held, DeviceState::Hand(_))
     }
 
-    /// The device was there and is away.
+    /// Returns true if the device has been disconnected.
     pub fn lost(&self) -> bool {
         match &self.held {
             DeviceState::Nothing(_) => false,
@@ -126,7 +126,7 @@ impl ControllerSlot {
         }
     }
 
-    /// Why only keys fly; `None` while a controller does.
+    /// Returns the reason why only the keyboard flies; `None` while a controller does.
     pub fn keyboard_reason(&self) -> Option<String> {
         match self.name() {
             Some(name) if self.lost() => Some(format!("'{name}' is not connected.")),
@@ -134,12 +134,12 @@ impl ControllerSlot {
         }
     }
 
-    /// Why none does, or where its profile lies.
+    /// Returns the reason why there is no controller, or the location of its profile.
     pub fn note(&self) -> &str {
         &self.note
     }
 
-    /// Begins to ask which axis is which stick. A device that is away is looked for first.
+    /// Starts the calibration wizard. Searches for a disconnected device first.
     pub fn calibrate(&mut self) {
         if self.lost() {
             self.find_device();
@@ -160,15 +160,15 @@ impl ControllerSlot {
         DeviceState::Calibrating(source, Box::new(wizard))
     }
 
-    /// The wizard's Enter.
+    /// Handles Enter in the wizard.
     pub fn confirm(&mut self, now: SimTime) {
         if let DeviceState::Calibrating(_, wizard) = &mut self.held {
             wizard.confirm(now);
         }
     }
 
-    /// Leaves the wizard; what was known before counts. A device that went away in it is looked for: it must not come back as one that is
-    /// there and holds still.
+    /// Leaves the wizard without changes. A device that was disconnected meanwhile is searched for again, so that it does not appear connected with
+    /// its sticks at rest.
     pub fn cancel(&mut self) {
         let lost = self.lost();
         match self.take() {
@@ -178,7 +178,7 @@ impl ControllerSlot {
         }
     }
 
-    /// Changes this of the profile, and keeps it.
+    /// Changes the profile and saves it.
     pub fn adjust_profile(&mut self, tune: ProfileChange) {
         if let ProfileChange::Mode(number) = tune {
             self.mode = StickMode::numbered(number).unwrap_or(self.mode);
@@ -191,15 +191,15 @@ impl ControllerSlot {
 
     fn keep(&mut self, profile: &ControllerProfile) {
         self.note = match self.profiles.keep(profile) {
-            Ok(path) => format!("Kept in {}.", path.display()),
-            Err(error) => format!("Not kept: {error}."),
+            Ok(path) => format!("Saved in {}.", path.display()),
+            Err(error) => format!("Not saved: {error}."),
         };
     }
 
-    /// The device's sticks by now, when it flies; its buttons act on the link.
+    /// Returns the current stick positions of a calibrated device. Its buttons trigger actions on the link.
     ///
     /// # Errors
-    /// When it is given up.
+    /// If the device cannot be used any longer.
     pub fn sticks(&mut self, link: &mut ControllerLink, now: SimTime) -> Result<Option<Sticks>, AppError> {
         match &mut self.held {
             DeviceState::Nothing(_) => Ok(None),
@@ -222,13 +222,13 @@ impl ControllerSlot {
         }
     }
 
-    /// Gives the device up.
+    /// Disables the controller and notes the reason.
     pub fn cancel_wizard(&mut self, why: &AppError) {
         self.held = DeviceState::Nothing(DeviceWatcher::start());
-        self.note = format!("The controller is given up: {why}.");
+        self.note = format!("Controller disabled: {why}.");
     }
 
-    /// How it stands, for the page; `keyboard`: the keys' sticks.
+    /// Returns the status for the controller page; `keyboard` contains the stick positions from the keyboard.
     pub fn controls(&self, keyboard: Sticks, keys: &str) -> ControllerStatus {
         let plain = ControllerStatus {
             device: self.name().map(str::to_owned),
@@ -263,7 +263,7 @@ impl ControllerSlot {
     }
 }
 
-/// A profile with this changed: an axis keeps what the wizard measured of it, or a person wrote, until that itself is asked for.
+/// Returns a profile with one setting changed. All other values of each axis stay as measured or edited.
 fn adjusted_profile(profile: &ControllerProfile, tune: ProfileChange) -> ControllerProfile {
     let mut profile = profile.clone();
     match tune {
@@ -281,7 +281,7 @@ mod tests {
     use spandrel_clients::rc::profile::WAYS;
     use spandrel_clients::rc::{Device, DeviceEvent, input_recording};
 
-    /// A desk with a calibrated device that reports this.
+    /// Creates a slot with a calibrated device that reports these events.
     fn held(events: &[(f64, DeviceEvent)]) -> ControllerSlot {
         let axis = |n: u32| AxisCalibration { axis: n, low: -1.0, centre: 0.0, high: 1.0, dead_band: 0.0, expo: 0.0 };
         let ways = WAYS.iter().zip(0..).map(|((_, way, _), n)| (*way, axis(n))).collect();
@@ -291,7 +291,7 @@ mod tests {
         let source = EventSource::Record(input_recording::InputRecording::read("pad.jsonl", &text.join("\n")).unwrap());
         let profile = ControllerProfile { device, mode: StickMode::Two, axes: ways, buttons: [].into() };
         ControllerSlot {
-            // None of this machine's devices is meant.
+            // A name that matches none of the computer's devices.
             requested_device: Some("no device is called so".into()),
             profiles: ProfileFolder::at(None),
             held: DeviceState::Hand(Box::new(CalibratedController::with(source, profile))),
@@ -329,11 +329,11 @@ mod tests {
             close_controller(&mut desk, 4.0);
             desk.cancel();
             assert_eq!(close_controller(&mut desk, 5.0), None, "lost at {lost_s} s");
-            assert!(!desk.flies() && !desk.note().is_empty(), "why is said");
+            assert!(!desk.flies() && !desk.note().is_empty(), "the reason is shown");
         }
         let mut desk = held(&[]);
         desk.cancel();
-        assert!(desk.flies(), "leaving a wizard that has ended takes nothing away");
+        assert!(desk.flies(), "leaving a finished wizard changes nothing");
     }
 
     #[test]

@@ -1,13 +1,12 @@
-//! The display, or why there is none.
+//! Opens the display, or explains why there is none.
 
 use crate::errors::AppError;
 use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
 
-/// The display's events.
+/// Returns the event loop of the display.
 pub fn open() -> Result<EventLoop<()>, AppError> {
-    // The library for keyboards is looked for when it is first used, and its absence is a panic there: here it is one more thing that is
-    // missing.
+    // The keyboard library is loaded on first use and panics if it is missing; the panic is converted to an error here.
     let told = std::panic::take_hook();
     std::panic::set_hook(Box::new(|_| {}));
     let opened = std::panic::catch_unwind(EventLoop::new);
@@ -19,10 +18,10 @@ pub fn open() -> Result<EventLoop<()>, AppError> {
         Err(_) => "a library is missing; Debian and Ubuntu: apt-get install libxkbcommon-x11-0 libx11-xcb1 libxcursor1 libxi6 libxrandr2"
             .to_owned(),
     };
-    Err(AppError::failed(format!("there is no display to open a window on ({why}); everything else works without")))
+    Err(AppError::failed(format!("there is no display to open a window on ({why}); everything else works without one")))
 }
 
-/// Which display was asked for; the library's own words name a place in its source code.
+/// Describes the configured display; the library's own message would refer to its source code.
 fn unreachable_display() -> String {
     let set = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
     let asked: Vec<String> =

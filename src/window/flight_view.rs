@@ -1,4 +1,4 @@
-//! A flight that is shown: who is heard, and what stands between the vehicle and its picture.
+//! A flight in the window: its telemetry, and the loading of its scene.
 
 use super::listener::TelemetryListener;
 use super::panes::{PaneContent, RenderJob, ViewPanes};
@@ -14,39 +14,39 @@ use std::net::{IpAddr, SocketAddr};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Duration;
 
-/// What stands between the vehicle and its picture.
+/// State of the scene of a flight.
 pub enum SceneLoading {
-    /// Nobody has said which session it is.
+    /// Waiting for the seed of the session.
     Waiting,
-    /// Site and light are being worked out.
+    /// Building site and light.
     Building(Receiver<RenderJob>),
-    /// It is drawn.
+    /// Ready to be rendered.
     Drawn(Box<ViewPanes>),
 }
 
-/// Whose defects and traffic are drawn.
+/// Seed of the defects and traffic in the scene.
 #[derive(Debug, Default)]
 struct SceneKey {
-    /// The seed that the window was given.
+    /// Seed that was passed to the window.
     requested_seed: Option<u64>,
-    /// The seed that the scene is built with.
+    /// Seed of the current scene.
     built_seed: Option<u64>,
-    /// It has been told that the simulator says another seed than was given.
+    /// True once a different seed of the simulator has been logged.
     mismatch_reported: bool,
 }
 
 impl SceneKey {
-    /// The seed to build with: what the simulator says, else what was given, else another.
+    /// Returns the seed to build with: the simulator's, else the requested one, else `otherwise`.
     fn seed(&self, said: Option<u64>, otherwise: Option<u64>) -> Option<u64> {
         said.or(self.requested_seed).or(otherwise)
     }
 
-    /// The seed that is drawn and the one that is flown, once these differ.
+    /// Returns the seed of the scene and that of the simulator if they differ.
     fn is_outdated(&self, said: Option<u64>) -> Option<(u64, u64)> {
         self.built_seed.zip(said).filter(|(built, said)| built != said)
     }
 
-    /// The seed that was given and the one that is flown, the first time that these differ.
+    /// Returns the requested seed and that of the simulator the first time they differ.
     fn is_other_session(&mut self, said: Option<u64>) -> Option<(u64, u64)> {
         let differ = self.requested_seed.zip(said).filter(|(given, said)| !self.mismatch_reported && given != said);
         self.mismatch_reported |= differ.is_some();
@@ -54,43 +54,43 @@ impl SceneKey {
     }
 }
 
-/// A flight that is shown.
+/// A flight in the window.
 pub struct FlightView {
-    /// The job and the aircraft.
+    /// Scenario and aircraft of the flight.
     pub job: (Scenario, Vehicle),
-    /// What is heard.
+    /// Receiver of its telemetry.
     pub listener: TelemetryListener,
-    /// What is drawn.
+    /// State of its scene.
     pub scene: SceneLoading,
     session: SceneKey,
-    /// What a former session was drawn with, until the screen is at hand to take it back.
+    /// Views of an earlier session, kept until their textures can be freed.
     former: Option<Box<ViewPanes>>,
-    /// When its first picture was shown.
+    /// Time of the first rendered frame.
     pub first_drawn: Option<Duration>,
-    /// Pictures so far.
+    /// Number of rendered frames.
     pub drawn: u32,
 }
 
 impl FlightView {
-    /// Dials a vehicle. `seed`: the session's, where it is known before the simulator says it.
+    /// Connects to a vehicle. `seed` is the session's, if it is known before the simulator reports it.
     ///
     /// # Errors
-    /// When no socket can be opened.
+    /// If the socket cannot be opened.
     pub fn begin(listen: IpAddr, vehicle: SocketAddr, job: (Scenario, Vehicle), seed: Option<u64>) -> Result<Self, AppError> {
         let listener = TelemetryListener::dial(listen, vehicle, &job.0)?;
         let session = SceneKey { requested_seed: seed, ..SceneKey::default() };
         Ok(Self { job, listener, scene: SceneLoading::Waiting, session, former: None, first_drawn: None, drawn: 0 })
     }
 
-    /// What is to be drawn by now.
+    /// Returns the current state to render.
     pub fn now(&self) -> Option<LiveMoment> {
         self.listener.live().moment(self.listener.wall(), &self.job.1)
     }
 
-    /// Goes on from waiting to building to drawing, as far as is known by now; and back to waiting when the simulator begins another session.
+    /// Advances from waiting to building to rendering as data arrives, and back to waiting if the simulator starts another session.
     ///
     /// # Errors
-    /// When the simulator flies another scenario.
+    /// If the simulator flies another scenario.
     pub fn prepare(&mut self, screen: &WindowSurface, quality: Quality, now: Option<&LiveMoment>) -> Result<(), AppError> {
         let (said, crc, real) = {
             let (wall, live) = (self.listener.wall(), self.listener.live());
@@ -98,20 +98,20 @@ impl FlightView {
         };
         if crc.is_some_and(|crc| crc != self.job.0.crc) {
             return Err(AppError::wrong(
-                "the simulator flies another scenario than this window was given: start both with the same --scenario",
+                "the simulator uses another scenario than this window: start both with the same --scenario",
             ));
         }
         self.follow(said);
         match &self.scene {
             SceneLoading::Waiting => {
-                // The simulator says its seed, whatever the scenario's own is. A real vehicle names none.
+                // The seed reported by the simulator takes precedence over the scenario's. A real vehicle reports none.
                 let seed = self.session.seed(said, real.then_some(self.job.0.seed.unwrap_or(0)));
                 let (Some(seed), Some(now)) = (seed, now) else { return Ok(()) };
                 let ((scenario, vehicle), at) = (self.job.clone(), now.moment.at);
-                tracing::info!("drawing with {}, {}, seed {seed}", screen.gpu.name, quality.name);
+                tracing::info!("rendering with {}, {}, seed {seed}", screen.gpu.name, quality.name);
                 let (sender, receiver) = channel();
                 std::thread::spawn(move || {
-                    // A window that was closed meanwhile needs no scene.
+                    // Fails if the window has been closed meanwhile.
                     let _ = sender.send(RenderJob::build(scenario, vehicle, seed, &quality, at));
                 });
                 self.session.built_seed = Some(seed);
@@ -121,7 +121,7 @@ impl FlightView {
                 Ok(job) => self.scene = SceneLoading::Drawn(Box::new(ViewPanes::new(screen, quality, job))),
                 Err(TryRecvError::Empty) => {}
                 Err(TryRecvError::Disconnected) => {
-                    return Err(AppError::failed("the scene could not be built (its message is in the terminal)"));
+                    return Err(AppError::failed("the scene could not be built (see the message in the terminal)"));
                 }
             },
             SceneLoading::Drawn(_) => {}
@@ -129,13 +129,13 @@ impl FlightView {
         Ok(())
     }
 
-    /// Draws what the simulator flies: its word goes before what was given, and before what was said of an earlier session.
+    /// Follows the simulator's seed, which takes precedence over the requested one and over that of an earlier session.
     fn follow(&mut self, said: Option<u64>) {
         if let Some((given, said)) = self.session.is_other_session(said) {
-            tracing::warn!("seed {given} was asked for, but the simulator flies seed {said}: that is drawn");
+            tracing::warn!("requested seed {given}, but the simulator uses seed {said}; showing the latter");
         }
         if let Some((built, said)) = self.session.is_outdated(said) {
-            tracing::info!("the simulator flies seed {said}, no longer seed {built}: defects and traffic are placed anew");
+            tracing::info!("the simulator now uses seed {said} instead of {built}; rebuilding defects and traffic");
             self.session.built_seed = None;
             if let SceneLoading::Drawn(panes) = std::mem::replace(&mut self.scene, SceneLoading::Waiting) {
                 self.former = Some(panes);
@@ -143,10 +143,10 @@ impl FlightView {
         }
     }
 
-    /// The views that can be drawn by now.
+    /// Renders the views, if the scene is ready.
     ///
     /// # Errors
-    /// When a device fails.
+    /// If a device fails.
     pub fn draw(
         &mut self,
         screen: &mut WindowSurface,
@@ -163,7 +163,7 @@ impl FlightView {
         panes.draw(screen, places, now, &feed, gaze, map)
     }
 
-    /// Both views, once they are drawn.
+    /// Returns both views, once the scene is ready.
     pub fn panes(&self) -> Option<&ViewPanes> {
         match &self.scene {
             SceneLoading::Drawn(panes) => Some(panes),
@@ -171,11 +171,15 @@ impl FlightView {
         }
     }
 
-    /// Gives back what it holds of the screen.
+    /// Frees the textures and logs the frame rate.
     pub fn end(self, screen: Option<&mut WindowSurface>, lasted_since: impl Fn(Duration) -> Duration) {
         if let Some(first) = self.first_drawn {
             let seconds = lasted_since(first).as_secs_f64();
-            tracing::info!("{} pictures of both views, {:.1} a second", self.drawn, f64::from(self.drawn) / seconds.max(1e-3));
+            tracing::info!(
+                "rendered {} frames of both views, {:.1} per second",
+                self.drawn,
+                f64::from(self.drawn) / seconds.max(1e-3)
+            );
         }
         let Some(screen) = screen else { return };
         if let SceneLoading::Drawn(panes) = self.scene {
@@ -202,12 +206,12 @@ mod tests {
     #[test]
     fn exact_another_seed_is_another_session_and_a_contradiction_is_reported_once() {
         let mut session = SceneKey { requested_seed: Some(5), ..SceneKey::default() };
-        assert_eq!((session.is_outdated(Some(5)), session.is_other_session(Some(5))), (None, None), "nothing is built yet");
+        assert_eq!((session.is_outdated(Some(5)), session.is_other_session(Some(5))), (None, None), "nothing built yet");
         session.built_seed = Some(5);
-        assert_eq!((session.is_outdated(None), session.is_outdated(Some(5))), (None, None), "silence is no other session");
+        assert_eq!((session.is_outdated(None), session.is_outdated(Some(5))), (None, None), "no seed is not another session");
         assert_eq!((session.is_outdated(Some(7)), session.is_other_session(Some(7))), (Some((5, 7)), Some((5, 7))));
         session.built_seed = Some(7);
         assert_eq!((session.is_outdated(Some(7)), session.is_other_session(Some(7))), (None, None));
-        assert_eq!((session.is_outdated(Some(8)), session.is_other_session(Some(8))), (Some((7, 8)), None), "told once");
+        assert_eq!((session.is_outdated(Some(8)), session.is_other_session(Some(8))), (Some((7, 8)), None), "reported once");
     }
 }

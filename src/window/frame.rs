@@ -1,4 +1,4 @@
-//! One picture of the window: a page, or a flight with its displays; and what the pages order.
+//! One frame of the window: a page, or a flight with its displays; also carries out the pages' requests.
 
 use super::cockpit::Cockpit;
 use super::flight_view::FlightView;
@@ -16,15 +16,15 @@ use spandrel_view::hud;
 use spandrel_view::live::LiveMoment;
 use spandrel_view::sound::SoundInputs;
 
-/// The inspector's head turns so fast by keys, rad/s, and a second of a held key zooms so many times (estimates: comfortable on a laptop).
+/// Turn rate of the inspector's view by keys, rad/s, and zoom factor per second (estimates: comfortable on a laptop).
 const TURN_RAD_S: f64 = 1.0;
 const ZOOM_S: f64 = 2.0;
-/// Words stay on the screen this long, s, and the first help longer.
+/// Duration of messages and of the initial key help on the screen, s.
 const WORDS_S: f64 = 7.0;
 const HELP_S: f64 = 25.0;
 
 impl Cockpit {
-    /// Hears `train`, does what the pages order, draws.
+    /// Handles messages from `train`, carries out the pages' requests, and renders a frame.
     pub(super) fn frame(&mut self) -> Result<(), AppError> {
         if let Some(fault) = self.screen.as_ref().and_then(|screen| screen.gpu.fault()) {
             return Err(fault.into());
@@ -59,9 +59,9 @@ impl Cockpit {
         }
     }
 
-    /// What there is to hear now.
+    /// Passes rotor speeds, distance and warnings to the sound output.
     fn sound(&mut self, now: Option<&LiveMoment>) {
-        // What was heard last is not what is to be heard: nobody knows how the rotors turn.
+        // Without recent telemetry, the rotor speeds are unknown, so no sound is played.
         let now = now.filter(|now| now.hud.silent_s <= hud::SILENT_S && !self.flow.is_paused());
         let (Some(flight), Some(now)) = (&self.crew.flight, now) else {
             self.speaker.stop_speech();
@@ -99,19 +99,19 @@ impl Cockpit {
             WindowRequest::Tune(tune) => self.forward_key(PilotCommand::Tune(tune)),
             WindowRequest::Open(address) => {
                 if let Err(error) = open::that_detached(&address) {
-                    self.flow.show_notice(format!("No browser opens ({error}): the address stands above."));
+                    self.flow.show_notice(format!("Cannot open a browser ({error}). Open the address above yourself."));
                 }
             }
             WindowRequest::Sound(on) => {
                 self.speaker.set_on(on);
-                self.flow.show_notice(if on { "Sound is on." } else { "Sound is off." }.to_owned());
+                self.flow.show_notice(if on { "Sound on." } else { "Sound off." }.to_owned());
             }
             WindowRequest::Close => self.stop.request(),
         }
         Ok(())
     }
 
-    /// Shows a flight that has begun.
+    /// Shows a flight that has started.
     fn show(&mut self, flying: &FlightStarted) -> Result<(), AppError> {
         self.handle_release();
         let scenario = files::scenario(&flying.choice.scenario)?.scenario;
@@ -122,7 +122,7 @@ impl Cockpit {
         self.crew.flight = Some(FlightView::begin(self.plan.listen, flying.connect, (scenario, vehicle), Some(flying.seed))?);
         self.keeper = self.plan.keep.clone().map(super::picture_writer::PictureWriter::start);
         (self.map, self.gaze) = (self.plan.map, spandrel_view::inspector_camera::InspectorCamera::default());
-        // What was said on the ground is past.
+        // Discard messages from before the flight.
         while self.crew.pilot.as_ref().and_then(PilotThread::poll_message).is_some() {}
         self.notices.clear();
         self.forward_key(PilotCommand::LetGo);
@@ -147,7 +147,7 @@ impl Cockpit {
         let stands = self.flow.is_paused();
         let mut now = self.crew.flight.as_ref().and_then(FlightView::now);
         if let (Some(now), true) = (&mut now, stands) {
-            // Nothing is heard because time stands still: no link is lost.
+            // No telemetry arrives while the simulation is paused, but the link is not lost.
             now.hud.silent_s = 0.0;
         }
         if let Some(screen) = &self.screen {
@@ -182,7 +182,7 @@ impl Cockpit {
         self.keep_picture(&shown, &text)
     }
 
-    /// Hands the camera's view to whoever watches elsewhere: taken once, for all who want it now.
+    /// Passes the camera's view to the stream and the picture file; reads it back only once for both.
     fn publish_frame(&mut self) -> Result<(), AppError> {
         let (Some(screen), Some(flight)) = (&self.screen, &self.crew.flight) else { return Ok(()) };
         let Some(panes) = flight.panes() else { return Ok(()) };
@@ -203,7 +203,7 @@ impl Cockpit {
         Ok(())
     }
 
-    /// What the vehicle, the pilot and the pages have to say.
+    /// Collects messages of the pilot thread and the pages.
     fn listen(&mut self, now: std::time::Duration) {
         while let Some(text) = self.crew.pilot.as_ref().and_then(PilotThread::poll_message) {
             tracing::info!("{text}");
@@ -228,7 +228,7 @@ impl Cockpit {
         }
     }
 
-    /// Keys that are held move the inspector's eyes.
+    /// Turns and zooms the inspector's view while keys are held.
     fn render_views(&mut self, now: Option<&LiveMoment>, step_s: f64) {
         let (Some(panes), Some(now)) = (self.crew.flight.as_ref().and_then(FlightView::panes), now) else { return };
         let held = |wish: &str| self.keys.of(wish).is_some_and(|key| self.held.is_down(key));
@@ -263,7 +263,7 @@ impl Cockpit {
     }
 }
 
-/// A page over everything.
+/// Paints a page on top of the window.
 fn is_over(ui: &mut egui::Ui, sheet: &PageLayout, pictures: &mut PageTextures) {
     let painter = ui.ctx().layer_painter(egui::LayerId::background());
     paint_sheet(&painter, sheet, ui.ctx().content_rect(), pictures);

@@ -1,11 +1,12 @@
-//! Keys of the window by the names that files of keys use.
+//! Keys of the window, by the names used in key binding files.
 
 use spandrel_view::flow::KeyPress;
 use std::collections::{BTreeMap, BTreeSet};
 use winit::event::{ElementState, KeyEvent};
 use winit::keyboard::{Key, NamedKey, PhysicalKey};
 
-/// What a key does on a page. Held keys repeat where they move or type; what they do once is not done again on a page that comes meanwhile.
+/// Converts a key press to its action on a page. Held keys repeat movement and typing, but not Enter and Escape, which would otherwise act on the
+/// next page.
 pub fn press(event: &KeyEvent) -> Option<KeyPress> {
     if event.state != ElementState::Pressed {
         return None;
@@ -28,17 +29,17 @@ fn key_name(event: &KeyEvent) -> Option<KeyPress> {
     })
 }
 
-/// A key that changed.
+/// A key that was pressed or released.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum KeyChange {
-    /// Down; not told again while it is held.
+    /// Pressed; not reported again while the key is held.
     Down(String),
-    /// Up, by the name that it went down with.
+    /// Released, with the name under which it was pressed.
     Up(String),
 }
 
-/// Which keys are down, and which were down already when the window came to the front: these were pressed for somebody else, and do nothing
-/// until they come up. A key that comes up while Shift is held has another sign than when it went down: the place on the keyboard tells.
+/// Keys that are pressed, and keys that were already pressed when the window got the focus: those were meant for another window and do nothing until
+/// released. The physical key identifies them, because a key released with Shift may have another symbol.
 #[derive(Debug, Default)]
 pub struct HeldKeys {
     names: BTreeMap<String, String>,
@@ -46,7 +47,7 @@ pub struct HeldKeys {
 }
 
 impl HeldKeys {
-    /// A key that was pressed for somebody else. `generated`: the window system tells of a key that was down already.
+    /// Returns true for a key that was pressed for another window. `made_up` is true if the window system reports a key that was already pressed.
     pub fn pressed_elsewhere(&mut self, event: &KeyEvent, made_up: bool) -> bool {
         self.elsewhere(place(&event.physical_key), event.state, made_up)
     }
@@ -57,13 +58,13 @@ impl HeldKeys {
                 self.others.insert(place);
                 true
             }
-            // While it is held it repeats, and the first time is not told to be a repetition.
+            // While it is held, it repeats, and the first repetition is not marked as one.
             ElementState::Pressed => self.others.contains(&place),
             ElementState::Released => self.others.remove(&place),
         }
     }
 
-    /// Takes an event of the window.
+    /// Handles a key event.
     pub fn take(&mut self, event: &KeyEvent) -> Option<KeyChange> {
         let place = place(&event.physical_key);
         match event.state {
@@ -77,12 +78,12 @@ impl HeldKeys {
         }
     }
 
-    /// All are up.
+    /// Forgets all pressed keys.
     pub fn let_go(&mut self) {
         *self = Self::default();
     }
 
-    /// True while a key of this name is down.
+    /// Returns true while a key with this name is pressed.
     pub fn is_down(&self, name: &str) -> bool {
         self.names.values().any(|held| held == name)
     }
@@ -92,7 +93,7 @@ fn place(key: &PhysicalKey) -> String {
     format!("{key:?}")
 }
 
-/// A key by the name that files of keys use.
+/// Returns the name of a key in key binding files.
 pub fn name(key: &Key) -> Option<String> {
     Some(match key {
         Key::Character(sign) => sign.to_lowercase(),
@@ -120,8 +121,8 @@ mod tests {
     fn exact_a_key_that_was_down_before_the_window_had_it_does_nothing_until_it_comes_up() {
         let mut held = HeldKeys::default();
         let mut told = |state, made_up| held.elsewhere("w".into(), state, made_up);
-        assert!(told(Pressed, true) && told(Pressed, false), "made up, then its first repetition");
-        assert!(told(Released, false) && !told(Pressed, false) && !told(Released, false), "then it is a key as any other");
+        assert!(told(Pressed, true) && told(Pressed, false), "synthetic, then its first repetition");
+        assert!(told(Released, false) && !told(Pressed, false) && !told(Released, false), "then a normal key");
         held.elsewhere("w".into(), Pressed, true);
         held.let_go();
         assert!(!held.elsewhere("w".into(), Pressed, false));

@@ -1,4 +1,4 @@
-//! One more subscriber of the vehicle's telemetry, in a thread of its own: a slow picture delays no datagram's stamp.
+//! Telemetry subscriber in a separate thread, so that slow frames do not delay the timestamps of datagrams.
 
 use crate::errors::AppError;
 use crate::io::clock::Stopwatch;
@@ -10,10 +10,10 @@ use std::net::{IpAddr, SocketAddr};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// Longest wait for a datagram: heartbeats are due meanwhile.
+/// Longest wait for a datagram, so that heartbeats are sent on time.
 const WAIT: Duration = Duration::from_millis(50);
 
-/// What is heard, shared with whoever draws.
+/// Received telemetry, shared with the render loop.
 #[derive(Debug, Clone)]
 pub struct TelemetryListener {
     live: Arc<Mutex<LiveFlight>>,
@@ -22,17 +22,17 @@ pub struct TelemetryListener {
 }
 
 impl TelemetryListener {
-    /// Dials the vehicle and listens from now on.
+    /// Connects to the vehicle and starts the thread.
     ///
     /// # Errors
-    /// When no socket can be opened.
+    /// If the socket cannot be opened.
     pub fn dial(listen: IpAddr, vehicle: SocketAddr, scenario: &Scenario) -> Result<Self, AppError> {
         let mut hub = SocketHub::new();
         let socket = hub.bind(listen, 0, "--listen")?;
         let listener = Self { live: Arc::new(Mutex::new(LiveFlight::new(scenario))), stopwatch: Stopwatch::start(), vehicle };
         let heard = listener.clone();
         std::thread::spawn(move || {
-            // Ends when nobody but this thread holds what is heard.
+            // Ends when no other owner of the telemetry is left.
             while Arc::strong_count(&heard.live) > 1 {
                 let arrival = hub.next(WAIT);
                 let wall = heard.wall();
@@ -53,19 +53,19 @@ impl TelemetryListener {
         Ok(listener)
     }
 
-    /// Whom it listens to.
+    /// Returns the address of the vehicle.
     pub fn vehicle(&self) -> SocketAddr {
         self.vehicle
     }
 
-    /// Wall time since it began.
+    /// Returns the wall time since the start.
     pub fn wall(&self) -> SimTime {
         SimTime::from_s(self.stopwatch.elapsed().as_secs_f64())
     }
 
-    /// What has been heard.
+    /// Returns the telemetry received so far.
     pub fn live(&self) -> MutexGuard<'_, LiveFlight> {
-        // A thread that broke off in the middle leaves plain data behind.
+        // The data is valid even if a thread has panicked while holding the lock.
         self.live.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -1,5 +1,5 @@
-//! The window and what stands behind it: a thread that listens, a thread that builds the scene, a thread that flies, the pipe to whoever
-//! leads it, and the loop that draws.
+//! The window and its threads: one receives telemetry, one builds the scene, one flies, and the pipe to `train` controls the window. The main loop
+//! renders.
 
 mod cockpit;
 mod controller_slot;
@@ -33,7 +33,7 @@ use train_pipe::TrainPipe;
 
 pub use window_config::{CaptureRequest, WindowConfig, WindowSetup};
 
-/// Opens the window and stays until it is closed.
+/// Opens the window and runs it until it is closed.
 pub fn run(setup: WindowSetup) -> Result<(), AppError> {
     let WindowSetup { config, keys, sound, led, .. } = setup;
     let stop = StopRequest::install(setup.leash && !led)?;
@@ -52,13 +52,13 @@ pub fn run(setup: WindowSetup) -> Result<(), AppError> {
     if let (Some(pilot), Some(vehicle)) = (&crew.pilot, setup.fly) {
         pilot.send_command(PilotCommand::Fly(vehicle));
     }
-    // On Linux every thread has a niceness of its own, that of the thread which began it: sticks are sent by one that began before, pictures
-    // are encoded by one that begins after.
+    // On Linux, each thread inherits its nice value from the thread that starts it: the pilot thread has started before and keeps its priority, the
+    // encoder starts later and gets the lower one.
     priority::lower_priority();
     crew.stream = match setup.stream.map(|to| StreamSender::open(to, clock::unix_us())).transpose() {
-        // A trainee's window is worth more than what it sends elsewhere.
+        // The trainee's window is more important than the stream.
         Err(error) if led => {
-            tracing::warn!("no stream: {error}");
+            tracing::warn!("cannot stream: {error}");
             None
         }
         opened => opened?,

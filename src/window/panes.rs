@@ -1,4 +1,4 @@
-//! The two views as textures of the window.
+//! Renders the two views to textures of the window.
 
 use super::screen::WindowSurface;
 use crate::errors::AppError;
@@ -22,21 +22,21 @@ use spandrel_view::stage::{self, Stage};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Without a graphics card a view has so many pixels, whatever its size on the screen (issue: 640 x 360 each on two cores).
+/// Number of pixels of a view without a graphics card, whatever its size on the screen (issue: 640 x 360 each on two cores).
 const SOFTWARE_PX: f64 = 640.0 * 360.0;
 
-/// A job that can be drawn.
+/// A flight whose scene has been built.
 pub struct RenderJob {
-    /// What is to do.
+    /// Scenario of the flight.
     pub scenario: Scenario,
-    /// With what.
+    /// Aircraft of the flight.
     pub vehicle: Vehicle,
     site: Site,
     scene: Arc<Scene>,
 }
 
 impl RenderJob {
-    /// Builds site and scene: seconds of work.
+    /// Builds site and scene, which takes seconds.
     pub fn build(scenario: Scenario, vehicle: Vehicle, seed: u64, quality: &Quality, at: SimTime) -> Self {
         let site = Site::build(&scenario, seed);
         let scene = Arc::new(Scene::build(&scenario, &site, &vehicle, quality, at));
@@ -48,7 +48,7 @@ impl RenderJob {
     }
 }
 
-/// A view's picture.
+/// Texture of a view.
 struct ViewPane {
     whole: wgpu::Texture,
     texture: wgpu::TextureView,
@@ -56,55 +56,55 @@ struct ViewPane {
     size_px: (u32, u32),
 }
 
-/// Both views.
+/// Both views of a flight.
 pub struct ViewPanes {
     job: RenderJob,
     renderer: Renderer,
-    /// Draws what the camera sees, where the window's own device is software too.
+    /// Second device for the camera's view, if the window's own device is software.
     secondary: Option<SecondaryRenderer>,
     panes: BTreeMap<u8, ViewPane>,
-    /// What was drawn aside last.
+    /// Last image of the second device.
     last_picture: Option<Picture>,
-    /// How the views follow the light: the inspector's, the camera's.
+    /// Exposure meters of the inspector's view and the camera's.
     meters: [ExposureMeter; 2],
 }
 
-/// One view as it is to be shown.
+/// Content of a view to show.
 pub struct PaneContent {
-    /// Where.
+    /// Position in the window.
     pub place: ViewRect,
-    /// Its picture.
+    /// egui texture with the rendered image.
     pub picture: egui::TextureId,
-    /// What lies over it.
+    /// Overlay of the view.
     pub items: Vec<DrawItem>,
 }
 
 impl ViewPanes {
-    /// Uploads a job's scene.
+    /// Uploads the scene to the device.
     pub fn new(screen: &WindowSurface, quality: Quality, job: RenderJob) -> Self {
         let open = || {
             SecondaryRenderer::open(quality, Arc::clone(&job.scene))
-                .inspect_err(|error| tracing::info!("one device draws both views: {error}"))
+                .inspect_err(|error| tracing::info!("rendering both views on one device: {error}"))
         };
         let aside = if screen.gpu.software { open().ok() } else { None };
         let renderer = Renderer::new(&screen.gpu, quality, &job.scene);
         Self { renderer, secondary: aside, job, panes: BTreeMap::new(), last_picture: None, meters: Default::default() }
     }
 
-    /// From where the inspector stands to the aircraft, m.
+    /// Returns the vector from the inspector to the aircraft, m.
     pub fn to_aircraft(&self, now: &LiveMoment) -> spandrel_model::frames::Vec3<spandrel_model::frames::Enu> {
         now.moment.drone.position_m - self.job.scenario.ground_team.inspector_m
     }
 
-    /// Gives back what it holds of the window's painter.
+    /// Frees the textures in the window's painter.
     pub fn close(self, screen: &mut WindowSurface) {
         self.panes.values().for_each(|pane| screen.painter.free_texture(&pane.id));
     }
 
-    /// Draws both views.
+    /// Renders both views.
     ///
     /// # Errors
-    /// When a device fails.
+    /// If a device fails.
     pub fn draw(
         &mut self,
         screen: &mut WindowSurface,
@@ -117,7 +117,7 @@ impl ViewPanes {
         if self.job.site.traffic().gates() != &now.closures {
             self.job.site = self.job.site.with_closures(now.closures.clone());
         }
-        // What is drawn aside begins first: the other view is worked out and drawn meanwhile.
+        // The camera's view starts first, because the second device renders it while this one renders the other view.
         let mut order: Vec<&ViewRect> = places.iter().collect();
         order.sort_by_key(|place| place.which != ViewKind::Camera);
         let (mut shown, mut begun) = (Vec::new(), false);
@@ -137,7 +137,7 @@ impl ViewPanes {
         if begun {
             self.take_secondary(screen)?;
         }
-        // One over the other as they were placed.
+        // Restores the stacking order of the views.
         shown.sort_by_key(|view| places.iter().position(|place| place.which == view.place.which));
         Ok(shown)
     }
@@ -152,7 +152,7 @@ impl ViewPanes {
         Ok(())
     }
 
-    /// The camera's view as it was drawn last, without its display.
+    /// Returns the last image of the camera, without the head-up display.
     pub fn camera(&self, screen: &WindowSurface) -> Result<Option<Picture>, AppError> {
         if self.secondary.is_some() {
             return Ok(self.last_picture.clone());
@@ -160,7 +160,7 @@ impl ViewPanes {
         Ok(self.panes.get(&(ViewKind::Camera as u8)).map(|pane| read(&screen.gpu, &pane.whole)).transpose()?)
     }
 
-    /// A view's picture in its place: the camera's has its sensor's shape.
+    /// Returns the rectangle of a view; the camera's has the aspect ratio of its sensor.
     fn framed(&self, screen: &WindowSurface, place: ViewRect) -> ViewRect {
         let window = screen.window.inner_size();
         match place.which {
@@ -172,7 +172,7 @@ impl ViewPanes {
         }
     }
 
-    /// What a view shows, and what lies over it.
+    /// Returns the shot and the overlay of a view.
     fn render(
         &mut self,
         screen: &WindowSurface,
@@ -195,7 +195,7 @@ impl ViewPanes {
             }
             ViewKind::Camera => {
                 let display = stage::display(&stage, moment, &now.hud, (feed, false), map);
-                // Type is as large as it is read: a display of a larger scale has more pixels for it.
+                // Text has its normal size on the screen; displays with a larger scale factor have more pixels for it.
                 let scale = screen.window.scale_factor();
                 (stage.camera_frame(moment, size_px, film), hud::layout_px(&display, (on_screen.0 / scale, on_screen.1 / scale)))
             }
@@ -203,7 +203,7 @@ impl ViewPanes {
     }
 }
 
-/// The texture of a view, made anew when its size has changed.
+/// Returns the texture of a view; creates a new one if the size has changed.
 fn pane<'a>(
     panes: &'a mut BTreeMap<u8, ViewPane>,
     screen: &mut WindowSurface,

@@ -1,5 +1,5 @@
-//! The camera's view in a file, about once a second, for who watches elsewhere. A thread of its own makes the JPEG and waits for the disk:
-//! neither costs the window a picture.
+//! Saves the camera's view to a file about once a second, for the live page. A separate thread encodes the JPEG and waits for the disk, so that the
+//! window loses no frames.
 
 use crate::errors::AppError;
 use crate::io::replace::replace;
@@ -10,12 +10,12 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-/// Between two pictures.
+/// Interval between two images.
 const EVERY: Duration = Duration::from_secs(1);
-/// Largest file, bytes: a phone's line carries it in a second.
+/// Maximum file size, bytes; a phone connection transfers it in a second.
 const MOST: usize = 150_000;
 
-/// Hands pictures to the thread that keeps them; the file goes with it.
+/// Passes images to the thread that saves them. The file is deleted at the end.
 pub struct PictureWriter {
     sender: Option<SyncSender<Picture>>,
     thread: Option<JoinHandle<()>>,
@@ -23,15 +23,15 @@ pub struct PictureWriter {
 }
 
 impl PictureWriter {
-    /// Starts the thread.
+    /// Starts the thread that saves images to `path`.
     pub fn start(path: PathBuf) -> Self {
-        // One picture may wait; while it does, the next one is not worth keeping.
+        // At most one image waits; further ones are dropped meanwhile.
         let (sender, receiver) = sync_channel(1);
         let thread = std::thread::spawn(move || keep(&path, &receiver));
         Self { sender: Some(sender), thread: Some(thread), due: Duration::ZERO }
     }
 
-    /// A picture is wanted now. Then none for a second.
+    /// Returns true if an image is due, at most once a second.
     pub fn is_due(&mut self, now: Duration) -> bool {
         if now < self.due {
             return false;
@@ -40,7 +40,7 @@ impl PictureWriter {
         true
     }
 
-    /// Hands a picture over, unless the one before still waits.
+    /// Saves an image, unless the previous one is still waiting.
     pub fn take(&self, picture: Picture) {
         if let Some(sender) = &self.sender {
             let _ = sender.try_send(picture);
@@ -61,13 +61,13 @@ fn keep(path: &Path, pictures: &Receiver<Picture>) {
     let mut told = false;
     for picture in pictures {
         if let Err(error) = write(path, &picture) {
-            // Once: it will hardly be another reason a second later.
+            // Logged once, because the next failure most likely has the same cause.
             if !std::mem::replace(&mut told, true) {
-                tracing::warn!("the camera's view is not kept: {error}");
+                tracing::warn!("cannot save the camera's view: {error}");
             }
         }
     }
-    // What is no more of now is not left behind.
+    // An outdated image must not remain.
     let _ = std::fs::remove_file(path);
 }
 
@@ -98,6 +98,6 @@ mod tests {
         keeper.take(grey(91));
         keeper.take(grey(92));
         drop(keeper);
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is left behind");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "the file is deleted");
     }
 }

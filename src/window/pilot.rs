@@ -1,4 +1,4 @@
-//! Flying from the window, in a thread of its own: sticks go out fifty times a second, however long a picture takes.
+//! Flies from the window in a separate thread: stick positions are sent fifty times a second, independent of the frame rate.
 
 use super::controller_slot::ControllerSlot;
 use crate::errors::AppError;
@@ -16,39 +16,39 @@ use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Longest wait for a datagram: a quarter of the time between two stick samples.
+/// Longest wait for a datagram: a quarter of the interval between stick samples.
 const WAIT: Duration = Duration::from_millis(5);
-/// On the ground, how the controller stands is shown this often (a tenth of a person's reaction; estimate).
+/// Interval at which the controller's status is updated on the ground (a tenth of a person's reaction time; estimate).
 const SHOW: SimTime = SimTime::from_ms(30);
 
-/// What the window asks of the pilot.
+/// A command from the window to the pilot thread.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PilotCommand {
-    /// A key went down.
+    /// A key with this name was pressed.
     Down(String),
-    /// A key came up.
+    /// A key with this name was released.
     Up(String),
-    /// The window lost the focus, or shows a page: all keys are up.
+    /// Release all keys, because the window lost the focus or shows a page.
     LetGo,
-    /// Dial this vehicle's port for ground stations.
+    /// Connect to this vehicle's ground station port.
     Fly(SocketAddr),
-    /// Let go of the vehicle.
+    /// Disconnect from the vehicle.
     Land,
-    /// Time stands still, or goes on: nobody acts meanwhile.
+    /// Pause or resume: no actions are sent while the simulation is paused.
     Stand(bool),
-    /// Look for a controller again.
+    /// Search for a controller again.
     Look,
-    /// Calibrate it.
+    /// Start the calibration wizard.
     Calibrate,
-    /// The wizard's Enter.
+    /// Confirm a step of the wizard.
     Confirm,
-    /// Leave the wizard.
+    /// Leave the calibration wizard without saving.
     Cancel,
-    /// Change this of its profile, and keep it.
+    /// Change the controller's profile and save it.
     Tune(ProfileChange),
 }
 
-/// The window's end of the pilot.
+/// The window's handle of the pilot thread.
 #[derive(Debug)]
 pub struct PilotThread {
     commands: Sender<PilotCommand>,
@@ -57,10 +57,10 @@ pub struct PilotThread {
 }
 
 impl PilotThread {
-    /// Sits down. Without a controller the keyboard flies; why there is none is told once.
+    /// Starts the thread. Without a controller, the keyboard flies, and the reason is logged.
     ///
     /// # Errors
-    /// When no socket can be opened, or a file is wrong.
+    /// If the socket cannot be opened, or a file is invalid.
     pub fn start(listen: IpAddr, device: Option<String>, profiles: Option<PathBuf>, keys: KeyBindings) -> Result<Self, AppError> {
         let mut hub = SocketHub::new();
         let socket = hub.bind(listen, 0, "--listen")?;
@@ -70,10 +70,10 @@ impl PilotThread {
         let controls = Arc::new(Mutex::new(ControllerStatus::default()));
         let shown = controls.clone();
         std::thread::spawn(move || {
-            // A device is opened where it is used: some systems' devices may not change threads.
+            // The device is opened in the thread that uses it, because some systems do not allow moving devices between threads.
             let desk = ControllerSlot::new(device, profiles);
             if let Some(why) = desk.keyboard_reason() {
-                tracing::info!("{why} The window's keys fly.");
+                tracing::info!("{why} Flying with the keyboard.");
             }
             let words = keys.help_text();
             let board = KeyboardState::new(keys);
@@ -96,24 +96,24 @@ impl PilotThread {
         Ok(Self { commands: asks, messages: told, controls })
     }
 
-    /// Asks for something.
+    /// Sends a command to the pilot thread.
     pub fn send_command(&self, ask: PilotCommand) {
         // The thread lives as long as the window.
         let _ = self.commands.send(ask);
     }
 
-    /// The next thing to tell the person.
+    /// Returns the next message for the user.
     pub fn poll_message(&self) -> Option<String> {
         self.messages.try_recv().ok()
     }
 
-    /// How the controller stands.
+    /// Returns the status of the controller.
     pub fn controls(&self) -> ControllerStatus {
         self.controls.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 }
 
-/// Tells the person. Nobody is left to hear it when the window is closed; then no more is asked either, which ends the thread.
+/// Sends a message to the user. Fails if the window has been closed, which also ends the thread.
 fn tell(teller: &Sender<String>, words: String) {
     let _ = teller.send(words);
 }
@@ -152,11 +152,11 @@ impl PilotLoop {
             }
             if self.controller.load_profile() {
                 self.lost = false;
-                let flies = if self.controller.flies() { "It flies." } else { "Keys fly until it is calibrated." };
-                tell(teller, format!("A controller is there. {} {flies}", self.controller.note()));
+                let flies = if self.controller.flies() { "Flying with it." } else { "Use the keyboard until it is calibrated." };
+                tell(teller, format!("Controller connected. {} {flies}", self.controller.note()));
             }
             let (sticks, news) = self.sticks(now);
-            // On the ground the page of the controller says it.
+            // On the ground, the controller page shows it.
             if let Some(news) = news.filter(|_| self.vehicle.is_some()) {
                 tell(teller, news);
             }
@@ -178,7 +178,7 @@ impl PilotLoop {
         }
     }
 
-    /// On the ground: how the controller stands; buttons have nobody to act on.
+    /// Updates the status on the ground, where buttons have no effect.
     fn show(&mut self, now: SimTime) {
         while self.link.poll_message().is_some() {}
         if now >= self.next {
@@ -195,8 +195,8 @@ impl PilotLoop {
                 if let Some(action) = action.filter(|_| self.vehicle.is_some()) {
                     self.link.act(action, now);
                 }
-                // Who has asked for no flight holds no sticks: another ground station may fly, and a script keeps its aircraft. Who arms
-                // does, or the vehicle would count as left alone.
+                // Sticks are sent only after the user has started to fly, because another ground station or a script may be in control. Arming counts
+                // as flying; otherwise the vehicle would detect a lost control link.
                 let flies =
                     matches!(action, Some(ControllerAction::Arm | ControllerAction::TakeOff | ControllerAction::Position));
                 self.touched |= self.vehicle.is_some() && (flies || self.keyboard.sticks(now) != Sticks::default());
@@ -208,7 +208,7 @@ impl PilotLoop {
                 self.link.set_arm_key(&self.keyboard.keys().label("arm"));
                 self.paused = false;
                 if let Some(why) = self.controller.keyboard_reason() {
-                    tell(teller, format!("{why} Keys fly."));
+                    tell(teller, format!("{why} Use the keyboard."));
                 }
             }
             PilotCommand::Stand(stands) => self.paused = stands,
@@ -221,11 +221,11 @@ impl PilotLoop {
         }
     }
 
-    /// A controller's sticks, unless keys are held; the keys' once they have been touched. With it, what a person must know of the
-    /// controller.
+    /// Returns the controller's stick positions unless keys are held, or those of the keyboard once it has been used. Also returns a message about
+    /// the controller for the user.
     fn sticks(&mut self, now: SimTime) -> (Option<Sticks>, Option<String>) {
         let keys = self.keyboard.sticks(now);
-        // While time stands still a button would act late, or never: it has nobody to act on.
+        // While the simulation is paused, a button would act late or never, so actions go to a dummy link.
         let (mut nobody, flown);
         if self.paused {
             nobody = ControllerLink::default();
@@ -241,25 +241,25 @@ impl PilotLoop {
             Ok(Some(_)) => (Some(keys), news),
             Ok(None) => (own, news),
             Err(error) => {
-                tracing::warn!("the controller is given up: {error}");
+                tracing::warn!("controller disabled: {error}");
                 self.controller.cancel_wizard(&error);
                 (None, Some(self.controller.note().to_owned()))
             }
         }
     }
 
-    /// The controller is lost now, or is not; says so when it was not, or was.
+    /// Updates whether the controller is disconnected. Returns a message if this has changed.
     fn set_device_lost(&mut self, lost: bool) -> Option<String> {
         let before = std::mem::replace(&mut self.lost, lost);
         let name = self.controller.name().unwrap_or("the controller");
         match (before, lost) {
             (false, true) => {
-                // Whose controller is gone holds no sticks, whatever keys were pressed before: the vehicle's failsafe acts, until a key flies
-                // anew.
+                // If the controller is disconnected, no sticks are sent, whatever keys were pressed before, so that the vehicle's failsafe acts until
+                // a key is used again.
                 self.touched = false;
-                Some(format!("'{name}' is lost: its sticks are centred, then silent. A key takes over."))
+                Some(format!("'{name}' disconnected: sticks centered, then no longer sent. Press a key to take over."))
             }
-            (true, false) if self.controller.flies() => Some(format!("'{name}' flies again.")),
+            (true, false) if self.controller.flies() => Some(format!("'{name}' reconnected.")),
             _ => None,
         }
     }

@@ -1,13 +1,13 @@
-//! Who draws stands back: the simulator and the monitor come first.
+//! Process priority of rendering: the simulator and the monitor take precedence.
 
-/// From here on this thread, and those that it begins, take what is left of the processor.
+/// Lowers the priority of this thread and of all threads that it starts, so that rendering does not delay the simulator.
 pub fn lower_priority() {
     #[cfg(unix)]
     if let Err(error) = rustix::process::nice(NICENESS) {
-        tracing::debug!("the priority stays: {error}");
+        tracing::debug!("cannot lower the priority: {error}");
     }
 }
 
-/// Half way to the lowest priority.
+/// Nice value halfway between normal and lowest priority.
 #[cfg(unix)]
 const NICENESS: i32 = 10;

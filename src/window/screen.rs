@@ -1,4 +1,4 @@
-//! A window with a surface to draw on, and egui's way to it.
+//! A window with a surface to render to, and its connection to egui.
 
 use crate::errors::AppError;
 use spandrel_view::gpu::{Gpu, GpuError};
@@ -8,13 +8,13 @@ use winit::event::WindowEvent;
 use winit::event_loop::ActiveEventLoop;
 use winit::window::Window;
 
-/// The window and the device behind it.
+/// The window and its graphics device.
 pub struct WindowSurface {
-    /// The window.
+    /// Window of the operating system.
     pub window: Arc<Window>,
-    /// The device.
+    /// Graphics device that renders to the window.
     pub gpu: Gpu,
-    /// egui's painter: pictures are registered with it.
+    /// egui's painter, which the views' textures are registered with.
     pub painter: egui_wgpu::Renderer,
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,
@@ -23,29 +23,29 @@ pub struct WindowSurface {
 }
 
 impl WindowSurface {
-    /// Opens a window of a size in px, larger where the display is to be read at a larger scale.
+    /// Opens a window of this size, px, enlarged by the scale factor of the display.
     ///
     /// # Errors
-    /// When there is no display, or nothing to draw with.
+    /// If there is no display or no graphics device.
     pub fn open(events: &ActiveEventLoop, title: &str, (width, height): (u32, u32)) -> Result<Self, AppError> {
-        // A window that is larger than its display hides what stands at its edges.
+        // The window is never larger than the display, because its edges would be hidden.
         let display = events.primary_monitor().or_else(|| events.available_monitors().next());
         let scale = display.as_ref().map_or(1.0, |display| display.scale_factor().max(1.0));
         let wanted = PhysicalSize::new((scale * f64::from(width)).round() as u32, (scale * f64::from(height)).round() as u32);
         let room = display.map(|display| display.size()).filter(|size| size.width > 0 && size.height > 0).unwrap_or(wanted);
         let size = PhysicalSize::new(wanted.width.min(room.width), wanted.height.min(room.height));
         let attributes = Window::default_attributes().with_title(title).with_inner_size(size);
-        let failed = |why: String| AppError::failed(format!("no window can be opened: {why}"));
+        let failed = |why: String| AppError::failed(format!("cannot open a window: {why}"));
         let window = Arc::new(events.create_window(attributes).map_err(|error| failed(error.to_string()))?);
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-        // Without any driver there is nothing that a surface could be made by.
+        // Without a driver, no surface can be created.
         let surface = instance.create_surface(window.clone()).map_err(|error| GpuError::NoDevice(error.to_string()))?;
         let gpu = Gpu::open_for(&instance, Some(&surface))?;
         let size = window.inner_size();
         let config = surface
             .get_default_config(&gpu.adapter, size.width.max(1), size.height.max(1))
             .ok_or_else(|| failed(format!("{} cannot draw in windows", gpu.name)))?;
-        // egui and the finished pictures are in sRGB already: the surface must not convert once more.
+        // egui and the rendered images are already in sRGB, so the surface must not convert them again.
         let plain = [wgpu::TextureFormat::Bgra8Unorm, wgpu::TextureFormat::Rgba8Unorm];
         let formats = surface.get_capabilities(&gpu.adapter).formats;
         let format = plain.into_iter().find(|format| formats.contains(format)).unwrap_or(config.format);
@@ -63,7 +63,7 @@ impl WindowSurface {
         Ok(Self { window, gpu, painter, surface, config, input, freed: Vec::new() })
     }
 
-    /// Hands an event to egui; true when egui wants it for itself.
+    /// Passes an event to egui. Returns true if egui has consumed it.
     pub fn take(&mut self, event: &WindowEvent) -> bool {
         if let WindowEvent::Resized(size) = event {
             (self.config.width, self.config.height) = (size.width.max(1), size.height.max(1));
@@ -84,7 +84,7 @@ impl WindowSurface {
                 self.surface.configure(&self.gpu.device, &self.config);
                 return Ok(());
             }
-            Current::Validation => return Err(AppError::failed("the graphics device refuses the window's surface")),
+            Current::Validation => return Err(AppError::failed("the graphics device rejected the window's surface")),
         };
         let view = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
         self.paint(&jobs, &view);
@@ -93,7 +93,7 @@ impl WindowSurface {
         Ok(())
     }
 
-    /// Runs egui and gives the result as a picture, as the window would show it.
+    /// Runs egui and returns the result as an image.
     pub fn picture(&mut self, ui: impl FnMut(&mut egui::Ui)) -> Result<spandrel_view::picture::Picture, AppError> {
         let jobs = self.run(ui);
         let descriptor = wgpu::TextureDescriptor {
@@ -127,7 +127,7 @@ impl WindowSurface {
             }
         }
         let jobs = context.tessellate(std::mem::take(&mut output.shapes), output.pixels_per_point);
-        // What was painted last may still have used them.
+        // The previous frame may still have used these textures.
         for id in std::mem::replace(&mut self.freed, changes.free.iter().copied().collect()) {
             self.painter.free_texture(&id);
         }

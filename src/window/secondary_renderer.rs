@@ -1,7 +1,7 @@
-//! A second device in software, for a second view.
+//! Renders a second view on a second software device.
 //!
-//! A software device works on the corners of a picture in one thread and on its pixels in all others, one after the other: a second core
-//! rests meanwhile. A second device fills that rest with another picture.
+//! A software device processes the vertices of an image in one thread and then its pixels in all others, so one core is idle during the vertex phase.
+//! A second device uses that time to render another image.
 
 use spandrel_view::gpu::{DrawCounts, Gpu, GpuError, Renderer, picture_texture, read};
 use spandrel_view::picture::Picture;
@@ -12,22 +12,22 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::{self, JoinHandle};
 
-/// What has been drawn, and what it cost.
+/// A rendered image and its draw counts.
 pub type RenderedShot = (Picture, DrawCounts);
 
-/// Draws shots in a thread of its own, on a software device of its own. Ends when it is dropped.
+/// Draws shots in a separate thread, on a separate software device. The thread ends when this is dropped.
 pub struct SecondaryRenderer {
-    /// Taken when it ends.
+    /// Set to `None` to end the thread.
     shots: Option<Sender<Shot>>,
     pictures: Receiver<Result<RenderedShot, GpuError>>,
     painter: Option<JoinHandle<()>>,
 }
 
 impl SecondaryRenderer {
-    /// Opens the device; the scene is uploaded in the other thread.
+    /// Opens the device; the other thread uploads the scene.
     ///
     /// # Errors
-    /// When there is no device in software, or it does not open.
+    /// If there is no software device, or it cannot be opened.
     pub fn open(quality: Quality, scene: Arc<Scene>) -> Result<Self, GpuError> {
         let gpu = Gpu::open_software()?;
         let (shots, ordered) = channel();
@@ -36,18 +36,18 @@ impl SecondaryRenderer {
         Ok(Self { shots: Some(shots), pictures, painter: Some(painter) })
     }
 
-    /// Begins a picture.
+    /// Starts rendering an image.
     ///
     /// # Errors
-    /// When its thread has ended.
+    /// If the thread has ended.
     pub fn start(&self, shot: Shot) -> Result<(), GpuError> {
         self.shots.as_ref().and_then(|shots| shots.send(shot).ok()).ok_or_else(ended)
     }
 
-    /// Waits for the picture that was begun first of those not yet taken.
+    /// Waits for the oldest image that has not been returned yet.
     ///
     /// # Errors
-    /// When the device fails.
+    /// If the device fails.
     pub fn picture(&self) -> Result<RenderedShot, GpuError> {
         self.pictures.recv().map_err(|_| ended())?
     }
@@ -56,7 +56,7 @@ impl SecondaryRenderer {
 impl Drop for SecondaryRenderer {
     fn drop(&mut self) {
         drop(self.shots.take());
-        // A driver that still draws when the program ends may fall over. A painter that panicked has said so.
+        // A driver that is still rendering when the program exits can crash. A panic in the thread has already been reported.
         if let Some(painter) = self.painter.take() {
             let _ = painter.join();
         }
@@ -64,7 +64,7 @@ impl Drop for SecondaryRenderer {
 }
 
 fn ended() -> GpuError {
-    GpuError::Failed("the thread that draws a second view has ended".to_owned())
+    GpuError::Failed("the thread that renders the second view has ended".to_owned())
 }
 
 fn work(gpu: &Gpu, quality: Quality, scene: Arc<Scene>, shots: &Receiver<Shot>, done: &Sender<Result<RenderedShot, GpuError>>) {

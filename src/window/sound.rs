@@ -1,5 +1,4 @@
-//! Samples to a loudspeaker, by whatever program of the system plays raw samples, and words by one that speaks. No sound library: those need
-//! headers of the system to build.
+//! Plays sound samples with a program of the system, and speaks warnings with another. Sound libraries would need system headers to build.
 
 use crate::io::clock::Stopwatch;
 use spandrel_clients::rc::keyboard::SoundPreferences;
@@ -9,21 +8,21 @@ use std::process::{Child, Command, Stdio};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// Programs that play 16-bit samples from their standard input, the better first: PulseAudio's and PipeWire's, ALSA's.
+/// Programs that play 16-bit samples from standard input, in order of preference: PulseAudio or PipeWire, then ALSA.
 const PLAYERS: [(&str, &[&str]); 2] = [
     ("pacat", &["--playback", "--raw", "--format=s16le", "--channels=1", "--rate=24000", "--latency-msec=60"]),
     ("aplay", &["-q", "-t", "raw", "-f", "S16_LE", "-c", "1", "-r", "24000", "--buffer-time=120000"]),
 ];
 /// Programs that speak their last argument.
 const VOICES: [&str; 2] = ["spd-say", "espeak-ng"];
-/// Samples are made in pieces of this many: 10 ms.
+/// Number of samples in a chunk: 10 ms.
 const PIECE: usize = RATE_HZ as usize / 100;
-/// So much is handed over before it is due: more is heard late, less breaks off on a busy machine (estimate).
+/// Playback lead: a longer one delays the sound, a shorter one causes dropouts on a busy machine (estimate).
 const AHEAD: Duration = Duration::from_millis(80);
-/// Between two pieces.
+/// Pause between checks whether another chunk is needed.
 const REST: Duration = Duration::from_millis(5);
 
-/// The loudspeaker of the window; its thread begins with the first sound.
+/// Sound output of the window; its thread starts with the first sound.
 pub struct AudioOutput {
     settings: SoundSettings,
     on: bool,
@@ -32,19 +31,19 @@ pub struct AudioOutput {
 }
 
 impl AudioOutput {
-    /// `on`: it is not switched off from the beginning.
+    /// Creates the output; `on` is false if sound is disabled at the start.
     pub fn new(sounds: SoundPreferences, on: bool) -> Self {
         let SoundPreferences { propellers, warnings, speech, volume } = sounds;
         let heard = Arc::new(Mutex::new(SoundInputs { silent: true, ..SoundInputs::default() }));
         Self { settings: SoundSettings { propellers, warnings, speech, volume }, on, started: false, inputs: heard }
     }
 
-    /// Something may be heard.
+    /// Returns true if sound is on.
     pub fn is_on(&self) -> bool {
         self.on
     }
 
-    /// Switches it on or off.
+    /// Turns sound on or off.
     pub fn set_on(&mut self, on: bool) {
         self.on = on;
         if !on {
@@ -52,12 +51,12 @@ impl AudioOutput {
         }
     }
 
-    /// Nothing is to be heard now.
+    /// Silences the output until the next inputs.
     pub fn stop_speech(&self) {
         locked(&self.inputs).silent = true;
     }
 
-    /// What there is to hear now.
+    /// Updates the inputs of the sound.
     pub fn set(&mut self, heard: SoundInputs) {
         if !self.on {
             return;
@@ -75,7 +74,7 @@ fn locked(heard: &Mutex<SoundInputs>) -> MutexGuard<'_, SoundInputs> {
     heard.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Plays until the window is gone, by the first player that can.
+/// Plays until the window is closed, with the first player that works.
 fn play(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
     let mut tried = Vec::new();
     for (name, args) in PLAYERS {
@@ -85,13 +84,13 @@ fn play(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
         }
     }
     tracing::warn!(
-        "no sound ({}); Debian and Ubuntu: apt-get install pulseaudio-utils or alsa-utils; everything else goes on",
+        "no sound ({}); Debian and Ubuntu: apt-get install pulseaudio-utils or alsa-utils; everything else works",
         tried.join("; ")
     );
     speak(heard, settings);
 }
 
-/// Speaks until the window is gone: a voice needs no player.
+/// Speaks until the window is closed; speech needs no player.
 fn speak(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
     let mut voice = SpeechVoice::new(settings.speech);
     while Arc::strong_count(heard) > 1 && voice.on {
@@ -100,10 +99,10 @@ fn speak(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
     }
 }
 
-/// Plays until the window is gone.
+/// Plays until the window is closed.
 ///
 /// # Errors
-/// Why this player cannot.
+/// If this player does not work.
 fn run_output(name: &str, args: &[&str], heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) -> std::io::Result<()> {
     let mut command = Command::new(name);
     let mut player = command.args(args).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn()?;
@@ -114,18 +113,18 @@ fn run_output(name: &str, args: &[&str], heard: &Arc<Mutex<SoundInputs>>, settin
         let now = locked(heard).clone();
         voice.update_inputs(&now);
         sound.set(now);
-        // A machine that stood still does not make up for the silence.
+        // After a delay of the computer, does not catch up on the missed sound.
         made = made.max(watch.elapsed());
         while made < watch.elapsed() + AHEAD {
             if stdin.write_all(&piece(&mut sound)).is_err() {
-                return Err(std::io::Error::other(format!("it ended ({})", player.wait()?)));
+                return Err(std::io::Error::other(format!("it exited ({})", player.wait()?)));
             }
             made += Duration::from_secs_f64(PIECE as f64 / f64::from(RATE_HZ));
         }
         std::thread::sleep(REST);
     }
     drop(stdin);
-    // It plays what it has, and ends.
+    // The player plays the rest of its buffer and exits.
     player.wait().map(|_| ())
 }
 
@@ -135,7 +134,7 @@ fn piece(sound: &mut FlightSound) -> Vec<u8> {
     samples.iter().flat_map(|sample| ((sample * f32::from(i16::MAX)) as i16).to_le_bytes()).collect()
 }
 
-/// Says what has come up, one thing at a time.
+/// Speaks new warnings, one at a time.
 struct SpeechVoice {
     on: bool,
     cues: i32,
@@ -162,7 +161,7 @@ impl SpeechVoice {
         if started.is_none() {
             self.on = false;
             tracing::warn!(
-                "no spoken warnings: none of {} is there (Debian and Ubuntu: apt-get install espeak-ng)",
+                "no spoken warnings: none of {} is installed (Debian and Ubuntu: apt-get install espeak-ng)",
                 VOICES.join(", ")
             );
         }

@@ -1,5 +1,5 @@
-//! The camera's view as H.264 over RTP, encoded and sent in a thread of its own: a slow network or encoder costs pictures of the stream, none
-//! of the window.
+//! Streams the camera's view as H.264 over RTP. A separate thread encodes and sends, so that a slow network or encoder costs frames of the stream,
+//! but none of the window.
 
 use crate::errors::AppError;
 use crate::io::clock::Stopwatch;
@@ -16,45 +16,45 @@ use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-/// Bits for a pixel of a picture (estimate: 720p25 then has 2 Mbit/s, which wireless networks carry).
+/// Bits per pixel (estimate: 2 Mbit/s at 720p25, which wireless networks carry).
 const BITS_PX: f64 = 0.1;
-/// A receiver that begins in the middle waits this many pictures at most.
+/// Number of frames between key frames: the longest wait of a receiver that joins.
 const KEY_EVERY: u32 = 25;
-/// Least time between two pictures: 30 a second, as drones' cameras send (estimate; docs/src/reference/wire.md, "Camera, gimbal
-/// and lamp"); a window may be drawn more often.
+/// Shortest interval between frames: 30 a second, as drones' cameras send (estimate; docs/src/reference/wire.md, "Camera, gimbal and lamp"). The
+/// window may have a higher frame rate.
 const LEAST: Duration = Duration::from_nanos(33_000_000);
 
-/// A stream of pictures to somebody.
+/// A video stream to a receiver.
 pub struct StreamSender {
-    /// Taken when the stream ends.
+    /// Set to `None` to end the stream.
     pictures: Option<SyncSender<Picture>>,
     sender: Option<JoinHandle<StreamReportItem>>,
-    /// The last picture could not be encoded.
+    /// True if the last frame could not be encoded.
     fails: Arc<AtomicBool>,
     stopwatch: Stopwatch,
     rate: PictureRate,
     last: Option<Stopwatch>,
 }
 
-/// What went out.
+/// Statistics of the stream.
 #[derive(Debug, Clone, Copy, Default)]
 struct StreamReportItem {
     pictures: u64,
-    /// Wall time of encoding, all pictures together.
+    /// Total wall time of encoding.
     encoding: Duration,
 }
 
 impl StreamSender {
-    /// Opens a stream to a receiver; its numbers come from a seed, another one for each stream.
+    /// Opens a stream to a receiver. Its random RTP numbers come from `seed`, which should differ between streams.
     ///
     /// # Errors
-    /// When no socket can be opened, or nothing leads to the receiver.
+    /// If the socket cannot be opened, or there is no route to the receiver.
     pub fn open(to: SocketAddr, seed: u64) -> Result<Self, AppError> {
         let socket = socket(to).map_err(|error| AppError::failed(format!("--stream {to}: {error}")))?;
         if to.port() != PORT {
-            tracing::warn!("--stream {to}: the vehicle announces port {PORT} all the same: tell the receiver its port by hand");
+            tracing::warn!("--stream {to}: the vehicle still announces port {PORT}; configure the other port in the receiver");
         }
-        // One waits while one is encoded; a third comes too late to be worth it.
+        // At most one frame waits while another is encoded; further ones are dropped.
         let (pictures, wanted) = sync_channel(1);
         let fails = Arc::new(AtomicBool::new(false));
         let line = Line { socket, to, packets: RtpPacketizer::new(seed), watch: Stopwatch::start(), told: false };
@@ -66,13 +66,12 @@ impl StreamSender {
         Ok(Self { pictures: Some(pictures), sender: Some(sender), fails, stopwatch: watch, rate, last: None })
     }
 
-    /// Whether it is time for another picture.
+    /// Returns true if another frame is due.
     pub fn is_due(&self) -> bool {
         self.last.is_none_or(|last| last.elapsed() >= LEAST)
     }
 
-    /// Hands a picture on, if the encoder has time for it, and says what the stream is like, once there is more than one picture of it and
-    /// while it can be encoded.
+    /// Passes a frame to the encoder if it is ready. Returns the status of the stream after the first frames, while encoding works.
     pub fn push(&mut self, picture: Picture) -> Option<VideoStatus> {
         let (width_px, height_px) = (picture.width, picture.height);
         self.last = Some(Stopwatch::start());
@@ -91,7 +90,7 @@ impl StreamSender {
 impl Drop for StreamSender {
     fn drop(&mut self) {
         drop(self.pictures.take());
-        // A sender that panicked has nothing to tell.
+        // A panic in the thread has already been reported.
         if let Some(Ok(sent)) = self.sender.take().map(JoinHandle::join) {
             let each_ms = 1e3 * sent.encoding.as_secs_f64() / (sent.pictures.max(1) as f64);
             tracing::info!("{} pictures streamed, encoded in {each_ms:.1} ms each", sent.pictures);
@@ -99,7 +98,7 @@ impl Drop for StreamSender {
     }
 }
 
-/// A socket that only sends, and only there.
+/// Opens a socket that only sends to this address.
 fn socket(to: SocketAddr) -> std::io::Result<UdpSocket> {
     let any =
         if to.is_ipv4() { SocketAddr::from((Ipv4Addr::UNSPECIFIED, 0)) } else { SocketAddr::from((Ipv6Addr::UNSPECIFIED, 0)) };
@@ -112,32 +111,32 @@ fn bits_s((width, height): (u32, u32)) -> u32 {
     (BITS_PX * f64::from(width) * f64::from(height) * f64::from(KEY_EVERY)) as u32
 }
 
-/// Where packets go.
+/// Destination of the packets.
 struct Line {
     socket: UdpSocket,
     to: SocketAddr,
     packets: RtpPacketizer,
     watch: Stopwatch,
-    /// It has been told that packets are lost.
+    /// True once lost packets have been logged.
     told: bool,
 }
 
 impl Line {
-    /// Sends a picture that is taken now.
+    /// Sends an encoded frame with the current time.
     fn send(&mut self, units: &[Vec<u8>]) {
         for packet in self.packets.picture(units, self.watch.elapsed().as_secs_f64()) {
-            // Nobody listens yet: a player may come later.
+            // The receiver may not listen yet.
             if let Err(error) = self.socket.send(&packet)
                 && error.kind() != std::io::ErrorKind::ConnectionRefused
                 && !std::mem::replace(&mut self.told, true)
             {
-                tracing::warn!("the stream to {} loses packets: {error}", self.to);
+                tracing::warn!("packets of the stream to {} are lost: {error}", self.to);
             }
         }
     }
 }
 
-/// An encoder for pictures of whatever size comes.
+/// Encoder for frames of varying size.
 #[derive(Default)]
 struct StreamSize(Option<(H264Encoder, (u32, u32))>);
 
@@ -154,12 +153,12 @@ impl StreamSize {
     }
 }
 
-/// What has been told to be wrong.
+/// The last error that was reported.
 #[derive(Debug, Default)]
 struct LastError(Option<VideoError>);
 
 impl LastError {
-    /// What is wrong now, if that is news; what went well in between makes it news again.
+    /// Returns an error that differs from the last one. A success in between makes the same error new again.
     fn new_error(&mut self, wrong: Option<VideoError>) -> Option<&VideoError> {
         if self.0 == wrong {
             return None;
@@ -177,7 +176,7 @@ fn send(wanted: &Receiver<Picture>, mut line: Line, fails: &AtomicBool) -> Strea
         let encoded = encoder.encode(&picture);
         fails.store(encoded.is_err(), Ordering::Relaxed);
         if let Some(error) = complaint.new_error(encoded.as_ref().err().cloned()) {
-            tracing::warn!("pictures are missing in the stream: {error}");
+            tracing::warn!("frames are missing in the stream: {error}");
         }
         if let Ok(encoded) = encoded {
             sent.encoding += began.elapsed();
@@ -207,6 +206,6 @@ mod tests {
         let mut encoder = StreamSize::default();
         let keys =
             [(64, 48), (64, 48), (96, 64), (95, 64), (96, 64)].map(|(w, h)| encoder.encode(&grey(w, h)).map(|one| one.key).ok());
-        assert_eq!(keys, [Some(true), Some(false), Some(true), None, Some(true)], "a receiver can begin at each size");
+        assert_eq!(keys, [Some(true), Some(false), Some(true), None, Some(true)], "each size starts with a key frame");
     }
 }

@@ -1,4 +1,4 @@
-//! The pipe to `train`, which starts flights and ends them.
+//! Pipe to `train`, which starts and ends flights.
 
 use crate::io::stop::StopRequest;
 use spandrel_view::flow::pipe::{self, FromWindow, ToWindow};
@@ -13,19 +13,19 @@ pub struct TrainPipe {
 }
 
 impl TrainPipe {
-    /// Listens to standard input; its end closes the window.
+    /// Reads messages from standard input. When it closes, the window closes, too.
     pub fn listen(stop: &StopRequest) -> Self {
         Self { lines: stop.lines(), complained: false }
     }
 
-    /// The next thing that `train` says. A bad line is named once and left alone.
+    /// Returns the next message from `train`. The first invalid line is logged, further ones are ignored.
     pub fn poll(&mut self) -> Option<ToWindow> {
         while let Ok(line) = self.lines.try_recv() {
             match pipe::read(&line) {
                 Ok(message) => return Some(message),
                 Err(error) if !self.complained => {
                     self.complained = true;
-                    tracing::warn!("{error}; such lines are left alone");
+                    tracing::warn!("{error}; further invalid lines are ignored");
                 }
                 Err(_) => {}
             }
@@ -33,11 +33,11 @@ impl TrainPipe {
         None
     }
 
-    /// Says something to `train`. When it is gone, standard input ends as well, and that closes the window.
+    /// Sends a message to `train`. If `train` has exited, standard input closes as well, which closes the window.
     pub fn send(&self, message: &FromWindow) {
         let mut out = std::io::stdout().lock();
         if let Err(error) = writeln!(out, "{}", pipe::line(message)).and_then(|()| out.flush()) {
-            tracing::debug!("nobody listens: {error}");
+            tracing::debug!("cannot write to standard output: {error}");
         }
     }
 }

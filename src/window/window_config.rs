@@ -1,4 +1,4 @@
-//! What is asked of the window on the command line.
+//! Settings of the window from the command line.
 
 use spandrel_clients::rc::keyboard::KeyBindings;
 use spandrel_model::scenario::Scenario;
@@ -8,31 +8,31 @@ use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// What is asked for on the command line.
+/// Settings of the window from the command line.
 #[derive(Debug, Clone)]
 pub struct WindowConfig {
     /// Local address to bind.
     pub listen: IpAddr,
-    /// A preset; `None`: by the device.
+    /// Quality preset; `None` to choose by the device.
     pub quality: Option<Quality>,
-    /// Size of the window.
+    /// Size of the window, px: width, height.
     pub size_px: (u32, u32),
-    /// The map may be shown.
+    /// True if the map may be shown.
     pub map: bool,
-    /// A picture to keep.
+    /// Screenshot to save before exiting, if any.
     pub picture: Option<CaptureRequest>,
-    /// Where the camera's view is kept for others.
+    /// File to save the camera's view to.
     pub keep: Option<PathBuf>,
-    /// Say on standard output when both views are drawn.
+    /// True to report on standard output when both views have been rendered.
     pub announce: bool,
 }
 
-/// A picture of the window.
+/// A screenshot of the window.
 #[derive(Debug, Clone)]
 pub struct CaptureRequest {
-    /// Where it goes.
+    /// PNG file for the screenshot.
     pub path: PathBuf,
-    /// When, from the first drawn view.
+    /// Delay after the first rendered frame.
     pub after: Duration,
 }
 

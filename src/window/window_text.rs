@@ -1,4 +1,4 @@
-//! The window's own words, and how pictures, displays and words are put together.
+//! Texts of the window, and the composition of views, displays and texts.
 
 use super::flight_view::SceneLoading;
 use super::listener::TelemetryListener;
@@ -7,28 +7,28 @@ use spandrel_clients::rc::keyboard::KeyBindings;
 use spandrel_view::arrange::ViewLayout;
 use spandrel_view::gpu::paint;
 
-/// Words of the window itself.
+/// Texts of the window.
 #[derive(Default)]
 pub struct WindowText {
-    /// What is waited for.
+    /// Status while the scene is not ready.
     pub waiting: String,
-    /// What has been said lately.
+    /// Recent messages, shown for a few seconds.
     pub lines: Vec<String>,
-    /// Which key does what.
+    /// Help about the keys.
     pub help: String,
 }
 
-/// What is waited for.
+/// Returns the status while the scene is not ready.
 pub fn waiting(scene: &SceneLoading, heard: bool, listener: &TelemetryListener) -> String {
     match scene {
         SceneLoading::Drawn(_) => String::new(),
-        SceneLoading::Building(_) => "Building the site and its light ...".to_owned(),
-        SceneLoading::Waiting if heard => "The vehicle is heard; waiting for the session's seed ...".to_owned(),
+        SceneLoading::Building(_) => "Loading scene ...".to_owned(),
+        SceneLoading::Waiting if heard => "Connected to the vehicle. Waiting for the session's seed ...".to_owned(),
         SceneLoading::Waiting => format!("Waiting for the vehicle at {} ...", listener.vehicle()),
     }
 }
 
-/// Which key does what.
+/// Returns the help about the keys.
 pub fn help(keys: &KeyBindings, flies: bool) -> String {
     let key = |name: &str| keys.label(name);
     let mut words = format!(
@@ -41,7 +41,7 @@ pub fn help(keys: &KeyBindings, flies: bool) -> String {
     );
     if flies {
         words.push_str(&format!(
-            "\n{} motors on    {} take off    {} {} up and down    {} {} turn    {} {} {} {} fly    {} lamp    {} picture    {} land",
+            "\n{} arm    {} take off    {} {} up and down    {} {} turn    {} {} {} {} fly    {} lamp    {} picture    {} land",
             key("arm"),
             key("take_off"),
             key("up"),
@@ -60,7 +60,7 @@ pub fn help(keys: &KeyBindings, flies: bool) -> String {
     words
 }
 
-/// A flight's content: pictures with their displays, and the window's own words.
+/// Paints a flight: both views with their displays, and the window's texts.
 pub fn compose_text(ui: &mut egui::Ui, shown: &[PaneContent], text: &WindowText, arrangement: ViewLayout) {
     let area = ui.ctx().content_rect();
     let painter = ui.ctx().layer_painter(egui::LayerId::background());

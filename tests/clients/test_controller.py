@@ -95,7 +95,7 @@ def test_wire_a_transmitter_flies_the_vehicle_and_its_loss_is_the_vehicles_to_ha
         assert seen["up"] > 3.0 and seen["speed"] > 1.0 and seen["lamp"] == 1 and seen["pictures"] == 1, seen
         assert {1500, 2000} <= seen["sticks"], "calibrated ends and centre"
         _, told = flown.communicate(timeout=60)
-        assert flown.returncode == 0 and "is lost: sticks centred, then silent" in told, told
+        assert flown.returncode == 0 and "disconnected: sticks centered, then no longer sent" in told, told
         beat = asking.hear(link, "HEARTBEAT", lambda b: b.get_srcComponent() == 1)
         assert beat.base_mode & mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED, "it holds in the air"
     finally:
@@ -145,5 +145,5 @@ def test_wire_who_waits_for_a_vehicle_is_told_so_and_when_it_is_there(tmp_path):
         spandrel.end(sim)
     finally:
         spandrel.end(waits)
-    assert told == [f"no vehicle on 127.0.0.1:{dial} yet; waiting", f"the vehicle at 127.0.0.1:{dial} answers"]
+    assert told == [f"no vehicle at 127.0.0.1:{dial} yet; waiting", f"connected to the vehicle at 127.0.0.1:{dial}"]
     assert waits.returncode == 0

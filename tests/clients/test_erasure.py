@@ -56,7 +56,7 @@ def test_an_erasure_killed_at_any_write_is_finished_later(tmp_path):
         kept = {record["trainee"] for record in listed}
         if "anna" in kept:
             assert SECRET.encode() in data and any("-anna-" in name for name in names), f"call {k}: half erased"
-            assert "is erased: 1 sessions" in spandrel.run("records", "erase", "--trainee", "anna", "--yes", "--sessions", str(place))
+            assert "erased 'anna': 1 sessions" in spandrel.run("records", "erase", "--trainee", "anna", "--yes", "--sessions", str(place))
             data, names = everything(place)
             untouched += 1
         else:

@@ -148,7 +148,7 @@ def test_wire_a_session_from_the_choice_to_the_scores_by_keys_alone(screen, tmp_
             page = training.see(f"tutorial-{number}", other_page(page), ENTER)
         training.see("flight", in_flight, ENTER)
         training.see("paused", paused, ESCAPE)
-        spandrel.wait_for("time stands still", lambda: "time stands still" in training.told(), LIMIT_S)
+        spandrel.wait_for("time stands still", lambda: "simulation paused" in training.told(), LIMIT_S)
         training.see("flies-on", in_flight, ESCAPE)
         assert len(folders(training)) == 1
 
@@ -164,7 +164,7 @@ def test_wire_a_session_from_the_choice_to_the_scores_by_keys_alone(screen, tmp_
 
         def flies():
             again.if_due()
-            return "lift-off" in training.told().split("this attempt ended")[-1]
+            return "lift-off" in training.told().split("attempt ended; the recorded data")[-1]
 
         spandrel.wait_for("lift-off", flies, LIMIT_S)
 
@@ -217,7 +217,7 @@ def test_wire_an_assessment_is_not_paused_nor_begun_anew_but_may_be_ended(screen
         spandrel.wait_for("'cannot be restarted'", refused, LIMIT_S)
         training.see("assessment-asked", paused, ESCAPE)
         training.see("assessment-goes-on", in_flight, ESCAPE)
-        assert "time stands still" not in training.told() and len(folders(training)) == 1
+        assert "simulation paused" not in training.told() and len(folders(training)) == 1
         training.see("assessment-asked-again", paused, ESCAPE)
         screen.tap(DOWN)
         training.see("assessment-over", is_page, ENTER)
@@ -243,10 +243,10 @@ def test_wire_a_flight_outlives_its_window(screen, tmp_path):
     """A window that is killed is told of once; simulator and monitor go on."""
     training = Training(screen, tmp_path, "--scenario", "drill-hover", "--no-sound")
     try:
-        spandrel.wait_for("the flight begins", lambda: "has dialled in" in training.told(), LIMIT_S)
+        spandrel.wait_for("the flight begins", lambda: "has connected" in training.told(), LIMIT_S)
         os.kill(spandrel.wait_for("a window", lambda: window_of(training), LIMIT_S), signal.SIGKILL)
-        spandrel.wait_for("it is told", lambda: "the session goes on without" in training.told(), LIMIT_S)
-        assert training.process.poll() is None and training.told().count("there is no window") == 1
+        spandrel.wait_for("it is told", lambda: "the session continues without it" in training.told(), LIMIT_S)
+        assert training.process.poll() is None and training.told().count("the window failed") == 1
     finally:
         training.close()
 

@@ -79,5 +79,5 @@ def test_regress_mavsdk_is_found_and_flies_as_a_lockstep_peer(tmp_path, answers)
     finally:
         mavsdk.destroy()
         spandrel.end(process)
-    in_real_time = "is served in real time" in (tmp_path / "sim.txt").read_text(encoding="utf-8")
+    in_real_time = "serving it in real time" in (tmp_path / "sim.txt").read_text(encoding="utf-8")
     assert in_real_time != answers, "in step from its first answer on, and in real time without one"

@@ -46,8 +46,8 @@ def test_a_session_becomes_a_record_and_a_plan(sessions):
     answers = json.loads((session / "answers.json").read_text(encoding="utf-8"))["answers"]
     assert sorted(answers.values()) == [2] * 10 + [3] * 14
 
-    assert "2 new or changed, 0 unchanged, 0 left out" in spandrel.run("records", "import", *place)
-    assert "0 new or changed, 2 unchanged, 0 left out" in spandrel.run("records", "import", *place)
+    assert "2 new or changed, 0 unchanged, 0 skipped" in spandrel.run("records", "import", *place)
+    assert "0 new or changed, 2 unchanged, 0 skipped" in spandrel.run("records", "import", *place)
     records = json.loads(spandrel.run("records", "list", "--json", *place))
     assert [record["id"] for record in records] == [path.name for path in folders(sessions)]
     for record, path in zip(records, folders(sessions), strict=True):
@@ -66,7 +66,7 @@ def test_a_session_becomes_a_record_and_a_plan(sessions):
     run_with("1\n" + "\n" * 23, "questionnaire", str(session), "--again")
     assert "1 new or changed, 1 unchanged" in spandrel.run("records", "import", *place)
     before = spandrel.run("records", "export", *place)
-    assert "2 sessions, 0 left out" in spandrel.run("records", "rebuild", *place)
+    assert "2 sessions, 0 skipped" in spandrel.run("records", "rebuild", *place)
     assert spandrel.run("records", "export", *place) == before
 
     plan = json.loads(spandrel.run("plan", "anna", "--json", *place))
@@ -93,14 +93,14 @@ def test_what_is_wrong_is_told_by_file_key_and_value(sessions, tmp_path):
     code, _, errors = run_with("", "questionnaire", str(session))
     assert code == 2 and "answers.json:1: feedback = 9" in errors and "1 to 5" in errors
     code, output, errors = run_with("", "records", "import", "--sessions", str(sessions), "--database", str(tmp_path / "r.sqlite"))
-    assert code == 0 and "1 left out" in output and "feedback = 9" in errors
+    assert code == 0 and "1 skipped" in output and "feedback = 9" in errors
     (session / "answers.json").unlink()
     code, _, errors = run_with("", "questionnaire", str(tmp_path))
-    assert code == 2 and "is no session folder" in errors
+    assert code == 2 and "not a session folder" in errors
     broken = tmp_path / "broken.jsonl"
     broken.write_text('{"format": 1}\n', encoding="utf-8")
     code, _, errors = run_with("", "cohort", "--records", str(broken))
-    assert code == 2 and "broken.jsonl:1: no record" in errors
+    assert code == 2 and "broken.jsonl:1: not a valid record" in errors
     code, _, errors = run_with("", "plan", "nobody", "--sessions", str(sessions))
     assert code == 2 and "no session of 'nobody'" in errors
 
@@ -115,11 +115,11 @@ def test_a_trainee_may_have_his_data_and_be_forgotten(sessions):
     # First told, then done.
     assert "--yes erases them" in spandrel.run("records", "erase", "--trainee", "ben", *place)
     assert pathlib.Path(kept["folders"][0]).is_dir()
-    assert "is erased: 1 sessions" in spandrel.run("records", "erase", "--trainee", "ben", "--yes", *place)
+    assert "erased 'ben': 1 sessions" in spandrel.run("records", "erase", "--trainee", "ben", "--yes", *place)
     assert not pathlib.Path(kept["folders"][0]).exists()
     assert not any(b"35-44" in path.read_bytes() for path in sessions.iterdir() if path.is_file())
     code, _, errors = run_with("", "records", "export", "--trainee", "ben", *place)
-    assert code == 2 and "nothing is kept of 'ben'" in errors
+    assert code == 2 and "no data about 'ben'" in errors
     assert len(folders(sessions)) == 2, "the others stay"
     assert "0 sessions and 0 folders" in spandrel.run("records", "retention", "--days", "1", "--yes", *place)
 
@@ -130,10 +130,10 @@ def test_rebuild_does_not_forget_another_stations_sessions(sessions, tmp_path):
     other = tmp_path / "other"
     other.mkdir()
     code, _, errors = run_with("", "records", "rebuild", "--sessions", str(other), *database)
-    assert code == 2 and "2 sessions have no folder here" in errors
+    assert code == 2 and "2 sessions have no folder on this machine" in errors
     assert len(json.loads(spandrel.run("records", "list", "--json", *database))) == 2
     # Who says so deletes them; they were not erased, and come back with their folders.
-    assert "0 sessions, 0 left out, 2 without a folder here deleted" in spandrel.run("records", "rebuild", "--yes", "--sessions", str(other), *database)
+    assert "0 sessions, 0 skipped, 2 without a folder on this machine deleted" in spandrel.run("records", "rebuild", "--yes", "--sessions", str(other), *database)
     assert "2 new or changed" in spandrel.run("records", "import", "--sessions", str(sessions), *database)
 
 
@@ -178,4 +178,4 @@ def test_a_killed_import_leaves_whole_records_and_goes_on(tmp_path):
     assert counts == sorted(counts), "nothing that was taken in is lost"
     spandrel.run("records", "import", *place)
     assert len(json.loads(spandrel.run("records", "list", "--json", *place))) == 200
-    assert "0 new or changed, 200 unchanged, 0 left out" in spandrel.run("records", "import", *place)
+    assert "0 new or changed, 200 unchanged, 0 skipped" in spandrel.run("records", "import", *place)

@@ -162,7 +162,7 @@ def test_wire_what_is_missing_is_named_in_one_message(screen, tmp_path):
 
 
 @pytest.mark.timeout(600)
-@pytest.mark.parametrize(("asked", "title"), [(["--scenario", "drill-hover"], "Drill: hover"), ([], "nobody is asked: anonymous flies two-bridges")])
+@pytest.mark.parametrize(("asked", "title"), [(["--scenario", "drill-hover"], "Drill: hover"), ([], "using the command line: anonymous flies two-bridges")])
 def test_wire_training_goes_on_without_a_display(tmp_path, asked, title):
     """`train` names what is missing, says what it flies, and waits for the flight all the same."""
     blind = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET")}
@@ -173,8 +173,8 @@ def test_wire_training_goes_on_without_a_display(tmp_path, asked, title):
     )
     try:
         told = tmp_path / "train.txt"
-        spandrel.wait_for("it goes on", lambda: "the session goes on without" in told.read_text(encoding="utf-8"), DRAW_LIMIT_S)
-        spandrel.wait_for("it flies", lambda: "Take off, do the tasks" in told.read_text(encoding="utf-8"), DRAW_LIMIT_S)
+        spandrel.wait_for("it goes on", lambda: "the session continues without it" in told.read_text(encoding="utf-8"), DRAW_LIMIT_S)
+        spandrel.wait_for("it flies", lambda: "Take off, fly the tasks" in told.read_text(encoding="utf-8"), DRAW_LIMIT_S)
         assert title in told.read_text(encoding="utf-8")
         assert "no display" in told.read_text(encoding="utf-8") and training.poll() is None
         assert "A window shows" not in told.read_text(encoding="utf-8"), "a window that is not there is not told of"

@@ -366,7 +366,7 @@ def test_a_trainee_is_exported_and_erased(browser, server, sessions, tmp_path):
     person.page.click("summary:has-text('Erase')")
     person.page.fill("[name=again]", "ada")
     person.page.click("text=Erase permanently")
-    expect(person.page.locator("body")).to_contain_text("let another administrator erase you")
+    expect(person.page.locator("body")).to_contain_text("ask another administrator to erase you")
     assert person.go("/settings").status == 200, "an administrator does not erase himself"
 
 
@@ -376,7 +376,7 @@ def test_a_scenario_is_uploaded_checked_and_taken_away(browser, server, tmp_path
     name = "ours-hover"
     renamed = good.replace('name = "drill-hover"', f'name = "{name}"')
     assert renamed != good
-    for text, said in [(renamed + "\nnonsense = 1\n", "nonsense"), (good, "name of a shipped"), (renamed, "is kept")]:
+    for text, said in [(renamed + "\nnonsense = 1\n", "nonsense"), (good, "name of a shipped"), (renamed, "was saved")]:
         (tmp_path / "job.toml").write_text(text, encoding="utf-8")
         person.go("/scenarios")
         person.page.set_input_files("[name=file]", tmp_path / "job.toml")
@@ -432,7 +432,7 @@ def test_a_recorded_flight_is_taken_in(browser, server, sessions, tmp_path):
     person.page.select_option("[name=scenario]", "two-bridges")
     person.page.set_input_files("[name=file]", log)
     person.page.click("text=Import >> nth=-1")
-    expect(person.page.locator(".message")).to_contain_text("cannot be taken in")
+    expect(person.page.locator(".message")).to_contain_text("cannot import this recording")
     assert len(ids(sessions, "carl")) == 1
 
 
@@ -443,7 +443,7 @@ def test_everybody_changes_the_own_password(browser, server, sessions):
     person.page.fill("[name=present]", webserver.PASSWORD)
     person.page.fill("[name=new]", "another long word")
     person.page.click("text=Change >> nth=-1")
-    expect(person.page.locator(".message")).to_contain_text("is changed")
+    expect(person.page.locator(".message")).to_contain_text("Password changed")
     elsewhere.go("/sessions")
     assert elsewhere.page.url.endswith("/login"), "other visits have ended"
     assert person.go("/account").status == 200
@@ -538,7 +538,7 @@ def test_an_instructor_watches_and_acts(browser, tmp_path):
         page.click("text=Inject failure")
         expect(said).to_contain_text("instructor: compass fails", timeout=PATIENCE_MS)
         page.click("text=Clear failure")
-        expect(said).to_contain_text("instructor: compass is whole again", timeout=PATIENCE_MS)
+        expect(said).to_contain_text("instructor: compass restored", timeout=PATIENCE_MS)
         for size, scheme in [("desktop", "light"), ("phone", "dark")]:
             page.set_viewport_size({"width": SIZES[size][0], "height": SIZES[size][1]})
             page.emulate_media(color_scheme=scheme)

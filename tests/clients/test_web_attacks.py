@@ -197,7 +197,7 @@ def test_uploads_that_are_too_large_or_no_such_file_are_refused(server, sessions
         "another's bytes": real[: len(real) // 2][::-1], "the ground alone": real[:20_000],
     }.items():
         status, _, text = ida.upload("/upload", "/upload", fields, body)
-        assert status == 422 and "cannot be taken in" in text, (name, status)
+        assert status == 422 and "cannot import this recording" in text, (name, status)
     for key, value in [("trainee", "../../x"), ("trainee", ""), ("scenario", "../../x"), ("scenario", "/etc/passwd"), ("vehicle", "../x")]:
         status, _, _ = ida.upload("/upload", "/upload", {**fields, key: value}, real)
         assert status == 422, (key, value)

@@ -108,7 +108,7 @@ def test_slow_uploads_hold_up_no_other(sessions):
         slow = [begin_upload(server, ida, token) for _ in range(4)]
         fields = {"trainee": "x", "scenario": "drill-hover", "vehicle": "phantom2"}
         status, _, text = ida.upload("/upload", "/upload", fields, b"no recording")
-        assert status == 422 and "cannot be taken in" in text
+        assert status == 422 and "cannot import this recording" in text
         # A large one passes through a file on disk, which is gone when it was refused.
         status, _, text = ida.upload("/upload", "/upload", fields, b"x" * 3_000_000)
         assert status == 422 and not list(sessions.glob(".taking-in/upload-*"))

@@ -22,7 +22,7 @@ fn wire_wrong_arguments_and_files_end_with_two_and_report_what_is_allowed() {
         (vec!["sim", "--flavour", "slugs"], "ardupilot"),
         (vec!["monitor", "--scenario", "no-such-job"], "two-bridges"),
         (vec!["monitor", "--vehicle", "no-such-drone"], "phantom2"),
-        (vec!["monitor", "--session", "no-such-folder"], "is no session folder"),
+        (vec!["monitor", "--session", "no-such-folder"], "not a session folder"),
         (vec!["pilot", "--connect", "somewhere"], "HOST:PORT"),
         (vec!["assess", "no-such.tlog"], "--scenario and --vehicle"),
         (vec!["export", "two-bridges", "--frames", "-"], "needs a session folder"),
@@ -70,7 +70,7 @@ fn wire_check_reports_every_problem_of_every_file_as_text_and_as_json() {
     let good = write("good.toml", job);
     let bad = write("bad.toml", &job.replace("spacing_m = 8.0", "spacing_m = -8.0").replace("turbulence", "turbulance"));
     let (code, out, _) = told(&spandrel(&["check", &good]));
-    assert_eq!((code, out.trim()), (Some(0), "1 file right"));
+    assert_eq!((code, out.trim()), (Some(0), "1 file valid"));
 
     let (code, out, err) = told(&spandrel(&["check", &good, &bad]));
     assert_eq!(code, Some(2));

@@ -1,4 +1,4 @@
-//! Pictures, by whatever device there is.
+//! Renders images on a graphics card or in software.
 
 use super::args::Args;
 use super::recorded::RecordedFlight;
@@ -18,7 +18,7 @@ use spandrel_view::quality::Quality;
 use spandrel_view::shot::Shot;
 use spandrel_view::stage::{self, camera_aimed_at, drone_on_pad};
 
-/// Draws what was asked for.
+/// Renders the requested image, photographs or video.
 pub fn run(args: &Args) -> Result<(), AppError> {
     masks::check(args)?;
     if std::path::Path::new(&args.what).is_dir() {
@@ -37,7 +37,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     files::write(&args.out, &png(&picture)?)
 }
 
-/// Options that a session has an answer of its own for.
+/// Rejects options that a session determines itself.
 fn only_of_scenarios(args: &Args) -> Result<(), AppError> {
     let given = [
         ("--from", args.from.is_some()),
@@ -49,9 +49,10 @@ fn only_of_scenarios(args: &Args) -> Result<(), AppError> {
     ];
     match given.into_iter().find(|(_, given)| *given) {
         None => Ok(()),
-        Some((name, _)) => {
-            Err(AppError::wrong(format!("{name}: '{}' is a session, drawn as it was flown: {name} is for scenarios", args.what)))
-        }
+        Some((name, _)) => Err(AppError::wrong(format!(
+            "{name}: '{}' is a session, which is rendered as flown; {name} is for scenarios only",
+            args.what
+        ))),
     }
 }
 
@@ -59,33 +60,35 @@ fn point(name: &str, text: &str) -> Result<Vec3<Enu>, AppError> {
     let numbers: Vec<f64> = text.split(',').filter_map(|part| part.trim().parse().ok()).collect();
     match numbers[..] {
         [east, north, up] if numbers.iter().all(|x| x.is_finite() && x.abs() < 1e5) => Ok(Vec3::new(east, north, up)),
-        _ => Err(AppError::wrong(format!("--{name} {text}: give east,north,up in m from the origin, as 10,-25,30"))),
+        _ => Err(AppError::wrong(format!(
+            "--{name} {text}: not a point (allowed: east,north,up in m from the origin, for example 10,-25,30)"
+        ))),
     }
 }
 
-/// A scenario from anywhere.
+/// Renders a scenario from any viewpoint.
 fn of_scenario(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture, AppError> {
     let mut scenario = files::scenario(&args.what)?.scenario;
     let vehicle = files::vehicle(&args.vehicle)?.vehicle;
     if let Some(utc) = &args.utc {
         let time: jiff::Timestamp =
-            utc.parse().map_err(|error| AppError::wrong(format!("--utc {utc}: {error} (as 2026-06-20T08:00:00Z)")))?;
+            utc.parse().map_err(|error| AppError::wrong(format!("--utc {utc}: {error} (example: 2026-06-20T08:00:00Z)")))?;
         scenario.light.start_unix_s = time.as_second();
     }
     if let Some(cloud) = args.cloud {
         if !(0.0..=1.0).contains(&cloud) {
-            return Err(AppError::wrong(format!("--cloud {cloud}: give a share, 0 to 1")));
+            return Err(AppError::wrong(format!("--cloud {cloud}: out of range (allowed: 0 to 1)")));
         }
         scenario.light.cloud_cover = cloud;
     }
     let (Some(from), Some(look)) = (&args.from, &args.look) else {
-        return Err(AppError::wrong("of a scenario --from E,N,U and --look E,N,U say what to draw"));
+        return Err(AppError::wrong("a scenario needs a viewpoint: --from E,N,U and --look E,N,U"));
     };
     let (from, look) = (point("from", from)?, point("look", look)?);
     let at = instant("at", args.at.unwrap_or(0.0))?;
     let lens = match args.fov {
         Some(deg) if (1.0..=150.0).contains(&deg) => Camera { hfov_rad: deg.to_radians(), ..vehicle.camera },
-        Some(deg) => return Err(AppError::wrong(format!("--fov {deg}: give degrees, 1 to 150"))),
+        Some(deg) => return Err(AppError::wrong(format!("--fov {deg}: out of range (allowed: 1 to 150 deg)"))),
         None => vehicle.camera,
     };
     let drawing = SceneDrawing::new(&scenario, &vehicle, args.seed.or(scenario.seed).unwrap_or_default(), quality, at)?;
@@ -96,7 +99,7 @@ fn of_scenario(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pictur
     draw(&drawing, args, &[(shot, Vec::new())])
 }
 
-/// A moment of a session.
+/// Renders a moment of a session.
 fn of_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture, AppError> {
     let recorded = RecordedFlight::read(std::path::Path::new(&args.what))?;
     let (scenario, vehicle) = (recorded.scenario(), recorded.vehicle());
@@ -120,7 +123,7 @@ fn of_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture
     draw(&drawing, args, &views)
 }
 
-/// Shots side by side, each with what lies over it; and the labels of the one that there is, if they are wanted.
+/// Renders shots side by side, each with its overlay. Also writes the label masks if there is a single shot and they are requested.
 fn draw(drawing: &SceneDrawing, args: &Args, views: &[(Shot, Vec<hud::DrawItem>)]) -> Result<Picture, AppError> {
     let mut brush = drawing.brush();
     if let (true, [(shot, _)]) = (args.masks, views) {
@@ -130,7 +133,7 @@ fn draw(drawing: &SceneDrawing, args: &Args, views: &[(Shot, Vec<hud::DrawItem>)
     Ok(beside(&pictures))
 }
 
-/// Pictures in a row; lower ones stand in the middle of black.
+/// Places images side by side; lower ones are centered vertically on black.
 fn beside(pictures: &[Picture]) -> Picture {
     const BLACK: [u8; 4] = [0, 0, 0, 255];
     let height = pictures.iter().map(|p| p.height).max().unwrap_or(0);

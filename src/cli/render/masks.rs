@@ -1,4 +1,4 @@
-//! Labels beside pictures: which element and which defect each pixel shows.
+//! Label masks: the element and the defect that each pixel shows.
 
 use super::args::Args;
 use super::scene_drawing::SceneRenderer;
@@ -8,19 +8,19 @@ use spandrel_model::scenario::PlacedDefect;
 use spandrel_view::shot::Shot;
 use std::path::Path;
 
-/// Refuses what has no one picture beside which labels could lie.
+/// Checks that label masks are requested for a single image or for photographs.
 pub fn check(args: &Args) -> Result<(), AppError> {
     let one = args.snapshots || args.from.is_some() || args.view != "both";
     if args.masks && !one {
-        return Err(AppError::wrong("--masks belongs to one picture: say --view camera or --view inspector"));
+        return Err(AppError::wrong("--masks needs a single view: use --view camera or --view inspector"));
     }
     if args.masks && !args.snapshots && args.out == "-" {
-        return Err(AppError::wrong("--masks writes files beside the picture: give --out a file"));
+        return Err(AppError::wrong("--masks writes files next to the picture: specify a file with --out"));
     }
     Ok(())
 }
 
-/// Writes the labels of a shot beside its picture: NAME.elements.png, NAME.defects.png (16 bits grey), NAME.masks.json.
+/// Writes the label masks of a shot next to its image: NAME.elements.png, NAME.defects.png (16-bit grayscale) and NAME.masks.json.
 pub fn write(brush: &mut SceneRenderer, shot: &Shot, placed: &[PlacedDefect], picture: &Path) -> Result<(), AppError> {
     let masks = brush.labels(shot)?;
     let size_px = (masks.width, masks.height);
@@ -29,7 +29,7 @@ pub fn write(brush: &mut SceneRenderer, shot: &Shot, placed: &[PlacedDefect], pi
     replace(&picture.with_extension("masks.json"), format!("{:#}\n", masks.legend(placed)).as_bytes())
 }
 
-/// Numbers as a PNG file with 16 bits a pixel.
+/// Encodes labels as a PNG file with 16 bits per pixel.
 fn grayscale(labels: &[u16], (width, height): (u32, u32)) -> Result<Vec<u8>, AppError> {
     let failed = |error: png::EncodingError| AppError::failed(error.to_string());
     let mut bytes = Vec::new();

@@ -1,4 +1,4 @@
-//! `spandrel render`: pictures of a recorded session, or of a scenario from anywhere.
+//! `spandrel render`: renders images of a recorded session, or of a scenario from any viewpoint.
 
 mod args;
 
@@ -37,7 +37,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 #[cfg(not(feature = "view"))]
 pub fn run(args: &Args) -> Result<(), AppError> {
     Err(AppError::failed(format!(
-        "this program was built without the view, so '{}' cannot be drawn: build it with `cargo build --release --features view`",
+        "this program was built without the view, so '{}' cannot be rendered: build it with `cargo build --release --features view`",
         args.what
     )))
 }

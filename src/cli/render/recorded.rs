@@ -1,4 +1,4 @@
-//! A recorded session as it is drawn: where everything was at any time, and what the display told.
+//! A recorded session for rendering: poses at any time, and the values of the head-up display.
 
 use crate::errors::AppError;
 use crate::io::files;
@@ -21,31 +21,31 @@ use spandrel_view::scene::DronePose;
 use spandrel_view::stage::SceneMoment;
 use std::path::{Path, PathBuf};
 
-/// A session folder that holds a flight.
+/// A recorded flight with its session folder.
 pub struct RecordedFlight {
-    /// Where it is.
+    /// Folder of the recorded session.
     pub folder: PathBuf,
-    /// What it holds.
+    /// Contents of the session folder.
     pub stored: StoredSession,
-    /// Wall time of simulation time zero, microseconds since 1970.
+    /// Wall time of simulation time zero, µs since the Unix epoch.
     zero_unix_us: u64,
-    /// Its telemetry: pictures look at the records in any order.
+    /// Complete telemetry log in memory, because images can need its records in any order.
     log: Vec<u8>,
-    /// The flight.
+    /// The scored flight of the session, which is rendered.
     pub flight: Flight,
-    /// So many flights before it are in the log: the simulator has begun anew.
+    /// Number of flights before it in the log, because the simulator was restarted.
     before: usize,
-    /// How long these took.
+    /// Total duration of these earlier flights.
     current_time: SimTime,
-    /// So many records of the log are theirs.
+    /// Number of records of these earlier flights.
     records_before: usize,
 }
 
 impl RecordedFlight {
-    /// Reads a session folder.
+    /// Reads the flight of a session folder.
     ///
     /// # Errors
-    /// When it is none, a file is wrong, or it holds no flight.
+    /// If it is not a session folder, a file is invalid, or it contains no flight.
     pub fn read(folder: &Path) -> Result<Self, AppError> {
         let stored = StoredSession::read(folder)?;
         let mut timeline = Timeline::new(LocalPlane::new(stored.scenario.scenario.origin));
@@ -56,59 +56,59 @@ impl RecordedFlight {
             .collect();
         let (before, flight) = scored_epoch(&timeline, &stored.scenario.scenario, &stored.vehicle.vehicle);
         if flight.truths.is_empty() {
-            return Err(AppError::failed("the session holds no flight to draw"));
+            return Err(AppError::failed("the session contains no flight to render"));
         }
         let zero_unix_us = tlog::simulation_zero_us(&log).unwrap_or(stored.started_unix_us);
         let (passed, records_before) = (timeline.apply_pushed(before), before.checked_sub(1).map_or(0, |k| begun[k]));
         Ok(Self { folder: folder.to_owned(), stored, log, zero_unix_us, flight, before, current_time: passed, records_before })
     }
 
-    /// A simulation time of the flight as the clock of the world had it, microseconds since 1970.
+    /// Converts a simulation time of the flight to wall time, µs since the Unix epoch.
     pub fn unix_us(&self, at: SimTime) -> u64 {
         self.zero_unix_us + u64::try_from((self.current_time + at).us()).unwrap_or(0)
     }
 
-    /// The job.
+    /// Returns the scenario of the session.
     pub fn scenario(&self) -> &Scenario {
         &self.stored.scenario.scenario
     }
 
-    /// The aircraft.
+    /// Returns the aircraft of the session.
     pub fn vehicle(&self) -> &Vehicle {
         &self.stored.vehicle.vehicle
     }
 
-    /// First and last instant.
+    /// Returns the first and last time of the flight.
     pub fn span(&self) -> (SimTime, SimTime) {
         let time = |truth: Option<&spandrel_mavlink::contract::truth::Truth>| truth.map_or(SimTime::ZERO, |truth| truth.time);
         (time(self.flight.truths.first()), time(self.flight.truths.last()))
     }
 
-    /// The seed that placed defects and traffic.
+    /// Returns the seed of defects and traffic.
     pub fn seed(&self) -> u64 {
         self.scenario().seed.or(self.flight.seeds.all().first().map(|said| said.2)).unwrap_or_default()
     }
 
-    /// When traffic was stopped and let go.
+    /// Returns the times when bridges were closed to traffic.
     pub fn gates(&self) -> BridgeClosures {
         attention::gates(&self.flight)
     }
 
-    /// Where everything was.
+    /// Returns the poses at a time of the flight.
     ///
     /// # Errors
-    /// Where the telemetry says nothing.
+    /// If there is no telemetry for this time.
     pub fn moment(&self, at: SimTime) -> Result<SceneMoment, AppError> {
         let (first, last) = self.span();
         moment(&self.flight, at, self.vehicle()).ok_or_else(|| {
             let (at, first, last) = (at.s(), first.s(), last.s());
-            AppError::failed(format!("the session holds nothing at {at:.1} s: it goes from {first:.1} to {last:.1} s"))
+            AppError::failed(format!("the session has no data at {at:.1} s, only from {first:.1} to {last:.1} s"))
         })
     }
 
-    /// What the display tells besides the flight, from the beginning on.
+    /// Returns a feed of the other display values, from the start of the flight.
     pub fn heard(&self) -> RecordedFeed<'_> {
-        // A session without its record of events is drawn without cues.
+        // A session without an event log is rendered without cues.
         let events = files::read(&self.folder.join(EVENTS)).unwrap_or_default();
         let mut events = events.lines().filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok());
         for _ in 0..self.before {
@@ -116,7 +116,7 @@ impl RecordedFlight {
         }
         let mut events: Vec<(SimTime, serde_json::Value)> =
             events.filter_map(|event| Some((event["t_s"].as_f64().map(SimTime::from_s)?, event))).collect();
-        // Taken from the end; those of one time stay in their order.
+        // Reversed so that events can be popped from the end; the sort keeps the order of simultaneous events.
         events.sort_by_key(|event| event.0);
         events.reverse();
         let records = tlog::TlogReader::new(&self.log).skip(self.records_before);
@@ -124,7 +124,7 @@ impl RecordedFlight {
     }
 }
 
-/// Mode, satellites, cues and words as they were told, up to a time that only goes on.
+/// Flight mode, satellites, cues and messages as they were received, up to a time that only increases.
 pub struct RecordedFeed<'a> {
     feed: Feed,
     now: SimTime,
@@ -134,7 +134,7 @@ pub struct RecordedFeed<'a> {
 }
 
 impl RecordedFeed<'_> {
-    /// What had been told by then: the telemetry's part, and the monitor's own cues and words from its record.
+    /// Advances to a time, from the telemetry and the monitor's recorded cues and messages.
     pub fn advance_to(&mut self, at: SimTime) -> &Feed {
         while let Some(frame) = self.next.take().or_else(|| self.records.next().map(|record| record.frame)) {
             let now = truth_time(frame).unwrap_or(self.now);
@@ -159,8 +159,8 @@ impl RecordedFeed<'_> {
     }
 }
 
-/// Where everything was, `None` where the telemetry says nothing. Attitude, gimbal and zoom go evenly between what was told, as in the live view; the
-/// measures take what was told last.
+/// Returns the poses at a time; `None` without telemetry. Attitude, gimbal and zoom are interpolated, as in the live view; the other values are the
+/// last ones received.
 fn moment(flight: &Flight, at: SimTime, vehicle: &Vehicle) -> Option<SceneMoment> {
     let state = flight.between(at)?;
     let trace = trace(flight, at);
@@ -176,7 +176,7 @@ fn moment(flight: &Flight, at: SimTime, vehicle: &Vehicle) -> Option<SceneMoment
     })
 }
 
-/// What was told last by a time, and next.
+/// Returns the samples just before and after a time.
 fn trace(flight: &Flight, at: SimTime) -> MotionHistory {
     let near = |after: usize, count: usize| after.saturating_sub(1)..count.min(after + 1);
     let (truths, pitches) = (&flight.truths, flight.gimbal.all());
@@ -204,10 +204,10 @@ mod tests {
     use spandrel_view::stage::CameraTurnRate;
 
     const STARTED_US: u64 = 1_700_000_000_000_000;
-    /// Between two truths, ms: 50 Hz.
+    /// Interval between position samples, ms (50 Hz).
     const STEP_MS: i64 = 20;
 
-    /// A session's records as a vehicle and a monitor would make them.
+    /// Writes a session's records as a vehicle and a monitor would.
     struct ReplayTelemetry {
         folder: SessionFolder,
         vehicle: Encoder,
@@ -225,7 +225,7 @@ mod tests {
             self.folder.record(SessionOutput::Event(format!("{value}\n")));
         }
 
-        /// One truth, so high over the pad.
+        /// Records one position sample at a height above the pad.
         fn truth(&mut self, ms: i64, height_m: f64, other: bool) {
             let pad = self.scenario.ground_team.pad_m;
             let place = LocalPlane::new(self.scenario.origin).geo_from_enu(pad + Vec3::new(0.0, 0.0, height_m));
@@ -241,7 +241,7 @@ mod tests {
             self.hear(&frame);
         }
 
-        /// A flight whose clock begins at zero, in this mode of PX4's, which then says these words.
+        /// Records a flight with its clock starting at zero, in this PX4 flight mode, with a status text.
         fn flight(&mut self, until_ms: i64, height_m: f64, mode: u32, words: &str) {
             for ms in (0..=until_ms).step_by(STEP_MS as usize) {
                 self.truth(ms, height_m, false);
@@ -273,7 +273,7 @@ mod tests {
         let folder = SessionFolder::create(sessions.path(), "anna", STARTED_US, &scenario, &vehicle).unwrap();
         let (vehicle, other) = (Encoder::new(1, 1), Encoder::new(2, 1));
         let mut tape = ReplayTelemetry { folder, vehicle, other, scenario: scenario.scenario, newest: None };
-        // On the ground; three late truths of another system begin nothing.
+        // On the ground. Three late samples of another system do not start a new flight.
         tape.flight(30_000, 0.0, 2, "Crash: simulator_restarted");
         (0..3).for_each(|k| tape.truth(STEP_MS * k, 0.0, true));
         tape.flight(20_000, 10.0, 3, "Crash: the second");

@@ -16,23 +16,23 @@ use spandrel_view::scene::Scene;
 use spandrel_view::shot::Shot;
 use spandrel_view::stage::Stage;
 
-/// Width over height.
+/// Returns width divided by height.
 pub fn aspect((width, height): (u32, u32)) -> f64 {
     f64::from(width) / f64::from(height)
 }
 
-/// A time from an option (`at`) of the command line.
+/// Converts an option's value in seconds to a simulation time.
 pub fn instant(name: &str, seconds: f64) -> Result<SimTime, AppError> {
     if (0.0..=86_400.0).contains(&seconds) {
         Ok(SimTime::from_s(seconds))
     } else {
-        Err(AppError::wrong(format!("--{name} {seconds}: give seconds of simulation time, 0 to 86400")))
+        Err(AppError::wrong(format!("--{name} {seconds}: out of range (allowed: 0 to 86400 s of simulation time)")))
     }
 }
 
-/// A site and what draws it.
+/// A site with its scene and the device to render it.
 pub struct SceneDrawing {
-    /// The device.
+    /// Graphics device or software renderer.
     pub gpu: Gpu,
     site: Site,
     scene: Scene,
@@ -40,28 +40,28 @@ pub struct SceneDrawing {
 }
 
 impl SceneDrawing {
-    /// Opens a device and builds the site: seconds of work.
+    /// Opens a device and builds the site, which takes seconds.
     pub fn new(scenario: &Scenario, vehicle: &Vehicle, seed: u64, quality: Quality, at: SimTime) -> Result<Self, AppError> {
         let gpu = Gpu::open()?;
-        tracing::info!("drawing with {}", gpu.name);
-        let progress = ProgressLog::start("building the site and its light");
+        tracing::info!("rendering with {}", gpu.name);
+        let progress = ProgressLog::start("loading scene");
         let site = Site::build(scenario, seed);
         let scene = Scene::build(scenario, &site, vehicle, &quality, at);
         progress.end();
         Ok(Self { gpu, site, scene, quality })
     }
 
-    /// The same where traffic was stopped and let go so.
+    /// Sets the bridge closures of a recorded flight.
     pub fn with_gates(self, gates: BridgeClosures) -> Self {
         Self { site: self.site.with_closures(gates), ..self }
     }
 
-    /// What does not change during a session.
+    /// Returns the parts of the scene that do not change during a session.
     pub fn stage<'a>(&'a self, scenario: &'a Scenario, vehicle: &'a Vehicle) -> Stage<'a> {
         Stage { scenario, vehicle, site: &self.site, scene: &self.scene }
     }
 
-    /// What draws one picture after the other.
+    /// Creates a renderer for a sequence of images.
     pub fn brush(&self) -> SceneRenderer<'_> {
         SceneRenderer {
             gpu: &self.gpu,
@@ -70,13 +70,13 @@ impl SceneDrawing {
         }
     }
 
-    /// The defects of the site.
+    /// Returns the defects of the site.
     pub fn defects(&self) -> &[PlacedDefect] {
         self.site.defects()
     }
 }
 
-/// A scene on the device.
+/// Renders shots of a scene on its device.
 pub struct SceneRenderer<'a> {
     gpu: &'a Gpu,
     renderer: Renderer,
@@ -84,12 +84,12 @@ pub struct SceneRenderer<'a> {
 }
 
 impl SceneRenderer<'_> {
-    /// A picture with what lies over it.
+    /// Renders a shot with its overlay.
     pub fn draw(&mut self, shot: &Shot, items: &[hud::DrawItem]) -> Result<Picture, AppError> {
         Ok(self.renderer.picture_with(self.gpu, shot, &mut self.overlay, items)?)
     }
 
-    /// What its pixels show.
+    /// Returns the elements and defects that each pixel of a shot shows.
     pub fn labels(&mut self, shot: &Shot) -> Result<LabelMask, AppError> {
         Ok(self.renderer.labels(self.gpu, shot)?)
     }

@@ -1,4 +1,4 @@
-//! The photographs of a session, drawn after the flight from its telemetry and written as the camera would have.
+//! Renders the photographs of a session from its telemetry, with the metadata that the camera would have written.
 
 use super::args::Args;
 use super::masks;
@@ -18,17 +18,17 @@ use spandrel_view::photo::{self, PhotoInfo};
 use spandrel_view::shot::Shot;
 use spandrel_view::stage::SceneMoment;
 
-/// Without a graphics card pictures have at most so many pixels unless a size is asked for: a second each, not a minute.
+/// Maximum number of pixels without a graphics card, unless a size is specified: about a second per image instead of a minute.
 const SOFTWARE_PX: f64 = 1280.0 * 960.0;
 
-/// Draws all of a session's photographs into its folder, and its report anew.
+/// Renders all of a session's photographs into its folder, and writes its report again.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let preset = quality(&args.quality)?;
     let asked = args.size.as_deref().map(size).transpose()?;
     let recorded = RecordedFlight::read(std::path::Path::new(&args.what))?;
     let taken = report::pictures(&recorded.folder)?;
     if taken.is_empty() {
-        tracing::info!("no picture was taken");
+        tracing::info!("the session has no photographs");
         return Ok(());
     }
     let drawing = SceneDrawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, taken[0].time)?;
@@ -40,13 +40,19 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         None => drawn_px((f64::from(camera.width_px), f64::from(camera.height_px)), most),
     };
     if size_px != (camera.width_px, camera.height_px) {
-        tracing::info!("drawn at {} x {} px, not the camera's {} x {}", size_px.0, size_px.1, camera.width_px, camera.height_px);
+        tracing::info!(
+            "rendering at {} x {} px instead of the camera's {} x {}",
+            size_px.0,
+            size_px.1,
+            camera.width_px,
+            camera.height_px
+        );
     }
     let folder = recorded.folder.join(SNAPSHOTS);
     let copies = folder.join(SMALL);
     std::fs::create_dir_all(&copies).map_err(|error| AppError::failed(format!("{}: {error}", copies.display())))?;
     let mut brush = drawing.brush();
-    let mut progress = ProgressLog::start("drawing pictures");
+    let mut progress = ProgressLog::start("rendering photographs");
     for (k, picture) in taken.iter().enumerate() {
         progress.report(|| format!("picture {} of {}", k + 1, taken.len()));
         let moment = recorded.moment(picture.time)?;
@@ -66,7 +72,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     Ok(())
 }
 
-/// What is known of a photograph: as it was drawn, with attitude and gimbal between what was told.
+/// Returns the metadata of a photograph, with interpolated attitude and gimbal.
 fn about(recorded: &RecordedFlight, picture: &ReviewedPicture, moment: &SceneMoment, shot: &Shot) -> PhotoInfo {
     let (scenario, vehicle) = (recorded.scenario(), recorded.vehicle());
     let taken_unix_us = recorded.unix_us(picture.time);

@@ -1,4 +1,4 @@
-//! A session's camera view as a film, with its photographs as chapters.
+//! Renders a session's camera view as a video, with its photographs as chapters.
 
 use super::args::Args;
 use super::recorded::RecordedFlight;
@@ -19,24 +19,24 @@ use std::fs::File;
 use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-/// Bits for a pixel of a picture (estimate: 1080p30 then has 6 Mbit/s, as small cameras record).
+/// Bits per pixel (estimate: 6 Mbit/s at 1080p30, as small cameras record).
 const BITS_PX: f64 = 0.1;
-/// One picture in so many s can be read by itself: as far as a player jumps.
+/// Interval between key frames, s; players can jump to these.
 const KEY_EVERY_S: f64 = 2.0;
-/// A photograph's chapter lasts this long, s, or until the next.
+/// Maximum duration of a photograph's chapter, s; a chapter ends where the next one starts.
 const CHAPTER_S: f64 = 4.0;
 
-/// Draws the film to `path`, and its chapters beside it.
+/// Renders the video to `path`, and writes its chapters next to it.
 pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
     let preset = quality(&args.quality)?;
     let within_px = size(args.size.as_deref().unwrap_or("1280x720"))?;
     if !(1.0..=60.0).contains(&args.fps) {
-        return Err(AppError::wrong(format!("--fps {}: give pictures a second, 1 to 60", args.fps)));
+        return Err(AppError::wrong(format!("--fps {}: out of range (allowed: 1 to 60)", args.fps)));
     }
     let track = path.with_extension("vtt");
     if track == path {
         return Err(AppError::wrong(format!(
-            "--video {}: its chapters go there; give the film another ending, as .mp4",
+            "--video {}: this file name is needed for the chapters; choose another extension, for example .mp4",
             path.display()
         )));
     }
@@ -50,7 +50,7 @@ pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
     let (mut film, head) = Mp4Writer::new(size_px, args.fps)?;
     let mut file = VideoFile::create(path)?;
     file.write(&head)?;
-    let (mut brush, mut heard, mut progress) = (drawing.brush(), recorded.heard(), ProgressLog::start("drawing the film"));
+    let (mut brush, mut heard, mut progress) = (drawing.brush(), recorded.heard(), ProgressLog::start("rendering video"));
     let mut meter = ExposureMeter::default();
     let count = ((to - from).s() * args.fps).floor() as u32 + 1;
     let picture_s = 1.0 / args.fps;
@@ -73,17 +73,19 @@ pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
     file.finish()?;
     progress.end();
     replace(&track, webvtt::write(&chapters(&report::pictures(&recorded.folder)?, (from, to), picture_s)).as_bytes())?;
-    println!("film          {} ({count} pictures), chapters {}", path.display(), track.display());
+    println!("video         {} ({count} frames), chapters {}", path.display(), track.display());
     Ok(())
 }
 
-/// From when to when, of the flight.
+/// Returns the requested part of the flight as start and end times.
 fn span(args: &Args, recorded: &RecordedFlight) -> Result<(SimTime, SimTime), AppError> {
     let (first, last) = recorded.span();
     let Some(text) = &args.span else { return Ok((first, last)) };
     let wrong = || {
         let (first, last) = (first.s(), last.s());
-        AppError::wrong(format!("--span {text}: give from,to in s of simulation time within {first:.1} to {last:.1}, as 60,90"))
+        AppError::wrong(format!(
+            "--span {text}: not a valid range (allowed: FROM,TO in s of simulation time within {first:.1} to {last:.1}, for example 60,90)"
+        ))
     };
     let (from, to) = text.split_once(',').ok_or_else(wrong)?;
     let number = |text: &str| text.trim().parse::<f64>().map_err(|_| wrong());
@@ -91,7 +93,7 @@ fn span(args: &Args, recorded: &RecordedFlight) -> Result<(SimTime, SimTime), Ap
     if from < first || to > last || from >= to { Err(wrong()) } else { Ok((from, to)) }
 }
 
-/// A chapter for each photograph of the span, named by its verdict; one that would have no length has a picture's, s.
+/// Returns a chapter for each photograph in the span, with its verdict as title. Chapters last at least one frame.
 fn chapters(taken: &[ReviewedPicture], (from, to): (SimTime, SimTime), picture_s: f64) -> Vec<webvtt::Chapter> {
     let within: Vec<&ReviewedPicture> = taken.iter().filter(|picture| (from..=to).contains(&picture.time)).collect();
     let next = |k: usize| within.get(k + 1).map_or(to, |next: &&ReviewedPicture| next.time);
@@ -109,7 +111,7 @@ fn chapters(taken: &[ReviewedPicture], (from, to): (SimTime, SimTime), picture_s
         .collect()
 }
 
-/// The file, under another name until it is whole: a film that was there before stays until then.
+/// A video file, written under another name until it is complete, so that an existing video remains until then.
 struct VideoFile<'a> {
     path: &'a Path,
     part: PathBuf,
@@ -137,7 +139,7 @@ impl<'a> VideoFile<'a> {
 
 impl Drop for VideoFile<'_> {
     fn drop(&mut self) {
-        // Finished, it is there no longer; otherwise it is half a film.
+        // After success, the file has been renamed; otherwise it is incomplete.
         let _ = std::fs::remove_file(&self.part);
     }
 }

@@ -9,7 +9,7 @@ use crate::io::trainee_id::TraineeId;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
-/// The job that is flown unless another one is asked for: the paper's.
+/// Default scenario: the one of the TASBID paper.
 pub const USUAL: &str = "two-bridges";
 
 /// Fly a session yourself
@@ -21,10 +21,10 @@ pub const USUAL: &str = "two-bridges";
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel train                                  choose in the window; without a display: the paper's job
-  spandrel train --trainee anna --scenario drill-hover          fly right away; QGroundControl on this machine connects automatically
-  spandrel train --scenario my-job.toml --choose  choose in the window, with this job in the list
-  spandrel train --no-view                        without the window
+  spandrel train                                  choose in the window (without a display: two-bridges)
+  spandrel train --trainee anna --scenario drill-hover          start this flight; QGroundControl on this machine connects automatically
+  spandrel train --scenario my-job.toml --choose  choose in the window, with this scenario in the list
+  spandrel train --no-view                        don't open the window
   spandrel train --listen 0.0.0.0 --gcs 192.168.1.20:14550     a ground station on another machine
 
 {EXIT_CODES}"))]
@@ -89,13 +89,14 @@ pub struct Args {
 }
 
 impl Args {
-    /// The job of a scenario, with the aircraft and the seed that were asked for.
+    /// Returns the job of a scenario with the requested aircraft and seed.
     pub fn job(&self, scenario: &str) -> JobArgs {
         JobArgs { scenario: scenario.to_owned(), vehicle: self.vehicle.clone(), seed: self.seed }
     }
 }
 
-/// Where the window keeps the camera's view for the live page: a place that nobody else can write to, one for each process.
+/// Returns the file to which the window saves the camera's view for the live page: in the folder of sessions, one per process, so that no one else
+/// can write to it.
 pub fn camera(args: &Args) -> PathBuf {
     args.sessions.join(format!(".camera-{}.jpg", std::process::id()))
 }

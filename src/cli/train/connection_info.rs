@@ -13,30 +13,30 @@ pub fn how_to_connect(
 ) -> String {
     let port = |key: &str| ports[key].as_u64().map_or("not opened".to_owned(), |port| port.to_string());
     let targets: Vec<String> = args.ground_stations().iter().map(ToString::to_string).collect();
-    let (auto, targets) = if targets.is_empty() { ("no", "nobody".to_owned()) } else { ("yes", targets.join(", ")) };
+    let (auto, targets) = if targets.is_empty() { ("no", "none".to_owned()) } else { ("yes", targets.join(", ")) };
     format!(
         "\
 {title}
-  QGroundControl   connects by itself: {auto} (the vehicle calls {targets})
-  dial in          UDP {} or TCP {} at {}
+  QGroundControl   connects automatically: {auto} (the vehicle sends to {targets})
+  connect to       UDP {} or TCP {} at {}
   MAVSDK           {}
   pymavlink        udpout:127.0.0.1:{}
   session folder   {}
   web pages        {}
 {}
-Take off, do the tasks, land on the pad; the scores follow, and the vehicle stays connected. Ctrl-C ends the session early.
+Take off, fly the tasks and land on the pad. The scores follow, and the vehicle stays connected. Ctrl-C ends the session early.
 ",
         port("gcs_port"),
         port("tcp_port"),
         args.listen,
-        args.sdk().map_or("nobody is called".to_owned(), |sdk| format!("udpin://0.0.0.0:{}", sdk.port())),
+        args.sdk().map_or("none".to_owned(), |sdk| format!("udpin://0.0.0.0:{}", sdk.port())),
         port("gcs_port"),
         session.display(),
         web.unwrap_or("none"),
         if window {
-            "A window shows both views, says which key does what, and flies with them; a ground station or a script may fly as well."
+            "A window shows both views and the keys to fly with; you can also fly with a ground station or a script."
         } else {
-            "No window: fly by the ground station's map and instruments, or by a script."
+            "No window: fly with the ground station's map and instruments, or with a script."
         },
     )
 }
@@ -51,6 +51,6 @@ mod tests {
         let ports = parsed(&[]).ports;
         let told = |window| how_to_connect("Drill", &ports, &serde_json::Value::Null, Path::new("s"), (None, window));
         assert!(told(true).contains("A window shows") && !told(true).contains("No window"), "{}", told(true));
-        assert!(told(false).contains("No window: fly by") && !told(false).contains("A window shows"), "{}", told(false));
+        assert!(told(false).contains("No window: fly with") && !told(false).contains("A window shows"), "{}", told(false));
     }
 }

@@ -1,4 +1,4 @@
-//! One flight: a simulator and a monitor of its own, and what its window wishes of it.
+//! The simulator and monitor processes of one flight, and the window's requests during it.
 
 use super::args::Args;
 use super::connection_info::how_to_connect;
@@ -16,37 +16,37 @@ use std::path::{Path, PathBuf};
 use std::process::ExitStatus;
 use std::time::Duration;
 
-/// Between two looks at the children.
+/// Interval at which the child processes are checked.
 const LOOK: Duration = Duration::from_millis(50);
-/// Folder in the session folder for the vehicle's files, flight logs among them: they are erased with the session.
+/// Folder for the vehicle's files and flight logs inside the session folder, so that they are erased with the session.
 const VEHICLE_FILES: &str = "vehicle";
-/// A monitor that dies more often than this is not started again.
+/// Maximum number of monitor restarts per flight.
 const MONITOR_RESTARTS_MOST: u32 = 10;
 
-/// A flight that goes on.
+/// The processes of a running flight.
 pub struct FlightProcesses {
     monitor: Child,
     sim: Child,
-    /// What the simulator announced.
+    /// JSON values that the simulator announced.
     pub ports: Value,
-    /// Where it listens.
+    /// Address that the simulator listens on.
     host: IpAddr,
     session: PathBuf,
     choice: FlightChoice,
     title: String,
     paused: bool,
-    /// Arguments that start a monitor again on the same session and port.
+    /// Arguments that restart a monitor on the same session and port.
     monitor_again: Vec<String>,
     monitor_restarts: u32,
 }
 
-/// Why a flight is not waited for any longer.
+/// Reason why waiting for a flight ended.
 pub enum FlightOutcome {
-    /// The session is over, or somebody ended it.
+    /// The session has ended, or was ended by the user.
     Over,
-    /// The same shall begin anew.
+    /// The flight must be restarted.
     Restart,
-    /// A process ended too early.
+    /// A process exited too early.
     Lost(AppError),
 }
 
@@ -54,7 +54,7 @@ impl FlightProcesses {
     /// Starts the processes.
     ///
     /// # Errors
-    /// When files or ports are wrong.
+    /// If files or ports are invalid.
     pub fn start(args: &Args, choice: &FlightChoice, log: tracing::Level) -> Result<Self, AppError> {
         let job = args.job(&choice.scenario);
         let title = files::scenario(&job.scenario)?.scenario.title;
@@ -93,18 +93,18 @@ impl FlightProcesses {
         })
     }
 
-    /// Its folder.
+    /// Returns the session folder.
     pub fn session(&self) -> &Path {
         &self.session
     }
 
-    /// A port of the vehicle on this machine.
+    /// Returns the address of one of the vehicle's ports on this machine.
     pub fn port(&self, key: &str) -> Option<SocketAddr> {
         let port = self.ports[key].as_u64().and_then(|port| u16::try_from(port).ok())?;
         Some(SocketAddr::new(self.host, port))
     }
 
-    /// What the window needs to show it.
+    /// Returns the message with which the window starts to show the flight.
     pub fn flying(&self, args: &Args) -> Option<ToWindow> {
         Some(ToWindow::Flying(FlightStarted {
             choice: self.choice.clone(),
@@ -115,12 +115,12 @@ impl FlightProcesses {
         }))
     }
 
-    /// How ground stations and scripts reach it.
+    /// Returns the instructions for connecting ground stations and scripts.
     pub fn connection_info(&self, args: &Args, web: Option<&str>, window: bool) -> String {
         how_to_connect(&self.title, &args.ports, &self.ports, &self.session, (web, window))
     }
 
-    /// Waits until the session is over, somebody interrupts, or a process ends too early; meanwhile the window's wishes are done.
+    /// Waits until the session ends, a stop is requested, or a process exits too early. Handles the window's requests meanwhile.
     pub fn wait(&mut self, window: &mut Option<WindowProcess>, stop: &StopRequest) -> FlightOutcome {
         loop {
             if let Some(window) = window {
@@ -131,7 +131,7 @@ impl FlightProcesses {
                     }
                 }
                 if !window.is_open() && self.paused {
-                    // Nobody is left who could let time run again.
+                    // Without the window, there is no way to resume.
                     self.set_paused(false);
                 }
             }
@@ -148,7 +148,7 @@ impl FlightProcesses {
                 None => {}
             }
             if let Some(status) = self.sim.ended() {
-                return FlightOutcome::Lost(AppError::failed(format!("the simulator ended early ({status})")));
+                return FlightOutcome::Lost(AppError::failed(format!("the simulator exited early ({status})")));
             }
             std::thread::sleep(LOOK);
         }
@@ -165,10 +165,10 @@ impl FlightProcesses {
             FromWindow::Restart if practice => return Some(FlightOutcome::Restart),
             FromWindow::End => return Some(FlightOutcome::Over),
             FromWindow::Pause | FromWindow::Resume | FromWindow::Restart => {
-                window.send(&ToWindow::Refused { words: "An assessment is flown through.".into() });
+                window.send(&ToWindow::Refused { words: "Not available in an assessment.".into() });
             }
             FromWindow::Chosen(_) | FromWindow::Again | FromWindow::Quit => {
-                window.send(&ToWindow::Refused { words: "A flight is under way: end it first.".into() });
+                window.send(&ToWindow::Refused { words: "A flight is in progress: end it first.".into() });
             }
         }
         None
@@ -177,24 +177,24 @@ impl FlightProcesses {
     fn set_paused(&mut self, still: bool) {
         self.paused = still;
         self.sim.send_line(if still { PAUSE } else { RESUME });
-        tracing::info!("{}", if still { "time stands still" } else { "time runs again" });
+        tracing::info!("{}", if still { "simulation paused" } else { "simulation resumed" });
     }
 
-    /// Starts a monitor again that died in flight: it reads the session's telemetry and goes on.
+    /// Restarts a monitor that crashed during the flight; it reads the session's telemetry and continues.
     fn restart_monitor(&mut self, status: ExitStatus) -> Result<(), AppError> {
         self.monitor_restarts += 1;
         if self.monitor_restarts > MONITOR_RESTARTS_MOST {
             return Err(AppError::failed(format!(
-                "the monitor died {} times, the last time with {status}",
+                "the monitor crashed {} times, the last time with {status}",
                 self.monitor_restarts
             )));
         }
-        tracing::warn!("the monitor died ({status}); it starts again on the same session");
+        tracing::warn!("the monitor crashed ({status}); restarting it on the same session");
         self.monitor = Child::start("monitor", &self.monitor_again)?;
         self.monitor.announced().map(|_| ())
     }
 
-    /// Ends the monitor: the session is scored and complete. The vehicle stays connected.
+    /// Ends the monitor, which scores the session and completes its folder. The vehicle stays connected.
     pub fn end_session(&mut self) {
         self.monitor.finish();
         if self.paused {
@@ -202,19 +202,19 @@ impl FlightProcesses {
         }
     }
 
-    /// How the simulator ended, if it has.
+    /// Returns the simulator's exit status, if it has exited.
     pub fn vehicle_ended(&mut self) -> Option<ExitStatus> {
         self.sim.ended()
     }
 
-    /// Ends both processes; the session is written down.
+    /// Ends both processes; the session is saved.
     pub fn finish(&mut self) {
         self.monitor.finish();
         self.sim.finish();
     }
 }
 
-/// True when a monitor ended with a result or a reason of its own; false when it was killed or broke off.
+/// Returns true if a monitor exited by its own decision, false if it was killed or crashed.
 fn has_finished(status: ExitStatus) -> bool {
     status.code().is_some_and(|code| (0..=2).contains(&code))
 }

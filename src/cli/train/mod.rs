@@ -1,4 +1,4 @@
-//! `spandrel train`: simulator and monitor for a person's ground station, and a window that leads from one flight to the next.
+//! `spandrel train`: starts a simulator and a monitor for a trainee, and a window to choose, fly and review flights.
 
 mod args;
 mod connection_info;
@@ -21,9 +21,9 @@ use train_run::TrainRun;
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When files or ports are wrong, a process fails, or the flight cannot be scored.
+/// If files or ports are invalid, a process fails, or the flight cannot be scored.
 pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
-    // What is wrong with the files is told before anything starts.
+    // Errors in the files are reported before any process starts.
     files::scenario(args.scenario.as_deref().unwrap_or(USUAL))?;
     files::vehicle(&args.vehicle)?;
     controller::keys(args.keys.as_deref())?;
@@ -31,7 +31,7 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     TrainRun::new(args, log, StopRequest::install(false)?).run()
 }
 
-/// Refuses a preset that there is not; a build without the window has none.
+/// Checks the name of a quality preset. Without the `view` feature, every name is accepted.
 fn check_quality(name: &str) -> Result<(), AppError> {
     #[cfg(feature = "view")]
     super::picture_args::quality_or_auto(name)?;

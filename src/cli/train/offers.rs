@@ -1,4 +1,4 @@
-//! What the start page offers and what the end page tells.
+//! Contents of the window's start page and end page.
 
 use crate::io::files;
 use crate::io::report;
@@ -15,7 +15,7 @@ use spandrel_view::flow::pipe::{
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// What can be chosen here.
+/// Returns the options of the start page.
 pub fn offers(sessions: &Path, choice: &FlightChoice, web: Option<&str>) -> FlightOptions {
     let mut names: Vec<String> = files::scenario_names().into_iter().map(str::to_owned).collect();
     if !names.contains(&choice.scenario) {
@@ -33,9 +33,9 @@ pub fn offers(sessions: &Path, choice: &FlightChoice, web: Option<&str>) -> Flig
     }
 }
 
-/// Who has flown here, how often, and how often for practice.
+/// Returns the trainees with their numbers of sessions and practice sessions.
 fn trainee_summaries(sessions: &Path) -> Vec<TraineeSummary> {
-    // A folder that is not there yet holds nobody.
+    // A folder that does not exist yet contains no sessions.
     let folders = session_folders(&[sessions.to_path_buf()]).unwrap_or_default();
     let mut count: BTreeMap<String, (u32, u32)> = BTreeMap::new();
     for folder in &folders {
@@ -62,7 +62,7 @@ fn job_kind(scenario: &Scenario) -> String {
     parts.join(", ")
 }
 
-/// How a session ended. `trouble`: why it has no scores, where somebody knows.
+/// Returns the end page of a session. `trouble` is the reason why it has no scores, if known.
 pub fn ended(session: &Path, web: Option<&str>, trouble: Option<String>) -> FlightSummary {
     let text = std::fs::read_to_string(session.join(ASSESSMENT)).unwrap_or_default();
     let assessment: Value = serde_json::from_str(&text).unwrap_or_default();
@@ -94,7 +94,7 @@ fn end_reason_text(end: &Value, session: &Path) -> String {
         (Some(reason), Some(seconds)) => {
             format!("{reason} after {:.0} min {:.0} s of flight", (seconds / 60.0).floor(), (seconds % 60.0).floor())
         }
-        _ => format!("The session was not scored; what was recorded is in {}", session.display()),
+        _ => format!("The session was not scored. The recorded data is in {}", session.display()),
     }
 }
 

@@ -1,4 +1,4 @@
-//! The photographs of a flight, drawn into its folder and its report while nobody waits for them.
+//! Draws the photographs of a flight into its folder and its report in the background.
 
 use super::window::spare_threads;
 use crate::io::stop::StopRequest;
@@ -6,15 +6,15 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-/// Between two looks at who draws.
+/// Interval at which the drawing processes are checked.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Drawings that have not been finished.
+/// Drawing processes that have not finished.
 #[derive(Default)]
 pub struct PhotographJobs(Vec<Child>);
 
 impl PhotographJobs {
-    /// Begins with a session's. Where nothing can be drawn its report has places instead of pictures, as without a window.
+    /// Starts drawing a session's photographs. If that fails, the report has placeholders, as without a window.
     pub fn draw(&mut self, session: &Path) {
         let started = std::env::current_exe().and_then(|program| {
             let (threads, few) = spare_threads();
@@ -24,22 +24,22 @@ impl PhotographJobs {
         });
         match started {
             Ok(child) => self.0.push(child),
-            Err(error) => tracing::warn!("the photographs of {} are not drawn: {error}", session.display()),
+            Err(error) => tracing::warn!("cannot draw the photographs of {}: {error}", session.display()),
         }
     }
 
-    /// Waits until all are drawn; who interrupts leaves the rest undrawn.
+    /// Waits until all photographs are drawn; a stop request cancels the rest.
     pub fn finish(&mut self, stop: &StopRequest) {
         self.0.retain_mut(|child| matches!(child.try_wait(), Ok(None)));
         if !self.0.is_empty() && !stop.is_requested() {
-            tracing::info!("the photographs are being drawn into the report; Ctrl-C leaves them");
+            tracing::info!("drawing the photographs into the report; press Ctrl-C to skip");
         }
         while !self.0.is_empty() && !stop.is_requested() {
             std::thread::sleep(LOOK);
             self.0.retain_mut(|child| matches!(child.try_wait(), Ok(None)));
         }
         for mut child in self.0.drain(..) {
-            // It may have ended just now.
+            // The process may have just exited.
             let _ = child.kill();
             let _ = child.wait();
         }

@@ -1,9 +1,9 @@
-//! The question at the terminal once a session is scored: quit, or fly the job again.
+//! Terminal prompt after a session has been scored: quit, or fly the same job again.
 
 use std::io::{BufRead, IsTerminal};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-/// The line that starts another flight.
+/// Input that starts another flight.
 const AGAIN: &str = "again";
 
 /// A line typed at the terminal.
@@ -11,15 +11,15 @@ const AGAIN: &str = "again";
 pub enum PromptAnswer {
     /// Fly the same job again.
     Again,
-    /// Quit.
+    /// Quit the program.
     Quit,
 }
 
-/// The terminal. Without one nobody can answer, and only a signal ends the run.
+/// The terminal. Without one, only a signal ends the run.
 #[derive(Debug, Default)]
 pub struct TerminalPrompt {
     lines: Option<Receiver<String>>,
-    /// Somebody has quit at the terminal.
+    /// True once the user has quit at the terminal.
     pub answered: bool,
 }
 
@@ -29,7 +29,7 @@ impl TerminalPrompt {
         std::io::stdin().is_terminal()
     }
 
-    /// Explains what keeps the vehicle connected.
+    /// Returns the text that explains why the vehicle stays connected and how to quit.
     pub fn help_text(&self) -> &'static str {
         if self.is_open() {
             "The vehicle stays connected: download its logs, or keep flying. Press Enter to quit; type 'again' and press Enter for another session."
@@ -57,7 +57,7 @@ fn read(line: &str) -> PromptAnswer {
     if line.trim().eq_ignore_ascii_case(AGAIN) { PromptAnswer::Again } else { PromptAnswer::Quit }
 }
 
-/// A thread of its own reads: a terminal blocks.
+/// Reads standard input in a separate thread, because reading a terminal blocks.
 fn read_lines() -> Receiver<String> {
     let (sender, lines) = channel();
     std::thread::spawn(move || {

@@ -1,15 +1,15 @@
-//! Whether the questions after a flight are still to be answered.
+//! Checks whether the questionnaire of a session is complete.
 
 use crate::io::answers::{stored, task_ids};
 use crate::io::session_folder::StoredSession;
 use std::path::Path;
 
-/// Some of a session's questions have no answer yet.
+/// Returns true if some of a session's questions have no answer.
 pub fn has_unanswered(session: &Path) -> bool {
     let Ok(job) = StoredSession::scenario_of(session) else { return false };
     match stored(session, &job.scenario) {
         Ok(answers) => !answers.unwrap_or_default().complete(&task_ids(&job.scenario)),
-        // A page that cannot read them takes no answer either.
+        // A page that cannot read the answers cannot accept new ones, either.
         Err(_) => false,
     }
 }
@@ -26,7 +26,7 @@ mod tests {
     fn exact_questions_are_open_until_the_last_one_is_answered() {
         let folder = tempfile::tempdir().unwrap();
         let (session, job) = (folder.path(), files::scenario("drill-hover").unwrap());
-        assert!(!has_unanswered(session), "no session asks nothing");
+        assert!(!has_unanswered(session), "there is no session yet");
         std::fs::write(session.join(TELEMETRY), "").unwrap();
         std::fs::write(session.join(SCENARIO), &job.text).unwrap();
         assert!(has_unanswered(session), "nothing is answered");
@@ -39,6 +39,6 @@ mod tests {
         }
         assert!(!has_unanswered(session));
         std::fs::write(session.join(ANSWERS), "{}").unwrap();
-        assert!(!has_unanswered(session), "a wrong file is waited for by nobody");
+        assert!(!has_unanswered(session), "an invalid file does not count");
     }
 }

@@ -1,4 +1,4 @@
-//! One flight after the other: what the window asks for, or what the command line says, once.
+//! Sequence of flights in one run of `train`: those chosen in the window, or the one given on the command line.
 
 use super::args::{Args, USUAL, camera};
 use super::flight_processes::{FlightOutcome, FlightProcesses};
@@ -20,43 +20,43 @@ use std::net::SocketAddr;
 use std::path::Path;
 use std::time::Duration;
 
-/// Between two looks at the window.
+/// Interval at which the window is checked.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// The pages of the sessions, and whose live flight they show.
+/// Web server with the vehicle that its live page shows.
 struct ServedPages {
     server: WebServer,
     vehicle: Option<SocketAddr>,
 }
 
-/// A run of `train`.
+/// A run of `spandrel train`.
 pub struct TrainRun<'a> {
     args: &'a Args,
     log: tracing::Level,
     stop: StopRequest,
-    /// The window while it is there.
+    /// The window, while it is open.
     window: Option<WindowProcess>,
-    /// Somebody closed the window: this machine draws, although none is there any more.
+    /// True if the user closed the window; photographs can then still be drawn on this computer.
     closed: bool,
     web: Option<ServedPages>,
     web_announced: bool,
     photographs: PhotographJobs,
-    /// The vehicle of the last flight. It stays connected until the next flight or the end of the run: ground stations download its logs.
+    /// Vehicle of the last flight. It stays connected until the next flight or the end of the run, so that ground stations can download its logs.
     vehicle: Option<FlightProcesses>,
     prompt: TerminalPrompt,
 }
 
-/// What comes after a flight.
+/// Decision after a flight.
 enum NextFlight {
     Fly(FlightChoice),
-    /// Somebody wants no further flight.
+    /// The user wants no further flight.
     Leave,
-    /// There is no window that could ask.
+    /// There is no window to choose in.
     Nobody,
 }
 
 impl<'a> TrainRun<'a> {
-    /// Nothing is started yet.
+    /// Creates a run without starting anything.
     pub fn new(args: &'a Args, log: tracing::Level, stop: StopRequest) -> Self {
         Self {
             args,
@@ -72,10 +72,10 @@ impl<'a> TrainRun<'a> {
         }
     }
 
-    /// Flies as often as is asked for.
+    /// Runs flights until the user leaves.
     ///
     /// # Errors
-    /// When a flight cannot be started or scored: the last one's error.
+    /// If a flight cannot be started or scored; returns the last error.
     pub fn run(mut self) -> Result<(), AppError> {
         self.window = WindowProcess::open(self.args, self.log);
         let usual = FlightChoice {
@@ -93,10 +93,10 @@ impl<'a> TrainRun<'a> {
         while let NextFlight::Fly(choice) = next {
             let (flown, session) = match self.fly(&choice) {
                 Ok(done) => done,
-                // The first flight's error ends the run, as it does without a window; later ones are told in the window.
+                // An error of the first flight ends the run, as without a window; later errors are shown in the window.
                 Err(error) if last.is_none() && !self.window_asks() => return Err(error),
                 Err(error) => {
-                    tracing::warn!("no flight: {error}");
+                    tracing::warn!("cannot start the flight: {error}");
                     self.send_to_window(&ToWindow::Refused { words: error.to_string() });
                     result = Err(error);
                     next = self.next_choice(&choice);
@@ -107,7 +107,7 @@ impl<'a> TrainRun<'a> {
             last = Some(session);
             next = self.next_choice(&choice);
         }
-        // Who leaves by the window has seen the end; what is still asked is answered from the pages.
+        // A user who leaves through the window has seen the results; open questions are answered on the web pages.
         let seen = matches!(next, NextFlight::Leave) && !last.as_deref().is_some_and(questionnaire_state::has_unanswered);
         self.end_vehicle();
         if let Some(window) = self.window.take() {
@@ -120,7 +120,7 @@ impl<'a> TrainRun<'a> {
         result
     }
 
-    /// There is a window; one that is over is let go of.
+    /// Returns true if the window is open; drops a window that has exited.
     fn is_open(&mut self) -> bool {
         let Some(window) = &mut self.window else { return false };
         let open = window.is_open();
@@ -131,18 +131,18 @@ impl<'a> TrainRun<'a> {
         open
     }
 
-    /// Waits until the window stands; false when there is none that does.
+    /// Waits until the window is shown. Returns false if that fails.
     fn wait_for_window(&mut self) -> bool {
         let ready = self.window.as_mut().is_some_and(|window| window.is_ready(&self.stop));
         self.is_open() && ready
     }
 
-    /// The window stands on a display.
+    /// Returns true if the window is shown on a display.
     fn has_display(&mut self) -> bool {
         self.is_open() && self.window.as_ref().is_some_and(|window| window.ready)
     }
 
-    /// The window asks, and not the command line alone.
+    /// Returns true if flights are chosen in the window, not only on the command line.
     fn window_asks(&mut self) -> bool {
         self.web_announced && self.is_open()
     }
@@ -153,13 +153,13 @@ impl<'a> TrainRun<'a> {
         }
     }
 
-    /// The command line's choice, once the window stands or is known not to: nobody flies before there is something to see.
+    /// Returns the command line's choice once the window is shown or known to be missing, so that no flight starts without its views.
     fn command_line_choice(&mut self, usual: &FlightChoice) -> NextFlight {
         self.wait_for_window();
         if self.stop.is_requested() { NextFlight::Leave } else { NextFlight::Fly(usual.clone()) }
     }
 
-    /// The first choice: the window's, or without one the command line's.
+    /// Returns the first choice: the window's or, without a window, the command line's.
     fn first_choice(&mut self, usual: &FlightChoice) -> NextFlight {
         if self.wait_for_window() {
             self.serve(None);
@@ -168,7 +168,7 @@ impl<'a> TrainRun<'a> {
                 NextFlight::Nobody => {}
                 next @ (NextFlight::Fly(_) | NextFlight::Leave) => return next,
             }
-            // Who closes the window wants no flight; one that breaks off is done without.
+            // Closing the window means that no flight is wanted; if it crashes, the run continues without it.
             if self.closed {
                 return NextFlight::Leave;
             }
@@ -177,7 +177,7 @@ impl<'a> TrainRun<'a> {
             return NextFlight::Leave;
         }
         tracing::info!(
-            "nobody is asked: {} flies {}; say --trainee, --scenario and --purpose for another choice",
+            "using the command line: {} flies {}; use --trainee, --scenario and --purpose for another choice",
             usual.trainee,
             usual.scenario
         );
@@ -191,7 +191,7 @@ impl<'a> TrainRun<'a> {
         self.send_to_window(&ToWindow::Offers(offers));
     }
 
-    /// Waits for what the window asks for next.
+    /// Waits for the window's next choice.
     fn next_choice(&mut self, last: &FlightChoice) -> NextFlight {
         while let Some(window) = &mut self.window {
             while let Some(said) = window.receive() {
@@ -202,7 +202,7 @@ impl<'a> TrainRun<'a> {
                         Ok(()) => return NextFlight::Fly(choice),
                         Err(error) => window.send(&ToWindow::Refused { words: error.to_string() }),
                     },
-                    // What belongs to a flight that has just ended by itself.
+                    // Late messages about a flight that has just ended.
                     FromWindow::Ready | FromWindow::Pause | FromWindow::Resume | FromWindow::Restart | FromWindow::End => {}
                 }
             }
@@ -217,14 +217,14 @@ impl<'a> TrainRun<'a> {
         self.prompt_at_terminal(last)
     }
 
-    /// Keeps the vehicle connected when no window can ask what comes next, until the trainee answers at the terminal or interrupts.
+    /// Keeps the vehicle connected if there is no window, until the user answers at the terminal or a stop is requested.
     fn prompt_at_terminal(&mut self, last: &FlightChoice) -> NextFlight {
         if self.args.once || self.closed || self.vehicle.is_none() {
             return NextFlight::Nobody;
         }
         println!("{}", self.prompt.help_text());
         if let (Some(web), Some(vehicle)) = (&self.web, &self.vehicle) {
-            println!("in a browser  {}", offers::ended(vehicle.session(), Some(web.server.address()), None).questionnaire);
+            println!("questionnaire {}", offers::ended(vehicle.session(), Some(web.server.address()), None).questionnaire);
         }
         while self.vehicle.is_some() && !self.stop.is_requested() {
             match self.prompt.answer() {
@@ -238,10 +238,10 @@ impl<'a> TrainRun<'a> {
         NextFlight::Leave
     }
 
-    /// Drops a vehicle that has ended by itself.
+    /// Drops a vehicle whose simulator has exited.
     fn check_vehicle(&mut self) {
         if let Some(status) = self.vehicle.as_mut().and_then(FlightProcesses::vehicle_ended) {
-            tracing::warn!("the simulator ended early ({status}): ground stations have lost the vehicle");
+            tracing::warn!("the simulator exited early ({status}): ground stations have lost the vehicle");
             self.vehicle = None;
         }
     }
@@ -252,7 +252,7 @@ impl<'a> TrainRun<'a> {
         }
     }
 
-    /// One flight, begun anew as often as is wished, to its end. Gives how it went and its folder.
+    /// Flies a choice to its end, including restarts. Returns the result and the session folder.
     fn fly(&mut self, choice: &FlightChoice) -> Result<(Result<(), AppError>, std::path::PathBuf), AppError> {
         loop {
             self.end_vehicle();
@@ -266,13 +266,13 @@ impl<'a> TrainRun<'a> {
             print!("{}", flight.connection_info(self.args, web, shown));
             let outcome = flight.wait(&mut self.window, &self.stop);
             if matches!(outcome, FlightOutcome::Over) && self.stop.is_requested() {
-                // Who interrupts is not asked again.
+                // After a stop request, there is no further choice.
                 self.window.take().into_iter().for_each(WindowProcess::close);
             }
             flight.end_session();
             let session = flight.session().to_path_buf();
             if matches!(outcome, FlightOutcome::Restart) {
-                tracing::info!("this attempt ended; what was recorded is in {}", session.display());
+                tracing::info!("attempt ended; the recorded data is in {}", session.display());
                 flight.finish();
                 continue;
             }
@@ -283,7 +283,7 @@ impl<'a> TrainRun<'a> {
         }
     }
 
-    /// Tells the end at the terminal and in the window.
+    /// Shows the result at the terminal and in the window.
     fn end(&mut self, choice: &FlightChoice, session: &Path, outcome: FlightOutcome) -> Result<(), AppError> {
         let told = report_outcome(session);
         if told.is_ok() {
@@ -294,7 +294,7 @@ impl<'a> TrainRun<'a> {
             FlightOutcome::Over | FlightOutcome::Restart => told,
         };
         let open = self.is_open();
-        // Where the window broke off nothing can be drawn; who interrupts waits for no pictures.
+        // If the window has crashed, drawing is not possible; after a stop request, the user does not wait for photographs.
         if (open || self.closed) && result.is_ok() && !self.stop.is_requested() {
             self.photographs.draw(session);
         }
@@ -308,7 +308,7 @@ impl<'a> TrainRun<'a> {
         result
     }
 
-    /// Serves the pages of the sessions and of this vehicle's flight, from one address throughout. Without them one flies all the same.
+    /// Serves the web pages of the sessions and of this vehicle's flight, at the same address throughout. A failure does not prevent the flight.
     fn serve(&mut self, vehicle: Option<SocketAddr>) {
         let addresses::PortChoice::Number(mut port) = self.args.web else { return };
         match self.web.take() {
@@ -319,7 +319,7 @@ impl<'a> TrainRun<'a> {
             Some(web) => port = port_of(web.server.address()).unwrap_or(port),
             None => {}
         }
-        // The records lie beside the sessions; the first session may not have begun.
+        // The database is next to the sessions; its folder may not exist before the first session.
         let made = std::fs::create_dir_all(&self.args.sessions);
         let watched = vehicle.map(|vehicle| WatchedVehicle { vehicle, picture: Some(camera(self.args)) });
         let place = RecordsLocation { sessions: vec![self.args.sessions.clone()], database: None };
@@ -329,23 +329,23 @@ impl<'a> TrainRun<'a> {
             .and_then(|()| WebServer::start(&ListenConfig::local(port), setup));
         match started {
             Ok(server) => self.web = Some(ServedPages { server, vehicle }),
-            Err(error) => tracing::warn!("no web pages: {error}"),
+            Err(error) => tracing::warn!("cannot serve the web pages: {error}"),
         }
     }
 
-    /// Keeps the pages for whoever sits at the terminal: the questionnaire comes after the flight.
+    /// Keeps the web pages available until the user answers at the terminal, because the questionnaire follows the flight.
     fn keep_serving(&mut self, session: &Path) {
         let (Some(web), true, false) = (&self.web, self.prompt.is_open(), self.stop.is_requested()) else { return };
         let address = offers::ended(session, Some(web.server.address()), None).questionnaire;
-        println!("in a browser  {address}   (the pages stay until you press Enter)");
-        // Enter ends the pages alone: the photographs are still waited for.
+        println!("questionnaire {address}   (available until you press Enter)");
+        // Enter ends only the pages; the run still waits for the photographs.
         while self.prompt.answer().is_none() && !self.stop.is_requested() {
             std::thread::sleep(LOOK);
         }
     }
 }
 
-/// A choice of the window is as good as one of the command line.
+/// Validates a choice from the window like one from the command line.
 fn validate_choice(choice: &FlightChoice) -> Result<(), AppError> {
     choice.trainee.parse::<TraineeId>().map_err(AppError::wrong)?;
     files::scenario(&choice.scenario).map(|_| ())
@@ -370,6 +370,6 @@ mod tests {
         assert!(matches!(course.command_line_choice(&choice), NextFlight::Fly(flown) if flown == choice));
         assert!(course.window.is_none() && !course.has_display() && !course.closed);
         course.stop.request();
-        assert!(matches!(course.command_line_choice(&choice), NextFlight::Leave), "who interrupts wants no flight");
+        assert!(matches!(course.command_line_choice(&choice), NextFlight::Leave), "no flight after a stop request");
     }
 }

@@ -1,4 +1,4 @@
-//! The window as a process of its own, and the pipe to it. The session depends on neither.
+//! The window as a separate process, and the pipe to it. A session continues without the window.
 
 use super::args::{Args, camera};
 use crate::io::addresses::PortChoice;
@@ -8,31 +8,31 @@ use crate::io::stop::StopRequest;
 use spandrel_view::flow::pipe::{self, FromWindow, ToWindow};
 use std::time::Duration;
 
-/// Between two looks at the window.
+/// Interval at which the window is checked.
 const LOOK: Duration = Duration::from_millis(20);
-/// A window has this long to open on a busy machine.
+/// Time limit for the window to open on a busy machine.
 const OPEN_LIMIT: Duration = Duration::from_secs(60);
 
-/// The window's process.
+/// Process of the window.
 pub struct WindowProcess {
     child: Child,
     over: bool,
-    /// It has said that it stands on a display.
+    /// True once the window has reported that it is shown.
     pub ready: bool,
-    /// It was closed, and did not break off.
+    /// True if the window was closed by the user and did not crash.
     pub closed: bool,
     flies: bool,
     bad_line_reported: bool,
 }
 
 impl WindowProcess {
-    /// Opens it, unless it is not wanted or there is nothing that it could listen to.
+    /// Starts the window, unless it is disabled or there is no payload port to subscribe to.
     pub fn open(args: &Args, log: tracing::Level) -> Option<Self> {
         if args.no_view || !cfg!(feature = "view") {
             return None;
         }
         if args.ports.payload_port == Some(PortChoice::None) {
-            tracing::warn!("no window: it listens at the payload port, and --payload-port is none");
+            tracing::warn!("no window: it needs the payload port, but --payload-port is none");
             return None;
         }
         let opened = Child::start_sibling("view", &window_args(args, log), &[spare_threads()]);
@@ -44,7 +44,7 @@ impl WindowProcess {
         Self { child, over: false, ready: false, closed: false, flies: false, bad_line_reported: false }
     }
 
-    /// Waits until it stands on a display; false when it does not, or somebody interrupts.
+    /// Waits until the window is shown. Returns false if it fails or a stop is requested.
     pub fn is_ready(&mut self, stop: &StopRequest) -> bool {
         let watch = Stopwatch::start();
         while self.is_open() && !stop.is_requested() {
@@ -52,7 +52,7 @@ impl WindowProcess {
                 return true;
             }
             if watch.elapsed() > OPEN_LIMIT {
-                tracing::warn!("the window has not opened after {} s: it is not waited for", OPEN_LIMIT.as_secs());
+                tracing::warn!("the window has not opened after {} s: continuing without waiting", OPEN_LIMIT.as_secs());
                 return false;
             }
             std::thread::sleep(LOOK);
@@ -60,7 +60,7 @@ impl WindowProcess {
         false
     }
 
-    /// Says something to it.
+    /// Sends a message to the window.
     pub fn send(&mut self, message: &ToWindow) {
         match message {
             ToWindow::Flying(_) => self.flies = true,
@@ -70,7 +70,7 @@ impl WindowProcess {
         self.child.send_line(&pipe::line(message));
     }
 
-    /// The next thing that it says. A bad line is named once and left alone.
+    /// Returns the next message of the window. The first invalid line is logged, further ones are ignored.
     pub fn receive(&mut self) -> Option<FromWindow> {
         while let Some(line) = self.child.line() {
             match pipe::read(&line) {
@@ -80,7 +80,7 @@ impl WindowProcess {
                 }
                 Err(error) if !self.bad_line_reported => {
                     self.bad_line_reported = true;
-                    tracing::warn!("from the window: {error}; such lines are left alone");
+                    tracing::warn!("invalid message from the window: {error}; further ones are ignored");
                 }
                 Err(_) => {}
             }
@@ -88,7 +88,7 @@ impl WindowProcess {
         None
     }
 
-    /// It has not ended; once it has, how is told once.
+    /// Returns true while the window runs; logs its exit once.
     pub fn is_open(&mut self) -> bool {
         let ended = self.child.ended();
         if let Some(status) = ended.filter(|_| !self.over) {
@@ -99,14 +99,14 @@ impl WindowProcess {
         !self.over
     }
 
-    /// It closes, as was asked for in it.
+    /// Ends the process; the user has asked to close the window.
     pub fn close(mut self) {
         self.over = true;
         self.child.finish();
     }
 }
 
-/// The window's command line.
+/// Returns the arguments of the window's process.
 fn window_args(args: &Args, log: tracing::Level) -> Vec<String> {
     let mut words = ["--led", "--log", &log.to_string().to_lowercase(), "--quality", &args.quality].map(str::to_owned).to_vec();
     let given = [
@@ -127,13 +127,14 @@ fn window_args(args: &Args, log: tracing::Level) -> Vec<String> {
 
 fn exit_message(closed: bool, flies: bool) -> &'static str {
     match (closed, flies) {
-        (true, false) => "the window is closed",
-        (true, true) => "the window is closed: the session goes on without",
-        (false, _) => "there is no window (its message is in the terminal): the session goes on without",
+        (true, false) => "window closed",
+        (true, true) => "window closed: the session continues without it",
+        (false, _) => "the window failed (see its message in the terminal): the session continues without it",
     }
 }
 
-/// Mesa's software driver takes every processor unless it is told otherwise; half of them are the simulator's and the monitor's.
+/// Returns the environment variable that limits Mesa's software renderer to half of the processors; the simulator and the monitor need the other
+/// half.
 pub fn spare_threads() -> (&'static str, String) {
     let all = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     ("LP_NUM_THREADS", (all / 2).max(1).to_string())
@@ -141,7 +142,7 @@ pub fn spare_threads() -> (&'static str, String) {
 
 #[cfg(test)]
 impl WindowProcess {
-    /// One that breaks off at once: the tests' own program knows no --announce.
+    /// Starts a process that fails immediately: the test executable does not accept `--announce`.
     pub fn failing() -> Self {
         Self::of(Child::start("view", &[]).unwrap())
     }
@@ -167,7 +168,7 @@ mod tests {
         let mut window = WindowProcess::failing();
         assert!(!window.is_ready(&StopRequest::default()) && !window.is_open());
         assert!(!window.ready && !window.closed);
-        assert!(exit_message(window.closed, true).contains("its message is in the terminal"));
-        assert!(!exit_message(true, false).contains("message"), "who closes a window needs no reason");
+        assert!(exit_message(window.closed, true).contains("see its message in the terminal"));
+        assert!(!exit_message(true, false).contains("message"), "closing the window is not an error");
     }
 }

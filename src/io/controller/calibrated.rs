@@ -1,4 +1,4 @@
-//! A calibrated device in somebody's hand: its events through the profile into sticks and wishes.
+//! A calibrated controller: converts its events to stick positions and actions.
 
 use super::{EventSource, ProfileFolder, read_profile};
 use crate::errors::AppError;
@@ -10,7 +10,7 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// A calibrated device.
+/// A calibrated controller with its event source and optional recording.
 #[derive(Debug)]
 pub struct CalibratedController {
     source: EventSource,
@@ -23,7 +23,7 @@ pub struct CalibratedController {
 struct InputLog {
     path: PathBuf,
     file: File,
-    /// Length of the lines that the disk has taken, bytes.
+    /// Length of the complete lines on disk, bytes.
     whole: u64,
 }
 
@@ -39,11 +39,11 @@ impl InputLog {
         self.line(input_recording::line(now, event))
     }
 
-    /// Adds a line whole or not at all.
+    /// Appends a line completely or not at all.
     fn line(&mut self, mut line: String) -> std::io::Result<()> {
         line.push('\n');
         self.file.write_all(line.as_bytes()).inspect_err(|_| {
-            // Half a line would make the whole record unreadable.
+            // A partial line would make the entire recording unreadable.
             let _ = self.file.set_len(self.whole);
         })?;
         self.whole += line.len() as u64;
@@ -51,20 +51,20 @@ impl InputLog {
     }
 }
 
-/// What a look at the controller gave.
+/// Result of polling a controller.
 #[derive(Debug)]
 pub struct ControllerReading {
-    /// The sticks; `None` while the device is lost.
+    /// Stick positions; `None` while the device is disconnected.
     pub sticks: Option<Sticks>,
-    /// A record has been played to its end.
+    /// True at the end of a replayed recording.
     pub over: bool,
 }
 
 impl CalibratedController {
-    /// Takes a source whose device is calibrated, by the profile in that file or by the one that is kept for it.
+    /// Opens a calibrated controller with the given profile, or with the saved profile of its device.
     ///
     /// # Errors
-    /// When it is not calibrated, or a file is wrong.
+    /// If the device is not calibrated, or a file is invalid.
     pub fn take(
         source: EventSource,
         profiles: &ProfileFolder,
@@ -87,14 +87,14 @@ impl CalibratedController {
         Ok(Self { log, ..Self::with(source, profile) })
     }
 
-    /// Takes a source and what is known of its device.
+    /// Creates a controller from an event source and a profile.
     pub fn with(source: EventSource, profile: ControllerProfile) -> Self {
         tracing::info!("flying with '{}', stick mode {}", profile.device.name, profile.mode.number());
         Self { source, profile, raw: RawInput::default(), log: None }
     }
 
-    /// Takes what the device has reported, and does what its buttons say. A record is played by `flown`, the time since the vehicle was
-    /// heard.
+    /// Processes the device's events and the actions of its buttons. A recording is replayed by `flown`, the time since the first contact with the
+    /// vehicle.
     pub fn poll(&mut self, link: &mut ControllerLink, flown: SimTime, now: SimTime) -> ControllerReading {
         while let Some(event) = self.source.next(flown) {
             self.keep(flown, event);
@@ -104,25 +104,27 @@ impl CalibratedController {
                 DeviceEvent::Button { button, .. } if fresh => {
                     self.profile.buttons.get(&button).into_iter().for_each(|action| link.act(*action, now));
                 }
-                DeviceEvent::Lost => tracing::warn!("'{}' is lost: sticks centred, then silent", self.profile.device.name),
-                DeviceEvent::Found => tracing::info!("'{}' is there", self.profile.device.name),
+                DeviceEvent::Lost => {
+                    tracing::warn!("'{}' disconnected: sticks centered, then no longer sent", self.profile.device.name)
+                }
+                DeviceEvent::Found => tracing::info!("'{}' connected", self.profile.device.name),
                 DeviceEvent::Axis { .. } | DeviceEvent::Button { .. } => {}
             }
         }
         ControllerReading { sticks: (!self.raw.lost).then(|| self.profile.sticks(&self.raw)), over: self.source.is_over() }
     }
 
-    /// Records an event. A disk that refuses ends the record, never the flight.
+    /// Records an event. A disk error ends the recording, but not the flight.
     fn keep(&mut self, flown: SimTime, event: DeviceEvent) {
         let Some(log) = &mut self.log else { return };
         if let Err(error) = log.write(flown, event) {
-            tracing::warn!("{}: cannot be written: {error}; the record ends here, the flight goes on", log.path.display());
+            tracing::warn!("{}: cannot write: {error}; the recording ends here, the flight continues", log.path.display());
             self.log = None;
         }
     }
 }
 
-/// What the window needs besides, where the controller is tried and calibrated.
+/// Functions for the window's controller test and calibration.
 #[cfg(feature = "view")]
 impl CalibratedController {
     /// Returns the calibration profile in use.
@@ -130,17 +132,17 @@ impl CalibratedController {
         &self.profile
     }
 
-    /// The device is read by another profile from now on.
+    /// Replaces the calibration profile.
     pub fn set(&mut self, profile: ControllerProfile) {
         self.profile = profile;
     }
 
-    /// Where everything stands.
+    /// Returns the raw axes and buttons.
     pub fn raw(&self) -> &RawInput {
         &self.raw
     }
 
-    /// The device, without its meaning.
+    /// Returns the event source without the profile.
     pub fn release(self) -> EventSource {
         self.source
     }
@@ -166,7 +168,7 @@ mod tests {
         let profile =
             ControllerProfile { device: device.clone(), mode: StickMode::Two, axes: BTreeMap::new(), buttons: BTreeMap::new() };
         let mut log = InputLog::begin(&path, &device).unwrap();
-        // A descriptor that cannot be written to refuses as a full disk does.
+        // A read-only descriptor fails like a full disk.
         log.file = File::open(&path).unwrap();
         let mut hand = CalibratedController {
             log: Some(log),

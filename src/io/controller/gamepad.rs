@@ -1,13 +1,13 @@
-//! Gamepads and transmitters over gilrs, by their raw axes: what a transmitter's axis means is the calibration's business.
+//! Gamepads and RC transmitters over gilrs, with raw axes: their meaning comes from the calibration.
 
 use crate::errors::AppError;
 use gilrs::{EventType, GamepadId, Gilrs, GilrsBuilder};
 use spandrel_clients::rc::{Device, DeviceEvent};
 
-/// Linux packs the kind of an event above its number; this one is an absolute axis (linux/input-event-codes.h, EV_ABS).
+/// Event type of an absolute axis, which Linux stores above the event code (linux/input-event-codes.h, EV_ABS).
 const ABSOLUTE: u32 = 3;
 
-/// A connected device.
+/// A connected gamepad or transmitter.
 #[derive(Debug)]
 pub struct Gamepad {
     system: Gilrs,
@@ -16,9 +16,9 @@ pub struct Gamepad {
 }
 
 fn system() -> Result<Gilrs, AppError> {
-    // No filters: dead bands and the like are the profile's. No mappings: raw axes.
+    // Without gilrs' filters, because the profile defines dead bands, and without its mappings, to get raw axes.
     let built = GilrsBuilder::new().with_default_filters(false).add_included_mappings(false).add_env_mappings(false).build();
-    built.map_err(|error| AppError::failed(format!("gamepads and transmitters cannot be read on this machine: {error}")))
+    built.map_err(|error| AppError::failed(format!("cannot access gamepads and transmitters on this machine: {error}")))
 }
 
 fn describe(gamepad: gilrs::Gamepad) -> Device {
@@ -29,31 +29,31 @@ fn describe(gamepad: gilrs::Gamepad) -> Device {
     Device { name: gamepad.os_name().to_owned(), id }
 }
 
-/// Waits for a device while there is none: the system is asked once and tells from then on.
+/// Waits for a device to be connected. The device list is read once, and updated by events.
 #[cfg(feature = "view")]
 #[derive(Debug)]
 pub struct GamepadWatcher(Gilrs);
 
 #[cfg(feature = "view")]
 impl GamepadWatcher {
-    /// Begins.
+    /// Starts watching for devices to be connected.
     pub fn start() -> Result<Self, AppError> {
         system().map(Self)
     }
 
-    /// A device has come since the last look.
+    /// Returns true if a device was connected since the last call.
     pub fn is_available(&mut self) -> bool {
         std::iter::from_fn(|| self.0.next_event()).filter(|event| event.event == EventType::Connected).count() > 0
     }
 }
 
-/// All devices that are connected.
+/// Returns all connected devices.
 pub fn connected() -> Result<Vec<Device>, AppError> {
     Ok(system()?.gamepads().map(|(_, gamepad)| describe(gamepad)).collect())
 }
 
 impl Gamepad {
-    /// The device with this name or id, or the only one.
+    /// Opens the device with this ID or name, or the only one.
     pub fn open(wanted: Option<&str>) -> Result<Self, AppError> {
         let system = system()?;
         let all: Vec<(GamepadId, Device)> = system.gamepads().map(|(id, gamepad)| (id, describe(gamepad))).collect();
@@ -64,18 +64,18 @@ impl Gamepad {
         let names = if names.is_empty() { "none".to_owned() } else { names };
         match (fitting.as_slice(), wanted) {
             ([(id, device)], _) => Ok(Self { id: *id, device: device.clone(), system }),
-            ([], None) => Err(AppError::failed("no gamepad or transmitter is connected; --keyboard flies without one")),
-            ([], Some(wanted)) => Err(AppError::failed(format!("no device is called '{wanted}' (connected: {names})"))),
-            _ => Err(AppError::wrong(format!("several devices fit: choose one with --device (connected: {names})"))),
+            ([], None) => Err(AppError::failed("no gamepad or transmitter is connected; use --keyboard to fly without one")),
+            ([], Some(wanted)) => Err(AppError::failed(format!("no device matches '{wanted}' (connected: {names})"))),
+            _ => Err(AppError::wrong(format!("several devices match: choose one with --device (connected: {names})"))),
         }
     }
 
-    /// What it is.
+    /// Returns the device's name and ID.
     pub fn device(&self) -> &Device {
         &self.device
     }
 
-    /// The next thing that it reported.
+    /// Returns the next event of the device.
     pub fn next(&mut self) -> Option<DeviceEvent> {
         while let Some(event) = self.system.next_event() {
             if event.id != self.id {
@@ -85,7 +85,7 @@ impl Gamepad {
                 EventType::AxisChanged(_, value, code) => {
                     return Some(DeviceEvent::Axis { axis: code.into_u32(), value: f64::from(value) });
                 }
-                // A trigger that is an axis: 0 to 1.
+                // Axis of a trigger, 0 to 1.
                 EventType::ButtonChanged(_, value, code) if code.into_u32() >> 16 == ABSOLUTE => {
                     return Some(DeviceEvent::Axis { axis: code.into_u32(), value: 2.0 * f64::from(value) - 1.0 });
                 }

@@ -1,4 +1,4 @@
-//! Where sticks come from: a gamepad or transmitter (feature `gamepad`), the terminal's keyboard, a record.
+//! Sources of stick input: gamepads and transmitters (feature `gamepad`), the terminal's keyboard, and recordings.
 
 mod calibrated;
 #[cfg(feature = "gamepad")]
@@ -18,21 +18,21 @@ use spandrel_clients::rc::{Device, DeviceEvent};
 use spandrel_model::time::SimTime;
 use std::path::Path;
 
-/// A source of raw events.
+/// A source of raw controller events.
 #[derive(Debug)]
 pub enum EventSource {
-    /// A device on this machine.
+    /// A device connected to this computer.
     #[cfg(feature = "gamepad")]
     Gamepad(Box<gamepad::Gamepad>),
-    /// What one reported earlier.
+    /// A recording of such a device.
     Record(InputRecording),
 }
 
 impl EventSource {
-    /// The device with this name or id, or the only one.
+    /// Opens the device with this name or ID, or the only one.
     ///
     /// # Errors
-    /// When there is none, several fit, or this build has no support for them.
+    /// If there is none, several match, or this build does not support gamepads.
     pub fn device(wanted: Option<&str>) -> Result<Self, AppError> {
         #[cfg(feature = "gamepad")]
         return gamepad::Gamepad::open(wanted).map(|gamepad| Self::Gamepad(Box::new(gamepad)));
@@ -40,7 +40,7 @@ impl EventSource {
         Err(AppError::failed(format!("{}: {NO_GAMEPADS}", wanted.unwrap_or("a gamepad or transmitter"))))
     }
 
-    /// Whose events these are.
+    /// Returns the device that the events come from.
     pub fn of(&self) -> &Device {
         match self {
             #[cfg(feature = "gamepad")]
@@ -49,7 +49,7 @@ impl EventSource {
         }
     }
 
-    /// The next event by now.
+    /// Returns the next event up to time `now`.
     pub fn next(&mut self, now: SimTime) -> Option<DeviceEvent> {
         match self {
             #[cfg(feature = "gamepad")]
@@ -58,7 +58,7 @@ impl EventSource {
         }
     }
 
-    /// A record that has been played to its end.
+    /// Returns true at the end of a recording.
     pub fn is_over(&self) -> bool {
         match self {
             #[cfg(feature = "gamepad")]
@@ -69,9 +69,9 @@ impl EventSource {
 }
 
 #[cfg(not(feature = "gamepad"))]
-const NO_GAMEPADS: &str = "this build reads no gamepads (build with --features gamepad; on Debian and Ubuntu that needs libudev-dev); --keyboard flies without one";
+const NO_GAMEPADS: &str = "this build does not support gamepads (build with --features gamepad; on Debian and Ubuntu that needs libudev-dev); use --keyboard to fly without one";
 
-/// Waits for a device while there is none.
+/// Waits for a device to be connected.
 #[derive(Debug, Default)]
 #[cfg(feature = "view")]
 pub struct DeviceWatcher {
@@ -81,16 +81,16 @@ pub struct DeviceWatcher {
 
 #[cfg(feature = "view")]
 impl DeviceWatcher {
-    /// Begins to wait, where the system can tell.
+    /// Starts watching, if the system supports it.
     pub fn start() -> Self {
         Self {
-            // Why it cannot was told when a device was looked for.
+            // The error has already been reported by the search for a device.
             #[cfg(feature = "gamepad")]
             system: gamepad::GamepadWatcher::start().ok(),
         }
     }
 
-    /// A device has come since the last look.
+    /// Returns true if a device was connected since the last call.
     pub fn is_available(&mut self) -> bool {
         #[cfg(feature = "gamepad")]
         return self.system.as_mut().is_some_and(gamepad::GamepadWatcher::is_available);
@@ -99,10 +99,10 @@ impl DeviceWatcher {
     }
 }
 
-/// Which key does what: a file's, or the usual ones.
+/// Returns the key bindings of a file, or the default ones.
 ///
 /// # Errors
-/// When the file cannot be read or is wrong.
+/// If the file cannot be read or is invalid.
 pub fn keys(file: Option<&Path>) -> Result<KeyBindings, AppError> {
     match file {
         Some(path) => Ok(KeyBindings::read(&path.display().to_string(), &files::read(path)?)?),
@@ -110,10 +110,10 @@ pub fn keys(file: Option<&Path>) -> Result<KeyBindings, AppError> {
     }
 }
 
-/// All devices that are connected.
+/// Returns all connected devices.
 ///
 /// # Errors
-/// When the system cannot tell, or this build has no support for them.
+/// If the system cannot list them, or this build does not support gamepads.
 pub fn connected() -> Result<Vec<Device>, AppError> {
     #[cfg(feature = "gamepad")]
     return gamepad::connected();

@@ -1,4 +1,4 @@
-//! Calibration profiles on disk: one file per kind of device.
+//! Calibration profiles on disk: one file per device model.
 
 use crate::errors::AppError;
 use crate::io::files;
@@ -7,48 +7,48 @@ use spandrel_clients::rc::{ControllerProfile, Device};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-const NO_HOME: &str = "no home folder is known: name a folder with --profiles";
+const NO_HOME: &str = "no home folder is known: specify a folder with --profiles";
 
-/// The folder of profiles, where one is known: without one, devices have no profiles, and all else goes on.
+/// Folder of profiles; `None` if the user has no home folder. Devices then have no profiles, and everything else works.
 #[derive(Debug, Clone, Default)]
 pub struct ProfileFolder(Option<PathBuf>);
 
 impl ProfileFolder {
-    /// This folder, or the user's own (`$XDG_CONFIG_HOME` or `~/.config`, below `spandrel/controllers`).
+    /// Uses this folder, or the user's (`spandrel/controllers` in `$XDG_CONFIG_HOME` or `~/.config`).
     pub fn at(folder: Option<PathBuf>) -> Self {
         Self(folder.or_else(|| usual(std::env::var_os("XDG_CONFIG_HOME"), std::env::var_os("HOME"))))
     }
 
-    /// Where profiles are kept.
+    /// Returns the folder of the profiles.
     ///
     /// # Errors
-    /// When no folder was named and the user has no home.
+    /// If no folder was specified and the user has no home folder.
     pub fn folder(&self) -> Result<&Path, AppError> {
         self.0.as_deref().ok_or_else(|| AppError::wrong(NO_HOME))
     }
 
-    /// Where a device's profile lies.
+    /// Returns the path of a device's profile.
     pub fn path(&self, device: &Device) -> Option<PathBuf> {
         self.0.as_ref().map(|folder| folder.join(file_of(device)))
     }
 
-    /// Why a device has no profile.
+    /// Returns the reason why a device has no profile.
     pub fn missing(&self, device: &Device) -> String {
         self.path(device).map_or(NO_HOME.to_owned(), |path| format!("no {}", path.display()))
     }
 
-    /// A device's profile, when it has one.
+    /// Returns a device's profile, if it has one.
     ///
     /// # Errors
-    /// When the file cannot be read or is wrong.
+    /// If the file cannot be read or is invalid.
     pub fn find(&self, device: &Device) -> Result<Option<ControllerProfile>, AppError> {
         self.path(device).filter(|path| path.exists()).map(|path| read(&path)).transpose()
     }
 
-    /// Keeps a profile; the old one stays until the new one is whole.
+    /// Saves a profile. The old one remains until the new one is complete.
     ///
     /// # Errors
-    /// When there is no folder, or it cannot be written.
+    /// If there is no folder, or it cannot be written.
     pub fn keep(&self, profile: &ControllerProfile) -> Result<PathBuf, AppError> {
         let folder = self.folder()?;
         let path = folder.join(file_of(&profile.device));
@@ -58,7 +58,7 @@ impl ProfileFolder {
     }
 }
 
-/// The user's own folder, from the two variables that tell where it is.
+/// Returns the user's default folder, from these two environment variables.
 fn usual(config: Option<OsString>, home: Option<OsString>) -> Option<PathBuf> {
     let known = |place: Option<OsString>| place.filter(|place| !place.is_empty()).map(PathBuf::from);
     let config = known(config).or_else(|| known(home).map(|home| home.join(".config")));
@@ -71,10 +71,10 @@ fn file_of(device: &Device) -> String {
     format!("{name}.toml")
 }
 
-/// Reads a profile.
+/// Reads a profile from a file.
 ///
 /// # Errors
-/// When the file cannot be read or is wrong: everything that is wrong with it.
+/// If the file cannot be read or is invalid; all problems are listed.
 pub fn read(path: &Path) -> Result<ControllerProfile, AppError> {
     Ok(ControllerProfile::read(&path.display().to_string(), &files::read(path)?)?)
 }
@@ -100,7 +100,7 @@ mod tests {
         assert_eq!(profiles.find(&device).unwrap(), None);
         let profile = profile(&device);
         let path = profiles.keep(&profile).unwrap();
-        assert_eq!(path.parent(), Some(folder.path().join("deep").as_path()), "no name leaves the folder");
+        assert_eq!(path.parent(), Some(folder.path().join("deep").as_path()), "names cannot leave the folder");
         assert_eq!(profiles.find(&device).unwrap(), Some(profile));
         std::fs::write(&path, "format = 9\n").unwrap();
         let told = profiles.find(&device).unwrap_err().to_string();
@@ -113,7 +113,7 @@ mod tests {
         let nowhere = ProfileFolder::default();
         assert_eq!((nowhere.find(&device).unwrap(), nowhere.path(&device)), (None, None));
         for told in [nowhere.keep(&profile(&device)).unwrap_err().to_string(), nowhere.missing(&device)] {
-            assert_eq!(told, "no home folder is known: name a folder with --profiles");
+            assert_eq!(told, "no home folder is known: specify a folder with --profiles");
         }
     }
 
@@ -122,6 +122,6 @@ mod tests {
         let place = |config: &str, home: &str| usual(Some(config.into()), Some(home.into()));
         assert_eq!(place("/c", "/home/a"), Some("/c/spandrel/controllers".into()));
         assert_eq!(place("", "/home/a"), Some("/home/a/.config/spandrel/controllers".into()));
-        assert_eq!((place("", ""), usual(None, None)), (None, None), "a variable that is empty says nothing");
+        assert_eq!((place("", ""), usual(None, None)), (None, None), "empty variables are ignored");
     }
 }

@@ -1,4 +1,5 @@
-//! The terminal's keyboard as a controller. Terminals that tell releases (kitty's protocol) fly best; in others a key lets go by itself.
+//! The terminal's keyboard as a controller. Terminals that report key releases (kitty's protocol) fly best; in others, a key is released after a
+//! delay.
 
 use crate::errors::AppError;
 use crossterm::event::{
@@ -9,39 +10,39 @@ use crossterm::{execute, terminal};
 use std::io::{IsTerminal, stderr, stdin};
 use std::time::Duration;
 
-/// What was done with a key.
+/// A key event of the terminal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum TerminalKey {
-    /// Down; again while it is held where the terminal does not tell a press from its repetition.
+    /// Key pressed. Repeated while the key is held if the terminal cannot tell presses from repetitions.
     Down(String),
-    /// Up.
+    /// Key released, with its name.
     Up(String),
-    /// The terminal lost the focus: who has it now hears the keys come up.
+    /// The terminal lost the focus, so it no longer receives key releases.
     LetGo,
-    /// Ctrl-C or Escape: an end is wished.
+    /// Ctrl-C or Escape: the user wants to quit.
     End,
 }
 
-/// A terminal that gives every key at once. Dropped, it is an ordinary one again.
+/// A terminal in raw mode, restored when this is dropped.
 #[derive(Debug)]
 pub struct RawTerminal {
     asked: bool,
-    /// The terminal tells when a key comes up.
+    /// True if the terminal reports key releases.
     pub tells_releases: bool,
 }
 
 impl RawTerminal {
-    /// Takes the terminal.
+    /// Switches the terminal to raw mode.
     ///
     /// # Errors
-    /// When there is none.
+    /// If standard input is not a terminal.
     pub fn take() -> Result<Self, AppError> {
         if !stdin().is_terminal() {
-            return Err(AppError::failed("--keyboard needs a terminal: standard input is none"));
+            return Err(AppError::failed("--keyboard needs a terminal, but standard input is not one"));
         }
-        let failed = |error: std::io::Error| AppError::failed(format!("the terminal gives no single keys: {error}"));
+        let failed = |error: std::io::Error| AppError::failed(format!("cannot read single keys from the terminal: {error}"));
         terminal::enable_raw_mode().map_err(failed)?;
-        // The terminal is asked on standard error: where that is a file it hears nothing, and tells no releases.
+        // The terminal's features are requested on standard error; if that is a file, there are no key releases.
         let asked = stderr().is_terminal();
         let tells_releases = asked && terminal::supports_keyboard_enhancement().unwrap_or(false);
         let taken = Self { asked, tells_releases };
@@ -57,7 +58,7 @@ impl RawTerminal {
         Ok(taken)
     }
 
-    /// The next key, if there is one.
+    /// Returns the next key event, if there is one.
     pub fn next(&self) -> Option<TerminalKey> {
         while event::poll(Duration::ZERO).unwrap_or(false) {
             if let Some(key) = event::read().ok().and_then(|event| parse_escape(&event)) {
@@ -70,7 +71,7 @@ impl RawTerminal {
 
 impl Drop for RawTerminal {
     fn drop(&mut self) {
-        // The program ends: there is nobody left to tell.
+        // The program is exiting, so errors are ignored.
         if self.tells_releases {
             let _ = execute!(stderr(), PopKeyboardEnhancementFlags);
         }

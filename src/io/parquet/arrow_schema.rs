@@ -1,6 +1,6 @@
-//! An Arrow schema as an encapsulated IPC message, which Parquet files carry for readers built on Arrow. Parquet's own schema has no place
-//! for units. Format: <https://arrow.apache.org/docs/format/Columnar.html>, tables of `Schema.fbs` and `Message.fbs`; encoding:
-//! <https://flatbuffers.dev/internals/>. Parents are written before their children, so that every offset points forward.
+//! Encodes an Arrow schema as an encapsulated IPC message, which Parquet files contain for Arrow-based readers, because Parquet's own schema cannot
+//! store units. Format: <https://arrow.apache.org/docs/format/Columnar.html>, tables of `Schema.fbs` and `Message.fbs`; encoding:
+//! <https://flatbuffers.dev/internals/>. Parents are written before their children, so that all offsets are positive.
 
 /// Type of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,16 +15,16 @@ pub enum Kind {
     Utf8,
 }
 
-/// One field of the schema.
+/// A field of the schema.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Field<'a> {
-    /// Name.
+    /// Name of the column.
     pub name: &'a str,
-    /// Values may be null.
+    /// True if values may be null.
     pub nullable: bool,
-    /// Type.
+    /// Type of the values.
     pub kind: Kind,
-    /// Keys and values.
+    /// Metadata as key-value pairs.
     pub metadata: Vec<(&'a str, &'a str)>,
 }
 
@@ -34,13 +34,13 @@ const VERSION: i16 = 4;
 const HEADER_SCHEMA: u8 = 1;
 /// `Precision.DOUBLE`.
 const PRECISION_DOUBLE: i16 = 2;
-/// Begins an encapsulated message.
+/// Marker at the start of an encapsulated message.
 const CONTINUATION: [u8; 4] = [0xFF; 4];
-/// Alignment of messages and of the widest scalar, bytes.
+/// Alignment of messages and of the widest scalar type, bytes.
 const WIDEST: usize = 8;
 
 impl Kind {
-    /// Number in the union `Type`.
+    /// Returns the type's number in the union `Type`.
     fn number(self) -> u8 {
         match self {
             Self::Int64 => 2,
@@ -51,7 +51,7 @@ impl Kind {
     }
 }
 
-/// A value in a table.
+/// A value in a FlatBuffers table.
 #[derive(Debug, Clone, Copy)]
 enum Slot {
     Absent,
@@ -59,7 +59,7 @@ enum Slot {
     Short(i16),
     Int(i32),
     Long(i64),
-    /// The place of an offset that is set later.
+    /// Placeholder of an offset that is set later.
     Offset,
 }
 
@@ -86,11 +86,11 @@ impl Flat {
         self.bytes.resize(self.bytes.len().next_multiple_of(to), 0);
     }
 
-    /// Writes a table with its list of places before it; returns where it and each of its slots lie.
+    /// Writes a table, preceded by its vtable. Returns the positions of the table and of each slot.
     fn table(&mut self, slots: &[Slot]) -> (usize, Vec<usize>) {
         let places_len = 4 + 2 * slots.len();
         let start = (self.bytes.len() + places_len).next_multiple_of(WIDEST);
-        // The list of places ends where the table begins: the distance back to it is its own length.
+        // The vtable ends where the table starts, so the distance back to it is its own length.
         self.bytes.resize(start - places_len, 0);
         let mut table = (places_len as i32).to_le_bytes().to_vec();
         let mut at = Vec::new();
@@ -107,13 +107,13 @@ impl Flat {
         (start, at.iter().map(|place| start + place).collect())
     }
 
-    /// Lets the offset at `from` point to `to`.
+    /// Sets the offset at `from` so that it points to `to`.
     fn point(&mut self, from: usize, to: usize) {
         let offset = ((to - from) as u32).to_le_bytes();
         self.bytes[from..from + 4].copy_from_slice(&offset);
     }
 
-    /// Writes a vector of offsets that are set later; returns where it and each of them lie.
+    /// Writes a vector of offsets that are set later. Returns the positions of the vector and of each offset.
     fn offsets(&mut self, count: usize) -> (usize, Vec<usize>) {
         self.align(4);
         let start = self.bytes.len();
@@ -122,7 +122,7 @@ impl Flat {
         (start, (0..count).map(|k| start + 4 + 4 * k).collect())
     }
 
-    /// Writes a text that the offset at `from` points to.
+    /// Writes a string and points the offset at `from` to it.
     fn text(&mut self, from: usize, text: &str) {
         self.align(4);
         let start = self.bytes.len();
@@ -135,7 +135,7 @@ impl Flat {
     fn field(&mut self, from: usize, field: &Field<'_>) {
         let kind = Slot::Byte(field.kind.number());
         let nullable = Slot::Byte(u8::from(field.nullable));
-        // name, nullable, type's number, type, dictionary, children, metadata
+        // Slots: name, nullable, type's number, type, dictionary, children, metadata.
         let slots = [Slot::Offset, nullable, kind, Slot::Offset, Slot::Absent, Slot::Offset, Slot::Offset];
         let (start, at) = self.table(&slots);
         self.point(from, start);
@@ -165,7 +165,7 @@ pub fn message(fields: &[Field<'_>]) -> Vec<u8> {
     let mut flat = Flat { bytes: vec![0; 4] };
     let (message, at) = flat.table(&[Slot::Short(VERSION), Slot::Byte(HEADER_SCHEMA), Slot::Offset, Slot::Long(0)]);
     flat.point(0, message);
-    // Little-endian by default, fields.
+    // Slots: endianness (little-endian by default), fields.
     let (schema, schema_at) = flat.table(&[Slot::Absent, Slot::Offset]);
     flat.point(at[2], schema);
     let (list, places) = flat.offsets(fields.len());

@@ -1,4 +1,4 @@
--- Serves SQLite and PostgreSQL alike: plain types only, times in microseconds since the Unix epoch, booleans as 0 and 1.
+-- For both SQLite and PostgreSQL: simple types only, times in microseconds since the Unix epoch, booleans as 0 and 1.
 CREATE TABLE trainees (
     pseudonym TEXT PRIMARY KEY,
     role TEXT NOT NULL,

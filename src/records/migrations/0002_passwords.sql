@@ -1,4 +1,4 @@
--- Who may log in to `spandrel serve`: an argon2 hash in PHC form; the role stands with the trainee.
+-- Logins of `spandrel serve`: argon2 hashes in PHC format. The role is in the table of trainees.
 CREATE TABLE passwords (
     pseudonym TEXT PRIMARY KEY REFERENCES trainees (pseudonym),
     hash TEXT NOT NULL

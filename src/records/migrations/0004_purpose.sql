@@ -1,2 +1,2 @@
--- Practice or assessment, where somebody chose.
+-- Practice or assessment; null if the purpose was not chosen.
 ALTER TABLE sessions ADD COLUMN purpose TEXT;

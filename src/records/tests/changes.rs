@@ -1,22 +1,22 @@
-//! Changes that others make meanwhile: an erasure stays one, a rebuild deletes nothing of another station, and nobody's change of a person
-//! is lost.
+//! Concurrent changes by several stations: erased data stays erased, a rebuild deletes no sessions of other stations, and no change to a person is
+//! lost.
 
 use super::record;
 use crate::records::database::Database;
 use spandrel_training::record::SessionRecord;
 use spandrel_training::trainee::Role;
 
-/// Long after every erasure of these tests, µs since the Unix epoch (2100).
+/// A time after every erasure in these tests, µs since the Unix epoch (2100).
 const LATER_US: u64 = 4_102_444_800_000_000;
 
-/// All of them, over one database.
+/// Runs all tests of this file on one database.
 pub fn every_one(target: &str) {
     what_is_erased_does_not_come_back(target);
     a_rebuild_deletes_only_what_it_was_told(target);
     nobodys_change_of_a_person_is_lost(target);
     a_telemetry_is_found_again(target);
     lists_go_on_from_page_to_page(target);
-    // The next test begins with nothing.
+    // Leave an empty database for the next test.
     let database = Database::open(target).unwrap();
     for trainee in database.trainees().unwrap() {
         database.erase(&trainee.pseudonym, &[]).unwrap();
@@ -27,7 +27,7 @@ fn gone(database: &Database, id: &str) -> bool {
     database.record(id).unwrap().is_none()
 }
 
-/// Two stations: one erases, the other has the folders still and takes in what it read before.
+/// Two stations: one erases, and the other, which still has the folders, imports what it has read before.
 fn what_is_erased_does_not_come_back(target: &str) {
     let (here, there) = (Database::open(target).unwrap(), Database::open(target).unwrap());
     let flown = [record("erna", 1), record("erna", 2)];
@@ -38,11 +38,11 @@ fn what_is_erased_does_not_come_back(target: &str) {
     assert!(gone(&there, &flown[0].id) && !there.trainees().unwrap().iter().any(|one| one.pseudonym == "erna"));
     let erased = there.erased().unwrap();
     assert!(erased.contains(&flown[0].id, "erna", flown[0].started_unix_us) && !erased.contains("x", "erna", LATER_US));
-    // Who begins anew under the same name is somebody else.
+    // A new trainee may reuse the pseudonym.
     let anew = SessionRecord { started_unix_us: LATER_US, ..record("erna", 3) };
     assert_eq!(there.put(std::slice::from_ref(&anew)), Ok(1));
     assert_eq!(there.erase("erna", &[]), Ok((true, 1)));
-    // One session that retention took away stays away, the person's others do not.
+    // A session deleted by the retention limit stays deleted; the trainee's other sessions can be imported.
     assert_eq!(there.put(&[record("fritz", 1), record("fritz", 2)]), Ok(2));
     assert_eq!(here.delete_sessions(&["session-fritz-001".into()], &[]), Ok(1));
     assert_eq!(there.put(&[record("fritz", 1), record("fritz", 2), record("fritz", 3)]), Ok(1));
@@ -52,7 +52,7 @@ fn what_is_erased_does_not_come_back(target: &str) {
 fn a_rebuild_deletes_only_what_it_was_told(target: &str) {
     let (here, there) = (Database::open(target).unwrap(), Database::open(target).unwrap());
     here.put(&[record("gina", 1), record("gina", 2)]).unwrap();
-    // While this station reads its folders another one adds a session.
+    // While this station reads its folders, another one adds a session.
     there.put(&[record("gina", 3)]).unwrap();
     let mut changed = record("gina", 1);
     changed.scores.safety = 12.0;
@@ -66,19 +66,19 @@ fn nobodys_change_of_a_person_is_lost(target: &str) {
     let (here, there) = (Database::open(target).unwrap(), Database::open(target).unwrap());
     here.set_login("hans", Role::Trainee, "first").unwrap();
     let none = ["", "", ""];
-    // A page is filled in while the role is changed elsewhere; the details stay with a new password, too.
+    // Another station changes the role while a form is being filled in; the details also survive a new password.
     there.set_login("hans", Role::Instructor, "first").unwrap();
     assert_eq!(here.set_details("hans", none, ["25-34", "", "some"]), Ok(true));
     there.set_login("hans", Role::Administrator, "second").unwrap();
     let person = here.account("hans").unwrap().unwrap().person;
     assert_eq!((person.role, person.age_band.as_deref()), (Role::Administrator, Some("25-34")));
     assert_eq!((person.drone_experience, person.gaming_experience.as_deref()), (None, Some("some")));
-    // Who fills in the same page as another comes too late.
+    // The second of two users who fill in the same form is rejected.
     assert_eq!(there.set_details("hans", none, ["35-44", "none", ""]), Ok(false));
     assert_eq!(there.set_details("hans", ["25-34", "", "some"], none), Ok(true), "taking back what was said");
     assert_eq!(here.account("hans").unwrap().unwrap().person.age_band, None);
     assert_eq!(here.set_details("nobody-of-this-name", none, none), Ok(false));
-    // The command line sets what it is given.
+    // The command line sets only the details that were given.
     here.set_given("hans", None, [None, Some("some"), None]).unwrap();
     here.set_given("hans", Some(Role::Trainee), [Some("45-54"), None, None]).unwrap();
     let person = here.account("hans").unwrap().unwrap().person;
@@ -86,7 +86,7 @@ fn nobodys_change_of_a_person_is_lost(target: &str) {
         (person.role, person.age_band.as_deref(), person.drone_experience.as_deref()),
         (Role::Trainee, Some("45-54"), Some("some"))
     );
-    // A password is changed by whoever knows the one that holds now.
+    // Changing a password requires the current password hash.
     assert_eq!(here.change_password("hans", "first", "third"), Ok(false));
     let before = here.account("hans").unwrap().unwrap().credential();
     assert_eq!(here.change_password("hans", "second", "third"), Ok(true));
@@ -106,7 +106,7 @@ fn a_telemetry_is_found_again(target: &str) {
     assert_eq!(database.of_telemetry("of nobody"), Ok(None));
 }
 
-/// Every session stands on one page, the newest first, also those of one instant.
+/// Every session is on exactly one page, newest first, including sessions with the same start time.
 fn lists_go_on_from_page_to_page(target: &str) {
     let database = Database::open(target).unwrap();
     let flown: Vec<SessionRecord> =

@@ -1,4 +1,4 @@
-//! The same tests on SQLite and on a real PostgreSQL.
+//! Database tests, run on SQLite and on a real PostgreSQL server.
 
 mod changes;
 mod server;
@@ -12,12 +12,12 @@ use spandrel_training::testing::faultless;
 use spandrel_training::trainee::{Role, Trainee};
 use std::path::PathBuf;
 
-/// Stations that write at once.
+/// Number of stations that write at the same time.
 const STATIONS: usize = 20;
-/// Sessions of each.
+/// Number of sessions that each station writes.
 const EACH: usize = 8;
 
-/// A made-up session.
+/// Returns a made-up session record.
 fn record(trainee: &str, number: usize) -> SessionRecord {
     let mut record = faultless(trainee, number);
     record.started_unix_us = 1_700_000_000_000_000 + 1_000_000 * number as u64;
@@ -48,7 +48,7 @@ fn takes_in_once_and_gives_back_the_same(target: &str) {
     bare.answers = None;
     let records = [record("anna", 1), bare, record("o'brien", 1)];
     assert_eq!(database.put(&records), Ok(3));
-    assert_eq!(database.put(&records), Ok(0), "taking in again changes nothing");
+    assert_eq!(database.put(&records), Ok(0), "a second import changes nothing");
     assert_eq!(database.records(Some("anna")).unwrap(), records[..2]);
     assert_eq!(database.records(None).unwrap().len(), 3);
     let ids = |trainee, most, skip| -> Vec<String> {
@@ -63,7 +63,7 @@ fn takes_in_once_and_gives_back_the_same(target: &str) {
     changed.scores.safety = 94.0;
     changed.answers = None;
     assert_eq!(database.put(&[changed.clone(), records[1].clone()]), Ok(1));
-    // What another process sees.
+    // Another process sees the same data.
     let again = Database::open(target).unwrap();
     assert_eq!(again.records(Some("anna")).unwrap()[0], changed);
     assert_eq!(again.fingerprints().unwrap()["session-anna-001"], "other");
@@ -93,15 +93,15 @@ fn lets_people_in_and_forgets_them(target: &str) {
     database.set_login("ada", Role::Instructor, "first").unwrap();
     database.set_login("ada", Role::Administrator, "second").unwrap();
     database.set_login("o'brien", Role::Trainee, "'; DELETE FROM passwords; --").unwrap();
-    // What another process sees.
+    // Another process sees the same data.
     let again = Database::open(target).unwrap();
     assert_eq!(again.with_password().unwrap(), ["ada", "o'brien"]);
     let account = again.account("ada").unwrap().unwrap();
     assert_eq!((account.person, account.hash.as_deref()), (ada, Some("second")));
     assert_eq!(again.drop_password("ada"), Ok(true));
     assert_eq!(again.drop_password("ada"), Ok(false));
-    assert_eq!(database.account("ada").unwrap().unwrap().hash, None, "she is known and logs in no more");
-    // Who is erased logs in no more, under the same name neither.
+    assert_eq!(database.account("ada").unwrap().unwrap().hash, None, "still known, but can no longer log in");
+    // An erased person can no longer log in, even if the same name is added again.
     assert_eq!(database.erase("o'brien", &[]), Ok((true, 1)));
     assert_eq!((database.with_password().unwrap(), database.account("o'brien").unwrap()), (vec![], None));
     database.set_given("o'brien", None, [None; 3]).unwrap();
@@ -124,7 +124,7 @@ fn counts_and_finds_sessions(target: &str) {
     assert_eq!((database.count(None), database.record("session-cleo-002")), (Ok(1), Ok(None)));
 }
 
-/// Two stations that take in the same new people in opposite orders do not wait for each other for ever.
+/// Two stations that add the same new trainees in opposite orders do not deadlock.
 fn takes_strangers_in_any_order(target: &str) {
     let people: Vec<SessionRecord> = (0..STATIONS).map(|k| record(&format!("new{k}"), k)).collect();
     let backwards: Vec<SessionRecord> = people.iter().rev().cloned().collect();
@@ -151,7 +151,7 @@ fn replaces_all_or_nothing(target: &str) {
     let records = [record("ben", 1), record("ben", 2)];
     assert_eq!(database.rebuild(&records, &there), Ok(2));
     assert_eq!(database.records(None).unwrap(), records);
-    // One bad record makes the whole change fail; what was there stays.
+    // One invalid record makes the whole change fail; the existing records stay.
     let mut broken = record("ben", 3);
     broken.seconds = f64::NAN;
     let gone: Vec<String> = records.iter().map(|record| record.id.clone()).collect();
@@ -169,7 +169,7 @@ fn loses_nothing_when_stations_write_at_once(target: &str) {
             let target = target.to_owned();
             std::thread::spawn(move || {
                 let database = Database::open(&target).unwrap();
-                // Two stations each know the same trainee and take in the same shared session.
+                // Each trainee is known to two stations, and all stations import the same shared session.
                 let trainee = format!("t{}", station / 2);
                 for number in 0..EACH {
                     database.put(&[record(&trainee, station * EACH + number), record("shared", 0)]).unwrap();
@@ -233,7 +233,7 @@ fn exact_what_is_erased_is_gone_from_the_file() {
     assert!(!found.into_iter().any(traces));
 }
 
-/// The web server's last task lets go of the database while it may not wait.
+/// The last task of the web server drops the database while it must not block.
 #[test]
 fn exact_a_database_may_be_released_where_nobody_may_wait() {
     let folder = tempfile::tempdir().unwrap();

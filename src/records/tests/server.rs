@@ -1,29 +1,29 @@
-//! A real PostgreSQL, started as an unprivileged user in a folder of its own; it listens on a socket in it, so that no port is taken
-//! unless a test asks for one.
+//! Starts a real PostgreSQL server as an unprivileged user in a temporary folder. It listens on a Unix socket in that folder, and on a TCP port only
+//! if a test requests one.
 
 use std::os::unix::fs::{PermissionsExt, chown};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
-/// Debian's `nobody` and `nogroup`: PostgreSQL refuses to run as root.
+/// Debian's `nobody` and `nogroup`. PostgreSQL does not run as root.
 const NOBODY: u32 = 65_534;
 
-/// PostgreSQL names its socket by this, unless told otherwise.
+/// PostgreSQL's default port, which is also part of the name of its socket.
 const DEFAULT_PORT: u16 = 5432;
 
-/// A PostgreSQL of our own.
+/// A temporary PostgreSQL server.
 pub struct PostgresServer {
     process: Child,
     folder: tempfile::TempDir,
 }
 
 impl PostgresServer {
-    /// Starts one that no port leads to.
+    /// Starts a server without a TCP port.
     pub fn start() -> Self {
         Self::with(DEFAULT_PORT, &["listen_addresses=".to_owned()])
     }
 
-    /// Starts one on a port of this machine, with more settings (`name=value`).
+    /// Starts a server on a port of this computer, with additional settings (`name=value`).
     pub fn on_port(port: u16, settings: &[String]) -> Self {
         let here = ["listen_addresses=127.0.0.1".to_owned(), format!("port={port}")];
         Self::with(port, &[&here, settings].concat())
@@ -55,19 +55,19 @@ impl PostgresServer {
             .spawn()
             .unwrap();
         let mut server = Self { process, folder };
-        // pg_isready asks the server itself and waits for its answer.
+        // pg_isready connects to the server and waits for its answer.
         let place = ["-h".to_owned(), at(&home), "-p".to_owned(), port.to_string()];
         let ready = || Command::new(programs.join("pg_isready")).args(&place).args(["-t", "1"]).output().unwrap().status;
         while !ready().success() {
             if let Some(status) = server.process.try_wait().unwrap() {
                 let said = std::fs::read_to_string(server.folder.path().join("log.txt")).unwrap_or_default();
-                panic!("PostgreSQL has ended ({status}): {said}");
+                panic!("PostgreSQL exited ({status}): {said}");
             }
         }
         server
     }
 
-    /// Its address by the socket in its folder.
+    /// Returns the URL of the socket in the server's folder.
     pub fn url(&self) -> String {
         format!("postgres://spandrel@localhost/postgres?host={}", self.folder.path().join("run").display())
     }
@@ -75,7 +75,7 @@ impl PostgresServer {
 
 impl Drop for PostgresServer {
     fn drop(&mut self) {
-        // PostgreSQL ends its children before itself when its own program asks; killed, it would leave them.
+        // pg_ctl stops the server's child processes first; killing the server would leave them running.
         let data = self.folder.path().join("run/data").display().to_string();
         let stopped =
             unprivileged(&programs().join("pg_ctl")).args(["stop", "-D", &data, "-m", "fast", "-s"]).current_dir("/").status();
@@ -86,7 +86,7 @@ impl Drop for PostgresServer {
     }
 }
 
-/// Where Debian, or the path, has PostgreSQL's programs.
+/// Returns the folder of PostgreSQL's programs, from Debian's location or the PATH.
 fn programs() -> PathBuf {
     let versions = std::fs::read_dir("/usr/lib/postgresql").into_iter().flatten().flatten();
     let mut found: Vec<PathBuf> =
@@ -110,7 +110,7 @@ fn unprivileged(program: &Path) -> Command {
     command
 }
 
-/// Gives a file to the user that PostgreSQL runs as, for his eyes only: it takes no other private key.
+/// Gives a file to the user that PostgreSQL runs as, readable only by that user: PostgreSQL rejects any other private key.
 pub fn hand_over(file: &Path) {
     std::fs::set_permissions(file, std::fs::Permissions::from_mode(0o600)).unwrap();
     if is_root() {

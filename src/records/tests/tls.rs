@@ -1,4 +1,4 @@
-//! TLS to a real PostgreSQL, with certificates made by OpenSSL.
+//! TLS connections to a real PostgreSQL server, with certificates created by OpenSSL.
 
 use super::server::{PostgresServer, hand_over};
 use crate::records::database::Database;
@@ -15,12 +15,12 @@ fn openssl(folder: &Path, words: &str) {
     assert!(done.status.success(), "openssl {words}: {}", String::from_utf8_lossy(&done.stderr));
 }
 
-/// `NAME.pem` and `NAME.key` of an authority.
+/// Creates an authority: `NAME.pem` and `NAME.key`.
 fn authority(folder: &Path, name: &str) {
     openssl(folder, &format!("req -x509 {KEY} -keyout {name}.key -out {name}.pem -days 2 -subj /CN={name}"));
 }
 
-/// `NAME.pem` and `NAME.key`, signed by the authority `ours`.
+/// Creates `NAME.pem` and `NAME.key` for a host, signed by the authority `ours`.
 fn signed(folder: &Path, name: &str, host: &str) {
     std::fs::write(folder.join("more.cnf"), format!("subjectAltName=DNS:{host}\nbasicConstraints=CA:FALSE\n")).unwrap();
     openssl(folder, &format!("req {KEY} -keyout {name}.key -out {name}.csr -subj /CN={name}"));
@@ -28,7 +28,7 @@ fn signed(folder: &Path, name: &str, host: &str) {
     openssl(folder, &format!("x509 -req -in {name}.csr -out {name}.pem {sign}"));
 }
 
-/// The TLS version and the name on our own certificate, as PostgreSQL sees this connection.
+/// Returns the TLS version and the subject of the client certificate, as PostgreSQL reports them for this connection.
 fn seen(url: &str) -> Option<(String, String)> {
     let database = Database::open(url).unwrap();
     let row = database.run(async { sqlx::query(SUBJECT).fetch_optional(&database.pool).await }).unwrap()?;
@@ -44,7 +44,7 @@ fn val_tls_to_postgresql_by_its_url() {
     signed(folder, "server", "localhost");
     signed(folder, "station", "station");
     hand_over(&folder.join("server.key"));
-    // PostgreSQL, another user, reads them.
+    // PostgreSQL runs as another user and has to read the files.
     std::fs::set_permissions(folder, std::os::unix::fs::PermissionsExt::from_mode(0o755)).unwrap();
     let at = |name: &str| folder.join(name).display().to_string();
     let port = TcpListener::bind(("127.0.0.1", 0)).unwrap().local_addr().unwrap().port();
@@ -61,11 +61,11 @@ fn val_tls_to_postgresql_by_its_url() {
     }
     assert!(seen(&url("localhost", &format!("sslmode=verify-full&sslrootcert={ours}"))).is_some());
     let own = format!("sslmode=verify-full&sslrootcert={ours}&sslcert={}&sslkey={}", at("station.pem"), at("station.key"));
-    assert!(seen(&url("localhost", &own)).unwrap().1.contains("station"), "our certificate is shown");
+    assert!(seen(&url("localhost", &own)).unwrap().1.contains("station"), "the client certificate is sent");
 
     let refused = |host: &str, words: &str| Database::open(&url(host, words)).unwrap_err().to_string();
     let name = refused("127.0.0.1", &format!("sslmode=verify-full&sslrootcert={ours}"));
-    assert!(name.contains("for another name"), "{name}");
+    assert!(name.contains("for another host name"), "{name}");
     for stranger in ["sslmode=verify-full".to_owned(), format!("sslmode=verify-full&sslrootcert={other}")] {
         let unknown = refused("localhost", &stranger);
         assert!(unknown.contains("sslrootcert=FILE"), "{unknown}");

@@ -1,21 +1,21 @@
-//! Where a request comes from: a page of ours, by one of our names, and which address.
+//! Checks the origin of requests: site, host name and client address.
 
 use crate::web::response::WebError;
 use axum::http::{HeaderMap, header};
 use ipnet::IpNet;
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr};
 
-/// Who may pass requests on to the server, and by which names clients reach it.
+/// Trusted proxies and the host names of the server.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct AllowedOrigins {
-    /// Proxies that speak TLS for us; empty without one. Nobody else reaches the server then, and only these say for whom they ask.
+    /// Proxies that terminate TLS; empty without a proxy. With proxies, all requests must come from them, and only their X-Forwarded-For is trusted.
     pub proxies: Vec<IpNet>,
-    /// Names of this server beside localhost and addresses.
+    /// Host names of this server, in addition to localhost and IP addresses.
     pub hosts: Vec<String>,
 }
 
 impl AllowedOrigins {
-    /// The reach of a server behind proxies: those named, else a proxy on this machine.
+    /// Returns the setting for a server behind these proxies, or behind a proxy on this machine if none are given.
     pub fn behind(named: &[IpNet], hosts: &[String]) -> Self {
         let local = || vec![IpNet::from(IpAddr::from(Ipv4Addr::LOCALHOST)), IpNet::from(IpAddr::from(Ipv6Addr::LOCALHOST))];
         Self { proxies: if named.is_empty() { local() } else { named.to_vec() }, hosts: hosts.to_vec() }
@@ -25,7 +25,7 @@ impl AllowedOrigins {
         self.proxies.iter().any(|proxy| proxy.contains(&address.to_canonical()))
     }
 
-    /// A server that needs a password is reached by addresses and by its names: no other site's name leads here.
+    /// Returns true for IP addresses, localhost and the configured names. Any other name may belong to another site (DNS rebinding).
     fn is_allowed_host(&self, host: &Host<'_>) -> bool {
         match host {
             Host::Address(_) => true,
@@ -35,21 +35,21 @@ impl AllowedOrigins {
         }
     }
 
-    /// Checks that a request names this server, and, if it changes something, that it comes from a page of ours, as far as the browser says.
-    /// A server without passwords answers to this machine alone, by a name that no other site can take over (DNS rebinding).
+    /// Checks that a request names this server and, if it changes anything, that it comes from one of the server's pages, as reported by the browser.
+    /// A server without passwords accepts only requests to this machine's own names, which no other site can take over (DNS rebinding).
     ///
     /// # Errors
-    /// When it does not.
+    /// If one of these checks fails.
     pub fn check_origin(&self, headers: &HeaderMap, changes: bool, open: bool) -> Result<(), WebError> {
         let text = |name: &str| headers.get(name).and_then(|value| value.to_str().ok());
         let authority = authority(headers);
         let host = authority.and_then(Host::parse);
         let host = host.ok_or_else(|| WebError::Forbidden("The request needs exactly one valid Host header.".into()))?;
         if open && !host.is_this_machine() {
-            return Err(WebError::Forbidden("Without a password the server answers to localhost and 127.0.0.1 alone.".into()));
+            return Err(WebError::Forbidden("Without a password, the server responds only to localhost and 127.0.0.1.".into()));
         }
         if !self.is_allowed_host(&host) {
-            let words = "The server does not know this host name. Its administrator can add it with --host NAME.";
+            let words = "This host name is not configured on the server. The administrator can add it with --host NAME.";
             return Err(WebError::Forbidden(words.into()));
         }
         if !changes {
@@ -63,19 +63,19 @@ impl AllowedOrigins {
         Err(WebError::Forbidden("This request comes from another site.".into()))
     }
 
-    /// Returns the client's address: the socket's, or behind a proxy the last address in X-Forwarded-For that is no proxy of ours.
+    /// Returns the client's address: that of the socket or, behind a proxy, the last address in X-Forwarded-For that is not a trusted proxy.
     ///
     /// # Errors
-    /// When a proxy is required and the socket is not its.
+    /// If a proxy is required and the socket is not one.
     pub fn address(&self, socket: IpAddr, headers: &HeaderMap) -> Result<IpAddr, WebError> {
         if self.proxies.is_empty() {
             return Ok(socket);
         }
         if !self.trusts(socket) {
-            return Err(WebError::Forbidden("This server answers to its proxy alone (--trusted-proxy).".into()));
+            return Err(WebError::Forbidden("This server accepts requests only from its proxy (--trusted-proxy).".into()));
         }
         let lines = headers.get_all("x-forwarded-for").iter().rev().map(|line| line.to_str().unwrap_or_default());
-        // Each proxy appends the address that it saw; whatever stands before the last one that is not ours is the sender's to choose.
+        // Each proxy appends the address that it received the request from; everything before the last untrusted address can be forged by the client.
         for entry in lines.flat_map(|line| line.rsplit(',')) {
             match entry.trim().parse::<IpAddr>() {
                 Ok(address) if self.trusts(address) => {}
@@ -87,14 +87,14 @@ impl AllowedOrigins {
     }
 }
 
-/// The one Host header, as it was sent.
+/// Returns the value of the Host header if there is exactly one.
 fn authority(headers: &HeaderMap) -> Option<&str> {
     let mut all = headers.get_all(header::HOST).iter();
     let only = all.next()?.to_str().ok()?;
     all.next().is_none().then_some(only)
 }
 
-/// The host in a Host header (RFC 9110, 7.2), without its port.
+/// Host in a Host header (RFC 9110, 7.2), without the port.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Host<'a> {
     Address(IpAddr),
@@ -102,7 +102,7 @@ enum Host<'a> {
 }
 
 impl<'a> Host<'a> {
-    /// `None` for anything but a name or an address, each with an optional port.
+    /// Parses a name or an address with an optional port; `None` for anything else.
     fn parse(authority: &'a str) -> Option<Self> {
         let (host, port) = match authority.strip_prefix('[') {
             Some(rest) => {
@@ -133,7 +133,7 @@ impl<'a> Host<'a> {
     }
 }
 
-/// A DNS name (RFC 1123): labels of letters, digits and inner hyphens.
+/// Returns true for a DNS name (RFC 1123): labels of letters, digits and inner hyphens.
 pub fn is_host_name(name: &str) -> bool {
     let label = |label: &str| {
         let plain = label.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'-');
@@ -185,7 +185,7 @@ mod tests {
         assert!(ok(&[("host", "trainer.example"), ("origin", "https://trainer.example")], true, false));
         assert!(
             ok(&[("host", "trainer.example"), ("sec-fetch-site", "cross-site")], false, false),
-            "a link from elsewhere may be followed"
+            "links from other sites work"
         );
     }
 
@@ -226,13 +226,13 @@ mod tests {
         let address = |reach: AllowedOrigins, socket, headers: &HeaderMap| {
             Authenticator::new(true, true, reach).address(socket, headers).ok()
         };
-        assert_eq!(address(AllowedOrigins::default(), local, &forwarded), Some(local), "without a proxy the header says nothing");
+        assert_eq!(address(AllowedOrigins::default(), local, &forwarded), Some(local), "without a proxy, the header is ignored");
         let here = AllowedOrigins::behind(&[], &[]);
         assert_eq!(address(here.clone(), local, &forwarded), Some(client));
         assert_eq!(address(here.clone(), IpAddr::from(Ipv4Addr::LOCALHOST.to_ipv6_mapped()), &forwarded), Some(client));
         assert_eq!(address(here.clone(), local, &headers(&[])), Some(local));
         assert_eq!(address(here.clone(), local, &headers(&[("x-forwarded-for", "1.1.1.1, nonsense")])), Some(local));
-        assert_eq!(address(here, proxy, &forwarded), None, "somebody who goes around the proxy");
+        assert_eq!(address(here, proxy, &forwarded), None, "a client that bypasses the proxy");
         let chain = AllowedOrigins::behind(&["10.0.0.0/24".parse().unwrap()], &[]);
         let through_two = headers(&[("x-forwarded-for", "1.1.1.1, 203.0.113.9"), ("x-forwarded-for", "10.0.0.3")]);
         assert_eq!(address(chain.clone(), proxy, &through_two), Some(client));

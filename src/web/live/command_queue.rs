@@ -1,5 +1,5 @@
-//! What an instructor asks of the vehicle, until it has answered: datagrams may be lost, so each step is asked again, and told when it never
-//! is answered.
+//! Queue of the instructor's commands to the vehicle. Datagrams can be lost, so each step is repeated until it is answered; a step without an answer
+//! is reported.
 
 use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MavCmd, MavMessage, MavParamError, MavParamType, MavResult, PARAM_SET_DATA};
@@ -8,46 +8,47 @@ use spandrel_monitor::sidecar::COMPONENT as MONITOR;
 use std::collections::VecDeque;
 use std::time::Duration;
 
-/// A step that is not answered is asked again after this.
+/// Interval at which an unanswered step is repeated.
 const AGAIN: Duration = Duration::from_millis(500);
-/// And given up after so many times.
+/// Maximum number of attempts per step.
 const TRIES: u32 = 20;
-/// Who asks: a system of our own, a companion computer, which no vehicle takes for the ground station whose loss it fears.
+/// MAVLink system ID of the live page. Its component is a companion computer, so that its loss does not trigger the vehicle's ground station
+/// failsafe.
 pub const SYSTEM: u8 = 252;
 pub const COMPONENT: u8 = 192;
-/// FAILURE_TYPE: whole, and gone.
+/// FAILURE_TYPE_OK and FAILURE_TYPE_OFF of MAV_CMD_INJECT_FAILURE.
 const WHOLE: f32 = 0.0;
 const OFF: f32 = 1.0;
 
-/// What is asked.
+/// A command of an instructor.
 #[derive(Debug, Clone, PartialEq)]
 pub enum InstructorCommand {
-    /// A note for the sidecar's events.
+    /// Adds a note to the monitor's event log.
     Note(String),
-    /// Another mean wind.
+    /// Sets the mean wind.
     Wind {
-        /// Speed, m/s.
+        /// Mean wind speed, m/s.
         speed_m_s: f64,
-        /// From, degrees clockwise from north.
+        /// Wind direction (where the wind comes from), degrees clockwise from north.
         from_deg: f64,
     },
-    /// The bridges open to traffic, or closed.
+    /// Opens or closes the bridges to traffic.
     Traffic {
-        /// Open.
+        /// True to open the bridges.
         open: bool,
     },
-    /// A failure, or its end.
+    /// Injects or clears a failure.
     Failure {
-        /// FAILURE_UNIT.
+        /// FAILURE_UNIT of the component.
         unit: f32,
-        /// The unit for people.
+        /// Name of the component.
         words: &'static str,
-        /// Fails, or is whole again.
+        /// True to inject the failure, false to clear it.
         fails: bool,
     },
 }
 
-/// One message that wants an answer.
+/// A single message to the vehicle.
 #[derive(Debug, Clone, PartialEq)]
 enum CommandStep {
     Parameter(&'static str, ParamNumber),
@@ -55,7 +56,7 @@ enum CommandStep {
     Note(String),
 }
 
-/// A parameter's value with its type.
+/// Parameter value with its type.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum ParamNumber {
     Real(f32),
@@ -63,7 +64,7 @@ enum ParamNumber {
 }
 
 impl ParamNumber {
-    /// As it travels; `cast` says how the vehicle takes whole numbers.
+    /// Returns the value as sent. `cast` is true for vehicles that expect integers converted to float, false for those that expect their bits.
     fn to_wire(self, cast: bool) -> f32 {
         match self {
             Self::Real(value) => value,
@@ -85,12 +86,12 @@ struct QueuedCommand {
     tries: u32,
 }
 
-/// Orders that are not done yet, one after the other.
+/// Commands that have not finished yet, processed in order.
 #[derive(Debug, Default)]
 pub struct CommandQueue(VecDeque<QueuedCommand>);
 
 impl CommandQueue {
-    /// Takes an order.
+    /// Appends an instructor's command to the queue.
     pub fn push(&mut self, order: InstructorCommand) {
         let (steps, words) = match order {
             InstructorCommand::Note(text) => (vec![CommandStep::Note(text.clone())], format!("note: {text}")),
@@ -110,7 +111,7 @@ impl CommandQueue {
                 (vec![CommandStep::Parameter("SIM_TRAFFIC", ParamNumber::Whole(i32::from(open)))], words)
             }
             InstructorCommand::Failure { unit, words, fails } => {
-                let said = format!("instructor: {} {}", words.to_lowercase(), if fails { "fails" } else { "is whole again" });
+                let said = format!("instructor: {} {}", words.to_lowercase(), if fails { "fails" } else { "restored" });
                 let inject = CommandStep::Inject { unit, kind: if fails { OFF } else { WHOLE } };
                 (vec![CommandStep::Parameter("SYS_FAILURE_EN", ParamNumber::Whole(1)), inject], said)
             }
@@ -118,7 +119,7 @@ impl CommandQueue {
         self.0.push_back(QueuedCommand { steps: steps.into(), description: words, last_sent: None, tries: 0 });
     }
 
-    /// Frames that are due, and words about orders that ended. `cast` says how the vehicle takes whole numbers.
+    /// Returns the frames to send now, and messages about finished commands. `cast` is explained at [`ParamNumber::to_wire`].
     pub fn poll_frames(&mut self, now: Duration, encoder: &mut Encoder, system: u8, cast: bool) -> (Vec<Vec<u8>>, Vec<String>) {
         let (mut frames, mut words) = (Vec::new(), Vec::new());
         while let Some(task) = self.0.front_mut() {
@@ -131,13 +132,13 @@ impl CommandQueue {
                 break;
             }
             if task.tries >= TRIES {
-                words.push(format!("{}: not answered", task.description));
+                words.push(format!("{}: no answer", task.description));
                 self.0.pop_front();
                 continue;
             }
             frames.push(frame(step, encoder, system, cast));
             (task.last_sent, task.tries) = (Some(now), task.tries + 1);
-            // Nobody answers a note; the telemetry link of a sidecar on this machine loses next to nothing.
+            // Notes have no answer; telemetry to a monitor on the same machine is hardly ever lost.
             if matches!(step, CommandStep::Note(_)) {
                 task.steps.pop_front();
             }
@@ -145,7 +146,7 @@ impl CommandQueue {
         (frames, words)
     }
 
-    /// Hears whether the step under way is answered; words when it is refused, with which the order ends.
+    /// Checks whether a frame answers the current step. Returns a message if the step was rejected, which ends the command.
     pub fn handle_frame(&mut self, frame: &ReceivedFrame) -> Option<String> {
         let task = self.0.front_mut()?;
         match answer(task.steps.front()?, frame.message.as_ref()?)? {
@@ -155,7 +156,7 @@ impl CommandQueue {
                 None
             }
             Err(why) => {
-                let words = format!("{}: refused, {why}", task.description);
+                let words = format!("{}: rejected, {why}", task.description);
                 self.0.pop_front();
                 Some(words)
             }
@@ -163,12 +164,11 @@ impl CommandQueue {
     }
 }
 
-/// Checks whether a message is the response to this step: success, or rejection with a reason. Ignores responses addressed to
-/// other systems.
+/// Returns the answer to a step: success, or rejection with a reason. Ignores answers to other systems.
 fn answer(step: &CommandStep, message: &MavMessage) -> Option<Result<(), &'static str>> {
     let ours = |system: u8, component: u8| (system, component) == (SYSTEM, COMPONENT);
     match (step, message) {
-        // The old value is no answer: it may have been asked for by somebody else.
+        // Only the new value counts as an answer; another client may have requested the old one.
         (CommandStep::Parameter(name, number), MavMessage::PARAM_VALUE(value)) => {
             let done = value.param_id.to_str().is_ok_and(|id| id == *name) && number.matches(value.param_value);
             done.then_some(Ok(()))
@@ -186,15 +186,15 @@ fn answer(step: &CommandStep, message: &MavMessage) -> Option<Result<(), &'stati
     }
 }
 
-/// What a command came to; `None` while it goes on.
+/// Returns the result of a command; `None` while it is in progress.
 fn result(result: MavResult) -> Option<Result<(), &'static str>> {
     match result {
         MavResult::MAV_RESULT_ACCEPTED => Some(Ok(())),
         MavResult::MAV_RESULT_IN_PROGRESS => None,
         MavResult::MAV_RESULT_TEMPORARILY_REJECTED => Some(Err("not now")),
-        MavResult::MAV_RESULT_UNSUPPORTED => Some(Err("this vehicle does not know it")),
+        MavResult::MAV_RESULT_UNSUPPORTED => Some(Err("the vehicle does not support it")),
         MavResult::MAV_RESULT_DENIED => Some(Err("the vehicle denies it")),
-        _ => Some(Err("it failed")),
+        _ => Some(Err("the vehicle reports a failure")),
     }
 }
 
@@ -203,9 +203,9 @@ fn error_words(error: MavParamError) -> &'static str {
         MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST => "this vehicle has no such parameter",
         MavParamError::MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE => "the value is out of range",
         MavParamError::MAV_PARAM_ERROR_READ_ONLY | MavParamError::MAV_PARAM_ERROR_PERMISSION_DENIED => {
-            "the parameter may not be set"
+            "the parameter is read-only"
         }
-        _ => "the vehicle does not take the value",
+        _ => "the vehicle does not accept the value",
     }
 }
 
@@ -273,7 +273,7 @@ mod tests {
         assert_eq!(name(&sent(&mut orders, 500).0).0, "SIM_WIND_DIR");
         orders.handle_frame(&value("SIM_WIND_SPD", 270.0));
         orders.handle_frame(&value("SIM_WIND_DIR", 0.0));
-        assert_eq!(name(&sent(&mut orders, 1_000).0).0, "SIM_WIND_DIR", "another answer counts for nothing");
+        assert_eq!(name(&sent(&mut orders, 1_000).0).0, "SIM_WIND_DIR", "other answers are ignored");
         orders.handle_frame(&value("SIM_WIND_DIR", 270.0));
         assert_eq!(name(&sent(&mut orders, 1_010).0), ("SIM_WIND_SPD".into(), 8.0));
         orders.handle_frame(&value("SIM_WIND_SPD", 8.0));
@@ -290,13 +290,13 @@ mod tests {
         sent(&mut orders, 1);
         assert_eq!(
             orders.handle_frame(&told(&acked(MavResult::MAV_RESULT_DENIED, (SYSTEM, COMPONENT)))),
-            Some("instructor: satellite navigation fails: refused, the vehicle denies it".into())
+            Some("instructor: satellite navigation fails: rejected, the vehicle denies it".into())
         );
         let (frames, words) = sent(&mut orders, 2);
         assert_eq!((note::decode(&frames[0]).unwrap().1, words), ("look".into(), vec!["note: look".into()]));
         orders.push(InstructorCommand::Wind { speed_m_s: 1.0, from_deg: 0.0 });
         let told: Vec<String> = (0..30).flat_map(|k| sent(&mut orders, 1_000 + 500 * k).1).collect();
-        assert_eq!(told, ["instructor: wind 1 m/s from 0°: not answered"]);
+        assert_eq!(told, ["instructor: wind 1 m/s from 0°: no answer"]);
     }
 
     #[test]
@@ -319,16 +319,20 @@ mod tests {
             assert_eq!(orders.handle_frame(&other), None);
         }
         let refused = orders.handle_frame(&error("SIM_WIND_DIR", (SYSTEM, COMPONENT)));
-        assert_eq!(refused.as_deref(), Some("instructor: wind 8 m/s from 270°: refused, the value is out of range"));
-        assert_eq!(sent(&mut orders, 10_000), (vec![], vec![]), "the order has ended");
+        assert_eq!(refused.as_deref(), Some("instructor: wind 8 m/s from 270°: rejected, the value is out of range"));
+        assert_eq!(sent(&mut orders, 10_000), (vec![], vec![]), "the command has ended");
 
         orders.push(InstructorCommand::Failure { unit: 5.0, words: "Compass", fails: true });
         sent(&mut orders, 10_000);
         orders.handle_frame(&value("SYS_FAILURE_EN", f32::from_bits(1)));
         sent(&mut orders, 10_001);
-        assert_eq!(orders.handle_frame(&told(&acked(MavResult::MAV_RESULT_DENIED, (255, 190)))), None, "somebody else's");
+        assert_eq!(
+            orders.handle_frame(&told(&acked(MavResult::MAV_RESULT_DENIED, (255, 190)))),
+            None,
+            "an answer to another system"
+        );
         assert_eq!(orders.handle_frame(&told(&acked(MavResult::MAV_RESULT_IN_PROGRESS, (SYSTEM, COMPONENT)))), None);
-        assert_eq!(sent(&mut orders, 10_600).0.len(), 1, "it still waits for its own");
+        assert_eq!(sent(&mut orders, 10_600).0.len(), 1, "still waiting for its own answer");
         assert_eq!(orders.handle_frame(&told(&acked(MavResult::MAV_RESULT_ACCEPTED, (SYSTEM, COMPONENT)))), None);
         assert_eq!(sent(&mut orders, 10_601).1, ["instructor: compass fails"]);
     }

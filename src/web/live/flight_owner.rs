@@ -1,4 +1,4 @@
-//! Whose flight it is that a vehicle flies: the session that the sidecar is writing just now for this job and seed.
+//! Finds the trainee of a vehicle's current flight: that of the session that the monitor is writing for the same scenario and seed.
 
 use crate::io::session_folder::ongoing_session;
 use crate::records::session_folders;
@@ -6,10 +6,10 @@ use spandrel_training::web::live_state::JobKey;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// A session whose telemetry has not grown for so long is not the one that is flown.
+/// A session whose telemetry has not grown for this long is not the current flight.
 const FRESH: Duration = Duration::from_secs(10);
 
-/// The trainee of the one session under way; `None` when there is none, or several could be it: nobody sees another's camera.
+/// Returns the trainee of the only matching ongoing session. `None` if there is none or more than one, so that no trainee sees another one's camera.
 pub fn trainee(sessions: &[PathBuf], key: JobKey) -> Option<String> {
     let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
     let folders = session_folders(&here).ok()?;
@@ -47,12 +47,12 @@ mod tests {
         session(&sessions, "2-ben", "ben", KEY.seed + 1);
         assert_eq!(trainee(&places, KEY).as_deref(), Some("anna"));
         let cleo = session(&sessions, "3-cleo", "cleo", KEY.seed);
-        assert_eq!(trainee(&places, KEY), None, "two could be it");
+        assert_eq!(trainee(&places, KEY), None, "two sessions match");
         fs::write(cleo.join(ASSESSMENT), b"{}").unwrap();
         assert_eq!(trainee(&places, KEY).as_deref(), Some("anna"), "the other has ended");
         let file = fs::File::options().write(true).open(anna.join(TELEMETRY)).unwrap();
         let modified = file.metadata().unwrap().modified().unwrap();
         file.set_modified(modified - 2 * FRESH).unwrap();
-        assert_eq!(trainee(&places, KEY), None, "nobody writes it any more");
+        assert_eq!(trainee(&places, KEY), None, "no longer being written");
     }
 }

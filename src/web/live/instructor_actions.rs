@@ -1,4 +1,4 @@
-//! What an instructor asks for, from the form to an order.
+//! Converts the instructor's form fields to commands.
 
 use super::command_queue::InstructorCommand;
 use super::vehicle_choice::chosen;
@@ -8,11 +8,11 @@ use crate::web::state::ServerState;
 use serde_json::json;
 use spandrel_training::web::live::{self as pages, UNITS};
 
-/// An instructor's action. It is under way when this answers; what became of it is said in the stream.
+/// Starts an instructor's action. The result appears later in the stream.
 pub fn run_action(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let (number, live) = chosen(state, asked.form_field("vehicle"))?;
     let order = parse_command(asked)?;
-    live.orders.send(order).map_err(|_| WebError::Failed("the live link has ended: start the server again".into()))?;
+    live.orders.send(order).map_err(|_| WebError::Failed("the live listener has stopped: restart the server".into()))?;
     let back = format!("/live?vehicle={number}");
     Ok(if asked.by_script { WebResponse::json(&json!({ "under_way": true })) } else { WebResponse::redirect(&back) })
 }
@@ -33,7 +33,7 @@ fn parse_command(asked: &WebRequest) -> Result<InstructorCommand, WebError> {
         "wind" => {
             let number = |name: &str, most: f64| {
                 let value: Option<f64> = asked.required_field(name)?.parse().ok();
-                let allowed = || WebError::BadRequest(format!("{name}: no such number (allowed: 0 to {most})"));
+                let allowed = || WebError::BadRequest(format!("{name}: invalid number (allowed: 0 to {most})"));
                 value.filter(|value| (0.0..=most).contains(value)).ok_or_else(allowed)
             };
             Ok(InstructorCommand::Wind { speed_m_s: number("speed", pages::WIND_MOST_M_S)?, from_deg: number("from", 360.0)? })

@@ -7,7 +7,7 @@ use crate::web::response::{HandlerResult, WebResponse};
 use crate::web::state::ServerState;
 use spandrel_training::web::live as pages;
 
-/// The page.
+/// Shows the instructor's live page.
 pub fn page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     if state.live.is_empty() {
         return Ok(WebResponse::page(pages::live(&asked.visitor, None, &pages::VehicleChoice::default())));

@@ -1,17 +1,17 @@
-//! The camera's view, as a window keeps it in a file about once a second.
+//! Camera image of a live flight, which a window saves to a file about once a second.
 
 use std::path::Path;
 use std::time::{Duration, UNIX_EPOCH};
 
-/// An older picture shows nothing of now.
+/// Age above which an image is outdated.
 const FRESH: Duration = Duration::from_secs(10);
-/// Largest picture that is shown, bytes: a view in full HD has some hundred thousand.
+/// Maximum size of an image, bytes; a full HD view has several hundred thousand.
 const MOST: u64 = 4 * 1024 * 1024;
-/// Names the picture that is there now, so that a browser asks for each once; `None` when it is no more of now.
+/// Returns the version of the current image, so that browsers request each image only once; `None` if it is outdated.
 pub fn version(path: &Path) -> Option<u64> {
     let about = path.metadata().ok().filter(|about| about.is_file() && about.len() <= MOST)?;
     let kept = about.modified().ok()?;
-    // A clock that was put back makes no picture old.
+    // If the clock was set back, the image counts as current.
     let age = kept.elapsed().unwrap_or_default();
     let since = kept.duration_since(UNIX_EPOCH).ok()?;
     (age < FRESH).then(|| u64::try_from(since.as_millis()).ok()).flatten()
@@ -35,7 +35,7 @@ mod tests {
         at(Duration::from_secs(1));
         let first = version(&path).unwrap();
         at(Duration::ZERO);
-        assert!(version(&path).unwrap() > first, "every picture has a name of its own");
+        assert!(version(&path).unwrap() > first, "every image has its own version");
         at(2 * FRESH);
         assert_eq!((version(&path), version(folder.path())), (None, None));
     }

@@ -1,4 +1,4 @@
-//! Values as they come, as server-sent events.
+//! Streams live values as server-sent events.
 
 use super::vehicle::LiveVehicle;
 use crate::web::state::ServerState;
@@ -10,14 +10,14 @@ use spandrel_training::web::access::AccessLevel;
 use std::convert::Infallible;
 use std::sync::Arc;
 
-/// A visitor's right to watch is looked at again after so many moments.
+/// Number of events after which the visitor's access is checked again.
 const LOOK_AGAIN: u32 = 50;
 
-/// Values as they come, until the browser goes or the visitor may no more.
+/// Streams the values until the browser disconnects or the visitor loses access.
 pub fn stream(state: Arc<ServerState>, live: &LiveVehicle, cookie: Option<String>) -> Response<Body> {
     let moments = live.moments.clone();
     let events = futures_util::stream::unfold((moments, state, cookie, 0u32), |(mut moments, state, cookie, count)| async move {
-        // The first moment is there already.
+        // The first value is sent immediately.
         if count > 0 {
             moments.changed().await.ok()?;
         }

@@ -1,4 +1,4 @@
-//! The thread that hears one vehicle: it is one more subscriber of the payload port.
+//! Listener thread of one vehicle: subscribes to its payload port.
 
 use super::command_queue::{COMPONENT, CommandQueue, InstructorCommand, SYSTEM};
 use super::{flight_owner, picture};
@@ -23,29 +23,29 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use tokio::sync::watch;
 
-/// Moments a second.
+/// Interval of updates to the pages.
 const EVERY: Duration = Duration::from_millis(200);
-/// Longest wait for a datagram.
+/// Maximum wait for a datagram.
 const WAIT: Duration = Duration::from_millis(50);
-/// The vehicle forgets who is silent.
+/// Heartbeat interval. The vehicle drops subscribers that stay silent.
 const HEARTBEAT_EVERY: Duration = Duration::from_secs(1);
-/// A vehicle that says nothing for so long is silent.
+/// Time without telemetry after which a vehicle counts as silent.
 const SILENT: Duration = Duration::from_secs(3);
-/// Datagrams taken before anything else is done.
+/// Maximum number of datagrams processed per cycle.
 const BATCH: usize = 256;
 
-/// What is looked for on the disk.
+/// Files and folders that the listener reads.
 #[derive(Debug, Clone)]
 pub struct ListenerPaths {
-    /// Folders with sessions: a job that is under way stands in one.
+    /// Folders of sessions, which contain the scenarios of ongoing flights.
     pub sessions: Vec<PathBuf>,
-    /// Uploaded scenarios.
+    /// Folder of uploaded scenarios.
     pub scenarios: PathBuf,
-    /// Where a window keeps the camera's view.
+    /// File to which a window saves the camera's view.
     pub picture: Option<PathBuf>,
 }
 
-/// The listening thread.
+/// Listener of one vehicle.
 pub struct LiveListener {
     hub: SocketHub,
     socket: SocketId,
@@ -53,28 +53,28 @@ pub struct LiveListener {
     flight: LiveFlightState,
     encoder: Encoder,
     orders: CommandQueue,
-    /// A job that was looked for and not found, and when.
+    /// Scenario that was not found, and the time of the search.
     unknown: Option<(JobKey, Duration)>,
-    /// When it was last looked whose flight it is.
+    /// Time of the last search for the trainee.
     trainee_checked: Option<Duration>,
     known: SharedKnowledge,
     places: ListenerPaths,
 }
 
-/// What pages know of the flight.
+/// State of the flight that pages read.
 #[derive(Debug, Clone, Default)]
 pub struct SharedKnowledge {
-    /// Its job, drawn.
+    /// Drawings of the scenario.
     pub drawn: Arc<Mutex<Option<DrawnJob>>>,
-    /// Who flies it.
+    /// Trainee of the current flight.
     pub trainee: Arc<Mutex<Option<String>>>,
 }
 
 impl LiveListener {
-    /// Opens a socket towards a vehicle.
+    /// Opens a socket for a vehicle.
     ///
     /// # Errors
-    /// When none can be opened.
+    /// If the socket cannot be opened.
     pub fn open(vehicle: SocketAddr, known: SharedKnowledge, places: ListenerPaths) -> Result<Self, AppError> {
         let ip: IpAddr = match vehicle.ip() {
             ip if ip.is_loopback() => ip,
@@ -87,12 +87,12 @@ impl LiveListener {
         Ok(Self { hub, socket, vehicle, flight: watch, encoder, orders, unknown: None, trainee_checked: None, known, places })
     }
 
-    /// Listens until nobody hears any more.
+    /// Listens until the server stops.
     pub fn listen(&mut self, moments: &watch::Sender<String>, orders: &Receiver<InstructorCommand>) {
         let clock = Stopwatch::start();
         let (mut heard, mut beat, mut told) = (None, None, None);
         let due = |last: Option<Duration>, every: Duration| last.is_none_or(|last| clock.elapsed() >= last + every);
-        // The server and its pages are gone when nobody can hear any more.
+        // The channel closes when the server and all its pages are gone.
         while !moments.is_closed() {
             if self.receive() {
                 heard = Some(clock.elapsed());
@@ -121,14 +121,14 @@ impl LiveListener {
         moment
     }
 
-    /// Takes in what has come. True when the vehicle spoke.
+    /// Processes received datagrams. Returns true if there were any from the vehicle.
     fn receive(&mut self) -> bool {
         let (mut wait, mut spoke) = (WAIT, false);
         for _ in 0..BATCH {
             let Some(arrival) = self.hub.next(wait) else { break };
             wait = Duration::ZERO;
             let NetEvent::Datagram { from, bytes, .. } = arrival else { continue };
-            // Nobody else may tell what the vehicle does.
+            // Data from other addresses could be forged.
             if from != self.vehicle {
                 continue;
             }
@@ -160,7 +160,7 @@ impl LiveListener {
         self.hub.send(self.socket, self.vehicle, &bytes);
     }
 
-    /// Finds the scenario that the vehicle names by its checksum: shipped, uploaded, or of a session that is under way.
+    /// Finds the scenario with the vehicle's checksum: shipped, uploaded, or in a recent session folder.
     fn find_job(&mut self, now: Duration) {
         let Some(key) = self.flight.missing_job().filter(|key| self.flight.job() != Some(*key)) else { return };
         if self.unknown.is_some_and(|(other, at)| other == key && now < at + SILENT) {
@@ -175,7 +175,7 @@ impl LiveListener {
         self.flight.set_job(key, &scenario);
     }
 
-    /// Finds out whose flight it is, now and then: the next one may be another's.
+    /// Updates the trainee from time to time, because the next flight may be another trainee's.
     fn find_trainee(&mut self, lives: bool, now: Duration) {
         if self.trainee_checked.is_some_and(|at| now < at + SILENT) {
             return;
@@ -191,7 +191,7 @@ impl LiveListener {
         known.or_else(|| {
             let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
             let folders = crate::records::session_folders(&here).ok()?;
-            // The newest are last.
+            // The newest folders are last.
             folders.iter().rev().take(20).find_map(|folder| {
                 let scenario = crate::io::session_folder::StoredSession::scenario_of(folder).ok()?.scenario;
                 (scenario.crc == crc).then_some(scenario)

@@ -9,16 +9,16 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Sender, channel};
 use tokio::sync::watch;
 
-/// A vehicle to watch.
+/// A vehicle to show on the live page.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WatchedVehicle {
-    /// Its payload port.
+    /// Address of its payload port.
     pub vehicle: SocketAddr,
-    /// Where a window keeps the camera's view of it.
+    /// File to which a window saves the camera's view.
     pub picture: Option<PathBuf>,
 }
 
-/// A flight that is watched.
+/// A vehicle on the live page, with its listener thread.
 #[derive(Debug)]
 pub struct LiveVehicle {
     pub vehicle: SocketAddr,
@@ -29,10 +29,10 @@ pub struct LiveVehicle {
 }
 
 impl LiveVehicle {
-    /// Starts to listen.
+    /// Starts the listener thread.
     ///
     /// # Errors
-    /// When no socket can be opened.
+    /// If the socket cannot be opened.
     pub fn start(watched: &WatchedVehicle, sessions: &[PathBuf], scenarios: &Path) -> Result<Self, AppError> {
         let WatchedVehicle { vehicle, picture } = watched.clone();
         let (sender, moments) = watch::channel(LiveFlightState::new().to_json(false).to_string());

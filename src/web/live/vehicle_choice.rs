@@ -4,15 +4,15 @@ use super::vehicle::LiveVehicle;
 use crate::web::response::WebError;
 use crate::web::state::ServerState;
 
-/// The flight with this number, from 1, and its number; without a word the first one.
+/// Returns the vehicle with this number, from 1, and the number; without a number, the first one.
 ///
 /// # Errors
-/// When no vehicle is watched, or not so many.
+/// If no vehicle is configured, or the number is too large.
 pub fn chosen<'a>(state: &'a ServerState, word: Option<&str>) -> Result<(usize, &'a LiveVehicle), WebError> {
     if state.live.is_empty() {
-        return Err(WebError::BadRequest("no vehicle is watched (--vehicle)".into()));
+        return Err(WebError::BadRequest("no vehicle is configured (--vehicle)".into()));
     }
     let number = word.map_or(Some(1), |word| word.parse().ok());
     let found = number.and_then(|number: usize| Some((number, state.live.get(number.checked_sub(1)?)?)));
-    found.ok_or_else(|| WebError::BadRequest(format!("vehicle: no such number (allowed: 1 to {})", state.live.len())))
+    found.ok_or_else(|| WebError::BadRequest(format!("vehicle: invalid number (allowed: 1 to {})", state.live.len())))
 }
