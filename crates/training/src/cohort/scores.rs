@@ -1,4 +1,4 @@
-//! Score statistics of a cohort: distributions, individuals, crashes, repetitions and tests.
+//! Score statistics of a cohort: distributions, first sessions, crashes, repetitions and tests.
 
 use super::{OVERALL, SCORES, ScorePicker, SessionsByTrainee};
 use crate::record::{Crashes, SessionRecord};
@@ -48,7 +48,7 @@ pub struct Individual {
     pub tasks: Vec<TaskShare>,
 }
 
-/// Contribution of one task to conformity.
+/// One task's contribution to conformity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TaskShare {
     /// Task number.
@@ -63,16 +63,16 @@ pub struct TaskShare {
     pub speeding: f64,
 }
 
-/// Crashes of the first sessions.
+/// Crashes in the first sessions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CrashTable {
     /// Total number of crashes.
     pub total: usize,
     /// Crashes by kind.
     pub by_kind: Crashes,
-    /// Task numbers. Each row has one count per task and one for crashes outside all tasks.
+    /// Task numbers. Each row has one count per task and a last one for crashes outside the tasks.
     pub tasks: Vec<u32>,
-    /// Sum over trainees for each task; the last element counts crashes outside all tasks.
+    /// Sum over all trainees for each task; the last element counts crashes outside the tasks.
     pub by_task: Vec<usize>,
     /// One row per trainee.
     pub rows: Vec<CrashRow>,
@@ -83,7 +83,7 @@ pub struct CrashTable {
 pub struct CrashRow {
     /// Trainee name.
     pub trainee: String,
-    /// Count for each task; the last element counts crashes outside all tasks.
+    /// Count for each task; the last element counts crashes outside the tasks.
     pub by_task: Vec<usize>,
     /// Total number of crashes.
     pub total: usize,
@@ -100,7 +100,7 @@ pub struct RepetitionBox {
     pub plot: BoxPlot,
 }
 
-/// Paired comparison of one score between two repetitions of the group.
+/// Paired comparison of one score in two repetitions of the group.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Comparison {
     /// Name of the score.
@@ -113,20 +113,20 @@ pub struct Comparison {
     #[serde(flatten)]
     pub test: PairedTest,
     /// Holm-corrected p values, separately for each tail. The comparisons of the four scores form one family, those of the
-    /// overall score another.
+    /// overall score another one.
     pub p_holm: Option<TailProbabilities>,
 }
 
-/// Test of whether the group's first sessions are distributed over low, middle and high like those of the other trainees.
+/// Tests whether the group's first sessions are distributed over low, middle and high scores like those of the other trainees.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GroupTest {
     /// Name of the score.
     pub score: String,
-    /// Upper bounds of low and middle: the terciles of all first sessions.
+    /// Upper limits of low and middle scores: the terciles of all first sessions.
     pub cuts: [f64; 2],
-    /// Counts of the group.
+    /// Number of trainees of the group with low, middle and high scores.
     pub group: Vec<usize>,
-    /// Counts of the other trainees.
+    /// Number of other trainees with low, middle and high scores.
     pub others: Vec<usize>,
     /// Result of the homogeneity test.
     #[serde(flatten)]
@@ -216,7 +216,7 @@ pub fn comparisons(group: &SessionsByTrainee<'_>, repetitions: usize, warnings: 
                         test,
                         p_holm: None,
                     }),
-                    Err(error) => warnings.push(format!("{score}, {} vs. {}: no test: {error}", later + 1, earlier + 1)),
+                    Err(error) => warnings.push(format!("{score}, repetition {} vs. {}: no test possible: {error}", later + 1, earlier + 1)),
                 }
             }
         }
@@ -227,7 +227,7 @@ pub fn comparisons(group: &SessionsByTrainee<'_>, repetitions: usize, warnings: 
     tests
 }
 
-/// Applies Holm's correction to one family, separately for each tail.
+/// Applies Holm's correction to one family of comparisons, separately for each tail.
 fn correct(mut family: Vec<&mut Comparison>) {
     family.retain(|test| test.test.p.is_some());
     let tail = |pick: fn(&TailProbabilities) -> f64| {

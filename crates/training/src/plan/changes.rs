@@ -3,7 +3,7 @@
 use crate::record::SessionRecord;
 use serde::Serialize;
 
-/// Smaller score changes are not reported, points.
+/// Score changes below this threshold are reported as unchanged, points.
 const WORTH_A_WORD: f64 = 0.05;
 
 /// The latest session compared with the previous one on the same job.

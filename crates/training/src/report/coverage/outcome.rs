@@ -1,6 +1,6 @@
-//! Outcomes of surface coverage.
+//! Possible outcomes of surface coverage.
 
-/// Coverage outcome of a surface patch, from worst to best. The best picture counts.
+/// Coverage outcome of a surface patch, from worst to best. If there are several pictures, the best one counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SurfaceOutcome {
     /// Never in the camera's view at the required distance and angle.
@@ -17,7 +17,7 @@ pub enum SurfaceOutcome {
     DarkLampOn,
     /// Motion blur is too large.
     Blurred,
-    /// Shown well by a picture.
+    /// Shown well in a picture.
     Shown,
 }
 
