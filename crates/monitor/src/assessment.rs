@@ -60,7 +60,9 @@ pub enum AssessError {
         ours: u64,
     },
     /// Neither the telemetry, the scenario nor the command line provides a seed.
-    #[error("no seed available: the telemetry contains no `seed` message, and neither the scenario nor the command line specifies one")]
+    #[error(
+        "no seed available: the telemetry contains no `seed` message, and neither the scenario nor the command line specifies one"
+    )]
     NoSeed,
     /// The telemetry log could not be read.
     #[error("the telemetry cannot be read: {0}")]

@@ -215,9 +215,14 @@ fn exact_a_job_with_nothing_in_it_has_a_page() {
     tape.land();
     let review = Review::of(&tape.log(0), &job, &vehicle(), about()).unwrap();
     let page = page::session(&review);
-    for words in
-        ["No pictures were taken", "This job has no defects", "No contacts", "n/a", "1 gaps longer than 0.2 s", "no telemetry for"]
-    {
+    for words in [
+        "No pictures were taken",
+        "This job has no defects",
+        "No contacts",
+        "n/a",
+        "1 gaps longer than 0.2 s",
+        "no telemetry for",
+    ] {
         assert!(page.contains(words), "{words}");
     }
 }

@@ -216,7 +216,9 @@ pub fn comparisons(group: &SessionsByTrainee<'_>, repetitions: usize, warnings: 
                         test,
                         p_holm: None,
                     }),
-                    Err(error) => warnings.push(format!("{score}, repetition {} vs. {}: no test possible: {error}", later + 1, earlier + 1)),
+                    Err(error) => {
+                        warnings.push(format!("{score}, repetition {} vs. {}: no test possible: {error}", later + 1, earlier + 1))
+                    }
                 }
             }
         }

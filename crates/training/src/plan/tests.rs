@@ -77,10 +77,7 @@ fn exact_poor_interlayer_flights_lead_to_the_gap_drill() {
     let plan = plan(&[record], &rules(), NOW).unwrap();
     assert_eq!(plan.steps[0].scenario, "drill-gap");
     let words = &plan.steps[0].reasons[0].words;
-    assert_eq!(
-        words,
-        "The interlayer: off the path for 70 % of the time, mainly in height. Practice narrow spaces separately."
-    );
+    assert_eq!(words, "The interlayer: off the path for 70 % of the time, mainly in height. Practice narrow spaces separately.");
     assert_eq!(plan.steps[1].scenario, "drill-straight-line");
 }
 

@@ -165,7 +165,10 @@ mod tests {
         check(&text);
         assert!(text.contains("href=\"/flight\" aria-current=\"page\"") && text.contains("data-camera hidden"), "{text}");
         assert!(!text.contains("class=\"map\"") && !text.contains("/live"), "{text}");
-        assert!(!own_flight(&administrator()).into_string().contains("href=\"/flight\""), "instructors use the live page instead");
+        assert!(
+            !own_flight(&administrator()).into_string().contains("href=\"/flight\""),
+            "instructors use the live page instead"
+        );
     }
 
     #[test]

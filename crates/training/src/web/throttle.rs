@@ -158,7 +158,11 @@ mod tests {
         let mut throttle = LoginThrottle::default();
         let known = LoginOrigin::for_address([127, 0, 0, 1].into(), Some([7; 32]));
         (0..30).for_each(|_| throttle.record_failure(this_machine(), "anna", 0));
-        assert_eq!(throttle.wait_us(this_machine(), "anna", 1), Some(LONGEST_WAIT_US - 1), "an unknown browser at the same address");
+        assert_eq!(
+            throttle.wait_us(this_machine(), "anna", 1),
+            Some(LONGEST_WAIT_US - 1),
+            "an unknown browser at the same address"
+        );
         assert_eq!(throttle.wait_us(known, "anna", 1), None, "a known browser");
         (0..OF_NAME).for_each(|_| throttle.record_failure(known, "anna", 1));
         assert_eq!(throttle.wait_us(known, "anna", 1), Some(FIRST_WAIT_US), "guessing with a stolen cookie");

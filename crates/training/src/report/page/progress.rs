@@ -166,7 +166,10 @@ fn on_path_numbers(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Table
 
 /// Returns the message shown if there are too few repetitions for a learning curve.
 pub fn too_few() -> String {
-    format!("A learning curve requires {} repetitions of the same job.", words::number(crate::statistics::LEARNING_NEEDS as f64, 0))
+    format!(
+        "A learning curve requires {} repetitions of the same job.",
+        words::number(crate::statistics::LEARNING_NEEDS as f64, 0)
+    )
 }
 
 #[cfg(test)]

@@ -96,7 +96,13 @@ pub fn legend(layer: usize, limit_m_s: f64) -> Vec<String> {
         ],
         _ => {
             let [a, b, c] = CLEARANCES_M.map(|limit| words::number(limit, 1));
-            vec!["nothing nearby".into(), format!("over {c} m"), format!("{b} to {c} m"), format!("{a} to {b} m"), format!("under {a} m")]
+            vec![
+                "nothing nearby".into(),
+                format!("over {c} m"),
+                format!("{b} to {c} m"),
+                format!("{a} to {b} m"),
+                format!("under {a} m"),
+            ]
         }
     }
 }
