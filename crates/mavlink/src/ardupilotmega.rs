@@ -43,7 +43,7 @@ impl FieldType {
 /// A message definition. Its fields have the order of `ardupilotmega.xml`.
 #[derive(Debug, PartialEq)]
 pub struct MessageDefinition {
-    /// Message ID.
+    /// MAVLink message ID (24 bits in MAVLink 2).
     pub id: u32,
     /// Message name.
     pub name: &'static str,

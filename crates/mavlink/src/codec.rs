@@ -51,7 +51,7 @@ enum ParseStep {
 }
 
 impl Decoder {
-    /// Creates an empty decoder.
+    /// Creates a decoder without buffered bytes.
     #[must_use]
     pub fn new() -> Self {
         Self::default()

@@ -92,7 +92,7 @@ pub struct Assessment {
     pub snapshots: SnapshotCounts,
     /// When and why the session ended.
     pub end: SessionEnd,
-    /// Telemetry coverage.
+    /// Fraction of frames received, and gaps.
     pub telemetry: TelemetryCoverage,
     /// Control source over time. Does not affect any score.
     pub flown_by: Vec<ControlStretch>,
@@ -128,10 +128,10 @@ pub struct Scores {
     pub overall_max: f64,
 }
 
-/// Result of one task.
+/// Path and speed results of one task.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TaskResult {
-    /// Task number.
+    /// Number of the task in the scenario.
     pub id: u32,
     /// Whether the drone entered the task's path. If false, the task has the flag `not_attempted`.
     pub attempted: bool,
@@ -145,7 +145,7 @@ pub struct TaskResult {
     pub last_frame: Option<u32>,
     /// Fraction of the window's frames that are on the path (P_p), 0 to 1.
     pub on_path: f64,
-    /// Speeding loss (P_s).
+    /// Speeding loss of the task (P_s in TASBID).
     pub speeding: f64,
 }
 

@@ -28,7 +28,7 @@ pub const SMALL: &str = "small";
 /// Contents of `session.json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SessionInfo {
-    /// Trainee name.
+    /// Pseudonym of the trainee.
     pub trainee: String,
     /// Wall-clock time of simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
@@ -36,13 +36,13 @@ pub struct SessionInfo {
     pub started_utc: String,
     /// Version of Spandrel that recorded the session.
     pub spandrel_version: String,
-    /// Scenario name.
+    /// Machine-readable name of the scenario, such as `two-bridges`.
     pub scenario: String,
     /// The scenario's `scn_crc`, hexadecimal.
     pub scenario_crc: String,
     /// SHA-256 of `scenario.toml`, hexadecimal.
     pub scenario_sha256: String,
-    /// Vehicle id.
+    /// Vehicle id, such as `phantom2`.
     pub vehicle: String,
     /// SHA-256 of `vehicle.toml`, hexadecimal.
     pub vehicle_sha256: String,

@@ -71,17 +71,17 @@ impl EndReason {
 /// State of the flight at one instant, from which the end of the session is determined.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EndRuleInput {
-    /// Simulation time.
+    /// Simulation time at this instant.
     pub time: SimTime,
     /// Flight time including this instant, s.
     pub flown_s: f64,
     /// Position of the drone's center in the site frame, m.
     pub position_m: Vec3<Enu>,
-    /// Speed, m/s.
+    /// Magnitude of the velocity, m/s.
     pub speed_m_s: f64,
     /// Kind of object in contact, after touchdowns on the pad are removed.
     pub contact: ContactKind,
-    /// Remaining battery, %.
+    /// Remaining battery charge, 0 to 100 %.
     pub battery_pct: f64,
     /// Whether the drone is armed; `None` if not received yet.
     pub armed: Option<bool>,

@@ -10,7 +10,7 @@ pub const SPEEDING: i32 = 1 << 2;
 pub const OFF_PATH: i32 = 1 << 3;
 /// The clearance is below the limit of the task.
 pub const TOO_CLOSE: i32 = 1 << 4;
-/// The aircraft hit something.
+/// The aircraft is or recently was in contact with an object.
 pub const CRASH: i32 = 1 << 5;
 
 /// All cues with their names, most serious first.

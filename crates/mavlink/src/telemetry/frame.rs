@@ -18,7 +18,7 @@ const HIT_REPORT_WITHIN: SimTime = SimTime::from_ms(200);
 pub struct Frame {
     /// Frame number, from 1.
     pub index: u32,
-    /// Simulation time.
+    /// Simulation time at this instant.
     pub time: SimTime,
     /// Stick positions: forward, right, up, clockwise, each in [-1, 1].
     pub sticks: [f64; 4],
@@ -30,7 +30,7 @@ pub struct Frame {
     pub position_m: Vec3<Enu>,
     /// Velocity in the scenario frame, m/s.
     pub velocity_m_s: Vec3<Enu>,
-    /// Remaining battery, %.
+    /// Remaining battery charge, 0 to 100 %.
     pub battery_pct: f64,
     /// Most severe contact since the previous frame.
     pub contact: ContactKind,

@@ -18,7 +18,7 @@ impl<T> Default for Rows<T> {
 }
 
 impl<T> Rows<T> {
-    /// Appends a row.
+    /// Appends a row without moving the others.
     pub fn push(&mut self, row: T) {
         match self.blocks.last_mut() {
             Some(block) if block.len() < BLOCK => block.push(row),

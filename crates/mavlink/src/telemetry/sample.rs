@@ -17,7 +17,7 @@ use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
 
-/// Content of a sample.
+/// Value of a sample, or ground truth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SampleContent {
     /// Ground truth, whose timestamp is the reference clock.
@@ -33,7 +33,7 @@ pub enum SampleValue {
     Sticks(Sticks),
     /// Lamp state: true if the lamp is on.
     Light(bool),
-    /// Remaining battery, %.
+    /// Remaining battery charge, 0 to 100 %.
     Battery(f64),
     /// Kind of the current contact.
     Contact(ContactKind),
@@ -77,14 +77,14 @@ pub struct Sample {
     pub checksum: u16,
     /// Timestamp in the message, if it has one.
     pub own_time: Option<SimTime>,
-    /// The decoded value.
+    /// Value or ground truth that was decoded.
     pub content: SampleContent,
 }
 
 /// The parts of a frame header that are needed for routing and decoding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FrameHeader {
-    /// Message ID.
+    /// MAVLink message ID (24 bits in MAVLink 2).
     pub message_id: u32,
     /// System and component ID of the sender.
     pub sender: (u8, u8),

@@ -7,13 +7,13 @@ use std::fmt::Write;
 /// Type of a column and the function that returns its value for a row; `None` if the telemetry does not contain it.
 #[derive(Debug, Clone, Copy)]
 pub enum Read {
-    /// Integer.
+    /// Column of integers.
     Whole(fn(&FrameRow) -> Option<i64>),
-    /// Floating-point number.
+    /// Column of floating-point numbers.
     Real(fn(&FrameRow) -> Option<f64>),
-    /// Boolean; 1 or 0 in CSV.
+    /// Column of Booleans; 1 or 0 in CSV.
     Flag(fn(&FrameRow) -> bool),
-    /// One of a fixed set of words.
+    /// Column of words from a fixed set.
     Word(fn(&FrameRow) -> &'static str),
 }
 
@@ -26,11 +26,11 @@ pub struct Column {
     pub unit: &'static str,
     /// Coordinate frame or positive direction; empty if none applies.
     pub frame: &'static str,
-    /// Definition in one sentence.
+    /// Definition of the value, in one sentence.
     pub description: &'static str,
     /// Whether values may be missing; they are empty in CSV and null in Parquet.
     pub optional: bool,
-    /// Type and value.
+    /// Type of the column and function that returns its value.
     pub read: Read,
 }
 

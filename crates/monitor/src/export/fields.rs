@@ -7,7 +7,7 @@ pub struct JsonField {
     pub path: &'static str,
     /// Unit; empty for counts, strings and dimensionless numbers.
     pub unit: &'static str,
-    /// Definition in one sentence.
+    /// Definition of the value, in one sentence.
     pub description: &'static str,
 }
 

@@ -14,7 +14,7 @@ use std::ops::ControlFlow;
 /// Distance of the drone to a task's path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TaskDistance {
-    /// Task number.
+    /// Number of the task in the scenario.
     pub id: u32,
     /// Distance to its path, m.
     pub distance_m: Option<f64>,

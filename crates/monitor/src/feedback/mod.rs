@@ -22,7 +22,7 @@ pub struct TaskProximity {
     pub threshold_m: f64,
     /// Clearance below which the drone is too close in this task, m; `None` for the scenario's value.
     pub too_close_m: Option<f64>,
-    /// Task number.
+    /// Number of the task in the scenario.
     pub id: u32,
     /// Whether the trainee may leave the task: its path was flown, or the nearest point is an end of the path.
     pub may_leave: bool,
@@ -31,15 +31,15 @@ pub struct TaskProximity {
 /// Input of the feedback rules at one instant.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FeedbackInput {
-    /// Simulation time.
+    /// Simulation time at this instant.
     pub time: SimTime,
     /// Whether the session is running, from lift-off to its end.
     pub in_session: bool,
     /// Whether the drone is airborne. Proximity warnings are suppressed on the ground.
     pub airborne: bool,
-    /// Speed, m/s.
+    /// Magnitude of the velocity, m/s.
     pub speed_m_s: f64,
-    /// Remaining battery, %.
+    /// Remaining battery charge, 0 to 100 %.
     pub battery_pct: Option<f64>,
     /// Distance to the nearest surface, m.
     pub clearance_m: Option<f64>,

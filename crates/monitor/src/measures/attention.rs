@@ -74,7 +74,7 @@ pub struct Snapshot {
 /// Visibility of one defect in one picture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DefectSighting {
-    /// Defect number.
+    /// Number of the defect, from 1.
     pub defect: u32,
     /// Whether all conditions are met.
     pub shown: bool,

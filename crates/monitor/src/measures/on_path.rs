@@ -244,9 +244,9 @@ impl ReferencePaths {
 /// First and last on-path frame of a task, as indices from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct OnPathWindow {
-    /// First frame.
+    /// Index of the first frame.
     pub first: usize,
-    /// Last frame, inclusive.
+    /// Index of the last frame, inclusive.
     pub last: usize,
 }
 

@@ -90,7 +90,7 @@ pub struct CertificationScores {
 /// Visits to one task and their results.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TaskVisits {
-    /// Task number.
+    /// Number of the task in the scenario.
     pub id: u32,
     /// First and last frame of each visit.
     pub visits: Vec<(u32, u32)>,
@@ -113,7 +113,7 @@ pub struct MergedCrash {
     pub with: ContactKind,
     /// Maximum speed around the start of the contact, m/s.
     pub speed_m_s: f64,
-    /// Points lost.
+    /// Points lost by this crash.
     pub loss: f64,
     /// Number of the task whose window contains the crash, if any.
     pub task: Option<u32>,
@@ -122,9 +122,9 @@ pub struct MergedCrash {
 /// Number of defects found and placed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct DetectionCounts {
-    /// Defects found.
+    /// Number of defects found.
     pub found: usize,
-    /// Defects placed.
+    /// Number of defects placed.
     pub placed: usize,
 }
 

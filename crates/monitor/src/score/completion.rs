@@ -5,7 +5,7 @@ use crate::measures::coverage::PathCoverage;
 use serde::{Deserialize, Serialize};
 use spandrel_model::numbers::{format_beside_limit, limit};
 
-/// Progress on a task.
+/// How much of a task was flown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TaskState {

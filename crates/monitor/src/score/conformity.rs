@@ -7,7 +7,7 @@ use super::Score;
 pub struct TaskShares {
     /// Fraction of the window's frames that are on the path (P_p,t), 0 to 1.
     pub on_path: f64,
-    /// Speeding loss (P_s,t).
+    /// Speeding loss of the task (P_s,t in TASBID).
     pub speeding: f64,
 }
 

@@ -69,7 +69,7 @@ pub struct MonitorConfig {
     pub scenario: Scenario,
     /// Aircraft that is flown.
     pub vehicle: Vehicle,
-    /// Trainee name.
+    /// Pseudonym of the trainee.
     pub trainee: String,
     /// Purpose of the session, `practice` or `assessment`, if chosen.
     pub purpose: Option<String>,
@@ -119,7 +119,7 @@ struct LiveState {
     closures: BridgeClosures,
 }
 
-/// The live monitor.
+/// Live monitor of one session.
 #[derive(Debug, Clone)]
 pub struct Monitor {
     config: MonitorConfig,

@@ -29,7 +29,7 @@ pub struct Likert {
 /// Self-ratings compared with measured scores in the first sessions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SelfRating {
-    /// Trainees who answered.
+    /// One entry per trainee who rated their performance.
     pub people: Vec<SelfRatingPair>,
     /// Spearman correlation of self-rating and overall score; `None` if undefined.
     pub overall: Option<Correlation>,
@@ -42,7 +42,7 @@ pub struct SelfRating {
 /// Self-rating and measured score of one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SelfRatingPair {
-    /// Trainee name.
+    /// Pseudonym of the trainee.
     pub trainee: String,
     /// Mean over the phases, 1 to 5; higher is better.
     pub self_rating: f64,
@@ -53,7 +53,7 @@ pub struct SelfRatingPair {
 /// A contradiction between a trainee's self-rating and the measurement.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Contradiction {
-    /// Trainee name.
+    /// Pseudonym of the trainee.
     pub trainee: String,
     /// Description for the report.
     pub words: String,

@@ -46,7 +46,7 @@ pub struct MediationModel {
 pub struct IndirectEffect {
     /// Feedback value for which the effect applies, 1 to 5; for the moderation, the mean.
     pub feedback: f64,
-    /// Point estimate.
+    /// Estimated value.
     pub effect: f64,
     /// 95 % bootstrap interval; `None` if too few samples could be estimated.
     pub interval_95: Option<[f64; 2]>,

@@ -6,7 +6,7 @@
 pub struct Definition {
     /// Unit; empty for counts, strings and dimensionless numbers.
     pub unit: &'static str,
-    /// Definition in one sentence.
+    /// Definition of the value, in one sentence.
     pub description: &'static str,
 }
 

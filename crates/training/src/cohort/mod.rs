@@ -93,7 +93,7 @@ const OVERALL: (&str, ScorePicker) = ("overall", |record| Some(record.scores.ove
 /// Sessions of each trainee on the job, in chronological order.
 pub(super) type SessionsByTrainee<'a> = BTreeMap<&'a str, Vec<&'a SessionRecord>>;
 
-/// Analyzes a cohort.
+/// Analyzes the selected sessions of a cohort.
 #[must_use]
 pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
     let scenarios = scenarios(records, selection);

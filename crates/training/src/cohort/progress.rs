@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 /// Sessions and learning curves of one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TraineeProgress {
-    /// Trainee name.
+    /// Pseudonym of the trainee.
     pub trainee: String,
     /// Sessions on the job, in chronological order.
     pub repetitions: Vec<Repetition>,
@@ -22,34 +22,34 @@ pub struct TraineeProgress {
 pub struct Repetition {
     /// Number of the repetition, from 1.
     pub number: usize,
-    /// Session id.
+    /// Id of the session (name of its folder).
     pub session: String,
     /// Start time, µs since the Unix epoch.
     pub started_unix_us: u64,
     /// Conformity, 0 to 100; `None` if it does not apply.
     pub conformity: Option<f64>,
-    /// Efficiency, 0 to 100.
+    /// Efficiency score, 0 to 100.
     pub efficiency: f64,
-    /// Safety, 0 to 100.
+    /// Safety score, 0 to 100.
     pub safety: f64,
     /// Accuracy, 0 to 100; `None` if it does not apply.
     pub accuracy: Option<f64>,
     /// Sum of the scores that apply.
     pub overall: f64,
-    /// Flight time, s.
+    /// Duration of the flight, s.
     pub seconds: f64,
     /// On-path share by task number; `None` if the task was not attempted.
     pub on_path: Vec<(u32, Option<f64>)>,
-    /// Crashes by kind.
+    /// Number of crashes by kind of object.
     pub crashes: Crashes,
 }
 
 /// Learning curve of one score.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ScoreCurve {
-    /// Name of the score.
+    /// Name of the score, such as `conformity`.
     pub score: String,
-    /// Fitted curve.
+    /// Power law fitted to the scores.
     #[serde(flatten)]
     pub curve: LearningCurve,
 }
@@ -57,7 +57,7 @@ pub struct ScoreCurve {
 /// Progress of one trainee on one job. Jobs are separate, because practice on one says little about another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JobProgress {
-    /// Scenario name.
+    /// Machine-readable name of the scenario, such as `two-bridges`.
     pub scenario: String,
     /// Numbers and names of the job's tasks, as of the latest session.
     pub tasks: Vec<(u32, String)>,

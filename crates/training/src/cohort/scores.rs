@@ -8,15 +8,15 @@ use crate::statistics::{
 };
 use serde::Serialize;
 
-/// Number of histogram bins.
+/// Number of bins in a score histogram.
 const BARS: usize = 20;
 
 /// Distribution of one score over the first sessions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Distribution {
-    /// Name of the score.
+    /// Name of the score, such as `conformity`.
     pub score: String,
-    /// Summary statistics.
+    /// Summary statistics of the scores.
     pub summary: SampleSummary,
     /// Bins over the score's full range.
     pub histogram: Vec<HistogramBin>,
@@ -25,24 +25,24 @@ pub struct Distribution {
 /// First session of one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Individual {
-    /// Trainee name.
+    /// Pseudonym of the trainee.
     pub trainee: String,
-    /// Session id.
+    /// Id of the session (name of its folder).
     pub session: String,
     /// `practice` or `assessment`, if chosen.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub purpose: Option<String>,
     /// Conformity, 0 to 100; `None` if it does not apply.
     pub conformity: Option<f64>,
-    /// Efficiency, 0 to 100.
+    /// Efficiency score, 0 to 100.
     pub efficiency: f64,
-    /// Safety, 0 to 100.
+    /// Safety score, 0 to 100.
     pub safety: f64,
     /// Accuracy, 0 to 100; `None` if it does not apply.
     pub accuracy: Option<f64>,
     /// Sum of the scores that apply.
     pub overall: f64,
-    /// Flight time, s.
+    /// Duration of the flight, s.
     pub seconds: f64,
     /// On-path share and speeding by task.
     pub tasks: Vec<TaskShare>,
@@ -51,15 +51,15 @@ pub struct Individual {
 /// One task's contribution to conformity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TaskShare {
-    /// Task number.
+    /// Number of the task in the scenario.
     pub id: u32,
-    /// Task name.
+    /// Name of the task in the scenario.
     pub name: String,
     /// Whether the task's path was entered.
     pub attempted: bool,
     /// On-path share (P_p), 0 to 1.
     pub on_path: f64,
-    /// Speeding loss (P_s).
+    /// Speeding loss of the task (P_s in TASBID).
     pub speeding: f64,
 }
 
@@ -74,14 +74,14 @@ pub struct CrashTable {
     pub tasks: Vec<u32>,
     /// Sum over all trainees for each task; the last element counts crashes outside the tasks.
     pub by_task: Vec<usize>,
-    /// One row per trainee.
+    /// Crash counts of each trainee.
     pub rows: Vec<CrashRow>,
 }
 
 /// Crashes of one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CrashRow {
-    /// Trainee name.
+    /// Pseudonym of the trainee.
     pub trainee: String,
     /// Count for each task; the last element counts crashes outside the tasks.
     pub by_task: Vec<usize>,
@@ -92,18 +92,18 @@ pub struct CrashRow {
 /// Box plot of one score in one repetition of the group.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RepetitionBox {
-    /// Name of the score.
+    /// Name of the score, such as `conformity`.
     pub score: String,
     /// Number of the repetition, from 1.
     pub repetition: usize,
-    /// Box plot data.
+    /// Values that the box plot shows.
     pub plot: BoxPlot,
 }
 
 /// Paired comparison of one score in two repetitions of the group.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Comparison {
-    /// Name of the score.
+    /// Name of the score, such as `conformity`.
     pub score: String,
     /// Number of the earlier repetition.
     pub earlier: usize,
@@ -120,7 +120,7 @@ pub struct Comparison {
 /// Tests whether the group's first sessions are distributed over low, middle and high scores like those of the other trainees.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GroupTest {
-    /// Name of the score.
+    /// Name of the score, such as `conformity`.
     pub score: String,
     /// Upper limits of low and middle scores: the terciles of all first sessions.
     pub cuts: [f64; 2],

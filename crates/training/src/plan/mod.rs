@@ -25,10 +25,10 @@ const EFFICIENCY_LOSS_PER_MIN: f64 = 10.0;
 /// A deviation is described by one direction only if it is larger than the other by this factor.
 const MAINLY: f64 = 2.0;
 
-/// A training plan.
+/// Scenarios recommended to one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TrainingPlan {
-    /// Trainee name.
+    /// Pseudonym of the trainee.
     pub trainee: String,
     /// Id of the latest session, on which the plan is based.
     pub session: String,
@@ -49,7 +49,7 @@ pub struct TrainingPlan {
 /// One scenario to fly.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlanStep {
-    /// Scenario name.
+    /// Machine-readable name of the scenario, such as `two-bridges`.
     pub scenario: String,
     /// Sum of weight × value / limit over all rules that recommend this scenario.
     pub urgency: f64,
@@ -60,11 +60,11 @@ pub struct PlanStep {
 /// Reason to fly a scenario, from one rule.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlanReason {
-    /// Name of the rule.
+    /// Name of the rule that applied.
     pub rule: String,
     /// Id of the session in which the value was measured.
     pub session: String,
-    /// Explanation for the trainee.
+    /// Reason in words, for the trainee.
     pub words: String,
     /// Measured value; fractions from 0 to 1.
     pub value: f64,

@@ -2,7 +2,7 @@
 
 use spandrel_model::toml::{Problems, Reader, Section};
 
-/// The default rules.
+/// Default rules of the training plan, in TOML.
 pub const RULES: &str = include_str!("rules.toml");
 
 /// Format version of the file.
@@ -78,9 +78,9 @@ const WITH: &[(&str, Option<&str>)] = &[
 /// A rule of the training plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanRule {
-    /// Unique name.
+    /// Unique name of the rule.
     pub name: String,
-    /// Measure to evaluate.
+    /// Measure that is compared with the limit.
     pub measure: RuleMeasure,
     /// Kind of task; `None` for any.
     pub task: Option<&'static str>,

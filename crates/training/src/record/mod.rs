@@ -38,11 +38,11 @@ pub struct SessionRecord {
     pub spandrel_version: String,
     /// Version of the scorer that computed the scores.
     pub scorer_version: u32,
-    /// Scenario name.
+    /// Machine-readable name of the scenario, such as `two-bridges`.
     pub scenario: String,
     /// SHA-256 of `scenario.toml` as flown, hexadecimal.
     pub scenario_sha256: String,
-    /// Vehicle id.
+    /// Vehicle id, such as `phantom2`.
     pub vehicle: String,
     /// SHA-256 of `vehicle.toml`, hexadecimal.
     pub vehicle_sha256: String,
@@ -67,7 +67,7 @@ pub struct SessionRecord {
     pub hits: usize,
     /// Reason why the flight ended: `landed`, `battery`, `time_limit`, `person`, `vehicle`, `crash`, `abort` or `restart`.
     pub end_reason: String,
-    /// Flight time, s.
+    /// Duration of the flight, s.
     pub seconds: f64,
     /// Whether the battery was empty or the time limit was exceeded.
     pub battery_failed: bool,
@@ -104,9 +104,9 @@ pub struct Scores {
 /// Results of one task and the causes of its score.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TaskRecord {
-    /// Task number.
+    /// Number of the task in the scenario.
     pub id: u32,
-    /// Task name.
+    /// Name of the task in the scenario.
     pub name: String,
     /// Kind of task: `slab_side`, `arch_bottom`, `interlayer`, `pier_circle` or `free`.
     pub kind: String,
@@ -162,7 +162,7 @@ pub struct Crashes {
 /// One defect of a session.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DefectRecord {
-    /// Defect number.
+    /// Number of the defect, from 1.
     pub id: u32,
     /// Defect code (AASHTO MBEI).
     pub kind: u32,
@@ -186,7 +186,7 @@ pub struct DefectRecord {
 /// An entry in a list of sessions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SessionListEntry {
-    /// Session id.
+    /// Id of the session (name of its folder).
     pub id: String,
     /// Pseudonym of the trainee.
     pub trainee: String,
@@ -194,7 +194,7 @@ pub struct SessionListEntry {
     pub purpose: Option<String>,
     /// Start time, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// Scenario name.
+    /// Machine-readable name of the scenario, such as `two-bridges`.
     pub scenario: String,
     /// Sum of the scores.
     pub overall: f64,
@@ -268,7 +268,7 @@ pub struct RecordSource<'a> {
     pub spandrel_version: &'a str,
     /// Scenario of the session.
     pub scenario: &'a Scenario,
-    /// Vehicle id.
+    /// Vehicle id, such as `phantom2`.
     pub vehicle: &'a str,
     /// Hashes of the source files.
     pub hashes: &'a SourceHashes,

@@ -28,12 +28,12 @@ pub const KINDS: [CueKind; 6] = [
     CueKind { bit: cue::BATTERY_RED, name: "battery red", wants_answer: false },
 ];
 
-/// A kind of cue.
+/// A kind of cue that the monitor raises.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CueKind {
-    /// Cue bit.
+    /// Bit of the cue in the `cues` value.
     pub bit: i32,
-    /// Display name.
+    /// Name shown in the report.
     pub name: &'static str,
     /// Whether a stick reaction is expected.
     pub wants_answer: bool,

@@ -17,10 +17,10 @@ const STEP: SimTime = SimTime::from_ms(500);
 /// condition states).
 const SHOWN_FROM_M: f64 = 4.0;
 
-/// Outcome of one defect.
+/// Whether one defect was found, and how.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DefectOutcome {
-    /// The defect.
+    /// The defect as placed in the scene.
     pub defect: PlacedDefect,
     /// Number of the first picture that shows it; `None` if it was missed.
     pub found_by: Option<u32>,

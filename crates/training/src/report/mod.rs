@@ -36,7 +36,7 @@ use spandrel_monitor::{AssessError, AssessedSession, ScoringJob, assess};
 /// Metadata of a session, from its folder.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct SessionFacts {
-    /// Trainee name.
+    /// Pseudonym of the trainee.
     pub trainee: String,
     /// `practice` or `assessment`, if chosen.
     pub purpose: Option<String>,
@@ -56,17 +56,17 @@ pub struct SessionFacts {
     pub pictures: Vec<(u32, Jpeg)>,
 }
 
-/// A JPEG file.
+/// A picture in JPEG format.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Jpeg {
-    /// File contents.
+    /// Contents of the JPEG file.
     pub bytes: Vec<u8>,
 }
 
 /// All data of a session report.
 #[derive(Debug)]
 pub struct Review {
-    /// Session metadata.
+    /// Metadata from the session folder.
     pub about: SessionFacts,
     /// Scenario of the session.
     pub scenario: Scenario,
@@ -84,7 +84,7 @@ pub struct Review {
     pub track: Vec<track::TaskProximityStep>,
     /// Task windows and on-path frames.
     pub on_path: OnPath,
-    /// Start of each contact.
+    /// All contacts, in order of their start.
     pub crashes: Vec<Crash>,
     /// Measures of each task's window.
     pub tasks: Vec<track::TaskFacts>,

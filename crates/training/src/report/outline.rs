@@ -15,7 +15,7 @@ pub struct ParallelView {
     pub up: Vec3<Enu>,
 }
 
-/// Silhouette of one member.
+/// Silhouette of one bridge member.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MemberOutline {
     /// Element number (AASHTO MBEI).

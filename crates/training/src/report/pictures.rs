@@ -34,7 +34,7 @@ impl PictureVerdict {
     /// All verdicts, in legend order.
     pub const ALL: [Self; 6] = [Self::Hit, Self::Repeat, Self::TooDark, Self::TooFar, Self::TooOblique, Self::False];
 
-    /// Returns the display name.
+    /// Returns the name shown in the report.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -47,7 +47,7 @@ impl PictureVerdict {
         }
     }
 
-    /// Returns the CSS class.
+    /// Returns the CSS class that colors it in the report.
     #[must_use]
     pub fn class(self) -> &'static str {
         match self {
@@ -62,9 +62,9 @@ impl PictureVerdict {
 /// The object in the center of a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PictureSubject {
-    /// Name of the object.
+    /// Name of the bridge member or other object.
     pub name: String,
-    /// Distance, m.
+    /// Distance from the camera, m.
     pub distance_m: f64,
     /// Incidence angle from the surface normal, rad.
     pub incidence_rad: f64,
@@ -89,15 +89,15 @@ pub struct ReviewedPicture {
     pub frame: u32,
     /// Time since lift-off, s.
     pub t_s: f64,
-    /// Simulation time.
+    /// Simulation time at this instant.
     pub time: SimTime,
-    /// Camera pose.
+    /// Camera position, orientation and lamp state.
     pub pose: CameraPose,
     /// Camera with the zoom setting of this picture.
     pub camera: Camera,
-    /// Verdict.
+    /// Whether the picture shows a defect, and why not.
     pub verdict: PictureVerdict,
-    /// Explanation of the verdict.
+    /// Reason for the verdict, as a phrase.
     pub reason: String,
     /// Ids of the defects that this picture is the first to show.
     pub found: Vec<u32>,

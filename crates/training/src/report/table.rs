@@ -3,16 +3,16 @@
 use super::words;
 use maud::{Markup, html};
 
-/// A table cell.
+/// A cell of a data table.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TableCell {
-    /// Text.
+    /// Text, escaped in HTML and CSV.
     Text(String),
     /// A number and the number of decimal places to display.
     Number(f64, usize),
-    /// Flight time, s.
+    /// Duration of the flight, s.
     Clock(f64),
-    /// Empty cell.
+    /// No value.
     Empty,
 }
 
@@ -68,7 +68,7 @@ impl TableCell {
     }
 }
 
-/// A data table.
+/// A table that can be shown and downloaded as CSV.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     /// File name of the CSV file, without extension.

@@ -40,15 +40,15 @@ pub enum StatisticsError {
     /// A value is infinite or NaN.
     #[error("value number {at} is {value}, which is not a finite number")]
     NotFinite {
-        /// Position, from 1.
+        /// Position of the value in the list, from 1.
         at: usize,
-        /// The value.
+        /// The value, which is infinite or NaN.
         value: f64,
     },
     /// A measure is constant, so nothing can be estimated.
     #[error("{0} is constant")]
     Constant(&'static str),
-    /// Predictors are collinear.
+    /// The predictors are linearly dependent.
     #[error("the predictors are collinear in this sample")]
     Collinear,
 }

@@ -9,14 +9,14 @@ use serde::Serialize;
 /// A column counts as collinear if its component orthogonal to the preceding columns is less than this fraction of its length.
 const INDEPENDENT: f64 = 1e-9;
 
-/// A regression coefficient.
+/// A coefficient of a fitted regression model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Coefficient {
     /// Name of the predictor; `intercept` for the first coefficient.
     pub name: String,
-    /// Estimate.
+    /// Estimated value of the coefficient.
     pub estimate: f64,
-    /// Standard error.
+    /// Standard error of the estimate.
     pub standard_error: f64,
     /// t statistic: estimate divided by standard error; `None` if the fit is perfect.
     pub t: Option<f64>,

@@ -9,23 +9,23 @@ const WHISKER_IQR: f64 = 1.5;
 /// Summary statistics of a sample.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SampleSummary {
-    /// Number of values.
+    /// Number of values in the sample.
     pub n: usize,
-    /// Arithmetic mean.
+    /// Arithmetic mean of the values.
     pub mean: f64,
     /// Standard deviation, with n - 1 in the denominator; `None` for a single value.
     pub sd: Option<f64>,
-    /// Minimum.
+    /// Smallest value in the sample.
     pub min: f64,
-    /// First quartile.
+    /// First quartile of the values.
     pub q1: f64,
-    /// Median.
+    /// Median of the values.
     pub median: f64,
-    /// Third quartile.
+    /// Third quartile of the values.
     pub q3: f64,
-    /// Maximum.
+    /// Largest value in the sample.
     pub max: f64,
-    /// Maximum minus minimum.
+    /// Difference between largest and smallest value.
     pub range: f64,
     /// Skewness: third standardized moment, with n in the denominator. Negative if the lower tail is longer; `None` if all values
     /// are equal.
@@ -35,11 +35,11 @@ pub struct SampleSummary {
 /// Data of a box plot.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BoxPlot {
-    /// First quartile.
+    /// First quartile of the values.
     pub q1: f64,
-    /// Median.
+    /// Median of the values.
     pub median: f64,
-    /// Third quartile.
+    /// Third quartile of the values.
     pub q3: f64,
     /// Smallest value that is not an outlier.
     pub low_whisker: f64,
@@ -47,18 +47,18 @@ pub struct BoxPlot {
     pub high_whisker: f64,
     /// Values beyond the whiskers, ascending.
     pub outliers: Vec<f64>,
-    /// Arithmetic mean.
+    /// Arithmetic mean of the values.
     pub mean: f64,
-    /// Number of values.
+    /// Number of values in the sample.
     pub n: usize,
 }
 
 /// A histogram bin for values in [from, to). The last bin includes its upper end.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct HistogramBin {
-    /// Lower bound.
+    /// Lower bound, inclusive.
     pub from: f64,
-    /// Upper bound.
+    /// Upper bound; inclusive only in the last bin.
     pub to: f64,
     /// Number of values in the bin.
     pub count: usize,

@@ -9,9 +9,9 @@ pub enum AccessLevel {
     Nothing,
     /// Any logged-in user. Access to a trainee's data is checked by [`Visitor::may_see`].
     Login,
-    /// Instructors and administrators.
+    /// Only instructors and administrators.
     Instructor,
-    /// Administrators.
+    /// Only administrators.
     Administrator,
 }
 

@@ -16,7 +16,7 @@ const TLX: &str = "tlx.";
 /// Content of the form.
 #[derive(Debug, Clone, Copy)]
 pub struct FormContext<'a> {
-    /// Session id.
+    /// Id of the session (name of its folder).
     pub id: &'a str,
     /// Numbers and names of the session's tasks.
     pub tasks: &'a [(u32, String)],
@@ -24,7 +24,7 @@ pub struct FormContext<'a> {
     pub wording: &'a Wording,
     /// All available languages.
     pub languages: &'a [Wording],
-    /// Answers so far.
+    /// Answers given so far.
     pub answers: &'a Answers,
     /// Whether answers were just saved.
     pub saved: bool,
@@ -34,11 +34,11 @@ pub struct FormContext<'a> {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{field} = {value}: invalid answer (allowed: {allowed})")]
 pub struct InvalidAnswer {
-    /// Name of the field.
+    /// Name of the form field.
     pub field: String,
-    /// Submitted value.
+    /// Value that was submitted.
     pub value: String,
-    /// Allowed values.
+    /// Range of allowed values, as text.
     pub allowed: String,
 }
 

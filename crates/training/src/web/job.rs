@@ -11,9 +11,9 @@ use spandrel_model::site::Site;
 /// An entry of the scenario list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ScenarioEntry {
-    /// Scenario name.
+    /// Machine-readable name of the scenario, such as `two-bridges`.
     pub name: String,
-    /// Scenario title.
+    /// Title of the scenario.
     pub title: String,
     /// Whether it was uploaded and can be removed.
     pub uploaded: bool,
@@ -99,7 +99,7 @@ pub enum UploadMessage<'a> {
     Wrong(&'a str),
     /// The session already exists.
     There {
-        /// Session id.
+        /// Id of the session (name of its folder).
         id: &'a str,
         /// Trainee of that session.
         trainee: &'a str,

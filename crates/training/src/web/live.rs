@@ -44,7 +44,7 @@ impl VehicleChoice {
     }
 }
 
-/// Renders the live page.
+/// Renders the instructor's live page.
 #[must_use]
 pub fn live(visitor: &Visitor, drawn: Option<&DrawnJob>, choice: &VehicleChoice) -> Markup {
     let body = html! {

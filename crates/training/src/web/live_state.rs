@@ -68,7 +68,7 @@ impl Default for LiveFlightState {
 }
 
 impl LiveFlightState {
-    /// Creates an empty state.
+    /// Creates a state without a job or telemetry.
     #[must_use]
     pub fn new() -> Self {
         Self {

@@ -13,7 +13,7 @@ use spandrel_model::calendar::minute;
 /// One page of the session list.
 #[derive(Debug, Clone, Copy)]
 pub struct SessionList<'a> {
-    /// Entries of this page.
+    /// Sessions on this page of the list.
     pub lines: &'a [SessionListEntry],
     /// Trainee that the list is filtered by, if any.
     pub trainee: Option<&'a str>,

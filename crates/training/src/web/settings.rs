@@ -9,19 +9,19 @@ use maud::{Markup, html};
 /// Contents of the settings page.
 #[derive(Debug, Clone, Copy)]
 pub struct SettingsPage<'a> {
-    /// All users.
+    /// All users, with or without a password.
     pub people: &'a [Trainee],
     /// Users who may log in.
     pub with_password: &'a [String],
     /// Location of the database, without a password.
     pub database: &'a str,
-    /// Session folders.
+    /// Folders that contain session folders.
     pub folders: &'a [String],
-    /// Result of a change.
+    /// CSS class and text of the message after a change.
     pub notice: Option<(&'a str, &'a str)>,
 }
 
-/// Renders the page.
+/// Renders the settings page.
 #[must_use]
 pub fn settings(visitor: &Visitor, settings: &SettingsPage<'_>) -> Markup {
     let body = html! {

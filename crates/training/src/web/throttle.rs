@@ -12,7 +12,7 @@ const WINDOW_US: u64 = 15 * 60_000_000;
 /// First wait after the limit is reached, µs; doubles with each further failure. An estimate: long enough to slow down guessing,
 /// short enough after a typing error.
 const FIRST_WAIT_US: u64 = 4_000_000;
-/// Maximum wait, µs.
+/// Maximum wait between two attempts, µs.
 const LONGEST_WAIT_US: u64 = 60_000_000;
 /// Number of failures allowed within the window for one name from one address.
 const OF_NAME: usize = 5;

@@ -42,13 +42,13 @@ pub fn trainee_list(visitor: &Visitor, people: &[Trainee]) -> Markup {
 /// Contents of a trainee's page.
 #[derive(Debug, Clone, Copy)]
 pub struct TraineeProfile<'a> {
-    /// The trainee.
+    /// Trainee whose page is shown.
     pub person: &'a Trainee,
     /// Sessions in chronological order.
     pub records: &'a [SessionRecord],
     /// The same sessions as list entries, newest first.
     pub listed: &'a [SessionListEntry],
-    /// Training plan.
+    /// Training plan; `None` without sessions.
     pub plan: Option<&'a TrainingPlan>,
     /// Whether incomplete sessions count in progress and plan.
     pub incomplete: IncompletePolicy,

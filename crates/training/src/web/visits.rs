@@ -16,7 +16,7 @@ pub type TokenBytes = [u8; 32];
 /// Hash of password and role. A login session is valid only while it matches the user's current credential.
 pub type CredentialHash = [u8; 32];
 
-/// State of one browser.
+/// Login state of one browser.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BrowserSession {
     /// Name of the logged-in user, if any.
@@ -75,7 +75,7 @@ impl BrowserSessions {
         (cookie, visit)
     }
 
-    /// Ends a session.
+    /// Ends the session that belongs to a cookie.
     pub fn end(&mut self, cookie: &str) {
         self.0.remove(&key(cookie));
     }

@@ -41,7 +41,7 @@ pub struct AveragePicture {
     pub incidence_rad: f64,
     /// Ground sampling distance: size of a pixel on the surface, m.
     pub gsd_m: f64,
-    /// Motion blur, px.
+    /// Motion blur in the picture, px.
     pub blur_px: f64,
     /// Illuminance including the lamp, lx (geometric mean, because perceived brightness depends on ratios).
     pub lux: f64,

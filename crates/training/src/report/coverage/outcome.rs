@@ -34,7 +34,7 @@ impl SurfaceOutcome {
         Self::Unseen,
     ];
 
-    /// Returns the display name.
+    /// Returns the name shown in the report.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -49,7 +49,7 @@ impl SurfaceOutcome {
         }
     }
 
-    /// Returns the CSS class.
+    /// Returns the CSS class that colors it in the report.
     #[must_use]
     pub fn class(self) -> &'static str {
         match self {

@@ -23,9 +23,9 @@ pub struct SurfacePatch {
     pub element: u32,
     /// End point for sight lines, slightly in front of the center, m.
     pub above_m: Vec3<Enu>,
-    /// Center, m.
+    /// Center of the patch, m.
     pub point_m: Vec3<Enu>,
-    /// Outward unit normal.
+    /// Unit normal that points out of the member.
     pub normal: Vec3<Enu>,
     /// Area that the patch represents, m².
     pub area_m2: f64,

@@ -7,7 +7,7 @@ use maud::{Markup, html};
 use spandrel_model::site::catalogue::kind_name;
 use spandrel_monitor::score::completion::verdict;
 
-/// Renders the section.
+/// Renders the "Certification" section of a session report.
 pub fn section(review: &Review) -> Markup {
     let c = &review.assessment.certification;
     let gates = [

@@ -14,7 +14,7 @@ use maud::{Markup, html};
 use spandrel_model::scenario::Bridge;
 use spandrel_model::site::catalogue::kind_name;
 
-/// Renders the section.
+/// Renders the "Defects" section of a session report.
 pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
     if review.defects.is_empty() {
         return html! { p.calm { "This job has no defects." } };

@@ -15,7 +15,7 @@ const ROW: f64 = 34.0;
 /// End of the time axis, s. Later stick movements do not count as a reaction.
 const LONGEST_S: f64 = 5.0;
 
-/// Renders the section.
+/// Renders the "Feedback" section of a session report.
 pub fn section(review: &Review) -> Markup {
     let present: Vec<usize> = (0..KINDS.len()).filter(|kind| of(review, *kind).next().is_some()).collect();
     html! {

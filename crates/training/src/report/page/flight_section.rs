@@ -17,7 +17,7 @@ const CHARTS: [(&str, &str, &str); 5] = [
     ("sticks", "Sticks, full travel = 1", "fb rl ud rt"),
 ];
 
-/// Renders the section.
+/// Renders the "Flight" section of a session report.
 pub fn section(review: &Review) -> Markup {
     html! {
         (controls(review))

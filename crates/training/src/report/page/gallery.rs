@@ -19,7 +19,7 @@ pub fn sketcher(review: &Review) -> Sketcher {
     Sketcher::new(&review.site, &review.scenario, middle)
 }
 
-/// Renders the section.
+/// Renders the "Pictures" section of a session report.
 pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
     html! {
         @if review.pictures.is_empty() { p.calm { "No pictures were taken." } } @else {
@@ -110,11 +110,11 @@ fn image(review: &Review, picture: &ReviewedPicture, sketcher: &Sketcher) -> Mar
 
 /// A defect to mark in a drawing.
 pub struct DefectMark {
-    /// Defect number.
+    /// Number of the defect, from 1.
     pub id: u32,
     /// Position in the site frame (ENU), m.
     pub at_m: spandrel_model::frames::Vec3<spandrel_model::frames::Enu>,
-    /// Largest dimension, m.
+    /// Largest dimension of the defect, m.
     pub long_m: f64,
     /// CSS class of the mark.
     pub class: &'static str,

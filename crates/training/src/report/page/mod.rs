@@ -58,7 +58,7 @@ pub fn session(review: &Review) -> String {
 
 /// Interactive content of a page: its embedded data and the scripts that it needs.
 enum PageScripts {
-    /// No scripts.
+    /// The page is static.
     Nothing,
     /// Slider, charts and 3D view of a session.
     Session(String),

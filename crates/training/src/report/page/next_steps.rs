@@ -5,7 +5,7 @@ use crate::report::Review;
 use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
 
-/// Renders the section.
+/// Renders the "Next" section of a session report.
 pub fn section(review: &Review) -> Markup {
     html! {
         p.note { "Based on this session only. For a plan based on all of a trainee's sessions, run " code { "spandrel plan" } "." }

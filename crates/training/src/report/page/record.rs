@@ -5,7 +5,7 @@ use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
 
-/// Renders the section.
+/// Renders the "Record" section of a session report.
 pub fn section(review: &Review) -> Markup {
     let telemetry = &review.assessment.telemetry;
     html! {

@@ -57,7 +57,7 @@ pub fn comparison(both: [&Review; 2], line_ups: &[AlignmentEvent]) -> String {
 /// An event in both flights at which their times can be aligned.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AlignmentEvent {
-    /// Display name.
+    /// Name of the event, shown in the alignment menu.
     pub name: String,
     /// Time of the event in each flight, s since lift-off.
     pub at_s: [f64; 2],

@@ -14,7 +14,7 @@ const REASONS: usize = 3;
 /// Minimum fraction of the inspectable surface at which a reason is named.
 const LEAST_SHARE: f64 = 0.01;
 
-/// Renders the section.
+/// Renders the "Coverage" section of a session report.
 pub fn section(review: &Review) -> Markup {
     let total = review.coverage.total();
     if total.inspectable_m2 <= 0.0 {

@@ -19,7 +19,7 @@ const KINDS: [(ContactKind, &str); 6] = [
     (ContactKind::Person, "k-grave"),
 ];
 
-/// Renders the section.
+/// Renders the "Tasks" section of a session report.
 pub fn section(review: &Review) -> Markup {
     let done_share = review.assessment.completion.done_share;
     html! {

@@ -9,10 +9,10 @@ const LEFT: f64 = 4.0;
 const RIGHT: f64 = 372.0;
 const BAR: f64 = 14.0;
 
-/// A row of fractions.
+/// A row of bars that show fractions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShareRow {
-    /// Label.
+    /// Label shown above the row.
     pub name: String,
     /// CSS class and fraction (0 to 1) of each bar, from top to bottom.
     pub bars: Vec<(&'static str, f64)>,
@@ -60,7 +60,7 @@ pub fn shares(rows: &[ShareRow], title: &str) -> Markup {
 /// A row of counts with one segment per kind.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CountRow {
-    /// Label.
+    /// Label shown above the row.
     pub name: String,
     /// CSS class and count of each segment, from left to right.
     pub kinds: Vec<(&'static str, usize)>,
@@ -94,7 +94,7 @@ pub fn counts(rows: &[CountRow], title: &str) -> Markup {
 /// A bar that shows a whole and its parts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StackedBar {
-    /// Label.
+    /// Label shown above the row.
     pub name: String,
     /// CSS class of each part and its fraction of the whole (0 to 1), from left to right. The first fraction is also shown as a
     /// number.

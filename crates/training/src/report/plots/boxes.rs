@@ -16,7 +16,7 @@ const HALF: f64 = 15.0;
 pub struct NamedBox<'a> {
     /// Label below the box.
     pub name: String,
-    /// Box plot data.
+    /// Values that the box plot shows.
     pub plot: &'a BoxPlot,
 }
 

@@ -14,9 +14,9 @@ const ROOM: f64 = 0.08;
 /// An estimate with its confidence interval.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IntervalEstimate {
-    /// Label.
+    /// Label at the left of the row.
     pub name: String,
-    /// Point estimate.
+    /// Estimated value, shown as a dot.
     pub value: f64,
     /// Lower and upper end of the interval, if one could be computed.
     pub interval: Option<[f64; 2]>,

@@ -15,7 +15,7 @@ const COLOURS: usize = 4;
 /// A line in the chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChartLine {
-    /// Label.
+    /// Name of the score or task.
     pub name: String,
     /// Style number from 1. Styles above 4 use the same colors with dashed lines.
     pub style: usize,

@@ -30,7 +30,7 @@ const MANY: usize = 40;
 /// A projection scaled to the size of a drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlotMap {
-    /// The projection.
+    /// Projection of site coordinates to the drawing.
     pub view: ParallelView,
     /// Upper left corner of the drawing in the projection, m right and up.
     pub(super) corner_m: (f64, f64),
@@ -77,7 +77,7 @@ impl PlotMap {
     }
 }
 
-/// Draws the plan view.
+/// Draws the plan view of a flight.
 #[must_use]
 pub fn plan(review: &Review) -> Markup {
     let map = PlotMap::around(ParallelView::plan(), &everything(review));
@@ -91,7 +91,7 @@ pub fn plan(review: &Review) -> Markup {
     sheet(map.size, "Flight from above, north up", "map", &body)
 }
 
-/// Draws the oblique view.
+/// Draws the oblique view of a flight.
 #[must_use]
 pub fn oblique(review: &Review) -> Markup {
     let map = PlotMap::around(ParallelView::oblique(25.0, 22.0), &everything(review));
@@ -286,7 +286,7 @@ fn marks(review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> bool) -> Mark
     }
 }
 
-/// Draws the landing pad.
+/// Draws a square at the landing pad.
 pub(super) fn pad(scenario: &Scenario, map: &PlotMap) -> Markup {
     let (x, y) = map.at(scenario.ground_team.pad_m);
     html! { g.pad transform={ "translate(" (unit(x)) " " (unit(y)) ")" } { path d="M-6 -6H6V6H-6Z" {} title { "pad" } } }

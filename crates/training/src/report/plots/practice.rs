@@ -15,7 +15,7 @@ const FINE: usize = 6;
 /// Maximum number of numbered repetitions.
 const NUMBERED: usize = 10;
 
-/// Contents of the chart.
+/// Values and curves shown in a learning curve chart.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PracticeChart<'a> {
     /// Score of each repetition.

@@ -9,10 +9,10 @@ const SIZE: (f64, f64) = (420.0, 360.0);
 const MIDDLE: (f64, f64) = (210.0, 186.0);
 const RADIUS: f64 = 118.0;
 
-/// One axis.
+/// One axis of the chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RadarAxis {
-    /// Label.
+    /// Name of the score.
     pub name: &'static str,
     /// Value for each session, 0 to 100; `None` if the score does not apply.
     pub values: Vec<Option<f64>>,

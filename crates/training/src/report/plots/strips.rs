@@ -12,7 +12,7 @@ const ROW: f64 = 26.0;
 /// A row of the timeline.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimeStrip {
-    /// Label.
+    /// Label at the left of the row.
     pub name: String,
     /// Intervals: CSS class, start and end (s), and description.
     pub stretches: Vec<(String, f64, f64, String)>,

@@ -9,7 +9,7 @@ use crate::report::words;
 use crate::statistics::{Coefficient, Regression};
 use maud::{Markup, html};
 
-/// Renders the section.
+/// Renders the section on the causal model.
 pub fn causal(cohort: &Cohort) -> Markup {
     html! {
         p { "Does demand increase strain, does strain reduce performance, and does in-flight feedback weaken the effect of demand on strain? Estimated from the first sessions of all trainees who answered." }
