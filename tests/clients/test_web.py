@@ -583,7 +583,7 @@ def test_a_trainee_sees_the_camera_of_his_own_flight_alone(browser, tmp_path):
             picture.write_bytes(photograph)
             page.click("text=My flight")
             page.wait_for_function("() => document.querySelector('[data-camera] img').naturalWidth > 0")
-            expect(page.locator("[data-state]")).to_have_text("You are flying.")
+            expect(page.locator("[data-state]")).to_have_text("Flight in progress.")
             person.keep(f"own-flight-{size}-{scheme}")
             person.check()
         # The flight ends, and with it what is shown of it.

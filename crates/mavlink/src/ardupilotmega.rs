@@ -1,5 +1,5 @@
-//! Messages of ArduPilot's dialect that the codec does not include: ID, name and fields as data. The wire order and CRC_EXTRA are
-//! derived from them (MAVLink guide, serialization).
+//! Messages of ArduPilot's dialect that the codec does not include. Each definition consists of ID, name and fields; the wire
+//! order and CRC_EXTRA are derived from it (MAVLink guide, "Serialization").
 
 use super::codec::{Encodable, Encoder};
 
@@ -40,29 +40,29 @@ impl FieldType {
     }
 }
 
-/// A message definition, with its fields in the order of `ardupilotmega.xml`.
+/// A message definition. Its fields have the order of `ardupilotmega.xml`.
 #[derive(Debug, PartialEq)]
 pub struct MessageDefinition {
-    /// Message ID.
+    /// MAVLink message ID (24 bits in MAVLink 2).
     pub id: u32,
     /// Message name.
     pub name: &'static str,
-    /// Base fields.
+    /// Name and type of each base field.
     pub fields: &'static [(&'static str, FieldType)],
-    /// Extension fields.
+    /// Name and type of each extension field. They are not part of CRC_EXTRA.
     pub extensions: &'static [(&'static str, FieldType)],
 }
 
 use FieldType::{F32, I32, U16, U32};
 
-/// Definition of MEMINFO.
+/// MEMINFO: free memory of the autopilot.
 pub const MEMINFO: MessageDefinition = MessageDefinition {
     id: 152,
     name: "MEMINFO",
     fields: &[("brkval", U16), ("freemem", U16)],
     extensions: &[("freemem32", U32)],
 };
-/// Definition of AHRS.
+/// AHRS: status of the attitude estimator.
 pub const AHRS: MessageDefinition = MessageDefinition {
     id: 163,
     name: "AHRS",
@@ -77,7 +77,7 @@ pub const AHRS: MessageDefinition = MessageDefinition {
     ],
     extensions: &[],
 };
-/// Definition of SIMSTATE.
+/// SIMSTATE: simulator state as seen by the autopilot.
 pub const SIMSTATE: MessageDefinition = MessageDefinition {
     id: 164,
     name: "SIMSTATE",
@@ -96,10 +96,10 @@ pub const SIMSTATE: MessageDefinition = MessageDefinition {
     ],
     extensions: &[],
 };
-/// Definition of WIND.
+/// WIND: wind estimate of the autopilot.
 pub const WIND: MessageDefinition =
     MessageDefinition { id: 168, name: "WIND", fields: &[("direction", F32), ("speed", F32), ("speed_z", F32)], extensions: &[] };
-/// Definition of EKF_STATUS_REPORT.
+/// EKF_STATUS_REPORT: flags and variances of the estimator.
 pub const EKF_STATUS_REPORT: MessageDefinition = MessageDefinition {
     id: 193,
     name: "EKF_STATUS_REPORT",
@@ -115,7 +115,7 @@ pub const EKF_STATUS_REPORT: MessageDefinition = MessageDefinition {
 };
 
 impl MessageDefinition {
-    /// Indices of the fields in wire order: larger types first, otherwise in definition order.
+    /// Returns the indices of the fields in wire order: larger types first, and fields of the same size in definition order.
     fn order(&self) -> impl Iterator<Item = usize> {
         let places = |long: bool| (0..self.fields.len()).filter(move |k| self.fields[*k].1.is_long() == long);
         places(true).chain(places(false))
@@ -131,7 +131,7 @@ impl MessageDefinition {
         (crc as u8) ^ (crc >> 8) as u8
     }
 
-    /// Creates a message from values in definition order, base fields before extension fields.
+    /// Creates a message. The values are in definition order, extension fields last.
     #[must_use]
     pub fn message(&'static self, values: &[f64]) -> DialectMessage {
         DialectMessage { definition: self, values: values.to_vec() }

@@ -1,4 +1,4 @@
-//! MAVLink framing: splits bytes into complete frames. Invalid bytes are counted and skipped; they never stop a link.
+//! MAVLink framing: splits bytes into complete frames. Invalid bytes are counted and skipped, so they never stop a link.
 
 use super::dialect::MavMessage;
 use mavlink::{MAVLinkV2MessageRaw, MavHeader, MavlinkVersion, Message};
@@ -15,7 +15,7 @@ pub struct ReceivedFrame {
     pub system_id: u8,
     /// Component ID of the sender.
     pub component_id: u8,
-    /// Sequence number of the frame.
+    /// Sequence number of the frame; wraps at 256.
     pub sequence: u8,
     /// Message ID, set even if the payload could not be decoded.
     pub message_id: u32,
@@ -26,7 +26,7 @@ pub struct ReceivedFrame {
 }
 
 impl ReceivedFrame {
-    /// Returns the payload padded with zeros to `len` bytes (MAVLink 2 truncates trailing zeros).
+    /// Returns the payload, padded with zeros to `len` bytes (MAVLink 2 truncates trailing zeros).
     #[must_use]
     pub fn payload(&self, len: usize) -> Vec<u8> {
         let start = if self.bytes.first() == Some(&STX_V2) { 10 } else { 6 };
@@ -37,7 +37,7 @@ impl ReceivedFrame {
     }
 }
 
-/// Splits a byte stream, or consecutive datagrams, into frames.
+/// Splits a byte stream or a series of datagrams into frames.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Decoder {
     buffer: Vec<u8>,
@@ -51,13 +51,13 @@ enum ParseStep {
 }
 
 impl Decoder {
-    /// Creates an empty decoder.
+    /// Creates a decoder without buffered bytes.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Returns the number of bytes so far that belonged to no valid frame.
+    /// Returns the number of bytes received so far that did not belong to a valid frame.
     #[must_use]
     pub fn bad_bytes(&self) -> u64 {
         self.bad_bytes
@@ -82,9 +82,9 @@ impl Decoder {
         frames
     }
 
-    /// Decodes one datagram. Frames must be complete: an incomplete frame at the end is counted as bad and dropped. Each byte is
-    /// examined once, and each possible frame start costs one checksum of at most 267 bytes, so the cost is linear in the length
-    /// of the datagram for any content.
+    /// Decodes one datagram. An incomplete frame at its end is counted as bad and dropped. Each byte is examined once, and each
+    /// possible start of a frame costs one checksum over at most 267 bytes, so the time is linear in the length of the datagram
+    /// for any content.
     pub fn datagram(&mut self, bytes: &[u8]) -> Vec<ReceivedFrame> {
         self.buffer.clear();
         let mut frames = Vec::new();
@@ -97,7 +97,7 @@ impl Decoder {
                     len
                 }
                 ParseStep::Skip(len) => self.count_bad(len),
-                // A frame header without its end: another frame may still start within these bytes.
+                // The frame is incomplete, but another frame may start within its bytes.
                 ParseStep::NeedMore => self.count_bad(1),
             };
         }
@@ -110,7 +110,7 @@ impl Decoder {
     }
 }
 
-/// Parses the start of `bytes`.
+/// Parses the first frame in `bytes`, or determines how many bytes to skip.
 fn next(bytes: &[u8]) -> ParseStep {
     let Some(start) = bytes.iter().position(|b| *b == STX_V1 || *b == STX_V2) else {
         return if bytes.is_empty() { ParseStep::NeedMore } else { ParseStep::Skip(bytes.len()) };
@@ -126,7 +126,7 @@ fn next_v2(bytes: &[u8]) -> ParseStep {
         return ParseStep::NeedMore;
     }
     let flags = bytes[2];
-    // Frames with unknown incompatibility flags must be discarded (MAVLink guide, serialization).
+    // Frames with unknown incompatibility flags must be discarded (MAVLink guide, "Serialization").
     if flags & !FLAG_SIGNED != 0 {
         return ParseStep::Skip(1);
     }
@@ -138,7 +138,7 @@ fn next_v2(bytes: &[u8]) -> ParseStep {
     let message_id = u32::from_le_bytes([bytes[7], bytes[8], bytes[9], 0]);
     let crc = u16::from_le_bytes([bytes[body_end], bytes[body_end + 1]]);
     let extra = known(message_id).then(|| MavMessage::extra_crc(message_id));
-    // The checksum of a message outside the dialect cannot be verified; the frame is only routed.
+    // The checksum of a message that is not in the dialect cannot be verified. Such a frame is only routed.
     if extra.is_some_and(|extra| mavlink::calculate_crc(&bytes[1..body_end], extra) != crc) {
         return ParseStep::Skip(1);
     }
@@ -187,7 +187,7 @@ fn known(message_id: u32) -> bool {
 
 /// A message that an [`Encoder`] can frame.
 pub trait Encodable {
-    /// Returns the complete frame.
+    /// Returns the complete frame with the encoder's sender and next sequence number.
     fn frame(&self, encoder: &mut Encoder) -> Vec<u8>;
 }
 
@@ -224,13 +224,13 @@ impl Encoder {
         self.component_id
     }
 
-    /// Encodes one MAVLink 2 frame from a raw payload, for values that the dialect's types cannot represent (such as an
-    /// acknowledgment of an unknown command). Trailing zeros are truncated, as the protocol requires.
+    /// Encodes one MAVLink 2 frame from a raw payload. Needed for values that the dialect's types cannot represent, such as
+    /// acknowledgments of unknown commands. Truncates trailing zeros, as the protocol requires.
     pub fn encode_payload(&mut self, message_id: u32, payload: &[u8]) -> Vec<u8> {
         self.encode_foreign(message_id, MavMessage::extra_crc(message_id), payload)
     }
 
-    /// Encodes one frame like [`Self::encode_payload`], for a message of another dialect with the given CRC_EXTRA.
+    /// Encodes one frame like [`Self::encode_payload`], but for a message of another dialect with the given CRC_EXTRA.
     pub fn encode_foreign(&mut self, message_id: u32, crc_extra: u8, payload: &[u8]) -> Vec<u8> {
         let used = payload.iter().rposition(|b| *b != 0).map_or(1, |last| last + 1).min(255).min(payload.len());
         let id = message_id.to_le_bytes();
@@ -275,7 +275,7 @@ mod tests {
     fn exact_a_frame_within_the_reach_of_a_false_start_is_found_and_every_other_byte_is_counted() {
         let message = MavMessage::HEARTBEAT(HEARTBEAT_DATA::default());
         let frame = Encoder::new(1, 191).encode(&message);
-        // Thousands of false frame starts that claim more bytes than the datagram contains.
+        // The datagram contains thousands of false frame starts, each of which claims more bytes than the datagram has.
         let mut bytes = [0xFD, 0xFF, 0x00].repeat(20_000);
         bytes.extend(&frame);
         bytes.extend([0xFE, 0xFF]);

@@ -1,16 +1,16 @@
 //! MAVLink FTP: the 251-byte payload of FILE_TRANSFER_PROTOCOL (<https://mavlink.io/en/services/ftp.html>).
 
-/// Maximum data bytes per packet.
+/// Maximum number of data bytes per packet.
 pub const DATA_MAX: usize = 239;
-/// Size of the payload, bytes.
+/// Size of an FTP payload, bytes.
 pub const PAYLOAD: usize = 251;
 const HEADER: usize = 12;
 
-/// Requests of a client, by opcode.
+/// Opcodes of client requests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Opcode {
-    /// No operation; always acknowledged.
+    /// Does nothing; always acknowledged.
     None = 0,
     /// Terminates one session.
     TerminateSession = 1,
@@ -50,7 +50,7 @@ pub const ACK: u8 = 128;
 pub const NAK: u8 = 129;
 
 impl Opcode {
-    /// All client requests.
+    /// All requests, indexed by opcode.
     pub const ALL: [Self; 16] = [
         Self::None,
         Self::TerminateSession,
@@ -70,28 +70,28 @@ impl Opcode {
         Self::BurstReadFile,
     ];
 
-    /// Returns the request with the given opcode; `None` if there is none.
+    /// Returns the request with this opcode; `None` if the opcode is unknown.
     #[must_use]
     pub fn of(number: u8) -> Option<Self> {
         Self::ALL.get(usize::from(number)).copied()
     }
 }
 
-/// Error codes of a negative response.
+/// Error codes in a negative response.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
 pub enum FtpError {
-    /// Unspecified failure.
+    /// Failure without a specific reason.
     Fail = 1,
-    /// The size field exceeds the data size.
+    /// The size field exceeds the capacity of a packet.
     InvalidDataSize = 3,
-    /// The client has no such session.
+    /// The client has no session with this ID.
     InvalidSession = 4,
     /// All sessions are in use.
     NoSessionsAvailable = 5,
     /// The offset is at or past the end of the file.
     EndOfFile = 6,
-    /// Unknown opcode.
+    /// The opcode is unknown.
     UnknownCommand = 7,
     /// The file or directory already exists.
     FileExists = 8,
@@ -101,29 +101,29 @@ pub enum FtpError {
     FileNotFound = 10,
 }
 
-/// One FTP packet.
+/// An FTP packet.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FtpPacket {
-    /// Sequence number, incremented with each packet of an exchange.
+    /// Sequence number, increased by one with each packet of an exchange.
     pub sequence: u16,
     /// Session ID of the open file.
     pub session: u8,
     /// [`Opcode`], [`ACK`] or [`NAK`].
     pub opcode: u8,
-    /// Size field: number of data bytes, or number of bytes requested by a read.
+    /// Size field: number of data bytes, or the number of bytes that a read requests.
     pub size: u8,
-    /// In a response: opcode of the request.
+    /// Opcode of the request, in a response.
     pub request: u8,
-    /// Last packet of a burst.
+    /// Whether this is the last packet of a burst.
     pub burst_complete: bool,
-    /// Offset in a file, index of a directory entry, or length.
+    /// Offset in a file, index of a directory entry, or file length, depending on the request.
     pub offset: u32,
-    /// The entire data field, including unused bytes.
+    /// The complete data field, including unused bytes.
     pub data: [u8; DATA_MAX],
 }
 
 impl FtpPacket {
-    /// Decodes a payload. Any 251 bytes are a valid packet.
+    /// Decodes a payload. Any 251 bytes form a valid packet.
     #[must_use]
     pub fn read(bytes: &[u8; PAYLOAD]) -> Self {
         let mut data = [0; DATA_MAX];
@@ -140,7 +140,7 @@ impl FtpPacket {
         }
     }
 
-    /// Encodes the payload.
+    /// Encodes the packet as a payload.
     #[must_use]
     pub fn write(&self) -> [u8; PAYLOAD] {
         let mut bytes = [0; PAYLOAD];
@@ -155,13 +155,13 @@ impl FtpPacket {
         bytes
     }
 
-    /// Returns the data covered by the size field; `None` if the size exceeds the packet's capacity.
+    /// Returns the data covered by the size field; `None` if the size exceeds the capacity of a packet.
     #[must_use]
     pub fn sized(&self) -> Option<&[u8]> {
         self.data.get(..usize::from(self.size))
     }
 
-    /// Creates a positive response to this request with the given data, truncated to the packet's capacity.
+    /// Creates a positive response to this request. Data beyond the capacity of a packet is dropped.
     #[must_use]
     pub fn acknowledge(&self, data: &[u8]) -> Self {
         let length = data.len().min(DATA_MAX);
@@ -183,8 +183,8 @@ impl FtpPacket {
     }
 }
 
-/// Updates the checksum of CalcFileCRC32 from `sum` (initially 0): CRC-32 with the reflected polynomial 0xEDB88320, zero initial
-/// value and no final inversion, as in PX4 and MAVSDK.
+/// Continues the checksum of CalcFileCRC32 over more bytes, starting from `sum` (0 for the first bytes): CRC-32 with the
+/// reflected polynomial 0xEDB88320, initial value 0 and no final inversion, as in PX4 and MAVSDK.
 #[must_use]
 pub fn checksum(sum: u32, bytes: &[u8]) -> u32 {
     let mut crc = crc32fast::Hasher::new_with_initial(!sum);
@@ -225,7 +225,8 @@ mod tests {
 
     #[test]
     fn val_the_checksum_is_crc32_without_its_inversions() {
-        // CRC-32/ISO-HDLC of "123456789" is cbf43926 (check value of the CRC catalogue), with inverted initial and final values.
+        // The CRC catalog gives cbf43926 as the check value of CRC-32/ISO-HDLC for "123456789", which inverts the initial and
+        // final values.
         assert_eq!(!checksum(!0, b"123456789"), 0xcbf4_3926);
         assert_eq!(checksum(checksum(0, b"1234"), b"56789"), checksum(0, b"123456789"));
     }

@@ -1,13 +1,13 @@
-//! An instructor's note to the monitor: a TUNNEL message with a private payload type, so that only the monitor receives it and no
-//! trainee's display shows it. It is recorded with the rest of the telemetry.
+//! Instructor's notes to the monitor. A note is a TUNNEL message with a private payload type, so that only the monitor receives
+//! it and it never appears on a trainee's display. It is recorded with the other telemetry.
 
 use super::codec::{Encoder, ReceivedFrame};
 
 /// Message ID of TUNNEL.
 const TUNNEL: u32 = 385;
-/// Payload type; types from 32768 up are reserved for private use.
+/// Payload type of notes; types from 32768 are reserved for private use.
 const TYPE: u16 = 33_077;
-/// Number of bytes before the text: type, target system, target component, length.
+/// Number of bytes before the text: payload type, target system, target component, text length.
 const HEAD: usize = 5;
 /// Maximum length of the text, bytes.
 pub const LONGEST: usize = 128;
@@ -23,7 +23,7 @@ pub fn encode(encoder: &mut Encoder, system: u8, component: u8, text: &str) -> V
     encoder.encode_payload(TUNNEL, &payload)
 }
 
-/// Decodes the target and text of a note; `None` if the frame is not a note.
+/// Returns the target (system and component) and the text of a note; `None` if the frame is not a note.
 #[must_use]
 pub fn decode(frame: &ReceivedFrame) -> Option<((u8, u8), String)> {
     if frame.message_id != TUNNEL {
@@ -56,7 +56,11 @@ mod tests {
             assert_eq!(decode(&frame), Some(((1, 191), text.to_owned())));
             assert_eq!(target(&frame), (1, 191));
         }
-        assert_eq!(decode(&sent(&"ü".repeat(100))).map(|(_, text)| text), Some("ü".repeat(64)), "truncated by character");
+        assert_eq!(
+            decode(&sent(&"ü".repeat(100))).map(|(_, text)| text),
+            Some("ü".repeat(64)),
+            "truncated at a character boundary"
+        );
         assert_eq!(decode(&sent("a\nb")).map(|(_, text)| text), Some("a b".into()));
     }
 
@@ -65,7 +69,7 @@ mod tests {
         let mut encoder = Encoder::new(1, 1);
         let other = Decoder::new().datagram(&encoder.encode_payload(TUNNEL, &[1, 0, 1, 191, 2, b'h', b'i'])).remove(0);
         assert_eq!(decode(&other), None);
-        // A length that exceeds the payload.
+        // The length field exceeds the payload.
         let [low, high] = TYPE.to_le_bytes();
         let long = Decoder::new().datagram(&encoder.encode_payload(TUNNEL, &[low, high, 1, 191, 200, b'h'])).remove(0);
         assert_eq!(decode(&long), None);

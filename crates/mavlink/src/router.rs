@@ -1,17 +1,17 @@
-//! Frame routing (MAVLink guide, routing): broadcasts go to all other links, addressed frames to the links where their target was
-//! seen, never back to the source link. Key exchange is never forwarded.
+//! Frame routing (MAVLink guide, "Routing"): broadcasts are forwarded to all other links, and addressed frames to the links on
+//! which their target was seen. A frame never returns to its source link. Key exchange messages are never forwarded.
 
 use super::codec::ReceivedFrame;
 use super::dialect::MavMessage;
 use mavlink::{MavlinkVersion, Message};
 use std::collections::BTreeMap;
 
-/// SETUP_SIGNING carries a key and is never forwarded.
+/// Message ID of SETUP_SIGNING, which carries a key and is therefore never forwarded.
 const SETUP_SIGNING: u32 = 256;
-/// Maximum number of senders stored, so that a link that spoofs thousands of senders cannot exhaust memory.
+/// Maximum number of senders stored, so that a link with thousands of spoofed senders cannot exhaust the memory.
 const MOST_SENDERS: usize = 1_024;
 
-/// Routing table: senders seen on each link. `L` identifies a link.
+/// Routing table: the links on which each sender was seen. `L` identifies a link.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Router<L> {
     links_by_sender: BTreeMap<(u8, u8), Vec<L>>,
@@ -24,7 +24,7 @@ impl<L: Copy + Ord> Router<L> {
         Self { links_by_sender: BTreeMap::new() }
     }
 
-    /// Records the sender of a frame.
+    /// Records on which link the sender of a frame was seen.
     pub fn note(&mut self, link: L, frame: &ReceivedFrame) {
         let sender = (frame.system_id, frame.component_id);
         if self.links_by_sender.len() >= MOST_SENDERS && !self.links_by_sender.contains_key(&sender) {
@@ -36,19 +36,19 @@ impl<L: Copy + Ord> Router<L> {
         }
     }
 
-    /// Returns true if a component has been seen on a link.
+    /// Returns whether a component was seen on a link.
     #[must_use]
     pub fn note_sender(&self, peer: (u8, u8), link: L) -> bool {
         self.links_by_sender.get(&peer).is_some_and(|links| links.contains(&link))
     }
 
-    /// Removes a link.
+    /// Removes a link from the table.
     pub fn forget_link(&mut self, link: L) {
         self.links_by_sender.values_mut().for_each(|links| links.retain(|l| *l != link));
         self.links_by_sender.retain(|_, links| !links.is_empty());
     }
 
-    /// Returns the links among `all` to which the frame is forwarded.
+    /// Returns those of the links in `all` to which a frame from link `from` is forwarded.
     #[must_use]
     pub fn targets_of(&self, from: L, frame: &ReceivedFrame, all: &[L]) -> Vec<L> {
         if frame.message_id == SETUP_SIGNING {
@@ -68,21 +68,21 @@ impl<L: Copy + Ord> Default for Router<L> {
     }
 }
 
-/// Returns the target system and component of a frame; 0 means broadcast. A frame with an unknown message counts as a broadcast.
+/// Returns the target system and component of a frame; 0 means broadcast. Frames with unknown messages count as broadcasts.
 #[must_use]
 pub fn target(frame: &ReceivedFrame) -> (u8, u8) {
     if let Some(message) = &frame.message {
         let system = message.target_system_id().unwrap_or(0);
         return (system, message.target_component_id().unwrap_or(0));
     }
-    // A payload with invalid enum values still has a target, at the offset where the codec would write it.
+    // A message with invalid enum values cannot be parsed, but its target is still at the offset where the codec would write it.
     let [system, component] = target_places(frame.message_id);
     let payload = frame.payload(255);
     let byte = |place: Option<usize>| place.and_then(|at| payload.get(at)).copied().unwrap_or(0);
     (byte(system), byte(component))
 }
 
-/// Returns the payload offsets of target system and component, found by comparing encodings with different targets.
+/// Returns the payload offsets of target system and target component, determined by encoding a message with different targets.
 fn target_places(message_id: u32) -> [Option<usize>; 2] {
     let place = |field: fn(&mut MavMessage) -> Option<&mut u8>| {
         let mut message = MavMessage::default_message_from_id(message_id)?;

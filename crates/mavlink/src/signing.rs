@@ -1,4 +1,5 @@
-//! MAVLink 2 message signing (<https://mavlink.io/en/guide/message_signing.html>): signs and verifies frames and rejects replays.
+//! MAVLink 2 message signing (<https://mavlink.io/en/guide/message_signing.html>): signs frames, verifies them, and rejects
+//! replayed frames.
 
 use super::codec::ReceivedFrame;
 use super::dialect::MavMessage;
@@ -11,25 +12,25 @@ const STX: u8 = 0xFD;
 const FLAGS: usize = 2;
 const MESSAGE_ID: usize = 7;
 const HEADER: usize = 10;
-/// Incompatibility flag of a signed frame.
+/// Incompatibility flag that marks a signed frame.
 const SIGNED: u8 = 0x01;
-/// Length of the signature block: link ID, 48-bit timestamp, 48-bit signature.
+/// Length of the signature block: link ID, 48-bit timestamp and 48-bit signature, bytes.
 const SIGNATURE: usize = 13;
-/// RADIO_STATUS is sent by telemetry radios, which have no signing key.
+/// Message ID of RADIO_STATUS, which telemetry radios send unsigned because they have no key.
 const RADIO_STATUS: u32 = 109;
-/// Maximum lag of the first timestamp of a new stream, in timestamp units (one minute).
+/// Maximum age of the first timestamp of a new stream, in timestamp units (one minute).
 const SLACK: u64 = 6_000_000;
-/// Maximum lead of a timestamp over a valid clock, in timestamp units (one day, to tolerate a wrong time zone). A later timestamp
-/// would make every valid frame too old, even after a restart.
+/// Maximum difference by which a timestamp may be ahead of a valid clock, in timestamp units (one day, to tolerate a wrong time
+/// zone). Accepting a later timestamp would make all valid frames too old, even after a restart.
 const AHEAD_MAX: u64 = 8_640_000_000;
-/// 2024-01-01T00:00:00Z; an earlier clock has not been set.
+/// Timestamp of 2024-01-01T00:00:00Z. An earlier clock has not been set.
 const CLOCK_SET: u64 = 28_401_840_000_000;
-/// Maximum number of streams (system, component, link ID) with a stored timestamp.
+/// Maximum number of streams (system, component, link ID) for which the last timestamp is stored.
 const STREAMS_MAX: usize = 512;
-/// 2015-01-01T00:00:00Z in Unix microseconds, the epoch of signing timestamps.
+/// Epoch of signing timestamps: 2015-01-01T00:00:00Z in Unix time, µs.
 const EPOCH_UNIX_US: u64 = 1_420_070_400_000_000;
 
-/// Signing key, a secret shared by both ends.
+/// Signing key: a secret that both ends of a link share.
 #[derive(Clone, PartialEq, Eq)]
 pub struct SigningKey(pub [u8; 32]);
 
@@ -40,7 +41,7 @@ impl std::fmt::Debug for SigningKey {
 }
 
 impl SigningKey {
-    /// Derives the key from a passphrase by SHA-256, like MAVProxy, Mission Planner and QGroundControl.
+    /// Derives the key from a passphrase with SHA-256, as MAVProxy, Mission Planner and QGroundControl do.
     #[must_use]
     pub fn from_passphrase(text: &str) -> Self {
         Self(Sha256::digest(text.as_bytes()).into())
@@ -54,31 +55,31 @@ impl SigningKey {
     }
 }
 
-/// Converts Unix time in microseconds to a signing timestamp, in units of 10 microseconds since 2015.
+/// Converts Unix time, µs, to a signing timestamp in units of 10 µs since 2015.
 #[must_use]
 pub fn stamp(unix_us: u64) -> u64 {
     unix_us.saturating_sub(EPOCH_UNIX_US) / 10
 }
 
-/// Maximum 48-bit timestamp.
+/// Maximum value of a 48-bit timestamp.
 const STAMP_MAX: u64 = (1 << 48) - 1;
 
 fn is_valid_timestamp(stamp: &u64) -> bool {
     *stamp <= STAMP_MAX
 }
 
-/// Result of verifying a frame.
+/// Result of verifying the signature of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SignatureVerdict {
-    /// Signed with the correct key, and not a replay.
+    /// The frame is signed with the correct key and is not a replay.
     Good,
-    /// Not signed.
+    /// The frame is not signed.
     Unsigned,
-    /// Signed with another key, or modified.
+    /// The frame was signed with another key or modified.
     Forged,
-    /// Signed with the correct key, but replayed or too old.
+    /// The frame is signed with the correct key, but was replayed or is too old.
     Replayed,
-    /// Signed with the correct key, but too far in the future.
+    /// The frame is signed with the correct key, but its timestamp is too far in the future.
     Ahead,
 }
 
@@ -87,7 +88,7 @@ pub enum SignatureVerdict {
 pub struct Signing {
     key: SigningKey,
     link_id: u8,
-    /// Latest timestamp sent or received.
+    /// Latest timestamp that was sent or accepted.
     newest: u64,
     /// Latest timestamp of the local clock.
     clock: u64,
@@ -95,14 +96,14 @@ pub struct Signing {
 }
 
 impl Signing {
-    /// Starts at a timestamp that must not be earlier than the last one used with this key.
+    /// Creates the signing state. `stamp` must not be earlier than the last timestamp used with this key.
     #[must_use]
     pub fn new(key: SigningKey, link_id: u8, stamp: u64) -> Self {
         Self { key, link_id, newest: stamp, clock: stamp, last_timestamps: BTreeMap::new() }
     }
 
-    /// Signs a complete MAVLink 2 frame of the dialect; each call uses a later timestamp. A frame that is already signed, or is
-    /// not such a frame, is returned unchanged.
+    /// Signs a complete MAVLink 2 frame of the dialect with a timestamp later than all previous ones. Frames that are already
+    /// signed, and other data, are returned unchanged.
     #[must_use]
     pub fn sign(&mut self, mut frame: Vec<u8>, stamp: u64) -> Vec<u8> {
         let whole = frame.first() == Some(&STX) && frame.len() >= HEADER + 2 && frame.len() == HEADER + usize::from(frame[1]) + 2;
@@ -123,24 +124,25 @@ impl Signing {
         frame
     }
 
-    /// Returns the latest timestamp sent or received.
+    /// Returns the latest timestamp that was sent or accepted.
     #[must_use]
     pub fn newest(&self) -> u64 {
         self.newest
     }
 
-    /// Reference time for a new stream: the local clock if it is set, otherwise the latest timestamp sent or received.
+    /// Returns the reference time for a new stream: the local clock if it was set, otherwise the latest timestamp sent or
+    /// accepted.
     fn present(&self) -> u64 {
         if self.clock >= CLOCK_SET { self.clock } else { self.newest }
     }
 
-    /// Returns the latest timestamp that is accepted.
+    /// Returns the latest timestamp that is accepted, which depends on the local clock.
     fn latest(&self) -> u64 {
         if self.clock >= CLOCK_SET { self.clock + AHEAD_MAX } else { STAMP_MAX }
     }
 
-    /// Serializes the state needed to reject replays after a restart with the same key: the latest timestamp, then system,
-    /// component, link ID and latest timestamp of each stream, one per line.
+    /// Returns the state needed to reject replays after a restart with the same key, as text. The first line is the latest
+    /// timestamp; each further line is a stream with its system, component, link ID and last timestamp.
     #[must_use]
     pub fn save(&self) -> String {
         let lines =
@@ -148,11 +150,11 @@ impl Signing {
         std::iter::once(format!("{}\n", self.newest)).chain(lines).collect()
     }
 
-    /// Restores saved state. Timestamps further ahead than the allowed clock error are ignored: they were never valid and would
-    /// cause every valid frame to be rejected.
+    /// Restores saved state. Timestamps too far in the future are ignored: they cannot be valid, and would cause every valid
+    /// frame to be rejected.
     ///
     /// # Errors
-    /// The number of the first invalid line, from 1; the state is unchanged.
+    /// Returns the number of the first invalid line, from 1. The state is then unchanged.
     pub fn restore(&mut self, memory: &str) -> Result<(), usize> {
         let stream = |line: &str| -> Option<((u8, u8, u8), u64)> {
             let words: Vec<&str> = line.split(' ').collect();
@@ -172,7 +174,7 @@ impl Signing {
         Ok(())
     }
 
-    /// Verifies a frame and records its timestamp if it is accepted.
+    /// Verifies a frame, and stores its timestamp if the frame is accepted. `stamp` is the current time.
     pub fn verify(&mut self, frame: &ReceivedFrame, stamp: u64) -> SignatureVerdict {
         let bytes = &frame.bytes;
         if bytes.first() != Some(&STX) || bytes.get(FLAGS).is_none_or(|flags| flags & SIGNED == 0) || bytes.len() < SIGNATURE {
@@ -192,7 +194,7 @@ impl Signing {
         let present = self.present();
         let stream = (frame.system_id, frame.component_id, tail[0]);
         if self.last_timestamps.len() >= STREAMS_MAX {
-            // Frames of the removed streams are too old even for a new stream, so no frame is accepted twice.
+            // Frames of the removed streams are too old even as first frames of a new stream, so no frame is accepted twice.
             self.last_timestamps.retain(|_, last| *last + SLACK >= present);
         }
         let new = match self.last_timestamps.get(&stream) {
@@ -208,7 +210,7 @@ impl Signing {
     }
 }
 
-/// Returns true if a link that requires signatures accepts the frame.
+/// Returns whether a link that requires signatures accepts a frame with this verdict.
 #[must_use]
 pub fn is_newer(frame: &ReceivedFrame, verdict: SignatureVerdict) -> bool {
     verdict == SignatureVerdict::Good || (verdict == SignatureVerdict::Unsigned && frame.message_id == RADIO_STATUS)
@@ -245,7 +247,7 @@ mod tests {
         assert_eq!(first.message, read(&frame(1)).message);
         assert_eq!(theirs.verify(&first, NOW), SignatureVerdict::Good);
         assert_eq!(theirs.verify(&first, NOW), SignatureVerdict::Replayed);
-        assert_eq!(theirs.verify(&second, NOW), SignatureVerdict::Good, "unchanged clock, later timestamp");
+        assert_eq!(theirs.verify(&second, NOW), SignatureVerdict::Good, "same clock, later timestamp");
         assert_eq!(theirs.verify(&first, NOW), SignatureVerdict::Replayed);
     }
 
@@ -263,7 +265,7 @@ mod tests {
         let bare = read(&frame(1));
         assert_eq!(theirs.verify(&bare, NOW), SignatureVerdict::Unsigned);
         assert!(!is_newer(&bare, SignatureVerdict::Unsigned));
-        assert_eq!(theirs.verify(&read(&good), NOW), SignatureVerdict::Good, "rejected frames do not consume the timestamp");
+        assert_eq!(theirs.verify(&read(&good), NOW), SignatureVerdict::Good, "a rejected frame does not use up its timestamp");
     }
 
     #[test]
@@ -280,7 +282,7 @@ mod tests {
         let early = ours.sign(frame(1), NOW);
         let late = ours.sign(frame(2), NOW + 500);
         assert_eq!(theirs.verify(&read(&late), NOW), SignatureVerdict::Good);
-        assert_eq!(theirs.verify(&read(&early), NOW), SignatureVerdict::Good, "each system has its own sequence");
+        assert_eq!(theirs.verify(&read(&early), NOW), SignatureVerdict::Good, "timestamps of different systems are independent");
         for link in 0..=255 {
             for system in 10..14 {
                 let mut one = Signing::new(SigningKey::from_passphrase("bridge"), link, NOW);
@@ -320,17 +322,17 @@ mod tests {
         again.restore(&theirs.save()).unwrap();
         assert_eq!(again.verify(&before, soon), SignatureVerdict::Replayed);
         let after = read(&ours.sign(frame(1), NOW));
-        assert_eq!(again.verify(&after, soon), SignatureVerdict::Good, "a slow clock remains accepted");
+        assert_eq!(again.verify(&after, soon), SignatureVerdict::Good, "a slow clock is still accepted");
         let other = read(&Signing::new(SigningKey::from_passphrase("bridge"), 5, NOW).sign(frame(2), NOW));
-        assert_eq!(again.verify(&other, soon), SignatureVerdict::Good, "a new stream may still lag");
-        // A clock that was set back does not make outgoing frames older.
+        assert_eq!(again.verify(&other, soon), SignatureVerdict::Good, "a new stream may lag behind");
+        // After a clock was set back, outgoing timestamps still do not decrease.
         let mut set_back = Signing::new(SigningKey::from_passphrase("bridge"), 0, 5);
         set_back.restore(&again.save()).unwrap();
         assert!(set_back.newest() >= soon);
     }
 
-    /// A single frame from a wrong clock, or from a former key holder, made all other frames too old, permanently through the
-    /// saved state.
+    /// Without this check, a single frame from a wrong clock or a former key holder makes all other frames too old, permanently
+    /// because of the saved state.
     #[test]
     fn regress_a_frame_from_the_far_future_is_refused_and_leaves_nothing_behind() {
         let (mut ours, mut theirs) = pair();
@@ -339,17 +341,17 @@ mod tests {
             assert_eq!(theirs.verify(&far(stamp), NOW), SignatureVerdict::Ahead);
         }
         assert_eq!((theirs.newest(), theirs.last_timestamps.len()), (NOW, 0));
-        assert_eq!(theirs.verify(&far(NOW + AHEAD_MAX), NOW), SignatureVerdict::Good, "a clock a day ahead");
+        assert_eq!(theirs.verify(&far(NOW + AHEAD_MAX), NOW), SignatureVerdict::Good, "a clock that is one day ahead");
         let honest = read(&ours.sign(frame(1), NOW));
-        assert_eq!(theirs.verify(&honest, NOW), SignatureVerdict::Good, "a correct clock in parallel");
-        // State saved with such a timestamp recovers.
+        assert_eq!(theirs.verify(&honest, NOW), SignatureVerdict::Good, "a correct clock at the same time");
+        // Saved state that contains such a timestamp is repaired.
         let mut again = Signing::new(SigningKey::from_passphrase("bridge"), 0, NOW);
         again.restore(&format!("{STAMP_MAX}\n7 1 9 {STAMP_MAX}\n1 1 3 {NOW}\n")).unwrap();
         assert_eq!((again.newest(), again.last_timestamps.len()), (NOW, 1));
         let next = read(&ours.sign(frame(1), NOW));
         assert_eq!(again.verify(&next, NOW), SignatureVerdict::Good);
         assert_eq!(again.verify(&next, NOW), SignatureVerdict::Replayed);
-        // A system whose clock was never set accepts the timestamps it receives.
+        // A receiver whose clock was never set accepts all timestamps that are not old.
         let mut clockless = Signing::new(SigningKey::from_passphrase("bridge"), 0, 5);
         assert_eq!(clockless.verify(&honest, 5), SignatureVerdict::Good);
     }
@@ -380,7 +382,8 @@ mod tests {
 
     #[test]
     fn val_pymavlink_makes_the_same_signature() {
-        // pymavlink 2.4: HEARTBEAT(6, 8, 0, 0, 4) from 255/190, sequence 0, key sha256("bridge"), link 5, timestamp 30000000000000.
+        // Frame from pymavlink 2.4: HEARTBEAT(6, 8, 0, 0, 4) from 255/190, sequence 0, key sha256("bridge"), link 5, timestamp
+        // 30000000000000.
         let theirs: Vec<u8> = PYMAVLINK.split_whitespace().map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect();
         let mut ours = Signing::new(SigningKey::from_passphrase("bridge"), 5, NOW - 1);
         let mut plain = theirs[..theirs.len() - SIGNATURE].to_vec();

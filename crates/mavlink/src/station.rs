@@ -1,4 +1,4 @@
-//! Messages that every ground station client sends: heartbeat, commands, and the mode in which the sticks command velocity.
+//! Messages that ground station clients send: heartbeats, commands, and the selection of position mode.
 
 use super::dialect::{
     COMMAND_INT_DATA, COMMAND_LONG_DATA, HEARTBEAT_DATA, MavAutopilot, MavCmd, MavFrame, MavMessage, MavModeFlag,
@@ -7,12 +7,12 @@ use super::dialect::{
 use super::units::deg_e7;
 use spandrel_model::geodesy::Geo;
 
-/// PX4 main mode number of position control (POSCTL).
+/// Number of the PX4 main mode "Position" (POSCTL).
 const PX4_POSITION: f32 = 3.0;
-/// ArduCopter mode number of POSHOLD.
+/// Number of the ArduCopter mode "PosHold".
 const COPTER_POSHOLD: f32 = 16.0;
 
-/// Creates a ground station heartbeat.
+/// Creates the heartbeat of a ground station.
 #[must_use]
 pub fn heartbeat() -> MavMessage {
     MavMessage::HEARTBEAT(HEARTBEAT_DATA {
@@ -24,7 +24,7 @@ pub fn heartbeat() -> MavMessage {
 }
 
 /// Creates the heartbeat of a companion that does not control the vehicle, such as the monitor or an observer. The dialect's
-/// default heartbeat reports armed.
+/// default cannot be used, because it reports an armed vehicle.
 #[must_use]
 pub fn companion_heartbeat() -> MavMessage {
     MavMessage::HEARTBEAT(HEARTBEAT_DATA {
@@ -55,7 +55,7 @@ pub fn command(system: u8, component: u8, command: MavCmd, params: [f32; 7]) -> 
     }
 }
 
-/// Creates a command for a component of a vehicle at a position above mean sea level. Parameters 5 to 7 are the position.
+/// Creates a command with a position, which replaces parameters 5 to 7. The altitude is above mean sea level.
 #[must_use]
 pub fn command_at(system: u8, component: u8, command: MavCmd, params: [f32; 4], place: Geo) -> COMMAND_INT_DATA {
     COMMAND_INT_DATA {
@@ -74,14 +74,14 @@ pub fn command_at(system: u8, component: u8, command: MavCmd, params: [f32; 4], 
     }
 }
 
-/// Returns the first `N` parameters of a command; missing ones are 0.
+/// Returns the first `N` parameters of a command. Missing parameters are 0.
 #[must_use]
 pub fn params<const N: usize>(given: &[f32]) -> [f32; N] {
     std::array::from_fn(|k| given.get(k).copied().unwrap_or(0.0))
 }
 
-/// Returns the command for the mode in which the sticks command velocity: the native mode of the autopilot, or the standard mode
-/// for any other.
+/// Returns the command that selects position mode, in which the sticks command velocity. PX4 and ArduPilot have their own mode
+/// numbers; other autopilots get the standard mode.
 #[must_use]
 pub fn position_mode(autopilot: Option<MavAutopilot>) -> (MavCmd, [f32; 7]) {
     let (command, [a, b]) = match autopilot {
@@ -104,7 +104,7 @@ mod tests {
         };
         assert_eq!(asked(Some(MavAutopilot::MAV_AUTOPILOT_PX4)), (MavCmd::MAV_CMD_DO_SET_MODE, 1.0, 3.0));
         assert_eq!(asked(Some(MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA)), (MavCmd::MAV_CMD_DO_SET_MODE, 1.0, 16.0));
-        // MAV_STANDARD_MODE_POSITION_HOLD.
+        // The parameter is MAV_STANDARD_MODE_POSITION_HOLD.
         assert_eq!(asked(None), (MavCmd::MAV_CMD_DO_SET_STANDARD_MODE, 1.0, 0.0));
     }
 }

@@ -1,4 +1,4 @@
-//! Conversions between SI units and MAVLink units. Values out of range saturate; NaN becomes the field's "unknown" value.
+//! Conversions between SI units and MAVLink units. Values out of range saturate; NaN becomes 0.
 
 use spandrel_model::geodesy::Geo;
 
@@ -14,19 +14,19 @@ pub fn mm(metres: f64) -> i32 {
     (metres * 1000.0).round() as i32
 }
 
-/// Converts meters per second to centimeters per second, or meters to centimeters.
+/// Converts meters to centimeters, or meters per second to centimeters per second.
 #[must_use]
 pub fn cm(metres: f64) -> i16 {
     (metres * 100.0).round() as i16
 }
 
-/// Converts meters to unsigned centimeters; infinity saturates at the maximum.
+/// Converts meters to unsigned centimeters. Infinity becomes the maximum.
 #[must_use]
 pub fn cm_u16(metres: f64) -> u16 {
     (metres * 100.0).round() as u16
 }
 
-/// Converts radians to centidegrees from 0 to 35999.
+/// Converts a heading in radians to centidegrees, 0 to 35999.
 #[must_use]
 pub fn heading_cdeg(rad: f64) -> u16 {
     ((rad.to_degrees().rem_euclid(360.0) * 100.0).round() as u32 % 36_000) as u16
@@ -38,7 +38,8 @@ pub fn milli_g(m_s2: f64) -> i16 {
     (m_s2 / spandrel_model::math::GRAVITY_M_S2 * 1000.0).round() as i16
 }
 
-/// Converts 1e-7 degrees and meters to a geographic position; `None` if it is out of range.
+/// Converts latitude and longitude in 1e-7 degrees and an altitude in meters to a geographic position; `None` if they are out of
+/// range.
 #[must_use]
 pub fn geo(lat_e7: i32, lon_e7: i32, altitude_m: f64) -> Option<Geo> {
     let (latitude_deg, longitude_deg) = (f64::from(lat_e7) * 1e-7, f64::from(lon_e7) * 1e-7);

@@ -1,4 +1,4 @@
-//! The assessment of a flight. Field names are the keys of `assessment.json`, which external tools read.
+//! The assessment of a flight. Field names are the keys in `assessment.json`, which external tools read.
 
 use super::measures::attention::{self, SiteSurvey, Snapshot};
 use super::measures::coverage::{self, PathCoverage};
@@ -21,28 +21,28 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
 use std::collections::BTreeSet;
 
-/// The job that a flight is scored against.
+/// The job against which a flight is scored.
 #[derive(Debug, Clone, Copy)]
 pub struct ScoringJob<'a> {
     /// Scenario of the session.
     pub scenario: &'a Scenario,
     /// Vehicle that was flown.
     pub vehicle: &'a Vehicle,
-    /// Site built from the session's seed, for defect visibility.
+    /// Site built from the session's seed, used to determine which defects are visible.
     pub survey: &'a dyn SiteSurvey,
 }
 
-/// Reasons why a flight cannot be scored.
+/// Reason why a flight cannot be scored.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum AssessError {
-    /// The drone never exceeded the lift-off height.
-    #[error("the drone never lifted off (more than 0.3 m above the pad), so there is no session to score")]
+    /// The drone never rose above the lift-off height.
+    #[error("the drone never lifted off (rose more than 0.3 m above the pad), so there is no session to score")]
     NeverFlown,
     /// The telemetry contains no ground-truth message.
     #[error("no HIL_STATE_QUATERNION in the telemetry; it provides the time and the true state that scoring requires")]
     NoTruth,
-    /// The simulator runs a different scenario.
-    #[error("the simulator runs another scenario: its scn_crc is {heard:#010x}, but `{name}` has {ours:#010x}")]
+    /// The telemetry is from a different scenario.
+    #[error("the simulator runs a different scenario: it reports scn_crc {heard:#010x}, but `{name}` has {ours:#010x}")]
     OtherScenario {
         /// Name of the session's scenario.
         name: String,
@@ -51,8 +51,8 @@ pub enum AssessError {
         /// CRC of the session's scenario.
         ours: u32,
     },
-    /// The simulator runs a different seed.
-    #[error("the simulator's seed is {heard}, but the session's is {ours}, which places different defects")]
+    /// The telemetry is from a different seed.
+    #[error("the simulator uses seed {heard}, but the session uses seed {ours}, which places different defects")]
     OtherSeed {
         /// Seed received from the simulator.
         heard: u64,
@@ -60,7 +60,9 @@ pub enum AssessError {
         ours: u64,
     },
     /// Neither the telemetry, the scenario nor the command line provides a seed.
-    #[error("no seed: the telemetry contains no `seed` message, and neither the scenario nor the command line provides one")]
+    #[error(
+        "no seed available: the telemetry contains no `seed` message, and neither the scenario nor the command line specifies one"
+    )]
     NoSeed,
     /// The telemetry log could not be read.
     #[error("the telemetry cannot be read: {0}")]
@@ -73,10 +75,10 @@ impl From<std::io::Error> for AssessError {
     }
 }
 
-/// Assessment of one session under both profiles.
+/// Assessment of a session: the TASBID scores and the certification profile.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Assessment {
-    /// Profile of `scores`; always `paper`.
+    /// Name of the profile by which `scores` are computed; always `paper`.
     pub profile: &'static str,
     /// The four scores and their sum.
     pub scores: Scores,
@@ -84,13 +86,13 @@ pub struct Assessment {
     pub completion: Completion,
     /// Results per task, in scenario order.
     pub tasks: Vec<TaskResult>,
-    /// Crash counts.
+    /// Number of crashes by kind.
     pub crashes: CrashCounts,
-    /// Picture counts and per-picture results.
+    /// Results of the pictures, in total and one by one.
     pub snapshots: SnapshotCounts,
-    /// End of the session.
+    /// When and why the session ended.
     pub end: SessionEnd,
-    /// Telemetry coverage.
+    /// Fraction of frames received, and gaps.
     pub telemetry: TelemetryCoverage,
     /// Control source over time. Does not affect any score.
     pub flown_by: Vec<ControlStretch>,
@@ -98,27 +100,27 @@ pub struct Assessment {
     pub certification: Certification,
 }
 
-/// A run of consecutive frames under one control source.
+/// An interval of consecutive frames with the same control source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct ControlStretch {
-    /// First frame.
+    /// Number of the first frame.
     pub from_frame: u32,
-    /// Last frame, inclusive.
+    /// Number of the last frame, inclusive.
     pub to_frame: u32,
     /// Control source; `None` before the first heartbeat.
     pub by: Option<ControlSource>,
 }
 
-/// Scores as defined in the paper.
+/// Scores as defined in the TASBID paper.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Scores {
     /// Conformity; `None` for a job without tasks.
     pub conformity: Option<Score>,
-    /// Efficiency: flight time and return.
+    /// Efficiency, from flight time and return.
     pub efficiency: Score,
-    /// Safety: crashes.
+    /// Safety, from crashes.
     pub safety: Score,
-    /// Accuracy; `None` when no defect was placed.
+    /// Accuracy; `None` for a job without defects.
     pub accuracy: Option<Score>,
     /// Sum of the scores' percentages.
     pub overall: f64,
@@ -126,58 +128,58 @@ pub struct Scores {
     pub overall_max: f64,
 }
 
-/// Result of one task.
+/// Path and speed results of one task.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TaskResult {
-    /// Task number.
+    /// Number of the task in the scenario.
     pub id: u32,
-    /// Whether its path was entered; if false, the task has the flag `not_attempted`.
+    /// Whether the drone entered the task's path. If false, the task has the flag `not_attempted`.
     pub attempted: bool,
-    /// Done, partly done or not attempted.
+    /// Whether the task is done, partly flown or not attempted.
     pub state: TaskState,
-    /// Fraction of its path that was flown, 0 to 1.
+    /// Fraction of the task's path that was flown, 0 to 1.
     pub covered: f64,
-    /// First on-path frame.
+    /// Number of the first frame on the path.
     pub first_frame: Option<u32>,
-    /// Last on-path frame.
+    /// Number of the last frame on the path.
     pub last_frame: Option<u32>,
     /// Fraction of the window's frames that are on the path (P_p), 0 to 1.
     pub on_path: f64,
-    /// Speeding loss (P_s).
+    /// Speeding loss of the task (P_s in TASBID).
     pub speeding: f64,
 }
 
-/// Number of crashes by what was hit.
+/// Number of crashes by kind of object.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CrashCounts {
-    /// Onsets of contact with anything but a person or a vehicle (X_o).
+    /// Number of contacts with anything except people and vehicles (X_o).
     pub other: usize,
     /// 1 if a person was hit, otherwise 0 (X_h).
     pub person: usize,
     /// 1 if a vehicle was hit, otherwise 0 (X_v).
     pub vehicle: usize,
-    /// Crashes by task number; those outside all task windows under `outside`.
+    /// Number of crashes by task number; crashes outside all windows have the key `outside`.
     pub by_task: serde_json::Map<String, serde_json::Value>,
 }
 
 /// Pictures taken and defects found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SnapshotCounts {
-    /// Pictures taken (X_pd).
+    /// Number of pictures taken (X_pd).
     pub taken: usize,
-    /// Pictures that are the first to show a defect.
+    /// Number of pictures that were the first to show a defect.
     pub hits: usize,
-    /// Distinct defects shown (X_td).
+    /// Number of distinct defects shown (X_td).
     pub defects_found: usize,
-    /// Defects placed (X_d).
+    /// Number of defects placed (X_d).
     pub defects_placed: usize,
     /// Precision: `hits` / `taken`.
     pub precision: f64,
-    /// Recall: `defects_found` / `defects_placed`; `None` when no defect was placed.
+    /// Recall: `defects_found` / `defects_placed`; `None` if no defect was placed.
     pub recall: Option<f64>,
-    /// F-measure; `None` when no defect was placed.
+    /// F-measure of precision and recall; `None` if no defect was placed.
     pub f_beta: Option<f64>,
-    /// All pictures in order, with the conditions that failed.
+    /// Results of all pictures in order, with the conditions that failed.
     pub each: Vec<Snapshot>,
 }
 
@@ -190,16 +192,16 @@ pub struct SessionEnd {
     pub frames: usize,
     /// Duration: frames over frame rate (N/f), s.
     pub seconds: f64,
-    /// Whether the session ended by an empty battery or the time limit (X_b).
+    /// Whether the session ended because of an empty battery or the time limit (X_b).
     pub battery_failed: bool,
 }
 
-/// Fraction of the session covered by telemetry, and its gaps.
+/// Fraction of the session for which telemetry was received, and its gaps.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TelemetryCoverage {
-    /// Frames in gaps longer than 1 s; position and velocity are held.
+    /// Number of frames in gaps longer than 1 s. They repeat the last position and velocity.
     pub missing_frames: usize,
-    /// Frames in gaps of 0.2 to 1 s; position and velocity are interpolated.
+    /// Number of frames in gaps of 0.2 to 1 s. Their position and velocity are interpolated.
     pub interpolated_frames: usize,
     /// Number of gaps longer than 0.2 s.
     pub gaps: usize,
@@ -210,18 +212,18 @@ pub struct TelemetryCoverage {
 /// An assessment and the frames that it was computed from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AssessedSession {
-    /// Scores and measures.
+    /// Assessment of the session.
     pub assessment: Assessment,
-    /// Frames 1 to N.
+    /// Frames of the session; frame 1 has index 0.
     pub frames: Vec<Frame>,
-    /// Seed that placed the defects.
+    /// Seed from which the defects were placed.
     pub seed: u64,
 }
 
 /// Scores one flight and returns the assessment and its frames.
 ///
 /// # Errors
-/// If the flight has no truth samples or never lifted off.
+/// Fails if the telemetry contains no truth messages or the drone never lifted off.
 pub fn assess(flight: &Flight, job: &ScoringJob<'_>) -> Result<(Assessment, Vec<Frame>), AssessError> {
     if flight.truths.is_empty() {
         return Err(AssessError::NoTruth);
@@ -276,10 +278,10 @@ pub fn assess(flight: &Flight, job: &ScoringJob<'_>) -> Result<(Assessment, Vec<
     Ok((assessment, session.frames))
 }
 
-/// Scores a telemetry log. `build` builds the site from a seed.
+/// Scores a telemetry log. `build` creates the site from the seed.
 ///
 /// # Errors
-/// If the log cannot be read, belongs to a different scenario or seed, or contains no session.
+/// Fails if the log cannot be read, belongs to a different scenario or seed, or contains no session.
 pub fn assess_log(
     log: &(impl TelemetryLog + ?Sized),
     scenario: &Scenario,
@@ -289,17 +291,17 @@ pub fn assess_log(
     let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
     timeline.push_log(log)?;
     let (flight, seed) = identified_flight(&timeline, scenario, vehicle)?;
-    // The flight contains everything that is needed; keeping both would double the memory.
+    // The flight contains all required data. Keeping the timeline as well would double the memory usage.
     drop(timeline);
     let survey = attention::with_traffic_at(build(scenario, seed), &flight);
     let (assessment, frames) = assess(&flight, &ScoringJob { scenario, vehicle, survey: survey.as_ref() })?;
     Ok(AssessedSession { assessment, frames, seed })
 }
 
-/// Returns the scored flight and its seed.
+/// Returns the flight to score, and its seed.
 ///
 /// # Errors
-/// If the telemetry belongs to a different scenario or seed, or contains no session.
+/// Fails if the telemetry belongs to a different scenario or seed, or contains no session.
 pub fn identified_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> Result<(Flight, u64), AssessError> {
     let flight = scored_flight(timeline, scenario, vehicle);
     if flight.truths.is_empty() {
@@ -309,13 +311,13 @@ pub fn identified_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Veh
     Ok((flight, seed))
 }
 
-/// Returns the scored flight: the first one that lifted off, otherwise the last.
+/// Returns the flight to score: the first one in which the drone lifted off, otherwise the last one.
 #[must_use]
 pub fn scored_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> Flight {
     scored_epoch(timeline, scenario, vehicle).1
 }
 
-/// Returns the scored flight with the number of simulator runs that precede it in the timeline.
+/// Returns the flight to score, and the number of simulator runs before it in the timeline.
 #[must_use]
 pub fn scored_epoch(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> (usize, Flight) {
     let height_m = lift_off_height_m(vehicle);
@@ -329,10 +331,10 @@ pub fn scored_epoch(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle)
     last
 }
 
-/// Returns the session's seed after checking that telemetry, scenario and command line agree on scenario and seed.
+/// Returns the session's seed. Checks that the telemetry, the scenario and the command line agree on scenario and seed.
 ///
 /// # Errors
-/// If the scenario or seed differs, or if no seed is available.
+/// Fails if the scenario or the seed differs, or if no seed is available.
 pub fn check_identity(flight: &Flight, scenario: &Scenario, asked: Option<u64>) -> Result<u64, AssessError> {
     for (_, _, heard) in flight.scenario_crcs.all() {
         check_scenario(scenario, *heard)?;
@@ -348,7 +350,7 @@ pub fn check_identity(flight: &Flight, scenario: &Scenario, asked: Option<u64>) 
 /// Checks the scenario CRC received from the simulator.
 ///
 /// # Errors
-/// If the CRCs differ.
+/// Fails if the CRCs differ.
 pub fn check_scenario(scenario: &Scenario, heard: u32) -> Result<(), AssessError> {
     if heard == scenario.crc {
         return Ok(());
@@ -359,7 +361,7 @@ pub fn check_scenario(scenario: &Scenario, heard: u32) -> Result<(), AssessError
 /// Checks the seed received from the simulator.
 ///
 /// # Errors
-/// If the session already has a different seed.
+/// Fails if the session has a different seed.
 pub fn check_seed(ours: Option<u64>, heard: u64) -> Result<(), AssessError> {
     match ours {
         Some(ours) if ours != heard => Err(AssessError::OtherSeed { heard, ours }),
@@ -378,7 +380,7 @@ fn shares(scenario: &Scenario, session: &Session, on_path: &OnPath) -> Vec<TaskS
     on_path.windows.iter().enumerate().map(one).collect()
 }
 
-/// Computes the paper's scores from the measures.
+/// Computes the scores of the TASBID paper from the measures.
 #[must_use]
 pub fn scores(scenario: &Scenario, shares: &[TaskShares], end: &SessionEnd, crashes: &[Crash], counts: MatchCounts) -> Scores {
     let scoring = &scenario.scoring;

@@ -1,5 +1,5 @@
-//! Exports with stable names: frames as columns, and the scored part of a scenario as JSON. Numbers are written with the fewest
-//! digits that round-trip exactly.
+//! Exports with stable names: frames as table columns, and the parts of a scenario that matter for scoring as JSON. Numbers have
+//! the fewest digits that represent the value exactly.
 
 pub mod columns;
 pub mod fields;
@@ -32,7 +32,7 @@ pub struct DefectExport {
     size_m: f64,
 }
 
-/// The part of a scenario that a scorer needs.
+/// The parts of a scenario that a scorer needs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ScenarioExport {
     name: String,
@@ -41,7 +41,7 @@ pub struct ScenarioExport {
     max_speed_m_s: f64,
     time_best_s: f64,
     time_max_s: f64,
-    /// A number, or the string `inf`, because JSON has no infinity.
+    /// Weight of recall; a number, or the string `inf` because JSON has no infinity.
     beta: serde_json::Value,
     tasks: Vec<TaskExport>,
     defects: Vec<DefectExport>,
@@ -85,6 +85,6 @@ impl ScenarioExport {
 /// Serializes an export as indented JSON with a trailing newline.
 #[must_use]
 pub fn json_text(value: &impl Serialize) -> String {
-    // Serialization cannot fail here: maps have string keys. An empty text would be noticed immediately.
+    // Serialization cannot fail here, because all map keys are strings.
     serde_json::to_string_pretty(value).map(|text| text + "\n").unwrap_or_default()
 }

@@ -1,59 +1,59 @@
-//! Layout of the session folder: file names and the contents of `session.json`. The application writes the files.
+//! File names in the session folder and the contents of `session.json`. The application writes the files.
 
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 use spandrel_mavlink::telemetry::timeline::LinkCounts;
 
-/// All MAVLink frames as received.
+/// Telemetry: all MAVLink frames as received.
 pub const TELEMETRY: &str = "telemetry.tlog";
-/// The resolved scenario.
+/// Scenario file with all included files resolved.
 pub const SCENARIO: &str = "scenario.toml";
-/// The resolved vehicle.
+/// Vehicle file with all included files resolved.
 pub const VEHICLE: &str = "vehicle.toml";
 /// Session metadata: trainee, time, versions, hashes.
 pub const SESSION: &str = "session.json";
-/// Event log, one JSON object per line.
+/// Event log with one JSON object per line.
 pub const EVENTS: &str = "events.jsonl";
-/// Name of the event logged when the simulator restarts.
+/// Name of the event that is logged when the simulator restarts.
 pub const SIMULATOR_RESTARTED: &str = "simulator_restarted";
-/// Scores and measures.
+/// Scores and measures of the session.
 pub const ASSESSMENT: &str = "assessment.json";
-/// The HTML report.
+/// Report page.
 pub const REPORT: &str = "report.html";
-/// Folder of the pictures.
+/// Folder that contains the pictures.
 pub const SNAPSHOTS: &str = "snapshots";
-/// Subfolder of reduced copies for the report, with the same file names.
+/// Subfolder with reduced copies of the pictures for the report, under the same file names.
 pub const SMALL: &str = "small";
 
 /// Contents of `session.json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SessionInfo {
-    /// Trainee name.
+    /// Pseudonym of the trainee.
     pub trainee: String,
     /// Wall-clock time of simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// The start time in UTC, RFC 3339.
+    /// Start time in UTC, RFC 3339.
     pub started_utc: String,
-    /// Version of Spandrel.
+    /// Version of Spandrel that recorded the session.
     pub spandrel_version: String,
-    /// Scenario name.
+    /// Machine-readable name of the scenario, such as `two-bridges`.
     pub scenario: String,
     /// The scenario's `scn_crc`, hexadecimal.
     pub scenario_crc: String,
     /// SHA-256 of `scenario.toml`, hexadecimal.
     pub scenario_sha256: String,
-    /// Vehicle id.
+    /// Vehicle id, such as `phantom2`.
     pub vehicle: String,
     /// SHA-256 of `vehicle.toml`, hexadecimal.
     pub vehicle_sha256: String,
-    /// Seed, once received.
+    /// Seed, once it was received.
     pub seed: Option<u64>,
-    /// Purpose of the session, practice or assessment, if chosen.
+    /// Purpose of the session, `practice` or `assessment`, if chosen.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub purpose: Option<String>,
     /// Number of times that the monitor was started for this folder.
     pub monitor_starts: u32,
-    /// Link statistics collected by this monitor.
+    /// Link statistics since this start of the monitor.
     pub link: LinkCounts,
     /// Number of received bytes that were not valid MAVLink.
     pub bad_bytes: u64,

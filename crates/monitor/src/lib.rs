@@ -1,17 +1,17 @@
-//! The monitor observes an inspection flight through telemetry only, gives feedback during the flight and scores it afterward. It
-//! does not depend on the simulator, so it scores flights with a real autopilot the same way.
+//! The monitor observes an inspection flight through its telemetry only, gives feedback during the flight, and scores it
+//! afterward. It does not depend on the simulator, so flights with a real autopilot are scored in the same way.
 //!
-//! [`assessment::assess`] is the only scorer. Both the live [`Monitor`] and [`assess_log`] call it, so rescoring a stored flight
-//! reproduces its scores exactly:
+//! [`assessment::assess`] is the only scorer. Both the live [`Monitor`] and [`assess_log`] call it, so scoring a recorded flight
+//! again gives exactly the same scores:
 //!
 //! ```
 //! use spandrel_monitor::{AssessError, assess_log, sidecar::build_site};
 //! use spandrel_model::{scenario, shipped, vehicle};
 //!
 //! # fn main() -> Result<(), spandrel_model::toml::Problems> {
-//! let job = scenario::read("two-bridges.toml", shipped::TWO_BRIDGES, &|file| Err(format!("{file} is not there")))?;
+//! let job = scenario::read("two-bridges.toml", shipped::TWO_BRIDGES, &|file| Err(format!("{file} not found")))?;
 //! let aircraft = vehicle::read("phantom2.toml", shipped::PHANTOM2)?;
-//! // The bytes of a telemetry.tlog. An empty log contains no flight, which is an error.
+//! Contents of a telemetry.tlog. An empty log contains no flight, which is an error.
 //! let log: &[u8] = &[];
 //! let graded = assess_log(log, &job, &aircraft, build_site);
 //! assert_eq!(graded.err(), Some(AssessError::NoTruth));
@@ -19,8 +19,8 @@
 //! # }
 //! ```
 //!
-//! [`measures`] derives measures from frames (on path, speeding, crashes, picture contents), [`feedback`] raises cues, [`score`]
-//! computes conformity, efficiency, safety and accuracy, and [`session`] determines where a session begins and ends.
+//! [`measures`] computes measures from the frames (on path, speeding, crashes, picture contents), [`feedback`] raises cues,
+//! [`score`] computes conformity, efficiency, safety and accuracy, and [`session`] determines where a session starts and ends.
 
 pub mod assessment;
 pub mod export;

@@ -1,4 +1,4 @@
-//! Session boundaries: its frames from lift-off to the end, and the reason for the end.
+//! Determines where a session starts and ends, and the reason for the end.
 
 use super::measures::crash;
 use serde::Serialize;
@@ -10,38 +10,38 @@ use spandrel_model::scenario::{AfterCrash, Scenario};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 
-/// Lift-off and landing height of the drone's center above the pad, m (docs/src/reference/assessment.md, "Frames").
+/// Minimum height of the drone's center above the pad that counts as lift-off, m (docs/src/reference/assessment.md, "Frames").
 const LIFT_OFF_M: f64 = 0.3;
-/// Margin above the resting height for aircraft whose center rests higher than the rule's height, m (estimate).
+/// Margin above the resting height, for aircraft whose center is higher than `LIFT_OFF_M` when resting, m (estimate).
 const OVER_STAND_M: f64 = 0.05;
-/// Speeds below this count as at rest, m/s (estimate: above the truth stream's resolution of 0.01 m/s, below any controlled
-/// drift).
+/// Speed below which the drone is at rest, m/s (estimate: above the resolution of 0.01 m/s in the truth messages, below any
+/// controlled drift).
 const REST_M_S: f64 = 0.2;
-/// Being at rest for this long counts as a landing (docs/src/reference/assessment.md, "Frames").
+/// Time at rest that counts as a landing (docs/src/reference/assessment.md, "Frames").
 const REST_FOR: SimTime = SimTime::from_ms(3_000);
 
-/// Maximum age of the armed and on-ground states, which are sent once per second.
+/// Maximum age of the armed and on-ground states, which the autopilot sends once per second.
 const WORDS_OLD: SimTime = SimTime::from_ms(1_500);
 
-/// Reason for the end of a session.
+/// Reason why a session ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(into = "&'static str")]
 pub enum EndReason {
     /// Landed near the ground team.
     Landed,
-    /// Battery empty.
+    /// The battery was empty.
     Battery,
     /// The maximum flight time was exceeded.
     TimeLimit,
-    /// Hit a person.
+    /// The drone hit a person.
     Person,
-    /// Hit a vehicle.
+    /// The drone hit a vehicle.
     Vehicle,
-    /// A crash, if the scenario ends the session on any crash.
+    /// The drone crashed in a scenario in which any crash ends the session.
     Crash,
-    /// Stopped by the user, or the telemetry ended.
+    /// The user ended the session, or the telemetry stopped.
     Abort,
-    /// The simulator was restarted in flight.
+    /// The simulator was restarted during the flight.
     Restart,
 }
 
@@ -52,7 +52,7 @@ impl From<EndReason> for &'static str {
 }
 
 impl EndReason {
-    /// Returns the value used in `assessment.json`.
+    /// Returns the value for `assessment.json`.
     #[must_use]
     pub fn label(self) -> &'static str {
         match self {
@@ -68,29 +68,29 @@ impl EndReason {
     }
 }
 
-/// Input of the end rule at one instant.
+/// State of the flight at one instant, from which the end of the session is determined.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EndRuleInput {
-    /// Simulation time.
+    /// Simulation time at this instant.
     pub time: SimTime,
     /// Flight time including this instant, s.
     pub flown_s: f64,
-    /// Position, m.
+    /// Position of the drone's center in the site frame, m.
     pub position_m: Vec3<Enu>,
-    /// Speed, m/s.
+    /// Magnitude of the velocity, m/s.
     pub speed_m_s: f64,
-    /// Contact after applying the pad rule.
+    /// Kind of object in contact, after touchdowns on the pad are removed.
     pub contact: ContactKind,
-    /// Remaining battery, %.
+    /// Remaining battery charge, 0 to 100 %.
     pub battery_pct: f64,
-    /// Whether the drone is armed, if known.
+    /// Whether the drone is armed; `None` if not received yet.
     pub armed: Option<bool>,
-    /// Whether the autopilot reports that it is on the ground.
+    /// Whether the autopilot reports that the drone is on the ground.
     pub on_ground: bool,
 }
 
-/// Detects the end of a session. A landing counts from the moment at which the drone came to rest but is confirmed only after the
-/// rest time; events in between, such as an empty battery, do not override it.
+/// Detects the end of a session. A landing counts from the moment when the drone came to rest, but is confirmed only after the
+/// rest time. Events in between, such as an empty battery, do not override the landing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EndRule {
     pad_m: Vec3<Enu>,
@@ -106,7 +106,7 @@ pub struct EndRule {
 }
 
 impl EndRule {
-    /// Creates the rule for one session.
+    /// Creates the rule for a session.
     #[must_use]
     pub fn new(scenario: &Scenario, vehicle: &Vehicle) -> Self {
         Self {
@@ -123,7 +123,7 @@ impl EndRule {
         }
     }
 
-    /// Discards armed and on-ground states that predate a respawn.
+    /// Discards armed and on-ground states from before a respawn.
     fn strip_legacy_fields(&mut self, moment: &EndRuleInput) -> EndRuleInput {
         let jumped = self.last.is_some_and(|last| {
             let step_m = (moment.position_m - last.position_m).norm();
@@ -140,7 +140,7 @@ impl EndRule {
         EndRuleInput { armed: moment.armed.filter(|armed| *armed), on_ground: moment.on_ground && down, ..*moment }
     }
 
-    /// Returns the end if this instant decides it, with the time of the last frame.
+    /// Returns the time of the last frame and the reason if the session ends at this instant.
     pub fn update(&mut self, moment: &EndRuleInput) -> Option<(SimTime, EndReason)> {
         let moment = &self.strip_legacy_fields(moment);
         match moment.contact {
@@ -151,7 +151,7 @@ impl EndRule {
             }
             ContactKind::None | ContactKind::Bridge | ContactKind::Terrain | ContactKind::Water | ContactKind::Other => {}
         }
-        // The armed state may be a second old; disarmed means a landing only after armed was received.
+        // The armed state can be up to a second old. Disarmed therefore means a landing only after armed was received.
         self.seen_armed |= moment.armed == Some(true);
         self.rest_since = self.has_landed_at_home(moment).then(|| self.rest_since.unwrap_or(moment.time));
         if let Some(since) = self.rest_since
@@ -168,7 +168,7 @@ impl EndRule {
         if self.rest_since.is_none() { self.pending } else { None }
     }
 
-    /// Returns the end that was deferred until a landing is confirmed, for use when the telemetry ends.
+    /// Returns an end that was deferred until a possible landing is confirmed. It applies if the telemetry stops before that.
     #[must_use]
     pub fn pending(&self) -> Option<(SimTime, EndReason)> {
         self.pending
@@ -181,31 +181,31 @@ impl EndRule {
     }
 }
 
-/// Returns the height of the drone's center above the pad at which this aircraft has lifted off, m.
+/// Returns the height of the drone's center above the pad at which this aircraft counts as lifted off, m.
 #[must_use]
 pub fn lift_off_height_m(vehicle: &Vehicle) -> f64 {
     let stand = vehicle.hull.feet_m.iter().map(|foot| foot.down()).fold(vehicle.hull.body_half_extent_m[2], f64::max);
     LIFT_OFF_M.max(stand + OVER_STAND_M)
 }
 
-/// Frames are evaluated this long past the time limit, longer than it takes to confirm a landing.
+/// Time after the time limit for which frames are still evaluated; longer than it takes to confirm a landing.
 const OVERTIME: SimTime = SimTime::from_ms(10_000);
 
 /// The frames of a session and its end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Session {
-    /// Frames 1 to N, with the pad rule applied to their contacts.
+    /// Frames of the session, with touchdowns on the pad removed; frame 1 has index 0.
     pub frames: Vec<Frame>,
-    /// Reason why frame N is the last.
+    /// Reason why the session ended after the last frame.
     pub reason: EndReason,
 }
 
 impl Session {
-    /// Extracts the session from a flight; `None` if it never lifted off.
+    /// Extracts the session from a flight; `None` if the drone never lifted off.
     #[must_use]
     pub fn truncate(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Option<Self> {
         let start = flight.lift_off(scenario.ground_team.pad_m.up(), lift_off_height_m(vehicle))?;
-        // The time limit bounds the frame count even if the clock is corrupt.
+        // Limits the number of frames even if the clock is corrupt.
         let end = flight.end()?.min(start + SimTime::from_s(scenario.scoring.time_max_s) + OVERTIME);
         let rate = scenario.scoring.frame_rate_hz;
         let mut frames = all_frames(flight, start, end, rate);
@@ -218,7 +218,7 @@ impl Session {
         Some(Self { frames, reason })
     }
 
-    /// Returns the duration (N/f), s.
+    /// Returns the duration of the session (N/f), s.
     #[must_use]
     pub fn seconds(&self, frame_rate_hz: f64) -> f64 {
         self.frames.len() as f64 / frame_rate_hz
@@ -227,7 +227,7 @@ impl Session {
 
 fn all_frames(flight: &Flight, start: SimTime, end: SimTime, rate: f64) -> Vec<Frame> {
     let at = |k: u32| start + SimTime::from_s(f64::from(k) / rate);
-    // Frame 1 has no predecessor; its interval contains only its own instant.
+    // Frame 1 has no predecessor, so its interval contains only its own instant.
     let before = SimTime::from_ns(start.ns() - 1);
     (0u32..)
         .take_while(|k| at(*k) <= end)
@@ -259,7 +259,8 @@ mod tests {
         EndRule::new(&read(include_str!("../../../scenarios/two-bridges.toml")), &vehicle)
     }
 
-    /// Returns the first end within eight seconds at a fixed position, sampled 30 times per second from `from_ms`.
+    /// Returns the first end within eight seconds at rest at a fixed position, sampled 30 times per second from `from_ms`.
+    /// `words` returns the armed and on-ground states of a sample.
     fn end(rule: &mut EndRule, from_ms: i64, position_m: Vec3<Enu>, words: impl Fn(i64) -> (bool, bool)) -> Option<EndReason> {
         (0..240).find_map(|k| {
             let (armed, on_ground) = words(k);
@@ -285,11 +286,11 @@ mod tests {
         let pad_m = rule.pad_m;
         let over_home = pad_m + Vec3::new(1.0, 0.0, 5.0);
         assert_eq!(end(&mut rule, 0, over_home, |_| (true, false)), None);
-        // The drone disarms in the lake. After the respawn it is armed, but telemetry still reports disarmed on the ground for a
-        // second.
+        // The drone disarms in the lake. After the respawn, it is armed, but for one second the telemetry still reports it as
+        // disarmed and on the ground.
         assert_eq!(end(&mut rule, 8_000, pad_m + Vec3::new(80.0, 0.0, -5.0), |_| (false, true)), None);
         assert_eq!(end(&mut rule, 16_000, over_home, |k| (k >= 30, k < 30)), None);
-        // Later samples count: the drone rests on something near home and disarms.
+        // Later states are valid again: the drone rests on an object near home and disarms.
         assert_eq!(end(&mut rule, 24_000, over_home, |_| (false, true)), Some(EndReason::Landed));
     }
 }

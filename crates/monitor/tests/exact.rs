@@ -1,4 +1,4 @@
-//! The numbers that a scorer must reproduce (shared assessment, the pilot study's figures), from the formulas alone.
+//! Checks the score formulas against reference values: the assessment's definitions and results from the pilot study.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_monitor::score::accuracy::MatchCounts;
@@ -7,7 +7,7 @@ use spandrel_monitor::score::{efficiency, safety};
 
 const LIMIT_M_S: f64 = 4.4704;
 const MAX_M_S: f64 = 13.4112;
-/// Rounding of a few f64 operations on numbers up to 100, points.
+/// Tolerance for the rounding error of a few operations on numbers up to 100, points.
 const ROUNDING: f64 = 1e-12;
 
 fn check(got: f64, wanted: f64) {

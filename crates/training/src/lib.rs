@@ -1,15 +1,14 @@
 //! Evaluation after the flight, as pure functions: session records ([`record`]), statistics ([`statistics`]), training plans
 //! ([`plan`]), cohort analysis ([`cohort`]), questionnaires ([`questionnaire`]), statements for learning record stores
-//! ([`xapi`]), the report of a session ([`report`]) and the pages of the server ([`web`]). The application reads folders,
-//! maintains the database and serves the pages.
-//! serves the pages.
+//! ([`xapi`]), session reports ([`report`]) and web pages ([`web`]). The application reads the session folders, maintains the
+//! database and serves the pages.
 //!
 //! ```
 //! use spandrel_training::statistics::paired_t;
 //!
 //! // Scores of the same six trainees in their first and second session.
 //! let (first, second) = ([212.0, 250.5, 198.0, 301.0, 240.0, 222.5], [260.0, 255.0, 240.5, 310.0, 281.0, 263.0]);
-//! let change = paired_t(&first, &second).expect("six pairs that differ");
+//! let change = paired_t(&first, &second).expect("the pairs differ");
 //! assert!(change.mean_difference > 0.0);
 //! ```
 

@@ -1,10 +1,10 @@
-//! Synthetic sessions for tests.
+//! Synthetic session records for tests.
 
 use super::questionnaire::{Answers, QuestionnaireItem};
 use super::record::{Crashes, DefectRecord, FORMAT, Scores, SessionRecord, TaskRecord};
 use spandrel_monitor::score::completion::{Completion, TaskState};
 
-/// Returns a perfect flight of the paper's job, with all 24 answers "agree".
+/// Returns a perfect flight of the TASBID job, with all 24 questions answered "agree".
 pub fn faultless(trainee: &str, number: usize) -> SessionRecord {
     let mut answers = Answers { language: "en".into(), ..Answers::default() };
     answers.given.extend(QuestionnaireItem::all(&[1, 2, 3, 4]).into_iter().map(|item| (item, 2)));
@@ -59,7 +59,7 @@ pub fn faultless(trainee: &str, number: usize) -> SessionRecord {
     }
 }
 
-/// Returns a session that was ended early: only the first task was flown, to 60 % of its path.
+/// Returns a session that ended early: only the first task was flown, and only 60 % of its path.
 pub fn broken_off(trainee: &str, number: usize) -> SessionRecord {
     let mut record = faultless(trainee, number);
     record.completion =

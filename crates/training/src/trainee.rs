@@ -1,32 +1,32 @@
-//! Trainees: pseudonym, role, and the optional background information collected in the paper's study.
+//! Trainees: pseudonym, role, and the optional background information collected in the TASBID study.
 
 use serde::{Deserialize, Serialize};
 
-/// Age bands, years.
+/// Age groups, years.
 pub const AGE_BANDS: &[&str] = &["18-24", "25-34", "35-44", "45-54", "55-64", "65+"];
 /// Levels of experience with drones and with video games.
 pub const EXPERIENCE: &[&str] = &["none", "some", "regular"];
 
-/// Role of a user.
+/// Role of a user, which determines access rights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Role {
-    /// Flies, and sees only their own data.
+    /// Flies sessions and sees only their own data.
     Trainee,
-    /// Sees all sessions and controls flights.
+    /// Sees all sessions and can act during flights.
     Instructor,
     /// Also manages users and data retention.
     Administrator,
 }
 
-/// A user.
+/// A user of the system, with any role.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Trainee {
-    /// Pseudonym. The identity behind it is not stored here.
+    /// Pseudonym. The person's identity is not stored.
     pub pseudonym: String,
-    /// Role.
+    /// Role, which determines access rights.
     pub role: Role,
-    /// Age band; one of [`AGE_BANDS`].
+    /// Age group; one of [`AGE_BANDS`].
     pub age_band: Option<String>,
     /// Experience with drones; one of [`EXPERIENCE`].
     pub drone_experience: Option<String>,
@@ -35,10 +35,10 @@ pub struct Trainee {
 }
 
 impl Role {
-    /// All roles.
+    /// All roles in ascending order of access rights.
     pub const ALL: [Self; 3] = [Self::Trainee, Self::Instructor, Self::Administrator];
 
-    /// Returns the value used in files and databases.
+    /// Returns the name used in files and databases.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -48,7 +48,7 @@ impl Role {
         }
     }
 
-    /// Returns the role for a stored value.
+    /// Returns the role for a name used in files and databases.
     #[must_use]
     pub fn from_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|role| role.word() == word)
@@ -56,7 +56,7 @@ impl Role {
 }
 
 impl Trainee {
-    /// Creates a trainee with only a pseudonym.
+    /// Creates a trainee with a pseudonym and no further information.
     #[must_use]
     pub fn new(pseudonym: &str) -> Self {
         let pseudonym = pseudonym.to_owned();

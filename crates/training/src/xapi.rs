@@ -1,5 +1,5 @@
-//! Exports a session as xAPI statements (Experience API 1.0.3) for a learning record store. A statement's id is derived from its
-//! content, so that resending it does not duplicate it.
+//! Exports a session as xAPI statements (Experience API 1.0.3) for a learning record store (LRS). The id of a statement is
+//! derived from its content, so that sending it again does not duplicate it.
 
 use super::record::{SessionOutcome, SessionRecord, TaskRecord};
 use serde_json::{Value, json};
@@ -7,20 +7,20 @@ use spandrel_model::calendar::utc;
 use spandrel_monitor::score::completion::TaskState;
 use uuid::Uuid;
 
-/// xAPI version for the request header.
+/// xAPI version to send in the request header.
 pub const VERSION: &str = "1.0.3";
-/// Default home page of the accounts that represent pseudonyms.
+/// Default home page of the accounts under which trainees' pseudonyms are reported.
 pub const HOME: &str = "https://spandrel.invalid/trainees";
-/// Namespace UUID of the statement ids (RFC 9562, version 5).
+/// Namespace UUID for the ids of statements (RFC 9562, version 5).
 const NAMES: Uuid = Uuid::from_u128(0x7f0c_4e0a_93c1_4d43_9b0e_5d61_5c1e_7a10);
-/// Extension of a session's result: completion of the job.
+/// Key of a session result extension: completion of the job.
 const COMPLETION: &str = "urn:spandrel:completion";
-/// Extension of a task's result: fraction of its path that was flown.
+/// Key of a task result extension: fraction of the task's path that was flown.
 const COVERED: &str = "urn:spandrel:covered";
-/// Prefix of the verbs in ADL's vocabulary.
+/// Prefix of verb ids in ADL's vocabulary.
 const VERBS: &str = "http://adlnet.gov/expapi/verbs/";
 
-/// Returns all statements of a session: the flight, its scores, the tasks flown, and the answers.
+/// Returns all statements of a session: the flight, its scores, the attempted tasks, and the questionnaire answers.
 #[must_use]
 pub fn statements(record: &SessionRecord, home: &str) -> Vec<Value> {
     let mut out = vec![flight(record, home)];
@@ -54,7 +54,7 @@ fn flight(record: &SessionRecord, home: &str) -> Value {
         "duration": format!("PT{:.2}S", record.seconds),
         "response": if complete { record.verdict() } else { record.completion_summary() },
     });
-    // The sum is meaningful only for the whole job.
+    // The sum of the scores is meaningful only for a complete job.
     if complete {
         result["score"] = score(record.scores.overall, record.scores.overall_max);
     }
@@ -78,12 +78,12 @@ fn of_task(record: &SessionRecord, home: &str, task: &TaskRecord) -> Value {
 }
 
 fn score(raw: f64, max: f64) -> Value {
-    // The standard defines `scaled` from -1 to 1, where 1 is the best.
+    // xAPI defines `scaled` as -1 to 1, where 1 is best.
     let scaled = if max > 0.0 { (raw / max).clamp(-1.0, 1.0) } else { 0.0 };
     json!({ "scaled": scaled, "raw": raw, "min": 0.0, "max": max.max(raw) })
 }
 
-/// Creates a statement about the job (`below` empty) or a part of it.
+/// Creates a statement about the job (if `below` is empty) or about a part of it.
 fn statement(record: &SessionRecord, home: &str, below: &str, (verb, name): (&str, &str), result: Value) -> Value {
     let slash = if below.is_empty() { "" } else { "/" };
     let activity = format!("urn:spandrel:scenario:{}{slash}{below}", record.scenario);
@@ -103,7 +103,7 @@ fn statement(record: &SessionRecord, home: &str, below: &str, (verb, name): (&st
         },
         "timestamp": utc(record.started_unix_us).0,
     });
-    // The id covers the whole content: a changed answer yields a new id, an unchanged statement the same one.
+    // The id depends on the whole content: a changed answer gets a new id; an unchanged statement keeps its id.
     let id = id(&statement.to_string());
     if let Some(fields) = statement.as_object_mut() {
         fields.insert("id".to_owned(), Value::String(id));

@@ -1,4 +1,4 @@
-//! From a flight to its record: what it suffered from, task by task, against flights whose faults were put in by hand.
+//! Session records: checks the causes in the records against flights with known faults.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_model::scenario::Scenario;
@@ -7,18 +7,18 @@ use spandrel_monitor::measures::attention::SiteSurvey;
 use spandrel_testkit::job::*;
 use spandrel_training::record::{RecordSource, SessionRecord, SourceHashes, record};
 
-/// A fault begins and ends within a frame (40 ms at 25 Hz), at both its ends, s.
+/// Tolerance for a fault's duration: it can start and end anywhere within a frame (40 ms at 25 Hz), s.
 const TWO_FRAMES_S: f64 = 0.081;
-/// The wire carries positions in 1e-7 degrees and millimetres, m.
+/// Tolerance for positions, which MAVLink transmits in 1e-7 degrees and millimeters, m.
 const WIRE_M: f64 = 0.02;
 
-/// Task 1 from 10 to 60 m east, task 2 from 70 to 100 m, both 10 m up.
+/// Creates a job with two tasks at a height of 10 m: task 1 from 10 to 60 m east, task 2 from 70 to 100 m east.
 fn two_tasks() -> Scenario {
     let near = task(1, line((10.0, 0.0, 10.0), (60.0, 0.0, 10.0)), 3.0);
     scenario(vec![near, task(2, line((70.0, 0.0, 10.0), (100.0, 0.0, 10.0)), 3.0)])
 }
 
-/// Task 1 with every fault once; task 2 is left out.
+/// Records a flight of task 1 with each fault once. Task 2 is not flown.
 fn faulty_flight() -> Tape {
     let mut tape = Tape::new();
     tape.hold(1.0);
@@ -26,7 +26,7 @@ fn faulty_flight() -> Tape {
     tape.fly((30.0, 0.0, 10.0), 4.0);
     tape.snapshot(1);
     tape.hold(0.2);
-    // Too high: past 3 m for 1.5 s at 1 m/s, 2 s still, 4 s along, 1.5 s down again.
+    // Too high: 1.5 s above the 3 m limit while climbing at 1 m/s, 2 s of hover, 4 s along the path, 1.5 s while descending.
     tape.fly((30.0, 0.0, 14.5), 1.0);
     tape.hold(1.0);
     tape.contact(1);
@@ -74,7 +74,7 @@ fn exact_faults_of_a_flight_stand_in_its_record() {
     let record = recorded(&graded, &job);
     let task = &record.tasks[0];
     assert!((task.off_path_s - 9.0).abs() < TWO_FRAMES_S, "{}", task.off_path_s);
-    // Rising and falling through 3 to 4.5 m for 1.5 s each, 6 s at 4.5 m.
+    // 1.5 s each while climbing and descending between 3 and 4.5 m above the path, 6 s at 4.5 m.
     assert!((task.off_height_m.unwrap() - 4.25).abs() < 0.05, "{:?}", task.off_height_m);
     assert!(task.off_sideways_m.unwrap() < WIRE_M);
     assert!((task.speeding_s - 2.0).abs() < TWO_FRAMES_S, "{}", task.speeding_s);
@@ -95,7 +95,7 @@ fn exact_defects_belong_to_the_nearest_task_and_report_what_their_picture_lacked
     assert_eq!(record.defects.iter().map(|defect| defect.task.unwrap()).collect::<Vec<_>>(), [1, 1, 1, 1, 1, 1, 2, 2, 2, 2]);
     assert_eq!(record.defects.iter().filter(|defect| defect.found).map(|defect| defect.id).collect::<Vec<_>>(), [5]);
     assert!(record.defects[2].lacked.iter().any(|lacked| lacked.starts_with("too dark: lamp off")), "{:?}", record.defects[2]);
-    assert!(record.defects[0].lacked.is_empty(), "no picture was near it");
+    assert!(record.defects[0].lacked.is_empty(), "no picture was taken nearby");
     assert_eq!((record.tasks[0].defects_placed, record.tasks[0].defects_found, record.tasks[1].defects_placed), (6, 1, 4));
     assert_eq!((record.snapshots, record.hits), (2, 1));
 }
@@ -117,7 +117,7 @@ fn exact_a_task_off_to_the_side_is_not_off_in_height() {
     tape.fly((30.0, 0.0, 10.0), 4.0);
     tape.fly((30.0, 5.0, 10.0), 2.0);
     tape.hold(3.0);
-    // Farther than 8 m one is elsewhere, which is not counted as being off the path.
+    // Beyond 8 m, the drone counts as elsewhere, not as off the path.
     tape.fly((30.0, 20.0, 10.0), 4.0);
     tape.hold(5.0);
     tape.fly((30.0, 0.0, 10.0), 4.0);
@@ -126,6 +126,6 @@ fn exact_a_task_off_to_the_side_is_not_off_in_height() {
     let record = recorded(&grade(&tape, &job), &job);
     let task = &record.tasks[0];
     assert!(task.off_height_m.unwrap() < WIRE_M && task.off_sideways_m.unwrap() > 4.0);
-    // 3 to 5 m at 2 m/s, 3 s, 5 to 8 m at 4 m/s, 8 to 3 m at 4 m/s.
+    // 3 to 5 m at 2 m/s, 3 s of hover, 5 to 8 m at 4 m/s, 8 to 3 m at 4 m/s.
     assert!((task.off_path_s - (1.0 + 3.0 + 0.75 + 1.25)).abs() < 2.0 * TWO_FRAMES_S, "{}", task.off_path_s);
 }

@@ -1,4 +1,4 @@
-//! The report: it tells what the scorer tells, escapes what users wrote, asks nobody for anything, and stays small.
+//! The session report: it matches the scorer, escapes user-provided text, makes no network requests and stays small.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_mavlink::codec::Encoder;
@@ -14,9 +14,9 @@ use spandrel_training::report::cues::KINDS;
 use spandrel_training::report::{Review, SessionFacts, page};
 use std::sync::OnceLock;
 
-/// The issue's ceiling for a page, bytes.
+/// Maximum size of a report page, bytes.
 const LARGEST: usize = 10_000_000;
-/// Longest flight that the paper's job allows, s.
+/// Maximum flight time in the TASBID job, s.
 const LONGEST_S: f64 = 1500.0;
 
 fn about() -> SessionFacts {
@@ -32,13 +32,13 @@ fn review(tape: &Tape, job: &Scenario) -> Review {
     Review::of(&tape.log(0), job, &phantom(), about()).expect("a session")
 }
 
-/// Two minutes of the paper's job, worked out once for all tests.
+/// Returns the review of a 240 s flight of the TASBID job, computed once for all tests.
 fn short() -> &'static Review {
     static SHORT: OnceLock<Review> = OnceLock::new();
     SHORT.get_or_init(|| review(&flown(&two_bridges(), 240.0, 6), &two_bridges()))
 }
 
-/// The same tape with a note of an instructor in its middle.
+/// Inserts an instructor's note in the middle of a tape.
 fn noted(mut tape: Tape, text: &str) -> Tape {
     let middle = tape.datagrams.len() / 2;
     tape.datagrams.insert(middle, note::encode(&mut Encoder::new(252, 192), 1, COMPONENT, text));
@@ -54,19 +54,19 @@ fn exact_an_instructors_note_stands_in_the_report_and_not_among_the_texts() {
     let review = review(&noted(tape, "watch the pier"), &job);
     let [(t_s, text)] = review.feedback.notes.as_slice() else { panic!("{:?}", review.feedback.notes) };
     assert!(text == "watch the pier" && (20.0..180.0).contains(t_s), "{t_s}");
-    assert_eq!(review.feedback.texts, plain.feedback.texts, "nobody's screen showed it");
+    assert_eq!(review.feedback.texts, plain.feedback.texts, "the note is not among the messages");
     let page = page::session(&review);
     assert!(page.contains("instructor's notes") && page.contains("note: watch the pier") && page.contains("class=\"note-dot\""));
 }
 
-/// Attributes by which a browser fetches something.
+/// Returns the values of all attributes from which a browser loads something.
 fn fetched(page: &str) -> Vec<&str> {
     let starts = [" src=\"", " href=\"", " action=\"", " poster=\"", " data=\"", " srcset=\""];
     let values = |start: &'static str| page.split(start).skip(1).map(|rest| rest.split('"').next().unwrap_or_default());
     starts.into_iter().flat_map(values).collect()
 }
 
-/// The page without what the libraries and our own script and style bring.
+/// Returns the page without libraries and without Spandrel's own scripts and styles.
 fn own(page: &str) -> String {
     use spandrel_training::report::assets::{COMMON, COMPARE, SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE};
     [COMMON, COMPARE, SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE]
@@ -81,7 +81,7 @@ fn exact_the_review_holds_the_scorers_own_assessment() {
     let review = review(&tape, &job);
     assert_eq!((&review.assessment, &review.frames, review.seed), (&graded.assessment, &graded.frames, graded.seed));
     let each = &graded.assessment.snapshots.each;
-    assert!(each.len() > 5, "pictures to judge");
+    assert!(each.len() > 5, "several pictures are needed");
     let verdicts: Vec<bool> = review
         .pictures
         .iter()
@@ -110,8 +110,8 @@ fn exact_the_page_makes_no_network_requests() {
         let inside = value.starts_with('#') || value.starts_with("data:");
         assert!(inside, "{value}");
     }
-    assert_eq!(page.matches("<script").count(), 6, "data, two halves of the model's library, uPlot, two of ours");
-    assert!(!page.contains(" style=\"") && !page.contains(" onclick"), "the policy allows no style or script in attributes");
+    assert_eq!(page.matches("<script").count(), 6, "data, two parts of three.js, uPlot, two of Spandrel's");
+    assert!(!page.contains(" style=\"") && !page.contains(" onclick"), "the policy blocks styles and scripts in attributes");
     assert!(page.contains("Content-Security-Policy"));
 }
 
@@ -137,11 +137,11 @@ fn exact_what_users_wrote_is_escaped_everywhere() {
     assert_eq!(evil.feedback.notes.len(), 1);
     for page in [page::session(&evil), page::comparison(&evil, short())] {
         let page = own(&page);
-        assert!(page.contains("alert(1)"), "it is told");
+        assert!(page.contains("alert(1)"), "the text is present in escaped form");
         for raw in ["<script>alert", "<img src=x", "<!--"] {
             assert!(!page.contains(raw), "{raw}");
         }
-        // In the data block quotes are JSON's; elsewhere none is left that could end an attribute.
+        // The data block contains JSON's quotes. No other part contains a quote that could end an attribute.
         let before = page.split("<script type=\"application/json\"").next().unwrap_or_default();
         assert!(!before.contains("\"'>"));
     }
@@ -164,7 +164,7 @@ fn exact_every_square_metre_has_one_fate() {
     }
     let job = two_bridges();
     let more = review(&flown(&job, 240.0, 2), &job);
-    assert!(more.coverage.total().pictured_m2() > coverage.total().pictured_m2(), "three times the pictures show more");
+    assert!(more.coverage.total().pictured_m2() > coverage.total().pictured_m2(), "three times as many pictures show more");
 }
 
 #[test]
@@ -175,13 +175,13 @@ fn exact_the_same_pictures_at_night_lack_light_and_nothing_else() {
     for fate in [SurfaceOutcome::TooOblique, SurfaceOutcome::TooFar, SurfaceOutcome::Unpictured, SurfaceOutcome::Unseen] {
         assert!((night.area_m2(fate) - day.area_m2(fate)).abs() < 1e-6 * day.inspectable_m2, "{fate:?}");
     }
-    // What stays is lit by the lamp, which is on in the dark task alone.
+    // The remaining surface is lit by the lamp, which is on only in the dark task.
     assert!(night.area_m2(SurfaceOutcome::Shown) < day.area_m2(SurfaceOutcome::Shown));
     assert!(night.area_m2(SurfaceOutcome::DarkLampOff) > day.area_m2(SurfaceOutcome::DarkLampOff));
     assert!(night.typical().unwrap().lux < day.typical().unwrap().lux);
 }
 
-/// The tape's forward stick creeps by a hundredth of its travel in 100 ms: a tenth takes 200 ms and, where it falls back, no time at all.
+/// The forward stick in the tape moves by 0.01 of full travel per 100 ms, so that a reaction of 0.1 takes up to 1 s.
 #[test]
 fn exact_a_speeding_cue_is_reported_with_its_time_and_the_answer() {
     let job = scenario(vec![task(1, line((0.0, 0.0, 10.0), (90.0, 0.0, 10.0)), 3.0)]);
@@ -197,7 +197,7 @@ fn exact_a_speeding_cue_is_reported_with_its_time_and_the_answer() {
     let lift_off_s = review.frames[0].time.s();
     let speeding: Vec<_> = review.feedback.episodes.iter().filter(|e| KINDS[e.kind].name == "speeding").collect();
     assert_eq!(speeding.len(), 1, "{:?}", review.feedback.episodes);
-    // A truth every 20 ms; the cue has a hold of its own at its end.
+    // Truth messages arrive every 20 ms. The cue stays on for a hold time after the end of the cause.
     assert!((speeding[0].from_s + lift_off_s - fast_from_s).abs() <= 0.021, "{:?}", speeding[0]);
     assert!((-0.021..=2.5).contains(&(speeding[0].to_s + lift_off_s - fast_to_s)), "{:?}", speeding[0]);
     assert!(speeding[0].answer_s.is_some_and(|s| s <= 1.1), "{:?}", speeding[0]);
@@ -215,9 +215,14 @@ fn exact_a_job_with_nothing_in_it_has_a_page() {
     tape.land();
     let review = Review::of(&tape.log(0), &job, &vehicle(), about()).unwrap();
     let page = page::session(&review);
-    for words in
-        ["No picture was taken", "No defects were placed", "No contacts", "n/a", "1 gaps longer than 0.2 s", "no telemetry for"]
-    {
+    for words in [
+        "No pictures were taken",
+        "This job has no defects",
+        "No contacts",
+        "n/a",
+        "1 gaps longer than 0.2 s",
+        "no telemetry for",
+    ] {
         assert!(page.contains(words), "{words}");
     }
 }

@@ -1,5 +1,5 @@
-//! The example study (examples/cohort, flown by `tools/cohort`): 22 synthetic trainees, eight of them three times. It has caught nothing
-//! yet; it holds that the paper's design gives the paper's tables on flights that really were flown, and what plans say of them.
+//! The example study (examples/cohort, flown by `tools/cohort`): 22 synthetic trainees, eight of them with three sessions. Checks
+//! that TASBID's study design yields its tables from real flights, and that the plans match the flights.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_training::cohort::{Cohort, Selection, cohort, tables};
@@ -7,7 +7,7 @@ use spandrel_training::plan::{RULES, plan, read_rules};
 use spandrel_training::record::{IncompletePolicy, SessionRecord};
 
 const RECORDS: &str = include_str!("../../../examples/cohort/records.jsonl");
-/// Off the path or over the speed limit for a larger share of the time, or a crash, is not holding the interlayer (the shipped limits).
+/// Limits of the shipped rules: a flight of the interlayer is poor if it exceeds one of them or has a crash.
 const OFF_PATH: f64 = 0.1;
 const SPEEDING: f64 = 0.02;
 
@@ -30,7 +30,7 @@ fn val_the_pilots_design_gives_its_tables_and_figures() {
     assert_eq!(study.self_rating.people.len(), 22);
     assert!(study.causal.is_some() && study.homogeneity.len() >= 3);
     assert!(study.warnings.iter().any(|words| words.contains("fewer than 78")));
-    // Three times make no learning curve.
+    // Three repetitions are too few for a learning curve.
     let no_curves = ["learning_curves.csv", "learning_of_the_group.csv"];
     assert!(tables(&study).iter().all(|(name, table)| (table.lines().count() > 1) != no_curves.contains(name)));
 }
@@ -44,7 +44,7 @@ fn val_repetition_with_less_stick_noise_is_measured_as_progress() {
         let one = study.boxes.iter().find(|one| one.score == "overall" && one.repetition == repetition).unwrap();
         one.plot.q3 - one.plot.q1
     };
-    assert!(spread(3) < spread(1), "the group draws together");
+    assert!(spread(3) < spread(1), "the spread decreases");
 }
 
 #[test]

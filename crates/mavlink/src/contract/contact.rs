@@ -1,8 +1,8 @@
-//! Contact types: the codes of the named value `contact`.
+//! Kinds of contact: the codes of the named value `contact`.
 
 use serde::Serialize;
 
-/// The type of object that the aircraft touches.
+/// Kind of object that the aircraft touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Default)]
 #[serde(rename_all = "lowercase")]
 pub enum ContactKind {
@@ -11,29 +11,29 @@ pub enum ContactKind {
     None,
     /// A bridge member.
     Bridge,
-    /// Ground (terrain).
+    /// The ground.
     Terrain,
-    /// Water surface.
+    /// The water surface.
     Water,
     /// A car or truck.
     Vehicle,
-    /// A pedestrian or the crew.
+    /// A pedestrian or a member of the ground crew.
     Person,
     /// Anything else, including unknown codes.
     Other,
 }
 
 impl ContactKind {
-    /// All contact types, indexed by code.
+    /// All kinds, indexed by code.
     pub const ALL: [Self; 7] = [Self::None, Self::Bridge, Self::Terrain, Self::Water, Self::Vehicle, Self::Person, Self::Other];
 
-    /// Converts a wire code; unknown codes become [`Self::Other`].
+    /// Returns the kind for a MAVLink code; [`Self::Other`] if the code is unknown.
     #[must_use]
     pub fn from_code(code: i32) -> Self {
         usize::try_from(code).ok().and_then(|code| Self::ALL.get(code)).copied().unwrap_or(Self::Other)
     }
 
-    /// Returns the wire code.
+    /// Returns the MAVLink code, 0 to 6.
     #[must_use]
     pub fn code(self) -> i32 {
         match self {
@@ -61,8 +61,8 @@ impl ContactKind {
         }
     }
 
-    /// Returns the severity rank. When several contacts occur at once, only the most severe is published: person, vehicle,
-    /// bridge, terrain, water, other, none.
+    /// Returns the severity, 0 to 6. If there are several contacts, only the most severe is published: person, vehicle, bridge,
+    /// terrain, water, other, none.
     #[must_use]
     pub fn severity(self) -> u8 {
         match self {
@@ -76,7 +76,7 @@ impl ContactKind {
         }
     }
 
-    /// Returns true if the contact counts toward the paper's X_o: neither a person nor a vehicle.
+    /// Returns whether the contact counts toward X_o in TASBID: with anything except people and vehicles.
     #[must_use]
     pub fn is_other_crash(self) -> bool {
         matches!(self, Self::Bridge | Self::Terrain | Self::Water | Self::Other)

@@ -1,24 +1,23 @@
-//! Detects when two truth samples do not belong to the same flight.
+//! Detects whether two truth messages belong to different flights.
 //!
-//! A time jump is a restart of the simulator: the clock runs backward by more than [`RESTART_AFTER`] in [`RESTART_CONFIRM`]
-//! consecutive samples, so that a single late datagram does not count. A position jump is a respawn of the aircraft: nothing is
-//! drawn, measured or interpolated across it.
+//! A time jump means that the simulator was restarted: the clock runs backward by more than [`RESTART_AFTER`] in
+//! [`RESTART_CONFIRM`] consecutive messages, so that a single late datagram does not count. A position jump means that the
+//! aircraft was respawned: nothing is drawn, measured or interpolated across it.
 
 use spandrel_model::time::SimTime;
 
-/// A clock that runs backward by more than this belongs to another or a restarted simulator.
+/// Difference by which the clock must run backward to indicate another or a restarted simulator.
 pub const RESTART_AFTER: SimTime = SimTime::from_ms(1_000);
-/// Number of consecutive samples required to confirm a restart.
+/// Number of consecutive truth messages required to confirm a restart.
 pub const RESTART_CONFIRM: usize = 3;
-/// Constant part of the jump threshold, m (estimate: larger than the movement of a hovering aircraft in a gust during one second
-/// without data).
+/// Constant part of the jump threshold, m (estimate: more than a gust moves a hovering aircraft during one second without data).
 const SLACK_M: f64 = 1.5;
-/// Factor on the higher of the two speeds in the jump threshold (estimate: no supported aircraft accelerates this much within a
-/// gap).
+/// Factor by which the higher of the two speeds is multiplied in the jump threshold (estimate: no supported aircraft accelerates
+/// that much within a gap).
 const FACTOR: f64 = 4.0;
 
-/// Returns true if a displacement of `distance_m` within `span` is too large to have been flown. `fastest_m_s` is the higher of
-/// the speeds at its two ends.
+/// Returns whether a displacement of `distance_m` within `span` is too large to have been flown. `fastest_m_s` is the higher of
+/// the speeds at both ends.
 #[must_use]
 pub fn is_jump(distance_m: f64, fastest_m_s: f64, span: SimTime) -> bool {
     distance_m > SLACK_M + FACTOR * fastest_m_s * span.s()

@@ -1,19 +1,19 @@
-//! Bit flags of the monitor's `cues` value: the active cues.
+//! Bit flags in the monitor's `cues` value, one for each active cue.
 
-/// Battery level is yellow.
+/// The battery level is in the yellow range.
 pub const BATTERY_YELLOW: i32 = 1;
-/// Battery level is red.
+/// The battery level is in the red range.
 pub const BATTERY_RED: i32 = 1 << 1;
-/// Above the speed limit.
+/// The speed is above the limit.
 pub const SPEEDING: i32 = 1 << 2;
-/// Off the path, but within the off-path band.
+/// The drone is off the path, but near enough that it has not left the task.
 pub const OFF_PATH: i32 = 1 << 3;
-/// Closer to a surface than the minimum distance of the task.
+/// The clearance is below the limit of the task.
 pub const TOO_CLOSE: i32 = 1 << 4;
-/// The aircraft hit something.
+/// The aircraft is or recently was in contact with an object.
 pub const CRASH: i32 = 1 << 5;
 
-/// All cues and their names, the most serious first.
+/// All cues with their names, most serious first.
 pub const ALL: [(i32, &str); 6] = [
     (CRASH, "crash"),
     (TOO_CLOSE, "too close"),

@@ -1,28 +1,28 @@
-//! Flight modes by number: PX4 (`px4_custom_mode.h`: main mode in the third byte, sub-mode in the fourth) and ArduCopter
-//! (`mode.h`). Names match those shown by ground stations.
+//! Flight modes by number for PX4 (`px4_custom_mode.h`: main mode in the third byte, sub-mode in the fourth) and ArduCopter
+//! (`mode.h`). The names are those that ground stations show.
 
 use serde::Serialize;
 
-/// The source of control of the aircraft.
+/// Source that controls the aircraft.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ControlSource {
-    /// A pilot at the sticks.
+    /// A pilot with sticks.
     Pilot,
-    /// The uploaded mission plan.
+    /// An uploaded mission.
     Mission,
-    /// External setpoints from a program.
+    /// A program that sends setpoints.
     Script,
-    /// The autopilot itself: hold, takeoff, return, land.
+    /// The autopilot on its own: hold, takeoff, return, land.
     Autopilot,
 }
 
 use ControlSource::{Autopilot, Mission, Pilot, Script};
 
-/// MAV_AUTOPILOT_ARDUPILOTMEGA.
+/// Value of MAV_AUTOPILOT_ARDUPILOTMEGA.
 const ARDUPILOT: u8 = 3;
 
-/// PX4: main mode, sub-mode (`None` matches any other), name, control source.
+/// PX4 modes: main mode, sub-mode (`None` for any other), name, control source.
 const PX4: [(u8, Option<u8>, &str, ControlSource); 14] = [
     (1, None, "Manual", Pilot),
     (2, None, "Altitude", Pilot),
@@ -40,7 +40,7 @@ const PX4: [(u8, Option<u8>, &str, ControlSource); 14] = [
     (7, None, "Stabilized", Pilot),
 ];
 
-/// ArduCopter: mode number, name, control source.
+/// ArduCopter modes: mode number, name, control source.
 const COPTER: [(u32, &str, ControlSource); 15] = [
     (0, "Stabilize", Pilot),
     (1, "Acro", Pilot),
@@ -59,8 +59,8 @@ const COPTER: [(u32, &str, ControlSource); 15] = [
     (27, "Auto RTL", Autopilot),
 ];
 
-/// Looks up the name and control source of a mode; `None` if the mode is unknown. A generic autopilot type is treated as PX4, as
-/// SDKs do.
+/// Returns the name and control source of a mode; `None` if it is unknown. As in common SDKs, a generic autopilot type is treated
+/// as PX4.
 fn known(autopilot: u8, custom_mode: u32) -> Option<(&'static str, ControlSource)> {
     if autopilot == ARDUPILOT {
         return COPTER.iter().find(|(number, ..)| *number == custom_mode).map(|(_, name, source)| (*name, *source));
@@ -70,20 +70,21 @@ fn known(autopilot: u8, custom_mode: u32) -> Option<(&'static str, ControlSource
     row.map(|(.., name, source)| (*name, *source))
 }
 
-/// Returns the mode name as shown by ground stations, or the mode number if it is unknown.
+/// Returns the mode's name as shown by ground stations, or `mode N` if it is unknown.
 #[must_use]
 pub fn name(autopilot: u8, custom_mode: u32) -> String {
     known(autopilot, custom_mode).map_or_else(|| format!("mode {custom_mode}"), |(name, _)| name.to_owned())
 }
 
 impl ControlSource {
-    /// Returns the control source for HEARTBEAT's autopilot and custom mode. Unknown modes count as manual flight.
+    /// Returns the control source for the autopilot type and custom mode of a heartbeat. Unknown modes count as flown by the
+    /// pilot.
     #[must_use]
     pub fn of(autopilot: u8, custom_mode: u32) -> Self {
         known(autopilot, custom_mode).map_or(Self::Pilot, |(_, source)| source)
     }
 
-    /// Returns the label used in records.
+    /// Returns the label used in session records.
     #[must_use]
     pub fn label(self) -> &'static str {
         match self {

@@ -1,39 +1,39 @@
-//! Named values: scoring data other than motion, and the monitor's cues.
+//! Named values: scoring data except motion, and the monitor's cues.
 //!
-//! Integers are sent as NAMED_VALUE_INT, other numbers as NAMED_VALUE_FLOAT. `time_boot_ms` is simulation time.
+//! Integers are sent as NAMED_VALUE_INT, and real numbers as NAMED_VALUE_FLOAT. `time_boot_ms` is simulation time.
 
 use super::contact::ContactKind;
 use crate::dialect::{MavMessage, NAMED_VALUE_FLOAT_DATA, NAMED_VALUE_INT_DATA};
 
-/// A named value and its content.
+/// A named value with its content.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Named {
-    /// `contact`: the current contact, the most severe if there are several. Sent on change and at 10 Hz.
+    /// `contact`: kind of the current contact (the most severe one if there are several). Sent on change and at 10 Hz.
     Contact(ContactKind),
-    /// `hits`: number of contact onsets since simulation start, so that an onset between two `contact` messages is not lost. Sent
-    /// on change and every 5 s.
+    /// `hits`: number of contacts since simulation start, so that a contact between two `contact` messages is not lost. Sent on
+    /// change and every 5 s.
     Hits(i32),
     /// `respawns`: number of respawns since simulation start. Sent on change and every 5 s.
     Respawns(i32),
-    /// `traffic`: time when the bridges were closed to traffic (negative) or opened again, ms since simulation start. Sent on
-    /// change and every 5 s once they have been closed.
+    /// `traffic`: time when the bridges were closed to traffic (negative) or reopened, ms since simulation start. Sent on change,
+    /// and every 5 s after the first closing.
     Traffic(i32),
-    /// `seed`: session seed; the 32-bit field is read as unsigned. Sent every 5 s.
+    /// `seed`: seed of the session; the 32-bit field is unsigned. Sent every 5 s.
     Seed(u32),
     /// `scn_crc`: CRC-32 of the active scenario. Sent every 5 s.
     ScenarioCrc(u32),
     /// `clearance`: distance from the center of the drone to the nearest surface other than the landing pad, m. Sent at 30 Hz.
     ClearanceM(f64),
-    /// `lux`: ambient light at the drone, lx. For display only. Sent at 5 Hz.
+    /// `lux`: ambient light at the drone, lx; for display only. Sent at 5 Hz.
     Lux(f64),
     /// `pace`: simulation speed as a multiple of real time. Sent every 5 s unless it is 1.
     Pace(f64),
-    /// `cues`: active cues of the monitor, as bits of [`super::cue`]. Sent on change and at 5 Hz.
+    /// `cues`: active cues of the monitor, as the bits in [`super::cue`]. Sent on change and at 5 Hz.
     Cues(i32),
 }
 
 impl Named {
-    /// Returns the name on the wire.
+    /// Returns the name in the MAVLink message.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -50,7 +50,7 @@ impl Named {
         }
     }
 
-    /// Encodes the message with a simulation timestamp, ms modulo 2^32.
+    /// Encodes the message. `time_boot_ms` is the simulation time, ms modulo 2^32.
     #[must_use]
     pub fn message(self, time_boot_ms: u32) -> MavMessage {
         let name = self.name();
@@ -64,7 +64,7 @@ impl Named {
         }
     }
 
-    /// Decodes a NAMED_VALUE_INT or NAMED_VALUE_FLOAT. Returns `None` for other messages, unknown names and non-finite values.
+    /// Decodes a NAMED_VALUE_INT or NAMED_VALUE_FLOAT; `None` for other messages, unknown names and non-finite values.
     #[must_use]
     pub fn of(message: &MavMessage) -> Option<Self> {
         match message {
@@ -134,11 +134,11 @@ mod tests {
         ];
         for value in all {
             assert_eq!(Named::of(&value.message(7)), Some(value), "{}", value.name());
-            // Length of MAVLink's name field.
+            // MAVLink names have at most 10 characters.
             assert!(value.name().len() <= 10);
         }
         assert_eq!(Named::of(&float(7, "clearance", f64::NAN)), None);
-        assert_eq!(Named::of(&int(7, "clearance", 1)), None, "the type is part of the contract");
+        assert_eq!(Named::of(&int(7, "clearance", 1)), None, "a wrong type is rejected");
         assert_eq!(Named::of(&int(7, "unknown", 1)), None);
     }
 }

@@ -1,12 +1,12 @@
-//! Stick positions on the wire: RC_CHANNELS 1 to 4 are roll, pitch, throttle and yaw. 1500 us is center and 500 us is full
-//! travel; forward, right, up and clockwise are positive.
+//! Stick positions in MAVLink: RC_CHANNELS 1 to 4 are roll, pitch, throttle and yaw. The center is 1500 us, and full travel is
+//! 500 us from it. Forward, right, up and clockwise are positive.
 
 /// Pulse width at center, us.
 const CENTER_US: i16 = 1500;
-/// Pulse width from center to full travel, us.
+/// Difference in pulse width between center and full travel, us.
 const TRAVEL_US: i16 = 500;
 
-/// Stick positions in wire resolution: forward, right, up, clockwise.
+/// Stick positions in the resolution of RC_CHANNELS: forward, right, up, clockwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sticks([i16; 4]);
 
@@ -21,7 +21,7 @@ impl Sticks {
         Self([forward, right, up, clockwise])
     }
 
-    /// Returns the positions forward, right, up, clockwise, each in [-1, 1].
+    /// Returns the positions (forward, right, up, clockwise), each in [-1, 1].
     #[must_use]
     pub fn axes(self) -> [f64; 4] {
         self.0.map(|step| f64::from(step) / f64::from(TRAVEL_US))

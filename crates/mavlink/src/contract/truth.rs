@@ -1,4 +1,5 @@
-//! Ground truth: HIL_STATE_QUATERNION at 50 Hz. `time_usec` counts from simulation start and is the reference clock of a flight.
+//! Ground truth: HIL_STATE_QUATERNION at 50 Hz. `time_usec` is the time since simulation start, which is the reference clock of a
+//! flight.
 
 use super::continuity::is_jump;
 use crate::dialect::HIL_STATE_QUATERNION_DATA;
@@ -7,21 +8,21 @@ use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::time::SimTime;
 
-/// Ground truth of the simulator at one instant, as received.
+/// A ground-truth message as received: the simulator's true state at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Truth {
     /// Time since simulation start.
     pub time: SimTime,
-    /// Position relative to the scenario origin, m.
+    /// Position in the scenario frame, m.
     pub position_m: Vec3<Enu>,
-    /// Velocity, m/s.
+    /// Velocity in the scenario frame, m/s.
     pub velocity_m_s: Vec3<Enu>,
-    /// Attitude: rotation from body to NED.
+    /// Attitude: rotation from the body frame to NED.
     pub ned_from_frd: Rotation<Frd, Ned>,
 }
 
 impl Truth {
-    /// Returns true if the aircraft was respawned between this sample and a later one ([`is_jump`]).
+    /// Returns whether the aircraft was respawned between this message and a later one (see [`is_jump`]).
     #[must_use]
     pub fn jumps_to(&self, next: &Self) -> bool {
         let fastest_m_s = self.velocity_m_s.norm().max(next.velocity_m_s.norm());
@@ -34,22 +35,22 @@ impl Truth {
 pub struct Published {
     /// Time since simulation start, us.
     pub time_us: u64,
-    /// Position above the WGS84 ellipsoid, converted by the scenario's local plane.
+    /// Position; the altitude is above the WGS84 ellipsoid.
     pub place: Geo,
-    /// Velocity, m/s.
+    /// Velocity in NED, m/s.
     pub velocity_m_s: Vec3<Ned>,
-    /// Attitude: rotation from body to NED.
+    /// Attitude: rotation from the body frame to NED.
     pub ned_from_frd: Rotation<Frd, Ned>,
-    /// Angular rates, rad/s.
+    /// Angular rates in the body frame, rad/s.
     pub rates_rad_s: Vec3<Frd>,
-    /// Specific force, m/s^2.
+    /// Specific force in the body frame, m/s^2.
     pub specific_force_m_s2: Vec3<Frd>,
     /// True airspeed, m/s.
     pub airspeed_m_s: f64,
 }
 
 impl Published {
-    /// Encodes the MAVLink message.
+    /// Encodes the ground truth as a HIL_STATE_QUATERNION message.
     #[must_use]
     pub fn message(&self) -> HIL_STATE_QUATERNION_DATA {
         let (w, v, force) = (self.rates_rad_s, self.velocity_m_s, self.specific_force_m_s2);
@@ -74,14 +75,14 @@ impl Published {
     }
 }
 
-/// Converts the timestamp of a truth message. A value beyond the range of [`SimTime`] (292 years) is invalid; it saturates
-/// instead of wrapping, which preserves the order.
+/// Converts the timestamp of a truth message. Values beyond the range of [`SimTime`] (292 years) are invalid; they saturate,
+/// which preserves the order of messages.
 #[must_use]
 pub fn clock(time_usec: u64) -> SimTime {
     SimTime::from_us(i64::try_from(time_usec).unwrap_or(i64::MAX).min(i64::MAX / 1_000))
 }
 
-/// Decodes a truth message; `None` if its quaternion is not a rotation.
+/// Decodes a truth message; `None` if its quaternion does not represent a rotation.
 #[must_use]
 pub fn read(wire: &HIL_STATE_QUATERNION_DATA, plane: &LocalPlane) -> Option<Truth> {
     let geo = Geo {

@@ -1,4 +1,4 @@
-//! Resamples a flight at the scoring rate. Frame i represents the 1/f s that end at its time; frame 1 is lift-off.
+//! Resamples a flight at the scoring rate f. Frame i covers the 1/f s that end at its time; frame 1 is at lift-off.
 
 use super::timeline::Flight;
 use crate::contract::contact::ContactKind;
@@ -6,84 +6,85 @@ use crate::contract::truth::Truth;
 use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use spandrel_model::time::SimTime;
 
-/// Truth samples further apart than this leave a gap (docs/src/reference/assessment.md, "Frames").
+/// Minimum distance between truth messages that counts as a gap (docs/src/reference/assessment.md, "Frames").
 pub const GAP_AFTER: SimTime = SimTime::from_ms(200);
-/// Maximum length of a gap that is interpolated; the frames of a longer gap are missing.
+/// Maximum length of a gap that is interpolated. Frames in longer gaps are missing.
 pub const INTERPOLATED_UP_TO: SimTime = SimTime::from_ms(1_000);
-/// Maximum delay of a `contact` message after the `hits` count that includes it (`contact` is repeated at 10 Hz).
+/// Maximum delay of a `contact` message after the `hits` message that counts it (`contact` is repeated at 10 Hz).
 const HIT_REPORT_WITHIN: SimTime = SimTime::from_ms(200);
 
-/// One scoring frame.
+/// A scoring frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
     /// Frame number, from 1.
     pub index: u32,
-    /// Simulation time.
+    /// Simulation time at this instant.
     pub time: SimTime,
     /// Stick positions: forward, right, up, clockwise, each in [-1, 1].
     pub sticks: [f64; 4],
-    /// The lamp is on.
+    /// Whether the lamp is on.
     pub light: bool,
-    /// A photo was taken since the previous frame.
+    /// Whether a picture was taken since the previous frame.
     pub snapshot: bool,
-    /// Position, m.
+    /// Position in the scenario frame, m.
     pub position_m: Vec3<Enu>,
-    /// Velocity, m/s.
+    /// Velocity in the scenario frame, m/s.
     pub velocity_m_s: Vec3<Enu>,
-    /// Battery level, %.
+    /// Remaining battery charge, 0 to 100 %.
     pub battery_pct: f64,
-    /// Most severe contact since the previous frame, as received.
+    /// Most severe contact since the previous frame.
     pub contact: ContactKind,
-    /// The frame lies in a gap too long to interpolate.
+    /// Whether the frame is in a gap that is too long to interpolate.
     pub missing: bool,
-    /// The frame lies in a gap short enough to interpolate.
+    /// Whether the frame is in a gap that is interpolated.
     pub interpolated: bool,
-    /// Distance to the nearest surface, m, if known.
+    /// Distance to the nearest surface, m; `None` if not received yet.
     pub clearance_m: Option<f64>,
-    /// The motors are armed, if known.
+    /// Whether the motors are armed; `None` if not received yet.
     pub armed: Option<bool>,
-    /// The autopilot reports that the aircraft is on the ground.
+    /// Whether the autopilot reports that the aircraft is on the ground.
     pub on_ground: bool,
 }
 
 impl Frame {
-    /// Returns the 3D speed, m/s.
+    /// Returns the magnitude of the velocity, m/s.
     #[must_use]
     pub fn speed_m_s(&self) -> f64 {
         self.velocity_m_s.norm()
     }
 }
 
-/// Aircraft state interpolated between two truth samples.
+/// Aircraft state at a time between two truth messages.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrameAccumulator {
-    /// Position, m.
+    /// Position in the scenario frame, m.
     pub position_m: Vec3<Enu>,
-    /// Velocity, m/s.
+    /// Velocity in the scenario frame, m/s.
     pub velocity_m_s: Vec3<Enu>,
-    /// Attitude of the preceding sample.
+    /// Attitude of the preceding truth message: rotation from the body frame to NED.
     pub ned_from_frd: Rotation<Frd, Ned>,
-    /// The time lies in a gap too long to interpolate.
+    /// Whether the time is in a gap that is too long to interpolate.
     pub missing: bool,
-    /// The time lies in a gap short enough to interpolate.
+    /// Whether the time is in a gap that is interpolated.
     pub interpolated: bool,
 }
 
 impl Flight {
-    /// Returns the time at which the aircraft was first more than `height_m` above `pad_up_m`, a height in the scenario frame, m.
+    /// Returns the first time at which the aircraft was more than `height_m` above the pad. `pad_up_m` is the pad's height in the
+    /// scenario frame, m.
     #[must_use]
     pub fn lift_off(&self, pad_up_m: f64, height_m: f64) -> Option<SimTime> {
         self.truths.iter().find(|truth| truth.position_m.up() - pad_up_m > height_m).map(|truth| truth.time)
     }
 
-    /// Returns the time of the last truth sample.
+    /// Returns the time of the last truth message.
     #[must_use]
     pub fn end(&self) -> Option<SimTime> {
         self.truths.last().map(|truth| truth.time)
     }
 
-    /// Returns the aircraft state at `time`. Times before the first or after the last sample yield that sample. `None` if there
-    /// are no samples.
+    /// Returns the aircraft state at `time`. Before the first and after the last truth message, that message's state is returned.
+    /// `None` if there are no truth messages.
     #[must_use]
     pub fn between(&self, time: SimTime) -> Option<FrameAccumulator> {
         let after = self.truths.partition_point(|truth| truth.time <= time);
@@ -117,14 +118,14 @@ impl Flight {
     }
 
     fn respawned_between(&self, before: &Truth, next: &Truth) -> bool {
-        // The respawn message may be lost.
+        // The respawn message may have been lost.
         if before.jumps_to(next) {
             return true;
         }
         self.respawns.at(before.time) != self.respawns.at(next.time) && self.respawns.at(before.time).is_some()
     }
 
-    /// Returns the frame at `time`, with the events since `since`. `None` if there are no truth samples.
+    /// Returns the frame at `time` with the events since `since`; `None` if there are no truth messages.
     #[must_use]
     pub fn frame(&self, index: u32, since: SimTime, time: SimTime) -> Option<Frame> {
         let between = self.between(time)?;
@@ -136,7 +137,7 @@ impl Flight {
             snapshot: !self.snapshots.between(since, time).is_empty(),
             position_m: between.position_m,
             velocity_m_s: between.velocity_m_s,
-            // The battery counts as full until the vehicle has reported its level.
+            // The battery counts as full until its level is received.
             battery_pct: self.battery.at(time).unwrap_or(100.0),
             contact: if between.missing { ContactKind::None } else { self.contact_in(since, time) },
             missing: between.missing,
@@ -147,14 +148,15 @@ impl Flight {
         })
     }
 
-    /// Returns the contact at `time`, or the most severe contact that began since `since`.
+    /// Returns the contact at `time`, or the most severe contact that started since `since`.
     fn contact_in(&self, since: SimTime, time: SimTime) -> ContactKind {
         let changes = self.contact.between(since, time);
         let now = self.contact.at(time).unwrap_or_default();
         changes.iter().map(|change| change.2).chain([now]).max_by_key(|contact| contact.severity()).unwrap_or_default()
     }
 
-    /// Returns the times at which the onset count rose without a matching contact: contacts whose messages were lost.
+    /// Returns the times at which `hits` increased without a corresponding `contact` message, which means that the message was
+    /// lost.
     #[must_use]
     pub fn missed_contacts(&self) -> Vec<SimTime> {
         let mut lost = Vec::new();
@@ -163,7 +165,7 @@ impl Flight {
         for (time, _, count) in self.hits.all() {
             let surplus = i64::from(*count) - onsets.until(self, *time + HIT_REPORT_WITHIN);
             match accounted {
-                // Contacts before the first message do not belong to this flight.
+                // Contacts counted before the first message do not belong to this flight.
                 None => accounted = Some(surplus.max(0)),
                 Some(known) if surplus > known => {
                     lost.push(*time);
@@ -176,7 +178,7 @@ impl Flight {
     }
 }
 
-/// Running count of onsets in the contact signal.
+/// Running count of the contacts in the `contact` signal.
 #[derive(Default)]
 struct ContactOnsets {
     read: usize,

@@ -1,18 +1,19 @@
-//! Reads a telemetry log in chunks, so that a log of any length fits in bounded memory.
+//! Reads a telemetry log in chunks, so that logs of any length can be read with limited memory.
 
 use super::sample::FrameHeader;
 use super::tlog::{STAMP_BYTES, TlogReader, TlogRecord, record_at};
 use std::ops::ControlFlow;
 
-/// Maximum record length: timestamp, and a MAVLink 2 frame with maximum payload and signature (MAVLink guide, "Serialization").
+/// Maximum length of a record: timestamp and a MAVLink 2 frame with maximum payload and signature (MAVLink guide,
+/// "Serialization").
 const RECORD_MOST: usize = STAMP_BYTES + 10 + 255 + 2 + 13;
 
-/// A telemetry log that can be read several times.
+/// A telemetry log that can be read repeatedly.
 pub trait TelemetryLog {
-    /// Calls `take` with each complete record in file order, until it returns `Break` or the log ends.
+    /// Calls `take` with each complete record, in file order, until `take` returns `Break` or the log ends.
     ///
     /// # Errors
-    /// If the log cannot be read.
+    /// Fails if the log cannot be read.
     fn for_each_record(&self, take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> std::io::Result<()>;
 }
 
@@ -29,7 +30,7 @@ impl TelemetryLog for Vec<u8> {
     }
 }
 
-/// Splits chunks of a log into records, by the same rules as [`TlogReader`].
+/// Splits chunks of a log into records, with the same rules as [`TlogReader`].
 #[derive(Debug, Clone, Default)]
 pub struct RecordSplitter {
     bytes: Vec<u8>,
@@ -37,12 +38,12 @@ pub struct RecordSplitter {
     /// Number of log bytes before `bytes`.
     before: u64,
     end_of_whole: u64,
-    /// After corrupt data: search for the next record with a valid checksum.
+    /// Whether the data was corrupt and the next record with a valid checksum is searched.
     searching: bool,
 }
 
 impl RecordSplitter {
-    /// Appends a chunk and calls `take` with the records that are now certain to be complete.
+    /// Appends a chunk and calls `take` with the records that are certainly complete.
     pub fn feed(&mut self, piece: &[u8], take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> ControlFlow<()> {
         self.bytes.drain(..self.at);
         self.before += self.at as u64;
@@ -51,18 +52,18 @@ impl RecordSplitter {
         self.split(RECORD_MOST, take)
     }
 
-    /// Calls `take` with the remaining records at the end of the log.
+    /// Calls `take` with the remaining records after the last chunk.
     pub fn end(&mut self, take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> ControlFlow<()> {
         self.split(1, take)
     }
 
-    /// Returns the length of the log up to the end of its last complete record so far, bytes.
+    /// Returns the length of the log up to the end of the last complete record read so far, bytes.
     #[must_use]
     pub fn end_of_whole(&self) -> u64 {
         self.end_of_whole
     }
 
-    /// Splits while at least `least` bytes remain; a record in fewer bytes may continue in the next chunk.
+    /// Splits while at least `least` bytes remain. A record in fewer bytes might continue in the next chunk.
     fn split(&mut self, least: usize, take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> ControlFlow<()> {
         let Self { bytes, at, before, end_of_whole, searching } = self;
         while bytes.len() - *at >= least {

@@ -1,4 +1,4 @@
-//! Wind and the autopilot's estimated position. Scoring uses neither, so they are read for the export only.
+//! Wind and the position estimated by the autopilot. They are read only for exports; scoring does not use them.
 
 use super::frame::INTERPOLATED_UP_TO;
 use super::sample::FrameHeader;
@@ -10,12 +10,12 @@ use spandrel_model::frames::{Enu, Ned, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::time::SimTime;
 
-/// Component ID of the autopilot, the only component that estimates the vehicle's position.
+/// Component ID of the autopilot. Other components' positions are ignored.
 const AUTOPILOT: u8 = 1;
-/// Maximum difference from truth time at which a message's own timestamp is used; otherwise the message gets the time of the
-/// preceding truth sample.
+/// Maximum difference between a message's own timestamp and truth time at which the timestamp is used. Otherwise, the message
+/// gets the time of the preceding truth message.
 const OWN_CLOCK_WITHIN: SimTime = SimTime::from_ms(2_000);
-/// Maximum age of a wind report: it is sent once per second, and one message may be lost (estimate).
+/// Maximum age of a wind report (estimate: reports are sent once per second, and one may be lost).
 const WIND_LASTS: SimTime = SimTime::from_ms(2_500);
 
 /// Wind and estimated position of one flight.
@@ -26,8 +26,8 @@ pub struct Navigation {
 }
 
 impl Navigation {
-    /// Returns the estimated position at `time`, interpolated between two reports at most 1 s apart, m. `None` outside of them,
-    /// and across a respawn.
+    /// Returns the estimated position at `time`, m, interpolated between two reports at most 1 s apart. `None` if there are no
+    /// such reports or if the aircraft was respawned between them.
     #[must_use]
     pub fn estimate_m(&self, flight: &Flight, time: SimTime) -> Option<Vec3<Enu>> {
         let reports = self.estimate_m.all();
@@ -44,14 +44,14 @@ impl Navigation {
         Some(before_m.lerp(*after_m, (time - *from).ns() as f64 / span.ns() as f64))
     }
 
-    /// Returns the last reported wind, m/s. `None` when the last report is older than 2.5 s.
+    /// Returns the last reported wind velocity, m/s; `None` if the last report is older than 2.5 s.
     #[must_use]
     pub fn wind_m_s(&self, time: SimTime) -> Option<Vec3<Enu>> {
         self.wind_m_s.between(time - WIND_LASTS, time).last().map(|report| report.2)
     }
 }
 
-/// Collects wind and estimated positions from a log while a timeline reads it.
+/// Collects wind and estimated positions while a timeline reads a log.
 #[derive(Debug)]
 pub struct NavigationReader {
     plane: LocalPlane,
@@ -60,13 +60,13 @@ pub struct NavigationReader {
 }
 
 impl NavigationReader {
-    /// Creates a reader that converts positions by `plane`.
+    /// Creates a reader that converts positions with `plane`.
     #[must_use]
     pub fn new(plane: LocalPlane) -> Self {
         Self { plane, epochs: Vec::new(), count: 0 }
     }
 
-    /// Processes a frame that `timeline` has just processed. Ignores all messages but GLOBAL_POSITION_INT and WIND_COV from the
+    /// Processes a frame after `timeline` has processed it. Ignores all messages except GLOBAL_POSITION_INT and WIND_COV from the
     /// vehicle's autopilot.
     pub fn take(&mut self, frame: &[u8], timeline: &Timeline) {
         let Some(header) = FrameHeader::peek(frame) else { return };
@@ -85,7 +85,7 @@ impl NavigationReader {
         }
     }
 
-    /// Returns the data collected in one epoch of the timeline, sorted by time.
+    /// Returns the data of one epoch of the timeline, sorted by time.
     #[must_use]
     pub fn of(mut self, epoch: usize) -> Navigation {
         let mut navigation = if epoch < self.epochs.len() { self.epochs.swap_remove(epoch) } else { Navigation::default() };

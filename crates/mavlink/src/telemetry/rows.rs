@@ -1,12 +1,13 @@
-//! An append-only list whose rows are never moved: a growing vector holds two copies of a flight while it reallocates.
+//! An append-only list that never moves its rows. A growing vector would briefly need memory for two copies of a flight whenever
+//! it reallocates.
 
-/// Rows per block.
+/// Number of rows per block.
 const BLOCK: usize = 1_024;
 
-/// Rows in insertion order.
+/// Rows in the order in which they were added.
 #[derive(Debug, Clone)]
 pub struct Rows<T> {
-    /// All blocks but the last are full.
+    /// Blocks of rows. All except the last one are full.
     blocks: Vec<Vec<T>>,
 }
 
@@ -17,7 +18,7 @@ impl<T> Default for Rows<T> {
 }
 
 impl<T> Rows<T> {
-    /// Appends a row.
+    /// Appends a row without moving the others.
     pub fn push(&mut self, row: T) {
         match self.blocks.last_mut() {
             Some(block) if block.len() < BLOCK => block.push(row),
@@ -29,7 +30,7 @@ impl<T> Rows<T> {
         }
     }
 
-    /// Iterates over all rows.
+    /// Returns an iterator over all rows in order.
     pub fn iter(&self) -> impl Iterator<Item = &T> {
         self.blocks.iter().flatten()
     }

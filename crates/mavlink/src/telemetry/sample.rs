@@ -1,5 +1,5 @@
-//! Converts one MAVLink frame to a [`Sample`] if it contains data that the timeline keeps. The header is checked first, so that
-//! the many irrelevant frames cost only a few nanoseconds. Wire units (degE7, mm, cm/s, µs, permille) are converted here.
+//! Converts a MAVLink frame to a [`Sample`] if the timeline stores messages of its type. The header is checked first, so that the
+//! many other frames cost only a few nanoseconds. MAVLink units (degE7, mm, cm/s, µs, permille) are converted here.
 
 use crate::contract::contact::ContactKind;
 use crate::contract::modes::ControlSource;
@@ -17,89 +17,89 @@ use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
 
-/// Content of a sample.
+/// Value of a sample, or ground truth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SampleContent {
-    /// Ground truth; its timestamp is the reference clock.
+    /// Ground truth, whose timestamp is the reference clock.
     Truth(Truth),
-    /// Any other value.
+    /// A value other than ground truth.
     Value(SampleValue),
 }
 
-/// Content of a sample other than truth. A timeline keeps hundreds of thousands of these, so payloads are limited to 8 bytes.
+/// A value other than ground truth. A timeline stores hundreds of thousands of them, so their data is limited to 8 bytes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SampleValue {
     /// Stick positions.
     Sticks(Sticks),
-    /// The lamp is on.
+    /// Lamp state: true if the lamp is on.
     Light(bool),
-    /// Battery level, %.
+    /// Remaining battery charge, 0 to 100 %.
     Battery(f64),
-    /// Current contact.
+    /// Kind of the current contact.
     Contact(ContactKind),
-    /// Number of contact onsets since simulation start.
+    /// Number of contacts since simulation start.
     Hits(i32),
     /// Number of respawns since simulation start.
     Respawns(i32),
-    /// Time when the bridges were closed to traffic (negative) or opened, ms since simulation start, as on the wire.
+    /// Time when the bridges were closed to traffic (negative) or reopened, ms since simulation start.
     Traffic(i32),
-    /// Session seed.
+    /// Seed of the session.
     Seed(u64),
-    /// CRC of the active scenario.
+    /// CRC-32 of the active scenario.
     ScenarioCrc(u32),
-    /// Distance from the center of the drone to the nearest surface, m.
+    /// Distance from the drone's center to the nearest surface, m.
     Clearance(f64),
-    /// Gimbal pitch above the horizon, rad, up positive.
+    /// Gimbal pitch relative to the horizon, rad, up positive.
     GimbalPitch(f64),
     /// Horizontal field of view of the camera, rad.
     FieldOfView(f64),
     /// Heartbeat of the autopilot.
     Beat {
-        /// The motors are armed.
+        /// Whether the motors are armed.
         armed: bool,
-        /// Control source.
+        /// Source that controls the aircraft.
         by: ControlSource,
     },
-    /// The autopilot reports that the aircraft is on the ground.
+    /// Whether the autopilot reports that the aircraft is on the ground.
     OnGround(bool),
-    /// A photo with this index was taken.
+    /// Index of a picture that was taken.
     Snapshot(i32),
 }
 
-/// One decoded message that the timeline keeps.
+/// A decoded message that the timeline stores.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
     /// System and component ID of the sender.
     pub sender: (u8, u8),
     /// Sequence number assigned by the sender.
     pub sequence: u8,
-    /// Checksum of the frame, to distinguish a duplicate from a later frame with the same sequence number.
+    /// Checksum of the frame. It distinguishes a duplicate from a later frame with the same sequence number.
     pub checksum: u16,
-    /// Timestamp contained in the message.
+    /// Timestamp in the message, if it has one.
     pub own_time: Option<SimTime>,
-    /// The decoded value.
+    /// Value or ground truth that was decoded.
     pub content: SampleContent,
 }
 
-/// The parts of a frame header needed for routing and decoding.
+/// The parts of a frame header that are needed for routing and decoding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FrameHeader {
-    /// Message ID.
+    /// MAVLink message ID (24 bits in MAVLink 2).
     pub message_id: u32,
     /// System and component ID of the sender.
     pub sender: (u8, u8),
-    /// Sequence number.
+    /// Sequence number of the frame; wraps at 256.
     pub sequence: u8,
-    /// Offset of the payload.
+    /// Offset of the payload in the frame, bytes.
     pub payload_at: usize,
-    /// End of the payload and offset of the checksum.
+    /// Offset of the end of the payload, where the checksum starts, bytes.
     pub payload_end: usize,
-    /// Total length of the frame.
+    /// Total length of the frame, bytes.
     pub total: usize,
 }
 
 impl FrameHeader {
-    /// Parses the header of the frame at the start of `bytes`; the frame may extend beyond `bytes`.
+    /// Parses the header of the frame at the start of `bytes`. The frame may be longer than `bytes`.
     #[must_use]
     pub fn peek(bytes: &[u8]) -> Option<Self> {
         match bytes {
@@ -124,16 +124,16 @@ impl FrameHeader {
         Some(u16::from_le_bytes([tail[0], tail[1]]))
     }
 
-    /// Returns true if the message type is known and the checksum is valid.
+    /// Returns whether the message is known and its checksum is valid.
     #[must_use]
     pub fn verified(frame: &[u8]) -> bool {
         let Some(header) = Self::peek(frame) else { return false };
-        // The dialect returns 0 for an unknown message.
+        // The dialect returns 0 for unknown messages.
         let extra = MavMessage::extra_crc(header.message_id);
         extra != 0 && header.checksum(frame) == frame.get(1..header.payload_end).map(|body| mavlink::calculate_crc(body, extra))
     }
 
-    /// Returns false only if the timeline keeps messages of this type and the checksum is invalid.
+    /// Returns whether the frame could be valid: its checksum is correct, or the timeline does not store messages of its type.
     #[must_use]
     pub fn is_plausible(frame: &[u8]) -> bool {
         match Self::peek(frame) {
@@ -143,7 +143,7 @@ impl FrameHeader {
     }
 }
 
-/// Returns true if the timeline keeps messages of this type.
+/// Returns whether the timeline stores messages of this type.
 fn is_of_interest(message_id: u32) -> bool {
     matches!(
         message_id,
@@ -161,7 +161,7 @@ fn is_of_interest(message_id: u32) -> bool {
     )
 }
 
-/// Returns the timestamp of a truth frame since simulation start; `None` for other frames.
+/// Returns the timestamp of a truth message (time since simulation start); `None` for other frames.
 #[must_use]
 pub fn truth_time(frame: &[u8]) -> Option<SimTime> {
     let header = FrameHeader::peek(frame)?;
@@ -172,7 +172,7 @@ pub fn truth_time(frame: &[u8]) -> Option<SimTime> {
     HIL_STATE_QUATERNION_DATA::deser(MavlinkVersion::V2, payload).ok().map(|truth| clock(truth.time_usec))
 }
 
-/// Decodes one frame with a verified checksum. `None` if it contains nothing that the timeline keeps.
+/// Decodes a frame whose checksum was verified; `None` if the timeline does not store its message.
 #[must_use]
 pub fn read(frame: &[u8], plane: &LocalPlane) -> Option<Sample> {
     let header = FrameHeader::peek(frame)?;
@@ -254,7 +254,7 @@ fn decode_value(header: &FrameHeader, payload: &[u8]) -> Option<(Option<SimTime>
     }
 }
 
-/// Converts the named values that the timeline keeps.
+/// Returns the sample of a named value; `None` if the timeline does not store it.
 fn kept_value(named: Named) -> Option<SampleValue> {
     Some(match named {
         Named::Contact(contact) => SampleValue::Contact(contact),

@@ -2,7 +2,7 @@
 
 use spandrel_model::time::SimTime;
 
-/// Changes sorted by time; equal times are ordered by the sender's sequence.
+/// Changes of a value, sorted by time. Changes at the same time are in the order of the sender's sequence numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Signal<T> {
     points: Vec<(SimTime, i64, T)>,
@@ -15,7 +15,7 @@ impl<T> Default for Signal<T> {
 }
 
 impl<T: Copy> Signal<T> {
-    /// Adds a change. Changes may be added in any order before [`Signal::sort`].
+    /// Adds a change. Before [`Signal::sort`], changes can be added in any order.
     pub fn push(&mut self, time: SimTime, order: i64, value: T) {
         self.points.push((time, order, value));
     }
@@ -25,14 +25,14 @@ impl<T: Copy> Signal<T> {
         self.points.sort_by_key(|(time, order, _)| (*time, *order));
     }
 
-    /// Returns the value at `time`: that of the last change at or before it.
+    /// Returns the value at `time`: that of the last change at or before `time`. `None` before the first change.
     #[must_use]
     pub fn at(&self, time: SimTime) -> Option<T> {
         let after = self.points.partition_point(|point| point.0 <= time);
         after.checked_sub(1).map(|k| self.points[k].2)
     }
 
-    /// Returns the changes with `from < time <= to`.
+    /// Returns the changes after `from`, up to and including `to`.
     #[must_use]
     pub fn between(&self, from: SimTime, to: SimTime) -> &[(SimTime, i64, T)] {
         let start = self.points.partition_point(|point| point.0 <= from);
@@ -40,13 +40,13 @@ impl<T: Copy> Signal<T> {
         &self.points[start..end.max(start)]
     }
 
-    /// Returns all changes.
+    /// Returns all changes in their current order.
     #[must_use]
     pub fn all(&self) -> &[(SimTime, i64, T)] {
         &self.points
     }
 
-    /// Returns all changes as mutable, to set times that become known later.
+    /// Returns all changes for modification, because some times become known only later.
     pub(super) fn all_mut(&mut self) -> &mut [(SimTime, i64, T)] {
         &mut self.points
     }

@@ -1,8 +1,8 @@
-//! Sorts samples from arrival order into a [`Flight`] in time order and counts link errors.
+//! Collects samples in order of arrival, sorts them by time into a [`Flight`], and counts link errors.
 //!
-//! Truth time is the reference clock. A message keeps its own timestamp if it is close to truth time; any other message gets the
-//! time of the preceding truth sample in its sender's sequence, so that reordered or duplicate datagrams change nothing. A clock
-//! that runs backward means that the simulator was restarted: a new epoch starts, and the previous one is kept.
+//! Truth time is the reference clock. A message's own timestamp is used if it is close to truth time. Otherwise, the message gets
+//! the time of the truth message that precedes it in its sender's sequence, so that reordered or duplicate datagrams have no
+//! effect. If the clock runs backward, the simulator was restarted: a new epoch starts, and the previous one is kept.
 
 use super::log_stream::TelemetryLog;
 use super::rows::Rows;
@@ -17,40 +17,41 @@ use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::time::SimTime;
 use std::ops::ControlFlow;
 
-/// Maximum difference from truth time at which a message's own timestamp is used.
+/// Maximum difference between a message's own timestamp and truth time at which the timestamp is used.
 const OWN_CLOCK_WITHIN: SimTime = SimTime::from_ms(2_000);
-/// Maximum difference between the truth sample found by sequence number and the one found by arrival.
+/// Maximum difference between the time found by sequence number and the time of arrival.
 const NUMBER_WITHIN: SimTime = SimTime::from_ms(500);
-/// A sequence number at most this far back is a late frame; further back it indicates a large loss (numbers wrap at 256).
+/// Maximum number of sequence numbers by which a late frame can be behind. Larger differences indicate a large loss, because the
+/// numbers wrap at 256.
 const LATE_WITHIN: i64 = 64;
-/// Component ID of the monitor itself.
+/// Component ID of the monitor, whose own messages are ignored.
 const MONITOR_COMPONENT: u8 = 191;
-/// Period after which a clock of 32-bit milliseconds wraps: 49.7 days.
+/// Period after which a 32-bit counter of milliseconds wraps: 49.7 days.
 const CLOCK_MS: i64 = 1 << 32;
 
-/// Unwraps a timestamp of 32-bit milliseconds to the value nearest to `near` that is not negative.
+/// Unwraps a 32-bit timestamp in milliseconds: returns the nonnegative value that is closest to `near`.
 fn unwrapped(own: SimTime, near: SimTime) -> SimTime {
     let rounds = (near.ms() - own.ms() + CLOCK_MS / 2).div_euclid(CLOCK_MS);
-    // A clock at the end of its range saturates.
+    // Saturates at the end of the clock's range.
     SimTime::from_ms((own.ms() + CLOCK_MS * rounds.max(0)).min(i64::MAX / 1_000_000))
 }
 
-/// Link statistics.
+/// Statistics of the telemetry link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct LinkCounts {
-    /// Frames received from the vehicle's system.
+    /// Number of frames received from the vehicle's system.
     pub frames: u64,
-    /// Frames lost, by sequence number.
+    /// Number of frames lost, determined from sequence numbers.
     pub lost: u64,
-    /// Duplicate frames.
+    /// Number of duplicate frames.
     pub duplicated: u64,
-    /// Frames that arrived after a later one.
+    /// Number of frames that arrived after a later one.
     pub reordered: u64,
-    /// Simulator restarts.
+    /// Number of simulator restarts.
     pub restarts: u32,
 }
 
-/// Unwrapped sequence numbers of one sender.
+/// Converts the wrapping sequence numbers of one sender to increasing numbers.
 #[derive(Debug, Clone, PartialEq)]
 struct SequenceUnwrapper {
     sender: (u8, u8),
@@ -66,13 +67,13 @@ enum FrameOrder {
 
 impl SequenceUnwrapper {
     fn new(sender: (u8, u8), sequence: u8) -> Self {
-        // High enough that late frames before the first one get positive numbers.
+        // High enough that late frames before the first one still get positive numbers.
         let newest = 256 * 1_000 + i64::from(sequence) - 1;
         Self { sender, newest, newest_truth: -1, epochs: vec![(-1, 0); 256] }
     }
 
-    /// `ahead`: the frame is a truth sample later than all previous ones, so its number cannot be below that of the latest truth
-    /// sample.
+    /// Returns the order of a frame. `ahead` means that the frame is the latest truth message so far, so its number cannot be
+    /// lower than that of the previous truth message.
     fn place(&mut self, sequence: u8, checksum: u16, ahead: bool) -> FrameOrder {
         let difference = i64::from((i64::from(sequence) - self.newest).rem_euclid(256) as u8 as i8);
         let mut order = self.newest + difference;
@@ -95,24 +96,24 @@ impl SequenceUnwrapper {
     }
 }
 
-/// One sample with the data that determines its time.
+/// A sample with the data from which its time is determined.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct TimedSample {
     value: SampleValue,
     order: i64,
-    /// Latest truth time on arrival.
+    /// Latest truth time when the sample arrived.
     arrival: OptionalTime,
     own_time: OptionalTime,
     epoch: u32,
     sender: (u8, u8),
 }
 
-/// An optional time in 8 bytes instead of the 16 of an `Option`.
+/// An optional time that needs only 8 bytes instead of the 16 of an `Option`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct OptionalTime(i64);
 
 impl OptionalTime {
-    /// No wire timestamp has this value: times start at zero.
+    /// Represents a missing time. No MAVLink timestamp has this value, because timestamps are not negative.
     const UNKNOWN: i64 = i64::MIN;
 
     fn of(time: Option<SimTime>) -> Self {
@@ -132,7 +133,7 @@ struct TruthEntry {
     sender: (u8, u8),
 }
 
-/// Collects frames in arrival order.
+/// Collects frames in order of arrival.
 #[derive(Debug, Clone)]
 pub struct Timeline {
     plane: LocalPlane,
@@ -141,26 +142,26 @@ pub struct Timeline {
     entries: Rows<TimedSample>,
     suspects: Vec<TruthEntry>,
     newest: Option<SimTime>,
-    /// Last truth times of the completed epochs.
+    /// Last truth time of each completed epoch.
     ended: Vec<SimTime>,
-    /// System that sends the truth samples.
+    /// System that sends the truth messages, once known.
     system: Option<u8>,
     counts: LinkCounts,
 }
 
-/// Result of processing a frame.
+/// Result of adding a frame to a timeline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FrameDisposition {
-    /// The frame is not kept, or is a duplicate.
+    /// The frame was not stored: its message is not needed, or it is a duplicate.
     Nothing,
-    /// The frame is a sample of the current epoch.
+    /// The frame was stored as a sample of the current epoch.
     Kept(Sample),
-    /// The simulator was restarted; this is the truth sample that confirms it.
+    /// The simulator was restarted. Contains the truth message that confirmed the restart.
     Restarted(Sample),
 }
 
 impl Timeline {
-    /// Creates an empty timeline that converts positions by `plane`.
+    /// Creates an empty timeline that converts positions with `plane`.
     #[must_use]
     pub fn new(plane: LocalPlane) -> Self {
         Self {
@@ -176,41 +177,41 @@ impl Timeline {
         }
     }
 
-    /// Returns the latest truth time of the current epoch.
+    /// Returns the latest truth time of the current epoch, if any.
     #[must_use]
     pub fn newest(&self) -> Option<SimTime> {
         self.newest
     }
 
-    /// Returns the system whose flight this is, known from the first truth sample. Messages from other systems are not part of
-    /// the flight.
+    /// Returns the id of the vehicle's system, which is known after the first truth message. Messages from other systems are not
+    /// part of the flight.
     #[must_use]
     pub fn system(&self) -> Option<u8> {
         self.system
     }
 
-    /// Returns the link statistics so far.
+    /// Returns the link statistics.
     #[must_use]
     pub fn counts(&self) -> LinkCounts {
         self.counts
     }
 
-    /// Returns the number of epochs so far: one more than the number of restarts.
+    /// Returns the number of epochs, which is one more than the number of restarts.
     #[must_use]
     pub fn simulator_runs(&self) -> usize {
         self.ended.len() + 1
     }
 
-    /// Returns the total duration of the epochs before `epoch`, each from time zero to its last truth sample.
+    /// Returns the total duration of the epochs before `epoch`. Each epoch lasts from time zero to its last truth message.
     #[must_use]
     pub fn apply_pushed(&self, epoch: usize) -> SimTime {
         self.ended.iter().take(epoch).fold(SimTime::ZERO, |sum, last| sum + *last)
     }
 
-    /// Processes all complete records of a log.
+    /// Adds all complete records of a log.
     ///
     /// # Errors
-    /// If the log cannot be read.
+    /// Fails if the log cannot be read.
     pub fn push_log(&mut self, log: &(impl TelemetryLog + ?Sized)) -> std::io::Result<()> {
         log.for_each_record(&mut |record| {
             self.push(record.frame);
@@ -218,13 +219,13 @@ impl Timeline {
         })
     }
 
-    /// Processes one complete frame.
+    /// Adds one complete frame.
     pub fn push(&mut self, frame: &[u8]) -> FrameDisposition {
         let Some(header) = FrameHeader::peek(frame) else { return FrameDisposition::Nothing };
         if header.sender.1 == MONITOR_COMPONENT || frame.len() < header.payload_end + 2 {
             return FrameDisposition::Nothing;
         }
-        // Messages from other systems are routed here too. They are ignored once the vehicle is known.
+        // Messages from other systems may be routed here, too. They are ignored once the vehicle's system is known.
         let sample = sample::read(frame, &self.plane).filter(|s| self.system.is_none_or(|system| system == s.sender.0));
         let checksum = u16::from_le_bytes([frame[header.payload_end], frame[header.payload_end + 1]]);
         let ahead = matches!(sample.map(|s| s.content), Some(SampleContent::Truth(truth)) if self.newest.is_none_or(|newest| truth.time > newest));
@@ -243,7 +244,7 @@ impl Timeline {
             self.sequencers.push(SequenceUnwrapper::new(header.sender, header.sequence));
             self.sequencers.len() - 1
         });
-        // Only some ground station frames are routed to the monitor, so gaps in their sequence numbers are not losses.
+        // Only some frames of ground stations are routed to the monitor, so gaps in their sequence numbers are not losses.
         let counted = self.system == Some(header.sender.0);
         match self.sequencers[index].place(header.sequence, checksum, ahead) {
             FrameOrder::Duplicate => {
@@ -254,7 +255,7 @@ impl Timeline {
                 if counted {
                     self.counts.frames += 1;
                     self.counts.reordered += u64::from(late);
-                    // A late frame was counted as lost when the later one arrived.
+                    // A late frame was counted as lost when a later one arrived.
                     self.counts.lost = self.counts.lost.saturating_add_signed(skipped);
                 }
                 Some(order)
@@ -278,7 +279,7 @@ impl Timeline {
             self.suspects.push(entry);
             return if self.suspects.len() < RESTART_CONFIRM { FrameDisposition::Kept(sample) } else { self.restart(sample) };
         }
-        // These were late frames rather than a restart; they are sorted by their timestamps.
+        // The suspects were late frames, not a restart. They are sorted by their timestamps later.
         self.truths.extend(self.suspects.drain(..));
         self.truths.push(entry);
         self.newest = Some(self.newest.map_or(truth.time, |newest| newest.max(truth.time)));
@@ -286,7 +287,7 @@ impl Timeline {
     }
 
     fn epoch(&self) -> u32 {
-        // A restart takes several frames, so no log is long enough for the count to saturate.
+        // The count cannot saturate in practice, because every restart takes several frames.
         u32::try_from(self.ended.len()).unwrap_or(u32::MAX)
     }
 
@@ -317,17 +318,17 @@ impl Timeline {
     }
 }
 
-/// Sort key to look up the truth samples of a sender by sequence number.
+/// Returns the sort key by which a sender's truth messages are found by sequence number.
 fn numbering(entry: &TruthEntry) -> ((u8, u8), i64, SimTime) {
     (entry.sender, entry.order, entry.truth.time)
 }
 
-/// Returns the time of a sample; `numbered` contains the truth samples of the flight, sorted by [`numbering`].
+/// Returns the time of a sample. `numbered` contains the truth messages of the flight, sorted by [`numbering`].
 fn time_of(entry: &TimedSample, numbered: &[&TruthEntry]) -> SimTime {
     let near = |a: SimTime, b: SimTime, within: SimTime| a.saturating_sub(b) <= within && b.saturating_sub(a) <= within;
     let arrival = entry.arrival.get();
     if let Some(own) = entry.own_time.get() {
-        // A lost photo message is sent again much later with its original timestamp.
+        // The message of a lost picture is sent again much later, with the original timestamp.
         let late = matches!(entry.value, SampleValue::Snapshot(_)) && arrival.is_some_and(|arrival| own <= arrival);
         if late || arrival.is_none_or(|arrival| near(own, arrival, OWN_CLOCK_WITHIN)) {
             return own;
@@ -341,44 +342,44 @@ fn time_of(entry: &TimedSample, numbered: &[&TruthEntry]) -> SimTime {
     }
 }
 
-/// One flight, sorted by time.
+/// Data of one flight, sorted by time.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Flight {
-    /// Truth samples with strictly increasing times.
+    /// Truth messages with strictly increasing times.
     pub truths: Vec<Truth>,
     /// Stick positions: forward, right, up, clockwise, each in [-1, 1].
     pub sticks: Signal<[f64; 4]>,
-    /// The lamp is on.
+    /// Lamp state: true if the lamp is on.
     pub light: Signal<bool>,
-    /// Battery level, %.
+    /// Remaining battery charge, 0 to 100 %.
     pub battery: Signal<f64>,
-    /// Contact type.
+    /// Kind of the current contact.
     pub contact: Signal<ContactKind>,
-    /// Number of contact onsets.
+    /// Number of contacts since simulation start.
     pub hits: Signal<i32>,
-    /// Number of respawns.
+    /// Number of respawns since simulation start.
     pub respawns: Signal<i32>,
-    /// Times when the bridges were closed to traffic and opened, as on the wire.
+    /// Times when the bridges were closed to traffic (negative) or reopened, ms since simulation start.
     pub traffic: Signal<i32>,
     /// Distance to the nearest surface, m.
     pub clearance: Signal<f64>,
-    /// Gimbal pitch, rad.
+    /// Gimbal pitch relative to the horizon, rad, up positive.
     pub gimbal: Signal<f64>,
     /// Horizontal field of view of the camera, rad.
     pub field_of_view: Signal<f64>,
-    /// The motors are armed.
+    /// Whether the motors are armed.
     pub armed: Signal<bool>,
-    /// Control source, at the rate of the heartbeat (1 s).
+    /// Source that controls the aircraft; one value per heartbeat (1 s).
     pub flown_by: Signal<ControlSource>,
-    /// The autopilot reports that the aircraft is on the ground.
+    /// Whether the autopilot reports that the aircraft is on the ground.
     pub on_ground: Signal<bool>,
-    /// Photos, once each: index, and time by the camera's own clock.
+    /// Index and camera timestamp of each picture; repeated messages are merged.
     pub snapshots: Signal<(i32, Option<SimTime>)>,
-    /// Published session seeds.
+    /// Session seeds that the simulator published.
     pub seeds: Signal<u64>,
-    /// Published scenario CRCs.
+    /// Scenario CRCs that the simulator published.
     pub scenario_crcs: Signal<u32>,
-    /// The simulator was restarted after this flight.
+    /// Whether the simulator was restarted after this flight.
     pub ended_by_restart: bool,
 }
 
@@ -404,8 +405,8 @@ impl Flight {
             }
             SampleValue::OnGround(v) => self.on_ground.push(time, order, v),
             SampleValue::Snapshot(v) => {
-                // A repeated photo message has the same index and time; the first report is kept. Formatting the card resets the
-                // index.
+                // A repeated message has the same index and timestamp; the time of the first report is kept. The timestamp is
+                // needed because formatting the card resets the index.
                 let picture = (v, entry.own_time.get());
                 match self.snapshots.all_mut().iter_mut().find(|known| known.2 == picture) {
                     Some(known) => known.0 = known.0.min(time),

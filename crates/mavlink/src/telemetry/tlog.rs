@@ -1,24 +1,24 @@
-//! The telemetry log: one record per MAVLink frame, consisting of an 8-byte big-endian timestamp in microseconds since the Unix
-//! epoch and the unmodified frame. Compatible with QGroundControl, Mission Planner and MAVProxy.
+//! The telemetry log: one record per MAVLink frame. A record consists of an 8-byte big-endian timestamp, µs since the Unix epoch,
+//! and the unmodified frame. QGroundControl, Mission Planner and MAVProxy use the same format.
 //!
-//! A file may be truncated at any byte, for example if the monitor was killed: all complete records are read and the remainder is
-//! ignored. Corrupt data in the middle affects only the damaged records.
+//! A file may end at any byte, for example if the monitor was killed. All complete records are read, and the rest is ignored.
+//! Corrupt data affects only the damaged records.
 
 use super::sample::FrameHeader;
 
 /// Length of the timestamp before each frame, bytes.
 pub const STAMP_BYTES: usize = 8;
 
-/// One log record.
+/// A record of a telemetry log.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TlogRecord<'a> {
-    /// Timestamp: session start plus simulation time, microseconds since the Unix epoch.
+    /// Timestamp: session start plus simulation time, µs since the Unix epoch.
     pub stamp_us: u64,
-    /// The MAVLink frame.
+    /// MAVLink frame as received.
     pub frame: &'a [u8],
 }
 
-/// Encodes one record.
+/// Encodes a record.
 #[must_use]
 pub fn record(stamp_us: u64, frame: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(STAMP_BYTES + frame.len());
@@ -43,14 +43,14 @@ impl<'a> TlogReader<'a> {
         Self { bytes, at: 0, end_of_whole: 0, skipped: 0 }
     }
 
-    /// Returns the length up to the end of the last complete record read so far, where a restarted monitor truncates the file and
-    /// continues.
+    /// Returns the length of the log up to the end of the last complete record read so far, bytes. A restarted monitor truncates
+    /// the file to this length and continues.
     #[must_use]
     pub fn end_of_whole(&self) -> usize {
         self.end_of_whole
     }
 
-    /// Returns the number of bytes so far that belonged to no record.
+    /// Returns the number of bytes read so far that belong to no record.
     #[must_use]
     pub fn skipped(&self) -> usize {
         self.skipped
@@ -60,14 +60,14 @@ impl<'a> TlogReader<'a> {
         record_at(self.bytes, at)
     }
 
-    /// Returns the offset of the next record: the current one or, after corrupt data, the next one with a valid checksum.
+    /// Returns the offset of the next record after the current position with a valid checksum.
     fn resynchronise(&self) -> Option<usize> {
         (self.at + 1..self.bytes.len())
             .find(|at| self.record_at(*at).is_some_and(|(record, _)| FrameHeader::verified(record.frame)))
     }
 }
 
-/// Parses the record at offset `at` and returns it with its end offset.
+/// Parses the record at offset `at`. Returns the record and its end offset.
 pub(super) fn record_at(bytes: &[u8], at: usize) -> Option<(TlogRecord<'_>, usize)> {
     let stamp = bytes.get(at..at + STAMP_BYTES)?;
     let rest = &bytes[at + STAMP_BYTES..];
@@ -87,7 +87,8 @@ impl<'a> Iterator for TlogReader<'a> {
             self.at = next;
         }
         let (record, end) = self.record_at(self.at)?;
-        // A matching magic byte after a wrong length may lie inside a record; the checksum of known messages detects this.
+        // After a corrupt length, a byte inside a record can look like the start of a frame. The checksum of known messages
+        // detects this.
         if !FrameHeader::is_plausible(record.frame) {
             let next = self.resynchronise()?;
             self.skipped += next - self.at;
@@ -100,7 +101,8 @@ impl<'a> Iterator for TlogReader<'a> {
     }
 }
 
-/// Returns the length of the part of a log that contains complete records. Truncate here before appending.
+/// Returns the length of a log up to the end of its last complete record, bytes. Truncate the file to this length before
+/// appending to it.
 #[must_use]
 pub fn complete_len(bytes: &[u8]) -> usize {
     let mut reader = TlogReader::new(bytes);
@@ -114,15 +116,15 @@ pub fn session_start_us(bytes: &[u8]) -> Option<u64> {
     TlogReader::new(bytes).next().map(|first| first.stamp_us)
 }
 
-/// Returns the Unix time of simulation time zero, µs: the timestamp of the first truth record minus its simulation time. `None`
-/// for a log without truth.
+/// Returns the Unix time of simulation time zero, µs: the timestamp of the first truth message minus its simulation time. `None`
+/// for a log without truth messages.
 #[must_use]
 pub fn simulation_zero_us(bytes: &[u8]) -> Option<u64> {
     TlogReader::new(bytes).find_map(|record| zero_us(&record))
 }
 
-/// Returns the Unix time of simulation time zero, µs, from one record: its timestamp minus its simulation time. `None` if it is
-/// not a truth record.
+/// Returns the Unix time of simulation time zero, µs, from a single record: its timestamp minus its simulation time. `None` if
+/// the record is not a truth message.
 #[must_use]
 pub fn zero_us(record: &TlogRecord<'_>) -> Option<u64> {
     let time = super::sample::truth_time(record.frame)?;

@@ -1,36 +1,36 @@
-//! The columns of the frames export. CSV, Parquet and the data dictionary are all generated from this list.
+//! The columns of the frames export. CSV, Parquet and the data dictionary are generated from this list.
 
 use super::FrameRow;
 use spandrel_model::frames::{Enu, Vec3};
 use std::fmt::Write;
 
-/// Type of a column and the function that reads its value from a row; `None` if the telemetry has no value.
+/// Type of a column and the function that returns its value for a row; `None` if the telemetry does not contain it.
 #[derive(Debug, Clone, Copy)]
 pub enum Read {
-    /// Integer.
+    /// Column of integers.
     Whole(fn(&FrameRow) -> Option<i64>),
-    /// Floating-point number.
+    /// Column of floating-point numbers.
     Real(fn(&FrameRow) -> Option<f64>),
-    /// Boolean; 1 or 0 in CSV.
+    /// Column of Booleans; 1 or 0 in CSV.
     Flag(fn(&FrameRow) -> bool),
-    /// One of a fixed set of strings.
+    /// Column of words from a fixed set.
     Word(fn(&FrameRow) -> &'static str),
 }
 
 /// A column of the frames export.
 #[derive(Debug, Clone, Copy)]
 pub struct Column {
-    /// Name, with the unit as suffix where there is one.
+    /// Name, ending with the unit if there is one.
     pub name: &'static str,
     /// Unit symbol; empty for counts, fractions, flags and strings.
     pub unit: &'static str,
     /// Coordinate frame or positive direction; empty if none applies.
     pub frame: &'static str,
-    /// Definition, one sentence.
+    /// Definition of the value, in one sentence.
     pub description: &'static str,
-    /// Whether a row may have no value: empty in CSV, null in Parquet.
+    /// Whether values may be missing; they are empty in CSV and null in Parquet.
     pub optional: bool,
-    /// Type and value.
+    /// Type of the column and function that returns its value.
     pub read: Read,
 }
 
@@ -63,7 +63,7 @@ fn attitude_deg(row: &FrameRow, angle: usize) -> Option<f64> {
     row.roll_pitch_yaw_rad.map(|angles| angles[angle].to_degrees())
 }
 
-/// All columns in order. Released names and their order never change; new columns are appended.
+/// All columns in order. Names and order of released columns never change; new columns are appended.
 pub const COLUMNS: &[Column] = &[
     column("frame", "", "", "Frame number; 1 is lift-off.", Read::Whole(|r| Some(i64::from(r.frame.index)))),
     column("t_s", "s", "", "Simulation time since lift-off.", Read::Real(|r| Some(r.since_lift_off_s))),
@@ -71,8 +71,8 @@ pub const COLUMNS: &[Column] = &[
     column("rl", "", STICK, "Stick, right positive.", Read::Real(|r| Some(r.frame.sticks[1]))),
     column("ud", "", STICK, "Stick, up positive.", Read::Real(|r| Some(r.frame.sticks[2]))),
     column("rt", "", STICK, "Stick, clockwise positive.", Read::Real(|r| Some(r.frame.sticks[3]))),
-    column("light", "", "", "Lamp on.", Read::Flag(|r| r.frame.light)),
-    column("snapshot", "", "", "A picture was taken since the previous frame.", Read::Flag(|r| r.frame.snapshot)),
+    column("light", "", "", "Whether the lamp is on.", Read::Flag(|r| r.frame.light)),
+    column("snapshot", "", "", "Whether a picture was taken since the previous frame.", Read::Flag(|r| r.frame.snapshot)),
     column("east_m", "m", ENU, "True position, east.", Read::Real(|r| Some(r.frame.position_m.east()))),
     column("north_m", "m", ENU, "True position, north.", Read::Real(|r| Some(r.frame.position_m.north()))),
     column("up_m", "m", ENU, "True position, up.", Read::Real(|r| Some(r.frame.position_m.up()))),
@@ -88,15 +88,15 @@ pub const COLUMNS: &[Column] = &[
         "contact",
         "",
         "",
-        "Most severe contact since the previous frame: none, bridge, terrain, water, vehicle, person or other. Touch-down and \
-         take-off at home count as none.",
+        "Most severe contact since the previous frame: none, bridge, terrain, water, vehicle, person or other. Landing and \
+         takeoff at home count as none.",
         Read::Word(|r| r.frame.contact.label()),
     ),
     column(
         "missing",
         "",
         "",
-        "The frame lies in a telemetry gap of more than 1 s; position and velocity are held.",
+        "Whether the frame is in a telemetry gap of more than 1 s; position and velocity then repeat the last values.",
         Read::Flag(|r| r.frame.missing),
     ),
     column("velocity_east_m_s", "m/s", ENU_VELOCITY, "True velocity, east.", Read::Real(|r| Some(r.frame.velocity_m_s.east()))),
@@ -121,17 +121,17 @@ pub const COLUMNS: &[Column] = &[
         "gimbal_pitch_deg",
         "deg",
         "horizon",
-        "Pitch of the camera, up positive.",
+        "Pitch of the camera relative to the horizon, up positive.",
         Read::Real(|r| r.gimbal_pitch_rad.map(f64::to_degrees)),
     ),
     optional(
         "task",
         "",
         "",
-        "Task whose path the drone is on, otherwise the last one entered; empty before the first.",
+        "Task whose path the drone is on, otherwise the last task entered; empty before the first.",
         Read::Whole(|r| r.task.map(|task| i64::from(task.id))),
     ),
-    column("on_path", "", "", "On the path of a task.", Read::Flag(|r| r.on_path)),
+    column("on_path", "", "", "Whether the drone is on the path of a task.", Read::Flag(|r| r.on_path)),
     optional(
         "path_distance_m",
         "m",
@@ -143,7 +143,7 @@ pub const COLUMNS: &[Column] = &[
         "clearance_m",
         "m",
         "",
-        "Distance from the drone's center to the nearest surface, pad excluded.",
+        "Distance from the drone's center to the nearest surface, except the pad.",
         Read::Real(|r| r.clearance_m),
     ),
     optional("wind_east_m_s", "m/s", ENU_VELOCITY, "Wind velocity over ground, east.", Read::Real(|r| east(r.wind_m_s))),
@@ -156,15 +156,15 @@ pub const COLUMNS: &[Column] = &[
         "interpolated",
         "",
         "",
-        "The frame lies in a telemetry gap of 0.2 to 1 s; position and velocity are interpolated.",
+        "Whether the frame is in a telemetry gap of 0.2 to 1 s; position and velocity are then interpolated.",
         Read::Flag(|r| r.frame.interpolated),
     ),
 ];
 
-/// Typical line length in bytes, used for the initial allocation.
+/// Typical length of a line, used for the initial allocation, bytes.
 const LINE_BYTES: usize = 360;
 
-/// Returns frames as CSV: a header, then one line per frame.
+/// Returns frames as CSV: a header line, then one line per frame.
 #[must_use]
 pub fn frames_csv(rows: &[FrameRow]) -> String {
     let names: Vec<&str> = COLUMNS.iter().map(|column| column.name).collect();
@@ -183,7 +183,7 @@ pub fn frames_csv(rows: &[FrameRow]) -> String {
     csv
 }
 
-/// Writes one cell. Writing to a string cannot fail.
+/// Appends a cell. Writing to a string cannot fail.
 fn write_cell(csv: &mut String, read: Read, row: &FrameRow) {
     let _ = match read {
         Read::Whole(value) => value(row).map_or(Ok(()), |value| write!(csv, "{value}")),

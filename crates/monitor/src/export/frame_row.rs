@@ -1,4 +1,4 @@
-//! A frame of the export with its associated data: attitude, gimbal, task, path, wind and estimated position.
+//! A row of the frames export: a frame with attitude, gimbal, task, path distance, wind and estimated position.
 
 use crate::assessment::{AssessError, check_identity, scored_epoch};
 use crate::measures::on_path::{OnPath, ReferencePaths};
@@ -14,13 +14,13 @@ use std::ops::ControlFlow;
 /// Distance of the drone to a task's path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TaskDistance {
-    /// Task number.
+    /// Number of the task in the scenario.
     pub id: u32,
     /// Distance to its path, m.
     pub distance_m: Option<f64>,
 }
 
-/// One row of the frames export. `None` means that the telemetry has no value at this frame.
+/// One row of the frames export. `None` means that the telemetry has no value for this frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrameRow {
     /// The scored frame.
@@ -29,9 +29,9 @@ pub struct FrameRow {
     pub since_lift_off_s: f64,
     /// True roll, pitch and yaw, rad.
     pub roll_pitch_yaw_rad: Option<[f64; 3]>,
-    /// Camera pitch above the horizon, rad, up positive.
+    /// Camera pitch relative to the horizon, rad, up positive.
     pub gimbal_pitch_rad: Option<f64>,
-    /// Task whose path the drone is on, otherwise the last one entered.
+    /// Task whose path the drone is on, otherwise the last task entered.
     pub task: Option<TaskDistance>,
     /// Whether the drone is on a task's path.
     pub on_path: bool,
@@ -43,10 +43,10 @@ pub struct FrameRow {
     pub estimate_m: Option<Vec3<Enu>>,
 }
 
-/// Reads the scored frames of a log, with all export columns.
+/// Reads the scored frames of a log with the data for all export columns.
 ///
 /// # Errors
-/// If the log cannot be read, belongs to a different scenario or seed, or contains no session.
+/// Fails if the log cannot be read, belongs to a different scenario or seed, or contains no session.
 pub fn frame_rows(
     log: &(impl TelemetryLog + ?Sized),
     scenario: &Scenario,
@@ -69,7 +69,7 @@ pub fn frame_rows(
     Ok(rows(session.frames, &flight, &navigation.of(epoch), scenario))
 }
 
-/// Adds the remaining export data to the frames of one flight.
+/// Adds the remaining export columns to the frames of one flight.
 #[must_use]
 pub fn rows(frames: Vec<Frame>, flight: &Flight, navigation: &Navigation, scenario: &Scenario) -> Vec<FrameRow> {
     let Some(start) = frames.first().map(|frame| frame.time) else { return Vec::new() };
@@ -85,7 +85,8 @@ pub fn rows(frames: Vec<Frame>, flight: &Flight, navigation: &Navigation, scenar
         });
         let attitude = flight.between(frame.time).filter(|_| known).map(|between| between.ned_from_frd.euler());
         FrameRow {
-            // Division instead of multiplication by 1e-9 yields the double nearest to the decimal value, which prints short.
+            // Dividing by 1e9 gives the double closest to the decimal value, which prints with few digits. Multiplying by 1e-9
+            // does not.
             since_lift_off_s: (frame.time - start).ns() as f64 / 1e9,
             roll_pitch_yaw_rad: attitude.map(|(roll, pitch, yaw)| [roll, pitch, yaw]),
             gimbal_pitch_rad: flight.gimbal.at(frame.time).filter(|_| known),

@@ -1,10 +1,10 @@
-//! Battery cue: green, yellow or red. A text is sent only when the color gets worse.
+//! Battery cue: green, yellow or red. A text is sent only when the color becomes worse.
 
 use super::{FeedbackInput, PilotText};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::FeedbackThresholds;
 
-/// Color of the battery display.
+/// Color of the battery display; limits are in the scenario.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub enum BatteryColor {
     /// At or above `battery_green_pct`.
@@ -28,14 +28,14 @@ pub fn color(battery_pct: f64, limits: &FeedbackThresholds) -> BatteryColor {
     }
 }
 
-/// The battery rule. The color never improves within a session, because the battery does not charge in flight.
+/// The battery rule. The color never improves during a session, because the battery cannot charge in flight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct BatteryCue {
     worst: BatteryColor,
 }
 
 impl BatteryCue {
-    /// Updates the rule and returns the cue bits and a text, if one is due.
+    /// Updates the rule. Returns the cue bits and, if one must be sent, a text.
     pub fn update(&mut self, moment: &FeedbackInput, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let now = moment.battery_pct.map_or(BatteryColor::Green, |pct| color(pct, limits));
         let worse = now > self.worst;

@@ -1,5 +1,5 @@
-//! Crash cue: raised at the onset of any contact, with the name of the object hit. Its text precedes all others; onsets in quick
-//! succession produce one text.
+//! Crash cue: raised at the start of any contact and names the object hit. Its text is sent before all others. Contacts in quick
+//! succession produce only one text.
 
 use super::{CoolDown, FeedbackInput, PilotText};
 use spandrel_mavlink::contract::contact::ContactKind;
@@ -7,10 +7,10 @@ use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::FeedbackThresholds;
 use spandrel_model::time::SimTime;
 
-/// The cue stays on for this long after the last contact (estimate: time to read it).
+/// Time for which the cue stays on after the last contact (estimate: time to read it).
 const SHOWN_FOR: SimTime = SimTime::from_ms(2_000);
-/// Onsets within this interval count as one crash (docs/src/reference/assessment.md, "Certification": contacts less than a second
-/// apart).
+/// Contacts within this interval count as one crash (docs/src/reference/assessment.md, "Certification": contacts less than a
+/// second apart).
 const SAME_BUMP: SimTime = SimTime::from_ms(1_000);
 
 /// The crash rule.
@@ -22,12 +22,12 @@ pub struct CrashCue {
 }
 
 impl CrashCue {
-    /// Updates the rule and returns the cue bits and a text, if one is due.
+    /// Updates the rule. Returns the cue bits and, if one must be sent, a text.
     pub fn update(&mut self, moment: &FeedbackInput, _limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let contact = if moment.in_session { moment.contact } else { ContactKind::None };
         let worse = contact.severity() > self.before.severity();
         self.before = contact;
-        // Contact with a person or a vehicle always gets its own text.
+        // Hitting a person or a vehicle always produces a text of its own.
         if worse && matches!(contact, ContactKind::Person | ContactKind::Vehicle) {
             self.cool_down = CoolDown::default();
         }

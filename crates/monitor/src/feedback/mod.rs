@@ -1,5 +1,5 @@
-//! In-task feedback, one rule per file. Each rule takes the same [`FeedbackInput`] and returns whether its cue is on and, when
-//! the cue turns on, a text. Thresholds come from the scenario. All times are simulation time.
+//! Feedback during the task, with one file per rule. Each rule processes the same [`FeedbackInput`] and returns whether its cue
+//! is on and, when the cue turns on, a text. Thresholds come from the scenario. All times are simulation times.
 
 pub mod battery;
 pub mod crash;
@@ -20,38 +20,38 @@ pub struct TaskProximity {
     pub distance_m: f64,
     /// On-path threshold of the task, m.
     pub threshold_m: f64,
-    /// Too-close distance specific to the task, m.
+    /// Clearance below which the drone is too close in this task, m; `None` for the scenario's value.
     pub too_close_m: Option<f64>,
-    /// Task number.
+    /// Number of the task in the scenario.
     pub id: u32,
-    /// Whether moving away ends the task: its path has been flown, or the nearest point is an end of the path.
+    /// Whether the trainee may leave the task: its path was flown, or the nearest point is an end of the path.
     pub may_leave: bool,
 }
 
 /// Input of the feedback rules at one instant.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FeedbackInput {
-    /// Simulation time.
+    /// Simulation time at this instant.
     pub time: SimTime,
     /// Whether the session is running, from lift-off to its end.
     pub in_session: bool,
-    /// Whether the drone is airborne. On the ground, proximity warnings are suppressed.
+    /// Whether the drone is airborne. Proximity warnings are suppressed on the ground.
     pub airborne: bool,
-    /// Speed, m/s.
+    /// Magnitude of the velocity, m/s.
     pub speed_m_s: f64,
-    /// Remaining battery, %.
+    /// Remaining battery charge, 0 to 100 %.
     pub battery_pct: Option<f64>,
     /// Distance to the nearest surface, m.
     pub clearance_m: Option<f64>,
-    /// Contact after applying the pad rule.
+    /// Kind of object in contact, after touchdowns on the pad are removed.
     pub contact: ContactKind,
     /// Name of the object in contact, if the site provides one.
     pub touched: Option<String>,
     /// Proximity to each task, in scenario order.
     pub tasks: Vec<TaskProximity>,
-    /// Index of the task whose path the drone is on.
+    /// Index of the task whose path the drone is on, if any.
     pub current_task: Option<usize>,
-    /// Index of the last task entered.
+    /// Index of the last task entered, if any.
     pub last: Option<usize>,
 }
 
@@ -60,7 +60,7 @@ pub struct FeedbackInput {
 pub struct PilotText {
     /// Cue bit of the rule that raised the text.
     pub cue: i32,
-    /// Text, at most 50 bytes.
+    /// Text of at most 50 bytes.
     pub text: String,
 }
 
@@ -91,7 +91,7 @@ impl FeedbackRules {
         }
     }
 
-    /// Updates all rules and returns the mask of active cues and the texts, most urgent first.
+    /// Updates all rules. Returns the mask of active cues, and the texts with the most urgent first.
     pub fn update(&mut self, moment: &FeedbackInput) -> (i32, Vec<PilotText>) {
         let mut mask = 0;
         let mut texts = Vec::new();
@@ -108,7 +108,7 @@ impl FeedbackRules {
     }
 }
 
-/// Rate limit for a rule's texts: sends one when the cue turns on, then none until the interval has passed.
+/// Rate limit for a rule's texts: after a text, none is sent until the interval has passed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct CoolDown {
     last_sent: Option<SimTime>,

@@ -1,21 +1,21 @@
-//! Off-path cue: the drone is beyond the threshold but still within reach of the last task entered. Before the first task, and
-//! after leaving a task at an end of its path or once it is flown, the drone is in transit (docs/src/reference/assessment.md,
-//! "Feedback during the flight").
+//! Off-path cue: the drone is beyond the path threshold, but within the maximum distance of the last task entered. The cue is off
+//! while the drone is in transit: before the first task, and after leaving a task whose path was flown, or at an end of its path
+//! (docs/src/reference/assessment.md, "Feedback during the flight").
 
 use super::{CoolDown, FeedbackInput, PilotText, TaskProximity};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::FeedbackThresholds;
 use spandrel_model::time::SimTime;
 
-/// A task counts as left after moving away from it for this long (docs/src/reference/assessment.md, "Feedback during the
-/// flight").
+/// A task counts as left if the drone has moved away from it for this long (docs/src/reference/assessment.md, "Feedback during
+/// the flight").
 const LEFT_AFTER: SimTime = SimTime::from_ms(2_000);
-/// Minimum change of distance that counts as movement, m, and the time that it stays valid (estimate: half the slowest inspection
-/// speed; the wire format rounds to 1 cm).
+/// Minimum change of distance that counts as movement, m (estimate: half the slowest inspection speed; MAVLink rounds to 1 cm).
+/// The constant below is the time for which it is valid.
 const CHANGE_M: f64 = 0.15;
 const CHANGE_WITHIN: SimTime = SimTime::from_ms(600);
 
-/// The off-path rule. The cue turns on after a delay and stays on for a minimum time.
+/// The off-path rule. The cue turns on after a delay and then stays on for a minimum time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct OffPathCue {
     since: Option<SimTime>,
@@ -24,12 +24,12 @@ pub struct OffPathCue {
     transit: Transit,
 }
 
-/// Tracks whether the drone is leaving a task.
+/// State of leaving a task.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Transit {
-    /// Task id, distance (m) and time of the last change, and whether the distance grew.
+    /// Task id, distance (m) and time of the last change, and whether the distance increased.
     change: Option<(u32, f64, SimTime, bool)>,
-    /// Time at which the drone began to leave.
+    /// Time at which the drone started to leave; `None` if it is not leaving.
     leaving: Option<SimTime>,
     /// Whether the drone has left the task.
     left: bool,
@@ -59,7 +59,7 @@ impl Transit {
 }
 
 impl OffPathCue {
-    /// Updates the rule and returns the cue bits and a text, if one is due.
+    /// Updates the rule. Returns the cue bits and, if one must be sent, a text.
     pub fn update(&mut self, moment: &FeedbackInput, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let now = moment.time;
         if !moment.in_session {
@@ -84,7 +84,7 @@ impl OffPathCue {
         (if self.shown_since.is_some() { cue::OFF_PATH } else { 0 }, text)
     }
 
-    /// Returns the task id and distance, m, if the drone is off path.
+    /// Returns task id and distance, m, if the drone is off the path.
     fn off_path_distance(&mut self, moment: &FeedbackInput, reach_m: f64) -> Option<(u32, f64)> {
         let task = &moment.tasks[moment.last?];
         let between = self.transit.update(moment.time, task);

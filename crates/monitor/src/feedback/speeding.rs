@@ -1,5 +1,5 @@
-//! Speeding cue: over the limit while on any path or near the last one entered. (Unlike the scorer, the live rule does not know
-//! where a task window ends.)
+//! Speeding cue: the drone is over the speed limit while on any path or near the last task entered. The scorer counts only
+//! speeding inside task windows, but the end of a window is not known during the flight.
 
 use super::{CoolDown, FeedbackInput, PilotText};
 use spandrel_mavlink::contract::cue;
@@ -7,18 +7,18 @@ use spandrel_model::math::M_S_PER_MPH;
 use spandrel_model::numbers::{format_beside_limit, limit};
 use spandrel_model::scenario::FeedbackThresholds;
 
-/// The speeding rule. The cue clears only after the speed has stayed at or below the limit for `CLEAR_MS`, to avoid flicker.
+/// The speeding rule. To avoid flicker, the cue turns off only after the speed has stayed at or below the limit for `CLEAR_MS`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SpeedingCue {
     over_limit_since: Option<spandrel_model::time::SimTime>,
     cool_down: CoolDown,
 }
 
-/// Delay before the cue clears, ms (estimate: half a second still reads as "now").
+/// Delay before the cue turns off, ms (estimate: after half a second, the cue still seems current).
 const CLEAR_MS: i64 = 500;
 
 impl SpeedingCue {
-    /// Updates the rule and returns the cue bits and a text, if one is due.
+    /// Updates the rule. Returns the cue bits and, if one must be sent, a text.
     pub fn update(&mut self, moment: &FeedbackInput, limit_m_s: f64, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let near_last = moment.last.is_some_and(|task| moment.tasks[task].distance_m <= limits.off_path_max_m);
         let speeding = moment.in_session && moment.speed_m_s > limit_m_s && (moment.current_task.is_some() || near_last);

@@ -1,16 +1,16 @@
-//! Queue of pilot texts: sent one at a time, crashes first, stale ones dropped.
+//! Queue of texts for the pilot: one is sent at a time, crashes first. Texts that have waited too long are dropped.
 
 use super::PilotText;
 use spandrel_mavlink::contract::cue;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// Minimum interval between two texts other than crashes (estimate: time to read one; docs/src/reference/wire.md, "The monitor",
-/// gives the reason).
+/// Minimum interval between two texts, except for crashes (estimate: time to read one; docs/src/reference/wire.md, "The
+/// monitor").
 const APART: SimTime = SimTime::from_ms(1_000);
-/// Texts that have waited this long are stale and dropped.
+/// Maximum time that a text waits in the queue; afterward, it is dropped.
 const STALE: SimTime = SimTime::from_ms(2_000);
-/// Maximum queue length; a crash displaces other texts.
+/// Maximum length of the queue. A crash text displaces others.
 const WAITING: usize = 4;
 
 /// Queue of texts to send.
@@ -21,7 +21,7 @@ pub struct TextQueue {
 }
 
 impl TextQueue {
-    /// Enqueues texts, most urgent first. A new text replaces a queued one from the same rule.
+    /// Adds texts, most urgent first. A new text replaces a queued text of the same rule.
     pub fn put(&mut self, now: SimTime, texts: Vec<PilotText>) {
         for text in texts {
             self.waiting.retain(|(_, waiting)| waiting.cue != text.cue);
@@ -34,7 +34,7 @@ impl TextQueue {
         self.waiting.truncate(WAITING);
     }
 
-    /// Returns the next text that is due.
+    /// Returns the next text if one may be sent now.
     pub fn next(&mut self, now: SimTime) -> Option<PilotText> {
         self.waiting.retain(|(put, _)| now - *put < STALE);
         let crash = self.waiting.front()?.1.cue == cue::CRASH;

@@ -1,4 +1,4 @@
-//! Too-close cue: the distance from the drone's center to the nearest surface is below the limit, with hysteresis.
+//! Too-close cue: the clearance (distance from the drone's center to the nearest surface) is below the limit, with hysteresis.
 
 use super::{CoolDown, FeedbackInput, PilotText};
 use spandrel_mavlink::contract::cue;
@@ -13,14 +13,14 @@ pub struct TooCloseCue {
 }
 
 impl TooCloseCue {
-    /// Updates the rule and returns the cue bits and a text, if one is due.
+    /// Updates the rule. Returns the cue bits and, if one must be sent, a text.
     pub fn update(&mut self, moment: &FeedbackInput, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let Some(clearance) = moment.clearance_m.filter(|_| moment.in_session && moment.airborne) else {
             self.on = false;
             return (0, None);
         };
-        // A task's own limit applies on its path, and near it when off all paths, so that entering or leaving a confined space
-        // raises no warning.
+        // A task's own limit applies while the drone is on its path, and near it while off all paths. Entering or leaving a
+        // confined space therefore raises no warning.
         let near = moment.tasks.iter().filter(|task| task.distance_m <= limits.off_path_max_m);
         let own = match moment.current_task {
             Some(task) => moment.tasks[task].too_close_m,

@@ -1,4 +1,4 @@
-//! Visual attention: determines which defects each picture shows, from geometry and lighting.
+//! Visual attention: determines which defects each picture shows, based on geometry and lighting.
 
 use serde::Serialize;
 use spandrel_mavlink::telemetry::{Flight, Frame};
@@ -11,28 +11,28 @@ use spandrel_model::vehicle::{Camera, Lamp, Vehicle};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Queries that the scorer makes of the site. [`Site`] implements it; tests use their own implementations.
+/// Site queries needed for scoring. [`Site`] implements this trait; tests use their own implementations.
 pub trait SiteSurvey: std::fmt::Debug + Send + Sync {
     /// Returns the session's defects.
     fn defects(&self) -> &[PlacedDefect];
-    /// Returns the visibility of each defect in range for a picture.
+    /// Returns the visibility of each defect within range in a picture with these settings.
     fn view_defects(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: SimTime) -> Vec<DefectView>;
-    /// Returns the name of the nearest object within `max_m`, for messages.
+    /// Returns the name of the nearest object within `max_m`, for messages to the pilot.
     fn name_near(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<String>;
-    /// Returns a copy with these bridge closures applied; `None` if the site has no moving traffic.
+    /// Returns a copy of the site with these bridge closures; `None` if the site has no moving traffic.
     fn with_closures(&self, _: BridgeClosures) -> Option<Arc<dyn SiteSurvey>> {
         None
     }
 }
 
-/// Applies the bridge closures of a flight to a survey.
+/// Applies the bridge closures that were active during a flight.
 #[must_use]
 pub fn with_traffic_at(survey: Arc<dyn SiteSurvey>, flight: &Flight) -> Arc<dyn SiteSurvey> {
     let gates = gates(flight);
     if gates.is_empty() { survey } else { survey.with_closures(gates).unwrap_or(survey) }
 }
 
-/// Returns the bridge closures during a flight.
+/// Returns the bridge closures that were active during a flight.
 #[must_use]
 pub fn gates(flight: &Flight) -> BridgeClosures {
     BridgeClosures::from_codes(flight.traffic.all().iter().map(|said| said.2))
@@ -53,36 +53,36 @@ impl SiteSurvey for Site {
     }
 }
 
-/// Fields of view that differ by less are treated as equal, rad: the telemetry carries degrees with 24-bit precision.
+/// Difference below which two fields of view count as equal, rad. Telemetry transmits degrees with 24-bit precision.
 const SAME_RAD: f64 = 1e-6;
 
-/// Result of one picture.
+/// Evaluation of one picture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Snapshot {
     /// Frame in which the picture was taken, from 1.
     pub frame: u32,
     /// Time since lift-off, s.
     pub t_s: f64,
-    /// Whether it shows at least one defect that no earlier picture shows.
+    /// Whether the picture shows at least one defect that no earlier picture shows.
     pub hit: bool,
-    /// Defects that it is the first to show.
+    /// Ids of the defects that this picture is the first to show.
     pub found: Vec<u32>,
-    /// All defects in view, with the conditions that failed.
+    /// All defects in view, each with the conditions that failed.
     pub views: Vec<DefectSighting>,
 }
 
 /// Visibility of one defect in one picture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DefectSighting {
-    /// Defect number.
+    /// Number of the defect, from 1.
     pub defect: u32,
-    /// Whether all conditions hold.
+    /// Whether all conditions are met.
     pub shown: bool,
-    /// Conditions that do not hold.
+    /// Conditions that are not met, as text.
     pub fails: Vec<String>,
 }
 
-/// Evaluates all pictures taken in `frames`. Pictures taken within one frame count as one.
+/// Evaluates all pictures taken in `frames`. Several pictures within one frame count as one.
 #[must_use]
 pub fn snapshots(flight: &Flight, frames: &[Frame], vehicle: &Vehicle, survey: &dyn SiteSurvey) -> Vec<Snapshot> {
     let Some(first) = frames.first() else { return Vec::new() };
@@ -110,7 +110,7 @@ fn views(flight: &Flight, time: SimTime, vehicle: &Vehicle, survey: &dyn SiteSur
     looks.iter().filter(|look| look.in_frame || look.hit).map(view).collect()
 }
 
-/// Returns the camera at its recorded field of view; if none was recorded, the lens is assumed to be fixed.
+/// Returns the camera with its recorded field of view. If none was recorded, the lens is fixed.
 #[must_use]
 pub fn camera(flight: &Flight, time: SimTime, camera: &Camera) -> Camera {
     match flight.field_of_view.at(time) {

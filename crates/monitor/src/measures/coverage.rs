@@ -1,9 +1,9 @@
-//! Coverage: the fraction of each task's reference path that was flown, by length.
+//! Coverage: the fraction of each reference path's length that was flown.
 
 use super::on_path::{OnPath, ReferencePath, ReferencePaths};
 
 /// Maximum path length between the nearest points of two consecutive frames that counts as flown, m (estimate: frames are at most
-/// 1.4 m apart at 13.4 m/s and 10 Hz; the nearest point jumps farther where the drone cuts a corner within the threshold).
+/// 1.4 m apart at 13.4 m/s and 10 Hz, but the nearest point moves farther if the drone cuts a corner within the threshold).
 const JOINED_M: f64 = 5.0;
 
 /// Coverage of one path.
@@ -11,11 +11,12 @@ const JOINED_M: f64 = 5.0;
 pub struct PathCoverage {
     /// Length of the path, m; 0 for a single point.
     pub length_m: f64,
-    /// Fraction of the length that was flown, 0 to 1. For a path no longer than its threshold: 1 once it was reached.
+    /// Fraction of the length that was flown, 0 to 1. A path that is not longer than its threshold counts as flown once it is
+    /// reached.
     pub share: f64,
 }
 
-/// Computes the coverage of every path, in task order.
+/// Computes the coverage of all paths, in task order.
 #[must_use]
 pub fn coverage(paths: &ReferencePaths, on_path: &OnPath) -> Vec<PathCoverage> {
     (0..paths.len()).map(|task| of_task(paths.path(task), paths.threshold_m(task), task, on_path)).collect()
@@ -31,7 +32,7 @@ fn of_task(path: &ReferencePath, threshold_m: f64, task: usize, on_path: &OnPath
 
 /// The part of one path flown so far, updated frame by frame.
 ///
-/// A point represents half of each adjacent segment. It is covered if it was the nearest point in an on-path frame or lies
+/// A point represents half of each adjacent segment. It is covered if it was the nearest point in an on-path frame, or if it is
 /// between the nearest points of two consecutive on-path frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlownPath {
@@ -43,15 +44,15 @@ pub struct FlownPath {
 }
 
 impl FlownPath {
-    /// Creates a tracker with nothing flown.
+    /// Creates a tracker for a path of which nothing was flown.
     #[must_use]
     pub fn new(path: &ReferencePath, threshold_m: f64) -> Self {
         let covered = vec![false; path.points_m().len()];
         Self { along_m: path.along_m(), weights_m: path.lengths_by_point_m(), threshold_m, covered, before: None }
     }
 
-    /// Adds a frame: the index of the nearest path point while the drone is on the path, otherwise `None`. An index out of range
-    /// counts as `None`.
+    /// Adds a frame. `point` is the index of the nearest path point, or `None` while the drone is off the path. An index out of
+    /// range counts as `None`.
     pub fn note(&mut self, point: Option<usize>) {
         let point = point.filter(|point| *point < self.covered.len());
         if let Some(point) = point {
@@ -62,7 +63,7 @@ impl FlownPath {
         self.before = point;
     }
 
-    /// Returns, for each point of the path, whether it was flown.
+    /// Returns whether each point of the path was flown.
     #[must_use]
     pub fn points(&self) -> &[bool] {
         &self.covered
@@ -75,8 +76,8 @@ impl FlownPath {
         let flown = self.weights_m.iter().zip(&self.covered).filter(|(_, covered)| **covered);
         let covered_m = flown.fold(0.0, |sum, (weight, _)| sum + weight);
         let any = f64::from(u8::from(self.covered.iter().any(|covered| *covered)));
-        // A path no longer than its threshold is a hold position: reaching it covers all of it. If every point is covered, the
-        // share is exactly 1 regardless of rounding.
+        // A path that is not longer than its threshold is a hold position: reaching it covers all of it. If every point is
+        // covered, the share is exactly 1 in spite of rounding.
         let whole = length_m <= self.threshold_m || self.covered.iter().all(|covered| *covered);
         let share = if whole { any } else { covered_m / length_m };
         PathCoverage { length_m, share }
@@ -95,13 +96,13 @@ mod tests {
         assert_eq!(flown.coverage(), PathCoverage { length_m: 10.0, share: 0.0 });
         flown.note(Some(0));
         flown.note(Some(4));
-        assert_eq!(flown.coverage().share, 0.45, "joined: half a metre at the start, one for each of four points");
+        assert_eq!(flown.coverage().share, 0.45, "half a meter for the first point, one meter for each of four points");
         flown.note(Some(10));
-        assert_eq!(flown.coverage().share, 0.5, "6 m on are not joined");
+        assert_eq!(flown.coverage().share, 0.5, "a gap of 6 m is not covered");
         flown.note(None);
         flown.note(Some(8));
         flown.note(Some(11));
-        assert_eq!(flown.coverage().share, 0.6, "beyond the last point there is none");
+        assert_eq!(flown.coverage().share, 0.6, "an index out of range is ignored");
         assert_eq!(flown.points().iter().filter(|flown| **flown).count(), 7);
     }
 }

@@ -1,4 +1,4 @@
-//! Crash analysis: pad rule, lost contact messages, onsets, and assignment of crashes to tasks.
+//! Crash analysis: touchdowns on the pad, lost contact messages, start of contacts, and assignment of crashes to tasks.
 
 use super::on_path::OnPath;
 use spandrel_mavlink::contract::contact::ContactKind;
@@ -6,30 +6,32 @@ use spandrel_mavlink::telemetry::{Flight, Frame};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::GroundTeam;
 
-/// Contact with the pad below this vertical speed is not a crash, m/s (docs/src/reference/assessment.md, "Crashes").
+/// Maximum vertical speed at which contact with the pad is not a crash, m/s (docs/src/reference/assessment.md, "Crashes").
 const SOFT_TOUCH_M_S: f64 = 1.0;
-/// Contacts higher above the pad than this are not with the surrounding ground, m (estimate: center of any aircraft when tilted).
+/// Maximum height above the pad at which a contact can be with the surrounding ground, m (estimate: center of any tilted
+/// aircraft).
 const PAD_REACH_M: f64 = 1.0;
-/// Number of frames to look back for the impact speed, because the drone may already have stopped at the onset.
+/// Number of preceding frames that are searched for the impact speed, because the drone may already have stopped when the contact
+/// is reported.
 const LOOK_BACK_FRAMES: usize = 2;
 
-/// One onset of contact.
+/// The start of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crash {
-    /// Index of the frame, from 0.
+    /// Index of the first frame of the contact, from 0.
     pub frame: usize,
     /// Index of the last frame of the same contact, from 0.
     pub last: usize,
-    /// What was hit.
+    /// Kind of object hit.
     pub with: ContactKind,
-    /// Maximum speed around the onset, m/s.
+    /// Maximum speed around the start of the contact, m/s.
     pub speed_m_s: f64,
-    /// Index of the task whose window contains it.
+    /// Index of the task whose window contains the crash, if any.
     pub task: Option<usize>,
 }
 
-/// Restores contacts whose messages were lost, then clears touchdowns and lift-offs on the pad. Changes only the frames'
-/// `contact`.
+/// Restores contacts whose messages were lost, then removes touchdowns and lift-offs on the pad. Changes only `contact` of the
+/// frames.
 pub fn settle_contacts(frames: &mut [Frame], flight: &Flight, team: &GroundTeam) {
     for time in flight.missed_contacts() {
         let i = frames.partition_point(|frame| frame.time < time);
@@ -56,14 +58,14 @@ fn is_soft_touch(frames: &[Frame], onset: usize, team: &GroundTeam) -> bool {
     may_touch_pad(frames[onset].position_m, vertical.fold(0.0, f64::max), team)
 }
 
-/// Returns whether contact with ground or pad at this position and vertical speed is a touchdown or lift-off rather than a crash.
+/// Returns whether contact with the ground or pad at this position and vertical speed is a touchdown or lift-off, not a crash.
 #[must_use]
 pub fn may_touch_pad(position_m: Vec3<Enu>, vertical_m_s: f64, team: &GroundTeam) -> bool {
     let from_pad = position_m - team.pad_m;
     from_pad.horizontal_norm() <= team.home_radius_m && from_pad.up() < PAD_REACH_M && vertical_m_s.abs() < SOFT_TOUCH_M_S
 }
 
-/// Returns all onsets: frames in which contact begins or escalates to a vehicle or a person.
+/// Returns all crashes: frames in which a contact starts, or escalates to a vehicle or person.
 #[must_use]
 pub fn crashes(frames: &[Frame], on_path: &OnPath) -> Vec<Crash> {
     let mut found: Vec<Crash> = Vec::new();
@@ -84,8 +86,8 @@ pub fn crashes(frames: &[Frame], on_path: &OnPath) -> Vec<Crash> {
     found
 }
 
-/// Returns the task whose window contains frame `i`. Where windows overlap: the task being flown, otherwise the last one flown,
-/// otherwise the lowest index.
+/// Returns the task whose window contains frame `i`. If several do, returns the task being flown, otherwise the last one flown,
+/// otherwise the one with the lowest index.
 fn task_of(i: usize, on_path: &OnPath) -> Option<usize> {
     let holds = |task: usize| on_path.windows[task].is_some_and(|window| window.contains(i));
     let open: Vec<usize> = (0..on_path.windows.len()).filter(|task| holds(*task)).collect();
@@ -96,7 +98,7 @@ fn task_of(i: usize, on_path: &OnPath) -> Option<usize> {
     flown.filter(|task| open.contains(task)).or(open.first().copied())
 }
 
-/// Merges crashes less than `apart_frames` frames apart, as the certification profile requires.
+/// Merges crashes that are less than `apart_frames` frames apart, as the certification profile requires.
 #[must_use]
 pub fn merged(crashes: &[Crash], apart_frames: f64) -> Vec<Crash> {
     let mut merged: Vec<Crash> = Vec::new();

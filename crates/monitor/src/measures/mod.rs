@@ -1,4 +1,4 @@
-//! Measures computed from the frames of a session, one file per measure.
+//! Measures computed from the frames of a session, with one file per measure.
 
 pub mod attention;
 pub mod coverage;

@@ -1,11 +1,12 @@
-//! On-path analysis (the paper's algorithm 1) and task windows.
+//! On-path analysis (algorithm 1 of the TASBID paper) and task windows.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::Scenario;
 
-/// Points per search block. Blocks whose bounding box is farther than the best point so far are skipped; the result is exact.
+/// Number of points per search block. Blocks whose bounding box is farther away than the best point so far are skipped; the
+/// result is still exact.
 const BLOCK: usize = 16;
-/// Relative tolerance for rounding when a box is excluded.
+/// Factor that allows for rounding errors when a box is skipped.
 const BOX_SLACK: f64 = 1.0 + 1e-9;
 
 /// A reference path indexed for nearest-point queries.
@@ -39,21 +40,21 @@ impl Aabb {
     }
 }
 
-/// Nearest point on a path.
+/// Nearest point on a reference path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearestOnPath {
-    /// Index of the nearest reference point (n*); in `exact` mode, of the first point of the nearest segment.
+    /// Index of the nearest reference point (n*); in `exact` mode, the index of the first point of the nearest segment.
     pub point: usize,
     /// Distance to the path (l*), m.
     pub distance_m: f64,
 }
 
 impl ReferencePath {
-    /// Creates a path from at least one point; `closed` joins the last point to the first.
+    /// Creates a path from at least one point. If `closed`, the last point is connected to the first.
     #[must_use]
     pub fn new(points_m: &[Vec3<Enu>], closed: bool) -> Self {
         let count = points_m.len();
-        // Each block also includes the end of its last segment, so that the same boxes work for points and segments.
+        // Each block includes the end of its last segment, so that the same boxes can be used for points and segments.
         let block = |start: usize| Aabb::around((start..=(start + BLOCK).min(count)).map(|k| &points_m[k % count]));
         Self { points_m: points_m.to_vec(), closed, blocks: (0..count).step_by(BLOCK).map(block).collect() }
     }
@@ -64,8 +65,8 @@ impl ReferencePath {
         &self.points_m
     }
 
-    /// Applies the paper's rule: finds the nearest reference point (lowest index on ties), then measures to its adjacent
-    /// segments.
+    /// Applies the rule of the TASBID paper: finds the nearest reference point (in a tie, the one with the lowest index), then
+    /// measures the distance to the adjacent segments.
     #[must_use]
     pub fn paper(&self, position_m: Vec3<Enu>) -> Option<NearestOnPath> {
         let point = self.search(position_m, |k| (position_m - self.points_m[k]).norm_squared())?;
@@ -77,7 +78,7 @@ impl ReferencePath {
         Some(NearestOnPath { point, distance_m: squared.sqrt() })
     }
 
-    /// Measures the distance to the whole polyline.
+    /// Returns the exact distance to the whole polyline.
     #[must_use]
     pub fn exact(&self, position_m: Vec3<Enu>) -> Option<NearestOnPath> {
         let to_segment = |k: usize| {
@@ -88,7 +89,7 @@ impl ReferencePath {
         Some(NearestOnPath { point, distance_m: to_segment(point).sqrt() })
     }
 
-    /// Returns the nearest position on the whole polyline, m.
+    /// Returns the position on the whole polyline that is nearest, m.
     #[must_use]
     pub fn closest_on_segment(&self, position_m: Vec3<Enu>) -> Option<Vec3<Enu>> {
         let point = self.exact(position_m)?.point;
@@ -96,7 +97,7 @@ impl ReferencePath {
         Some(a.lerp(b, along(position_m, a, b)))
     }
 
-    /// Returns whether no part of the path is within `distance_m`.
+    /// Returns whether the whole path is farther away than `distance_m`.
     #[must_use]
     pub fn is_beyond(&self, position_m: Vec3<Enu>, distance_m: f64) -> bool {
         let limit = distance_m * distance_m * BOX_SLACK;
@@ -134,8 +135,8 @@ impl ReferencePath {
         Some((self.points_m[k], self.points_m[next]))
     }
 
-    /// Returns the index with the lowest cost (lowest index on ties). A cost must be at least the squared distance to its block's
-    /// box.
+    /// Returns the index with the lowest cost (in a tie, the lowest index). The cost of a point must not be less than the squared
+    /// distance to its block's box.
     fn search(&self, position_m: Vec3<Enu>, cost: impl Fn(usize) -> f64) -> Option<usize> {
         let point = position_m.array();
         let mut best: Option<(f64, usize)> = None;
@@ -158,7 +159,7 @@ fn to_segment_squared(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>) -> f64 {
     (p - (a + (b - a) * along(p, a, b))).norm_squared()
 }
 
-/// Returns the parameter of the point nearest to `p` on the segment from `a` (0) to `b` (1).
+/// Returns the position of the point nearest to `p` on the segment from `a` (0) to `b` (1).
 fn along(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>) -> f64 {
     let way = b - a;
     let length_squared = way.norm_squared();
@@ -214,8 +215,8 @@ impl ReferencePaths {
         if self.exact { self.paths[task].exact(position_m) } else { self.paths[task].paper(position_m) }
     }
 
-    /// Returns the task whose path the drone is on: among the tasks within their threshold, the one with the smallest
-    /// l*/threshold. Ties go to `current`, then to the lowest index.
+    /// Returns the task whose path the drone is on: of the tasks within their threshold, the one with the smallest l*/threshold.
+    /// In a tie, `current` is preferred, then the lowest index.
     #[must_use]
     pub fn on(&self, position_m: Vec3<Enu>, current: Option<usize>) -> Option<(usize, NearestOnPath)> {
         let mut best: Option<(f64, usize, NearestOnPath)> = None;
@@ -243,9 +244,9 @@ impl ReferencePaths {
 /// First and last on-path frame of a task, as indices from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct OnPathWindow {
-    /// First frame.
+    /// Index of the first frame.
     pub first: usize,
-    /// Last frame, inclusive.
+    /// Index of the last frame, inclusive.
     pub last: usize,
 }
 
@@ -263,17 +264,17 @@ impl OnPathWindow {
     }
 }
 
-/// On-path state of all frames (X_t,i): at most one task per frame.
+/// On-path state of all frames (X_t,i). A frame is on the path of at most one task.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OnPath {
-    /// For each frame, the task and the index of the nearest point of its path.
+    /// For each frame, the task whose path the drone is on and the index of the nearest path point.
     pub task: Vec<Option<(usize, usize)>>,
-    /// For each task, its window; `None` if its path was never entered.
+    /// Window of each task; `None` if its path was never entered.
     pub windows: Vec<Option<OnPathWindow>>,
 }
 
 impl OnPath {
-    /// Measures positions given in frame order.
+    /// Determines the on-path state from positions in frame order.
     pub fn measure(paths: &ReferencePaths, positions_m: impl Iterator<Item = Vec3<Enu>>) -> Self {
         let mut windows: Vec<Option<OnPathWindow>> = vec![None; paths.len()];
         let mut current = None;
@@ -290,7 +291,7 @@ impl OnPath {
         Self { task, windows }
     }
 
-    /// Returns the fraction of the window's frames that are on the path (P_p,t); 0 if it was never entered.
+    /// Returns the fraction of a task window's frames that are on the path (P_p,t); 0 if the path was never entered.
     #[must_use]
     pub fn share(&self, task: usize) -> f64 {
         let Some(window) = self.windows[task] else { return 0.0 };

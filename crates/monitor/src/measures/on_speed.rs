@@ -1,8 +1,8 @@
-//! On-speed analysis (the paper's equation 5 and P_s).
+//! On-speed analysis (equation 5 and P_s of the TASBID paper).
 
 use super::on_path::OnPathWindow;
 
-/// Returns, for each frame, whether the speed exceeds the limit inside any task window (X_s,i).
+/// Returns for each frame whether it is inside any task window and the speed exceeds the limit (X_s,i).
 #[must_use]
 pub fn speeding(speeds_m_s: &[f64], windows: &[Option<OnPathWindow>], limit_m_s: f64) -> Vec<bool> {
     let mut inside = vec![false; speeds_m_s.len()];
@@ -12,14 +12,14 @@ pub fn speeding(speeds_m_s: &[f64], windows: &[Option<OnPathWindow>], limit_m_s:
     speeds_m_s.iter().zip(inside).map(|(speed, inside)| inside && *speed > limit_m_s).collect()
 }
 
-/// Returns the speeding loss (P_s,t): the sum of v/limit over speeding frames, divided by all frames of the window; 0 without a
-/// window.
+/// Returns the speeding loss (P_s,t): the sum of speed / limit over the speeding frames, divided by the number of all frames in
+/// the window; 0 without a window.
 #[must_use]
 pub fn loss(speeds_m_s: &[f64], speeding: &[bool], window: Option<OnPathWindow>, limit_m_s: f64) -> f64 {
     let Some(window) = window else { return 0.0 };
     let range = window.first..=window.last;
     let weights = speeds_m_s[range.clone()].iter().zip(&speeding[range]).filter(|(_, on)| **on).map(|(v, _)| v / limit_m_s);
-    // An empty sum of floats is -0.0; adding 0.0 makes it +0.0.
+    // The sum of an empty list of floats is -0.0. Adding 0.0 changes it to +0.0.
     (weights.sum::<f64>() + 0.0) / window.frames() as f64
 }
 

@@ -1,6 +1,5 @@
-//! The certification profile, computed in addition to the paper's four scores. It adds pass/fail requirements, counts only the
-//! part of a path that was flown and weights crashes by speed. The weights are estimates of this project and are included in the
-//! output.
+//! The certification profile, computed in addition to the four TASBID scores. It adds pass/fail requirements, counts only the
+//! part of a path that was flown, and weights crashes by speed. Its weights are this project's estimates.
 
 use crate::measures::coverage::PathCoverage;
 use crate::measures::crash::{self, Crash};
@@ -15,44 +14,44 @@ use spandrel_model::numbers::{format_beside_limit, limit};
 use spandrel_model::scenario::{PlacedDefect, Scenario};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// On-path intervals less than this apart count as one visit, s (docs/src/reference/assessment.md, "Certification").
+/// On-path intervals closer together than this count as one visit, s (docs/src/reference/assessment.md, "Certification").
 const VISIT_APART_S: f64 = 10.0;
-/// Contacts less than this apart count as one crash, s (docs/src/reference/assessment.md, "Certification").
+/// Contacts closer together than this count as one crash, s (docs/src/reference/assessment.md, "Certification").
 const CRASH_APART_S: f64 = 1.0;
 /// Minimum battery at landing, % (docs/src/reference/assessment.md, "Certification").
 const BATTERY_AT_HOME_PCT: f64 = 20.0;
-/// Minimum loss per crash, points (the paper's loss for any crash).
+/// Minimum loss per crash, points; the loss of any crash in TASBID.
 const CRASH_LOSS: f64 = 3.0;
-/// A crash at this speed costs twice the minimum, at twice this speed five times (energy is proportional to speed squared), m/s
-/// (estimate).
+/// Speed at which a crash costs twice the minimum loss, m/s (estimate). The energy increases with the square of the speed, so
+/// that at twice this speed the loss is five times the minimum.
 const CRASH_SPEED_M_S: f64 = 2.0;
 /// Maximum loss per crash, points (estimate).
 const CRASH_LOSS_MAX: f64 = 30.0;
-/// Points lost per second below the minimum clearance (estimate: a minute costs as much as two minimum crashes).
+/// Points lost per second below the minimum clearance (estimate: a minute costs as much as two crashes with the minimum loss).
 const EXPOSURE_LOSS_PER_S: f64 = 0.1;
-/// Maximum loss for low clearance alone, points (estimate).
+/// Maximum loss for low clearance, points (estimate).
 const EXPOSURE_LOSS_MAX: f64 = 50.0;
 
-/// Output of the certification profile.
+/// Results of the certification profile.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Certification {
     /// Whether all requirements are met.
     pub passed: bool,
-    /// Requirements.
+    /// Result of each requirement.
     pub gates: Requirements,
-    /// Requirements that were not met, as text with the value reached and the value needed.
+    /// Unmet requirements as text, each with the value reached and the value required.
     pub unmet: Vec<String>,
-    /// Scores, 0 to 100. Conformity is absent if no path was entered, accuracy if no defect was placed.
+    /// Scores from 0 to 100. Conformity is absent if no path was entered, and accuracy if no defect was placed.
     pub scores: CertificationScores,
-    /// Flags: `not_attempted:ID` per task, `no_evidence`.
+    /// Flags: `not_attempted:ID` for each task that was not attempted; `no_evidence` if no path was entered.
     pub flags: Vec<String>,
-    /// Results per task, by visits.
+    /// Results of each task, based on its visits.
     pub tasks: Vec<TaskVisits>,
-    /// Crashes, merged if less than a second apart.
+    /// Crashes; those less than a second apart are merged.
     pub crashes: Vec<MergedCrash>,
-    /// Number of contact onsets before merging.
+    /// Number of contacts before merging.
     pub crash_onsets: usize,
-    /// Time spent below the scenario's clearance, s.
+    /// Time spent below the scenario's minimum clearance, s.
     pub exposure_s: f64,
     /// Battery at the last frame, %.
     pub battery_at_end_pct: f64,
@@ -60,38 +59,38 @@ pub struct Certification {
     pub detection: Detection,
 }
 
-/// Certification requirements.
+/// Requirements for certification.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Requirements {
-    /// Every task is done, and the session ended by landing at home.
+    /// Whether every task is done and the session ended with a landing at home.
     pub session_complete: bool,
-    /// Every task's path was entered.
+    /// Whether every task's path was entered.
     pub all_tasks_attempted: bool,
-    /// No person or vehicle was hit.
+    /// Whether no person or vehicle was hit.
     pub no_person_or_vehicle_hit: bool,
-    /// The drone landed near the ground team.
+    /// Whether the drone landed near the ground team.
     pub landed_at_home: bool,
-    /// The drone landed with at least 20 % battery.
+    /// Whether the drone landed with at least 20 % battery.
     pub battery_reserve: bool,
 }
 
 /// Scores of the certification profile, 0 to 100 each.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct CertificationScores {
-    /// Conformity, weighted by coverage.
+    /// Conformity, weighted by the coverage of the paths.
     pub conformity: Option<f64>,
     /// Efficiency; 0 if the session ended early or a task was skipped.
     pub efficiency: f64,
     /// Safety, from contact speed and clearance.
     pub safety: f64,
-    /// Accuracy of detection only.
+    /// Accuracy of detection; kinds of defects are not graded.
     pub accuracy: Option<f64>,
 }
 
-/// Visits to one task.
+/// Visits to one task and their results.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TaskVisits {
-    /// Task number.
+    /// Number of the task in the scenario.
     pub id: u32,
     /// First and last frame of each visit.
     pub visits: Vec<(u32, u32)>,
@@ -99,77 +98,78 @@ pub struct TaskVisits {
     pub coverage: f64,
     /// Fraction of the visits' frames that are on the path, 0 to 1.
     pub on_path: f64,
-    /// The paper's speeding loss over the visits' frames.
+    /// Speeding loss of TASBID, computed over the visits' frames.
     pub speeding: f64,
 }
 
-/// One crash after merging.
+/// A crash after merging.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MergedCrash {
-    /// First frame.
+    /// Number of the first frame.
     pub frame: u32,
     /// Time since lift-off, s.
     pub t_s: f64,
     /// Most severe object hit.
     pub with: ContactKind,
-    /// Maximum speed around the onset, m/s.
+    /// Maximum speed around the start of the contact, m/s.
     pub speed_m_s: f64,
-    /// Points lost.
+    /// Points lost by this crash.
     pub loss: f64,
-    /// Task number, if the crash lies in a task's window.
+    /// Number of the task whose window contains the crash, if any.
     pub task: Option<u32>,
 }
 
 /// Number of defects found and placed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct DetectionCounts {
-    /// Defects found.
+    /// Number of defects found.
     pub found: usize,
-    /// Defects placed.
+    /// Number of defects placed.
     pub placed: usize,
 }
 
-/// Detection by element, kind and condition state.
+/// Number of defects found and placed, by element, kind and condition state.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Detection {
-    /// Always true: trainees do not label defects in this version, so only detection is graded, not the kind or condition state.
+    /// Always true: only detection is graded, because trainees cannot report the kind and condition state of a defect in this
+    /// version.
     pub detection_only: bool,
-    /// By AASHTO MBEI element.
+    /// Counts by AASHTO MBEI element number.
     pub by_element: BTreeMap<u32, DetectionCounts>,
-    /// By AASHTO MBEI defect code.
+    /// Counts by AASHTO MBEI defect code.
     pub by_kind: BTreeMap<u32, DetectionCounts>,
-    /// By condition state.
+    /// Counts by condition state, 1 to 4.
     pub by_condition_state: BTreeMap<u8, DetectionCounts>,
 }
 
-/// Input of the certification profile.
+/// Inputs of the certification profile.
 #[derive(Debug)]
 pub struct CertificationInputs<'a> {
-    /// Scenario.
+    /// Scenario of the session.
     pub scenario: &'a Scenario,
     /// Reference paths of the scenario's tasks.
     pub paths: &'a ReferencePaths,
-    /// Session being graded.
+    /// Session to evaluate.
     pub session: &'a Session,
-    /// On-path measure of the session.
+    /// On-path state of the session's frames.
     pub on_path: &'a OnPath,
-    /// Coverage of each task's path.
+    /// Coverage of each task's path, in task order.
     pub covered: &'a [PathCoverage],
-    /// State of each task.
+    /// State of each task, in task order.
     pub states: &'a [TaskState],
     /// Completion of the session.
     pub completion: Completion,
     /// Crashes before merging.
     pub crashes: &'a [Crash],
-    /// Picture and defect counts.
+    /// Counts for the accuracy score.
     pub counts: accuracy::MatchCounts,
-    /// Defects placed.
+    /// Defects placed in the session.
     pub defects: &'a [PlacedDefect],
     /// Ids of the defects found.
     pub found: &'a BTreeSet<u32>,
 }
 
-/// Grades a session.
+/// Evaluates a session by the certification profile.
 #[must_use]
 pub fn grade(evidence: &CertificationInputs<'_>) -> Certification {
     let scenario = evidence.scenario;
@@ -216,13 +216,13 @@ fn gates(evidence: &CertificationInputs<'_>, all_tasks_attempted: bool, battery_
     }
 }
 
-/// Returns the unmet requirements. Battery reserve is omitted if the drone did not land, and skipped tasks are not listed twice.
+/// Returns the unmet requirements as text. The battery reserve is omitted if the drone did not land.
 fn unmet(evidence: &CertificationInputs<'_>, gates: &Requirements, battery_pct: f64) -> Vec<String> {
     let done_share = evidence.completion.done_share;
     let tasks = evidence.scenario.tasks.iter().zip(evidence.states).zip(evidence.covered);
     let mut unmet = Vec::new();
     if !gates.no_person_or_vehicle_hit {
-        unmet.push("a person or a vehicle was hit".to_owned());
+        unmet.push("a person or vehicle was hit".to_owned());
     }
     unmet.extend(tasks.filter_map(|((task, state), covered)| missing(task.id, *state, covered.share, done_share)));
     if !gates.landed_at_home {
@@ -248,7 +248,7 @@ fn paper_efficiency(evidence: &CertificationInputs<'_>) -> f64 {
     efficiency::score(evidence.session.seconds(scoring.frame_rate_hz), false, scoring.time_best_s, scoring.time_max_s).pct
 }
 
-/// Returns the visits to a task: on-path intervals less than `apart_frames` apart, joined.
+/// Returns the visits to a task: on-path intervals, merged if they are less than `apart_frames` apart.
 fn visit_ranges(on_path: &OnPath, task: usize, apart_frames: f64) -> Vec<(usize, usize)> {
     let mut ranges: Vec<(usize, usize)> = Vec::new();
     for (i, _) in on_path.task.iter().enumerate().filter(|(_, on)| on.is_some_and(|(t, _)| t == task)) {
@@ -312,7 +312,8 @@ fn merged(evidence: &CertificationInputs<'_>) -> Vec<MergedCrash> {
         .collect()
 }
 
-/// Returns the time spent below the scenario's clearance or, where smaller, that of the last task entered, as in the feedback, s.
+/// Returns the time spent below the minimum clearance, s. The limit is the scenario's or, if smaller, that of the last task
+/// entered, as in the feedback.
 fn exposure_s(evidence: &CertificationInputs<'_>) -> f64 {
     let scenario = evidence.scenario;
     let mut current: Option<usize> = None;

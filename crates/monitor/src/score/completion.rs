@@ -1,23 +1,24 @@
-//! Completion of the job. It is shown with every score, so that an incomplete flight is never mistaken for a good one.
+//! Completion of the job. It is shown with every score, so that nobody takes the scores of an incomplete flight for those of a
+//! complete one.
 
 use crate::measures::coverage::PathCoverage;
 use serde::{Deserialize, Serialize};
 use spandrel_model::numbers::{format_beside_limit, limit};
 
-/// Progress on a task.
+/// How much of a task was flown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TaskState {
-    /// Enough of its path was flown.
+    /// The required fraction of its path was flown.
     Done,
-    /// Its path was entered, but not enough of it was flown.
+    /// Its path was entered, but less than the required fraction was flown.
     Part,
     /// Its path was never entered.
     NotAttempted,
 }
 
 impl TaskState {
-    /// Determines the state from the fraction of the path that was flown.
+    /// Determines the state from whether the path was entered and from the fraction that was flown.
     #[must_use]
     pub fn of(attempted: bool, covered: f64, done_share: f64) -> Self {
         match (attempted, covered >= done_share) {
@@ -27,12 +28,12 @@ impl TaskState {
         }
     }
 
-    /// Returns the state as text, with the percentage of the path.
+    /// Returns the state as text, with the percentage of the path that was flown.
     #[must_use]
     pub fn words(self, covered: f64, done_share: f64) -> String {
         match self {
             Self::Done => format!("done, {} % of its path", percent(covered, done_share)),
-            Self::Part => format!("part, {} % of its path", percent(covered, done_share)),
+            Self::Part => format!("partly flown, {} % of its path", percent(covered, done_share)),
             Self::NotAttempted => "not attempted".to_owned(),
         }
     }
@@ -41,7 +42,7 @@ impl TaskState {
 /// Completion of a session.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Completion {
-    /// Whether every task is done and the session ended by landing at home.
+    /// Whether every task is done and the session ended with a landing at home.
     pub complete: bool,
     /// Number of tasks done.
     pub tasks_done: usize,
@@ -49,21 +50,21 @@ pub struct Completion {
     pub tasks: usize,
     /// Fraction of the total path length that was flown, 0 to 1.
     pub path_share: f64,
-    /// Whether the session ended by landing at home.
+    /// Whether the session ended with a landing at home.
     pub landed_at_home: bool,
-    /// Fraction of its path at which a task counts as done, 0 to 1.
+    /// Fraction of a task's path that must be flown for the task to count as done, 0 to 1.
     pub done_share: f64,
 }
 
 impl Completion {
-    /// Computes the completion from the states and coverage of all tasks.
+    /// Computes the completion of a session from the states and coverage of all tasks.
     #[must_use]
     pub fn of(states: &[TaskState], covered: &[PathCoverage], landed_at_home: bool, done_share: f64) -> Self {
         let tasks_done = states.iter().filter(|state| **state == TaskState::Done).count();
         let length_m: f64 = covered.iter().map(|one| one.length_m).sum();
         let flown_m = covered.iter().fold(0.0, |sum, one| sum + one.length_m * one.share);
         let count = states.len().max(1) as f64;
-        // Paths of single points have no length; each point has the same weight.
+        // Paths that consist of a single point have no length, so all paths have the same weight.
         let by_count = covered.iter().fold(0.0, |sum, one| sum + one.share) / count;
         Self {
             complete: landed_at_home && tasks_done == states.len(),
@@ -75,18 +76,18 @@ impl Completion {
         }
     }
 
-    /// Returns tasks and path as text, such as "Incomplete: 1 of 4 tasks, 31 % of the path".
+    /// Returns the completion as text, such as "Incomplete: 1 of 4 tasks, 31 % of the path".
     #[must_use]
     pub fn short(&self) -> String {
         let word = if self.complete { "Complete" } else { "Incomplete" };
-        // With one task the share determines completion; with several it is only informative.
+        // If there is one task, its share determines the completion and needs enough digits; with several tasks it does not.
         let share =
             if self.tasks == 1 { percent(self.path_share, self.done_share) } else { format!("{:.0}", 100.0 * self.path_share) };
         let tasks = if self.tasks == 1 { "task" } else { "tasks" };
         format!("{word}: {} of {} {tasks}, {share} % of the path", self.tasks_done, self.tasks)
     }
 
-    /// Returns the headline: [`Self::short`], plus the missing landing if nothing else is missing.
+    /// Returns [`Self::short`]. Mentions a missing landing only if all tasks are done.
     #[must_use]
     pub fn headline(&self) -> String {
         let only_landing = !self.landed_at_home && self.tasks_done == self.tasks;
@@ -94,13 +95,13 @@ impl Completion {
     }
 }
 
-/// Formats a fraction as a percentage with enough digits to show on which side of the limit it lies.
+/// Formats a fraction as a percentage with enough digits to tell it from the limit.
 #[must_use]
 pub fn percent(share: f64, done_share: f64) -> String {
     format_beside_limit(100.0 * share, 100.0 * done_share, 0)
 }
 
-/// Describes an incomplete task; `None` if it is done.
+/// Describes why a task is incomplete; `None` if it is done.
 #[must_use]
 pub fn missing(id: u32, state: TaskState, covered: f64, done_share: f64) -> Option<String> {
     match state {
@@ -114,7 +115,7 @@ pub fn missing(id: u32, state: TaskState, covered: f64, done_share: f64) -> Opti
     }
 }
 
-/// Returns the certification verdict as text: certified, or the first unmet requirement.
+/// Returns the certification verdict as text. If the session is not certified, it includes the first unmet requirement.
 #[must_use]
 pub fn verdict(certified: bool, unmet: &[String]) -> String {
     match (certified, unmet) {

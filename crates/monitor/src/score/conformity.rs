@@ -1,18 +1,18 @@
-//! Conformity (the paper's P_C): adherence to the path and the speed limit.
+//! Conformity (P_C in the TASBID paper): adherence to the path and the speed limit.
 
 use super::Score;
 
-/// On-path share and speeding loss of one task (P_p and P_s).
+/// On-path share (P_p) and speeding loss (P_s) of one task.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TaskShares {
     /// Fraction of the window's frames that are on the path (P_p,t), 0 to 1.
     pub on_path: f64,
-    /// Speeding loss (P_s,t).
+    /// Speeding loss of the task (P_s,t in TASBID).
     pub speeding: f64,
 }
 
-/// Computes conformity over all tasks; `None` for a job without tasks. The weights depend on the number of tasks and the two
-/// speeds; in the paper's job they are 25 and -25/3.
+/// Computes conformity over all tasks; `None` for a job without tasks. The weights depend on the number of tasks and on the two
+/// speeds. For the TASBID job, they are 25 and -25/3.
 #[must_use]
 pub fn score(tasks: &[TaskShares], speed_limit_m_s: f64, max_speed_m_s: f64) -> Option<Score> {
     if tasks.is_empty() {

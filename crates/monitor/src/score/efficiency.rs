@@ -1,8 +1,8 @@
-//! Efficiency (the paper's P_E): flight time, and whether the drone returned.
+//! Efficiency (P_E in the TASBID paper): flight time and return.
 
 use super::Score;
 
-/// Computes efficiency: full score up to `time_best_s`, then linearly down to 0 at `time_max_s`; -100 if the battery failed
+/// Computes efficiency: full score up to `time_best_s`, then decreasing linearly to 0 at `time_max_s`; -100 if the battery failed
 /// (X_b).
 #[must_use]
 pub fn score(seconds: f64, battery_failed: bool, time_best_s: f64, time_max_s: f64) -> Score {

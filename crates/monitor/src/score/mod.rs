@@ -1,4 +1,4 @@
-//! Scores computed from the measures: the paper's four scores and the certification profile.
+//! Scores computed from the measures: the four TASBID scores and the certification profile.
 
 pub mod accuracy;
 pub mod certification;
@@ -9,15 +9,16 @@ pub mod safety;
 
 use serde::Serialize;
 
-/// Scorer version. It increases whenever the same flight may score differently, so that only comparable records are compared.
+/// Version of the scorer. It is increased whenever the same flight could get a different score, so that only scores of the same
+/// version are compared.
 pub const SCORER_VERSION: u32 = 2;
 
-/// A score on its own scale and as a percentage. Full precision; rounding happens only on display.
+/// A score on its own scale and as a percentage, in full precision. Scores are rounded only for display.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Score {
-    /// Value of the formula, clamped to its scale.
+    /// Result of the formula, clamped to its scale.
     pub raw: f64,
-    /// Percentage: (raw - least) / (greatest - least) * 100.
+    /// Percentage of the scale: 100 (raw - least) / (greatest - least).
     pub pct: f64,
 }
 
@@ -25,7 +26,7 @@ impl Score {
     /// Creates a score from a raw value, clamped to the range from `least` to `greatest`.
     #[must_use]
     pub fn on_scale(raw: f64, least: f64, greatest: f64) -> Self {
-        // Adding 0.0 turns -0.0 into +0.0.
+        // Adding 0.0 changes -0.0 to +0.0.
         let raw = raw.clamp(least, greatest) + 0.0;
         Self { raw, pct: (raw - least) / (greatest - least) * 100.0 }
     }

@@ -1,13 +1,13 @@
-//! Safety (the paper's P_S): crashes by what was hit.
+//! Safety (P_S in the TASBID paper): crashes by kind of object.
 
 use super::Score;
 
-/// Points lost for hitting a person, and for hitting a vehicle.
+/// Points lost for hitting people and points lost for hitting vehicles.
 const TRAFFIC_LOSS: f64 = 100.0;
-/// Points lost per other crash.
+/// Points lost for each other crash.
 const OTHER_LOSS: f64 = 3.0;
 
-/// Computes safety. `others` is the number of contact onsets with bridge, terrain, water or anything else.
+/// Computes safety. `others` is the number of contacts with bridge, terrain, water or anything else.
 #[must_use]
 pub fn score(person: bool, vehicle: bool, others: usize) -> Score {
     let traffic = f64::from(u8::from(person)) + f64::from(u8::from(vehicle));

@@ -1,4 +1,4 @@
-//! Outgoing messages: cues, texts, replies and events.
+//! Outgoing messages: cues, texts, replies, and events for the log.
 
 use super::{AUTOPILOT, COMPONENT, CUES_EVERY, Monitor, SessionOutput};
 use crate::feedback::{FeedbackInput, TaskProximity};
@@ -12,7 +12,8 @@ use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::{COMMAND_ACK_DATA, MavCmd, MavMessage, MavResult, MavSeverity, STATUSTEXT_DATA, TIMESYNC_DATA};
 use spandrel_mavlink::station;
 
-/// Fraction of a path's points that must be passed before it counts as flown (estimate: a cut corner hides the last ones).
+/// Fraction of a path's points that must be passed before the path counts as flown (estimate: cutting a corner skips some
+/// points).
 const FLOWN_SHARE: f64 = 0.9;
 
 impl Monitor {
@@ -67,7 +68,8 @@ impl Monitor {
         }
     }
 
-    /// Returns whether the task may be left here: anywhere once its path is flown, before that only at an end of the path.
+    /// Returns whether the trainee may leave the task here: anywhere after its path was flown, before that only at an end of the
+    /// path.
     fn may_leave_task(&self, task: usize, point: usize) -> bool {
         let count = self.paths.path(task).points_m().len();
         let passed = self.live.visited_points[task].iter().filter(|passed| **passed).count();
@@ -75,8 +77,8 @@ impl Monitor {
         at_end || passed as f64 >= FLOWN_SHARE * count as f64
     }
 
-    /// Returns whether the drone is low over the pad. Away from the pad this check does not apply, because a job may be flown
-    /// below pad height.
+    /// Returns whether the drone is low over the pad. Away from the pad, heights are not checked, because a job can be flown
+    /// below the pad.
     fn is_down_at_home(&self, truth: &Truth) -> bool {
         let team = &self.config.scenario.ground_team;
         let at_home = (truth.position_m - team.pad_m).horizontal_norm() <= team.home_radius_m;
@@ -112,7 +114,7 @@ impl Monitor {
         }
     }
 
-    /// Adopts the vehicle's system id: that of the scored flight, or until there is one, of the last heartbeat received.
+    /// Adopts the vehicle's system id: that of the scored flight or, until there is one, of the last heartbeat received.
     fn adopt_system(&mut self, system: u8) {
         let system = self.timeline.system().unwrap_or(system);
         if system != self.encoder.system_id() {

@@ -1,10 +1,10 @@
-//! The live monitor, sans-IO: takes datagrams and the clock, returns datagrams and file contents. The application owns sockets
-//! and files.
+//! The live monitor. Processes datagrams and clock updates, and returns datagrams and file contents. Performs no I/O; the
+//! application manages sockets and files.
 //!
 //! ```text
-//! monitor.handle_datagram(bytes)   then, until empty: poll_transmit(), poll_record()
+//! monitor.handle_datagram(bytes)   then, until both return None: poll_transmit(), poll_record()
 //! monitor.handle_timeout(now)      at least every 100 ms of wall time
-//! monitor.finished()               once Some: write assessment.json, stop
+//! monitor.finished()               if Some: write assessment.json and stop
 //! ```
 
 use crate::assessment::{AssessError, AssessedSession};
@@ -40,23 +40,23 @@ pub const COMPONENT: u8 = 191;
 const AUTOPILOT: u8 = 1;
 /// Interval at which `cues` is repeated, 5 Hz (docs/src/reference/wire.md, "Scoring data").
 const CUES_EVERY: SimTime = SimTime::from_ms(200);
-/// Heartbeat interval in simulation time, so that accelerated runs are reproducible.
+/// Heartbeat interval in simulation time, so that runs at any simulation speed are reproducible.
 const HEARTBEAT_EVERY: SimTime = SimTime::from_ms(1_000);
-/// Heartbeat interval in wall time while no simulation time is received.
+/// Heartbeat interval in wall-clock time while no simulation time is received.
 const HEARTBEAT_SILENT: SimTime = SimTime::from_ms(2_000);
-/// Wait for late datagrams before scoring.
+/// Time to wait for late datagrams before scoring.
 const SETTLE: SimTime = SimTime::from_ms(500);
-/// Delay before the next attempt if the live rule detected an end but the scorer did not.
+/// Delay before the next attempt if the live rule detected an end that the scorer did not.
 const RETRY: SimTime = SimTime::from_ms(5_000);
-/// Wall time without telemetry after which the session is closed, once an end was detected.
+/// Wall-clock time without telemetry after which the session is closed, once an end was detected.
 const SILENCE_CLOSES: SimTime = SimTime::from_ms(3_000);
-/// Search radius around the drone's center for the object in contact, m (estimate: half the largest aircraft).
+/// Search radius around the drone's center for the object in contact, m (estimate: half the size of the largest aircraft).
 const TOUCH_REACH_M: f64 = 1.5;
 
-/// Function that builds the site of a seed.
+/// Function that builds the site for a seed.
 pub type SurveyBuilder = fn(&Scenario, u64) -> Arc<dyn SiteSurvey>;
 
-/// Builds the actual site.
+/// Builds the real site; the default [`SurveyBuilder`].
 #[must_use]
 pub fn build_site(scenario: &Scenario, seed: u64) -> Arc<dyn SiteSurvey> {
     Arc::new(Site::build(scenario, seed))
@@ -65,21 +65,22 @@ pub fn build_site(scenario: &Scenario, seed: u64) -> Arc<dyn SiteSurvey> {
 /// Configuration of a monitor.
 #[derive(Debug, Clone)]
 pub struct MonitorConfig {
-    /// Scenario.
+    /// Scenario of the session.
     pub scenario: Scenario,
-    /// Aircraft.
+    /// Aircraft that is flown.
     pub vehicle: Vehicle,
-    /// Trainee name.
+    /// Pseudonym of the trainee.
     pub trainee: String,
-    /// Purpose of the session, practice or assessment, if chosen.
+    /// Purpose of the session, `practice` or `assessment`, if chosen.
     pub purpose: Option<String>,
-    /// Wall-clock time of the session's start, µs since the Unix epoch; after a monitor restart, that of the first start.
+    /// Wall-clock time at which the session started, µs since the Unix epoch. After a restart of the monitor, the time of the
+    /// first start.
     pub started_unix_us: u64,
-    /// System id used until the vehicle is detected: 1 + instance.
+    /// System id used until the vehicle is detected (1 + instance number).
     pub system_id: u8,
-    /// Seed requested on the command line; telemetry with a different seed is rejected.
+    /// Seed specified on the command line. Telemetry with a different seed is rejected.
     pub seed: Option<u64>,
-    /// Builds the site; [`build_site`] except in tests.
+    /// Function that builds the site; [`build_site`] except in tests.
     pub survey_builder: SurveyBuilder,
 }
 
@@ -88,17 +89,17 @@ pub struct MonitorConfig {
 pub enum SessionOutput {
     /// Bytes to append to `telemetry.tlog`.
     Telemetry(Vec<u8>),
-    /// Line to append to `events.jsonl`, including its line end.
+    /// Line to append to `events.jsonl`, including the newline.
     Event(String),
 }
 
-/// State of the live flight.
+/// State of the flight that is being monitored.
 #[derive(Debug, Clone, PartialEq)]
 struct LiveState {
     truth: Option<Truth>,
     battery_pct: Option<f64>,
     contact: ContactKind,
-    /// The current contact is a soft pad contact.
+    /// Whether the current contact is a soft touchdown on the pad.
     on_pad: bool,
     clearance_m: Option<f64>,
     armed: Option<bool>,
@@ -107,7 +108,7 @@ struct LiveState {
     lift_off: Option<SimTime>,
     current_task: Option<usize>,
     last_task: Option<usize>,
-    /// For each task, the path points that were nearest to the drone while it was on the path.
+    /// For each task, whether each path point was the nearest one while the drone was on the path.
     visited_points: Vec<Vec<bool>>,
     rule: EndRule,
     end: Option<(SimTime, EndReason)>,
@@ -118,7 +119,7 @@ struct LiveState {
     closures: BridgeClosures,
 }
 
-/// The live monitor.
+/// Live monitor of one session.
 #[derive(Debug, Clone)]
 pub struct Monitor {
     config: MonitorConfig,
@@ -126,7 +127,7 @@ pub struct Monitor {
     decoder: Decoder,
     encoder: Encoder,
     timeline: Timeline,
-    /// Wall-clock time of simulation time zero, µs since the Unix epoch, once a truth sample was received.
+    /// Wall-clock time of simulation time zero, µs since the Unix epoch; `None` until a truth message was received.
     zero_unix_us: Option<u64>,
     feedback: FeedbackRules,
     texts: TextQueue,
@@ -145,7 +146,7 @@ pub struct Monitor {
 }
 
 impl Monitor {
-    /// Creates a monitor at the start of a session.
+    /// Creates a monitor for a new session.
     #[must_use]
     pub fn new(config: MonitorConfig) -> Self {
         let scenario = &config.scenario;
@@ -173,11 +174,11 @@ impl Monitor {
         }
     }
 
-    /// Creates a monitor that resumes an interrupted session from `log`, the contents of `telemetry.tlog`. The application
-    /// truncates the file to [`tlog::complete_len`] before appending.
+    /// Creates a monitor that resumes an interrupted session. `log` is the content of `telemetry.tlog`. Before appending to that
+    /// file, the application must truncate it to [`tlog::complete_len`].
     ///
     /// # Errors
-    /// If the log cannot be read.
+    /// Fails if the log cannot be read.
     pub fn resume(config: MonitorConfig, log: &(impl TelemetryLog + ?Sized)) -> std::io::Result<Self> {
         let mut monitor = Self::new(config);
         monitor.replaying = true;
@@ -194,8 +195,8 @@ impl Monitor {
         Ok(monitor)
     }
 
-    /// Returns whether this datagram comes from the vehicle: it contains a frame of the autopilot component and, once a scored
-    /// flight exists, of its system.
+    /// Returns whether a datagram comes from the vehicle: it contains a frame of the autopilot component and, once there is a
+    /// scored flight, of the same system.
     #[must_use]
     pub fn is_from_vehicle(&self, bytes: &[u8]) -> bool {
         let system = self.timeline.system();
@@ -208,7 +209,7 @@ impl Monitor {
         Decoder::new().datagram(bytes).iter().any(|frame| fits(frame) && beats(frame))
     }
 
-    /// Handles one datagram from the vehicle. The first `seed` message builds the site, which may take a while.
+    /// Processes a datagram from the vehicle. The first `seed` message builds the site, which can take a while.
     pub fn handle_datagram(&mut self, bytes: &[u8]) {
         self.vehicle_heard = true;
         for received in self.decoder.datagram(bytes) {
@@ -222,7 +223,7 @@ impl Monitor {
         }
     }
 
-    /// Updates the wall time, measured from a fixed instant; needed only while simulation time does not advance.
+    /// Updates the wall-clock time, measured from any fixed instant. Needed only while simulation time does not advance.
     pub fn handle_timeout(&mut self, wall: SimTime) {
         if std::mem::take(&mut self.vehicle_heard) || self.last_heard_wall.is_none() {
             self.last_heard_wall = Some(wall);
@@ -237,29 +238,29 @@ impl Monitor {
         }
     }
 
-    /// Returns the next datagram to send to the vehicle.
+    /// Returns the next datagram to send to the vehicle, if any.
     pub fn poll_transmit(&mut self) -> Option<Vec<u8>> {
         self.out.pop_front()
     }
 
-    /// Returns the next data to write.
+    /// Returns the next data to write to the session folder, if any.
     pub fn poll_record(&mut self) -> Option<SessionOutput> {
         self.records.pop_front()
     }
 
-    /// Returns the result once the session is over.
+    /// Returns the result; `None` while the session is running.
     #[must_use]
     pub fn finished(&self) -> Option<&Result<AssessedSession, AssessError>> {
         self.outcome.as_ref()
     }
 
-    /// Returns why this simulator's telemetry was rejected.
+    /// Returns the reason why the telemetry was rejected, if it was.
     #[must_use]
     pub fn refused(&self) -> Option<&AssessError> {
         self.refusal.as_ref()
     }
 
-    /// Ends the session now (aborted by the user, or link closed) and scores the flight so far.
+    /// Ends the session immediately (aborted by the user, or link closed) and scores the flight up to this point.
     pub fn close(&mut self) {
         if self.outcome.is_none() {
             let outcome = self.score();
@@ -267,12 +268,12 @@ impl Monitor {
         }
     }
 
-    /// Sends the pilot a text and records it as an event.
+    /// Sends a text to the pilot and logs it as an event.
     pub fn notify_pilot(&mut self, words: &str, severity: MavSeverity) {
         self.text(words, severity);
     }
 
-    /// Frees the flight data once the session is over and written; the assessment remains available.
+    /// Frees the memory of the flight data after the session was written. The assessment remains available.
     pub fn release_flight(&mut self) {
         self.timeline = Timeline::new(LocalPlane::new(self.config.scenario.origin));
         self.survey = None;
@@ -300,37 +301,37 @@ impl Monitor {
         self.live.cues
     }
 
-    /// Returns the number of the task whose path the drone is on.
+    /// Returns the number of the task whose path the drone is on, if any.
     #[must_use]
     pub fn task(&self) -> Option<u32> {
         self.live.current_task.map(|task| self.config.scenario.tasks[task].id)
     }
 
-    /// Returns the remaining battery, %.
+    /// Returns the remaining battery, %; `None` if not received yet.
     #[must_use]
     pub fn battery_pct(&self) -> Option<f64> {
         self.live.battery_pct
     }
 
-    /// Returns the link statistics.
+    /// Returns the statistics of the telemetry link.
     #[must_use]
     pub fn link(&self) -> LinkCounts {
         self.timeline.counts()
     }
 
-    /// Returns the seed, once known.
+    /// Returns the seed; `None` until it is known.
     #[must_use]
     pub fn seed(&self) -> Option<u64> {
         self.seed
     }
 
-    /// Returns the site, once the seed is known.
+    /// Returns the site; `None` until the seed is known.
     #[must_use]
     pub fn survey(&self) -> Option<&Arc<dyn SiteSurvey>> {
         self.survey.as_ref()
     }
 
-    /// Returns the contents of `session.json`; the caller provides the files and the UTC text.
+    /// Returns the contents of `session.json`. The caller provides the file contents and the start time as text.
     #[must_use]
     pub fn session_info(
         &self,

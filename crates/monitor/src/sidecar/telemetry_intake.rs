@@ -1,4 +1,4 @@
-//! Telemetry intake: processes one frame at a time, from its log timestamp to the end of the session.
+//! Processing of received telemetry frames: log timestamps, live state, events, and the end of the session.
 
 use super::{COMPONENT, HEARTBEAT_EVERY, LiveState, Monitor, RETRY, SETTLE, TOUCH_REACH_M};
 use crate::assessment::{self, AssessError, AssessedSession, ScoringJob};
@@ -19,8 +19,8 @@ use spandrel_mavlink::telemetry::timeline::FrameDisposition;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::time::SimTime;
 impl Monitor {
-    /// Returns the log timestamp, µs: session start plus simulation time since the first truth sample. It keeps increasing after
-    /// a simulator restart.
+    /// Returns the log timestamp of a frame, µs: the session's start plus the simulation time since the first truth message. It
+    /// keeps increasing after a restart of the simulator.
     pub(super) fn stamp_us(&mut self, received: &ReceivedFrame) -> u64 {
         let own = spandrel_mavlink::telemetry::sample::truth_time(&received.bytes);
         let since_zero = |own: SimTime| u64::try_from(own.us()).unwrap_or(0);
@@ -42,7 +42,7 @@ impl Monitor {
         }
     }
 
-    /// Records an instructor's note at the current time.
+    /// Logs an instructor's note with the current time.
     pub(super) fn take_note(&mut self, received: &ReceivedFrame) {
         if let Some(((system, COMPONENT), text)) = note::decode(received)
             && system == self.encoder.system_id()
@@ -123,7 +123,7 @@ impl Monitor {
         }
     }
 
-    /// Handles a bridge closure or reopening, so that nearby objects are determined under the simulator's traffic.
+    /// Applies the closing or opening of bridges, so that the names of nearby objects match the simulator's traffic.
     fn handle_traffic(&mut self, code: i32) {
         let before = self.live.closures.clone();
         self.live.closures.apply_codes(code);
@@ -241,8 +241,8 @@ impl Monitor {
         }
     }
 
-    /// Scores the session. The live rule uses samples, the scorer uses frames; if the scorer finds no end yet, monitoring
-    /// continues.
+    /// Scores the session. The live rule evaluates messages, but the scorer evaluates frames. If the scorer finds no end yet,
+    /// monitoring continues.
     fn try_to_finish(&mut self, now: SimTime) {
         let outcome = self.score();
         match &outcome {

@@ -1,4 +1,4 @@
-//! A telemetry log that is read in pieces.
+//! Reading a telemetry log in pieces gives the same records as reading it at once.
 
 use spandrel_mavlink::codec::Encoder;
 use spandrel_mavlink::dialect::{HEARTBEAT_DATA, MavMessage};
@@ -6,7 +6,7 @@ use spandrel_mavlink::telemetry::log_stream::RecordSplitter;
 use spandrel_mavlink::telemetry::tlog::{TlogReader, TlogRecord, record};
 use std::ops::ControlFlow;
 
-/// A log with damage in it, cut in the middle of a record.
+/// Returns a log with damaged records that ends in the middle of a record.
 fn damaged() -> Vec<u8> {
     let mut encoder = Encoder::new(1, 1);
     let mut bytes = Vec::new();
@@ -29,7 +29,7 @@ fn damaged() -> Vec<u8> {
 fn exact_pieces_of_any_size_give_the_same_records_as_the_whole() {
     let log = damaged();
     let whole: Vec<(u64, Vec<u8>)> = TlogReader::new(&log).map(|r| (r.stamp_us, r.frame.to_vec())).collect();
-    assert!((20..40).contains(&whole.len()), "{} records survive", whole.len());
+    assert!((20..40).contains(&whole.len()), "{} records are readable", whole.len());
     let mut reader = TlogReader::new(&log);
     while reader.next().is_some() {}
     for size in [1, 2, 7, 29, 300, 10_000] {

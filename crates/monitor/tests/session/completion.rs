@@ -1,4 +1,4 @@
-//! How much of the job was done: coverage by length, what a session is called, and what its scores are worth.
+//! Completion of the job: coverage by length, the resulting headline, and the requirements for certification.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::Scenario;
@@ -8,15 +8,17 @@ use spandrel_monitor::score::completion::TaskState;
 use spandrel_monitor::session::EndReason;
 use spandrel_testkit::job::*;
 
-/// The nearest point changes half a point spacing (1 m) before and after the place where a stretch ends, share of a path of 100 m.
+/// Tolerance for the end of a flown stretch, as a fraction of a 100 m path: the nearest point changes half a point spacing (1 m)
+/// before or after it.
 const HALF_A_POINT: f64 = 0.01;
 
-/// One path of 100 m, 10 m up, from 10 to 110 m east.
+/// Creates a job with one path of 100 m at a height of 10 m, from 10 to 110 m east.
 fn long_task() -> Scenario {
     scenario(vec![task(1, line((10.0, 0.0, 10.0), (110.0, 0.0, 10.0)), 3.0)])
 }
 
-/// Flies the first `to_m` of it and comes home 20 m to the side, or not.
+/// Records a flight of the first `to_m` meters of the path, then either returns home at a distance of 20 m from the path or stops
+/// there.
 fn flown(to_m: f64, home: bool) -> Tape {
     let mut tape = Tape::new();
     tape.hold(1.0);
@@ -38,14 +40,14 @@ fn regress_a_task_is_done_from_80_percent_of_its_paths_length() {
         let task = &assessment.tasks[0];
         assert!((task.covered - to_m / 100.0).abs() <= HALF_A_POINT, "{} of {to_m} m", task.covered);
         assert_eq!((task.state, assessment.completion.complete), (state, state == TaskState::Done));
-        assert_eq!(task.covered, assessment.certification.tasks[0].coverage, "coverage is one number");
+        assert_eq!(task.covered, assessment.certification.tasks[0].coverage, "both profiles report the same coverage");
         assert_eq!(assessment.completion.path_share, task.covered);
-        // What the paper gives does not know of it.
+        // The TASBID score does not depend on coverage.
         assert!(assessment.scores.conformity.is_some_and(|score| score.pct > 95.0), "{:?}", assessment.scores);
     }
     let mut easier = long_task();
     easier.scoring.task_done_share = 0.5;
-    assert!(grade(&flown(60.0, true), &easier).assessment.completion.complete, "the share is a value of the scenario");
+    assert!(grade(&flown(60.0, true), &easier).assessment.completion.complete, "the required share is set in the scenario");
 }
 
 #[test]
@@ -60,7 +62,7 @@ fn regress_an_attempt_that_flew_nothing_is_incomplete_whatever_its_scores_are() 
     tape.land();
     let assessment = grade(&tape, &job).assessment;
     let scores = &assessment.scores;
-    // As the paper has it: conformity 50, efficiency and safety 100.
+    // By the TASBID formulas, conformity is 50 and efficiency and safety are 100.
     assert_eq!((scores.conformity.map(|score| score.pct), scores.efficiency.pct, scores.safety.pct), (Some(50.0), 100.0, 100.0));
     let completion = assessment.completion;
     assert_eq!((completion.complete, completion.tasks_done, completion.tasks, completion.path_share), (false, 0, 2, 0.0));
@@ -85,7 +87,7 @@ fn regress_half_a_path_is_not_certified_and_names_the_share() {
     let mut job = long_task();
     job.scoring.task_done_share = 0.8;
     let assessment = grade(&flown(49.0, true), &job).assessment;
-    assert!(assessment.certification.gates.all_tasks_attempted, "the old gate was open");
+    assert!(assessment.certification.gates.all_tasks_attempted, "the task counts as attempted");
     let [only] = assessment.certification.unmet.as_slice() else { panic!("{:?}", assessment.certification.unmet) };
     assert!(only.starts_with("task 1 not done: ") && only.ends_with(" % of its path, 80 % needed"), "{only}");
     let share = assessment.completion.path_share;
@@ -105,7 +107,7 @@ fn regress_a_place_to_hold_is_done_by_holding_it() {
     assert_eq!((assessment.tasks[0].state, assessment.completion.complete), (TaskState::Done, true));
 }
 
-/// Every shipped job's paths, flown along from end to end.
+/// Flies along every path of all shipped jobs from end to end.
 #[test]
 fn prop_whoever_flies_every_shipped_path_has_done_every_task() {
     let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("scenarios");

@@ -1,4 +1,4 @@
-//! The frames export: every column beyond the released ones against a flight made by hand.
+//! The frames export: compares every column with a flight that has known values.
 
 use spandrel_mavlink::dialect::{GLOBAL_POSITION_INT_DATA, MavMessage, WIND_COV_DATA};
 use spandrel_model::frames::{Enu, Vec3};
@@ -6,14 +6,14 @@ use spandrel_model::geodesy::LocalPlane;
 use spandrel_monitor::export::{COLUMNS, FrameRow, frame_rows, frames_csv};
 use spandrel_testkit::job::*;
 
-/// m; latitude and longitude in steps of 1e-7 deg (1.1 cm) of truth and estimate together.
+/// Tolerance for positions, m: truth and estimate have steps of 1e-7 deg (1.1 cm) in latitude and longitude.
 const STEPS_M: f64 = 0.025;
-/// rad; an attitude of 32-bit floats.
+/// Tolerance for angles, rad; attitudes are sent as 32-bit floats.
 const FLOAT_RAD: f64 = 1e-6;
-/// The autopilot's error in the flight below, m.
+/// Error of the autopilot's position estimate in the flight below; east, north, up, m.
 const ERROR_M: [f64; 3] = [0.5, -0.25, 0.125];
 
-/// The autopilot reports where it believes to be.
+/// Sends the position that the autopilot estimates.
 fn estimate(tape: &mut Tape) {
     let geo = LocalPlane::new(one_task().origin).geo_from_enu(tape.at_m + Vec3::<Enu>::new(ERROR_M[0], ERROR_M[1], ERROR_M[2]));
     tape.send(&MavMessage::GLOBAL_POSITION_INT(GLOBAL_POSITION_INT_DATA {
@@ -35,7 +35,8 @@ fn wind(tape: &mut Tape, [north, east, down]: [f32; 3]) {
     }));
 }
 
-/// Along the path to 30 m, one report of wind at 15 m, 5 m off to the north, 3 s of silence, home.
+/// Records a flight along the path to 30 m with a wind report at 15 m, then 5 m to the north, 3 s without telemetry, and a
+/// landing.
 fn flight() -> Tape {
     let mut tape = Tape::new();
     tape.yaw_rad = 0.5;
@@ -60,7 +61,7 @@ fn rows(tape: &Tape) -> Vec<FrameRow> {
     frame_rows(&tape.log(0), &one_task(), &vehicle()).unwrap()
 }
 
-/// Cells of one column.
+/// Returns the cells of one column.
 fn cells<'a>(csv: &'a str, name: &str) -> Vec<&'a str> {
     let at = COLUMNS.iter().position(|column| column.name == name).unwrap();
     csv.lines().skip(1).map(|line| line.split(',').nth(at).unwrap()).collect()
@@ -74,7 +75,7 @@ fn exact_velocity_attitude_and_gimbal_are_those_of_the_telemetry() {
     let [roll, pitch, yaw] = cruise.roll_pitch_yaw_rad.unwrap();
     assert!(roll.abs() < FLOAT_RAD && pitch.abs() < FLOAT_RAD && (yaw - 0.5).abs() < FLOAT_RAD, "{roll} {pitch} {yaw}");
     assert!((cruise.gimbal_pitch_rad.unwrap() + 0.25).abs() < FLOAT_RAD);
-    assert_eq!(rows[0].gimbal_pitch_rad, None, "not reported yet");
+    assert_eq!(rows[0].gimbal_pitch_rad, None, "no report was received yet");
     let csv = frames_csv(&rows);
     assert_eq!(cells(&csv, "gimbal_pitch_deg")[0], "");
     let k = cruise.frame.index as usize - 1;
@@ -85,10 +86,10 @@ fn exact_velocity_attitude_and_gimbal_are_those_of_the_telemetry() {
 #[test]
 fn exact_task_and_distance_follow_the_path() {
     let rows = rows(&flight());
-    assert_eq!((rows[0].task, rows[0].on_path), (None, false), "no task is entered yet");
+    assert_eq!((rows[0].task, rows[0].on_path), (None, false), "no task was entered yet");
     let on = rows.iter().find(|row| row.frame.position_m.east() > 20.0).unwrap();
     assert!(on.on_path && on.task.unwrap().id == 1 && on.task.unwrap().distance_m.unwrap() < STEPS_M);
-    // Beyond the threshold of 3 m.
+    // Beyond the threshold of 3 m, the drone is off the path.
     let off = rows.iter().find(|row| row.frame.position_m.north() > 4.0).unwrap();
     let task = off.task.unwrap();
     assert_eq!((task.id, off.on_path), (1, false));
@@ -101,8 +102,8 @@ fn exact_wind_lasts_and_the_estimate_is_interpolated() {
     let rows = rows(&flight());
     let reported = rows.iter().position(|row| row.wind_m_s.is_some()).unwrap();
     let windy: Vec<&FrameRow> = rows.iter().filter(|row| row.wind_m_s.is_some()).collect();
-    assert!(windy.iter().all(|row| row.wind_m_s.unwrap().array() == [2.0, 1.0, 0.5]), "east, north, up");
-    assert!((rows[reported].frame.position_m.east() - 14.0).abs() < 0.2, "one frame after the report at 4 m/s");
+    assert!(windy.iter().all(|row| row.wind_m_s.unwrap().array() == [2.0, 1.0, 0.5]), "the order is east, north, up");
+    assert!((rows[reported].frame.position_m.east() - 14.0).abs() < 0.2, "the report arrives one frame earlier, at 4 m/s");
     let lasting = 2.5 * one_task().scoring.frame_rate_hz;
     assert!((windy.len() as f64 - lasting).abs() <= 1.0, "{} frames", windy.len());
     let between =
@@ -114,7 +115,7 @@ fn exact_wind_lasts_and_the_estimate_is_interpolated() {
         let wrong = error.array().iter().zip(ERROR_M).map(|(is, was)| (is - was).abs()).fold(0.0, f64::max);
         assert!(wrong < STEPS_M, "frame {}: {error:?}", row.frame.index);
     }
-    assert_eq!(rows.last().unwrap().estimate_m, None, "nothing was reported after the path");
+    assert_eq!(rows.last().unwrap().estimate_m, None, "no estimate was reported after the path");
 }
 
 #[test]
@@ -149,14 +150,14 @@ fn exact_no_estimate_is_interpolated_across_a_respawn() {
     let rows = rows(&tape);
     let known: Vec<f64> = rows.iter().filter_map(|row| row.estimate_m).map(|estimate_m| estimate_m.east()).collect();
     assert!(!known.is_empty());
-    // Only between the two reports after it.
+    // Estimates exist only between the two reports after the respawn.
     assert!(known.iter().all(|east| (east - 20.0 - ERROR_M[0]).abs() < STEPS_M), "{known:?}");
 }
 
 #[test]
 fn exact_every_column_is_named_once_and_carries_its_unit() {
     for (k, column) in COLUMNS.iter().enumerate() {
-        assert!(COLUMNS[..k].iter().all(|other| other.name != column.name), "{} twice", column.name);
+        assert!(COLUMNS[..k].iter().all(|other| other.name != column.name), "duplicate column {}", column.name);
         assert!(column.description.ends_with('.'), "{}", column.name);
         let ending = match column.unit {
             "" => continue,

@@ -1,4 +1,4 @@
-//! The six feedbacks on the wire, with their thresholds and times.
+//! The six kinds of feedback as sent over MAVLink, with their thresholds and timing.
 
 use crate::live::{monitor_of, sent};
 use spandrel_mavlink::contract::cue;
@@ -24,7 +24,7 @@ impl Watch {
         watch
     }
 
-    /// Feeds what the tape holds; the cues after each datagram with its time.
+    /// Sends the tape's datagrams to the monitor. Returns the time and the active cues after each datagram.
     fn run(&mut self) -> Vec<(u32, i32)> {
         let mut cues = Vec::new();
         for datagram in std::mem::take(&mut self.tape.datagrams) {
@@ -49,15 +49,15 @@ fn exact_off_path_shows_after_a_second_and_is_held_for_two() {
     let mut watch = Watch::airborne();
     watch.tape.fly((30.0, 0.0, 10.0), 20.0);
     watch.run();
-    // Off to the side at 10 m/s: 5 m is past the threshold of 3 m and within 8 m.
+    // Moves to the side at 10 m/s. A distance of 5 m is beyond the threshold of 3 m, but within 8 m.
     watch.tape.fly((30.0, 5.0, 10.0), 10.0);
     let left = watch.tape.now_ms;
     watch.tape.hold(3.0);
     let cues = watch.run();
     let on = cues.iter().find(|(_, cues)| cues & cue::OFF_PATH != 0).unwrap().0;
-    // It crossed 3 m some 0.2 s before it arrived at 5 m; samples are 20 ms apart.
+    // The drone crossed 3 m about 0.2 s before it reached 5 m. Messages are 20 ms apart.
     assert!((on as i64 - (i64::from(left) - 200 + 1_000)).abs() <= 20, "left {left}, on {on}");
-    // Back on the path within half a second: the cue stays until two seconds after it came on.
+    // The drone is back on the path within half a second, but the cue stays on for two seconds.
     let mut watch = Watch::airborne();
     watch.tape.fly((30.0, 0.0, 10.0), 20.0);
     watch.tape.fly((30.0, 5.0, 10.0), 10.0);
@@ -85,7 +85,7 @@ fn exact_a_short_swerve_and_a_far_away_drone_are_not_off_path() {
 
 #[test]
 fn regress_entering_or_leaving_a_task_by_its_end_is_not_off_path() {
-    // The path leads from 10 to 60 m east, its threshold is 3 m.
+    // The path runs from 10 to 60 m east; its threshold is 3 m.
     let mut watch = Watch::airborne();
     watch.tape.fly((-20.0, 20.0, 10.0), 4.0);
     watch.tape.fly((30.0, 20.0, 10.0), 8.0);
@@ -93,7 +93,7 @@ fn regress_entering_or_leaving_a_task_by_its_end_is_not_off_path() {
     watch.tape.fly((60.0, 0.0, 10.0), 4.0);
     watch.tape.fly((80.0, 0.0, 10.0), 1.0);
     assert!(watch.run().iter().all(|(_, cues)| cues & cue::OFF_PATH == 0), "{:?}", watch.texts);
-    // Left for good: passing by on the way home brings no cue either.
+    // After the task was left, passing its path on the way home does not raise the cue.
     watch.tape.fly((70.0, 6.0, 10.0), 4.0);
     watch.tape.fly((0.0, 6.0, 10.0), 4.0);
     assert!(watch.run().iter().all(|(_, cues)| cues & cue::OFF_PATH == 0), "{:?}", watch.texts);
@@ -151,7 +151,7 @@ fn regress_a_tasks_own_distance_holds_on_the_way_into_it() {
     assert!(!watch.has(cue::TOO_CLOSE));
     watch.tape.fly((30.0, 12.0, 10.0), 4.0);
     watch.run();
-    assert!(watch.has(cue::TOO_CLOSE), "out of the task's reach the job's distance holds");
+    assert!(watch.has(cue::TOO_CLOSE), "away from the task, the scenario's distance applies");
 }
 
 #[test]
@@ -192,7 +192,7 @@ fn exact_one_rule_speaks_once_per_interval_however_it_chatters() {
         watch.tape.hold(0.1);
     }
     watch.run();
-    // Four seconds, an interval of five.
+    // The toggling lasts four seconds, but the interval between texts is five seconds.
     assert_eq!(watch.texts.len(), 1);
 }
 
@@ -203,7 +203,7 @@ fn exact_a_crash_is_reported_at_once_and_before_all_else() {
     watch.tape.hold(0.02);
     watch.tape.contact(1);
     let cues = watch.run();
-    assert!(cues.last().unwrap().1 & cue::CRASH != 0, "in the very datagram of the contact");
+    assert!(cues.last().unwrap().1 & cue::CRASH != 0, "the cue is on after the datagram with the contact");
     assert_eq!(watch.texts, ["Too close: 2.0 m", "Crash: fence"]);
     watch.tape.contact(0);
     watch.tape.hold(1.9);
@@ -240,7 +240,7 @@ fn exact_cues_are_repeated_at_five_hertz() {
 
 #[test]
 fn exact_too_close_is_reported_below_the_pads_height_too() {
-    // The pier of the paper's job is circled 2 m lower than the pad lies.
+    // In the TASBID job, the circle around the pier is 2 m lower than the pad.
     let mut watch = Watch::of(one_task());
     watch.tape.fly((30.0, 0.0, 10.0), 10.0);
     watch.tape.fly((30.0, 0.0, -2.0), 4.0);

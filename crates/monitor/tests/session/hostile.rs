@@ -1,4 +1,4 @@
-//! Bytes that nobody meant to send: bits flipped, frames cut, fields changed with the checksum mended.
+//! Robustness against corrupt input: flipped bits, truncated frames, and changed fields with a valid checksum.
 
 use crate::live::monitor_of;
 use spandrel_mavlink::dialect::MavMessage;
@@ -7,10 +7,10 @@ use spandrel_model::time::SimTime;
 use spandrel_monitor::assess_log;
 use spandrel_testkit::job::*;
 
-/// Datagrams per run.
+/// Number of datagrams per run.
 const MUTATED: usize = 20_000;
 
-/// Changes some payload bytes of a MAVLink 2 frame and mends its checksum.
+/// Changes some payload bytes of a MAVLink 2 frame and recomputes its checksum.
 fn mutate_fields(frame: &mut [u8], stream: &mut RandomStream) {
     use mavlink::Message;
     let end = 10 + usize::from(frame[1]);
@@ -82,5 +82,5 @@ fn prop_no_log_brings_the_scorer_down() {
         }
         scored += usize::from(assess_log(&log, &one_task(), &vehicle(), fence_of_ten).is_ok());
     }
-    assert!(scored > 50, "most damage costs a record and not the session: {scored} of 100");
+    assert!(scored > 50, "most damage loses only a record, not the session: {scored} of 100 scored");
 }

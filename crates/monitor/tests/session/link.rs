@@ -1,4 +1,4 @@
-//! What a bad link does: lost, doubled, shuffled, cut off.
+//! Effects of a bad link: lost, duplicated, reordered and truncated datagrams.
 
 use spandrel_mavlink::telemetry::{Timeline, tlog};
 use spandrel_model::geodesy::LocalPlane;
@@ -40,7 +40,7 @@ fn counts(datagrams: &[Vec<u8>]) -> spandrel_mavlink::telemetry::timeline::LinkC
     timeline.counts()
 }
 
-/// Simulation time at which clocks of 32-bit milliseconds start again.
+/// Simulation time at which a 32-bit counter of milliseconds wraps to zero.
 const WRAP_MS: u64 = 1 << 32;
 
 #[test]
@@ -48,7 +48,7 @@ fn regress_a_flight_across_the_end_of_32_bit_milliseconds_is_the_same_flight() {
     let epoch_ms = WRAP_MS - 10_000;
     let flights = [0, epoch_ms].map(|epoch_ms| {
         let tape = busy_flight_at(epoch_ms);
-        assert!(tape.now_ms > 20_000, "the clock starts again on the way");
+        assert!(tape.now_ms > 20_000, "the clock wraps during the flight");
         let mut timeline = Timeline::new(LocalPlane::new(one_task().origin));
         tape.datagrams.iter().for_each(|datagram| {
             timeline.push(datagram);
@@ -60,7 +60,7 @@ fn regress_a_flight_across_the_end_of_32_bit_milliseconds_is_the_same_flight() {
         let sticks = ms(flight.sticks.all().iter().map(|sticks| sticks.0.ms()).collect());
         (pictures, lamp, sticks, timeline.simulator_runs())
     });
-    assert_eq!(flights[0].0.len(), 10, "every picture once");
+    assert_eq!(flights[0].0.len(), 10, "every picture counts once");
     assert_eq!(flights[1], flights[0]);
 }
 
@@ -112,7 +112,7 @@ fn exact_the_link_is_counted() {
 
 #[test]
 fn exact_a_long_silence_is_no_reordering() {
-    // Numbers wrap at 256; whatever the loss, time goes on and nothing is taken for old.
+    // Sequence numbers wrap at 256. Regardless of how many datagrams are lost, none of the following ones counts as old.
     let tape = busy_flight();
     let whole = grade(&tape.datagrams).frames;
     for lost in [60, 100, 129, 200, 255, 256, 300] {

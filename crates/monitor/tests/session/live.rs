@@ -1,4 +1,4 @@
-//! The live monitor: what it answers, what it writes, and that a replay says the same.
+//! The live monitor: its replies, its output files, and a replay that gives the same results.
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::*;
@@ -84,7 +84,7 @@ fn exact_stamps_are_session_start_plus_simulation_time() {
     assert_eq!(spandrel_mavlink::telemetry::tlog::session_start_us(&log), Some(START_US));
 }
 
-/// A vehicle that has been up for an hour: what it does now is stamped with now, and not with an hour later.
+/// A monitor that joins an hour after the vehicle started stamps messages with the current time.
 #[test]
 fn regress_stamps_of_a_monitor_that_joins_late_begin_at_the_sessions_start() {
     let mut tape = Tape::new();
@@ -102,7 +102,7 @@ fn regress_stamps_of_a_monitor_that_joins_late_begin_at_the_sessions_start() {
     let zero = spandrel_mavlink::telemetry::tlog::simulation_zero_us(&log).unwrap();
     assert!((59_900_000..=60_100_000).contains(&(START_US - zero)), "{} us", START_US - zero);
     assert_eq!(monitor.session_info(b"", b"", String::new(), 1).started_unix_us, START_US);
-    // One that was killed goes on with the same clock.
+    // A monitor that was killed and resumed continues with the same clock.
     let mut second = Monitor::resume(config(one_task()), &log).unwrap();
     let mut more = Tape::new();
     more.hold(65.0);
@@ -113,7 +113,7 @@ fn regress_stamps_of_a_monitor_that_joins_late_begin_at_the_sessions_start() {
     assert!((START_US + 4_900_000..=START_US + 5_100_000).contains(&last), "{} us", last - START_US);
 }
 
-/// Any datagram made its sender the vehicle; now it takes the autopilot's frames, and those of the system whose flight is scored.
+/// The monitor accepts only datagrams from an autopilot, and after a scored flight exists only those of its system.
 #[test]
 fn regress_the_monitor_belongs_to_one_vehicle() {
     let beat = |system: u8, component: u8, autopilot| {
@@ -130,7 +130,7 @@ fn regress_the_monitor_belongs_to_one_vehicle() {
     tape.hold(2.0);
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     assert!(monitor.is_from_vehicle(&beat(1, 1, px4)) && !monitor.is_from_vehicle(&beat(9, 1, px4)));
-    // Another vehicle's heartbeat, handed on to us, does not make us one of its components: `sent` looks at the sender's ids.
+    // A forwarded heartbeat of another vehicle does not change the monitor's system id; `sent` checks the ids of its messages.
     sent(&mut monitor);
     monitor.handle_datagram(&beat(9, 1, px4));
     tape.datagrams.clear();
@@ -187,7 +187,7 @@ fn exact_timesync_is_answered_last_and_with_the_asker_addressed() {
     tape.send(&MavMessage::TIMESYNC(sync));
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     let messages = sent(&mut monitor);
-    assert!(messages.len() > 1, "heartbeat and cues were due");
+    assert!(messages.len() > 1, "a heartbeat and cues are sent, too");
     let Some(MavMessage::TIMESYNC(answer)) = messages.last() else { panic!("last is {:?}", messages.last()) };
     assert_eq!((answer.ts1, answer.target_system, answer.target_component), (4242, 1, 1));
     assert_eq!(answer.tc1, 2_100_000_000);

@@ -1,4 +1,4 @@
-//! Whole sessions from datagrams alone: frames, measures, ends, the live monitor and its replay.
+//! Tests of whole sessions from datagrams: frames, measures, ends, the live monitor and its replay.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod chunked_reading;

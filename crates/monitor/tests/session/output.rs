@@ -1,4 +1,4 @@
-//! Names that other tools read: JSON keys, CSV columns.
+//! Names that external tools read: JSON keys and CSV columns.
 
 use serde_json::Value;
 use spandrel_monitor::export::{self, ScenarioExport};
@@ -8,7 +8,7 @@ fn keys(value: &Value) -> Vec<&str> {
     value.as_object().unwrap().keys().map(String::as_str).collect()
 }
 
-/// Every wanted key is there, in this order among themselves.
+/// Checks that all of these keys exist and are in this order.
 fn check_keys(value: &Value, wanted: &[&str]) {
     let kept: Vec<&str> = keys(value).into_iter().filter(|key| wanted.contains(key)).collect();
     assert_eq!(kept, wanted);
@@ -42,7 +42,7 @@ fn exact_the_assessment_has_the_names_of_the_design() {
     assert_eq!(value["end"]["reason"], "landed");
 }
 
-/// Each frame once, in order, under the hand that the heartbeat before it names.
+/// Each frame belongs to exactly one interval, in order, and its control source is that of the preceding heartbeat.
 #[test]
 fn exact_the_assessment_reports_who_flew_when() {
     let mut tape = Tape::new();
@@ -91,10 +91,10 @@ fn exact_frames_have_the_columns_of_the_design_and_numbers_that_read_back() {
     tape.land();
     let rows = export::frame_rows(&tape.log(0), &one_task(), &vehicle()).unwrap();
     let frames = grade(&tape, &one_task()).frames;
-    assert!(rows.iter().map(|row| &row.frame).eq(&frames), "the exported frames are those that are scored");
+    assert!(rows.iter().map(|row| &row.frame).eq(&frames), "the exported frames equal the scored frames");
     let csv = export::frames_csv(&rows);
     let mut lines = csv.lines();
-    // Released names and their order: other tools read them by place.
+    // Names and order of the released columns never change, because other tools read them by position.
     let released = "frame,t_s,fb,rl,ud,rt,light,snapshot,east_m,north_m,up_m,speed_m_s,battery_pct,contact,missing,";
     assert!(lines.next().unwrap().starts_with(released));
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
@@ -106,7 +106,7 @@ fn exact_frames_have_the_columns_of_the_design_and_numbers_that_read_back() {
         assert_eq!(row[11].parse::<f64>().unwrap().to_bits(), frame.speed_m_s().to_bits());
     }
     assert_eq!(rows[0][1], "0");
-    assert_eq!(rows.iter().filter(|row| row[7] == "1").count(), 1, "a press is one frame");
+    assert_eq!(rows.iter().filter(|row| row[7] == "1").count(), 1, "a picture is marked in one frame only");
     assert!(rows.iter().any(|row| row[13] == "bridge") && rows.iter().any(|row| row[6] == "1"));
     assert!(rows.iter().all(|row| (-1.0..=1.0).contains(&row[2].parse::<f64>().unwrap())));
 }

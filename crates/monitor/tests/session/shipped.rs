@@ -1,4 +1,4 @@
-//! The shipped job with its real site: paths, defects, light, camera geometry, end to end from datagrams.
+//! The shipped job with its real site: checks paths, defects, light and camera geometry from datagrams to scores.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
@@ -11,14 +11,15 @@ use spandrel_monitor::{assess_log, export};
 use spandrel_testkit::job::Tape;
 
 fn shipped() -> (Scenario, Vehicle) {
-    let none = |name: &str| Err(format!("no {name} here"));
+    let none = |name: &str| Err(format!("{name} not found"));
     let text = spandrel_model::shipped::TWO_BRIDGES;
     let scenario = spandrel_model::scenario::read("two-bridges.toml", text, &none).unwrap();
     let text = spandrel_model::shipped::PHANTOM2;
     (scenario, spandrel_model::vehicle::read("phantom2.toml", text).unwrap())
 }
 
-/// Where to stand (m), heading and gimbal pitch (rad) to photograph a defect from within a task's threshold of its path.
+/// Returns a position (m), heading and gimbal pitch (rad) from which a defect can be photographed within the threshold of a
+/// task's path.
 fn stand(defect: &PlacedDefect, scenario: &Scenario, vehicle: &Vehicle, site: &dyn SiteSurvey) -> Option<(Vec3<Enu>, f64, f64)> {
     let mut points: Vec<(Vec3<Enu>, f64)> =
         scenario.tasks.iter().flat_map(|task| task.path_m.iter().map(|point| (*point, task.threshold_m))).collect();
@@ -44,7 +45,7 @@ fn flight_photographs_of_the_shipped_jobs_defects_hit_and_score() {
     let defects = site.defects().to_vec();
     assert_eq!(defects.len(), scenario.defects.count);
     let stands: Vec<_> = defects.iter().filter_map(|defect| stand(defect, &scenario, &vehicle, site.as_ref())).collect();
-    assert!(stands.len() >= 8, "a plain stand is found for {} of {}", stands.len(), defects.len());
+    assert!(stands.len() >= 8, "positions were found for only {} of {} defects", stands.len(), defects.len());
     let mut tape = Tape::of(&scenario);
     let pad = tape.at_m;
     tape.fly((pad.east(), pad.north(), pad.up() + 5.0), 2.0);
@@ -61,7 +62,7 @@ fn flight_photographs_of_the_shipped_jobs_defects_hit_and_score() {
     let graded = assess_log(&log, &scenario, &vehicle, |_, _| site.clone()).unwrap();
     let snapshots = &graded.assessment.snapshots;
     assert_eq!(snapshots.taken, stands.len());
-    // The wire rounds positions to a centimetre: a stand at the very edge of a condition may fail by that.
+    // Positions are sent with a resolution of 1 cm, so one picture at the limit of a condition may fail.
     assert!(snapshots.defects_found + 1 >= stands.len(), "{} found, {:#?}", snapshots.defects_found, snapshots.each);
     let exported = serde_json::to_value(export::ScenarioExport::new(&scenario, &defects)).unwrap();
     assert_eq!(exported["tasks"].as_array().unwrap().len(), 4);
@@ -79,7 +80,7 @@ fn flight_the_shipped_jobs_paths_flown_to_the_letter_are_worth_full_conformity()
         for point in task.path_m.iter().chain(around) {
             tape.fly((point.east(), point.north(), point.up()), 4.0);
         }
-        // Away to the side and up, so that no transit crosses a corridor.
+        // Moves to the side and up, so that no transit crosses a task's path.
         let [e, n, u] = tape.at_m.array();
         let side = if n < -5.0 || task.closed { -40.0 } else { 40.0 };
         tape.fly((e, n + side, u), 4.0);
@@ -105,7 +106,7 @@ fn flight_the_shipped_jobs_paths_flown_to_the_letter_are_worth_full_conformity()
 #[test]
 fn regress_defects_are_placed_on_free_tasks_at_a_bridge() {
     let (mut scenario, _) = shipped();
-    // The slab's path written point by point: nothing names the bridge, and nobody says where to look.
+    // The path of the slab task, given point by point: the task names no bridge and no direction to look.
     let mut free = scenario.tasks[0].clone();
     (free.kind, free.bridge, free.look) =
         (spandrel_model::scenario::TaskKind::Free, None, vec![Vec3::new(1.0, 0.0, 0.0); free.path_m.len()]);

@@ -1,4 +1,4 @@
-//! From datagrams to frames and scores: gaps, respawns, contacts, windows, ends.
+//! Tests that convert datagrams to frames and scores: gaps, respawns, contacts, windows and ends of sessions.
 
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::telemetry::Timeline;
@@ -27,7 +27,7 @@ fn exact_a_clean_flight_scores_full_marks_and_ends_where_it_touches_down() {
     let last = graded.frames.last().unwrap();
     assert_eq!(last.speed_m_s(), 0.0);
     let before = &graded.frames[graded.frames.len() - 2];
-    assert!(before.speed_m_s() > 0.0, "the first frame at rest is the last frame");
+    assert!(before.speed_m_s() > 0.0, "the session ends with the first frame at rest");
     assert_eq!(graded.frames[0].index, 1);
     assert!(graded.frames[0].position_m.up() > 0.3);
     assert_eq!(assessment.end.seconds, graded.frames.len() as f64 / RATE_HZ);
@@ -35,7 +35,7 @@ fn exact_a_clean_flight_scores_full_marks_and_ends_where_it_touches_down() {
 
 #[test]
 fn exact_silence_up_to_a_second_is_interpolated_and_longer_silence_is_missing() {
-    // (silence in ms, interpolated frames, missing frames); frames are 40 ms apart, truths 20 ms.
+    // Each case: length of the gap in ms, interpolated frames, missing frames. Frames are 40 ms apart, truth messages 20 ms.
     for (ms, interpolated, missing) in [(200, 0, 0), (240, 5, 0), (1_000, 24, 0), (1_040, 0, 25)] {
         let mut tape = Tape::new();
         tape.fly((0.0, 0.0, 10.0), 2.0);
@@ -48,7 +48,7 @@ fn exact_silence_up_to_a_second_is_interpolated_and_longer_silence_is_missing() 
         let graded = grade(&tape, &one_task());
         let telemetry = graded.assessment.telemetry;
         let got = (telemetry.interpolated_frames, telemetry.missing_frames);
-        // Lift-off decides whether frames fall on even or odd samples: one frame more or less lies inside.
+        // The time of lift-off determines the phase of the frames, so the gap may contain one frame more or less.
         assert!(got.0.abs_diff(interpolated) <= 1 && got.1.abs_diff(missing) <= 1, "{ms} ms: {got:?}");
         assert_eq!(telemetry.gaps, usize::from(ms > 200));
         assert_eq!(got.0 == 0, interpolated == 0, "{ms} ms");
@@ -71,7 +71,7 @@ fn exact_missing_frames_hold_the_last_position_and_touch_nothing() {
     let missing: Vec<_> = graded.frames.iter().filter(|frame| frame.missing).collect();
     assert!(missing.len() >= 74);
     for frame in missing {
-        assert!((frame.position_m - held).norm() < 0.02, "held");
+        assert!((frame.position_m - held).norm() < 0.02, "the last position is repeated");
         assert_eq!(frame.contact, ContactKind::None);
     }
 }
@@ -162,12 +162,12 @@ fn exact_a_contact_of_many_frames_is_one_crash_and_a_short_one_is_not_lost() {
     tape.hold(1.0);
     tape.contact(0);
     tape.hold(1.0);
-    // On and off between two truths: shorter than any frame.
+    // A contact starts and ends between two truth messages, so it is shorter than any frame.
     tape.contact(2);
     tape.int("hits", 2);
     tape.contact(0);
     tape.hold(1.0);
-    // Both messages of a contact lost; only the count tells.
+    // Both messages of a contact are lost; only the count reveals it.
     tape.int("hits", 3);
     tape.land();
     let graded = grade(&tape, &one_task());
@@ -205,7 +205,7 @@ fn exact_a_soft_touch_of_the_ground_away_from_home_is_a_crash() {
     tape.hold(5.0);
     let assessment = grade(&tape, &one_task()).assessment;
     assert_eq!(assessment.crashes.other, 1);
-    assert_eq!(assessment.end.reason, EndReason::Abort, "standing elsewhere is no landing");
+    assert_eq!(assessment.end.reason, EndReason::Abort, "resting elsewhere is not a landing");
 }
 
 #[test]
@@ -222,7 +222,7 @@ fn exact_overlapping_corridors_never_count_twice_and_the_nearer_share_wins() {
     let assessment = grade(&tape, &scenario).assessment;
     let [one, two] = assessment.tasks[..] else { panic!("two tasks") };
     assert!(one.attempted && two.attempted);
-    assert!(one.on_path < 1.0, "task 1's window spans frames that belong to task 2");
+    assert!(one.on_path < 1.0, "task 1's window contains frames that belong to task 2");
     assert_eq!(two.on_path, 1.0);
 }
 
@@ -279,7 +279,7 @@ fn exact_pictures_count_once_and_a_dark_one_gives_the_reason() {
     tape.snapshot(2);
     tape.fly((25.0, 0.0, 10.0), 4.0);
     tape.snapshot(3);
-    // The camera sends a missed one again, much later.
+    // The camera sends the message of a lost picture again, much later.
     tape.snapshot_at(1, taken_ms);
     tape.land();
     let snapshots = grade(&tape, &one_task()).assessment.snapshots;
@@ -287,7 +287,7 @@ fn exact_pictures_count_once_and_a_dark_one_gives_the_reason() {
     let [why] = &snapshots.each[0].views[0].fails[..] else { panic!("{:?}", snapshots.each[0]) };
     assert!(why.starts_with("too dark: lamp off"), "{why}");
     assert_eq!(snapshots.each[1].found, [2]);
-    assert!(snapshots.each[2].views[0].shown && !snapshots.each[2].hit, "shown before");
+    assert!(snapshots.each[2].views[0].shown && !snapshots.each[2].hit, "an earlier picture shows the defect");
     assert!(snapshots.each[3].views.is_empty());
 }
 
@@ -310,7 +310,7 @@ fn exact_a_simulator_restarted_in_flight_ends_the_session_and_keeps_what_was_flo
     assert_eq!(graded.assessment.tasks[0].on_path, 1.0);
 }
 
-/// Shows its defects to narrow cameras only.
+/// A site whose defects count only in pictures with a narrow field of view.
 #[derive(Debug)]
 struct Small(Fence);
 
@@ -343,7 +343,7 @@ fn exact_a_picture_is_judged_by_the_field_of_view_that_the_camera_reports() {
     tape.snapshot(1);
     tape.fly((20.0, 0.0, 10.0), 4.0);
     tape.hold(1.0);
-    // Numbers that are no field of view change nothing.
+    // Invalid fields of view are ignored.
     tape.field_of_view(f32::NAN);
     tape.field_of_view(0.0);
     tape.snapshot(2);
@@ -372,7 +372,7 @@ fn exact_a_field_of_view_that_is_the_aircrafts_own_changes_no_bit_of_its_camera(
     });
     let flight = timeline.flight(0);
     let end = SimTime::from_ms(i64::from(tape.now_ms));
-    assert!(flight.field_of_view.at(end).is_some(), "it was told");
+    assert!(flight.field_of_view.at(end).is_some(), "the field of view was received");
     assert_eq!(camera(&flight, end, &own), own);
     assert_eq!(camera(&flight, SimTime::ZERO, &own), own);
 }
@@ -386,7 +386,7 @@ fn exact_pictures_on_a_formatted_card_have_old_numbers_and_are_new() {
     tape.snapshot(0);
     let taken_ms = tape.now_ms;
     tape.fly((20.0, 0.0, 10.0), 4.0);
-    // Formatted: numbers begin again.
+    // After the card was formatted, the numbers start again.
     tape.snapshot(0);
     tape.hold(1.0);
     tape.snapshot_at(0, taken_ms);

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 /// Highest answer that counts as agreement.
 const AGREE: u8 = 2;
-/// Lowest mean self-rating that counts as "done well".
+/// Lowest mean self-rating that counts as a good performance.
 const WELL: f64 = 4.0;
 
 /// Distribution of the answers to one question.
@@ -16,7 +16,7 @@ const WELL: f64 = 4.0;
 pub struct Likert {
     /// Key of the question.
     pub question: String,
-    /// Repetition of the group; `None` for all first sessions.
+    /// Repetition of the group, from 1; `None` for all first sessions.
     pub repetition: Option<usize>,
     /// Counts from strongly agree to strongly disagree.
     pub counts: [usize; 5],
@@ -26,14 +26,14 @@ pub struct Likert {
     pub agree: f64,
 }
 
-/// Self-ratings compared with measured scores, first sessions.
+/// Self-ratings compared with measured scores in the first sessions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SelfRating {
-    /// Trainees who answered.
+    /// One entry per trainee who rated their performance.
     pub people: Vec<SelfRatingPair>,
-    /// Spearman correlation of self-rating and overall score; `None` if it is undefined.
+    /// Spearman correlation of self-rating and overall score; `None` if undefined.
     pub overall: Option<Correlation>,
-    /// For each task number, the correlation of the task's self-rating and its on-path share.
+    /// For each task number, the correlation of the self-rating for the task and its on-path share.
     pub tasks: Vec<(u32, Option<Correlation>)>,
     /// Trainees whose self-rating contradicts the measurement.
     pub contradictions: Vec<Contradiction>,
@@ -42,20 +42,20 @@ pub struct SelfRating {
 /// Self-rating and measured score of one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SelfRatingPair {
-    /// Trainee name.
+    /// Pseudonym of the trainee.
     pub trainee: String,
     /// Mean over the phases, 1 to 5; higher is better.
     pub self_rating: f64,
-    /// Overall score as a percentage of the maximum possible.
+    /// Overall score in percent of the maximum possible.
     pub measured_pct: f64,
 }
 
-/// A contradiction between self-rating and measurement.
+/// A contradiction between a trainee's self-rating and the measurement.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Contradiction {
-    /// Trainee name.
+    /// Pseudonym of the trainee.
     pub trainee: String,
-    /// Description.
+    /// Description for the report.
     pub words: String,
 }
 
@@ -84,7 +84,7 @@ fn count(records: &[&SessionRecord], repetition: Option<usize>) -> Vec<Likert> {
     QuestionnaireItem::all(&tasks).into_iter().filter_map(row).collect()
 }
 
-/// Returns the overall score as a percentage of the maximum possible.
+/// Returns the overall score in percent of the maximum possible.
 pub fn measured_pct(record: &SessionRecord) -> f64 {
     100.0 * record.scores.overall / record.scores.overall_max
 }
@@ -121,8 +121,8 @@ fn answer_value(record: &SessionRecord, item: QuestionnaireItem) -> Option<u8> {
     record.answers.as_ref()?.given.get(&item).copied()
 }
 
-/// Returns contradictions like those in the paper's examples: a high self-rating in the lowest quarter of scores or a low one in
-/// the highest quarter; no time pressure among the slowest or time pressure among the fastest.
+/// Returns contradictions of the kinds in the TASBID paper: a high self-rating with a score in the lowest quarter or a low one
+/// with a score in the highest quarter; no time pressure among the slowest or time pressure among the fastest.
 fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<Contradiction> {
     let mut found = Vec::new();
     let ends = |mut values: Vec<f64>| {
@@ -133,9 +133,9 @@ fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<C
         for pair in people {
             let (own, measured) = (pair.self_rating, pair.measured_pct);
             let words = if own >= WELL && measured < low {
-                format!("rated their own performance {own:.1} of 5, but scored {measured:.0} %, among the lowest quarter")
+                format!("rated their own performance {own:.1} of 5, but scored {measured:.0} %, in the lowest quarter")
             } else if own < WELL && measured > high {
-                format!("rated their own performance {own:.1} of 5, but scored {measured:.0} %, among the highest quarter")
+                format!("rated their own performance {own:.1} of 5, but scored {measured:.0} %, in the highest quarter")
             } else {
                 continue;
             };
@@ -147,9 +147,9 @@ fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<C
             let Some(answer) = answer_value(record, QuestionnaireItem::Overall(OverallItem::TimePressure)) else { continue };
             let minutes = record.seconds / 60.0;
             let words = if answer <= AGREE && record.seconds > slow {
-                format!("felt no time pressure, but flew {minutes:.1} min, among the slowest quarter")
+                format!("felt no time pressure, but flew for {minutes:.1} min, in the slowest quarter")
             } else if answer > AGREE + 1 && record.seconds < quick {
-                format!("felt time pressure, but flew {minutes:.1} min, among the fastest quarter")
+                format!("felt time pressure, but flew for {minutes:.1} min, in the fastest quarter")
             } else {
                 continue;
             };

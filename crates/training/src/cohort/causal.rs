@@ -1,6 +1,6 @@
-//! The paper's causal model: demand increases strain, strain decreases performance, and helpful in-task feedback moderates the
-//! effect of demand on strain. Two regressions on first sessions; the interval of the indirect effect comes from bootstrapping
-//! over trainees (Preacher, Rucker and Hayes 2007, moderated mediation).
+//! The causal model of the TASBID paper: demand increases strain, strain decreases performance, and helpful feedback during the
+//! task moderates the effect of demand on strain. It consists of two regressions on the first sessions. The interval of the
+//! indirect effect is bootstrapped over trainees (moderated mediation: Preacher, Rucker and Hayes 2007).
 
 use super::answers::measured_pct;
 use crate::record::SessionRecord;
@@ -8,44 +8,45 @@ use crate::statistics::{Regression, least_squares, mean, quantile, sd, solve};
 use serde::Serialize;
 use spandrel_model::random::RandomStream;
 
-/// Sample size for a power of 0.8 with medium effects and percentile bootstrap (Fritz and MacKinnon 2007). Smaller samples
-/// produce a warning.
+/// Number of trainees needed to detect medium effects with a power of 0.8 using a percentile bootstrap (Fritz and MacKinnon
+/// 2007). Smaller samples produce a warning.
 pub const SENSIBLE_N: usize = 78;
-/// Number of bootstrap samples.
+/// Maximum number of bootstrap samples.
 const RESAMPLES: usize = 2_000;
-/// Minimum number of bootstrap samples, for cohorts so large that more would take seconds.
+/// Minimum number of bootstrap samples, used for cohorts so large that more samples would take seconds.
 const RESAMPLES_MIN: usize = 200;
-/// Maximum number of trainees drawn over all bootstrap samples.
+/// Maximum number of trainees drawn in all bootstrap samples together.
 const DRAWN_MAX: usize = 1_000_000;
 /// Fixed seed, so that the bootstrap is reproducible.
 const SEED: u64 = 20_221;
-/// Range of the feedback scale.
+/// Range of the answer scale on which feedback is rated.
 const SCALE: [f64; 2] = [1.0, 5.0];
 
-/// Estimated moderated mediation model.
+/// An estimated model of moderated mediation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MediationModel {
     /// Number of trainees with complete answers.
     pub n: usize,
     /// Regression of strain on demand, feedback and their product; demand and feedback are mean-centered.
     pub strain: Regression,
-    /// Regression of performance (overall, % of the maximum) on strain and demand.
+    /// Regression of performance (overall score, % of the maximum) on strain and demand.
     pub performance: Regression,
-    /// Indirect effect of demand on performance through strain, points per unit of demand: at low feedback (one standard
-    /// deviation below the mean), at the mean, and at high feedback (one standard deviation above); clamped to the answer scale.
+    /// Indirect effect of demand on performance through strain, percentage points per unit of demand: for low feedback (mean
+    /// minus one standard deviation), mean feedback, and high feedback (mean plus one standard deviation). Feedback is clamped to
+    /// the answer scale.
     pub indirect: [IndirectEffect; 3],
     /// Change of the indirect effect per unit of feedback (index of moderated mediation).
     pub moderation: IndirectEffect,
-    /// Number of bootstrap samples that could be estimated.
+    /// Number of bootstrap samples for which the model could be estimated.
     pub resamples: usize,
 }
 
-/// An indirect effect with its interval.
+/// An indirect effect with its confidence interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct IndirectEffect {
-    /// Feedback value at which the effect applies, 1 to 5; for the moderation, the mean.
+    /// Feedback value for which the effect applies, 1 to 5; for the moderation, the mean.
     pub feedback: f64,
-    /// Point estimate.
+    /// Estimated value.
     pub effect: f64,
     /// 95 % bootstrap interval; `None` if too few samples could be estimated.
     pub interval_95: Option<[f64; 2]>,
@@ -58,20 +59,20 @@ struct PersonRow {
     performance: f64,
 }
 
-/// Estimates the model. Adds reasons for caution to `warnings`.
+/// Estimates the model. Appends the limitations of the estimate to `warnings`.
 pub fn causal(firsts: &[&SessionRecord], warnings: &mut Vec<String>) -> Option<MediationModel> {
     let people: Vec<PersonRow> = firsts.iter().filter_map(|record| person(record)).collect();
     let n = people.len();
     if n < SENSIBLE_N {
         warnings.push(format!(
-            "demand, strain, performance: {n} trainees with complete answers; with fewer than {SENSIBLE_N} the model misses medium effects, \
-             so it only describes these trainees"
+            "demand, strain, performance: only {n} trainees gave complete answers; with fewer than {SENSIBLE_N}, the model can miss medium effects, \
+             so it describes these trainees only and does not generalize"
         ));
     }
     match estimate(&people) {
         Ok(model) => Some(model),
         Err(why) => {
-            warnings.push(format!("demand, strain, performance: no estimate: {why}"));
+            warnings.push(format!("demand, strain, performance: model could not be estimated: {why}"));
             None
         }
     }
@@ -125,7 +126,7 @@ fn estimate(people: &[PersonRow]) -> Result<MediationModel, String> {
     })
 }
 
-/// Returns, for each bootstrap sample, the indirect effect at the mean feedback and its change per unit of feedback.
+/// Returns two values for each bootstrap sample: the indirect effect at mean feedback and its change per unit of feedback.
 fn resample(rows: &[[f64; 3]], strain: &[f64], second: &[[f64; 2]], performance: &[f64]) -> Vec<(f64, f64)> {
     let n = rows.len();
     let draws = (DRAWN_MAX / n.max(1)).clamp(RESAMPLES_MIN, RESAMPLES);

@@ -1,16 +1,17 @@
-//! Definitions of the columns of the cohort tables, for the data dictionary. A test requires a definition for every column.
+//! Definitions of the columns in the cohort tables, used for the data dictionary. A test checks that every column has a
+//! definition.
 
 /// Unit and definition of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Definition {
     /// Unit; empty for counts, strings and dimensionless numbers.
     pub unit: &'static str,
-    /// Definition, one sentence.
+    /// Definition of the value, in one sentence.
     pub description: &'static str,
 }
 
-/// Table, column name (or prefix, if it ends in `*`), unit and definition. The first match applies; an empty table matches all
-/// tables.
+/// Table, column name (a prefix if it ends in `*`), unit and definition. The first matching row applies. An empty table name
+/// matches all tables.
 const COLUMNS: &[(&str, &str, &str, &str)] = &[
     ("learning_of_the_group.csv", "mean", "points", "Mean score of these trainees in this repetition."),
     ("learning_of_the_group.csv", "first", "points", "Score of the fitted curve in the first repetition."),
@@ -43,16 +44,16 @@ const COLUMNS: &[(&str, &str, &str, &str)] = &[
     ("", "count", "", "Number of values in the bin."),
     ("", "trainee", "", "Name of the trainee; `all` for the total."),
     ("", "session", "", "Name of the session folder."),
-    ("", "conformity", "points", "Conformity, 0 to 100; empty where it does not apply."),
+    ("", "conformity", "points", "Conformity, 0 to 100; empty if it does not apply."),
     ("", "efficiency", "points", "Efficiency, 0 to 100."),
     ("", "safety", "points", "Safety, 0 to 100."),
-    ("", "accuracy", "points", "Accuracy, 0 to 100; empty where it does not apply."),
+    ("", "accuracy", "points", "Accuracy, 0 to 100; empty if it does not apply."),
     ("", "overall", "points", "Sum of the scores that apply."),
     ("", "seconds", "s", "Duration of the flight."),
     ("", "purpose", "", "`practice` or `assessment`; empty if not chosen."),
     ("", "task", "", "Task number."),
     ("", "name", "", "Task name."),
-    ("", "attempted", "", "1 when the path was entered, otherwise 0."),
+    ("", "attempted", "", "1 if the path was entered, otherwise 0."),
     ("", "on_path", "", "Fraction of the task's window on the path, 0 to 1."),
     ("", "speeding", "", "Speeding loss of the task."),
     ("", "task_*", "", "Number of crashes in the window of this task."),
@@ -62,12 +63,12 @@ const COLUMNS: &[(&str, &str, &str, &str)] = &[
     ("", "low_whisker", "points", "Smallest value within 1.5 interquartile ranges of the first quartile."),
     ("", "high_whisker", "points", "Largest value within 1.5 interquartile ranges of the third quartile."),
     ("", "outliers", "points", "Values beyond the whiskers, separated by spaces."),
-    ("", "earlier", "", "Earlier repetition, which is subtracted."),
-    ("", "later", "", "Later repetition, from which the earlier is subtracted."),
+    ("", "earlier", "", "Number of the earlier repetition."),
+    ("", "later", "", "Number of the later repetition."),
     ("", "mean_difference", "points", "Mean of later minus earlier."),
     ("", "sd_difference", "points", "Standard deviation of later minus earlier."),
     ("", "df", "", "Degrees of freedom."),
-    ("", "t", "", "Paired t statistic; empty where all differences are equal."),
+    ("", "t", "", "Paired t statistic; empty if all differences are equal."),
     ("", "p_upper", "", "Probability of a larger t."),
     ("", "p_lower", "", "Probability of a smaller t."),
     ("", "p_two", "", "Two-tailed p value."),
@@ -77,10 +78,10 @@ const COLUMNS: &[(&str, &str, &str, &str)] = &[
     ("", "p_two_holm", "", "`p_two` after Holm's correction over all tests of the table."),
     ("", "low_up_to", "points", "Upper edge of the low class."),
     ("", "middle_up_to", "points", "Upper edge of the middle class."),
-    ("", "group_*", "", "Number of trainees of the repeating group in this class."),
+    ("", "group_*", "", "Number of trainees with repetitions in this class."),
     ("", "others_*", "", "Number of other trainees in this class."),
-    ("", "chi_squared", "", "Chi-squared statistic of group against others."),
-    ("", "smallest_expected", "", "Smallest expected count; below 5 the p value is unreliable."),
+    ("", "chi_squared", "", "Chi-squared statistic of the comparison between the group and the others."),
+    ("", "smallest_expected", "", "Smallest expected count; below 5, the p value is unreliable."),
     ("", "question", "", "Key of the question."),
     ("", "strongly_agree", "", "Number of answers with value 1."),
     ("", "agree", "", "Number of answers with value 2."),
@@ -88,9 +89,9 @@ const COLUMNS: &[(&str, &str, &str, &str)] = &[
     ("", "disagree", "", "Number of answers with value 4."),
     ("", "strongly_disagree", "", "Number of answers with value 5."),
     ("", "agreeing", "", "Fraction of answers with value 1 or 2, 0 to 1."),
-    ("", "self_rating", "", "Mean of the answers about performance, 1 to 5, higher is better."),
+    ("", "self_rating", "", "Mean of the answers about performance, 1 to 5; higher is better."),
     ("", "measured_pct", "%", "Measured overall score as a percentage of the maximum possible."),
-    ("", "words", "", "Contradiction between self-rating and measured score."),
+    ("", "words", "", "Description of the contradiction between self-rating and measured score."),
     ("", "model", "", "`strain`, `performance`, or `resampled` for bootstrapped effects."),
     ("", "term", "", "Name of the coefficient or effect."),
     ("", "estimate", "", "Value of the coefficient or effect."),
@@ -107,7 +108,7 @@ const COLUMNS: &[(&str, &str, &str, &str)] = &[
     ("", "next", "points", "Score that the curve predicts for the next session."),
     ("", "people", "", "Number of trainees with all repetitions."),
     ("", "fitted", "points", "Score of the fitted curve in this repetition."),
-    ("", "warning", "", "A reason for caution in interpreting the cohort's results."),
+    ("", "warning", "", "Limitation to consider when interpreting the cohort's results."),
 ];
 
 /// Returns the definition of a column of a table; `None` if there is none.

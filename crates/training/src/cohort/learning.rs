@@ -1,25 +1,25 @@
-//! The group's learning curves: for each score, the mean over trainees with enough sessions and a curve fitted to it.
+//! The group's learning curves: for each score, the mean over all trainees with enough sessions, and a curve fitted to the means.
 
 use super::progress::TraineeProgress;
 use super::{SCORES, progress::Repetition};
 use crate::statistics::{LEARNING_NEEDS, LearningCurve, learning_curve, mean};
 use serde::Serialize;
 
-/// Learning curve of one score.
+/// Learning curve of a group for one score.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GroupCurve {
-    /// Name of the score.
+    /// Name of the score, such as `conformity`.
     pub score: String,
-    /// Number of trainees with their own curve for this score.
+    /// Number of trainees included in the mean.
     pub people: usize,
-    /// Mean score by repetition, up to the last repetition that all of them flew.
+    /// Mean score by repetition, up to the last repetition that all of these trainees flew.
     pub means: Vec<f64>,
     /// Curve fitted to the means.
     #[serde(flatten)]
     pub curve: LearningCurve,
 }
 
-/// Computes the curves of trainees with at least [`LEARNING_NEEDS`] sessions; empty if there are none.
+/// Computes the curves from trainees with at least [`LEARNING_NEEDS`] sessions; empty if there are no such trainees.
 pub fn learning(progress: &[TraineeProgress]) -> Vec<GroupCurve> {
     SCORES.into_iter().filter_map(|(score, _)| of_score(score, progress)).collect()
 }

@@ -1,5 +1,6 @@
-//! Cohort analysis: reproduces the tables and figures of the paper's pilot study. Sessions are numbered per trainee on the job.
-//! First sessions describe the whole cohort; repetitions describe the group that flew at least the requested number of sessions.
+//! Cohort analysis: reproduces the tables and figures of the pilot study in the TASBID paper. Each trainee's sessions on the job
+//! are numbered. First sessions describe the whole cohort; repetitions describe the group of trainees with at least the requested
+//! number of sessions.
 
 mod answers;
 mod causal;
@@ -20,14 +21,14 @@ use super::record::{IncompletePolicy, SessionRecord};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Minimum number of pairs for meaningful paired tests (a medium effect, d = 0.5, needs 34 pairs for a power of 0.8 at 0.05,
-/// two-tailed; Cohen 1988).
+/// Minimum number of pairs for meaningful paired tests. Detecting a medium effect (d = 0.5) with a power of 0.8 at a two-tailed
+/// significance level of 0.05 takes 34 pairs (Cohen 1988).
 const SENSIBLE_PAIRS: usize = 34;
 
 /// Sessions and number of repetitions to analyze.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Selection {
-    /// Scenarios that count as the job; if empty, the one flown most often.
+    /// Scenarios that count as the job. If empty, the scenario that was flown most often.
     pub scenarios: Vec<String>,
     /// Number of repetitions to compare.
     pub repetitions: usize,
@@ -42,41 +43,41 @@ pub struct Cohort {
     pub scenarios: Vec<String>,
     /// Number of sessions on the job.
     pub sessions: usize,
-    /// Number of incomplete sessions excluded.
+    /// Number of incomplete sessions excluded from the analysis.
     pub left_out: usize,
     /// Number of trainees who flew the job.
     pub trainees: usize,
     /// Number of repetitions compared.
     pub repetitions: usize,
-    /// Trainees with at least that number of sessions.
+    /// Trainees with at least that number of sessions ("the group").
     pub group: Vec<String>,
-    /// First sessions: distribution of each score.
+    /// Distribution of each score in the first sessions.
     pub distributions: Vec<Distribution>,
-    /// First sessions: scores and tasks of each trainee.
+    /// Scores and tasks of each trainee's first session.
     pub individuals: Vec<Individual>,
-    /// First sessions: crashes by trainee, task and kind.
+    /// Crashes in the first sessions by trainee, task and kind.
     pub crashes: CrashTable,
-    /// The group: each score by repetition.
+    /// Each score by repetition, for the group.
     pub boxes: Vec<RepetitionBox>,
-    /// The group: paired comparisons of the repetitions.
+    /// Paired comparisons of the repetitions, for the group.
     pub tests: Vec<Comparison>,
-    /// Tests of whether the group's scores are distributed like those of the other trainees.
+    /// Tests whether the group's scores are distributed like those of the other trainees.
     pub homogeneity: Vec<GroupTest>,
-    /// Answer counts: over all first sessions, and for the group by repetition.
+    /// Answer counts of all first sessions, and of the group by repetition.
     pub likert: Vec<Likert>,
     /// Self-ratings compared with measured scores.
     pub self_rating: SelfRating,
-    /// Demand, strain and performance with feedback as moderator; `None` if the model cannot be estimated.
+    /// Model of demand, strain and performance with feedback as moderator; `None` if it cannot be estimated.
     pub causal: Option<MediationModel>,
-    /// Progress of each trainee over the repetitions.
+    /// Progress of each trainee by repetition.
     pub progress: Vec<TraineeProgress>,
-    /// Learning curves over all trainees with enough sessions; empty if there are none.
+    /// Learning curves over all trainees with enough sessions; empty if there are no such trainees.
     pub learning: Vec<GroupCurve>,
-    /// Reasons for caution in interpreting the results.
+    /// Limitations to consider when interpreting the results.
     pub warnings: Vec<String>,
 }
 
-/// Function that returns a score of a record.
+/// Function that returns one score of a record; `None` if it does not apply.
 pub(super) type ScorePicker = fn(&SessionRecord) -> Option<f64>;
 
 /// The five scores by name.
@@ -92,7 +93,7 @@ const OVERALL: (&str, ScorePicker) = ("overall", |record| Some(record.scores.ove
 /// Sessions of each trainee on the job, in chronological order.
 pub(super) type SessionsByTrainee<'a> = BTreeMap<&'a str, Vec<&'a SessionRecord>>;
 
-/// Analyzes a cohort.
+/// Analyzes the selected sessions of a cohort.
 #[must_use]
 pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
     let scenarios = scenarios(records, selection);
@@ -114,7 +115,7 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
     let causal = causal::causal(&firsts, &mut warnings);
     if repetitions > 1 && group.len() < SENSIBLE_PAIRS {
         warnings.push(format!(
-            "{} trainees flew {repetitions} times; with fewer than {SENSIBLE_PAIRS}, a paired test misses most medium effects",
+            "only {} trainees flew {repetitions} times; with fewer than {SENSIBLE_PAIRS}, a paired test can miss medium effects",
             group.len()
         ));
     }
@@ -142,8 +143,8 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
     }
 }
 
-/// Returns the selected scenarios, otherwise the one flown most often (ties: first by name). Counts only eligible sessions, if
-/// there are any.
+/// Returns the selected scenarios. If none are selected, returns the one flown most often (in a tie, the first by name). Counts
+/// only the sessions that the policy allows, unless there are none.
 fn scenarios(records: &[SessionRecord], selection: &Selection) -> Vec<String> {
     if !selection.scenarios.is_empty() {
         return selection.scenarios.clone();

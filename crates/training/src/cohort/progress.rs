@@ -1,4 +1,4 @@
-//! Progress of one trainee over the repetitions, as in the paper's figure of participant 18.
+//! Progress of one trainee by repetition, as in the TASBID paper's figure of participant 18.
 
 use super::SCORES;
 use crate::record::{Crashes, IncompletePolicy, SessionRecord};
@@ -9,59 +9,59 @@ use std::collections::BTreeMap;
 /// Sessions and learning curves of one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TraineeProgress {
-    /// Trainee name.
+    /// Pseudonym of the trainee.
     pub trainee: String,
     /// Sessions on the job, in chronological order.
     pub repetitions: Vec<Repetition>,
-    /// Learning curves of the scores, if there are at least four repetitions.
+    /// Learning curve of each score, if there are at least four repetitions.
     pub curves: Vec<ScoreCurve>,
 }
 
-/// One repetition.
+/// One session of a trainee on a job.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Repetition {
     /// Number of the repetition, from 1.
     pub number: usize,
-    /// Session id.
+    /// Id of the session (name of its folder).
     pub session: String,
     /// Start time, µs since the Unix epoch.
     pub started_unix_us: u64,
     /// Conformity, 0 to 100; `None` if it does not apply.
     pub conformity: Option<f64>,
-    /// Efficiency, 0 to 100.
+    /// Efficiency score, 0 to 100.
     pub efficiency: f64,
-    /// Safety, 0 to 100.
+    /// Safety score, 0 to 100.
     pub safety: f64,
     /// Accuracy, 0 to 100; `None` if it does not apply.
     pub accuracy: Option<f64>,
     /// Sum of the scores that apply.
     pub overall: f64,
-    /// Flight time, s.
+    /// Duration of the flight, s.
     pub seconds: f64,
-    /// For each task number, the on-path share; `None` if the task was not attempted.
+    /// On-path share by task number; `None` if the task was not attempted.
     pub on_path: Vec<(u32, Option<f64>)>,
-    /// Crashes by kind.
+    /// Number of crashes by kind of object.
     pub crashes: Crashes,
 }
 
 /// Learning curve of one score.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ScoreCurve {
-    /// Name of the score.
+    /// Name of the score, such as `conformity`.
     pub score: String,
-    /// Fitted curve.
+    /// Power law fitted to the scores.
     #[serde(flatten)]
     pub curve: LearningCurve,
 }
 
-/// Progress of one trainee on one job. Jobs are kept separate because practice on one says little about another.
+/// Progress of one trainee on one job. Jobs are separate, because practice on one says little about another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JobProgress {
-    /// Scenario name.
+    /// Machine-readable name of the scenario, such as `two-bridges`.
     pub scenario: String,
-    /// Numbers and names of its tasks, as of the latest session.
+    /// Numbers and names of the job's tasks, as of the latest session.
     pub tasks: Vec<(u32, String)>,
-    /// Eligible sessions; may be empty.
+    /// Sessions that the policy allows; may be empty.
     pub progress: TraineeProgress,
     /// Number of incomplete sessions excluded.
     pub left_out: usize,
@@ -82,7 +82,7 @@ impl Repetition {
     }
 }
 
-/// Groups one trainee's sessions by scenario: the job with the most tasks first, then by name.
+/// Groups one trainee's sessions by scenario, ordered by descending number of tasks, then by name.
 #[must_use]
 pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy) -> Vec<JobProgress> {
     let mut jobs: BTreeMap<&str, Vec<&SessionRecord>> = BTreeMap::new();
@@ -104,7 +104,7 @@ pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy) -> Vec<Jo
     found
 }
 
-/// Computes the progress over one trainee's sessions, given in chronological order.
+/// Computes the progress of one trainee from sessions in chronological order.
 pub fn progress(trainee: &str, sessions: &[&SessionRecord]) -> TraineeProgress {
     let curve = |(score, pick): (&str, super::ScorePicker)| {
         let values: Option<Vec<f64>> = sessions.iter().map(|record| pick(record)).collect();

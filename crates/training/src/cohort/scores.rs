@@ -1,4 +1,4 @@
-//! Score statistics of a cohort: distributions, individuals, crashes, repetitions and tests.
+//! Score statistics of a cohort: distributions, first sessions, crashes, repetitions and tests.
 
 use super::{OVERALL, SCORES, ScorePicker, SessionsByTrainee};
 use crate::record::{Crashes, SessionRecord};
@@ -8,15 +8,15 @@ use crate::statistics::{
 };
 use serde::Serialize;
 
-/// Number of histogram bins.
+/// Number of bins in a score histogram.
 const BARS: usize = 20;
 
 /// Distribution of one score over the first sessions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Distribution {
-    /// Name of the score.
+    /// Name of the score, such as `conformity`.
     pub score: String,
-    /// Summary statistics.
+    /// Summary statistics of the scores.
     pub summary: SampleSummary,
     /// Bins over the score's full range.
     pub histogram: Vec<HistogramBin>,
@@ -25,65 +25,65 @@ pub struct Distribution {
 /// First session of one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Individual {
-    /// Trainee name.
+    /// Pseudonym of the trainee.
     pub trainee: String,
-    /// Session id.
+    /// Id of the session (name of its folder).
     pub session: String,
     /// `practice` or `assessment`, if chosen.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub purpose: Option<String>,
     /// Conformity, 0 to 100; `None` if it does not apply.
     pub conformity: Option<f64>,
-    /// Efficiency, 0 to 100.
+    /// Efficiency score, 0 to 100.
     pub efficiency: f64,
-    /// Safety, 0 to 100.
+    /// Safety score, 0 to 100.
     pub safety: f64,
     /// Accuracy, 0 to 100; `None` if it does not apply.
     pub accuracy: Option<f64>,
     /// Sum of the scores that apply.
     pub overall: f64,
-    /// Flight time, s.
+    /// Duration of the flight, s.
     pub seconds: f64,
     /// On-path share and speeding by task.
     pub tasks: Vec<TaskShare>,
 }
 
-/// Contribution of one task to conformity.
+/// One task's contribution to conformity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TaskShare {
-    /// Task number.
+    /// Number of the task in the scenario.
     pub id: u32,
-    /// Task name.
+    /// Name of the task in the scenario.
     pub name: String,
     /// Whether the task's path was entered.
     pub attempted: bool,
     /// On-path share (P_p), 0 to 1.
     pub on_path: f64,
-    /// Speeding loss (P_s).
+    /// Speeding loss of the task (P_s in TASBID).
     pub speeding: f64,
 }
 
-/// Crashes of the first sessions.
+/// Crashes in the first sessions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CrashTable {
     /// Total number of crashes.
     pub total: usize,
     /// Crashes by kind.
     pub by_kind: Crashes,
-    /// Task numbers. Each row has one count per task and one for crashes outside all tasks.
+    /// Task numbers. Each row has one count per task and a last one for crashes outside the tasks.
     pub tasks: Vec<u32>,
-    /// Sum over trainees for each task; the last element counts crashes outside all tasks.
+    /// Sum over all trainees for each task; the last element counts crashes outside the tasks.
     pub by_task: Vec<usize>,
-    /// One row per trainee.
+    /// Crash counts of each trainee.
     pub rows: Vec<CrashRow>,
 }
 
 /// Crashes of one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CrashRow {
-    /// Trainee name.
+    /// Pseudonym of the trainee.
     pub trainee: String,
-    /// Count for each task; the last element counts crashes outside all tasks.
+    /// Count for each task; the last element counts crashes outside the tasks.
     pub by_task: Vec<usize>,
     /// Total number of crashes.
     pub total: usize,
@@ -92,18 +92,18 @@ pub struct CrashRow {
 /// Box plot of one score in one repetition of the group.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RepetitionBox {
-    /// Name of the score.
+    /// Name of the score, such as `conformity`.
     pub score: String,
     /// Number of the repetition, from 1.
     pub repetition: usize,
-    /// Box plot data.
+    /// Values that the box plot shows.
     pub plot: BoxPlot,
 }
 
-/// Paired comparison of one score between two repetitions of the group.
+/// Paired comparison of one score in two repetitions of the group.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Comparison {
-    /// Name of the score.
+    /// Name of the score, such as `conformity`.
     pub score: String,
     /// Number of the earlier repetition.
     pub earlier: usize,
@@ -113,20 +113,20 @@ pub struct Comparison {
     #[serde(flatten)]
     pub test: PairedTest,
     /// Holm-corrected p values, separately for each tail. The comparisons of the four scores form one family, those of the
-    /// overall score another.
+    /// overall score another one.
     pub p_holm: Option<TailProbabilities>,
 }
 
-/// Test of whether the group's first sessions are distributed over low, middle and high like those of the other trainees.
+/// Tests whether the group's first sessions are distributed over low, middle and high scores like those of the other trainees.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GroupTest {
-    /// Name of the score.
+    /// Name of the score, such as `conformity`.
     pub score: String,
-    /// Upper bounds of low and middle: the terciles of all first sessions.
+    /// Upper limits of low and middle scores: the terciles of all first sessions.
     pub cuts: [f64; 2],
-    /// Counts of the group.
+    /// Number of trainees of the group with low, middle and high scores.
     pub group: Vec<usize>,
-    /// Counts of the other trainees.
+    /// Number of other trainees with low, middle and high scores.
     pub others: Vec<usize>,
     /// Result of the homogeneity test.
     #[serde(flatten)]
@@ -216,7 +216,9 @@ pub fn comparisons(group: &SessionsByTrainee<'_>, repetitions: usize, warnings: 
                         test,
                         p_holm: None,
                     }),
-                    Err(error) => warnings.push(format!("{score}, {} vs. {}: no test: {error}", later + 1, earlier + 1)),
+                    Err(error) => {
+                        warnings.push(format!("{score}, repetition {} vs. {}: no test possible: {error}", later + 1, earlier + 1))
+                    }
                 }
             }
         }
@@ -227,7 +229,7 @@ pub fn comparisons(group: &SessionsByTrainee<'_>, repetitions: usize, warnings: 
     tests
 }
 
-/// Applies Holm's correction to one family, separately for each tail.
+/// Applies Holm's correction to one family of comparisons, separately for each tail.
 fn correct(mut family: Vec<&mut Comparison>) {
     family.retain(|test| test.test.p.is_some());
     let tail = |pick: fn(&TailProbabilities) -> f64| {

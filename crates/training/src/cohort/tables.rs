@@ -1,4 +1,4 @@
-//! Cohort tables as CSV (RFC 4180), one file per table. Numbers are written with the fewest digits that round-trip exactly.
+//! Cohort tables as CSV (RFC 4180), one file per table. Numbers have the fewest digits that represent the value exactly.
 
 use super::Cohort;
 use crate::statistics::{Regression, TailProbabilities};
@@ -70,7 +70,7 @@ impl NamedTable {
     }
 }
 
-/// Returns a text field, quoted if necessary and escaped so that spreadsheets do not interpret it as a formula.
+/// Returns a text field, quoted if necessary and escaped so that spreadsheets do not treat it as a formula.
 fn text(value: &str) -> String {
     let formula = value.starts_with(['=', '+', '-', '@', '\t', '\r']);
     let value = if formula { format!("'{value}") } else { value.to_owned() };

@@ -3,8 +3,8 @@ use crate::questionnaire::{InspectionPhase, OverallItem, PhaseAspect, Questionna
 use crate::testing::{broken_off, faultless};
 use spandrel_model::random::RandomStream;
 
-/// Returns records of 22 trainees, the first eight with three sessions each, with random scores and answers: demand increases
-/// strain, strain decreases safety.
+/// Returns records of 22 trainees, the first eight with three sessions each. Scores and answers are random, but higher demand
+/// leads to more strain and more strain to less safety.
 fn pilot() -> Vec<SessionRecord> {
     let mut stream = RandomStream::new(11, "made-up cohort");
     let mut records = Vec::new();
@@ -51,13 +51,13 @@ fn exact_the_papers_design_gives_the_papers_tables() {
     assert_eq!(cohort.distributions[4].histogram.iter().map(|bar| bar.count).sum::<usize>(), 22);
     assert_eq!(cohort.boxes.len(), 15);
     assert_eq!(cohort.tests.len(), 15);
-    // 24 questions: over all first sessions, and for each of the three repetitions.
+    // 24 questions, counted over all first sessions and for each of the three repetitions.
     assert_eq!(cohort.likert.len(), 96);
     assert_eq!(cohort.crashes.rows.len(), 22);
     assert_eq!(cohort.crashes.total, cohort.crashes.by_task.iter().sum::<usize>());
     assert_eq!(cohort.crashes.total, cohort.crashes.by_kind.total());
     assert_eq!(cohort.progress[0].repetitions.len(), 3);
-    assert!(cohort.progress.iter().all(|one| one.curves.is_empty()), "three repetitions make no curve");
+    assert!(cohort.progress.iter().all(|one| one.curves.is_empty()), "a curve requires four repetitions");
     assert!(cohort.warnings.iter().any(|words| words.contains("22 trainees") && words.contains("78")), "{:?}", cohort.warnings);
 }
 
@@ -76,7 +76,7 @@ fn exact_repetitions_follow_time_and_compare_the_same_people() {
     assert!((test.test.mean_difference - (of(2) - of(0))).abs() < 1e-9);
     let holm = test.p_holm.unwrap();
     assert!(holm.upper >= test.test.p.unwrap().upper && holm.two <= 1.0);
-    // Efficiency is always 100, so t is undefined and the test is not part of the family.
+    // Efficiency is always 100, so t is undefined and the test is excluded from Holm's correction.
     let flat = expected.tests.iter().find(|test| test.score == "efficiency").unwrap();
     assert_eq!((flat.test.t, flat.p_holm), (None, None));
 }
@@ -89,12 +89,12 @@ fn exact_the_causal_model_finds_what_made_the_data() {
     };
     assert_eq!(model.n, 22);
     assert!((of(&model.strain, "demand") - 0.7).abs() < 0.25, "{:?}", model.strain.coefficients);
-    // 12 of 400 points per unit of strain are 3 %.
+    // 12 points per unit of strain are 3 % of 400.
     assert!((of(&model.performance, "strain") + 3.0).abs() < 1.5, "{:?}", model.performance.coefficients);
     let middle = model.indirect[1];
     let interval = middle.interval_95.unwrap();
     assert!(interval[0] < middle.effect && middle.effect < interval[1] && interval[1] < 0.0, "{middle:?}");
-    assert_eq!(worked(&pilot()).causal.unwrap(), model, "the resampling is the same in every run");
+    assert_eq!(worked(&pilot()).causal.unwrap(), model, "the bootstrap is reproducible");
 }
 
 #[test]
@@ -108,8 +108,8 @@ fn exact_contradictions_of_the_papers_kinds_are_found() {
     let found = worked(&records).self_rating.contradictions;
     let of = |who: &str| found.iter().filter(|one| one.trainee == who).map(|one| one.words.as_str()).collect::<Vec<_>>();
     assert!(of("p0").iter().any(|words| words.starts_with("felt time pressure")));
-    assert!(of("p7").iter().any(|words| words.contains("among the lowest quarter")));
-    assert!(of("p7").iter().any(|words| words.contains("among the slowest quarter")));
+    assert!(of("p7").iter().any(|words| words.contains("in the lowest quarter")));
+    assert!(of("p7").iter().any(|words| words.contains("in the slowest quarter")));
     assert!(of("p3").is_empty() && of("p4").is_empty());
 }
 
@@ -130,8 +130,8 @@ fn exact_four_repetitions_make_a_learning_curve() {
 fn exact_the_groups_curve_goes_through_the_means_of_those_who_flew_often_enough() {
     let safety = |first: f64, k: usize| first * spandrel_model::math::pow(k as f64, 0.3);
     let mut records = Vec::new();
-    // Two trainees have curves with the same exponent, so their mean has it too. Only the repetitions that both flew count. A
-    // third trainee has too few sessions, and a fourth lacks one accuracy score.
+    // Two trainees have curves with the same exponent, so the curve of their mean has it, too. Only the repetitions that both
+    // flew count. A third trainee has too few sessions. A fourth has no accuracy score in one session.
     for (who, first, times) in [("anna", 30.0, 6), ("ben", 50.0, 4), ("cleo", 90.0, 3), ("dan", 40.0, 4)] {
         for k in 1..=times {
             let mut record = faultless(who, k);
@@ -147,7 +147,7 @@ fn exact_the_groups_curve_goes_through_the_means_of_those_who_flew_often_enough(
     assert_eq!((of("safety").people, of("safety").means.len(), of("accuracy").people), (3, 4, 2));
     assert!((of("safety").curve.exponent - 0.3).abs() < 1e-9 && (of("safety").curve.first - 40.0).abs() < 1e-6);
     assert!((of("safety").curve.at(3.0) - of("safety").means[2]).abs() < 1e-6);
-    assert!(worked(&pilot()).learning.is_empty(), "three repetitions make no curve");
+    assert!(worked(&pilot()).learning.is_empty(), "a curve requires four repetitions");
 }
 
 #[test]
@@ -162,7 +162,7 @@ fn exact_one_trainees_jobs_are_kept_apart() {
     let jobs = by_job(&records, IncompletePolicy::LeaveOut);
     let told: Vec<(&str, usize, usize)> =
         jobs.iter().map(|job| (job.scenario.as_str(), job.tasks.len(), job.progress.repetitions.len())).collect();
-    assert_eq!(told, [("two-bridges", 4, 4), ("drill-gap", 1, 5)], "the job before its drills");
+    assert_eq!(told, [("two-bridges", 4, 4), ("drill-gap", 1, 5)], "the job is listed before its drills");
     assert!(jobs[0].progress.repetitions.iter().all(|one| one.safety == 100.0));
     assert!(jobs[1].progress.repetitions.windows(2).all(|pair| pair[0].started_unix_us < pair[1].started_unix_us));
     assert_eq!((jobs[0].progress.curves.len(), jobs[1].progress.curves.len()), (5, 5));
@@ -176,7 +176,7 @@ fn exact_small_and_empty_cohorts_are_described_and_warned_of() {
     assert!(!none.warnings.is_empty());
     let one = worked(&[faultless("anna", 1)]);
     assert_eq!((one.trainees, one.distributions.len(), one.distributions[0].summary.sd), (1, 5, None));
-    assert!(one.warnings.iter().any(|words| words.contains("no estimate")));
+    assert!(one.warnings.iter().any(|words| words.contains("could not be estimated")));
     for (name, table) in tables(&one) {
         let columns = table.lines().next().unwrap().split(',').count();
         assert!(
@@ -219,7 +219,7 @@ fn exact_a_task_is_rated_against_its_own_path() {
     let rating = worked(&records).self_rating;
     let third = rating.tasks.iter().find(|(id, _)| *id == 3).and_then(|(_, correlation)| *correlation).unwrap();
     assert!(third.r > 0.95, "{third:?}");
-    assert_eq!(rating.tasks.iter().find(|(id, _)| *id == 1).unwrap().1, None, "all answered alike");
+    assert_eq!(rating.tasks.iter().find(|(id, _)| *id == 1).unwrap().1, None, "all answers are equal");
 }
 
 #[test]
@@ -237,7 +237,7 @@ fn regress_an_abort_is_no_first_session_unless_asked_for() {
     assert_eq!(with.individuals[0].session, "session-anna-001");
     let older = vec![SessionRecord { completion: None, ..faultless("anna", 1) }];
     let older = cohort(&older, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::LeaveOut });
-    assert_eq!((older.sessions, older.left_out), (0, 1), "a record that does not say so is not taken for complete");
+    assert_eq!((older.sessions, older.left_out), (0, 1), "a record without completion data counts as incomplete");
 }
 
 #[test]

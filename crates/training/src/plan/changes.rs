@@ -3,7 +3,7 @@
 use crate::record::SessionRecord;
 use serde::Serialize;
 
-/// Smaller score changes are not reported, points.
+/// Score changes below this threshold are reported as unchanged, points.
 const WORTH_A_WORD: f64 = 0.05;
 
 /// The latest session compared with the previous one on the same job.
@@ -15,14 +15,14 @@ pub struct SessionChanges {
     pub changes: Vec<MeasureChange>,
 }
 
-/// Change of one measure.
+/// Change of one measure between two sessions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeasureChange {
-    /// Name of the measure.
+    /// Name of the measure, with its unit.
     pub what: String,
-    /// Previous value.
+    /// Value in the earlier session.
     pub before: f64,
-    /// Current value.
+    /// Value in the latest session.
     pub now: f64,
     /// Whether the change is an improvement; `None` if the values are equal.
     pub better: Option<bool>,

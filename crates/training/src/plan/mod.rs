@@ -18,17 +18,17 @@ const SEVERE_STATE: u8 = 3;
 const DEFECTS_NAMED: usize = 3;
 /// Length of a day, µs.
 const DAY_US: f64 = 86_400e6;
-/// A landing with less battery than this is late, % (docs/src/reference/assessment.md, "Certification").
+/// A landing with less battery than this counts as late, % (docs/src/reference/assessment.md, "Certification").
 const BATTERY_RESERVE_PCT: f64 = 20.0;
-/// Points lost per minute beyond the time for full efficiency (from the paper).
+/// Points lost per minute beyond the time for full efficiency (TASBID).
 const EFFICIENCY_LOSS_PER_MIN: f64 = 10.0;
-/// A deviation is reported in one direction only if it is this many times larger than in the other.
+/// A deviation is described by one direction only if it is larger than the other by this factor.
 const MAINLY: f64 = 2.0;
 
-/// A training plan.
+/// Scenarios recommended to one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TrainingPlan {
-    /// Trainee name.
+    /// Pseudonym of the trainee.
     pub trainee: String,
     /// Id of the latest session, on which the plan is based.
     pub session: String,
@@ -42,29 +42,29 @@ pub struct TrainingPlan {
     pub overdue: bool,
     /// Changes since the previous session on the same job, if there is one.
     pub changes: Option<SessionChanges>,
-    /// Number of incomplete sessions excluded.
+    /// Number of incomplete sessions excluded from the plan.
     pub left_out: usize,
 }
 
 /// One scenario to fly.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlanStep {
-    /// Scenario name.
+    /// Machine-readable name of the scenario, such as `two-bridges`.
     pub scenario: String,
-    /// Sum over the rules that recommend it of weight times value over limit.
+    /// Sum of weight × value / limit over all rules that recommend this scenario.
     pub urgency: f64,
     /// Reasons, most urgent first.
     pub reasons: Vec<PlanReason>,
 }
 
-/// Reason to fly a scenario.
+/// Reason to fly a scenario, from one rule.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlanReason {
-    /// Name of the rule.
+    /// Name of the rule that applied.
     pub rule: String,
-    /// Id of the session that was evaluated.
+    /// Id of the session in which the value was measured.
     pub session: String,
-    /// Explanation for the trainee.
+    /// Reason in words, for the trainee.
     pub words: String,
     /// Measured value; fractions from 0 to 1.
     pub value: f64,
@@ -72,7 +72,7 @@ pub struct PlanReason {
     pub limit: f64,
 }
 
-/// A measured value that a rule evaluates.
+/// A measured value and the flight it comes from.
 struct Finding<'a> {
     value: f64,
     task: Option<&'a TaskRecord>,
@@ -116,7 +116,7 @@ pub fn plan(records: &[SessionRecord], rules: &PlanRules, now_unix_us: u64) -> O
     })
 }
 
-/// Creates a plan from the eligible sessions only. Without any, the plan is to fly the job.
+/// Creates a plan from the sessions that the policy allows. If there are none, the plan recommends the job.
 #[must_use]
 pub fn plan_counting(
     mut records: Vec<SessionRecord>,
@@ -154,8 +154,8 @@ fn single(scenario: &str, record: &SessionRecord, (rule, words): (&str, String),
     PlanStep { scenario: scenario.to_owned(), urgency: 0.0, reasons: vec![reason] }
 }
 
-/// Returns the values for a rule: for task rules, from the latest flight of each task; for session rules, from the latest session
-/// with a value.
+/// Returns the values that a rule evaluates: for task rules, one per task from its latest flight; for session rules, the one of
+/// the latest session that has a value.
 fn findings<'a>(rule: &PlanRule, records: &'a [SessionRecord]) -> Vec<Finding<'a>> {
     match rule.measure {
         RuleMeasure::OffPath
@@ -190,7 +190,7 @@ fn newest_tasks(records: &[SessionRecord]) -> Vec<(&SessionRecord, &TaskRecord)>
         let same = |(_, other): &(&SessionRecord, &TaskRecord)| {
             other.kind == task.kind && (task.kind != "free" || other.name == task.name)
         };
-        // A session may contain two tasks of the same kind; both count.
+        // A session may contain two tasks of the same kind. Both are evaluated.
         if !newest.iter().any(|seen| same(seen) && seen.0.id != record.id) {
             newest.push((record, task));
         }
@@ -235,7 +235,8 @@ fn of_session(rule: &PlanRule, record: &SessionRecord) -> Option<f64> {
             Some(longest_s)
         }
         RuleMeasure::FalseSnapshots => share(record.snapshots - record.hits.min(record.snapshots), record.snapshots),
-        // The score of 0 to 100 maps to -100 to 100 points. After a battery failure, the points do not reflect the time.
+        // The efficiency score of 0 to 100 corresponds to -100 to 100 points. After a battery failure, the points do not reflect
+        // the time.
         RuleMeasure::Overtime => {
             let points = 2.0 * record.scores.efficiency - 100.0;
             (!record.battery_failed).then(|| (100.0 - points) / EFFICIENCY_LOSS_PER_MIN)
@@ -250,7 +251,7 @@ fn of_session(rule: &PlanRule, record: &SessionRecord) -> Option<f64> {
     }
 }
 
-/// Returns the missed defects that a rule applies to (severe ones, or those in plain view), most severe first.
+/// Returns the missed defects that a rule applies to (severe ones, or those clearly visible), most severe first.
 fn missed<'a>(rule: &PlanRule, record: &'a SessionRecord) -> Vec<&'a DefectRecord> {
     let about = |defect: &&DefectRecord| match rule.measure {
         RuleMeasure::MissedInView => defect.in_view_s.is_some_and(|seconds| seconds > rule.limit),
@@ -277,7 +278,7 @@ fn missed<'a>(rule: &PlanRule, record: &'a SessionRecord) -> Vec<&'a DefectRecor
     missed
 }
 
-/// Describes these defects, naming at most [`DEFECTS_NAMED`].
+/// Describes the missed defects that a rule applies to, listing at most [`DEFECTS_NAMED`] of them.
 fn missed_summary(rule: &PlanRule, record: &SessionRecord) -> String {
     let missed = missed(rule, record);
     let name = |defect: &&DefectRecord| {
@@ -317,11 +318,11 @@ fn axis(task: &TaskRecord) -> &'static str {
         (Some(sideways), Some(height)) if sideways > MAINLY * height => "mainly to the side",
         (Some(sideways), Some(height)) if height > MAINLY * sideways => "mainly in height",
         (Some(_), Some(_)) => "to the side and in height",
-        (Some(_) | None, None) | (None, Some(_)) => "and far from it",
+        (Some(_) | None, None) | (None, Some(_)) => "and far away from it",
     }
 }
 
-/// Formats a value with enough digits to show on which side of the limit it lies.
+/// Formats a value with enough digits to tell it from the limit.
 fn displayed_value(measure: RuleMeasure, value: f64, limit: f64) -> String {
     match measure {
         RuleMeasure::OffPath | RuleMeasure::Speeding | RuleMeasure::Missed | RuleMeasure::FalseSnapshots => {

@@ -2,7 +2,7 @@
 
 use spandrel_model::toml::{Problems, Reader, Section};
 
-/// The default rules.
+/// Default rules of the training plan, in TOML.
 pub const RULES: &str = include_str!("rules.toml");
 
 /// Format version of the file.
@@ -29,7 +29,7 @@ pub enum RuleMeasure {
     Missed,
     /// Number of missed defects in condition state 3 (poor) or worse.
     MissedSevere,
-    /// Longest time that a missed defect was in plain view, s; available only in a session's report.
+    /// Longest time for which a missed defect was clearly visible, s; available only if the session's report exists.
     MissedInView,
     /// Fraction of pictures without a new defect.
     FalseSnapshots,
@@ -78,23 +78,23 @@ const WITH: &[(&str, Option<&str>)] = &[
 /// A rule of the training plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanRule {
-    /// Unique name.
+    /// Unique name of the rule.
     pub name: String,
-    /// Measure to evaluate.
+    /// Measure that is compared with the limit.
     pub measure: RuleMeasure,
     /// Kind of task; `None` for any.
     pub task: Option<&'static str>,
     /// Kind of object hit; `None` for any.
     pub with: Option<&'static str>,
-    /// Condition that a missed defect's best picture failed; empty for any.
+    /// Reason why a missed defect's best picture did not count; empty for any.
     pub lacked: String,
-    /// Limit above which the rule applies.
+    /// Value above which the rule applies.
     pub limit: f64,
     /// Weight relative to other rules.
     pub weight: f64,
     /// Scenario to fly.
     pub scenario: String,
-    /// Reason template with placeholders for values.
+    /// Text shown to the trainee, with placeholders for values.
     pub reason: String,
 }
 
@@ -142,7 +142,7 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> PlanRules {
     for mut section in reader.sections(root, "rules") {
         let rule = one(reader, &mut section);
         if rules.iter().any(|other| other.name == rule.name) {
-            reader.add_problem(&section, "name", &rule.name, "a name of its own", "two rules of one name");
+            reader.add_problem(&section, "name", &rule.name, "a unique name", "duplicate rule name");
         }
         reader.finish(&section);
         rules.push(rule);
@@ -187,6 +187,6 @@ mod tests {
         let told = read_rules("rules.toml", &wrong).unwrap_err().to_string();
         assert!(told.contains("measure = \"elegance\"") && told.contains("limit = -1"), "{told}");
         let twice = RULES.replace("name = \"into the water\"", "name = \"hit a person\"");
-        assert!(read_rules("rules.toml", &twice).unwrap_err().to_string().contains("two rules of one name"));
+        assert!(read_rules("rules.toml", &twice).unwrap_err().to_string().contains("duplicate rule name"));
     }
 }

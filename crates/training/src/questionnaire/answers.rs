@@ -1,4 +1,4 @@
-//! `answers.json`: a trainee's answers so far.
+//! Reads and writes `answers.json`, which contains a trainee's answers so far.
 
 use super::language::is_tag;
 use super::{QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, TlxScale};
@@ -14,17 +14,17 @@ pub const ANSWERS: &str = "answers.json";
 
 /// Format version of the file.
 const FORMAT: u64 = 1;
-/// Maximum file size, bytes; far larger than 24 answers need.
+/// Maximum file size, bytes; 24 answers need far less.
 const LARGEST: usize = 64 * 1024;
 
 /// Answers of one session, possibly incomplete.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Answers {
-    /// Language in which they were given.
+    /// Language of the questionnaire when the answers were given.
     pub language: String,
     /// Answers from 1 (strongly agree) to 5 (strongly disagree).
     pub given: BTreeMap<QuestionnaireItem, u8>,
-    /// NASA-TLX ratings, 0 to 100 in steps of 5; empty if it was not asked.
+    /// NASA-TLX ratings, 0 to 100 in steps of 5; empty if the trainee skipped this part.
     pub tlx: BTreeMap<TlxScale, u8>,
 }
 
@@ -58,7 +58,8 @@ impl Serialize for Answers {
     }
 }
 
-/// Answers as stored in records. They were validated when first read; only unknown questions are rejected.
+/// Answers as stored in session records. They were validated when they were first read, so only unknown questions are rejected
+/// here.
 #[derive(Deserialize)]
 struct StoredAnswers {
     language: String,
@@ -85,7 +86,7 @@ impl<'de> Deserialize<'de> for Answers {
     }
 }
 
-/// Reads the `answers.json` of a job with these tasks. Answers may be missing but must be valid.
+/// Reads `answers.json` for a job with these tasks. Answers may be missing, but those present must be valid.
 ///
 /// # Errors
 /// All errors in the file, with file, line, key, value and allowed values.
@@ -124,13 +125,13 @@ impl AnswerReading<'_> {
         }
         match map.get("format").map(|value| (value.as_u64(), value)) {
             Some((Some(FORMAT), _)) => {}
-            Some((_, value)) => self.invalid_answer("format", &shown(value), &FORMAT.to_string(), "not this version's"),
+            Some((_, value)) => self.invalid_answer("format", &shown(value), &FORMAT.to_string(), "unsupported format version"),
             None => self.invalid_answer("format", "", &FORMAT.to_string(), "missing"),
         }
         let language = map.get("language").and_then(Value::as_str).filter(|tag| is_tag(tag));
         if language.is_none() {
             let value = map.get("language").map(shown).unwrap_or_default();
-            self.invalid_answer("language", &value, "a language tag such as en", "missing or none");
+            self.invalid_answer("language", &value, "a language tag such as en", "missing or invalid");
         }
         let known = QuestionnaireItem::all(tasks);
         let allowed_keys = known.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
@@ -233,7 +234,7 @@ mod tests {
             ("[]", "not an object"),
             ("{\"format\": 1,", "syntax"),
             ("{\"language\": \"en\"}", "format: missing (allowed: 1)"),
-            ("{\"format\": 2, \"language\": \"en\"}", "format = 2: not this version's (allowed: 1)"),
+            ("{\"format\": 2, \"language\": \"en\"}", "format = 2: unsupported format version (allowed: 1)"),
             ("{\"format\": 1}", "language"),
             ("{\"format\": 1, \"language\": \"<b>\"}", "language"),
             ("{\"format\": 1, \"language\": \"en\", \"scores\": {}}", "scores = {}: unknown key"),

@@ -1,33 +1,33 @@
-//! Questionnaire languages, shipped and site-specific, and language selection.
+//! Available questionnaire languages (shipped and site-specific) and language selection.
 
 use super::wording::{Wording, read_wording};
 use spandrel_model::toml::Problems;
 
-/// File names and contents of the shipped wordings.
+/// File names and contents of the shipped translations.
 pub const SHIPPED: [(&str, &str); 3] =
     [("en.toml", include_str!("en.toml")), ("de.toml", include_str!("de.toml")), ("es.toml", include_str!("es.toml"))];
 /// Maximum length of a language tag, characters (BCP 47 requires support for 35).
 const TAG_MAX: usize = 35;
-/// Maximum number of Accept-Language entries evaluated.
+/// Maximum number of entries evaluated in an Accept-Language header.
 const ACCEPTED_MOST: usize = 20;
 
-/// Returns whether the string has the form of a language tag.
+/// Returns whether a string has the format of a language tag.
 #[must_use]
 pub fn is_tag(tag: &str) -> bool {
     let parts = || tag.split('-');
     tag.len() <= TAG_MAX && parts().all(|part| (1..=8).contains(&part.len()) && part.chars().all(|c| c.is_ascii_alphanumeric()))
 }
 
-/// All available languages. The first is the default.
+/// All available languages; the first one is the default.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Languages(Vec<Wording>);
 
 impl Languages {
-    /// Creates the list from site-specific wordings, in order, followed by the shipped ones. The first wording of a language
-    /// takes precedence.
+    /// Creates the list from site-specific wordings, in the given order, followed by the shipped ones. If a language occurs
+    /// several times, the first wording is used.
     ///
     /// # Errors
-    /// If a shipped wording is invalid, which tests rule out.
+    /// Fails if a shipped wording is invalid, which a test excludes.
     pub fn with(own: Vec<Wording>) -> Result<Self, Problems> {
         let mut all = own;
         for (file, text) in SHIPPED {
@@ -45,7 +45,7 @@ impl Languages {
         &self.0
     }
 
-    /// Returns the wording for a language tag, or for the same language in another region.
+    /// Returns the wording for a language tag. If there is none, returns one for the same language in another region.
     #[must_use]
     pub fn of(&self, tag: &str) -> Option<&Wording> {
         let primary = |tag: &str| tag.split('-').next().unwrap_or_default().to_ascii_lowercase();
@@ -53,11 +53,11 @@ impl Languages {
         exactly.or_else(|| self.0.iter().find(|known| primary(&known.language) == primary(tag)))
     }
 
-    /// Returns the wording preferred by an Accept-Language header (RFC 9110, 12.5.4); the default if none matches.
+    /// Returns the wording that an Accept-Language header prefers (RFC 9110, section 12.5.4), or the default if none matches.
     #[must_use]
     pub fn accepted(&self, header: &str) -> &Wording {
         let mut wanted: Vec<(&str, f64)> = header.split(',').take(ACCEPTED_MOST).filter_map(accept_language).collect();
-        // Entries of equal weight keep the browser's order.
+        // Entries of equal weight stay in the browser's order.
         wanted.sort_by(|a, b| b.1.total_cmp(&a.1));
         wanted.into_iter().find_map(|(tag, _)| self.of(tag)).unwrap_or(&self.0[0])
     }
@@ -108,8 +108,8 @@ mod tests {
         assert_eq!(names, ["de-CH", "en", "de", "es"]);
         assert_eq!((all.of("en").unwrap().title.as_str(), all.of("EN-gb").unwrap().title.as_str()), ("Debriefing", "Debriefing"));
         assert_eq!(all.accepted("de").language, "de");
-        assert_eq!(all.accepted("de-AT").language, "de-CH", "the first of the same language");
-        assert_eq!(all.accepted("fr").language, "de-CH", "what the site named first");
+        assert_eq!(all.accepted("de-AT").language, "de-CH", "the first wording of the same language");
+        assert_eq!(all.accepted("fr").language, "de-CH", "the site's first wording is the default");
     }
 
     #[test]

@@ -1,6 +1,6 @@
-//! The questionnaire after a session: three statements on the whole inspection and three on each phase (24 for a job with four
-//! tasks), rated from 1 (strongly agree, the most positive) to 5 (strongly disagree), and optionally unweighted NASA-TLX. The
-//! wording is a translatable data file; the answer keys are the same in every language.
+//! The questionnaire after a session: three statements about the whole inspection and three about each phase (24 for a job with
+//! four tasks), rated from 1 (strongly agree, most positive) to 5 (strongly disagree), plus optionally the unweighted NASA-TLX.
+//! The wording is a translatable data file. The keys of the answers are the same in every language.
 
 mod answers;
 mod language;
@@ -18,23 +18,23 @@ use std::fmt;
 pub const STRONGLY_AGREE: u8 = 1;
 /// Most negative answer.
 pub const STRONGLY_DISAGREE: u8 = 5;
-/// Step of a NASA-TLX scale, points.
+/// Step size of a NASA-TLX scale, points.
 pub const TLX_STEP: u8 = 5;
 /// Maximum of a NASA-TLX scale, points.
 pub const TLX_MAX: u8 = 100;
 
-/// Statements on the whole inspection.
+/// Statements about the whole inspection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum OverallItem {
     /// There was no time pressure.
     TimePressure,
-    /// The trainee was never insecure, irritated or stressed.
+    /// The trainee never felt insecure, irritated or stressed.
     Frustration,
-    /// In-task feedback was helpful.
+    /// Feedback during the task was helpful.
     Feedback,
 }
 
-/// Statements on each phase.
+/// Statements about each phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PhaseAspect {
     /// The phase went well.
@@ -48,7 +48,7 @@ pub enum PhaseAspect {
 /// A phase of the inspection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum InspectionPhase {
-    /// Preparation.
+    /// Calibration before the flight.
     Calibration,
     /// Takeoff.
     TakingOff,
@@ -61,26 +61,26 @@ pub enum InspectionPhase {
 /// A question of the questionnaire.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum QuestionnaireItem {
-    /// Question about the whole inspection.
+    /// Statement about the whole inspection.
     Overall(OverallItem),
-    /// Question about one phase.
+    /// Statement about one phase.
     Phase(InspectionPhase, PhaseAspect),
 }
 
 /// A NASA-TLX scale.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum TlxScale {
-    /// Mental demand.
+    /// How mentally demanding the session was.
     MentalDemand,
-    /// Physical demand.
+    /// How physically demanding the session was.
     PhysicalDemand,
-    /// Temporal demand.
+    /// How hurried the pace was.
     TemporalDemand,
-    /// Performance; 0 is perfect, 100 is failure.
+    /// How successful the trainee felt; 0 is perfect, 100 is failure.
     Performance,
-    /// Effort.
+    /// How hard the trainee had to work.
     Effort,
-    /// Frustration.
+    /// How irritated, discouraged or annoyed the trainee felt.
     Frustration,
 }
 
@@ -88,7 +88,7 @@ impl OverallItem {
     /// All statements in questionnaire order.
     pub const ALL: [Self; 3] = [Self::TimePressure, Self::Frustration, Self::Feedback];
 
-    /// Returns the key.
+    /// Returns the key used in files and forms.
     #[must_use]
     pub fn key(self) -> &'static str {
         match self {
@@ -103,7 +103,7 @@ impl PhaseAspect {
     /// All statements in questionnaire order.
     pub const ALL: [Self; 3] = [Self::Performance, Self::MentalDemand, Self::PhysicalDemand];
 
-    /// Returns the key.
+    /// Returns the key used in files and forms.
     #[must_use]
     pub fn key(self) -> &'static str {
         match self {
@@ -143,7 +143,7 @@ impl QuestionnaireItem {
         OverallItem::ALL.map(Self::Overall).into_iter().chain(by_phase).collect()
     }
 
-    /// Returns the question with this key, regardless of the job.
+    /// Returns the question with this key. Task numbers are not checked against a job.
     #[must_use]
     pub fn from_key(key: &str) -> Option<Self> {
         let Some((phase, aspect)) = key.split_once('.') else {
@@ -157,7 +157,7 @@ impl QuestionnaireItem {
             task => InspectionPhase::Task(task.strip_prefix("task_")?.parse().ok()?),
         };
         let item = Self::Phase(phase, aspect);
-        // Rejects `task_01`, which would be a second key for the same question.
+        // Rejects `task_01`, which would be a second key of the same question.
         (item.to_string() == key).then_some(item)
     }
 }
@@ -176,7 +176,7 @@ impl TlxScale {
     pub const ALL: [Self; 6] =
         [Self::MentalDemand, Self::PhysicalDemand, Self::TemporalDemand, Self::Performance, Self::Effort, Self::Frustration];
 
-    /// Returns the key.
+    /// Returns the key used in files and forms.
     #[must_use]
     pub fn key(self) -> &'static str {
         match self {

@@ -1,27 +1,27 @@
-//! Scale scores computed from the answers: the paper's causal factors, psychological states and moderator.
+//! Scale scores computed from the answers, as used in TASBID's causal model: demand, strain, feedback and self-rating.
 
 use super::{Answers, InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TlxScale};
 use serde::{Deserialize, Serialize};
 
-/// Scale scores from 1 to 5; higher means more of the named quality. A scale is present if at least half of its questions are
-/// answered.
+/// Scale scores from 1 to 5; higher values mean more of the quality that the name states. A scale is present if at least half of
+/// its questions are answered.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ScaleScores {
     /// Mean mental demand over the phases.
     pub mental_demand: Option<f64>,
     /// Mean physical demand over the phases.
     pub physical_demand: Option<f64>,
-    /// Mental and physical demand combined: the paper's causal factors.
+    /// Mean of mental and physical demand: the causal factors in the TASBID paper.
     pub demand: Option<f64>,
-    /// Time pressure and frustration: the paper's psychological states.
+    /// Mean of time pressure and frustration: the psychological states in the TASBID paper.
     pub strain: Option<f64>,
-    /// Helpfulness of the in-task feedback: the paper's moderator.
+    /// Helpfulness of the feedback during the task: the moderator in the TASBID paper.
     pub feedback: Option<f64>,
     /// Mean self-rated performance over the phases.
     pub self_rating: Option<f64>,
 }
 
-/// Computes the scales of one session's answers.
+/// Computes the scale scores of one session.
 #[must_use]
 pub fn scales(answers: &Answers, tasks: &[u32]) -> ScaleScores {
     let of = |aspects: &[PhaseAspect]| {
@@ -30,8 +30,8 @@ pub fn scales(answers: &Answers, tasks: &[u32]) -> ScaleScores {
         average(answers, items.collect())
     };
     let whole = |which: &[OverallItem]| average(answers, which.iter().map(|one| QuestionnaireItem::Overall(*one)).collect());
-    // Statements on demand and strain are worded negatively, so disagreement means a high value; those on feedback and
-    // performance are reversed here.
+    // Statements on demand and strain are worded so that disagreement means a high value. Statements on feedback and performance
+    // are worded the other way round, so they are reversed here.
     let affirmed = |mean: f64| f64::from(STRONGLY_AGREE + STRONGLY_DISAGREE) - mean;
     ScaleScores {
         mental_demand: of(&[PhaseAspect::MentalDemand]),
@@ -48,7 +48,7 @@ fn average(answers: &Answers, items: Vec<QuestionnaireItem>) -> Option<f64> {
     (!given.is_empty() && 2 * given.len() >= items.len()).then(|| given.iter().sum::<f64>() / given.len() as f64)
 }
 
-/// Returns unweighted NASA-TLX: the mean of its six scales, 0 to 100; `None` unless all are answered.
+/// Returns the unweighted NASA-TLX score: the mean of its six scales, 0 to 100; `None` unless all six are answered.
 #[must_use]
 pub fn raw_tlx(answers: &Answers) -> Option<f64> {
     let given: Option<Vec<f64>> =
@@ -86,7 +86,7 @@ mod tests {
         for phase in [InspectionPhase::Calibration, InspectionPhase::TakingOff, InspectionPhase::Landing] {
             answers.given.insert(QuestionnaireItem::Phase(phase, PhaseAspect::Performance), 2);
         }
-        assert_eq!(scales(&answers, &TASKS).self_rating, None, "three of seven are not half");
+        assert_eq!(scales(&answers, &TASKS).self_rating, None, "three of seven answers are too few");
         answers.given.insert(QuestionnaireItem::Phase(InspectionPhase::Task(1), PhaseAspect::Performance), 2);
         assert_eq!(scales(&answers, &TASKS).self_rating, Some(4.0));
     }

@@ -1,4 +1,4 @@
-//! Questionnaire wording, read from a TOML file.
+//! Wording of the questionnaire in one language, read from a TOML file.
 
 use super::language::is_tag;
 use super::{
@@ -8,7 +8,7 @@ use spandrel_model::toml::{Problems, Reader, Section};
 
 /// Format version of the file.
 const FORMAT: i64 = 1;
-/// Placeholders for a task's number and name.
+/// Placeholder for a task's number and, below, for its name.
 const NUMBER: &str = "{number}";
 const NAME: &str = "{name}";
 /// The questionnaire in one language.
@@ -55,21 +55,21 @@ pub struct FormWording {
     pub not_saved: String,
     /// Label of the save button.
     pub save: String,
-    /// Label of the link back.
+    /// Label of the link back to the session.
     pub back: String,
     /// Label of the language selection.
     pub choose_language: String,
     /// Label of the button that changes the language.
     pub change_language: String,
-    /// Key help of the terminal version.
+    /// Help on the keys of the terminal version.
     pub keys: String,
     please_whole: String,
     please_steps: String,
-    /// Instructions for continuing later in the terminal.
+    /// Instructions for continuing later in the terminal version.
     pub later: String,
 }
 
-/// Reads a wording from TOML.
+/// Reads a wording from a TOML file.
 ///
 /// # Errors
 /// All errors in the file.
@@ -90,7 +90,7 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Wording {
     let [language, language_name, title, introduction] =
         texts(reader, root, ["language", "language_name", "title", "introduction"]);
     if root.has("language") && !is_tag(&language) {
-        reader.add_problem(root, "language", &language, "a language tag such as de or pt-BR", "no such tag");
+        reader.add_problem(root, "language", &language, "a language tag such as de or pt-BR", "not a language tag");
     }
     let mut scale = reader.section(root, "scale");
     let answers = texts(reader, &mut scale, ["strongly_agree", "agree", "neutral", "disagree", "strongly_disagree"]);
@@ -102,7 +102,7 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Wording {
     let mut phases = reader.section(root, "phases");
     let [calibration, taking_off, task, landing] = texts(reader, &mut phases, ["calibration", "taking_off", "task", "landing"]);
     if phases.has("task") && !task.contains(NUMBER) {
-        reader.add_problem(&phases, "task", &task, "text with {number}, and {name} if you like", "tasks would look alike");
+        reader.add_problem(&phases, "task", &task, "text that contains {number} and optionally {name}", "missing {number}");
     }
     let mut tlx = reader.section(root, "tlx");
     let [tlx_title, tlx_introduction] = texts(reader, &mut tlx, ["title", "introduction"]);
@@ -134,7 +134,7 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Wording {
     }
 }
 
-/// Reads the form texts, each with its required placeholders.
+/// Reads the texts of the form and checks that each contains its placeholders.
 fn form(reader: &mut Reader<'_>, section: &mut Section<'_>) -> FormWording {
     let mut text = |key: &'static str, filled_in: &[&str]| {
         let text = reader.text(section, key, None);
@@ -144,8 +144,8 @@ fn form(reader: &mut Reader<'_>, section: &mut Section<'_>) -> FormWording {
                 section,
                 key,
                 &text,
-                &format!("text with {}", filled_in.join(" and ")),
-                "a number would be missing",
+                &format!("text that contains {}", filled_in.join(" and ")),
+                "missing placeholder",
             );
         }
         text
@@ -167,19 +167,19 @@ fn form(reader: &mut Reader<'_>, section: &mut Section<'_>) -> FormWording {
 }
 
 impl FormWording {
-    /// Returns the progress text: number of questions answered, out of all.
+    /// Returns the progress text for `answered` of `all` questions.
     #[must_use]
     pub fn answered(&self, answered: usize, all: usize) -> String {
         self.answered.replace("{answered}", &answered.to_string()).replace("{all}", &all.to_string())
     }
 
-    /// Returns the input instruction for a statement.
+    /// Returns the input prompt for a statement in the terminal version.
     #[must_use]
     pub fn integer_instruction(&self) -> String {
         self.please_whole.replace("{from}", &STRONGLY_AGREE.to_string()).replace("{to}", &STRONGLY_DISAGREE.to_string())
     }
 
-    /// Returns the input instruction for a NASA-TLX scale.
+    /// Returns the input prompt for a NASA-TLX scale in the terminal version.
     #[must_use]
     pub fn step_instruction(&self) -> String {
         let text = self.please_steps.replace("{from}", "0").replace("{to}", &TLX_MAX.to_string());
@@ -205,7 +205,7 @@ impl Wording {
         }
     }
 
-    /// Returns the heading of a question: the whole inspection or its phase. `name` returns a task's name for its number.
+    /// Returns the heading above a question: the whole inspection or its phase. `name` returns the name of a task number.
     pub fn heading(&self, item: QuestionnaireItem, name: impl Fn(u32) -> String) -> String {
         match item {
             QuestionnaireItem::Overall(_) => self.overall_heading.clone(),
@@ -213,7 +213,7 @@ impl Wording {
         }
     }
 
-    /// Returns the name of a phase. `name` returns a task's name for its number.
+    /// Returns the name of a phase. `name` returns the name of a task number.
     pub fn phase(&self, phase: InspectionPhase, name: impl Fn(u32) -> String) -> String {
         match phase {
             InspectionPhase::Calibration => self.calibration.clone(),
@@ -223,7 +223,7 @@ impl Wording {
         }
     }
 
-    /// Returns a NASA-TLX scale: question, label at 0, label at 100.
+    /// Returns the question of a NASA-TLX scale and its labels at 0 and 100.
     #[must_use]
     pub fn tlx(&self, scale: TlxScale) -> (&str, &str, &str) {
         let [low, high, best, worst] = &self.tlx_ends;
@@ -263,9 +263,9 @@ mod tests {
             assert_eq!(file, format!("{}.toml", wording.language));
         }
         let wording = read_wording("en.toml", ENGLISH).unwrap();
-        assert_eq!(wording.tlx(TlxScale::Performance).1, "perfectly");
+        assert_eq!(wording.tlx(TlxScale::Performance).1, "perfect");
         assert_eq!(wording.form.answered(3, 24), "3 of 24 answered");
-        assert_eq!(wording.form.step_instruction(), "Please 0 to 100 in steps of 5, Enter, b or q.");
+        assert_eq!(wording.form.step_instruction(), "Please enter 0 to 100 in steps of 5, b or q, or press Enter.");
     }
 
     #[test]

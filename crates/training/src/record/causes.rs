@@ -1,4 +1,4 @@
-//! Causes of a session's scores, computed from its frames for each task.
+//! Causes of a session's scores, computed for each task from the session's frames.
 
 use super::{Crashes, DefectRecord, RecordSource, TaskRecord, kind_word};
 use spandrel_mavlink::telemetry::Frame;
@@ -10,17 +10,17 @@ use spandrel_monitor::measures::crash::{self, Crash};
 use spandrel_monitor::measures::on_path::{OnPath, OnPathWindow, ReferencePaths};
 use spandrel_monitor::measures::on_speed;
 
-/// Farther from the path than this, the drone counts as elsewhere rather than off the path, m (docs/src/reference/assessment.md,
-/// "Feedback during the flight").
+/// Maximum distance from a path at which the drone counts as off this path, m. Farther away, it is considered to be elsewhere
+/// (docs/src/reference/assessment.md, "Feedback during the flight").
 const OFF_PATH_WITHIN_M: f64 = 8.0;
 
-/// The parts of a record that are computed from frames.
+/// The parts of a session record that are computed from its frames.
 pub struct ScoreCauses {
     /// Tasks in scenario order.
     pub tasks: Vec<TaskRecord>,
     /// Crashes outside all task windows.
     pub crashes_outside: Crashes,
-    /// Defects in placement order.
+    /// Defects in the order in which they were placed.
     pub defects: Vec<DefectRecord>,
 }
 
@@ -33,7 +33,7 @@ struct FlownSession<'a> {
     frame_s: f64,
 }
 
-/// Computes the causes.
+/// Computes the causes of a session's scores.
 pub fn causes(source: &RecordSource<'_>) -> ScoreCauses {
     let (scenario, frames) = (source.scenario, &source.graded.frames);
     let paths = ReferencePaths::new(scenario);
@@ -84,8 +84,8 @@ fn task_causes(source: &RecordSource<'_>, flown: &FlownSession<'_>, task: usize,
     }
 }
 
-/// Returns the horizontal and vertical distances from the path, m, for frames in the window that are on no path but within 8 m of
-/// this one.
+/// Returns the horizontal and vertical distance from the task's path, m, for each frame in the window that is on no path but
+/// within 8 m of this one.
 fn off_path(flown: &FlownSession<'_>, task: usize, window: OnPathWindow) -> Vec<(f64, f64)> {
     let frames = (window.first..=window.last).filter(|k| flown.on_path.task[*k].is_none());
     let offset = |k: usize| {

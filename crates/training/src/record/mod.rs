@@ -1,5 +1,5 @@
-//! Session records: all data that progress, cohorts and plans need. A record is derived from the session folder alone and can be
-//! recreated from it at any time.
+//! Session records: all data needed for progress, cohorts and plans. A record is computed only from the session folder, so it can
+//! be recreated at any time.
 
 mod causes;
 mod outcome;
@@ -15,7 +15,7 @@ use spandrel_monitor::folder::sha256_hex;
 use spandrel_monitor::score::completion::{Completion, TaskState};
 use spandrel_monitor::score::{SCORER_VERSION, Score};
 
-/// Format version of a record. It increases when fields are added, so that older records are recreated.
+/// Format version of a record. It is increased when fields are added, so that older records are recreated.
 pub const FORMAT: u32 = 2;
 
 /// Record of one session.
@@ -23,9 +23,9 @@ pub const FORMAT: u32 = 2;
 pub struct SessionRecord {
     /// Format version of this record.
     pub format: u32,
-    /// Name of the session folder, which contains time, pseudonym, scenario and a short unique id.
+    /// Name of the session folder: time, pseudonym, scenario and a short unique id.
     pub id: String,
-    /// Hash over all inputs of this record.
+    /// Hash over all inputs of the record.
     pub fingerprint: String,
     /// Pseudonym of the trainee.
     pub trainee: String,
@@ -38,19 +38,19 @@ pub struct SessionRecord {
     pub spandrel_version: String,
     /// Version of the scorer that computed the scores.
     pub scorer_version: u32,
-    /// Scenario name.
+    /// Machine-readable name of the scenario, such as `two-bridges`.
     pub scenario: String,
     /// SHA-256 of `scenario.toml` as flown, hexadecimal.
     pub scenario_sha256: String,
-    /// Vehicle id.
+    /// Vehicle id, such as `phantom2`.
     pub vehicle: String,
     /// SHA-256 of `vehicle.toml`, hexadecimal.
     pub vehicle_sha256: String,
     /// SHA-256 of `telemetry.tlog`, hexadecimal.
     pub telemetry_sha256: String,
-    /// Seed of defects and traffic.
+    /// Seed from which defects and traffic are placed.
     pub seed: u64,
-    /// Scores as defined in the paper.
+    /// Scores as defined in the TASBID paper.
     pub scores: Scores,
     /// Completion of the job; absent in records of format 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -63,37 +63,37 @@ pub struct SessionRecord {
     pub defects: Vec<DefectRecord>,
     /// Number of snapshots taken.
     pub snapshots: usize,
-    /// Number of snapshots that are the first to show a defect.
+    /// Number of snapshots that were the first to show a defect.
     pub hits: usize,
-    /// Reason for the end: `landed`, `battery`, `time_limit`, `person`, `vehicle`, `crash`, `abort`, `restart`.
+    /// Reason why the flight ended: `landed`, `battery`, `time_limit`, `person`, `vehicle`, `crash`, `abort` or `restart`.
     pub end_reason: String,
-    /// Flight time, s.
+    /// Duration of the flight, s.
     pub seconds: f64,
-    /// Whether the battery was empty or the time limit exceeded.
+    /// Whether the battery was empty or the time limit was exceeded.
     pub battery_failed: bool,
     /// Battery at the last frame, %.
     pub battery_at_end_pct: f64,
-    /// Fraction of frames covered by telemetry, 0 to 1.
+    /// Fraction of the frames for which telemetry was received, 0 to 1.
     pub covered: f64,
-    /// Whether the certification profile is passed.
+    /// Whether the session meets all certification requirements.
     pub certified: bool,
-    /// Unmet requirements of the certification profile, as text.
+    /// Unmet certification requirements, as text.
     #[serde(default)]
     pub unmet: Vec<String>,
     /// Questionnaire answers, possibly incomplete; `None` if the questionnaire was not started.
     pub answers: Option<Answers>,
 }
 
-/// Scores from 0 to 100 each.
+/// The four scores from 0 to 100 each, and their sum.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Scores {
     /// Conformity; absent for a job without tasks.
     pub conformity: Option<f64>,
-    /// Efficiency: flight time and return.
+    /// Efficiency, from flight time and return.
     pub efficiency: f64,
-    /// Safety: crashes.
+    /// Safety, from crashes.
     pub safety: f64,
-    /// Accuracy; absent if no defect was placed.
+    /// Accuracy; absent for a job without defects.
     pub accuracy: Option<f64>,
     /// Sum of the scores that apply.
     pub overall: f64,
@@ -101,48 +101,48 @@ pub struct Scores {
     pub overall_max: f64,
 }
 
-/// One task of a session, with the causes of its score.
+/// Results of one task and the causes of its score.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TaskRecord {
-    /// Task number.
+    /// Number of the task in the scenario.
     pub id: u32,
-    /// Task name.
+    /// Name of the task in the scenario.
     pub name: String,
-    /// Task kind: `slab_side`, `arch_bottom`, `interlayer`, `pier_circle`, `free`.
+    /// Kind of task: `slab_side`, `arch_bottom`, `interlayer`, `pier_circle` or `free`.
     pub kind: String,
-    /// Whether its path was entered.
+    /// Whether the drone entered the task's path.
     pub attempted: bool,
-    /// Done, partly done or not attempted; absent in records of format 1.
+    /// Whether the task is done, partly flown or not attempted; absent in records of format 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<TaskState>,
-    /// Fraction of its path that was flown, 0 to 1; absent in records of format 1.
+    /// Fraction of the task's path that was flown, 0 to 1; absent in records of format 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub covered: Option<f64>,
     /// Time from the first to the last on-path frame, s.
     pub seconds: f64,
     /// Fraction of that time on the path, 0 to 1.
     pub on_path: f64,
-    /// Speeding loss as defined in the paper.
+    /// Speeding loss as defined in the TASBID paper.
     pub speeding: f64,
-    /// Time above the speed limit, s.
+    /// Time above the speed limit within the window, s.
     pub speeding_s: f64,
-    /// Maximum speed in that time, m/s.
+    /// Maximum speed within the window, m/s.
     pub fastest_m_s: f64,
     /// Time off the path but within 8 m of it, s.
     pub off_path_s: f64,
-    /// Mean horizontal distance from the path while off it, m; `None` if never off.
+    /// Mean horizontal distance from the path while off it, m; `None` if the drone was never off the path.
     pub off_sideways_m: Option<f64>,
-    /// Mean vertical distance from the path while off it, m; `None` if never off.
+    /// Mean vertical distance from the path while off it, m; `None` if the drone was never off the path.
     pub off_height_m: Option<f64>,
-    /// Crashes in its window.
+    /// Crashes within the task's window.
     pub crashes: Crashes,
-    /// Number of defects nearest to its path.
+    /// Number of defects for which this path is the nearest.
     pub defects_placed: usize,
     /// Number of these defects that were found.
     pub defects_found: usize,
 }
 
-/// Number of crashes by what was hit.
+/// Number of crashes by kind of object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Crashes {
     /// Crashes into bridges.
@@ -162,23 +162,23 @@ pub struct Crashes {
 /// One defect of a session.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DefectRecord {
-    /// Defect number.
+    /// Number of the defect, from 1.
     pub id: u32,
     /// Defect code (AASHTO MBEI).
     pub kind: u32,
-    /// Plain name of the defect code.
+    /// Name of the kind of defect in plain words.
     pub kind_name: String,
     /// Element number (AASHTO MBEI).
     pub element: u32,
     /// Condition state, 1 to 4 (AASHTO MBEI).
     pub condition_state: u8,
-    /// Number of the task with the nearest path; `None` without tasks.
+    /// Number of the task whose path is nearest; `None` for a job without tasks.
     pub task: Option<u32>,
     /// Whether a snapshot shows it.
     pub found: bool,
-    /// For a missed defect: conditions that its best picture failed; empty if no picture was near it.
+    /// Reasons why the best picture of a missed defect did not count; empty if there was none.
     pub lacked: Vec<String>,
-    /// For a missed defect: time during which a picture would have shown it, s. Computed only for a session's report.
+    /// Time during which a picture would have shown a missed defect, s. Computed only for session reports.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub in_view_s: Option<f64>,
 }
@@ -186,7 +186,7 @@ pub struct DefectRecord {
 /// An entry in a list of sessions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SessionListEntry {
-    /// Session id.
+    /// Id of the session (name of its folder).
     pub id: String,
     /// Pseudonym of the trainee.
     pub trainee: String,
@@ -194,23 +194,23 @@ pub struct SessionListEntry {
     pub purpose: Option<String>,
     /// Start time, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// Scenario name.
+    /// Machine-readable name of the scenario, such as `two-bridges`.
     pub scenario: String,
     /// Sum of the scores.
     pub overall: f64,
     /// Maximum of `overall`.
     pub overall_max: f64,
-    /// Reason for the end.
+    /// Reason why the flight ended.
     pub end_reason: String,
     /// Completion of the job; absent in records of format 1.
     pub completion: Option<Completion>,
-    /// Whether the certification profile is passed.
+    /// Whether the session meets all certification requirements.
     pub certified: bool,
-    /// Unmet requirements, as text.
+    /// Unmet certification requirements, as text.
     pub unmet: Vec<String>,
 }
 
-/// Whether incomplete sessions count.
+/// Policy for sessions whose job was not completed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum IncompletePolicy {
     /// Excludes incomplete sessions.
@@ -221,7 +221,7 @@ pub enum IncompletePolicy {
 }
 
 impl IncompletePolicy {
-    /// Returns the policy for a switch that includes incomplete sessions.
+    /// Returns [`Self::Include`] if `include` is set, otherwise [`Self::LeaveOut`].
     #[must_use]
     pub fn included(include: bool) -> Self {
         if include { Self::Include } else { Self::LeaveOut }
@@ -234,13 +234,13 @@ impl IncompletePolicy {
     }
 }
 
-/// Describes how many incomplete sessions were excluded; `None` if none.
+/// Returns a note on the number of excluded sessions; `None` if it is 0.
 #[must_use]
 pub fn omitted_summary(count: usize) -> Option<String> {
     match count {
         0 => None,
-        1 => Some("1 incomplete session left out".to_owned()),
-        many => Some(format!("{many} incomplete sessions left out")),
+        1 => Some("1 incomplete session excluded".to_owned()),
+        many => Some(format!("{many} incomplete sessions excluded")),
     }
 }
 
@@ -253,7 +253,7 @@ impl SessionOutcome for SessionListEntry {
     }
 }
 
-/// Inputs of a record.
+/// Inputs from which a record is created.
 #[derive(Debug, Clone, Copy)]
 pub struct RecordSource<'a> {
     /// Name of the session folder.
@@ -268,15 +268,15 @@ pub struct RecordSource<'a> {
     pub spandrel_version: &'a str,
     /// Scenario of the session.
     pub scenario: &'a Scenario,
-    /// Vehicle id.
+    /// Vehicle id, such as `phantom2`.
     pub vehicle: &'a str,
     /// Hashes of the source files.
     pub hashes: &'a SourceHashes,
-    /// Scores and frames.
+    /// Assessment and frames of the session.
     pub graded: &'a AssessedSession,
-    /// Defects placed by the session's seed.
+    /// Defects that the session's seed placed.
     pub placed: &'a [PlacedDefect],
-    /// Questionnaire answers, if started.
+    /// Questionnaire answers; `None` if the questionnaire was not started.
     pub answers: Option<&'a Answers>,
 }
 
@@ -289,7 +289,7 @@ pub struct SourceHashes {
     pub vehicle: String,
     /// Hash of `telemetry.tlog`.
     pub telemetry: String,
-    /// Hash of `answers.json`; of the empty string if there is none.
+    /// Hash of `answers.json`, or of an empty file if there is none.
     pub answers: String,
 }
 
@@ -301,8 +301,8 @@ impl SourceHashes {
         Self { scenario: hex(scenario), vehicle: hex(vehicle), telemetry: hex(telemetry), answers: hex(answers) }
     }
 
-    /// Returns one hash over all files, the scorer version and the record format. As long as it is unchanged, the record is up to
-    /// date.
+    /// Returns a single hash over all files, the scorer version and the record format. A record is up to date as long as this
+    /// hash has not changed.
     #[must_use]
     pub fn fingerprint(&self) -> String {
         let Self { scenario, vehicle, telemetry, answers } = self;
@@ -366,28 +366,28 @@ impl SessionOutcome for SessionRecord {
 }
 
 impl SessionRecord {
-    /// Returns the task numbers.
+    /// Returns the task numbers in scenario order.
     #[must_use]
     pub fn task_ids(&self) -> Vec<u32> {
         self.tasks.iter().map(|task| task.id).collect()
     }
 
-    /// Returns the sum of all crashes.
+    /// Returns the crashes of the whole session.
     #[must_use]
     pub fn crashes(&self) -> Crashes {
         self.tasks.iter().map(|task| task.crashes).fold(self.crashes_outside, Crashes::with_added)
     }
 
-    /// Returns the scale scores of the answers.
+    /// Returns the scale scores of the questionnaire; `None` if it was not started.
     #[must_use]
     pub fn scales(&self) -> Option<ScaleScores> {
         self.answers.as_ref().map(|answers| scales(answers, &self.task_ids()))
     }
 
-    /// Validates the numbers of a record read from storage.
+    /// Validates the numbers in a record that was read from storage.
     ///
     /// # Errors
-    /// The key, the value and the allowed range.
+    /// Returns the invalid key, its value and the allowed range.
     pub fn check(&self) -> Result<(), String> {
         let scores = &self.scores;
         let hundred = [
@@ -409,7 +409,7 @@ impl SessionRecord {
                 return Err(format!("{key} = {value} (allowed: 0 to {most})"));
             }
         }
-        // Data missing in an older format is unknown, and such a session counts as incomplete.
+        // Data that an older format lacks is unknown. Such a session counts as incomplete.
         if !(1..=FORMAT).contains(&self.format) {
             return Err(format!("format = {} (allowed: 1 to {FORMAT})", self.format));
         }
@@ -418,7 +418,7 @@ impl SessionRecord {
 }
 
 impl Crashes {
-    /// Adds one crash.
+    /// Counts one crash.
     fn add(&mut self, with: ContactKind) {
         match with {
             ContactKind::None => {}
@@ -431,7 +431,7 @@ impl Crashes {
         }
     }
 
-    /// Returns the sum of both.
+    /// Returns the sum of two counts.
     #[must_use]
     pub fn with_added(self, more: Self) -> Self {
         Self {
@@ -444,7 +444,7 @@ impl Crashes {
         }
     }
 
-    /// Returns each kind with its key.
+    /// Returns the number of crashes of each kind, with its key.
     #[must_use]
     pub fn by_kind(&self) -> [(&'static str, usize); 6] {
         [

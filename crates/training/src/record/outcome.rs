@@ -1,26 +1,26 @@
-//! Text for completion and certification of a session, shared by full records and list entries.
+//! Texts on completion and certification, shared by full records and list entries.
 
 use spandrel_monitor::score::completion::{self, Completion};
 
-/// A session with a known outcome.
+/// A session whose completion and certification are known.
 pub trait SessionOutcome {
     /// Returns the completion of the job; `None` in records of format 1.
     fn completion(&self) -> Option<&Completion>;
 
-    /// Returns whether the certification profile is passed, and the unmet requirements.
+    /// Returns whether the certification profile was passed, and the unmet requirements.
     fn certification(&self) -> (bool, &[String]);
 
-    /// Returns true if the job was done and the drone landed at home.
+    /// Returns whether the job was done and the drone landed at home.
     fn is_complete(&self) -> bool {
         self.completion().is_some_and(|completion| completion.complete)
     }
 
-    /// Describes the completion.
+    /// Returns the completion as text.
     fn completion_summary(&self) -> String {
         self.completion().map_or_else(|| "Completion unknown: re-import this session".to_owned(), Completion::headline)
     }
 
-    /// Returns the certification verdict: certified, or the first unmet requirement.
+    /// Returns the certification verdict as text: certified, or the first unmet requirement.
     fn verdict(&self) -> String {
         let (certified, unmet) = self.certification();
         completion::verdict(certified, unmet)

@@ -1,13 +1,13 @@
-//! Assets embedded in a page: our style sheet and scripts, and two npm libraries as published. The page's content security policy
-//! lists every script and style by hash and allows no requests.
+//! Assets embedded in a report page: Spandrel's style sheet and scripts, and two unmodified npm libraries. The page's content
+//! security policy lists every script and style by hash and allows no network requests.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use sha2::{Digest, Sha256};
 
-/// Style sheet of our pages.
+/// Style sheet of the report pages.
 pub const STYLE: &str = include_str!("assets/report.css");
-/// Script shared by our pages.
+/// Script shared by the report pages.
 pub const COMMON: &str = include_str!("assets/common.js");
 /// Script of the session report.
 pub const SCRIPT: &str = include_str!("assets/report.js");
@@ -21,7 +21,7 @@ pub const UPLOT_STYLE: &str = include_str!("assets/uPlot.min.css");
 pub const THREE_CORE: &str = include_str!("assets/three.core.min.js");
 /// The three.js renderer, `build/three.module.min.js`; imports the core as [`THREE_CORE_NAME`].
 pub const THREE: &str = include_str!("assets/three.module.min.js");
-/// Module specifier of the core in the renderer. The page's script replaces it with the actual address.
+/// Module specifier by which the renderer imports the core. The page's script replaces it with the actual URL.
 pub const THREE_CORE_NAME: &str = "./three.core.min.js";
 
 /// Encodes bytes as Base64.
@@ -30,8 +30,8 @@ pub fn base64(bytes: &[u8]) -> String {
     STANDARD.encode(bytes)
 }
 
-/// Returns the content security policy of a page with these scripts and styles: only they and embedded images are allowed.
-/// `blob:` lets the page's script load the model library, which is embedded as text.
+/// Returns a content security policy that allows only these scripts and styles and embedded images. `blob:` lets the page's
+/// script load the 3D library, which is embedded as text.
 #[must_use]
 pub fn policy(scripts: &[&str], styles: &[&str]) -> String {
     let hashes = |texts: &[&str]| {
@@ -45,7 +45,7 @@ pub fn policy(scripts: &[&str], styles: &[&str]) -> String {
     )
 }
 
-/// Returns the policy of the pages that this version writes.
+/// Returns the policy of the report pages that this version writes.
 #[must_use]
 pub fn page_policy() -> String {
     policy(&[UPLOT, COMMON, SCRIPT, COMPARE], &[STYLE, UPLOT_STYLE])

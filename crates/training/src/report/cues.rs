@@ -1,4 +1,5 @@
-//! Feedback given during the session, recovered by replaying the log through the monitor, and the trainee's stick responses.
+//! Feedback given during the session, reconstructed by replaying the telemetry log through the monitor, and the trainee's stick
+//! reactions.
 
 use super::ReviewContext;
 use super::track::TaskProximityStep;
@@ -11,10 +12,10 @@ use spandrel_monitor::sidecar::build_site;
 use spandrel_monitor::{Monitor, MonitorConfig, SessionOutput};
 use std::ops::ControlFlow;
 
-/// Minimum stick movement from its position at the cue that counts as a response, full travel = 1 (estimate: larger than hand
-/// tremor, smaller than any correction).
+/// Minimum change of a stick's position after the cue that counts as a reaction, full travel = 1 (estimate: larger than hand
+/// tremor, smaller than any deliberate correction).
 const STICK_MOVE: f64 = 0.1;
-/// Maximum response time; later movements are not a response to the cue, s (estimate).
+/// Maximum reaction time, s. Later movements do not count as a reaction to the cue (estimate).
 const ANSWER_WITHIN_S: f64 = 5.0;
 
 /// The cues in display order.
@@ -27,14 +28,14 @@ pub const KINDS: [CueKind; 6] = [
     CueKind { bit: cue::BATTERY_RED, name: "battery red", wants_answer: false },
 ];
 
-/// A kind of cue.
+/// A kind of cue that the monitor raises.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CueKind {
-    /// Cue bit.
+    /// Bit of the cue in the `cues` value.
     pub bit: i32,
-    /// Display name.
+    /// Name shown in the report.
     pub name: &'static str,
-    /// Whether a stick response is expected.
+    /// Whether a stick reaction is expected.
     pub wants_answer: bool,
 }
 
@@ -47,7 +48,7 @@ pub struct CueEpisode {
     pub from_s: f64,
     /// End, s since lift-off.
     pub to_s: f64,
-    /// Time until a stick moved, s; `None` if there was no response in time.
+    /// Time from the start of the cue to the first stick movement, s; `None` without a reaction in time.
     pub answer_s: Option<f64>,
     /// Index of the task being flown.
     pub task: Option<usize>,
@@ -56,11 +57,12 @@ pub struct CueEpisode {
 /// Feedback given during a session.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CueText {
-    /// Cues by start time.
+    /// Cues in order of their start.
     pub episodes: Vec<CueEpisode>,
-    /// Texts with their times, s since lift-off.
+    /// Messages and their times, s since lift-off.
     pub texts: Vec<(f64, String)>,
-    /// Instructor's notes with their times, s since lift-off; negative before it. They were not shown to the trainee.
+    /// The instructor's notes and their times, s since lift-off; negative before lift-off. Trainees do not see them during the
+    /// flight.
     pub notes: Vec<(f64, String)>,
 }
 
@@ -103,7 +105,7 @@ pub fn cue_text(events: Vec<LoggedEvent>, scene: &ReviewContext<'_>, track: &[Ta
     said
 }
 
-/// Simulation time, s, and the content of a line of `events.jsonl`.
+/// Simulation time, s, and content of one line of `events.jsonl`.
 pub type LoggedEvent = (f64, serde_json::Value);
 
 /// Replays a log through the monitor and returns its events.
@@ -155,7 +157,7 @@ fn episode(kind: usize, (from_s, to_s): (f64, f64), scene: &ReviewContext<'_>, t
     }
 }
 
-/// Returns the median; `None` for an empty list.
+/// Returns the median of a list; `None` if it is empty.
 #[must_use]
 pub fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);

@@ -1,4 +1,4 @@
-//! Outcome of each defect and, for missed ones, how close the flight came to showing them.
+//! Outcome of each defect and, for missed defects, how close the flight came to photographing them.
 
 use super::ReviewContext;
 use super::words;
@@ -11,35 +11,37 @@ use spandrel_model::vehicle::Camera;
 use spandrel_monitor::assessment::Assessment;
 use spandrel_monitor::measures::attention;
 
-/// Sampling interval of the flight.
+/// Sampling interval at which the flight is searched for views of a defect.
 const STEP: SimTime = SimTime::from_ms(500);
-/// Stand-off of the view drawn of a missed defect, m (estimate: close enough to see a crack at the condition state limit).
+/// Distance from which the report's drawings show a missed defect, m (estimate: close enough to see a crack at the limit between
+/// condition states).
 const SHOWN_FROM_M: f64 = 4.0;
 
-/// Outcome of one defect.
+/// Whether one defect was found, and how.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DefectOutcome {
-    /// The defect.
+    /// The defect as placed in the scene.
     pub defect: PlacedDefect,
     /// Number of the first picture that shows it; `None` if it was missed.
     pub found_by: Option<u32>,
-    /// Best approach, if no picture shows it.
+    /// Closest that the flight came to a picture of the defect; `None` if a picture shows it.
     pub chance: Option<BestApproach>,
 }
 
-/// How close the flight came to a picture of a defect.
+/// How close the flight came to a valid picture of a defect.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BestApproach {
-    /// Time during which a picture would have been a hit, s.
+    /// Time during which a picture would have counted as a hit, s.
     pub in_view_s: f64,
-    /// Best moment, s since lift-off: the first that would have been a hit, otherwise the one with the fewest failed conditions.
+    /// Best view and its time, s since lift-off: the first view that would have counted as a hit, otherwise the one with the
+    /// fewest failed conditions.
     pub best: Option<(f64, DefectView)>,
-    /// Minimum distance of the drone, m, and its time, s.
+    /// Minimum distance of the drone from the defect, m, and its time, s since lift-off.
     pub nearest: (f64, f64),
 }
 
 impl DefectOutcome {
-    /// Describes the outcome.
+    /// Describes the outcome for the report.
     #[must_use]
     pub fn words(&self) -> String {
         let Some(chance) = &self.chance else {
@@ -48,7 +50,7 @@ impl DefectOutcome {
         let (nearest_m, nearest_s) = chance.nearest;
         match &chance.best {
             Some((t_s, view)) if view.hit => format!(
-                "in plain view for {} s, first at {}, but no picture was taken",
+                "clearly visible for {} s, first at {}, but not photographed",
                 words::number(chance.in_view_s, 1),
                 words::clock(*t_s)
             ),
@@ -61,18 +63,18 @@ impl DefectOutcome {
         }
     }
 
-    /// Returns a camera pose that would show the defect well.
+    /// Returns a camera pose that shows the defect well.
     #[must_use]
     pub fn good_view(&self) -> CameraPose {
         let forward = self.defect.normal * -1.0;
         let up = Vec3::new(0.0, 0.0, 1.0);
-        // When looking straight up or down, any horizontal direction can be "right".
+        // If the camera looks straight up or down, any horizontal direction can be "right".
         let right = if forward.up().abs() > 0.999 { Vec3::new(1.0, 0.0, 0.0) } else { forward.cross(up).unit() };
         CameraPose { position_m: self.defect.position_m + self.defect.normal * SHOWN_FROM_M, forward, right, lamp_on: true }
     }
 }
 
-/// Determines the outcomes of all defects of a session.
+/// Determines the outcome of every defect in a session.
 #[must_use]
 pub fn fates(scene: &ReviewContext<'_>, assessment: &Assessment) -> Vec<DefectOutcome> {
     let each = &assessment.snapshots.each;
@@ -89,7 +91,7 @@ fn chance(scene: &ReviewContext<'_>, defect: &PlacedDefect) -> BestApproach {
     let rate_hz = scene.scenario.scoring.frame_rate_hz;
     let stride = (STEP.s() * rate_hz).round().max(1.0) as usize;
     let mut chance = BestApproach { in_view_s: 0.0, best: None, nearest: (f64::INFINITY, 0.0) };
-    // The sun moves little during a flight, so its light on the defect is computed once.
+    // The sun moves little during a flight, so the ambient light on the defect is computed only once.
     let mut ambient_lux = None;
     for frame in scene.frames.iter().step_by(stride) {
         let t_s = scene.time_since_lift_off_s(frame.time);
@@ -118,12 +120,12 @@ fn chance(scene: &ReviewContext<'_>, defect: &PlacedDefect) -> BestApproach {
     chance
 }
 
-/// Returns the number of failed conditions. A hidden defect ranks worse than a poorly visible one.
+/// Returns the number of failed conditions. A hidden defect ranks worse than a badly visible one.
 fn failing(view: &DefectView) -> usize {
     view.conditions().iter().filter(|holds| !**holds).count() + if view.unoccluded { 0 } else { 6 }
 }
 
-/// Returns false if the point is certainly outside the image.
+/// Returns whether the point could be inside the image. A quick test that may return true for points outside it.
 fn could_be_visible(pose: &CameraPose, camera: &Camera, point_m: Vec3<Enu>) -> bool {
     let to = point_m - pose.position_m;
     let depth = to.dot(pose.forward);

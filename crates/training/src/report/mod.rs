@@ -1,8 +1,8 @@
-//! The report of a finished session, a single page that works offline. [`Review::of`] reads the telemetry with the scorer's code
-//! and computes the contents; [`page::session`] renders the page. Pure functions: bytes and names in, text out.
+//! The report of a finished session: a single page that works offline. [`Review::of`] reads the telemetry with the scorer's code
+//! and computes the contents; [`page::session`] renders the page. Neither performs I/O.
 //!
 //! User-provided text (names, titles) reaches the page only through maud's escaping, the tables of [`table`] or the data block of
-//! [`page::series`].
+//! [`page::series`], which all escape it.
 
 pub mod assets;
 pub mod coverage;
@@ -33,16 +33,16 @@ use spandrel_monitor::measures::crash::{self, Crash};
 use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths};
 use spandrel_monitor::{AssessError, AssessedSession, ScoringJob, assess};
 
-/// Session metadata from the session folder.
+/// Metadata of a session, from its folder.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct SessionFacts {
-    /// Trainee name.
+    /// Pseudonym of the trainee.
     pub trainee: String,
     /// `practice` or `assessment`, if chosen.
     pub purpose: Option<String>,
     /// Wall-clock time of simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// The start time in UTC as text.
+    /// Start time in UTC, as text.
     pub started_utc: String,
     /// Name of the session folder.
     pub folder: String,
@@ -52,21 +52,21 @@ pub struct SessionFacts {
     pub vehicle_sha256: String,
     /// SHA-256 of the telemetry, hexadecimal.
     pub telemetry_sha256: String,
-    /// Pictures by sequence number in the folder, small enough to embed.
+    /// Pictures by sequence number, reduced in size for embedding.
     pub pictures: Vec<(u32, Jpeg)>,
 }
 
-/// A JPEG file.
+/// A picture in JPEG format.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Jpeg {
-    /// File contents.
+    /// Contents of the JPEG file.
     pub bytes: Vec<u8>,
 }
 
 /// All data of a session report.
 #[derive(Debug)]
 pub struct Review {
-    /// Session metadata.
+    /// Metadata from the session folder.
     pub about: SessionFacts,
     /// Scenario of the session.
     pub scenario: Scenario,
@@ -78,27 +78,27 @@ pub struct Review {
     pub seed: u64,
     /// Assessment of the session.
     pub assessment: Assessment,
-    /// Frames 1 to N.
+    /// Frames of the session; frame 1 has index 0.
     pub frames: Vec<Frame>,
-    /// Position relative to the tasks, frame by frame.
+    /// Position relative to the tasks in each frame.
     pub track: Vec<track::TaskProximityStep>,
     /// Task windows and on-path frames.
     pub on_path: OnPath,
-    /// Onsets of contact.
+    /// All contacts, in order of their start.
     pub crashes: Vec<Crash>,
     /// Measures of each task's window.
     pub tasks: Vec<track::TaskFacts>,
-    /// Measures of each task's window.
+    /// Feedback and the trainee's reactions.
     pub feedback: cues::CueText,
-    /// Feedback and the trainee's responses.
-    pub pictures: Vec<pictures::ReviewedPicture>,
     /// Pictures with their verdicts.
+    pub pictures: Vec<pictures::ReviewedPicture>,
+    /// Defects with their outcomes.
     pub defects: Vec<defects::DefectOutcome>,
     /// Surface coverage by element.
     pub coverage: coverage::SurfaceCoverage,
-    /// Recommended next steps, based on this session alone and the default rules.
+    /// Recommended scenarios, based on this session and the default rules.
     pub next: Vec<PlanStep>,
-    /// Link statistics.
+    /// Statistics of the telemetry link.
     pub link: LinkCounts,
 }
 
@@ -113,7 +113,7 @@ impl Review {
         vehicle: &Vehicle,
         about: SessionFacts,
     ) -> Result<Self, AssessError> {
-        // Runs before the flight is loaded, because the monitor keeps its own copy until it is done.
+        // The replay comes first, because the monitor holds its own copy of the flight until it is dropped.
         let events = cues::events(log, scenario, vehicle)?;
         let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
         timeline.push_log(log)?;
@@ -162,7 +162,8 @@ impl Review {
     }
 }
 
-/// Evaluates the default rules for one session; empty if the rules are invalid, which tests rule out.
+/// Returns the recommended scenarios from the default rules and this session only; empty if the rules are invalid, which a test
+/// excludes.
 fn next(
     about: &SessionFacts,
     scenario: &Scenario,
@@ -197,7 +198,7 @@ fn next(
     rules.and_then(|rules| plan::plan(&[record], &rules, about.started_unix_us)).map_or_else(Vec::new, |plan| plan.steps)
 }
 
-/// Inputs shared by the parts of a review.
+/// Inputs shared by all parts of a review.
 #[derive(Debug, Clone, Copy)]
 pub struct ReviewContext<'a> {
     /// Telemetry of the flight.
@@ -213,7 +214,7 @@ pub struct ReviewContext<'a> {
 }
 
 impl ReviewContext<'_> {
-    /// Converts a simulation time to seconds since lift-off.
+    /// Converts a simulation time to the time since lift-off, s.
     #[must_use]
     pub fn time_since_lift_off_s(&self, time: spandrel_model::time::SimTime) -> f64 {
         self.frames.first().map_or(0.0, |first| (time - first.time).s())

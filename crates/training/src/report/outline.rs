@@ -1,39 +1,39 @@
-//! Line drawings of the site: parallel projections, member silhouettes, and the triangle mesh of the 3D model. All are derived
-//! from the collision geometry; details too small to see are skipped.
+//! Line drawings of the site: parallel projections, silhouettes of members, and the triangle mesh of the 3D view. All are derived
+//! from the collision geometry. Details too small to see are skipped.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::Bridge;
 use spandrel_model::scenario::bridges::Member;
 
-/// A parallel projection, defined by the sheet's right and up directions.
+/// A parallel projection, defined by the right and up directions of the drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ParallelView {
-    /// Unit vector to the right on the sheet.
+    /// Unit vector that points right in the drawing.
     pub right: Vec3<Enu>,
-    /// Unit vector up on the sheet.
+    /// Unit vector that points up in the drawing.
     pub up: Vec3<Enu>,
 }
 
-/// Silhouette of one member.
+/// Silhouette of one bridge member.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MemberOutline {
     /// Element number (AASHTO MBEI).
     pub element: u32,
-    /// Corners on the sheet, counterclockwise, m right and up.
+    /// Corners in the drawing, counterclockwise; m right and up.
     pub corners: Vec<(f64, f64)>,
-    /// Depth toward the viewer, m; larger is nearer.
+    /// Depth of the nearest point, m; larger is closer to the viewer.
     pub near_m: f64,
 }
 
 impl ParallelView {
-    /// Returns the plan view, north up.
+    /// Returns the plan view with north up.
     #[must_use]
     pub fn plan() -> Self {
         Self { right: Vec3::new(1.0, 0.0, 0.0), up: Vec3::new(0.0, 1.0, 0.0) }
     }
 
-    /// Returns the side view of a bridge from its right, with the deck running to the right.
+    /// Returns the side view of a bridge from its right side. The direction of the deck's heading points right.
     #[must_use]
     pub fn side(bridge: &Bridge) -> Self {
         let (s, c) = math::sin_cos(bridge.heading_deg.to_radians());
@@ -54,7 +54,7 @@ impl ParallelView {
         Self { right: Vec3::new(c, -s, 0.0), up: Vec3::new(s * sd, c * sd, cd) }
     }
 
-    /// Projects a point to the sheet, m right and up.
+    /// Projects a point onto the drawing; m right and up.
     #[must_use]
     pub fn at(&self, point_m: Vec3<Enu>) -> (f64, f64) {
         (point_m.dot(self.right), point_m.dot(self.up))
@@ -93,7 +93,8 @@ pub fn hull(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     lower
 }
 
-/// Returns the silhouettes of the members, farthest first. Those smaller than `least_m` in both directions are skipped.
+/// Returns the silhouettes of the members, farthest first. Members whose silhouettes are smaller than `least_m` in both
+/// directions are skipped.
 #[must_use]
 pub fn outlines<'a>(members: impl Iterator<Item = &'a Member>, view: &ParallelView, least_m: f64) -> Vec<MemberOutline> {
     let towards = view.towards();
@@ -116,20 +117,20 @@ fn extent(corners: &[(f64, f64)]) -> f64 {
     span(|c| c.0).max(span(|c| c.1))
 }
 
-/// A triangle mesh quantized to 16-bit integers relative to a corner of the site.
+/// A triangle mesh with vertices quantized to 16-bit integers, relative to a corner of the site.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct QuantizedMesh {
-    /// Origin, m east, north, up.
+    /// Position of the quantized vertex (0, 0, 0), m east, north, up.
     pub origin_m: [f64; 3],
     /// Quantization step, m.
     pub step_m: f64,
-    /// Vertices.
+    /// Quantized vertices.
     pub corners: Vec<[u16; 3]>,
-    /// Triangles as vertex indices.
+    /// Triangles as triples of vertex indices.
     pub triangles: Vec<[u16; 3]>,
 }
 
-/// Converts the members to triangles. If they exceed 65,536 vertices, the smallest are skipped.
+/// Converts the members to a triangle mesh. If it exceeds 65,535 vertices, the smallest members are skipped.
 #[must_use]
 pub fn mesh(members: &[Member]) -> QuantizedMesh {
     let size = |member: &Member| {
@@ -174,7 +175,7 @@ mod tests {
             assert!(view.right.dot(view.up).abs() < 1e-12);
             assert!((view.right.norm() - 1.0).abs() < 1e-12 && (view.up.norm() - 1.0).abs() < 1e-12);
         }
-        assert!((ParallelView::plan().towards() - Vec3::new(0.0, 0.0, 1.0)).norm() < 1e-12, "seen from above");
+        assert!((ParallelView::plan().towards() - Vec3::new(0.0, 0.0, 1.0)).norm() < 1e-12, "plan view looks down");
         assert!((ParallelView::from_south().towards() - Vec3::new(0.0, -1.0, 0.0)).norm() < 1e-12);
         // The view looks north and down, so the viewer is to the south and above.
         let towards = ParallelView::oblique(0.0, 30.0).towards();

@@ -1,4 +1,4 @@
-//! Pictures with their verdicts, from the same geometry and lighting as the score.
+//! The session's pictures with their verdicts, based on the same geometry and lighting as the score.
 
 use super::ReviewContext;
 use super::track::TaskProximityStep;
@@ -10,21 +10,21 @@ use spandrel_model::vehicle::Camera;
 use spandrel_monitor::assessment::Assessment;
 use spandrel_monitor::measures::attention;
 
-/// Search distance for the surface in the center of a picture, m.
+/// Maximum distance of the object in the center of a picture, m; beyond it, the picture shows sky.
 const TARGET_REACH_M: f64 = 120.0;
 
 /// Verdict on a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PictureVerdict {
-    /// It is the first to show a defect.
+    /// The first picture to show a defect.
     Hit,
-    /// It shows only defects that earlier pictures show.
+    /// Shows only defects that earlier pictures already show.
     Repeat,
-    /// A defect is in view, but there is too little light.
+    /// A defect is in view, but it receives too little light.
     TooDark,
     /// A defect is in view, but it covers too few pixels.
     TooFar,
-    /// A defect is in view, but at too oblique an angle.
+    /// A defect is in view, but the angle from its surface normal is too large.
     TooOblique,
     /// No defect is in view.
     False,
@@ -34,7 +34,7 @@ impl PictureVerdict {
     /// All verdicts, in legend order.
     pub const ALL: [Self; 6] = [Self::Hit, Self::Repeat, Self::TooDark, Self::TooFar, Self::TooOblique, Self::False];
 
-    /// Returns the display name.
+    /// Returns the name shown in the report.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -47,7 +47,7 @@ impl PictureVerdict {
         }
     }
 
-    /// Returns the CSS class.
+    /// Returns the CSS class that colors it in the report.
     #[must_use]
     pub fn class(self) -> &'static str {
         match self {
@@ -59,22 +59,22 @@ impl PictureVerdict {
     }
 }
 
-/// Object in the center of a picture.
+/// The object in the center of a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PictureSubject {
-    /// Name of the object.
+    /// Name of the bridge member or other object.
     pub name: String,
-    /// Distance, m.
+    /// Distance from the camera, m.
     pub distance_m: f64,
     /// Incidence angle from the surface normal, rad.
     pub incidence_rad: f64,
-    /// Ground sampling distance at normal incidence, m.
+    /// Ground sampling distance: size of a pixel at normal incidence, m.
     pub gsd_m: f64,
     /// Illuminance including the lamp, lx.
     pub lux: f64,
-    /// Illuminance that the camera needs at this distance, lx.
+    /// Illuminance that the camera needs for a usable exposure, lx.
     pub needed_lux: f64,
-    /// Motion blur from the drone's speed across the line of sight, at the shortest exposure possible in this light, px.
+    /// Motion blur caused by the drone's speed across the line of sight, at the shortest exposure that this light allows, px.
     pub blur_px: f64,
 }
 
@@ -89,23 +89,23 @@ pub struct ReviewedPicture {
     pub frame: u32,
     /// Time since lift-off, s.
     pub t_s: f64,
-    /// Simulation time.
+    /// Simulation time at this instant.
     pub time: SimTime,
-    /// Camera pose.
+    /// Camera position, orientation and lamp state.
     pub pose: CameraPose,
-    /// Camera at its zoom setting.
+    /// Camera with the zoom setting of this picture.
     pub camera: Camera,
-    /// Verdict.
+    /// Whether the picture shows a defect, and why not.
     pub verdict: PictureVerdict,
-    /// Explanation of the verdict.
+    /// Reason for the verdict, as a phrase.
     pub reason: String,
-    /// Defects that it is the first to show.
+    /// Ids of the defects that this picture is the first to show.
     pub found: Vec<u32>,
-    /// Defects in the central part of the image, shown or not.
+    /// Defects in the central part of the image, including those that do not count.
     pub views: Vec<DefectView>,
-    /// Object in the center; `None` for sky.
+    /// Object in the center of the image; `None` for sky.
     pub target: Option<PictureSubject>,
-    /// Index of the task being flown.
+    /// Index of the task that was being flown, if any.
     pub task: Option<usize>,
 }
 
@@ -142,7 +142,7 @@ pub fn judged(scene: &ReviewContext<'_>, assessment: &Assessment, track: &[TaskP
     .collect()
 }
 
-/// Returns the verdict on a picture and its explanation, from the defects that it is the first to show and those in view.
+/// Returns the verdict on a picture and the reason, given the defects that it is the first to show (`found`) and those in view.
 #[must_use]
 pub fn verdict(found: &[u32], views: &[DefectView]) -> (PictureVerdict, String) {
     let list = |ids: &[u32]| ids.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
@@ -199,8 +199,8 @@ fn member(scene: &ReviewContext<'_>, object: ObjectId) -> String {
     scene.site.members().get(object.0 as usize).map_or_else(|| scene.site.object_name(object), |member| member.name.clone())
 }
 
-/// Returns the shortest exposure for an illuminance of `lux` at the camera's maximum sensitivity, s; at most its maximum
-/// exposure.
+/// Returns the shortest exposure for an illuminance of `lux` at the camera's maximum sensitivity, s. The result is at most the
+/// camera's maximum exposure.
 #[must_use]
 pub fn exposure_s(camera: &Camera, lux: f64) -> f64 {
     (needed_lux(camera) * camera.exposure_max_s / lux.max(f64::MIN_POSITIVE)).min(camera.exposure_max_s)

@@ -1,6 +1,5 @@
-//! Exports a session as a SCORM 1.2 package for a learning management system (LMS): a page that reports score, status and time to
-//! the LMS and shows the report.
-//! script interface, and shows the report.
+//! Exports a session as a SCORM 1.2 package for a learning management system (LMS): a page that reports score, status and
+//! duration to the LMS through its script interface, and shows the report.
 
 use super::Review;
 use super::words;
@@ -9,10 +8,10 @@ use serde_json::{Value, json};
 use spandrel_monitor::Assessment;
 use spandrel_monitor::score::completion::verdict;
 
-/// Script that communicates with the LMS; reads the result from the page.
+/// Script that reads the result from the page and reports it to the LMS.
 const SCRIPT: &str = include_str!("assets/scorm.js");
 
-/// Returns names and contents of the package's files; `report` is the HTML report.
+/// Returns the names and contents of the package's files; `report` is the HTML report.
 #[must_use]
 pub fn files(review: &Review, report: &str) -> Vec<(&'static str, String)> {
     vec![
@@ -25,7 +24,7 @@ pub fn files(review: &Review, report: &str) -> Vec<(&'static str, String)> {
 
 fn manifest(review: &Review) -> String {
     let title = title(review);
-    // maud's escaping is also valid for XML.
+    // maud escapes HTML, which is also valid for XML.
     let body = html! {
         manifest identifier={ "spandrel-" (review.about.telemetry_sha256.get(..16).unwrap_or_default()) } version="1.0"
             xmlns="http://www.imsproject.org/xsd/imscp_rootv1p1p2" xmlns:adlcp="http://www.adlnet.org/xsd/adlcp_rootv1p2" {
@@ -50,7 +49,7 @@ fn title(review: &Review) -> String {
     format!("{}, {}", review.scenario.title, review.about.started_utc)
 }
 
-/// Returns the result for the LMS, and as text. An incomplete session has no score, because a partial sum would be misleading.
+/// Returns the result as SCORM data and as text. An incomplete session has no score, because a partial sum would be misleading.
 fn result(assessment: &Assessment) -> (Value, String) {
     let (scores, certification) = (&assessment.scores, &assessment.certification);
     let time = span(assessment.end.seconds);
@@ -82,7 +81,7 @@ fn index(review: &Review) -> String {
             }
             body data-result=(result) {
                 p role="status" id="told" { (words) ". " }
-                iframe src="report.html" title="Report of the session" {}
+                iframe src="report.html" title="Session report" {}
                 script src="scorm.js" {}
             }
         }
@@ -90,7 +89,7 @@ fn index(review: &Review) -> String {
     page.into_string()
 }
 
-/// Formats a duration as HHHH:MM:SS.SS, the standard's CMITimespan.
+/// Formats a duration as HHHH:MM:SS.SS, the CMITimespan of SCORM.
 fn span(seconds: f64) -> String {
     let hundredths = (seconds.max(0.0) * 100.0).round() as u64;
     let (s, rest) = (hundredths / 100, hundredths % 100);

@@ -1,5 +1,5 @@
-//! Draws a camera's view from the collision geometry: flat shading, edges, haze, lamp light, and darkness where there is too
-//! little light. The result is labeled as a drawing, not a photograph.
+//! Draws a camera's view from the collision geometry with flat shading, edges, haze and lamp light. The drawing is dark where the
+//! light is too weak. The report labels it as a drawing, not as a photograph.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
@@ -11,13 +11,13 @@ use std::collections::BTreeMap;
 
 /// Width of a drawing, px; the height follows the camera's aspect ratio.
 pub const WIDTH_PX: usize = 400;
-/// Near plane distance, m.
+/// Distance of the near clipping plane, m.
 const NEAR_M: f64 = 0.05;
-/// Maximum distance of drawn members, m.
+/// Maximum distance at which members are drawn, m.
 const REACH_M: f64 = 400.0;
-/// Side length of ground and water squares, m.
+/// Side length of the squares that form ground and water, m.
 const GROUND_STEP_M: f64 = 12.0;
-/// Distance at which haze hides two thirds, m (for appearance only).
+/// Distance at which haze hides about two thirds of an object's color, m (for appearance only).
 const HAZE_M: f64 = 700.0;
 const SKY: [f64; 3] = [0.80, 0.87, 0.93];
 
@@ -26,12 +26,12 @@ struct Facet {
     shade: ShadeIndex,
 }
 
-/// Index of a color in the palette; faces of the same shade share one.
+/// Index of a color in the palette. Faces of the same color share an index.
 type ShadeIndex = u32;
 /// Index of the sky color.
 const BLUE: ShadeIndex = 0;
 
-/// Colors of a site. A drawing stores indices, which take a sixth of the space.
+/// Colors of a site. A drawing stores an index per pixel, which takes a sixth of the space of a color.
 struct Palette {
     colours: Vec<[f64; 3]>,
     numbers: BTreeMap<[u64; 3], ShadeIndex>,
@@ -57,23 +57,23 @@ struct SketchBody {
     facets: Vec<Facet>,
 }
 
-/// The shaded site, ready to draw from any camera.
+/// The shaded site, which can be drawn from any camera.
 pub struct Sketcher {
     bodies: Vec<SketchBody>,
     colours: Vec<[f64; 3]>,
 }
 
-/// Lighting of one drawing.
+/// Lighting of a drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SketchExposure {
-    /// Light at the center as a fraction of what the camera needs there.
+    /// Light at the center as a fraction of the light that the camera needs there.
     pub light: f64,
     /// Whether most of the light comes from the lamp.
     pub by_lamp: bool,
 }
 
 impl Sketcher {
-    /// Shades a site by the job's sun.
+    /// Creates a sketcher for a site, shaded by the sun at simulation time `at`.
     #[must_use]
     pub fn new(site: &Site, scenario: &Scenario, at: SimTime) -> Self {
         let sun = sun::direction(scenario.light.start_unix_s as f64 + at.s(), scenario.origin);
@@ -83,10 +83,10 @@ impl Sketcher {
         Self { bodies, colours: palette.colours }
     }
 
-    /// Draws a view as a PNG file.
+    /// Draws the camera's view and returns it as a PNG file.
     ///
     /// # Errors
-    /// If it cannot be encoded.
+    /// Fails if the image cannot be encoded.
     pub fn png(&self, pose: &CameraPose, camera: &Camera, exposure: SketchExposure) -> Result<Vec<u8>, png::EncodingError> {
         let height = (WIDTH_PX * camera.height_px as usize / (camera.width_px as usize).max(1)).clamp(1, 4 * WIDTH_PX);
         let mut sheet = SketchSheet::new(height, camera.focal_px() * WIDTH_PX as f64 / f64::from(camera.width_px));
@@ -120,12 +120,12 @@ fn structure(member: &spandrel_model::scenario::bridges::Member, sun: Vec3<Enu>,
 
 fn facet(corners: [Vec3<Enu>; 3], base: [f64; 3], sun: Vec3<Enu>, palette: &mut Palette) -> Facet {
     let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).unit();
-    // Skylight from above with a slight directional term so that faces differ, plus direct sun.
+    // Skylight from above, a slight directional term that makes faces distinguishable, and direct sunlight.
     let light = 0.50 + 0.16 * normal.up() + 0.06 * normal.east() + 0.10 * normal.north().abs() + 0.25 * normal.dot(sun).max(0.0);
     Facet { corners, shade: palette.number(base.map(|c| c * light)) }
 }
 
-/// Shades ground and water in squares.
+/// Creates the shaded squares of ground and water.
 fn ground(site: &Site, scenario: &Scenario, sun: Vec3<Enu>, palette: &mut Palette) -> Vec<SketchBody> {
     let half = 0.5 * scenario.terrain.size_m;
     let water_m = scenario.terrain.water_level_m;
@@ -161,18 +161,18 @@ fn slab(square: [Vec3<Enu>; 4], base: [f64; 3], sun: Vec3<Enu>, palette: &mut Pa
 struct SketchLens<'a> {
     pose: &'a CameraPose,
     down: Vec3<Enu>,
-    /// Half width and half height of the image at a depth of 1.
+    /// Half the width and half the height of the image at a depth of 1 m.
     slopes: [f64; 2],
 }
 
 impl SketchLens<'_> {
-    /// Transforms a point to camera axes: right, down, forward.
+    /// Transforms a point to camera coordinates: right, down, forward.
     fn project(&self, point_m: Vec3<Enu>) -> [f64; 3] {
         let to = point_m - self.pose.position_m;
         [to.dot(self.pose.right), to.dot(self.down), to.dot(self.pose.forward)]
     }
 
-    /// Returns false if the body is certainly behind the lens, too far away or outside the image.
+    /// Returns false if the body is certainly behind the camera, too far away or outside the image.
     fn may_show(&self, body: &SketchBody) -> bool {
         let [x, y, depth] = self.project(body.centre_m);
         let r = body.radius_m;
@@ -184,7 +184,7 @@ impl SketchLens<'_> {
 struct SketchSheet {
     height: usize,
     focal_px: f64,
-    /// Inverse depth, 0 for the sky.
+    /// Inverse depth of each pixel, 1/m; 0 for the sky.
     near: Vec<f64>,
     shade: Vec<ShadeIndex>,
 }
@@ -202,19 +202,20 @@ impl SketchSheet {
         }
     }
 
-    /// Fills a triangle in front of the lens whose corners appear counterclockwise; back faces are not drawn.
+    /// Fills a triangle in front of the camera if its corners appear counterclockwise. Otherwise it is a back face and is not
+    /// drawn.
     fn fill(&mut self, corners: [[f64; 3]; 3], shade: ShadeIndex) {
         let (w, h) = (WIDTH_PX as f64, self.height as f64);
         let p = corners.map(|[x, y, z]| (0.5 * w + self.focal_px * x / z, 0.5 * h + self.focal_px * y / z, 1.0 / z));
         let area = (p[1].0 - p[0].0) * (p[2].1 - p[0].1) - (p[1].1 - p[0].1) * (p[2].0 - p[0].0);
-        // With rows running downward, counterclockwise area is negative.
+        // Image rows run downward, so counterclockwise triangles have a negative area.
         if area > -1e-9 || !area.is_finite() {
             return;
         }
         let (low, high) = p.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), q| (l.min(q.1), h.max(q.1)));
         for y in low.floor().clamp(0.0, h) as usize..high.ceil().clamp(0.0, h) as usize {
             let cy = y as f64 + 0.5;
-            // Barycentric coordinates at the center of the row's first pixel, and their change per pixel.
+            // Barycentric coordinates at the first pixel's center, and their change per pixel.
             let share = |k: usize| {
                 let (b, c) = (p[(k + 1) % 3], p[(k + 2) % 3]);
                 let at = ((b.0 - 0.5) * (c.1 - cy) - (b.1 - cy) * (c.0 - 0.5)) / area;
@@ -235,7 +236,7 @@ impl SketchSheet {
         }
     }
 
-    /// Applies edges, haze and light, and converts to 8 bits.
+    /// Applies edges, haze and light, and converts the colors to 8 bits per channel.
     fn shaded(&self, colours: &[[f64; 3]], exposure: SketchExposure) -> Vec<u8> {
         let dim = exposure.light.clamp(0.0, 1.0).sqrt().max(0.06);
         let mut rgb = Vec::with_capacity(3 * self.near.len());
@@ -257,7 +258,7 @@ impl SketchSheet {
         rgb
     }
 
-    /// Returns whether another face or depth begins to the right or below.
+    /// Returns whether a different color or depth starts at the pixel to the right or below.
     fn is_edge(&self, x: usize, y: usize) -> bool {
         let at = y * WIDTH_PX + x;
         let differs = |other: usize| {
@@ -267,7 +268,7 @@ impl SketchSheet {
         (x + 1 < WIDTH_PX && differs(at + 1)) || (y + 1 < self.height && differs(at + WIDTH_PX))
     }
 
-    /// Returns the lamp's falloff toward the sides.
+    /// Returns the lamp's brightness at a pixel; it decreases from the center toward the sides.
     fn beam(&self, x: usize, y: usize) -> f64 {
         let (dx, dy) = (x as f64 - 0.5 * WIDTH_PX as f64, y as f64 - 0.5 * self.height as f64);
         let away = math::hypot(dx, dy) / (0.5 * WIDTH_PX as f64);
@@ -275,7 +276,7 @@ impl SketchSheet {
     }
 }
 
-/// Returns the pixels of a row in which no barycentric coordinate is negative.
+/// Returns the range of pixels in a row for which no barycentric coordinate is negative.
 fn span(shares: &[(f64, f64); 3]) -> Option<(usize, usize)> {
     let (mut from, mut to) = (0.0, WIDTH_PX as f64);
     for (at, step) in shares {
@@ -312,7 +313,7 @@ fn encode(rgb: &[u8], width: usize, height: usize) -> Result<Vec<u8>, png::Encod
     let mut encoder = png::Encoder::new(&mut file, side(width), side(height));
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
-    // Flat shades compress best and fastest unfiltered.
+    // Flat colors compress best and fastest without a filter.
     encoder.set_filter(png::Filter::NoFilter);
     encoder.write_header()?.write_image_data(rgb)?;
     Ok(file)
@@ -336,7 +337,7 @@ mod tests {
             lamp_on: false,
         };
         let lens = SketchLens { pose: &pose, down: pose.forward.cross(pose.right), slopes: [1.0, 0.75] };
-        assert_eq!(lens.project(Vec3::new(1.0, 2.0, 3.0)), [1.0, -3.0, 2.0], "right, down, ahead");
+        assert_eq!(lens.project(Vec3::new(1.0, 2.0, 3.0)), [1.0, -3.0, 2.0], "right, down, forward");
         let (near, far) = (triangle(2.0, 1), triangle(4.0, 2));
         for order in [[&near, &far], [&far, &near]] {
             let mut sheet = SketchSheet::new(300, 200.0);
@@ -358,7 +359,7 @@ mod tests {
             sheet.fill(corners, 1);
             sheet.shade.iter().filter(|shade| **shade == 1).count()
         };
-        // Pixel centers with x + y < 40 from a corner at 10: 19 + 18 + ... + 1, plus the 20 on the edge.
+        // Pixel centers with x + y < 40: 19 + 18 + ... + 1, plus the 20 on the edge.
         assert!((190..=210).contains(&filled(face)), "{}", filled(face));
         assert_eq!(filled([face[0], face[2], face[1]]), 0);
     }

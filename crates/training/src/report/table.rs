@@ -1,18 +1,18 @@
-//! Data tables behind figures: rounded for display, full precision for download.
+//! Data tables for figures: rounded for display, with full precision for download.
 
 use super::words;
 use maud::{Markup, html};
 
-/// A table cell.
+/// A cell of a data table.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TableCell {
-    /// Text.
+    /// Text, escaped in HTML and CSV.
     Text(String),
-    /// A number and its displayed decimal places.
+    /// A number and the number of decimal places to display.
     Number(f64, usize),
-    /// Flight time, s.
+    /// Duration of the flight, s.
     Clock(f64),
-    /// Empty cell.
+    /// No value.
     Empty,
 }
 
@@ -54,7 +54,7 @@ impl TableCell {
         matches!(self, Self::Number(..) | Self::Clock(_))
     }
 
-    /// Returns the cell as a CSV field. Text that a spreadsheet would interpret as a formula gets a leading apostrophe.
+    /// Returns the cell as a CSV field. Text that a spreadsheet would treat as a formula gets a leading apostrophe.
     fn field(&self) -> String {
         match self {
             Self::Number(value, _) | Self::Clock(value) if value.is_finite() => value.to_string(),
@@ -68,32 +68,32 @@ impl TableCell {
     }
 }
 
-/// A data table.
+/// A table that can be shown and downloaded as CSV.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// File name without extension.
+    /// File name of the CSV file, without extension.
     pub name: &'static str,
-    /// Caption.
+    /// Caption shown above the table.
     pub caption: &'static str,
     /// Column headings, as displayed.
     pub columns: Vec<&'static str>,
-    /// Rows, each as long as `columns`.
+    /// Rows; each has one cell per column.
     pub rows: Vec<Vec<TableCell>>,
 }
 
 impl Table {
-    /// Renders the table collapsed below its figure.
+    /// Renders the table below its figure, collapsed.
     #[must_use]
     pub fn folded(&self) -> Markup {
         html! {
             details.numbers {
-                summary { "Numbers: " (self.caption) }
+                summary { "Table: " (self.caption) }
                 (self.shown())
             }
         }
     }
 
-    /// Renders the full table with its download link.
+    /// Renders the table with its download link.
     #[must_use]
     pub fn shown(&self) -> Markup {
         html! {
@@ -117,7 +117,7 @@ impl Table {
         }
     }
 
-    /// Returns the table as CSV: full precision, one header line.
+    /// Returns the table as CSV with a header line and numbers in full precision.
     #[must_use]
     pub fn csv(&self) -> String {
         let mut csv = self.columns.iter().map(|column| TableCell::from(*column).field()).collect::<Vec<_>>().join(",");
@@ -130,12 +130,12 @@ impl Table {
     }
 }
 
-/// Renders a download link that embeds the file.
+/// Renders a download link that contains the file as a data URL.
 #[must_use]
 pub fn download(name: &str, csv: &str, words: &str) -> Markup {
     let mut link = String::from("data:text/csv;charset=utf-8,");
     for byte in csv.bytes() {
-        // RFC 3986, unreserved characters.
+        // Unreserved characters (RFC 3986).
         if byte.is_ascii_alphanumeric() || b"-._~".contains(&byte) {
             link.push(char::from(byte));
         } else {

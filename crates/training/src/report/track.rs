@@ -1,4 +1,4 @@
-//! Position relative to the tasks for each frame, and totals for each task's window.
+//! Position relative to the tasks in each frame, and totals for each task's window.
 
 use super::ReviewContext;
 use spandrel_mavlink::telemetry::Frame;
@@ -8,15 +8,15 @@ use spandrel_monitor::measures::on_speed;
 /// Position of the drone relative to the tasks in one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TaskProximityStep {
-    /// Index of the task that the distance refers to: the last one entered, before that the nearest.
+    /// Index of the task that the distance refers to: the last task entered, or the nearest one if none was entered yet.
     pub task: Option<usize>,
-    /// Distance to its path, m.
+    /// Distance to that task's path, m.
     pub distance_m: Option<f64>,
-    /// Whether the drone is on some task's path.
+    /// Whether the drone is on the path of any task.
     pub on: bool,
-    /// Whether the frame is inside some task's window.
+    /// Whether the frame is inside the window of any task.
     pub inside: bool,
-    /// Whether the speed exceeds the limit inside a window.
+    /// Whether the frame is inside a window and the speed exceeds the limit.
     pub speeding: bool,
 }
 
@@ -25,9 +25,9 @@ pub struct TaskProximityStep {
 pub struct TaskFacts {
     /// Time from the first to the last on-path frame, s.
     pub time_s: f64,
-    /// Time off the path in the window, s.
+    /// Time off the path within the window, s.
     pub off_path_s: f64,
-    /// Time above the speed limit in the window, s.
+    /// Time above the speed limit within the window, s.
     pub speeding_s: f64,
     /// Mean distance to the path, m.
     pub mean_distance_m: f64,
@@ -35,11 +35,11 @@ pub struct TaskFacts {
     pub max_distance_m: f64,
     /// Maximum speed, m/s.
     pub max_speed_m_s: f64,
-    /// Minimum clearance, m.
+    /// Minimum clearance to any surface, m.
     pub least_clearance_m: f64,
 }
 
-/// Computes the position relative to the tasks for all frames.
+/// Computes the position relative to the tasks in all frames.
 #[must_use]
 pub fn steps(paths: &ReferencePaths, on_path: &OnPath, scene: &ReviewContext<'_>) -> Vec<TaskProximityStep> {
     let speeds: Vec<f64> = scene.frames.iter().map(Frame::speed_m_s).collect();
@@ -65,7 +65,7 @@ pub fn steps(paths: &ReferencePaths, on_path: &OnPath, scene: &ReviewContext<'_>
     scene.frames.iter().enumerate().map(step).collect()
 }
 
-/// Computes the measures of all tasks.
+/// Computes the totals of all tasks.
 #[must_use]
 pub fn tasks(scene: &ReviewContext<'_>, on_path: &OnPath, steps: &[TaskProximityStep]) -> Vec<TaskFacts> {
     let paths = ReferencePaths::new(scene.scenario);

@@ -1,21 +1,21 @@
-//! Display names and number formats. Values are not rounded before they get here.
+//! Display names and number formats. This is the only place where values are rounded.
 
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::modes::ControlSource;
 use spandrel_monitor::session::EndReason;
 
-/// Formats a number with `digits` decimal places; a dash if it is not finite.
+/// Formats a number with `digits` decimal places. Returns a dash if it is not finite.
 #[must_use]
 pub fn number(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return "–".into();
     }
     let text = format!("{value:.digits$}");
-    // A value that rounds to zero has no sign.
+    // Values that round to zero are shown without a sign.
     if text.starts_with('-') && text.bytes().all(|byte| matches!(byte, b'-' | b'0' | b'.')) { text[1..].to_owned() } else { text }
 }
 
-/// Formats a flight time as minutes and seconds.
+/// Formats a flight time as `minutes:seconds`.
 #[must_use]
 pub fn clock(t_s: f64) -> String {
     if !t_s.is_finite() {
@@ -25,7 +25,7 @@ pub fn clock(t_s: f64) -> String {
     format!("{}:{:02}", whole / 60, whole % 60)
 }
 
-/// Formats minutes and seconds as text.
+/// Formats a duration as text, such as `2 min 5 s`.
 #[must_use]
 pub fn duration(t_s: f64) -> String {
     let whole = t_s.max(0.0).round() as u64;
@@ -77,7 +77,7 @@ pub fn control_source_label(by: Option<ControlSource>) -> &'static str {
     }
 }
 
-/// Returns the name of a bridge element (AASHTO Manual for Bridge Element Inspection) by number.
+/// Returns the name of a bridge element by its number in the AASHTO Manual for Bridge Element Inspection.
 #[must_use]
 pub fn element(number: u32) -> &'static str {
     match number {

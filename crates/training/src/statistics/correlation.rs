@@ -1,24 +1,24 @@
-//! Correlation of two measures of the same trainees.
+//! Correlation between two measures of the same trainees.
 
 use super::distribution::tails_of_t;
 use super::{StatisticsError, mean};
 use serde::Serialize;
 
-/// A correlation and its two-tailed p value (t distribution with n - 2 degrees of freedom).
+/// A correlation coefficient and its two-tailed p value (t distribution with n - 2 degrees of freedom).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Correlation {
-    /// Number of pairs.
+    /// Number of value pairs.
     pub n: usize,
     /// Correlation coefficient, -1 to 1.
     pub r: f64,
-    /// Two-tailed p value; `None` below three pairs.
+    /// Two-tailed p value; `None` with fewer than three pairs.
     pub p: Option<f64>,
 }
 
-/// Computes Pearson's correlation.
+/// Computes Pearson's correlation coefficient.
 ///
 /// # Errors
-/// If there are fewer than two pairs, a list does not vary, or a value is not finite.
+/// Fails if there are fewer than two pairs, if one list is constant, or if a value is not finite.
 pub fn pearson(x: &[f64], y: &[f64]) -> Result<Correlation, StatisticsError> {
     StatisticsError::pairs(x, y, 2)?;
     let n = x.len();
@@ -36,7 +36,7 @@ pub fn pearson(x: &[f64], y: &[f64]) -> Result<Correlation, StatisticsError> {
     Ok(Correlation { n, r, p })
 }
 
-/// Computes Spearman's rank correlation. Ties get their mean rank.
+/// Computes Spearman's rank correlation coefficient. Tied values share their mean rank.
 ///
 /// # Errors
 /// See [`pearson`].

@@ -1,23 +1,24 @@
-//! Wrapper around the statistics library's distributions.
+//! Functions of the t, chi-squared and F distributions, based on the statistics library.
 
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, Continuous, ContinuousCDF, FisherSnedecor, StudentsT};
 
-/// Newton steps that refine the library's quantile (accurate to about 1e-6) to rounding; each doubles the digits.
+/// Number of Newton steps that improve the library's quantile (accurate to about 1e-6) to machine precision. Each step doubles the
+/// number of correct digits.
 const POLISHING: usize = 4;
 
 /// One- and two-tailed p values of a t statistic.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TailProbabilities {
-    /// Upper tail, for the alternative "increase".
+    /// Probability of the upper tail, for the alternative "increase".
     pub upper: f64,
-    /// Lower tail, for the alternative "decrease".
+    /// Probability of the lower tail, for the alternative "decrease".
     pub lower: f64,
-    /// Two-tailed, for the alternative "change".
+    /// Two-tailed probability, for the alternative "change".
     pub two: f64,
 }
 
-/// Returns the p values of `t` with `df` degrees of freedom; `None` without degrees of freedom or if `t` is NaN.
+/// Returns the p values of `t` with `df` degrees of freedom; `None` if `df` is not positive or `t` is NaN.
 #[must_use]
 pub fn tails_of_t(t: f64, df: f64) -> Option<TailProbabilities> {
     let student = student(df)?;
@@ -28,7 +29,7 @@ pub fn tails_of_t(t: f64, df: f64) -> Option<TailProbabilities> {
     Some(TailProbabilities { upper, lower, two: (2.0 * lower.min(upper)).min(1.0) })
 }
 
-/// Returns the quantile of the t distribution at `share`.
+/// Returns the quantile of the t distribution for probability `share`.
 pub(super) fn quantile_of_t(share: f64, df: f64) -> Option<f64> {
     let student = student(df).filter(|_| share > 0.0 && share < 1.0)?;
     let mut t = student.inverse_cdf(share);
@@ -61,12 +62,12 @@ fn student(df: f64) -> Option<StudentsT> {
 mod tests {
     use super::*;
 
-    /// Rounding error of the library's series.
+    /// Tolerance for the rounding error of the library's functions.
     const CLOSE: f64 = 1e-12;
 
     #[test]
     fn exact_one_degree_of_freedom_is_cauchy() {
-        // Closed form: P(T > 1) = 1/4 for one degree of freedom; the 97.5 % quantile is tan(0.475 pi).
+        // Closed form for one degree of freedom: P(T > 1) = 1/4; the 97.5 % quantile is tan(0.475 pi).
         let tails = tails_of_t(1.0, 1.0).unwrap();
         assert!((tails.upper - 0.25).abs() < CLOSE && (tails.lower - 0.75).abs() < CLOSE && (tails.two - 0.5).abs() < CLOSE);
         let exact = spandrel_model::math::tan(0.475 * spandrel_model::math::PI);
@@ -89,7 +90,7 @@ mod tests {
 
     #[test]
     fn val_tails_are_those_that_the_papers_table_prints() {
-        /// Half a unit of the last printed digit, plus a margin because the table's t is rounded (0.475 is off by 1e-7).
+        /// Half a unit of the table's last digit, plus a margin because its t values are rounded (0.475 by up to 1e-7).
         const PRINTED: f64 = 0.5e-4 + 2e-7;
         let table = [
             (2.609, 0.0175, 0.9825, 0.0350),

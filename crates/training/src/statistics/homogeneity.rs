@@ -1,10 +1,10 @@
-//! Homogeneity of several groups' answers or scores.
+//! Chi-squared test of homogeneity for answers or scores of several groups.
 
 use super::StatisticsError;
 use super::distribution::above_chi_squared;
 use serde::Serialize;
 
-/// The approximation is poor if any cell's expected count is below this (Cochran 1954).
+/// Minimum expected count of a cell, below which the chi-squared approximation is poor (Cochran 1954).
 const LEAST_EXPECTED: f64 = 5.0;
 
 /// Result of a chi-squared test of homogeneity.
@@ -12,21 +12,21 @@ const LEAST_EXPECTED: f64 = 5.0;
 pub struct Homogeneity {
     /// Test statistic: sum of (observed - expected)^2 / expected.
     pub chi_squared: f64,
-    /// Degrees of freedom, over the nonempty rows and columns.
+    /// Degrees of freedom, counting only nonempty rows and columns.
     pub df: usize,
-    /// p value: probability of a difference at least this large between homogeneous groups.
+    /// Probability of a difference at least this large between homogeneous groups.
     pub p: f64,
-    /// Smallest expected count of any cell.
+    /// Smallest expected count of all cells.
     pub smallest_expected: f64,
-    /// Warning if an expected count is below five.
+    /// Warning if an expected count is below 5.
     pub warning: Option<String>,
 }
 
-/// Tests whether the rows (groups) of a count table have the same distribution over its columns (categories). Empty rows and
-/// columns are skipped.
+/// Tests whether the rows (groups) of a table of counts have the same distribution over the columns (categories). Empty rows and
+/// columns are ignored.
 ///
 /// # Errors
-/// If the rows differ in length, or fewer than two rows or columns are nonempty.
+/// Fails if the rows differ in length or if fewer than two rows or columns are nonempty.
 pub fn homogeneity(table: &[Vec<usize>]) -> Result<Homogeneity, StatisticsError> {
     let columns = table.first().map_or(0, Vec::len);
     if let Some(other) = table.iter().find(|row| row.len() != columns) {
@@ -70,7 +70,7 @@ mod tests {
 
     #[test]
     fn exact_a_two_by_two_table_by_hand() {
-        // n (ad - bc)^2 / (product of the sums) = 100 (10 x 20 - 30 x 40)^2 / (40 x 60 x 50 x 50).
+        // n (ad - bc)^2 / (product of the marginal sums) = 100 (10 x 20 - 30 x 40)^2 / (40 x 60 x 50 x 50).
         let test = homogeneity(&[vec![10, 30], vec![40, 20]]).unwrap();
         assert!((test.chi_squared - 100.0 * 1e6 / (40.0 * 60.0 * 50.0 * 50.0)).abs() < 1e-12);
         assert_eq!((test.df, test.smallest_expected, test.warning), (1, 20.0, None));

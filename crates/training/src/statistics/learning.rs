@@ -1,16 +1,16 @@
-//! Learning curve: change of a measure with practice, as a power law (Newell and Rosenbloom 1981).
+//! Learning curve: change of a measure with practice, modeled as a power law (Newell and Rosenbloom 1981).
 
 use super::{StatisticsError, mean};
 use serde::Serialize;
 use spandrel_model::math;
 
-/// Minimum number of repetitions for a curve; with three, two parameters almost always fit.
+/// Minimum number of repetitions for a curve. Its two parameters would fit three repetitions almost perfectly.
 pub const LEARNING_NEEDS: usize = 4;
-/// Range of exponents searched; practice never changes a measure faster.
+/// Range in which the exponent is searched, wider than any plausible effect of practice.
 const EXPONENTS: (f64, f64) = (-4.0, 4.0);
-/// Steps of the initial grid search.
+/// Number of steps in the initial grid search.
 const GRID: usize = 400;
-/// Bisection steps, enough to reach rounding error.
+/// Number of bisection steps, enough to reach machine precision.
 const NARROWING: usize = 120;
 
 /// A power law: `first * n^exponent` for the n-th repetition.
@@ -24,22 +24,22 @@ pub struct LearningCurve {
     pub exponent: f64,
     /// Fraction of the variance explained by the curve; `None` if the measure does not vary.
     pub r_squared: Option<f64>,
-    /// Prediction for the next repetition. It may exceed the maximum of a score, which the curve does not take into account.
+    /// Prediction for the next repetition. It may exceed the maximum score, because the curve does not account for it.
     pub next: f64,
 }
 
 impl LearningCurve {
-    /// Returns the value of the curve at a repetition (from 1; fractional values for drawing).
+    /// Returns the value of the curve at a repetition (from 1). Fractional repetitions are allowed, for drawing.
     #[must_use]
     pub fn at(&self, repetition: f64) -> f64 {
         self.first * math::pow(repetition, self.exponent)
     }
 }
 
-/// Fits the curve to repetitions in order, by least squares on the values themselves (zeros are allowed).
+/// Fits the curve to the values of consecutive repetitions by least squares on the values themselves, so zeros are allowed.
 ///
 /// # Errors
-/// If there are fewer than [`LEARNING_NEEDS`] values, or a value is not finite.
+/// Fails if there are fewer than [`LEARNING_NEEDS`] values or if a value is not finite.
 pub fn learning_curve(values: &[f64]) -> Result<LearningCurve, StatisticsError> {
     if values.len() < LEARNING_NEEDS {
         return Err(StatisticsError::TooFew { n: values.len(), needed: LEARNING_NEEDS });
@@ -61,8 +61,8 @@ pub fn learning_curve(values: &[f64]) -> Result<LearningCurve, StatisticsError> 
     })
 }
 
-/// Refines the exponent by bisection: the slope of the residual over the exponent changes sign at the minimum. Comparing
-/// residuals would stop at half the digits.
+/// Refines the exponent by bisection on the derivative of the residual, which changes sign at the minimum. Comparing the
+/// residuals themselves would give only half as many correct digits.
 fn refine_interval(values: &[f64], mut low: f64, mut high: f64) -> f64 {
     for _ in 0..NARROWING {
         let middle = 0.5 * (low + high);
@@ -79,7 +79,7 @@ fn practice(exponent: f64, count: usize) -> impl Iterator<Item = (f64, f64)> {
     (1..=count).map(move |k| (math::ln(k as f64), math::pow(k as f64, exponent)))
 }
 
-/// Returns the best first value for an exponent.
+/// Returns the best-fitting first value for a given exponent.
 fn height(values: &[f64], exponent: f64) -> f64 {
     let (mut both, mut own) = (0.0, 0.0);
     for ((_, power), value) in practice(exponent, values.len()).zip(values) {
@@ -94,8 +94,8 @@ fn residual(values: &[f64], exponent: f64) -> f64 {
     practice(exponent, values.len()).zip(values).map(|((_, power), value)| value - first * power).map(|off| off * off).sum()
 }
 
-/// Returns the derivative of the residual by the exponent, up to a positive factor (at the best first value, its own derivative
-/// is zero).
+/// Returns the derivative of the residual with respect to the exponent, except for a positive factor. The first value is the best
+/// one for the exponent, so the residual does not depend on it to first order.
 fn slope(values: &[f64], exponent: f64) -> f64 {
     let first = height(values, exponent);
     let terms = practice(exponent, values.len()).zip(values);

@@ -1,6 +1,6 @@
-//! Statistics over trainees and repetitions. The distributions behind p values come from the statrs library; tests compare all
-//! results with SciPy and with the values published in the paper. These results do not affect the simulation: the library's
-//! logarithms may differ in the last bit between machines.
+//! Statistics over trainees and repetitions. The distributions behind p values come from the statrs library. Tests compare all
+//! results with SciPy and with values published in the TASBID paper. The results may differ in the last bit between machines, but
+//! do not affect the simulation.
 
 mod correlation;
 mod distribution;
@@ -22,7 +22,7 @@ pub use sample::{BoxPlot, HistogramBin, SampleSummary, box_plot, histogram, mean
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StatisticsError {
     /// There are too few values.
-    #[error("{n} values, but {needed} are required")]
+    #[error("only {n} values; at least {needed} are required")]
     TooFew {
         /// Number of values given.
         n: usize,
@@ -30,7 +30,7 @@ pub enum StatisticsError {
         needed: usize,
     },
     /// Paired lists differ in length.
-    #[error("{left} values cannot be paired with {right}")]
+    #[error("the lists have different lengths: {left} and {right} values")]
     Unpaired {
         /// Length of the first list.
         left: usize,
@@ -38,17 +38,17 @@ pub enum StatisticsError {
         right: usize,
     },
     /// A value is infinite or NaN.
-    #[error("value {at} is {value}, which is not finite")]
+    #[error("value number {at} is {value}, which is not a finite number")]
     NotFinite {
-        /// Position, from 1.
+        /// Position of the value in the list, from 1.
         at: usize,
-        /// The value.
+        /// The value, which is infinite or NaN.
         value: f64,
     },
-    /// A measure does not vary, so nothing can be estimated.
-    #[error("{0} does not vary")]
+    /// A measure is constant, so nothing can be estimated.
+    #[error("{0} is constant")]
     Constant(&'static str),
-    /// Predictors are collinear.
+    /// The predictors are linearly dependent.
     #[error("the predictors are collinear in this sample")]
     Collinear,
 }

@@ -1,37 +1,37 @@
-//! Paired t tests of change within the same trainees.
+//! Paired t tests for changes within the same trainees.
 
 use super::distribution::{TailProbabilities, quantile_of_t, tails_of_t};
 use super::{StatisticsError, mean, sd};
 use serde::Serialize;
 
-/// Probability below the upper end of a 95 % interval.
+/// Probability up to the upper end of a 95 % interval.
 pub(super) const UPPER_END_95: f64 = 0.975;
 
-/// Result of a paired comparison, later minus earlier.
+/// Result of a paired t test of later minus earlier values.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PairedTest {
-    /// Number of pairs.
+    /// Number of value pairs.
     pub n: usize,
     /// Mean of later minus earlier.
     pub mean_difference: f64,
-    /// Standard deviation of the differences (n - 1).
+    /// Standard deviation of the differences, with n - 1 in the denominator.
     pub sd_difference: f64,
     /// Degrees of freedom.
     pub df: usize,
     /// t statistic; `None` if all differences are equal.
     pub t: Option<f64>,
-    /// p values; `None` if t is.
+    /// p values; `None` if `t` is.
     pub p: Option<TailProbabilities>,
-    /// Cohen's d for pairs: mean difference over its standard deviation; `None` if t is.
+    /// Cohen's d for pairs: mean difference divided by the standard deviation of the differences; `None` if `t` is.
     pub effect_size_dz: Option<f64>,
-    /// 95 % interval of the mean difference.
+    /// 95 % confidence interval of the mean difference.
     pub interval_95: [f64; 2],
 }
 
 /// Compares earlier and later values of the same trainees.
 ///
 /// # Errors
-/// If the lists differ in length, there are fewer than two pairs, or a value is not finite.
+/// Fails if the lists differ in length, if there are fewer than two pairs, or if a value is not finite.
 pub fn paired_t(earlier: &[f64], later: &[f64]) -> Result<PairedTest, StatisticsError> {
     StatisticsError::pairs(earlier, later, 2)?;
     let differences: Vec<f64> = earlier.iter().zip(later).map(|(earlier, later)| later - earlier).collect();
@@ -53,7 +53,7 @@ pub fn paired_t(earlier: &[f64], later: &[f64]) -> Result<PairedTest, Statistics
     })
 }
 
-/// Returns p values with Holm's correction (Holm 1979) for a family, in the order given.
+/// Returns the p values of one family with Holm's correction (Holm 1979), in the given order.
 #[must_use]
 pub fn holm(p: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..p.len()).collect();
@@ -71,12 +71,13 @@ pub fn holm(p: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Rounding error of a few operations.
+    /// Tolerance for the rounding error of a few operations.
     const EXACT: f64 = 1e-12;
 
     #[test]
     fn exact_differences_one_two_three() {
-        // Mean 2, standard deviation 1, t = 2 sqrt 3 with two degrees of freedom: upper tail is 1/2 - t / (2 sqrt (2 + t^2)).
+        // Mean 2, standard deviation 1, t = 2 sqrt 3. With two degrees of freedom, the upper tail is 1/2 - t / (2 sqrt (2 +
+        // t^2)).
         let test = paired_t(&[10.0, 20.0, 30.0], &[11.0, 22.0, 33.0]).unwrap();
         let t = 2.0 * 3.0f64.sqrt();
         assert_eq!((test.n, test.df, test.mean_difference, test.sd_difference), (3, 2, 2.0, 1.0));
@@ -98,7 +99,7 @@ mod tests {
 
     #[test]
     fn exact_holm_steps_down() {
-        // Computed by hand: 0.01 x 4, 0.02 x 3, 0.03 x 2 (raised to the preceding 0.06), 0.9 x 1.
+        // Expected by hand: 0.01 x 4, 0.02 x 3, 0.03 x 2 (raised to the preceding 0.06), 0.9 x 1.
         let corrected = holm(&[0.03, 0.01, 0.9, 0.02]);
         for (ours, hand) in corrected.iter().zip([0.06, 0.04, 0.9, 0.06]) {
             assert!((ours - hand).abs() < EXACT, "{corrected:?}");

@@ -1,4 +1,4 @@
-//! Ordinary least squares with an intercept, and inference on its coefficients.
+//! Ordinary least squares with an intercept, and statistics of its coefficients.
 
 use super::StatisticsError;
 use super::distribution::{above_f, quantile_of_t, tails_of_t};
@@ -6,23 +6,23 @@ use super::paired::UPPER_END_95;
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
-/// A column is collinear if its component orthogonal to the preceding columns is a smaller fraction of its length than this.
+/// A column counts as collinear if its component orthogonal to the preceding columns is less than this fraction of its length.
 const INDEPENDENT: f64 = 1e-9;
 
-/// A regression coefficient.
+/// A coefficient of a fitted regression model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Coefficient {
-    /// Name of the predictor; `intercept` for the first.
+    /// Name of the predictor; `intercept` for the first coefficient.
     pub name: String,
-    /// Estimate.
+    /// Estimated value of the coefficient.
     pub estimate: f64,
-    /// Standard error.
+    /// Standard error of the estimate.
     pub standard_error: f64,
-    /// t statistic: estimate over standard error; `None` if the fit is perfect.
+    /// t statistic: estimate divided by standard error; `None` if the fit is perfect.
     pub t: Option<f64>,
-    /// Two-tailed p value; `None` if t is.
+    /// Two-tailed p value; `None` if `t` is.
     pub p: Option<f64>,
-    /// 95 % interval of the estimate.
+    /// 95 % confidence interval of the estimate.
     pub interval_95: [f64; 2],
 }
 
@@ -31,25 +31,25 @@ pub struct Coefficient {
 pub struct Regression {
     /// Number of observations.
     pub n: usize,
-    /// Intercept first, then the predictors in the given order.
+    /// Coefficients: the intercept, then the predictors in the given order.
     pub coefficients: Vec<Coefficient>,
     /// Residual degrees of freedom.
     pub df: usize,
     /// Standard deviation of the residuals.
     pub residual_sd: f64,
-    /// Fraction of the variance explained by the predictors; `None` if the outcome does not vary.
+    /// Fraction of the variance explained by the predictors; `None` if the outcome is constant.
     pub r_squared: Option<f64>,
-    /// F statistic of the model against the mean alone; `None` if `r_squared` is.
+    /// F statistic of the comparison with a model that contains only the mean; `None` if `r_squared` is.
     pub f: Option<f64>,
     /// p value of the F statistic.
     pub p: Option<f64>,
 }
 
-/// Regresses `outcome` on named predictors, each a list of the same length.
+/// Fits `outcome` as a linear function of the named predictors. All lists have the same length.
 ///
 /// # Errors
-/// If lists differ in length, a value is not finite, there are no more observations than coefficients, or predictors are
-/// collinear.
+/// Fails if the lists differ in length, a value is not finite, there are not more observations than coefficients, or the
+/// predictors are collinear.
 pub fn least_squares(outcome: &[f64], predictors: &[(&str, &[f64])]) -> Result<Regression, StatisticsError> {
     let (n, p) = (outcome.len(), predictors.len() + 1);
     for (_, values) in predictors {
@@ -101,9 +101,9 @@ fn coefficient(name: &str, estimate: f64, standard_error: f64, df: f64) -> Coeff
     }
 }
 
-/// Returns the estimates only, by normal equations, with each observation weighted by `weights`. For bootstrapping, where a full
-/// [`Regression`] would be too slow. Rows contain the predictors without the intercept, which comes first in the result. `None`
-/// if the predictors are collinear.
+/// Returns only the estimates of a weighted least-squares fit, computed from the normal equations. Used for bootstrapping, where
+/// a full [`Regression`] would be too slow. Rows contain the predictors without the intercept; the result starts with the
+/// intercept. `None` if the predictors are collinear.
 #[must_use]
 pub fn solve<const P: usize>(rows: &[[f64; P]], outcome: &[f64], weights: &[u32]) -> Option<Vec<f64>> {
     let mut normal = DMatrix::<f64>::zeros(P + 1, P + 1);
@@ -121,7 +121,8 @@ pub fn solve<const P: usize>(rows: &[[f64; P]], outcome: &[f64], weights: &[u32]
     }
     let factor = normal.clone().cholesky()?;
     let lower = factor.l();
-    // The factor's diagonal is the component of a column orthogonal to the preceding ones.
+    // The diagonal elements of the Cholesky factor are the lengths of the columns' components orthogonal to the preceding
+    // columns.
     let distinct = (0..=P).all(|k| lower[(k, k)] > INDEPENDENT.sqrt() * normal[(k, k)].sqrt());
     distinct.then(|| factor.solve(&right).iter().copied().collect())
 }
@@ -130,18 +131,18 @@ pub fn solve<const P: usize>(rows: &[[f64; P]], outcome: &[f64], weights: &[u32]
 mod tests {
     use super::*;
 
-    /// Rounding error of a small decomposition.
+    /// Tolerance for the rounding error of a small decomposition.
     const EXACT: f64 = 1e-11;
 
     #[test]
     fn exact_a_line_through_three_points_matches_the_closed_form() {
-        // y = 1, 3, 2 at x = 0, 1, 2: slope 1/2, intercept 3/2, residual sum 3/2, standard error of the slope sqrt(3/2/2) = sqrt
-        // 3/2.
+        // y = 1, 3, 2 at x = 0, 1, 2: slope 1/2, intercept 3/2, residual sum of squares 3/2, standard error of the slope
+        // sqrt(3/2/2) = sqrt 3/2.
         let model = least_squares(&[1.0, 3.0, 2.0], &[("x", &[0.0, 1.0, 2.0])]).unwrap();
         assert!((model.coefficients[0].estimate - 1.5).abs() < EXACT && (model.coefficients[1].estimate - 0.5).abs() < EXACT);
         assert!((model.coefficients[1].standard_error - 0.75f64.sqrt()).abs() < EXACT);
         assert!((model.r_squared.unwrap() - 0.25).abs() < EXACT);
-        // With one predictor, F is the square of its t and has the same p.
+        // With a single predictor, F is the square of t and has the same p value.
         let t = model.coefficients[1].t.unwrap();
         assert!((model.f.unwrap() - t * t).abs() < EXACT);
         assert!((model.p.unwrap() - model.coefficients[1].p.unwrap()).abs() < EXACT);

@@ -1,44 +1,45 @@
-//! Statistics of one sample: summary, quartiles and box plot.
+//! Statistics of a single sample: summary, quartiles and box plot.
 
 use super::StatisticsError;
 use serde::Serialize;
 
-/// Whiskers extend to the last value within this many interquartile ranges of the box (Tukey 1977).
+/// Maximum length of the whiskers, in interquartile ranges (Tukey 1977).
 const WHISKER_IQR: f64 = 1.5;
 
 /// Summary statistics of a sample.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SampleSummary {
-    /// Number of values.
+    /// Number of values in the sample.
     pub n: usize,
-    /// Arithmetic mean.
+    /// Arithmetic mean of the values.
     pub mean: f64,
-    /// Standard deviation (n - 1); `None` for one value.
+    /// Standard deviation, with n - 1 in the denominator; `None` for a single value.
     pub sd: Option<f64>,
-    /// Minimum.
+    /// Smallest value in the sample.
     pub min: f64,
-    /// First quartile.
+    /// First quartile of the values.
     pub q1: f64,
-    /// Median.
+    /// Median of the values.
     pub median: f64,
-    /// Third quartile.
+    /// Third quartile of the values.
     pub q3: f64,
-    /// Maximum.
+    /// Largest value in the sample.
     pub max: f64,
-    /// Maximum minus minimum.
+    /// Difference between largest and smallest value.
     pub range: f64,
-    /// Third standardized moment (with n, not n - 1); negative if the lower tail is longer. `None` if all values are equal.
+    /// Skewness: third standardized moment, with n in the denominator. Negative if the lower tail is longer; `None` if all values
+    /// are equal.
     pub skewness: Option<f64>,
 }
 
 /// Data of a box plot.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BoxPlot {
-    /// First quartile.
+    /// First quartile of the values.
     pub q1: f64,
-    /// Median.
+    /// Median of the values.
     pub median: f64,
-    /// Third quartile.
+    /// Third quartile of the values.
     pub q3: f64,
     /// Smallest value that is not an outlier.
     pub low_whisker: f64,
@@ -46,18 +47,18 @@ pub struct BoxPlot {
     pub high_whisker: f64,
     /// Values beyond the whiskers, ascending.
     pub outliers: Vec<f64>,
-    /// Arithmetic mean.
+    /// Arithmetic mean of the values.
     pub mean: f64,
-    /// Number of values.
+    /// Number of values in the sample.
     pub n: usize,
 }
 
-/// A histogram bin: values in [from, to); the last bin includes its upper end.
+/// A histogram bin for values in [from, to). The last bin includes its upper end.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct HistogramBin {
-    /// Lower bound.
+    /// Lower bound, inclusive.
     pub from: f64,
-    /// Upper bound.
+    /// Upper bound; inclusive only in the last bin.
     pub to: f64,
     /// Number of values in the bin.
     pub count: usize,
@@ -69,7 +70,7 @@ pub fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
-/// Returns the standard deviation (n - 1); `None` below two values.
+/// Returns the standard deviation, with n - 1 in the denominator; `None` for fewer than two values.
 #[must_use]
 pub fn sd(values: &[f64]) -> Option<f64> {
     let mean = mean(values).filter(|_| values.len() > 1)?;
@@ -77,7 +78,7 @@ pub fn sd(values: &[f64]) -> Option<f64> {
     Some((squares / (values.len() - 1) as f64).sqrt())
 }
 
-/// Returns a quantile, linearly interpolated between order statistics (Hyndman and Fan 1996, type 7; the default of NumPy and R).
+/// Returns a quantile of sorted values by linear interpolation (type 7 of Hyndman and Fan 1996, the default of NumPy and R).
 #[must_use]
 pub fn quantile(ascending: &[f64], share: f64) -> Option<f64> {
     let last = ascending.len().checked_sub(1)?;
@@ -90,7 +91,7 @@ pub fn quantile(ascending: &[f64], share: f64) -> Option<f64> {
 /// Computes the summary statistics of a sample.
 ///
 /// # Errors
-/// If the sample is empty or a value is not finite.
+/// Fails if the sample is empty or a value is not finite.
 pub fn summary(values: &[f64]) -> Result<SampleSummary, StatisticsError> {
     let sorted = ascending(values)?;
     let quarter = |share| quantile(&sorted, share).unwrap_or_default();
@@ -119,7 +120,7 @@ fn skewness(values: &[f64], mean: f64) -> Option<f64> {
 /// Computes the box plot of a sample.
 ///
 /// # Errors
-/// If the sample is empty or a value is not finite.
+/// Fails if the sample is empty or a value is not finite.
 pub fn box_plot(values: &[f64]) -> Result<BoxPlot, StatisticsError> {
     let sorted = ascending(values)?;
     let quarter = |share| quantile(&sorted, share).unwrap_or_default();
@@ -138,7 +139,7 @@ pub fn box_plot(values: &[f64]) -> Result<BoxPlot, StatisticsError> {
     })
 }
 
-/// Counts values in `bars` bins of equal width over [low, high]. Values outside count in the nearest bin.
+/// Counts values in `bars` bins of equal width over [low, high]. Values outside this range count in the nearest bin.
 #[must_use]
 pub fn histogram(values: &[f64], (low, high): (f64, f64), bars: usize) -> Vec<HistogramBin> {
     let width = (high - low) / bars.max(1) as f64;
@@ -167,7 +168,7 @@ fn ascending(values: &[f64]) -> Result<Vec<f64>, StatisticsError> {
 mod tests {
     use super::*;
 
-    /// Rounding error of a few additions.
+    /// Tolerance for the rounding error of a few additions.
     const EXACT: f64 = 1e-12;
 
     #[test]
@@ -183,7 +184,7 @@ mod tests {
         let told = summary(&[2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0]).unwrap();
         assert_eq!((told.n, told.mean, told.median, told.range), (8, 5.0, 4.5, 7.0));
         assert!((told.sd.unwrap() - (32.0f64 / 7.0).sqrt()).abs() < EXACT);
-        // Third central moment 42/8, variance 4.
+        // Third central moment 42/8, variance 4, so the skewness is 5.25/8.
         assert!((told.skewness.unwrap() - 5.25 / 8.0).abs() < EXACT);
         assert_eq!(summary(&[3.0, 3.0]).unwrap().skewness, None);
         assert!(summary(&[1.0, f64::NAN]).is_err());

@@ -1,17 +1,17 @@
-//! Visitors and their access rights.
+//! Website visitors and their access rights.
 
 use crate::trainee::Role;
 
 /// Access level that a page or action requires.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AccessLevel {
-    /// Anyone, logged in or not.
+    /// Everyone, including visitors who are not logged in.
     Nothing,
     /// Any logged-in user. Access to a trainee's data is checked by [`Visitor::may_see`].
     Login,
-    /// Instructors and administrators.
+    /// Only instructors and administrators.
     Instructor,
-    /// Administrators.
+    /// Only administrators.
     Administrator,
 }
 

@@ -1,5 +1,5 @@
-//! Files used by the pages: our style sheet, which extends that of the reports, and our scripts. Their addresses end in a hash,
-//! so that browsers cache them until they change.
+//! Style sheet and scripts of the web pages. The style sheet extends that of the reports. URLs contain a content hash, so that
+//! browsers cache a file until it changes.
 
 use crate::report::assets as report;
 use spandrel_monitor::folder::sha256_hex;
@@ -19,7 +19,7 @@ const FORM: &str = include_str!("assets/form.js");
 const LIVE: &str = include_str!("assets/live.js");
 const FLIGHT: &str = include_str!("assets/flight.js");
 
-/// Returns content and media type of a file; `None` if there is no such file.
+/// Returns the content and media type of a file; `None` if there is no such file.
 #[must_use]
 pub fn file(name: &str) -> Option<(String, &'static str)> {
     let script = "text/javascript; charset=utf-8";
@@ -32,7 +32,7 @@ pub fn file(name: &str) -> Option<(String, &'static str)> {
     }
 }
 
-/// Returns the address of a file.
+/// Returns the URL of a file, including its content hash.
 #[must_use]
 pub fn address(name: &str) -> String {
     let hash = file(name).map(|(text, _)| sha256_hex(text.as_bytes())).unwrap_or_default();

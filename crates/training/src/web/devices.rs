@@ -1,14 +1,14 @@
-//! Browsers that have logged in before, after OWASP's device cookies. Their failed logins are counted separately from those of
-//! their address, so that others at the same address cannot lock out the owner of a name. Kept in memory as a hash over cookie
-//! and name; after a restart, a browser becomes known again at its next login. Time and randomness are arguments.
+//! Browsers from which a user has logged in before, similar to OWASP's device cookies. Their failed logins are counted separately
+//! from those of their IP address, so that others at the same address cannot lock the user out. Kept in memory as a hash of
+//! cookie and name, so browsers are unknown again after a restart, until the next login. Callers pass time and random bytes.
 
 use super::visits::{TokenBytes, text_of};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
-/// A browser is forgotten after this time without a login, µs: 90 days, longer than a break between courses.
+/// A browser is forgotten after this time without a login, µs: 90 days, which is longer than a break between courses.
 const FORGOTTEN_US: u64 = 90 * 24 * 3_600_000_000;
-/// Maximum number of known browsers; the ones with the oldest login are forgotten first.
+/// Maximum number of known browsers. When it is exceeded, the one with the oldest login is forgotten.
 const DEVICES: usize = 10_000;
 
 /// Hash that identifies a known browser of one user.
@@ -19,14 +19,14 @@ pub type KnownBrowser = [u8; 32];
 pub struct KnownBrowsers(BTreeMap<KnownBrowser, u64>);
 
 impl KnownBrowsers {
-    /// Returns the browser of a cookie if `name` has logged in with it before.
+    /// Returns the browser with this cookie if `name` has logged in from it before.
     #[must_use]
     pub fn find(&self, cookie: &str, name: &str, now_us: u64) -> Option<KnownBrowser> {
         let device = device(cookie, name);
         self.0.get(&device).filter(|login_us| now_us.saturating_sub(**login_us) < FORGOTTEN_US).map(|_| device)
     }
 
-    /// Records a login of `name` and returns the browser's cookie: the existing one if known, otherwise a new one.
+    /// Records a login of `name` and returns the cookie to set: the existing one if the browser is known, otherwise a new one.
     pub fn remember(&mut self, cookie: Option<&str>, name: &str, secret: &TokenBytes, now_us: u64) -> String {
         let known = cookie.filter(|cookie| self.find(cookie, name, now_us).is_some());
         let cookie = known.map_or_else(|| text_of(secret), str::to_owned);
@@ -41,7 +41,7 @@ impl KnownBrowsers {
 }
 
 fn device(cookie: &str, name: &str) -> KnownBrowser {
-    // Our cookies contain no zero byte, so cookie and name cannot be split differently.
+    // Cookies contain no zero byte, so different pairs of cookie and name never produce the same input.
     Sha256::new().chain_update(cookie).chain_update([0]).chain_update(name).finalize().into()
 }
 
@@ -57,9 +57,9 @@ mod tests {
         assert_eq!(devices.find(&cookie, "anna", FORGOTTEN_US), None);
         assert_eq!(devices.find(&cookie, "ben", 1), None);
         assert_eq!(devices.find("guessed", "anna", 1), None);
-        assert_eq!(devices.remember(Some(&cookie), "anna", &[2; 32], 1), cookie, "it keeps its cookie");
+        assert_eq!(devices.remember(Some(&cookie), "anna", &[2; 32], 1), cookie, "known browser keeps its cookie");
         assert_ne!(devices.remember(Some("planted"), "anna", &[3; 32], 1), "planted");
-        assert!(devices.find(&cookie, "anna", FORGOTTEN_US).is_some(), "a login counts from anew");
+        assert!(devices.find(&cookie, "anna", FORGOTTEN_US).is_some(), "a login restarts the expiry");
     }
 
     #[test]

@@ -1,5 +1,5 @@
-//! The questionnaire as a web form. A small script saves every answer immediately (without it, the button does), so that users
-//! can leave at any time and continue later.
+//! The questionnaire as a web form. A small script saves every answer immediately, so users can stop at any time and continue
+//! later. Without the script, they save with the button.
 
 use super::access::Visitor;
 use super::assets;
@@ -10,21 +10,21 @@ use crate::questionnaire::{
 };
 use maud::{Markup, html};
 
-/// Prefix of NASA-TLX keys in the form.
+/// Prefix of NASA-TLX form fields.
 const TLX: &str = "tlx.";
 
-/// Data of the form.
+/// Content of the form.
 #[derive(Debug, Clone, Copy)]
 pub struct FormContext<'a> {
-    /// Session id.
+    /// Id of the session (name of its folder).
     pub id: &'a str,
     /// Numbers and names of the session's tasks.
     pub tasks: &'a [(u32, String)],
-    /// Wording to use.
+    /// Texts in the selected language.
     pub wording: &'a Wording,
     /// All available languages.
     pub languages: &'a [Wording],
-    /// Answers so far.
+    /// Answers given so far.
     pub answers: &'a Answers,
     /// Whether answers were just saved.
     pub saved: bool,
@@ -34,18 +34,19 @@ pub struct FormContext<'a> {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{field} = {value}: invalid answer (allowed: {allowed})")]
 pub struct InvalidAnswer {
-    /// Name of the field.
+    /// Name of the form field.
     pub field: String,
-    /// Submitted value.
+    /// Value that was submitted.
     pub value: String,
-    /// Allowed values.
+    /// Range of allowed values, as text.
     pub allowed: String,
 }
 
-/// Merges the answers of a form into existing ones. Ignores fields that are not questions, such as the token.
+/// Merges the answers in a form into existing ones and returns their number. Ignores fields that are not questions, such as the
+/// token.
 ///
 /// # Errors
-/// At the first invalid answer; nothing should be saved then.
+/// Fails on the first invalid answer; the caller should then save nothing.
 pub fn parse_answers(answers: &mut Answers, fields: &[(String, String)], tasks: &[u32]) -> Result<usize, InvalidAnswer> {
     let items = QuestionnaireItem::all(tasks);
     let mut taken = 0;
@@ -73,7 +74,7 @@ fn number(field: &str, value: &str, fits: impl Fn(u8) -> bool, allowed: impl Fn(
     value.parse().ok().filter(|value| fits(*value)).ok_or_else(wrong)
 }
 
-/// Renders the page.
+/// Renders the questionnaire page.
 #[must_use]
 pub fn page(visitor: &Visitor, asked: &FormContext<'_>) -> Markup {
     let tasks: Vec<u32> = asked.tasks.iter().map(|(id, _)| *id).collect();
@@ -102,7 +103,7 @@ pub fn page(visitor: &Visitor, asked: &FormContext<'_>) -> Markup {
     in_language(visitor, "/sessions", &asked.wording.title, (&asked.wording.language, Some(assets::FORM_NAME)), &body)
 }
 
-/// Renders the language selection, each language in its own name. Answers are saved immediately, so switching loses none.
+/// Renders the language selection, with each language in its own name. Answers are already saved, so switching loses none.
 fn switch(asked: &FormContext<'_>) -> Markup {
     let words = &asked.wording.form;
     html! {
@@ -197,7 +198,7 @@ mod tests {
         assert_eq!(
             parse_answers(&mut answers, &fields(&[("task_3.performance", "1")]), &[1, 2]),
             Ok(0),
-            "no such task in this job"
+            "this session has no such task"
         );
         for (field, value, allowed) in
             [("frustration", "6", "1 to 5"), ("feedback", "<b>", "1 to 5"), ("tlx.effort", "33", "0 to 100 in steps of 5")]

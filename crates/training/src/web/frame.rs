@@ -1,12 +1,12 @@
-//! Page elements shared by all pages: head, navigation, tables, forms with their token.
+//! Elements shared by all pages: document head, navigation, tables, and forms with their CSRF token.
 
 use super::access::{AccessLevel, Visitor};
 use super::assets;
 use maud::{DOCTYPE, Markup, html};
 
-/// Address of the trainee's own flight; instructors use the live page.
+/// URL of the page for a trainee's own flight; instructors use the live page.
 const OWN_FLIGHT: &str = "/flight";
-/// Navigation entries: address, label, required access.
+/// Navigation entries: URL, label, required access.
 const PLACES: [(&str, &str, AccessLevel); 8] = [
     ("/sessions", "Sessions", AccessLevel::Login),
     (OWN_FLIGHT, "My flight", AccessLevel::Login),
@@ -18,19 +18,19 @@ const PLACES: [(&str, &str, AccessLevel); 8] = [
     ("/account", "Account", AccessLevel::Login),
 ];
 
-/// Renders a page. `at` is its navigation entry.
+/// Renders a page. `at` is the URL of its navigation entry.
 #[must_use]
 pub fn page(visitor: &Visitor, at: &str, title: &str, body: &Markup) -> Markup {
     scripted(visitor, at, title, None, body)
 }
 
-/// Renders a page with one of our scripts.
+/// Renders a page that loads one of the scripts in [`assets`].
 #[must_use]
 pub fn scripted(visitor: &Visitor, at: &str, title: &str, script: Option<&str>, body: &Markup) -> Markup {
     in_language(visitor, at, title, ("en", script), body)
 }
 
-/// Renders a page whose body is in another language; the navigation stays English and is marked as such.
+/// Renders a page whose body is in another language. The navigation stays in English and has its own `lang` attribute.
 #[must_use]
 pub fn in_language(visitor: &Visitor, at: &str, title: &str, (language, script): (&str, Option<&str>), body: &Markup) -> Markup {
     html! {
@@ -84,7 +84,7 @@ pub fn token(visitor: &Visitor) -> Markup {
     html! { input type="hidden" name="token" value=(visitor.token); }
 }
 
-/// Renders a message box.
+/// Renders a message box; `kind` is its CSS class.
 #[must_use]
 pub fn message(kind: &str, words: &str) -> Markup {
     html! { p class={ "message " (kind) } role="status" { (words) } }
@@ -110,7 +110,7 @@ pub fn table(caption: &str, heads: &[(&str, bool)], rows: &Markup) -> Markup {
     }
 }
 
-/// Renders links to the pages of a list, numbered from 1.
+/// Renders page navigation for a list; page numbers start at 1.
 #[must_use]
 pub fn pages(address: &str, at: u32, last: u32) -> Markup {
     let link = |page: u32, words: &str, here: bool| {
@@ -152,13 +152,13 @@ pub(super) mod tests {
         Visitor { name: Some(EVIL.into()), role: Role::Administrator, open: false, token: "t0ken".into() }
     }
 
-    /// Fails if the page contains anything unescaped or blocked by the policy.
+    /// Panics if the page contains unescaped text or anything that the content security policy blocks.
     pub(crate) fn check(page: &str) {
         assert!(!page.contains("<script>") && !page.contains(" style=") && !page.contains(" onclick="), "{page}");
         for form in page.split("<form").skip(1) {
             let form = form.split("</form>").next().unwrap_or_default();
             let posts = form.contains("method=\"post\"");
-            assert_eq!(posts, form.contains("name=\"token\""), "posting forms carry the token, others do not show it: {form}");
+            assert_eq!(posts, form.contains("name=\"token\""), "POST forms contain the token, other forms do not: {form}");
         }
     }
 

@@ -1,4 +1,4 @@
-//! The cohort page: the sections of the offline page, with a form that selects the sessions.
+//! The cohort page: the sections of the offline page and a form that selects the sessions.
 
 use super::access::Visitor;
 use super::frame::{page, section};
@@ -22,7 +22,7 @@ pub struct GroupSelection<'a> {
     pub left_out: usize,
 }
 
-/// Renders the page, or a note if there are no sessions.
+/// Renders the page; without sessions, only the form and a note.
 #[must_use]
 pub fn group(visitor: &Visitor, chosen: &GroupSelection<'_>, cohort: Option<&Cohort>) -> Markup {
     let body = html! {

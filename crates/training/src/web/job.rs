@@ -11,15 +11,15 @@ use spandrel_model::site::Site;
 /// An entry of the scenario list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ScenarioEntry {
-    /// Scenario name.
+    /// Machine-readable name of the scenario, such as `two-bridges`.
     pub name: String,
-    /// Scenario title.
+    /// Title of the scenario.
     pub title: String,
     /// Whether it was uploaded and can be removed.
     pub uploaded: bool,
 }
 
-/// Renders the list, with the result of an upload.
+/// Renders the scenario list and the result of an upload, if any.
 #[must_use]
 pub fn list(visitor: &Visitor, named: &[ScenarioEntry], told: Option<(&str, &str)>) -> Markup {
     let rows = html! {
@@ -39,7 +39,7 @@ pub fn list(visitor: &Visitor, named: &[ScenarioEntry], told: Option<(&str, &str
     page(visitor, "/scenarios", "Scenarios", &body)
 }
 
-/// Renders a message box with one line per problem.
+/// Renders a message box with one paragraph per line.
 fn message_lines(kind: &str, words: &str) -> Markup {
     html! { div class={ "message " (kind) } role="status" { @for line in words.lines() { p { (line) } } } }
 }
@@ -55,7 +55,7 @@ fn upload(visitor: &Visitor) -> Markup {
     }
 }
 
-/// Renders one scenario. Only instructors can download the file, because it and its seed reveal the defects.
+/// Renders one scenario. Only instructors can download the file, because the file and its seed reveal the defects.
 #[must_use]
 pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenario, site: &Site, text: &str) -> Markup {
     let s = &scenario.scoring;
@@ -97,16 +97,16 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
 pub enum UploadMessage<'a> {
     /// The recording is invalid.
     Wrong(&'a str),
-    /// The session exists already.
+    /// The session already exists.
     There {
-        /// Session id.
+        /// Id of the session (name of its folder).
         id: &'a str,
         /// Trainee of that session.
         trainee: &'a str,
     },
 }
 
-/// Renders the import form for recorded flights, with the result of the previous import.
+/// Renders the import form for recorded flights, with the error of the previous import, if any.
 #[must_use]
 pub fn recorded(visitor: &Visitor, scenarios: &[ScenarioEntry], vehicles: &[String], told: Option<UploadMessage<'_>>) -> Markup {
     let body = html! {
@@ -118,7 +118,7 @@ pub fn recorded(visitor: &Visitor, scenarios: &[ScenarioEntry], vehicles: &[Stri
             },
         }
         section.narrow {
-            p { "A .tlog file from a ground station or the monitor that includes the simulator's truth messages. It is scored before it is saved." }
+            p { "Choose a .tlog file recorded by a ground station or the monitor. It must include the simulator's truth messages. The flight is scored before it is saved." }
             form.stacked method="post" action="/upload" enctype="multipart/form-data" {
                 (token(visitor))
                 label { "Trainee" input name="trainee" required maxlength="32" pattern="[A-Za-z0-9][A-Za-z0-9_\\-]*" autocapitalize="none"; }

@@ -5,12 +5,12 @@ use super::assets;
 use super::frame::{scripted, section, token};
 use maud::{Markup, PreEscaped, html};
 
-/// Maximum note length, characters; a note is sent as one MAVLink message.
+/// Maximum length of an instructor's note, characters; a note is sent as one MAVLink message.
 pub const NOTE_MOST: usize = 100;
-/// Maximum wind speed, m/s, the upper limit of the vehicle's parameter.
+/// Maximum wind speed, m/s; the upper limit of the vehicle's parameter.
 pub const WIND_MOST_M_S: f64 = 25.0;
 
-/// Failures that can be injected: form key, label, FAILURE_UNIT.
+/// Failures that can be injected: form key, label, MAVLink `FAILURE_UNIT`.
 pub const UNITS: [(&str, &str, f32); 4] = [
     ("gnss", "Satellite navigation", 4.0),
     ("compass", "Compass", 2.0),
@@ -18,21 +18,21 @@ pub const UNITS: [(&str, &str, f32); 4] = [
     ("battery", "Battery", 100.0),
 ];
 
-/// Drawings of the job being flown.
+/// Drawings of the job that is being flown.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct DrawnJob {
-    /// Key that identifies job and seed.
+    /// Key that identifies the job and its seed.
     pub key: String,
     /// Title of the job.
     pub title: String,
-    /// Drawings: caption and SVG, made by `crate::report::plots::job`.
+    /// Caption and SVG of each drawing, created by `crate::report::plots::job`.
     pub drawings: Vec<(String, String)>,
 }
 
 /// Vehicle selected on the page.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct VehicleChoice {
-    /// Addresses of all vehicles.
+    /// `HOST:PORT` of each vehicle.
     pub vehicles: Vec<String>,
     /// Number of the selected vehicle, from 1.
     pub number: usize,
@@ -44,7 +44,7 @@ impl VehicleChoice {
     }
 }
 
-/// Renders the live page.
+/// Renders the instructor's live page.
 #[must_use]
 pub fn live(visitor: &Visitor, drawn: Option<&DrawnJob>, choice: &VehicleChoice) -> Markup {
     let body = html! {
@@ -58,7 +58,7 @@ pub fn live(visitor: &Visitor, drawn: Option<&DrawnJob>, choice: &VehicleChoice)
                         None => span { "No vehicle configured. Start the server with " code { "spandrel serve --vehicle HOST:PORT" } "." },
                     },
                 }
-                " " span.state role="status" data-state { "not connected" }
+                " " span.state role="status" data-state { "Not connected" }
             }
             noscript { p.message.warn { "This page requires JavaScript." } }
             @if let Some(drawn) = drawn {
@@ -91,12 +91,12 @@ pub fn live(visitor: &Visitor, drawn: Option<&DrawnJob>, choice: &VehicleChoice)
     scripted(visitor, "/live", "Live flight", Some(assets::LIVE_NAME), &body)
 }
 
-/// Renders the trainee's own flight page with the camera picture, which the script refreshes.
+/// Renders the page on which trainees see the camera image of their own flight; its script refreshes the image.
 #[must_use]
 pub fn own_flight(visitor: &Visitor) -> Markup {
     let body = html! {
         div.own-flight data-flight {
-            p.lead role="status" data-state { "You are not flying. This page updates when your flight starts." }
+            p.lead role="status" data-state { "No flight in progress. This page updates when your flight starts." }
             noscript { p.message.warn { "This page requires JavaScript." } }
             figure.camera data-camera hidden {
                 figcaption { "Your camera view, updated about once per second" }
@@ -144,7 +144,7 @@ fn actions(visitor: &Visitor, vehicle: usize) -> Markup {
         }
         form.stacked method="post" action="/live/act" data-act {
             (hidden("failure"))
-            label { "What" select name="unit" { @for (key, words, _) in UNITS { option value=(key) { (words) } } } }
+            label { "Component" select name="unit" { @for (key, words, _) in UNITS { option value=(key) { (words) } } } }
             div.row {
                 button type="submit" name="fails" value="yes" { "Inject failure" }
                 button type="submit" name="fails" value="no" { "Clear failure" }
@@ -165,7 +165,10 @@ mod tests {
         check(&text);
         assert!(text.contains("href=\"/flight\" aria-current=\"page\"") && text.contains("data-camera hidden"), "{text}");
         assert!(!text.contains("class=\"map\"") && !text.contains("/live"), "{text}");
-        assert!(!own_flight(&administrator()).into_string().contains("href=\"/flight\""), "instructors have the live page");
+        assert!(
+            !own_flight(&administrator()).into_string().contains("href=\"/flight\""),
+            "instructors use the live page instead"
+        );
     }
 
     #[test]
@@ -181,6 +184,6 @@ mod tests {
         assert_eq!(text.matches("name=\"vehicle\" value=\"2\"").count(), 4);
         assert!(text.contains("href=\"/live?vehicle=2\" aria-current=\"page\""), "{text}");
         let text = live(&administrator(), None, &VehicleChoice::default()).into_string();
-        assert!(!text.contains("data-live") && text.contains("No vehicle configured"), "nothing to listen to: {text}");
+        assert!(!text.contains("data-live") && text.contains("No vehicle configured"), "no vehicle to connect to: {text}");
     }
 }

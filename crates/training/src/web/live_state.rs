@@ -1,5 +1,5 @@
-//! State of a running flight for the instructor's live page: takes telemetry, returns a JSON snapshot. Sans-IO. Uses only data
-//! that is available to every subscriber of the payload port.
+//! State of a running flight for the instructor's live page: processes telemetry and returns a JSON snapshot. Performs no I/O.
+//! Uses only data that every subscriber of the payload port receives.
 
 use serde_json::{Value, json};
 use spandrel_mavlink::codec::ReceivedFrame;
@@ -16,9 +16,9 @@ use spandrel_model::site::bridge_closures::BridgeClosures;
 use spandrel_monitor::measures::on_path::ReferencePaths;
 use std::collections::VecDeque;
 
-/// Origin for decoding positions before the job is known; none of them is shown.
+/// Placeholder origin for decoding before the job is known. Positions decoded with it are never shown.
 const NOWHERE: Geo = Geo { latitude_deg: 0.0, longitude_deg: 0.0, altitude_m: 0.0 };
-/// Maximum number of messages shown, newest last.
+/// Maximum number of messages kept for the page.
 const WORDS: usize = 40;
 /// Identifies the job being flown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,7 +29,7 @@ pub struct JobKey {
     pub seed: u64,
 }
 
-/// Job used to decode positions.
+/// Job whose origin and paths are used to decode positions.
 #[derive(Debug)]
 struct TrackedJob {
     key: JobKey,
@@ -68,7 +68,7 @@ impl Default for LiveFlightState {
 }
 
 impl LiveFlightState {
-    /// Creates an empty state.
+    /// Creates a state without a job or telemetry.
     #[must_use]
     pub fn new() -> Self {
         Self {
@@ -90,27 +90,27 @@ impl LiveFlightState {
         }
     }
 
-    /// Returns the key of the job being flown, once received in telemetry.
+    /// Returns the key of the job being flown; `None` until telemetry has provided it.
     #[must_use]
     pub fn missing_job(&self) -> Option<JobKey> {
         let key = JobKey { crc: self.crc?, seed: self.seed? };
         Some(key)
     }
 
-    /// Returns the job used to decode positions.
+    /// Returns the key of the job set with [`Self::set_job`].
     #[must_use]
     pub fn job(&self) -> Option<JobKey> {
         self.job.as_ref().map(|job| job.key)
     }
 
-    /// Sets the job after the application has loaded it.
+    /// Sets the job after the application has loaded its scenario.
     pub fn set_job(&mut self, key: JobKey, scenario: &Scenario) {
         let tasks = scenario.tasks.iter().map(|task| (task.id, task.name.clone())).collect();
         self.job = Some(TrackedJob { key, plane: LocalPlane::new(scenario.origin), paths: ReferencePaths::new(scenario), tasks });
         self.truth = None;
     }
 
-    /// Handles a received frame.
+    /// Updates the state from a received frame.
     pub fn handle_frame(&mut self, frame: &ReceivedFrame) {
         self.note_sender(frame);
         match &frame.message {
@@ -126,7 +126,7 @@ impl LiveFlightState {
             }
             None => {}
         }
-        // Until the job is known, only data without a position can be decoded; the rest is sent again.
+        // Until the job is known, messages with a position cannot be decoded. The vehicle repeats them.
         let nowhere = LocalPlane::new(NOWHERE);
         let plane = self.job.as_ref().map_or(&nowhere, |job| &job.plane);
         if let Some(sample) = sample::read(&frame.bytes, plane) {
@@ -172,7 +172,7 @@ impl LiveFlightState {
 
     fn truth(&mut self, truth: Truth) {
         let Some(job) = &self.job else { return };
-        // A clock that jumps back indicates a new flight; earlier messages remain visible.
+        // If the clock jumps back, a new flight has started. Earlier messages remain visible.
         if self.truth.is_some_and(|before| truth.time < before.time) {
             (self.current_task, self.cues, self.gates) = (None, 0, BridgeClosures::default());
         }
@@ -190,7 +190,7 @@ impl LiveFlightState {
         }
     }
 
-    /// Returns the current state for the page's script. `heard` indicates whether the vehicle was received recently.
+    /// Returns the current state for the page's script. `heard` indicates whether telemetry arrived recently.
     #[must_use]
     pub fn to_json(&self, heard: bool) -> Value {
         let key = self.job().map(|key| format!("{:08x}-{}", key.crc, key.seed));
@@ -269,7 +269,7 @@ mod tests {
         number(&mut watch, "traffic", -1_500);
         let moment = watch.to_json(true);
         assert_eq!(moment["traffic"], json!("closed"));
-        // degE7 has a resolution of about 1 cm, the MAVLink altitude of 1 mm.
+        // degE7 has a resolution of about 1 cm; MAVLink altitude has one of 1 mm.
         let place: Vec<f64> = moment["place"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
         assert!(place[0].abs() < 0.02 && place[1].abs() < 0.02 && (place[2] - 12.0).abs() < 0.02, "{moment}");
         assert_eq!((&moment["speed_m_s"], &moment["t_s"]), (&json!(3.0), &json!(2.0)));

@@ -7,10 +7,11 @@ use maud::{Markup, html};
 /// Allowed password length, characters.
 pub const PASSWORD_LENGTHS: std::ops::RangeInclusive<usize> = 12..=256;
 
-/// Minimum strength of a new password: more than 10^8 guesses by zxcvbn's estimate, which it rates as safe against slow hashing.
+/// Minimum strength of a new password: more than 10^8 guesses as estimated by zxcvbn, which rates this as safe against offline
+/// attacks on a slow hash.
 const LEAST_STRENGTH: zxcvbn::Score = zxcvbn::Score::Three;
 
-/// Renders the login page, with the error of the previous attempt.
+/// Renders the login page and the error of the previous attempt, if any.
 #[must_use]
 pub fn login(visitor: &Visitor, name: &str, wrong: Option<&str>) -> Markup {
     page(
@@ -31,7 +32,7 @@ pub fn login(visitor: &Visitor, name: &str, wrong: Option<&str>) -> Markup {
     )
 }
 
-/// Renders the user's account page, with the result of a change.
+/// Renders the user's account page and the result of a change, if any.
 #[must_use]
 pub fn account(visitor: &Visitor, told: Option<(&str, &str)>) -> Markup {
     let name = visitor.name.as_deref().unwrap_or_default();
@@ -62,14 +63,14 @@ pub fn account(visitor: &Visitor, told: Option<(&str, &str)>) -> Markup {
 /// Checks a new password.
 ///
 /// # Errors
-/// Describes the problem without including the password.
+/// Returns the problem as text, never including the password.
 pub fn check(password: &str, name: &str) -> Result<(), String> {
     let length = password.chars().count();
     let (least, most) = (PASSWORD_LENGTHS.start(), PASSWORD_LENGTHS.end());
     if !PASSWORD_LENGTHS.contains(&length) || password.len() > 4 * most {
         return Err(format!("the password has {length} characters (allowed: {least} to {most})"));
     }
-    // Detects common passwords, names, keyboard rows, repeats and dates, and slight variations of them.
+    // Detects common passwords, names, keyboard patterns, repeated characters and dates, including slight variations.
     let estimate = zxcvbn::zxcvbn(password, &[name, "spandrel"]);
     if estimate.score() < LEAST_STRENGTH {
         let why = estimate.feedback().and_then(|feedback| feedback.warning()).map(|warning| format!(" ({warning})"));

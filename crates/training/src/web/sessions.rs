@@ -13,7 +13,7 @@ use spandrel_model::calendar::minute;
 /// One page of the session list.
 #[derive(Debug, Clone, Copy)]
 pub struct SessionList<'a> {
-    /// Entries of this page.
+    /// Sessions on this page of the list.
     pub lines: &'a [SessionListEntry],
     /// Trainee that the list is filtered by, if any.
     pub trainee: Option<&'a str>,
@@ -25,7 +25,7 @@ pub struct SessionList<'a> {
     pub count: u64,
 }
 
-/// Renders the list.
+/// Renders one page of the session list.
 #[must_use]
 pub fn list(visitor: &Visitor, listing: &SessionList<'_>) -> Markup {
     let address = match listing.trainee {
@@ -61,7 +61,7 @@ pub fn list(visitor: &Visitor, listing: &SessionList<'_>) -> Markup {
 #[must_use]
 pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Markup {
     let all = visitor.satisfies(AccessLevel::Instructor);
-    // The columns visible on a phone without scrolling come first: date, trainee, score.
+    // Columns that fit on a phone without scrolling come first: date, trainee, score.
     let mut heads = vec![
         ("Started", false),
         ("Trainee", false),
@@ -94,10 +94,10 @@ pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Ma
     )
 }
 
-/// Data of a session's page in addition to its record.
+/// Data for a session's page that is not part of its record.
 #[derive(Debug, Clone, Copy)]
 pub struct SessionPageData<'a> {
-    /// Whether the session folder exists, which report, questionnaire and downloads require.
+    /// Whether the session folder exists. The report, the questionnaire and downloads require it.
     pub folder: bool,
     /// Other sessions of the same trainee.
     pub others: &'a [SessionListEntry],
@@ -138,7 +138,7 @@ fn actions(record: &SessionRecord, beside: &SessionPageData<'_>) -> Markup {
                 li { a href={ "/sessions/" (record.id) "/telemetry.tlog" } { "Telemetry (tlog)" } }
             }
         } @else {
-            p.note { "The session's folder is not on this machine: no report, questionnaire or downloads." }
+            p.note { "The session's folder is not on this machine. Report, questionnaire and downloads are not available." }
         }
     }
 }
@@ -159,9 +159,9 @@ fn scores(record: &SessionRecord) -> Markup {
     let spokes: Vec<RadarAxis> =
         scores_by_name(record).into_iter().map(|(name, value)| RadarAxis { name, values: vec![value] }).collect();
     html! {
-        p { b { (record.completion_summary()) ". " (record.verdict()) "." } @if !record.is_complete() { " The scores below are for the part that was flown." } }
+        p { b { (record.completion_summary()) ". " (record.verdict()) "." } @if !record.is_complete() { " The scores below cover only the part that was flown." } }
         div.split {
-            figure { figcaption { "The four scores, 0 at the center, 100 at the rim" } (radar(&spokes, "Radar chart of the four scores")) }
+            figure { figcaption { "The four scores, 0 at the center, 100 at the edge" } (radar(&spokes, "Radar chart of the four scores")) }
             div.cards {
                 @if record.is_complete() {
                     div.card { h3 { "Overall" } p.figure { (words::number(record.scores.overall, 0)) span.of { " of " (words::number(record.scores.overall_max, 0)) } } }
@@ -201,7 +201,7 @@ fn tasks(record: &SessionRecord) -> Markup {
                 },
             ))
         }
-        @if record.crashes_outside.total() > 0 { p.note { (record.crashes_outside.total()) " crashes outside all tasks." } }
+        @if record.crashes_outside.total() > 0 { p.note { (record.crashes_outside.total()) " crashes outside the tasks." } }
     }
 }
 
@@ -214,20 +214,20 @@ fn task_completion_text(record: &SessionRecord, task: &TaskRecord) -> String {
 fn defects(record: &SessionRecord) -> Markup {
     table(
         &format!(
-            "{} of {} found; {} of {} pictures showed a new one",
+            "{} of {} found; {} of {} pictures showed a new defect",
             record.defects.iter().filter(|d| d.found).count(),
             record.defects.len(),
             record.hits,
             record.snapshots
         ),
-        &[("Defect", false), ("Task", true), ("Found", false), ("Best picture failed because", false)],
+        &[("Defect", false), ("Task", true), ("Found", false), ("Why the best picture did not count", false)],
         &html! {
             @for defect in &record.defects {
                 tr {
                     th scope="row" { (defect.id) " · " (defect.kind_name) }
                     td.number { @if let Some(task) = defect.task { (task) } }
                     td { @if defect.found { "yes" } @else { "no" } }
-                    td { @if !defect.found { @if defect.lacked.is_empty() { "no picture near it" } @else { (defect.lacked.join(", ")) } } }
+                    td { @if !defect.found { @if defect.lacked.is_empty() { "no picture taken nearby" } @else { (defect.lacked.join(", ")) } } }
                 }
             }
         },
@@ -292,7 +292,7 @@ mod tests {
         let text = session(&administrator(), &record, &SessionPageData { folder: true, others: &[] }).into_string();
         assert!(text.contains("Incomplete: 0 of 4 tasks, 15 % of the path"), "{text}");
         assert!(text.contains("Not certified: task 1 not done: 60 % of its path, 80 % needed (and 1 more)"), "{text}");
-        assert!(text.contains("for the part that was flown") && !text.contains("<h3>Overall</h3>"), "{text}");
+        assert!(text.contains("cover only the part that was flown") && !text.contains("<h3>Overall</h3>"), "{text}");
         assert!(
             session(&administrator(), &faultless("anna", 1), &SessionPageData { folder: true, others: &[] })
                 .into_string()

@@ -1,4 +1,4 @@
-//! Administrator settings: login accounts and session retention.
+//! The administrators' settings page: login accounts and session retention.
 
 use super::access::Visitor;
 use super::frame::{message, page, section, table, token};
@@ -9,24 +9,24 @@ use maud::{Markup, html};
 /// Contents of the settings page.
 #[derive(Debug, Clone, Copy)]
 pub struct SettingsPage<'a> {
-    /// All users.
+    /// All users, with or without a password.
     pub people: &'a [Trainee],
     /// Users who may log in.
     pub with_password: &'a [String],
     /// Location of the database, without a password.
     pub database: &'a str,
-    /// Session folders.
+    /// Folders that contain session folders.
     pub folders: &'a [String],
-    /// Result of a change.
+    /// CSS class and text of the message after a change.
     pub notice: Option<(&'a str, &'a str)>,
 }
 
-/// Renders the page.
+/// Renders the settings page.
 #[must_use]
 pub fn settings(visitor: &Visitor, settings: &SettingsPage<'_>) -> Markup {
     let body = html! {
         @if let Some((kind, words)) = settings.notice { (message(kind, words)) }
-        (section("logins", "Who may log in", &logins(visitor, settings)))
+        (section("logins", "Login accounts", &logins(visitor, settings)))
         (section("add", "Add a user, or set a password and role", &add(visitor)))
         (section("retention", "Retention", &retention(visitor)))
         (section("place", "Storage", &html! {
@@ -43,7 +43,7 @@ pub fn settings(visitor: &Visitor, settings: &SettingsPage<'_>) -> Markup {
 fn logins(visitor: &Visitor, settings: &SettingsPage<'_>) -> Markup {
     let role = |name: &String| settings.people.iter().find(|one| one.pseudonym == *name).map_or("", |one| one.role.word());
     html! {
-        @if visitor.open { (message("warn", "No passwords are set: anyone using this machine has full access, and the server is reachable only from this machine. Once the first password is set, everyone must log in; set it for an administrator.")) }
+        @if visitor.open { (message("warn", "No passwords are set: anyone on this machine has full access, and the server accepts connections only from this machine. After the first password is set, everyone must log in, so set an administrator's password first.")) }
         @if !settings.with_password.is_empty() {
             (table("Users with a password", &[("Name", false), ("Role", false), ("Change", false)], &html! {
                 @for name in settings.with_password {
@@ -107,7 +107,7 @@ mod tests {
         };
         let text = settings(&administrator(), &shown).into_string();
         check(&text);
-        assert_eq!(text.matches("/settings/no-login").count(), 1, "of two only the other's");
+        assert_eq!(text.matches("/settings/no-login").count(), 1, "only the other user's login can be removed");
         assert!(!text.contains("No passwords are set"));
         let open = Visitor { open: true, name: None, ..administrator() };
         assert!(settings(&open, &shown).into_string().contains("No passwords are set"));

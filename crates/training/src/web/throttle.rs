@@ -1,32 +1,32 @@
-//! Throttling of failed logins. After a few failures for one name from one address, or many from one address, each further
-//! attempt must wait longer, up to one minute. A longer lockout would let anyone behind the same address lock out the owner of a
-//! name; one minute allows some 60 guesses per hour against passwords that `login::check` accepts. A browser from which the owner
-//! of a name has logged in before is counted separately ([`super::devices`]): failures of others at its address do not delay it.
+//! Throttling of failed logins. After a few failures for one name from one address, or many failures from one address, each
+//! further attempt must wait longer, up to one minute. A longer lockout would let others behind the same address lock out a user.
+//! One minute allows about 60 guesses per hour against passwords that `login::check` accepts. A browser from which the user has
+//! logged in before is counted separately ([`super::devices`]), so failures of others at the same address do not delay it.
 
 use super::devices::KnownBrowser;
 use std::collections::BTreeMap;
 use std::net::IpAddr;
 
-/// Failures are remembered for this long, µs.
+/// Time for which failures are remembered, µs.
 const WINDOW_US: u64 = 15 * 60_000_000;
-/// First wait beyond the limit, µs; doubled by each further failure (estimate: long enough to notice, short enough after a typing
-/// error).
+/// First wait after the limit is reached, µs; doubles with each further failure. An estimate: long enough to slow down guessing,
+/// short enough after a typing error.
 const FIRST_WAIT_US: u64 = 4_000_000;
-/// Maximum wait, µs.
+/// Maximum wait between two attempts, µs.
 const LONGEST_WAIT_US: u64 = 60_000_000;
-/// Failures allowed in that time for one name from one address.
+/// Number of failures allowed within the window for one name from one address.
 const OF_NAME: usize = 5;
-/// Failures allowed in that time from one address, over all names.
+/// Number of failures allowed within the window from one address, over all names.
 const OF_ADDRESS: usize = 20;
-/// Maximum number of addresses and known browsers; the ones with the oldest failure are forgotten first.
+/// Maximum number of origins stored. When it is reached, the one with the oldest failure is forgotten.
 const ADDRESSES: usize = 10_000;
 
-/// Origin of a login, by which failures are counted.
+/// Origin of a login attempt. Failures are counted per origin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum LoginOrigin {
     /// An address or, for IPv6, a network.
     Network(IpAddr),
-    /// A browser known for the name.
+    /// A browser from which the user has logged in before.
     Known(KnownBrowser),
 }
 
@@ -38,12 +38,12 @@ impl LoginOrigin {
     }
 }
 
-/// Failed logins by origin, with time and name.
+/// Time and name of failed logins, by origin.
 #[derive(Debug, Default)]
 pub struct LoginThrottle(BTreeMap<LoginOrigin, Vec<(u64, String)>>);
 
 impl LoginThrottle {
-    /// Returns how long a login must wait, µs; `None` if it may be attempted now.
+    /// Returns how long a login must wait, µs; `None` if it may be attempted immediately.
     #[must_use]
     pub fn wait_us(&self, from: LoginOrigin, name: &str, now_us: u64) -> Option<u64> {
         let failures = self.0.get(&from)?;
@@ -85,7 +85,7 @@ impl LoginThrottle {
     }
 }
 
-/// Returns the wait after `beyond` failures above the limit, µs.
+/// Returns the wait for the given number of failures above the limit, µs.
 fn wait_after(beyond: usize) -> u64 {
     let doublings = u32::try_from(beyond).unwrap_or(u32::MAX);
     FIRST_WAIT_US
@@ -123,11 +123,11 @@ mod tests {
             throttle.record_failure(this_machine(), "anna", k);
         }
         assert_eq!(throttle.wait_us(this_machine(), "anna", 4), Some(FIRST_WAIT_US));
-        assert_eq!(throttle.wait_us(this_machine(), "ben", 10), None, "another name");
+        assert_eq!(throttle.wait_us(this_machine(), "ben", 10), None, "other names are not delayed");
         assert_eq!(
             throttle.wait_us(LoginOrigin::for_address([10, 0, 0, 1].into(), None), "anna", 10),
             None,
-            "the same name from elsewhere"
+            "other addresses are not delayed"
         );
         assert_eq!(throttle.wait_us(this_machine(), "anna", 4 + FIRST_WAIT_US), None);
         let mut now_us = 4;
@@ -158,8 +158,12 @@ mod tests {
         let mut throttle = LoginThrottle::default();
         let known = LoginOrigin::for_address([127, 0, 0, 1].into(), Some([7; 32]));
         (0..30).for_each(|_| throttle.record_failure(this_machine(), "anna", 0));
-        assert_eq!(throttle.wait_us(this_machine(), "anna", 1), Some(LONGEST_WAIT_US - 1), "a stranger at the address");
-        assert_eq!(throttle.wait_us(known, "anna", 1), None, "the owner's browser");
+        assert_eq!(
+            throttle.wait_us(this_machine(), "anna", 1),
+            Some(LONGEST_WAIT_US - 1),
+            "an unknown browser at the same address"
+        );
+        assert_eq!(throttle.wait_us(known, "anna", 1), None, "a known browser");
         (0..OF_NAME).for_each(|_| throttle.record_failure(known, "anna", 1));
         assert_eq!(throttle.wait_us(known, "anna", 1), Some(FIRST_WAIT_US), "guessing with a stolen cookie");
     }

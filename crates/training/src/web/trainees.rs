@@ -12,7 +12,7 @@ use crate::trainee::{AGE_BANDS, EXPERIENCE, Trainee};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
 
-/// Prefix of the fields with the values at the time when the page was opened, which detect conflicting edits.
+/// Prefix of the fields that contain the values at the time when the page was opened. They are used to detect conflicting edits.
 pub const BEFORE: &str = "before_";
 
 /// Renders the list of trainees.
@@ -42,13 +42,13 @@ pub fn trainee_list(visitor: &Visitor, people: &[Trainee]) -> Markup {
 /// Contents of a trainee's page.
 #[derive(Debug, Clone, Copy)]
 pub struct TraineeProfile<'a> {
-    /// The trainee.
+    /// Trainee whose page is shown.
     pub person: &'a Trainee,
     /// Sessions in chronological order.
     pub records: &'a [SessionRecord],
     /// The same sessions as list entries, newest first.
     pub listed: &'a [SessionListEntry],
-    /// Training plan.
+    /// Training plan; `None` without sessions.
     pub plan: Option<&'a TrainingPlan>,
     /// Whether incomplete sessions count in progress and plan.
     pub incomplete: IncompletePolicy,
@@ -59,7 +59,7 @@ pub struct TraineeProfile<'a> {
 pub fn trainee_page(visitor: &Visitor, about: &TraineeProfile<'_>) -> Markup {
     let name = &about.person.pseudonym;
     let body = html! {
-        @if let Some(plan) = about.plan { (section("plan", "What to fly next", &next(plan))) }
+        @if let Some(plan) = about.plan { (section("plan", "Next flights", &next(plan))) }
         @if !about.records.is_empty() { (section("progress", "Progress", &progress(name, about.records, about.incomplete))) }
         (section("sessions", "Sessions", &html! {
             @if about.listed.is_empty() { p.calm { "No session yet." } }
@@ -77,7 +77,7 @@ pub fn trainee_page(visitor: &Visitor, about: &TraineeProfile<'_>) -> Markup {
 fn next(plan: &TrainingPlan) -> Markup {
     let told = |change: &&MeasureChange| change.better.is_some();
     html! {
-        p { "Between " (minute(plan.from_unix_us)) " and " (minute(plan.until_unix_us)) "." @if plan.overdue { " " b { "The last flight was too long ago to retain the skill." } } }
+        p { "Between " (minute(plan.from_unix_us)) " and " (minute(plan.until_unix_us)) "." @if plan.overdue { " " b { "The last flight was so long ago that skills have faded." } } }
         ol.steps {
             @for step in &plan.steps {
                 li { b { a href={ "/scenarios/" (step.scenario) } { (step.scenario) } } ul { @for reason in &step.reasons { li { (reason.words) } } } }
@@ -85,7 +85,7 @@ fn next(plan: &TrainingPlan) -> Markup {
         }
         @if let Some(words) = omitted_summary(plan.left_out) { p.note { (words) "." } }
         @if let Some(changes) = &plan.changes {
-            h3 { "What changed" }
+            h3 { "Changes" }
             p.note { "Since " a href={ "/sessions/" (changes.since) } { "the previous session on the same job" } "." }
             ul {
                 @for change in changes.changes.iter().filter(told) {
@@ -96,7 +96,7 @@ fn next(plan: &TrainingPlan) -> Markup {
     }
 }
 
-/// Renders the progress on each job separately, because practice on one says little about another.
+/// Renders progress separately for each job, because practice on one says little about another.
 fn progress(name: &str, records: &[SessionRecord], incomplete: IncompletePolicy) -> Markup {
     let unfinished = records.iter().filter(|record| !record.is_complete()).count();
     html! {
@@ -127,7 +127,7 @@ fn details(visitor: &Visitor, person: &Trainee) -> Markup {
         }
     };
     html! {
-        p { "Role: " (person.role.word()) ". The information below is voluntary and used only for the study." }
+        p { "Role: " (person.role.word()) ". The information below is optional and used only for the study." }
         form.stacked method="post" action={ "/trainees/" (person.pseudonym) "/details" } {
             (token(visitor))
             (choice("age_band", "Age, years", person.age_band.as_deref(), AGE_BANDS))
@@ -175,11 +175,11 @@ mod tests {
         };
         let text = trainee_page(&administrator(), &about).into_string();
         check(&text);
-        assert!(text.contains("Erase permanently") && text.contains("class=\"lines\"") && text.contains("What to fly next"));
+        assert!(text.contains("Erase permanently") && text.contains("class=\"lines\"") && text.contains("Next flights"));
         assert_eq!(
             (text.matches("class=\"job\"").count(), text.matches("class=\"lines\"").count()),
             (2, 4),
-            "each job by itself"
+            "one section per job"
         );
         assert!(text.contains(", 1 session<") && text.contains(", 2 sessions<"), "{text}");
         let unfinished = vec![faultless("anna", 1), broken_off("anna", 2)];
@@ -189,10 +189,10 @@ mod tests {
         };
         let (without, with) = (text(IncompletePolicy::LeaveOut), text(IncompletePolicy::Include));
         assert!(
-            without.contains("1 incomplete session left out") && without.contains("Include incomplete sessions"),
+            without.contains("1 incomplete session excluded") && without.contains("Include incomplete sessions"),
             "{without}"
         );
-        assert!(with.contains(", 2 sessions<") && !with.contains("left out.") && with.contains("Leave out"), "{with}");
+        assert!(with.contains(", 2 sessions<") && !with.contains("excluded.") && with.contains("Leave out"), "{with}");
         let instructor = Visitor { role: Role::Instructor, ..administrator() };
         assert!(!trainee_page(&instructor, &about).into_string().contains("Erase permanently"));
         check(&trainee_list(&administrator(), &[person]).into_string());

@@ -1,22 +1,22 @@
-//! Login sessions of browsers, identified by a cookie. Kept in memory by the hash of the cookie's token, so that neither a memory
-//! dump nor a log reveals a usable token; a restart logs everyone out. Time and randomness are arguments.
+//! Login sessions of browsers, identified by a cookie. They are kept in memory under the hash of the cookie, so that neither a
+//! memory dump nor a log reveals a usable cookie. A restart logs everyone out. Callers pass time and random bytes.
 
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
-/// An unused login session expires after this, µs: two hours, so that a flight does not log the user out.
+/// Time after which an unused login session expires, µs: two hours, so that users stay logged in during a flight.
 const IDLE_US: u64 = 2 * 3_600_000_000;
-/// Every login session expires after this, µs: a working day.
+/// Time after which every login session expires, µs: a working day.
 const LONGEST_US: u64 = 12 * 3_600_000_000;
-/// Maximum number of anonymous browser sessions, which bounds the memory that clients without cookies can use.
+/// Maximum number of anonymous browser sessions. Bounds the memory that clients without cookies can use.
 const STRANGERS: usize = 4_096;
 
-/// Random bytes of a token.
+/// Random bytes of a cookie or CSRF token.
 pub type TokenBytes = [u8; 32];
-/// Hash of password and role. A login session is valid only while this matches the user's current credential.
+/// Hash of password and role. A login session is valid only while it matches the user's current credential.
 pub type CredentialHash = [u8; 32];
 
-/// State of one browser.
+/// Login state of one browser.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BrowserSession {
     /// Name of the logged-in user, if any.
@@ -44,7 +44,7 @@ fn key(cookie: &str) -> [u8; 32] {
 }
 
 impl BrowserSessions {
-    /// Returns the session of a cookie if it is still valid, and extends it.
+    /// Returns the session that belongs to a cookie and extends it; `None` if there is none or it has expired.
     pub fn find(&mut self, cookie: &str, now_us: u64) -> Option<BrowserSession> {
         let key = key(cookie);
         let visit = self.0.get_mut(&key)?;
@@ -57,8 +57,8 @@ impl BrowserSessions {
         Some(visit.clone())
     }
 
-    /// Starts a session, anonymous or after a login. The cookie is always new, so that a cookie planted before the login is
-    /// useless after it (session fixation). Returns the cookie's text and the session.
+    /// Starts a session, anonymous or after a login. Always creates a new cookie, so that a cookie planted before the login is
+    /// useless afterwards (session fixation). Returns the cookie and the session.
     pub fn begin(
         &mut self,
         who: Option<(&str, CredentialHash)>,
@@ -75,25 +75,25 @@ impl BrowserSessions {
         (cookie, visit)
     }
 
-    /// Ends a session.
+    /// Ends the session that belongs to a cookie.
     pub fn end(&mut self, cookie: &str) {
         self.0.remove(&key(cookie));
     }
 
-    /// Updates the credential of a cookie's session, so that users who change their own password stay logged in.
+    /// Updates the credential of a login session, so that users who change their own password stay logged in.
     pub fn renew(&mut self, cookie: &str, credential: CredentialHash) {
         if let Some(visit) = self.0.get_mut(&key(cookie)).filter(|visit| visit.name.is_some()) {
             visit.credential = Some(credential);
         }
     }
 
-    /// Ends all sessions of a user (password change, erasure), except that of one cookie.
+    /// Ends all sessions of a user after a password change or erasure, except the one with the given cookie.
     pub fn end_all_of(&mut self, name: &str, but: Option<&str>) {
         let kept = but.map(key);
         self.0.retain(|key, visit| visit.name.as_deref() != Some(name) || Some(*key) == kept);
     }
 
-    /// Removes expired sessions and, above the limit, the anonymous ones that were idle longest.
+    /// Removes expired sessions and, above the limit, the anonymous sessions that have been idle longest.
     fn evict_oldest(&mut self, now_us: u64) {
         if self.0.len() < STRANGERS {
             return;
@@ -103,7 +103,7 @@ impl BrowserSessions {
             self.0.iter().filter(|(_, visit)| visit.name.is_none()).map(|(key, visit)| (visit.used_us, *key)).collect();
         if strangers.len() >= STRANGERS {
             strangers.sort_unstable();
-            // Removes a quarter at once, so that not every further anonymous request triggers a scan.
+            // Removes a quarter of them, so that further anonymous requests do not each trigger a scan.
             for (_, key) in strangers.into_iter().take(STRANGERS / 4) {
                 self.0.remove(&key);
             }
@@ -111,7 +111,7 @@ impl BrowserSessions {
     }
 }
 
-/// Compares two strings in constant time, independent of how many characters match.
+/// Compares two strings in a time that does not depend on how many characters match.
 #[must_use]
 pub fn constant_time_eq(a: &str, b: &str) -> bool {
     a.len() == b.len() && a.bytes().zip(b.bytes()).fold(0, |different, (x, y)| different | (x ^ y)) == 0
@@ -156,7 +156,7 @@ mod tests {
         assert_eq!((credential(&mut visits, &cookies[0]), credential(&mut visits, &cookies[2])), (Some([2; 32]), Some(WORD)));
         let (stranger, _) = visits.begin(None, secrets(4), 0);
         visits.renew(&stranger, WORD);
-        assert_eq!(credential(&mut visits, &stranger), None, "a stranger stays one");
+        assert_eq!(credential(&mut visits, &stranger), None, "an anonymous session has no credential");
         visits.end(&cookies[0]);
         assert_eq!(visits.find(&cookies[0], 1), None);
     }

@@ -1,4 +1,4 @@
-// Functions shared by the session and comparison pages: time formatting, nearest sample, charts linked to a slider.
+// Functions shared by the report and comparison pages: time formatting, nearest sample, and charts linked to a slider.
 const Flight = (function () {
   'use strict';
   const byId = (id) => document.getElementById(id);
@@ -10,7 +10,7 @@ const Flight = (function () {
   const number = (value, digits, unit) => (value === null ? '–' : value.toFixed(digits) + ' ' + unit);
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-  // Index of the time nearest to t in an ascending list.
+  // Returns the index of the time nearest to t in an ascending list.
   function indexAt(times, t) {
     let low = 0, high = times.length - 1;
     while (low < high) {
@@ -20,8 +20,8 @@ const Flight = (function () {
     return low > 0 && t - times[low - 1] < times[low] - t ? low - 1 : low;
   }
 
-  // Places the drone in a drawing; its matrix maps east, north, up to the sheet. In the side view of a distant bridge
-  // it is faint.
+  // Moves the drone's mark in a drawing, whose matrix maps east, north and up to the drawing's coordinates. In a bridge's side
+  // view, the mark is faint while the drone is far from that bridge.
   const numbers = (text) => (text ? text.split(' ').map(Number) : null);
   const drone = (node) => ({ node, m: numbers(node.dataset.matrix), near: numbers(node.dataset.near) });
   function place({ node, m, near }, e, n, u) {
@@ -35,7 +35,8 @@ const Flight = (function () {
     node.setAttribute('transform', 'translate(' + x.toFixed(1) + ' ' + y.toFixed(1) + ')');
   }
 
-  // Play and pause for a slider: `advance` moves it by the given number of seconds and returns whether there is more.
+  // Play and pause for a slider. `advance` moves the slider by the given number of seconds and returns whether the end is still
+  // ahead.
   function player(button, begin, advance) {
     let timer = null;
     function stop() {
@@ -49,7 +50,7 @@ const Flight = (function () {
       begin();
       let before = null;
       const step = (at) => {
-        // Eight times flight speed.
+        // Plays at eight times the flight's speed.
         const more = advance(before === null ? 0 : (at - before) / 1000 * 8);
         before = at;
         if (!more) { stop(); return; }
@@ -62,8 +63,8 @@ const Flight = (function () {
     return stop;
   }
 
-  // Charts over one time axis. `curves` returns the times of a host, its series (values, color, width, dash) and the range of its
-  // axis; `now` returns the slider's time, `pick` moves the slider.
+  // Charts with a common time axis. `curves` returns the times of a host element, its series (values, color, width, dash) and the
+  // range of its vertical axis. `now` returns the slider's time; `pick` moves the slider.
   const HEIGHT = 132;
   function charts(curves, now, pick) {
     const hosts = all('.chart');
@@ -106,14 +107,15 @@ const Flight = (function () {
     return { draw, follow };
   }
 
-  // Charts use the colors of the screen theme, and light colors on paper.
+  // Charts use the colors of the screen theme. Printouts use the light theme.
   function whenColoursChange(repaint) {
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', repaint);
     addEventListener('beforeprint', () => { document.documentElement.dataset.theme = 'light'; repaint(); });
     addEventListener('afterprint', () => { delete document.documentElement.dataset.theme; repaint(); });
   }
 
-  // Range of a chart from zero up: at least 1, at most the largest meaningful value.
+  // Range of a vertical axis that starts at 0. Its upper end is the largest value, but at least 1 and at most the largest
+  // meaningful value.
   const fromZero = (most) => (u, low, high) => [0, Math.max(1, most ? Math.min(most, high) : high) * 1.05];
 
   return { byId, all, clock, number, colour, indexAt, drone, place, player, charts, whenColoursChange, fromZero };

@@ -1,4 +1,4 @@
-// Interactive parts of a comparison: one slider for both flights, aligned at lift-off or at the entry into a task.
+// Interactive parts of a comparison: one slider for both flights, aligned at lift-off or at the start of a task.
 (function () {
   'use strict';
   const { byId, all, clock, number } = Flight;
@@ -7,16 +7,16 @@
   const data = JSON.parse(block.textContent);
   const flights = data.flights;
   if (flights.some((flight) => flight.series.t.length === 0)) return;
-  // Step of the slider and the charts, s.
+  // Step of the slider and of the charts, s.
   const STEP = 0.2;
   const slider = byId('moment'), select = byId('line-up');
   const drones = all('.drone').map((node) => ({ flight: Number(node.dataset.flight), drone: Flight.drone(node) }));
   let times = [], now = 0;
 
-  // Converts the common time to a flight's own time; 0 is the point of alignment.
+  // Converts the common time, which is 0 at the point of alignment, to a flight's own time.
   const start = (k) => flights[k].starts[Number(select.value)];
   const own = (k, t) => t + start(k);
-  // Index into a flight's series; null before lift-off and after the end.
+  // Returns the index into a flight's series; null before lift-off and after the end.
   function index(k, t) {
     const series = flights[k].series.t, at = own(k, t);
     if (at < series[0] - STEP || at > series[series.length - 1] + STEP) return null;
@@ -61,11 +61,11 @@
     return { times, lines, range: name === 'battery' ? [0, 100] : Flight.fromZero({ distance: 20, clearance: 20 }[name]) };
   }, () => times[now], (moment) => { stop(); show(Flight.indexAt(times, moment)); });
 
-  // Changes the alignment: other common times, slider back to 0.
+  // Changes the alignment: recomputes the common times and moves the slider to 0.
   function lineUp() {
     const from = Math.min(...flights.map((flight, k) => flight.series.t[0] - start(k)));
     const to = Math.max(...flights.map((flight, k) => flight.series.t[flight.series.t.length - 1] - start(k)));
-    // 0 is always a step, so that both flights are exactly at the point of alignment.
+    // 0 is always one of the steps, so that the slider can show the exact point of alignment.
     const first = Math.floor(from / STEP), count = Math.ceil(to / STEP) - first + 1;
     times = Array.from({ length: count }, (_, k) => (first + k) * STEP);
     slider.max = String(count - 1);

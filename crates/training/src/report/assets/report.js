@@ -1,5 +1,5 @@
-// Interactive parts of a report: the slider with the drone in every drawing, the charts, and the 3D model. Text is inserted as text,
-// never as markup.
+// Interactive parts of a report: the slider, which moves the drone in every drawing, the charts, and the 3D view. Data is
+// inserted as text, never as markup.
 (function () {
   'use strict';
   const { byId, all, clock, number, colour } = Flight;
@@ -16,7 +16,7 @@
   const taskName = (i) => (s.task[i] === null ? '–' : data.tasks[s.task[i]].id + ' · ' + data.tasks[s.task[i]].name);
   const pathWords = (i) => ['between tasks', 'off path', 'on path'][s.state[i]];
 
-  // The slider.
+  // Slider.
   const slider = byId('moment');
   const drones = all('.drone').map(Flight.drone);
   const cursors = all('.cursor');
@@ -58,7 +58,7 @@
     return t < end;
   });
 
-  // The curves.
+  // Charts.
   const limits = {
     speed: () => s.t.map(() => data.limits.speed),
     distance: () => s.task.map((task) => (task === null ? null : data.tasks[task].within)),
@@ -75,7 +75,7 @@
   listeners.push(curves.follow);
   Flight.whenColoursChange(() => { curves.draw(); if (model) model.paint(); });
 
-  // Builds the series file in the page and offers it as a download.
+  // Creates the CSV file of the time series in the browser and offers it as a download.
   const csv = byId('series-csv');
   csv.hidden = false;
   csv.addEventListener('click', () => {
@@ -95,7 +95,7 @@
     setTimeout(() => URL.revokeObjectURL(link.href), 10000);
   });
 
-  // The 3D model. Its library is embedded as text and started only on request.
+  // 3D view. Its library is embedded as text and loaded only when the user opens the view.
   let model = null;
   const open = byId('model-open');
   const probe = document.createElement('canvas').getContext('webgl2');
@@ -129,7 +129,7 @@
   }
 
   function turnable(T, host) {
-    // Maps the site's east, north, up to x, -z, y.
+    // Maps the site's east, north and up to x, -z and y.
     const place = (p) => new T.Vector3(p[0], p[2], -p[1]);
     const scene = new T.Scene();
     const camera = new T.PerspectiveCamera(42, 1, 0.5, 4000);
@@ -138,14 +138,14 @@
     const canvas = renderer.domElement;
     canvas.tabIndex = 0;
     canvas.setAttribute('role', 'img');
-    canvas.setAttribute('aria-label', 'Model of the site with the flight; arrow keys turn it, plus and minus change the distance');
+    canvas.setAttribute('aria-label', '3D model of the site and the flight path. Arrow keys rotate it; plus and minus zoom.');
     host.appendChild(canvas);
     const sun = new T.DirectionalLight(0xffffff, 1.6);
     sun.position.set(-0.5, 1, 0.7);
     const sky = new T.HemisphereLight(0xffffff, 0x777770, 1.5);
     scene.add(sun, sky);
 
-    // The bridges.
+    // Bridges.
     const mesh = data.mesh, corners = bytes(mesh.corners);
     const points = new Float32Array(corners.length);
     for (let k = 0; k < corners.length; k += 3) {
@@ -159,7 +159,7 @@
     const structure = new T.Mesh(solid, new T.MeshLambertMaterial({ flatShading: true, side: T.DoubleSide }));
     scene.add(structure);
 
-    // Ground and water.
+    // Terrain and water.
     const g = data.ground, relief = new T.PlaneGeometry(2 * g.half, 2 * g.half, g.side - 1, g.side - 1);
     const heights = relief.getAttribute('position');
     for (let row = 0; row < g.side; row++) {
@@ -175,7 +175,7 @@
     water.position.y = g.water;
     scene.add(ground, water);
 
-    // Paths and the flight.
+    // Reference paths and flight path.
     const line = (list, material) => new T.Line(new T.BufferGeometry().setFromPoints(list), material);
     const pathStyle = new T.LineDashedMaterial({ dashSize: 2, gapSize: 1.4 });
     for (const task of data.tasks) {
@@ -189,7 +189,7 @@
     const track = line(flown, new T.LineBasicMaterial({ vertexColors: true }));
     track.geometry.setAttribute('color', new T.BufferAttribute(new Float32Array(3 * count), 3));
     scene.add(track);
-    // Lines are one pixel wide on most machines; dots make them thicker.
+    // Most systems draw lines one pixel wide, so points make the flight path thicker.
     scene.add(new T.Points(track.geometry, new T.PointsMaterial({ size: 3.5, sizeAttenuation: false, vertexColors: true })));
     const shared = {};
     const ball = (at, kind, radius) => {
@@ -233,7 +233,7 @@
     }
     all('input[name="colouring"]').forEach((input) => input.addEventListener('change', paint));
 
-    // Rotation about the center of the bridges.
+    // The view rotates about the center of the bridges.
     const box = new T.Box3().setFromObject(structure.geometry.getAttribute('position').count ? structure : track);
     const target = box.getCenter(new T.Vector3());
     let yaw = 0.5, pitch = 0.42, distance = Math.max(30, box.getSize(new T.Vector3()).length() * 0.62);

@@ -14,12 +14,12 @@ function within(from) {
 
 const api = within(window) || (window.opener ? within(window.opener) : null);
 if (api === null) {
-  told.append("No learning-management system was found.");
+  told.append("No learning management system found.");
 } else {
   const ok = (answer) => String(answer) === "true";
   let done = ok(api.LMSInitialize(""));
   for (const [name, value] of Object.entries(JSON.parse(document.body.dataset.result))) done = ok(api.LMSSetValue(name, value)) && done;
   done = ok(api.LMSCommit("")) && done;
-  told.append(done ? "Told to the learning-management system." : "The learning-management system did not take the result.");
+  told.append(done ? "Result sent to the learning management system." : "The learning management system did not accept the result.");
   window.addEventListener("pagehide", () => api.LMSFinish(""));
 }

@@ -1,4 +1,4 @@
-//! Surface totals by element and outcome, and average picture quality.
+//! Surface area by element and outcome, and average picture quality.
 
 use super::outcome::SurfaceOutcome;
 use spandrel_model::math;
@@ -18,9 +18,9 @@ pub struct ElementSurface {
     pub element: u32,
     /// Surface that can be inspected from the reference paths, m².
     pub inspectable_m2: f64,
-    /// This surface by outcome, m².
+    /// Inspectable surface by outcome, m².
     pub by_fate_m2: BTreeMap<SurfaceOutcome, f64>,
-    /// Area-weighted sums over the best pictures at the required pixel size and angle.
+    /// Area-weighted sums over the best pictures that meet the required pixel size and angle.
     pub(in crate::report) sums: PictureSums,
 }
 
@@ -34,20 +34,20 @@ pub(in crate::report) struct PictureSums {
     ln_lux: f64,
 }
 
-/// Area-weighted average properties of the pictures of a surface.
+/// Area-weighted average of the pictures that show a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AveragePicture {
     /// Incidence angle from the surface normal, rad.
     pub incidence_rad: f64,
     /// Ground sampling distance: size of a pixel on the surface, m.
     pub gsd_m: f64,
-    /// Motion blur, px.
+    /// Motion blur in the picture, px.
     pub blur_px: f64,
-    /// Illuminance including the lamp, lx (geometric mean, because brightness is perceived as ratios).
+    /// Illuminance including the lamp, lx (geometric mean, because perceived brightness depends on ratios).
     pub lux: f64,
 }
 
-/// Best picture of a patch so far.
+/// The best picture of a patch found so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct BestPicture {
     pub fate: SurfaceOutcome,
@@ -58,7 +58,7 @@ pub(super) struct BestPicture {
 }
 
 impl ElementSurface {
-    /// Adds a surface patch with its outcome and best picture.
+    /// Adds the area of a surface patch with its outcome and best picture.
     pub(super) fn add(&mut self, area_m2: f64, fate: SurfaceOutcome, best: Option<&BestPicture>) {
         self.inspectable_m2 += area_m2;
         *self.by_fate_m2.entry(fate).or_default() += area_m2;
@@ -95,13 +95,13 @@ impl ElementSurface {
         self.by_fate_m2.range(fate..).map(|(_, area_m2)| area_m2).sum()
     }
 
-    /// Returns the area pictured at the required pixel size and angle, m².
+    /// Returns the area photographed at the required pixel size and angle, m².
     #[must_use]
     pub fn pictured_m2(&self) -> f64 {
         self.at_least_m2(SurfaceOutcome::DarkLampOff)
     }
 
-    /// Returns the average properties of those pictures; `None` if there are none.
+    /// Returns the average of the pictures that meet the required pixel size and angle; `None` if there are none.
     #[must_use]
     pub fn typical(&self) -> Option<AveragePicture> {
         let PictureSums { area_m2, incidence_rad, gsd_m, blur_px, ln_lux } = self.sums;

@@ -1,5 +1,5 @@
-//! Surface coverage: the fraction of the inspectable surface that the pictures show well enough, what the rest lacked, and how
-//! much was in the camera's view during the flight. Size, angle and light are evaluated with the scorer's functions.
+//! Surface coverage: the fraction of the inspectable surface that the pictures show well enough, why the rest does not count, and
+//! how much of it the camera saw during the flight. Size, angle and light are evaluated with the scorer's functions.
 
 mod element;
 mod outcome;
@@ -23,20 +23,20 @@ use std::collections::BTreeMap;
 
 /// Crack width that separates condition states 2 and 3 of reinforced concrete (0.05 in, AASHTO MBEI), m.
 const CRACK_M: f64 = 0.001_27;
-/// Pixel size on the surface at which that crack covers the half pixel required for a hit, m.
+/// Pixel size on the surface at which that crack covers the half pixel that a hit requires, m.
 pub const REQUIRED_GSD_M: f64 = CRACK_M / LINE_WIDTH_MIN_PX;
-/// Maximum motion blur, px (published practice for detection: one pixel).
+/// Maximum motion blur, px (one pixel, as published for defect detection).
 pub const BLUR_MAX_PX: f64 = 1.0;
-/// Surface beyond this multiple of the distance with the required pixel size counts as background.
+/// Surface counts as background beyond this multiple of the distance at which a pixel has the required size.
 const BACKGROUND: f64 = 3.0;
-/// Sight lines end at this distance before the surface, m.
+/// Sight lines end at this distance in front of the surface, m.
 const CLEAR_M: f64 = 0.02;
-/// Sampling interval of the camera's view during the flight.
+/// Sampling interval at which the camera's view during the flight is evaluated.
 const VIEW_STEP: SimTime = SimTime::from_ms(2_000);
-/// Patches with the same orientation within this distance share their ambient light, m.
+/// Size of the cells in which patches with the same orientation share their ambient light, m.
 const LIGHT_CELL_M: f64 = 5.0;
 
-/// A patch and its outcome.
+/// A surface patch with the best picture of it.
 struct JudgedPatch {
     patch: SurfacePatch,
     in_view: bool,
@@ -69,7 +69,7 @@ impl JudgedPatch {
     }
 }
 
-/// Returns the distance at which a pixel has the required size, m.
+/// Returns the distance at which a pixel has the required size on the surface, m.
 #[must_use]
 pub fn reach_m(camera: &Camera) -> f64 {
     REQUIRED_GSD_M * camera.focal_px()
@@ -81,8 +81,8 @@ fn is_clear(from: Vec3<Enu>, to: Vec3<Enu>, scene: &ReviewContext<'_>) -> bool {
     reach <= 0.0 || scene.site.geometry().ray(from, line.unit(), reach).is_none()
 }
 
-/// Returns the distance, m, and the cosine of the incidence angle of a patch that is inside the image and faces the camera. Does
-/// not test sight lines.
+/// Returns the distance, m, and the cosine of the incidence angle for a patch that is inside the image and faces the camera. Does
+/// not check whether the sight line is clear.
 fn framed(patch: &SurfacePatch, pose: &CameraPose, camera: &Camera, farthest_m: f64) -> Option<(f64, f64)> {
     let to = patch.point_m - pose.position_m;
     let away_m = to.norm();
@@ -104,7 +104,7 @@ fn add_picture(pieces: &mut [JudgedPatch], picture: &ReviewedPicture, light: &mu
     let reach = reach_m(camera);
     for piece in pieces {
         let Some((away_m, cosine)) = framed(&piece.patch, pose, camera, BACKGROUND * reach) else { continue };
-        // Upper bound for this picture; if a better one exists already, the sight line test is skipped.
+        // Best outcome possible for this picture. If an equal or better picture is known, the sight line is not tested.
         let most = if away_m > reach {
             SurfaceOutcome::TooFar
         } else if cosine < math::cos(INCIDENCE_MAX_RAD) {
@@ -129,7 +129,7 @@ fn add_picture(pieces: &mut [JudgedPatch], picture: &ReviewedPicture, light: &mu
     }
 }
 
-/// Evaluates light and blur of a picture that meets the required pixel size and angle.
+/// Returns the outcome of a picture that meets the required pixel size and angle, from its light and blur.
 fn judged(lux: f64, blur_px: f64, picture: &ReviewedPicture) -> SurfaceOutcome {
     if lux < needed_lux(&picture.camera) {
         if picture.pose.lamp_on { SurfaceOutcome::DarkLampOn } else { SurfaceOutcome::DarkLampOff }
@@ -146,7 +146,7 @@ fn add_flight(pieces: &mut [JudgedPatch], scene: &ReviewContext<'_>) {
     for frame in scene.frames.iter().step_by(stride) {
         let Some(pose) = attention::pose(scene.flight, frame.time, scene.vehicle) else { continue };
         let camera = attention::camera(scene.flight, frame.time, &scene.vehicle.camera);
-        // Pictured surface is already evaluated.
+        // Patches with a picture already have an outcome.
         for piece in pieces.iter_mut().filter(|piece| !piece.in_view && piece.best.is_none()) {
             let near = framed(&piece.patch, &pose, &camera, reach_m(&camera));
             piece.in_view =
@@ -155,15 +155,15 @@ fn add_flight(pieces: &mut [JudgedPatch], scene: &ReviewContext<'_>) {
     }
 }
 
-/// Cache of ambient light by cell and orientation.
+/// Cache of the ambient light by grid cell and surface orientation.
 struct LightCache<'a> {
     scene: &'a ReviewContext<'a>,
     cells: BTreeMap<[i64; 6], f64>,
 }
 
 impl LightCache<'_> {
-    /// Returns the illuminance of a patch in a picture including the lamp, lx, and the motion blur, px, at the shortest exposure
-    /// possible in this light.
+    /// Returns the illuminance of a patch in a picture, including the lamp, lx, and the motion blur at the shortest exposure that
+    /// this light allows, px.
     fn with_motion_blur(&mut self, patch: &SurfacePatch, picture: &ReviewedPicture) -> (f64, f64) {
         let (pose, camera) = (&picture.pose, &picture.camera);
         let lamp = lamp_lux(&self.scene.vehicle.lamp, pose, patch.point_m, patch.normal);

@@ -1,6 +1,6 @@
-//! Outcomes of surface coverage.
+//! Possible outcomes of surface coverage.
 
-/// Coverage outcome of a surface patch, from worst to best. The best picture counts.
+/// Coverage outcome of a surface patch, from worst to best. If there are several pictures, the best one counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SurfaceOutcome {
     /// Never in the camera's view at the required distance and angle.
@@ -17,7 +17,7 @@ pub enum SurfaceOutcome {
     DarkLampOn,
     /// Motion blur is too large.
     Blurred,
-    /// Shown well by a picture.
+    /// Shown well in a picture.
     Shown,
 }
 
@@ -34,7 +34,7 @@ impl SurfaceOutcome {
         Self::Unseen,
     ];
 
-    /// Returns the display name.
+    /// Returns the name shown in the report.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -49,7 +49,7 @@ impl SurfaceOutcome {
         }
     }
 
-    /// Returns the CSS class.
+    /// Returns the CSS class that colors it in the report.
     #[must_use]
     pub fn class(self) -> &'static str {
         match self {

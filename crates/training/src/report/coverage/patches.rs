@@ -1,4 +1,4 @@
-//! Inspectable surface: the part visible from some point of a reference path, sampled in patches of about one square meter.
+//! Inspectable surface: the part that is visible from at least one point of a reference path, sampled in patches of about 1 m².
 
 use super::{is_clear, reach_m};
 use crate::report::ReviewContext;
@@ -7,13 +7,13 @@ use spandrel_model::math;
 use spandrel_model::scenario::bridges::Solid;
 use spandrel_model::site::visibility::INCIDENCE_MAX_RAD;
 
-/// Patch side length, m.
+/// Side length of a patch, m.
 const PATCH_M: f64 = 1.0;
-/// Minimum face area; smaller faces such as plate and post edges are skipped, m².
+/// Minimum area of a face, m². Smaller faces, such as edges of plates and posts, are skipped.
 const LEAST_FACE_M2: f64 = 0.1;
-/// Offset of a sight line's start from the surface, m.
+/// Distance from the surface at which sight lines start, m.
 const LIFT_M: f64 = 0.02;
-/// Number of reference points tested per patch, nearest first.
+/// Maximum number of reference points tested per patch, nearest first.
 const TRIES: usize = 8;
 
 /// A patch of a member's surface.
@@ -21,17 +21,17 @@ const TRIES: usize = 8;
 pub struct SurfacePatch {
     /// Element number (AASHTO MBEI).
     pub element: u32,
-    /// Point slightly above the center, as the end of sight lines, m.
+    /// End point for sight lines, slightly in front of the center, m.
     pub above_m: Vec3<Enu>,
-    /// Center, m.
+    /// Center of the patch, m.
     pub point_m: Vec3<Enu>,
-    /// Outward unit normal.
+    /// Unit normal that points out of the member.
     pub normal: Vec3<Enu>,
     /// Area that the patch represents, m².
     pub area_m2: f64,
 }
 
-/// Returns the patches that can be inspected from some point of a reference path.
+/// Returns the patches that can be inspected from at least one point of a reference path.
 #[must_use]
 pub fn inspectable(scene: &ReviewContext<'_>) -> Vec<SurfacePatch> {
     let reach = reach_m(&scene.vehicle.camera);
@@ -63,7 +63,7 @@ fn near_to(solid: &Solid, stations: &[Vec3<Enu>], reach_m: f64) -> Vec<Vec3<Enu>
     stations.iter().copied().filter(|s| away_squared(s.array()) <= reach_m * reach_m).collect()
 }
 
-/// Samples a solid's faces as points, outward normals and areas.
+/// Samples a solid's faces and returns the points with their outward normals and areas.
 fn sampled(solid: &Solid) -> Vec<(Vec3<Enu>, Vec3<Enu>, f64)> {
     let mut samples = Vec::new();
     for face in &solid.faces {
@@ -81,7 +81,7 @@ fn sampled(solid: &Solid) -> Vec<(Vec3<Enu>, Vec3<Enu>, f64)> {
     samples
 }
 
-/// Returns grid points of a convex polygon, [`PATCH_M`] apart; the center if it is smaller than that.
+/// Returns the points of a grid over a convex polygon, [`PATCH_M`] apart, or the center if the polygon is smaller than that.
 fn grid(corners: &[Vec3<Enu>], normal: Vec3<Enu>) -> Vec<Vec3<Enu>> {
     let u = (corners[1] - corners[0]).unit();
     let v = normal.cross(u);
@@ -148,17 +148,17 @@ mod tests {
         let samples = sampled(&block());
         let area: f64 = samples.iter().map(|sample| sample.2).sum();
         assert!((area - 2.0 * (12.0 + 8.0 + 6.0)).abs() < 1e-9, "{area}");
-        assert_eq!(samples.len(), 2 * (12 + 8 + 6), "one per square metre");
+        assert_eq!(samples.len(), 2 * (12 + 8 + 6), "one patch per square meter");
         for (point, normal, _) in samples {
             let outside = point + normal * 0.01;
             let [e, n, u] = outside.array();
-            assert!(!((0.0..=4.0).contains(&e) && (0.0..=3.0).contains(&n) && (0.0..=2.0).contains(&u)), "normals point out");
+            assert!(!((0.0..=4.0).contains(&e) && (0.0..=3.0).contains(&n) && (0.0..=2.0).contains(&u)), "normals point outward");
         }
     }
 
     #[test]
     fn exact_a_triangle_keeps_its_area() {
         let corners = [Vec3::new(0.0, 0.0, 0.0), Vec3::new(0.5, 0.0, 0.0), Vec3::new(0.0, 0.5, 0.0)];
-        assert_eq!(grid(&corners, Vec3::new(0.0, 0.0, 1.0)).len(), 1, "smaller than a patch: its centre");
+        assert_eq!(grid(&corners, Vec3::new(0.0, 0.0, 1.0)).len(), 1, "a polygon smaller than a patch has one point");
     }
 }

@@ -1,4 +1,4 @@
-//! The certification profile: requirements, and the components of its scores.
+//! The certification profile: its requirements and the components of its scores.
 
 use crate::report::Review;
 use crate::report::table::{Table, TableCell};
@@ -7,18 +7,18 @@ use maud::{Markup, html};
 use spandrel_model::site::catalogue::kind_name;
 use spandrel_monitor::score::completion::verdict;
 
-/// Renders the section.
+/// Renders the "Certification" section of a session report.
 pub fn section(review: &Review) -> Markup {
     let c = &review.assessment.certification;
     let gates = [
         ("session complete", c.gates.session_complete),
         ("every task attempted", c.gates.all_tasks_attempted),
-        ("no person and no vehicle hit", c.gates.no_person_or_vehicle_hit),
+        ("no person or vehicle hit", c.gates.no_person_or_vehicle_hit),
         ("landed near the ground team", c.gates.landed_at_home),
         ("at least 20 % battery left at landing", c.gates.battery_reserve),
     ];
     html! {
-        p { "A second profile with pass/fail requirements that close loopholes in the paper's scores. It complements the four scores. "
+        p { "A second profile with pass/fail requirements. It complements the four scores of TASBID by closing their loopholes. "
             b { @if c.passed { "All requirements met." } @else { (verdict(false, &c.unmet)) "." } } }
         ul.gates {
             @for (words, open) in gates {
@@ -46,7 +46,7 @@ fn visits(review: &Review) -> Table {
     };
     Table {
         name: "visits",
-        caption: "tasks by visits",
+        caption: "task visits",
         columns: vec!["task", "visits", "path flown, %", "on path, %", "speeding loss"],
         rows: review.assessment.certification.tasks.iter().map(row).collect(),
     }
@@ -71,7 +71,7 @@ fn detection(review: &Review) -> Table {
     Table {
         name: "detection",
         caption: "defects found by element, kind and condition state",
-        columns: vec!["by", "which", "found", "placed"],
+        columns: vec!["grouped by", "value", "found", "placed"],
         rows,
     }
 }

@@ -1,4 +1,5 @@
-//! Defects found and missed, marked on the bridges. For missed ones: how close the flight came, and how they would have looked.
+//! Defects found and missed, marked on the bridges. For missed defects, also how close the flight came and how they would have
+//! looked.
 
 use super::figure;
 use super::gallery::{DefectMark, frame};
@@ -13,10 +14,10 @@ use maud::{Markup, html};
 use spandrel_model::scenario::Bridge;
 use spandrel_model::site::catalogue::kind_name;
 
-/// Renders the section.
+/// Renders the "Defects" section of a session report.
 pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
     if review.defects.is_empty() {
-        return html! { p.calm { "No defects were placed in this job." } };
+        return html! { p.calm { "This job has no defects." } };
     }
     let missed: Vec<&DefectOutcome> = review.defects.iter().filter(|fate| fate.found_by.is_none()).collect();
     html! {
@@ -30,7 +31,7 @@ pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
         }
         @if !missed.is_empty() {
             h3 { "Missed defects" }
-            p.note { "Each drawing shows the view from four meters at a right angle, with the lamp on." }
+            p.note { "Each drawing shows the defect from 4 m away at a right angle, with the lamp on." }
             ul.gallery { @for fate in &missed { (card(review, fate, sketcher)) } }
         }
         (table(review).folded())
@@ -51,7 +52,7 @@ fn drawings(review: &Review, bridge: &Bridge) -> Markup {
 fn card(review: &Review, fate: &DefectOutcome, sketcher: &Sketcher) -> Markup {
     let defect = &fate.defect;
     let marks = [DefectMark { id: defect.id, at_m: defect.position_m, long_m: defect.length_m, class: "missed", hidden: false }];
-    let alt = format!("Location of defect {}, seen from four meters", defect.id);
+    let alt = format!("Defect {}, seen from 4 m away", defect.id);
     let exposure = SketchExposure { light: 1.0, by_lamp: true };
     html! {
         li.shot {
@@ -105,7 +106,7 @@ fn table(review: &Review) -> Table {
             "kind",
             "condition state",
             "element",
-            "element's name",
+            "element name",
             "member",
             "length, mm",
             "width, mm",
@@ -113,9 +114,9 @@ fn table(review: &Review) -> Table {
             "north, m",
             "up, m",
             "found",
-            "missed in plain view, s",
+            "clearly visible, s",
             "nearest, m",
-            "what happened",
+            "outcome",
         ],
         rows: review.defects.iter().map(row).collect(),
     }

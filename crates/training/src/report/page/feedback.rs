@@ -1,4 +1,4 @@
-//! Feedback given during the flight, and the trainee's response times.
+//! Feedback given during the flight, and the trainee's reaction times.
 
 use super::{figure, scrolling};
 use crate::report::Review;
@@ -12,24 +12,24 @@ const WIDTH: f64 = 620.0;
 const LEFT: f64 = 96.0;
 const RIGHT: f64 = 600.0;
 const ROW: f64 = 34.0;
-/// Right end of the axis, s; later movements do not count as a response.
+/// End of the time axis, s. Later stick movements do not count as a reaction.
 const LONGEST_S: f64 = 5.0;
 
-/// Renders the section.
+/// Renders the "Feedback" section of a session report.
 pub fn section(review: &Review) -> Markup {
     let present: Vec<usize> = (0..KINDS.len()).filter(|kind| of(review, *kind).next().is_some()).collect();
     html! {
         @if present.is_empty() { p.calm { "No feedback was given." } } @else {
             div.scroll tabindex="0" role="region" aria-label="Feedback in numbers" {
                 table {
-                    thead { tr { th scope="col" { "feedback" } th scope="col" { "times" } th scope="col" { "on for, s" } th scope="col" { "stick reactions" } th scope="col" { "median reaction, s" } } }
+                    thead { tr { th scope="col" { "feedback" } th scope="col" { "times" } th scope="col" { "total duration, s" } th scope="col" { "stick reactions" } th scope="col" { "median reaction, s" } } }
                     tbody { @for kind in &present { (row(review, *kind)) } }
                 }
             }
             @if answered(review).next().is_some() {
                 (figure("Time from the cue to the first stick movement; each dot is one cue, the bar is the median", &scrolling("Reaction times", &reactions(review))))
             }
-            p.note { "A reaction is a stick movement of at least a tenth of full travel within five seconds. A stick that was already moving may count by chance." }
+            p.note { "A reaction is a stick movement of at least 10 % of full travel within 5 s of the cue. A stick that was already moving may count as a reaction by coincidence." }
         }
         @if !review.feedback.notes.is_empty() { (notes(review).shown()) }
         (episodes(review).folded())
@@ -66,7 +66,7 @@ fn row(review: &Review, kind: usize) -> Markup {
     }
 }
 
-/// Returns the position of a response time on the sheet.
+/// Returns the horizontal position of a reaction time in the drawing.
 fn fraction_text(answer_s: f64) -> f64 {
     LEFT + (RIGHT - LEFT) * (answer_s / LONGEST_S).clamp(0.0, 1.0)
 }
@@ -106,7 +106,7 @@ fn episodes(review: &Review) -> Table {
     Table {
         name: "feedback",
         caption: "feedback shown",
-        columns: vec!["time", "feedback", "on for, s", "stick moved after, s", "task"],
+        columns: vec!["time", "feedback", "duration, s", "reaction after, s", "task"],
         rows: review.feedback.episodes.iter().map(row).collect(),
     }
 }
@@ -115,13 +115,13 @@ fn texts(review: &Review) -> Table {
     let row = |(t_s, text): &(f64, String)| vec![TableCell::Clock(*t_s), text.clone().into()];
     Table {
         name: "texts",
-        caption: "texts sent",
+        caption: "messages sent",
         columns: vec!["time", "text"],
         rows: review.feedback.texts.iter().map(row).collect(),
     }
 }
 
-/// Returns the instructor's notes as a table. The trainee did not see them.
+/// Returns the instructor's notes as a table. The trainee did not see these notes during the flight.
 fn notes(review: &Review) -> Table {
     let row = |(t_s, text): &(f64, String)| {
         let when = if *t_s < 0.0 { "before lift-off".into() } else { TableCell::Clock(*t_s) };

@@ -1,4 +1,4 @@
-//! The flight on the site, its timeline and its charts, linked by the slider.
+//! The flight on the site, its timeline and its charts, linked by a slider.
 
 use super::{figure, legend, scrolling};
 use crate::report::cues::KINDS;
@@ -8,7 +8,7 @@ use crate::report::table::{Table, TableCell};
 use crate::report::{Review, words};
 use maud::{Markup, html};
 
-/// Charts: id, title and the column names that the script draws.
+/// Id, title and data columns of each chart.
 const CHARTS: [(&str, &str, &str); 5] = [
     ("speed", "Speed, m/s", "speed"),
     ("distance", "Distance to the path of the task flown, m", "distance"),
@@ -17,7 +17,7 @@ const CHARTS: [(&str, &str, &str); 5] = [
     ("sticks", "Sticks, full travel = 1", "fb rl ud rt"),
 ];
 
-/// Renders the section.
+/// Renders the "Flight" section of a session report.
 pub fn section(review: &Review) -> Markup {
     html! {
         (controls(review))
@@ -35,7 +35,7 @@ pub fn section(review: &Review) -> Markup {
                 }
             }
         }
-        p.note { "Drag over a chart to zoom in, double-click to reset, click to move the slider." }
+        p.note { "Drag across a chart to zoom in. Double-click to reset the zoom. Click to move the slider." }
         (series_table(review).folded())
         p.download { button type="button" id="series-csv" hidden { "Download the time series as CSV" } " "
             span.note { "To export every frame: " code { "spandrel export SESSION --frames frames.csv" } } }
@@ -50,13 +50,13 @@ fn end_s(review: &Review) -> f64 {
 pub(super) fn slider() -> Markup {
     html! {
         button type="button" id="play" aria-pressed="false" { "Play" }
-        label for="moment" { "Moment" }
+        label for="moment" { "Time" }
         input type="range" id="moment" min="0" max="0" value="0" step="1";
         output id="moment-text" for="moment" { "0:00" }
     }
 }
 
-/// Renders the slider, the values at its time, and the color selection.
+/// Renders the slider, the values at the selected time, and the color selection.
 fn controls(review: &Review) -> Markup {
     html! {
         div.controls id="controls" {
@@ -67,7 +67,7 @@ fn controls(review: &Review) -> Markup {
                 }
             }
             fieldset.switch {
-                legend { "Color the flight by" }
+                legend { "Color flight path by" }
                 @for (k, (name, class)) in colors::COLOURINGS.iter().enumerate() {
                     label { input type="radio" name="colouring" value=(class) id=(class) checked[k == 0]; (name) }
                 }
@@ -88,7 +88,7 @@ fn marks_legend() -> Markup {
                 li { svg.swatch viewBox="-7 -7 14 14" aria-hidden="true" { g.crash { path d="M-5 -5L5 5M5 -5L-5 5" {} } } "contact" }
                 li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { g.picture.v-hit { circle r="8" {} } } "picture: hit" }
                 li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { g.picture.v-repeat { circle r="8" {} } } "repeat" }
-                li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { g.picture.v-near { circle r="8" {} } } "nearly" }
+                li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { g.picture.v-near { circle r="8" {} } } "near miss" }
                 li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { g.picture.v-false { circle r="8" {} } } "false" }
             }
     }
@@ -109,7 +109,7 @@ fn drawings(review: &Review) -> Markup {
             figcaption { "3D view " button type="button" id="model-open" hidden { "Rotate" } }
             div.scroll.wide id="model-still" tabindex="0" role="region" aria-label="3D view of the flight" { (map::oblique(review)) }
             div id="model-live" hidden {}
-            p.note id="model-note" hidden { "Drag or use the arrow keys to rotate, + and − or the wheel to zoom." }
+            p.note id="model-note" hidden { "Drag or use the arrow keys to rotate. Use the + and − keys or the mouse wheel to zoom." }
         }
     }
 }
@@ -118,9 +118,9 @@ fn strip_legend() -> Vec<(&'static str, String)> {
     vec![
         ("h-pilot", "flown by the pilot".into()),
         ("h-other", "flown by mission, script or autopilot".into()),
-        ("w-task", "task window".into()),
-        ("cue", "cue on".into()),
-        ("gap", "telemetry missing".into()),
+        ("w-task", "task".into()),
+        ("cue", "cue".into()),
+        ("gap", "no telemetry".into()),
     ]
 }
 
@@ -180,7 +180,7 @@ fn control_stretches(review: &Review) -> TimeStrip {
     TimeStrip { name: "flown by".into(), stretches: review.assessment.flown_by.iter().map(stretch).collect(), marks: Vec::new() }
 }
 
-/// Returns runs of consecutive frames without telemetry.
+/// Returns the periods without received telemetry, in which frames are interpolated or missing.
 fn gaps(review: &Review) -> TimeStrip {
     let mut stretches: Vec<(String, f64, f64, String)> = Vec::new();
     let mut open: Option<usize> = None;
@@ -200,7 +200,7 @@ fn gaps(review: &Review) -> TimeStrip {
     TimeStrip { name: "gaps".into(), stretches, marks: Vec::new() }
 }
 
-/// Returns the charts' data, sampled every few seconds.
+/// Returns the charts' data as a table with one row every few seconds.
 fn series_table(review: &Review) -> Table {
     let every_s = (end_s(review) / 60.0 / 5.0).ceil().max(1.0) * 5.0;
     let stride = (every_s * review.scenario.scoring.frame_rate_hz).round().max(1.0) as usize;

@@ -1,4 +1,5 @@
-//! Pictures with their verdicts. Shows the photograph if the session contains it, otherwise a drawing of the camera's view.
+//! The pictures that the trainee took, with their verdicts. Shows the photograph if the session contains it, otherwise a drawing
+//! of the camera's view.
 
 use crate::report::Review;
 use crate::report::assets::base64;
@@ -12,19 +13,19 @@ use spandrel_model::site::CameraPose;
 use spandrel_model::site::visibility::CENTRAL_SHARE;
 use spandrel_model::vehicle::Camera;
 
-/// Prepares the site for all drawings, in the light of mid-flight.
+/// Prepares the site for all drawings, lit by the sun at mid-flight.
 pub fn sketcher(review: &Review) -> Sketcher {
     let middle = review.frames.get(review.frames.len() / 2).map_or(spandrel_model::time::SimTime::ZERO, |frame| frame.time);
     Sketcher::new(&review.site, &review.scenario, middle)
 }
 
-/// Renders the section.
+/// Renders the "Pictures" section of a session report.
 pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
     html! {
-        @if review.pictures.is_empty() { p.calm { "No picture was taken." } } @else {
+        @if review.pictures.is_empty() { p.calm { "No pictures were taken." } } @else {
             p { (tally(review)) }
             @if review.about.pictures.is_empty() {
-                p.note { "The session contains no photographs, so the camera's view is drawn from the bridges' geometry. Only defects inside the dashed frame count." }
+                p.note { "The session contains no photographs, so each view is drawn from the bridge geometry. Only defects inside the dashed frame count." }
             }
             ul.gallery { @for picture in &review.pictures { (card(review, picture, sketcher)) } }
         }
@@ -64,9 +65,9 @@ fn capitalized(words: &str) -> String {
 fn target(picture: &ReviewedPicture) -> String {
     let lamp = if picture.pose.lamp_on { "lamp on" } else { "lamp off" };
     match &picture.target {
-        None => format!("Sky in the center, {lamp}"),
+        None => format!("Center: sky, {lamp}"),
         Some(t) => format!(
-            "{} in the center, {} m away, {}° from normal, {} mm per pixel, {} lx ({lamp}), motion blur {} px",
+            "Center: {}, {} m away, {}° from the surface normal, {} mm per pixel, {} lx ({lamp}), motion blur {} px",
             t.name,
             words::number(t.distance_m, 1),
             words::number(t.incidence_rad.to_degrees(), 0),
@@ -109,19 +110,19 @@ fn image(review: &Review, picture: &ReviewedPicture, sketcher: &Sketcher) -> Mar
 
 /// A defect to mark in a drawing.
 pub struct DefectMark {
-    /// Defect number.
+    /// Number of the defect, from 1.
     pub id: u32,
-    /// Position, m.
+    /// Position in the site frame (ENU), m.
     pub at_m: spandrel_model::frames::Vec3<spandrel_model::frames::Enu>,
-    /// Longest extent, m.
+    /// Largest dimension of the defect, m.
     pub long_m: f64,
-    /// CSS class.
+    /// CSS class of the mark.
     pub class: &'static str,
-    /// Whether it is occluded.
+    /// Whether the structure hides the defect from the camera.
     pub hidden: bool,
 }
 
-/// Renders a drawing with its marks.
+/// Renders a drawing of the camera's view, with the marked defects and the frame in which defects count.
 pub fn frame(
     sketcher: &Sketcher,
     (pose, camera): (&CameraPose, &Camera),
@@ -139,7 +140,7 @@ pub fn frame(
         (middle, (0.5 * focal * mark.long_m / depth).clamp(7.0, 0.5 * w))
     };
     let edge = 0.5 * (1.0 - CENTRAL_SHARE);
-    // If encoding fails, the drawing is omitted and the text remains.
+    // If the image cannot be encoded, the page shows only its text.
     let drawing = sketcher.png(pose, camera, exposure).map(|png| base64(&png)).unwrap_or_default();
     html! {
         svg.frame viewBox={ "0 0 " (unit(w)) " " (unit(h)) } role="img" aria-label=(words) {
@@ -188,10 +189,10 @@ fn table(review: &Review) -> Table {
             "task",
             "verdict",
             "reason",
-            "in the center",
+            "image center",
             "distance, m",
             "angle from normal, deg",
-            "pixel, mm",
+            "pixel size, mm",
             "light, lx",
             "required light, lx",
             "motion blur, px",

@@ -1,8 +1,8 @@
-//! Crash kinds as shown in figures over several sessions.
+//! Kinds of crashes, as grouped in figures that cover several sessions.
 
 use crate::record::Crashes;
 
-/// Style and name of each kind. People and vehicles are combined because either ends a session.
+/// CSS class and name of each kind. People and vehicles share one kind because hitting either ends a session.
 pub const KINDS: [(&str, &str); 5] = [
     ("k-bridge", "bridge"),
     ("k-terrain", "ground"),
@@ -11,12 +11,12 @@ pub const KINDS: [(&str, &str); 5] = [
     ("k-grave", "person or vehicle"),
 ];
 
-/// Returns the counts in the order of [`KINDS`].
+/// Returns the number of crashes of each kind, in the order of [`KINDS`].
 pub fn counted(crashes: &Crashes) -> [usize; 5] {
     [crashes.bridge, crashes.terrain, crashes.water, crashes.other, crashes.person + crashes.vehicle]
 }
 
-/// Returns the counts with their styles.
+/// Returns the number of crashes of each kind with its CSS class.
 pub fn segments(crashes: &Crashes) -> Vec<(&'static str, usize)> {
     KINDS.iter().zip(counted(crashes)).map(|((class, _), count)| (*class, count)).collect()
 }

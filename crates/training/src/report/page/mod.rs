@@ -1,4 +1,4 @@
-//! The report page, section by section. User-provided text goes through maud's escaping; data for the page's script goes through
+//! The report page, section by section. User-provided text is escaped by maud; data for the page's script is escaped by
 //! [`series`].
 
 pub mod cohort;
@@ -56,18 +56,18 @@ pub fn session(review: &Review) -> String {
     )
 }
 
-/// Interactive content of a page: its data block and the scripts that it needs.
+/// Interactive content of a page: its embedded data and the scripts that it needs.
 enum PageScripts {
-    /// No scripts.
+    /// The page is static.
     Nothing,
-    /// Slider, charts and model of a session.
+    /// Slider, charts and 3D view of a session.
     Session(String),
     /// Slider and charts of two sessions.
     Comparison(String),
 }
 
-/// Renders a complete document: policy, styles, body, data and scripts. Styles and scripts are ours or a library's and contain no
-/// user input.
+/// Renders a complete document: content security policy, styles, body, data and scripts. Styles and scripts are Spandrel's or a
+/// library's and contain no user input.
 fn document(title: &str, moves: &PageScripts, body: &Markup) -> String {
     html! {
         (DOCTYPE)
@@ -108,7 +108,7 @@ fn scripts(texts: &[&str]) -> Markup {
     html! { @for text in texts { script { (PreEscaped(text)) } } }
 }
 
-/// Wraps wide content in a scrollable frame for small screens and keyboard use.
+/// Wraps wide content in a horizontally scrollable box that also accepts keyboard focus.
 fn scrolling(label: &str, body: &Markup) -> Markup {
     html! { div.scroll tabindex="0" role="region" aria-label=(label) { (body) } }
 }
@@ -118,7 +118,7 @@ fn figure(caption: &str, body: &Markup) -> Markup {
     html! { figure { figcaption { (caption) } (body) } }
 }
 
-/// Renders a legend from style and text of each entry.
+/// Renders a legend from the CSS class and text of each entry.
 fn legend(entries: &[(&str, String)]) -> Markup {
     html! {
         ul.legend {

@@ -1,14 +1,14 @@
-//! Recommended next steps by the training plan's rules, based on this session alone.
+//! Recommended next scenarios, based on this session only.
 
 use crate::plan::PlanStep;
 use crate::report::Review;
 use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
 
-/// Renders the section.
+/// Renders the "Next" section of a session report.
 pub fn section(review: &Review) -> Markup {
     html! {
-        p.note { "Based on this session alone; " code { "spandrel plan" } " considers all sessions of a trainee." }
+        p.note { "Based on this session only. For a plan based on all of a trainee's sessions, run " code { "spandrel plan" } "." }
         ol.steps {
             @for step in &review.next {
                 li {
@@ -35,8 +35,8 @@ fn table(steps: &[PlanStep]) -> Table {
     };
     Table {
         name: "next",
-        caption: "what to fly next",
-        columns: vec!["scenario", "rule", "measured", "limit", "urgency", "why"],
+        caption: "recommended scenarios",
+        columns: vec!["scenario", "rule", "measured", "limit", "urgency", "reason"],
         rows: rows.map(row).collect(),
     }
 }

@@ -1,5 +1,5 @@
-//! Progress of one trainee on one job by repetition, as the paper shows for participant 18: scores, on-path share by task,
-//! crashes by kind and, from four repetitions on, learning curves. Part of the server's and the cohort's pages.
+//! One trainee's progress on one job, by repetition, as the TASBID paper shows it for participant 18: scores, on-path share by
+//! task, crashes by kind and, after four repetitions, learning curves. Used in the trainee's page and the cohort pages.
 
 use super::kinds::{KINDS, counted, segments};
 use super::{figure, legend};
@@ -14,7 +14,7 @@ use maud::{Markup, html};
 
 /// Names of the four scores.
 const SCORES: [&str; 4] = ["conformity", "efficiency", "safety", "accuracy"];
-/// Returns the maximum of a score.
+/// Returns the maximum value of a score.
 #[must_use]
 pub fn most(score: &str) -> f64 {
     if score == "overall" { 400.0 } else { 100.0 }
@@ -37,7 +37,7 @@ pub fn on_job(job: &JobProgress) -> Markup {
     }
 }
 
-/// Renders the three figures of the repetitions.
+/// Renders three figures by repetition: scores, on-path shares and crashes.
 pub fn pictures(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Markup {
     let scores = scores(progress);
     let shares = shares(progress, tasks);
@@ -59,7 +59,7 @@ pub fn pictures(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Markup {
             @if !tasks.is_empty() {
                 (figure("On-path share of each task, %", &html! { (key(&shares)) (lines(&shares, 100.0, "On-path share by task and repetition")) }))
             }
-            (figure("Crashes by what was hit", &html! {
+            (figure("Crashes by object", &html! {
                 @if seen.is_empty() { p.calm { "None." } } @else { (legend(&seen)) (counts(&rows, "Crashes by kind and repetition")) }
             }))
         }
@@ -105,7 +105,7 @@ fn learning(progress: &TraineeProgress) -> Markup {
                 (figure(&curve.score, &practice(&drawn, &format!("Learning curve of {}", curve.score))))
             }
         }
-        p.note { "A power law of practice fitted to the repetitions; the ring is the prediction for the next one. It may exceed the maximum of the score." }
+        p.note { "Power laws of practice, fitted to the repetitions. The ring marks the prediction for the next repetition, which may exceed the maximum score." }
         (curve_numbers(&progress.curves).folded())
     }
 }
@@ -142,7 +142,7 @@ fn numbers(scenario: &str, progress: &TraineeProgress) -> Table {
         row
     };
     let columns = ["repetition", "scenario", "conformity", "efficiency", "safety", "accuracy", "overall", "flight time"];
-    let crashes = ["into bridges", "ground", "water", "other", "people, vehicles"];
+    let crashes = ["bridge crashes", "ground crashes", "water crashes", "other crashes", "person or vehicle crashes"];
     Table {
         name: "progress",
         caption: "each repetition: scores, time, crashes",
@@ -158,15 +158,18 @@ fn on_path_numbers(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Table
     };
     Table {
         name: "on_path",
-        caption: "on the path by task",
-        columns: vec!["repetition", "task", "name", "on the path, %"],
+        caption: "on-path share by task",
+        columns: vec!["repetition", "task", "name", "on path, %"],
         rows: progress.repetitions.iter().flat_map(|one| tasks.iter().map(move |task| row(one, task))).collect(),
     }
 }
 
-/// Returns the message shown when there are too few repetitions for a curve.
+/// Returns the message shown if there are too few repetitions for a learning curve.
 pub fn too_few() -> String {
-    format!("A learning curve needs {} repetitions of one job.", words::number(crate::statistics::LEARNING_NEEDS as f64, 0))
+    format!(
+        "A learning curve requires {} repetitions of the same job.",
+        words::number(crate::statistics::LEARNING_NEEDS as f64, 0)
+    )
 }
 
 #[cfg(test)]
@@ -190,11 +193,11 @@ mod tests {
     fn exact_scores_tasks_and_crashes_stand_repetition_by_repetition() {
         let text = progress_page(3).into_string();
         assert_eq!(text.matches("class=\"lines\"").count(), 2);
-        // Four score lines with three points each; one task point is missing because that task was not attempted.
+        // Four score lines with three points each. The task lines have one point less, because one task was not attempted once.
         assert_eq!(text.matches("<circle class=\"dot-").count(), 12 + 11);
         assert!(text.contains("water: 2") && text.contains("person or vehicle: 1") && !text.contains("bridge: "), "{text}");
         assert!(text.contains("not attempted") && text.contains("&lt;b&gt;slab") && !text.contains("<b>slab"));
-        assert!(!text.contains("Learning curves"), "three repetitions make none");
+        assert!(!text.contains("Learning curves"), "three repetitions are too few");
     }
 
     #[test]

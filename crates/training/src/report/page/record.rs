@@ -1,21 +1,21 @@
-//! Basis of the report: telemetry coverage, control sources, link statistics, files and their hashes.
+//! Data behind the report: telemetry gaps, control sources, link statistics, files and their hashes.
 
 use crate::report::Review;
 use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
 
-/// Renders the section.
+/// Renders the "Record" section of a session report.
 pub fn section(review: &Review) -> Markup {
     let telemetry = &review.assessment.telemetry;
     html! {
         p { (gaps(review)) }
         @if telemetry.missing_frames > 0 {
-            p.note { "In gaps longer than one second, frames hold the last position and are scored with it." }
+            p.note { "In gaps longer than 1 s, missing frames repeat the last position and are scored at that position." }
         }
         (control_stretches(review).shown())
         (files(review).shown())
-        p.note { "This report is computed from the telemetry and the two files by the scorer's code. The same three files always produce the same report." }
+        p.note { "This report is computed from the telemetry, the scenario file and the aircraft file. The same three files always produce the same report." }
     }
 }
 
@@ -57,7 +57,7 @@ fn files(review: &Review) -> Table {
     Table {
         name: "record",
         caption: "session data",
-        columns: vec!["what", "value"],
+        columns: vec!["item", "value"],
         rows: vec![
             row("session", about.folder.clone().into()),
             row("trainee", about.trainee.clone().into()),
@@ -72,9 +72,9 @@ fn files(review: &Review) -> Table {
             row("scorer", concat!("spandrel ", env!("CARGO_PKG_VERSION")).into()),
             row("frames scored", review.frames.len().into()),
             row("MAVLink frames received", TableCell::Number(link.frames as f64, 0)),
-            row("lost on the link", TableCell::Number(link.lost as f64, 0)),
-            row("duplicates", TableCell::Number(link.duplicated as f64, 0)),
-            row("out of order", TableCell::Number(link.reordered as f64, 0)),
+            row("frames lost", TableCell::Number(link.lost as f64, 0)),
+            row("duplicate frames", TableCell::Number(link.duplicated as f64, 0)),
+            row("frames out of order", TableCell::Number(link.reordered as f64, 0)),
         ],
     }
 }

@@ -1,5 +1,5 @@
-//! The data block for the page's script: time series, marks, reference paths and the model. The JSON contains no `<`, so that it
-//! cannot end its element.
+//! The data block for the page's script: time series, marks, reference paths and the 3D model. The JSON contains no `<`, so that
+//! it cannot end the surrounding script element.
 
 use crate::report::Review;
 use crate::report::assets::base64;
@@ -9,16 +9,16 @@ use serde_json::{Value, json};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::frames::{Enu, Vec3};
 
-/// Maximum sampling rate, Hz.
+/// Maximum sampling rate of the time series, Hz.
 const RATE_HZ: f64 = 10.0;
-/// Maximum number of samples.
+/// Maximum number of samples in a time series.
 const MOST: usize = 15_000;
-/// Ground samples along each side of the model.
+/// Number of terrain samples along each side of the 3D model.
 const GROUND: usize = 72;
-/// Offset of a defect's mark from its surface, so that it is not visible from the other side, m.
+/// Offset of a defect's mark from the surface along the normal, m. It keeps the mark invisible from the other side.
 const BEFORE_M: f64 = 0.5;
 
-/// Returns the data block of a session.
+/// Returns the data block of a session report as JSON.
 #[must_use]
 pub fn data(review: &Review) -> String {
     let block = json!({
@@ -38,7 +38,7 @@ pub fn data(review: &Review) -> String {
     closed(&block.to_string())
 }
 
-/// Returns the data block of a comparison: the time series of both flights, and the events at which they can be aligned.
+/// Returns the data block of a comparison as JSON: the time series of both flights and the events at which they can be aligned.
 #[must_use]
 pub fn comparison(both: [&Review; 2], line_ups: &[AlignmentEvent]) -> String {
     let flight = |k: usize| {
@@ -57,13 +57,13 @@ pub fn comparison(both: [&Review; 2], line_ups: &[AlignmentEvent]) -> String {
 /// An event in both flights at which their times can be aligned.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AlignmentEvent {
-    /// Display name.
+    /// Name of the event, shown in the alignment menu.
     pub name: String,
     /// Time of the event in each flight, s since lift-off.
     pub at_s: [f64; 2],
 }
 
-/// Returns lift-off and, for flights of the same job, the entry into each task that both entered.
+/// Returns lift-off and, if both flights are of the same job, the start of each task that both entered.
 #[must_use]
 pub fn line_ups(both: [&Review; 2], same_job: bool) -> Vec<AlignmentEvent> {
     let mut found = vec![AlignmentEvent { name: "lift-off".into(), at_s: [0.0, 0.0] }];
@@ -75,7 +75,7 @@ pub fn line_ups(both: [&Review; 2], same_job: bool) -> Vec<AlignmentEvent> {
     found
 }
 
-/// Escapes JSON so that it cannot end its element.
+/// Escapes `<` in JSON, so that the text cannot end the surrounding script element.
 fn closed(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
@@ -107,7 +107,7 @@ fn mesh(mesh: &QuantizedMesh) -> Value {
         "triangles": base64(&bytes(&mesh.triangles)) })
 }
 
-/// Returns terrain heights over a square around the origin, row by row from the southwest, m.
+/// Returns terrain heights over a square around the origin, row by row from the southwest corner, m.
 fn ground(review: &Review) -> Value {
     let half = 0.5 * review.scenario.terrain.size_m;
     let coordinate = |k: usize| -half + 2.0 * half * k as f64 / (GROUND - 1) as f64;
@@ -121,14 +121,14 @@ fn place(point: Vec3<Enu>) -> [Value; 3] {
     point.array().map(|value| rounded(value, 2))
 }
 
-/// Rounds a value to the digits needed for drawing.
+/// Rounds a value to `digits` decimals (0 to 2), which keeps the data block small.
 fn rounded(value: f64, digits: i32) -> Value {
     let scale = match digits {
         0 => 1.0,
         1 => 10.0,
         _ => 100.0,
     };
-    // JSON has no NaN or infinity; they become null.
+    // JSON cannot represent NaN or infinity; both become null.
     json!((value * scale).round() / scale)
 }
 

@@ -62,9 +62,9 @@ pub fn scores(review: &Review) -> Markup {
         .map(|(name, score)| RadarAxis { name, values: vec![score.map(|score| score.pct)] })
         .collect();
     html! {
-        p { (review.assessment.completion.headline()) "." @if !review.assessment.completion.complete { " The scores below are for the part that was flown." } }
+        p { (review.assessment.completion.headline()) "." @if !review.assessment.completion.complete { " The scores below cover only the part that was flown." } }
         div.split {
-            (figure("The four scores, 0 at the center, 100 at the rim", &radar(&spokes, "Radar chart of the four scores")))
+            (figure("The four scores, 0 at the center, 100 at the edge", &radar(&spokes, "Radar chart of the four scores")))
             div.cards {
                 @for (name, score) in scores_by_name(scores) {
                     div.card {
@@ -79,7 +79,7 @@ pub fn scores(review: &Review) -> Markup {
     }
 }
 
-/// Returns the scores in the order of the diagram.
+/// Returns the name and value of the four scores, in the order of the diagram.
 pub fn scores_by_name(scores: &Scores) -> [(&'static str, Option<Score>); 4] {
     [
         ("Conformity", scores.conformity),
@@ -96,7 +96,7 @@ fn end_reason_text(review: &Review, name: &str) -> String {
         "Efficiency" => {
             let best = words::duration(review.scenario.scoring.time_best_s);
             if assessment.end.battery_failed {
-                "did not land at home before the battery or time ran out".into()
+                "did not land near the ground team before the battery or time ran out".into()
             } else {
                 format!("{} of flight; full score up to {best}", words::duration(assessment.end.seconds))
             }
@@ -107,14 +107,14 @@ fn end_reason_text(review: &Review, name: &str) -> String {
                 (0, 0) => "no contacts".into(),
                 (0, 1) => "1 contact, 3 points".into(),
                 (0, other) => format!("{other} contacts, 3 points each"),
-                _ => "a person or a vehicle was hit: all points are lost".into(),
+                _ => "a person or vehicle was hit: 0 points".into(),
             }
         }
         _ if assessment.scores.accuracy.is_none() => "no defects in this job".into(),
         _ => {
             let s = &assessment.snapshots;
             format!(
-                "{} of {} defects found; {} of {} pictures showed a new one",
+                "{} of {} defects found; {} of {} pictures showed a new defect",
                 s.defects_found, s.defects_placed, s.hits, s.taken
             )
         }
@@ -126,7 +126,7 @@ fn conformity(review: &Review) -> String {
     let Some(worst) = tasks.iter().min_by(|a, b| a.on_path.total_cmp(&b.on_path)) else { return "no tasks in this job".into() };
     let skipped = tasks.iter().filter(|task| !task.attempted).count();
     if skipped == tasks.len() {
-        return "no task attempted (the paper's formula yields 50)".into();
+        return "no task attempted (the TASBID formula then gives 50)".into();
     }
     if skipped > 0 {
         return format!("{skipped} of {} tasks not attempted", tasks.len());

@@ -1,4 +1,4 @@
-//! Surface coverage by element: what the pictures show, and why the rest does not count.
+//! Surface coverage by element: the area that the pictures show well, and why the rest does not count.
 
 use super::{figure, legend};
 use crate::report::Review;
@@ -9,31 +9,31 @@ use crate::report::words;
 use maud::{Markup, html};
 use spandrel_model::site::visibility::INCIDENCE_MAX_RAD;
 
-/// Maximum number of reasons in the summary.
+/// Maximum number of reasons named in the summary.
 const REASONS: usize = 3;
-/// Minimum fraction of the surface for a reason to be listed.
+/// Minimum fraction of the inspectable surface at which a reason is named.
 const LEAST_SHARE: f64 = 0.01;
 
-/// Renders the section.
+/// Renders the "Coverage" section of a session report.
 pub fn section(review: &Review) -> Markup {
     let total = review.coverage.total();
     if total.inspectable_m2 <= 0.0 {
-        return html! { p.calm { "No bridge surface can be inspected from a reference path: all of it is beyond the camera's range." } };
+        return html! { p.calm { "No bridge surface can be inspected from the reference paths; all surfaces are beyond the camera's range." } };
     }
     let share = |area: f64| words::number(100.0 * area / total.inspectable_m2, 0);
     let key: Vec<(&str, String)> = SurfaceOutcome::ALL.map(|fate| (fate.class(), fate.name().to_owned())).to_vec();
     html! {
         p { "Of " (words::number(total.inspectable_m2, 0)) " m² that can be inspected from the reference paths, pictures show "
             b { (share(total.area_m2(SurfaceOutcome::Shown))) " %" } " well enough." @if let Some(why) = lacking(&total) { " The rest: " (why) "." } }
-        p.note { "Surface is inspectable if it is visible from some point of a reference path at " (words::number(1000.0 * REQUIRED_GSD_M, 2))
-            " mm per pixel or finer (a crack of 1.27 mm, the limit between condition states 2 and 3, then covers half a pixel; with this camera that is "
+        p.note { "A surface is inspectable if it is visible from at least one point of a reference path at " (words::number(1000.0 * REQUIRED_GSD_M, 2))
+            " mm per pixel or finer (a 1.27 mm crack, the limit between condition states 2 and 3, then covers half a pixel; with this camera, this corresponds to a distance of "
             (words::number(reach_m(&review.vehicle.camera), 1)) " m) and at most "
-            (words::number(INCIDENCE_MAX_RAD.to_degrees(), 0)) "° from normal. It is shown well if a picture has that size and angle, enough light (including the lamp) for an exposure within the camera's limits, and at most "
-            (words::number(BLUR_MAX_PX, 0)) " px of motion blur. The best of several pictures counts." }
+            (words::number(INCIDENCE_MAX_RAD.to_degrees(), 0)) "° from normal. It is shown well if a picture meets these limits, has enough light (including the lamp) for an exposure within the camera's limits, and has at most "
+            (words::number(BLUR_MAX_PX, 0)) " px of motion blur. If several pictures show the same surface, the best one counts." }
         (figure("Coverage of each element's inspectable surface", &html! {
             (legend(&key))
             div.split {
-                // Splits the rows into two columns of about equal length.
+                // Distributes the rows over two columns of about equal length.
                 @let rows = rows(&review.coverage);
                 @let (left, right) = rows.split_at(rows.len().div_ceil(2));
                 (stacks(left, "Surface coverage by element"))
@@ -44,7 +44,7 @@ pub fn section(review: &Review) -> Markup {
     }
 }
 
-/// Describes the main reasons why surface is not shown well; `None` if almost nothing is left.
+/// Returns the main reasons why surface is not shown well; `None` if each is below [`LEAST_SHARE`].
 fn lacking(total: &ElementSurface) -> Option<String> {
     let share = |fate: &SurfaceOutcome| total.area_m2(*fate) / total.inspectable_m2;
     let mut rest: Vec<SurfaceOutcome> =
@@ -96,14 +96,14 @@ fn table(coverage: &SurfaceCoverage) -> Table {
         "too far, m²",
         "in view, no picture, m²",
         "never in view, m²",
-        "pixel, mm",
+        "pixel size, mm",
         "angle from normal, deg",
         "light, lx",
         "motion blur, px",
     ]);
     Table {
         name: "coverage",
-        caption: "surface coverage, and average values of the pictures at the required size and angle",
+        caption: "surface coverage; pixel size, angle, light and blur are averages over pictures at the required resolution and angle",
         columns,
         rows,
     }
@@ -131,7 +131,7 @@ mod tests {
             assert_eq!(table.columns[3 + k], format!("{}, m²", fate.name()));
         }
         assert!(table.rows.iter().all(|row| row.len() == table.columns.len()));
-        assert_eq!(table.rows[1][6], TableCell::Number(35.0, 1), "the sum of one is itself");
+        assert_eq!(table.rows[1][6], TableCell::Number(35.0, 1), "the total of a single element equals that element");
         let all = ElementSurface {
             inspectable_m2: 1.0,
             by_fate_m2: [(SurfaceOutcome::Shown, 1.0)].into(),

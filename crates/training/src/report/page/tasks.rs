@@ -1,4 +1,4 @@
-//! Results by task: on-path share, speeding, crashes by kind.
+//! Results by task: on-path share, speeding, and crashes by object.
 
 use super::{figure, legend};
 use crate::report::Review;
@@ -9,7 +9,7 @@ use maud::{Markup, html};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_monitor::score::completion::TaskState;
 
-/// Crash kinds in the order of the bars.
+/// Object hit and CSS class, in the order of the bars.
 const KINDS: [(ContactKind, &str); 6] = [
     (ContactKind::Bridge, "k-bridge"),
     (ContactKind::Terrain, "k-terrain"),
@@ -19,7 +19,7 @@ const KINDS: [(ContactKind, &str); 6] = [
     (ContactKind::Person, "k-grave"),
 ];
 
-/// Renders the section.
+/// Renders the "Tasks" section of a session report.
 pub fn section(review: &Review) -> Markup {
     let done_share = review.assessment.completion.done_share;
     html! {
@@ -58,7 +58,7 @@ fn rows(review: &Review) -> Vec<ShareRow> {
 fn state(task: &spandrel_monitor::assessment::TaskResult) -> &'static str {
     match task.state {
         TaskState::Done => "done",
-        TaskState::Part => "part",
+        TaskState::Part => "partly flown",
         TaskState::NotAttempted => "not attempted",
     }
 }

@@ -7,10 +7,10 @@ use spandrel_model::frames::Vec3;
 use spandrel_model::scenario::{Bridge, Scenario};
 use spandrel_model::site::Site;
 
-/// Sampling interval of lake and ground, m.
+/// Distance between samples of water and ground, m.
 const GROUND_STEP_M: f64 = 5.0;
 
-/// Draws the water in plan view, in strips between its shores.
+/// Draws the water in plan view as horizontal strips between the shores.
 pub(super) fn lake(scenario: &Scenario, site: &Site, map: &PlotMap) -> Markup {
     let terrain = &scenario.terrain;
     let half = 0.5 * terrain.size_m;
@@ -54,7 +54,7 @@ fn crossing(a: (f64, f64), b: (f64, f64)) -> f64 {
     if (a.1 > 0.0) == (b.1 > 0.0) { b.0 } else { a.0 + (b.0 - a.0) * a.1 / (a.1 - b.1) }
 }
 
-/// Draws the ground under a bridge's axis, and the water.
+/// Draws a bridge's side view background: the ground below the bridge axis and the water.
 pub(super) fn ground(scenario: &Scenario, site: &Site, map: &PlotMap, bridge: &Bridge) -> Markup {
     let axis = map.view.right;
     let middle = map.view.at(bridge.centre_m).0;

@@ -1,4 +1,4 @@
-//! Bar charts: fractions of a whole, and counts by kind, in rows.
+//! Bar charts in rows: fractions of a whole, and counts by kind.
 
 use super::{sheet, unit};
 use crate::report::words;
@@ -9,24 +9,24 @@ const LEFT: f64 = 4.0;
 const RIGHT: f64 = 372.0;
 const BAR: f64 = 14.0;
 
-/// A row of fractions.
+/// A row of bars that show fractions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShareRow {
-    /// Label.
+    /// Label shown above the row.
     pub name: String,
-    /// Bars in the row, from top to bottom: style and fraction, 0 to 1.
+    /// CSS class and fraction (0 to 1) of each bar, from top to bottom.
     pub bars: Vec<(&'static str, f64)>,
-    /// Text shown if there are no bars.
+    /// Text shown instead of the bars, such as "not attempted".
     pub instead: Option<&'static str>,
 }
 
-/// Returns the length of a bar for a fraction of `full`.
+/// Returns the length of the bar for `share` on an axis that ends at `full`, in drawing units.
 #[must_use]
 pub fn length(share: f64, full: f64) -> f64 {
     if full > 0.0 { (RIGHT - LEFT) * (share / full).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// Draws rows of fractions, each label above its bars.
+/// Draws rows of fractions with the label above the bars of each row.
 #[must_use]
 pub fn shares(rows: &[ShareRow], title: &str) -> Markup {
     let mut y = 4.0;
@@ -57,12 +57,12 @@ pub fn shares(rows: &[ShareRow], title: &str) -> Markup {
     )
 }
 
-/// A row of counts, one segment per kind.
+/// A row of counts with one segment per kind.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CountRow {
-    /// Label.
+    /// Label shown above the row.
     pub name: String,
-    /// Style and count, from left to right.
+    /// CSS class and count of each segment, from left to right.
     pub kinds: Vec<(&'static str, usize)>,
 }
 
@@ -91,16 +91,17 @@ pub fn counts(rows: &[CountRow], title: &str) -> Markup {
     )
 }
 
-/// A whole and its parts.
+/// A bar that shows a whole and its parts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StackedBar {
-    /// Label.
+    /// Label shown above the row.
     pub name: String,
-    /// Style and fraction of the whole, 0 to 1, from left to right. The first is also shown as a number.
+    /// CSS class of each part and its fraction of the whole (0 to 1), from left to right. The first fraction is also shown as a
+    /// number.
     pub parts: Vec<(&'static str, f64)>,
 }
 
-/// Draws stacked bars of equal length.
+/// Draws stacked bars, all of the same length.
 #[must_use]
 pub fn stacks(rows: &[StackedBar], title: &str) -> Markup {
     sheet(
@@ -122,7 +123,7 @@ pub fn stacks(rows: &[StackedBar], title: &str) -> Markup {
     )
 }
 
-/// Returns style, offset and length of each nonempty part.
+/// Returns CSS class, offset and length of each nonempty part.
 fn parts(parts: &[(&'static str, f64)]) -> Vec<(&'static str, f64, f64)> {
     let mut before = 0.0;
     let mut out = Vec::new();
@@ -154,7 +155,7 @@ mod tests {
         let row = CountRow { name: "a".into(), kinds: vec![("x", 2), ("y", 0), ("z", 3)] };
         assert_eq!(parts(&[("x", 2.0), ("y", 0.0), ("z", 3.0)]), [("x", 0.0, 2.0), ("z", 2.0, 3.0)]);
         let figure = counts(&[row], "t").into_string();
-        assert!(figure.contains("class=\"z\" x=\"151.2\""), "two of five along 368 from 4: {figure}");
+        assert!(figure.contains("class=\"z\" x=\"151.2\""), "bar of 5 counts is 368 wide and starts at 4: {figure}");
     }
 
     #[test]

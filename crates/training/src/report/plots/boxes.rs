@@ -16,7 +16,7 @@ const HALF: f64 = 15.0;
 pub struct NamedBox<'a> {
     /// Label below the box.
     pub name: String,
-    /// Box plot data.
+    /// Values that the box plot shows.
     pub plot: &'a BoxPlot,
 }
 
@@ -27,10 +27,10 @@ pub fn y_of(value: f64, (low, high): (f64, f64)) -> f64 {
     BOTTOM - (BOTTOM - TOP) * share.clamp(0.0, 1.0)
 }
 
-/// Draws boxes on a scale from 0 to `most`.
+/// Draws box plots on a vertical scale from 0 to `most`.
 #[must_use]
 pub fn boxes(named: &[NamedBox<'_>], most: f64, title: &str) -> Markup {
-    // A few boxes are drawn at the same size as many.
+    // Keeps a minimum width, so that a few boxes are not enlarged.
     let width = LEFT + STEP * named.len().max(5) as f64 + 10.0;
     let y = |value: f64| y_of(value, (0.0, most));
     sheet(
@@ -51,7 +51,7 @@ pub fn boxes(named: &[NamedBox<'_>], most: f64, title: &str) -> Markup {
                     (line(&[(x - 7.0, y(b.low_whisker)), (x + 7.0, y(b.low_whisker))], false))
                 } {}
                 rect.box x=(unit(x - HALF)) y=(unit(y(b.q3))) width=(unit(2.0 * HALF)) height=(unit((y(b.q1) - y(b.q3)).max(1.0))) {
-                    title { (one.name) ": median " (words::number(b.median, 1)) ", quartiles " (words::number(b.q1, 1)) " to " (words::number(b.q3, 1)) ", " (b.n) " people" }
+                    title { (one.name) ": median " (words::number(b.median, 1)) ", quartiles " (words::number(b.q1, 1)) " to " (words::number(b.q3, 1)) ", " (b.n) " trainees" }
                 }
                 path.median d=(line(&[(x - HALF, y(b.median)), (x + HALF, y(b.median))], false)) {}
                 path.mean d=(line(&[(x - 4.0, y(b.mean) - 4.0), (x + 4.0, y(b.mean) + 4.0)], false)) {}
@@ -63,7 +63,7 @@ pub fn boxes(named: &[NamedBox<'_>], most: f64, title: &str) -> Markup {
     )
 }
 
-/// Returns the positions of the outliers (ascending) on the sheet, rounded to whole units; overlapping ones are merged.
+/// Returns the vertical positions of the outliers (ascending), rounded to whole units. Duplicates are removed.
 fn places(outliers: &[f64], y: impl Fn(f64) -> f64) -> Vec<String> {
     let mut places: Vec<String> = outliers.iter().map(|value| unit(y(*value).round())).collect();
     places.dedup();

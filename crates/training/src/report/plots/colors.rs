@@ -1,4 +1,4 @@
-//! The track's three color modes: value shown, legend, and segments of equal color.
+//! The flight path's three color modes: the value shown, the legend, and segments of equal color.
 
 use super::map::{PlotMap, TRACK_WITHIN};
 use super::{line, simplified};
@@ -7,25 +7,25 @@ use crate::report::words;
 use spandrel_mavlink::contract::continuity::is_jump;
 use spandrel_mavlink::telemetry::Frame;
 
-/// Limits of the clearance colors, m, from nearest to farthest.
+/// Limits of the clearance colors, m, from the closest to the farthest.
 pub const CLEARANCES_M: [f64; 3] = [1.0, 2.5, 5.0];
 
-/// Color modes of the track: name in the selection, class of the layer.
+/// Color modes of the flight path: label in the selection and CSS class of the layer.
 pub const COLOURINGS: [(&str, &str); 3] = [("on path", "by-path"), ("speed", "by-speed"), ("clearance", "by-clearance")];
 
-/// Returns the track in segments of one color: class and path data, in class order.
+/// Returns the flight path of one color mode: CSS class and path data of each color, in class order.
 pub(super) fn track(review: &Review, map: &PlotMap, layer: usize, shown: &dyn Fn(&Frame) -> bool) -> Vec<(&'static str, String)> {
     let names = classes(layer);
     let pieces = pieces(review, map, names.len(), &|i| class_of(review, i, layer), shown);
     names.iter().copied().zip(pieces).filter(|(_, data)| !data.is_empty()).collect()
 }
 
-/// Returns the whole track in one color.
+/// Returns the path data of the whole flight path in a single color.
 pub(super) fn plain_color(review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> bool) -> String {
     pieces(review, map, 1, &|_| 0, shown).swap_remove(0)
 }
 
-/// Returns whether the drone was respawned between two frames.
+/// Returns whether the drone was respawned between two consecutive frames.
 fn jumped(before: &Frame, next: &Frame) -> bool {
     let step_m = (next.position_m - before.position_m).norm();
     is_jump(step_m, before.velocity_m_s.norm().max(next.velocity_m_s.norm()), next.time - before.time)
@@ -58,7 +58,7 @@ fn pieces(
         let now = colour_of(i);
         let here = map.at(frame.position_m);
         if now != colour {
-            // The step between two colors belongs to the segment that ends.
+            // The line between two points of different colors gets the first point's color.
             if !run.is_empty() {
                 run.push(here);
             }
@@ -71,7 +71,7 @@ fn pieces(
     pieces
 }
 
-/// Returns the classes of a color mode, in legend order.
+/// Returns the CSS classes of a color mode, in legend order.
 #[must_use]
 pub fn classes(layer: usize) -> &'static [&'static str] {
     match layer {
@@ -81,7 +81,7 @@ pub fn classes(layer: usize) -> &'static [&'static str] {
     }
 }
 
-/// Returns the legend texts of a color mode, in class order.
+/// Returns the legend of a color mode, in class order.
 #[must_use]
 pub fn legend(layer: usize, limit_m_s: f64) -> Vec<String> {
     let speed = |share: f64| words::number(share * limit_m_s, 1);
@@ -89,19 +89,25 @@ pub fn legend(layer: usize, limit_m_s: f64) -> Vec<String> {
         0 => vec!["between tasks".into(), "on the path".into(), "off path during a task".into()],
         1 => vec![
             format!("up to {} m/s", speed(0.25)),
-            format!("to {}", speed(0.5)),
-            format!("to {}", speed(0.75)),
-            format!("to {}", speed(1.0)),
-            format!("above the limit of {} m/s", words::number(limit_m_s, 2)),
+            format!("up to {} m/s", speed(0.5)),
+            format!("up to {} m/s", speed(0.75)),
+            format!("up to {} m/s", speed(1.0)),
+            format!("over the limit of {} m/s", words::number(limit_m_s, 2)),
         ],
         _ => {
             let [a, b, c] = CLEARANCES_M.map(|limit| words::number(limit, 1));
-            vec!["nothing near".into(), format!("over {c} m"), format!("to {c} m"), format!("to {b} m"), format!("under {a} m")]
+            vec![
+                "nothing nearby".into(),
+                format!("over {c} m"),
+                format!("{b} to {c} m"),
+                format!("{a} to {b} m"),
+                format!("under {a} m"),
+            ]
         }
     }
 }
 
-/// Returns the index into [`classes`] for a frame.
+/// Returns the index into [`classes`] of a frame's color.
 fn class_of(review: &Review, i: usize, layer: usize) -> usize {
     let frame = &review.frames[i];
     match layer {
@@ -115,7 +121,7 @@ fn class_of(review: &Review, i: usize, layer: usize) -> usize {
     }
 }
 
-/// Returns the speed class: quarters of the limit, then strictly above it, as in the score.
+/// Returns the color index of a speed: one for each quarter of the limit, and one for speeds strictly above it, as in the score.
 fn speed_class(speed_m_s: f64, limit_m_s: f64) -> usize {
     if speed_m_s > limit_m_s { 4 } else { ((speed_m_s / limit_m_s * 4.0).ceil() as usize).clamp(1, 4) - 1 }
 }

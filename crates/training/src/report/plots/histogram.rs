@@ -11,7 +11,7 @@ const RIGHT: f64 = 290.0;
 const TOP: f64 = 8.0;
 const BOTTOM: f64 = 122.0;
 
-/// Draws the bins side by side.
+/// Draws the bins as bars and the mean as a vertical line.
 #[must_use]
 pub fn histogram(bins: &[HistogramBin], mean: f64, title: &str) -> Markup {
     let (from, to) = (bins.first().map_or(0.0, |bin| bin.from), bins.last().map_or(1.0, |bin| bin.to));
@@ -23,7 +23,7 @@ pub fn histogram(bins: &[HistogramBin], mean: f64, title: &str) -> Markup {
         title,
         "histogram",
         &html! {
-            // Counts are integers, so fractional ticks are skipped.
+            // Counts are integers, so fractional ticks are omitted.
             @for tick in ticks(most, 4).into_iter().filter(|tick| tick.fract() == 0.0) {
                 path.grid d=(line(&[(LEFT, y(tick)), (RIGHT, y(tick))], false)) {}
                 text.tick x=(unit(LEFT - 5.0)) y=(unit(y(tick) + 4.0)) text-anchor="end" { (words::number(tick, 0)) }

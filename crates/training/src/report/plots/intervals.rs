@@ -1,4 +1,4 @@
-//! Estimates with their intervals, in rows around a zero line.
+//! Estimates with their confidence intervals, one per row, with a line at zero.
 
 use super::{line, sheet, ticks, unit};
 use crate::report::words;
@@ -8,21 +8,21 @@ const WIDTH: f64 = 620.0;
 const LEFT: f64 = 220.0;
 const RIGHT: f64 = 600.0;
 const ROW: f64 = 34.0;
-/// Margin beyond the outermost value, as a fraction of the axis.
+/// Margin beyond the outermost values, as a fraction of their range.
 const ROOM: f64 = 0.08;
 
-/// An estimate with its interval.
+/// An estimate with its confidence interval.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IntervalEstimate {
-    /// Label.
+    /// Label at the left of the row.
     pub name: String,
-    /// Point estimate.
+    /// Estimated value, shown as a dot.
     pub value: f64,
-    /// Interval, if there is one.
+    /// Lower and upper end of the interval, if one could be computed.
     pub interval: Option<[f64; 2]>,
 }
 
-/// Returns the ends of the axis, which covers all estimates, their intervals and zero, with a margin.
+/// Returns the ends of the axis: the range of all estimates, their intervals and zero, plus a margin.
 #[must_use]
 pub fn ends(estimates: &[IntervalEstimate]) -> (f64, f64) {
     let all = estimates.iter().flat_map(|one| [Some(one.value), one.interval.map(|i| i[0]), one.interval.map(|i| i[1])]);
@@ -31,13 +31,13 @@ pub fn ends(estimates: &[IntervalEstimate]) -> (f64, f64) {
     (low - room, high + room)
 }
 
-/// Returns the horizontal position of a value between the ends.
+/// Returns the horizontal position of a value on an axis with these ends.
 #[must_use]
 pub fn x_of(value: f64, (low, high): (f64, f64)) -> f64 {
     LEFT + (RIGHT - LEFT) * if high > low { ((value - low) / (high - low)).clamp(0.0, 1.0) } else { 0.5 }
 }
 
-/// Draws all estimates on one axis labeled `axis`.
+/// Draws all estimates on a common axis with the label `axis`.
 #[must_use]
 pub fn intervals(estimates: &[IntervalEstimate], axis: &str, title: &str) -> Markup {
     let ends = ends(estimates);
@@ -89,7 +89,7 @@ mod tests {
         assert_eq!((x_of(-4.4, ends(&all)), x_of(1.4, ends(&all))), (220.0, 600.0));
         let figure = intervals(&all, "points", "t").into_string();
         assert_eq!((figure.matches("class=\"whisker\"").count(), figure.matches("<circle").count()), (2, 3));
-        assert_eq!(figure.matches("class=\"grid\"").count(), 3, "-4, -2 and 0 once, none beyond the ends: {figure}");
+        assert_eq!(figure.matches("class=\"grid\"").count(), 3, "one tick each at -4, -2 and 0, none beyond the ends: {figure}");
         assert!(figure.contains("class=\"zero\"") && figure.contains("&lt;a&gt;"), "{figure}");
         assert_eq!(ends(&[estimate(0.0, None)]), (-1.0, 1.0));
         assert_eq!(ends(&[]), (-1.0, 1.0));

@@ -1,4 +1,4 @@
-//! Drawings of a job without a flight, for the scenario page and as the background of the live page.
+//! Drawings of a job without a flight, used on the scenario page and as the background of the live page.
 
 use super::backdrop::{ground, lake};
 use super::map::{PlotMap, extent, label_distance, north, pad, references, scale, structure};
@@ -9,12 +9,12 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{Bridge, Scenario};
 use spandrel_model::site::Site;
 
-/// Margin around a bridge in its side view, m.
+/// Margin beyond each end of a bridge in its side view, m.
 const BESIDE_M: f64 = 25.0;
-/// Margin above a bridge, m, so that a drone above the deck stays on the sheet.
+/// Margin above a bridge, m, so that a drone above the deck is inside the drawing.
 const ABOVE_M: f64 = 15.0;
 
-/// Draws the plan view, north up.
+/// Draws the plan view with north up.
 #[must_use]
 pub fn job_plan(scenario: &Scenario, site: &Site) -> Markup {
     let map = PlotMap::around(ParallelView::plan(), &extent(scenario, site));
@@ -78,8 +78,8 @@ pub fn job_south(scenario: &Scenario, site: &Site) -> Markup {
     sheet(map.size, "The job from the south", "map", &body)
 }
 
-/// Renders the drone and its trail, which a script moves. Hidden until the script runs, and in the side views of bridges that it
-/// is not near.
+/// Draws the drone and its trail, which a script moves. They are hidden until the script runs; in a bridge's side view, they are
+/// also hidden while the drone is far from that bridge.
 fn drone(map: &PlotMap, bridge: Option<&Bridge>) -> Markup {
     html! {
         path.trail data-matrix=(map.matrix()) data-near=[bridge.map(label_distance)] d="" {}
@@ -107,8 +107,8 @@ mod tests {
         for bridge in &scenario.bridges {
             let side = job_side(&scenario, &site, bridge).into_string();
             assert!(side.contains("class=\"ground\"") && side.contains("data-matrix"));
-            assert_eq!(side.matches("data-near=").count(), 2, "drone and trail belong to flights near this bridge");
-            assert!(side.matches("reference path of task").count() < 4, "only those at this bridge");
+            assert_eq!(side.matches("data-near=").count(), 2, "drone and trail are limited to this bridge");
+            assert!(side.matches("reference path of task").count() < 4, "only the paths at this bridge");
         }
         let (scenario, site) = job(include_str!("../../../../../scenarios/drill-hover.toml"));
         assert!(job_south(&scenario, &site).into_string().contains("data-matrix"));

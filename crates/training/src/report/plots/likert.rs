@@ -1,16 +1,16 @@
-//! Likert charts: diverging bars centered on "neutral", with agreement to the left and disagreement to the right.
+//! Likert charts: bars centered on "neutral", with agreement to the left and disagreement to the right.
 
 use super::{sheet, unit};
 use maud::{Markup, html};
 
 const WIDTH: f64 = 640.0;
 const MIDDLE: f64 = 320.0;
-/// Width of 100 % in sheet units. A row with full agreement still fits on the sheet.
+/// Width of 100 %, in drawing units. A row with full agreement fits on the left half.
 const WHOLE: f64 = 300.0;
-/// Height of a question with its bar; multi-line names add to it.
+/// Height of a question with its bar, in drawing units; additional lines of text increase it.
 const ROW: f64 = 42.0;
 const LINE: f64 = 15.0;
-/// Maximum characters per line of a name (wide sans-serif at the label size).
+/// Maximum number of characters per line of text (for a wide sans-serif font at the label size).
 const LINE_CHARACTERS: usize = 84;
 
 /// A question with its answer counts.
@@ -22,7 +22,7 @@ pub struct LikertQuestion {
     pub counts: [usize; 5],
 }
 
-/// Returns left end and width of each answer's bar, from strongly agree to strongly disagree.
+/// Returns the left end and width of each answer's bar, from strongly agree to strongly disagree.
 #[must_use]
 pub fn bars(counts: [usize; 5]) -> [(f64, f64); 5] {
     let n = counts.iter().sum::<usize>().max(1) as f64;
@@ -35,7 +35,7 @@ pub fn bars(counts: [usize; 5]) -> [(f64, f64); 5] {
     })
 }
 
-/// Wraps a name into lines that fit.
+/// Wraps a question's text into lines.
 fn lines(name: &str) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in name.split_whitespace() {
@@ -112,7 +112,7 @@ mod tests {
         let figure = likert(&[question(&long), question("short")], "t").into_string();
         assert!(
             figure.contains(r#"y="49""#) && figure.contains(r#"y="91""#),
-            "bars below the third line and in the row after: {figure}"
+            "bars are below the third line and in the next row: {figure}"
         );
     }
 }

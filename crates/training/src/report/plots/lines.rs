@@ -12,29 +12,29 @@ const BOTTOM: f64 = 206.0;
 /// Number of line colors.
 const COLOURS: usize = 4;
 
-/// A line of the chart.
+/// A line in the chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChartLine {
-    /// Label.
+    /// Name of the score or task.
     pub name: String,
-    /// Style number from 1. Styles above 4 repeat the colors with dashed lines.
+    /// Style number from 1. Styles above 4 use the same colors with dashed lines.
     pub style: usize,
-    /// Value for each session; `None` where it does not apply.
+    /// Value for each session; `None` if the score does not apply.
     pub values: Vec<Option<f64>>,
 }
 
-/// Returns the position of a value out of `most` in session `k` of `count` (from 0).
+/// Returns the position of a value in session `k` (from 0) of `count`; `most` is the maximum value.
 #[must_use]
 pub fn place(k: usize, count: usize, value: f64, most: f64) -> (f64, f64) {
     let share = if count > 1 { k as f64 / (count - 1) as f64 } else { 0.5 };
     (LEFT + 14.0 + (RIGHT - LEFT - 28.0) * share, BOTTOM - (BOTTOM - TOP) * (value / most).clamp(0.0, 1.0))
 }
 
-/// Draws lines from 0 to `most`, with session numbers below.
+/// Draws the lines on a vertical scale from 0 to `most`, with session numbers below.
 #[must_use]
 pub fn lines(lines: &[ChartLine], most: f64, title: &str) -> Markup {
     let count = lines.iter().map(|line| line.values.len()).max().unwrap_or(0);
-    // With many sessions, only some are numbered.
+    // If there are many sessions, only some are numbered.
     let step = count.div_ceil(12).max(1);
     sheet(
         SIZE,
@@ -59,7 +59,7 @@ pub fn lines(lines: &[ChartLine], most: f64, title: &str) -> Markup {
     )
 }
 
-/// Returns the color of a style, 1 to 4.
+/// Returns the color number of a style, 1 to 4.
 #[must_use]
 pub fn colour(style: usize) -> usize {
     (style.max(1) - 1) % COLOURS + 1

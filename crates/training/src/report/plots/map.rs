@@ -1,5 +1,5 @@
-//! The flight on the site in a parallel projection: member silhouettes, reference paths, the track in one of three color modes,
-//! marks for pictures, crashes and defects, and the drone, which the page's slider moves.
+//! The flight on the site in a parallel projection: silhouettes of members, reference paths, the flight path in one of three
+//! color modes, marks for pictures, crashes and defects, and the drone, which the page's slider moves.
 
 use super::backdrop::{ground, lake};
 use super::colors::{COLOURINGS, track};
@@ -13,35 +13,35 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{Bridge, Scenario, Task};
 use spandrel_model::site::Site;
 
-/// Width of the sheet.
+/// Width of a drawing, in drawing units.
 const WIDTH: f64 = 900.0;
 const MARGIN: f64 = 26.0;
-/// Minimum and maximum height of the sheet.
+/// Minimum and maximum height of a drawing, in drawing units.
 const HEIGHTS: (f64, f64) = (110.0, 760.0);
-/// Minimum size on the sheet; smaller shapes are skipped.
+/// Minimum size of a shape, in drawing units; smaller shapes are omitted.
 const LEAST: f64 = 1.6;
-/// Tolerance for simplifying a track, in sheet units.
+/// Tolerance for simplifying a flight path, in drawing units.
 pub(super) const TRACK_WITHIN: f64 = 0.35;
-/// Frames farther to the side of a bridge than this are not drawn in its elevation, m.
+/// Maximum distance of a frame from a bridge's axis at which it is drawn in the bridge's side view, m.
 const BESIDE_M: f64 = 45.0;
-/// With more pictures than this, their marks are small and unnumbered.
+/// Number of pictures above which their marks are small and unnumbered.
 const MANY: usize = 40;
 
-/// A projection fitted to a sheet.
+/// A projection scaled to the size of a drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlotMap {
-    /// The projection.
+    /// Projection of site coordinates to the drawing.
     pub view: ParallelView,
-    /// Upper left corner of the drawing, m right and up.
+    /// Upper left corner of the drawing in the projection, m right and up.
     pub(super) corner_m: (f64, f64),
-    /// Sheet units per meter.
+    /// Drawing units per meter.
     pub(super) scale: f64,
-    /// Size of the sheet, in sheet units.
+    /// Width and height, in drawing units.
     pub size: (f64, f64),
 }
 
 impl PlotMap {
-    /// Fits a projection to points.
+    /// Creates a map that contains all of the points.
     #[must_use]
     pub fn around(view: ParallelView, points_m: &[Vec3<Enu>]) -> Self {
         let flat: Vec<(f64, f64)> = points_m.iter().map(|point| view.at(*point)).collect();
@@ -53,12 +53,12 @@ impl PlotMap {
         let (wide, tall) = ((right - left).max(10.0), (high - low).max(5.0));
         let scale = ((WIDTH - 2.0 * MARGIN) / wide).min((HEIGHTS.1 - 2.0 * MARGIN) / tall);
         let height = (tall * scale + 2.0 * MARGIN).max(HEIGHTS.0);
-        // Content that does not fill the sheet is centered.
+        // Content that does not fill the drawing is centered.
         let aside = (0.5 * (WIDTH / scale - (right - left)), 0.5 * (height / scale - (high - low)));
         Self { view, corner_m: (left - aside.0, high + aside.1), scale, size: (WIDTH, height) }
     }
 
-    /// Returns the position of a site point on the sheet.
+    /// Returns the position of a site point in the drawing.
     #[must_use]
     pub fn at(&self, point_m: Vec3<Enu>) -> (f64, f64) {
         self.on_sheet(self.view.at(point_m))
@@ -77,7 +77,7 @@ impl PlotMap {
     }
 }
 
-/// Draws the plan view.
+/// Draws the plan view of a flight.
 #[must_use]
 pub fn plan(review: &Review) -> Markup {
     let map = PlotMap::around(ParallelView::plan(), &everything(review));
@@ -91,7 +91,7 @@ pub fn plan(review: &Review) -> Markup {
     sheet(map.size, "Flight from above, north up", "map", &body)
 }
 
-/// Draws the oblique view.
+/// Draws the oblique view of a flight.
 #[must_use]
 pub fn oblique(review: &Review) -> Markup {
     let map = PlotMap::around(ParallelView::oblique(25.0, 22.0), &everything(review));
@@ -126,8 +126,8 @@ pub fn elevation(review: &Review, bridge: &Bridge) -> Markup {
     )
 }
 
-/// Returns the nearness test for the page's script: east and north of the center and of the bridge axis, and the limits along and
-/// beside it, m.
+/// Returns the values with which the page's script decides whether the drone is near a bridge: east and north of the center and
+/// of the axis, and the limits along and across the bridge, m.
 pub(super) fn label_distance(bridge: &Bridge) -> String {
     let axis = ParallelView::side(bridge).right;
     let half_m = 0.5 * bridge.deck_length_m() + 25.0;
@@ -136,7 +136,7 @@ pub(super) fn label_distance(bridge: &Bridge) -> String {
         .join(" ")
 }
 
-/// Returns a predicate for whether a frame belongs in the side view of this bridge.
+/// Returns a function that decides whether a frame belongs in the side view of this bridge.
 pub(super) fn is_beside(bridge: &Bridge) -> impl Fn(&Frame) -> bool + use<> {
     let (view, centre_m) = (ParallelView::side(bridge), bridge.centre_m);
     let (axis, towards) = (view.right, view.towards());
@@ -147,14 +147,14 @@ pub(super) fn is_beside(bridge: &Bridge) -> impl Fn(&Frame) -> bool + use<> {
     }
 }
 
-/// Fits the side view of a bridge, with room for these frames.
+/// Fits the side view of a bridge, including these frames.
 pub(super) fn beside<'a>(scenario: &Scenario, site: &Site, bridge: &Bridge, flown: impl Iterator<Item = &'a Frame>) -> PlotMap {
     let prefix = format!("{}/", bridge.name);
     let members = site.members().iter().filter(|member| member.name.starts_with(&prefix));
     let mut points: Vec<Vec3<Enu>> = members.flat_map(|member| member.solid.vertices_m.iter().copied()).collect();
     points.extend(flown.map(|frame| frame.position_m));
     let water_m = scenario.terrain.water_level_m;
-    // Deep foundations would make everything else too small.
+    // Deep foundations would make the rest of the drawing too small.
     points.retain(|point| point.up() > water_m - 6.0);
     points.push(Vec3::new(bridge.centre_m.east(), bridge.centre_m.north(), water_m - 4.0));
     PlotMap::around(ParallelView::side(bridge), &points)
@@ -173,7 +173,7 @@ pub fn south_elevation(review: &Review) -> Markup {
     )
 }
 
-/// Draws one bridge with its defects only, found and missed.
+/// Draws one bridge with its defects, found and missed.
 #[must_use]
 pub fn findings(review: &Review, bridge: &Bridge, view: ParallelView, title: &str) -> Markup {
     let prefix = format!("{}/", bridge.name);
@@ -207,7 +207,7 @@ pub(super) fn everything(review: &Review) -> Vec<Vec3<Enu>> {
     all
 }
 
-/// Returns the points that bound a job, above its foundations.
+/// Returns the points that bound a job, without deep foundations.
 pub(super) fn extent(scenario: &Scenario, site: &Site) -> Vec<Vec3<Enu>> {
     let water_m = scenario.terrain.water_level_m;
     let members = site.members().iter().flat_map(|member| member.solid.vertices_m.iter().copied());
@@ -228,7 +228,7 @@ pub(super) fn structure(site: &Site, map: &PlotMap, prefix: Option<&str>) -> Mar
     }
 }
 
-/// Draws reference paths (of one bridge or of all), track, marks, the drone and a scale.
+/// Draws the reference paths (of one bridge, or all), flight path, marks, drone and scale.
 fn job(review: &Review, map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     html! {
         (references(&review.scenario, map, bridge.map(|bridge| bridge.name.as_str())))
@@ -243,7 +243,7 @@ fn job(review: &Review, map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&
     }
 }
 
-/// Draws the reference paths of one bridge, or of all.
+/// Draws the reference paths of one bridge, or all.
 pub(super) fn references(scenario: &Scenario, map: &PlotMap, bridge: Option<&str>) -> Markup {
     let of = |task: &&Task| {
         let own = task.bridge.and_then(|k| scenario.bridges.get(k)).map(|own| own.name.as_str());
@@ -286,7 +286,7 @@ fn marks(review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> bool) -> Mark
     }
 }
 
-/// Draws the landing pad.
+/// Draws a square at the landing pad.
 pub(super) fn pad(scenario: &Scenario, map: &PlotMap) -> Markup {
     let (x, y) = map.at(scenario.ground_team.pad_m);
     html! { g.pad transform={ "translate(" (unit(x)) " " (unit(y)) ")" } { path d="M-6 -6H6V6H-6Z" {} title { "pad" } } }
@@ -326,7 +326,7 @@ mod tests {
             assert!(y >= MARGIN - 1e-9 && y <= map.size.1 - MARGIN + 1e-9, "{y}");
             let m: Vec<f64> = map.matrix().split(' ').map(|value| value.parse().unwrap()).collect();
             let [e, n, u] = point.array();
-            // Four decimal places, over at most 60 m.
+            // The matrix has four decimals, and coordinates are at most 60 m.
             assert!((m[0] * e + m[1] * n + m[2] * u + m[3] - x).abs() < 0.02);
             assert!((m[4] * e + m[5] * n + m[6] * u + m[7] - y).abs() < 0.02);
         }

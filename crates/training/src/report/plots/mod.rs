@@ -1,5 +1,5 @@
-//! Figures as SVG, one file each. Colors are CSS classes, so that light mode, dark mode and print can differ. Sizes are in sheet
-//! units. Every figure has a table with the same data.
+//! Figures in SVG, one file per figure. Colors are CSS classes, so that light mode, dark mode and print can differ. Coordinates
+//! are in drawing units. A table in the report contains the data of every figure.
 
 mod backdrop;
 pub mod bars;
@@ -43,7 +43,7 @@ pub fn line(points: &[(f64, f64)], closed: bool) -> String {
     data
 }
 
-/// Simplifies a polyline: every omitted point is at most `within` from the result (Ramer, Douglas, Peucker).
+/// Simplifies a polyline with the Ramer-Douglas-Peucker algorithm. Every omitted point is at most `within` from the result.
 #[must_use]
 pub fn simplified(points: &[(f64, f64)], within: f64) -> Vec<(f64, f64)> {
     if points.len() < 3 {
@@ -73,7 +73,7 @@ fn away(p: (f64, f64), a: (f64, f64), b: (f64, f64)) -> f64 {
     spandrel_model::math::hypot(p.0 - a.0 - t * dx, p.1 - a.1 - t * dy)
 }
 
-/// Returns round axis ticks from 0 to `most`, at most `about` + 1 of them.
+/// Returns round values for axis ticks from 0 to `most`, at most `about` + 1 of them.
 #[must_use]
 pub fn ticks(most: f64, about: usize) -> Vec<f64> {
     if most.is_nan() || most <= 0.0 || about == 0 {
@@ -91,7 +91,7 @@ pub fn ticks(most: f64, about: usize) -> Vec<f64> {
     (0..=about).map(|k| k as f64 * step).take_while(|tick| *tick <= most * (1.0 + 1e-9)).collect()
 }
 
-/// Wraps a figure with a title for screen readers.
+/// Wraps a figure in an SVG element with a title for screen readers.
 #[must_use]
 pub fn sheet((width, height): (f64, f64), title: &str, class: &str, body: &Markup) -> Markup {
     html! {

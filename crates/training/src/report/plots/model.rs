@@ -1,24 +1,24 @@
-//! Path diagram of the causal model: demand acts on strain, strain on performance, and feedback moderates the effect of demand on
-//! strain.
+//! Path diagram of the causal model: demand affects strain, strain affects performance, and feedback moderates the effect of
+//! demand on strain.
 
 use super::{line, sheet, unit};
 use maud::{Markup, html};
 
 const SIZE: (f64, f64) = (854.0, 268.0);
-/// Width and height of a box.
+/// Width and height of a box, in drawing units.
 const BOX: (f64, f64) = (150.0, 54.0);
 const ROW: f64 = 128.0;
 const DEMAND: f64 = 12.0;
 const STRAIN: f64 = 352.0;
 const PERFORMANCE: f64 = 692.0;
 const FEEDBACK: (f64, f64) = (182.0, 10.0);
-/// Half width of an arrowhead.
+/// Half the width of an arrowhead, in drawing units.
 const HEAD: f64 = 5.0;
 
-/// Label of an arrow, and whether the effect is distinguishable from zero.
+/// An effect in the model and whether it is distinguishable from zero.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PathEffect {
-    /// Estimate and interval as text.
+    /// Estimate and confidence interval, as text.
     pub words: String,
     /// Whether the interval contains zero.
     pub may_be_none: bool,
@@ -33,11 +33,11 @@ pub struct PathEffects {
     pub on_performance: PathEffect,
     /// Direct effect of demand on performance.
     pub direct: PathEffect,
-    /// Moderation by feedback of the effect of demand on strain.
+    /// Moderating effect of feedback on the effect of demand on strain.
     pub moderation: PathEffect,
 }
 
-/// Draws the diagram.
+/// Draws the path diagram.
 #[must_use]
 pub fn model(effects: &PathEffects, title: &str) -> Markup {
     let middle = ROW + 0.5 * BOX.1;
@@ -49,7 +49,7 @@ pub fn model(effects: &PathEffects, title: &str) -> Markup {
         "model-drawing",
         &html! {
             (labeled_arrow((DEMAND, ROW), "Demand", "mental, physical"))
-            (labeled_arrow((STRAIN, ROW), "State", "pressure, frustration"))
+            (labeled_arrow((STRAIN, ROW), "Strain", "pressure, frustration"))
             (labeled_arrow((PERFORMANCE, ROW), "Performance", "overall score, %"))
             (labeled_arrow(FEEDBACK, "Feedback", "helpfulness"))
             (arrow(&[(from, middle), (to, middle)], &effects.on_strain))
@@ -85,7 +85,7 @@ fn arrow(points: &[(f64, f64)], effect: &PathEffect) -> Markup {
     }
 }
 
-/// Returns the corners of the arrowhead at the end of a line whose last segment is parallel to an axis.
+/// Returns the corners of an arrowhead at the end of a line. The line's last segment must be parallel to an axis.
 fn head(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let [.., (x0, y0), (x, y)] = points else { return Vec::new() };
     let (dx, dy) = ((x - x0).signum() * f64::from(u8::from(x != x0)), (y - y0).signum() * f64::from(u8::from(y != y0)));

@@ -1,4 +1,4 @@
-//! Two flights of one job on the same drawing, each in its own color, with both drones controlled by the page's slider.
+//! Two flights of one job in the same drawing, each in its own color. The page's slider moves both drones.
 
 use super::backdrop::{ground, lake};
 use super::colors::plain_color;

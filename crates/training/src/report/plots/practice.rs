@@ -1,4 +1,4 @@
-//! A score by repetition with its learning curve, extended by one repetition.
+//! Scores by repetition with the fitted learning curve, extended by one repetition.
 
 use super::{line, sheet, ticks, unit};
 use crate::report::words;
@@ -10,12 +10,12 @@ const LEFT: f64 = 34.0;
 const RIGHT: f64 = 298.0;
 const TOP: f64 = 8.0;
 const BOTTOM: f64 = 140.0;
-/// Curve points between two repetitions.
+/// Number of curve segments between two repetitions.
 const FINE: usize = 6;
 /// Maximum number of numbered repetitions.
 const NUMBERED: usize = 10;
 
-/// Contents of the chart.
+/// Values and curves shown in a learning curve chart.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PracticeChart<'a> {
     /// Score of each repetition.
@@ -24,11 +24,11 @@ pub struct PracticeChart<'a> {
     pub curve: &'a LearningCurve,
     /// Individual curves in the background, each up to its last repetition.
     pub others: &'a [LearningCurve],
-    /// Maximum of the score.
+    /// Maximum value of the score.
     pub most: f64,
 }
 
-/// Returns the position of a value in repetition `repetition` (from 1) of `count`; the position after the last is that of the
+/// Returns the position of a value in repetition `repetition` (from 1) of `count`. Repetition `count` + 1 is the position of the
 /// prediction.
 #[must_use]
 pub fn place(repetition: f64, count: usize, value: f64, most: f64) -> (f64, f64) {
@@ -36,7 +36,7 @@ pub fn place(repetition: f64, count: usize, value: f64, most: f64) -> (f64, f64)
     (LEFT + 8.0 + (RIGHT - LEFT - 16.0) * share.clamp(0.0, 1.0), BOTTOM - (BOTTOM - TOP) * (value / most).clamp(0.0, 1.0))
 }
 
-/// Draws dots for flown repetitions, the curve, and a ring for the predicted next one.
+/// Draws a dot for each repetition, the curve, and a ring for the prediction of the next repetition.
 #[must_use]
 pub fn practice(drawn: &PracticeChart<'_>, title: &str) -> Markup {
     let (count, most) = (drawn.values.len(), drawn.most);

@@ -1,4 +1,4 @@
-//! Radar (Kiviat) diagram: one axis per score, 0 at the center, 100 at the rim.
+//! Radar chart (Kiviat diagram): one axis per score, 0 at the center, 100 at the edge.
 
 use super::{line, sheet, unit};
 use crate::report::words;
@@ -9,12 +9,12 @@ const SIZE: (f64, f64) = (420.0, 360.0);
 const MIDDLE: (f64, f64) = (210.0, 186.0);
 const RADIUS: f64 = 118.0;
 
-/// One axis.
+/// One axis of the chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RadarAxis {
-    /// Label.
+    /// Name of the score.
     pub name: &'static str,
-    /// Value for each session, 0 to 100; `None` where it does not apply.
+    /// Value for each session, 0 to 100; `None` if the score does not apply.
     pub values: Vec<Option<f64>>,
 }
 
@@ -27,7 +27,7 @@ pub fn place(k: usize, count: usize, pct: f64) -> (f64, f64) {
     (r * s, -r * c)
 }
 
-/// Draws the diagram of one session, or of several overlaid.
+/// Draws the chart of one session, or of several sessions in the same chart.
 #[must_use]
 pub fn radar(spokes: &[RadarAxis], title: &str) -> Markup {
     let count = spokes.len();
@@ -67,7 +67,7 @@ pub fn radar(spokes: &[RadarAxis], title: &str) -> Markup {
     )
 }
 
-/// Returns the position of a label; two-line labels at the top are placed above the rim.
+/// Returns the position of a label. Labels at the top are moved up, because they have two lines.
 fn label((x, y): (f64, f64)) -> (f64, f64) {
     (x, if y < MIDDLE.1 - RADIUS { y - 18.0 } else { y })
 }
@@ -86,7 +86,7 @@ fn anchor(x: f64) -> &'static str {
 mod tests {
     use super::*;
 
-    /// Rounding error of libm's sine at multiples of 90 degrees, sheet units.
+    /// Rounding error of the sine function at multiples of 90 degrees, drawing units.
     const ROUNDING: f64 = 1e-12;
 
     #[test]

@@ -1,4 +1,4 @@
-//! Timeline of the session: control source, task, feedback, pictures and gaps, one row each on a common axis.
+//! Timeline of the session with a common time axis: rows for control source, tasks, feedback, pictures and gaps.
 
 use super::{line, sheet, ticks, unit};
 use crate::report::words;
@@ -9,28 +9,28 @@ const LEFT: f64 = 118.0;
 const RIGHT: f64 = 890.0;
 const ROW: f64 = 26.0;
 
-/// One row.
+/// A row of the timeline.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimeStrip {
-    /// Label.
+    /// Label at the left of the row.
     pub name: String,
-    /// Intervals: style, start and end (s), and description.
+    /// Intervals: CSS class, start and end (s), and description.
     pub stretches: Vec<(String, f64, f64, String)>,
-    /// Events: style, time (s), and description.
+    /// Events: CSS class, time (s), and description.
     pub marks: Vec<(String, f64, String)>,
 }
 
-/// Returns the horizontal position of a time on the sheet.
+/// Returns the horizontal position of a time in the drawing.
 #[must_use]
 pub fn x_of(t_s: f64, end_s: f64) -> f64 {
     LEFT + (RIGHT - LEFT) * if end_s > 0.0 { (t_s / end_s).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// Draws all rows from 0 to `end_s`.
+/// Draws all rows on a time axis from 0 to `end_s`.
 #[must_use]
 pub fn strips(rows: &[TimeStrip], end_s: f64, title: &str) -> Markup {
     let bottom = 6.0 + ROW * rows.len() as f64;
-    // Ticks at whole and half minutes read better than at tenths.
+    // Ticks at whole or half minutes are easier to read than at tenths of a minute.
     let minutes = ticks(end_s / 60.0, 8);
     sheet(
         (WIDTH, bottom + 26.0),

@@ -1,4 +1,4 @@
-// Follows the trainee's own flight: polls about once per second for the latest picture and shows each once.
+// Shows trainees the camera image of their own flight. Polls about once per second and loads each image once.
 "use strict";
 const root = document.querySelector("[data-flight]");
 const state = root.querySelector("[data-state]");
@@ -7,9 +7,9 @@ const image = camera.querySelector("img");
 const EVERY_MS = 1000;
 
 function show({ flying, picture }) {
-  if (!flying) state.textContent = "You are not flying. This page updates when your flight starts.";
-  else if (picture === null) state.textContent = "You are flying; there is no picture of the camera (the window keeps it).";
-  else state.textContent = "You are flying.";
+  if (!flying) state.textContent = "No flight in progress. This page updates when your flight starts.";
+  else if (picture === null) state.textContent = "Flight in progress. The camera image is available only in the simulator window.";
+  else state.textContent = "Flight in progress.";
   camera.hidden = picture === null;
   if (picture === null || image.dataset.picture === String(picture)) return;
   image.dataset.picture = String(picture);
@@ -18,14 +18,14 @@ function show({ flying, picture }) {
 
 async function look() {
   try {
-    // A hidden page needs no picture; a redirect leads to the login.
+    // Hidden pages do not poll. A redirect means that the login has expired.
     if (!document.hidden) {
       const answer = await fetch("/flight/now.json", { redirect: "manual" });
       if (answer.ok) show(await answer.json());
-      else state.textContent = `not connected: the server says ${answer.status || "log in"}`;
+      else state.textContent = `Not connected: ${answer.status ? `HTTP status ${answer.status}` : "please log in"}`;
     }
   } catch (error) {
-    state.textContent = "not connected";
+    state.textContent = "Not connected";
   }
   setTimeout(look, EVERY_MS);
 }

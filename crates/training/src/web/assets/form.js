@@ -1,4 +1,5 @@
-// Saves every answer immediately, one request at a time, so that the last one wins. Without this script, use the button.
+// Saves every answer immediately, one request at a time, so that the latest one is kept. Without this script, users save with the
+// button.
 "use strict";
 const form = document.querySelector("form[data-save]");
 const status = form.querySelector("[data-status]");
@@ -18,10 +19,10 @@ async function save() {
     status.classList.toggle("bad", bad);
   };
   try {
-    // Continues after the page is closed; a redirect leads to the login and saves nothing.
+    // The request completes even if the page is closed. A redirect leads to the login page and saves nothing.
     const headers = { Accept: "application/json" };
     const answer = await fetch(form.action, { method: "POST", body, headers, keepalive: true, redirect: "manual" });
-    if (!answer.ok) throw new Error(`the server says ${answer.status || "log in"}`);
+    if (!answer.ok) throw new Error(`${answer.status ? `HTTP status ${answer.status}` : "login required"}`);
     const { answered, all } = await answer.json();
     for (const [name, value] of sent) if (unsaved.get(name) === value) unsaved.delete(name);
     tell(form.dataset.answered.replace("{answered}", answered).replace("{all}", all), false);

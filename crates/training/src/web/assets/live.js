@@ -19,7 +19,7 @@ function onSheet(matrix, [e, n, u]) {
   return [m[0] * e + m[1] * n + m[2] * u + m[3], m[4] * e + m[5] * n + m[6] * u + m[7]];
 }
 
-// The side view of a bridge shows only what is near it: center, axis, and limits along and beside the bridge, m.
+// The side view of a bridge shows only points near it: center, axis, and limits along and across the bridge, m.
 function isNear(node, [e, n]) {
   if (!node.dataset.near) return true;
   const [east, north, alongEast, alongNorth, along, beside] = node.dataset.near.split(" ").map(Number);
@@ -55,7 +55,7 @@ function move(place) {
 function tell(words) {
   const list = root.querySelector("[data-said]");
   if (!list) return;
-  // The server was restarted and counts from the beginning.
+  // Message ids restart from 1 when the server restarts.
   if (words.at(-1)?.id < newest) newest = 0;
   for (const one of words) {
     if (one.id <= newest) continue;
@@ -86,7 +86,7 @@ function show(now) {
     location.reload();
     return;
   }
-  state.textContent = now.heard ? (now.armed ? "live, motors armed" : "live, motors off") : "the vehicle is silent";
+  state.textContent = now.heard ? (now.armed ? "live, motors armed" : "live, motors off") : "no telemetry";
   state.classList.toggle("on", now.heard);
   if (!job) return;
   if (now.place) {
@@ -106,7 +106,7 @@ function show(now) {
   tell(now.words);
 }
 
-// Each picture has a unique name and is requested once; the previous one stays until it is loaded.
+// Each image has a unique URL and is requested once; the previous image stays until the new one has loaded.
 function picture(version) {
   const camera = root.querySelector("[data-camera]");
   if (!camera) return;
@@ -117,12 +117,12 @@ function picture(version) {
   image.src = `/live/camera.jpg?vehicle=${root.dataset.vehicle}&v=${version}`;
 }
 
-// Without a vehicle there are no events.
+// Without a vehicle, no events are sent.
 if ("live" in root.dataset) {
   const source = new EventSource(`/live/stream?vehicle=${root.dataset.vehicle}`);
   source.onmessage = (event) => show(JSON.parse(event.data));
   source.onerror = () => {
-    state.textContent = "not connected";
+    state.textContent = "Not connected";
     state.classList.remove("on");
   };
 }
@@ -132,13 +132,13 @@ for (const form of root.querySelectorAll("form[data-act]")) {
     event.preventDefault();
     const body = new URLSearchParams(new FormData(form, event.submitter));
     try {
-      // A redirect leads to the login: the action was not performed.
+      // A redirect leads to the login page; the action was not performed.
       const answer = await fetch(form.action, { method: "POST", body, headers: { Accept: "application/json" }, redirect: "manual" });
       if (answer.ok) form.querySelector("input[name=text]")?.form.reset();
-      else state.textContent = `not done: the server says ${answer.status || "log in"}`;
+      else state.textContent = `Failed: ${answer.status ? `HTTP status ${answer.status}` : "please log in"}`;
     } catch (error) {
       console.error(error);
-      state.textContent = "not done: the server does not answer";
+      state.textContent = "Failed: no answer from the server";
     }
   });
 }

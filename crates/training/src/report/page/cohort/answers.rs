@@ -1,4 +1,4 @@
-//! Questionnaire answers, and their relation to measured scores.
+//! Questionnaire answers and their relation to the measured scores.
 
 use super::super::{figure, legend, scrolling};
 use super::{people_shown, pooled};
@@ -9,7 +9,7 @@ use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
 
-/// The five answers with their styles.
+/// CSS classes and labels of the five answers.
 const ANSWERS: [(&str, &str); 5] = [
     ("answer-1", "strongly agree"),
     ("answer-2", "agree"),
@@ -41,7 +41,7 @@ fn chart(questions: &[LikertQuestion], title: &str) -> Markup {
     scrolling(title, &likert(questions, title))
 }
 
-/// Returns the text of a question in the shipped wording, or its key if there is none.
+/// Returns the text of a question in English, or its key if it is unknown.
 fn asked(one: &Likert) -> String {
     let wording = read_wording(SHIPPED[0].0, SHIPPED[0].1).ok();
     match (QuestionnaireItem::from_key(&one.question), wording) {
@@ -57,12 +57,12 @@ fn asked(one: &Likert) -> String {
     }
 }
 
-/// Renders self-rating against the measured score.
+/// Renders the comparison of self-rating and measured score.
 pub fn self_rating(cohort: &Cohort) -> Markup {
     let rating = &cohort.self_rating;
     html! {
         @if let Some(overall) = &rating.overall {
-            p { "Spearman's correlation of self-rating and overall score: " (words::number(overall.r, 2)) ", " (overall.n) " people." }
+            p { "Spearman's correlation of self-rating and overall score: " (words::number(overall.r, 2)) ", " (overall.n) " trainees." }
         }
         @if people_shown(cohort) {
             @if !rating.contradictions.is_empty() { ul { @for one in &rating.contradictions { li { b { (one.trainee) } ": " (one.words) } } } }

@@ -9,7 +9,7 @@ use crate::report::words;
 use crate::statistics::{Coefficient, Regression};
 use maud::{Markup, html};
 
-/// Renders the section.
+/// Renders the section on the causal model.
 pub fn causal(cohort: &Cohort) -> Markup {
     html! {
         p { "Does demand increase strain, does strain reduce performance, and does in-flight feedback weaken the effect of demand on strain? Estimated from the first sessions of all trainees who answered." }
@@ -23,7 +23,7 @@ pub fn causal(cohort: &Cohort) -> Markup {
 fn estimated(model_: &MediationModel) -> Markup {
     html! {
         @if model_.n < SENSIBLE_N {
-            p.caution { b { (model_.n) " trainees with complete answers." } " With fewer than " (SENSIBLE_N) " the model misses medium effects. It describes these trainees but proves nothing." }
+            p.caution { b { (model_.n) " trainees with complete answers." } " With fewer than " (SENSIBLE_N) ", the model can miss medium effects. It describes these trainees only and does not generalize." }
         }
         (figure("Path diagram; dashed arrows mark effects whose 95 % interval contains zero", &scrolling("The causal model", &model(&effects(model_), "Demand, strain, performance and feedback"))))
         p.note { "Demand, strain and feedback are scales from 1 to 5; performance is the overall score in % of the maximum." }

@@ -1,4 +1,4 @@
-//! First sessions: distributions, trainees and tasks, crashes.
+//! Scores of the first sessions: distributions, trainees and tasks, crashes.
 
 use super::super::kinds::{KINDS, counted, segments};
 use super::super::{figure, legend};
@@ -32,7 +32,7 @@ pub fn distributions(cohort: &Cohort) -> Markup {
     }
 }
 
-/// Renders each trainee's scores and tasks, or their distributions if there are too many trainees.
+/// Renders each trainee's scores and tasks, or their distributions if there are too many trainees to list.
 pub fn people(cohort: &Cohort) -> Markup {
     if people_shown(cohort) { one_by_one(cohort) } else { pooled::tasks(cohort) }
 }
@@ -97,7 +97,7 @@ pub fn crashes(cohort: &Cohort) -> Markup {
     html! {
         p { (table.total) " crashes in the first sessions." }
         div.split {
-            (figure("By what was hit", &html! { (legend(&key)) (counts(&[all], "Crashes by kind")) }))
+            (figure("By object", &html! { (legend(&key)) (counts(&[all], "Crashes by kind")) }))
             (figure("By task", &counts(&by_task, "Crashes by task")))
         }
         @if people_shown(cohort) {

@@ -8,7 +8,7 @@ use crate::report::table::{Table, TableCell};
 use crate::statistics::LearningCurve;
 use maud::{Markup, html};
 
-/// Maximum number of individual curves drawn behind the group's curve; more would merge into a gray area.
+/// Maximum number of individual curves drawn behind the group's curve; more would be indistinguishable.
 const CURVES_SHOWN: usize = 40;
 /// Maximum number of trainees shown individually.
 const ONE_BY_ONE: usize = 24;
@@ -22,7 +22,7 @@ pub fn curves(cohort: &Cohort) -> Markup {
     ];
     html! {
         @if cohort.learning.is_empty() {
-            p.calm { (too_few()) " No trainee has flown it that often." }
+            p.calm { (too_few()) " No trainee has flown that often yet." }
         } @else {
             (legend(&key))
             div.trio {
@@ -32,7 +32,7 @@ pub fn curves(cohort: &Cohort) -> Markup {
                     (figure(&format!("{}, {}", one.score, people(one.people)), &practice(&drawn, &format!("Learning curve of {}", one.score))))
                 }
             }
-            p.note { "Power laws of practice; the ring is the prediction for the next repetition. The curve through the means bends less than the curves of individual trainees." }
+            p.note { "The curves are power laws of practice. The ring marks the prediction for the next repetition. The curve through the means is flatter than the curves of individual trainees." }
             (numbers(&cohort.learning).shown())
         }
     }
@@ -80,7 +80,7 @@ pub fn one_by_one(cohort: &Cohort) -> Markup {
     let repeated: Vec<&TraineeProgress> = repeated(cohort).collect();
     html! {
         @if repeated.len() > ONE_BY_ONE {
-            p.calm { (repeated.len()) " trainees flew more than once; more than " (ONE_BY_ONE) " are not shown individually. See progress.csv for all of them." }
+            p.calm { (repeated.len()) " trainees flew more than once. Above " (ONE_BY_ONE) ", trainees are not shown individually; see progress.csv." }
         } @else {
             @for one in repeated {
                 details.numbers { summary { (one.trainee) ", " (one.repetitions.len()) " times" } (pictures(one, &tasks(cohort, one))) }
@@ -94,7 +94,7 @@ pub fn repeated(cohort: &Cohort) -> impl Iterator<Item = &TraineeProgress> {
     cohort.progress.iter().filter(|one| one.repetitions.len() > 1)
 }
 
-/// Returns the tasks as named in the first session.
+/// Returns number and name of the tasks, as given in the trainee's first session.
 fn tasks(cohort: &Cohort, one: &TraineeProgress) -> Vec<(u32, String)> {
     let first = cohort.individuals.iter().find(|first| first.trainee == one.trainee);
     first.map(|first| first.tasks.iter().map(|task| (task.id, task.name.clone())).collect()).unwrap_or_default()

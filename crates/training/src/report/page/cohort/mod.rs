@@ -1,5 +1,5 @@
-//! Cohort results, as a standalone page or as sections of another: the paper's figures with the underlying numbers. For large
-//! cohorts the page shows distributions, and the files contain the individual data.
+//! Cohort results, as a standalone page or as sections of another page: the figures of the TASBID paper with the underlying
+//! numbers. For large cohorts, the page shows distributions; the CSV files contain the individual data.
 
 mod answers;
 mod causal;
@@ -20,9 +20,9 @@ pub const PEOPLE_SHOWN: usize = 60;
 /// Location of the table files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TableLinks<'a> {
-    /// Embedded in the page, for trainees who are listed in it.
+    /// Embedded in the page. Tables with one row per trainee are included only if the page lists trainees individually.
     Inside,
-    /// Served: prefix of the address and a query, which enclose the file name.
+    /// Downloaded from the server: URL prefix and query, placed before and after the file name.
     At(&'a str, &'a str),
 }
 
@@ -55,7 +55,7 @@ pub fn cohort(cohort: &Cohort) -> String {
 pub fn summary_lines(cohort: &Cohort) -> Markup {
     html! {
         p { (cohort.trainees) " trainees, " (cohort.sessions) " sessions of " (cohort.scenarios.join(", ")) ". "
-            @if !cohort.group.is_empty() && cohort.repetitions > 1 { (cohort.group.len()) " of them flew " (cohort.repetitions) " times or more." }
+            @if !cohort.group.is_empty() && cohort.repetitions > 1 { (cohort.group.len()) " trainees flew " (cohort.repetitions) " times or more." }
             @if let Some(words) = omitted_summary(cohort.left_out) { " " (words) "." } }
     }
 }
@@ -65,7 +65,7 @@ pub fn summary_lines(cohort: &Cohort) -> Markup {
 pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>) -> Vec<(&'static str, &'static str, Markup)> {
     let mut sections = Vec::new();
     if !cohort.warnings.is_empty() {
-        sections.push(("mind", "Cautions", html! { ul { @for words in &cohort.warnings { li { (words) } } } }));
+        sections.push(("mind", "Limitations", html! { ul { @for words in &cohort.warnings { li { (words) } } } }));
     }
     sections.push(("distributions", "Scores of the first sessions", first_sessions::distributions(cohort)));
     sections.push(("people", "Trainees and tasks", first_sessions::people(cohort)));
@@ -84,13 +84,13 @@ pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>) -> Vec<(&'static str,
         sections.push(("self-rating", "Self-rating and measured score", answers::self_rating(cohort)));
     }
     if !cohort.likert.is_empty() {
-        sections.push(("causal", "Demand, state, performance", causal::causal(cohort)));
+        sections.push(("causal", "Demand, strain, performance", causal::causal(cohort)));
     }
     sections.push(("files", "All tables as files", files(cohort, files_at)));
     sections
 }
 
-/// Tables whose size grows with the number of trainees.
+/// Tables with one or more rows per trainee.
 const BY_PERSON: [&str; 7] = [
     "individuals.csv",
     "conformity_by_task.csv",
@@ -111,7 +111,7 @@ fn files(cohort: &Cohort, at: TableLinks<'_>) -> Markup {
             html! {
                 ul.actions { @for (name, csv) in tables(cohort).into_iter().filter(|(name, _)| inside(name)) { li { (download(name, &csv, name)) } } }
                 @if !people_shown(cohort) {
-                    p.note { "Files with one line for each of " (cohort.trainees) " trainees would make this page too large: " code { "spandrel cohort --csv FOLDER" } " writes " (BY_PERSON.join(", ")) "." }
+                    p.note { "Tables with one row per trainee are not embedded because they would make this page too large. " code { "spandrel cohort --csv FOLDER" } " writes " (BY_PERSON.join(", ")) "." }
                 }
             }
         }
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn exact_the_causal_model_is_drawn_with_its_warning_or_the_page_explains_why_not() {
-        // The test answers are all equal, so nothing can be estimated.
+        // All test answers are equal, so the model cannot be estimated.
         let page = super::cohort(&of(
             &group(),
             &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::LeaveOut },
@@ -218,7 +218,7 @@ mod tests {
         assert!(!some.contains("individuals.csv\" href") && some.contains("t_tests.csv\" href"));
         assert!(some.contains("Histogram of crashes per trainee") && some.contains("On-path share by task"));
         assert!(many.len() < some.len() + 2_000, "{} and {} bytes", some.len(), many.len());
-        // When served, every file has an address.
+        // On the server, every file has a link.
         let cohort = people(PEOPLE_SHOWN + 1);
         let (_, _, files) = sections(&cohort, TableLinks::At("/cohort/", "?repetitions=2")).pop().unwrap();
         let files = files.into_string();

@@ -8,11 +8,11 @@ use crate::report::table::{Table, TableCell};
 use crate::statistics::{BoxPlot, HistogramBin, box_plot};
 use maud::{Markup, html};
 
-/// Maximum number of histogram bins for crashes; above it, bins cover several counts.
+/// Maximum number of bins in the crash histogram; above it, each bin covers several counts.
 const BARS: usize = 20;
 
 fn too_many(cohort: &Cohort, file: &str) -> Markup {
-    html! { p.note { (cohort.trainees) " trainees are not listed individually: the figures show distributions, and the file " (file) " contains the individual data." } }
+    html! { p.note { (cohort.trainees) " trainees are not listed individually. The figures show distributions; individual data is in " (file) "." } }
 }
 
 /// A box plot with its label.
@@ -68,7 +68,7 @@ pub fn crashes(cohort: &Cohort) -> Markup {
     }
 }
 
-/// Returns bins of equal width over integer counts from 0.
+/// Returns bins of equal width that cover the counts from 0 to the maximum.
 fn bins(counts: &[usize]) -> Vec<HistogramBin> {
     let most = counts.iter().copied().max().unwrap_or(0);
     let wide = (most + 1).div_ceil(BARS).max(1);
@@ -79,7 +79,7 @@ fn bins(counts: &[usize]) -> Vec<HistogramBin> {
     (0..=most).step_by(wide).map(bin).collect()
 }
 
-/// Renders measured scores by self-rating, rounded to the nearest integer.
+/// Renders measured scores for each self-rating, rounded to an integer.
 pub fn self_rating(cohort: &Cohort) -> Markup {
     let rated = |rating: usize| {
         let people = cohort.self_rating.people.iter();

@@ -1,4 +1,4 @@
-//! Changes between repetitions.
+//! Score changes between repetitions: box plots and statistical tests.
 
 use super::super::figure;
 use crate::cohort::{Cohort, Comparison};
@@ -6,11 +6,11 @@ use crate::report::plots::boxes::{NamedBox, boxes};
 use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
 
-/// Scores in display order with their maximum.
+/// Scores in display order, with their maximum.
 const SCORES: [(&str, f64); 5] =
     [("conformity", 100.0), ("efficiency", 100.0), ("safety", 100.0), ("accuracy", 100.0), ("overall", 400.0)];
 
-/// Renders box plots and tests by repetition.
+/// Renders box plots and tests, by repetition.
 pub fn repetitions(cohort: &Cohort) -> Markup {
     html! {
         div.trio {
@@ -19,7 +19,7 @@ pub fn repetitions(cohort: &Cohort) -> Markup {
                 @if !named.is_empty() { (figure(score, &boxes(&named, most, &format!("Box plots of {score} by repetition")))) }
             }
         }
-        p.note { "Boxes show the quartiles and the median, crosses the mean; whiskers extend to the last value within 1.5 interquartile ranges." }
+        p.note { "Boxes show the quartiles and the median; crosses show the mean. Whiskers extend to the last value within 1.5 interquartile ranges of the box." }
         @if !cohort.tests.is_empty() { (t_tests(&cohort.tests).shown()) }
         @if !cohort.homogeneity.is_empty() { (homogeneity(cohort).shown()) }
     }
@@ -75,8 +75,8 @@ fn homogeneity(cohort: &Cohort) -> Table {
     });
     Table {
         name: "homogeneity",
-        caption: "first sessions of the repeating group vs. the others (low / middle / high)",
-        columns: vec!["score", "repeating group", "others", "chi-squared", "df", "p"],
+        caption: "first sessions: trainees with repetitions vs. the others (low / middle / high)",
+        columns: vec!["score", "with repetitions", "others", "chi-squared", "df", "p"],
         rows: rows.collect(),
     }
 }

@@ -1,4 +1,4 @@
-//! Both flights on the site and over time, linked by one slider.
+//! Charts of both flights: positions on the site and values over time, linked by one slider.
 
 use super::super::flight_section::slider;
 use super::super::series::AlignmentEvent;
@@ -8,18 +8,18 @@ use crate::report::plots::overlay;
 use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
 
-/// Column of the series and title of each chart.
+/// Series column and title of each chart.
 const CHARTS: [(&str, &str); 4] = [
     ("speed", "Speed, m/s"),
     ("distance", "Distance to the path of the task flown, m"),
     ("clearance", "Clearance to the nearest surface, m"),
     ("battery", "Battery, %"),
 ];
-/// Rows of the slider's readout: script key and heading.
+/// Columns of the slider's readout: script key and heading.
 const READOUT: [(&str, &str); 5] =
     [("task", "Task"), ("distance", "Distance"), ("speed", "Speed"), ("clearance", "Clearance"), ("battery", "Battery")];
 
-/// Renders the section. Flights of different jobs have no common drawing.
+/// Renders the section. Drawings are included only if both flights are of the same job.
 pub fn section(both: [&Review; 2], same_job: bool, line_ups: &[AlignmentEvent], key: &[(&str, String)]) -> Markup {
     html! {
         (controls(line_ups, key))
@@ -32,7 +32,7 @@ pub fn section(both: [&Review; 2], same_job: bool, line_ups: &[AlignmentEvent], 
                 }
             }
         }
-        p.note { "Drag over a chart to zoom in, double-click to reset, click to move the slider." }
+        p.note { "Drag across a chart to zoom in. Double-click to reset the zoom. Click to move the slider." }
         (table(both).folded())
     }
 }
@@ -69,13 +69,13 @@ fn drawings(both: [&Review; 2]) -> Markup {
             (figure("From the south", &scroll("Elevation", &overlay::from_south(both))))
         }
         @for bridge in &both[0].scenario.bridges {
-            @let title = format!("Bridge '{}' from the side, with nearby parts of the flights", bridge.name);
+            @let title = format!("Bridge '{}' from the side, with the parts of both flights near it", bridge.name);
             (figure(&title, &scroll(&title, &overlay::elevation(both, bridge))))
         }
     }
 }
 
-/// Returns the charts' data, sampled every few seconds since lift-off.
+/// Returns the charts' data as a table with one row every few seconds since lift-off.
 fn table(both: [&Review; 2]) -> Table {
     let end_s = |review: &Review| review.t_s(review.frames.len().saturating_sub(1));
     let longest_s = f64::max(end_s(both[0]), end_s(both[1]));

@@ -36,7 +36,7 @@ pub fn comparison(first: &Review, second: &Review) -> String {
                 }
             }
             main {
-                @if !same { p.note { "The sessions are of different jobs, so their scores are only roughly comparable." } }
+                @if !same { p.note { "The two sessions are of different jobs, so their scores are only roughly comparable." } }
                 section aria-labelledby="scores-head" {
                     h2 id="scores-head" { "Scores" }
                     div.split {
@@ -97,11 +97,11 @@ fn table(first: &Review, second: &Review) -> Table {
     put("Defects found", 0, both.map(|review| Some(review.assessment.snapshots.defects_found as f64)));
     put("Cues", 0, both.map(|review| Some(review.feedback.episodes.len() as f64)));
     put("Time too close or off the path, s", 1, both.map(|review| Some(warned_s(review))));
-    put("Surface shown well in pictures, m²", 0, both.map(|review| Some(review.coverage.total().area_m2(SurfaceOutcome::Shown))));
-    Table { name: "comparison", caption: "both sessions in numbers", columns: vec!["what", "first", "second", "change"], rows }
+    put("Surface shown well, m²", 0, both.map(|review| Some(review.coverage.total().area_m2(SurfaceOutcome::Shown))));
+    Table { name: "comparison", caption: "both sessions in numbers", columns: vec!["measure", "first", "second", "change"], rows }
 }
 
-/// Returns the time with a "too close" or "off path" cue on, s.
+/// Returns the total duration of the "too close" and "off path" cues, s.
 fn warned_s(review: &Review) -> f64 {
     let wanted = |kind: usize| matches!(crate::report::cues::KINDS[kind].name, "too close" | "off path");
     review.feedback.episodes.iter().filter(|e| wanted(e.kind)).map(|e| e.to_s - e.from_s).sum()
