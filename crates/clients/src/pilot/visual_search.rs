@@ -51,7 +51,7 @@ pub struct VisualSearch {
 }
 
 impl VisualSearch {
-    /// Creates the visual search, seeded.
+    /// Creates the visual search from a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let random = RandomStream::new(seed, "pilot eye");

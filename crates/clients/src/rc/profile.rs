@@ -9,9 +9,9 @@ use std::fmt::Write;
 
 /// Newest supported format version.
 pub const FORMAT: i64 = 1;
-/// Dead band of a new profile (estimate: the play of a worn gamepad stick).
+/// Default dead band of a new profile (estimate: the play of a worn gamepad stick).
 pub const DEAD_BAND: f64 = 0.05;
-/// Expo of a new profile (estimate: between a transmitter's usual 0.2 and 0.4).
+/// Default expo of a new profile (estimate: between a transmitter's usual 0.2 and 0.4).
 pub const EXPO: f64 = 0.3;
 /// Maximum axis or button number: the largest 32-bit unsigned integer.
 const MOST: i64 = u32::MAX as i64;

@@ -19,7 +19,7 @@ pub enum DeviceEvent {
     Axis {
         /// Axis number as counted by the system.
         axis: u32,
-        /// Position, -1 to 1 of the range reported by the system.
+        /// Position, -1 to 1, as a fraction of the range reported by the system.
         value: f64,
     },
     /// A button was pressed or released.

@@ -99,7 +99,7 @@ pub struct FinalScore {
 /// Result of a flight.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FlightSummary {
-    /// Conformity, efficiency, safety, accuracy; `None` if not applicable.
+    /// Scores for conformity, efficiency, safety and accuracy; `None` if not applicable.
     pub scores: [Option<FinalScore>; 4],
     /// Sum and maximum possible sum; `None` if the session is incomplete.
     pub overall: Option<(f64, f64)>,

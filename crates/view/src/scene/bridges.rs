@@ -17,7 +17,7 @@ const BEARING: [u8; 3] = [38, 34, 30];
 /// Galvanized wire.
 const WIRE: [u8; 3] = [92, 94, 92];
 const WHITE: [u8; 3] = [255, 255, 255];
-/// Faces narrower than this have constant light across, m.
+/// Width below which a face has constant light across it, m.
 const NARROW_M: f64 = 0.8;
 /// Tolerance of the fractions of sky and sun light for presets that save triangles (a hundredth of the open-air value
 /// is not visible; rays of a lean preset have more noise).

@@ -54,7 +54,7 @@ pub struct SoundInputs {
 struct SmoothedValue(f64);
 
 impl SmoothedValue {
-    /// Advances by one sample.
+    /// Advances by one sample and returns the new value.
     fn follow(&mut self, target: f64) -> f64 {
         self.0 += (target - self.0) / (SLEW_S * f64::from(RATE_HZ));
         self.0
