@@ -1,4 +1,5 @@
-//! Vehicles with a fault in them, each for one rare value of one field: if the fuzzing does not find these, it finds nothing.
+//! Vehicles with planted faults, each triggered by one rare value of one field. If the fuzzer does not find these, it
+//! is useless.
 
 use super::driver::{Subject, Vehicle};
 use spandrel_mavlink::codec::{Decoder, Encoder};
@@ -16,12 +17,12 @@ pub enum Fault {
     Deaf,
 }
 
-/// Each with words of what must be reported.
+/// All faults, each with a part of the message that must be reported.
 pub const FAULTS: [(Fault, &str); 4] = [
     (Fault::Index, "panic: item 65535"),
-    (Fault::Poison, "no number in"),
-    (Fault::Flood, "answers to"),
-    (Fault::Deaf, "no answer any more"),
+    (Fault::Poison, "NaN or infinity in"),
+    (Fault::Flood, "responses to"),
+    (Fault::Deaf, "no more responses"),
 ];
 
 pub struct Planted {
