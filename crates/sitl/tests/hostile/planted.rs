@@ -7,13 +7,13 @@ use spandrel_mavlink::dialect::*;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fault {
-    /// The last sequence number indexes past the end.
+    /// The last sequence number causes an index out of bounds.
     Index,
-    /// A not-a-number in a set-point gets into the state.
+    /// A NaN in a setpoint gets into the state.
     Poison,
-    /// The lowest index of a parameter is answered without end.
+    /// The lowest parameter index causes endless responses.
     Flood,
-    /// An infinite parameter of a command makes it deaf.
+    /// An infinite command parameter makes the vehicle unresponsive.
     Deaf,
 }
 
