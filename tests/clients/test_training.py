@@ -155,7 +155,7 @@ def test_a_killed_import_leaves_whole_records_and_goes_on(tmp_path):
             with contextlib.closing(sqlite3.connect(f"file:{tmp_path / 'records.sqlite'}?mode=ro", uri=True)) as database:
                 return database.execute("SELECT COUNT(*) FROM sessions").fetchone()[0]
         except sqlite3.Error:
-            return 0  # Not made yet.
+            return 0  # The database does not exist yet.
 
     chance = random.Random(1)
     counts, killed = [], 0

@@ -401,14 +401,14 @@ def test_two_hundred_kills_lose_no_finished_session(tmp_path):
                     else:
                         return
             except (OSError, ValueError, AssertionError):
-                return  # The server is gone, as it should be.
+                return  # The server has been killed, as intended.
 
         with concurrent.futures.ThreadPoolExecutor(1) as pool:
             working = pool.submit(work)
             if kill % 10 == 0:
                 stop = generator.uniform(0.0, 2.5 * upload_s)
             before_kill = len(taken)
-            time.sleep(stop)  # The moment of the kill, not a wait for anything.
+            time.sleep(stop)  # Random delay before the kill, not a wait for an event.
             server.kill()
             working.result()
             cut_off += kill % 10 == 0 and len(taken) == before_kill
