@@ -112,7 +112,7 @@ impl Pilot {
         self.search_picture(belief, &mut wish);
         self.payload(&wish, belief);
         wish.velocity_m_s += self.avoid_obstacles(belief);
-        // Compensates for the pilot's misjudged speed by scaling the commanded velocity with the perceived speed.
+        // Compensates for the pilot's wrong perception of speed by scaling the commanded velocity with the perceived speed.
         wish.velocity_m_s = wish.velocity_m_s / self.perception.speed_scale();
         sticks(wish.velocity_m_s, belief, wish.line_of_sight, &self.config)
     }

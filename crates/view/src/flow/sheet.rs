@@ -105,7 +105,7 @@ impl PageWriter {
         self.sheet.items.push(DrawItem::Text { place, side, height, colour, words: words.into() });
     }
 
-    /// Adds text wrapped to a width and returns the y position of the next line.
+    /// Wraps text to a width, adds it, and returns the y position of the next line.
     pub fn lines(&mut self, (x, y): (f64, f64), width: f64, height: f64, colour: HudColor, words: &str) -> f64 {
         let mut y = y;
         for line in wrapped(words, width, height) {

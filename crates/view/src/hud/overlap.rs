@@ -99,7 +99,7 @@ fn check_block(block: &DisplayBlock, what: &str) {
         assert!(block.shapes.iter().all(|shape| apart(place, shape)), "{what}: '{words}' overlaps a shape");
     }
     for (k, one) in block.shapes.iter().enumerate() {
-        // One shape may contain another, as a battery outline contains its charge.
+        // One shape may contain another, as a battery outline contains its level.
         let fine = |other: &PictureRect| apart(one, other) || holds(one, other) || holds(other, one);
         assert!(block.shapes[..k].iter().all(fine), "{what}: shapes of one block overlap");
     }

@@ -1,6 +1,6 @@
 // Draws solids.
 
-// Material group of the pipeline (looks.rs): 0 concrete, 1 deck, 2 steel, 3 simple, 4 ground.
+// Material group of the pipeline (material_groups.rs): 0 concrete, 1 deck, 2 steel, 3 simple, 4 ground.
 override LOOK: u32 = 3u;
 // Whether to draw the lake's reflection.
 override MIRRORED: bool = false;

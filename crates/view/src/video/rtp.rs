@@ -17,7 +17,7 @@ const FU_A: u8 = 28;
 pub struct RtpPacketizer {
     sequence: u16,
     source: u32,
-    /// Timestamp of time zero.
+    /// Timestamp at the start of the stream.
     zero: u32,
 }
 
