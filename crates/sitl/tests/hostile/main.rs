@@ -83,7 +83,7 @@ fn situations() -> Vec<Sim> {
     vec![ground.vehicle.sim, flown.vehicle.sim, mission.vehicle.sim, offboard.vehicle.sim, copter.vehicle.sim, guided.vehicle.sim]
 }
 
-/// Fuzzes one situation after the other, with a new copy for each volley, until an invariant is violated.
+/// Fuzzes one situation after the other, with a new copy for each batch, until an invariant is violated.
 fn run(seed: u64, wrap: impl Fn(Vehicle) -> Box<dyn Subject>) -> Result<Depth, Finding> {
     let situations = situations();
     let mut numbers = known_commands(&situations[0]);
