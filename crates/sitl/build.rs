@@ -1,4 +1,4 @@
-//! Turns the tables of parameters that are stored and described, and act on nothing, into Rust rows.
+//! Generates Rust code from the tables of stored parameters, which clients can read but which have no effect on the vehicle.
 
 #[path = "build/params.rs"]
 mod params;

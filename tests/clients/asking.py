@@ -1,4 +1,5 @@
-"""What every script on pymavlink needs: UDP may lose a datagram on a busy machine, so whoever asks asks again until it is answered."""
+"""Helpers for pymavlink scripts. UDP may lose datagrams on a busy machine, so every request is repeated until a
+response arrives."""
 
 import os
 import time
@@ -7,36 +8,37 @@ os.environ["MAVLINK20"] = "1"
 
 from pymavlink import mavutil
 
-# Wall seconds for an answer of a simulator on a busy machine, ten times over.
+# Time limit for a response from a simulator on a busy machine, wall seconds (ten times the usual).
 LIMIT_S = 120
-# Wall seconds after which a question is put again; answers come within milliseconds.
+# Wall seconds after which a request is repeated; responses usually arrive within milliseconds.
 AGAIN_S = 2.0
-# How often at most.
+# Maximum number of repetitions.
 TIMES = int(LIMIT_S / AGAIN_S)
 
 
 class Again:
-    """Says a thing at once, and again and again until nobody asks any more."""
+    """Sends a message immediately, and repeats it as long as `if_due` is called."""
 
     def __init__(self, say, again_s=AGAIN_S):
         self.say, self.again_s, self.at = say, again_s, 0.0
 
     def if_due(self):
-        """Says it when it is time."""
+        """Sends the message again if the interval has passed."""
         if time.monotonic() > self.at:
             self.at = time.monotonic() + self.again_s
             self.say()
 
 
 def connect(port, system=255, kind="udpin", dialect="all"):
-    """pymavlink on a link, after the first heartbeat. The dialect is the whole process's: the last one asked for counts, so each test names its own."""
+    """Opens a pymavlink link and waits for the first heartbeat. The dialect is global to the process, so each test
+    sets the one it needs."""
     link = mavutil.mavlink_connection(f"{kind}:127.0.0.1:{port}", source_system=system, source_component=190, dialect=dialect)
     assert link.wait_heartbeat(timeout=LIMIT_S) is not None, "no heartbeat"
     return link
 
 
 def hear(link, kinds, fits=lambda message: True, limit_s=LIMIT_S):
-    """The next message of some kinds that fits."""
+    """Returns the next message of these kinds that `fits` accepts."""
     end = time.monotonic() + limit_s
     while (left := end - time.monotonic()) > 0:
         message = link.recv_match(type=kinds, blocking=True, timeout=left)
@@ -46,7 +48,7 @@ def hear(link, kinds, fits=lambda message: True, limit_s=LIMIT_S):
 
 
 def ask(link, send, kinds, fits=lambda message: True, again_s=AGAIN_S):
-    """The answer that fits to a question that is put again until there is one."""
+    """Repeats a request until a matching response arrives, and returns the response."""
     end = time.monotonic() + LIMIT_S
     while time.monotonic() < end:
         send()
@@ -54,24 +56,25 @@ def ask(link, send, kinds, fits=lambda message: True, again_s=AGAIN_S):
             return hear(link, kinds, fits, again_s)
         except AssertionError:
             pass
-    raise AssertionError(f"no {kinds} within {LIMIT_S} s, asked every {again_s} s")
+    raise AssertionError(f"no {kinds} within {LIMIT_S} s, requested every {again_s} s")
 
 
 def command(link, number, *params, system=1, component=1):
-    """The result of a command."""
+    """Sends a command and returns its result."""
     values = (list(params) + [0] * 7)[:7]
     send = lambda: link.mav.command_long_send(system, component, number, 0, *values)  # noqa: E731
     return ask(link, send, "COMMAND_ACK", lambda ack: ack.command == number and ack.get_srcSystem() == system).result
 
 
 def message(link, number, kind, fits=lambda message: True, param=0):
-    """A message that is asked for by its number."""
+    """Requests a message by its number and returns it."""
     send = lambda: link.mav.command_long_send(1, 1, mavutil.mavlink.MAV_CMD_REQUEST_MESSAGE, 0, number, param, 0, 0, 0, 0, 0)  # noqa: E731
     return ask(link, send, kind, fits)
 
 
 def parameters(link):
-    """Every parameter by name, as its PARAM_VALUE; what got lost of the list is asked for by its index."""
+    """Returns every parameter as its PARAM_VALUE, by name. Requests values that were lost from the list by their
+    index."""
     found = {}
     first = ask(link, lambda: link.mav.param_request_list_send(1, 1), "PARAM_VALUE", lambda m: m.param_index < m.param_count)
     found[first.param_index] = first

@@ -34,25 +34,25 @@ import test_mavproxy
 NAN = float("nan")
 # Items of the mission (issue 16), bytes of the file and of the log.
 ITEMS, FILE_BYTES, LOG_BYTES = 200, 50_000, 50_000
-# Wall seconds after which a client that still tries counts as failed.
+# Wall seconds after which a client that is still trying counts as failed.
 LIMIT_S = 300
-# Wall seconds after which a client that does not even notice its own limit is ended: start, LIMIT_S and end of a run.
+# Wall seconds after which a client that exceeds its own limit is killed: start, LIMIT_S and end of a run.
 HANGS_S = LIMIT_S + 120
-# How often a person presses a button again whose command got no answer, and clicks "refresh" of a list.
+# Maximum number of times that a user repeats a command without response, or refreshes a list.
 PRESSES = 5
 
 
 class Failed(Exception):
-    """The client gave up, or got something else than there is."""
+    """The client gave up, or got a wrong result."""
 
 
 def why(error):
-    """The result in a plug-in's error, without the arguments of the call."""
+    """Returns the result in a plug-in's error, without the arguments of the call."""
     return str(error).split(";", maxsplit=1)[0]
 
 
 def settled(what, predicate, limit_s=LIMIT_S):
-    """Waits for a truthy value."""
+    """Waits for a truthy value and returns it."""
     try:
         return spandrel.wait_for(what, predicate, limit_s)
     except AssertionError as error:
@@ -60,7 +60,7 @@ def settled(what, predicate, limit_s=LIMIT_S):
 
 
 def ended(start, *args, next_result, success):
-    """Runs a transfer that reports progress to its end."""
+    """Runs a transfer that reports progress until it ends."""
     results = []
     start(*args, lambda result, *_: results.append(type(success)(result)))
     last = settled("the end of the transfer", lambda: next((r for r in results if r != next_result), None))
@@ -69,7 +69,7 @@ def ended(start, *args, next_result, success):
 
 
 def pressed(act):
-    """A button that is pressed again when nothing answers."""
+    """Runs an action again if there is no response, as a user would press a button again."""
     for k in range(PRESSES):
         try:
             return act()
@@ -80,7 +80,7 @@ def pressed(act):
 
 
 def content(length):
-    """Bytes that repeat nowhere soon."""
+    """Returns bytes that do not repeat for a long time."""
     return bytes(k * k % 251 for k in range(length))
 
 
@@ -88,14 +88,14 @@ SPANDREL, PX4 = "Spandrel", "PX4"
 
 
 def start(vehicle, folder, files, port, slot):
-    """A fresh vehicle in real time whose FTP serves `files` and which calls `port`."""
+    """Starts a new vehicle in real time whose FTP serves `files` and that connects to `port`."""
     if vehicle == PX4:
         return px4.start(folder, files, port, slot)
     return spandrel.start_sim(folder, port, "--files", str(files), speed=1)
 
 
 class Bench:
-    """A vehicle with a folder, a relay and a client behind it, for one run."""
+    """A vehicle with a folder, a relay and a client for one run."""
 
     def __init__(self, folder, vehicle, link, seed, slot):
         self.folder = pathlib.Path(folder)
@@ -110,7 +110,7 @@ class Bench:
         self.mavsdk = self.system = self.console = None
 
     def connect_mavsdk(self):
-        """MAVSDK has found the vehicle."""
+        """Connects MAVSDK and waits until it has found the vehicle."""
         self.mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
         self.mavsdk.add_any_connection(f"udpin://127.0.0.1:{self.port}")
         self.system = self.mavsdk.first_autopilot(60.0)
@@ -118,7 +118,7 @@ class Bench:
             raise Failed("no vehicle found")
 
     def connect_mavproxy(self):
-        """MAVProxy has found the vehicle and read its parameters."""
+        """Connects MAVProxy and waits until it has read the vehicle's parameters."""
         self.console = test_mavproxy.Console(self.port, self.folder)
         try:
             self.console.wait("parameters to")
@@ -126,7 +126,7 @@ class Bench:
             raise Failed("parameters never came") from None
 
     def close(self):
-        """Ends what was started here."""
+        """Ends everything that was started here."""
         if self.mavsdk is not None:
             self.mavsdk.destroy()
         if self.console is not None:
@@ -136,7 +136,7 @@ class Bench:
 
 
 def mission(bench):
-    """200 items go up by MAVSDK, one try."""
+    """MAVSDK uploads 200 items in one attempt."""
     items = [
         MissionItem(k, 6, 16, int(k == 0), 1, 0, 0, 0, NAN, 467_052_000 + 30 * k, 83_814_000, 8.0, 0) for k in range(ITEMS)
     ]
@@ -147,14 +147,14 @@ def mission(bench):
 
 
 def parameters(bench):
-    """MAVSDK reads all parameters, one try."""
+    """MAVSDK reads all parameters in one attempt."""
     found = Param(bench.system).get_all_params()
     if len(found.int_params) + len(found.float_params) == 0:
         raise Failed("no parameters")
 
 
 def flight(bench):
-    """Arm, take off, land, disarmed: a command that nothing answers is given again."""
+    """Arms, takes off, lands and disarms; a command without response is repeated."""
     action, telemetry = Action(bench.system), Telemetry(bench.system)
     settled("a vehicle that would arm", telemetry.health_all_ok)
     pressed(action.arm)
@@ -165,7 +165,7 @@ def flight(bench):
 
 
 def download(bench, burst):
-    """A file of 50 kB comes down, one try."""
+    """Downloads a file of 50 kB in one attempt."""
     down = bench.folder / "down"
     down.mkdir()
     ended(Ftp(bench.system).download_async, "/survey.bin", str(down), burst, next_result=FtpResult.NEXT, success=FtpResult.SUCCESS)
@@ -174,7 +174,7 @@ def download(bench, burst):
 
 
 def log(bench):
-    """A log of 50 kB comes down; the list is asked for again when it does not come."""
+    """Downloads a log of 50 kB; requests the list again if it does not arrive."""
     logs = LogFiles(bench.system)
     entries = pressed(logs.get_entries)
     old = next((entry for entry in entries or [] if entry.size_bytes == LOG_BYTES), None)
@@ -187,7 +187,7 @@ def log(bench):
 
 
 def mavproxy_get(bench):
-    """A file of 50 kB comes down by MAVProxy's `ftp get`, one try."""
+    """Downloads a file of 50 kB with MAVProxy's `ftp get` in one attempt."""
     try:
         bench.console.say("ftp get /survey.bin down.bin", f"Wrote {FILE_BYTES} bytes to down.bin")
     except AssertionError:
@@ -206,13 +206,13 @@ TASKS = {
 }
 
 
-# The columns of the table.
+# Columns of the table.
 TABLE = [link.name for link in relay.LINKS]
 
 
 @dataclasses.dataclass(frozen=True)
 class Run:
-    """One try: a task on a link, with the seed of the losses."""
+    """One attempt: a task on a link, with the seed of the losses."""
 
     vehicle: str
     name: str
@@ -222,7 +222,7 @@ class Run:
 
 @dataclasses.dataclass
 class Cell:
-    """Results of a task on a link."""
+    """Results of a task on a link, for one cell of the table."""
 
     runs: int
     seconds: list
@@ -234,7 +234,7 @@ class Cell:
 
 
 def run(name, link, seed, vehicle=SPANDREL, slot=0, begun=lambda bench: None):
-    """Wall seconds of one task on a link; raises when it fails."""
+    """Runs a task on a link and returns its duration in wall seconds; raises an error if it fails."""
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(folder, vehicle, link, seed, slot)
         begun(bench)
@@ -251,7 +251,7 @@ def run(name, link, seed, vehicle=SPANDREL, slot=0, begun=lambda bench: None):
 
 
 def run_in_process(results, this, slot):
-    """One try in a process of its own, which ends when its client hangs: MAVSDK now and then waits for itself."""
+    """Runs one attempt in a separate process, which is killed if its client hangs: MAVSDK occasionally deadlocks."""
     benches = []
 
     def end():
@@ -271,7 +271,7 @@ def run_in_process(results, this, slot):
 
 
 def attempt(this, slots):
-    """Seconds, or why it failed."""
+    """Returns the duration in seconds, or the reason for a failure."""
     context, slot = multiprocessing.get_context("spawn"), slots.get()
     try:
         receiver, sender = context.Pipe(duplex=False)
@@ -289,14 +289,15 @@ def attempt(this, slots):
 
 
 def cell(begun):
-    """A cell of the table, from its runs."""
+    """Returns a cell of the table from its runs."""
     results = [future.result() for future in begun]
     seconds = [result for result in results if isinstance(result, float)]
     return Cell(len(results), seconds, [result for result in results if isinstance(result, str)])
 
 
 def measure(vehicles, tasks, links, seeds, at_once):
-    """The lines of the table. Runs of one seed follow each other, so that load of the machine meets all vehicles alike."""
+    """Returns the lines of the table. Runs with the same seed follow each other, so that the machine's load affects
+    all vehicles equally."""
     slots = queue.Queue()
     for slot in range(at_once):
         slots.put(slot)
@@ -320,7 +321,7 @@ def measure(vehicles, tasks, links, seeds, at_once):
 
 
 def main():
-    """Measures all, or what is named, and prints the table."""
+    """Measures everything, or the selected parts, and prints the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--runs", type=int, default=20)
     parser.add_argument("--first", type=int, default=0, help="seed of the first run")

@@ -1,4 +1,4 @@
-"""Fixtures: a flight per test, on ports of its own."""
+"""Fixtures: one flight per test, with its own ports."""
 
 import json
 
@@ -7,25 +7,25 @@ import pytest
 import sdk
 import spandrel
 
-# What tests have measured, for whoever reads their output; no test fails by it.
+# Measurements of the tests for the summary; they do not affect the result.
 MEASURED = []
 
 
 @pytest.fixture
 def measured():
-    """Where a test tells what it has measured."""
+    """Returns a function that records a measurement for the summary."""
     return MEASURED.append
 
 
 def pytest_terminal_summary(terminalreporter):
-    """Measured figures at the end of the output, also of tests that pass."""
+    """Prints the measurements at the end of the output, even if all tests pass."""
     for line in MEASURED:
         terminalreporter.write_line(f"measured: {line}")
 
 
 @pytest.fixture
 def flight(request, tmp_path):
-    """Simulator and monitor for one test, in PX4's flavour unless the test says another."""
+    """Simulator and monitor for one test, emulating PX4 unless the test specifies another autopilot."""
     flight = spandrel.Flight(tmp_path, flavour=getattr(request, "param", "px4"))
     yield flight
     flight.close()
@@ -34,13 +34,14 @@ def flight(request, tmp_path):
 
 @pytest.fixture
 def job():
-    """The job as exported: paths, defects, limits."""
+    """Returns the exported job: paths, defects, limits."""
     return json.loads(spandrel.run("export", "two-bridges", "--seed", "7", "--scenario", "-"))
 
 
 @pytest.fixture
 def vehicle(request, tmp_path):
-    """MAVSDK's system for a simulated vehicle that would arm, in PX4's flavour unless the test says another, and its telemetry."""
+    """MAVSDK's system for a simulated vehicle that is ready to arm, and its telemetry. Emulates PX4 unless the test
+    specifies another autopilot."""
     flavour = getattr(request, "param", "px4")
     port = spandrel.free_udp_port()
     process = spandrel.start_sim(tmp_path, port, "--flavour", flavour)
@@ -52,7 +53,8 @@ def vehicle(request, tmp_path):
 
 @pytest.fixture
 def launch(tmp_path):
-    """Starts a vehicle in a flavour and gives the port of its ground station; all end with the test."""
+    """Returns a function that starts a vehicle and returns the port of its ground station; all vehicles end with the
+    test."""
     started = []
 
     def start(flavour, *more, speed=spandrel.SPEED):

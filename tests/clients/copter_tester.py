@@ -1,4 +1,5 @@
-"""One ArduCopter-speaking vehicle flown by pymavlink, as ArduPilot's autotest flies its own: time is the vehicle's, which waits for this client."""
+"""A vehicle emulating ArduCopter, flown with pymavlink like in ArduPilot's autotest. Time is the vehicle's, which
+runs in lockstep with this client."""
 
 import math
 import os
@@ -14,22 +15,22 @@ MODES = {
     "STABILIZE": 0, "ACRO": 1, "ALT_HOLD": 2, "AUTO": 3, "GUIDED": 4, "LOITER": 5, "RTL": 6, "CIRCLE": 7, "LAND": 9, "POSHOLD": 16, "BRAKE": 17,
     "SMART_RTL": 21, "FOLLOW": 23,
 }
-# Channels 1 to 9 of a transmitter: sticks in the middle but the throttle, switches.
+# Channels 1 to 9 of a transmitter: sticks centered except the throttle, and switches.
 CHANNELS = {1: 1500, 2: 1500, 3: 1000, 4: 1500, 5: 1500, 6: 1500, 7: 1500, 8: 1500, 9: 1500}
-# Metres in a degree of latitude (WGS 84, to 0.5 %).
+# Meters per degree of latitude (WGS 84, to 0.5 %).
 DEGREE_M = 111_320.0
-# Wall seconds of silence after which a test gives up: the vehicle answers every question at once.
+# Wall seconds without messages after which a test gives up; the vehicle responds to every request immediately.
 STUCK_S = 60.0
-# Rates of streams and sticks, Hz of vehicle time.
+# Rate of streams and sticks, Hz of vehicle time.
 RATE_HZ = 10
 STICK_RATE_HZ = 25
-# The vehicle in these flights is large enough for the speeds that the autotest asks for.
+# The vehicle in these flights can reach the speeds that the autotest requires.
 VEHICLE = "m30"
 IGNORE_ALL_BUT_PLACE, IGNORE_ALL_BUT_VELOCITY = 0x0DF8, 0x0DC7
 
 
 class Copter:
-    """A simulator of its own, kept in step with this client: 20 ms of its time pass with each answer."""
+    """A simulator in lockstep with this client: 20 ms of its time pass with each response."""
 
     def __init__(self, folder, scenario="drill-hover"):
         folder.mkdir(parents=True, exist_ok=True)
@@ -50,17 +51,17 @@ class Copter:
         self.until("armable", lambda: self.shows("SYS_STATUS") and self.last["SYS_STATUS"].onboard_control_sensors_health & M.MAV_SYS_STATUS_PREARM_CHECK, 60)
 
     def close(self):
-        """Ends what was started."""
+        """Ends everything that was started."""
         self.link.close()
         spandrel.end(self.process)
 
-    # Time
+    # Time control
 
     def step(self):
-        """Lets 20 ms pass."""
+        """Advances by 20 ms."""
         while True:
             message = self.link.recv_match(blocking=True, timeout=STUCK_S)
-            assert message is not None, f"nothing heard at {self.now:.2f} s; {self.texts[-5:]}"
+            assert message is not None, f"no message at {self.now:.2f} s; {self.texts[-5:]}"
             kind = message.get_type()
             if message.get_srcSystem() != 1 or kind == "BAD_DATA":
                 continue
@@ -74,7 +75,7 @@ class Copter:
                 self.texts.append(message.text)
 
     def speak(self):
-        """Sticks and heartbeats that are due."""
+        """Sends sticks and heartbeats at their rates."""
         if self.now >= self.beat_due:
             self.beat_due = self.now + 1.0
             self.link.mav.heartbeat_send(M.MAV_TYPE_GCS, M.MAV_AUTOPILOT_INVALID, 0, 0, 0)
@@ -83,7 +84,8 @@ class Copter:
             self.link.mav.rc_channels_override_send(1, 1, *[self.channels[channel] for channel in range(1, 9)], self.channels[9])
 
     def until(self, what, predicate, limit_s):
-        """Waits until the predicate holds, at most so many seconds of vehicle time; the time that it took."""
+        """Waits until the predicate is true, for at most `limit_s` seconds of vehicle time, and returns the time that
+        it took."""
         start = self.now
         while not predicate():
             assert self.now - start <= limit_s, f"not within {limit_s} s: {what}; {self.texts[-5:]}"
@@ -93,19 +95,19 @@ class Copter:
         return self.now - start
 
     def pass_time(self, seconds):
-        """Lets time pass."""
+        """Lets vehicle time pass."""
         end = self.now + seconds
         self.until(f"{seconds} s", lambda: self.now >= end, seconds + 1)
 
     def holds(self, what, predicate, seconds):
-        """The predicate holds all the time."""
+        """Checks that the predicate is true all the time."""
         end = self.now + seconds
         while self.now < end:
             assert predicate(), f"{what} at {self.now:.1f} s"
             self.step()
 
     def settles(self, what, predicate, seconds, limit_s):
-        """The predicate comes to hold for so long."""
+        """Waits until the predicate has been true for `seconds` without interruption."""
         since = None
 
         def held():
@@ -115,54 +117,54 @@ class Copter:
 
         self.until(what, held, limit_s)
 
-    # What it shows
+    # Telemetry
 
     def shows(self, kind):
-        """Whether such a message has come."""
+        """Returns whether a message of this kind has arrived."""
         return kind in self.last
 
     @property
     def height(self):
-        """Over home, m."""
+        """Returns the height above home, m."""
         return self.last["GLOBAL_POSITION_INT"].relative_alt / 1000
 
     @property
     def speed(self):
-        """Over the ground, m/s."""
+        """Returns the ground speed, m/s."""
         return self.last["VFR_HUD"].groundspeed
 
     @property
     def climb(self):
-        """Climb rate, m/s."""
+        """Returns the climb rate, m/s."""
         return -self.last["GLOBAL_POSITION_INT"].vz / 100
 
     @property
     def heading(self):
-        """Degrees."""
+        """Returns the heading, degrees."""
         return self.last["GLOBAL_POSITION_INT"].hdg / 100
 
     @property
     def place(self):
-        """North and east about the first home, m."""
+        """Returns the position north and east of the first home, m."""
         here = self.last["GLOBAL_POSITION_INT"]
         return self.metres(here.lat / 1e7, here.lon / 1e7)
 
     @property
     def item(self):
-        """The mission's current item."""
+        """Returns the mission's current item."""
         return self.last["MISSION_CURRENT"].seq
 
     @property
     def armed(self):
-        """Whether motors are armed."""
+        """Returns whether the motors are armed."""
         return bool(self.last["HEARTBEAT"].base_mode & M.MAV_MODE_FLAG_SAFETY_ARMED)
 
     def flies(self, mode):
-        """Whether this mode is shown."""
+        """Returns whether the heartbeat reports this mode."""
         return self.last["HEARTBEAT"].custom_mode == MODES[mode]
 
     def home(self):
-        """Home's latitude and longitude, degrees."""
+        """Returns home's latitude and longitude, degrees."""
         if "HOME_POSITION" not in self.last:
             self.ask(242)
             self.until("home", lambda: self.shows("HOME_POSITION"), 5)
@@ -170,43 +172,43 @@ class Copter:
         return home.latitude / 1e7, home.longitude / 1e7
 
     def metres(self, latitude, longitude):
-        """North and east of home, m."""
+        """Converts a geographic position to meters north and east of home."""
         north, east = (latitude - self.home()[0]) * DEGREE_M, (longitude - self.home()[1]) * DEGREE_M
         return north, east * math.cos(math.radians(latitude))
 
     def degrees(self, north_m, east_m):
-        """Latitude and longitude in 1e-7 degrees of a place by metres from home."""
+        """Converts meters from home to latitude and longitude in 1e-7 degrees."""
         latitude, longitude = self.home()
         east = east_m / DEGREE_M / math.cos(math.radians(latitude))
         return round((latitude + north_m / DEGREE_M) * 1e7), round((longitude + east) * 1e7)
 
     def away(self, place=(0.0, 0.0)):
-        """Distance from a place, m."""
+        """Returns the distance from a position, m."""
         return math.dist(self.place, place)
 
     def off(self, heading):
-        """How far the nose is from a heading, degrees."""
+        """Returns the difference between the nose and a heading, degrees."""
         return abs((self.heading - heading + 180) % 360 - 180)
 
-    # What it is asked for
+    # Commands
 
     def command(self, command, *values):
-        """Sends a command; the name of its result."""
+        """Sends a command and returns the name of its result."""
         self.last.pop("COMMAND_ACK", None)
         self.link.mav.command_long_send(1, 1, command, 0, *values, *[0] * (7 - len(values)))
-        self.until(f"the answer to {command}", lambda: self.shows("COMMAND_ACK") and self.last["COMMAND_ACK"].command == command, 5)
+        self.until(f"the response to {command}", lambda: self.shows("COMMAND_ACK") and self.last["COMMAND_ACK"].command == command, 5)
         return M.enums["MAV_RESULT"][self.last["COMMAND_ACK"].result].name.removeprefix("MAV_RESULT_")
 
     def must(self, command, *values):
-        """A command that is accepted."""
+        """Sends a command that must be accepted."""
         assert self.command(command, *values) == "ACCEPTED", (command, values, self.texts[-3:])
 
     def ask(self, message):
-        """Asks for a message."""
+        """Requests a message."""
         self.must(M.MAV_CMD_REQUEST_MESSAGE, message)
 
     def set(self, **parameters):
-        """Sets parameters."""
+        """Sets parameters and waits for their confirmation."""
         for name, value in parameters.items():
             self.last.pop("PARAM_VALUE", None)
             self.link.mav.param_set_send(1, 1, name.encode(), value, M.MAV_PARAM_TYPE_REAL32)
@@ -220,17 +222,17 @@ class Copter:
             self.channels[names.get(name) or int(name[1:])] = pulse
 
     def change(self, mode):
-        """Enters a mode, by command."""
+        """Enters a mode by command."""
         self.must(M.MAV_CMD_DO_SET_MODE, M.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED, MODES[mode])
         self.until(mode, lambda: self.flies(mode), 5)
 
     def arm(self):
-        """Arms."""
+        """Arms the motors."""
         self.must(M.MAV_CMD_COMPONENT_ARM_DISARM, 1)
         self.until("armed", lambda: self.armed, 5)
 
     def take_off(self, height_m, mode="GUIDED"):
-        """To a height: by command in GUIDED, by the throttle in the modes by hand."""
+        """Takes off to a height: by command in GUIDED, with the throttle in manual modes."""
         self.change(mode)
         self.arm()
         if mode == "GUIDED":
@@ -241,24 +243,24 @@ class Copter:
         self.stick(throttle=1500)
 
     def until_disarmed(self, limit_s=180):
-        """Landed, and motors off."""
+        """Waits until the vehicle has landed and disarmed."""
         self.until("disarmed", lambda: not self.armed, limit_s)
 
     def go_home(self):
-        """Returns, lands, disarms."""
+        """Returns home, lands and disarms."""
         self.stick(**{"roll": 1500, "pitch": 1500, "throttle": 1500, "yaw": 1500})
         self.change("RTL")
         self.until_disarmed()
 
     def upload(self, items, kind=0):
-        """Uploads a plan: (command, north m, east m, height m, *parameters); a mission gets home as its item 0."""
+        """Uploads a plan: (command, north m, east m, height m, *parameters). A mission gets home as its item 0."""
         whole = [(M.MAV_CMD_NAV_WAYPOINT, 0, 0, 0), *items] if kind == 0 else items
         self.last.pop("MISSION_ACK", None)
         self.last.pop("MISSION_REQUEST", None)
         self.link.mav.mission_count_send(1, 1, len(whole), kind)
         for seq, (command, north, east, height, *values) in enumerate(whole):
             wants = lambda seq=seq: self.shows("MISSION_REQUEST") and self.last["MISSION_REQUEST"].seq == seq
-            self.until(f"the request for item {seq}", wants, 5)
+            self.until(f"a request for item {seq}", wants, 5)
             x, y = self.degrees(north, east) if command < M.MAV_CMD_NAV_DELAY and command != M.MAV_CMD_NAV_RETURN_TO_LAUNCH or kind else (0, 0)
             values = [*values, *[0] * (4 - len(values))]
             frame = M.MAV_FRAME_GLOBAL_RELATIVE_ALT
@@ -267,13 +269,13 @@ class Copter:
         assert self.last["MISSION_ACK"].type == M.MAV_MISSION_ACCEPTED, self.last["MISSION_ACK"]
 
     def start_auto(self):
-        """Arms in AUTO, which takes off at once."""
+        """Arms in AUTO, which takes off immediately."""
         self.set(AUTO_OPTIONS=3)
         self.change("AUTO")
         self.arm()
 
     def target(self, north=0.0, east=0.0, up=0.0, velocity=None):
-        """A set-point in the local frame: a place, or a velocity."""
+        """Sends a setpoint in the local frame: a position or a velocity."""
         mask = IGNORE_ALL_BUT_VELOCITY if velocity else IGNORE_ALL_BUT_PLACE
         vx, vy, vz = velocity or (0, 0, 0)
         self.link.mav.set_position_target_local_ned_send(0, 1, 1, M.MAV_FRAME_LOCAL_NED, mask, north, east, -up, vx, vy, vz, 0, 0, 0, 0, 0)

@@ -1,4 +1,4 @@
-"""A virtual display, photographs of it, and keys pressed on it."""
+"""A virtual display with screenshots and key presses."""
 
 import os
 import pathlib
@@ -9,12 +9,12 @@ from Xlib import X, XK
 from Xlib import display as xdisplay
 from Xlib.ext import xtest
 
-# Where the software driver is described, on whatever processor.
+# Descriptions of the software driver for any processor.
 DRIVERS = sorted(pathlib.Path("/usr/share/vulkan/icd.d").glob("lvp_icd*.json"))
 
 
 class Display:
-    """An X server without a screen, for one test."""
+    """An X server without a screen for one test."""
 
     def __init__(self, folder, width=1280, height=360):
         self.size = (width, height)
@@ -33,33 +33,33 @@ class Display:
         self.root = self.connection.screen().root
 
     def environment(self):
-        """The environment of a program that draws here by Mesa's software driver, and nowhere else."""
+        """Returns the environment for a program that draws on this display with Mesa's software driver."""
         assert DRIVERS, "Mesa's software Vulkan is missing: apt-get install mesa-vulkan-drivers"
         kept = {key: value for key, value in os.environ.items() if key not in ("WAYLAND_DISPLAY", "WAYLAND_SOCKET")}
         return kept | {"DISPLAY": self.name, "VK_DRIVER_FILES": str(DRIVERS[0])}
 
     def photograph(self):
-        """What the display shows: rows of pixels, red, green, blue."""
+        """Returns a screenshot: rows of pixels with red, green, blue."""
         width, height = self.size
         image = self.root.get_image(0, 0, width, height, X.ZPixmap, 0xFFFFFFFF)
         pixels = numpy.frombuffer(image.data, dtype=numpy.uint8).reshape(height, width, 4)
         return pixels[:, :, 2::-1].astype(int)
 
     def focus(self):
-        """Gives the keys to the one window: there is no window manager that does."""
+        """Gives the keyboard focus to the only window, because there is no window manager."""
         windows = [w for w in self.root.query_tree().children if w.get_attributes().map_state == X.IsViewable]
         assert windows, "no window is open"
         windows[-1].set_input_focus(X.RevertToParent, X.CurrentTime)
         self.connection.sync()
 
     def key(self, name, pressed):
-        """A key goes down or up, by its name in X."""
+        """Presses or releases a key, given by its X name."""
         code = self.connection.keysym_to_keycode(XK.string_to_keysym(name))
         xtest.fake_input(self.connection, X.KeyPress if pressed else X.KeyRelease, code)
         self.connection.sync()
 
     def tap(self, name):
-        """A key goes down and up."""
+        """Presses and releases a key."""
         self.key(name, True)
         self.key(name, False)
 
@@ -72,5 +72,5 @@ class Display:
 
 
 def pixels_of(photograph, colour, tolerance=3):
-    """Where a colour shows: rows and columns."""
+    """Returns the rows and columns of the pixels with a color."""
     return numpy.argwhere(numpy.abs(photograph - numpy.array(colour)).max(axis=2) <= tolerance)

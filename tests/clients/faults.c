@@ -1,10 +1,10 @@
-/* Interposed by LD_PRELOAD: file operations below one folder fail, write short or end the process where a test says so.
+/* Loaded with LD_PRELOAD: makes file operations in one folder fail, write short or kill the process, as a test selects.
  *
- * FAULT_UNDER  only paths that begin with this count
- * FAULT_KIND   enospc, eio, short, kill, or none (only count)
- * FAULT_FIRST  the operation that it begins with, from 1 on
- * FAULT_COUNT  how many operations it lasts
- * FAULT_LOG    every operation is appended here as a line: its number, its name, its path, and "fault" where one was injected
+ * FAULT_UNDER  only paths that start with this prefix are affected
+ * FAULT_KIND   enospc, eio, short, kill, or none (only count operations)
+ * FAULT_FIRST  number of the first faulty operation, from 1
+ * FAULT_COUNT  number of faulty operations
+ * FAULT_LOG    file to which every operation is appended as a line: its number, name and path, and "fault" if one was injected
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -27,7 +27,7 @@ static long operations;
 
 enum fault { NONE, FAIL_ENOSPC, FAIL_EIO, SHORT };
 
-/* Decides what happens to one operation; a kill happens here. */
+/* Returns the fault for one operation; kills the process if that is the fault. */
 static enum fault decide(const char *name, const char *path, int writes) {
     const char *under = getenv("FAULT_UNDER"), *kind = getenv("FAULT_KIND"), *log = getenv("FAULT_LOG");
     if (!under || !kind || !path || strncmp(path, under, strlen(under)) != 0) return NONE;

@@ -1,4 +1,4 @@
-"""A gamepad of Linux's own making (uinput): programs find it beside those that are plugged in."""
+"""A virtual Linux gamepad (uinput), which programs find in the same way as real ones."""
 
 import fcntl
 import os
@@ -9,7 +9,7 @@ import time
 DEVICE = "/dev/uinput"
 NAME, VENDOR, PRODUCT = "Spandrel test pad", 0x0483, 0x5710
 
-# linux/uinput.h and linux/input-event-codes.h; the numbers of the calls are those of x86, ARM and RISC-V.
+# From linux/uinput.h and linux/input-event-codes.h; the ioctl numbers are those of x86, ARM and RISC-V.
 CREATE, DESTROY, SETUP, ABS_SETUP, SET_EVBIT, SET_KEYBIT = 0x5501, 0x5502, 0x405C5503, 0x401C5504, 0x40045564, 0x40045565
 SYSNAME_BYTES = 64
 SYSNAME = 2 << 30 | SYSNAME_BYTES << 16 | 0x552C
@@ -19,16 +19,16 @@ SOUTH, EAST, NORTH, WEST = 0x130, 0x131, 0x133, 0x134
 BUTTONS = (SOUTH, EAST, NORTH, WEST, 0x136, 0x137, 0x13A, 0x13B, 0x13C)
 STICK, TRIGGER = (-32768, 32767), (0, 255)
 AXES = {X: STICK, Y: STICK, LEFT_TRIGGER: TRIGGER, RIGHT_X: STICK, RIGHT_Y: STICK, RIGHT_TRIGGER: TRIGGER}
-# Seconds for the system to make the device's node and to say who may open it.
+# Seconds for the system to create the device node and set its permissions.
 NODE_LIMIT_S = 10
 
 
 class Missing(Exception):
-    """This machine makes no gamepads."""
+    """This machine cannot create virtual gamepads."""
 
 
 class Gamepad:
-    """Two sticks, two triggers and nine buttons, at rest."""
+    """Two sticks, two triggers and nine buttons, initially at rest."""
 
     def __init__(self):
         try:
@@ -51,13 +51,13 @@ class Gamepad:
         for button in BUTTONS:
             fcntl.ioctl(self.file, SET_KEYBIT, button)
         for axis, (low, high) in AXES.items():
-            # Where it stands, its ends, fuzz, flat, resolution.
+            # Initial value, ends, fuzz, flat, resolution.
             fcntl.ioctl(self.file, ABS_SETUP, struct.pack("H2x6i", axis, 0, low, high, 0, 0, 0))
         fcntl.ioctl(self.file, SETUP, struct.pack("HHHH80sI", BUS_USB, VENDOR, PRODUCT, 1, NAME.encode(), 0))
         fcntl.ioctl(self.file, CREATE)
 
     def _node(self):
-        """Where programs open it, once they may."""
+        """Returns the device node once programs may open it."""
         name = fcntl.ioctl(self.file, SYSNAME, bytes(SYSNAME_BYTES)).split(b"\0")[0].decode()
         end = time.monotonic() + NODE_LIMIT_S
         while time.monotonic() < end:
@@ -69,7 +69,8 @@ class Gamepad:
         raise Missing(f"the gamepad's node in /dev/input did not come, or may not be opened ({name})")
 
     def environment(self):
-        """What programs need to find it: without udev they look into /dev/input themselves."""
+        """Returns the environment that programs need to find the gamepad; without udev, they must search /dev/input
+        themselves."""
         return {} if os.path.exists("/run/udev/control") else {"GILRS_DISABLE_UDEV": "1"}
 
     def _tell(self, kind, code, value):
@@ -77,18 +78,18 @@ class Gamepad:
             os.write(self.file, struct.pack("llHHi", 0, 0, *event))
 
     def axis(self, axis, part):
-        """Moves an axis to a part of its range, -1 to 1; a trigger rests at -1."""
+        """Moves an axis to a fraction of its range, -1 to 1; a trigger rests at -1."""
         low, high = AXES[axis]
         self._tell(EV_ABS, axis, round((low + high) / 2 + part * (high - low) / 2))
 
     def press(self, button):
-        """Presses a button and lets go of it."""
+        """Presses and releases a button."""
         for pressed in (1, 0):
             self._tell(EV_KEY, button, pressed)
             time.sleep(0.05)
 
     def close(self):
-        """Unplugs it; a second time nothing happens."""
+        """Disconnects the gamepad; further calls have no effect."""
         if self.file is not None:
             fcntl.ioctl(self.file, DESTROY)
             os.close(self.file)

@@ -1,6 +1,6 @@
-"""Flies by sticks alone: a proportional controller on position and heading, the same for every client library.
+"""Flies with stick inputs only: a proportional controller for position and heading, shared by all client libraries.
 
-Positions are east, north, up in metres from the scenario origin; sticks are forward, right, up, clockwise in [-1, 1].
+Positions are east, north, up in meters from the scenario origin; sticks are forward, right, up, clockwise in [-1, 1].
 """
 
 import math
@@ -8,9 +8,9 @@ import tomllib
 
 import spandrel
 
-# Metres per second asked for at most; well under the 10 mph limit.
+# Maximum commanded speed, m/s; well below the 10 mph limit.
 CRUISE_M_S = 3.0
-# What full stick means for the default aircraft (vehicle-params/phantom2.toml).
+# Speed at full stick of the default aircraft (vehicle-params/phantom2.toml), m/s.
 FULL_STICK_M_S = 13.4
 FULL_CLIMB_M_S = 6.0
 FULL_DESCENT_M_S = 2.0
@@ -18,17 +18,17 @@ FULL_YAW_RAD_S = 1.75
 POSITION_GAIN = 0.7
 YAW_GAIN = 1.2
 REACHED_M = 1.2
-# Transits cross the bridge this far above the path, clear of railings and trucks.
+# Height above the path at which transits cross the bridge, clear of railings and trucks, m.
 OVER_M = 14.0
 
 
 def wrap(angle):
-    """Angle in (-pi, pi]."""
+    """Returns an angle in (-pi, pi]."""
     return math.atan2(math.sin(angle), math.cos(angle))
 
 
 def sticks_towards(here, yaw, target, look_yaw, cruise=CRUISE_M_S):
-    """Sticks that lead from `here` to `target` while turning to `look_yaw`."""
+    """Returns the sticks that lead from `here` to `target` while turning to `look_yaw`."""
     east, north, up = (t - h for t, h in zip(target, here))
     ve, vn, vu = (POSITION_GAIN * c for c in (east, north, up))
     scale = min(1.0, cruise / max(math.sqrt(ve * ve + vn * vn + vu * vu), 1e-6))
@@ -41,12 +41,12 @@ def sticks_towards(here, yaw, target, look_yaw, cruise=CRUISE_M_S):
 
 
 def distance(a, b):
-    """Metres between two points."""
+    """Returns the distance between two points, m."""
     return math.dist(a, b)
 
 
 def thin(path, step_m=4.0):
-    """The path with points at least `step_m` apart, ends kept."""
+    """Returns the path with points at least `step_m` apart, including its ends."""
     kept = [path[0]]
     for point in path[1:-1]:
         if distance(kept[-1], point) >= step_m:
@@ -55,14 +55,15 @@ def thin(path, step_m=4.0):
 
 
 def squareness(defect, point):
-    """Cosine between the defect's normal and the line of sight from a point."""
+    """Returns the cosine between the defect's normal and the line of sight from a point."""
     line = [p - d for p, d in zip(point, defect["position_enu_m"])]
     length = math.sqrt(sum(c * c for c in line))
     return sum(c * n for c, n in zip(line, defect["normal_enu"])) / max(length, 1e-9)
 
 
 def defect_to_photograph(job, path):
-    """The defect that shows best from a task's path, and the path point to look at it from: near, square, large."""
+    """Returns the defect that is most visible from a task's path, and the path point to view it from: near,
+    perpendicular, large."""
 
     def worth(item):
         defect, point = item
@@ -72,13 +73,14 @@ def defect_to_photograph(job, path):
 
 
 def aim(here, target):
-    """Heading and elevation, radians, from one point to another."""
+    """Returns heading and elevation from one point to another, radians."""
     east, north, up = (t - h for t, h in zip(target, here))
     return math.atan2(east, north), math.atan2(up, math.hypot(east, north))
 
 
 def first_task_plan(job, pad):
-    """Way points of the flight: up from the pad, over the bridge, along task 1, back over the bridge; with the photo stop."""
+    """Returns the waypoints of the flight: up from the pad, over the bridge, along task 1 with the photo stop, and
+    back over the bridge."""
     path = job["tasks"][0]["path_enu_m"]
     if distance(pad, path[-1]) < distance(pad, path[0]):
         path = path[::-1]
@@ -101,7 +103,8 @@ WGS84_A_M, WGS84_E2 = 6_378_137.0, 6.694_379_990_14e-3  # semi-major axis, eccen
 
 
 def local_origin(scenario, latitude_deg, longitude_deg, altitude_m):
-    """Where the vehicle's local frame has its origin (GPS_GLOBAL_ORIGIN), metres east, north, up of the job's origin."""
+    """Returns the origin of the vehicle's local frame (GPS_GLOBAL_ORIGIN), meters east, north, up of the job's
+    origin."""
     site = tomllib.loads((spandrel.ROOT / "scenarios" / f"{scenario}.toml").read_text(encoding="utf-8"))["origin"]
     latitude = math.radians(site["latitude_deg"])
     flat = 1.0 - WGS84_E2 * math.sin(latitude) ** 2

@@ -1,4 +1,5 @@
-"""A PostgreSQL of our own for one test: on a socket in its folder, as an unprivileged user, because it refuses to run as root."""
+"""A PostgreSQL server for one test: on a socket in its own folder, as an unprivileged user, because it refuses to run
+as root."""
 
 import os
 import pathlib
@@ -7,12 +8,12 @@ import subprocess
 
 import spandrel
 
-# Debian's `nobody`.
+# User ID of Debian's `nobody`.
 NOBODY = 65534
 
 
 def programs():
-    """Where Debian, or the path, has PostgreSQL's programs."""
+    """Returns the folder of PostgreSQL's programs, from Debian's location or the PATH."""
     found = sorted(path.parent for path in pathlib.Path("/usr/lib/postgresql").glob("*/bin/initdb"))
     on_path = shutil.which("initdb")
     assert found or on_path, "no PostgreSQL: apt-get install postgresql"
@@ -20,7 +21,7 @@ def programs():
 
 
 class Postgres:
-    """Starts when it is made; `stop` and `start` are what a restart of its machine does."""
+    """A server that starts when created; `stop` and `start` simulate a restart of its machine."""
 
     def __init__(self, folder):
         self.home = pathlib.Path(folder)
@@ -28,7 +29,7 @@ class Postgres:
         self.data = self.home / "data"
         self.user = {"user": NOBODY, "group": NOBODY, "extra_groups": []} if os.geteuid() == 0 else {}
         if self.user:
-            # Every folder on the way has to let it through.
+            # All parent folders must be accessible to the user.
             for parent in self.home.parents[:3]:
                 parent.chmod(parent.stat().st_mode | 0o055)
             os.chown(self.home, NOBODY, NOBODY)
@@ -44,7 +45,7 @@ class Postgres:
         assert done.returncode == 0, done.stderr
 
     def start(self):
-        """Starts it and waits until it answers."""
+        """Starts the server and waits until it responds."""
         with open(self.home.parent / "postgres.txt", "ab") as log:
             self.process = subprocess.Popen(
                 [programs() / "postgres", "-D", self.data, "-k", self.home, "-c", "listen_addresses=", "-c", "fsync=off"],
@@ -54,11 +55,11 @@ class Postgres:
         spandrel.wait_for("PostgreSQL", ready)
 
     def stop(self):
-        """Ends it with all its connections."""
+        """Stops the server with all its connections."""
         self._run("pg_ctl", "stop", "-D", self.data, "-m", "fast", "-s")
         self.process.wait()
 
     @property
     def url(self):
-        """Its address by the socket."""
+        """Returns the server's URL through its socket."""
         return f"postgres://spandrel@localhost/postgres?host={self.home}"

@@ -1,5 +1,5 @@
-"""One vehicle flown by MAVSDK as PX4's integration tests fly theirs (PX4-Autopilot, test/mavsdk_tests): the same steps and the same limits,
-with time counted by the vehicle's clock."""
+"""A vehicle flown with MAVSDK as in PX4's integration tests (PX4-Autopilot, test/mavsdk_tests): the same steps and
+limits, with time measured by the vehicle's clock."""
 
 import contextlib
 import math
@@ -19,20 +19,20 @@ from mavsdk.plugins.telemetry import LandedState, Telemetry
 
 import spandrel
 
-# Metres in a degree of latitude (WGS 84 at 47 degrees north, to 0.1 %: legs are some ten metres).
+# Meters per degree of latitude (WGS 84 at 47 degrees north, to 0.1 %; legs are some ten meters long).
 DEGREE_M = 111_170.0
-# Vehicle time runs this much faster than the clock on the wall.
+# Speed of vehicle time relative to wall time.
 SPEED = 5
-# Wall seconds between two looks.
+# Polling interval, wall seconds.
 LOOK_S = 0.01
-# Wall seconds without any progress of the vehicle's clock after which a test gives up.
+# Wall seconds without progress of the vehicle's clock after which a test gives up.
 STUCK_S = 120.0
-# Rate of sticks and set-points, Hz of vehicle time.
+# Rate of sticks and setpoints, Hz of vehicle time.
 STICK_RATE_HZ = 50
 
 
 class Tester:
-    """A simulator of its own and MAVSDK's plugins for it."""
+    """A simulator and MAVSDK's plugins for it."""
 
     def __init__(self, folder, scenario):
         folder.mkdir(parents=True, exist_ok=True)
@@ -51,11 +51,11 @@ class Tester:
         self.watches = []
 
     def follow_me(self):
-        """The plugin for follow-me."""
+        """Returns the plugin for follow-me."""
         return FollowMe(self.system)
 
     def close(self):
-        """Ends what was started; what a watch saw fails the test."""
+        """Ends everything that was started; the test fails if a watch has found a problem."""
         for stop, thread in self.watches:
             stop.set()
             thread.join()
@@ -63,14 +63,14 @@ class Tester:
         spandrel.end(self.process)
         assert not self.wrong, self.wrong[:5]
 
-    # Time
+    # Time control
 
     def now_s(self):
-        """The vehicle's clock, s."""
+        """Returns the vehicle's clock, s."""
         return self.telemetry.attitude_quaternion().timestamp_us / 1e6
 
     def wait(self, what, predicate, limit_s):
-        """Waits until the predicate holds, at most so many seconds of vehicle time."""
+        """Waits until the predicate is true, for at most `limit_s` seconds of vehicle time."""
         start, last, moved = self.now_s(), self.now_s(), time.monotonic()
         while True:
             value = predicate()
@@ -80,11 +80,11 @@ class Tester:
             if now != last:
                 last, moved = now, time.monotonic()
             assert now - start <= limit_s, f"not within {limit_s} s: {what}"
-            assert time.monotonic() - moved < STUCK_S, f"the vehicle's clock stands at {now}: {what}"
+            assert time.monotonic() - moved < STUCK_S, f"the vehicle's clock stopped at {now}: {what}"
             time.sleep(LOOK_S)
 
     def pass_time(self, seconds, meanwhile=None):
-        """Lets vehicle time pass; `meanwhile` is called at the rate of sticks."""
+        """Lets vehicle time pass; calls `meanwhile` at the rate of the sticks."""
         end = self.now_s() + seconds
         due = self.now_s()
         while self.now_s() < end:
@@ -94,7 +94,7 @@ class Tester:
             time.sleep(LOOK_S / 5)
 
     def watch(self, what, look):
-        """Looks again and again until the end; `look` returns what is wrong, or None."""
+        """Calls `look` repeatedly until the end; it returns a problem or None."""
         stop = threading.Event()
 
         def watching():
@@ -108,32 +108,32 @@ class Tester:
         thread.start()
         self.watches.append((stop, thread))
 
-    # What PX4's tester does
+    # Steps of PX4's tester
 
     def wait_until_ready(self):
-        """Healthy within 30 s, then armable within 45 s."""
+        """Waits until the vehicle is healthy (30 s), then armable (45 s)."""
         self.wait("some telemetry", lambda: self.now_s() > 0, math.inf)
         self.wait("healthy", self.telemetry.health_all_ok, 30)
         self.wait("armable", lambda: self.telemetry.health().is_armable, 45)
 
     def store_home(self):
-        """Where it stands, by the ground truth."""
+        """Stores the current position from ground truth."""
         self.telemetry.set_rate_ground_truth(15)
         self.home = self.wait("ground truth", self.ground_truth, 10)
 
     def ground_truth(self):
-        """Latitude and longitude, degrees; None while unknown."""
+        """Returns latitude and longitude, degrees, or None while unknown."""
         truth = self.telemetry.ground_truth()
         return (truth.latitude_deg, truth.longitude_deg) if math.isfinite(truth.latitude_deg) else None
 
     def from_home_m(self):
-        """Horizontal distance from the stored home, m."""
+        """Returns the horizontal distance from the stored home, m."""
         latitude, longitude = self.ground_truth()
         east = (longitude - self.home[1]) * math.cos(math.radians(self.home[0]))
         return math.hypot(latitude - self.home[0], east) * DEGREE_M
 
     def arm(self):
-        """Arms, as soon as the vehicle lets it, within 30 s."""
+        """Arms as soon as the vehicle allows it, within 30 s."""
 
         def armed():
             try:
@@ -145,33 +145,33 @@ class Tester:
         self.wait("arming", armed, 30)
 
     def take_off(self, height_m=None):
-        """Takes off, to this height."""
+        """Takes off to a height."""
         if height_m is not None:
             self.action.set_takeoff_altitude(height_m)
             assert abs(self.action.get_takeoff_altitude() - height_m) < 0.01
         self.action.takeoff()
 
     def wait_until_hovering(self):
-        """In the air within 45 s."""
+        """Waits until the vehicle is in the air, at most 45 s."""
         self.wait("in the air", lambda: self.telemetry.landed_state() == LandedState.IN_AIR, 45)
 
     def wait_until_disarmed(self, limit_s):
-        """Disarmed in time."""
+        """Waits until the vehicle has disarmed."""
         self.wait("disarmed", lambda: not self.telemetry.armed(), limit_s)
 
     def position_ned(self):
-        """North, east, down, m."""
+        """Returns north, east, down, m."""
         position = self.telemetry.position_velocity_ned().position
         return position.north_m, position.east_m, position.down_m
 
     def global_from(self, north_m, east_m):
-        """Latitude and longitude of a place by metres from home."""
+        """Returns latitude and longitude of a position given in meters from home."""
         home = self.telemetry.home()
         latitude = home.latitude_deg + north_m / DEGREE_M
         return latitude, home.longitude_deg + east_m / (DEGREE_M * math.cos(math.radians(home.latitude_deg)))
 
     def upload(self, places, height_m=10.0, fly_through=False, return_at_end=False):
-        """Uploads a mission over these places, metres north and east of home."""
+        """Uploads a mission with these positions, meters north and east of home."""
         items = []
         for north, east in places:
             latitude, longitude = self.global_from(north, east)
@@ -181,7 +181,7 @@ class Tester:
         return places
 
     def check_tracks(self, places, height_m, corridor_m):
-        """From now on the vehicle stays this near to the leg that it flies."""
+        """Checks from now on that the vehicle stays within a distance of its current leg."""
         points = [(north, east, -height_m) for north, east in places]
 
         def off():
@@ -194,7 +194,7 @@ class Tester:
         self.watch("track", off)
 
     def start_mission(self):
-        """Starts it, within 3 s."""
+        """Starts the mission, within 3 s."""
 
         def started():
             try:
@@ -206,22 +206,22 @@ class Tester:
         self.wait("the mission's start", started, 3)
 
     def fly_mission(self, limit_s=500):
-        """Flies it to its end."""
+        """Flies the mission to its end."""
         self.start_mission()
         self.wait("the mission's end", self.mission.is_mission_finished, limit_s)
 
     def inject(self, kind, *units):
-        """Lets sensors fail once the first item was reached."""
+        """Lets sensors fail after the first item has been reached."""
         self.param.set_param_int("SYS_FAILURE_EN", 1)
         self.start_mission()
         self.wait("item 1", lambda: self.mission.mission_progress().current >= 1, 60)
-        # MAVSDK 4.1 reads the parameter when the plugin begins and not again.
+        # MAVSDK 4.1 reads the parameter only when the plugin is created.
         failure = Failure(self.system)
         for unit in units:
             failure.inject(unit, kind, 0)
 
     def refused_failure(self, unit, kind):
-        """The name of the answer to a failure that is not enabled."""
+        """Returns the name of the response to a failure that is not enabled."""
         try:
             self.failure.inject(unit, kind, 1)
         except FailureError as error:
@@ -229,7 +229,7 @@ class Tester:
         return "accepted"
 
     def start_offboard(self, send):
-        """Sends a set-point until Offboard has begun."""
+        """Sends a setpoint until Offboard mode has started."""
         for _ in range(10):
             send()
             with contextlib.suppress(OffboardError):
@@ -245,15 +245,15 @@ class Tester:
         self.wait(f"{place}", lambda: math.dist(self.position_ned(), place) < within_m, limit_s)
 
     def offboard_land(self):
-        """Sinks at 1 m/s."""
+        """Descends at 1 m/s."""
         self.offboard.set_velocity_ned(VelocityNedYaw(0.0, 0.0, 1.0, 0.0))
 
     def sticks(self, forward, right, throttle, yaw):
-        """What holds the sticks."""
+        """Returns a function that holds the sticks in a position."""
         return lambda: self.manual.set_manual_control_input(forward, right, throttle, yaw)
 
     def fly_forward_by_sticks(self, begin):
-        """Climbs for 5 s, flies forward for 10 s, sinks until it has landed."""
+        """Climbs for 5 s, flies forward for 10 s, and descends until landed."""
         centered = self.sticks(0, 0, 0.5, 0)
         self.pass_time(1, centered)
         begin()
@@ -270,17 +270,17 @@ class Tester:
             self.pass_time(0.1, self.sticks(0, 0, 0, 0))
 
     def hold_attitude(self, attitude, seconds):
-        """Sends an attitude at the rate of sticks."""
+        """Sends an attitude at the rate of the sticks."""
         self.pass_time(seconds, lambda: self.offboard.set_attitude(attitude))
 
 
 def attitude(pitch_deg=0.0, thrust=0.0):
-    """An attitude set-point."""
+    """Returns an attitude setpoint."""
     return Attitude(0.0, pitch_deg, 0.0, thrust)
 
 
 def distance_to_line(point, a, b):
-    """Distance of a point from the straight line between two others, in their units."""
+    """Returns the distance of a point from the straight line through two others, in their unit."""
     along = [q - p for p, q in zip(a, b)]
     length = math.dist(a, b)
     if length == 0:

@@ -1,4 +1,5 @@
-"""A UDP relay between a vehicle and its client that loses, doubles and reorders datagrams, each way, from a seed."""
+"""A UDP relay between a vehicle and its client that loses, duplicates and reorders datagrams in both directions, from
+a seed."""
 
 import dataclasses
 import heapq
@@ -8,15 +9,16 @@ import socket
 import threading
 import time
 
-# Wall seconds that a reordered datagram is held back, at least and at most: later ones overtake it (estimate: Wi-Fi retransmissions).
+# Minimum and maximum delay of a reordered datagram, wall seconds; later ones overtake it (estimate: Wi-Fi
+# retransmissions).
 HELD_BACK_S = (0.005, 0.05)
-# Wall seconds between two looks at whether the relay shall end.
+# Interval at which the relay checks whether to stop, wall seconds.
 LOOK_S = 0.1
 
 
 @dataclasses.dataclass(frozen=True)
 class Link:
-    """What happens to each datagram, each way; shares from 0 to 1."""
+    """Impairments of each direction; fractions from 0 to 1."""
 
     name: str
     loss: float = 0.0
@@ -33,7 +35,7 @@ LINKS = (CLEAN, LOSS_10, LOSS_30, ROUGH)
 
 
 class Relay:
-    """The vehicle calls `port`, the client listens on `client_port`."""
+    """A relay; the vehicle connects to `port`, the client listens on `client_port`."""
 
     def __init__(self, client_port, link, seed):
         self.link, self.random = link, random.Random(f"{link.name} {seed}")

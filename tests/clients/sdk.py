@@ -1,4 +1,4 @@
-"""MAVSDK and the vehicle that it finds, and a short flight."""
+"""MAVSDK with the vehicle that it finds, and a short flight."""
 
 from mavsdk import ComponentType, Configuration, Mavsdk
 from mavsdk.plugins.action import Action
@@ -6,12 +6,12 @@ from mavsdk.plugins.telemetry import Telemetry
 
 from spandrel import wait_for
 
-# Wall seconds until a vehicle is found on a busy machine, ten times over.
+# Time limit for finding a vehicle on a busy machine, wall seconds (ten times the usual).
 FOUND_S = 60.0
 
 
 def connect(port):
-    """MAVSDK, and the vehicle that it found."""
+    """Returns MAVSDK and the vehicle that it has found."""
     mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
     mavsdk.add_any_connection(f"udpin://127.0.0.1:{port}")
     system = mavsdk.first_autopilot(FOUND_S)
@@ -20,14 +20,14 @@ def connect(port):
 
 
 def ready(system):
-    """Telemetry of a vehicle that would arm."""
+    """Returns the telemetry of a vehicle that is ready to arm."""
     telemetry = Telemetry(system)
     wait_for("health_all_ok", telemetry.health_all_ok)
     return telemetry
 
 
 def asked(system):
-    """Telemetry of a vehicle that says nothing until it is asked, as an ArduPilot does; it knows its home by now."""
+    """Requests telemetry from a vehicle that, like ArduPilot, sends none unrequested; waits until its home is known."""
     telemetry = Telemetry(system)
     telemetry.set_rate_position(10.0)
     telemetry.set_rate_position_velocity_ned(10.0)
@@ -36,7 +36,7 @@ def asked(system):
 
 
 def take_off(system, height_m):
-    """Armed and on its way up, so high; its action and telemetry."""
+    """Arms, takes off and waits for a height; returns action and telemetry."""
     action, telemetry = Action(system), ready(system)
     action.arm()
     action.takeoff()

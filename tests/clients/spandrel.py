@@ -1,4 +1,4 @@
-"""Starts the real program on ports of its own and reads what it writes."""
+"""Starts the program with unused ports and reads its output."""
 
 import json
 import os
@@ -10,30 +10,31 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("SPANDREL", str(ROOT / "target" / "release" / "spandrel"))
-# The program with windows and pictures: tools/test builds the debug one with every feature, the release one as a headless machine would.
+# The program with windows and pictures: tools/test builds the debug one with all features, and the release one as for a
+# headless machine.
 COCKPIT = os.environ.get("SPANDREL_COCKPIT", str(ROOT / "target" / "debug" / "spandrel"))
-# Wall seconds for one whole flight at the speed below, on a busy two-core machine, ten times over.
+# Time limit for a complete flight at the speed below on a busy two-core machine, wall seconds (ten times the usual).
 FLIGHT_LIMIT_S = 600
-# Vehicle time runs this much faster than the clock on the wall. Clients keep their own wall clocks, so it stays small.
+# Speed of vehicle time relative to wall time. Clients use their own wall clocks, so it must be small.
 SPEED = 4
 
 
 def run(*args, program=PROGRAM):
-    """Runs the program to its end and returns what it printed."""
+    """Runs the program to its end and returns its output."""
     done = subprocess.run([program, *args], capture_output=True, text=True, timeout=FLIGHT_LIMIT_S, check=False)
     assert done.returncode == 0, f"{args}: exit {done.returncode}\n{done.stderr}"
     return done.stdout
 
 
 def free_udp_port():
-    """A port that was free a moment ago."""
+    """Returns a currently unused UDP port."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
         probe.bind(("127.0.0.1", 0))
         return probe.getsockname()[1]
 
 
 def start_sim(folder, client_port, *more, speed=SPEED, gcs_port=0, payload_port="none", scenario="drill-hover"):
-    """A simulator alone, faster than the clock, that calls one client."""
+    """Starts only a simulator, accelerated, that connects to one client."""
     log = open(pathlib.Path(folder) / "sim.txt", "w", encoding="utf-8")
     arguments = [
         "sim", "--scenario", scenario, "--seed", "7", "--speed", str(speed), "--gcs", f"127.0.0.1:{client_port}",
@@ -55,7 +56,7 @@ def end(process):
 
 
 class Flight:
-    """A simulator and a monitor on ports that nobody else uses, and the session that they write."""
+    """A simulator and a monitor with unused ports, and the session that they write."""
 
     def __init__(self, folder, scenario="two-bridges", seed=7, speed=SPEED, flavour="px4"):
         self.sessions = pathlib.Path(folder) / "sessions"
@@ -77,25 +78,25 @@ class Flight:
         return subprocess.Popen([PROGRAM, *args], stdout=self.log, stderr=self.log, stdin=subprocess.DEVNULL)
 
     def session(self):
-        """The one session folder."""
+        """Returns the only session folder."""
         folders = sorted(self.sessions.iterdir())
         assert len(folders) == 1, folders
         return folders[0]
 
     def assessment(self):
-        """Waits for the monitor to end by itself and returns its assessment."""
+        """Waits until the monitor ends and returns its assessment."""
         assert self.monitor.wait(timeout=FLIGHT_LIMIT_S) == 0
         return json.loads((self.session() / "assessment.json").read_text(encoding="utf-8"))
 
     def close(self):
-        """Ends what was started here, and nothing else."""
+        """Ends only the processes that were started here."""
         for process in (self.monitor, self.sim):
             end(process)
         self.log.close()
 
 
 def wait_for(what, predicate, limit_s=FLIGHT_LIMIT_S):
-    """Polls until the predicate gives a truthy value; the limit only keeps a broken run from hanging."""
+    """Polls until the predicate returns a truthy value; the limit only prevents a broken run from hanging."""
     end = time.monotonic() + limit_s
     while time.monotonic() < end:
         value = predicate()

@@ -1,4 +1,4 @@
-"""A short part of the table in docs/src/measured/bad-link.md; `bad_link.py` measures all of it."""
+"""A small part of the table in docs/src/measured/bad-link.md; `bad_link.py` measures all of it."""
 
 import pytest
 
@@ -6,7 +6,8 @@ import bad_link
 import px4
 import relay
 
-# Tasks that their clients finish at this loss but for a chance of less than one in a thousand (their own retries, docs/src/measured/bad-link.md).
+# Tasks that succeed at this loss with a probability of more than 99.9 % (because of the clients' own retries,
+# docs/src/measured/bad-link.md).
 SURE = [
     ("Mission of 200 items, upload", relay.LOSS_10),
     ("All parameters", relay.LOSS_30),
@@ -19,7 +20,7 @@ SURE = [
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize(("name", "link"), SURE)
 def test_wire_stock_clients_finish_over_a_bad_link(name, link, measured):
-    """MAVSDK and MAVProxy behind a relay that loses datagrams, each way, from a seed."""
+    """MAVSDK and MAVProxy behind a relay that loses datagrams in both directions, from a seed."""
     measured(f"{name}, {link.name}: {bad_link.run(name, link, 1):.1f} s")
 
 
@@ -27,5 +28,6 @@ def test_wire_stock_clients_finish_over_a_bad_link(name, link, measured):
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("name", ["Mission of 200 items, upload", "All parameters", "FTP, 50 kB, burst", "Log of 50 kB"])
 def test_wire_the_same_clients_finish_with_a_real_px4(name, measured):
-    """The comparison in docs/src/measured/bad-link.md stands on these: without loss both vehicles let the clients finish."""
+    """Basis of the comparison in docs/src/measured/bad-link.md: without losses, the clients succeed with both
+    vehicles."""
     measured(f"{name}, PX4 {px4.version()}: {bad_link.run(name, relay.CLEAN, 1, bad_link.PX4):.1f} s")

@@ -1,4 +1,5 @@
-"""Stock clients over a radio that loses a tenth of all round trips and is late: the vehicle's own bad radio, from its seed."""
+"""Stock clients over a radio that loses a tenth of all round trips and delays datagrams: the vehicle's own link
+impairment, from its seed."""
 
 import time
 
@@ -15,16 +16,16 @@ import test_mavproxy as mavproxy
 from spandrel import wait_for
 
 NAN = float("nan")
-# Each way: of a question and its answer one in ten is lost.
+# In each direction, so that one in ten round trips is lost.
 LOSS_PCT, DELAY_MS = 5.0, 40
-# Wall seconds after which a client asks again.
+# Wall seconds after which a client repeats a request.
 AGAIN_S = 0.5
-# A person types again what has not arrived after this, wall seconds.
+# Wall seconds after which a user enters a command again.
 PATIENCE_S = 10
 
 
 def bad_radio(folder, *more):
-    """A vehicle behind the radio, and its port."""
+    """Starts a vehicle behind the radio; returns its process and port."""
     file = folder / "drone.params"
     file.write_text(f"1\t1\tSIM_LINK_LOSS\t{LOSS_PCT}\t9\n1\t1\tSIM_LINK_DELAY\t{DELAY_MS}\t6\n", encoding="utf-8")
     port = spandrel.free_udp_port()
@@ -33,7 +34,8 @@ def bad_radio(folder, *more):
 
 @pytest.mark.timeout(600)
 def test_wire_a_pymavlink_script_moves_a_plan_and_parameters_over_a_bad_radio(tmp_path):
-    """Every item arrives once and in order, every parameter is read, and the loss is real: some had to be asked for again."""
+    """Every item arrives once and in order, and every parameter is read, although some requests must be repeated
+    because of real losses."""
     process, port = bad_radio(tmp_path)
     try:
         link, mav = asking.connect(port), mavutil.mavlink
@@ -48,7 +50,7 @@ def test_wire_a_pymavlink_script_moves_a_plan_and_parameters_over_a_bad_radio(tm
         requests = ["MISSION_REQUEST_INT", "MISSION_REQUEST"]
         asked = ask(lambda: link.mav.mission_count_send(1, 1, count, 0), requests, lambda m: m.seq == 0)
         while asked.get_type() != "MISSION_ACK":
-            # An item that was asked for twice answers with the request that comes next, or again with its own.
+            # A repeated item is answered with the next request, or again with its own.
             asked = ask(lambda: item(asked.seq), requests + ["MISSION_ACK"])
         assert asked.type == mav.MAV_MISSION_ACCEPTED
         assert ask(lambda: link.mav.mission_request_list_send(1, 1, 0), "MISSION_COUNT").count == count
@@ -67,7 +69,7 @@ def test_wire_a_pymavlink_script_moves_a_plan_and_parameters_over_a_bad_radio(tm
 
 @pytest.mark.timeout(600)
 def test_wire_mavproxy_loads_a_plan_and_parameters_over_a_bad_radio(tmp_path):
-    """What a person types arrives, by MAVProxy's own repetitions or by typing again."""
+    """User commands succeed, through MAVProxy's own retries or by entering them again."""
     process, port = bad_radio(tmp_path)
     typed = mavproxy.Console(port, tmp_path)
     try:
@@ -86,7 +88,8 @@ def test_wire_mavproxy_loads_a_plan_and_parameters_over_a_bad_radio(tmp_path):
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_moves_plans_parameters_and_files_over_a_bad_radio(tmp_path):
-    """A mission up and down, all parameters, a file: MAVSDK's own repetitions and the vehicle's answers suffice."""
+    """Uploads and downloads a mission, all parameters and a file; MAVSDK's own retries and the vehicle's responses
+    must suffice."""
     files = tmp_path / "files"
     files.mkdir()
     content = bytes(k * k % 251 for k in range(6_000))

@@ -1,4 +1,4 @@
-"""tools/check-links finds what is wrong in a book; tools/book runs it on ours."""
+"""tools/check-links finds problems in a book; tools/book runs it on the project's book."""
 
 import subprocess
 import sys
@@ -12,7 +12,7 @@ PAGES = {
     "index.html": '<h1 id="top">A</h1><a href="more/b.html#part">b</a><a href="https://example.org/x">elsewhere</a><a href="#top">top</a>',
     "more/b.html": '<h2 id="part">B</h2><img src="../images/c.png"><a href="../index.html">back</a>',
 }
-# What is changed in the good book: a page's old text, its new text, and the words of the complaint.
+# Changes to the valid book: a page's old text, its new text, and the expected message.
 FAULTS = {
     "page": ("index.html", "more/b.html#part", "more/gone.html", "more/gone.html: no such file"),
     "anchor": ("index.html", "#part", "#gone", "more/b.html#gone: no such anchor"),
@@ -24,7 +24,7 @@ FAULTS = {
 
 @pytest.fixture
 def book(tmp_path):
-    """A book of two pages and a picture: its source and what it was built to."""
+    """Returns a book of two pages and a picture: its source and the built result."""
     source, built = tmp_path / "source", tmp_path / "built"
     for folder in (source / "more", source / "images", built / "more", built / "images"):
         folder.mkdir(parents=True)
@@ -39,20 +39,21 @@ def book(tmp_path):
 
 
 def check(book):
-    """The exit code and what was printed."""
+    """Returns the exit code and the output."""
     done = subprocess.run([sys.executable, str(CHECK), *map(str, book)], capture_output=True, text=True, check=False)
     return done.returncode, done.stdout + done.stderr
 
 
 def test_exact_a_whole_book_has_no_problem(book):
-    """Every page, anchor and picture is there; links to other sites are not looked at. The repository's own Markdown is checked, too."""
+    """A book in which every page, anchor and picture exists has no problems. Links to other sites are not checked;
+    the repository's Markdown is."""
     code, printed = check(book)
     assert code == 0, printed
 
 
 @pytest.mark.parametrize("fault", FAULTS)
 def test_exact_a_link_that_leads_nowhere_is_found(book, fault):
-    """One fault, one complaint that names it."""
+    """Each fault causes one message that describes it."""
     page, old, new, words = FAULTS[fault]
     path = book[1] / page
     text = path.read_text(encoding="utf-8")
@@ -63,7 +64,7 @@ def test_exact_a_link_that_leads_nowhere_is_found(book, fault):
 
 
 def test_exact_pages_and_the_summary_match(book):
-    """A page that is not listed, a listed page that is missing or empty, a page listed twice, a picture that no page shows."""
+    """Finds unlisted pages, listed pages that are missing or empty, pages listed twice, and unused pictures."""
     source, _built = book
     (source / "orphan.md").write_text("# Orphan\n", encoding="utf-8")
     (source / "empty.md").write_text("\n", encoding="utf-8")

@@ -1,4 +1,4 @@
-"""The same flight, sent in lockstep over UDP, gives the same bits in the debug and in the release build."""
+"""The same flight in lockstep over UDP gives identical results in the debug and release builds."""
 
 import os
 import pathlib
@@ -11,15 +11,16 @@ from pymavlink import mavutil
 import spandrel
 
 DEBUG = pathlib.Path(os.environ.get("SPANDREL_DEBUG", spandrel.ROOT / "target" / "debug" / "spandrel"))
-# How long which sticks (forward, right, up from 0 to 1000) are held, s of simulation time, from 3.5 s on: up, sideways into the
-# suspension bridge's girder, away from it; then the motors are stopped, and after a fall into the lake and three seconds it flies on.
+# Stick inputs (forward, right, up from 0 to 1000) and how long each is held from 3.5 s on, s of simulation time: climb,
+# sideways into the girder of the suspension bridge, away from it. Then the motors are stopped; after a fall into the
+# lake and three seconds there, the flight continues.
 SCRIPT = [(7, (0, 0, 800)), (15, (0, -1000, 500)), (4, (0, 1000, 500)), (9, (0, 0, 500)), (4, (500, 0, 600))]
 ARM_AT_S, BEGIN_S, STOP_AT_S, END_S = 3.0, 3.5, 29.5, 42.5
 POSCTL, FORCE = 3, 21196
 
 
 def sticks_at(seconds):
-    """What the script holds at a time."""
+    """Returns the sticks of the script at a time."""
     begin = BEGIN_S
     for length, sticks in SCRIPT:
         if begin <= seconds < begin + length:
@@ -29,7 +30,7 @@ def sticks_at(seconds):
 
 
 class Script:
-    """Answers every TIMESYNC, and sends before each answer what is due by then."""
+    """Answers every TIMESYNC, after sending everything that is scheduled up to then."""
 
     def __init__(self, link):
         self.link, self.armed, self.stopped, self.steps = link, False, False, 0
@@ -39,7 +40,7 @@ class Script:
         self.link.mav.command_long_send(1, 1, number, 0, *values, *[0.0] * (7 - len(values)))
 
     def act(self, seconds):
-        """What a pilot does at this time."""
+        """Sends the scheduled commands and sticks for this time."""
         forward, right, up = sticks_at(seconds)
         self.link.mav.manual_control_send(1, forward, right, up, 0, 0)
         if seconds >= ARM_AT_S and not self.armed:
@@ -51,7 +52,7 @@ class Script:
             self.command(mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 0.0, float(FORCE))
 
     def hear(self, message):
-        """Takes one message of the vehicle."""
+        """Processes a message from the vehicle."""
         if message.get_type() == "NAMED_VALUE_INT" and message.name in self.counts:
             self.counts[message.name] = max(self.counts[message.name], message.value)
         if message.get_type() != "TIMESYNC" or message.tc1 != 0:
@@ -63,7 +64,7 @@ class Script:
 
 
 def fly(program):
-    """The digest of one flight, and what happened in it."""
+    """Returns the digest of a flight and counts of its events."""
     port = spandrel.free_udp_port()
     link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", dialect="common", source_system=255, source_component=190)
     arguments = [
@@ -88,7 +89,7 @@ def fly(program):
 
 @pytest.mark.timeout(600)
 def test_regress_debug_and_release_builds_fly_the_same_bits():
-    """Through gusts, a collision, a fall into the water and being put back."""
+    """Includes gusts, a collision, a fall into the water and a respawn."""
     release, counts = fly(spandrel.PROGRAM)
     assert len(release) == 64 and counts["hits"] > 0 and counts["respawns"] > 0, counts
     assert DEBUG.exists(), f"{DEBUG}: build it first (cargo build)"

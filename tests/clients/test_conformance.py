@@ -1,4 +1,5 @@
-"""The table of answers in docs/src/measured/conformance.md is what the vehicle answers, and every difference from a real PX4 or ArduCopter has its reason."""
+"""The table of responses in docs/src/measured/conformance.md must match the vehicle's responses, and every difference
+from a real PX4 or ArduCopter must have a reason."""
 
 import os
 import subprocess
@@ -8,7 +9,7 @@ import spandrel
 
 
 def test_val_the_table_of_answers_is_true():
-    """tools/conformance asks anew and compares."""
+    """tools/conformance sends all requests again and compares the responses."""
     environment = {**os.environ, "SPANDREL": spandrel.PROGRAM}
     tool = spandrel.ROOT / "tools" / "conformance"
     done = subprocess.run([sys.executable, str(tool), "--check"], env=environment, capture_output=True, text=True, check=False)

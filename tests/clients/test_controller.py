@@ -1,4 +1,4 @@
-"""`spandrel rc` flies a vehicle by what a device reported: a record in place of a device, where there is none."""
+"""`spandrel rc` flies a vehicle with controller input, played back from a recording instead of a real device."""
 
 import json
 import subprocess
@@ -10,7 +10,7 @@ import asking
 import spandrel
 
 DEVICE, IDENTITY = "Test transmitter", "0483:5710"
-# Axes of a transmitter as Linux numbers them, raw: roll, pitch (counts down), throttle, yaw.
+# Raw axis numbers of a transmitter in Linux: roll, pitch (reversed), throttle, yaw.
 ROLL, PITCH, THROTTLE, YAW = 196608, 196609, 196610, 196613
 PROFILE = f"""
 format = 1
@@ -45,7 +45,8 @@ snapshot = [3]
 
 
 def events():
-    """Arms, climbs, flies forward, switches the lamp, takes a picture, and is unplugged in the air."""
+    """Returns input events: arm, climb, fly forward, switch the lamp, take a picture, and unplug the device in the
+    air."""
     for at, button in ((4.0, 1), (9.0, 2), (9.5, 3)):
         yield {"t_s": at, "button": button, "pressed": True}
         yield {"t_s": at + 0.1, "button": button, "pressed": False}
@@ -58,7 +59,8 @@ def events():
 
 @pytest.mark.timeout(300)
 def test_wire_a_transmitter_flies_the_vehicle_and_its_loss_is_the_vehicles_to_handle(tmp_path):
-    """Sticks by calibration, buttons as commands, and after the loss centred sticks, silence, the failsafe."""
+    """Sticks follow the calibration, buttons send commands, and the loss leads to centered sticks, silence and the
+    failsafe."""
     profiles = tmp_path / "profiles"
     profiles.mkdir()
     (profiles / "test-transmitter-0483-5710.toml").write_text(PROFILE, encoding="utf-8")
@@ -93,17 +95,17 @@ def test_wire_a_transmitter_flies_the_vehicle_and_its_loss_is_the_vehicles_to_ha
         kinds = ["LOCAL_POSITION_NED", "RELAY_STATUS", "CAMERA_IMAGE_CAPTURED", "RC_CHANNELS", "STATUSTEXT"]
         asking.hear(link, kinds, take)
         assert seen["up"] > 3.0 and seen["speed"] > 1.0 and seen["lamp"] == 1 and seen["pictures"] == 1, seen
-        assert {1500, 2000} <= seen["sticks"], "calibrated ends and centre"
+        assert {1500, 2000} <= seen["sticks"], "calibrated ends and center"
         _, told = flown.communicate(timeout=60)
         assert flown.returncode == 0 and "disconnected: sticks centered, then no longer sent" in told, told
         beat = asking.hear(link, "HEARTBEAT", lambda b: b.get_srcComponent() == 1)
-        assert beat.base_mode & mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED, "it holds in the air"
+        assert beat.base_mode & mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED, "the vehicle must hold in the air"
     finally:
         spandrel.end(process)
 
 
 def test_wire_a_device_that_is_not_calibrated_or_a_wrong_file_is_told(tmp_path):
-    """Each with its file and what is allowed; exit codes as everywhere."""
+    """Each error contains the file and the allowed values, with the usual exit code."""
     record = tmp_path / "flight.jsonl"
     record.write_text('{"format": 1, "device": "Pad", "id": "1:2"}\n', encoding="utf-8")
 
@@ -127,7 +129,7 @@ def test_wire_a_device_that_is_not_calibrated_or_a_wrong_file_is_told(tmp_path):
 
 
 def test_wire_who_waits_for_a_vehicle_is_told_so_and_when_it_is_there(tmp_path):
-    """A wrong address, or a simulator that is not started yet, looks like nothing else."""
+    """A wrong address or a simulator that has not started yet must be reported."""
     (tmp_path / "pad-1-2.toml").write_text(PROFILE, encoding="utf-8")
     record = tmp_path / "flight.jsonl"
     record.write_text('{"format": 1, "device": "Pad", "id": "1:2"}\n{"t_s": 600, "lost": true}\n', encoding="utf-8")

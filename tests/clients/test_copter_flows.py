@@ -1,5 +1,5 @@
-"""Cases of ArduPilot's own copter autotest that say most about how an ArduCopter behaves, with their limits, in our own words; docs/src/measured/autotest.md
-names all of its cases, and which of them pass."""
+"""The most significant cases of ArduPilot's copter autotest for ArduCopter's behavior, with their limits,
+reimplemented here; docs/src/measured/autotest.md lists all of its cases and which of them pass."""
 
 import concurrent.futures
 import datetime
@@ -9,7 +9,7 @@ import pytest
 
 from copter_tester import M, Copter
 
-# Flights at once: the simulator waits for its client, so more of them only share the processor.
+# Number of parallel flights. The simulator waits for its client, so more flights would only share the processor.
 AT_ONCE = 3
 
 
@@ -37,7 +37,7 @@ def brake_ignores_the_sticks(c):
     c.stick(pitch=1000)
     c.until("fast", lambda: c.speed > 5, 30)
     c.change("BRAKE")
-    # It overshoots the place that it brakes for and comes back before it rests.
+    # It overshoots the braking target and returns before it stops.
     c.settles("at rest", lambda: c.speed < 0.5, 2, 20)
     here = c.place
     c.holds("within 3 m", lambda: math.dist(c.place, here) < 3, 8)
@@ -63,7 +63,7 @@ def guided_turns_as_slowly_as_it_is_told(c):
         goal = (c.heading + turn) % 360
         c.must(M.MAV_CMD_CONDITION_YAW, goal, 2, direction, 0)
         took_s = c.until(f"{turn} degrees", lambda goal=goal: c.off(goal) < 5, 60)
-        assert took_s > 20, "60 degrees at 2 deg/s take half a minute"
+        assert took_s > 20, "60 degrees at 2 deg/s must take half a minute"
         c.pass_time(5)
     c.watches.clear()
     c.go_home()
@@ -287,7 +287,7 @@ def fly(flow, folder):
 
 @pytest.fixture(scope="module", name="flights")
 def fixture_flights(tmp_path_factory):
-    """All flights, some at once: what each comes to is asked for below."""
+    """Starts all flights, some in parallel; the tests below check their results."""
     folder = tmp_path_factory.mktemp("copter")
     with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:
         begun = {flow: pool.submit(fly, flow, folder / flow.__name__) for flow in FLOWS}
@@ -299,5 +299,5 @@ def fixture_flights(tmp_path_factory):
 @pytest.mark.timeout(900)
 @pytest.mark.parametrize("flow", FLOWS, ids=lambda flow: flow.__name__)
 def test_wire_copter_flow(flights, flow):
-    """Passes as it must on ArduCopter."""
+    """Must pass as on ArduCopter."""
     flights[flow].result()

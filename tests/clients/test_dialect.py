@@ -1,4 +1,5 @@
-"""The vehicle heard by a dialect that pymavlink's own generator made of the official XML: nothing that it says is unknown."""
+"""Vehicle telemetry decoded with a dialect that pymavlink's own generator created from the official XML: no message
+may be unknown."""
 
 import time
 
@@ -8,14 +9,14 @@ import asking
 import dialect
 import spandrel
 
-# Wall seconds of telemetry, at several times that in the vehicle's.
+# Duration of telemetry, wall seconds; several times that in vehicle time.
 LISTEN_S = 3
-# What PyPI's pymavlink has no name for.
+# Messages that PyPI's pymavlink does not contain.
 ASKED = {397: "COMPONENT_METADATA", 435: "AVAILABLE_MODES", 440: "ILLUMINATOR_STATUS"}
 
 
 def test_wire_nothing_that_the_vehicle_says_is_unknown_to_the_official_dialect(tmp_path):
-    """Every frame is of a known kind, and what is asked for by number comes by its official name."""
+    """Every frame has a known message, and messages requested by number arrive under their official name."""
     usual = mavutil.current_dialect
     port = spandrel.free_udp_port()
     process = spandrel.start_sim(tmp_path, port)

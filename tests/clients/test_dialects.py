@@ -1,4 +1,5 @@
-"""What clients read of the flavours beyond the common messages: ArduPilot's dialect by pymavlink, PX4's shell and follow-me by MAVSDK."""
+"""Messages beyond the common set as clients decode them: ArduPilot's dialect with pymavlink, PX4's shell and
+follow-me with MAVSDK."""
 
 import pytest
 from mavsdk.plugins.action import Action
@@ -13,13 +14,13 @@ import spandrel
 from spandrel import wait_for
 
 M = mavutil.mavlink
-# Standard gravity, m/s^2, and what noise and lean of a standing vehicle leave of it.
+# Standard gravity, m/s^2, and tolerance for noise and tilt of a vehicle at rest.
 GRAVITY, GRAVITY_TOLERANCE = 9.81, 0.3
 
 
 @pytest.mark.timeout(300)
 def test_regress_pymavlink_reads_ardupilots_own_messages(launch):
-    """pymavlink checks seed and layout of each message by its own definitions."""
+    """pymavlink checks the CRC seed and layout of each message against its own definitions."""
     link = asking.connect(launch("ardupilot"))
     link.mav.request_data_stream_send(1, 1, M.MAV_DATA_STREAM_ALL, 10, 1)
     ekf = asking.hear(link, "EKF_STATUS_REPORT", lambda e: e.flags == 831)
@@ -30,13 +31,13 @@ def test_regress_pymavlink_reads_ardupilots_own_messages(launch):
     assert abs(ahrs.omegaIx) < 0.1 and wind.speed >= 0.0 and -180.0 <= wind.direction <= 180.0
     simulated, position = asking.hear(link, "SIMSTATE"), asking.hear(link, "GLOBAL_POSITION_INT")
     assert abs(simulated.zacc + GRAVITY) < GRAVITY_TOLERANCE
-    # 10 m in 1e-7 degrees: the receiver's error and more.
+    # 10 m in 1e-7 degrees, more than the receiver's error.
     assert abs(simulated.lat - position.lat) < 900 and abs(simulated.lng - position.lon) < 900
 
 
 @pytest.fixture(name="px4")
 def fixture_px4(launch):
-    """MAVSDK's view of a vehicle; it lets go of it before the vehicle ends."""
+    """MAVSDK's view of a vehicle; it is released before the vehicle ends."""
     mavsdk, system = sdk.connect(launch("px4"))
     yield system
     mavsdk.destroy()
@@ -44,10 +45,10 @@ def fixture_px4(launch):
 
 @pytest.mark.timeout(300)
 def test_regress_mavsdk_talks_to_px4s_shell(px4):
-    """A line to the shell and its answer."""
+    """Sends a line to the shell and reads its output."""
     shell, heard = Shell(px4), []
     shell.subscribe_receive(lambda received, _: heard.append(received.data))
-    # MAVSDK drops what a plugin hears within its first moments.
+    # MAVSDK drops output that a plugin receives immediately after its creation.
     sdk.ready(px4)
     shell.send("ver all\n", Device.SHELL)
     wait_for("the version", lambda: "FW version" in "".join(heard))
@@ -57,7 +58,7 @@ def test_regress_mavsdk_talks_to_px4s_shell(px4):
 
 @pytest.mark.timeout(300)
 def test_regress_mavsdk_is_followed(px4):
-    """MAVSDK's follow-me: configured, started, fed with a target, stopped."""
+    """MAVSDK's follow-me: configured, started, updated with a target, stopped."""
     telemetry, action = sdk.ready(px4), Action(px4)
     action.arm()
     action.takeoff()

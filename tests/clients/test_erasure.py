@@ -1,4 +1,5 @@
-"""An erasure is killed at each of its system calls that write: afterwards either nothing was erased, or the next start erases all of it."""
+"""An erasure is killed at each of its writing system calls. Afterwards, either nothing is erased, or the next start
+completes the erasure."""
 
 import json
 import shutil
@@ -7,20 +8,20 @@ import subprocess
 import spandrel
 import webserver
 
-# System calls that change a file or a folder.
+# System calls that change files or folders.
 WRITES = "pwrite64,write,fsync,fdatasync,ftruncate,rename,renameat,renameat2,unlink,unlinkat,rmdir"
-# A mark that only Anna's session holds.
+# A marker that only Anna's session contains.
 SECRET = "only-anna-wrote-this"
 
 
 def everything(folder):
-    """The bytes of all files below a folder, and all names."""
+    """Returns the contents of all files in a folder, and all names."""
     files = [path for path in folder.rglob("*") if path.is_file()]
     return b"".join(path.read_bytes() for path in files), [str(path.relative_to(folder)) for path in folder.rglob("*")]
 
 
 def kill_at(calls, k, *command):
-    """Runs the program and kills it as it enters the k-th of these calls. Returns whether it was killed."""
+    """Runs the program and kills it when it enters the k-th of these calls. Returns whether it was killed."""
     inject = f"inject={calls}:signal=KILL:when={k}"
     done = subprocess.run(["strace", "-f", "-qq", "-o", "/dev/null", "-e", f"trace={calls}", "-e", inject, spandrel.PROGRAM, *command],
                           capture_output=True, text=True, timeout=webserver.PATIENCE_S, check=False)
@@ -38,7 +39,7 @@ def test_an_erasure_killed_at_any_write_is_finished_later(tmp_path):
             (folder / "snapshots" / "1.jpg").write_text(SECRET, encoding="utf-8")
         else:
             (folder / "answers.json").unlink(missing_ok=True)
-    # Imported without the answers, which are no real ones.
+    # Imported without the questionnaire answers, which are not real.
     for folder in flown:
         kept = (folder / "answers.json").read_bytes() if (folder / "answers.json").exists() else None
         (folder / "answers.json").unlink(missing_ok=True)
@@ -62,7 +63,7 @@ def test_an_erasure_killed_at_any_write_is_finished_later(tmp_path):
         else:
             erased_whole += 1
         assert SECRET.encode() not in data and not any("anna" in name for name in names), (k, names)
-        assert kept - {"anna"} == {"ben"} and any("-ben-" in name for name in names), f"call {k}: Ben's session is gone"
+        assert kept - {"anna"} == {"ben"} and any("-ben-" in name for name in names), f"call {k}: Ben's session is missing"
         if not killed:
             break
     print(f"{k} calls: {untouched} times untouched, {erased_whole} times erased")

@@ -1,5 +1,5 @@
-"""A session for other systems: Parquet read by Arrow, statements taken by a store that checks the standard's rules, a package run by a
-learning-management system's interface."""
+"""Sessions for other systems: Parquet read by Arrow, xAPI statements received by a store that checks the standard's
+rules, and a SCORM package run with the interface of a learning management system."""
 
 import csv
 import http.server
@@ -28,7 +28,7 @@ DURATION = re.compile(r"^PT\d+(\.\d{1,2})?S$")
 
 @pytest.fixture(scope="module")
 def sessions(tmp_path_factory):
-    """Two real sessions, in the records."""
+    """Two real sessions with their records."""
     folder = tmp_path_factory.mktemp("exchange") / "sessions"
     webserver.flown(folder, "anna", "ben")
     spandrel.run("records", "import", "--sessions", str(folder))
@@ -49,15 +49,16 @@ def test_parquet_holds_what_the_csv_does(sessions, tmp_path):
         if name == "contact":
             assert ours == theirs
         else:
-            # Written with the fewest digits that read back to the same bits: equal, not near. An empty cell is a null.
+            # Written with the fewest digits that restore the same bits, so values must be equal. An empty cell is a
+            # null.
             numbers = [None if value == "" else float(value) for value in theirs]
             assert [None if value is None else float(value) for value in ours] == numbers, name
-    # A flight of our own vehicle holds all of them.
+    # A flight of the simulated vehicle contains all of them.
     for name in ("roll_deg", "gimbal_pitch_deg", "task", "path_distance_m", "clearance_m", "wind_north_m_s", "estimated_up_m"):
         known = [value for value in table.column(name).to_pylist() if value is not None]
         assert len(known) > 0.2 * table.num_rows, name
     off = [math.dist(true, estimated) for true, estimated in zip(places(table, ""), places(table, "estimated_")) if None not in estimated]
-    assert 0 < max(off) < 5, "the estimate is near the truth and is not the truth"
+    assert 0 < max(off) < 5, "the estimate must be near the truth, but not equal"
 
 
 def places(table, prefix):
@@ -78,7 +79,8 @@ def test_parquet_fields_carry_unit_frame_and_definition(sessions, tmp_path):
 
 
 class Store(http.server.BaseHTTPRequestHandler):
-    """The part of a learning record store that takes statements, with the rules of xAPI 1.0.3 that a client can break."""
+    """The part of a learning record store that receives statements, with the rules of xAPI 1.0.3 that a client could
+    violate."""
 
     def log_message(self, *_):
         pass
@@ -100,7 +102,7 @@ class Store(http.server.BaseHTTPRequestHandler):
             if fault:
                 store.faults.append(fault)
                 return self.tell(400, fault)
-        # A statement that is there with other words is a conflict, and then nothing of the request is kept.
+        # An existing statement with different contents is a conflict, and then nothing of the request is stored.
         if any(one["id"] in store.kept and store.kept[one["id"]] != one for one in statements):
             return self.tell(409, "conflict")
         store.kept.update({one["id"]: one for one in statements})
@@ -119,7 +121,7 @@ class Store(http.server.BaseHTTPRequestHandler):
 
 
 def broken_rule(one):
-    """The first rule of the standard's data that a statement breaks."""
+    """Returns the first data rule of the standard that a statement violates."""
     if set(one) - {"id", "actor", "verb", "object", "result", "context", "timestamp"}:
         return "unknown field"
     if str(uuid.UUID(one["id"])) != one["id"]:
@@ -145,7 +147,7 @@ def broken_rule(one):
 
 @pytest.fixture
 def store():
-    """A store on a free port."""
+    """A store on an unused port."""
     server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Store)
     server.kept, server.faults, server.requests, server.busy, server.lose_answer = {}, [], 0, 0, False
     threading.Thread(target=server.serve_forever, daemon=True).start()
@@ -174,7 +176,7 @@ def test_statements_are_taken_once_whatever_the_line_does(sessions, store):
     assert sent[0]["result"]["score"]["raw"] == overall
     before = dict(store.kept)
     assert push(sessions, store).returncode == 0
-    assert store.kept == before, "sent again, stored once"
+    assert store.kept == before, "repeated statements must be stored once"
 
 
 def test_a_store_that_refuses_is_told_and_not_asked_again(sessions, store):
@@ -215,7 +217,7 @@ def test_a_scorm_package_tells_its_result(sessions, tmp_path):
             page.goto(f"http://127.0.0.1:{server.server_port}/system.html")
             page.wait_for_function("window.told['cmi.core.session_time']", timeout=webserver.PATIENCE_S * 1000)
             told = page.evaluate("window.told")
-            assert page.frames[1].frame_locator("iframe").locator("h1").count() == 1, "the report shows"
+            assert page.frames[1].frame_locator("iframe").locator("h1").count() == 1, "the report must be visible"
             chromium.close()
     finally:
         server.shutdown()

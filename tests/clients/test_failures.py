@@ -1,4 +1,4 @@
-"""MAVSDK's failure plugin, as instructors use it: what is broken, and what follows from it."""
+"""MAVSDK's failure plugin as instructors use it: failures and their effects."""
 
 import pytest
 from mavsdk.plugins.failure import Failure, FailureType, FailureUnit
@@ -7,15 +7,15 @@ import sdk
 import spandrel
 from spandrel import wait_for
 
-# A motor that stands is told as this pulse, us.
+# Pulse width of a stopped motor, us.
 STANDING_US = 1000.0
-# Deg from level: a hover in the drill's wind stays below, what lies on its back is beyond.
+# Tilt limits, deg: a hover in the drill's wind stays below the first; an upside-down vehicle is beyond the second.
 LEVEL_DEG, UPSIDE_DEG = 20.0, 90.0
 
 
 @pytest.fixture
 def failing(tmp_path):
-    """A vehicle whose parameter allows failures, ready to fly, and MAVSDK's plugin."""
+    """A vehicle ready to fly with failure injection enabled, and MAVSDK's plugin."""
     file = tmp_path / "drone.params"
     file.write_text("1\t1\tSYS_FAILURE_EN\t1\t6\n", encoding="utf-8")
     port = spandrel.free_udp_port()
@@ -28,7 +28,7 @@ def failing(tmp_path):
 
 @pytest.mark.timeout(300)
 def test_wire_mavsdk_takes_the_gnss_away_and_gives_it_back(failing):
-    """The vehicle's health tells both; a failure that there is not is told as such."""
+    """The vehicle's health shows failure and recovery; an unsupported failure is reported as such."""
     _system, telemetry, failure = failing
     failure.inject(FailureUnit.SENSOR_GPS, FailureType.OFF, 0)
     wait_for("no satellites", lambda: telemetry.gps_info().num_satellites == 0)
@@ -42,7 +42,7 @@ def test_wire_mavsdk_takes_the_gnss_away_and_gives_it_back(failing):
 
 @pytest.mark.timeout(300)
 def test_wire_failures_are_off_unless_a_parameter_allows_them(vehicle):
-    """MAVSDK looks at the parameter itself, and the vehicle refuses whoever does not."""
+    """MAVSDK checks the parameter itself, and the vehicle rejects requests from clients that do not."""
     system, telemetry = vehicle
     with pytest.raises(Exception, match="DISABLED|DENIED"):
         Failure(system).inject(FailureUnit.SENSOR_GPS, FailureType.OFF, 0)
@@ -51,7 +51,8 @@ def test_wire_failures_are_off_unless_a_parameter_allows_them(vehicle):
 
 @pytest.mark.timeout(300)
 def test_wire_mavsdk_stops_a_motor_in_flight_and_the_vehicle_falls_until_it_turns_again(failing):
-    """The motor that failed stands, the others do not; it comes down upside down and says so; mended, it hovers where it is put back."""
+    """Only the failed motor stops; the vehicle falls, ends upside down and reports it; after repair, it hovers at the
+    respawn position."""
     system, telemetry, failure = failing
     telemetry.set_rate_actuator_output_status(20.0)
     texts = []
@@ -86,7 +87,7 @@ def test_wire_mavsdk_stops_a_motor_in_flight_and_the_vehicle_falls_until_it_turn
 
 @pytest.mark.timeout(300)
 def test_wire_mavsdk_empties_the_battery_and_the_compass_comes_and_goes(failing):
-    """An empty battery is told in numbers and in words, and the vehicle does not arm with it."""
+    """An empty battery appears in values and texts, and prevents arming."""
     system, telemetry, failure = failing
     texts = []
     telemetry.subscribe_status_text(lambda text, *_: texts.append(text.text.rstrip()))

@@ -1,7 +1,8 @@
-"""Every subcommand that writes, with a disk that is full, fails, writes short, or a kill at each of its file operations.
+"""Every subcommand that writes files, with a full disk, failing or short writes, or a kill at each of its file operations.
 
-`faults.c` stands between the program and the C library. After a fault the program ends with a message and its exit code, never by a panic; a
-file that it replaces is the old one or the new one; and the same command without the fault then gives what it gives on a sound disk."""
+`faults.c` is loaded between the program and the C library. After a fault, the program must end with a message and its exit code, never
+with a panic; a replaced file must have either its old or its new content; and the same command without the fault must then give the same
+result as on a fault-free disk."""
 
 import json
 import os
@@ -23,20 +24,21 @@ import webserver
 from spandrel import wait_for
 
 HERE = pathlib.Path(__file__).parent
-# Of a command with many operations every n-th is tried, so that a kind of fault costs at most so many runs.
+# For a command with many operations, only every n-th is tried, so that each kind of fault has at most this many runs.
 TRIED_MOST = 24
-# Faults that are no longer met when a command has fewer operations than this; a bound for a loop, far above any command here.
+# Upper bound for the number of operations, far above that of any command here.
 OPERATIONS_MOST = 10_000
-# Height that counts as flying for the drill's session, m.
+# Height that counts as flying in the drill's session, m.
 HEIGHT_M = 2.0
-# Commands that take seconds (a whole flight, a scene) are tried at so many operations: the first, the last, and one between.
+# Number of operations tried for commands that take seconds (a whole flight, a scene): the first, the last, and one in
+# between.
 SLOW_TRIED = 3
 KINDS = ["enospc", "eio", "short", "kill"]
 
 
 @pytest.fixture(scope="session")
 def shim(tmp_path_factory):
-    """The library that injects faults."""
+    """Returns the library that injects faults."""
     built = tmp_path_factory.mktemp("faults") / "faults.so"
     subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", str(built), str(HERE / "faults.c"), "-ldl"], check=True)
     return built
@@ -44,7 +46,7 @@ def shim(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def flown(tmp_path_factory):
-    """A session as a sound disk keeps it."""
+    """Returns a session written by a fault-free disk."""
     sessions = tmp_path_factory.mktemp("flown") / "sessions"
     spandrel.run("demo", "--scenario", "drill-hover", "--seed", "3", "--speed", "max", "--trainee", "anna", "--sessions", str(sessions))
     place = ["--sessions", str(sessions), "--database", str(sessions.parent / "records.sqlite")]
@@ -54,7 +56,7 @@ def flown(tmp_path_factory):
 
 
 def environment(shim, under, kind, first=1, count=1, log=None):
-    """Environment of a program that meets faults below a folder."""
+    """Returns the environment of a program with faults in a folder."""
     return os.environ | {
         "LD_PRELOAD": str(shim), "FAULT_UNDER": str(under), "FAULT_KIND": kind, "FAULT_FIRST": str(first), "FAULT_COUNT": str(count),
         "FAULT_LOG": str(log or os.devnull),
@@ -62,11 +64,12 @@ def environment(shim, under, kind, first=1, count=1, log=None):
 
 
 def operations(log):
-    """Lines of the log of operations."""
+    """Returns the lines of the log of file operations."""
     return log.read_text(encoding="utf-8").splitlines() if log.is_file() else []
 
 
-# Arguments by name; {s} is the folder of sessions, {d} the session, {r} its records, {o} a folder for results. Typed answers where the command asks.
+# Arguments by name; {s} is the folder of sessions, {d} the session, {r} its records, {o} a folder for results. Contains
+# input where the command asks for it.
 COMMANDS = {
     "assess": (["assess", "{d}", "--json", "{o}/scores.json"], ""),
     "report": (["report", "{d}"], ""),
@@ -86,12 +89,13 @@ COMMANDS = {
         "",
     ),
 }
-# Databases and recordings hold times and ids of their own; of these the command itself says whether they are right.
+# Databases and recordings contain times and IDs that differ between runs; the command's own check decides whether they
+# are valid.
 COMPARED = (".json", ".csv", ".glb", ".plan", ".parquet", ".zip", ".jsonl", ".html", ".params")
 
 
 class Place:
-    """A copy of the session, and a folder for results."""
+    """A copy of the session, with a folder for results."""
 
     def __init__(self, folder, flown):
         self.root = folder
@@ -101,7 +105,7 @@ class Place:
         self.out.mkdir(exist_ok=True)
 
     def run(self, name, env=None):
-        """Runs a command here."""
+        """Runs a command in this folder."""
         words, typed = COMMANDS[name]
         args = [word.format(s=self.sessions, d=self.session, o=self.out, r=self.records) for word in words]
         return subprocess.run(
@@ -109,7 +113,7 @@ class Place:
         )
 
     def results(self):
-        """Files that can be compared, by their place."""
+        """Returns the files that can be compared, by path."""
         found = [path for path in self.root.rglob("*") if path.is_file() and path.suffix in COMPARED]
         return {str(path.relative_to(self.root)): path.read_bytes() for path in found}
 
@@ -123,7 +127,7 @@ def test_regress_a_fault_at_any_operation_leaves_whole_files(shim, flown, tmp_pa
     done = sound.run(name, environment(shim, sound.root, "none", log=log))
     assert done.returncode == 0, done.stderr
     expected, total = sound.results(), len(operations(log))
-    assert 0 < total < OPERATIONS_MOST, "the command writes"
+    assert 0 < total < OPERATIONS_MOST, "the command must write files"
     step = max(1, total // TRIED_MOST)
     hit = 0
     for first in range(1, total + 1, step):
@@ -136,35 +140,35 @@ def test_regress_a_fault_at_any_operation_leaves_whole_files(shim, flown, tmp_pa
             assert done.returncode in (-signal.SIGKILL, 0), (first, done.stderr)
         else:
             assert done.returncode in (0, 1, 2) and "panicked" not in done.stderr, (first, done.returncode, done.stderr)
-            assert done.returncode == 0 or str(place.root) in done.stderr, (first, "the message names the file", done.stderr)
+            assert done.returncode == 0 or str(place.root) in done.stderr, (first, "the message must contain the file", done.stderr)
         for file, content in place.results().items():
             whole = (before.get(file), expected.get(file))
-            # The answers so far are whole answers, too.
+            # Partial answers are also valid.
             assert content in whole or file.endswith("answers.json"), (first, file, "is neither the old file nor the new one")
         again = place.run(name)
         assert again.returncode == 0, (first, again.stderr)
-        assert place.results() == expected, (first, "the command gives the same on a sound disk")
+        assert place.results() == expected, (first, "the command must give the same result on a fault-free disk")
         shutil.rmtree(place.root)
-    assert hit > 0 or kind == "short" or kind == "enospc", "no fault was met"
+    assert hit > 0 or kind == "short" or kind == "enospc", "no fault occurred"
     measured(f"{name} with {kind}: {total} file operations, {hit} faults met")
 
 
 def spread(total, most=SLOW_TRIED):
-    """Numbers of operations from the first to the last."""
+    """Returns operation numbers spread from the first to the last."""
     return sorted({1 + round(k * (total - 1) / (most - 1)) for k in range(most)})
 
 
 def ended_well(done, kind, place):
-    """A program that met a fault ends with a message that names the file, and never by a panic."""
+    """Checks that a program with a fault ends with a message that contains the file, and never with a panic."""
     assert "panicked" not in done.stderr, done.stderr
     if kind == "kill":
         assert done.returncode in (-signal.SIGKILL, 0, 1), (done.returncode, done.stderr)
     else:
         assert done.returncode in (0, 1, 2), (done.returncode, done.stderr)
-        assert done.returncode == 0 or str(place) in done.stderr, ("the message names the file", done.stderr)
+        assert done.returncode == 0 or str(place) in done.stderr, ("the message must contain the file", done.stderr)
 
 
-# What is drawn of a session, small; {d} is the session, {o} a folder for results.
+# Renderings of a session, small; {d} is the session, {o} a folder for results.
 DRAWN = {
     "photographs": ["render", "{d}", "--snapshots", "--masks", "--quality", "low", "--size", "64x48"],
     "film": ["render", "{d}", "--video", "{o}/film.mp4", "--span", "20,21", "--fps", "2", "--quality", "low", "--size", "64x48"],
@@ -174,7 +178,7 @@ DRAWN_FILES = (".jpg", ".png", ".json", ".mp4", ".vtt", ".html")
 
 @pytest.fixture(scope="module")
 def photographed(tmp_path_factory):
-    """A session with photographs, and how this machine draws."""
+    """A session with photos, and the settings for rendering on this machine."""
     if not display.DRIVERS:
         pytest.skip("Mesa's software Vulkan is missing: apt-get install mesa-vulkan-drivers")
     sessions = tmp_path_factory.mktemp("photographed") / "sessions"
@@ -190,7 +194,7 @@ def photographed(tmp_path_factory):
 @pytest.mark.timeout(1200)
 @pytest.mark.parametrize("name", list(DRAWN))
 def test_regress_a_fault_while_drawing_leaves_whole_pictures(shim, photographed, tmp_path, name, measured):
-    """Photographs, films and pictures are the old ones or the new ones, and drawn again they are whole."""
+    """After a fault, photos, videos and pictures are either the old or the new ones; rendering again completes them."""
     def draw(root, env):
         session, out = root / "sessions" / photographed.name, root / "out"
         if not session.is_dir():
@@ -211,7 +215,7 @@ def test_regress_a_fault_while_drawing_leaves_whole_pictures(shim, photographed,
     done = draw(sound, environment(shim, sound, "none", log=log))
     assert done.returncode == 0, done.stderr
     expected, total = files(sound), len(operations(log))
-    assert total > 0 and expected != before, "something is drawn"
+    assert total > 0 and expected != before, "something must be rendered"
     hit = 0
     for kind in KINDS:
         for first in spread(total):
@@ -223,14 +227,15 @@ def test_regress_a_fault_while_drawing_leaves_whole_pictures(shim, photographed,
             for file, content in files(root).items():
                 assert content in (before.get(file), expected.get(file)), (kind, first, file, "is neither the old file nor the new one")
     again = draw(root, dict(os.environ))
-    assert again.returncode == 0 and files(root) == expected, (again.stderr, "after a kill it is drawn whole")
-    assert hit > 0, "no fault was met"
+    assert again.returncode == 0 and files(root) == expected, (again.stderr, "rendering must be complete after a kill")
+    assert hit > 0, "no fault occurred"
     measured(f"drawing {name}: {total} file operations, {hit} faults met")
 
 
 @pytest.mark.timeout(1200)
 def test_regress_a_demo_ends_with_a_session_or_a_reason(shim, tmp_path, measured):
-    """Simulator, monitor and pilot meet the faults of their own operations: a session is scored, or the message says why not."""
+    """Simulator, monitor and pilot have faults in their own operations: either a session is scored, or the message
+    contains the reason."""
     def demo(sessions, env):
         args = ["demo", "--scenario", "drill-hover", "--seed", "3", "--speed", "max", "--sessions", str(sessions)]
         return subprocess.run([spandrel.PROGRAM, *args], env=env, capture_output=True, text=True, timeout=spandrel.FLIGHT_LIMIT_S, check=False)
@@ -252,15 +257,15 @@ def test_regress_a_demo_ends_with_a_session_or_a_reason(shim, tmp_path, measured
             for file in sessions.glob("*/report.html"):
                 assert file.read_text(encoding="utf-8").rstrip().endswith("</html>"), (kind, first)
             for file in sessions.glob("*/assessment.json"):
-                assert file.read_text(encoding="utf-8") == expected, (kind, first, "the scores are those of a sound disk")
+                assert file.read_text(encoding="utf-8") == expected, (kind, first, "the scores must be those of a fault-free disk")
                 scored += 1
-    assert hit > 0 and scored > 0, "no fault was met"
+    assert hit > 0 and scored > 0, "no fault occurred"
     measured(f"demo: {total} file operations, {hit} faults met, {scored} sessions scored")
 
 
 @pytest.mark.timeout(1200)
 def test_regress_a_flight_log_that_cannot_be_written_stops_no_flight(shim, tmp_path, measured):
-    """`sim --files` in flight: the pilot lands whatever the disk does, and what was written of the log can be read."""
+    """`sim --files` in flight: the pilot lands regardless of the disk, and the written part of the log can be read."""
     def fly(files, env):
         files.parent.mkdir()
         pilot = subprocess.Popen(
@@ -279,7 +284,7 @@ def test_regress_a_flight_log_that_cannot_be_written_stops_no_flight(shim, tmp_p
         ]
         for reader in readers:
             reader.start()
-        # A simulator that dies before its first heartbeat leaves a pilot that waits.
+        # If the simulator dies before its first heartbeat, the pilot keeps waiting.
         wait_for("the landing, or the simulator's end", lambda: lines or sim.poll() is not None, limit_s=spandrel.FLIGHT_LIMIT_S)
         sim.stdin.close()
         code = sim.wait(timeout=spandrel.FLIGHT_LIMIT_S)
@@ -305,7 +310,7 @@ def test_regress_a_flight_log_that_cannot_be_written_stops_no_flight(shim, tmp_p
                 assert code == -signal.SIGKILL, (first, told)
             elif code == 0:
                 assert said["reason"] == "landed", (kind, first, told)
-                # A fault that the log met is reported once, with the file's name.
+                # A fault of the log is reported once, with the file's name.
                 assert told.count("cannot write") <= 1, told
                 assert kind == "short" or not faults or str(files) in told, (kind, first, faults, told)
             else:
@@ -314,13 +319,14 @@ def test_regress_a_flight_log_that_cannot_be_written_stops_no_flight(shim, tmp_p
                 if ulog.stat().st_size > 16:
                     assert pyulog.ULog(str(ulog)).data_list is not None, ulog
                     read += 1
-    assert hit > 0 and read > 0, "no fault was met"
+    assert hit > 0 and read > 0, "no fault occurred"
     measured(f"sim --files in flight: {total} file operations, {hit} faults met, {read} logs read")
 
 
 @pytest.mark.timeout(1200)
 def test_regress_a_server_on_a_bad_disk_answers_and_takes_in_whole_sessions_only(shim, flown, tmp_path, measured):
-    """A recording uploaded and an answer saved while the disk fails: each is there whole or not at all, and the page says so."""
+    """Uploads a recording and saves an answer while the disk fails: each is stored completely or not at all, and the
+    page reports it."""
     recording = (flown / "telemetry.tlog").read_bytes()
     fields = {"trainee": "carl", "scenario": "drill-hover", "vehicle": "phantom2"}
     template = tmp_path / "template" / "sessions"
@@ -334,7 +340,7 @@ def test_regress_a_server_on_a_bad_disk_answers_and_takes_in_whole_sessions_only
         try:
             server = webserver.Server(sessions, env=env)
         except AssertionError as refused:
-            # It did not start: its reason is the last thing that it said.
+            # The server did not start; its last output is the reason.
             return [], str(refused)
         statuses = []
         try:
@@ -366,19 +372,19 @@ def test_regress_a_server_on_a_bad_disk_answers_and_takes_in_whole_sessions_only
             assert len(taken) == 1 if confirmed else len(taken) <= 1, (kind, first, statuses, taken)
             for folder in taken:
                 there = {path.name for path in folder.iterdir() if path.is_file()}
-                assert wanted - there <= {"report.html"}, (kind, first, "a session is whole", wanted - there)
+                assert wanted - there <= {"report.html"}, (kind, first, "a session must be complete", wanted - there)
             answers = root / "sessions" / flown.name / "answers.json"
             if statuses[:1] == [200]:
                 assert json.loads(answers.read_text(encoding="utf-8"))["answers"]["frustration"] == 3, (kind, first)
     statuses, told = serve(root, dict(os.environ))
-    # 409: the recording was taken in before the kill, and twice is one session.
-    assert statuses in ([200, 303], [200, 409]), (told, "after a kill it serves as before")
-    assert hit > 0, "no fault was met"
+    # 409 means that the recording was imported before the kill; a second upload must not create another session.
+    assert statuses in ([200, 303], [200, 409]), (told, "the server must work as before after a kill")
+    assert hit > 0, "no fault occurred"
     measured(f"serve: {total} file operations, {hit} faults met")
 
 
 def listen(port, texts, over):
-    """Gathers the texts that a ground station gets; a socket that nobody reads would be full soon."""
+    """Collects the texts sent to a ground station; the socket must be read, because it would fill up."""
     station = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}")
     while not over.is_set():
         message = station.recv_match(type="STATUSTEXT", blocking=True, timeout=0.2)
@@ -387,7 +393,7 @@ def listen(port, texts, over):
 
 
 class Watched:
-    """A simulator, and a monitor that meets faults when it writes telemetry."""
+    """A simulator, and a monitor with faults when it writes telemetry."""
 
     def __init__(self, shim, folder, **fault):
         self.folder, self.sessions = folder, folder / "sessions"
@@ -402,36 +408,36 @@ class Watched:
         )
 
     def session(self):
-        """The one session folder."""
+        """Returns the only session folder."""
         return wait_for("a session", lambda: next((f for f in self.sessions.glob("*") if f.is_dir()), None))
 
     def fly(self):
-        """Up and down, to the scores."""
+        """Takes off, lands and waits for the scores."""
         mavsdk, system = sdk.connect(self.sdk_port)
         action, telemetry = sdk.take_off(system, HEIGHT_M)
         action.land()
         ended = self.monitor.wait(timeout=spandrel.FLIGHT_LIMIT_S)
-        # MAVSDK ends the process when it goes before what came from it.
+        # MAVSDK crashes the process if it is released before the objects that it created.
         del action, telemetry, system
         mavsdk.destroy()
         assert ended == 0, self.printed()
 
     def printed(self):
-        """What the monitor said."""
+        """Returns the monitor's output."""
         return (self.folder / "monitor.txt").read_text(encoding="utf-8")
 
     def close(self):
-        """Ends both."""
+        """Ends both processes."""
         spandrel.end(self.monitor)
         spandrel.end(self.sim)
 
 
-# What a controller reports: an axis that moves, and a picture; seconds since the vehicle was heard.
+# Controller input: a moving axis, and a picture; seconds since the vehicle was found.
 REPORTED = [{"t_s": round(0.05 * k, 2), "axis": test_controller.YAW, "value": round(0.01 * k, 2)} for k in range(10)]
 
 
 class Recorded:
-    """`spandrel rc --record` beside a vehicle on a sound disk; a record stands in for the controller."""
+    """`spandrel rc --record` with a vehicle on a fault-free disk; a recording replaces the controller."""
 
     def __init__(self, shim, folder):
         self.shim, self.log = shim, folder / "operations"
@@ -445,7 +451,7 @@ class Recorded:
         self.sim = spandrel.start_sim(folder, spandrel.free_udp_port(), speed=1, gcs_port=self.dial)
 
     def fly(self, kind, first=1):
-        """One flight with a fault; how it ended, and the whole lines of its record without their times."""
+        """Runs a flight with a fault; returns its result and the complete lines of its recording without their times."""
         kept = self.out / "kept.jsonl"
         kept.unlink(missing_ok=True)
         self.log.unlink(missing_ok=True)
@@ -455,13 +461,13 @@ class Recorded:
             stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60, check=False,
         )
         text = kept.read_text(encoding="utf-8") if kept.exists() else ""
-        assert text == "" or text.endswith("\n"), "no half line"
+        assert text == "" or text.endswith("\n"), "all lines must be complete"
         return done, [{k: v for k, v in json.loads(line).items() if k != "t_s"} for line in text.splitlines()]
 
 
 @pytest.fixture(name="recorded")
 def fixture_recorded(shim, tmp_path):
-    """A vehicle, and what is needed to fly it."""
+    """A vehicle, and the files needed to fly it."""
     made = Recorded(shim, tmp_path)
     yield made
     spandrel.end(made.sim)
@@ -470,13 +476,14 @@ def fixture_recorded(shim, tmp_path):
 @pytest.mark.timeout(300)
 @pytest.mark.parametrize("kind", KINDS)
 def test_regress_a_fault_ends_the_record_of_a_controller_and_not_the_flight(recorded, kind, measured):
-    """The record keeps whole lines up to the fault; only one that cannot be begun ends the command, with a message that names the file."""
+    """The recording contains complete lines up to the fault. Only a recording that cannot be created ends the
+    command, with a message that contains the file."""
     sound, lines = recorded.fly("none")
     total = len(operations(recorded.log))
     assert sound.returncode == 0 and len(lines) == 1 + len(REPORTED), (sound.stderr, lines)
     for first in spread(total):
         done, kept = recorded.fly(kind, first)
-        assert any(line.endswith(" fault") for line in operations(recorded.log)) or kind == "short", "a fault was met"
+        assert any(line.endswith(" fault") for line in operations(recorded.log)) or kind == "short", "a fault must have occurred"
         assert kept == lines[: len(kept)] and "panicked" not in done.stderr, (first, kept, done.stderr)
         if kind == "kill":
             assert done.returncode == -signal.SIGKILL and len(kept) < len(lines), (first, done.returncode)
@@ -492,7 +499,8 @@ def test_regress_a_fault_ends_the_record_of_a_controller_and_not_the_flight(reco
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("kind", ["enospc", "eio", "short"])
 def test_regress_a_disk_that_fails_in_flight_costs_no_telemetry(shim, tmp_path, kind):
-    """From the 24th operation on 10 fail (some two seconds of a flight): the pilot is warned, the flight goes on, nothing is lost."""
+    """From the 24th operation on, 10 fail (about two seconds of a flight): the pilot is warned, the flight continues,
+    and no data is lost."""
     watched = Watched(shim, tmp_path, kind=kind, first=24, count=10, log=tmp_path / "operations")
     texts, over = [], threading.Event()
     listener = threading.Thread(target=listen, args=(watched.gcs_port, texts, over))
@@ -502,13 +510,13 @@ def test_regress_a_disk_that_fails_in_flight_costs_no_telemetry(shim, tmp_path, 
         words = {"enospc": "Disk full: recording paused", "eio": "Disk error: recording paused", "short": "Armed"}[kind]
         wait_for("the pilot's texts", lambda: words in texts, limit_s=30)
         session = watched.session()
-        assert any(line.endswith(" fault") for line in operations(tmp_path / "operations")), "no fault was met"
+        assert any(line.endswith(" fault") for line in operations(tmp_path / "operations")), "no fault occurred"
         if kind == "short":
-            assert not any("recording" in text for text in texts), "a short write is no fault of the disk"
+            assert not any("recording" in text for text in texts), "a short write must not be reported as a disk error"
         else:
             wait_for("the end of the warning", lambda: "Recording resumed" in texts, limit_s=30)
             assert "retrying" in watched.printed() and "recording to disk resumed" in watched.printed()
-        # Whole and in order: the stored flight gives the scores of the live one, frame by frame.
+        # Complete and in order: the stored flight gives the same scores as the live one, frame by frame.
         assert spandrel.run("assess", str(session), "--json", "-") == (session / "assessment.json").read_text(encoding="utf-8")
         assert json.loads((session / "assessment.json").read_text(encoding="utf-8"))["telemetry"]["missing_frames"] == 0
         lines = (session / "events.jsonl").read_text(encoding="utf-8").splitlines()
@@ -521,7 +529,7 @@ def test_regress_a_disk_that_fails_in_flight_costs_no_telemetry(shim, tmp_path, 
 
 @pytest.mark.timeout(600)
 def test_regress_a_second_monitor_is_refused_and_the_end_is_synced(shim, tmp_path):
-    """One session has one writer, and its files reach the disk itself when it ends."""
+    """A session has one writer, and its files are synced to the disk when it ends."""
     log = tmp_path / "operations"
     watched = Watched(shim, tmp_path, kind="none", log=log)
     try:

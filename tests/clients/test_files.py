@@ -1,4 +1,4 @@
-"""MAVSDK's FTP against the vehicle's folder, and the flight's log read by PX4's own library."""
+"""MAVSDK's FTP with the vehicle's folder, and the flight log read by PX4's own library."""
 
 import base64
 import json
@@ -22,17 +22,17 @@ import sdk
 import spandrel
 from spandrel import wait_for
 
-# The take-off height that the vehicle flies to by itself, m; what the log says of it must lie this near to what telemetry said, m.
+# Tolerance between the log and telemetry at the default takeoff height, m.
 HEIGHT_TOLERANCE_M = 0.3
-# Slower up and down than this, m/s, is a hover: the last of a climb at 1.5 m/s is faster.
+# Vertical speed below which the vehicle hovers, m/s; the end of a climb at 1.5 m/s is faster.
 STEADY_M_S = 0.1
-# The log's unit quaternions, stored as 32-bit floats.
+# Tolerance of the log's unit quaternions, which are stored as 32-bit floats.
 QUATERNION_TOLERANCE = 1e-5
 
 
 @pytest.fixture
 def vehicle(tmp_path):
-    """A simulator with a folder of its own, and its port."""
+    """A simulator with its own folder, and its port."""
     port = spandrel.free_udp_port()
     process = spandrel.start_sim(tmp_path, port, "--files", str(tmp_path / "files"))
     yield process, port, tmp_path / "files"
@@ -40,7 +40,7 @@ def vehicle(tmp_path):
 
 
 def wait(start, *args):
-    """Runs a call that reports progress, until it reports its end."""
+    """Runs a call that reports progress until it reports its end."""
     results = []
     start(*args, lambda result, _progress, _data: results.append(FtpResult(result)))
     return wait_for("end of the transfer", lambda: next((r for r in results if r != FtpResult.NEXT), None))
@@ -48,7 +48,7 @@ def wait(start, *args):
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_keeps_files_on_the_vehicle(vehicle, tmp_path):
-    """Up, listed, compared, renamed, down by both ways, removed."""
+    """Uploads, lists, compares, renames, downloads (in both ways) and removes files."""
     _process, port, folder = vehicle
     mavsdk, system = sdk.connect(port)
     ftp = Ftp(system)
@@ -74,19 +74,20 @@ def test_wire_mavsdk_keeps_files_on_the_vehicle(vehicle, tmp_path):
 
 @pytest.mark.timeout(600)
 def test_wire_a_checksum_of_a_huge_file_does_not_stop_the_vehicle(tmp_path, measured):
-    """CreateFile, TruncateFile to 256 MiB, CalcFileCRC32: heartbeats go on before the answer comes, and more than the quota is refused."""
+    """CreateFile, TruncateFile to 256 MiB, CalcFileCRC32: heartbeats continue before the response, and a size above
+    the quota is rejected."""
     port = spandrel.free_udp_port()
     process = spandrel.start_sim(tmp_path, port, "--files", str(tmp_path / "files"), speed=1)
     try:
         link = asking.connect(port)
 
         def ftp(sequence, opcode, offset, path):
-            """Sends one request."""
+            """Sends a request."""
             header = struct.pack("<HBBBBBBI", sequence, 0, opcode, len(path), 0, 0, 0, offset)
             link.mav.file_transfer_protocol_send(0, 1, 1, (header + path).ljust(251, b"\0"))
 
         def answer(sequence, opcode, offset, path):
-            """The answer to one, opcode and data."""
+            """Returns the response to a request: opcode and data."""
             fits = lambda m: bytes(m.payload[:2]) == struct.pack("<H", sequence + 1)  # noqa: E731
             payload = bytes(asking.ask(link, lambda: ftp(sequence, opcode, offset, path), "FILE_TRANSFER_PROTOCOL", fits).payload)
             return payload[3], payload[12 : 12 + payload[4]]
@@ -103,19 +104,19 @@ def test_wire_a_checksum_of_a_huge_file_does_not_stop_the_vehicle(tmp_path, meas
             if message.get_srcComponent() == 1:
                 beats.append(time.monotonic())
         payload = bytes(message.payload)
-        assert (payload[3], payload[12:16]) == (ack, bytes(4)), "the sum over nothing but zeros"
-        assert len(beats) > 1, "no heartbeat before the answer"
+        assert (payload[3], payload[12:16]) == (ack, bytes(4)), "the checksum of zeros must be zero"
+        assert len(beats) > 1, "no heartbeat before the response"
         gaps = [later - sooner for sooner, later in zip(beats, [*beats[1:], time.monotonic()], strict=True)]
         measured(f"checksum of 256 MiB: {time.monotonic() - begin:.1f} s, longest time without a heartbeat {max(gaps):.1f} s")
         assert answer(7, truncate, 256 * 1024 * 1024 + 1, b"/huge")[0] == nak
-        assert answer(9, create, 0, b"/log/mine.ulg")[0] == nak, "logs are the vehicle's"
+        assert answer(9, create, 0, b"/log/mine.ulg")[0] == nak, "logs must be write-protected"
     finally:
         spandrel.end(process)
 
 
 @pytest.mark.timeout(600)
 def test_val_pyulog_reads_the_flights_log(vehicle):
-    """Take-off and landing; height, modes and attitude of the log agree with what was flown."""
+    """Contains takeoff and landing; height, modes and attitude in the log agree with telemetry."""
     process, port, folder = vehicle
     mavsdk, system = sdk.connect(port)
     action, telemetry = sdk.take_off(system, 1.5)
@@ -141,7 +142,7 @@ def test_val_pyulog_reads_the_flights_log(vehicle):
 
 
 def read_recording(path):
-    """Messages of an MCAP file by topic, read by its index."""
+    """Returns the messages of an MCAP file by topic, using its index."""
     found = {}
     with path.open("rb") as file:
         for schema, channel, message in make_reader(file).iter_messages():
@@ -151,7 +152,8 @@ def read_recording(path):
 
 
 def check_recording(path, height):
-    """What Foxglove's own library reads of the flight: the drone's frame climbs as high, the site is a glTF, texts are there."""
+    """Checks with Foxglove's own library that the drone's frame reaches the height, the site is a glTF, and texts are
+    present."""
     found = read_recording(path)
     frames = found["/tf", "foxglove.FrameTransforms"]
     ups = [t["translation"]["z"] for f in frames for t in f["transforms"] if t["child_frame_id"] == "drone"]
@@ -166,7 +168,7 @@ def check_recording(path, height):
 
 @pytest.mark.timeout(600)
 def test_val_a_recording_of_a_killed_simulator_is_recovered(vehicle, tmp_path):
-    """Killed in flight: the reader by index gives up, `export --mcap` writes all but the last second anew."""
+    """Killed in flight: the indexed reader fails, and `export --mcap` rewrites all but the last second."""
     process, port, folder = vehicle
     mavsdk, system = sdk.connect(port)
     sdk.take_off(system, 2.0)
@@ -182,14 +184,15 @@ def test_val_a_recording_of_a_killed_simulator_is_recovered(vehicle, tmp_path):
         assert len(list(StreamReader(file, validate_crcs=True).records)) > 0
     frames = read_recording(whole)["/tf", "foxglove.FrameTransforms"]
     ups = [t["translation"]["z"] for f in frames for t in f["transforms"] if t["child_frame_id"] == "drone"]
-    # Two metres up when it was killed, climbing at 1.5 m/s: a second is lost at most.
+    # It was two meters up when it was killed, climbing at 1.5 m/s; at most a second is lost.
     assert max(ups) - ups[0] > 0.4
     assert pathlib.Path(broken).stat().st_size > 0
 
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_lists_downloads_and_erases_logs(vehicle, tmp_path):
-    """A log of an earlier flight, listed with its time, brought down whole, erased; the notes beside it stay."""
+    """A log of an earlier flight is listed with its time, downloaded completely and erased; other files in the folder
+    stay."""
     _process, port, folder = vehicle
     day = folder / "log" / "2026-11-20"
     day.mkdir(parents=True)

@@ -1,4 +1,5 @@
-"""The same vehicle as other autopilots: scripts for ArduCopter, MAVProxy as its users type, MAVSDK, and the standard alone."""
+"""The same vehicle emulating other autopilots: scripts for ArduCopter, MAVProxy commands as users enter them, MAVSDK,
+and the generic standard."""
 
 import pytest
 from mavsdk import ComponentType, Configuration, Mavsdk
@@ -15,44 +16,45 @@ from test_mavproxy import LAT, LON, Console, plan
 
 M = mavutil.mavlink
 LIMIT_S = asking.LIMIT_S
-# A height counts as reached within this, m.
+# Distance within which a height counts as reached, m.
 NEAR_M = 0.8
 NAN = float("nan")
-# Two metres in 1e-7 degrees of latitude.
+# Two meters in 1e-7 degrees of latitude.
 PLACE = 180
 
 
 class Script:
-    """What scripts on pymavlink do, whatever the autopilot."""
+    """Functions of typical pymavlink scripts, for any autopilot."""
 
     def __init__(self, port):
         self.link = asking.connect(port)
 
     def wait(self, kind, condition=lambda message: True):
-        """The next message of a kind that meets a condition."""
+        """Returns the next message of a kind that meets a condition."""
         return asking.hear(self.link, kind, condition)
 
     def command(self, number, *params):
-        """The result of a command."""
+        """Returns the result of a command."""
         return asking.command(self.link, number, *params)
 
     def ready(self):
-        """Asks for everything at 10 Hz, as scripts do, and waits until the vehicle would arm."""
+        """Requests all streams at 10 Hz, as scripts do, and waits until the vehicle is ready to arm."""
         self.link.mav.request_data_stream_send(1, 1, M.MAV_DATA_STREAM_ALL, 10, 1)
         self.wait("SYS_STATUS", lambda s: s.onboard_control_sensors_health & M.MAV_SYS_STATUS_PREARM_CHECK)
 
     def height(self):
-        """Over home, m."""
+        """Returns the height above home, m."""
         return self.wait("GLOBAL_POSITION_INT").relative_alt / 1000
 
     def landed(self):
-        """Waits until the motors stand."""
+        """Waits until the motors have stopped."""
         self.wait("HEARTBEAT", lambda b: b.get_srcComponent() == 1 and not b.base_mode & M.MAV_MODE_FLAG_SAFETY_ARMED)
 
 
 @pytest.mark.timeout(600)
 def test_wire_a_script_for_arducopter_flies(launch):
-    """pymavlink's own helpers for ArduPilot: mode by name, arming, take-off over home, a target, parameters cast, return."""
+    """pymavlink's own helpers for ArduPilot: mode by name, arming, takeoff above home, a target, parameters encoded
+    as floats, return."""
     script = Script(launch("ardupilot"))
     link = script.link
     assert link.mode_mapping()["GUIDED"] == 4
@@ -69,7 +71,7 @@ def test_wire_a_script_for_arducopter_flies(launch):
     assert script.command(M.MAV_CMD_NAV_TAKEOFF, 0, 0, 0, 0, 0, 0, 6) == M.MAV_RESULT_ACCEPTED
     wait_for("take-off", lambda: script.height() > 6 - NEAR_M, LIMIT_S)
     here = script.wait("GLOBAL_POSITION_INT")
-    # Once, and only where: as scripts for GUIDED do.
+    # Only once, and only a position, as scripts for GUIDED do.
     link.mav.set_position_target_global_int_send(
         0, 1, 1, M.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT, 0x0DF8, here.lat + 1500, here.lon, 8, 0, 0, 0, 0, 0, 0, 0, 0,
     )
@@ -83,7 +85,7 @@ def test_wire_a_script_for_arducopter_flies(launch):
 
 @pytest.mark.timeout(600)
 def test_wire_a_script_for_the_standard_flies(launch):
-    """Nothing but common messages and standard modes: what is offered, take-off, position hold, return."""
+    """Uses only common messages and standard modes: available modes, takeoff, position hold, return."""
     script = Script(launch("generic"))
     script.ready()
     standard = {1: "position hold", 5: "safe recovery", 7: "land", 8: "take-off"}
@@ -104,7 +106,7 @@ def test_wire_a_script_for_the_standard_flies(launch):
 
 @pytest.fixture
 def copter(tmp_path, launch):
-    """A Copter and MAVProxy beside it, parameters fetched."""
+    """A Copter with MAVProxy, with parameters fetched."""
     console = Console(launch("ardupilot", speed=2), tmp_path)
     console.wait("parameters to")
     yield console, tmp_path
@@ -113,10 +115,10 @@ def copter(tmp_path, launch):
 
 @pytest.mark.timeout(600)
 def test_wire_mavproxy_flies_a_copter(copter):
-    """Parameters as a file, modes by name, arming refused and granted, GUIDED take-off, channels, relay, return."""
+    """Parameters as a file, modes by name, arming rejected and accepted, GUIDED takeoff, channels, relay, return."""
     typed, _folder = copter
     fetched = "\n".join(typed.heard)
-    assert "fallback" not in fetched.lower() and "param.pck" not in fetched, "over FTP, at the first try"
+    assert "fallback" not in fetched.lower() and "param.pck" not in fetched, "parameters must come over FTP at the first attempt"
     typed.say("param show RTL_ALT", "RTL_ALT          3000")
     typed.say("param set RTL_ALT 1500", None)
     typed.until("param fetch RTL_ALT", "RTL_ALT = 1500")
@@ -147,7 +149,7 @@ def test_wire_mavproxy_flies_a_copter(copter):
 
 @pytest.mark.timeout(600)
 def test_wire_mavproxy_loads_and_lists_a_copters_plans(copter):
-    """Item 0 of a mission is home: what is loaded comes back with it, and the fence and the rally points without."""
+    """Item 0 of a mission is home, so it is included in a downloaded mission, but not in the fence or rally points."""
     typed, folder = copter
     nothing = (0.0, 0.0, 0.0, 0.0)
     home = (0, 16, nothing, 0, 1630)
@@ -160,7 +162,7 @@ def test_wire_mavproxy_loads_and_lists_a_copters_plans(copter):
     typed.say(f"wp save {saved}", str(saved))
     rows = [line.split("\t") for line in saved.read_text(encoding="utf-8").splitlines()[1:]]
     assert [row[3] for row in rows] == ["16", "22", "16", "21"]
-    assert abs(float(rows[0][8]) - LAT) < 1e-3 and abs(float(rows[0][9]) - LON) < 1e-3, "home, where the vehicle stands"
+    assert abs(float(rows[0][8]) - LAT) < 1e-3 and abs(float(rows[0][9]) - LON) < 1e-3, "home must be at the vehicle's position"
     typed.say("wp set 2", None)
     typed.until("status MISSION_CURRENT", "seq : 2")
     typed.say(f"fence load {plan(folder, 'fence.txt', [(0, 5003, (80.0, 0.0, 0.0, 0.0), 0, 0)])}", "Got MISSION_ACK: TYPE_FENCE: ACCEPTED")
@@ -171,7 +173,8 @@ def test_wire_mavproxy_loads_and_lists_a_copters_plans(copter):
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_takes_it_for_an_ardupilot(launch):
-    """Take-off, hold, parameters, a mission with home in front, return: MAVSDK chooses ArduPilot's ways by itself."""
+    """Takeoff, hold, parameters, a mission that starts with home, return: MAVSDK must choose ArduPilot's variants
+    automatically."""
     port = launch("ardupilot")
     mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
     mavsdk.add_any_connection(f"udpin://127.0.0.1:{port}")

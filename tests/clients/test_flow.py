@@ -1,4 +1,5 @@
-"""`spandrel train` in its window: choice, controller, tutorial, flight, pause, a new beginning, the end with its scores; all by keys."""
+"""`spandrel train` in its window: selection, controller check, tutorial, flight, pause, restart, end with scores; all
+with the keyboard."""
 
 import json
 import os
@@ -13,34 +14,35 @@ import asking
 import display
 import spandrel
 
-# Colours of pages as they define them (crates/view/src/hud/mod.rs): the ground, the row that has the focus, a score's bar.
+# Colors of pages (crates/view/src/hud/mod.rs): background, focused row, bar of a score.
 NIGHT, FOCUS, BLUE = (20, 24, 30), (20, 92, 140), (86, 180, 233)
-# The display's battery, so a flight is drawn.
+# Color of the HUD's battery, which shows that a flight is rendered.
 GREEN = (0, 190, 130)
-# Wall seconds for a software driver on a busy machine to compile its shaders and to draw, or for a session to be written, ten times over.
+# Time limit for a software driver on a busy machine to compile its shaders and render, or for a session to be written,
+# wall seconds (ten times the usual).
 LIMIT_S = 400
 # Wall seconds after which a key without an effect is pressed again.
 AGAIN_S = 20.0
-# Rows of a window: X names of the keys that act on them.
+# X names of the keys that navigate the rows of a window.
 ENTER, DOWN, UP, LEFT, ESCAPE = "Return", "Down", "Up", "Left", "Escape"
 
 
 @pytest.fixture
 def screen(tmp_path):
-    """A virtual display that a page's words are legible on."""
+    """A virtual display on which a page's text is legible."""
     opened = display.Display(tmp_path, width=1280, height=560)
     yield opened
     opened.close()
 
 
 class Training:
-    """`train` with its window on a display, on ports of its own."""
+    """`train` with its window on a display and unused ports."""
 
     def __init__(self, screen, folder, *args):
         self.screen, self.folder = screen, folder
         self.sessions = folder / "sessions"
         self.out = open(folder / "train.txt", "w", encoding="utf-8")
-        # Photographs for whoever wants to look at them afterwards.
+        # Folder for screenshots, for inspection after the test.
         self.album = os.environ.get("SPANDREL_ALBUM")
         self.process = subprocess.Popen(
             [spandrel.COCKPIT, "train", "--ports", "ephemeral", "--sessions", str(self.sessions), "--web", "none", *args],
@@ -48,7 +50,7 @@ class Training:
         )
 
     def environment(self):
-        """A loudspeaker that writes down what it is to play, and no configuration of the person who runs the tests."""
+        """Sets up a fake audio player that stores its input, and an empty user configuration."""
         programs = self.folder / "programs"
         programs.mkdir()
         player = programs / "pacat"
@@ -57,17 +59,17 @@ class Training:
         return {"PATH": f"{programs}:{os.environ['PATH']}", "XDG_CONFIG_HOME": str(self.folder / "config")}
 
     def told(self):
-        """What it has printed."""
+        """Returns the output so far."""
         return (self.folder / "train.txt").read_text(encoding="utf-8")
 
     def keep(self, name, photograph):
-        """A photograph into the album, where there is one."""
+        """Stores a screenshot in the album folder, if there is one."""
         if self.album:
             Image.fromarray(photograph.astype(numpy.uint8)).save(os.path.join(self.album, f"{name}.png"))
 
     def see(self, name, predicate, key=None):
-        """Waits until a photograph shows what is expected; presses a key first, and again when nothing happens: the first may come before
-        the window has the focus."""
+        """Waits until a screenshot meets a condition. Presses a key first, and again if nothing happens, because the
+        first press may come before the window has the focus."""
         pressed = spandrel.time.monotonic() - AGAIN_S if key else None
 
         def look():
@@ -87,54 +89,55 @@ class Training:
         return photograph
 
     def close(self):
-        """Ends it."""
+        """Ends the process."""
         spandrel.end(self.process)
         self.out.close()
 
 
 def count(photograph, colour):
-    """Pixels of a colour."""
+    """Returns the number of pixels with a color."""
     return len(display.pixels_of(photograph, colour))
 
 
 def is_page(photograph):
-    """A page covers the window."""
+    """Returns whether a page covers the window."""
     return count(photograph[-6:], NIGHT) > 0.9 * photograph[-6:].shape[0] * photograph.shape[1] and count(photograph, FOCUS) > 500
 
 
 def focus(photograph):
-    """Where the row with the focus is: the middle of its colour, from the left and from above, shares."""
+    """Returns the center of the focused row as fractions of the width and height."""
     rows, columns = display.pixels_of(photograph, FOCUS).T
     return columns.mean() / photograph.shape[1], rows.mean() / photograph.shape[0]
 
 
 def other_page(before):
-    """A page on which much more has changed than the focus."""
+    """Returns a predicate for a page that differs from `before` in more than the focus."""
     return lambda photograph: is_page(photograph) and numpy.abs(photograph - before).mean() > 3.0
 
 
 def in_flight(photograph):
-    """The views are drawn, with the display."""
+    """Returns whether the views are rendered with the HUD."""
     return count(photograph, GREEN) > 50 and count(photograph, FOCUS) < 200
 
 
 def paused(photograph):
-    """A page lies over the flight."""
+    """Returns whether a page is shown over the flight."""
     return count(photograph, FOCUS) > 500 and count(photograph, GREEN) > 50
 
 
 def folders(training):
-    """Session folders so far; beside them lies the camera's view while a window is open."""
+    """Returns the session folders so far, without the camera view's file, which is in the same folder while a window
+    is open."""
     return sorted(folder for folder in training.sessions.iterdir() if folder.is_dir()) if training.sessions.is_dir() else []
 
 
 @pytest.mark.timeout(2400)
 def test_wire_a_session_from_the_choice_to_the_scores_by_keys_alone(screen, tmp_path):
-    """Start page, controller, tutorial, flight, pause, a new beginning, the end; every page is photographed."""
+    """Start page, controller check, tutorial, flight, pause, restart, end; takes a screenshot of every page."""
     training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--choose", "--seed", "7")
     try:
         start = training.see("start", is_page)
-        # Down to "go on": the focus moves, and comes to the controller.
+        # Moves the focus down to "Next", which opens the controller check.
         moved = training.see("focus-moves", lambda photograph: is_page(photograph) and focus(photograph)[1] > focus(start)[1] + 0.03, DOWN)
         assert focus(moved)[1] < 0.5
         for _ in range(2):
@@ -152,13 +155,14 @@ def test_wire_a_session_from_the_choice_to_the_scores_by_keys_alone(screen, tmp_
         training.see("flies-on", in_flight, ESCAPE)
         assert len(folders(training)) == 1
 
-        # Begun anew: asked once more, then a second session.
+        # Restart: after a confirmation, there is a second session.
         training.see("asked-once-more", paused, "BackSpace")
         screen.tap(ENTER)
         spandrel.wait_for("a second session", lambda: len(folders(training)) == 2, LIMIT_S)
         training.see("second-flight", in_flight)
         screen.focus()
-        # It flies a little: motors and take-off, asked again until it does; the filter settles first.
+        # Flies for a short time: arming and takeoff are repeated until they succeed, because the filter must settle
+        # first.
         again = asking.Again(lambda: (screen.tap("1"), screen.tap("t")))
         photograph = asking.Again(lambda: screen.tap("p"))
 
@@ -176,10 +180,10 @@ def test_wire_a_session_from_the_choice_to_the_scores_by_keys_alone(screen, tmp_
         training.see("paused-again", paused, ESCAPE)
         screen.tap(UP)
         over = training.see("over", lambda photograph: is_page(photograph) and count(photograph, BLUE) > 200, ENTER)
-        assert focus(over)[0] > 0.5, "what comes next stands on the right"
+        assert focus(over)[0] > 0.5, "the next steps must be on the right"
         screen.tap(UP)
         screen.tap(ENTER)
-        # It ends once the photographs are drawn.
+        # The program ends after the photos have been rendered.
         assert training.process.wait(timeout=LIMIT_S) == 0, training.told()
     finally:
         training.close()
@@ -192,18 +196,18 @@ def test_wire_a_session_from_the_choice_to_the_scores_by_keys_alone(screen, tmp_
 
 
 def heard_propellers(folder):
-    """What the loudspeaker was given: while the drone climbed, its blades' frequency stands out of everything."""
+    """Checks the audio output: while the drone climbed, the blade frequency must dominate the spectrum."""
     samples = numpy.frombuffer((folder / "played.raw").read_bytes(), dtype="<i2").astype(float)
     pieces = samples[: len(samples) // 24000 * 24000].reshape(-1, 24000)
     loudest = pieces[numpy.abs(pieces).mean(axis=1).argmax()]
     spectrum = numpy.abs(numpy.fft.rfft(loudest * numpy.hanning(len(loudest))))
-    # A Phantom's rotors turn at some 60 to 150 turns a second: two blades.
+    # A Phantom's rotors turn at some 60 to 150 revolutions per second and have two blades.
     assert 100 < spectrum.argmax() < 320, f"{spectrum.argmax()} Hz"
 
 
 @pytest.mark.timeout(1200)
 def test_wire_an_assessment_is_not_paused_nor_begun_anew_but_may_be_ended(screen, tmp_path):
-    """The key of the pause asks whether it is to end, and the flight goes on meanwhile."""
+    """The pause key asks whether to end the session, and the flight continues meanwhile."""
     training = Training(screen, tmp_path, "--trainee", "otto", "--scenario", "drill-hover", "--purpose", "assessment", "--no-sound")
     try:
         training.see("assessment", in_flight)
@@ -221,14 +225,14 @@ def test_wire_an_assessment_is_not_paused_nor_begun_anew_but_may_be_ended(screen
         training.see("assessment-asked-again", paused, ESCAPE)
         screen.tap(DOWN)
         training.see("assessment-over", is_page, ENTER)
-        assert "so there is no session to score" in training.told(), "it never lifted off"
+        assert "so there is no session to score" in training.told(), "the output must explain that there was no takeoff"
     finally:
         training.close()
     assert len(folders(training)) == 1
 
 
 def window_of(training):
-    """The process of a training's window."""
+    """Returns the process of the window that `train` has started."""
     with open(f"/proc/{training.process.pid}/task/{training.process.pid}/children", encoding="utf-8") as listed:
         children = [int(pid) for pid in listed.read().split()]
     for pid in children:
@@ -240,7 +244,7 @@ def window_of(training):
 
 @pytest.mark.timeout(900)
 def test_wire_a_flight_outlives_its_window(screen, tmp_path):
-    """A window that is killed is told of once; simulator and monitor go on."""
+    """A killed window is reported once; simulator and monitor continue."""
     training = Training(screen, tmp_path, "--scenario", "drill-hover", "--no-sound")
     try:
         spandrel.wait_for("the flight begins", lambda: "has connected" in training.told(), LIMIT_S)
@@ -253,7 +257,7 @@ def test_wire_a_flight_outlives_its_window(screen, tmp_path):
 
 @pytest.mark.timeout(900)
 def test_wire_bad_lines_are_named_once_and_the_window_stays(screen, tmp_path):
-    """What is no message does nothing; the end of the pipe closes the window."""
+    """Invalid lines have no effect; the end of the pipe closes the window."""
     log = open(tmp_path / "view.txt", "w", encoding="utf-8")
     window = subprocess.Popen(
         [spandrel.COCKPIT, "view", "--led", "--leash", "--no-sound"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log,

@@ -1,4 +1,5 @@
-"""`spandrel rc` with a gamepad that Linux itself makes (uinput): calibrated by its wizard, flown, unplugged in the air."""
+"""`spandrel rc` with a virtual Linux gamepad (uinput): calibrated with the wizard, used for flying, unplugged in the
+air."""
 
 import os
 import subprocess
@@ -12,19 +13,19 @@ import asking
 import gamepad
 import spandrel
 
-# Buttons that the wizard asks for: three have one, the others none.
+# Actions for which the wizard requests a button: three get one, the others none.
 WISHES = (("the lamp", gamepad.SOUTH), ("a snapshot", gamepad.EAST), ("arming", gamepad.NORTH), ("takeoff", None), ("landing", None),
           ("camera up", None), ("camera down", None))
-# A pad's up is below its middle.
+# On a gamepad, up is the lower reading.
 PUSHES = (("LEFT stick fully UP", gamepad.Y, -1), ("LEFT stick fully to the RIGHT", gamepad.X, 1),
           ("RIGHT stick fully UP", gamepad.RIGHT_Y, -1), ("RIGHT stick fully to the RIGHT", gamepad.RIGHT_X, 1))
-# Wall seconds for the wizard's next question on a busy machine, ten times over.
+# Time limit for the wizard's next prompt on a busy machine, wall seconds (ten times the usual).
 LIMIT_S = 60
 
 
 @pytest.fixture(name="pad")
 def fixture_pad():
-    """A gamepad that the program can read; without one, why there is none."""
+    """A gamepad that the program can read; otherwise skips the test with the reason."""
     try:
         pad = gamepad.Gamepad()
     except gamepad.Missing as missing:
@@ -38,7 +39,7 @@ def fixture_pad():
 
 
 class Bridge:
-    """`rc` with the pad, and what it says, read as it comes."""
+    """`rc` with the gamepad, with its output read as it arrives."""
 
     def __init__(self, pad, profiles, *args):
         command = [spandrel.COCKPIT, "rc", "--device", gamepad.NAME, "--profiles", str(profiles), *args]
@@ -49,7 +50,7 @@ class Bridge:
         threading.Thread(target=lambda: self.lines.extend(self.process.stderr), daemon=True).start()
 
     def hear(self, words):
-        """Waits for the next line with these words."""
+        """Waits for the next line that contains these words."""
         def said():
             for k in range(self.read, len(self.lines)):
                 if words in self.lines[k]:
@@ -66,7 +67,7 @@ class Bridge:
 
 
 def is_listed(pad, profiles):
-    """The line of `rc --list` that is the pad's."""
+    """Returns the gamepad's line in the output of `rc --list`."""
     listed = subprocess.run(
         [spandrel.COCKPIT, "rc", "--list", "--profiles", str(profiles)],
         capture_output=True, text=True, timeout=LIMIT_S, check=False, env=os.environ | pad.environment(),
@@ -76,7 +77,7 @@ def is_listed(pad, profiles):
 
 
 def calibrate(pad, profiles):
-    """Answers the wizard as a person does who has played with the triggers first."""
+    """Follows the wizard like a user who touches the triggers first."""
     wizard = Bridge(pad, profiles, "--calibrate")
     try:
         wizard.hear("Let go of both sticks")
@@ -87,7 +88,7 @@ def calibrate(pad, profiles):
                 pad.axis(axis, part)
                 time.sleep(0.05)
         wizard.hear("Axes found: 4 of 4")
-        # What was reported last is read before the Enter.
+        # The last event must be processed before Enter.
         time.sleep(0.5)
         wizard.enter()
         for words, axis, part in PUSHES:
@@ -146,7 +147,7 @@ def test_wire_a_gamepad_is_calibrated_flies_the_vehicle_and_is_unplugged_in_the_
         bridge.hear("disconnected: sticks centered, then no longer sent")
         asking.hear(link, "STATUSTEXT", lambda text: "manual control lost" in text.text)
         beat = asking.hear(link, "HEARTBEAT", lambda b: b.get_srcComponent() == 1)
-        assert beat.base_mode & mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED, "it holds in the air"
+        assert beat.base_mode & mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED, "the vehicle must hold in the air"
     finally:
         spandrel.end(bridge.process)
         spandrel.end(process)

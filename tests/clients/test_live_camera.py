@@ -1,4 +1,5 @@
-"""The camera's view on the live page: a window under a virtual display keeps it, the server shows it to those who may watch."""
+"""The camera view on the live page: a window on a virtual display provides it, the server shows it to authorized
+users."""
 
 import shutil
 import subprocess
@@ -10,9 +11,9 @@ import display
 import spandrel
 import webserver
 
-# Milliseconds for a software driver on a busy machine to compile its shaders and to draw, ten times over.
+# Time limit for a software driver on a busy machine to compile its shaders and render, ms (ten times the usual).
 PATIENCE_MS = 400_000
-# How far the picture's brightness spreads, of 255, where it shows ground and sky and not one colour.
+# Range of brightness in the picture, of 255, which must show ground and sky and not only one color.
 SPREAD = """image => {
   const canvas = document.createElement('canvas');
   [canvas.width, canvas.height] = [image.naturalWidth, image.naturalHeight];
@@ -56,7 +57,7 @@ def test_wire_an_instructor_sees_what_the_camera_sees_and_a_trainee_does_not(tmp
             loaded = "() => { const image = document.querySelector('[data-camera] img'); return image && image.naturalWidth > 0; }"
             page.wait_for_function(loaded)
             image = page.locator("[data-camera] img")
-            assert image.is_visible() and image.evaluate(SPREAD) > 40, "the picture is not blank"
+            assert image.is_visible() and image.evaluate(SPREAD) > 40, "the picture must not be blank"
             first = image.get_attribute("src")
             page.wait_for_function("before => document.querySelector('[data-camera] img').getAttribute('src') !== before", arg=first)
             page.wait_for_function(loaded)
@@ -67,17 +68,17 @@ def test_wire_an_instructor_sees_what_the_camera_sees_and_a_trainee_does_not(tmp
             assert ida.log_in("ida") == 303 and ida.ask("/live/camera.jpg?vehicle=2")[0] == 422
             status, headers, _ = ida.ask("/live/camera.jpg")
             assert status == 200 and headers["Content-Type"] == "image/jpeg" and headers["Cache-Control"] == "no-store"
-            # The window goes, and with it its picture.
+            # When the window closes, its picture disappears.
             window.stdin.close()
             assert window.wait(timeout=webserver.PATIENCE_S) == 0, (tmp_path / "view.txt").read_text(encoding="utf-8")
             assert not picture.exists()
             page.wait_for_selector("[data-camera]", state="hidden")
             assert ida.ask("/live/camera.jpg")[0] == 404
-            # Whatever else stands there is no picture.
+            # Other content in the file is not a picture and must not be served.
             picture.write_text("<script>alert(1)</script>", encoding="utf-8")
             assert ida.ask("/live/camera.jpg")[0] == 404
             page.close()
-            # The last picture may have been asked for while it went.
+            # The last picture may have been requested while it was being removed.
             assert [text for text in wrong if "404" not in text] == []
             chromium.close()
     finally:

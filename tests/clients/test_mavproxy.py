@@ -1,4 +1,4 @@
-"""MAVProxy as a person types into it, headless over a pipe."""
+"""MAVProxy with commands as a user would enter them, through a pipe."""
 
 import pathlib
 import queue
@@ -11,16 +11,16 @@ import pytest
 
 import spandrel
 
-# Wall seconds for a line of MAVProxy's on a busy machine, ten times over.
+# Time limit for a line from MAVProxy on a busy machine, wall seconds (ten times the usual).
 LIMIT_S = 120
-# Wall seconds for MAVProxy to end by itself.
+# Time limit for MAVProxy to end, wall seconds.
 END_S = 10
-# 1e-5 degrees of latitude are about a metre; the drill's pad.
+# Position of the drill's pad; 1e-5 degrees of latitude are about a meter.
 LAT, LON = 46.70520, 8.38140
 
 
 class Console:
-    """MAVProxy's prompt: lines in, lines out."""
+    """MAVProxy's prompt, with its input and output lines."""
 
     def __init__(self, port, folder):
         script = pathlib.Path(sys.executable).with_name("mavproxy.py")
@@ -36,24 +36,24 @@ class Console:
             self.lines.put(line.rstrip())
 
     def wait(self, text):
-        """The next line that holds a text."""
+        """Waits for the next line that contains a text."""
         while True:
             try:
                 line = self.lines.get(timeout=LIMIT_S)
             except queue.Empty:
-                raise AssertionError(f"never said '{text}':\n" + "\n".join(self.heard[-60:])) from None
+                raise AssertionError(f"no output of '{text}':\n" + "\n".join(self.heard[-60:])) from None
             self.heard.append(line)
             if text in line:
                 return line
 
     def say(self, command, answer):
-        """Types a command and waits for its answer."""
+        """Enters a command and waits for its response."""
         self.process.stdin.write(command + "\n")
         self.process.stdin.flush()
         return self.wait(answer) if answer else None
 
     def until(self, command, answer, patience_s=1):
-        """Types a command again and again until its answer comes: MAVProxy does what was typed before in its own time."""
+        """Enters a command repeatedly until its response arrives, because MAVProxy processes commands asynchronously."""
         for _ in range(LIMIT_S // patience_s):
             self.process.stdin.write(command + "\n")
             self.process.stdin.flush()
@@ -65,10 +65,10 @@ class Console:
                         return
             except queue.Empty:
                 pass
-        raise AssertionError(f"never said '{answer}':\n" + "\n".join(self.heard[-60:]))
+        raise AssertionError(f"no output of '{answer}':\n" + "\n".join(self.heard[-60:]))
 
     def close(self):
-        """Ends it; MAVProxy joins its threads when it is asked to stop, and now and then one of them never comes."""
+        """Ends MAVProxy, or kills it: when asked to end, it joins its threads, and sometimes one of them hangs."""
         self.process.stdin.close()
         self.process.terminate()
         try:
@@ -80,7 +80,7 @@ class Console:
 
 @pytest.fixture
 def console(tmp_path):
-    """A vehicle and MAVProxy beside it, parameters fetched."""
+    """A vehicle with MAVProxy, with parameters fetched."""
     port = spandrel.free_udp_port()
     process = spandrel.start_sim(tmp_path, port, speed=2)
     console = Console(port, tmp_path)
@@ -91,7 +91,7 @@ def console(tmp_path):
 
 
 def plan(folder, name, rows):
-    """A plan in the text format of Mission Planner and MAVProxy."""
+    """Writes a plan in the text format of Mission Planner and MAVProxy."""
     lines = ["QGC WPL 110"]
     for seq, (frame, command, params, north_m, height) in enumerate(rows):
         values = "\t".join(str(p) for p in params)
@@ -103,7 +103,7 @@ def plan(folder, name, rows):
 
 @pytest.mark.timeout(600)
 def test_wire_mavproxy_reads_parameters_flies_by_channels_and_switches_the_lamp(console):
-    """Parameters, an arming refused with its reason, channels that climb, the relay, channels let go."""
+    """Parameters, a rejected arming with its reason, a climb with channels, the relay, released channels."""
     typed, _folder = console
     typed.say("param show MIS_TAKEOFF_ALT", "MIS_TAKEOFF_ALT  2.5")
     typed.say("param set MPC_XY_CRUISE 4", None)
@@ -121,7 +121,7 @@ def test_wire_mavproxy_reads_parameters_flies_by_channels_and_switches_the_lamp(
 
 @pytest.mark.timeout(600)
 def test_wire_mavproxy_loads_and_lists_plans(console):
-    """A mission, a fence and a rally point go up and come back; a fence of two corners is refused."""
+    """A mission, a fence and a rally point are uploaded and downloaded; a fence with two corners is rejected."""
     typed, folder = console
     nothing = (0.0, 0.0, 0.0, 0.0)
     mission = plan(folder, "mission.txt", [(3, 22, nothing, 0, 5), (3, 16, nothing, 10, 6), (3, 21, nothing, 0, 0)])
@@ -138,7 +138,7 @@ def test_wire_mavproxy_loads_and_lists_plans(console):
 
 @pytest.mark.timeout(600)
 def test_wire_mavproxy_is_obeyed_once_it_has_the_key(tmp_path):
-    """A vehicle that demands signatures: nothing happens without the passphrase, and all with it."""
+    """A vehicle that requires signatures ignores commands without the passphrase and accepts them with it."""
     key = tmp_path / "key"
     key.write_text("steelspan\n", encoding="utf-8")
     key.chmod(0o600)

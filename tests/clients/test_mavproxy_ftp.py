@@ -1,4 +1,4 @@
-"""MAVProxy's file transfer, unmodified: a file down and up, a listing, a checksum, and its fast download of all parameters."""
+"""MAVProxy's unmodified file transfer: download, upload, listing, checksum, and its fast download of all parameters."""
 
 import pytest
 
@@ -8,13 +8,14 @@ from test_mavproxy import Console
 
 @pytest.mark.timeout(600)
 def test_wire_mavproxy_moves_files(launch, tmp_path):
-    """`ftp get`, `put`, `list`, `crc`, `rm` and two downloads at once: MAVProxy sorts answers by the session that it chose."""
+    """`ftp get`, `put`, `list`, `crc`, `rm`, and two downloads at the same time; MAVProxy assigns responses by the
+    session that it chose."""
     files = tmp_path / "files"
     files.mkdir()
     content = bytes(k * k % 251 for k in range(50_000))
     (files / "survey.bin").write_bytes(content)
     typed = Console(launch("px4", "--files", str(files), speed=1), tmp_path)
-    # MAVProxy closes a file some time after it has said that it is written.
+    # MAVProxy closes a file some time after it has reported that it is written.
     same = lambda path: spandrel.wait_for(f"{path} on disk", lambda: path.read_bytes() == content, limit_s=60)  # noqa: E731
     try:
         typed.wait("parameters to")
@@ -39,7 +40,7 @@ def test_wire_mavproxy_moves_files(launch, tmp_path):
 
 @pytest.mark.timeout(600)
 def test_wire_mavproxy_fetches_parameters_by_ftp(launch, tmp_path):
-    """As of an ArduPilot: `@PARAM/param.pck`, all values with their defaults, in one file."""
+    """As from an ArduPilot: `@PARAM/param.pck` contains all values with their defaults in one file."""
     typed = Console(launch("ardupilot", speed=1), tmp_path)
     try:
         line = typed.wait("parameters (ftp)")

@@ -1,4 +1,4 @@
-"""MAVSDK 4.1 connects, arms, takes off, flies the first task by manual control, photographs a defect and lands."""
+"""MAVSDK 4.1 connects, arms, takes off, flies the first task with manual control, photographs a defect and lands."""
 
 import math
 import time
@@ -14,12 +14,12 @@ from mavsdk.plugins.telemetry import Telemetry
 import handpilot
 from spandrel import wait_for
 
-# MAVSDK asks for 10 Hz at least; a person's ground station sends 25 Hz of wall time.
+# MAVSDK requires at least 10 Hz; a typical ground station sends 25 Hz of wall time.
 STICK_PERIOD_S = 0.02
 
 
 class Client:
-    """MAVSDK's plugins for one vehicle, and the sticks."""
+    """MAVSDK's plugins for one vehicle, and stick control."""
 
     def __init__(self, port):
         self.mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
@@ -31,17 +31,17 @@ class Client:
         self.manual, self.camera, self.gimbal = ManualControl(system), Camera(system), Gimbal(system)
 
     def here(self):
-        """Position in metres east, north, up of the job's origin, and heading in radians."""
+        """Returns the position in meters east, north, up of the job's origin, and the heading in radians."""
         p, (east, north, up) = self.telemetry.position_velocity_ned().position, self.origin
         return (east + p.east_m, north + p.north_m, up - p.down_m), math.radians(self.telemetry.attitude_euler().yaw_deg)
 
     def sticks(self, axes):
-        """One manual control input; MAVSDK's throttle runs from 0 to 1."""
+        """Sends one manual control input; MAVSDK's throttle ranges from 0 to 1."""
         forward, right, up, yaw = axes
         self.manual.set_manual_control_input(forward, right, 0.5 + 0.5 * up, yaw)
 
     def fly_to(self, target, look_yaw, seconds=None, cruise=handpilot.CRUISE_M_S):
-        """Holds the sticks towards a target until it is reached, or for a while of wall time."""
+        """Holds the sticks toward a target until it is reached, or for some wall seconds."""
         end = None if seconds is None else time.monotonic() + seconds
 
         def step():
@@ -55,11 +55,12 @@ class Client:
 
 @pytest.mark.timeout(900)
 def test_wire_mavsdk_flies_the_first_task_and_is_scored(flight, job):
-    """From discovery to four scores."""
+    """Covers everything from discovery to the four scores."""
     client = Client(flight.client_port)
     wait_for("health_all_ok", client.telemetry.health_all_ok)
     assert client.telemetry.health().is_armable
-    # On the pad home is the local frame's origin; MAVSDK's own question for it times out at more than real time.
+    # On the pad, home is the local frame's origin; MAVSDK's own request for it times out at accelerated simulation
+    # speed.
     home = wait_for("home", lambda: client.telemetry.health().is_home_position_ok and client.telemetry.home())
     client.origin = handpilot.local_origin("two-bridges", home.latitude_deg, home.longitude_deg, home.absolute_altitude_m)
     pad, _ = client.here()

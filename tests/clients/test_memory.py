@@ -1,4 +1,4 @@
-"""How much memory it takes to score a session of ordinary length and to write its report."""
+"""Memory needed to score a session of ordinary length and to write its report."""
 
 import math
 import struct
@@ -10,35 +10,37 @@ from pymavlink.dialects.v20 import common as mavlink
 
 import spandrel
 
-# Length of the flight, s: the paper's job takes 15 to 20 minutes.
+# Length of the flight, s; the TASBID job takes 15 to 20 minutes.
 FLIGHT_S = 1200
-# 2026-08-01 00:00 UTC, us: when the recording begins.
+# Start of the recording, 2026-08-01 00:00 UTC, us.
 STARTED_US = 1_785_542_400_000_000
-# Rates of the telemetry of a session, Hz: truth and sticks, clearance, contacts, everything else.
+# Rates of a session's telemetry, Hz: truth and sticks, clearance, contacts, everything else.
 TRUTH_HZ, CLEARANCE_HZ, CONTACT_HZ, SLOW_HZ = 50, 25, 10, 1
-# Most memory, MB, between what the debug build takes (44 and 62) and what it took when samples were kept as wide as they are read and the report
-# held a flight twice (66 and 100). The monitor writes the report in its own process, which is to stay below 100 MB.
+# Memory limits, MB, between the debug build's consumption (44 and 62) and its consumption when samples were stored at
+# full width and the report stored a flight twice (66 and 100). The monitor writes the report in its own process, which
+# must stay below 100 MB.
 ASSESS_MB = 55
 REPORT_MB = 80
-# Degrees of latitude for a meter (40,000 km round).
+# Degrees of latitude per meter (40,000 km circumference).
 DEGREES_A_METER = 360.0 / 40_000_000.0
 
 
 class Recorder:
-    """Takes what pymavlink sends as records of a telemetry log."""
+    """Stores frames from pymavlink as records of a telemetry log."""
 
     def __init__(self, path):
         self.file = open(path, "wb")
         self.now_us = STARTED_US
 
     def write(self, frame):
-        """One frame with its time."""
+        """Writes a frame with its time."""
         self.file.write(struct.pack(">Q", self.now_us) + bytes(frame))
 
 
 @pytest.fixture(scope="module")
 def session(tmp_path_factory):
-    """A session as a hover drill leaves it, with the telemetry of a flight of ordinary length: circles over the shipped job."""
+    """A session of a hover drill, with the telemetry of a flight of ordinary length: circles at the site of the
+    supplied job."""
     sessions = tmp_path_factory.mktemp("memory") / "sessions"
     spandrel.run("demo", "--scenario", "drill-hover", "--seed", "7", "--speed", "max", "--sessions", str(sessions))
     (session,) = sessions.iterdir()
@@ -73,7 +75,8 @@ def session(tmp_path_factory):
     return session
 
 
-# Run in a small process: a child counts the memory of who forked it as its own until it becomes another program.
+# Runs in a small intermediate process, because a child inherits the memory of its parent until it executes another
+# program.
 LAUNCHER = """
 import os, sys
 child = os.spawnv(os.P_NOWAIT, sys.argv[1], sys.argv[1:])
@@ -84,14 +87,14 @@ sys.exit(os.waitstatus_to_exitcode(status))
 
 
 def peak_mb(*args):
-    """Runs the program to its end; the most memory that it held, MB."""
+    """Runs the program to its end and returns its peak memory, MB."""
     run = subprocess.run([sys.executable, "-c", LAUNCHER, spandrel.PROGRAM, *args], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=True)
     return int(run.stdout.split()[-1]) / 1000
 
 
 @pytest.mark.timeout(600)
 def test_regress_scoring_a_session_takes_little_memory(session, tmp_path, measured):
-    """Each sample of the telemetry is kept once, as small as the wire has it."""
+    """Each telemetry sample must be stored only once, as compactly as transmitted."""
     assess, report = peak_mb("assess", str(session), "--json", str(tmp_path / "scores.json")), peak_mb("report", str(session))
     measured(f"{FLIGHT_S / 60:.0f} minutes, {(session / 'telemetry.tlog').stat().st_size / 1e6:.0f} MB: assess {assess:.0f} MB, report {report:.0f} MB")
     assert assess < ASSESS_MB and report < REPORT_MB

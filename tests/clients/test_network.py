@@ -17,12 +17,13 @@ import spandrel
 
 LIMIT_S = asking.LIMIT_S
 BAUD = 57600
-# Start, eight bits, stop.
+# One start bit, eight data bits, one stop bit.
 BYTES_S = BAUD / 10
 
 
 def test_wire_a_radio_on_a_serial_port_gets_no_more_than_it_carries(tmp_path):
-    """Over a pseudo-terminal: parameters come whole, the byte rate stays within the baud rate, a command is answered."""
+    """Over a pseudo-terminal: parameters arrive completely, the byte rate stays within the baud rate, and a command
+    is answered."""
     try:
         ours, theirs = pty.openpty()
     except OSError as error:
@@ -38,7 +39,7 @@ def test_wire_a_radio_on_a_serial_port_gets_no_more_than_it_carries(tmp_path):
         names, count, received, seconds, acknowledged = set(), None, 0, None, False
         begin = None
         end = time.monotonic() + LIMIT_S
-        # Streams, and with them the vehicle's clock, begin with a heartbeat.
+        # Streams, and with them the vehicle's clock, start with a heartbeat.
         mav.heartbeat_send(mavutil.mavlink.MAV_TYPE_GCS, mavutil.mavlink.MAV_AUTOPILOT_INVALID, 0, 0, 0)
         mav.param_request_list_send(1, 1)
         mav.command_long_send(1, 1, mavutil.mavlink.MAV_CMD_REQUEST_MESSAGE, 0, 148, 0, 0, 0, 0, 0, 0)
@@ -55,7 +56,7 @@ def test_wire_a_radio_on_a_serial_port_gets_no_more_than_it_carries(tmp_path):
                     count = message.param_count
                 acknowledged |= message.get_type() == "COMMAND_ACK"
         assert count and len(names) == count and acknowledged, (len(names), count, acknowledged)
-        # Over the whole of it, by the vehicle's own clock; half a second's worth may lie in buffers.
+        # Measured over the whole time with the vehicle's own clock; half a second of data may be in buffers.
         assert received - begin[1] <= BYTES_S * (seconds + 1.5), (received, seconds)
     finally:
         spandrel.end(sim)
@@ -64,7 +65,7 @@ def test_wire_a_radio_on_a_serial_port_gets_no_more_than_it_carries(tmp_path):
 
 
 def test_wire_three_vehicles_in_one_process_are_flown_apart(tmp_path):
-    """Systems 1 to 3 call the same ground station; arming the second leaves the others on the ground."""
+    """Systems 1 to 3 connect to the same ground station; arming the second leaves the others on the ground."""
     port = spandrel.free_udp_port()
     sim = spandrel.start_sim(tmp_path, port, "--instances", "3")
     try:
@@ -75,7 +76,7 @@ def test_wire_three_vehicles_in_one_process_are_flown_apart(tmp_path):
         asking.hear(
             connection, "SYS_STATUS", lambda m: m.get_srcSystem() == 2 and m.onboard_control_sensors_health & prearm,
         )
-        # pymavlink sends to everybody who has called; only the one that is meant acts.
+        # pymavlink sends to all connected vehicles; only the addressed one must respond.
         assert asking.command(connection, mavutil.mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 1, system=2) == 0
         armed = mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED
         asking.hear(connection, "HEARTBEAT", lambda beat: beat.get_srcSystem() == 2 and beat.base_mode & armed)
@@ -89,7 +90,7 @@ def test_wire_three_vehicles_in_one_process_are_flown_apart(tmp_path):
 
 
 def test_wire_tcp_clients_come_and_go_and_the_vehicle_flies_on(tmp_path):
-    """Two clients over TCP; the first breaks off in the middle of a frame."""
+    """Two clients over TCP; the first disconnects in the middle of a frame."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
@@ -121,7 +122,7 @@ def test_wire_tcp_clients_come_and_go_and_the_vehicle_flies_on(tmp_path):
 
 
 def heard_by(stranger, limit_s):
-    """Bytes that come to a socket until nothing has come for a while."""
+    """Returns the number of bytes that arrive at a socket until there are none for a while."""
     stranger.settimeout(limit_s)
     count = 0
     try:
@@ -133,7 +134,8 @@ def heard_by(stranger, limit_s):
 
 
 def test_wire_strangers_draw_no_streams_and_take_no_sidecars_place(tmp_path):
-    """One byte draws nothing back; 70 rubbish datagrams keep no sidecar off; a sidecar's heartbeat gets it everything."""
+    """One byte triggers no traffic; 70 invalid datagrams do not block a sidecar; a sidecar's heartbeat starts all of
+    its streams."""
     payload = spandrel.free_udp_port()
     process = spandrel.start_sim(tmp_path, port := spandrel.free_udp_port(), speed=1, payload_port=payload)
     strangers = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(70)]
@@ -141,7 +143,7 @@ def test_wire_strangers_draw_no_streams_and_take_no_sidecars_place(tmp_path):
         asking.connect(port)
         for stranger in strangers:
             stranger.sendto(b"\xfd", ("127.0.0.1", payload))
-        # A second of silence is a second in which a peer would have got its streams.
+        # Within one second, a peer would have received its streams.
         assert heard_by(strangers[0], 1.0) == 0
         sidecar = mavutil.mavlink_connection(f"udpout:127.0.0.1:{payload}", source_system=1, source_component=192, dialect="all")
         hello = asking.Again(lambda: sidecar.mav.heartbeat_send(18, 8, 0, 0, 4))
@@ -149,7 +151,7 @@ def test_wire_strangers_draw_no_streams_and_take_no_sidecars_place(tmp_path):
         while truth is None and time.monotonic() < end:
             hello.if_due()
             truth = sidecar.recv_match(type="HIL_STATE_QUATERNION", blocking=True, timeout=0.1)
-        assert truth is not None, "the sidecar is kept off"
+        assert truth is not None, "the sidecar must not be blocked"
     finally:
         for stranger in strangers:
             stranger.close()
@@ -158,7 +160,8 @@ def test_wire_strangers_draw_no_streams_and_take_no_sidecars_place(tmp_path):
 
 @pytest.mark.timeout(300)
 def test_wire_a_stranger_does_not_become_the_monitors_vehicle(tmp_path):
-    """Datagrams of a stranger, and a ground station's heartbeats, before and while the vehicle speaks: the monitor takes the vehicle's."""
+    """The monitor must choose the vehicle despite a stranger's datagrams and a ground station's heartbeats before and
+    during its telemetry."""
     sessions, port = tmp_path / "sessions", spandrel.free_udp_port()
     with (tmp_path / "monitor.txt").open("w", encoding="utf-8") as log:
         monitor = subprocess.Popen(
@@ -173,10 +176,10 @@ def test_wire_a_stranger_does_not_become_the_monitors_vehicle(tmp_path):
         end = time.monotonic() + LIMIT_S
 
         def taken():
-            """Whether the vehicle's truth is in the session; the stranger goes on all the time."""
+            """Returns whether the vehicle's truth is in the session; the stranger keeps sending."""
             for datagram in (b"\xfd", station.heartbeat_encode(6, 8, 0, 0, 4).pack(station)):
                 stranger.sendto(datagram, ("127.0.0.1", port))
-            # 115: HIL_STATE_QUATERNION, of system 1 and component 1.
+            # Message 115, HIL_STATE_QUATERNION, of system 1 and component 1.
             return any(b"\x01\x01\x73\x00\x00" in path.read_bytes() for path in sessions.glob("*/telemetry.tlog"))
 
         assert not taken()

@@ -1,4 +1,4 @@
-"""THIRD-PARTY.md and sbom.cdx.json are those of Cargo.lock."""
+"""THIRD-PARTY.md and sbom.cdx.json must match Cargo.lock."""
 
 import json
 import subprocess
@@ -12,14 +12,14 @@ def test_notices_and_sbom_match_the_lock_file():
 
 
 def test_the_sbom_names_every_part_once_and_its_graph_is_closed():
-    """What CycloneDX asks of references; no license is left out."""
+    """CycloneDX's rules for references; every component has a license."""
     bom = json.loads((spandrel.ROOT / "sbom.cdx.json").read_text(encoding="utf-8"))
     assert (bom["bomFormat"], bom["specVersion"]) == ("CycloneDX", "1.5")
     refs = [component["bom-ref"] for component in bom["components"]]
     assert len(refs) == len(set(refs)) > 100
     known = {*refs, bom["metadata"]["component"]["bom-ref"]}
     assert all({node["ref"], *node["dependsOn"]} <= known for node in bom["dependencies"])
-    # Our own crates come from no archive that could have a checksum.
+    # The project's own crates do not come from an archive with a checksum.
     others = [component for component in bom["components"] if not component["name"].startswith("spandrel-")]
     lacking = [component["name"] for component in others if not component["licenses"] or not component["hashes"]]
     assert lacking == []

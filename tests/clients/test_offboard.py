@@ -1,4 +1,4 @@
-"""MAVSDK's offboard example, and MAVSDK as a peer in lockstep."""
+"""MAVSDK's offboard example, and MAVSDK as a lockstep peer."""
 
 import pytest
 from mavsdk.plugins.action import Action
@@ -8,14 +8,14 @@ import sdk
 import spandrel
 from spandrel import wait_for
 
-# How near to a place MAVSDK's own telemetry must come, m.
+# Distance within which a position counts as reached in MAVSDK's telemetry, m.
 NEAR_M = 0.6
-# The pad lies where the estimator was initialized; the estimate moves by this since, m (GNSS drifts within the minute).
+# Maximum distance of the estimate from the pad, where the estimator was initialized, m (GNSS drifts within a minute).
 PAD_M = 1.0
 
 
 def start(folder, port, *more, speed=spandrel.SPEED):
-    """The shipped job's vehicle, calling one client."""
+    """Starts the supplied job's vehicle, which connects to one client."""
     log = open(folder / "sim.txt", "w", encoding="utf-8")
     arguments = [
         "sim", "--scenario", "two-bridges", "--seed", "7", "--speed", str(speed), "--gcs", f"127.0.0.1:{port}", "--sdk", "none",
@@ -26,7 +26,8 @@ def start(folder, port, *more, speed=spandrel.SPEED):
 
 @pytest.mark.timeout(600)
 def test_regress_mavsdks_offboard_example_flies(tmp_path, measured):
-    """Set-point at 0, 0, 0 on the pad, up 5 m, 5 m north, back, then velocities, as MAVSDK's offboard examples do; then down."""
+    """Like MAVSDK's offboard examples: setpoint at 0, 0, 0 on the pad, up 5 m, 5 m north, back, then velocities; then
+    down."""
     port = spandrel.free_udp_port()
     process = start(tmp_path, port)
     mavsdk, system = sdk.connect(port)
@@ -66,7 +67,7 @@ def test_regress_mavsdks_offboard_example_flies(tmp_path, measured):
 @pytest.mark.parametrize("answers", [True, False])
 @pytest.mark.timeout(600)
 def test_regress_mavsdk_is_found_and_flies_as_a_lockstep_peer(tmp_path, answers):
-    """As the only peer: nothing answers TIMESYNC before the vehicle is found, and MAVSDK answers only when it is told to."""
+    """As the only peer: MAVSDK answers TIMESYNC only after it has found the vehicle and was configured to do so."""
     port = spandrel.free_udp_port()
     process = start(tmp_path, port, "--lockstep", f"127.0.0.1:{port}")
     mavsdk, system = sdk.connect(port)

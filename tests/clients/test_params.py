@@ -1,4 +1,4 @@
-"""Parameters as ground stations use them: the whole list, ranges, what they mean, and a file that outlives the run."""
+"""Parameters as ground stations use them: the complete list, ranges, descriptions, and a file that persists."""
 
 import json
 import struct
@@ -18,20 +18,20 @@ LIMIT_S = asking.LIMIT_S
 
 
 def put(connection, name, value, kind, answers="PARAM_VALUE", fits=None):
-    """The answer to PARAM_SET, byte-wise for whole numbers as PX4 asks."""
+    """Sets a parameter and returns the response; integers are encoded bytewise, as PX4 requires."""
     wire = struct.unpack("<f", struct.pack("<i", value))[0] if kind == INT32 else value
     send = lambda: connection.mav.param_set_send(1, 1, name.encode(), wire, kind)  # noqa: E731
     return asking.ask(connection, send, answers, fits or (lambda message: message.param_id == name))
 
 
 def read(connection, name):
-    """The answer to PARAM_REQUEST_READ."""
+    """Reads a parameter and returns the response."""
     send = lambda: connection.mav.param_request_read_send(1, 1, name.encode(), -1)  # noqa: E731
     return asking.ask(connection, send, "PARAM_VALUE", lambda message: message.param_id == name)
 
 
 def test_wire_the_list_is_whole_by_index_and_by_name_and_ranges_hold(tmp_path):
-    """Every parameter once; what is out of range is named, and the old value told."""
+    """The list contains every parameter once; a value out of range is rejected with a reason and the old value."""
     port = spandrel.free_udp_port()
     process = spandrel.start_sim(tmp_path, port)
     try:
@@ -43,14 +43,14 @@ def test_wire_the_list_is_whole_by_index_and_by_name_and_ranges_hold(tmp_path):
         assert put(connection, "MPC_XY_CRUISE", 7.5, REAL32).param_value == 7.5
         refusal = put(connection, "MPC_XY_CRUISE", 900.0, REAL32, "PARAM_ERROR")
         assert refusal.error == mavutil.mavlink.MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE
-        assert put(connection, "MPC_XY_CRUISE", 900.0, REAL32).param_value == 7.5, "the old value is told too"
+        assert put(connection, "MPC_XY_CRUISE", 900.0, REAL32).param_value == 7.5, "the old value must be reported too"
     finally:
         spandrel.end(process)
 
 
 @pytest.mark.timeout(300)
 def test_wire_parameters_outlive_the_run_in_their_file(tmp_path):
-    """Set, stopped, started again; reset to the defaults; a wrong file is refused with its line."""
+    """Set, stop, start again; reset to the defaults; an invalid file is rejected with its line."""
     file = tmp_path / "drone.params"
     for expected, then in ((2.5, 6.5), (6.5, None)):
         port = spandrel.free_udp_port()
@@ -75,7 +75,8 @@ def test_wire_parameters_outlive_the_run_in_their_file(tmp_path):
 
 @pytest.mark.timeout(300)
 def test_wire_mavsdk_reads_what_the_parameters_mean(tmp_path):
-    """The description over MAVLink FTP, unpacked and checked by MAVSDK, names every parameter that the vehicle lists."""
+    """The description over MAVLink FTP, unpacked and checked by MAVSDK, contains every parameter that the vehicle
+    lists."""
     port = spandrel.free_udp_port()
     process = spandrel.start_sim(tmp_path, port)
     try:
@@ -97,7 +98,7 @@ def test_wire_mavsdk_reads_what_the_parameters_mean(tmp_path):
 
 
 def test_wire_what_one_station_sets_the_other_hears(tmp_path):
-    """Two ground stations on links of their own: a change by one is told to both."""
+    """Two ground stations on separate links both receive a change by one of them."""
     ports = [spandrel.free_udp_port(), spandrel.free_udp_port()]
     process = spandrel.start_sim(tmp_path, ports[0], "--gcs", f"127.0.0.1:{ports[1]}")
     try:

@@ -1,4 +1,5 @@
-"""Camera, gimbal and lamp by MAVSDK's plugins, and by the older forms that pymavlink's users send; a second station hears what changes."""
+"""Camera, gimbal and lamp with MAVSDK's plugins and with the superseded messages of pymavlink users; a second station
+receives the changes."""
 
 import math
 import os
@@ -21,16 +22,16 @@ from spandrel import wait_for
 M = mavutil.mavlink
 CAMERA, AUTOPILOT = 100, 1
 NAN = float("nan")
-# The gimbal arrives this near, deg; the field of view and zoom are told in floats.
+# Maximum angle error of the gimbal, deg; field of view and zoom are transmitted as floats.
 NEAR_DEG = 1.0
-# One picture and a second of recording on the card as it is set at first, MiB.
+# Size of a picture and of a second of recording with the default settings, MiB.
 PICTURE_MIB, VIDEO_MIB_S = 6.0, 60e6 / 8 / 2**20
 # The zoom range of vehicle-params/m30.toml.
 WIDE_DEG, ZOOM_MAX = 84.0, 3.1
 
 
 class Station:
-    """A second ground station on pymavlink that hears everything and asks in the older forms."""
+    """A second ground station on pymavlink that receives everything and uses superseded requests."""
 
     def __init__(self, port):
         self.link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=254, source_component=190, dialect="all")
@@ -38,13 +39,13 @@ class Station:
         self.last = {}
 
     def pump(self):
-        """Takes in everything that has arrived."""
+        """Processes all messages that have arrived."""
         while (message := self.link.recv_match(blocking=False)) is not None:
             self.heard.append(message)
             self.last[message.get_type(), message.get_srcComponent()] = message
 
     def wait(self, what, predicate):
-        """Pumps until the predicate holds."""
+        """Processes messages until the predicate is true."""
 
         def step():
             self.pump()
@@ -53,7 +54,7 @@ class Station:
         return wait_for(what, step)
 
     def command(self, component, number, *params):
-        """Sends a command and returns the result of its acknowledgement."""
+        """Sends a command and returns the result of its acknowledgment."""
         params = list(params) + [0] * (7 - len(params))
         self.pump()
         self.heard.clear()
@@ -69,7 +70,7 @@ class Station:
         return self.wait(f"acknowledgement of {number}", answer).result
 
     def ask(self, component, kind, number, *params):
-        """Gives a command, again and again, until it is accepted and what it asks for has arrived."""
+        """Repeats a command until it is accepted and the requested message has arrived."""
         for _ in range(asking.TIMES):
             assert self.command(component, number, *params) == M.MAV_RESULT_ACCEPTED, kind
             end = time.monotonic() + asking.AGAIN_S
@@ -80,13 +81,13 @@ class Station:
         raise AssertionError(f"no {kind}")
 
     def told(self, kind, component=CAMERA):
-        """The last message of a kind since the last command."""
+        """Returns the last message of a kind since the last command."""
         found = [m for m in self.heard if m.get_type() == kind and m.get_srcComponent() == component]
         return found[-1] if found else None
 
 
 class Rig:
-    """MAVSDK's plugins for one vehicle with a zoom lens, and a second station."""
+    """MAVSDK's plugins for a vehicle with a zoom lens, and a second station."""
 
     def __init__(self, folder, *more):
         port, second = spandrel.free_udp_port(), spandrel.free_udp_port()
@@ -101,7 +102,7 @@ class Rig:
         self.station.wait("heartbeat", lambda: ("HEARTBEAT", CAMERA) in self.station.last)
 
     def close(self):
-        """Ends the vehicle, then MAVSDK: it must be the last of its things to go."""
+        """Ends the vehicle, then MAVSDK, which must be released after the objects that it created."""
         spandrel.end(self.process)
         for plugin in ("action", "telemetry", "camera", "gimbal"):
             getattr(self, plugin).destroy()
@@ -110,14 +111,14 @@ class Rig:
 
 @pytest.fixture
 def rig(tmp_path):
-    """One simulated vehicle and its two stations."""
+    """A simulated vehicle and its two stations."""
     rig = Rig(tmp_path)
     yield rig
     rig.close()
 
 
 def found(rig):
-    """The camera's component id, once MAVSDK has found it."""
+    """Returns the camera's component ID when MAVSDK has found it."""
     cameras = wait_for("camera", lambda: rig.camera.camera_list().cameras)
     assert [(c.component_id, c.vendor_name) for c in cameras] == [(CAMERA, "Spandrel")]
     assert (cameras[0].horizontal_resolution_px, cameras[0].vertical_resolution_px) == (4000, 3000)
@@ -125,7 +126,7 @@ def found(rig):
 
 
 def told_again(rig, predicate, what):
-    """Waits for storage and capture status that MAVSDK polls every few seconds."""
+    """Waits for storage and capture status, which MAVSDK polls every few seconds."""
 
     def look():
         try:
@@ -138,7 +139,7 @@ def told_again(rig, predicate, what):
 
 
 def pictures(rig):
-    """How many pictures the camera says it has taken."""
+    """Returns the number of pictures that the camera reports."""
     return rig.station.ask(CAMERA, "CAMERA_CAPTURE_STATUS", M.MAV_CMD_REQUEST_CAMERA_CAPTURE_STATUS, 1).image_count
 
 
@@ -151,13 +152,13 @@ def test_wire_mavsdk_takes_pictures_one_by_one_and_in_series_and_lists_them(rig)
     told_again(rig, lambda s: s.total_storage_mib > 30_000, "storage")
     for _ in range(2):
         rig.camera.take_photo(camera)
-    assert pictures(rig) == 2, "each command takes one"
+    assert pictures(rig) == 2, "each command must take one picture"
     rig.camera.start_photo_interval(camera, 0.5)
     told_again(rig, lambda s: s.photo_interval_on, "series on")
     wait_for("a series", lambda: max(shots, default=0) >= 5)
     rig.camera.stop_photo_interval(camera)
     told_again(rig, lambda s: not s.photo_interval_on, "series off")
-    # MAVSDK asks again for what it has missed before the newest picture; this one may be missed itself.
+    # MAVSDK requests pictures that it has missed before the newest one; the newest one may be missed itself.
     again = asking.Again(lambda: rig.camera.take_photo(camera))
     again.if_due()
 
@@ -180,7 +181,7 @@ def test_wire_mavsdk_takes_pictures_one_by_one_and_in_series_and_lists_them(rig)
     rig.camera.format_storage(camera, 1)
     told_again(rig, lambda s: s.used_storage_mib == 0.0, "an empty card")
     rig.camera.take_photo(camera)
-    assert pictures(rig) == 1, "numbers begin again"
+    assert pictures(rig) == 1, "numbering must restart"
     again = asking.Again(lambda: rig.camera.take_photo(camera))
 
     def listed_again():
@@ -192,7 +193,7 @@ def test_wire_mavsdk_takes_pictures_one_by_one_and_in_series_and_lists_them(rig)
 
 @pytest.mark.timeout(300)
 def test_wire_mavsdk_records_in_video_mode_and_the_camera_says_how_long(rig):
-    """set_mode, start_video, stop_video, recording time, and what a stream that does not run answers."""
+    """set_mode, start_video, stop_video, recording time, and the response for a stream that is not running."""
     camera = found(rig)
     with pytest.raises(CameraError):
         rig.camera.start_video(camera)
@@ -207,7 +208,7 @@ def test_wire_mavsdk_records_in_video_mode_and_the_camera_says_how_long(rig):
     storage = told_again(rig, lambda s: s.video_on and s.recording_time_s > 3.0, "recording")
     assert storage.recording_time_s < 600.0
     rig.camera.take_photo(camera)
-    assert pictures(rig) == 1, "a picture meanwhile"
+    assert pictures(rig) == 1, "a picture during recording must count"
     with pytest.raises(CameraError):
         rig.camera.set_mode(camera, Mode.PHOTO)
     rig.camera.stop_video(camera)
@@ -245,7 +246,7 @@ def test_wire_mavsdk_zooms_and_what_the_camera_sees_is_told_to_everybody(rig):
     station.wait("tele", lambda: level() == 100.0)
     station.wait("narrow", lambda: abs(field() - seen(100.0)) < 0.01)
     rig.camera.zoom_out_start(camera)
-    # How far it comes before it is stopped depends on how busy the machine is.
+    # The distance covered before the stop depends on the load of the machine.
     station.wait("on its way", lambda: level() < 100.0)
     rig.camera.zoom_stop(camera)
     rig.camera.reset_settings(camera)
@@ -257,12 +258,13 @@ def test_wire_mavsdk_zooms_and_what_the_camera_sees_is_told_to_everybody(rig):
 
 
 def setting(rig, name):
-    """The present option of a setting."""
+    """Returns the current option of a setting."""
     return rig.camera.get_setting(CAMERA, Setting(setting_id=name)).option.option_id
 
 
 def first_setting(rig, name):
-    """The same, once MAVSDK has it: it knows the definition's options before the camera has told any value."""
+    """Same, but waits until MAVSDK has the value: it reads the options of the definition before the camera reports
+    any value."""
 
     def look():
         try:
@@ -275,7 +277,7 @@ def first_setting(rig, name):
 
 @pytest.mark.timeout(300)
 def test_wire_mavsdk_changes_every_setting_to_every_option_and_back(rig):
-    """Camera settings as the old mavlink-testing-suite checked them: all options of lists, ends and middle of ranges."""
+    """Checks camera settings like the old mavlink-testing-suite: all options of lists, ends and middle of ranges."""
     camera = found(rig)
     ids = ["CAM_PHOTOQUAL", "CAM_VIDRATE"]
 
@@ -303,7 +305,7 @@ def test_wire_mavsdk_changes_every_setting_to_every_option_and_back(rig):
 
 
 def pitch_deg(rig, gimbal):
-    """Pitch over the horizon."""
+    """Returns the pitch above the horizon."""
     return rig.gimbal.get_attitude(gimbal).euler_angle_forward.pitch_deg
 
 
@@ -329,7 +331,7 @@ def test_wire_mavsdk_points_the_gimbal_by_angles_rates_and_places_and_has_it_alo
     rig.gimbal.take_control(own, ControlMode.PRIMARY)
     wait_for("control", lambda: rig.gimbal.get_control_status(own).control_mode == ControlMode.PRIMARY)
     aim = (M.MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, 10, NAN, NAN, NAN, 0, 0, 1)
-    assert rig.station.command(AUTOPILOT, *aim) == M.MAV_RESULT_DENIED, "another is in control"
+    assert rig.station.command(AUTOPILOT, *aim) == M.MAV_RESULT_DENIED, "only the controlling station may move the gimbal"
     rig.gimbal.set_angles(own, 0.0, -20.0, 0.0, GimbalMode.YAW_FOLLOW, SendMode.ONCE)
     wait_for("still obeying", lambda: abs(pitch_deg(rig, own) + 20.0) < NEAR_DEG)
     rig.gimbal.release_control(own)
@@ -345,13 +347,14 @@ def test_wire_mavsdk_points_the_gimbal_by_angles_rates_and_places_and_has_it_alo
         attitude = rig.gimbal.get_attitude(own)
         return abs(attitude.angular_velocity.pitch_rad_s) < 0.05 and attitude.euler_angle_forward.pitch_deg
 
-    # 50 m away and 50 m up: 45 degrees, the drone's own place being known to a metre. Passing by on the way elsewhere does not count.
+    # 50 m away and 50 m up: 45 degrees, with the drone's position accurate to a meter. Passing the angle on the way
+    # elsewhere does not count.
     wait_for("looking up at a place", lambda: abs((at_rest() or 0.0) - 45.0) < 2.5, limit_s=60)
 
 
 @pytest.mark.timeout(300)
 def test_wire_older_forms_of_camera_mount_and_lamp_commands_are_answered(rig):
-    """REQUEST_CAMERA_*, DO_DIGICAM_CONTROL, DO_MOUNT_*, relay, servo, actuator: results and what comes with them."""
+    """REQUEST_CAMERA_*, DO_DIGICAM_CONTROL, DO_MOUNT_*, relay, servo, actuator: results and the messages that follow."""
     station = rig.station
     ok, denied = M.MAV_RESULT_ACCEPTED, M.MAV_RESULT_DENIED
     station.ask(AUTOPILOT, "CAMERA_IMAGE_CAPTURED", M.MAV_CMD_DO_DIGICAM_CONTROL, 0, 0, 0, 0, 1)
@@ -397,7 +400,7 @@ def test_wire_older_forms_of_camera_mount_and_lamp_commands_are_answered(rig):
 @pytest.mark.timeout(300)
 @pytest.mark.parametrize("flavour, output, on, off", [("px4", 1, 1.0, -1.0), ("ardupilot", 9, 1900.0, 1100.0)])
 def test_wire_mavsdk_switches_the_lamp_as_relay_and_actuator(tmp_path, flavour, output, on, off):
-    """set_relay and set_actuator, which MAVSDK sends as another command to an ArduPilot."""
+    """set_relay and set_actuator, which MAVSDK sends as different commands to an ArduPilot."""
     rig = Rig(tmp_path, "--flavour", flavour)
     try:
         station = rig.station

@@ -1,4 +1,4 @@
-"""Photographs and films of a recorded session, read back by programs of others."""
+"""Photos and videos of a recorded session, read by third-party programs."""
 
 import json
 import re
@@ -12,19 +12,19 @@ from PIL import Image
 import display
 import spandrel
 
-# Bytes that the report takes in of a photograph, and of all together.
+# Maximum size of one photo and of all photos in the report, bytes.
 MOST_BYTES, ALL_BYTES = 400_000, 4_000_000
-# Drawn this small, so that a software driver is done soon.
+# Small, so that a software driver renders quickly.
 SIZE = (640, 480)
-# A wider picture keeps the sensor's shape.
+# A wider size, in which pictures keep the sensor's aspect ratio.
 WITHIN = (800, 480)
-# A hundred-thousandth of a degree is a metre: EXIF holds a ten-thousandth of a second, 3 mm.
+# A hundred-thousandth of a degree is a meter; EXIF stores a ten-thousandth of a second, 3 mm.
 PLACE_DEG = 1e-7
 
 
 @pytest.fixture(scope="module")
 def session(tmp_path_factory):
-    """A synthetic expert's flight with photographs."""
+    """A synthetic expert's flight with photos."""
     assert display.DRIVERS, "Mesa's software Vulkan is missing: apt-get install mesa-vulkan-drivers"
     sessions = tmp_path_factory.mktemp("sessions")
     spandrel.run("demo", "--skill", "expert", "--seed", "7", "--speed", "max", "--sessions", str(sessions))
@@ -33,14 +33,14 @@ def session(tmp_path_factory):
 
 
 def degrees(parts, reference):
-    """Degrees, minutes, seconds as one number."""
+    """Converts degrees, minutes, seconds to one number."""
     d, m, s = (float(p) for p in parts)
     return (d + m / 60 + s / 3600) * (-1 if reference in ("S", "W") else 1)
 
 
 @pytest.mark.timeout(900)
 def test_val_photographs_tell_where_and_how_they_were_taken(session):
-    """Pillow reads EXIF and XMP; the report shows the photographs."""
+    """Pillow reads EXIF and XMP; the report contains the photos."""
     spandrel.run("render", str(session), "--snapshots", "--quality", "low", "--size", f"{WITHIN[0]}x{WITHIN[1]}", program=spandrel.COCKPIT)
     taken = json.loads((session / "assessment.json").read_text(encoding="utf-8"))["snapshots"]["taken"]
     photographs = sorted((session / "snapshots").glob("[0-9][0-9][0-9][0-9].jpg"))
@@ -64,9 +64,9 @@ def test_val_photographs_tell_where_and_how_they_were_taken(session):
         assert -90 <= float(told["drone-dji:GimbalPitchDegree"]) <= 90
         assert (int(camera[0xA002]), int(camera[0xA003])) == SIZE
         if "spandrel:DistanceMetre" in told:
-            # Width over distance is width over focal length, on the ground as on the sensor.
+            # Width over distance equals width over focal length, on the ground as on the sensor.
             wide = float(camera[0xA002]) * float(told["spandrel:GroundSamplingDistanceMillimetre"]) / 1000
-            assert camera[0xA210] == 3, "the sensor's resolution counts per centimetre"
+            assert camera[0xA210] == 3, "the sensor's resolution must be per centimeter"
             plate = 10 * float(camera[0xA002]) / float(camera[0xA20E])
             assert abs(wide / float(told["spandrel:DistanceMetre"]) - plate / float(camera[0x920A])) < 1e-3
     assert (session / "report.html").read_text(encoding="utf-8").count("data:image/jpeg;base64,") >= taken
@@ -74,7 +74,8 @@ def test_val_photographs_tell_where_and_how_they_were_taken(session):
 
 @pytest.mark.timeout(900)
 def test_val_masks_label_what_the_measures_counted(session):
-    """Pillow reads 16 bits a pixel; what a photograph was counted for is labelled in it, in the box that the legend tells."""
+    """Pillow reads 16 bits per pixel. A defect for which a photo was counted must be labeled in it, within the box of
+    the legend."""
     size = f"{SIZE[0]}x{SIZE[1]}"
     spandrel.run("render", str(session), "--snapshots", "--masks", "--quality", "low", "--size", size, program=spandrel.COCKPIT)
     legends = sorted((session / "snapshots").glob("*.masks.json"))
@@ -92,20 +93,20 @@ def test_val_masks_label_what_the_measures_counted(session):
             left, top, width, height = entry["box_px"]
             assert (columns.min(), rows.min()) == (left, top)
             assert (columns.max() - left + 1, rows.max() - top + 1) == (width, height)
-            # A defect lies on its element: most of it, for its outline may reach over an edge.
+            # Most of a defect is on its element; its outline may extend over an edge.
             assert (pixels["elements"][rows, columns] == entry["element"]).mean() > 0.5
         labelled += bool(legend["defects"])
-    assert labelled >= len(legends) / 2, "an expert photographs defects"
+    assert labelled >= len(legends) / 2, "an expert must photograph defects"
 
 
 def counted(labels):
-    """How many pixels have each label, without those that have none."""
+    """Returns the number of pixels of each label, without unlabeled ones."""
     return {int(label): int(count) for label, count in zip(*numpy.unique(labels[labels > 0], return_counts=True))}
 
 
 @pytest.mark.timeout(900)
 def test_val_a_film_has_every_picture_and_its_chapters(session, tmp_path):
-    """Length and number of pictures by the file's own index; a chapter for each photograph of the span."""
+    """Checks length and number of pictures in the file's index, and a chapter for each photo in the time span."""
     film = tmp_path / "flight.mp4"
     options = ["--quality", "low", "--size", "320x240", "--fps", "2", "--span", "30,60"]
     spandrel.run("render", str(session), "--video", str(film), *options, program=spandrel.COCKPIT)
@@ -114,11 +115,11 @@ def test_val_a_film_has_every_picture_and_its_chapters(session, tmp_path):
     at = data.index(b"stts")
     entries = struct.unpack(">I", data[at + 8 : at + 12])[0]
     runs = struct.unpack(f">{2 * entries}I", data[at + 12 : at + 12 + 8 * entries])
-    assert sum(runs[::2]) == 61, "30 s at 2 a second, both ends"
+    assert sum(runs[::2]) == 61, "30 s at 2 Hz, including both ends"
     at = data.index(b"mdhd")
     scale, length = struct.unpack(">II", data[at + 16 : at + 24])
     assert abs(length / scale - 30.5) < 0.01
-    # GStreamer's demuxer and decoder find as many pictures of that size.
+    # GStreamer's demuxer and decoder must find the same number of pictures of that size.
     raw = tmp_path / "flight.raw"
     chain = f"filesrc location={film} ! qtdemux ! avdec_h264 ! videoconvert ! video/x-raw,format=GRAY8 ! filesink location={raw}"
     subprocess.run(["gst-launch-1.0", "-q", *chain.split()], check=True, timeout=300)

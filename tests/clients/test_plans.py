@@ -1,4 +1,5 @@
-"""MAVSDK uploads and flies a mission, sets and misses parameters, steers by external set-points and points the gimbal."""
+"""MAVSDK uploads and flies a mission, sets valid and invalid parameters, flies with external setpoints, and points
+the gimbal."""
 
 import json
 import math
@@ -16,25 +17,25 @@ import spandrel
 from spandrel import wait_for
 
 NAN = float("nan")
-# Slower than this over the ground, m/s, is a standstill after 2 m/s.
+# Ground speed below which the vehicle counts as stopped after flying at 2 m/s, m/s.
 STANDSTILL_M_S = 0.3
-# Relative height over home and MISSION frames of MAVLink.
+# MAVLink frames: height relative to home, and MISSION.
 OVER_HOME, ANY = 6, 2
-# 1e-7 degrees of latitude in a metre.
+# 1e-7 degrees of latitude per meter.
 E7_A_METRE = 1e7 * 360.0 / 40_000_000.0
-# The vehicle's own estimate is compared with what was asked of it, m and m/s.
+# Tolerances between the commanded values and the vehicle's own estimate, m and m/s.
 NEAR_M, NEAR_M_S = 0.7, 0.4
 
 
 def place(telemetry):
-    """North, east, down, m."""
+    """Returns north, east, down, m."""
     p = telemetry.position_velocity_ned().position
     return p.north_m, p.east_m, p.down_m
 
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_flies_a_mission_to_its_end(vehicle):
-    """Take-off, a waypoint, a picture, a landing on the place of the start."""
+    """Takeoff, a waypoint, a picture, and a landing at the start position."""
     system, telemetry = vehicle
     mission, action = MissionRaw(system), Action(system)
     here = wait_for("a position", lambda: (p := telemetry.position()) and p.latitude_deg != 0.0 and p)
@@ -60,7 +61,7 @@ def test_wire_mavsdk_flies_a_mission_to_its_end(vehicle):
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_steers_by_set_points_and_points_the_gimbal(vehicle):
-    """A position, a velocity of the body, a rate; the gimbal up and down; parameters, good and bad."""
+    """A position, a body velocity, a turn rate; the gimbal up and down; valid and invalid parameters."""
     system, telemetry = vehicle
     action, offboard, gimbal, param = Action(system), Offboard(system), Gimbal(system), Param(system)
     param.set_param_float("MIS_TAKEOFF_ALT", 4.0)
@@ -80,7 +81,7 @@ def test_wire_mavsdk_steers_by_set_points_and_points_the_gimbal(vehicle):
     wait_for("the position", lambda: math.dist(place(telemetry), target) < NEAR_M)
     wait_for("offboard mode", lambda: telemetry.flight_mode() == FlightMode.OFFBOARD)
     wait_for("the heading", lambda: abs(telemetry.attitude_euler().yaw_deg - 90.0) < 5.0)
-    # Looking east, forward is east.
+    # The nose points east, so forward is east.
     offboard.set_velocity_body(VelocityBodyYawspeed(2.0, 0.0, 0.0, 0.0))
     wait_for("2 m/s east", lambda: abs(telemetry.velocity_ned().east_m_s - 2.0) < NEAR_M_S)
     assert abs(telemetry.velocity_ned().north_m_s) < NEAR_M_S
@@ -101,7 +102,7 @@ def test_wire_mavsdk_steers_by_set_points_and_points_the_gimbal(vehicle):
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_imports_the_exported_plan_flies_pauses_and_goes_on(vehicle):
-    """The plan of a drill as QGroundControl reads it; paused on its way, then flown to its end."""
+    """The plan of a drill in the form that QGroundControl reads; paused on the way, then flown to its end."""
     system, telemetry = vehicle
     mission, action = MissionRaw(system), Action(system)
     text = spandrel.run("export", "drill-hover", "--seed", "7", "--plan", "-")
@@ -124,7 +125,7 @@ def test_wire_mavsdk_imports_the_exported_plan_flies_pauses_and_goes_on(vehicle)
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("vehicle", ["px4", "ardupilot"], indirect=True)
 def test_wire_mavsdk_sets_a_fence_that_holds_the_vehicle(vehicle):
-    """Uploaded, given back, and breached by set-points: it holds, as the ArduPilot that MAVSDK takes it for as well."""
+    """Uploaded, downloaded, and breached with setpoints: the vehicle holds, also when it emulates an ArduPilot."""
     system, telemetry = vehicle
     fence, action, offboard = Geofence(system), Action(system), Offboard(system)
     here = wait_for("a position", lambda: (p := telemetry.position()) and p.latitude_deg != 0.0 and p)

@@ -1,8 +1,8 @@
-"""The multicopter cases of PX4's own integration tests, with their limits, on the shipped job and on flat ground.
+"""The multicopter cases of PX4's own integration tests, with their limits, in the supplied job and above flat ground.
 
-Left out, because the trainer's aircraft has no such part: optical flow, terrain estimate without GNSS, several instances of sensors or
-estimators (EKF and GNSS selectors), control allocation of more than four motors, VTOL and fixed wing, gravity of the SIH simulator. Parameters by FTP stand in
-test_transfers.py, home and geofence in test_plans.py.
+Omitted, because the simulated aircraft does not have the feature: optical flow, terrain estimate without GNSS, several instances of
+sensors or estimators (EKF and GNSS selectors), control allocation of more than four motors, VTOL and fixed wing, gravity of the SIH
+simulator. Parameters by FTP are tested in test_transfers.py, home and geofence in test_plans.py.
 """
 
 import concurrent.futures
@@ -16,20 +16,20 @@ from mavsdk.plugins.offboard import PositionNedYaw
 
 from px4_tester import Tester, attitude
 
-# Flights at once; each takes little processor time.
+# Number of parallel flights; each needs little processor time.
 AT_ONCE = 6
-# The shipped job stands on a slope above a lake; the drill is flown over level ground.
+# The supplied job is on a slope above a lake; the drill is above level ground.
 SCENARIOS = ["two-bridges", "drill-hover"]
 LEG_M, HEIGHT_M = 20.0, 10.0
 SQUARE = [(LEG_M, 0.0), (LEG_M, LEG_M), (0.0, LEG_M)]
-# Eastward, where nothing stands for 80 m: the arch of the shipped job is 68 m north of its pad.
+# Eastward, where there are no obstacles for 80 m; the arch of the supplied job is 68 m north of its pad.
 STRAIGHT = [(0.0, k * LEG_M) for k in range(5)]
 NEAR_M = 0.3
 
 
 def takeoff_and_hold(t):
-    """Once it has settled for 5 s, within 0.2 m of its height. PX4's case wants to be within 0.1 m of 10 m after 15 s: its simulated GNSS does not drift,
-    this one's does, and the height over home with it."""
+    """After settling for 5 s, the vehicle must be within 0.2 m of its height. PX4's test requires 0.1 m of 10 m after
+    15 s; unlike PX4's simulated GNSS, this one drifts, and with it the height above home."""
     t.wait_until_ready()
     t.store_home()
     t.arm()
@@ -70,7 +70,7 @@ def square_mission_then_return(t):
 
 
 def straight_mission(t):
-    """Faster than 4 m/s all along the third leg, whose ends are flown through."""
+    """Must be faster than 4 m/s during the whole third leg, between waypoints that are flown through."""
     t.wait_until_ready()
     t.check_tracks(t.upload(STRAIGHT, fly_through=True), HEIGHT_M, 5.0)
     t.telemetry.set_rate_velocity_ned(10)
@@ -115,7 +115,7 @@ def offboard_positions(t):
 
 
 def offboard_attitude(t):
-    """Climbs by thrust alone, leans forward for 3 s, sinks."""
+    """Climbs with thrust only, leans forward for 3 s, descends."""
     t.param.set_param_int("COM_RCL_EXCEPT", 4)
 
     def level():
@@ -154,12 +154,12 @@ def forward_in_altitude_control(t):
 def land_without_gnss(height_source):
     def flow(t):
         t.param.set_param_int("EKF2_HGT_REF", height_source)
-        # PX4's default; the trainer's aircraft may fly on by its inertial sensors for a minute.
+        # PX4's default; the simulated aircraft could continue on its inertial sensors for a minute.
         t.param.set_param_int("EKF2_NOAID_TOUT", 5_000_000)
         t.wait_until_ready()
         t.upload(SQUARE, return_at_end=True)
         t.arm()
-        # PX4's simulated aircraft has nothing else to fix its position by; this one has optical flow.
+        # PX4's simulated aircraft has no other position source; this one has optical flow.
         t.inject(FailureType.OFF, FailureUnit.SENSOR_OPTICAL_FLOW, FailureUnit.SENSOR_GPS)
         t.wait_until_disarmed(30)
 
@@ -167,7 +167,7 @@ def land_without_gnss(height_source):
 
 
 def go_on(unit, kind, height_source=None, finish_s=90, disarm_s=90):
-    """The mission goes on to its end when a sensor fails."""
+    """The mission must continue to its end when a sensor fails."""
 
     def flow(t):
         if height_source is not None:
@@ -198,7 +198,7 @@ def no_failure_on_the_ground_unless_enabled(t):
 
 
 def jump_set_from_outside(t):
-    """MISSION_SET_CURRENT onto a DO_JUMP: the jump is resolved and the mission ends on the ground."""
+    """MISSION_SET_CURRENT to a DO_JUMP: the jump is resolved and the mission ends on the ground."""
     t.wait_until_ready()
 
     def item(seq, command, north, east, z, params=(0.0, 0.0), frame=6):
@@ -214,14 +214,14 @@ def jump_set_from_outside(t):
     t.arm()
     t.start_mission()
     t.wait("item 2", lambda: t.mission_raw.mission_progress().current >= 2, 120)
-    # Once, as an operator does; MAVSDK asks again until this very number is current, which a jump never is.
+    # Sent once, as an operator does; MAVSDK would repeat it until this number is current, which a jump never becomes.
     with concurrent.futures.ThreadPoolExecutor(1) as pool:
         pool.submit(lambda: t.mission_raw.set_current_mission_item(3))
     t.wait_until_disarmed(240)
 
 
 def follow(stream_velocity):
-    """A target walks north at 2 m/s; the vehicle keeps behind, in front and to both sides of it."""
+    """A target moves north at 2 m/s; the vehicle stays behind, in front of and on both sides of it."""
 
     def flow(t):
         t.wait_until_ready()
@@ -264,7 +264,7 @@ def follow(stream_velocity):
 
 
 def follow_velocity_only(t):
-    """A target without a position moves nobody."""
+    """A target without a position must not move the vehicle."""
     t.wait_until_ready()
     t.store_home()
     t.arm()
@@ -322,14 +322,14 @@ def fly(flow, folder, scenario):
         tester.close()
 
 
-# The target walks 140 m north, through the shipped job's arch.
+# The target moves 140 m north, through the arch of the supplied job.
 ONLY_OVER_LEVEL_GROUND = {"follow by position", "follow by position and velocity"}
 FLIGHTS = [(name, scenario) for name in FLOWS for scenario in SCENARIOS if scenario != "two-bridges" or name not in ONLY_OVER_LEVEL_GROUND]
 
 
 @pytest.fixture(scope="module", name="flights")
 def fixture_flights(tmp_path_factory):
-    """All flights, some at once: what each comes to is asked for below."""
+    """Starts all flights, some in parallel; the tests below check their results."""
     folder = tmp_path_factory.mktemp("px4")
     with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:
         begun = {flight: pool.submit(fly, FLOWS[flight[0]], folder / f"{k}-{flight[1]}", flight[1]) for k, flight in enumerate(FLIGHTS)}
@@ -341,5 +341,5 @@ def fixture_flights(tmp_path_factory):
 @pytest.mark.timeout(1800)
 @pytest.mark.parametrize(("name", "scenario"), FLIGHTS)
 def test_wire_px4_flow(flights, name, scenario):
-    """Passes as it must on PX4."""
+    """Must pass as on PX4."""
     flights[name, scenario].result()

@@ -1,4 +1,4 @@
-"""pymavlink flies the first task by MANUAL_CONTROL, photographs a defect and lands; the monitor scores it."""
+"""pymavlink flies the first task with MANUAL_CONTROL, photographs a defect and lands; the monitor scores the flight."""
 
 import math
 import os
@@ -16,24 +16,25 @@ from spandrel import wait_for
 
 M = mavutil.mavlink
 CAMERA = 100
-# PX4's main mode number of POSCTL, ArduCopter's number of POSHOLD.
+# Main mode number of PX4's POSCTL, and number of ArduCopter's POSHOLD.
 POSITION_MODE = {M.MAV_AUTOPILOT_PX4: 3, M.MAV_AUTOPILOT_ARDUPILOTMEGA: 16}
-# A telemetry rate that a stick loop can live with, Hz of vehicle time.
+# A telemetry rate that is sufficient for a stick control loop, Hz of vehicle time.
 RATE_HZ = 50
-# The rate of what is only looked at, Hz.
+# Rate of messages that are only observed, Hz.
 SLOW_HZ = 4
 EARTH_M_PER_DEG = 111_319.49  # WGS84 equatorial radius times pi / 180
 
 
 class Client:
-    """A ground station on pymavlink: answers nothing by itself but heartbeats."""
+    """A ground station on pymavlink, which automatically sends only heartbeats."""
 
     def __init__(self, port):
         self.link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=255, source_component=190, dialect="all")
         beat = wait_for("a heartbeat", lambda: (b := self.link.wait_heartbeat(timeout=60)) and b.get_srcComponent() == 1 and b)
         self.autopilot = beat.autopilot
         if self.autopilot == M.MAV_AUTOPILOT_ARDUPILOTMEGA:
-            # Everything at the fast rate is more than pymavlink parses in time on a busy machine: sticks that answer old positions crash.
+            # pymavlink cannot parse all streams at the fast rate on a busy machine, and sticks based on outdated
+            # positions cause a crash.
             for group, rate_hz in ((M.MAV_DATA_STREAM_ALL, SLOW_HZ), (M.MAV_DATA_STREAM_POSITION, RATE_HZ), (M.MAV_DATA_STREAM_EXTRA1, RATE_HZ)):
                 self.link.mav.request_data_stream_send(self.link.target_system, 1, group, rate_hz, 1)
         self.state = {}
@@ -41,7 +42,7 @@ class Client:
         self.beat_at = 0.0
 
     def pump(self):
-        """Takes in everything that has arrived."""
+        """Processes all messages that have arrived."""
         if time.monotonic() - self.beat_at > 0.5:
             self.beat_at = time.monotonic()
             self.link.mav.heartbeat_send(M.MAV_TYPE_GCS, M.MAV_AUTOPILOT_INVALID, 0, 0, M.MAV_STATE_ACTIVE)
@@ -55,7 +56,7 @@ class Client:
                 self.state[message.get_type()] = message
 
     def wait(self, what, predicate):
-        """Pumps until the predicate holds."""
+        """Processes messages until the predicate is true."""
 
         def step():
             self.pump()
@@ -64,7 +65,7 @@ class Client:
         return wait_for(what, step)
 
     def command(self, number, *params, component=1):
-        """Sends a command and returns the result of its acknowledgement."""
+        """Sends a command and returns the result of its acknowledgment."""
         params = list(params) + [0] * (7 - len(params))
         self.state.pop("COMMAND_ACK", None)
         again = asking.Again(lambda: self.link.mav.command_long_send(self.link.target_system, component, number, 0, *params))
@@ -79,26 +80,26 @@ class Client:
         return self.wait(f"acknowledgement of {number}", answered).result
 
     def here(self):
-        """Position in metres east, north, up of the job's origin, and heading in radians."""
+        """Returns the position in meters east, north, up of the job's origin, and the heading in radians."""
         p, (east, north, up) = self.state["LOCAL_POSITION_NED"], self.local_origin()
         return (east + p.y, north + p.x, up - p.z), self.state["ATTITUDE"].yaw
 
     def ask_origin(self):
-        """Asks for GPS_GLOBAL_ORIGIN: an ArduPilot does not say it by itself."""
+        """Requests GPS_GLOBAL_ORIGIN, because ArduPilot does not send it unrequested."""
         self.link.mav.command_long_send(self.link.target_system, 1, M.MAV_CMD_REQUEST_MESSAGE, 0, M.MAVLINK_MSG_ID_GPS_GLOBAL_ORIGIN, 0, 0, 0, 0, 0, 0)
 
     def local_origin(self):
-        """Where the vehicle's local frame has its origin, metres east, north, up of the job's origin."""
+        """Returns the origin of the vehicle's local frame, meters east, north, up of the job's origin."""
         o = self.state["GPS_GLOBAL_ORIGIN"]
         return handpilot.local_origin("two-bridges", o.latitude * 1e-7, o.longitude * 1e-7, o.altitude * 1e-3)
 
     def sticks(self, axes):
-        """One MANUAL_CONTROL."""
+        """Sends one MANUAL_CONTROL."""
         forward, right, up, yaw = (int(round(1000 * a)) for a in axes)
         self.link.mav.manual_control_send(self.link.target_system, forward, right, 500 + up // 2, yaw, 0)
 
     def fly_to(self, target, look_yaw, done=None, cruise=handpilot.CRUISE_M_S):
-        """Holds the sticks towards a target until it is reached (or `done` says so)."""
+        """Holds the sticks toward a target until it is reached or `done` returns true."""
         last = [None]
 
         def step():
@@ -115,7 +116,7 @@ class Client:
 @pytest.mark.parametrize("flight", ["px4", "ardupilot"], indirect=True)
 @pytest.mark.timeout(900)
 def test_wire_pymavlink_flies_the_first_task_and_is_scored(flight, job):
-    """From a standing start to four scores."""
+    """Covers everything from the connection to the four scores."""
     client = Client(flight.client_port)
     prearm = M.MAV_SYS_STATUS_PREARM_CHECK
     client.wait("ready", lambda: (s := client.state.get("SYS_STATUS")) and s.onboard_control_sensors_health & prearm)
@@ -154,4 +155,4 @@ def test_wire_pymavlink_flies_the_first_task_and_is_scored(flight, job):
     assert result["snapshots"]["hits"] == 1
     assert result["end"]["reason"] == "landed"
     assert result["crashes"] == {**result["crashes"], "other": 0, "person": 0, "vehicle": 0}
-    assert any(component == 191 for component, _ in client.texts), "the monitor's words reach the ground station"
+    assert any(component == 191 for component, _ in client.texts), "the monitor's texts must reach the ground station"

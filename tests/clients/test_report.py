@@ -1,4 +1,5 @@
-"""The report of a session in a real browser: no error, no request, the slider moves what it should, wide and narrow, light and dark."""
+"""The report of a session in a real browser: no errors, no requests, all elements that the slider must move, wide and
+narrow, light and dark."""
 
 import json
 import os
@@ -13,12 +14,12 @@ from playwright.sync_api import sync_playwright
 import spandrel
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
-# In a container's root account Chromium has no sandbox of its own; SwiftShader draws the model without a GPU.
+# As root in a container, Chromium's sandbox does not work; SwiftShader renders the model without a GPU.
 FLAGS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 SIZES = {"desktop": (1280, 900), "phone": (390, 844)}
-# Pictures for people to look at go here, where it is set.
+# Folder for screenshots, if set.
 PICTURES = os.environ.get("SPANDREL_PICTURES")
-# The issue's ceiling, bytes.
+# Size limit from the issue, bytes.
 LARGEST = 10_000_000
 
 
@@ -45,7 +46,7 @@ def browser():
 
 
 def opened(browser, path, size="desktop", scheme="light"):
-    """A page with everything that went wrong on it."""
+    """Opens a page and collects all problems on it."""
     width, height = SIZES[size]
     page = browser.new_context(viewport={"width": width, "height": height}, color_scheme=scheme, accept_downloads=True).new_page()
     wrong = []
@@ -58,7 +59,7 @@ def opened(browser, path, size="desktop", scheme="light"):
 
 
 def keep(page, name):
-    """A picture for people."""
+    """Stores a screenshot, if a folder is set."""
     if PICTURES:
         folder = pathlib.Path(PICTURES)
         folder.mkdir(parents=True, exist_ok=True)
@@ -66,7 +67,7 @@ def keep(page, name):
 
 
 def moment(page, index):
-    """Sets the slider as a hand would."""
+    """Sets the slider like a user would."""
     page.evaluate(
         "i => { const s = document.getElementById('moment'); s.value = i; s.dispatchEvent(new Event('input', {bubbles: true})); }", index
     )
@@ -81,7 +82,7 @@ def test_opens_without_error_or_request(browser, session, size, scheme):
     for name in ("flight", "pictures", "defects"):
         page.evaluate("id => document.getElementById(id).scrollIntoView({behavior: 'instant'})", name)
         keep(page, f"{size}-{scheme}-{name}")
-    assert page.evaluate("document.documentElement.scrollWidth") <= SIZES[size][0], "nothing runs out of the page"
+    assert page.evaluate("document.documentElement.scrollWidth") <= SIZES[size][0], "the content must fit the width of the page"
     assert page.locator(".chart canvas").count() == 5
     assert wrong == []
 
@@ -114,19 +115,19 @@ def test_slider_moves_the_drone_on_every_drawing_and_the_curves(browser, session
 
 
 def test_marker_stands_where_the_flight_was(browser, session):
-    """The marker of the plan against the frames that `export` writes, by the drawing's own matrix."""
+    """Compares the marker on the plan with the frames that `export` writes, using the drawing's own matrix."""
     page, _ = opened(browser, session / "report.html")
     rows = spandrel.run("export", str(session), "--frames", "-").splitlines()
     head = rows[0].split(",")
     index = 500
     moment(page, index)
-    # The page holds every third frame of the thirty a second.
+    # The page contains every third of the thirty frames per second.
     frame = dict(zip(head, rows[1 + 3 * index].split(",")))
     east, north, up = (float(frame[key]) for key in ("east_m", "north_m", "up_m"))
     for drone in page.query_selector_all(".drone"):
         m = [float(value) for value in drone.get_attribute("data-matrix").split()]
         x, y = map(float, re.findall(r"-?[\d.]+", drone.get_attribute("transform")))
-        # A centimetre of rounding in the data, a tenth of a unit on the sheet.
+        # Tolerance: a centimeter of rounding in the data, a tenth of a unit in the drawing.
         assert abs(m[0] * east + m[1] * north + m[2] * up + m[3] - x) < 0.3
         assert abs(m[4] * east + m[5] * north + m[6] * up + m[7] - y) < 0.3
 
@@ -149,7 +150,7 @@ def test_model_opens_turns_and_follows(browser, session):
     canvas = page.wait_for_selector("#model-live canvas")
     picture = "canvas => canvas.toDataURL()"
     first = canvas.evaluate(picture)
-    assert len(first) > 20_000, "something is drawn"
+    assert len(first) > 20_000, "the model must be rendered"
     canvas.focus()
     page.keyboard.press("ArrowLeft")
     second = canvas.evaluate(picture)
@@ -181,7 +182,7 @@ def test_numbers_behind_a_figure_download(browser, session, tmp_path):
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_axe_finds_nothing(browser, session, scheme):
-    """Contrast, names, landmarks, keyboard: what axe can see, with all tables unfolded."""
+    """Contrast, names, landmarks, keyboard: everything that axe can check, with all tables expanded."""
     page, _ = opened(browser, session / "report.html", scheme=scheme)
     page.evaluate("document.querySelectorAll('details').forEach(details => { details.open = true; })")
     found = Axe().run(page)
@@ -199,7 +200,7 @@ def test_reads_without_script_and_prints(browser, session, tmp_path):
     page = browser.new_context(java_script_enabled=False, viewport={"width": 1280, "height": 900}).new_page()
     page.goto((session / "report.html").as_uri())
     assert page.locator("#flight svg.map").count() >= 4
-    assert not page.is_visible("#moment"), "nothing is shown that would do nothing"
+    assert not page.is_visible("#moment"), "controls without function must be hidden"
     page, wrong = opened(browser, session / "report.html", scheme="dark")
     printed = page.pdf(format="A4")
     assert printed.startswith(b"%PDF") and len(printed) > 100_000
@@ -214,7 +215,7 @@ def test_made_again_it_is_the_same_and_small(session, tmp_path):
 
 
 def test_two_sessions_compared(browser, session, tmp_path):
-    """Two flights that differ: each has its own shape, track and drone."""
+    """Two different flights: each must have its own shape, track and drone."""
     spandrel.run("demo", "--seed", "5", "--skill", "trained", "--speed", "max", "--trainee", "other", "--sessions", str(tmp_path / "sessions"))
     other = next(path for path in (tmp_path / "sessions").iterdir() if (path / "telemetry.tlog").is_file())
     spandrel.run("report", str(session), str(other), "--out", str(tmp_path / "both.html"))
@@ -225,8 +226,8 @@ def test_two_sessions_compared(browser, session, tmp_path):
     keep(page, "comparison")
     assert page.locator(".shape-1").count() == 1 and page.locator(".shape-2").count() == 1
     drawn = lambda of: page.locator(of).first.get_attribute("d")
-    assert drawn(".shape-1") != drawn(".shape-2"), "a novice and a trained pilot score alike"
-    assert drawn(".overlaid.line-1") != drawn(".overlaid.line-2"), "two flights are one track"
+    assert drawn(".shape-1") != drawn(".shape-2"), "a novice and a trained pilot have the same scores"
+    assert drawn(".overlaid.line-1") != drawn(".overlaid.line-2"), "two flights have the same track"
     overall = [json.loads((folder / "assessment.json").read_text(encoding="utf-8"))["scores"]["overall"] for folder in (session, other)]
     text = page.inner_text("main") + page.inner_text("header")
     assert all(f"{score:.1f}" in text for score in overall) and "other" in text, overall

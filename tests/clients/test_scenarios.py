@@ -1,5 +1,5 @@
-"""What MAVSDK's own system tests and PX4's asked of a vehicle, asked of ours: streams, information, flights by command, missions of
-MAVSDK's own kind, sticks and their loss, terminations."""
+"""The requirements of MAVSDK's and PX4's own system tests: streams, information, flights by command, missions in
+MAVSDK's own format, sticks and their loss, flight termination."""
 
 import math
 import time
@@ -17,16 +17,16 @@ import spandrel
 from spandrel import wait_for
 
 NAN = float("nan")
-# Degrees of latitude in a metre.
+# Degrees of latitude per meter.
 A_METRE = 360.0 / 40_000_000.0
-# Estimate against truth: GNSS errs by metres, the barometer by one.
+# Tolerance between estimate and truth, m: GNSS errs by meters, the barometer by one.
 TRUTH_M = 5.0
-# What was asked against what is told, m.
+# Tolerance between commanded and reported values, m.
 NEAR_M = 1.2
 
 
 def take_off(action, telemetry, height_m):
-    """Armed and hovering at a height."""
+    """Arms, takes off and waits for the hover at a height."""
     action.set_takeoff_altitude(height_m)
     assert action.get_takeoff_altitude() == height_m
     action.arm()
@@ -36,7 +36,7 @@ def take_off(action, telemetry, height_m):
 
 
 def away_m(telemetry, latitude_deg, longitude_deg):
-    """Level distance to a place, m."""
+    """Returns the horizontal distance to a position, m."""
     p = telemetry.position()
     north = (p.latitude_deg - latitude_deg) / A_METRE
     east = (p.longitude_deg - longitude_deg) / A_METRE * math.cos(math.radians(latitude_deg))
@@ -45,7 +45,8 @@ def away_m(telemetry, latitude_deg, longitude_deg):
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_hears_every_stream_and_who_the_vehicle_is(vehicle):
-    """All streams of a multirotor come and are numbers; truth and estimate agree; the vehicle names itself."""
+    """All streams of a multirotor arrive with finite numbers; truth and estimate agree; the vehicle identifies
+    itself."""
     system, telemetry = vehicle
     for name in ("position", "home", "velocity_ned", "gps_info", "battery", "odometry", "position_velocity_ned", "ground_truth", "imu",
                  "scaled_imu", "raw_imu", "distance_sensor", "altitude", "actuator_output_status"):
@@ -84,7 +85,8 @@ def test_wire_mavsdk_hears_every_stream_and_who_the_vehicle_is(vehicle):
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_flies_by_command_and_returns_home(vehicle):
-    """Take-off height, go-to with a heading, a circle, a speed, hold, return at its height; landed and disarmed at home."""
+    """Takeoff height, go-to with a heading, a circle, a speed, hold, return at its height; the vehicle lands and
+    disarms at home."""
     system, telemetry = vehicle
     action = Action(system)
     with pytest.raises(Exception):
@@ -118,7 +120,8 @@ def test_wire_mavsdk_flies_by_command_and_returns_home(vehicle):
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_plans_a_square_with_pictures_and_returns(vehicle):
-    """A mission of MAVSDK's own kind: speeds, gimbal, pictures, stays; jumped in, finished by a return."""
+    """A mission in MAVSDK's own format: speeds, gimbal, pictures, delays; with a jump to an item, and a return at the
+    end."""
     system, telemetry = vehicle
     action, mission = Action(system), Mission(system)
     home = wait_for("home", lambda: (h := telemetry.home()) and math.isfinite(h.latitude_deg) and h)
@@ -153,7 +156,7 @@ def test_wire_mavsdk_plans_a_square_with_pictures_and_returns(vehicle):
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_moves_five_hundred_items(vehicle):
-    """A plan of 500 items up and down."""
+    """A plan of 500 items is uploaded and downloaded."""
     system, _telemetry = vehicle
     mission = MissionRaw(system)
     items = [
@@ -165,7 +168,8 @@ def test_wire_mavsdk_moves_five_hundred_items(vehicle):
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_flies_by_sticks_and_their_loss_makes_it_hold(vehicle):
-    """Up, forward, let go: it stops; silent sticks lead to the failsafe's hold; sticks again take over."""
+    """Climb and fly forward; released sticks stop the vehicle; lost sticks trigger the failsafe's hold; sticks sent
+    again take over."""
     system, telemetry = vehicle
     action, manual = Action(system), ManualControl(system)
     take_off(action, telemetry, 5.0)
@@ -177,7 +181,7 @@ def test_wire_mavsdk_flies_by_sticks_and_their_loss_makes_it_hold(vehicle):
             return reached()
         wait_for(what, step)
 
-    # MAVSDK wants an input before it asks for the mode.
+    # MAVSDK requires an input before it requests the mode.
     manual.set_manual_control_input(0.0, 0.0, 0.5, 0.0)
     manual.start_position_control()
     fly("position mode", lambda: telemetry.flight_mode() == FlightMode.POSCTL, 0.0, 0.0, 0.5, 0.0)
@@ -196,7 +200,7 @@ def test_wire_mavsdk_flies_by_sticks_and_their_loss_makes_it_hold(vehicle):
     held = telemetry.position().relative_altitude_m
     fly("position mode again", lambda: telemetry.flight_mode() == FlightMode.POSCTL, 0.0, 0.0, 0.5, 0.0)
     fly("2 m further up by hand", lambda: telemetry.position().relative_altitude_m > held + 2.0, 0.0, 0.0, 0.9, 0.0)
-    # Landing elsewhere than at home is a crash to the job: it would be put back into the air.
+    # A landing away from home would be a crash in this job, followed by a respawn in the air.
     action.return_to_launch()
     wait_for("disarmed", lambda: not telemetry.armed())
 
@@ -204,7 +208,7 @@ def test_wire_mavsdk_flies_by_sticks_and_their_loss_makes_it_hold(vehicle):
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("how", ["kill", "terminate"])
 def test_wire_mavsdk_stops_the_motors_in_flight(vehicle, how):
-    """Disarming in flight is refused; kill and terminate are not, and it falls."""
+    """Disarming in flight is rejected; kill and terminate are not, and the vehicle falls."""
     system, telemetry = vehicle
     action = Action(system)
     take_off(action, telemetry, 6.0)

@@ -20,13 +20,13 @@ from pymavlink.dialects.v20 import common as mavlink
 import spandrel
 
 PASSPHRASE = "bridge over water"
-# Wall seconds to wait for an answer that must not come; answers come within milliseconds.
+# Wall seconds to wait for a response that must not arrive; responses usually arrive within milliseconds.
 SILENCE_S = 1.0
 
 
 @pytest.fixture
 def vehicle(tmp_path):
-    """A simulator that demands signatures, and its port."""
+    """A simulator that requires signatures, and its port."""
     key = tmp_path / "key"
     key.write_text(PASSPHRASE + "\n", encoding="utf-8")
     key.chmod(0o600)
@@ -37,14 +37,15 @@ def vehicle(tmp_path):
 
 
 def acknowledged(link):
-    """Whether a command is answered."""
+    """Returns whether a command is acknowledged."""
     link.mav.command_long_send(1, 1, mavlink.MAV_CMD_REQUEST_MESSAGE, 0, mavlink.MAVLINK_MSG_ID_HEARTBEAT, 0, 0, 0, 0, 0, 0)
     return link.recv_match(type="COMMAND_ACK", blocking=True, timeout=SILENCE_S) is not None
 
 
 @pytest.mark.timeout(120)
 def test_wire_pymavlink_is_obeyed_only_with_the_key(vehicle):
-    """Unsigned, signed with another key, signed with the key; and what the vehicle says bears good signatures."""
+    """Sends commands unsigned, signed with another key, and signed with the key; also checks the signatures of the
+    vehicle's messages."""
     link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{vehicle}", dialect="common", source_system=255)
     assert link.wait_heartbeat(timeout=60)
     assert not acknowledged(link)
@@ -56,7 +57,7 @@ def test_wire_pymavlink_is_obeyed_only_with_the_key(vehicle):
     for _ in range(200):
         message = link.recv_match(blocking=True, timeout=10)
         assert message is not None
-        # pymavlink does not verify what its dialect does not know.
+        # pymavlink does not verify messages that its dialect does not contain.
         assert message.get_type().startswith("UNKNOWN") or message.get_signed(), message
     link.close()
 
@@ -76,11 +77,11 @@ class Wire:
             tty.setraw(self.theirs)
 
     def arguments(self):
-        """What the vehicle is started with for this link."""
+        """Returns the vehicle's arguments for this link."""
         return ["--serial", f"{os.ttyname(self.theirs)}:115200"] if self.kind == "serial" else []
 
     def connect(self, ports):
-        """To a vehicle that has announced its ports."""
+        """Connects to a vehicle that has announced its ports."""
         if self.kind == "tcp":
             self.socket = socket.create_connection(("127.0.0.1", ports["tcp_port"]))
         elif self.kind == "udp":
@@ -88,23 +89,23 @@ class Wire:
             self.socket.connect(("127.0.0.1", ports["gcs_port"]))
 
     def write(self, data):
-        """Sends one frame."""
+        """Sends a frame."""
         os.write(self.ours if self.socket is None else self.socket.fileno(), data)
 
     def read(self):
-        """What has come, within a second."""
+        """Returns the bytes that arrive within a second."""
         place = self.ours if self.socket is None else self.socket.fileno()
         ready, _, _ = select.select([place], [], [], 1.0)
         return os.read(place, 65_536) if ready else b""
 
     def close(self):
-        """The vehicle is gone; a serial line stays."""
+        """Closes the connection when the vehicle has ended; a serial line stays open."""
         if self.socket is not None:
             self.socket.close()
 
 
 class Signer:
-    """Makes frames, signed with a key or not at all; each signer is a stream of its own by its link id."""
+    """Creates frames, signed with a key or unsigned. Each signer is a separate stream because of its link ID."""
 
     def __init__(self, passphrase, link_id):
         self.mav = mavlink.MAVLink(None, srcSystem=255, srcComponent=190)
@@ -115,11 +116,11 @@ class Signer:
             self.mav.signing.timestamp = int((time.time() - 1420070400) * 1e5)
 
     def lamp(self, on):
-        """A command's bytes."""
+        """Returns the bytes of a lamp command."""
         return self.mav.command_long_encode(1, 1, mavlink.MAV_CMD_ILLUMINATOR_ON_OFF, 0, on, 0, 0, 0, 0, 0, 0).pack(self.mav)
 
     def question(self, number):
-        """Bytes of a question that is answered with its number."""
+        """Returns the bytes of a request that is answered with its number."""
         return self.mav.timesync_encode(0, number).pack(self.mav)
 
 
@@ -128,7 +129,7 @@ NUMBERS = itertools.count(1_000)
 
 
 def is_obeyed(wire, frame):
-    """Whether a frame that commands the lamp is acknowledged before a good one that comes after it is answered."""
+    """Returns whether a lamp command is acknowledged before a valid request that is sent after it."""
     good, ears = Signer(PASSPHRASE, QUESTIONS), mavlink.MAVLink(None)
     ears.robust_parsing = True
     wire.write(frame)
@@ -141,13 +142,13 @@ def is_obeyed(wire, frame):
         acknowledged.extend(m for m in heard if m.get_type() == "COMMAND_ACK" and m.command == mavlink.MAV_CMD_ILLUMINATOR_ON_OFF)
         return any(m.get_type() == "TIMESYNC" and m.ts1 in asked for m in heard)
 
-    spandrel.wait_for("an answer to what is signed", answered, 60)
+    spandrel.wait_for("a response to the signed request", answered, 60)
     return bool(acknowledged)
 
 
 @contextlib.contextmanager
 def running(wire, key):
-    """A vehicle that demands signatures, and a link to it."""
+    """A vehicle that requires signatures, and a link to it."""
     arguments = ["sim", "--scenario", "drill-hover", "--seed", "7", "--ports", "ephemeral", "--tcp-port", "0", "--announce",
                  "--signing-key", str(key), *wire.arguments()]
     process = subprocess.Popen([spandrel.PROGRAM, *arguments], stdout=subprocess.PIPE, stdin=subprocess.DEVNULL)
@@ -164,7 +165,8 @@ def running(wire, key):
 @pytest.mark.parametrize("kind", ["udp", "tcp", "serial"])
 @pytest.mark.parametrize("ended", [signal.SIGINT, signal.SIGKILL])
 def test_wire_what_was_signed_once_is_obeyed_once_on_every_link_and_across_a_restart(tmp_path, kind, ended):
-    """Unsigned, signed with another key, signed well, played back; then the vehicle starts again and hears it all once more."""
+    """Sends a command unsigned, signed with another key, correctly signed, and replayed; then restarts the vehicle
+    and repeats everything."""
     key = tmp_path / "key"
     key.write_text(PASSPHRASE + "\n", encoding="utf-8")
     key.chmod(0o600)
@@ -174,21 +176,21 @@ def test_wire_what_was_signed_once_is_obeyed_once_on_every_link_and_across_a_res
         assert not is_obeyed(wire, bare)
         assert not is_obeyed(wire, forged)
         assert is_obeyed(wire, good)
-        assert not is_obeyed(wire, good), "played back"
-        # The memory is written once a second, and at the end where there is one.
+        assert not is_obeyed(wire, good), "a replayed command must be ignored"
+        # The memory is written once per second, and at the end if the process ends normally.
         memory = key.with_name("key.heard.1")
         stream = f"255 190 {COMMANDS} "
         spandrel.wait_for("the memory", lambda: memory.exists() and stream in memory.read_text(encoding="utf-8"), 60)
         process.send_signal(ended)
         process.wait(timeout=60)
     with running(wire, key):
-        assert not is_obeyed(wire, good), "played back after a restart"
+        assert not is_obeyed(wire, good), "a replayed command must be ignored after a restart"
         assert is_obeyed(wire, Signer(PASSPHRASE, COMMANDS).lamp(0.0))
 
 
 @pytest.mark.timeout(60)
 def test_wire_a_memory_that_is_none_is_refused_with_its_line(tmp_path):
-    """A file that somebody else wrote there is told, not overwritten."""
+    """An invalid file in this place is reported, not overwritten."""
     key = tmp_path / "key"
     key.write_text(PASSPHRASE + "\n", encoding="utf-8")
     key.chmod(0o600)

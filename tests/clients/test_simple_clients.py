@@ -1,4 +1,4 @@
-"""Clients that take a vehicle's every heartbeat for the autopilot's: a script of few lines on pymavlink, DroneKit, mavpilot."""
+"""Clients that take every heartbeat of the vehicle for the autopilot's: a short pymavlink script, DroneKit, mavpilot."""
 
 import asyncio
 import collections
@@ -13,7 +13,7 @@ from pymavlink import mavutil
 
 from spandrel import wait_for
 
-# DroneKit 2.9.2 is older than Python 3.10, which took these names away.
+# DroneKit 2.9.2 uses names that Python 3.10 removed.
 for _name in ("MutableMapping", "Mapping", "Iterable"):
     if not hasattr(collections, _name):
         setattr(collections, _name, getattr(collections.abc, _name))
@@ -22,14 +22,14 @@ import dronekit  # noqa: E402
 from mavpilot import DroneController  # noqa: E402
 
 M = mavutil.mavlink
-# How near to a place the vehicle must come, m.
+# Distance within which a position counts as reached, m.
 NEAR_M = 1.5
-# Clients that look in at whatever moment; each must hear the autopilot first.
+# Number of clients that connect at different times; each must receive the autopilot's heartbeat first.
 LOOKS = 12
 
 
 def metres(a, b):
-    """Between two places, m, over short ways."""
+    """Returns the distance between two nearby positions, m."""
     north = (a.lat - b.lat) * 111_319.5
     east = (a.lon - b.lon) * 111_319.5 * math.cos(math.radians(a.lat))
     return math.hypot(north, east)
@@ -37,7 +37,7 @@ def metres(a, b):
 
 @pytest.mark.timeout(300)
 def test_regress_whoever_looks_in_hears_the_autopilot_first(launch):
-    """Scripts that begin at any moment and take the first heartbeat; the camera's component is there all the while."""
+    """Scripts that start at any time and use the first heartbeat, while the camera component is also active."""
     port, first = launch("px4"), []
     for _ in range(LOOKS):
         link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", dialect="all")
@@ -49,7 +49,7 @@ def test_regress_whoever_looks_in_hears_the_autopilot_first(launch):
 
 @pytest.mark.timeout(300)
 def test_regress_a_naive_script_flies(launch):
-    """Mode, arming and take-off read off whatever heartbeat comes, as in many a tutorial."""
+    """Reads mode, arming and takeoff from any heartbeat, as many tutorials do."""
     port = launch("ardupilot", "--camera", "off", speed=2)
     link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}")
     link.wait_heartbeat()
@@ -57,18 +57,18 @@ def test_regress_a_naive_script_flies(launch):
     guided = link.mode_mapping()["GUIDED"]
 
     def told(send, holds):
-        """Sends until the next heartbeat shows it."""
+        """Sends until the next heartbeat shows the change."""
         for _ in range(120):
             send()
             beat = link.recv_match(type="HEARTBEAT", blocking=True, timeout=5)
             if beat is not None and holds(beat):
                 return
-        raise AssertionError("no heartbeat shows it")
+        raise AssertionError("no heartbeat shows the change")
 
     told(lambda: link.set_mode(guided), lambda beat: beat.custom_mode == guided)
     told(link.arducopter_arm, lambda beat: beat.base_mode & M.MAV_MODE_FLAG_SAFETY_ARMED)
     link.mav.command_long_send(link.target_system, link.target_component, M.MAV_CMD_NAV_TAKEOFF, 0, 0, 0, 0, 0, 0, 0, 5)
-    # Every heartbeat from here on is the vehicle's: armed, in GUIDED.
+    # From now on, every heartbeat must be the vehicle's: armed, in GUIDED.
     for _ in range(10):
         beat = link.recv_match(type="HEARTBEAT", blocking=True, timeout=60)
         assert beat.custom_mode == guided and beat.base_mode & M.MAV_MODE_FLAG_SAFETY_ARMED, beat
@@ -78,7 +78,7 @@ def test_regress_a_naive_script_flies(launch):
 
 @pytest.mark.timeout(600)
 def test_regress_dronekit_connects_arms_takes_off_and_goes(launch):
-    """DroneKit 2.9.2 as its own example has it; then a mission, which it uploads by the older request alone."""
+    """DroneKit 2.9.2 as in its own example; then a mission, which it uploads only through the older request."""
     port = launch("ardupilot", "--camera", "off", speed=2)
     vehicle = None
     try:
@@ -86,7 +86,7 @@ def test_regress_dronekit_connects_arms_takes_off_and_goes(launch):
         wait_for("a fix", lambda: vehicle.gps_0.fix_type == 3 and vehicle.location.global_frame.lat)
 
         def set_to(what, change, holds):
-            """DroneKit sends once; a tutorial's loop sends again."""
+            """Repeats a change in a loop, as tutorials do, because DroneKit sends it only once."""
             tries = iter(range(600))
 
             def step():
@@ -122,7 +122,7 @@ def test_regress_dronekit_connects_arms_takes_off_and_goes(launch):
 
 @pytest.mark.timeout(600)
 def test_regress_mavpilot_takes_off_goes_and_lands(launch):
-    """mavpilot 0.3, which flies PX4 by set-points in the local frame."""
+    """mavpilot 0.3, which flies PX4 with setpoints in the local frame."""
     port = launch("px4", "--camera", "off", speed=1)
 
     async def mission():

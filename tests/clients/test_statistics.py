@@ -1,4 +1,4 @@
-"""The cohort's figures against SciPy's on random data."""
+"""The cohort's statistics compared with SciPy's on random data."""
 
 import json
 import math
@@ -11,9 +11,9 @@ import spandrel
 
 TASKS = ("slab_side", "arch_bottom", "interlayer", "pier_circle")
 PHASES = ("calibration", "taking_off", "task_1", "task_2", "task_3", "task_4", "landing")
-# SciPy and we use other series and other orders of summing; nine digits are what the project asks for.
+# SciPy uses different series and summation orders; the project requires nine digits.
 CLOSE = 1e-9
-# A fit by general minimising, against ours by halving.
+# Tolerance between a fit by general minimization and the program's bisection.
 FITTED = 1e-5
 PICKS = {
     "conformity": lambda record: record["scores"]["conformity"],
@@ -25,7 +25,7 @@ PICKS = {
 
 
 def made_up_record(random, trainee, number):
-    """A session with random scores and answers, as `records export` writes it."""
+    """Returns a session with random scores and answers in the format of `records export`."""
     conformity, efficiency, safety, accuracy = (float(x) for x in random.uniform(20, 100, 4))
     nothing = {"bridge": 0, "terrain": 0, "water": 0, "other": 0, "vehicle": 0, "person": 0}
     task = lambda id, kind: {
@@ -52,7 +52,7 @@ def made_up_record(random, trainee, number):
 
 @pytest.fixture(scope="module", params=[1, 2, 3])
 def study(request, tmp_path_factory):
-    """Random sessions, in the order of time, and what the program makes of them: 40 people, 15 of them five times."""
+    """Random sessions ordered by time, and the program's results: 40 people, 15 of them with five sessions."""
     random = np.random.default_rng(request.param)
     people = {f"p{k:02}": [made_up_record(random, f"p{k:02}", n) for n in range(5 if k < 15 else 1)] for k in range(40)}
     path = tmp_path_factory.mktemp("study") / "records.jsonl"
@@ -129,7 +129,7 @@ def test_val_correlations(study):
 
 
 def regression(y, columns):
-    """Least squares by SciPy's pieces: estimates, errors, p values, intervals, share explained, p of the whole."""
+    """Least squares with SciPy: estimates, errors, p values, intervals, R squared, p of the model."""
     x = np.column_stack([np.ones(len(y)), *columns])
     estimates, _, _, _ = np.linalg.lstsq(x, y, rcond=None)
     residuals = y - x @ estimates
@@ -169,7 +169,7 @@ def test_val_learning_curves(study):
             (first, exponent), _ = optimize.curve_fit(lambda n, a, b: a * n**b, n, values, p0=(values[0], 0.0), xtol=1e-14, ftol=1e-14)
             ours = np.sum((values - curve["first"] * n ** curve["exponent"]) ** 2)
             theirs = np.sum((values - first * n**exponent) ** 2)
-            # Theirs may end in another dip; ours is never worse.
+            # SciPy's fit may end in another local minimum; the program's must not be worse.
             assert ours <= theirs * (1 + CLOSE)
             if close(ours, theirs, FITTED):
                 assert close(curve["first"], first, FITTED) and close(curve["exponent"], exponent, FITTED)
@@ -178,7 +178,7 @@ def test_val_learning_curves(study):
 
 
 def test_val_the_paired_test_that_the_paper_prints(tmp_path):
-    """Eight people whose differences give t = 2.609: the paper's first test, p = 0.0175 in the upper tail."""
+    """Eight people whose differences give t = 2.609: the TASBID paper's first test, p = 0.0175 in the upper tail."""
     random = np.random.default_rng(5)
     shape = random.normal(size=8)
     shape = (shape - shape.mean()) / shape.std(ddof=1)
@@ -198,7 +198,7 @@ def test_val_the_paired_test_that_the_paper_prints(tmp_path):
 
 
 def test_regress_incomplete_sessions_are_left_out_and_counted(tmp_path):
-    """An abort is nobody's first session; asked for, it is."""
+    """An aborted session must not count as a first session, unless requested."""
     random = np.random.default_rng(9)
     records = [made_up_record(random, trainee, n) for trainee in ("anna", "ben") for n in range(2)]
     broken_off = records[0]

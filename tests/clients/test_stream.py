@@ -1,4 +1,5 @@
-"""The camera's view as a stream: decoded by GStreamer's own elements, counted, compared with the window, announced by the vehicle."""
+"""The camera view as a stream: decoded with GStreamer's elements, counted, compared with the window, announced by the
+vehicle."""
 
 import pathlib
 import re
@@ -18,20 +19,20 @@ import asking
 import display
 import spandrel
 
-# Decoded pictures that prove that the stream runs.
+# Number of decoded pictures that proves that the stream is running.
 ENOUGH = 10
 LIMIT_S = 400
-# Pictures a second: the stream leaves 33 ms between two.
+# Maximum picture rate, Hz: the stream has at least 33 ms between pictures.
 RATE_MAX_HZ = 30.4
-# Brightness levels of 255 by which half of a picture's pixels may differ from the window's: coding and colour subsampling make about 2, waves and
-# noise of the time between some more; another picture makes over 30.
+# Maximum median difference from the window's picture, of 255: coding and color subsampling cause about 2, and waves and
+# noise in the meantime some more; a different picture causes over 30.
 ALIKE = 12
-# Bytes that wait for the decoder while the machine is busy.
+# Bytes that are buffered for the decoder while the machine is busy.
 BUFFER = 4 << 20
 
 
 class Relay(threading.Thread):
-    """Hands a stream on, and keeps when each picture's last packet came and whether numbers were missing."""
+    """Forwards a stream and records the time of each picture's last packet and missing sequence numbers."""
 
     def __init__(self, to):
         super().__init__(daemon=True)
@@ -52,7 +53,7 @@ class Relay(threading.Thread):
             self.socket.sendto(packet, ("127.0.0.1", self.to))
 
     def close(self):
-        """An empty datagram ends it."""
+        """Ends the relay with an empty datagram."""
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
             own.sendto(b"", ("127.0.0.1", self.port))
         self.join()
@@ -60,7 +61,7 @@ class Relay(threading.Thread):
 
 
 class Player:
-    """udpsrc, rtph264depay, avdec_h264: keeps each picture, and when it was decoded."""
+    """udpsrc, rtph264depay, avdec_h264: stores each picture and the time when it was decoded."""
 
     def __init__(self, folder, port):
         self.folder, self.decoded = pathlib.Path(folder), []
@@ -83,30 +84,31 @@ class Player:
                 self.ready.set()
 
     def seen(self):
-        """The pictures' files."""
+        """Returns the files of the pictures."""
         return sorted(self.folder.glob("seen-*.png"))
 
     def close(self):
-        """Ends it; everything that came is decoded and written."""
+        """Ends the player after all received data has been decoded and written."""
         spandrel.end(self.process)
         self.reader.join()
 
 
 def camera(screen):
-    """What the window shows of the camera's view: its right half."""
+    """Returns the camera view in the window, which is its right half."""
     photograph = screen.photograph()
     return photograph[:, photograph.shape[1] // 2 :]
 
 
 def alike(file, shown):
-    """Half of the pixels agree: the display over the window's view covers less."""
+    """Returns whether half of the pixels agree; the HUD in the window covers less than that."""
     picture = numpy.asarray(Image.open(file).convert("RGB")).astype(int)
     return picture.shape == shown.shape and numpy.median(numpy.abs(picture - shown).max(axis=2)) < ALIKE
 
 
 @pytest.mark.timeout(900)
 def test_val_gstreamer_shows_what_the_camera_sees(tmp_path, measured):
-    """Every picture that was encoded is decoded and is what the window shows; the vehicle tells that the stream runs, and when it ends."""
+    """Every encoded picture must be decoded and match the window; the vehicle must announce the start and the end of
+    the stream."""
     screen = display.Display(tmp_path, 640, 240)
     watcher, payload, video = (spandrel.free_udp_port() for _ in range(3))
     player, relay = Player(tmp_path, video), Relay(video)
@@ -140,10 +142,10 @@ def test_val_gstreamer_shows_what_the_camera_sees(tmp_path, measured):
         screen.close()
     streamed, encoding_ms = re.search(r"(\d+) pictures streamed, encoded in ([\d.]+) ms each", said(encoding="utf-8")).groups()
     streamed, encoding_ms = int(streamed), float(encoding_ms)
-    assert relay.lost == 0 and len(relay.pictures) == streamed, "every encoded picture was sent"
-    assert len(player.decoded) == streamed, "and decoded"
+    assert relay.lost == 0 and len(relay.pictures) == streamed, "every encoded picture must be sent"
+    assert len(player.decoded) == streamed, "every picture must be decoded"
     latency_ms = [1e3 * (decoded - sent) for sent, decoded in zip(relay.pictures, player.decoded)]
-    assert min(latency_ms) > 0, "each after it was sent"
+    assert min(latency_ms) > 0, "pictures must be decoded after they were sent"
     decoding_ms = statistics.median(latency_ms)
     measured(f"{streamed} pictures of 320 x 240; from a drawn picture to a decoded one {encoding_ms + decoding_ms:.1f} ms: "
              f"{encoding_ms:.1f} in the encoder (mean), {decoding_ms:.1f} from its last packet to the decoder's picture (median)")

@@ -1,4 +1,4 @@
-"""The example study, flown again: what `tools/cohort` makes is what examples/cohort keeps."""
+"""The example study, flown again: the output of `tools/cohort` must match examples/cohort."""
 
 import json
 import os
@@ -8,12 +8,12 @@ import sys
 import spandrel
 
 PERSON = "synthetic-01"
-# Three flights at full speed, each perhaps begun anew on a busy machine.
+# Three flights at full speed, each possibly restarted on a busy machine.
 PATIENCE_S = 3 * spandrel.FLIGHT_LIMIT_S
 
 
 def records(path):
-    """One person's, in the order of flying."""
+    """Returns one person's records in flight order."""
     every = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
     return sorted((one for one in every if one["trainee"] == PERSON), key=lambda one: one["started_unix_us"])
 
@@ -28,7 +28,7 @@ def test_flight_the_study_is_flown_answered_and_taken_in_as_it_is_kept(tmp_path)
     flown, kept = records(tmp_path / "records.jsonl"), records(spandrel.ROOT / "examples" / "cohort" / "records.jsonl")
     assert len(flown) == len(kept) == 3
     for ours, theirs in zip(flown, kept):
-        # Same job, seed and hands: the same scores and answers to the last digit.
+        # Same job, seed and pilot: the same scores and answers to the last digit.
         for key in ("scores", "answers", "tasks", "hits", "snapshots", "scenario_sha256", "vehicle_sha256", "seed"):
             assert ours[key] == theirs[key], key
     assert list((tmp_path / "tables").glob("*.csv")) and (tmp_path / "cohort.json").exists()

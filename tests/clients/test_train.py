@@ -1,4 +1,5 @@
-"""`spandrel train` around a flight: the vehicle outlives the session, flight logs can be downloaded, a dead monitor is replaced."""
+"""`spandrel train` and its flights: the vehicle outlives the session, flight logs can be downloaded, and a dead
+monitor is replaced."""
 
 import json
 import os
@@ -14,14 +15,14 @@ import sdk
 import spandrel
 from spandrel import wait_for
 
-# Height that counts as flying for the drill's session, m.
+# Height that counts as flying in the drill's session, m.
 HEIGHT_M = 2.0
-# Heartbeats heard after the end of the session that show a living vehicle; one a second of vehicle time.
+# Heartbeats after the end of the session that prove that the vehicle is still running; one per second of vehicle time.
 BEATS = 5
 
 
 class Training:
-    """`train` without its window on ports of its own, as a ground station's user starts it."""
+    """`train` without its window on unused ports, as a ground station user starts it."""
 
     def __init__(self, folder, *more):
         self.folder = pathlib.Path(folder)
@@ -38,15 +39,15 @@ class Training:
         )
 
     def printed(self):
-        """Output so far."""
+        """Returns the output so far."""
         return (self.folder / "train.txt").read_text(encoding="utf-8")
 
     def session(self):
-        """The one session folder."""
+        """Returns the only session folder."""
         return wait_for("a session folder", lambda: next((f for f in self.sessions.glob("*") if f.is_dir()), None))
 
     def child(self, subcommand):
-        """Process id of the running child with this subcommand."""
+        """Returns the process ID of the running child with this subcommand."""
         def find():
             for place in pathlib.Path("/proc").glob("[0-9]*"):
                 try:
@@ -60,12 +61,12 @@ class Training:
         return wait_for(f"the {subcommand}", find)
 
     def end(self):
-        """Interrupts it and returns its exit code."""
+        """Interrupts the process and returns its exit code."""
         self.process.send_signal(signal.SIGINT)
         return self.process.wait(timeout=60)
 
     def close(self):
-        """Ends it and shows what it printed."""
+        """Ends the process and prints its output."""
         spandrel.end(self.process)
         self.log.close()
         print(self.printed()[-3000:])
@@ -73,20 +74,20 @@ class Training:
 
 @pytest.fixture
 def training(tmp_path):
-    """A training on ports of its own."""
+    """A training on unused ports."""
     training = Training(tmp_path)
     yield training
     training.close()
 
 
 def land(action, telemetry):
-    """Down and disarmed."""
+    """Lands and waits until disarmed."""
     action.land()
     wait_for("disarmed", lambda: not telemetry.armed())
 
 
 def heartbeats(link, count):
-    """Waits for so many heartbeats of the autopilot that are sent from now on."""
+    """Waits for a number of new heartbeats of the autopilot."""
     while link.recv_match(blocking=False) is not None:
         pass
     heard = 0
@@ -102,7 +103,8 @@ def heartbeats(link, count):
 
 @pytest.mark.timeout(600)
 def test_regress_the_vehicle_stays_connected_after_the_landing(training, tmp_path, measured):
-    """A ground station that is connected keeps its vehicle when the session is scored, downloads the flight's log, and flies again."""
+    """A connected ground station keeps its vehicle when the session is scored, downloads the flight log, and flies
+    again."""
     station = mavutil.mavlink_connection(f"udpin:127.0.0.1:{training.gcs_port}")
     mavsdk, system = sdk.connect(training.sdk_port)
     action, telemetry = sdk.take_off(system, HEIGHT_M)
@@ -112,7 +114,7 @@ def test_regress_the_vehicle_stays_connected_after_the_landing(training, tmp_pat
     assert (session / "assessment.json").is_file() and (session / "report.html").is_file()
     heartbeats(station, BEATS)
     assert training.process.poll() is None, training.printed()
-    # The log of this flight, as QGroundControl's page "Log Download" gets it.
+    # Downloads the log of this flight like QGroundControl's page "Log Download".
     logs = LogFiles(system)
     entries = logs.get_entries()
     assert len(entries) == 1 and entries[0].size_bytes > 0, entries
@@ -122,7 +124,7 @@ def test_regress_the_vehicle_stays_connected_after_the_landing(training, tmp_pat
     wait_for("the download", lambda: any(result != LogFilesResult.NEXT for result in done))
     kept = next(session.glob("vehicle/log/*/*.ulg"))
     assert target.read_bytes() == kept.read_bytes()
-    # A second flight of the same vehicle; the session's scores are final.
+    # A second flight of the same vehicle must not change the scores of the session.
     before = (session / "assessment.json").read_bytes()
     action, telemetry = sdk.take_off(system, HEIGHT_M)
     land(action, telemetry)
@@ -135,7 +137,7 @@ def test_regress_the_vehicle_stays_connected_after_the_landing(training, tmp_pat
 
 @pytest.mark.timeout(600)
 def test_train_once_ends_with_the_scores(tmp_path):
-    """For scripts: `--once` quits when the session is scored."""
+    """With `--once`, for scripts, `train` quits when the session is scored."""
     training = Training(tmp_path, "--once")
     try:
         mavsdk, system = sdk.connect(training.sdk_port)
@@ -150,7 +152,7 @@ def test_train_once_ends_with_the_scores(tmp_path):
 
 @pytest.mark.timeout(600)
 def test_regress_a_killed_monitor_is_replaced_on_the_same_session(training):
-    """The monitor is killed in flight: the flight goes on, and the session is scored whole."""
+    """The monitor is killed in flight: the flight continues, and the complete session is scored."""
     mavsdk, system = sdk.connect(training.sdk_port)
     action, telemetry = sdk.take_off(system, HEIGHT_M)
     session = training.session()

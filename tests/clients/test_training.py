@@ -1,4 +1,4 @@
-"""From a flight to the next one: questionnaire, records, plan, as a person types them."""
+"""From one flight to the next: questionnaire, records and plan on the command line."""
 
 import contextlib
 import csv
@@ -17,14 +17,14 @@ TASKS = ("slab_side", "arch_bottom", "interlayer", "pier_circle")
 
 
 def run_with(text, *args):
-    """Runs the program with something typed; returns exit code, output and errors."""
+    """Runs the program with typed input; returns exit code, output and errors."""
     done = subprocess.run([spandrel.PROGRAM, *args], input=text, capture_output=True, text=True, timeout=spandrel.FLIGHT_LIMIT_S, check=False)
     return done.returncode, done.stdout, done.stderr
 
 
 @pytest.fixture(scope="module")
 def sessions(tmp_path_factory):
-    """Two real sessions of a novice, in a folder of their own."""
+    """Two real sessions of a novice in a separate folder."""
     folder = tmp_path_factory.mktemp("training") / "sessions"
     for seed in ("7", "8"):
         spandrel.run("demo", "--skill", "novice", "--seed", seed, "--speed", "max", "--trainee", "anna", "--sessions", str(folder))
@@ -38,7 +38,7 @@ def folders(sessions):
 def test_a_session_becomes_a_record_and_a_plan(sessions):
     place = ["--sessions", str(sessions)]
     session = folders(sessions)[0]
-    # Half now, half later: what is answered is saved, and not asked again.
+    # Answers half now and half later: saved answers are not requested again.
     code, output, _ = run_with("2\n" * 10 + "q\n", "questionnaire", str(session))
     assert code == 0 and "10 of 24 answered" in output
     code, output, _ = run_with("9\n" + "3\n" * 14, "questionnaire", str(session))
@@ -62,7 +62,7 @@ def test_a_session_becomes_a_record_and_a_plan(sessions):
         assert len(record["defects"]) == 10
     assert records[0]["answers"]["answers"] == answers
 
-    # A changed answer is a changed record.
+    # A changed answer changes the record.
     run_with("1\n" + "\n" * 23, "questionnaire", str(session), "--again")
     assert "1 new or changed, 1 unchanged" in spandrel.run("records", "import", *place)
     before = spandrel.run("records", "export", *place)
@@ -112,7 +112,7 @@ def test_a_trainee_may_have_his_data_and_be_forgotten(sessions):
     spandrel.run("records", "trainee", "ben", "--age-band", "35-44", "--gaming-experience", "some", *place)
     kept = json.loads(spandrel.run("records", "export", "--trainee", "ben", *place))
     assert kept["trainee"]["age_band"] == "35-44" and len(kept["sessions"]) == 1 and len(kept["folders"]) == 1
-    # First told, then done.
+    # The first command only announces the erasure, the second performs it.
     assert "--yes erases them" in spandrel.run("records", "erase", "--trainee", "ben", *place)
     assert pathlib.Path(kept["folders"][0]).is_dir()
     assert "erased 'ben': 1 sessions" in spandrel.run("records", "erase", "--trainee", "ben", "--yes", *place)
@@ -132,13 +132,14 @@ def test_rebuild_does_not_forget_another_stations_sessions(sessions, tmp_path):
     code, _, errors = run_with("", "records", "rebuild", "--sessions", str(other), *database)
     assert code == 2 and "2 sessions have no folder on this machine" in errors
     assert len(json.loads(spandrel.run("records", "list", "--json", *database))) == 2
-    # Who says so deletes them; they were not erased, and come back with their folders.
+    # With confirmation, the sessions are deleted. They were not erased, so they return with their folders.
     assert "0 sessions, 0 skipped, 2 without a folder on this machine deleted" in spandrel.run("records", "rebuild", "--yes", "--sessions", str(other), *database)
     assert "2 new or changed" in spandrel.run("records", "import", "--sessions", str(sessions), *database)
 
 
 def test_a_killed_import_leaves_whole_records_and_goes_on(tmp_path):
-    """Two hundred sessions (copies of one), the importing program killed twenty times: at random moments, and right after a parcel."""
+    """Two hundred sessions (copies of one), with the import killed twenty times: at random times, and right after a
+    batch."""
     spandrel.run("demo", "--scenario", "drill-hover", "--seed", "3", "--speed", "max", "--sessions", str(tmp_path / "one"))
     original = folders(tmp_path / "one")[0]
     many = tmp_path / "many"
@@ -154,18 +155,18 @@ def test_a_killed_import_leaves_whole_records_and_goes_on(tmp_path):
             with contextlib.closing(sqlite3.connect(f"file:{tmp_path / 'records.sqlite'}?mode=ro", uri=True)) as database:
                 return database.execute("SELECT COUNT(*) FROM sessions").fetchone()[0]
         except sqlite3.Error:
-            return 0  # Not made yet.
+            return 0  # The database does not exist yet.
 
     chance = random.Random(1)
     counts, killed = [], 0
     for turn in range(20):
         process = subprocess.Popen([spandrel.PROGRAM, "records", "import", *place], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         if turn % 2:
-            # At any moment.
+            # At a random time.
             with contextlib.suppress(subprocess.TimeoutExpired):
                 process.wait(timeout=chance.uniform(0.0, 0.6))
         else:
-            # Right after another parcel is in, in the middle of the work.
+            # Right after a batch was stored, in the middle of the import.
             before = counts[-1] if counts else 0
             spandrel.wait_for("another parcel", lambda: stored() > before or process.poll() is not None)
         killed += process.poll() is None
@@ -174,8 +175,8 @@ def test_a_killed_import_leaves_whole_records_and_goes_on(tmp_path):
         records = json.loads(spandrel.run("records", "list", "--json", *place))
         assert len({record["id"] for record in records}) == len(records) and all(len(record["tasks"]) == 1 for record in records)
         counts.append(len(records))
-    assert killed and any(0 < count < 200 for count in counts), f"no kill fell into an import: {counts}"
-    assert counts == sorted(counts), "nothing that was taken in is lost"
+    assert killed and any(0 < count < 200 for count in counts), f"no kill occurred during an import: {counts}"
+    assert counts == sorted(counts), "imported sessions must not be lost"
     spandrel.run("records", "import", *place)
     assert len(json.loads(spandrel.run("records", "list", "--json", *place))) == 200
     assert "0 new or changed, 200 unchanged, 0 skipped" in spandrel.run("records", "import", *place)

@@ -1,4 +1,5 @@
-"""The mission protocol step by step over UDP with pymavlink: a part of a plan, a cancelled upload, a second station in between."""
+"""The mission protocol step by step over UDP with pymavlink: partial plans, a canceled upload, a second station in
+between."""
 
 import pytest
 from pymavlink import mavutil
@@ -7,25 +8,26 @@ from pymavlink.dialects.v20 import common as mavlink
 import spandrel
 from spandrel import wait_for
 
-# Answers come within milliseconds; the limit only keeps a broken run from hanging, wall seconds.
+# Time limit for responses, which usually arrive within milliseconds, wall seconds; it only prevents a broken run from
+# hanging.
 LIMIT_S = 30
 LAT, LON = 467_052_000, 83_814_000
 
 
 class Station:
-    """A ground station that speaks the mission protocol one message at a time."""
+    """A ground station that uses the mission protocol one message at a time."""
 
     def __init__(self, port, system):
         self.link = mavutil.mavlink_connection(f"udpout:127.0.0.1:{port}", dialect="common", source_system=system)
         wait_for("the vehicle", self.call, limit_s=LIMIT_S)
 
     def call(self):
-        """Says that it is there; whether the vehicle is."""
+        """Sends a heartbeat; returns whether there is one from the vehicle."""
         self.link.mav.heartbeat_send(mavlink.MAV_TYPE_GCS, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, mavlink.MAV_STATE_ACTIVE)
         return self.link.recv_match(type="HEARTBEAT", blocking=True, timeout=0.2)
 
     def hear(self, *kinds):
-        """The next message of some kinds that is meant for this station."""
+        """Returns the next message of these kinds that is addressed to this station."""
         for _ in range(10_000):
             message = self.link.recv_match(type=list(kinds), blocking=True, timeout=LIMIT_S)
             assert message is not None, kinds
@@ -34,16 +36,16 @@ class Station:
         raise AssertionError(kinds)
 
     def count(self, items):
-        """Begins an upload."""
+        """Starts an upload."""
         self.link.mav.mission_count_send(1, 1, items)
 
     def item(self, seq, height):
-        """One waypoint."""
+        """Sends one waypoint."""
         self.link.mav.mission_item_int_send(1, 1, seq, mavlink.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT, mavlink.MAV_CMD_NAV_WAYPOINT, 0, 1,
                                             0, 0, 0, float("nan"), LAT, LON, height)
 
     def answer(self, until_seq, height):
-        """Sends what is asked for until an item or an acknowledgement; the acknowledgement's result."""
+        """Answers requests until an item number or an acknowledgment; returns the acknowledgment's result."""
         while True:
             heard = self.hear("MISSION_REQUEST_INT", "MISSION_ACK")
             if heard.get_type() == "MISSION_ACK":
@@ -53,7 +55,7 @@ class Station:
             self.item(heard.seq, height)
 
     def heights(self):
-        """The plan that the vehicle has."""
+        """Returns the heights in the vehicle's current plan."""
         self.link.mav.mission_request_list_send(1, 1)
         found = []
         for seq in range(self.hear("MISSION_COUNT").count):
@@ -67,7 +69,7 @@ class Station:
 
 @pytest.mark.timeout(300)
 def test_wire_pymavlink_transfers_survive_parts_cancellations_and_other_stations(tmp_path):
-    """What is not whole changes nothing; who began first ends first."""
+    """Incomplete transfers must have no effect; the transfer that started first must end first."""
     unused, port = spandrel.free_udp_port(), spandrel.free_udp_port()
     process = spandrel.start_sim(tmp_path, unused, speed=1, gcs_port=port)
     try:
@@ -77,12 +79,12 @@ def test_wire_pymavlink_transfers_survive_parts_cancellations_and_other_stations
         one.link.mav.mission_write_partial_list_send(1, 1, 2, 3)
         assert one.answer(None, 9.0) == mavlink.MAV_MISSION_ACCEPTED
         assert two.heights() == [5.0, 5.0, 9.0, 9.0, 5.0, 5.0]
-        # Cancelled in the middle: the plan stays.
+        # Canceled in the middle: the plan must not change.
         one.count(4)
         assert one.answer(2, 7.0) is None
         one.link.mav.mission_ack_send(1, 1, mavlink.MAV_MISSION_OPERATION_CANCELLED)
         assert one.heights() == [5.0, 5.0, 9.0, 9.0, 5.0, 5.0]
-        # A second station reads in the middle of the first one's upload, and may not write.
+        # A second station downloads during the first one's upload, and must not upload.
         one.count(3)
         assert one.answer(1, 8.0) is None
         assert two.heights() == [5.0, 5.0, 9.0, 9.0, 5.0, 5.0]

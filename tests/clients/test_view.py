@@ -1,4 +1,5 @@
-"""`spandrel view`: the window under a virtual display, photographed and flown by its keys; what it says where something is missing."""
+"""`spandrel view`: the window on a virtual display, with screenshots and flight keys; messages if something is
+missing."""
 
 import json
 import os
@@ -12,24 +13,25 @@ import asking
 import display
 import spandrel
 
-# Colours of the head-up display as it defines them (crates/view/src/hud/mod.rs).
+# Colors of the HUD (crates/view/src/hud/mod.rs).
 GREEN, YELLOW, WHITE = (0, 190, 130), (240, 228, 66), (245, 245, 245)
-# Wall seconds for a software driver on a busy machine to compile its shaders and to draw, ten times over.
+# Time limit for a software driver on a busy machine to compile its shaders and render, wall seconds (ten times the
+# usual).
 DRAW_LIMIT_S = 400
-# Wall seconds after which a key without an effect is pressed again; a frame takes one at the worst.
+# Wall seconds after which a key without an effect is pressed again; a frame takes at most one second.
 PRESS_AGAIN_S = 20.0
 
 
 @pytest.fixture
 def screen(tmp_path):
-    """A virtual display; half of it has the shape of the camera's sensor."""
+    """A virtual display; half of it has the aspect ratio of the camera's sensor."""
     opened = display.Display(tmp_path, width=1280, height=480)
     yield opened
     opened.close()
 
 
 def open_view(screen, tmp_path, *args):
-    """The window over all of the display, once it has drawn both views."""
+    """Opens a window that covers the display and waits until it has rendered both views."""
     log = open(tmp_path / "view.txt", "w", encoding="utf-8")
     size = f"{screen.size[0]}x{screen.size[1]}"
     process = subprocess.Popen(
@@ -42,13 +44,14 @@ def open_view(screen, tmp_path, *args):
 
 
 def contrast(part):
-    """Standard deviation of a part's brightness, 0 for a blank one."""
+    """Returns the standard deviation of the brightness, 0 for a blank area."""
     return part.mean(axis=2).std()
 
 
 @pytest.mark.timeout(900)
 def test_wire_the_window_shows_both_views_and_flies_by_its_keys(screen, tmp_path):
-    """A simulator flies in real time beside it: photographs show two different pictures and the display, keys swap, hide and fly."""
+    """With a simulator in real time: screenshots must show two different views and the HUD; keys change the layout,
+    hide the map and fly."""
     watcher, dial, payload = (spandrel.free_udp_port() for _ in range(3))
     sim = spandrel.start_sim(tmp_path, watcher, speed=1, gcs_port=dial, payload_port=payload)
     window = None
@@ -61,19 +64,19 @@ def test_wire_the_window_shows_both_views_and_flies_by_its_keys(screen, tmp_path
         (photograph,) = spandrel.wait_for("a photograph with a display", lambda: with_display(screen), DRAW_LIMIT_S)
         height, width, _ = photograph.shape
         left, right = photograph[:, : width // 2], photograph[:, width // 2 :]
-        assert contrast(left) > 10 and contrast(right) > 10, "neither view is blank"
-        assert numpy.abs(left - right).mean() > 10, "two views, not one twice"
-        # Battery upper right, speed upper left, of the camera's view on the right alone.
+        assert contrast(left) > 10 and contrast(right) > 10, "no view may be blank"
+        assert numpy.abs(left - right).mean() > 10, "the views must be different"
+        # Battery upper right and speed upper left, only in the camera view on the right.
         rows, columns = display.pixels_of(photograph, GREEN).T
-        assert rows.max() < 0.2 * height and columns.min() > 0.8 * width, "the battery is in its place"
+        assert rows.max() < 0.2 * height and columns.min() > 0.8 * width, "the battery must be at the upper right"
         speed = right[: height // 6, : width // 6]
-        assert len(display.pixels_of(speed, WHITE)) > 20, "the speed is written"
+        assert len(display.pixels_of(speed, WHITE)) > 20, "the speed must be visible"
         assert len(display.pixels_of(left[: height // 6, : width // 6], WHITE)) == 0
-        assert len(display.pixels_of(right[height // 2 :], YELLOW)) > 10, "the map shows the drone"
-        assert os.getpriority(os.PRIO_PROCESS, window.pid) > os.getpriority(os.PRIO_PROCESS, sim.pid), "the simulator comes first"
+        assert len(display.pixels_of(right[height // 2 :], YELLOW)) > 10, "the map must show the drone"
+        assert os.getpriority(os.PRIO_PROCESS, window.pid) > os.getpriority(os.PRIO_PROCESS, sim.pid), "the simulator must have a higher priority"
 
         screen.focus()
-        # A key may come before the window knows that the keys are its: as a person does, press again when nothing happens.
+        # The first press may come before the window has the focus, so keys without an effect are pressed again.
         again = asking.Again(lambda: screen.tap("m"), again_s=PRESS_AGAIN_S)
 
         def hidden():
@@ -106,26 +109,27 @@ def test_wire_the_window_shows_both_views_and_flies_by_its_keys(screen, tmp_path
 
 
 def with_display(screen):
-    """One photograph, once it shows the battery; none before."""
+    """Returns a screenshot if it shows the battery, otherwise nothing."""
     photograph = screen.photograph()
     return [photograph] if len(display.pixels_of(photograph, GREEN)) > 0 else []
 
 
 def in_the_middle(screen):
-    """The camera's view stands in the middle of the window, with its sensor's shape: a bar is left of it, empty above the small view."""
+    """Returns whether the camera view is in the middle of the window with its sensor's aspect ratio, which leaves an
+    empty bar above the inset view."""
     photograph = screen.photograph()
     green, bar = display.pixels_of(photograph, GREEN), screen.size[0] // 4
     return len(green) > 0 and 0.6 < green[:, 1].max() / screen.size[0] < 0.75 and contrast(photograph[: screen.size[1] // 5, : bar - 4]) < 1.0
 
 
 def armable(link):
-    """The vehicle's filter has settled: it knows its place."""
+    """Returns whether the vehicle's filter has settled, so that its position is known."""
     return link.recv_match(type="GLOBAL_POSITION_INT", blocking=True, timeout=1)
 
 
 @pytest.mark.timeout(600)
 def test_wire_what_is_missing_is_named_in_one_message(screen, tmp_path):
-    """No display, no Vulkan, a wrong file of keys: an exit code and one message each."""
+    """Without a display or Vulkan, or with an invalid key file, there is an exit code and one message each."""
 
     def view(environment, *args):
         return subprocess.run(
@@ -142,7 +146,7 @@ def test_wire_what_is_missing_is_named_in_one_message(screen, tmp_path):
 
     refused = view(blind)
     assert refused.returncode == 1 and refused.stderr.count("no display") == 1, refused.stderr
-    # What a person can act on, and no place in a library's source code.
+    # The message must contain possible actions and no source code positions of a library.
     assert "neither DISPLAY nor WAYLAND_DISPLAY is set" in refused.stderr and ".rs" not in refused.stderr, refused.stderr
     refused = view(blind | {"DISPLAY": ":4711"})
     assert refused.returncode == 1 and "DISPLAY=:4711 cannot be opened" in refused.stderr and ".rs" not in refused.stderr, refused.stderr
@@ -155,7 +159,7 @@ def test_wire_what_is_missing_is_named_in_one_message(screen, tmp_path):
     for asked in (["train", "--keys", str(keys)], ["train", "--quality", "best"]):
         refused = said(*asked, "--sessions", str(tmp_path / "sessions"))
         assert refused.returncode == 2 and asked[2].split("/")[-1] in refused.stderr, refused.stderr
-    assert not (tmp_path / "sessions").exists(), "nothing was begun"
+    assert not (tmp_path / "sessions").exists(), "no session may be started"
     keys.write_text('format = 1\n[window]\npause = "q"\n[actions]\nland = "escape"\n', encoding="utf-8")
     refused = said("rc", "--keyboard", "--keys", str(keys))
     assert refused.returncode == 2 and 'land = "escape"' in refused.stderr, refused.stderr
@@ -164,7 +168,7 @@ def test_wire_what_is_missing_is_named_in_one_message(screen, tmp_path):
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize(("asked", "title"), [(["--scenario", "drill-hover"], "Drill: hover"), ([], "using the command line: anonymous flies two-bridges")])
 def test_wire_training_goes_on_without_a_display(tmp_path, asked, title):
-    """`train` names what is missing, says what it flies, and waits for the flight all the same."""
+    """`train` reports what is missing and which job it flies, and waits for the flight nevertheless."""
     blind = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET")}
     log = open(tmp_path / "train.txt", "w", encoding="utf-8")
     training = subprocess.Popen(
@@ -177,6 +181,6 @@ def test_wire_training_goes_on_without_a_display(tmp_path, asked, title):
         spandrel.wait_for("it flies", lambda: "Take off, fly the tasks" in told.read_text(encoding="utf-8"), DRAW_LIMIT_S)
         assert title in told.read_text(encoding="utf-8")
         assert "no display" in told.read_text(encoding="utf-8") and training.poll() is None
-        assert "A window shows" not in told.read_text(encoding="utf-8"), "a window that is not there is not told of"
+        assert "A window shows" not in told.read_text(encoding="utf-8"), "the output must not mention a window"
     finally:
         spandrel.end(training)

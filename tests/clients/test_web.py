@@ -1,4 +1,5 @@
-"""`spandrel serve` in a real browser: what trainee, instructor and administrator do, wide and narrow, light and dark."""
+"""`spandrel serve` in a real browser: tasks of trainee, instructor and administrator, wide and narrow, light and
+dark."""
 
 import json
 import os
@@ -16,9 +17,9 @@ import webserver
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 FLAGS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 SIZES = {"desktop": (1280, 900), "phone": (390, 844)}
-# Pictures for people to look at go here, where it is set.
+# Folder for screenshots, if set.
 PICTURES = os.environ.get("SPANDREL_PICTURES")
-# Milliseconds that anything may take on a busy two-core machine, many times over.
+# Time limit for any action on a busy two-core machine, ms (many times the usual).
 PATIENCE_MS = 300_000
 expect.set_options(timeout=PATIENCE_MS)
 
@@ -35,7 +36,7 @@ def browser():
 
 @pytest.fixture(scope="module")
 def sessions(tmp_path_factory):
-    """Anna flew twice, Ben once, Lena four times."""
+    """Two flights by Anna, one by Ben, four by Lena."""
     folder = tmp_path_factory.mktemp("web") / "sessions"
     webserver.flown(folder, "anna", "anna", "ben", "lena", "lena", "lena", "lena")
     spandrel.run("records", "import", "--sessions", str(folder))
@@ -47,21 +48,21 @@ def sessions(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def server(sessions):
-    """One server for all, over those sessions."""
+    """A shared server for these sessions."""
     server = webserver.Server(sessions)
     yield server
     server.close()
 
 
 def ids(sessions, trainee):
-    """A trainee's sessions in the order of their starts: two flights of one second differ in their names by chance."""
+    """Returns a trainee's sessions by start time; the names of two flights in the same second differ randomly."""
     folders = [path for path in sessions.iterdir() if f"-{trainee}-" in path.name]
     started = lambda path: json.loads((path / "session.json").read_text(encoding="utf-8"))["started_unix_us"]
     return [path.name for path in sorted(folders, key=started)]
 
 
 class Person:
-    """Somebody at a browser, with everything that went wrong on the pages."""
+    """A user with a browser; collects all problems on the pages."""
 
     def __init__(self, browser, server, name=None, size="desktop", scheme="light", locale="en-GB"):
         width, height = SIZES[size]
@@ -95,7 +96,7 @@ class Person:
             self.page.screenshot(path=str(folder / f"{name}.png"), full_page=True)
 
     def check(self):
-        """Nothing runs out of the page, nothing was wrong, axe finds nothing."""
+        """Checks that the content fits the page, that there were no problems, and that axe finds none."""
         page = self.page
         assert page.evaluate("document.documentElement.scrollWidth <= document.documentElement.clientWidth"), page.url
         page.evaluate("document.querySelectorAll('details').forEach(details => { details.open = true; })")
@@ -119,7 +120,7 @@ def test_every_page_passes_axe_wide_and_narrow_light_and_dark(browser, server, s
         answer = person.go(path)
         assert answer.status == (404 if name == "missing" else 200), path
         person.keep(f"{name}-{size}-{scheme}")
-        # A page that is not there is an error in the browser's eyes, and in the test's intention.
+        # A missing page is an error for the browser, but intended by this test.
         person.wrong = [wrong for wrong in person.wrong if "404" not in wrong]
         person.check()
     stranger = Person(browser, server, None, size, scheme)
@@ -130,13 +131,14 @@ def test_every_page_passes_axe_wide_and_narrow_light_and_dark(browser, server, s
 
 
 def test_practice_is_shown_repetition_by_repetition_and_the_cohorts_tables_download(browser, server, tmp_path):
-    """The paper's participant 18: scores, on-path by task and crashes over the repetitions; learning curves from the fourth on."""
+    """Like participant 18 of the TASBID paper: scores, on-path share by task and crashes over the repetitions;
+    learning curves from the fourth on."""
     person = Person(browser, server, "lena")
     page = person.page
     person.go("/trainees/lena")
     progress = page.locator("#progress")
     assert progress.locator("svg.lines").count() == 2 and progress.locator("svg.practice").count() >= 3
-    # The drill has one task: a point for each of the four repetitions.
+    # The drill has one task, so there is one point for each of the four repetitions.
     assert progress.locator("svg.lines").nth(1).locator("circle").count() == 4
     with page.expect_download() as download:
         progress.locator("summary", has_text="each repetition").click()
@@ -147,7 +149,7 @@ def test_practice_is_shown_repetition_by_repetition_and_the_cohorts_tables_downl
     assert person.wrong == []
     ida = Person(browser, server, "ida")
     ida.go("/trainees/anna")
-    assert ida.page.locator("#progress svg.practice").count() == 0, "two repetitions make no curve"
+    assert ida.page.locator("#progress svg.practice").count() == 0, "two repetitions are not enough for a curve"
     ida.go("/cohort?scenario=drill-hover&repetitions=2")
     assert ida.page.locator("#learning svg.practice").count() >= 3
     with ida.page.expect_download() as download:
@@ -169,7 +171,7 @@ def test_a_trainee_answers_leaves_and_returns(browser, server, sessions):
     expect(person.page.locator("[data-status]")).to_contain_text("2 of", timeout=PATIENCE_MS)
     given = json.loads((session / "answers.json").read_text(encoding="utf-8"))["answers"]
     assert sorted(given.values()) == [2, 2]
-    # Away, logged out, and back: what was answered is still there.
+    # After leaving, logging out and returning, the answers are still there.
     person.page.click("text=Log out")
     person.log_in("anna")
     person.go(f"/sessions/{session.name}/questions")
@@ -179,7 +181,7 @@ def test_a_trainee_answers_leaves_and_returns(browser, server, sessions):
     expect(person.page.locator("main")).to_contain_text("Saved.")
     given = json.loads((session / "answers.json").read_text(encoding="utf-8"))["answers"]
     assert set(given.values()) == {4} and len(given) == person.page.locator("fieldset").count()
-    # The database follows by itself.
+    # The database is updated automatically.
     heard = lambda: json.loads(spandrel.run("records", "list", "--json", "--sessions", str(sessions)))
     spandrel.wait_for("answers in the records", lambda: next(r for r in heard() if r["id"] == session.name)["answers"]["answers"] == given)
     assert person.wrong == []
@@ -200,7 +202,8 @@ def test_answers_without_script(browser, server, sessions):
 
 
 def test_the_questionnaire_speaks_the_language_of_the_browser_and_of_ones_choice(browser, sessions, tmp_path):
-    """German by Accept-Language, Spanish by choice, a site's own Swiss wording; what was answered stays through all of them."""
+    """German from Accept-Language, Spanish by selection, a site's own Swiss texts; answers persist through all of
+    them."""
     swiss = (spandrel.ROOT / "crates/training/src/questionnaire/de.toml").read_text(encoding="utf-8")
     swiss = swiss.replace('language = "de"', 'language = "de-CH"').replace('"Deutsch"', '"Schwiizerdütsch"').replace("Gespeichert.", "Gspeicheret.")
     (tmp_path / "ch.toml").write_text(swiss, encoding="utf-8")
@@ -223,7 +226,7 @@ def test_the_questionnaire_speaks_the_language_of_the_browser_and_of_ones_choice
         page.select_option("select[name=language]", "de")
         page.click("text=Cambiar")
         page.wait_for_selector("html[lang=de]")
-        assert page.locator("input:checked").count() == 1, "the answer has no language"
+        assert page.locator("input:checked").count() == 1, "answers must not depend on the language"
         page.click("fieldset >> nth=1 >> label:has-text('stimme gar nicht zu')")
         expect(page.locator("[data-status]")).to_contain_text("2 von", timeout=PATIENCE_MS)
         page.click("text=Speichern")
@@ -231,7 +234,7 @@ def test_the_questionnaire_speaks_the_language_of_the_browser_and_of_ones_choice
         assert given()["language"] == "de" and sorted(given()["answers"].values()) == [1, 5]
         person.keep("questions-german")
         person.check()
-        # Who comes back goes on in the language of the answers, whatever the browser likes.
+        # A returning user continues in the language of the answers, regardless of the browser.
         person.go(f"/sessions/{session.name}/questions")
         assert page.get_attribute("html", "lang") == "de"
         person.go(f"/sessions/{session.name}/questions?language=de-CH")
@@ -268,7 +271,7 @@ def test_a_report_opens_under_its_own_policy_and_its_slider_works(browser, serve
     first = place()
     person.page.evaluate(move, most // 2)
     assert first and place() != first
-    # The report lives in a box: it does not see our cookie, nor we its scripts.
+    # The report is sandboxed: it cannot read the site's cookie, and the site cannot access its scripts.
     assert person.page.evaluate("self.origin") == "null"
     assert person.wrong == []
 
@@ -285,7 +288,7 @@ def test_a_report_of_another_version_is_made_again(server, sessions):
 
 
 def test_two_sessions_are_compared(browser, server, sessions):
-    """Both flights on one drawing and one slider, lined up as the instructor wants."""
+    """Both flights in one drawing with one slider, aligned as the instructor selects."""
     first, second = ids(sessions, "anna")
     for size, scheme in [("desktop", "light"), ("phone", "dark")]:
         person = Person(browser, server, "anna", size, scheme)
@@ -295,7 +298,7 @@ def test_two_sessions_are_compared(browser, server, sessions):
         page.click("text=Compare >> nth=-1")
         page.wait_for_selector("body.live")
         assert page.locator(".shape-1").count() == 1 and page.locator(".shape-2").count() == 1
-        # From above and from the side, two tracks and two drones each.
+        # From above and from the side, with two tracks and two drones each.
         drawings = page.locator("svg.map").count()
         assert drawings >= 2
         for k in ("1", "2"):
@@ -309,16 +312,16 @@ def test_two_sessions_are_compared(browser, server, sessions):
         before, said = places(), now()
         page.evaluate(move, most // 2)
         assert all(here != there for here, there in zip(places(), before)) and now() != said
-        # Keys move it, too, and it says where it is.
+        # Keys also move the slider, and it announces its position.
         text = page.get_attribute("#moment", "aria-valuetext")
         page.focus("#moment")
         page.keyboard.press("PageUp")
         assert page.get_attribute("#moment", "aria-valuetext") != text
-        # Lined up where both entered the task, both are at its path at 0:00.
+        # Aligned at the start of the task, both are at its path at 0:00.
         page.select_option("#line-up", label="start of task 1")
         assert page.inner_text("#moment-text") == "0:00"
         away = [float(text.split()[0]) for text in page.locator("[data-now=distance]").all_inner_texts()]
-        assert max(away) <= 1.6, "the task is entered within 1.5 m of its path, up to a step of the slider"
+        assert max(away) <= 1.6, "the task starts within 1.5 m of its path, plus one step of the slider"
         assert page.locator("details.numbers table tr").count() > 4
         person.keep(f"compare-{size}-{scheme}")
         assert page.evaluate("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
@@ -328,7 +331,7 @@ def test_two_sessions_are_compared(browser, server, sessions):
 def test_nobody_reads_what_is_somebody_elses(browser, server, sessions):
     person = Person(browser, server, "anna")
     ben = ids(sessions, "ben")[0]
-    # The list is there, and Ben is not in it.
+    # The list is available and does not contain Ben.
     expect(person.page.locator("table.list")).to_contain_text("drill-hover")
     assert "ben" not in person.page.inner_text("main")
     for path in [f"/sessions/{ben}", f"/sessions/{ben}/report", f"/sessions/{ben}/questions", f"/sessions/{ben}/frames.csv",
@@ -343,7 +346,7 @@ def test_nobody_reads_what_is_somebody_elses(browser, server, sessions):
 def test_a_trainee_is_exported_and_erased(browser, server, sessions, tmp_path):
     webserver.flown(sessions, "gone", seed=31)
     person = Person(browser, server, "ada")
-    # The server finds the new session by itself.
+    # The server finds the new session automatically.
     spandrel.wait_for("the new session", lambda: person.go("/sessions?trainee=gone") and person.page.locator("table.list").count())
     person.go("/trainees/gone")
     with person.page.expect_download() as download:
@@ -355,7 +358,7 @@ def test_a_trainee_is_exported_and_erased(browser, server, sessions, tmp_path):
     person.page.click("summary:has-text('Erase')")
     person.page.fill("[name=again]", "anna")
     person.page.click("text=Erase permanently")
-    assert ids(sessions, "gone"), "another name erases nobody"
+    assert ids(sessions, "gone"), "a wrong name must not erase anything"
     person.go("/trainees/gone")
     person.page.click("summary:has-text('Erase')")
     person.page.fill("[name=again]", "gone")
@@ -367,7 +370,7 @@ def test_a_trainee_is_exported_and_erased(browser, server, sessions, tmp_path):
     person.page.fill("[name=again]", "ada")
     person.page.click("text=Erase permanently")
     expect(person.page.locator("body")).to_contain_text("ask another administrator to erase you")
-    assert person.go("/settings").status == 200, "an administrator does not erase himself"
+    assert person.go("/settings").status == 200, "administrators must not be able to erase themselves"
 
 
 def test_a_scenario_is_uploaded_checked_and_taken_away(browser, server, tmp_path):
@@ -384,7 +387,7 @@ def test_a_scenario_is_uploaded_checked_and_taken_away(browser, server, tmp_path
         expect(person.page.locator(".message")).to_contain_text(said)
         person.keep(f"upload-{said.split()[0]}")
     person.page.click(f"a:has-text('{name}')")
-    # The file may say where defects are: a trainee sees what the job is, and not the file.
+    # The file may contain defect positions, so a trainee sees the job but not the file.
     trainee = Person(browser, server, "anna")
     trainee.go(f"/scenarios/{name}")
     expect(trainee.page.locator("#facts")).to_be_visible()
@@ -397,7 +400,7 @@ def test_a_scenario_is_uploaded_checked_and_taken_away(browser, server, tmp_path
 
 def test_a_recorded_flight_is_taken_in(browser, server, sessions, tmp_path):
     source = sessions / ids(sessions, "anna")[1]
-    # A recording that nobody has taken in: the flight again, without its last record.
+    # A new recording: the same flight without its last record.
     log = tmp_path / "telemetry.tlog"
     log.write_bytes((source / "telemetry.tlog").read_bytes()[:-1])
     person = Person(browser, server, "ida")
@@ -411,9 +414,9 @@ def test_a_recorded_flight_is_taken_in(browser, server, sessions, tmp_path):
     ours, theirs = (json.loads((folder / "assessment.json").read_text(encoding="utf-8")) for folder in (taken, source))
     assert ours["scores"] == theirs["scores"] and ours["tasks"] == theirs["tasks"]
     kept, sent = (taken / "telemetry.tlog").read_bytes(), log.read_bytes()
-    assert sent.startswith(kept) and 0 < len(sent) - len(kept) < 400, "to its last whole record"
+    assert sent.startswith(kept) and 0 < len(sent) - len(kept) < 400, "the recording must be stored up to its last complete record"
     assert "lift_off" in (taken / "events.jsonl").read_text(encoding="utf-8")
-    # The same once more is not another session: it is said where it is.
+    # Importing it again must not create another session, but link to the existing one.
     for trainee in ("carl", "carlotta"):
         person.go("/upload")
         person.page.fill("[name=trainee]", trainee)
@@ -425,7 +428,7 @@ def test_a_recorded_flight_is_taken_in(browser, server, sessions, tmp_path):
     person.page.click(".message a")
     person.page.wait_for_url("**/sessions/2*")
     assert len(ids(sessions, "carl")) == 1 and ids(sessions, "carlotta") == []
-    # A flight of another job is refused, and leaves nothing behind.
+    # A flight of another job is rejected without leaving anything behind.
     log.write_bytes(log.read_bytes()[:-600])
     person.go("/upload")
     person.page.fill("[name=trainee]", "carl")
@@ -445,16 +448,16 @@ def test_everybody_changes_the_own_password(browser, server, sessions):
     person.page.click("text=Change >> nth=-1")
     expect(person.page.locator(".message")).to_contain_text("Password changed")
     elsewhere.go("/sessions")
-    assert elsewhere.page.url.endswith("/login"), "other visits have ended"
+    assert elsewhere.page.url.endswith("/login"), "other browser sessions must have ended"
     assert person.go("/account").status == 200
     elsewhere.log_in("dora", "another long word")
     assert elsewhere.page.url.endswith("/sessions")
-    # Set at the command line, by another program: all of her visits end.
+    # Set on the command line by another program: all of her sessions in the browser end.
     webserver.set_password(sessions, "dora", "trainee", password="yet another long word")
     for one in (person, elsewhere):
         one.go("/sessions")
         assert one.page.url.endswith("/login")
-    # Another role is another login, too.
+    # Another role also requires a new login.
     person.log_in("dora", "yet another long word")
     assert person.page.url.endswith("/sessions")
     spandrel.run("records", "trainee", "dora", "--role", "instructor", "--sessions", str(sessions))
@@ -463,7 +466,8 @@ def test_everybody_changes_the_own_password(browser, server, sessions):
 
 
 def test_nobodys_change_of_details_is_lost(browser, server, sessions):
-    """Two pages of one trainee are filled in at once: the second is told, and nothing of the first is lost; nor is a role set meanwhile."""
+    """Two users edit one trainee at the same time: the second one is informed, and neither the first one's changes
+    nor a new role are lost."""
     webserver.set_password(sessions, "emil", "trainee")
     first, second = Person(browser, server, "emil"), Person(browser, server, "ida")
     for one in (first, second):
@@ -505,7 +509,8 @@ def test_on_one_machine_nobody_logs_in_until_somebody_has_a_password(browser, tm
 
 
 def test_an_instructor_watches_and_acts(browser, tmp_path):
-    """A whole flight of the synthetic trainee, seen from the server's page: the drone moves, cues come, wind, a failure and a note go out."""
+    """A complete flight of the synthetic trainee, observed on the server's page: the drone moves, cues arrive, and
+    wind, a failure and a note are sent."""
     flight = spandrel.Flight(tmp_path, speed=2)
     server = webserver.Server(flight.sessions, vehicle=f"127.0.0.1:{flight.payload_port}")
     pilot = subprocess.Popen(
@@ -557,7 +562,7 @@ def test_an_instructor_watches_and_acts(browser, tmp_path):
 
 
 def test_a_trainee_sees_the_camera_of_his_own_flight_alone(browser, tmp_path):
-    """The picture is one that a window keeps; here the test does."""
+    """The picture is normally written by a window; here the test writes it."""
     picture = tmp_path / "camera.jpg"
     photograph = (spandrel.ROOT / "docs" / "src" / "images" / "window.jpg").read_bytes()
     flight = spandrel.Flight(tmp_path, scenario="drill-hover", speed=1)
@@ -576,7 +581,7 @@ def test_a_trainee_sees_the_camera_of_his_own_flight_alone(browser, tmp_path):
         status, headers, _ = pilot.ask(f"/flight/camera.jpg?v={now['picture']}")
         assert now["picture"] and status == 200 and headers["Content-Type"] == "image/jpeg"
         assert flying(anna) == {"flying": False, "picture": None} and anna.ask("/flight/camera.jpg")[0] == 404
-        assert pilot.ask("/live")[0] == pilot.ask("/live/camera.jpg")[0] == 403, "map and actions stay the instructor's"
+        assert pilot.ask("/live")[0] == pilot.ask("/live/camera.jpg")[0] == 403, "only instructors may access the map and the actions"
         for size, scheme in [("desktop", "light"), ("phone", "dark")]:
             person = Person(browser, server, "client-test", size, scheme)
             page = person.page
@@ -586,7 +591,7 @@ def test_a_trainee_sees_the_camera_of_his_own_flight_alone(browser, tmp_path):
             expect(page.locator("[data-state]")).to_have_text("Flight in progress.")
             person.keep(f"own-flight-{size}-{scheme}")
             person.check()
-        # The flight ends, and with it what is shown of it.
+        # When the flight ends, its picture disappears.
         spandrel.end(flight.monitor)
         expect(page.locator("[data-state]")).to_contain_text("not flying", timeout=PATIENCE_MS)
         assert pilot.ask("/flight/camera.jpg")[0] == 404

@@ -1,4 +1,4 @@
-"""What somebody tries who should not: other sites, stored scripts, paths, uploads, guesses, planted cookies, floods, cuts of power."""
+"""Attacks: other sites, stored scripts, paths, uploads, password guessing, planted cookies, floods, power cuts."""
 
 import concurrent.futures
 import json
@@ -15,14 +15,14 @@ import spandrel
 import webserver
 
 EVIL = "<script>alert(1)</script>"
-# Kills of the server at random moments.
+# Number of kills of the server at random times.
 KILLS = 200
 SEED = 20260801
 
 
 @pytest.fixture(scope="module")
 def sessions(tmp_path_factory):
-    """One session each of Anna and Ben."""
+    """One session each by Anna and Ben."""
     folder = tmp_path_factory.mktemp("attacks") / "sessions"
     webserver.flown(folder, "anna", "ben")
     spandrel.run("records", "import", "--sessions", str(folder))
@@ -33,7 +33,7 @@ def sessions(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def server(sessions):
-    """One server over them."""
+    """A shared server for these sessions."""
     server = webserver.Server(sessions)
     yield server
     server.close()
@@ -50,7 +50,7 @@ def of(sessions, trainee):
 
 
 def forms(sessions):
-    """Every form of the server: page that holds it, where it goes, its fields. A new one belongs here."""
+    """Returns every form of the server: its page, its target, its fields. Add new forms here."""
     anna = of(sessions, "anna")
     return {
         "/logout": ("/sessions", {}),
@@ -79,7 +79,7 @@ def test_another_site_changes_nothing(server, sessions):
         ]:
             status, _, _ = ada.ask(path, form, headers)
             assert status == 403, (path, name, status)
-    # A picture or a link of another site asks by GET: nothing is changed by it.
+    # A picture or a link on another site sends GET requests, which must not change anything.
     for path in forms(sessions):
         status, _, _ = ada.ask(path)
         assert status in (200, 404, 405), (path, status)
@@ -91,7 +91,7 @@ def test_another_site_changes_nothing(server, sessions):
 
 
 def test_forms_are_all_in_the_table_of_attacks(sessions):
-    """The server's own table of routes against the list above."""
+    """Compares the server's table of routes with the list above."""
     source = (spandrel.ROOT / "src" / "web" / "routes.rs").read_text(encoding="utf-8")
     changes = set(re.findall(r'change\(\s*"([^"]+)"', source)) - {"/login"}
     listed = {re.sub(r"/(sessions|trainees|scenarios)/[^/]+/", r"/\1/{}/", path) for path in forms(sessions)}
@@ -120,7 +120,7 @@ def test_a_script_in_any_field_stays_words(server, sessions):
                  f"/scenarios/{urllib.parse.quote(EVIL)}", f"/compare?first={urllib.parse.quote(EVIL)}", f"/{urllib.parse.quote(EVIL)}"]:
         status, _, text = ada.ask(path)
         assert status != 500 and "<script>" not in text, (path, status)
-    # What files and the database hold may have come by other ways: names in a scenario, in a session, in the log of a login.
+    # Names in files and the database may come from other sources: a scenario, a session, a login log.
     evil = (spandrel.ROOT / "scenarios" / "drill-hover.toml").read_text(encoding="utf-8")
     evil = re.sub(r'^title = .*$', f'title = "{EVIL}"', evil, count=1, flags=re.MULTILINE).replace('name = "drill-hover"', 'name = "evil-title"')
     status, _, text = ada.upload("/scenarios", "/scenarios", {}, evil.encode(), EVIL + ".toml")
@@ -134,11 +134,11 @@ def test_a_script_in_any_field_stays_words(server, sessions):
 
 
 def test_a_hostile_name_of_a_task_stays_words_from_the_flight_to_the_cohort(server, sessions, tmp_path):
-    """A task that calls itself a script is flown, twice and again, and shown wherever its name is."""
+    """A task with a script as its name is flown several times, and appears escaped on every page that shows its name."""
     job = (spandrel.ROOT / "scenarios" / "drill-hover.toml").read_text(encoding="utf-8")
     evil = re.sub(r'(\[\[tasks\]\](?:\n(?!\[).*)*?\nname = )"[^"]*"', lambda found: f'{found.group(1)}"{EVIL}"', job)
     evil = evil.replace('name = "drill-hover"', 'name = "evil-task"')
-    assert evil.count(EVIL) == 1 and 'name = "evil-task"' in evil, "the scenario has changed: this test no longer plants its name"
+    assert evil.count(EVIL) == 1 and 'name = "evil-task"' in evil, "the scenario has changed, so that this test no longer plants its name"
     (tmp_path / "evil.toml").write_text(evil, encoding="utf-8")
     before = set(sessions.iterdir())
     for seed in ("1", "2", "3", "4"):
@@ -155,7 +155,7 @@ def test_a_hostile_name_of_a_task_stays_words_from_the_flight_to_the_cohort(serv
     }
     for name, path in shown.items():
         status, _, text = ida.ask(path)
-        assert status == 200 and "alert(1)" in text, f"{name}: the name is not shown, nothing is tried"
+        assert status == 200 and "alert(1)" in text, f"{name}: the name is missing, so the test is pointless"
         assert EVIL not in text, name
     for path in ["/sessions?trainee=mallory", "/trainees/mallory/export.json", "/cohort/tables/conformity_by_task.csv?scenario=evil-task"]:
         status, headers, text = ida.ask(path)
@@ -177,7 +177,7 @@ def test_no_path_leads_out(server, sessions):
         for way in ways:
             status, _, text = ida.ask(route.replace("{}", way))
             assert status in (400, 404, 422) and "secret-secret" not in text, (route, way, status)
-    # As it stands on the wire, without a client that tidies it up.
+    # Sent without a client that would normalize the path.
     host, port = server.address.removeprefix("http://").split(":")
     for path in ["/../../../../etc/passwd", "/assets/../../../../etc/passwd", "/sessions/../../secret/report", "//etc/passwd", "/\\..\\secret"]:
         with socket.create_connection((host, int(port))) as raw:
@@ -210,7 +210,7 @@ def test_uploads_that_are_too_large_or_no_such_file_are_refused(server, sessions
     assert ida.upload("/scenarios", "/scenarios", {}, b"#" * 400_000, "x.toml")[0] == 413
     status, _, _ = ida.ask("/settings/login", body=b"a=" + b"x" * 200_000, headers={"Content-Type": "application/x-www-form-urlencoded"})
     assert status in (403, 413)
-    # A length beyond the limit ends before it was sent.
+    # A length above the limit ends the request before the body is sent.
     host, port = server.address.removeprefix("http://").split(":")
     with socket.create_connection((host, int(port)), timeout=webserver.PATIENCE_S) as raw:
         raw.sendall(
@@ -236,7 +236,7 @@ def test_a_guessed_name_tells_nothing(server, sessions):
     assert status == 404 and not (sessions / ben / "answers.json").exists()
     status, _, _ = anna.post("/sessions", "/trainees/ben/details", {"age_band": "65+"})
     assert status == 404
-    # Nobody's name and a wrong password are told by the same words.
+    # An unknown name and a wrong password must give the same message.
     told = []
     for name in ("ben", "no-such-person"):
         stranger = webserver.Browser(server.address)
@@ -253,14 +253,14 @@ def test_a_planted_cookie_opens_nothing(server):
     assert victim.cookie != planted
     attacker = webserver.Browser(server.address)
     attacker.cookie = planted
-    assert attacker.ask("/sessions")[0] == 303, "the cookie from before the login is worth nothing"
+    assert attacker.ask("/sessions")[0] == 303, "a cookie from before the login must be worthless"
     attacker.cookie = "spandrel=" + "a" * 64
     status, headers, _ = attacker.ask("/sessions")
-    assert status == 303 and "a" * 64 not in headers["Set-Cookie"], "a made-up cookie is not taken over"
+    assert status == 303 and "a" * 64 not in headers["Set-Cookie"], "a made-up cookie must not be accepted"
     old = victim.cookie
     assert victim.post("/sessions", "/logout", {})[0] == 303
     attacker.cookie = old
-    assert attacker.ask("/sessions")[0] == 303, "what was logged out stays so"
+    assert attacker.ask("/sessions")[0] == 303, "a logged-out cookie must stay invalid"
     _, headers, _ = webserver.Browser(server.address).ask("/login")
     assert "HttpOnly" in headers["Set-Cookie"] and "SameSite=Lax" in headers["Set-Cookie"]
 
@@ -269,16 +269,16 @@ def test_a_flood_of_logins_waits(sessions):
     server = webserver.Server(sessions)
     try:
         owner = webserver.Browser(server.address)
-        assert owner.log_in("ben") == 303 and owner.device, "a login makes the browser known"
+        assert owner.log_in("ben") == 303 and owner.device, "a login must register the browser"
         assert owner.post("/sessions", "/logout", {})[0] == 303
         browser = webserver.Browser(server.address)
         statuses = [browser.log_in("ben", f"guess number {k}") for k in range(8)]
         assert statuses == [403] * 5 + [429] * 3
         status, headers, _ = browser.ask("/login", {"token": browser.token("/login"), "name": "ben", "password": webserver.PASSWORD})
-        assert status == 429 and int(headers["Retry-After"]) > 0, "the right password waits as well"
-        assert owner.log_in("ben") == 303, "a stranger at the same address does not keep the owner's browser out"
-        assert browser.log_in("ben") == 429, "and the owner's login clears nobody else"
-        assert browser.log_in("anna") == 303, "others log in all the same"
+        assert status == 429 and int(headers["Retry-After"]) > 0, "the correct password must be throttled too"
+        assert owner.log_in("ben") == 303, "a stranger at the same address must not lock out the owner's browser"
+        assert browser.log_in("ben") == 429, "the owner's login must not end the throttling of others"
+        assert browser.log_in("anna") == 303, "other users must be able to log in"
 
         def one(k):
             other = webserver.Browser(server.address)
@@ -286,7 +286,7 @@ def test_a_flood_of_logins_waits(sessions):
 
         with concurrent.futures.ThreadPoolExecutor(16) as pool:
             flood = list(pool.map(one, range(60)))
-        # 503: more at once than the queue for hashing holds.
+        # 503 if there are more requests at once than the hashing queue can hold.
         assert {403} < set(flood) <= {403, 429, 503} and flood.count(403) <= 20
     finally:
         server.close()
@@ -323,7 +323,7 @@ def test_it_stays_at_home_unless_it_is_safe(tmp_path):
 
 
 def test_another_name_for_this_machine_reaches_no_open_server(tmp_path):
-    """DNS rebinding: a site's own name that suddenly means 127.0.0.1."""
+    """DNS rebinding: a domain of another site that resolves to 127.0.0.1."""
     server = webserver.Server(tmp_path / "sessions")
     try:
         browser = webserver.Browser(server.address)
@@ -355,17 +355,19 @@ def test_tls_by_files(tmp_path):
 
 
 def test_two_hundred_kills_lose_no_finished_session(tmp_path):
-    """The server dies at random moments while answers are saved and recordings are taken in; what it confirmed is there, all else is whole."""
+    """The server is killed at random times while answers are saved and recordings imported. Everything that it has
+    confirmed must exist, and everything else must be complete."""
     sessions = tmp_path / "sessions"
     flown = webserver.flown(sessions, "anna", "ben")
     spandrel.run("records", "import", "--sessions", str(sessions))
     before = json.loads(spandrel.run("records", "list", "--json", "--sessions", str(sessions)))
     log = (flown[0] / "telemetry.tlog").read_bytes()
     generator = random.Random(SEED)
-    # By folder and question: what was sent last, what the server said it has, and what must be there after the kill.
+    # By folder and question: the latest answer sent, the latest one confirmed, and the one that must exist after the
+    # kill.
     sent, confirmed, held = {}, {}, {}
     taken, cut_off = set(), 0
-    # How long a recording takes when nobody is killed: kills fall around it, so that some get through and some do not.
+    # Duration of an undisturbed import; kills are distributed around it, so that some imports succeed and some do not.
     undisturbed = webserver.Server(tmp_path / "other")
     begin = time.monotonic()
     status, _, _ = webserver.Browser(undisturbed.address).upload(
@@ -383,9 +385,9 @@ def test_two_hundred_kills_lose_no_finished_session(tmp_path):
             page = f"/sessions/{flown[kill % 2].name}/questions"
             try:
                 token = browser.token(page)
-                # Now and then a recording, which takes longer than an answer.
+                # Occasionally a recording, which takes longer than an answer.
                 if kill % 10 == 0:
-                    # Each is another one, for the same twice is one session.
+                    # Each is different, because importing the same recording twice gives one session.
                     other = log[: len(log) - 300 * (1 + kill // 10)]
                     status, headers, _ = browser.upload(page, "/upload", {"trainee": "carl", "scenario": "drill-hover", "vehicle": "phantom2"}, other)
                     if status == 303:
@@ -399,14 +401,14 @@ def test_two_hundred_kills_lose_no_finished_session(tmp_path):
                     else:
                         return
             except (OSError, ValueError, AssertionError):
-                return  # The server is gone, as it should be.
+                return  # The server has been killed, as intended.
 
         with concurrent.futures.ThreadPoolExecutor(1) as pool:
             working = pool.submit(work)
             if kill % 10 == 0:
                 stop = generator.uniform(0.0, 2.5 * upload_s)
             before_kill = len(taken)
-            time.sleep(stop)  # The moment of the kill, not a wait for anything.
+            time.sleep(stop)  # Random delay before the kill, not a wait for an event.
             server.kill()
             working.result()
             cut_off += kill % 10 == 0 and len(taken) == before_kill
@@ -416,12 +418,12 @@ def test_two_hundred_kills_lose_no_finished_session(tmp_path):
             if path.exists():
                 last[folder] = json.loads(path.read_text(encoding="utf-8"))["answers"]
         for (folder, key), value in sent.items():
-            # One answer may have been written and not yet confirmed when the power went; from then on it is the one that counts.
+            # An answer may have been written but not confirmed before the kill; from then on, it is the valid one.
             found = last.get(folder, {}).get(key)
             assert found in (held.get((folder, key)), value), (kill, key, found)
             held[(folder, key)] = sent[(folder, key)] = found
-    assert len(confirmed) >= len(keys), "answers got through"
-    assert taken and cut_off, f"{len(taken)} recordings got through and {cut_off} were cut off: both must happen"
+    assert len(confirmed) >= len(keys), "some answers must have been saved"
+    assert taken and cut_off, f"{len(taken)} recordings were imported and {cut_off} interrupted; both must occur"
     spandrel.run("records", "import", "--sessions", str(sessions))
     after = {record["id"]: record for record in json.loads(spandrel.run("records", "list", "--json", "--sessions", str(sessions)))}
     for record in before:

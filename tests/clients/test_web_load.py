@@ -1,4 +1,4 @@
-"""Many requests at once, slow ones, and ones through a proxy: memory stays bounded and the pages of others keep coming."""
+"""Many simultaneous, slow and proxied requests: memory must stay bounded, and other pages must remain available."""
 
 import concurrent.futures
 import http.client
@@ -17,15 +17,15 @@ import pytest
 import spandrel
 import webserver
 
-# Logins at once, each from an address of its own, so that no throttle by address helps.
+# Number of simultaneous logins, each from a different address, so that throttling by address has no effect.
 LOGINS = 300
-# Memory that the server may ever have had meanwhile, kB.
+# Limit of the server's peak memory, kB.
 MOST_KB = 150_000
 
 
 @pytest.fixture(name="sessions")
 def fixture_sessions(tmp_path):
-    """People and no flights: what is asked for here needs none."""
+    """Users without flights, which these tests do not need."""
     folder = tmp_path / "sessions"
     for name, role in [("ida", "instructor"), ("ada", "administrator")]:
         webserver.set_password(folder, name, role)
@@ -43,7 +43,7 @@ def peak_kb(process):
 
 
 def log_in_from(server, k):
-    """A login with a wrong password from the k-th address of this machine. Returns the status."""
+    """Sends a login with a wrong password from the k-th address of this machine. Returns the status."""
     source = f"127.0.{1 + k // 200}.{1 + k % 200}"
     connection = http.client.HTTPConnection(*host_of(server), timeout=webserver.PATIENCE_S, source_address=(source, 0))
     try:
@@ -77,9 +77,9 @@ def test_three_hundred_logins_take_little_memory_and_stop_no_page(sessions):
             over.set()
             reading.result()
         assert set(statuses) <= {403, 503} and statuses.count(403) > 0, sorted(set(statuses))
-        assert 503 in statuses, "a full queue refuses"
+        assert 503 in statuses, "a full queue must reject requests"
         assert peak_kb(server.process) < MOST_KB, f"{peak_kb(server.process)} kB, {before_kb} kB before"
-        # The list came again and again while the logins waited: it does not queue behind them.
+        # The list remained available during the logins, so it does not wait behind them.
         assert set(pages) == {200} and len(pages) > 5, len(pages)
         assert webserver.Browser(server.address).log_in("ada") == 303
     finally:
@@ -87,7 +87,7 @@ def test_three_hundred_logins_take_little_memory_and_stop_no_page(sessions):
 
 
 def begin_upload(server, browser, token):
-    """Sends the head of an upload and the beginning of its file, and no more."""
+    """Sends the head of an upload and the first part of its file."""
     raw = socket.create_connection(host_of(server), timeout=webserver.PATIENCE_S)
     host, port = host_of(server)
     raw.sendall(
@@ -109,7 +109,7 @@ def test_slow_uploads_hold_up_no_other(sessions):
         fields = {"trainee": "x", "scenario": "drill-hover", "vehicle": "phantom2"}
         status, _, text = ida.upload("/upload", "/upload", fields, b"no recording")
         assert status == 422 and "cannot import this recording" in text
-        # A large one passes through a file on disk, which is gone when it was refused.
+        # A large upload is stored in a temporary file, which must be removed when it is rejected.
         status, _, text = ida.upload("/upload", "/upload", fields, b"x" * 3_000_000)
         assert status == 422 and not list(sessions.glob(".taking-in/upload-*"))
     finally:
@@ -155,14 +155,14 @@ def spandrel_set(folder, password):
     )
 
 
-# Sessions of the cohort, and reloads of its page at once.
+# Number of the cohort's sessions, and of simultaneous reloads of its page.
 SESSIONS, RELOADS = 10_000, 16
-# What so many reloads may cost, in costs of one that finds nothing kept: that one, and the page written anew for each.
+# Maximum cost of the reloads as a multiple of one uncached reload: that one, and rendering the page for each.
 MOST_COSTS = 4.0
 
 
 def fill(database):
-    """Copies of the example study's records under other names, straight into the tables."""
+    """Inserts copies of the example study's records with other names directly into the tables."""
     lines = (spandrel.ROOT / "examples" / "cohort" / "records.jsonl").read_text(encoding="utf-8").splitlines()
     originals = [json.loads(line) for line in lines]
     columns = ["id", "trainee", "started_unix_us", "scenario", "scenario_sha256", "vehicle", "vehicle_sha256", "telemetry_sha256",
@@ -192,7 +192,7 @@ def test_many_reloads_of_a_cohort_cost_little_more_than_one(tmp_path):
         browser = webserver.Browser(server.address)
 
         def cost(reloads):
-            """Processor seconds of so many reloads at once, and the pages of the list that came meanwhile."""
+            """Returns the processor seconds of simultaneous reloads, and the number of list pages served meanwhile."""
             before, over, lists = processor_s(server.process), threading.Event(), []
 
             def read_lists():
@@ -208,13 +208,13 @@ def test_many_reloads_of_a_cohort_cost_little_more_than_one(tmp_path):
             return processor_s(server.process) - before, len(lists)
 
         once, _ = cost(1)
-        # Another program changes the database: what was kept is of no use.
+        # Another program changes the database, which invalidates the cache.
         with sqlite3.connect(sessions / "records.sqlite") as connection:
             connection.execute("UPDATE sessions SET seconds = seconds + 1")
         together, pages = cost(RELOADS)
         print(f"one: {once:.2f} s of processor time, {RELOADS} at once: {together:.2f} s; {pages} other pages meanwhile")
         assert together < MOST_COSTS * once, (together, once)
-        # Other pages do not queue behind the cohort's.
+        # Other pages must not wait behind the cohort's.
         assert pages > RELOADS
     finally:
         server.close()

@@ -1,4 +1,4 @@
-"""`spandrel serve` over PostgreSQL, as a training centre runs it: several programs, one database."""
+"""`spandrel serve` with PostgreSQL, as in a training center: several programs, one database."""
 
 import json
 import pathlib
@@ -13,7 +13,7 @@ import webserver
 
 @pytest.fixture(scope="module")
 def database(tmp_path_factory):
-    """One PostgreSQL for all of these tests."""
+    """A shared PostgreSQL for these tests."""
     database = postgres.Postgres(tmp_path_factory.mktemp("centre") / "postgres")
     yield database
     database.stop()
@@ -21,7 +21,7 @@ def database(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def sessions(tmp_path_factory, database):
-    """Anna and Ben flew, Ida teaches."""
+    """Sessions of Anna and Ben, and the instructor Ida."""
     folder = tmp_path_factory.mktemp("stations") / "sessions"
     webserver.flown(folder, "anna", "ben")
     spandrel.run("records", "import", "--sessions", str(folder), "--database", database.url)
@@ -52,13 +52,13 @@ def test_people_log_in_and_see_what_is_theirs(sessions, database):
         assert anna.ask(f"/sessions/{hers}")[0] == 200 and anna.ask(f"/sessions/{his}")[0] == 404
         assert ida.ask(f"/sessions/{his}")[0] == 200
         assert listed(ida) == {"anna", "ben"}
-        assert not (sessions / "records.sqlite").exists(), "nothing is kept beside PostgreSQL"
+        assert not (sessions / "records.sqlite").exists(), "records must be stored only in PostgreSQL"
     finally:
         server.close()
 
 
 def test_two_servers_and_a_station_share_one_database(sessions, database, tmp_path):
-    """Another room's server knows the people and sees what a third program took in."""
+    """A server in another room has the same users, and shows the sessions that a third program has imported."""
     elsewhere = tmp_path / "sessions"
     elsewhere.mkdir()
     first, second = serve(sessions, database), serve(elsewhere, database)
@@ -73,7 +73,7 @@ def test_two_servers_and_a_station_share_one_database(sessions, database, tmp_pa
         assert status == 303 and listed(here) == {"anna", "ben"}
         records = json.loads(spandrel.run("records", "list", "--json", "--sessions", str(station), "--database", database.url))
         assert {record["trainee"] for record in records} == {"anna", "ben"}
-        # The station has Carl's folder still: neither its import nor its rebuild nor a server over it brings him back.
+        # The station still has Carl's folder, but neither its import nor its rebuild nor a server restores the session.
         place = ["--sessions", str(station), "--database", database.url]
         assert "0 new or changed, 0 unchanged, 0 skipped, 1 not imported" in spandrel.run("records", "import", *place)
         assert "2 sessions, 0 skipped, 1 not imported" in spandrel.run("records", "rebuild", "--yes", "--sessions", str(station), "--sessions", str(sessions), "--database", database.url)
@@ -86,7 +86,7 @@ def test_two_servers_and_a_station_share_one_database(sessions, database, tmp_pa
             third.close()
         assert "erased 'carl': 0 sessions" in spandrel.run("records", "erase", "--trainee", "carl", "--yes", *place)
         assert not any("-carl-" in path.name for path in station.iterdir())
-        # A new password ends the visits that other servers hold.
+        # A new password ends the browser sessions on other servers.
         webserver.set_password(sessions, "ada", "administrator", "--database", database.url, password="quite another one")
         assert here.ask("/sessions")[0] == there.ask("/sessions")[0] == 303
         webserver.set_password(sessions, "ada", "administrator", "--database", database.url)
@@ -106,7 +106,7 @@ def test_a_database_that_goes_away_is_told_and_found_again(sessions, database):
             assert status == 500 and "spandrel@" not in text, (status, text)
         finally:
             database.start()
-        assert listed(ida) >= {"anna", "ben"}, "the visit has outlived it"
+        assert listed(ida) >= {"anna", "ben"}, "the browser session must survive the outage"
     finally:
         server.close()
 

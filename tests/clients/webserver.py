@@ -1,4 +1,4 @@
-"""A server of our own for one test: on a free port, over a folder of its own."""
+"""A server for one test: on an unused port, with its own folder."""
 
 import json
 import os
@@ -12,12 +12,12 @@ import urllib.request
 import spandrel
 
 PASSWORD = "correct horse battery"
-# Wall seconds within which a request is answered on a busy two-core machine, many times over.
+# Time limit for a response on a busy two-core machine, wall seconds (many times the usual).
 PATIENCE_S = 300
 
 
 class Server:
-    """`spandrel serve` on a free port."""
+    """`spandrel serve` on an unused port."""
 
     def __init__(self, sessions, *more, vehicle="none", program=None, env=None):
         self.sessions = sessions
@@ -31,7 +31,7 @@ class Server:
         self.address = json.loads(line)["address"]
 
     def close(self):
-        """Ends it as a parent that goes away; whatever was under way, it ends in peace."""
+        """Ends the server by closing its standard input; it must shut down cleanly in any state."""
         self.process.stdin.close()
         self.process.wait(timeout=PATIENCE_S)
         self.log.close()
@@ -39,14 +39,14 @@ class Server:
         assert self.process.returncode == 0 and "panicked" not in said and "please report this bug" not in said, said
 
     def kill(self):
-        """Ends it as a power cut."""
+        """Kills the server, like a power cut."""
         self.process.kill()
         self.process.wait()
         self.log.close()
 
 
 def set_password(sessions, name, role, *more, password=PASSWORD):
-    """Sets a password as an administrator does at the command line."""
+    """Sets a password as an administrator does on the command line."""
     done = subprocess.run(
         [spandrel.PROGRAM, "serve", "--sessions", str(sessions), "--set-password", name, "--role", role, *more],
         input=password + "\n", capture_output=True, text=True, timeout=PATIENCE_S, check=False,
@@ -55,14 +55,14 @@ def set_password(sessions, name, role, *more, password=PASSWORD):
 
 
 class NoRedirect(urllib.request.HTTPRedirectHandler):
-    """Redirects are looked at, not followed."""
+    """Handler that does not follow redirects."""
 
     def redirect_request(self, *_):
         return None
 
 
 class Browser:
-    """The least of a browser: cookies by hand, every header in the test's power."""
+    """A minimal browser with manual cookies, which lets tests control every header."""
 
     def __init__(self, address):
         self.address = address
@@ -70,7 +70,7 @@ class Browser:
         self.opener = urllib.request.build_opener(NoRedirect)
 
     def ask(self, path, form=None, headers=None, body=None, method=None, keep_cookie=True):
-        """Status, headers, text."""
+        """Sends a request; returns status, headers, text."""
         data = urllib.parse.urlencode(form).encode() if form is not None else body
         request = urllib.request.Request(self.address + path, data=data, headers=dict(headers or {}), method=method)
         if self.cookie and not request.has_header("Cookie"):
@@ -89,24 +89,24 @@ class Browser:
         return answer.status, answer.headers, text
 
     def token(self, path):
-        """The token of a page's forms."""
+        """Returns the token of a page's forms."""
         status, _, text = self.ask(path)
         found = re.search(r'name="token" value="([0-9a-f]{64})"', text)
         assert status == 200 and found, (status, text)
         return found.group(1)
 
     def log_in(self, name, password=PASSWORD):
-        """Logs in; returns the status."""
+        """Logs in and returns the status."""
         token = self.token("/login")
         status, _, _ = self.ask("/login", {"token": token, "name": name, "password": password})
         return status
 
     def post(self, page, path, form, **more):
-        """Sends a form of a page."""
+        """Submits a form of a page."""
         return self.ask(path, {"token": self.token(page), **form}, **more)
 
     def upload(self, page, path, fields, file, name="file.tlog", token=None):
-        """Sends a form with a file."""
+        """Submits a form with a file."""
         boundary = "spandrel-test-boundary"
         parts = [("token", token or self.token(page)), *fields.items()]
         body = b"".join(
@@ -118,7 +118,7 @@ class Browser:
 
 
 def flown(folder, *trainees, seed=7):
-    """Real sessions of a hover drill, the quickest flight there is, one for each trainee."""
+    """Creates real sessions of a hover drill, the shortest flight, one for each trainee."""
     for k, trainee in enumerate(trainees):
         spandrel.run(
             "demo", "--scenario", "drill-hover", "--skill", "novice", "--seed", str(seed + k), "--speed", "max", "--trainee", trainee,

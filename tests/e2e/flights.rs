@@ -1,5 +1,5 @@
-//! Whole flights by separate processes over real UDP: demos that repeat, demos side by side, a monitor that is killed, children that
-//! outlive nobody.
+//! Complete flights by separate processes over real UDP: repeatable demos, parallel demos, a killed monitor, and child
+//! processes that must end with their parent.
 
 use serde_json::Value;
 use spandrel_mavlink::codec::{Decoder, Encoder};
@@ -78,11 +78,11 @@ fn wire_a_demo_in_any_flavour_ends_with_scores() {
         let assessment = json(&only_session(folder.path()).join("assessment.json"));
         assert_eq!(assessment["end"]["reason"], "landed", "{flavour}: {out}");
         assert!(assessment["tasks"][0]["on_path"].as_f64().unwrap() > 0.9, "{flavour}: {out}");
-        assert!(assessment["flown_by"].to_string().contains("pilot"), "the sidecar reads the flavour's modes: {assessment}");
+        assert!(assessment["flown_by"].to_string().contains("pilot"), "the sidecar must decode the autopilot's modes: {assessment}");
     }
 }
 
-/// A process of ours on a leash, with its announcement.
+/// A process with a lifeline pipe, and its announcement.
 struct Process {
     child: Child,
     out: BufReader<ChildStdout>,
@@ -109,13 +109,14 @@ impl Process {
         self.announced["port"].to_string()
     }
 
-    /// Waits until it ends by itself: its output closes then. The leash is held until that moment.
+    /// Waits until the process ends, which closes its output. The lifeline pipe stays open until then.
     fn by_itself(mut self) -> bool {
         self.out.read_to_string(&mut String::new()).unwrap();
         self.child.wait().unwrap().success()
     }
 
-    /// Lets it finish and returns what it printed; a child that does not finish hangs the test, and that is a failure too.
+    /// Lets the process finish and returns its output. A child that does not finish hangs the test, which counts as a
+    /// failure.
     fn finish(mut self) -> (bool, String) {
         drop(self.child.stdin.take());
         let mut rest = String::new();
@@ -132,7 +133,7 @@ fn wire_a_killed_monitor_goes_on_where_it_stopped() {
     let mut monitor = Process::start(&[&["monitor", "--port", "0", "--sessions", &folder], &job[..]].concat());
     let pilot = Process::start(&[&["pilot", "--port", "0", "--skill", "expert"], &job[..]].concat());
     let (monitor_port, pilot_at) = (monitor.port(), format!("127.0.0.1:{}", pilot.port()));
-    // The pilot keeps step and the monitor does not: its absence must not stop the flight.
+    // The pilot runs in lockstep and the monitor does not, so its absence must not stop the flight.
     let calls = ["--gcs", &pilot_at, "--lockstep", &pilot_at, "--monitor-port", &monitor_port, "--speed", "8"];
     let sim = Process::start(&[&["sim", "--ports", "ephemeral"], &job[..], &calls[..]].concat());
 
@@ -151,7 +152,7 @@ fn wire_a_killed_monitor_goes_on_where_it_stopped() {
     let again = Process::start(&["monitor", "--port", &monitor_port, "--session", &session_text]);
     assert!(again.by_itself(), "the second monitor failed");
     let whole = spandrel_mavlink::telemetry::tlog::complete_len(&before);
-    assert_eq!(std::fs::read(&log).unwrap()[..whole], before[..whole], "what was received is lost");
+    assert_eq!(std::fs::read(&log).unwrap()[..whole], before[..whole], "received data was lost");
     assert_eq!(json(&session.join("session.json"))["monitor_starts"], 2);
     assert_eq!(json(&session.join("assessment.json"))["end"]["reason"], "landed");
     let (_, report) = pilot.finish();
@@ -168,7 +169,7 @@ fn wire_a_peer_that_vanishes_in_lockstep_ends_the_run_with_its_reason() {
         .stderr(std::process::Stdio::piped())
         .spawn()
         .unwrap();
-    // One answer, by which lockstep begins, and no more.
+    // Sends one response, which starts lockstep, and no further ones.
     let mut bytes = [0u8; 2048];
     let (token, from) = loop {
         let (len, from) = socket.recv_from(&mut bytes).unwrap();
@@ -230,7 +231,7 @@ fn wire_children_end_with_a_parent_that_is_killed() {
     }
     parent.kill().unwrap();
     parent.wait().unwrap();
-    // A zombie without a parent is reaped by init; a process that runs on keeps its command line.
+    // A zombie without a parent is reaped by init; a running process keeps its command line.
     let alive = |pid: &String| std::fs::read(format!("/proc/{pid}/cmdline")).is_ok_and(|line| !line.is_empty());
     while family.iter().any(alive) {
         std::thread::yield_now();

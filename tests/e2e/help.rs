@@ -1,4 +1,4 @@
-//! What the help promises.
+//! Statements in the help texts.
 
 use spandrel_testkit::shipped::text;
 
@@ -6,9 +6,9 @@ use spandrel_testkit::shipped::text;
 fn regress_a_simulator_without_a_session_leaves_a_crashed_vehicle_where_it_is() {
     let help = std::process::Command::new(env!("CARGO_BIN_EXE_spandrel")).args(["sim", "--help"]).output().unwrap();
     let help = String::from_utf8_lossy(&help.stdout).into_owned();
-    let rule = help.split("--after-crash").nth(1).expect("the option is there");
+    let rule = help.split("--after-crash").nth(1).expect("the option must exist");
     assert!(rule.split("--").next().is_some_and(|text| text.contains("[default: continue]")), "{rule}");
-    // A session brings the job's own rule.
+    // A session sets the job's own rule.
     for source in ["src/cli/demo.rs", "src/cli/train/flight_processes.rs"] {
         assert!(text(source).contains("\"--after-crash\""), "{source}");
     }

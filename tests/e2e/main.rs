@@ -1,4 +1,4 @@
-//! The program as a process of its own, and what it draws beside.
+//! The program as a separate process, and its secondary renderer.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod flights;

@@ -1,4 +1,5 @@
-//! A running simulator and its socket under noise: it goes on answering, and says at the end what it could not read.
+//! A running simulator whose socket receives noise must keep responding, and report at the end how much it could not
+//! read.
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::{MavMessage, PARAM_REQUEST_READ_DATA};
@@ -8,9 +9,9 @@ use std::net::UdpSocket;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-/// The longest payload of a UDP datagram over IPv4, bytes.
+/// Maximum payload of a UDP datagram over IPv4, bytes.
 const LONGEST: usize = 65_507;
-/// A simulator that says nothing for this long is gone; the limit only turns a hang into a failure.
+/// Time without output after which a simulator counts as gone; the limit only turns a hang into a failure.
 const GONE: Duration = Duration::from_secs(30);
 
 #[test]
@@ -57,7 +58,7 @@ fn wire_noise_on_the_socket_stops_nothing_and_is_counted() {
         socket.send(&encoder.encode(&question)).unwrap();
         let mut buffer = [0; 2_000];
         while answered == round {
-            let len = socket.recv(&mut buffer).expect("it answers");
+            let len = socket.recv(&mut buffer).expect("the simulator must respond");
             let frames = Decoder::new().datagram(&buffer[..len]);
             answered += frames.iter().filter(|f| matches!(f.message, Some(MavMessage::PARAM_VALUE(_)))).count();
         }

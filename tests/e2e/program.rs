@@ -1,4 +1,4 @@
-//! Exit codes, messages and files of the subcommands that need no flight.
+//! Exit codes, messages and files of subcommands that do not need a flight.
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -36,7 +36,7 @@ fn wire_wrong_arguments_and_files_end_with_two_and_report_what_is_allowed() {
     }
 }
 
-/// Whoever opens the vehicle to a network without a key is told; on the own machine nobody is.
+/// Opening the vehicle to a network without a key must cause a warning; on the local machine there must be none.
 #[test]
 fn wire_listening_beyond_the_own_machine_without_signing_is_warned_of() {
     let folder = tempfile::tempdir().unwrap();
@@ -86,7 +86,7 @@ fn wire_check_reports_every_problem_of_every_file_as_text_and_as_json() {
     assert!(["file", "value", "allowed", "message"].iter().all(|key| problem[key].is_string()), "{problem}");
 }
 
-/// Bytes of a report on thousands of problems: 50 lines of at most some 200 bytes.
+/// Maximum size of a report on thousands of problems, bytes: 50 lines of at most about 200 bytes.
 const REPORT_MOST_BYTES: usize = 20_000;
 
 #[test]
@@ -132,7 +132,7 @@ fn wire_a_port_in_use_is_reported_plainly() {
     let folder = sessions.path().display().to_string();
     let (code, _, err) = told(&spandrel(&["monitor", "--port", &port, "--sessions", &folder]));
     assert_eq!(code, Some(1));
-    assert_eq!(std::fs::read_dir(&sessions).unwrap().count(), 0, "a session folder was left behind");
+    assert_eq!(std::fs::read_dir(&sessions).unwrap().count(), 0, "a session folder was left over");
     assert!(err.contains("is in use") && err.contains(&port), "{err}");
 }
 
@@ -183,7 +183,7 @@ fn wire_a_demo_keeps_the_scenarios_seed_and_its_folder_stands_without_what_can_b
     };
     assert_eq!((described("seed"), described("trainee")), (5.into(), "anna-b".into()));
 
-    // The log and the two TOMLs are the source.
+    // The log and the two TOML files are the sources.
     let live = std::fs::read_to_string(session.join("assessment.json")).unwrap();
     let started = described("started_utc");
     ["session.json", "assessment.json"].iter().for_each(|name| std::fs::remove_file(session.join(name)).unwrap());
@@ -191,7 +191,7 @@ fn wire_a_demo_keeps_the_scenarios_seed_and_its_folder_stands_without_what_can_b
     let (code, again, err) = told(&spandrel(&["assess", &at, "--json", "-"]));
     assert_eq!((code, again == live), (Some(0), true), "{err}");
 
-    // A monitor was killed while it wrote its last event.
+    // Simulates a monitor that was killed while it was writing its last event.
     let events = session.join("events.jsonl");
     let whole = std::fs::read_to_string(&events).unwrap();
     std::fs::write(&events, format!("{whole}{{\"t_s\":1")).unwrap();

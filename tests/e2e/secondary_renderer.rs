@@ -1,4 +1,4 @@
-//! A second view on a device of its own.
+//! A secondary view with its own graphics device.
 
 use spandrel::secondary_renderer::SecondaryRenderer;
 use spandrel_model::time::SimTime;
@@ -6,7 +6,7 @@ use spandrel_testkit::studio::{Studio, at, two_bridges};
 use spandrel_view::quality::Quality;
 use std::sync::Arc;
 
-/// Small: the comparison is of every pixel.
+/// Small, because every pixel is compared.
 const SIZE: (u32, u32) = (160, 90);
 
 #[test]
@@ -16,7 +16,7 @@ fn exact_the_secondary_renderer_draws_what_one_device_draws() {
     let moment = studio.moment(at(0.0, 70.0, 30.0), at(0.0, 150.0, 10.0), false, at(1.0, 0.5, 0.0));
     let wide = studio.stage().camera(&moment, SIZE);
     let narrow = studio.stage().camera(&moment, (SIZE.0 / 2, SIZE.1));
-    // Two that wait come in their order, and each in its size.
+    // Two waiting pictures must arrive in order, each with its own size.
     aside.start(wide.clone()).unwrap();
     aside.start(narrow.clone()).unwrap();
     for shot in [wide, narrow] {

@@ -1,4 +1,4 @@
-//! The examples run to their end, and under sixty lines each.
+//! The examples must run to the end and be shorter than sixty lines.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 #[path = "../../examples/custom_job.rs"]
@@ -9,7 +9,7 @@ mod hover;
 #[expect(dead_code, reason = "its main reads the command line")]
 mod score_tlog;
 
-/// Lines that an example may have: it is read in one go.
+/// Maximum number of lines of an example, so that it can be read at a glance.
 const LINES_MAX: usize = 60;
 
 #[test]

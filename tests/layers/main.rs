@@ -1,5 +1,5 @@
-//! Holds who may know whom where Cargo cannot: reads every path in the sources and compares it with the table of ARCHITECTURE.md. Its own
-//! tests plant each kind of violation, so that a rule that no longer bites is noticed.
+//! Enforces the dependency rules that Cargo cannot: reads every path in the sources and compares it with the table in
+//! ARCHITECTURE.md. Planted violations of each kind check that the rules are effective.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod circles;
@@ -96,7 +96,7 @@ fn exact_every_crate_has_a_place_in_the_table_and_depends_on_lower_ones_alone() 
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     for entry in std::fs::read_dir(root.join("crates")).unwrap() {
         let folder = entry.unwrap().file_name().into_string().unwrap();
-        assert!(rules::crates().any(|name| name == folder), "the crate {folder} is missing in tests/layers/rules.rs");
+        assert!(rules::crates().any(|name| name == folder), "crate {folder} is missing in tests/layers/rules.rs");
         let manifest = std::fs::read_to_string(root.join("crates").join(&folder).join("Cargo.toml")).unwrap();
         let dependencies = manifest.split("[dependencies]").nth(1).unwrap().split("\n[").next().unwrap();
         for line in dependencies.lines() {
@@ -111,13 +111,13 @@ fn exact_the_map_names_every_room_and_quotes_real_places() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let map = std::fs::read_to_string(root.join("ARCHITECTURE.md")).unwrap();
     for room in rules::rooms() {
-        assert!(map.contains(&format!("`{room}`")), "ARCHITECTURE.md leaves out {room}");
+        assert!(map.contains(&format!("`{room}`")), "ARCHITECTURE.md does not contain {room}");
     }
     let quoted = map.split('`').skip(1).step_by(2);
     let places = quoted.filter(|text| {
         ["src/", "crates/", "tests/", "tools/", "scenarios/", "vehicle-params/"].iter().any(|start| text.starts_with(start))
     });
     for place in places {
-        assert!(root.join(place).exists(), "ARCHITECTURE.md names {place}, which is not there");
+        assert!(root.join(place).exists(), "ARCHITECTURE.md refers to {place}, which does not exist");
     }
 }

@@ -1,9 +1,9 @@
-//! Reads the paths that a Rust source names: `use` trees and inline paths, with `self` and `super` resolved.
+//! Extraction of the paths in a Rust source: `use` trees and inline paths, with `self` and `super` resolved.
 
-/// A path with its line, e.g. (12, ["crate", "site", "Site"]).
+/// A path and its line, for example (12, ["crate", "site", "Site"]).
 pub type Named = (usize, Vec<String>);
 
-/// Source with comments, strings and characters blanked out; line ends stay.
+/// Returns the source with comments, strings and characters replaced by blanks; line breaks stay.
 pub fn code_only(source: &str) -> String {
     let bytes: Vec<char> = source.chars().collect();
     let mut out = String::with_capacity(source.len());
@@ -21,7 +21,7 @@ pub fn code_only(source: &str) -> String {
     out
 }
 
-/// Where the comment, string or character that begins at `at` ends; `at` itself when none begins here.
+/// Returns the end of the comment, string or character that starts at `at`; returns `at` if none starts there.
 fn skip(text: &[char], at: usize) -> usize {
     let starts = |what: &str| what.chars().enumerate().all(|(k, c)| text.get(at + k) == Some(&c));
     let joined = at > 0 && (text[at - 1].is_alphanumeric() || text[at - 1] == '_');
@@ -77,7 +77,7 @@ fn raw_string(text: &[char], at: usize) -> usize {
     (k + 1..text.len()).find(|k| closes(*k)).map_or(text.len(), |k| k + 1 + hashes)
 }
 
-/// A character literal; a lifetime is left alone.
+/// Returns the end of a character literal; lifetimes are not skipped.
 fn character(text: &[char], at: usize) -> usize {
     match (text.get(at + 1), text.get(at + 2)) {
         (Some('\\'), _) => (at + 3..text.len()).find(|k| text[*k] == '\'').map_or(text.len(), |k| k + 1),
@@ -86,8 +86,8 @@ fn character(text: &[char], at: usize) -> usize {
     }
 }
 
-/// Every path of two or more parts in `code` that begins with one of `roots`, with `use` groups spread out. `module` is the file's own
-/// module path, for `self` and `super`.
+/// Returns every path of two or more parts in `code` that starts with one of `roots`, with `use` groups expanded.
+/// `module` is the file's module path, which resolves `self`.
 pub fn named(code: &str, module: &[String], roots: &[&str]) -> Vec<Named> {
     named_in(&tokens(code), module, roots)
 }
@@ -263,7 +263,7 @@ pub fn tokens(code: &str) -> Vec<Token> {
     out
 }
 
-/// Reads one path or `use` tree from `at`; returns where it ends.
+/// Reads one path or `use` tree from `at` and returns its end.
 fn tree(tokens: &[(usize, String)], mut at: usize, prefix: &mut Vec<String>, found: &mut Vec<Named>) -> usize {
     let depth = prefix.len();
     let line = tokens[at].0;
@@ -293,7 +293,7 @@ fn group(tokens: &[(usize, String)], mut at: usize, prefix: &mut Vec<String>, fo
         match token.as_str() {
             "}" => return at + 1,
             "," => at += 1,
-            // `as name` inside a group.
+            // Skips `as name` inside a group.
             "as" => at += 2,
             word if is_word(word) || word == "*" => at = tree(tokens, at, prefix, found),
             _ => at += 1,
@@ -302,14 +302,15 @@ fn group(tokens: &[(usize, String)], mut at: usize, prefix: &mut Vec<String>, fo
     at
 }
 
-/// `self::` and `super::` against the file's own module.
+/// Resolves `self::` and `super::` relative to the file's module.
 fn resolve(path: Vec<String>, module: &[String]) -> Option<Vec<String>> {
     let ups = path.iter().take_while(|part| *part == "super" || *part == "self").filter(|part| *part == "super").count();
     let relative = path.iter().take_while(|part| *part == "super" || *part == "self").count();
     if relative == 0 {
         return Some(path);
     }
-    // A `super` inside an inline module of the file points lower than it seems; taking it as written errs on the strict side.
+    // A `super` inside an inline module of the file refers to a lower module than it seems; treating it literally is
+    // stricter.
     let base = module.len().checked_sub(ups)?;
     let own = std::iter::once("crate".to_owned()).chain(module[..base].iter().cloned());
     Some(own.chain(path[relative..].iter().cloned()).collect())

@@ -1,9 +1,9 @@
-//! What Cargo cannot hold: the table of rooms within crates, and the capital rules of ARCHITECTURE.md.
+//! Rules that Cargo cannot enforce: the table of layers within crates, and the main rules of ARCHITECTURE.md.
 
 use crate::paths::{code_only, named, named_in, tokens, without_tests};
 use crate::picture::Imports;
 
-/// A module of a crate, and the room that it is.
+/// Each crate with the layers that are modules of their own; all other modules belong to the last layer.
 type OwnRoom = (&'static str, &'static str);
 /// Each crate with the modules that are rooms of their own; every other module belongs to the room named last.
 const CRATES: &[(&str, &[OwnRoom], &str)] = &[
@@ -16,9 +16,9 @@ const CRATES: &[(&str, &[OwnRoom], &str)] = &[
     ("view", &[], "view"),
     (PROGRAM, &[("errors", "errors"), ("io", "io"), ("records", "records"), ("web", "server"), ("window", "window")], "cli"),
 ];
-/// The package at the workspace's root.
+/// The package at the root of the workspace.
 const PROGRAM: &str = "";
-/// Each room with the rooms that it may know. The rooms of the program may know every library, too.
+/// Each layer with the layers that it may use.
 const TABLE: &[(&str, &[&str])] = &[
     ("base", &[]),
     ("mav", &["base"]),
@@ -42,7 +42,7 @@ const TABLE: &[(&str, &[&str])] = &[
     ("cli", &["errors", "io", "records", "server", "window"]),
 ];
 
-/// What only the shells may touch: sockets, files, clocks, threads, processes, terminals.
+/// Paths that only the main program may use: sockets, files, clocks, threads, processes, terminals.
 const OUTSIDE: &[&[&str]] = &[
     &["std", "net"],
     &["std", "fs"],
@@ -64,9 +64,9 @@ const OUTSIDE: &[&[&str]] = &[
     &["jiff", "Timestamp", "now"],
     &["jiff", "ZonedDateTime", "now"],
 ];
-/// What of these rooms of `std` is plain data: no clock, no socket.
+/// Items in these modules of `std` that are plain data, not clocks or sockets.
 const PLAIN_DATA: &[&[&str]] = &[&["std", "time", "Duration"], &["std", "net", "IpAddr"], &["std", "net", "SocketAddr"]];
-/// What the autopilot may name of physics: what it drives, not what is true.
+/// Items of the physics module that the autopilot may use: actuator commands, not the true state.
 const ACTUATION: &[&str] = &["Actuators", "MAX_ROTORS"];
 const ROOTS: &[&str] = &[
     "crate",
@@ -90,35 +90,35 @@ const ROOTS: &[&str] = &[
     "jiff",
 ];
 
-/// All crates but the program, by folder.
+/// Returns all crates except the program, by folder.
 pub fn crates() -> impl Iterator<Item = &'static str> {
     CRATES.iter().map(|(folder, ..)| *folder).filter(|folder| *folder != PROGRAM)
 }
 
-/// All rooms.
+/// Returns all layers.
 pub fn rooms() -> impl Iterator<Item = &'static str> {
     TABLE.iter().map(|(room, _)| *room)
 }
 
-/// The crates that a crate may depend on: those whose rooms its rooms may know.
+/// Returns the crates that a crate may depend on, which are those whose layers its own layers may use.
 pub fn may_depend_on(folder: &str) -> Vec<&'static str> {
     let known = TABLE.iter().filter(|(room, _)| home(room) == folder).flat_map(|(_, known)| *known);
     crates().filter(|other| *other != folder && known.clone().any(|room| home(room) == *other)).collect()
 }
 
-/// The crate that a room lies in.
+/// Returns the crate that contains a layer.
 fn home(room: &str) -> &'static str {
     let holds = |own: &[OwnRoom], rest: &str| rest == room || own.iter().any(|(_, name)| *name == room);
     CRATES.iter().find(|(_, own, rest)| holds(own, rest)).map_or(PROGRAM, |(folder, ..)| *folder)
 }
 
-/// The room of a crate's module.
+/// Returns the layer of a crate's module.
 fn room_of(folder: &str, module: Option<&str>) -> Option<&'static str> {
     let (_, own, rest) = CRATES.iter().find(|(name, ..)| *name == folder)?;
     Some(own.iter().find(|(name, _)| Some(*name) == module).map_or(rest, |(_, room)| room))
 }
 
-/// Everything that a file (its path below the workspace's root) names and must not.
+/// Returns all rule violations in a file, given by its path in the workspace.
 pub fn violations(file: &str, source: &str) -> Vec<String> {
     let Some((folder, module)) = place_of(file) else { return vec![format!("{file}: no crate of tests/layers/rules.rs")] };
     let room = room_of(folder, module.first().map(String::as_str)).unwrap_or_default();
@@ -136,7 +136,7 @@ pub fn violations(file: &str, source: &str) -> Vec<String> {
     found
 }
 
-/// Adds the names that a file imports from other rooms, tests left out.
+/// Returns uses of `Instant::now()` and similar functions, also through imported names.
 pub fn count_imports(file: &str, source: &str, imports: &mut Imports) {
     let Some((folder, module)) = place_of(file) else { return };
     let Some(room) = room_of(folder, module.first().map(String::as_str)) else { return };
@@ -170,7 +170,8 @@ fn clock_readings(folder: &str, file: &str, code: &str) -> Vec<String> {
     lines.map(|(k, line)| format!("{file}:{}: {}: ONLY THE PROGRAM TOUCHES THE OUTSIDE WORLD", k + 1, line.trim())).collect()
 }
 
-/// `crates/sitl/src/autopilot/core.rs` is the module `autopilot::core` of the crate `sitl`.
+/// Returns the crate and module of a file: `crates/sitl/src/autopilot/core.rs` is the module `autopilot::core` of the
+/// crate `sitl`.
 fn place_of(file: &str) -> Option<(&'static str, Vec<String>)> {
     let parts: Vec<&str> = file.trim_end_matches(".rs").split(['/', '\\']).collect();
     let (folder, module) = match &parts[..] {
@@ -274,6 +275,6 @@ mod tests {
     #[test]
     fn exact_a_violation_is_named_with_file_and_line() {
         let found = violations("crates/model/src/site/mod.rs", "// a comment\n\nuse spandrel_monitor::Monitor;\n");
-        assert_eq!(found, ["crates/model/src/site/mod.rs:3: spandrel_monitor::Monitor: site must not know monitor"]);
+        assert_eq!(found, ["crates/model/src/site/mod.rs:3: spandrel_monitor::Monitor: site must not use monitor"]);
     }
 }

@@ -1,9 +1,9 @@
-//! The command line: the help of the program and of every subcommand.
+//! Reference page of the command line: the help of the program and of every subcommand.
 
 use crate::{check, head};
 use clap::{Command, CommandFactory};
 
-/// Help of a command and of those below it.
+/// Appends the help of a command and of its subcommands.
 fn help(command: &mut Command, name: &str, level: usize, out: &mut String) {
     let text = command.render_long_help().to_string();
     let text: Vec<&str> = text.lines().map(str::trim_end).collect();

@@ -1,4 +1,4 @@
-//! The contract's page says what the code says.
+//! The page about the telemetry contract must match the code.
 
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::modes::ControlSource;
@@ -48,7 +48,7 @@ fn exact_the_contracts_table_of_modes_is_the_codes() {
         format!("{} |", numbers.join(", "))
     };
     for source in [ControlSource::Mission, ControlSource::Script, ControlSource::Autopilot] {
-        let row = page.lines().find(|line| line.starts_with(&format!("| {} |", source.label()))).expect("a row for each");
+        let row = page.lines().find(|line| line.starts_with(&format!("| {} |", source.label()))).expect("a row for each mode");
         assert!(row.ends_with(&copter(source)), "{row}");
     }
     let px4 = |main: u32, sub: u32| ControlSource::of(12, main << 16 | sub << 24);

@@ -1,4 +1,5 @@
-//! The data dictionary: columns of the frames export, fields of the assessment, columns of the cohort's tables.
+//! Reference page of the data dictionary: columns of the frames export, fields of the assessment, columns of the
+//! cohort's tables.
 
 use crate::table::{code, table};
 use crate::{check, head};
@@ -33,7 +34,7 @@ fn assessment() -> String {
     table(&["field", "unit", "definition"], rows)
 }
 
-/// Header of every table of an empty cohort.
+/// Returns the header of every table of an empty cohort.
 fn cohort_tables() -> String {
     let selection = Selection { scenarios: Vec::new(), repetitions: 3, incomplete: IncompletePolicy::LeaveOut };
     let cohort = cohort(&[], &selection);
@@ -70,7 +71,8 @@ fn exact_the_data_dictionary_is_that_of_the_code() {
     check("data-dictionary.md", &page);
 }
 
-/// Paths of all values; a map whose keys are numbers or tasks shows as `*`. Empty lists and nulls have none.
+/// Collects the paths of all values; a map whose keys are numbers or tasks appears as `*`. Empty lists and nulls have
+/// no paths.
 fn paths(value: &Value, at: &str, out: &mut BTreeSet<String>) {
     match value {
         Value::Object(map) => {
@@ -89,7 +91,8 @@ fn paths(value: &Value, at: &str, out: &mut BTreeSet<String>) {
     }
 }
 
-/// A flight with a crash, a picture that shows a defect and one that does not; one that never gets near its task.
+/// A flight with a crash, a picture that shows a defect and one that does not; and a flight that never gets near its
+/// task.
 #[test]
 fn exact_every_field_of_an_assessment_is_in_the_dictionary_and_none_besides() {
     let mut full = Tape::new();
@@ -114,5 +117,5 @@ fn exact_every_field_of_an_assessment_is_in_the_dictionary_and_none_besides() {
     assert_eq!(documented.len(), FIELDS.len(), "a field is documented twice");
     let missing: Vec<&String> = seen.difference(&documented).collect();
     let gone: Vec<&String> = documented.difference(&seen).collect();
-    assert!(missing.is_empty() && gone.is_empty(), "not documented: {missing:?}; not in any assessment: {gone:?}");
+    assert!(missing.is_empty() && gone.is_empty(), "not documented: {missing:?}; documented but not in any assessment: {gone:?}");
 }

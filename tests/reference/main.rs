@@ -1,8 +1,8 @@
-//! Reference pages that are made from the code. Each test compares a committed page with the text made now; run them with
-//! `SPANDREL_REFERENCE=write` to rewrite the pages.
+//! Reference pages that are generated from the code. Each test compares a committed page with newly generated text; run
+//! them with `SPANDREL_REFERENCE=write` to rewrite the pages.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
-// Flags of the window and of gamepads depend on features.
+// Options of the window and of gamepads depend on features.
 #[cfg(all(feature = "view", feature = "gamepad"))]
 mod commands;
 mod contract;
@@ -13,12 +13,12 @@ mod table;
 
 use std::path::Path;
 
-/// First lines of every page: title, and that it is made.
+/// Returns the first lines of every page: the title, and a note that the page is generated.
 fn head(title: &str, about: &str) -> String {
-    format!("# {title}\n\n<!-- Made from the code: SPANDREL_REFERENCE=write cargo test --test reference -->\n\n{about}\n")
+    format!("# {title}\n\n<!-- Generated from the code: SPANDREL_REFERENCE=write cargo test --test reference -->\n\n{about}\n")
 }
 
-/// Compares a page with the committed file, or writes it.
+/// Compares a page with the committed file, or writes the file.
 fn check(page: &str, text: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/src/reference").join(page);
     if std::env::var_os("SPANDREL_REFERENCE").is_some_and(|value| value == "write") {
@@ -28,10 +28,10 @@ fn check(page: &str, text: &str) {
     let committed = std::fs::read_to_string(&path).unwrap_or_default();
     let differs = committed.lines().zip(text.lines()).position(|(a, b)| a != b).unwrap_or(committed.lines().count());
     let now = text.lines().nth(differs).unwrap_or_default();
-    assert!(committed == text, "{page}, line {}: the code gives `{now}`; rewrite it with SPANDREL_REFERENCE=write", differs + 1);
+    assert!(committed == text, "{page}, line {}: expected `{now}`; rewrite the page with SPANDREL_REFERENCE=write", differs + 1);
 }
 
-/// Keys of scenario and vehicle files have their tables beside the files; the pages include them.
+/// The tables of scenario and vehicle keys are stored next to the files; the pages must include them.
 #[test]
 fn exact_pages_of_keys_include_the_tables_that_are_compared_with_the_readers() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

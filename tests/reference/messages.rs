@@ -1,4 +1,4 @@
-//! Streams with their rates, and messages that are acted on.
+//! Reference page of messages: streams with their rates, and handled messages.
 
 use crate::table::table;
 use crate::{check, head};
@@ -35,7 +35,7 @@ fn flavours(stream: &StreamSpec) -> String {
     if spoken.len() == all.len() { "all".to_owned() } else { spoken.join(", ") }
 }
 
-/// One line a stream; several sensors that send one message at one rate share a line.
+/// Returns one row per stream; sensors that send the same message at the same rate share a row.
 fn streams() -> String {
     let mut rows: Vec<Vec<String>> = Vec::new();
     for stream in STREAMS {
@@ -67,9 +67,9 @@ fn exact_the_pages_of_messages_are_those_of_the_code() {
          The named values for scoring are listed under [scoring data](wire.md#scoring-data).",
         asks.join(" or ")
     );
-    let acts = "The vehicle acts on these messages. All others are forwarded to the links of their target.";
+    let acts = "The vehicle handles these messages. It forwards all others to the links of their target.";
     let page = format!(
-        "{}\n## Streams\n\n{}\n## Messages that are acted on\n\n{acts}\n\n{}",
+        "{}\n## Streams\n\n{}\n## Handled messages\n\n{acts}\n\n{}",
         head("Messages", &about),
         streams(),
         handled()

@@ -1,4 +1,4 @@
-//! Parameters of both sets of names, read from the files that ground stations get.
+//! Reference page of the parameters of both autopilots, read from the metadata that ground stations get.
 
 use crate::table::{code, table};
 use crate::{check, head};
@@ -18,7 +18,7 @@ fn text(parameter: &Value, key: &str) -> String {
     match &parameter[key] {
         Value::Null => String::new(),
         Value::String(text) => text.clone(),
-        // A float of 32 bits with the digits that it has.
+        // Formats a 32-bit float with as many digits as it has.
         Value::Number(number) if parameter["type"] == "Float" => {
             number.as_f64().map_or_else(String::new, |value| (value as f32).to_string())
         }
@@ -33,7 +33,7 @@ fn range(parameter: &Value) -> String {
     }
 }
 
-/// Description with the words of values or bits.
+/// Returns the description with the names of values or bits.
 fn meaning(parameter: &Value) -> String {
     let listed = |key: &str, number: &str| {
         let list = parameter[key].as_array()?;
@@ -65,7 +65,7 @@ fn exact_the_page_of_parameters_is_that_of_the_code() {
     let mut page = head("Parameters", about);
     for (title, face) in [("PX4 and generic interface", &PX4), ("ArduPilot interface", &COPTER)] {
         let parameters = described(face);
-        page.push_str(&format!("\n## {title}: parameters that act\n\n{}", rows(&parameters, true)));
+        page.push_str(&format!("\n## {title}: active parameters\n\n{}", rows(&parameters, true)));
         page.push_str(&format!("\n## {title}: stored parameters\n\n{}", rows(&parameters, false)));
     }
     check("parameters.md", &page);

@@ -1,6 +1,6 @@
 //! Markdown tables.
 
-/// A table with a header; bars in cells are escaped.
+/// Returns a table with a header; bars in cells are escaped.
 pub fn table(header: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> String {
     let line = |cells: &[String]| {
         let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|").replace('\n', " ")).collect();
@@ -15,7 +15,7 @@ pub fn table(header: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> St
     out
 }
 
-/// As code; empty stays empty.
+/// Formats a text as code; an empty text stays empty.
 pub fn code(text: &str) -> String {
     if text.is_empty() { String::new() } else { format!("`{text}`") }
 }

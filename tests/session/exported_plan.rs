@@ -1,4 +1,4 @@
-//! The exported plan is flown by the mission mode: every task on its path, nothing touched, pictures taken.
+//! Flights of the exported plan in mission mode: every task on its path, no contacts, pictures taken.
 #![allow(deprecated, reason = "ground stations still write DO_MOUNT_CONTROL into plans")]
 
 use serde_json::Value;
@@ -16,10 +16,10 @@ use spandrel_testkit::plans::{ACCEPTED, upload};
 use spandrel_testkit::shipped::{scenario, vehicle};
 use spandrel_testkit::station::{Station, one};
 
-/// Share of a task's reference points that must be passed within its threshold: the estimate strays by its own error, and a lone
-/// point at an end may be missed.
+/// Minimum fraction of a task's reference points that must be passed within its threshold; the estimate has an error,
+/// and a single point at an end may be missed.
 const COVERED: f64 = 0.97;
-/// The flight of all four tasks takes less, s of simulation time (battery of the paper: 25 minutes).
+/// Time limit for all four tasks, s of simulation time (TASBID battery: 25 minutes).
 const LIMIT_S: f64 = 1_500.0;
 
 fn plan_for(name: &str, autopilot: MavAutopilot) -> Value {
@@ -35,7 +35,7 @@ fn plan(name: &str) -> (Vec<MISSION_ITEM_INT_DATA>, Value) {
     (items, plan)
 }
 
-/// As a ground station reads an item.
+/// Converts a plan item as a ground station does.
 fn as_item(k: usize, item: &Value) -> MISSION_ITEM_INT_DATA {
     let number = |at: usize| item["params"][at].as_f64().unwrap_or(f64::NAN);
     let placed = item["frame"] == 3;
@@ -72,7 +72,7 @@ fn known_command(command: u64) -> MavCmd {
         M::MAV_CMD_IMAGE_START_CAPTURE,
         M::MAV_CMD_IMAGE_STOP_CAPTURE,
     ];
-    *known.iter().find(|c| **c as u64 == command).unwrap_or_else(|| panic!("command {command} is not in the plan's vocabulary"))
+    *known.iter().find(|c| **c as u64 == command).unwrap_or_else(|| panic!("unexpected command {command} in the plan"))
 }
 
 #[test]
@@ -106,12 +106,12 @@ fn flight_the_exported_plan_flies_every_task_on_its_path_and_touches_nothing() {
             break;
         }
     }
-    assert!(landed, "it comes home, from {:?} at {}", station.place(), station.sim.now());
-    // Standing down on the pad is a contact; nothing else is.
+    assert!(landed, "the flight did not end at home: {:?} at {}", station.place(), station.sim.now());
+    // Landing on the pad is a contact; there must be no others.
     assert!(hits <= 1, "{hits} contacts");
     for (task, passed) in job.tasks.iter().zip(&passed) {
         let share = passed.iter().filter(|seen| **seen).count() as f64 / passed.len() as f64;
-        assert!(share >= COVERED, "task {}: {share} of the path", task.name);
+        assert!(share >= COVERED, "task {}: only {share} of the path", task.name);
     }
     assert!(pictures > 40, "{pictures} pictures");
 }
@@ -130,27 +130,27 @@ fn exact_the_plan_has_what_ground_stations_ask_of_it() {
     }
     let pad: Vec3<Enu> = scenario("two-bridges").ground_team.pad_m;
     assert!(pad.is_finite());
-    // A plan that leads below the pad's level does so on purpose only: over the lake.
+    // A plan that leads below the pad's level must do so only intentionally, above the lake.
     let lowest = items.iter().filter(|i| i.command == MavCmd::MAV_CMD_NAV_WAYPOINT).map(|i| i.z).fold(f32::INFINITY, f32::min);
     let water = scenario("two-bridges").terrain.water_level_m - pad.up();
-    assert!(f64::from(lowest) > water + 1.0, "{lowest} m over home, the water at {water} m");
+    assert!(f64::from(lowest) > water + 1.0, "{lowest} m above home, water at {water} m");
 }
 
-/// What a flight of the plan showed.
+/// Results of a flight of the plan.
 #[derive(Debug, Default)]
 struct Flown {
     landed: bool,
-    /// Root mean square and largest of the body's roll and pitch rate, deg/s.
+    /// Root mean square and maximum of the body's roll and pitch rates, deg/s.
     rms_deg_s: [f64; 2],
     fastest_deg_s: f64,
     fastest_at: String,
-    /// All cues of the flight.
+    /// Mask of all cues during the flight.
     cues: i32,
-    /// Texts and tasks, with their times.
+    /// Texts and tasks with their times.
     log: Vec<String>,
 }
 
-/// A flight of a plan with the live monitor beside it.
+/// A flight of a plan with a live monitor.
 struct Observed {
     station: Station,
     monitor: Monitor,
@@ -163,9 +163,9 @@ struct Observed {
 }
 
 const SIDECAR: LinkId = LinkId(2);
-/// Rates are read above this height over the pad, m: below it the feet touch the ground.
+/// Height above the pad from which rates are measured, m; below it, the feet touch the ground.
 const FLYING_M: f64 = 1.0;
-/// Rates are read this often.
+/// Interval between rate measurements.
 const EVERY: SimTime = SimTime::from_ms(10);
 
 impl Observed {
@@ -226,7 +226,7 @@ impl Observed {
         self.measure();
     }
 
-    /// Time, place, what is nearest and the estimate's error, for the log.
+    /// Returns time, position, nearest object and estimation error for the log.
     fn where_it_is(&self, cues: i32) -> String {
         let (now, here) = (self.station.sim.now(), self.station.sim.truth().rigid.position_m.enu());
         let near = self.site.nearest(here, 6.0, now).map(|near| (near.distance_m, near.surface, near.point_m.array()));
@@ -259,12 +259,15 @@ impl Observed {
     }
 }
 
-/// Jobs and seeds: the plan is made with one seed's traffic and flown in others' traffic, wind and receiver error.
+/// Jobs and seeds: the plan is made with the traffic of one seed and flown with traffic, wind and receiver errors of
+/// others.
 const FLIGHTS: [(&str, u64); 6] =
     [("two-bridges", 1), ("two-bridges", 2), ("two-bridges", 7), ("practice", 7), ("drill-gap", 7), ("drill-landing", 7)];
-/// Root mean square of roll and pitch rate, deg/s: what a real PX4 showed on this plan (issue of the flight tests).
+/// Maximum root mean square of the roll and pitch rates, deg/s, from a real PX4 on this plan (issue about flight
+/// tests).
 const CALM_DEG_S: f64 = 9.0;
-/// Largest roll or pitch rate, deg/s: 4 m/s³ of jerk is 23 deg/s of tilt; as much again for gusts and for the end of the flight.
+/// Maximum roll or pitch rate, deg/s: a jerk of 4 m/s³ tilts at 23 deg/s; the same again for gusts and the end of the
+/// flight.
 const SWIFT_DEG_S: f64 = 60.0;
 
 #[test]
@@ -281,9 +284,9 @@ fn regress_our_own_plan_flies_calmly_and_brings_no_cue() {
 
 #[test]
 fn prop_traffic_never_comes_nearer_than_the_least_distance_of_its_lanes() {
-    /// Rounding, m.
+    /// Rounding tolerance, m.
     const ROUNDING_M: f64 = 1e-6;
-    /// Reach of the questions, m, and how long the traffic is watched.
+    /// Range of the queries, m, and time over which traffic is observed.
     const REACH_M: f64 = 6.0;
     const WATCHED_S: i64 = 60;
     let job = scenario("two-bridges");
@@ -317,6 +320,6 @@ fn regress_every_speed_of_the_plan_is_under_the_limit_with_margin() {
     let (items, plan) = plan("two-bridges");
     let limit = scenario("two-bridges").scoring.speed_limit_m_s;
     let speeds = items.iter().filter(|item| item.command == MavCmd::MAV_CMD_DO_CHANGE_SPEED).map(|item| f64::from(item.param2));
-    // The plan's own share of the limit is nine tenths.
+    // The plan uses nine tenths of the limit.
     assert!(speeds.chain(plan["mission"]["cruiseSpeed"].as_f64()).all(|speed| speed <= 0.91 * limit));
 }

@@ -1,4 +1,4 @@
-//! Both wings on one flight: what the vehicle sends and what the monitor makes of it.
+//! Tests with vehicle and monitor together: the vehicle's telemetry, and the monitor's results from it.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod exported_plan;

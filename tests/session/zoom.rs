@@ -1,4 +1,4 @@
-//! A zoom lens on the wire and in the measures.
+//! A zoom lens in telemetry and in the measures.
 
 use spandrel_mavlink::dialect::*;
 use spandrel_mavlink::telemetry::Timeline;
@@ -8,9 +8,9 @@ use spandrel_testkit::shipped::{scenario, vehicle};
 use spandrel_testkit::station::{Station, p};
 
 const CAMERA: u8 = 100;
-/// The one shipped aircraft with a zoom lens.
+/// The only supplied aircraft with a zoom lens.
 const ZOOMS: &str = "m30";
-/// CAMERA_FOV_STATUS carries single precision, deg.
+/// Rounding of CAMERA_FOV_STATUS, which has single precision, deg.
 const WIRE_DEG: f32 = 1e-5;
 
 #[test]

@@ -1,5 +1,5 @@
-//! Clients that fly the vehicle: [`pilot`] is a synthetic trainee that flies from telemetry alone; [`rc`] maps a controller or
-//! keyboard to stick inputs through a calibrated profile.
+//! Clients that fly the vehicle: [`pilot`] is a synthetic trainee that relies on telemetry only; [`rc`] maps a
+//! controller or keyboard to stick inputs through a calibrated profile.
 //!
 //! Both are ordinary MAVLink clients, like any ground station. They have no access to the simulator.
 //!

@@ -1,6 +1,7 @@
-//! Turns the parameter tables of `src/endpoint/params/stored` into Rust rows. One file per group; its first line is `# group: NAME`, every other
-//! line is `name, type, default, low, high, unit, text, values`, separated by tabs. A type ends in `!` where the parameter cannot be set. Values are
-//! `0=Off;1=On`, or `bits:0=First;1=Second`. `{1..8}` in a name repeats the line, and `#` in its text is the number.
+//! Generation of Rust code from the parameter tables in `src/endpoint/params/stored`. Each file holds one group. Its
+//! first line is `# group: NAME`; every other line has the columns `name, type, default, low, high, unit, text,
+//! values`, separated by tabs. A type ends in `!` if the parameter is read-only. Values are `0=Off;1=On` or
+//! `bits:0=First;1=Second`. `{1..8}` in a name repeats the line, and `#` in its text becomes the number.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -8,7 +9,7 @@ use std::path::Path;
 
 const COLUMNS: usize = 8;
 
-/// Rust code of all tables in a folder, or what is wrong with them.
+/// Returns the Rust code of all tables in a folder, or a description of the first problem.
 pub fn tables(folder: &Path) -> Result<String, String> {
     let mut code = String::new();
     for (constant, flavor) in [("PX4", "px4"), ("COPTER", "copter")] {
@@ -33,7 +34,7 @@ fn files(folder: &Path) -> Result<Vec<std::path::PathBuf>, String> {
 fn table(text: &str) -> Result<String, String> {
     let mut lines = text.lines().enumerate();
     let group =
-        lines.next().and_then(|(_, line)| line.strip_prefix("# group: ")).ok_or("1: the first line is '# group: NAME'")?;
+        lines.next().and_then(|(_, line)| line.strip_prefix("# group: ")).ok_or("1: the first line must be '# group: NAME'")?;
     let mut code = String::new();
     for (number, line) in lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#')) {
         let fields: Vec<&str> = line.split('\t').collect();
@@ -48,12 +49,12 @@ fn table(text: &str) -> Result<String, String> {
     Ok(code)
 }
 
-/// A name and its text, once or once per number of its range.
+/// Returns a name and its text, repeated for each number if the name contains a range.
 fn repeated(name: &str, text: &str) -> Result<Vec<(String, String)>, String> {
     let Some((head, rest)) = name.split_once('{') else { return Ok(vec![(name.into(), text.into())]) };
     let (range, tail) = rest.split_once('}').ok_or("'{' without '}'")?;
-    let (first, last) = range.split_once("..").ok_or("a range is written {1..8}")?;
-    let number = |text: &str| text.parse::<u32>().map_err(|_| format!("'{text}' is no whole number"));
+    let (first, last) = range.split_once("..").ok_or("a range must have the form {1..8}")?;
+    let number = |text: &str| text.parse::<u32>().map_err(|_| format!("'{text}' is not a whole number"));
     Ok((number(first)?..=number(last)?).map(|k| (format!("{head}{k}{tail}"), text.replace('#', &k.to_string()))).collect())
 }
 
@@ -66,7 +67,7 @@ fn row(name: &str, text: &str, group: &str, fields: &[&str]) -> Result<String, S
         "float" => "REAL32",
         _ => return Err(format!("type '{kind}' (allowed: int8, int16, int32, float)")),
     };
-    let number = |k: usize| fields[k].parse::<f64>().map_err(|_| format!("'{}' is no number", fields[k]));
+    let number = |k: usize| fields[k].parse::<f64>().map_err(|_| format!("'{}' is not a number", fields[k]));
     let (default, low, high) = (number(2)?, number(3)?, number(4)?);
     if !(low <= default && default <= high) {
         return Err(format!("{name}: default {default} (allowed: {low} to {high})"));
@@ -76,7 +77,7 @@ fn row(name: &str, text: &str, group: &str, fields: &[&str]) -> Result<String, S
     let mut listed = String::new();
     for pair in pairs.split(';').filter(|pair| !pair.is_empty()) {
         let (code, words) = pair.split_once('=').ok_or_else(|| format!("'{pair}' (allowed: number=words)"))?;
-        let code: i32 = code.parse().map_err(|_| format!("'{code}' is no whole number"))?;
+        let code: i32 = code.parse().map_err(|_| format!("'{code}' is not a whole number"))?;
         let _ = write!(listed, "({code}, {words:?}), ");
     }
     let listed = if listed.is_empty() { String::new() } else { format!(".{call}(&[{listed}])") };

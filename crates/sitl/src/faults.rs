@@ -1,5 +1,5 @@
-//! Failures that an instructor injects (MAV_CMD_INJECT_FAILURE): sensors, motors, battery, manual control. They corrupt sensor
-//! readings and actuator commands; the autopilot gets no notification.
+//! Failures that an instructor injects (MAV_CMD_INJECT_FAILURE): sensors, motors, battery, manual control. They corrupt
+//! sensor readings and actuator commands; the autopilot is not notified.
 
 use super::physics::{Actuators, MAX_ROTORS};
 use super::sensors::Readings;
@@ -44,7 +44,7 @@ pub enum FailureType {
 }
 
 impl FailureUnit {
-    /// Returns the unit for MAVLink's number, or `None` if it is not supported.
+    /// Returns the unit for a MAVLink number, or `None` if it is not supported.
     #[must_use]
     pub fn from_number(n: i64) -> Option<Self> {
         Some(match n {
@@ -72,7 +72,7 @@ impl FailureUnit {
 }
 
 impl FailureType {
-    /// Returns the failure mode for MAVLink's number; `Some(None)` for 0 (no failure), `None` if it is not supported.
+    /// Returns the failure mode for a MAVLink number: `Some(None)` for 0 (no failure), `None` if it is not supported.
     #[must_use]
     pub fn from_number(n: i64) -> Option<Option<Self>> {
         Some(match n {
@@ -122,8 +122,8 @@ impl Faults {
         }
     }
 
-    /// Injects a failure, or clears it with `None`. `instance` counts from 1; 0 selects all. Returns false for an unsupported
-    /// failure.
+    /// Injects a failure, or clears it with `None`. `instance` counts from 1; 0 selects all instances. Returns false if
+    /// the failure is not supported.
     pub fn inject(&mut self, unit: FailureUnit, kind: Option<FailureType>, instance: usize, rotors: usize) -> bool {
         if kind.is_some_and(|kind| !unit.has(kind)) {
             return false;
@@ -145,13 +145,13 @@ impl Faults {
         true
     }
 
-    /// State of charge after a battery failure, 0 to 1.
+    /// Returns the state of charge after a battery failure, 0 to 1.
     #[must_use]
     pub fn charge(charge: f64) -> f64 {
         charge.min(CHARGE_LEFT)
     }
 
-    /// Returns true if manual control input gets through at this time.
+    /// Returns true if manual control input reaches the autopilot at this time.
     #[must_use]
     pub fn passes_sticks(&self, now: SimTime) -> bool {
         match self.sticks {
@@ -226,7 +226,7 @@ impl Faults {
         }
         if let Some(kind) = kinds[place(FailureUnit::Magnetometer)] {
             let turned = |field: Vec3<Frd>, [x, y, z]: [f64; 3]| match kind {
-                // Rotated by 90 degrees, like the effect of a magnet near the sensor.
+                // Rotated by 90 degrees, as by a magnet near the sensor.
                 FailureType::Wrong => Vec3::new(-field.right(), field.forward(), field.down()),
                 FailureType::Off | FailureType::Stuck | FailureType::Garbage | FailureType::Intermittent => {
                     field + Vec3::new(x, y, z)

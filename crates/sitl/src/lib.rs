@@ -1,14 +1,14 @@
-//! Simulated multirotor with a MAVLink interface: physics, sensors, autopilot and protocol endpoint in one simulator without
-//! sockets or clocks.
+//! A simulated multirotor with a MAVLink interface: physics, sensors, autopilot and protocol endpoint in one simulator
+//! that does not use sockets or clocks.
 //!
 //! [`sim::Sim`] is the complete vehicle at its site. The host advances time (`handle_timeout`), passes in received datagrams
 //! (`handle_datagram`) and sends outgoing ones (`poll_transmit`). Real time, ten times real time and unlimited speed run the same
 //! code with different timestamps. A clone of the simulator is a snapshot.
 //!
-//! Each step runs in this order: sensor samples that are due ([`sensors`]), the autopilot ([`autopilot`]: estimator, modes,
-//! control, mixer), six-degree-of-freedom motion and contact ([`physics`]), then outgoing telemetry ([`endpoint`]). The autopilot
-//! sees sensor readings only, never the true state. One table selects the emulated autopilot, PX4 or ArduCopter
-//! ([`endpoint::flavour`]).
+//! Each step runs in this order: sensors ([`sensors`]), the autopilot ([`autopilot`]: estimator, modes, control,
+//! mixer), six-degree-of-freedom motion and contact ([`physics`]), then outgoing telemetry ([`endpoint`]). The
+//! autopilot only gets sensor readings, never the true state. One table selects the emulated autopilot, PX4 or
+//! ArduCopter ([`endpoint::flavour`]).
 //!
 //! For tests and scripts, [`testing::Vehicle`] controls the vehicle with commands:
 //!

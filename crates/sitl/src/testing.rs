@@ -1,5 +1,5 @@
-//! In-process vehicle for tests and scripts: no sockets, no clock, as fast as the machine allows, and identical results in every
-//! run.
+//! In-process vehicle for tests and scripts: it uses no sockets or clock, runs as fast as the machine allows, and gives
+//! identical results in every run.
 //!
 //! ```
 //! use spandrel_model::shipped;
@@ -15,8 +15,8 @@
 //! # }
 //! ```
 //!
-//! The harness controls the vehicle as any ground station does: with MAVLink frames through the same interface. [`Vehicle::sim`]
-//! gives access to the simulator for further links, the true state and the digest.
+//! The harness controls the vehicle as a ground station would, with MAVLink frames through the same interface.
+//! [`Vehicle::sim`] gives access to the simulator for further links, the true state and the digest.
 
 use crate::endpoint::flavour::{Flavour, px4};
 use crate::endpoint::{LinkId, LinkKind, Transmit};
@@ -33,13 +33,13 @@ use spandrel_model::{shipped, vehicle};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// The link of the harness.
+/// Link that the harness uses.
 pub const STATION: LinkId = LinkId(1);
-/// MAVLink system and component ID of the harness; the usual values of a ground station.
+/// MAVLink system and component ID of the harness, which are the usual values of a ground station.
 const STATION_ID: (u8, u8) = (255, 190);
 /// Interval at which conditions are checked.
 const LOOK: SimTime = SimTime::from_ms(20);
-/// Maximum frames kept for [`Vehicle::last_message`]: about twenty seconds of all streams.
+/// Maximum number of frames kept for [`Vehicle::last_message`]: about twenty seconds of all streams.
 const KEPT_FRAMES: usize = 20_000;
 
 /// An expected response or condition that did not occur.
@@ -61,7 +61,7 @@ pub enum MissedExpectation {
     /// A condition was not met in time.
     #[error("condition not met within {limit_s} s of simulation time; last status text: {said}")]
     Late {
-        /// The time limit, whole seconds.
+        /// The time limit in whole seconds.
         limit_s: i64,
         /// The vehicle's latest status text.
         said: String,
@@ -93,8 +93,8 @@ impl Default for VehicleBuilder {
 }
 
 impl VehicleBuilder {
-    /// Sets the scenario from the text of a scenario file, for example one of [`shipped`]. Height fields that it references are
-    /// not loaded.
+    /// Sets the scenario from the text of a scenario file, for example one of [`shipped`]. Does not load height fields
+    /// that it references.
     #[must_use]
     pub fn scenario(mut self, text: impl Into<String>) -> Self {
         self.scenario = text.into();
@@ -139,15 +139,15 @@ impl VehicleBuilder {
     /// Builds the vehicle on its landing pad with motors off.
     ///
     /// # Errors
-    /// All problems of the scenario, or otherwise of the vehicle, with line and key.
+    /// Returns all problems of the scenario or, if it is valid, of the vehicle, with line and key.
     pub fn build(self) -> Result<Vehicle, Problems> {
         let job = scenario::read("scenario.toml", &self.scenario, &|file| Err(format!("{file}: not loaded here")))?;
         let aircraft = vehicle::read("vehicle.toml", &self.vehicle)?;
         Ok(self.build_from(job, aircraft))
     }
 
-    /// Builds the vehicle on its landing pad with motors off from a parsed scenario and aircraft. Ignores the texts set in the
-    /// builder.
+    /// Builds the vehicle on its landing pad, with motors off, from a parsed scenario and aircraft. Ignores the texts
+    /// set in the builder.
     #[must_use]
     pub fn build_from(self, job: Scenario, aircraft: vehicle::Vehicle) -> Vehicle {
         let site = Arc::new(Site::build(&job, self.seed));
@@ -179,9 +179,9 @@ impl VehicleBuilder {
 pub struct Vehicle {
     /// The simulator: further links, true state, failures, digest.
     pub sim: Sim,
-    /// Encoder of the harness. A different system or component ID represents another sender on the same link.
+    /// Encoder of the harness. Change its system or component ID to simulate another sender on the same link.
     pub encoder: Encoder,
-    /// Received frames, oldest first, limited to the most recent.
+    /// Received frames, oldest first; only the most recent ones are kept.
     pub received: Vec<ReceivedFrame>,
     flavour: &'static Flavour,
     pad_up_m: f64,
@@ -203,12 +203,12 @@ impl Vehicle {
         self.sim
     }
 
-    /// Returns the next datagram for a link other than the harness's.
+    /// Returns the next datagram for any link except the harness's.
     pub fn poll_transmit(&mut self) -> Option<Transmit> {
         self.others.pop_front()
     }
 
-    /// Current simulation time.
+    /// Returns the current simulation time.
     #[must_use]
     pub fn now(&self) -> SimTime {
         self.sim.now()
@@ -219,7 +219,7 @@ impl Vehicle {
         self.received.iter().rev().filter_map(|frame| frame.message.as_ref()).find_map(pick)
     }
 
-    /// The vehicle's latest status text; empty before the first one.
+    /// Returns the vehicle's latest status text; empty before the first one.
     #[must_use]
     pub fn status_texts(&self) -> String {
         let text =
@@ -238,19 +238,19 @@ impl Vehicle {
         beats.into_iter().find_map(armed).unwrap_or(false)
     }
 
-    /// True position in the scenario's frame, m.
+    /// Returns the true position in the scenario's frame, m.
     #[must_use]
     pub fn position_m(&self) -> Vec3<Enu> {
         self.sim.truth().rigid.position_m.enu()
     }
 
-    /// True height above the landing pad, m.
+    /// Returns the true height above the landing pad, m.
     #[must_use]
     pub fn height_m(&self) -> f64 {
         self.position_m().up() - self.pad_up_m
     }
 
-    /// Sends a message as the ground station. It is processed at the next tick.
+    /// Sends a message as the ground station. The vehicle processes it at the next tick.
     pub fn send(&mut self, message: &MavMessage) {
         let bytes = self.encoder.encode(message);
         self.sim.handle_datagram(STATION, &bytes);
@@ -271,10 +271,10 @@ impl Vehicle {
         }
     }
 
-    /// Runs until a condition is met. Returns the elapsed time.
+    /// Runs until a condition is met and returns the elapsed time.
     ///
     /// # Errors
-    /// The condition was not met in time.
+    /// If the condition was not met in time.
     pub fn run_until(&mut self, mut holds: impl FnMut(&Self) -> bool, limit: SimTime) -> Result<SimTime, MissedExpectation> {
         let start = self.now();
         while !holds(self) {
@@ -289,7 +289,7 @@ impl Vehicle {
     /// Sends a command to the autopilot. Missing parameters are 0.
     ///
     /// # Errors
-    /// The command was rejected, or there was no response within one second.
+    /// If the command was rejected, or there was no response within one second.
     pub fn command(&mut self, command: MavCmd, params: &[f32]) -> Result<(), MissedExpectation> {
         self.request(command, &MavMessage::COMMAND_LONG(station::command(1, 1, command, station::params(params))))
     }
@@ -318,7 +318,7 @@ impl Vehicle {
     /// Arms as soon as the vehicle allows it.
     ///
     /// # Errors
-    /// The last rejection, if the vehicle did not arm within the limit.
+    /// Returns the last rejection if the vehicle did not arm within the limit.
     pub fn arm(&mut self, limit: SimTime) -> Result<(), MissedExpectation> {
         let end = self.now() + limit;
         loop {
@@ -333,7 +333,7 @@ impl Vehicle {
     /// Takes off to a height above the landing pad, m. ArduCopter takes off in GUIDED.
     ///
     /// # Errors
-    /// The command was rejected.
+    /// If the command was rejected.
     pub fn take_off(&mut self, height_m: f64) -> Result<(), MissedExpectation> {
         if let Some(guided) = self.flavour.errands {
             self.command(MavCmd::MAV_CMD_DO_SET_MODE, &[1.0, guided as f32])?;
@@ -347,22 +347,23 @@ impl Vehicle {
     /// Flies to a position in the scenario's frame, m, and holds there.
     ///
     /// # Errors
-    /// The command was rejected.
+    /// If the command was rejected.
     pub fn go_to(&mut self, place_m: Vec3<Enu>) -> Result<(), MissedExpectation> {
         let command = MavCmd::MAV_CMD_DO_REPOSITION;
-        // Parameter 2, bit 0: change to a mode that can fly there.
+        // Bit 0 of parameter 2 changes to a mode that can fly there.
         self.request(command, &self.command_at(command, place_m, [-1.0, 1.0, 0.0, f32::NAN]))
     }
 
     /// Lands at the current position.
     ///
     /// # Errors
-    /// The command was rejected.
+    /// If the command was rejected.
     pub fn land(&mut self) -> Result<(), MissedExpectation> {
         self.command(MavCmd::MAV_CMD_NAV_LAND, &[0.0, 0.0, 0.0, f32::NAN])
     }
 
-    /// Sends one stick input: forward, right and yaw from -1 to 1, up from 0 to 1 with 0.5 for hold. Send it at 2 Hz or faster.
+    /// Sends one stick input: forward, right and yaw from -1 to 1, up from 0 to 1, where 0.5 holds the height. Send it
+    /// at 2 Hz or faster.
     pub fn sticks(&mut self, forward: f64, right: f64, up: f64, yaw: f64) {
         let axis = |share: f64| (1000.0 * share.clamp(-1.0, 1.0)).round() as i16;
         self.send(&MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA {

@@ -1,5 +1,5 @@
-//! The same flight gives the same bits: in two runs and from a snapshot taken anywhere. (Debug and release builds are compared over the
-//! wire, in `tests/clients/`.)
+//! Bit-exact determinism: the same flight gives the same result in two runs and from a snapshot taken at any time.
+//! (`tests/clients/` compares debug and release builds through telemetry.)
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
@@ -9,20 +9,21 @@ use spandrel_sitl::sim::{Sim, SimEvent};
 use spandrel_testkit::station::{GCS, Station};
 
 const SEED: u64 = 7;
-/// Sticks arrive this often, ms.
+/// Interval between stick messages, ms.
 const PERIOD_MS: i64 = 40;
-/// How long which sticks (forward, right, up from 0 to 1000) are held, ms: higher, sideways into the suspension bridge's girder, away
-/// from it; then the motors are stopped, and after a fall into the lake and three seconds there it flies on.
+/// Stick inputs (forward, right, up from 0 to 1000) and how long each is held, ms: climb, fly sideways into the girder
+/// of the suspension bridge, fly away from it. Then the motors are stopped; after a fall into the lake and three
+/// seconds there, the flight continues.
 const SCRIPT: [(i64, [i16; 3]); 5] =
     [(4_000, [0, 0, 800]), (15_000, [0, -1000, 500]), (4_000, [0, 1000, 500]), (9_000, [0, 0, 500]), (5_000, [500, 0, 600])];
 const STOP_BEFORE: usize = 3;
-/// The number that stops motors in the air.
+/// Parameter that forces a disarm in the air.
 const FORCE: f32 = 21_196.0;
 
-/// Snapshots are taken this far apart at least.
+/// Minimum interval between snapshots.
 const APART: SimTime = SimTime::from_ms(2_000);
 
-/// When which bytes come in.
+/// Received datagrams with their times.
 type Inputs = Vec<(SimTime, Vec<u8>)>;
 
 fn inputs(mut at: SimTime) -> (Inputs, SimTime) {
@@ -42,7 +43,7 @@ fn inputs(mut at: SimTime) -> (Inputs, SimTime) {
     (inputs, at)
 }
 
-/// Flies on from where the vehicle is; hands out what happened and the vehicle right after.
+/// Continues a flight with these inputs, and calls `look` with each event and the vehicle right after it.
 fn fly(sim: &mut Sim, inputs: &Inputs, end: SimTime, mut look: impl FnMut(&SimEvent, &Sim)) {
     let left = inputs.iter().filter(|(at, _)| *at >= sim.now()).cloned().collect::<Inputs>();
     let times = left.iter().skip(1).map(|(at, _)| *at).chain([end]);
@@ -60,8 +61,8 @@ fn hex(sim: &Sim) -> String {
     sim.digest().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Time that stands still changes nothing of the flight, and the vehicle is heard all the while: a heartbeat a call on the link, at the
-/// beginning a word, no truth.
+/// A pause must not change the flight, and heartbeats must continue during it: one heartbeat per call on the link, a
+/// text at the beginning, and no ground truth.
 #[test]
 fn flight_a_pause_changes_no_bit_and_heartbeats_go_on() {
     let start = Station::airborne("drill-hover", SEED).vehicle.sim;
@@ -86,7 +87,7 @@ fn flight_a_pause_changes_no_bit_and_heartbeats_go_on() {
     }
     assert_eq!(paused.now(), middle);
     let beats = |component: u8| messages.iter().filter(|(c, m)| *c == component && matches!(m, MavMessage::HEARTBEAT(_))).count();
-    assert_eq!((beats(1), beats(100)), (100, 0), "the autopilot's; nobody uses the camera");
+    assert_eq!((beats(1), beats(100)), (100, 0), "only the autopilot must send heartbeats, because the camera is not used");
     let words =
         messages.iter().filter(|(_, m)| matches!(m, MavMessage::STATUSTEXT(t) if t.text.to_str() == Ok("Simulation paused")));
     assert_eq!(words.count(), 1);
@@ -105,15 +106,15 @@ fn flight_the_same_inputs_give_the_same_bits_through_wind_collision_and_being_re
     fly(&mut first, &inputs, end, |event, sim| {
         crashes += usize::from(matches!(event, SimEvent::Crash { .. }));
         respawns += usize::from(*event == SimEvent::Respawn);
-        // Right after something happened is where forgotten state would show.
+        // A snapshot right after an event would reveal forgotten state.
         if snapshots.last().is_none_or(|last| sim.now() >= last.now() + APART) {
             snapshots.push(sim.clone());
         }
     });
-    assert!(crashes > 0 && respawns > 0, "{crashes} collisions, put back {respawns} times");
+    assert!(crashes > 0 && respawns > 0, "{crashes} collisions, {respawns} respawns");
     let mut second = Station::airborne("two-bridges", SEED).vehicle.sim;
     fly(&mut second, &inputs, end, |_, _| {});
-    assert_eq!(hex(&second), hex(&first), "a second run");
+    assert_eq!(hex(&second), hex(&first), "a second run must give the same result");
     for mut snapshot in snapshots {
         let from = snapshot.now();
         fly(&mut snapshot, &inputs, end, |_, _| {});
@@ -121,5 +122,5 @@ fn flight_the_same_inputs_give_the_same_bits_through_wind_collision_and_being_re
     }
     let mut other = Station::airborne("two-bridges", SEED + 1).vehicle.sim;
     fly(&mut other, &inputs, end, |_, _| {});
-    assert_ne!(hex(&other), hex(&first), "another seed");
+    assert_ne!(hex(&other), hex(&first), "another seed must give a different result");
 }

@@ -12,7 +12,7 @@ pub enum ViewKind {
 /// How the views share the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ViewLayout {
-    /// Side by side: inspector left, camera right, as in the paper.
+    /// Side by side: inspector on the left, camera on the right, as in the TASBID paper.
     #[default]
     Beside,
     /// Camera large, inspector inset.
@@ -49,7 +49,7 @@ pub struct TextAnchor {
     pub hang: bool,
 }
 
-/// Width of the inset view as a fraction of the window's width.
+/// Side of the inset view as a fraction of the window's width or height.
 const SMALL: f64 = 0.3;
 /// Top edge of the inset view, below the speed readout, as a fraction of the window's height; leaves room for a wide picture in a
 /// narrow window.
@@ -89,7 +89,7 @@ impl ViewLayout {
         }
     }
 
-    /// Returns the position of the window's own text. It never overlaps the HUD warnings.
+    /// Returns the position of status text in the window. It never overlaps the HUD warnings.
     #[must_use]
     pub fn words(self) -> TextAnchor {
         match self {
@@ -101,7 +101,7 @@ impl ViewLayout {
         }
     }
 
-    /// Center of a button in the inspector's view, as fractions of the window's width and height.
+    /// Returns the center of the button in the inspector's view, as fractions of the window's width and height.
     #[must_use]
     pub fn button(self) -> (f64, f64) {
         match self {
@@ -163,7 +163,7 @@ mod tests {
             let off = [place.left - left, place.top - top, place.width - width, place.height - height];
             assert!(off.iter().all(|off| off.abs() < 1e-12), "{place:?}");
         };
-        // Half of a 1920 x 1080 px window is taller than 4:3, the whole window is wider.
+        // Half of a 1920 x 1080 px window is taller than 4:3; the whole window is wider.
         near(whole.fit_aspect(4.0 / 3.0, 16.0 / 9.0), 0.5, 1.0 / 6.0, 0.5, 2.0 / 3.0);
         near(ViewRect { left: 0.0, width: 1.0, ..whole }.fit_aspect(4.0 / 3.0, 16.0 / 9.0), 0.125, 0.0, 0.75, 1.0);
         assert_eq!(fitted_px((1280, 720), 4.0 / 3.0), (960, 720));

@@ -40,19 +40,20 @@ impl PinholeCamera {
         Self { position_m, forward, right, hfov_rad }
     }
 
-    /// Creates the view of the aircraft's camera; its horizontal field of view does not depend on the picture's height.
+    /// Creates the view through the aircraft's camera. The horizontal field of view does not depend on the picture's
+    /// height.
     #[must_use]
     pub fn of(pose: &CameraPose, camera: &Camera) -> Self {
         Self { position_m: pose.position_m, forward: pose.forward, right: pose.right, hfov_rad: camera.hfov_rad }
     }
 
-    /// Unit vector towards the top of the picture.
+    /// Returns the unit vector toward the top of the picture.
     #[must_use]
     pub fn up(&self) -> Vec3<Enu> {
         self.right.cross(self.forward)
     }
 
-    /// Half width and half height of the picture at distance 1.
+    /// Returns half the width and height of the picture at distance 1.
     #[must_use]
     pub fn half_sizes(&self, aspect: f64) -> (f64, f64) {
         let half = math::tan(0.5 * self.hfov_rad);
@@ -66,7 +67,7 @@ impl PinholeCamera {
         Matrix::perspective(w, h, NEAR_M).after(&Matrix::view(self.position_m, self.right, self.up(), -self.forward))
     }
 
-    /// Unit direction through a point of the picture; `x` and `y` in [-1, 1], right and up positive.
+    /// Returns the unit direction through a point of the picture; `x` and `y` are in [-1, 1], right and up positive.
     #[must_use]
     pub fn ray(&self, x: f64, y: f64, aspect: f64) -> Vec3<Enu> {
         let (w, h) = self.half_sizes(aspect);
@@ -85,6 +86,6 @@ mod tests {
         assert!(clip[0].abs() < 1e-9 && clip[1].abs() < 1e-9 && clip[3] > 0.0);
         assert!(eye.view_projection(1.6).apply(Vec3::new(0.0, 30.0, 13.0))[1] > 0.0);
         let edge = eye.ray(0.0, 1.0, 1.6);
-        assert!((math::acos(edge.dot(eye.forward)) - 0.5).abs() < 1e-9, "half the vertical field of view");
+        assert!((math::acos(edge.dot(eye.forward)) - 0.5).abs() < 1e-9, "half of the vertical field of view");
     }
 }

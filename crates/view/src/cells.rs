@@ -42,7 +42,7 @@ impl BoundingSphere {
         Self { centre_m, radius_m }
     }
 
-    /// Distance from a point to the sphere's surface, m; negative inside.
+    /// Returns the distance from a point to the sphere's surface, m; negative inside.
     #[must_use]
     pub fn from_m(&self, point_m: Vec3<Enu>) -> f64 {
         (point_m - self.centre_m).norm() - self.radius_m
@@ -100,7 +100,7 @@ fn cell(p: Vec3<Enu>, backdrop: bool) -> SceneCell {
 /// Maps vertex indices of the whole mesh to those of a cell.
 type VertexRemap = BTreeMap<u32, u32>;
 
-/// Splits a mesh into cells; a `backdrop` has only sectors.
+/// Splits a mesh into cells. With `backdrop`, splits it only into sectors.
 #[must_use]
 pub fn cut(mesh: &Mesh, backdrop: bool) -> Vec<Mesh> {
     let mut cells: BTreeMap<SceneCell, (Mesh, VertexRemap)> = BTreeMap::new();
@@ -119,7 +119,7 @@ pub fn cut(mesh: &Mesh, backdrop: bool) -> Vec<Mesh> {
     cells.into_values().map(|(part, _)| part).collect()
 }
 
-/// Distance from the mesh's origin to its farthest vertex, m.
+/// Returns the distance from the mesh's origin to its farthest vertex, m.
 #[must_use]
 pub fn reach_m(mesh: &Mesh) -> f64 {
     mesh.vertices.iter().map(|v| position(v).norm()).fold(0.0, f64::max)
@@ -159,7 +159,7 @@ impl Frustum {
         Self([sum(w, x, 1.0), sum(w, x, -1.0), sum(w, y, 1.0), sum(w, y, -1.0), sum(w, z, -1.0), z])
     }
 
-    /// Returns false if the sphere is certainly outside.
+    /// Returns false if the sphere is certainly outside the frustum.
     #[must_use]
     pub fn may_show(&self, ball: &BoundingSphere) -> bool {
         self.0.iter().all(|plane| {
@@ -170,7 +170,7 @@ impl Frustum {
         })
     }
 
-    /// Returns false if the cell is certainly outside: all of its corners beyond one plane.
+    /// Returns false if the cell is certainly outside the frustum: all of its corners are beyond one plane.
     #[must_use]
     pub fn may_show_cell(&self, bounds: &CellBounds) -> bool {
         let corners = &bounds.corners_m;
@@ -179,7 +179,7 @@ impl Frustum {
     }
 }
 
-/// Signed distance of a point from a plane, positive inside, in units of the plane's normal.
+/// Returns the signed distance of a point from a plane, positive inside, in units of the plane's normal.
 fn inside([a, b, c, d]: &[f64; 4], p: Vec3<Enu>) -> f64 {
     let [x, y, z] = p.array();
     a * x + b * y + c * z + d
@@ -234,7 +234,7 @@ mod tests {
         let (beside, across) = (wall(-260.0), wall(-60.0));
         assert!(frustum.may_show(&beside.ball) && !frustum.may_show_cell(&beside));
         assert!(frustum.may_show_cell(&across) && frustum.may_show_cell(&CellBounds::from(across.ball)));
-        // A cell that contains the camera may show although no corner is in view.
+        // The frustum test must keep a cell that contains the camera, although none of its corners are in view.
         let mut hall = Mesh::default();
         hall.block([-500.0, -500.0, -500.0], [500.0, 500.0, 500.0], [0.0; 3], SurfaceFinish::new(Material::Rock, [9, 9, 9]));
         assert!(frustum.may_show_cell(&CellBounds::of(&hall)));

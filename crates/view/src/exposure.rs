@@ -10,12 +10,13 @@ use spandrel_model::vehicle::{Camera, Lamp};
 
 /// Number of metered points, horizontally and vertically.
 const GRID: (u32, u32) = (7, 5);
-/// Target value of the metered mean, as a fraction of white (estimate: usual outdoor setting; the tone curve takes a fifth of
-/// it).
+/// Target value of the metered mean, as a fraction of white (estimate: typical outdoor setting; the tone curve accounts
+/// for a fifth of it).
 const AIM: f64 = 0.24;
 /// Reflectance assumed for any surface that is hit (estimate: between wet concrete and grass).
 const ALBEDO: f64 = 0.25;
-/// Maximum weight of a bright point, as a multiple of the middle points: the sky does not underexpose a soffit.
+/// Maximum weight of a bright point, as a multiple of the middle points, so that a bright sky does not underexpose a
+/// soffit.
 const HIGHLIGHT: f64 = 5.0;
 /// Minimum illuminance to which the inspector's eyes adapt, lx (estimate: limit of color vision).
 const EYE_LUX: f64 = 3.0;
@@ -70,7 +71,7 @@ const FOLLOWS_S: f64 = 0.35;
 /// Gap after which the adaptation starts over, s.
 const BREAK_S: f64 = 2.0;
 
-/// Smoothed meter for a sequence of pictures: an object that crosses the lens does not make the picture flicker.
+/// Smoothed meter for a sequence of pictures, so that an object crossing the picture does not cause flicker.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ExposureMeter(Option<(SimTime, f64)>);
 
@@ -102,9 +103,9 @@ pub fn meter(site: &Site, eye: &PinholeCamera, aspect: f64, light: &Lighting) ->
     metered(seen)
 }
 
-/// Mean of the metered values, lx, divided by the target value. A bright point counts at most [`HIGHLIGHT`] times the geometric
-/// mean of the middle half, which starts at the lower quartile. When a single point changes from dark to bright, this mean moves
-/// slightly, whereas a median would jump from the soffit to the sky.
+/// Returns the mean of the metered values, lx, divided by the target value. A bright point counts at most [`HIGHLIGHT`]
+/// times the geometric mean of the middle half, which starts at the lower quartile. When one point changes from dark to
+/// bright, this mean moves only slightly, whereas a median would jump from the soffit to the sky.
 fn metered(mut seen: Vec<f64>) -> f64 {
     seen.sort_by(f64::total_cmp);
     let middling = &seen[seen.len() / 4..seen.len() / 4 + seen.len() / 2];
@@ -114,7 +115,7 @@ fn metered(mut seen: Vec<f64>) -> f64 {
     mean / AIM
 }
 
-/// π times the luminance along a ray, lx.
+/// Returns π times the luminance along a ray, lx.
 fn visible_lux(site: &Site, from: Vec3<Enu>, ray: Vec3<Enu>, light: &Lighting) -> f64 {
     let Some(hit) = site.ray(from, ray, REACH_M, light.ambient_at) else {
         return light.sky.visible_lux(Vec3::new(ray.east(), ray.north(), ray.up().max(0.0)));
@@ -151,7 +152,7 @@ mod tests {
         for lux in [1.0, 300.0, 20_000.0] {
             assert!(near(metered(vec![lux; PLACES]), lux / AIM));
         }
-        // From 1 to 4.4: no point exceeds the middle points fivefold.
+        // The values range from 1 to 4.4, so no point exceeds the middle points fivefold.
         let slope: Vec<f64> = (0..PLACES).map(|k| 1_000.0 + 100.0 * k as f64).collect();
         assert!(near(metered(slope), 2_700.0 / AIM));
     }
@@ -168,11 +169,11 @@ mod tests {
         // From a soffit at noon to the sky near the sun.
         const DARK_LUX: f64 = 30.0;
         const RANGE: f64 = 1_000.0;
-        // The middle 17 of 35 points share the logarithm of the range. With the cap, all points together weigh at least as much
-        // as 27 middle points (the 17, whose mean is no less than their geometric mean, and the 10 above), and the point itself
-        // at most as much as five.
+        // The middle 17 of the 35 points share the logarithm of the range. With the cap, all points together weigh at
+        // least as much as 27 middle points: the 17 (whose mean is no less than their geometric mean) and the 10 above.
+        // The changed point weighs at most as much as five.
         let leap = math::pow(RANGE, 1.0 / 17.0) * (1.0 + HIGHLIGHT / 27.0);
-        // Changing a point by 1 % moves the result by less than the point's share of both.
+        // Changing a point by 1 % moves the result by less than that point's share of both.
         let nudge = 1.0 + 0.01 * (1.0 / 17.0 + HIGHLIGHT / 27.0);
         let mut stream = RandomStream::new(7, "view.exposure");
         for bright in 0..PLACES {
@@ -202,7 +203,7 @@ mod tests {
             assert_eq!(meter.follow(100.0, SimTime::ZERO), 100.0);
             (1..=steps).fold(0.0, |_, k| meter.follow(1e4, SimTime::from_ms(k * 700 / steps)))
         };
-        // Two time constants: e⁻² of the initial two decades remain.
+        // After two time constants, e⁻² of the initial two decades remain.
         let expected = 1e4 * math::pow(1e-2, math::exp(-2.0));
         assert!(near(end(1), expected) && (end(70) / expected - 1.0).abs() < 1e-9, "{} and {}", end(1), end(70));
     }

@@ -1,4 +1,4 @@
-//! HUD inputs other than the flight itself: flight mode, satellites, cues and texts, decoded from the same frames.
+//! Additional HUD inputs, decoded from the telemetry frames: flight mode, satellites, cues and texts.
 
 use super::hud::GnssStatus;
 use mavlink::MessageData;
@@ -10,9 +10,9 @@ use spandrel_mavlink::dialect::{
 };
 use spandrel_model::time::SimTime;
 
-/// Timeout of a cue; the monitor repeats active cues at 5 Hz.
+/// Time after which an unrepeated cue expires; the monitor repeats active cues at 5 Hz.
 const CUES_LAST: SimTime = SimTime::from_ms(1_500);
-/// How long the shutter indicator is shown after a picture.
+/// Time for which the shutter indicator is shown after a picture.
 const SHUTTER: SimTime = SimTime::from_ms(300);
 
 /// Latest values received.
@@ -76,7 +76,7 @@ impl Feed {
         self.cues = Some((now, mask));
     }
 
-    /// Processes a text of the monitor; a crash text names the object that was hit.
+    /// Processes a text from the monitor; a crash text includes the name of the object that was hit.
     pub fn handle_text(&mut self, words: &str) {
         if let Some(what) = words.strip_prefix("Crash: ") {
             self.hit = Some(what.to_owned());
@@ -101,7 +101,7 @@ impl Feed {
         self.cues.filter(|(heard, _)| held || now.saturating_sub(*heard) <= CUES_LAST).map_or(0, |(_, mask)| mask)
     }
 
-    /// Returns the object that was hit last.
+    /// Returns the name of the object that was hit last.
     #[must_use]
     pub fn hit(&self) -> Option<&str> {
         self.hit.as_deref()
@@ -136,7 +136,7 @@ mod tests {
         feed.handle_datagram(&monitor.encode(&MavMessage::NAMED_VALUE_INT(cues)), now);
         assert_eq!((feed.mode(), feed.gnss()), ("Position", Some(GnssStatus { fixed: true, satellites: 11 })));
         assert_eq!(feed.cues(now + SimTime::from_ms(1_000), false), 12);
-        assert_eq!(feed.cues(now + SimTime::from_ms(2_000), false), 0, "the monitor has fallen silent");
+        assert_eq!(feed.cues(now + SimTime::from_ms(2_000), false), 0, "cues expire without repetition");
         feed.handle_text("Crash: bridge member arch/rib-left/07");
         assert_eq!(feed.hit(), Some("bridge member arch/rib-left/07"));
     }

@@ -1,12 +1,12 @@
-//! View direction and zoom of the inspector: follows the aircraft or looks freely.
+//! View direction and zoom of the inspector, who follows the aircraft or looks around freely.
 
 use super::camera::{EYE_HEIGHT_M, INSPECTOR_FOV_RAD, PinholeCamera};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
-/// Distance beyond which the view narrows on the aircraft, m, as with binoculars.
+/// Distance beyond which the view zooms in on the aircraft, m, as with binoculars.
 const NARROW_FROM_M: f64 = 60.0;
-/// Minimum field of view of the automatic narrowing, rad.
+/// Minimum field of view when zooming in automatically, rad.
 const NARROWEST_RAD: f64 = 0.22;
 /// Distance of the camera in front of the inspector's position, m, so that the inspector's body is not in the picture.
 const AHEAD_M: f64 = 0.45;
@@ -47,27 +47,28 @@ impl InspectorCamera {
         self.pitch_rad = (self.pitch_rad + up_rad).clamp(-STEEPEST_RAD, STEEPEST_RAD);
     }
 
-    /// View rotation per pixel, rad, for a view `height_px` high, so that the scene follows the pointer while dragging.
+    /// Returns the view rotation per pixel, rad, for a view `height_px` high, so that the scene follows the pointer
+    /// while dragging.
     #[must_use]
     pub fn rad_px(&self, height_px: f64, to: Vec3<Enu>) -> f64 {
         self.vfov_rad(to.norm()) / height_px.max(1.0)
     }
 
-    /// Multiplies the zoom; above 1 zooms in.
+    /// Multiplies the zoom factor by `times`; values above 1 zoom in.
     pub fn zoom(&mut self, times: f64) {
         if times.is_finite() {
             self.zoom = (self.zoom * times).clamp(*ZOOM.start(), *ZOOM.end());
         }
     }
 
-    /// Vertical field of view on an aircraft at a distance, rad.
+    /// Returns the vertical field of view for an aircraft at a distance, rad.
     fn vfov_rad(&self, distance_m: f64) -> f64 {
         let narrowed = if self.follows { NARROW_FROM_M / distance_m.max(NARROW_FROM_M) } else { 1.0 };
         let half = math::tan(0.5 * (INSPECTOR_FOV_RAD * narrowed).max(NARROWEST_RAD)) / self.zoom;
         2.0 * math::atan2(half, 1.0)
     }
 
-    /// Returns the camera of an inspector who stands at `stands_m`.
+    /// Returns the camera of an inspector standing at `stands_m`.
     #[must_use]
     pub fn eye(&self, stands_m: Vec3<Enu>, drone_m: Vec3<Enu>, aspect: f64) -> PinholeCamera {
         let to = drone_m - stands_m;
@@ -98,8 +99,8 @@ mod tests {
         assert!((gaze.eye(STANDS, north, 1.5).forward.north() - 1.0).abs() < 1e-9);
         gaze.turn(std::f64::consts::FRAC_PI_2, 0.0, north - STANDS);
         let east = gaze.eye(STANDS, north, 1.5).forward;
-        assert!((east.east() - 1.0).abs() < 1e-9, "a quarter turn to the right of north is east: {east:?}");
-        assert_eq!(gaze.eye(STANDS, Vec3::new(-9.0, 3.0, 50.0), 1.5).forward, east, "the aircraft moves, the eyes do not");
+        assert!((east.east() - 1.0).abs() < 1e-9, "a right quarter turn from north must end at east: {east:?}");
+        assert_eq!(gaze.eye(STANDS, Vec3::new(-9.0, 3.0, 50.0), 1.5).forward, east, "the view must not follow the aircraft");
         gaze.turn(0.0, 99.0, north);
         assert!((math::asin(gaze.eye(STANDS, north, 1.5).forward.up()) - STEEPEST_RAD).abs() < 1e-9);
     }
@@ -109,11 +110,11 @@ mod tests {
         let mut gaze = InspectorCamera::default();
         let far = Vec3::new(0.0, 150.0, EYE_HEIGHT_M);
         let before = gaze.eye(STANDS, far, 1.0).hfov_rad;
-        // The camera is slightly closer than the inspector's position.
+        // The camera is slightly closer to the aircraft than the inspector's position is.
         let apart = 0.01;
         gaze.turn(0.0, 0.0, far);
         assert!((gaze.eye(STANDS, far, 1.0).hfov_rad / before - 1.0).abs() < apart);
-        assert!((gaze.rad_px(500.0, far) * 500.0 / before - 1.0).abs() < apart, "a drag over the whole view turns by all of it");
+        assert!((gaze.rad_px(500.0, far) * 500.0 / before - 1.0).abs() < apart, "a drag across the whole view must turn it by its field of view");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Rendering of the inspector's view and sound of a flight, from the scenario and telemetry alone.
+//! Rendering of the inspector's view and the sound of a flight, from the scenario and telemetry only.
 //!
 //! Everything except `gpu` (feature `gpu`, wgpu) is plain data and pure functions. [`scene`] converts a
 //! [`Site`](spandrel_model::site::Site) into static meshes and per-picture instances; [`camera`] defines the projection; [`hud`]

@@ -20,10 +20,10 @@ pub enum MaterialGroup {
 }
 
 impl MaterialGroup {
-    /// All groups in drawing order. The ground comes last: it hides little and much hides it.
+    /// All groups in drawing order. The ground is last because other objects usually hide it.
     pub const ALL: [Self; 5] = [Self::Concrete, Self::Deck, Self::Steel, Self::Simple, Self::Ground];
 
-    /// Checks whether the material has specular reflection.
+    /// Checks whether the group's materials have specular reflection.
     #[must_use]
     pub const fn shines(self) -> bool {
         matches!(self, Self::Steel | Self::Simple)

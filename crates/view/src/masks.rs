@@ -37,8 +37,8 @@ impl LabelMask {
         ((1.0 + fraction / 1024.0) * spandrel_model::math::pow(2.0, f64::from(exponent - 15))).round() as u16
     }
 
-    /// Returns the legend of the labels: elements with their pixel counts; defects with kind, condition state, pixel count and
-    /// bounding box (left, top, width, height, px).
+    /// Returns the legend of the labels as JSON: elements with their pixel counts; defects with kind, condition state,
+    /// pixel count and bounding box (left, top, width, height, px).
     #[must_use]
     pub fn legend(&self, placed: &[PlacedDefect]) -> Value {
         let elements: Vec<Value> = self

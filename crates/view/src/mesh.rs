@@ -63,7 +63,7 @@ pub struct Vertex {
     pub aux: f32,
 }
 
-/// Triangle mesh, counterclockwise as seen from outside.
+/// Triangle mesh with counterclockwise winding as seen from outside.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mesh {
     /// Vertices.
@@ -82,7 +82,7 @@ pub struct SurfaceFinish {
 }
 
 impl SurfaceFinish {
-    /// Creates a finish.
+    /// Creates a finish from a material and a linear color.
     #[must_use]
     pub const fn new(material: Material, tint: [u8; 3]) -> Self {
         Self { material, tint }
@@ -109,7 +109,8 @@ impl Mesh {
         self.indices.extend(other.indices.iter().map(|k| k + first));
     }
 
-    /// Adds a flat convex polygon, corners counterclockwise as seen from outside; surface coordinates run along its first side.
+    /// Adds a flat convex polygon with corners counterclockwise as seen from outside. Surface coordinates start at the
+    /// first corner and run along the first side.
     pub fn polygon(&mut self, corners: &[Vec3<Enu>], finish: SurfaceFinish) {
         if corners.len() < 3 {
             return;
@@ -187,7 +188,7 @@ impl Mesh {
         }
     }
 
-    /// Adds an ellipsoid with three half axes; a `dent` in 0..1 makes it a boulder.
+    /// Adds an ellipsoid with three semi-axes; a `dent` in 0..1 makes it an irregular boulder.
     pub fn ball(&mut self, centre: Vec3<Enu>, half: [f64; 3], dent: f64, finish: SurfaceFinish) {
         self.ball_of((8, 12), centre, half, dent, finish);
     }
@@ -217,7 +218,7 @@ impl Mesh {
     }
 }
 
-/// A vertex that receives all indirect light; instances bring their own values.
+/// Creates a vertex that receives all indirect light; instances have their own light values.
 fn vertex(position: Vec3<Enu>, normal: Vec3<Enu>, uv: [f32; 2], finish: SurfaceFinish) -> Vertex {
     let [r, g, b] = finish.tint;
     Vertex {
@@ -237,7 +238,7 @@ mod tests {
 
     const FINISH: SurfaceFinish = SurfaceFinish::new(Material::Paint, [128, 128, 128]);
 
-    /// Volume by the divergence theorem: positive if the triangles face outward.
+    /// Returns the volume by the divergence theorem; it is positive if the triangles face outward.
     fn volume(mesh: &Mesh) -> f64 {
         let at = |k: u32| {
             let [x, y, z] = mesh.vertices[k as usize].position.map(f64::from);
@@ -253,7 +254,7 @@ mod tests {
         assert!((volume(&block) - 12.0).abs() < 1e-6, "{}", volume(&block));
         let mut cone = Mesh::default();
         cone.round((Vec3::zero(), 1.0), (Vec3::new(0.0, 0.0, 3.0), 0.0), 64, FINISH);
-        // A cone with 64 sides is 0.2 % smaller than π.
+        // The volume of a cone with 64 sides is 0.2 % smaller than π.
         assert!((volume(&cone) / math::PI - 1.0).abs() < 0.003, "{}", volume(&cone));
         let mut ball = Mesh::default();
         ball.ball(Vec3::new(5.0, 0.0, 0.0), [1.0; 3], 0.0, FINISH);

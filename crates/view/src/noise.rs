@@ -1,19 +1,19 @@
-//! A tile of noise for all materials, with mipmaps. The shaders sample it at the pixel size, which avoids aliasing at a distance
-//! and costs the same for any number of octaves.
+//! A noise tile with mipmaps for all materials. The shaders sample it at the pixel size, which avoids aliasing at a
+//! distance and costs the same for any number of octaves.
 
 use spandrel_model::random::RandomStream;
 
 /// Texels per side.
 pub const SIDE: usize = 512;
-/// Lattice cells per side: the tile repeats after this many units.
+/// Lattice cells per side; the tile repeats after this many cells.
 pub const CELLS: usize = 16;
 /// Octaves of the first channel; the finest has cells of two texels.
 const OCTAVES: usize = 5;
-/// Maximum distance in the third channel, cells; distances are stored as fractions of it.
+/// Maximum distance in the third channel, cells; the channel stores distances as fractions of it.
 pub const FARTHEST: f64 = 1.28;
 
-/// A mip level: row-major texels with four channels: several octaves of noise, one octave, distance to the nearest scattered
-/// point, and a number of that point.
+/// A mip level: row-major texels with four channels: several octaves of noise, one octave, distance to the nearest
+/// scattered point, and a random number of that point.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NoiseLevel {
     /// Texels per side.
@@ -71,7 +71,7 @@ fn tile() -> Vec<[f64; 4]> {
     (0..SIDE * SIDE).map(texel).collect()
 }
 
-/// Smooth interpolation between the corners of a periodic lattice.
+/// Interpolates smoothly between the corners of a periodic lattice.
 fn smooth(lattice: &[f64], cells: usize, x: f64, y: f64) -> f64 {
     let (cx, cy) = (x.floor(), y.floor());
     let fade = |t: f64| t * t * (3.0 - 2.0 * t);
@@ -82,7 +82,7 @@ fn smooth(lattice: &[f64], cells: usize, x: f64, y: f64) -> f64 {
     low + (high - low) * fy
 }
 
-/// Returns the distance to the nearest scattered point (one per cell) and that point's number.
+/// Returns the distance to the nearest scattered point (one per cell) and that point's random number.
 fn nearest(east: &[f64], north: &[f64], own: &[f64], x: f64, y: f64) -> (f64, f64) {
     let mut best = (f64::INFINITY, 0.0);
     let cell = |v: f64, step: i64| (v.floor() as i64 + step).rem_euclid(CELLS as i64) as usize;

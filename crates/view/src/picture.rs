@@ -22,7 +22,7 @@ impl Picture {
         }
     }
 
-    /// Mean luma (0..255) of a rectangle, clipped to the picture.
+    /// Returns the mean luma (0..255) of a rectangle, clipped to the picture.
     #[must_use]
     pub fn luma(&self, (left, top): (u32, u32), (right, bottom): (u32, u32)) -> f64 {
         let mut sum = 0.0;
@@ -37,7 +37,7 @@ impl Picture {
         if count > 0.0 { sum / count } else { 0.0 }
     }
 
-    /// Scales the picture down to at most `most_px` wide by averaging.
+    /// Scales the picture down to at most `most_px` wide by averaging; smaller pictures are returned unchanged.
     #[must_use]
     pub fn narrowed(&self, most_px: u32) -> Self {
         if self.width <= most_px {
@@ -51,7 +51,7 @@ impl Picture {
         Self { width, height, rgba: rgba.collect() }
     }
 
-    /// Mean color of a rectangle.
+    /// Returns the mean color of a rectangle.
     fn mean(&self, (left, top): (u32, u32), (right, bottom): (u32, u32)) -> [u8; 4] {
         let (mut sums, mut count) = ([0_u32; 3], 0);
         for (x, y) in (top..bottom).flat_map(|y| (left..right).map(move |x| (x, y))) {
@@ -63,7 +63,7 @@ impl Picture {
         [r, g, b, u8::MAX]
     }
 
-    /// Mean absolute difference per channel (0..255), or `None` if the sizes differ.
+    /// Returns the mean absolute difference per channel (0..255), or `None` if the sizes differ.
     #[must_use]
     pub fn difference(&self, other: &Self) -> Option<f64> {
         if (self.width, self.height) != (other.width, other.height) || self.rgba.is_empty() {
@@ -96,7 +96,7 @@ mod tests {
         let wide = Picture { width: 5, height: 4, rgba };
         assert_eq!(wide.narrowed(5), wide);
         let small = wide.narrowed(2);
-        // Columns 0 and 1, then 2 to 4; four rows become one.
+        // Columns 0 and 1 are averaged, then 2 to 4; the four rows become one.
         assert_eq!((small.width, small.height), (2, 1));
         assert_eq!([small.at(0, 0), small.at(1, 0)], [[80, 0, 200], [105, 0, 200]]);
         assert_eq!(wide.narrowed(0).rgba.len(), 4);

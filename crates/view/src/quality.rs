@@ -18,8 +18,9 @@ pub struct Quality {
     pub lamp_shadow: bool,
     /// Size of the water reflection relative to the picture; 0 reflects only the sky.
     pub reflection: f64,
-    /// Draws the ground and the lake with fewer triangles where the difference is not visible, and no lake bed in deep water. The
-    /// reflection omits boulders, hangers and railings, includes trees only nearby, and uses simplified bridges and mountains.
+    /// Draws the ground and the lake with fewer triangles where the difference is not visible, and no lake bed in deep
+    /// water. The reflection omits boulders, hangers and railings, includes only nearby trees, and uses simplified
+    /// bridges and mountains.
     pub sparse: bool,
     /// Spacing of baked light samples on the bridges, m.
     pub light_cell_m: f64,
@@ -27,12 +28,12 @@ pub struct Quality {
     pub light_rays: usize,
     /// Maximum number of trees.
     pub trees: usize,
-    /// Boughs per whorl of a tree; also sets the detail of boulders.
+    /// Branches per whorl of a tree; also sets the detail of boulders.
     pub boughs: u32,
-    /// Interpolates between two mip levels of noise; otherwise uses the nearest level at half the cost.
+    /// Whether to interpolate between two mip levels of noise; the nearest level costs half as much.
     pub smooth_noise: bool,
-    /// Computes light and haze per vertex, takes slow patterns from precomputed tiles, and omits highlights: a third of the cost
-    /// per pixel. The sun has one shadow map.
+    /// Computes light and haze per vertex, takes slow patterns from precomputed tiles, and omits highlights, which cuts
+    /// the cost per pixel to a third. The sun has one shadow map.
     pub lean: bool,
     /// Motion blur samples per pixel; 1 disables motion blur.
     pub blur_taps: u32,
@@ -111,7 +112,7 @@ pub const PRESETS: &[Quality] = &[
 ];
 
 impl Quality {
-    /// Returns the preset with this name, if there is one.
+    /// Returns the preset with the given name, if it exists.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         PRESETS.iter().find(|preset| preset.name == name).copied()

@@ -1,4 +1,5 @@
-//! Shader sources. Each is the common part followed by its own; tests parse and validate all of them without a GPU.
+//! Shader sources. Each consists of a common part and a specific part; tests parse and validate all of them without a
+//! GPU.
 
 /// Structures, noise, shadows and shading shared by the shaders.
 const COMMON: &str = include_str!("shaders/common.wgsl");

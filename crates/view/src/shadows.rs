@@ -72,7 +72,7 @@ mod tests {
         let low = map.projection.apply(Vec3::new(10.0, 20.0, 30.0));
         let high = map.projection.apply(Vec3::new(10.0, 20.0, 30.0) + sun * 25.0);
         assert!(high[2] > low[2] && low[2] > 0.0 && high[2] < 1.0);
-        // Both points are on one ray of the sun: the same texel.
+        // Both points are on one ray of the sun, so they map to the same texel.
         assert!((high[0] - low[0]).abs() < 1e-9 && (high[1] - low[1]).abs() < 1e-9);
         assert!(low[0].abs() < 2.0 / 1024.0 && low[1].abs() < 2.0 / 1024.0, "in the middle, to the texel");
     }

@@ -11,8 +11,8 @@ use spandrel_model::vehicle::Lamp;
 
 /// Camera noise at the lowest sensitivity, as a fraction of white (estimate: consumer sensors, about 40 dB).
 const NOISE_AT_100: f64 = 0.006;
-/// Vignetting: corners are darker by half of this fraction; elsewhere it grows with the square of the distance from the center
-/// (estimate: small wide-angle lenses).
+/// Vignetting: darkening of the corners by half of this fraction. It grows with the square of the distance from the
+/// center (estimate: small wide-angle lenses).
 const VIGNETTE: f64 = 0.45;
 
 /// Beam of a lamp.
@@ -31,7 +31,8 @@ pub struct LampBeam {
 }
 
 impl LampBeam {
-    /// Returns the beam of the aircraft's lamp, or `None` if it is off or absent. Uses the intensity of `site::look`.
+    /// Returns the beam of the aircraft's lamp, or `None` if it is off or absent. Uses the same intensity as
+    /// `site::visibility`.
     #[must_use]
     pub fn of(lamp: &Lamp, pose: &CameraPose) -> Option<Self> {
         let half_rad = 0.5 * lamp.beam_rad;
@@ -45,7 +46,7 @@ impl LampBeam {
     }
 }
 
-/// Conversion of light into a picture by a sensor or eye.
+/// Response of a sensor or an eye that turns light into a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilmResponse {
     /// Exposure.
@@ -65,7 +66,7 @@ impl FilmResponse {
         Self { exposure, noise: NOISE_AT_100 * (exposure.iso / 100.0).sqrt(), vignette: VIGNETTE, before: moved }
     }
 
-    /// Whether this is a camera, with sensor noise and vignetting, rather than an eye.
+    /// Checks whether this is a camera, with sensor noise and vignetting, rather than an eye.
     #[must_use]
     pub fn is_camera(&self) -> bool {
         self.noise > 0.0 || self.vignette > 0.0
@@ -107,7 +108,7 @@ impl Shot {
     }
 }
 
-/// Returns the mean wind of a scenario at 20 ft (direction it blows towards), east and north, m/s.
+/// Returns the mean wind of a scenario at 20 ft as the direction it blows toward, east and north, m/s.
 #[must_use]
 pub fn wind(scenario: &spandrel_model::scenario::Scenario) -> (f64, f64) {
     let (s, c) = math::sin_cos(scenario.wind.from_deg.to_radians());

@@ -15,7 +15,7 @@ const CLOUD: [f64; 3] = [0.97, 1.0, 1.05];
 /// estimate).
 const AIR: [f64; 3] = [0.07, 0.12, 0.24];
 
-/// Fraction of the blue of shade that a camera's white balance removes (estimate).
+/// Fraction of the blue tint of shade that a camera's white balance removes (estimate).
 const BALANCE: f64 = 0.55;
 
 /// Sky parameters of the shaders.
@@ -37,7 +37,7 @@ pub struct Sky {
     pub scale: f64,
 }
 
-/// Luminance of an RGB color (ITU-R BT.709).
+/// Returns the luminance of an RGB color (ITU-R BT.709).
 #[must_use]
 pub fn luminance(rgb: [f64; 3]) -> f64 {
     0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
@@ -48,7 +48,7 @@ fn coloured(rgb: [f64; 3], luminance_is: f64) -> [f64; 3] {
     rgb.map(|c| c * k)
 }
 
-/// Relative radiance of the sky in an upward direction.
+/// Returns the relative radiance of the sky in an upward direction.
 #[must_use]
 pub fn relative(direction: Vec3<Enu>, sun: Vec3<Enu>, cloud: f64) -> [f64; 3] {
     let up = direction.up().clamp(0.0, 1.0);
@@ -70,7 +70,8 @@ impl Sky {
         const BANDS: u32 = 16;
         const TURNS: u32 = 32;
         let mut sum = [0.0; 3];
-        // Equal shares of cos θ dω: the horizontal illuminance is the mean of π L over them.
+        // Each sample has an equal share of cos θ dω, so the horizontal illuminance is the mean of π L over the
+        // samples.
         for band in 0..BANDS {
             let up = ((f64::from(band) + 0.5) / f64::from(BANDS)).sqrt();
             let out = (1.0 - up * up).sqrt();
@@ -93,7 +94,7 @@ impl Sky {
         }
     }
 
-    /// π times the luminance in a direction, lx.
+    /// Returns π times the luminance in a direction, lx.
     #[must_use]
     pub fn visible_lux(&self, direction: Vec3<Enu>) -> f64 {
         self.scale * luminance(relative(direction, self.sun, self.cloud))
@@ -106,7 +107,8 @@ mod tests {
 
     #[test]
     fn exact_the_sky_gives_the_illuminance_of_the_measures() {
-        // Compares with an independent quadrature of 20,000 directions; tolerance for the coarse one inside.
+        // Compares with an independent quadrature over 20,000 directions; the tolerance allows for the coarser one in
+        // `Sky::new`.
         const TOLERANCE: f64 = 0.02;
         for (up, cloud) in [(0.9, 0.0), (0.2, 0.3), (0.5, 1.0)] {
             let sun = Vec3::new((1.0_f64 - up * up).sqrt(), 0.0, up);
@@ -118,7 +120,7 @@ mod tests {
                 let out = (1.0 - up * up).sqrt();
                 for turn in 0..turns {
                     let (s, c) = math::sin_cos(math::TAU * f64::from(turn) / f64::from(turns));
-                    // dω = dup dφ, and seen_lux is π L.
+                    // dω = dup dφ, and `visible_lux` returns π L.
                     let share = 2.0 / f64::from(bands * turns);
                     lux += sky.visible_lux(Vec3::new(out * c, out * s, up)) * up * share;
                 }

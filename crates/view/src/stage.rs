@@ -16,10 +16,10 @@ use spandrel_model::site::{CameraPose, Site};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 
-/// Distance within which the aircraft counts as visible in front of an object, m: the length of a wing.
+/// Distance in front of the aircraft within which an object does not count as hiding it, m (about the size of the aircraft).
 const BESIDE_M: f64 = 0.5;
 
-/// Constant inputs of a session.
+/// Inputs that stay constant during a session.
 #[derive(Debug, Clone, Copy)]
 pub struct Stage<'a> {
     /// The job.
@@ -32,7 +32,7 @@ pub struct Stage<'a> {
     pub scene: &'a Scene,
 }
 
-/// State of the aircraft and its camera.
+/// State of the aircraft and its camera at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneMoment {
     /// Simulation time.
@@ -59,7 +59,7 @@ pub struct CameraTurnRate {
 }
 
 impl CameraTurnRate {
-    /// Angular velocity, rad/s, of a camera with this right-hand axis, which the gimbal keeps level.
+    /// Returns the angular velocity, rad/s, of a camera with this right-hand axis, which the gimbal keeps level.
     #[must_use]
     pub fn angular_rad_s(&self, right: Vec3<Enu>) -> Vec3<Enu> {
         right * self.pitch_rad_s - Vec3::new(0.0, 0.0, self.heading_rad_s)
@@ -73,7 +73,7 @@ impl Stage<'_> {
         Sky::new(&self.site.light().daylight(at), self.scenario.light.cloud_cover)
     }
 
-    /// Returns the shot of the aircraft's camera; the aircraft itself is not in it.
+    /// Returns the shot of the aircraft's camera, which does not see the aircraft itself.
     #[must_use]
     pub fn camera(&self, moment: &SceneMoment, size_px: (u32, u32)) -> Shot {
         self.camera_frame(moment, size_px, &mut ExposureMeter::default())
@@ -96,7 +96,7 @@ impl Stage<'_> {
         self.inspector_view(&InspectorCamera::default(), moment, size_px, &mut ExposureMeter::default())
     }
 
-    /// Returns the shot of an inspector who looks freely, with eyes that adapt to the light.
+    /// Returns the shot of an inspector looking in any direction, with eyes that adapt to the light.
     #[must_use]
     pub fn inspector_view(
         &self,
@@ -297,7 +297,7 @@ mod tests {
 
     const ROUNDING: f64 = 1e-12;
 
-    /// A camera at the origin that looks north at this pitch.
+    /// Returns a moment with a camera at the origin that looks north at this pitch.
     fn moment(pitch_deg: f64, turn: CameraTurnRate) -> SceneMoment {
         let (up, north) = math::sin_cos(pitch_deg.to_radians());
         let zero = Vec3::new(0.0, 0.0, 0.0);
@@ -319,14 +319,14 @@ mod tests {
     fn exact_a_turning_camera_looked_elsewhere_when_its_shutter_opened() {
         let (degree, fast) = (1.0_f64.to_radians(), 100.0_f64.to_radians());
         let yawed = before(&moment(0.0, CameraTurnRate { heading_rad_s: fast, pitch_rad_s: 0.0 }), 0.01);
-        // Turning clockwise, it came from the west by one degree.
+        // The camera turned clockwise, so one degree earlier it pointed west of north.
         assert!((math::atan2(yawed.forward.east(), yawed.forward.north()) + degree).abs() < ROUNDING, "{yawed:?}");
         assert!(yawed.forward.up().abs() < ROUNDING && yawed.right.up().abs() < ROUNDING);
         assert!(
             (yawed.forward.dot(yawed.right)).abs() < ROUNDING
                 && (yawed.position_m - Vec3::new(-0.03, 0.0, 0.02)).norm() < ROUNDING
         );
-        // Turning up, it came from below at any pitch.
+        // The camera turned up, so it pointed lower before, at any pitch.
         for pitch_deg in [0.0, -60.0, 60.0] {
             let tilted = before(&moment(pitch_deg, CameraTurnRate { heading_rad_s: 0.0, pitch_rad_s: fast }), 0.01);
             assert!((math::asin(tilted.forward.up()).to_degrees() - (pitch_deg - 1.0)).abs() < 1e-9, "{tilted:?}");

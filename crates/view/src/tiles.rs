@@ -1,5 +1,5 @@
-//! Precomputed tiles for the cheaper presets: slow patterns of ground and concrete, several per texture, so that one lookup
-//! replaces four or five noise lookups. They repeat after [`GROUND_M`] and [`CONCRETE_M`]; the shader `lean` reads them.
+//! Precomputed tiles for the cheaper presets. One texture holds several slow patterns of ground or concrete, so that one lookup
+//! replaces four or five noise lookups. The tiles repeat after [`GROUND_M`] and [`CONCRETE_M`]; the shader `lean` reads them.
 
 use spandrel_model::random::RandomStream;
 
@@ -7,13 +7,13 @@ use spandrel_model::random::RandomStream;
 pub const SIDE: usize = 1024;
 /// Side of the ground tile, m.
 pub const GROUND_M: f64 = 32.0;
-/// Side of the concrete tile, m: a whole number of board widths and lengths.
+/// Side of the concrete tile, m: a whole multiple of the board width and length.
 pub const CONCRETE_M: f64 = 38.4;
 /// Width and length of formwork boards, m (as in the shader `surface`).
 const BOARD_M: (f64, f64) = (0.16, 2.4);
-/// Side of the cells of which some contain bird droppings, m (1.7 in the shader; here a tile holds whole cells).
+/// Side of a cell that may contain bird droppings, m. The shader uses 1.7; here the cells must divide the tile evenly.
 const SPLASH_CELL_M: f64 = 1.6;
-/// Fraction of the cells with droppings, and their radius, m.
+/// Fraction of cells that contain droppings, and radius of the droppings, m.
 const SPLASHES: (f64, f64) = (0.07, 0.045);
 
 /// A tile and its mipmaps, finest first: side and four bytes per texel.
@@ -22,8 +22,8 @@ pub type MipLevels = Vec<(usize, Vec<u8>)>;
 /// One pattern of the tile in row-major order.
 type TilePattern = Vec<f32>;
 
-/// Noise with this many cells across and down in its first octave; each octave has twice the frequency and half the amplitude.
-/// Mean about 0.5.
+/// Returns noise with this many cells across and down in its first octave; each further octave has twice the frequency
+/// and half the amplitude. The mean is about 0.5.
 fn noise(stream: &mut RandomStream, (columns, rows): (usize, usize), octaves: u32) -> TilePattern {
     let mut field = vec![0.5; SIDE * SIDE];
     for octave in 0..octaves {
@@ -34,7 +34,8 @@ fn noise(stream: &mut RandomStream, (columns, rows): (usize, usize), octaves: u3
     field
 }
 
-/// Interpolation positions of the texels between lattice corners: previous corner, next corner, smooth fraction.
+/// Returns the interpolation positions of the texels between lattice corners: previous corner, next corner, smooth
+/// fraction.
 fn between(cells: usize) -> Vec<(usize, usize, f32)> {
     let of = |k: usize| {
         let at = k as f32 * cells as f32 / SIDE as f32;
@@ -61,13 +62,13 @@ fn step(low: f32, high: f32, x: f32) -> f32 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// Returns the ground tile: patches two meters wide, blocks of rock, beds of rock, fine detail.
+/// Returns the ground tile: patches two meters wide, blocks of rock, rock strata, fine detail.
 #[must_use]
 pub fn ground() -> MipLevels {
     let mut stream = RandomStream::new(0, "view.tiles.ground");
     let (near, block) = (noise(&mut stream, (16, 16), 5), noise(&mut stream, (26, 26), 5));
     let (straight, fine) = (noise(&mut stream, (4, 22), 4), noise(&mut stream, (128, 128), 3));
-    // Beds of rock waver by about a meter.
+    // The rock strata waver by about a meter.
     let bed = |k: usize| {
         let shift = (30.0 * (near[k] - 0.5)) as i64;
         let row = ((k / SIDE) as i64 + shift).rem_euclid(SIDE as i64) as usize;
@@ -76,8 +77,8 @@ pub fn ground() -> MipLevels {
     levels((0..SIDE * SIDE).map(|k| [near[k], block[k], bed(k), fine[k]].map(byte)).collect())
 }
 
-/// Returns the concrete tile: tone about 0.5 (blotches and boards), rain streaks, soot, bird droppings; the last three as
-/// fractions.
+/// Returns the concrete tile: tone around 0.5 (blotches and boards), and as fractions rain streaks, soot and bird
+/// droppings.
 #[must_use]
 pub fn concrete() -> MipLevels {
     let mut stream = RandomStream::new(0, "view.tiles.concrete");
@@ -101,7 +102,7 @@ fn whole(x: f64) -> usize {
     x.round() as usize
 }
 
-/// White droppings, elongated downwards.
+/// Returns white droppings, elongated downward.
 fn splashes(stream: &mut RandomStream) -> TilePattern {
     let mut field = vec![0.0; SIDE * SIDE];
     let (cells, texel_m) = (whole(CONCRETE_M / SPLASH_CELL_M), CONCRETE_M / SIDE as f64);
@@ -148,7 +149,7 @@ fn levels(finest: Vec<[u8; 4]>) -> MipLevels {
 mod tests {
     use super::*;
 
-    /// Value of a channel at a texel of the finest level.
+    /// Returns the value of a channel at a texel of the finest level.
     fn at(levels: &MipLevels, x: usize, y: usize, channel: usize) -> f64 {
         f64::from(levels[0].1[4 * (y * SIDE + x) + channel]) / 255.0
     }
@@ -177,7 +178,7 @@ mod tests {
         let tile = concrete();
         let cells = whole(CONCRETE_M / SPLASH_CELL_M);
         let white = tile[0].1.chunks(4).filter(|texel| texel[3] > 127).count() as f64 / (SIDE * SIDE) as f64;
-        // An ellipse of 45 x 100 mm in some of the cells; chance varies the sum by a third.
+        // Each dropping is an ellipse of 45 x 100 mm; randomness varies the total by up to a third.
         let expected = SPLASHES.0 * core::f64::consts::PI * SPLASHES.1 * SPLASHES.1 / 0.45 / (SPLASH_CELL_M * SPLASH_CELL_M);
         assert!((white / expected - 1.0).abs() < 0.34, "{white} of the tile, {expected} expected from {} squares", cells * cells);
     }

@@ -26,13 +26,13 @@ pub struct Bench {
     pub now: SimTime,
     pub sticks: Option<Sticks>,
     pub actuators: Actuators,
-    /// The GNSS receiver has no signal.
+    /// Whether the GNSS receiver has no signal.
     pub jammed: bool,
-    /// The optical-flow sensor has no valid image.
+    /// Whether the optical-flow sensor has no valid image.
     pub dark: bool,
-    /// Modifies the sensor readings.
+    /// Function that modifies the sensor readings.
     pub tamper: Option<fn(&mut Readings, SimTime)>,
-    /// Failures injected by the instructor.
+    /// Failures injected by an instructor.
     pub faults: Faults,
     control: Schedule,
     stick_clock: Schedule,
@@ -129,7 +129,7 @@ impl Bench {
         bench
     }
 
-    /// Resets the clock to an earlier time, for a saved state.
+    /// Resets the clock to an earlier time, to continue from a saved state.
     pub fn rewind(&mut self, to: SimTime) {
         self.now = to;
         self.control = Schedule::new(SimTime::ZERO, CONTROL_HZ);

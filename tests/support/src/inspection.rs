@@ -1,22 +1,24 @@
-//! A recorded long inspection of the paper's job: each reference path in both directions, with photos at regular intervals.
+//! A long recorded inspection of the TASBID job: each reference path in both directions, with photos at regular
+//! intervals.
 
 use crate::job::Tape;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::Scenario;
 
-/// The paper's job.
+/// Returns the TASBID job.
 pub fn two_bridges() -> Scenario {
     let text = spandrel_model::shipped::TWO_BRIDGES;
     spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap()
 }
 
-/// The aircraft used for it.
+/// Returns the aircraft used in the TASBID job.
 pub fn phantom() -> spandrel_model::vehicle::Vehicle {
     spandrel_model::vehicle::read("phantom2.toml", spandrel_model::shipped::PHANTOM2).unwrap()
 }
 
-/// Flies the tasks in turn, with the camera in the paths' viewing directions, until `seconds` have passed; then lands on the pad.
+/// Flies the tasks in turn, with the camera in the viewing directions of the paths, until `seconds` have passed; then
+/// lands on the pad.
 pub fn flown(job: &Scenario, seconds: f64, picture_every: usize) -> Tape {
     let mut tape = Tape::of(job);
     let pad = job.ground_team.pad_m;
@@ -35,7 +37,7 @@ pub fn flown(job: &Scenario, seconds: f64, picture_every: usize) -> Tape {
                 }
                 tape.yaw_rad = math::atan2(look.east(), look.north());
                 tape.gimbal(math::asin(look.up().clamp(-1.0, 1.0)));
-                // Simulated pilot deviations, equal in every run.
+                // Simulated pilot deviations, the same in every run.
                 let wander = Vec3::new(0.4 * math::sin(0.7 * f64::from(points)), 0.4 * math::cos(0.9 * f64::from(points)), 0.2);
                 tape.fly(tuple(at + wander), 1.5 + 3.5 * f64::from(points % 7) / 6.0);
                 tape.clearance(2.0 + (points % 11) as f32 * 0.4);

@@ -1,4 +1,4 @@
-//! A small job, a site with predefined query results, and a recorder of datagrams as a vehicle would send them.
+//! A small job, a site with predefined query results, and a recorder of datagrams in the form that a vehicle sends.
 
 use spandrel_mavlink::codec::Encoder;
 use spandrel_mavlink::dialect::*;
@@ -197,7 +197,7 @@ pub fn vehicle() -> Vehicle {
     }
 }
 
-/// Makes defect k (from 1) visible to every camera within one meter of 10 k m east.
+/// A site on which defect k (from 1) is visible to every camera within one meter of 10 k m east.
 #[derive(Debug)]
 pub struct Fence {
     pub defects: Vec<PlacedDefect>,
@@ -277,17 +277,17 @@ impl Default for Tape {
 }
 
 impl Tape {
-    /// Creates a tape with the aircraft armed on the pad at simulation time zero, and seed and scenario published.
+    /// Creates a tape with the aircraft armed on the pad at simulation time zero, with the seed and scenario CRC sent.
     pub fn new() -> Self {
         Self::of(&scenario(Vec::new()))
     }
 
-    /// Creates such a tape for any job.
+    /// Creates a tape like [`Self::new`] for any job.
     pub fn of(job: &Scenario) -> Self {
         Self::starting_at(0, job)
     }
 
-    /// Creates such a tape for a simulator that has already run for `epoch_ms`, ms.
+    /// Creates a tape like [`Self::of`] for a simulator that has already run for `epoch_ms`, ms.
     pub fn starting_at(epoch_ms: u64, job: &Scenario) -> Self {
         let plane = LocalPlane::new(job.origin);
         let at_m = job.ground_team.pad_m + Vec3::new(0.0, 0.0, 0.15);
@@ -304,7 +304,7 @@ impl Tape {
         tape
     }
 
-    /// Returns the clock of 32-bit milliseconds.
+    /// Returns the time as a 32-bit millisecond counter.
     fn clock_ms(&self) -> u32 {
         (self.epoch_ms + u64::from(self.now_ms)) as u32
     }

@@ -1,14 +1,14 @@
-//! Shared code of Spandrel's tests and benchmarks. Not shipped.
+//! Shared code of Spandrel's tests and benchmarks. It is not part of the product.
 //!
 //! | module | feature | contents |
 //! |---|---|---|
-//! | [`shipped`] | | the shipped scenarios and vehicles by name |
+//! | [`shipped`] | | the supplied scenarios and vehicles by name |
 //! | [`aircraft`] | | a quadrotor with round numbers, for closed-form tests |
 //! | `station` | `vehicle` | a ground station on an in-process vehicle |
 //! | `plans` | `vehicle` | plans for the drill site, and their upload |
 //! | `bench` | `vehicle` | an autopilot and its aircraft in flight, without MAVLink |
 //! | `job` | `telemetry` | a small job, and a recorder of the datagrams of a flight |
-//! | `inspection` | `telemetry` | a recorded long inspection of the paper's job |
+//! | `inspection` | `telemetry` | a long recorded inspection of the TASBID job |
 //! | `studio` | `view` | a site prepared for software rendering, and cameras in it |
 #![allow(clippy::unwrap_used, reason = "a test")]
 #![allow(missing_docs, reason = "test support")]

@@ -1,4 +1,4 @@
-//! Plans for the drill site: mission items and uploads that answer the vehicle's requests.
+//! Plans for the drill site: mission items, and uploads that answer the vehicle's requests.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use crate::station::Station;
@@ -64,7 +64,7 @@ pub fn upload(station: &mut Station, items: &[MISSION_ITEM_INT_DATA]) -> MavMiss
         station.run_ms(1);
         wanted = station.last_message(asked);
     }
-    station.last_message(result).expect("every upload ends with an acknowledgement")
+    station.last_message(result).expect("every upload must end with an acknowledgment")
 }
 
 pub fn ready(seed: u64) -> Station {

@@ -25,7 +25,7 @@ pub fn one(value: f32) -> [f32; 7] {
     p(&[value])
 }
 
-/// [`Vehicle`] for tests: a missed deadline panics, and responses are immediate.
+/// [`Vehicle`] for tests, in which a missed deadline panics and responses must be immediate.
 #[derive(Debug, Clone)]
 pub struct Station {
     pub vehicle: Vehicle,
@@ -56,7 +56,7 @@ impl Station {
         Self::start(&flavour::px4::FLAVOUR, scenario, vehicle, (seed, 0), None)
     }
 
-    /// Creates a station for another autopilot protocol.
+    /// Creates a station for another emulated autopilot.
     pub fn speaking(flavour: &'static Flavour, scenario_name: &str, seed: u64) -> Self {
         Self::start(flavour, shipped::scenario(scenario_name), "phantom2", (seed, 0), None)
     }
@@ -97,7 +97,7 @@ impl Station {
         self.sim.handle_timeout(until);
         while let Some(transmit) = self.vehicle.sim.poll_transmit() {
             let frames = self.decoder.datagram(&transmit.bytes);
-            assert_eq!(self.decoder.bad_bytes(), 0, "complete frames only");
+            assert_eq!(self.decoder.bad_bytes(), 0, "all frames must be complete");
             self.vehicle.received.extend(frames);
         }
     }
@@ -213,7 +213,7 @@ impl Station {
             MavMessage::COMMAND_ACK(ack) if ack.command == command && ack.target_system == 255 => Some(ack.result),
             _ => None,
         })
-        .unwrap_or_else(|| panic!("{command:?} was not acknowledged"))
+        .unwrap_or_else(|| panic!("no acknowledgment of {command:?}"))
     }
 
     pub fn sticks(&mut self, forward: i16, right: i16, z: i16, yaw: i16) {

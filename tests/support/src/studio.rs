@@ -23,13 +23,13 @@ pub fn at(east: f64, north: f64, up: f64) -> Vec3<Enu> {
     Vec3::new(east, north, up)
 }
 
-/// The paper's job.
+/// Returns the TASBID job.
 pub fn two_bridges() -> Scenario {
     let text = spandrel_model::shipped::TWO_BRIDGES;
     spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap()
 }
 
-/// The paper's job on a bright summer day.
+/// Returns the TASBID job on a bright summer day.
 pub fn sunny() -> Scenario {
     let mut scenario = two_bridges();
     scenario.light.start_unix_s = FORENOON;
@@ -37,19 +37,19 @@ pub fn sunny() -> Scenario {
     scenario
 }
 
-/// The paper's job at dusk: forty minutes after its start time, just after sunset.
+/// Returns the TASBID job at dusk: forty minutes after its start time, just after sunset.
 pub fn dusk() -> Scenario {
     let mut scenario = two_bridges();
     scenario.light.start_unix_s += 2_400;
     scenario
 }
 
-/// The aircraft used for it.
+/// Returns the aircraft used in the TASBID job.
 pub fn phantom() -> Vehicle {
     spandrel_model::vehicle::read("phantom2.toml", spandrel_model::shipped::PHANTOM2).unwrap()
 }
 
-/// A site and its renderer.
+/// A site with its renderer.
 pub struct Studio {
     pub scenario: Scenario,
     pub vehicle: Vehicle,
@@ -63,7 +63,7 @@ pub struct Studio {
 }
 
 impl Studio {
-    /// Creates a studio with the software renderer, which works on any machine.
+    /// Creates a studio with the software renderer, which works on every machine.
     pub fn new(scenario: Scenario, seed: u64, quality: &str, at: SimTime) -> Self {
         Self::on(Gpu::open_software().unwrap(), scenario, seed, quality, at)
     }

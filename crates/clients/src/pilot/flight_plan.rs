@@ -1,6 +1,6 @@
-//! Exports a job as a QGroundControl plan file
-//! (<https://docs.qgroundcontrol.com/master/en/qgc-dev-user-guide/file_formats/plan.html>): reference paths of the tasks,
-//! transits, speeds, gimbal and lamp commands, and pictures.
+//! Export of a job as a QGroundControl plan file
+//! (<https://docs.qgroundcontrol.com/master/en/qgc-dev-user-guide/file_formats/plan.html>): reference paths of the
+//! tasks, transits, speeds, gimbal and lamp commands, and pictures.
 
 use super::goals::{FlightGoal, PlanningContext, hover_point_over_pad};
 use super::track::TrackLeg;
@@ -10,19 +10,21 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::math;
 
-/// Maximum spacing of task waypoints, m. Turns and changes in the line of sight get a waypoint of their own.
+/// Maximum spacing of task waypoints, m. Turns and changes in the line of sight also get a waypoint.
 const TASK_STRIDE_M: f64 = 4.0;
 const TRANSIT_STRIDE_M: f64 = 12.0;
 const TURN_RAD: f64 = 0.15;
-/// Waypoint acceptance radius, m: the narrowest task threshold that ships, less the expected path error (estimate).
+/// Waypoint acceptance radius, m: the narrowest task threshold in the supplied jobs, less the expected path error
+/// (estimate).
 const TASK_ACCEPT_M: f64 = 0.8;
 const TRANSIT_ACCEPT_M: f64 = 1.2;
-/// Maximum leg speed as a fraction of the job's speed limit; leaves a margin for gusts and estimator error (estimate).
+/// Maximum leg speed as a fraction of the job's speed limit, which leaves a margin for gusts and estimator error
+/// (estimate).
 const SPEED_SHARE: f64 = 0.9;
-/// Transit clearance in addition to the job's "too close" distance, m (estimate: GNSS drift reaches 1 m, and corners are
+/// Clearance added to the job's "too close" distance in transit, m (estimate: GNSS drift reaches 1 m, and corners are
 /// rounded).
 const CLEAR_BY_M: f64 = 2.0;
-/// Smallest gimbal pitch change that gets a mission item, degrees.
+/// Smallest change of the gimbal pitch that gets a mission item, degrees.
 const GIMBAL_STEP_DEG: f64 = 3.0;
 /// Interval between pictures during a task, s (estimate: one for every few meters of path).
 const PICTURE_EVERY_S: f64 = 2.0;
@@ -42,7 +44,7 @@ const STOP_CAPTURE: u16 = 2001;
 /// MAV_MOUNT_MODE_MAVLINK_TARGETING.
 const TARGETING: f64 = 2.0;
 
-/// Appends mission items in order.
+/// Builds a list of mission items in order.
 struct PlanWriter {
     plane: LocalPlane,
     pad_up_m: f64,
@@ -64,7 +66,7 @@ impl PlanWriter {
         });
         if frame == RELATIVE {
             item["Altitude"] = json!(params[6]);
-            // Altitude relative to home.
+            // 1 means an altitude relative to home.
             item["AltitudeMode"] = json!(1);
             item["AMSLAltAboveTerrain"] = Value::Null;
         }

@@ -1,4 +1,5 @@
-//! Plans a job as a sequence of legs: transits around obstacles, tasks along their reference paths, and the flight home.
+//! Planning of a job as a sequence of legs: transits around obstacles, tasks along their reference paths, and the
+//! flight home.
 
 use super::route_search;
 use super::track::TrackLeg;
@@ -26,7 +27,7 @@ pub enum FlightGoal {
     Home,
 }
 
-/// Task speed, m/s: below the 10 mph limit by a margin that depends on the path's shape (estimate).
+/// Returns the speed of a task, m/s: below the 10 mph limit by a margin that depends on the path's shape (estimate).
 fn task_speed_m_s(task: &Task) -> f64 {
     match task.kind {
         TaskKind::SlabSide => 3.3,
@@ -37,7 +38,7 @@ fn task_speed_m_s(task: &Task) -> f64 {
     }
 }
 
-/// Returns the hover point above the landing pad where flights begin and end, ENU, m.
+/// Returns the hover point above the landing pad, where flights begin and end, ENU, m.
 #[must_use]
 pub fn hover_point_over_pad(scenario: &Scenario) -> Vec3<Enu> {
     scenario.ground_team.pad_m + Vec3::new(0.0, 0.0, PAD_HOVER_M)
@@ -54,12 +55,12 @@ pub struct PlanningContext<'a> {
     pub vehicle: &'a Vehicle,
     /// Simulation time of planning.
     pub at: SimTime,
-    /// Clearance to keep in transit, m, except near an endpoint that has less. `None` uses the pilot's default.
+    /// Clearance in transit, m, except near an endpoint that has less. `None` uses the pilot's default.
     pub keep_clear_m: Option<f64>,
 }
 
 impl PlanningContext<'_> {
-    /// Minimum clearance for planning, m: the clearance that `check` requires of a path.
+    /// Returns the minimum clearance for planning, m, which is the clearance that `check` requires of a path.
     fn clearance_m(&self) -> f64 {
         0.5 * self.vehicle.hull.tip_to_tip_m + 0.5
     }
@@ -69,7 +70,7 @@ impl PlanningContext<'_> {
         route_search::route(self.site, (from, to), self.clearance_m(), self.keep_clear_m, ceiling, self.at)
     }
 
-    /// Appends a transit to a leg: fast in the open, slow near obstacles.
+    /// Appends a transit to a leg: fast in the open and slow near obstacles.
     fn append_route(&self, leg: &mut TrackLeg, from: Vec3<Enu>, to: Vec3<Enu>) {
         const STEP_M: f64 = 3.0;
         let mut last = from;
@@ -129,7 +130,7 @@ impl PlanningContext<'_> {
     }
 }
 
-/// Ensures that a leg has at least two points; a leg flown on the spot gets a second point a few centimeters away.
+/// Ensures that a leg has at least two points. If it has only one, adds a second point a few centimeters away.
 fn ensure_two_points(leg: &mut TrackLeg, at: Vec3<Enu>) {
     if leg.points_m.is_empty() {
         leg.push(at, 1.0, None, None);
@@ -140,7 +141,8 @@ fn ensure_two_points(leg: &mut TrackLeg, at: Vec3<Enu>) {
     }
 }
 
-/// Path indices in flying order: from the nearer end, or, on a closed path, from the nearest point with a short overlap.
+/// Returns the path indices in flying order: from the nearer end, or, on a closed path, from the nearest point with a
+/// short overlap.
 fn flying_order(task: &Task, from: Vec3<Enu>) -> Vec<usize> {
     const OVERLAP: usize = 4;
     let n = task.path_m.len();

@@ -15,7 +15,7 @@ use spandrel_model::time::SimTime;
 
 /// Heading loop gain of the trained pilot, 1/s (estimate).
 const YAW_PER_S: f64 = 1.3;
-/// Fraction of the perceived speed error added to the stick command, trained pilot (estimate).
+/// Fraction of the perceived speed error that is added to the stick command, trained pilot (estimate).
 const SPEED_FEEDBACK: f64 = 0.35;
 /// Time without progress after which the aircraft counts as stuck, s.
 const STUCK_S: f64 = 6.0;
@@ -29,11 +29,12 @@ const BREAK_OFF_PCT: f64 = 12.0;
 const AIMED_RAD: f64 = 0.12;
 /// Maximum number of picture attempts per defect.
 const TRIES: u32 = 2;
-/// How long a poorly visible defect is ignored, s; it may be easier to see from a later point on the path (estimate).
+/// Time for which a poorly visible defect is ignored, s; it may be easier to see from a later point on the path
+/// (estimate).
 const LEAVE_S: f64 = 15.0;
-/// Standard deviation of the incidence angle judged by eye, trained pilot, rad (4 degrees, estimate).
+/// Standard deviation of the incidence angle estimated by eye, trained pilot, rad (4 degrees, estimate).
 const JUDGE_RAD: f64 = 0.07;
-/// Relative standard deviation of size and brightness judged on a screen, trained pilot (estimate).
+/// Relative standard deviation of size and brightness estimated on a screen, trained pilot (estimate).
 const JUDGE_SHARE: f64 = 0.15;
 
 /// A noticed defect that is being photographed.
@@ -111,12 +112,12 @@ impl Pilot {
         self.search_picture(belief, &mut wish);
         self.payload(&wish, belief);
         wish.velocity_m_s += self.avoid_obstacles(belief);
-        // Compensates for the pilot's misjudged speed: the commanded velocity is scaled by the perceived speed.
+        // Compensates for the pilot's wrong perception of speed by scaling the commanded velocity with the perceived speed.
         wish.velocity_m_s = wish.velocity_m_s / self.perception.speed_scale();
         sticks(wish.velocity_m_s, belief, wish.line_of_sight, &self.config)
     }
 
-    /// Handles motors that stopped in flight: tries to continue unless the session is over.
+    /// Handles motors that stopped in flight: continues the job unless the session is over.
     fn recover_from_disarm(&mut self) -> StickAxes {
         if matches!(self.link.status.contact, ContactKind::Person | ContactKind::Vehicle) {
             self.finish("hit a person or a vehicle");
@@ -195,7 +196,7 @@ impl Pilot {
         near.normal * (push + 1.5 * self.config.skill.gain * gap)
     }
 
-    /// Searches the picture and points the camera at what was noticed.
+    /// Searches the picture and points the camera at a noticed defect.
     fn search_picture(&mut self, belief: &MotionState, wish: &mut TrackCommand) {
         self.glimpse(wish.task.is_some());
         let Some(target) = self.guidance.target else { return };
@@ -208,7 +209,7 @@ impl Pilot {
         }
         let line = target.position_m - belief.position_m;
         wish.line_of_sight = Some(line.unit());
-        // Approaches slowly to a point along the defect's normal, no farther out than the corridor allows.
+        // Approaches a point along the defect's normal slowly, and no farther out than the corridor allows.
         let threshold_m = wish.task.map_or(2.0, |t| self.config.scenario.tasks[t].threshold_m);
         let stand_m = target.normal * line.norm().clamp(2.0, 6.0);
         let shift = (target.position_m + stand_m - belief.position_m).limited(0.5 * threshold_m);
@@ -244,7 +245,7 @@ impl Pilot {
         }
     }
 
-    /// Takes a picture once the camera is aimed and the defect seems well framed, then retries if the result looks poor.
+    /// Takes a picture when the camera is aimed and the defect seems well framed; retries if the result looks poor.
     fn photograph(&mut self, mut target: PhotoTarget, line: Vec3<Enu>, belief: &MotionState) {
         if let Some(pressed) = target.triggered {
             if (self.now - pressed).s() < 0.6 + self.config.skill.delay_s {
@@ -266,7 +267,7 @@ impl Pilot {
         self.guidance.target = Some(target);
     }
 
-    /// Checks whether the defect appears well framed on the screen, within this pilot's judgment.
+    /// Checks whether the defect appears well framed on the screen, as this pilot judges it.
     fn is_well_framed(&self, target: &PhotoTarget) -> bool {
         let (vehicle, skill) = (&self.config.vehicle, self.config.skill);
         let (Some(site), Some(picture)) = (&self.site, self.perception.delayed_view(skill.delay_s)) else { return true };

@@ -1,7 +1,7 @@
-//! A synthetic trainee that flies over MAVLink like a person at a ground station, with MANUAL_CONTROL and the lamp, gimbal and
-//! camera commands only. It knows the job (scenario, reference paths, lines of sight) and perceives the world with delay and
-//! error. Its errors arise from noise; no type of error is scripted. Sans-IO: datagrams in, datagrams out; time comes from the
-//! vehicle.
+//! A synthetic trainee that flies over MAVLink like a person at a ground station. It uses only MANUAL_CONTROL and the
+//! lamp, gimbal and camera commands. It has the job's data (scenario, reference paths, lines of sight) and perceives
+//! the aircraft with delay and error. Its errors arise from noise; no type of error is scripted. Sans-IO: it consumes
+//! and produces datagrams, and takes the time from the vehicle.
 
 pub mod goals;
 pub mod perception;
@@ -31,13 +31,13 @@ use stick_response::StickResponse;
 use vehicle_link::{VehicleLink, VehicleUpdate};
 use visual_search::VisualSearch;
 
-/// Retry interval for a command that has not taken effect, s.
+/// Interval after which a command that has not taken effect is sent again, s.
 const RETRY_S: f64 = 1.5;
 /// Maximum horizontal distance from the pad's center for a descent, m (estimate: within reach of the last correction).
 const OVER_PAD_M: f64 = 2.5;
-/// Minimum height of an approach from farther away, m (estimate: clears the truck).
+/// Minimum height during the approach to the pad, m (estimate: clears the truck).
 const APPROACH_M: f64 = 5.0;
-/// Timeout for the start of a flight, s of simulation time.
+/// Timeout for the vehicle to become ready and the aircraft to climb, s of simulation time.
 const PATIENCE_S: f64 = 60.0;
 
 /// Configuration of a synthetic pilot.
@@ -53,10 +53,10 @@ pub struct PilotConfig {
     pub seed: u64,
 }
 
-/// The end of the flight, as perceived by the pilot.
+/// Report of the end of a flight, as perceived by the pilot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PilotReport {
-    /// Reason for the end, as text.
+    /// Reason for the end of the flight.
     pub reason: String,
     /// Simulation time at the end.
     pub at: SimTime,
@@ -107,7 +107,7 @@ pub struct Pilot {
 }
 
 impl Pilot {
-    /// Creates a pilot who knows the job.
+    /// Creates a pilot for a job, an aircraft and a skill.
     #[must_use]
     pub fn new(config: PilotConfig) -> Self {
         let jobs = (0..config.scenario.tasks.len()).map(FlightGoal::Task).chain([FlightGoal::Home]).collect();
@@ -135,7 +135,7 @@ impl Pilot {
         }
     }
 
-    /// Processes one datagram and queues the responses.
+    /// Processes a datagram and queues the responses.
     pub fn handle_datagram(&mut self, bytes: &[u8]) {
         let plane = spandrel_model::geodesy::LocalPlane::new(self.config.scenario.origin);
         for news in self.link.receive(bytes, &plane) {
@@ -192,7 +192,7 @@ impl Pilot {
         }
     }
 
-    /// Processes one motion sample (50 Hz).
+    /// Processes a motion sample (50 Hz).
     fn observe(&mut self, motion: MotionState) {
         let put_back = self.link.status.respawns != self.respawns;
         if motion.time <= self.now || (self.phase == PilotPhase::Done && !(put_back && self.landed())) {
@@ -239,7 +239,7 @@ impl Pilot {
         }
     }
 
-    /// Checks whether a command may be retried now.
+    /// Checks whether enough time has passed to send a command again.
     fn may_retry(&mut self) -> bool {
         let may = (self.now - self.last_attempt).s() > RETRY_S;
         if may {

@@ -1,4 +1,4 @@
-//! The pilot's perception of the aircraft's motion, with delay and drifting error.
+//! Model of how the pilot perceives the aircraft's motion, with delay and drifting error.
 
 use super::skill::Skill;
 use spandrel_model::frames::{Enu, Vec3};
@@ -64,7 +64,7 @@ pub struct Perception {
 }
 
 impl Perception {
-    /// Creates the perception of a pilot, seeded.
+    /// Creates the perception of a pilot from a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let mut random = RandomStream::new(seed, "pilot perception");
@@ -82,7 +82,7 @@ impl Perception {
         }
     }
 
-    /// Returns the motion `delay_s` ago without error, as shown on the screen.
+    /// Returns the motion `delay_s` ago without error, as it appeared on the screen.
     #[must_use]
     pub fn delayed_view(&self, delay_s: f64) -> Option<MotionState> {
         let last = self.history.back()?;
@@ -90,7 +90,7 @@ impl Perception {
         self.history.iter().rev().find(|m| m.time <= wanted).or_else(|| self.history.front()).copied()
     }
 
-    /// Returns the perceived motion: delayed, not extrapolated, with drifting errors.
+    /// Returns the perceived motion: delayed, not extrapolated, and with drifting errors.
     pub fn estimate(&mut self, skill: &Skill, dt_s: f64) -> Option<MotionState> {
         let truth = self.delayed_view(skill.delay_s)?;
         let mut offset = [0.0; 3];
@@ -108,7 +108,8 @@ impl Perception {
         })
     }
 
-    /// Ratio of perceived to true speed. A pilot who overestimates the speed flies too slowly, and vice versa.
+    /// Returns the ratio of perceived to true speed. A pilot who overestimates the speed flies too slowly, and vice
+    /// versa.
     #[must_use]
     pub fn speed_scale(&self) -> f64 {
         self.speed_sense
@@ -141,8 +142,8 @@ mod tests {
 
     #[test]
     fn exact_the_drift_has_unit_variance() {
-        // Correlated samples: 40 000 s at 0.2 s with tau 4 s are equivalent to about 5 000 independent samples; five standard
-        // errors.
+        // Correlated samples: 40 000 s at 0.2 s with tau 4 s are equivalent to about 5 000 independent samples; the
+        // tolerance is five standard errors.
         const TOLERANCE: f64 = 0.1;
         let mut random = RandomStream::new(3, "drift");
         let mut drift = DriftProcess::new(4.0, &mut random);

@@ -1,4 +1,4 @@
-//! Obstacle-free routes: A* on a grid, then straightened. Models a person who plans by sight.
+//! Obstacle-free routes: an A* search on a grid, with the result straightened. Models a person who plans by sight.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::Site;
@@ -8,12 +8,12 @@ use std::collections::{BTreeMap, BinaryHeap};
 
 /// Grid spacing, m: finer than the height of the interlayer.
 const CELL_M: f64 = 2.0;
-/// Preferred clearance, m (practice: 3 to 5 m, docs/src/reference/domain.md, "Stand-off and clearance").
+/// Preferred clearance, m (typical practice: 3 to 5 m, docs/src/reference/domain.md, "Stand-off and clearance").
 const COMFORT_M: f64 = 4.0;
-/// Radius around an endpoint with too little clearance within which the route may come as close as the endpoint itself, m
-/// (estimate: within a task's own "too close" distance).
+/// Radius around an endpoint with too little clearance within which the route may come as close to obstacles as the
+/// endpoint is, m (estimate: within a task's own "too close" distance).
 const CRAMPED_M: f64 = 8.0;
-/// Margin by which the route may come closer than such an endpoint, m (estimate: stand-offs are rounded).
+/// Margin by which the route may come closer to obstacles than such an endpoint, m (estimate: stand-offs are rounded).
 const END_SLACK_M: f64 = 0.1;
 /// Clearances to try in order, as fractions of the difference between the preferred and the minimum clearance.
 const SHARES: [f64; 3] = [1.0, 0.7, 0.4];
@@ -24,9 +24,9 @@ const MAX_EXPANSIONS: usize = 400_000;
 
 type GridCell = [i32; 3];
 
-/// Returns a polyline from `from` to `to`, both included, that keeps `clearance_m` where possible. If `keep_m` is given, the
-/// route keeps that clearance except near an endpoint that has less, also from traffic at any time. Falls back to a smaller
-/// clearance if there is no such route, and to a straight line if no route is found.
+/// Returns a polyline from `from` to `to`, both included, that keeps `clearance_m` where possible. If `keep_m` is
+/// given, the route keeps that clearance, also from traffic at any time, except near an endpoint that has less. Falls
+/// back to a smaller clearance if no such route exists, and to a straight line if no route is found.
 #[must_use]
 pub fn route(
     site: &Site,
@@ -92,7 +92,7 @@ impl SearchSpace<'_> {
         self.site.traffic().min_distance_ever_m(p, still).unwrap_or(still)
     }
 
-    /// Required clearance at a point, m.
+    /// Returns the required clearance at a point, m.
     fn required(&self, p: Vec3<Enu>) -> f64 {
         let Some(keep) = &self.keep else { return self.clearance_m };
         let near = [self.origin, self.to].map(|end| (p - end).norm() < CRAMPED_M);
@@ -146,7 +146,7 @@ fn search(space: &SearchSpace) -> Option<Vec<GridCell>> {
             if best.get(&next).is_none_or(|(known, _)| total < *known) {
                 best.insert(next, (total, cell));
                 let estimate = total + distance(next, goal);
-                // Millimeters as an integer key: total order without floats.
+                // Uses millimeters as an integer key, because floats have no total order.
                 open.push(Reverse(((estimate * 1000.0) as u64, next)));
             }
         }

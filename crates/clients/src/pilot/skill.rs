@@ -1,9 +1,9 @@
-//! Human operator model: five skill parameters. Errors result from these parameters; no type of error is scripted.
+//! Human operator model with five skill parameters. Errors result from these parameters; no type of error is scripted.
 
 use std::str::FromStr;
 
-/// Skill parameters of a pilot. Sources: docs/src/reference/domain.md, "Human operators" (crossover model, McRuer; gaze of drone
-/// pilots 1.5 s ahead, n = 21).
+/// Skill parameters of a pilot. Sources: docs/src/reference/domain.md, "Human operators" (crossover model by McRuer;
+/// gaze of drone pilots 1.5 s ahead, n = 21).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Skill {
     /// Delay from an event to the control response, s.
@@ -15,11 +15,11 @@ pub struct Skill {
     pub noise: f64,
     /// Visual preview time, s.
     pub preview_s: f64,
-    /// Attention lapses per minute; the sticks stay where they are during a lapse.
+    /// Attention lapses per minute; during a lapse, the sticks do not move.
     pub lapses_per_min: f64,
 }
 
-/// One of the five skill parameters, to exchange between pilots.
+/// One of the five skill parameters; used to exchange a single parameter between pilots.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SkillFactor {
     /// Selects [`Skill::delay_s`].
@@ -54,15 +54,15 @@ impl FromStr for SkillFactor {
 }
 
 impl Skill {
-    /// A beginner: slow, cautious, noisy, short preview, easily distracted (lapses: estimate; the other values from the source
-    /// above).
+    /// A beginner: slow, cautious, noisy, with a short preview, and easily distracted (lapses: estimate; other values
+    /// from the sources given at [`Skill`]).
     pub const NOVICE: Self = Self { delay_s: 0.35, gain: 0.6, noise: 2.0, preview_s: 0.7, lapses_per_min: 0.5 };
     /// A pilot after training.
     pub const TRAINED: Self = Self { delay_s: 0.22, gain: 1.0, noise: 1.0, preview_s: 1.5, lapses_per_min: 0.1 };
     /// A professional pilot.
     pub const EXPERT: Self = Self { delay_s: 0.18, gain: 1.0, noise: 0.7, preview_s: 1.5, lapses_per_min: 0.02 };
 
-    /// Returns this skill with one parameter taken from another.
+    /// Returns this skill with one parameter taken from `from`.
     #[must_use]
     pub fn with(mut self, factor: SkillFactor, from: Self) -> Self {
         match factor {
@@ -75,9 +75,9 @@ impl Skill {
         self
     }
 
-    /// Defect length at which the probability of detection is 50 %, mm: 26 for the trained pilot (Campbell et al. 2020), 15 for
-    /// the expert and 60 for the novice (docs/src/reference/domain.md, "Human operators"). A power law of the noise fits these
-    /// values within 10 %.
+    /// Returns the defect length at which the probability of detection is 50 %, mm: 26 for the trained pilot (Campbell
+    /// et al. 2020), 15 for the expert and 60 for the novice (docs/src/reference/domain.md, "Human operators"). A power
+    /// law of the noise fits these values within 10 %.
     #[must_use]
     pub fn median_length_mm(&self) -> f64 {
         26.0 * spandrel_model::math::pow(self.noise, 1.3)

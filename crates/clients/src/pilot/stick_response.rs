@@ -45,7 +45,7 @@ impl StickResponse {
         now < self.lapse_until
     }
 
-    /// Moves the sticks towards `wanted` and returns the axes in [-1, 1].
+    /// Moves the sticks toward `wanted` and returns the axes in [-1, 1].
     pub fn step(&mut self, wanted: StickAxes, skill: &Skill, now: SimTime, dt_s: f64) -> StickAxes {
         let lapse = self.random.uniform() < skill.lapses_per_min / 60.0 * dt_s;
         if lapse && !self.is_lapsed(now) {

@@ -1,4 +1,4 @@
-//! Visual path following: aims at a point ahead, brakes for what the preview shows, and corrects cross-track error.
+//! Visual path following: aims at a point ahead, brakes for bends within the preview, and corrects cross-track error.
 
 use super::perception::MotionState;
 use super::skill::Skill;
@@ -96,7 +96,7 @@ impl TrackLeg {
         self.points_m[self.points_m.len() - 1]
     }
 
-    /// Moves the progress to the nearest point within a short window behind and ahead.
+    /// Moves the progress to the nearest point within a short window behind and ahead of it.
     pub fn advance(&self, progress: &mut LegProgress, position_m: Vec3<Enu>) {
         const WINDOW_M: f64 = 6.0;
         let mut start: f64 = (1..progress.next.max(1)).map(|k| self.segment_m(k)).sum();
@@ -119,7 +119,7 @@ impl TrackLeg {
         *progress = best.1;
     }
 
-    /// Speed limited by what is visible within the preview, m/s.
+    /// Returns the speed that the bends visible within the preview allow, m/s.
     fn speed(&self, progress: LegProgress, skill: &Skill, now_m_s: f64) -> f64 {
         let start: f64 = (1..progress.next).map(|k| self.segment_m(k)).sum();
         let mut ahead_m = start - progress.along_m;
@@ -139,7 +139,7 @@ impl TrackLeg {
         speed.max(0.3)
     }
 
-    /// Speed factor for the bend at a point: 1 for straight on, 0.3 for a reversal.
+    /// Returns the speed factor for the bend at a point: 1 for straight on, 0.3 for a reversal.
     fn corner(&self, at: usize) -> f64 {
         let Some(after) = self.points_m.get(at + 1) else { return 0.0 };
         let into = (self.points_m[at] - self.points_m[at - 1]).unit();
@@ -152,7 +152,7 @@ impl TrackLeg {
         self.advance(progress, motion.position_m);
         let speed = self.speed(*progress, skill, motion.velocity_m_s.norm());
         let here = self.ahead(*progress, 0.0);
-        // Trained pilots look 1.5 s ahead; a shorter preview puts the aim point closer.
+        // Trained pilots look 1.5 s ahead. A shorter preview moves the aim point closer.
         let aim = self.ahead(*progress, (speed * skill.preview_s).max(MIN_AIM_M));
         let pull = (here - motion.position_m) * (PULL_PER_S * skill.gain);
         let run = (aim - here).unit() * speed;

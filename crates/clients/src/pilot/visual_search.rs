@@ -1,5 +1,6 @@
-//! Visual search: what the pilot notices in the camera picture. A defect is detected according to its size in the picture and the
-//! pilot's probability-of-detection curve; stains and shadows cause false alarms through noise (signal detection).
+//! Visual search: model of which objects the pilot notices in the camera picture. A defect is detected according to its
+//! size in the picture and the pilot's probability-of-detection curve; stains and shadows cause false alarms through
+//! noise (signal detection).
 
 use super::skill::Skill;
 use spandrel_model::math;
@@ -13,7 +14,7 @@ use std::collections::BTreeMap;
 const GLIMPSE_S: f64 = 0.25;
 /// Spread of the lognormal detection curve (Campbell et al. 2020: 50 % at 26 mm, 90 % at 113 mm).
 const POD_SIGMA_LN: f64 = 1.147;
-/// Extent from which a picture shows an object clearly, px (estimate).
+/// Extent from which an object is clearly visible in a picture, px (estimate).
 const CLEAR_PX: f64 = 40.0;
 /// Minimum extent for detection, px (a tenth of the pixels of a clear picture; estimate).
 const LEAST_PX: f64 = 6.0;
@@ -50,15 +51,15 @@ pub struct VisualSearch {
 }
 
 impl VisualSearch {
-    /// Creates the visual search, seeded.
+    /// Creates the visual search from a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let random = RandomStream::new(seed, "pilot eye");
         Self { random, next_glimpse: SimTime::ZERO, notice_threshold: BTreeMap::new(), ignored_until: BTreeMap::new() }
     }
 
-    /// Examines the picture if a fixation is due. `surface_in_view`: a nearby surface fills the picture, so that a false alarm is
-    /// possible.
+    /// Examines the picture if a fixation is due. `surface_in_view`: whether a nearby surface fills the picture, so
+    /// that a false alarm is possible.
     pub fn glimpse(
         &mut self,
         views: impl FnOnce() -> Vec<DefectView>,
@@ -73,7 +74,8 @@ impl VisualSearch {
         self.next_glimpse = now + SimTime::from_s(GLIMPSE_S);
         let deceived = self.random.normal() * skill.noise > CRITERION;
         for view in views() {
-            // Not detectable when seen edge-on, too small or in the dark; it may become detectable later.
+            // A defect that is seen edge-on, too small or in the dark cannot be noticed now, but may become detectable
+            // later.
             let lit = view.illuminance_lux >= view.needed_lux;
             let plain = lit && view.unoccluded && view.extent_px >= LEAST_PX && view.incidence_rad < LEAST_SQUARE_RAD;
             if self.ignored_until.get(&view.defect_id).is_some_and(|until| now < *until) || !plain {
@@ -89,13 +91,13 @@ impl VisualSearch {
         if deceived && surface_in_view { Glimpse::Distractor } else { Glimpse::Nothing }
     }
 
-    /// Ignores a noticed defect for now because it is poorly visible from here.
+    /// Ignores a noticed defect until `until`, because it is poorly visible from here.
     pub fn ignore_until(&mut self, defect: u32, until: SimTime) {
         self.ignored_until.insert(defect, until);
     }
 }
 
-/// Probability that this pilot detects a defect in this view.
+/// Returns the probability that this pilot detects a defect in this view.
 fn probability(view: &DefectView, site: &Site, skill: &Skill) -> f64 {
     let Some(defect) = site.defects().iter().find(|d| d.id == view.defect_id) else { return 0.0 };
     let contrast = if defect.line { view.width_px.min(1.0) } else { 1.0 };

@@ -55,7 +55,7 @@ impl ControllerAction {
         ALL.iter().find(|(_, action)| *action == self).map_or("", |(name, _)| name)
     }
 
-    /// Checks whether the action moves something by a step and is usually repeated.
+    /// Checks whether the action moves something by one step and is usually repeated.
     #[must_use]
     pub fn is_repeatable(self) -> bool {
         matches!(self, Self::GimbalUp | Self::GimbalDown | Self::CameraZoomIn | Self::CameraZoomOut)

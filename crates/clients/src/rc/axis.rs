@@ -1,6 +1,7 @@
 //! Calibration of one raw axis: endpoints, center, dead band and expo.
 
-/// Minimum distance of each endpoint from the center, of the raw range of 2 (estimate: a stick axis moves farther).
+/// Minimum distance of each endpoint from the center, as part of the raw range of 2 (estimate: a stick axis moves
+/// farther).
 pub const LEAST_WAY: f64 = 0.1;
 
 /// Calibration of an axis.
@@ -21,7 +22,8 @@ pub struct AxisCalibration {
 }
 
 impl AxisCalibration {
-    /// Returns the calibrated value in [-1, 1]: 0 within the dead band, continuous at its edge, ±1 at and beyond the endpoints.
+    /// Returns the calibrated value in [-1, 1]. It is 0 within the dead band, continuous at its edge, and ±1 at and
+    /// beyond the endpoints.
     #[must_use]
     pub fn read(&self, raw: f64) -> f64 {
         let end = if (raw - self.centre) * (self.high - self.centre) >= 0.0 { self.high } else { self.low };
@@ -64,7 +66,7 @@ mod tests {
         assert_eq!((axis.read(0.2), axis.read(-0.2), axis.read(1.0), axis.read(-1.0)), (0.0, 0.0, 1.0, -1.0));
         let just = axis.read(0.2 + 1e-9);
         assert!(just > 0.0 && just < 1e-8);
-        // Half of the travel beyond the dead band: 0.5 · 0.5 + 0.5 · 0.125.
+        // The reading is halfway between the edge of the dead band and the endpoint: 0.5 · 0.5 + 0.5 · 0.125.
         assert!((axis.read(0.6) - 0.3125).abs() < ROUNDING);
     }
 }

@@ -1,7 +1,7 @@
 //! MAVLink link from a controller to a vehicle: MANUAL_CONTROL at 50 Hz, commands with retries, and a heartbeat.
 //!
-//! After the device is lost, the link sends centered sticks for [`NEUTRAL_S`] and then stops sending, so that the vehicle's own
-//! failsafe responds instead of a program that imitates a pilot.
+//! After a device is lost, the link sends centered sticks for [`NEUTRAL_S`] and then stops sending, so that the
+//! vehicle's own failsafe responds instead of a program that pretends to be a pilot.
 
 use super::{ControllerAction, Sticks};
 use spandrel_mavlink::codec::{Decoder, Encoder};
@@ -14,29 +14,33 @@ use std::collections::VecDeque;
 
 /// System ID of a second ground station, next to QGroundControl's 255.
 pub const SYSTEM: u8 = 254;
-/// MAV_COMP_ID_MISSIONPLANNER: a ground station.
+/// MAV_COMP_ID_MISSIONPLANNER, the component ID of a ground station.
 const COMPONENT: u8 = 190;
 const AUTOPILOT: u8 = 1;
 const CAMERA: u8 = 100;
-/// Interval between MANUAL_CONTROL messages, s: 50 Hz, the rate that the monitor records.
+/// Interval between MANUAL_CONTROL messages, s (50 Hz, the rate at which the monitor records them).
 const STICKS_EVERY_S: f64 = 0.02;
 const HEARTBEAT_EVERY_S: f64 = 1.0;
-/// Duration of centered sticks after a device is lost, s (estimate: long enough to be received over a poor radio link).
+/// Time for which centered sticks are sent after a device is lost, s (estimate: long enough to be received over a poor
+/// radio link).
 pub const NEUTRAL_S: f64 = 0.3;
-/// Retry interval of an unacknowledged command, s, and the maximum number of transmissions (MAVLink command protocol; estimate).
+/// Retry interval of an unacknowledged command, s, and maximum number of transmissions (MAVLink command protocol;
+/// estimate).
 const AGAIN_S: f64 = 0.5;
 const TIMES: u8 = 5;
 /// Messages that button actions depend on and their rates, Hz: ILLUMINATOR_STATUS, GIMBAL_DEVICE_ATTITUDE_STATUS.
 const STREAMS: [(u32, f32); 2] = [(440, 5.0), (285, 5.0)];
-/// Interval after which missing streams are requested again, s: an acknowledgment was lost, or the vehicle restarted (estimate).
+/// Interval after which missing streams are requested again, s, because an acknowledgment was lost or the vehicle
+/// restarted (estimate).
 const STREAMS_AGAIN_S: f64 = 5.0;
 const TELLING: &str = "lamp and gimbal telemetry";
 /// ZOOM_TYPE_STEP of CAMERA_ZOOM_TYPE: each press zooms by one step of the camera.
 const ZOOM_STEP: f32 = 0.0;
 /// Gimbal step per button press, degrees.
 const GIMBAL_STEP_DEG: f32 = 10.0;
-/// How long a press counts from the last commanded pitch, s, because the gimbal may still be moving (estimate: two taps and a
-/// move of several steps). After that it counts from the reported pitch, because other clients also control the gimbal.
+/// Time for which a press adds to the last commanded pitch, s, because the gimbal may still be moving (estimate: two
+/// taps and a move of several steps). Later presses add to the reported pitch, because other clients also control the
+/// gimbal.
 const AIM_S: f64 = 2.0;
 
 /// Latest state reported by the vehicle.
@@ -70,7 +74,7 @@ pub struct ControllerLink {
     out: VecDeque<Vec<u8>>,
     messages: VecDeque<String>,
     next_stream_request: SimTime,
-    /// Which of [`STREAMS`] have arrived since the last check.
+    /// Flags for the [`STREAMS`] that have arrived since the last check.
     streams_received: [bool; 2],
     /// Latest state reported by the vehicle.
     pub vehicle: LastReported,
@@ -80,7 +84,7 @@ pub struct ControllerLink {
     next_heartbeat: SimTime,
     pending: Vec<PendingCommand>,
     aim: Option<(f32, SimTime)>,
-    /// The result of the stream requests is known; a failure has been reported.
+    /// Whether the result of the stream requests has been reported.
     streams_known: bool,
     pictures: u16,
     arm_hint: String,
@@ -110,7 +114,8 @@ impl Default for ControllerLink {
 }
 
 impl ControllerLink {
-    /// Sets the stick positions; `None` if there is no device. Without a device from the start, only heartbeats are sent.
+    /// Sets the stick positions; `None` if there is no device. If there has never been a device, only heartbeats are
+    /// sent.
     pub fn set_sticks(&mut self, sticks: Option<Sticks>, now: SimTime) {
         match sticks {
             Some(sticks) => {
@@ -168,7 +173,7 @@ impl ControllerLink {
         if let Some(k) = self.pending.iter().position(|p| p.command.command == command) {
             let done = self.pending.remove(k);
             if command == MavCmd::MAV_CMD_COMPONENT_ARM_DISARM && result == MavResult::MAV_RESULT_ACCEPTED {
-                // Updates the state at once: the next heartbeat may be a second away.
+                // Updates the state immediately, because the next heartbeat may arrive a second later.
                 self.vehicle.armed = done.command.param1 == 1.0;
             }
             let known = done.description == TELLING && std::mem::replace(&mut self.streams_known, true);
@@ -197,7 +202,7 @@ impl ControllerLink {
         self.pending.push(PendingCommand { description: action.name(), command, sent: 0, next: now });
     }
 
-    /// Whether an arm command is awaiting acknowledgment.
+    /// Checks whether an arm command is awaiting acknowledgment.
     fn is_arming(&self) -> bool {
         self.pending.iter().any(|p| p.description == ControllerAction::Arm.name())
     }
@@ -207,7 +212,7 @@ impl ControllerLink {
         self.arm_hint = format!(" (key {key})");
     }
 
-    /// Requests the streams that button actions depend on, once a vehicle is connected and again whenever they stop.
+    /// Requests the streams that button actions depend on when a vehicle connects, and again whenever they stop.
     fn request_streams(&mut self, now: SimTime) {
         let Some(system) = self.vehicle.system.filter(|_| now >= self.next_stream_request) else { return };
         self.next_stream_request = now + SimTime::from_s(STREAMS_AGAIN_S);
@@ -247,7 +252,8 @@ impl ControllerLink {
         }
     }
 
-    /// Numbers each picture from 1, so that the camera can recognize a retransmitted command.
+    /// Returns a capture command. Pictures are numbered from 1, so that the camera can recognize a retransmitted
+    /// command.
     fn snapshot(&mut self) -> (u8, MavCmd, [f32; 7]) {
         const NAN: f32 = f32::NAN;
         self.pictures = self.pictures.checked_add(1).unwrap_or(1);
@@ -264,7 +270,7 @@ impl ControllerLink {
         (AUTOPILOT, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [to, f32::NAN, f32::NAN, f32::NAN, 0.0, 0.0, 0.0])
     }
 
-    /// Queues the messages that are due. Call it at least 50 times per second.
+    /// Queues the periodic messages. Call it at least 50 times per second.
     pub fn handle_timeout(&mut self, now: SimTime) {
         self.request_streams(now);
         if now >= self.next_heartbeat {
@@ -283,7 +289,7 @@ impl ControllerLink {
         let Some(target) = self.vehicle.system else { return };
         let scale = |value: f64| (value.clamp(-1.0, 1.0) * 1000.0).round() as i16;
         let s = self.sticks;
-        // Throttle is centered at 500 and ranges from 0 to 1000: the convention of PX4, ArduPilot and QGroundControl.
+        // Throttle ranges from 0 to 1000 and is centered at 500, as in PX4, ArduPilot and QGroundControl.
         let z = (500.0 + 500.0 * s.up.clamp(-1.0, 1.0)).round() as i16;
         self.send(&MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA {
             target,
@@ -302,7 +308,7 @@ impl ControllerLink {
                 return true;
             }
             if p.sent == TIMES {
-                // Stream requests repeat; a vehicle that has answered once may be paused.
+                // Stream requests repeat anyway, and a vehicle that has answered once may only be paused.
                 if p.description != TELLING || !std::mem::replace(&mut self.streams_known, true) {
                     self.push_message(p.description, "no response from vehicle");
                 }
@@ -364,12 +370,12 @@ mod tests {
         link.receive(&Encoder::new(1, 1).encode(&beat));
         link.handle_timeout(SimTime::ZERO);
         let asked: Vec<_> = std::iter::from_fn(|| link.poll_transmit()).collect();
-        assert_eq!(asked.len(), 1 + STREAMS.len(), "a heartbeat and what the buttons depend on");
+        assert_eq!(asked.len(), 1 + STREAMS.len(), "a heartbeat and the stream requests");
         link.pending.clear();
         link
     }
 
-    /// Returns the messages sent in a time interval, polled every millisecond.
+    /// Returns the messages sent in a time interval, with one poll per millisecond.
     fn sent(link: &mut ControllerLink, from: f64, to: f64) -> Vec<MavMessage> {
         let mut decoder = Decoder::new();
         let mut found = Vec::new();
@@ -401,13 +407,13 @@ mod tests {
             MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(spandrel_mavlink::dialect::GIMBAL_DEVICE_ATTITUDE_STATUS_DATA::default());
         link.receive(&Encoder::new(1, 1).encode(&gimbal));
         let again = sent(&mut link, 0.0, STREAMS_AGAIN_S + 0.1);
-        assert_eq!(asked(&again), [STREAMS[0].0], "the gimbal's has come");
+        assert_eq!(asked(&again), [STREAMS[0].0], "only the missing stream must be requested");
         answer(&mut link, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, MavResult::MAV_RESULT_UNSUPPORTED);
         let later = sent(&mut link, STREAMS_AGAIN_S + 0.1, 2.0 * STREAMS_AGAIN_S + 0.1);
-        assert_eq!(asked(&later), STREAMS.map(|(id, _)| id), "the gimbal's has stopped, too");
+        assert_eq!(asked(&later), STREAMS.map(|(id, _)| id), "all stopped streams must be requested");
         sent(&mut link, 2.0 * STREAMS_AGAIN_S + 0.1, 60.0);
         let told = |link: &mut ControllerLink| std::iter::from_fn(|| link.poll_message()).collect::<Vec<_>>();
-        assert!(told(&mut link).is_empty(), "one of them came");
+        assert!(told(&mut link).is_empty(), "no message if one of the streams arrives");
         let mut refused = known();
         sent(&mut refused, 0.0, STREAMS_AGAIN_S + 0.1);
         for _ in STREAMS {
@@ -420,7 +426,7 @@ mod tests {
         let mut stands = known();
         stands.receive(&Encoder::new(1, 1).encode(&gimbal));
         sent(&mut stands, 0.0, 60.0);
-        assert!(told(&mut stands).is_empty(), "time stands still: nothing is wrong");
+        assert!(told(&mut stands).is_empty(), "a paused vehicle is not an error");
     }
 
     #[test]
@@ -434,8 +440,8 @@ mod tests {
         link.set_arm_key("M");
         link.act(ControllerAction::TakeOff, at(0.0));
         assert_eq!(link.poll_message().as_deref(), Some("Arm the motors first (key M)"));
-        assert_eq!(take_offs(&sent(&mut link, 0.0, 0.1)), 0, "nothing is asked of the vehicle");
-        // Both keys in quick succession: takeoff does not wait for a heartbeat.
+        assert_eq!(take_offs(&sent(&mut link, 0.0, 0.1)), 0, "no takeoff command must be sent");
+        // Both keys are pressed in quick succession; takeoff must not wait for a heartbeat.
         link.act(ControllerAction::Arm, at(0.1));
         link.act(ControllerAction::TakeOff, at(0.1));
         assert_eq!((take_offs(&sent(&mut link, 0.1, 0.2)), link.poll_message()), (1, None));
@@ -496,7 +502,7 @@ mod tests {
         assert_eq!(link.poll_message().as_deref(), Some("camera zoom out: this camera cannot zoom"));
     }
 
-    /// Picture numbers of the capture commands.
+    /// Returns the picture numbers of the capture commands.
     fn pictures(messages: &[MavMessage]) -> Vec<f32> {
         let number = |m: &MavMessage| if let MavMessage::COMMAND_LONG(c) = m { Some(c.param4) } else { None };
         messages.iter().filter_map(number).collect()
@@ -520,11 +526,11 @@ mod tests {
             let messages = sent(link, s, s + 0.1);
             messages.iter().find_map(|m| if let MavMessage::COMMAND_LONG(c) = m { Some(c.param1) } else { None }).unwrap()
         };
-        assert_eq!([0.0, 0.2].map(|s| aimed(&mut link, ControllerAction::GimbalDown, s)), [-10.0, -20.0], "it has not swung yet");
+        assert_eq!([0.0, 0.2].map(|s| aimed(&mut link, ControllerAction::GimbalDown, s)), [-10.0, -20.0], "the second press must add to the first");
         link.vehicle.gimbal_deg = Some(-60.0);
-        assert_eq!(aimed(&mut link, ControllerAction::GimbalUp, 0.2 + AIM_S), -50.0, "a mission has aimed it meanwhile");
+        assert_eq!(aimed(&mut link, ControllerAction::GimbalUp, 0.2 + AIM_S), -50.0, "a late press must start from the reported pitch");
         answer(&mut link, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, MavResult::MAV_RESULT_DENIED);
-        assert_eq!(aimed(&mut link, ControllerAction::GimbalUp, 0.5 + AIM_S), -50.0, "what was refused is no aim");
+        assert_eq!(aimed(&mut link, ControllerAction::GimbalUp, 0.5 + AIM_S), -50.0, "a rejected command must not change the target");
     }
 
     #[test]

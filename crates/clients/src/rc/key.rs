@@ -36,7 +36,8 @@ fn capitalized(name: &str) -> String {
     let mut upper = signs.next().into_iter().flat_map(char::to_uppercase);
     match (upper.next(), upper.next()) {
         (Some(first), None) => format!("{first}{}", signs.as_str()),
-        // A character whose uppercase form has two letters (ß) has no uppercase key.
+        // A character whose uppercase form has two letters (ß) keeps its lowercase label, because no key has that
+        // label.
         _ => name.to_owned(),
     }
 }

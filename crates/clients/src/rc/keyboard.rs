@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 
 /// Stick deflection of a key (estimate: half, so that beginners do not fly at full speed).
 pub const PUSH: f64 = 0.5;
-/// How long a key counts as held after its last event, s, for terminals, which report no key releases. Longer than the usual
-/// delay before a held key repeats, 0.5 s (defaults of X.Org and Windows: 0.25 to 0.66 s).
+/// Time for which a key counts as held after its last event, s. Used in terminals, which report no key releases. Longer
+/// than the usual delay before a held key repeats, 0.5 s (defaults of X.Org and Windows: 0.25 to 0.66 s).
 pub const HELD_S: f64 = 0.7;
 /// Minimum interval between gimbal or zoom steps from repeated taps, s (estimate: up to 8 taps per second). Longer than the usual
 /// repeat interval of a held key, 0.03 s.
@@ -203,15 +203,15 @@ impl KeyBindings {
         self.pushes.contains_key(&key.to_lowercase())
     }
 
-    /// Returns the stick direction or vehicle action of a key, by its name in configuration files.
+    /// Returns the stick direction or vehicle action of a key, as the name used in configuration files.
     #[must_use]
     pub fn binding_name(&self, key: &str) -> Option<&'static str> {
         let push = self.pushes.get(key).and_then(|push| PUSHES.iter().find(|p| p.1 == *push)).map(|p| p.0);
         push.or_else(|| self.actions.get(key).map(|action| action.name()))
     }
 
-    /// Returns the display name of the key bound to a stick direction, vehicle action or window action, by its name in
-    /// configuration files; empty if the name is unknown.
+    /// Returns the display name of the key that is bound to a stick direction, vehicle action or window action, given
+    /// by its name in configuration files; empty if the name is unknown.
     #[must_use]
     pub fn label(&self, name: &str) -> String {
         self.of(name).map_or(String::new(), key::label)
@@ -226,7 +226,8 @@ impl KeyBindings {
         sticks.chain(actions).chain(wishes).map(|name| (name, self.label(name))).collect()
     }
 
-    /// Returns the key bound to a stick direction, vehicle action or window action, by its name in configuration files.
+    /// Returns the key that is bound to a stick direction, vehicle action or window action, given by its name in
+    /// configuration files.
     #[must_use]
     pub fn of(&self, name: &str) -> Option<&str> {
         let push = PUSHES.iter().find(|p| p.0 == name).map(|p| p.1);
@@ -262,7 +263,7 @@ fn sounds(r: &mut Reader, root: &mut Section) -> SoundPreferences {
     sounds
 }
 
-/// Reads the key of a binding: a valid key that is not bound to anything else.
+/// Reads the key of a binding, which must be a valid key that is not bound to anything else.
 fn read_binding(
     r: &mut Reader,
     s: &mut Section,
@@ -300,8 +301,9 @@ impl KeyboardState {
     }
 
     /// Handles a key press and returns its action unless the key controls a stick. If the system reports key releases
-    /// (`until_released`), do not pass on the repeats of a held key. Otherwise a stick key counts as held for [`HELD_S`], and
-    /// repeats are ignored: an action must have been idle for that time, a gimbal or zoom step for `TAP_S`.
+    /// (`until_released`), do not pass on the repeats of a held key. Otherwise, a stick key counts as held for
+    /// [`HELD_S`], and repeats are ignored: an action must have been idle for that time, a gimbal or zoom step for
+    /// `TAP_S`.
     pub fn press(&mut self, key: &str, until_released: bool, now: SimTime) -> Option<ControllerAction> {
         let key = key.to_lowercase();
         if let Some(push) = self.keys.pushes.get(&key) {
@@ -377,18 +379,18 @@ mod tests {
     #[test]
     fn exact_what_a_held_key_repeats_does_nothing_and_steps_may_be_tapped() {
         let mut board = KeyboardState::default();
-        // One second: 0.5 s until the first repeat, then 30 repeats per second.
+        // One second of events: 0.5 s until the first repeat, then 30 repeats per second.
         let held: Vec<f64> = std::iter::once(0.0).chain((0..15).map(|k| 0.5 + f64::from(k) / 30.0)).collect();
         let done = |board: &mut KeyboardState, key: &str, times: &[f64]| {
             times.iter().filter_map(|s| board.press(key, false, at(*s))).collect::<Vec<_>>()
         };
         assert_eq!(done(&mut board, "p", &held), [ControllerAction::Snapshot]);
-        assert_eq!(done(&mut board, "b", &held), [ControllerAction::Lamp], "every action for itself");
-        assert_eq!(done(&mut board, "p", &[1.0, 1.0 + HELD_S]), [ControllerAction::Snapshot], "let go and pressed again");
+        assert_eq!(done(&mut board, "b", &held), [ControllerAction::Lamp], "a held key must not repeat its action");
+        assert_eq!(done(&mut board, "p", &[1.0, 1.0 + HELD_S]), [ControllerAction::Snapshot], "a new press must repeat the action");
         assert_eq!(done(&mut board, "pagedown", &[0.0, 0.2, 0.4]), [ControllerAction::GimbalDown; 3]);
         assert_eq!(done(&mut board, "]", &[0.0, 0.03, 0.06]), [ControllerAction::CameraZoomIn]);
         let told = [2.0, 2.1].map(|s| board.press("p", true, at(s)));
-        assert_eq!(told, [Some(ControllerAction::Snapshot); 2], "where releases are told, every press is one");
+        assert_eq!(told, [Some(ControllerAction::Snapshot); 2], "if releases are reported, every press must count");
     }
 
     #[test]
@@ -421,7 +423,7 @@ mod tests {
         let (usual, every) = (KeyBindings::default(), PUSHES.len() + KEYS.len() + WISHES.len());
         let labels = usual.labels();
         let keys: std::collections::BTreeSet<&str> = labels.keys().filter_map(|name| usual.of(name)).collect();
-        assert_eq!((labels.len(), keys.len()), (every, every), "one key each");
+        assert_eq!((labels.len(), keys.len()), (every, every), "each binding must have its own key");
         assert!(keys.into_iter().all(key::is_key));
         let label = |name: &str| usual.label(name);
         assert_eq!([label("pause"), label("forward"), label("lamp"), label("camera_zoom_in")], ["Esc", "Up", "B", "]"]);

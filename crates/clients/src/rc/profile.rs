@@ -1,4 +1,4 @@
-//! Controller profile: which axis is which stick and which button does what, with its file format.
+//! Controller profile: assignment of axes to sticks and of buttons to actions, with its file format.
 
 use super::action::{self, ControllerAction};
 use super::axis::{AxisCalibration, LEAST_WAY};
@@ -9,11 +9,11 @@ use std::fmt::Write;
 
 /// Newest supported format version.
 pub const FORMAT: i64 = 1;
-/// Dead band of a new profile (estimate: the play of a worn gamepad stick).
+/// Default dead band of a new profile (estimate: the play of a worn gamepad stick).
 pub const DEAD_BAND: f64 = 0.05;
-/// Expo of a new profile (estimate: between a transmitter's usual 0.2 and 0.4).
+/// Default expo of a new profile (estimate: between a transmitter's usual 0.2 and 0.4).
 pub const EXPO: f64 = 0.3;
-/// Maximum axis or button number: a 32-bit unsigned integer.
+/// Maximum axis or button number: the largest 32-bit unsigned integer.
 const MOST: i64 = u32::MAX as i64;
 
 /// A stick axis.
@@ -51,7 +51,7 @@ pub enum StickMode {
 }
 
 impl StickMode {
-    /// Returns the mode with this number, if it is 1 to 4.
+    /// Returns the mode with this number, or `None` if the number is not 1 to 4.
     #[must_use]
     pub fn numbered(number: i64) -> Option<Self> {
         [Self::One, Self::Two, Self::Three, Self::Four].into_iter().find(|mode| mode.number() == number)
@@ -68,7 +68,8 @@ impl StickMode {
         }
     }
 
-    /// Returns the positions of the physical sticks for `sticks` in this mode: left up, left right, right up, right right.
+    /// Returns the positions of the physical sticks for stick inputs in this mode: left up, left right, right up, right
+    /// right.
     #[must_use]
     pub fn sticks_by_hand(self, sticks: Sticks) -> [f64; 4] {
         let Sticks { forward, right, up, yaw } = sticks;
@@ -80,7 +81,7 @@ impl StickMode {
         }
     }
 
-    /// Maps the physical stick positions to stick inputs. Every mode is a permutation.
+    /// Maps the positions of the physical sticks to stick inputs. Every mode is a permutation.
     #[must_use]
     pub fn sticks(self, read: impl Fn(StickMotion) -> f64) -> Sticks {
         let [lv, lh, rv, rh] = WAYS.map(|(_, way, _)| read(way));
@@ -262,9 +263,9 @@ mod tests {
         assert_eq!(flown(StickMode::Two), Sticks { up: 1.0, yaw: -1.0, forward: -1.0, right: 1.0 });
         assert_eq!(flown(StickMode::Three), Sticks { forward: 1.0, right: -1.0, up: -1.0, yaw: 1.0 });
         assert_eq!(flown(StickMode::Four), Sticks { up: 1.0, right: -1.0, forward: -1.0, yaw: 1.0 });
-        assert_eq!(profile().sticks(&RawInput::default()), Sticks::default(), "nothing heard, nothing asked");
+        assert_eq!(profile().sticks(&RawInput::default()), Sticks::default(), "axes without readings must be centered");
         for mode in [StickMode::One, StickMode::Two, StickMode::Three, StickMode::Four] {
-            assert_eq!(mode.sticks_by_hand(flown(mode)), [1.0, -1.0, -1.0, 1.0], "hands stand where they push");
+            assert_eq!(mode.sticks_by_hand(flown(mode)), [1.0, -1.0, -1.0, 1.0], "the mapping must be reversible");
         }
     }
 

@@ -7,7 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Device {
     /// Display name.
     pub name: String,
-    /// Model ID: the same for two devices of one model and across restarts (vendor and product, or the system's GUID).
+    /// Model ID. It is the same for two devices of one model and across restarts (vendor and product, or the system's
+    /// GUID).
     pub id: String,
 }
 
@@ -18,7 +19,7 @@ pub enum DeviceEvent {
     Axis {
         /// Axis number as counted by the system.
         axis: u32,
-        /// Position, -1 to 1 of the range reported by the system.
+        /// Position, -1 to 1, as a fraction of the range reported by the system.
         value: f64,
     },
     /// A button was pressed or released.
@@ -28,9 +29,9 @@ pub enum DeviceEvent {
         /// Whether the button is pressed.
         pressed: bool,
     },
-    /// The device is gone: unplugged or out of power.
+    /// The device was unplugged or has no power.
     Lost,
-    /// The device is connected (again).
+    /// The device is connected, for the first time or again.
     Found,
 }
 
@@ -41,7 +42,7 @@ pub struct RawInput {
     pub axes: BTreeMap<u32, f64>,
     /// Pressed buttons.
     pub down: BTreeSet<u32>,
-    /// Whether the device is gone.
+    /// Whether the device is disconnected.
     pub lost: bool,
 }
 

@@ -1,4 +1,5 @@
-//! Interactive calibration: center, range, axis assignment and direction, buttons. A window and a terminal use the same steps.
+//! Interactive calibration of center, range, axis assignment and direction, and buttons. A window and a terminal use
+//! the same steps.
 
 use super::axis::{AxisCalibration, LEAST_WAY};
 use super::profile::{ControllerProfile, DEAD_BAND, EXPO, StickMode, StickMotion, WAYS};
@@ -8,48 +9,51 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Duration of the rest measurement (center and noise), s (estimate).
 const REST_S: f64 = 1.5;
-/// Minimum travel of a stick axis, of the raw range of 2 (estimate).
+/// Minimum travel of a stick axis, as part of the raw range of 2 (estimate).
 const MOVED: f64 = 0.6;
-/// Fraction of the travel above which a stick counts as pushed, and [`LET_GO`] below which it counts as released; undecided in
-/// between (estimates).
+/// Fraction of the travel above which a stick counts as pushed, and [`LET_GO`] below which it counts as released; in
+/// between, it counts as neither (estimates).
 const PUSHED: f64 = 0.8;
 const LET_GO: f64 = 0.3;
-/// How long the stick must stay pushed, s, so that a stick in passing is not taken (estimate).
+/// Time for which a stick must stay pushed, s, so that a brief touch is not accepted (estimate).
 const PUSHED_S: f64 = 0.3;
-/// Minimum fraction of the travel since the prompt, so that an axis that was already at an end is not taken as the answer.
+/// Minimum movement since the prompt as a fraction of the travel, so that an axis that was already at an end is not
+/// accepted.
 const COME: f64 = 0.5;
-/// Movement below which an axis counts as still, of the raw range of 2 (estimate: above the noise of a worn stick).
+/// Movement below which an axis counts as still, as part of the raw range of 2 (estimate: above the noise of a worn
+/// stick).
 const STILL: f64 = 0.2;
-/// How long sticks must be still at the center, s. An axis that stays elsewhere for [`ASIDE_S`] is a trigger, switch or knob that
-/// does not return (estimates).
+/// Time for which sticks must be still at the center, s. An axis that stays elsewhere for [`ASIDE_S`] is a trigger,
+/// switch or knob that does not return (estimates).
 const STILL_S: f64 = 0.2;
 const ASIDE_S: f64 = 1.0;
-/// Dead band as a multiple of the noise at rest; at least the default, at most [`MOST_DEAD`].
+/// Dead band as a multiple of the noise at rest. It is at least the default and at most [`MOST_DEAD`].
 const NOISES: f64 = 2.0;
 const MOST_DEAD: f64 = 0.2;
-/// Fraction of the range beyond which a rest position cannot be a spring center, as on a throttle without a spring.
+/// Fraction of the range from its middle beyond which a rest position cannot be a spring center, as on a throttle
+/// without a spring.
 const OFF_CENTRE: f64 = 0.25;
 
 /// A step of the calibration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum WizardStep {
-    /// Release everything and confirm.
+    /// Waiting for the user to release everything and confirm.
     LetGo,
     /// Measuring the axes at rest.
     Rest,
-    /// Move both sticks through their full range and confirm.
+    /// Waiting for the user to move both sticks through their full range and confirm.
     Range,
-    /// Return to the center.
+    /// Waiting for the sticks to return to the center.
     Middle(usize),
-    /// Push in this direction.
+    /// Waiting for a push in this direction.
     Push(usize),
-    /// Press a button for this action, or skip it.
+    /// Waiting for a button for this action, or for Enter to skip it.
     Button(usize),
     /// Calibration is complete.
     Done,
 }
 
-/// Actions that the wizard asks for.
+/// Actions for which the wizard requests a button.
 const BUTTONS: [(ControllerAction, &str); 7] = [
     (ControllerAction::Lamp, "the lamp"),
     (ControllerAction::Snapshot, "a snapshot"),
@@ -67,11 +71,11 @@ struct AxisStatistics {
     count: u32,
     /// Minimum and maximum at rest.
     rest_range: (f64, f64),
-    /// Measured while untouched, and not only between two pushes.
+    /// Whether the rest position was measured while the axis was untouched, and not only between two pushes.
     rested: bool,
     /// Minimum and maximum overall.
     ends: (f64, f64),
-    /// Steady value and the time since which it has held.
+    /// Steady value, and the time since which the axis has had it.
     steady: (f64, SimTime),
 }
 
@@ -138,7 +142,7 @@ impl CalibrationWizard {
         }
     }
 
-    /// Returns the current instruction for the user.
+    /// Returns the current instruction to the user.
     #[must_use]
     pub fn prompt(&self) -> String {
         let asked = match self.step {
@@ -198,7 +202,8 @@ impl CalibrationWizard {
         self.note = None;
         match self.step {
             WizardStep::LetGo => {
-                // An axis without a reading is at an unknown position; it is measured when it returns to its center.
+                // The position of an axis without a reading is unknown; it is measured when the axis returns to its
+                // center.
                 self.statistics = self.raw.axes.iter().map(|(axis, value)| (*axis, AxisStatistics::at(*value, now))).collect();
                 self.buttons.clear();
                 self.start_step(WizardStep::Rest, now);
@@ -254,7 +259,7 @@ impl CalibrationWizard {
         }
     }
 
-    /// Reading of an axis and its deflection from the center, -1 to 1 of its range.
+    /// Returns the reading of an axis and its deflection from the center, -1 to 1 of its range.
     fn deflection(&self, axis: u32) -> Option<(f64, f64)> {
         let (value, seen) = (*self.raw.axes.get(&axis)?, self.statistics.get(&axis)?);
         let centre = centre(seen);
@@ -275,7 +280,7 @@ impl CalibrationWizard {
         })
     }
 
-    /// Some systems do not report an axis before it moves; its center is the position that it returns to.
+    /// Measures the center of axes that have just returned to it. Some systems do not report an axis before it moves.
     fn measure_middle(&mut self) {
         for axis in self.fully_moved.clone() {
             let Some((value, part)) = self.deflection(axis) else { continue };
@@ -309,7 +314,7 @@ impl CalibrationWizard {
         }
     }
 
-    /// Accepts a stick that was still held when the push was requested and has been released since.
+    /// Accepts sticks that were still held when the push was requested and have been released since.
     fn track_released_sticks(&mut self, now: SimTime) {
         for axis in &self.fully_moved {
             let Some((value, part)) = self.deflection(*axis) else { continue };
@@ -319,13 +324,14 @@ impl CalibrationWizard {
         }
     }
 
-    /// Distance that an axis has moved since the push was requested, of the raw range of 2.
+    /// Returns the distance that an axis has moved since the push was requested, as part of the raw range of 2.
     fn displacement(&self, axis: u32) -> f64 {
         let ends = self.push_start.get(&axis).zip(self.raw.axes.get(&axis));
         ends.map_or(0.0, |(from, value)| (value - from).abs())
     }
 
     /// Returns the only axis that has reached an end since the push was requested, and whether it is the upper end.
+    /// Returns `None` if there are several.
     fn single_pushed_axis(&self) -> Option<(u32, bool)> {
         let pushed = |axis: &u32| {
             let ends = self.statistics.get(axis)?.ends;
@@ -361,7 +367,8 @@ fn moved(seen: &AxisStatistics) -> bool {
     seen.ends.1 - seen.ends.0 >= MOVED
 }
 
-/// Rest position of the stick: measured, or the middle of the range if it rests near an end, as a throttle without a spring may.
+/// Returns the rest position of the stick: the measured one, or the middle of the range if the stick rests near an end,
+/// as a throttle without a spring may.
 fn centre(seen: &AxisStatistics) -> f64 {
     let middle = f64::midpoint(seen.ends.0, seen.ends.1);
     let rest = if seen.count > 0 { seen.sum / f64::from(seen.count) } else { middle };
@@ -451,12 +458,12 @@ mod tests {
             assert_eq!(person.wizard.profile(), None);
             person.confirm();
         }
-        let profile = person.wizard.profile().expect("all asked");
+        let profile = person.wizard.profile().expect("the calibration must be complete");
         let axis = |way| profile.axes[&way];
         assert_eq!(axis(StickMotion::LeftVertical).axis, 2);
         assert!(
             axis(StickMotion::LeftVertical).centre.abs() < 1e-12,
-            "a throttle without a spring rests nowhere: its middle is taken"
+            "a throttle without a spring must use the middle of its range"
         );
         assert_eq!((axis(StickMotion::RightVertical).low, axis(StickMotion::RightVertical).high), (1.0, -1.0));
         assert_eq!((axis(StickMotion::LeftHorizontal).low, axis(StickMotion::LeftHorizontal).high), (-0.7, 0.8));
@@ -484,10 +491,10 @@ mod tests {
         assert!(person.wizard.prompt().contains("Plug it in again"));
     }
 
-    /// A gamepad as Linux reports it: no readings before something moves, triggers start at -1. Sticks 0, 1 and 3, 4 (up is -1),
-    /// triggers 2 and 5, hat 16. Time in s, axis, value.
+    /// Events of a gamepad as Linux reports it: no readings before something moves, triggers start at -1. Sticks 0, 1
+    /// and 3, 4 (up is -1), triggers 2 and 5, hat 16. Time in s, axis, value.
     const PAD: [(f64, u32, f64); 38] = [
-        // Both triggers and the hat move before any stick; the right trigger does not fully return.
+        // Both triggers and the hat move before any stick; the right trigger does not return completely.
         (2.2, 2, -0.9),
         (2.3, 2, 1.0),
         (2.4, 2, -1.0),
@@ -496,7 +503,7 @@ mod tests {
         (2.7, 16, 1.0),
         (2.8, 16, -1.0),
         (2.9, 16, 0.0),
-        // Full range; the sticks rest off the center of their range.
+        // The sticks move through their full range; they rest off the center of the range.
         (3.0, 0, -1.0),
         (3.1, 0, 1.0),
         (3.2, 0, 0.06),
@@ -509,7 +516,7 @@ mod tests {
         (3.9, 4, 1.0),
         (4.0, 4, -1.0),
         (4.1, 4, 0.0),
-        // Left up, passing over left; the trigger is squeezed and released meanwhile.
+        // Push up with the left stick, passing over left; meanwhile the trigger is squeezed and released.
         (6.0, 0, -0.5),
         (6.05, 1, -1.0),
         (6.1, 0, 0.0),
@@ -517,7 +524,7 @@ mod tests {
         (6.3, 2, -1.0),
         (7.0, 1, 0.02),
         (7.05, 0, 0.06),
-        // Left right, right up, right right.
+        // Push the left stick right, the right stick up, and the right stick right.
         (9.0, 0, 1.0),
         (9.5, 0, 0.08),
         (11.0, 4, -0.7),
@@ -550,13 +557,13 @@ mod tests {
             wizard.handle_timeout(now);
             now += SimTime::from_ms(5);
         }
-        let profile = wizard.profile().unwrap_or_else(|| panic!("stands at: {}", wizard.prompt()));
+        let profile = wizard.profile().unwrap_or_else(|| panic!("calibration incomplete: {}", wizard.prompt()));
         let ways =
             [StickMotion::LeftVertical, StickMotion::LeftHorizontal, StickMotion::RightVertical, StickMotion::RightHorizontal];
         assert_eq!(ways.map(|way| profile.axes[&way].axis), [1, 0, 4, 3]);
         let across = profile.axes[&StickMotion::LeftHorizontal];
-        assert!((across.centre - 0.065).abs() < 0.006, "{across:?}: its ends' middle is 0");
-        assert!(across.low < across.high && profile.axes[&StickMotion::LeftVertical].low > 0.0, "a pad's up counts down");
+        assert!((across.centre - 0.065).abs() < 0.006, "{across:?}: the center must not be the middle of the range");
+        assert!(across.low < across.high && profile.axes[&StickMotion::LeftVertical].low > 0.0, "up must be the lower reading");
         assert_eq!(ControllerProfile::read("p", &profile.write()).unwrap(), profile);
     }
 

@@ -1,12 +1,12 @@
-//! Flight controller backends. The built-in autopilot is the only one so far; PX4 and ArduPilot can be added through their
-//! simulator interfaces.
+//! Flight controller backends. The built-in autopilot is the only one so far; PX4 and ArduPilot could be added through
+//! their simulator interfaces.
 
 use crate::autopilot::Autopilot;
 use crate::physics::Actuators;
 use crate::sensors::Readings;
 use spandrel_model::time::SimTime;
 
-/// The flight controller. It runs between sensors and physics in each tick.
+/// The flight controller. In each tick, it runs after the sensors and before the physics.
 #[derive(Debug, Clone)]
 pub enum Backend {
     /// The built-in autopilot.

@@ -46,7 +46,7 @@ impl FlightLogEncoder {
         Self { writer, due }
     }
 
-    /// Writes the rows that are due. With `last`, writes every topic regardless of its schedule.
+    /// Writes the rows whose time has come. With `last`, writes every topic regardless of its schedule.
     pub fn observe(&mut self, view: &VehicleSnapshot, last: bool) {
         for ((number, topic), due) in (0u16..).zip(TOPICS).zip(&mut self.due) {
             if !due.fire(view.now) && !last {
@@ -64,13 +64,13 @@ impl FlightLogEncoder {
         self.writer.text(severity, now.us().max(0).cast_unsigned(), text);
     }
 
-    /// Number of buffered bytes.
+    /// Returns the number of buffered bytes.
     #[must_use]
     pub fn take_bytes(&self) -> usize {
         self.writer.gathered()
     }
 
-    /// Returns the bytes since the last call; append them to the file.
+    /// Returns the bytes since the last call; the caller appends them to the file.
     pub fn take(&mut self) -> Vec<u8> {
         self.writer.take()
     }
@@ -115,7 +115,7 @@ impl FlightRecorder {
         self.on = true;
     }
 
-    /// Records one snapshot of the vehicle and the text messages sent at that instant.
+    /// Records one snapshot of the vehicle, and the text messages sent at that time.
     pub fn observe<'a, P>(&mut self, view: &VehicleSnapshot, texts: &[(u8, &str)], parameters: impl Fn() -> P)
     where
         P: Iterator<Item = (&'a str, UlogValue<'a>)>,
@@ -144,7 +144,7 @@ impl FlightRecorder {
         }
     }
 
-    /// Stops logging and flushes an open log, even with motors running. Call at program exit.
+    /// Stops logging and completes an open log, even if the motors are running. Call it at program exit.
     pub fn stop(&mut self) {
         self.on = false;
         if let Some((mut log, _)) = self.log.take() {

@@ -58,7 +58,7 @@ impl LogRow {
         self.floats(&rotation.wxyz())
     }
 
-    /// The encoded row.
+    /// Returns the encoded row.
     #[must_use]
     pub fn bytes(&self) -> &[u8] {
         &self.bytes

@@ -1,4 +1,5 @@
-//! Table of logged topics, one row each, with PX4's names so that PX4's tools show their standard plots.
+//! Table of logged topics, one row each. Topics have PX4's names where possible, so that PX4's tools show their
+//! standard plots.
 
 use super::row::LogRow;
 use crate::autopilot::{FlightMode, LandedState};
@@ -8,13 +9,13 @@ use spandrel_model::geodesy::Geo;
 /// A logged topic.
 #[derive(Debug, Clone, Copy)]
 pub struct UlogTopic {
-    /// Topic name: PX4's, or a custom one with the prefix `spandrel_`.
+    /// Topic name: PX4's name, or a custom one with the prefix `spandrel_`.
     pub name: &'static str,
     /// Field definitions after the timestamp.
     pub fields: &'static str,
     /// Rate in simulation time, Hz.
     pub rate_hz: f64,
-    /// Appends the fields to a row. Returns `None` if there is no data to log.
+    /// Function that appends the fields to a row. Returns `None` if there is no data to log.
     pub fill: fn(&VehicleSnapshot, &mut LogRow) -> Option<()>,
 }
 
@@ -94,7 +95,7 @@ fn attitude_setpoint(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
 }
 
 fn local_position(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
-    // Without a fix there is no reference position; PX4 logs NaN.
+    // Without a fix, there is no reference position, and PX4 logs NaN.
     let nowhere = Geo { latitude_deg: f64::NAN, longitude_deg: f64::NAN, altitude_m: f64::NAN };
     let (e, origin) = (v.estimate, v.local_origin().unwrap_or(nowhere));
     row.vec(v.local_from_site(e.position_m)).vec(e.velocity_m_s).f32(e.attitude.yaw_rad());
@@ -141,7 +142,7 @@ fn magnetometer(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
 }
 
 fn range_down(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
-    /// ROTATION_DOWNWARD_FACING of PX4's distance_sensor.
+    /// ROTATION_DOWNWARD_FACING of PX4's `distance_sensor`.
     const DOWN: u8 = 25;
     let range = v.readings.range_down_m.filter(|range| range.is_finite())?;
     row.f32(range).u8(DOWN);
@@ -159,7 +160,7 @@ fn motors(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     Some(())
 }
 
-/// Motor outputs as pulse widths, us: 1000 at idle, 2000 at full speed, 900 while disarmed.
+/// Appends the motor outputs as pulse widths, us: 1000 at idle, 2000 at full speed, 900 while disarmed.
 fn outputs(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     let pulses = v.actuators.motors.iter().map(|motor| if v.actuators.armed { 1000.0 + 1000.0 * motor } else { 900.0 });
     row.i32(v.vehicle.rotors.len() as i32).floats(&padded::<16>(pulses.take(v.vehicle.rotors.len())));
@@ -190,7 +191,7 @@ fn status(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     Some(())
 }
 
-/// PX4's code for a mode (`nav_state` of vehicle_status).
+/// Returns PX4's code for a mode (`nav_state` of `vehicle_status`).
 fn nav_state(mode: FlightMode) -> u8 {
     match mode {
         FlightMode::Altitude => 1,

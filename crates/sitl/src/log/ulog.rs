@@ -76,20 +76,20 @@ impl UlogWriter {
         self.message(b'L', &[&[b'0' + severity.min(7)], &at_us.to_le_bytes(), text.as_bytes()]);
     }
 
-    /// Number of buffered bytes.
+    /// Returns the number of buffered bytes.
     #[must_use]
     pub fn gathered(&self) -> usize {
         self.out.len()
     }
 
-    /// Returns the buffered bytes and clears the buffer; append them to the file.
+    /// Returns the buffered bytes and clears the buffer; the caller appends them to the file.
     pub fn take(&mut self) -> Vec<u8> {
         std::mem::take(&mut self.out)
     }
 
     fn keyed(&mut self, kind: u8, name: &str, value: UlogValue) {
         let key = format!("{} {name}", value.kind());
-        // All names are internal and short; a longer one would overflow the length byte.
+        // All names are internal and short; a longer name would overflow the length byte.
         let length = key.len().min(255);
         self.message(kind, &[&[length as u8], &key.as_bytes()[..length], &value.bytes()]);
     }

@@ -1,11 +1,11 @@
-//! Battery model: open-circuit voltage as a function of charge, internal resistance and power draw, or the fixed endurance of the
-//! paper.
+//! Battery model: open-circuit voltage as a function of charge, internal resistance and power draw; or the fixed
+//! endurance given in the TASBID paper.
 
 use super::{AirframeModel, PhysicsState as Physics, PowerLoad};
 use spandrel_model::math;
 use spandrel_model::scenario::BatteryModel;
 
-/// Cell voltage below which the pack counts as empty, V (estimate; LiPo practice).
+/// Cell voltage below which the pack counts as empty, V (estimate; usual LiPo practice).
 const EMPTY_CELL_V: f64 = 3.2;
 
 /// State of charge and terminal readings.
@@ -47,20 +47,21 @@ impl BatteryState {
         self.dead_cells = if dead { self.dead_cells | bit } else { self.dead_cells & !bit };
     }
 
-    /// Number of working cells in a pack of `cells` cells.
+    /// Returns the number of working cells in a pack of `cells` cells.
     #[must_use]
     pub fn live_cells(&self, cells: u32) -> u32 {
         cells.saturating_sub(self.dead_cells.count_ones())
     }
 
-    /// Remaining charge, %.
+    /// Returns the remaining charge, %.
     #[must_use]
     pub fn remaining_pct(&self) -> f64 {
         self.charge * 100.0
     }
 }
 
-/// Open-circuit voltage of the pack at a state of charge, V. Interpolates linearly between the eleven points of the vehicle file.
+/// Returns the open-circuit voltage of the pack at a state of charge, V. Interpolates linearly between the eleven
+/// points of the vehicle file.
 #[must_use]
 pub fn open_circuit_v(battery: &spandrel_model::vehicle::BatterySpec, charge: f64) -> f64 {
     let x = charge.clamp(0.0, 1.0) * 10.0;
@@ -68,7 +69,7 @@ pub fn open_circuit_v(battery: &spandrel_model::vehicle::BatterySpec, charge: f6
     f64::from(battery.cells) * math::lerp(battery.ocv_cell_v[low], battery.ocv_cell_v[low + 1], x - low as f64)
 }
 
-/// Total electrical power draw, W.
+/// Returns the total electrical power draw, W.
 fn power_w(model: &AirframeModel, physics: &Physics, load: PowerLoad) -> f64 {
     let rotor = &model.rotor;
     let shaft: f64 = physics.rigid.rotor_rad_s.iter().map(|w| rotor.torque_coefficient_n_m_s2 * w * w * w).sum();

@@ -16,7 +16,8 @@ const TOUCH_M: f64 = 1e-3;
 const SLOP_M: f64 = 1e-5;
 /// Fraction of the penetration that is corrected per step.
 const MEND: f64 = 0.2;
-/// Maximum iterations of the impulse solver. A resting body starts from the impulses of the last step and needs few.
+/// Maximum iterations of the impulse solver. A resting body starts from the impulses of the last step and needs only a
+/// few.
 const ROUNDS: usize = 16;
 /// Convergence threshold: the largest impulse change relative to the weight's impulse.
 const SETTLED: f64 = 1e-9;
@@ -62,7 +63,7 @@ struct ContactConstraint {
     gap: f64,
     target: f64,
     approach: f64,
-    /// Response of the body and of this contact point to an impulse here.
+    /// Response of the body and of this contact point to an impulse at this point.
     gives: ImpulseResponse,
     inverse_effective: f64,
     impulse: Vector3<f64>,
@@ -79,7 +80,7 @@ pub fn resolve(
     dt_s: f64,
 ) {
     let travel = state.rigid.velocity_m_s.norm() * dt_s + model.hull_radius_m * state.rigid.rates_rad_s.norm() * dt_s;
-    // Queried at the start of the step, before anything can have been passed through.
+    // Contacts are queried at the start of the step, before the body can pass through an obstacle.
     let mut constraints = gather(model, start, obstacles, at, travel + MARGIN_M);
     if constraints.is_empty() {
         state.contact = ContactReport::default();
@@ -94,7 +95,7 @@ pub fn resolve(
         // FRAME: the solver works in NED; the body's rates are in body axes.
         state.rigid.velocity_m_s = Vec3::assume(velocity);
         state.rigid.rates_rad_s = state.rigid.attitude.inverse() * Vec3::<Ned>::assume(spin);
-        // Repeats the step from its start with the velocities that contact allows.
+        // Repeats the step from its start with the velocities that the contacts allow.
         state.rigid.position_m = start.position_m + state.rigid.velocity_m_s * dt_s + repair_quaternion(&constraints);
         state.rigid.attitude = start.attitude.turned_by(state.rigid.rates_rad_s * dt_s);
         strike_rotors(&constraints, &mut state.rigid, dt_s);
@@ -115,7 +116,7 @@ impl ContactBody {
         Self { inverse_mass: model.inverse_mass, inverse_inertia }
     }
 
-    /// Response to impulses at `arm`.
+    /// Returns the response to impulses at `arm`.
     fn impulse_response(&self, arm: &Vector3<f64>) -> ImpulseResponse {
         let cross = arm.cross_matrix();
         let spin = self.inverse_inertia * cross;
@@ -221,7 +222,7 @@ fn solve(
     (v, w)
 }
 
-/// Updates one contact. Returns the magnitude of its impulse change.
+/// Updates one contact and returns the magnitude of its impulse change.
 fn one_contact(c: &mut ContactConstraint, body: &ContactBody, v: &mut Vector3<f64>, w: &mut Vector3<f64>, friction: f64) -> f64 {
     let old = c.impulse;
     let relative = *v + w.cross(&c.arm) - c.object_velocity;
@@ -248,7 +249,7 @@ fn one_contact(c: &mut ContactConstraint, body: &ContactBody, v: &mut Vector3<f6
     change.norm()
 }
 
-/// Position shift that corrects the deepest penetration without adding velocity.
+/// Returns the position shift that corrects the deepest penetration without adding velocity.
 fn repair_quaternion(constraints: &[ContactConstraint]) -> Vec3<Ned> {
     let deepest = constraints.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
     deepest.filter(|c| c.gap < -SLOP_M).map_or(Vec3::zero(), |c| {

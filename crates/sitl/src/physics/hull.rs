@@ -27,13 +27,13 @@ impl BodyProbe {
         Self { a_m, b_m, radius_m, rotor: None }
     }
 
-    /// Largest distance from the center of mass, m.
+    /// Returns the largest distance from the center of mass, m.
     #[must_use]
     pub fn reach_m(&self) -> f64 {
         self.a_m.norm().max(self.b_m.norm()) + self.radius_m
     }
 
-    /// Transforms the probe to the pose of the aircraft.
+    /// Returns the probe transformed to the pose of the aircraft.
     #[must_use]
     pub fn placed(&self, rigid: &RigidState) -> HullProbe {
         let place = |p: Vec3<Frd>| -> Vec3<Enu> { (rigid.position_m + rigid.attitude * p).enu() };
@@ -45,8 +45,8 @@ impl BodyProbe {
     }
 }
 
-/// Returns the probes of an aircraft. A caged aircraft is one ball the size of its cage. An open one has arms, feet, a body, and
-/// per rotor disc two crossed diameters and the outer edge.
+/// Returns the probes of an aircraft. A caged aircraft has one ball the size of its cage. An open one has arms, feet, a
+/// body, and for each rotor disc two crossed diameters and the outer edge.
 #[must_use]
 pub fn probes(vehicle: &Vehicle) -> Vec<BodyProbe> {
     let hull = &vehicle.hull;
@@ -66,7 +66,7 @@ pub fn probes(vehicle: &Vehicle) -> Vec<BodyProbe> {
     out
 }
 
-/// Two crossed diameters of a rotor disc, one radial and one tangential.
+/// Returns two crossed diameters of a rotor disc, one radial and one tangential.
 fn disc(hub_m: Vec3<Frd>, radius_m: f64) -> [BodyProbe; 2] {
     let radial = Vec3::new(hub_m.forward(), hub_m.right(), 0.0).unit();
     let tangential = Vec3::new(-radial.right(), radial.forward(), 0.0);

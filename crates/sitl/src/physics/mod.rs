@@ -43,8 +43,8 @@ pub struct Actuators {
 
 /// Sea-level air density, kg/m³ (ISA, 15 °C, 1013.25 hPa).
 pub const AIR_DENSITY_KG_M3: f64 = 1.225;
-/// Upper bound for the speed of objects at the site, m/s: cars drive at most 35 m/s, and lane speeds vary by a tenth. Limits how
-/// long a measured clearance stays valid.
+/// Upper bound for the speed of objects at the site, m/s: cars drive at most 35 m/s, and lane speeds vary by a tenth.
+/// It limits how long a measured clearance stays valid.
 pub const FASTEST_OBJECT_M_S: f64 = 38.5;
 /// Search radius for clearance, m.
 const CLEARANCE_REACH_M: f64 = 4.0;
@@ -58,7 +58,7 @@ pub struct AirState {
     pub velocity_m_s: Vec3<Ned>,
     /// Air density, kg/m³.
     pub density_kg_m3: f64,
-    /// External force at the center of mass, N (the paper's wind model).
+    /// External force at the center of mass, N (TASBID's wind model).
     pub force_n: Vec3<Ned>,
 }
 
@@ -67,13 +67,13 @@ impl AirState {
     pub const STILL: Self = Self { velocity_m_s: Vec3::zero(), density_kg_m3: AIR_DENSITY_KG_M3, force_n: Vec3::zero() };
 }
 
-/// Collision queries against the surroundings. [`Site`] implements this; tests use planes and boxes.
+/// Collision queries against the environment. [`Site`] implements this trait; tests use planes and boxes.
 pub trait Obstacles {
     /// Appends contacts and near-contacts of a probe.
     fn contacts(&self, probe: &HullProbe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>);
-    /// Distance to the nearest solid object within `max_m`, including the landing pad, m.
+    /// Returns the distance to the nearest solid object within `max_m`, including the landing pad, m.
     fn clearance(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<f64>;
-    /// The first hit along a ray within `max_m`.
+    /// Returns the first hit along a ray within `max_m`.
     fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<RayHit>;
 }
 
@@ -89,7 +89,7 @@ impl Obstacles for Site {
     }
 }
 
-/// Surroundings without obstacles.
+/// An environment without obstacles.
 #[derive(Debug, Clone, Copy)]
 pub struct OpenSky;
 
@@ -103,7 +103,7 @@ impl Obstacles for OpenSky {
     }
 }
 
-/// Constants of an aircraft in the form that the models use.
+/// Constants of an aircraft in the form that the physics models use.
 #[derive(Debug, Clone)]
 pub struct AirframeModel {
     /// Mass, kg.
@@ -111,7 +111,7 @@ pub struct AirframeModel {
     inverse_mass: f64,
     inertia: Vector3<f64>,
     inverse_inertia: Vector3<f64>,
-    /// Factor on gravity: 1 on earth, 0 in tests of torque-free motion.
+    /// Factor on gravity: 1 on Earth, 0 in tests of torque-free motion.
     pub gravity_scale: f64,
     rotors: Vec<Rotor>,
     rotor: RotorModel,
@@ -126,7 +126,7 @@ pub struct AirframeModel {
     lamp: Lamp,
 }
 
-/// Complete physical state. Plain data, so a clone is a snapshot.
+/// Complete physical state. It is plain data, so a clone is a snapshot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PhysicsState {
     /// Rigid body and rotors.
@@ -143,7 +143,8 @@ pub struct PhysicsState {
     clear_sphere: ClearSphere,
 }
 
-/// A sphere that was free of obstacles at one instant. Contacts well inside it are impossible for some time after.
+/// A sphere that was free of obstacles at one time. For some time after that, no contacts are possible well inside the
+/// sphere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct ClearSphere {
     centre_m: Vec3<Enu>,
@@ -152,14 +153,14 @@ struct ClearSphere {
 }
 
 impl ClearSphere {
-    /// Remaining radius around `position` that is guaranteed to be free now, m.
+    /// Returns the radius around `position_m` that is guaranteed to be free now, m.
     fn left_m(&self, position_m: Vec3<Enu>, now: SimTime) -> f64 {
         self.radius_m - (position_m - self.centre_m).norm() - FASTEST_OBJECT_M_S * (now - self.since).s()
     }
 }
 
 impl PhysicsState {
-    /// Returns the state at rest at a position and heading, with motors off and a full battery.
+    /// Returns the state at rest at a position and heading, with the motors off and a full battery.
     #[must_use]
     pub fn at_rest(position_m: Vec3<Ned>, yaw_rad: f64) -> Self {
         Self {
@@ -180,7 +181,7 @@ impl PhysicsState {
         }
     }
 
-    /// Moves the aircraft to a position, level and at rest. Keeps the rotor speeds.
+    /// Moves the aircraft to a position, level and at rest. The rotor speeds do not change.
     pub fn place(&mut self, position_m: Vec3<Ned>, yaw_rad: f64) {
         let fresh = Self::at_rest(position_m, yaw_rad);
         let rotor_rad_s = self.rigid.rotor_rad_s;
@@ -226,21 +227,21 @@ impl AirframeModel {
         math::exp(-0.5 * dt_s / self.rotor.time_constant_s)
     }
 
-    /// Rotor speed in hover, rad/s.
+    /// Returns the rotor speed in hover, rad/s.
     #[must_use]
     pub fn hover_rotor_rad_s(&self) -> f64 {
         let per_rotor = self.mass_kg * math::GRAVITY_M_S2 / self.rotors.len() as f64;
         (per_rotor / self.rotor.thrust_coefficient_n_s2).sqrt()
     }
 
-    /// Motor command (0 to 1) in hover with a full battery.
+    /// Returns the motor command (0 to 1) in hover with a full battery.
     #[must_use]
     pub fn hover_command(&self) -> f64 {
         let speed = self.hover_rotor_rad_s();
         (speed - self.rotor.idle_speed_rad_s) / (self.rotor.max_speed_rad_s - self.rotor.idle_speed_rad_s)
     }
 
-    /// Target rotor speeds, rad/s.
+    /// Returns the target rotor speeds, rad/s.
     fn targets(&self, actuators: &Actuators, battery: &battery::BatteryState) -> [f64; MAX_ROTORS] {
         let mut out = [0.0; MAX_ROTORS];
         if !actuators.armed || battery.empty() {
@@ -316,11 +317,11 @@ impl AirframeModel {
 pub struct PowerLoad {
     /// Whether the lamp is on.
     pub lamp_on: bool,
-    /// Whether the vehicle has lifted off. Starts the clock of the `paper` battery.
+    /// Whether the vehicle has lifted off, which starts the clock of the `paper` battery model.
     pub airborne: bool,
 }
 
-/// Returns the more severe of two surfaces for reports, in the order person, vehicle, bridge, terrain, water, other
+/// Returns the more severe of two surfaces for reports. The order is person, vehicle, bridge, terrain, water, other
 /// (docs/src/reference/wire.md, "Scoring data").
 #[must_use]
 pub fn more_severe(a: Surface, b: Surface) -> Surface {
@@ -330,5 +331,5 @@ pub fn more_severe(a: Surface, b: Surface) -> Surface {
     if rank(a) <= rank(b) { a } else { b }
 }
 
-/// Object ID, re-exported for reports.
+/// ID of a touched object, re-exported for reports.
 pub type Touched = ObjectId;

@@ -1,5 +1,5 @@
-//! Free flight: one classical Runge-Kutta step for rigid body and rotors. Rotor speeds follow their exact exponential within the
-//! step, so only the rigid body is integrated numerically.
+//! Free flight: one classical Runge-Kutta step for rigid body and rotors. Within the step, rotor speeds follow their
+//! exact exponential, so that only the rigid body is integrated numerically.
 
 use super::{AirState, AirframeModel, MAX_ROTORS, RigidState};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
@@ -37,8 +37,8 @@ struct RotorInstant {
     acceleration: [f64; MAX_ROTORS],
 }
 
-/// Advances the state by `dt_s` while the rotor speeds approach `target_rad_s`. Air and external force are constant over the
-/// step.
+/// Advances the state by `dt_s` while the rotor speeds approach `target_rad_s`. Wind and external force are constant
+/// over the step.
 pub fn advance(
     model: &AirframeModel,
     state: &mut RigidState,
@@ -61,7 +61,7 @@ pub fn advance(
     let k3 = derivative(model, &y.plus(&k2, 0.5 * dt_s), &half, air, effect);
     let k4 = derivative(model, &y.plus(&k3, dt_s), &end, air, effect);
     let sixth = dt_s / 6.0;
-    // FRAME: each component keeps its original frame.
+    // FRAME: each component keeps its frame.
     state.position_m = Vec3::assume(y.p + (k1.p + (k2.p + k3.p) * 2.0 + k4.p) * sixth);
     state.velocity_m_s = Vec3::assume(y.v + (k1.v + (k2.v + k3.v) * 2.0 + k4.v) * sixth);
     let q = y.q + (k1.q + (k2.q + k3.q) * 2.0 + k4.q) * sixth;
@@ -78,7 +78,7 @@ fn derivative(
     effect: &[f64; MAX_ROTORS],
 ) -> IntegratedState {
     let attitude = UnitQuaternion::new_normalize(y.q);
-    // FRAME: the stage's quaternion is the body's attitude, its velocity is over ground in NED.
+    // FRAME: the stage's quaternion is the body's attitude, and its velocity is the NED velocity over ground.
     let attitude = Rotation::<Frd, Ned>::assume(attitude);
     let air_velocity = attitude.inverse() * (Vec3::assume(y.v) - air.velocity_m_s);
     let wrench = wrench(model, air_velocity, Vec3::assume(y.w), rotors, air.density_kg_m3, effect);
@@ -120,7 +120,8 @@ fn body_drag(model: &AirframeModel, air_velocity_m_s: Vec3<Frd>, rates_rad_s: Ve
 }
 
 impl AirframeModel {
-    /// Rotor speeds and accelerations when the remaining distance to the target is the fraction `left` of its initial value.
+    /// Returns the rotor speeds and accelerations when the distance to the target is the fraction `left` of its initial
+    /// value.
     fn rotor_instant(&self, state: &RigidState, target_rad_s: &[f64; MAX_ROTORS], left: f64) -> RotorInstant {
         let mut out = RotorInstant { speed: [0.0; MAX_ROTORS], acceleration: [0.0; MAX_ROTORS] };
         let pairs = state.rotor_rad_s.iter().zip(target_rad_s).take(self.rotors.len());
@@ -133,12 +134,13 @@ impl AirframeModel {
     }
 
     fn rotor_momentum(&self, speed: &[f64; MAX_ROTORS]) -> Vector3<f64> {
-        // Counterclockwise seen from above is a rotation vector that points up, opposite to the body's down axis.
+        // Counterclockwise as seen from above is a rotation vector that points up, opposite to the body's down axis.
         let z: f64 = self.rotors.iter().zip(speed).map(|(r, w)| -r.spin * self.rotor.inertia_kg_m2 * w).sum();
         Vector3::new(0.0, 0.0, z)
     }
 
-    /// Wrench of one rotor about the center of mass: thrust, in-plane drag, drag torque and the reaction to its acceleration.
+    /// Returns the wrench of one rotor about the center of mass: thrust, in-plane drag, drag torque and the reaction to
+    /// its acceleration.
     #[must_use]
     pub fn rotor_wrench(&self, index: usize, hub_air_m_s: Vec3<Frd>, speed: f64, acceleration: f64, effect: f64) -> Wrench {
         let rotor = &self.rotors[index];

@@ -1,4 +1,4 @@
-//! Ground and ceiling effect per rotor, as a thrust factor at a given rotor speed.
+//! Ground and ceiling effect of each rotor as a thrust factor at a given rotor speed.
 
 use super::{AirframeModel, MAX_ROTORS, Obstacles, RigidState};
 use spandrel_model::frames::{Frd, Vec3};
@@ -8,14 +8,14 @@ use spandrel_model::time::SimTime;
 /// Range of surface effects in rotor radii. Farther surfaces change thrust by less than 0.3 % (Cheeseman-Bennett at 5 R: 1.0025).
 const REACH_RADII: f64 = 5.0;
 
-/// Range of surface effects, m.
+/// Returns the range of surface effects, m.
 #[must_use]
 pub fn reach_m(model: &AirframeModel) -> f64 {
     REACH_RADII * model.rotor.radius_m
 }
 
-/// Thrust in ground effect divided by thrust out of it at equal power, after Cheeseman and Bennett. Valid for z > R/2; constant
-/// below.
+/// Returns the thrust in ground effect divided by the thrust out of it at equal power, after Cheeseman and Bennett.
+/// Valid for z > R/2; constant below.
 #[must_use]
 pub fn ground_factor(height_over_radius: f64) -> f64 {
     let z = height_over_radius.max(0.5);
@@ -23,22 +23,22 @@ pub fn ground_factor(height_over_radius: f64) -> f64 {
     1.0 / (1.0 - r * r)
 }
 
-/// Ratio of induced velocities without and with a ceiling, gamma of Hsiao and Chirarattananon. Constant below R/4, as in the
-/// public Crazyflie firmware.
+/// Returns the ratio of induced velocities without and with a ceiling, gamma of Hsiao and Chirarattananon. Constant
+/// below R/4, as in the public Crazyflie firmware.
 #[must_use]
 pub fn ceiling_gamma(distance_over_radius: f64) -> f64 {
     let d = distance_over_radius.max(0.25);
     0.5 + 0.5 * (1.0 + 1.0 / (8.0 * d * d)).sqrt()
 }
 
-/// Thrust below a ceiling divided by thrust in open air at constant power: gamma^(2/3).
+/// Returns the thrust below a ceiling divided by the thrust in open air at constant power: gamma^(2/3).
 #[must_use]
 pub fn ceiling_factor(distance_over_radius: f64) -> f64 {
     let g = math::cbrt(ceiling_gamma(distance_over_radius));
     g * g
 }
 
-/// Thrust factor of every rotor, from the surfaces below and above its hub along the rotor axis.
+/// Returns the thrust factor of each rotor from the surfaces below and above its hub along the rotor axis.
 pub fn factors(model: &AirframeModel, rigid: &RigidState, obstacles: &impl Obstacles, at: SimTime) -> [f64; MAX_ROTORS] {
     let mut out = [1.0; MAX_ROTORS];
     let down = (rigid.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).enu();
@@ -84,7 +84,7 @@ mod tests {
         }
     }
 
-    /// A floor and a ceiling at these heights, m up. Each covers one half of the plane, split at north = 0.
+    /// A floor and a ceiling at the given heights, m up. Each covers one half of the plane, split at north = 0.
     struct FloorAndCeiling(f64, f64);
 
     impl Obstacles for FloorAndCeiling {
@@ -107,7 +107,7 @@ mod tests {
         let vehicle = spandrel_model::vehicle::read("phantom2.toml", text).expect("shipped");
         let model = AirframeModel::new(&vehicle, spandrel_model::scenario::BatteryModel::Paper);
         let radius = vehicle.rotor.radius_m;
-        // The hubs are 3 cm above the center. The ceiling is one radius away and the floor two.
+        // The hubs are 3 cm above the center. The ceiling is one radius away and the floor two radii.
         let slabs = FloorAndCeiling(0.03 - 2.0 * radius, 0.03 + radius);
         let state = crate::physics::PhysicsState::at_rest(Vec3::zero(), 0.0);
         let got = factors(&model, &state.rigid, &slabs, SimTime::ZERO);

@@ -5,7 +5,7 @@ use spandrel_model::random::RandomStream;
 use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle;
 
-/// Offset at power-on after zeroing at the known height of the origin, m (estimate).
+/// Offset at power-on, after zeroing at the known height of the origin, m (estimate).
 pub const START_OFFSET_M: f64 = 0.1;
 
 /// State of the barometer.
@@ -44,14 +44,14 @@ impl Barometer {
         Some((measured, pressure_pa(self.origin_altitude_m + measured)))
     }
 
-    /// Current offset, m, for estimator tests.
+    /// Returns the current offset, m, for estimator tests.
     #[must_use]
     pub fn offset_m(&self) -> f64 {
         self.offset_m
     }
 }
 
-/// Static pressure at an altitude in the standard troposphere, Pa (ISO 2533).
+/// Returns the static pressure at an altitude in the standard troposphere, Pa (ISO 2533).
 #[must_use]
 pub fn pressure_pa(altitude_m: f64) -> f64 {
     101_325.0 * math::pow((1.0 - 2.255_77e-5 * altitude_m).max(0.01), 5.255_88)

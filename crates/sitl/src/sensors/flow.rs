@@ -1,5 +1,6 @@
-//! Optical flow: horizontal velocity relative to any lit surface within range-finder reach, in any direction (cameras face all
-//! sides, as on current inspection aircraft). Gives no measurement over distant water or in the dark.
+//! Optical flow: horizontal velocity relative to any lit surface within range-finder reach, in any direction (the
+//! cameras cover all sides, as on current inspection aircraft). There is no measurement over distant water or in the
+//! dark.
 
 use super::FlowReading;
 use crate::physics::RigidState;
@@ -8,7 +9,7 @@ use spandrel_model::random::RandomStream;
 use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle;
 
-/// Minimum light for feature tracking, lx (manufacturers of vision positioning specify more than 15 lx).
+/// Minimum light for feature tracking, lx (manufacturers of vision positioning systems specify more than 15 lx).
 pub const LEAST_LUX: f64 = 15.0;
 /// Scale error, constant over a session, as a fraction of velocity (estimate).
 pub const SCALE_ERROR: f64 = 0.01;
@@ -26,7 +27,7 @@ pub struct OpticalFlow {
 }
 
 impl OpticalFlow {
-    /// Creates the sensor. It is never due if the aircraft has no flow sensor.
+    /// Creates the sensor. If the aircraft has no flow sensor, it never returns a sample.
     #[must_use]
     pub fn new(sensors: &vehicle::SensorSpec, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "flow");
@@ -45,7 +46,7 @@ impl OpticalFlow {
         self.due.fire(now)
     }
 
-    /// Returns the reading for the nearest surface at `nearest_m` under `lux`, or `None` if tracking is impossible.
+    /// Returns the reading for a surface at `nearest_m` under `lux`, or `None` if tracking is impossible.
     pub fn read(&mut self, rigid: &RigidState, nearest_m: f64, lux: f64) -> Option<FlowReading> {
         let (a, b) = (self.stream.normal(), self.stream.normal());
         if lux < LEAST_LUX || nearest_m >= self.reach_m {

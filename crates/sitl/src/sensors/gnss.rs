@@ -1,5 +1,6 @@
-//! GNSS receiver under a fixed constellation. Structures hide satellites, and dilution of precision follows from the visible
-//! ones. Position errors combine slow drift, white noise, and multipath that grows with the hidden fraction of the sky.
+//! GNSS receiver under a fixed constellation. Structures hide satellites, and the dilution of precision follows from
+//! the visible ones. Position errors combine slow drift, white noise, and multipath that grows with the hidden fraction
+//! of the sky.
 
 use super::{GnssReading, Surroundings};
 use crate::physics::RigidState;
@@ -14,13 +15,13 @@ use spandrel_model::vehicle;
 pub const SATELLITES: usize = 22;
 /// Elevation mask, rad (10 degrees, common in receivers).
 const MASK_RAD: f64 = 0.174_533;
-/// Minimum satellites for a fix (four unknowns plus one for consistency).
+/// Minimum number of satellites for a fix (four unknowns plus one for consistency).
 const LEAST_SATELLITES: usize = 5;
 /// Maximum horizontal dilution for a fix (estimate: receivers flag larger values as unusable).
 const LARGEST_HDOP: f64 = 8.0;
-/// Range within which structures hide satellites, m (the sites end there).
+/// Range within which structures hide satellites, m (the sites are smaller than that).
 const REACH_M: f64 = 400.0;
-/// Slowly drifting fraction of the position noise. The white fraction supplies the remaining variance.
+/// Slowly drifting fraction of the position noise; the white fraction supplies the remaining variance.
 pub const DRIFT_SHARE: f64 = 0.8;
 /// White fraction of the position noise: `DRIFT_SHARE`² + `WHITE_SHARE`² = 1.
 pub const WHITE_SHARE: f64 = 0.6;
@@ -100,7 +101,7 @@ impl GnssReceiver {
         self.stream = stream;
     }
 
-    /// Random error with the receiver's horizontal and vertical noise multiplied by `share`.
+    /// Returns a random error with the receiver's horizontal and vertical noise multiplied by `share`.
     fn scaled(&self, stream: &mut RandomStream, share: f64) -> Vec3<Ned> {
         let [n, e, d] = stream.normal3();
         Vec3::new(n * self.horizontal_m, e * self.horizontal_m, d * self.vertical_m) * share
@@ -131,7 +132,7 @@ impl GnssReceiver {
         }
     }
 
-    /// Current drift, m, for estimator tests.
+    /// Returns the current drift, m, for estimator tests.
     #[must_use]
     pub fn drift_m(&self) -> Vec3<Ned> {
         self.drift
@@ -156,7 +157,7 @@ fn no_fix() -> GnssReading {
     }
 }
 
-/// Unit vectors to the satellites, spread evenly above the mask by the golden angle.
+/// Returns unit vectors to the satellites, spread evenly above the mask with the golden angle.
 fn sky() -> Vec<Vec3<Enu>> {
     let golden = math::PI * (3.0 - 5.0_f64.sqrt());
     let low = math::sin(MASK_RAD);
@@ -170,7 +171,8 @@ fn sky() -> Vec<Vec3<Enu>> {
         .collect()
 }
 
-/// Horizontal and vertical dilution of precision. Returns `None` with too few satellites or a degenerate geometry.
+/// Returns the horizontal and vertical dilution of precision, or `None` with too few satellites or a degenerate
+/// geometry.
 fn dilution(sky: impl Iterator<Item = Vec3<Enu>>) -> Option<(f64, f64)> {
     let normal: Matrix4<f64> = sky.fold(Matrix4::zeros(), |sum, d| {
         let row = Vector4::new(-d.east(), -d.north(), -d.up(), 1.0);

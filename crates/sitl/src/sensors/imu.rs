@@ -6,8 +6,8 @@ use spandrel_model::random::RandomStream;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle;
 
-/// Bias random walk per √s as a fraction of the initial bias (estimate: consumer inertial sensors drift by a few percent of it
-/// per minute).
+/// Bias random walk per √s as a fraction of the initial bias (estimate: consumer inertial sensors drift by a few
+/// percent of their bias per minute).
 pub const BIAS_WALK_SHARE: f64 = 0.005;
 
 /// Samples between updates of the bias walk.
@@ -52,7 +52,7 @@ impl Imu {
         }
     }
 
-    /// Integrates one physics step, so the next sample includes impacts between samples.
+    /// Integrates one physics step, so that the next sample includes impacts that occur between samples.
     pub fn integrate(&mut self, specific_force_m_s2: Vec3<Frd>, rates_rad_s: Vec3<Frd>, dt: SimTime) {
         let dt_s = dt.s();
         self.force_sum += specific_force_m_s2 * dt_s;
@@ -60,7 +60,8 @@ impl Imu {
         self.time_s += dt_s;
     }
 
-    /// Returns the reading at the end of a sampling interval, or `None` if nothing was integrated since the last.
+    /// Returns the reading at the end of a sampling interval, or `None` if nothing was integrated since the last
+    /// reading.
     pub fn read(&mut self) -> Option<ImuReading> {
         if self.time_s <= 0.0 {
             return None;
@@ -81,14 +82,14 @@ impl Imu {
         Some(ImuReading { specific_force_m_s2: force, rates_rad_s: rates })
     }
 
-    /// True biases of accelerometer (m/s²) and gyroscope (rad/s), for estimator tests.
+    /// Returns the true biases of accelerometer (m/s²) and gyroscope (rad/s), for estimator tests.
     #[must_use]
     pub fn biases(&self) -> (Vec3<Frd>, Vec3<Frd>) {
         (self.accel_bias, self.gyro_bias)
     }
 }
 
-/// Six independent standard normal values as two vectors.
+/// Returns six independent standard normal values as two vectors.
 fn normal_pair_3d(stream: &mut RandomStream) -> (Vec3<Frd>, Vec3<Frd>) {
     let ((a, b), (c, d), (e, f)) = (stream.normal_pair(), stream.normal_pair(), stream.normal_pair());
     (Vec3::new(a, b, c), Vec3::new(d, e, f))

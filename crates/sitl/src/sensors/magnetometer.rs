@@ -1,5 +1,5 @@
-//! Magnetometer in the earth's dipole field, with the residual bias of the aircraft after calibration. Steel structures do not
-//! disturb the field.
+//! Magnetometer in the Earth's dipole field, with the bias that remains after calibration of the aircraft. Steel
+//! structures do not disturb the field.
 
 use crate::physics::RigidState;
 use spandrel_model::frames::{Frd, Ned, Vec3};
@@ -12,7 +12,7 @@ use spandrel_model::vehicle;
 /// First-degree IGRF-13 coefficients g10, g11, h11 for 2020, gauss.
 const DIPOLE_GAUSS: [f64; 3] = [-0.294_048, -0.014_509, 0.046_525];
 
-/// The earth's magnetic field as a tilted centered dipole, gauss. Direction is accurate to a few degrees.
+/// Returns the Earth's magnetic field as a tilted centered dipole, gauss. Its direction is accurate to a few degrees.
 #[must_use]
 pub fn earth_field_gauss(place: Geo) -> Vec3<Ned> {
     let [g10, g11, h11] = DIPOLE_GAUSS;
@@ -80,15 +80,15 @@ mod tests {
             assert!((first - later).norm() < 1e-12, "{first:?} {later:?}");
             squares += first.norm_squared() / 1200.0;
         }
-        // 1,200 draws: three standard errors of the standard deviation are 6 %.
+        // With 1,200 draws, three standard errors of the standard deviation are 6 %.
         assert!((squares.sqrt() / 0.01 - 1.0).abs() < 0.06, "{}", squares.sqrt());
     }
 
     #[test]
     fn val_the_field_dips_downward_in_the_north_and_is_horizontal_near_the_magnetic_equator() {
         let alps = earth_field_gauss(Geo { latitude_deg: 46.5, longitude_deg: 8.0, altitude_m: 0.0 });
-        // World Magnetic Model 2020 at this location: 0.47 G total, dip 62 degrees; the dipole alone is within 0.06 G and 6
-        // degrees.
+        // World Magnetic Model 2020 at this location: 0.47 G total, dip 62 degrees. The dipole is within 0.06 G and 6
+        // degrees of that.
         let dip = math::atan2(alps.down(), alps.horizontal_norm()).to_degrees();
         assert!((alps.norm() - 0.47).abs() < 0.06 && (dip - 62.0).abs() < 6.0, "{alps:?} {dip}");
     }

@@ -1,4 +1,5 @@
-//! Sensor models, one file each, with their own noise, bias and rate. The autopilot gets no other information about the vehicle.
+//! Sensor models, one file each, with individual noise, bias and rate. The autopilot gets no other information about
+//! the vehicle.
 
 pub mod baro;
 pub mod flow;
@@ -108,16 +109,16 @@ pub struct BatteryReading {
     pub remaining_pct: f64,
 }
 
-/// Sensor queries against the surroundings. [`Site`] implements this; tests use [`FlatGround`].
+/// Sensor queries against the environment. [`Site`] implements this trait; tests use [`FlatGround`].
 pub trait Surroundings {
-    /// Distance to the first hit along a unit direction, m, or `None` if nothing is within `max_m`.
+    /// Returns the distance to the first hit along a unit direction, m, or `None` if there is none within `max_m`.
     fn ray_m(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<f64>;
-    /// Returns true only if nothing solid is within `max_m` in any direction, including the landing pad. Returning false is
-    /// always allowed and only costs time.
+    /// Returns true only if there is nothing solid within `max_m` in any direction, including the landing pad.
+    /// Returning false is always allowed and only costs time.
     fn nothing_within(&self, _position_m: Vec3<Enu>, _max_m: f64, _at: SimTime) -> bool {
         false
     }
-    /// Mean ambient light at a point, lx.
+    /// Returns the mean ambient light at a point, lx.
     fn lux(&self, position_m: Vec3<Enu>, at: SimTime) -> f64;
 }
 
@@ -163,7 +164,7 @@ pub struct SensorInputs<'a> {
     pub lamp_on: bool,
 }
 
-/// All sensors of one aircraft. Plain data.
+/// All sensors of one aircraft, as plain data.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sensors {
     imu_due: Schedule,
@@ -186,7 +187,7 @@ const POWER_RATE_HZ: f64 = 10.0;
 const LIGHT_RATE_HZ: f64 = 2.0;
 
 impl Sensors {
-    /// Creates the sensors. `gnss_shadow` and `origin` are those of the scenario.
+    /// Creates the sensors. `gnss_shadow` and `origin` come from the scenario.
     #[must_use]
     pub fn new(vehicle: &Vehicle, gnss_shadow: bool, origin: Geo, seed: u64) -> Self {
         let spec = &vehicle.sensors;
@@ -207,12 +208,13 @@ impl Sensors {
         }
     }
 
-    /// Integrates the inertial sensors. Call after every physics step so that they miss nothing between two samples.
+    /// Integrates the inertial sensors. Call it after every physics step, so that they capture all motion between two
+    /// samples.
     pub fn integrate_imu(&mut self, rigid: &RigidState, specific_force_m_s2: Vec3<Frd>, dt: SimTime) {
         self.imu.integrate(specific_force_m_s2, rigid.rates_rad_s, dt);
     }
 
-    /// Returns all readings due at `now`.
+    /// Returns all readings whose sample time has come at `now`.
     pub fn sample<S: Surroundings>(&mut self, truth: &SensorInputs<'_>, site: &S, now: SimTime) -> Readings {
         let rigid = truth.rigid;
         let position_m = rigid.position_m.enu();
@@ -245,7 +247,7 @@ impl Sensors {
         out
     }
 
-    /// Illuminance on the nearest surface if the lamp pointed at it, lx.
+    /// Returns the illuminance on the nearest surface if the lamp pointed at it, lx.
     fn lamp_lux(&self, on: bool) -> f64 {
         if !on || self.lamp.flux_lm <= 0.0 {
             return 0.0;
@@ -254,19 +256,19 @@ impl Sensors {
         self.lamp.flux_lm / solid_angle.max(1e-3) / self.nearest_m.max(0.5) / self.nearest_m.max(0.5)
     }
 
-    /// The inertial sensors, for estimator tests.
+    /// Returns the inertial sensors, for estimator tests.
     #[must_use]
     pub fn imu(&self) -> &imu::Imu {
         &self.imu
     }
 
-    /// The GNSS receiver, for estimator tests.
+    /// Returns the GNSS receiver, for estimator tests.
     #[must_use]
     pub fn gnss(&self) -> &gnss::GnssReceiver {
         &self.gnss
     }
 
-    /// The barometer, for estimator tests.
+    /// Returns the barometer, for estimator tests.
     #[must_use]
     pub fn baro(&self) -> &baro::Barometer {
         &self.baro
@@ -280,7 +282,7 @@ pub(crate) mod tests {
     use spandrel_model::frames::Rotation;
     use spandrel_model::vehicle;
 
-    /// Sensors without errors, for tests of single mechanisms.
+    /// Returns sensors without errors, for tests of single mechanisms.
     pub(crate) fn perfect() -> vehicle::SensorSpec {
         vehicle::SensorSpec {
             imu_rate_hz: 400.0,
@@ -306,7 +308,7 @@ pub(crate) mod tests {
         }
     }
 
-    /// At rest, ten meters above the origin.
+    /// Returns a state at rest, ten meters above the origin.
     pub(crate) fn still() -> RigidState {
         RigidState {
             position_m: Vec3::new(0.0, 0.0, -10.0),
@@ -341,7 +343,7 @@ pub(crate) mod tests {
             .collect();
         all.sort_by(f64::total_cmp);
         all.dedup();
-        assert_eq!(all.len(), 40, "every session has another");
+        assert_eq!(all.len(), 40, "each session must have a different bias");
     }
 
     #[test]

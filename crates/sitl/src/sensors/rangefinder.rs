@@ -20,7 +20,7 @@ pub struct RangeReadings {
 }
 
 impl RangeReadings {
-    /// The shortest range, m.
+    /// Returns the shortest range, m.
     #[must_use]
     pub fn shortest_m(&self) -> f64 {
         self.around_m.iter().fold(self.down_m.min(self.up_m), |a, b| a.min(*b))
@@ -78,7 +78,7 @@ impl RangeFinders {
         Some(RangeReadings { down_m, up_m, around_m })
     }
 
-    /// Measures one range along a direction, with the bias of that sensor.
+    /// Measures one range along a direction, with the bias of its sensor.
     fn one<S: Surroundings>(&mut self, rigid: &RigidState, (direction, bias_m): (Vec3<Frd>, f64), site: &S, now: SimTime) -> f64 {
         let hit = site.ray_m(rigid.position_m.enu(), (rigid.attitude * direction).enu(), self.max_m, now);
         hit.map_or(f64::INFINITY, |d| (d + bias_m + self.noise_m * self.stream.normal()).max(0.0))

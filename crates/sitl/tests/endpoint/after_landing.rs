@@ -1,11 +1,11 @@
-//! Landings away from home and crashes: what stays, what is put back.
+//! Landings away from home and crashes: whether the vehicle stays or respawns.
 
 use spandrel_mavlink::dialect::*;
 use spandrel_model::scenario::AfterCrash;
 use spandrel_testkit::shipped::scenario;
 use spandrel_testkit::station::{Station, one, p};
 
-/// Forward by hand, until it is no longer at home.
+/// Flies forward with the sticks until the vehicle has left the home circle.
 fn fly_away(station: &mut Station) {
     let pad = scenario("drill-hover").ground_team.pad_m;
     let away = |station: &Station| (station.sim.truth().rigid.position_m.enu() - pad).horizontal_norm();
@@ -16,7 +16,7 @@ fn fly_away(station: &mut Station) {
     assert!(away(station) > 8.0, "{} m from the pad", away(station));
 }
 
-/// A soft landing 12 m from the pad; what the vehicle is like ten seconds later, and whether it takes off again.
+/// After a soft landing 12 m from the pad, the vehicle must stay there for ten seconds and then take off again.
 #[test]
 fn regress_a_soft_landing_away_from_home_stays_and_takes_off_again() {
     let mut station = Station::airborne("drill-hover", 7);
@@ -41,11 +41,11 @@ fn regress_a_soft_landing_away_from_home_stays_and_takes_off_again() {
     assert_eq!(station.command(1, takeoff, [0.0, 0.0, 0.0, nan, nan, nan, nan]), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(8_000);
     let risen_m = (station.sim.truth().rigid.position_m - stands_m).down();
-    // m: the take-off's height is 2.5 m over home.
+    // The takeoff height is 2.5 m above home.
     assert!(risen_m < -1.5 && !station.said("Respawned at"), "{risen_m} {:?}", station.texts());
 }
 
-/// Falls from 5 m with its motors stopped; the number of times that it is put back in 15 s.
+/// Falls from 5 m with the motors stopped and returns the number of respawns within 15 s.
 fn respawns_after_a_fall(rule: Option<AfterCrash>) -> usize {
     let mut station = Station::ruled("drill-hover", 7, rule);
     station.climb_by_hand();

@@ -1,4 +1,4 @@
-//! Every question is answered at once, and once; who is not addressed stays silent.
+//! Every request gets exactly one immediate response; components that are not addressed stay silent.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
@@ -8,20 +8,21 @@ use spandrel_sitl::endpoint::{LinkId, LinkKind};
 use spandrel_sitl::sim::Sim;
 use spandrel_testkit::station::{GCS, Station};
 
-/// Acknowledgements of a command by any number, laid out by hand: the dialect does not know them all.
+/// Returns the acknowledgments of a command with any number. The frame is encoded manually, because the dialect does
+/// not contain all commands.
 fn acknowledgements(sim: &mut Sim, encoder: &mut Encoder, id: u32, number: u16, target: (u8, u8)) -> Vec<(u16, u8)> {
     let mut payload = [0; 35];
     payload[28..30].copy_from_slice(&number.to_le_bytes());
     (payload[30], payload[31]) = target;
     sim.handle_datagram(GCS, &encoder.encode_payload(id, &payload[..if id == 76 { 33 } else { 35 }]));
-    // No tick: at once means before anything else happens.
+    // There is no tick in between: the response must come before anything else happens.
     let now = sim.now();
     sim.handle_timeout(now);
     let mut out = Vec::new();
     while let Some(transmit) = sim.poll_transmit() {
         for frame in Decoder::new().datagram(&transmit.bytes).iter().filter(|f| f.message_id == 77) {
             let p = frame.payload(10);
-            assert_eq!((p[8], p[9]), (255, 190), "addressed to who asked");
+            assert_eq!((p[8], p[9]), (255, 190), "the response must be addressed to the sender");
             out.push((u16::from_le_bytes([p[0], p[1]]), frame.component_id));
         }
     }
@@ -34,7 +35,7 @@ fn wire_every_command_number_gets_one_answer_and_strangers_get_none() {
     while station.sim.poll_transmit().is_some() {}
     let mut encoder = Encoder::new(255, 190);
     for number in 0..=u16::MAX {
-        // A tick each: no link may do more than a few things in one.
+        // One tick each, because the work per link and tick is limited.
         let next = station.sim.poll_timeout();
         station.sim.handle_timeout(next);
         while station.sim.poll_transmit().is_some() {}
@@ -73,14 +74,14 @@ fn wire_the_cameras_component_does_not_fly() {
     assert!(!armed.unwrap().contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED));
     let list = PARAM_REQUEST_LIST_DATA { target_system: 1, target_component: 100 };
     let value = station.ask(&MavMessage::PARAM_REQUEST_LIST(list), |m| matches!(m, MavMessage::PARAM_VALUE(_)).then_some(()));
-    assert_eq!(value, None, "the camera has no parameters of its own");
+    assert_eq!(value, None, "the camera must not have parameters");
 }
 
 #[test]
 fn wire_every_stream_can_be_asked_for_once_and_at_a_rate() {
     use spandrel_sitl::endpoint::streams::STREAMS;
     let mut station = Station::airborne("two-bridges", 7);
-    // Something to say for the stream about orbits.
+    // Starts an orbit, so that the orbit stream has data.
     let orbit = [3.0, 0.5, 0.0, 0.0, f32::NAN, f32::NAN, f32::NAN];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_ORBIT, orbit), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(20);
@@ -110,22 +111,22 @@ fn wire_every_stream_can_be_asked_for_once_and_at_a_rate() {
                 s.sticks(0, 0, 500, 0);
                 s.run_ms(200);
             }
-            // A message may have several rows, such as a distance in each direction.
+            // A message may have several rows, for example one for each direction of a distance sensor.
             let rows = STREAMS.iter().filter(|other| (other.id, other.component) == (stream.id, stream.component)).count();
             s.received.iter().filter(|f| f.message_id == stream.id && f.component_id == stream.component).count() / rows
         };
         accepted(&mut station, 50_000.0);
         let count = heard_in_a_second(&mut station);
-        assert!((19..=21).contains(&count), "message {id} at 20 Hz came {count} times in a second");
+        assert!((19..=21).contains(&count), "message {id} at 20 Hz: {count} in one second");
         accepted(&mut station, -1.0);
-        assert_eq!(heard_in_a_second(&mut station), 0, "message {id} is off");
+        assert_eq!(heard_in_a_second(&mut station), 0, "message {id} must be off");
         let interval = station.command(stream.component, MavCmd::MAV_CMD_GET_MESSAGE_INTERVAL, set(0.0));
         let told = station
             .last_message(|m| if let MavMessage::MESSAGE_INTERVAL(i) = m { Some((i.message_id, i.interval_us)) } else { None });
         assert_eq!((interval, told), (MavResult::MAV_RESULT_ACCEPTED, Some((stream.id as u16, -1))));
         accepted(&mut station, 0.0);
     }
-    assert_eq!(unspoken, 7, "POWER_STATUS, SIM_STATE and what only ArduPilot's dialect has");
+    assert_eq!(unspoken, 7, "POWER_STATUS, SIM_STATE and messages of ArduPilot's dialect");
     let unknown = [9_999.0, 20_000.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, unknown), MavResult::MAV_RESULT_FAILED);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, unknown), MavResult::MAV_RESULT_DENIED);
@@ -183,7 +184,7 @@ fn wire_parameters_are_read_by_name_and_place_and_bad_questions_are_named() {
     ] {
         assert_eq!(station.ask(&set(name, value, kind), error_of), Some(error), "{name} {value}");
     }
-    assert_eq!(station.ask(&read("MIS_TAKEOFF_ALT", -1), value_of).unwrap().1, 4.0, "refused values change nothing");
+    assert_eq!(station.ask(&read("MIS_TAKEOFF_ALT", -1), value_of).unwrap().1, 4.0, "rejected values must have no effect");
 }
 
 #[test]
@@ -202,7 +203,7 @@ fn wire_the_checksum_comes_before_the_list_and_setting_it_stops_the_list() {
     station.run_ms(2);
     station.received.clear();
     station.run_ms(500);
-    assert!(station.all(value_of).is_empty(), "the station knows them all");
+    assert!(station.all(value_of).is_empty(), "no parameters must follow");
 }
 
 #[test]
@@ -256,9 +257,9 @@ fn wire_frames_for_somebody_else_reach_him_alone() {
         std::iter::from_fn(|| s.sim.poll_transmit()).map(|t| t.link).collect::<Vec<_>>()
     };
     let sticks = |target| MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { target, z: 500, ..Default::default() });
-    assert_eq!(copies(&mut station, &sticks(9)), [], "nobody has heard of system 9");
-    assert_eq!(copies(&mut station, &sticks(1)), [monitor], "our own system is also heard behind the monitor's link");
-    assert_eq!(copies(&mut station, &sticks(0)), [monitor, other], "sticks for everybody");
+    assert_eq!(copies(&mut station, &sticks(9)), [], "system 9 is unknown on all links");
+    assert_eq!(copies(&mut station, &sticks(1)), [monitor], "system 1 is also reachable through the monitor's link");
+    assert_eq!(copies(&mut station, &sticks(0)), [monitor, other], "broadcast sticks must reach all links");
 }
 
 #[test]
@@ -274,5 +275,5 @@ fn wire_speeds_and_terminations_that_change_nothing_are_granted() {
         MavMessage::HEARTBEAT(b) if b.mavtype == MavType::MAV_TYPE_QUADROTOR => Some(b.base_mode),
         _ => None,
     });
-    assert!(armed.unwrap().contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED), "it flies on");
+    assert!(armed.unwrap().contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED), "the vehicle must stay armed");
 }

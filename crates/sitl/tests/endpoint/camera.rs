@@ -1,4 +1,4 @@
-//! The camera component: modes, recording, zoom, the memory card, and the older forms of asking.
+//! The camera component: modes, recording, zoom, memory card, and superseded commands.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use spandrel_mavlink::dialect::*;
@@ -13,13 +13,13 @@ const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
 const UNSUPPORTED: MavResult = MavResult::MAV_RESULT_UNSUPPORTED;
 const NAN: f32 = f32::NAN;
-/// One picture on the card, MiB, and a second of recording (60 Mbit/s).
+/// Size of one picture on the card and of one second of recording (60 Mbit/s), MiB.
 const PICTURE_MIB: f32 = 6.0;
 const VIDEO_MIB_S: f32 = 60e6 / 8.0 / 1_048_576.0;
-/// Ticks between a command and what it does, s of recording.
+/// Tolerance for the ticks between a command and its effect, s of recording.
 const TICKS_S: f32 = 0.01;
 
-/// The one shipped aircraft with a zoom lens.
+/// The only supplied aircraft with a zoom lens.
 const ZOOMS: &str = "m30";
 
 fn on_the_pad(vehicle: &str) -> Station {
@@ -64,12 +64,12 @@ fn wire_the_camera_records_in_video_mode_alone_takes_pictures_in_both_and_report
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_START_CAPTURE, record), FAILED);
     assert!(station.texts().iter().any(|text| text.contains("video mode")), "{:?}", station.texts());
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_MODE, p(&[0.0, 1.0])), OK);
-    assert_eq!(settings(&station).unwrap().0, CameraMode::CAMERA_MODE_VIDEO, "told to everybody at once");
+    assert_eq!(settings(&station).unwrap().0, CameraMode::CAMERA_MODE_VIDEO, "the change must be broadcast immediately");
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_START_CAPTURE, record), OK);
     station.received.clear();
     station.run_ms(3_000);
     let told = station.all(|m| if let MavMessage::CAMERA_CAPTURE_STATUS(s) = m { Some(s.video_status) } else { None });
-    assert!((6..=7).contains(&told.len()) && told.iter().all(|on| *on == 1), "twice a second, as asked: {told:?}");
+    assert!((6..=7).contains(&told.len()) && told.iter().all(|on| *on == 1), "the status must arrive twice per second: {told:?}");
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_MODE, p(&[0.0, 0.0])), FAILED);
     assert_eq!(take(&mut station), OK);
     let running = status(&mut station);
@@ -80,7 +80,7 @@ fn wire_the_camera_records_in_video_mode_alone_takes_pictures_in_both_and_report
     let card = used_mib(&mut station);
     assert!((card - PICTURE_MIB - 3.0 * VIDEO_MIB_S).abs() < 2.0 * TICKS_S * VIDEO_MIB_S, "{card}");
     station.run_ms(5_000);
-    assert_eq!(used_mib(&mut station), card, "nothing is recorded any more");
+    assert_eq!(used_mib(&mut station), card, "recording must have stopped");
     assert_eq!(status(&mut station).video_status, 0);
     for mode in [2.0, 3.0, -1.0, NAN] {
         assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_MODE, p(&[0.0, mode])), DENIED, "{mode}");
@@ -93,9 +93,9 @@ fn wire_a_formatted_card_is_empty_and_counts_from_nought_and_not_while_recording
     assert_eq!([take(&mut station), take(&mut station)], [OK, OK]);
     assert_eq!(used_mib(&mut station), 2.0 * PICTURE_MIB);
     let format = MavCmd::MAV_CMD_STORAGE_FORMAT;
-    assert_eq!(station.command(CAMERA, format, p(&[2.0, 1.0, 1.0])), DENIED, "there is one card");
+    assert_eq!(station.command(CAMERA, format, p(&[2.0, 1.0, 1.0])), DENIED, "a second card does not exist");
     assert_eq!(station.command(CAMERA, format, p(&[1.0, 0.0, 1.0])), OK);
-    assert_eq!((used_mib(&mut station), status(&mut station).image_count), (2.0 * PICTURE_MIB, 0), "the log alone");
+    assert_eq!((used_mib(&mut station), status(&mut station).image_count), (2.0 * PICTURE_MIB, 0), "only the log must remain");
     assert_eq!(station.command(CAMERA, format, p(&[1.0, 1.0, 1.0])), OK);
     assert_eq!(used_mib(&mut station), 0.0);
     station.received.clear();
@@ -107,7 +107,7 @@ fn wire_a_formatted_card_is_empty_and_counts_from_nought_and_not_while_recording
     assert_eq!(status(&mut station).image_count, 1);
 }
 
-/// The field of view at a zoom level, deg.
+/// Returns the field of view at a zoom level, deg.
 fn field_deg(level: f64) -> f64 {
     let (wide_deg, most) = (84.0_f64, 3.1);
     (2.0 * math::atan2(math::tan(0.5 * wide_deg.to_radians()), 1.0 + level * (most - 1.0))).to_degrees()
@@ -139,7 +139,7 @@ fn wire_every_kind_of_zoom_is_obeyed_shown_and_within_the_lens() {
         let (hfov, vfov) = field.unwrap();
         assert!((f64::from(hfov) - field_deg(f64::from(level) / 100.0)).abs() < 0.01, "{level}: {hfov}");
         let tall = (0.5 * vfov.to_radians()).tan() / (0.5 * hfov.to_radians()).tan();
-        assert!((tall - 0.75).abs() < 1e-4, "3000 lines of 4000 pixels: {tall}");
+        assert!((tall - 0.75).abs() < 1e-4, "3000 lines of 4000 pixels: ratio {tall}");
         assert_eq!(ask(&mut station, 269), OK);
         let stream = station.last_message(|m| if let MavMessage::VIDEO_STREAM_INFORMATION(s) = m { Some(s.hfov) } else { None });
         assert!((f32::from(stream.unwrap()) - hfov).abs() <= 0.5);
@@ -166,7 +166,7 @@ fn wire_a_continuous_zoom_stops_on_command_and_a_reset_leads_back_to_the_wide_en
     station.run_ms(1_200);
     assert_eq!(station.command(CAMERA, zoom, p(&[1.0, 0.0])), OK);
     let stopped = settings(&station).unwrap().1;
-    // Half speed for 1.2 of the 3 s that the whole range takes.
+    // Half speed for 1.2 s; the full range takes 3 s.
     assert!((stopped - 20.0).abs() < 0.2, "{stopped}");
     station.run_ms(1_000);
     ask(&mut station, 260);
@@ -199,7 +199,7 @@ fn wire_before_every_picture_stands_the_field_of_view_that_it_has() {
         };
         assert_eq!((field.time_boot_ms, field.q), (image.time_boot_ms, image.q));
         let level = f64::from(image.time_boot_ms - 100) / 3_000.0;
-        // The lens moves with the control ticks, every 2.5 ms.
+        // The lens moves with the control ticks, which are 2.5 ms apart.
         assert!((f64::from(field.hfov) - field_deg(level)).abs() < 0.2, "{} at {level}", field.hfov);
     }
 }
@@ -237,13 +237,13 @@ fn wire_focus_is_answered_as_it_is_and_a_stream_runs_while_somebody_sends_it() {
     let told = |station: &Station| {
         station.last_message(|m| if let MavMessage::VIDEO_STREAM_INFORMATION(s) = m { Some(s.clone()) } else { None })
     };
-    let stream = told(&station).expect("told to everybody at once");
+    let stream = told(&station).expect("the status must be broadcast immediately");
     assert_eq!((stream.flags, stream.resolution_h, stream.resolution_v, stream.framerate), (running, 640, 360, 20.0));
     for (width, announced) in [(640, false), (960, true), (640, true)] {
         station.received.clear();
         station.send(&MavMessage::VIDEO_STREAM_STATUS(VIDEO_STREAM_STATUS_DATA { resolution_h: width, ..sent.clone() }));
         station.run_ms(100);
-        assert_eq!(told(&station).map(|s| s.resolution_h), announced.then_some(width), "another size is told to everybody");
+        assert_eq!(told(&station).map(|s| s.resolution_h), announced.then_some(width), "a new size must be broadcast");
     }
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_START_STREAMING, p(&[1.0])), OK);
     station.send(&MavMessage::VIDEO_STREAM_STATUS(VIDEO_STREAM_STATUS_DATA {
@@ -253,15 +253,15 @@ fn wire_focus_is_answered_as_it_is_and_a_stream_runs_while_somebody_sends_it() {
     }));
     station.run_ms(3_000);
     assert_eq!(ask(&mut station, 269), OK);
-    assert_eq!(told(&station).map(|s| (s.flags, s.resolution_h)), Some((running, 640)), "nonsense changes nothing");
+    assert_eq!(told(&station).map(|s| (s.flags, s.resolution_h)), Some((running, 640)), "invalid values must have no effect");
     station.run_ms(1_000);
     assert_eq!(ask(&mut station, 269), OK);
-    assert_eq!(told(&station).map(|s| s.flags), Some(VideoStreamStatusFlags::empty()), "nobody sends it any more");
+    assert_eq!(told(&station).map(|s| s.flags), Some(VideoStreamStatusFlags::empty()), "the stream must be reported as stopped");
     station.sim.set_speed_factor(10.0);
     station.send(&MavMessage::VIDEO_STREAM_STATUS(sent));
     station.run_ms(30_000);
     assert_eq!(ask(&mut station, 269), OK);
-    assert_eq!(told(&station).map(|s| s.flags), Some(running), "three seconds for who sends it");
+    assert_eq!(told(&station).map(|s| s.flags), Some(running), "the timeout is three seconds");
     for track in [MavCmd::MAV_CMD_CAMERA_TRACK_POINT, MavCmd::MAV_CMD_CAMERA_STOP_TRACKING] {
         assert_eq!(station.command(CAMERA, track, p(&[0.5, 0.5])), UNSUPPORTED);
     }
@@ -309,8 +309,8 @@ fn wire_a_command_for_a_picture_that_comes_twice_takes_one_and_other_cameras_are
     for (camera, result) in [(0.0, OK), (100.0, OK), (2.0, DENIED), (101.0, DENIED)] {
         assert_eq!(station.command(1, shoot, p(&[camera, 0.0, 1.0])), result, "{camera}");
     }
-    assert_eq!(station.command(1, shoot, p(&[1.0, 0.0, 1.0])), DENIED, "the autopilot has no camera of its own");
-    assert_eq!(station.command(CAMERA, shoot, p(&[1.0, 0.0, 1.0])), OK, "but the camera has a first sensor");
+    assert_eq!(station.command(1, shoot, p(&[1.0, 0.0, 1.0])), DENIED, "the autopilot does not have a camera");
+    assert_eq!(station.command(CAMERA, shoot, p(&[1.0, 0.0, 1.0])), OK, "the camera has a first sensor");
 }
 
 #[test]
@@ -337,7 +337,7 @@ fn wire_missed_pictures_are_reported_again_one_by_one_in_ranges_and_all() {
     }
 }
 
-/// An item that is the payload's: seven parameters, 5 and 6 as they lie on the wire.
+/// Returns a mission item with a payload command: seven parameters, with 5 and 6 as transmitted.
 fn act(seq: u16, command: MavCmd, p: [f32; 4], x: i32, z: f32) -> MISSION_ITEM_INT_DATA {
     let [param1, param2, param3, param4] = p;
     let frame = MavFrame::MAV_FRAME_MISSION;
@@ -360,7 +360,7 @@ fn wire_a_missions_items_do_what_the_same_commands_do() {
         act(6, M::MAV_CMD_DO_MOUNT_CONFIGURE, [2.0, 1.0, 1.0, 0.0], 0, 0.0),
         act(7, M::MAV_CMD_DO_MOUNT_CONTROL, [-50.0, 0.0, 0.0, 0.0], 0, 2.0),
         item(8, M::MAV_CMD_NAV_WAYPOINT, north + 8.0, 6.0),
-        // One as MAVLink says, one as stations send it that scale every fifth parameter.
+        // One is as MAVLink defines it, the other as stations send it that scale every fifth parameter.
         act(9, M::MAV_CMD_DO_DIGICAM_CONTROL, [0.0; 4], 1, 0.0),
         item(10, M::MAV_CMD_NAV_WAYPOINT, north, 6.0),
         act(11, M::MAV_CMD_DO_DIGICAM_CONTROL, [0.0; 4], 10_000_000, 0.0),
@@ -393,13 +393,13 @@ fn wire_a_missions_items_do_what_the_same_commands_do() {
         }
         false
     });
-    assert!(ended, "it lands");
+    assert!(ended, "the mission must end with a landing");
     assert!((lowest.to_degrees() + 50.0).abs() < 1.0, "mount control: {}", lowest.to_degrees());
-    assert_eq!((changes, lamp), (5, true), "on by the servo, off and on twice by the relay");
+    assert_eq!((changes, lamp), (5, true), "the servo switches it on, the relay off and on twice");
     let done = status(&mut station);
     assert_eq!((done.image_count, done.video_status), (2, 0));
     let video_mib = used_mib(&mut station) - 2.0 * PICTURE_MIB;
-    assert!(video_mib > 5.0 * VIDEO_MIB_S, "recorded all the way: {video_mib}");
+    assert!(video_mib > 5.0 * VIDEO_MIB_S, "recording must run during the whole mission: {video_mib}");
     ask(&mut station, 260);
     assert!((settings(&station).unwrap().1 - 50.0).abs() < 0.01);
     station.run_ms(200);

@@ -17,7 +17,7 @@ fn number(bytes: &[u8]) -> u32 {
     u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])
 }
 
-/// Name, value, index and count of all settings told.
+/// Returns name, value, index and count of all reported settings.
 fn told(station: &Station) -> Vec<(String, u32, u16, u16)> {
     station.all(|m| match m {
         MavMessage::PARAM_EXT_VALUE(v) => {
@@ -46,7 +46,7 @@ fn read(name: &str, param_index: i16) -> MavMessage {
     })
 }
 
-/// Result and value of the acknowledgement.
+/// Returns the result and value of the acknowledgment.
 fn set(station: &mut Station, name: &str, value: u32, param_type: MavParamExtType) -> (ParamAck, u32) {
     let mut data = [0; 128];
     data[..4].copy_from_slice(&value.to_le_bytes());
@@ -62,7 +62,7 @@ fn set(station: &mut Station, name: &str, value: u32, param_type: MavParamExtTyp
         MavMessage::PARAM_EXT_ACK(a) if a.param_id.to_str() == Ok(name) => Some((a.param_result, number(&a.param_value[..]))),
         _ => None,
     });
-    ack.unwrap_or_else(|| panic!("{name} was not acknowledged"))
+    ack.unwrap_or_else(|| panic!("no acknowledgment of {name}"))
 }
 
 #[test]
@@ -70,7 +70,7 @@ fn wire_the_cameras_settings_are_listed_read_and_changed_by_the_camera_alone() {
     use ParamAck as A;
     let mut station = on_the_pad();
     ask(&mut station, &list(1));
-    assert!(told(&station).is_empty(), "the autopilot has none");
+    assert!(told(&station).is_empty(), "the autopilot must not have camera settings");
     let delivered = [("CAM_PHOTOQUAL", 1), ("CAM_VIDRATE", 60)];
     for component in [CAMERA, 0] {
         ask(&mut station, &list(component));
@@ -88,7 +88,7 @@ fn wire_the_cameras_settings_are_listed_read_and_changed_by_the_camera_alone() {
         assert_eq!(error, Some(MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST));
     }
     assert_eq!(set(&mut station, "CAM_VIDRATE", 80, UINT32), (A::PARAM_ACK_ACCEPTED, 80));
-    assert_eq!(told(&station), [("CAM_VIDRATE".to_owned(), 80, 1, 2)], "and everybody is told");
+    assert_eq!(told(&station), [("CAM_VIDRATE".to_owned(), 80, 1, 2)], "the change must be broadcast");
     for (name, value, kind, result) in [
         ("CAM_VIDRATE", 85, UINT32, (A::PARAM_ACK_VALUE_UNSUPPORTED, 80)),
         ("CAM_VIDRATE", 110, UINT32, (A::PARAM_ACK_VALUE_UNSUPPORTED, 80)),
@@ -100,11 +100,11 @@ fn wire_the_cameras_settings_are_listed_read_and_changed_by_the_camera_alone() {
     }
     station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_MODE, [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
     station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_START_CAPTURE, [0.0; 7]);
-    assert_eq!(set(&mut station, "CAM_VIDRATE", 20, UINT32), (A::PARAM_ACK_FAILED, 80), "not while it records");
+    assert_eq!(set(&mut station, "CAM_VIDRATE", 20, UINT32), (A::PARAM_ACK_FAILED, 80), "the setting must not change while recording");
     station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_STOP_CAPTURE, [0.0; 7]);
     station.command(CAMERA, MavCmd::MAV_CMD_RESET_CAMERA_SETTINGS, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
     ask(&mut station, &list(CAMERA));
-    assert_eq!(told(&station).iter().map(|setting| setting.1).collect::<Vec<_>>(), [1, 60], "as delivered");
+    assert_eq!(told(&station).iter().map(|setting| setting.1).collect::<Vec<_>>(), [1, 60], "a reset must restore the defaults");
 }
 
 fn transfer(
@@ -133,7 +133,7 @@ fn transfer(
         Some(MavMessage::FILE_TRANSFER_PROTOCOL(f)) => Some(FtpPacket::read(&f.payload)),
         _ => None,
     });
-    answer.unwrap_or_else(|| panic!("{opcode:?} is not answered"))
+    answer.unwrap_or_else(|| panic!("no response to {opcode:?}"))
 }
 
 #[test]
@@ -160,7 +160,7 @@ fn wire_the_camera_serves_the_file_that_describes_its_settings_and_no_other() {
     for setting in ["CAM_PHOTOQUAL", "CAM_VIDRATE"] {
         assert!(xml.contains(&format!("<parameter name=\"{setting}\" type=\"uint32\"")), "{setting}");
     }
-    // As QGroundControl reads the place.
+    // Uses a path as QGroundControl parses it.
     let rooted = transfer(&mut station, CAMERA, Opcode::OpenFileRo, (0, 0), b"/camera.xml", 11);
     assert_eq!((rooted.opcode, number(&rooted.data)), (ACK, size));
     for (component, path) in [(CAMERA, "/etc/extras/parameter.json.xz"), (CAMERA, "../camera"), (1, "camera.xml")] {

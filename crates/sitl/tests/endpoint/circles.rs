@@ -1,12 +1,12 @@
-//! Circles, places to look at, and a restart.
+//! Orbits, regions of interest, and a reboot.
 
 use spandrel_mavlink::dialect::*;
 use spandrel_testkit::plans::{ACCEPTED, home_north, item, ready, upload};
 use spandrel_testkit::station::Station;
 
-/// The circle as the vehicle itself sees it is flown this exactly, m.
+/// Maximum radius error of an orbit in the vehicle's own estimate, m.
 const RADIUS_TOLERANCE_M: f64 = 0.6;
-/// The nose points this exactly, rad.
+/// Maximum heading error, rad.
 const YAW_TOLERANCE: f32 = 0.2;
 const NAN: f32 = f32::NAN;
 
@@ -44,7 +44,7 @@ fn flight_an_orbit_keeps_its_radius_and_speed_with_the_nose_to_the_middle() {
             .map_or(0.0, |b| (bearing - b + 3.0 * std::f32::consts::PI).rem_euclid(std::f32::consts::TAU) - std::f32::consts::PI);
         before = Some(bearing);
     }
-    // Twelve seconds at 2 m/s on 8 m, counter-clockwise.
+    // Twelve seconds at 2 m/s with a radius of 8 m, counterclockwise.
     assert!((turned + 11.9 * 2.0 / 8.0).abs() < 0.3, "{turned} rad");
     let too_wide = [5_000.0, 2.0, 0.0, 0.0, NAN, NAN, NAN];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_ORBIT, too_wide), MavResult::MAV_RESULT_DENIED);
@@ -74,13 +74,13 @@ fn flight_in_a_mission_the_nose_follows_the_region_of_interest_until_cleared() {
     assert_eq!(upload(&mut station, &plan), ACCEPTED);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
     assert!(station.run_until(60.0, |s| home_north(s) > home + 25.0));
-    // Where the place lies, m: 1e-7 degrees of longitude are shorter than those of latitude.
+    // Position of the region of interest, m; 1e-7 degrees of longitude are shorter than those of latitude.
     let east = 3_000.0 * 1e-7 * 40_000_000.0 / 360.0 * 46.7f32.to_radians().cos();
     let p = station.place();
     let wanted = (east - p[1]).atan2(home as f32 + 20.0 - p[0]);
     assert!(off(yaw(&station), wanted) < 2.0 * YAW_TOLERANCE, "{} not {wanted} at {p:?}", yaw(&station));
     assert!(station.run_until(60.0, |s| s.mode() == Some(3 << 24 | 4 << 16)));
-    assert!(off(yaw(&station), std::f32::consts::PI) < 2.0 * YAW_TOLERANCE, "south again, along the way: {}", yaw(&station));
+    assert!(off(yaw(&station), std::f32::consts::PI) < 2.0 * YAW_TOLERANCE, "the nose must point south along the path again: {}", yaw(&station));
 }
 
 #[test]
@@ -102,7 +102,7 @@ fn wire_a_reboot_on_the_ground_keeps_parameters_and_plans_and_is_refused_in_flig
     assert_eq!(
         station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm),
         MavResult::MAV_RESULT_TEMPORARILY_REJECTED,
-        "it boots"
+        "the heartbeat must report booting"
     );
     station.run_ms(2_500);
     let asked = MavMessage::PARAM_REQUEST_READ(PARAM_REQUEST_READ_DATA {
@@ -118,12 +118,12 @@ fn wire_a_reboot_on_the_ground_keeps_parameters_and_plans_and_is_refused_in_flig
     assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_TAKEOFF, take_off), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(50);
     let base = station.place()[2];
-    assert!(station.run_until(30.0, |s| base - s.place()[2] > 6.0), "the parameter's height still acts");
+    assert!(station.run_until(30.0, |s| base - s.place()[2] > 6.0), "the height parameter must be preserved");
     assert_eq!(station.command(1, MavCmd::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN, reboot), MavResult::MAV_RESULT_TEMPORARILY_REJECTED);
     assert_eq!(
         station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]),
         MavResult::MAV_RESULT_ACCEPTED,
-        "the plan is still there"
+        "the plan must be preserved"
     );
 }
 
@@ -134,7 +134,7 @@ fn flight_a_turn_by_command_leaves_the_mission_flying() {
     let plan = [item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 60.0, 8.0)];
     let turn = [90.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
     station.sticks(0, 0, 500, 0);
-    assert_eq!(station.command(1, MavCmd::MAV_CMD_CONDITION_YAW, turn), MavResult::MAV_RESULT_TEMPORARILY_REJECTED, "by hand");
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_CONDITION_YAW, turn), MavResult::MAV_RESULT_TEMPORARILY_REJECTED, "manual flight must reject the command");
     assert_eq!(upload(&mut station, &plan), ACCEPTED);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(3_000);
@@ -144,7 +144,7 @@ fn flight_a_turn_by_command_leaves_the_mission_flying() {
     assert!(off(yaw(&station), std::f32::consts::FRAC_PI_2) < YAW_TOLERANCE, "{}", yaw(&station));
 }
 
-/// A home over home: the height that is given counts from where home is.
+/// Sets a home position relative to home; the height counts from the current home.
 #[test]
 fn wire_a_home_may_be_given_relative_to_home_and_in_no_strange_frame() {
     let mut station = ready(7);
@@ -174,12 +174,13 @@ fn wire_a_home_may_be_given_relative_to_home_and_in_no_strange_frame() {
     assert_eq!(set(&mut station, MavFrame::MAV_FRAME_LOCAL_NED, 3.0), MavResult::MAV_RESULT_DENIED);
 }
 
-/// The middle of the circle that is flown, as COMMAND_INT has it.
+/// Returns the center of the current orbit as COMMAND_INT encodes it.
 fn middle(station: &Station) -> (i32, i32, f32) {
     station.last_message(|m| if let MavMessage::ORBIT_EXECUTION_STATUS(o) = m { Some((o.x, o.y, o.z)) } else { None }).unwrap()
 }
 
-/// QGroundControl's orbit names no behavior of its own (5, unchanged): a PX4 that is not in an orbit yet turns its nose to the middle.
+/// QGroundControl's orbit does not set a yaw behavior (5, unchanged). A PX4 that is not in an orbit yet then turns its
+/// nose to the center.
 #[test]
 fn regress_an_orbit_with_yaw_unchanged_faces_its_middle_and_keeps_what_is_flown() {
     let mut station = Station::airborne("drill-hover", 7);
@@ -190,7 +191,7 @@ fn regress_an_orbit_with_yaw_unchanged_faces_its_middle_and_keeps_what_is_flown(
     station.run_ms(15_000);
     let [n, e, _] = std::array::from_fn(|k| station.place()[k] - centre[k]);
     assert!(off(yaw(&station), (-e).atan2(-n)) < YAW_TOLERANCE, "{} at {n} {e}", yaw(&station));
-    // Around the same middle, the nose along the circle (3), then unchanged.
+    // An orbit around the same center with the nose along the circle (3), then unchanged.
     let (x, y, z) = middle(&station);
     for behavior in [3.0, 5.0] {
         let orbit = COMMAND_INT_DATA {
@@ -208,7 +209,7 @@ fn regress_an_orbit_with_yaw_unchanged_faces_its_middle_and_keeps_what_is_flown(
         };
         station.received.clear();
         station.send(&MavMessage::COMMAND_INT(orbit));
-        // Streamed at 2 Hz.
+        // The status is streamed at 2 Hz.
         station.run_ms(1_000);
         let result = station.last_message(|m| if let MavMessage::COMMAND_ACK(ack) = m { Some(ack.result) } else { None });
         assert_eq!(result, Some(MavResult::MAV_RESULT_ACCEPTED));

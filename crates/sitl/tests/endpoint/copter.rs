@@ -1,4 +1,4 @@
-//! As an ArduCopter it is flown: modes, arming, take-off, GUIDED, and the pilot's hand.
+//! Flying as an ArduCopter: modes, arming, takeoff, GUIDED, and manual control.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::copter_plans::item;
@@ -11,7 +11,7 @@ const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
 pub(super) const ARM: MavCmd = MavCmd::MAV_CMD_COMPONENT_ARM_DISARM;
 pub(super) const SET_MODE: MavCmd = MavCmd::MAV_CMD_DO_SET_MODE;
-/// Copter's numbers.
+/// Copter's mode numbers.
 const ALT_HOLD: f32 = 2.0;
 pub(super) const AUTO: f32 = 3.0;
 pub(super) const GUIDED: f32 = 4.0;
@@ -19,9 +19,9 @@ pub(super) const LOITER: f32 = 5.0;
 const RTL: f32 = 6.0;
 const POSHOLD: f32 = 16.0;
 pub(super) const BRAKE: f32 = 17.0;
-/// A height counts as reached within this, m (the autopilot's own 0.4 m and its way to rest).
+/// Tolerance within which a height counts as reached, m (the autopilot's 0.4 m and the deceleration).
 const HEIGHT_M: f32 = 0.6;
-/// The drill's pad in 1e-7 degrees, and metres for one of them north.
+/// Position of the drill's pad in 1e-7 degrees, and meters north per 1e-7 degree.
 pub(super) const PAD: (i32, i32) = (467_052_000, 83_814_000);
 pub(super) const M_PER_E7: f64 = 0.011_132;
 
@@ -44,7 +44,7 @@ pub(super) fn next_beat(station: &mut Station) -> HEARTBEAT_DATA {
     beat(station)
 }
 
-/// A Copter on the ground, ready, with the streams that these tests look at.
+/// Returns a Copter on the ground, ready to arm, with the streams that these tests use.
 pub(super) fn copter() -> Station {
     let mut station = Station::speaking(&ardupilot::FLAVOUR, "drill-hover", 7);
     station.run_ms(2_500);
@@ -55,7 +55,7 @@ pub(super) fn copter() -> Station {
     station
 }
 
-/// In GUIDED at a height over home, m.
+/// Returns a Copter in GUIDED at a height above home, m.
 pub(super) fn copter_at(height_m: f32) -> Station {
     let mut station = copter();
     assert_eq!(station.command(1, SET_MODE, mode(GUIDED)), ACCEPTED);
@@ -63,7 +63,7 @@ pub(super) fn copter_at(height_m: f32) -> Station {
     let take_off = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, height_m];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_TAKEOFF, take_off), ACCEPTED);
     let ground = station.place_after(100)[2];
-    assert!(station.run_until(30.0, |s| ground - s.place()[2] > height_m - HEIGHT_M), "no take-off: {:?}", station.texts());
+    assert!(station.run_until(30.0, |s| ground - s.place()[2] > height_m - HEIGHT_M), "no takeoff: {:?}", station.texts());
     station.run_ms(3_000);
     station
 }
@@ -76,10 +76,10 @@ fn wire_copters_modes_are_refused_as_copter_refuses_them() {
         station.run_ms(5);
         assert!(station.texts().iter().any(|text| text.starts_with(name)), "{:?}", station.texts());
     }
-    assert_eq!(station.command(1, SET_MODE, [0.0, GUIDED, 0.0, 0.0, 0.0, 0.0, 0.0]), DENIED, "without the flag for custom modes");
+    assert_eq!(station.command(1, SET_MODE, [0.0, GUIDED, 0.0, 0.0, 0.0, 0.0, 0.0]), DENIED, "a custom mode requires its flag");
     let switch = SET_MODE_DATA { custom_mode: 0, target_system: 1, base_mode: MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED };
     station.send(&MavMessage::SET_MODE(switch));
-    assert_eq!(next_beat(&mut station).custom_mode, LOITER as u32, "MAVProxy's words for the safety switch are no mode");
+    assert_eq!(next_beat(&mut station).custom_mode, LOITER as u32, "MAVProxy's encoding of the safety switch must not change the mode");
     assert_eq!(station.command(1, SET_MODE, mode(RTL)), ACCEPTED);
     assert_eq!(station.command(1, ARM, one(1.0)), FAILED);
     station.run_ms(5);
@@ -92,9 +92,9 @@ fn wire_copters_modes_are_refused_as_copter_refuses_them() {
     assert!(station.texts().contains(&"Arm: Sticks not centered".to_owned()), "{:?}", station.texts());
     assert_eq!(station.command(1, MavCmd::MAV_CMD_RUN_PREARM_CHECKS, one(0.0)), ACCEPTED);
     station.run_ms(5);
-    assert!(!station.texts().contains(&"PreArm: Sticks not centered".to_owned()), "sticks count when motors are armed");
+    assert!(!station.texts().contains(&"PreArm: Sticks not centered".to_owned()), "sticks must be checked only when arming");
     let forced = [1.0, 2989.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-    assert_eq!(station.command(1, ARM, forced), ACCEPTED, "ArduPilot's number forces it");
+    assert_eq!(station.command(1, ARM, forced), ACCEPTED, "ArduPilot's magic number must force arming");
 }
 
 #[test]
@@ -131,30 +131,30 @@ fn flight_guided_takes_off_over_home_and_keeps_its_number_in_the_air() {
     let mut station = copter();
     let take_off = |height: f32| [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, height];
     let command = MavCmd::MAV_CMD_NAV_TAKEOFF;
-    assert_eq!(station.command(1, command, take_off(6.0)), FAILED, "not in GUIDED");
+    assert_eq!(station.command(1, command, take_off(6.0)), FAILED, "takeoff requires GUIDED");
     station.command(1, SET_MODE, mode(GUIDED));
-    assert_eq!(station.command(1, command, take_off(6.0)), FAILED, "not armed");
+    assert_eq!(station.command(1, command, take_off(6.0)), FAILED, "takeoff requires armed motors");
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
     let on_ground = next_beat(&mut station);
     assert_eq!(
         (on_ground.custom_mode, on_ground.system_status),
         (GUIDED as u32, MavState::MAV_STATE_STANDBY),
-        "armed, on the ground"
+        "the vehicle must be armed on the ground"
     );
     assert_eq!(station.command(1, command, take_off(0.0)), FAILED);
     assert_eq!(station.command(1, command, take_off(f32::NAN)), FAILED);
     assert_eq!(station.command(1, command, take_off(6.0)), ACCEPTED);
     let flying = next_beat(&mut station);
     assert!(station.run_until(5.0, |s| beat(s).system_status == MavState::MAV_STATE_ACTIVE));
-    assert_eq!(flying.custom_mode, GUIDED as u32, "while it takes off");
+    assert_eq!(flying.custom_mode, GUIDED as u32, "the mode must stay GUIDED during takeoff");
     let ground = 0.0;
     assert!(station.run_until(30.0, |s| ground - s.place()[2] > 6.0 - HEIGHT_M));
     station.run_ms(2_000);
     let height = -station.place_after(100)[2];
-    assert!((height - 6.0).abs() < 2.0 * HEIGHT_M, "over home, not over the sea: {height}");
-    assert_eq!(next_beat(&mut station).custom_mode, GUIDED as u32, "when it has taken off");
-    assert_eq!(station.command(1, command, take_off(9.0)), FAILED, "in the air");
-    assert_eq!(station.command(1, ARM, one(0.0)), FAILED, "not disarmed in the air");
+    assert!((height - 6.0).abs() < 2.0 * HEIGHT_M, "the height must count from home, not from sea level: {height}");
+    assert_eq!(next_beat(&mut station).custom_mode, GUIDED as u32, "the mode must stay GUIDED after takeoff");
+    assert_eq!(station.command(1, command, take_off(9.0)), FAILED, "a second takeoff in the air must be rejected");
+    assert_eq!(station.command(1, ARM, one(0.0)), FAILED, "disarming in the air must be rejected");
 }
 
 #[test]
@@ -183,17 +183,17 @@ fn flight_guided_flies_set_points_as_they_come_and_a_place_sent_once_is_flown_to
         station.run_ms(100);
     }
     let [then, ..] = station.place();
-    assert!(then < north + 9.0, "it flies south: {then}");
+    assert!(then < north + 9.0, "the vehicle must fly south: {then}");
     station.run_ms(9_000);
     let [first, ..] = station.place();
     let [second, ..] = station.place_after(2_000);
-    assert!((first - second).abs() < 0.2, "it stops when nothing comes any more: {first} {second}");
+    assert!((first - second).abs() < 0.2, "the vehicle must stop when setpoints end: {first} {second}");
     let status = next_beat(&mut station);
-    assert_eq!((status.custom_mode, status.system_status), (GUIDED as u32, MavState::MAV_STATE_ACTIVE), "that is no failure");
+    assert_eq!((status.custom_mode, status.system_status), (GUIDED as u32, MavState::MAV_STATE_ACTIVE), "the end of setpoints is not a failure");
     station.command(1, SET_MODE, mode(BRAKE));
     station.send(&target(0x0DF8, north, east, down, 0.0));
     station.run_ms(3_000);
-    assert!((station.place()[0] - second).abs() < 0.5, "no other mode follows them");
+    assert!((station.place()[0] - second).abs() < 0.5, "other modes must ignore setpoints");
 }
 
 #[test]
@@ -227,9 +227,9 @@ fn flight_go_to_needs_guided_or_asks_for_it_and_brake_stops_it() {
     station.run_ms(5_000);
     let [first, ..] = station.place();
     let [second, ..] = station.place_after(2_000);
-    assert!((first - second).abs() < 0.3 && first < 39.0, "it has stopped on its way: {first} {second}");
+    assert!((first - second).abs() < 0.3 && first < 39.0, "the vehicle must have stopped before the target: {first} {second}");
     assert_eq!(next_beat(&mut station).custom_mode, BRAKE as u32);
-    // MAVProxy's and older ground stations' way: a single item.
+    // The single-item form that MAVProxy and older ground stations use.
     station.command(1, SET_MODE, mode(GUIDED));
     let errand = item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 6.0);
     let answer = station.ask(&MavMessage::MISSION_ITEM_INT(MISSION_ITEM_INT_DATA { current: 2, ..errand }), |m| match m {
@@ -237,7 +237,7 @@ fn flight_go_to_needs_guided_or_asks_for_it_and_brake_stops_it() {
         _ => None,
     });
     assert_eq!(answer, Some(MavMissionResult::MAV_MISSION_ACCEPTED));
-    assert!(station.run_until(30.0, |s| s.place()[0].abs() < 1.0), "back over the pad: {:?}", station.place());
+    assert!(station.run_until(30.0, |s| s.place()[0].abs() < 1.0), "the vehicle must return to the pad: {:?}", station.place());
 }
 
 #[test]
@@ -251,7 +251,7 @@ fn flight_a_copters_mode_is_the_pilots_once_sticks_move_and_each_stick_mode_keep
         station.sticks(700, 0, 500, 0);
         station.run_ms(50);
     }
-    assert_eq!(beat(&station).custom_mode, LOITER as u32, "the pilot took over");
+    assert_eq!(beat(&station).custom_mode, LOITER as u32, "stick input must switch to LOITER");
     assert_eq!(station.command(1, SET_MODE, mode(POSHOLD)), ACCEPTED);
     for _ in 0..40 {
         station.sticks(0, 0, 500, 0);
@@ -263,6 +263,6 @@ fn flight_a_copters_mode_is_the_pilots_once_sticks_move_and_each_stick_mode_keep
     assert_eq!(
         (lost.custom_mode, lost.system_status),
         (BRAKE as u32, MavState::MAV_STATE_CRITICAL),
-        "sticks that fall silent are a failsafe"
+        "lost sticks must trigger a failsafe"
     );
 }

@@ -1,4 +1,4 @@
-//! ArduCopter's GUIDED: what GUID_OPTIONS changes, the targets that it reports, and its pause.
+//! ArduCopter's GUIDED mode: effects of GUID_OPTIONS, reported targets, and pause.
 
 use super::copter::{ARM, BRAKE, GUIDED, M_PER_E7, SET_MODE, copter, copter_at, mode, next_beat};
 use spandrel_mavlink::dialect::*;
@@ -6,7 +6,7 @@ use spandrel_testkit::station::{Station, one};
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const REQUEST: MavCmd = MavCmd::MAV_CMD_REQUEST_MESSAGE;
-/// A heading is kept within, degrees (ArduPilot's autotest: 5).
+/// Heading tolerance, degrees (ArduPilot's autotest: 5).
 const HEADING_DEG: f32 = 5.0;
 
 fn set_options(station: &mut Station, bits: f32) {
@@ -63,7 +63,7 @@ fn regress_a_transmitter_arms_in_guided_only_where_guid_options_reports_so() {
     station.send(&transmitter(1500, 1000));
     station.run_ms(50);
     set_options(&mut station, 0.0);
-    assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED, "a ground station arms in any case");
+    assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED, "a ground station must always be able to arm");
 }
 
 #[test]
@@ -75,7 +75,7 @@ fn regress_the_yaw_stick_turns_the_nose_in_guided_unless_guid_options_ignores_it
     let after = heading_deg(&mut station);
     assert!(turned_deg(before, after) > 20.0, "{before} to {after} deg");
     hold_yaw(&mut station, 1500, 2_000);
-    assert!(turned_deg(after, heading_deg(&mut station)).abs() < HEADING_DEG, "it stays where the pilot has left it");
+    assert!(turned_deg(after, heading_deg(&mut station)).abs() < HEADING_DEG, "the heading must stay where the pilot left it");
     assert_eq!(next_beat(&mut station).custom_mode, GUIDED as u32);
     set_options(&mut station, 4.0);
     hold_yaw(&mut station, 1900, 2_000);
@@ -103,19 +103,19 @@ fn regress_thrust_of_an_attitude_is_thrust_where_guid_options_reports_so() {
         station.run_ms(5);
         station.last_message(|m| if let MavMessage::ATTITUDE_TARGET(a) = m { Some(a.thrust) } else { None }).unwrap()
     };
-    // 0.5 keeps the height.
+    // A thrust of 0.5 keeps the height.
     let hover = thrust_after(&mut station, 0.5);
     let asked = hover + 0.1;
-    assert!((thrust_after(&mut station, asked) - asked).abs() > 0.02, "a climb rate by default");
+    assert!((thrust_after(&mut station, asked) - asked).abs() > 0.02, "thrust must be a climb rate by default");
     thrust_after(&mut station, 0.5);
     set_options(&mut station, 8.0);
     let given = thrust_after(&mut station, asked);
     assert!((given - asked).abs() < 0.01, "{given} of {asked}");
 }
 
-/// A speed counts as reached within this, m/s (ArduPilot's autotest: 0.5).
+/// Tolerance within which a speed counts as reached, m/s (ArduPilot's autotest: 0.5).
 const SPEED_M_S: f32 = 0.5;
-/// The first three bits of a type mask, and so on, are to be ignored (MAVLink: POSITION_TARGET_TYPEMASK).
+/// Bits of a type mask that mark values to ignore, three bits each (MAVLink: POSITION_TARGET_TYPEMASK).
 const NO_PLACE: u16 = 0o7;
 const NO_VELOCITY: u16 = 0o70;
 const NO_ACCELERATION: u16 = 0o700;
@@ -175,7 +175,7 @@ fn regress_guided_reports_the_target_that_was_requested_with_arducopters_masks()
     }
     station.command(1, SET_MODE, mode(BRAKE));
     station.run_ms(200);
-    assert_eq!(reported(&mut station), None, "only in GUIDED");
+    assert_eq!(reported(&mut station), None, "targets must be reported only in GUIDED");
 }
 
 #[test]
@@ -200,10 +200,10 @@ fn regress_a_target_over_the_sea_is_reported_for_places_alone() {
     assert!((f64::from(there - here) * M_PER_E7 - 10.0).abs() < 0.1, "{here} to {there}");
     station.send(&target(NO_PLACE | NO_ACCELERATION, [0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]));
     station.run_ms(200);
-    assert_eq!(shown(&mut station), None, "a velocity has no place");
+    assert_eq!(shown(&mut station), None, "a velocity target must not have a position");
 }
 
-/// ArduPilot's case PAUSE_CONTINUE_GUIDED, with a velocity.
+/// ArduPilot's test case PAUSE_CONTINUE_GUIDED with a velocity.
 #[test]
 fn regress_a_velocity_in_guided_is_paused_and_flown_on() {
     let mut station = copter_at(5.0);
@@ -222,7 +222,7 @@ fn regress_a_velocity_in_guided_is_paused_and_flown_on() {
         assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_PAUSE_CONTINUE, one(go)), ACCEPTED);
         assert!(station.run_until(10.0, flies(wanted)), "{go}");
         station.run_ms(3_000);
-        assert!(flies(wanted)(&mut station), "it stays so: {go}");
+        assert!(flies(wanted)(&mut station), "the state must persist: {go}");
     }
     assert_eq!(next_beat(&mut station).custom_mode, GUIDED as u32);
 }

@@ -1,5 +1,5 @@
-//! ArduCopter's modes and what QGroundControl's buttons send to it: offsets, Smart RTL, circle, follow, acro, landing sequence, pause, mode switch, and
-//! the streams of ArduPilot's own dialect.
+//! ArduCopter's modes and the commands behind QGroundControl's buttons: offsets, Smart RTL, circle, follow, acro,
+//! landing sequence, pause, mode switch, and the streams of ArduPilot's dialect.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::copter::{ARM, AUTO, BRAKE, GUIDED, LOITER, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode, next_beat};
@@ -10,11 +10,12 @@ use spandrel_testkit::station::{Station, one, p};
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
-/// A place counts as reached within, m (the autopilot's own 0.4 m and its way to rest).
+/// Tolerance within which a position counts as reached, m (the autopilot's 0.4 m and the deceleration).
 const NEAR_M: f32 = 0.7;
-/// A path flown back is kept within, m (Smart RTL's accuracy of 2 m, at which it turns to the next point, and the sway of the way back).
+/// Maximum deviation from the path on the way back, m (Smart RTL's accuracy of 2 m, at which it turns to the next
+/// point, and the deviations of both flights).
 const PATH_M: f32 = 3.0;
-/// It brakes at least like this, m/s2 (WPNAV_ACCEL).
+/// Minimum braking deceleration, m/s2 (WPNAV_ACCEL).
 const BRAKING_M_S2: f32 = 2.5;
 const SMART_RTL: f32 = 21.0;
 const CIRCLE: f32 = 7.0;
@@ -52,7 +53,8 @@ fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
     (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2])
 }
 
-/// QGroundControl's altitude slider: mode GUIDED, then one offset with every bit set that is not the position's.
+/// QGroundControl's altitude slider: mode GUIDED, then one offset in which only the position bits of the mask are
+/// clear.
 #[test]
 fn regress_qgroundcontrols_change_of_altitude_climbs_a_copter() {
     for before in [GUIDED, BRAKE] {
@@ -76,7 +78,7 @@ fn regress_offsets_in_the_bodys_frames_count_from_the_copter_and_its_heading() {
         assert_eq!(station.command(1, MavCmd::MAV_CMD_CONDITION_YAW, p(&[90.0, 0.0, 1.0, 0.0])), ACCEPTED);
         station.run_ms(6_000);
         let start = station.place();
-        // Forward is east now, right is south.
+        // Forward is east and right is south.
         station.send(&local(frame, 0x0DF8, [6.0, 2.0, 1.0]));
         station.run_ms(12_000);
         let wanted = [start[0] - 2.0, start[1] + 6.0, start[2] + 1.0];
@@ -84,14 +86,14 @@ fn regress_offsets_in_the_bodys_frames_count_from_the_copter_and_its_heading() {
     }
 }
 
-/// QGroundControl's Return sends mode 21.
+/// QGroundControl's Return button sends mode 21.
 #[test]
 fn regress_smart_rtl_flies_back_along_its_path_and_lands_where_it_took_off() {
     let mut station = copter_at(6.0);
     let pad = station.place();
     let corner = [pad[0] + 20.0, pad[1], pad[2] - 2.0];
     let end = [pad[0] + 20.0, pad[1] + 20.0, pad[2] - 2.0];
-    // The path as flown: with its corner rounded and its stops overshot.
+    // The flown path, with rounded corners and overshoots.
     let mut path = Vec::new();
     for place in [corner, end] {
         station.send(&local(MavFrame::MAV_FRAME_LOCAL_NED, 0x0DF8, place));
@@ -167,7 +169,7 @@ fn regress_circle_flies_around_a_point_ahead() {
         assert!((radius - 6.0).abs() < NEAR_M, "{radius}");
     }
     let turned = (bearing(&station) - before).rem_euclid(std::f32::consts::TAU).to_degrees();
-    // CIRCLE_RATE 20 deg/s, clockwise.
+    // CIRCLE_RATE is 20 deg/s, clockwise.
     assert!((turned - 80.0).abs() < 15.0, "{turned} deg in 4 s");
     assert_eq!(next_beat(&mut station).custom_mode, CIRCLE as u32);
 }
@@ -176,7 +178,7 @@ fn regress_circle_flies_around_a_point_ahead() {
 fn regress_loiter_without_sticks_stays_and_shows_loiter() {
     let mut station = copter_at(5.0);
     for (command, p) in [(MavCmd::MAV_CMD_NAV_LOITER_UNLIM, [0.0; 7]), (SET_MODE, mode(LOITER))] {
-        // Sticks of the round before have lapsed (3 s).
+        // The previous stick input has expired (3 s).
         station.run_ms(4_000);
         assert_eq!(station.command(1, SET_MODE, mode(GUIDED)), ACCEPTED);
         let start = station.place_after(100);
@@ -185,7 +187,7 @@ fn regress_loiter_without_sticks_stays_and_shows_loiter() {
         let beat = next_beat(&mut station);
         assert_eq!((beat.custom_mode, beat.system_status), (LOITER as u32, MavState::MAV_STATE_ACTIVE), "{:?}", station.texts());
         assert!(distance(start, station.place_after(100)) < NEAR_M);
-        // Centered sticks change nothing.
+        // Centered sticks must have no effect.
         for _ in 0..60 {
             station.sticks(0, 0, 500, 0);
             station.run_ms(50);
@@ -209,7 +211,7 @@ fn regress_thrust_of_an_attitude_is_a_copters_climb_rate() {
         })
     };
     set_param(&mut station, "WPNAV_SPEED_UP", 250.0, MavParamType::MAV_PARAM_TYPE_REAL32);
-    // 0.5 keeps the height; 0.7 is 0.4 of WPNAV_SPEED_UP; 0.25 half of WPNAV_SPEED_DN (150 cm/s).
+    // 0.5 keeps the height; 0.7 is 0.4 of WPNAV_SPEED_UP; 0.25 is half of WPNAV_SPEED_DN (150 cm/s).
     for (thrust, climb) in [(0.5, 0.0), (0.7, 1.0), (0.25, -0.75)] {
         for _ in 0..60 {
             station.send(&level(thrust));
@@ -228,7 +230,7 @@ fn regress_condition_yaw_turns_at_its_rate_and_in_its_direction() {
         s.run_ms(8_000);
     };
     point(&mut station, 0.0);
-    // Counter-clockwise to 90 degrees is 270 degrees the long way, at 30 deg/s.
+    // Counterclockwise to 90 degrees is 270 degrees the long way, at 30 deg/s.
     assert_eq!(station.command(1, MavCmd::MAV_CMD_CONDITION_YAW, p(&[90.0, 30.0, -1.0, 0.0])), ACCEPTED);
     station.run_ms(4_000);
     let on_the_way = yaw(&mut station).to_degrees();
@@ -262,10 +264,10 @@ fn regress_pause_holds_a_guided_copter_and_continue_flies_on() {
     assert_eq!(station.command(1, pause, one(1.0)), ACCEPTED);
     assert!(station.run_until(20.0, |s| distance(s.place(), target) < 1.0), "{:?}", station.place());
     assert_eq!(station.command(1, SET_MODE, mode(BRAKE)), ACCEPTED);
-    assert_eq!(station.command(1, pause, one(0.0)), FAILED, "no other mode is paused");
+    assert_eq!(station.command(1, pause, one(0.0)), FAILED, "other modes must reject pause");
 }
 
-/// From take-off through a delay until a time of day; the drill's day begins on a whole minute.
+/// The mission takes off, waits until a time of day, and lands; the drill's day begins on a whole minute.
 #[test]
 fn regress_a_mission_waits_for_a_time_of_day_pauses_and_lands_by_its_landing_sequence() {
     let mut station = copter_at(5.0);
@@ -289,13 +291,13 @@ fn regress_a_mission_waits_for_a_time_of_day_pauses_and_lands_by_its_landing_seq
         item(6, MavCmd::MAV_CMD_NAV_WAYPOINT, 10.0, 6.0),
         item(7, MavCmd::MAV_CMD_NAV_LAND, 10.0, 0.0),
     ];
-    assert_eq!(station.command(1, SET_MODE, mode(27.0)), FAILED, "no landing sequence yet");
+    assert_eq!(station.command(1, SET_MODE, mode(27.0)), FAILED, "the mission does not contain a landing sequence yet");
     assert_eq!(upload(&mut station, &plan), MavMissionResult::MAV_MISSION_ACCEPTED);
     assert_eq!(station.command(1, SET_MODE, mode(AUTO)), ACCEPTED);
     let home = station.place_after(100)[0];
     station.run_ms(20_000);
-    assert!((station.place()[0] - home - 4.0).abs() < 1.5, "it waits: {:?}", station.place());
-    assert!(station.run_until(12.0, |s| s.place()[0] > home + 8.0), "its time has come: {:?}", station.place());
+    assert!((station.place()[0] - home - 4.0).abs() < 1.5, "the vehicle must wait: {:?}", station.place());
+    assert!(station.run_until(12.0, |s| s.place()[0] > home + 8.0), "the vehicle must continue at the set time: {:?}", station.place());
     let pause = MavCmd::MAV_CMD_DO_PAUSE_CONTINUE;
     assert_eq!(station.command(1, pause, one(0.0)), ACCEPTED);
     station.run_ms(4_000);
@@ -333,7 +335,7 @@ fn regress_acro_turns_at_the_sticks_rate_and_levels_when_they_are_released() {
         station.run_ms(40);
     }
     let level = roll(&mut station);
-    assert!(level.abs() < 4.0, "{level} deg once released");
+    assert!(level.abs() < 4.0, "{level} deg after release");
     assert_eq!(next_beat(&mut station).custom_mode, 1);
 }
 
@@ -352,7 +354,8 @@ fn regress_follow_keeps_its_offset_from_another_vehicle() {
         .last_message(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(g.alt - g.relative_alt) } else { None })
         .unwrap();
     assert_eq!(station.command(1, SET_MODE, mode(23.0)), ACCEPTED);
-    // A walker 1.5 m/s to the east on the ground, from 10 m north of the pad; a degree of longitude is 0.6858 of one of latitude here.
+    // A person on the ground walks east at 1.5 m/s, starting 10 m north of the pad. A degree of longitude is 0.6858 of
+    // a degree of latitude here.
     let east_m_per_e7 = M_PER_E7 * 0.6858;
     let mut east = 0.0;
     for k in 0..120 {
@@ -370,9 +373,9 @@ fn regress_follow_keeps_its_offset_from_another_vehicle() {
     }
     station.speak_as(255, 190);
     let here = station.place();
-    // 8 m south of the walker and 4 m above.
+    // The target is 8 m south of the person and 4 m above.
     let (n, e) = (here[0] - home[0] - 2.0, f64::from(here[1] - home[1]) - east);
-    assert!(n.abs() < 1.5 && e.abs() < 2.5, "{n} m north, {e} m east of its place");
+    assert!(n.abs() < 1.5 && e.abs() < 2.5, "{n} m north, {e} m east of the target");
     assert_eq!(next_beat(&mut station).custom_mode, 23);
 }
 

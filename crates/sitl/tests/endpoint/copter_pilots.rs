@@ -1,5 +1,5 @@
-//! As an ArduCopter it meets pilots and scripts that are written for one: switches on channels, arming by mode, the end of a mission, and the
-//! order of answers (ArduPilot's own autotest asks for all of it).
+//! Compatibility with pilots and scripts made for ArduCopter: switches on channels, arming by mode, the end of a
+//! mission, and the order of responses (all of them used by ArduPilot's autotest).
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::copter::{ARM, AUTO, GUIDED, LOITER, SET_MODE, copter, copter_at, mode, next_beat};
@@ -11,12 +11,12 @@ use spandrel_testkit::station::{Station, one, p};
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
-/// Copter's numbers.
+/// Copter's mode numbers.
 const STABILIZE: f32 = 0.0;
 const ALT_HOLD: f32 = 2.0;
 const RTL: f32 = 6.0;
 const LAND: u32 = 9;
-/// Commands that the common dialect doesn't have.
+/// Commands that the common dialect does not contain.
 const DO_AUX_FUNCTION: u16 = 218;
 const DO_JUMP_TAG: u16 = 601;
 const COMMAND_LONG: u32 = 76;
@@ -25,7 +25,7 @@ fn set(station: &mut Station, name: &str, value: f32) {
     assert_eq!(station.set(name, value, MavParamType::MAV_PARAM_TYPE_REAL32), Some(value), "{name}");
 }
 
-/// Sticks in the middle but the throttle; switches on channels 5, 8 and 9.
+/// Returns RC channels with all sticks centered except the throttle, and with switches on channels 5, 8 and 9.
 fn switches(throttle: u16, chan5_raw: u16, chan8_raw: u16, chan9_raw: u16) -> MavMessage {
     MavMessage::RC_CHANNELS_OVERRIDE(RC_CHANNELS_OVERRIDE_DATA {
         chan1_raw: 1500,
@@ -50,7 +50,7 @@ fn is_armed(station: &mut Station) -> bool {
     next_beat(station).base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED)
 }
 
-/// The answer to a command that the dialect doesn't know.
+/// Returns the result of a command that the dialect does not contain.
 fn unknown_command(station: &mut Station, number: u16, values: [f32; 2]) -> u8 {
     let mut payload = [0u8; 33];
     payload[..4].copy_from_slice(&values[0].to_le_bytes());
@@ -69,14 +69,14 @@ fn wire_a_copters_switch_enters_its_mode_and_back_from_it_the_mode_switch_decide
     let mut station = copter();
     set(&mut station, "FLTMODE1", ALT_HOLD);
     set(&mut station, "RC9_OPTION", 18.0);
-    assert_eq!(turn(&mut station, &switches(1000, 1000, 1500, 1900)), ALT_HOLD as u32, "where it stands first is no movement");
+    assert_eq!(turn(&mut station, &switches(1000, 1000, 1500, 1900)), ALT_HOLD as u32, "the initial switch position must not count as a change");
     turn(&mut station, &switches(1000, 1000, 1500, 1000));
     assert_eq!(turn(&mut station, &switches(1000, 1000, 1500, 1900)), LAND);
     assert_eq!(turn(&mut station, &switches(1000, 1000, 1500, 1000)), ALT_HOLD as u32);
     let [accepted, denied, failed, unsupported] = [0, 2, 4, 3];
     assert_eq!(unknown_command(&mut station, DO_AUX_FUNCTION, [56.0, 2.0]), accepted);
     assert_eq!(next_beat(&mut station).custom_mode, LOITER as u32);
-    assert_eq!(unknown_command(&mut station, DO_AUX_FUNCTION, [56.0, 3.0]), denied, "a switch has three positions");
+    assert_eq!(unknown_command(&mut station, DO_AUX_FUNCTION, [56.0, 3.0]), denied, "a fourth position must be rejected");
     assert_eq!(unknown_command(&mut station, DO_AUX_FUNCTION, [299.0, 2.0]), failed);
     let mut px4 = Station::new("drill-hover", 7);
     px4.run_ms(2_500);
@@ -114,7 +114,7 @@ fn flight_a_copters_switch_saves_waypoints_and_another_clears_them() {
         station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(42.0));
         station.last_message(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some(c.total) } else { None }).unwrap()
     };
-    // A take-off goes before the first one.
+    // A takeoff precedes the first waypoint.
     for (chan8_raw, count) in [(1000, 0), (2000, 2), (1000, 2), (2000, 3)] {
         station.send(&switches(1500, 1500, chan8_raw, 1000));
         station.run_ms(100);
@@ -136,17 +136,17 @@ fn wire_a_copter_looks_at_the_throttle_as_the_mode_uses_it() {
     station.run_ms(100);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_RUN_PREARM_CHECKS, one(0.0)), ACCEPTED);
     station.run_ms(5);
-    assert!(!station.said("PreArm"), "sticks count when motors are armed: {:?}", station.texts());
+    assert!(!station.said("PreArm"), "sticks must be checked only when arming: {:?}", station.texts());
     assert_eq!(station.command(1, ARM, one(1.0)), FAILED);
     station.run_ms(5);
     assert!(station.said("Arm: Throttle too high"), "{:?}", station.texts());
     station.command(1, SET_MODE, mode(GUIDED));
     station.send(&high);
     station.run_ms(100);
-    assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED, "GUIDED doesn't use it");
+    assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED, "GUIDED must ignore the throttle");
     station.send(&middle);
     station.run_ms(100);
-    assert_eq!(station.command(1, SET_MODE, mode(STABILIZE)), FAILED, "it would leap");
+    assert_eq!(station.command(1, SET_MODE, mode(STABILIZE)), FAILED, "the mode change must be rejected because of the high throttle");
     station.run_ms(5);
     assert!(station.said("throttle too high"), "{:?}", station.texts());
     station.send(&switches(1000, 1500, 1500, 1500));
@@ -224,8 +224,8 @@ fn wire_a_copters_delay_without_seconds_waits_for_a_time_of_day() {
     assert_eq!(station.command(1, SET_MODE, mode(AUTO)), ACCEPTED);
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
     let up = |s: &mut Station| s.said("Takeoff detected");
-    assert!(!station.run_until(LATER_S as f64 - 5.0, up), "too early");
-    assert!(station.run_until(10.0, up), "too late: {:?}", station.texts());
+    assert!(!station.run_until(LATER_S as f64 - 5.0, up), "takeoff before the set time");
+    assert!(station.run_until(10.0, up), "no takeoff at the set time: {:?}", station.texts());
 }
 
 #[test]
@@ -294,7 +294,7 @@ fn flight_a_copters_return_takes_a_rally_points_height_and_turns_back() {
     assert!(off.abs() < HEADING_DEG, "{off} degrees from the heading at arming");
 }
 
-/// A return keeps its height this well, m, and the nose has turned to a heading within this, degrees (ArduPilot's autotest: 5).
+/// Tolerances of the height, m, and of the heading, degrees, during a return (ArduPilot's autotest: 5 degrees).
 const HEIGHT_M: f32 = 1.0;
 const HEADING_DEG: f32 = 5.0;
 
@@ -305,7 +305,7 @@ fn flight_a_copters_fence_switches_itself_on_and_off() {
     set(&mut station, "FENCE_ALT_MAX", 50.0);
     set(&mut station, "FENCE_AUTOENABLE", 3.0);
     let status = |s: &mut Station| s.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(162.0));
-    assert_eq!(status(&mut station), FAILED, "a fence that is off has no status");
+    assert_eq!(status(&mut station), FAILED, "a disabled fence must not have a status");
     station.command(1, SET_MODE, mode(GUIDED));
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
     station.run_ms(100);
@@ -334,7 +334,7 @@ fn flight_guided_turns_to_a_place_that_comes_without_a_heading() {
         s.run_ms(5);
         s.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw.to_degrees()) } else { None }).unwrap()
     };
-    assert!((yaw(&mut station) - 90.0).abs() > 30.0, "it looks elsewhere first");
+    assert!((yaw(&mut station) - 90.0).abs() > 30.0, "the initial heading must be different");
     station.send(&target);
     station.run_ms(2_500);
     station.send(&target);

@@ -1,4 +1,4 @@
-//! As an ArduCopter it takes plans: item 0 is home, and the fence acts while its parameter says so.
+//! Missions and fences as an ArduCopter: item 0 is home, and the fence is active if its parameter enables it.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::copter::{ARM, AUTO, BRAKE, GUIDED, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode, next_beat};
@@ -59,7 +59,7 @@ fn flight_a_copters_fence_acts_if_enabled() {
     }
 }
 
-/// Set-points that lead out of the fence are flown no more once it holds the vehicle, though they go on coming.
+/// After a fence has stopped the vehicle, setpoints that lead outside must be ignored, although they keep arriving.
 #[test]
 fn flight_a_copters_fence_ends_guided_flight() {
     let mut station = copter_at(5.0);
@@ -96,7 +96,7 @@ fn wire_item_0_of_a_copters_mission_is_home_and_all_numbers_count_from_it() {
     let place = MavCmd::MAV_CMD_NAV_WAYPOINT;
     assert_eq!(counted(&mut station), 0);
     assert_eq!(current(&mut station), (0, 0));
-    // What stands in item 0 does not count, not even a place that nobody can fly to.
+    // The content of item 0 must not matter, not even an unreachable position.
     let home = MISSION_ITEM_INT_DATA { x: 1_900_000_000, z: 1e9, ..item(0, place, 0.0, 0.0) };
     let jump = MISSION_ITEM_INT_DATA { param1: 1.0, param2: 1.0, ..item(3, MavCmd::MAV_CMD_DO_JUMP, 0.0, 0.0) };
     let items = [home.clone(), item(1, place, 10.0, 5.0), item(2, place, 20.0, 5.0), jump];
@@ -111,7 +111,7 @@ fn wire_item_0_of_a_copters_mission_is_home_and_all_numbers_count_from_it() {
         })
     };
     let first = fetch(&mut station, 0).unwrap();
-    assert!((first.x - PAD.0).abs() < 500 && (first.y - PAD.1).abs() < 500, "home, not what was sent: {first:?}");
+    assert!((first.x - PAD.0).abs() < 500 && (first.y - PAD.1).abs() < 500, "item 0 must be home: {first:?}");
     assert_eq!(first.frame, MavFrame::MAV_FRAME_GLOBAL);
     for sent in &items[1..] {
         let back = fetch(&mut station, sent.seq).unwrap();
@@ -128,7 +128,7 @@ fn wire_item_0_of_a_copters_mission_is_home_and_all_numbers_count_from_it() {
         _ => None,
     };
     let again = MavMessage::MISSION_ITEM_INT(items[3].clone());
-    assert_eq!(station.ask(&again, answer), Some(Err(accepted)), "the acknowledgement was lost");
+    assert_eq!(station.ask(&again, answer), Some(Err(accepted)), "a repeated final item must be acknowledged again");
     let part = |start_index, end_index| {
         MavMessage::MISSION_WRITE_PARTIAL_LIST(MISSION_WRITE_PARTIAL_LIST_DATA {
             start_index,
@@ -140,7 +140,7 @@ fn wire_item_0_of_a_copters_mission_is_home_and_all_numbers_count_from_it() {
     };
     assert_eq!(station.ask(&part(2, 2), answer), Some(Ok(2)));
     assert_eq!(station.ask(&MavMessage::MISSION_ITEM_INT(item(2, place, 30.0, 6.0)), answer), Some(Err(accepted)));
-    assert_eq!(station.ask(&part(0, 1), answer), Some(Ok(0)), "home, too, though nothing comes of it");
+    assert_eq!(station.ask(&part(0, 1), answer), Some(Ok(0)), "item 0 may also be replaced, without effect");
     assert_eq!(station.ask(&MavMessage::MISSION_ITEM_INT(items[0].clone()), answer), Some(Ok(1)));
     assert_eq!(station.ask(&MavMessage::MISSION_ITEM_INT(item(1, place, 12.0, 7.0)), answer), Some(Err(accepted)));
     let heights: Vec<f32> = (1..=3).map(|seq| fetch(&mut station, seq).unwrap().z).collect();
@@ -149,7 +149,7 @@ fn wire_item_0_of_a_copters_mission_is_home_and_all_numbers_count_from_it() {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, one(2.0)), ACCEPTED);
     assert_eq!(current(&mut station), (2, 3));
     assert_ne!(station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, one(4.0)), ACCEPTED);
-    assert_eq!(upload(&mut station, &[home]), accepted, "home alone is no mission");
+    assert_eq!(upload(&mut station, &[home]), accepted, "a plan that contains only home must clear the mission");
     assert_eq!(counted(&mut station), 0);
     let fence = MISSION_COUNT_DATA {
         count: 1,

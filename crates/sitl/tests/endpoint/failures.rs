@@ -1,4 +1,4 @@
-//! What an instructor breaks, and what the vehicle makes of it.
+//! Failures injected by an instructor, and the vehicle's responses.
 
 use spandrel_mavlink::dialect::*;
 use spandrel_model::site::bridge_closures::BridgeClosures;
@@ -16,7 +16,7 @@ const BATTERY: f32 = 100.0;
 const MOTOR: f32 = 101.0;
 const STICKS: f32 = 104.0;
 const HOLD: u32 = 4 << 16 | 3 << 24;
-/// Wind that is set and what telemetry says of it; turbulence comes on top, m/s.
+/// Tolerance between the wind that is set and the wind in telemetry, which includes turbulence, m/s.
 const WIND_TOLERANCE_M_S: f64 = 2.5;
 
 fn set(station: &mut Station, name: &str, value: f32, kind: MavParamType) {
@@ -31,7 +31,7 @@ fn set_real(station: &mut Station, name: &str, value: f32) {
     set(station, name, value, MavParamType::MAV_PARAM_TYPE_REAL32);
 }
 
-/// ArduPilot writes whole numbers as floating-point ones, the others bit by bit.
+/// Enables failure injection. ArduPilot encodes integers as floating-point numbers, the others bit by bit.
 fn allow_failures(station: &mut Station, flavour: &Flavour) {
     let one = if flavour.name == ardupilot::FLAVOUR.name { 1.0 } else { f32::from_bits(1) };
     set(station, "SYS_FAILURE_EN", one, MavParamType::MAV_PARAM_TYPE_INT32);
@@ -55,7 +55,7 @@ fn said(station: &Station, what: &str) -> bool {
         .is_empty()
 }
 
-/// Holding by itself at some height, with failures allowed.
+/// Returns a vehicle that holds its position at some height, with failure injection enabled.
 fn holding() -> Station {
     let mut station = Station::airborne("drill-hover", 7);
     set_whole(&mut station, "SYS_FAILURE_EN", 1);
@@ -98,7 +98,8 @@ fn flight_a_receiver_that_receives_nothing_is_reported_and_so_is_its_return() {
     assert!(station.run_until(30.0, |s| seen(s) == (Some(true), Some(3))), "{:?}", seen(&station));
 }
 
-/// The estimate follows a jump of the fixes or refuses it; either way the vehicle stays in the air and whole.
+/// The estimate may follow a jump of the fixes or reject it; either way, the vehicle must stay in the air without a
+/// collision.
 #[test]
 fn flight_a_jump_of_the_fixes_does_not_bring_it_down() {
     const WRONG: f32 = 4.0;
@@ -111,12 +112,13 @@ fn flight_a_jump_of_the_fixes_does_not_bring_it_down() {
     assert!(now.velocity_m_s.norm() < 8.0, "{:?}", now.velocity_m_s);
 }
 
-/// Health bits of one SYS_STATUS.
+/// Returns the health bits of one SYS_STATUS.
 fn health(station: &Station) -> Option<MavSysStatusSensor> {
     station.last_message(|m| if let MavMessage::SYS_STATUS(s) = m { Some(s.onboard_control_sensors_health) } else { None })
 }
 
-/// A missing sensor shows and forbids arming within this, s (half a second of silence, and SYS_STATUS twice a second).
+/// Time within which a missing sensor must be reported and prevent arming, s (half a second without data, and
+/// SYS_STATUS twice per second).
 const MISSED_WITHIN_S: f64 = 2.0;
 
 #[test]
@@ -147,7 +149,7 @@ fn wire_a_compass_or_barometer_that_is_gone_shows_and_forbids_arming_until_it_is
     }
 }
 
-/// Without a compass the gyroscopes keep the heading well enough to hold and land.
+/// Without a compass, the gyroscopes keep the heading well enough for holding and landing.
 #[test]
 fn flight_a_compass_lost_in_the_air_is_reported_and_the_hold_goes_on() {
     let mut station = holding();
@@ -159,13 +161,14 @@ fn flight_a_compass_lost_in_the_air_is_reported_and_the_hold_goes_on() {
     assert!((now - before).norm() < 3.0, "{before:?} to {now:?}");
 }
 
-/// Stuck, then whole again, on the ground: announced in the flavour's words, forbidden to arm, and back.
+/// A sensor that is stuck on the ground must be announced in the emulated autopilot's words, prevent arming, and
+/// recover.
 #[test]
 fn wire_a_stuck_sensor_is_announced_in_the_flavours_words_and_forbids_arming() {
     use MavSysStatusSensor as S;
     const STUCK: f32 = 2.0;
     const BAROMETER: f32 = 3.0;
-    // s: two seconds of the same value, and SYS_STATUS twice a second.
+    // Two seconds with the same value, and SYS_STATUS twice per second, s.
     const WITHIN_S: f64 = 4.0;
     let arm = p(&[1.0]);
     for (flavour, unit, bit, words) in [
@@ -178,7 +181,7 @@ fn wire_a_stuck_sensor_is_announced_in_the_flavours_words_and_forbids_arming() {
         (&generic::FLAVOUR, BAROMETER, S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE, "Barometer stuck: not used"),
     ] {
         let mut station = Station::speaking(flavour, "drill-hover", 7);
-        // ArduPilot's streams start when they are asked for.
+        // ArduPilot's streams start when they are requested.
         station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, p(&[1.0, 500_000.0]));
         station.run_ms(4_000);
         allow_failures(&mut station, flavour);
@@ -194,12 +197,12 @@ fn wire_a_stuck_sensor_is_announced_in_the_flavours_words_and_forbids_arming() {
     }
 }
 
-/// The flow of issue 16: reposition to 12 m, and the barometer sticks on the way.
+/// Flow of issue 16: reposition to 12 m, with the barometer getting stuck during the climb.
 #[test]
 fn regress_a_barometer_stuck_on_the_way_up_is_announced_and_the_height_is_reached() {
     const STUCK: f32 = 2.0;
     const BAROMETER: f32 = 3.0;
-    // m: the receiver's height alone is left.
+    // Only the receiver's height remains, m.
     const HEIGHT_M: f64 = 2.5;
     let mut station = holding();
     let before = station.sim.truth().rigid.position_m.enu();
@@ -214,13 +217,13 @@ fn regress_a_barometer_stuck_on_the_way_up_is_announced_and_the_height_is_reache
     for _ in 0..60 {
         station.run_ms(1_000);
         let climbed = station.sim.truth().rigid.position_m.enu().up() - before.up();
-        assert!(climbed < 7.0 + HEIGHT_M, "{climbed} m instead of 7");
+        assert!(climbed < 7.0 + HEIGHT_M, "{climbed} m instead of 7 m");
     }
     let climbed = station.sim.truth().rigid.position_m.enu().up() - before.up();
-    assert!((climbed - 7.0).abs() < HEIGHT_M, "{climbed} m instead of 7");
+    assert!((climbed - 7.0).abs() < HEIGHT_M, "{climbed} m instead of 7 m");
 }
 
-/// One rotor less: it cannot be held level, turns, and says so before it has fallen.
+/// With one motor stopped, the vehicle cannot stay level and turns; it must report that before it has fallen.
 #[test]
 fn flight_a_motor_that_stops_shows_in_attitude_and_heading_and_is_reported() {
     let mut station = holding();
@@ -234,7 +237,7 @@ fn flight_a_motor_that_stops_shows_in_attitude_and_heading_and_is_reported() {
         (tilt, turn) = (tilt.max(now.roll.abs().max(now.pitch.abs())), turn.max(now.yawspeed.abs()));
         said(s, "Attitude lost: motor or propeller failure?")
     });
-    assert!(told && tilt > 0.7 && turn > 0.5, "told {told}, tilted {tilt} rad, turned at {turn} rad/s");
+    assert!(told && tilt > 0.7 && turn > 0.5, "reported {told}, tilted {tilt} rad, turned at {turn} rad/s");
     let obeys = MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_ATTITUDE_STABILIZATION;
     assert!(station.run_until(1.0, |s| health(s).is_some_and(|health| !health.contains(obeys))));
 }
@@ -246,7 +249,7 @@ fn flight_with_a_motor_gone_it_falls() {
     assert_eq!(inject(&mut station, MOTOR, OFF, 2.0), MavResult::MAV_RESULT_ACCEPTED);
     assert!(
         station.run_until(8.0, |s| s.sim.truth().rigid.position_m.down() - before > 4.0),
-        "a quadrotor on three rotors comes down"
+        "a quadrotor with three rotors must fall"
     );
 }
 
@@ -278,7 +281,7 @@ fn wire_a_failing_battery_is_reported() {
     assert!(left.unwrap() <= 5, "{left:?}");
 }
 
-/// A cell that gives nothing is shown, the pack's voltage falls by it, and it comes back.
+/// A failed cell must be shown, reduce the pack's voltage, and recover.
 #[test]
 fn wire_a_failing_cell_is_shown_and_missed() {
     let mut station = holding();
@@ -289,7 +292,7 @@ fn wire_a_failing_cell_is_shown_and_missed() {
     };
     station.run_ms(1_000);
     let (whole, before) = (cells(&station), pack(&station));
-    assert_eq!(whole.iter().filter(|mv| **mv != u16::MAX).count(), 3, "three cells");
+    assert_eq!(whole.iter().filter(|mv| **mv != u16::MAX).count(), 3, "the pack must have three cells");
     assert_eq!(inject(&mut station, BATTERY, OFF, 2.0), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(1_000);
     assert_eq!((cells(&station)[1], cells(&station)[0] > 3_000), (0, true), "{:?}", cells(&station));
@@ -311,7 +314,7 @@ fn flight_the_wind_that_an_instructor_sets_blows() {
         f64::from(station.last_message(|m| if let MavMessage::WIND_COV(w) = m { Some(w.wind_y) } else { None }).unwrap())
     });
     let east = mean.sum::<f64>() / 50.0;
-    assert!((east - 8.0).abs() < WIND_TOLERANCE_M_S, "a west wind blows to the east at {east} m/s");
+    assert!((east - 8.0).abs() < WIND_TOLERANCE_M_S, "west wind: {east} m/s to the east");
 }
 
 #[test]
@@ -325,20 +328,20 @@ fn wire_closed_bridges_run_empty_as_seen_from_telemetry() {
         .collect()
     };
     station.run_ms(11_000);
-    assert!(codes(&station).is_empty(), "what was never touched is not spoken of");
+    assert!(codes(&station).is_empty(), "unchanged bridges must not be reported");
     assert!(station.sim.site().traffic().gates().is_empty());
     for (open, wait_ms) in [(0, 90_000), (1, 90_000)] {
         set_whole(&mut station, "SIM_TRAFFIC", open);
         station.run_ms(wait_ms);
         let heard = BridgeClosures::from_codes(codes(&station));
         assert_eq!(station.sim.site().traffic().gates(), &heard);
-        // Who knows scenario, seed and telemetry sees the same cars.
+        // A program with scenario, seed and telemetry must see the same cars.
         let theirs = Site::build(&scenario("two-bridges"), 7).with_closures(heard);
         let now = station.sim.now();
         let (here, there) = (station.sim.site().traffic().solids(now), theirs.traffic().solids(now));
         assert_eq!(here, there);
         let driving = here.iter().filter(|(object, surface, _)| *surface == Surface::Vehicle && *object != CREW_TRUCK).count();
-        assert_eq!(driving > 0, open == 1, "{driving} parts of vehicles after 90 s");
+        assert_eq!(driving > 0, open == 1, "{driving} vehicle parts after 90 s");
     }
 }
 
@@ -367,7 +370,7 @@ fn wire_a_bad_radio_loses_its_share_and_is_late() {
     set_real(&mut station, "SIM_LINK_LOSS", 50.0);
     let share = frames(&mut station) / good;
     assert!((0.35..0.65).contains(&share), "{share}");
-    // The way back to a good radio leads over the bad one.
+    // The command to restore the radio must pass through the bad link.
     let healed = (0..100).any(|_| station.set("SIM_LINK_LOSS", 0.0, MavParamType::MAV_PARAM_TYPE_REAL32).is_some());
     assert!(healed);
     station.send(&MavMessage::PARAM_SET(PARAM_SET_DATA {
@@ -386,7 +389,7 @@ fn wire_a_bad_radio_loses_its_share_and_is_late() {
         .is_none()
     {
         station.run_ms(1);
-        assert!((station.sim.now() - asked_at).ms() < 1_000, "it comes late, but it comes");
+        assert!((station.sim.now() - asked_at).ms() < 1_000, "the response must arrive despite the delay");
     }
     let there_and_back = (station.sim.now() - asked_at).ms();
     assert!((300..=305).contains(&there_and_back), "{there_and_back} ms");

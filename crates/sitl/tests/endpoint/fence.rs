@@ -1,4 +1,4 @@
-//! A geofence that acts, rally points, and a mission that a pilot interrupts.
+//! Geofence actions, rally points, and missions interrupted by the pilot.
 
 use spandrel_mavlink::dialect::*;
 use spandrel_testkit::plans::{ACCEPTED, home_north, item, ready, upload};
@@ -25,7 +25,7 @@ fn set(station: &mut Station, name: &str, value: i32) {
     assert!(station.set(name, bits, MavParamType::MAV_PARAM_TYPE_INT32).is_some());
 }
 
-/// Holds the sticks for a while, as a ground station sends them.
+/// Sends stick inputs for a while at the rate of a ground station.
 fn fly(station: &mut Station, forward: i16, right: i16, z: i16, ms: i64) {
     for _ in 0..ms / 40 {
         station.sticks(forward, right, z, 0);
@@ -60,7 +60,7 @@ fn wire_at_the_fence_it_holds_once_and_the_pilot_flies_back_in() {
         }
     }
     assert!(station.said("Pilot took over") && station.said("Back inside geofence"), "{:?}", station.texts());
-    assert!(!station.said("breached"), "no second time for the same breach");
+    assert!(!station.said("breached"), "the same breach must be reported only once");
 }
 
 #[test]
@@ -79,7 +79,7 @@ fn wire_what_leads_out_of_the_fence_is_refused() {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
 }
 
-/// Both ends of a way are allowed, its middle is not.
+/// The path must be rejected although both of its ends are allowed.
 #[test]
 fn wire_a_way_through_a_forbidden_area_is_refused_and_so_is_one_that_is_too_high() {
     let mut station = Station::airborne("drill-hover", 7);
@@ -154,7 +154,8 @@ fn wire_a_return_goes_to_the_nearest_rally_point() {
     assert!((home_north(&station) - home - 30.0).abs() < 1.5, "{:?}", station.place());
 }
 
-/// The mission goes on from where the pilot took over, not from the item's start and not straight to its end.
+/// The mission must continue at the point where the pilot took over, not at the start of the item and not directly to
+/// its end.
 #[test]
 fn wire_a_mission_that_the_pilot_interrupts_goes_on_where_it_was_left() {
     let mut station = Station::airborne("drill-hover", 7);
@@ -164,8 +165,8 @@ fn wire_a_mission_that_the_pilot_interrupts_goes_on_where_it_was_left() {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
     assert!(station.run_until(60.0, |s| home_north(s) > home + 30.0), "{:?}", station.place());
     fly(&mut station, 0, 0, 500, 80);
-    assert_eq!(station.mode(), Some(MISSION), "centred sticks take nothing over");
-    // As the vehicle estimated itself at that moment.
+    assert_eq!(station.mode(), Some(MISSION), "centered sticks must not interrupt the mission");
+    // Position according to the vehicle's estimate at that time.
     let left = station.place();
     fly(&mut station, 0, 1000, 500, 3_000);
     fly(&mut station, 0, 0, 500, 2_000);
@@ -174,7 +175,7 @@ fn wire_a_mission_that_the_pilot_interrupts_goes_on_where_it_was_left() {
     let state = station.last_message(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some(c.mission_state) } else { None });
     assert_eq!(state, Some(MissionState::MISSION_STATE_PAUSED));
     let away = station.place();
-    assert!((away[1] - left[1]).abs() > 5.0, "the pilot has flown off: {left:?} to {away:?}");
+    assert!((away[1] - left[1]).abs() > 5.0, "the pilot must have flown away: {left:?} to {away:?}");
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_PAUSE_CONTINUE, [1.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
     let mut nearest = f32::INFINITY;
     let mut furthest_before = f32::NEG_INFINITY;
@@ -189,6 +190,6 @@ fn wire_a_mission_that_the_pilot_interrupts_goes_on_where_it_was_left() {
     });
     assert!(ended);
     assert!(station.said("Mission resumed from interruption point"));
-    assert!(nearest < 1.5, "passed {nearest} m from where it was left");
-    assert!(furthest_before < away[0].max(left[0]) + 1.0, "first back, then on: {furthest_before} of {left:?}");
+    assert!(nearest < 1.5, "passed {nearest} m from the interruption point");
+    assert!(furthest_before < away[0].max(left[0]) + 1.0, "the vehicle must return before it continues: {furthest_before} of {left:?}");
 }

@@ -1,4 +1,4 @@
-//! The same vehicle as three autopilots: how it names itself, modes, parameters, files, streams.
+//! The same vehicle emulating three autopilots: identification, modes, parameters, files, streams.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::copter::{SET_MODE, beat, copter, copter_at, mode, next_beat};
@@ -23,7 +23,7 @@ fn wire_each_flavour_beats_and_names_itself_as_its_autopilot() {
         let mut station = Station::speaking(flavour, "drill-hover", 7);
         station.run_ms(5);
         let first = if flavour.name == "ardupilot" { MavState::MAV_STATE_BOOT } else { MavState::MAV_STATE_STANDBY };
-        assert_eq!(beat(&station).system_status, first, "{}: the first beat", flavour.name);
+        assert_eq!(beat(&station).system_status, first, "{}: first heartbeat", flavour.name);
         station.run_ms(2_500);
         let heard = beat(&station);
         assert_eq!((heard.autopilot, heard.custom_mode), (autopilot, number), "{}", flavour.name);
@@ -41,7 +41,7 @@ fn wire_each_flavour_beats_and_names_itself_as_its_autopilot() {
         });
         let number = flavour.params.number;
         let expected = if flavour.params.cast { number as f32 } else { f32::from_bits(number.cast_unsigned()) };
-        assert_eq!(value, Some(expected), "the flavour tells the truth about itself");
+        assert_eq!(value, Some(expected), "the version must match the emulated autopilot");
     }
 }
 
@@ -54,9 +54,9 @@ fn wire_every_mode_that_is_offered_is_entered_by_each_message_and_shown_under_it
         let modes = station.all(|m| if let MavMessage::AVAILABLE_MODES(mode) = m { Some(mode.clone()) } else { None });
         assert_eq!(modes.len(), flavour.modes.len());
         let offered = |m: &AVAILABLE_MODES_DATA| !m.properties.contains(MavModeProperty::MAV_MODE_PROPERTY_NOT_USER_SELECTABLE);
-        // A mission has to be there before its mode.
+        // Mission mode requires a mission.
         let needs_mission = |m: &AVAILABLE_MODES_DATA| m.standard_mode == MavStandardMode::MAV_STANDARD_MODE_MISSION;
-        // Copter's AUTO and AUTO RTL need one too, and FOLLOW its parameter.
+        // Copter's AUTO and AUTO RTL also require a mission, and FOLLOW requires its parameter.
         let needs_more = |m: &AVAILABLE_MODES_DATA| flavour.name == "ardupilot" && [3, 23, 27].contains(&m.custom_mode);
         for mode in modes.iter().filter(|mode| offered(mode) && !needs_mission(mode) && !needs_more(mode)) {
             let target_system = 1;
@@ -75,9 +75,9 @@ fn wire_every_mode_that_is_offered_is_entered_by_each_message_and_shown_under_it
         }
         if flavour.name == "generic" {
             let standard = |m: &AVAILABLE_MODES_DATA| m.standard_mode != MavStandardMode::MAV_STANDARD_MODE_NON_STANDARD;
-            assert!(modes.iter().filter(|mode| offered(mode)).all(standard), "nothing but standard modes is offered");
+            assert!(modes.iter().filter(|mode| offered(mode)).all(standard), "only standard modes must be offered");
             assert_eq!(station.command(1, SET_MODE, mode(f32::from(4u8) * 65_536.0 + 5.0 * 16_777_216.0)), ACCEPTED);
-            assert_eq!(next_beat(&mut station).custom_mode, 4 << 16 | 5 << 24, "a whole custom mode in parameter 2");
+            assert_eq!(next_beat(&mut station).custom_mode, 4 << 16 | 5 << 24, "parameter 2 may contain a complete custom mode");
         }
     }
 }
@@ -88,7 +88,7 @@ fn wire_copters_parameters_are_cast_and_act() {
     station.send(&MavMessage::PARAM_REQUEST_LIST(PARAM_REQUEST_LIST_DATA { target_system: 1, target_component: 1 }));
     station.run_ms(500);
     let values = station.all(|m| if let MavMessage::PARAM_VALUE(v) = m { Some(v.clone()) } else { None });
-    assert_eq!(values.len(), usize::from(values[0].param_count), "each once, and no checksum before them");
+    assert_eq!(values.len(), usize::from(values[0].param_count), "each parameter must arrive once, without a checksum before them");
     let of = |name: &str| values.iter().find(|v| v.param_id.to_str() == Ok(name)).unwrap_or_else(|| panic!("{name}"));
     assert_eq!((of("FRAME_CLASS").param_value, of("FRAME_CLASS").param_type), (1.0, MavParamType::MAV_PARAM_TYPE_INT8));
     assert_eq!(of("RTL_ALT").param_value, 3_000.0);
@@ -120,7 +120,7 @@ fn wire_copters_parameters_are_cast_and_act() {
         _ => None,
     };
     let real = MavParamType::MAV_PARAM_TYPE_REAL32;
-    assert_eq!(station.ask(&set("RTL_ALT", 2_000.0, real), answer), Some(Ok(2_000.0)), "a whole number, sent as a real one");
+    assert_eq!(station.ask(&set("RTL_ALT", 2_000.0, real), answer), Some(Ok(2_000.0)), "an integer sent as a float must be accepted");
     assert_eq!(station.ask(&set("FRAME_TYPE", 0.0, real), answer), Some(Err(MavParamError::MAV_PARAM_ERROR_READ_ONLY)));
     assert_eq!(
         station.ask(&set("WPNAV_SPEED", -9e9, real), answer),
@@ -147,7 +147,7 @@ fn flight_a_copters_climb_is_as_fast_as_its_parameter_says() {
     let low = station.place()[2];
     let high = station.place_after(4_000)[2];
     let speed = (low - high) / 4.0;
-    assert!((speed - 0.8).abs() < 0.15, "{speed} m/s where 0.8 is set");
+    assert!((speed - 0.8).abs() < 0.15, "{speed} m/s instead of 0.8 m/s");
 }
 
 #[test]
@@ -186,7 +186,7 @@ fn file(station: &mut Station, opcode: Opcode, session: u8, offset: u32, data: &
             MavMessage::FILE_TRANSFER_PROTOCOL(answer) => Some(FtpPacket::read(&answer.payload)),
             _ => None,
         })
-        .expect("an answer at once")
+        .expect("an immediate response")
 }
 
 #[test]
@@ -194,7 +194,7 @@ fn wire_a_copter_reports_nothing_but_heartbeats_until_it_is_asked_and_the_sideca
     let mut station = Station::speaking(&ardupilot::FLAVOUR, "drill-hover", 7);
     station.run_ms(3_000);
     let unasked: std::collections::BTreeSet<u32> = station.received.iter().map(|f| f.message_id).collect();
-    assert_eq!(unasked.into_iter().collect::<Vec<_>>(), [0], "heartbeats alone");
+    assert_eq!(unasked.into_iter().collect::<Vec<_>>(), [0], "only heartbeats must be sent");
     let sidecar = LinkId(9);
     station.sim.open_link(sidecar, LinkKind::Payload, false);
     let mut told = std::collections::BTreeSet::new();
@@ -208,7 +208,7 @@ fn wire_a_copter_reports_nothing_but_heartbeats_until_it_is_asked_and_the_sideca
         }
     }
     for id in [115, 1, 245, 147, 285, 440, 251, 252] {
-        assert!(told.contains(&id), "message {id} to the sidecar");
+        assert!(told.contains(&id), "the sidecar must receive message {id}");
     }
     station.sim.close_link(sidecar);
     let groups = |req_stream_id, req_message_rate, start_stop| {
@@ -225,13 +225,13 @@ fn wire_a_copter_reports_nothing_but_heartbeats_until_it_is_asked_and_the_sideca
     station.received.clear();
     station.run_ms(2_000);
     let count = |station: &Station, id| station.received.iter().filter(|f| f.message_id == id).count();
-    assert_eq!((count(&station, 33), count(&station, 32), count(&station, 30)), (10, 10, 0), "a group at 5 Hz");
+    assert_eq!((count(&station, 33), count(&station, 32), count(&station, 30)), (10, 10, 0), "the group must arrive at 5 Hz");
     station.send(&groups(MavDataStream::MAV_DATA_STREAM_ALL, 4, 1));
     station.run_ms(10);
     station.received.clear();
     station.run_ms(2_000);
     for id in [1, 24, 27, 30, 33, 62, 65, 74, 147] {
-        // Sticks are told while somebody has them.
+        // Sticks are streamed only while a client controls them.
         assert!(id == 65 || count(&station, id) == 8, "message {id}: {}", count(&station, id));
     }
     station.send(&groups(MavDataStream::MAV_DATA_STREAM_ALL, 4, 0));

@@ -1,5 +1,6 @@
-//! Plans and parameters over a link that loses 30 %, is 200 ms late, exchanges and doubles datagrams, both ways, with a client that
-//! asks again without limit. All in simulated time, from a seed. Files: `impaired_files.rs`.
+//! Plans and parameters over a link that loses 30 % of the datagrams, delays them by 200 ms, and reorders and
+//! duplicates them, in both directions, with a client that retries indefinitely. All tests run in simulation time from
+//! a seed. Files: `impaired_files.rs`.
 
 use super::impaired_files::Disk;
 use spandrel_mavlink::codec::{Decoder, Encoder};
@@ -10,16 +11,16 @@ use spandrel_testkit::plans::{home_north, item};
 use spandrel_testkit::station::{GCS, Station};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The issue's figures: share lost, mean delay and its spread (which exchanges datagrams), share doubled.
+/// Values from the issue: lost fraction, range of the delay (which reorders datagrams), duplicated fraction.
 const LOSS: f64 = 0.3;
 const DELAY_MS: (f64, f64) = (100.0, 300.0);
 const DOUBLED: f64 = 0.1;
-/// The client asks again after this, ms: a round trip and a half.
+/// Retry interval of the client, ms: one and a half round trips.
 pub(super) const PATIENCE_MS: i64 = 900;
-/// Each exchange ends within this, s of simulated time; only a hang is longer.
+/// Limit for each exchange, s of simulation time; only a hang takes longer.
 pub(super) const LIMIT_S: f64 = 1_200.0;
 
-/// One way of the link.
+/// One direction of the link.
 struct Way {
     stream: RandomStream,
     loss: f64,
@@ -49,7 +50,7 @@ impl Way {
     }
 }
 
-/// A client at the far end.
+/// A client at the remote end.
 pub(super) struct Client {
     pub(super) station: Station,
     there: Way,
@@ -70,7 +71,7 @@ impl Client {
         Self { station, there, back, encoder: Encoder::new(255, 190), disk: Disk::default() }
     }
 
-    /// A millisecond passes; what the client hears.
+    /// Advances by one millisecond and returns the messages that the client receives.
     pub(super) fn tick(&mut self) -> Vec<MavMessage> {
         let sim = &mut self.station.sim;
         for datagram in self.there.arrived(sim.now()) {
@@ -93,12 +94,12 @@ impl Client {
         self.there.send(&frame, self.station.sim.now());
     }
 
-    /// Asks, again and again, until an answer is liked.
+    /// Sends a request repeatedly until a response matches.
     pub(super) fn ask<T>(&mut self, message: &MavMessage, like: impl FnMut(&MavMessage) -> Option<T>) -> T {
         self.ask_every(PATIENCE_MS, message, like)
     }
 
-    /// The same with another patience, ms.
+    /// Same as `ask` with another retry interval, ms.
     pub(super) fn ask_every<T>(
         &mut self,
         patience_ms: i64,
@@ -113,7 +114,7 @@ impl Client {
                     return found;
                 }
             }
-            assert!((self.station.sim.now() - begin).s() < LIMIT_S, "no answer to {message:?}");
+            assert!((self.station.sim.now() - begin).s() < LIMIT_S, "no response to {message:?}");
         }
     }
 }
@@ -127,7 +128,7 @@ fn wire_a_mission_goes_up_and_comes_down_over_a_bad_link() {
     up_and_down(&mut Client::new(1), 40);
 }
 
-/// What MAVLink's own testing suite asked: 500 items while a quarter of all datagrams is lost.
+/// The case of MAVLink's testing suite: 500 items with a quarter of all datagrams lost.
 #[test]
 fn wire_five_hundred_items_go_up_and_come_down_while_a_quarter_is_lost() {
     up_and_down(&mut Client::losing(5, 0.25), 500);
@@ -137,7 +138,7 @@ fn up_and_down(client: &mut Client, number: u16) {
     let home = home_north(&client.station);
     let waypoint = |k| item(k, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 2.0 * f64::from(k), 6.0);
     let items: Vec<_> = (0..number).map(waypoint).collect();
-    // The vehicle asks for one item after the other; whatever it asks for last is sent.
+    // The vehicle requests the items one after the other; the client sends the latest one requested.
     let next = |m: &MavMessage| match m {
         MavMessage::MISSION_REQUEST_INT(r) => Some(Some(r.seq)),
         MavMessage::MISSION_ACK(a) if a.mavtype == MavMissionResult::MAV_MISSION_ACCEPTED => Some(None),
@@ -170,7 +171,7 @@ fn wire_parameters_are_read_whole_and_set_over_a_bad_link() {
     let list = MavMessage::PARAM_REQUEST_LIST(PARAM_REQUEST_LIST_DATA { target_system: 1, target_component: 1 });
     let (mut seen, mut total) = (BTreeSet::new(), None);
     client.send(&list);
-    // What the list brings by itself, then the missing ones by their index.
+    // Collects the parameters of the list, then requests the missing ones by index.
     for _ in 0..3_000 {
         for message in client.tick() {
             if let MavMessage::PARAM_VALUE(value) = message
@@ -181,8 +182,8 @@ fn wire_parameters_are_read_whole_and_set_over_a_bad_link() {
             }
         }
     }
-    let total = total.expect("a part of the list comes through");
-    assert!(seen.len() < usize::from(total), "the link is bad");
+    let total = total.expect("a part of the list must arrive");
+    assert!(seen.len() < usize::from(total), "the link must lose some parameters");
     for index in (0..total).filter(|index| !seen.contains(index)) {
         let read =
             PARAM_REQUEST_READ_DATA { param_index: index as i16, target_system: 1, target_component: 1, param_id: "".into() };
@@ -204,7 +205,7 @@ fn wire_parameters_are_read_whole_and_set_over_a_bad_link() {
     });
 }
 
-/// PX4's time, ms: MAVSDK gives up after five silent half-seconds or five repetitions of an item.
+/// PX4's retry interval, ms. MAVSDK gives up after five half-seconds without messages or five repetitions of an item.
 const ASKED_AGAIN_MS: i64 = 250;
 
 #[expect(deprecated, reason = "clients still know only what MAVLink has superseded")]
@@ -226,8 +227,8 @@ fn asked_or_acknowledged(station: &mut Station) -> Vec<(i64, Option<u16>)> {
     heard
 }
 
-/// A client whose items got lost is asked again four times a second, and one whose acknowledgement may have got lost hears it again; on a
-/// link that has lost nothing there is one acknowledgement, as from PX4.
+/// A client whose items were lost is asked again four times per second, and one whose acknowledgment may have been lost
+/// receives it again. On a link without losses, there is only one acknowledgment, as from PX4.
 #[test]
 fn regress_an_uploader_is_asked_again_after_a_quarter_of_a_second() {
     let mut station = Station::new("drill-hover", 7);
@@ -248,8 +249,8 @@ fn regress_an_uploader_is_asked_again_after_a_quarter_of_a_second() {
         let acknowledged = heard.iter().filter(|(_, asked)| asked.is_none()).count();
         assert_eq!(acknowledged, if loses { 5 } else { 1 }, "{heard:?}");
     }
-    // One that has answered within a few milliseconds is asked again sooner, after 120 ms counted from the control tick (2.5 ms) in which it was
-    // asked: more requests fit into the patience of the client.
+    // A client that has responded within a few milliseconds is asked again sooner, after 120 ms counted from the
+    // control tick (2.5 ms) of the request, so that more requests fit into the client's timeout.
     station.sim.handle_datagram(GCS, &encoder.encode(&count(2)));
     station.run_ms(3);
     station.sim.handle_datagram(GCS, &encoder.encode(&waypoint(0)));
@@ -258,7 +259,7 @@ fn regress_an_uploader_is_asked_again_after_a_quarter_of_a_second() {
     assert!(heard.iter().all(|(_, asked)| *asked == Some(1)) && gaps.iter().all(|gap| (118..=122).contains(gap)), "{heard:?}");
     station.sim.handle_datagram(GCS, &encoder.encode(&waypoint(1)));
     asked_or_acknowledged(&mut station);
-    // Whoever begins something new has stopped waiting.
+    // A client that starts a new transfer no longer waits for the old one.
     station.sim.handle_datagram(GCS, &encoder.encode(&count(1)));
     asked_or_acknowledged(&mut station);
     station.sim.handle_datagram(GCS, &encoder.encode(&waypoint(0)));
@@ -268,7 +269,8 @@ fn regress_an_uploader_is_asked_again_after_a_quarter_of_a_second() {
     assert_eq!(heard.iter().filter(|(_, asked)| asked.is_none()).count(), 1, "{heard:?}");
 }
 
-/// An uploader that works as MAVSDK 4.1 does: a request for an item that it has sent sets it back, one for an item beyond its next is ignored.
+/// An uploader that works like MAVSDK 4.1: a request for an item that it has already sent sets it back, and a request
+/// for an item beyond its next one is ignored.
 struct Uploader {
     station: Station,
     encoder: Encoder,
@@ -291,7 +293,7 @@ impl Uploader {
         self.station.sim.handle_datagram(GCS, &self.encoder.encode(&MavMessage::MISSION_ITEM_INT(waypoint)));
     }
 
-    /// A request has arrived; whether it was answered.
+    /// Handles a request and returns whether it was answered.
     fn answer(&mut self, seq: u16) -> bool {
         if seq > self.next {
             return false;
@@ -301,14 +303,14 @@ impl Uploader {
         true
     }
 
-    /// What the vehicle sends in the next millisecond.
+    /// Advances by one millisecond and returns the messages from the vehicle.
     fn tick(&mut self) -> Vec<MavMessage> {
         self.station.vehicle.sim.handle_timeout(self.station.vehicle.sim.poll_timeout());
         let sent: Vec<_> = std::iter::from_fn(|| self.station.sim.poll_transmit()).collect();
         sent.iter().flat_map(|transmit| Decoder::new().datagram(&transmit.bytes)).filter_map(|frame| frame.message).collect()
     }
 
-    /// Answers until this item is requested or the upload is acknowledged; the requests.
+    /// Answers requests until this item is requested or the upload is acknowledged; returns the requests.
     fn answer_until(&mut self, stop: Option<u16>) -> Vec<u16> {
         let mut requests = Vec::new();
         for _ in 0..PATIENCE_OF_MAVSDK_MS {
@@ -327,14 +329,14 @@ impl Uploader {
                 }
             }
         }
-        panic!("neither {stop:?} nor an acknowledgement came: {requests:?}")
+        panic!("neither {stop:?} nor an acknowledgment arrived: {requests:?}")
     }
 }
 
-/// Three silent half-seconds and what was answered before them: MAVSDK has given up by then.
+/// Three half-seconds without messages, after which MAVSDK has given up.
 const PATIENCE_OF_MAVSDK_MS: i64 = 1_500;
 
-/// A request that the network delayed sets MAVSDK back. Its repeated item shows the vehicle from where it goes on.
+/// A delayed request sets MAVSDK back. The item that it repeats must show the vehicle where to continue.
 #[test]
 fn regress_an_upload_goes_on_when_a_delayed_request_has_set_the_client_back() {
     let mut client = Uploader::begin(30);
@@ -342,23 +344,23 @@ fn regress_an_upload_goes_on_when_a_delayed_request_has_set_the_client_back() {
     client.answer(15);
     let requests = client.answer_until(None);
     let led: Vec<u16> = (16..30).collect();
-    assert_eq!(requests, led, "the repeated item 15 is followed by 16, and each is requested once");
+    assert_eq!(requests, led, "item 16 must follow the repeated item 15, and each must be requested once");
 }
 
-/// The same, but the repeated item is lost: the vehicle tries earlier items, further and further back.
+/// Same as above, but the repeated item is lost, so that the vehicle must request earlier and earlier items.
 #[test]
 fn regress_an_upload_goes_on_when_the_item_of_a_set_back_client_was_lost() {
     let mut client = Uploader::begin(30);
     client.answer_until(Some(20));
-    // The link has reordered something before.
+    // The link has reordered a datagram before.
     client.send(18);
     client.next = 16;
     let requests = client.answer_until(None);
     assert_eq!(requests.iter().rev().take(14).rev().copied().collect::<Vec<_>>(), (16..30).collect::<Vec<_>>(), "{requests:?}");
-    assert!(requests.iter().filter(|seq| **seq > 16).count() < 24, "no doubling: {requests:?}");
+    assert!(requests.iter().filter(|seq| **seq > 16).count() < 24, "requests must not be duplicated: {requests:?}");
 }
 
-/// A datagram that arrives twice causes no second request.
+/// A duplicated datagram must not cause a second request.
 #[test]
 fn regress_a_duplicated_item_is_not_requested_for_again() {
     let mut client = Uploader::begin(10);
@@ -367,7 +369,7 @@ fn regress_a_duplicated_item_is_not_requested_for_again() {
     client.send(4);
     client.answer(5);
     assert_eq!(client.answer_until(None), [6, 7, 8, 9]);
-    // Nor does one that comes after the acknowledgement undo it.
+    // Nor may a datagram that arrives after the acknowledgment undo it.
     client.send(7);
     let answers: Vec<_> = (0..50).flat_map(|_| client.tick()).filter(|m| matches!(m, MavMessage::MISSION_ACK(_))).collect();
     assert!(answers.is_empty(), "{answers:?}");

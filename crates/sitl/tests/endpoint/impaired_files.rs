@@ -1,4 +1,5 @@
-//! Files over a link that loses 30 %, is 200 ms late, exchanges and doubles datagrams, both ways: read, in bursts, and written.
+//! Files over a link that loses 30 % of the datagrams, delays them by 200 ms, and reorders and duplicates them, in both
+//! directions: reading, reading in bursts, and writing.
 
 use super::impaired::{Client, LIMIT_S, PATIENCE_MS};
 use spandrel_mavlink::codec::{Decoder, Encoder};
@@ -10,9 +11,10 @@ use spandrel_sitl::endpoint::params::{metadata, param_view};
 use spandrel_testkit::station::{GCS, Station};
 use std::collections::BTreeMap;
 
-/// A client that asks again before an answer can be back: its repetitions arrive behind its next questions.
+/// Retry interval of a client that repeats requests before a response can arrive, so that its repetitions arrive after
+/// its next requests, ms.
 const HASTE_MS: i64 = 350;
-/// A burst is over when nothing of it has come for this long, ms.
+/// Time without data after which a burst counts as complete, ms.
 const SILENCE_MS: i64 = 700;
 const SHIPPED: &str = "/etc/extras/parameter.json.xz";
 
@@ -53,7 +55,7 @@ impl Disk {
     }
 }
 
-/// An FTP client that asks again without limit.
+/// An FTP client that retries indefinitely.
 struct Ftp {
     client: Client,
     sequence: u16,
@@ -98,7 +100,7 @@ impl Ftp {
         (open.session, u32::from_le_bytes(open.data[..4].try_into().unwrap()) as usize)
     }
 
-    /// Bursts from the first byte that is missing, until none is.
+    /// Reads a file in bursts, each starting at the first missing byte.
     fn read_in_bursts(&mut self, path: &str) -> (Vec<u8>, usize) {
         let (session, size) = self.open(path);
         let mut parts: BTreeMap<usize, Vec<u8>> = BTreeMap::new();
@@ -117,7 +119,7 @@ impl Ftp {
         (parts.into_values().flatten().collect(), bursts)
     }
 
-    /// Asks for one burst and takes what comes of it.
+    /// Requests one burst and stores the received parts.
     fn burst(&mut self, session: u8, from: usize, parts: &mut BTreeMap<usize, Vec<u8>>) {
         let (_, message) = self.request(Opcode::BurstReadFile, session, from as u32, &[]);
         self.client.send(&message);
@@ -175,13 +177,13 @@ fn wire_a_file_comes_whole_in_bursts_over_a_bad_link() {
     ftp.client.disk.0.insert("survey.bin".into(), long.clone());
     let (file, bursts) = ftp.read_in_bursts("/survey.bin");
     assert!(file == long, "{} of {} bytes", file.len(), long.len());
-    // 100 kB are four bursts where nothing is lost.
-    assert!(bursts > 4, "{bursts}: the link is bad");
+    // Without losses, 100 kB take four bursts.
+    assert!(bursts > 4, "{bursts} bursts: the link must lose some parts");
     let (shipped, _) = ftp.read_in_bursts(SHIPPED);
     assert!(shipped == metadata::files(&param_view::PX4).parameter.bytes.to_vec());
 }
 
-/// Also by a client that repeats its questions before they can have been answered.
+/// Includes a client that repeats its requests before they can have been answered.
 #[test]
 fn wire_a_file_goes_up_whole_over_a_bad_link() {
     for (seed, patience_ms) in [(6, PATIENCE_MS), (7, HASTE_MS), (8, HASTE_MS), (9, HASTE_MS)] {
@@ -194,12 +196,13 @@ fn wire_a_file_goes_up_whole_over_a_bad_link() {
     }
 }
 
-/// So long that its checksum takes more than the jobs that the ticks have saved up.
+/// Content so long that its checksum takes more jobs than the ticks have accumulated.
 fn long_file() -> Vec<u8> {
     content(200 * CHECKSUM_SLICE as usize + 5)
 }
 
-/// The FTP answers of a second if the shell lets so much time pass at once, and the most jobs between two ticks.
+/// Returns the FTP responses of one second if the host advances time in steps of this size, and the maximum number of
+/// jobs between two ticks.
 fn answers_of_a_second(at_once_ms: i64) -> (Vec<FtpPacket>, usize) {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(100);
@@ -246,21 +249,21 @@ fn answers_of_a_second(at_once_ms: i64) -> (Vec<FtpPacket>, usize) {
         }
     }
     let checked = heard.iter().any(|packet| packet.request == Opcode::CalcFileCrc32 as u8);
-    assert!(checked, "the checksum is there within a second");
+    assert!(checked, "the checksum must arrive within one second");
     (heard, most)
 }
 
-/// CreateFile, TruncateFile to 256 MiB and CalcFileCRC32 held the vehicle up for 28 s. A tick waits for few and small jobs, and the answers
-/// come in the same order however much time the shell lets pass at once.
+/// CreateFile, TruncateFile to 256 MiB and CalcFileCRC32 once blocked the vehicle for 28 s. A tick must wait only for a
+/// few small jobs, and the order of the responses must not depend on the host's time steps.
 #[test]
 fn regress_work_on_files_is_done_in_slices_between_the_ticks() {
     let (one, most) = answers_of_a_second(1);
     assert!((1..=40).contains(&most), "{most} jobs between two ticks");
     let last = one.last().map(|packet| packet.request);
-    assert_eq!(last, Some(Opcode::CalcFileCrc32 as u8), "what others ask for is done between the slices");
+    assert_eq!(last, Some(Opcode::CalcFileCrc32 as u8), "the other client's request must be served between the slices");
     let sum = checksum(0, &long_file());
     assert_eq!(one.last().and_then(|packet| packet.sized().map(<[u8]>::to_vec)), Some(sum.to_le_bytes().to_vec()));
     for at_once_ms in [7, 50] {
-        assert!(answers_of_a_second(at_once_ms).0 == one, "{at_once_ms} ms at once");
+        assert!(answers_of_a_second(at_once_ms).0 == one, "time steps of {at_once_ms} ms");
     }
 }

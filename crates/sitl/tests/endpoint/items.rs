@@ -1,4 +1,4 @@
-//! Items of missions one by one: waiting, circling, turning, conditions, orders to the autopilot, parts of plans.
+//! Individual mission items: delay, loiter, turn, conditions, commands to the autopilot, and partial plans.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use spandrel_mavlink::dialect::*;
@@ -6,9 +6,9 @@ use spandrel_testkit::plans::{ACCEPTED, PLAN, home_north, item, ready, upload};
 use spandrel_testkit::station::Station;
 
 const NAN: f32 = f32::NAN;
-/// A circle is kept within this much of its radius, m (the orbit's own test has the same).
+/// Maximum radius error of a circle, m (same as in the orbit's test).
 const RING_M: f32 = 0.6;
-/// A mission's turn ends within this much of its heading, degrees (3 in flight, and the estimate's error).
+/// Maximum heading error at the end of a turn in a mission, degrees (3 in flight, plus the error of the estimate).
 const TURNED_DEG: f32 = 6.0;
 
 fn order(seq: u16, command: MavCmd, p: [f32; 4]) -> MISSION_ITEM_INT_DATA {
@@ -47,7 +47,7 @@ fn flight_a_mission_waits_on_the_ground_first_and_is_not_disarmed_for_it() {
     let arm = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(14_500);
-    assert!(-station.place()[2] < 1.0 && reached(&station).is_empty(), "it stands: {:?}", station.place());
+    assert!(-station.place()[2] < 1.0 && reached(&station).is_empty(), "the vehicle must wait on the ground: {:?}", station.place());
     assert!(station.run_until(30.0, |s| reached(s).ends_with(&[2])), "{:?} at {:?}", reached(&station), station.place());
 }
 
@@ -103,9 +103,9 @@ fn flight_conditions_turn_and_act_on_the_way_and_the_speed_goes_back() {
     assert!((station.speed() - 2.0).abs() < 0.3, "slowly: {}", station.speed());
     assert!(station.run_until(60.0, |s| reached(s).contains(&4)));
     let left = north + 40.0 - home_north(&station);
-    assert!((left - 10.0).abs() < 1.0, "ten metres before the waypoint: {left}");
+    assert!((left - 10.0).abs() < 1.0, "the condition must trigger ten meters before the waypoint: {left}");
     assert!(station.run_until(60.0, |s| reached(s).contains(&6) && home_north(s) < north + 20.0));
-    assert!((station.speed() - 5.0).abs() < 0.5, "the parameter's speed again: {}", station.speed());
+    assert!((station.speed() - 5.0).abs() < 0.5, "the speed must return to the parameter's value: {}", station.speed());
 }
 
 #[test]
@@ -125,7 +125,7 @@ fn flight_a_mission_moves_home_and_switches_the_fence() {
     let request = [242.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, request);
     let home = station.last_message(|m| if let MavMessage::HOME_POSITION(h) = m { Some(h.x) } else { None }).unwrap();
-    assert!((f64::from(home) - north - 20.0).abs() < 3.0, "home is where the drone was: {home} of {north}");
+    assert!((f64::from(home) - north - 20.0).abs() < 3.0, "home must be at the drone's position: {home} of {north}");
 }
 
 #[test]
@@ -207,18 +207,18 @@ fn wire_a_part_of_a_plan_is_replaced_and_the_rest_stays() {
     assert_eq!(station.ask(&part(2, 3), asked), Some(2));
     let higher = |seq| MavMessage::MISSION_ITEM_INT(item(seq, MavCmd::MAV_CMD_NAV_WAYPOINT, 5.0, 9.0));
     assert_eq!(station.ask(&higher(2), asked), Some(3));
-    assert_eq!(heights(&mut station), [6.0; 5], "until it is whole the old plan holds");
+    assert_eq!(heights(&mut station), [6.0; 5], "the old plan must stay active until the new one is complete");
     assert_eq!(station.ask(&higher(3), result), Some(ACCEPTED));
-    assert_eq!(station.ask(&higher(3), result), Some(ACCEPTED), "the acknowledgement was lost");
+    assert_eq!(station.ask(&higher(3), result), Some(ACCEPTED), "a repeated final item must be acknowledged again");
     assert_eq!(heights(&mut station), [6.0, 6.0, 9.0, 9.0, 6.0]);
-    // One that makes the whole endless is refused, and nothing changes.
+    // A part that makes the mission endless must be rejected without effect.
     assert_eq!(station.ask(&part(0, 0), asked), Some(0));
     let jump = MavMessage::MISSION_ITEM_INT(order(0, MavCmd::MAV_CMD_DO_JUMP, [0.0, -1.0, 0.0, 0.0]));
     assert_eq!(station.ask(&jump, result), Some(MavMissionResult::MAV_MISSION_INVALID_PARAM1));
     assert_eq!(heights(&mut station), [6.0, 6.0, 9.0, 9.0, 6.0]);
 }
 
-/// MAVSDK writes not-a-numbers where nothing is asked for.
+/// MAVSDK sends NaN for unused parameters.
 #[test]
 fn wire_numbers_that_an_item_does_not_give_are_no_fault() {
     let mut station = ready(7);

@@ -1,4 +1,4 @@
-//! EXTENDED_SYS_STATE.landed_state: both autopilots say TAKEOFF until a take-off's height is reached.
+//! EXTENDED_SYS_STATE.landed_state: both autopilots report TAKEOFF until the takeoff height is reached.
 
 use super::copter::{ARM, GUIDED, SET_MODE, copter, mode};
 use spandrel_mavlink::dialect::*;
@@ -6,15 +6,16 @@ use spandrel_testkit::plans::{home_north, item, ready, upload};
 use spandrel_testkit::station::{Station, one, p};
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
-/// Over the ground, m: well clear of the height at which the lift-off is felt.
+/// Height above the ground that is well above the height at which liftoff is detected, m.
 const CLEAR_M: f64 = 1.5;
-/// The height of these take-offs, m over home, and how close to it counts as reached (the autopilot's own 0.4 m and the estimate's error).
+/// Takeoff height in these tests, m above home, and distance within which it counts as reached (the autopilot's 0.4 m
+/// and the error of the estimate).
 const UP_M: f32 = 8.0;
 const SHORT_M: f64 = 1.0;
 
 const GLOBAL_POSITION_INT: u32 = 33;
 
-/// Landed states as they follow one another, each with the height over home at which it was first said, m.
+/// Returns the sequence of landed states, each with the height above home at which it was first reported, m.
 fn states(station: &mut Station, limit_s: f64, last: MavLandedState) -> Vec<(MavLandedState, f64)> {
     let mut seen: Vec<(MavLandedState, f64)> = Vec::new();
     let done = station.run_until(limit_s, |s| {
@@ -33,7 +34,7 @@ fn states(station: &mut Station, limit_s: f64, last: MavLandedState) -> Vec<(Mav
     seen
 }
 
-/// ON_GROUND at first, TAKEOFF until the height is reached, then IN_AIR.
+/// Checks the sequence ON_GROUND, then TAKEOFF until the height is reached, then IN_AIR.
 fn holds_take_off(seen: &[(MavLandedState, f64)]) {
     use MavLandedState as L;
     let order: Vec<L> = seen.iter().map(|(state, _)| *state).filter(|state| *state != L::MAV_LANDED_STATE_ON_GROUND).collect();

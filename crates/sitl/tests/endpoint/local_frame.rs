@@ -1,4 +1,5 @@
-//! MAVLink's local frame: its origin is where the estimator was initialized, and every message that uses it agrees.
+//! MAVLink's local frame: its origin is the position where the estimator was initialized, and all messages that use the
+//! frame agree.
 
 use spandrel_mavlink::dialect::*;
 use spandrel_model::frames::{Ned, Vec3};
@@ -7,12 +8,12 @@ use spandrel_sitl::endpoint::flavour;
 use spandrel_testkit::shipped::scenario;
 use spandrel_testkit::station::{Station, p};
 
-/// How far an estimate at rest moves after the origin was set, m: three sigma of the white noise of GNSS heights (0.48 m), averaged over
-/// the first eight fixes.
+/// Maximum drift of an estimate at rest after the origin was set, m: three sigma of the white noise of GNSS heights
+/// (0.48 m), averaged over the first eight fixes.
 const SETTLES_M: f32 = 0.5;
-/// Degrees E7, millimetres and single-precision metres agree to this, m.
+/// Maximum difference between degrees E7, millimeters and single-precision meters, m.
 const ROUNDING_M: f64 = 0.03;
-/// How far off a height is held, by the vehicle's own estimate, m.
+/// Maximum height error in the vehicle's own estimate, m.
 const HELD_M: f32 = 0.5;
 
 fn place(latitude: i32, longitude: i32, altitude: i32) -> Geo {
@@ -23,7 +24,7 @@ fn place(latitude: i32, longitude: i32, altitude: i32) -> Geo {
     }
 }
 
-/// A message that is requested by number.
+/// Requests a message by number and returns it.
 fn requested<T>(station: &mut Station, number: u32, pick: impl Fn(&MavMessage) -> Option<T>) -> T {
     let result = station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, p(&[number as f32]));
     assert_eq!(result, MavResult::MAV_RESULT_ACCEPTED);
@@ -34,7 +35,7 @@ fn local(station: &mut Station) -> [f32; 3] {
     requested(station, 32, |m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some([p.x, p.y, p.z]) } else { None })
 }
 
-/// The plane that GPS_GLOBAL_ORIGIN names.
+/// Returns the local plane defined by GPS_GLOBAL_ORIGIN.
 fn plane(station: &mut Station) -> LocalPlane {
     let origin = requested(station, 49, |m| match m {
         MavMessage::GPS_GLOBAL_ORIGIN(o) => Some(place(o.latitude, o.longitude, o.altitude)),
@@ -118,6 +119,6 @@ fn regress_a_local_set_point_counts_from_the_pad() {
     });
     assert_eq!(told.map(|t| t.map(|c| (c * 100.0).round() / 100.0)), Some([north, east, down]));
     let moved = station.sim.truth().rigid.position_m - pad;
-    // Beside the estimate the truth: GNSS drifts by a metre or two.
+    // Ground truth differs from the estimate, because GNSS drifts by a meter or two.
     assert!(moved.horizontal_norm() < 5.0 && (-8.0..-4.0).contains(&moved.down()), "{moved:?}");
 }

@@ -1,4 +1,4 @@
-//! What an order lasts: over arming, over a pause, until the end of the flight.
+//! Duration of commands and settings: across arming, across a pause, until the end of the flight.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use spandrel_mavlink::dialect::*;
@@ -57,7 +57,7 @@ fn wire_the_fence_is_switched_by_the_command_and_the_parameter_alike() {
     };
     assert_eq!(station.last_message(shown), Some(1.0));
     assert!(fence_is_there(&mut station));
-    // Another parameter changes nothing in it.
+    // Another parameter must not affect the fence.
     set(&mut station, "WPNAV_SPEED", 300.0);
     assert!(fence_is_there(&mut station));
 }
@@ -71,13 +71,13 @@ fn wire_a_fence_that_was_switched_off_in_a_flight_acts_again_after_it() {
         ..item(0, MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION, 0.0, 0.0)
     };
     let back = MISSION_ITEM_INT_DATA { mission_type: FENCE, ..item(1, MavCmd::MAV_CMD_NAV_FENCE_RETURN_POINT, 0.0, 5.0) };
-    assert_eq!(upload(&mut station, &[area, back]), ACCEPTED, "with a point to return to");
+    assert_eq!(upload(&mut station, &[area, back]), ACCEPTED, "with a return point");
     station.run_ms(10);
     assert!(said(&station, "Fence return point not used"));
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_FENCE_ENABLE, one(0.0)), OK);
     assert!(!fence_is_there(&mut station));
     set(&mut station, "MIS_TAKEOFF_ALT", 3.0);
-    assert!(!fence_is_there(&mut station), "another parameter changes nothing");
+    assert!(!fence_is_there(&mut station), "another parameter must have no effect");
     assert_eq!(station.command(1, ARM, FORCED), OK);
     assert!(fence_is_there(&mut station));
 }
@@ -140,7 +140,7 @@ fn flight_a_speed_by_command_outlasts_other_parameters_and_ends_with_its_own() {
     assert!((speed(&station) - 4.0).abs() < 0.4, "{}", speed(&station));
 }
 
-/// Left after a good half of its turns: the rest alone is flown.
+/// The circle is interrupted after more than half of its turns; only the rest must be flown.
 #[test]
 fn flight_a_circle_that_was_paused_is_flown_on_and_not_restarted() {
     let mut station = Station::airborne("drill-hover", 7);
@@ -180,8 +180,8 @@ fn flat_m(a: [f32; 3], b: [f32; 3]) -> f32 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// The horizontal and vertical way by which a resumed step may miss where it was left, m (estimate of its own place, and 0.8 m within
-/// which it counts as back).
+/// Maximum horizontal and vertical distance between the interruption point and the point where a step resumes, m (error
+/// of the estimate, and 0.8 m within which it counts as reached).
 const BACK_M: f32 = 1.5;
 
 #[test]
@@ -196,7 +196,7 @@ fn flight_a_take_off_that_the_pilot_interrupts_goes_on_over_its_place() {
     assert!(station.run_until(30.0, |s| s.place()[2] < -8.0));
     fly_by_hand(&mut station, 1000, 500, 4_000);
     fly_by_hand(&mut station, 0, 500, 2_000);
-    assert!(flat_m(station.place(), over) > 8.0, "flown off");
+    assert!(flat_m(station.place(), over) > 8.0, "the pilot must have flown away");
     continued(&mut station, true);
     let mut up = f32::INFINITY;
     assert!(station.run_until(60.0, |s| {
@@ -204,7 +204,7 @@ fn flight_a_take_off_that_the_pilot_interrupts_goes_on_over_its_place() {
         said(s, "Mission resumed from interruption point")
     }));
     assert!(flat_m(station.place(), over) < BACK_M, "{:?} not over {over:?}", station.place());
-    assert!(up > -14.0, "first back, then up: {up}");
+    assert!(up > -14.0, "the vehicle must return before it climbs: {up}");
     assert!(station.run_until(60.0, |s| s.place()[2] < -27.0));
     assert!(flat_m(station.place(), over) < BACK_M, "{:?} not over {over:?}", station.place());
     assert!(station.run_until(60.0, |s| said(s, "Mission finished")));
@@ -226,18 +226,18 @@ fn flight_a_landing_that_is_paused_twice_sinks_on_from_there_and_not_from_above(
     fly_by_hand(&mut station, 0, 500, 1_500);
     let state =
         |s: &Station| s.last_message(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some(c.mission_state) } else { None });
-    assert_eq!(state(&station), Some(MissionState::MISSION_STATE_PAUSED), "left while landing");
+    assert_eq!(state(&station), Some(MissionState::MISSION_STATE_PAUSED), "the mission must be paused during landing");
     continued(&mut station, true);
     station.run_ms(400);
     continued(&mut station, false);
     station.run_ms(1_500);
-    assert_eq!(state(&station), Some(MissionState::MISSION_STATE_PAUSED), "left on the way back");
+    assert_eq!(state(&station), Some(MissionState::MISSION_STATE_PAUSED), "the mission must be paused on the way back");
     continued(&mut station, true);
     assert!(station.run_until(60.0, |s| said(s, "Mission resumed from interruption point")));
     let back = station.place();
     assert!(flat_m(back, left) < BACK_M && (back[2] - left[2]).abs() < BACK_M, "{left:?} {back:?}");
     station.run_ms(1_500);
-    assert!(station.place()[2] > back[2] + 0.5, "sinks at once: {back:?} to {:?}", station.place());
+    assert!(station.place()[2] > back[2] + 0.5, "the vehicle must descend immediately: {back:?} to {:?}", station.place());
     assert!(station.run_until(90.0, |s| said(s, "Disarmed by landing")));
     assert!(flat_m(station.place(), left) < BACK_M, "{left:?} {:?}", station.place());
 }
@@ -261,7 +261,7 @@ fn flight_a_return_that_is_left_on_its_way_down_does_not_climb_again() {
     let left = station.place();
     fly_by_hand(&mut station, 1000, 500, 6_000);
     fly_by_hand(&mut station, 0, 500, 2_000);
-    assert!(flat_m(station.place(), left) > 10.0, "flown off");
+    assert!(flat_m(station.place(), left) > 10.0, "the pilot must have flown away");
     continued(&mut station, true);
     let mut highest = f32::INFINITY;
     assert!(station.run_until(120.0, |s| {

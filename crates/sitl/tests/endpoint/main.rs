@@ -1,4 +1,4 @@
-//! The program as a user meets it: processes, sockets, files, exit codes.
+//! MAVLink interface of the simulated vehicle.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod after_landing;

@@ -1,4 +1,4 @@
-//! Sticks by either message, who holds them, and how long a client may be silent.
+//! Manual control through MANUAL_CONTROL and RC overrides: ownership of the sticks, and timeouts.
 
 use spandrel_mavlink::codec::Decoder;
 use spandrel_mavlink::dialect::*;
@@ -9,7 +9,7 @@ use spandrel_testkit::station::{GCS, Station};
 
 const HOLD: u32 = 4 << 16 | 3 << 24;
 const POSITION: u32 = 3 << 16;
-/// A held place is kept within this, m (gusts, and the estimate's wandering).
+/// Maximum drift while holding a position, m (gusts, and drift of the estimate).
 const DRIFT_M: f32 = 0.7;
 
 fn channels(station: &mut Station, pitch: u16, throttle: u16) {
@@ -27,7 +27,7 @@ fn channels(station: &mut Station, pitch: u16, throttle: u16) {
 #[test]
 fn wire_overridden_channels_fly_like_sticks_and_pitch_is_a_transmitters() {
     let mut station = Station::airborne("drill-hover", 7);
-    // The first sender keeps the sticks until it has let go of them.
+    // The first sender controls the sticks until it has released them.
     station.run_ms(600);
     for _ in 0..150 {
         channels(&mut station, 1200, 1500);
@@ -41,7 +41,7 @@ fn wire_overridden_channels_fly_like_sticks_and_pitch_is_a_transmitters() {
     assert!(forward > 2.0, "a pitch channel below its middle flies forward: {forward}");
 }
 
-/// Channels 1 to 4 as each link hears them echoed after `send`.
+/// Returns the echoed channels 1 to 4 on each link after `send`.
 fn echoes(station: &mut Station, send: impl Fn(&mut Station)) -> Vec<(LinkId, [u16; 4])> {
     let mut out = Vec::new();
     for _ in 0..4 {
@@ -55,7 +55,7 @@ fn echoes(station: &mut Station, send: impl Fn(&mut Station)) -> Vec<(LinkId, [u
             }
         }
     }
-    // The last of each link.
+    // Keeps the last echo of each link.
     out.into_iter().rev().take(3).collect()
 }
 
@@ -78,19 +78,19 @@ fn wire_the_echo_of_the_sticks_is_what_was_sent_and_a_sidecars_is_forward_positi
             assert!(flavour.asks_first || heard.contains(&(SDK, others)), "{}: {heard:?}", flavour.name);
         };
         wait(&mut station, |s| channels(s, 1300, 1600), [[1500, 1300, 1600, 1500], [1500, 1700, 1600, 1500]]);
-        // Beyond the full deflection it is flown as one.
+        // Values beyond full deflection must be limited.
         wait(&mut station, |s| channels(s, 900, 2100), [[1500, 900, 2100, 1500], [1500, 2000, 2000, 1500]]);
         let sticks = |s: &mut Station| s.sticks(400, 200, 750, -1000);
         wait(&mut station, sticks, [[1600, 1300, 1750, 1000], [1600, 1700, 1750, 1000]]);
         let again = [65.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, again), MavResult::MAV_RESULT_ACCEPTED);
         let asked = station.last_message(|m| if let MavMessage::RC_CHANNELS(c) = m { Some(c.chan2_raw) } else { None });
-        assert_eq!(asked, Some(1300), "{}: asked for by the ground station", flavour.name);
+        assert_eq!(asked, Some(1300), "{}: requested by the ground station", flavour.name);
     }
 }
 
-/// What the record of a session is made of: the monitor's link carries the stick samples themselves, also of one control tick, and of
-/// those who do not have the sticks.
+/// Session records depend on this: the monitor's link carries every stick sample, even several within one control tick,
+/// and those of senders that do not control the sticks.
 #[test]
 fn wire_a_sidecar_receives_every_sample_of_the_sticks_as_it_was_sent() {
     let sidecar = LinkId(6);
@@ -120,7 +120,7 @@ fn wire_a_sidecar_receives_every_sample_of_the_sticks_as_it_was_sent() {
     assert_eq!(heard, sent);
 }
 
-/// A throttle from -1000 to 1000 shows by its first negative value, and is remembered of its sender alone.
+/// The first negative value shows that a sender's throttle ranges from -1000 to 1000; this is remembered per sender.
 #[test]
 fn wire_a_sender_that_has_sent_a_negative_throttle_has_its_middle_at_zero() {
     let mut station = Station::new("drill-hover", 7);
@@ -140,7 +140,7 @@ fn wire_a_sender_that_has_sent_a_negative_throttle_has_its_middle_at_zero() {
     assert_eq!(told(&station), 1, "once: {:?}", texts(&station));
     station.run_ms(600);
     station.speak_as(254, 190);
-    assert_eq!(up(&mut station, 0), 1000, "another sender's middle is at 500");
+    assert_eq!(up(&mut station, 0), 1000, "the center for another sender must be 500");
 }
 
 #[test]
@@ -163,7 +163,8 @@ fn wire_released_channels_are_no_sticks() {
     assert!(station.all(|m| matches!(m, MavMessage::RC_CHANNELS(_)).then_some(())).is_empty());
 }
 
-/// Silence of a hand-flown vehicle's client until the failsafe, s, at a pace.
+/// Returns the time without messages from the client until the failsafe of a manually flown vehicle, s, at a simulation
+/// speed.
 fn patience_s(pace: f64, lockstep: bool) -> f64 {
     let mut station = Station::airborne("drill-hover", 7);
     station.sim.set_speed_factor(pace);
@@ -190,7 +191,7 @@ fn patience_s(pace: f64, lockstep: bool) -> f64 {
     (station.sim.now() - silent_since).s()
 }
 
-/// The peer in step answers at once, so that time goes on.
+/// The lockstep peer responds immediately, so that time advances.
 fn answer_lockstep(station: &mut Station) {
     if station.sim.waiting() {
         let now = station.sim.now().ns();
@@ -202,7 +203,7 @@ fn answer_lockstep(station: &mut Station) {
 
 #[test]
 fn wire_without_lockstep_the_limits_of_clients_grow_with_the_speed_and_that_is_reported() {
-    // COM_RC_LOSS_T is 0.5 s; the failsafe looks every 50 ms.
+    // COM_RC_LOSS_T is 0.5 s; the failsafe check runs every 50 ms.
     for (pace, lockstep, expected_s) in [(1.0, false, 0.5), (8.0, false, 4.0), (8.0, true, 0.5), (0.5, false, 0.5)] {
         let s = patience_s(pace, lockstep);
         assert!((expected_s..expected_s + 0.15).contains(&s), "pace {pace}, lockstep {lockstep}: {s} s for {expected_s} s");
@@ -214,7 +215,7 @@ fn wire_without_lockstep_the_limits_of_clients_grow_with_the_speed_and_that_is_r
         MavMessage::NAMED_VALUE_FLOAT(v) if v.name.to_str() == Ok("pace") => Some(v.value),
         _ => None,
     });
-    assert_eq!(told, Some(8.0), "every log says it");
+    assert_eq!(told, Some(8.0), "the scale must be logged");
     let text =
         station.last_message(|m| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None });
     assert_eq!(text.as_deref(), Some("Client timeouts are scaled by 8"));
@@ -230,7 +231,7 @@ fn wire_lost_sticks_stop_the_flight_and_returning_sticks_resume_it() {
         station.run_ms(20);
     }
     assert_eq!(station.mode(), Some(POSITION));
-    // The link itself goes; another station sees what becomes of the flight, and takes the sticks.
+    // The link closes; another station observes the flight and takes control of the sticks.
     station.sim.open_link(OTHER, LinkKind::GroundStation, false);
     station.sim.close_link(GCS);
     station.received.clear();
@@ -239,7 +240,7 @@ fn wire_lost_sticks_stop_the_flight_and_returning_sticks_resume_it() {
     assert!(station.said("manual control lost"), "{:?}", station.texts());
     let [north, east, down] = station.place();
     let later = station.place_after(3_000);
-    assert!((later[0] - north).hypot(later[1] - east) < DRIFT_M && (later[2] - down).abs() < DRIFT_M, "it stands: {later:?}");
+    assert!((later[0] - north).hypot(later[1] - east) < DRIFT_M && (later[2] - down).abs() < DRIFT_M, "the vehicle must hold its position: {later:?}");
     for _ in 0..60 {
         rival(&mut station, 0);
         station.run_ms(20);
@@ -248,7 +249,7 @@ fn wire_lost_sticks_stop_the_flight_and_returning_sticks_resume_it() {
     assert!(station.said("Failsafe cleared"), "{:?}", station.texts());
 }
 
-/// As the parameter says: land (3), return (2), and warn alone (0).
+/// The parameter selects land (3), return (2) or warn only (0).
 #[test]
 fn wire_the_failsafe_of_a_lost_hand_is_the_one_that_was_chosen() {
     const LAND: u32 = 4 << 16 | 6 << 24;
@@ -259,7 +260,7 @@ fn wire_the_failsafe_of_a_lost_hand_is_the_one_that_was_chosen() {
         station.sticks(0, 0, 500, 0);
         station.run_ms(100);
         assert_eq!(station.mode(), Some(POSITION));
-        // It holds first, for as long as COM_FAIL_ACT_T says.
+        // The vehicle holds first, for the time in COM_FAIL_ACT_T.
         station.run_ms(2_000);
         assert_eq!(station.mode(), Some(HOLD), "choice {choice}");
         station.run_ms(5_000);
@@ -273,7 +274,7 @@ fn texts(station: &Station) -> Vec<String> {
     station.all(|m| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None })
 }
 
-/// A second ground station with the same ids, on a link of its own, pulls to the right.
+/// Sends sticks to the right from a second ground station with the same IDs on its own link.
 fn rival(station: &mut Station, y: i16) {
     let sticks = MANUAL_CONTROL_DATA { y, z: 500, target: 1, ..Default::default() };
     let frame = spandrel_mavlink::codec::Encoder::new(255, 190).encode(&MavMessage::MANUAL_CONTROL(sticks));
@@ -306,12 +307,12 @@ fn wire_the_first_keeps_the_sticks_until_silent_and_the_other_is_informed() {
     }
     assert_eq!(roll_echo(&station), 1500);
     let ignored = texts(&station).iter().filter(|text| text.contains("ignored")).count();
-    assert_eq!(ignored, 2, "once on each of the two links: {:?}", texts(&station));
+    assert_eq!(ignored, 2, "the text must be sent once on each link: {:?}", texts(&station));
     for _ in 0..40 {
         rival(&mut station, 1000);
         station.run_ms(20);
     }
-    assert_eq!(roll_echo(&station), 2000, "the first has fallen silent");
+    assert_eq!(roll_echo(&station), 2000, "control must pass on when the first sender stops");
     assert!(texts(&station).iter().any(|text| text.contains("took control of the sticks")), "{:?}", texts(&station));
 }
 
@@ -326,7 +327,7 @@ fn wire_by_parameter_whoever_moves_the_sticks_last_has_them() {
             rival(&mut station, y);
             station.run_ms(20);
         }
-        assert_eq!(roll_echo(&station), if y == 0 { 1500 } else { 2000 }, "centred sticks take nothing");
+        assert_eq!(roll_echo(&station), if y == 0 { 1500 } else { 2000 }, "centered sticks must not take control");
     }
 }
 
@@ -345,7 +346,7 @@ fn wire_a_channel_that_is_left_alone_keeps_its_value_and_all_released_let_go() {
     assert_eq!(echo(&station), Some((1300, 1600)));
     channels(&mut station, 2500, 65_534);
     station.run_ms(40);
-    assert_eq!(echo(&station), Some((1300, 1600)), "pulses that no transmitter sends change nothing");
+    assert_eq!(echo(&station), Some((1300, 1600)), "invalid pulse widths must have no effect");
     station.send(&MavMessage::RC_CHANNELS_OVERRIDE(RC_CHANNELS_OVERRIDE_DATA {
         target_system: 1,
         target_component: 1,
@@ -354,7 +355,7 @@ fn wire_a_channel_that_is_left_alone_keeps_its_value_and_all_released_let_go() {
     station.run_ms(20);
     station.received.clear();
     station.run_ms(100);
-    assert_eq!(echo(&station), None, "let go: there are no sticks to echo");
+    assert_eq!(echo(&station), None, "released sticks must not be echoed");
 }
 
 #[test]

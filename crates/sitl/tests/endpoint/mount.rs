@@ -1,4 +1,4 @@
-//! Who controls the gimbal, the older mount's commands, and the lamp by all its names.
+//! Gimbal control, commands of the superseded mount protocol, and the lamp through all of its interfaces.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use spandrel_mavlink::dialect::*;
@@ -8,14 +8,14 @@ use spandrel_testkit::station::{Station, p};
 const OK: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
 const NAN: f32 = f32::NAN;
-/// The gimbal turns at 90 degrees a second: within this it has arrived, ms.
+/// Time within which the gimbal must have reached its target at 90 degrees per second, ms.
 const SWING_MS: i64 = 4_000;
-/// It arrives this near, deg.
+/// Maximum angle error at the target, deg.
 const NEAR_DEG: f32 = 0.5;
 
 fn on_the_pad() -> Station {
     let mut station = Station::new("drill-hover", 7);
-    // Home is known.
+    // Waits until home is known.
     station.run_ms(2_500);
     station
 }
@@ -30,7 +30,7 @@ fn pitch_deg(station: &mut Station) -> f32 {
     (2.0 * q[2].atan2(q[0])).to_degrees()
 }
 
-/// Primary and secondary control, as the manager tells at once after a change.
+/// Returns the primary and secondary controllers, which the manager reports immediately after a change.
 fn control(station: &Station) -> Option<[(u8, u8); 2]> {
     station.last_message(|m| match m {
         MavMessage::GIMBAL_MANAGER_STATUS(s) => {
@@ -40,8 +40,8 @@ fn control(station: &Station) -> Option<[(u8, u8); 2]> {
     })
 }
 
-/// A place 50 m north and 50 m higher than the pad, its height named over the sea in a frame over home, as MAVSDK sends it: PX4 looks at
-/// the number alone, others at the frame.
+/// A region of interest 50 m north of the pad and 50 m above it, with the height above sea level in a frame relative to
+/// home, as MAVSDK sends it. PX4 uses only the number; others respect the frame.
 #[test]
 fn wire_the_height_of_a_place_to_look_at_is_read_as_the_flavour_reads_it() {
     for flavour in [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR] {
@@ -65,7 +65,7 @@ fn wire_the_height_of_a_place_to_look_at_is_read_as_the_flavour_reads_it() {
             let steep = home.altitude as f32 / 1_000.0 + 50.0;
             let wanted = if over_sea || flavour.looks_over_sea { 45.0 } else { steep.atan2(50.0).to_degrees() };
             let pitch = pitch_deg(&mut station);
-            // The drone knows its own place to a metre.
+            // The drone's estimate of its position is accurate to a meter.
             assert!((pitch - wanted).abs() < 1.5, "{} {frame:?}: {pitch} not {wanted}", flavour.name);
         }
     }
@@ -104,7 +104,7 @@ fn wire_an_angle_with_a_rate_gets_there_at_that_rate_and_whole_numbers_carry_the
     let slow = (2.0 * q[2].atan2(q[0])).to_degrees();
     assert!((slow + 20.0).abs() < 2.0, "10 degrees a second for two seconds: {slow}");
     assert!((attitude(&station).angular_velocity_y.to_degrees() + 10.0).abs() < 0.1);
-    // COMMAND_INT: the flags are a whole number, not scaled (as MAVSDK sends rates).
+    // In COMMAND_INT, the flags are an unscaled integer (MAVSDK sends rates this way).
     let whole = |flags| {
         MavMessage::COMMAND_INT(COMMAND_INT_DATA {
             command: MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW,
@@ -120,11 +120,11 @@ fn wire_an_angle_with_a_rate_gets_there_at_that_rate_and_whole_numbers_carry_the
         })
     };
     let result = |m: &MavMessage| if let MavMessage::COMMAND_ACK(a) = m { Some(a.result) } else { None };
-    assert_eq!(station.ask(&whole(1), result), Some(DENIED), "it does not retract");
+    assert_eq!(station.ask(&whole(1), result), Some(DENIED), "retracting must be rejected");
     assert_eq!(station.ask(&whole(2), result), Some(OK));
     assert!(pitch_deg(&mut station).abs() < NEAR_DEG);
     assert!(attitude(&station).flags.contains(GimbalDeviceFlags::GIMBAL_DEVICE_FLAGS_NEUTRAL));
-    assert_eq!(station.command(1, aim, p(&[NAN, 30.0, NAN, NAN])), DENIED, "it has no yaw of its own");
+    assert_eq!(station.command(1, aim, p(&[NAN, 30.0, NAN, NAN])), DENIED, "yaw must be rejected");
     assert_eq!(station.command(1, aim, p(&[NAN, NAN, -40.0, NAN])), OK);
     assert!((pitch_deg(&mut station) + 90.0).abs() < NEAR_DEG);
     let flags = attitude(&station);
@@ -146,7 +146,7 @@ fn wire_manager_and_device_report_what_the_gimbal_can_and_the_device_obeys_its_o
     let device =
         station.last_message(|m| if let MavMessage::GIMBAL_DEVICE_INFORMATION(g) = m { Some(g.clone()) } else { None }).unwrap();
     assert_eq!((manager.pitch_min, manager.pitch_max), (device.pitch_min, device.pitch_max));
-    // What the device can the manager can; the manager can point at places besides.
+    // The manager has all capabilities of the device, and can also point at positions.
     let point = GimbalManagerCapFlags::GIMBAL_MANAGER_CAP_FLAGS_CAN_POINT_LOCATION_GLOBAL;
     assert_eq!(manager.cap_flags, GimbalManagerCapFlags::from_bits_retain(u32::from(device.cap_flags.bits())) | point);
     assert_eq!((manager.gimbal_device_id, device.gimbal_device_id), (1, 1));
@@ -165,7 +165,7 @@ fn wire_manager_and_device_report_what_the_gimbal_can_and_the_device_obeys_its_o
     station.command(1, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, p(&[10.0, NAN, NAN, NAN]));
     station.command(1, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_CONFIGURE, p(&[42.0, 17.0, -1.0, -1.0]));
     station.send(&look);
-    assert!((pitch_deg(&mut station) - 10.0).abs() < NEAR_DEG, "another is in control");
+    assert!((pitch_deg(&mut station) - 10.0).abs() < NEAR_DEG, "only the controlling station may move the gimbal");
 }
 
 #[test]
@@ -176,12 +176,12 @@ fn wire_the_older_mount_follows_its_modes() {
     assert!((pitch_deg(&mut station) + 35.0).abs() < NEAR_DEG);
     assert_eq!(station.command(1, control, p(&[-35.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])), OK);
     assert!(pitch_deg(&mut station).abs() < NEAR_DEG, "neutral");
-    // A place 100 m north of the pad and 100 m over it is seen at 45 degrees.
+    // A position 100 m north of the pad and 100 m above it is at an elevation of 45 degrees.
     let (lat, lon, up) = (46.7052 + 100.0 / 111_180.0, 8.3814, 430.0 + 100.0);
     assert_eq!(station.command(1, control, p(&[0.0, 0.0, 0.0, up, lat, lon, 4.0])), OK);
     let seen = pitch_deg(&mut station);
-    assert!((seen - 45.0).abs() < 1.0, "{seen}: a fifth of a metre of height, a few of float degrees");
-    // Home is underfoot.
+    assert!((seen - 45.0).abs() < 1.0, "{seen}: tolerance for height error and float rounding of degrees");
+    // Home is directly below.
     assert_eq!(station.command(1, control, p(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 6.0])), OK);
     assert!(pitch_deg(&mut station) < -10.0);
     for mode in [0.0, 5.0, 7.0, 8.0] {
@@ -190,7 +190,7 @@ fn wire_the_older_mount_follows_its_modes() {
     }
     assert_eq!(station.command(1, configure, p(&[1.0, 1.0, 1.0, 0.0])), OK);
     assert!(pitch_deg(&mut station).abs() < NEAR_DEG);
-    assert_eq!(station.command(1, configure, p(&[2.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0])), OK, "pitch is a rate from now on");
+    assert_eq!(station.command(1, configure, p(&[2.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0])), OK, "the configuration must make pitch a rate");
     assert_eq!(station.command(1, control, p(&[5.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0])), OK);
     let turned = pitch_deg(&mut station);
     assert!((turned - 5.0 * SWING_MS as f32 / 1000.0).abs() < 1.0, "{turned}");
@@ -237,7 +237,7 @@ fn wire_the_lamp_obeys_its_service_and_every_alias_of_it() {
         assert_eq!(station.command(1, command, values), DENIED, "{command:?} {values:?}");
     }
     station.run_ms(1_100);
-    assert_eq!(lamp(&station), Some(true), "refusals change nothing");
+    assert_eq!(lamp(&station), Some(true), "rejected commands must have no effect");
 }
 
 #[test]
@@ -255,6 +255,6 @@ fn wire_a_repeated_relay_blinks_the_lamp_as_often_as_requested_and_leaves_it_as_
     }
     assert_eq!(changes.iter().map(|change| change.1).collect::<Vec<_>>(), [true, false, true, false, true, false]);
     for pair in changes.windows(2) {
-        assert!((i64::from(pair[1].0 - pair[0].0) - 200).abs() <= 3, "told when it changes: {changes:?}");
+        assert!((i64::from(pair[1].0 - pair[0].0) - 200).abs() <= 3, "changes must be reported immediately: {changes:?}");
     }
 }

@@ -1,4 +1,4 @@
-//! Many peers, a flood, a slow radio, an old client: what one link does costs the others nothing.
+//! Many peers, a flood, a slow radio, an old client: the load of one link must not affect the others.
 
 use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
 use spandrel_mavlink::dialect::*;
@@ -11,11 +11,11 @@ use std::collections::BTreeMap;
 
 const FLOOD: LinkId = LinkId(2);
 const RADIO: LinkId = LinkId(3);
-/// Messages a second of the peer that floods (issue: 50,000).
+/// Messages per second of the flooding peer (issue: 50,000).
 const FLOOD_HZ: u32 = 50_000;
-/// A radio at 57,600 baud, bytes a second.
+/// Capacity of a radio at 57,600 baud, bytes per second.
 const RADIO_BYTES_S: f64 = 5_760.0;
-/// Bytes that may leave at once after a silence, and the last datagram that is not cut in two.
+/// Maximum burst after a silent period, bytes, including the last datagram, which is not split.
 const RADIO_BURST: usize = 600;
 
 fn drain(sim: &mut Sim) -> BTreeMap<LinkId, Vec<ReceivedFrame>> {
@@ -44,7 +44,8 @@ fn command(command: MavCmd, param1: f32) -> MavMessage {
     MavMessage::COMMAND_LONG(COMMAND_LONG_DATA { command, param1, target_system: 1, target_component: 1, ..Default::default() })
 }
 
-/// An answer to a question about time goes to who has asked it; only the answer to our own question stays here.
+/// The response to a TIMESYNC request must reach its sender; only the response to the vehicle's own request must be
+/// consumed.
 #[test]
 fn wire_answers_to_others_questions_about_time_go_on_from_a_link_in_step() {
     let mut sim = Station::new("drill-hover", 7).vehicle.sim;
@@ -58,14 +59,14 @@ fn wire_answers_to_others_questions_about_time_go_on_from_a_link_in_step() {
     let asked = run_ms(&mut sim, 100);
     let token =
         asked[&sidecar].iter().find_map(|f| if let Some(MavMessage::TIMESYNC(t)) = &f.message { Some(t.ts1) } else { None });
-    let token = token.expect("it asks its peer in step");
+    let token = token.expect("the vehicle must send a lockstep request");
     let mut encoder = Encoder::new(1, 191);
     let mut answer = |ts1: i64, target_system: u8, target_component: u8| {
         encoder.encode(&MavMessage::TIMESYNC(TIMESYNC_DATA { tc1: 5, ts1, target_system, target_component }))
     };
     for (ts1, system, component) in [(token, 1, 195), (77, 42, 17), (78, 0, 0), (79, 1, 1)] {
         sim.handle_datagram(sidecar, &answer(ts1, system, component));
-        assert!(sim.waiting(), "{ts1} {system} {component} is no answer to us");
+        assert!(sim.waiting(), "{ts1} {system} {component} is not a response to the request");
     }
     sim.handle_datagram(sidecar, &answer(token, 1, 1));
     assert!(!sim.waiting());
@@ -81,7 +82,7 @@ fn wire_answers_to_others_questions_about_time_go_on_from_a_link_in_step() {
     assert_eq!(
         heard.get(&GCS).map(answers).unwrap_or_default(),
         [(78, 0, 0)],
-        "to everybody, and never to whom it does not mean"
+        "broadcasts must reach all links, others only their target"
     );
 }
 
@@ -89,13 +90,13 @@ fn own(frames: &[ReceivedFrame]) -> Vec<(u32, u8)> {
     frames.iter().filter(|f| f.system_id == 1).map(|f| (f.message_id, f.component_id)).collect()
 }
 
-/// Answers and frames of others that one link may be in a tick.
+/// Returns the maximum number of responses and forwarded frames of one link in a tick.
 fn share_of_a_tick(first: bool) -> usize {
-    // The first call lets datagrams act at both its ends.
+    // The first call processes datagrams at both of its ends.
     if first { 2 * DATAGRAMS_A_TICK } else { DATAGRAMS_A_TICK }
 }
 
-/// Fifty ground stations beside the first, and a vehicle without and with a peer that floods it.
+/// Runs fifty ground stations besides the first, and a vehicle with and without a flooding peer.
 #[test]
 fn wire_a_flood_beside_fifty_peers_is_bounded_in_each_tick_and_they_miss_nothing() {
     const TICKS: i64 = 1_000;
@@ -108,7 +109,7 @@ fn wire_a_flood_beside_fifty_peers_is_bounded_in_each_tick_and_they_miss_nothing
     let (mut sent, mut acted, mut handed_on, mut asked, mut answered) = (0u64, 0, 0, 0, 0);
     for tick in 0..TICKS {
         for (k, (peer, encoder)) in peers.iter().zip(&mut encoders).enumerate() {
-            // Each asks five times a second, one after the other.
+            // Each sends five requests per second, at different times.
             if tick % 200 == 4 * k as i64 {
                 let ask = encoder.encode(&command(MavCmd::MAV_CMD_REQUEST_MESSAGE, 148.0));
                 [&mut calm, &mut flooded].into_iter().for_each(|sim| sim.handle_datagram(*peer, &ask));
@@ -116,7 +117,7 @@ fn wire_a_flood_beside_fifty_peers_is_bounded_in_each_tick_and_they_miss_nothing
             }
         }
         for k in 0..FLOOD_HZ / 1_000 {
-            // Broadcasts that go on to everybody, and questions that are answered.
+            // Broadcasts that are forwarded to all links, and requests that are answered.
             let message = if k % 2 == 0 { text() } else { question(tick) };
             flooded.handle_datagram(FLOOD, &encoder.encode(&message));
             sent += 1;
@@ -127,7 +128,7 @@ fn wire_a_flood_beside_fifty_peers_is_bounded_in_each_tick_and_they_miss_nothing
         let most = share_of_a_tick(tick == 0);
         for link in peers.iter().chain([&GCS]) {
             let passed = heard(link).iter().filter(|f| f.system_id == 77 && f.message_id == 253).count();
-            assert!(passed + answers <= most, "{passed} handed on to {link:?} and {answers} answered in tick {tick}");
+            assert!(passed + answers <= most, "{passed} forwarded to {link:?} and {answers} answered in tick {tick}");
             let expected = quiet.get(link).map(|frames| own(frames)).unwrap_or_default();
             assert_eq!(own(heard(link)), expected, "{link:?} in tick {tick}");
             answered += expected.iter().filter(|(id, _)| *id == 77).count();
@@ -135,13 +136,13 @@ fn wire_a_flood_beside_fifty_peers_is_bounded_in_each_tick_and_they_miss_nothing
         acted += answers;
         handed_on += heard(&GCS).iter().filter(|f| f.system_id == 77 && f.message_id == 253).count();
     }
-    assert_eq!(answered, asked, "every question of a calm peer is acknowledged, in both");
+    assert_eq!(answered, asked, "every request of a calm peer must be acknowledged in both runs");
     assert!(acted > 500 && handed_on > 500, "{acted} {handed_on}");
-    // What is neither done nor dropped waits, and that is little.
+    // Datagrams that are neither processed nor dropped are queued, and the queue must stay short.
     let waiting = sent - flooded.dropped() - (acted + handed_on) as u64;
     assert!((1..=1_024).contains(&waiting), "{waiting}");
     assert_eq!(calm.dropped(), 0);
-    // When the flood is over, what waits acts, nothing more is lost, and the books are even.
+    // After the flood, queued datagrams are processed, none are lost, and the counts add up.
     let rest = run_ms(&mut flooded, 300);
     acted += rest[&FLOOD].iter().filter(|f| f.message_id == 111 && f.system_id == 1).count();
     handed_on += rest[&GCS].iter().filter(|f| f.system_id == 77 && f.message_id == 253).count();
@@ -171,7 +172,7 @@ fn wire_fifty_peers_at_once_get_everything_that_one_gets() {
     for peer in &peers {
         assert_eq!(streams(peer), streams(&peers[0]), "{peer:?}");
         let others = heard[peer].iter().filter(|f| f.message_id == 0 && f.system_id >= 100).count();
-        assert_eq!(others, 3 * 49, "{peer:?} hears the other ground stations");
+        assert_eq!(others, 3 * 49, "{peer:?} must receive the other ground stations");
     }
     assert_eq!(sim.dropped(), 0);
 }
@@ -208,15 +209,15 @@ fn wire_a_radio_gets_what_it_carries_and_answers_come_soon() {
         let carried = (RADIO_BYTES_S as usize) * (second + 1) + RADIO_BURST;
         assert!(bytes <= carried, "{bytes} of {carried} bytes after {second} s");
     }
-    // One a second, and one after each of the camera's, which are 4 s apart.
+    // One per second, and one after each heartbeat of the camera, which are 4 s apart.
     assert!((36..=39).contains(&beats), "{beats} heartbeats");
     assert!(parameters >= total && total > 50, "{parameters} of {total} parameters");
     assert!(worst_ms < 500, "an acknowledgement took {worst_ms} ms");
-    assert!(attitudes > 30, "{attitudes}: streams slow down, they do not stop");
-    assert!(bytes as f64 > 0.6 * 30.0 * RADIO_BYTES_S, "{bytes}: the radio is used");
+    assert!(attitudes > 30, "{attitudes}: streams must slow down, but not stop");
+    assert!(bytes as f64 > 0.6 * 30.0 * RADIO_BYTES_S, "{bytes}: the radio's capacity must be used");
 }
 
-/// A frame as MAVLink 1 lays it out.
+/// Encodes a frame in MAVLink 1.
 fn old_frame(sequence: u8, id: u8, payload: &[u8]) -> Vec<u8> {
     use mavlink::Message;
     let mut out = vec![0xFE, payload.len() as u8, sequence, 255, 190, id];
@@ -261,7 +262,8 @@ fn wire_a_datagram_longer_than_any_clients_is_dropped_whole() {
     assert_eq!((answered, sim.dropped()), (0, 1));
 }
 
-/// Whoever is known by a source address alone gets answers, and streams once a heartbeat has come from there: one byte drew 266 kB.
+/// A peer that is known only by its source address must get responses, but streams only after a heartbeat from there;
+/// otherwise one byte would trigger 266 kB.
 #[test]
 fn regress_a_peer_that_was_not_dialed_gets_no_streams_before_its_heartbeat() {
     let mut sim = Station::new("drill-hover", 7).vehicle.sim;
@@ -274,10 +276,10 @@ fn regress_a_peer_that_was_not_dialed_gets_no_streams_before_its_heartbeat() {
     sim.handle_datagram(FLOOD, &Encoder::new(77, 190).encode(&text()));
     let heard = run_ms(&mut sim, 3_000).remove(&peer).unwrap_or_default();
     let kinds: Vec<u32> = heard.iter().map(|frame| frame.message_id).collect();
-    assert_eq!(kinds, [111], "the answer to the question and nothing else");
+    assert_eq!(kinds, [111], "only the response must be sent");
     sim.handle_datagram(peer, &encoder.encode(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default())));
     let heard = run_ms(&mut sim, 1_500).remove(&peer).unwrap_or_default();
     let count = |id: u32| heard.iter().filter(|frame| frame.message_id == id && frame.component_id == 1).count();
-    // 50 Hz to a sidecar, within a second and a half.
+    // 50 Hz to a sidecar within one and a half seconds.
     assert!(count(0) >= 1 && count(115) > 70, "heartbeats {}, truths {}", count(0), count(115));
 }

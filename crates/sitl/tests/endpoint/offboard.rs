@@ -1,4 +1,5 @@
-//! External set-points: positions, velocities, accelerations, attitudes, body rates; what is refused; what happens when they stop.
+//! Offboard setpoints: positions, velocities, accelerations, attitudes, body rates; rejected setpoints; the end of
+//! setpoints.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use spandrel_mavlink::dialect::*;
@@ -6,10 +7,10 @@ use spandrel_testkit::station::Station;
 
 type Local = SET_POSITION_TARGET_LOCAL_NED_DATA;
 
-/// Offboard and Hold as HEARTBEAT names them.
+/// Offboard and Hold modes in HEARTBEAT.
 const OFFBOARD: u32 = 6 << 16;
 const HOLD: u32 = 4 << 16 | 3 << 24;
-/// Masks that leave position, velocity or acceleration, and ignore heading and its rate.
+/// Type masks that use only position, velocity or acceleration, and ignore heading and its rate.
 const POSITION: u16 = 0b1101_1111_1000;
 const VELOCITY: u16 = 0b1101_1100_0111;
 const ACCELERATION: u16 = 0b1100_0011_1111;
@@ -28,7 +29,7 @@ fn attitude(mask: u8, set: impl Fn(&mut SET_ATTITUDE_TARGET_DATA)) -> MavMessage
     MavMessage::SET_ATTITUDE_TARGET(t)
 }
 
-/// Sends a set-point at 20 Hz for so long.
+/// Sends a setpoint at 20 Hz for `s` seconds.
 fn fly(station: &mut Station, setpoint: &MavMessage, s: f64) {
     for _ in 0..(20.0 * s) as usize {
         station.send(setpoint);
@@ -43,7 +44,7 @@ fn offboard(station: &mut Station, setpoint: &MavMessage) {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, mode), MavResult::MAV_RESULT_ACCEPTED);
 }
 
-/// Velocity as the vehicle reports it, m/s.
+/// Returns the velocity that the vehicle reports, m/s.
 fn velocity(station: &Station) -> [f32; 3] {
     station.last_message(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some([p.vx, p.vy, p.vz]) } else { None }).unwrap()
 }
@@ -52,7 +53,7 @@ fn angles(station: &Station) -> ATTITUDE_DATA {
     station.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.clone()) } else { None }).unwrap()
 }
 
-/// In the air by hand, at rest, its nose turned away from north.
+/// Returns a manually flown vehicle at rest in the air, with its nose turned away from north.
 fn level() -> Station {
     let mut station = Station::airborne("drill-hover", 7);
     for k in 0..150 {
@@ -74,7 +75,7 @@ fn wire_offboard_flies_to_a_position_from_the_ground_up() {
     fly(&mut station, &there, 20.0);
     let at = station.place();
     let off = (at[0] - n - 8.0).hypot(at[1] - e - 3.0).hypot(at[2] - d + 6.0);
-    assert!(off < 0.5, "{at:?}: {off} m off, by its own estimate");
+    assert!(off < 0.5, "{at:?}: {off} m off, by the vehicle's estimate");
     assert_eq!(station.mode(), Some(OFFBOARD));
 }
 
@@ -89,7 +90,7 @@ fn wire_velocities_in_the_bodys_frame_turn_with_the_heading() {
         let [vn, ve, _] = velocity(&station);
         let (forward, right) = (vn * yaw.cos() + ve * yaw.sin(), ve * yaw.cos() - vn * yaw.sin());
         assert!((forward - 2.0).abs() < 0.3 && right.abs() < 0.3, "{frame:?}: forward {forward}, right {right}");
-        assert!(yaw.sin().abs() > 0.3, "a heading of north would prove nothing: {yaw}");
+        assert!(yaw.sin().abs() > 0.3, "the test requires a heading other than north: {yaw}");
     }
 }
 
@@ -100,7 +101,7 @@ fn wire_an_acceleration_alone_gathers_speed() {
     offboard(&mut station, &push);
     fly(&mut station, &push, 3.0);
     let [vn, ve, vd] = velocity(&station);
-    // Less than 1.5 m/s: the attitude takes some tenths of a second to lean.
+    // Less than 1.5 m/s, because the attitude takes some tenths of a second to tilt.
     assert!((0.8..1.8).contains(&vn) && ve.abs() < 0.4 && vd.abs() < 0.4, "{vn} {ve} {vd}");
 }
 
@@ -170,7 +171,7 @@ fn wire_when_set_points_stop_it_holds_and_reports_it() {
     offboard(&mut station, &ahead);
     fly(&mut station, &ahead, 2.0);
     station.received.clear();
-    // COM_OF_LOSS_T is one second as in PX4: not before.
+    // COM_OF_LOSS_T is one second as in PX4; there must be no failsafe before that.
     station.run_ms(900);
     assert!(!station.texts().iter().any(|t| t.contains("setpoints lost")), "{:?}", station.texts());
     station.run_ms(1_300);

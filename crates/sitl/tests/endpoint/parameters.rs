@@ -1,4 +1,5 @@
-//! Parameters: the names that QGroundControl's setup pages and the autopilots' own test suites use are there, described, and act.
+//! Parameters: the names that QGroundControl's setup pages and the autopilots' own test suites use must exist, be
+//! described, and take effect.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::copter::{ARM, AUTO, SET_MODE, copter, copter_at, mode, next_beat};
@@ -15,7 +16,7 @@ use std::io::Cursor;
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
-/// Share of the names that must be there (issue 16).
+/// Minimum fraction of these names that must exist (issue 16).
 const LEAST_SHARE: f64 = 0.9;
 
 const QGROUNDCONTROL_PX4: &str = include_str!("names/qgroundcontrol-px4.tsv");
@@ -27,12 +28,12 @@ fn params(face: &'static ParamView) -> Params {
     Params::new(1, AircraftValues::SMALL, face)
 }
 
-/// Names of a list with what the autopilot's own description of each has.
+/// Returns the names of a list, each with the fields of the autopilot's own description.
 fn names(list: &str) -> Vec<(&str, &str)> {
     list.lines().filter(|line| !line.starts_with('#')).filter_map(|line| line.split_once('\t')).collect()
 }
 
-/// What a ground station is told of the parameters.
+/// Returns the parameter descriptions that a ground station receives.
 fn described(face: &ParamView) -> Vec<serde_json::Value> {
     let mut text = Vec::new();
     lzma_rs::xz_decompress(&mut Cursor::new(&metadata::files(face).parameter.bytes), &mut text).unwrap();
@@ -52,7 +53,7 @@ fn regress_every_parameter_of_qgroundcontrols_setup_pages_is_there_with_texts_un
             };
             let lists = |key: &str| row[key].as_array().is_some_and(|list| !list.is_empty());
             let text = |key: &str| row[key].as_str().is_some_and(|text| !text.is_empty());
-            // A mask of one's own may be described by its values, and the other way round.
+            // A custom mask may be described by its values, and vice versa.
             let worded = lists("values") || lists("bitmask");
             let kept = !parts.contains("enum") && !parts.contains("bits") || worded;
             if !(text("shortDesc") && text("longDesc") && kept && (!parts.contains("unit") || text("units"))) {
@@ -70,9 +71,9 @@ fn regress_flight_mode_slots_have_words_for_their_value() {
         for slot in 1..=6 {
             let name = format!("{prefix}{slot}");
             let row = all.iter().find(|row| row["name"] == name.as_str()).unwrap();
-            let Some((_, _, ParamValue::Int(value))) = own.find(&name) else { panic!("{name} is no whole number") };
+            let Some((_, _, ParamValue::Int(value))) = own.find(&name) else { panic!("{name} is not an integer") };
             let worded = row["values"].as_array().unwrap().iter().any(|entry| entry["value"] == value);
-            assert!(worded, "{name} = {value} has no words: {row}");
+            assert!(worded, "{name} = {value} has no description: {row}");
         }
     }
 }
@@ -95,7 +96,7 @@ fn regress_nine_in_ten_names_of_the_setup_pages_and_the_suites_are_there() {
     }
 }
 
-/// The tuning after a parameter was set.
+/// Returns the tuning after a parameter was set.
 fn tuned(face: &'static ParamView, name: &str, value: f64) -> Tuning {
     let mut own = params(face);
     let kind = own.find(name).unwrap_or_else(|| panic!("{name}")).2;
@@ -114,7 +115,7 @@ fn exact_untouched_parameters_leave_the_rules_as_the_autopilot_has_them() {
     let mut tuning = Tuning::default();
     params(&PX4).apply(&mut tuning);
     let mut expected = OperatorRules::default();
-    // What travels as 32 bits.
+    // The parameter is transmitted with 32 bits.
     expected.responses.battery_emergency_pct = 100.0 * f64::from(0.05f32);
     expected.responses.takeover_share = tuning.rules.responses.takeover_share;
     assert!((tuning.rules.responses.takeover_share - 0.3).abs() < 1e-6);
@@ -156,7 +157,7 @@ fn exact_px4s_parameters_set_what_they_name() {
         ("MIS_TAKEOFF_ALT", 100.0, |t| t.takeoff_height_m == 100.0),
     ];
     for (name, value, holds) in checks {
-        assert!(!holds(&Tuning::default()), "{name}: the check holds before");
+        assert!(!holds(&Tuning::default()), "{name}: the check already passes before the change");
         assert!(holds(&tuned(&PX4, name, value)), "{name} = {value}");
     }
 }
@@ -194,7 +195,7 @@ fn exact_copters_parameters_set_what_they_name() {
     for (name, value, holds) in checks {
         let mut before = Tuning::default();
         params(&COPTER).apply(&mut before);
-        assert!(!holds(&before), "{name}: the check holds before");
+        assert!(!holds(&before), "{name}: the check already passes before the change");
         assert!(holds(&tuned(&COPTER, name, value)), "{name} = {value}");
     }
     assert_eq!(tuned(&COPTER, "MAV_GCS_SYSID", 42.0).rules, tuned(&COPTER, "SYSID_MYGCS", 42.0).rules);
@@ -250,7 +251,7 @@ fn wire_sticks_count_from_the_ground_station_that_sysid_mygcs_names_only() {
     }
     assert!(station.speed() < 0.5, "sticks of system 255 were obeyed: {} m/s", station.speed());
     station.speak_as(42, 190);
-    // The other one counts as their holder for a while.
+    // For a while, the other station still counts as the controlling one.
     for _ in 0..45 {
         station.send(&pulses([1_500, 1_300, 1_500, 1_500]));
         station.run_ms(100);
@@ -287,16 +288,16 @@ fn wire_auto_options_allow_arming_in_auto_and_mis_total_counts_the_mission() {
     assert_eq!(upload(&mut station, &items), MavMissionResult::MAV_MISSION_ACCEPTED);
     assert_eq!(value(&mut station, "MIS_TOTAL"), 3.0);
     assert_eq!(station.command(1, SET_MODE, mode(AUTO)), ACCEPTED);
-    assert_eq!(station.command(1, ARM, one(1.0)), FAILED, "not without the option");
-    // Arming alone: it waits for the throttle.
+    assert_eq!(station.command(1, ARM, one(1.0)), FAILED, "arming in AUTO requires the option");
+    // The option only allows arming; takeoff waits for the throttle.
     set(&mut station, "AUTO_OPTIONS", 1.0);
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
     let ground = station.place_after(100)[2];
     station.run_ms(4_000);
     assert!((ground - station.place()[2]).abs() < 0.2, "took off without raised throttle");
-    // With the other bit it takes off.
+    // With the other bit, the vehicle also takes off.
     set(&mut station, "AUTO_OPTIONS", 3.0);
-    assert!(station.run_until(15.0, |s| ground - s.place()[2] > 2.0), "no take-off: {:?}", station.texts());
+    assert!(station.run_until(15.0, |s| ground - s.place()[2] > 2.0), "no takeoff: {:?}", station.texts());
 }
 
 #[test]

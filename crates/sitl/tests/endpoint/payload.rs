@@ -1,12 +1,12 @@
-//! Camera and gimbal as clients use them.
+//! Camera and gimbal functions as clients use them.
 
 use spandrel_mavlink::dialect::*;
 use spandrel_testkit::station::Station;
 use std::f32::consts::FRAC_PI_2;
 
-/// The gimbal turns at a limited rate: within this it has arrived, ms.
+/// Time within which the gimbal must have reached its target at its limited rate, ms.
 const SWING_MS: i64 = 4_000;
-/// It arrives this near, rad.
+/// Maximum angle error at the target, rad.
 const NEAR: f32 = 0.01;
 
 fn pitch(station: &Station) -> f32 {
@@ -138,7 +138,7 @@ fn wire_missed_shots_are_sent_again_and_a_series_stops_on_command() {
     assert!(shots(&station).is_empty());
     for (index, lat, lon) in taken {
         station.command(100, MavCmd::MAV_CMD_REQUEST_MESSAGE, [263.0, index as f32, 0.0, 0.0, 0.0, 0.0, 0.0]);
-        assert_eq!(shots(&station), [(index, lat, lon)], "the same shot, where it was taken");
+        assert_eq!(shots(&station), [(index, lat, lon)], "the picture must be reported again with its position");
     }
     let none = station.command(100, MavCmd::MAV_CMD_REQUEST_MESSAGE, [263.0, 99.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
     assert_eq!(none, MavResult::MAV_RESULT_DENIED);
@@ -158,11 +158,11 @@ fn wire_pictures_by_distance_come_as_far_apart_as_asked() {
     let [n, e, _] = station.place();
     let flown = (n - n0).hypot(e - e0);
     let count = shots(&station).len() as f32;
-    assert!((count - flown / 3.0).abs() <= 1.5, "{count} pictures on {flown} m");
+    assert!((count - flown / 3.0).abs() <= 1.5, "{count} pictures over {flown} m");
     assert!(count >= 3.0);
 }
 
-/// The buttons that QGroundControl makes of the actions file in docs/src/how-to/.
+/// The buttons that QGroundControl creates from the actions file in docs/src/how-to/.
 #[test]
 fn wire_every_action_of_the_ground_stations_file_is_accepted() {
     let file: serde_json::Value =
@@ -174,7 +174,7 @@ fn wire_every_action_of_the_ground_stations_file_is_accepted() {
         assert!(action["description"].is_string(), "{label}");
         let number = action["mavCmd"].as_u64().unwrap() as u16;
         let component = action["compId"].as_u64().unwrap() as u8;
-        // COMMAND_LONG as it lies on the wire: seven parameters, number, target.
+        // COMMAND_LONG as transmitted: seven parameters, number, target.
         let mut payload = Vec::new();
         for k in 1..=7 {
             payload.extend((action[format!("param{k}")].as_f64().unwrap_or(0.0) as f32).to_le_bytes());
@@ -217,7 +217,7 @@ fn wire_only_who_has_the_gimbal_lets_go_of_it() {
     assert_eq!(control(&mut station), 255);
     station.speak_as(254, 190);
     configure(&mut station, -3.0);
-    assert_eq!(control(&mut station), 255, "another cannot release it");
+    assert_eq!(control(&mut station), 255, "another client must not be able to release it");
     station.speak_as(255, 190);
     configure(&mut station, -3.0);
     assert_eq!(control(&mut station), 0);
@@ -233,7 +233,7 @@ fn wire_a_single_picture_does_not_end_a_running_series() {
     let one = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(100, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, one), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(3_000);
-    // The one, and those of three more seconds.
+    // The single picture and those of three more seconds of the series.
     assert_eq!(taken(&station), 4);
 }
 
@@ -255,6 +255,6 @@ fn wire_the_lamp_neither_dims_nor_strobes_and_the_gimbal_has_a_neutral_place() {
     assert_eq!(aim(&mut station, [-40.0, 0.0, nan, nan, 0.0, 0.0, 0.0]), MavResult::MAV_RESULT_ACCEPTED);
     assert!(pitch(&mut station) < -0.6);
     assert_eq!(aim(&mut station, [nan, nan, nan, nan, 2.0, 0.0, 0.0]), MavResult::MAV_RESULT_ACCEPTED);
-    assert!(pitch(&mut station).abs() < 0.05, "neutral is level");
+    assert!(pitch(&mut station).abs() < 0.05, "the neutral pitch must be level");
     assert_eq!(aim(&mut station, [nan, nan, nan, nan, 1.0, 0.0, 0.0]), MavResult::MAV_RESULT_DENIED);
 }

@@ -1,4 +1,4 @@
-//! Plans: uploaded whole and in pieces, given back, flown.
+//! Plans: uploaded completely and in parts, downloaded, flown.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use spandrel_mavlink::dialect::*;
@@ -48,11 +48,11 @@ fn wire_a_mission_is_uploaded_given_back_and_flown_to_its_end() {
             .iter()
             .any(|f| matches!(&f.message, Some(MavMessage::STATUSTEXT(t)) if t.text.to_str() == Ok("Disarmed by landing")))
     });
-    assert!(ended, "it lands and stops its motors by itself, at {:?}", station.place());
+    assert!(ended, "no automatic landing and disarm, position {:?}", station.place());
     let reached = station.all(|m| if let MavMessage::MISSION_ITEM_REACHED(r) = m { Some(r.seq) } else { None });
     assert_eq!(reached, [0, 1, 2, 3, 4, 5]);
-    assert!((furthest - north - 12.0).abs() < 2.5, "12 m north, within the radius of acceptance: {}", furthest - north);
-    assert!((home_north(&station) - north).abs() < 1.0, "it lands where it was told to");
+    assert!((furthest - north - 12.0).abs() < 2.5, "the waypoint is 12 m north; distance flown: {}", furthest - north);
+    assert!((home_north(&station) - north).abs() < 1.0, "the landing position must match the plan");
     let status = MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
         command: MavCmd::MAV_CMD_REQUEST_MESSAGE,
         param1: 262.0,
@@ -61,10 +61,10 @@ fn wire_a_mission_is_uploaded_given_back_and_flown_to_its_end() {
         ..Default::default()
     });
     let taken = station.ask(&status, |m| if let MavMessage::CAMERA_CAPTURE_STATUS(c) = m { Some(c.image_count) } else { None });
-    assert_eq!(taken, Some(1), "the picture of item 2 was taken");
+    assert_eq!(taken, Some(1), "item 2 must take a picture");
     let pitch =
         station.last_message(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(2.0 * g.q[2]) } else { None });
-    assert!(pitch.is_none_or(|p| p < -0.6), "the gimbal of item 3 looks down: {pitch:?}");
+    assert!(pitch.is_none_or(|p| p < -0.6), "item 3 must point the gimbal down: {pitch:?}");
 }
 
 #[test]
@@ -75,24 +75,24 @@ fn wire_lost_doubled_and_exchanged_items_are_requested_until_the_plan_is_whole()
         s.ask(&MavMessage::MISSION_ITEM_INT(items[k].clone()), |m| asked(m).map(Ok).or(result(m).map(Err)))
     };
     assert_eq!(station.ask(&count(4, PLAN), asked), Some(0));
-    assert_eq!(station.ask(&count(4, PLAN), asked), Some(0), "the first request was lost: the count comes again");
+    assert_eq!(station.ask(&count(4, PLAN), asked), Some(0), "a repeated count must repeat the request");
     assert_eq!(send(&mut station, 0), Some(Ok(1)));
-    assert_eq!(send(&mut station, 0), None, "doubled: the next one is asked for already");
-    assert_eq!(send(&mut station, 2), None, "out of turn");
-    // Nothing comes: the vehicle asks again by itself.
+    assert_eq!(send(&mut station, 0), None, "a duplicate must not cause another request");
+    assert_eq!(send(&mut station, 2), None, "an item out of order must not be answered");
+    // Without a response from the client, the vehicle must repeat its request.
     station.received.clear();
     station.run_ms(2_000);
     let asked_again = station.all(asked);
     assert!(asked_again.starts_with(&[1, 1, 1]), "{asked_again:?}");
-    // Datagrams were exchanged: an earlier item may be what the client waits for, but the missing one stays requested.
+    // Datagrams were reordered: the client may be waiting for an earlier item, but the missing one must stay requested.
     assert!(asked_again.iter().rev().take(2).any(|seq| *seq == 1), "{asked_again:?}");
     assert_eq!(send(&mut station, 1), Some(Ok(2)));
     assert_eq!(send(&mut station, 2), Some(Ok(3)));
     assert_eq!(send(&mut station, 3), Some(Err(ACCEPTED)));
-    assert_eq!(send(&mut station, 3), Some(Err(ACCEPTED)), "the acknowledgement was lost: it comes again");
-    assert_eq!(send(&mut station, 1), None, "delayed: an error would undo the acknowledgement");
+    assert_eq!(send(&mut station, 3), Some(Err(ACCEPTED)), "a repeated final item must be acknowledged again");
+    assert_eq!(send(&mut station, 1), None, "a delayed item must not cause an error after the acknowledgment");
     let stranger = MavMessage::MISSION_ITEM_INT(item(1, MavCmd::MAV_CMD_NAV_WAYPOINT, 99.0, 6.0));
-    assert_eq!(station.ask(&stranger, result), Some(MavMissionResult::MAV_MISSION_ERROR), "no upload runs any more");
+    assert_eq!(station.ask(&stranger, result), Some(MavMissionResult::MAV_MISSION_ERROR), "the upload must be complete");
     let list = MISSION_REQUEST_LIST_DATA { target_system: 1, target_component: 1, mission_type: PLAN };
     let counted = station.ask(&MavMessage::MISSION_REQUEST_LIST(list), |m| {
         if let MavMessage::MISSION_COUNT(c) = m { Some(c.count) } else { None }
@@ -109,7 +109,7 @@ fn wire_an_upload_that_stalls_is_given_up_and_a_second_station_waits_its_turn() 
     station.received.clear();
     station.run_ms(11_000);
     assert_eq!(station.last_message(result), Some(MavMissionResult::MAV_MISSION_OPERATION_CANCELLED));
-    assert_eq!(station.ask(&count(1, PLAN), asked), Some(0), "its turn now");
+    assert_eq!(station.ask(&count(1, PLAN), asked), Some(0), "the second station must now be served");
 }
 
 #[test]
@@ -179,7 +179,7 @@ fn wire_the_current_item_is_set_by_message_and_by_command() {
     assert_eq!(station.ask(&set(77), result), Some(MavMissionResult::MAV_MISSION_INVALID_SEQUENCE));
     let one = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, one), MavResult::MAV_RESULT_ACCEPTED);
-    assert_eq!(station.last_message(current), Some((1, 3)), "said with the answer, not with the next of the stream");
+    assert_eq!(station.last_message(current), Some((1, 3)), "the change must be reported with the response, not only with the stream");
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, [9.0; 7]), MavResult::MAV_RESULT_DENIED);
 }
 
@@ -208,12 +208,13 @@ fn wire_heights_over_home_follow_a_home_that_is_set_again() {
     });
     let answer = station.ask(&set_home, |m| if let MavMessage::COMMAND_ACK(a) = m { Some(a.result) } else { None });
     assert_eq!(answer, Some(MavResult::MAV_RESULT_ACCEPTED));
-    // Home 6 m above the origin: the first item lies 11 m above it, the second 7 m whatever home is.
+    // Home is 6 m above the origin, so the first item is 11 m above the origin; the second is 7 m above it regardless
+    // of home.
     for (seq, up) in [(0.0, 11.0), (1.0, 7.0)] {
         station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, [seq, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [-1.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
         station.run_ms(10_000);
-        assert!((-station.place()[2] - up).abs() < 0.4, "item {seq}: {} m up for {up} m", -station.place()[2]);
+        assert!((-station.place()[2] - up).abs() < 0.4, "item {seq}: height {} m instead of {up} m", -station.place()[2]);
     }
 }
 
@@ -234,19 +235,19 @@ fn wire_older_and_partial_forms_are_taken_or_refused_but_always_answered() {
         ..Default::default()
     });
     assert_eq!(station.ask(&count(1, PLAN), asked), Some(0));
-    assert_eq!(station.ask(&old, result), Some(ACCEPTED), "an item in floating degrees");
+    assert_eq!(station.ask(&old, result), Some(ACCEPTED), "an item in floating-point degrees must be accepted");
     let part = MISSION_WRITE_PARTIAL_LIST_DATA { target_system: 1, target_component: 1, ..Default::default() };
     let asked_first = station.ask(&MavMessage::MISSION_WRITE_PARTIAL_LIST(part), asked);
-    assert_eq!(asked_first, Some(0), "the one item that there is");
+    assert_eq!(asked_first, Some(0), "the only item must be requested");
     let part = MISSION_REQUEST_PARTIAL_LIST_DATA { target_system: 1, target_component: 1, ..Default::default() };
     assert_eq!(station.ask(&MavMessage::MISSION_REQUEST_PARTIAL_LIST(part), result), Some(R::MAV_MISSION_UNSUPPORTED));
-    // A plan of a type that MAVLink does not know: MISSION_REQUEST_LIST, type 9.
+    // A plan of a type that MAVLink does not define: MISSION_REQUEST_LIST, type 9.
     station.received.clear();
     station.send_payload(43, &[1, 1, 9]);
     station.run_ms(1);
     let refused = station.received.iter().find(|f| f.message_id == 47).map(|f| f.payload(4));
     assert_eq!(refused.as_deref(), Some(&[255, 190, R::MAV_MISSION_UNSUPPORTED as u8, 9][..]));
-    // An item with a command that nobody knows ends its upload.
+    // An item with an unknown command ends its upload.
     assert_eq!(station.ask(&count(1, PLAN), asked), Some(0));
     let mut unknown = [0u8; 38];
     unknown[30..32].copy_from_slice(&31_998u16.to_le_bytes());
@@ -258,7 +259,7 @@ fn wire_older_and_partial_forms_are_taken_or_refused_but_always_answered() {
     assert_eq!(station.last_message(asked), None);
 }
 
-/// A station that comes later sees by the id that the plan is not its own, and one that has it need not fetch it.
+/// A station that connects later must be able to tell from the ID whether it has the current plan or must download it.
 #[test]
 fn wire_each_plan_has_an_id_that_changes_with_it() {
     let mut station = ready(7);

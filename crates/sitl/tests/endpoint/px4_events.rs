@@ -1,4 +1,4 @@
-//! PX4's events in flight: what a client that knows the definitions of the vehicle reads.
+//! PX4 events in flight, as a client with the vehicle's event definitions reads them.
 
 use spandrel_mavlink::dialect::*;
 use spandrel_sitl::endpoint::params::metadata;
@@ -9,7 +9,7 @@ use std::io::Cursor;
 
 const SET_MODE: MavCmd = MavCmd::MAV_CMD_DO_SET_MODE;
 
-/// Messages by event id, out of the file that the vehicle serves.
+/// Returns the messages by event ID, from the file that the vehicle serves.
 fn definitions() -> BTreeMap<u32, String> {
     let mut text = Vec::new();
     let file = metadata::files(&PX4).events.as_ref().expect("a file about events");
@@ -58,7 +58,7 @@ fn regress_refusals_take_off_landing_and_a_lost_pilot_are_events_that_the_defini
     station.run_ms(60);
     station.climb_by_hand();
     assert_shown(&station, "Takeoff detected", 6);
-    // The pilot falls silent.
+    // The pilot stops sending.
     station.run_ms(2_000);
     assert_shown(&station, "Failsafe: manual control lost", 2);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_LAND, p(&[])), MavResult::MAV_RESULT_ACCEPTED);
@@ -66,7 +66,8 @@ fn regress_refusals_take_off_landing_and_a_lost_pilot_are_events_that_the_defini
     assert_shown(&station, "Landing detected", 6);
 }
 
-/// PX4 marks a text that an event repeats by a tab, and QGroundControl then shows the event alone. What the event leaves out stays to be read.
+/// PX4 marks a text that an event repeats with a tab, and QGroundControl then shows only the event. Information that
+/// the event omits must stay readable.
 #[test]
 fn regress_a_text_that_an_event_repeats_ends_with_a_tab() {
     let mut station = Station::airborne("drill-hover", 7);
@@ -89,7 +90,7 @@ fn regress_the_end_of_a_mission_and_a_breached_fence_are_events() {
         assert!(known.values().any(|own| own == message), "{message}");
     }
     let mut station = Station::airborne("drill-hover", 7);
-    // Lower than it flies.
+    // The limit is below the current height.
     let low = MavParamType::MAV_PARAM_TYPE_REAL32;
     assert_eq!(station.set("GF_MAX_VER_DIST", 1.0, low), Some(1.0));
     station.run_ms(1_000);

@@ -1,11 +1,11 @@
-//! What QGroundControl's setup pages and its console ask of a PX4: calibration, the MAVLink console, follow-me.
+//! Functions behind QGroundControl's setup pages and console for PX4: calibration, the MAVLink console, follow-me.
 
 use spandrel_mavlink::dialect::*;
 use spandrel_testkit::station::{Station, one, p};
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const CALIBRATE: MavCmd = MavCmd::MAV_CMD_PREFLIGHT_CALIBRATION;
-/// The gyroscope's offset that a calibration finds: Phantom-class bias and the noise of the mean, rad/s.
+/// Maximum gyroscope offset found by a calibration: bias of this class of aircraft plus noise of the mean, rad/s.
 const OFFSET_RAD_S: f32 = 0.05;
 
 fn ready() -> Station {
@@ -50,13 +50,13 @@ fn regress_a_gyro_calibration_reports_itself_in_the_texts_that_qgroundcontrol_re
 #[test]
 fn regress_the_radio_pages_calibration_is_accepted_and_manual_steps_are_explained() {
     let mut station = ready();
-    assert_eq!(station.command(1, CALIBRATE, p(&[0.0, 0.0, 0.0, 1.0])), ACCEPTED, "the radio page begins");
-    assert_eq!(station.command(1, CALIBRATE, p(&[])), ACCEPTED, "and ends");
+    assert_eq!(station.command(1, CALIBRATE, p(&[0.0, 0.0, 0.0, 1.0])), ACCEPTED, "start of the radio calibration");
+    assert_eq!(station.command(1, CALIBRATE, p(&[])), ACCEPTED, "end of the radio calibration");
     assert_eq!(station.command(1, CALIBRATE, p(&[0.0, 1.0])), ACCEPTED);
     station.run_ms(5);
     assert!(station.said("[cal] calibration failed"), "{:?}", station.texts());
     assert_eq!(station.command(1, CALIBRATE, p(&[0.0, 0.0, 0.0, 0.0, 2.0])), ACCEPTED);
-    assert_eq!(station.command(1, CALIBRATE, one(1.0)), MavResult::MAV_RESULT_TEMPORARILY_REJECTED, "one runs");
+    assert_eq!(station.command(1, CALIBRATE, one(1.0)), MavResult::MAV_RESULT_TEMPORARILY_REJECTED, "another calibration is running");
     station.run_ms(5_000);
     assert!(station.said("[cal] calibration done: level"), "{:?}", station.texts());
     assert_eq!(station.command(1, CALIBRATE, one(1.0)), ACCEPTED);
@@ -67,7 +67,7 @@ fn regress_the_radio_pages_calibration_is_accepted_and_manual_steps_are_explaine
     assert_eq!(station.command(1, CALIBRATE, one(1.0)), MavResult::MAV_RESULT_TEMPORARILY_REJECTED, "armed");
 }
 
-/// A line typed into the console, and what comes back.
+/// Enters a line in the console and returns the output.
 fn console(station: &mut Station, line: &str) -> String {
     station.received.clear();
     for chunk in format!("{line}\n").as_bytes().chunks(70) {
@@ -75,7 +75,7 @@ fn console(station: &mut Station, line: &str) -> String {
         data[..chunk.len()].copy_from_slice(chunk);
         station.send(&MavMessage::SERIAL_CONTROL(SERIAL_CONTROL_DATA {
             device: SerialControlDev::SERIAL_CONTROL_DEV_SHELL,
-            // As QGroundControl sends it: respond, exclusive, multi.
+            // Flags as QGroundControl sends them: respond, exclusive, multi.
             flags: SerialControlFlag::from_bits_retain(2 | 4 | 16),
             count: chunk.len() as u8,
             data,
@@ -118,7 +118,7 @@ fn regress_the_mavlink_console_answers() {
     assert!(console(&mut station, "reboot now").contains("reboot: command not found"));
     let mut copter = Station::speaking(&spandrel_sitl::endpoint::flavour::ardupilot::FLAVOUR, "drill-hover", 7);
     copter.run_ms(1_000);
-    assert_eq!(console(&mut copter, "help"), "", "ArduPilot has none");
+    assert_eq!(console(&mut copter, "help"), "", "ArduPilot must not have a console");
 }
 
 #[test]
@@ -135,7 +135,7 @@ fn regress_follow_me_keeps_its_distance_behind_the_target() {
     station.run_ms(5);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, p(&[1.0, 4.0, 8.0])), ACCEPTED);
     let start = station.place_after(100);
-    // A walker to the north at 2 m/s, from the drill's pad.
+    // A person walks north at 2 m/s, starting at the drill's pad.
     for k in 0..250 {
         station.send(&MavMessage::FOLLOW_TARGET(FOLLOW_TARGET_DATA {
             est_capabilities: 3,
@@ -151,14 +151,15 @@ fn regress_follow_me_keeps_its_distance_behind_the_target() {
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
     let here = station.last_message(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(g.clone()) } else { None }).unwrap();
     let behind = 0.4 * 249.0 + 0.4 - f64::from(here.lat - 467_052_000) * 0.011_132;
-    assert!((behind - 12.0).abs() < 2.0, "{behind} m behind, {start:?} to {end:?}");
-    // FLW_TGT_HT over home.
-    assert!((here.relative_alt - 8_000).abs() < 700, "{} mm over home", here.relative_alt);
+    assert!((behind - 12.0).abs() < 2.0, "{behind} m behind the target, {start:?} to {end:?}");
+    // FLW_TGT_HT is relative to home.
+    assert!((here.relative_alt - 8_000).abs() < 700, "{} mm above home", here.relative_alt);
     station.run_ms(1_100);
     assert_eq!(station.mode(), Some(8 << 24 | 4 << 16));
 }
 
-/// As libevents reads it: summary of the checks, one event for each that fails, summary of the health; the definitions by FTP say what they mean.
+/// Events as libevents reads them: a summary of the checks, one event for each failed check, a summary of the health.
+/// The definitions served by FTP contain their texts.
 #[test]
 fn regress_arming_checks_are_reported_as_events_and_can_be_asked_for_again() {
     let events = |s: &Station| s.all(|m| if let MavMessage::EVENT(event) = m { Some(event.clone()) } else { None });
@@ -178,7 +179,7 @@ fn regress_arming_checks_are_reported_as_events_and_can_be_asked_for_again() {
     let expected = ["commander_arming_check_summary", "check_sticks_not_centered", "commander_health_summary"].map(name);
     assert_eq!(ids, expected, "{report:?}");
     let summary = &report[report.len() - 3];
-    // Remote control has an error (bit 7), no mode can be armed, Position (bit 2) could be flown.
+    // Remote control has an error (bit 7), no mode can be armed, and Position (bit 2) could be flown.
     assert_eq!((word(summary, 1), word(summary, 9)), (1 << 7, 0));
     assert!(word(summary, 13) & 1 << 2 != 0);
     station.received.clear();
@@ -196,7 +197,7 @@ fn regress_arming_checks_are_reported_as_events_and_can_be_asked_for_again() {
     station.run_ms(5);
     let error = station.last_message(|m| if let MavMessage::RESPONSE_EVENT_ERROR(e) = m { Some(e.sequence) } else { None });
     assert_eq!(error, Some(last + 100));
-    // However many are missing, one answer says where to go on.
+    // If several events are missing, one response must say where to continue.
     station.received.clear();
     station.send(&MavMessage::REQUEST_EVENT(REQUEST_EVENT_DATA {
         first_sequence: last + 100,
@@ -208,7 +209,8 @@ fn regress_arming_checks_are_reported_as_events_and_can_be_asked_for_again() {
     let errors =
         station.all(|m| if let MavMessage::RESPONSE_EVENT_ERROR(e) = m { Some(e.sequence_oldest_available) } else { None });
     assert_eq!(errors.len(), 1, "{errors:?}");
-    // Once the sticks are let go every mode that needs no mission can be armed, and QGroundControl's question brings the report again.
+    // When the sticks are released, every mode that does not require a mission can be armed, and QGroundControl's
+    // request must return a new report.
     station.sticks(0, 0, 500, 0);
     station.run_ms(1_500);
     station.received.clear();

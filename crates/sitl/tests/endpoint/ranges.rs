@@ -1,4 +1,5 @@
-//! What the range finders tell: the site's own distances, in their directions, in places where something stands in every one of them.
+//! Range finder telemetry: it must match the site's distances in each direction, at positions with an obstacle in every
+//! direction.
 
 use spandrel_mavlink::dialect::*;
 use spandrel_model::frames::{Enu, Frd, Vec3};
@@ -10,11 +11,12 @@ use spandrel_testkit::shipped::scenario;
 use spandrel_testkit::station::Station;
 use std::f64::consts::FRAC_PI_4;
 
-/// Noise of 2 cm and biases of 1 cm, five of both together, and the centimetres of the wire, m; the drone stands still.
+/// Five sigma of noise (2 cm) and bias (1 cm) combined, plus the resolution of the message (1 cm), m; the drone does
+/// not move.
 const TOLERANCE_M: f64 = 0.12;
 const REACH_M: f64 = 10.0;
 
-/// Directions of the finders: down, up, and around clockwise from the nose.
+/// Returns the directions of the range finders: down, up, and around clockwise from the nose.
 fn finders() -> Vec<(MavSensorOrientation, Vec3<Frd>)> {
     use MavSensorOrientation as O;
     let around = [
@@ -38,7 +40,7 @@ fn finders() -> Vec<(MavSensorOrientation, Vec3<Frd>)> {
     vertical.into_iter().chain(beside).collect()
 }
 
-/// The job with its pad at a place and the drone heading as told; nobody moves about.
+/// Returns the job with its pad at a position and the drone at a heading, without traffic.
 fn standing_at(base: &Scenario, place_m: Vec3<Enu>, heading_deg: f64) -> Scenario {
     let mut job = base.clone();
     (job.traffic.cars, job.traffic.trucks, job.traffic.pedestrians) = (0, 0, 0);
@@ -47,7 +49,8 @@ fn standing_at(base: &Scenario, place_m: Vec3<Enu>, heading_deg: f64) -> Scenari
     job
 }
 
-/// On the path of each task the place with the most of its surroundings within reach: the pad stands there in mid-air.
+/// Returns, for each task, the position on its path with the most surfaces within range. The pad is placed there in
+/// mid-air.
 fn crowded(job: &Scenario, site: &Site) -> Vec<Vec3<Enu>> {
     let hits = |place: &Vec3<Enu>| {
         let level = |k: usize| {
@@ -61,7 +64,7 @@ fn crowded(job: &Scenario, site: &Site) -> Vec<Vec3<Enu>> {
     job.tasks.iter().filter_map(|task| task.path_m.iter().copied().max_by_key(hits)).collect()
 }
 
-/// Distances that the vehicle tells by DISTANCE_SENSOR and by OBSTACLE_DISTANCE, m, with their reach.
+/// Returns the distances in DISTANCE_SENSOR and OBSTACLE_DISTANCE, m, with their maximum range.
 fn told(station: &Station, orientation: MavSensorOrientation) -> (f64, f64) {
     let found = station.last_message(|m| match m {
         MavMessage::DISTANCE_SENSOR(d) if d.orientation == orientation => {
@@ -69,7 +72,7 @@ fn told(station: &Station, orientation: MavSensorOrientation) -> (f64, f64) {
         }
         _ => None,
     });
-    found.unwrap_or_else(|| panic!("{orientation:?} says nothing"))
+    found.unwrap_or_else(|| panic!("no data for {orientation:?}"))
 }
 
 fn agrees(told: f64, there: Option<f64>, what: &str) {
@@ -78,7 +81,7 @@ fn agrees(told: f64, there: Option<f64>, what: &str) {
             assert!((told - distance).abs() < TOLERANCE_M, "{what}: {told} for {distance}");
         }
         Some(_) => assert!(told > REACH_M - 2.0 * TOLERANCE_M, "{what}: {told} near the reach"),
-        None => assert!(told > REACH_M, "{what}: {told}, and nothing is there"),
+        None => assert!(told > REACH_M, "{what}: {told} without an obstacle"),
     }
 }
 
@@ -100,7 +103,7 @@ fn wire_every_range_finder_reports_the_sites_distance_in_its_own_direction() {
         let map =
             station.last_message(|m| if let MavMessage::OBSTACLE_DISTANCE(o) = m { Some(o.clone()) } else { None }).unwrap();
         assert_eq!((map.frame, map.angle_offset, map.increment_f), (MavFrame::MAV_FRAME_BODY_FRD, 0.0, 5.0));
-        assert_eq!(map.increment, 5, "72 sectors of 5 deg go once round: QGroundControl reads all of them");
+        assert_eq!(map.increment, 5, "QGroundControl reads 72 sectors of 5 deg");
         assert_eq!((map.min_distance, f64::from(map.max_distance) / 100.0), (10, REACH_M));
         for (sector, slot) in map.distances.iter().enumerate() {
             let nearest = (5.0 * sector as f64 / 45.0).round() as usize % 8;
@@ -118,7 +121,7 @@ fn wire_every_range_finder_reports_the_sites_distance_in_its_own_direction() {
             met[k] += usize::from(there.is_some_and(|distance| distance < REACH_M - TOLERANCE_M));
         }
     }
-    assert!(met.iter().all(|times| *times >= 2), "something stands in every direction: {met:?}");
+    assert!(met.iter().all(|times| *times >= 2), "the test must cover obstacles in every direction: {met:?}");
 }
 
 #[test]

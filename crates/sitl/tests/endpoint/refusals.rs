@@ -1,4 +1,4 @@
-//! What the vehicle says of itself and of its refusals, and that no way round the rules is left open.
+//! Self-description and rejections of the vehicle; interfaces that must not bypass its rules.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
@@ -61,7 +61,7 @@ fn wire_a_mission_moves_its_gimbal_whoever_is_in_control_and_reports_why_it_cann
         MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) => Some((2.0 * g.q[2].atan2(g.q[0])).to_degrees()),
         _ => None,
     });
-    assert!(pitch.is_some_and(|pitch| (pitch + 40.0).abs() < 1.0), "a degree: {pitch:?}");
+    assert!(pitch.is_some_and(|pitch| (pitch + 40.0).abs() < 1.0), "pitch must be within one degree: {pitch:?}");
     let said = texts(&station);
     assert!(said.iter().any(|text| text.starts_with("Mission item 2: gimbal pitch range")), "{said:?}");
     assert!(!said.iter().any(|text| text.starts_with("Mission item 1")), "{said:?}");
@@ -76,7 +76,7 @@ fn timesync(encoder: &mut Encoder, ts1: i64, target_system: u8) -> Vec<u8> {
     }))
 }
 
-/// The question that a vehicle in step asks on a link.
+/// Returns the token of the TIMESYNC request that a lockstep vehicle sends on a link.
 fn question(sim: &mut Sim) -> i64 {
     sim.handle_timeout(sim.now() + SimTime::from_ms(100));
     let mut token = None;
@@ -87,7 +87,7 @@ fn question(sim: &mut Sim) -> i64 {
             }
         }
     }
-    token.expect("it asks")
+    token.expect("the vehicle must send a request")
 }
 
 #[test]
@@ -97,7 +97,7 @@ fn wire_an_answer_moves_time_only_when_it_is_for_us_and_signed_where_signatures_
     let token = question(&mut sim);
     let mut encoder = Encoder::new(1, 191);
     sim.handle_datagram(SIDECAR, &timesync(&mut encoder, token, 200));
-    assert!(sim.waiting(), "an answer to somebody else");
+    assert!(sim.waiting(), "a response to another client must not advance time");
     sim.demand_signatures(SigningKey::from_passphrase("bridge over water"), STAMP, &[]);
     sim.set_signing_time(STAMP);
     let bare = timesync(&mut encoder, token, 0);
@@ -109,7 +109,7 @@ fn wire_an_answer_moves_time_only_when_it_is_for_us_and_signed_where_signatures_
     assert!(!sim.waiting());
     let refused = sim.rejected_frames();
     question(&mut sim);
-    assert_eq!(sim.rejected_frames(), refused + 1, "the unsigned one; the signed one was no repetition when it acted");
+    assert_eq!(sim.rejected_frames(), refused + 1, "only the unsigned response must be rejected");
 }
 
 fn press(station: &mut Station, button: u16) {
@@ -230,7 +230,7 @@ fn wire_the_batterys_state_goes_by_the_parameters() {
     assert_eq!(state(&mut station), MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_OK, "{full} %");
     set(&mut station, 0.5);
     assert_eq!(state(&mut station), MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_OK);
-    // A battery that fails has 5 % left.
+    // A failed battery has 5 % left.
     station.send(&MavMessage::PARAM_SET(PARAM_SET_DATA {
         param_value: f32::from_bits(1),
         target_system: 1,
@@ -248,7 +248,7 @@ fn wire_the_batterys_state_goes_by_the_parameters() {
     }));
     station.run_ms(5);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_INJECT_FAILURE, p(&[100.0, 1.0])), OK);
-    assert_eq!(state(&mut station), MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW, "5 % over a limit of 3 %");
+    assert_eq!(state(&mut station), MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW, "5 % is above the limit of 3 %");
 }
 
 #[test]
@@ -259,7 +259,7 @@ fn wire_a_failsafe_shows_the_mode_that_was_requested_beside_the_one_that_is_flow
     station.run_ms(1_500);
     let (flown, intended) = asked(&mut station, 436.0, modes);
     assert_eq!(intended, 3 << 16, "Position");
-    assert_ne!(flown, intended, "the sticks are lost");
+    assert_ne!(flown, intended, "the failsafe mode must differ from the requested one");
     station.sticks(0, 0, 500, 0);
     station.run_ms(200);
     assert_eq!(asked(&mut station, 436.0, modes), (3 << 16, 3 << 16));

@@ -1,4 +1,4 @@
-//! What is left of an order when its flight, its mission or its holder's time is over.
+//! Commands and settings must not outlast their flight, mission, or controlling client.
 
 use super::copter::{AUTO, copter_at};
 use spandrel_mavlink::dialect::*;
@@ -8,10 +8,10 @@ use spandrel_testkit::station::{Station, one, p};
 const OK: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const NAN: f32 = f32::NAN;
 const ARM: MavCmd = MavCmd::MAV_CMD_COMPONENT_ARM_DISARM;
-/// A Copter's waypoint counts as reached this near, m (WPNAV_RADIUS, and its way to rest).
+/// Distance within which a Copter's waypoint counts as reached, m (WPNAV_RADIUS, and deceleration).
 const NEAR_M: f64 = 2.5;
 
-/// Up, a way at the usual speed, and down: how fast it was at the most, m/s.
+/// Takes off, flies some distance at the usual speed, and lands; returns the maximum speed, m/s.
 fn fastest_of_a_flight(station: &mut Station, slow: Option<f32>) -> f32 {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, p(&[1.0, 4.0, 2.0])), OK);
     assert_eq!(station.command(1, ARM, one(1.0)), OK);
@@ -64,7 +64,7 @@ fn heading_deg(station: &Station) -> f32 {
     station.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw.to_degrees()) } else { None }).unwrap()
 }
 
-/// What was asked for in one flight, how fast and where to look, is not there in the next.
+/// Speed and region of interest of one flight must not affect the next.
 #[test]
 fn flight_a_speed_and_a_look_end_with_their_flight() {
     let mut station = ready(7);
@@ -74,14 +74,15 @@ fn flight_a_speed_and_a_look_end_with_their_flight() {
     let usual = fastest_of_a_flight(&mut station, None);
     assert!(usual > 3.0, "{usual}");
     let ahead = heading_deg(&station);
-    assert!((ahead - looked).abs() > 20.0, "{ahead} after {looked}: it still turns to what it looked at");
+    assert!((ahead - looked).abs() > 20.0, "{ahead} after {looked}: the region of interest is still active");
 }
 
 fn reached(station: &Station) -> Vec<u16> {
     station.all(|m| if let MavMessage::MISSION_ITEM_REACHED(r) = m { Some(r.seq) } else { None })
 }
 
-/// Jumps that have been made count on at another current item, until somebody asks for a reset (parameter 2), as MAVLink says.
+/// Completed jumps must keep their count when another item becomes current, until a reset is requested (parameter 2),
+/// as MAVLink specifies.
 #[test]
 fn flight_jumps_count_on_until_the_mission_is_reset() {
     for (reset, then) in [(0.0, vec![0, 1, 2, 3]), (1.0, vec![0, 1, 2, 0, 1, 2, 3])] {
@@ -103,7 +104,7 @@ fn flight_jumps_count_on_until_the_mission_is_reset() {
     }
 }
 
-/// Copter's splines are flown as waypoints; PX4 has none.
+/// Copter's spline items are flown as waypoints; PX4 does not have them.
 #[test]
 fn flight_a_copter_flies_a_spline_as_a_waypoint() {
     let mut station = copter_at(5.0);
@@ -117,7 +118,7 @@ fn flight_a_copter_flies_a_spline_as_a_waypoint() {
     assert!((f64::from(station.place()[0]) - north - 14.0).abs() < NEAR_M, "{:?}", station.place());
 }
 
-/// Who holds the gimbal keeps it; where the vehicle looks anybody may end.
+/// The controlling client must keep the gimbal, but any client may end the vehicle's region of interest.
 #[test]
 fn flight_looking_ends_for_the_vehicle_while_the_gimbal_stays_with_its_holder() {
     let mut station = Station::airborne("drill-hover", 7);
@@ -145,18 +146,18 @@ fn flight_looking_ends_for_the_vehicle_while_the_gimbal_stays_with_its_holder() 
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_ROI_NONE, p(&[])), OK);
     station.run_ms(20);
     assert!(station.said("ROI cleared"), "{:?}", station.texts());
-    // The vehicle turns freely again: north, though what it looked at lies elsewhere.
+    // The vehicle must turn freely again: it turns south, although the region of interest is elsewhere.
     assert_eq!(station.command(1, MavCmd::MAV_CMD_CONDITION_YAW, p(&[180.0, 30.0, 1.0])), OK);
     station.run_ms(9_000);
     assert!((heading_deg(&station).abs() - 180.0).abs() < 6.0, "{}", heading_deg(&station));
     assert!((station.gimbal_deg() - aimed).abs() < 3.0, "{} after {aimed}", station.gimbal_deg());
 }
 
-/// Motors stopped in flight: it falls, is put back, and its landing then ends the flight as any other does.
+/// After the motors stop in flight, the vehicle falls and respawns; its next landing must then end the flight as usual.
 #[test]
 fn flight_a_respawned_vehicle_lands_and_disarms() {
     let mut station = Station::airborne("drill-hover", 7);
-    // Away from the pad, where lying on the ground is a crash.
+    // Flies away from the pad, where contact with the ground is a crash.
     for _ in 0..200 {
         station.sticks(800, 0, 500, 0);
         station.run_ms(20);

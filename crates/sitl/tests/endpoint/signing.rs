@@ -1,4 +1,4 @@
-//! With signatures demanded, only who knows the key is obeyed.
+//! If signatures are required, only clients with the key may control the vehicle.
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, HEARTBEAT_DATA, MavCmd, MavMessage, STATUSTEXT_DATA};
@@ -33,7 +33,7 @@ fn lamp_on(encoder: &mut Encoder) -> Vec<u8> {
     }))
 }
 
-/// Acknowledgements and texts that each link heard.
+/// Returns the acknowledgments and texts sent on each link.
 fn messages(sim: &mut Sim) -> Vec<(LinkId, &'static str)> {
     let until = sim.now() + spandrel_model::time::SimTime::from_ms(5);
     sim.handle_timeout(until);
@@ -59,12 +59,12 @@ fn wire_only_who_signs_is_obeyed_and_never_twice() {
     assert_eq!(messages(&mut sim), [], "unsigned");
     let mut stranger = Signing::new(SigningKey::from_passphrase("another bridge"), 9, NOW);
     sim.handle_datagram(GCS, &stranger.sign(bare, NOW));
-    assert_eq!(messages(&mut sim), [], "another key");
+    assert_eq!(messages(&mut sim), [], "a frame with another key must be ignored");
     let good = signing.sign(lamp_on(&mut encoder), NOW);
     sim.handle_datagram(GCS, &good);
     assert_eq!(messages(&mut sim), [(GCS, "ack")]);
     sim.handle_datagram(GCS, &good);
-    assert_eq!(messages(&mut sim), [], "recorded and played back");
+    assert_eq!(messages(&mut sim), [], "a replayed frame must be ignored");
     assert_eq!(sim.rejected_frames(), 3);
 }
 

@@ -1,5 +1,5 @@
-//! What simple clients rely on: whose heartbeat comes first, clocks that start with the autopilot, the older request for items of a plan, and
-//! places that are left open.
+//! Behavior that simple clients rely on: order of heartbeats, clocks that start with the autopilot, the older request
+//! for mission items, and items without a position.
 #![allow(deprecated, reason = "simple clients know nothing else")]
 
 use super::copter::{ARM, AUTO, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode};
@@ -14,13 +14,13 @@ use spandrel_testkit::shipped::scenario;
 use spandrel_testkit::station::{GCS, Station, one, p};
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
-/// A peer in lockstep, and a sidecar.
+/// Links of a lockstep peer and of a sidecar.
 const PEER: LinkId = LinkId(9);
 const SIDECAR: LinkId = LinkId(10);
-/// A place counts as kept within this, m: the mission's own acceptance radius and the way to rest.
+/// Maximum position error, m: the mission's acceptance radius and the deceleration.
 const KEPT_M: f64 = 1.5;
 
-/// Senders of heartbeats in the order of their arrival.
+/// Returns the senders of heartbeats in the order of their arrival.
 fn beats(station: &mut Station, ms: i64) -> Vec<u8> {
     station.received.clear();
     station.run_ms(ms);
@@ -45,7 +45,7 @@ fn regress_the_first_and_the_last_heartbeat_of_every_datagram_are_the_autopilots
         autopilot += of.iter().filter(|component| **component == 1).count();
         camera += of.iter().filter(|component| **component == 100).count();
     }
-    // From 0 s to 20 s: one each second, one after each of the camera's, which are 4 s apart.
+    // From 0 s to 20 s: one heartbeat per second, and one after each of the camera's, which are 4 s apart.
     assert_eq!((autopilot, camera), (27, 6));
 }
 
@@ -55,7 +55,7 @@ fn regress_the_camera_beats_once_a_second_where_it_is_used_and_not_at_all_where_
     station.command(100, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(259.0));
     let used = beats(&mut station, 10_000);
     assert_eq!(used.iter().filter(|component| **component == 100).count(), 10, "{used:?}");
-    assert_eq!((used[0], used.len()), (1, 20), "the autopilot's comes first: {used:?}");
+    assert_eq!((used[0], used.len()), (1, 20), "the autopilot's heartbeat must come first: {used:?}");
     let set = |value: i32| {
         MavMessage::PARAM_SET(PARAM_SET_DATA {
             param_value: f32::from_bits(value.cast_unsigned()),
@@ -71,7 +71,7 @@ fn regress_the_camera_beats_once_a_second_where_it_is_used_and_not_at_all_where_
     assert_eq!(
         station.command(1, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, p(&[0.0, 0.0, 1.0])),
         ACCEPTED,
-        "it takes pictures all the same"
+        "pictures must still be possible"
     );
     station.send(&set(1));
     station.run_ms(20);
@@ -108,7 +108,7 @@ fn regress_the_boot_clock_starts_again_with_the_autopilot_and_the_truths_goes_on
         }
     }
     assert!(theirs.len() > 100 && theirs[0] < 1_000 && *theirs.last().unwrap() < 3_100, "{:?}", theirs.last());
-    assert!(ours.iter().all(|ms| i64::from(*ms) >= rebooted.ms()), "the sidecar's clock is the simulation's");
+    assert!(ours.iter().all(|ms| i64::from(*ms) >= rebooted.ms()), "the sidecar's clock must be the simulation time");
     assert!(truth >= 1_000 * rebooted.ms().cast_unsigned());
 }
 
@@ -118,12 +118,12 @@ fn regress_gps_raw_reports_the_height_over_the_ellipsoid() {
     let (alt, ellipsoid) = station
         .last_message(|m| if let MavMessage::GPS_RAW_INT(g) = m { Some((g.alt, g.alt_ellipsoid)) } else { None })
         .expect("GPS_RAW_INT is streamed");
-    // The simulator's sea level is the ellipsoid.
+    // The simulator's sea level equals the ellipsoid.
     assert_eq!(alt, ellipsoid);
     assert!(alt > 400_000, "{alt} mm");
 }
 
-/// What is asked for of an upload: the item's number, and whether by the older message.
+/// Returns the requested item number of an upload, and whether the older message was used.
 fn question(m: &MavMessage) -> Option<(u16, bool)> {
     match m {
         MavMessage::MISSION_REQUEST(r) => Some((r.seq, true)),
@@ -136,7 +136,7 @@ fn counting(count: u16) -> MavMessage {
     MavMessage::MISSION_COUNT(MISSION_COUNT_DATA { count, target_system: 1, target_component: 1, ..Default::default() })
 }
 
-/// In the older form, as a client sends it that knows no other.
+/// Returns an item in the older form, as sent by clients that do not support the newer one.
 fn older(item: &MISSION_ITEM_INT_DATA) -> MavMessage {
     MavMessage::MISSION_ITEM(MISSION_ITEM_DATA {
         x: (f64::from(item.x) * 1e-7) as f32,
@@ -167,13 +167,13 @@ fn regress_a_copter_asks_for_items_by_the_older_request() {
 fn regress_an_uploader_that_knows_one_request_only_is_asked_by_it() {
     let mut station = ready(7);
     let items = [0, 1, 2].map(|seq| item(seq, MavCmd::MAV_CMD_NAV_WAYPOINT, 5.0 * f64::from(seq), 5.0));
-    // One that waits for the older request alone.
+    // A client that responds only to the older request.
     assert_eq!(station.ask(&counting(3), question), Some((0, false)));
     station.received.clear();
-    assert!(station.run_until(3.0, |s| s.last_message(question) == Some((0, true))), "the other form is tried");
-    assert_eq!(station.ask(&older(&items[0]), question), Some((1, true)), "and kept, once it is answered");
+    assert!(station.run_until(3.0, |s| s.last_message(question) == Some((0, true))), "the other form must be tried");
+    assert_eq!(station.ask(&older(&items[0]), question), Some((1, true)), "the form that was answered must be kept");
     assert_eq!(station.ask(&older(&items[1]), question), Some((2, true)));
-    // One that refuses a form is asked in the other at once.
+    // If a client rejects one form, the other must be used immediately.
     assert_eq!(station.ask(&counting(3), question), Some((0, false)));
     let refusal = MavMessage::MISSION_ACK(MISSION_ACK_DATA {
         mavtype: MavMissionResult::MAV_MISSION_UNSUPPORTED,
@@ -185,7 +185,7 @@ fn regress_an_uploader_that_knows_one_request_only_is_asked_by_it() {
     assert_eq!(station.ask(&refusal, question), Some((0, false)));
 }
 
-/// Where the vehicle is, m north of the pad and over the sea, by GLOBAL_POSITION_INT.
+/// Returns the vehicle's position, m north of the pad and above sea level, from GLOBAL_POSITION_INT.
 fn place(station: &mut Station) -> (f64, f64) {
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
     station
@@ -225,19 +225,19 @@ fn regress_zero_in_a_copters_item_is_where_it_is_then() {
     let (north, up) = place(&mut station);
     assert!(
         (north - 12.0).abs() < KEPT_M && (up - pad_m - 9.0).abs() < KEPT_M,
-        "straight up: {north} m north, {} m up",
+        "vertical takeoff: {north} m north, {} m up",
         up - pad_m
     );
     assert!(station.run_until(120.0, |s| reached(s, 7)), "{:?}", station.texts());
     let (north, up) = place(&mut station);
     assert!(
         (north - 20.0).abs() < KEPT_M && (up - pad_m - 9.0).abs() < KEPT_M,
-        "at its height: {north} m north, {} m up",
+        "at the current height: {north} m north, {} m up",
         up - pad_m
     );
     let home =
         station.last_message(|m| if let MavMessage::HOME_POSITION(h) = m { Some(f64::from(h.altitude) * 1e-3) } else { None });
-    assert!(home.is_none_or(|home| (home - pad_m - 9.0).abs() < KEPT_M), "home is where item 5 was passed: {home:?}");
+    assert!(home.is_none_or(|home| (home - pad_m - 9.0).abs() < KEPT_M), "home must be at the position of item 5: {home:?}");
 }
 
 #[test]
@@ -248,11 +248,11 @@ fn regress_home_at_zero_is_where_a_copter_is_and_nowhere_for_px4() {
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
     let up = station
         .last_message(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(f64::from(g.relative_alt) * 1e-3) } else { None });
-    assert!(up.is_some_and(|up| up.abs() < KEPT_M), "home is where it hovers: {up:?} m over it");
+    assert!(up.is_some_and(|up| up.abs() < KEPT_M), "home must be at the hover position: {up:?} m above it");
     assert_eq!(ready(7).command(1, MavCmd::MAV_CMD_DO_SET_HOME, [0.0; 7]), MavResult::MAV_RESULT_DENIED);
 }
 
-/// An answer to a question of lockstep, with the peer's clock in it.
+/// Encodes a lockstep response with the peer's clock.
 fn answer(clock: i64, token: i64) -> Vec<u8> {
     let sync = TIMESYNC_DATA { tc1: clock, ts1: token, ..Default::default() };
     Encoder::new(7, 191).encode(&MavMessage::TIMESYNC(sync))
@@ -267,29 +267,29 @@ fn regress_lockstep_begins_with_a_peers_first_answer() {
         sent.flat_map(|t| Decoder::new().datagram(&t.bytes)).filter_map(|frame| frame.message).collect()
     };
     sim.handle_timeout(SimTime::from_ms(1_000));
-    assert_eq!((sim.now(), sim.awaits_first_answer()), (SimTime::from_ms(20), Some(false)), "time stands, nobody has spoken");
+    assert_eq!((sim.now(), sim.awaits_first_answer()), (SimTime::from_ms(20), Some(false)), "time must not advance before the first response");
     heard(&mut sim);
     sim.send_first_contact();
     let knocked = heard(&mut sim);
     let beats = knocked.iter().filter(|m| matches!(m, MavMessage::HEARTBEAT(_))).count();
     let asks = knocked.iter().filter(|m| matches!(m, MavMessage::TIMESYNC(t) if t.ts1 == 20_000_000)).count();
-    assert!(beats > 0 && asks == 1, "it is found, and asked again: {knocked:?}");
+    assert!(beats > 0 && asks == 1, "the vehicle must be discoverable and repeat its request: {knocked:?}");
     sim.skip_first_answers();
     assert!(sim.runs_in_real_time() && !sim.waiting());
     sim.handle_timeout(SimTime::from_ms(1_000));
-    assert_eq!(sim.now(), SimTime::from_ms(1_000), "served without waiting");
+    assert_eq!(sim.now(), SimTime::from_ms(1_000), "a peer without lockstep must not stop time");
     assert!(heard(&mut sim).iter().any(|m| matches!(m, MavMessage::ATTITUDE(_))));
     sim.handle_datagram(PEER, &answer(5, 900_000_000));
     sim.handle_timeout(SimTime::from_ms(5_000));
     assert_eq!(
         (sim.now(), sim.waiting(), sim.runs_in_real_time()),
         (SimTime::from_ms(1_020), true, false),
-        "in step from now on"
+        "lockstep must start with the first response"
     );
     sim.handle_datagram(PEER, &answer(6, 1_020_000_000));
     sim.handle_timeout(SimTime::from_ms(5_000));
     assert_eq!(sim.now(), SimTime::from_ms(1_040));
-    assert_eq!(sim.awaits_first_answer(), None, "an answer that is owed now is no first one");
+    assert_eq!(sim.awaits_first_answer(), None, "a pending response must not count as the first one");
 }
 
 #[test]
@@ -302,7 +302,7 @@ fn regress_the_digest_holds_what_acts_and_no_clock_of_a_client() {
             station.sim.handle_timeout(SimTime::from_ms(10_000));
             let token = station.sim.now().ns();
             if k % (2 + i64::from(clock) % 3) == 0 {
-                // Questions of the client's own, and its numbers with them.
+                // Sends requests that include the client's own clock.
                 let ask = TIMESYNC_DATA { tc1: 0, ts1: i64::from(clock) + k, ..Default::default() };
                 station.sim.handle_datagram(PEER, &encoder.encode(&MavMessage::TIMESYNC(ask)));
             }
@@ -323,8 +323,8 @@ fn regress_the_digest_holds_what_acts_and_no_clock_of_a_client() {
         assert!(station.sim.now() >= SimTime::from_ms(1_980));
         station.sim.digest()
     };
-    assert_eq!(fly(1_000, 3.0), fly(900_001, 3.0), "another clock, the same flight");
-    assert_ne!(fly(1_000, 3.0), fly(1_000, 4.0), "another set-point");
+    assert_eq!(fly(1_000, 3.0), fly(900_001, 3.0), "the client's clock must not affect the flight");
+    assert_ne!(fly(1_000, 3.0), fly(1_000, 4.0), "another setpoint must change the flight");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What ground stations ask and what they must be answered.
+//! Basic requests of ground stations and their responses.
 
 use spandrel_mavlink::dialect::{
     MavCmd, MavMessage, MavMissionType, MavModeFlag, MavResult, MavSysStatusSensor, PARAM_REQUEST_LIST_DATA,
@@ -15,7 +15,7 @@ fn wire_the_first_heartbeat_comes_at_once_and_the_vehicle_is_armable_within_two_
         MavMessage::SYS_STATUS(s) => Some(s.onboard_control_sensors_health),
         _ => None,
     });
-    assert!(healthy.unwrap().contains(MavSysStatusSensor::MAV_SYS_STATUS_PREARM_CHECK), "armable within 2 s of simulation time");
+    assert!(healthy.unwrap().contains(MavSysStatusSensor::MAV_SYS_STATUS_PREARM_CHECK), "the vehicle must be armable within 2 s of simulation time");
 }
 
 #[test]
@@ -53,7 +53,7 @@ fn wire_the_parameter_list_is_complete() {
     let mut seen = std::collections::BTreeSet::new();
     let mut count = 0;
     for frame in &station.received {
-        // The checksum stands outside the list.
+        // The checksum is not part of the list.
         if let Some(MavMessage::PARAM_VALUE(value)) = &frame.message
             && value.param_index != u16::MAX
         {

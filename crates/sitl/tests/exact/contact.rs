@@ -1,4 +1,4 @@
-//! Contact against what statics and impact theory say.
+//! Contact response compared with statics and impact theory.
 
 use spandrel_model::frames::{Enu, Rotation, Vec3};
 use spandrel_model::math::GRAVITY_M_S2;
@@ -10,7 +10,7 @@ use spandrel_testkit::aircraft::quad;
 
 const DT: SimTime = SimTime::from_ms(1);
 
-/// The half space below `top_m`, `thick_m` thick.
+/// A half space below `top_m` with thickness `thick_m`.
 struct Plate {
     top_m: f64,
     thick_m: f64,
@@ -55,7 +55,7 @@ impl Obstacles for Plate {
 }
 
 const GROUND: Plate = Plate { top_m: 0.0, thick_m: 100.0 };
-/// Height of the centre of mass when the feet (0.12 m below, 15 mm balls) stand on the ground.
+/// Height of the center of mass when the feet (0.12 m below, balls with a radius of 15 mm) are on the ground.
 const STANDING_M: f64 = 0.135;
 
 fn at(up: f64) -> PhysicsState {
@@ -72,7 +72,7 @@ fn run(plate: &Plate, state: &mut PhysicsState, steps: i64, mut each: impl FnMut
 
 #[test]
 fn exact_a_standing_aircraft_stays_where_it_stands() {
-    // m in 60 s; relative for the force.
+    // Drift in 60 s, m, and relative tolerance of the force.
     const DRIFT_M: f64 = 1e-6;
     const FORCE: f64 = 1e-6;
     let mut state = at(STANDING_M);
@@ -92,7 +92,7 @@ fn exact_a_standing_aircraft_stays_where_it_stands() {
 
 #[test]
 fn exact_a_dropped_aircraft_comes_to_rest_on_its_feet() {
-    // m.
+    // Tolerance of the height, m.
     const TOLERANCE: f64 = 1e-3;
     let mut state = at(0.8);
     run(&GROUND, &mut state, 5000, |_| ());
@@ -113,7 +113,7 @@ fn exact_a_bounce_gains_no_energy() {
     let mut highest = energy(&state);
     run(&GROUND, &mut state, 4000, |s| {
         let now = energy(s);
-        // J; mending 0.01 mm of penetration lifts by that much.
+        // Energy tolerance, J: correcting 0.01 mm of penetration lifts the body by that distance.
         assert!(now <= highest + 2e-3, "{now} after {highest}");
         highest = highest.min(now);
     });
@@ -126,7 +126,7 @@ fn exact_friction_stays_in_its_cone() {
     let mut before = 3.0;
     run(&GROUND, &mut state, 200, |s| {
         let now = s.rigid.velocity_m_s.north();
-        // Deceleration by Coulomb friction alone is at most mu times the normal force over the mass.
+        // Coulomb friction decelerates by at most mu times the normal force over the mass.
         let bound = 0.6 * s.contact.normal_n / 1.3 * DT.s() + 0.001;
         assert!(before - now <= bound, "{before} -> {now}, bound {bound}");
         before = now;

@@ -1,4 +1,4 @@
-//! Free flight against closed forms.
+//! Free flight compared with closed-form solutions.
 
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::math::{self, GRAVITY_M_S2};
@@ -12,7 +12,7 @@ use spandrel_testkit::aircraft::quad;
 
 const DT: SimTime = SimTime::from_ms(1);
 
-/// The aircraft as a body without rotors, drag and damping.
+/// Returns the aircraft as a body without rotors, drag and damping.
 fn bare() -> Vehicle {
     let mut vehicle = quad();
     vehicle.rotors.clear();
@@ -38,7 +38,7 @@ fn coasting() -> Actuators {
 
 #[test]
 fn exact_free_fall_is_half_g_t_squared() {
-    // Relative; rounding of 2 000 additions.
+    // Relative tolerance: rounding of 2 000 additions.
     const TOLERANCE: f64 = 1e-12;
     let mut state = PhysicsState::at_rest(Vec3::zero(), 0.0);
     run(&AirframeModel::new(&bare(), BatteryModel::Paper), &mut state, &coasting(), &AirState::STILL, DT, 2000);
@@ -46,12 +46,12 @@ fn exact_free_fall_is_half_g_t_squared() {
     let expected = 0.5 * GRAVITY_M_S2 * 4.0;
     assert!((fallen / expected - 1.0).abs() < TOLERANCE, "{fallen}");
     assert!((state.rigid.velocity_m_s.down() / (2.0 * GRAVITY_M_S2) - 1.0).abs() < TOLERANCE);
-    assert!(state.specific_force_m_s2.norm() < 1e-9, "an accelerometer in free fall feels nothing");
+    assert!(state.specific_force_m_s2.norm() < 1e-9, "the specific force in free fall must be zero");
 }
 
 #[test]
 fn exact_terminal_speed_follows_from_drag() {
-    // Relative.
+    // Relative tolerance.
     const TOLERANCE: f64 = 1e-6;
     let mut vehicle = bare();
     vehicle.drag.area_m2 = [0.05; 3];
@@ -63,7 +63,7 @@ fn exact_terminal_speed_follows_from_drag() {
 
 #[test]
 fn exact_fall_with_drag_follows_the_hyperbolic_tangent() {
-    // m/s; Runge-Kutta at 1 ms.
+    // Tolerance for Runge-Kutta at 1 ms, m/s.
     const TOLERANCE: f64 = 1e-9;
     let mut vehicle = bare();
     vehicle.drag.area_m2 = [0.05; 3];
@@ -76,7 +76,7 @@ fn exact_fall_with_drag_follows_the_hyperbolic_tangent() {
 
 #[test]
 fn exact_hover_thrust_balances_weight() {
-    // Share of the weight; m/s and rad/s after one second.
+    // Tolerance as a fraction of the weight, and of the velocities after one second, m/s and rad/s.
     const TOLERANCE: f64 = 1e-12;
     let model = AirframeModel::new(&quad(), BatteryModel::Paper);
     let mut state = start();
@@ -93,7 +93,7 @@ fn exact_hover_thrust_balances_weight() {
 
 #[test]
 fn exact_motor_step_reaches_its_share_at_the_time_constant() {
-    // Relative; the exponential is exact.
+    // Relative tolerance; the exponential is exact.
     const TOLERANCE: f64 = 1e-12;
     let model = AirframeModel::new(&quad(), BatteryModel::Paper);
     let mut state = start();
@@ -102,7 +102,7 @@ fn exact_motor_step_reaches_its_share_at_the_time_constant() {
     assert!((state.rigid.rotor_rad_s[0] / expected - 1.0).abs() < TOLERANCE);
 }
 
-/// The brick of NESC check case 02 (NASA TM-2015-218675): inertia in slug ft², rates in deg/s.
+/// Returns the brick of NESC check case 02 (NASA TM-2015-218675): inertia in slug ft², rates in deg/s.
 fn brick() -> (AirframeModel, PhysicsState) {
     const KG_M2_PER_SLUG_FT2: f64 = 1.355_817_948_331_400_4;
     let mut vehicle = bare();
@@ -116,7 +116,7 @@ fn brick() -> (AirframeModel, PhysicsState) {
 
 #[test]
 fn val_tumbling_brick_matches_the_nesc_case_02_figures() {
-    // deg/s, against simulator 04 of the check case.
+    // Tolerance compared with simulator 04 of the check case, deg/s.
     const TOLERANCE: f64 = 1e-8;
     let (model, mut state) = brick();
     let published = [
@@ -135,7 +135,7 @@ fn val_tumbling_brick_matches_the_nesc_case_02_figures() {
 
 #[test]
 fn exact_tumbling_keeps_energy_and_angular_momentum() {
-    // Relative over 30 s.
+    // Relative tolerance over 30 s.
     const TOLERANCE: f64 = 1e-12;
     const KG_M2_PER_SLUG_FT2: f64 = 1.355_817_948_331_400_4;
     let inertia = [0.001_894_22, 0.006_211_019, 0.007_194_665].map(|i| i * KG_M2_PER_SLUG_FT2);
@@ -166,7 +166,7 @@ fn exact_the_integrator_is_of_fourth_order() {
         run(&model, &mut state, &Actuators { motors, armed: true }, &air, dt, 2 * per_second);
         state.rigid.position_m
     };
-    // Rates whose periods are whole nanoseconds.
+    // Rates whose periods are integer nanoseconds.
     let reference = end(3200);
     let (coarse, fine) = ((end(100) - reference).norm(), (end(200) - reference).norm());
     let order = math::ln(coarse / fine) / math::ln(2.0);
@@ -180,12 +180,12 @@ fn exact_wind_pushes_a_free_body_where_it_blows() {
     let mut state = start();
     let air = AirState { velocity_m_s: Vec3::new(5.0, 0.0, 0.0), ..AirState::STILL };
     run(&AirframeModel::new(&vehicle, BatteryModel::Paper), &mut state, &coasting(), &air, DT, 100);
-    assert!(state.rigid.velocity_m_s.north() > 0.0, "air that moves north pushes north");
+    assert!(state.rigid.velocity_m_s.north() > 0.0, "wind to the north must push north");
 }
 
 #[test]
 fn exact_only_the_speed_through_the_air_counts() {
-    // m/s.
+    // Tolerance, m/s.
     const TOLERANCE: f64 = 1e-12;
     let model = AirframeModel::new(&quad(), BatteryModel::Paper);
     let drift = Vec3::<Ned>::new(4.0, -3.0, 1.0);
@@ -201,7 +201,7 @@ fn exact_only_the_speed_through_the_air_counts() {
 
 #[test]
 fn exact_no_heading_is_preferred() {
-    // m.
+    // Tolerance, m.
     const TOLERANCE: f64 = 1e-9;
     let model = AirframeModel::new(&quad(), BatteryModel::Paper);
     let actuators = Actuators { motors: [0.62, 0.58, 0.60, 0.61, 0.0, 0.0, 0.0, 0.0], armed: true };
@@ -217,7 +217,7 @@ fn exact_no_heading_is_preferred() {
 
 #[test]
 fn exact_one_rotor_pulls_and_turns_as_force_times_arm() {
-    // N and N m; a few roundings.
+    // Tolerance for a few roundings, N and N m.
     const TOLERANCE: f64 = 1e-14;
     let vehicle = quad();
     let model = AirframeModel::new(&vehicle, BatteryModel::Paper);
@@ -231,7 +231,7 @@ fn exact_one_rotor_pulls_and_turns_as_force_times_arm() {
 
 #[test]
 fn exact_the_paper_battery_is_empty_after_its_endurance() {
-    // %; rounding of 1.5 million subtractions.
+    // Tolerance for the rounding of 1.5 million subtractions, %.
     const TOLERANCE: f64 = 1e-7;
     let mut vehicle = bare();
     vehicle.battery.paper_endurance_s = 15.0;
@@ -246,7 +246,8 @@ fn exact_the_paper_battery_is_empty_after_its_endurance() {
 
 #[test]
 fn exact_the_physical_battery_obeys_ohm_and_counts_its_charge() {
-    // V, A: rounding. Share of the charge: the current changes a little over the second.
+    // Rounding tolerance, V and A; and relative tolerance of the charge, because the current changes slightly during
+    // the second.
     const ROUNDING: f64 = 1e-9;
     let vehicle = quad();
     let model = AirframeModel::new(&vehicle, BatteryModel::Physical);
@@ -257,7 +258,7 @@ fn exact_the_physical_battery_obeys_ohm_and_counts_its_charge() {
     let power = 4.0 * 1.6e-7 * 600.0 * 600.0 * 600.0 / 0.5 + b.avionics_w + b.lamp_w;
     let mut drawn_as = 0.0;
     let load = PowerLoad { airborne: true, lamp_on: true };
-    // Commands that keep the rotors turning as they do.
+    // Commands that keep the rotor speeds constant.
     for k in 0..1000 {
         let top = 1000.0 * state.battery.speed_factor;
         let actuators = Actuators { motors: [(600.0 - 100.0) / (top - 100.0); MAX_ROTORS], armed: true };
@@ -266,7 +267,7 @@ fn exact_the_physical_battery_obeys_ohm_and_counts_its_charge() {
         drawn_as += i * DT.s();
         assert!((state.rigid.rotor_rad_s[0] - 600.0).abs() < ROUNDING);
         assert!((v * i - power).abs() < 1e-6 * power, "{v} V, {i} A, {power} W");
-        // Between the two topmost points of the curve.
+        // The charge is between the two highest points of the curve.
         let before = state.battery.charge + i * DT.s() / (b.capacity_ah * 3600.0);
         let open = 3.0 * (4.1 + (4.2 - 4.1) * (before - 0.9) * 10.0);
         assert!((open - i * b.internal_resistance_ohm - v).abs() < ROUNDING, "{open} V open, {v} V");

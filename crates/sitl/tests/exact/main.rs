@@ -1,4 +1,4 @@
-//! Physics against closed forms.
+//! Physics compared with closed-form solutions.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod contact;

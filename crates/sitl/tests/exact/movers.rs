@@ -1,11 +1,11 @@
-//! Traffic at its fastest against what the contact look-ahead trusts.
+//! Maximum speed of traffic compared with the bound that the contact look-ahead relies on.
 
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::traffic::TrafficPlan;
 use spandrel_model::time::SimTime;
 use spandrel_sitl::physics::FASTEST_OBJECT_M_S;
 
-/// The paper's job with the fastest cars that a file may ask for.
+/// Returns the TASBID job with the fastest cars that a scenario file allows.
 fn fastest_legal() -> Scenario {
     let text = spandrel_model::shipped::TWO_BRIDGES;
     let with = |speed: &str| {
@@ -29,6 +29,6 @@ fn prop_nothing_at_a_site_moves_faster_than_contact_looks_ahead_for() {
             fastest = plan.place(mover, at).map_or(0.0, |placed| placed.velocity_m_s.norm()).max(fastest);
         }
     }
-    assert!(fastest > scenario.traffic.car_speed_m_s, "{fastest} m/s: no lane is faster than the mean");
-    assert!(fastest <= FASTEST_OBJECT_M_S, "{fastest} m/s, trusted up to {FASTEST_OBJECT_M_S} m/s");
+    assert!(fastest > scenario.traffic.car_speed_m_s, "{fastest} m/s: some lane must be faster than the mean");
+    assert!(fastest <= FASTEST_OBJECT_M_S, "{fastest} m/s exceeds the bound of {FASTEST_OBJECT_M_S} m/s");
 }

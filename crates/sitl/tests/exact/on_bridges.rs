@@ -1,4 +1,4 @@
-//! Aircraft on and against the members of the shipped bridges, and beside steep ground.
+//! Aircraft on and against members of the supplied bridges, and next to steep ground.
 
 use spandrel_model::frames::{Enu, Rotation, Vec3};
 use spandrel_model::math::{self, GRAVITY_M_S2};
@@ -10,14 +10,14 @@ use spandrel_model::vehicle::Vehicle;
 use spandrel_sitl::physics::{Actuators, AirState, AirframeModel, Obstacles, PhysicsState, PowerLoad};
 
 const DT: SimTime = SimTime::from_ms(1);
-/// m; radius of the feet's balls (crates/sitl/src/physics/hull.rs).
+/// Radius of the balls at the feet, m (crates/sitl/src/physics/hull.rs).
 const FOOT_M: f64 = 0.015;
 
 fn scenario() -> Scenario {
     let text = spandrel_model::shipped::TWO_BRIDGES;
     let mut scenario =
         spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap_or_else(|p| panic!("{p}"));
-    // Nobody drives over what stands on the deck.
+    // Without traffic, nothing hits an aircraft that stands on the deck.
     (scenario.traffic.cars, scenario.traffic.trucks, scenario.traffic.pedestrians) = (0, 0, 0);
     scenario
 }
@@ -56,7 +56,7 @@ fn run_from(
     }
 }
 
-/// A point on a member's upper side, in the bridge's own axes.
+/// Returns a point on the upper side of a member, given in the bridge's axes.
 fn on_top(scenario: &Scenario, site: &Site, member: &str, [x, y]: [f64; 2]) -> Vec3<Enu> {
     let (name, _) = member.split_once('/').unwrap();
     let bridge = scenario.bridges.iter().find(|b| b.name == name).unwrap();
@@ -65,11 +65,11 @@ fn on_top(scenario: &Scenario, site: &Site, member: &str, [x, y]: [f64; 2]) -> V
     let from = bridge.placement().point([x, y, high - bridge.centre_m.up()]);
     let down = Vec3::new(0.0, 0.0, -1.0);
     let (distance, _) =
-        site.geometry().shape(k).unwrap().ray(from, down, 100.0).unwrap_or_else(|| panic!("{member} is not there"));
+        site.geometry().shape(k).unwrap().ray(from, down, 100.0).unwrap_or_else(|| panic!("{member} does not exist at this point"));
     from + down * distance
 }
 
-/// How far the lowest part of a level aircraft lies under its centre, m.
+/// Returns the distance of the lowest part of a level aircraft below its center, m.
 fn lowest_m(vehicle: &Vehicle) -> f64 {
     let feet = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max) + FOOT_M;
     if vehicle.hull.caged { feet.max(0.5 * vehicle.hull.tip_to_tip_m) } else { feet }
@@ -77,9 +77,9 @@ fn lowest_m(vehicle: &Vehicle) -> f64 {
 
 #[test]
 fn exact_set_down_on_a_bridge_an_aircraft_stays_within_a_millimetre() {
-    // m in 5 s, after a second to settle from a finger's breadth.
+    // Maximum drift in 5 s, m, after one second of settling from a height of about a centimeter.
     const DRIFT_M: f64 = 1e-3;
-    // Relative, for the mean force of 5 s.
+    // Relative tolerance of the mean force over 5 s.
     const FORCE: f64 = 1e-3;
     let scenario = scenario();
     let site = Site::build(&scenario, 3);
@@ -107,7 +107,7 @@ fn exact_set_down_on_a_bridge_an_aircraft_stays_within_a_millimetre() {
             });
             assert!(worst < DRIFT_M, "{} on {member}: {worst} m", vehicle.id);
             let share = force / 5000.0 / (vehicle.mass_kg * GRAVITY_M_S2);
-            // On the sloping rib friction carries a part.
+            // On the sloping rib, friction carries a part of the weight.
             let least = if member.contains("rib") { 0.9 } else { 1.0 - FORCE };
             assert!((least..1.0 + FORCE).contains(&share), "{} on {member}: {share} of its weight", vehicle.id);
         }
@@ -116,7 +116,7 @@ fn exact_set_down_on_a_bridge_an_aircraft_stays_within_a_millimetre() {
 
 #[test]
 fn exact_standing_on_the_pad_an_aircraft_stays_where_it_stands() {
-    // m in 60 s; relative for the mean normal force.
+    // Maximum drift in 60 s, m, and relative tolerance of the mean normal force.
     const DRIFT_M: f64 = 1e-6;
     const FORCE: f64 = 1e-6;
     let scenario = scenario();
@@ -142,7 +142,8 @@ fn exact_a_tilted_aircraft_dropped_on_the_edge_of_a_beam_topples_outwards() {
     let scenario = scenario();
     let site = Site::build(&scenario, 3);
     let model = AirframeModel::new(&vehicles()[0], BatteryModel::Paper);
-    // Struts between the ribs are 0.7 m wide; bridge and aircraft both look east, so that negative pitch leans over the far edge.
+    // Struts between the ribs are 0.7 m wide. Bridge and aircraft both face east, so negative pitch leans over the far
+    // edge.
     for (lean, side) in [(-0.35, 1.0), (0.35, -1.0)] {
         let top = on_top(&scenario, &site, "arch/strut/05", [-7.0, 0.0]);
         let mut s = state(top + Vec3::new(side * 0.40, 0.0, 0.22));
@@ -157,9 +158,9 @@ fn exact_a_tilted_aircraft_dropped_on_the_edge_of_a_beam_topples_outwards() {
             }
             fell |= height < -2.0;
         });
-        assert!(touched && fell, "lean {lean}: it stays up, {:?}", s.rigid.position_m);
+        assert!(touched && fell, "lean {lean}: the aircraft did not fall, {:?}", s.rigid.position_m);
         assert!(most > 0.35 + 0.2, "lean {lean}: only {most} rad");
-        assert!((s.rigid.position_m.enu() - top).east() * side > 0.4, "lean {lean}: it fell back over the beam");
+        assert!((s.rigid.position_m.enu() - top).east() * side > 0.4, "lean {lean}: the aircraft fell back over the beam");
     }
 }
 
@@ -173,10 +174,10 @@ fn exact_a_tilted_aircraft_dropped_on_the_deck_stands_up() {
     s.rigid.attitude = Rotation::from_euler(0.25, -0.2, 0.7);
     run(&model, &site, &mut s, 5000, |_| ());
     let up = -(s.rigid.attitude * Vec3::new(0.0, 0.0, 1.0)).down();
-    assert!(up < -0.999_9, "it lies at {up}");
+    assert!(up < -0.999_9, "the aircraft does not stand upright: {up}");
 }
 
-/// Arms never reach through anything: from the centre to the hubs nothing is in the way.
+/// Checks that the arms do not penetrate anything: there must be no obstacle between the center and the hubs.
 fn nothing_is_within(vehicle: &Vehicle, site: &Site, s: &PhysicsState) -> bool {
     let centre = s.rigid.position_m.enu();
     let mut all = vehicle.rotors.iter().map(|r| (s.rigid.attitude * r.position_m).enu());
@@ -232,7 +233,7 @@ fn exact_nothing_passes_a_member_at_thirty_metres_a_second() {
                     let step = now - before;
                     let way = site.geometry().ray(before, step.unit(), step.norm());
                     assert!(step.norm() == 0.0 || way.is_none(), "{} went through {:?} at {member}", vehicle.id, way);
-                    assert!(nothing_is_within(vehicle, &site, s), "{}: an arm reaches through something at {member}", vehicle.id);
+                    assert!(nothing_is_within(vehicle, &site, s), "{}: an arm penetrates an obstacle at {member}", vehicle.id);
                     before = now;
                     touched |= s.contact.touching();
                 });
@@ -243,7 +244,7 @@ fn exact_nothing_passes_a_member_at_thirty_metres_a_second() {
     }
 }
 
-/// The site, asked for contacts in every step.
+/// The site with contact queries in every step.
 struct Always<'a>(&'a Site);
 
 impl Obstacles for Always<'_> {
@@ -266,7 +267,7 @@ fn exact_leaving_contact_out_where_all_is_free_changes_no_bit() {
     let mut random = RandomStream::new(6, "steep");
     let mut touched = 0;
     for k in 0..60 {
-        // Along and against the embankments beside the arch's ends, the slopes of the valley, and the bridge itself.
+        // Flights along and into the embankments next to the arch's ends, the slopes of the valley, and the bridge.
         let x = if k % 2 == 0 { -1.0 } else { 1.0 } * random.range(40.0, 90.0);
         let (y, up) = (random.range(-35.0, 35.0), random.range(0.3, 4.0));
         let from = Vec3::<Enu>::new(x, y, site.ground_up_m(x, y).max(0.0) + up);

@@ -1,4 +1,4 @@
-//! Arming, take-off, landing, return, missions and external set-points.
+//! Arming, takeoff, landing, return, missions and external setpoints.
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::time::SimTime;
@@ -8,7 +8,7 @@ use spandrel_sitl::autopilot::{
 use spandrel_testkit::bench::{Bench, VEHICLES};
 use spandrel_testkit::shipped::vehicle;
 
-/// m: the receiver's error plus the control's.
+/// Position tolerance, m: errors of the receiver and of the control.
 const NEAR_M: f64 = 1.5;
 
 #[test]
@@ -16,7 +16,7 @@ fn flight_every_aircraft_is_armable_within_two_seconds() {
     for name in VEHICLES {
         let mut bench = Bench::new(&vehicle(name), 1);
         let reasons = bench.autopilot.arming_reasons(bench.now);
-        assert!(!reasons.is_empty(), "{name} could be armed before it knows anything");
+        assert!(!reasons.is_empty(), "{name} could be armed before its sensors were ready");
         bench.run(2.0, |_| ());
         let reasons = bench.autopilot.status().arming_reasons.clone();
         assert!(reasons.is_empty(), "{name}: {reasons:?}");
@@ -39,7 +39,7 @@ fn flight_arming_is_refused_with_every_reason_named() {
 
 #[test]
 fn flight_takes_off_holds_and_lands_where_it_was() {
-    // m: the barometer's offset and the GNSS's share in the height.
+    // Height tolerance, m: offset of the barometer and the receiver's part of the height error.
     const HEIGHT_M: f64 = 0.8;
     for name in VEHICLES {
         let mut bench = Bench::airborne(&vehicle(name), 1, 5.0);
@@ -52,8 +52,8 @@ fn flight_takes_off_holds_and_lands_where_it_was() {
         bench.run(20.0, |b| impact = impact.max(b.state.contact.impact_m_s));
         let status = bench.autopilot.status().clone();
         assert!(!status.armed && status.landed == LandedState::OnGround, "{name}: {status:?} {:?}", bench.position());
-        // m/s: gentler than a step off a kerb.
-        assert!(impact < 1.2, "{name}: hit the ground with {impact} m/s");
+        // Gentler than stepping off a curb, m/s.
+        assert!(impact < 1.2, "{name}: touchdown at {impact} m/s");
     }
 }
 
@@ -66,7 +66,7 @@ fn flight_takes_off_and_lands_by_the_sticks() {
         bench.ask(AutopilotRequest::SetMode(FlightMode::Position));
         bench.ask(AutopilotRequest::Arm { force: false });
         bench.run(2.0, |_| ());
-        assert_eq!(bench.autopilot.status().landed, LandedState::OnGround, "{name} left the ground unasked");
+        assert_eq!(bench.autopilot.status().landed, LandedState::OnGround, "{name} left the ground without a command");
         bench.sticks = Some(Sticks { up: 0.5, ..Sticks::default() });
         bench.run(3.0, |_| ());
         assert_eq!(bench.autopilot.status().landed, LandedState::InAir, "{name}");
@@ -131,7 +131,7 @@ fn flight_a_mission_is_flown_in_order_and_ends_on_the_ground() {
     let status = bench.autopilot.status();
     assert!(status.mission_finished && !status.armed, "{status:?} {:?}", bench.position());
     assert!(bench.position().horizontal_norm() < NEAR_M, "{:?}", bench.position());
-    // m/s over the mission's speed.
+    // Maximum speed including overshoot, m/s.
     assert!(fastest < 4.4, "{fastest}");
 }
 

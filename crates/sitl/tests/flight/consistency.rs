@@ -1,4 +1,4 @@
-//! Is the filter as good as it claims? Fifty seeds over one motion, judged by the normalised error squared.
+//! Filter consistency: fifty seeds of one motion, judged by the normalized estimation error squared.
 
 use nalgebra::{DMatrix, DVector};
 use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
@@ -20,14 +20,15 @@ const ORIGIN: Geo = Geo { latitude_deg: 46.5, longitude_deg: 8.25, altitude_m: 4
 const TICK: SimTime = SimTime::from_us(2500);
 const SUBSTEPS: i64 = 2;
 
-/// Velocity of the test motion: rest for a second, then a wandering figure of eight that climbs and sinks.
+/// Returns the velocity of the test motion: at rest for a second, then a meandering figure eight that climbs and
+/// descends.
 fn velocity(t: f64) -> Vec3<Ned> {
     let t = (t - 1.0).max(0.0);
     let (a, b, c) = (math::sin(0.5 * t), math::sin(0.9 * t), math::sin(0.3 * t));
     Vec3::new(4.0 * a, 3.0 * b, -1.5 * c)
 }
 
-/// Turning: on its feet the body rocks as much as alignment allows for.
+/// Returns the turn rates; on the ground, the body rocks as much as alignment tolerates.
 fn rates(t: f64, rocking_rad_s: Vec3<Frd>) -> Vec3<Frd> {
     if t < 1.0 {
         return rocking_rad_s;
@@ -35,14 +36,14 @@ fn rates(t: f64, rocking_rad_s: Vec3<Frd>) -> Vec3<Frd> {
     Vec3::new(0.35 * math::cos(0.7 * t), 0.25 * math::cos(0.9 * t), 0.3 * math::sin(0.2 * t))
 }
 
-/// A plain whose sky closes between two times, and whose ground may move.
+/// A plain whose sky is covered between two times, and whose ground may move.
 struct Shadow {
     from: SimTime,
     until: SimTime,
     ground_up_m: fn(SimTime) -> f64,
 }
 
-/// The ground stays.
+/// Height of ground that does not move.
 pub(super) fn flat(_: SimTime) -> f64 {
     0.0
 }
@@ -70,7 +71,7 @@ pub(super) struct Run {
 }
 
 impl Run {
-    /// Under an open sky, without optical flow, the ground always within the range finder's reach.
+    /// Creates a run under an open sky, without optical flow, with the ground always within the range finder's reach.
     pub(super) fn in_the_open(seed: u64, ground_up_m: fn(SimTime) -> f64) -> Self {
         let mut vehicle = vehicle("phantom2");
         vehicle.sensors.flow_velocity_m_s = 0.0;
@@ -78,14 +79,14 @@ impl Run {
         Self::with(seed, Shadow { from: SimTime::NEVER, until: SimTime::NEVER, ground_up_m }, &vehicle)
     }
 
-    /// Height of the estimate over the true one, m.
+    /// Returns the error of the estimated height, m.
     pub(super) fn height_error_m(&self) -> f64 {
         self.error()[P + 2]
     }
 
     fn new(seed: u64, site: Shadow) -> Self {
         let mut vehicle = vehicle("phantom2");
-        // Flow would see through the loss of GNSS.
+        // Optical flow would compensate for the loss of GNSS.
         vehicle.sensors.flow_velocity_m_s = 0.0;
         Self::with(seed, site, &vehicle)
     }
@@ -113,7 +114,7 @@ impl Run {
         self.tick_with(|_, _| ());
     }
 
-    /// One tick, with readings that a test changes.
+    /// Advances by one tick with readings changed by a test.
     pub(super) fn tick_with(&mut self, change: impl Fn(&mut Readings, SimTime)) {
         let dt = SimTime::from_ns(TICK.ns() / SUBSTEPS);
         for _ in 0..SUBSTEPS {
@@ -145,7 +146,7 @@ impl Run {
         })
     }
 
-    /// Error squared over covariance for the states in `from..from + count`.
+    /// Returns the normalized error squared for the states in `from..from + count`.
     fn nees(&self, from: usize, count: usize) -> f64 {
         let e = self.error();
         let e = DVector::from_fn(count, |i, _| e[from + i]);
@@ -160,7 +161,8 @@ impl Run {
     }
 }
 
-/// 95 % band of the mean over `SEEDS` of a chi-squared variable with `n` degrees of freedom (Wilson-Hilferty).
+/// Returns the 95 % band of the mean over `SEEDS` of a chi-squared variable with `n` degrees of freedom
+/// (Wilson-Hilferty).
 fn band(n: usize) -> (f64, f64) {
     let k = n as f64 * SEEDS as f64;
     let point = |z: f64| {
@@ -170,7 +172,8 @@ fn band(n: usize) -> (f64, f64) {
     (point(-1.96), point(1.96))
 }
 
-/// Means over the seeds at four times, of all states and of position, velocity and attitude each, lie in their bands.
+/// Checks that the means over the seeds at four times are within their bands, for all states and for position, velocity
+/// and attitude separately.
 fn assert_consistent(what: &str, new: impl Fn(u64, Shadow) -> Run) {
     let times = [5, 20, 40, 60];
     let mut sums = [[0.0; 4]; 4];
@@ -187,7 +190,7 @@ fn assert_consistent(what: &str, new: impl Fn(u64, Shadow) -> Run) {
     let (low, high) = band(15);
     let inside = sums.iter().filter(|row| row[0] > low && row[0] < high).count();
     assert!(inside == times.len(), "{what}, all states: {sums:?}, band {low:.2}..{high:.2}");
-    // One block in twelve may leave its own band by chance (probability 0.88 of at most one).
+    // One block in twelve may be outside its band by chance (probability 0.88 of at most one).
     let (low, high) = band(3);
     let outside = sums.iter().flat_map(|row| &row[1..]).filter(|v| **v < low || **v > high).count();
     assert!(outside <= 1, "{what}, position, velocity, attitude: {sums:?}, band {low:.2}..{high:.2}");
@@ -202,7 +205,7 @@ fn prop_the_normalised_error_lies_in_its_own_95_percent_band_over_fifty_seeds() 
 fn prop_the_normalised_error_lies_in_its_band_with_every_shipped_aircrafts_sensors() {
     for name in VEHICLES {
         let vehicle = vehicle(name);
-        assert!(vehicle.sensors.flow_velocity_m_s > 0.0, "{name} sees no flow, so this proves nothing new");
+        assert!(vehicle.sensors.flow_velocity_m_s > 0.0, "{name} has no optical flow, so the test is pointless");
         assert_consistent(name, |seed, site| Run::with(seed, site, &vehicle));
     }
 }
@@ -224,7 +227,8 @@ fn prop_ten_seconds_without_gnss_make_error_and_covariance_grow_together_and_rec
     }
     let (low, high) = band(15);
     assert!(nees > low && nees < high, "blind: {nees:.2}, band {low:.2}..{high:.2}");
-    // Growth that a plot would show; half a minute after the return the covariance is back within a fifth (shares of the variance).
+    // The growth must be clearly visible; half a minute after recovery, the covariance must be back within a fifth (as
+    // fractions of the variance).
     assert!(blind[0] > 1.5 * before[0] && blind[1] > 1.5 * before[1], "{before:?} {blind:?}");
     assert!(after[0] < blind[0] && after[1] < 1.2 * before[1], "{blind:?} {after:?}");
 }

@@ -1,4 +1,4 @@
-//! What goes wrong: links, satellites, battery, attitude.
+//! Emergencies: loss of links, satellites or battery, and upset attitudes.
 
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::math;
@@ -13,7 +13,7 @@ fn flight_lost_sticks_lead_to_hold_and_found_ones_give_the_mode_back() {
     bench.run(2.0, |_| ());
     bench.sticks = None;
     bench.run(0.4, |_| ());
-    assert_eq!(bench.autopilot.status().mode, FlightMode::Position, "half a second of silence is not over");
+    assert_eq!(bench.autopilot.status().mode, FlightMode::Position, "the timeout of half a second has not expired yet");
     bench.run(4.0, |_| ());
     let status = bench.autopilot.status().clone();
     assert_eq!((status.mode, status.failsafe.as_deref()), (FlightMode::Hold, Some("manual control lost")));
@@ -31,7 +31,7 @@ fn flight_lost_sticks_return_or_land_if_enabled() {
         bench.autopilot.tuning.manual_loss = action;
         bench.sticks = None;
         bench.run(4.0, |_| ());
-        assert_eq!(bench.autopilot.status().mode, FlightMode::Hold, "it holds first");
+        assert_eq!(bench.autopilot.status().mode, FlightMode::Hold, "the vehicle must hold first");
         bench.run(3.0, |_| ());
         assert_eq!(bench.autopilot.status().mode, mode);
         bench.run(60.0, |_| ());
@@ -54,7 +54,7 @@ fn flight_a_lost_ground_station_acts_if_enabled() {
 
 #[test]
 fn flight_minutes_without_satellites_stay_controllable_where_flow_sees_a_surface() {
-    // m of drift in two minutes.
+    // Maximum drift in two minutes, m.
     const DRIFT_M: f64 = 2.0;
     for name in VEHICLES {
         let mut bench = Bench::by_hand(&vehicle(name), 7, 6.0);
@@ -70,7 +70,7 @@ fn flight_minutes_without_satellites_stay_controllable_where_flow_sees_a_surface
 
 #[test]
 fn flight_without_satellites_and_flow_the_pilot_keeps_height_and_tilt_and_gets_position_back() {
-    // m of height in two minutes: the barometer's drift.
+    // Maximum change of height in two minutes, m: drift of the barometer.
     const HEIGHT_M: f64 = 1.0;
     for name in VEHICLES {
         let mut bench = Bench::by_hand(&vehicle(name), 8, 8.0);
@@ -85,7 +85,7 @@ fn flight_without_satellites_and_flow_the_pilot_keeps_height_and_tilt_and_gets_p
         bench.sticks = Some(Sticks { forward: 0.3, ..Sticks::default() });
         bench.run(1.5, |_| ());
         let (_, pitch, _) = bench.state.rigid.attitude.euler();
-        assert!(pitch < -0.05, "{name}: the stick no longer tilts: {pitch}");
+        assert!(pitch < -0.05, "{name}: the stick has no effect on tilt: {pitch}");
         bench.sticks = Some(Sticks::default());
         (bench.jammed, bench.dark) = (false, false);
         bench.run(20.0, |_| ());
@@ -152,7 +152,7 @@ fn flight_a_takeoff_with_a_low_battery_returns_once() {
         returned |= bench.autopilot.status().mode == FlightMode::Return;
     }
     assert!(returned, "{:?}", bench.autopilot.status().mode);
-    // The pilot has the last word.
+    // The pilot's command has priority.
     bench.ask(AutopilotRequest::SetMode(FlightMode::Hold));
     bench.run(2.0, |_| ());
     assert_eq!(bench.autopilot.status().mode, FlightMode::Hold);
@@ -160,7 +160,7 @@ fn flight_a_takeoff_with_a_low_battery_returns_once() {
 
 #[test]
 fn flight_an_upset_is_mended_in_the_air() {
-    // m of height and s of time for a body thrown upside down.
+    // Limits of the lost height, m, and recovery time, s, for a body that was turned upside down.
     const FALL_M: f64 = 14.0;
     const MENDED_S: f64 = 5.0;
     for name in VEHICLES {
@@ -202,8 +202,8 @@ fn flight_respawned_in_the_air_it_hovers_there() {
         bench.run(10.0, |b| stray = stray.max((b.position() - place).norm()));
         let status = bench.autopilot.status();
         assert!(status.armed && status.mode == FlightMode::Position, "{name}: {status:?}");
-        // m: the rotors start from rest, so it sinks before it holds.
-        assert!(stray < 2.5, "{name}: strayed {stray} m");
+        // Maximum deviation, m: the rotors start from rest, so the vehicle sinks before it holds its height.
+        assert!(stray < 2.5, "{name}: deviation of {stray} m");
         assert!(bench.state.rigid.velocity_m_s.norm() < 0.3, "{name}");
     }
 }
@@ -216,7 +216,7 @@ fn flight_moved_sticks_take_over_from_an_automatic_mode() {
     bench.run(0.2, |_| ());
     bench.ask(AutopilotRequest::SetMode(FlightMode::Hold));
     bench.run(1.0, |_| ());
-    assert_eq!(bench.autopilot.status().mode, FlightMode::Hold, "a throttle that only lies at its end is no wish");
+    assert_eq!(bench.autopilot.status().mode, FlightMode::Hold, "an idle throttle at its end must not take over");
     bench.sticks = Some(Sticks { forward: 0.6, up: -1.0, ..Sticks::default() });
     bench.run(0.2, |_| ());
     assert_eq!(bench.autopilot.status().mode, FlightMode::Position);

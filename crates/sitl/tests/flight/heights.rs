@@ -1,4 +1,4 @@
-//! Which sensor the height follows, by EKF2_HGT_REF.
+//! Sensors that the estimated height follows, depending on EKF2_HGT_REF.
 
 use super::consistency::{Run, flat};
 use spandrel_model::frames::Vec3;
@@ -6,28 +6,28 @@ use spandrel_model::time::SimTime;
 use spandrel_sitl::autopilot::operator_rules::HeightReference;
 use spandrel_sitl::sensors::Readings;
 
-/// A sensor's slow error in the end, m, and when it grows, s.
+/// Final value of a sensor's slow error, m, and start and end of its growth, s.
 const ERROR_M: f64 = 6.0;
 const GROWS_S: (f64, f64) = (20.0, 80.0);
-/// The height follows a sensor that it is nearer to than this, and does not follow one whose error it shows less of, m (the receiver alone: 0.64 m,
-/// 1 sigma).
+/// The height follows a sensor if it is within this distance of it, and does not follow one if it shows less than this
+/// of its error, m (the receiver alone: 0.64 m, 1 sigma).
 const NEAR_M: f64 = 1.5;
 
 fn grown_m(now: SimTime) -> f64 {
     ERROR_M * ((now.s() - GROWS_S.0) / (GROWS_S.1 - GROWS_S.0)).clamp(0.0, 1.0)
 }
 
-/// Where a slow change is: in the readings, or in the ground.
+/// A test case with a slow change, either in the readings or of the ground.
 struct Case {
     reference: HeightReference,
     change: fn(&mut Readings, SimTime),
     ground_up_m: fn(SimTime) -> f64,
-    /// The estimate's height over the true one in the end, m.
+    /// Expected final error of the estimated height, m.
     wanted_m: f64,
 }
 
 impl Case {
-    /// The estimate's height over the true one, m, and whether all sensors were used to the end.
+    /// Returns the error of the estimated height, m, and whether all sensors were used until the end.
     fn height_off_m(&self) -> (f64, bool) {
         let mut run = Run::in_the_open(3, self.ground_up_m);
         run.filter.wanted_reference = self.reference;

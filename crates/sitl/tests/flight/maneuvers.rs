@@ -1,4 +1,4 @@
-//! Hover, step, stop, turn, circle and gust flights by the sticks, with stated bounds, for every shipped aircraft.
+//! Stick-flown hover, step, stop, turn, circle and gust maneuvers, with stated bounds, for every supplied aircraft.
 
 use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::math;
@@ -6,21 +6,21 @@ use spandrel_sitl::autopilot::{AutopilotRequest, FlightMode, Sticks};
 use spandrel_testkit::bench::{Bench, VEHICLES};
 use spandrel_testkit::shipped::vehicle;
 
-/// Dead band of the sticks (the tuning's default).
+/// Dead band of the sticks (the default of the tuning).
 const DEADBAND: f64 = 0.03;
 
-/// Stick deflection for a share of the full command.
+/// Returns the stick deflection for a fraction of the full command.
 fn stick(share: f64) -> f64 {
     share * (1.0 - DEADBAND) + DEADBAND * share.signum()
 }
 
 #[test]
 fn flight_a_hover_is_steady() {
-    // m: the receiver's slow drift of 0.4 m (1 sigma) in half a minute.
+    // Maximum deviation, m: the receiver's slow drift of 0.4 m (1 sigma) over half a minute.
     const STRAY_M: f64 = 0.8;
-    // rad: a degree and a half of lean.
+    // Maximum tilt, rad: one and a half degrees.
     const LEAN_RAD: f64 = 0.026;
-    // m/s.
+    // Maximum speed, m/s.
     const SPEED_M_S: f64 = 0.25;
     for name in VEHICLES {
         let mut bench = Bench::by_hand(&vehicle(name), 1, 6.0);
@@ -38,16 +38,16 @@ fn flight_a_hover_is_steady() {
 
 #[test]
 fn flight_a_step_on_the_stick_gives_the_speed_and_letting_go_stops_within_the_slow_down_time() {
-    // m/s: the velocity estimate.
+    // Tolerance of the velocity estimate, m/s.
     const SPEED_M_S: f64 = 0.2;
-    // Share of the speed: overshoot, and what is left once it counts as stopped.
+    // Limits as fractions of the speed: overshoot, and remaining speed that counts as stopped.
     const OVERSHOOT: f64 = 0.08;
     const STOPPED: f64 = 0.1;
-    // m/s backwards after the stop.
+    // Maximum backward speed after the stop, m/s.
     const BACK_M_S: f64 = 0.2;
-    // m of height in the whole manoeuvre.
+    // Maximum change of height during the maneuver, m.
     const HEIGHT_M: f64 = 0.3;
-    // The fastest that inspection needs: 4.5 m/s, the job's speed limit.
+    // The highest speed that inspection requires: 4.5 m/s, the job's speed limit.
     const INSPECTION_M_S: f64 = 4.5;
     for name in VEHICLES {
         let aircraft = vehicle(name);
@@ -68,19 +68,19 @@ fn flight_a_step_on_the_stick_gives_the_speed_and_letting_go_stops_within_the_sl
         bench.sticks = Some(Sticks::default());
         bench.run(aircraft.limits.slow_down_time_s, |_| ());
         let left = bench.state.rigid.velocity_m_s.horizontal_norm();
-        assert!(left < STOPPED * wanted, "{name}: {left} m/s after the slow-down time");
+        assert!(left < STOPPED * wanted, "{name}: {left} m/s after the stopping time");
         let mut back: f64 = 0.0;
         bench.run(4.0, |b| {
             back = back.min(b.state.rigid.velocity_m_s.north());
             sag = sag.max((b.position().down() - height).abs());
         });
-        assert!(back > -BACK_M_S && sag < HEIGHT_M, "{name}: {back} m/s back, {sag} m of height");
+        assert!(back > -BACK_M_S && sag < HEIGHT_M, "{name}: {back} m/s backward, {sag} m of height lost");
     }
 }
 
 #[test]
 fn flight_full_stick_reaches_the_full_speed_in_every_axis() {
-    // Share of the full speed.
+    // Tolerance as a fraction of the full speed.
     const SHORT: f64 = 0.06;
     for name in VEHICLES {
         let aircraft = vehicle(name);
@@ -104,7 +104,7 @@ fn flight_full_stick_reaches_the_full_speed_in_every_axis() {
 
 #[test]
 fn flight_a_circle_by_stick_is_round() {
-    // Share of the radius.
+    // Tolerance as a fraction of the radius.
     const ROUND: f64 = 0.08;
     for name in VEHICLES {
         let aircraft = vehicle(name);
@@ -129,7 +129,7 @@ fn flight_a_circle_by_stick_is_round() {
 
 #[test]
 fn flight_a_gust_is_ridden_out() {
-    // m for a step of 6 m/s of wind, and what is left of it after a quarter of a minute.
+    // Maximum deviation after a wind step of 6 m/s, m, and deviation that remains after a quarter of a minute.
     const STRAY_M: f64 = 0.9;
     const LEFT_M: f64 = 0.6;
     for name in VEHICLES {
@@ -141,18 +141,19 @@ fn flight_a_gust_is_ridden_out() {
         let left = (bench.position() - start).norm();
         assert!(worst < STRAY_M && left < LEFT_M, "{name}: strayed {worst} m, left {left} m");
         let nose = bench.state.rigid.attitude * Vec3::<Frd>::new(1.0, 0.0, 0.0);
-        assert!(nose.down() < 0.0, "{name} leans back against a wind from behind: {nose:?}");
+        assert!(nose.down() < 0.0, "{name} must lean back against wind from behind: {nose:?}");
     }
 }
 
 #[test]
 fn flight_all_sticks_at_once_saturate_the_motors_and_stay_upright() {
-    // rad beyond the tilt limit.
+    // Maximum excess over the tilt limit, rad.
     const BEYOND_RAD: f64 = 0.1;
     for name in VEHICLES {
         let aircraft = vehicle(name);
         let mut bench = Bench::by_hand(&aircraft, 5, 20.0);
-        // Here the throttle stick is thrust: all of it, while the others swing from end to end.
+        // In this mode the throttle stick sets thrust. It is at its maximum, while the other sticks swing from end to
+        // end.
         bench.ask(AutopilotRequest::SetMode(FlightMode::Stabilized));
         let (mut full, mut lean): (bool, f64) = (false, 0.0);
         for sign in [1.0, -1.0, 1.0, -1.0] {
@@ -163,7 +164,7 @@ fn flight_all_sticks_at_once_saturate_the_motors_and_stay_upright() {
                 lean = lean.max(math::acos(down));
             });
         }
-        assert!(full, "{name}: no motor was ever full, so this proves nothing");
+        assert!(full, "{name}: no motor was saturated, so the test is pointless");
         assert!(lean < aircraft.limits.tilt_rad + BEYOND_RAD, "{name}: leaned {lean} rad");
         bench.sticks = Some(Sticks::default());
         bench.ask(AutopilotRequest::SetMode(FlightMode::Position));
@@ -174,7 +175,7 @@ fn flight_all_sticks_at_once_saturate_the_motors_and_stay_upright() {
 
 #[test]
 fn flight_from_full_speed_it_stops_within_its_slow_down_time() {
-    // Share of the full speed that counts as stopped.
+    // Fraction of the full speed that counts as stopped.
     const STOPPED: f64 = 0.1;
     for name in VEHICLES {
         let aircraft = vehicle(name);
@@ -186,12 +187,12 @@ fn flight_from_full_speed_it_stops_within_its_slow_down_time() {
             bench.sticks = Some(Sticks::default());
             bench.run(aircraft.limits.slow_down_time_s, |_| ());
             let left = bench.state.rigid.velocity_m_s.horizontal_norm();
-            assert!(left < STOPPED * full, "{name}: {left} of {full} m/s are left after the slow-down time");
+            assert!(left < STOPPED * full, "{name}: {left} of {full} m/s remain after the stopping time");
         }
     }
 }
 
-/// Heading after letting go of a full yaw stick: how far the nose swings back, rad, and how far it turned on before, rad.
+/// Releases a full yaw stick and returns how far the nose swings back, rad, and how far it turned on before, rad.
 fn release_yaw(bench: &mut Bench, yaw: f64) -> (f64, f64) {
     const HELD_S: f64 = 3.0;
     const SETTLED_S: f64 = 5.0;
@@ -210,11 +211,11 @@ fn release_yaw(bench: &mut Bench, yaw: f64) -> (f64, f64) {
 
 #[test]
 fn regress_the_nose_does_not_swing_back_when_the_yaw_stick_is_released() {
-    // rad: what issue 16 allows, 1 deg; a real PX4 swings back by 0.4 deg.
+    // Limit of issue 16, rad (1 deg); a real PX4 swings back by 0.4 deg.
     const SWING_RAD: f64 = 0.017_453;
-    // rad: from 100 deg/s to rest in 0.3 s are 15 deg; half as much again for the lag.
+    // Slowing from 100 deg/s to rest in 0.3 s takes 15 deg; half as much again for the lag, rad.
     const ON_RAD: f64 = 0.393;
-    // m: with the throttle stick in its middle Stabilized mode sinks.
+    // Initial height, m; in Stabilized mode, the vehicle sinks with the throttle stick centered.
     const HIGH_M: f64 = 40.0;
     for name in VEHICLES {
         let aircraft = vehicle(name);
@@ -225,7 +226,7 @@ fn regress_the_nose_does_not_swing_back_when_the_yaw_stick_is_released() {
                 let (swing, on) = release_yaw(&mut bench, yaw);
                 assert!(bench.position().down() < -1.0, "{name}, {mode:?}: on the ground");
                 assert!(swing < SWING_RAD, "{name}, {mode:?}, stick {yaw}: swings back {} deg", swing.to_degrees());
-                assert!(on < ON_RAD, "{name}, {mode:?}, stick {yaw}: turns on for {} deg", on.to_degrees());
+                assert!(on < ON_RAD, "{name}, {mode:?}, stick {yaw}: continues for {} deg", on.to_degrees());
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Missions: the planned way through waypoints, take-offs, speeds.
+//! Missions: planned trajectory through waypoints, takeoffs, speeds.
 
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::random::RandomStream;
@@ -9,9 +9,9 @@ use spandrel_testkit::shipped::vehicle;
 
 const STEP_S: f64 = 0.0025;
 const SPEEDS: SpeedLimits = SpeedLimits { default_m_s: 5.0, max_m_s: 12.0, up_m_s: 3.0, down_m_s: 1.5 };
-/// m/s²: along the leg and across it at once, each within its own bound of 2.
+/// Accelerations along the leg and across it, each within its own limit of 2, combined, m/s².
 const ACCELERATION_M_S2: f64 = 3.0;
-/// m/s³: the speed's jerk (4), the corner's (2.5), and what the speed's change adds within a corner.
+/// Jerk of the speed (4) and of the corner (2.5), plus the effect of speed changes within a corner, m/s³.
 const JERK_M_S3: f64 = 10.0;
 
 fn point(north: f64, east: f64, up: f64) -> MissionStep {
@@ -41,7 +41,7 @@ fn prop_a_planned_way_is_smooth_passes_every_waypoint_and_ends_at_rest() {
             let velocity = (now.position_m - before.position_m) / STEP_S;
             assert!(now.acceleration_m_s2.norm() < ACCELERATION_M_S2, "case {case}: {now:?}");
             assert!(jerk.norm() < JERK_M_S3, "case {case}: jerk {}", jerk.norm());
-            // m/s: half a step's acceleration.
+            // Tolerance of half a step's acceleration, m/s.
             assert!((velocity - now.velocity_m_s).norm() < 0.02, "case {case}: {velocity:?} {now:?}");
             for (least, waypoint) in nearest.iter_mut().zip(&waypoints) {
                 *least = least.min((now.position_m - waypoint.position_m).norm());
@@ -49,7 +49,7 @@ fn prop_a_planned_way_is_smooth_passes_every_waypoint_and_ends_at_rest() {
             before = now;
         }
         assert!(nearest.iter().all(|m| *m < 0.5 * accept_m + 0.01), "case {case}: {nearest:?} with {accept_m}");
-        // m, m/s.
+        // Tolerances, m and m/s.
         assert!(nearest.last().is_some_and(|m| *m < 0.02) && before.velocity_m_s.norm() < 0.02, "case {case}: {before:?}");
     }
 }
@@ -66,7 +66,7 @@ fn prop_a_way_that_is_joined_in_flight_goes_on_from_its_motion() {
         let to = Waypoint { position_m: somewhere(&mut stream, 30.0), speed_m_s: None, accept_m: 2.0 };
         let mut way = Trajectory::join(from, &[to], AccelerationLimits::within(6.0, 4.0)).expect("a waypoint");
         let begins = way.planned();
-        // m, m/s, m/s²: rounding.
+        // Rounding tolerances, m, m/s, m/s².
         assert!((begins.position_m - from.position_m).norm() < 1e-9);
         assert!((begins.velocity_m_s - from.velocity_m_s).norm() < 1e-9);
         assert!((begins.acceleration_m_s2 - from.acceleration_m_s2).norm() < 1e-9);
@@ -79,7 +79,7 @@ fn prop_a_way_that_is_joined_in_flight_goes_on_from_its_motion() {
 
 #[test]
 fn regress_a_straight_leg_holds_its_speed_through_waypoints() {
-    // m/s of 5: what PX4's integration test asks of a fly-through.
+    // Minimum speed of 5 m/s that PX4's integration test requires when flying through waypoints.
     const HELD_M_S: f64 = 4.0;
     for name in VEHICLES {
         let mut bench = Bench::new(&vehicle(name), 3);
@@ -91,14 +91,14 @@ fn regress_a_straight_leg_holds_its_speed_through_waypoints() {
         bench.ask(AutopilotRequest::StartMission { first: None });
         let (mut slowest, mut fastest): (f64, f64) = (f64::INFINITY, 0.0);
         bench.run(70.0, |b| {
-            // On the way to 40 and to 60 m.
+            // During the legs to 40 m and 60 m.
             if matches!(b.autopilot.status().mission_current, 4 | 5) {
                 let speed = b.state.rigid.velocity_m_s.horizontal_norm();
                 (slowest, fastest) = (slowest.min(speed), fastest.max(speed));
             }
         });
         assert!(bench.autopilot.status().mission_finished, "{name}: {:?}", bench.position());
-        // m/s over the mission's speed: the estimate's error.
+        // Overshoot of the mission's speed: the error of the estimate, m/s.
         assert!(slowest >= HELD_M_S && fastest < 5.5, "{name}: {slowest} to {fastest} m/s");
     }
 }
@@ -118,14 +118,14 @@ fn regress_a_take_off_step_below_the_ground_takes_off_instead_of_tipping_over() 
         });
         let status = bench.autopilot.status();
         assert!(status.mission_finished && status.landed == LandedState::InAir, "{up_m}: {status:?} {:?}", bench.position());
-        // The aircraft's own tilt limit.
+        // The tilt limit of the aircraft.
         assert!(tilt_deg < 35.0, "{up_m}: tilted to {tilt_deg} deg");
     }
 }
 
 #[test]
 fn regress_a_take_off_climbs_at_its_own_rate() {
-    // m/s.
+    // Tolerance, m/s.
     const NEAR_M_S: f64 = 0.3;
     for (own_m_s, climb_m_s, at_climb_speed, expected_m_s) in
         [(1.0, 3.0, false, 1.0), (2.5, 3.0, false, 2.5), (1.0, 2.0, true, 2.0), (1.0, 4.0, true, 4.0)]
@@ -144,7 +144,7 @@ fn regress_a_take_off_climbs_at_its_own_rate() {
                 bench.ask(AutopilotRequest::Takeoff { height_m: Some(14.0) });
             }
             let mut fastest: f64 = 0.0;
-            // Below 9 m: PX4's own rate holds up to 10 m.
+            // Below 9 m, because PX4's takeoff rate applies up to 10 m.
             bench.run(20.0, |b| {
                 if -b.position().down() < 9.0 {
                     fastest = fastest.max(-b.state.rigid.velocity_m_s.down());
@@ -157,7 +157,7 @@ fn regress_a_take_off_climbs_at_its_own_rate() {
 
 #[test]
 fn regress_a_mission_without_a_take_off_step_climbs_before_it_flies_away() {
-    // m: a quarter of the take-off's height.
+    // Maximum drift, m: a quarter of the takeoff height.
     const DRIFT_M: f64 = 0.6;
     let mut bench = Bench::new(&vehicle("phantom2"), 7);
     bench.autopilot.set_mission(vec![point(60.0, 0.0, 6.0)]);
@@ -170,7 +170,7 @@ fn regress_a_mission_without_a_take_off_step_climbs_before_it_flies_away() {
             worst = worst.max(b.position().horizontal_norm());
         }
     });
-    assert!(worst < DRIFT_M, "{worst} m off its place below 1.5 m");
+    assert!(worst < DRIFT_M, "{worst} m of drift below a height of 1.5 m");
     let status = bench.autopilot.status();
     assert!(status.mission_finished && status.mode == FlightMode::Hold, "{status:?} {:?}", bench.position());
 }

@@ -1,4 +1,4 @@
-//! What an operator sets of failsafes, returns, limits, missions and the geofence, flown.
+//! Effects of operator settings on failsafes, returns, limits, missions and the geofence in flight.
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::math;
@@ -13,11 +13,11 @@ use spandrel_sitl::autopilot::{
 use spandrel_testkit::bench::Bench;
 use spandrel_testkit::shipped::vehicle;
 
-/// A limit on a speed is held within this share: the velocity loop overshoots a little.
+/// Overshoot factor for speed limits: the velocity loop overshoots slightly.
 const SPEED_SHARE: f64 = 1.1;
-/// An acceleration is held within this, m/s²: what the loops add to the plan.
+/// Tolerance of accelerations, m/s²: added by the control loops.
 const ACCELERATION_M_S2: f64 = 0.5;
-/// A height is held within this, m: the barometer's noise and the loops.
+/// Tolerance of heights, m: barometer noise and control loops.
 const HEIGHT_M: f64 = 0.8;
 
 fn airborne(change: impl Fn(&mut Tuning)) -> Bench {
@@ -60,7 +60,7 @@ fn flight_lost_sticks_end_a_mission_unless_it_is_excepted_or_they_were_let_go_of
             bench.autopilot.release_sticks();
         }
         bench.run(2.0, |_| ());
-        assert_eq!(mode(&bench), expected, "excepted {except}, let go {let_go}");
+        assert_eq!(mode(&bench), expected, "exception {except}, released {let_go}");
     }
 }
 
@@ -115,12 +115,12 @@ fn flight_the_battery_leads_to_what_the_operator_set_at_each_level() {
         bench.run(1.0, |_| ());
         assert_eq!(mode(&bench), expected, "{battery:?} at {charge_pct} %");
     }
-    // By voltage: only after it has been low for the time.
+    // The voltage must be low for the specified time before the failsafe acts.
     let mut bench = airborne(|_| ());
     let responses = &mut bench.autopilot.tuning.rules.responses;
     (responses.battery, responses.battery_low_v, responses.battery_low_s) = ([land, None, None], [100.0, 0.0], 5.0);
     bench.run(4.5, |_| ());
-    assert_eq!(mode(&bench), FlightMode::Hold, "not yet");
+    assert_eq!(mode(&bench), FlightMode::Hold, "the failsafe must not act yet");
     bench.run(1.0, |_| ());
     assert_eq!(mode(&bench), FlightMode::Land);
 }
@@ -223,7 +223,7 @@ fn flight_a_return_goes_to_the_places_that_its_type_allows() {
 
 #[test]
 fn flight_the_nose_points_where_the_operator_set() {
-    // The bench starts with the nose to the north; the flight goes east, home lies west of it.
+    // The bench starts with the nose to the north; the flight goes east, so home is to the west.
     let east = std::f64::consts::FRAC_PI_2;
     let cases = [
         (HeadingRule::Fixed, FlightMode::Hold, 0.0),
@@ -252,7 +252,7 @@ fn flight_the_nose_points_where_the_operator_set() {
 
 #[test]
 fn flight_limits_of_sticks_and_of_automatic_flight_are_kept() {
-    // Acceleration of a go-to.
+    // Acceleration of a go-to command.
     for limit in [1.0, f64::INFINITY] {
         let mut bench = airborne(|tuning| tuning.rules.envelope.acceleration_m_s2 = limit);
         bench.ask(AutopilotRequest::GoTo { north_east_m: Some((40.0, 0.0)), up_m: None, yaw_rad: None, speed_m_s: Some(5.0) });
@@ -261,7 +261,7 @@ fn flight_limits_of_sticks_and_of_automatic_flight_are_kept() {
         let kept = speed < 2.0 * (1.0 + ACCELERATION_M_S2);
         assert_eq!(kept, limit.is_finite(), "limit {limit}: {speed} m/s after 2 s");
     }
-    // Speed, climb, descent and yaw rate by the sticks.
+    // Speed, climb, descent and yaw rate with the sticks.
     let mut bench = Bench::by_hand(&vehicle("phantom2"), 5, 12.0);
     let set = &mut bench.autopilot.tuning.rules.envelope;
     (set.manual_m_s, set.manual_up_m_s, set.manual_down_m_s, set.manual_yaw_rad_s) = (2.0, 0.8, 0.5, 0.5);
@@ -281,7 +281,7 @@ fn flight_limits_of_sticks_and_of_automatic_flight_are_kept() {
         let seen = [v.horizontal_norm(), -v.down(), v.down(), rate][k];
         assert!(seen < limit * SPEED_SHARE && seen > 0.7 * limit, "stick {k}: {seen}, limit {limit}");
     }
-    // Tilt.
+    // Tilt limit.
     bench.sticks = Some(centered);
     bench.run(3.0, |_| ());
     bench.autopilot.tuning.rules.envelope.manual_tilt_rad = 0.15;
@@ -329,7 +329,7 @@ fn flight_a_mission_that_restarts_starts_over_when_it_is_entered_again() {
         bench.ask(AutopilotRequest::StartMission { first: None });
         bench.run(8.0, |_| ());
         let before = bench.autopilot.status().mission_current;
-        assert!(before > 0, "it has come to the second waypoint");
+        assert!(before > 0, "the vehicle must have reached the second waypoint");
         bench.ask(AutopilotRequest::SetMode(FlightMode::Hold));
         bench.run(1.0, |_| ());
         bench.ask(AutopilotRequest::SetMode(FlightMode::Mission));
@@ -355,7 +355,7 @@ fn flight_only_the_parts_of_the_fence_that_are_on_act_and_its_floor_is_kept() {
         tuning.fence_action = FenceAction::Hold;
         tuning.rules.fence = parts(true, Some(3.0));
     });
-    assert_eq!(bench.autopilot.status().fence.count, 0, "the way up through the floor is no breach");
+    assert_eq!(bench.autopilot.status().fence.count, 0, "climbing through the floor must not be a breach");
     assert_eq!(bench.autopilot.request(up(2.0), bench.now), RequestOutcome::Denied("Target outside geofence".into()));
     bench.sticks = Some(Sticks::default());
     bench.run(0.2, |_| ());
@@ -366,5 +366,5 @@ fn flight_only_the_parts_of_the_fence_that_are_on_act_and_its_floor_is_kept() {
     bench.sticks = None;
     bench.ask(AutopilotRequest::SetMode(FlightMode::Land));
     bench.run(20.0, |_| ());
-    assert_eq!(bench.autopilot.status().fence.count, 1, "a landing is no breach");
+    assert_eq!(bench.autopilot.status().fence.count, 1, "a landing must not be a breach");
 }

@@ -1,4 +1,4 @@
-//! Sensors that repeat their last value or contradict the others, injected in flight.
+//! Sensors that repeat their last value or contradict the others, with the fault injected in flight.
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::time::SimTime;
@@ -8,9 +8,10 @@ use spandrel_sitl::sensors::Readings;
 use spandrel_testkit::bench::{Bench, VEHICLES};
 use spandrel_testkit::shipped::vehicle;
 
-/// m: a vehicle that flies on without its barometer holds its height by the receiver alone, whose height drifts by 0.64 m (1 sigma).
+/// Height tolerance, m: without its barometer, the vehicle holds its height with the receiver only, whose height drifts
+/// by 0.64 m (1 sigma).
 const HEIGHT_M: f64 = 2.5;
-/// m: the same for the place, by the receiver (0.4 m, 1 sigma) or by optical flow.
+/// Horizontal tolerance, m, with the receiver (0.4 m, 1 sigma) or optical flow.
 const PLACE_M: f64 = 2.5;
 
 fn go(bench: &mut Bench, north: f64, east: f64, up: f64) {
@@ -21,7 +22,8 @@ fn said(bench: &mut Bench) -> Vec<String> {
     bench.autopilot.drain_events().into_iter().map(|event| event.text).collect()
 }
 
-/// Flies a square with the fault from its first leg on, then lands; the largest distance from where it should be, horizontal and up, m.
+/// Flies a square with the fault from its first leg on, then lands; returns the largest horizontal and vertical
+/// deviation, m, and the texts.
 fn square(name: &str, unit: FailureUnit, kind: FailureType) -> (f64, f64, Vec<String>) {
     let mut bench = Bench::airborne(&vehicle(name), 21, 5.0);
     said(&mut bench);
@@ -100,9 +102,9 @@ fn regress_a_sensor_that_contradicts_the_others_is_announced_dropped_and_survive
     }
 }
 
-/// m/s at which a tampered height drifts: slow enough that no single reading is an outlier.
+/// Drift rate of a tampered height, m/s: so slow that no single reading is an outlier.
 const CREEP_M_S: f64 = 0.4;
-/// The creep begins once the vehicle hovers, s.
+/// Time at which the drift begins, when the vehicle hovers, s.
 const CREEP_FROM_S: f64 = 30.0;
 
 fn crept_m(now: SimTime) -> f64 {
@@ -119,10 +121,12 @@ fn creeping_receiver(readings: &mut Readings, now: SimTime) {
     }
 }
 
-/// The height that two of receiver, barometer and range finder agree on is flown, whichever of the first two creeps away.
+/// The vehicle must follow the height on which two of receiver, barometer and range finder agree, when one of the first
+/// two drifts away.
 #[test]
 fn regress_a_height_that_creeps_away_is_not_flown() {
-    // m: the receiver's height counts as contradicted at five times its error of 0.8 m; up to there the vehicle follows.
+    // The receiver's height counts as contradicted at five times its error of 0.8 m; up to there, the vehicle follows
+    // it, m.
     const FOLLOWED_M: f64 = 4.5;
     for name in VEHICLES {
         for (tamper, text) in [
@@ -141,11 +145,12 @@ fn regress_a_height_that_creeps_away_is_not_flown() {
     }
 }
 
-/// Once the sensors agree that the receiver has jumped for good, the position is set to it and announced; a vehicle that a pilot holds in place
-/// stays there. With optical flow as a witness nothing is reset.
+/// When the sensors agree that the receiver has jumped permanently, the position must be reset to it and the reset
+/// announced; a vehicle that a pilot holds in position must stay there. With optical flow as a reference, there must be
+/// no reset.
 #[test]
 fn regress_a_steady_jump_of_the_receiver_resets_the_position_and_reports_it() {
-    // m: it drifts by its inertial sensors alone while the receiver is refused.
+    // Maximum drift on inertial sensors while the receiver is rejected, m.
     const DRIFTED_M: f64 = 4.0;
     for name in VEHICLES {
         for dark in [true, false] {
@@ -156,7 +161,7 @@ fn regress_a_steady_jump_of_the_receiver_resets_the_position_and_reports_it() {
             let before = bench.position();
             assert!(bench.faults.inject(FailureUnit::Gnss, Some(FailureType::Wrong), 0, 4));
             bench.run(2.0, |_| ());
-            assert_eq!(bench.autopilot.status().position_resets, 0, "{name}: single fixes are refused");
+            assert_eq!(bench.autopilot.status().position_resets, 0, "{name}: single fixes must be rejected");
             let mut farthest: f64 = 0.0;
             bench.run(28.0, |b| farthest = farthest.max((b.position() - before).horizontal_norm()));
             let texts = said(&mut bench);

@@ -1,4 +1,4 @@
-//! Take-off, hover and landing of every shipped vehicle on the shipped job, in every wind level, over many seeds.
+//! Takeoff, hover and landing of every supplied vehicle in the supplied job at every wind level with many seeds.
 
 use spandrel_mavlink::dialect::{MavCmd, MavMessage, MavModeFlag, MavResult};
 use spandrel_model::frames::{Enu, Vec3};
@@ -8,18 +8,19 @@ use spandrel_sitl::sim::SimEvent;
 use spandrel_testkit::shipped::text;
 use spandrel_testkit::station::{Station, p};
 
-/// Levels of `wind.level`.
+/// Values of `wind.level`.
 const LEVELS: [&str; 4] = ["calm", "light", "gentle", "medium"];
-/// A vehicle farther than this from the pad is lost, m. Gusts of 15 m/s in medium wind push the lightest one, which tilts enough for
-/// 13 m/s, up to 15 m away until they are over; before the mend the caged one was 100 to 400 m away.
+/// Distance from the pad beyond which a vehicle counts as lost, m. Gusts of 15 m/s in medium wind push the lightest
+/// one, which can tilt enough for 13 m/s, up to 15 m away; before the fix, the caged one drifted 100 to 400 m.
 const LOST_M: f64 = 20.0;
-/// The vehicle must be ready to arm within this, s: alignment waits for a calm half second, the receiver for its first fix.
+/// Time within which the vehicle must be ready to arm, s: alignment waits for half a second without motion, the
+/// receiver for its first fix.
 const READY_S: i64 = 30;
 const HOVER: SimTime = SimTime::from_ms(60_000);
-/// Landing from 2.5 m takes 4 s at the slow landing speed, disarming 2 s more; the rest is margin, s.
+/// Time limit for landing, s: 4 s from 2.5 m at the slow landing speed, 2 s for disarming, and margin.
 const LAND_S: i64 = 40;
 
-/// A flight to make.
+/// Parameters of a flight.
 #[derive(Debug, Clone, Copy)]
 struct Flight {
     vehicle: &'static str,
@@ -27,23 +28,23 @@ struct Flight {
     seed: u64,
 }
 
-/// The shipped job with another wind level.
+/// Returns the supplied job with another wind level.
 fn job(level: &str) -> Scenario {
     let text = text("scenarios/two-bridges.toml").replace("level = \"light\"", &format!("level = \"{level}\""));
     assert!(text.contains(&format!("level = \"{level}\"")));
     spandrel_model::scenario::read("two-bridges.toml", &text, &|f| Err(f.into())).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// How a flight went.
+/// Result of a flight.
 #[derive(Debug, Clone, Copy, Default)]
 struct Flown {
-    /// Farthest from the pad, m.
+    /// Maximum distance from the pad, m.
     farthest_m: f64,
-    /// Contacts faster than a landing, for example because a gust tipped the standing vehicle over.
+    /// Number of contacts faster than a landing, for example when a gust tips the standing vehicle over.
     hard_contacts: usize,
 }
 
-/// Runs for a while without looking at the telemetry; why the flight failed, if it did.
+/// Runs for a while without reading the telemetry. Returns an error if the flight fails.
 fn pass(station: &mut Station, pad_m: Vec3<Enu>, time: SimTime, flown: &mut Flown) -> Result<(), String> {
     let end = station.sim.now() + time;
     while station.sim.now() < end {
@@ -66,7 +67,7 @@ fn pass(station: &mut Station, pad_m: Vec3<Enu>, time: SimTime, flown: &mut Flow
     Ok(())
 }
 
-/// The armed flag of the next heartbeat.
+/// Returns the armed flag of the next heartbeat.
 fn armed(station: &mut Station) -> bool {
     station.received.clear();
     station.run_ms(1_000);
@@ -74,10 +75,10 @@ fn armed(station: &mut Station) -> bool {
         MavMessage::HEARTBEAT(beat) if beat.custom_mode != 0 => Some(beat.base_mode),
         _ => None,
     });
-    beat.expect("a heartbeat a second").contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED)
+    beat.expect("one heartbeat per second").contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED)
 }
 
-/// Arms as soon as the vehicle allows it, takes off to the default height, hovers for a minute, lands.
+/// Arms as soon as the vehicle allows it, takes off to the default height, hovers for a minute, and lands.
 fn fly(flight: Flight) -> Result<Flown, String> {
     let job = job(flight.level);
     let pad_m = job.ground_team.pad_m;
@@ -102,7 +103,7 @@ fn fly(flight: Flight) -> Result<Flown, String> {
     pass(&mut station, pad_m, HOVER, &mut flown)?;
     let height_m = station.sim.truth().rigid.position_m.enu().up() - pad_m.up();
     if !armed(&mut station) || height_m < 1.0 || flown.hard_contacts > 0 {
-        return Err(format!("not hovering: {height_m:.2} m over the pad, {} hard contacts", flown.hard_contacts));
+        return Err(format!("not hovering: {height_m:.2} m above the pad, {} hard contacts", flown.hard_contacts));
     }
     station.command(1, MavCmd::MAV_CMD_NAV_LAND, here);
     for _ in 0..LAND_S {
@@ -114,8 +115,8 @@ fn fly(flight: Flight) -> Result<Flown, String> {
     Err(format!("not landed {LAND_S} s after the command"))
 }
 
-/// All wind levels over forty seeds: no flight is lost. Up to gentle wind no landing is a hard contact; in medium wind (9.8 m/s and gusts)
-/// a gust may still tip over what stands there.
+/// Flies at all wind levels with forty seeds; no flight may be lost. Up to gentle wind, no landing may be a hard
+/// contact; in medium wind (9.8 m/s and gusts), a gust may still tip over a standing vehicle.
 fn hold_in_every_wind(vehicle: &'static str) {
     const SEEDS: u64 = 40;
     let (mut lost, mut hard) = (Vec::new(), Vec::new());
@@ -134,7 +135,7 @@ fn hold_in_every_wind(vehicle: &'static str) {
             }
         }
         let count = hard.iter().filter(|flight| flight.level == level).count();
-        println!("{vehicle}, {level}: farthest from the pad {farthest_m:.2} m, {count} hard landings of {SEEDS}");
+        println!("{vehicle}, {level}: farthest from the pad {farthest_m:.2} m, {count} of {SEEDS} landings were hard");
     }
     assert!(lost.is_empty(), "{} lost:\n{}", lost.len(), lost.join("\n"));
     assert!(hard.iter().all(|flight| flight.level == "medium"), "hard landings: {hard:?}");

@@ -1,4 +1,4 @@
-//! Feeds datagrams to a vehicle and looks for what must never happen.
+//! Feeds datagrams to a vehicle and checks invariants that must never be violated.
 
 use super::mutate;
 use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
@@ -14,23 +14,25 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 pub const STATION: LinkId = LinkId(1);
 const SIDECAR: LinkId = LinkId(2);
-/// Answers and copies that one incoming frame may cause at once beside all of a flavor's modes: their acknowledgement, a copy to the other link.
+/// Maximum number of responses and copies caused by one frame, in addition to all of a flavor's modes: an
+/// acknowledgment, and a copy to the other link.
 const BESIDE_MODES: usize = 2;
-/// Frames in five ticks that nobody asked for just then: streams at their fastest, named values and full stocks of texts, on two links.
+/// Maximum number of unsolicited frames in five ticks: streams at their fastest, named values and full text queues, on
+/// two links.
 const FRAMES_A_TICK: usize = 800;
 
-/// A vehicle under fire, or one with a planted fault.
+/// A vehicle under test, or one with a planted fault.
 pub trait Subject {
     fn receive(&mut self, bytes: &[u8]);
-    /// Lets the vehicle act on what has come, without a tick.
+    /// Lets the vehicle process received datagrams without a tick.
     fn look(&mut self);
-    /// Some ticks.
+    /// Advances by some ticks.
     fn tick(&mut self);
     fn drain(&mut self) -> Vec<Vec<u8>>;
     fn sound(&self) -> bool;
 }
 
-/// The real one.
+/// A vehicle without planted faults.
 pub struct Vehicle(pub Sim);
 
 impl Vehicle {
@@ -40,7 +42,7 @@ impl Vehicle {
         Self(sim)
     }
 
-    /// A store where everything is there, larger or stranger than anybody expects.
+    /// Answers file jobs like a storage in which everything exists, with extreme or unusual contents.
     fn do_jobs(&mut self) {
         while let Some(job) = self.0.poll_file_job() {
             let outcome = match (job.ticket % 5, job.action) {
@@ -87,14 +89,14 @@ impl Subject for Vehicle {
     }
 }
 
-/// What must never happen has happened.
+/// A violated invariant.
 #[derive(Debug)]
 pub struct Finding {
     pub what: String,
     pub datagram: Vec<u8>,
 }
 
-/// How deep the shots went: what the vehicle did because of them.
+/// Coverage of a run: counts of the vehicle's reactions.
 #[derive(Debug, Default)]
 pub struct Depth {
     pub datagrams: usize,
@@ -109,13 +111,14 @@ pub struct Depth {
 
 pub struct Driver<'a> {
     pub stream: RandomStream,
-    /// Commands that are handled.
+    /// Numbers of the commands that are handled.
     pub numbers: &'a [u16],
     pub depth: Depth,
 }
 
 impl Driver<'_> {
-    /// Shoots `count` datagrams, some ticks after every second one, and asks at the end whether the vehicle still answers.
+    /// Sends `count` datagrams with some ticks after every second one, and finally checks whether the vehicle still
+    /// responds.
     pub fn shoot(&mut self, subject: &mut dyn Subject, count: usize) -> Result<(), Finding> {
         let mut queue: Vec<Vec<u8>> = Vec::new();
         for k in 0..count {
@@ -144,7 +147,7 @@ impl Driver<'_> {
         subject.look();
         let answers = self.listen(subject)?;
         if answers > (most_modes() + BESIDE_MODES) * frames {
-            return Err(format!("{answers} answers to {frames} frames"));
+            return Err(format!("{answers} responses to {frames} frames"));
         }
         if tick {
             subject.tick();
@@ -153,23 +156,23 @@ impl Driver<'_> {
                 return Err(format!("{said} frames in five ticks"));
             }
         }
-        if subject.sound() { Ok(()) } else { Err("the state is no number any more".into()) }
+        if subject.sound() { Ok(()) } else { Err("the state contains NaN or infinity".into()) }
     }
 
-    /// Number of frames that came out; each whole, and with numbers in it.
+    /// Returns the number of outgoing frames. Checks that each is complete and contains only finite numbers.
     fn listen(&mut self, subject: &mut dyn Subject) -> Result<usize, String> {
         let mut count = 0;
         for bytes in subject.drain() {
             let mut decoder = Decoder::new();
             let frames = decoder.datagram(&bytes);
             if decoder.bad_bytes() > 0 {
-                return Err("a datagram that is not whole frames".into());
+                return Err("a datagram with incomplete frames".into());
             }
             count += frames.len();
             for frame in frames.iter().filter(|f| f.system_id == 1 && matches!(f.component_id, 1 | 100)) {
                 self.note(frame);
                 if !frame.message.as_ref().is_none_or(finite) {
-                    return Err(format!("no number in {:?}", frame.message));
+                    return Err(format!("NaN or infinity in {:?}", frame.message));
                 }
             }
         }
@@ -215,16 +218,16 @@ impl Driver<'_> {
             heard.extend(Decoder::new().datagram(&bytes).iter().map(|f| f.message_id));
         }
         let missing: Vec<&u32> = [0, 22, 77].iter().filter(|id| !heard.contains(id)).collect();
-        if missing.is_empty() { Ok(()) } else { Err(format!("no answer any more: {missing:?} did not come")) }
+        if missing.is_empty() { Ok(()) } else { Err(format!("no more responses: {missing:?} missing")) }
     }
 }
 
-/// Modes of the flavor that has most: AVAILABLE_MODES asks for all at once.
+/// Returns the number of modes of the flavor with the most modes; AVAILABLE_MODES can request all of them at once.
 fn most_modes() -> usize {
     px4::FLAVOUR.modes.len().max(ardupilot::FLAVOUR.modes.len())
 }
 
-/// Messages about the state have numbers in all their fields.
+/// Checks that all fields of a state message are finite numbers.
 fn finite(message: &MavMessage) -> bool {
     let all = |values: &[f32]| values.iter().all(|v| v.is_finite());
     match message {

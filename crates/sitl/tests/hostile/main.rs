@@ -1,5 +1,6 @@
-//! The vehicle's endpoint under fire: every message that it handles with its fields changed and the checksum mended, and bytes that are
-//! no messages at all; on the ground, flown by hand, in a mission and under external set-points, as PX4 and as ArduPilot.
+//! Fuzzing of the vehicle's endpoint: every message that it handles, with changed fields and a correct checksum, and
+//! bytes that are not messages at all; on the ground, in manual flight, in a mission and with external setpoints, as
+//! PX4 and as ArduPilot.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod driver;
@@ -17,12 +18,13 @@ use spandrel_sitl::endpoint::flavour::ardupilot;
 use spandrel_sitl::sim::Sim;
 use spandrel_testkit::station::Station;
 
-/// Datagrams of the whole run (issue: 20,000).
+/// Number of datagrams in the whole run (issue: 20,000).
 const DATAGRAMS: usize = 40_000;
-/// Datagrams before the vehicle starts afresh from one of its situations, so that most of them meet a vehicle in flight.
+/// Number of datagrams before the vehicle restarts from one of its situations, so that most of them reach a vehicle in
+/// flight.
 const VOLLEY: usize = 400;
 
-/// Commands that the vehicle knows: everything else it calls unsupported.
+/// Returns the commands that the vehicle does not report as unsupported.
 fn known_commands(sim: &Sim) -> Vec<u16> {
     let mut sim = sim.clone();
     let mut stream = RandomStream::new(1, "commands");
@@ -32,7 +34,7 @@ fn known_commands(sim: &Sim) -> Vec<u16> {
         payload[28..30].copy_from_slice(&number.to_le_bytes());
         (payload[30], payload[31]) = (1, u8::from(number % 2 == 0));
         sim.handle_datagram(STATION, &mutate::frame(76, &payload, (255, 190), &mut stream));
-        // A tick each: no link may do more than a few things in one.
+        // One tick each, because the work per link and tick is limited.
         let next = sim.poll_timeout();
         sim.handle_timeout(next);
         while let Some(transmit) = sim.poll_transmit() {
@@ -48,7 +50,7 @@ fn known_commands(sim: &Sim) -> Vec<u16> {
     known
 }
 
-/// The situations in which the vehicle is met.
+/// Returns the situations from which the runs start.
 fn situations() -> Vec<Sim> {
     let mut ground = Station::new("drill-hover", 3);
     ground.run_ms(2_500);
@@ -81,11 +83,11 @@ fn situations() -> Vec<Sim> {
     vec![ground.vehicle.sim, flown.vehicle.sim, mission.vehicle.sim, offboard.vehicle.sim, copter.vehicle.sim, guided.vehicle.sim]
 }
 
-/// Shoots at one situation after the other, each volley at a fresh copy, until something is found.
+/// Fuzzes one situation after the other, with a new copy for each batch, until an invariant is violated.
 fn run(seed: u64, wrap: impl Fn(Vehicle) -> Box<dyn Subject>) -> Result<Depth, Finding> {
     let situations = situations();
     let mut numbers = known_commands(&situations[0]);
-    // What only one flavour knows: ArduPilot's DO_SEND_BANNER.
+    // A command that only one flavor handles: ArduPilot's DO_SEND_BANNER.
     numbers.push(42_428);
     assert!(numbers.len() > 40, "{numbers:?}");
     let stream = RandomStream::new(seed, "endpoint under fire");
@@ -101,11 +103,11 @@ fn run(seed: u64, wrap: impl Fn(Vehicle) -> Box<dyn Subject>) -> Result<Depth, F
 fn prop_every_message_that_is_handled_has_a_good_one_to_start_from() {
     for id in HANDLED {
         let good = seeds::good(*id);
-        assert!(!good.is_empty(), "message {id} is handled and not fuzzed: give it a good message in seeds.rs");
+        assert!(!good.is_empty(), "message {id} is handled but not fuzzed: add a valid message to seeds.rs");
         assert!(good.iter().all(|m| m.message_id() == *id));
     }
     let double = HANDLED.iter().enumerate().find(|(k, id)| HANDLED[..*k].contains(id));
-    assert_eq!(double, None, "handled twice");
+    assert_eq!(double, None, "message handled twice");
 }
 
 #[test]
@@ -113,14 +115,14 @@ fn prop_no_datagram_brings_the_vehicle_down() {
     let seed = std::env::var("SPANDREL_FUZZ_SEED").ok().and_then(|text| text.parse().ok()).unwrap_or(7);
     let depth = run(seed, |vehicle| Box::new(vehicle)).unwrap_or_else(|found| panic!("{}: {:02x?}", found.what, found.datagram));
     assert!(depth.datagrams >= 20_000);
-    // Shots that nothing takes in would prove nothing.
+    // The test is pointless if the datagrams have no effect.
     assert!(depth.commands_accepted.len() > 35, "{:?}", depth.commands_accepted);
     assert!(depth.plans_accepted > 500, "{}", depth.plans_accepted);
     assert!(depth.parameters_told > 1_000 && depth.refusals > 5_000, "{} {}", depth.parameters_told, depth.refusals);
     assert!(depth.file_data > 50, "{}", depth.file_data);
     assert!(depth.modes.len() >= 6, "{:x?}", depth.modes);
     for id in [0, 22, 44, 47, 51, 73, 77, 110, 111, 118, 120, 253, 345, 263, 435] {
-        assert!(depth.answers.contains_key(&id), "message {id} was never answered with");
+        assert!(depth.answers.contains_key(&id), "message {id} was never sent");
     }
 }
 
@@ -143,7 +145,7 @@ fn prop_what_is_no_frame_is_counted_byte_by_byte() {
     assert_eq!(sim.bad_bytes(), expected);
 }
 
-/// Nobody fetches what the vehicle says: what waits stays within a bound.
+/// Without a reader, the queued output must stay within a bound.
 #[test]
 fn prop_what_waits_to_be_sent_is_bounded() {
     const MOST_BYTES: usize = 4_000 * 1_400 + 300_000;
@@ -162,10 +164,11 @@ fn prop_what_waits_to_be_sent_is_bounded() {
 
 #[test]
 fn prop_planted_faults_are_found() {
-    // The faults panic on purpose.
+    // The planted faults panic on purpose.
     std::panic::set_hook(Box::new(|_| {}));
     for (fault, needle) in planted::FAULTS {
-        // One value of one field of one message among dozens: a run or two more may be needed.
+        // Each fault affects one value of one field of one message among dozens, so that more than one run may be
+        // needed.
         let found = (11..15).find_map(|seed| run(seed, |vehicle| Box::new(planted::Planted::new(vehicle, fault))).err());
         let found = found.unwrap_or_else(|| panic!("{fault:?} was not found"));
         assert!(found.what.contains(needle), "{fault:?}: {}", found.what);

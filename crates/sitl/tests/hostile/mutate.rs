@@ -1,4 +1,5 @@
-//! Datagrams that nobody meant to send: fields changed and the checksum mended, frames cut, bent, joined, or pure noise.
+//! Malformed and unusual datagrams: changed fields with a correct checksum; truncated, altered or joined frames; pure
+//! noise.
 
 use super::seeds;
 use mavlink::{MavlinkVersion, Message};
@@ -27,10 +28,10 @@ const SHORTS: [u16; 14] = [0, 1, 2, 3, 4, 5, 2000, 2001, 32_767, 32_768, 65_534,
 const BYTES: [u8; 10] = [0, 1, 2, 3, 7, 8, 127, 128, 254, 255];
 /// PX4's number of the mission mode.
 const MISSION_MODE: u32 = 4 << 16 | 4 << 24;
-/// Not UTF-8.
+/// Bytes that are not valid UTF-8.
 const TEXT: [u8; 4] = [0xC3, 0x28, 0xFF, 0xFE];
 
-/// A whole frame around a payload, its checksum right.
+/// Returns a complete frame around a payload, with a correct checksum.
 pub fn frame(id: u32, payload: &[u8], sender: (u8, u8), stream: &mut RandomStream) -> Vec<u8> {
     let extra = MavMessage::extra_crc(id);
     let sequence = stream.bits() as u8;
@@ -50,17 +51,18 @@ pub fn frame(id: u32, payload: &[u8], sender: (u8, u8), stream: &mut RandomStrea
     out
 }
 
-/// A message's payload with all its fields, extensions too.
+/// Returns the payload of a message with all its fields, including extensions.
 pub fn payload(message: &MavMessage) -> Vec<u8> {
     let mut bytes = [0; 255];
     let base = message.ser(MavlinkVersion::V1, &mut bytes);
     let mut bytes = [0; 255];
     let used = message.ser(MavlinkVersion::V2, &mut bytes);
-    // Extensions are at most some bytes longer than what is in use; what lies beyond is ignored.
+    // Extensions are at most a few bytes longer than the used ones; the receiver ignores bytes beyond them.
     bytes[..used.max((base + 4).min(255))].to_vec()
 }
 
-/// Changes a field, or what could be one: MAVLink lays fields out by size, so that every place is right for some type.
+/// Changes bytes that are or could be a field: MAVLink orders fields by size, so that any offset is valid for some
+/// type.
 pub fn field(bytes: &mut [u8], stream: &mut RandomStream) {
     fn put<const N: usize>(bytes: &mut [u8], value: [u8; N], stream: &mut RandomStream) {
         let places = bytes.len() / N;
@@ -83,7 +85,7 @@ pub fn field(bytes: &mut [u8], stream: &mut RandomStream) {
     }
 }
 
-/// A frame of a message that is handled: one in three as it should be, the others with some fields changed.
+/// Returns a frame of a message that is handled: one in three is unchanged, the others have some changed fields.
 fn handled(numbers: &[u16], stream: &mut RandomStream) -> Vec<u8> {
     let (id, mut bytes) = if stream.below(4) == 0 {
         seeds::command(numbers[stream.below(numbers.len())], stream)
@@ -110,7 +112,8 @@ fn sender(stream: &mut RandomStream) -> (u8, u8) {
     }
 }
 
-/// The frames of an upload, one changed, left out, doubled or exchanged with its neighbour; then the mission is flown.
+/// Returns the frames of an upload with one frame changed, omitted, duplicated or swapped with its neighbor, and then
+/// the command to fly the mission.
 pub fn upload(stream: &mut RandomStream) -> Vec<Vec<u8>> {
     let (items, item): (u16, fn(u16) -> MISSION_ITEM_INT_DATA) = match stream.below(4) {
         0 => (2, seeds::placeless),
@@ -137,7 +140,7 @@ pub fn upload(stream: &mut RandomStream) -> Vec<Vec<u8>> {
     payloads.iter().map(|(id, payload)| frame(*id, payload, (255, 190), stream)).collect()
 }
 
-/// One datagram.
+/// Returns one datagram.
 pub fn datagram(numbers: &[u16], stream: &mut RandomStream) -> Vec<u8> {
     if stream.below(16) == 0 {
         return (0..stream.below(400)).map(|_| if stream.below(8) == 0 { 0xFD } else { stream.bits() as u8 }).collect();

@@ -1,4 +1,5 @@
-//! Vehicles with a fault in them, each for one rare value of one field: if the fuzzing does not find these, it finds nothing.
+//! Vehicles with planted faults, each triggered by one rare value of one field. If the fuzzer does not find these, it
+//! is useless.
 
 use super::driver::{Subject, Vehicle};
 use spandrel_mavlink::codec::{Decoder, Encoder};
@@ -6,22 +7,22 @@ use spandrel_mavlink::dialect::*;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fault {
-    /// The last sequence number indexes past the end.
+    /// The last sequence number causes an index out of bounds.
     Index,
-    /// A not-a-number in a set-point gets into the state.
+    /// A NaN in a setpoint gets into the state.
     Poison,
-    /// The lowest index of a parameter is answered without end.
+    /// The lowest parameter index causes endless responses.
     Flood,
-    /// An infinite parameter of a command makes it deaf.
+    /// An infinite command parameter makes the vehicle unresponsive.
     Deaf,
 }
 
-/// Each with words of what must be reported.
+/// All faults, each with a part of the message that must be reported.
 pub const FAULTS: [(Fault, &str); 4] = [
     (Fault::Index, "panic: item 65535"),
-    (Fault::Poison, "no number in"),
-    (Fault::Flood, "answers to"),
-    (Fault::Deaf, "no answer any more"),
+    (Fault::Poison, "NaN or infinity in"),
+    (Fault::Flood, "responses to"),
+    (Fault::Deaf, "no more responses"),
 ];
 
 pub struct Planted {

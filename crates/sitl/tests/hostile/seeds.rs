@@ -1,4 +1,4 @@
-//! One good message or more of every kind that the vehicle acts on: what the mutation starts from.
+//! One or more valid messages of every kind that the vehicle handles, from which the mutation starts.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use mavlink::Message;
@@ -6,14 +6,14 @@ use spandrel_mavlink::dialect::*;
 use spandrel_model::random::RandomStream;
 
 const NAN: f32 = f32::NAN;
-/// The practice lake's origin, 1e-7 degrees: the job that the vehicle of these tests flies.
+/// Origin of the practice lake, 1e-7 degrees, the site of the job that these tests fly.
 pub const HERE: (i32, i32) = (467_052_000, 83_814_000);
 
 pub fn all(number: u32) -> Vec<MavMessage> {
     let mut out = good(number);
-    // The codec's own default besides, addressed to the vehicle.
+    // Adds the codec's default message, addressed to the vehicle.
     out.extend(MavMessage::default_message_from_id(number));
-    // The camera alone has extended parameters.
+    // Only the camera has extended parameters.
     let camera = (320..=324).contains(&number);
     for message in &mut out {
         if let Some(system) = message.target_system_id_mut() {
@@ -26,7 +26,7 @@ pub fn all(number: u32) -> Vec<MavMessage> {
     out
 }
 
-/// Hand-made ones; a message without any fails the test that counts them.
+/// Returns handwritten messages; the test that counts them fails if there are none.
 pub fn good(number: u32) -> Vec<MavMessage> {
     let made = [connection(), files(), sticks(), set_points(), gimbal(), parameters(), plans(), partial_plans(), commands()];
     made.into_iter().flatten().filter(|m| m.message_id() == number).collect()
@@ -83,7 +83,7 @@ fn connection() -> Vec<MavMessage> {
     ]
 }
 
-/// A request of every kind that the file service knows, and one that it does not.
+/// Returns a request for each operation of the file service, and an unknown one.
 fn files() -> Vec<MavMessage> {
     let request = |opcode| {
         let mut payload = [0; 251];
@@ -118,7 +118,7 @@ fn sticks() -> Vec<MavMessage> {
         }),
         MavMessage::SET_MODE(SET_MODE_DATA { custom_mode: 3 << 16, ..Default::default() }),
         MavMessage::SET_MODE(SET_MODE_DATA { custom_mode: 6 << 16, ..Default::default() }),
-        // Copter's LOITER and GUIDED.
+        // Copter's LOITER and GUIDED modes.
         MavMessage::SET_MODE(SET_MODE_DATA { custom_mode: 5, base_mode: custom, ..Default::default() }),
         MavMessage::SET_MODE(SET_MODE_DATA { custom_mode: 4, base_mode: custom, ..Default::default() }),
     ]
@@ -236,7 +236,7 @@ fn parameters() -> Vec<MavMessage> {
     ]
 }
 
-/// An item of a small flight about the origin.
+/// Returns an item of a small flight around the origin.
 pub fn item(seq: u16) -> MISSION_ITEM_INT_DATA {
     let command = match seq {
         0 => MavCmd::MAV_CMD_NAV_TAKEOFF,
@@ -262,13 +262,13 @@ pub fn item(seq: u16) -> MISSION_ITEM_INT_DATA {
     }
 }
 
-/// A take-off from wherever the vehicle is, and a landing there.
+/// Returns an item without a position: a takeoff or landing at the vehicle's current position.
 pub fn placeless(seq: u16) -> MISSION_ITEM_INT_DATA {
     let command = if seq == 0 { MavCmd::MAV_CMD_NAV_TAKEOFF } else { MavCmd::MAV_CMD_NAV_LAND };
     MISSION_ITEM_INT_DATA { command, x: 0, y: 0, ..item(seq) }
 }
 
-/// A corner of a triangle about the origin.
+/// Returns a corner of a triangle around the origin.
 pub fn corner(seq: u16) -> MISSION_ITEM_INT_DATA {
     MISSION_ITEM_INT_DATA {
         command: MavCmd::MAV_CMD_NAV_FENCE_POLYGON_VERTEX_INCLUSION,
@@ -362,9 +362,9 @@ fn commands() -> Vec<MavMessage> {
     ]
 }
 
-/// A command with any number and parameters that are often small and whole, as commands' are.
+/// Returns a command with any number and parameters that are often small integers, as in real commands.
 pub fn command(number: u16, stream: &mut RandomStream) -> (u32, Vec<u8>) {
-    // Questions about messages: mostly about one that is spoken.
+    // Requests for messages, mostly for ones that the vehicle sends.
     let spoken = &spandrel_sitl::endpoint::streams::STREAMS;
     let asks = matches!(number, 510..=512) && stream.below(4) > 0;
     let whole = stream.below(3) > 0;

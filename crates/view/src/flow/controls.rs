@@ -1,5 +1,5 @@
-//! Controller check before the flight (the calibration of the paper's questionnaire): live stick display and the calibration
-//! wizard.
+//! Controller check before the flight (the calibration step of the TASBID questionnaire): live stick display and
+//! calibration wizard.
 
 use super::menu::{self, MenuRow};
 use super::sheet::{PageWriter, SMALL, TEXT, TITLE};
@@ -8,7 +8,7 @@ use crate::hud::{HudColor, TextAlign};
 /// Current state of the controller.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ControllerStatus {
-    /// Name of the device; `None` uses the keyboard.
+    /// Name of the device; `None` if the keyboard is used.
     pub device: Option<String>,
     /// Whether the device has been disconnected; the keyboard is used until it returns.
     pub lost: bool,
@@ -57,7 +57,7 @@ impl ControllerStatus {
         self.device.is_some() && !self.lost
     }
 
-    /// Describes the device and the active input.
+    /// Returns a line that describes the device and the active input.
     fn standing(&self) -> String {
         match &self.device {
             None => "No controller found. Use the keyboard.".to_owned(),
@@ -136,7 +136,7 @@ fn stick(pen: &mut PageWriter, (x, y): (f64, f64), size: f64, (right, up): (f64,
     pen.text((mx, y + size + 0.07), TextAlign::Middle, SMALL, HudColor::Grey, format!("horizontal: {across}"));
 }
 
-/// Draws every raw axis as a bar with its range and value.
+/// Draws each raw axis as a bar with its range and value.
 fn axes(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, all: &[(u32, f64, (f64, f64))]) {
     const MOST: usize = 7;
     const HIGH: f64 = 0.024;
@@ -144,7 +144,7 @@ fn axes(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, all: &[(u32, f64, 
     let at = |value: f64| from + full * (0.5 + 0.5 * value.clamp(-1.0, 1.0));
     for (k, (axis, value, (low, high))) in all.iter().take(MOST).enumerate() {
         let y = y + 0.042 * k as f64;
-        // On Linux, the upper half of the number is the event type; users count axes from 0.
+        // On Linux, the upper half of the number is the event type; users know only the lower half, counted from 0.
         pen.text((x, y + 0.5 * HIGH), TextAlign::Left, SMALL, HudColor::Grey, format!("axis {}", axis & 0xffff));
         pen.panel((from, y), (full, HIGH), HudColor::Card);
         pen.fill(&[(at(*low), y), (at(*high), y), (at(*high), y + HIGH), (at(*low), y + HIGH)], HudColor::Focus);
@@ -155,7 +155,7 @@ fn axes(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, all: &[(u32, f64, 
     }
 }
 
-/// Draws lines in two columns, as far as they fit: key and function.
+/// Draws the key bindings in two columns, each with the key and its function. Shrinks the text to fit.
 fn columns(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, text: &str) {
     const COLUMNS: usize = 2;
     const KEY: f64 = 0.17;

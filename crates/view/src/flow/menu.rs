@@ -140,6 +140,6 @@ fn one(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow, (k, 
     }
 }
 
-/// Start of the value, as a fraction of the row's width, and width of its arrows.
+/// Start of the value as a fraction of the row's width, and width of its arrows.
 const VALUE: f64 = 0.3;
 const ARROW: f64 = 0.06;

@@ -1,5 +1,6 @@
-//! State machine of the window, from the start page through a flight to its scores: the current page, its keys and clicks, and
-//! the messages to `train`. Pure: inputs and messages in, pages and requests out.
+//! State machine of the window, from the start page through a flight to its scores: the current page, its keys and
+//! clicks, and the messages to `train`. It has no side effects: it consumes inputs and messages and produces pages and
+//! requests.
 
 mod controls;
 mod menu;
@@ -76,7 +77,7 @@ impl WindowFlow {
         }
     }
 
-    /// Creates the state for watching a flight without controlling it: only the flight page.
+    /// Creates the state for watching a flight without controlling it; it shows only the flight page.
     #[must_use]
     pub fn watch_only(sound: bool, names: KeyNames) -> Self {
         Self { page: Page::Flight, ..Self::new(sound, names) }
@@ -94,7 +95,7 @@ impl WindowFlow {
         &self.choice
     }
 
-    /// Checks whether the flight keys are being tested on this page and have no other effect.
+    /// Checks whether this page tests the flight keys, which then have no other effect.
     #[must_use]
     pub fn is_key_test(&self) -> bool {
         self.page == Page::Controls && !self.controls.is_connected()
@@ -129,7 +130,7 @@ impl WindowFlow {
         self.notice = Some(words);
     }
 
-    /// Returns and clears the notice, for display elsewhere.
+    /// Returns the notice and clears it, so that it can be shown elsewhere.
     pub fn take_notice(&mut self) -> Option<String> {
         self.notice.take()
     }
@@ -237,8 +238,8 @@ impl WindowFlow {
         }
     }
 
-    /// Handles a click at a position (fractions of the window) in a window with this aspect ratio. Returns whether it hit
-    /// anything.
+    /// Handles a click at a position (fractions of the window) in a window with this aspect ratio. Returns whether the
+    /// click hit a control.
     pub fn click(&mut self, place: ScreenPoint, aspect: f64) -> bool {
         // The last item drawn is on top.
         let spots = self.sheet(aspect).spots;

@@ -1,8 +1,8 @@
-//! Input events, pages, and requests of the window.
+//! Input events, pages and requests of the window.
 
 use super::pipe::{FlightStarted, FromWindow};
 
-/// A change to a controller profile; everything else stays the same.
+/// A change to one setting of a controller profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ProfileChange {
     /// Stick mode, 1 to 4.
@@ -26,7 +26,7 @@ pub enum KeyPress {
     Right,
     /// Activate the row.
     Enter,
-    /// Go back or continue, whichever is harmless.
+    /// Go back or continue, whichever has no lasting effect.
     Escape,
     /// Delete the last character.
     Backspace,
@@ -49,7 +49,7 @@ pub enum Page {
     Controls,
     /// Controller calibration.
     Calibrating,
-    /// Tutorial: number of pages turned, and whether a flight follows.
+    /// Tutorial with the number of the current page and whether a flight follows.
     Tutorial(usize, bool),
     /// The simulator is starting.
     Waiting,

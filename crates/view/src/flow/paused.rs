@@ -11,7 +11,7 @@ pub const STANDS: [&str; 2] = ["Paused", "The clock is stopped."];
 /// Title and text of the end confirmation.
 pub const GOES_ON: [&str; 2] = ["End the assessment?", "The clock runs. Tasks not flown count as not attempted."];
 
-/// Draws the page over the flight, which remains visible.
+/// Draws the page over the flight, which stays visible.
 pub fn page(mut pen: PageWriter, [head, means]: &[&str; 2], rows: &[MenuRow], focus: usize) -> PageLayout {
     let width = 0.95_f64.min(pen.width - 0.04);
     let left = 0.5 * (pen.width - width);

@@ -4,7 +4,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::net::SocketAddr;
 
-/// Purpose of a flight: whether it may be interrupted.
+/// Purpose of a flight, which decides whether it may be interrupted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Purpose {
@@ -90,7 +90,7 @@ pub struct FlightStarted {
 /// A score.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FinalScore {
-    /// Score as the paper defines it.
+    /// Score as defined in the TASBID paper.
     pub raw: f64,
     /// Score as a percentage.
     pub pct: f64,
@@ -99,7 +99,7 @@ pub struct FinalScore {
 /// Result of a flight.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FlightSummary {
-    /// Conformity, efficiency, safety, accuracy; `None` if not applicable.
+    /// Scores for conformity, efficiency, safety and accuracy; `None` if not applicable.
     pub scores: [Option<FinalScore>; 4],
     /// Sum and maximum possible sum; `None` if the session is incomplete.
     pub overall: Option<(f64, f64)>,
@@ -109,7 +109,7 @@ pub struct FlightSummary {
     pub complete: bool,
     /// "Certified", or the first requirement not met.
     pub verdict: Option<String>,
-    /// Reason for the end, as text, or why there are no scores.
+    /// Reason for the end of the flight, or why there are no scores.
     pub why: String,
     /// Address of the report, if there is one.
     pub report: Option<String>,
@@ -167,14 +167,14 @@ pub enum FromWindow {
 /// Serializes a message as one line, without the line break.
 #[must_use]
 pub fn line<T: Serialize>(message: &T) -> String {
-    // Plain data with string keys: serialization cannot fail.
+    // Serializing plain data with string keys cannot fail.
     serde_json::to_string(message).unwrap_or_default()
 }
 
-/// Parses a line.
+/// Parses a message from a line.
 ///
 /// # Errors
-/// Reports the problem and the line itself.
+/// Returns a description of the problem, with the start of the line.
 pub fn read<T: DeserializeOwned>(line: &str) -> Result<T, String> {
     /// Maximum number of characters of the line in an error message.
     const SHOWN: usize = 120;

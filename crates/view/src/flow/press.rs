@@ -21,7 +21,7 @@ impl WindowFlow {
         match press {
             KeyPress::Up => self.focus = if self.focus == 0 { last } else { self.focus - 1 },
             KeyPress::Down => self.focus = if self.focus >= last { 0 } else { self.focus + 1 },
-            // A page may appear while a flight key is pressed: left and right only change values.
+            // Left and right only change values, because a page may appear while a flight key is still pressed.
             KeyPress::Left | KeyPress::Right if kind == Some(RowKind::Button) => {}
             KeyPress::Left => self.step(&rows, false),
             KeyPress::Right => self.step(&rows, true),
@@ -239,7 +239,7 @@ impl WindowFlow {
     }
 }
 
-/// Returns the next or previous name, wrapping around; the first if `name` is not in the list.
+/// Returns the next or previous name, wrapping around; returns the first name if `name` is not in the list.
 fn neighbour<'a>(names: &[&'a str], name: &str, on: bool) -> Option<&'a str> {
     let count = names.len();
     let at = names.iter().position(|known| *known == name);

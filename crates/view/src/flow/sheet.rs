@@ -1,11 +1,11 @@
-//! A page as plain data: items to draw, clickable areas and pictures. Sizes are fractions of the window's height, so that text
-//! scales with the window. Horizontal positions also use the height while laying out and become fractions of the width at the
-//! end.
+//! A page as plain data: items to draw, clickable areas and pictures. Sizes are fractions of the window's height, so
+//! that text scales with the window. During layout, horizontal positions also use the height; they become fractions of
+//! the width at the end.
 
 use super::KeyPress;
 use crate::hud::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
 
-/// Font size of titles, as a fraction of the window's height, like all sizes here.
+/// Font size of titles, as a fraction of the window's height; all sizes in this module use that unit.
 pub const TITLE: f64 = 0.075;
 /// Font size of body text.
 pub const TEXT: f64 = 0.038;
@@ -105,7 +105,7 @@ impl PageWriter {
         self.sheet.items.push(DrawItem::Text { place, side, height, colour, words: words.into() });
     }
 
-    /// Adds text wrapped to a width and returns the y position of the next line.
+    /// Wraps text to a width, adds it, and returns the y position of the next line.
     pub fn lines(&mut self, (x, y): (f64, f64), width: f64, height: f64, colour: HudColor, words: &str) -> f64 {
         let mut y = y;
         for line in wrapped(words, width, height) {
@@ -158,7 +158,7 @@ impl PageWriter {
     }
 }
 
-/// Approximate width of a text, as a fraction of the window's height.
+/// Returns the approximate width of a text, as a fraction of the window's height.
 #[must_use]
 pub fn width_of(words: &str, height: f64) -> f64 {
     SIGN * height * words.chars().count() as f64

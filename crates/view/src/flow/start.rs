@@ -6,7 +6,8 @@ use super::{Page, WindowFlow, controls, menu, paused, summary, tutorial};
 use crate::hud::{HudColor, TextAlign};
 
 impl WindowFlow {
-    /// Returns the page for a window with this aspect ratio (width over height); empty over a flight.
+    /// Returns the page for a window with this aspect ratio (width over height). During a flight, it contains only the
+    /// button.
     #[must_use]
     pub fn sheet(&self, aspect: f64) -> PageLayout {
         let rows = self.rows();
@@ -52,7 +53,7 @@ impl WindowFlow {
         }
     }
 
-    /// Explains the selected values.
+    /// Returns a heading and an explanation for each selected value.
     fn choice_explanation(&self) -> Vec<(&'static str, String)> {
         let offers = self.offers.as_ref();
         let known = offers.and_then(|o| o.trainees.iter().find(|p| p.name == self.choice.trainee)).map_or(0, |p| p.sessions);

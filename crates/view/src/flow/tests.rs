@@ -1,4 +1,4 @@
-//! Navigation through the pages by key, rejected actions, and page contents.
+//! Tests of navigation through the pages by key, rejected actions, and page contents.
 
 use super::pipe::{
     FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FromWindow, JobOffer, Purpose, ToWindow,
@@ -46,7 +46,7 @@ fn ended() -> FlightSummary {
     }
 }
 
-/// Key names that do not occur elsewhere on a page.
+/// Returns key names that do not occur elsewhere on a page.
 fn names() -> KeyNames {
     let sticks = ["up", "down", "turn_left", "turn_right", "forward", "back", "left", "right"];
     let rest =
@@ -111,7 +111,7 @@ fn exact_a_new_trainee_reads_the_tutorial_first_and_may_skip_it() {
     assert!(matches!(orders(&mut flow).as_slice(), [WindowRequest::Tell(FromWindow::Chosen(choice))] if choice.trainee == "n3w"));
     flow.handle_message(ToWindow::Refused { words: "the port is taken".into() });
     assert_eq!((flow.page(), flow.notice()), (Page::Start, Some("the port is taken")));
-    // Opened again from the start page and read to the end.
+    // Opens the tutorial again from the start page and reads it to the end.
     press(&mut flow, &[KeyPress::Row(4)]);
     (0..6).for_each(|_| flow.press(KeyPress::Enter));
     assert_eq!((flow.page(), orders(&mut flow).len()), (Page::Start, 0));
@@ -127,7 +127,7 @@ fn choose_practice(flow: &mut WindowFlow) {
 fn exact_every_trainee_reads_the_tutorial_before_the_first_practice() {
     let mut flow = in_flight(Purpose::Assessment);
     flow.handle_message(ToWindow::Ended(ended()));
-    // From the start page through its rows: name, controller check, flight.
+    // Goes from the start page to the flight: name, controller check, flight.
     let named = |flow: &mut WindowFlow, name: &str| {
         flow.press(KeyPress::Row(0));
         press(flow, &[KeyPress::Backspace; 32]);
@@ -138,14 +138,14 @@ fn exact_every_trainee_reads_the_tutorial_before_the_first_practice() {
     press(&mut flow, &[KeyPress::Row(3)]);
     assert_eq!(flow.page(), Page::Start);
     choose_practice(&mut flow);
-    assert_eq!(named(&mut flow, "cora"), Page::Tutorial(0, true), "an assessment has taught nobody");
+    assert_eq!(named(&mut flow, "cora"), Page::Tutorial(0, true), "an assessment must not replace the tutorial");
     press(&mut flow, &[KeyPress::Row(2)]);
     flow.handle_message(flying(&flow.choice().clone()));
     flow.handle_message(ToWindow::Ended(ended()));
     press(&mut flow, &[KeyPress::Row(3), KeyPress::Row(3), KeyPress::Enter]);
-    assert_eq!(flow.page(), Page::Waiting, "cora has flown a practice");
+    assert_eq!(flow.page(), Page::Waiting, "cora has completed a practice session");
     flow.handle_message(ToWindow::Refused { words: String::new() });
-    assert_eq!(named(&mut flow, "dan"), Page::Tutorial(0, true), "the next one has not");
+    assert_eq!(named(&mut flow, "dan"), Page::Tutorial(0, true), "dan has not read the tutorial");
 }
 
 #[test]
@@ -159,9 +159,9 @@ fn exact_a_key_that_flies_does_nothing_on_a_page_that_comes_under_it() {
     assert!(!flow.is_key_test());
     press(&mut flow, &[KeyPress::Row(3), KeyPress::Right, KeyPress::Left]);
     assert_eq!(flow.page(), Page::Controls);
-    assert!(flow.is_key_test(), "keys fly: they are tried here");
+    assert!(flow.is_key_test(), "without a controller, this page tests the flight keys");
     flow.update_controls(ControllerStatus { device: Some("Pad".into()), ..ControllerStatus::default() });
-    assert!(!flow.is_key_test(), "a controller's values are chosen by keys");
+    assert!(!flow.is_key_test(), "with a controller, keys select rows and values");
 }
 
 #[test]
@@ -175,14 +175,14 @@ fn exact_a_controller_that_was_unplugged_is_reported_and_may_be_looked_for() {
     assert!(words(&flow).contains("Pad, calibrated") && !deeds(&flow).contains(&MenuAction::Look));
     press(&mut flow, &[KeyPress::Up]);
     flow.update_controls(lost);
-    assert!(flow.focus < flow.rows().len(), "one of the rows is chosen");
+    assert!(flow.focus < flow.rows().len(), "the focus must stay on a row");
     let told = words(&flow);
     assert!(
         told.contains("Pad not connected: using keyboard") && !told.contains("calibrated") && told.contains("climbs"),
         "{told}"
     );
     assert_eq!(deeds(&flow), [MenuAction::Fly, MenuAction::Look, MenuAction::Back]);
-    assert!(flow.is_key_test(), "keys fly: they are tried here");
+    assert!(flow.is_key_test(), "without a controller, this page tests the flight keys");
 }
 
 #[test]
@@ -212,7 +212,7 @@ fn exact_pages_name_the_keys_as_they_are_set_and_what_is_waited_for() {
     assert!(words(&flight).contains("Scoring"), "{}", words(&flight));
     flight.handle_message(ToWindow::Refused { words: "a word ".repeat(80) });
     let lines = words(&flight).lines().filter(|line| line.contains("a word")).count();
-    assert!(lines > 2, "a long refusal is broken into lines: {lines}");
+    assert!(lines > 2, "a long message must wrap: {lines} lines");
 }
 
 #[test]
@@ -224,9 +224,9 @@ fn exact_names_stay_harmless_and_wrong_signs_are_reported() {
         assert!(flow.notice().is_some() && flow.choice().trainee.is_empty(), "{sign}");
     }
     press(&mut flow, &[KeyPress::Row(3)]);
-    assert_eq!(flow.page(), Page::Start, "without a name nobody flies");
+    assert_eq!(flow.page(), Page::Start, "a flight requires a name");
     "a".repeat(40).chars().for_each(|sign| flow.press(KeyPress::Sign(sign)));
-    assert!(flow.choice().trainee.is_empty(), "signs go to the row that has the focus");
+    assert!(flow.choice().trainee.is_empty(), "typed characters go to the focused row");
     flow.press(KeyPress::Row(0));
     "a".repeat(40).chars().for_each(|sign| flow.press(KeyPress::Sign(sign)));
     assert_eq!(flow.choice().trainee.len(), 32);
@@ -237,7 +237,7 @@ fn exact_pause_and_restart_are_for_practice_alone() {
     let mut flow = in_flight(Purpose::Practice);
     flow.pause();
     assert_eq!(orders(&mut flow), [WindowRequest::Tell(FromWindow::Pause)]);
-    assert!(!flow.is_paused(), "the simulator decides");
+    assert!(!flow.is_paused(), "the simulator must confirm the pause");
     flow.handle_message(ToWindow::Paused { on: true });
     assert!(flow.is_paused());
     flow.press(KeyPress::Escape);
@@ -250,7 +250,7 @@ fn exact_pause_and_restart_are_for_practice_alone() {
     assert_eq!(
         orders(&mut flow),
         [WindowRequest::Tell(FromWindow::Pause), WindowRequest::Land, WindowRequest::Tell(FromWindow::Restart)],
-        "asked once more, by the row that has the focus"
+        "a restart must be confirmed in the focused row"
     );
     assert_eq!(flow.page(), Page::Waiting);
 
@@ -259,12 +259,12 @@ fn exact_pause_and_restart_are_for_practice_alone() {
     flow.restart();
     assert!(flow.notice().is_some_and(|words| words.contains("restarted")));
     flow.pause();
-    assert!(flow.page() == Page::Leaving && !flow.is_paused(), "it flies on");
+    assert!(flow.page() == Page::Leaving && !flow.is_paused(), "the flight must continue");
     flow.press(KeyPress::Escape);
     assert_eq!(flow.page(), Page::Flight);
     flow.pause();
     flow.press(KeyPress::Enter);
-    assert_eq!((flow.page(), orders(&mut flow)), (Page::Flight, vec![]), "the first row is the harmless one");
+    assert_eq!((flow.page(), orders(&mut flow)), (Page::Flight, vec![]), "the first row must continue the flight");
     let mut given_up = flow.clone();
     given_up.pause();
     press(&mut given_up, &[KeyPress::Down, KeyPress::Enter]);
@@ -274,7 +274,7 @@ fn exact_pause_and_restart_are_for_practice_alone() {
     flow.handle_message(ToWindow::Ended(ended()));
     flow.pause();
     flow.restart();
-    assert_eq!(orders(&mut flow), [WindowRequest::Land], "after the end there is nothing to stop");
+    assert_eq!(orders(&mut flow), [WindowRequest::Land], "pause and restart have no effect after the end");
 }
 
 #[test]
@@ -291,8 +291,8 @@ fn exact_the_profile_changes_by_steps_within_its_range() {
     });
     press(&mut flow, &[KeyPress::Row(2), KeyPress::Right, KeyPress::Row(3), KeyPress::Right, KeyPress::Row(4), KeyPress::Left]);
     let told = orders(&mut flow);
-    assert_eq!(told[0], WindowRequest::Tune(ProfileChange::Mode(1)), "after mode 4 comes 1");
-    assert_eq!(told[1], WindowRequest::Tune(ProfileChange::DeadBand(0.5)), "no dead band over a half");
+    assert_eq!(told[0], WindowRequest::Tune(ProfileChange::Mode(1)), "mode 4 wraps around to 1");
+    assert_eq!(told[1], WindowRequest::Tune(ProfileChange::DeadBand(0.5)), "the dead band is at most 0.5");
     assert_eq!(told[2], WindowRequest::Tune(ProfileChange::Expo(0.0)));
     flow.update_controls(ControllerStatus { wizard: Some("Let go.".into()), ..flow.controls.clone() });
     assert_eq!(flow.page(), Page::Calibrating);
@@ -361,12 +361,12 @@ fn prop_everything_stays_in_windows_of_any_shape_and_every_picture_is_there() {
             }
             assert!(sheet.spots.iter().all(|spot| inside(&spot.from) && inside(&spot.to)), "{name} at {aspect}");
             assert!(sheet.pictures.iter().all(|picture| PICTURES.iter().any(|known| known.0 == picture.name)), "{name}");
-            assert!(flow.rows().is_empty() || sheet.spots.len() >= flow.rows().len(), "{name}: every row can be clicked");
+            assert!(flow.rows().is_empty() || sheet.spots.len() >= flow.rows().len(), "{name}: every row must be clickable");
         }
     }
 }
 
-/// Returns every text of a page with its position in hundredths.
+/// Returns every text of a page with its position in percent of the window.
 fn words(flow: &WindowFlow) -> String {
     let line = |item: &DrawItem| match item {
         DrawItem::Text { place, words, .. } => Some(format!("{:3.0} {:3.0} {words}\n", 100.0 * place.x, 100.0 * place.y)),

@@ -1,5 +1,5 @@
-//! Tutorial before the first practice session, as in the paper's protocol: simulator pictures with labels and arrows, and the HUD
-//! as drawn in flight.
+//! Tutorial before the first practice session, as in the TASBID protocol: simulator pictures with labels and arrows,
+//! and the HUD as drawn in flight.
 
 use super::KeyNames;
 use super::menu::{self, MenuRow, STEP};
@@ -8,7 +8,7 @@ use crate::hud::{DrawItem, GnssStatus, Hud, HudColor, MapPath, ScreenPoint, Text
 use spandrel_mavlink::contract::cue;
 use spandrel_model::frames::Vec3;
 
-/// JPEG pictures by name.
+/// Embedded JPEG pictures by name.
 pub const PICTURES: [(&str, &[u8]); 9] = [
     ("job", include_bytes!("pictures/job.jpg")),
     ("inspector", include_bytes!("pictures/inspector.jpg")),
@@ -24,7 +24,8 @@ pub const PICTURES: [(&str, &[u8]); 9] = [
 /// Aspect ratio of the large pictures.
 const WIDE: f64 = 16.0 / 9.0;
 
-/// A page: title, function that draws the box on the left, and text on the right; `{binding}` stands for a key.
+/// A page: title, function that draws the box on the left, and text on the right; `{binding}` is replaced by a key
+/// name.
 type TutorialPage = (&'static str, fn(&mut PageWriter, PictureFrame, &KeyNames), &'static str);
 
 const LEAVES: [TutorialPage; PAGES] = [
@@ -108,7 +109,7 @@ fn label(pen: &mut PageWriter, frame: PictureFrame, words: &str, from: (f64, f64
     let half = 0.5 * width_of(words, SMALL) + 0.012;
     let (x, y) = frame.at(from.0, from.1);
     let (tx, ty) = frame.at(to.0, to.1);
-    // The arrow starts at the side of the label that is closer to its target.
+    // The arrow starts at the side of the label that faces its target.
     let foot = if (tx - x).abs() > half { (x + half * (tx - x).signum(), y) } else { (x, y + 0.025 * (ty - y).signum()) };
     pen.arrow(foot, (tx, ty), HudColor::Yellow);
     pen.panel((x - half, y - 0.025), (2.0 * half, 0.05), HudColor::Night);
@@ -202,7 +203,7 @@ fn light(pen: &mut PageWriter, frame: PictureFrame, names: &KeyNames) {
     pen.lines((x, y), frame.width, SMALL, HudColor::Grey, &names.fill(words));
 }
 
-/// Example HUD in flight.
+/// Returns an example HUD in flight.
 fn example(cues: i32) -> Hud {
     let line = |id, path_m: [(f64, f64); 2]| MapPath {
         id,
@@ -227,7 +228,7 @@ fn example(cues: i32) -> Hud {
         lamp: false,
         left_s: 1104.0,
         pictures: 2,
-        // Red elements blink: on in the first half of the period.
+        // Red elements blink and are visible in the first half of the period.
         shutter: false,
         time_s: if cues & cue::CRASH != 0 { 0.1 } else { 95.0 },
         position_m: Vec3::new(-60.0, 130.0, 12.0),

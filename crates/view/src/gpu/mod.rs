@@ -1,4 +1,4 @@
-//! GPU rendering: uploads a scene, draws shots, and reads pictures back. No other part of the crate uses a GPU.
+//! GPU rendering: uploads a scene, draws shots, and reads pictures back. The rest of the crate does not use a GPU.
 
 mod device;
 mod overlay;

@@ -75,7 +75,7 @@ impl Overlay {
 pub struct PageTextures(BTreeMap<&'static str, egui::TextureHandle>);
 
 impl PageTextures {
-    /// Returns a picture by name and decodes it on first use; `None` if it cannot be decoded.
+    /// Returns a picture by name, decoding it on first use; returns `None` if it cannot be decoded.
     fn of(&mut self, context: &egui::Context, name: &'static str) -> Option<egui::TextureId> {
         if !self.0.contains_key(name) {
             let (_, bytes) = PICTURES.iter().find(|known| known.0 == name)?;

@@ -274,8 +274,8 @@ fn surfaces(gpu: &Gpu, kind: &PipelineKey, quality: &Quality, mirrored: f64) -> 
     })
 }
 
-/// Builds a pair of pipelines without and with the lamp. Only a lean preset compiles a variant without the lamp; others use one
-/// for both.
+/// Builds a pair of pipelines without and with the lamp. Only a lean preset compiles a variant without the lamp; other
+/// presets use one pipeline for both.
 fn by_lamp<T: Clone>(quality: &Quality, of: impl Fn((&'static str, f64)) -> T) -> [T; 2] {
     let lit = of(("LAMP", 1.0));
     [if quality.lean { of(("LAMP", 0.0)) } else { lit.clone() }, lit]
@@ -286,10 +286,10 @@ const ENTRIES: (&str, &str) = ("vs", "fs");
 /// Entry points of the shader `lean`.
 const LEAN: (&str, &str) = ("vs_lean", "fs_lean");
 
-/// Reversed depth: nearer is greater; equal depth overwrites.
+/// Reversed depth: nearer fragments have greater depth, and equal depth overwrites.
 const NEARER: wgpu::CompareFunction = wgpu::CompareFunction::GreaterEqual;
 
-/// Light to picture: one triangle over the whole of it.
+/// Returns the key of a pipeline that turns radiance into a picture with one triangle that covers it.
 fn film<'a>(
     solid: &PipelineKey<'a>,
     (module, layouts): (&'a wgpu::ShaderModule, &'a [Option<&'a wgpu::BindGroupLayout>]),
@@ -333,7 +333,7 @@ impl Pipelines {
         let back = PipelineKey { module: &sky, buffers: &[], depth: shown, cull: None, ..solid };
         let see_through = [costs.as_slice(), &[("LOOK", f64::from(MaterialGroup::Simple as u32))]].concat();
         let sheer = PipelineKey { blend: Some(wgpu::BlendState::ALPHA_BLENDING), depth: shown, constants: &see_through, ..solid };
-        // Biased towards the camera, in front of the faces that they lie on.
+        // Biased toward the camera, so that defects appear in front of the faces that they are on.
         let flat =
             PipelineKey { module: &defect, buffers: &patch_buffers, blend: over, depth: shown, bias: 2, cull: None, ..solid };
         let lake =

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-/// Capacity: both views, including their state before a layout change or window resize.
+/// Maximum number of cached values: enough for both views, before and after a layout change or window resize.
 const KEPT: usize = 4;
 
 /// The most recently used values, by key.
@@ -44,12 +44,12 @@ mod tests {
         for size in 0..KEPT {
             recent.put(size, 'a');
         }
-        // The oldest is used again, so the second is evicted next.
+        // Uses the oldest entry again, so that the second is evicted next.
         let again = recent.take(&0).unwrap();
         recent.put(0, again);
         recent.put(KEPT, 'b');
         assert_eq!((recent.take(&1), recent.take(&0), recent.take(&KEPT)), (None, Some('a'), Some('b')));
-        assert_eq!(recent.take(&0), None, "taken out");
+        assert_eq!(recent.take(&0), None, "take must remove the entry");
     }
 
     #[test]
@@ -61,6 +61,6 @@ mod tests {
         }
         assert_eq!(recent.all.len(), KEPT);
         recent.put(999, 0);
-        assert_eq!((recent.all.len(), recent.take(&999)), (KEPT, Some(0)), "one of a key");
+        assert_eq!((recent.all.len(), recent.take(&999)), (KEPT, Some(0)), "a key must have one entry");
     }
 }

@@ -22,7 +22,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::catalogue;
 use static_cells::{StaticCell, fixed};
 
-/// The sun's whole-site shadow map is redrawn after the sun has moved this far (cosine of a quarter of a degree).
+/// Cosine of a quarter of a degree; when the sun has moved farther, the whole-site shadow map is redrawn.
 const SUN_MOVED: f64 = 0.999_990_5;
 
 /// Draw statistics of a picture.
@@ -35,7 +35,7 @@ pub struct DrawCounts {
 }
 
 impl DrawCounts {
-    /// Returns the sum of both.
+    /// Returns the sum of two statistics.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self { triangles: self.triangles + other.triangles, draws: self.draws + other.draws }
@@ -77,7 +77,7 @@ impl Renderer {
             ..Default::default()
         });
         let noise = noise_texture(gpu);
-        // Tiles that only lean presets read cost nothing in the others.
+        // Only lean presets read tiles, so the others bind the noise texture instead.
         let tile = |levels: fn() -> tiles::MipLevels| if quality.lean { tile_texture(gpu, &levels()) } else { noise.clone() };
         let (ground, concrete) = (tile(tiles::ground), tile(tiles::concrete));
         let bind = |data: &wgpu::Buffer| {
@@ -199,7 +199,7 @@ impl Renderer {
         (sun, lamp): (&[ShadowMap], Option<&ShadowMap>),
         moving: &[(MoverModel, MeshInstances)],
     ) {
-        // A single whole-site map contains static objects only and is kept while the sun does not move.
+        // A single whole-site map contains only static objects and is reused while the sun does not move.
         let whole = self.quality.cascades <= 1;
         let kept = whole && self.site_map_sun.is_some_and(|was| was.dot(shot.sky.sun) > SUN_MOVED);
         for (k, map) in sun.iter().chain(lamp).enumerate() {
@@ -266,7 +266,7 @@ impl Renderer {
             shown.may_show_cell(&fixed.bounds) && fixed.visible_range.shows(in_lake, fixed.bounds.ball.from_m(eye_m))
         };
         let mut still: Vec<&StaticCell> = self.fixed.iter().filter(shows).collect();
-        // Front to back: hidden surfaces are not shaded.
+        // Draws front to back, so that hidden surfaces are not shaded.
         still.sort_by(|a, b| a.bounds.ball.from_m(eye_m).total_cmp(&b.bounds.ball.from_m(eye_m)));
         for (look, pipeline) in pipelines {
             pass.set_pipeline(pipeline);
@@ -279,7 +279,7 @@ impl Renderer {
         }
     }
 
-    /// Draws the defects, each kind with its pipeline.
+    /// Draws the defects, each with the pipeline of its kind.
     fn draw_patches(&self, pass: &mut wgpu::RenderPass, pipelines: &[(u32, wgpu::RenderPipeline)]) -> DrawCounts {
         let mut counts = DrawCounts::default();
         for (kind, buffer, patches) in &self.patches {
@@ -314,7 +314,7 @@ impl Renderer {
             counts.draws += 1;
             counts.triangles += u64::from(water.triangles());
         }
-        // The lake has written depth: no sky is shaded behind it.
+        // The lake has written depth, so no sky is shaded behind it.
         pass.set_pipeline(&self.pipelines.sky);
         pass.draw(0..3, 0..1);
         counts.draws += 1;
@@ -328,7 +328,7 @@ impl Renderer {
     }
 }
 
-/// Uploads defects by kind.
+/// Uploads defects grouped by kind.
 fn patches(gpu: &Gpu, all: &[DefectPatch]) -> Vec<(u32, wgpu::Buffer, u32)> {
     let of = |kind: &u32| {
         let same: Vec<DefectPatch> = all.iter().filter(|patch| patch.centre[3] as u32 == *kind).copied().collect();
@@ -338,7 +338,7 @@ fn patches(gpu: &Gpu, all: &[DefectPatch]) -> Vec<(u32, wgpu::Buffer, u32)> {
     catalogue::KINDS.iter().filter_map(of).collect()
 }
 
-/// Returns the solid moving objects.
+/// Returns the moving objects that are opaque.
 fn solids<'a>(
     models: &'a [Option<GpuMesh>],
     moving: &'a [(MoverModel, MeshInstances)],

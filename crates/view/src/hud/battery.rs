@@ -56,7 +56,7 @@ pub fn battery(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     items
 }
 
-/// Draws a battery with its left edge at this position, filled to a fraction.
+/// Returns the outline of a battery with its left edge at this position, filled to a fraction.
 fn battery_outline(pane: Pane, (low, y): (f64, f64), filled: Option<f64>, colour: HudColor) -> Vec<DrawItem> {
     let (high, half, inset) = (low + 0.08, 0.017, 0.004);
     let box_of =

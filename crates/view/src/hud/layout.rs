@@ -1,4 +1,5 @@
-//! Layout of the HUD. Sizes and positions are in units of `Pane`: fractions of the height, unless the picture is narrow.
+//! Layout of the HUD. Sizes and positions are in units of `Pane`: fractions of the picture's height, or less in a
+//! narrow picture.
 
 use super::battery::battery;
 use super::map::map;
@@ -19,11 +20,12 @@ pub(super) const GAP: f64 = 0.01;
 const LARGE: f64 = 0.052;
 pub(super) const MIDDLE: f64 = 0.034;
 pub(super) const SMALL: f64 = 0.027;
-/// Smallest legible font size in flight, px (estimate: capitals of 6.5 px; in a picture 360 px high the size is 9.7 px).
+/// Smallest font size that is legible in flight, px (estimate: capitals of 6.5 px; in a picture 360 px high, the font
+/// size is 9.7 px).
 const LEAST_PX: f64 = 9.5;
 /// Meters per second in one mile per hour.
 pub(super) const M_S_PER_MPH: f64 = spandrel_model::math::M_S_PER_MPH;
-/// Central fraction of the picture in which a defect counts.
+/// Fraction of the picture around its center in which a defect counts.
 const CENTRAL: f64 = 0.8;
 
 /// Returns all HUD items for a picture with this aspect ratio (width over height).
@@ -48,7 +50,7 @@ pub fn layout_px(hud: &Hud, (width, height): (f64, f64)) -> Vec<DrawItem> {
     if SMALL * Pane::unit(size_px) >= LEAST_PX { layout(hud, size_px.0 / size_px.1) } else { brief(hud, size_px) }
 }
 
-/// Crosshair and the part of the picture in which a defect counts; drawn below everything else.
+/// Returns the crosshair and the marks of the area in which a defect counts; they are drawn below all other items.
 fn frame(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let mut items = Vec::new();
     let (low, high, arm) = (0.5 - 0.5 * CENTRAL, 0.5 + 0.5 * CENTRAL, 0.035);
@@ -64,13 +66,13 @@ fn frame(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     items
 }
 
-/// Speed text and color.
+/// Returns the speed as text, and its color.
 pub(super) fn speed_words(hud: &Hud) -> (HudColor, String) {
     let fast = hud.cues & cue::SPEEDING != 0;
     (if fast { HudColor::Yellow } else { HudColor::White }, format!("{:.1} m/s", hud.speed_m_s))
 }
 
-/// Speed block, upper left.
+/// Returns the speed block in the upper left corner.
 fn speed(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let inner = EDGE + 0.016;
     let mph = |m_s: f64| m_s / M_S_PER_MPH;
@@ -86,7 +88,7 @@ fn speed(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     ]
 }
 
-/// Values below the battery: height, distance from home, gimbal, time, lamp, pictures.
+/// Returns the values below the battery: height, distance from home, gimbal, time, lamp, pictures.
 fn numbers(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let (right, top) = (pane.width - EDGE, EDGE + 0.085);
     let left = hud.left_s.max(0.0);

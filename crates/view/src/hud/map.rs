@@ -19,7 +19,7 @@ const ROOM: f64 = 1.12;
 /// Minimum distance shown from the center, m.
 const LEAST_M: f64 = 20.0;
 
-/// Left edge of the map, if it is shown.
+/// Returns the left edge of the map, or `None` if it is hidden.
 pub fn left(hud: &Hud, pane: Pane) -> Option<f64> {
     (!hud.tracks.is_empty()).then_some(pane.width - FROM_EDGE - HALF)
 }
@@ -66,7 +66,8 @@ fn scale(hud: &Hud, (x, y): (f64, f64)) -> impl Fn(Vec3<Enu>) -> (f64, f64) {
     move |p| (x + share(p.east(), 0), y - share(p.north(), 1))
 }
 
-/// Returns a label position that does not overlap others: the given place, or shifted right, or left at the map's edge.
+/// Returns a label position that does not overlap other labels: `place`, or a position to its right, or to its left at
+/// the edge of the map.
 fn beside(labels: &[(f64, f64)], place: (f64, f64), right_most: f64) -> (f64, f64) {
     let covered = |here: (f64, f64)| {
         let covers = |there: &(f64, f64)| (there.0 - here.0).abs() < WIDE - 1e-9 && (there.1 - here.1).abs() < HIGH;
@@ -83,7 +84,7 @@ fn beside(labels: &[(f64, f64)], place: (f64, f64), right_most: f64) -> (f64, f6
     if right.0 <= right_most { right } else { walk(-WIDE) }
 }
 
-/// Arrowhead along the heading.
+/// Returns an arrowhead that points along the heading.
 fn arrow(tip: (f64, f64), heading_rad: f64) -> [(f64, f64); 3] {
     let (s, c) = math::sin_cos(heading_rad);
     [(0.0, 0.016), (0.010, -0.011), (-0.010, -0.011)].map(|(x, y): (f64, f64)| (tip.0 + (x * c + y * s), tip.1 - (y * c - x * s)))
@@ -101,8 +102,8 @@ mod tests {
         }
         let gaps: Vec<f64> = labels.windows(2).map(|pair| pair[1].0 - pair[0].0).collect();
         assert!(gaps.iter().all(|gap| (gap - WIDE).abs() < 1e-9), "{gaps:?}");
-        assert_eq!(beside(&labels, (0.9, 0.7), 1.0), (0.9, 0.7), "elsewhere there is room");
+        assert_eq!(beside(&labels, (0.9, 0.7), 1.0), (0.9, 0.7), "a free position must be kept");
         let inside = beside(&labels, (0.9, 0.8), 0.95);
-        assert!((inside.0 - (0.9 - WIDE)).abs() < 1e-9, "the map ends: {inside:?}");
+        assert!((inside.0 - (0.9 - WIDE)).abs() < 1e-9, "at the edge of the map, the label must move left: {inside:?}");
     }
 }

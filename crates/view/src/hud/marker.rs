@@ -13,8 +13,8 @@ const TYPE: f64 = 0.026;
 /// Half side of the bracket around the drone's center, m.
 const ROOM_M: f64 = 0.6;
 
-/// Returns a bracket around the drone with its distance; empty if it is outside the picture. Gray and dashed if an object hides
-/// it.
+/// Returns a bracket around the drone with its distance, gray and dashed if an object hides the drone. Returns nothing
+/// if the drone is outside the picture.
 #[must_use]
 pub fn marker(eye: &PinholeCamera, aspect: f64, drone_m: Vec3<Enu>, hidden: bool) -> Vec<DrawItem> {
     let clip = eye.view_projection(aspect).apply(drone_m);
@@ -72,6 +72,6 @@ mod tests {
         let hidden = marker(&eye, 1.5, Vec3::new(0.0, 80.0, 0.0), true);
         let told =
             |item: &DrawItem| matches!(item, DrawItem::Text { words, colour: HudColor::Grey, .. } if words == "80 m, hidden");
-        assert!(hidden.len() > items.len() && hidden.iter().any(told), "dashed, and said");
+        assert!(hidden.len() > items.len() && hidden.iter().any(told), "the marker must be dashed and labeled");
     }
 }

@@ -14,10 +14,10 @@ const SIGN: f64 = 0.0205;
 const INDENT: f64 = 0.07;
 /// Right padding of a message.
 const MARGIN: f64 = 0.015;
-/// Height of a single-line message, and of each additional line.
+/// Height of a single-line message, and height of each additional line.
 const HIGH: f64 = 0.06;
 const STEP: f64 = 0.045;
-/// Maximum number of lines: longer texts cannot be read in flight.
+/// Maximum number of lines; pilots cannot read longer texts in flight.
 const LINES: usize = 2;
 
 /// An active cue.

@@ -1,6 +1,6 @@
 //! Head-up display of the camera view: a pure function from telemetry to draw items, laid out as in
-//! docs/src/reference/assessment.md, "Feedback during the flight" (speed upper left, battery upper right, messages lower left).
-//! Renderers need no knowledge of what the items mean.
+//! docs/src/reference/assessment.md, "Feedback during the flight" (speed upper left, battery upper right, messages
+//! lower left). Renderers draw the items without interpreting them.
 
 mod battery;
 mod icons;
@@ -32,13 +32,14 @@ pub struct ScreenPoint {
     pub y: f64,
 }
 
-/// Creates a position.
+/// Creates a position from fractions of the picture's width and height.
 #[must_use]
 pub const fn at(x: f64, y: f64) -> ScreenPoint {
     ScreenPoint { x, y }
 }
 
-/// HUD colors: distinguishable with color vision deficiency (after Okabe and Ito) and never the only cue.
+/// HUD colors. They remain distinguishable with color vision deficiency (after Okabe and Ito), and no meaning depends
+/// on color only.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum HudColor {
     /// Text and lines.

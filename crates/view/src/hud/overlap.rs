@@ -9,7 +9,7 @@ use spandrel_model::frames::Vec3;
 /// A rectangle: left, top, right, bottom, in units of the picture's height.
 type PictureRect = [f64; 4];
 
-/// Rounding tolerance.
+/// Tolerance for rounding errors.
 const NOTHING: f64 = 1e-9;
 
 /// A block of the HUD: its background and contents.
@@ -36,7 +36,7 @@ fn written(place: ScreenPoint, side: TextAlign, height: f64, words: &str, aspect
     [left, place.y - 0.5 * height, left + wide, place.y + 0.5 * height]
 }
 
-/// Returns the HUD's blocks; the frame below them belongs to the picture.
+/// Returns the HUD's blocks. Skips the crosshair and corner marks below them, which belong to the picture.
 fn blocks(items: Vec<DrawItem>, aspect: f64) -> Vec<DisplayBlock> {
     let mut found: Vec<DisplayBlock> = Vec::new();
     for item in items {
@@ -45,7 +45,7 @@ fn blocks(items: Vec<DrawItem>, aspect: f64) -> Vec<DisplayBlock> {
             continue;
         }
         let Some(block) = found.last_mut() else {
-            assert!(matches!(item, DrawItem::Line { .. }), "{item:?} stands nowhere");
+            assert!(matches!(item, DrawItem::Line { .. }), "{item:?} is outside all blocks");
             continue;
         };
         match item {
@@ -94,14 +94,14 @@ fn check_block(block: &DisplayBlock, what: &str) {
     for (k, (place, words)) in block.texts.iter().enumerate() {
         assert!(holds(&block.ground, place), "{what}: '{words}' at {place:?} leaves {:?}", block.ground);
         for (other, over) in &block.texts[..k] {
-            assert!(apart(place, other), "{what}: '{words}' lies over '{over}'");
+            assert!(apart(place, other), "{what}: '{words}' overlaps '{over}'");
         }
-        assert!(block.shapes.iter().all(|shape| apart(place, shape)), "{what}: '{words}' lies over a shape");
+        assert!(block.shapes.iter().all(|shape| apart(place, shape)), "{what}: '{words}' overlaps a shape");
     }
     for (k, one) in block.shapes.iter().enumerate() {
-        // An outline may contain a shape, a battery its charge.
+        // One shape may contain another, as a battery outline contains its level.
         let fine = |other: &PictureRect| apart(one, other) || holds(one, other) || holds(other, one);
-        assert!(block.shapes[..k].iter().all(fine), "{what}: shapes of one block lie over each other");
+        assert!(block.shapes[..k].iter().all(fine), "{what}: shapes of one block overlap");
     }
 }
 
@@ -109,9 +109,9 @@ fn check(items: Vec<DrawItem>, aspect: f64, what: &str) {
     let found = blocks(items, aspect);
     for (k, block) in found.iter().enumerate() {
         check_block(block, what);
-        assert!(holds(&[0.0, 0.0, aspect, 1.0], &block.ground), "{what}: {block:?} leaves the picture");
+        assert!(holds(&[0.0, 0.0, aspect, 1.0], &block.ground), "{what}: {block:?} extends beyond the picture");
         for other in &found[..k] {
-            assert!(apart(&block.ground, &other.ground), "{what}: {block:?} lies over {other:?}");
+            assert!(apart(&block.ground, &other.ground), "{what}: {block:?} overlaps {other:?}");
         }
     }
 }
@@ -183,7 +183,8 @@ fn prop_nothing_lies_over_anything_else_in_pictures_of_any_size() {
 
 #[test]
 fn prop_the_windows_own_words_cover_nothing_of_the_large_cameras_display() {
-    // Six lines of the window's font with their background; the pilot aims from the center of the picture on.
+    // Six lines of the window's font with their background. They end above the center of the picture, which the pilot
+    // uses for aiming.
     const WORDS: f64 = 0.2;
     let words = ViewLayout::Camera.words();
     let [_, eyes] = ViewLayout::Camera.places();
@@ -193,12 +194,12 @@ fn prop_the_windows_own_words_cover_nothing_of_the_large_cameras_display() {
     for (name, state) in states() {
         for window in [1.0, 4.0 / 3.0, 16.0 / 10.0, 16.0 / 9.0, 21.0 / 9.0] {
             for lens in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
-                // In a square window, where a wide picture starts lower, mode and link may be covered briefly; warnings stay
-                // visible.
+                // In a square window, where a wide picture starts lower, mode and link may be covered briefly, but
+                // warnings stay visible.
                 let counts = |block: &DisplayBlock| window > 1.0 || block.ground[1] > 0.5;
                 for block in blocks(layout(&state, lens), lens).into_iter().filter(counts) {
                     let covered = !apart(&in_window(&block.ground, lens, window), &room);
-                    assert!(!covered, "{name}: {block:?} under the words, lens {lens}, window {window}");
+                    assert!(!covered, "{name}: {block:?} is covered by the status text, lens {lens}, window {window}");
                 }
             }
         }
@@ -215,7 +216,7 @@ fn prop_the_small_view_hides_nothing_of_the_large_cameras_display() {
         for lens in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
             for block in blocks(layout(&all, lens), lens) {
                 let covered = !apart(&in_window(&block.ground, lens, window), &small);
-                assert!(!covered, "{block:?} under the small view, lens {lens}, window {window}");
+                assert!(!covered, "{block:?} is covered by the inset view, lens {lens}, window {window}");
             }
         }
     }

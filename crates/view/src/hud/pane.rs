@@ -1,4 +1,4 @@
-//! Coordinate system of the HUD: positions from the upper left corner, one unit for both directions.
+//! Coordinate system of the HUD: positions from the upper left corner, with the same unit in both directions.
 
 use super::icons::{self, IconShape};
 use super::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
@@ -17,13 +17,13 @@ pub struct Pane {
 }
 
 impl Pane {
-    /// Creates the pane for an aspect ratio: the unit is the height, or less for a narrow picture.
+    /// Creates the pane for an aspect ratio. The unit is the picture's height, or less if the picture is narrow.
     pub fn of(aspect: f64) -> Self {
         let unit = (aspect / FULL_ASPECT).min(1.0);
         Self { width: aspect / unit, height: 1.0 / unit }
     }
 
-    /// Returns the unit of [`Self::of`] for a picture size, in the unit of that size.
+    /// Returns the unit of [`Self::of`] for a picture size, in the same unit as that size.
     pub fn unit((width, height): (f64, f64)) -> f64 {
         height.min(width / FULL_ASPECT)
     }
@@ -38,27 +38,27 @@ impl Pane {
         at(x / self.width, y / self.height)
     }
 
-    /// Background of a block, from its upper left to its lower right corner.
+    /// Returns the background of a block from its upper left to its lower right corner.
     pub fn panel(self, from: (f64, f64), to: (f64, f64)) -> DrawItem {
         DrawItem::Panel { from: self.at(from), to: self.at(to), colour: HudColor::Shade }
     }
 
-    /// A line of text.
+    /// Returns a line of text.
     pub fn text(self, place: (f64, f64), side: TextAlign, size: f64, colour: HudColor, words: impl Into<String>) -> DrawItem {
         DrawItem::Text { place: self.at(place), side, height: self.share(size), colour, words: words.into() }
     }
 
-    /// A filled convex polygon.
+    /// Returns a filled convex polygon.
     pub fn fill(self, points: &[(f64, f64)], colour: HudColor) -> DrawItem {
         DrawItem::Fill { points: self.all(points), colour }
     }
 
-    /// A polyline.
+    /// Returns a polyline.
     pub fn line(self, points: &[(f64, f64)], width: f64, colour: HudColor) -> DrawItem {
         DrawItem::Line { points: self.all(points), width: self.share(width), colour }
     }
 
-    /// An icon with a dark outline.
+    /// Returns an icon with a dark outline.
     pub fn symbol(self, shape: IconShape, middle: (f64, f64), size: f64, colour: HudColor) -> Vec<DrawItem> {
         icons::symbol(shape, self.at(middle), self.share(size), self.width / self.height, colour)
     }

@@ -12,16 +12,16 @@ use super::{DrawItem, HudColor, TextAlign};
 
 /// Font size that is legible at a glance, px (estimate: capitals of 8 px).
 const LEGIBLE_PX: f64 = 12.0;
-/// Font size as a fraction of the picture's height, where that is larger.
+/// Font size as a fraction of the picture's height, used where it exceeds the legible size.
 const SHARE: f64 = 0.05;
-/// Width of speed and battery next to each other, and height of the rows of a lost link and a crash, in units of the font
-/// size; in smaller pictures the font shrinks.
+/// Width of speed and battery next to each other, and height of the rows that show a lost link and a crash, in units of
+/// the font size. In smaller pictures, the font shrinks.
 const MOST_WIDE: f64 = 12.0;
 const LEAST_HIGH: f64 = 6.0;
 /// Margin at the edges of the picture, and gap between blocks.
 const EDGE: f64 = 0.35;
 const GAP: f64 = 0.15;
-/// Height of a block, horizontal padding, width and height of its icon.
+/// Height of a block, horizontal padding, width of its icon column, and height of the icon.
 const ROW: f64 = 1.5;
 const INSET: f64 = 0.4;
 const SIGN: f64 = 1.3;
@@ -62,7 +62,7 @@ fn width(words: &str, signed: bool) -> f64 {
     2.0 * INSET + width_of(words, 1.0) + if signed { SIGN } else { 0.0 }
 }
 
-/// Draws text on a background, after an optional icon that may currently be off (blinking).
+/// Returns text on a background. The optional icon comes with a flag that is false while a blinking icon is off.
 fn block(pane: Pane, (x, y): (f64, f64), sign: Option<(IconShape, bool)>, colour: HudColor, words: &str) -> Vec<DrawItem> {
     let middle = y + 0.5 * ROW;
     let mut items = vec![pane.panel((x, y), (x + width(words, sign.is_some()), y + ROW))];

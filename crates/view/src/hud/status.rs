@@ -7,7 +7,7 @@ use super::{DrawItem, HudColor, TextAlign, battery};
 
 /// Telemetry age from which the link counts as lost, s.
 pub const SILENT_S: f64 = 1.5;
-/// Character width: 1.5 times the font's mean; the excess is the panel's padding.
+/// Character width: 1.5 times the font's mean, of which the excess provides the panel's padding.
 const SIGN: f64 = 0.017;
 /// Height of the panel with one line, and of each additional line.
 const HIGH: f64 = 0.048;
@@ -30,14 +30,15 @@ fn link(hud: &Hud) -> String {
     if is_lost(hud) { format!("LINK LOST {:.0} s", hud.silent_s) } else { "link ok".into() }
 }
 
-/// Returns the active alarm as a short line. With a lost link, the satellite status is unknown.
+/// Returns the active alarm as a short line. While the link is lost, the satellite status is unknown, so only the link
+/// is reported.
 pub fn alarm(hud: &Hud) -> Option<String> {
     if is_lost(hud) { Some(link(hud)) } else { hud.gnss.filter(|gnss| !gnss.fixed).map(satellites) }
 }
 
 pub fn status(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let place = format!("{}   {}", hud.mode, hud.gnss.map_or_else(|| "GNSS ?".to_owned(), satellites));
-    // Between speed and battery; the battery panel is the wider one.
+    // Available width between speed and battery; the battery panel is the wider of the two.
     let room = pane.width - 2.0 * (EDGE + battery::WIDE + GAP);
     let width = |words: &str| SIGN * words.chars().count() as f64;
     let whole = format!("{place}   {}", link(hud));

@@ -1,14 +1,14 @@
-//! Texts of the HUD, their colors and positions.
+//! Tests of the HUD's texts, colors and positions.
 
 use super::*;
 use spandrel_mavlink::contract::cue;
 use spandrel_model::frames::Vec3;
 
 const WIDE: f64 = 16.0 / 9.0;
-/// All cues of the lower left.
+/// All cues shown in the lower left corner.
 pub(super) const ALL_CUES: i32 = cue::SPEEDING | cue::OFF_PATH | cue::TOO_CLOSE | cue::CRASH;
 
-/// HUD of a normal flight.
+/// Returns the HUD of a normal flight.
 pub(super) fn hud() -> Hud {
     Hud {
         speed_m_s: 3.2,
@@ -49,7 +49,7 @@ fn find(hud: &Hud, part: &str) -> Option<(ScreenPoint, HudColor)> {
     texts(hud).into_iter().find(|(_, _, words)| words.contains(part)).map(|(place, colour, _)| (place, colour))
 }
 
-/// Returns every text of the HUD with its position in hundredths and its color.
+/// Returns every text of the HUD with its position in percent of the picture and its color.
 fn snapshot(hud: &Hud) -> String {
     let line = |(place, colour, words): (ScreenPoint, HudColor, String)| {
         format!("{:3.0} {:3.0} {colour:?}: {words}\n", 100.0 * place.x, 100.0 * place.y)
@@ -76,7 +76,7 @@ fn exact_places_are_those_of_the_assessment() {
     for words in ["CRASH: bridge", "TOO CLOSE", "TOO FAST", "OFF THE PATH"] {
         let place = find(&all, words).unwrap().0;
         assert!(place.x < 0.5 && place.y > 0.5, "{words} is lower left");
-        assert!(find(&hud(), words).is_none(), "{words} shows without its cue");
+        assert!(find(&hud(), words).is_none(), "{words} appears without its cue");
     }
 }
 
@@ -131,7 +131,7 @@ fn exact_shapes_differ_where_colours_do() {
     assert_eq!([corners(90.0), corners(50.0), corners(10.0)], [Some(16), Some(3), Some(8)]);
 }
 
-/// Returns the texts and colors of a state that a normal flight does not have.
+/// Returns the texts and colors of a state that differ from those of a normal flight.
 fn news(hud: &Hud) -> Vec<String> {
     let said = |hud: &Hud| texts(hud).into_iter().map(|(_, colour, words)| format!("{colour:?}: {words}")).collect::<Vec<_>>();
     let calm = said(&self::hud());
@@ -181,7 +181,7 @@ fn exact_a_small_picture_shows_speed_battery_and_what_is_wrong() {
         };
         layout_px(hud, size_px).into_iter().filter_map(of).collect::<Vec<_>>()
     };
-    // The sizes of the reference pictures, and the camera's rectangle in a small window.
+    // Sizes of the reference pictures, and of the camera view in a small window.
     for (width, height) in [(640.0, 360.0), (480.0, 360.0), (1280.0, 720.0)] {
         assert_eq!(layout_px(&hud(), (width, height)), layout(&hud(), width / height), "{width} x {height}");
     }
@@ -197,5 +197,5 @@ fn exact_a_small_picture_shows_speed_battery_and_what_is_wrong() {
         assert!(all.iter().all(|(height, _)| height * size_px.1 > 11.99), "{size_px:?}: {all:?}");
     }
     let least = words(&wrong, (144.0, 81.0));
-    assert_eq!(least.last().map(|(_, words)| words.as_str()), Some("CRASH"), "the gravest stays: {least:?}");
+    assert_eq!(least.last().map(|(_, words)| words.as_str()), Some("CRASH"), "the most serious warning must stay: {least:?}");
 }

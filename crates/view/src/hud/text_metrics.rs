@@ -1,6 +1,7 @@
 //! Estimates text widths for the layout, which has no access to the font.
 
-/// Character width as a fraction of the font size (egui's Ubuntu Light, in classes; slightly wide to prevent overflow).
+/// Returns the width of a character as a fraction of the font size (egui's Ubuntu Light, in classes; slightly wide to
+/// prevent overflow).
 fn glyph_width(sign: char) -> f64 {
     match sign {
         ' ' => 0.25,
@@ -9,12 +10,12 @@ fn glyph_width(sign: char) -> f64 {
         '0'..='9' => 0.57,
         'A'..='Z' => 0.64,
         sign if sign.is_ascii() => 0.58,
-        // Characters of other scripts are as wide as they are tall.
+        // Characters of other scripts may be as wide as they are tall.
         _ => 1.0,
     }
 }
 
-/// Width of a line of text in the unit of the font size.
+/// Returns the width of a line of text in the unit of the font size.
 pub fn width_of(words: &str, height: f64) -> f64 {
     height * words.chars().map(glyph_width).sum::<f64>()
 }
@@ -29,7 +30,7 @@ pub fn cut(words: &str, fits: impl Fn(&str) -> bool) -> String {
     shown
 }
 
-/// Wraps a text at spaces into at most `most` lines that fit; truncates the rest.
+/// Wraps a text at spaces into at most `most` lines that satisfy `fits`, and truncates lines that are too long.
 pub fn wrapped(words: &str, most: usize, fits: impl Fn(&str) -> bool) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in words.split(' ') {
@@ -62,7 +63,7 @@ mod tests {
 
     #[test]
     fn exact_lengths_are_those_of_the_font_and_a_little_more() {
-        // Sums of the font's own advance widths, as fractions of the font size.
+        // Sums of the font's advance widths, as fractions of the font size.
         for (words, em) in [
             ("OFF THE PATH", 6.54),
             ("TOO CLOSE", 5.28),

@@ -1,20 +1,20 @@
-//! Playback clock of a live flight: shows the vehicle slightly behind the latest telemetry, so that there is a sample on either
-//! side, and advances smoothly although datagrams arrive in bursts and the vehicle's clock may run faster or slower than wall
-//! time.
+//! Playback clock of a live flight. It shows the vehicle slightly behind the latest telemetry, so that there is a
+//! sample on either side, and advances smoothly although datagrams arrive in bursts and the vehicle's clock may run
+//! faster or slower than wall time.
 
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// Delay of the picture behind the latest telemetry, s of wall time (three samples at 50 Hz; estimate: hides the usual jitter of
-/// a local network and is a tenth of human reaction time).
+/// Delay of the picture behind the latest telemetry, s of wall time (three samples at 50 Hz; estimate: hides the usual
+/// jitter of a local network and is much shorter than human reaction time).
 pub const BEHIND_S: f64 = 0.06;
-/// Wall time window over which the speed of the vehicle's clock is measured.
+/// Period of wall time over which the speed of the vehicle's clock is measured.
 const MEASURED_OVER: SimTime = SimTime::from_ms(1_000);
-/// Error from which the playback time jumps to the target, s of wall time.
+/// Playback error above which the playback time jumps to the target, s of wall time.
 const JUMP_S: f64 = 0.5;
 /// Time constant with which smaller errors are corrected, s.
 const SETTLE_S: f64 = 0.25;
-/// Silence from which the picture stops at the latest sample, s; shorter gaps count as jitter.
+/// Time without telemetry after which the picture stops at the latest sample, s; shorter gaps count as jitter.
 const PATIENCE_S: f64 = 0.1;
 
 /// Playback position.
@@ -43,7 +43,7 @@ impl Playhead {
         *self = Self::default();
     }
 
-    /// Returns the speed of the vehicle's clock relative to wall time; 1 until it is known.
+    /// Returns the speed of the vehicle's clock relative to wall time, or 1 until it has been measured.
     #[must_use]
     pub fn pace(&self) -> f64 {
         match (self.arrivals.front(), self.arrivals.back()) {
@@ -67,7 +67,7 @@ impl Playhead {
                 if error_s.abs() > JUMP_S * pace.max(1.0) {
                     target_s
                 } else {
-                    // Never steps back: reversed motion is conspicuous.
+                    // Playback never steps back, because reversed motion is conspicuous.
                     (even_s + error_s * (step_s / SETTLE_S).min(1.0)).max(shown.s())
                 }
             }
@@ -107,7 +107,8 @@ mod tests {
             let settled = &all[120..];
             for pair in settled.windows(2) {
                 let step = pair[1] - pair[0];
-                // With bursts of 60 ms and pictures every 17 ms, unsmoothed steps would be 0 or 3.6 times the nominal step.
+                // With bursts of 60 ms and pictures every 17 ms, steps without smoothing would be 0 or 3.6 times the
+                // nominal step.
                 assert!(step > 0.8 * pace / 60.0 && step < 1.2 * pace / 60.0, "pace {pace}: a step of {step} s");
             }
             let end = settled[settled.len() - 1];
@@ -125,7 +126,7 @@ mod tests {
             head.advance(SimTime::from_ms(20 * k));
         }
         let stopped = (1..100).filter_map(|k| head.advance(SimTime::from_ms(980 + 20 * k))).next_back();
-        assert_eq!(stopped, Some(SimTime::from_ms(980)), "at the newest sample");
+        assert_eq!(stopped, Some(SimTime::from_ms(980)), "playback must stop at the latest sample");
         head.handle_sample_time(SimTime::from_ms(10_000), SimTime::from_ms(10_000));
         let after = head.advance(SimTime::from_ms(10_000)).map(SimTime::s);
         assert!(after.is_some_and(|s| (s - (10.0 - BEHIND_S)).abs() < 0.01), "{after:?}");

@@ -1,4 +1,5 @@
-//! Poses of a vehicle without ground truth, from its own estimate: ATTITUDE or ATTITUDE_QUATERNION, and GLOBAL_POSITION_INT.
+//! Pose of a vehicle that sends no ground truth, from its own estimate: ATTITUDE or ATTITUDE_QUATERNION, and
+//! GLOBAL_POSITION_INT.
 
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::MavMessage;
@@ -6,14 +7,14 @@ use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::time::SimTime;
 
-/// Latest attitude, stored until a position arrives with its timestamp.
+/// Latest attitude, stored until a position with a timestamp arrives.
 #[derive(Debug, Clone, Default)]
 pub struct EstimatedPose {
     ned_from_frd: Option<Rotation<Frd, Ned>>,
 }
 
 impl EstimatedPose {
-    /// Processes a message; a position completes a pose.
+    /// Processes a message. A position completes a pose and returns it.
     pub fn take(&mut self, message: &MavMessage, plane: &LocalPlane) -> Option<Truth> {
         match message {
             MavMessage::ATTITUDE(a) => {

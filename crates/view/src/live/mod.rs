@@ -1,6 +1,6 @@
-//! A live flight from telemetry: takes datagrams and returns the moment to draw. Subscribes to telemetry like any other client,
-//! so it can show any MAVLink vehicle: the simulated one from ground truth, others from their own estimate. Accesses no socket or
-//! clock.
+//! A live flight from telemetry: processes datagrams and returns the moment to draw. It subscribes to telemetry like
+//! any other client, so it can show any MAVLink vehicle: the simulated one from ground truth, others from their own
+//! estimate. It does not access sockets or clocks.
 
 pub mod clock;
 mod estimate;
@@ -37,21 +37,21 @@ pub const SYSTEM: u8 = 253;
 const COMPONENT: u8 = 192;
 const AUTOPILOT: u8 = 1;
 const HEARTBEAT_EVERY: SimTime = SimTime::from_ms(1_000);
-/// Time without ground truth after which the vehicle counts as a real one and is asked for its estimates.
+/// Time without ground truth after which the vehicle counts as a real one and this client requests its estimates.
 const NO_TRUTH_AFTER: SimTime = SimTime::from_ms(3_000);
-/// Interval at which requests are repeated, in case one was lost.
+/// Interval at which requests are repeated, in case one is lost.
 const ASK_EVERY: SimTime = SimTime::from_ms(5_000);
 /// Messages used instead of ground truth and their rates, Hz: ATTITUDE_QUATERNION, GLOBAL_POSITION_INT,
 /// GIMBAL_DEVICE_ATTITUDE_STATUS.
 const INSTEAD: [(u32, f32); 3] = [(31, 50.0), (33, 50.0), (285, 25.0)];
-/// SERVO_OUTPUT_RAW and its requested rate, Hz, for the rotor sound (people notice a delay of a tenth of a second between sound
-/// and picture).
+/// SERVO_OUTPUT_RAW and its requested rate, Hz, for the rotor sound (a delay of a tenth of a second between sound and
+/// picture is noticeable).
 const ROTORS: (u32, f32) = (36, 20.0);
-/// FLIGHT_INFORMATION: contains the takeoff time, for viewers that connect in flight.
+/// FLIGHT_INFORMATION, which contains the takeoff time, for viewers that connect during a flight.
 const FLIGHT: u32 = 264;
 /// Pulse widths of idle and full outputs, µs (SERVO_OUTPUT_RAW).
 const PULSE_US: (f64, f64) = (1_000.0, 2_000.0);
-/// Time without a picture after which a video stream counts as ended: a hidden window renders none.
+/// Time without a picture after which a video stream counts as ended; a hidden window renders no pictures.
 const VIDEO_LASTS: SimTime = SimTime::from_ms(3_000);
 
 /// State of a live flight.
@@ -65,11 +65,11 @@ pub struct LiveFlight {
     next_heartbeat: SimTime,
     next_truth_request: Option<SimTime>,
     system: Option<u8>,
-    /// Wall time of the first message.
+    /// Wall time of the first message from the vehicle.
     first_heard: Option<SimTime>,
     seed: Option<u64>,
     scenario_crc: Option<u32>,
-    /// Wall time of the next request for rotor outputs; `None` if nobody needs them.
+    /// Wall time of the next request for rotor outputs; `None` if they are not needed.
     next_rotors: Option<SimTime>,
     truth_requested: bool,
     estimate: EstimatedPose,
@@ -92,14 +92,15 @@ struct SimulatorRun {
     outputs: Option<[f64; 4]>,
     battery_pct: Option<f64>,
     lift_off: Option<SimTime>,
-    /// Wall time of the next request for the takeoff time, if the vehicle was already flying when it was first received.
+    /// Wall time of the next request for the takeoff time, if the vehicle was already flying when its first position
+    /// arrived.
     since_when: Option<SimTime>,
     pictures: BTreeSet<(i32, Option<SimTime>)>,
     last_picture: Option<SimTime>,
     closures: BridgeClosures,
 }
 
-/// The moment to draw.
+/// The moment to draw, with its HUD inputs and bridge closures.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LiveMoment {
     /// State of the aircraft and its camera.
@@ -155,13 +156,14 @@ impl LiveFlight {
         self.scenario_crc
     }
 
-    /// Checks whether the poses are the vehicle's own estimate because no ground truth is available.
+    /// Checks whether the poses are the vehicle's own estimate, because no ground truth is available.
     #[must_use]
     pub fn is_estimated(&self) -> bool {
         self.last_heard.is_some() && !self.truth_requested
     }
 
-    /// Checks whether no ground truth arrived although it was requested: this is not the simulator, and no seed will arrive.
+    /// Checks whether no ground truth arrived although it was requested. Such a vehicle is not the simulator and sends
+    /// no seed.
     #[must_use]
     pub fn lacks_truth(&self, wall: SimTime) -> bool {
         !self.truth_requested && self.first_heard.is_some_and(|met| wall >= met + NO_TRUTH_AFTER + NO_TRUTH_AFTER)
@@ -204,7 +206,7 @@ impl LiveFlight {
         if let (Some(MavMessage::FLIGHT_INFORMATION(flight)), Some(_)) = (&frame.message, self.state.since_when)
             && let Ok(took_off_us @ 1..) = i64::try_from(flight.takeoff_time_utc)
         {
-            // Time since boot despite the field's name (MAVLink common).
+            // The field holds the time since boot despite its name (MAVLink common).
             (self.state.lift_off, self.state.since_when) = (Some(SimTime::from_us(took_off_us)), None);
         }
         if !self.truth_requested
@@ -221,7 +223,7 @@ impl LiveFlight {
         match sample.content {
             SampleContent::Truth(truth) => {
                 if !self.truth_requested {
-                    // Ground truth takes over; the estimates may use a different clock.
+                    // Ground truth replaces the estimates, which may use a different clock.
                     self.truth_requested = true;
                     self.restart();
                 }
@@ -265,7 +267,7 @@ impl LiveFlight {
                 return;
             }
             self.restart();
-            // A restarted simulator sends its own.
+            // A restarted simulator sends its own seed and checksum.
             (self.seed, self.scenario_crc) = (None, None);
         }
         self.time_reversals = 0;
@@ -278,7 +280,7 @@ impl LiveFlight {
         self.state.trace.push(truth);
     }
 
-    /// A different seed means a new session, even if the clock has not gone back.
+    /// Handles a seed. A different seed means a new session, even if the clock has not gone back.
     fn handle_seed(&mut self, seed: u64) {
         if self.seed.is_some_and(|known| known != seed) {
             self.restart();
@@ -307,8 +309,8 @@ impl LiveFlight {
         }
     }
 
-    /// Queues the messages that are due: a heartbeat, which registers this client with the vehicle, and requests to a vehicle
-    /// without ground truth.
+    /// Queues the periodic messages: a heartbeat, which registers this client with the vehicle, and requests to a
+    /// vehicle without ground truth.
     pub fn handle_timeout(&mut self, wall: SimTime) {
         if wall >= self.next_heartbeat {
             self.next_heartbeat = wall + HEARTBEAT_EVERY;
@@ -341,12 +343,13 @@ impl LiveFlight {
         }
     }
 
-    /// Requests rotor outputs from now on, and again whenever they stop.
+    /// Requests rotor outputs, and repeats the request whenever they stop.
     pub fn request_rotor_outputs(&mut self) {
         self.next_rotors.get_or_insert(SimTime::ZERO);
     }
 
-    /// Returns the rotor speeds from the autopilot's outputs, rad/s; empty if they are stopped or unknown.
+    /// Returns the rotor speeds from the autopilot's outputs, rad/s; empty if the rotors are stopped or their speed is
+    /// unknown.
     #[must_use]
     pub fn rotors_rad_s(&self, vehicle: &Vehicle) -> Vec<f64> {
         let (idle, full) = (vehicle.rotor.idle_speed_rad_s, vehicle.rotor.max_speed_rad_s);
@@ -391,13 +394,13 @@ impl LiveFlight {
     }
 }
 
-/// Returns a request for a message at a rate, Hz.
+/// Returns a request to send a message at a rate, Hz.
 fn message_interval_request(system: u8, (id, rate_hz): (u32, f32)) -> MavMessage {
     let params = [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0];
     MavMessage::COMMAND_LONG(station::command(system, AUTOPILOT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params))
 }
 
-/// Returns a request for a single message.
+/// Returns a request to send a message once.
 fn message_request(system: u8, id: u32) -> MavMessage {
     let params = [id as f32, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     MavMessage::COMMAND_LONG(station::command(system, AUTOPILOT, MavCmd::MAV_CMD_REQUEST_MESSAGE, params))

@@ -31,7 +31,7 @@ impl TimeSeries {
         self.points.get(after.saturating_sub(1)).map(|point| point.1)
     }
 
-    /// Returns the rate of change at a time, 1/s; zero where the value is held.
+    /// Returns the rate of change at a time, 1/s; zero where the value is not interpolated.
     #[must_use]
     pub fn rate_at(&self, time: SimTime) -> f64 {
         self.around(time).map_or(0.0, |(before, next)| (next.1 - before.1) / (next.0 - before.0).s())
@@ -61,7 +61,7 @@ mod tests {
         }
         let at = |ms: i64| series.at(SimTime::from_ms(ms)).unwrap();
         assert!((at(350) - 1.3).abs() < ROUNDING && (series.rate_at(SimTime::from_ms(350)) - 2.0).abs() < ROUNDING);
-        assert_eq!((at(500), at(1_999), at(2_000), at(9_000)), (1.6, 1.6, 9.0, 9.0), "no gliding over a silence");
+        assert_eq!((at(500), at(1_999), at(2_000), at(9_000)), (1.6, 1.6, 9.0, 9.0), "long gaps must not be interpolated");
         assert_eq!((series.rate_at(SimTime::from_ms(1_200)), series.rate_at(SimTime::from_ms(9_000))), (0.0, 0.0));
     }
 }

@@ -16,9 +16,9 @@ struct FakeVehicle {
 impl FakeVehicle {
     fn new() -> Self {
         let scenario =
-            spandrel_model::scenario::read("two-bridges.toml", SCENARIO, &|name| Err(format!("{name}: not asked for")))
-                .expect("the shipped scenario is good");
-        let aircraft = spandrel_model::vehicle::read("phantom2.toml", VEHICLE).expect("the shipped vehicle is good");
+            spandrel_model::scenario::read("two-bridges.toml", SCENARIO, &|name| Err(format!("{name}: unexpected file")))
+                .expect("the shipped scenario must be valid");
+        let aircraft = spandrel_model::vehicle::read("phantom2.toml", VEHICLE).expect("the shipped vehicle must be valid");
         Self { vehicle: Encoder::new(1, 1), live: LiveFlight::new(&scenario), aircraft }
     }
 
@@ -27,7 +27,7 @@ impl FakeVehicle {
         self.live.handle_datagram(&bytes, SimTime::from_ms(wall_ms));
     }
 
-    /// Sends ground truth at a time, this far east of the origin.
+    /// Sends ground truth for a simulation time at a position this far east of the origin.
     fn truth(&mut self, sim_ms: i64, wall_ms: i64, east_m: f64) {
         let geo = self.live.plane.geo_from_enu(spandrel_model::frames::Vec3::new(east_m, 0.0, self.live.pad_up_m + 20.0));
         let truth = HIL_STATE_QUATERNION_DATA {
@@ -66,12 +66,12 @@ fn exact_the_moment_lies_between_samples_and_reports_what_was_received() {
         capture_result: MavBool::MAV_BOOL_TRUE,
         ..Default::default()
     };
-    // A retransmission is the same picture.
+    // A retransmission refers to the same picture.
     wire.say(&MavMessage::CAMERA_IMAGE_CAPTURED(picture.clone()), 1_980);
     wire.say(&MavMessage::CAMERA_IMAGE_CAPTURED(picture), 1_980);
     let beat = HEARTBEAT_DATA { base_mode: MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED, custom_mode: 3 << 16, ..Default::default() };
     wire.say(&MavMessage::HEARTBEAT(beat), 1_980);
-    let now = wire.now(1_990).expect("it has been heard");
+    let now = wire.now(1_990).expect("a moment must be available");
     let behind_s = 6.98 + 0.01 - now.moment.at.s();
     assert!((behind_s - clock::BEHIND_S).abs() < 0.005, "{behind_s} s behind");
     assert!((now.moment.drone.position_m.east() - (now.moment.at.s() - 5.0)).abs() < WIRE_M);
@@ -79,10 +79,10 @@ fn exact_the_moment_lies_between_samples_and_reports_what_was_received() {
     assert_eq!((now.hud.pictures, now.hud.last_picture), (1, Some(SimTime::from_ms(6_900))));
     assert_eq!(now.hud.lift_off, Some(SimTime::from_ms(5_000)));
     assert_eq!(wire.live.feed().mode(), "Position");
-    let later = wire.now(4_980).expect("it stands");
-    assert!((later.hud.silent_s - 3.0).abs() < 1e-9, "the link is silent");
+    let later = wire.now(4_980).expect("a moment must be available");
+    assert!((later.hud.silent_s - 3.0).abs() < 1e-9, "the age of the telemetry must increase");
     assert_eq!(later.moment.at, SimTime::from_ms(6_980));
-    assert!((later.hud.flash_s - now.hud.flash_s - 2.99).abs() < 1e-9, "what flashes does so while everything stands");
+    assert!((later.hud.flash_s - now.hud.flash_s - 2.99).abs() < 1e-9, "blinking must continue while the picture is frozen");
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn exact_a_restarted_simulator_starts_over_and_strangers_are_not_drawn() {
     for k in 0..20 {
         wire.truth(20 * k, 1_000 + 20 * k, -5.0);
     }
-    let now = wire.now(1_400).expect("it flies again");
+    let now = wire.now(1_400).expect("a moment must be available");
     assert!(now.moment.at < SimTime::from_ms(500) && (now.moment.drone.position_m.east() + 5.0).abs() < WIRE_M);
     assert!(!now.moment.camera.lamp_on);
 }
@@ -118,19 +118,19 @@ fn exact_a_restarted_simulator_is_believed_when_it_reports_another_seed() {
     for k in 0..20 {
         wire.truth(20 * k, 1_000 + 20 * k, -5.0);
     }
-    assert_eq!(wire.live.seed(), None, "the former one is nobody's");
+    assert_eq!(wire.live.seed(), None, "a restart must discard the seed");
     say_seed(&mut wire, 8, 1_400);
     assert_eq!(wire.live.seed(), Some(8));
-    assert!(wire.now(1_400).is_some(), "one restart, not two");
-    // The next session starts before the clock has gone back by much: the seed identifies it.
+    assert!(wire.now(1_400).is_some(), "the new seed must not cause another restart");
+    // The next session starts before the clock has gone back far enough, so that only the seed identifies it.
     wire.say(&MavMessage::ILLUMINATOR_STATUS(ILLUMINATOR_STATUS_DATA { enable: 1, ..Default::default() }), 1_420);
     say_seed(&mut wire, 9, 1_440);
     assert_eq!((wire.live.seed(), wire.now(1_440)), (Some(9), None));
     wire.truth(100, 1_460, 3.0);
-    let now = wire.now(1_460).expect("it flies");
+    let now = wire.now(1_460).expect("a moment must be available");
     assert!(!now.moment.camera.lamp_on && (now.moment.drone.position_m.east() - 3.0).abs() < WIRE_M);
     say_seed(&mut wire, 9, 1_480);
-    assert!(wire.now(1_480).is_some(), "said again, it is the same session");
+    assert!(wire.now(1_480).is_some(), "a repeated seed must not restart the session");
 }
 
 #[test]
@@ -157,14 +157,14 @@ fn exact_a_vehicle_without_truth_is_asked_and_drawn_by_its_estimate() {
         };
         wire.say(&MavMessage::GLOBAL_POSITION_INT(place), 3_200 + 20 * i64::from(k));
     }
-    let now = wire.now(3_600).expect("it is drawn");
+    let now = wire.now(3_600).expect("a moment must be available");
     assert!((now.moment.drone.position_m.up() - 30.0).abs() < WIRE_M && wire.live.is_estimated());
     assert!((now.moment.drone.ned_from_frd.yaw_rad() - 1.0).abs() < 1e-6);
     // Ground truth replaces the estimate once it arrives, and requests stop.
     for k in 0..10 {
         wire.truth(1_000 + 20 * k, 4_000 + 20 * k, 3.0);
     }
-    let now = wire.now(4_200).expect("it is drawn");
+    let now = wire.now(4_200).expect("a moment must be available");
     assert!((now.moment.drone.position_m.east() - 3.0).abs() < WIRE_M && !wire.live.is_estimated());
     assert_eq!(said(&mut wire, 20_000), 0);
 }
@@ -180,9 +180,9 @@ fn exact_rotors_are_requested_where_they_are_heard_and_turn_by_their_outputs() {
         let frames = Decoder::new().datagram(&bytes);
         frames.iter().any(|f| matches!(&f.message, Some(MavMessage::COMMAND_LONG(c)) if c.param1 == 36.0))
     };
-    assert!(!asked(&mut wire, 100), "nobody hears them");
+    assert!(!asked(&mut wire, 100), "no request without need");
     wire.live.request_rotor_outputs();
-    assert!(asked(&mut wire, 200) && !asked(&mut wire, 1_000) && asked(&mut wire, 5_300), "until they are told");
+    assert!(asked(&mut wire, 200) && !asked(&mut wire, 1_000) && asked(&mut wire, 5_300), "requests must repeat until outputs arrive");
     let mut say = |pulse: u16, wall_ms: i64| {
         let servos = SERVO_OUTPUT_RAW_DATA {
             servo1_raw: pulse,
@@ -197,12 +197,12 @@ fn exact_rotors_are_requested_where_they_are_heard_and_turn_by_their_outputs() {
     let rotor = wire.aircraft.rotor;
     let half = 0.5 * (rotor.idle_speed_rad_s + rotor.max_speed_rad_s);
     let idle = rotor.idle_speed_rad_s;
-    assert_eq!(wire.live.rotors_rad_s(&wire.aircraft), [idle, half, idle, rotor.max_speed_rad_s], "within their range");
+    assert_eq!(wire.live.rotors_rad_s(&wire.aircraft), [idle, half, idle, rotor.max_speed_rad_s], "outputs must be clamped to their range");
     wire.say(
         &MavMessage::HEARTBEAT(HEARTBEAT_DATA { base_mode: MavModeFlag::empty(), mavlink_version: 3, ..Default::default() }),
         6_100,
     );
-    assert!(wire.live.rotors_rad_s(&wire.aircraft).is_empty(), "disarmed they stand");
+    assert!(wire.live.rotors_rad_s(&wire.aircraft).is_empty(), "disarmed rotors must stop");
 }
 
 #[test]
@@ -221,7 +221,7 @@ fn exact_a_late_listener_requests_the_flight_time() {
     let mut wire = FakeVehicle::new();
     wire.truth(300_000, 0, 0.0);
     wire.truth(300_020, 20, 0.0);
-    assert_eq!(wire.now(20).unwrap().hud.lift_off, Some(SimTime::from_ms(300_000)), "until it is known");
+    assert_eq!(wire.now(20).unwrap().hud.lift_off, Some(SimTime::from_ms(300_000)), "the first position serves as takeoff time until the real one arrives");
     wire.live.handle_timeout(SimTime::from_ms(20));
     let mut decoder = Decoder::new();
     let asked = std::iter::from_fn(|| wire.live.poll_transmit()).any(|bytes| {
@@ -237,7 +237,7 @@ fn exact_a_late_listener_requests_the_flight_time() {
     wire.say(&MavMessage::FLIGHT_INFORMATION(flight.clone()), 40);
     assert_eq!(wire.now(40).unwrap().hud.lift_off, Some(SimTime::from_ms(12_500)));
     wire.say(&MavMessage::FLIGHT_INFORMATION(FLIGHT_INFORMATION_DATA { takeoff_time_utc: 99_000_000, ..flight }), 60);
-    assert_eq!(wire.now(60).unwrap().hud.lift_off, Some(SimTime::from_ms(12_500)), "a flight begins once");
+    assert_eq!(wire.now(60).unwrap().hud.lift_off, Some(SimTime::from_ms(12_500)), "the takeoff time must not change");
 }
 
 #[test]
@@ -256,7 +256,7 @@ fn exact_a_stream_is_reported_while_pictures_go_out_and_its_end_once() {
     let at = SimTime::from_ms;
     wire.live.set_video_status(None, at(0));
     wire.live.handle_timeout(at(0));
-    assert!(said(&mut wire.live).is_empty(), "what never ran does not end");
+    assert!(said(&mut wire.live).is_empty(), "a stream that never ran must not end");
     wire.live.set_video_status(Some(video), at(500));
     let mut beats = |live: &mut LiveFlight, from_s: i64| -> Vec<Vec<bool>> {
         let beat = |k| {
@@ -266,10 +266,10 @@ fn exact_a_stream_is_reported_while_pictures_go_out_and_its_end_once() {
         (from_s..from_s + 5).map(beat).collect()
     };
     let ended: [&[bool]; 5] = [&[true], &[true], &[true], &[false], &[]];
-    assert_eq!(beats(&mut wire.live, 1), ended, "no picture since half a second");
+    assert_eq!(beats(&mut wire.live, 1), ended, "the stream must end 3 s after its last picture");
     wire.live.set_video_status(Some(video), at(10_000));
     assert_eq!(beats(&mut wire.live, 10)[0], [true]);
     wire.live.set_video_status(Some(video), at(15_000));
     wire.live.set_video_status(None, at(15_000));
-    assert_eq!(beats(&mut wire.live, 15)[0], [false], "at once");
+    assert_eq!(beats(&mut wire.live, 15)[0], [false], "the end must be reported with the next heartbeat");
 }

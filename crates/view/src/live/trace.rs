@@ -12,8 +12,9 @@ use std::collections::VecDeque;
 pub(super) const KEPT: SimTime = SimTime::from_ms(3_000);
 /// Maximum gap between samples for interpolation.
 pub(super) const GAP: SimTime = SimTime::from_ms(1_000);
-/// Additional delay of the camera's field of view: it is sent at 5 Hz, and with the general delay
-/// ([`BEHIND_S`](super::clock::BEHIND_S)) the next sample has arrived by then, including 20 ms of jitter (estimate).
+/// Additional delay of the camera's field of view, which is sent at 5 Hz. Together with the general delay
+/// ([`BEHIND_S`](super::clock::BEHIND_S)), it leaves time for the next sample to arrive, including 20 ms of jitter
+/// (estimate).
 const LENS_BEHIND: SimTime = SimTime::from_ms(160);
 
 /// Position and motion of the aircraft.
@@ -110,7 +111,7 @@ impl MotionHistory {
         self.lens.at(time)
     }
 
-    /// Returns the camera's turn rate at a time, interpolated between samples; zero where nothing is interpolated.
+    /// Returns the camera's turn rate at a time, interpolated between samples; zero where there is no interpolation.
     #[must_use]
     pub fn turn_at(&self, time: SimTime) -> CameraTurnRate {
         let heading_rad_s = self.around(time).map_or(0.0, |(before, next)| {
@@ -154,14 +155,14 @@ mod tests {
     fn exact_between_samples_everything_goes_evenly() {
         let mut trace = MotionHistory::default();
         assert_eq!(trace.at(SimTime::ZERO), None);
-        // The second sample arrives late, and twice.
+        // The second sample arrives late and is duplicated.
         for sample in [truth(0, 0.0, 10.0), truth(40, 2.0, 14.0), truth(20, 1.0, 12.0), truth(20, 1.0, 12.0)] {
             trace.push(sample);
         }
         let pose = trace.at(SimTime::from_ms(25)).unwrap();
         assert!((pose.position_m.east() - 1.25).abs() < 1e-9);
         assert!((pose.ned_from_frd.yaw_rad().to_degrees() - 12.5).abs() < 1e-4);
-        assert_eq!(trace.at(SimTime::from_ms(90)).map(|p| p.position_m.east()), Some(2.0), "nothing is foretold");
+        assert_eq!(trace.at(SimTime::from_ms(90)).map(|p| p.position_m.east()), Some(2.0), "there must be no extrapolation");
         trace.push_gimbal(SimTime::from_ms(0), 0.0);
         trace.push_gimbal(SimTime::from_ms(40), 0.4);
         assert!((trace.gimbal_at(SimTime::from_ms(10)) - 0.1).abs() < 1e-12);
@@ -171,7 +172,7 @@ mod tests {
     fn exact_the_camera_turns_as_fast_as_its_samples_lie_apart() {
         let mut trace = MotionHistory::default();
         assert_eq!(trace.turn_at(SimTime::ZERO), CameraTurnRate::default());
-        // Across south, where the heading wraps around.
+        // The heading crosses south, where it wraps around.
         for sample in [truth(0, 0.0, 179.0), truth(20, 0.0, 181.0), truth(40, 0.0, 181.0)] {
             trace.push(sample);
         }
@@ -180,7 +181,7 @@ mod tests {
         let turn = trace.turn_at(SimTime::from_ms(5));
         assert!((turn.heading_rad_s.to_degrees() - 100.0).abs() < 1e-6 && (turn.pitch_rad_s + 0.5).abs() < 1e-12, "{turn:?}");
         assert!(trace.turn_at(SimTime::from_ms(25)).heading_rad_s.abs() < 1e-9);
-        assert_eq!(trace.turn_at(SimTime::from_ms(40)), CameraTurnRate::default(), "held");
+        assert_eq!(trace.turn_at(SimTime::from_ms(40)), CameraTurnRate::default(), "the rate must be zero after the last sample");
     }
 
     #[test]
@@ -192,7 +193,7 @@ mod tests {
             if ms % 200 == 0 {
                 trace.push_lens(SimTime::from_ms(ms), 1.5 - 0.2 * ms as f64 / 1_000.0);
             }
-            // The picture is three samples behind.
+            // The picture lags three samples behind.
             shown.extend((ms >= from_ms).then(|| trace.lens_at(SimTime::from_ms(ms - 60)).unwrap()));
         }
         for pair in shown.windows(2) {
@@ -209,6 +210,6 @@ mod tests {
         trace.push(truth(2_000, 51.0, 0.0));
         assert_eq!(trace.at(SimTime::from_ms(1_000)).map(|p| p.position_m.east()), Some(50.0));
         trace.push(truth(9_000, 52.0, 0.0));
-        assert_eq!(trace.truths.len(), 1, "old samples are forgotten");
+        assert_eq!(trace.truths.len(), 1, "old samples must be discarded");
     }
 }

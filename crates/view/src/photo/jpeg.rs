@@ -14,7 +14,8 @@ const XMP: &[u8] = b"http://ns.adobe.com/xap/1.0/\0";
 /// EXIF and XMP metadata of a photo.
 pub type PhotoTags<'a> = (&'a [u8], &'a str);
 
-/// Encodes at the highest quality whose file has at most `most` bytes, by bisection.
+/// Encodes the picture at the highest quality for which the file has at most `most` bytes. Finds the quality by
+/// bisection.
 pub fn encode(picture: &Picture, tags: Option<PhotoTags<'_>>, most: usize) -> Result<Vec<u8>, PhotoError> {
     let best = with_quality(picture, tags, BEST)?;
     if best.len() <= most {

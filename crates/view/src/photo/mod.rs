@@ -65,18 +65,18 @@ impl PhotoInfo {
     }
 }
 
-/// Direction of a pose's optical axis: heading clockwise from true north (0 to 360) and elevation, degrees.
+/// Returns the direction of a pose's optical axis: heading clockwise from true north (0 to 360) and elevation, degrees.
 #[must_use]
 pub fn direction_deg(pose: &CameraPose) -> (f64, f64) {
     let (forward, right): (Vec3<Enu>, Vec3<Enu>) = (pose.forward, pose.right);
-    // Uses the image's right axis, which the gimbal keeps level: a vertical optical axis has no heading of its own.
+    // Uses the image's right axis, which the gimbal keeps level, because a vertical optical axis has no heading.
     let yaw = (math::atan2(right.east(), right.north()).to_degrees() - 90.0).rem_euclid(360.0);
     (yaw, math::asin(forward.up().clamp(-1.0, 1.0)).to_degrees())
 }
 
 /// Maximum width of a copy, px: the largest that a report shows.
 const COPY_WIDEST_PX: u32 = 1280;
-/// Minimum width of a copy, px: narrower ones would not show any defect.
+/// Minimum width of a copy, px; narrower copies would not show defects.
 const COPY_NARROWEST_PX: u32 = 320;
 
 /// Encodes the photo without visible loss, regardless of size.
@@ -88,8 +88,8 @@ pub fn jpeg(picture: &Picture, about: &PhotoInfo) -> Result<Vec<u8>, PhotoError>
     jpeg::encode(picture, Some((&tags::write(about, size)?, &xmp::write(about, size))), usize::MAX)
 }
 
-/// Encodes a copy without metadata for a report, as wide and as good as fits into `most` bytes. Exceeds the limit only if even
-/// the narrowest copy at the lowest quality does.
+/// Encodes a copy without metadata for a report, as wide and with as high a quality as `most` bytes allow. Exceeds the
+/// limit only if even the narrowest copy at the lowest quality does.
 ///
 /// # Errors
 /// If it exceeds the limits of JPEG.
@@ -104,8 +104,8 @@ pub fn copy(picture: &Picture, most: usize) -> Result<Vec<u8>, PhotoError> {
     }
 }
 
-/// Encodes a picture without metadata at the best quality that fits into `most` bytes. Exceeds the limit only if even the lowest
-/// quality does.
+/// Encodes a picture without metadata at the highest quality that `most` bytes allow. Exceeds the limit only if even
+/// the lowest quality does.
 ///
 /// # Errors
 /// If it exceeds the limits of JPEG.

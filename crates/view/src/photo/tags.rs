@@ -88,14 +88,14 @@ fn place(about: &PhotoInfo) -> Vec<(Tag, Value)> {
         (Tag::GPSDateStamp, text(&about.taken_utc.0)),
         (Tag::GPSMapDatum, text("WGS-84")),
         (Tag::GPSImgDirectionRef, text("T")),
-        // Hundredths below a full turn: 0 to 359.99.
+        // Rounds to hundredths below a full turn: 0 to 359.99.
         (Tag::GPSImgDirection, one((about.yaw_deg * 100.0).round().rem_euclid(36_000.0) / 100.0, 100)),
     ]
 }
 
-/// Degrees, minutes, seconds; seconds to a ten-thousandth, 3 mm on the ground.
+/// Returns an angle as degrees, minutes and seconds; seconds to a ten-thousandth, 3 mm on the ground.
 fn degrees(angle_deg: f64) -> Value {
-    // Rounds the whole angle first, so that 59.99999 s never becomes 60.
+    // Rounds the whole angle first, so that 59.99999 s never becomes 60 s.
     let parts = (angle_deg.abs() * 3600.0 * 10_000.0).round();
     let whole = |size: f64| (parts / size).floor();
     Value::Rational(vec![

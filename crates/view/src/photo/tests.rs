@@ -44,10 +44,10 @@ fn exact_exif_reports_place_lens_and_direction() {
     let [degrees, minutes, seconds] = numbers(Tag::GPSLatitude)[..] else { panic!("three parts") };
     // Rounded to a ten-thousandth of a second.
     assert!((degrees + minutes / 60.0 + seconds / 3600.0 - 47.123_456_78).abs() < 0.5e-4 / 3600.0 + 1e-12);
-    assert_eq!(numbers(Tag::GPSLongitude), [9.0, 0.0, 0.0], "a second is carried, never 60");
+    assert_eq!(numbers(Tag::GPSLongitude), [9.0, 0.0, 0.0], "seconds must carry over, never be 60");
     assert_eq!((value(Tag::GPSLatitudeRef), value(Tag::GPSLongitudeRef)), ("N".into(), "W".into()));
     assert_eq!((numbers(Tag::GPSAltitude), numbers(Tag::GPSImgDirection)), (vec![432.1], vec![271.5]));
-    // Ninety degrees: the focal length is half the sensor's width, 18 mm on film.
+    // At ninety degrees, the focal length is half the sensor's width, equivalent to 18 mm on film.
     assert_eq!((numbers(Tag::FocalLength), value(Tag::FocalLengthIn35mmFilm)), (vec![3.085], "18".into()));
     // Pixels per centimeter (unit 3) of a sensor 6.17 mm wide, to a thousandth.
     assert_eq!(read.get_field(Tag::FocalPlaneResolutionUnit, In::PRIMARY).unwrap().value.get_uint(0), Some(3));
@@ -67,7 +67,7 @@ fn exact_a_heading_is_reported_straight_up_and_down_too() {
             let attitude = Rotation::from_euler(0.1, -0.05, yaw_deg.to_radians());
             let pose = CameraPose::on(&camera, (Vec3::new(0.0, 0.0, 0.0), attitude), pitch_deg.to_radians(), false);
             let (yaw, pitch) = direction_deg(&pose);
-            // The arcsine is flat at its ends: rounding errors of 1e-16 there become 1e-6 degrees.
+            // The arcsine is steep at its ends, where rounding errors of 1e-16 become 1e-6 degrees.
             assert!((yaw - yaw_deg).abs() < 1e-9 && (pitch - pitch_deg).abs() < 1e-5, "{yaw_deg} {pitch_deg}: {yaw} {pitch}");
         }
     }
@@ -75,7 +75,7 @@ fn exact_a_heading_is_reported_straight_up_and_down_too() {
 
 #[test]
 fn exact_the_ground_sampling_distance_is_that_of_the_drawn_picture() {
-    // Ninety degrees, 4 m away: 8 m across 4000 px, and across 1000.
+    // Ninety degrees at a distance of 4 m: 8 m across 4000 px or 1000 px.
     let close = |width, mm: f64| (about().gsd_mm(width).unwrap() - mm).abs() < 1e-9;
     assert!(close(4000, 2.0) && close(1000, 8.0));
     let text = xmp::write(&about(), (1000, 750));
@@ -90,7 +90,7 @@ fn exact_a_file_is_as_good_as_fits() {
     let free = plain(&picture, usize::MAX).unwrap();
     let most = free.len() / 2;
     let fitted = plain(&picture, most).unwrap();
-    // Bisection stops one quality step below the limit; for noise, a step is a few percent of the size.
+    // Bisection stops at most one quality step below the limit; for noise, a step is a few percent of the size.
     assert!(fitted.len() <= most && fitted.len() > most * 9 / 10, "{} of {most}", fitted.len());
 }
 
@@ -105,6 +105,6 @@ fn exact_a_copy_is_as_wide_as_fits_and_a_photograph_is_not_made_coarser() {
     assert_eq!(size(&free), (1280, 960));
     let quarter = copy(&picture, free.len() / 10).unwrap();
     assert!(quarter.len() <= free.len() / 10 && size(&quarter) == (640, 480), "{} of {}", quarter.len(), free.len());
-    assert_eq!(size(&copy(&picture, 1_000).unwrap()), (320, 240), "never narrower, though it is too large");
+    assert_eq!(size(&copy(&picture, 1_000).unwrap()), (320, 240), "a copy must not become narrower, although it is too large");
     assert_eq!(size(&jpeg(&picture, &about()).unwrap()), (1600, 1200));
 }

@@ -1,5 +1,6 @@
-//! XMP metadata: attitude of the gimbal and aircraft under the names that photogrammetry programs read for drones (DJI's, as in
-//! Metashape, Pix4D and OpenDroneMap), and simulator-specific values under the product's own names.
+//! XMP metadata: attitude of the gimbal and aircraft under the names that photogrammetry programs read for drones
+//! (DJI's, as in Metashape, Pix4D and OpenDroneMap), and simulator-specific values under names in the `spandrel`
+//! namespace.
 
 use super::PhotoInfo;
 use std::fmt::Write;

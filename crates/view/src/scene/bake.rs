@@ -1,5 +1,5 @@
-//! Baked indirect light at vertices, computed with the scoring's light model: a soffit that is dark for the score is dark in the
-//! picture.
+//! Baked indirect light at vertices, computed with the light model that the scoring uses, so that a soffit that is dark
+//! for the score is also dark in the picture.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::light::spread;
@@ -7,13 +7,13 @@ use spandrel_model::site::{QueryTime, RayHit, Site};
 
 /// Distance of samples from the edges of their face, m, so that adjoining members do not darken them.
 pub const INSET_M: f64 = 0.25;
-/// A sample with another solid closer than this above it is inside or below that solid, m.
+/// Distance below which another solid above a sample means that the sample is inside or below that solid, m.
 const BURIED_M: f64 = 0.04;
 /// Height of the probe above the surface, m.
 const PROBE_M: f64 = 0.05;
 
-/// Height above a face at which it is checked whether the point is inside another member, m (members in contact leave no gap of
-/// this width).
+/// Height above a face of the point that is tested for being inside another member, m (members in contact leave no gap
+/// of this width).
 const OVER_M: f64 = 0.005;
 
 /// Computes indirect light at points of a site.
@@ -36,7 +36,7 @@ impl<'a> LightBaker<'a> {
         [sky as f32, sun as f32]
     }
 
-    /// Returns the same for a point on a member's face, or `None` if another member covers it.
+    /// Returns the same fractions for a point on a member's face, or `None` if another member covers the point.
     pub fn on_member(&self, position_m: Vec3<Enu>, normal: Vec3<Enu>) -> Option<[f32; 2]> {
         let near = self.site.geometry().nearest_member(position_m + normal * PROBE_M, PROBE_M);
         let buried = near.is_some_and(|n| n.distance_m < BURIED_M);
@@ -50,7 +50,7 @@ impl<'a> LightBaker<'a> {
     }
 }
 
-/// Fills the gaps of a sample grid with the mean of their neighbors.
+/// Fills gaps in a sample grid with the mean of their neighbors.
 pub fn filled(samples: &[Option<[f32; 2]>], columns: usize) -> Vec<[f32; 2]> {
     let mut known = samples.to_vec();
     let rows = samples.len() / columns.max(1);
@@ -89,7 +89,7 @@ pub fn filled(samples: &[Option<[f32; 2]>], columns: usize) -> Vec<[f32; 2]> {
     known.into_iter().map(|sample| sample.unwrap_or([0.0, 0.0])).collect()
 }
 
-/// Indirect light around a small object in the air: on upward and on downward surfaces.
+/// Returns indirect light around a small object in the air, on upward and on downward surfaces.
 pub fn around(site: &Site, position_m: Vec3<Enu>, at: QueryTime) -> [f32; 4] {
     const RAYS: usize = 24;
     let bake = LightBaker::new(site, site.light().daylight(at).sun, RAYS);

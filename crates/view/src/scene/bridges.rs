@@ -17,15 +17,15 @@ const BEARING: [u8; 3] = [38, 34, 30];
 /// Galvanized wire.
 const WIRE: [u8; 3] = [92, 94, 92];
 const WHITE: [u8; 3] = [255, 255, 255];
-/// Faces narrower than this have constant light across, m.
+/// Width below which a face has constant light across it, m.
 const NARROW_M: f64 = 0.8;
-/// Tolerance of the fractions of sky and sun light where triangles are saved (a hundredth of the open-air value is not visible;
-/// rays of a lean preset have more noise).
+/// Tolerance of the fractions of sky and sun light for presets that save triangles (a hundredth of the open-air value
+/// is not visible; rays of a lean preset have more noise).
 const LIGHT_OFF: f32 = 0.03;
-/// Tolerance on slender members.
+/// Same tolerance for slender members.
 const LIGHT_OFF_SLIM: f32 = 0.12;
 
-/// Material and paint of an element, by its AASHTO number.
+/// Returns the material and paint of an element by its AASHTO number.
 pub(super) fn matter(element: u32) -> (Material, [u8; 3]) {
     match element {
         147..=149 => (Material::Cable, WIRE),
@@ -44,23 +44,24 @@ struct TextureAxes {
     half_deck_m: f64,
 }
 
-/// Spacing at which faces are probed for cover, and distance of the probes from the edges, m (estimate: smaller gaps are not
-/// visible).
+/// Spacing of the probes that test whether a face is covered, and distance of the probes from the edges, m (estimate:
+/// smaller gaps are not visible).
 const PROBED_M: (f64, f64) = (0.5, 0.02);
 /// Minimum number of probe steps, so that the center is always probed.
 const STEPS_MIN: f64 = 2.0;
-/// Minimum vertical component of the normal of an upward face, which the lake's reflection never shows from above.
+/// Minimum vertical component of the normal of an upward face; the lake's reflection never shows such faces from above.
 const LEVEL: f64 = 0.999;
 
 /// Hangers and railings, which are not visible in the small reflection of a distant bridge.
 const SLIM: [u32; 3] = [148, 330, 331];
 
-/// Tolerance of the light between the corners of a face, by element and normal; `None` omits the face.
+/// Function that returns the tolerance of the light between the corners of a face, by element and normal; `None` omits
+/// the face.
 type LightTolerance<'a> = &'a dyn Fn(u32, Vec3<Enu>) -> Option<f32>;
 /// Tolerance that keeps every sample.
 const WHOLE: f32 = f32::NEG_INFINITY;
 
-/// Builds all members; presets that save triangles use simpler ones for the lake's reflection.
+/// Builds all members. Presets that save triangles use simpler meshes for the lake's reflection.
 pub fn parts(scenario: &Scenario, bake: &LightBaker, quality: &Quality) -> Vec<SceneItem> {
     if !quality.sparse {
         let [mesh] = meshes(scenario, bake, quality, [&|_, _| Some(WHOLE)]);
@@ -68,7 +69,7 @@ pub fn parts(scenario: &Scenario, bake: &LightBaker, quality: &Quality) -> Vec<S
     }
     let is_slim = |element: u32| SLIM.contains(&element);
     let straight = |element: u32, _| Some(if is_slim(element) { LIGHT_OFF_SLIM } else { LIGHT_OFF });
-    // In the lake's reflection, light is sampled at the corners of faces only.
+    // For the lake's reflection, light is sampled only at the corners of faces.
     let in_lake = |element: u32, normal: Vec3<Enu>| (!is_slim(element) && normal.up() < LEVEL).then_some(f32::INFINITY);
     let [straight, in_lake] = meshes(scenario, bake, quality, [&straight, &in_lake]);
     let (straight, in_lake) =
@@ -142,7 +143,7 @@ impl Quad {
         a.lerp(b, s).lerp(d.lerp(c, s), t)
     }
 
-    /// Returns the longer of the first and third side, and of the second and fourth, m.
+    /// Returns the longer of the first and third sides, and the longer of the second and fourth sides, m.
     fn lengths_m(&self) -> (f64, f64) {
         let [a, b, c, d] = self.0;
         ((b - a).norm().max((c - d).norm()), (d - a).norm().max((c - b).norm()))
@@ -182,7 +183,7 @@ fn normal(corners: &[Vec3<Enu>]) -> Vec3<Enu> {
     (0..count).fold(Vec3::zero(), |sum, k| sum + corners[k].cross(corners[(k + 1) % count])).unit()
 }
 
-/// Surface coordinates: along and across the bridge on horizontal faces, horizontal and up on walls.
+/// Returns surface coordinates: along and across the bridge on horizontal faces, horizontal and up on walls.
 fn uv(p: Vec3<Enu>, normal: Vec3<Enu>, axes: &TextureAxes) -> [f32; 2] {
     let from = p - axes.origin_m;
     if normal.up().abs() > 0.8 {
@@ -232,7 +233,7 @@ fn quad_face<'a>(
     let lengths = quad.lengths_m();
     let steps = |length: f64| ((length / light_cell_m).ceil() as usize).max(1);
     let (nu, nv) = if look.smooth { (1, 1) } else { (steps(lengths.0), steps(lengths.1)) };
-    // Samples are inset; a narrow face needs only one across.
+    // Samples are inset from the edges; a narrow face needs only one sample across.
     let inside = |k: usize, n: usize, length: f64| {
         let margin = (INSET_M / length).min(0.25);
         if length < NARROW_M { 0.5 } else { (k as f64 / n as f64).clamp(margin, 1.0 - margin) }
@@ -282,7 +283,8 @@ fn quad_face<'a>(
     }
 }
 
-/// Returns the indices of the sample lines to keep: the first, the last, and those needed to stay within the tolerance.
+/// Returns the indices of the sample lines to keep: the first, the last, and those needed to keep the error within the
+/// tolerance.
 fn kept(lines: usize, off: f32, line: &dyn Fn(usize) -> Vec<[f32; 2]>) -> Vec<usize> {
     let all: Vec<Vec<[f32; 2]>> = (0..lines).map(line).collect();
     let smooth = |from: usize, to: usize| {
@@ -303,7 +305,7 @@ fn kept(lines: usize, off: f32, line: &dyn Fn(usize) -> Vec<[f32; 2]>) -> Vec<us
     kept
 }
 
-/// Vertex normal of a round bar: the mean of the adjacent sides.
+/// Returns the vertex normal of a round bar: the mean of the adjacent sides.
 fn rounded(member: &Member, p: Vec3<Enu>, own: Vec3<Enu>) -> Vec3<Enu> {
     let solid = &member.solid;
     let meets = |face: &&Vec<u32>| face.len() == 4 && face.iter().any(|k| (solid.vertices_m[*k as usize] - p).norm() < 1e-6);
@@ -330,7 +332,7 @@ mod tests {
                     let corners: Vec<Vec3<Enu>> = face.iter().map(|k| member.solid.vertices_m[*k as usize]).collect();
                     let normal = normal(&corners);
                     let covered = is_covered(&corners, normal, &bake);
-                    // All sides of bearings are exposed; stringers are below the slab, with webs between flanges.
+                    // All sides of bearings are exposed. Stringers are below the slab, so their webs are exposed.
                     let side = normal.up().abs() < 0.1;
                     assert!(!(covered && side && (311..=316).contains(&member.element)), "{}", member.name);
                     bearings += u32::from(side && (311..=316).contains(&member.element));
@@ -350,7 +352,7 @@ mod tests {
         let of = |values: &[f32]| kept(values.len(), LIGHT_OFF, &|k| vec![[values[k], 0.0], [0.5, 1.0 - values[k]]]);
         assert_eq!(of(&[0.1, 0.2, 0.3, 0.4, 0.5]), [0, 4]);
         assert_eq!(of(&[0.1, 0.1, 0.1, 0.9, 0.9, 0.9]), [0, 2, 3, 5]);
-        assert_eq!(of(&[0.3, 0.31, 0.3]), [0, 2], "what is not seen is left out");
+        assert_eq!(of(&[0.3, 0.31, 0.3]), [0, 2], "differences below the tolerance are ignored");
         assert_eq!(of(&[0.3, 0.4]), [0, 1]);
     }
 }

@@ -7,11 +7,11 @@ use spandrel_model::scenario::PlacedDefect;
 use spandrel_model::site::Site;
 use spandrel_model::site::catalogue;
 
-/// Rays for the light on a patch: as many as in the scoring.
+/// Number of rays for the light on a patch, the same as in the scoring.
 const RAYS: usize = 64;
-/// Margin around a line for leakage out of it, m (the face extends at least this far, `site::defects`).
+/// Margin around a line for leakage stains, m (the face extends at least this far, `site::defects`).
 const SEEP_M: f64 = 0.03;
-/// Size factor of an area for its ragged edge.
+/// Size factor of an area that leaves space for its ragged edge.
 const RAGGED: f64 = 1.06;
 
 /// Instance data of a defect for the shader `defect`.
@@ -39,8 +39,8 @@ pub fn patches(site: &Site, sun: Vec3<Enu>) -> Vec<DefectPatch> {
     site.defects().iter().map(|defect| patch(defect, bake.at(defect.position_m, defect.normal))).collect()
 }
 
-/// Returns the code by which a defect is drawn. Resolved files may contain kinds that no seed generates; because scored defects
-/// must be visible, these look like a crack or exposed aggregate.
+/// Returns the code with which a defect is drawn. Resolved files may contain kinds that no seed generates. Because
+/// scored defects must be visible, these look like a crack or exposed aggregate.
 fn look(defect: &PlacedDefect) -> u32 {
     match (catalogue::KINDS.contains(&defect.kind), defect.line) {
         (true, _) => defect.kind,
@@ -49,7 +49,7 @@ fn look(defect: &PlacedDefect) -> u32 {
     }
 }
 
-/// Returns the patch of a defect with this indirect light.
+/// Returns the patch of a defect for the given indirect light.
 #[must_use]
 pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> DefectPatch {
     let four = |v: Vec3<Enu>, last: f64| {
@@ -63,7 +63,7 @@ pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> DefectPatch {
         (0.5 * RAGGED * defect.length_m, 0.5 * RAGGED * defect.width_m)
     };
     let [r, g, b] = bridges::matter(defect.element).1.map(|c| f32::from(c) / 255.0);
-    // A number that differs between defects and is constant for each.
+    // Pseudorandom number that differs between defects and is constant for each of them.
     let own = (f64::from(defect.id) * 0.618_034 + defect.length_m * 7.13).fract();
     DefectPatch {
         centre: four(defect.position_m, f64::from(look(defect))),
@@ -79,7 +79,7 @@ pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> DefectPatch {
 mod tests {
     use super::*;
 
-    /// A crack that runs straight down.
+    /// Returns a crack that runs straight down.
     fn streak() -> PlacedDefect {
         PlacedDefect {
             id: 3,
@@ -101,7 +101,7 @@ mod tests {
         let defect = streak();
         let line = patch(&defect, [0.2, 0.1]);
         assert_eq!(line.light[2..], [0.53, 0.031]);
-        assert_eq!((line.centre[3], line.size[2]), (1130.0, 1.0), "it runs straight down");
+        assert_eq!((line.centre[3], line.size[2]), (1130.0, 1.0), "the crack must run straight down");
         let area = patch(&PlacedDefect { line: false, width_m: 0.5, ..defect }, [0.2, 0.1]);
         assert_eq!(area.light[2..], [0.53, 0.265]);
     }

@@ -1,4 +1,4 @@
-//! Selects the ground triangles to draw: all, or fewer where the difference is not visible.
+//! Selection of the ground triangles to draw: all of them, or fewer where the difference is not visible.
 
 use super::sparse::{self, GridSquare};
 use spandrel_model::frames::{Enu, Vec3};
@@ -11,14 +11,15 @@ const LARGEST: usize = 8;
 /// Maximum angular error of the ground as seen from people and aircraft, rad: four pixels of a view 640 px and 84 degrees wide,
 /// on rolling hills.
 const ANGLE_RAD: f64 = 0.012;
-/// Minimum and maximum height error, m (estimates: the thickness of grass, and a barely noticeable step).
+/// Minimum and maximum tolerance of the height, m (estimates: the thickness of grass, and a barely noticeable step).
 const OFF_M: (f64, f64) = (0.15, 3.0);
-/// Near the shore a small height error moves the waterline far: the factor on the tolerance, and the height above and below the
-/// water to which it applies, m.
+/// Near the shore, a small height error moves the waterline far. Factor on the tolerance there, and height above and
+/// below the water to which it applies, m.
 const SHORE: (f64, f64) = (0.4, 1.0);
-/// Depth beyond which the lake bed is not visible, m (the shader `water` loses 99 % of its light on the way there and back).
+/// Depth beyond which the lake bed is not visible, m (in the shader `water`, 99 % of the light is lost on the way down
+/// and back).
 pub const UNSEEN_M: f64 = 5.0;
-/// Distance from a bridge within which light varies between cells, m, and the maximum square size there, cells.
+/// Distance from a bridge within which the light varies between cells, m, and maximum square size there, cells.
 const LIT: (f64, usize) = (30.0, 2);
 
 /// Returns all triangles of the ground.
@@ -44,7 +45,7 @@ pub fn shallow(scenario: &Scenario, site: &Site, triangles: &[[u32; 3]], under_m
     triangles.iter().filter(|corners| corners.iter().any(|k| points[*k as usize].up() > bottom_m)).copied().collect()
 }
 
-/// Returns positions of people and aircraft.
+/// Returns the positions of people and aircraft, from which the ground is seen.
 fn eyes(scenario: &Scenario) -> Vec<Vec3<Enu>> {
     let team = &scenario.ground_team;
     let paths = scenario.tasks.iter().flat_map(|task| task.path_m.iter().step_by(4).copied());
@@ -87,7 +88,7 @@ impl GroundField<'_> {
     }
 }
 
-/// Height of the two triangles of a square at a point, m.
+/// Returns the height at a point of the two triangles that a square is drawn with, m.
 fn between([sw, se, ne, nw]: &[Vec3<Enu>; 4], p: Vec3<Enu>) -> f64 {
     let (x, y) = ((p.east() - sw.east()) / (ne.east() - sw.east()), (p.north() - sw.north()) / (ne.north() - sw.north()));
     if x >= y {

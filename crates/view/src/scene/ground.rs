@@ -9,20 +9,21 @@ use spandrel_model::site::Site;
 
 /// Distance from a member within which light on the ground is baked, m.
 const SHADED_M: f64 = 30.0;
-/// Rings of mountains, as fractions of the field's half side. Visual only; no job extends there.
+/// Radii of the mountain rings, as fractions of the field's half side. The mountains are visual only; no job extends
+/// there.
 const RINGS: [f64; 15] = [0.98, 1.0, 1.1, 1.25, 1.45, 1.7, 2.0, 2.4, 2.9, 3.5, 4.3, 5.4, 6.8, 8.6, 11.0];
 /// Vertices on each side of a ring.
 const SIDE: usize = 48;
-/// Depth below the ground at which the mountains start inside the rim, m: the rim has fewer vertices than the ground, and gaps
-/// would be visible.
+/// Depth below the ground at which the mountains start inside the rim, m. The rim has fewer vertices than the ground,
+/// so that gaps would be visible otherwise.
 const UNDER_M: f64 = 8.0;
 /// Height of the mountains above the rim, m (estimate: a lake in a pre-alpine valley).
 const PEAKS_M: f64 = 620.0;
-/// Height above the water from which the rim counts as land, m.
+/// Height of the rim above the water from which it counts as land, m.
 const SHORE_M: f64 = 45.0;
 /// Extent of the lake, m.
 const LAKE_M: f64 = 9_000.0;
-/// Depth that counts as bottomless, m.
+/// Depth from which the lake bed is not visible, m.
 const DEEP_M: f64 = 30.0;
 
 fn ground_vertex(p: Vec3<Enu>, normal: Vec3<Enu>, light: [f32; 2], over_water_m: f64) -> Vertex {
@@ -37,14 +38,14 @@ fn ground_vertex(p: Vec3<Enu>, normal: Vec3<Enu>, light: [f32; 2], over_water_m:
     }
 }
 
-/// Builds the ground mesh (the collision geometry) from the selected triangles.
+/// Builds the ground mesh, which is also the collision geometry, from the selected triangles.
 pub fn mesh(scenario: &Scenario, site: &Site, bake: &LightBaker, shown: &[[u32; 3]]) -> Mesh {
     let (points, triangles) = site.geometry().terrain.ground.triangles();
     let normals = smooth(&points, &triangles);
     let vertex = |k: u32| {
         let (p, n) = (&points[k as usize], &normals[k as usize]);
         let near = site.geometry().nearest_member(*p, SHADED_M).is_some();
-        // On an open slope, light comes from the sky above its own horizon and slightly from the ground.
+        // On an open slope, light comes from the sky above the slope and, to a small part, from the ground.
         let open = [0.5 + 0.5 * n.up() as f32, 0.02];
         let light = if near { bake.at(*p + *n * 0.3, *n) } else { open };
         ground_vertex(*p, *n, light, p.up() - scenario.terrain.water_level_m)
@@ -52,7 +53,7 @@ pub fn mesh(scenario: &Scenario, site: &Site, bake: &LightBaker, shown: &[[u32; 
     of_corners(points.len(), shown.iter().copied(), vertex)
 }
 
-/// Builds a mesh of triangles and creates each vertex on first use.
+/// Builds a mesh of triangles, creating each vertex on first use.
 fn of_corners(corners: usize, triangles: impl Iterator<Item = [u32; 3]>, vertex: impl Fn(u32) -> Vertex) -> Mesh {
     let mut mesh = Mesh::default();
     let mut placed: Vec<Option<u32>> = vec![None; corners];
@@ -79,8 +80,8 @@ fn smooth(points: &[Vec3<Enu>], triangles: &[[u32; 3]]) -> Vec<Vec3<Enu>> {
     sums.into_iter().map(Vec3::unit).collect()
 }
 
-/// Builds the mountains around the field, rising from its rim; where the lake leaves the field, it continues between them.
-/// `coarse` uses every second vertex of every second ring beyond the rim.
+/// Builds the mountains around the field, rising from its rim; where the lake reaches the rim, it continues between the
+/// mountains. `coarse` uses every second vertex of every second ring beyond the rim.
 pub fn mountains(scenario: &Scenario, site: &Site, coarse: bool) -> Mesh {
     let half = 0.5 * scenario.terrain.size_m;
     let water = scenario.terrain.water_level_m;
@@ -108,7 +109,7 @@ pub fn mountains(scenario: &Scenario, site: &Site, coarse: bool) -> Mesh {
     for ring in 0..rings.len() - 1 {
         for k in 0..around {
             let i = |ring: usize, k: usize| (ring * around + k % around) as u32;
-            // The rim is counterclockwise: outward is to its right.
+            // The rim is counterclockwise, so outward is to its right.
             triangles.push([i(ring, k), i(ring + 1, k), i(ring + 1, k + 1)]);
             triangles.push([i(ring, k), i(ring + 1, k + 1), i(ring, k + 1)]);
         }
@@ -130,7 +131,8 @@ fn rim(k: usize) -> (f64, f64) {
     }
 }
 
-/// Height above the water beyond the rim: the rim's own height, then ridges; the lake continues for some distance.
+/// Returns the height above the water beyond the rim: the rim's height, then ridges; the lake continues for some
+/// distance.
 fn slope_up_m(rim_up_m: f64, share: f64, east: f64, north: f64) -> f64 {
     let ridges = 0.5
         + 0.30 * math::sin(east / 610.0 + 1.7 * math::sin(north / 930.0)) * math::cos(north / 480.0 - 0.8)
@@ -141,13 +143,13 @@ fn slope_up_m(rim_up_m: f64, share: f64, east: f64, north: f64) -> f64 {
         t * t * (3.0 - 2.0 * t)
     };
     let beyond = (share - math::lerp(1.0, 2.2, wet)).max(0.0) / 2.4;
-    // Starts gently and steepens, like the end of a valley.
+    // The slope starts gently and steepens, like the end of a valley.
     let climb = 1.0 - math::exp(-beyond * beyond / (0.3 + beyond));
     let far = PEAKS_M * climb * (0.35 + 0.9 * ridges);
     rim_up_m * (1.0 - 0.4 * climb * (1.0 - wet)) + far
 }
 
-/// Builds the lake: one vertex with depth per ground vertex in the field, and a frame beyond it.
+/// Builds the lake: inside the field, one vertex with depth per ground vertex; outside, a frame around the field.
 pub fn water(scenario: &Scenario, site: &Site, bake: &LightBaker, shown: &[[u32; 3]]) -> Mesh {
     let level = scenario.terrain.water_level_m;
     let (points, _) = site.geometry().terrain.ground.triangles();
@@ -189,7 +191,7 @@ fn water_vertex(p: Vec3<Enu>, light: [f32; 2], depth_m: f64) -> Vertex {
     }
 }
 
-/// Builds the landing pad, slightly above its slab.
+/// Builds the landing pad slightly above its slab, so that both do not overlap.
 pub fn pad(site: &Site) -> Mesh {
     let slab = &site.geometry().pad().solid.vertices_m;
     let top = slab.iter().map(|v| v.up()).fold(f64::NEG_INFINITY, f64::max);

@@ -1,5 +1,5 @@
-//! A site as meshes: static objects are built once with baked indirect light per vertex; moving objects are a list of instances
-//! per picture.
+//! A site as meshes. Static objects are built once with baked indirect light per vertex; moving objects are a list of
+//! instances per picture.
 
 mod bake;
 mod bridges;
@@ -37,7 +37,7 @@ pub struct Instance {
 }
 
 impl Instance {
-    /// Identity transform; uses the mesh's own light.
+    /// Identity transform; keeps the light stored in the mesh.
     pub const HERE: Self =
         Self { rows: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]], paint: [0.0; 4], around: [1.0; 4] };
 
@@ -49,7 +49,7 @@ impl Instance {
         Self { rows: [0, 1, 2].map(|k| [x[k], y[k], z[k], o[k]]), paint: [0.0; 4], around }
     }
 
-    /// Transforms and lights a vertex as the shaders do.
+    /// Transforms and lights a vertex in the same way as the shaders.
     fn transformed(&self, v: &Vertex) -> Vertex {
         let turned = |of: [f32; 3]| self.rows.map(|row| row[0] * of[0] + row[1] * of[1] + row[2] * of[2]);
         let [x, y, z] = turned(v.normal);
@@ -97,30 +97,30 @@ pub struct VisibleRange {
 }
 
 impl VisibleRange {
-    /// At any distance.
+    /// Any distance.
     pub const ALWAYS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
-    /// Never.
+    /// No distance.
     pub const NEVER: [f64; 2] = [f64::INFINITY, f64::INFINITY];
-    /// In the direct view and in the lake, at any distance.
+    /// Visible in the direct view and in the lake at any distance.
     pub const EVERYWHERE: Self = Self { straight_m: Self::ALWAYS, in_lake_m: Self::ALWAYS };
-    /// In the direct view only.
+    /// Visible only in the direct view.
     pub const STRAIGHT: Self = Self { in_lake_m: Self::NEVER, ..Self::EVERYWHERE };
-    /// In the lake only: a simplified stand-in.
+    /// Visible only in the lake, for simplified substitutes.
     pub const IN_LAKE: Self = Self { straight_m: Self::NEVER, ..Self::EVERYWHERE };
 
-    /// Returns a range closer than this distance, m.
+    /// Returns the range below this distance, m.
     #[must_use]
     pub const fn within(most_m: f64) -> [f64; 2] {
         [f64::NEG_INFINITY, most_m]
     }
 
-    /// Returns a range from this distance on, m.
+    /// Returns the range from this distance on, m.
     #[must_use]
     pub const fn beyond(least_m: f64) -> [f64; 2] {
         [least_m, f64::INFINITY]
     }
 
-    /// Checks whether it is drawn at a distance, directly or in the lake.
+    /// Checks whether the object is drawn at a distance, directly or in the lake.
     #[must_use]
     pub fn shows(&self, in_lake: bool, from_m: f64) -> bool {
         let [begins, ends] = if in_lake { self.in_lake_m } else { self.straight_m };
@@ -187,8 +187,8 @@ pub struct Scene {
 
 /// Factor on the ground's error tolerance in the lake's reflection, which is blurred by waves and has fewer pixels.
 const IN_LAKE: f64 = 4.0;
-/// Displayed propeller speed, rad/s: slow enough to avoid stroboscopic standstill on a screen (telemetry does not include the
-/// actual speed).
+/// Displayed propeller speed, rad/s: slow enough that propellers do not appear to stand still on a screen (telemetry
+/// does not include the actual speed).
 const SHOWN_SPIN_RAD_S: f64 = 43.0;
 
 impl Scene {
@@ -302,10 +302,10 @@ impl Scene {
     }
 }
 
-/// Light in the open: the whole sky from above, half of the ground's reflected light from below (estimate).
+/// Indirect light in the open: the whole sky from above, half of the ground's reflected light from below (estimate).
 const OPEN: [f32; 4] = [0.95, 0.02, 0.22, 0.10];
 
-/// Places a mesh (x forward, y left, z up) on the ground.
+/// Returns an instance of a mesh (x forward, y left, z up) that is on the ground.
 fn place_on_ground(feet_m: Vec3<Enu>, forward: Vec3<Enu>, around: [f32; 4]) -> Instance {
     let level: Vec3<Enu> = Vec3::new(forward.east(), forward.north(), 0.0).unit();
     let left = Vec3::new(-level.north(), level.east(), 0.0);

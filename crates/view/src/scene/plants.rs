@@ -9,7 +9,7 @@ use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::{Scenario, TerrainSource};
 use spandrel_model::site::Site;
 
-/// Clearance from every member, m (a tree crown plus space to fly around a bridge).
+/// Clearance from every member, m (a tree crown plus space for flying around a bridge).
 const CLEAR_BRIDGE_M: f64 = 14.0;
 /// Clearance from every point of a task path, m.
 const CLEAR_PATH_M: f64 = 16.0;
@@ -19,11 +19,14 @@ const CLEAR_PAD_M: f64 = 26.0;
 const DRY_M: f64 = 2.2;
 /// Minimum vertical component of the ground normal for trees.
 const STEEP: f64 = 0.72;
-/// Maximum distance of trees in the lake's reflection where triangles are saved, m (a tree covers three pixels there).
+/// Maximum distance of trees in the lake's reflection for presets that save triangles, m (a tree covers three pixels at
+/// that distance).
 const MIRRORED_M: f64 = 160.0;
-/// Maximum distance of boulders, m: the largest cover three pixels of a view 640 px and 84 degrees wide, most cover one.
+/// Maximum distance of boulders, m: the largest cover three pixels of a view 640 px and 84 degrees wide, most cover
+/// only one.
 const BOULDERS_M: f64 = 150.0;
-/// Distance from which trees have fewer boughs, m: the tallest are 25 pixels high. Both variants are drawn in the overlap.
+/// Distance from which trees have fewer branches, m: the tallest are 25 pixels high there. Both variants are drawn
+/// within the overlap.
 const FAR_M: f64 = 220.0;
 const OVERLAP_M: f64 = 5.0;
 /// Size of groves of trees, m.
@@ -78,7 +81,7 @@ pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<SceneIt
         |name, mesh, instances, seen| SceneItem { name, mesh, instances, casts: true, visible_range: seen, backdrop: false };
     let boulders = copies("boulders", boulder(quality.boughs), rocks, on_shore);
     if quality.sparse {
-        // Software renderers process instances one by one: a merged mesh is faster.
+        // Software renderers process instances one by one, so a merged mesh is faster.
         let wood = |spruce: &Mesh, fir: &Mesh| {
             let mut wood = stamped(spruce, &tall);
             wood.append(&stamped(fir, &slim));
@@ -96,13 +99,13 @@ pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<SceneIt
     vec![copies("spruces", spruce, tall, VisibleRange::EVERYWHERE), copies("firs", fir, slim, VisibleRange::EVERYWHERE), boulders]
 }
 
-/// Tree density at a point: groves and clearings.
+/// Returns the tree density at a point, 0 to 1: groves and clearings.
 fn grove(east: f64, north: f64) -> f64 {
     let wave = math::sin(east / GROVE_M + 1.3 * math::sin(north / (1.4 * GROVE_M))) * math::cos(north / GROVE_M - 0.5);
     (0.25 + 0.75 * wave).clamp(0.03, 1.0)
 }
 
-/// Returns the ground point if there is space for a plant.
+/// Returns the ground point if there is enough clearance for a plant.
 fn room(scenario: &Scenario, site: &Site, east: f64, north: f64, over_water_m: f64) -> Option<Vec3<Enu>> {
     let (up, normal) = site.geometry().terrain.ground.ground(east, north);
     let at = Vec3::new(east, north, up);
@@ -132,9 +135,9 @@ fn grown(foot: Vec3<Enu>, size: f64, turn: f64) -> Instance {
     Instance::placed(foot, axes, [0.8, 0.02, 0.25, 0.06])
 }
 
-/// A conifer of height 1: whorls of drooping boughs with a ragged edge.
+/// Builds a conifer of height 1: whorls of drooping branches with a ragged edge.
 fn conifer(radius: f64, whorls: u32, boughs: u32) -> Mesh {
-    // Fewer boughs per whorl also mean fewer whorls.
+    // With fewer branches per whorl, there are also fewer whorls.
     let whorls = if boughs < 8 { whorls - 2 } else { whorls };
     let mut mesh = Mesh::default();
     if boughs < 8 {
@@ -149,7 +152,7 @@ fn conifer(radius: f64, whorls: u32, boughs: u32) -> Mesh {
         let wide = radius * (1.0 - 0.82 * share);
         let rim = |k: u32| {
             let (s, c) = math::sin_cos(math::TAU * (f64::from(k % boughs) + 0.37 * f64::from(whorl)) / f64::from(boughs));
-            // Boughs alternate between long and short.
+            // Branches alternate between long and short.
             let (ragged, droop) = if (k % boughs).is_multiple_of(2) { (1.0, -0.035) } else { (0.68, 0.01) };
             Vec3::new(wide * ragged * c, wide * ragged * s, low + droop)
         };
@@ -168,7 +171,7 @@ fn conifer(radius: f64, whorls: u32, boughs: u32) -> Mesh {
     mesh
 }
 
-/// A distant conifer of height 1: two whorls of four boughs.
+/// Builds a distant conifer of height 1: two whorls of four branches.
 fn distant(radius: f64) -> Mesh {
     const WHORLS: [(f64, f64, f64); 2] = [(0.08, 0.62, 1.0), (0.40, 1.0, 0.62)];
     let mut mesh = Mesh::default();
@@ -183,7 +186,7 @@ fn distant(radius: f64) -> Mesh {
     mesh
 }
 
-/// A whorl with shared vertices: a third of the vertices of separate faces.
+/// Adds a whorl with shared vertices, which needs a third of the vertices of separate faces.
 fn cone(mesh: &mut Mesh, rim: &[Vec3<Enu>], top: Vec3<Enu>) {
     let (first, count) = (mesh.vertices.len() as u32, rim.len() as u32);
     mesh.polygon(rim, NEEDLES);
@@ -200,7 +203,7 @@ fn cone(mesh: &mut Mesh, rim: &[Vec3<Enu>], top: Vec3<Enu>) {
     mesh.indices.extend((0..count).flat_map(|k| [first + k, first + (k + 1) % count, first + count]));
 }
 
-/// A trunk with three faces.
+/// Adds a trunk with three faces.
 fn trunk(mesh: &mut Mesh) {
     let foot = |k: u32| {
         let (s, c) = math::sin_cos(math::TAU * f64::from(k) / 3.0);
@@ -211,7 +214,7 @@ fn trunk(mesh: &mut Mesh) {
     }
 }
 
-/// Merges all instances into one mesh, with their light.
+/// Merges all instances into one mesh, including their light.
 fn stamped(mesh: &Mesh, copies: &[Instance]) -> Mesh {
     let mut all = Mesh::default();
     for copy in copies {
@@ -222,7 +225,7 @@ fn stamped(mesh: &Mesh, copies: &[Instance]) -> Mesh {
     all
 }
 
-/// Needles scatter light: tilts normals outward and up and darkens the inside.
+/// Imitates the light scattering of needles: tilts normals outward and up and darkens the inside.
 fn soften(mesh: &mut Mesh) {
     for v in &mut mesh.vertices {
         let [x, y, z] = v.position.map(f64::from);

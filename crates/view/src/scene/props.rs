@@ -34,7 +34,8 @@ const JACKETS: [[f32; 3]; 6] =
     [[0.35, 0.03, 0.03], [0.03, 0.07, 0.25], [0.4, 0.3, 0.05], [0.05, 0.2, 0.08], [0.3, 0.3, 0.3], [0.25, 0.05, 0.2]];
 /// The inspector's high-visibility vest.
 pub const VEST: [f32; 3] = [0.85, 0.28, 0.01];
-/// Color of the crew's truck: safety yellow, visible from afar; white would need company lettering.
+/// Color of the crew's truck: safety yellow, which is visible from a distance and, unlike white, looks right without
+/// company lettering.
 pub const CREW_TRUCK: [f32; 3] = [0.75, 0.48, 0.03];
 
 /// Returns the color of the k-th mover.
@@ -84,7 +85,7 @@ fn wheel(mesh: &mut Mesh, x: f64, y: f64, (radius, width): (f64, f64), rounds: R
     mesh.round((p(x, y, radius), 0.62 * radius), (p(x, y + side * 0.015, radius), 0.55 * radius), rounds.sides(12), RIM);
 }
 
-/// A family car, 4.5 m long.
+/// Builds a family car, 4.5 m long.
 pub fn car(rounds: RoundDetail) -> Mesh {
     let mut mesh = Mesh::default();
     // Sills, waist, hood and trunk.
@@ -110,7 +111,7 @@ pub fn car(rounds: RoundDetail) -> Mesh {
     mesh
 }
 
-/// A truck, 10 m long: a cab and a box body.
+/// Builds a truck, 10 m long: a cab and a box body.
 pub fn truck(rounds: RoundDetail) -> Mesh {
     let mut mesh = Mesh::default();
     mesh.block([-5.0, -0.45, 0.55], [4.6, 0.45, 0.85], [0.0; 3], DARK);
@@ -143,7 +144,7 @@ pub fn truck(rounds: RoundDetail) -> Mesh {
     mesh
 }
 
-/// A person, 1.75 m tall, standing.
+/// Builds a standing person, 1.75 m tall.
 pub fn person(rounds: RoundDetail) -> Mesh {
     let mut mesh = Mesh::default();
     for y in [0.09, -0.09] {
@@ -167,7 +168,7 @@ pub fn person(rounds: RoundDetail) -> Mesh {
 mod tests {
     use super::*;
 
-    /// Tolerance between the rendered and the collision shape, m.
+    /// Tolerance for rendered parts outside the collision shape, m.
     const SLACK_M: f64 = 0.03;
 
     #[test]

@@ -1,6 +1,6 @@
 //! Adaptive triangulation of a square grid: larger squares where the ground is nearly flat, single cells elsewhere, without gaps.
 
-/// A square of cells: column and row of its southwest corner, and cells per side.
+/// A square of cells, given by the column and row of its southwest corner and the cells per side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct GridSquare {
     /// Column of the southwest corner.
@@ -12,7 +12,8 @@ pub struct GridSquare {
 }
 
 impl GridSquare {
-    /// Returns the indices of its corners in a grid with `side` vertices per row: southwest, southeast, northeast, northwest.
+    /// Returns the indices of the corners in a grid with `side` vertices per row: southwest, southeast, northeast,
+    /// northwest.
     #[must_use]
     pub const fn corners(&self, side: usize) -> [usize; 4] {
         let (low, high) = (self.row * side + self.column, (self.row + self.size) * side + self.column);
@@ -24,7 +25,7 @@ impl GridSquare {
         [(0, 0), (half, 0), (0, half), (half, half)].map(|(x, y)| Self { column: self.column + x, row: self.row + y, size: half })
     }
 
-    /// Returns the grid vertices on its boundary, counterclockwise from the southwest.
+    /// Returns the grid vertices on the boundary, counterclockwise from the southwest.
     fn rim(&self, side: usize) -> impl Iterator<Item = usize> {
         let [sw, se, ne, nw] = self.corners(side);
         let along = move |k: usize| [sw + k, se + k * side, ne - k, nw - k * side];
@@ -33,9 +34,9 @@ impl GridSquare {
     }
 }
 
-/// Returns the triangles of a grid with `side` vertices per row as vertex indices, counterclockwise from above. Squares of up to
-/// `largest` cells (a power of two) stay whole where `whole` returns true. The diagonal runs from southwest to northeast, as in
-/// single cells.
+/// Returns the triangles of a grid with `side` vertices per row as vertex indices, counterclockwise from above. Squares
+/// of up to `largest` cells (a power of two) are not divided where `whole` returns true. The diagonal runs from
+/// southwest to northeast, as in single cells.
 #[must_use]
 pub fn triangles(side: usize, largest: usize, whole: &dyn Fn(&GridSquare) -> bool) -> Vec<[u32; 3]> {
     let cells = side.saturating_sub(1);
@@ -69,7 +70,7 @@ mod tests {
     use super::*;
     use std::collections::BTreeMap;
 
-    /// A field whose squares stay whole away from one corner.
+    /// Returns a grid that is divided only around one corner.
     fn field(side: usize) -> Vec<[u32; 3]> {
         triangles(side, 8, &|square| square.column + square.row > 6 + 2 * square.size)
     }
@@ -84,7 +85,7 @@ mod tests {
         };
         let all = field(SIDE);
         assert!(all.len() < 2 * 40 * 40 / 8, "{} triangles", all.len());
-        assert!(all.iter().all(|t| twice_area(*t) > 0.0), "all face up");
+        assert!(all.iter().all(|t| twice_area(*t) > 0.0), "all triangles must face up");
         assert_eq!(all.iter().map(|t| twice_area(*t)).sum::<f64>(), 2.0 * 40.0 * 40.0);
     }
 
@@ -97,7 +98,7 @@ mod tests {
                 *edges.entry((from.min(to), from.max(to))).or_default() += if from < to { 1 } else { -1 };
             }
         }
-        // Inside the field, every edge is used in both directions; only the boundary is used once.
+        // Inside the grid, every edge is used in both directions; only edges on the boundary are used once.
         let rim = |k: u32| [0, 40].contains(&(k % SIDE as u32)) || [0, 40].contains(&(k / SIDE as u32));
         for ((a, b), sum) in edges {
             assert!(sum == 0 || (rim(a) && rim(b)), "edge {a} {b}: {sum}");

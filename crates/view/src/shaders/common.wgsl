@@ -1,8 +1,8 @@
 // Branches on the material are uniform over a triangle, so derivatives taken inside them are valid.
 diagnostic(off, derivative_uniformity);
 
-// Radiance is stored as pi times radiance, in lux divided by the exposure's white: a white matte surface at white illuminance is
-// 1.
+// Radiance is stored as pi times radiance, in lux, divided by the exposure's white. A white matte surface at white
+// illuminance has the value 1.
 
 // Settings of the preset (pipelines.rs): number of sun shadow maps; filter size in texels; lamp shadows; lake reflection.
 override CASCADES: u32 = 4u;
@@ -37,7 +37,7 @@ struct Globals {
     lamp_dir: vec4<f32>,
     // 1/white; wind speed; wind direction (towards), east and north.
     look: vec4<f32>,
-    // Layer of the lamp's map, negative if there is none.
+    // Layer of the lamp's shadow map; negative if there is none.
     shadow: vec4<f32>,
     // Size of a texel in each map, m.
     texel: vec4<f32>,
@@ -49,7 +49,8 @@ struct Globals {
 @group(0) @binding(0) var<uniform> g: Globals;
 @group(0) @binding(1) var shadow_map: texture_depth_2d_array;
 @group(0) @binding(2) var shadow_sampler: sampler_comparison;
-// Noise of several octaves, of one octave, distance to the nearest scattered point, number of that point (noise.rs).
+// Noise of several octaves, of one octave, distance to the nearest scattered point, random number of that point
+// (noise.rs).
 @group(0) @binding(3) var noise_map: texture_2d<f32>;
 @group(0) @binding(4) var noise_sampler: sampler;
 
@@ -75,11 +76,11 @@ fn fbm(p: vec2<f32>, footprint: f32) -> f32 {
     if DETAIL {
         return textureSampleLevel(noise_map, noise_sampler, p / 16.0, log2(max(footprint * 32.0, 1.0))).r;
     }
-    // Software renderers determine the footprint of a pixel themselves at a third of the cost.
+    // Software renderers determine the footprint of a pixel themselves, which costs a third as much.
     return textureSample(noise_map, noise_sampler, p / 16.0).r;
 }
 
-// Noise that cheaper presets replace with a given value.
+// Noise that cheaper presets replace with the value `instead`.
 fn fine(p: vec2<f32>, footprint: f32, instead: f32) -> f32 {
     if DETAIL {
         return fbm(p, footprint);
@@ -87,7 +88,7 @@ fn fine(p: vec2<f32>, footprint: f32, instead: f32) -> f32 {
     return instead;
 }
 
-// Cellular pattern: distance to the nearest center, and a number of that cell.
+// Cellular pattern: distance to the nearest center, and a random number of its cell.
 fn pebbles(p: vec2<f32>) -> vec2<f32> {
     let found = textureSampleLevel(noise_map, noise_sampler, p / 16.0, 0.0);
     return vec2<f32>(found.b * 1.28, found.a);
@@ -99,8 +100,8 @@ fn cover(d: f32, width: f32, footprint: f32) -> f32 {
     return clamp((0.5 * (width + f) - d) / f, 0.0, min(1.0, width / f));
 }
 
-// Mean of exp(-|x| / reach) over a pixel `footprint` wide at x: keeps the leakage from a line narrower than a pixel free of
-// flicker and steps.
+// Mean of exp(-|x| / reach) over a pixel `footprint` wide at x. It prevents flicker and steps in the leakage from a
+// line narrower than a pixel.
 fn seeping(x: f32, reach: f32, footprint: f32) -> f32 {
     let half = 0.5 * max(footprint, 1e-6);
     let ends = vec2<f32>(x - half, x + half);
@@ -108,7 +109,7 @@ fn seeping(x: f32, reach: f32, footprint: f32) -> f32 {
     return (sums.y - sums.x) / (2.0 * half);
 }
 
-// Same for lines repeated every `spacing`; their mean at a distance.
+// Same for lines repeated every `spacing`; approaches their mean at a distance.
 fn lines(x: f32, spacing: f32, width: f32, footprint: f32) -> f32 {
     let d = abs(fract(x / spacing) - 0.5) * spacing;
     let mean = width / spacing;
@@ -134,7 +135,7 @@ fn compared(layer: i32, uv: vec2<f32>, depth: f32) -> f32 {
     return textureSampleCompareLevel(shadow_map, shadow_sampler, uv, layer, depth);
 }
 
-// Mean over a square of texels around a point of a map.
+// Mean visibility over a square of texels around a point of a map.
 fn map_visible(layer: i32, q: vec3<f32>) -> f32 {
     let uv = vec2<f32>(0.5 + 0.5 * q.x, 0.5 - 0.5 * q.y);
     let s = 1.0 / f32(textureDimensions(shadow_map).x);
@@ -163,7 +164,7 @@ fn sun_visible(p: vec3<f32>, n: vec3<f32>) -> f32 {
     if g.sun.w <= 0.0 {
         return 0.0;
     }
-    // Offset from the surface that grows at grazing sun, to prevent self-shadowing.
+    // Offset from the surface, which grows at grazing sun to prevent self-shadowing.
     let lean = 0.6 + 1.6 * (1.0 - clamp(dot(n, g.sun.xyz), 0.0, 1.0));
     var layer = 0;
     var q = in_map(0, p + n * (g.texel.x * lean));
@@ -240,7 +241,8 @@ fn lamp_lux(p: vec3<f32>, n: vec3<f32>) -> f32 {
     return g.lamp_dir.w * beam * seen * max(-dot(ray, n), 0.0) / max(distance * distance, 0.01);
 }
 
-// Light ripples reflected by waves onto surfaces above the water, and also above land, because the surface below is unknown here.
+// Light ripples that waves reflect onto surfaces above the water. They also appear above land, because the surface
+// below is unknown here.
 fn caustics(p: vec3<f32>) -> f32 {
     let t = g.eye.w;
     let q = p.xy * 0.55;
@@ -250,7 +252,7 @@ fn caustics(p: vec3<f32>) -> f32 {
     return clamp(ridge, 0.0, 1.0);
 }
 
-// Radiance that a reflected ray meets: the sky, or the mean of land and lake.
+// Radiance along a reflected ray: the sky, or the mean of land and lake.
 fn surroundings(ray: vec3<f32>) -> vec3<f32> {
     if ray.z < 0.0 {
         return 0.12 * (g.sky_rgb.w * g.sky_rgb.xyz + g.sun.w * max(g.sun.z, 0.0) * g.sun_rgb.xyz);

@@ -5,8 +5,9 @@
 override KIND: u32 = 0u;
 // Whether to write the defect ID instead of radiance.
 override MASK: bool = false;
-// Fraction of a pixel from which it is labeled: a line half a pixel wide, the minimum for detection
-// (docs/src/reference/domain.md, "Resolution"), covers at least a quarter of one of the two pixels that it may straddle.
+// Fraction of a pixel from which it is labeled. A line half a pixel wide, the minimum for detection
+// (docs/src/reference/domain.md, "Resolution"), covers at least a quarter of one of the two pixels that it may
+// straddle.
 const MARKED: f32 = 0.25;
 
 struct Patch {
@@ -46,7 +47,7 @@ fn vs(@builtin(vertex_index) k: u32, d: Patch) -> Fragment {
     let across = cross(d.normal.xyz, d.along.xyz);
     var out: Fragment;
     out.p = d.centre.xyz + d.along.xyz * q.x + across * q.y;
-    // Offset towards the camera, in front of the surface.
+    // Offset toward the camera, so that the patch is in front of the surface.
     let shown = out.p + d.normal.xyz * 0.0015;
     out.clip = g.view_proj * vec4<f32>(shown, 1.0);
     out.q = q;
@@ -91,7 +92,7 @@ fn outline(q: vec2<f32>, half: vec2<f32>, seed: f32) -> f32 {
     let s = seed * 37.0;
     let ragged = 0.86 + 0.16 * (noise(vec2<f32>(3.0 * cos(angle) + s, 3.0 * sin(angle) + s)) - 0.5)
         + 0.10 * (noise(vec2<f32>(9.0 * cos(angle) + s, 9.0 * sin(angle))) - 0.5);
-    // Between an ellipse and a box: broken edges run straight.
+    // The shape is between an ellipse and a box, because broken edges run straight.
     let e = pow(pow(abs(u.x), 3.0) + pow(abs(u.y), 3.0), 1.0 / 3.0);
     return e / ragged;
 }
@@ -132,8 +133,8 @@ fn lip_shadow(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, towards
     return lit;
 }
 
-// Aggregate with a number of stones per meter along and across; outlines are distorted by `bend_m`, m, so that they are not
-// round.
+// Aggregate with the given number of stones per meter along and across; outlines are distorted by `bend_m`, m, so that
+// they are not round.
 fn stones(q: vec2<f32>, bend_m: f32, per_m: vec2<f32>, f: f32) -> vec2<f32> {
     let bent = q + bend_m * (vec2<f32>(fbm(q * 30.0, f * 30.0), fbm(q * 30.0 + 40.0, f * 30.0)) - 0.5);
     return pebbles(bent * per_m);
@@ -183,7 +184,7 @@ fn rebar(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
     broken(in, in.q, half, 0.035, f, look);
     let seed = in.normal.w;
-    // Bars of 22 to 30 mm along the patch, as many as fit.
+    // Bars of 22 to 30 mm along the patch, as many as its width allows.
     let count = max(1.0, floor(in.size.x / 0.11));
     let gap = in.size.x / count;
     let lane = (fract(in.q.y / gap + 0.5 * count) - 0.5) * gap;
@@ -284,7 +285,7 @@ fn bolts(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
     let inside = max(abs(in.q.x) / half.x, abs(in.q.y) / half.y);
     let pitch = max(0.032, min(0.07, in.size.x * 0.45));
-    // Whole bolts only, with rows centered: a narrow plate has one row.
+    // Shows only complete bolts in centered rows; a narrow plate has one row.
     let count = max(vec2<f32>(1.0), floor(2.0 * half / pitch));
     let cell = clamp(floor(in.q / pitch + 0.5 * count), vec2<f32>(0.0), count - 1.0);
     let at = in.q - (cell + 0.5 - 0.5 * count) * pitch;

@@ -1,4 +1,4 @@
-// From radiance on the sensor to a picture: motion blur, noise, tone curve, vignette.
+// Converts radiance on the sensor to a picture: motion blur, noise, tone curve, vignette.
 
 // Whether the preset has motion blur.
 override BLUR: bool = true;
@@ -61,7 +61,7 @@ fn encoded(y: vec3<f32>) -> vec3<f32> {
 fn developed(x: vec3<f32>) -> vec3<f32> {
     let brightness = dot(x, vec3<f32>(0.2126, 0.7152, 0.0722));
     let y = x * 0.82 * min(steeper(brightness), 1.25);
-    // White from 8.1 on; far beyond, the rational function decreases again.
+    // The curve reaches white at 8.1; far beyond, the rational function would decrease again.
     return clamp(encoded(min(y, vec3<f32>(12.0))), vec3<f32>(0.0), vec3<f32>(1.0));
 }
 

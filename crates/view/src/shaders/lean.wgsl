@@ -7,7 +7,8 @@
 const GROUND_M: f32 = 32.0;
 const CONCRETE_M: f32 = 38.4;
 
-// Vectors are fully used: a software renderer sets up all four components of each for every triangle, used or not.
+// Uses all components of the vectors, because a software renderer sets up all four components of each for every
+// triangle in any case.
 struct Lean {
     @builtin(position) clip: vec4<f32>,
     // Position; `aux`.
@@ -16,16 +17,16 @@ struct Lean {
     @location(1) facing: vec4<f32>,
     // Surface coordinates; position in the sun's map.
     @location(2) spot: vec4<f32>,
-    // Indirect light; sunlight where it is not shadowed. Both attenuated by haze and exposed.
+    // Indirect light, and sunlight before shadowing. Both are attenuated by haze and exposed.
     @location(3) light: vec4<f32>,
     // Added light: haze and reflections, exposed; transmittance of the haze.
     @location(4) veil: vec4<f32>,
-    // Tint; large-scale ground patches instead of its opacity.
+    // Tint; the opacity is replaced by large-scale ground patches.
     @location(5) tint: vec4<f32>,
     @location(6) @interpolate(flat) material: u32,
 }
 
-// Smoothness of a reflective material; mean for painted steel.
+// Smoothness of a reflective material; the mean for painted steel.
 fn gloss(material: u32) -> f32 {
     switch material {
         case 2u: { return 0.4; }
@@ -36,7 +37,7 @@ fn gloss(material: u32) -> f32 {
     }
 }
 
-// Reflection of the sky in a surface, as in `shade`.
+// Reflection of the sky in a surface; same as in `shade`.
 fn reflected(v: vec3<f32>, n: vec3<f32>, smooth_by: f32, light: vec2<f32>, indirect: vec3<f32>) -> vec3<f32> {
     let r = reflect(-v, n);
     let away = 1.0 - clamp(dot(n, v), 0.0, 1.0);
@@ -59,7 +60,7 @@ fn vs_lean(corner: Corner) -> Lean {
     if GLOSSY {
         veil += kept * reflected(towards, v.normal, gloss(v.material), v.light, indirect);
     }
-    // Offset from the surface, as in `sun_visible`.
+    // Offset from the surface; same as in `sun_visible`.
     let lean = 0.6 + 1.6 * (1.0 - clamp(facing, 0.0, 1.0));
     let at = g.shadow_proj[0] * vec4<f32>(v.p + v.normal * (g.texel.x * lean), 1.0);
     let q = at.xyz / at.w;
@@ -80,7 +81,7 @@ fn vs_lean(corner: Corner) -> Lean {
     return out;
 }
 
-// As `concrete`, with precomputed slow patterns.
+// Same as `concrete`, with precomputed slow patterns.
 fn lean_concrete(in: Fragment, fp: vec2<f32>, m: ptr<function, Matter>) {
     let uv = in.uv;
     let f = max(fp.x, fp.y);
@@ -108,7 +109,8 @@ fn lean_concrete(in: Fragment, fp: vec2<f32>, m: ptr<function, Matter>) {
     (*m).albedo = mix(colour, vec3<f32>(0.5, 0.48, 0.43), 0.35 * band);
 }
 
-// As `ground`, with one lookup of its tile: level ground by horizontal position, rock by position in the wall's plane.
+// Same as `ground`, with one lookup of its tile: level ground by horizontal position, rock by position in the wall's
+// plane.
 fn lean_ground(in: Fragment, broad: f32, m: ptr<function, Matter>) {
     let n = in.normal;
     let over = in.aux;

@@ -1,6 +1,6 @@
-// Solids.
+// Draws solids.
 
-// Material group of the pipeline (looks.rs): 0 concrete, 1 deck, 2 steel, 3 simple, 4 ground.
+// Material group of the pipeline (material_groups.rs): 0 concrete, 1 deck, 2 steel, 3 simple, 4 ground.
 override LOOK: u32 = 3u;
 // Whether to draw the lake's reflection.
 override MIRRORED: bool = false;
@@ -44,7 +44,7 @@ fn placed(v: Corner) -> Fragment {
     out.light = v.light * mix(v.around.zw, v.around.xy, 0.5 + 0.5 * out.normal.z);
     // The element number is stored above the material.
     out.material = select(v.material & 0xffu, v.material >> 8u, MASK);
-    // Only painted parts take the instance's paint.
+    // The instance's paint applies only to painted parts.
     out.tint = select(v.tint, vec4<f32>(v.paint.rgb, 1.0), v.paint.w > 0.5 && (v.material & 0xffu) == 8u);
     out.aux = v.aux;
     return out;
@@ -57,14 +57,14 @@ fn vs(v: Corner) -> Fragment {
 
 // Size of the cells of concrete that may contain a distractor, m.
 const FRIEND_M: vec2<f32> = vec2<f32>(5.3, 3.7);
-// Maximum height above the water for spray paint, m, reached from the ground, a boat or a ladder (estimate).
+// Maximum height above the water for spray paint, m; people reach it from the ground, a boat or a ladder (estimate).
 const REACHED_M: f32 = 12.0;
 
-// Distractors left by people and spiders (docs/src/reference/domain.md, "Defects"): at most one per cell, most cells have none.
-// Marks of weather and formwork are drawn with the concrete.
+// Distractors left by people and spiders (docs/src/reference/domain.md, "Defects"): at most one per cell, and none in
+// most cells. Marks of weather and formwork are drawn with the concrete.
 fn befriended(colour: vec3<f32>, in: Fragment, n: vec3<f32>, f: f32) -> vec3<f32> {
     let at = floor(in.uv / FRIEND_M);
-    // Parallel faces have the same coordinates, but different distractors.
+    // Parallel faces have the same coordinates but must have different distractors.
     let plane = i32(floor(0.7 * dot(in.p, n) + 0.377));
     let cell = vec2<i32>(at) + plane * vec2<i32>(31, 17);
     let luck = hash2(cell + vec2<i32>(401, 97));
@@ -101,7 +101,7 @@ fn sealed(colour: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
     return mix(sealed_over, vec3<f32>(0.17, 0.165, 0.155), cover(port, 0.016, f) * step(beyond, 0.0));
 }
 
-// A dusty spider's web.
+// A dusty spider web.
 fn webbed(colour: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
     let d = length(q);
     let reach = 0.15 + 0.10 * own;
@@ -183,7 +183,7 @@ fn concrete(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>)
     // Soot and lichen in large patches.
     let dark = smoothstep(0.6, 0.8, fbm(uv * 0.17 + 11.0, f * 0.17));
     colour = mix(colour, vec3<f32>(0.13, 0.127, 0.115), 0.5 * dark);
-    // Bird droppings: white splashes, not reportable; none on downward faces.
+    // Bird droppings: white splashes, not reportable. There are none on downward faces.
     let spot = floor(uv / 1.7);
     let lucky = hash2(vec2<i32>(spot) + vec2<i32>(77, 19));
     if lucky > 0.93 && n.z > -0.3 {
@@ -291,7 +291,7 @@ fn simple(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
     var roughness = 0.85;
     switch in.material {
         case 3u: {
-            // Wrapped wire.
+            // Wrapped wire of cables.
             colour = mix(vec3<f32>(0.30, 0.31, 0.32), colour, 0.5) * (0.8 + 0.4 * fbm(in.uv * 3.0, f * 3.0));
             roughness = 0.55;
         }

@@ -40,7 +40,7 @@ fn vs(v: Corner) -> Fragment {
 // Slope of one wave train.
 fn train(at: vec2<f32>, direction: vec2<f32>, length_m: f32, steep: f32, footprint: f32) -> vec2<f32> {
     let k = 6.2832 / length_m;
-    // Deep water: the speed depends on the wavelength.
+    // In deep water, the speed depends on the wavelength.
     let phase = k * dot(at, direction) - sqrt(9.81 * k) * g.eye.w;
     let shown = 1.0 - smoothstep(0.2, 0.5, footprint / length_m);
     return direction * (steep * shown * cos(phase));
@@ -107,8 +107,8 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let sun_seen = sun_visible(in.p, vec3<f32>(0.0, 0.0, 1.0));
     let spread = max(rough * 1.4, 0.045);
     let glint = PI * ggx(n, v, g.sun.xyz, vec3<f32>(0.02), sqrt(spread)) * g.sun.w * max(g.sun.z, 0.0) * sun_seen;
-    // Light scattered back from the water: blue-green, brighter in the sun. Light that entered next to a shadow scatters below
-    // it, so its edges are hardly visible from above.
+    // Light scattered back from the water: blue-green, brighter in the sun. Light that entered next to a shadow
+    // scatters below it, so the shadow's edges are hardly visible from above.
     let within = mix(0.65, 1.0, sun_seen);
     let lux = in.light.x * g.sky_rgb.w * g.sky_rgb.xyz + g.sun.w * max(g.sun.z, 0.0) * within * g.sun_rgb.xyz;
     var lamp = 0.0;

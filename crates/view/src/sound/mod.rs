@@ -1,4 +1,5 @@
-//! Sound of a flight as samples: propellers from the rotor speeds, and warning tones. Pure; the caller provides the time base.
+//! Sound of a flight as samples: propellers from the rotor speeds, and warning tones. It has no side effects; the
+//! caller provides the time base.
 
 mod propellers;
 mod warnings;
@@ -12,7 +13,7 @@ use warnings::WarningTones;
 pub const RATE_HZ: u32 = 24_000;
 /// Time constant of level changes, s (estimate: faster than a motor, slow enough to prevent clicks).
 const SLEW_S: f64 = 0.02;
-/// Fraction of full scale available to each part, to prevent clipping.
+/// Fraction of full scale available to each source, which prevents clipping.
 const PROPELLERS: f64 = 0.5;
 const WARNINGS: f64 = 0.45;
 
@@ -44,16 +45,16 @@ pub struct SoundInputs {
     pub distance_m: f64,
     /// Mask of active cues, as in the HUD.
     pub cues: i32,
-    /// Whether all sound is muted: switched off or paused.
+    /// Whether all sound is off, because it is muted or the flight is paused.
     pub silent: bool,
 }
 
-/// A value that follows its target without jumps.
+/// A value that approaches its target without jumps.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct SmoothedValue(f64);
 
 impl SmoothedValue {
-    /// Advances by one sample.
+    /// Advances by one sample and returns the new value.
     fn follow(&mut self, target: f64) -> f64 {
         self.0 += (target - self.0) / (SLEW_S * f64::from(RATE_HZ));
         self.0
@@ -71,7 +72,7 @@ pub struct FlightSound {
 }
 
 impl FlightSound {
-    /// Creates a silent state.
+    /// Creates the state of a silent flight.
     #[must_use]
     pub fn new(settings: SoundSettings) -> Self {
         Self { settings, ..Self::default() }

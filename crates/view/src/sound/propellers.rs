@@ -3,18 +3,20 @@
 use super::{RATE_HZ, SmoothedValue};
 use spandrel_model::math;
 
-/// Blades per propeller (the paper's aircraft, a DJI Phantom 2, has two-bladed propellers of 9.4 inches, as do most of its size).
+/// Blades per propeller. TASBID's aircraft, a DJI Phantom 2, has two-bladed propellers of 9.4 inches, as do most
+/// aircraft of its size.
 pub const BLADES: f64 = 2.0;
-/// Number of harmonics, and level of each relative to the previous one (estimate: 6 dB, as with small propellers from the second
-/// harmonic on).
+/// Number of harmonics, and level of each harmonic relative to the previous one (estimate: 6 dB, as with small
+/// propellers from the second harmonic on).
 const HARMONICS: u32 = 6;
 const FALL: f64 = 0.5;
-/// Maximum number of distinguishable rotors.
+/// Maximum number of rotors that are modeled separately.
 const MOST: usize = 8;
-/// Rotor speed at full level, rad/s; the level grows with its square, like thrust (estimate: climb of a small quadrotor).
+/// Rotor speed at full level, rad/s. The level grows with the square of the speed, like thrust (estimate: climb of a
+/// small quadrotor).
 const FULL_RAD_S: f64 = 1_100.0;
-/// Distance up to which the level is constant, m; beyond it, the level decreases with distance, as for a point source in the
-/// open. Chosen so that a drone at 120 m is audible on typical speakers (estimate).
+/// Distance up to which the level is constant, m. Beyond it, the level decreases with distance, as for a point source
+/// in the open. A drone at 120 m remains audible on typical speakers (estimate).
 const NEAR_M: f64 = 15.0;
 
 /// Rotor speed below which there is no sound, rad/s.
@@ -39,7 +41,7 @@ impl Propellers {
     /// Returns the next sample, in [-1, 1], for these rotor speeds (rad/s) and distance (m).
     pub fn next(&mut self, rotors_rad_s: &[f64], distance_m: f64) -> f64 {
         let far = self.level.follow((NEAR_M / distance_m.max(NEAR_M)).clamp(0.0, 1.0));
-        // Normalizes by the number of rotors, at least four, so that a single rotor is quieter.
+        // Normalizes by the number of rotors, but at least four, so that a single rotor sounds quieter.
         let count = self.count.follow(rotors_rad_s.len().min(MOST) as f64).max(4.0);
         let mut sum = 0.0;
         for (k, rotor) in self.rotors.iter_mut().enumerate() {

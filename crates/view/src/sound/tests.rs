@@ -10,7 +10,7 @@ fn heard(rad_s: f64, distance_m: f64, cues: i32) -> SoundInputs {
     SoundInputs { rotors_rad_s: vec![rad_s; 4], distance_m, cues, silent: false }
 }
 
-/// Returns `seconds` of sound, after one second for levels to settle.
+/// Returns `seconds` of sound, recorded after one second in which the levels settle.
 fn played(sound: &mut FlightSound, heard: SoundInputs, seconds: f64) -> Vec<f64> {
     sound.set(heard);
     let mut out = vec![0.0_f32; RATE_HZ as usize + (seconds * f64::from(RATE_HZ)) as usize];
@@ -18,7 +18,7 @@ fn played(sound: &mut FlightSound, heard: SoundInputs, seconds: f64) -> Vec<f64>
     out[RATE_HZ as usize..].iter().map(|sample| f64::from(*sample)).collect()
 }
 
-/// Amplitude at one frequency (a bin of the discrete Fourier transform).
+/// Returns the amplitude at one frequency (a bin of the discrete Fourier transform).
 fn amplitude(samples: &[f64], hz: f64) -> f64 {
     let step = math::TAU * hz / f64::from(RATE_HZ);
     let (mut re, mut im) = (0.0, 0.0);
@@ -72,7 +72,7 @@ fn exact_each_warning_has_a_pitch_of_its_own_and_the_most_severe_is_heard() {
     }
     let all = cues.into_iter().fold(0, |mask, cue| mask | cue);
     let samples = played(&mut FlightSound::new(only(true, true)), heard(0.0, 1.0, all), 6.0);
-    assert!(amplitude(&samples, 220.0) > 10.0 * amplitude(&samples, 1_050.0), "a crash before all else");
+    assert!(amplitude(&samples, 220.0) > 10.0 * amplitude(&samples, 1_050.0), "a crash must have priority");
     assert_eq!(spoken(0, all), Some("Crash"));
     assert_eq!(spoken(cue::SPEEDING, cue::SPEEDING | cue::OFF_PATH), Some("Off the path"));
     assert_eq!(spoken(all, cue::SPEEDING), None);
@@ -90,7 +90,7 @@ fn exact_what_is_off_is_silent() {
     assert!(peak(only(false, false), flying.clone()) < REST);
     assert!(peak(only(true, true), SoundInputs { silent: true, ..flying.clone() }) < REST);
     assert!(peak(SoundSettings { volume: 0.0, ..only(true, true) }, flying) < REST);
-    assert!(peak(only(true, true), heard(0.0, 5.0, 0)) < REST, "standing propellers");
+    assert!(peak(only(true, true), heard(0.0, 5.0, 0)) < REST, "stopped propellers must be silent");
 }
 
 #[test]
@@ -99,10 +99,10 @@ fn prop_the_sound_never_clips_or_clicks() {
     let top_hz = BLADES * 2.0 * 1_100.0 / math::TAU;
     let harmonics: f64 = (1..=6).map(|k| f64::from(k) * math::pow(0.5, f64::from(k - 1))).sum::<f64>() / 1.968_75;
     let slope = |amplitude: f64, hz: f64| amplitude * math::TAU * hz / f64::from(RATE_HZ);
-    // Transitions of tones and levels add a little.
+    // Additional allowance for transitions of tones and levels.
     const MORE: f64 = 1.1;
     let steepest = MORE * (slope(0.5 * harmonics, top_hz) + slope(0.45, 1_050.0) + 0.45 / (0.008 * f64::from(RATE_HZ)));
-    assert!(steepest < 0.5, "a click would be seen: {steepest}");
+    assert!(steepest < 0.5, "the limit must be low enough to reveal a click: {steepest}");
     for seed in 0..20 {
         let mut random = RandomStream::new(seed, "sound");
         let mut sound = FlightSound::new(only(true, true));

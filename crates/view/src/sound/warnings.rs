@@ -4,7 +4,7 @@ use super::RATE_HZ;
 use spandrel_mavlink::contract::cue;
 use spandrel_model::math;
 
-/// Duration of a tone's attack and release, s: no click, but a clear onset.
+/// Duration of a tone's attack and release, s: long enough to avoid clicks, short enough for a clear onset.
 const EDGE_S: f64 = 0.008;
 
 /// Tone of a cue: pitch, Hz, and on-time and period, s.
@@ -26,7 +26,7 @@ const TONES: [Tone; 5] = [
     Tone { cue: cue::BATTERY_RED, hz: 330.0, on_s: 0.4, period_s: 3.0, speech: "Battery low" },
 ];
 
-/// Returns the speech for the most serious cue that has become active.
+/// Returns the spoken warning for the most serious cue that has just become active.
 #[must_use]
 pub fn spoken(before: i32, now: i32) -> Option<&'static str> {
     TONES.iter().find(|tone| now & !before & tone.cue != 0).map(|tone| tone.speech)

@@ -22,8 +22,8 @@ pub struct H264Encoder {
 }
 
 impl H264Encoder {
-    /// Creates an encoder for a picture size (even, px), picture rate, Hz, and bit rate, bit/s; every `key_every`-th picture is a
-    /// key frame.
+    /// Creates an encoder for a picture size (even, px), a picture rate, Hz, and a bit rate, bit/s. Every
+    /// `key_every`-th picture is a key frame.
     ///
     /// # Errors
     /// If the encoder rejects the parameters.
@@ -37,7 +37,7 @@ impl H264Encoder {
             .rate_control_mode(RateControlMode::Bitrate)
             .usage_type(UsageType::CameraVideoRealTime)
             .intra_frame_period(IntraFramePeriod::from_num_frames(key_every))
-            // No frame is skipped: reviewers need the one that shows the defect.
+            // Frames must not be skipped, because reviewers may need the one that shows the defect.
             .skip_frames(false)
             .vui(VuiConfig::bt601());
         let refused = |error: openh264::Error| VideoError::Encoder(error.to_string());
@@ -65,7 +65,7 @@ impl H264Encoder {
     }
 }
 
-/// Annex B units start with 00 00 01 or 00 00 00 01.
+/// Returns a NAL unit without its start code. Annex B units start with 00 00 01 or 00 00 00 01.
 fn without_start_code(unit: &[u8]) -> &[u8] {
     unit.strip_prefix(&[0, 0, 0, 1]).or_else(|| unit.strip_prefix(&[0, 0, 1])).unwrap_or(unit)
 }

@@ -1,4 +1,5 @@
-//! Video: H.264 in RTP packets, or with chapters in an MP4 file. Produces bytes only; sending and writing are up to the caller.
+//! Video: H.264 in RTP packets, or with chapters in an MP4 file. This module only produces bytes; the caller sends or
+//! writes them.
 
 mod h264;
 mod mp4;

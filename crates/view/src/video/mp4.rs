@@ -1,4 +1,4 @@
-//! MP4 file that is written as pictures arrive: media data first, index at the end.
+//! MP4 file written while pictures arrive: media data first, index at the end.
 
 use super::{EncodedPicture, VideoError};
 use shiguredo_mp4::boxes::{Avc1Box, AvccBox, SampleEntry, VisualSampleEntryFields};
@@ -12,7 +12,7 @@ const TICKS_S: u32 = 90_000;
 const SPS: u8 = 7;
 const PPS: u8 = 8;
 
-/// Bytes to write at an offset of the file.
+/// Bytes to write at an offset in the file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mp4Chunk {
     /// Offset, bytes.
@@ -33,7 +33,7 @@ pub struct Mp4Writer {
 }
 
 impl Mp4Writer {
-    /// Creates a file for pictures of one size and rate, Hz, and returns it with its first bytes.
+    /// Creates a file for pictures of one size and rate, Hz, and returns it with the first bytes to write.
     ///
     /// # Errors
     /// If the file format cannot represent them.
@@ -56,7 +56,7 @@ impl Mp4Writer {
             bytes.extend(unit);
         }
         self.pictures += 1;
-        // Whole ticks without drift: picture n ends at n divided by the rate.
+        // Uses whole ticks without drift: picture n ends at n divided by the rate.
         let until = (self.pictures as f64 / self.rate_hz * f64::from(TICKS_S)).round() as u64;
         let sample = Sample {
             track_kind: TrackKind::Video,
@@ -75,7 +75,7 @@ impl Mp4Writer {
         Ok(piece)
     }
 
-    /// Returns the index, which completes the file.
+    /// Returns the chunks with the index, which complete the file.
     ///
     /// # Errors
     /// If the index cannot be built.

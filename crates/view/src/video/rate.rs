@@ -1,9 +1,9 @@
-//! Measures the picture rate of a stream.
+//! Measurement of the picture rate of a stream.
 
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// Wall time window of the mean.
+/// Period of wall time over which the rate is averaged.
 const MEASURED_OVER: SimTime = SimTime::from_ms(2_000);
 
 /// Picture rate from the times of recent pictures.

@@ -6,7 +6,7 @@ use spandrel_model::random::RandomStream;
 pub const PAYLOAD_TYPE: u8 = 96;
 /// RTP clock rate for video, Hz.
 pub const CLOCK_HZ: f64 = 90_000.0;
-/// Maximum packet size, bytes: with IP and UDP headers, below an Ethernet MTU of 1500.
+/// Maximum packet size, bytes. With IP and UDP headers, it stays below an Ethernet MTU of 1500.
 const MOST: usize = 1_400;
 const HEADER: usize = 12;
 /// NAL unit type of a fragment (RFC 6184, 5.8).
@@ -17,13 +17,13 @@ const FU_A: u8 = 28;
 pub struct RtpPacketizer {
     sequence: u16,
     source: u32,
-    /// Timestamp of time zero.
+    /// Timestamp at the start of the stream.
     zero: u32,
 }
 
 impl RtpPacketizer {
-    /// Creates a stream with identifier and initial values from a seed. Use a different seed for each stream, so that receivers
-    /// do not mistake it for a continuation of the previous one (RFC 3550, 5.1).
+    /// Creates a stream whose identifier and initial values come from a seed. Use a different seed for each stream, so
+    /// that receivers do not mistake it for a continuation of the previous one (RFC 3550, 5.1).
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let mut random = RandomStream::new(seed, "rtp");
@@ -50,7 +50,7 @@ impl RtpPacketizer {
     }
 }
 
-/// Returns a unit as one payload, or fragmented.
+/// Returns a unit as one payload, or as fragments.
 fn payloads(unit: &[u8]) -> Vec<Vec<u8>> {
     let Some((head, body)) = unit.split_first() else { return Vec::new() };
     if unit.len() <= MOST - HEADER {

@@ -2,7 +2,7 @@ use super::*;
 use crate::picture::Picture;
 use spandrel_model::time::SimTime;
 
-/// A square that moves over a gray background.
+/// Returns a picture of a square that moves over a gray background.
 fn picture(k: u32) -> Picture {
     let (width, height) = (320, 180);
     let inside = |x: u32, y: u32| (8 * k..8 * k + 40).contains(&x) && (60..100).contains(&y);
@@ -27,7 +27,7 @@ fn val_a_decoder_sees_the_square_where_it_was_drawn() {
         assert_eq!(image.dimensions(), (320, 180));
         image.write_rgb8(&mut rgb);
         let red = |x: usize| rgb[3 * (80 * 320 + x)];
-        // Half a megabit per second blurs edges, not centers.
+        // At half a megabit per second, edges are blurred but centers are not.
         assert!(red(8 * k + 20) > 180 && red(8 * k + 80) < 160, "picture {k}");
         seen += 1;
     }
@@ -38,7 +38,7 @@ fn val_a_decoder_sees_the_square_where_it_was_drawn() {
 fn exact_every_tenth_picture_can_be_read_by_itself() {
     let keys: Vec<usize> = encoded(25).iter().enumerate().filter(|(_, one)| one.key).map(|(k, _)| k).collect();
     assert_eq!(keys, [0, 10, 20]);
-    assert!(H264Encoder::new((321, 180), 15.0, 500_000, 10).is_err(), "odd sizes have no half");
+    assert!(H264Encoder::new((321, 180), 15.0, 500_000, 10).is_err(), "odd sizes must be rejected");
 }
 
 #[test]
@@ -55,7 +55,7 @@ fn exact_packets_put_together_again_are_the_units() {
         assert_eq!((packet[0], packet[1] & 0x7F, packet[1] >> 7 == 1), (0x80, 96, k + 1 == sent.len()));
         assert_eq!(number(packet).wrapping_sub(number(&begin)) as usize, k + 1);
         assert_eq!(stamp(packet).wrapping_sub(stamp(&begin)), 180_000);
-        assert_eq!(packet[8..12], begin[8..12], "one source");
+        assert_eq!(packet[8..12], begin[8..12], "all packets must have one source");
         let payload = &packet[12..];
         if payload[0] & 0x1F == 28 {
             if payload[1] & 0x80 != 0 {
@@ -95,7 +95,7 @@ fn exact_an_mp4_file_holds_every_picture_and_its_time() {
     let mut demuxer = Mp4FileDemuxer::new();
     demuxer.handle_input(Input { position: 0, data: &bytes });
     let track = demuxer.tracks().unwrap()[0].clone();
-    assert!((track.duration as f64 / f64::from(track.timescale.get()) - 2.0).abs() < 1e-3, "30 pictures at 15 a second");
+    assert!((track.duration as f64 / f64::from(track.timescale.get()) - 2.0).abs() < 1e-3, "30 pictures at 15 Hz must last 2 s");
     let mut count = 0;
     while let Some(sample) = demuxer.next_sample().unwrap() {
         assert_eq!(sample.keyframe, pictures[count].key);
@@ -117,12 +117,12 @@ fn exact_a_rate_is_reported_from_the_second_picture_on_and_forgets_after_two_sec
         rate.count(SimTime::from_ms(ms));
         rate.hz()
     };
-    // A first picture long after the stream was opened does not lower the rate.
+    // A first picture long after the stream was opened must not lower the rate.
     assert_eq!(after(60_000), None);
     assert_eq!(after(60_040), Some(25.0));
     assert_eq!(after(60_500), Some(4.0));
-    assert_eq!(after(62_500), Some(0.5), "what is older than two seconds is gone");
+    assert_eq!(after(62_500), Some(0.5), "pictures older than two seconds must not count");
     let steady = (1..=80).map(|k| after(62_500 + 50 * k)).fold(None, |_, hz| hz);
     assert_eq!(steady, Some(20.0));
-    assert_eq!(after(600_000).map(f64::round), Some(0.0), "a window that stood still has streamed nothing");
+    assert_eq!(after(600_000).map(f64::round), Some(0.0), "the rate must be zero after a long pause");
 }

@@ -1,4 +1,4 @@
-//! Chapters of a video as a WebVTT track, which players list and people and programs can read.
+//! Chapters of a video as a WebVTT track, which players list and programs can read.
 
 use std::fmt::Write;
 
@@ -13,7 +13,7 @@ pub struct Chapter {
     pub title: String,
 }
 
-/// Returns the track.
+/// Returns the chapters as a WebVTT file.
 #[must_use]
 pub fn write(chapters: &[Chapter]) -> String {
     let mut out = String::from("WEBVTT\n");

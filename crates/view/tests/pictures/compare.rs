@@ -1,23 +1,24 @@
-//! How like two pictures are, and the committed ones to hold new ones against.
+//! Comparison of pictures, and the committed reference pictures.
 
 use spandrel_view::picture::Picture;
 use std::path::{Path, PathBuf};
 
-/// Pictures are compared after averaging squares of this side, px: the film's grain and JPEG's own losses shrink, shapes stay.
+/// Side of the squares over which pictures are averaged before comparison, px; averaging reduces grain and JPEG losses,
+/// but keeps shapes.
 const BLOCK: u32 = 2;
-/// Largest mean absolute difference of a channel over the picture, of 255. JPEG at quality 90 alone costs about half of it.
+/// Maximum mean absolute difference per channel over the picture, of 255. JPEG at quality 90 causes about half of it.
 const MEAN_MAX: f64 = 1.5;
-/// The same over the worst tile: a thing the size of a tile that is missing or elsewhere costs more than this.
+/// Maximum for the worst tile; an object of the size of a tile that is missing or moved exceeds it.
 const TILE_MAX: f64 = 7.0;
 /// Side of a tile, blocks: 24 px.
 const TILE: u32 = 12;
-/// Quality of committed pictures, 1 to 100.
+/// JPEG quality of committed pictures, 1 to 100.
 const JPEG_QUALITY: u8 = 90;
 
-/// How far two pictures differ, of 255.
+/// Difference between two pictures, of 255.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Difference {
-    /// Mean over everything.
+    /// Mean over the picture.
     pub mean: f64,
     /// Mean over the worst tile.
     pub tile: f64,
@@ -29,7 +30,7 @@ impl Difference {
     }
 }
 
-/// Differences block by block, row by row, with the number of blocks a row.
+/// Returns the differences of all blocks, row by row, and the number of blocks per row.
 fn blocks(a: &Picture, b: &Picture) -> (Vec<f64>, u32) {
     let (columns, rows) = (a.width / BLOCK, a.height / BLOCK);
     let mean = |p: &Picture, x: u32, y: u32| {
@@ -47,7 +48,7 @@ fn blocks(a: &Picture, b: &Picture) -> (Vec<f64>, u32) {
     ((0..columns * rows).map(of).collect(), columns)
 }
 
-/// Compares two pictures; `None` when their sizes differ.
+/// Compares two pictures; returns `None` if their sizes differ.
 pub fn difference(a: &Picture, b: &Picture) -> Option<Difference> {
     if (a.width, a.height) != (b.width, b.height) {
         return None;
@@ -64,20 +65,20 @@ pub fn difference(a: &Picture, b: &Picture) -> Option<Difference> {
     Some(Difference { mean: mean((0, 0), (columns, rows)), tile: worst })
 }
 
-/// Holds a picture against the committed one of its name. Returns what is wrong, with the places of what was drawn. With
-/// `SPANDREL_PICTURES=write` in the environment it is committed instead: look at it first.
+/// Compares a picture with the committed one of this name. An error contains the paths of the rendered picture and the
+/// difference. With `SPANDREL_PICTURES=write` in the environment, commits the picture instead; look at it first.
 pub fn held(name: &str, drawn: &Picture) -> Result<Difference, String> {
     held_at(&committed(name), name, drawn)
 }
 
-/// Where the committed picture of a name is.
+/// Returns the path of a committed picture.
 pub fn committed(name: &str) -> PathBuf {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
         .join("crates/view/tests/pictures/committed")
         .join(format!("{name}.jpg"))
 }
 
-/// The same for a picture that is kept elsewhere.
+/// Same for a picture in another folder.
 pub fn held_at(committed: &Path, name: &str, drawn: &Picture) -> Result<Difference, String> {
     if std::env::var("SPANDREL_PICTURES").is_ok_and(|value| value == "write") {
         std::fs::write(committed, jpeg(drawn)).unwrap();
@@ -86,7 +87,7 @@ pub fn held_at(committed: &Path, name: &str, drawn: &Picture) -> Result<Differen
     let expected = load(committed).map_err(|error| format!("{name}: {}: {error}", committed.display()))?;
     let found = difference(drawn, &expected).ok_or_else(|| {
         let (width, height) = (expected.width, expected.height);
-        format!("{name}: drawn at {} x {}, committed at {width} x {height}", drawn.width, drawn.height)
+        format!("{name}: rendered at {} x {}, committed at {width} x {height}", drawn.width, drawn.height)
     })?;
     if found.small() {
         return Ok(found);
@@ -94,7 +95,7 @@ pub fn held_at(committed: &Path, name: &str, drawn: &Picture) -> Result<Differen
     let (drawn_at, difference_at) =
         (save(&format!("{name}.png"), drawn), save(&format!("{name}-difference.png"), &shown(drawn, &expected)));
     Err(format!(
-        "{name}: mean {:.2} (at most {MEAN_MAX}), worst tile {:.2} (at most {TILE_MAX}); drawn: {}, difference: {}",
+        "{name}: mean {:.2} (at most {MEAN_MAX}), worst tile {:.2} (at most {TILE_MAX}); rendered: {}, difference: {}",
         found.mean,
         found.tile,
         drawn_at.display(),
@@ -102,7 +103,7 @@ pub fn held_at(committed: &Path, name: &str, drawn: &Picture) -> Result<Differen
     ))
 }
 
-/// The difference, eight times as strong.
+/// Returns the difference, amplified eight times.
 fn shown(a: &Picture, b: &Picture) -> Picture {
     let rgba = a.rgba.iter().zip(&b.rgba).enumerate();
     let rgba = rgba.map(|(k, (a, b))| if k % 4 == 3 { 255 } else { a.abs_diff(*b).saturating_mul(8) });
@@ -113,7 +114,7 @@ fn rgb(picture: &Picture) -> Vec<u8> {
     picture.rgba.chunks(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()
 }
 
-/// Writes a PNG where tests may and returns its place.
+/// Writes a PNG to the folder for test output and returns its path.
 pub fn save(name: &str, picture: &Picture) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("view");
     std::fs::create_dir_all(&folder).unwrap();
@@ -135,7 +136,7 @@ fn load(path: &Path) -> Result<Picture, image::ImageError> {
     Ok(Picture { width: read.width(), height: read.height(), rgba: read.into_raw() })
 }
 
-/// Pictures of one height side by side.
+/// Returns pictures of the same height side by side.
 pub fn beside(pictures: &[Picture]) -> Picture {
     let height = pictures.iter().map(|p| p.height).min().unwrap_or(0);
     let row = |p: &Picture, y: u32| p.rgba[(4 * y * p.width) as usize..(4 * (y + 1) * p.width) as usize].to_vec();
@@ -143,7 +144,7 @@ pub fn beside(pictures: &[Picture]) -> Picture {
     Picture { width: pictures.iter().map(|p| p.width).sum(), height, rgba }
 }
 
-/// Stripes of several greys with a square of another grey at a place.
+/// Returns stripes in several grays with a square in another gray at a position.
 fn sample(square: Option<(u32, u32)>, shift: u32) -> Picture {
     let mut rgba = Vec::new();
     for y in 0..96 {
@@ -161,9 +162,9 @@ fn exact_the_comparison_detects_missing_or_moved_parts_and_tolerates_jpeg() {
     let plain = sample(None, 0);
     assert_eq!(difference(&plain, &plain), Some(Difference { mean: 0.0, tile: 0.0 }));
     let spotted = difference(&plain, &sample(Some((60, 40)), 0)).unwrap();
-    assert!(!spotted.small(), "a square of 20 px: {spotted:?}");
+    assert!(!spotted.small(), "a square of 20 px must be detected: {spotted:?}");
     let moved = difference(&plain, &sample(None, 3)).unwrap();
-    assert!(!moved.small(), "moved by 3 px: {moved:?}");
+    assert!(!moved.small(), "a shift of 3 px must be detected: {moved:?}");
     let read = image::load_from_memory(&jpeg(&plain)).unwrap().to_rgba8();
     let lossy = Picture { width: read.width(), height: read.height(), rgba: read.into_raw() };
     let found = difference(&plain, &lossy).unwrap();

@@ -1,5 +1,5 @@
-//! A crack's contrast against the ground sampling distance (docs/src/reference/domain.md, "Resolution": detected from half a
-//! pixel's width, identified from one), without steps.
+//! Contrast of a crack depending on the ground sampling distance (docs/src/reference/domain.md, "Resolution": detection
+//! from half a pixel's width, identification from one pixel); it must change without steps.
 
 use spandrel_model::math;
 use spandrel_model::scenario::PlacedDefect;
@@ -10,14 +10,14 @@ use spandrel_view::picture::Picture;
 use spandrel_view::scene::DefectPatch;
 use spandrel_view::scene::defects::patch;
 
-/// Crops of the camera's picture at its own resolution, px.
+/// Size of the crops from the camera's picture at full resolution, px.
 const CROP: (u32, u32) = (160, 200);
 const WIDTH_M: f64 = 0.0025;
-/// Numbers of their own of a crack without lime, and of one with it (defect.wgsl).
+/// Random numbers with which defect.wgsl draws a crack without lime deposits, and one with them.
 const BARE: f32 = 0.05;
 const LIMED: f32 = 0.12;
 
-/// A long upright crack in a wall, the eye before it, and the same wall without it.
+/// A wall with a long vertical crack, the same wall without it, and a camera in front of it.
 struct Wall {
     studio: Studio,
     crack: PlacedDefect,
@@ -29,7 +29,7 @@ impl Wall {
         Self::of(catalogue::CRACK, BARE)
     }
 
-    /// `own` decides whether lime has come out of a crack.
+    /// Creates a wall; `own` decides whether the crack has lime deposits.
     fn of(kind: u32, own: f32) -> Self {
         let studio = Studio::new(sunny(), 7, "low", SimTime::ZERO);
         let (from, towards) = (at(-55.0, -15.0, 24.0), at(0.0, 1.0, 0.0));
@@ -53,12 +53,12 @@ impl Wall {
         Self { studio, crack, patches }
     }
 
-    /// Size of a pixel on the wall, m, at a distance.
+    /// Returns the size of a pixel on the wall at a distance, m.
     fn gsd_m(&self, distance_m: f64) -> f64 {
         distance_m / self.studio.vehicle.camera.focal_px()
     }
 
-    /// The wall with and without the crack where a pixel is so large, m.
+    /// Returns pictures of the wall with and without the crack at a ground sampling distance, m.
     fn pair(&mut self, gsd_m: f64) -> [Picture; 2] {
         let focal_px = self.studio.vehicle.camera.focal_px();
         let hfov_deg = (2.0 * math::atan(0.5 * f64::from(CROP.0) / focal_px)).to_degrees();
@@ -72,17 +72,19 @@ impl Wall {
     }
 }
 
-/// Luma of a row.
+/// Returns the luma values of a row.
 fn row(picture: &Picture, y: u32) -> Vec<f64> {
     (0..picture.width).map(|x| picture.luma((x, y), (x + 1, y + 1))).collect()
 }
 
-/// How much darker than the bare wall the crack is where it is darkest in a row, as a share; the mean over the rows.
+/// Returns how much darker than the bare wall the darkest point of the crack is in a row, as a fraction, averaged over
+/// the rows.
 fn contrast(pair: &[Picture; 2]) -> f64 {
     strongest(pair, |with, without| without - with)
 }
 
-/// How much a row differs from the bare wall where it does most, as a share of its brightness there; the mean over the rows.
+/// Returns the largest difference from the bare wall in a row, as a fraction of the wall's brightness there, averaged
+/// over the rows.
 fn strongest([with, without]: &[Picture; 2], by: impl Fn(f64, f64) -> f64) -> f64 {
     let of = |y: u32| {
         let pairs = row(with, y).into_iter().zip(row(without, y));
@@ -91,7 +93,8 @@ fn strongest([with, without]: &[Picture; 2], by: impl Fn(f64, f64) -> f64) -> f6
     (0..with.height).map(of).sum::<f64>() / f64::from(with.height)
 }
 
-/// What the bare wall varies by from one pixel to the next but one, as a share of its brightness: grain, sand, streaks.
+/// Returns the variation of the bare wall between a pixel and the second next one, as a fraction of its brightness:
+/// grain, sand, streaks.
 fn texture(without: &Picture) -> f64 {
     let (mut squares, mut count) = (0.0, 0.0);
     for y in 0..without.height {
@@ -106,12 +109,13 @@ fn texture(without: &Picture) -> f64 {
 
 #[test]
 fn val_a_crack_is_identified_at_one_pixel_detected_at_half_and_gone_at_a_tenth() {
-    // Multiples of what the bare wall itself varies by. 5 is Rose's limit for seeing at all (1948); to tell a crack from a stain or a line of the
-    // formwork takes more (estimate: four times that).
+    // Multiples of the variation of the bare wall. 5 is Rose's limit of visibility (1948); distinguishing a crack from
+    // a stain or a formwork line takes more (estimate: four times that).
     const DETECTED: f64 = 5.0;
     const IDENTIFIED: f64 = 20.0;
     const LOST: f64 = 2.0;
-    // Below a pixel a line covers its share of it, so half the width has half the contrast; the film's curve bends that by less than this.
+    // A line narrower than a pixel covers a fraction of it, so half the width gives half the contrast, with a smaller
+    // deviation than this due to the tone curve.
     const HALF: f64 = 0.5;
     const HALF_TOLERANCE: f64 = 0.12;
     let mut wall = Wall::new();
@@ -125,17 +129,18 @@ fn val_a_crack_is_identified_at_one_pixel_detected_at_half_and_gone_at_a_tenth()
     }
     assert!(found[1].1 >= IDENTIFIED && found[0].1 >= IDENTIFIED, "one and two pixels: {found:?}");
     assert!(found[2].1 >= DETECTED, "half a pixel: {found:?}");
-    assert!(found[3].1 <= LOST, "a tenth: {found:?}");
-    assert!((found[2].0 / found[1].0 - HALF).abs() <= HALF_TOLERANCE, "half against one: {found:?}");
+    assert!(found[3].1 <= LOST, "a tenth of a pixel: {found:?}");
+    assert!((found[2].0 / found[1].0 - HALF).abs() <= HALF_TOLERANCE, "half a pixel compared with one: {found:?}");
 }
 
-/// Flying away from a crack in steps of 6 % its contrast falls and never jumps: nothing pops.
+/// When the camera moves away from a crack in steps of 6 %, the contrast must fall without jumps.
 #[test]
 fn prop_contrast_falls_without_steps() {
     const STEP: f64 = 0.94;
-    // Rounding to 8 bits, and other rows of the wall in the picture.
+    // Rounding to 8 bits, and different rows of the wall in the picture.
     const RISE_MAX: f64 = 0.01;
-    // In proportion to the distance a step is 6 % of the contrast; where the line's edge leaves the pixel beside it, up to twice that.
+    // The contrast is proportional to the inverse distance, so a step changes it by 6 %; where the edge of the line
+    // leaves the adjacent pixel, by up to twice that.
     const FALL_MAX: f64 = 0.08;
     let mut wall = Wall::new();
     let mut before: Option<f64> = None;
@@ -152,11 +157,11 @@ fn prop_contrast_falls_without_steps() {
     assert!(before.is_some_and(|last| last < 0.1), "at a tenth of a pixel: {before:?}");
 }
 
-/// What seeps out of a line fades as evenly: lime on concrete, rust on steel.
+/// Leakage from a line must fade just as evenly: lime on concrete, rust on steel.
 #[test]
 fn prop_what_seeps_out_of_a_line_falls_without_steps() {
     const STEP: f64 = 0.94;
-    // Rounding to 8 bits, other rows of the wall, and ends of what seeps that come into the picture.
+    // Rounding to 8 bits, different rows of the wall, and ends of the leakage that enter the picture.
     const RISE_MAX: f64 = 0.03;
     const FALL_MAX: f64 = 0.08;
     for (kind, own) in [(catalogue::CRACK, LIMED), (catalogue::FATIGUE, BARE)] {

@@ -1,4 +1,4 @@
-//! The pictures that a stranger should be able to name, held against committed ones.
+//! Pictures whose contents must be recognizable to anybody, compared with committed ones.
 
 use super::compare::{Difference, beside, held, held_at};
 use spandrel_mavlink::contract::cue;
@@ -15,21 +15,22 @@ use spandrel_view::picture::Picture;
 use spandrel_view::scene::defects::patch;
 use std::path::Path;
 
-/// Size of a scene, px.
+/// Size of a scene picture, px.
 const SCENE: (u32, u32) = (640, 360);
-/// Size of each view under a display: what is written on it must stay legible.
+/// Size of each view with a HUD, whose text must stay legible.
 const VIEW: (u32, u32) = (640, 360);
-/// Size of each picture of a defect, px.
+/// Size of each close-up of a defect, px.
 const CLOSE: (u32, u32) = (320, 240);
-/// Its fields of view at 1 and 3 m, where what is half a metre wide stays in the picture; at 8 m it is a piece of the camera's, pixel by pixel.
+/// Fields of view at 1 m and 3 m, in which an object half a meter wide fits; at 8 m, the picture is a crop of the
+/// camera's picture at full resolution.
 const CLOSE_DEG: [f64; 2] = [30.0, 15.0];
 
-/// Size of each of the tutorial's pictures of a defect, px, and the field of view of the one lens that takes them all: at 1 m it just holds half a
-/// metre.
+/// Size of the tutorial's pictures of a defect, px, and field of view of the lens for all of them; at 1 m, half a meter
+/// just fits.
 const TUTORIAL: (u32, u32) = (240, 180);
 const TUTORIAL_DEG: f64 = 30.0;
 
-/// Collects what is wrong, so that one run tells of every picture.
+/// Collects all problems, so that one run reports on every picture.
 #[derive(Default)]
 struct Wall {
     wrong: Vec<String>,
@@ -68,7 +69,7 @@ fn regress_bridges_in_summer() {
     wall.all_hold();
 }
 
-/// The pad: truck, crew, and the aircraft over it with its propellers turning.
+/// The pad: truck, crew, and the aircraft above it with its propellers turning.
 #[test]
 fn regress_the_crew_and_the_drone_at_the_pad() {
     let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
@@ -87,7 +88,8 @@ fn regress_the_crew_and_the_drone_at_the_pad() {
     wall.all_hold();
 }
 
-/// What may be taken for a defect and is none: a crack that was closed, a web, spray paint. Form lines, tie holes, streaks and droppings are beside.
+/// Distractors, which may be mistaken for defects: a sealed crack, a web, spray paint. Formwork lines, tie holes,
+/// streaks and droppings are also visible.
 #[test]
 fn regress_distractor() {
     let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
@@ -106,10 +108,11 @@ fn regress_distractor() {
     wall.all_hold();
 }
 
-/// Under the arch and in the interlayer at dusk: without the lamp it is dark, with it the lamp's light is seen.
+/// Under the arch and in the interlayer at dusk: dark without the lamp, and visibly lit with it.
 #[test]
 fn regress_dark_places_take_the_lamp() {
-    // Mean luma of the picture's middle, of 255: what is as dark as slate, and how much brighter the lamp makes it.
+    // Maximum mean luma of the picture's center in the dark, of 255, and minimum factor by which the lamp makes it
+    // brighter.
     const DARK_MAX: f64 = 75.0;
     const LIT_OVER_DARK: f64 = 1.5;
     let mut studio = Studio::new(dusk(), 7, "medium", SimTime::ZERO);
@@ -133,7 +136,8 @@ fn regress_dark_places_take_the_lamp() {
     wall.all_hold();
 }
 
-/// A defect at the place where a sight line meets a bridge: its longest extent runs down, or rises a little to the side.
+/// Returns a defect where a line of sight meets a bridge. Its longest extent points down or, otherwise, slightly up to
+/// the side.
 fn placed(studio: &Studio, (from, to): (Vec3<Enu>, Vec3<Enu>), kind: u32, size_m: (f64, f64), down: bool) -> PlacedDefect {
     let ray = (to - from).unit();
     let hit = studio.site.ray(from, ray, 200.0, SimTime::ZERO).unwrap();
@@ -154,7 +158,7 @@ fn placed(studio: &Studio, (from, to): (Vec3<Enu>, Vec3<Enu>), kind: u32, size_m
     }
 }
 
-/// Shows a defect in the light of its place, and no other.
+/// Shows only this defect, in the light at its position.
 fn hang_patch(studio: &mut Studio, defect: &PlacedDefect) {
     let light = spandrel_model::site::light::spread(64);
     let cast = |o, d, max_m| studio.site.geometry().ray(o, d, max_m);
@@ -165,7 +169,7 @@ fn hang_patch(studio: &mut Studio, defect: &PlacedDefect) {
     renderer.set_patches(gpu, &patches);
 }
 
-/// A defect from a distance along its normal, a little from aside and below.
+/// Returns a picture of a defect from a distance along its normal, slightly from the side and from below.
 fn close_up(studio: &mut Studio, defect: &PlacedDefect, distance_m: f64, hfov_deg: f64, size: (u32, u32)) -> Picture {
     let aside = Vec3::new(0.0, 0.0, 1.0).cross(defect.normal).unit();
     let out = (defect.normal + aside * 0.25 - Vec3::new(0.0, 0.0, 0.12)).unit();
@@ -173,12 +177,12 @@ fn close_up(studio: &mut Studio, defect: &PlacedDefect, distance_m: f64, hfov_de
     studio.draw(&shot)
 }
 
-/// A sight line to a wall of the arch bridge, from the lake.
+/// Returns a line of sight from the lake to a wall of the arch bridge.
 fn wall_at() -> (Vec3<Enu>, Vec3<Enu>) {
     (at(-55.0, -15.0, 24.0), at(-55.0, 0.0, 24.0))
 }
 
-/// A sight line to a girder of the suspension bridge.
+/// Returns a line of sight to a girder of the suspension bridge.
 fn girder_at() -> (Vec3<Enu>, Vec3<Enu>) {
     (at(-20.0, 138.0, 12.7), at(-20.0, 150.0, 12.7))
 }
@@ -209,7 +213,8 @@ fn regress_defects_at_1_3_and_8_m() {
     wall.all_hold();
 }
 
-/// The tutorial compares distances: each row is one defect through one lens, so that sizes fall as the distance grows.
+/// The tutorial compares distances: each row shows one defect through one lens, so that its size decreases with
+/// distance.
 #[test]
 fn regress_the_tutorial_shows_defects_through_one_lens_at_true_scale() {
     let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
@@ -230,7 +235,7 @@ fn regress_the_tutorial_shows_defects_through_one_lens_at_true_scale() {
     wall.all_hold();
 }
 
-/// What the display says in flight when nothing is wrong.
+/// Returns the HUD of a normal flight.
 fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
     let track = |task: &spandrel_model::scenario::Task| MapPath { id: task.id, path_m: task.path_m.clone(), closed: task.closed };
     Hud {
@@ -260,7 +265,7 @@ fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
     }
 }
 
-/// Both views side by side with every state of the display.
+/// Compares both views side by side in every state of the HUD.
 #[test]
 fn regress_both_views_with_every_state_of_the_display() {
     let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));

@@ -1,5 +1,5 @@
-//! What is drawn, by Mesa's software Vulkan (lavapipe): a gallery held against committed pictures, contrast against ground sampling distance,
-//! and whether a picture shows what the measures say it shows.
+//! Pictures rendered by Mesa's software Vulkan (lavapipe): a gallery compared with committed pictures, contrast
+//! depending on ground sampling distance, and agreement between pictures and measures.
 #![allow(clippy::unwrap_used, reason = "a test")]
 #![allow(missing_docs, reason = "a test")]
 

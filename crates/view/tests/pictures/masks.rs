@@ -1,5 +1,5 @@
-//! Labels of pixels: what a ray through a pixel hits in the site that collides is what the pixel is said to show, and a defect that a picture shows
-//! has pixels.
+//! Pixel labels: they must match the surface that a ray through the pixel hits in the collision geometry, and a defect
+//! visible in a picture must have pixels.
 
 use spandrel_model::math;
 use spandrel_model::site::Surface;
@@ -7,8 +7,8 @@ use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, two_bridges};
 
 const SIZE: (u32, u32) = (160, 120);
-/// Share of pixels whose label may differ from a ray's: edges, where the drawn picture and a ray decide by different rounding, and trees, which
-/// hide and do not collide.
+/// Maximum fraction of pixels whose label may differ from the ray's: edges, where rendering and rays round differently,
+/// and trees, which hide surfaces but do not collide.
 const APART: f64 = 0.03;
 
 #[test]
@@ -34,7 +34,7 @@ fn val_pixels_are_labelled_as_rays_hit() {
         let apart = (0..SIZE.0 * SIZE.1).filter(|k| hit(*k).unwrap_or(0) != u32::from(masks.elements[*k as usize])).count();
         let bridge = masks.elements.iter().filter(|element| **element != 0).count();
         let all = f64::from(SIZE.0 * SIZE.1);
-        assert!(bridge as f64 > 0.2 * all, "the picture shows a bridge: {bridge} pixels");
+        assert!(bridge as f64 > 0.2 * all, "the picture must show a bridge: {bridge} pixels");
         assert!(apart as f64 <= APART * all, "{from:?}: {apart} of {all} pixels");
     }
 }
@@ -55,7 +55,7 @@ fn val_a_defect_before_the_lens_is_labelled_with_its_number_and_in_its_place() {
         };
         let legend = masks.legend(studio.site.defects());
         let entry = legend["defects"].as_array().unwrap().iter().find(|entry| entry["id"] == defect.id);
-        // A hair is narrower than a quarter of this picture's pixels.
+        // A hairline narrower than a quarter of this picture's pixels.
         let pixel_m = 2.0 * 1.5 * math::tan(0.5 * 60.0_f64.to_radians()) / 320.0;
         if defect.line && defect.width_m < 0.6 * pixel_m {
             continue;
@@ -65,11 +65,11 @@ fn val_a_defect_before_the_lens_is_labelled_with_its_number_and_in_its_place() {
         let [x, y, w, h] = [0, 1, 2, 3].map(|k| entry["box_px"][k].as_f64().unwrap());
         assert!(
             x <= 190.0 && x + w >= 130.0 && y <= 150.0 && y + h >= 90.0,
-            "{}: about the middle, not {x} {y} {w} {h}",
+            "{}: not near the center: {x} {y} {w} {h}",
             defect.id
         );
         shown += 1;
     }
     let all = studio.site.defects().len();
-    assert!(2 * shown >= all, "only {shown} of {all} defects were looked at");
+    assert!(2 * shown >= all, "only {shown} of {all} defects were checked");
 }

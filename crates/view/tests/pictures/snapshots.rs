@@ -1,5 +1,5 @@
-//! Where the measures say that a picture shows a defect, it does: seeded photographs from around the tasks' paths, each drawn with and without
-//! the defects, at the camera's own resolution around the defect.
+//! If the measures find that a picture shows a defect, it must be visible: seeded photos from around the tasks' paths,
+//! rendered with and without the defects at the camera's resolution around the defect.
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::math;
@@ -15,22 +15,23 @@ use spandrel_view::scene::defects;
 use spandrel_view::stage::camera_aimed_at;
 use std::collections::BTreeMap;
 
-/// Photographs that show a defect.
+/// Number of photos that show a defect.
 const SHOWN: usize = 200;
-/// Photographs tried of each defect.
+/// Number of photos tried for each defect.
 const TRIES: usize = 4;
-/// Around each defect so much is drawn, px of the camera.
+/// Size of the rendered area around each defect, px of the camera.
 const CROP: (u32, u32) = (192, 144);
-/// Pixels of light round which the picture is exposed: any size will do.
+/// Size of the picture with which the exposure is metered, px; any size will do.
 const FRAME: (u32, u32) = (400, 300);
 
-/// One photograph of one defect.
+/// A photo of one defect.
 struct Snapshot {
     pose: CameraPose,
     view: DefectView,
 }
 
-/// A photograph of a defect from a place that an aircraft can be in, aimed so that the defect lies anywhere in the middle 80 %.
+/// Returns a photo of a defect from a position that an aircraft can reach, aimed so that the defect is somewhere within
+/// the central 80 %.
 fn taken(site: &Site, vehicle: &Vehicle, defect: &PlacedDefect, stream: &mut RandomStream) -> Option<Snapshot> {
     let level = if defect.normal.up().abs() > 0.9 { Vec3::new(1.0, 0.0, 0.0) } else { Vec3::new(0.0, 0.0, 1.0) };
     let across = level.cross(defect.normal).unit();
@@ -49,7 +50,7 @@ fn taken(site: &Site, vehicle: &Vehicle, defect: &PlacedDefect, stream: &mut Ran
     seen.into_iter().find(|view| view.defect_id == defect.id).map(|view| Snapshot { pose, view })
 }
 
-/// The crop around a defect with the defects and without them; exposed as the whole photograph is.
+/// Returns the crop around a defect with and without the defects, exposed like the complete photo.
 fn drawn(studio: &mut Studio, snapshot: &Snapshot, defect: &PlacedDefect) -> [Picture; 2] {
     let lens = studio.vehicle.camera;
     let whole = studio.stage().through(
@@ -74,7 +75,8 @@ fn drawn(studio: &mut Studio, snapshot: &Snapshot, defect: &PlacedDefect) -> [Pi
     })
 }
 
-/// Where in a crop the defect lies: each pixel's place on the defect's plane, along and across, in shares of its half sizes.
+/// Returns for each pixel of a crop whether it shows the defect, from its position on the defect's plane along and
+/// across, as fractions of the half sizes.
 fn inside(snapshot: &Snapshot, defect: &PlacedDefect, lens: &Camera) -> Vec<bool> {
     let hfov_rad = 2.0 * math::atan(0.5 * f64::from(CROP.0) / lens.focal_px());
     let towards = camera_aimed_at(snapshot.pose.position_m, defect.position_m, false);
@@ -82,7 +84,7 @@ fn inside(snapshot: &Snapshot, defect: &PlacedDefect, lens: &Camera) -> Vec<bool
     let aspect = f64::from(CROP.0) / f64::from(CROP.1);
     let gsd_m = (defect.position_m - eye.position_m).norm() / lens.focal_px();
     let across = defect.normal.cross(defect.along);
-    // A line strays this far from its middle (defect.wgsl).
+    // Maximum distance of a line from its center line (defect.wgsl).
     let stray_m = if defect.line { 0.025 } else { 0.0 };
     let on = |k: u32| {
         let (x, y) = (f64::from(k % CROP.0) + 0.5, f64::from(k / CROP.0) + 0.5);
@@ -96,10 +98,11 @@ fn inside(snapshot: &Snapshot, defect: &PlacedDefect, lens: &Camera) -> Vec<bool
     (0..CROP.0 * CROP.1).map(on).collect()
 }
 
-/// How strongly a defect shows in its region.
+/// Visibility of a defect in its region.
 #[derive(Debug, Clone, Copy)]
 struct Shows {
-    /// What the defect changes against what the bare surface varies by (grain and texture), summed as an observer does who knows what to look for.
+    /// Change caused by the defect relative to the variation of the bare surface (grain and texture), summed as by an
+    /// observer who knows the pattern.
     signal_to_noise: f64,
 }
 
@@ -114,11 +117,12 @@ fn shows([with, without]: &[Picture; 2], region: &[bool]) -> Shows {
     let square = |p: &[f64; 3], q: &[f64; 3]| [0, 1, 2].map(|c| (p[c] - q[c]) * (p[c] - q[c]) / 3.0).iter().sum::<f64>();
     let variance = without.iter().map(|p| square(p, &mean)).sum::<f64>() / count;
     let changed = with.iter().zip(&without).map(|(p, q)| square(p, q)).sum::<f64>();
-    // A grey level of the picture's own rounding is the least noise.
+    // The minimum noise is one gray level, due to rounding.
     Shows { signal_to_noise: changed.sqrt() / variance.sqrt().max(1.0) }
 }
 
-/// The same place seen from the other side of the member: the measures cannot call the defect visible, and the picture must not show it.
+/// Returns a photo of the same point from the other side of the member. The measures must not call the defect visible,
+/// and the picture must not show it.
 fn from_behind(site: &Site, vehicle: &Vehicle, defect: &PlacedDefect) -> Option<Snapshot> {
     let from = (3..16).map(|k| defect.position_m - defect.normal * (0.5 * f64::from(k)));
     let free = from.clone().find(|from| site.nearest(*from, 0.6, SimTime::ZERO).is_none())?;
@@ -130,7 +134,7 @@ fn from_behind(site: &Site, vehicle: &Vehicle, defect: &PlacedDefect) -> Option<
 
 #[test]
 fn prop_what_the_measures_call_visible_shows_in_the_picture() {
-    // Rose's limit (1948): a signal five times the noise is seen reliably.
+    // Rose's limit (1948): a signal five times the noise is reliably visible.
     const SEEN: f64 = 5.0;
     let mut studio = Studio::new(two_bridges(), 1, "low", SimTime::ZERO);
     let mut stream = RandomStream::new(20, "view.snapshots");
@@ -161,14 +165,14 @@ fn prop_what_the_measures_call_visible_shows_in_the_picture() {
             }
         }
     }
-    println!("{} photographs that show a defect by the measures, by kind {kinds:?}", shown.len());
+    println!("{} photos show a defect according to the measures, by kind {kinds:?}", shown.len());
     println!("signal to noise: {}; from behind: {}", spread(&shown), spread(&behind));
     assert!(behind.len() >= 30, "too few from behind: {}", behind.len());
     assert!(kinds.len() >= 6, "too few kinds: {kinds:?}");
     assert!(wrong.is_empty(), "{} of {} disagree:\n{}", wrong.len(), shown.len() + behind.len(), wrong.join("\n"));
 }
 
-/// Least, tenth, half and most.
+/// Returns the minimum, the 10 % quantile, the median and the maximum as text.
 fn spread(all: &[Shows]) -> String {
     let mut values: Vec<f64> = all.iter().map(|shows| shows.signal_to_noise).collect();
     values.sort_by(f64::total_cmp);

@@ -13,7 +13,7 @@ pub struct LabelPipelines {
 }
 
 impl LabelPipelines {
-    /// Compiles the pipelines for the globals' bind group layout of the other pipelines.
+    /// Compiles the pipelines for an existing bind group layout of the globals.
     pub fn new(gpu: &Gpu, globals_layout: &wgpu::BindGroupLayout) -> Self {
         let [surface, defect] = ["surface", "defect"].map(|name| module(gpu, name));
         let globals = [Some(globals_layout)];

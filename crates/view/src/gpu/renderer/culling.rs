@@ -20,7 +20,7 @@ pub struct ShotView {
 }
 
 impl ShotView {
-    /// Returns the parameters of a shot, with the water level, m.
+    /// Returns the view parameters of a shot for a water level, m.
     pub fn of(shot: &Shot, water_m: f64) -> Self {
         Self {
             projection: shot.eye.view_projection(shot.aspect()),
@@ -41,8 +41,8 @@ impl ShotView {
         Frustum::of(&self.projection.after(&Matrix::mirror(self.water_m)))
     }
 
-    /// Returns the moving objects that may be visible directly or in the lake; `reaches_m` is each model's distance from its
-    /// origin to its farthest vertex, m.
+    /// Returns the moving objects that may be visible directly or in the lake; `reaches_m` holds the distance from each
+    /// model's origin to its farthest vertex, m.
     pub fn is_in_view(&self, moving: &[(MoverModel, Instance)], reaches_m: &[f64]) -> Vec<(MoverModel, Instance)> {
         let (straight, mirrored) = (self.direct_view(), self.mirrored());
         let shows = |(model, instance): &&(MoverModel, Instance)| {
@@ -55,7 +55,7 @@ impl ShotView {
     }
 }
 
-/// Returns false if every ray of a picture taken above the water points up.
+/// Returns false if the camera is above the water and no ray of the picture points down.
 fn may_show_in_lake(eye: &PinholeCamera, aspect: f64, water_m: f64) -> bool {
     let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)];
     eye.position_m.up() <= water_m || corners.iter().any(|(x, y)| eye.ray(*x, *y, aspect).up() < 0.0)
@@ -67,7 +67,7 @@ mod tests {
 
     const ASPECT: f64 = 1.5;
 
-    /// A camera 10 m above the lake that looks north and rises by `rise_m` over 50 m.
+    /// Returns a camera 10 m above the lake that looks north and rises by `rise_m` over 50 m.
     fn eye(rise_m: f64) -> PinholeCamera {
         PinholeCamera::at(Vec3::new(0.0, 0.0, 10.0), Vec3::new(0.0, 50.0, 10.0 + rise_m), 1.0, ASPECT)
     }
@@ -83,7 +83,7 @@ mod tests {
     fn exact_the_lake_is_left_out_where_no_ray_falls() {
         let shows = |rise_m: f64, water_m: f64| may_show_in_lake(&eye(rise_m), ASPECT, water_m);
         assert!(shows(0.0, 0.0) && !shows(60.0, 0.0));
-        assert!(shows(60.0, 11.0), "from under the water");
+        assert!(shows(60.0, 11.0), "from below the water");
     }
 
     #[test]
@@ -95,7 +95,7 @@ mod tests {
         let [ahead, behind, beside, above] =
             [at(0.0, 50.0, 10.0), at(0.0, -50.0, 10.0), at(90.0, 50.0, 10.0), at(0.0, 40.0, 40.0)];
         assert_eq!(is_visible(0.0, &[ahead, behind, beside, above]), [ahead]);
-        // Looking down into the lake, the reflection shows objects ahead and above.
+        // In a view down into the lake, the reflection shows objects ahead and above.
         assert_eq!(is_visible(-45.0, &[ahead, behind, beside, above]), [ahead, above]);
         assert_eq!(is_visible(-400.0, &[ahead]), []);
     }
