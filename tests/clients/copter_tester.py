@@ -265,7 +265,7 @@ class Copter:
             values = [*values, *[0] * (4 - len(values))]
             frame = M.MAV_FRAME_GLOBAL_RELATIVE_ALT
             self.link.mav.mission_item_int_send(1, 1, seq, frame, command, 0, 1, *values, x, y, height, kind)
-        self.until("the upload's end", lambda: self.shows("MISSION_ACK"), 5)
+        self.until("the end of the upload", lambda: self.shows("MISSION_ACK"), 5)
         assert self.last["MISSION_ACK"].type == M.MAV_MISSION_ACCEPTED, self.last["MISSION_ACK"]
 
     def start_auto(self):

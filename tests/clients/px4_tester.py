@@ -112,7 +112,7 @@ class Tester:
 
     def wait_until_ready(self):
         """Waits until the vehicle is healthy (30 s), then armable (45 s)."""
-        self.wait("some telemetry", lambda: self.now_s() > 0, math.inf)
+        self.wait("telemetry", lambda: self.now_s() > 0, math.inf)
         self.wait("healthy", self.telemetry.health_all_ok, 30)
         self.wait("armable", lambda: self.telemetry.health().is_armable, 45)
 
@@ -203,12 +203,12 @@ class Tester:
                 return False
             return True
 
-        self.wait("the mission's start", started, 3)
+        self.wait("the start of the mission", started, 3)
 
     def fly_mission(self, limit_s=500):
         """Flies the mission to its end."""
         self.start_mission()
-        self.wait("the mission's end", self.mission.is_mission_finished, limit_s)
+        self.wait("the end of the mission", self.mission.is_mission_finished, limit_s)
 
     def inject(self, kind, *units):
         """Lets sensors fail after the first item has been reached."""

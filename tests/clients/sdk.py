@@ -31,7 +31,7 @@ def asked(system):
     telemetry = Telemetry(system)
     telemetry.set_rate_position(10.0)
     telemetry.set_rate_position_velocity_ned(10.0)
-    wait_for("its home", lambda: telemetry.health().is_home_position_ok and telemetry.position().latitude_deg > 1)
+    wait_for("the home position", lambda: telemetry.health().is_home_position_ok and telemetry.position().latitude_deg > 1)
     return telemetry
 
 

@@ -51,7 +51,7 @@ def circle_keeps_its_radius(c):
     centre = (c.place[0] + 30 * math.cos(math.radians(c.heading)), c.place[1] + 30 * math.sin(math.radians(c.heading)))
     c.change("CIRCLE")
     c.pass_time(10)
-    c.holds("30 m from the middle", lambda: abs(math.dist(c.place, centre) - 30) < 5 and abs(c.height - 10) < 3, 20)
+    c.holds("30 m from the center", lambda: abs(math.dist(c.place, centre) - 30) < 5 and abs(c.height - 10) < 3, 20)
     c.go_home()
 
 
@@ -86,10 +86,10 @@ def guided_looks_where_it_goes(c):
     for _ in range(12):
         c.pass_time(2)
         c.target(100, 100, 20)
-    c.until("there", lambda: c.away((100, 100)) < 3, 40)
+    c.until("the target", lambda: c.away((100, 100)) < 3, 40)
     assert c.off(45) < 5, c.heading
     c.change("RTL")
-    c.settles("nose to home", lambda: c.off(225) < 5, 4, 30)
+    c.settles("the heading toward home", lambda: c.off(225) < 5, 4, 30)
     c.until_disarmed()
 
 
@@ -124,7 +124,7 @@ def a_mission_waits_for_a_minute(c):
     ])
     c.start_auto()
     c.until("the delay", lambda: c.item == 3, 120)
-    assert 59 <= c.until("its end", lambda: c.item == 4, 80) <= 62
+    assert 59 <= c.until("the end of the delay", lambda: c.item == 4, 80) <= 62
     c.until_disarmed()
 
 
@@ -134,7 +134,7 @@ def a_mission_takes_off_at_a_time_of_day(c):
     begun = c.now
     c.upload([(M.MAV_CMD_NAV_DELAY, 0, 0, 0, 0, due.hour, due.minute, due.second), (M.MAV_CMD_NAV_TAKEOFF, 0, 0, 20), (M.MAV_CMD_NAV_RETURN_TO_LAUNCH, 0, 0, 0)])
     c.start_auto()
-    c.until("the take-off", lambda: c.item > 1, 90)
+    c.until("the takeoff", lambda: c.item > 1, 90)
     assert abs(c.now - begun - 77) <= 2
     c.until_disarmed()
 
@@ -142,9 +142,9 @@ def a_mission_takes_off_at_a_time_of_day(c):
 def a_mission_pauses_and_goes_on(c):
     c.upload([(M.MAV_CMD_NAV_TAKEOFF, 0, 0, 20), *[(M.MAV_CMD_NAV_WAYPOINT, 0, 100 * k, 20) for k in range(1, 4)], (M.MAV_CMD_NAV_RETURN_TO_LAUNCH, 0, 0, 0)])
     c.start_auto()
-    c.until("on its way", lambda: c.item == 3 and c.speed > 3, 120)
+    c.until("flying", lambda: c.item == 3 and c.speed > 3, 120)
     c.must(M.MAV_CMD_DO_PAUSE_CONTINUE, 0)
-    c.settles("stands", lambda: c.speed < 1, 5, 30)
+    c.settles("hovering in place", lambda: c.speed < 1, 5, 30)
     c.must(M.MAV_CMD_DO_PAUSE_CONTINUE, 1)
     c.until("the next item", lambda: c.item == 4, 120)
     c.until_disarmed(300)
@@ -155,7 +155,7 @@ def a_smart_return_lands_at_home(c):
     for north, east in ((0, 20), (20, 20)):
         latitude, longitude = c.degrees(north, east)
         c.link.mav.command_int_send(1, 1, M.MAV_FRAME_GLOBAL_RELATIVE_ALT, M.MAV_CMD_DO_REPOSITION, 0, 0, -1, 0, 0, math.nan, latitude, longitude, 10)
-        c.until("there", lambda north=north, east=east: c.away((north, east)) < 2, 40)
+        c.until("the target", lambda north=north, east=east: c.away((north, east)) < 2, 40)
     c.change("SMART_RTL")
     c.until("the corner", lambda: c.away((0, 20)) < 5, 60)
     c.until_disarmed()
@@ -182,7 +182,7 @@ def a_return_goes_to_a_rally_point_at_its_height(c):
     c.change("RTL")
     c.until("the rally point", lambda: c.away((50, -25)) < 1, 120)
     assert abs(c.height - 37) < 1, c.height
-    c.until("on its way down", lambda: c.height < 25, 60)
+    c.until("descending", lambda: c.height < 25, 60)
     c.until_disarmed()
     assert c.away((50, -25)) < 2
 
@@ -246,7 +246,7 @@ def overrides_lapse(c):
     c.stick(pitch=1000)
     c.until("fast", lambda: c.speed > 5, 30)
     c.transmits = False
-    c.until("stands", lambda: c.speed < 1, 20)
+    c.until("hovering in place", lambda: c.speed < 1, 20)
     c.until("another mode", lambda: not c.flies("LOITER"), 20)
     c.transmits = True
     c.go_home()

@@ -62,7 +62,7 @@ def test_regress_mavsdk_is_followed(px4):
     telemetry, action = sdk.ready(px4), Action(px4)
     action.arm()
     action.takeoff()
-    wait_for("take-off", lambda: telemetry.flight_mode() == FlightMode.HOLD and telemetry.in_air())
+    wait_for("takeoff", lambda: telemetry.flight_mode() == FlightMode.HOLD and telemetry.in_air())
     follow = FollowMe(px4)
     follow.start()
     wait_for("the mode", lambda: telemetry.flight_mode() == FlightMode.FOLLOW_ME)

@@ -32,10 +32,10 @@ def test_wire_mavsdk_takes_the_gnss_away_and_gives_it_back(failing):
     _system, telemetry, failure = failing
     failure.inject(FailureUnit.SENSOR_GPS, FailureType.OFF, 0)
     wait_for("no satellites", lambda: telemetry.gps_info().num_satellites == 0)
-    wait_for("no position to fly by", lambda: not telemetry.health().is_global_position_ok)
+    wait_for("the position loss", lambda: not telemetry.health().is_global_position_ok)
     failure.inject(FailureUnit.SENSOR_GPS, FailureType.OK, 0)
     wait_for("satellites again", lambda: telemetry.gps_info().num_satellites > 5)
-    wait_for("its position again", telemetry.health_all_ok)
+    wait_for("the position again", telemetry.health_all_ok)
     with pytest.raises(Exception, match="UNSUPPORTED"):
         failure.inject(FailureUnit.SYSTEM_SERVO, FailureType.OFF, 0)
 
@@ -64,16 +64,16 @@ def test_wire_mavsdk_stops_a_motor_in_flight_and_the_vehicle_falls_until_it_turn
     def motors():
         return telemetry.actuator_output_status().actuator[:4]
 
-    wait_for("four motors that turn", lambda: len(motors()) == 4 and min(motors()) > STANDING_US)
+    wait_for("four turning motors", lambda: len(motors()) == 4 and min(motors()) > STANDING_US)
     failure.inject(FailureUnit.SYSTEM_MOTOR, FailureType.OFF, 1)
-    wait_for("one that stands", lambda: motors()[0] == STANDING_US and max(motors()[1:]) > STANDING_US)
+    wait_for("a stopped motor", lambda: motors()[0] == STANDING_US and max(motors()[1:]) > STANDING_US)
     wait_for("the fall", lambda: telemetry.position().relative_altitude_m < 0.5)
-    wait_for("its back", lambda: abs(telemetry.attitude_euler().roll_deg) > UPSIDE_DEG)
-    wait_for("what it feels", lambda: "Attitude lost: motor or propeller failure?" in texts)
-    wait_for("its words", lambda: "Crash detected" in texts)
+    wait_for("an inverted attitude", lambda: abs(telemetry.attitude_euler().roll_deg) > UPSIDE_DEG)
+    wait_for("the message about the attitude", lambda: "Attitude lost: motor or propeller failure?" in texts)
+    wait_for("the status text", lambda: "Crash detected" in texts)
     failure.inject(FailureUnit.SYSTEM_MOTOR, FailureType.OK, 1)
     told = len(texts)
-    wait_for("being put back", lambda: any(text.startswith("Respawned at") for text in texts[told:]))
+    wait_for("the respawn", lambda: any(text.startswith("Respawned at") for text in texts[told:]))
 
     def hovers():
         euler = telemetry.attitude_euler()
@@ -94,7 +94,7 @@ def test_wire_mavsdk_empties_the_battery_and_the_compass_comes_and_goes(failing)
     failure.inject(FailureUnit.SENSOR_MAG, FailureType.OFF, 0)
     health = telemetry.health
     wait_for("no compass", lambda: not (health().is_magnetometer_calibration_ok or health().is_armable), limit_s=60)
-    wait_for("its words", lambda: "Compass lost: no readings" in texts)
+    wait_for("the status text", lambda: "Compass lost: no readings" in texts)
     with pytest.raises(Exception, match="DENIED"):
         sdk.Action(system).arm()
     failure.inject(FailureUnit.SENSOR_MAG, FailureType.OK, 0)
@@ -102,9 +102,9 @@ def test_wire_mavsdk_empties_the_battery_and_the_compass_comes_and_goes(failing)
     before = telemetry.battery().remaining_percent
     failure.inject(FailureUnit.SYSTEM_BATTERY, FailureType.OFF, 0)
     wait_for("an empty battery", lambda: telemetry.battery().remaining_percent < before - 20.0)
-    wait_for("its words", lambda: any(text.startswith("Critical battery") for text in texts))
+    wait_for("the status text", lambda: any(text.startswith("Critical battery") for text in texts))
     wait_for("not armable", lambda: not telemetry.health().is_armable)
     with pytest.raises(Exception, match="DENIED"):
         sdk.Action(system).arm()
     failure.inject(FailureUnit.SYSTEM_BATTERY, FailureType.OK, 0)
-    wait_for("a full one again", telemetry.health_all_ok)
+    wait_for("a full battery", telemetry.health_all_ok)

@@ -285,7 +285,7 @@ def test_regress_a_flight_log_that_cannot_be_written_stops_no_flight(shim, tmp_p
         for reader in readers:
             reader.start()
         # If the simulator dies before its first heartbeat, the pilot keeps waiting.
-        wait_for("the landing, or the simulator's end", lambda: lines or sim.poll() is not None, limit_s=spandrel.FLIGHT_LIMIT_S)
+        wait_for("the landing, or the end of the simulator", lambda: lines or sim.poll() is not None, limit_s=spandrel.FLIGHT_LIMIT_S)
         sim.stdin.close()
         code = sim.wait(timeout=spandrel.FLIGHT_LIMIT_S)
         pilot.stdin.close()

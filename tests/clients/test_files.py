@@ -209,6 +209,6 @@ def test_wire_mavsdk_lists_downloads_and_erases_logs(vehicle, tmp_path):
     ended = wait_for("the download", lambda: next((r for r in results if r != LogFilesResult.NEXT), None))
     assert ended == LogFilesResult.SUCCESS and down.read_bytes() == content
     logs.erase_all_log_files()
-    wait_for("the erasing", lambda: not (day / "15_08_00.ulg").exists())
+    wait_for("the deletion", lambda: not (day / "15_08_00.ulg").exists())
     assert (day / "notes.txt").exists()
     mavsdk.destroy()

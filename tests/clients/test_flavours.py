@@ -69,7 +69,7 @@ def test_wire_a_script_for_arducopter_flies(launch):
     link.arducopter_arm()
     link.motors_armed_wait()
     assert script.command(M.MAV_CMD_NAV_TAKEOFF, 0, 0, 0, 0, 0, 0, 6) == M.MAV_RESULT_ACCEPTED
-    wait_for("take-off", lambda: script.height() > 6 - NEAR_M, LIMIT_S)
+    wait_for("takeoff", lambda: script.height() > 6 - NEAR_M, LIMIT_S)
     here = script.wait("GLOBAL_POSITION_INT")
     # Only once, and only a position, as scripts for GUIDED do.
     link.mav.set_position_target_global_int_send(
@@ -98,7 +98,7 @@ def test_wire_a_script_for_the_standard_flies(launch):
     assert set(standard) <= offered and 0 not in offered
     assert script.command(M.MAV_CMD_COMPONENT_ARM_DISARM, 1) == M.MAV_RESULT_ACCEPTED
     assert script.command(M.MAV_CMD_DO_SET_STANDARD_MODE, 8) == M.MAV_RESULT_ACCEPTED
-    wait_for("take-off", lambda: script.height() > 2.5 - NEAR_M, LIMIT_S)
+    wait_for("takeoff", lambda: script.height() > 2.5 - NEAR_M, LIMIT_S)
     assert script.command(M.MAV_CMD_DO_SET_STANDARD_MODE, 7) == M.MAV_RESULT_ACCEPTED
     wait_for("mode", lambda: script.wait("CURRENT_MODE").standard_mode == 7, LIMIT_S)
     script.landed()
@@ -197,14 +197,14 @@ def test_wire_mavsdk_takes_it_for_an_ardupilot(launch):
     assert [item.command for item in back] == [16, 22, 16] and back[2].x == items[2].x
     action.arm()
     mission.start_mission()
-    wait_for("the last place", lambda: telemetry.position().latitude_deg * 1e7 > items[2].x - PLACE, LIMIT_S)
-    wait_for("the mission's end", lambda: mission.mission_progress().current == mission.mission_progress().total, LIMIT_S)
+    wait_for("the last position", lambda: telemetry.position().latitude_deg * 1e7 > items[2].x - PLACE, LIMIT_S)
+    wait_for("the end of the mission", lambda: mission.mission_progress().current == mission.mission_progress().total, LIMIT_S)
     action.return_to_launch()
     wait_for("home again", lambda: not telemetry.armed(), LIMIT_S)
     action.set_takeoff_altitude(4.0)
     action.arm()
     action.takeoff()
-    wait_for("take-off", lambda: telemetry.position().relative_altitude_m > 4.0 - NEAR_M, LIMIT_S)
+    wait_for("takeoff", lambda: telemetry.position().relative_altitude_m > 4.0 - NEAR_M, LIMIT_S)
     action.hold()
     wait_for("hold", lambda: telemetry.flight_mode() == FlightMode.HOLD, LIMIT_S)
     action.return_to_launch()

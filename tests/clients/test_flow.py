@@ -247,9 +247,9 @@ def test_wire_a_flight_outlives_its_window(screen, tmp_path):
     """A killed window is reported once; simulator and monitor continue."""
     training = Training(screen, tmp_path, "--scenario", "drill-hover", "--no-sound")
     try:
-        spandrel.wait_for("the flight begins", lambda: "has connected" in training.told(), LIMIT_S)
+        spandrel.wait_for("the controller connection", lambda: "has connected" in training.told(), LIMIT_S)
         os.kill(spandrel.wait_for("a window", lambda: window_of(training), LIMIT_S), signal.SIGKILL)
-        spandrel.wait_for("it is told", lambda: "the session continues without it" in training.told(), LIMIT_S)
+        spandrel.wait_for("the message about the lost window", lambda: "the session continues without it" in training.told(), LIMIT_S)
         assert training.process.poll() is None and training.told().count("the window failed") == 1
     finally:
         training.close()

@@ -73,7 +73,7 @@ def test_wire_mavsdk_flies_the_first_task_and_is_scored(flight, job):
     client.action.arm()
     client.action.takeoff()
     wait_for("in the air", client.telemetry.in_air)
-    wait_for("take-off done", lambda: client.here()[0][2] > pad[2] + 1.5)
+    wait_for("the end of the takeoff", lambda: client.here()[0][2] > pad[2] + 1.5)
     client.sticks((0, 0, 0, 0))
     client.manual.start_position_control()
     for target in plan["out"] + plan["path"] + [plan["stop"]]:

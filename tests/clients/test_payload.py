@@ -67,7 +67,7 @@ class Station:
             again.if_due()
             return None
 
-        return self.wait(f"acknowledgement of {number}", answer).result
+        return self.wait(f"acknowledgment of {number}", answer).result
 
     def ask(self, component, kind, number, *params):
         """Repeats a command until it is accepted and the requested message has arrived."""
@@ -167,7 +167,7 @@ def test_wire_mavsdk_takes_pictures_one_by_one_and_in_series_and_lists_them(rig)
         rig.camera.list_photos(camera, PhotosRange.ALL)
         return sorted(shots) == list(range(pictures(rig)))
 
-    wait_for("every picture is told", all_told)
+    wait_for("a message for every picture", all_told)
     count = len(shots)
     home = rig.telemetry.position()
     for shot in shots.values():
@@ -188,7 +188,7 @@ def test_wire_mavsdk_takes_pictures_one_by_one_and_in_series_and_lists_them(rig)
         again.if_due()
         return [info.index for info in rig.camera.list_photos(camera, PhotosRange.ALL)]
 
-    assert max(wait_for("a list of the new ones", listed_again)) < count
+    assert max(wait_for("a list of the new pictures", listed_again)) < count
 
 
 @pytest.mark.timeout(300)
@@ -203,7 +203,7 @@ def test_wire_mavsdk_records_in_video_mode_and_the_camera_says_how_long(rig):
         again.if_due()
         return getattr(rig.station.last.get(("CAMERA_SETTINGS", CAMERA)), "mode_id", 0) == 1
 
-    rig.station.wait("the mode told to others", told_to_others)
+    rig.station.wait("the mode broadcast", told_to_others)
     rig.camera.start_video(camera)
     storage = told_again(rig, lambda s: s.video_on and s.recording_time_s > 3.0, "recording")
     assert storage.recording_time_s < 600.0
@@ -243,14 +243,14 @@ def test_wire_mavsdk_zooms_and_what_the_camera_sees_is_told_to_everybody(rig):
     station.wait("zoom 40", lambda: abs(level() - 40.0) < 0.01)
     station.wait("its field of view", lambda: abs(field() - seen(40.0)) < 0.01)
     rig.camera.zoom_in_start(camera)
-    station.wait("tele", lambda: level() == 100.0)
-    station.wait("narrow", lambda: abs(field() - seen(100.0)) < 0.01)
+    station.wait("telephoto", lambda: level() == 100.0)
+    station.wait("a narrow field of view", lambda: abs(field() - seen(100.0)) < 0.01)
     rig.camera.zoom_out_start(camera)
     # The distance covered before the stop depends on the load of the machine.
-    station.wait("on its way", lambda: level() < 100.0)
+    station.wait("zooming", lambda: level() < 100.0)
     rig.camera.zoom_stop(camera)
     rig.camera.reset_settings(camera)
-    station.wait("wide", lambda: level() == 0.0 and abs(field() - WIDE_DEG) < 0.01)
+    station.wait("a wide field of view", lambda: level() == 0.0 and abs(field() - WIDE_DEG) < 0.01)
     rig.camera.focus_auto(camera)
     for by_hand in (rig.camera.focus_in_step, rig.camera.focus_out_start):
         with pytest.raises(CameraError):
@@ -333,11 +333,11 @@ def test_wire_mavsdk_points_the_gimbal_by_angles_rates_and_places_and_has_it_alo
     aim = (M.MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, 10, NAN, NAN, NAN, 0, 0, 1)
     assert rig.station.command(AUTOPILOT, *aim) == M.MAV_RESULT_DENIED, "only the controlling station may move the gimbal"
     rig.gimbal.set_angles(own, 0.0, -20.0, 0.0, GimbalMode.YAW_FOLLOW, SendMode.ONCE)
-    wait_for("still obeying", lambda: abs(pitch_deg(rig, own) + 20.0) < NEAR_DEG)
+    wait_for("still under control", lambda: abs(pitch_deg(rig, own) + 20.0) < NEAR_DEG)
     rig.gimbal.release_control(own)
     wait_for("no control", lambda: rig.gimbal.get_control_status(own).control_mode == ControlMode.NONE)
     assert rig.station.command(AUTOPILOT, *aim) == M.MAV_RESULT_ACCEPTED
-    wait_for("the other's aim", lambda: abs(pitch_deg(rig, own) - 10.0) < NEAR_DEG)
+    wait_for("the aim of the other station", lambda: abs(pitch_deg(rig, own) - 10.0) < NEAR_DEG)
 
     here = wait_for("position", lambda: (p := rig.telemetry.position()).absolute_altitude_m > 0 and p)
     north = here.latitude_deg + 50.0 / 111_180.0
@@ -349,7 +349,7 @@ def test_wire_mavsdk_points_the_gimbal_by_angles_rates_and_places_and_has_it_alo
 
     # 50 m away and 50 m up: 45 degrees, with the drone's position accurate to a meter. Passing the angle on the way
     # elsewhere does not count.
-    wait_for("looking up at a place", lambda: abs((at_rest() or 0.0) - 45.0) < 2.5, limit_s=60)
+    wait_for("looking up at a location", lambda: abs((at_rest() or 0.0) - 45.0) < 2.5, limit_s=60)
 
 
 @pytest.mark.timeout(300)

@@ -177,8 +177,8 @@ def test_wire_training_goes_on_without_a_display(tmp_path, asked, title):
     )
     try:
         told = tmp_path / "train.txt"
-        spandrel.wait_for("it goes on", lambda: "the session continues without it" in told.read_text(encoding="utf-8"), DRAW_LIMIT_S)
-        spandrel.wait_for("it flies", lambda: "Take off, fly the tasks" in told.read_text(encoding="utf-8"), DRAW_LIMIT_S)
+        spandrel.wait_for("continuation without a window", lambda: "the session continues without it" in told.read_text(encoding="utf-8"), DRAW_LIMIT_S)
+        spandrel.wait_for("the start of the flight", lambda: "Take off, fly the tasks" in told.read_text(encoding="utf-8"), DRAW_LIMIT_S)
         assert title in told.read_text(encoding="utf-8")
         assert "no display" in told.read_text(encoding="utf-8") and training.poll() is None
         assert "A window shows" not in told.read_text(encoding="utf-8"), "the output must not mention a window"

@@ -80,7 +80,7 @@ def test_two_servers_and_a_station_share_one_database(sessions, database, tmp_pa
         third = serve(station, database)
         try:
             told = lambda: "was erased" in pathlib.Path(third.log.name).read_text(encoding="utf-8")
-            spandrel.wait_for("the third server to look", told)
+            spandrel.wait_for("the third server to notice the erasure", told)
             assert listed(here) == listed(there) == {"anna", "ben"}
         finally:
             third.close()

@@ -1,5 +1,5 @@
 //! Plans for the drill site: mission items, and uploads that answer the vehicle's requests.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use crate::station::Station;
 use spandrel_mavlink::dialect::*;

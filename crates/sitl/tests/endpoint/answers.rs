@@ -1,5 +1,5 @@
 //! Every request gets exactly one immediate response; components that are not addressed stay silent.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::*;

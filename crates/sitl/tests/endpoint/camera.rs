@@ -1,5 +1,5 @@
 //! The camera component: modes, recording, zoom, memory card, and superseded commands.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use spandrel_mavlink::dialect::*;
 use spandrel_model::math;

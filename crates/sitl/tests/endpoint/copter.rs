@@ -1,5 +1,5 @@
 //! Flying as an ArduCopter: modes, arming, takeoff, GUIDED, and manual control.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::copter_plans::item;
 use spandrel_mavlink::dialect::*;

@@ -1,6 +1,6 @@
 //! ArduCopter's modes and the commands behind QGroundControl's buttons: offsets, Smart RTL, circle, follow, acro,
 //! landing sequence, pause, mode switch, and the streams of ArduPilot's dialect.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::copter::{ARM, AUTO, BRAKE, GUIDED, LOITER, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode, next_beat};
 use super::copter_plans::item;

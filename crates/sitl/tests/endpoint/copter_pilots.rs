@@ -1,6 +1,6 @@
 //! Compatibility with pilots and scripts made for ArduCopter: switches on channels, arming by mode, the end of a
 //! mission, and the order of responses (all of them used by ArduPilot's autotest).
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::copter::{ARM, AUTO, GUIDED, LOITER, SET_MODE, copter, copter_at, mode, next_beat};
 use super::copter_plans::item;

@@ -1,5 +1,5 @@
 //! Missions and fences as an ArduCopter: item 0 is home, and the fence is active if its parameter enables it.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::copter::{ARM, AUTO, BRAKE, GUIDED, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode, next_beat};
 use spandrel_mavlink::dialect::*;

@@ -1,5 +1,5 @@
 //! The same vehicle emulating three autopilots: identification, modes, parameters, files, streams.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::copter::{SET_MODE, beat, copter, copter_at, mode, next_beat};
 use spandrel_mavlink::dialect::*;

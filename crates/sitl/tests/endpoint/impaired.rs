@@ -208,7 +208,7 @@ fn wire_parameters_are_read_whole_and_set_over_a_bad_link() {
 /// PX4's retry interval, ms. MAVSDK gives up after five half-seconds without messages or five repetitions of an item.
 const ASKED_AGAIN_MS: i64 = 250;
 
-#[expect(deprecated, reason = "clients still know only what MAVLink has superseded")]
+#[expect(deprecated, reason = "clients still support only superseded MAVLink messages")]
 fn asked_or_acknowledged(station: &mut Station) -> Vec<(i64, Option<u16>)> {
     let mut heard = Vec::new();
     for _ in 0..1_500 {

@@ -1,5 +1,5 @@
 //! Individual mission items: delay, loiter, turn, conditions, commands to the autopilot, and partial plans.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use spandrel_mavlink::dialect::*;
 use spandrel_testkit::plans::{ACCEPTED, PLAN, home_north, item, ready, upload};

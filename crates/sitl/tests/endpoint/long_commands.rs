@@ -1,5 +1,5 @@
 //! Duration of commands and settings: across arming, across a pause, until the end of the flight.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use spandrel_mavlink::dialect::*;
 use spandrel_sitl::endpoint::flavour::ardupilot;

@@ -1,5 +1,5 @@
 //! Gimbal control, commands of the superseded mount protocol, and the lamp through all of its interfaces.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use spandrel_mavlink::dialect::*;
 use spandrel_sitl::endpoint::flavour::{ardupilot, generic, px4};

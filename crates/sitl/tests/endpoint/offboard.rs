@@ -1,6 +1,6 @@
 //! Offboard setpoints: positions, velocities, accelerations, attitudes, body rates; rejected setpoints; the end of
 //! setpoints.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use spandrel_mavlink::dialect::*;
 use spandrel_testkit::station::Station;

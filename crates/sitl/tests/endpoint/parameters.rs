@@ -1,6 +1,6 @@
 //! Parameters: the names that QGroundControl's setup pages and the autopilots' own test suites use must exist, be
 //! described, and take effect.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::copter::{ARM, AUTO, SET_MODE, copter, copter_at, mode, next_beat};
 use spandrel_mavlink::dialect::*;

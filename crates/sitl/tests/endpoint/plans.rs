@@ -1,5 +1,5 @@
 //! Plans: uploaded completely and in parts, downloaded, flown.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use spandrel_mavlink::dialect::*;
 use spandrel_testkit::plans::{ACCEPTED, PLAN, asked, count, home_north, item, origin, ready, result, upload};

@@ -1,5 +1,5 @@
 //! Self-description and rejections of the vehicle; interfaces that must not bypass its rules.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::*;

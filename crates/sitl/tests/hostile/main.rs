@@ -18,7 +18,7 @@ use spandrel_sitl::endpoint::flavour::ardupilot;
 use spandrel_sitl::sim::Sim;
 use spandrel_testkit::station::Station;
 
-/// Number of datagrams in the whole run (issue: 20,000).
+/// Number of datagrams in the whole run (requirement: 20,000).
 const DATAGRAMS: usize = 40_000;
 /// Number of datagrams before the vehicle restarts from one of its situations, so that most of them reach a vehicle in
 /// flight.

@@ -1,5 +1,5 @@
 //! One or more valid messages of every kind that the vehicle handles, from which the mutation starts.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use mavlink::Message;
 use spandrel_mavlink::dialect::*;

@@ -55,11 +55,11 @@ pub enum Page {
     Waiting,
     /// Flight in progress.
     Flight,
-    /// Paused.
+    /// The flight is paused.
     Paused,
     /// Confirmation to end an assessment; the flight continues meanwhile.
     Leaving,
-    /// Scores.
+    /// The scores after the flight.
     Over,
 }
 

@@ -16,7 +16,7 @@ use spandrel_model::numbers::format_beside_limit;
 pub(super) const EDGE: f64 = 0.025;
 /// Minimum gap between blocks.
 pub(super) const GAP: f64 = 0.01;
-/// Font sizes.
+/// Font sizes: large, middle and small.
 const LARGE: f64 = 0.052;
 pub(super) const MIDDLE: f64 = 0.034;
 pub(super) const SMALL: f64 = 0.027;

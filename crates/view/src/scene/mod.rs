@@ -90,9 +90,9 @@ pub struct SceneItem {
 /// Minimum and maximum distances at which an object is drawn, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VisibleRange {
-    /// In the direct view.
+    /// Distances in the direct view, m.
     pub straight_m: [f64; 2],
-    /// In the lake's reflection.
+    /// Distances in the lake's reflection, m.
     pub in_lake_m: [f64; 2],
 }
 

@@ -1,4 +1,4 @@
-//! Pictures whose contents must be recognizable to anybody, compared with committed ones.
+//! Pictures whose contents must be recognizable to any viewer, compared with committed ones.
 
 use super::compare::{Difference, beside, held, held_at};
 use spandrel_mavlink::contract::cue;
