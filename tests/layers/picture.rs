@@ -42,7 +42,7 @@ pub fn svg(imports: &Imports) -> String {
         );
     }
     for (room, (x, y)) in &centers {
-        let (left, top) = (x - BOX_WIDTH / 2, y - BOX_HEIGHT / 2);
+        let (left, top) = (x.saturating_sub(BOX_WIDTH / 2), y - BOX_HEIGHT / 2);
         let (place, color) = (place_name(room), color(room));
         let _ = writeln!(
             out,
@@ -69,7 +69,7 @@ fn arrow((from, to): (&'static str, &'static str), direct: &Imports, centers: &B
     let spread = |center: usize, mut others: Vec<&str>, other: &str| {
         others.sort_by_key(|room| centers[room].0);
         let k = others.iter().position(|room| *room == other).unwrap_or_default();
-        center - BOX_WIDTH / 2 + (k + 1) * BOX_WIDTH / (others.len() + 1)
+        (center + (k + 1) * BOX_WIDTH / (others.len() + 1)).saturating_sub(BOX_WIDTH / 2)
     };
     let ((x1, y1), (x2, y2)) = (centers[from], centers[to]);
     let targets = direct.keys().filter(|(room, _)| *room == from).map(|(_, to)| *to).collect();
