@@ -176,7 +176,7 @@ def go_on(unit, kind, height_source=None, finish_s=90, disarm_s=90):
         t.upload(SQUARE, return_at_end=True)
         t.arm()
         t.inject(kind, unit)
-        t.wait("the mission's end", t.mission.is_mission_finished, finish_s)
+        t.wait("the end of the mission", t.mission.is_mission_finished, finish_s)
         t.wait_until_disarmed(disarm_s)
 
     return flow
@@ -292,25 +292,25 @@ FLOWS = {
     "square mission with return": square_mission_with_return,
     "square mission, then return": square_mission_then_return,
     "straight mission": straight_mission,
-    "Offboard take-off and landing": offboard_takeoff_and_land,
+    "Offboard takeoff and landing": offboard_takeoff_and_land,
     "Offboard positions": offboard_positions,
     "Offboard attitude": offboard_attitude,
     "forward in position control": forward_in_position_control,
     "forward in altitude control": forward_in_altitude_control,
     "land without GNSS, height by barometer": land_without_gnss(BARO),
     "land without GNSS, height by GNSS": land_without_gnss(GNSS),
-    "go on without compass": go_on(FailureUnit.SENSOR_MAG, FailureType.OFF, disarm_s=120),
-    "go on with a stuck compass": go_on(FailureUnit.SENSOR_MAG, FailureType.STUCK, finish_s=120),
-    "go on without barometer, height by barometer": go_on(FailureUnit.SENSOR_BARO, FailureType.OFF, BARO),
-    "go on without barometer, height by GNSS": go_on(FailureUnit.SENSOR_BARO, FailureType.OFF, GNSS),
-    "go on with a stuck barometer, height by barometer": go_on(FailureUnit.SENSOR_BARO, FailureType.STUCK, BARO),
-    "go on with a stuck barometer, height by GNSS": go_on(FailureUnit.SENSOR_BARO, FailureType.STUCK, GNSS),
-    "no failure in the air unless enabled": no_failure_in_the_air_unless_enabled,
-    "no failure on the ground unless enabled": no_failure_on_the_ground_unless_enabled,
-    "set onto a jump": jump_set_from_outside,
+    "continue without compass": go_on(FailureUnit.SENSOR_MAG, FailureType.OFF, disarm_s=120),
+    "continue with a stuck compass": go_on(FailureUnit.SENSOR_MAG, FailureType.STUCK, finish_s=120),
+    "continue without barometer, height by barometer": go_on(FailureUnit.SENSOR_BARO, FailureType.OFF, BARO),
+    "continue without barometer, height by GNSS": go_on(FailureUnit.SENSOR_BARO, FailureType.OFF, GNSS),
+    "continue with a stuck barometer, height by barometer": go_on(FailureUnit.SENSOR_BARO, FailureType.STUCK, BARO),
+    "continue with a stuck barometer, height by GNSS": go_on(FailureUnit.SENSOR_BARO, FailureType.STUCK, GNSS),
+    "no failure injection in the air unless enabled": no_failure_in_the_air_unless_enabled,
+    "no failure injection on the ground unless enabled": no_failure_on_the_ground_unless_enabled,
+    "set current item to a jump": jump_set_from_outside,
     "follow by position": follow(False),
     "follow by position and velocity": follow(True),
-    "follow by velocity alone": follow_velocity_only,
+    "follow by velocity only": follow_velocity_only,
 }
 
 
