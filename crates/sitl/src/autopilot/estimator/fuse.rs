@@ -179,7 +179,7 @@ impl Estimator {
         if self.checks.baro.admits(fits, now) {
             self.fuse(&slopes, innovation, variance);
             self.trust.height = now;
-            self.followed.note_barometer(now);
+            self.height_reference.note_barometer(now);
         }
         if fits {
             self.checks.baro_off.forget();

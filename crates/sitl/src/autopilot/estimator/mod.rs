@@ -8,18 +8,19 @@
 pub mod align;
 mod checks;
 pub mod covariance;
+pub mod estimate;
 mod fuse;
 mod ground;
 mod height;
+pub mod height_reference;
 
-use super::Estimate;
-use super::operator_rules::{HeightReference, NO_AID_S};
 use crate::sensors::{GnssReading, ImuReading, Readings, baro, flow, gnss, imu, magnetometer};
 use align::{Alignment, AlignmentResult, GyroSpec};
 use checks::InnovationChecks;
 use covariance::{BA, BARO, BG, Covariance, DRIFT, FLOW, MAG, P, ProcessNoise, STATES, THETA, V};
+use estimate::Estimate;
 use ground::GroundEstimate;
-use height::Followed;
+use height_reference::{HeightReference, HeightReferenceState};
 use nalgebra::Vector3;
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::geodesy::Geo;
@@ -40,6 +41,10 @@ const SHOCK_SHARE: f64 = 0.1;
 /// Averaging time of fixes before the origin of the local frame is set, s (estimate; PX4 requires 10 s of good fixes,
 /// EKF2_REQ_GPS_H).
 const LOCAL_ORIGIN_AFTER_S: f64 = 1.5;
+
+/// Default dead-reckoning time limit, s. PX4 allows 5 s. Below a deck over water an aircraft often has neither GNSS nor optical
+/// flow, and this estimator's drift stays within its limits for about this long (`crates/sitl/tests/flight`).
+pub const NO_AID_S: f64 = 60.0;
 
 /// Measurement noise from the sensors' data sheets.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -122,12 +127,14 @@ pub struct Estimator {
     /// Whether the motors are off.
     parked: bool,
     /// Time without a fused velocity after which the position becomes invalid, s.
-    pub(super) no_aid_s: f64,
+    no_aid_s: f64,
     /// Configured height reference.
     pub wanted_reference: HeightReference,
-    followed: Followed,
+    height_reference: HeightReferenceState,
     /// Accumulated position resets since the last query, m.
     place_step_m: Option<Vec3<Ned>>,
+    /// Number of queried position resets.
+    position_resets: u32,
     usable: bool,
 }
 
@@ -196,8 +203,9 @@ impl Estimator {
             parked: true,
             no_aid_s: NO_AID_S,
             wanted_reference: HeightReference::default(),
-            followed: Followed::default(),
+            height_reference: HeightReferenceState::default(),
             place_step_m: None,
+            position_resets: 0,
             usable: false,
         }
     }
@@ -367,9 +375,10 @@ impl Estimator {
         self.covariance.variance(P).max(self.covariance.variance(P + 1)).sqrt()
     }
 
-    /// Sets whether the motors are off. The heading may be reset to the magnetometer alone only then.
-    pub fn set_parked(&mut self, parked: bool) {
-        self.parked = parked;
+    /// Sets the time without a fused velocity after which the position becomes invalid, s, the height reference, and whether the
+    /// motors are off. The heading may be reset to the magnetometer alone only then.
+    pub fn configure(&mut self, no_aid_s: f64, reference: HeightReference, parked: bool) {
+        (self.no_aid_s, self.wanted_reference, self.parked) = (no_aid_s, reference, parked);
     }
 
     /// Sources that are not used because they contradict the others.
@@ -385,7 +394,15 @@ impl Estimator {
 
     /// Returns the accumulated position reset to GNSS since the last call, m.
     pub fn take_place_step(&mut self) -> Option<Vec3<Ned>> {
-        self.place_step_m.take()
+        let step_m = self.place_step_m.take();
+        self.position_resets += u32::from(step_m.is_some());
+        step_m
+    }
+
+    /// Returns the number of position resets to GNSS that [`Self::take_place_step`] has returned.
+    #[must_use]
+    pub fn position_resets(&self) -> u32 {
+        self.position_resets
     }
 
     /// Resets the filter to a known pose, for example after a respawn. Keeps the biases.
@@ -423,7 +440,7 @@ impl Estimator {
         self.usable = true;
         self.checks = InnovationChecks::default();
         self.ground = GroundEstimate::default();
-        self.followed.forget_ground();
+        self.height_reference.forget_ground();
         self.trust = LastFused::new(now);
     }
 
