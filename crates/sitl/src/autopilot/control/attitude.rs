@@ -58,8 +58,9 @@ impl AttitudeLoop {
             self.integral += Vec3::new(0.0, 0.0, error.down()) * (0.5 * gains.yaw_rate * dt_s);
         }
         self.integral = self.integral.limited(INTEGRAL_MAX_RAD_S2);
-        let wish = Vec3::<Frd>::new(gains.rate * error.forward(), gains.rate * error.right(), gains.yaw_rate * error.down());
-        let turn = (wish + self.integral).raw();
+        let acceleration =
+            Vec3::<Frd>::new(gains.rate * error.forward(), gains.rate * error.right(), gains.yaw_rate * error.down());
+        let turn = (acceleration + self.integral).raw();
         let j = Vector3::from(gains.inertia_kg_m2);
         let w = now.rates_rad_s.raw();
         // FRAME: inertia is about the body axes.

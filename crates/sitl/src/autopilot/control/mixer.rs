@@ -96,8 +96,8 @@ impl Mixer {
         let mut out = Actuators { armed: true, ..Actuators::default() };
         for (i, thrust) in thrusts.iter().enumerate().take(self.count) {
             let wanted = (thrust / self.thrust_coefficient).max(0.0).sqrt();
-            let pushed = self.speeds[i] + self.lead * (wanted - self.speeds[i]);
-            out.motors[i] = ((pushed - self.idle_rad_s) / (top - self.idle_rad_s)).clamp(0.0, 1.0);
+            let compensated = self.speeds[i] + self.lead * (wanted - self.speeds[i]);
+            out.motors[i] = ((compensated - self.idle_rad_s) / (top - self.idle_rad_s)).clamp(0.0, 1.0);
             let driven = self.idle_rad_s + out.motors[i] * (top - self.idle_rad_s);
             // Implicit step of the first-order lag: stable for any ratio of step to lag.
             self.speeds[i] += (driven - self.speeds[i]) * dt_s / (dt_s + self.time_constant_s);
@@ -131,18 +131,18 @@ impl Mixer {
         let t = demand.torque_n_m;
         let mut tilt = [0.0; MAX_ROTORS];
         let mut yaw = [0.0; MAX_ROTORS];
-        let (mut least, mut most): (f64, f64) = (0.0, 0.0);
+        let (mut lowest, mut highest): (f64, f64) = (0.0, 0.0);
         for i in 0..self.count {
             let c = &self.columns[i];
             tilt[i] = c[0] * t.forward() + c[1] * t.right();
             yaw[i] = c[2] * t.down();
-            least = least.min(tilt[i]);
-            most = most.max(tilt[i]);
+            lowest = lowest.min(tilt[i]);
+            highest = highest.max(tilt[i]);
         }
-        let tilt_share = ((high - low) / (most - least).max(1e-9)).min(1.0);
+        let tilt_share = ((high - low) / (highest - lowest).max(1e-9)).min(1.0);
         // Adjusts the collective thrust to fit roll and pitch. The shift is the same for all rotors of equal collective share.
         let each = self.columns[0][3].max(1e-6);
-        let room = (low - least * tilt_share, high - most * tilt_share);
+        let room = (low - lowest * tilt_share, high - highest * tilt_share);
         let common = (demand.thrust_n * each).max(room.0).min(room.1) / each;
         let mut out = [0.0; MAX_ROTORS];
         let mut yaw_share: f64 = 1.0;

@@ -49,14 +49,14 @@ impl MotionShaper {
 
     /// Advances one step toward a target velocity.
     pub fn advance(&mut self, wanted_m_s: Vec3<Ned>, limits: &MotionLimits, dt_s: f64) {
-        let wish = (wanted_m_s - self.velocity_m_s) / APPROACH_S;
-        let flat = Vec3::<Ned>::new(wish.north(), wish.east(), 0.0).limited(limits.horizontal_m_s2);
-        let down = wish.down().clamp(-limits.vertical_m_s2, limits.vertical_m_s2);
+        let wanted = (wanted_m_s - self.velocity_m_s) / APPROACH_S;
+        let flat = Vec3::<Ned>::new(wanted.north(), wanted.east(), 0.0).limited(limits.horizontal_m_s2);
+        let down = wanted.down().clamp(-limits.vertical_m_s2, limits.vertical_m_s2);
         let step = flat + Vec3::new(0.0, 0.0, down) - self.acceleration_m_s2;
         let horizontal =
             Vec3::<Ned>::new(step.north(), step.east(), 0.0).limited(limits.horizontal_m_s2 / limits.build_up_s * dt_s);
-        let most = limits.vertical_m_s2 / JERK_S * dt_s;
-        self.acceleration_m_s2 += horizontal + Vec3::new(0.0, 0.0, step.down().clamp(-most, most));
+        let max_step = limits.vertical_m_s2 / JERK_S * dt_s;
+        self.acceleration_m_s2 += horizontal + Vec3::new(0.0, 0.0, step.down().clamp(-max_step, max_step));
         self.velocity_m_s += self.acceleration_m_s2 * dt_s;
     }
 }
@@ -73,11 +73,11 @@ pub fn closing_speed(distance_m: f64, gain: f64, deceleration_m_s2: f64) -> f64 
 /// Velocity toward a target within speed limits (horizontal, up, down; m/s).
 #[must_use]
 pub fn towards(gains: &Gains, from_m: Vec3<Ned>, to_m: Vec3<Ned>, horizontal: f64, up: f64, down: f64) -> Vec3<Ned> {
-    let way = to_m - from_m;
-    let flat = Vec3::<Ned>::new(way.north(), way.east(), 0.0);
+    let offset = to_m - from_m;
+    let flat = Vec3::<Ned>::new(offset.north(), offset.east(), 0.0);
     let distance = flat.norm();
     let speed = closing_speed(distance, gains.position, 0.4 * gains.acceleration_m_s2).min(horizontal);
-    let vertical = closing_speed(way.down(), gains.height, 0.4 * gains.climb_acceleration_m_s2).clamp(-up, down);
+    let vertical = closing_speed(offset.down(), gains.height, 0.4 * gains.climb_acceleration_m_s2).clamp(-up, down);
     let flat = if distance > 1e-9 { flat * (speed / distance) } else { Vec3::zero() };
     Vec3::new(flat.north(), flat.east(), vertical)
 }
@@ -95,8 +95,8 @@ pub fn stopping_point(gains: &Gains, position_m: Vec3<Ned>, velocity_m_s: Vec3<N
 
 /// Heading of a direction, rad, or `None` if its horizontal length is below `least_m`.
 #[must_use]
-pub fn heading_of(way: Vec3<Ned>, least_m: f64) -> Option<f64> {
-    (way.horizontal_norm() > least_m).then(|| math::atan2(way.east(), way.north()))
+pub fn heading_of(direction: Vec3<Ned>, least_m: f64) -> Option<f64> {
+    (direction.horizontal_norm() > least_m).then(|| math::atan2(direction.east(), direction.north()))
 }
 
 #[cfg(test)]

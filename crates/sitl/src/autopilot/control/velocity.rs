@@ -56,11 +56,11 @@ impl VelocityLoop {
         let late = motion.acceleration_m_s2 * gains.attitude_lag_s;
         let planned = motion.velocity_m_s - Vec3::new(late.north(), late.east(), 0.0);
         let error = planned - now.velocity_m_s;
-        let wish = motion.acceleration_m_s2
+        let acceleration = motion.acceleration_m_s2
             + drag(gains, motion.velocity_m_s)
             + Vec3::new(gains.velocity * error.north(), gains.velocity * error.east(), gains.climb * error.down())
             + self.integral;
-        let (force, horizontal_free, vertical_free) = limit_acceleration(gains, mass_kg, wish);
+        let (force, horizontal_free, vertical_free) = limit_acceleration(gains, mass_kg, acceleration);
         if horizontal_free {
             self.integral += Vec3::new(error.north(), error.east(), 0.0) * (gains.velocity_integral * dt_s);
         }
@@ -80,8 +80,8 @@ impl VelocityLoop {
         dt_s: f64,
     ) -> AttitudeThrustSetpoint {
         let error = motion.velocity_m_s.down() - now.velocity_m_s.down();
-        let wish = motion.acceleration_m_s2.down() + gains.climb * error + self.integral.down();
-        let (force, _, free) = limit_acceleration(gains, mass_kg, Vec3::new(0.0, 0.0, wish));
+        let acceleration = motion.acceleration_m_s2.down() + gains.climb * error + self.integral.down();
+        let (force, _, free) = limit_acceleration(gains, mass_kg, Vec3::new(0.0, 0.0, acceleration));
         self.climb(gains, error, free, dt_s);
         self.clamp_integral(gains);
         AttitudeThrustSetpoint {
@@ -112,13 +112,13 @@ fn drag(gains: &Gains, velocity_m_s: Vec3<Ned>) -> Vec3<Ned> {
 
 /// Specific force for a desired acceleration within tilt and thrust limits, vertical before horizontal, and whether the
 /// horizontal and vertical parts were left unchanged.
-fn limit_acceleration(gains: &Gains, mass_kg: f64, wish_m_s2: Vec3<Ned>) -> (Vec3<Ned>, bool, bool) {
+fn limit_acceleration(gains: &Gains, mass_kg: f64, wanted_m_s2: Vec3<Ned>) -> (Vec3<Ned>, bool, bool) {
     let (low, high) = (gains.thrust_min_n / mass_kg, gains.thrust_max_n / mass_kg);
-    let lift = GRAVITY_M_S2 - wish_m_s2.down();
+    let lift = GRAVITY_M_S2 - wanted_m_s2.down();
     let up = lift.clamp(low, high);
     let tilt = up * gains.tilt_tangent;
     let spare = (high * high - up * up).max(0.0).sqrt();
-    let flat = Vec3::<Ned>::new(wish_m_s2.north(), wish_m_s2.east(), 0.0);
+    let flat = Vec3::<Ned>::new(wanted_m_s2.north(), wanted_m_s2.east(), 0.0);
     let held = flat.limited(tilt.min(spare));
     (Vec3::new(held.north(), held.east(), -up), held == flat, up == lift)
 }

@@ -47,7 +47,7 @@ impl Estimator {
         let step_m = self.drift_m.down();
         self.position_m += Vec3::new(0.0, 0.0, step_m);
         self.baro_offset_m += step_m;
-        self.forget_height_drift();
+        self.reset_height_drift();
         let usual = self.noise.gnss_drift_m[1];
         self.covariance.reset(P + 2, 1, usual * usual);
     }
@@ -84,14 +84,14 @@ impl Estimator {
         let fits = self.accepts(&slopes, innovation_m, variance);
         if self.height_reference.check.admits(fits, now) {
             self.fuse(&slopes, innovation_m, variance);
-            self.trust.height = now;
+            self.last_fused.height = now;
         }
         if fits {
-            self.height_reference.off.forget();
+            self.height_reference.off.clear();
         } else if self.height_reference.off.hold_s(Vec3::new(0.0, 0.0, innovation_m), GATE * (2.0 * variance).sqrt(), now)
             > REFUSED_S
         {
-            self.height_reference.forget_ground();
+            self.height_reference.clear_ground();
         }
     }
 }

@@ -112,13 +112,13 @@ pub struct Estimator {
     flow_scale: f64,
     mag_bias: Vec3<Frd>,
     covariance: Covariance,
-    gained_m_s: Vec3<Ned>,
-    gathered_s: f64,
-    jolt: f64,
+    unpropagated_m_s: Vec3<Ned>,
+    unpropagated_s: f64,
+    shock_variance: f64,
     rates_rad_s: Vec3<Frd>,
     acceleration_m_s2: Vec3<Ned>,
     last_imu: Option<SimTime>,
-    trust: LastFused,
+    last_fused: LastFused,
     checks: InnovationChecks,
     ground: GroundEstimate,
     latest_fix: Option<(GnssReading, SimTime)>,
@@ -189,13 +189,13 @@ impl Estimator {
             flow_scale: 1.0,
             mag_bias: Vec3::zero(),
             covariance: Covariance::diagonal(&[0.0; STATES]),
-            gained_m_s: Vec3::zero(),
-            gathered_s: 0.0,
-            jolt: 0.0,
+            unpropagated_m_s: Vec3::zero(),
+            unpropagated_s: 0.0,
+            shock_variance: 0.0,
             rates_rad_s: Vec3::zero(),
             acceleration_m_s2: Vec3::zero(),
             last_imu: None,
-            trust: LastFused::new(SimTime::ZERO),
+            last_fused: LastFused::new(SimTime::ZERO),
             checks: InnovationChecks::default(),
             ground: GroundEstimate::default(),
             latest_fix: None,
@@ -232,7 +232,7 @@ impl Estimator {
             self.follow_range(below_m, now);
         }
         if let Some(fix) = readings.gnss.as_ref().filter(|g| g.fix >= 3) {
-            self.settle();
+            self.propagate_covariance();
             self.fuse_gnss(fix, now);
             self.place_local_origin(now);
         }
@@ -314,7 +314,7 @@ impl Estimator {
         }
         self.aligned = true;
         self.local_origin_m = self.position_m;
-        self.trust = LastFused::new(now);
+        self.last_fused = LastFused::new(now);
         // The heading came from this measurement: fusing it with zero innovation gives the matching covariance.
         let level = aligned.attitude.inverse() * self.field_gauss;
         self.fuse_mag(level, 1.0 / aligned.mag_samples, now);
@@ -332,36 +332,36 @@ impl Estimator {
         self.attitude = self.attitude.turned_by(turn);
         self.rates_rad_s = rates;
         self.acceleration_m_s2 = if dt_s > 0.0 { dv / dt_s } else { Vec3::zero() };
-        self.gained_m_s += gained;
-        self.gathered_s += dt_s;
+        self.unpropagated_m_s += gained;
+        self.unpropagated_s += dt_s;
         let shock = force.norm();
         if shock > SHOCK_M_S2 {
-            self.jolt += (SHOCK_SHARE * shock * dt_s) * (SHOCK_SHARE * shock * dt_s);
+            self.shock_variance += (SHOCK_SHARE * shock * dt_s) * (SHOCK_SHARE * shock * dt_s);
         }
-        if self.gathered_s >= COVARIANCE_PERIOD_S {
-            self.settle();
-            self.judge(now);
+        if self.unpropagated_s >= COVARIANCE_PERIOD_S {
+            self.propagate_covariance();
+            self.update_validity(now);
         }
     }
 
     /// Propagates the covariance to the time of the state.
-    fn settle(&mut self) {
-        if self.gathered_s <= 0.0 {
+    fn propagate_covariance(&mut self) {
+        if self.unpropagated_s <= 0.0 {
             return;
         }
         let r = self.attitude.matrix();
-        self.covariance.propagate(&r, &self.gained_m_s.raw(), self.gathered_s, &self.process, self.jolt);
-        let keep = 1.0 - self.gathered_s / self.process.drift_time_s;
+        self.covariance.propagate(&r, &self.unpropagated_m_s.raw(), self.unpropagated_s, &self.process, self.shock_variance);
+        let keep = 1.0 - self.unpropagated_s / self.process.drift_time_s;
         self.drift_m = self.drift_m * keep;
-        self.gained_m_s = Vec3::zero();
-        self.gathered_s = 0.0;
-        self.jolt = 0.0;
+        self.unpropagated_m_s = Vec3::zero();
+        self.unpropagated_s = 0.0;
+        self.shock_variance = 0.0;
     }
 
-    fn judge(&mut self, now: SimTime) {
+    fn update_validity(&mut self, now: SimTime) {
         let share = if self.usable { 1.0 } else { REGAIN_SHARE };
         let (v, p) = (self.velocity_sigma_m_s(), self.horizontal_sigma_m());
-        let aided = (now - self.trust.velocity).s() < self.no_aid_s;
+        let aided = (now - self.last_fused.velocity).s() < self.no_aid_s;
         self.usable = self.located && aided && v < USABLE_VELOCITY_M_S * share && p < USABLE_POSITION_M * share;
     }
 
@@ -410,9 +410,9 @@ impl Estimator {
         self.position_m = position_m;
         self.velocity_m_s = velocity_m_s;
         self.attitude = attitude;
-        self.gained_m_s = Vec3::zero();
-        self.gathered_s = 0.0;
-        self.jolt = 0.0;
+        self.unpropagated_m_s = Vec3::zero();
+        self.unpropagated_s = 0.0;
+        self.shock_variance = 0.0;
         if !self.aligned {
             let n = self.noise;
             let sq = |x: f64| x * x;
@@ -440,8 +440,8 @@ impl Estimator {
         self.usable = true;
         self.checks = InnovationChecks::default();
         self.ground = GroundEstimate::default();
-        self.height_reference.forget_ground();
-        self.trust = LastFused::new(now);
+        self.height_reference.clear_ground();
+        self.last_fused = LastFused::new(now);
     }
 
     /// Returns the current estimate.

@@ -36,11 +36,11 @@ impl FenceOutline {
 
     /// Intersections of a straight path with the outline, as fractions of the path length.
     fn crossings(&self, from: (f64, f64), to: (f64, f64)) -> Vec<f64> {
-        let way = (to.0 - from.0, to.1 - from.1);
+        let path = (to.0 - from.0, to.1 - from.1);
         match self {
             Self::Circle { centre_m, radius_m } => {
                 let off = (from.0 - centre_m.0, from.1 - centre_m.1);
-                let (a, b) = (way.0 * way.0 + way.1 * way.1, off.0 * way.0 + off.1 * way.1);
+                let (a, b) = (path.0 * path.0 + path.1 * path.1, off.0 * path.0 + off.1 * path.1);
                 let root = b * b - a * (off.0 * off.0 + off.1 * off.1 - radius_m * radius_m);
                 if a > 0.0 && root > 0.0 { vec![(-b - root.sqrt()) / a, (-b + root.sqrt()) / a] } else { Vec::new() }
             }
@@ -50,9 +50,9 @@ impl FenceOutline {
                 let cross = |a: (f64, f64), b: (f64, f64)| a.0 * b.1 - a.1 * b.0;
                 let meet = |(start, end): ((f64, f64), (f64, f64))| {
                     let (side, gap) = ((end.0 - start.0, end.1 - start.1), (start.0 - from.0, start.1 - from.1));
-                    let d = cross(way, side);
+                    let d = cross(path, side);
                     // On the side itself, its midpoint decides.
-                    let share = cross(gap, way) / d;
+                    let share = cross(gap, path) / d;
                     (d != 0.0 && (0.0..=1.0).contains(&share)).then(|| cross(gap, side) / d)
                 };
                 sides.filter_map(meet).collect()

@@ -29,11 +29,11 @@ const CORRECTION_M_S: f64 = 2.0;
 impl Navigator {
     /// Returns the motion limits in automatic modes.
     pub(super) fn auto_limits(&self, input: &NavigatorInput) -> MotionLimits {
-        let (own, set) = (MotionLimits::automatic(input.gains), &input.tuning.rules.envelope);
+        let (airframe, operator) = (MotionLimits::automatic(input.gains), &input.tuning.rules.envelope);
         MotionLimits {
-            horizontal_m_s2: own.horizontal_m_s2.min(set.acceleration_m_s2),
-            vertical_m_s2: own.vertical_m_s2.min(set.climb_acceleration_m_s2),
-            ..own
+            horizontal_m_s2: airframe.horizontal_m_s2.min(operator.acceleration_m_s2),
+            vertical_m_s2: airframe.vertical_m_s2.min(operator.climb_acceleration_m_s2),
+            ..airframe
         }
     }
 
@@ -59,12 +59,12 @@ impl Navigator {
         let target = self.target_m;
         let here = input.here();
         self.report.target_m = Some(target);
-        let way = self.heading_by_rule(target, input);
+        let heading = self.heading_by_rule(target, input);
         let turns = speed.is_some() || self.modes.active != FlightMode::Hold;
-        let yaw = self.look_rad(input).or(self.heading.target_rad).or(way.filter(|_| turns));
+        let yaw = self.look_rad(input).or(self.heading.target_rad).or(heading.filter(|_| turns));
         self.heading.turn_to(yaw, self.modes.active, input);
-        let wish = towards(input.gains, here, target, cruise, up, down);
-        self.shaper.advance(wish, &self.travel_limits(input), input.dt_s);
+        let velocity_m_s = towards(input.gains, here, target, cruise, up, down);
+        self.shaper.advance(velocity_m_s, &self.travel_limits(input), input.dt_s);
         Setpoint::Velocity(self.motion(self.shaper.velocity_m_s))
     }
 
@@ -94,9 +94,9 @@ impl Navigator {
             self.target_m = target;
             self.commanded.takeoff_up_m = None;
         }
-        let wanted = self.climb_away(None, input);
+        let setpoint = self.climb_away(None, input);
         self.report.climbing_out = self.modes.active == FlightMode::Takeoff;
-        wanted
+        setpoint
     }
 
     /// Climbs to the take-off height at the take-off rate.
@@ -135,8 +135,8 @@ impl Navigator {
         self.heading.turn_to(self.heading.target_rad, self.modes.active, input);
         let over = Vec3::new(self.target_m.north(), self.target_m.east(), here.down());
         let flat = towards(input.gains, here, over, CORRECTION_M_S, 0.0, 0.0);
-        let wish = Vec3::new(flat.north(), flat.east(), speed);
-        self.shaper.advance(wish, &self.travel_limits(input), input.dt_s);
+        let velocity_m_s = Vec3::new(flat.north(), flat.east(), speed);
+        self.shaper.advance(velocity_m_s, &self.travel_limits(input), input.dt_s);
         self.report.target_m = Some(over);
         Setpoint::Velocity(self.motion(self.shaper.velocity_m_s))
     }
@@ -150,8 +150,8 @@ impl Navigator {
         if slow {
             return input.tuning.land_speed_m_s;
         }
-        let set = input.tuning.rules.envelope.landing_m_s;
-        let wanted = if set.is_finite() { set } else { input.tuning.descend_m_s };
+        let configured = input.tuning.rules.envelope.landing_m_s;
+        let wanted = if configured.is_finite() { configured } else { input.tuning.descend_m_s };
         wanted.min(input.airframe.limits.descend_m_s)
     }
 
@@ -159,8 +159,8 @@ impl Navigator {
     pub(super) fn descend_without_position(&mut self, input: &NavigatorInput) -> Setpoint {
         self.begin_descent(input);
         self.heading.turn_to(None, self.modes.active, input);
-        let wish = Vec3::new(0.0, 0.0, self.landing_speed(input));
-        self.shaper.advance(wish, &self.auto_limits(input), input.dt_s);
+        let velocity_m_s = Vec3::new(0.0, 0.0, self.landing_speed(input));
+        self.shaper.advance(velocity_m_s, &self.auto_limits(input), input.dt_s);
         let motion = self.motion(self.shaper.velocity_m_s);
         Setpoint::Level { motion, tilt: (0.0, 0.0) }
     }

@@ -127,14 +127,14 @@ impl Navigator {
         let on_it = (1.0 - error.abs() / orbit.radius_m.max(2.0)).clamp(0.0, 1.0);
         let flat = along * (orbit.speed_m_s * on_it) - away * (CLOSE_IN_PER_S * error + orbit.trim_m_s).clamp(-cruise, cruise);
         let climb = CLOSE_IN_PER_S * (orbit.centre_m.down() - here.down());
-        let wish = Vec3::new(flat.north(), flat.east(), climb.clamp(-input.tuning.climb_m_s, input.tuning.descend_m_s));
+        let velocity_m_s = Vec3::new(flat.north(), flat.east(), climb.clamp(-input.tuning.climb_m_s, input.tuning.descend_m_s));
         match orbit.yaw {
             OrbitYaw::Centre => self.heading.turn_to(self.look_rad(input).or(heading(away * -1.0)), self.modes.active, input),
             OrbitYaw::Tangent => self.heading.turn_to(heading(along * orbit.speed_m_s.signum()), self.modes.active, input),
             OrbitYaw::Keep => self.heading.turn_to(None, self.modes.active, input),
             OrbitYaw::Stick => self.heading.turn_by_stick(input),
         }
-        self.shaper.advance(wish, &self.auto_limits(input), input.dt_s);
+        self.shaper.advance(velocity_m_s, &self.auto_limits(input), input.dt_s);
         self.report.target_m = Some(orbit.centre_m);
         self.report.orbit = Some(orbit);
         if error.abs() < 0.3 * orbit.radius_m {

@@ -35,9 +35,9 @@ impl Navigator {
     /// Roll and pitch from the sticks, rad. Combined tilt does not exceed the limit of one axis.
     fn stick_tilt(&self, share: f64, input: &NavigatorInput) -> (f64, f64) {
         let Sticks { forward, right, .. } = input.links.sticks;
-        let most =
+        let max_rad =
             input.gains.tilt_rad.min(input.tuning.rules.envelope.manual_tilt_rad) * share / math::hypot(forward, right).max(1.0);
-        (right * most, -forward * most)
+        (right * max_rad, -forward * max_rad)
     }
 
     /// Sticks control roll, pitch, yaw rate and thrust.
@@ -60,10 +60,10 @@ impl Navigator {
     pub(super) fn acro(&mut self, input: &NavigatorInput) -> Setpoint {
         let (s, l) = (input.links.sticks, input.airframe.limits);
         let (roll, pitch, yaw) = input.estimate.attitude.euler();
-        let most = input.gains.tilt_rad;
+        let max_rad = input.gains.tilt_rad;
         let lean_rate = |stick: f64, angle: f64| {
-            let wish = stick * l.rate_rad_s - LEVEL_PER_S * angle.clamp(-LEVEL_MAX_RAD, LEVEL_MAX_RAD);
-            wish.clamp(LIMIT_PER_S * (-most - angle), LIMIT_PER_S * (most - angle))
+            let rate = stick * l.rate_rad_s - LEVEL_PER_S * angle.clamp(-LEVEL_MAX_RAD, LEVEL_MAX_RAD);
+            rate.clamp(LIMIT_PER_S * (-max_rad - angle), LIMIT_PER_S * (max_rad - angle))
         };
         let rates_rad_s = Vec3::new(lean_rate(s.right, roll), lean_rate(-s.forward, pitch), s.yaw * l.yaw_rate_rad_s);
         let low = math::lerp(input.gains.hover_n, input.gains.thrust_min_n, (-s.up).clamp(0.0, 1.0));
@@ -92,12 +92,12 @@ impl Navigator {
         self.heading.turn_by_stick(input);
         let (s, l) = (input.links.sticks, input.airframe.limits);
         let (sine, cosine) = math::sin_cos(input.estimate.attitude.yaw_rad());
-        let most = input.tuning.rules.envelope.manual_m_s;
-        let (forward, right) = (s.forward * l.forward_m_s.min(most), s.right * l.sideward_m_s.min(most));
-        let wish = Vec3::new(cosine * forward - sine * right, sine * forward + cosine * right, self.stick_climb(input));
+        let max_m_s = input.tuning.rules.envelope.manual_m_s;
+        let (forward, right) = (s.forward * l.forward_m_s.min(max_m_s), s.right * l.sideward_m_s.min(max_m_s));
+        let wanted_m_s = Vec3::new(cosine * forward - sine * right, sine * forward + cosine * right, self.stick_climb(input));
         let limits = self.stick_limits(input);
         let centered = s.forward == 0.0 && s.right == 0.0;
-        let velocity = self.with_locks(wish, centered, s.up == 0.0, &limits, input);
+        let velocity = self.with_locks(wanted_m_s, centered, s.up == 0.0, &limits, input);
         if let (Some((n, e)), Some(d)) = (self.locks.horizontal, self.locks.height_down_m) {
             self.report.target_m = Some(Vec3::new(n, e, d));
         }
@@ -118,14 +118,14 @@ impl Navigator {
     /// Shapes a velocity from the sticks. With centered sticks and low speed, position and height are locked.
     fn with_locks(
         &mut self,
-        wish: Vec3<Ned>,
+        wanted_m_s: Vec3<Ned>,
         flat_free: bool,
         down_free: bool,
         limits: &MotionLimits,
         input: &NavigatorInput,
     ) -> Vec3<Ned> {
         let planned = self.shaper.velocity_m_s;
-        self.shaper.advance(wish, limits, input.dt_s);
+        self.shaper.advance(wanted_m_s, limits, input.dt_s);
         let e = input.estimate;
         let rest = stopping_point(input.gains, e.position_m, e.velocity_m_s);
         let locks = &mut self.locks;
@@ -141,8 +141,8 @@ impl Navigator {
         }
         let mut velocity = self.shaper.velocity_m_s;
         if let Some((n, e_)) = locks.horizontal {
-            let way = Vec3::<Ned>::new(n - e.position_m.north(), e_ - e.position_m.east(), 0.0);
-            velocity += (way * input.gains.position).limited(LOCK_SPEED_M_S);
+            let offset = Vec3::<Ned>::new(n - e.position_m.north(), e_ - e.position_m.east(), 0.0);
+            velocity += (offset * input.gains.position).limited(LOCK_SPEED_M_S);
         }
         if let Some(d) = locks.height_down_m {
             let speed = input.gains.height * (d - e.position_m.down());

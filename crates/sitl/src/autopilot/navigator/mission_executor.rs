@@ -31,10 +31,10 @@ const NEAR_PLAN_M: f64 = 1.0;
 impl Navigator {
     /// Flies the current mission item.
     pub(super) fn fly_mission(&mut self, input: &NavigatorInput) -> Setpoint {
-        let going = self.mission.skip(input.now);
+        let has_next = self.mission.skip(input.now);
         self.run_passed_commands(input);
         self.mission.begin_at(self.step_start(input));
-        let Some(step) = self.mission.step().filter(|_| going) else {
+        let Some(step) = self.mission.step().filter(|_| has_next) else {
             self.end_mission(input);
             return self.go(None, input);
         };
@@ -80,7 +80,7 @@ impl Navigator {
     /// Extends the trajectory to the waypoints ahead, or joins a new one.
     fn extend_trajectory(&mut self, input: &NavigatorInput) {
         let ahead = self.mission.ahead(input.tuning.accept_radius_m);
-        if self.trajectory.as_mut().is_some_and(|way| way.extend(&ahead)) {
+        if self.trajectory.as_mut().is_some_and(|trajectory| trajectory.extend(&ahead)) {
             return;
         }
         let from = self.trajectory.as_ref().map_or_else(|| self.current_motion(input), Trajectory::planned);
@@ -122,8 +122,8 @@ impl Navigator {
         };
         let planned = self.trajectory.as_mut()?.advance(&speeds, behind.norm(), input.dt_s);
         self.report.target_m = Some(self.target_m);
-        let way = heading_of(self.target_m - input.here(), TURN_BEYOND_M);
-        self.heading.turn_to(self.look_rad(input).or(self.heading.target_rad).or(way), self.modes.active, input);
+        let heading = heading_of(self.target_m - input.here(), TURN_BEYOND_M);
+        self.heading.turn_to(self.look_rad(input).or(self.heading.target_rad).or(heading), self.modes.active, input);
         // Whatever follows the trajectory continues from the plan.
         self.shaper.velocity_m_s = planned.velocity_m_s;
         self.shaper.acceleration_m_s2 = planned.acceleration_m_s2;
@@ -136,8 +136,9 @@ impl Navigator {
 
     /// Returns true if the plan has passed the current waypoint and the vehicle is close to the plan.
     fn has_passed(&self, input: &NavigatorInput) -> bool {
-        let passed =
-            |way: &Trajectory| way.has_passed(self.target_m) && self.tracking_error(&way.planned(), input).norm() < NEAR_PLAN_M;
+        let passed = |plan: &Trajectory| {
+            plan.has_passed(self.target_m) && self.tracking_error(&plan.planned(), input).norm() < NEAR_PLAN_M
+        };
         self.trajectory.as_ref().is_some_and(passed)
     }
 
@@ -179,9 +180,9 @@ impl Navigator {
     /// Processes items that need no flight, on the ground. Returns true during a wait, which does not count toward the pre-flight
     /// disarm timeout.
     pub fn wait_on_ground(&mut self, input: &NavigatorInput) -> bool {
-        let going = self.mission.skip(input.now);
+        let has_next = self.mission.skip(input.now);
         self.run_passed_commands(input);
-        if !going {
+        if !has_next {
             return false;
         }
         self.mission_status.current = self.mission.current;

@@ -65,8 +65,8 @@ impl Navigator {
         if !input.estimate.position_valid {
             return self.descend_without_position(input);
         }
-        let wish = self.offboard_velocity(&setpoint, input);
-        self.shaper.advance(wish, &self.auto_limits(input), input.dt_s);
+        let velocity_m_s = self.offboard_velocity(&setpoint, input);
+        self.shaper.advance(velocity_m_s, &self.auto_limits(input), input.dt_s);
         let mut motion = self.motion(self.shaper.velocity_m_s);
         self.accelerate(&setpoint, &mut motion, input);
         Setpoint::Velocity(motion)
@@ -81,8 +81,8 @@ impl Navigator {
 
     /// Tracks an attitude or body rates with a climb rate instead of thrust (ArduCopter).
     fn climb_at(&mut self, setpoint: &OffboardSetpoint, up_m_s: f64, input: &NavigatorInput) -> Setpoint {
-        let wish = Vec3::new(0.0, 0.0, -up_m_s);
-        self.shaper.advance(wish, &self.auto_limits(input), input.dt_s);
+        let velocity_m_s = Vec3::new(0.0, 0.0, -up_m_s);
+        self.shaper.advance(velocity_m_s, &self.auto_limits(input), input.dt_s);
         let motion = self.motion(self.shaper.velocity_m_s);
         if let Some((attitude, _)) = setpoint.attitude {
             let (roll, pitch, yaw) = attitude.euler();
@@ -108,16 +108,16 @@ impl Navigator {
         let free = |i: usize| s.position_m[i].is_none() && s.velocity_m_s[i].is_none();
         let flat = |i: usize| s.acceleration_m_s2[i].unwrap_or(0.0);
         let level = Vec3::<Ned>::new(flat(0), flat(1), 0.0).limited(input.gains.acceleration_m_s2);
-        let most = input.gains.climb_acceleration_m_s2;
-        let wish = [level.north(), level.east(), flat(2).clamp(-most, most)];
+        let max_m_s2 = input.gains.climb_acceleration_m_s2;
+        let wanted = [level.north(), level.east(), flat(2).clamp(-max_m_s2, max_m_s2)];
         let (mut velocity, mut acceleration) = (motion.velocity_m_s.array(), motion.acceleration_m_s2.array());
         let mut planned = self.shaper.velocity_m_s.array();
         let current = input.estimate.velocity_m_s.array();
         for i in (0..3).filter(|i| s.acceleration_m_s2[*i].is_some()) {
-            acceleration[i] = wish[i] + if free(i) { 0.0 } else { acceleration[i] };
+            acceleration[i] = wanted[i] + if free(i) { 0.0 } else { acceleration[i] };
             if free(i) {
                 // Leaves no velocity error: the velocity loop compares with the plan one lag earlier.
-                velocity[i] = current[i] + if i < 2 { wish[i] * input.gains.attitude_lag_s } else { 0.0 };
+                velocity[i] = current[i] + if i < 2 { wanted[i] * input.gains.attitude_lag_s } else { 0.0 };
                 planned[i] = current[i];
             }
         }
@@ -157,9 +157,9 @@ impl Navigator {
             velocity_m_s: target.velocity_m_s.array().map(Some),
             ..OffboardSetpoint::default()
         };
-        let wish = self.offboard_velocity(&setpoint, input);
-        let flat = Vec3::<Ned>::new(wish.north(), wish.east(), 0.0).limited(input.tuning.follow.fastest_m_s);
-        self.shaper.advance(Vec3::new(flat.north(), flat.east(), wish.down()), &self.auto_limits(input), input.dt_s);
+        let velocity_m_s = self.offboard_velocity(&setpoint, input);
+        let flat = Vec3::<Ned>::new(velocity_m_s.north(), velocity_m_s.east(), 0.0).limited(input.tuning.follow.fastest_m_s);
+        self.shaper.advance(Vec3::new(flat.north(), flat.east(), velocity_m_s.down()), &self.auto_limits(input), input.dt_s);
         Setpoint::Velocity(self.motion(self.shaper.velocity_m_s))
     }
 }

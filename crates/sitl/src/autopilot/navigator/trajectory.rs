@@ -17,7 +17,7 @@ const CORNER_JERK_M_S3: f64 = 2.5;
 const APPROACH_S: f64 = 0.25;
 /// Maximum corner cut, as a fraction of the acceptance radius, and absolute, m.
 const CUT_SHARE: f64 = 0.5;
-const CUT_MOST_M: f64 = 2.0;
+const CUT_MAX_M: f64 = 2.0;
 /// Corner cut per meter of reach and unit of direction change: 3/16 for the cubic blend below.
 const CUT_PER_REACH: f64 = 0.1875;
 /// Sine of the slope above which a leg is flown at climb or descent speed (60 degrees).
@@ -113,7 +113,7 @@ pub struct Trajectory {
     legs: Vec<Segment>,
     along_m: f64,
     speed_m_s: f64,
-    push_m_s2: f64,
+    acceleration_m_s2: f64,
     /// Remaining offset from the state at which the trajectory was joined.
     joining: TrajectoryPoint,
 }
@@ -131,7 +131,7 @@ impl Trajectory {
             velocity_m_s: from.velocity_m_s - first.unit * speed_m_s,
             acceleration_m_s2: from.acceleration_m_s2,
         };
-        Some(Self { bounds, legs, along_m: 0.0, speed_m_s, push_m_s2: 0.0, joining })
+        Some(Self { bounds, legs, along_m: 0.0, speed_m_s, acceleration_m_s2: 0.0, joining })
     }
 
     /// Replaces the waypoints from the first of `waypoints` onward. Returns false if that one is not on this trajectory.
@@ -161,12 +161,12 @@ impl Trajectory {
     pub fn advance(&mut self, speeds: &SpeedLimits, behind_m: f64, dt_s: f64) -> TrajectoryPoint {
         let waits = ((WAITS_M - behind_m) / (WAITS_M - FREE_M)).clamp(0.0, 1.0);
         let allowed = self.allowed_m_s(speeds) * waits;
-        let most = self.legs[self.leg_at(self.along_m)].max_m_s2;
-        let wish = ((allowed - self.speed_m_s) / APPROACH_S).clamp(-most, most);
-        self.push_m_s2 += (wish - self.push_m_s2).clamp(-JERK_M_S3 * dt_s, JERK_M_S3 * dt_s);
-        self.speed_m_s += self.push_m_s2 * dt_s;
+        let max_m_s2 = self.legs[self.leg_at(self.along_m)].max_m_s2;
+        let wanted = ((allowed - self.speed_m_s) / APPROACH_S).clamp(-max_m_s2, max_m_s2);
+        self.acceleration_m_s2 += (wanted - self.acceleration_m_s2).clamp(-JERK_M_S3 * dt_s, JERK_M_S3 * dt_s);
+        self.speed_m_s += self.acceleration_m_s2 * dt_s;
         if self.speed_m_s < 0.0 {
-            (self.speed_m_s, self.push_m_s2) = (0.0, 0.0);
+            (self.speed_m_s, self.acceleration_m_s2) = (0.0, 0.0);
         }
         self.along_m = (self.along_m + self.speed_m_s * dt_s).min(self.length_m());
         self.settle(dt_s);
@@ -189,7 +189,9 @@ impl Trajectory {
         TrajectoryPoint {
             position_m: place + self.joining.position_m,
             velocity_m_s: along * self.speed_m_s + self.joining.velocity_m_s,
-            acceleration_m_s2: along * self.push_m_s2 + bend * (self.speed_m_s * self.speed_m_s) + self.joining.acceleration_m_s2,
+            acceleration_m_s2: along * self.acceleration_m_s2
+                + bend * (self.speed_m_s * self.speed_m_s)
+                + self.joining.acceleration_m_s2,
         }
     }
 
@@ -261,9 +263,9 @@ impl Segment {
 
 /// Maximum speed from which the vehicle can brake to another speed in the remaining distance, including the deceleration ramp,
 /// m/s.
-fn braking_speed(left_m: f64, most_m_s2: f64, after_m_s: f64) -> f64 {
-    let ramp = 4.0 * most_m_s2 * most_m_s2 / JERK_M_S3;
-    let speed = 0.5 * ((ramp * ramp + 4.0 * (2.0 * most_m_s2 * left_m + after_m_s * after_m_s)).sqrt() - ramp);
+fn braking_speed(left_m: f64, max_m_s2: f64, after_m_s: f64) -> f64 {
+    let ramp = 4.0 * max_m_s2 * max_m_s2 / JERK_M_S3;
+    let speed = 0.5 * ((ramp * ramp + 4.0 * (2.0 * max_m_s2 * left_m + after_m_s * after_m_s)).sqrt() - ramp);
     speed.max(after_m_s)
 }
 
@@ -272,14 +274,14 @@ fn legs(from_m: Vec3<Ned>, waypoints: &[Waypoint], bounds: &AccelerationLimits) 
     let mut legs: Vec<Segment> = Vec::with_capacity(waypoints.len());
     let mut at = from_m;
     for (k, to) in waypoints.iter().enumerate() {
-        let way = to.position_m - at;
-        let length_m = way.norm();
+        let offset = to.position_m - at;
+        let length_m = offset.norm();
         // A single waypoint at the current position is still a valid trajectory.
         if length_m < SAME_PLACE_M && (!legs.is_empty() || k + 1 < waypoints.len()) {
             continue;
         }
         let start_m = legs.last().map_or(0.0, Segment::end_m);
-        let unit = if length_m > 0.0 { way / length_m } else { Vec3::new(1.0, 0.0, 0.0) };
+        let unit = if length_m > 0.0 { offset / length_m } else { Vec3::new(1.0, 0.0, 0.0) };
         legs.push(Segment {
             from_m: at,
             to: *to,
@@ -307,7 +309,7 @@ fn corner(leg: &Segment, next: &Segment, bounds: &AccelerationLimits) -> (f64, f
     if bend < 1e-6 || room <= 0.0 {
         return (0.0, f64::INFINITY);
     }
-    let cut_m = (CUT_SHARE * leg.to.accept_m).min(CUT_MOST_M);
+    let cut_m = (CUT_SHARE * leg.to.accept_m).min(CUT_MAX_M);
     let reach = room.min(cut_m / (CUT_PER_REACH * bend));
     let by_acceleration = (bounds.along(turn) * 2.0 * reach / (1.5 * bend)).sqrt();
     let by_jerk = math::cbrt(CORNER_JERK_M_S3 * 4.0 * reach * reach / (6.0 * bend));
