@@ -189,7 +189,9 @@ fn main() {
         p99 / TICK_MS
     );
     let (pace, rate) = under_flood(&mut client, port);
-    println!("with {rate:.0} messages per second from one peer: {pace:.4} s of simulation time per second (minimum {PACE_FLOOR})");
+    println!(
+        "with {rate:.0} messages per second from one peer: {pace:.4} s of simulation time per second (minimum {PACE_FLOOR})"
+    );
     good &= pace >= PACE_FLOOR;
     assert!(good, "target missed");
 }

@@ -22,7 +22,11 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let over_the_pad = job.ground_team.pad_m + Vec3::new(0.0, 0.0, 10.0);
     if let Some(nearest) = site.nearest(over_the_pad, 200.0, SimTime::ZERO) {
-        println!("10 m above the pad, the nearest object is {}, {:.1} m away", site.object_name(nearest.object), nearest.distance_m);
+        println!(
+            "10 m above the pad, the nearest object is {}, {:.1} m away",
+            site.object_name(nearest.object),
+            nearest.distance_m
+        );
     }
     Ok(())
 }

@@ -78,7 +78,10 @@ fn wire_a_demo_in_any_flavour_ends_with_scores() {
         let assessment = json(&only_session(folder.path()).join("assessment.json"));
         assert_eq!(assessment["end"]["reason"], "landed", "{flavour}: {out}");
         assert!(assessment["tasks"][0]["on_path"].as_f64().unwrap() > 0.9, "{flavour}: {out}");
-        assert!(assessment["flown_by"].to_string().contains("pilot"), "the sidecar must decode the autopilot's modes: {assessment}");
+        assert!(
+            assessment["flown_by"].to_string().contains("pilot"),
+            "the sidecar must decode the autopilot's modes: {assessment}"
+        );
     }
 }
 

@@ -20,7 +20,8 @@ fn help(command: &mut Command, name: &str, level: usize, out: &mut String) {
 fn exact_the_page_of_commands_is_that_of_the_program() {
     let mut command = spandrel::Cli::command();
     command.build();
-    let about = "The help of every subcommand, as `--help` prints it. Exit codes: 0 success, 1 failure, 2 invalid arguments or files.";
+    let about =
+        "The help of every subcommand, as `--help` prints it. Exit codes: 0 success, 1 failure, 2 invalid arguments or files.";
     let mut page = head("Command line", about);
     help(&mut command, "spandrel", 2, &mut page);
     check("commands.md", &page);

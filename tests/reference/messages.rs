@@ -68,11 +68,7 @@ fn exact_the_pages_of_messages_are_those_of_the_code() {
         asks.join(" or ")
     );
     let acts = "The vehicle handles these messages. It forwards all others to the links of their target.";
-    let page = format!(
-        "{}\n## Streams\n\n{}\n## Handled messages\n\n{acts}\n\n{}",
-        head("Messages", &about),
-        streams(),
-        handled()
-    );
+    let page =
+        format!("{}\n## Streams\n\n{}\n## Handled messages\n\n{acts}\n\n{}", head("Messages", &about), streams(), handled());
     check("messages.md", &page);
 }

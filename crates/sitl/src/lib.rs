@@ -5,8 +5,8 @@
 //! (`handle_datagram`) and sends outgoing ones (`poll_transmit`). Real time, ten times real time and unlimited speed run the same
 //! code with different timestamps. A clone of the simulator is a snapshot.
 //!
-//! Each step runs in this order: sensors ([`sensors`]), the autopilot ([`autopilot`]: estimator, modes, control,
-//! mixer), six-degree-of-freedom motion and contact ([`physics`]), then outgoing telemetry ([`endpoint`]). The
+//! Each step runs in this order: sensors ([`sensors`]), the autopilot ([`autopilot`]: estimator, failsafes, navigator,
+//! control), six-degree-of-freedom motion and contact ([`physics`]), then outgoing telemetry ([`endpoint`]). The
 //! autopilot only gets sensor readings, never the true state. One table selects the emulated autopilot, PX4 or
 //! ArduCopter ([`endpoint::flavour`]).
 //!

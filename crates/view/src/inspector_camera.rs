@@ -114,7 +114,10 @@ mod tests {
         let apart = 0.01;
         gaze.turn(0.0, 0.0, far);
         assert!((gaze.eye(STANDS, far, 1.0).hfov_rad / before - 1.0).abs() < apart);
-        assert!((gaze.rad_px(500.0, far) * 500.0 / before - 1.0).abs() < apart, "a drag across the whole view must turn it by its field of view");
+        assert!(
+            (gaze.rad_px(500.0, far) * 500.0 / before - 1.0).abs() < apart,
+            "a drag across the whole view must turn it by its field of view"
+        );
     }
 
     #[test]

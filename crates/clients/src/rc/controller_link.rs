@@ -526,11 +526,23 @@ mod tests {
             let messages = sent(link, s, s + 0.1);
             messages.iter().find_map(|m| if let MavMessage::COMMAND_LONG(c) = m { Some(c.param1) } else { None }).unwrap()
         };
-        assert_eq!([0.0, 0.2].map(|s| aimed(&mut link, ControllerAction::GimbalDown, s)), [-10.0, -20.0], "the second press must add to the first");
+        assert_eq!(
+            [0.0, 0.2].map(|s| aimed(&mut link, ControllerAction::GimbalDown, s)),
+            [-10.0, -20.0],
+            "the second press must add to the first"
+        );
         link.vehicle.gimbal_deg = Some(-60.0);
-        assert_eq!(aimed(&mut link, ControllerAction::GimbalUp, 0.2 + AIM_S), -50.0, "a late press must start from the reported pitch");
+        assert_eq!(
+            aimed(&mut link, ControllerAction::GimbalUp, 0.2 + AIM_S),
+            -50.0,
+            "a late press must start from the reported pitch"
+        );
         answer(&mut link, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, MavResult::MAV_RESULT_DENIED);
-        assert_eq!(aimed(&mut link, ControllerAction::GimbalUp, 0.5 + AIM_S), -50.0, "a rejected command must not change the target");
+        assert_eq!(
+            aimed(&mut link, ControllerAction::GimbalUp, 0.5 + AIM_S),
+            -50.0,
+            "a rejected command must not change the target"
+        );
     }
 
     #[test]

@@ -386,7 +386,11 @@ mod tests {
         };
         assert_eq!(done(&mut board, "p", &held), [ControllerAction::Snapshot]);
         assert_eq!(done(&mut board, "b", &held), [ControllerAction::Lamp], "a held key must not repeat its action");
-        assert_eq!(done(&mut board, "p", &[1.0, 1.0 + HELD_S]), [ControllerAction::Snapshot], "a new press must repeat the action");
+        assert_eq!(
+            done(&mut board, "p", &[1.0, 1.0 + HELD_S]),
+            [ControllerAction::Snapshot],
+            "a new press must repeat the action"
+        );
         assert_eq!(done(&mut board, "pagedown", &[0.0, 0.2, 0.4]), [ControllerAction::GimbalDown; 3]);
         assert_eq!(done(&mut board, "]", &[0.0, 0.03, 0.06]), [ControllerAction::CameraZoomIn]);
         let told = [2.0, 2.1].map(|s| board.press("p", true, at(s)));

@@ -1,5 +1,8 @@
 //! Settings that an operator can change in flight. The endpoint maps each field to the parameter named in its comment.
 
+use super::failsafe::operator_rules::{FenceAction, OperatorRules};
+use super::navigator::follow::FollowRule;
+
 /// Action on link loss.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LinkLossAction {
@@ -90,7 +93,7 @@ pub struct Tuning {
     /// `COM_DISARM_PRFLT`: timeout for take-off after arming, s; 0 or less disables it.
     pub disarm_before_flight_s: f64,
     /// `GF_ACTION`: action on a geofence breach.
-    pub fence_action: super::FenceAction,
+    pub fence_action: FenceAction,
     /// `FENCE_ENABLE` (ArduPilot): whether the geofence is enabled. Commands and mission items can change it.
     pub fence_enabled: bool,
     /// The fence switch is a parameter that ground stations see, and it persists. Otherwise the fence is enabled again after the
@@ -115,13 +118,13 @@ pub struct Tuning {
     /// `CIRCLE_RATE` (ArduPilot): angular rate of a circle entered by mode change only, rad/s, clockwise positive.
     pub circle_rate_rad_s: f64,
     /// Settings of follow mode.
-    pub follow: super::follow::FollowRule,
+    pub follow: FollowRule,
     /// UTC at simulation start, Unix seconds.
     pub start_unix_s: i64,
     /// `MPC_HOLD_DZ`: stick deadband as a fraction of full deflection.
     pub stick_deadband: f64,
     /// Further operator settings.
-    pub rules: super::OperatorRules,
+    pub rules: OperatorRules,
 }
 
 impl Tuning {
@@ -169,7 +172,7 @@ impl Default for Tuning {
             battery_critical_pct: 7.0,
             disarm_after_landing_s: 2.0,
             disarm_before_flight_s: 10.0,
-            fence_action: super::FenceAction::Hold,
+            fence_action: FenceAction::Hold,
             fence_enabled: true,
             fence_switch_stays: false,
             fence_distance_m: 0.0,
@@ -181,10 +184,10 @@ impl Default for Tuning {
             first_item: 0,
             // ArduCopter's defaults: 10 m, 20 deg/s.
             circle_rate_rad_s: 0.349,
-            follow: super::follow::FollowRule::default(),
+            follow: FollowRule::default(),
             start_unix_s: 0,
             stick_deadband: 0.03,
-            rules: super::OperatorRules::default(),
+            rules: OperatorRules::default(),
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Converts the geofence and rally points of a plan for the autopilot.
 
 use super::mission_positions::{flyable_position, place, relative};
-use crate::autopilot::fence::{FenceOutline, FenceZone, RallyPoint};
+use crate::autopilot::fence::{FenceOutline, FenceZone};
+use crate::autopilot::home::RallyPoint;
 use spandrel_mavlink::dialect::{MISSION_ITEM_INT_DATA, MavCmd, MavMissionResult, MavMissionType};
 use spandrel_model::geodesy::LocalPlane;
 

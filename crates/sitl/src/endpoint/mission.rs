@@ -5,7 +5,8 @@ use super::mission_positions::relative;
 use super::snapshot::PlanSummary;
 use super::{deferred_fields, fence_and_rally, items};
 use crate::autopilot::MissionStep;
-use crate::autopilot::fence::{FenceZone, RallyPoint};
+use crate::autopilot::fence::FenceZone;
+use crate::autopilot::home::RallyPoint;
 use crate::autopilot::mission::DeferredFields;
 use spandrel_mavlink::dialect::{
     MISSION_ACK_DATA, MISSION_COUNT_DATA, MISSION_ITEM_INT_DATA, MISSION_REQUEST_DATA, MISSION_REQUEST_INT_DATA, MavCmd,

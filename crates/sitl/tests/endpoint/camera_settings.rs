@@ -100,7 +100,11 @@ fn wire_the_cameras_settings_are_listed_read_and_changed_by_the_camera_alone() {
     }
     station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_MODE, [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
     station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_START_CAPTURE, [0.0; 7]);
-    assert_eq!(set(&mut station, "CAM_VIDRATE", 20, UINT32), (A::PARAM_ACK_FAILED, 80), "the setting must not change while recording");
+    assert_eq!(
+        set(&mut station, "CAM_VIDRATE", 20, UINT32),
+        (A::PARAM_ACK_FAILED, 80),
+        "the setting must not change while recording"
+    );
     station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_STOP_CAPTURE, [0.0; 7]);
     station.command(CAMERA, MavCmd::MAV_CMD_RESET_CAMERA_SETTINGS, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
     ask(&mut station, &list(CAMERA));

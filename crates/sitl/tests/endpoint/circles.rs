@@ -80,7 +80,11 @@ fn flight_in_a_mission_the_nose_follows_the_region_of_interest_until_cleared() {
     let wanted = (east - p[1]).atan2(home as f32 + 20.0 - p[0]);
     assert!(off(yaw(&station), wanted) < 2.0 * YAW_TOLERANCE, "{} not {wanted} at {p:?}", yaw(&station));
     assert!(station.run_until(60.0, |s| s.mode() == Some(3 << 24 | 4 << 16)));
-    assert!(off(yaw(&station), std::f32::consts::PI) < 2.0 * YAW_TOLERANCE, "the nose must point south along the path again: {}", yaw(&station));
+    assert!(
+        off(yaw(&station), std::f32::consts::PI) < 2.0 * YAW_TOLERANCE,
+        "the nose must point south along the path again: {}",
+        yaw(&station)
+    );
 }
 
 #[test]
@@ -134,7 +138,11 @@ fn flight_a_turn_by_command_leaves_the_mission_flying() {
     let plan = [item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 60.0, 8.0)];
     let turn = [90.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
     station.sticks(0, 0, 500, 0);
-    assert_eq!(station.command(1, MavCmd::MAV_CMD_CONDITION_YAW, turn), MavResult::MAV_RESULT_TEMPORARILY_REJECTED, "manual flight must reject the command");
+    assert_eq!(
+        station.command(1, MavCmd::MAV_CMD_CONDITION_YAW, turn),
+        MavResult::MAV_RESULT_TEMPORARILY_REJECTED,
+        "manual flight must reject the command"
+    );
     assert_eq!(upload(&mut station, &plan), ACCEPTED);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(3_000);

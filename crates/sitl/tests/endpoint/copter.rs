@@ -79,7 +79,11 @@ fn wire_copters_modes_are_refused_as_copter_refuses_them() {
     assert_eq!(station.command(1, SET_MODE, [0.0, GUIDED, 0.0, 0.0, 0.0, 0.0, 0.0]), DENIED, "a custom mode requires its flag");
     let switch = SET_MODE_DATA { custom_mode: 0, target_system: 1, base_mode: MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED };
     station.send(&MavMessage::SET_MODE(switch));
-    assert_eq!(next_beat(&mut station).custom_mode, LOITER as u32, "MAVProxy's encoding of the safety switch must not change the mode");
+    assert_eq!(
+        next_beat(&mut station).custom_mode,
+        LOITER as u32,
+        "MAVProxy's encoding of the safety switch must not change the mode"
+    );
     assert_eq!(station.command(1, SET_MODE, mode(RTL)), ACCEPTED);
     assert_eq!(station.command(1, ARM, one(1.0)), FAILED);
     station.run_ms(5);
@@ -189,7 +193,11 @@ fn flight_guided_flies_set_points_as_they_come_and_a_place_sent_once_is_flown_to
     let [second, ..] = station.place_after(2_000);
     assert!((first - second).abs() < 0.2, "the vehicle must stop when setpoints end: {first} {second}");
     let status = next_beat(&mut station);
-    assert_eq!((status.custom_mode, status.system_status), (GUIDED as u32, MavState::MAV_STATE_ACTIVE), "the end of setpoints is not a failure");
+    assert_eq!(
+        (status.custom_mode, status.system_status),
+        (GUIDED as u32, MavState::MAV_STATE_ACTIVE),
+        "the end of setpoints is not a failure"
+    );
     station.command(1, SET_MODE, mode(BRAKE));
     station.send(&target(0x0DF8, north, east, down, 0.0));
     station.run_ms(3_000);

@@ -297,7 +297,11 @@ fn regress_a_mission_waits_for_a_time_of_day_pauses_and_lands_by_its_landing_seq
     let home = station.place_after(100)[0];
     station.run_ms(20_000);
     assert!((station.place()[0] - home - 4.0).abs() < 1.5, "the vehicle must wait: {:?}", station.place());
-    assert!(station.run_until(12.0, |s| s.place()[0] > home + 8.0), "the vehicle must continue at the set time: {:?}", station.place());
+    assert!(
+        station.run_until(12.0, |s| s.place()[0] > home + 8.0),
+        "the vehicle must continue at the set time: {:?}",
+        station.place()
+    );
     let pause = MavCmd::MAV_CMD_DO_PAUSE_CONTINUE;
     assert_eq!(station.command(1, pause, one(0.0)), ACCEPTED);
     station.run_ms(4_000);

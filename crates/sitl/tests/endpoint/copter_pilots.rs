@@ -69,7 +69,11 @@ fn wire_a_copters_switch_enters_its_mode_and_back_from_it_the_mode_switch_decide
     let mut station = copter();
     set(&mut station, "FLTMODE1", ALT_HOLD);
     set(&mut station, "RC9_OPTION", 18.0);
-    assert_eq!(turn(&mut station, &switches(1000, 1000, 1500, 1900)), ALT_HOLD as u32, "the initial switch position must not count as a change");
+    assert_eq!(
+        turn(&mut station, &switches(1000, 1000, 1500, 1900)),
+        ALT_HOLD as u32,
+        "the initial switch position must not count as a change"
+    );
     turn(&mut station, &switches(1000, 1000, 1500, 1000));
     assert_eq!(turn(&mut station, &switches(1000, 1000, 1500, 1900)), LAND);
     assert_eq!(turn(&mut station, &switches(1000, 1000, 1500, 1000)), ALT_HOLD as u32);
@@ -146,7 +150,11 @@ fn wire_a_copter_looks_at_the_throttle_as_the_mode_uses_it() {
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED, "GUIDED must ignore the throttle");
     station.send(&middle);
     station.run_ms(100);
-    assert_eq!(station.command(1, SET_MODE, mode(STABILIZE)), FAILED, "the mode change must be rejected because of the high throttle");
+    assert_eq!(
+        station.command(1, SET_MODE, mode(STABILIZE)),
+        FAILED,
+        "the mode change must be rejected because of the high throttle"
+    );
     station.run_ms(5);
     assert!(station.said("throttle too high"), "{:?}", station.texts());
     station.send(&switches(1000, 1500, 1500, 1500));

@@ -191,5 +191,8 @@ fn wire_a_mission_that_the_pilot_interrupts_goes_on_where_it_was_left() {
     assert!(ended);
     assert!(station.said("Mission resumed from interruption point"));
     assert!(nearest < 1.5, "passed {nearest} m from the interruption point");
-    assert!(furthest_before < away[0].max(left[0]) + 1.0, "the vehicle must return before it continues: {furthest_before} of {left:?}");
+    assert!(
+        furthest_before < away[0].max(left[0]) + 1.0,
+        "the vehicle must return before it continues: {furthest_before} of {left:?}"
+    );
 }

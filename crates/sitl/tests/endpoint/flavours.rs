@@ -88,7 +88,11 @@ fn wire_copters_parameters_are_cast_and_act() {
     station.send(&MavMessage::PARAM_REQUEST_LIST(PARAM_REQUEST_LIST_DATA { target_system: 1, target_component: 1 }));
     station.run_ms(500);
     let values = station.all(|m| if let MavMessage::PARAM_VALUE(v) = m { Some(v.clone()) } else { None });
-    assert_eq!(values.len(), usize::from(values[0].param_count), "each parameter must arrive once, without a checksum before them");
+    assert_eq!(
+        values.len(),
+        usize::from(values[0].param_count),
+        "each parameter must arrive once, without a checksum before them"
+    );
     let of = |name: &str| values.iter().find(|v| v.param_id.to_str() == Ok(name)).unwrap_or_else(|| panic!("{name}"));
     assert_eq!((of("FRAME_CLASS").param_value, of("FRAME_CLASS").param_type), (1.0, MavParamType::MAV_PARAM_TYPE_INT8));
     assert_eq!(of("RTL_ALT").param_value, 3_000.0);
@@ -120,7 +124,11 @@ fn wire_copters_parameters_are_cast_and_act() {
         _ => None,
     };
     let real = MavParamType::MAV_PARAM_TYPE_REAL32;
-    assert_eq!(station.ask(&set("RTL_ALT", 2_000.0, real), answer), Some(Ok(2_000.0)), "an integer sent as a float must be accepted");
+    assert_eq!(
+        station.ask(&set("RTL_ALT", 2_000.0, real), answer),
+        Some(Ok(2_000.0)),
+        "an integer sent as a float must be accepted"
+    );
     assert_eq!(station.ask(&set("FRAME_TYPE", 0.0, real), answer), Some(Err(MavParamError::MAV_PARAM_ERROR_READ_ONLY)));
     assert_eq!(
         station.ask(&set("WPNAV_SPEED", -9e9, real), answer),

@@ -47,7 +47,11 @@ fn flight_a_mission_waits_on_the_ground_first_and_is_not_disarmed_for_it() {
     let arm = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(14_500);
-    assert!(-station.place()[2] < 1.0 && reached(&station).is_empty(), "the vehicle must wait on the ground: {:?}", station.place());
+    assert!(
+        -station.place()[2] < 1.0 && reached(&station).is_empty(),
+        "the vehicle must wait on the ground: {:?}",
+        station.place()
+    );
     assert!(station.run_until(30.0, |s| reached(s).ends_with(&[2])), "{:?} at {:?}", reached(&station), station.place());
 }
 

@@ -240,7 +240,10 @@ fn wire_lost_sticks_stop_the_flight_and_returning_sticks_resume_it() {
     assert!(station.said("manual control lost"), "{:?}", station.texts());
     let [north, east, down] = station.place();
     let later = station.place_after(3_000);
-    assert!((later[0] - north).hypot(later[1] - east) < DRIFT_M && (later[2] - down).abs() < DRIFT_M, "the vehicle must hold its position: {later:?}");
+    assert!(
+        (later[0] - north).hypot(later[1] - east) < DRIFT_M && (later[2] - down).abs() < DRIFT_M,
+        "the vehicle must hold its position: {later:?}"
+    );
     for _ in 0..60 {
         rival(&mut station, 0);
         station.run_ms(20);

@@ -190,7 +190,11 @@ fn wire_the_older_mount_follows_its_modes() {
     }
     assert_eq!(station.command(1, configure, p(&[1.0, 1.0, 1.0, 0.0])), OK);
     assert!(pitch_deg(&mut station).abs() < NEAR_DEG);
-    assert_eq!(station.command(1, configure, p(&[2.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0])), OK, "the configuration must make pitch a rate");
+    assert_eq!(
+        station.command(1, configure, p(&[2.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0])),
+        OK,
+        "the configuration must make pitch a rate"
+    );
     assert_eq!(station.command(1, control, p(&[5.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0])), OK);
     let turned = pitch_deg(&mut station);
     assert!((turned - 5.0 * SWING_MS as f32 / 1000.0).abs() < 1.0, "{turned}");

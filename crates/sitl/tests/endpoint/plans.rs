@@ -179,7 +179,11 @@ fn wire_the_current_item_is_set_by_message_and_by_command() {
     assert_eq!(station.ask(&set(77), result), Some(MavMissionResult::MAV_MISSION_INVALID_SEQUENCE));
     let one = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, one), MavResult::MAV_RESULT_ACCEPTED);
-    assert_eq!(station.last_message(current), Some((1, 3)), "the change must be reported with the response, not only with the stream");
+    assert_eq!(
+        station.last_message(current),
+        Some((1, 3)),
+        "the change must be reported with the response, not only with the stream"
+    );
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, [9.0; 7]), MavResult::MAV_RESULT_DENIED);
 }
 

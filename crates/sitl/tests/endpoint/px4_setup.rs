@@ -56,7 +56,11 @@ fn regress_the_radio_pages_calibration_is_accepted_and_manual_steps_are_explaine
     station.run_ms(5);
     assert!(station.said("[cal] calibration failed"), "{:?}", station.texts());
     assert_eq!(station.command(1, CALIBRATE, p(&[0.0, 0.0, 0.0, 0.0, 2.0])), ACCEPTED);
-    assert_eq!(station.command(1, CALIBRATE, one(1.0)), MavResult::MAV_RESULT_TEMPORARILY_REJECTED, "another calibration is running");
+    assert_eq!(
+        station.command(1, CALIBRATE, one(1.0)),
+        MavResult::MAV_RESULT_TEMPORARILY_REJECTED,
+        "another calibration is running"
+    );
     station.run_ms(5_000);
     assert!(station.said("[cal] calibration done: level"), "{:?}", station.texts());
     assert_eq!(station.command(1, CALIBRATE, one(1.0)), ACCEPTED);

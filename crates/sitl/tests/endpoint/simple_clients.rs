@@ -267,7 +267,11 @@ fn regress_lockstep_begins_with_a_peers_first_answer() {
         sent.flat_map(|t| Decoder::new().datagram(&t.bytes)).filter_map(|frame| frame.message).collect()
     };
     sim.handle_timeout(SimTime::from_ms(1_000));
-    assert_eq!((sim.now(), sim.awaits_first_answer()), (SimTime::from_ms(20), Some(false)), "time must not advance before the first response");
+    assert_eq!(
+        (sim.now(), sim.awaits_first_answer()),
+        (SimTime::from_ms(20), Some(false)),
+        "time must not advance before the first response"
+    );
     heard(&mut sim);
     sim.send_first_contact();
     let knocked = heard(&mut sim);

@@ -15,7 +15,10 @@ fn wire_the_first_heartbeat_comes_at_once_and_the_vehicle_is_armable_within_two_
         MavMessage::SYS_STATUS(s) => Some(s.onboard_control_sensors_health),
         _ => None,
     });
-    assert!(healthy.unwrap().contains(MavSysStatusSensor::MAV_SYS_STATUS_PREARM_CHECK), "the vehicle must be armable within 2 s of simulation time");
+    assert!(
+        healthy.unwrap().contains(MavSysStatusSensor::MAV_SYS_STATUS_PREARM_CHECK),
+        "the vehicle must be armable within 2 s of simulation time"
+    );
 }
 
 #[test]

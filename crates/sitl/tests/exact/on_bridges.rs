@@ -64,8 +64,12 @@ fn on_top(scenario: &Scenario, site: &Site, member: &str, [x, y]: [f64; 2]) -> V
     let high = site.geometry().shape(k).unwrap().bounds().1.up() + 1.0;
     let from = bridge.placement().point([x, y, high - bridge.centre_m.up()]);
     let down = Vec3::new(0.0, 0.0, -1.0);
-    let (distance, _) =
-        site.geometry().shape(k).unwrap().ray(from, down, 100.0).unwrap_or_else(|| panic!("{member} does not exist at this point"));
+    let (distance, _) = site
+        .geometry()
+        .shape(k)
+        .unwrap()
+        .ray(from, down, 100.0)
+        .unwrap_or_else(|| panic!("{member} does not exist at this point"));
     from + down * distance
 }
 

@@ -2,7 +2,7 @@
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::math;
-use spandrel_sitl::autopilot::fence::FenceAction;
+use spandrel_sitl::autopilot::FenceAction;
 use spandrel_sitl::autopilot::operator_rules::{
     FailsafeResponse, FenceParts, FenceSwitching, HeadingRule, JOB_BATTERY, LinkLossExceptions, MissionNeeds, OffboardLoss,
     ReturnTargets,
@@ -196,7 +196,7 @@ fn flight_the_cone_and_the_least_climb_set_the_height_of_a_return() {
 
 #[test]
 fn flight_a_return_goes_to_the_places_that_its_type_allows() {
-    use spandrel_sitl::autopilot::fence::RallyPoint;
+    use spandrel_sitl::autopilot::home::RallyPoint;
     let rally = RallyPoint { place_m: Vec3::new(30.0, 10.0, 0.0), over_home: false };
     let landing = MissionStep::Land { position_m: Some(Vec3::new(0.0, 30.0, 0.0)) };
     let cases = [

@@ -182,7 +182,10 @@ fn exact_rotors_are_requested_where_they_are_heard_and_turn_by_their_outputs() {
     };
     assert!(!asked(&mut wire, 100), "no request without need");
     wire.live.request_rotor_outputs();
-    assert!(asked(&mut wire, 200) && !asked(&mut wire, 1_000) && asked(&mut wire, 5_300), "requests must repeat until outputs arrive");
+    assert!(
+        asked(&mut wire, 200) && !asked(&mut wire, 1_000) && asked(&mut wire, 5_300),
+        "requests must repeat until outputs arrive"
+    );
     let mut say = |pulse: u16, wall_ms: i64| {
         let servos = SERVO_OUTPUT_RAW_DATA {
             servo1_raw: pulse,
@@ -197,7 +200,11 @@ fn exact_rotors_are_requested_where_they_are_heard_and_turn_by_their_outputs() {
     let rotor = wire.aircraft.rotor;
     let half = 0.5 * (rotor.idle_speed_rad_s + rotor.max_speed_rad_s);
     let idle = rotor.idle_speed_rad_s;
-    assert_eq!(wire.live.rotors_rad_s(&wire.aircraft), [idle, half, idle, rotor.max_speed_rad_s], "outputs must be clamped to their range");
+    assert_eq!(
+        wire.live.rotors_rad_s(&wire.aircraft),
+        [idle, half, idle, rotor.max_speed_rad_s],
+        "outputs must be clamped to their range"
+    );
     wire.say(
         &MavMessage::HEARTBEAT(HEARTBEAT_DATA { base_mode: MavModeFlag::empty(), mavlink_version: 3, ..Default::default() }),
         6_100,
@@ -221,7 +228,11 @@ fn exact_a_late_listener_requests_the_flight_time() {
     let mut wire = FakeVehicle::new();
     wire.truth(300_000, 0, 0.0);
     wire.truth(300_020, 20, 0.0);
-    assert_eq!(wire.now(20).unwrap().hud.lift_off, Some(SimTime::from_ms(300_000)), "the first position serves as takeoff time until the real one arrives");
+    assert_eq!(
+        wire.now(20).unwrap().hud.lift_off,
+        Some(SimTime::from_ms(300_000)),
+        "the first position serves as takeoff time until the real one arrives"
+    );
     wire.live.handle_timeout(SimTime::from_ms(20));
     let mut decoder = Decoder::new();
     let asked = std::iter::from_fn(|| wire.live.poll_transmit()).any(|bytes| {

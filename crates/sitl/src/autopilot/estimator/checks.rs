@@ -47,7 +47,7 @@ impl InnovationCheck {
     }
 
     /// Clears the check after the filter was reset to the source.
-    pub fn forget(&mut self) {
+    pub fn clear(&mut self) {
         (self.refused_share, self.dropped) = (0.0, false);
     }
 }
@@ -71,7 +71,7 @@ impl RejectionMonitor {
     }
 
     /// Clears the monitor once the source fits again.
-    pub fn forget(&mut self) {
+    pub fn clear(&mut self) {
         self.previous = None;
     }
 }

@@ -63,19 +63,19 @@ impl Estimator {
             self.fuse(&slopes[1], off.east(), variance);
         }
         if fits {
-            self.checks.gnss_off.forget();
+            self.checks.gnss_off.clear();
             return;
         }
         // If optical flow contradicts the jump, GNSS is wrong. Without optical flow, a constant offset is accepted, noise never.
         let off = self.fix_offset_m(fix);
         let flat = Vec3::new(off.north(), off.east(), 0.0);
         let steady_s = self.checks.gnss_off.hold_s(flat, GATE * (2.0 * variance).sqrt(), now);
-        let witness = (now - self.trust.flow).s() < FLOW_FRESH_S;
-        if steady_s > REFUSED_S && !witness {
+        let flow_is_fresh = (now - self.last_fused.flow).s() < FLOW_FRESH_S;
+        if steady_s > REFUSED_S && !flow_is_fresh {
             self.reset_place(Vec3::new(fix.position_m.north(), fix.position_m.east(), self.position_m.down()));
             self.covariance.reset(P, 2, fix.eph_m * fix.eph_m);
-            self.checks.gnss.forget();
-            self.checks.gnss_off.forget();
+            self.checks.gnss.clear();
+            self.checks.gnss_off.clear();
         }
     }
 
@@ -92,7 +92,7 @@ impl Estimator {
         let fits = self.accepts(&slopes, off, variance);
         if self.checks.gnss_height.admits(fits, now) && !self.checks.gnss.dropped() {
             self.fuse(&slopes, off, variance);
-            self.trust.height = now;
+            self.last_fused.height = now;
         }
         let apart = (fix.position_m.down() - self.position_m.down()).abs();
         if apart < AGREED_SIGMAS * math::hypot(slow, variance.sqrt()) {
@@ -102,7 +102,7 @@ impl Estimator {
         let drifted = self.follows_gnss() && self.drift_m.down().abs() > DRIFT_SIGMAS * slow;
         let contradicted = self.checks.gnss_height.dropped() || drifted;
         if contradicted && !self.checks.gnss.dropped() {
-            self.settle_heights(fix, now);
+            self.resolve_height_conflict(fix, now);
         }
     }
 
@@ -119,37 +119,37 @@ impl Estimator {
 
     /// Resolves a height conflict between GNSS and barometer with the range finder, or in favor of GNSS if the range finder
     /// cannot decide.
-    fn settle_heights(&mut self, fix: &GnssReading, now: SimTime) {
+    fn resolve_height_conflict(&mut self, fix: &GnssReading, now: SimTime) {
         let alone = self.checks.baro.dropped();
-        if alone && (now - self.trust.height).s() <= REFUSED_S {
+        if alone && (now - self.last_fused.height).s() <= REFUSED_S {
             return;
         }
         let sides = || self.ground.agrees_with_filter(self.position_m.down(), fix.position_m.down());
         if !alone && (!self.follows_gnss() || sides()) {
             self.checks.gnss_height.reject();
-            self.forget_height_drift();
+            self.reset_height_drift();
             return;
         }
         self.checks.baro.reject();
         self.set_height(fix, now);
     }
 
-    pub(super) fn forget_height_drift(&mut self) {
+    pub(super) fn reset_height_drift(&mut self) {
         self.drift_m = Vec3::new(self.drift_m.north(), self.drift_m.east(), 0.0);
         self.covariance.reset(DRIFT + 2, 1, self.process.drift[2]);
     }
 
     /// Resets height and climb rate to GNSS.
     fn set_height(&mut self, fix: &GnssReading, now: SimTime) {
-        self.forget_height_drift();
+        self.reset_height_drift();
         let (p, v) = (self.position_m, self.velocity_m_s);
         self.position_m = Vec3::new(p.north(), p.east(), fix.position_m.down());
         self.velocity_m_s = Vec3::new(v.north(), v.east(), fix.velocity_m_s.down());
         self.covariance.reset(P + 2, 1, fix.epv_m * fix.epv_m);
         let speed = self.noise.gnss_velocity_m_s;
         self.covariance.reset(V + 2, 1, 4.0 * speed * speed);
-        self.checks.gnss_height.forget();
-        self.trust.height = now;
+        self.checks.gnss_height.clear();
+        self.last_fused.height = now;
     }
 
     fn fuse_fix_velocity(&mut self, fix: &GnssReading, variance: f64, now: SimTime) {
@@ -163,11 +163,11 @@ impl Estimator {
         }
         self.checks.gnss_velocity.admits(taken, now);
         if taken {
-            self.trust.velocity = now;
-        } else if (now - self.trust.velocity).s() > REFUSED_S {
+            self.last_fused.velocity = now;
+        } else if (now - self.last_fused.velocity).s() > REFUSED_S {
             self.velocity_m_s = fix.velocity_m_s;
             self.covariance.reset(V, 3, 4.0 * variance);
-            self.trust.velocity = now;
+            self.last_fused.velocity = now;
         }
     }
 
@@ -178,11 +178,11 @@ impl Estimator {
         let fits = self.accepts(&slopes, innovation, variance);
         if self.checks.baro.admits(fits, now) {
             self.fuse(&slopes, innovation, variance);
-            self.trust.height = now;
-            self.followed.note_barometer(now);
+            self.last_fused.height = now;
+            self.height_reference.note_barometer(now);
         }
         if fits {
-            self.checks.baro_off.forget();
+            self.checks.baro_off.clear();
         } else {
             self.recover_height(innovation, now);
         }
@@ -193,7 +193,7 @@ impl Estimator {
     fn recover_height(&mut self, innovation_m: f64, now: SimTime) {
         let tolerance_m = GATE * (2.0 * self.noise.baro_m * self.noise.baro_m).sqrt();
         let steady_s = self.checks.baro_off.hold_s(Vec3::new(0.0, 0.0, innovation_m), tolerance_m, now);
-        if (now - self.trust.height).s() <= REFUSED_S {
+        if (now - self.last_fused.height).s() <= REFUSED_S {
             return;
         }
         match self.latest_fix {
@@ -201,9 +201,9 @@ impl Estimator {
             _ if steady_s > REFUSED_S => {
                 self.baro_offset_m -= innovation_m;
                 self.covariance.reset(BARO, 1, NEW_OFFSET_M * NEW_OFFSET_M);
-                self.checks.baro.forget();
-                self.checks.baro_off.forget();
-                self.trust.height = now;
+                self.checks.baro.clear();
+                self.checks.baro_off.clear();
+                self.last_fused.height = now;
             }
             _ => {}
         }
@@ -231,15 +231,15 @@ impl Estimator {
             self.fuse(&slopes, innovation, variance);
         }
         if fits {
-            self.trust.heading = now;
-        } else if (now - self.trust.heading).s() > REFUSED_S && (self.parked || self.checks.gnss_velocity.dropped()) {
+            self.last_fused.heading = now;
+        } else if (now - self.last_fused.heading).s() > REFUSED_S && (self.parked || self.checks.gnss_velocity.dropped()) {
             // In flight the gyroscopes are the better heading source, unless the velocities contradict it too.
             let measured = self.attitude * gauss;
             let error = math::atan2(field.east(), field.north()) - math::atan2(measured.east(), measured.north());
             self.turn(Vec3::new(0.0, 0.0, math::wrap_pi(error)));
             self.covariance.reset(THETA + 2, 1, 0.1);
-            self.checks.mag.forget();
-            self.trust.heading = now;
+            self.checks.mag.clear();
+            self.last_fused.heading = now;
         }
     }
 
@@ -261,13 +261,13 @@ impl Estimator {
         let slopes = [(V, -k * s), (V + 1, k * c), n, e, d, (FLOW, right)];
         let b = self.fuse(&slopes, reading.right_m_s - k * right, variance);
         if a && b {
-            self.trust.velocity = now;
-            self.trust.flow = now;
-        } else if (now - self.trust.velocity).s() > REFUSED_S {
+            self.last_fused.velocity = now;
+            self.last_fused.flow = now;
+        } else if (now - self.last_fused.velocity).s() > REFUSED_S {
             let (f, r) = (reading.forward_m_s / k, reading.right_m_s / k);
             self.velocity_m_s = Vec3::new(c * f - s * r, s * f + c * r, v.down());
             self.covariance.reset(V, 2, 4.0 * variance);
-            self.trust.velocity = now;
+            self.last_fused.velocity = now;
         }
     }
 

@@ -2,10 +2,10 @@
 //! reference falls silent or contradicts the filter, GNSS takes over and the height converges to it.
 
 use super::Estimator;
-use super::checks::{InnovationCheck, REFUSED_S, RejectionMonitor};
+use super::checks::REFUSED_S;
 use super::covariance::{BARO, P};
 use super::fuse::GATE;
-use crate::autopilot::operator_rules::HeightReference;
+use super::height_reference::HeightReference;
 use crate::sensors::baro;
 use spandrel_model::frames::Vec3;
 use spandrel_model::time::SimTime;
@@ -18,30 +18,6 @@ const SILENT_S: f64 = 1.0;
 /// Roughness of the ground below the range finder, m (1 sigma; estimate: grass, gravel).
 const ROUGH_M: f64 = 0.05;
 
-/// The active height reference.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Followed {
-    reference: HeightReference,
-    /// Ground level from the range finder, m down.
-    ground_down_m: Option<f64>,
-    barometer: Option<SimTime>,
-    range: Option<SimTime>,
-    check: InnovationCheck,
-    off: RejectionMonitor,
-}
-
-impl Followed {
-    /// Records that the barometer was fused.
-    pub fn note_barometer(&mut self, now: SimTime) {
-        self.barometer = Some(now);
-    }
-
-    /// Clears the ground level after the vehicle was moved.
-    pub fn forget_ground(&mut self) {
-        (self.ground_down_m, self.check, self.off) = (None, InnovationCheck::default(), RejectionMonitor::default());
-    }
-}
-
 impl Estimator {
     /// Returns true if GNSS is the configured reference.
     pub(super) fn follows_gnss(&self) -> bool {
@@ -52,13 +28,13 @@ impl Estimator {
     pub(super) fn choose_reference(&mut self, now: SimTime) {
         let fresh = |at: Option<SimTime>| at.is_some_and(|at| (now - at).s() < SILENT_S);
         let works = match self.wanted_reference {
-            HeightReference::Barometer => fresh(self.followed.barometer) && !self.checks.baro.dropped(),
-            HeightReference::RangeFinder => fresh(self.followed.range),
+            HeightReference::Barometer => fresh(self.height_reference.barometer) && !self.checks.baro.dropped(),
+            HeightReference::RangeFinder => fresh(self.height_reference.range),
             HeightReference::Gnss => true,
         };
         let reference = if works { self.wanted_reference } else { HeightReference::Gnss };
-        if reference != self.followed.reference {
-            self.followed.reference = reference;
+        if reference != self.height_reference.reference {
+            self.height_reference.reference = reference;
             self.weigh_heights(reference);
             if self.follows_gnss() {
                 self.move_height_to_gnss();
@@ -71,7 +47,7 @@ impl Estimator {
         let step_m = self.drift_m.down();
         self.position_m += Vec3::new(0.0, 0.0, step_m);
         self.baro_offset_m += step_m;
-        self.forget_height_drift();
+        self.reset_height_drift();
         let usual = self.noise.gnss_drift_m[1];
         self.covariance.reset(P + 2, 1, usual * usual);
     }
@@ -96,24 +72,26 @@ impl Estimator {
     /// keeps the height and uses the new ground level.
     pub(super) fn follow_range(&mut self, below_m: f64, now: SimTime) {
         if self.wanted_reference != HeightReference::RangeFinder || !below_m.is_finite() {
-            self.followed.ground_down_m = None;
+            self.height_reference.ground_down_m = None;
             return;
         }
-        self.followed.range = Some(now);
+        self.height_reference.range = Some(now);
         let down_m = self.position_m.down();
-        let ground_m = *self.followed.ground_down_m.get_or_insert(down_m + below_m);
+        let ground_m = *self.height_reference.ground_down_m.get_or_insert(down_m + below_m);
         let innovation_m = ground_m - below_m - down_m;
         let variance = self.noise.range_m * self.noise.range_m + ROUGH_M * ROUGH_M;
         let slopes = [(P + 2, 1.0)];
         let fits = self.accepts(&slopes, innovation_m, variance);
-        if self.followed.check.admits(fits, now) {
+        if self.height_reference.check.admits(fits, now) {
             self.fuse(&slopes, innovation_m, variance);
-            self.trust.height = now;
+            self.last_fused.height = now;
         }
         if fits {
-            self.followed.off.forget();
-        } else if self.followed.off.hold_s(Vec3::new(0.0, 0.0, innovation_m), GATE * (2.0 * variance).sqrt(), now) > REFUSED_S {
-            self.followed.forget_ground();
+            self.height_reference.off.clear();
+        } else if self.height_reference.off.hold_s(Vec3::new(0.0, 0.0, innovation_m), GATE * (2.0 * variance).sqrt(), now)
+            > REFUSED_S
+        {
+            self.height_reference.clear_ground();
         }
     }
 }

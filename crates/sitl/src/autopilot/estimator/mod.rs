@@ -8,18 +8,19 @@
 pub mod align;
 mod checks;
 pub mod covariance;
+pub mod estimate;
 mod fuse;
 mod ground;
 mod height;
+pub mod height_reference;
 
-use super::Estimate;
-use super::operator_rules::{HeightReference, NO_AID_S};
 use crate::sensors::{GnssReading, ImuReading, Readings, baro, flow, gnss, imu, magnetometer};
 use align::{Alignment, AlignmentResult, GyroSpec};
 use checks::InnovationChecks;
 use covariance::{BA, BARO, BG, Covariance, DRIFT, FLOW, MAG, P, ProcessNoise, STATES, THETA, V};
+use estimate::Estimate;
 use ground::GroundEstimate;
-use height::Followed;
+use height_reference::{HeightReference, HeightReferenceState};
 use nalgebra::Vector3;
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::geodesy::Geo;
@@ -40,6 +41,10 @@ const SHOCK_SHARE: f64 = 0.1;
 /// Averaging time of fixes before the origin of the local frame is set, s (estimate; PX4 requires 10 s of good fixes,
 /// EKF2_REQ_GPS_H).
 const LOCAL_ORIGIN_AFTER_S: f64 = 1.5;
+
+/// Default dead-reckoning time limit, s. PX4 allows 5 s. Below a deck over water an aircraft often has neither GNSS nor optical
+/// flow, and this estimator's drift stays within its limits for about this long (`crates/sitl/tests/flight`).
+pub const NO_AID_S: f64 = 60.0;
 
 /// Measurement noise from the sensors' data sheets.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -107,13 +112,13 @@ pub struct Estimator {
     flow_scale: f64,
     mag_bias: Vec3<Frd>,
     covariance: Covariance,
-    gained_m_s: Vec3<Ned>,
-    gathered_s: f64,
-    jolt: f64,
+    unpropagated_m_s: Vec3<Ned>,
+    unpropagated_s: f64,
+    shock_variance: f64,
     rates_rad_s: Vec3<Frd>,
     acceleration_m_s2: Vec3<Ned>,
     last_imu: Option<SimTime>,
-    trust: LastFused,
+    last_fused: LastFused,
     checks: InnovationChecks,
     ground: GroundEstimate,
     latest_fix: Option<(GnssReading, SimTime)>,
@@ -122,12 +127,14 @@ pub struct Estimator {
     /// Whether the motors are off.
     parked: bool,
     /// Time without a fused velocity after which the position becomes invalid, s.
-    pub(super) no_aid_s: f64,
+    no_aid_s: f64,
     /// Configured height reference.
     pub wanted_reference: HeightReference,
-    followed: Followed,
+    height_reference: HeightReferenceState,
     /// Accumulated position resets since the last query, m.
     place_step_m: Option<Vec3<Ned>>,
+    /// Number of queried position resets.
+    position_resets: u32,
     usable: bool,
 }
 
@@ -182,13 +189,13 @@ impl Estimator {
             flow_scale: 1.0,
             mag_bias: Vec3::zero(),
             covariance: Covariance::diagonal(&[0.0; STATES]),
-            gained_m_s: Vec3::zero(),
-            gathered_s: 0.0,
-            jolt: 0.0,
+            unpropagated_m_s: Vec3::zero(),
+            unpropagated_s: 0.0,
+            shock_variance: 0.0,
             rates_rad_s: Vec3::zero(),
             acceleration_m_s2: Vec3::zero(),
             last_imu: None,
-            trust: LastFused::new(SimTime::ZERO),
+            last_fused: LastFused::new(SimTime::ZERO),
             checks: InnovationChecks::default(),
             ground: GroundEstimate::default(),
             latest_fix: None,
@@ -196,8 +203,9 @@ impl Estimator {
             parked: true,
             no_aid_s: NO_AID_S,
             wanted_reference: HeightReference::default(),
-            followed: Followed::default(),
+            height_reference: HeightReferenceState::default(),
             place_step_m: None,
+            position_resets: 0,
             usable: false,
         }
     }
@@ -224,7 +232,7 @@ impl Estimator {
             self.follow_range(below_m, now);
         }
         if let Some(fix) = readings.gnss.as_ref().filter(|g| g.fix >= 3) {
-            self.settle();
+            self.propagate_covariance();
             self.fuse_gnss(fix, now);
             self.place_local_origin(now);
         }
@@ -306,7 +314,7 @@ impl Estimator {
         }
         self.aligned = true;
         self.local_origin_m = self.position_m;
-        self.trust = LastFused::new(now);
+        self.last_fused = LastFused::new(now);
         // The heading came from this measurement: fusing it with zero innovation gives the matching covariance.
         let level = aligned.attitude.inverse() * self.field_gauss;
         self.fuse_mag(level, 1.0 / aligned.mag_samples, now);
@@ -324,36 +332,36 @@ impl Estimator {
         self.attitude = self.attitude.turned_by(turn);
         self.rates_rad_s = rates;
         self.acceleration_m_s2 = if dt_s > 0.0 { dv / dt_s } else { Vec3::zero() };
-        self.gained_m_s += gained;
-        self.gathered_s += dt_s;
+        self.unpropagated_m_s += gained;
+        self.unpropagated_s += dt_s;
         let shock = force.norm();
         if shock > SHOCK_M_S2 {
-            self.jolt += (SHOCK_SHARE * shock * dt_s) * (SHOCK_SHARE * shock * dt_s);
+            self.shock_variance += (SHOCK_SHARE * shock * dt_s) * (SHOCK_SHARE * shock * dt_s);
         }
-        if self.gathered_s >= COVARIANCE_PERIOD_S {
-            self.settle();
-            self.judge(now);
+        if self.unpropagated_s >= COVARIANCE_PERIOD_S {
+            self.propagate_covariance();
+            self.update_validity(now);
         }
     }
 
     /// Propagates the covariance to the time of the state.
-    fn settle(&mut self) {
-        if self.gathered_s <= 0.0 {
+    fn propagate_covariance(&mut self) {
+        if self.unpropagated_s <= 0.0 {
             return;
         }
         let r = self.attitude.matrix();
-        self.covariance.propagate(&r, &self.gained_m_s.raw(), self.gathered_s, &self.process, self.jolt);
-        let keep = 1.0 - self.gathered_s / self.process.drift_time_s;
+        self.covariance.propagate(&r, &self.unpropagated_m_s.raw(), self.unpropagated_s, &self.process, self.shock_variance);
+        let keep = 1.0 - self.unpropagated_s / self.process.drift_time_s;
         self.drift_m = self.drift_m * keep;
-        self.gained_m_s = Vec3::zero();
-        self.gathered_s = 0.0;
-        self.jolt = 0.0;
+        self.unpropagated_m_s = Vec3::zero();
+        self.unpropagated_s = 0.0;
+        self.shock_variance = 0.0;
     }
 
-    fn judge(&mut self, now: SimTime) {
+    fn update_validity(&mut self, now: SimTime) {
         let share = if self.usable { 1.0 } else { REGAIN_SHARE };
         let (v, p) = (self.velocity_sigma_m_s(), self.horizontal_sigma_m());
-        let aided = (now - self.trust.velocity).s() < self.no_aid_s;
+        let aided = (now - self.last_fused.velocity).s() < self.no_aid_s;
         self.usable = self.located && aided && v < USABLE_VELOCITY_M_S * share && p < USABLE_POSITION_M * share;
     }
 
@@ -367,9 +375,10 @@ impl Estimator {
         self.covariance.variance(P).max(self.covariance.variance(P + 1)).sqrt()
     }
 
-    /// Sets whether the motors are off. The heading may be reset to the magnetometer alone only then.
-    pub fn set_parked(&mut self, parked: bool) {
-        self.parked = parked;
+    /// Sets the time without a fused velocity after which the position becomes invalid, s, the height reference, and whether the
+    /// motors are off. The heading may be reset to the magnetometer alone only then.
+    pub fn configure(&mut self, no_aid_s: f64, reference: HeightReference, parked: bool) {
+        (self.no_aid_s, self.wanted_reference, self.parked) = (no_aid_s, reference, parked);
     }
 
     /// Sources that are not used because they contradict the others.
@@ -385,7 +394,15 @@ impl Estimator {
 
     /// Returns the accumulated position reset to GNSS since the last call, m.
     pub fn take_place_step(&mut self) -> Option<Vec3<Ned>> {
-        self.place_step_m.take()
+        let step_m = self.place_step_m.take();
+        self.position_resets += u32::from(step_m.is_some());
+        step_m
+    }
+
+    /// Returns the number of position resets to GNSS that [`Self::take_place_step`] has returned.
+    #[must_use]
+    pub fn position_resets(&self) -> u32 {
+        self.position_resets
     }
 
     /// Resets the filter to a known pose, for example after a respawn. Keeps the biases.
@@ -393,9 +410,9 @@ impl Estimator {
         self.position_m = position_m;
         self.velocity_m_s = velocity_m_s;
         self.attitude = attitude;
-        self.gained_m_s = Vec3::zero();
-        self.gathered_s = 0.0;
-        self.jolt = 0.0;
+        self.unpropagated_m_s = Vec3::zero();
+        self.unpropagated_s = 0.0;
+        self.shock_variance = 0.0;
         if !self.aligned {
             let n = self.noise;
             let sq = |x: f64| x * x;
@@ -423,8 +440,8 @@ impl Estimator {
         self.usable = true;
         self.checks = InnovationChecks::default();
         self.ground = GroundEstimate::default();
-        self.followed.forget_ground();
-        self.trust = LastFused::new(now);
+        self.height_reference.clear_ground();
+        self.last_fused = LastFused::new(now);
     }
 
     /// Returns the current estimate.

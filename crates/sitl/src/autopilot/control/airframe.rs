@@ -1,0 +1,34 @@
+//! Properties of the aircraft other than the gains.
+
+use spandrel_model::scenario::{BatteryModel, SessionRules};
+use spandrel_model::vehicle::{FlightLimits, Vehicle};
+
+/// Mass, limits, battery and landing gear of the aircraft.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Airframe {
+    /// Mass, kg.
+    pub mass_kg: f64,
+    /// Flight limits.
+    pub limits: FlightLimits,
+    /// Voltage of the full battery, V.
+    pub full_v: f64,
+    /// Whether voltage sag affects the motors.
+    pub voltage_sags: bool,
+    /// Height of the center of mass above ground on the landing gear, m.
+    pub standing_m: f64,
+}
+
+impl Airframe {
+    /// Returns the properties of an aircraft under the rules of a session.
+    #[must_use]
+    pub fn new(vehicle: &Vehicle, rules: &SessionRules) -> Self {
+        let battery = &vehicle.battery;
+        Self {
+            mass_kg: vehicle.mass_kg,
+            limits: vehicle.limits,
+            full_v: f64::from(battery.cells) * battery.ocv_cell_v[10],
+            voltage_sags: rules.battery == BatteryModel::Physical,
+            standing_m: vehicle.hull.feet_m.iter().map(|f| f.down()).fold(vehicle.hull.body_half_extent_m[2], f64::max),
+        }
+    }
+}

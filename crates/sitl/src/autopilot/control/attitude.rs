@@ -1,0 +1,130 @@
+//! Attitude and rate loops: thrust direction first, heading second, then body rates with an integral for unmodeled effects.
+
+use super::gains::Gains;
+use super::mixer::AllocationStatus;
+use crate::autopilot::estimator::estimate::Estimate;
+use nalgebra::{UnitQuaternion, Vector3};
+use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
+use spandrel_model::math;
+
+/// Limit of the rate-error integral, rad/s² of angular acceleration.
+const INTEGRAL_MAX_RAD_S2: f64 = 20.0;
+/// Factor by which yaw rate feedforward may exceed the attitude loop's limit.
+const YAW_RATE_SLACK: f64 = 1.2;
+/// Tilt error above which heading control is suspended, rad.
+const HEADING_WAITS_RAD: f64 = 0.9;
+
+/// State of the loops.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct AttitudeLoop {
+    integral: Vec3<Frd>,
+}
+
+impl AttitudeLoop {
+    /// Resets the integral.
+    pub fn reset(&mut self) {
+        self.integral = Vec3::zero();
+    }
+
+    /// Computes the torque for an attitude setpoint with a yaw rate feedforward (about the vertical, rad/s).
+    pub fn torque(
+        &mut self,
+        gains: &Gains,
+        now: &Estimate,
+        wanted: Rotation<Frd, Ned>,
+        yaw_rate: f64,
+        allocated: AllocationStatus,
+        dt_s: f64,
+    ) -> Vec3<Frd> {
+        let rates = wanted_rates(gains, now.attitude, wanted, yaw_rate);
+        self.rate_torque(gains, now, rates, allocated, dt_s)
+    }
+
+    /// Computes the torque for body rate setpoints.
+    pub fn rate_torque(
+        &mut self,
+        gains: &Gains,
+        now: &Estimate,
+        rates: Vec3<Frd>,
+        allocated: AllocationStatus,
+        dt_s: f64,
+    ) -> Vec3<Frd> {
+        let error = rates - now.rates_rad_s;
+        // Anti-windup at motor limits.
+        if allocated.tilt > 0.99 {
+            self.integral += Vec3::new(error.forward(), error.right(), 0.0) * (gains.rate_integral * dt_s);
+        }
+        if allocated.yaw > 0.99 {
+            self.integral += Vec3::new(0.0, 0.0, error.down()) * (0.5 * gains.yaw_rate * dt_s);
+        }
+        self.integral = self.integral.limited(INTEGRAL_MAX_RAD_S2);
+        let acceleration =
+            Vec3::<Frd>::new(gains.rate * error.forward(), gains.rate * error.right(), gains.yaw_rate * error.down());
+        let turn = (acceleration + self.integral).raw();
+        let j = Vector3::from(gains.inertia_kg_m2);
+        let w = now.rates_rad_s.raw();
+        // FRAME: inertia is about the body axes.
+        Vec3::assume(j.component_mul(&turn) + w.cross(&j.component_mul(&w)))
+    }
+}
+
+/// Limits body rate setpoints to the aircraft's maximum rates.
+#[must_use]
+pub fn within_limits(gains: &Gains, rates: Vec3<Frd>) -> Vec3<Frd> {
+    let tilt = Vec3::<Frd>::new(rates.forward(), rates.right(), 0.0).limited(gains.rate_max_rad_s);
+    Vec3::new(tilt.forward(), tilt.right(), rates.down().clamp(-gains.yaw_rate_max_rad_s, gains.yaw_rate_max_rad_s))
+}
+
+/// Body rates that correct the thrust direction first and the heading second.
+fn wanted_rates(gains: &Gains, attitude: Rotation<Frd, Ned>, wanted: Rotation<Frd, Ned>, yaw_rate: f64) -> Vec3<Frd> {
+    let into_body = attitude.inverse();
+    let z = Vec3::<Frd>::new(0.0, 0.0, 1.0);
+    let aim = into_body * (wanted * z);
+    let axis = z.cross(aim);
+    let sine = axis.norm();
+    let angle = math::atan2(sine, aim.down());
+    // Upside down, any axis works; roll is fastest.
+    let axis = if sine > 1e-6 { axis / sine } else { Vec3::new(1.0, 0.0, 0.0) };
+    let tilt = (axis * (gains.attitude * angle)).limited(gains.rate_max_rad_s);
+    let up = into_body * Vec3::<Ned>::new(0.0, 0.0, 1.0);
+    let heading = if angle < HEADING_WAITS_RAD { heading_error(attitude, wanted, axis, angle) } else { 0.0 };
+    let yaw = (gains.yaw * heading).clamp(-gains.yaw_rate_max_rad_s, gains.yaw_rate_max_rad_s);
+    let fed = up * yaw_rate;
+    let limit = gains.yaw_rate_max_rad_s * YAW_RATE_SLACK;
+    Vec3::new(tilt.forward() + fed.forward(), tilt.right() + fed.right(), (yaw + fed.down()).clamp(-limit, limit))
+}
+
+/// Remaining rotation about the body's down axis once the thrust direction is correct, rad.
+fn heading_error(attitude: Rotation<Frd, Ned>, wanted: Rotation<Frd, Ned>, axis: Vec3<Frd>, angle: f64) -> f64 {
+    let tilted = attitude.turned_by(axis * angle);
+    let rest: UnitQuaternion<f64> = tilted.inverse().raw() * wanted.raw();
+    math::wrap_pi(2.0 * math::atan2(rest.k, rest.w))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::autopilot::testing::vehicle_with;
+    use crate::sensors::tests::perfect;
+
+    #[test]
+    fn exact_a_heading_error_asks_for_yaw_alone() {
+        let gains = Gains::new(&vehicle_with(perfect()));
+        let rates = wanted_rates(&gains, Rotation::identity(), Rotation::from_euler(0.0, 0.0, 0.1), 0.0);
+        assert!((rates - Vec3::new(0.0, 0.0, 0.1 * gains.yaw)).norm() < 1e-12, "{rates:?}");
+    }
+
+    #[test]
+    fn exact_a_roll_error_asks_for_roll_alone() {
+        let gains = Gains::new(&vehicle_with(perfect()));
+        let rates = wanted_rates(&gains, Rotation::identity(), Rotation::from_euler(0.1, 0.0, 0.0), 0.0);
+        assert!((rates - Vec3::new(0.1 * gains.attitude, 0.0, 0.0)).norm() < 1e-12, "{rates:?}");
+    }
+
+    #[test]
+    fn prop_upside_down_it_rolls_back_at_the_full_rate() {
+        let gains = Gains::new(&vehicle_with(perfect()));
+        let rates = wanted_rates(&gains, Rotation::from_euler(math::PI, 0.0, 0.0), Rotation::identity(), 0.0);
+        assert!((rates.norm() - gains.rate_max_rad_s).abs() < 1e-9, "{rates:?}");
+    }
+}

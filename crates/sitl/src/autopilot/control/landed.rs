@@ -1,0 +1,201 @@
+//! Take-off and landing detection from the estimate and the range finder. A landing is a commanded descent without movement, with
+//! a surface directly below.
+
+use crate::autopilot::estimator::estimate::Estimate;
+use spandrel_model::frames::{Frd, Vec3};
+use spandrel_model::time::SimTime;
+
+/// Vertical speed that counts as stopped during a commanded descent, m/s, and its minimum duration, s.
+const STOPPED_M_S: f64 = 0.2;
+const STOPPED_S: f64 = 0.3;
+/// Minimum commanded descent rate, m/s.
+const DESCENT_MIN_M_S: f64 = 0.25;
+/// Time over which the thrust fades out after ground contact, s. The landing is then complete.
+const FADE_S: f64 = 0.5;
+/// Tolerance of the range finder over the standing height, m.
+const RANGE_MARGIN_M: f64 = 0.35;
+/// Minimum cosine of the tilt on the ground (40 degrees).
+const UPRIGHT: f64 = 0.766;
+/// Height, m, or climb rate, m/s, at which the vehicle counts as off the ground.
+const OFF_GROUND_M: f64 = 0.35;
+const OFF_GROUND_M_S: f64 = 0.4;
+/// Time after which an abandoned take-off ends, s.
+const ABANDONED_S: f64 = 1.0;
+/// Thrust ramp time at take-off, s.
+const SPOOL_UP_S: f64 = 0.6;
+
+/// Phase of a flight.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum FlightPhase {
+    /// On the ground.
+    #[default]
+    OnGround,
+    /// Spooling up and lifting off.
+    TakingOff,
+    /// Flying.
+    InAir,
+}
+
+/// A change of the phase, or the end of the time that an armed vehicle may stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PhaseChange {
+    /// The motors spool up for a take-off.
+    LiftingOff,
+    /// The vehicle is off the ground.
+    TakenOff,
+    /// The take-off was abandoned on the ground.
+    TakeoffAbandoned,
+    /// The vehicle has landed.
+    Landed,
+    /// The vehicle has stood armed for too long.
+    StandingTimeout {
+        /// Whether it has flown since arming.
+        flown: bool,
+    },
+}
+
+/// Inputs of one tick.
+#[derive(Debug, Clone, Copy)]
+pub struct LandingInput<'a> {
+    /// Estimated state.
+    pub estimate: &'a Estimate,
+    /// Reading of the range finder that points down, m.
+    pub range_down_m: Option<f64>,
+    /// Height of the center of mass above ground on the landing gear, m.
+    pub standing_m: f64,
+    /// Whether the mode commands a take-off.
+    pub wants_to_fly: bool,
+    /// Time on the ground after which the vehicle disarms, before and after a flight, s; 0 or less for never.
+    pub standing_limit_s: [f64; 2],
+    /// Time of this tick.
+    pub now: SimTime,
+    /// Time since the last tick, s.
+    pub dt_s: f64,
+}
+
+/// State of take-off and landing detection.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LandingDetector {
+    /// Phase of the flight.
+    pub phase: FlightPhase,
+    /// Start of the time on the ground.
+    pub standing_since: SimTime,
+    /// Ground level at the last position on the ground, m down.
+    pub ground_down_m: f64,
+    /// Commanded descent rate, m/s.
+    pub descent_m_s: f64,
+    /// Whether the vehicle has flown since arming.
+    flown: bool,
+    /// Time of the last lift-off.
+    left_ground: SimTime,
+    stopped_s: f64,
+    fade_s: f64,
+    abandoned_s: f64,
+}
+
+impl LandingDetector {
+    /// Starts a flight on the ground, at arming.
+    pub fn arm(&mut self, now: SimTime) {
+        (self.phase, self.standing_since, self.flown) = (FlightPhase::OnGround, now, false);
+    }
+
+    /// Ends the flight, at disarming.
+    pub fn disarm(&mut self) {
+        (self.phase, self.flown) = (FlightPhase::OnGround, false);
+        self.clear_timers();
+    }
+
+    /// Continues in the air with full thrust, after a respawn. The next landing counts.
+    pub fn continue_in_air(&mut self, now: SimTime) {
+        (self.phase, self.flown) = (FlightPhase::InAir, true);
+        self.left_ground = now - SimTime::from_s(SPOOL_UP_S);
+        self.clear_timers();
+    }
+
+    fn clear_timers(&mut self) {
+        (self.descent_m_s, self.stopped_s, self.fade_s, self.abandoned_s) = (0.0, 0.0, 0.0, 0.0);
+    }
+
+    /// Returns the available fraction of the maximum thrust while the motors spool up, 0 to 1.
+    #[must_use]
+    pub fn spool_share(&self, now: SimTime) -> f64 {
+        ((now - self.left_ground).s() / SPOOL_UP_S).clamp(0.0, 1.0)
+    }
+
+    /// Returns the remaining thrust fraction while the ground takes the weight, 0 to 1.
+    #[must_use]
+    pub fn thrust_share(&self) -> f64 {
+        1.0 - self.fade_s / FADE_S
+    }
+
+    /// Advances by one tick while armed. Returns a change of the phase.
+    pub fn update(&mut self, input: &LandingInput) -> Option<PhaseChange> {
+        match self.phase {
+            FlightPhase::OnGround => self.stand(input),
+            FlightPhase::TakingOff if self.has_left_ground(input.estimate) => {
+                self.phase = FlightPhase::InAir;
+                Some(PhaseChange::TakenOff)
+            }
+            FlightPhase::TakingOff => self.wait_for_lift(input),
+            FlightPhase::InAir => self.detect_landing(input),
+        }
+    }
+
+    fn has_left_ground(&self, estimate: &Estimate) -> bool {
+        let up = self.ground_down_m - estimate.position_m.down();
+        up > OFF_GROUND_M || (up > 0.5 * OFF_GROUND_M && estimate.velocity_m_s.down() < -OFF_GROUND_M_S)
+    }
+
+    fn stand(&mut self, input: &LandingInput) -> Option<PhaseChange> {
+        if input.wants_to_fly {
+            self.phase = FlightPhase::TakingOff;
+            self.left_ground = input.now;
+            self.ground_down_m = input.estimate.position_m.down();
+            self.clear_timers();
+            self.flown = true;
+            return Some(PhaseChange::LiftingOff);
+        }
+        let flown = self.flown;
+        let limit_s = input.standing_limit_s[usize::from(flown)];
+        let timeout = limit_s > 0.0 && (input.now - self.standing_since).s() > limit_s;
+        timeout.then_some(PhaseChange::StandingTimeout { flown })
+    }
+
+    fn wait_for_lift(&mut self, input: &LandingInput) -> Option<PhaseChange> {
+        if input.wants_to_fly {
+            self.abandoned_s = 0.0;
+            return None;
+        }
+        self.abandoned_s += input.dt_s;
+        (self.abandoned_s > ABANDONED_S).then(|| {
+            self.touch_down(input.now);
+            PhaseChange::TakeoffAbandoned
+        })
+    }
+
+    fn detect_landing(&mut self, input: &LandingInput) -> Option<PhaseChange> {
+        let estimate = input.estimate;
+        let upright = (estimate.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down();
+        let near = input.range_down_m.is_none_or(|range| range * upright < input.standing_m + RANGE_MARGIN_M);
+        let still = estimate.velocity_m_s.down().abs() < STOPPED_M_S;
+        let commanded = self.descent_m_s > DESCENT_MIN_M_S;
+        if !(near && still && commanded && upright > UPRIGHT) {
+            self.stopped_s = 0.0;
+            self.fade_s = (self.fade_s - input.dt_s).max(0.0);
+            return None;
+        }
+        self.stopped_s += input.dt_s;
+        if self.stopped_s > STOPPED_S {
+            self.fade_s = (self.fade_s + input.dt_s).min(FADE_S);
+        }
+        (self.fade_s >= FADE_S).then(|| {
+            self.touch_down(input.now);
+            PhaseChange::Landed
+        })
+    }
+
+    fn touch_down(&mut self, now: SimTime) {
+        (self.phase, self.standing_since) = (FlightPhase::OnGround, now);
+        self.clear_timers();
+    }
+}

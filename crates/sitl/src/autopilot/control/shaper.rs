@@ -1,0 +1,128 @@
+//! Shapes position and velocity targets into a velocity that the aircraft can follow: limited acceleration and jerk, and timely
+//! braking.
+
+use super::gains::Gains;
+use spandrel_model::frames::{Ned, Vec3};
+use spandrel_model::math;
+
+/// Time constant of the final approach to the target velocity, s.
+const APPROACH_S: f64 = 0.25;
+/// Time to build up full acceleration, s.
+pub const JERK_S: f64 = 0.15;
+/// Time to build up full horizontal acceleration in a mission or return, s (estimate: about 50 deg/s of tilt).
+pub const CALM_JERK_S: f64 = 0.5;
+
+/// Limits of shaped motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionLimits {
+    /// Horizontal acceleration, m/s².
+    pub horizontal_m_s2: f64,
+    /// Vertical acceleration, m/s².
+    pub vertical_m_s2: f64,
+    /// Time to build up full horizontal acceleration, s.
+    pub build_up_s: f64,
+}
+
+impl MotionLimits {
+    /// Returns the limits of the airframe in automatic modes.
+    #[must_use]
+    pub fn automatic(gains: &Gains) -> Self {
+        let (horizontal_m_s2, vertical_m_s2) = (0.7 * gains.acceleration_m_s2, 0.7 * gains.climb_acceleration_m_s2);
+        Self { horizontal_m_s2, vertical_m_s2, build_up_s: JERK_S }
+    }
+}
+
+/// Velocity and acceleration setpoints for the velocity loop.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct MotionShaper {
+    /// Velocity, m/s.
+    pub velocity_m_s: Vec3<Ned>,
+    /// Acceleration, m/s².
+    pub acceleration_m_s2: Vec3<Ned>,
+}
+
+impl MotionShaper {
+    /// Resets the shaper to a velocity with zero acceleration.
+    pub fn start(&mut self, velocity_m_s: Vec3<Ned>) {
+        *self = Self { velocity_m_s, acceleration_m_s2: Vec3::zero() };
+    }
+
+    /// Advances one step toward a target velocity.
+    pub fn advance(&mut self, wanted_m_s: Vec3<Ned>, limits: &MotionLimits, dt_s: f64) {
+        let wanted = (wanted_m_s - self.velocity_m_s) / APPROACH_S;
+        let flat = Vec3::<Ned>::new(wanted.north(), wanted.east(), 0.0).limited(limits.horizontal_m_s2);
+        let down = wanted.down().clamp(-limits.vertical_m_s2, limits.vertical_m_s2);
+        let step = flat + Vec3::new(0.0, 0.0, down) - self.acceleration_m_s2;
+        let horizontal =
+            Vec3::<Ned>::new(step.north(), step.east(), 0.0).limited(limits.horizontal_m_s2 / limits.build_up_s * dt_s);
+        let max_step = limits.vertical_m_s2 / JERK_S * dt_s;
+        self.acceleration_m_s2 += horizontal + Vec3::new(0.0, 0.0, step.down().clamp(-max_step, max_step));
+        self.velocity_m_s += self.acceleration_m_s2 * dt_s;
+    }
+}
+
+/// Speed at which to approach a target so that a deceleration stops there: linear near the target, square root farther away.
+#[must_use]
+pub fn closing_speed(distance_m: f64, gain: f64, deceleration_m_s2: f64) -> f64 {
+    let bend = deceleration_m_s2 / (gain * gain);
+    let d = distance_m.abs();
+    let speed = if d < bend { gain * d } else { (2.0 * deceleration_m_s2 * (d - 0.5 * bend)).sqrt() };
+    speed.copysign(distance_m)
+}
+
+/// Velocity toward a target within speed limits (horizontal, up, down; m/s).
+#[must_use]
+pub fn towards(gains: &Gains, from_m: Vec3<Ned>, to_m: Vec3<Ned>, horizontal: f64, up: f64, down: f64) -> Vec3<Ned> {
+    let offset = to_m - from_m;
+    let flat = Vec3::<Ned>::new(offset.north(), offset.east(), 0.0);
+    let distance = flat.norm();
+    let speed = closing_speed(distance, gains.position, 0.4 * gains.acceleration_m_s2).min(horizontal);
+    let vertical = closing_speed(offset.down(), gains.height, 0.4 * gains.climb_acceleration_m_s2).clamp(-up, down);
+    let flat = if distance > 1e-9 { flat * (speed / distance) } else { Vec3::zero() };
+    Vec3::new(flat.north(), flat.east(), vertical)
+}
+
+/// Position at which a body with this velocity comes to rest, m.
+#[must_use]
+pub fn stopping_point(gains: &Gains, position_m: Vec3<Ned>, velocity_m_s: Vec3<Ned>) -> Vec3<Ned> {
+    let speed = velocity_m_s.horizontal_norm();
+    let ahead = speed * (0.2 + 0.5 * speed / gains.acceleration_m_s2);
+    let down = velocity_m_s.down();
+    let below = down * (0.15 + 0.5 * down.abs() / gains.climb_acceleration_m_s2);
+    let k = if speed > 1e-6 { ahead / speed } else { 0.0 };
+    position_m + Vec3::new(velocity_m_s.north() * k, velocity_m_s.east() * k, below)
+}
+
+/// Heading of a direction, rad, or `None` if its horizontal length is below `least_m`.
+#[must_use]
+pub fn heading_of(direction: Vec3<Ned>, least_m: f64) -> Option<f64> {
+    (direction.horizontal_norm() > least_m).then(|| math::atan2(direction.east(), direction.north()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_the_closing_speed_is_continuous_and_brakes_in_time() {
+        let (gain, a) = (1.0, 2.0);
+        let bend = 2.0;
+        let step = closing_speed(bend + 1e-9, gain, a) - closing_speed(bend - 1e-9, gain, a);
+        assert!(step.abs() < 1e-8);
+        assert!((closing_speed(-10.0, gain, a) + 36.0_f64.sqrt()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn prop_a_shaped_stop_has_no_overshoot() {
+        let limits = MotionLimits { horizontal_m_s2: 4.0, vertical_m_s2: 2.0, build_up_s: JERK_S };
+        let mut shaper = MotionShaper::default();
+        shaper.start(Vec3::new(8.0, 0.0, 0.0));
+        let mut least: f64 = 8.0;
+        for _ in 0..2000 {
+            shaper.advance(Vec3::zero(), &limits, 0.0025);
+            least = least.min(shaper.velocity_m_s.north());
+        }
+        // m/s; even a tenth of walking speed backward would be noticeable.
+        assert!(least > -0.15 && shaper.velocity_m_s.norm() < 1e-3, "{least}");
+    }
+}

@@ -1,0 +1,63 @@
+//! Events that the autopilot reports to the operator.
+
+use super::failsafe::sensor_health::SensorChange;
+
+/// Severity of an event.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// As MAV_SEVERITY_CRITICAL.
+    Critical,
+    /// As MAV_SEVERITY_WARNING.
+    Warning,
+    /// As MAV_SEVERITY_INFO.
+    Info,
+}
+
+impl Severity {
+    /// Returns the severity number of syslog and MAVLink.
+    #[must_use]
+    pub fn number(self) -> u8 {
+        match self {
+            Self::Critical => 2,
+            Self::Warning => 4,
+            Self::Info => 6,
+        }
+    }
+}
+
+/// An event to report to the operator.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct AutopilotEvent {
+    /// Severity of the event.
+    pub severity: Severity,
+    /// Status text.
+    pub text: String,
+    /// The sensor change that caused the event. Emulated autopilots can use their own text for it.
+    pub sensor: Option<SensorChange>,
+}
+
+/// Events in the order in which they occurred.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct EventQueue(Vec<AutopilotEvent>);
+
+impl EventQueue {
+    /// Adds an event.
+    pub fn push(&mut self, severity: Severity, text: impl Into<String>) {
+        self.0.push(AutopilotEvent { severity, text: text.into(), sensor: None });
+    }
+
+    /// Adds an event about a sensor.
+    pub fn push_sensor_change(&mut self, severity: Severity, change: SensorChange) {
+        self.0.push(AutopilotEvent { severity, text: change.words(), sensor: Some(change) });
+    }
+
+    /// Moves the events of another queue to the end of this one.
+    pub fn append(&mut self, other: &mut Self) {
+        self.0.append(&mut other.0);
+    }
+
+    /// Returns and clears the events.
+    pub fn drain(&mut self) -> Vec<AutopilotEvent> {
+        std::mem::take(&mut self.0)
+    }
+}

@@ -1,0 +1,113 @@
+//! Arming checks.
+
+use super::fence::Fence;
+use super::fence_check::FenceCheck;
+use super::input::FailsafeInput;
+use super::link_status::LinkStatus;
+use super::sensor_health::SensorHealth;
+use spandrel_model::frames::{Frd, Vec3};
+
+/// Stick deflection that counts as centered for arming.
+const CENTERED: f64 = 0.2;
+/// Minimum cosine of the tilt for arming (20 degrees).
+const LEVEL: f64 = 0.94;
+/// Minimum clearance above for arming, m.
+const HEADROOM_M: f64 = 1.0;
+/// Maximum horizontal position error for arming, m (1 sigma).
+const ARMING_ACCURACY_M: f64 = 5.0;
+
+/// The arming checks.
+#[derive(Debug, Clone, Copy)]
+pub struct ArmingCheck<'a> {
+    /// Inputs of the check.
+    pub input: &'a FailsafeInput<'a>,
+    /// Links.
+    pub links: &'a LinkStatus,
+    /// Sensor health.
+    pub sensors: &'a SensorHealth,
+    /// Geofence.
+    pub fence: &'a Fence,
+    /// Whether any limit of the geofence is active.
+    pub fence_set: bool,
+}
+
+impl ArmingCheck<'_> {
+    /// Returns the reasons that prevent arming now.
+    #[must_use]
+    pub fn reasons(&self) -> Vec<String> {
+        let mut out = self.ground_reasons();
+        out.extend(self.stick_refusal().map(str::to_owned));
+        out
+    }
+
+    /// Returns the reasons for failed pre-arm checks.
+    #[must_use]
+    pub fn prearm_reasons(&self) -> Vec<String> {
+        if self.input.tuning.arms_by_mode { self.ground_reasons() } else { self.reasons() }
+    }
+
+    fn sticks_fresh(&self) -> bool {
+        self.links.sticks_fresh(self.input.tuning.manual_timeout_s(), self.input.now)
+    }
+
+    fn stick_refusal(&self) -> Option<&'static str> {
+        if !self.sticks_fresh() {
+            return None;
+        }
+        if !self.input.tuning.arms_by_mode {
+            return (self.links.deflection() > CENTERED).then_some("Sticks not centered");
+        }
+        let climbs = self.input.flight.intended.is_manual() && self.links.sticks.up > 0.0;
+        if self.links.lateral_deflection() > CENTERED {
+            Some("Sticks not centered")
+        } else {
+            climbs.then_some("Throttle too high")
+        }
+    }
+
+    /// Returns true if arming needs a position: for the mode, for hold without a pilot, or for the geofence.
+    fn needs_position(&self) -> bool {
+        let intended = self.input.flight.intended;
+        !self.input.tuning.arms_by_mode || !self.sticks_fresh() || intended.needs_position() || self.fence_set
+    }
+
+    fn ground_reasons(&self) -> Vec<String> {
+        let mut out: Vec<String> = Vec::new();
+        let (estimate, tuning, flight) = (self.input.estimate, self.input.tuning, &self.input.flight);
+        let rules = &tuning.rules.responses;
+        out.extend(self.sensors.arming_refusals());
+        if !estimate.attitude_valid {
+            out.push("Attitude not aligned".into());
+            return out;
+        }
+        if !self.needs_position() {
+            // The mode does not need an estimate of position.
+        } else if !flight.located {
+            out.push("No GNSS fix".into());
+        } else if !estimate.position_valid || estimate.horizontal_m > ARMING_ACCURACY_M {
+            out.push("Position not accurate enough".into());
+        }
+        if (estimate.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down() < LEVEL {
+            out.push("Not level".into());
+        }
+        match flight.battery {
+            None => out.push("No battery measurement".into()),
+            Some(b) if b.remaining_pct < tuning.battery_critical_pct.max(rules.arm_charge_pct) => {
+                out.push("Battery too low".into());
+            }
+            Some(b) if b.voltage_v < rules.arm_voltage_v => out.push("Battery voltage too low".into()),
+            Some(_) => {}
+        }
+        if rules.arm_needs_mission && flight.mission_is_empty {
+            out.push("No mission".into());
+        }
+        let fence = FenceCheck::new(self.fence, tuning, flight.home_m);
+        if estimate.position_valid && fence.breach_at(estimate.position_m).is_some() {
+            out.push("Outside the geofence".into());
+        }
+        if flight.range_up_m.is_some_and(|range| range < HEADROOM_M) {
+            out.push("Obstacle above vehicle".into());
+        }
+        out
+    }
+}

@@ -1,0 +1,150 @@
+//! Following a moving target: PX4's follow-me (FLW_TGT_*) and ArduCopter's FOLLOW (FOLL_*).
+
+use crate::autopilot::control::shaper::heading_of;
+use spandrel_model::frames::{Ned, Vec3};
+use spandrel_model::math;
+use spandrel_model::time::SimTime;
+
+/// Timeout of target reports, s (PX4 and ArduCopter: 3 s).
+const LOST_S: f64 = 3.0;
+/// Minimum target speed for a valid course, m/s (PX4: 1 m/s).
+const MOVES_M_S: f64 = 1.0;
+/// Minimum time between positions for a velocity estimate, s; noise would dominate shorter intervals (estimate).
+const LEAST_APART_S: f64 = 0.2;
+/// Distance below which the heading does not track the target, m.
+const TOO_NEAR_M: f64 = 0.5;
+
+/// Vehicle position relative to the target.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FollowPosition {
+    /// At a distance and an angle from the target's course (PX4).
+    Around {
+        /// Horizontal distance, m.
+        distance_m: f64,
+        /// Angle from the course, rad clockwise.
+        angle_rad: f64,
+        /// Height above the target or home, m.
+        height_m: f64,
+        /// Whether the height is relative to the target rather than home.
+        over_target: bool,
+    },
+    /// At an offset: north, east, down, or forward, right, down of the target's course (ArduCopter).
+    Offset {
+        /// Offset, m. `None` uses the offset at the first report.
+        offset_m: Option<[f64; 3]>,
+        /// Whether the offset rotates with the target's course.
+        along_course: bool,
+    },
+}
+
+/// Settings of follow mode.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FollowRule {
+    /// Whether the mode is enabled (`FOLL_ENABLE`).
+    pub enabled: bool,
+    /// Position relative to the target.
+    pub place: FollowPosition,
+    /// Maximum distance at which a target is followed, m (`FOLL_DIST_MAX`).
+    pub farthest_m: f64,
+    /// Maximum speed, m/s (`FLW_TGT_MAX_VEL`).
+    pub fastest_m_s: f64,
+    /// Weight of the previous velocity in the smoothed velocity, 0 to 1 (`FLW_TGT_RS`).
+    pub smoothing: f64,
+}
+
+impl Default for FollowRule {
+    fn default() -> Self {
+        let place = FollowPosition::Around { distance_m: 8.0, angle_rad: math::PI, height_m: 8.0, over_target: false };
+        Self { enabled: true, place, farthest_m: f64::INFINITY, fastest_m_s: 5.0, smoothing: 0.1 }
+    }
+}
+
+/// A target report.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FollowTarget {
+    /// Position relative to the origin, m.
+    pub position_m: Vec3<Ned>,
+    /// Velocity, m/s.
+    pub velocity_m_s: Vec3<Ned>,
+    /// Heading, rad, if reported.
+    pub heading_rad: Option<f64>,
+}
+
+/// The latest target report and the state derived from it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Follower {
+    latest: Option<(FollowTarget, SimTime)>,
+    course_rad: Option<f64>,
+    offset_m: Option<Vec3<Ned>>,
+}
+
+impl Follower {
+    /// Starts to follow: takes course and offset from the next reports.
+    pub fn begin(&mut self) {
+        (self.course_rad, self.offset_m) = (None, None);
+    }
+
+    /// Returns the velocity of a target that reports positions only, from its last two positions, m/s.
+    #[must_use]
+    pub fn target_velocity(&self, position_m: Vec3<Ned>, now: SimTime) -> Vec3<Ned> {
+        let recent = self.latest.map(|(before, at)| (before, (now - at).s())).filter(|(_, age_s)| *age_s <= LOST_S);
+        match recent {
+            Some((before, age_s)) if age_s >= LEAST_APART_S => (position_m - before.position_m) * (1.0 / age_s),
+            Some((before, _)) => before.velocity_m_s,
+            None => Vec3::zero(),
+        }
+    }
+
+    /// Handles a target report.
+    pub fn report(&mut self, target: FollowTarget, rule: &FollowRule, now: SimTime) {
+        let known = self.latest.filter(|(_, at)| (now - *at).s() <= LOST_S).map(|(known, _)| known.velocity_m_s);
+        let before = known.unwrap_or(target.velocity_m_s);
+        let smooth = rule.smoothing.clamp(0.0, 0.99);
+        let velocity_m_s = before * smooth + target.velocity_m_s * (1.0 - smooth);
+        self.latest = Some((FollowTarget { velocity_m_s, ..target }, now));
+        let moving = target.velocity_m_s.horizontal_norm() > MOVES_M_S;
+        let course = moving.then(|| heading_of(target.velocity_m_s, 0.0)).flatten();
+        self.course_rad = target.heading_rad.or(course).or(self.course_rad);
+    }
+
+    /// Returns the extrapolated target, or `None` if its reports have timed out or it is too far from `here_m`. The timeout
+    /// scales with `client_pace`.
+    #[must_use]
+    pub fn target(&self, rule: &FollowRule, here_m: Vec3<Ned>, client_pace: f64, now: SimTime) -> Option<FollowTarget> {
+        let (target, at) = self.latest?;
+        let age_s = (now - at).s();
+        let position_m = target.position_m + target.velocity_m_s * age_s;
+        let far = (position_m - here_m).norm() > rule.farthest_m;
+        (age_s <= LOST_S * client_pace && !far).then_some(FollowTarget { position_m, ..target })
+    }
+
+    /// Returns the desired vehicle position for a target, m.
+    pub fn place_near(
+        &mut self,
+        target: &FollowTarget,
+        rule: &FollowRule,
+        here_m: Vec3<Ned>,
+        home_m: Option<Vec3<Ned>>,
+    ) -> Vec3<Ned> {
+        let there = target.position_m;
+        let turned = |angle: f64, [forward, right, down]: [f64; 3]| {
+            let (s, c) = math::sin_cos(angle);
+            Vec3::<Ned>::new(c * forward - s * right, s * forward + c * right, down)
+        };
+        match rule.place {
+            FollowPosition::Around { distance_m, angle_rad, height_m, over_target } => {
+                // Before the target moves, the vehicle is already at its angle.
+                let bearing = heading_of(here_m - there, TOO_NEAR_M).unwrap_or(0.0);
+                let course = *self.course_rad.get_or_insert(math::wrap_pi(bearing - angle_rad));
+                let flat = turned(course + angle_rad, [distance_m, 0.0, 0.0]);
+                let ground = if over_target { there } else { home_m.unwrap_or(there) };
+                Vec3::new(there.north() + flat.north(), there.east() + flat.east(), ground.down() - height_m)
+            }
+            FollowPosition::Offset { offset_m: Some(offset), along_course } => {
+                let course = self.course_rad.filter(|_| along_course).unwrap_or(0.0);
+                there + turned(course, offset)
+            }
+            FollowPosition::Offset { offset_m: None, .. } => there + *self.offset_m.get_or_insert(here_m - there),
+        }
+    }
+}

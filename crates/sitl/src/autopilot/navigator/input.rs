@@ -1,0 +1,68 @@
+//! What the navigator sees of the other parts.
+
+use crate::autopilot::control::airframe::Airframe;
+use crate::autopilot::control::gains::Gains;
+use crate::autopilot::control::landed::FlightPhase;
+use crate::autopilot::estimator::estimate::Estimate;
+use crate::autopilot::failsafe::fence::Fence;
+use crate::autopilot::failsafe::link_status::LinkStatus;
+use crate::autopilot::tuning::Tuning;
+use spandrel_model::frames::{Ned, Vec3};
+use spandrel_model::time::SimTime;
+
+/// Inputs of a tick or request.
+#[derive(Debug, Clone, Copy)]
+pub struct NavigatorInput<'a> {
+    /// Settings of the operator.
+    pub tuning: &'a Tuning,
+    /// Properties of the aircraft.
+    pub airframe: &'a Airframe,
+    /// Gains of the control loops.
+    pub gains: &'a Gains,
+    /// Estimated state.
+    pub estimate: &'a Estimate,
+    /// Sticks and external setpoints.
+    pub links: &'a LinkStatus,
+    /// Zones of the geofence.
+    pub fence: &'a Fence,
+    /// Whether the motors are armed.
+    pub armed: bool,
+    /// Phase of the flight.
+    pub phase: FlightPhase,
+    /// Ground level at the last position on the ground, m down.
+    pub ground_down_m: f64,
+    /// Latest reading of the range finder that points down, m.
+    pub range_down_m: Option<f64>,
+    /// Time of the tick or request.
+    pub now: SimTime,
+    /// Time of the last tick.
+    pub last_step: SimTime,
+    /// Time since the last tick, s; 0 in a request.
+    pub dt_s: f64,
+}
+
+impl NavigatorInput<'_> {
+    /// Returns the estimated position, m.
+    #[must_use]
+    pub fn here(&self) -> Vec3<Ned> {
+        self.estimate.position_m
+    }
+
+    /// Returns true if the vehicle is armed and off the ground.
+    #[must_use]
+    pub fn is_flying(&self) -> bool {
+        self.armed && self.phase != FlightPhase::OnGround
+    }
+
+    /// Returns true if stick input has not timed out.
+    #[must_use]
+    pub fn sticks_fresh(&self) -> bool {
+        self.links.sticks_fresh(self.tuning.manual_timeout_s(), self.now)
+    }
+
+    /// Returns true if external setpoints have not timed out.
+    #[must_use]
+    pub fn offboard_fresh(&self) -> bool {
+        self.links.offboard_fresh(self.tuning.offboard_timeout_s(), self.now)
+    }
+}

@@ -1,0 +1,153 @@
+//! Manual modes: body rates, attitude, height or velocity from the sticks, and the locks that hold position with the sticks
+//! centered. As with ArduCopter's default trainer, released sticks level the vehicle in acro mode and the lean angle is limited.
+
+use super::Navigator;
+use super::input::NavigatorInput;
+use crate::autopilot::control::setpoint::Setpoint;
+use crate::autopilot::control::shaper::{JERK_S, MotionLimits, stopping_point};
+use crate::autopilot::control::velocity::AttitudeThrustSetpoint;
+use crate::autopilot::external_input::Sticks;
+use crate::autopilot::flight_state::FlightMode;
+use spandrel_model::frames::{Ned, Rotation, Vec3};
+use spandrel_model::math;
+
+/// Speed below which the position is locked with the sticks centered, m/s.
+const LOCK_M_S: f64 = 0.15;
+/// Tilt in manual flight without position, as a fraction of the maximum.
+const BLIND_TILT_SHARE: f64 = 0.6;
+/// Fraction of the slow-down time in which the plan stops. The loop lag takes the rest.
+const SLOW_DOWN_SHARE: f64 = 0.55;
+/// Maximum correction speed toward a lock, m/s.
+const LOCK_SPEED_M_S: f64 = 2.0;
+/// Leveling gain, 1/s, and the maximum lean angle it counts, rad (ArduCopter: ACRO_BAL_ROLL 1, ACRO_LEVEL_MAX_ANGLE 30 degrees).
+const LEVEL_PER_S: f64 = 1.0;
+const LEVEL_MAX_RAD: f64 = 0.524;
+/// Gain of the rate limit near the maximum lean angle, 1/s (estimate: slower than the attitude loop to prevent overshoot).
+const LIMIT_PER_S: f64 = 4.0;
+
+impl Navigator {
+    /// Vertical velocity from the sticks, m/s down.
+    fn stick_climb(&self, input: &NavigatorInput) -> f64 {
+        let (up, l, set) = (input.links.sticks.up, &input.airframe.limits, &input.tuning.rules.envelope);
+        if up > 0.0 { -up * l.climb_m_s.min(set.manual_up_m_s) } else { -up * l.descend_m_s.min(set.manual_down_m_s) }
+    }
+
+    /// Roll and pitch from the sticks, rad. Combined tilt does not exceed the limit of one axis.
+    fn stick_tilt(&self, share: f64, input: &NavigatorInput) -> (f64, f64) {
+        let Sticks { forward, right, .. } = input.links.sticks;
+        let max_rad =
+            input.gains.tilt_rad.min(input.tuning.rules.envelope.manual_tilt_rad) * share / math::hypot(forward, right).max(1.0);
+        (right * max_rad, -forward * max_rad)
+    }
+
+    /// Sticks control roll, pitch, yaw rate and thrust.
+    pub(super) fn stabilized(&mut self, input: &NavigatorInput) -> Setpoint {
+        self.heading.turn_by_stick(input);
+        let up = input.links.sticks.up;
+        let tilt = self.stick_tilt(1.0, input);
+        let hover = input.gains.hover_n;
+        let thrust_n = if up > 0.0 {
+            math::lerp(hover, input.gains.thrust_max_n, up)
+        } else {
+            math::lerp(hover, input.gains.thrust_min_n, -up)
+        };
+        let descent_m_s = if up < -0.5 { input.airframe.limits.descend_m_s } else { 0.0 };
+        let attitude = Rotation::from_euler(tilt.0, tilt.1, self.heading.yaw_rad);
+        Setpoint::AttitudeThrust { target: AttitudeThrustSetpoint { attitude, thrust_n }, descent_m_s }
+    }
+
+    /// Sticks control body rates and thrust.
+    pub(super) fn acro(&mut self, input: &NavigatorInput) -> Setpoint {
+        let (s, l) = (input.links.sticks, input.airframe.limits);
+        let (roll, pitch, yaw) = input.estimate.attitude.euler();
+        let max_rad = input.gains.tilt_rad;
+        let lean_rate = |stick: f64, angle: f64| {
+            let rate = stick * l.rate_rad_s - LEVEL_PER_S * angle.clamp(-LEVEL_MAX_RAD, LEVEL_MAX_RAD);
+            rate.clamp(LIMIT_PER_S * (-max_rad - angle), LIMIT_PER_S * (max_rad - angle))
+        };
+        let rates_rad_s = Vec3::new(lean_rate(s.right, roll), lean_rate(-s.forward, pitch), s.yaw * l.yaw_rate_rad_s);
+        let low = math::lerp(input.gains.hover_n, input.gains.thrust_min_n, (-s.up).clamp(0.0, 1.0));
+        let thrust_n = if s.up > 0.0 { math::lerp(input.gains.hover_n, input.gains.thrust_max_n, s.up) } else { low };
+        let descent_m_s = if s.up < -0.5 { l.descend_m_s } else { 0.0 };
+        // A mode with heading hold continues from this heading.
+        self.heading.yaw_rad = yaw;
+        self.heading.stop();
+        Setpoint::Rates { rates_rad_s, thrust_n, descent_m_s }
+    }
+
+    /// Sticks control roll, pitch, yaw rate and climb rate.
+    pub(super) fn altitude(&mut self, input: &NavigatorInput) -> Setpoint {
+        self.heading.turn_by_stick(input);
+        let share = if self.modes.active == FlightMode::Altitude { 1.0 } else { BLIND_TILT_SHARE };
+        let tilt = self.stick_tilt(share, input);
+        let limits = self.stick_limits(input);
+        let velocity =
+            self.with_locks(Vec3::new(0.0, 0.0, self.stick_climb(input)), false, input.links.sticks.up == 0.0, &limits, input);
+        self.locks.horizontal = None;
+        Setpoint::Level { motion: self.motion(velocity), tilt }
+    }
+
+    /// Sticks control velocity and yaw rate.
+    pub(super) fn position(&mut self, input: &NavigatorInput) -> Setpoint {
+        self.heading.turn_by_stick(input);
+        let (s, l) = (input.links.sticks, input.airframe.limits);
+        let (sine, cosine) = math::sin_cos(input.estimate.attitude.yaw_rad());
+        let max_m_s = input.tuning.rules.envelope.manual_m_s;
+        let (forward, right) = (s.forward * l.forward_m_s.min(max_m_s), s.right * l.sideward_m_s.min(max_m_s));
+        let wanted_m_s = Vec3::new(cosine * forward - sine * right, sine * forward + cosine * right, self.stick_climb(input));
+        let limits = self.stick_limits(input);
+        let centered = s.forward == 0.0 && s.right == 0.0;
+        let velocity = self.with_locks(wanted_m_s, centered, s.up == 0.0, &limits, input);
+        if let (Some((n, e)), Some(d)) = (self.locks.horizontal, self.locks.height_down_m) {
+            self.report.target_m = Some(Vec3::new(n, e, d));
+        }
+        Setpoint::Velocity(self.motion(velocity))
+    }
+
+    /// Motion limits in manual flight.
+    fn stick_limits(&self, input: &NavigatorInput) -> MotionLimits {
+        let l = &input.airframe.limits;
+        let plan_s = (SLOW_DOWN_SHARE * l.slow_down_time_s).max(0.1);
+        MotionLimits {
+            horizontal_m_s2: (l.forward_m_s.max(l.sideward_m_s) / plan_s).min(input.gains.acceleration_m_s2),
+            vertical_m_s2: (l.climb_m_s.max(l.descend_m_s) / plan_s).min(input.gains.climb_acceleration_m_s2),
+            build_up_s: JERK_S,
+        }
+    }
+
+    /// Shapes a velocity from the sticks. With centered sticks and low speed, position and height are locked.
+    fn with_locks(
+        &mut self,
+        wanted_m_s: Vec3<Ned>,
+        flat_free: bool,
+        down_free: bool,
+        limits: &MotionLimits,
+        input: &NavigatorInput,
+    ) -> Vec3<Ned> {
+        let planned = self.shaper.velocity_m_s;
+        self.shaper.advance(wanted_m_s, limits, input.dt_s);
+        let e = input.estimate;
+        let rest = stopping_point(input.gains, e.position_m, e.velocity_m_s);
+        let locks = &mut self.locks;
+        if !flat_free {
+            locks.horizontal = None;
+        } else if locks.horizontal.is_none() && planned.horizontal_norm() < LOCK_M_S {
+            locks.horizontal = Some((rest.north(), rest.east()));
+        }
+        if !down_free {
+            locks.height_down_m = None;
+        } else if locks.height_down_m.is_none() && planned.down().abs() < LOCK_M_S {
+            locks.height_down_m = Some(rest.down());
+        }
+        let mut velocity = self.shaper.velocity_m_s;
+        if let Some((n, e_)) = locks.horizontal {
+            let offset = Vec3::<Ned>::new(n - e.position_m.north(), e_ - e.position_m.east(), 0.0);
+            velocity += (offset * input.gains.position).limited(LOCK_SPEED_M_S);
+        }
+        if let Some(d) = locks.height_down_m {
+            let speed = input.gains.height * (d - e.position_m.down());
+            velocity += Vec3::new(0.0, 0.0, speed.clamp(-LOCK_SPEED_M_S, LOCK_SPEED_M_S));
+        }
+        velocity
+    }
+}
