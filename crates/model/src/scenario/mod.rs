@@ -11,6 +11,7 @@ mod weather;
 pub use read::{FORMAT, SiblingLoader, read, read_asked};
 pub use resolve::resolve;
 
+use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::geodesy::Geo;
 use crate::time::SimTime;
@@ -179,10 +180,10 @@ pub enum TaskKind {
 pub struct DefectSpec {
     /// Number of defects to place.
     pub count: usize,
-    /// Scale factor on the catalogue's sizes (smaller is harder).
+    /// Scale factor on the sizes of [`crate::defect_codes`] (smaller is harder).
     pub size_factor: f64,
-    /// Bridge elements (AASHTO MBEI numbers) that may have defects; empty: all permitted elements.
-    pub elements: Vec<u32>,
+    /// Bridge elements that may have defects; empty: all permitted elements.
+    pub elements: Vec<Element>,
     /// Defect codes (AASHTO MBEI) to draw from; empty: all permitted codes.
     pub kinds: Vec<u32>,
     /// Placed defects of a resolved file; if set, none are drawn.
@@ -194,8 +195,8 @@ pub struct DefectSpec {
 pub struct PlacedDefect {
     /// Defect ID, from 1 in placement order.
     pub id: u32,
-    /// AASHTO MBEI element number.
-    pub element: u32,
+    /// Element with the defect.
+    pub element: Element,
     /// Name of the member with the defect.
     pub member: String,
     /// AASHTO MBEI defect code (1130 cracking, 1080 spall, …).

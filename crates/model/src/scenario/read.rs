@@ -5,6 +5,7 @@ use super::{
     AfterCrash, BatteryModel, Bridge, BridgeKind, DefectSpec, FeedbackThresholds, GroundTeam, LightSpec, Scenario, ScoringParams,
     SessionRules, TerrainSource, TerrainSpec, TrafficSpec, bridges,
 };
+use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::geodesy::Geo;
 use crate::math::M_S_PER_MPH;
@@ -244,12 +245,11 @@ fn fields(
 
 fn defects(r: &mut Reader, root: &mut Section) -> DefectSpec {
     let mut s = r.section(root, "defects");
-    let whole = |v: Vec<i64>| v.into_iter().map(|i| i as u32).collect();
     let defects = DefectSpec {
         count: r.integer(&mut s, "count", (0, 200), Some(10)) as usize,
         size_factor: r.number(&mut s, "size_factor", (0.2, 5.0), Some(1.0)),
-        elements: whole(r.integers(&mut s, "elements", (1, 999))),
-        kinds: whole(r.integers(&mut s, "kinds", (1000, 9999))),
+        elements: r.integers(&mut s, "elements", (1, 999)).into_iter().map(|i| Element::from_number(i as u16)).collect(),
+        kinds: r.integers(&mut s, "kinds", (1000, 9999)).into_iter().map(|i| i as u32).collect(),
         placed: super::resolve::with_placed_defects(r, &mut s),
     };
     r.finish(&s);

@@ -78,7 +78,7 @@ impl Dynamics {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Site, Surface, catalogue};
+    use super::super::{Site, Surface};
     use super::*;
     use crate::geodesy::Geo;
     use crate::scenario::bridges::{arch::Arch, suspension::Suspension};
@@ -227,7 +227,7 @@ mod tests {
             assert_eq!(site.defects().len(), 10, "seed {seed}");
             let mut per_task = [0; 4];
             for d in site.defects() {
-                assert!(catalogue::legal_kinds(d.element).contains(&d.kind), "{d:?}");
+                assert!(d.element.permitted_defects().contains(&d.kind), "{d:?}");
                 let k = site.members().iter().position(|m| m.name == d.member).expect("a member of the site");
                 assert_eq!(site.members()[k].element, d.element);
                 let near = site.geometry().shape(k).expect("has a shape").nearest(d.position_m);

@@ -2,7 +2,6 @@
 //! scenario's local frame [`Enu`], meters. All queries are pure functions of their arguments; traffic and wind take the time.
 
 pub mod boxes;
-pub mod catalogue;
 pub mod defects;
 pub mod dynamics;
 mod faces;
@@ -322,7 +321,7 @@ impl Site {
             geometry::WATER => "water".into(),
             geometry::PAD => "pad".into(),
             _ => match self.members().get(object.0 as usize) {
-                Some(member) => format!("{} ({})", member.name, member.element),
+                Some(member) => format!("{} ({})", member.name, member.element.number()),
                 None => self.dynamics.traffic.name(object).unwrap_or_else(|| format!("object {}", object.0)),
             },
         }

@@ -211,7 +211,7 @@ mod tests {
     fn crack() -> PlacedDefect {
         PlacedDefect {
             id: 1,
-            element: 144,
+            element: crate::elements::Element::RcArch,
             member: "arch".into(),
             kind: 1130,
             condition_state: 3,

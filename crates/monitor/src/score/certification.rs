@@ -11,6 +11,7 @@ use crate::session::{EndReason, Session};
 use serde::Serialize;
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::telemetry::Frame;
+use spandrel_model::elements::Element;
 use spandrel_model::numbers::{format_beside_limit, limit};
 use spandrel_model::scenario::{PlacedDefect, Scenario};
 use std::collections::{BTreeMap, BTreeSet};
@@ -135,7 +136,7 @@ pub struct Detection {
     /// Always true: trainees do not label defects in this version, so only detection is graded, not the kind or condition state.
     pub detection_only: bool,
     /// By AASHTO MBEI element.
-    pub by_element: BTreeMap<u32, DetectionCounts>,
+    pub by_element: BTreeMap<Element, DetectionCounts>,
     /// By AASHTO MBEI defect code.
     pub by_kind: BTreeMap<u32, DetectionCounts>,
     /// By condition state.

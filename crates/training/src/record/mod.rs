@@ -9,6 +9,7 @@ pub use outcome::SessionOutcome;
 use super::questionnaire::{Answers, ScaleScores, scales};
 use serde::{Deserialize, Serialize};
 use spandrel_mavlink::contract::contact::ContactKind;
+use spandrel_model::elements::Element;
 use spandrel_model::scenario::{PlacedDefect, Scenario, TaskKind};
 use spandrel_monitor::AssessedSession;
 use spandrel_monitor::folder::sha256_hex;
@@ -168,8 +169,8 @@ pub struct DefectRecord {
     pub kind: u32,
     /// Plain name of the defect code.
     pub kind_name: String,
-    /// Element number (AASHTO MBEI).
-    pub element: u32,
+    /// Element with the defect, as its number (AASHTO MBEI).
+    pub element: Element,
     /// Condition state, 1 to 4 (AASHTO MBEI).
     pub condition_state: u8,
     /// Number of the task with the nearest path; `None` without tasks.

@@ -3,6 +3,7 @@
 
 use super::solid::MemberBuilder;
 use super::{BridgeField, Footing, Inconsistency, InconsistencyList};
+use crate::elements::Element;
 use crate::math;
 
 /// Distance from the ends of the floorbeams to the deck's edge, m (estimate).
@@ -214,13 +215,13 @@ impl Arch {
                 let profile =
                     [[a, self.intrados_z_m(a)], [c, self.intrados_z_m(c)], [c, self.extrados_z_m(c)], [a, self.extrados_z_m(a)]];
                 let half = 0.5 * self.rib_width_m;
-                b.across(&format!("rib-{side}/{k:02}"), 144, &profile, y - half, y + half);
+                b.across(&format!("rib-{side}/{k:02}"), Element::RcArch, &profile, y - half, y + half);
             }
         }
         let inner = 0.5 * (self.rib_spacing_m - self.rib_width_m);
         for (k, x) in self.panel_points().into_iter().enumerate().filter(|(k, _)| k % 2 == 1) {
             let z = self.axis_z_m(x);
-            b.block(&format!("strut/{k:02}"), 144, [x - 0.35, -inner, z - 0.35], [x + 0.35, inner, z + 0.35]);
+            b.block(&format!("strut/{k:02}"), Element::RcArch, [x - 0.35, -inner, z - 0.35], [x + 0.35, inner, z + 0.35]);
         }
     }
 
@@ -235,13 +236,23 @@ impl Arch {
                 continue;
             }
             for (side, y) in [("left", 0.5 * self.rib_spacing_m), ("right", -0.5 * self.rib_spacing_m)] {
-                b.block(&format!("column-{side}/{k:02}"), 205, [x - half, y - half, foot], [x + half, y + half, top]);
+                b.block(
+                    &format!("column-{side}/{k:02}"),
+                    Element::RcColumn,
+                    [x - half, y - half, foot],
+                    [x + half, y + half, top],
+                );
             }
             // Struts connect tall pairs at a third of their height, well below the flight space of the interlayer.
             if top - foot > 9.0 {
                 let z = foot + (top - foot) / 3.0;
                 let inner = 0.5 * self.rib_spacing_m - half;
-                b.block(&format!("column-strut/{k:02}"), 205, [x - 0.3, -inner, z - 0.3], [x + 0.3, inner, z + 0.3]);
+                b.block(
+                    &format!("column-strut/{k:02}"),
+                    Element::RcColumn,
+                    [x - 0.3, -inner, z - 0.3],
+                    [x + 0.3, inner, z + 0.3],
+                );
             }
         }
     }
@@ -257,7 +268,7 @@ impl Arch {
             let half = 0.5 * self.floorbeam_width_m;
             b.block(
                 &format!("floorbeam/{k:02}"),
-                155,
+                Element::RcFloorBeam,
                 [x - half, -beam_half, self.floorbeam_z_m()],
                 [x + half, beam_half, soffit],
             );
@@ -267,18 +278,23 @@ impl Arch {
         ends.push(0.5 * self.deck_length_m());
         let count = self.stringers.round() as i32;
         for (k, pair) in ends.windows(2).enumerate() {
-            b.block(&format!("slab/{k:02}"), 12, [pair[0], -half_width, soffit], [pair[1], half_width, 0.0]);
+            b.block(&format!("slab/{k:02}"), Element::RcDeck, [pair[0], -half_width, soffit], [pair[1], half_width, 0.0]);
             for line in 0..count {
                 let share = (f64::from(line) + 0.5) / f64::from(count) * 2.0 - 1.0;
                 let (y, half) = (share * beam_half, 0.5 * self.stringer_width_m);
                 let name = format!("stringer-{line}/{k:02}");
-                b.block(&name, 116, [pair[0], y - half, soffit - self.stringer_depth_m], [pair[1], y + half, soffit]);
+                b.block(
+                    &name,
+                    Element::RcStringer,
+                    [pair[0], y - half, soffit - self.stringer_depth_m],
+                    [pair[1], y + half, soffit],
+                );
             }
         }
     }
 
     fn railings(&self, b: &mut MemberBuilder) {
-        railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, 331);
+        railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, Element::RcRailing);
     }
 
     /// Returns the height of the underside of abutments and skewbacks, m.
@@ -316,7 +332,7 @@ impl Arch {
             ("skewback-end", over_ribs),
         ];
         for ((name, top), Footing { x_m, y_m, up_m }) in names.into_iter().zip(self.footings()) {
-            b.block(name, 215, [x_m.0, y_m.0, up_m], [x_m.1, y_m.1, top]);
+            b.block(name, Element::RcAbutment, [x_m.0, y_m.0, up_m], [x_m.1, y_m.1, top]);
         }
     }
 }
@@ -328,7 +344,7 @@ impl Default for Arch {
 }
 
 /// Builds posts every 2 m and three rails along both edges of a deck.
-pub(super) fn railing(b: &mut MemberBuilder, length_m: f64, edge_y_m: f64, height_m: f64, element: u32) {
+pub(super) fn railing(b: &mut MemberBuilder, length_m: f64, edge_y_m: f64, height_m: f64, element: Element) {
     const POST_M: f64 = 0.15;
     let posts = (length_m / 2.0).floor() as i32;
     for (side, y) in [("left", edge_y_m - POST_M), ("right", -edge_y_m)] {

@@ -7,6 +7,7 @@ pub mod solid;
 pub mod suspension;
 
 use super::{Bridge, BridgeKind, TaskKind};
+use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use solid::{MemberBuilder, Placement};
 
@@ -15,8 +16,8 @@ use solid::{MemberBuilder, Placement};
 pub struct Member {
     /// Member name, unique within the site, such as `arch/rib-left/07`.
     pub name: String,
-    /// AASHTO MBEI element number.
-    pub element: u32,
+    /// Element to which the member belongs.
+    pub element: Element,
     /// Solid of the member, in site coordinates.
     pub solid: Solid,
 }

@@ -2,6 +2,7 @@
 //! [`Placement`] transforms them to site coordinates.
 
 use super::{Member, Solid};
+use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::math;
 
@@ -83,14 +84,14 @@ impl MemberBuilder {
         self.members
     }
 
-    fn push(&mut self, part: &str, element: u32, corners: &[LocalPoint], faces: Vec<Vec<u32>>) {
+    fn push(&mut self, part: &str, element: Element, corners: &[LocalPoint], faces: Vec<Vec<u32>>) {
         let vertices_m = corners.iter().map(|c| self.placement.point(*c)).collect();
         let name = format!("{}/{part}", self.bridge);
         self.members.push(Member { name, element, solid: Solid { vertices_m, faces } });
     }
 
     /// Adds a box between two opposite corners.
-    pub fn block(&mut self, part: &str, element: u32, low: LocalPoint, high: LocalPoint) {
+    pub fn block(&mut self, part: &str, element: Element, low: LocalPoint, high: LocalPoint) {
         let profile = [[low[0], low[2]], [high[0], low[2]], [high[0], high[2]], [low[0], high[2]]];
         self.across(part, element, &profile, low[1], high[1]);
     }
@@ -99,7 +100,7 @@ impl MemberBuilder {
     pub fn steel_beam(
         &mut self,
         part: &str,
-        element: u32,
+        element: Element,
         (low, high): (LocalPoint, LocalPoint),
         runs: BeamDirection,
         plates: PlateThickness,
@@ -118,7 +119,7 @@ impl MemberBuilder {
     }
 
     /// Adds a convex profile in the x-z plane (counterclockwise with x right and z up), extruded from `y_low` to `y_high`.
-    pub fn across(&mut self, part: &str, element: u32, profile: &[[f64; 2]], y_low: f64, y_high: f64) {
+    pub fn across(&mut self, part: &str, element: Element, profile: &[[f64; 2]], y_low: f64, y_high: f64) {
         let near = profile.iter().map(|p| [p[0], y_low, p[1]]);
         let far = profile.iter().map(|p| [p[0], y_high, p[1]]);
         let corners: Vec<LocalPoint> = near.chain(far).collect();
@@ -126,14 +127,14 @@ impl MemberBuilder {
     }
 
     /// Adds a regular prism with `sides` faces around the line from `a` to `b`, with its corners at `radius_m`.
-    pub fn rod(&mut self, part: &str, element: u32, a: LocalPoint, b: LocalPoint, radius_m: f64, sides: u32) {
+    pub fn rod(&mut self, part: &str, element: Element, a: LocalPoint, b: LocalPoint, radius_m: f64, sides: u32) {
         let axis = unit(sub(b, a));
         self.cut_rod(part, element, [(a, axis), (b, axis)], radius_m, sides);
     }
 
     /// Adds rods between consecutive points in a vertical plane along the bridge, mitered so that each one ends where the next
     /// begins. The rods are numbered.
-    pub fn cable(&mut self, part: &str, element: u32, points: &[LocalPoint], radius_m: f64, sides: u32) {
+    pub fn cable(&mut self, part: &str, element: Element, points: &[LocalPoint], radius_m: f64, sides: u32) {
         let last = points.len() - 1;
         let cut = |k: usize| {
             let (before, after) = (points[k.saturating_sub(1)], points[(k + 1).min(last)]);
@@ -148,7 +149,7 @@ impl MemberBuilder {
     }
 
     /// Adds a prism along the line between two points, cut at each end by the plane with the given normal.
-    fn cut_rod(&mut self, part: &str, element: u32, ends: [(LocalPoint, LocalPoint); 2], radius_m: f64, sides: u32) {
+    fn cut_rod(&mut self, part: &str, element: Element, ends: [(LocalPoint, LocalPoint); 2], radius_m: f64, sides: u32) {
         let axis = unit(sub(ends[1].0, ends[0].0));
         // Any direction not along the axis works; using the deck's left side orients cables and hangers alike.
         let helper = if axis[1].abs() > 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };

@@ -3,6 +3,7 @@
 use super::arch::railing;
 use super::solid::{BeamDirection, MemberBuilder, PlateThickness};
 use super::{BridgeField, Footing, Inconsistency, InconsistencyList};
+use crate::elements::Element;
 
 /// Distance of the girders beyond the deck's edge, m (estimate).
 const GIRDER_OUT_M: f64 = 0.2;
@@ -215,7 +216,7 @@ impl Suspension {
         self.towers(b);
         self.cables(b);
         self.floor(b);
-        railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, 330);
+        railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, Element::MetalRailing);
         self.anchorages(b);
     }
 
@@ -235,18 +236,23 @@ impl Suspension {
         for (name, x) in [("start", -0.5 * self.main_span_m), ("end", 0.5 * self.main_span_m)] {
             let (px, py) = (0.5 * self.pier_x_m, 0.5 * self.pier_y_m);
             let foot = -self.pier_top_m;
-            b.block(&format!("pier-{name}"), 210, [x - px, -py, foot - self.pier_height_m], [x + px, py, foot]);
+            b.block(&format!("pier-{name}"), Element::RcPierWall, [x - px, -py, foot - self.pier_height_m], [x + px, py, foot]);
             let (lx, ly) = (0.5 * self.leg_x_m, 0.5 * self.leg_y_m);
             for (side, y) in [("left", self.cable_y_m()), ("right", -self.cable_y_m())] {
-                b.block(&format!("tower-{name}/{side}"), 207, [x - lx, y - ly, foot], [x + lx, y + ly, top]);
+                b.block(&format!("tower-{name}/{side}"), Element::SteelTower, [x - lx, y - ly, foot], [x + lx, y + ly, top]);
                 self.saddle(b, &format!("tower-{name}/saddle-{side}"), x, y);
                 // Fixed bearings at one tower, movable bearings at the other.
-                let element = if x < 0.0 { 313 } else { 311 };
+                let element = if x < 0.0 { Element::FixedBearing } else { Element::MovableBearing };
                 self.bearing(b, &format!("bearing-{name}/{side}"), element, x, y.signum());
             }
             let inner = self.cable_y_m() - ly;
             for (part, z) in [("portal-top", top), ("portal-deck", self.girder_z_m() - BEARING_M)] {
-                b.block(&format!("tower-{name}/{part}"), 207, [x - 0.6, -inner, z - PORTAL_M], [x + 0.6, inner, z]);
+                b.block(
+                    &format!("tower-{name}/{part}"),
+                    Element::SteelTower,
+                    [x - 0.6, -inner, z - PORTAL_M],
+                    [x + 0.6, inner, z],
+                );
             }
         }
     }
@@ -256,11 +262,11 @@ impl Suspension {
         let (reach, half) = (0.5 * self.leg_x_m, self.cable_radius_m + SADDLE_M);
         let (low, edge, crown) = (self.leg_top_m(), self.saddle_edge_z_m(), self.cable_z_m(0.5 * self.main_span_m));
         let profile = [[x - reach, low], [x + reach, low], [x + reach, edge], [x, crown], [x - reach, edge]];
-        b.across(name, 207, &profile, y - half, y + half);
+        b.across(name, Element::SteelTower, &profile, y - half, y + half);
     }
 
     /// Builds a bearing between a girder and its support.
-    fn bearing(&self, b: &mut MemberBuilder, name: &str, element: u32, x: f64, side: f64) {
+    fn bearing(&self, b: &mut MemberBuilder, name: &str, element: Element, x: f64, side: f64) {
         let y = side * 0.5 * self.deck_width_m;
         let z = self.girder_z_m();
         b.block(name, element, [x - 0.3, y - 0.15, z - BEARING_M], [x + 0.3, y + 0.15, z]);
@@ -274,10 +280,17 @@ impl Suspension {
         xs.extend([half, grip]);
         for (side, y) in [("left", self.cable_y_m()), ("right", -self.cable_y_m())] {
             let points: Vec<[f64; 3]> = xs.iter().map(|x| [*x, y, self.cable_z_m(*x)]).collect();
-            b.cable(&format!("cable-{side}"), 147, &points, self.cable_radius_m, 8);
+            b.cable(&format!("cable-{side}"), Element::MainCable, &points, self.cable_radius_m, 8);
             for (k, x) in self.hangers().into_iter().enumerate() {
                 let foot = [x, y, -self.slab_m];
-                b.rod(&format!("hanger-{side}/{k:03}"), 148, foot, [x, y, self.cable_z_m(x)], self.hanger_radius_m, 6);
+                b.rod(
+                    &format!("hanger-{side}/{k:03}"),
+                    Element::Hanger,
+                    foot,
+                    [x, y, self.cable_z_m(x)],
+                    self.hanger_radius_m,
+                    6,
+                );
             }
         }
     }
@@ -286,17 +299,17 @@ impl Suspension {
         let half_width = 0.5 * self.deck_width_m;
         let soffit = -self.slab_m;
         for (k, pair) in self.panel_ends().windows(2).enumerate() {
-            b.block(&format!("slab/{k:02}"), 12, [pair[0], -half_width, soffit], [pair[1], half_width, 0.0]);
+            b.block(&format!("slab/{k:02}"), Element::RcDeck, [pair[0], -half_width, soffit], [pair[1], half_width, 0.0]);
             for (side, y) in [("left", half_width - GIRDER_OUT_M), ("right", -half_width - GIRDER_OUT_M)] {
                 let name = format!("girder-{side}/{k:02}");
                 let corners = ([pair[0], y, self.girder_z_m()], [pair[1], y + 2.0 * GIRDER_OUT_M, soffit]);
-                b.steel_beam(&name, 107, corners, BeamDirection::Along, GIRDER);
+                b.steel_beam(&name, Element::SteelGirder, corners, BeamDirection::Along, GIRDER);
             }
             for (line, y) in [(0, -0.25), (1, 0.25)] {
                 let y = y * self.deck_width_m;
                 let name = format!("stringer-{line}/{k:02}");
                 let corners = ([pair[0], y - 0.12, soffit - 0.5], [pair[1], y + 0.12, soffit]);
-                b.steel_beam(&name, 113, corners, BeamDirection::Along, STRINGER);
+                b.steel_beam(&name, Element::SteelStringer, corners, BeamDirection::Along, STRINGER);
             }
         }
         // In the main span they extend to the hangers, which support them.
@@ -305,7 +318,7 @@ impl Suspension {
             let reach = if x.abs() < 0.5 * self.main_span_m { held } else { half_width };
             let name = format!("floorbeam/{k:02}");
             let corners = ([x - 0.15, -reach, soffit - self.floorbeam_depth_m], [x + 0.15, reach, soffit]);
-            b.steel_beam(&name, 152, corners, BeamDirection::Across, FLOORBEAM);
+            b.steel_beam(&name, Element::SteelFloorBeam, corners, BeamDirection::Across, FLOORBEAM);
         }
     }
 
@@ -336,14 +349,19 @@ impl Suspension {
         let top = self.girder_z_m() - BEARING_M;
         for (name, foot) in ["start", "end"].into_iter().zip(&self.footings()[2..]) {
             let (low, high, far) = (foot.x_m.0, foot.x_m.1, foot.y_m.1);
-            b.block(&format!("anchorage-{name}"), 220, [low, -far, foot.up_m], [high, far, top]);
+            b.block(&format!("anchorage-{name}"), Element::RcFooting, [low, -far, foot.up_m], [high, far, top]);
             // On each side of the deck the cable enters a block; the girders end on movable bearings.
             for (side, low_y, high_y) in [("left", near, far), ("right", -far, -near)] {
                 let grip = if low < 0.0 { high - 2.0 * GRIP_M } else { low };
                 let block = format!("anchorage-{name}/{side}");
-                b.block(&block, 220, [grip, low_y, top], [grip + 2.0 * GRIP_M, high_y, self.cable_radius_m + 0.45]);
+                b.block(
+                    &block,
+                    Element::RcFooting,
+                    [grip, low_y, top],
+                    [grip + 2.0 * GRIP_M, high_y, self.cable_radius_m + 0.45],
+                );
                 for (end, x) in [("low", low + 0.5), ("high", high - 0.5)] {
-                    self.bearing(b, &format!("bearing-{name}/{side}-{end}"), 311, x, low_y.signum());
+                    self.bearing(b, &format!("bearing-{name}/{side}-{end}"), Element::MovableBearing, x, low_y.signum());
                 }
             }
         }

@@ -1,21 +1,20 @@
 //! Surface totals by element and outcome, and average picture quality.
 
 use super::outcome::SurfaceOutcome;
+use spandrel_model::elements::Element;
 use spandrel_model::math;
 use std::collections::BTreeMap;
 
 /// Surface coverage of a session.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SurfaceCoverage {
-    /// Coverage by element, in ascending element number.
-    pub elements: Vec<ElementSurface>,
+    /// Coverage by element.
+    pub elements: BTreeMap<Element, ElementSurface>,
 }
 
-/// Surface coverage of one element.
+/// Surface coverage of one element, or of all.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ElementSurface {
-    /// Element number (AASHTO MBEI); 0 for the total.
-    pub element: u32,
     /// Surface that can be inspected from the reference paths, m².
     pub inspectable_m2: f64,
     /// This surface by outcome, m².
@@ -119,7 +118,7 @@ impl SurfaceCoverage {
     #[must_use]
     pub fn total(&self) -> ElementSurface {
         let mut total = ElementSurface::default();
-        self.elements.iter().for_each(|one| total.merge(one));
+        self.elements.values().for_each(|one| total.merge(one));
         total
     }
 }

@@ -12,6 +12,7 @@ use super::ReviewContext;
 use super::pictures::{ReviewedPicture, exposure_s};
 use element::BestPicture;
 use patches::{SurfacePatch, inspectable};
+use spandrel_model::elements::Element;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::site::CameraPose;
@@ -53,13 +54,12 @@ pub fn covered(scene: &ReviewContext<'_>, pictures: &[ReviewedPicture]) -> Surfa
         add_picture(&mut pieces, picture, &mut light);
     }
     add_flight(&mut pieces, scene);
-    let mut elements: BTreeMap<u32, ElementSurface> = BTreeMap::new();
+    let mut elements: BTreeMap<Element, ElementSurface> = BTreeMap::new();
     for piece in &pieces {
         let SurfacePatch { element, area_m2, .. } = piece.patch;
-        let sum = elements.entry(element).or_insert(ElementSurface { element, ..ElementSurface::default() });
-        sum.add(area_m2, piece.fate(), piece.best.as_ref());
+        elements.entry(element).or_default().add(area_m2, piece.fate(), piece.best.as_ref());
     }
-    SurfaceCoverage { elements: elements.into_values().collect() }
+    SurfaceCoverage { elements }
 }
 
 impl JudgedPatch {

@@ -2,6 +2,7 @@
 
 use super::{is_clear, reach_m};
 use crate::report::ReviewContext;
+use spandrel_model::elements::Element;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::bridges::Solid;
@@ -19,8 +20,8 @@ const TRIES: usize = 8;
 /// A patch of a member's surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfacePatch {
-    /// Element number (AASHTO MBEI).
-    pub element: u32,
+    /// Element of the member.
+    pub element: Element,
     /// Point slightly above the center, as the end of sight lines, m.
     pub above_m: Vec3<Enu>,
     /// Center, m.
