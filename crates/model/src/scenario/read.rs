@@ -1,9 +1,9 @@
 //! Parses scenario files into [`Scenario`]: every key with its unit, range and default.
 
-use super::bridges::{BridgeField, Inconsistency};
+use super::bridges::BridgeType;
 use super::{
     AfterCrash, BatteryModel, Bridge, BridgeKind, DefectSpec, FeedbackThresholds, GroundTeam, LightSpec, Scenario, ScoringParams,
-    SessionRules, TerrainSource, TerrainSpec, TrafficSpec, bridges,
+    SessionRules, TerrainSource, TerrainSpec, TrafficSpec,
 };
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
@@ -194,12 +194,6 @@ fn ground_team(r: &mut Reader, root: &mut Section) -> GroundTeam {
     team
 }
 
-#[derive(Clone, Copy)]
-enum Kind {
-    Arch,
-    Suspension,
-}
-
 fn bridges_of(r: &mut Reader, root: &mut Section) -> Vec<Bridge> {
     let mut out: Vec<Bridge> = Vec::new();
     for mut s in r.sections(root, "bridges") {
@@ -209,38 +203,25 @@ fn bridges_of(r: &mut Reader, root: &mut Section) -> Vec<Bridge> {
         }
         let centre_m = point(r, &mut s, "centre_m", None);
         let heading_deg = r.number(&mut s, "heading_deg", (0.0, 360.0), Some(90.0));
-        let kind = match r.choice(&mut s, "type", &[("arch", Kind::Arch), ("suspension", Kind::Suspension)], None) {
-            Kind::Arch => {
-                let values =
-                    fields(r, &mut s, "arch", bridges::arch::Arch::FIELDS, |v| bridges::arch::Arch::from_values(v).misfits());
-                BridgeKind::Arch(bridges::arch::Arch::from_values(&values))
-            }
-            Kind::Suspension => {
-                let misfits = |v: &[f64]| bridges::suspension::Suspension::from_values(v).misfits();
-                let values = fields(r, &mut s, "suspension", bridges::suspension::Suspension::FIELDS, misfits);
-                BridgeKind::Suspension(bridges::suspension::Suspension::from_values(&values))
-            }
-        };
+        let types = BridgeKind::TYPES.map(|bridge| (bridge.name, bridge));
+        let bridge = r.choice(&mut s, "type", &types, None);
+        let kind = dimensions(r, &mut s, &bridge);
         r.finish(&s);
         out.push(Bridge { name: bridge_name, centre_m, heading_deg, kind });
     }
     out
 }
 
-fn fields(
-    r: &mut Reader,
-    s: &mut Section,
-    table: &'static str,
-    fields: &'static [BridgeField],
-    misfits: impl Fn(&[f64]) -> Vec<Inconsistency>,
-) -> Vec<f64> {
-    let mut s = r.section(s, table);
-    let values: Vec<f64> = fields.iter().map(|f| r.number(&mut s, f.key, (f.min, f.max), Some(f.default))).collect();
-    for misfit in misfits(&values) {
+/// Reads the table with the dimensions of a bridge.
+fn dimensions(r: &mut Reader, s: &mut Section, bridge: &BridgeType) -> BridgeKind {
+    let mut s = r.section(s, bridge.name);
+    let values: Vec<f64> = bridge.fields.iter().map(|f| r.number(&mut s, f.key, (f.min, f.max), Some(f.default))).collect();
+    let kind = (bridge.create)(&values);
+    for misfit in kind.misfits() {
         r.add_problem(&s, misfit.key, &misfit.value.to_string(), &misfit.allowed, "inconsistent with other values");
     }
     r.finish(&s);
-    values
+    kind
 }
 
 fn defects(r: &mut Reader, root: &mut Section) -> DefectSpec {

@@ -1,7 +1,8 @@
-//! Bridge geometry: each bridge type converts its dimensions to members, lanes and task paths. A new type takes one new file here
-//! and one variant of [`BridgeKind`].
+//! Bridge geometry: each bridge type converts its dimensions to members, lanes and task paths. A new type takes one new file here,
+//! with the table of its dimensions, and one variant of [`BridgeKind`].
 
 pub mod arch;
+pub mod dimensions;
 pub mod path;
 pub mod solid;
 pub mod suspension;
@@ -9,7 +10,11 @@ pub mod suspension;
 use super::{Bridge, BridgeKind, TaskKind};
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
+use arch::Arch;
 use solid::{MemberBuilder, Placement};
+use suspension::Suspension;
+
+pub use dimensions::{BridgeField, Inconsistency};
 
 /// One structural member. Collision, rendering, defects and export all use the same solid.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,57 +56,28 @@ pub struct Lane {
     pub walkway: bool,
 }
 
-/// A numeric key of a bridge type in scenario files.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BridgeField {
-    /// Key, including its unit.
-    pub key: &'static str,
-    /// Minimum value.
-    pub min: f64,
-    /// Maximum value.
-    pub max: f64,
-    /// Default value.
-    pub default: f64,
-    /// Description, with its source.
-    pub doc: &'static str,
-}
-
-/// A dimension that is in range but inconsistent with other dimensions.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Inconsistency {
-    /// Key to change.
-    pub key: &'static str,
-    /// Its value.
-    pub value: f64,
-    /// Allowed values, given the other dimensions.
-    pub allowed: String,
-}
-
-/// Collects inconsistencies while the dimensions of a bridge are compared.
-#[derive(Debug, Default)]
-struct InconsistencyList(Vec<Inconsistency>);
-
-impl InconsistencyList {
-    fn integer_field(&mut self, key: &'static str, value: f64) {
-        if value.fract() != 0.0 {
-            self.0.push(Inconsistency { key, value, allowed: "a whole number".into() });
-        }
-    }
-
-    fn at_least(&mut self, key: &'static str, value: f64, low: f64, why: &str) {
-        if value < low {
-            self.0.push(Inconsistency { key, value, allowed: format!("{why}: at least {low:.2}") });
-        }
-    }
-
-    fn at_most(&mut self, key: &'static str, value: f64, high: f64, why: &str) {
-        if value > high {
-            self.0.push(Inconsistency { key, value, allowed: format!("{why}: at most {high:.2}") });
-        }
-    }
+/// A bridge type as scenario files name it.
+#[derive(Debug, Clone, Copy)]
+pub struct BridgeType {
+    /// Value of `type`, and name of the table with the dimensions.
+    pub name: &'static str,
+    /// Keys of that table.
+    pub fields: &'static [BridgeField],
+    /// Creates a bridge from values in the order of the keys.
+    pub create: fn(&[f64]) -> BridgeKind,
 }
 
 impl BridgeKind {
+    /// All bridge types.
+    pub const TYPES: [BridgeType; 2] = [
+        BridgeType { name: Arch::TYPE, fields: Arch::FIELDS, create: |values| Self::Arch(Arch::from_values(values)) },
+        BridgeType {
+            name: Suspension::TYPE,
+            fields: Suspension::FIELDS,
+            create: |values| Self::Suspension(Suspension::from_values(values)),
+        },
+    ];
+
     /// Returns all inconsistent dimensions; if there are any, the bridge cannot be built.
     #[must_use]
     pub fn misfits(&self) -> Vec<Inconsistency> {

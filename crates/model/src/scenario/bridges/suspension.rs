@@ -1,8 +1,9 @@
 //! Suspension bridge: towers on piers in the water, main cables, hangers, stiffening girders, floor, railings, anchorages.
 
+use super::Footing;
 use super::arch::railing;
+use super::dimensions::{Inconsistency, InconsistencyList, bridge_dimensions};
 use super::solid::{BeamDirection, MemberBuilder, PlateThickness};
-use super::{BridgeField, Footing, Inconsistency, InconsistencyList};
 use crate::elements::Element;
 
 /// Distance of the girders beyond the deck's edge, m (estimate).
@@ -26,104 +27,32 @@ const GRIP_M: f64 = 1.0;
 /// Height of the saddle between cable and tower leg, m (estimate).
 const SADDLE_M: f64 = 0.1;
 
-/// Dimensions of a suspension bridge. Bridge axes: x along the deck, y left, z up, origin on the deck at midspan.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Suspension {
-    /// Distance between the towers, m.
-    pub main_span_m: f64,
-    /// Distance from a tower to its anchorage, m.
-    pub side_span_m: f64,
-    /// Sag of the main cable at midspan, m.
-    pub sag_m: f64,
-    /// Height of the cable above the deck at midspan, m.
-    pub cable_clearance_m: f64,
-    /// Corner radius of the cables' prisms, m.
-    pub cable_radius_m: f64,
-    /// Distance between hangers, m.
-    pub hanger_spacing_m: f64,
-    /// Corner radius of the hangers' prisms, m.
-    pub hanger_radius_m: f64,
-    /// Deck width, m.
-    pub deck_width_m: f64,
-    /// Slab thickness, m.
-    pub slab_m: f64,
-    /// Depth of the stiffening girders, m.
-    pub girder_depth_m: f64,
-    /// Depth of the floorbeams, m.
-    pub floorbeam_depth_m: f64,
-    /// Length of a tower leg along the bridge, m.
-    pub leg_x_m: f64,
-    /// Width of a tower leg across the bridge, m.
-    pub leg_y_m: f64,
-    /// Length of a pier along the bridge, m.
-    pub pier_x_m: f64,
-    /// Width of a pier across the bridge, m.
-    pub pier_y_m: f64,
-    /// Depth of the pier top below the deck, m.
-    pub pier_top_m: f64,
-    /// Height of the pier, m.
-    pub pier_height_m: f64,
-    /// Length of the anchorages, m.
-    pub anchorage_m: f64,
-    /// Railing height, m.
-    pub railing_m: f64,
-}
-
-const fn field(key: &'static str, min: f64, max: f64, default: f64, doc: &'static str) -> BridgeField {
-    BridgeField { key, min, max, default, doc }
+bridge_dimensions! {
+    /// Dimensions of a suspension bridge. Bridge axes: x along the deck, y left, z up, origin on the deck at midspan.
+    Suspension "suspension" {
+        main_span_m 60.0 to 1400.0, 140.0, "Distance between the towers, m; Deer Isle 329 m, Golden Gate 1280 m.";
+        side_span_m 20.0 to 400.0, 45.0, "Distance from a tower to its anchorage, m (estimate).";
+        sag_m 5.0 to 160.0, 14.0, "Cable sag, m; span/9 to span/11 (estimate).";
+        cable_clearance_m 0.5 to 10.0, 2.0, "Height of the cable above the deck at midspan, m (estimate).";
+        cable_radius_m 0.05 to 0.6, 0.15, "Corner radius of the main cables, m; 0.12 to 0.25 m for spans of about 330 m (estimate).";
+        hanger_spacing_m 3.0 to 20.0, 7.0, "Distance between hangers, m; Deer Isle 9 to 12 m (estimate).";
+        hanger_radius_m 0.01 to 0.1, 0.03, "Corner radius of the hangers, m; 50 to 65 mm pairs (estimate).";
+        deck_width_m 5.0 to 40.0, 8.4, "Deck width, m; Deer Isle 7.2 m.";
+        slab_m 0.15 to 0.5, 0.2, "Slab thickness, m; 8 to 10 in (estimate).";
+        girder_depth_m 0.8 to 8.0, 2.0, "Depth of the stiffening girders, m; Deer Isle about 2 m.";
+        floorbeam_depth_m 0.4 to 3.0, 0.9, "Floorbeam depth, m (estimate).";
+        leg_x_m 1.0 to 16.0, 2.4, "Length of a tower leg along the bridge, m; 2 to 4 m on small bridges (estimate).";
+        leg_y_m 1.0 to 16.0, 1.8, "Width of a tower leg across the bridge, m (estimate).";
+        pier_x_m 2.0 to 20.0, 4.0, "Length of a pier along the bridge, m; 4 x 8 to 10 x 18 m (estimate).";
+        pier_y_m 4.0 to 60.0, 13.0, "Width of a pier across the bridge, m (estimate).";
+        pier_top_m 4.0 to 70.0, 9.0, "Depth of the pier tops below the deck, m; 4 to 8 m above the water (estimate).";
+        pier_height_m 4.0 to 60.0, 16.0, "Height of the piers, which extend into the lake bed, m (estimate).";
+        anchorage_m 3.0 to 40.0, 8.0, "Length of an anchorage, m (estimate).";
+        railing_m 0.6 to 2.0, 1.0, "Railing height, m; 32 to 42 in (estimate).";
+    }
 }
 
 impl Suspension {
-    /// Keys of the scenario file, in the order of [`Suspension::from_values`].
-    pub const FIELDS: &'static [BridgeField] = &[
-        field("main_span_m", 60.0, 1400.0, 140.0, "between the towers; Deer Isle 329 m, Golden Gate 1280 m"),
-        field("side_span_m", 20.0, 400.0, 45.0, "tower to anchorage (estimate)"),
-        field("sag_m", 5.0, 160.0, 14.0, "cable sag; span/9 to span/11 (estimate)"),
-        field("cable_clearance_m", 0.5, 10.0, 2.0, "cable over the deck at midspan (estimate)"),
-        field("cable_radius_m", 0.05, 0.6, 0.15, "main cable; 0.12 to 0.25 m for spans of about 330 m (estimate)"),
-        field("hanger_spacing_m", 3.0, 20.0, 7.0, "between hangers; Deer Isle 9 to 12 m (estimate)"),
-        field("hanger_radius_m", 0.01, 0.1, 0.03, "hanger rope; 50 to 65 mm pairs (estimate)"),
-        field("deck_width_m", 5.0, 40.0, 8.4, "deck width; Deer Isle 7.2 m"),
-        field("slab_m", 0.15, 0.5, 0.2, "slab thickness; 8 to 10 in (estimate)"),
-        field("girder_depth_m", 0.8, 8.0, 2.0, "stiffening girder; Deer Isle about 2 m"),
-        field("floorbeam_depth_m", 0.4, 3.0, 0.9, "floorbeam depth (estimate)"),
-        field("leg_x_m", 1.0, 16.0, 2.4, "tower leg along the bridge; 2 to 4 m on small bridges (estimate)"),
-        field("leg_y_m", 1.0, 16.0, 1.8, "tower leg across (estimate)"),
-        field("pier_x_m", 2.0, 20.0, 4.0, "pier along the bridge; 4 x 8 to 10 x 18 m (estimate)"),
-        field("pier_y_m", 4.0, 60.0, 13.0, "pier across (estimate)"),
-        field("pier_top_m", 4.0, 70.0, 9.0, "pier top under the deck; 4 to 8 m over the water (estimate)"),
-        field("pier_height_m", 4.0, 60.0, 16.0, "pier height, reaching into the lake's ground (estimate)"),
-        field("anchorage_m", 3.0, 40.0, 8.0, "length of an anchorage (estimate)"),
-        field("railing_m", 0.6, 2.0, 1.0, "railing height; 32 to 42 in (estimate)"),
-    ];
-
-    /// Creates a suspension bridge from values in the order of [`Suspension::FIELDS`].
-    #[must_use]
-    pub fn from_values(v: &[f64]) -> Self {
-        let get = |k: usize| v.get(k).copied().unwrap_or(Self::FIELDS[k].default);
-        Self {
-            main_span_m: get(0),
-            side_span_m: get(1),
-            sag_m: get(2),
-            cable_clearance_m: get(3),
-            cable_radius_m: get(4),
-            hanger_spacing_m: get(5),
-            hanger_radius_m: get(6),
-            deck_width_m: get(7),
-            slab_m: get(8),
-            girder_depth_m: get(9),
-            floorbeam_depth_m: get(10),
-            leg_x_m: get(11),
-            leg_y_m: get(12),
-            pier_x_m: get(13),
-            pier_y_m: get(14),
-            pier_top_m: get(15),
-            pier_height_m: get(16),
-            anchorage_m: get(17),
-            railing_m: get(18),
-        }
-    }
-
     /// Returns the length of the deck between the anchorages' far ends, m.
     #[must_use]
     pub fn deck_length_m(&self) -> f64 {
@@ -365,11 +294,5 @@ impl Suspension {
                 }
             }
         }
-    }
-}
-
-impl Default for Suspension {
-    fn default() -> Self {
-        Self::from_values(&[])
     }
 }
