@@ -1,12 +1,12 @@
 //! Parses scenario files into [`Scenario`]: every key with its unit, range and default.
 
-use super::bridges::BridgeType;
-use super::{
-    AfterCrash, BatteryModel, Bridge, BridgeKind, DefectSpec, FeedbackThresholds, GroundTeam, LightSpec, Scenario, ScoringParams,
-    SessionRules, TerrainSource, TerrainSpec, TrafficSpec,
+use super::bridges::{Bridge, BridgeKind, BridgeType};
+use super::job::{
+    AfterCrash, BatteryModel, DefectSpec, FeedbackThresholds, GroundTeam, LightSpec, Scenario, ScoringParams, SessionRules,
+    TerrainSource, TerrainSpec, TrafficSpec,
 };
+use super::point::point;
 use crate::elements::Element;
-use crate::frames::{Enu, Vec3};
 use crate::geodesy::Geo;
 use crate::math::M_S_PER_MPH;
 use crate::time::SimTime;
@@ -15,8 +15,6 @@ use std::collections::BTreeMap;
 
 /// Latest supported format version.
 pub const FORMAT: i64 = 1;
-/// Maximum distance of any object from the origin, m.
-const FAR_M: f64 = 5_000.0;
 /// Maximum number of cells along one side of the height grid: 4 million cells take a second to build and 32 MB.
 const MOST_CELLS: f64 = 2_000.0;
 /// Maximum number of bridges per site (estimate: far more than one flight can reach).
@@ -98,11 +96,6 @@ fn name(r: &mut Reader, s: &mut Section, key: &'static str) -> String {
         r.add_problem(s, key, &name, "1 to 40 characters: a-z, 0-9 and -", "invalid name");
     }
     name
-}
-
-pub(super) fn point(r: &mut Reader, s: &mut Section, key: &'static str, default: Option<[f64; 3]>) -> Vec3<Enu> {
-    let [e, n, u] = r.numbers(s, key, (-FAR_M, FAR_M), default);
-    Vec3::new(e, n, u)
 }
 
 fn origin(r: &mut Reader, root: &mut Section) -> Geo {

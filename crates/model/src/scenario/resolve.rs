@@ -1,8 +1,8 @@
 //! Resolved scenarios: the source text with the session's seed and the placed defects inserted. The CRC equals that of the
 //! source.
 
-use super::PlacedDefect;
-use super::read::point;
+use super::job::PlacedDefect;
+use super::point::point;
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::toml::{Reader, Section};

@@ -2,10 +2,11 @@
 //! the defects permitted there, and [`super::visibility`] decides whether it can be photographed from within the task's
 //! threshold. Each seed yields different positions.
 
+use super::camera_pose::CameraPose;
 use super::faces::{MemberFace, face_at};
 use super::light::{RayCast, tangents};
+use super::queries::Surface;
 use super::visibility;
-use super::{CameraPose, Surface};
 use crate::defect_codes;
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
@@ -262,7 +263,7 @@ fn in_cone(axis: Vec3<Enu>, half_angle_rad: f64, stream: &mut RandomStream) -> V
 #[cfg(test)]
 mod tests {
     use super::super::boxes::OrientedBox;
-    use super::super::{ObjectId, RayHit};
+    use super::super::queries::{ObjectId, RayHit};
     use super::*;
     use crate::scenario::bridges::Solid;
 

@@ -1,11 +1,12 @@
 //! Session-specific content of a site: traffic and crew, defects, light. Every query takes the result for the static geometry as
 //! an argument and is therefore independent of its implementation.
 
+use super::camera_pose::CameraPose;
 use super::defects::{self, PlacementContext};
 use super::light::{LightModel, RayCast};
+use super::queries::{NearestPoint, QueryTime, RayHit};
 use super::traffic::TrafficPlan;
-use super::visibility;
-use super::{CameraPose, DefectView, NearestPoint, QueryTime, RayHit};
+use super::visibility::{self, DefectView};
 use crate::frames::{Enu, Vec3};
 use crate::scenario::bridges::{Lane, Member};
 use crate::scenario::{PlacedDefect, Scenario};

@@ -2,8 +2,8 @@
 //! [`Convex`] and [`HeightGrid`](super::heights::HeightGrid) answer the exact queries.
 
 use super::convex::{Convex, SurfacePoint};
+use super::queries::{Contact, HullProbe, NearestPoint, ObjectId, RayHit, Surface};
 use super::terrain::Terrain;
-use super::{Contact, HullProbe, NearestPoint, ObjectId, RayHit, Surface};
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::scenario::bridges::Member;

@@ -1,9 +1,8 @@
 //! Open-spandrel deck arch: two parabolic ribs with struts, spandrel columns, floorbeams, stringers, deck slab, railings,
 //! abutments.
 
-use super::Footing;
 use super::dimensions::{Inconsistency, InconsistencyList, bridge_dimensions};
-use super::solid::MemberBuilder;
+use super::solid::{Footing, MemberBuilder};
 use crate::elements::Element;
 use crate::math;
 

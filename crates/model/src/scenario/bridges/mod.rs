@@ -7,42 +7,36 @@ pub mod path;
 pub mod solid;
 pub mod suspension;
 
-use super::{Bridge, BridgeKind, TaskKind};
-use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use arch::Arch;
+use path::TaskKind;
 use solid::{MemberBuilder, Placement};
 use suspension::Suspension;
 
 pub use dimensions::{BridgeField, Inconsistency};
+pub use path::TaskPath;
+pub use solid::{Footing, Member, Solid};
 
-/// One structural member. Collision, rendering, defects and export all use the same solid.
+/// A bridge of any type, with its position.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Member {
-    /// Member name, unique within the site, such as `arch/rib-left/07`.
+pub struct Bridge {
+    /// Name used by tasks and exports.
     pub name: String,
-    /// Element to which the member belongs.
-    pub element: Element,
-    /// Solid of the member, in site coordinates.
-    pub solid: Solid,
+    /// Horizontal center of the deck's upper surface; its height is the deck level at midspan, m.
+    pub centre_m: Vec3<Enu>,
+    /// Direction of the bridge's x axis (along the deck), degrees clockwise from north.
+    pub heading_deg: f64,
+    /// Bridge type and dimensions.
+    pub kind: BridgeKind,
 }
 
-/// A closed convex polyhedron.
+/// One variant per bridge type; the dimensions, geometry and task paths of each type are in one file (`bridges/`).
 #[derive(Debug, Clone, PartialEq)]
-pub struct Solid {
-    /// Vertices, m.
-    pub vertices_m: Vec<Vec3<Enu>>,
-    /// Planar faces: three or more vertex indices each, counterclockwise seen from outside.
-    pub faces: Vec<Vec<u32>>,
-}
-
-impl Solid {
-    /// Returns the faces as triangle fans from each face's first vertex.
-    #[must_use]
-    pub fn triangles(&self) -> Vec<[u32; 3]> {
-        let fan = |face: &Vec<u32>| (2..face.len()).map(|k| [face[0], face[k - 1], face[k]]).collect::<Vec<_>>();
-        self.faces.iter().flat_map(fan).collect()
-    }
+pub enum BridgeKind {
+    /// Open-spandrel deck arch.
+    Arch(Arch),
+    /// Suspension bridge.
+    Suspension(Suspension),
 }
 
 /// A traffic lane or walkway: a polyline on the deck's upper surface.
@@ -86,28 +80,6 @@ impl BridgeKind {
             Self::Suspension(suspension) => suspension.misfits(),
         }
     }
-}
-
-/// A part of a bridge that rests on the ground, in bridge axes, m.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Footing {
-    /// Start and end along the bridge.
-    pub x_m: (f64, f64),
-    /// Start and end across the bridge.
-    pub y_m: (f64, f64),
-    /// Height of its underside.
-    pub up_m: f64,
-}
-
-/// Reference path of a task, with a viewing direction at each point.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TaskPath {
-    /// Points, at most 1 m apart, m. A closed path does not repeat its first point.
-    pub path_m: Vec<Vec3<Enu>>,
-    /// Unit vectors toward the inspected surface.
-    pub look: Vec<Vec3<Enu>>,
-    /// The path returns to its start.
-    pub closed: bool,
 }
 
 impl Bridge {

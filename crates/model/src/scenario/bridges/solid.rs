@@ -1,13 +1,52 @@
 //! Convex building blocks in bridge axes: x along the deck, y left, z up, origin on the deck's upper surface at midspan.
 //! [`Placement`] transforms them to site coordinates.
 
-use super::{Member, Solid};
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::math;
 
+/// One structural member. Collision, rendering, defects and export all use the same solid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Member {
+    /// Member name, unique within the site, such as `arch/rib-left/07`.
+    pub name: String,
+    /// Element to which the member belongs.
+    pub element: Element,
+    /// Solid of the member, in site coordinates.
+    pub solid: Solid,
+}
+
+/// A closed convex polyhedron.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solid {
+    /// Vertices, m.
+    pub vertices_m: Vec<Vec3<Enu>>,
+    /// Planar faces: three or more vertex indices each, counterclockwise seen from outside.
+    pub faces: Vec<Vec<u32>>,
+}
+
+impl Solid {
+    /// Returns the faces as triangle fans from each face's first vertex.
+    #[must_use]
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
+        let fan = |face: &Vec<u32>| (2..face.len()).map(|k| [face[0], face[k - 1], face[k]]).collect::<Vec<_>>();
+        self.faces.iter().flat_map(fan).collect()
+    }
+}
+
 /// A point in bridge axes, m.
 pub type LocalPoint = [f64; 3];
+
+/// A part of a bridge that rests on the ground, in bridge axes, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Footing {
+    /// Start and end along the bridge.
+    pub x_m: (f64, f64),
+    /// Start and end across the bridge.
+    pub y_m: (f64, f64),
+    /// Height of its underside.
+    pub up_m: f64,
+}
 
 /// Position and heading of the bridge axes in the site.
 #[derive(Debug, Clone, Copy, PartialEq)]

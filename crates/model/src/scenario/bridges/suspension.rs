@@ -1,9 +1,8 @@
 //! Suspension bridge: towers on piers in the water, main cables, hangers, stiffening girders, floor, railings, anchorages.
 
-use super::Footing;
 use super::arch::railing;
 use super::dimensions::{Inconsistency, InconsistencyList, bridge_dimensions};
-use super::solid::{BeamDirection, MemberBuilder, PlateThickness};
+use super::solid::{BeamDirection, Footing, MemberBuilder, PlateThickness};
 use crate::elements::Element;
 
 /// Distance of the girders beyond the deck's edge, m (estimate).
