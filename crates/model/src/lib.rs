@@ -28,6 +28,8 @@
 //! ```
 
 pub mod calendar;
+pub mod defect_codes;
+pub mod elements;
 pub mod foxglove;
 pub mod frames;
 pub mod geodesy;

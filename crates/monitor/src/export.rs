@@ -9,6 +9,7 @@ pub use columns::{COLUMNS, Column, frames_csv};
 pub use frame_row::{FrameRow, frame_rows};
 
 use serde::Serialize;
+use spandrel_model::elements::Element;
 use spandrel_model::scenario::{PlacedDefect, Scenario};
 
 /// A task in the scenario export.
@@ -25,7 +26,7 @@ pub struct TaskExport {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DefectExport {
     id: u32,
-    element: u32,
+    element: Element,
     kind: u32,
     position_enu_m: [f64; 3],
     normal_enu: [f64; 3],

@@ -101,7 +101,7 @@ fn defect(id: u32) -> DefectRecord {
         id,
         kind: 1130,
         kind_name: "cracking (RC)".into(),
-        element: 38,
+        element: spandrel_model::elements::Element::RcSlab,
         condition_state: 3,
         task: Some(1 + id % 4),
         found: true,

@@ -151,7 +151,7 @@ fn exact_what_users_wrote_is_escaped_everywhere() {
 fn exact_every_square_metre_has_one_fate() {
     let coverage = &short().coverage;
     assert!(coverage.elements.len() > 3 && coverage.total().area_m2(SurfaceOutcome::Shown) > 0.0);
-    for element in coverage.elements.iter().chain([&coverage.total()]) {
+    for element in coverage.elements.values().chain([&coverage.total()]) {
         let sum: f64 = SurfaceOutcome::ALL.iter().map(|fate| element.area_m2(*fate)).sum();
         assert!((sum - element.inspectable_m2).abs() < 1e-6 * element.inspectable_m2, "{element:?}");
         assert!(

@@ -1,8 +1,8 @@
 //! Per-pixel labels for training detectors: the AASHTO element number and the defect ID in the session.
 
 use serde_json::{Value, json};
+use spandrel_model::defect_codes;
 use spandrel_model::scenario::PlacedDefect;
-use spandrel_model::site::catalogue;
 use std::collections::BTreeMap;
 
 /// Labels of a picture in row-major order from the upper left; 0 means no label.
@@ -72,7 +72,7 @@ fn defect(placed: &[PlacedDefect], id: u16, extent: LabelBounds) -> Option<Value
         "element": defect.element,
         "member": defect.member,
         "kind": defect.kind,
-        "name": catalogue::kind_name(defect.kind),
+        "name": defect_codes::kind_name(defect.kind),
         "condition_state": defect.condition_state,
         "pixels": extent.pixels,
         "box_px": [low.0, low.1, high.0 - low.0 + 1, high.1 - low.1 + 1],
@@ -98,9 +98,9 @@ mod tests {
     fn exact_the_legend_names_what_is_there_and_its_box() {
         let placed = PlacedDefect {
             id: 7,
-            element: 144,
+            element: spandrel_model::elements::Element::RcArch,
             member: "arch/rib-left/07".into(),
-            kind: catalogue::CRACK,
+            kind: defect_codes::CRACK,
             condition_state: 3,
             position_m: Vec3::zero(),
             normal: Vec3::new(0.0, 0.0, 1.0),

@@ -207,7 +207,7 @@ impl Fence {
     pub fn of(count: u32) -> Self {
         let one = |id: u32| PlacedDefect {
             id,
-            element: 144,
+            element: spandrel_model::elements::Element::RcArch,
             member: "fence".to_owned(),
             kind: 1080,
             condition_state: 2,

@@ -1,11 +1,12 @@
 //! Parses scenario files into [`Scenario`]: every key with its unit, range and default.
 
-use super::bridges::{BridgeField, Inconsistency};
-use super::{
-    AfterCrash, BatteryModel, Bridge, BridgeKind, DefectSpec, FeedbackThresholds, GroundTeam, LightSpec, Scenario, ScoringParams,
-    SessionRules, TerrainSource, TerrainSpec, TrafficSpec, bridges,
+use super::bridges::{Bridge, BridgeKind, BridgeType};
+use super::job::{
+    AfterCrash, BatteryModel, DefectSpec, FeedbackThresholds, GroundTeam, LightSpec, Scenario, ScoringParams, SessionRules,
+    TerrainSource, TerrainSpec, TrafficSpec,
 };
-use crate::frames::{Enu, Vec3};
+use super::point::point;
+use crate::elements::Element;
 use crate::geodesy::Geo;
 use crate::math::M_S_PER_MPH;
 use crate::time::SimTime;
@@ -14,8 +15,6 @@ use std::collections::BTreeMap;
 
 /// Latest supported format version.
 pub const FORMAT: i64 = 1;
-/// Maximum distance of any object from the origin, m.
-const FAR_M: f64 = 5_000.0;
 /// Maximum number of cells along one side of the height grid: 4 million cells take a second to build and 32 MB.
 const MOST_CELLS: f64 = 2_000.0;
 /// Maximum number of bridges per site (estimate: far more than one flight can reach).
@@ -97,11 +96,6 @@ fn name(r: &mut Reader, s: &mut Section, key: &'static str) -> String {
         r.add_problem(s, key, &name, "1 to 40 characters: a-z, 0-9 and -", "invalid name");
     }
     name
-}
-
-pub(super) fn point(r: &mut Reader, s: &mut Section, key: &'static str, default: Option<[f64; 3]>) -> Vec3<Enu> {
-    let [e, n, u] = r.numbers(s, key, (-FAR_M, FAR_M), default);
-    Vec3::new(e, n, u)
 }
 
 fn origin(r: &mut Reader, root: &mut Section) -> Geo {
@@ -193,12 +187,6 @@ fn ground_team(r: &mut Reader, root: &mut Section) -> GroundTeam {
     team
 }
 
-#[derive(Clone, Copy)]
-enum Kind {
-    Arch,
-    Suspension,
-}
-
 fn bridges_of(r: &mut Reader, root: &mut Section) -> Vec<Bridge> {
     let mut out: Vec<Bridge> = Vec::new();
     for mut s in r.sections(root, "bridges") {
@@ -208,48 +196,34 @@ fn bridges_of(r: &mut Reader, root: &mut Section) -> Vec<Bridge> {
         }
         let centre_m = point(r, &mut s, "centre_m", None);
         let heading_deg = r.number(&mut s, "heading_deg", (0.0, 360.0), Some(90.0));
-        let kind = match r.choice(&mut s, "type", &[("arch", Kind::Arch), ("suspension", Kind::Suspension)], None) {
-            Kind::Arch => {
-                let values =
-                    fields(r, &mut s, "arch", bridges::arch::Arch::FIELDS, |v| bridges::arch::Arch::from_values(v).misfits());
-                BridgeKind::Arch(bridges::arch::Arch::from_values(&values))
-            }
-            Kind::Suspension => {
-                let misfits = |v: &[f64]| bridges::suspension::Suspension::from_values(v).misfits();
-                let values = fields(r, &mut s, "suspension", bridges::suspension::Suspension::FIELDS, misfits);
-                BridgeKind::Suspension(bridges::suspension::Suspension::from_values(&values))
-            }
-        };
+        let types = BridgeKind::TYPES.map(|bridge| (bridge.name, bridge));
+        let bridge = r.choice(&mut s, "type", &types, None);
+        let kind = dimensions(r, &mut s, &bridge);
         r.finish(&s);
         out.push(Bridge { name: bridge_name, centre_m, heading_deg, kind });
     }
     out
 }
 
-fn fields(
-    r: &mut Reader,
-    s: &mut Section,
-    table: &'static str,
-    fields: &'static [BridgeField],
-    misfits: impl Fn(&[f64]) -> Vec<Inconsistency>,
-) -> Vec<f64> {
-    let mut s = r.section(s, table);
-    let values: Vec<f64> = fields.iter().map(|f| r.number(&mut s, f.key, (f.min, f.max), Some(f.default))).collect();
-    for misfit in misfits(&values) {
+/// Reads the table with the dimensions of a bridge.
+fn dimensions(r: &mut Reader, s: &mut Section, bridge: &BridgeType) -> BridgeKind {
+    let mut s = r.section(s, bridge.name);
+    let values: Vec<f64> = bridge.fields.iter().map(|f| r.number(&mut s, f.key, (f.min, f.max), Some(f.default))).collect();
+    let kind = (bridge.create)(&values);
+    for misfit in kind.misfits() {
         r.add_problem(&s, misfit.key, &misfit.value.to_string(), &misfit.allowed, "inconsistent with other values");
     }
     r.finish(&s);
-    values
+    kind
 }
 
 fn defects(r: &mut Reader, root: &mut Section) -> DefectSpec {
     let mut s = r.section(root, "defects");
-    let whole = |v: Vec<i64>| v.into_iter().map(|i| i as u32).collect();
     let defects = DefectSpec {
         count: r.integer(&mut s, "count", (0, 200), Some(10)) as usize,
         size_factor: r.number(&mut s, "size_factor", (0.2, 5.0), Some(1.0)),
-        elements: whole(r.integers(&mut s, "elements", (1, 999))),
-        kinds: whole(r.integers(&mut s, "kinds", (1000, 9999))),
+        elements: r.integers(&mut s, "elements", (1, 999)).into_iter().map(|i| Element::from_number(i as u16)).collect(),
+        kinds: r.integers(&mut s, "kinds", (1000, 9999)).into_iter().map(|i| i as u32).collect(),
         placed: super::resolve::with_placed_defects(r, &mut s),
     };
     r.finish(&s);

@@ -1,8 +1,9 @@
 //! Resolved scenarios: the source text with the session's seed and the placed defects inserted. The CRC equals that of the
 //! source.
 
-use super::PlacedDefect;
-use super::read::point;
+use super::job::PlacedDefect;
+use super::point::point;
+use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::toml::{Reader, Section};
 use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, value};
@@ -35,7 +36,7 @@ fn table(defect: &PlacedDefect) -> Table {
     let list = |v: Vec3<Enu>| value(v.array().into_iter().collect::<Array>());
     let mut t = Table::new();
     t["id"] = value(i64::from(defect.id));
-    t["element"] = value(i64::from(defect.element));
+    t["element"] = value(i64::from(defect.element.number()));
     t["member"] = value(&defect.member);
     t["kind"] = value(i64::from(defect.kind));
     t["condition_state"] = value(i64::from(defect.condition_state));
@@ -70,7 +71,7 @@ fn one(r: &mut Reader, t: &mut Section) -> PlacedDefect {
     };
     PlacedDefect {
         id: r.integer(t, "id", (1, 10_000), None) as u32,
-        element: r.integer(t, "element", (1, 999), None) as u32,
+        element: Element::from_number(r.integer(t, "element", (1, 999), None) as u16),
         member: r.text(t, "member", None),
         kind: r.integer(t, "kind", (1000, 9999), None) as u32,
         condition_state: r.integer(t, "condition_state", (1, 4), None) as u8,

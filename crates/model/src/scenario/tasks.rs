@@ -1,8 +1,9 @@
 //! Tasks: reference paths derived from a bridge or listed point by point.
 
-use super::bridges::TaskPath;
-use super::bridges::path::SPACING_M;
-use super::{Bridge, Task, TaskKind};
+use super::bridges::Bridge;
+use super::bridges::path::{SPACING_M, TaskKind, TaskPath};
+use super::job::Task;
+use super::point::FAR_M;
 use crate::frames::{Enu, Vec3};
 use crate::toml::{Reader, Section};
 
@@ -58,8 +59,8 @@ fn task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Task {
     let threshold_m = r.number(s, "threshold_m", (0.2, MOST_THRESHOLD_M), Some(usual_threshold_m(kind)));
     r.default_depends(s, "threshold_m", "by kind: 3, 3, 1.75, 2, 2");
     let closed = r.flag(s, "closed", false);
-    let points = r.points(s, "points_m", (-5_000.0, 5_000.0));
-    let look_at = r.points(s, "look_at_m", (-5_000.0, 5_000.0));
+    let points = r.points(s, "points_m", (-FAR_M, FAR_M));
+    let look_at = r.points(s, "look_at_m", (-FAR_M, FAR_M));
     let path = match bridge {
         Some(index) => bridges[index].task_path(kind, stand_off_m).unwrap_or_else(|problem| {
             r.add_problem(s, "kind", "", &problem, "not available for this bridge");

@@ -1,6 +1,6 @@
 //! Wind and time of day settings.
 
-use super::{WindEvent, WindModel, WindSpec};
+use super::job::{WindEvent, WindModel, WindSpec};
 use crate::math::M_S_PER_MPH;
 use crate::time::SimTime;
 use crate::toml::{Reader, Section};

@@ -1,6 +1,6 @@
 //! Oriented boxes: the solids of all moving or parked objects, with exact distance, ray and contact queries.
 
-use super::HullProbe;
+use super::queries::HullProbe;
 use crate::frames::{Enu, Vec3};
 
 /// An oriented box.

@@ -325,6 +325,7 @@ impl HullFace {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elements::Element;
     use crate::random::RandomStream;
     use crate::scenario::bridges::solid::{MemberBuilder, Placement};
 
@@ -333,16 +334,16 @@ mod tests {
 
     fn cube() -> Convex {
         let mut b = MemberBuilder::new("t", Placement::new(Vec3::zero(), 90.0));
-        b.block("cube", 12, [-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]);
+        b.block("cube", Element::RcDeck, [-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]);
         Convex::new(&b.finish()[0].solid)
     }
 
     /// Returns the same solids as boxes and as hulls, and an eight-sided rod.
     fn shapes() -> Vec<Convex> {
         let mut b = MemberBuilder::new("t", Placement::new(Vec3::new(0.3, -0.2, 0.1), 37.0));
-        b.block("block", 12, [-1.0, -0.5, -0.2], [1.3, 0.4, 0.1]);
-        b.across("wedge", 144, &[[-1.0, -0.5], [1.0, -0.3], [0.9, 0.4], [-1.0, 0.1]], -0.4, 0.3);
-        b.rod("rod", 147, [-1.0, 0.2, -0.4], [0.8, -0.1, 0.6], 0.3, 8);
+        b.block("block", Element::RcDeck, [-1.0, -0.5, -0.2], [1.3, 0.4, 0.1]);
+        b.across("wedge", Element::RcArch, &[[-1.0, -0.5], [1.0, -0.3], [0.9, 0.4], [-1.0, 0.1]], -0.4, 0.3);
+        b.rod("rod", Element::MainCable, [-1.0, 0.2, -0.4], [0.8, -0.1, 0.6], 0.3, 8);
         b.finish().iter().map(|m| Convex::new(&m.solid)).collect()
     }
 
@@ -362,7 +363,7 @@ mod tests {
         // Corners of a rotated box are rounded to 1e-16 of its size, m.
         const SAME_M: f64 = 1e-9;
         let mut b = MemberBuilder::new("t", Placement::new(Vec3::new(11.0, -40.0, 7.0), 71.0));
-        b.block("block", 12, [-3.0, -0.5, -0.2], [1.3, 0.4, 0.1]);
+        b.block("block", Element::RcDeck, [-3.0, -0.5, -0.2], [1.3, 0.4, 0.1]);
         let solid = &b.finish()[0].solid;
         let boxed = Convex::new(solid);
         assert!(matches!(boxed.shape, ConvexShape::Box { .. }));

@@ -1,12 +1,14 @@
-//! Places defects from the seed: a line of sight from a task's path finds an exposed face within reach, the catalogue provides
+//! Places defects from the seed: a line of sight from a task's path finds an exposed face within reach, [`crate::elements`] lists
 //! the defects permitted there, and [`super::visibility`] decides whether it can be photographed from within the task's
 //! threshold. Each seed yields different positions.
 
-use super::catalogue;
+use super::camera_pose::CameraPose;
 use super::faces::{MemberFace, face_at};
 use super::light::{RayCast, tangents};
+use super::queries::Surface;
 use super::visibility;
-use super::{CameraPose, Surface};
+use crate::defect_codes;
+use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::math;
 use crate::random::RandomStream;
@@ -142,7 +144,7 @@ fn try_place(
     let hit = (ground.cast)(task.path_m[n], direction, SEARCH_REACH_M)?;
     let member = (hit.surface == Surface::Bridge).then(|| ground.members.get(hit.object.0 as usize)).flatten()?;
     let kind = choose_kind(settings, member.element, kind_draw)?;
-    let (length_m, width_m) = catalogue::draw(kind, condition_state, settings.size_factor, stream);
+    let (length_m, width_m) = defect_codes::draw(kind, condition_state, settings.size_factor, stream);
     let face = face_at(&member.solid, task.path_m[n] + direction * hit.distance_m)?;
     let defect = PlacedDefect {
         id: 0,
@@ -155,7 +157,7 @@ fn try_place(
         along: along(kind, &face, roll),
         length_m,
         width_m,
-        line: catalogue::is_line(kind),
+        line: defect_codes::is_line(kind),
     };
     let separation = SEPARATION_M * (1.5 - 1.5 * attempt as f64 / ATTEMPTS as f64).min(1.0);
     let apart = others.iter().all(|o| (o.position_m - defect.position_m).norm() >= separation);
@@ -163,12 +165,12 @@ fn try_place(
         .then_some(defect)
 }
 
-fn choose_kind(settings: &DefectSpec, element: u32, draw: f64) -> Option<u32> {
+fn choose_kind(settings: &DefectSpec, element: Element, draw: f64) -> Option<u32> {
     if !settings.elements.is_empty() && !settings.elements.contains(&element) {
         return None;
     }
     let wanted = |k: &&u32| settings.kinds.is_empty() || settings.kinds.contains(*k);
-    let legal: Vec<u32> = catalogue::legal_kinds(element).iter().filter(wanted).copied().collect();
+    let legal: Vec<u32> = element.permitted_defects().iter().filter(wanted).copied().collect();
     legal.get((draw * legal.len() as f64) as usize).copied()
 }
 
@@ -178,8 +180,8 @@ fn along(kind: u32, face: &MemberFace, roll_rad: f64) -> Vec3<Enu> {
     let downhill = down - face.normal * face.normal.dot(down);
     let long = face.long_axis();
     match kind {
-        catalogue::EFFLORESCENCE if downhill.norm() > 0.3 => downhill.unit(),
-        catalogue::CORROSION | catalogue::REBAR | catalogue::CONNECTION => long,
+        defect_codes::EFFLORESCENCE if downhill.norm() > 0.3 => downhill.unit(),
+        defect_codes::CORROSION | defect_codes::REBAR | defect_codes::CONNECTION => long,
         _ => {
             let (s, c) = math::sin_cos(roll_rad);
             (long * c + face.normal.cross(long) * s).unit()
@@ -261,14 +263,14 @@ fn in_cone(axis: Vec3<Enu>, half_angle_rad: f64, stream: &mut RandomStream) -> V
 #[cfg(test)]
 mod tests {
     use super::super::boxes::OrientedBox;
-    use super::super::{ObjectId, RayHit};
+    use super::super::queries::{ObjectId, RayHit};
     use super::*;
     use crate::scenario::bridges::Solid;
 
     const SEEDS: u64 = 50;
 
     /// Creates a box member between two corners, faces counterclockwise seen from outside.
-    fn member(name: &str, element: u32, low: [f64; 3], high: [f64; 3]) -> Member {
+    fn member(name: &str, element: Element, low: [f64; 3], high: [f64; 3]) -> Member {
         let vertices_m = (0..8)
             .map(|k| {
                 let pick = |axis: usize| if k >> axis & 1 == 1 { high[axis] } else { low[axis] };
@@ -282,9 +284,9 @@ mod tests {
     /// Creates a concrete wall, with a steel girder in front of part of it; the path is 4 m south of the wall.
     fn members() -> Vec<Member> {
         vec![
-            member("test/wall", 210, [0.0, 0.0, 0.0], [40.0, 1.0, 10.0]),
-            member("test/girder", 107, [0.0, -0.8, 7.0], [40.0, 0.0, 9.0]),
-            member("test/rail", 333, [0.0, -0.8, 0.0], [40.0, 0.0, 0.5]),
+            member("test/wall", Element::RcPierWall, [0.0, 0.0, 0.0], [40.0, 1.0, 10.0]),
+            member("test/girder", Element::SteelGirder, [0.0, -0.8, 7.0], [40.0, 0.0, 9.0]),
+            member("test/rail", Element::OtherRailing, [0.0, -0.8, 0.0], [40.0, 0.0, 0.5]),
         ]
     }
 
@@ -352,7 +354,7 @@ mod tests {
                 let placed = place(&settings(), ground, seed);
                 assert_eq!(placed.len(), 10, "seed {seed}");
                 for d in &placed {
-                    assert!(catalogue::legal_kinds(d.element).contains(&d.kind), "{d:?}");
+                    assert!(d.element.permitted_defects().contains(&d.kind), "{d:?}");
                     let k = ground.members.iter().position(|m| m.name == d.member).expect("a member of the site");
                     assert_eq!(ground.members[k].element, d.element);
                     for p in ends(d, 0.0).iter().chain([&d.position_m]) {
@@ -383,13 +385,13 @@ mod tests {
     #[test]
     fn prop_elements_and_kinds_are_respected_and_a_resolved_file_is_kept() {
         on_ground(1000.0, |ground, _| {
-            let cracks = DefectSpec { elements: vec![210], kinds: vec![catalogue::CRACK], ..settings() };
+            let cracks = DefectSpec { elements: vec![Element::RcPierWall], kinds: vec![defect_codes::CRACK], ..settings() };
             let placed = place(&cracks, ground, 3);
             assert_eq!(placed.len(), 10);
-            assert!(placed.iter().all(|d| d.element == 210 && d.kind == catalogue::CRACK && d.line));
+            assert!(placed.iter().all(|d| d.element == Element::RcPierWall && d.kind == defect_codes::CRACK && d.line));
             let resolved = DefectSpec { placed: Some(placed[..2].to_vec()), ..settings() };
             assert_eq!(place(&resolved, ground, 99), placed[..2].to_vec());
-            let illegal = DefectSpec { elements: vec![107], kinds: vec![catalogue::CRACK], ..settings() };
+            let illegal = DefectSpec { elements: vec![Element::SteelGirder], kinds: vec![defect_codes::CRACK], ..settings() };
             assert!(place(&illegal, ground, 3).is_empty());
         });
     }
@@ -419,11 +421,11 @@ mod tests {
 
     #[test]
     fn prop_catalogue_sizes_keep_their_condition_states_apart() {
-        for kind in catalogue::KINDS {
-            let (fair, poor) = (catalogue::sizes(*kind, 2), catalogue::sizes(*kind, 3));
+        for kind in defect_codes::KINDS {
+            let (fair, poor) = (defect_codes::sizes(*kind, 2), defect_codes::sizes(*kind, 3));
             assert!(fair.length_m.0 > 0.0 && fair.length_m.0 < fair.length_m.1);
             assert!(poor.length_m.1 > fair.length_m.1, "{kind}");
         }
-        assert!(catalogue::sizes(catalogue::CRACK, 2).width.1 < catalogue::sizes(catalogue::CRACK, 3).width.0);
+        assert!(defect_codes::sizes(defect_codes::CRACK, 2).width.1 < defect_codes::sizes(defect_codes::CRACK, 3).width.0);
     }
 }

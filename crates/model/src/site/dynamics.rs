@@ -1,11 +1,12 @@
 //! Session-specific content of a site: traffic and crew, defects, light. Every query takes the result for the static geometry as
 //! an argument and is therefore independent of its implementation.
 
+use super::camera_pose::CameraPose;
 use super::defects::{self, PlacementContext};
 use super::light::{LightModel, RayCast};
+use super::queries::{NearestPoint, QueryTime, RayHit};
 use super::traffic::TrafficPlan;
-use super::visibility;
-use super::{CameraPose, DefectView, NearestPoint, QueryTime, RayHit};
+use super::visibility::{self, DefectView};
 use crate::frames::{Enu, Vec3};
 use crate::scenario::bridges::{Lane, Member};
 use crate::scenario::{PlacedDefect, Scenario};
@@ -78,7 +79,7 @@ impl Dynamics {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Site, Surface, catalogue};
+    use super::super::{Site, Surface};
     use super::*;
     use crate::geodesy::Geo;
     use crate::scenario::bridges::{arch::Arch, suspension::Suspension};
@@ -227,7 +228,7 @@ mod tests {
             assert_eq!(site.defects().len(), 10, "seed {seed}");
             let mut per_task = [0; 4];
             for d in site.defects() {
-                assert!(catalogue::legal_kinds(d.element).contains(&d.kind), "{d:?}");
+                assert!(d.element.permitted_defects().contains(&d.kind), "{d:?}");
                 let k = site.members().iter().position(|m| m.name == d.member).expect("a member of the site");
                 assert_eq!(site.members()[k].element, d.element);
                 let near = site.geometry().shape(k).expect("has a shape").nearest(d.position_m);

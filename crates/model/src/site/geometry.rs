@@ -2,8 +2,9 @@
 //! [`Convex`] and [`HeightGrid`](super::heights::HeightGrid) answer the exact queries.
 
 use super::convex::{Convex, SurfacePoint};
+use super::queries::{Contact, HullProbe, NearestPoint, ObjectId, RayHit, Surface};
 use super::terrain::Terrain;
-use super::{Contact, HullProbe, NearestPoint, ObjectId, RayHit, Surface};
+use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::scenario::bridges::Member;
 use crate::scenario::bridges::solid::{MemberBuilder, Placement};
@@ -266,7 +267,8 @@ impl Geometry {
 
 fn pad_slab(centre_m: Vec3<Enu>, half_m: f64) -> Member {
     let mut builder = MemberBuilder::new("site", Placement::new(centre_m, 90.0));
-    builder.block("pad", 0, [-half_m, -half_m, -PAD_THICK_M], [half_m, half_m, 0.0]);
+    // Not part of a bridge.
+    builder.block("pad", Element::Unlisted(0), [-half_m, -half_m, -PAD_THICK_M], [half_m, half_m, 0.0]);
     builder.finish().swap_remove(0)
 }
 

@@ -146,7 +146,7 @@ mod tests {
         for (node, member) in nodes.iter().zip(site.members()) {
             assert_eq!(node.name(), Some(member.name.as_str()));
             let extras: Value = serde_json::from_str(node.extras().as_ref().unwrap().get()).unwrap();
-            assert_eq!(extras["element"], member.element);
+            assert_eq!(extras["element"], member.element.number());
             let primitive = node.mesh().unwrap().primitives().next().unwrap();
             let reader = primitive.reader(|buffer| Some(&buffers[buffer.index()].0));
             let corners: Vec<[f32; 3]> = reader.read_positions().unwrap().collect();

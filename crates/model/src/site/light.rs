@@ -4,8 +4,8 @@
 //! Sky luminance is uniform. A ray that hits water, ground or structure contributes that surface's first reflection;
 //! interreflection between members is modeled as an enclosure: the visible structure is assumed to be as bright as this point.
 
+use super::queries::{RayHit, Surface};
 use super::sun;
-use super::{RayHit, Surface};
 use crate::frames::{Enu, Vec3};
 use crate::geodesy::Geo;
 use crate::math;
@@ -283,7 +283,7 @@ const GOLDEN_ANGLE_RAD: f64 = 2.399_963_229_728_653;
 
 #[cfg(test)]
 mod tests {
-    use super::super::ObjectId;
+    use super::super::queries::ObjectId;
     use super::*;
 
     const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);

@@ -2,192 +2,40 @@
 //! scenario's local frame [`Enu`], meters. All queries are pure functions of their arguments; traffic and wind take the time.
 
 pub mod boxes;
-pub mod catalogue;
+pub mod bridge_closures;
+mod camera_pose;
+pub mod convex;
 pub mod defects;
 pub mod dynamics;
 mod faces;
+pub mod geometry;
+pub mod gltf;
+pub mod heights;
 pub mod light;
 pub mod movers;
+mod nearest;
+mod queries;
 pub mod sun;
+pub mod terrain;
 mod tracks;
 pub mod traffic;
 pub mod turbulence;
 pub mod visibility;
 pub mod wind;
 
-pub mod bridge_closures;
-pub mod convex;
-pub mod geometry;
-pub mod gltf;
-pub mod heights;
-mod nearest;
-pub mod terrain;
+pub use camera_pose::CameraPose;
+pub use queries::{Contact, HullProbe, NearestPoint, ObjectId, QueryTime, RayHit, Surface};
+pub use visibility::DefectView;
 
-use crate::frames::{Enu, Frd, Ned, Rotation, Vec3};
+use crate::frames::{Enu, Vec3};
 use crate::geodesy::LocalPlane;
 use crate::scenario::bridges::{Lane, Member};
 use crate::scenario::{PlacedDefect, Scenario};
-use crate::time::SimTime;
 use crate::vehicle::{Camera, Lamp};
 use bridge_closures::BridgeClosures;
 use dynamics::{Dynamics, StaticQueries};
 use geometry::Geometry;
 use std::sync::Arc;
-
-/// Surface type for contact, clearance and the wire's `contact` code (docs/src/reference/wire.md, "Scoring data": 0 none, 1
-/// bridge, 2 terrain, 3 water, 4 vehicle, 5 person, 6 other).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Surface {
-    /// A bridge member.
-    Bridge,
-    /// The ground.
-    Terrain,
-    /// The water.
-    Water,
-    /// A car, a truck or the crew's truck.
-    Vehicle,
-    /// A pedestrian or the inspector.
-    Person,
-    /// Anything else.
-    Other,
-    /// The landing pad: solid, but neither a crash nor included in the clearance.
-    Pad,
-}
-
-/// Identifies an object in messages: the index into [`Site::members`] for bridges, otherwise a unique number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ObjectId(pub u32);
-
-/// The nearest point of the site to a query point.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NearestPoint {
-    /// Distance from the query point to the surface, m; negative inside a solid.
-    pub distance_m: f64,
-    /// The surface point, m.
-    pub point_m: Vec3<Enu>,
-    /// Outward unit normal at that point (from the object toward the query point).
-    pub normal: Vec3<Enu>,
-    /// Surface type.
-    pub surface: Surface,
-    /// Object ID.
-    pub object: ObjectId,
-}
-
-/// The first hit of a ray.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RayHit {
-    /// Distance along the ray, m.
-    pub distance_m: f64,
-    /// Outward unit normal of the surface.
-    pub normal: Vec3<Enu>,
-    /// Surface type.
-    pub surface: Surface,
-    /// Object ID.
-    pub object: ObjectId,
-}
-
-/// A contact or near-contact between a convex part of the aircraft and one object of the site.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Contact {
-    /// Point on the object's surface, m.
-    pub point_m: Vec3<Enu>,
-    /// Outward unit normal of the object, toward the aircraft.
-    pub normal: Vec3<Enu>,
-    /// Gap along the normal, m; negative when they overlap.
-    pub gap_m: f64,
-    /// Velocity of the object at that point, m/s (traffic moves).
-    pub velocity_m_s: Vec3<Enu>,
-    /// Surface type.
-    pub surface: Surface,
-    /// Object ID.
-    pub object: ObjectId,
-}
-
-/// Convex parts of the aircraft's hull, in site coordinates.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum HullProbe {
-    /// A sphere.
-    Ball {
-        /// Center, m.
-        centre_m: Vec3<Enu>,
-        /// Radius, m.
-        radius_m: f64,
-    },
-    /// A capsule around a segment.
-    Capsule {
-        /// One end of the axis, m.
-        a_m: Vec3<Enu>,
-        /// Other end, m.
-        b_m: Vec3<Enu>,
-        /// Radius, m.
-        radius_m: f64,
-    },
-}
-
-/// Simulation time of a query, which determines the position of moving objects.
-pub type QueryTime = SimTime;
-
-/// Position and orientation of a camera at one instant.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CameraPose {
-    /// Lens position, m.
-    pub position_m: Vec3<Enu>,
-    /// Unit vector of the optical axis.
-    pub forward: Vec3<Enu>,
-    /// Unit vector toward the right side of the image.
-    pub right: Vec3<Enu>,
-    /// The lamp is on (it points along the optical axis).
-    pub lamp_on: bool,
-}
-
-impl CameraPose {
-    /// Returns the camera pose for an aircraft pose: the attitude determines the heading; the gimbal keeps roll level and holds
-    /// its pitch above the horizon, rad, up positive.
-    #[must_use]
-    pub fn on(
-        camera: &Camera,
-        (position_m, ned_from_frd): (Vec3<Enu>, Rotation<Frd, Ned>),
-        gimbal_rad: f64,
-        lamp_on: bool,
-    ) -> Self {
-        let looking: Rotation<Frd, Ned> = Rotation::from_euler(0.0, gimbal_rad, ned_from_frd.yaw_rad());
-        Self {
-            position_m: position_m + (ned_from_frd * camera.position_m).enu(),
-            forward: (looking * Vec3::new(1.0, 0.0, 0.0)).enu(),
-            right: (looking * Vec3::new(0.0, 1.0, 0.0)).enu(),
-            lamp_on,
-        }
-    }
-}
-
-/// Visibility of one defect in a photo, with each condition listed separately for reports.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DefectView {
-    /// Defect ID ([`PlacedDefect::id`]).
-    pub defect_id: u32,
-    /// Inside the central 80 % of the image.
-    pub in_frame: bool,
-    /// Nothing blocks the line of sight.
-    pub unoccluded: bool,
-    /// Angle between the line of sight and the defect's normal, rad.
-    pub incidence_rad: f64,
-    /// Longest visible dimension, px.
-    pub extent_px: f64,
-    /// Width, px (only lines have a minimum).
-    pub width_px: f64,
-    /// Illuminance at the defect, lx (sun, sky, water, lamp).
-    pub illuminance_lux: f64,
-    /// Illuminance needed for an exposure within the camera's limits, lx.
-    pub needed_lux: f64,
-    /// Distance from the lens, m.
-    pub distance_m: f64,
-    /// A line defect, which has a minimum width.
-    pub line: bool,
-    /// The lamp was on.
-    pub lamp_on: bool,
-    /// All conditions are met.
-    pub hit: bool,
-}
 
 /// The site of a job: immutable after construction; moving objects are a function of time.
 #[derive(Debug, Clone)]
@@ -322,7 +170,7 @@ impl Site {
             geometry::WATER => "water".into(),
             geometry::PAD => "pad".into(),
             _ => match self.members().get(object.0 as usize) {
-                Some(member) => format!("{} ({})", member.name, member.element),
+                Some(member) => format!("{} ({})", member.name, member.element.number()),
                 None => self.dynamics.traffic.name(object).unwrap_or_else(|| format!("object {}", object.0)),
             },
         }

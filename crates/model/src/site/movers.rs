@@ -1,7 +1,7 @@
 //! Moving objects on the decks: solids, sizes and positions.
 
-use super::Surface;
 use super::boxes::OrientedBox;
+use super::queries::Surface;
 use crate::frames::{Enu, Vec3};
 
 /// Types of moving object.

@@ -5,8 +5,8 @@
 use super::boxes::{OrientedBox, bounding_ball};
 use super::bridge_closures::BridgeClosures;
 use super::movers::{MoverKind, MoverPlacement, boxes};
+use super::queries::{Contact, HullProbe, NearestPoint, ObjectId, RayHit, Surface};
 use super::tracks::{LaneTrack, arc_lengths, simplified};
-use super::{Contact, HullProbe, NearestPoint, ObjectId, RayHit, Surface};
 use crate::frames::{Enu, Vec3};
 use crate::math;
 use crate::random::RandomStream;

@@ -3,8 +3,8 @@
 //! wide if it is a line, and lit well enough for an exposure within the camera's limits. The camera is an ideal pinhole; the lamp
 //! is at the lens and points along the optical axis.
 
+use super::camera_pose::CameraPose;
 use super::light::RayCast;
-use super::{CameraPose, DefectView};
 use crate::frames::{Enu, Vec3};
 use crate::math;
 use crate::numbers::{format_beside_limit, limit};
@@ -29,6 +29,35 @@ const SAMPLES: [f64; 5] = [-0.48, -0.24, 0.0, 0.24, 0.48];
 const LIFT_M: f64 = 0.005;
 /// Length at the end of a line of sight that is excluded from the occlusion test, m.
 const CLEAR_M: f64 = 0.01;
+
+/// Visibility of one defect in a photo, with each condition listed separately for reports.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DefectView {
+    /// Defect ID ([`PlacedDefect::id`]).
+    pub defect_id: u32,
+    /// Inside the central 80 % of the image.
+    pub in_frame: bool,
+    /// Nothing blocks the line of sight.
+    pub unoccluded: bool,
+    /// Angle between the line of sight and the defect's normal, rad.
+    pub incidence_rad: f64,
+    /// Longest visible dimension, px.
+    pub extent_px: f64,
+    /// Width, px (only lines have a minimum).
+    pub width_px: f64,
+    /// Illuminance at the defect, lx (sun, sky, water, lamp).
+    pub illuminance_lux: f64,
+    /// Illuminance needed for an exposure within the camera's limits, lx.
+    pub needed_lux: f64,
+    /// Distance from the lens, m.
+    pub distance_m: f64,
+    /// A line defect, which has a minimum width.
+    pub line: bool,
+    /// The lamp was on.
+    pub lamp_on: bool,
+    /// All conditions are met.
+    pub hit: bool,
+}
 
 /// Query for ambient light on a defect by position and normal, lx.
 pub type AmbientLight<'a> = &'a dyn Fn(Vec3<Enu>, Vec3<Enu>) -> f64;
@@ -189,7 +218,7 @@ fn length_px(pose: &CameraPose, camera: &Camera, defect: &PlacedDefect, directio
 
 #[cfg(test)]
 mod tests {
-    use super::super::{ObjectId, RayHit, Surface};
+    use super::super::queries::{ObjectId, RayHit, Surface};
     use super::*;
 
     const CAMERA: Camera = Camera {
@@ -211,7 +240,7 @@ mod tests {
     fn crack() -> PlacedDefect {
         PlacedDefect {
             id: 1,
-            element: 144,
+            element: crate::elements::Element::RcArch,
             member: "arch".into(),
             kind: 1130,
             condition_state: 3,

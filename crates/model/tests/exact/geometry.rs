@@ -74,7 +74,7 @@ fn val_every_member_of_the_file_is_the_solid_that_collides() {
     for (k, member) in site.members().iter().enumerate() {
         let node = &nodes[&member.name];
         let shape = site.geometry().shape(k).unwrap();
-        assert_eq!(node.element, Some(member.element), "{}", member.name);
+        assert_eq!(node.element, Some(u32::from(member.element.number())), "{}", member.name);
         assert_eq!(node.triangles.len(), member.solid.triangles().len());
         for corner in &node.corners {
             assert!(shape.nearest(*corner).distance_m.abs() < ROUNDING_M, "{}", member.name);

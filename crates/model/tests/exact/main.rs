@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod bridges;
+mod elements;
 mod geometry;
 mod ground;
 mod site;

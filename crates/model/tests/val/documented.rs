@@ -1,6 +1,7 @@
 //! The READMEs beside the files document exactly the keys, ranges and defaults that the code asks for.
 
 use crate::shipped::files;
+use spandrel_model::scenario::BridgeKind;
 use spandrel_model::toml::DocumentedKey;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -79,6 +80,18 @@ fn compare(readme: &str, keys: &Keys) -> Vec<String> {
 fn val_every_scenario_key_is_documented_as_the_code_asks() {
     let wrong = compare("scenarios/README.md", &scenario_keys());
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn val_the_dimensions_of_every_bridge_type_are_documented_with_their_meaning() {
+    let rows = documented("scenarios/README.md");
+    for bridge in BridgeKind::TYPES {
+        for field in bridge.fields {
+            let key = format!("bridges[].{}.{}", bridge.name, field.key);
+            let row = rows.iter().find(|row| row.0 == key).unwrap_or_else(|| panic!("{key} is missing"));
+            assert_eq!(row.2, field.meaning, "{key}");
+        }
+    }
 }
 
 #[test]

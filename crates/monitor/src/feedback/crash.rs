@@ -1,7 +1,8 @@
 //! Crash cue: raised at the start of any contact and names the object hit. Its text is sent before all others. Contacts in quick
 //! succession produce only one text.
 
-use super::{CoolDown, FeedbackInput, PilotText};
+use super::input::FeedbackInput;
+use super::pilot_text::{CoolDown, PilotText};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::FeedbackThresholds;

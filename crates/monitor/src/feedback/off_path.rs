@@ -2,7 +2,8 @@
 //! while the drone is in transit: before the first task, and after leaving a task whose path was flown, or at an end of its path
 //! (docs/src/reference/assessment.md, "Feedback during the flight").
 
-use super::{CoolDown, FeedbackInput, PilotText, TaskProximity};
+use super::input::{FeedbackInput, TaskProximity};
+use super::pilot_text::{CoolDown, PilotText};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::FeedbackThresholds;
 use spandrel_model::time::SimTime;

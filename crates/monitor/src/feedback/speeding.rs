@@ -1,7 +1,8 @@
 //! Speeding cue: the drone is over the speed limit while on any path or near the last task entered. The scorer counts only
 //! speeding inside task windows, but the end of a window is not known during the flight.
 
-use super::{CoolDown, FeedbackInput, PilotText};
+use super::input::FeedbackInput;
+use super::pilot_text::{CoolDown, PilotText};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::math::M_S_PER_MPH;
 use spandrel_model::numbers::{format_beside_limit, limit};

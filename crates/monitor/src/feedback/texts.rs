@@ -1,6 +1,6 @@
 //! Queue of texts for the pilot: one is sent at a time, crashes first. Texts that have waited too long are dropped.
 
-use super::PilotText;
+use super::pilot_text::PilotText;
 use spandrel_mavlink::contract::cue;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;

@@ -10,6 +10,7 @@ use crate::session::{EndReason, Session};
 use serde::Serialize;
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::telemetry::Frame;
+use spandrel_model::elements::Element;
 use spandrel_model::numbers::{format_beside_limit, limit};
 use spandrel_model::scenario::{PlacedDefect, Scenario};
 use std::collections::{BTreeMap, BTreeSet};
@@ -135,7 +136,7 @@ pub struct Detection {
     /// version.
     pub detection_only: bool,
     /// Counts by AASHTO MBEI element number.
-    pub by_element: BTreeMap<u32, DetectionCounts>,
+    pub by_element: BTreeMap<Element, DetectionCounts>,
     /// Counts by AASHTO MBEI defect code.
     pub by_kind: BTreeMap<u32, DetectionCounts>,
     /// Counts by condition state, 1 to 4.

@@ -7,6 +7,7 @@ mod causal;
 pub mod columns;
 mod learning;
 mod progress;
+mod samples;
 mod scores;
 mod tables;
 
@@ -18,6 +19,7 @@ pub use scores::{Comparison, CrashRow, CrashTable, Distribution, GroupTest, Indi
 pub use tables::{TABLES, table, tables};
 
 use super::record::{IncompletePolicy, SessionRecord};
+use samples::SessionsByTrainee;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -32,7 +34,7 @@ pub struct Selection {
     pub scenarios: Vec<String>,
     /// Number of repetitions to compare.
     pub repetitions: usize,
-    /// Whether incomplete sessions count.
+    /// Policy for sessions whose job was not completed.
     pub incomplete: IncompletePolicy,
 }
 
@@ -76,22 +78,6 @@ pub struct Cohort {
     /// Limitations to consider when interpreting the results.
     pub warnings: Vec<String>,
 }
-
-/// Function that returns one score of a record; `None` if it does not apply.
-pub(super) type ScorePicker = fn(&SessionRecord) -> Option<f64>;
-
-/// The five scores by name.
-pub(super) const SCORES: [(&str, ScorePicker); 5] = [
-    ("conformity", |record| record.scores.conformity),
-    ("efficiency", |record| Some(record.scores.efficiency)),
-    ("safety", |record| Some(record.scores.safety)),
-    ("accuracy", |record| record.scores.accuracy),
-    OVERALL,
-];
-const OVERALL: (&str, ScorePicker) = ("overall", |record| Some(record.scores.overall));
-
-/// Sessions of each trainee on the job, in chronological order.
-pub(super) type SessionsByTrainee<'a> = BTreeMap<&'a str, Vec<&'a SessionRecord>>;
 
 /// Analyzes the selected sessions of a cohort.
 #[must_use]

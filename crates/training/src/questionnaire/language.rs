@@ -1,22 +1,14 @@
 //! Available questionnaire languages (shipped and site-specific) and language selection.
 
+use super::language_tag::is_tag;
 use super::wording::{Wording, read_wording};
 use spandrel_model::toml::Problems;
 
 /// File names and contents of the shipped translations.
 pub const SHIPPED: [(&str, &str); 3] =
     [("en.toml", include_str!("en.toml")), ("de.toml", include_str!("de.toml")), ("es.toml", include_str!("es.toml"))];
-/// Maximum length of a language tag, characters (BCP 47 requires support for 35).
-const TAG_MAX: usize = 35;
 /// Maximum number of entries evaluated in an Accept-Language header.
 const ACCEPTED_MOST: usize = 20;
-
-/// Returns whether a string has the format of a language tag.
-#[must_use]
-pub fn is_tag(tag: &str) -> bool {
-    let parts = || tag.split('-');
-    tag.len() <= TAG_MAX && parts().all(|part| (1..=8).contains(&part.len()) && part.chars().all(|c| c.is_ascii_alphanumeric()))
-}
 
 /// All available languages; the first one is the default.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,10 +1,11 @@
 //! Causes of a session's scores, computed for each task from the session's frames.
 
-use super::{Crashes, DefectRecord, RecordSource, TaskRecord, kind_word};
+use super::source::RecordSource;
+use super::task_record::{Crashes, DefectRecord, TaskRecord, kind_word};
 use spandrel_mavlink::telemetry::Frame;
+use spandrel_model::defect_codes::kind_name;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::PlacedDefect;
-use spandrel_model::site::catalogue::kind_name;
 use spandrel_monitor::assessment::SnapshotCounts;
 use spandrel_monitor::measures::crash::{self, Crash};
 use spandrel_monitor::measures::on_path::{OnPath, OnPathWindow, ReferencePaths};

@@ -1,7 +1,7 @@
 //! Feedback given during the session, reconstructed by replaying the telemetry log through the monitor, and the trainee's stick
 //! reactions.
 
-use super::ReviewContext;
+use super::context::ReviewContext;
 use super::track::TaskProximityStep;
 use spandrel_mavlink::contract::cue;
 use spandrel_mavlink::telemetry::log_stream::TelemetryLog;

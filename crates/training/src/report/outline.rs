@@ -1,6 +1,7 @@
 //! Line drawings of the site: parallel projections, silhouettes of members, and the triangle mesh of the 3D view. All are derived
 //! from the collision geometry. Details too small to see are skipped.
 
+use spandrel_model::elements::Element;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::Bridge;
@@ -18,8 +19,8 @@ pub struct ParallelView {
 /// Silhouette of one bridge member.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MemberOutline {
-    /// Element number (AASHTO MBEI).
-    pub element: u32,
+    /// Element of the member.
+    pub element: Element,
     /// Corners in the drawing, counterclockwise; m right and up.
     pub corners: Vec<(f64, f64)>,
     /// Depth of the nearest point, m; larger is closer to the viewer.

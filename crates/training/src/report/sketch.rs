@@ -1,6 +1,7 @@
 //! Draws a camera's view from the collision geometry with flat shading, edges, haze and lamp light. The drawing is dark where the
 //! light is too weak. The report labels it as a drawing, not as a photograph.
 
+use spandrel_model::elements::ElementMaterial;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::Scenario;
@@ -108,7 +109,7 @@ impl Sketcher {
 fn structure(member: &spandrel_model::scenario::bridges::Member, sun: Vec3<Enu>, palette: &mut Palette) -> SketchBody {
     let v = &member.solid.vertices_m;
     let centre_m = v.iter().fold(Vec3::zero(), |sum, x| sum + *x) / v.len().max(1) as f64;
-    let steel = matches!(member.element, 107 | 113 | 147 | 148 | 152 | 207 | 311 | 313 | 330);
+    let steel = member.element.material() == ElementMaterial::Steel;
     let base = if steel { [0.50, 0.57, 0.60] } else { [0.74, 0.72, 0.68] };
     let facet = |t: [u32; 3]| facet(t.map(|k| v[k as usize]), base, sun, palette);
     SketchBody {

@@ -77,32 +77,6 @@ pub fn control_source_label(by: Option<ControlSource>) -> &'static str {
     }
 }
 
-/// Returns the name of a bridge element by its number in the AASHTO Manual for Bridge Element Inspection.
-#[must_use]
-pub fn element(number: u32) -> &'static str {
-    match number {
-        12 => "deck, reinforced concrete",
-        107 => "girder, steel",
-        113 => "stringer, steel",
-        116 => "stringer, reinforced concrete",
-        144 => "arch, reinforced concrete",
-        147 => "main cable, steel",
-        148 => "hanger, steel",
-        152 => "floor beam, steel",
-        155 => "floor beam, reinforced concrete",
-        205 => "column, reinforced concrete",
-        207 => "tower, steel",
-        210 => "pier wall, reinforced concrete",
-        215 => "abutment, reinforced concrete",
-        220 => "footing, reinforced concrete",
-        311 => "movable bearing",
-        313 => "fixed bearing",
-        330 => "railing, metal",
-        331 => "railing, reinforced concrete",
-        _ => "element",
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -8,7 +8,7 @@ use crate::mesh::Vertex;
 use crate::quality::Quality;
 use crate::scene::{DefectPatch, Instance};
 use crate::shaders;
-use spandrel_model::site::catalogue;
+use spandrel_model::defect_codes;
 use wgpu::VertexFormat::{Float32, Float32x2, Float32x3, Float32x4, Uint32, Unorm8x4};
 
 pub use labels::LabelPipelines;
@@ -355,7 +355,7 @@ impl Pipelines {
             surfaces: surfaces(gpu, &shaded, quality, 0.0),
             surfaces_mirrored: surfaces(gpu, &mirrored, quality, 1.0),
             sheer: build(gpu, &sheer),
-            defects: catalogue::KINDS.iter().map(|code| (*code, special(gpu, &flat, &[("KIND", f64::from(*code))]))).collect(),
+            defects: defect_codes::KINDS.iter().map(|code| (*code, special(gpu, &flat, &[("KIND", f64::from(*code))]))).collect(),
             water: by_lamp(quality, |lamp| special(gpu, &lake, &[lamp])),
             sky_mirrored: build(gpu, &PipelineKey { samples: 1, ..back }),
             sky: build(gpu, &back),

@@ -18,8 +18,8 @@ use crate::shadows::{self, ShadowMap};
 use crate::shot::Shot;
 use crate::tiles;
 use culling::ShotView;
+use spandrel_model::defect_codes;
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::site::catalogue;
 use static_cells::{StaticCell, fixed};
 
 /// Cosine of a quarter of a degree; when the sun has moved farther, the whole-site shadow map is redrawn.
@@ -335,7 +335,7 @@ fn patches(gpu: &Gpu, all: &[DefectPatch]) -> Vec<(u32, wgpu::Buffer, u32)> {
         let buffer = (!same.is_empty()).then(|| upload(gpu, bytemuck::cast_slice(&same), wgpu::BufferUsages::VERTEX))?;
         Some((*kind, buffer, same.len() as u32))
     };
-    catalogue::KINDS.iter().filter_map(of).collect()
+    defect_codes::KINDS.iter().filter_map(of).collect()
 }
 
 /// Returns the moving objects that are opaque.

@@ -1,6 +1,6 @@
 //! Recent motion of the aircraft, with interpolation between samples.
 
-use super::series::TimeSeries;
+use super::series::{GAP, KEPT, TimeSeries, share};
 use crate::stage::CameraTurnRate;
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
@@ -8,10 +8,6 @@ use spandrel_model::math;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// Age relative to the latest sample beyond which samples are discarded.
-pub(super) const KEPT: SimTime = SimTime::from_ms(3_000);
-/// Maximum gap between samples for interpolation.
-pub(super) const GAP: SimTime = SimTime::from_ms(1_000);
 /// Additional delay of the camera's field of view, which is sent at 5 Hz. Together with the general delay
 /// ([`BEHIND_S`](super::clock::BEHIND_S)), it leaves time for the next sample to arrive, including 20 ms of jitter
 /// (estimate).
@@ -126,11 +122,6 @@ impl MotionHistory {
         let before = self.truths.get(after.checked_sub(1)?)?;
         self.truths.get(after).filter(|next| continues(before, next)).map(|next| (before, next))
     }
-}
-
-/// Returns the fraction of `at` between two times, 0 to 1.
-pub(super) fn share(from: SimTime, to: SimTime, at: SimTime) -> f64 {
-    (at - from).s() / (to - from).s().max(1e-9)
 }
 
 fn continues(before: &Truth, next: &Truth) -> bool {

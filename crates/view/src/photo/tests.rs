@@ -1,5 +1,7 @@
 use super::*;
 use exif::{In, Tag};
+use spandrel_model::geodesy::Geo;
+use spandrel_model::vehicle::Camera;
 
 fn about() -> PhotoInfo {
     PhotoInfo {

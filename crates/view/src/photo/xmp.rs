@@ -2,7 +2,7 @@
 //! (DJI's, as in Metashape, Pix4D and OpenDroneMap), and simulator-specific values under names in the `spandrel`
 //! namespace.
 
-use super::PhotoInfo;
+use super::info::PhotoInfo;
 use std::fmt::Write;
 
 /// Returns the XMP packet.

@@ -3,7 +3,8 @@
 use super::super::mesh::{Material, Mesh, Vertex, single};
 use super::super::quality::Quality;
 use super::bake::{INSET_M, LightBaker, filled};
-use super::{SceneItem, VisibleRange};
+use super::item::{SceneItem, VisibleRange};
+use spandrel_model::elements::{Element, ElementGroup, ElementMaterial};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::bridges::Member;
 use spandrel_model::scenario::{Bridge, Scenario};
@@ -25,13 +26,13 @@ const LIGHT_OFF: f32 = 0.03;
 /// Same tolerance for slender members.
 const LIGHT_OFF_SLIM: f32 = 0.12;
 
-/// Returns the material and paint of an element by its AASHTO number.
-pub(super) fn matter(element: u32) -> (Material, [u8; 3]) {
-    match element {
-        147..=149 => (Material::Cable, WIRE),
-        310..=316 => (Material::Steel, BEARING),
-        330 => (Material::Steel, RAIL),
-        28..=30 | 102 | 107 | 113 | 120 | 141 | 152 | 161 | 162 | 202 | 207 | 225 | 231 => (Material::Steel, COAT),
+/// Material and paint of an element.
+pub(super) fn matter(element: Element) -> (Material, [u8; 3]) {
+    match (element.group(), element.material()) {
+        (ElementGroup::Cable, _) => (Material::Cable, WIRE),
+        (ElementGroup::Bearing, _) => (Material::Steel, BEARING),
+        (ElementGroup::Railing, ElementMaterial::Steel) => (Material::Steel, RAIL),
+        (_, ElementMaterial::Steel) => (Material::Steel, COAT),
         _ => (Material::Concrete, WHITE),
     }
 }
@@ -53,11 +54,11 @@ const STEPS_MIN: f64 = 2.0;
 const LEVEL: f64 = 0.999;
 
 /// Hangers and railings, which are not visible in the small reflection of a distant bridge.
-const SLIM: [u32; 3] = [148, 330, 331];
+const SLIM: [Element; 3] = [Element::Hanger, Element::MetalRailing, Element::RcRailing];
 
 /// Function that returns the tolerance of the light between the corners of a face, by element and normal; `None` omits
 /// the face.
-type LightTolerance<'a> = &'a dyn Fn(u32, Vec3<Enu>) -> Option<f32>;
+type LightTolerance<'a> = &'a dyn Fn(Element, Vec3<Enu>) -> Option<f32>;
 /// Tolerance that keeps every sample.
 const WHOLE: f32 = f32::NEG_INFINITY;
 
@@ -67,10 +68,10 @@ pub fn parts(scenario: &Scenario, bake: &LightBaker, quality: &Quality) -> Vec<S
         let [mesh] = meshes(scenario, bake, quality, [&|_, _| Some(WHOLE)]);
         return vec![SceneItem::here("bridges", mesh, true)];
     }
-    let is_slim = |element: u32| SLIM.contains(&element);
-    let straight = |element: u32, _| Some(if is_slim(element) { LIGHT_OFF_SLIM } else { LIGHT_OFF });
+    let is_slim = |element: Element| SLIM.contains(&element);
+    let straight = |element: Element, _| Some(if is_slim(element) { LIGHT_OFF_SLIM } else { LIGHT_OFF });
     // For the lake's reflection, light is sampled only at the corners of faces.
-    let in_lake = |element: u32, normal: Vec3<Enu>| (!is_slim(element) && normal.up() < LEVEL).then_some(f32::INFINITY);
+    let in_lake = |element: Element, normal: Vec3<Enu>| (!is_slim(element) && normal.up() < LEVEL).then_some(f32::INFINITY);
     let [straight, in_lake] = meshes(scenario, bake, quality, [&straight, &in_lake]);
     let (straight, in_lake) =
         (SceneItem::here("bridges", straight, true), SceneItem::here("bridges in the lake", in_lake, false));
@@ -117,7 +118,7 @@ fn add(
         if thinned.iter().all(|thinned| off(thinned).is_none()) || is_covered(&corners, normal, bake) {
             continue;
         }
-        let road = matches!(member.element, 12 | 13 | 15 | 16 | 28..=31 | 38 | 39) && normal.up() > 0.9;
+        let road = member.element.group() == ElementGroup::Deck && normal.up() > 0.9;
         let look = FaceLook {
             element: member.element,
             normal,
@@ -171,7 +172,7 @@ fn is_covered(corners: &[Vec3<Enu>], normal: Vec3<Enu>, bake: &LightBaker) -> bo
 }
 
 struct FaceLook {
-    element: u32,
+    element: Element,
     normal: Vec3<Enu>,
     material: Material,
     tint: [u8; 3],
@@ -200,7 +201,7 @@ fn corner(p: Vec3<Enu>, look: &FaceLook, axes: &TextureAxes, light: [f32; 2]) ->
         normal: single(look.normal),
         uv: uv(p, look.normal, axes),
         light,
-        material: look.material as u32 | (look.element << 8),
+        material: look.material as u32 | (u32::from(look.element.number()) << 8),
         tint: [r, g, b, 255],
         aux: if look.material == Material::Deck { axes.half_deck_m as f32 } else { 0.0 },
     }
@@ -334,13 +335,17 @@ mod tests {
                     let covered = is_covered(&corners, normal, &bake);
                     // All sides of bearings are exposed. Stringers are below the slab, so their webs are exposed.
                     let side = normal.up().abs() < 0.1;
-                    assert!(!(covered && side && (311..=316).contains(&member.element)), "{}", member.name);
-                    bearings += u32::from(side && (311..=316).contains(&member.element));
+                    assert!(!(covered && side && (311..=316).contains(&member.element.number())), "{}", member.name);
+                    bearings += u32::from(side && (311..=316).contains(&member.element.number()));
                     let level = corners.iter().map(|c| (*c - corners[0]).norm()).fold(0.0, f64::max);
-                    let long = side && level > 2.0 && member.element == 113;
+                    let long = side && level > 2.0 && member.element == Element::SteelStringer;
                     assert!(!(covered && long), "{}", member.name);
                     stringers += u32::from(long);
-                    slabs += u32::from(covered && matches!(member.element, 107 | 113 | 116) && normal.up() > 0.9);
+                    slabs += u32::from(
+                        covered
+                            && matches!(member.element, Element::SteelGirder | Element::SteelStringer | Element::RcStringer)
+                            && normal.up() > 0.9,
+                    );
                 }
             }
         }

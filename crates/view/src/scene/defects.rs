@@ -2,10 +2,10 @@
 
 use super::bake::LightBaker;
 use super::bridges;
+use spandrel_model::defect_codes;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::PlacedDefect;
 use spandrel_model::site::Site;
-use spandrel_model::site::catalogue;
 
 /// Number of rays for the light on a patch, the same as in the scoring.
 const RAYS: usize = 64;
@@ -42,10 +42,10 @@ pub fn patches(site: &Site, sun: Vec3<Enu>) -> Vec<DefectPatch> {
 /// Returns the code with which a defect is drawn. Resolved files may contain kinds that no seed generates. Because
 /// scored defects must be visible, these look like a crack or exposed aggregate.
 fn look(defect: &PlacedDefect) -> u32 {
-    match (catalogue::KINDS.contains(&defect.kind), defect.line) {
+    match (defect_codes::KINDS.contains(&defect.kind), defect.line) {
         (true, _) => defect.kind,
-        (false, true) => catalogue::CRACK,
-        (false, false) => catalogue::ABRASION,
+        (false, true) => defect_codes::CRACK,
+        (false, false) => defect_codes::ABRASION,
     }
 }
 
@@ -83,7 +83,7 @@ mod tests {
     fn streak() -> PlacedDefect {
         PlacedDefect {
             id: 3,
-            element: 144,
+            element: spandrel_model::elements::Element::RcArch,
             member: "arch/rib-left/07".into(),
             kind: 1130,
             condition_state: 3,

@@ -1,9 +1,9 @@
 //! Contrast of a crack depending on the ground sampling distance (docs/src/reference/domain.md, "Resolution": detection
 //! from half a pixel's width, identification from one pixel); it must change without steps.
 
+use spandrel_model::defect_codes;
 use spandrel_model::math;
 use spandrel_model::scenario::PlacedDefect;
-use spandrel_model::site::catalogue;
 use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, sunny};
 use spandrel_view::picture::Picture;
@@ -26,7 +26,7 @@ struct Wall {
 
 impl Wall {
     fn new() -> Self {
-        Self::of(catalogue::CRACK, BARE)
+        Self::of(defect_codes::CRACK, BARE)
     }
 
     /// Creates a wall; `own` decides whether the crack has lime deposits.
@@ -36,7 +36,7 @@ impl Wall {
         let hit = studio.site.ray(from, towards, 200.0, SimTime::ZERO).unwrap();
         let crack = PlacedDefect {
             id: 1,
-            element: 215,
+            element: spandrel_model::elements::Element::RcAbutment,
             member: "wall".into(),
             kind,
             condition_state: 3,
@@ -164,7 +164,7 @@ fn prop_what_seeps_out_of_a_line_falls_without_steps() {
     // Rounding to 8 bits, different rows of the wall, and ends of the leakage that enter the picture.
     const RISE_MAX: f64 = 0.03;
     const FALL_MAX: f64 = 0.08;
-    for (kind, own) in [(catalogue::CRACK, LIMED), (catalogue::FATIGUE, BARE)] {
+    for (kind, own) in [(defect_codes::CRACK, LIMED), (defect_codes::FATIGUE, BARE)] {
         let mut wall = Wall::of(kind, own);
         let mut before: Option<f64> = None;
         let mut share = 4.0;

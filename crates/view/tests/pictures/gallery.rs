@@ -2,10 +2,11 @@
 
 use super::compare::{Difference, beside, held, held_at};
 use spandrel_mavlink::contract::cue;
+use spandrel_model::defect_codes;
+use spandrel_model::elements::Element;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::PlacedDefect;
-use spandrel_model::site::catalogue;
 use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, dusk, sunny};
 use spandrel_view::arrange::fitted_px;
@@ -145,7 +146,7 @@ fn placed(studio: &Studio, (from, to): (Vec3<Enu>, Vec3<Enu>), kind: u32, size_m
     let along = if down { level.cross(hit.normal).unit() } else { (level * 0.9 + hit.normal.cross(level) * 0.3).unit() };
     PlacedDefect {
         id: kind,
-        element: if kind < 1080 { 107 } else { 144 },
+        element: if kind < 1080 { Element::SteelGirder } else { Element::RcArch },
         member: "gallery".into(),
         kind,
         condition_state: 3,
@@ -154,7 +155,7 @@ fn placed(studio: &Studio, (from, to): (Vec3<Enu>, Vec3<Enu>), kind: u32, size_m
         along,
         length_m: size_m.0,
         width_m: size_m.1,
-        line: catalogue::is_line(kind),
+        line: defect_codes::is_line(kind),
     }
 }
 
@@ -193,14 +194,14 @@ fn regress_defects_at_1_3_and_8_m() {
     let (wall_at, girder_at) = (wall_at(), girder_at());
     let mut wall = Wall::default();
     for (name, sight, kind, size_m, down) in [
-        ("crack", wall_at, catalogue::CRACK, (0.9, 0.003), true),
-        ("spall", wall_at, catalogue::SPALL, (0.42, 0.30), false),
-        ("exposed-rebar", wall_at, catalogue::REBAR, (0.46, 0.24), false),
-        ("efflorescence", wall_at, catalogue::EFFLORESCENCE, (0.8, 0.42), true),
-        ("abrasion", wall_at, catalogue::ABRASION, (0.6, 0.4), false),
-        ("corrosion", girder_at, catalogue::CORROSION, (0.42, 0.3), false),
-        ("fatigue-crack", girder_at, catalogue::FATIGUE, (0.22, 0.0004), false),
-        ("missing-bolts", girder_at, catalogue::CONNECTION, (0.30, 0.16), false),
+        ("crack", wall_at, defect_codes::CRACK, (0.9, 0.003), true),
+        ("spall", wall_at, defect_codes::SPALL, (0.42, 0.30), false),
+        ("exposed-rebar", wall_at, defect_codes::REBAR, (0.46, 0.24), false),
+        ("efflorescence", wall_at, defect_codes::EFFLORESCENCE, (0.8, 0.42), true),
+        ("abrasion", wall_at, defect_codes::ABRASION, (0.6, 0.4), false),
+        ("corrosion", girder_at, defect_codes::CORROSION, (0.42, 0.3), false),
+        ("fatigue-crack", girder_at, defect_codes::FATIGUE, (0.22, 0.0004), false),
+        ("missing-bolts", girder_at, defect_codes::CONNECTION, (0.30, 0.16), false),
     ] {
         let defect = placed(&studio, sight, kind, size_m, down);
         hang_patch(&mut studio, &defect);
@@ -220,10 +221,10 @@ fn regress_the_tutorial_shows_defects_through_one_lens_at_true_scale() {
     let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
     let mut wall = Wall::default();
     for (name, sight, kind, size_m, down) in [
-        ("crack", wall_at(), catalogue::CRACK, (0.9, 0.003), true),
-        ("spall", wall_at(), catalogue::SPALL, (0.42, 0.30), false),
-        ("efflorescence", wall_at(), catalogue::EFFLORESCENCE, (0.8, 0.42), true),
-        ("corrosion", girder_at(), catalogue::CORROSION, (0.42, 0.3), false),
+        ("crack", wall_at(), defect_codes::CRACK, (0.9, 0.003), true),
+        ("spall", wall_at(), defect_codes::SPALL, (0.42, 0.30), false),
+        ("efflorescence", wall_at(), defect_codes::EFFLORESCENCE, (0.8, 0.42), true),
+        ("corrosion", girder_at(), defect_codes::CORROSION, (0.42, 0.3), false),
     ] {
         let defect = placed(&studio, sight, kind, size_m, down);
         hang_patch(&mut studio, &defect);

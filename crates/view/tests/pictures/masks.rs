@@ -29,9 +29,9 @@ fn val_pixels_are_labelled_as_rays_hit() {
             let (x, y) = (f64::from(k % SIZE.0) + 0.5, f64::from(k / SIZE.0) + 0.5);
             let ray = shot.eye.ray(2.0 * x / f64::from(SIZE.0) - 1.0, 1.0 - 2.0 * y / f64::from(SIZE.1), aspect);
             let found = studio.site.geometry().ray(from, ray, 2_000.0)?;
-            (found.surface == Surface::Bridge).then(|| studio.site.members()[found.object.0 as usize].element)
+            (found.surface == Surface::Bridge).then(|| studio.site.members()[found.object.0 as usize].element.number())
         };
-        let apart = (0..SIZE.0 * SIZE.1).filter(|k| hit(*k).unwrap_or(0) != u32::from(masks.elements[*k as usize])).count();
+        let apart = (0..SIZE.0 * SIZE.1).filter(|k| hit(*k).unwrap_or(0) != masks.elements[*k as usize]).count();
         let bridge = masks.elements.iter().filter(|element| **element != 0).count();
         let all = f64::from(SIZE.0 * SIZE.1);
         assert!(bridge as f64 > 0.2 * all, "the picture must show a bridge: {bridge} pixels");
@@ -61,7 +61,7 @@ fn val_a_defect_before_the_lens_is_labelled_with_its_number_and_in_its_place() {
             continue;
         }
         let entry = entry.unwrap_or_else(|| panic!("{} {} of {:.4} m", defect.id, defect.kind, defect.width_m));
-        assert_eq!(entry["element"], defect.element);
+        assert_eq!(entry["element"], defect.element.number());
         let [x, y, w, h] = [0, 1, 2, 3].map(|k| entry["box_px"][k].as_f64().unwrap());
         assert!(
             x <= 190.0 && x + w >= 130.0 && y <= 150.0 && y + h >= 90.0,

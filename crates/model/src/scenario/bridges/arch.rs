@@ -1,8 +1,9 @@
 //! Open-spandrel deck arch: two parabolic ribs with struts, spandrel columns, floorbeams, stringers, deck slab, railings,
 //! abutments.
 
-use super::solid::MemberBuilder;
-use super::{BridgeField, Footing, Inconsistency, InconsistencyList};
+use super::dimensions::{Inconsistency, InconsistencyList, bridge_dimensions};
+use super::solid::{Footing, MemberBuilder};
+use crate::elements::Element;
 use crate::math;
 
 /// Distance from the ends of the floorbeams to the deck's edge, m (estimate).
@@ -14,100 +15,31 @@ const SKEWBACK_M: f64 = 3.0;
 /// Minimum length of a column, m; shorter ones are omitted (estimate).
 const SHORTEST_COLUMN_M: f64 = 0.25;
 
-/// Dimensions of an open-spandrel deck arch. Bridge axes: x along the deck, y left, z up, origin on the deck at midspan.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Arch {
-    /// Distance between the springings, m.
-    pub span_m: f64,
-    /// Height of the rib axis at the crown above the springings, m.
-    pub rise_m: f64,
-    /// Depth of a rib at the crown, m.
-    pub crown_depth_m: f64,
-    /// Depth of a rib at the springing, m.
-    pub springing_depth_m: f64,
-    /// Width of a rib, m.
-    pub rib_width_m: f64,
-    /// Distance between the ribs' axes, m.
-    pub rib_spacing_m: f64,
-    /// Vertical clearance between slab soffit and crown extrados, m.
-    pub crown_gap_m: f64,
-    /// Number of panels between the springings (columns stand at the inner panel points).
-    pub panels: f64,
-    /// Side length of the square spandrel columns, m.
-    pub column_m: f64,
-    /// Deck width, m.
-    pub deck_width_m: f64,
-    /// Slab thickness, m.
-    pub slab_m: f64,
-    /// Floorbeam depth below the slab, m.
-    pub floorbeam_depth_m: f64,
-    /// Floorbeam width, m.
-    pub floorbeam_width_m: f64,
-    /// Number of stringer lines.
-    pub stringers: f64,
-    /// Stringer depth below the slab, m.
-    pub stringer_depth_m: f64,
-    /// Stringer width, m.
-    pub stringer_width_m: f64,
-    /// Railing height, m.
-    pub railing_m: f64,
-    /// Deck length beyond each springing, m.
-    pub approach_m: f64,
-}
-
-const fn field(key: &'static str, min: f64, max: f64, default: f64, doc: &'static str) -> BridgeField {
-    BridgeField { key, min, max, default, doc }
+bridge_dimensions! {
+    /// Dimensions of an open-spandrel deck arch. Bridge axes: x along the deck, y left, z up, origin on the deck at midspan.
+    Arch "arch" {
+        span_m 40.0 to 520.0, 98.0, "Distance between springings, m; Bixby Creek 98 m, New River Gorge 518 m.";
+        rise_m 8.0 to 120.0, 26.0, "Height of the crown axis above the springing axis, m; span/rise of cataloged arches is 2.5 to 8.";
+        crown_depth_m 0.8 to 8.0, 1.6, "Rib depth at the crown, m; span/65 to span/50 (estimate).";
+        springing_depth_m 1.0 to 12.0, 2.7, "Rib depth at the springing, m; Bixby Creek 2.7 m (estimate).";
+        rib_width_m 0.8 to 6.0, 1.5, "Rib width, m; 1.0 to 1.8 m (estimate).";
+        rib_spacing_m 3.0 to 30.0, 5.8, "Distance between rib axes, m; 0.55 to 0.7 of the deck width (estimate).";
+        crown_gap_m 2.0 to 12.0, 3.4, "Clear height between slab soffit and crown extrados: the interlayer, m (estimate).";
+        panels 6.0 to 40.0, 14.0, "Panels between springings; span/16 to span/10 per panel (estimate); a whole number.";
+        column_m 0.4 to 3.0, 0.8, "Side of the spandrel columns, m; 0.6 to 1.2 m (estimate).";
+        deck_width_m 5.0 to 40.0, 9.6, "Deck width, m; Bixby Creek 7.3 m.";
+        slab_m 0.15 to 0.5, 0.23, "Slab thickness, m; 8 to 10 in (estimate).";
+        floorbeam_depth_m 0.4 to 3.0, 0.95, "Floorbeam depth, m; 0.9 to 1.5 m (estimate).";
+        floorbeam_width_m 0.2 to 1.5, 0.45, "Floorbeam width, m; 0.4 to 0.5 m (estimate).";
+        stringers 2.0 to 12.0, 4.0, "Lines of stringers; 3 to 6 (estimate); a whole number.";
+        stringer_depth_m 0.3 to 2.0, 0.7, "Stringer depth, m; 0.6 to 1.0 m (estimate).";
+        stringer_width_m 0.15 to 1.0, 0.3, "Stringer width, m (estimate).";
+        railing_m 0.6 to 2.0, 1.0, "Railing height, m; 32 to 42 in (estimate).";
+        approach_m 2.0 to 60.0, 12.0, "Length of deck beyond each springing, m (estimate).";
+    }
 }
 
 impl Arch {
-    /// Keys of the scenario file, in the order of [`Arch::from_values`].
-    pub const FIELDS: &'static [BridgeField] = &[
-        field("span_m", 40.0, 520.0, 98.0, "distance between springings; Bixby Creek 98 m, New River Gorge 518 m"),
-        field("rise_m", 8.0, 120.0, 26.0, "crown axis over springing axis; span/rise of catalogued arches is 2.5 to 8"),
-        field("crown_depth_m", 0.8, 8.0, 1.6, "rib depth at the crown; span/65 to span/50 (estimate)"),
-        field("springing_depth_m", 1.0, 12.0, 2.7, "rib depth at the springing; Bixby Creek 2.7 m (estimate)"),
-        field("rib_width_m", 0.8, 6.0, 1.5, "rib width; 1.0 to 1.8 m (estimate)"),
-        field("rib_spacing_m", 3.0, 30.0, 5.8, "between rib axes; 0.55 to 0.7 of the deck width (estimate)"),
-        field("crown_gap_m", 2.0, 12.0, 3.4, "clear height between slab soffit and crown extrados: the interlayer (estimate)"),
-        field("panels", 6.0, 40.0, 14.0, "panels between springings; span/16 to span/10 per panel (estimate)"),
-        field("column_m", 0.4, 3.0, 0.8, "side of the spandrel columns; 0.6 to 1.2 m (estimate)"),
-        field("deck_width_m", 5.0, 40.0, 9.6, "deck width; Bixby Creek 7.3 m"),
-        field("slab_m", 0.15, 0.5, 0.23, "slab thickness; 8 to 10 in (estimate)"),
-        field("floorbeam_depth_m", 0.4, 3.0, 0.95, "floorbeam depth; 0.9 to 1.5 m (estimate)"),
-        field("floorbeam_width_m", 0.2, 1.5, 0.45, "floorbeam width; 0.4 to 0.5 m (estimate)"),
-        field("stringers", 2.0, 12.0, 4.0, "lines of stringers; 3 to 6 (estimate)"),
-        field("stringer_depth_m", 0.3, 2.0, 0.7, "stringer depth; 0.6 to 1.0 m (estimate)"),
-        field("stringer_width_m", 0.15, 1.0, 0.3, "stringer width (estimate)"),
-        field("railing_m", 0.6, 2.0, 1.0, "railing height; 32 to 42 in (estimate)"),
-        field("approach_m", 2.0, 60.0, 12.0, "deck beyond each springing (estimate)"),
-    ];
-
-    /// Creates an arch from values in the order of [`Arch::FIELDS`].
-    #[must_use]
-    pub fn from_values(v: &[f64]) -> Self {
-        let get = |k: usize| v.get(k).copied().unwrap_or(Self::FIELDS[k].default);
-        Self {
-            span_m: get(0),
-            rise_m: get(1),
-            crown_depth_m: get(2),
-            springing_depth_m: get(3),
-            rib_width_m: get(4),
-            rib_spacing_m: get(5),
-            crown_gap_m: get(6),
-            panels: get(7),
-            column_m: get(8),
-            deck_width_m: get(9),
-            slab_m: get(10),
-            floorbeam_depth_m: get(11),
-            floorbeam_width_m: get(12),
-            stringers: get(13),
-            stringer_depth_m: get(14),
-            stringer_width_m: get(15),
-            railing_m: get(16),
-            approach_m: get(17),
-        }
-    }
-
     /// Returns the length of the deck, m.
     #[must_use]
     pub fn deck_length_m(&self) -> f64 {
@@ -214,13 +146,13 @@ impl Arch {
                 let profile =
                     [[a, self.intrados_z_m(a)], [c, self.intrados_z_m(c)], [c, self.extrados_z_m(c)], [a, self.extrados_z_m(a)]];
                 let half = 0.5 * self.rib_width_m;
-                b.across(&format!("rib-{side}/{k:02}"), 144, &profile, y - half, y + half);
+                b.across(&format!("rib-{side}/{k:02}"), Element::RcArch, &profile, y - half, y + half);
             }
         }
         let inner = 0.5 * (self.rib_spacing_m - self.rib_width_m);
         for (k, x) in self.panel_points().into_iter().enumerate().filter(|(k, _)| k % 2 == 1) {
             let z = self.axis_z_m(x);
-            b.block(&format!("strut/{k:02}"), 144, [x - 0.35, -inner, z - 0.35], [x + 0.35, inner, z + 0.35]);
+            b.block(&format!("strut/{k:02}"), Element::RcArch, [x - 0.35, -inner, z - 0.35], [x + 0.35, inner, z + 0.35]);
         }
     }
 
@@ -235,13 +167,23 @@ impl Arch {
                 continue;
             }
             for (side, y) in [("left", 0.5 * self.rib_spacing_m), ("right", -0.5 * self.rib_spacing_m)] {
-                b.block(&format!("column-{side}/{k:02}"), 205, [x - half, y - half, foot], [x + half, y + half, top]);
+                b.block(
+                    &format!("column-{side}/{k:02}"),
+                    Element::RcColumn,
+                    [x - half, y - half, foot],
+                    [x + half, y + half, top],
+                );
             }
             // Struts connect tall pairs at a third of their height, well below the flight space of the interlayer.
             if top - foot > 9.0 {
                 let z = foot + (top - foot) / 3.0;
                 let inner = 0.5 * self.rib_spacing_m - half;
-                b.block(&format!("column-strut/{k:02}"), 205, [x - 0.3, -inner, z - 0.3], [x + 0.3, inner, z + 0.3]);
+                b.block(
+                    &format!("column-strut/{k:02}"),
+                    Element::RcColumn,
+                    [x - 0.3, -inner, z - 0.3],
+                    [x + 0.3, inner, z + 0.3],
+                );
             }
         }
     }
@@ -257,7 +199,7 @@ impl Arch {
             let half = 0.5 * self.floorbeam_width_m;
             b.block(
                 &format!("floorbeam/{k:02}"),
-                155,
+                Element::RcFloorBeam,
                 [x - half, -beam_half, self.floorbeam_z_m()],
                 [x + half, beam_half, soffit],
             );
@@ -267,18 +209,23 @@ impl Arch {
         ends.push(0.5 * self.deck_length_m());
         let count = self.stringers.round() as i32;
         for (k, pair) in ends.windows(2).enumerate() {
-            b.block(&format!("slab/{k:02}"), 12, [pair[0], -half_width, soffit], [pair[1], half_width, 0.0]);
+            b.block(&format!("slab/{k:02}"), Element::RcDeck, [pair[0], -half_width, soffit], [pair[1], half_width, 0.0]);
             for line in 0..count {
                 let share = (f64::from(line) + 0.5) / f64::from(count) * 2.0 - 1.0;
                 let (y, half) = (share * beam_half, 0.5 * self.stringer_width_m);
                 let name = format!("stringer-{line}/{k:02}");
-                b.block(&name, 116, [pair[0], y - half, soffit - self.stringer_depth_m], [pair[1], y + half, soffit]);
+                b.block(
+                    &name,
+                    Element::RcStringer,
+                    [pair[0], y - half, soffit - self.stringer_depth_m],
+                    [pair[1], y + half, soffit],
+                );
             }
         }
     }
 
     fn railings(&self, b: &mut MemberBuilder) {
-        railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, 331);
+        railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, Element::RcRailing);
     }
 
     /// Returns the height of the underside of abutments and skewbacks, m.
@@ -316,19 +263,13 @@ impl Arch {
             ("skewback-end", over_ribs),
         ];
         for ((name, top), Footing { x_m, y_m, up_m }) in names.into_iter().zip(self.footings()) {
-            b.block(name, 215, [x_m.0, y_m.0, up_m], [x_m.1, y_m.1, top]);
+            b.block(name, Element::RcAbutment, [x_m.0, y_m.0, up_m], [x_m.1, y_m.1, top]);
         }
     }
 }
 
-impl Default for Arch {
-    fn default() -> Self {
-        Self::from_values(&[])
-    }
-}
-
 /// Builds posts every 2 m and three rails along both edges of a deck.
-pub(super) fn railing(b: &mut MemberBuilder, length_m: f64, edge_y_m: f64, height_m: f64, element: u32) {
+pub(super) fn railing(b: &mut MemberBuilder, length_m: f64, edge_y_m: f64, height_m: f64, element: Element) {
     const POST_M: f64 = 0.15;
     let posts = (length_m / 2.0).floor() as i32;
     for (side, y) in [("left", edge_y_m - POST_M), ("right", -edge_y_m)] {

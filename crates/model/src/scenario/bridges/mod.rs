@@ -1,42 +1,42 @@
-//! Bridge geometry: each bridge type converts its dimensions to members, lanes and task paths. A new type takes one new file here
-//! and one variant of [`BridgeKind`].
+//! Bridge geometry: each bridge type converts its dimensions to members, lanes and task paths. A new type takes one new file here,
+//! with the table of its dimensions, and one variant of [`BridgeKind`].
 
 pub mod arch;
+pub mod dimensions;
 pub mod path;
 pub mod solid;
 pub mod suspension;
 
-use super::{Bridge, BridgeKind, TaskKind};
 use crate::frames::{Enu, Vec3};
+use arch::Arch;
+use path::TaskKind;
 use solid::{MemberBuilder, Placement};
+use suspension::Suspension;
 
-/// One structural member. Collision, rendering, defects and export all use the same solid.
+pub use dimensions::{BridgeField, Inconsistency};
+pub use path::TaskPath;
+pub use solid::{Footing, Member, Solid};
+
+/// A bridge of any type, with its position.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Member {
-    /// Member name, unique within the site, such as `arch/rib-left/07`.
+pub struct Bridge {
+    /// Name used by tasks and exports.
     pub name: String,
-    /// AASHTO MBEI element number.
-    pub element: u32,
-    /// Solid of the member, in site coordinates.
-    pub solid: Solid,
+    /// Horizontal center of the deck's upper surface; its height is the deck level at midspan, m.
+    pub centre_m: Vec3<Enu>,
+    /// Direction of the bridge's x axis (along the deck), degrees clockwise from north.
+    pub heading_deg: f64,
+    /// Bridge type and dimensions.
+    pub kind: BridgeKind,
 }
 
-/// A closed convex polyhedron.
+/// One variant per bridge type; the dimensions, geometry and task paths of each type are in one file (`bridges/`).
 #[derive(Debug, Clone, PartialEq)]
-pub struct Solid {
-    /// Vertices, m.
-    pub vertices_m: Vec<Vec3<Enu>>,
-    /// Planar faces: three or more vertex indices each, counterclockwise seen from outside.
-    pub faces: Vec<Vec<u32>>,
-}
-
-impl Solid {
-    /// Returns the faces as triangle fans from each face's first vertex.
-    #[must_use]
-    pub fn triangles(&self) -> Vec<[u32; 3]> {
-        let fan = |face: &Vec<u32>| (2..face.len()).map(|k| [face[0], face[k - 1], face[k]]).collect::<Vec<_>>();
-        self.faces.iter().flat_map(fan).collect()
-    }
+pub enum BridgeKind {
+    /// Open-spandrel deck arch.
+    Arch(Arch),
+    /// Suspension bridge.
+    Suspension(Suspension),
 }
 
 /// A traffic lane or walkway: a polyline on the deck's upper surface.
@@ -50,57 +50,28 @@ pub struct Lane {
     pub walkway: bool,
 }
 
-/// A numeric key of a bridge type in scenario files.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BridgeField {
-    /// Key, including its unit.
-    pub key: &'static str,
-    /// Minimum value.
-    pub min: f64,
-    /// Maximum value.
-    pub max: f64,
-    /// Default value.
-    pub default: f64,
-    /// Description, with its source.
-    pub doc: &'static str,
-}
-
-/// A dimension that is in range but inconsistent with other dimensions.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Inconsistency {
-    /// Key to change.
-    pub key: &'static str,
-    /// Its value.
-    pub value: f64,
-    /// Allowed values, given the other dimensions.
-    pub allowed: String,
-}
-
-/// Collects inconsistencies while the dimensions of a bridge are compared.
-#[derive(Debug, Default)]
-struct InconsistencyList(Vec<Inconsistency>);
-
-impl InconsistencyList {
-    fn integer_field(&mut self, key: &'static str, value: f64) {
-        if value.fract() != 0.0 {
-            self.0.push(Inconsistency { key, value, allowed: "a whole number".into() });
-        }
-    }
-
-    fn at_least(&mut self, key: &'static str, value: f64, low: f64, why: &str) {
-        if value < low {
-            self.0.push(Inconsistency { key, value, allowed: format!("{why}: at least {low:.2}") });
-        }
-    }
-
-    fn at_most(&mut self, key: &'static str, value: f64, high: f64, why: &str) {
-        if value > high {
-            self.0.push(Inconsistency { key, value, allowed: format!("{why}: at most {high:.2}") });
-        }
-    }
+/// A bridge type as scenario files name it.
+#[derive(Debug, Clone, Copy)]
+pub struct BridgeType {
+    /// Value of `type`, and name of the table with the dimensions.
+    pub name: &'static str,
+    /// Keys of that table.
+    pub fields: &'static [BridgeField],
+    /// Creates a bridge from values in the order of the keys.
+    pub create: fn(&[f64]) -> BridgeKind,
 }
 
 impl BridgeKind {
+    /// All bridge types.
+    pub const TYPES: [BridgeType; 2] = [
+        BridgeType { name: Arch::TYPE, fields: Arch::FIELDS, create: |values| Self::Arch(Arch::from_values(values)) },
+        BridgeType {
+            name: Suspension::TYPE,
+            fields: Suspension::FIELDS,
+            create: |values| Self::Suspension(Suspension::from_values(values)),
+        },
+    ];
+
     /// Returns all inconsistent dimensions; if there are any, the bridge cannot be built.
     #[must_use]
     pub fn misfits(&self) -> Vec<Inconsistency> {
@@ -109,28 +80,6 @@ impl BridgeKind {
             Self::Suspension(suspension) => suspension.misfits(),
         }
     }
-}
-
-/// A part of a bridge that rests on the ground, in bridge axes, m.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Footing {
-    /// Start and end along the bridge.
-    pub x_m: (f64, f64),
-    /// Start and end across the bridge.
-    pub y_m: (f64, f64),
-    /// Height of its underside.
-    pub up_m: f64,
-}
-
-/// Reference path of a task, with a viewing direction at each point.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TaskPath {
-    /// Points, at most 1 m apart, m. A closed path does not repeat its first point.
-    pub path_m: Vec<Vec3<Enu>>,
-    /// Unit vectors toward the inspected surface.
-    pub look: Vec<Vec3<Enu>>,
-    /// The path returns to its start.
-    pub closed: bool,
 }
 
 impl Bridge {

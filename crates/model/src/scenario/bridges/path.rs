@@ -1,13 +1,39 @@
 //! Reference paths of the tasks, derived from the dimensions of a bridge, in bridge axes.
 
-use super::TaskPath;
 use super::arch::Arch;
 use super::solid::{LocalPoint, Placement};
 use super::suspension::Suspension;
+use crate::frames::{Enu, Vec3};
 use crate::math;
 
 /// Spacing of reference points, m (at most 1 m: docs/src/reference/assessment.md, "On path").
 pub const SPACING_M: f64 = 0.8;
+
+/// Types of task path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TaskKind {
+    /// Straight line along one side of the deck slab.
+    SlabSide,
+    /// Curve below the arch.
+    ArchBottom,
+    /// Line through the space between deck and arch.
+    Interlayer,
+    /// Closed loop around a pier near the water.
+    PierCircle,
+    /// Points listed in the scenario.
+    Free,
+}
+
+/// Reference path of a task, with a viewing direction at each point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TaskPath {
+    /// Points, at most 1 m apart, m. A closed path does not repeat its first point.
+    pub path_m: Vec<Vec3<Enu>>,
+    /// Unit vectors toward the inspected surface.
+    pub look: Vec<Vec3<Enu>>,
+    /// The path returns to its start.
+    pub closed: bool,
+}
 
 /// A path in bridge axes.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,12 +1,52 @@
 //! Convex building blocks in bridge axes: x along the deck, y left, z up, origin on the deck's upper surface at midspan.
 //! [`Placement`] transforms them to site coordinates.
 
-use super::{Member, Solid};
+use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::math;
 
+/// One structural member. Collision, rendering, defects and export all use the same solid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Member {
+    /// Member name, unique within the site, such as `arch/rib-left/07`.
+    pub name: String,
+    /// Element to which the member belongs.
+    pub element: Element,
+    /// Solid of the member, in site coordinates.
+    pub solid: Solid,
+}
+
+/// A closed convex polyhedron.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solid {
+    /// Vertices, m.
+    pub vertices_m: Vec<Vec3<Enu>>,
+    /// Planar faces: three or more vertex indices each, counterclockwise seen from outside.
+    pub faces: Vec<Vec<u32>>,
+}
+
+impl Solid {
+    /// Returns the faces as triangle fans from each face's first vertex.
+    #[must_use]
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
+        let fan = |face: &Vec<u32>| (2..face.len()).map(|k| [face[0], face[k - 1], face[k]]).collect::<Vec<_>>();
+        self.faces.iter().flat_map(fan).collect()
+    }
+}
+
 /// A point in bridge axes, m.
 pub type LocalPoint = [f64; 3];
+
+/// A part of a bridge that rests on the ground, in bridge axes, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Footing {
+    /// Start and end along the bridge.
+    pub x_m: (f64, f64),
+    /// Start and end across the bridge.
+    pub y_m: (f64, f64),
+    /// Height of its underside.
+    pub up_m: f64,
+}
 
 /// Position and heading of the bridge axes in the site.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,14 +123,14 @@ impl MemberBuilder {
         self.members
     }
 
-    fn push(&mut self, part: &str, element: u32, corners: &[LocalPoint], faces: Vec<Vec<u32>>) {
+    fn push(&mut self, part: &str, element: Element, corners: &[LocalPoint], faces: Vec<Vec<u32>>) {
         let vertices_m = corners.iter().map(|c| self.placement.point(*c)).collect();
         let name = format!("{}/{part}", self.bridge);
         self.members.push(Member { name, element, solid: Solid { vertices_m, faces } });
     }
 
     /// Adds a box between two opposite corners.
-    pub fn block(&mut self, part: &str, element: u32, low: LocalPoint, high: LocalPoint) {
+    pub fn block(&mut self, part: &str, element: Element, low: LocalPoint, high: LocalPoint) {
         let profile = [[low[0], low[2]], [high[0], low[2]], [high[0], high[2]], [low[0], high[2]]];
         self.across(part, element, &profile, low[1], high[1]);
     }
@@ -99,7 +139,7 @@ impl MemberBuilder {
     pub fn steel_beam(
         &mut self,
         part: &str,
-        element: u32,
+        element: Element,
         (low, high): (LocalPoint, LocalPoint),
         runs: BeamDirection,
         plates: PlateThickness,
@@ -118,7 +158,7 @@ impl MemberBuilder {
     }
 
     /// Adds a convex profile in the x-z plane (counterclockwise with x right and z up), extruded from `y_low` to `y_high`.
-    pub fn across(&mut self, part: &str, element: u32, profile: &[[f64; 2]], y_low: f64, y_high: f64) {
+    pub fn across(&mut self, part: &str, element: Element, profile: &[[f64; 2]], y_low: f64, y_high: f64) {
         let near = profile.iter().map(|p| [p[0], y_low, p[1]]);
         let far = profile.iter().map(|p| [p[0], y_high, p[1]]);
         let corners: Vec<LocalPoint> = near.chain(far).collect();
@@ -126,14 +166,14 @@ impl MemberBuilder {
     }
 
     /// Adds a regular prism with `sides` faces around the line from `a` to `b`, with its corners at `radius_m`.
-    pub fn rod(&mut self, part: &str, element: u32, a: LocalPoint, b: LocalPoint, radius_m: f64, sides: u32) {
+    pub fn rod(&mut self, part: &str, element: Element, a: LocalPoint, b: LocalPoint, radius_m: f64, sides: u32) {
         let axis = unit(sub(b, a));
         self.cut_rod(part, element, [(a, axis), (b, axis)], radius_m, sides);
     }
 
     /// Adds rods between consecutive points in a vertical plane along the bridge, mitered so that each one ends where the next
     /// begins. The rods are numbered.
-    pub fn cable(&mut self, part: &str, element: u32, points: &[LocalPoint], radius_m: f64, sides: u32) {
+    pub fn cable(&mut self, part: &str, element: Element, points: &[LocalPoint], radius_m: f64, sides: u32) {
         let last = points.len() - 1;
         let cut = |k: usize| {
             let (before, after) = (points[k.saturating_sub(1)], points[(k + 1).min(last)]);
@@ -148,7 +188,7 @@ impl MemberBuilder {
     }
 
     /// Adds a prism along the line between two points, cut at each end by the plane with the given normal.
-    fn cut_rod(&mut self, part: &str, element: u32, ends: [(LocalPoint, LocalPoint); 2], radius_m: f64, sides: u32) {
+    fn cut_rod(&mut self, part: &str, element: Element, ends: [(LocalPoint, LocalPoint); 2], radius_m: f64, sides: u32) {
         let axis = unit(sub(ends[1].0, ends[0].0));
         // Any direction not along the axis works; using the deck's left side orients cables and hangers alike.
         let helper = if axis[1].abs() > 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };

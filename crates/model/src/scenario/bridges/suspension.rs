@@ -1,8 +1,9 @@
 //! Suspension bridge: towers on piers in the water, main cables, hangers, stiffening girders, floor, railings, anchorages.
 
 use super::arch::railing;
-use super::solid::{BeamDirection, MemberBuilder, PlateThickness};
-use super::{BridgeField, Footing, Inconsistency, InconsistencyList};
+use super::dimensions::{Inconsistency, InconsistencyList, bridge_dimensions};
+use super::solid::{BeamDirection, Footing, MemberBuilder, PlateThickness};
+use crate::elements::Element;
 
 /// Distance of the girders beyond the deck's edge, m (estimate).
 const GIRDER_OUT_M: f64 = 0.2;
@@ -25,104 +26,32 @@ const GRIP_M: f64 = 1.0;
 /// Height of the saddle between cable and tower leg, m (estimate).
 const SADDLE_M: f64 = 0.1;
 
-/// Dimensions of a suspension bridge. Bridge axes: x along the deck, y left, z up, origin on the deck at midspan.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Suspension {
-    /// Distance between the towers, m.
-    pub main_span_m: f64,
-    /// Distance from a tower to its anchorage, m.
-    pub side_span_m: f64,
-    /// Sag of the main cable at midspan, m.
-    pub sag_m: f64,
-    /// Height of the cable above the deck at midspan, m.
-    pub cable_clearance_m: f64,
-    /// Corner radius of the cables' prisms, m.
-    pub cable_radius_m: f64,
-    /// Distance between hangers, m.
-    pub hanger_spacing_m: f64,
-    /// Corner radius of the hangers' prisms, m.
-    pub hanger_radius_m: f64,
-    /// Deck width, m.
-    pub deck_width_m: f64,
-    /// Slab thickness, m.
-    pub slab_m: f64,
-    /// Depth of the stiffening girders, m.
-    pub girder_depth_m: f64,
-    /// Depth of the floorbeams, m.
-    pub floorbeam_depth_m: f64,
-    /// Length of a tower leg along the bridge, m.
-    pub leg_x_m: f64,
-    /// Width of a tower leg across the bridge, m.
-    pub leg_y_m: f64,
-    /// Length of a pier along the bridge, m.
-    pub pier_x_m: f64,
-    /// Width of a pier across the bridge, m.
-    pub pier_y_m: f64,
-    /// Depth of the pier top below the deck, m.
-    pub pier_top_m: f64,
-    /// Height of the pier, m.
-    pub pier_height_m: f64,
-    /// Length of the anchorages, m.
-    pub anchorage_m: f64,
-    /// Railing height, m.
-    pub railing_m: f64,
-}
-
-const fn field(key: &'static str, min: f64, max: f64, default: f64, doc: &'static str) -> BridgeField {
-    BridgeField { key, min, max, default, doc }
+bridge_dimensions! {
+    /// Dimensions of a suspension bridge. Bridge axes: x along the deck, y left, z up, origin on the deck at midspan.
+    Suspension "suspension" {
+        main_span_m 60.0 to 1400.0, 140.0, "Distance between the towers, m; Deer Isle 329 m, Golden Gate 1280 m.";
+        side_span_m 20.0 to 400.0, 45.0, "Distance from a tower to its anchorage, m (estimate).";
+        sag_m 5.0 to 160.0, 14.0, "Cable sag, m; span/9 to span/11 (estimate).";
+        cable_clearance_m 0.5 to 10.0, 2.0, "Height of the cable above the deck at midspan, m (estimate).";
+        cable_radius_m 0.05 to 0.6, 0.15, "Corner radius of the main cables, m; 0.12 to 0.25 m for spans of about 330 m (estimate).";
+        hanger_spacing_m 3.0 to 20.0, 7.0, "Distance between hangers, m; Deer Isle 9 to 12 m (estimate).";
+        hanger_radius_m 0.01 to 0.1, 0.03, "Corner radius of the hangers, m; 50 to 65 mm pairs (estimate).";
+        deck_width_m 5.0 to 40.0, 8.4, "Deck width, m; Deer Isle 7.2 m.";
+        slab_m 0.15 to 0.5, 0.2, "Slab thickness, m; 8 to 10 in (estimate).";
+        girder_depth_m 0.8 to 8.0, 2.0, "Depth of the stiffening girders, m; Deer Isle about 2 m.";
+        floorbeam_depth_m 0.4 to 3.0, 0.9, "Floorbeam depth, m (estimate).";
+        leg_x_m 1.0 to 16.0, 2.4, "Length of a tower leg along the bridge, m; 2 to 4 m on small bridges (estimate).";
+        leg_y_m 1.0 to 16.0, 1.8, "Width of a tower leg across the bridge, m (estimate).";
+        pier_x_m 2.0 to 20.0, 4.0, "Length of a pier along the bridge, m; 4 x 8 to 10 x 18 m (estimate).";
+        pier_y_m 4.0 to 60.0, 13.0, "Width of a pier across the bridge, m (estimate).";
+        pier_top_m 4.0 to 70.0, 9.0, "Depth of the pier tops below the deck, m; 4 to 8 m above the water (estimate).";
+        pier_height_m 4.0 to 60.0, 16.0, "Height of the piers, which extend into the lake bed, m (estimate).";
+        anchorage_m 3.0 to 40.0, 8.0, "Length of an anchorage, m (estimate).";
+        railing_m 0.6 to 2.0, 1.0, "Railing height, m; 32 to 42 in (estimate).";
+    }
 }
 
 impl Suspension {
-    /// Keys of the scenario file, in the order of [`Suspension::from_values`].
-    pub const FIELDS: &'static [BridgeField] = &[
-        field("main_span_m", 60.0, 1400.0, 140.0, "between the towers; Deer Isle 329 m, Golden Gate 1280 m"),
-        field("side_span_m", 20.0, 400.0, 45.0, "tower to anchorage (estimate)"),
-        field("sag_m", 5.0, 160.0, 14.0, "cable sag; span/9 to span/11 (estimate)"),
-        field("cable_clearance_m", 0.5, 10.0, 2.0, "cable over the deck at midspan (estimate)"),
-        field("cable_radius_m", 0.05, 0.6, 0.15, "main cable; 0.12 to 0.25 m for spans of about 330 m (estimate)"),
-        field("hanger_spacing_m", 3.0, 20.0, 7.0, "between hangers; Deer Isle 9 to 12 m (estimate)"),
-        field("hanger_radius_m", 0.01, 0.1, 0.03, "hanger rope; 50 to 65 mm pairs (estimate)"),
-        field("deck_width_m", 5.0, 40.0, 8.4, "deck width; Deer Isle 7.2 m"),
-        field("slab_m", 0.15, 0.5, 0.2, "slab thickness; 8 to 10 in (estimate)"),
-        field("girder_depth_m", 0.8, 8.0, 2.0, "stiffening girder; Deer Isle about 2 m"),
-        field("floorbeam_depth_m", 0.4, 3.0, 0.9, "floorbeam depth (estimate)"),
-        field("leg_x_m", 1.0, 16.0, 2.4, "tower leg along the bridge; 2 to 4 m on small bridges (estimate)"),
-        field("leg_y_m", 1.0, 16.0, 1.8, "tower leg across (estimate)"),
-        field("pier_x_m", 2.0, 20.0, 4.0, "pier along the bridge; 4 x 8 to 10 x 18 m (estimate)"),
-        field("pier_y_m", 4.0, 60.0, 13.0, "pier across (estimate)"),
-        field("pier_top_m", 4.0, 70.0, 9.0, "pier top under the deck; 4 to 8 m over the water (estimate)"),
-        field("pier_height_m", 4.0, 60.0, 16.0, "pier height, reaching into the lake's ground (estimate)"),
-        field("anchorage_m", 3.0, 40.0, 8.0, "length of an anchorage (estimate)"),
-        field("railing_m", 0.6, 2.0, 1.0, "railing height; 32 to 42 in (estimate)"),
-    ];
-
-    /// Creates a suspension bridge from values in the order of [`Suspension::FIELDS`].
-    #[must_use]
-    pub fn from_values(v: &[f64]) -> Self {
-        let get = |k: usize| v.get(k).copied().unwrap_or(Self::FIELDS[k].default);
-        Self {
-            main_span_m: get(0),
-            side_span_m: get(1),
-            sag_m: get(2),
-            cable_clearance_m: get(3),
-            cable_radius_m: get(4),
-            hanger_spacing_m: get(5),
-            hanger_radius_m: get(6),
-            deck_width_m: get(7),
-            slab_m: get(8),
-            girder_depth_m: get(9),
-            floorbeam_depth_m: get(10),
-            leg_x_m: get(11),
-            leg_y_m: get(12),
-            pier_x_m: get(13),
-            pier_y_m: get(14),
-            pier_top_m: get(15),
-            pier_height_m: get(16),
-            anchorage_m: get(17),
-            railing_m: get(18),
-        }
-    }
-
     /// Returns the length of the deck between the anchorages' far ends, m.
     #[must_use]
     pub fn deck_length_m(&self) -> f64 {
@@ -215,7 +144,7 @@ impl Suspension {
         self.towers(b);
         self.cables(b);
         self.floor(b);
-        railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, 330);
+        railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, Element::MetalRailing);
         self.anchorages(b);
     }
 
@@ -235,18 +164,23 @@ impl Suspension {
         for (name, x) in [("start", -0.5 * self.main_span_m), ("end", 0.5 * self.main_span_m)] {
             let (px, py) = (0.5 * self.pier_x_m, 0.5 * self.pier_y_m);
             let foot = -self.pier_top_m;
-            b.block(&format!("pier-{name}"), 210, [x - px, -py, foot - self.pier_height_m], [x + px, py, foot]);
+            b.block(&format!("pier-{name}"), Element::RcPierWall, [x - px, -py, foot - self.pier_height_m], [x + px, py, foot]);
             let (lx, ly) = (0.5 * self.leg_x_m, 0.5 * self.leg_y_m);
             for (side, y) in [("left", self.cable_y_m()), ("right", -self.cable_y_m())] {
-                b.block(&format!("tower-{name}/{side}"), 207, [x - lx, y - ly, foot], [x + lx, y + ly, top]);
+                b.block(&format!("tower-{name}/{side}"), Element::SteelTower, [x - lx, y - ly, foot], [x + lx, y + ly, top]);
                 self.saddle(b, &format!("tower-{name}/saddle-{side}"), x, y);
                 // Fixed bearings at one tower, movable bearings at the other.
-                let element = if x < 0.0 { 313 } else { 311 };
+                let element = if x < 0.0 { Element::FixedBearing } else { Element::MovableBearing };
                 self.bearing(b, &format!("bearing-{name}/{side}"), element, x, y.signum());
             }
             let inner = self.cable_y_m() - ly;
             for (part, z) in [("portal-top", top), ("portal-deck", self.girder_z_m() - BEARING_M)] {
-                b.block(&format!("tower-{name}/{part}"), 207, [x - 0.6, -inner, z - PORTAL_M], [x + 0.6, inner, z]);
+                b.block(
+                    &format!("tower-{name}/{part}"),
+                    Element::SteelTower,
+                    [x - 0.6, -inner, z - PORTAL_M],
+                    [x + 0.6, inner, z],
+                );
             }
         }
     }
@@ -256,11 +190,11 @@ impl Suspension {
         let (reach, half) = (0.5 * self.leg_x_m, self.cable_radius_m + SADDLE_M);
         let (low, edge, crown) = (self.leg_top_m(), self.saddle_edge_z_m(), self.cable_z_m(0.5 * self.main_span_m));
         let profile = [[x - reach, low], [x + reach, low], [x + reach, edge], [x, crown], [x - reach, edge]];
-        b.across(name, 207, &profile, y - half, y + half);
+        b.across(name, Element::SteelTower, &profile, y - half, y + half);
     }
 
     /// Builds a bearing between a girder and its support.
-    fn bearing(&self, b: &mut MemberBuilder, name: &str, element: u32, x: f64, side: f64) {
+    fn bearing(&self, b: &mut MemberBuilder, name: &str, element: Element, x: f64, side: f64) {
         let y = side * 0.5 * self.deck_width_m;
         let z = self.girder_z_m();
         b.block(name, element, [x - 0.3, y - 0.15, z - BEARING_M], [x + 0.3, y + 0.15, z]);
@@ -274,10 +208,17 @@ impl Suspension {
         xs.extend([half, grip]);
         for (side, y) in [("left", self.cable_y_m()), ("right", -self.cable_y_m())] {
             let points: Vec<[f64; 3]> = xs.iter().map(|x| [*x, y, self.cable_z_m(*x)]).collect();
-            b.cable(&format!("cable-{side}"), 147, &points, self.cable_radius_m, 8);
+            b.cable(&format!("cable-{side}"), Element::MainCable, &points, self.cable_radius_m, 8);
             for (k, x) in self.hangers().into_iter().enumerate() {
                 let foot = [x, y, -self.slab_m];
-                b.rod(&format!("hanger-{side}/{k:03}"), 148, foot, [x, y, self.cable_z_m(x)], self.hanger_radius_m, 6);
+                b.rod(
+                    &format!("hanger-{side}/{k:03}"),
+                    Element::Hanger,
+                    foot,
+                    [x, y, self.cable_z_m(x)],
+                    self.hanger_radius_m,
+                    6,
+                );
             }
         }
     }
@@ -286,17 +227,17 @@ impl Suspension {
         let half_width = 0.5 * self.deck_width_m;
         let soffit = -self.slab_m;
         for (k, pair) in self.panel_ends().windows(2).enumerate() {
-            b.block(&format!("slab/{k:02}"), 12, [pair[0], -half_width, soffit], [pair[1], half_width, 0.0]);
+            b.block(&format!("slab/{k:02}"), Element::RcDeck, [pair[0], -half_width, soffit], [pair[1], half_width, 0.0]);
             for (side, y) in [("left", half_width - GIRDER_OUT_M), ("right", -half_width - GIRDER_OUT_M)] {
                 let name = format!("girder-{side}/{k:02}");
                 let corners = ([pair[0], y, self.girder_z_m()], [pair[1], y + 2.0 * GIRDER_OUT_M, soffit]);
-                b.steel_beam(&name, 107, corners, BeamDirection::Along, GIRDER);
+                b.steel_beam(&name, Element::SteelGirder, corners, BeamDirection::Along, GIRDER);
             }
             for (line, y) in [(0, -0.25), (1, 0.25)] {
                 let y = y * self.deck_width_m;
                 let name = format!("stringer-{line}/{k:02}");
                 let corners = ([pair[0], y - 0.12, soffit - 0.5], [pair[1], y + 0.12, soffit]);
-                b.steel_beam(&name, 113, corners, BeamDirection::Along, STRINGER);
+                b.steel_beam(&name, Element::SteelStringer, corners, BeamDirection::Along, STRINGER);
             }
         }
         // In the main span they extend to the hangers, which support them.
@@ -305,7 +246,7 @@ impl Suspension {
             let reach = if x.abs() < 0.5 * self.main_span_m { held } else { half_width };
             let name = format!("floorbeam/{k:02}");
             let corners = ([x - 0.15, -reach, soffit - self.floorbeam_depth_m], [x + 0.15, reach, soffit]);
-            b.steel_beam(&name, 152, corners, BeamDirection::Across, FLOORBEAM);
+            b.steel_beam(&name, Element::SteelFloorBeam, corners, BeamDirection::Across, FLOORBEAM);
         }
     }
 
@@ -336,22 +277,21 @@ impl Suspension {
         let top = self.girder_z_m() - BEARING_M;
         for (name, foot) in ["start", "end"].into_iter().zip(&self.footings()[2..]) {
             let (low, high, far) = (foot.x_m.0, foot.x_m.1, foot.y_m.1);
-            b.block(&format!("anchorage-{name}"), 220, [low, -far, foot.up_m], [high, far, top]);
+            b.block(&format!("anchorage-{name}"), Element::RcFooting, [low, -far, foot.up_m], [high, far, top]);
             // On each side of the deck the cable enters a block; the girders end on movable bearings.
             for (side, low_y, high_y) in [("left", near, far), ("right", -far, -near)] {
                 let grip = if low < 0.0 { high - 2.0 * GRIP_M } else { low };
                 let block = format!("anchorage-{name}/{side}");
-                b.block(&block, 220, [grip, low_y, top], [grip + 2.0 * GRIP_M, high_y, self.cable_radius_m + 0.45]);
+                b.block(
+                    &block,
+                    Element::RcFooting,
+                    [grip, low_y, top],
+                    [grip + 2.0 * GRIP_M, high_y, self.cable_radius_m + 0.45],
+                );
                 for (end, x) in [("low", low + 0.5), ("high", high - 0.5)] {
-                    self.bearing(b, &format!("bearing-{name}/{side}-{end}"), 311, x, low_y.signum());
+                    self.bearing(b, &format!("bearing-{name}/{side}-{end}"), Element::MovableBearing, x, low_y.signum());
                 }
             }
         }
-    }
-}
-
-impl Default for Suspension {
-    fn default() -> Self {
-        Self::from_values(&[])
     }
 }

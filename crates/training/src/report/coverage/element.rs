@@ -1,32 +1,31 @@
 //! Surface area by element and outcome, and average picture quality.
 
 use super::outcome::SurfaceOutcome;
+use spandrel_model::elements::Element;
 use spandrel_model::math;
 use std::collections::BTreeMap;
 
 /// Surface coverage of a session.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SurfaceCoverage {
-    /// Coverage by element, in ascending element number.
-    pub elements: Vec<ElementSurface>,
+    /// Coverage by element.
+    pub elements: BTreeMap<Element, ElementSurface>,
 }
 
-/// Surface coverage of one element.
+/// Surface coverage of one element, or of all.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ElementSurface {
-    /// Element number (AASHTO MBEI); 0 for the total.
-    pub element: u32,
     /// Surface that can be inspected from the reference paths, m².
     pub inspectable_m2: f64,
     /// Inspectable surface by outcome, m².
     pub by_fate_m2: BTreeMap<SurfaceOutcome, f64>,
     /// Area-weighted sums over the best pictures that meet the required pixel size and angle.
-    pub(in crate::report) sums: PictureSums,
+    pub(crate) sums: PictureSums,
 }
 
 /// Area-weighted sums of the best pictures' properties.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(in crate::report) struct PictureSums {
+pub(crate) struct PictureSums {
     area_m2: f64,
     incidence_rad: f64,
     gsd_m: f64,
@@ -119,7 +118,7 @@ impl SurfaceCoverage {
     #[must_use]
     pub fn total(&self) -> ElementSurface {
         let mut total = ElementSurface::default();
-        self.elements.iter().for_each(|one| total.merge(one));
+        self.elements.values().for_each(|one| total.merge(one));
         total
     }
 }

@@ -4,33 +4,31 @@
 mod element;
 mod outcome;
 mod patches;
+mod sight;
 
 pub use element::{AveragePicture, ElementSurface, SurfaceCoverage};
 pub use outcome::SurfaceOutcome;
+pub use sight::{REQUIRED_GSD_M, reach_m};
 
-use super::ReviewContext;
+use super::context::ReviewContext;
 use super::pictures::{ReviewedPicture, exposure_s};
 use element::BestPicture;
 use patches::{SurfacePatch, inspectable};
-use spandrel_model::frames::{Enu, Vec3};
+use sight::is_clear;
+use spandrel_model::elements::Element;
+use spandrel_model::frames::Vec3;
 use spandrel_model::math;
 use spandrel_model::site::CameraPose;
-use spandrel_model::site::visibility::{INCIDENCE_MAX_RAD, LINE_WIDTH_MIN_PX, lamp_lux, needed_lux};
+use spandrel_model::site::visibility::{INCIDENCE_MAX_RAD, lamp_lux, needed_lux};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Camera;
 use spandrel_monitor::measures::attention;
 use std::collections::BTreeMap;
 
-/// Crack width that separates condition states 2 and 3 of reinforced concrete (0.05 in, AASHTO MBEI), m.
-const CRACK_M: f64 = 0.001_27;
-/// Pixel size on the surface at which that crack covers the half pixel that a hit requires, m.
-pub const REQUIRED_GSD_M: f64 = CRACK_M / LINE_WIDTH_MIN_PX;
 /// Maximum motion blur, px (one pixel, as published for defect detection).
 pub const BLUR_MAX_PX: f64 = 1.0;
 /// Surface counts as background beyond this multiple of the distance at which a pixel has the required size.
 const BACKGROUND: f64 = 3.0;
-/// Sight lines end at this distance in front of the surface, m.
-const CLEAR_M: f64 = 0.02;
 /// Sampling interval at which the camera's view during the flight is evaluated.
 const VIEW_STEP: SimTime = SimTime::from_ms(2_000);
 /// Size of the cells in which patches with the same orientation share their ambient light, m.
@@ -53,13 +51,12 @@ pub fn covered(scene: &ReviewContext<'_>, pictures: &[ReviewedPicture]) -> Surfa
         add_picture(&mut pieces, picture, &mut light);
     }
     add_flight(&mut pieces, scene);
-    let mut elements: BTreeMap<u32, ElementSurface> = BTreeMap::new();
+    let mut elements: BTreeMap<Element, ElementSurface> = BTreeMap::new();
     for piece in &pieces {
         let SurfacePatch { element, area_m2, .. } = piece.patch;
-        let sum = elements.entry(element).or_insert(ElementSurface { element, ..ElementSurface::default() });
-        sum.add(area_m2, piece.fate(), piece.best.as_ref());
+        elements.entry(element).or_default().add(area_m2, piece.fate(), piece.best.as_ref());
     }
-    SurfaceCoverage { elements: elements.into_values().collect() }
+    SurfaceCoverage { elements }
 }
 
 impl JudgedPatch {
@@ -67,18 +64,6 @@ impl JudgedPatch {
         let unpictured = if self.in_view { SurfaceOutcome::Unpictured } else { SurfaceOutcome::Unseen };
         self.best.map_or(unpictured, |best| best.fate)
     }
-}
-
-/// Returns the distance at which a pixel has the required size on the surface, m.
-#[must_use]
-pub fn reach_m(camera: &Camera) -> f64 {
-    REQUIRED_GSD_M * camera.focal_px()
-}
-
-fn is_clear(from: Vec3<Enu>, to: Vec3<Enu>, scene: &ReviewContext<'_>) -> bool {
-    let line = to - from;
-    let reach = line.norm() - CLEAR_M;
-    reach <= 0.0 || scene.site.geometry().ray(from, line.unit(), reach).is_none()
 }
 
 /// Returns the distance, m, and the cosine of the incidence angle for a patch that is inside the image and faces the camera. Does

@@ -1,7 +1,8 @@
 //! Inspectable surface: the part that is visible from at least one point of a reference path, sampled in patches of about 1 m².
 
-use super::{is_clear, reach_m};
-use crate::report::ReviewContext;
+use super::sight::{is_clear, reach_m};
+use crate::report::context::ReviewContext;
+use spandrel_model::elements::Element;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::bridges::Solid;
@@ -19,8 +20,8 @@ const TRIES: usize = 8;
 /// A patch of a member's surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfacePatch {
-    /// Element number (AASHTO MBEI).
-    pub element: u32,
+    /// Element of the member.
+    pub element: Element,
     /// End point for sight lines, slightly in front of the center, m.
     pub above_m: Vec3<Enu>,
     /// Center of the patch, m.

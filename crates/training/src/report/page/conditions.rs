@@ -4,7 +4,8 @@ use crate::report::Review;
 use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
-use spandrel_model::site::catalogue::kind_name;
+use spandrel_model::defect_codes::kind_name;
+use spandrel_model::elements::Element;
 use spandrel_monitor::score::completion::verdict;
 
 /// Renders the "Certification" section of a session report.
@@ -65,7 +66,8 @@ fn detection(review: &Review) -> Table {
             put(by, name(k), mine.iter().filter(|fate| fate.found_by.is_some()).count(), mine.len());
         }
     };
-    tell("element", &|defect| defect.element, &|k| format!("{k} {}", words::element(k)));
+    let element = |number: u32| Element::from_number(number as u16);
+    tell("element", &|defect| defect.element.number().into(), &|k| format!("{k} {}", element(k).name()));
     tell("kind", &|defect| defect.kind, &|k| kind_name(k).to_owned());
     tell("condition state", &|defect| u32::from(defect.condition_state), &|k| k.to_string());
     Table {

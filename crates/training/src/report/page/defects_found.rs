@@ -1,7 +1,7 @@
 //! Defects found and missed, marked on the bridges. For missed defects, also how close the flight came and how they would have
 //! looked.
 
-use super::figure;
+use super::figure::figure;
 use super::gallery::{DefectMark, frame};
 use crate::report::Review;
 use crate::report::defects::DefectOutcome;
@@ -11,8 +11,8 @@ use crate::report::sketch::{SketchExposure, Sketcher};
 use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
+use spandrel_model::defect_codes::kind_name;
 use spandrel_model::scenario::Bridge;
-use spandrel_model::site::catalogue::kind_name;
 
 /// Renders the "Defects" section of a session report.
 pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
@@ -58,7 +58,7 @@ fn card(review: &Review, fate: &DefectOutcome, sketcher: &Sketcher) -> Markup {
         li.shot {
             (frame(sketcher, (&fate.good_view(), &review.vehicle.camera), exposure, &marks, &alt))
             p { span.badge.v-false { "missed" } " " b { "Defect " (defect.id) } ", " (kind_name(defect.kind)) ", condition state " (defect.condition_state) }
-            p { "On " (defect.member) " (" (words::element(defect.element)) "), " (size(fate)) "." }
+            p { "On " (defect.member) " (" (defect.element.name()) "), " (size(fate)) "." }
             p.note { "It was " (fate.words()) "." }
         }
     }
@@ -84,8 +84,8 @@ fn table(review: &Review) -> Table {
             defect.id.into(),
             kind_name(defect.kind).into(),
             u32::from(defect.condition_state).into(),
-            defect.element.into(),
-            words::element(defect.element).into(),
+            u32::from(defect.element.number()).into(),
+            defect.element.name().into(),
             defect.member.clone().into(),
             TableCell::Number(1000.0 * defect.length_m, 0),
             TableCell::Number(1000.0 * defect.width_m, 2),

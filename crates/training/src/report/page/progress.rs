@@ -1,8 +1,8 @@
 //! One trainee's progress on one job, by repetition, as the TASBID paper shows it for participant 18: scores, on-path share by
 //! task, crashes by kind and, after four repetitions, learning curves. Used in the trainee's page and the cohort pages.
 
+use super::figure::{figure, legend};
 use super::kinds::{KINDS, counted, segments};
-use super::{figure, legend};
 use crate::cohort::{JobProgress, Repetition, ScoreCurve, TraineeProgress};
 use crate::record::omitted_summary;
 use crate::report::plots::bars::{CountRow, counts};

@@ -1,12 +1,13 @@
 //! Surface coverage by element: the area that the pictures show well, and why the rest does not count.
 
-use super::{figure, legend};
+use super::figure::{figure, legend};
 use crate::report::Review;
 use crate::report::coverage::{BLUR_MAX_PX, ElementSurface, REQUIRED_GSD_M, SurfaceCoverage, SurfaceOutcome, reach_m};
 use crate::report::plots::bars::{StackedBar, stacks};
 use crate::report::table::{Table, TableCell};
 use crate::report::words;
 use maud::{Markup, html};
+use spandrel_model::elements::Element;
 use spandrel_model::site::visibility::INCIDENCE_MAX_RAD;
 
 /// Maximum number of reasons named in the summary.
@@ -56,14 +57,9 @@ fn lacking(total: &ElementSurface) -> Option<String> {
 }
 
 fn rows(coverage: &SurfaceCoverage) -> Vec<StackedBar> {
-    let row = |element: &ElementSurface| StackedBar {
-        name: format!(
-            "{} · {} ({} m²)",
-            element.element,
-            words::element(element.element),
-            words::number(element.inspectable_m2, 0)
-        ),
-        parts: SurfaceOutcome::ALL.map(|fate| (fate.class(), element.area_m2(fate) / element.inspectable_m2)).to_vec(),
+    let row = |(element, surface): (&Element, &ElementSurface)| StackedBar {
+        name: format!("{} · {} ({} m²)", element.number(), element.name(), words::number(surface.inspectable_m2, 0)),
+        parts: SurfaceOutcome::ALL.map(|fate| (fate.class(), surface.area_m2(fate) / surface.inspectable_m2)).to_vec(),
     };
     coverage.elements.iter().map(row).collect()
 }
@@ -83,7 +79,7 @@ fn table(coverage: &SurfaceCoverage) -> Table {
     let mut rows: Vec<Vec<TableCell>> = coverage
         .elements
         .iter()
-        .map(|element| row(element, [element.element.into(), words::element(element.element).into()]))
+        .map(|(element, surface)| row(surface, [u32::from(element.number()).into(), element.name().into()]))
         .collect();
     rows.push(row(&coverage.total(), ["all".into(), TableCell::Empty]));
     let mut columns = vec!["element", "name", "inspectable, m²"];
@@ -115,7 +111,7 @@ mod tests {
 
     #[test]
     fn exact_every_outcome_has_a_column_and_reasons_are_sorted_by_area() {
-        let mut element = ElementSurface { element: 105, inspectable_m2: 100.0, ..ElementSurface::default() };
+        let mut element = ElementSurface { inspectable_m2: 100.0, ..ElementSurface::default() };
         for (fate, area_m2) in [
             (SurfaceOutcome::Shown, 40.0),
             (SurfaceOutcome::DarkLampOff, 35.0),
@@ -126,7 +122,7 @@ mod tests {
             element.by_fate_m2.insert(fate, area_m2);
         }
         assert_eq!(lacking(&element).unwrap(), "35 % too dark, lamp off; 20 % blurred; 5 % too far");
-        let table = table(&SurfaceCoverage { elements: vec![element] });
+        let table = table(&SurfaceCoverage { elements: [(Element::RcBoxGirder, element)].into() });
         for (k, fate) in SurfaceOutcome::ALL.iter().enumerate() {
             assert_eq!(table.columns[3 + k], format!("{}, m²", fate.name()));
         }

@@ -2,7 +2,7 @@
 
 use super::{ENTRIES, LIGHT, NEARER, PipelineKey, build, copies, corners, module, patches, special};
 use crate::gpu::device::Gpu;
-use spandrel_model::site::catalogue;
+use spandrel_model::defect_codes;
 
 /// Pipelines with numeric targets: element in red, defect in green. Half floats represent integers up to 2048 exactly.
 pub struct LabelPipelines {
@@ -43,7 +43,8 @@ impl LabelPipelines {
             cull: None,
             ..solid
         };
-        let defects = catalogue::KINDS.iter().map(|code| (*code, special(gpu, &flat, &[("KIND", f64::from(*code))]))).collect();
+        let defects =
+            defect_codes::KINDS.iter().map(|code| (*code, special(gpu, &flat, &[("KIND", f64::from(*code))]))).collect();
         Self { solid: build(gpu, &solid), defects }
     }
 }

@@ -1,5 +1,6 @@
-//! Defects permitted on each element: AASHTO MBEI defect codes by element material (docs/src/reference/domain.md, "Defects") and
-//! sizes by condition state (the limits are in "Condition states" on that page; sizes without a limit there are estimates).
+//! Defect codes of the AASHTO MBEI (docs/src/reference/domain.md, "Defects") with names, and sizes by condition state (the limits
+//! are in "Condition states" on that page; sizes without a limit there are estimates). [`crate::elements`] lists the codes that
+//! each element permits.
 
 use crate::random::RandomStream;
 
@@ -22,32 +23,8 @@ pub const CRACK: u32 = 1130;
 /// Abrasion and wear.
 pub const ABRASION: u32 = 1190;
 
-const RC: &[u32] = &[12, 16, 38, 105, 110, 116, 144, 155, 205, 210, 215, 220, 227, 234, 331];
-const PSC: &[u32] = &[13, 15, 39, 104, 109, 115, 143, 154, 204, 226, 233];
-const STEEL: &[u32] = &[
-    28, 29, 30, 102, 107, 113, 120, 141, 147, 148, 149, 152, 161, 162, 202, 207, 225, 231, 310, 311, 312, 313, 314, 315, 316, 330,
-];
-
-const RC_KINDS: &[u32] = &[SPALL, REBAR, EFFLORESCENCE, CRACK, ABRASION];
-const PSC_KINDS: &[u32] = &[SPALL, REBAR, PSC_CRACK, EFFLORESCENCE, ABRASION];
-const STEEL_KINDS: &[u32] = &[CORROSION, FATIGUE, CONNECTION];
-
-/// All defect codes that may be drawn, in ascending order.
+/// All codes that a seed may place, in ascending order.
 pub const KINDS: &[u32] = &[CORROSION, FATIGUE, CONNECTION, SPALL, REBAR, PSC_CRACK, EFFLORESCENCE, CRACK, ABRASION];
-
-/// Returns the defect codes permitted on an element; empty if the element has none.
-#[must_use]
-pub fn legal_kinds(element: u32) -> &'static [u32] {
-    if RC.contains(&element) {
-        RC_KINDS
-    } else if PSC.contains(&element) {
-        PSC_KINDS
-    } else if STEEL.contains(&element) {
-        STEEL_KINDS
-    } else {
-        &[]
-    }
-}
 
 /// Returns true for line defects, whose width must be resolved in a photo.
 #[must_use]

@@ -1,0 +1,100 @@
+//! Dimensions of the bridge types. One table per type states each key with its range, default and meaning; the type's fields, the
+//! reader of scenario files and the check of scenarios/README.md all derive from it.
+
+/// A numeric key of a bridge type in scenario files.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BridgeField {
+    /// Key, including its unit.
+    pub key: &'static str,
+    /// Minimum value.
+    pub min: f64,
+    /// Maximum value.
+    pub max: f64,
+    /// Default value.
+    pub default: f64,
+    /// Meaning with its source, as in scenarios/README.md.
+    pub meaning: &'static str,
+}
+
+/// A dimension that is in range but inconsistent with other dimensions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Inconsistency {
+    /// Key to change.
+    pub key: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Allowed values, given the other dimensions.
+    pub allowed: String,
+}
+
+/// Collects inconsistencies while the dimensions of a bridge are compared.
+#[derive(Debug, Default)]
+pub(super) struct InconsistencyList(pub(super) Vec<Inconsistency>);
+
+impl InconsistencyList {
+    pub(super) fn integer_field(&mut self, key: &'static str, value: f64) {
+        if value.fract() != 0.0 {
+            self.0.push(Inconsistency { key, value, allowed: "a whole number".into() });
+        }
+    }
+
+    pub(super) fn at_least(&mut self, key: &'static str, value: f64, low: f64, why: &str) {
+        if value < low {
+            self.0.push(Inconsistency { key, value, allowed: format!("{why}: at least {low:.2}") });
+        }
+    }
+
+    pub(super) fn at_most(&mut self, key: &'static str, value: f64, high: f64, why: &str) {
+        if value > high {
+            self.0.push(Inconsistency { key, value, allowed: format!("{why}: at most {high:.2}") });
+        }
+    }
+}
+
+/// Defines the dimensions of a bridge type from one table: key, range, default, meaning. The type's name in scenario files follows
+/// the name of the struct.
+macro_rules! bridge_dimensions {
+    (
+        $(#[$doc:meta])*
+        $bridge:ident $name:literal {
+            $($key:ident $min:literal to $max:literal, $default:literal, $meaning:literal;)+
+        }
+    ) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, PartialEq)]
+        pub struct $bridge {
+            $(#[doc = $meaning] pub $key: f64,)+
+        }
+
+        impl $bridge {
+            /// Value of `type` in scenario files, and name of the table with the dimensions.
+            pub const TYPE: &'static str = $name;
+
+            /// Keys of the scenario file.
+            pub const FIELDS: &'static [$crate::scenario::bridges::BridgeField] = &[
+                $($crate::scenario::bridges::BridgeField {
+                    key: stringify!($key),
+                    min: $min,
+                    max: $max,
+                    default: $default,
+                    meaning: $meaning,
+                },)+
+            ];
+
+            /// Creates a bridge from values in the order of `FIELDS`; missing ones get their defaults.
+            #[must_use]
+            pub fn from_values(values: &[f64]) -> Self {
+                let mut values = values.iter().copied();
+                Self { $($key: values.next().unwrap_or($default),)+ }
+            }
+        }
+
+        impl Default for $bridge {
+            fn default() -> Self {
+                Self::from_values(&[])
+            }
+        }
+    };
+}
+
+pub(super) use bridge_dimensions;

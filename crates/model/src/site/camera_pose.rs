@@ -1,0 +1,37 @@
+//! Position and orientation of the aircraft's camera.
+
+use crate::frames::{Enu, Frd, Ned, Rotation, Vec3};
+use crate::vehicle::Camera;
+
+/// Position and orientation of a camera at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CameraPose {
+    /// Lens position, m.
+    pub position_m: Vec3<Enu>,
+    /// Unit vector of the optical axis.
+    pub forward: Vec3<Enu>,
+    /// Unit vector toward the right side of the image.
+    pub right: Vec3<Enu>,
+    /// The lamp is on (it points along the optical axis).
+    pub lamp_on: bool,
+}
+
+impl CameraPose {
+    /// Returns the camera pose for an aircraft pose: the attitude determines the heading; the gimbal keeps roll level and holds
+    /// its pitch above the horizon, rad, up positive.
+    #[must_use]
+    pub fn on(
+        camera: &Camera,
+        (position_m, ned_from_frd): (Vec3<Enu>, Rotation<Frd, Ned>),
+        gimbal_rad: f64,
+        lamp_on: bool,
+    ) -> Self {
+        let looking: Rotation<Frd, Ned> = Rotation::from_euler(0.0, gimbal_rad, ned_from_frd.yaw_rad());
+        Self {
+            position_m: position_m + (ned_from_frd * camera.position_m).enu(),
+            forward: (looking * Vec3::new(1.0, 0.0, 0.0)).enu(),
+            right: (looking * Vec3::new(0.0, 1.0, 0.0)).enu(),
+            lamp_on,
+        }
+    }
+}
