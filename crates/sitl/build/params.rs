@@ -1,4 +1,4 @@
-//! Turns the parameter tables of `src/endpoint/params/stored` into Rust rows. One file per group; its first line is `# group: NAME`, every other
+//! Turns the parameter tables of `src/endpoint/vehicle_link/params/stored` into Rust rows. One file per group; its first line is `# group: NAME`, every other
 //! line is `name, type, default, low, high, unit, text, values`, separated by tabs. A type ends in `!` where the parameter cannot be set. Values are
 //! `0=Off;1=On`, or `bits:0=First;1=Second`. `{1..8}` in a name repeats the line, and `#` in its text is the number.
 
