@@ -6,7 +6,7 @@ mod params;
 use std::path::Path;
 use std::{env, fs};
 
-const STORED: &str = "src/endpoint/params/stored";
+const STORED: &str = "src/endpoint/vehicle_link/params/stored";
 
 fn main() {
     let root = env::var("CARGO_MANIFEST_DIR").unwrap_or_default();

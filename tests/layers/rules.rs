@@ -68,6 +68,15 @@ const OUTSIDE: &[&[&str]] = &[
 const PLAIN_DATA: &[&[&str]] = &[&["std", "time", "Duration"], &["std", "net", "IpAddr"], &["std", "net", "SocketAddr"]];
 /// Items of the physics module that the autopilot may use: actuator commands, not the true state.
 const ACTUATION: &[&str] = &["Actuators", "MAX_ROTORS"];
+/// Modules of the simulator that a real autopilot replaces; the equipment's half of the interface must work without them.
+const AUTOPILOT_SIDE: &[&[&str]] = &[
+    &["autopilot"],
+    &["backend"],
+    &["endpoint", "vehicle_link"],
+    &["endpoint", "flavour"],
+    &["endpoint", "params"],
+    &["endpoint", "snapshot"],
+];
 const ROOTS: &[&str] = &[
     "crate",
     "spandrel_model",
@@ -198,7 +207,12 @@ fn forbidden(folder: &str, room: &str, module: &[String], path: &[&str]) -> Opti
     }
     let in_autopilot = folder == "sitl" && module.first().is_some_and(|first| first == "autopilot");
     let truth = target == "sitl" && rest.first() == Some(&"physics") && !rest.get(1).is_some_and(|name| ACTUATION.contains(name));
-    (in_autopilot && truth).then(|| "AUTOPILOT NEVER SEES PHYSICS' TRUTH".into())
+    if in_autopilot && truth {
+        return Some("AUTOPILOT NEVER SEES PHYSICS' TRUTH".into());
+    }
+    let in_payload = folder == "sitl" && module.iter().map(String::as_str).take(2).eq(["endpoint", "payload"]);
+    let autopilot = target == "sitl" && AUTOPILOT_SIDE.iter().any(|side| rest.starts_with(side));
+    (in_payload && autopilot).then(|| "PAYLOAD NEVER KNOWS THE AUTOPILOT".into())
 }
 
 #[cfg(test)]
@@ -249,6 +263,16 @@ mod tests {
         assert_eq!(check("crates/sitl/src/autopilot/mod.rs", "use super::physics;"), 1);
         assert_eq!(check("crates/sitl/src/autopilot/mod.rs", "use crate::physics::*;"), 1);
         assert_eq!(check("crates/sitl/src/sensors/mod.rs", "use crate::physics::RigidState;"), 0);
+    }
+
+    #[test]
+    fn exact_the_equipments_interface_does_not_know_the_autopilot() {
+        let file = "crates/sitl/src/endpoint/payload/input.rs";
+        assert_eq!(check(file, "use crate::autopilot::Estimate;"), 1);
+        assert_eq!(check(file, "use crate::endpoint::vehicle_link::snapshot::VehicleSnapshot;"), 1);
+        assert_eq!(check(file, "use super::super::vehicle_link::VehicleLink;"), 1);
+        assert_eq!(check(file, "use crate::physics::RigidState; use crate::endpoint::link::Links;"), 0);
+        assert_eq!(check("crates/sitl/src/endpoint/vehicle_link/mod.rs", "use crate::autopilot::Autopilot;"), 0);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Generation of Rust code from the parameter tables in `src/endpoint/params/stored`. Each file holds one group. Its
+//! Generation of Rust code from the parameter tables in `src/endpoint/vehicle_link/params/stored`. Each file holds one group. Its
 //! first line is `# group: NAME`; every other line has the columns `name, type, default, low, high, unit, text,
 //! values`, separated by tabs. A type ends in `!` if the parameter is read-only. Values are `0=Off;1=On` or
 //! `bits:0=First;1=Second`. `{1..8}` in a name repeats the line, and `#` in its text becomes the number.

@@ -2,6 +2,7 @@
 //! timestamps, returns datagrams.
 
 mod crash_handling;
+mod file_jobs;
 mod host_api;
 pub mod inbox;
 mod instructor;
@@ -12,13 +13,14 @@ use super::autopilot::{Autopilot, CONTROL_HZ};
 use super::backend::Backend;
 use super::endpoint::flavour::Flavour;
 use super::endpoint::params::{AircraftValues, BatteryThresholds, InstructorSettings};
-use super::endpoint::snapshot::{ScoringTruth, VehicleSnapshot};
-use super::endpoint::{Endpoint, LinkId, LinkKind, LockstepState, Transmit};
+use super::endpoint::{
+    Endpoint, LinkId, LinkKind, LockstepState, ReceivedDatagram, ScoringTruth, SimulatedAircraft, Transmit, VehicleClock,
+};
 use super::faults::Faults;
 use super::log::FlightRecorder;
 use super::physics::{self, Actuators, AirState, AirframeModel};
 use super::sensors::{Readings, Sensors};
-use host_api::FileJobScheduler;
+use file_jobs::FileJobScheduler;
 use inbox::Inbox;
 use radio::RadioLink;
 use sha2::{Digest, Sha256};
@@ -122,7 +124,7 @@ pub struct Sim {
     inbox: Inbox,
     radio: RadioLink,
     faults: Faults,
-    file_work: FileJobScheduler,
+    file_jobs: FileJobScheduler,
     instructor_settings: InstructorSettings,
     /// Times at which traffic was stopped and released.
     closures: BridgeClosures,
@@ -133,39 +135,12 @@ pub struct Sim {
     recorder: FlightRecorder,
 }
 
-/// Builds a snapshot of the vehicle. Borrows each part separately so that endpoint and autopilot remain mutable.
-macro_rules! view {
-    ($sim:expr, $estimate:expr, $status:expr, $fence_enabled:expr) => {
-        VehicleSnapshot {
-            now: $sim.now,
-            autopilot_booted: $sim.booted,
-            start_unix_s: $sim.config.scenario.light.start_unix_s,
-            vehicle: &$sim.config.vehicle,
-            plane: $sim.site.plane(),
-            estimate: $estimate,
-            status: $status,
-            readings: &$sim.readings,
-            truth: &$sim.state.rigid,
-            specific_force_m_s2: $sim.state.specific_force_m_s2,
-            battery: &$sim.state.battery,
-            actuators: &$sim.actuators,
-            wind_m_s: $sim.air.velocity_m_s,
-            scoring: &$sim.scoring,
-            sticks: $sim.endpoint.sticks($sim.now),
-            pulses_us: $sim.endpoint.pulses_us($sim.now),
-            aux_us: $sim.endpoint.aux_us(),
-            link_kind: LinkKind::GroundStation,
-            gimbal: $sim.endpoint.payload.gimbal,
-            lamp: $sim.endpoint.payload.lamp,
-            camera: $sim.endpoint.payload.camera.summary($sim.now),
-            plans: $sim.endpoint.plans(),
-            flavour: $sim.endpoint.flavour(),
-            requested_mode: $sim.endpoint.requested_mode(),
-            system_id: $sim.endpoint.system_id(),
-            flight: $sim.endpoint.flight(),
-            fence_enabled: $fence_enabled,
-        }
-    };
+/// The parts of the simulator that exchange messages with clients, borrowed separately.
+struct Interface<'a> {
+    aircraft: SimulatedAircraft<'a>,
+    autopilot: &'a mut Autopilot,
+    endpoint: &'a mut Endpoint,
+    recorder: &'a mut FlightRecorder,
 }
 
 impl Sim {
@@ -224,7 +199,7 @@ impl Sim {
             inbox: Inbox::default(),
             radio: RadioLink::new(seed),
             faults: Faults::new(seed),
-            file_work: FileJobScheduler::default(),
+            file_jobs: FileJobScheduler::default(),
             applied_changes: 0,
             instructor_settings: InstructorSettings { wind: None, loss: 0.0, delay: SimTime::ZERO, open: true },
             closures: BridgeClosures::default(),
@@ -244,12 +219,12 @@ impl Sim {
 
     /// Sends only responses on a link until it has received a heartbeat.
     pub fn await_heartbeat(&mut self, link: LinkId) {
-        self.endpoint.await_heartbeat(link);
+        self.endpoint.links.await_heartbeat(link);
     }
 
     /// Limits the outgoing rate of a link, bytes/s.
     pub fn limit_link(&mut self, link: LinkId, bytes_s: f64) {
-        self.endpoint.limit(link, bytes_s, self.now);
+        self.endpoint.links.limit(link, bytes_s, self.now);
     }
 
     /// Closes a link. Lockstep no longer waits for its peer.
@@ -262,29 +237,29 @@ impl Sim {
 
     /// Sets the simulation speed relative to the clients' clocks (minimum 1). Without a lockstep peer, client timeouts scale with
     /// it.
-    pub fn set_speed_factor(&mut self, pace: f64) {
-        self.speed_factor = if pace.is_finite() { pace.max(1.0) } else { 1.0 };
+    pub fn set_speed_factor(&mut self, factor: f64) {
+        self.speed_factor = if factor.is_finite() { factor.max(1.0) } else { 1.0 };
         self.scale_timeouts();
     }
 
     /// Lockstep clients run on simulation time. Without any, clients use their own clocks.
     fn scale_timeouts(&mut self) {
-        let in_step = self.endpoint.stepped().next().is_some();
-        let pace = if in_step { 1.0 } else { self.speed_factor };
+        let in_step = self.endpoint.links.lockstep_states().next().is_some();
+        let factor = if in_step { 1.0 } else { self.speed_factor };
         let Backend::Builtin(autopilot) = &mut self.backend;
-        self.endpoint.set_speed_factor(pace, autopilot);
+        self.endpoint.set_speed_factor(factor, autopilot);
     }
 
     /// Received bytes that did not belong to any frame.
     #[must_use]
     pub fn bad_bytes(&self) -> u64 {
-        self.endpoint.bad_bytes()
+        self.endpoint.links.bad_bytes()
     }
 
     /// Number of datagrams dropped by rate limits and frames dropped by link limits.
     #[must_use]
     pub fn dropped(&self) -> u64 {
-        self.inbox.dropped() + self.endpoint.dropped()
+        self.inbox.dropped() + self.endpoint.links.dropped()
     }
 
     /// Simulation time.
@@ -312,19 +287,15 @@ impl Sim {
             self.radio.receive(link, bytes, self.now);
             return;
         }
-        self.inbox.push(link, bytes);
-        self.endpoint.note_station_heard(link);
-        if !self.pending_answers.is_empty() {
-            self.note_lockstep_answers(link, bytes);
-        }
-    }
-
-    fn note_lockstep_answers(&mut self, link: LinkId, bytes: &[u8]) {
-        let Some(token) = self.pending_answers.get(&link) else { return };
-        if self.endpoint.lockstep_answers(link, bytes).contains(token) {
+        self.endpoint.links.note_received(link);
+        let mut datagram = ReceivedDatagram::new(bytes);
+        if let Some(token) = self.pending_answers.get(&link)
+            && self.endpoint.links.answers_lockstep(link, &mut datagram, *token)
+        {
             self.pending_answers.remove(&link);
-            self.endpoint.join(link);
+            self.endpoint.links.join_lockstep(link);
         }
+        self.inbox.push(link, datagram);
     }
 
     /// Returns true while simulation time is stopped because a lockstep peer has not responded.
@@ -337,32 +308,32 @@ impl Sim {
     /// received from all of them.
     #[must_use]
     pub fn awaits_first_answer(&self) -> Option<bool> {
-        let owing = |(link, step, heard): (LinkId, LockstepState, bool)| {
-            (step == LockstepState::Awaited && self.pending_answers.contains_key(&link)).then_some(heard)
+        let has_received = |(link, step, has_received): (LinkId, LockstepState, bool)| {
+            (step == LockstepState::Awaited && self.pending_answers.contains_key(&link)).then_some(has_received)
         };
-        self.endpoint.stepped().filter_map(owing).reduce(|a, b| a && b)
+        self.endpoint.links.lockstep_states().filter_map(has_received).reduce(|a, b| a && b)
     }
 
     /// Sends heartbeats and another lockstep request to peers that have never responded. Does not change the vehicle.
     pub fn send_first_contact(&mut self) {
         self.pause(false);
-        self.endpoint.request_lockstep(self.now);
+        self.endpoint.links.request_lockstep(self.now);
     }
 
     /// Stops waiting for first responses. Lockstep with each peer begins with its first response.
     pub fn skip_first_answers(&mut self) {
-        let owing: Vec<LinkId> = self.pending_answers.keys().copied().collect();
-        for link in owing {
-            self.endpoint.serve_in_real_time(link);
+        let pending: Vec<LinkId> = self.pending_answers.keys().copied().collect();
+        for link in pending {
+            self.endpoint.links.serve_in_real_time(link);
         }
-        let kept: Vec<LinkId> = self.endpoint.all_in_step().collect();
-        self.pending_answers.retain(|link, _| kept.contains(link));
+        let peers: Vec<LinkId> = self.endpoint.links.lockstep_peers().collect();
+        self.pending_answers.retain(|link, _| peers.contains(link));
     }
 
     /// Returns true while a lockstep peer has not responded yet. Simulation time follows wall time until it does.
     #[must_use]
     pub fn runs_in_real_time(&self) -> bool {
-        self.endpoint.stepped().any(|(_, step, _)| step == LockstepState::Late)
+        self.endpoint.links.lockstep_states().any(|(_, step, _)| step == LockstepState::Late)
     }
 
     /// Time at which the next tick is due.
@@ -373,7 +344,7 @@ impl Sim {
 
     /// Returns the next datagram to send.
     pub fn poll_transmit(&mut self) -> Option<Transmit> {
-        while let Some(transmit) = self.endpoint.poll() {
+        while let Some(transmit) = self.endpoint.links.poll() {
             if !self.is_over_radio(transmit.link) {
                 return Some(transmit);
             }
@@ -412,66 +383,86 @@ impl Sim {
 
     /// Sends lockstep requests. Returns true if there are peers to wait for.
     fn ask_peers(&mut self) -> bool {
-        self.endpoint.request_lockstep(self.now);
-        self.pending_answers = self.endpoint.all_in_step().map(|link| (link, self.now.ns())).collect();
+        self.endpoint.links.request_lockstep(self.now);
+        self.pending_answers = self.endpoint.links.lockstep_peers().map(|link| (link, self.now.ns())).collect();
         !self.pending_answers.is_empty()
     }
 
     /// Processes received datagrams up to the per-tick limit of each link.
     fn process_inbox(&mut self) {
         while let Some((link, bytes)) = self.radio.received(self.now) {
-            self.inbox.push(link, &bytes);
+            self.inbox.push(link, ReceivedDatagram::new(&bytes));
         }
-        for (link, bytes) in self.inbox.take(self.now) {
-            self.read(link, &bytes);
+        for (link, datagram) in self.inbox.take(self.now) {
+            self.process_datagram(link, datagram);
             self.digest.update(self.endpoint.take_digest_input());
         }
     }
 
-    fn read(&mut self, link: LinkId, bytes: &[u8]) {
-        let Backend::Builtin(autopilot) = &mut self.backend;
-        let (estimate, status) = (*autopilot.estimate(), autopilot.status().clone());
-        let view = view!(self, &estimate, &status, autopilot.tuning.fence_enabled);
-        self.endpoint.receive(link, bytes, &view, autopilot);
-        if self.endpoint.take_restart() {
+    fn process_datagram(&mut self, link: LinkId, datagram: ReceivedDatagram) {
+        let Interface { aircraft, autopilot, endpoint, .. } = self.interface();
+        endpoint.receive(link, datagram, &aircraft, autopilot);
+        if self.endpoint.vehicle.take_restart_request() {
             self.restart_autopilot();
         }
     }
 
     /// Restarts the autopilot on the ground. The environment is unaffected.
     fn restart_autopilot(&mut self) {
-        let Backend::Builtin(autopilot) = &mut self.backend;
-        **autopilot = new_autopilot(&self.config);
+        self.backend = Backend::Builtin(Box::new(new_autopilot(&self.config)));
         self.booted = self.now;
-        let (estimate, status) = (*autopilot.estimate(), autopilot.status().clone());
-        let view = view!(self, &estimate, &status, autopilot.tuning.fence_enabled);
-        self.endpoint.boot(&view, autopilot);
+        let Interface { aircraft, autopilot, endpoint, .. } = self.interface();
+        endpoint.boot(&aircraft, autopilot);
         self.scale_timeouts();
+    }
+
+    /// Borrows the state that messages are built from, and the parts that handle them.
+    fn interface(&mut self) -> Interface<'_> {
+        let Backend::Builtin(autopilot) = &mut self.backend;
+        let aircraft = SimulatedAircraft {
+            clock: VehicleClock {
+                now: self.now,
+                autopilot_booted: self.booted,
+                start_unix_s: self.config.scenario.light.start_unix_s,
+                link_kind: LinkKind::GroundStation,
+            },
+            vehicle: &self.config.vehicle,
+            plane: self.site.plane(),
+            readings: &self.readings,
+            truth: &self.state.rigid,
+            specific_force_m_s2: self.state.specific_force_m_s2,
+            battery: &self.state.battery,
+            actuators: &self.actuators,
+            wind_m_s: self.air.velocity_m_s,
+            scoring: &self.scoring,
+        };
+        Interface { aircraft, autopilot, endpoint: &mut self.endpoint, recorder: &mut self.recorder }
     }
 
     /// Sends a heartbeat on every link while the simulation is paused, and a text at the start of the pause. Call once per second
     /// of wall time. Does not change the vehicle.
     pub fn pause(&mut self, begins: bool) {
         if begins {
-            self.endpoint.push_text(MavSeverity::MAV_SEVERITY_INFO, "Simulation paused");
+            self.endpoint.vehicle.push_text(MavSeverity::MAV_SEVERITY_INFO, "Simulation paused");
         }
-        let Backend::Builtin(autopilot) = &mut self.backend;
-        let view = view!(self, autopilot.estimate(), autopilot.status(), autopilot.tuning.fence_enabled);
-        self.endpoint.send_heartbeats(&view);
+        let Interface { aircraft, autopilot, endpoint, .. } = self.interface();
+        endpoint.send_heartbeats(&aircraft, autopilot);
     }
 
     /// Announces that the simulation continues; clients receive the text with the next tick.
     pub fn resume(&mut self) {
-        self.endpoint.push_text(MavSeverity::MAV_SEVERITY_INFO, "Simulation resumed");
+        self.endpoint.vehicle.push_text(MavSeverity::MAV_SEVERITY_INFO, "Simulation resumed");
     }
 
     fn publish(&mut self) {
-        let Backend::Builtin(autopilot) = &mut self.backend;
-        let (events, reached) = (autopilot.drain_events(), autopilot.drain_reached());
-        let view = view!(self, autopilot.estimate(), autopilot.status(), autopilot.tuning.fence_enabled);
-        let texts: Vec<(u8, &str)> = events.iter().map(|event| (event.severity.number(), event.text.as_str())).collect();
-        self.recorder.observe(&view, &texts, || self.endpoint.parameters().map(|(name, value)| (name, value.into())));
-        self.endpoint.publish(&view, events, reached);
+        let Interface { aircraft, autopilot, endpoint, recorder } = self.interface();
+        let (events, reached_items) = (autopilot.drain_events(), autopilot.drain_reached());
+        if recorder.is_enabled() {
+            let view = endpoint.vehicle.snapshot(&aircraft, autopilot, &endpoint.payload.equipment);
+            let texts: Vec<(u8, &str)> = events.iter().map(|event| (event.severity.number(), event.text.as_str())).collect();
+            recorder.observe(&view, &texts, || endpoint.vehicle.parameters().map(|(name, value)| (name, value.into())));
+        }
+        endpoint.publish(&aircraft, autopilot, events, reached_items);
     }
 }
 

@@ -27,7 +27,7 @@ impl FlightLogEncoder {
     /// Starts a log: writes header information, parameter values and topic formats.
     pub fn begin<'a>(view: &VehicleSnapshot, version: &str, parameters: impl Iterator<Item = (&'a str, UlogValue<'a>)>) -> Self {
         let mut writer = UlogWriter::default();
-        writer.begin(view.sim_us());
+        writer.begin(view.clock.sim_us());
         let hardware = format!("Spandrel SITL, {}", view.vehicle.name);
         writer.information("sys_name", UlogValue::Text("Spandrel"));
         writer.information("ver_sw", UlogValue::Text(version));
@@ -42,17 +42,17 @@ impl FlightLogEncoder {
         for (number, topic) in (0u16..).zip(TOPICS) {
             writer.subscribe(number, topic.name);
         }
-        let due = TOPICS.iter().map(|topic| Schedule::new(view.now, topic.rate_hz)).collect();
+        let due = TOPICS.iter().map(|topic| Schedule::new(view.clock.now, topic.rate_hz)).collect();
         Self { writer, due }
     }
 
     /// Writes the rows whose time has come. With `last`, writes every topic regardless of its schedule.
     pub fn observe(&mut self, view: &VehicleSnapshot, last: bool) {
         for ((number, topic), due) in (0u16..).zip(TOPICS).zip(&mut self.due) {
-            if !due.fire(view.now) && !last {
+            if !due.fire(view.clock.now) && !last {
                 continue;
             }
-            let mut row = LogRow::at(view.sim_us());
+            let mut row = LogRow::at(view.clock.sim_us());
             if (topic.fill)(view, &mut row).is_some() {
                 self.writer.row(number, row.bytes());
             }
@@ -115,7 +115,13 @@ impl FlightRecorder {
         self.on = true;
     }
 
-    /// Records one snapshot of the vehicle, and the text messages sent at that time.
+    /// Checks whether logging is enabled.
+    #[must_use]
+    pub fn is_enabled(&self) -> bool {
+        self.on
+    }
+
+    /// Records one snapshot of the vehicle and the text messages sent at that instant.
     pub fn observe<'a, P>(&mut self, view: &VehicleSnapshot, texts: &[(u8, &str)], parameters: impl Fn() -> P)
     where
         P: Iterator<Item = (&'a str, UlogValue<'a>)>,
@@ -124,14 +130,14 @@ impl FlightRecorder {
             return;
         }
         if self.log.is_none() && view.status.armed {
-            self.out.push_back(LogOutput::Begin(view.unix_us()));
+            self.out.push_back(LogOutput::Begin(view.clock.unix_us()));
             let log = FlightLogEncoder::begin(view, env!("CARGO_PKG_VERSION"), parameters());
             self.log = Some((log, FoxgloveScene::begin(view)));
         }
         let Some((log, scene)) = &mut self.log else { return };
         for (severity, text) in texts {
-            log.text(*severity, view.now, text);
-            self.out.push_back(LogOutput::Message(scene.text(*severity, view.now, text)));
+            log.text(*severity, view.clock.now, text);
+            self.out.push_back(LogOutput::Message(scene.text(*severity, view.clock.now, text)));
         }
         log.observe(view, !view.status.armed);
         self.out.extend(scene.observe(view).into_iter().map(LogOutput::Message));

@@ -19,7 +19,7 @@ pub struct FoxgloveScene {
 impl FoxgloveScene {
     /// Starts a recording at the time of this snapshot.
     pub fn begin(view: &VehicleSnapshot) -> Self {
-        Self { due: RATES_HZ.map(|rate| Schedule::new(view.now, rate)), start_unix_s: view.start_unix_s }
+        Self { due: RATES_HZ.map(|rate| Schedule::new(view.clock.now, rate)), start_unix_s: view.clock.start_unix_s }
     }
 
     fn unix_ns(&self, now: SimTime) -> u64 {
@@ -33,8 +33,8 @@ impl FoxgloveScene {
 
     /// Returns the messages that are due at this snapshot.
     pub fn observe(&mut self, view: &VehicleSnapshot) -> VecDeque<ChannelMessage> {
-        let at = self.unix_ns(view.now);
-        let [frames, fixes, scoring, slow] = self.due.each_mut().map(|due| due.fire(view.now));
+        let at = self.unix_ns(view.clock.now);
+        let [frames, fixes, scoring, slow] = self.due.each_mut().map(|due| due.fire(view.clock.now));
         let mut out = VecDeque::new();
         if frames {
             out.push_back(transforms(view, at));

@@ -34,7 +34,7 @@ impl Sim {
         if self.state.battery.empty() && !self.battery_empty_reported {
             self.battery_empty_reported = true;
             self.events.push_back(SimEvent::BatteryEmpty);
-            self.endpoint.push_text(MavSeverity::MAV_SEVERITY_EMERGENCY, "Battery empty");
+            self.endpoint.vehicle.push_text(MavSeverity::MAV_SEVERITY_EMERGENCY, "Battery empty");
             self.end_session("battery empty");
         }
         self.respawn_when_down();

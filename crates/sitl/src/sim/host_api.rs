@@ -1,22 +1,13 @@
 //! Services that the host provides: signing keys, files, logs and parameters. The core sends requests and the host responds.
 
-use super::Sim;
+use super::{Sim, file_jobs};
 use crate::backend::Backend;
 use crate::endpoint::files::job::{FileError, FileJob, FileJobResult};
-use crate::endpoint::files::job_allowance::JobAllowance;
-use crate::endpoint::logs::LogTransfers;
 use crate::endpoint::params::text::ParamFileProblem;
 use crate::endpoint::{LinkKind, Payload, StorageRequest};
 use crate::log;
 use spandrel_mavlink::signing::SigningKey;
 use spandrel_model::site::Site;
-
-/// Alternates between the file jobs of the file server and of log transfers.
-#[derive(Debug, Clone, Default)]
-pub(super) struct FileJobScheduler {
-    allowance: JobAllowance,
-    logs_next: bool,
-}
 
 impl Sim {
     /// The site around the vehicle.
@@ -28,7 +19,7 @@ impl Sim {
     /// Camera, gimbal and lamp.
     #[must_use]
     pub fn payload(&self) -> &Payload {
-        &self.endpoint.payload
+        &self.endpoint.payload.equipment
     }
 
     /// Whether the motors are armed.
@@ -45,19 +36,19 @@ impl Sim {
 
     /// Stops the heartbeats of the camera component.
     pub fn mute_camera_heartbeat(&mut self) {
-        self.endpoint.payload.camera.announced.silenced = true;
+        self.endpoint.payload.equipment.camera.announced.silenced = true;
     }
 
     /// Signs all outgoing frames and ignores incoming frames that are not signed with this key, except unsigned frames on trusted
     /// link kinds. `stamp` is the current signing timestamp.
     pub fn demand_signatures(&mut self, key: SigningKey, stamp: u64, trusted: &[LinkKind]) {
-        self.endpoint.demand_signatures(key, stamp, trusted);
+        self.endpoint.links.demand_signatures(key, stamp, trusted);
     }
 
     /// Returns the signing state to restore at the next start with the same key, which prevents replays. `None` without a key.
     #[must_use]
     pub fn signing_memory(&self) -> Option<String> {
-        self.endpoint.signing_memory()
+        self.endpoint.links.signing_memory()
     }
 
     /// Restores the signing state of an earlier run.
@@ -65,30 +56,30 @@ impl Sim {
     /// # Errors
     /// The one-based number of the first invalid line.
     pub fn restore_signing(&mut self, memory: &str) -> Result<(), usize> {
-        self.endpoint.restore_signing(memory)
+        self.endpoint.links.restore_signing(memory)
     }
 
     /// Sets the current signing timestamp.
     pub fn set_signing_time(&mut self, stamp: u64) {
-        self.endpoint.set_signing_time(stamp);
+        self.endpoint.links.set_signing_time(stamp);
     }
 
     /// Number of frames ignored because their signature was missing or invalid.
     #[must_use]
     pub fn rejected_frames(&self) -> u64 {
-        self.endpoint.rejected_frames()
+        self.endpoint.links.rejected_frames()
     }
 
     /// Number of parameter changes so far.
     #[must_use]
     pub fn parameter_changes(&self) -> u64 {
-        self.endpoint.parameter_changes()
+        self.endpoint.vehicle.parameter_changes()
     }
 
     /// Returns the parameters as a text file in QGroundControl's format.
     #[must_use]
     pub fn parameter_text(&self) -> String {
-        self.endpoint.parameter_text()
+        self.endpoint.vehicle.parameter_text()
     }
 
     /// Sets the parameters of a parameter file.
@@ -102,18 +93,18 @@ impl Sim {
 
     /// Enables parameter storage by the host ([`Sim::poll_storage`]).
     pub fn enable_param_storage(&mut self) {
-        self.endpoint.keep_parameters();
+        self.endpoint.vehicle.keep_parameters();
     }
 
     /// Returns the next storage request of a client.
     pub fn poll_storage(&mut self) -> Option<StorageRequest> {
-        self.endpoint.poll_storage()
+        self.endpoint.vehicle.poll_storage()
     }
 
     /// Enables file jobs by the host ([`Sim::poll_file_job`]).
     pub fn enable_file_jobs(&mut self) {
-        self.endpoint.files.stored();
-        self.endpoint.logs.stored = true;
+        self.endpoint.vehicle.files.stored();
+        self.endpoint.vehicle.logs.stored = true;
     }
 
     /// Enables logging of all flights.
@@ -131,35 +122,19 @@ impl Sim {
         self.recorder.poll()
     }
 
-    /// Returns the next file job of a client, within the per-tick limit of [`JobAllowance`].
+    /// Returns the next file job of a client, within the per-tick limit of [`crate::endpoint::files::job_allowance`].
     pub fn poll_file_job(&mut self) -> Option<FileJob> {
-        let logs_turn = self.next_file_job()?;
-        let job = if logs_turn { self.endpoint.logs.poll_job() } else { self.endpoint.files.poll_job() }?;
-        self.file_work.allowance.spend(&job.action, self.now);
-        self.file_work.logs_next = !logs_turn;
-        Some(job)
+        self.file_jobs.poll(&mut self.endpoint.vehicle, self.now)
     }
 
     /// Returns true if a file job is waiting and within the limit.
     #[must_use]
     pub fn has_file_job(&self) -> bool {
-        self.next_file_job().is_some()
-    }
-
-    /// Returns whether the next allowed job is a log transfer. Log transfers and the file server alternate.
-    fn next_file_job(&self) -> Option<bool> {
-        let (files, logs) = (self.endpoint.files.next_action(), self.endpoint.logs.next_action());
-        let logs_turn = logs.is_some() && (self.file_work.logs_next || files.is_none());
-        let action = if logs_turn { logs } else { files }?;
-        self.file_work.allowance.covers(action, self.now).then_some(logs_turn)
+        self.file_jobs.has_job(&self.endpoint.vehicle, self.now)
     }
 
     /// Reports the result of a file job.
     pub fn file_job_done(&mut self, ticket: u64, outcome: Result<FileJobResult, FileError>) {
-        if LogTransfers::owns(ticket) {
-            self.endpoint.logs.done(ticket, outcome);
-        } else {
-            self.endpoint.files.done(ticket, outcome, self.now);
-        }
+        file_jobs::finish(&mut self.endpoint.vehicle, ticket, outcome, self.now);
     }
 }

@@ -1,6 +1,6 @@
 //! Receive queues, bounded per link so that a flooding peer cannot use up the processing time or memory of the others.
 
-use crate::endpoint::LinkId;
+use crate::endpoint::{LinkId, ReceivedDatagram};
 use spandrel_model::time::SimTime;
 use std::collections::{BTreeMap, VecDeque};
 
@@ -25,7 +25,7 @@ pub struct Inbox {
 
 #[derive(Debug, Clone, Default)]
 struct LinkQueue {
-    datagrams: VecDeque<Vec<u8>>,
+    datagrams: VecDeque<ReceivedDatagram>,
     bytes: usize,
     spent: (usize, usize),
 }
@@ -36,7 +36,7 @@ impl LinkQueue {
     }
 
     /// Returns the next datagram if it fits in the limits of this tick.
-    fn next(&mut self) -> Option<Vec<u8>> {
+    fn next(&mut self) -> Option<ReceivedDatagram> {
         let len = self.datagrams.front()?.len();
         let (count, bytes) = self.spent;
         if count >= DATAGRAMS_A_TICK || bytes + len > BYTES_A_TICK {
@@ -50,14 +50,14 @@ impl LinkQueue {
 
 impl Inbox {
     /// Queues a datagram, or drops and counts it if the link's queue is full.
-    pub fn push(&mut self, link: LinkId, datagram: &[u8]) {
+    pub fn push(&mut self, link: LinkId, datagram: ReceivedDatagram) {
         let queue = self.links.entry(link).or_default();
         if !queue.has_room_for(datagram.len()) {
             self.dropped += 1;
             return;
         }
         queue.bytes += datagram.len();
-        queue.datagrams.push_back(datagram.to_vec());
+        queue.datagrams.push_back(datagram);
         self.waiting += 1;
     }
 
@@ -70,7 +70,7 @@ impl Inbox {
 
     /// Returns the datagrams to process at `now`, ordered by link and then by arrival. Further calls in the same tick continue
     /// within the remaining limits.
-    pub fn take(&mut self, now: SimTime) -> Vec<(LinkId, Vec<u8>)> {
+    pub fn take(&mut self, now: SimTime) -> Vec<(LinkId, ReceivedDatagram)> {
         if self.waiting == 0 {
             return Vec::new();
         }
@@ -100,26 +100,30 @@ mod tests {
     const FLOOD: LinkId = LinkId(1);
     const CALM: LinkId = LinkId(2);
 
+    fn datagram(bytes: &[u8]) -> ReceivedDatagram {
+        ReceivedDatagram::new(bytes)
+    }
+
     #[test]
     fn exact_a_flood_gets_its_share_of_a_tick_and_a_calm_link_all_of_its_own() {
         let mut inbox = Inbox::default();
-        (0..50).for_each(|k| inbox.push(FLOOD, &[k; 20]));
-        inbox.push(CALM, &[99]);
+        (0..50).for_each(|k| inbox.push(FLOOD, datagram(&[k; 20])));
+        inbox.push(CALM, datagram(&[99]));
         let taken = inbox.take(SimTime::from_ms(1));
         assert_eq!(taken.iter().filter(|(link, _)| *link == FLOOD).count(), DATAGRAMS_A_TICK);
-        assert_eq!(taken.last(), Some(&(CALM, vec![99])));
+        assert_eq!(taken.last(), Some(&(CALM, datagram(&[99]))));
         assert!(inbox.take(SimTime::from_ms(1)).is_empty(), "the same tick again");
-        assert_eq!(inbox.take(SimTime::from_ms(2))[0], (FLOOD, vec![8; 20]), "in order");
+        assert_eq!(inbox.take(SimTime::from_ms(2))[0], (FLOOD, datagram(&[8; 20])), "in order");
     }
 
     #[test]
     fn exact_what_waits_is_bounded_by_count_and_by_bytes_and_the_rest_is_counted() {
         let mut inbox = Inbox::default();
-        (0..WAITING + 7).for_each(|_| inbox.push(FLOOD, &[0]));
+        (0..WAITING + 7).for_each(|_| inbox.push(FLOOD, datagram(&[0])));
         assert_eq!(inbox.dropped(), 7);
-        (0..WAITING_BYTES / BYTES_A_TICK + 3).for_each(|_| inbox.push(CALM, &[0; BYTES_A_TICK]));
+        (0..WAITING_BYTES / BYTES_A_TICK + 3).for_each(|_| inbox.push(CALM, datagram(&[0; BYTES_A_TICK])));
         assert_eq!(inbox.dropped(), 7 + 3);
-        inbox.push(LinkId(3), &[0; BYTES_A_TICK + 1]);
+        inbox.push(LinkId(3), datagram(&[0; BYTES_A_TICK + 1]));
         assert_eq!(inbox.dropped(), 7 + 3 + 1, "longer than any client's");
         inbox.close(FLOOD);
         assert!(inbox.take(SimTime::from_ms(1)).iter().all(|(link, _)| *link == CALM));
@@ -128,7 +132,7 @@ mod tests {
     #[test]
     fn exact_large_datagrams_act_one_a_tick() {
         let mut inbox = Inbox::default();
-        (0..3).for_each(|_| inbox.push(FLOOD, &[0; BYTES_A_TICK]));
+        (0..3).for_each(|_| inbox.push(FLOOD, datagram(&[0; BYTES_A_TICK])));
         let each: Vec<usize> = (1..=4).map(|ms| inbox.take(SimTime::from_ms(ms)).len()).collect();
         assert_eq!(each, [1, 1, 1, 0]);
     }

@@ -6,7 +6,7 @@ use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
 /// Maximum datagrams in flight per direction: one second of fifty busy links.
-const UNDER_WAY: usize = 16_384;
+const IN_FLIGHT_MAX: usize = 16_384;
 
 /// Datagrams in flight, packet loss and delay.
 #[derive(Debug, Clone)]
@@ -14,8 +14,8 @@ pub struct RadioLink {
     loss: f64,
     delay: SimTime,
     stream: RandomStream,
-    out: VecDeque<(SimTime, Transmit)>,
-    inward: VecDeque<(SimTime, LinkId, Vec<u8>)>,
+    outgoing: VecDeque<(SimTime, Transmit)>,
+    incoming: VecDeque<(SimTime, LinkId, Vec<u8>)>,
 }
 
 impl RadioLink {
@@ -23,7 +23,7 @@ impl RadioLink {
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let stream = RandomStream::new(seed, "radio");
-        Self { loss: 0.0, delay: SimTime::ZERO, stream, out: VecDeque::new(), inward: VecDeque::new() }
+        Self { loss: 0.0, delay: SimTime::ZERO, stream, outgoing: VecDeque::new(), incoming: VecDeque::new() }
     }
 
     /// Sets the fraction of datagrams lost, 0 to 1, and the delay of the others.
@@ -37,33 +37,33 @@ impl RadioLink {
         self.loss == 0.0 && self.delay == SimTime::ZERO
     }
 
-    fn loses(&mut self) -> bool {
+    fn is_lost(&mut self) -> bool {
         self.loss > 0.0 && self.stream.uniform() < self.loss
     }
 
     /// Queues an outgoing datagram unless it is lost.
     pub fn send(&mut self, transmit: Transmit, now: SimTime) {
-        if !self.loses() && self.out.len() < UNDER_WAY {
-            self.out.push_back((now + self.delay, transmit));
+        if !self.is_lost() && self.outgoing.len() < IN_FLIGHT_MAX {
+            self.outgoing.push_back((now + self.delay, transmit));
         }
     }
 
     /// Returns the next outgoing datagram whose delay has passed.
     pub fn sent(&mut self, now: SimTime) -> Option<Transmit> {
-        let due = self.out.front().is_some_and(|(at, _)| *at <= now);
-        if due { self.out.pop_front().map(|(_, transmit)| transmit) } else { None }
+        let due = self.outgoing.front().is_some_and(|(at, _)| *at <= now);
+        if due { self.outgoing.pop_front().map(|(_, transmit)| transmit) } else { None }
     }
 
     /// Queues an incoming datagram unless it is lost.
     pub fn receive(&mut self, link: LinkId, bytes: &[u8], now: SimTime) {
-        if !self.loses() && self.inward.len() < UNDER_WAY {
-            self.inward.push_back((now + self.delay, link, bytes.to_vec()));
+        if !self.is_lost() && self.incoming.len() < IN_FLIGHT_MAX {
+            self.incoming.push_back((now + self.delay, link, bytes.to_vec()));
         }
     }
 
     /// Returns the next incoming datagram whose delay has passed.
     pub fn received(&mut self, now: SimTime) -> Option<(LinkId, Vec<u8>)> {
-        let due = self.inward.front().is_some_and(|(at, ..)| *at <= now);
-        if due { self.inward.pop_front().map(|(_, link, bytes)| (link, bytes)) } else { None }
+        let due = self.incoming.front().is_some_and(|(at, ..)| *at <= now);
+        if due { self.incoming.pop_front().map(|(_, link, bytes)| (link, bytes)) } else { None }
     }
 }

@@ -13,12 +13,12 @@ impl Sim {
     pub(super) fn tick(&mut self) {
         let start = self.now;
         self.apply_instructor_inputs();
-        self.endpoint.sticks_pass = self.faults.passes_sticks(start);
+        self.endpoint.vehicle.accepts_sticks = self.faults.passes_sticks(start);
         self.step_wind(start);
         if self.control_due.fire(start) {
             self.step_control(start);
         }
-        let load = PowerLoad { lamp_on: self.endpoint.payload.lamp.on, airborne: self.has_lifted_off };
+        let load = PowerLoad { lamp_on: self.endpoint.payload.equipment.lamp.on, airborne: self.has_lifted_off };
         let site = Arc::clone(&self.site);
         let model = Arc::clone(&self.model);
         model.advance(&mut self.state, &self.actuators, &self.air, site.as_ref(), load, start, STEP);
@@ -47,7 +47,7 @@ impl Sim {
     fn step_control(&mut self, now: SimTime) {
         let b = &self.state.battery;
         let battery = BatteryReading { voltage_v: b.voltage_v, current_a: b.current_a, remaining_pct: b.remaining_pct() };
-        let truth = SensorInputs { rigid: &self.state.rigid, battery, lamp_on: self.endpoint.payload.lamp.on };
+        let truth = SensorInputs { rigid: &self.state.rigid, battery, lamp_on: self.endpoint.payload.equipment.lamp.on };
         let mut fresh = self.sensors.sample(&truth, self.site.as_ref(), now);
         self.faults.corrupt_readings(&mut fresh, now);
         self.actuators = self.backend.step(&fresh, now);
@@ -58,7 +58,7 @@ impl Sim {
         self.readings.update_latest(&fresh);
         let camera = self.config.vehicle.camera;
         let position = self.state.rigid.position_m.enu();
-        self.endpoint.payload.step(&camera, position, now, 1.0 / CONTROL_HZ);
+        self.endpoint.payload.equipment.step(&camera, position, now, 1.0 / CONTROL_HZ);
     }
 
     /// Adds the exact bits of this tick's state to the digest.

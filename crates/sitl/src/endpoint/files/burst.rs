@@ -1,7 +1,7 @@
 //! Packet streams that answer burst read requests.
 
-use super::super::LinkId;
-use super::FileClient;
+use super::client::FileClient;
+use crate::endpoint::link::LinkId;
 use spandrel_mavlink::ftp::FtpPacket;
 use std::collections::VecDeque;
 

@@ -1,25 +1,26 @@
 //! The MAVLink FTP server, sans-IO: packets in, packets out, and file jobs for the host.
 
 mod burst;
+mod client;
 pub mod job;
 pub mod job_allowance;
 pub mod path;
+mod replies;
 mod reply_cache;
 mod session;
 
-use super::LinkId;
+use super::link::LinkId;
 use burst::BurstReads;
+pub use client::FileClient;
 use job::{CHECKSUM_MAX, CHECKSUM_SLICE, DirectoryEntry, FileAction, FileError, FileJob, FileJobResult};
 use path::FilePath;
+pub(super) use replies::send_replies;
 use reply_cache::ReplyCache;
 use session::FileSessions;
 use spandrel_mavlink::ftp::{ACK, DATA_MAX, FtpError, FtpPacket, Opcode, checksum};
 use spandrel_model::time::SimTime;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
-
-/// A client: its link, system ID and component ID.
-pub type FileClient = (LinkId, (u8, u8));
 
 /// Maximum number of pending jobs, in total and per client. Further requests are dropped, as in ArduPilot; the client retries.
 const JOBS_MAX: usize = 64;

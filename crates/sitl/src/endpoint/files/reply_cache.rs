@@ -1,7 +1,7 @@
 //! Cache of sent replies: a repeated request gets the same reply and is not executed again.
 
-use super::super::LinkId;
-use super::FileClient;
+use super::client::FileClient;
+use crate::endpoint::link::LinkId;
 use spandrel_mavlink::ftp::{FtpError, FtpPacket, NAK};
 use std::collections::BTreeMap;
 

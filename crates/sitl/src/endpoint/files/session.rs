@@ -1,6 +1,6 @@
 //! Open files of the clients. Session numbers are per client.
 
-use super::FileClient;
+use super::client::FileClient;
 use super::path::FilePath;
 use spandrel_mavlink::ftp::{FtpError, FtpPacket};
 use spandrel_model::time::SimTime;

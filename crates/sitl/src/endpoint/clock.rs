@@ -1,0 +1,63 @@
+//! The clocks of the messages: time since the autopilot booted, simulation time and UTC.
+
+use super::link::LinkKind;
+use spandrel_model::time::SimTime;
+
+/// The time of an instant on each clock.
+#[derive(Debug, Clone, Copy)]
+pub struct VehicleClock {
+    /// Simulation time.
+    pub now: SimTime,
+    /// Simulation time at which the autopilot booted.
+    pub autopilot_booted: SimTime,
+    /// UTC at simulation start, s since the Unix epoch.
+    pub start_unix_s: i64,
+    /// Kind of link that the times are for.
+    pub link_kind: LinkKind,
+}
+
+impl VehicleClock {
+    /// Returns the same instant for another kind of link.
+    #[must_use]
+    pub fn for_link(self, link_kind: LinkKind) -> Self {
+        Self { link_kind, ..self }
+    }
+
+    /// Converts a time to the autopilot's clock, which restarts with the autopilot. Payload processes receive simulation time, so
+    /// that scores use a single clock.
+    #[must_use]
+    pub fn since_boot(&self, at: SimTime) -> SimTime {
+        if self.link_kind == LinkKind::Payload { at } else { at.saturating_sub(self.autopilot_booted) }
+    }
+
+    /// Returns the time since the autopilot booted, ms, modulo 2^32 as in MAVLink's field.
+    #[must_use]
+    pub fn boot_ms(&self) -> u32 {
+        self.since_boot(self.now).ms() as u32
+    }
+
+    /// Returns the time since the autopilot booted, microseconds.
+    #[must_use]
+    pub fn boot_us(&self) -> u64 {
+        self.since_boot(self.now).us().max(0).cast_unsigned()
+    }
+
+    /// Returns the time since simulation start, ms, modulo 2^32: the clock of the camera and the scoring data, unaffected by
+    /// autopilot reboots.
+    #[must_use]
+    pub fn sim_ms(&self) -> u32 {
+        self.now.ms() as u32
+    }
+
+    /// Returns the time since simulation start, microseconds.
+    #[must_use]
+    pub fn sim_us(&self) -> u64 {
+        self.now.us().max(0).cast_unsigned()
+    }
+
+    /// Returns the time since the Unix epoch, microseconds.
+    #[must_use]
+    pub fn unix_us(&self) -> u64 {
+        (self.start_unix_s * 1_000_000 + self.now.us()).max(0).cast_unsigned()
+    }
+}

@@ -1,0 +1,18 @@
+//! FILE_TRANSFER_PROTOCOL messages with the replies of a file server.
+
+use super::FileServer;
+use crate::endpoint::link::Links;
+use spandrel_mavlink::dialect::{FILE_TRANSFER_PROTOCOL_DATA, MavMessage};
+
+/// Sends the replies of a component's file server; bursts wait for links with capacity.
+pub(crate) fn send_replies(server: &mut FileServer, component: u8, links: &mut Links) {
+    for ((link, to), packet) in server.poll(|link| links.has_capacity(*link)) {
+        let message = MavMessage::FILE_TRANSFER_PROTOCOL(FILE_TRANSFER_PROTOCOL_DATA {
+            target_network: 0,
+            target_system: to.0,
+            target_component: to.1,
+            payload: packet.write(),
+        });
+        links.answer(component, link, &message);
+    }
+}

@@ -1,0 +1,29 @@
+//! Identity and kind of a link, and the datagrams that it carries.
+
+/// Identifies a link; assigned by the host.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct LinkId(pub u32);
+
+/// Kind of peer, which determines the default rates.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LinkKind {
+    /// A ground station over UDP.
+    GroundStation,
+    /// An SDK or companion computer.
+    Sdk,
+    /// A payload process, such as the monitor.
+    Payload,
+    /// A ground station over TCP.
+    Tcp,
+    /// A radio or a cable on a serial port.
+    Serial,
+}
+
+/// A datagram to send.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Transmit {
+    /// The link to send it on.
+    pub link: LinkId,
+    /// Complete frames.
+    pub bytes: Vec<u8>,
+}

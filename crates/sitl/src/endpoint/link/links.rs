@@ -1,0 +1,182 @@
+//! All links, the router between them, and the signing of their frames.
+
+use super::datagram::ReceivedDatagram;
+use super::link_id::{LinkId, LinkKind, Transmit};
+use super::peer_link::PeerLink;
+use super::signing_policy::{FrameAdmission, SigningPolicy};
+use crate::endpoint::component_ids::{AUTOPILOT, CAMERA};
+use spandrel_mavlink::codec::{Encodable, ReceivedFrame};
+use spandrel_mavlink::router::{self, Router};
+use spandrel_model::time::SimTime;
+use std::collections::BTreeMap;
+
+/// The links of a vehicle.
+#[derive(Debug, Clone)]
+pub struct Links {
+    system_id: u8,
+    pub(super) peers: BTreeMap<LinkId, PeerLink>,
+    router: Router<LinkId>,
+    pub(super) signing: Option<SigningPolicy>,
+    bad_bytes: u64,
+    /// Frames dropped by links that are closed now.
+    dropped_by_closed: u64,
+}
+
+impl Links {
+    /// Creates a vehicle's end without links.
+    #[must_use]
+    pub fn new(system_id: u8) -> Self {
+        Self { system_id, peers: BTreeMap::new(), router: Router::new(), signing: None, bad_bytes: 0, dropped_by_closed: 0 }
+    }
+
+    /// Returns the MAVLink system ID.
+    #[must_use]
+    pub fn system_id(&self) -> u8 {
+        self.system_id
+    }
+
+    /// Adds a link to a peer.
+    pub fn open(&mut self, id: LinkId, mut link: PeerLink) {
+        link.sign_with(self.signing.as_ref().map(|policy| policy.signer(id.0 as u8)));
+        self.peers.insert(id, link);
+    }
+
+    /// Removes a link.
+    pub fn close(&mut self, id: LinkId) {
+        self.dropped_by_closed += self.peers.remove(&id).map_or(0, |link| link.dropped());
+        self.router.forget_link(id);
+    }
+
+    /// Sends only responses on a link until a heartbeat is received: the sender's address may be forged, and streams would
+    /// amplify every datagram.
+    pub fn await_heartbeat(&mut self, id: LinkId) {
+        if let Some(link) = self.peers.get_mut(&id) {
+            link.answers_only = true;
+        }
+    }
+
+    /// Limits a link's capacity to `bytes_s`, bytes/s: streams slow down, lists wait, and scoring data is omitted.
+    pub fn limit(&mut self, id: LinkId, bytes_s: f64, now: SimTime) {
+        if let Some(link) = self.peers.get_mut(&id) {
+            link.limit(bytes_s, now);
+        }
+    }
+
+    /// Returns a link.
+    #[must_use]
+    pub fn get(&self, id: LinkId) -> Option<&PeerLink> {
+        self.peers.get(&id)
+    }
+
+    /// Returns a link for changes.
+    pub fn get_mut(&mut self, id: LinkId) -> Option<&mut PeerLink> {
+        self.peers.get_mut(&id)
+    }
+
+    /// Returns the IDs of all links.
+    pub fn ids(&self) -> impl Iterator<Item = LinkId> {
+        self.peers.keys().copied()
+    }
+
+    /// Returns all links with their IDs.
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = (LinkId, &mut PeerLink)> {
+        self.peers.iter_mut().map(|(id, link)| (*id, link))
+    }
+
+    /// Returns the links that receive unsolicited messages.
+    pub fn listeners(&mut self) -> impl Iterator<Item = &mut PeerLink> {
+        self.peers.values_mut().filter(|link| !link.answers_only)
+    }
+
+    /// Returns the kind of a link and whether it runs in lockstep.
+    #[must_use]
+    pub fn kind(&self, id: LinkId) -> Option<(LinkKind, bool)> {
+        self.peers.get(&id).map(|link| (link.kind, link.lockstep))
+    }
+
+    /// Checks whether lists and files may be sent on a link: true unless it is saturated.
+    #[must_use]
+    pub fn has_capacity(&self, id: LinkId) -> bool {
+        self.peers.get(&id).is_none_or(|link| !link.is_busy())
+    }
+
+    /// Sends a message from a component to a link.
+    pub fn answer(&mut self, component: u8, id: LinkId, message: &impl Encodable) {
+        if let Some(link) = self.peers.get_mut(&id) {
+            link.send(component, message);
+        }
+    }
+
+    /// Sends a message from a component to all links that receive unsolicited messages.
+    pub fn broadcast(&mut self, component: u8, message: &impl Encodable) {
+        for link in self.listeners() {
+            link.send(component, message);
+        }
+    }
+
+    /// Sends a message from a component on the links on which a peer, given by system and component ID, was seen.
+    pub fn send_to(&mut self, component: u8, peer: (u8, u8), message: &impl Encodable) {
+        for (id, link) in &mut self.peers {
+            if self.router.note_sender(peer, *id) {
+                link.send(component, message);
+            }
+        }
+    }
+
+    /// Returns the next datagram to send.
+    pub fn poll(&mut self) -> Option<Transmit> {
+        self.peers.iter_mut().find_map(|(id, link)| link.poll().map(|bytes| Transmit { link: *id, bytes }))
+    }
+
+    /// Returns the number of frames dropped because a link was saturated or a peer exceeded its forwarding limit.
+    #[must_use]
+    pub fn dropped(&self) -> u64 {
+        self.dropped_by_closed + self.peers.values().map(PeerLink::dropped).sum::<u64>()
+    }
+
+    /// Returns the number of bytes outside of valid frames, for all links.
+    #[must_use]
+    pub fn bad_bytes(&self) -> u64 {
+        self.bad_bytes
+    }
+
+    /// Returns the frames of a datagram, and counts the bytes outside of them.
+    pub fn take_frames(&mut self, datagram: ReceivedDatagram) -> Vec<ReceivedFrame> {
+        let (frames, bad_bytes) = datagram.into_frames();
+        self.bad_bytes += bad_bytes;
+        frames
+    }
+
+    /// Decides on a frame received on a link.
+    pub fn admit(&mut self, id: LinkId, frame: &ReceivedFrame) -> FrameAdmission {
+        let Some(link) = self.peers.get(&id) else { return FrameAdmission::Reject };
+        self.signing.as_mut().map_or(FrameAdmission::Execute, |policy| policy.admit(frame, link.kind))
+    }
+
+    /// Starts the streams of a link when a heartbeat arrives on it.
+    pub fn wake(&mut self, id: LinkId, now: SimTime) {
+        if let Some(link) = self.peers.get_mut(&id) {
+            link.wake(now);
+        }
+    }
+
+    /// Forwards a frame to the other links that it is addressed to.
+    pub fn route(&mut self, from: LinkId, frame: &ReceivedFrame, now: SimTime) {
+        // Reject frames that impersonate the vehicle's own components.
+        if frame.system_id == self.system_id && matches!(frame.component_id, AUTOPILOT | CAMERA) {
+            return;
+        }
+        self.router.note(from, frame);
+        let all: Vec<LinkId> = self.peers.keys().copied().collect();
+        let targets = self.router.targets_of(from, frame, &all);
+        if targets.is_empty() || !self.peers.get_mut(&from).is_some_and(|link| link.may_forward(now)) {
+            return;
+        }
+        let to_all = router::target(frame).0 == 0;
+        for target in targets {
+            if let Some(link) = self.peers.get_mut(&target).filter(|link| !(link.answers_only && to_all)) {
+                link.forward(frame.bytes.clone());
+            }
+        }
+    }
+}

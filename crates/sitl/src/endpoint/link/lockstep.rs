@@ -1,0 +1,81 @@
+//! Lockstep: simulation time waits for the responses of the peers that run in it.
+
+use super::datagram::ReceivedDatagram;
+use super::link_id::LinkId;
+use super::links::Links;
+use super::peer_link::{LockstepState, PeerLink};
+use super::signing_policy::FrameAdmission;
+use crate::endpoint::component_ids::AUTOPILOT;
+use spandrel_mavlink::codec::ReceivedFrame;
+use spandrel_mavlink::dialect::{MavMessage, TIMESYNC_DATA};
+use spandrel_mavlink::router;
+use spandrel_model::time::SimTime;
+
+impl Links {
+    /// Returns the links that simulation time waits for.
+    pub fn lockstep_peers(&self) -> impl Iterator<Item = LinkId> {
+        self.peers.iter().filter(|(_, link)| link.blocks_lockstep()).map(|(id, _)| *id)
+    }
+
+    /// Returns the links in lockstep or about to join: their state, and whether anything was received from them.
+    pub fn lockstep_states(&self) -> impl Iterator<Item = (LinkId, LockstepState, bool)> {
+        self.peers.iter().filter(|(_, link)| link.lockstep).map(|(id, link)| (*id, link.lockstep_state, link.has_received))
+    }
+
+    /// Marks a peer as joined: simulation time waits for it from now on.
+    pub fn join_lockstep(&mut self, id: LinkId) {
+        if let Some(link) = self.peers.get_mut(&id) {
+            link.lockstep_state = LockstepState::Joined;
+        }
+    }
+
+    /// Stops waiting for a peer's first response.
+    pub fn serve_in_real_time(&mut self, id: LinkId) {
+        if let Some(link) = self.peers.get_mut(&id).filter(|link| link.lockstep_state == LockstepState::Awaited) {
+            link.lockstep_state = LockstepState::Late;
+        }
+    }
+
+    /// Records that something was received from a peer.
+    pub fn note_received(&mut self, id: LinkId) {
+        if let Some(link) = self.peers.get_mut(&id) {
+            link.has_received = true;
+        }
+    }
+
+    /// Sends a lockstep request to every peer in lockstep.
+    pub fn request_lockstep(&mut self, now: SimTime) {
+        let message = MavMessage::TIMESYNC(TIMESYNC_DATA { tc1: 0, ts1: now.ns(), target_system: 0, target_component: 0 });
+        for link in self.peers.values_mut().filter(|link| link.lockstep) {
+            link.lockstep_token = Some(now.ns());
+            link.send(AUTOPILOT, &message);
+        }
+    }
+
+    /// Checks whether a datagram that was not processed yet answers the lockstep request with this token, from an admitted
+    /// sender.
+    #[must_use]
+    pub fn answers_lockstep(&self, id: LinkId, datagram: &mut ReceivedDatagram, token: i64) -> bool {
+        let Some(link) = self.peers.get(&id) else { return false };
+        // Check with a copy: recording the frame would make it a replay when it is processed.
+        let mut policy = self.signing.clone();
+        let mut is_admitted =
+            |frame| policy.as_mut().is_none_or(|policy| policy.admit(frame, link.kind) == FrameAdmission::Execute);
+        let mut answers = datagram.frames().iter().filter_map(|frame| Some((frame, self.lockstep_token(link, frame)?)));
+        answers.any(|(frame, answered)| is_admitted(frame) && answered == token)
+    }
+
+    /// Checks whether a frame answers a lockstep request.
+    #[must_use]
+    pub fn is_lockstep_answer(&self, id: LinkId, frame: &ReceivedFrame) -> bool {
+        self.peers.get(&id).is_some_and(|link| self.lockstep_token(link, frame).is_some())
+    }
+
+    /// Returns the token of a frame that answers a lockstep request; responses to other systems are routed normally.
+    fn lockstep_token(&self, link: &PeerLink, frame: &ReceivedFrame) -> Option<i64> {
+        let Some(MavMessage::TIMESYNC(sync)) = &frame.message else { return None };
+        let (system, component) = router::target(frame);
+        let ours = system == 0 || (system == self.system_id() && matches!(component, 0 | AUTOPILOT));
+        Some(sync.ts1).filter(|token| ours && sync.tc1 != 0 && link.is_answer(*token))
+    }
+}

@@ -1,0 +1,11 @@
+//! Capture mode of the camera.
+
+/// Capture mode. Images can be taken in either mode; recording requires video mode.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum CaptureMode {
+    /// Photo mode.
+    #[default]
+    Photo,
+    /// Video mode.
+    Video,
+}

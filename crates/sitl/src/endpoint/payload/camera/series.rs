@@ -1,0 +1,102 @@
+//! Capture timing: single images, time-lapse series and distance-triggered series.
+
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::time::SimTime;
+
+/// Minimum distance between images of a series, m.
+const LEAST_DISTANCE_M: f64 = 0.1;
+/// Minimum and maximum interval between images of a series, s.
+const LEAST_INTERVAL_S: f64 = 0.2;
+const LONGEST_INTERVAL_S: f64 = 86_400.0;
+/// Limits above which counts and distances are rejected.
+const MOST_PICTURES: f64 = 1e6;
+const LONGEST_DISTANCE_M: f64 = 1e5;
+
+/// Images still to be taken.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CaptureSeries {
+    interval_s: Option<f64>,
+    next: Option<SimTime>,
+    left: Option<u32>,
+    /// Distance between images, m, and the position of the last one.
+    by_distance: Option<(f64, Vec3<Enu>)>,
+    /// Single images still to be taken. Commands may arrive faster than images are taken, and none may be lost.
+    singles: u32,
+}
+
+impl CaptureSeries {
+    /// Returns the interval of a running time-lapse series, s.
+    #[must_use]
+    pub fn interval_s(&self) -> Option<f64> {
+        self.interval_s
+    }
+
+    /// Checks whether a distance-triggered series is running.
+    #[must_use]
+    pub fn is_by_distance(&self) -> bool {
+        self.by_distance.is_some()
+    }
+
+    /// Starts a series or takes one image. A `count` of 0 means until stopped. Returns false if a value is invalid.
+    pub fn start(&mut self, interval_s: f64, count: f64, now: SimTime) -> bool {
+        if !(0.0..=MOST_PICTURES).contains(&count) || !(0.0..=LONGEST_INTERVAL_S).contains(&interval_s) {
+            return false;
+        }
+        if count as u32 == 1 {
+            self.singles = self.singles.saturating_add(1);
+            return true;
+        }
+        self.interval_s = Some(interval_s.max(LEAST_INTERVAL_S));
+        self.left = (count as u32 > 0).then_some(count as u32);
+        self.next = Some(now);
+        true
+    }
+
+    /// Takes an image every `distance_m` meters, starting at `here`, and one immediately if `first` is set. A distance of 0 stops the
+    /// series. Returns false if the value is invalid.
+    pub fn start_by_distance(&mut self, distance_m: f64, first: bool, here: Vec3<Enu>, now: SimTime) -> bool {
+        if !(0.0..=LONGEST_DISTANCE_M).contains(&distance_m) {
+            return false;
+        }
+        self.by_distance = (distance_m > 0.0).then_some((distance_m.max(LEAST_DISTANCE_M), here));
+        if first && distance_m > 0.0 {
+            self.next = Some(now);
+        }
+        true
+    }
+
+    /// Stops every series. Single images already accepted are still taken.
+    pub fn stop(&mut self) {
+        *self = Self { singles: self.singles, ..Self::default() };
+    }
+
+    /// Cancels everything, including single images.
+    pub fn cancel(&mut self) {
+        *self = Self::default();
+    }
+
+    /// Checks whether an image is due; call [`CaptureSeries::taken`] once it is taken.
+    #[must_use]
+    pub fn due(&self, now: SimTime, here: Vec3<Enu>) -> bool {
+        let far = self.by_distance.is_some_and(|(distance_m, last)| (here - last).norm() >= distance_m);
+        self.singles > 0 || far || self.next.is_some_and(|next| next <= now)
+    }
+
+    /// Records that the image that was due has been taken.
+    pub fn taken(&mut self, now: SimTime, here: Vec3<Enu>) {
+        if self.singles > 0 {
+            self.singles -= 1;
+            return;
+        }
+        if let Some((_, last)) = &mut self.by_distance {
+            *last = here;
+        }
+        if self.next.is_some_and(|next| next <= now) {
+            self.left = self.left.map(|left| left.saturating_sub(1));
+            let goes_on = self.left != Some(0);
+            self.interval_s = self.interval_s.filter(|_| goes_on);
+            self.next = self.next.zip(self.interval_s).map(|(next, interval)| next + SimTime::from_s(interval));
+            self.left = self.left.filter(|_| self.interval_s.is_some());
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! The memory card: its contents and free space.
+
+use super::capture_record::CaptureRecord;
+
+/// Capacity of a 32 GB memory card, MiB.
+pub const CARD_MIB: f64 = 30_517.0;
+
+/// Contents of the card.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct StorageCard {
+    images: Vec<CaptureRecord>,
+    pictures_mib: f64,
+    videos_mib: f64,
+}
+
+impl StorageCard {
+    /// Returns the images of the image log, in index order.
+    #[must_use]
+    pub fn images(&self) -> &[CaptureRecord] {
+        &self.images
+    }
+
+    /// Returns the storage used by images and finished recordings, MiB.
+    #[must_use]
+    pub fn used_mib(&self) -> f64 {
+        self.pictures_mib + self.videos_mib
+    }
+
+    /// Stores an image of `mib` MiB.
+    pub fn add_picture(&mut self, image: CaptureRecord, mib: f64) {
+        self.images.push(image);
+        self.pictures_mib += mib;
+    }
+
+    /// Stores a finished recording of `mib` MiB.
+    pub fn add_video(&mut self, mib: f64) {
+        self.videos_mib += mib;
+    }
+
+    /// Resets the image counter; the files remain.
+    pub fn clear_log(&mut self) {
+        self.images.clear();
+    }
+
+    /// Deletes everything.
+    pub fn format(&mut self) {
+        *self = Self::default();
+    }
+}

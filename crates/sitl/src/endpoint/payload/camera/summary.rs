@@ -1,0 +1,39 @@
+//! Summary of the camera's state for messages.
+
+use super::capture_mode::CaptureMode;
+use super::stream::VideoStream;
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Camera;
+
+/// Summary of the camera's state.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CameraSummary {
+    /// Whether the camera sends heartbeats as a separate component.
+    pub announced: bool,
+    /// Number of images in the image log.
+    pub pictures: usize,
+    /// Interval of a running time-lapse series, s.
+    pub interval_s: Option<f64>,
+    /// Whether a distance-triggered series is running.
+    pub series: bool,
+    /// Capture mode.
+    pub mode: CaptureMode,
+    /// Duration of the running recording.
+    pub recording: Option<SimTime>,
+    /// Used storage, MiB.
+    pub used_mib: f64,
+    /// Zoom position, 0 wide to 1 tele.
+    pub zoom: f64,
+    /// Video bit rate, Mbit/s.
+    pub video_mbit_s: u32,
+    /// The running video stream.
+    pub stream: Option<VideoStream>,
+}
+
+impl CameraSummary {
+    /// Returns the camera at its current focal length.
+    #[must_use]
+    pub fn lens(&self, camera: &Camera) -> Camera {
+        camera.zoomed(1.0 + self.zoom * (camera.zoom_max - 1.0))
+    }
+}

@@ -1,0 +1,48 @@
+//! The equipment: camera, gimbal and lamp, and the changes that they report.
+
+use super::camera::CameraState;
+use super::changes::PayloadChange;
+use super::gimbal::GimbalState;
+use super::lamp::LampState;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Camera;
+
+/// State of the payload, owned by the endpoint and read by the simulation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Payload {
+    /// Camera.
+    pub camera: CameraState,
+    /// Gimbal.
+    pub gimbal: GimbalState,
+    /// Lamp.
+    pub lamp: LampState,
+    /// Changes to report.
+    pub changes: PayloadChange,
+}
+
+impl Payload {
+    /// Creates the payload with the camera in photo mode, the gimbal level and the lamp off.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            camera: CameraState::default(),
+            gimbal: GimbalState::new(),
+            lamp: LampState::OFF,
+            changes: PayloadChange::default(),
+        }
+    }
+
+    /// Advances gimbal, camera and lamp by `dt_s`, s.
+    pub fn step(&mut self, camera: &Camera, position_m: Vec3<Enu>, now: SimTime, dt_s: f64) {
+        self.gimbal.step(camera, position_m, dt_s);
+        self.camera.step(now, dt_s, &mut self.changes);
+        self.lamp.step(now, &mut self.changes);
+    }
+}
+
+impl Default for Payload {
+    fn default() -> Self {
+        Self::new()
+    }
+}

@@ -1,0 +1,140 @@
+//! The pitch gimbal, controlled through the gimbal manager of the autopilot component. It stabilizes roll and pitch and follows
+//! the heading; it has no roll or yaw axis and cannot retract.
+
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+use spandrel_model::vehicle::Camera;
+
+/// ID of the non-MAVLink gimbal device (docs/src/reference/wire.md, "Camera, gimbal and lamp").
+pub const DEVICE: u8 = 1;
+/// Tolerance within which an angle tolerance_rad the limit is accepted and clamped, rad (about one degree, because clients round).
+const SLACK_RAD: f64 = 0.02;
+
+/// Target of the gimbal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum GimbalTarget {
+    /// A pitch angle, rad.
+    Angle(f64),
+    /// A pitch angle, rad, and the rate at which to approach it, rad/s.
+    Slowly(f64, f64),
+    /// A pitch rate, rad/s.
+    Rate(f64),
+    /// A position to point at, m.
+    Place(Vec3<Enu>),
+    /// Level, facing forward.
+    Neutral,
+}
+
+impl GimbalTarget {
+    /// Returns the target of a message with these fields, where NaN and zero rates are omitted: an angle, an angle with a rate,
+    /// or a rate alone.
+    #[must_use]
+    pub fn of(angle_rad: Option<f64>, rate_rad_s: Option<f64>) -> Option<Self> {
+        match (angle_rad, rate_rad_s) {
+            (Some(angle), Some(rate)) if rate != 0.0 => Some(Self::Slowly(angle, rate.abs())),
+            (Some(angle), _) => Some(Self::Angle(angle)),
+            (None, Some(rate)) => Some(Self::Rate(rate)),
+            (None, None) => None,
+        }
+    }
+}
+
+/// State of the gimbal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GimbalState {
+    /// Pitch relative to the horizon, rad; negative points down.
+    pub pitch_rad: f64,
+    /// Pitch rate, rad/s.
+    pub rate_rad_s: f64,
+    /// Primary control: system and component ID; 0 for nobody.
+    pub control: (u8, u8),
+    /// Secondary control: system and component ID.
+    pub secondary: (u8, u8),
+    /// Whether DO_MOUNT_CONTROL values are rates, as selected by DO_MOUNT_CONFIGURE.
+    pub mount_rates: bool,
+    /// Whether the target is tolerance_rad the limit.
+    pub at_stop: bool,
+    aim: GimbalTarget,
+}
+
+impl GimbalState {
+    /// Creates a level gimbal.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            pitch_rad: 0.0,
+            rate_rad_s: 0.0,
+            control: (0, 0),
+            secondary: (0, 0),
+            mount_rates: false,
+            at_stop: false,
+            aim: GimbalTarget::Angle(0.0),
+        }
+    }
+
+    /// Checks whether this sender may move the gimbal: anyone if nobody has control, otherwise only those in control.
+    #[must_use]
+    pub fn accepts_control_from(&self, from: (u8, u8)) -> bool {
+        self.control == (0, 0) || self.control == from || self.secondary == from
+    }
+
+    /// Checks whether the gimbal is in its neutral position or moving there.
+    #[must_use]
+    pub fn is_neutral(&self) -> bool {
+        self.aim == GimbalTarget::Neutral
+    }
+
+    /// Converts a stick deflection in [-1, 1], up positive, to an angle; full deflection corresponds to the limit on that side.
+    #[must_use]
+    pub fn deflected(camera: &Camera, deflection: f64) -> GimbalTarget {
+        let stop = if deflection < 0.0 { -camera.gimbal_pitch_min_rad } else { camera.gimbal_pitch_max_rad };
+        GimbalTarget::Angle(deflection.clamp(-1.0, 1.0) * stop)
+    }
+
+    /// Sets a new target. Returns false if it is not finite or out of range.
+    pub fn set(&mut self, aim: GimbalTarget, camera: &Camera) -> bool {
+        let reached = (camera.gimbal_pitch_min_rad - SLACK_RAD)..=(camera.gimbal_pitch_max_rad + SLACK_RAD);
+        let is_valid = match aim {
+            GimbalTarget::Angle(angle) => reached.contains(&angle),
+            GimbalTarget::Slowly(angle, rate) => reached.contains(&angle) && rate.is_finite() && rate > 0.0,
+            GimbalTarget::Rate(rate) => rate.is_finite(),
+            GimbalTarget::Place(place) => place.is_finite(),
+            GimbalTarget::Neutral => true,
+        };
+        if is_valid {
+            self.aim = aim;
+        }
+        is_valid
+    }
+
+    /// Moves the gimbal for `dt_s`, s.
+    pub fn step(&mut self, camera: &Camera, position_m: Vec3<Enu>, dt_s: f64) {
+        let fastest = if let GimbalTarget::Slowly(_, rate) = self.aim {
+            rate.min(camera.gimbal_rate_rad_s)
+        } else {
+            camera.gimbal_rate_rad_s
+        };
+        let limit = fastest * dt_s;
+        let before = self.pitch_rad;
+        let requested_rad = match self.aim {
+            GimbalTarget::Angle(angle) | GimbalTarget::Slowly(angle, _) => angle,
+            GimbalTarget::Rate(rate) => before + rate * dt_s,
+            GimbalTarget::Place(place) => {
+                let line = place - position_m;
+                math::atan2(line.up(), line.horizontal_norm())
+            }
+            GimbalTarget::Neutral => 0.0,
+        };
+        let target_rad = requested_rad.clamp(camera.gimbal_pitch_min_rad, camera.gimbal_pitch_max_rad);
+        self.pitch_rad = before + (target_rad - before).clamp(-limit, limit);
+        self.rate_rad_s = (self.pitch_rad - before) / dt_s;
+        let tolerance_rad = if let GimbalTarget::Rate(_) = self.aim { 0.0 } else { SLACK_RAD };
+        self.at_stop = self.pitch_rad == target_rad && (requested_rad - target_rad).abs() > tolerance_rad;
+    }
+}
+
+impl Default for GimbalState {
+    fn default() -> Self {
+        Self::new()
+    }
+}

@@ -1,0 +1,25 @@
+//! Context for handling a message to the equipment.
+
+use super::input::PayloadInput;
+use crate::endpoint::component_ids::CAMERA;
+use crate::endpoint::link::{LinkId, Links};
+use spandrel_mavlink::dialect::MavMessage;
+
+/// A message addressed to this vehicle, and the state needed to handle it.
+pub(crate) struct PayloadMessage<'a, 'v> {
+    /// The link it arrived on.
+    pub link: LinkId,
+    /// System and component ID of the sender.
+    pub from: (u8, u8),
+    /// The aircraft.
+    pub input: &'a PayloadInput<'v>,
+    /// All links.
+    pub links: &'a mut Links,
+}
+
+impl PayloadMessage<'_, '_> {
+    /// Answers as the camera component.
+    pub fn answer(&mut self, message: &MavMessage) {
+        self.links.answer(CAMERA, self.link, message);
+    }
+}

@@ -1,0 +1,64 @@
+//! What the equipment and the scoring feed know of the aircraft. It comes from sensors, physics and the state that any autopilot
+//! reports, so that this half also works behind another autopilot.
+
+use super::scoring_truth::ScoringTruth;
+use crate::endpoint::clock::VehicleClock;
+use crate::physics::RigidState;
+use spandrel_model::frames::{Frd, Ned, Vec3};
+use spandrel_model::geodesy::{Geo, LocalPlane};
+use spandrel_model::vehicle::Vehicle;
+
+/// The aircraft at one instant.
+#[derive(Debug, Clone, Copy)]
+pub struct PayloadInput<'a> {
+    /// The time.
+    pub clock: VehicleClock,
+    /// The aircraft.
+    pub vehicle: &'a Vehicle,
+    /// Local tangent plane.
+    pub plane: &'a LocalPlane,
+    /// Estimated position, site frame, m.
+    pub position_m: Vec3<Ned>,
+    /// Estimated heading, rad.
+    pub heading_rad: f64,
+    /// Home position, site frame, m; `None` before it is set.
+    pub home_m: Option<Vec3<Ned>>,
+    /// Whether the altitude of a region of interest command is above mean sea level, regardless of its frame.
+    pub roi_above_sea_level: bool,
+    /// Stick positions as received: forward, right, up, yaw, -1 to 1; `None` after the timeout.
+    pub sticks: Option<[f64; 4]>,
+    /// True state.
+    pub truth: &'a RigidState,
+    /// Specific force, m/s², body axes.
+    pub specific_force_m_s2: Vec3<Frd>,
+    /// Wind at the aircraft, m/s.
+    pub wind_m_s: Vec3<Ned>,
+    /// Counters and ground truth for scoring.
+    pub scoring: &'a ScoringTruth,
+}
+
+impl PayloadInput<'_> {
+    /// Returns the estimated geographic position.
+    #[must_use]
+    pub fn geo(&self) -> Geo {
+        self.plane.geo_from_enu(self.position_m.enu())
+    }
+
+    /// Returns the true geographic position.
+    #[must_use]
+    pub fn true_geo(&self) -> Geo {
+        self.plane.geo_from_enu(self.truth.position_m.enu())
+    }
+
+    /// Returns the height of home above the site's origin, m; 0 before home is set.
+    #[must_use]
+    pub fn home_up_m(&self) -> f64 {
+        self.home_m.map_or(0.0, |home| -home.down())
+    }
+
+    /// Returns the height above home, m.
+    #[must_use]
+    pub fn over_home_m(&self) -> f64 {
+        self.home_m.map_or(0.0, |home| home.down()) - self.position_m.down()
+    }
+}

@@ -1,0 +1,91 @@
+//! The drone's lamp: on, off, or blinking for a relay repeat command.
+
+use super::changes::PayloadChange;
+use mavlink::MessageData;
+use spandrel_mavlink::dialect::ILLUMINATOR_STATUS_DATA;
+use spandrel_model::time::SimTime;
+
+/// Allowed number of cycles, and allowed cycle time, s.
+const CYCLES: std::ops::RangeInclusive<f64> = 1.0..=10_000.0;
+const CYCLE_S: std::ops::RangeInclusive<f64> = 0.04..=3_600.0;
+
+/// State of the lamp.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LampState {
+    /// Whether the lamp is on.
+    pub on: bool,
+    blinking: Option<BlinkSequence>,
+}
+
+/// Remaining toggles of a blink sequence.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct BlinkSequence {
+    left: u32,
+    every: SimTime,
+    next: SimTime,
+}
+
+impl LampState {
+    /// Lamp off.
+    pub const OFF: Self = Self { on: false, blinking: None };
+
+    /// Switches the lamp on or off; ends a blink sequence.
+    pub fn switch(&mut self, on: bool) {
+        *self = Self { on, blinking: None };
+    }
+
+    /// Toggles the lamp and back `cycles` times, `cycle_s` each, starting now. Returns false if a value is out of range.
+    pub fn repeat(&mut self, cycles: f64, cycle_s: f64, now: SimTime) -> bool {
+        let is_valid = CYCLES.contains(&cycles) && CYCLE_S.contains(&cycle_s);
+        if is_valid {
+            let left = 2 * cycles as u32;
+            self.blinking = Some(BlinkSequence { left, every: SimTime::from_s(0.5 * cycle_s), next: now });
+        }
+        is_valid
+    }
+
+    /// Toggles the lamp when due, and reports the change.
+    pub fn step(&mut self, now: SimTime, changes: &mut PayloadChange) {
+        let Some(blinking) = self.blinking.as_mut().filter(|blinking| blinking.next <= now) else { return };
+        self.on = !self.on;
+        blinking.left -= 1;
+        blinking.next += blinking.every;
+        if blinking.left == 0 {
+            self.blinking = None;
+        }
+        changes.add_message(ILLUMINATOR_STATUS_DATA::ID);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_repetition_changes_over_and_back_as_often_as_requested_and_ends_as_it_began() {
+        let mut lamp = LampState::OFF;
+        lamp.switch(true);
+        assert!(lamp.repeat(3.0, 0.2, SimTime::ZERO));
+        let mut changes = Vec::new();
+        for ms in 0..2_000 {
+            let before = lamp.on;
+            lamp.step(SimTime::from_ms(ms), &mut PayloadChange::default());
+            if lamp.on != before {
+                changes.push((ms, lamp.on));
+            }
+        }
+        assert_eq!(changes, [(0, false), (100, true), (200, false), (300, true), (400, false), (500, true)]);
+    }
+
+    #[test]
+    fn exact_senseless_repetitions_are_refused_and_a_switch_ends_one() {
+        let mut lamp = LampState::OFF;
+        for (cycles, cycle_s) in [(0.0, 1.0), (1e9, 1.0), (1.0, 0.0), (1.0, f64::NAN), (f64::NAN, 1.0)] {
+            assert!(!lamp.repeat(cycles, cycle_s, SimTime::ZERO), "{cycles} {cycle_s}");
+        }
+        assert!(lamp.repeat(5.0, 1.0, SimTime::ZERO));
+        lamp.switch(false);
+        lamp.step(SimTime::from_ms(600), &mut PayloadChange::default());
+        assert_eq!(lamp, LampState::OFF);
+    }
+}

@@ -1,0 +1,68 @@
+//! The aircraft's equipment and the scoring feed: camera (component 100), gimbal, lamp, ground truth. This half does not know the
+//! autopilot; it also works beside another one.
+
+pub mod camera;
+mod camera_params;
+mod changes;
+pub mod commands;
+mod equipment;
+pub mod gimbal;
+mod gimbal_messages;
+mod inbound;
+mod input;
+pub mod lamp;
+mod publish;
+mod receive;
+mod scoring_feed;
+mod scoring_truth;
+mod snapshot;
+pub mod streams;
+mod video_reports;
+
+use super::files::FileServer;
+use super::link::LinkId;
+use camera::settings;
+pub use equipment::Payload;
+pub(super) use inbound::PayloadMessage;
+pub use input::PayloadInput;
+pub(super) use receive::HANDLED;
+use scoring_feed::ScoringFeed;
+pub use scoring_truth::ScoringTruth;
+pub use snapshot::PayloadSnapshot;
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// State of the equipment's interface.
+#[derive(Debug, Clone)]
+pub struct PayloadLink {
+    /// Camera, gimbal, lamp.
+    pub equipment: Payload,
+    /// Seconds of simulation time per second of the clients' time.
+    pub speed_factor: f64,
+    files: FileServer,
+    scoring: ScoringFeed,
+    /// Indices of the image records still to resend on each link.
+    image_requests: BTreeMap<LinkId, Range<usize>>,
+}
+
+impl PayloadLink {
+    /// Creates the equipment's interface, with the camera's definition file.
+    #[must_use]
+    pub fn new() -> Self {
+        let mut files = FileServer::default();
+        files.generate(settings::FILE, settings::definition().into_bytes());
+        Self { equipment: Payload::new(), speed_factor: 1.0, files, scoring: ScoringFeed::new(), image_requests: BTreeMap::new() }
+    }
+
+    /// Releases everything that belongs to a closed link.
+    pub fn forget(&mut self, link: LinkId) {
+        self.files.forget(link);
+        self.image_requests.remove(&link);
+    }
+}
+
+impl Default for PayloadLink {
+    fn default() -> Self {
+        Self::new()
+    }
+}

@@ -1,0 +1,84 @@
+//! Outgoing messages of the equipment and the scoring feed in a tick.
+
+use super::PayloadLink;
+use super::input::PayloadInput;
+use super::snapshot::PayloadSnapshot;
+use super::streams::camera::{capture_record, field_of_view};
+use crate::endpoint::component_ids::{AUTOPILOT, CAMERA};
+use crate::endpoint::files;
+use crate::endpoint::link::{LinkId, Links};
+use spandrel_mavlink::dialect::{MavMessage, MavResult};
+
+impl PayloadLink {
+    /// Takes the image that is due, and announces it.
+    pub(crate) fn take_picture(&mut self, input: &PayloadInput, links: &mut Links) {
+        let (now, here) = (input.clock.now, input.position_m.enu());
+        if !self.equipment.camera.due(now, here) {
+            return;
+        }
+        let view = PayloadSnapshot::new(input, &self.equipment);
+        // The scoring evaluates the image content: send the field of view first.
+        if input.vehicle.camera.zoom_max > 1.0 {
+            links.broadcast(CAMERA, &field_of_view(&view));
+        }
+        let message = self.equipment.camera.take(capture_record(&view), now, here);
+        links.broadcast(CAMERA, &message);
+        if self.equipment.camera.is_full(now) {
+            self.equipment.changes.add_warning("Memory card full");
+        }
+    }
+
+    /// Sends the named values for scoring that are due.
+    pub(crate) fn send_scoring(&mut self, input: &PayloadInput, links: &mut Links) {
+        let clock = input.clock;
+        let due = self.scoring.take_due(input.scoring, self.speed_factor, clock.now);
+        let messages: Vec<MavMessage> = due.into_iter().map(|value| value.message(clock.sim_ms())).collect();
+        for link in links.listeners().filter(|link| !link.is_limited() && link.wants_truth()) {
+            messages.iter().for_each(|message| link.send(AUTOPILOT, message));
+        }
+    }
+
+    /// Sends the replies of the camera's file server.
+    pub(crate) fn send_files(&mut self, links: &mut Links) {
+        files::send_replies(&mut self.files, CAMERA, links);
+    }
+
+    /// Resends image records `first` (-1: all) to `last` (0: only `first`, -1: to the newest). The first is sent immediately, the
+    /// others as link capacity permits.
+    pub(crate) fn resend_images(&mut self, (first, last): (f64, f64), link: LinkId, links: &mut Links) -> MavResult {
+        let count = self.equipment.camera.image_count();
+        let (first, last) = match (first, last) {
+            (-1.0, _) => (0.0, -1.0),
+            (first, last) => (first, if last.is_finite() { last } else { 0.0 }),
+        };
+        if !(first >= 0.0 && first < count as f64) || last < -1.0 {
+            return MavResult::MAV_RESULT_DENIED;
+        }
+        let first = first as usize;
+        let end = match last {
+            -1.0 => count,
+            0.0 => first + 1,
+            last => count.min(last as usize + 1),
+        };
+        let Some(message) = self.equipment.camera.recorded_capture(first) else { return MavResult::MAV_RESULT_DENIED };
+        if end > first + 1 {
+            self.image_requests.insert(link, first + 1..end);
+        }
+        links.answer(CAMERA, link, &message);
+        MavResult::MAV_RESULT_ACCEPTED
+    }
+
+    /// Resends requested image records, one per tick on each link with capacity.
+    pub(crate) fn send_requested_images(&mut self, links: &mut Links) {
+        let camera = &self.equipment.camera;
+        self.image_requests.retain(|id, images| {
+            let Some(link) = links.get_mut(*id) else { return false };
+            if !link.is_busy()
+                && let Some(message) = images.next().and_then(|index| camera.recorded_capture(index))
+            {
+                link.send(CAMERA, &message);
+            }
+            images.start < images.end
+        });
+    }
+}

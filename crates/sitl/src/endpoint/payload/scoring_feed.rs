@@ -1,0 +1,66 @@
+//! Additional scoring data besides the true motion (docs/src/reference/wire.md, "Scoring data"): named values, sent on change and
+//! at rates of their own.
+
+use super::scoring_truth::ScoringTruth;
+use spandrel_mavlink::contract::named::Named;
+use spandrel_model::time::{Schedule, SimTime};
+
+/// Schedules of the named values, and the values sent last.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ScoringFeed {
+    contact: Schedule,
+    clearance: Schedule,
+    lux: Schedule,
+    slow: Schedule,
+    last: ScoringTruth,
+}
+
+impl ScoringFeed {
+    /// Creates the feed; everything is due immediately.
+    #[must_use]
+    pub fn new() -> Self {
+        let at = |hz| Schedule::new(SimTime::ZERO, hz);
+        Self { contact: at(10.0), clearance: at(30.0), lux: at(5.0), slow: at(0.2), last: ScoringTruth::default() }
+    }
+
+    /// Returns the values that are due: contact on change and at 10 Hz; hits, respawns and traffic on change and with the slow
+    /// values.
+    pub fn take_due(&mut self, truth: &ScoringTruth, speed_factor: f64, now: SimTime) -> Vec<Named> {
+        let mut out = Vec::new();
+        if self.contact.fire(now) | (truth.contact != self.last.contact) {
+            out.push(Named::Contact(truth.contact));
+        }
+        let slow = self.slow.fire(now);
+        if slow || truth.hits != self.last.hits {
+            out.push(Named::Hits(truth.hits));
+        }
+        if slow || truth.respawns != self.last.respawns {
+            out.push(Named::Respawns(truth.respawns));
+        }
+        // Traffic that was never stopped is omitted.
+        if slow || truth.traffic != self.last.traffic {
+            out.extend(truth.traffic.into_iter().filter(|code| *code != 0).map(Named::Traffic));
+        }
+        if slow {
+            out.push(Named::Seed(truth.seed.cast_unsigned()));
+            out.push(Named::ScenarioCrc(truth.scenario_crc));
+            if speed_factor != 1.0 {
+                out.push(Named::Pace(speed_factor));
+            }
+        }
+        if self.clearance.fire(now) {
+            out.push(Named::ClearanceM(truth.clearance_m));
+        }
+        if self.lux.fire(now) {
+            out.push(Named::Lux(truth.lux));
+        }
+        self.last = *truth;
+        out
+    }
+}
+
+impl Default for ScoringFeed {
+    fn default() -> Self {
+        Self::new()
+    }
+}

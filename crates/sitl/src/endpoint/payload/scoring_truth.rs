@@ -1,0 +1,24 @@
+//! Ground truth and counters for scoring.
+
+use spandrel_mavlink::contract::contact::ContactKind;
+
+/// Scoring data besides the motion (docs/src/reference/wire.md, "Scoring data").
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ScoringTruth {
+    /// Kind of contact.
+    pub contact: ContactKind,
+    /// Number of contacts so far.
+    pub hits: i32,
+    /// Number of respawns.
+    pub respawns: i32,
+    /// The last two traffic changes, encoded as on the wire; 0 for never.
+    pub traffic: [i32; 2],
+    /// The session's seed.
+    pub seed: i32,
+    /// CRC of the scenario.
+    pub scenario_crc: u32,
+    /// Distance to the nearest surface from the drone's center, m.
+    pub clearance_m: f64,
+    /// Ambient light at the drone, lux.
+    pub lux: f64,
+}

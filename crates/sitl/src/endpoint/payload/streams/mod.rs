@@ -1,0 +1,6 @@
+//! Messages of the equipment and the scoring feed.
+
+pub(crate) mod camera;
+pub(crate) mod gimbal;
+pub(crate) mod lamp;
+pub(crate) mod truth;

@@ -1,0 +1,34 @@
+//! The simulated aircraft as the interface reads it, whichever autopilot flies it.
+
+use super::clock::VehicleClock;
+use super::payload::ScoringTruth;
+use crate::physics::{Actuators, RigidState, battery};
+use crate::sensors::Readings;
+use spandrel_model::frames::{Frd, Ned, Vec3};
+use spandrel_model::geodesy::LocalPlane;
+use spandrel_model::vehicle::Vehicle;
+
+/// State of physics, sensors and site at one instant.
+#[derive(Debug, Clone, Copy)]
+pub struct SimulatedAircraft<'a> {
+    /// The time.
+    pub clock: VehicleClock,
+    /// The aircraft.
+    pub vehicle: &'a Vehicle,
+    /// Local tangent plane.
+    pub plane: &'a LocalPlane,
+    /// Latest sensor readings.
+    pub readings: &'a Readings,
+    /// True state.
+    pub truth: &'a RigidState,
+    /// Specific force, m/s², body axes.
+    pub specific_force_m_s2: Vec3<Frd>,
+    /// Battery state.
+    pub battery: &'a battery::BatteryState,
+    /// Motor commands.
+    pub actuators: &'a Actuators,
+    /// Wind at the aircraft, m/s.
+    pub wind_m_s: Vec3<Ned>,
+    /// Counters and ground truth for scoring.
+    pub scoring: &'a ScoringTruth,
+}

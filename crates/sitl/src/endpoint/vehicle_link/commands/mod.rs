@@ -1,0 +1,40 @@
+//! Commands to the autopilot, one file for each group. Every command is answered immediately.
+
+mod flight;
+mod storage;
+mod take_off;
+
+use super::VehicleLink;
+use super::inbound::InboundMessage;
+use crate::autopilot::AutopilotRequest;
+use crate::endpoint::payload::commands as payload;
+use crate::endpoint::vehicle_command::VehicleCommand;
+use spandrel_mavlink::dialect::MavResult;
+
+/// Executes a command, received or the vehicle's own, and returns its result. Equipment commands are included.
+pub(crate) fn execute(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
+    let before = v.params.changes();
+    let result = flight::handle(c, v, a)
+        .or_else(|| point_at(c, v, a))
+        .or_else(|| payload::handle(c, a.input, a.payload))
+        .unwrap_or(MavResult::MAV_RESULT_UNSUPPORTED);
+    if v.params.changes() != before {
+        v.parameters_changed(a.autopilot, a.payload, a.links);
+    }
+    result
+}
+
+/// Handles commands that point the gimbal at a position: the vehicle also turns toward it.
+fn point_at(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<MavResult> {
+    let target = payload::region_of_interest::target(c, a.input)?;
+    let result = payload::handle(c, a.input, a.payload);
+    let is_accepted = result == Some(MavResult::MAV_RESULT_ACCEPTED);
+    if is_accepted || target.is_none() {
+        a.autopilot.request(AutopilotRequest::LookAt(target), a.now());
+    }
+    if !is_accepted && target.is_none() {
+        v.warn("ROI cleared; gimbal stays with its controller");
+        return Some(MavResult::MAV_RESULT_ACCEPTED);
+    }
+    result
+}

@@ -1,0 +1,27 @@
+//! PREFLIGHT_STORAGE.
+
+use super::super::VehicleLink;
+use super::super::host_requests::StorageRequest;
+use crate::endpoint::vehicle_command::VehicleCommand;
+use spandrel_mavlink::dialect::MavResult;
+
+/// Handles PREFLIGHT_STORAGE: parameter 1 is 0 to load the file, 1 to save it, 2 to restore the defaults (MAVLink common).
+pub(super) fn preflight(c: &VehicleCommand, v: &mut VehicleLink) -> MavResult {
+    let request = match c.p[0] {
+        0.0 => StorageRequest::Load,
+        1.0 => StorageRequest::Save,
+        2.0 => {
+            v.params.reset(v.storage.defaults());
+            return MavResult::MAV_RESULT_ACCEPTED;
+        }
+        // -1 does nothing.
+        -1.0 => return MavResult::MAV_RESULT_ACCEPTED,
+        _ => return MavResult::MAV_RESULT_DENIED,
+    };
+    if !v.storage.has_file {
+        v.warn("No parameter file: start with --params FILE");
+        return MavResult::MAV_RESULT_DENIED;
+    }
+    v.storage.request = Some(request);
+    MavResult::MAV_RESULT_ACCEPTED
+}

@@ -1,0 +1,60 @@
+//! NAV_TAKEOFF by the rule of the flavour.
+
+use super::super::VehicleLink;
+use super::super::flavour::TakeOffRule;
+use super::super::inbound::InboundMessage;
+use crate::autopilot::LandedState;
+use crate::endpoint::vehicle_command::VehicleCommand;
+use spandrel_mavlink::dialect::MavResult;
+
+/// Maximum height above home, m.
+const HIGHEST_M: f64 = 500.0;
+const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
+const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
+
+/// Returns the height above home at which the takeoff ends, m (`None`: the parameter's value), or the result of a rejection.
+pub(super) fn height_m(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMessage) -> Result<Option<f64>, MavResult> {
+    match v.flavour.take_off {
+        TakeOffRule::AboveSeaLevel => above_sea_level(c, v, a),
+        TakeOffRule::AboveHomeInGuided => above_home_in_guided(c, v, a),
+    }
+}
+
+/// Without an altitude, or too close to the ground, the parameter's height is used.
+fn above_sea_level(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMessage) -> Result<Option<f64>, MavResult> {
+    const LOWEST_M: f64 = 0.5;
+    let relative = c.is_home_relative().ok_or(DENIED)?;
+    let Some(z) = c.finite_param(6) else { return Ok(None) };
+    let height_m = if relative { z } else { z - a.aircraft.plane.origin().altitude_m - a.home_up_m() };
+    if height_m > HIGHEST_M {
+        Err(v.deny("Takeoff height: at most 500 m above home"))
+    } else {
+        Ok(Some(height_m).filter(|height| *height >= LOWEST_M))
+    }
+}
+
+fn above_home_in_guided(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMessage) -> Result<Option<f64>, MavResult> {
+    let status = a.autopilot.status();
+    let why = if !v.is_guided(a.autopilot) {
+        Some("Takeoff requires mode Guided")
+    } else if !status.armed {
+        Some("Takeoff requires armed motors")
+    } else if status.landed != LandedState::OnGround {
+        Some("Takeoff: already in the air")
+    } else {
+        None
+    };
+    if let Some(why) = why {
+        v.warn(why);
+        return Err(FAILED);
+    }
+    // COMMAND_LONG has no frame; COMMAND_INT must use a frame relative to home.
+    if c.whole && c.is_home_relative() != Some(true) {
+        return Err(DENIED);
+    }
+    let height = c.finite_param(6).filter(|height| *height > 0.0 && *height <= HIGHEST_M);
+    if height.is_none() {
+        v.warn("Takeoff height: above 0, at most 500 m above home");
+    }
+    height.map(Some).ok_or(FAILED)
+}

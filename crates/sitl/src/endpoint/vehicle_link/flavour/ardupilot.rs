@@ -1,0 +1,178 @@
+//! ArduPilot's interface, as implemented by ArduCopter (docs/src/reference/wire.md, "Autopilot interfaces"; recorded from a real
+//! ArduCopter 4.7-dev, parameter names as in 4.6).
+#![allow(deprecated, reason = "ArduPilot names its encoding by the older capability")]
+
+use super::definition::{COMMON, Flavour, ModeRow, RefusalResults, TakeOffRule};
+use super::px4::FORCE;
+use crate::autopilot::sensor_health::{MonitoredSensor, SensorChange, SensorFault};
+use crate::autopilot::{AutopilotRequest, AutopilotStatus, Estimate, FlightMode, LandedState};
+use crate::endpoint::vehicle_link::calibration::CalibrationTexts;
+use crate::endpoint::vehicle_link::params::param_view;
+use spandrel_mavlink::dialect::{
+    MavAutopilot, MavModeFlag as F, MavProtocolCapability, MavResult, MavSeverity, MavStandardMode as S, MavState, MavVtolState,
+};
+
+/// Copter's mode numbers: the mode for go-to commands, the mode for NAV_LOITER_UNLIM, and the mode that flies the mission's
+/// landing sequence.
+const GUIDED: u32 = 4;
+const LOITER: u32 = 5;
+const AUTO_RTL: u32 = 27;
+const BASE: F =
+    F::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED.union(F::MAV_MODE_FLAG_STABILIZE_ENABLED).union(F::MAV_MODE_FLAG_MANUAL_INPUT_ENABLED);
+const PLACED: F = BASE.union(F::MAV_MODE_FLAG_GUIDED_ENABLED);
+
+const fn row(number: u32, mode: FlightMode, name: &'static str, base: F) -> ModeRow {
+    ModeRow {
+        number,
+        mode,
+        request: AutopilotRequest::SetMode(mode),
+        unattended: None,
+        only_if_requested: false,
+        covers: &[],
+        name,
+        standard: S::MAV_STANDARD_MODE_NON_STANDARD,
+        base,
+        auto: false,
+        selectable: true,
+        armable: true,
+    }
+}
+
+impl ModeRow {
+    const fn without_arming(mut self) -> Self {
+        self.armable = false;
+        self
+    }
+
+    const fn only_if_requested(mut self) -> Self {
+        self.only_if_requested = true;
+        self
+    }
+
+    /// Holds position under its own mode number while armed without stick input.
+    const fn holds_unattended(mut self) -> Self {
+        self.unattended = Some(FlightMode::Hold);
+        self.covering(&[FlightMode::Hold])
+    }
+
+    const fn entered_by(mut self, request: AutopilotRequest) -> Self {
+        self.request = request;
+        self
+    }
+}
+
+/// Order, numbers and names of ArduCopter's AVAILABLE_MODES (GCS_MAVLink_Copter.cpp, send_available_mode; mode.h), without the
+/// modes not supported here. ArduCopter reports no standard modes and no properties. LOITER and POSHOLD behave the same.
+const MODES: &[ModeRow] = &[
+    row(AUTO_RTL, FlightMode::Mission, "AUTO RTL", PLACED)
+        .entered_by(AutopilotRequest::LandingSequence)
+        .without_arming()
+        .only_if_requested(),
+    row(3, FlightMode::Mission, "AUTO", PLACED).without_arming(),
+    row(1, FlightMode::Acro, "ACRO", BASE),
+    row(0, FlightMode::Stabilized, "STABILIZE", BASE),
+    row(2, FlightMode::Altitude, "ALT_HOLD", BASE),
+    row(7, FlightMode::Orbit, "CIRCLE", PLACED).entered_by(AutopilotRequest::CircleAhead).without_arming(),
+    row(LOITER, FlightMode::Position, "LOITER", PLACED).holds_unattended(),
+    row(GUIDED, FlightMode::Hold, "GUIDED", PLACED).covering(&[FlightMode::Takeoff, FlightMode::Offboard]).only_if_requested(),
+    row(9, FlightMode::Land, "LAND", PLACED).without_arming(),
+    row(6, FlightMode::Return, "RTL", PLACED).without_arming(),
+    row(16, FlightMode::Position, "POSHOLD", PLACED).holds_unattended(),
+    // Armable, unlike in ArduPilot: without stick input, the other manual modes switch to it on arming, and a landing ends in it.
+    row(17, FlightMode::Hold, "BRAKE", PLACED),
+    row(21, FlightMode::SmartReturn, "SMARTRTL", PLACED).without_arming(),
+    row(23, FlightMode::Follow, "FOLLOW", PLACED).without_arming(),
+];
+
+/// ArduPilot's interface. Reports a development version of the series that the parameter names come from.
+pub static FLAVOUR: Flavour = Flavour {
+    name: "ardupilot",
+    autopilot: MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA,
+    software_version: 4 << 24 | 6 << 16,
+    capabilities: COMMON.union(MavProtocolCapability::MAV_PROTOCOL_CAPABILITY_PARAM_FLOAT),
+    modes: MODES,
+    mode_bits: u32::MAX,
+    custom_mode: |number, _| if (0.0..256.0).contains(&number) { number as u32 } else { u32::MAX },
+    custom_flag: true,
+    state,
+    errands: Some(GUIDED),
+    take_off: TakeOffRule::AboveHomeInGuided,
+    // The second value is ArduPilot's own for arming.
+    force: &[FORCE, 2989.0],
+    looks_over_sea: false,
+    refusals: RefusalResults {
+        for_now: MavResult::MAV_RESULT_FAILED,
+        denied: MavResult::MAV_RESULT_FAILED,
+        no_mode: MavResult::MAV_RESULT_FAILED,
+        message: MavResult::MAV_RESULT_FAILED,
+        interval: MavResult::MAV_RESULT_DENIED,
+    },
+    arm_words: Some("Arm: "),
+    check_words: "PreArm: ",
+    sensor_words,
+    mode_words: |row, why| format!("Mode change to {} failed: {why}", row.name.to_uppercase()),
+    banner: &[
+        concat!("ArduCopter V4.6.0-dev (Spandrel ", env!("CARGO_PKG_VERSION"), ")"),
+        "Spandrel emulation of ArduPilot, not ArduPilot",
+        "Frame: QUAD/X",
+    ],
+    answers_after_acknowledgement: true,
+    asks_first: true,
+    groups: &[
+        (1, &[27, 105, 29]),
+        (2, &[1, 125, 152, 62, 42, 24, 162, 87]),
+        (3, &[36, 65]),
+        (6, &[33, 32]),
+        (10, &[30, 164]),
+        (11, &[74]),
+        (12, &[163, 2, 168, 193, 147, 231, 241, 230, 132, 285]),
+    ],
+    dialect_of_ardupilot: true,
+    calibration: CalibrationTexts::ArduPilot,
+    shell: false,
+    events: false,
+    loiters: Some(LOITER),
+    offsets: true,
+    pauses: true,
+    vtol_state: MavVtolState::MAV_VTOL_STATE_MC,
+    splines: true,
+    zero_is_here: true,
+    home_item: true,
+    float_items: true,
+    params: &param_view::COPTER,
+    tune: |tuning| {
+        tuning.setpoints_end = true;
+        tuning.takeoff_at_climb_speed = true;
+        tuning.arms_by_mode = true;
+        tuning.mission_mode_stays = true;
+        tuning.first_item = 1;
+        tuning.fence_switch_stays = true;
+    },
+};
+
+/// Reports boot until the attitude is valid, critical during a failsafe, and active from takeoff to landing.
+fn state(estimate: &Estimate, status: &AutopilotStatus) -> MavState {
+    if !estimate.attitude_valid {
+        MavState::MAV_STATE_BOOT
+    } else if status.failsafe.is_some() {
+        MavState::MAV_STATE_CRITICAL
+    } else if status.armed && status.landed != LandedState::OnGround {
+        MavState::MAV_STATE_ACTIVE
+    } else {
+        MavState::MAV_STATE_STANDBY
+    }
+}
+
+/// Returns ArduCopter's text: it reports a GNSS receiver that contradicts the estimator as a glitch, and barometer and compass by
+/// instance, as in its checks.
+fn sensor_words(change: SensorChange) -> Option<(MavSeverity, String)> {
+    let text = match (change.sensor, change.fault) {
+        (_, Some(SensorFault::Silent)) => return None,
+        (MonitoredSensor::Gnss, Some(_)) => "GPS Glitch or Compass error",
+        (MonitoredSensor::Gnss, None) => "Glitch cleared",
+        (MonitoredSensor::Compass, Some(_)) => "Compass 1 not healthy",
+        (MonitoredSensor::Barometer, Some(_)) => "Baro 1 not healthy",
+        (_, None) => return None,
+    };
+    Some((MavSeverity::MAV_SEVERITY_CRITICAL, text.to_owned()))
+}

@@ -1,0 +1,65 @@
+//! Autopilot flavours: one table for each autopilot interface, with everything that differs on the wire. All other behavior is
+//! shared.
+
+pub mod ardupilot;
+mod definition;
+pub mod generic;
+pub mod px4;
+
+pub use definition::{Flavour, ModeRow, RefusalResults, TakeOffRule};
+
+/// Returns the flavour with this name.
+#[must_use]
+pub fn named(name: &str) -> Option<&'static Flavour> {
+    [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR].into_iter().find(|flavour| flavour.name == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::autopilot::FlightMode;
+
+    const ALL: [FlightMode; 13] = [
+        FlightMode::Stabilized,
+        FlightMode::Altitude,
+        FlightMode::Position,
+        FlightMode::Hold,
+        FlightMode::Takeoff,
+        FlightMode::Land,
+        FlightMode::Return,
+        FlightMode::Mission,
+        FlightMode::Offboard,
+        FlightMode::Orbit,
+        FlightMode::Acro,
+        FlightMode::SmartReturn,
+        FlightMode::Follow,
+    ];
+
+    #[test]
+    fn exact_every_flavour_shows_every_mode_and_every_number_leads_back_to_its_row() {
+        for flavour in ["px4", "ardupilot", "generic"].map(|name| named(name).unwrap()) {
+            for mode in ALL {
+                assert!(flavour.default_mode(mode).shows(mode), "{}: {mode:?}", flavour.name);
+            }
+            for row in flavour.modes {
+                assert_eq!(flavour.row(row.number).unwrap().name, row.name);
+                assert_eq!(flavour.row_of(row.mode, row.number).name, row.name, "as it was asked for");
+            }
+            assert!(flavour.standard(0).is_none() && flavour.standard(99).is_none());
+        }
+        assert!(named("PX4").is_none());
+    }
+
+    #[test]
+    fn exact_guided_stays_guided_from_take_off_to_go_to_and_gives_way_to_the_pilot() {
+        let copter = &ardupilot::FLAVOUR;
+        for mode in [FlightMode::Hold, FlightMode::Takeoff, FlightMode::Offboard] {
+            assert_eq!(copter.row_of(mode, 4).number, 4);
+        }
+        assert_eq!(copter.row_of(FlightMode::Position, 4).number, 5);
+        assert_eq!(copter.row_of(FlightMode::Position, 16).number, 16);
+        assert_eq!(copter.row_of(FlightMode::Hold, 3).number, 17, "a hold that nobody asked for is a brake");
+        assert_eq!(copter.row_of(FlightMode::Hold, 5).number, 5, "LOITER holds without sticks");
+        assert_eq!((copter.default_mode(FlightMode::Mission).number, copter.row_of(FlightMode::Mission, 27).number), (3, 27));
+    }
+}

@@ -1,0 +1,56 @@
+//! Context for handling a message to the autopilot.
+
+use super::VehicleLink;
+use super::snapshot::VehicleSnapshot;
+use crate::autopilot::Autopilot;
+use crate::endpoint::component_ids::AUTOPILOT;
+use crate::endpoint::link::{LinkId, Links};
+use crate::endpoint::payload::{Payload, PayloadInput};
+use crate::endpoint::simulated_aircraft::SimulatedAircraft;
+use spandrel_mavlink::codec::Encodable;
+use spandrel_model::time::SimTime;
+
+/// A message addressed to this vehicle, and the state needed to handle it.
+pub(crate) struct InboundMessage<'a, 'v> {
+    /// The link it arrived on.
+    pub link: LinkId,
+    /// System and component ID of the sender.
+    pub from: (u8, u8),
+    /// The aircraft.
+    pub aircraft: &'a SimulatedAircraft<'v>,
+    /// The aircraft as the equipment knows it.
+    pub input: &'a PayloadInput<'v>,
+    /// The autopilot.
+    pub autopilot: &'a mut Autopilot,
+    /// Camera, gimbal, lamp.
+    pub payload: &'a mut Payload,
+    /// All links.
+    pub links: &'a mut Links,
+}
+
+impl InboundMessage<'_, '_> {
+    /// Returns the simulation time.
+    pub fn now(&self) -> SimTime {
+        self.aircraft.clock.now
+    }
+
+    /// Returns the height of home above the site's origin, m; 0 before home is set.
+    pub fn home_up_m(&self) -> f64 {
+        self.autopilot.status().home_m.map_or(0.0, |home| -home.down())
+    }
+
+    /// Answers as the autopilot.
+    pub fn answer(&mut self, message: &impl Encodable) {
+        self.links.answer(AUTOPILOT, self.link, message);
+    }
+
+    /// Sends a message of the autopilot to all links that receive unsolicited messages.
+    pub fn broadcast(&mut self, message: &impl Encodable) {
+        self.links.broadcast(AUTOPILOT, message);
+    }
+
+    /// Returns the vehicle's current state.
+    pub fn view(&self, v: &VehicleLink) -> VehicleSnapshot<'_> {
+        v.snapshot(self.aircraft, self.autopilot, self.payload)
+    }
+}

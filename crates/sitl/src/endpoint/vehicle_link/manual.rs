@@ -1,0 +1,258 @@
+//! Manual control: converts MANUAL_CONTROL and RC_CHANNELS_OVERRIDE to stick input and arbitrates between senders. Reports every
+//! change of control.
+
+use super::buttons::ButtonState;
+use super::params::StickPolicy;
+use crate::autopilot::Sticks;
+use crate::endpoint::link::LinkId;
+use spandrel_mavlink::dialect::{MANUAL_CONTROL_DATA, RC_CHANNELS_OVERRIDE_DATA};
+use spandrel_model::time::SimTime;
+use std::collections::VecDeque;
+
+/// Field value that means "not used".
+const UNUSED: i16 = i16::MAX;
+/// Interval at which an ignored sender is reported, s.
+const REPORT_INTERVAL_S: f64 = 5.0;
+/// Range of valid channel pulses, microseconds; other values are ignored (ArduPilot passes them on).
+pub const PULSES_US: std::ops::RangeInclusive<u16> = 800..=2200;
+const MIDDLE_US: u16 = 1500;
+/// Number of channels other than the sticks.
+pub const AUX: usize = 12;
+/// Number of those that a value of 0 releases: channels 5 to 8.
+const LOW_AUX: usize = 4;
+/// Default values of channels 5 to 16, microseconds (ArduPilot's SITL: SIM RC defaults).
+const AUX_US: [u16; AUX] = [1800, 1000, 1000, 1800, 1500, 1500, 1500, 1500, 1500, 1500, 1500, 1500];
+/// Value that releases channels 9 and up; 0 releases channels 1 to 8 (MAVLink common).
+const RELEASE_HIGH: u16 = 65_534;
+/// Maximum number of remembered senders with a signed throttle, to limit memory use.
+const FULL_RANGE_MAX: usize = 64;
+/// Minimum change of the gimbal axis that has an effect, as a fraction of full deflection.
+const GIMBAL_STEP: f64 = 0.01;
+/// Bits of `enabled_extensions`.
+const HAS_PITCH: u8 = 1;
+
+/// A sender: its link, system ID and component ID.
+type StickSender = (LinkId, (u8, u8));
+
+/// State of manual control.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ManualControl {
+    /// Timeout after which a silent sender loses control, s.
+    pub release_timeout_s: f64,
+    /// Arbitration policy for several senders.
+    pub policy: StickPolicy,
+    holder: Option<StickSender>,
+    last_input: SimTime,
+    sticks: Sticks,
+    pulses_us: [u16; 4],
+    aux_us: [u16; AUX],
+    /// Senders with a throttle range of -1000 to 1000.
+    full_range: Vec<StickSender>,
+    gimbal: Option<f64>,
+    last_report: Option<(StickSender, SimTime)>,
+    texts: VecDeque<String>,
+    /// Button state of the sender in control.
+    pub presses: ButtonState,
+}
+
+impl Default for ManualControl {
+    fn default() -> Self {
+        Self {
+            release_timeout_s: crate::autopilot::Tuning::default().manual_timeout_s(),
+            policy: StickPolicy::FirstKeeps,
+            holder: None,
+            last_input: SimTime::ZERO,
+            sticks: Sticks::default(),
+            pulses_us: [MIDDLE_US; 4],
+            aux_us: AUX_US,
+            full_range: Vec::new(),
+            gimbal: None,
+            last_report: None,
+            texts: VecDeque::new(),
+            presses: ButtonState::default(),
+        }
+    }
+}
+
+impl ManualControl {
+    /// Returns the stick positions; `None` after the timeout.
+    #[must_use]
+    pub fn fresh(&self, now: SimTime) -> Option<Sticks> {
+        self.has_holder(now).then_some(self.sticks)
+    }
+
+    /// Returns the sticks as transmitter pulses, microseconds; `None` after the timeout.
+    #[must_use]
+    pub fn pulses_us(&self, now: SimTime) -> Option<[u16; 4]> {
+        self.has_holder(now).then_some(self.pulses_us)
+    }
+
+    /// Returns channels 5 to 16, microseconds.
+    #[must_use]
+    pub fn aux_us(&self) -> [u16; AUX] {
+        self.aux_us
+    }
+
+    /// Applies channels 5 to 16 of an override, if this sender may take control.
+    pub fn take_aux(&mut self, from: StickSender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) {
+        if self.policy == StickPolicy::FirstKeeps && self.holder.is_some_and(|holder| holder != from) && self.has_holder(now) {
+            return;
+        }
+        for (k, us) in aux_of(c).into_iter().enumerate() {
+            let released = if k < LOW_AUX { us == 0 } else { us == RELEASE_HIGH };
+            if released {
+                self.aux_us[k] = AUX_US[k];
+            } else if PULSES_US.contains(&us) {
+                self.aux_us[k] = us;
+            }
+        }
+    }
+
+    /// Releases what belongs to a closed link; its number may be reused.
+    pub fn forget(&mut self, link: LinkId) {
+        self.full_range.retain(|(known, _)| *known != link);
+    }
+
+    fn has_holder(&self, now: SimTime) -> bool {
+        self.holder.is_some() && (now - self.last_input).s() <= self.release_timeout_s
+    }
+
+    /// Removes and returns the next text to broadcast.
+    pub fn poll_text(&mut self) -> Option<String> {
+        self.texts.pop_front()
+    }
+
+    fn take(&mut self, from: StickSender, sticks: Sticks, pulses_us: [u16; 4], now: SimTime) -> Option<Sticks> {
+        let another = self.holder.filter(|holder| *holder != from && self.has_holder(now));
+        if let Some(holder) = another {
+            let moved = [sticks.forward, sticks.right, sticks.up, sticks.yaw].iter().any(|axis| axis.abs() > 0.1);
+            if self.policy == StickPolicy::FirstKeeps || !moved {
+                self.report_ignored_sender(from, holder, now);
+                return None;
+            }
+        }
+        if self.holder != Some(from) {
+            if self.holder.is_some() {
+                self.texts.push_back(format!("{} took control of the sticks", sender_name(from)));
+            }
+            self.presses = ButtonState::default();
+            self.gimbal = None;
+        }
+        (self.holder, self.last_input, self.sticks, self.pulses_us) = (Some(from), now, sticks, pulses_us);
+        Some(sticks)
+    }
+
+    fn report_ignored_sender(&mut self, from: StickSender, holder: StickSender, now: SimTime) {
+        if self.last_report.is_none_or(|(known, at)| known != from || (now - at).s() >= REPORT_INTERVAL_S) {
+            self.last_report = Some((from, now));
+            self.texts.push_back(format!("Sticks of {} ignored: {} in control", sender_name(from), sender_name(holder)));
+        }
+    }
+
+    /// Applies MANUAL_CONTROL: x forward, y right, r clockwise in -1000..1000; z is throttle in 0..1000 with 500 as its center,
+    /// or in -1000..1000 for a sender that has ever sent a negative value. Values out of range or not used count as centered.
+    pub fn manual_control(&mut self, from: StickSender, m: &MANUAL_CONTROL_DATA, now: SimTime) -> Option<Sticks> {
+        let zero = |value: Option<f64>| value.unwrap_or(0.0);
+        let up = match axis(m.z) {
+            Some(z) if self.has_signed_throttle(from, z) => z,
+            Some(z) if z >= 0.0 => 2.0 * z - 1.0,
+            _ => 0.0,
+        };
+        let sticks = Sticks { forward: zero(axis(m.x)), right: zero(axis(m.y)), up, yaw: zero(axis(m.r)) };
+        self.take(from, sticks, pulses_of(&sticks), now)
+    }
+
+    /// Checks whether a sender uses a signed throttle. Reports it once when first detected.
+    fn has_signed_throttle(&mut self, from: StickSender, z: f64) -> bool {
+        let known = self.full_range.contains(&from);
+        if !known && z < 0.0 && self.full_range.len() < FULL_RANGE_MAX {
+            self.full_range.push(from);
+            self.texts.push_back(format!("{}: throttle is -1000 to 1000", sender_name(from)));
+            return true;
+        }
+        known
+    }
+
+    /// Returns the gimbal axis of MANUAL_CONTROL (extension `s`), -1 down to 1 up, when the sender in control moves it. Extension
+    /// `t` (roll in MAVLink, yaw in QGroundControl) is ignored: the gimbal has neither axis.
+    pub fn gimbal(&mut self, from: StickSender, m: &MANUAL_CONTROL_DATA) -> Option<f64> {
+        let pitch = (m.enabled_extensions & HAS_PITCH != 0 && self.holder == Some(from)).then(|| axis(m.s)).flatten()?;
+        let before = self.gimbal.replace(pitch);
+        // Ignore the initial position: a command may have set the gimbal's angle.
+        before.is_some_and(|before| (before - pitch).abs() > GIMBAL_STEP).then_some(pitch)
+    }
+
+    /// Checks whether a sender has control.
+    #[must_use]
+    pub fn is_holder(&self, from: StickSender) -> bool {
+        self.holder == Some(from)
+    }
+
+    /// Applies RC_CHANNELS_OVERRIDE: channels 1 to 4 are roll, pitch, throttle and yaw, microseconds. 65535 and values outside
+    /// the valid range leave a channel unchanged, 0 centers it; all four at 0 release control. Pitch is reversed as on a
+    /// transmitter: stick forward is below center.
+    pub fn channels(&mut self, from: StickSender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) -> Option<Sticks> {
+        let all = [c.chan1_raw, c.chan2_raw, c.chan3_raw, c.chan4_raw];
+        if all.iter().all(|us| *us == 0) {
+            if self.holder == Some(from) {
+                self.holder = None;
+            }
+            return None;
+        }
+        // Without any valid pulse, the message does not take control.
+        if !all.iter().any(|us| PULSES_US.contains(us)) {
+            return None;
+        }
+        let own = self.holder == Some(from) && self.has_holder(now);
+        let (before, pulses) = if own { (self.sticks, self.pulses_us) } else { (Sticks::default(), [MIDDLE_US; 4]) };
+        let axis = |us: u16, before: f64| match us {
+            0 => 0.0,
+            us if PULSES_US.contains(&us) => ((f64::from(us) - 1500.0) / 500.0).clamp(-1.0, 1.0),
+            _ => before,
+        };
+        let sticks = Sticks {
+            right: axis(all[0], before.right),
+            forward: -axis(all[1], -before.forward),
+            up: axis(all[2], before.up),
+            yaw: axis(all[3], before.yaw),
+        };
+        let pulse = |k: usize| match all[k] {
+            0 => MIDDLE_US,
+            us if PULSES_US.contains(&us) => us,
+            _ => pulses[k],
+        };
+        self.take(from, sticks, [pulse(0), pulse(1), pulse(2), pulse(3)], now)
+    }
+}
+
+/// Returns channels 5 to 16 of an override, microseconds.
+pub fn aux_of(c: &RC_CHANNELS_OVERRIDE_DATA) -> [u16; AUX] {
+    [
+        c.chan5_raw,
+        c.chan6_raw,
+        c.chan7_raw,
+        c.chan8_raw,
+        c.chan9_raw,
+        c.chan10_raw,
+        c.chan11_raw,
+        c.chan12_raw,
+        c.chan13_raw,
+        c.chan14_raw,
+        c.chan15_raw,
+        c.chan16_raw,
+    ]
+}
+
+/// Converts sticks to transmitter pulses, microseconds: roll, pitch, throttle, yaw, with stick forward below center.
+fn pulses_of(s: &Sticks) -> [u16; 4] {
+    [s.right, -s.forward, s.up, s.yaw].map(|axis| (1500.0 + 500.0 * axis).round() as u16)
+}
+
+fn axis(value: i16) -> Option<f64> {
+    (value != UNUSED && (-1000..=1000).contains(&value)).then(|| f64::from(value) / 1000.0)
+}
+
+/// Returns system/component@link, short enough for a text of 50 bytes.
+fn sender_name((link, (system, component)): StickSender) -> String {
+    format!("{system}/{component}@{}", link.0)
+}
