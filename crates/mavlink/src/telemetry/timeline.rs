@@ -279,7 +279,7 @@ impl Timeline {
             self.suspects.push(entry);
             return if self.suspects.len() < RESTART_CONFIRM { FrameDisposition::Kept(sample) } else { self.restart(sample) };
         }
-        // The suspects were late frames, not a restart. They are sorted by their timestamps later.
+        // These were late frames, not a restart. They are sorted by their timestamps later.
         self.truths.extend(self.suspects.drain(..));
         self.truths.push(entry);
         self.newest = Some(self.newest.map_or(truth.time, |newest| newest.max(truth.time)));
