@@ -550,7 +550,10 @@ impl Autopilot {
         status.mission_paused = navigator.mission_status.paused;
         status.climbing_out = navigator.report.climbing_out;
         status.target_m = navigator.report.target_m;
-        status.setpoint = navigator.report.setpoint;
+        // A setpoint is large and rare, so it is copied only if there is one to set or clear.
+        if status.setpoint.is_some() || navigator.report.setpoint.is_some() {
+            status.setpoint = navigator.report.setpoint;
+        }
         status.orbit = navigator.report.orbit;
         if status.failsafe.as_deref() != failsafe.active() {
             status.failsafe = failsafe.active().map(str::to_owned);
