@@ -6,6 +6,7 @@ use crate::dialect::HIL_STATE_QUATERNION_DATA;
 use crate::units::{cm, deg_e7, milli_g, mm};
 use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
+use spandrel_model::pose::Motion;
 use spandrel_model::time::SimTime;
 
 /// A ground-truth message as received: the simulator's true state at one instant.
@@ -13,20 +14,17 @@ use spandrel_model::time::SimTime;
 pub struct Truth {
     /// Time since simulation start.
     pub time: SimTime,
-    /// Position in the scenario frame, m.
-    pub position_m: Vec3<Enu>,
-    /// Velocity in the scenario frame, m/s.
-    pub velocity_m_s: Vec3<Enu>,
-    /// Attitude: rotation from the body frame to NED.
-    pub ned_from_frd: Rotation<Frd, Ned>,
+    /// Motion, relative to the scenario origin.
+    pub motion: Motion<Enu>,
 }
 
 impl Truth {
     /// Returns whether the aircraft was respawned between this message and a later one (see [`is_jump`]).
     #[must_use]
     pub fn jumps_to(&self, next: &Self) -> bool {
-        let fastest_m_s = self.velocity_m_s.norm().max(next.velocity_m_s.norm());
-        is_jump((next.position_m - self.position_m).norm(), fastest_m_s, next.time - self.time)
+        let (here, there) = (&self.motion, &next.motion);
+        let fastest_m_s = here.velocity_m_s.norm().max(there.velocity_m_s.norm());
+        is_jump((there.position_m - here.position_m).norm(), fastest_m_s, next.time - self.time)
     }
 }
 
@@ -37,7 +35,7 @@ pub struct Published {
     pub time_us: u64,
     /// Position; the altitude is above the WGS84 ellipsoid.
     pub place: Geo,
-    /// Velocity in NED, m/s.
+    /// Velocity in the scenario frame, m/s.
     pub velocity_m_s: Vec3<Ned>,
     /// Attitude: rotation from the body frame to NED.
     pub ned_from_frd: Rotation<Frd, Ned>,
@@ -93,8 +91,10 @@ pub fn read(wire: &HIL_STATE_QUATERNION_DATA, plane: &LocalPlane) -> Option<Trut
     let velocity: Vec3<Ned> = Vec3::new(f64::from(wire.vx) * 0.01, f64::from(wire.vy) * 0.01, f64::from(wire.vz) * 0.01);
     Some(Truth {
         time: clock(wire.time_usec),
-        position_m: plane.enu_from_geo(geo),
-        velocity_m_s: velocity.enu(),
-        ned_from_frd: Rotation::from_wxyz(wire.attitude_quaternion.map(f64::from))?,
+        motion: Motion {
+            position_m: plane.enu_from_geo(geo),
+            velocity_m_s: velocity.enu(),
+            ned_from_frd: Rotation::from_wxyz(wire.attitude_quaternion.map(f64::from))?,
+        },
     })
 }

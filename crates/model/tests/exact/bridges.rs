@@ -1,4 +1,4 @@
-//! The bridges against the formulas that they are built from, and their task paths against the bridges.
+//! Compares the bridges with the formulas of their geometry, and the task paths with the bridges.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::random::RandomStream;
@@ -9,9 +9,9 @@ use spandrel_model::scenario::{Bridge, BridgeKind, TaskKind};
 use spandrel_model::site::convex::Convex;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// m; rounding of positions some hundred metres from the origin.
+/// Rounding error of positions a few hundred meters from the origin, m.
 const ROUNDING_M: f64 = 1e-9;
-/// Relative rounding of volumes that are sums of many products.
+/// Relative rounding error of volumes, which are sums of many products.
 const SHARE: f64 = 1e-9;
 
 fn bridge(kind: BridgeKind) -> Bridge {
@@ -26,24 +26,24 @@ fn suspension() -> Bridge {
     bridge(BridgeKind::Suspension(Suspension::default()))
 }
 
-/// Values strewn around the defaults, within their ranges.
-fn strewn(fields: &[BridgeField], random: &mut RandomStream) -> Vec<f64> {
-    let strewn = |f: &BridgeField| (f.default * random.range(0.6, 1.7)).clamp(f.min, f.max);
+/// Returns random values around the defaults, within their ranges.
+fn random_values(fields: &[BridgeField], random: &mut RandomStream) -> Vec<f64> {
+    let near_default = |f: &BridgeField| (f.default * random.range(0.6, 1.7)).clamp(f.min, f.max);
     fields
         .iter()
-        .map(strewn)
+        .map(near_default)
         .zip(fields)
         .map(|(v, f)| if ["panels", "stringers"].contains(&f.key) { v.round() } else { v })
         .collect()
 }
 
-/// Both types at their defaults and with numbers strewn, as far as these go together.
+/// Returns both types with default dimensions, and with random dimensions that are consistent.
 fn many() -> Vec<Bridge> {
     let mut random = RandomStream::new(4, "bridges");
     let mut out = vec![arch(), suspension()];
     for _ in 0..60 {
-        out.push(bridge(BridgeKind::Arch(Arch::from_values(&strewn(Arch::FIELDS, &mut random)))));
-        out.push(bridge(BridgeKind::Suspension(Suspension::from_values(&strewn(Suspension::FIELDS, &mut random)))));
+        out.push(bridge(BridgeKind::Arch(Arch::from_values(&random_values(Arch::FIELDS, &mut random)))));
+        out.push(bridge(BridgeKind::Suspension(Suspension::from_values(&random_values(Suspension::FIELDS, &mut random)))));
     }
     out.retain(|b| b.kind.misfits().is_empty());
     let arches = out.iter().filter(|b| matches!(b.kind, BridgeKind::Arch(_))).count();
@@ -95,7 +95,7 @@ fn prop_every_solid_is_closed_convex_and_faces_outwards() {
     }
 }
 
-/// Points of a solid that are enough to see what it touches.
+/// Returns the face centers of a solid and points along its edges, for contact tests.
 fn points_of(solid: &Solid) -> Vec<Vec3<Enu>> {
     let corner = |k: u32| solid.vertices_m[k as usize];
     let middle = |ks: &[u32]| ks.iter().fold(Vec3::zero(), |sum, k| sum + corner(*k)) / ks.len() as f64;
@@ -149,7 +149,7 @@ fn exact_an_arch_has_as_many_members_as_its_formulas_say() {
                 + (4.0 * a.rise_m - 2.0 * (a.springing_depth_m - a.crown_depth_m)) * x * x / (a.span_m * a.span_m)
         };
         let points: Vec<f64> = (1..n).map(|k| a.span_m * (k as f64 / n as f64 - 0.5)).collect();
-        // A column is a little longer than the clear height at its middle, because the rib falls away under it.
+        // A column is a little longer than the clear height at its middle, because the rib slopes away below it.
         let (most, least) =
             (points.iter().filter(|x| clear(**x) > 0.25 - 0.6).count(), points.iter().filter(|x| clear(**x) > 0.25).count());
         let members = bridge.members();
@@ -217,7 +217,7 @@ fn exact_volumes_of_slab_ribs_cables_and_hangers() {
                 let straight = |k: f64| {
                     ((x(k + 1.0) - x(k)) * (x(k + 1.0) - x(k)) + (z(x(k + 1.0)) - z(x(k))) * (z(x(k + 1.0)) - z(x(k)))).sqrt()
                 };
-                // The side spans go on straight for a metre into the anchorages.
+                // The cables run straight for another meter into the anchorages.
                 let top = s.cable_clearance_m + s.sag_m;
                 let side = (s.side_span_m * s.side_span_m + top * top).sqrt() * (1.0 + 1.0 / s.side_span_m);
                 let cable = (0..n as u32).map(|k| straight(f64::from(k))).sum::<f64>() + 2.0 * side;
@@ -236,7 +236,7 @@ fn exact_the_rib_follows_its_parabola() {
     let crown = a.slab_m + a.crown_gap_m;
     assert!((a.extrados_z_m(0.0) + crown).abs() < ROUNDING_M);
     assert!((a.axis_z_m(0.0) - a.axis_z_m(0.5 * a.span_m) - a.rise_m).abs() < ROUNDING_M);
-    // Hand-worked for span 98, rise 26, depths 1.6 and 2.7, slab 0.23, gap 3.4, at a quarter of the span: axis -4.43 - 6.5.
+    // Calculated by hand for span 98, rise 26, depths 1.6 and 2.7, slab 0.23, gap 3.4, at a quarter of the span: axis -4.43 - 6.5.
     assert!((a.axis_z_m(24.5) + 10.93).abs() < ROUNDING_M && (a.depth_m(24.5) - 1.875).abs() < ROUNDING_M);
     for member in named(&bridge.members(), "rib-") {
         for vertex in &member.solid.vertices_m {
@@ -268,7 +268,7 @@ fn exact_the_cable_sags_and_the_hangers_reach_it() {
     }
     let ends: Vec<_> = named(&members, "cable-left").map(|m| middle(&m.solid.vertices_m[..8])).collect();
     assert!(ends.iter().all(|e| (e[2] - s.cable_z_m(e[0])).abs() < ROUNDING_M));
-    // Each piece begins with the very corners with which the one before it ends: the cable has no notch at its bends.
+    // Each piece starts at the corners where the previous one ends, so the cable has no gaps at its bends.
     let pieces: Vec<_> = named(&members, "cable-left").map(|m| &m.solid.vertices_m).collect();
     for pair in pieces.windows(2) {
         assert!(pair[0][..8].iter().zip(&pair[1][8..]).all(|(end, start)| (*end - *start).norm() < ROUNDING_M));
@@ -284,8 +284,8 @@ fn least_gap(shapes: &[Convex], path: &TaskPath) -> f64 {
     path.path_m.iter().map(gap).fold(f64::INFINITY, f64::min)
 }
 
-/// Steps of at most 1 m, no turn sharper than a slow aircraft flies at once, unit directions of sight.
-fn is_smooth(path: &TaskPath) {
+/// Checks that steps are at most 1 m, turns are gentle enough for a slow aircraft, and viewing directions are unit vectors.
+fn assert_smooth(path: &TaskPath) {
     // rad; 0.8 m of an arc with a radius of 4 m.
     const SHARPEST: f64 = 0.25;
     let n = path.path_m.len();
@@ -308,7 +308,7 @@ fn prop_paths_keep_their_stand_off() {
         for stand_off_m in [4.0, 6.5] {
             for kind in [TaskKind::SlabSide, TaskKind::ArchBottom, TaskKind::PierCircle] {
                 let Ok(path) = bridge.task_path(kind, stand_off_m) else { continue };
-                is_smooth(&path);
+                assert_smooth(&path);
                 let gap = least_gap(&shapes, &path);
                 assert!(gap > stand_off_m - ROUNDING_M, "{kind:?}: {gap} m, not {stand_off_m} m, {:?}", bridge.kind);
                 assert!(kind == TaskKind::ArchBottom || gap < 1.1 * stand_off_m, "{kind:?}: {gap} m");
@@ -324,7 +324,7 @@ fn exact_the_pier_is_circled_at_one_distance_and_closed() {
     let pier = Convex::new(&named(&members, "pier-start").next().unwrap().solid);
     let path = bridge.task_path(TaskKind::PierCircle, 4.5).unwrap();
     assert!(path.closed);
-    is_smooth(&path);
+    assert_smooth(&path);
     for (p, look) in path.path_m.iter().zip(&path.look) {
         let near = pier.nearest(*p);
         assert!((near.distance_m - 4.5).abs() < ROUNDING_M);
@@ -342,10 +342,10 @@ fn exact_the_interlayer_lets_the_largest_shipped_aircraft_through() {
     const NEEDED_M: f64 = 0.5 * 1.07 + 0.5;
     let bridge = arch();
     let path = bridge.task_path(TaskKind::Interlayer, 4.0).unwrap();
-    is_smooth(&path);
+    assert_smooth(&path);
     let gap = least_gap(&solids(&bridge.members()), &path);
     assert!(gap >= NEEDED_M, "{gap} m");
-    // Between deck and arch: floorbeams over it, ribs beside and under it, all within a cramped reach.
+    // The path runs below the floorbeams, and above and between the ribs.
     for p in &path.path_m {
         let [x, y, z] = bridge.placement().local(*p);
         let a = Arch::default();
@@ -355,8 +355,8 @@ fn exact_the_interlayer_lets_the_largest_shipped_aircraft_through() {
 
 #[test]
 fn prop_the_paths_look_at_the_bridge() {
-    // The slab is 0.23 m thick seen from level with it; under the arch a look may pass between beams out to the sky; around a corner of
-    // the pier all looks aim at its very edge, which rounding may miss.
+    // Seen from its own height the slab is 0.23 m thick; under the arch a sight line may pass between beams to the sky; at a corner of
+    // the pier all sight lines end at its edge, which rounding may miss.
     for (bridge, kind, share) in [
         (arch(), TaskKind::SlabSide, 1.0),
         (arch(), TaskKind::ArchBottom, 0.95),
@@ -372,17 +372,17 @@ fn prop_the_paths_look_at_the_bridge() {
 }
 
 #[test]
-fn exact_numbers_that_do_not_go_together_are_refused_with_their_line() {
+fn exact_inconsistent_dimensions_are_refused_with_their_line() {
     let text = spandrel_model::shipped::DRILL_GAP;
     let wide = text.replacen("heading_deg = 90.0\n\n", "heading_deg = 90.0\n[bridges.arch]\nrib_width_m = 5.5\n\n", 1);
     assert_ne!(text, wide);
     let problems = spandrel_model::scenario::read("wide.toml", &wide, &|_| Err(String::new())).unwrap_err();
-    let said = problems.to_string();
-    assert!(said.contains("rib_width_m = 5.5") && said.contains("at most 4.80"), "{said}");
-    assert!(said.starts_with("wide.toml:"), "{said}");
+    let message = problems.to_string();
+    assert!(message.contains("rib_width_m = 5.5") && message.contains("at most 4.80"), "{message}");
+    assert!(message.starts_with("wide.toml:"), "{message}");
 }
 
-/// Elements of the MBEI (numbers and names in the AASHTO manual, 2015 interims) by the material and the part that they name.
+/// MBEI elements (numbers and names from the AASHTO manual, 2015 interims) and the members that belong to them.
 const MBEI: [(u16, &[&str]); 18] = [
     (12, &["slab"]),
     (107, &["girder"]),
@@ -405,7 +405,7 @@ const MBEI: [(u16, &[&str]); 18] = [
 ];
 
 #[test]
-fn exact_every_member_carries_the_element_number_of_what_it_is() {
+fn exact_every_member_has_the_element_of_its_part() {
     let steel = [107, 113, 147, 148, 152, 207, 311, 313, 330];
     for bridge in many() {
         for member in bridge.members() {
@@ -413,7 +413,7 @@ fn exact_every_member_carries_the_element_number_of_what_it_is() {
             let names = MBEI.iter().find(|(number, _)| *number == member.element.number()).map(|(_, names)| *names);
             let fits = names.is_some_and(|names| names.iter().any(|n| part.starts_with(n)));
             assert!(fits, "{} is element {}", member.name, member.element.number());
-            // The arch is of concrete; of the suspension bridge deck, piers and anchorages are.
+            // The arch bridge is concrete; of the suspension bridge, deck, piers and anchorages are.
             let concrete =
                 matches!(bridge.kind, BridgeKind::Arch(_)) || ["slab", "pier", "anchorage"].iter().any(|n| part.starts_with(n));
             assert_eq!(

@@ -1,4 +1,4 @@
-//! The exported geometry against the geometry that collides: the same surfaces, both ways.
+//! Compares the exported geometry with the collision geometry: both have the same surfaces.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::random::RandomStream;
@@ -6,11 +6,11 @@ use spandrel_model::site::convex::Convex;
 use spandrel_model::site::{Site, gltf};
 use std::collections::BTreeMap;
 
-/// m; a 32-bit float carries positions within 1 km to 6e-5 m.
+/// Rounding error of a position within 1 km as a 32-bit float, m.
 const ROUNDING_M: f64 = 6e-5;
-/// m; how far rounding may carry the place where a ray with at least [`LEAST_COS`] hits.
+/// Rounding tolerance of the point hit by a ray with at least [`LEAST_COS`], m.
 const ALONG_M: f64 = 2e-3;
-/// Flatter rays are not compared.
+/// Minimum cosine of the incidence angle; flatter rays are not compared.
 const LEAST_COS: f64 = 0.1;
 
 type Triangle = [Vec3<Enu>; 3];
@@ -28,7 +28,7 @@ fn site() -> Site {
     Site::build(&scenario, 1)
 }
 
-/// Parsed by the gltf crate, back into east, north, up.
+/// Parses the file with the gltf crate and converts it to east, north, up.
 fn nodes(site: &Site) -> BTreeMap<String, Node> {
     let (document, buffers, _) = ::gltf::import_slice(gltf::glb(site)).unwrap();
     let back = |p: [f32; 3]| Vec3::new(f64::from(p[0]), -f64::from(p[2]), f64::from(p[1]));
@@ -45,7 +45,7 @@ fn nodes(site: &Site) -> BTreeMap<String, Node> {
     document.nodes().map(node).collect()
 }
 
-/// Unit normal, by the order of the corners.
+/// Returns the unit normal that follows from the order of the corners.
 fn normal(t: &Triangle) -> Vec3<Enu> {
     (t[1] - t[0]).cross(t[2] - t[0]).unit()
 }
@@ -80,20 +80,20 @@ fn val_every_member_of_the_file_is_the_solid_that_collides() {
             assert!(shape.nearest(*corner).distance_m.abs() < ROUNDING_M, "{}", member.name);
         }
         for t in &node.triangles {
-            on_its_surface(&member.name, shape, t, &mut random);
+            assert_on_surface(&member.name, shape, t, &mut random);
         }
-        rays_agree(&member.name, shape, node, &mut random);
+        assert_rays_agree(&member.name, shape, node, &mut random);
     }
 }
 
-/// From before any point of a triangle of the file, the collider is hit right there.
-fn on_its_surface(name: &str, shape: &Convex, t: &Triangle, random: &mut RandomStream) {
+/// Checks that a ray at a random point of a triangle in the file hits the collider at that point.
+fn assert_on_surface(name: &str, shape: &Convex, t: &Triangle, random: &mut RandomStream) {
     let (mut a, mut b) = (random.uniform(), random.uniform());
     if a + b > 1.0 {
         (a, b) = (1.0 - a, 1.0 - b);
     }
     let middle = (t[0] + t[1] + t[2]) / 3.0;
-    // Off the very edge, where rounding decides.
+    // Away from the edge, where rounding decides.
     let p = middle.lerp(t[0] + (t[1] - t[0]) * a + (t[2] - t[0]) * b, 0.9);
     assert!(shape.nearest(p).distance_m.abs() < ROUNDING_M, "{name}");
     let mut from = direction(random);
@@ -106,8 +106,8 @@ fn on_its_surface(name: &str, shape: &Convex, t: &Triangle, random: &mut RandomS
     }
 }
 
-/// Where a ray hits the collider, it hits the file's triangles.
-fn rays_agree(name: &str, shape: &Convex, node: &Node, random: &mut RandomStream) {
+/// Checks that rays hit the file's triangles where they hit the collider.
+fn assert_rays_agree(name: &str, shape: &Convex, node: &Node, random: &mut RandomStream) {
     let (low, high) = shape.bounds();
     for _ in 0..8 {
         let aim = Vec3::new(

@@ -1,4 +1,4 @@
-//! The READMEs beside the files document exactly the keys, ranges and defaults that the code asks for.
+//! The READMEs beside the files document exactly the keys, ranges and defaults that the code reads.
 
 use crate::shipped::files;
 use spandrel_model::scenario::BridgeKind;
@@ -8,7 +8,7 @@ use std::path::Path;
 
 type Keys = BTreeMap<String, DocumentedKey>;
 
-/// Reaches the branches that no shipped scenario takes. It need not be a legal job: keys are recorded before values are judged.
+/// Reaches the branches that no shipped scenario takes. It need not be a valid job: keys are recorded before values are checked.
 const OTHER_BRANCHES: [&str; 3] = [
     "[terrain]\nsource = \"flat\"\n[[wind.events]]\nkind = \"gust\"\n[[wind.events]]\nkind = \"change\"\n[[defects.placed]]\n",
     "[terrain]\nsource = \"valley\"\n[[bridges]]\ntype = \"arch\"\n[[bridges]]\ntype = \"suspension\"\n",
@@ -18,7 +18,7 @@ const OTHER_BRANCHES: [&str; 3] = [
 fn merge(all: &mut Keys, keys: Keys) {
     for (key, asked) in keys {
         let known = all.entry(key.clone()).or_insert_with(|| asked.clone());
-        assert_eq!(*known, asked, "{key} is asked for in two ways");
+        assert_eq!(*known, asked, "{key} is read in two ways");
     }
 }
 
@@ -41,7 +41,7 @@ fn vehicle_keys() -> Keys {
 
 const HEADER: &str = "| key | allowed | default | meaning |";
 
-/// Rows of every table of keys.
+/// Returns the rows of every table of keys.
 fn documented(readme: &str) -> Vec<(String, DocumentedKey, String)> {
     let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(readme);
     let text = std::fs::read_to_string(path).unwrap();
@@ -77,7 +77,7 @@ fn compare(readme: &str, keys: &Keys) -> Vec<String> {
 }
 
 #[test]
-fn val_every_scenario_key_is_documented_as_the_code_asks() {
+fn val_every_scenario_key_is_documented_as_the_code_reads_it() {
     let wrong = compare("scenarios/README.md", &scenario_keys());
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
@@ -95,7 +95,7 @@ fn val_the_dimensions_of_every_bridge_type_are_documented_with_their_meaning() {
 }
 
 #[test]
-fn val_every_aircraft_key_is_documented_as_the_code_asks() {
+fn val_every_aircraft_key_is_documented_as_the_code_reads_it() {
     let wrong = compare("vehicle-params/README.md", &vehicle_keys());
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -18,8 +18,9 @@ pub use item::{Instance, SceneItem, VisibleRange};
 use super::mesh::Mesh;
 use super::quality::Quality;
 use bake::LightBaker;
-use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
+use spandrel_model::frames::{Enu, Frd, Vec3};
 use spandrel_model::math;
+use spandrel_model::pose::Pose;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::movers::MoverKind;
 use spandrel_model::site::{QueryTime, Site};
@@ -50,10 +51,8 @@ impl MoverModel {
 /// Pose of the aircraft for rendering.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DronePose {
-    /// Center of mass, ENU, m.
-    pub position_m: Vec3<Enu>,
-    /// Attitude (body FRD to NED).
-    pub ned_from_frd: Rotation<Frd, Ned>,
+    /// Position and attitude.
+    pub pose: Pose<Enu>,
     /// Whether the propellers are turning.
     pub spinning: bool,
 }
@@ -175,12 +174,12 @@ impl Scene {
     }
 
     fn aircraft(&self, site: &Site, drone: &DronePose, at: QueryTime, out: &mut Vec<(MoverModel, Instance)>) {
-        let axis = |v: Vec3<Frd>| (drone.ned_from_frd * v).enu();
+        let axis = |v: Vec3<Frd>| (drone.pose.ned_from_frd * v).enu();
         let axes = [axis(Vec3::new(1.0, 0.0, 0.0)), axis(Vec3::new(0.0, 1.0, 0.0)), axis(Vec3::new(0.0, 0.0, 1.0))];
-        let around = bake::around(site, drone.position_m, at);
-        out.push((MoverModel::Drone, Instance::placed(drone.position_m, axes, around)));
+        let around = bake::around(site, drone.pose.position_m, at);
+        out.push((MoverModel::Drone, Instance::placed(drone.pose.position_m, axes, around)));
         for (hub_m, spin) in &self.rotors {
-            let hub = drone.position_m + axis(*hub_m);
+            let hub = drone.pose.position_m + axis(*hub_m);
             let angle = if drone.spinning { -spin * SHOWN_SPIN_RAD_S * at.s() } else { 0.6 };
             let (s, c) = math::sin_cos(angle);
             let turned = [axes[0] * c + axes[1] * s, axes[1] * c - axes[0] * s, axes[2]];

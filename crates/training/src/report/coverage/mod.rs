@@ -153,7 +153,7 @@ impl LightCache<'_> {
         let (pose, camera) = (&picture.pose, &picture.camera);
         let lamp = lamp_lux(&self.scene.vehicle.lamp, pose, patch.point_m, patch.normal);
         let lux = lamp + self.ambient_lux(patch, picture.time);
-        let velocity = self.scene.flight.between(picture.time).map_or(Vec3::zero(), |state| state.velocity_m_s);
+        let velocity = self.scene.flight.between(picture.time).map_or(Vec3::zero(), |state| state.motion.velocity_m_s);
         let to = patch.point_m - pose.position_m;
         let ray = to.unit();
         let across_m_s = (velocity - ray * velocity.dot(ray)).norm();
