@@ -23,7 +23,8 @@ pub enum Surface {
     Pad,
 }
 
-/// Identifies an object in messages: the index into [`Site::members`](super::Site::members) for bridges, otherwise a unique number.
+/// Identifies an object in messages: the index into [`Site::members`](super::Site::members) for bridges, otherwise a unique
+/// number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ObjectId(pub u32);
 

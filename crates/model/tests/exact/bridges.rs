@@ -198,7 +198,8 @@ fn exact_volumes_of_slab_ribs_cables_and_hangers() {
         match &bridge.kind {
             BridgeKind::Arch(a) => {
                 close(sum(&members, "slab"), a.deck_length_m() * a.deck_width_m * a.slab_m);
-                // The depth is quadratic in u = 2x/L, and the trapezoidal rule over N segments makes 1/3 + 2/(3 N^2) of the mean of u^2.
+                // The depth is quadratic in u = 2x/L, and the trapezoidal rule over N segments makes 1/3 + 2/(3 N^2) of the mean
+                // of u^2.
                 let segments = 2.0 * a.panels.round();
                 let mean = 1.0 / 3.0 + 2.0 / (3.0 * segments * segments);
                 let area = a.span_m * (a.crown_depth_m + (a.springing_depth_m - a.crown_depth_m) * mean);
@@ -355,8 +356,8 @@ fn exact_the_interlayer_lets_the_largest_shipped_aircraft_through() {
 
 #[test]
 fn prop_the_paths_look_at_the_bridge() {
-    // The slab is 0.23 m thick seen from level with it; under the arch a look may pass between beams out to the sky; around a corner of
-    // the pier all looks aim at its very edge, which rounding may miss.
+    // The slab is 0.23 m thick seen from level with it; under the arch a look may pass between beams out to the sky; around a
+    // corner of the pier all looks aim at its very edge, which rounding may miss.
     for (bridge, kind, share) in [
         (arch(), TaskKind::SlabSide, 1.0),
         (arch(), TaskKind::ArchBottom, 0.95),

@@ -45,7 +45,8 @@ fn prop_no_part_of_a_segment_comes_nearer_to_the_ground_than_its_ends_and_the_cr
         let signed = |t: f64| grid.nearest(a.lerp(b, t), f64::INFINITY).map_or(f64::INFINITY, |n| n.distance_m);
         let ends = signed(0.0).min(signed(1.0));
         let tried = (0..=400).map(|k| signed(f64::from(k) / 400.0)).fold(f64::INFINITY, f64::min);
-        // Under the ground the depth is that of the deepest crease passed, not of the deepest point: enough for what only just touches.
+        // Under the ground the depth is that of the deepest crease passed, not of the deepest point: enough for what only just
+        // touches.
         if ends < 0.0 || tried < 0.0 {
             continue;
         }

@@ -104,7 +104,8 @@ fn val_ten_defects_are_placed_on_the_two_bridges() {
     }
 }
 
-/// Lamps matter where a grey afternoon leaves less than this, lx: f/2.8, ISO 1600 and a hand-held exposure (shared exposure table, 1/100 s).
+/// Lamps matter where a grey afternoon leaves less than this, lx: f/2.8, ISO 1600 and a hand-held exposure (shared exposure
+/// table, 1/100 s).
 const NEEDED_LX: f64 = 122.5;
 
 #[test]

@@ -51,8 +51,8 @@ impl InconsistencyList {
     }
 }
 
-/// Defines the dimensions of a bridge type from one table: key, range, default, meaning. The type's name in scenario files follows
-/// the name of the struct.
+/// Defines the dimensions of a bridge type from one table: key, range, default, meaning. The type's name in scenario files
+/// follows the name of the struct.
 macro_rules! bridge_dimensions {
     (
         $(#[$doc:meta])*
