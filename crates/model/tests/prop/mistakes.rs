@@ -107,7 +107,7 @@ fn regress_the_words_for_an_unknown_bridge() {
     says(
         "bridge = \"suspension\"",
         "bridge = \"suspenson\"",
-        "job.toml:64: tasks[].bridge = suspenson: no such bridge (allowed: a bridge in this file: arch, suspension)",
+        "job.toml:64: tasks[].bridge = suspenson: unknown bridge (allowed: a bridge in this file: arch, suspension)",
     );
 }
 
