@@ -265,8 +265,7 @@ impl<A, B> Rotation<A, B> {
         Self::assume(UnitQuaternion::identity())
     }
 
-    /// Creates a rotation from a raw quaternion that is known to rotate from `A` to `B`. State the reason at the call: `// FRAME:
-    /// …`.
+    /// Creates a rotation from a quaternion that is known to rotate from `A` to `B`. State why at the call: `// FRAME: …`.
     #[must_use]
     pub fn assume(q: UnitQuaternion<f64>) -> Self {
         Self { q, frames: PhantomData }
