@@ -3,7 +3,7 @@
 /// Maximum number of decimals. A smaller difference from the limit is below the resolution of any measurement.
 const MOST_DIGITS: usize = 6;
 
-/// Formats a value with at least `digits` decimals, and as many more as needed to show on which side of `limit` it lies.
+/// Formats a value with at least `digits` decimals, and as many more as needed to show on which side of the limit it is.
 #[must_use]
 pub fn format_beside_limit(value: f64, limit: f64, digits: usize) -> String {
     let text = |digits: usize| format!("{value:.digits$}");
