@@ -2,6 +2,7 @@
 
 use crate::environment::{self, MOTION, Outcome};
 use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::pose::Pose;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::CameraPose;
 use spandrel_model::vehicle::Vehicle as Aircraft;
@@ -91,7 +92,7 @@ impl Inspect {
     pub fn judge_picture(&mut self, sim: &Sim, aircraft: &Aircraft) {
         let rigid = &sim.truth().rigid;
         let payload = sim.payload();
-        let here = (rigid.position_m.enu(), rigid.attitude);
+        let here = Pose { position_m: rigid.position_m.enu(), ned_from_frd: rigid.attitude };
         let pose = CameraPose::on(&aircraft.camera, here, payload.gimbal.pitch_rad, payload.lamp.on);
         let shown = SiteSurvey::view_defects(sim.site(), &pose, &aircraft.camera, &aircraft.lamp, sim.now());
         self.found.extend(shown.iter().filter(|view| view.hit).map(|view| view.defect_id));

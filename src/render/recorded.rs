@@ -7,6 +7,7 @@ use spandrel_mavlink::telemetry::sample::{FrameHeader, truth_time};
 use spandrel_mavlink::telemetry::timeline::FrameDisposition;
 use spandrel_mavlink::telemetry::{Flight, Timeline, tlog};
 use spandrel_model::geodesy::LocalPlane;
+use spandrel_model::pose::Pose;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::CameraPose;
 use spandrel_model::site::bridge_closures::BridgeClosures;
@@ -164,13 +165,14 @@ impl RecordedFeed<'_> {
 fn moment(flight: &Flight, at: SimTime, vehicle: &Vehicle) -> Option<SceneMoment> {
     let state = flight.between(at)?;
     let trace = trace(flight, at);
-    let ned_from_frd = trace.at(at).filter(|_| !state.missing).map_or(state.ned_from_frd, |pose| pose.ned_from_frd);
+    let ned_from_frd = trace.at(at).filter(|_| !state.missing).map_or(state.motion.ned_from_frd, |motion| motion.ned_from_frd);
     let lamp_on = flight.light.at(at).unwrap_or(false);
+    let pose = Pose { position_m: state.motion.position_m, ned_from_frd };
     Some(SceneMoment {
         at,
-        drone: DronePose { position_m: state.position_m, ned_from_frd, spinning: flight.armed.at(at).unwrap_or(false) },
-        velocity_m_s: state.velocity_m_s,
-        camera: CameraPose::on(&vehicle.camera, (state.position_m, ned_from_frd), trace.gimbal_at(at), lamp_on),
+        drone: DronePose { pose, spinning: flight.armed.at(at).unwrap_or(false) },
+        velocity_m_s: state.motion.velocity_m_s,
+        camera: CameraPose::on(&vehicle.camera, pose, trace.gimbal_at(at), lamp_on),
         lens: trace.reported_lens_at(at).map_or(vehicle.camera, |hfov_rad| Camera { hfov_rad, ..vehicle.camera }),
         turn: trace.turn_at(at),
     })
@@ -200,6 +202,7 @@ mod tests {
     use spandrel_mavlink::contract::truth::Truth;
     use spandrel_mavlink::dialect::{HEARTBEAT_DATA, HIL_STATE_QUATERNION_DATA, MavMessage, MavModeFlag};
     use spandrel_model::frames::{Rotation, Vec3};
+    use spandrel_model::pose::Motion;
     use spandrel_monitor::SessionOutput;
     use spandrel_view::stage::CameraTurnRate;
 
@@ -283,7 +286,7 @@ mod tests {
         assert_eq!(recorded.span(), (SimTime::ZERO, SimTime::from_ms(20_000)));
         let second = SimTime::from_ms(1_000);
         assert_eq!(recorded.unix_us(second), STARTED_US + 31_000_000);
-        assert!(recorded.moment(second).unwrap().drone.position_m.up() > 5.0 + tape.scenario.ground_team.pad_m.up());
+        assert!(recorded.moment(second).unwrap().drone.pose.position_m.up() > 5.0 + tape.scenario.ground_team.pad_m.up());
         let mut heard = recorded.heard();
         let early = heard.advance_to(SimTime::from_ms(40)).clone();
         assert_eq!(
@@ -299,9 +302,11 @@ mod tests {
     fn exact_a_recorded_camera_turned_as_its_samples_say() {
         let truth = |ms: i64, yaw_deg: f64| Truth {
             time: SimTime::from_ms(ms),
-            position_m: Vec3::new(0.0, 0.0, 10.0),
-            velocity_m_s: Vec3::new(0.0, 0.0, 0.0),
-            ned_from_frd: Rotation::from_euler(0.0, 0.0, yaw_deg.to_radians()),
+            motion: Motion {
+                position_m: Vec3::new(0.0, 0.0, 10.0),
+                velocity_m_s: Vec3::zero(),
+                ned_from_frd: Rotation::from_euler(0.0, 0.0, yaw_deg.to_radians()),
+            },
         };
         let mut flight = Flight::default();
         assert_eq!(trace(&flight, SimTime::ZERO).turn_at(SimTime::ZERO), CameraTurnRate::default());
@@ -319,7 +324,7 @@ mod tests {
         }
         let vehicle = spandrel_model::vehicle::read("phantom2.toml", include_str!("../../vehicle-params/phantom2.toml")).unwrap();
         let between = moment(&flight, SimTime::from_ms(10), &vehicle).unwrap();
-        assert!((between.drone.ned_from_frd.yaw_rad().to_degrees() - 1.0).abs() < 1e-6, "halfway");
+        assert!((between.drone.pose.ned_from_frd.yaw_rad().to_degrees() - 1.0).abs() < 1e-6, "halfway");
         assert!((between.camera.forward.up() - spandrel_model::math::sin(0.01)).abs() < 1e-9, "{:?}", between.camera.forward);
     }
 }

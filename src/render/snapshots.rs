@@ -78,7 +78,7 @@ fn about(recorded: &RecordedFlight, picture: &ReviewedPicture, moment: &SceneMom
     let (date, time) = utc.trim_end_matches('Z').split_once('T').unwrap_or(("", ""));
     let pose = &moment.camera;
     let (yaw_deg, pitch_deg) = photo::direction_deg(pose);
-    let (roll, pitch, yaw) = moment.drone.ned_from_frd.euler();
+    let (roll, pitch, yaw) = moment.drone.pose.ned_from_frd.euler();
     PhotoInfo {
         number: picture.number,
         taken_unix_us,

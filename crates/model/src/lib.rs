@@ -35,6 +35,7 @@ pub mod frames;
 pub mod geodesy;
 pub mod math;
 pub mod numbers;
+pub mod pose;
 pub mod random;
 pub mod scenario;
 pub mod shipped;

@@ -30,12 +30,12 @@ pub fn messages(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Vec<
         }
         due = truth.time + FRAME_STEP;
         let (at, now) = (unix_ns(truth.time), truth.time);
-        let here: Vec3<Ned> = truth.position_m.ned();
+        let here: Vec3<Ned> = truth.motion.position_m.ned();
         let pitch_rad = flight.gimbal.at(now).unwrap_or(0.0);
-        let camera = FramePose::camera(here, truth.ned_from_frd, vehicle.camera.position_m, pitch_rad);
+        let camera = FramePose::camera(here, truth.motion.ned_from_frd, vehicle.camera.position_m, pitch_rad);
         out.push(foxglove::transforms(
             at,
-            &[(foxglove::DRONE, FramePose::drone(here, truth.ned_from_frd)), (foxglove::CAMERA, camera)],
+            &[(foxglove::DRONE, FramePose::drone(here, truth.motion.ned_from_frd)), (foxglove::CAMERA, camera)],
         ));
         out.push(foxglove::scoring(
             at,
@@ -46,7 +46,7 @@ pub fn messages(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Vec<
                 hits: flight.hits.at(now).unwrap_or(0),
                 respawns: flight.respawns.at(now).unwrap_or(0),
                 lamp_on: flight.light.at(now).unwrap_or(false),
-                speed_m_s: truth.velocity_m_s.norm(),
+                speed_m_s: truth.motion.velocity_m_s.norm(),
             },
         ));
         if frames % SLOW_EVERY == 0 {

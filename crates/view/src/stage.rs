@@ -11,6 +11,7 @@ use super::sky::Sky;
 use spandrel_mavlink::telemetry::Flight;
 use spandrel_model::frames::{Enu, Rotation, Vec3};
 use spandrel_model::math;
+use spandrel_model::pose::Pose;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::{CameraPose, Site};
 use spandrel_model::time::SimTime;
@@ -107,17 +108,17 @@ impl Stage<'_> {
     ) -> Shot {
         let stands = self.scenario.ground_team.inspector_m;
         let aspect = f64::from(size_px.0) / f64::from(size_px.1.max(1));
-        self.eye_shot(gaze.eye(stands, moment.drone.position_m, aspect), moment, size_px, eyes)
+        self.eye_shot(gaze.eye(stands, moment.drone.pose.position_m, aspect), moment, size_px, eyes)
     }
 
     /// Returns the bracket around the aircraft, drawn over the inspector's view.
     #[must_use]
     pub fn drone_marker(&self, shot: &Shot, moment: &SceneMoment) -> Vec<DrawItem> {
-        let (from, to) = (shot.eye.position_m, moment.drone.position_m - shot.eye.position_m);
+        let (from, to) = (shot.eye.position_m, moment.drone.pose.position_m - shot.eye.position_m);
         let clear_m = (to.norm() - BESIDE_M).max(0.0);
         let hidden = clear_m > 0.0 && self.site.ray(from, to.unit(), clear_m, moment.at).is_some();
         let aspect = f64::from(shot.size_px.0) / f64::from(shot.size_px.1.max(1));
-        marker(&shot.eye, aspect, moment.drone.position_m, hidden)
+        marker(&shot.eye, aspect, moment.drone.pose.position_m, hidden)
     }
 
     /// Returns the shot of a person at any position.
@@ -234,7 +235,7 @@ pub fn hud(stage: &Stage, moment: &SceneMoment, flight: &Flight, feed: (&Feed, b
 pub fn display(stage: &Stage, moment: &SceneMoment, told: &HudInputs, (feed, held): (&Feed, bool), map: bool) -> Hud {
     let (scenario, at) = (stage.scenario, moment.at);
     let pad_m = scenario.ground_team.pad_m;
-    let from_pad = moment.drone.position_m - pad_m;
+    let from_pad = moment.drone.pose.position_m - pad_m;
     let wide = math::tan(0.5 * stage.vehicle.camera.hfov_rad);
     Hud {
         speed_m_s: moment.velocity_m_s.norm(),
@@ -256,8 +257,8 @@ pub fn display(stage: &Stage, moment: &SceneMoment, told: &HudInputs, (feed, hel
         pictures: told.pictures,
         shutter: shutter(told.last_picture, at),
         time_s: told.flash_s,
-        position_m: moment.drone.position_m,
-        heading_rad: moment.drone.ned_from_frd.yaw_rad(),
+        position_m: moment.drone.pose.position_m,
+        heading_rad: moment.drone.pose.ned_from_frd.yaw_rad(),
         pad_m,
         tracks: if map { tracks(scenario) } else { Vec::new() },
     }
@@ -284,8 +285,14 @@ pub fn drone_on_pad(scenario: &Scenario, vehicle: &Vehicle) -> DronePose {
     let feet = vehicle.hull.feet_m.iter().map(|foot| foot.down()).fold(0.0, f64::max);
     let team = &scenario.ground_team;
     DronePose {
-        position_m: team.pad_m + Vec3::new(0.0, 0.0, feet),
-        ned_from_frd: spandrel_model::frames::Rotation::from_euler(0.0, 0.0, math::wrap_pi(team.pad_heading_deg.to_radians())),
+        pose: Pose {
+            position_m: team.pad_m + Vec3::new(0.0, 0.0, feet),
+            ned_from_frd: spandrel_model::frames::Rotation::from_euler(
+                0.0,
+                0.0,
+                math::wrap_pi(team.pad_heading_deg.to_radians()),
+            ),
+        },
         spinning: false,
     }
 }
@@ -303,7 +310,7 @@ mod tests {
         let zero = Vec3::new(0.0, 0.0, 0.0);
         SceneMoment {
             at: SimTime::ZERO,
-            drone: DronePose { position_m: zero, ned_from_frd: Rotation::identity(), spinning: true },
+            drone: DronePose { pose: Pose { position_m: zero, ned_from_frd: Rotation::identity() }, spinning: true },
             velocity_m_s: Vec3::new(3.0, 0.0, -2.0),
             camera: camera_aimed_at(zero, Vec3::new(0.0, north, up), false),
             lens: REFERENCE_CAMERA,

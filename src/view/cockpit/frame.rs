@@ -68,7 +68,7 @@ impl Cockpit {
         }
         self.speaker.set(SoundInputs {
             rotors_rad_s: live.rotors_rad_s(&flight.job.1),
-            distance_m: (now.moment.drone.position_m - team.inspector_m).norm(),
+            distance_m: (now.moment.drone.pose.position_m - team.inspector_m).norm(),
             cues: live.feed().cues(now.moment.at, false),
             silent: false,
         });

@@ -93,7 +93,7 @@ impl ViewPanes {
 
     /// From where the inspector stands to the aircraft, m.
     pub fn to_aircraft(&self, now: &LiveMoment) -> spandrel_model::frames::Vec3<spandrel_model::frames::Enu> {
-        now.moment.drone.position_m - self.job.scenario.ground_team.inspector_m
+        now.moment.drone.pose.position_m - self.job.scenario.ground_team.inspector_m
     }
 
     /// Gives back what it holds of the window's painter.

@@ -2,6 +2,7 @@
 
 use spandrel_model::frames::{Enu, Rotation, Vec3};
 use spandrel_model::math;
+use spandrel_model::pose::Pose;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
@@ -111,7 +112,8 @@ impl Studio {
     pub fn moment(&self, from: Vec3<Enu>, look: Vec3<Enu>, lamp: bool, velocity_m_s: Vec3<Enu>) -> SceneMoment {
         let to = look - from;
         let yaw = math::atan2(to.east(), to.north());
-        let drone = DronePose { position_m: from, ned_from_frd: Rotation::from_euler(0.02, -0.05, yaw), spinning: true };
+        let drone =
+            DronePose { pose: Pose { position_m: from, ned_from_frd: Rotation::from_euler(0.02, -0.05, yaw) }, spinning: true };
         let camera = camera_aimed_at(from + to.unit() * 0.1, look, lamp);
         SceneMoment { at: self.at, drone, velocity_m_s, camera, lens: self.vehicle.camera, turn: Default::default() }
     }

@@ -1,11 +1,14 @@
 //! In-flight guidance: follows the leg, avoids obstacles, searches for defects, takes pictures, and recovers from upsets.
 
+use super::config::PilotConfig;
 use super::goals::{FlightGoal, PlanningContext};
+use super::guidance_state::PhotoTarget;
 use super::perception::MotionState;
+use super::stick_command::{angles, sticks};
 use super::stick_response::StickAxes;
-use super::track::{LegProgress, TrackCommand, TrackLeg};
+use super::track::TrackCommand;
 use super::visual_search::{Glimpse, camera_pose};
-use super::{Pilot, PilotConfig, PilotPhase};
+use super::{Pilot, PilotPhase};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::dialect::MavCmd;
 use spandrel_model::frames::{Enu, Vec3};
@@ -13,10 +16,6 @@ use spandrel_model::math;
 use spandrel_model::site::DefectView;
 use spandrel_model::time::SimTime;
 
-/// Heading loop gain of the trained pilot, 1/s (estimate).
-const YAW_PER_S: f64 = 1.3;
-/// Fraction of the perceived speed error added to the stick command, trained pilot (estimate).
-const SPEED_FEEDBACK: f64 = 0.35;
 /// Time without progress after which the aircraft counts as stuck, s.
 const STUCK_S: f64 = 6.0;
 /// Duration of the back-off maneuver after the aircraft was stuck, s.
@@ -35,70 +34,6 @@ const LEAVE_S: f64 = 15.0;
 const JUDGE_RAD: f64 = 0.07;
 /// Relative standard deviation of size and brightness judged on a screen, trained pilot (estimate).
 const JUDGE_SHARE: f64 = 0.15;
-
-/// A noticed defect that is being photographed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct PhotoTarget {
-    defect: u32,
-    position_m: Vec3<Enu>,
-    normal: Vec3<Enu>,
-    since: SimTime,
-    triggered: Option<SimTime>,
-    attempts: u32,
-    /// The pilot's judgment error for this defect, in standard deviations of the trained pilot.
-    misjudged: f64,
-}
-
-/// Guidance state in flight.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Guidance {
-    leg: Option<(FlightGoal, TrackLeg)>,
-    progress: LegProgress,
-    best_along_m: f64,
-    best_since: SimTime,
-    back_off_until: SimTime,
-    needs_plan: bool,
-    target: Option<PhotoTarget>,
-    distractor_trigger: Option<SimTime>,
-}
-
-impl Guidance {
-    /// Creates the state before the first leg.
-    #[must_use]
-    pub fn new() -> Self {
-        Self {
-            leg: None,
-            progress: LegProgress::default(),
-            best_along_m: 0.0,
-            best_since: SimTime::ZERO,
-            back_off_until: SimTime::ZERO,
-            needs_plan: false,
-            target: None,
-            distractor_trigger: None,
-        }
-    }
-
-    /// Requests a route back to the leg, after the aircraft has been moved.
-    pub fn replan(&mut self) {
-        self.needs_plan = true;
-        self.target = None;
-    }
-
-    /// Returns the index of the active task, if any.
-    #[must_use]
-    pub fn task(&self) -> Option<usize> {
-        let (_, leg) = self.leg.as_ref()?;
-        leg.task.get(self.progress.next).copied().flatten()
-    }
-
-    fn begin_leg(&mut self, leg: TrackLeg, job: FlightGoal, now: SimTime) {
-        self.leg = Some((job, leg));
-        self.progress = LegProgress { next: 1, along_m: 0.0 };
-        self.best_along_m = 0.0;
-        self.best_since = now;
-        self.needs_plan = false;
-    }
-}
 
 impl Pilot {
     /// Runs one control step in the flight phase and returns the stick axes.
@@ -315,25 +250,4 @@ impl Pilot {
             self.link.send_command(MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [degrees, nan, nan, nan, 0.0, 0.0, 0.0]);
         }
     }
-}
-
-/// Heading (clockwise from north) and elevation of a line of sight, rad.
-fn angles(look: Vec3<Enu>) -> (f64, f64) {
-    (math::atan2(look.east(), look.north()), math::asin(look.up()))
-}
-
-/// Returns the stick axes for a desired velocity and line of sight, using the pilot's learned model of the aircraft.
-pub(super) fn sticks(wanted: Vec3<Enu>, belief: &MotionState, look: Option<Vec3<Enu>>, config: &PilotConfig) -> StickAxes {
-    let limits = &config.vehicle.limits;
-    let gain = config.skill.gain;
-    let push = wanted + (wanted - belief.velocity_m_s) * (SPEED_FEEDBACK * gain);
-    let (s, c) = math::sin_cos(belief.yaw_rad);
-    let forward = push.east() * s + push.north() * c;
-    let right = push.east() * c - push.north() * s;
-    let up = push.up();
-    let climb = if up > 0.0 { limits.climb_m_s } else { limits.descend_m_s };
-    // A near-vertical line of sight does not define a heading.
-    let turn = look.filter(|l| l.horizontal_norm() > 0.2).map_or(0.0, |l| math::wrap_pi(angles(l).0 - belief.yaw_rad));
-    [forward / limits.forward_m_s, right / limits.sideward_m_s, up / climb, turn * YAW_PER_S * gain / limits.yaw_rate_rad_s]
-        .map(|axis| axis.clamp(-1.0, 1.0))
 }

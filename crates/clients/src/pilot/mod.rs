@@ -3,6 +3,7 @@
 //! error. Its errors arise from noise; no type of error is scripted. Sans-IO: datagrams in, datagrams out; time comes from the
 //! vehicle.
 
+mod config;
 pub mod goals;
 pub mod perception;
 pub mod route_search;
@@ -14,19 +15,19 @@ pub mod visual_search;
 
 pub mod flight_plan;
 mod guidance;
+mod guidance_state;
+mod stick_command;
 
+pub use config::PilotConfig;
 pub use skill::{Skill, SkillFactor};
 
 use goals::FlightGoal;
-use guidance::Guidance;
+use guidance_state::Guidance;
 use perception::{MotionState, Perception};
 use spandrel_mavlink::dialect::MavCmd;
-use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 use spandrel_model::time::{Schedule, SimTime};
-use spandrel_model::vehicle::Vehicle;
 use std::collections::VecDeque;
-use std::sync::Arc;
 use stick_response::StickResponse;
 use vehicle_link::{VehicleLink, VehicleUpdate};
 use visual_search::VisualSearch;
@@ -39,19 +40,6 @@ const OVER_PAD_M: f64 = 2.5;
 const APPROACH_M: f64 = 5.0;
 /// Timeout for the start of a flight, s of simulation time.
 const PATIENCE_S: f64 = 60.0;
-
-/// Configuration of a synthetic pilot.
-#[derive(Debug, Clone)]
-pub struct PilotConfig {
-    /// The job.
-    pub scenario: Arc<Scenario>,
-    /// The aircraft.
-    pub vehicle: Arc<Vehicle>,
-    /// Skill parameters.
-    pub skill: Skill,
-    /// Seed of the pilot's random number streams.
-    pub seed: u64,
-}
 
 /// The end of the flight, as perceived by the pilot.
 #[derive(Debug, Clone, PartialEq)]
@@ -309,7 +297,7 @@ impl Pilot {
         let speed_m_s = if aside_m > OVER_PAD_M { 2.0 } else { 1.0 };
         let wish =
             (level * (0.6 * self.config.skill.gain)).limited(speed_m_s) + spandrel_model::frames::Vec3::new(0.0, 0.0, -rate);
-        let mut axes = guidance::sticks(wish, belief, None, &self.config);
+        let mut axes = stick_command::sticks(wish, belief, None, &self.config);
         if height_m < 0.5 && aside_m <= OVER_PAD_M {
             axes[2] = -1.0_f64.min(0.5 / self.config.vehicle.limits.descend_m_s).abs();
         }

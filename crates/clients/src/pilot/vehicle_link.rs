@@ -205,8 +205,8 @@ impl Default for VehicleLink {
 fn motion(truth: &Truth) -> MotionState {
     MotionState {
         time: truth.time,
-        position_m: truth.position_m,
-        velocity_m_s: truth.velocity_m_s,
-        yaw_rad: truth.ned_from_frd.yaw_rad(),
+        position_m: truth.motion.position_m,
+        velocity_m_s: truth.motion.velocity_m_s,
+        yaw_rad: truth.motion.ned_from_frd.yaw_rad(),
     }
 }

@@ -5,6 +5,7 @@ use crate::dialect::HIL_STATE_QUATERNION_DATA;
 use crate::units::{cm, deg_e7, milli_g, mm};
 use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
+use spandrel_model::pose::Motion;
 use spandrel_model::time::SimTime;
 
 /// Ground truth of the simulator at one instant, as received.
@@ -12,20 +13,17 @@ use spandrel_model::time::SimTime;
 pub struct Truth {
     /// Time since simulation start.
     pub time: SimTime,
-    /// Position relative to the scenario origin, m.
-    pub position_m: Vec3<Enu>,
-    /// Velocity, m/s.
-    pub velocity_m_s: Vec3<Enu>,
-    /// Attitude: rotation from body to NED.
-    pub ned_from_frd: Rotation<Frd, Ned>,
+    /// Motion, relative to the scenario origin.
+    pub motion: Motion<Enu>,
 }
 
 impl Truth {
     /// Returns true if the aircraft was respawned between this sample and a later one ([`is_jump`]).
     #[must_use]
     pub fn jumps_to(&self, next: &Self) -> bool {
-        let fastest_m_s = self.velocity_m_s.norm().max(next.velocity_m_s.norm());
-        is_jump((next.position_m - self.position_m).norm(), fastest_m_s, next.time - self.time)
+        let (here, there) = (&self.motion, &next.motion);
+        let fastest_m_s = here.velocity_m_s.norm().max(there.velocity_m_s.norm());
+        is_jump((there.position_m - here.position_m).norm(), fastest_m_s, next.time - self.time)
     }
 }
 
@@ -92,8 +90,10 @@ pub fn read(wire: &HIL_STATE_QUATERNION_DATA, plane: &LocalPlane) -> Option<Trut
     let velocity: Vec3<Ned> = Vec3::new(f64::from(wire.vx) * 0.01, f64::from(wire.vy) * 0.01, f64::from(wire.vz) * 0.01);
     Some(Truth {
         time: clock(wire.time_usec),
-        position_m: plane.enu_from_geo(geo),
-        velocity_m_s: velocity.enu(),
-        ned_from_frd: Rotation::from_wxyz(wire.attitude_quaternion.map(f64::from))?,
+        motion: Motion {
+            position_m: plane.enu_from_geo(geo),
+            velocity_m_s: velocity.enu(),
+            ned_from_frd: Rotation::from_wxyz(wire.attitude_quaternion.map(f64::from))?,
+        },
     })
 }

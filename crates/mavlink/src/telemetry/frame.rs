@@ -3,7 +3,8 @@
 use super::timeline::Flight;
 use crate::contract::contact::ContactKind;
 use crate::contract::truth::Truth;
-use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::pose::Motion;
 use spandrel_model::time::SimTime;
 
 /// Truth samples further apart than this leave a gap (docs/src/reference/assessment.md, "Frames").
@@ -56,13 +57,9 @@ impl Frame {
 
 /// Aircraft state interpolated between two truth samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FrameAccumulator {
-    /// Position, m.
-    pub position_m: Vec3<Enu>,
-    /// Velocity, m/s.
-    pub velocity_m_s: Vec3<Enu>,
-    /// Attitude of the preceding sample.
-    pub ned_from_frd: Rotation<Frd, Ned>,
+pub struct InterpolatedState {
+    /// Motion; the attitude is that of the preceding sample.
+    pub motion: Motion<Enu>,
     /// The time lies in a gap too long to interpolate.
     pub missing: bool,
     /// The time lies in a gap short enough to interpolate.
@@ -73,7 +70,7 @@ impl Flight {
     /// Returns the time at which the aircraft was first more than `height_m` above `pad_up_m`, a height in the scenario frame, m.
     #[must_use]
     pub fn lift_off(&self, pad_up_m: f64, height_m: f64) -> Option<SimTime> {
-        self.truths.iter().find(|truth| truth.position_m.up() - pad_up_m > height_m).map(|truth| truth.time)
+        self.truths.iter().find(|truth| truth.motion.position_m.up() - pad_up_m > height_m).map(|truth| truth.time)
     }
 
     /// Returns the time of the last truth sample.
@@ -85,17 +82,11 @@ impl Flight {
     /// Returns the aircraft state at `time`. Times before the first or after the last sample yield that sample. `None` if there
     /// are no samples.
     #[must_use]
-    pub fn between(&self, time: SimTime) -> Option<FrameAccumulator> {
+    pub fn between(&self, time: SimTime) -> Option<InterpolatedState> {
         let after = self.truths.partition_point(|truth| truth.time <= time);
         let before = self.truths[after.saturating_sub(1)..].first()?;
         let next = self.truths.get(after).filter(|_| after > 0);
-        let held = |missing| FrameAccumulator {
-            position_m: before.position_m,
-            velocity_m_s: before.velocity_m_s,
-            ned_from_frd: before.ned_from_frd,
-            missing,
-            interpolated: false,
-        };
+        let held = |missing| InterpolatedState { motion: before.motion, missing, interpolated: false };
         let Some(next) = next else { return Some(held(false)) };
         let span = next.time - before.time;
         if before.time == time {
@@ -108,9 +99,8 @@ impl Flight {
             return Some(held(false));
         }
         let t = (time - before.time).ns() as f64 / span.ns() as f64;
-        Some(FrameAccumulator {
-            position_m: before.position_m.lerp(next.position_m, t),
-            velocity_m_s: before.velocity_m_s.lerp(next.velocity_m_s, t),
+        Some(InterpolatedState {
+            motion: before.motion.lerp_held(&next.motion, t),
             interpolated: span > GAP_AFTER,
             ..held(false)
         })
@@ -134,8 +124,8 @@ impl Flight {
             sticks: self.sticks.at(time).unwrap_or_default(),
             light: self.light.at(time).unwrap_or(false),
             snapshot: !self.snapshots.between(since, time).is_empty(),
-            position_m: between.position_m,
-            velocity_m_s: between.velocity_m_s,
+            position_m: between.motion.position_m,
+            velocity_m_s: between.motion.velocity_m_s,
             // The battery counts as full until the vehicle has reported its level.
             battery_pct: self.battery.at(time).unwrap_or(100.0),
             contact: if between.missing { ContactKind::None } else { self.contact_in(since, time) },

@@ -1,6 +1,7 @@
 //! Position and orientation of the aircraft's camera.
 
 use crate::frames::{Enu, Frd, Ned, Rotation, Vec3};
+use crate::pose::Pose;
 use crate::vehicle::Camera;
 
 /// Position and orientation of a camera, and the state of its lamp.
@@ -20,12 +21,7 @@ impl CameraPose {
     /// Returns the camera pose for an aircraft pose. The attitude determines the heading. The gimbal keeps the camera free of
     /// roll at the pitch angle `gimbal_rad` above the horizon, rad.
     #[must_use]
-    pub fn on(
-        camera: &Camera,
-        (position_m, ned_from_frd): (Vec3<Enu>, Rotation<Frd, Ned>),
-        gimbal_rad: f64,
-        lamp_on: bool,
-    ) -> Self {
+    pub fn on(camera: &Camera, Pose { position_m, ned_from_frd }: Pose<Enu>, gimbal_rad: f64, lamp_on: bool) -> Self {
         let looking: Rotation<Frd, Ned> = Rotation::from_euler(0.0, gimbal_rad, ned_from_frd.yaw_rad());
         Self {
             position_m: position_m + (ned_from_frd * camera.position_m).enu(),

@@ -27,11 +27,11 @@ fn suspension() -> Bridge {
 }
 
 /// Returns random values near the defaults, within their ranges.
-fn strewn(fields: &[BridgeField], random: &mut RandomStream) -> Vec<f64> {
-    let strewn = |f: &BridgeField| (f.default * random.range(0.6, 1.7)).clamp(f.min, f.max);
+fn random_values(fields: &[BridgeField], random: &mut RandomStream) -> Vec<f64> {
+    let near_default = |f: &BridgeField| (f.default * random.range(0.6, 1.7)).clamp(f.min, f.max);
     fields
         .iter()
-        .map(strewn)
+        .map(near_default)
         .zip(fields)
         .map(|(v, f)| if ["panels", "stringers"].contains(&f.key) { v.round() } else { v })
         .collect()
@@ -42,8 +42,8 @@ fn many() -> Vec<Bridge> {
     let mut random = RandomStream::new(4, "bridges");
     let mut out = vec![arch(), suspension()];
     for _ in 0..60 {
-        out.push(bridge(BridgeKind::Arch(Arch::from_values(&strewn(Arch::FIELDS, &mut random)))));
-        out.push(bridge(BridgeKind::Suspension(Suspension::from_values(&strewn(Suspension::FIELDS, &mut random)))));
+        out.push(bridge(BridgeKind::Arch(Arch::from_values(&random_values(Arch::FIELDS, &mut random)))));
+        out.push(bridge(BridgeKind::Suspension(Suspension::from_values(&random_values(Suspension::FIELDS, &mut random)))));
     }
     out.retain(|b| b.kind.misfits().is_empty());
     let arches = out.iter().filter(|b| matches!(b.kind, BridgeKind::Arch(_))).count();
@@ -88,7 +88,7 @@ fn prop_every_solid_is_closed_convex_and_faces_outwards() {
                 let at = |k: usize| solid.vertices_m[face[k] as usize];
                 let normal = (at(1) - at(0)).cross(at(2) - at(0)).unit();
                 let height = |v: &Vec3<Enu>| normal.dot(*v - at(0));
-                assert!(face.iter().all(|k| height(&solid.vertices_m[*k as usize]).abs() < ROUNDING_M), "{name}: bent face");
+                assert!(face.iter().all(|k| height(&solid.vertices_m[*k as usize]).abs() < ROUNDING_M), "{name}: nonplanar face");
                 assert!(solid.vertices_m.iter().all(|v| height(v) < ROUNDING_M), "{name}: not convex");
             }
         }
@@ -287,7 +287,7 @@ fn least_gap(shapes: &[Convex], path: &TaskPath) -> f64 {
 }
 
 /// Checks that a path has steps of at most 1 m, turns that a slow aircraft can follow, and unit viewing directions.
-fn is_smooth(path: &TaskPath) {
+fn assert_smooth(path: &TaskPath) {
     // Sine of the angle for 0.8 m of an arc with a radius of 4 m, with a margin.
     const SHARPEST: f64 = 0.25;
     let n = path.path_m.len();
@@ -310,7 +310,7 @@ fn prop_paths_keep_their_stand_off() {
         for stand_off_m in [4.0, 6.5] {
             for kind in [TaskKind::SlabSide, TaskKind::ArchBottom, TaskKind::PierCircle] {
                 let Ok(path) = bridge.task_path(kind, stand_off_m) else { continue };
-                is_smooth(&path);
+                assert_smooth(&path);
                 let gap = least_gap(&shapes, &path);
                 assert!(gap > stand_off_m - ROUNDING_M, "{kind:?}: {gap} m, expected {stand_off_m} m, {:?}", bridge.kind);
                 assert!(kind == TaskKind::ArchBottom || gap < 1.1 * stand_off_m, "{kind:?}: {gap} m");
@@ -326,7 +326,7 @@ fn exact_the_pier_is_circled_at_one_distance_and_closed() {
     let pier = Convex::new(&named(&members, "pier-start").next().unwrap().solid);
     let path = bridge.task_path(TaskKind::PierCircle, 4.5).unwrap();
     assert!(path.closed);
-    is_smooth(&path);
+    assert_smooth(&path);
     for (p, look) in path.path_m.iter().zip(&path.look) {
         let near = pier.nearest(*p);
         assert!((near.distance_m - 4.5).abs() < ROUNDING_M);
@@ -344,7 +344,7 @@ fn exact_the_interlayer_lets_the_largest_shipped_aircraft_through() {
     const NEEDED_M: f64 = 0.5 * 1.07 + 0.5;
     let bridge = arch();
     let path = bridge.task_path(TaskKind::Interlayer, 4.0).unwrap();
-    is_smooth(&path);
+    assert_smooth(&path);
     let gap = least_gap(&solids(&bridge.members()), &path);
     assert!(gap >= NEEDED_M, "{gap} m");
     // The path is between deck and arch: below the floorbeams, between the ribs and above the crown.
@@ -374,14 +374,14 @@ fn prop_the_paths_look_at_the_bridge() {
 }
 
 #[test]
-fn exact_numbers_that_do_not_go_together_are_refused_with_their_line() {
+fn exact_inconsistent_dimensions_are_refused_with_their_line() {
     let text = spandrel_model::shipped::DRILL_GAP;
     let wide = text.replacen("heading_deg = 90.0\n\n", "heading_deg = 90.0\n[bridges.arch]\nrib_width_m = 5.5\n\n", 1);
     assert_ne!(text, wide);
     let problems = spandrel_model::scenario::read("wide.toml", &wide, &|_| Err(String::new())).unwrap_err();
-    let said = problems.to_string();
-    assert!(said.contains("rib_width_m = 5.5") && said.contains("at most 4.80"), "{said}");
-    assert!(said.starts_with("wide.toml:"), "{said}");
+    let message = problems.to_string();
+    assert!(message.contains("rib_width_m = 5.5") && message.contains("at most 4.80"), "{message}");
+    assert!(message.starts_with("wide.toml:"), "{message}");
 }
 
 /// Element numbers of the AASHTO MBEI (2015 interims), with the member names that may have them.
@@ -407,7 +407,7 @@ const MBEI: [(u16, &[&str]); 18] = [
 ];
 
 #[test]
-fn exact_every_member_carries_the_element_number_of_what_it_is() {
+fn exact_every_member_has_the_element_of_its_part() {
     let steel = [107, 113, 147, 148, 152, 207, 311, 313, 330];
     for bridge in many() {
         for member in bridge.members() {

@@ -80,14 +80,14 @@ fn val_every_member_of_the_file_is_the_solid_that_collides() {
             assert!(shape.nearest(*corner).distance_m.abs() < ROUNDING_M, "{}", member.name);
         }
         for t in &node.triangles {
-            on_its_surface(&member.name, shape, t, &mut random);
+            assert_on_surface(&member.name, shape, t, &mut random);
         }
-        rays_agree(&member.name, shape, node, &mut random);
+        assert_rays_agree(&member.name, shape, node, &mut random);
     }
 }
 
 /// Checks that a ray toward a random point of an exported triangle hits the collision shape at that point.
-fn on_its_surface(name: &str, shape: &Convex, t: &Triangle, random: &mut RandomStream) {
+fn assert_on_surface(name: &str, shape: &Convex, t: &Triangle, random: &mut RandomStream) {
     let (mut a, mut b) = (random.uniform(), random.uniform());
     if a + b > 1.0 {
         (a, b) = (1.0 - a, 1.0 - b);
@@ -107,7 +107,7 @@ fn on_its_surface(name: &str, shape: &Convex, t: &Triangle, random: &mut RandomS
 }
 
 /// Checks that random rays hit the collision shape and the exported triangles at the same distance.
-fn rays_agree(name: &str, shape: &Convex, node: &Node, random: &mut RandomStream) {
+fn assert_rays_agree(name: &str, shape: &Convex, node: &Node, random: &mut RandomStream) {
     let (low, high) = shape.bounds();
     for _ in 0..8 {
         let aim = Vec3::new(

@@ -78,7 +78,7 @@ fn compare(readme: &str, keys: &Keys) -> Vec<String> {
 }
 
 #[test]
-fn val_every_scenario_key_is_documented_as_the_code_asks() {
+fn val_every_scenario_key_is_documented_as_the_code_reads_it() {
     let wrong = compare("scenarios/README.md", &scenario_keys());
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
@@ -96,7 +96,7 @@ fn val_the_dimensions_of_every_bridge_type_are_documented_with_their_meaning() {
 }
 
 #[test]
-fn val_every_aircraft_key_is_documented_as_the_code_asks() {
+fn val_every_aircraft_key_is_documented_as_the_code_reads_it() {
     let wrong = compare("vehicle-params/README.md", &vehicle_keys());
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -83,7 +83,7 @@ pub fn rows(frames: Vec<Frame>, flight: &Flight, navigation: &Navigation, scenar
             id: scenario.tasks[task].id,
             distance_m: paths.nearest(task, frame.position_m).map(|nearest| nearest.distance_m),
         });
-        let attitude = flight.between(frame.time).filter(|_| known).map(|between| between.ned_from_frd.euler());
+        let attitude = flight.between(frame.time).filter(|_| known).map(|between| between.motion.ned_from_frd.euler());
         FrameRow {
             // Division instead of multiplication by 1e-9 yields the double nearest to the decimal value, which prints short.
             since_lift_off_s: (frame.time - start).ns() as f64 / 1e9,

@@ -1,6 +1,7 @@
 //! Battery cue: green, yellow or red. A text is sent only when the color gets worse.
 
-use super::{FeedbackInput, PilotText};
+use super::input::FeedbackInput;
+use super::pilot_text::PilotText;
 use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::FeedbackThresholds;
 

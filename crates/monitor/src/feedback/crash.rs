@@ -1,7 +1,8 @@
 //! Crash cue: raised at the onset of any contact, with the name of the object hit. Its text precedes all others; onsets in quick
 //! succession produce one text.
 
-use super::{CoolDown, FeedbackInput, PilotText};
+use super::input::FeedbackInput;
+use super::pilot_text::{CoolDown, PilotText};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::FeedbackThresholds;

@@ -3,66 +3,18 @@
 
 pub mod battery;
 pub mod crash;
+mod input;
 pub mod off_path;
+mod pilot_text;
 pub mod speed;
 pub mod speeding;
 pub mod texts;
 pub mod too_close;
 
-use spandrel_mavlink::contract::contact::ContactKind;
+pub use input::{FeedbackInput, TaskProximity};
+pub use pilot_text::PilotText;
+
 use spandrel_model::scenario::Scenario;
-use spandrel_model::time::SimTime;
-
-/// Position of the drone relative to one task.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TaskProximity {
-    /// Distance to the task's path (l*), m.
-    pub distance_m: f64,
-    /// On-path threshold of the task, m.
-    pub threshold_m: f64,
-    /// Too-close distance specific to the task, m.
-    pub too_close_m: Option<f64>,
-    /// Task number.
-    pub id: u32,
-    /// Whether moving away ends the task: its path has been flown, or the nearest point is an end of the path.
-    pub may_leave: bool,
-}
-
-/// Input of the feedback rules at one instant.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FeedbackInput {
-    /// Simulation time.
-    pub time: SimTime,
-    /// Whether the session is running, from lift-off to its end.
-    pub in_session: bool,
-    /// Whether the drone is airborne. On the ground, proximity warnings are suppressed.
-    pub airborne: bool,
-    /// Speed, m/s.
-    pub speed_m_s: f64,
-    /// Remaining battery, %.
-    pub battery_pct: Option<f64>,
-    /// Distance to the nearest surface, m.
-    pub clearance_m: Option<f64>,
-    /// Contact after applying the pad rule.
-    pub contact: ContactKind,
-    /// Name of the object in contact, if the site provides one.
-    pub touched: Option<String>,
-    /// Proximity to each task, in scenario order.
-    pub tasks: Vec<TaskProximity>,
-    /// Index of the task whose path the drone is on.
-    pub current_task: Option<usize>,
-    /// Index of the last task entered.
-    pub last: Option<usize>,
-}
-
-/// A text for the pilot.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct PilotText {
-    /// Cue bit of the rule that raised the text.
-    pub cue: i32,
-    /// Text, at most 50 bytes.
-    pub text: String,
-}
 
 /// All feedback rules.
 #[derive(Debug, Clone)]
@@ -105,27 +57,5 @@ impl FeedbackRules {
         put(self.off_path.update(moment, &self.limits));
         put(self.battery.update(moment, &self.limits));
         (mask, texts)
-    }
-}
-
-/// Rate limit for a rule's texts: sends one when the cue turns on, then none until the interval has passed.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct CoolDown {
-    last_sent: Option<SimTime>,
-}
-
-impl CoolDown {
-    pub(super) fn cue_text(
-        &mut self,
-        now: SimTime,
-        interval: SimTime,
-        cue: i32,
-        words: impl FnOnce() -> String,
-    ) -> Option<PilotText> {
-        if self.last_sent.is_some_and(|said| now - said < interval) {
-            return None;
-        }
-        self.last_sent = Some(now);
-        Some(PilotText { cue, text: words() })
     }
 }

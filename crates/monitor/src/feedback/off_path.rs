@@ -2,7 +2,8 @@
 //! after leaving a task at an end of its path or once it is flown, the drone is in transit (docs/src/reference/assessment.md,
 //! "Feedback during the flight").
 
-use super::{CoolDown, FeedbackInput, PilotText, TaskProximity};
+use super::input::{FeedbackInput, TaskProximity};
+use super::pilot_text::{CoolDown, PilotText};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::FeedbackThresholds;
 use spandrel_model::time::SimTime;

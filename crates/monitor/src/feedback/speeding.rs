@@ -1,7 +1,8 @@
 //! Speeding cue: over the limit while on any path or near the last one entered. (Unlike the scorer, the live rule does not know
 //! where a task window ends.)
 
-use super::{CoolDown, FeedbackInput, PilotText};
+use super::input::FeedbackInput;
+use super::pilot_text::{CoolDown, PilotText};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::math::M_S_PER_MPH;
 use spandrel_model::numbers::{format_beside_limit, limit};

@@ -1,6 +1,6 @@
 //! Queue of pilot texts: sent one at a time, crashes first, stale ones dropped.
 
-use super::PilotText;
+use super::pilot_text::PilotText;
 use spandrel_mavlink::contract::cue;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;

@@ -1,6 +1,7 @@
 //! Too-close cue: the distance from the drone's center to the nearest surface is below the limit, with hysteresis.
 
-use super::{CoolDown, FeedbackInput, PilotText};
+use super::input::FeedbackInput;
+use super::pilot_text::{CoolDown, PilotText};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::numbers::format_beside_limit;
 use spandrel_model::scenario::FeedbackThresholds;

@@ -125,7 +125,7 @@ pub fn pose(flight: &Flight, time: SimTime, vehicle: &Vehicle) -> Option<CameraP
     let state = flight.between(time)?;
     let gimbal_rad = flight.gimbal.at(time).unwrap_or(0.0);
     let lamp_on = flight.light.at(time).unwrap_or(false);
-    Some(CameraPose::on(&vehicle.camera, (state.position_m, state.ned_from_frd), gimbal_rad, lamp_on))
+    Some(CameraPose::on(&vehicle.camera, state.motion.pose(), gimbal_rad, lamp_on))
 }
 
 fn view(look: &DefectView) -> DefectSighting {

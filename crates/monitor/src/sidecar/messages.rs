@@ -41,7 +41,7 @@ impl Monitor {
         let scenario = &self.config.scenario;
         let in_session = self.live.lift_off.is_some() && self.live.end.is_none() && self.outcome.is_none();
         let near = |(t, task): (usize, &spandrel_model::scenario::Task)| {
-            let nearest = self.paths.nearest(t, truth.position_m);
+            let nearest = self.paths.nearest(t, truth.motion.position_m);
             TaskProximity {
                 distance_m: nearest.map_or(f64::INFINITY, |nearest| nearest.distance_m),
                 threshold_m: task.threshold_m,
@@ -56,7 +56,7 @@ impl Monitor {
             time: truth.time,
             in_session,
             airborne: !self.live.on_ground && !self.is_down_at_home(truth),
-            speed_m_s: truth.velocity_m_s.norm(),
+            speed_m_s: truth.motion.velocity_m_s.norm(),
             battery_pct: self.live.battery_pct,
             clearance_m: self.live.clearance_m,
             contact,
@@ -79,8 +79,8 @@ impl Monitor {
     /// below pad height.
     fn is_down_at_home(&self, truth: &Truth) -> bool {
         let team = &self.config.scenario.ground_team;
-        let at_home = (truth.position_m - team.pad_m).horizontal_norm() <= team.home_radius_m;
-        at_home && self.height_m(truth.position_m) <= lift_off_height_m(&self.config.vehicle)
+        let at_home = (truth.motion.position_m - team.pad_m).horizontal_norm() <= team.home_radius_m;
+        at_home && self.height_m(truth.motion.position_m) <= lift_off_height_m(&self.config.vehicle)
     }
 
     pub(super) fn handle_command(&mut self, received: &ReceivedFrame) {

@@ -146,11 +146,11 @@ impl Monitor {
             self.event("telemetry_gap", json!({ "from_s": before.s(), "to_s": truth.time.s() }));
         }
         self.live.truth = Some(truth);
-        if self.live.lift_off.is_none() && self.height_m(truth.position_m) > lift_off_height_m(&self.config.vehicle) {
+        if self.live.lift_off.is_none() && self.height_m(truth.motion.position_m) > lift_off_height_m(&self.config.vehicle) {
             self.live.lift_off = Some(truth.time);
             self.event("lift_off", json!({}));
         }
-        self.update_task(truth.position_m);
+        self.update_task(truth.motion.position_m);
         self.send_due();
         self.check_end(&truth);
         let due = |last: Option<SimTime>| last.is_none_or(|last| truth.time - last >= HEARTBEAT_EVERY);
@@ -201,7 +201,7 @@ impl Monitor {
     fn is_soft_pad_touch(&self, contact: ContactKind) -> bool {
         let team = &self.config.scenario.ground_team;
         matches!(contact, ContactKind::Terrain | ContactKind::Other)
-            && self.live.truth.is_some_and(|truth| may_touch_pad(truth.position_m, truth.velocity_m_s.up(), team))
+            && self.live.truth.is_some_and(|truth| may_touch_pad(truth.motion.position_m, truth.motion.velocity_m_s.up(), team))
     }
 
     pub(super) fn counted_contact(&self) -> ContactKind {
@@ -214,7 +214,7 @@ impl Monitor {
 
     pub(super) fn contact_name(&self) -> Option<String> {
         let truth = self.live.truth?;
-        self.survey.as_ref()?.name_near(truth.position_m, TOUCH_REACH_M, truth.time)
+        self.survey.as_ref()?.name_near(truth.motion.position_m, TOUCH_REACH_M, truth.time)
     }
 
     fn check_end(&mut self, truth: &Truth) {
@@ -224,8 +224,8 @@ impl Monitor {
             let moment = EndMoment {
                 time: truth.time,
                 flown_s: (truth.time - start).s() + 1.0 / rate,
-                position_m: truth.position_m,
-                speed_m_s: truth.velocity_m_s.norm(),
+                position_m: truth.motion.position_m,
+                speed_m_s: truth.motion.velocity_m_s.norm(),
                 contact: self.counted_contact(),
                 battery_pct: self.live.battery_pct.unwrap_or(100.0),
                 armed: self.live.armed,

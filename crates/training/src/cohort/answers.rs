@@ -1,6 +1,6 @@
 //! Questionnaire answers of a cohort: counts per question, and comparison with measured scores.
 
-use super::SessionsByTrainee;
+use super::samples::SessionsByTrainee;
 use crate::questionnaire::{InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE};
 use crate::record::SessionRecord;
 use crate::statistics::{Correlation, quantile, spearman};

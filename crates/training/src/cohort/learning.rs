@@ -1,7 +1,8 @@
 //! The group's learning curves: for each score, the mean over trainees with enough sessions and a curve fitted to it.
 
+use super::progress::Repetition;
 use super::progress::TraineeProgress;
-use super::{SCORES, progress::Repetition};
+use super::samples::SCORES;
 use crate::statistics::{LEARNING_NEEDS, LearningCurve, learning_curve, mean};
 use serde::Serialize;
 

@@ -6,6 +6,7 @@ mod causal;
 pub mod columns;
 mod learning;
 mod progress;
+mod samples;
 mod scores;
 mod tables;
 
@@ -17,6 +18,7 @@ pub use scores::{Comparison, CrashRow, CrashTable, Distribution, GroupTest, Indi
 pub use tables::{TABLES, table, tables};
 
 use super::record::{IncompletePolicy, SessionRecord};
+use samples::SessionsByTrainee;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -75,22 +77,6 @@ pub struct Cohort {
     /// Reasons for caution in interpreting the results.
     pub warnings: Vec<String>,
 }
-
-/// Function that returns a score of a record.
-pub(super) type ScorePicker = fn(&SessionRecord) -> Option<f64>;
-
-/// The five scores by name.
-pub(super) const SCORES: [(&str, ScorePicker); 5] = [
-    ("conformity", |record| record.scores.conformity),
-    ("efficiency", |record| Some(record.scores.efficiency)),
-    ("safety", |record| Some(record.scores.safety)),
-    ("accuracy", |record| record.scores.accuracy),
-    OVERALL,
-];
-const OVERALL: (&str, ScorePicker) = ("overall", |record| Some(record.scores.overall));
-
-/// Sessions of each trainee on the job, in chronological order.
-pub(super) type SessionsByTrainee<'a> = BTreeMap<&'a str, Vec<&'a SessionRecord>>;
 
 /// Analyzes a cohort.
 #[must_use]

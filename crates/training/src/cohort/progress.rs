@@ -1,6 +1,6 @@
 //! Progress of one trainee over the repetitions, as in the paper's figure of participant 18.
 
-use super::SCORES;
+use super::samples::{SCORES, ScorePicker};
 use crate::record::{Crashes, IncompletePolicy, SessionRecord};
 use crate::statistics::{LearningCurve, learning_curve};
 use serde::Serialize;
@@ -106,7 +106,7 @@ pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy) -> Vec<Jo
 
 /// Computes the progress over one trainee's sessions, given in chronological order.
 pub fn progress(trainee: &str, sessions: &[&SessionRecord]) -> TraineeProgress {
-    let curve = |(score, pick): (&str, super::ScorePicker)| {
+    let curve = |(score, pick): (&str, ScorePicker)| {
         let values: Option<Vec<f64>> = sessions.iter().map(|record| pick(record)).collect();
         Some(ScoreCurve { score: score.to_owned(), curve: learning_curve(&values?).ok()? })
     };

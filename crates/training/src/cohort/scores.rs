@@ -1,6 +1,6 @@
 //! Score statistics of a cohort: distributions, individuals, crashes, repetitions and tests.
 
-use super::{OVERALL, SCORES, ScorePicker, SessionsByTrainee};
+use super::samples::{OVERALL, SCORES, ScorePicker, SessionsByTrainee};
 use crate::record::{Crashes, SessionRecord};
 use crate::statistics::{
     BoxPlot, HistogramBin, Homogeneity, PairedTest, SampleSummary, TailProbabilities, box_plot, histogram, holm, homogeneity,

@@ -1,6 +1,6 @@
 //! `answers.json`: a trainee's answers so far.
 
-use super::language::is_tag;
+use super::language_tag::is_tag;
 use super::{QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, TlxScale};
 use serde::de::Error as _;
 use serde::ser::SerializeMap;

@@ -1,22 +1,14 @@
 //! Questionnaire languages, shipped and site-specific, and language selection.
 
+use super::language_tag::is_tag;
 use super::wording::{Wording, read_wording};
 use spandrel_model::toml::Problems;
 
 /// File names and contents of the shipped wordings.
 pub const SHIPPED: [(&str, &str); 3] =
     [("en.toml", include_str!("en.toml")), ("de.toml", include_str!("de.toml")), ("es.toml", include_str!("es.toml"))];
-/// Maximum length of a language tag, characters (BCP 47 requires support for 35).
-const TAG_MAX: usize = 35;
 /// Maximum number of Accept-Language entries evaluated.
 const ACCEPTED_MOST: usize = 20;
-
-/// Returns whether the string has the form of a language tag.
-#[must_use]
-pub fn is_tag(tag: &str) -> bool {
-    let parts = || tag.split('-');
-    tag.len() <= TAG_MAX && parts().all(|part| (1..=8).contains(&part.len()) && part.chars().all(|c| c.is_ascii_alphanumeric()))
-}
 
 /// All available languages. The first is the default.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -4,6 +4,7 @@
 
 mod answers;
 mod language;
+mod language_tag;
 mod scales;
 mod wording;
 

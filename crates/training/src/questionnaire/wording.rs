@@ -1,6 +1,6 @@
 //! Questionnaire wording, read from a TOML file.
 
-use super::language::is_tag;
+use super::language_tag::is_tag;
 use super::{
     InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, TlxScale,
 };

@@ -1,6 +1,7 @@
 //! Causes of a session's scores, computed from its frames for each task.
 
-use super::{Crashes, DefectRecord, RecordSource, TaskRecord, kind_word};
+use super::source::RecordSource;
+use super::task_record::{Crashes, DefectRecord, TaskRecord, kind_word};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::defect_codes::kind_name;
 use spandrel_model::frames::{Enu, Vec3};

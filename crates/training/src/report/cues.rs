@@ -1,6 +1,6 @@
 //! Feedback given during the session, recovered by replaying the log through the monitor, and the trainee's stick responses.
 
-use super::ReviewContext;
+use super::context::ReviewContext;
 use super::track::TaskProximityStep;
 use spandrel_mavlink::contract::cue;
 use spandrel_mavlink::telemetry::log_stream::TelemetryLog;

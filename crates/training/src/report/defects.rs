@@ -1,6 +1,6 @@
 //! Outcome of each defect and, for missed ones, how close the flight came to showing them.
 
-use super::ReviewContext;
+use super::context::ReviewContext;
 use super::words;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::PlacedDefect;

@@ -5,6 +5,7 @@
 //! [`page::series`].
 
 pub mod assets;
+mod context;
 pub mod coverage;
 pub mod cues;
 pub mod defects;
@@ -18,11 +19,13 @@ pub mod table;
 pub mod track;
 pub mod words;
 
+pub use context::ReviewContext;
+
 use crate::plan::{self, PlanStep, RULES, read_rules};
 use crate::record::{RecordSource, SourceHashes, record};
 use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
 use spandrel_mavlink::telemetry::timeline::LinkCounts;
-use spandrel_mavlink::telemetry::{Flight, Frame, Timeline};
+use spandrel_mavlink::telemetry::{Frame, Timeline};
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
@@ -195,27 +198,4 @@ fn next(
     }
     let rules = read_rules("rules.toml", RULES).ok();
     rules.and_then(|rules| plan::plan(&[record], &rules, about.started_unix_us)).map_or_else(Vec::new, |plan| plan.steps)
-}
-
-/// Inputs shared by the parts of a review.
-#[derive(Debug, Clone, Copy)]
-pub struct ReviewContext<'a> {
-    /// Telemetry of the flight.
-    pub flight: &'a Flight,
-    /// Frames of the session.
-    pub frames: &'a [Frame],
-    /// Scenario of the session.
-    pub scenario: &'a Scenario,
-    /// Vehicle that was flown.
-    pub vehicle: &'a Vehicle,
-    /// Site of the session.
-    pub site: &'a Site,
-}
-
-impl ReviewContext<'_> {
-    /// Converts a simulation time to seconds since lift-off.
-    #[must_use]
-    pub fn time_since_lift_off_s(&self, time: spandrel_model::time::SimTime) -> f64 {
-        self.frames.first().map_or(0.0, |first| (time - first.time).s())
-    }
 }

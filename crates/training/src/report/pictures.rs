@@ -1,6 +1,6 @@
 //! Pictures with their verdicts, from the same geometry and lighting as the score.
 
-use super::ReviewContext;
+use super::context::ReviewContext;
 use super::track::TaskProximityStep;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::visibility::{lamp_lux, needed_lux};

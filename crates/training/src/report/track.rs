@@ -1,6 +1,6 @@
 //! Position relative to the tasks for each frame, and totals for each task's window.
 
-use super::ReviewContext;
+use super::context::ReviewContext;
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths};
 use spandrel_monitor::measures::on_speed;

@@ -170,7 +170,7 @@ impl LiveFlightState {
         if self.truth.is_some_and(|before| truth.time < before.time) {
             (self.current_task, self.cues, self.gates) = (None, 0, BridgeClosures::default());
         }
-        self.current_task = job.paths.on(truth.position_m, self.current_task).map(|(task, _)| task);
+        self.current_task = job.paths.on(truth.motion.position_m, self.current_task).map(|(task, _)| task);
         self.truth = Some(truth);
     }
 
@@ -189,7 +189,7 @@ impl LiveFlightState {
     pub fn to_json(&self, heard: bool) -> Value {
         let key = self.job().map(|key| format!("{:08x}-{}", key.crc, key.seed));
         let place = self.truth.map(|truth| {
-            let [e, n, u] = truth.position_m.array().map(|m| (m * 100.0).round() / 100.0);
+            let [e, n, u] = truth.motion.position_m.array().map(|m| (m * 100.0).round() / 100.0);
             json!([e, n, u])
         });
         let task = self.current_task.and_then(|on| self.job.as_ref()?.tasks.get(on)).map(|(id, name)| format!("{id} · {name}"));
@@ -206,8 +206,8 @@ impl LiveFlightState {
             "job": key,
             "t_s": self.truth.map(|truth| truth.time.s()),
             "place": place,
-            "speed_m_s": self.truth.map(|truth| truth.velocity_m_s.norm()),
-            "height_m": self.truth.map(|truth| truth.position_m.up()),
+            "speed_m_s": self.truth.map(|truth| truth.motion.velocity_m_s.norm()),
+            "height_m": self.truth.map(|truth| truth.motion.position_m.up()),
             "battery_pct": self.battery_pct,
             "clearance_m": self.clearance_m.filter(|metres| metres.is_finite()),
             "contact": self.contact.label(),

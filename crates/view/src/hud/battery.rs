@@ -1,7 +1,7 @@
 //! Battery display at the upper right: level bar, percentage, and an icon for the state.
 
 use super::icons::IconShape;
-use super::layout::{EDGE, MIDDLE};
+use super::metrics::{EDGE, MIDDLE};
 use super::pane::Pane;
 use super::state::Hud;
 use super::{DrawItem, HudColor, TextAlign};

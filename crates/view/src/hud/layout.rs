@@ -3,26 +3,16 @@
 use super::battery::battery;
 use super::map::map;
 use super::messages::messages;
+use super::metrics::{EDGE, SMALL};
 use super::pane::Pane;
 use super::small_view::brief;
+use super::speed::speed;
 use super::state::Hud;
 use super::status::status;
 use super::{DrawItem, HudColor, TextAlign};
-use spandrel_mavlink::contract::cue;
-use spandrel_model::numbers::format_beside_limit;
 
-/// Margin between blocks and the edges of the picture.
-pub(super) const EDGE: f64 = 0.025;
-/// Minimum gap between blocks.
-pub(super) const GAP: f64 = 0.01;
-/// Font sizes.
-const LARGE: f64 = 0.052;
-pub(super) const MIDDLE: f64 = 0.034;
-pub(super) const SMALL: f64 = 0.027;
 /// Smallest legible font size in flight, px (estimate: capitals of 6.5 px; in a picture 360 px high the size is 9.7 px).
 const LEAST_PX: f64 = 9.5;
-/// Meters per second in one mile per hour.
-pub(super) const M_S_PER_MPH: f64 = spandrel_model::math::M_S_PER_MPH;
 /// Central fraction of the picture in which a defect counts.
 const CENTRAL: f64 = 0.8;
 
@@ -62,28 +52,6 @@ fn frame(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     items.push(pane.line(&[(x - cross, y), (x + cross, y)], 0.0025, HudColor::White));
     items.push(pane.line(&[(x, y - cross), (x, y + cross)], 0.0025, HudColor::White));
     items
-}
-
-/// Speed text and color.
-pub(super) fn speed_words(hud: &Hud) -> (HudColor, String) {
-    let fast = hud.cues & cue::SPEEDING != 0;
-    (if fast { HudColor::Yellow } else { HudColor::White }, format!("{:.1} m/s", hud.speed_m_s))
-}
-
-/// Speed block, upper left.
-fn speed(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
-    let inner = EDGE + 0.016;
-    let mph = |m_s: f64| m_s / M_S_PER_MPH;
-    let (speed_mph, limit_mph) = (mph(hud.speed_m_s), mph(hud.limit_m_s));
-    let over = hud.speed_m_s > hud.limit_m_s;
-    let shown = if over { format_beside_limit(speed_mph, limit_mph, 0) } else { format!("{speed_mph:.0}") };
-    let limit = format!("{shown} mph, limit {limit_mph:.0}");
-    let (colour, words) = speed_words(hud);
-    vec![
-        pane.panel((EDGE, EDGE), (EDGE + 0.25, EDGE + 0.105)),
-        pane.text((inner, EDGE + 0.037), TextAlign::Left, LARGE, colour, words),
-        pane.text((inner, EDGE + 0.081), TextAlign::Left, SMALL, HudColor::Grey, limit),
-    ]
 }
 
 /// Values below the battery: height, distance from home, gimbal, time, lamp, pictures.

@@ -1,7 +1,7 @@
 //! Warnings at the lower left, the most serious lowest.
 
 use super::icons::IconShape;
-use super::layout::{EDGE, GAP, M_S_PER_MPH, MIDDLE};
+use super::metrics::{EDGE, GAP, M_S_PER_MPH, MIDDLE};
 use super::pane::Pane;
 use super::state::Hud;
 use super::text_metrics::{width_of, wrapped};

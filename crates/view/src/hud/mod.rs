@@ -8,10 +8,12 @@ pub mod layout;
 mod map;
 mod marker;
 mod messages;
+mod metrics;
 #[cfg(test)]
 mod overlap;
 mod pane;
 mod small_view;
+mod speed;
 pub mod state;
 mod status;
 #[cfg(test)]

@@ -2,9 +2,9 @@
 
 use super::battery::{ChargeStyle, charge};
 use super::icons::IconShape;
-use super::layout::speed_words;
 use super::messages::{ActiveCue, warnings};
 use super::pane::Pane;
+use super::speed::speed_words;
 use super::state::Hud;
 use super::status::alarm;
 use super::text_metrics::width_of;

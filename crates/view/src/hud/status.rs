@@ -1,6 +1,6 @@
 //! Status at the top center: flight mode, satellites, link.
 
-use super::layout::{EDGE, GAP, SMALL};
+use super::metrics::{EDGE, GAP, SMALL};
 use super::pane::Pane;
 use super::state::{GnssStatus, Hud};
 use super::{DrawItem, HudColor, TextAlign, battery};

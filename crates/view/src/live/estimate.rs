@@ -4,6 +4,7 @@ use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::MavMessage;
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
+use spandrel_model::pose::Motion;
 use spandrel_model::time::SimTime;
 
 /// Latest attitude, stored until a position arrives with its timestamp.
@@ -33,9 +34,11 @@ impl EstimatedPose {
                 let velocity: Vec3<Ned> = Vec3::new(f64::from(p.vx) * 0.01, f64::from(p.vy) * 0.01, f64::from(p.vz) * 0.01);
                 Some(Truth {
                     time: SimTime::from_ms(i64::from(p.time_boot_ms)),
-                    position_m: plane.enu_from_geo(geo),
-                    velocity_m_s: velocity.enu(),
-                    ned_from_frd: self.ned_from_frd?,
+                    motion: Motion {
+                        position_m: plane.enu_from_geo(geo),
+                        velocity_m_s: velocity.enu(),
+                        ned_from_frd: self.ned_from_frd?,
+                    },
                 })
             }
             _ => None,

@@ -8,7 +8,7 @@ mod series;
 mod trace;
 mod video;
 
-pub use trace::{AircraftMotion, MotionHistory};
+pub use trace::MotionHistory;
 pub use video::VideoStatus;
 
 use super::feed::Feed;
@@ -271,7 +271,7 @@ impl LiveFlight {
         self.time_reversals = 0;
         self.last_heard = Some(wall);
         self.playhead.handle_sample_time(wall, truth.time);
-        if self.state.lift_off.is_none() && truth.position_m.up() - self.pad_up_m > LIFT_OFF_M {
+        if self.state.lift_off.is_none() && truth.motion.position_m.up() - self.pad_up_m > LIFT_OFF_M {
             self.state.lift_off = Some(truth.time);
             self.state.since_when = self.state.trace.newest().is_none().then_some(wall);
         }
@@ -368,14 +368,14 @@ impl LiveFlight {
     pub fn moment(&mut self, wall: SimTime, vehicle: &Vehicle) -> Option<LiveMoment> {
         let at = self.playhead.advance(wall)?;
         let state = &self.state;
-        let pose = state.trace.at(at)?;
+        let motion = state.trace.at(at)?;
         let lens = state.trace.lens_at(at).map_or(vehicle.camera, |hfov_rad| Camera { hfov_rad, ..vehicle.camera });
         let gimbal_rad = state.trace.gimbal_at(at);
         let moment = SceneMoment {
             at,
-            drone: DronePose { position_m: pose.position_m, ned_from_frd: pose.ned_from_frd, spinning: state.armed },
-            velocity_m_s: pose.velocity_m_s,
-            camera: CameraPose::on(&vehicle.camera, (pose.position_m, pose.ned_from_frd), gimbal_rad, state.lamp),
+            drone: DronePose { pose: motion.pose(), spinning: state.armed },
+            velocity_m_s: motion.velocity_m_s,
+            camera: CameraPose::on(&vehicle.camera, motion.pose(), gimbal_rad, state.lamp),
             lens,
             turn: state.trace.turn_at(at),
         };

@@ -1,8 +1,12 @@
 //! A sparsely sampled value with interpolation.
 
-use super::trace::{GAP, KEPT, share};
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
+
+/// Age relative to the latest sample beyond which samples are discarded.
+pub(super) const KEPT: SimTime = SimTime::from_ms(3_000);
+/// Maximum gap between samples for interpolation.
+pub(super) const GAP: SimTime = SimTime::from_ms(1_000);
 
 /// Recent samples in time order.
 #[derive(Debug, Clone, Default)]
@@ -44,6 +48,11 @@ impl TimeSeries {
         let next = *self.points.get(after)?;
         (next.0 - before.0 <= GAP).then_some((before, next))
     }
+}
+
+/// Returns the fraction of `at` between two times, 0 to 1.
+pub(super) fn share(from: SimTime, to: SimTime, at: SimTime) -> f64 {
+    (at - from).s() / (to - from).s().max(1e-9)
 }
 
 #[cfg(test)]

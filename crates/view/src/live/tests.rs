@@ -74,7 +74,7 @@ fn exact_the_moment_lies_between_samples_and_reports_what_was_received() {
     let now = wire.now(1_990).expect("it has been heard");
     let behind_s = 6.98 + 0.01 - now.moment.at.s();
     assert!((behind_s - clock::BEHIND_S).abs() < 0.005, "{behind_s} s behind");
-    assert!((now.moment.drone.position_m.east() - (now.moment.at.s() - 5.0)).abs() < WIRE_M);
+    assert!((now.moment.drone.pose.position_m.east() - (now.moment.at.s() - 5.0)).abs() < WIRE_M);
     assert!(now.moment.camera.lamp_on && now.moment.drone.spinning);
     assert_eq!((now.hud.pictures, now.hud.last_picture), (1, Some(SimTime::from_ms(6_900))));
     assert_eq!(now.hud.lift_off, Some(SimTime::from_ms(5_000)));
@@ -99,7 +99,7 @@ fn exact_a_restarted_simulator_starts_over_and_strangers_are_not_drawn() {
         wire.truth(20 * k, 1_000 + 20 * k, -5.0);
     }
     let now = wire.now(1_400).expect("it flies again");
-    assert!(now.moment.at < SimTime::from_ms(500) && (now.moment.drone.position_m.east() + 5.0).abs() < WIRE_M);
+    assert!(now.moment.at < SimTime::from_ms(500) && (now.moment.drone.pose.position_m.east() + 5.0).abs() < WIRE_M);
     assert!(!now.moment.camera.lamp_on);
 }
 
@@ -128,7 +128,7 @@ fn exact_a_restarted_simulator_is_believed_when_it_reports_another_seed() {
     assert_eq!((wire.live.seed(), wire.now(1_440)), (Some(9), None));
     wire.truth(100, 1_460, 3.0);
     let now = wire.now(1_460).expect("it flies");
-    assert!(!now.moment.camera.lamp_on && (now.moment.drone.position_m.east() - 3.0).abs() < WIRE_M);
+    assert!(!now.moment.camera.lamp_on && (now.moment.drone.pose.position_m.east() - 3.0).abs() < WIRE_M);
     say_seed(&mut wire, 9, 1_480);
     assert!(wire.now(1_480).is_some(), "said again, it is the same session");
 }
@@ -158,14 +158,14 @@ fn exact_a_vehicle_without_truth_is_asked_and_drawn_by_its_estimate() {
         wire.say(&MavMessage::GLOBAL_POSITION_INT(place), 3_200 + 20 * i64::from(k));
     }
     let now = wire.now(3_600).expect("it is drawn");
-    assert!((now.moment.drone.position_m.up() - 30.0).abs() < WIRE_M && wire.live.is_estimated());
-    assert!((now.moment.drone.ned_from_frd.yaw_rad() - 1.0).abs() < 1e-6);
+    assert!((now.moment.drone.pose.position_m.up() - 30.0).abs() < WIRE_M && wire.live.is_estimated());
+    assert!((now.moment.drone.pose.ned_from_frd.yaw_rad() - 1.0).abs() < 1e-6);
     // Ground truth replaces the estimate once it arrives, and requests stop.
     for k in 0..10 {
         wire.truth(1_000 + 20 * k, 4_000 + 20 * k, 3.0);
     }
     let now = wire.now(4_200).expect("it is drawn");
-    assert!((now.moment.drone.position_m.east() - 3.0).abs() < WIRE_M && !wire.live.is_estimated());
+    assert!((now.moment.drone.pose.position_m.east() - 3.0).abs() < WIRE_M && !wire.live.is_estimated());
     assert_eq!(said(&mut wire, 20_000), 0);
 }
 

@@ -1,37 +1,17 @@
 //! Recent motion of the aircraft, with interpolation between samples.
 
-use super::series::TimeSeries;
+use super::series::{GAP, KEPT, TimeSeries, share};
 use crate::stage::CameraTurnRate;
 use spandrel_mavlink::contract::truth::Truth;
-use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
+use spandrel_model::frames::Enu;
 use spandrel_model::math;
+use spandrel_model::pose::Motion;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// Age relative to the latest sample beyond which samples are discarded.
-pub(super) const KEPT: SimTime = SimTime::from_ms(3_000);
-/// Maximum gap between samples for interpolation.
-pub(super) const GAP: SimTime = SimTime::from_ms(1_000);
 /// Additional delay of the camera's field of view: it is sent at 5 Hz, and with the general delay
 /// ([`BEHIND_S`](super::clock::BEHIND_S)) the next sample has arrived by then, including 20 ms of jitter (estimate).
 const LENS_BEHIND: SimTime = SimTime::from_ms(160);
-
-/// Position and motion of the aircraft.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AircraftMotion {
-    /// Position, ENU, m.
-    pub position_m: Vec3<Enu>,
-    /// Velocity, ENU, m/s.
-    pub velocity_m_s: Vec3<Enu>,
-    /// Attitude (body FRD to NED).
-    pub ned_from_frd: Rotation<Frd, Ned>,
-}
-
-impl AircraftMotion {
-    fn of(truth: &Truth) -> Self {
-        Self { position_m: truth.position_m, velocity_m_s: truth.velocity_m_s, ned_from_frd: truth.ned_from_frd }
-    }
-}
 
 /// Recent samples in time order.
 #[derive(Debug, Clone, Default)]
@@ -78,17 +58,13 @@ impl MotionHistory {
 
     /// Returns the motion at a time, clamped to the first and last sample.
     #[must_use]
-    pub fn at(&self, time: SimTime) -> Option<AircraftMotion> {
+    pub fn at(&self, time: SimTime) -> Option<Motion<Enu>> {
         let Some((before, next)) = self.around(time) else {
             let after = self.truths.partition_point(|truth| truth.time <= time);
-            return self.truths.get(after.saturating_sub(1)).map(AircraftMotion::of);
+            return self.truths.get(after.saturating_sub(1)).map(|truth| truth.motion);
         };
         let t = share(before.time, next.time, time);
-        Some(AircraftMotion {
-            position_m: before.position_m.lerp(next.position_m, t),
-            velocity_m_s: before.velocity_m_s.lerp(next.velocity_m_s, t),
-            ned_from_frd: before.ned_from_frd.lerp(next.ned_from_frd, t),
-        })
+        Some(before.motion.lerp(&next.motion, t))
     }
 
     /// Returns the gimbal's pitch at a time, rad; level without samples.
@@ -114,7 +90,8 @@ impl MotionHistory {
     #[must_use]
     pub fn turn_at(&self, time: SimTime) -> CameraTurnRate {
         let heading_rad_s = self.around(time).map_or(0.0, |(before, next)| {
-            math::wrap_pi(next.ned_from_frd.yaw_rad() - before.ned_from_frd.yaw_rad()) / (next.time - before.time).s()
+            math::wrap_pi(next.motion.ned_from_frd.yaw_rad() - before.motion.ned_from_frd.yaw_rad())
+                / (next.time - before.time).s()
         });
         CameraTurnRate { heading_rad_s, pitch_rad_s: self.gimbal.rate_at(time) }
     }
@@ -127,11 +104,6 @@ impl MotionHistory {
     }
 }
 
-/// Returns the fraction of `at` between two times, 0 to 1.
-pub(super) fn share(from: SimTime, to: SimTime, at: SimTime) -> f64 {
-    (at - from).s() / (to - from).s().max(1e-9)
-}
-
 fn continues(before: &Truth, next: &Truth) -> bool {
     let span = next.time - before.time;
     span <= GAP && !before.jumps_to(next)
@@ -140,13 +112,16 @@ fn continues(before: &Truth, next: &Truth) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spandrel_model::frames::{Rotation, Vec3};
 
     fn truth(ms: i64, east: f64, yaw_deg: f64) -> Truth {
         Truth {
             time: SimTime::from_ms(ms),
-            position_m: Vec3::new(east, 0.0, 10.0),
-            velocity_m_s: Vec3::new(2.0, 0.0, 0.0),
-            ned_from_frd: Rotation::from_euler(0.0, 0.0, yaw_deg.to_radians()),
+            motion: Motion {
+                position_m: Vec3::new(east, 0.0, 10.0),
+                velocity_m_s: Vec3::new(2.0, 0.0, 0.0),
+                ned_from_frd: Rotation::from_euler(0.0, 0.0, yaw_deg.to_radians()),
+            },
         }
     }
 

@@ -1,6 +1,6 @@
 //! JPEG encoding at the best quality that a size limit allows.
 
-use super::PhotoError;
+use super::info::PhotoError;
 use crate::picture::Picture;
 use jpeg_encoder::{ColorType, Encoder, SamplingFactor};
 

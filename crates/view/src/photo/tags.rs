@@ -1,6 +1,6 @@
 //! EXIF 2.32 metadata.
 
-use super::{PhotoError, PhotoInfo};
+use super::info::{PhotoError, PhotoInfo};
 use exif::experimental::Writer;
 use exif::{Field, In, Rational, Tag, Value};
 use spandrel_model::vehicle::SENSOR_MM;

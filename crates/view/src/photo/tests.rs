@@ -1,5 +1,8 @@
 use super::*;
 use exif::{In, Tag};
+use spandrel_model::geodesy::Geo;
+use spandrel_model::pose::Pose;
+use spandrel_model::vehicle::Camera;
 
 fn about() -> PhotoInfo {
     PhotoInfo {
@@ -65,7 +68,8 @@ fn exact_a_heading_is_reported_straight_up_and_down_too() {
     for yaw_deg in [0.5_f64, 45.0, 135.0, 180.0, 271.5, 359.0] {
         for pitch_deg in [-90.0_f64, -30.0, 0.0, 89.0, 90.0] {
             let attitude = Rotation::from_euler(0.1, -0.05, yaw_deg.to_radians());
-            let pose = CameraPose::on(&camera, (Vec3::new(0.0, 0.0, 0.0), attitude), pitch_deg.to_radians(), false);
+            let pose =
+                CameraPose::on(&camera, Pose { position_m: Vec3::zero(), ned_from_frd: attitude }, pitch_deg.to_radians(), false);
             let (yaw, pitch) = direction_deg(&pose);
             // The arcsine is flat at its ends: rounding errors of 1e-16 there become 1e-6 degrees.
             assert!((yaw - yaw_deg).abs() < 1e-9 && (pitch - pitch_deg).abs() < 1e-5, "{yaw_deg} {pitch_deg}: {yaw} {pitch}");

@@ -1,7 +1,7 @@
 //! XMP metadata: attitude of the gimbal and aircraft under the names that photogrammetry programs read for drones (DJI's, as in
 //! Metashape, Pix4D and OpenDroneMap), and simulator-specific values under the product's own names.
 
-use super::PhotoInfo;
+use super::info::PhotoInfo;
 use std::fmt::Write;
 
 /// Returns the XMP packet.

@@ -3,7 +3,7 @@
 use super::super::mesh::{Material, Mesh, Vertex, single};
 use super::super::quality::Quality;
 use super::bake::{INSET_M, LightBaker, filled};
-use super::{SceneItem, VisibleRange};
+use super::item::{SceneItem, VisibleRange};
 use spandrel_model::elements::{Element, ElementGroup, ElementMaterial};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::bridges::Member;

@@ -1,8 +1,8 @@
 //! Conifers and boulders for visual scale. They do not collide and are therefore kept clear of bridges, task paths and the pad.
 
-use super::super::mesh::{Material, Mesh, SurfaceFinish, Vertex};
+use super::super::mesh::{Material, Mesh, SurfaceFinish, Vertex, single};
 use super::super::quality::Quality;
-use super::{Instance, SceneItem, VisibleRange};
+use super::item::{Instance, SceneItem, VisibleRange};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
@@ -189,10 +189,9 @@ fn cone(mesh: &mut Mesh, rim: &[Vec3<Enu>], top: Vec3<Enu>) {
     mesh.polygon(rim, NEEDLES);
     mesh.indices.truncate(mesh.indices.len() - 3 * (rim.len() - 2));
     for (corner, at) in mesh.vertices.iter_mut().skip(first as usize).zip(rim) {
-        corner.normal = super::single((Vec3::new(at.east(), at.north(), 0.0).unit() + Vec3::new(0.0, 0.0, 0.35)).unit());
+        corner.normal = single((Vec3::new(at.east(), at.north(), 0.0).unit() + Vec3::new(0.0, 0.0, 0.35)).unit());
     }
-    let Some(apex) =
-        mesh.vertices.last().map(|corner| Vertex { position: super::single(top), normal: [0.0, 0.0, 1.0], ..*corner })
+    let Some(apex) = mesh.vertices.last().map(|corner| Vertex { position: single(top), normal: [0.0, 0.0, 1.0], ..*corner })
     else {
         return;
     };
@@ -228,7 +227,7 @@ fn soften(mesh: &mut Mesh) {
         let [x, y, z] = v.position.map(f64::from);
         let out = Vec3::<Enu>::new(x, y, 0.12 + 0.1 * z);
         let [nx, ny, nz] = v.normal.map(f64::from);
-        v.normal = super::single((Vec3::new(nx, ny, nz) + out.unit() * 0.8).unit());
+        v.normal = single((Vec3::new(nx, ny, nz) + out.unit() * 0.8).unit());
         let reach = (math::hypot(x, y) / 0.16).min(1.0) as f32;
         v.light = [0.35 + 0.65 * reach, 1.0];
     }

@@ -1,17 +1,16 @@
 //! Sound of a flight as samples: propellers from the rotor speeds, and warning tones. Pure; the caller provides the time base.
 
 mod propellers;
+mod smoothing;
 mod warnings;
 
+pub use smoothing::RATE_HZ;
 pub use warnings::spoken;
 
 use propellers::Propellers;
+use smoothing::SmoothedValue;
 use warnings::WarningTones;
 
-/// Sample rate, Hz: more than twice the highest harmonic.
-pub const RATE_HZ: u32 = 24_000;
-/// Time constant of level changes, s (estimate: faster than a motor, slow enough to prevent clicks).
-const SLEW_S: f64 = 0.02;
 /// Fraction of full scale available to each part, to prevent clipping.
 const PROPELLERS: f64 = 0.5;
 const WARNINGS: f64 = 0.45;
@@ -46,18 +45,6 @@ pub struct SoundInputs {
     pub cues: i32,
     /// Whether all sound is muted: switched off or paused.
     pub silent: bool,
-}
-
-/// A value that follows its target without jumps.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct SmoothedValue(f64);
-
-impl SmoothedValue {
-    /// Advances by one sample.
-    fn follow(&mut self, target: f64) -> f64 {
-        self.0 += (target - self.0) / (SLEW_S * f64::from(RATE_HZ));
-        self.0
-    }
 }
 
 /// Sound of a flight.

@@ -1,6 +1,6 @@
 //! Propeller sound: the blade-pass frequency of each rotor and its harmonics.
 
-use super::{RATE_HZ, SmoothedValue};
+use super::smoothing::{RATE_HZ, SmoothedValue};
 use spandrel_model::math;
 
 /// Blades per propeller (the paper's aircraft, a DJI Phantom 2, has two-bladed propellers of 9.4 inches, as do most of its size).

@@ -1,6 +1,6 @@
 //! Warning tones, distinguished by pitch and rhythm; only the most serious one sounds.
 
-use super::RATE_HZ;
+use super::smoothing::RATE_HZ;
 use spandrel_mavlink::contract::cue;
 use spandrel_model::math;
 

@@ -20,12 +20,12 @@ pub struct ElementSurface {
     /// This surface by outcome, m².
     pub by_fate_m2: BTreeMap<SurfaceOutcome, f64>,
     /// Area-weighted sums over the best pictures at the required pixel size and angle.
-    pub(in crate::report) sums: PictureSums,
+    pub(crate) sums: PictureSums,
 }
 
 /// Area-weighted sums of the best pictures' properties.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(in crate::report) struct PictureSums {
+pub(crate) struct PictureSums {
     area_m2: f64,
     incidence_rad: f64,
     gsd_m: f64,

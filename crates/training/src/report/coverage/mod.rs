@@ -4,34 +4,31 @@
 mod element;
 mod outcome;
 mod patches;
+mod sight;
 
 pub use element::{AveragePicture, ElementSurface, SurfaceCoverage};
 pub use outcome::SurfaceOutcome;
+pub use sight::{REQUIRED_GSD_M, reach_m};
 
-use super::ReviewContext;
+use super::context::ReviewContext;
 use super::pictures::{ReviewedPicture, exposure_s};
 use element::BestPicture;
 use patches::{SurfacePatch, inspectable};
+use sight::is_clear;
 use spandrel_model::elements::Element;
-use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::frames::Vec3;
 use spandrel_model::math;
 use spandrel_model::site::CameraPose;
-use spandrel_model::site::visibility::{INCIDENCE_MAX_RAD, LINE_WIDTH_MIN_PX, lamp_lux, needed_lux};
+use spandrel_model::site::visibility::{INCIDENCE_MAX_RAD, lamp_lux, needed_lux};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Camera;
 use spandrel_monitor::measures::attention;
 use std::collections::BTreeMap;
 
-/// Crack width that separates condition states 2 and 3 of reinforced concrete (0.05 in, AASHTO MBEI), m.
-const CRACK_M: f64 = 0.001_27;
-/// Pixel size on the surface at which that crack covers the half pixel required for a hit, m.
-pub const REQUIRED_GSD_M: f64 = CRACK_M / LINE_WIDTH_MIN_PX;
 /// Maximum motion blur, px (published practice for detection: one pixel).
 pub const BLUR_MAX_PX: f64 = 1.0;
 /// Surface beyond this multiple of the distance with the required pixel size counts as background.
 const BACKGROUND: f64 = 3.0;
-/// Sight lines end at this distance before the surface, m.
-const CLEAR_M: f64 = 0.02;
 /// Sampling interval of the camera's view during the flight.
 const VIEW_STEP: SimTime = SimTime::from_ms(2_000);
 /// Patches with the same orientation within this distance share their ambient light, m.
@@ -67,18 +64,6 @@ impl JudgedPatch {
         let unpictured = if self.in_view { SurfaceOutcome::Unpictured } else { SurfaceOutcome::Unseen };
         self.best.map_or(unpictured, |best| best.fate)
     }
-}
-
-/// Returns the distance at which a pixel has the required size, m.
-#[must_use]
-pub fn reach_m(camera: &Camera) -> f64 {
-    REQUIRED_GSD_M * camera.focal_px()
-}
-
-fn is_clear(from: Vec3<Enu>, to: Vec3<Enu>, scene: &ReviewContext<'_>) -> bool {
-    let line = to - from;
-    let reach = line.norm() - CLEAR_M;
-    reach <= 0.0 || scene.site.geometry().ray(from, line.unit(), reach).is_none()
 }
 
 /// Returns the distance, m, and the cosine of the incidence angle of a patch that is inside the image and faces the camera. Does
@@ -168,7 +153,7 @@ impl LightCache<'_> {
         let (pose, camera) = (&picture.pose, &picture.camera);
         let lamp = lamp_lux(&self.scene.vehicle.lamp, pose, patch.point_m, patch.normal);
         let lux = lamp + self.ambient_lux(patch, picture.time);
-        let velocity = self.scene.flight.between(picture.time).map_or(Vec3::zero(), |state| state.velocity_m_s);
+        let velocity = self.scene.flight.between(picture.time).map_or(Vec3::zero(), |state| state.motion.velocity_m_s);
         let to = patch.point_m - pose.position_m;
         let ray = to.unit();
         let across_m_s = (velocity - ray * velocity.dot(ray)).norm();

@@ -1,7 +1,7 @@
 //! Inspectable surface: the part visible from some point of a reference path, sampled in patches of about one square meter.
 
-use super::{is_clear, reach_m};
-use crate::report::ReviewContext;
+use super::sight::{is_clear, reach_m};
+use crate::report::context::ReviewContext;
 use spandrel_model::elements::Element;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;

@@ -1,6 +1,6 @@
 //! Defects found and missed, marked on the bridges. For missed ones: how close the flight came, and how they would have looked.
 
-use super::figure;
+use super::figure::figure;
 use super::gallery::{DefectMark, frame};
 use crate::report::Review;
 use crate::report::defects::DefectOutcome;

@@ -1,6 +1,6 @@
 //! Feedback given during the flight, and the trainee's response times.
 
-use super::{figure, scrolling};
+use super::figure::{figure, scrolling};
 use crate::report::Review;
 use crate::report::cues::{CueEpisode, KINDS, median};
 use crate::report::plots::{line, sheet, ticks, unit};

@@ -1,6 +1,6 @@
 //! The flight on the site, its timeline and its charts, linked by the slider.
 
-use super::{figure, legend, scrolling};
+use super::figure::{figure, legend, scrolling};
 use crate::report::cues::KINDS;
 use crate::report::plots::strips::{TimeStrip, strips};
 use crate::report::plots::{colors, map};

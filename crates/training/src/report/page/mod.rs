@@ -6,6 +6,7 @@ mod compare;
 mod conditions;
 mod defects_found;
 mod feedback;
+mod figure;
 mod flight_section;
 mod gallery;
 mod kinds;
@@ -106,25 +107,4 @@ fn document(title: &str, moves: &PageScripts, body: &Markup) -> String {
 
 fn scripts(texts: &[&str]) -> Markup {
     html! { @for text in texts { script { (PreEscaped(text)) } } }
-}
-
-/// Wraps wide content in a scrollable frame for small screens and keyboard use.
-fn scrolling(label: &str, body: &Markup) -> Markup {
-    html! { div.scroll tabindex="0" role="region" aria-label=(label) { (body) } }
-}
-
-/// Renders a figure with its caption.
-fn figure(caption: &str, body: &Markup) -> Markup {
-    html! { figure { figcaption { (caption) } (body) } }
-}
-
-/// Renders a legend from style and text of each entry.
-fn legend(entries: &[(&str, String)]) -> Markup {
-    html! {
-        ul.legend {
-            @for (class, words) in entries {
-                li { svg.swatch viewBox="0 0 14 14" aria-hidden="true" { rect class=(class) x="1" y="1" width="12" height="12" rx="3" {} } (words) }
-            }
-        }
-    }
 }

@@ -1,8 +1,8 @@
 //! Progress of one trainee on one job by repetition, as the paper shows for participant 18: scores, on-path share by task,
 //! crashes by kind and, from four repetitions on, learning curves. Part of the server's and the cohort's pages.
 
+use super::figure::{figure, legend};
 use super::kinds::{KINDS, counted, segments};
-use super::{figure, legend};
 use crate::cohort::{JobProgress, Repetition, ScoreCurve, TraineeProgress};
 use crate::record::omitted_summary;
 use crate::report::plots::bars::{CountRow, counts};

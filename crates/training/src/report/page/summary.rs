@@ -1,6 +1,6 @@
 //! Page header and the four scores with their components.
 
-use super::figure;
+use super::figure::figure;
 use crate::report::Review;
 use crate::report::plots::radar::{RadarAxis, radar};
 use crate::report::table::{Table, TableCell};

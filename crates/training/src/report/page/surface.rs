@@ -1,6 +1,6 @@
 //! Surface coverage by element: what the pictures show, and why the rest does not count.
 
-use super::{figure, legend};
+use super::figure::{figure, legend};
 use crate::report::Review;
 use crate::report::coverage::{BLUR_MAX_PX, ElementSurface, REQUIRED_GSD_M, SurfaceCoverage, SurfaceOutcome, reach_m};
 use crate::report::plots::bars::{StackedBar, stacks};

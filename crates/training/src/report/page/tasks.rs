@@ -1,6 +1,6 @@
 //! Results by task: on-path share, speeding, crashes by kind.
 
-use super::{figure, legend};
+use super::figure::{figure, legend};
 use crate::report::Review;
 use crate::report::plots::bars::{self, CountRow, ShareRow};
 use crate::report::table::{Table, TableCell};

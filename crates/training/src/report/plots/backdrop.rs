@@ -1,6 +1,6 @@
 //! Water and ground in the background of a drawing.
 
-use super::map::PlotMap;
+use super::plot_map::PlotMap;
 use super::{line, simplified, unit};
 use maud::{Markup, html};
 use spandrel_model::frames::Vec3;

@@ -1,6 +1,6 @@
 //! The track's three color modes: value shown, legend, and segments of equal color.
 
-use super::map::{PlotMap, TRACK_WITHIN};
+use super::plot_map::{PlotMap, TRACK_WITHIN};
 use super::{line, simplified};
 use crate::report::Review;
 use crate::report::words;

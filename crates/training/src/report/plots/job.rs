@@ -1,7 +1,8 @@
 //! Drawings of a job without a flight, for the scenario page and as the background of the live page.
 
 use super::backdrop::{ground, lake};
-use super::map::{PlotMap, extent, label_distance, north, pad, references, scale, structure};
+use super::map::{extent, label_distance, north, pad, references, scale, structure};
+use super::plot_map::PlotMap;
 use super::sheet;
 use crate::report::outline::ParallelView;
 use maud::{Markup, html};

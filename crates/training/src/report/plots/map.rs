@@ -3,6 +3,7 @@
 
 use super::backdrop::{ground, lake};
 use super::colors::{COLOURINGS, track};
+use super::plot_map::{PlotMap, TRACK_WITHIN};
 use super::{line, sheet, simplified, unit};
 use crate::report::Review;
 use crate::report::outline::{ParallelView, outlines};
@@ -13,69 +14,12 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{Bridge, Scenario, Task};
 use spandrel_model::site::Site;
 
-/// Width of the sheet.
-const WIDTH: f64 = 900.0;
-const MARGIN: f64 = 26.0;
-/// Minimum and maximum height of the sheet.
-const HEIGHTS: (f64, f64) = (110.0, 760.0);
 /// Minimum size on the sheet; smaller shapes are skipped.
 const LEAST: f64 = 1.6;
-/// Tolerance for simplifying a track, in sheet units.
-pub(super) const TRACK_WITHIN: f64 = 0.35;
 /// Frames farther to the side of a bridge than this are not drawn in its elevation, m.
 const BESIDE_M: f64 = 45.0;
 /// With more pictures than this, their marks are small and unnumbered.
 const MANY: usize = 40;
-
-/// A projection fitted to a sheet.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PlotMap {
-    /// The projection.
-    pub view: ParallelView,
-    /// Upper left corner of the drawing, m right and up.
-    pub(super) corner_m: (f64, f64),
-    /// Sheet units per meter.
-    pub(super) scale: f64,
-    /// Size of the sheet, in sheet units.
-    pub size: (f64, f64),
-}
-
-impl PlotMap {
-    /// Fits a projection to points.
-    #[must_use]
-    pub fn around(view: ParallelView, points_m: &[Vec3<Enu>]) -> Self {
-        let flat: Vec<(f64, f64)> = points_m.iter().map(|point| view.at(*point)).collect();
-        let span = |f: fn(&(f64, f64)) -> f64| {
-            let (low, high) = flat.iter().map(f).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
-            if low <= high { (low, high) } else { (-1.0, 1.0) }
-        };
-        let ((left, right), (low, high)) = (span(|p| p.0), span(|p| p.1));
-        let (wide, tall) = ((right - left).max(10.0), (high - low).max(5.0));
-        let scale = ((WIDTH - 2.0 * MARGIN) / wide).min((HEIGHTS.1 - 2.0 * MARGIN) / tall);
-        let height = (tall * scale + 2.0 * MARGIN).max(HEIGHTS.0);
-        // Content that does not fill the sheet is centered.
-        let aside = (0.5 * (WIDTH / scale - (right - left)), 0.5 * (height / scale - (high - low)));
-        Self { view, corner_m: (left - aside.0, high + aside.1), scale, size: (WIDTH, height) }
-    }
-
-    /// Returns the position of a site point on the sheet.
-    #[must_use]
-    pub fn at(&self, point_m: Vec3<Enu>) -> (f64, f64) {
-        self.on_sheet(self.view.at(point_m))
-    }
-
-    pub(super) fn on_sheet(&self, (right_m, up_m): (f64, f64)) -> (f64, f64) {
-        ((right_m - self.corner_m.0) * self.scale, (self.corner_m.1 - up_m) * self.scale)
-    }
-
-    /// Returns the projection matrix for the page's script: x = m0 e + m1 n + m2 u + m3, y = m4 e + m5 n + m6 u + m7.
-    #[must_use]
-    pub fn matrix(&self) -> String {
-        let (r, u, k) = (self.view.right.array(), self.view.up.array(), self.scale);
-        let rows = [[r[0] * k, r[1] * k, r[2] * k, -self.corner_m.0 * k], [-u[0] * k, -u[1] * k, -u[2] * k, self.corner_m.1 * k]];
-        rows.iter().flatten().map(|value| format!("{value:.4}")).collect::<Vec<_>>().join(" ")
-    }
-}
 
 /// Draws the plan view.
 #[must_use]
@@ -314,6 +258,7 @@ pub(super) fn scale(map: &PlotMap) -> Markup {
 
 #[cfg(test)]
 mod tests {
+    use super::super::plot_map::MARGIN;
     use super::*;
 
     #[test]

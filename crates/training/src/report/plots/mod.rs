@@ -13,6 +13,7 @@ pub mod lines;
 pub mod map;
 pub mod model;
 pub mod overlay;
+pub mod plot_map;
 pub mod practice;
 pub mod radar;
 pub mod strips;

@@ -2,7 +2,8 @@
 
 use super::backdrop::{ground, lake};
 use super::colors::plain_color;
-use super::map::{PlotMap, beside, everything, is_beside, label_distance, north, pad, references, scale, structure};
+use super::map::{beside, everything, is_beside, label_distance, north, pad, references, scale, structure};
+use super::plot_map::PlotMap;
 use super::{sheet, unit};
 use crate::report::Review;
 use crate::report::outline::ParallelView;

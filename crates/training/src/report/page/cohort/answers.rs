@@ -1,7 +1,8 @@
 //! Questionnaire answers, and their relation to measured scores.
 
-use super::super::{figure, legend, scrolling};
-use super::{people_shown, pooled};
+use super::super::figure::{figure, legend, scrolling};
+use super::people_shown::people_shown;
+use super::pooled;
 use crate::cohort::{Cohort, Likert};
 use crate::questionnaire::{QuestionnaireItem, SHIPPED, read_wording};
 use crate::report::plots::likert::{LikertQuestion, likert};

@@ -1,6 +1,6 @@
 //! The causal model section: demand, strain and performance, with feedback as moderator.
 
-use super::super::{figure, scrolling};
+use super::super::figure::{figure, scrolling};
 use crate::cohort::{Cohort, IndirectEffect, MediationModel, SENSIBLE_N};
 use crate::report::plots::intervals::{IntervalEstimate, intervals};
 use crate::report::plots::model::{PathEffect, PathEffects, model};

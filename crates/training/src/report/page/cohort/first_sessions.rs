@@ -1,8 +1,9 @@
 //! First sessions: distributions, trainees and tasks, crashes.
 
+use super::super::figure::{figure, legend};
 use super::super::kinds::{KINDS, counted, segments};
-use super::super::{figure, legend};
-use super::{people_shown, pooled};
+use super::people_shown::people_shown;
+use super::pooled;
 use crate::cohort::Cohort;
 use crate::report::plots::bars::{CountRow, ShareRow, counts, shares};
 use crate::report::plots::histogram::histogram;

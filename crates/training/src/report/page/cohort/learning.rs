@@ -1,7 +1,7 @@
 //! Practice effects: the group's learning curves and the trainees with repeated sessions.
 
+use super::super::figure::{figure, legend};
 use super::super::progress::{most, pictures, too_few};
-use super::super::{figure, legend};
 use crate::cohort::{Cohort, GroupCurve, TraineeProgress};
 use crate::report::plots::practice::{PracticeChart, practice};
 use crate::report::table::{Table, TableCell};

@@ -5,17 +5,18 @@ mod answers;
 mod causal;
 mod first_sessions;
 mod learning;
+mod people_shown;
 mod pooled;
 mod repetitions;
+
+pub use people_shown::PEOPLE_SHOWN;
 
 use super::{PageScripts, document};
 use crate::cohort::{Cohort, TABLES, tables};
 use crate::record::omitted_summary;
 use crate::report::table::download;
 use maud::{Markup, html};
-
-/// Maximum number of trainees listed individually.
-pub const PEOPLE_SHOWN: usize = 60;
+use people_shown::people_shown;
 
 /// Location of the table files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,11 +25,6 @@ pub enum TableLinks<'a> {
     Inside,
     /// Served: prefix of the address and a query, which enclose the file name.
     At(&'a str, &'a str),
-}
-
-/// Returns whether the page lists trainees individually.
-fn people_shown(cohort: &Cohort) -> bool {
-    cohort.trainees <= PEOPLE_SHOWN
 }
 
 /// Renders the standalone offline page.

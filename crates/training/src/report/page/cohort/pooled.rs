@@ -1,6 +1,6 @@
 //! Distributions shown in place of individual lists for large cohorts.
 
-use super::super::figure;
+use super::super::figure::figure;
 use crate::cohort::{Cohort, SelfRatingPair};
 use crate::report::plots::boxes::{NamedBox, boxes};
 use crate::report::plots::histogram::histogram;

@@ -1,6 +1,6 @@
 //! Changes between repetitions.
 
-use super::super::figure;
+use super::super::figure::figure;
 use crate::cohort::{Cohort, Comparison};
 use crate::report::plots::boxes::{NamedBox, boxes};
 use crate::report::table::{Table, TableCell};

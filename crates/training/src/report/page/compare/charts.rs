@@ -1,8 +1,8 @@
 //! Both flights on the site and over time, linked by one slider.
 
+use super::super::figure::{figure, legend};
 use super::super::flight_section::slider;
 use super::super::series::AlignmentEvent;
-use super::super::{figure, legend};
 use crate::report::Review;
 use crate::report::plots::overlay;
 use crate::report::table::{Table, TableCell};

@@ -2,7 +2,8 @@
 
 mod charts;
 
-use super::{PageScripts, document, figure, legend, series, summary};
+use super::figure::{figure, legend};
+use super::{PageScripts, document, series, summary};
 use crate::report::Review;
 use crate::report::coverage::SurfaceOutcome;
 use crate::report::plots::bars::{ShareRow, shares};

@@ -1,0 +1,19 @@
+//! Configuration of a synthetic pilot.
+
+use super::skill::Skill;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::vehicle::Vehicle;
+use std::sync::Arc;
+
+/// Configuration of a synthetic pilot.
+#[derive(Debug, Clone)]
+pub struct PilotConfig {
+    /// The job.
+    pub scenario: Arc<Scenario>,
+    /// The aircraft.
+    pub vehicle: Arc<Vehicle>,
+    /// Skill parameters.
+    pub skill: Skill,
+    /// Seed of the pilot's random number streams.
+    pub seed: u64,
+}

@@ -1,0 +1,34 @@
+//! Texts for the pilot, and the rate limit for the texts of one rule.
+
+use spandrel_model::time::SimTime;
+
+/// A text for the pilot.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PilotText {
+    /// Cue bit of the rule that raised the text.
+    pub cue: i32,
+    /// Text, at most 50 bytes.
+    pub text: String,
+}
+
+/// Rate limit for a rule's texts: sends one when the cue turns on, then none until the interval has passed.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct CoolDown {
+    last_sent: Option<SimTime>,
+}
+
+impl CoolDown {
+    pub(super) fn cue_text(
+        &mut self,
+        now: SimTime,
+        interval: SimTime,
+        cue: i32,
+        words: impl FnOnce() -> String,
+    ) -> Option<PilotText> {
+        if self.last_sent.is_some_and(|said| now - said < interval) {
+            return None;
+        }
+        self.last_sent = Some(now);
+        Some(PilotText { cue, text: words() })
+    }
+}

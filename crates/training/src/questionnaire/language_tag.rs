@@ -1,0 +1,11 @@
+//! Language tags (BCP 47).
+
+/// Maximum length of a language tag, characters (BCP 47 requires support for 35).
+const TAG_MAX: usize = 35;
+
+/// Returns whether the string has the form of a language tag.
+#[must_use]
+pub fn is_tag(tag: &str) -> bool {
+    let parts = || tag.split('-');
+    tag.len() <= TAG_MAX && parts().all(|part| (1..=8).contains(&part.len()) && part.chars().all(|c| c.is_ascii_alphanumeric()))
+}

@@ -1,0 +1,67 @@
+//! Inputs of a session record.
+
+use crate::questionnaire::Answers;
+use spandrel_model::scenario::{PlacedDefect, Scenario};
+use spandrel_monitor::AssessedSession;
+use spandrel_monitor::folder::sha256_hex;
+use spandrel_monitor::score::SCORER_VERSION;
+
+/// Format version of a record. It increases when fields are added, so that older records are recreated.
+pub const FORMAT: u32 = 2;
+
+/// Inputs of a record.
+#[derive(Debug, Clone, Copy)]
+pub struct RecordSource<'a> {
+    /// Name of the session folder.
+    pub id: &'a str,
+    /// Pseudonym of the trainee.
+    pub trainee: &'a str,
+    /// `practice` or `assessment`, if chosen.
+    pub purpose: Option<&'a str>,
+    /// Wall-clock time of simulation time zero, µs since the Unix epoch.
+    pub started_unix_us: u64,
+    /// Version of Spandrel that recorded the session.
+    pub spandrel_version: &'a str,
+    /// Scenario of the session.
+    pub scenario: &'a Scenario,
+    /// Vehicle id.
+    pub vehicle: &'a str,
+    /// Hashes of the source files.
+    pub hashes: &'a SourceHashes,
+    /// Scores and frames.
+    pub graded: &'a AssessedSession,
+    /// Defects placed by the session's seed.
+    pub placed: &'a [PlacedDefect],
+    /// Questionnaire answers, if started.
+    pub answers: Option<&'a Answers>,
+}
+
+/// SHA-256 of a session's source files, hexadecimal.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SourceHashes {
+    /// Hash of `scenario.toml`.
+    pub scenario: String,
+    /// Hash of `vehicle.toml`.
+    pub vehicle: String,
+    /// Hash of `telemetry.tlog`.
+    pub telemetry: String,
+    /// Hash of `answers.json`; of the empty string if there is none.
+    pub answers: String,
+}
+
+impl SourceHashes {
+    /// Computes the hashes of the files' bytes.
+    #[must_use]
+    pub fn of(scenario: &[u8], vehicle: &[u8], telemetry: &[u8], answers: &[u8]) -> Self {
+        let hex = sha256_hex;
+        Self { scenario: hex(scenario), vehicle: hex(vehicle), telemetry: hex(telemetry), answers: hex(answers) }
+    }
+
+    /// Returns one hash over all files, the scorer version and the record format. As long as it is unchanged, the record is up to
+    /// date.
+    #[must_use]
+    pub fn fingerprint(&self) -> String {
+        let Self { scenario, vehicle, telemetry, answers } = self;
+        sha256_hex(format!("{FORMAT} {SCORER_VERSION} {scenario} {vehicle} {telemetry} {answers}").as_bytes())
+    }
+}

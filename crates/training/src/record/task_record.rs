@@ -1,0 +1,146 @@
+//! Tasks, crashes and defects of a session record.
+
+use serde::{Deserialize, Serialize};
+use spandrel_mavlink::contract::contact::ContactKind;
+use spandrel_model::elements::Element;
+use spandrel_model::scenario::TaskKind;
+use spandrel_monitor::score::completion::TaskState;
+
+/// One task of a session, with the causes of its score.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TaskRecord {
+    /// Task number.
+    pub id: u32,
+    /// Task name.
+    pub name: String,
+    /// Task kind: `slab_side`, `arch_bottom`, `interlayer`, `pier_circle`, `free`.
+    pub kind: String,
+    /// Whether its path was entered.
+    pub attempted: bool,
+    /// Done, partly done or not attempted; absent in records of format 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state: Option<TaskState>,
+    /// Fraction of its path that was flown, 0 to 1; absent in records of format 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub covered: Option<f64>,
+    /// Time from the first to the last on-path frame, s.
+    pub seconds: f64,
+    /// Fraction of that time on the path, 0 to 1.
+    pub on_path: f64,
+    /// Speeding loss as defined in the paper.
+    pub speeding: f64,
+    /// Time above the speed limit, s.
+    pub speeding_s: f64,
+    /// Maximum speed in that time, m/s.
+    pub fastest_m_s: f64,
+    /// Time off the path but within 8 m of it, s.
+    pub off_path_s: f64,
+    /// Mean horizontal distance from the path while off it, m; `None` if never off.
+    pub off_sideways_m: Option<f64>,
+    /// Mean vertical distance from the path while off it, m; `None` if never off.
+    pub off_height_m: Option<f64>,
+    /// Crashes in its window.
+    pub crashes: Crashes,
+    /// Number of defects nearest to its path.
+    pub defects_placed: usize,
+    /// Number of these defects that were found.
+    pub defects_found: usize,
+}
+
+/// Number of crashes by what was hit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Crashes {
+    /// Crashes into bridges.
+    pub bridge: usize,
+    /// Crashes into the ground.
+    pub terrain: usize,
+    /// Crashes into water.
+    pub water: usize,
+    /// Crashes into anything else except traffic.
+    pub other: usize,
+    /// Crashes into cars and trucks.
+    pub vehicle: usize,
+    /// Crashes into people.
+    pub person: usize,
+}
+
+impl Crashes {
+    /// Adds one crash.
+    pub(super) fn add(&mut self, with: ContactKind) {
+        match with {
+            ContactKind::None => {}
+            ContactKind::Bridge => self.bridge += 1,
+            ContactKind::Terrain => self.terrain += 1,
+            ContactKind::Water => self.water += 1,
+            ContactKind::Other => self.other += 1,
+            ContactKind::Vehicle => self.vehicle += 1,
+            ContactKind::Person => self.person += 1,
+        }
+    }
+
+    /// Returns the sum of both.
+    #[must_use]
+    pub fn with_added(self, more: Self) -> Self {
+        Self {
+            bridge: self.bridge + more.bridge,
+            terrain: self.terrain + more.terrain,
+            water: self.water + more.water,
+            other: self.other + more.other,
+            vehicle: self.vehicle + more.vehicle,
+            person: self.person + more.person,
+        }
+    }
+
+    /// Returns each kind with its key.
+    #[must_use]
+    pub fn by_kind(&self) -> [(&'static str, usize); 6] {
+        [
+            ("bridge", self.bridge),
+            ("terrain", self.terrain),
+            ("water", self.water),
+            ("other", self.other),
+            ("vehicle", self.vehicle),
+            ("person", self.person),
+        ]
+    }
+
+    /// Returns the total number of crashes.
+    #[must_use]
+    pub fn total(&self) -> usize {
+        self.by_kind().iter().map(|(_, count)| count).sum()
+    }
+}
+
+/// One defect of a session.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct DefectRecord {
+    /// Defect number.
+    pub id: u32,
+    /// Defect code (AASHTO MBEI).
+    pub kind: u32,
+    /// Plain name of the defect code.
+    pub kind_name: String,
+    /// Element with the defect, as its number (AASHTO MBEI).
+    pub element: Element,
+    /// Condition state, 1 to 4 (AASHTO MBEI).
+    pub condition_state: u8,
+    /// Number of the task with the nearest path; `None` without tasks.
+    pub task: Option<u32>,
+    /// Whether a snapshot shows it.
+    pub found: bool,
+    /// For a missed defect: conditions that its best picture failed; empty if no picture was near it.
+    pub lacked: Vec<String>,
+    /// For a missed defect: time during which a picture would have shown it, s. Computed only for a session's report.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub in_view_s: Option<f64>,
+}
+
+pub(super) fn kind_word(kind: TaskKind) -> &'static str {
+    match kind {
+        TaskKind::SlabSide => "slab_side",
+        TaskKind::ArchBottom => "arch_bottom",
+        TaskKind::Interlayer => "interlayer",
+        TaskKind::PierCircle => "pier_circle",
+        TaskKind::Free => "free",
+    }
+}

@@ -1,0 +1,30 @@
+//! Inputs shared by the parts of a review.
+
+use spandrel_mavlink::telemetry::{Flight, Frame};
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::Site;
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Vehicle;
+
+/// Inputs shared by the parts of a review.
+#[derive(Debug, Clone, Copy)]
+pub struct ReviewContext<'a> {
+    /// Telemetry of the flight.
+    pub flight: &'a Flight,
+    /// Frames of the session.
+    pub frames: &'a [Frame],
+    /// Scenario of the session.
+    pub scenario: &'a Scenario,
+    /// Vehicle that was flown.
+    pub vehicle: &'a Vehicle,
+    /// Site of the session.
+    pub site: &'a Site,
+}
+
+impl ReviewContext<'_> {
+    /// Converts a simulation time to seconds since lift-off.
+    #[must_use]
+    pub fn time_since_lift_off_s(&self, time: SimTime) -> f64 {
+        self.frames.first().map_or(0.0, |first| (time - first.time).s())
+    }
+}

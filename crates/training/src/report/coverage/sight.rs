@@ -1,0 +1,25 @@
+//! Sight lines, and the distance at which a picture is fine enough.
+
+use crate::report::context::ReviewContext;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::site::visibility::LINE_WIDTH_MIN_PX;
+use spandrel_model::vehicle::Camera;
+
+/// Crack width that separates condition states 2 and 3 of reinforced concrete (0.05 in, AASHTO MBEI), m.
+const CRACK_M: f64 = 0.001_27;
+/// Pixel size on the surface at which that crack covers the half pixel required for a hit, m.
+pub const REQUIRED_GSD_M: f64 = CRACK_M / LINE_WIDTH_MIN_PX;
+/// Sight lines end at this distance before the surface, m.
+const CLEAR_M: f64 = 0.02;
+
+/// Returns the distance at which a pixel has the required size, m.
+#[must_use]
+pub fn reach_m(camera: &Camera) -> f64 {
+    REQUIRED_GSD_M * camera.focal_px()
+}
+
+pub(super) fn is_clear(from: Vec3<Enu>, to: Vec3<Enu>, scene: &ReviewContext<'_>) -> bool {
+    let line = to - from;
+    let reach = line.norm() - CLEAR_M;
+    reach <= 0.0 || scene.site.geometry().ray(from, line.unit(), reach).is_none()
+}

@@ -1,0 +1,24 @@
+//! Figures, legends and scrollable frames.
+
+use maud::{Markup, html};
+
+/// Wraps wide content in a scrollable frame for small screens and keyboard use.
+pub(super) fn scrolling(label: &str, body: &Markup) -> Markup {
+    html! { div.scroll tabindex="0" role="region" aria-label=(label) { (body) } }
+}
+
+/// Renders a figure with its caption.
+pub(super) fn figure(caption: &str, body: &Markup) -> Markup {
+    html! { figure { figcaption { (caption) } (body) } }
+}
+
+/// Renders a legend from style and text of each entry.
+pub(super) fn legend(entries: &[(&str, String)]) -> Markup {
+    html! {
+        ul.legend {
+            @for (class, words) in entries {
+                li { svg.swatch viewBox="0 0 14 14" aria-hidden="true" { rect class=(class) x="1" y="1" width="12" height="12" rx="3" {} } (words) }
+            }
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! A projection of the site fitted to a sheet.
+
+use crate::report::outline::ParallelView;
+use spandrel_model::frames::{Enu, Vec3};
+
+/// Width of the sheet.
+const WIDTH: f64 = 900.0;
+pub(super) const MARGIN: f64 = 26.0;
+/// Minimum and maximum height of the sheet.
+const HEIGHTS: (f64, f64) = (110.0, 760.0);
+/// Tolerance for simplifying a track, in sheet units.
+pub(super) const TRACK_WITHIN: f64 = 0.35;
+
+/// A projection fitted to a sheet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlotMap {
+    /// The projection.
+    pub view: ParallelView,
+    /// Upper left corner of the drawing, m right and up.
+    pub(super) corner_m: (f64, f64),
+    /// Sheet units per meter.
+    pub(super) scale: f64,
+    /// Size of the sheet, in sheet units.
+    pub size: (f64, f64),
+}
+
+impl PlotMap {
+    /// Fits a projection to points.
+    #[must_use]
+    pub fn around(view: ParallelView, points_m: &[Vec3<Enu>]) -> Self {
+        let flat: Vec<(f64, f64)> = points_m.iter().map(|point| view.at(*point)).collect();
+        let span = |f: fn(&(f64, f64)) -> f64| {
+            let (low, high) = flat.iter().map(f).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+            if low <= high { (low, high) } else { (-1.0, 1.0) }
+        };
+        let ((left, right), (low, high)) = (span(|p| p.0), span(|p| p.1));
+        let (wide, tall) = ((right - left).max(10.0), (high - low).max(5.0));
+        let scale = ((WIDTH - 2.0 * MARGIN) / wide).min((HEIGHTS.1 - 2.0 * MARGIN) / tall);
+        let height = (tall * scale + 2.0 * MARGIN).max(HEIGHTS.0);
+        // Content that does not fill the sheet is centered.
+        let aside = (0.5 * (WIDTH / scale - (right - left)), 0.5 * (height / scale - (high - low)));
+        Self { view, corner_m: (left - aside.0, high + aside.1), scale, size: (WIDTH, height) }
+    }
+
+    /// Returns the position of a site point on the sheet.
+    #[must_use]
+    pub fn at(&self, point_m: Vec3<Enu>) -> (f64, f64) {
+        self.on_sheet(self.view.at(point_m))
+    }
+
+    pub(super) fn on_sheet(&self, (right_m, up_m): (f64, f64)) -> (f64, f64) {
+        ((right_m - self.corner_m.0) * self.scale, (self.corner_m.1 - up_m) * self.scale)
+    }
+
+    /// Returns the projection matrix for the page's script: x = m0 e + m1 n + m2 u + m3, y = m4 e + m5 n + m6 u + m7.
+    #[must_use]
+    pub fn matrix(&self) -> String {
+        let (r, u, k) = (self.view.right.array(), self.view.up.array(), self.scale);
+        let rows = [[r[0] * k, r[1] * k, r[2] * k, -self.corner_m.0 * k], [-u[0] * k, -u[1] * k, -u[2] * k, self.corner_m.1 * k]];
+        rows.iter().flatten().map(|value| format!("{value:.4}")).collect::<Vec<_>>().join(" ")
+    }
+}

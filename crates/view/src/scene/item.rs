@@ -1,0 +1,116 @@
+//! Meshes of a scene with their instances.
+
+use crate::mesh::{Mesh, Vertex, single};
+use spandrel_model::frames::{Enu, Vec3};
+
+/// Transform and attributes of an instance of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "gpu", derive(bytemuck::Pod, bytemuck::Zeroable))]
+#[repr(C)]
+pub struct Instance {
+    /// Rows of the affine transform from mesh axes to the site.
+    pub rows: [[f32; 4]; 3],
+    /// Color of painted parts, linear; the last component is 1 if it applies.
+    pub paint: [f32; 4],
+    /// Indirect light on upward surfaces (fractions of sky and sun) and on downward surfaces.
+    pub around: [f32; 4],
+}
+
+impl Instance {
+    /// Identity transform; uses the mesh's own light.
+    pub const HERE: Self =
+        Self { rows: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]], paint: [0.0; 4], around: [1.0; 4] };
+
+    /// Creates an instance from an origin and three axis vectors, whose lengths set the scale.
+    #[must_use]
+    pub fn placed(origin_m: Vec3<Enu>, axes: [Vec3<Enu>; 3], around: [f32; 4]) -> Self {
+        let [x, y, z] = axes.map(single);
+        let o = single(origin_m);
+        Self { rows: [0, 1, 2].map(|k| [x[k], y[k], z[k], o[k]]), paint: [0.0; 4], around }
+    }
+
+    /// Transforms and lights a vertex as the shaders do.
+    pub(super) fn transformed(&self, v: &Vertex) -> Vertex {
+        let turned = |of: [f32; 3]| self.rows.map(|row| row[0] * of[0] + row[1] * of[1] + row[2] * of[2]);
+        let [x, y, z] = turned(v.normal);
+        let length = (x * x + y * y + z * z).sqrt().max(f32::MIN_POSITIVE);
+        let moved = turned(v.position);
+        let up = 0.5 + 0.5 * z / length;
+        let light = |k: usize| v.light[k] * (self.around[2 + k] + (self.around[k] - self.around[2 + k]) * up);
+        Vertex {
+            position: [0, 1, 2].map(|k| moved[k] + self.rows[k][3]),
+            normal: [x, y, z].map(|c| c / length),
+            light: [light(0), light(1)],
+            ..*v
+        }
+    }
+
+    pub(super) fn with_material(self, [r, g, b]: [f32; 3]) -> Self {
+        Self { paint: [r, g, b, 1.0], ..self }
+    }
+}
+
+/// A mesh and its instances.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SceneItem {
+    /// Name.
+    pub name: &'static str,
+    /// Mesh.
+    pub mesh: Mesh,
+    /// Instances.
+    pub instances: Vec<Instance>,
+    /// Whether it casts shadows.
+    pub casts: bool,
+    /// Distances at which it is drawn.
+    pub visible_range: VisibleRange,
+    /// Whether it belongs to the backdrop, which is split into sectors.
+    pub backdrop: bool,
+}
+
+/// Minimum and maximum distances at which an object is drawn, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VisibleRange {
+    /// In the direct view.
+    pub straight_m: [f64; 2],
+    /// In the lake's reflection.
+    pub in_lake_m: [f64; 2],
+}
+
+impl VisibleRange {
+    /// At any distance.
+    pub const ALWAYS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+    /// Never.
+    pub const NEVER: [f64; 2] = [f64::INFINITY, f64::INFINITY];
+    /// In the direct view and in the lake, at any distance.
+    pub const EVERYWHERE: Self = Self { straight_m: Self::ALWAYS, in_lake_m: Self::ALWAYS };
+    /// In the direct view only.
+    pub const STRAIGHT: Self = Self { in_lake_m: Self::NEVER, ..Self::EVERYWHERE };
+    /// In the lake only: a simplified stand-in.
+    pub const IN_LAKE: Self = Self { straight_m: Self::NEVER, ..Self::EVERYWHERE };
+
+    /// Returns a range closer than this distance, m.
+    #[must_use]
+    pub const fn within(most_m: f64) -> [f64; 2] {
+        [f64::NEG_INFINITY, most_m]
+    }
+
+    /// Returns a range from this distance on, m.
+    #[must_use]
+    pub const fn beyond(least_m: f64) -> [f64; 2] {
+        [least_m, f64::INFINITY]
+    }
+
+    /// Checks whether it is drawn at a distance, directly or in the lake.
+    #[must_use]
+    pub fn shows(&self, in_lake: bool, from_m: f64) -> bool {
+        let [begins, ends] = if in_lake { self.in_lake_m } else { self.straight_m };
+        begins <= from_m && from_m < ends
+    }
+}
+
+impl SceneItem {
+    /// Creates an item with one instance at the identity transform.
+    pub(super) fn here(name: &'static str, mesh: Mesh, casts: bool) -> Self {
+        Self { name, mesh, instances: vec![Instance::HERE], casts, visible_range: VisibleRange::EVERYWHERE, backdrop: false }
+    }
+}
