@@ -66,7 +66,7 @@ pub fn reference_shortfalls(camera: &Camera, lamp: &Lamp) -> Vec<String> {
         ("focal length, px", camera.focal_px(), REFERENCE_CAMERA.focal_px()),
         ("lamp intensity, cd", candela(lamp), candela(&REFERENCE_LAMP)),
         // The reciprocal, so that a higher value is better in all rows.
-        ("1/light needed, 1/lx", 1.0 / visibility::needed_lux(camera), 1.0 / visibility::needed_lux(&REFERENCE_CAMERA)),
+        ("light sensitivity, 1/lx", 1.0 / visibility::needed_lux(camera), 1.0 / visibility::needed_lux(&REFERENCE_CAMERA)),
         ("gimbal up, rad", camera.gimbal_pitch_max_rad, REFERENCE_CAMERA.gimbal_pitch_max_rad),
         ("gimbal down, rad", -camera.gimbal_pitch_min_rad, -REFERENCE_CAMERA.gimbal_pitch_min_rad),
     ];
@@ -417,7 +417,7 @@ mod tests {
         let dark = Lamp { flux_lm: 0.0, ..REFERENCE_LAMP };
         let words = reference_shortfalls(&coarse, &dark).join("; ");
         assert!(words.contains("focal") && words.contains("lamp") && words.contains("gimbal up"), "{words}");
-        assert!(!words.contains("light needed") && !words.contains("gimbal down"), "{words}");
+        assert!(!words.contains("light sensitivity") && !words.contains("gimbal down"), "{words}");
     }
 
     #[test]
