@@ -27,19 +27,19 @@ pub struct Scenario {
     pub bridges: Vec<Bridge>,
     /// The tasks, in file order; the index is t in the scoring formulas.
     pub tasks: Vec<Task>,
-    /// Defect settings.
+    /// Number, size and types of the defects.
     pub defects: DefectSpec,
-    /// Traffic settings.
+    /// Numbers and speed of vehicles and pedestrians.
     pub traffic: TrafficSpec,
-    /// Wind settings.
+    /// Wind model, mean wind and gusts.
     pub wind: WindSpec,
     /// Sun, cloud cover and surface reflection.
     pub light: LightSpec,
-    /// Session rules.
+    /// Session rules: crashes, battery and GNSS.
     pub rules: SessionRules,
-    /// Feedback thresholds.
+    /// Thresholds of the in-flight feedback.
     pub feedback: FeedbackThresholds,
-    /// Scoring parameters.
+    /// Parameters of the scoring formulas.
     pub scoring: ScoringParams,
     /// CRC-32 (IEEE) of the file without seed and placed defects, sent as `scn_crc`.
     pub crc: u32,
@@ -63,7 +63,7 @@ pub struct TerrainSpec {
 pub enum TerrainSource {
     /// Level ground at one height.
     Flat {
-        /// Height, m up.
+        /// Height of the ground, m up.
         height_m: f64,
     },
     /// A valley with a lake between mountains, generated from a separate seed, so that every session has the same terrain.

@@ -264,7 +264,7 @@ impl HeightGrid {
         if start < end { self.walk_cells(origin, direction, start, end) } else { None }
     }
 
-    /// Tests the cells below a ray one after another between two distances.
+    /// Tests the cells below a ray in order, from distance `start` to `end`.
     fn walk_cells(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, start: f64, end: f64) -> Option<(f64, Vec3<Enu>)> {
         let (x0, y0) = self.steps(origin);
         let (dx, dy) = (direction.east() / self.spacing_m, direction.north() / self.spacing_m);

@@ -37,9 +37,9 @@ pub struct NearestPoint {
     pub point_m: Vec3<Enu>,
     /// Outward unit normal of the surface at that point.
     pub normal: Vec3<Enu>,
-    /// Surface type.
+    /// Type of the surface.
     pub surface: Surface,
-    /// Object ID.
+    /// ID of the object.
     pub object: ObjectId,
 }
 
@@ -50,9 +50,9 @@ pub struct RayHit {
     pub distance_m: f64,
     /// Outward unit normal of the surface.
     pub normal: Vec3<Enu>,
-    /// Surface type.
+    /// Type of the surface.
     pub surface: Surface,
-    /// Object ID.
+    /// ID of the object.
     pub object: ObjectId,
 }
 
@@ -67,9 +67,9 @@ pub struct Contact {
     pub gap_m: f64,
     /// Velocity of the object at that point, m/s; nonzero for traffic.
     pub velocity_m_s: Vec3<Enu>,
-    /// Surface type.
+    /// Type of the surface.
     pub surface: Surface,
-    /// Object ID.
+    /// ID of the object.
     pub object: ObjectId,
 }
 

@@ -32,9 +32,9 @@ pub struct Vehicle {
     pub battery: BatterySpec,
     /// Limits of the flight controller.
     pub limits: FlightLimits,
-    /// Sensor errors and rates.
+    /// Error models and rates of the sensors.
     pub sensors: SensorSpec,
-    /// Camera and gimbal.
+    /// Camera and gimbal parameters.
     pub camera: Camera,
     /// Lamp aligned with the camera.
     pub lamp: Lamp,

@@ -112,7 +112,7 @@ fn drag(r: &mut Reader, root: &mut Section) -> Drag {
     drag
 }
 
-/// Minimum number of feet for an aircraft that stands stably on the ground.
+/// Minimum number of feet for a stable stance on the ground.
 const LEAST_FEET: usize = 3;
 
 fn hull(r: &mut Reader, root: &mut Section) -> Hull {

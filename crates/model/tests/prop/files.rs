@@ -158,7 +158,7 @@ fn prop_a_spoilt_scenario_is_refused_with_a_place_or_builds() {
         }
     }
     // The test is meaningful only if both outcomes occur often.
-    assert!(accepted > SCENARIO_MUTANTS / 20 && refused > SCENARIO_MUTANTS / 4, "{accepted} accepted, {refused} refused");
+    assert!(accepted > SCENARIO_MUTANTS / 20 && refused > SCENARIO_MUTANTS / 4, "{accepted} accepted, {refused} rejected");
 }
 
 #[test]
@@ -180,7 +180,7 @@ fn prop_a_spoilt_aircraft_is_refused_with_a_place_or_finite() {
             }
         }
     }
-    assert!(accepted > VEHICLE_MUTANTS / 20 && refused > VEHICLE_MUTANTS / 4, "{accepted} accepted, {refused} refused");
+    assert!(accepted > VEHICLE_MUTANTS / 20 && refused > VEHICLE_MUTANTS / 4, "{accepted} accepted, {refused} rejected");
 }
 
 fn bridge_text(kind: &str, values: &[(&str, f64)]) -> String {

@@ -62,7 +62,7 @@ fn compare(readme: &str, keys: &Keys) -> Vec<String> {
     for (key, asked, meaning) in &rows {
         let right = keys.get(key);
         if right != Some(asked) {
-            wrong.push(format!("{key}: the README has {asked:?}, but the code has {right:?}"));
+            wrong.push(format!("{key}: {asked:?} in the README, but {right:?} in the code"));
         }
         if meaning.trim().is_empty() {
             wrong.push(format!("{key}: the meaning is empty"));

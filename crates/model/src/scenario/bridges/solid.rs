@@ -42,9 +42,9 @@ pub type LocalPoint = [f64; 3];
 pub struct Footing {
     /// Start and end along the bridge.
     pub x_m: (f64, f64),
-    /// Start and end across the bridge.
+    /// Right and left end across the bridge.
     pub y_m: (f64, f64),
-    /// Height of the underside.
+    /// Height of the underside of the footing.
     pub up_m: f64,
 }
 
@@ -98,7 +98,7 @@ pub enum BeamDirection {
 pub struct PlateThickness {
     /// Thickness of both flanges.
     pub flange_m: f64,
-    /// Thickness of the web.
+    /// Thickness of the web plate.
     pub web_m: f64,
 }
 
