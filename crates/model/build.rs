@@ -1,12 +1,12 @@
-//! Lists the shipped scenario and vehicle files, so that the program carries them and works from any folder. A new file needs no
-//! registration: it is found here.
+//! Embeds the shipped scenario and vehicle files in the program, so that it works from any folder. New files are found
+//! automatically.
 
 use std::ffi::OsStr;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-/// The workspace's root, seen from this package.
+/// Path of the workspace root relative to this package.
 const ROOT: &str = "../..";
 
 fn main() {
@@ -24,11 +24,11 @@ fn main() {
     }
 }
 
-/// One constant with the text of each file.
+/// Returns Rust code that defines one constant per file with the file's text.
 fn constants(files: &[PathBuf], folder: &str) -> String {
     let mut code = String::new();
     for path in files {
-        // Relative to the manifest, so that a folder that was moved builds as it is.
+        // The path is relative to the manifest, so that the source tree can be moved without a clean build.
         let (stem, file) = (text(path.file_stem()), format!("/{ROOT}/{folder}/{}", text(path.file_name())));
         let _ = writeln!(code, "/// Text of `{folder}/{stem}.toml`.");
         let _ = writeln!(
@@ -40,7 +40,7 @@ fn constants(files: &[PathBuf], folder: &str) -> String {
     code
 }
 
-/// All of them with their names.
+/// Returns Rust code that defines the list of all files: stem and text.
 fn table(name: &str, files: &[PathBuf], folder: &str) -> String {
     let mut code = format!("/// Shipped files of `{folder}`: stem and text.\npub const {name}: &[(&str, &str)] = &[");
     for path in files {
@@ -51,7 +51,7 @@ fn table(name: &str, files: &[PathBuf], folder: &str) -> String {
     code
 }
 
-/// `two-bridges` is `TWO_BRIDGES`.
+/// Returns the name of a file's constant, such as `TWO_BRIDGES` for `two-bridges`.
 fn constant(stem: &str) -> String {
     stem.to_uppercase().replace('-', "_")
 }

@@ -1,6 +1,6 @@
-//! Defect codes of the AASHTO MBEI (docs/src/reference/domain.md, "Defects") with names, and sizes by condition state (the limits
-//! are in "Condition states" on that page; sizes without a limit there are estimates). [`crate::elements`] lists the codes that
-//! each element permits.
+//! Defect codes of the AASHTO MBEI with their names (docs/src/reference/domain.md, "Defects"), and defect sizes by condition
+//! state (the limits are in "Condition states" on the same page; sizes without a limit there are estimates). [`crate::elements`]
+//! lists the defect codes permitted on each element.
 
 use crate::random::RandomStream;
 
@@ -8,11 +8,11 @@ use crate::random::RandomStream;
 pub const CORROSION: u32 = 1000;
 /// Fatigue cracking of steel.
 pub const FATIGUE: u32 = 1010;
-/// Loose or missing fasteners.
+/// Connection defects: loose or missing fasteners.
 pub const CONNECTION: u32 = 1020;
-/// Delamination, spall, patched area.
+/// Delamination, spalls and patched areas of concrete.
 pub const SPALL: u32 = 1080;
-/// Exposed reinforcement.
+/// Exposed reinforcing steel.
 pub const REBAR: u32 = 1090;
 /// Cracking of prestressed concrete.
 pub const PSC_CRACK: u32 = 1110;
@@ -20,19 +20,19 @@ pub const PSC_CRACK: u32 = 1110;
 pub const EFFLORESCENCE: u32 = 1120;
 /// Cracking of reinforced concrete.
 pub const CRACK: u32 = 1130;
-/// Abrasion and wear.
+/// Abrasion or wear of concrete.
 pub const ABRASION: u32 = 1190;
 
-/// All codes that a seed may place, in ascending order.
+/// All defect codes used in random placement, in ascending order.
 pub const KINDS: &[u32] = &[CORROSION, FATIGUE, CONNECTION, SPALL, REBAR, PSC_CRACK, EFFLORESCENCE, CRACK, ABRASION];
 
-/// Returns true for line defects, whose width must be resolved in a photo.
+/// Returns true if a defect code is a line defect (a crack), whose width must be resolved in a photo.
 #[must_use]
 pub fn is_line(kind: u32) -> bool {
     matches!(kind, FATIGUE | PSC_CRACK | CRACK)
 }
 
-/// Returns the plain name of a defect code.
+/// Returns the display name of a defect code.
 #[must_use]
 pub fn kind_name(kind: u32) -> &'static str {
     match kind {
@@ -49,16 +49,16 @@ pub fn kind_name(kind: u32) -> &'static str {
     }
 }
 
-/// Size ranges of a defect kind in one condition state: length in m; width in m for lines, otherwise as a fraction of the length.
+/// Size ranges of a defect code in one condition state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SizeRanges {
     /// Minimum and maximum length, m.
     pub length_m: (f64, f64),
-    /// Minimum and maximum width: m for lines, a fraction of the length for areas.
+    /// Minimum and maximum width: m for line defects, a fraction of the length for all others.
     pub width: (f64, f64),
 }
 
-/// Returns the size ranges of a defect kind and condition state (2 or 3).
+/// Returns the size ranges of a defect code in a condition state (2 fair, 3 poor).
 #[must_use]
 pub fn sizes(kind: u32, condition_state: u8) -> SizeRanges {
     let poor = condition_state >= 3;
@@ -88,7 +88,7 @@ pub fn sizes(kind: u32, condition_state: u8) -> SizeRanges {
     SizeRanges { length_m, width }
 }
 
-/// Draws length and width, m, and multiplies both by `factor`.
+/// Draws a random length and width, m, both scaled by `factor`.
 pub fn draw(kind: u32, condition_state: u8, factor: f64, stream: &mut RandomStream) -> (f64, f64) {
     let s = sizes(kind, condition_state);
     let length = stream.range(s.length_m.0, s.length_m.1);

@@ -1,18 +1,18 @@
-//! Bridge elements of the AASHTO *Manual for Bridge Element Inspection* (MBEI) with number, name, material, unit of quantity and
-//! permitted defects. The sources are listed in docs/src/reference/domain.md, "Elements" and "Defects".
+//! Bridge elements of the AASHTO *Manual for Bridge Element Inspection* (MBEI) with their numbers, names, materials, units of
+//! quantity and permitted defects. The sources are listed in docs/src/reference/domain.md, "Elements" and "Defects".
 
 use crate::defect_codes::{ABRASION, CONNECTION, CORROSION, CRACK, EFFLORESCENCE, FATIGUE, PSC_CRACK, REBAR, SPALL};
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
-/// Material of an element, which determines its defects.
+/// Material of an element. It determines the defects that are permitted on the element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ElementMaterial {
     /// Reinforced concrete.
     ReinforcedConcrete,
     /// Prestressed concrete.
     PrestressedConcrete,
-    /// Steel and other metal.
+    /// Steel or another metal.
     Steel,
     /// Timber.
     Timber,
@@ -43,7 +43,7 @@ pub enum ElementGroup {
     Railing,
     /// Wearing surfaces and protective systems.
     Protection,
-    /// Elements outside this table.
+    /// Elements that are not in the table.
     Unlisted,
 }
 
@@ -66,7 +66,8 @@ macro_rules! elements {
         #[serde(from = "u16", into = "u16")]
         pub enum Element {
             $(#[doc = concat!("Element ", $number, ": ", $name, ".")] $variant,)+
-            /// Any other number, such as an element of a state agency; created by [`Element::from_number`]. No defect is permitted on it.
+            /// A number that is not in the table, such as an agency-defined element; created by [`Element::from_number`]. No
+            /// defects are permitted on it.
             Unlisted(u16),
         }
 
@@ -207,7 +208,7 @@ elements! {
 }
 
 impl Element {
-    /// Returns the defect codes permitted on the element; empty if the simulator has none for its material.
+    /// Returns the defect codes permitted on the element; empty if the simulator has no defects for its material.
     #[must_use]
     pub const fn permitted_defects(self) -> &'static [u32] {
         match self.material() {

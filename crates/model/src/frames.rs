@@ -1,12 +1,12 @@
-//! Coordinate frames in the type system. A [`Vec3`] carries the frame in which it is expressed; a [`Rotation`] carries its source
-//! and target frames.
+//! Coordinate frames as types. The type of a [`Vec3`] includes the frame in which it is expressed, and the type of a [`Rotation`]
+//! its source and target frames.
 //!
 //! * [`Ned`]: local tangent plane at the scenario origin, axes north, east, down. Used by flight control and MAVLink.
 //! * [`LocalNed`]: MAVLink's local frame, with the axes of [`Ned`] and the origin where the vehicle's estimator was initialized.
 //! * [`Enu`]: the same plane and origin, axes east, north, up. Used by site, scenario and assessment.
 //! * [`Frd`]: body frame, axes forward, right, down, origin at the center of mass.
 //!
-//! Only [`Ned`] and [`Enu`] convert directly; all other conversions require a [`Rotation`].
+//! Only [`Ned`] and [`Enu`] convert to each other directly; all other conversions require a [`Rotation`].
 
 use super::math;
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
@@ -27,7 +27,7 @@ pub struct Enu;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Frd;
 
-/// Three components expressed in frame `F`. The variable's name contains the quantity and its unit.
+/// A vector with three components expressed in frame `F`. Variable names state the quantity and its unit.
 pub struct Vec3<F> {
     v: Vector3<f64>,
     frame: PhantomData<F>,
@@ -46,19 +46,19 @@ impl<F> Vec3<F> {
         Self::new(0.0, 0.0, 0.0)
     }
 
-    /// Declares that raw components are expressed in `F`. State the reason at the call: `// FRAME: …`.
+    /// Creates a vector from raw components that are known to be expressed in `F`. State the reason at the call: `// FRAME: …`.
     #[must_use]
     pub const fn assume(v: Vector3<f64>) -> Self {
         Self { v, frame: PhantomData }
     }
 
-    /// Returns the raw components, for matrix algebra.
+    /// Returns the components without the frame type, for matrix algebra.
     #[must_use]
     pub const fn raw(self) -> Vector3<f64> {
         self.v
     }
 
-    /// Returns the components as an array.
+    /// Returns the components as an array, in the frame's axis order.
     #[must_use]
     pub fn array(self) -> [f64; 3] {
         [self.v.x, self.v.y, self.v.z]
@@ -82,7 +82,7 @@ impl<F> Vec3<F> {
         self.v.norm()
     }
 
-    /// Returns the squared length.
+    /// Returns the square of the Euclidean length.
     #[must_use]
     pub fn norm_squared(self) -> f64 {
         self.v.norm_squared()
@@ -108,7 +108,7 @@ impl<F> Vec3<F> {
         self.v.iter().all(|c| c.is_finite())
     }
 
-    /// Interpolates linearly to `other`.
+    /// Interpolates linearly: `t` = 0 returns this vector, 1 returns `other`.
     #[must_use]
     pub fn lerp(self, other: Self, t: f64) -> Self {
         self + (other - self) * t
@@ -265,13 +265,14 @@ impl<A, B> Rotation<A, B> {
         Self::assume(UnitQuaternion::identity())
     }
 
-    /// Declares that a raw quaternion rotates from `A` to `B`. State the reason at the call: `// FRAME: …`.
+    /// Creates a rotation from a quaternion that is known to rotate from `A` to `B`. State why at the call: `// FRAME: …`.
     #[must_use]
     pub fn assume(q: UnitQuaternion<f64>) -> Self {
         Self { q, frames: PhantomData }
     }
 
-    /// Creates a rotation from the components w, x, y, z, which are normalized; `None` if they are not finite or all near zero.
+    /// Creates a rotation from the quaternion components w, x, y, z and normalizes them; `None` if they are not finite or all
+    /// near zero.
     #[must_use]
     pub fn from_wxyz(wxyz: [f64; 4]) -> Option<Self> {
         let q = Quaternion::new(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
@@ -279,13 +280,13 @@ impl<A, B> Rotation<A, B> {
         (norm.is_finite() && norm > 1e-9).then(|| Self::assume(UnitQuaternion::new_normalize(q)))
     }
 
-    /// Returns the components w, x, y, z.
+    /// Returns the quaternion components w, x, y, z.
     #[must_use]
     pub fn wxyz(self) -> [f64; 4] {
         [self.q.w, self.q.i, self.q.j, self.q.k]
     }
 
-    /// Returns the raw quaternion.
+    /// Returns the quaternion without the frame types.
     #[must_use]
     pub fn raw(self) -> UnitQuaternion<f64> {
         self.q
@@ -309,14 +310,15 @@ impl<A, B> Rotation<A, B> {
         Rotation::assume(next.q * self.q)
     }
 
-    /// Interpolates along the shorter arc to another rotation: 0 is this rotation, 1 is the other. For nearby rotations the
-    /// angular rate is constant up to fourth order in their angle.
+    /// Interpolates to another rotation along the shorter arc: `t` = 0 returns this rotation, 1 returns `other`. For nearby
+    /// rotations the angular rate is constant up to fourth order in their angle.
     #[must_use]
     pub fn lerp(self, other: Self, t: f64) -> Self {
         let (a, b) = (self.q.into_inner(), other.q.into_inner());
         let b = if a.dot(&b) < 0.0 { -b } else { b };
         let between = a * (1.0 - t) + b * t;
-        // Opposite quaternions are the same rotation, so the sum never vanishes; at half a turn neither arc is shorter.
+        // Opposite quaternions represent the same rotation. After the sign change the two are at most 90 degrees apart, so their
+        // weighted sum does not vanish.
         if between.norm() > 1e-9 { Self::assume(UnitQuaternion::new_normalize(between)) } else { self }
     }
 
@@ -326,7 +328,7 @@ impl<A, B> Rotation<A, B> {
         let v = rotation_vector_rad.raw();
         let angle = v.norm();
         let (s, c) = math::sin_cos(angle * 0.5);
-        // The series keeps the quotient finite as the angle approaches zero.
+        // The limit of the quotient as the angle approaches zero avoids a division by zero.
         let k = if angle > 1e-9 { s / angle } else { 0.5 };
         let dq = Quaternion::new(c, v.x * k, v.y * k, v.z * k);
         Self::assume(UnitQuaternion::new_normalize(self.q.into_inner() * dq))
@@ -393,7 +395,7 @@ impl<A, B> Mul<Vec3<A>> for Rotation<A, B> {
 mod tests {
     use super::*;
 
-    /// Rounding error of a few f64 operations, dimensionless.
+    /// Tolerance for rounding errors of a few f64 operations, dimensionless.
     const ROUNDING: f64 = 1e-14;
 
     #[test]

@@ -1,5 +1,5 @@
-//! WGS84 and the local tangent plane at the scenario origin. Local coordinates are exact ENU about the origin, computed through
-//! earth-centered coordinates instead of a flat-earth approximation.
+//! Conversion between WGS84 and the local tangent plane at the scenario origin. Local coordinates are exact east, north, up,
+//! computed through earth-centered coordinates without a flat-earth approximation.
 
 use super::frames::{Enu, Vec3};
 use super::math;
@@ -17,7 +17,7 @@ pub struct Geo {
     pub latitude_deg: f64,
     /// Longitude, degrees east.
     pub longitude_deg: f64,
-    /// Altitude, meters.
+    /// Altitude above the ellipsoid, m.
     pub altitude_m: f64,
 }
 
@@ -31,7 +31,7 @@ pub struct LocalPlane {
 }
 
 impl LocalPlane {
-    /// Creates the plane tangent to the ellipsoid's parallel surface at `origin`.
+    /// Creates the plane through `origin` that is perpendicular to the ellipsoid's normal there.
     #[must_use]
     pub fn new(origin: Geo) -> Self {
         Self {
@@ -42,13 +42,13 @@ impl LocalPlane {
         }
     }
 
-    /// Returns the origin.
+    /// Returns the origin of the plane.
     #[must_use]
     pub fn origin(&self) -> Geo {
         self.origin
     }
 
-    /// Converts a geographic position to a local one, m.
+    /// Converts a geographic position to local coordinates, m.
     #[must_use]
     pub fn enu_from_geo(&self, geo: Geo) -> Vec3<Enu> {
         let p = ecef_from_geo(geo);
@@ -62,7 +62,7 @@ impl LocalPlane {
         )
     }
 
-    /// Converts a local position, m, to a geographic one.
+    /// Converts local coordinates, m, to a geographic position.
     #[must_use]
     pub fn geo_from_enu(&self, enu_m: Vec3<Enu>) -> Geo {
         let (sl, cl) = self.sin_cos_lat;
@@ -84,7 +84,8 @@ fn ecef_from_geo(geo: Geo) -> [f64; 3] {
     [(n + h) * cl * co, (n + h) * cl * so, (n * (1.0 - E2) + h) * sl]
 }
 
-/// Bowring's iteration; the error is below a nanometer after three iterations for heights within 10 km of the ellipsoid.
+/// Converts earth-centered coordinates by Bowring's iteration. The error is below a nanometer after three iterations for heights
+/// within 10 km of the ellipsoid.
 fn geo_from_ecef(p: [f64; 3]) -> Geo {
     let r = math::hypot(p[0], p[1]);
     let mut lat = math::atan2(p[2], r * (1.0 - E2));
@@ -105,7 +106,7 @@ mod tests {
     use super::*;
 
     const ORIGIN: Geo = Geo { latitude_deg: 46.5, longitude_deg: 8.25, altitude_m: 430.0 };
-    /// Rounding error of earth-centered coordinates in f64, m.
+    /// Tolerance for rounding errors of earth-centered coordinates in f64, m.
     const ROUND_TRIP_M: f64 = 1e-8;
 
     #[test]
@@ -117,8 +118,8 @@ mod tests {
 
     #[test]
     fn val_one_minute_of_latitude_at_45_degrees_is_1852_2_metres() {
-        // 1852.2 m: the historical definition of the nautical mile, from the WGS84 meridian radius at 45 deg (6 367 382 m); to
-        // 0.1 m.
+        // 1852.2 m follows from the WGS84 meridian radius at 45 deg (6 367 382 m); the nautical mile was originally defined this
+        // way. Tolerance 0.1 m.
         let plane = LocalPlane::new(Geo { latitude_deg: 45.0, longitude_deg: 0.0, altitude_m: 0.0 });
         let north = plane.enu_from_geo(Geo { latitude_deg: 45.0 + 1.0 / 60.0, longitude_deg: 0.0, altitude_m: 0.0 }).north();
         assert!((north - 1852.2).abs() < 0.1, "{north}");

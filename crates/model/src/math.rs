@@ -1,5 +1,6 @@
-//! The only module with transcendental functions: libm returns the same bits on every machine, the platform's functions do not.
-//! Clippy bans the std methods elsewhere (`clippy.toml`). `sqrt`, `abs`, `floor` and the four operations are exact in IEEE 754.
+//! Wrappers for the transcendental functions of libm, which are bit-identical on every machine, unlike those of the standard
+//! library. Clippy bans the std methods elsewhere (`clippy.toml`). `sqrt`, `abs`, `floor` and the four operations are exact in
+//! IEEE 754.
 
 pub use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -53,12 +54,12 @@ pub fn atan(x: f64) -> f64 {
 pub fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
-/// Returns the natural logarithm.
+/// Returns the natural logarithm of x.
 #[must_use]
 pub fn ln(x: f64) -> f64 {
     libm::log(x)
 }
-/// Returns the decimal logarithm.
+/// Returns the decimal logarithm of x.
 #[must_use]
 pub fn log10(x: f64) -> f64 {
     libm::log10(x)
@@ -68,12 +69,12 @@ pub fn log10(x: f64) -> f64 {
 pub fn pow(x: f64, y: f64) -> f64 {
     libm::pow(x, y)
 }
-/// Returns the hyperbolic tangent.
+/// Returns the hyperbolic tangent of x.
 #[must_use]
 pub fn tanh(x: f64) -> f64 {
     libm::tanh(x)
 }
-/// Returns the cube root.
+/// Returns the cube root of x.
 #[must_use]
 pub fn cbrt(x: f64) -> f64 {
     libm::cbrt(x)

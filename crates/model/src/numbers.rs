@@ -1,9 +1,9 @@
-//! Formats numbers that are compared with a limit.
+//! Formats numbers for messages that compare a value with a limit.
 
-/// Maximum number of decimals; values that still round to the limit differ by less than any measurement resolves.
+/// Maximum number of decimals. A smaller difference from the limit is below the resolution of any measurement.
 const MOST_DIGITS: usize = 6;
 
-/// Formats a value with at least `digits` decimals, and as many more as needed to show on which side of `limit` it lies.
+/// Formats a value with at least `digits` decimals, and as many more as needed to show on which side of the limit it is.
 #[must_use]
 pub fn format_beside_limit(value: f64, limit: f64, digits: usize) -> String {
     let text = |digits: usize| format!("{value:.digits$}");
@@ -14,7 +14,7 @@ pub fn format_beside_limit(value: f64, limit: f64, digits: usize) -> String {
     (digits..=MOST_DIGITS).map(text).find(same_side).unwrap_or_else(|| text(MOST_DIGITS))
 }
 
-/// Formats a limit with the decimals that it needs, at most three.
+/// Formats a limit with at most three decimals, without trailing zeros.
 #[must_use]
 pub fn limit(value: f64) -> String {
     let text = format!("{value:.3}");

@@ -1,8 +1,8 @@
-//! Where the aircraft is and how it is turned and moving. The type parameter is the frame of position and velocity.
+//! Pose and motion of the aircraft. The type parameter is the frame in which position and velocity are expressed.
 
 use crate::frames::{Frd, Ned, Rotation, Vec3};
 
-/// Position and attitude.
+/// Position and attitude of the aircraft.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose<F> {
     /// Position of the center of mass, m.
@@ -11,7 +11,7 @@ pub struct Pose<F> {
     pub ned_from_frd: Rotation<Frd, Ned>,
 }
 
-/// Pose and velocity.
+/// Position, velocity and attitude of the aircraft.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion<F> {
     /// Position of the center of mass, m.
@@ -23,19 +23,20 @@ pub struct Motion<F> {
 }
 
 impl<F: Copy> Motion<F> {
-    /// Returns the pose.
+    /// Returns the pose without the velocity.
     #[must_use]
     pub fn pose(&self) -> Pose<F> {
         Pose { position_m: self.position_m, ned_from_frd: self.ned_from_frd }
     }
 
-    /// Interpolates position and velocity linearly, and the attitude along the shorter arc: 0 is this motion, 1 is the other.
+    /// Interpolates position and velocity linearly, and the attitude along the shorter arc: `t` = 0 returns this motion, 1
+    /// returns `other`.
     #[must_use]
     pub fn lerp(&self, other: &Self, t: f64) -> Self {
         Self { ned_from_frd: self.ned_from_frd.lerp(other.ned_from_frd, t), ..self.lerp_held(other, t) }
     }
 
-    /// Interpolates position and velocity linearly and keeps this attitude.
+    /// Interpolates position and velocity linearly and keeps the attitude of this motion.
     #[must_use]
     pub fn lerp_held(&self, other: &Self, t: f64) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! Named random streams: one per consumer, so that a new consumer never changes the numbers of another.
+//! Named random streams, one per consumer, so that adding a consumer does not change the numbers that the others draw.
 
 use super::math;
 use rand_core::{Rng, SeedableRng};
@@ -23,7 +23,7 @@ impl RandomStream {
         Self { generator: Xoshiro256PlusPlus::from_seed(key) }
     }
 
-    /// Returns 64 random bits.
+    /// Returns an integer of 64 random bits.
     pub fn bits(&mut self) -> u64 {
         self.generator.next_u64()
     }
@@ -38,12 +38,13 @@ impl RandomStream {
         low + (high - low) * self.uniform()
     }
 
-    /// Returns an integer in 0..n; zero if n is zero.
+    /// Returns a random integer in 0..n; zero if n is zero.
     pub fn below(&mut self, n: usize) -> usize {
         ((u128::from(self.bits()) * n as u128) >> 64) as usize
     }
 
-    /// Returns a standard normal number by Marsaglia's polar method (the second value is discarded to keep the state simple).
+    /// Returns a standard normal number by Marsaglia's polar method. The second value of the method is discarded, so that the
+    /// generator is the only state.
     pub fn normal(&mut self) -> f64 {
         loop {
             let u = self.range(-1.0, 1.0);

@@ -1,4 +1,4 @@
-//! The scenarios and vehicles that ship with Spandrel, as text. New files in `scenarios/` or `vehicle-params/` are included
+//! Text of the scenario and vehicle files that ship with Spandrel. New files in `scenarios/` or `vehicle-params/` are included
 //! automatically.
 
 include!(concat!(env!("OUT_DIR"), "/shipped.rs"));

@@ -1,4 +1,4 @@
-//! Simulation time as an integer, so that no floating-point error accumulates.
+//! Simulation time as an integer number of nanoseconds, so that no floating-point error accumulates.
 
 use std::fmt;
 use std::ops::{Add, AddAssign, Sub};
@@ -12,7 +12,7 @@ pub struct SimTime {
 impl SimTime {
     /// Simulation start, or a zero duration.
     pub const ZERO: Self = Self { ns: 0 };
-    /// Later than any event.
+    /// A time later than any event.
     pub const NEVER: Self = Self { ns: i64::MAX };
 
     /// Creates a time from integer nanoseconds.
@@ -39,37 +39,37 @@ impl SimTime {
         Self { ns: (s * 1e9).round() as i64 }
     }
 
-    /// Returns the period of `rate_hz`, rounded to the nearest nanosecond.
+    /// Returns the period of a rate in Hz, rounded to the nearest nanosecond.
     #[must_use]
     pub fn period(rate_hz: f64) -> Self {
         Self::from_s(1.0 / rate_hz)
     }
 
-    /// Returns nanoseconds.
+    /// Returns the time in nanoseconds.
     #[must_use]
     pub const fn ns(self) -> i64 {
         self.ns
     }
 
-    /// Returns microseconds, rounded toward zero.
+    /// Returns the time in microseconds, rounded toward zero.
     #[must_use]
     pub const fn us(self) -> i64 {
         self.ns / 1_000
     }
 
-    /// Returns milliseconds, rounded toward zero.
+    /// Returns the time in milliseconds, rounded toward zero.
     #[must_use]
     pub const fn ms(self) -> i64 {
         self.ns / 1_000_000
     }
 
-    /// Returns seconds.
+    /// Returns the time in seconds.
     #[must_use]
     pub fn s(self) -> f64 {
         self.ns as f64 * 1e-9
     }
 
-    /// Returns `self - other`, or zero if negative.
+    /// Returns `self - other`, or zero if the difference is negative.
     #[must_use]
     pub fn saturating_sub(self, other: Self) -> Self {
         Self { ns: self.ns.saturating_sub(other.ns).max(0) }

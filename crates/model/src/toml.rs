@@ -1,15 +1,15 @@
-//! Reads numbers with ranges from TOML and collects all problems with their locations instead of stopping at the first. Records
-//! the keys that are read, so that the documentation of the keys can be checked against the code.
+//! Reads values from TOML files and checks their ranges. Collects all problems with their locations instead of stopping at the
+//! first one, and records the keys that it reads, so that a test can compare them with the documentation.
 
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
 use toml_edit::{Document, Item, TableLike, Value};
 
-/// One problem in a file.
+/// A problem in a file.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Problem {
-    /// File name as given by the caller.
+    /// File name, as passed by the caller.
     pub file: String,
     /// Line number, from 1.
     pub line: usize,
@@ -17,9 +17,9 @@ pub struct Problem {
     pub key: String,
     /// Value as written; empty if missing.
     pub value: String,
-    /// Allowed values.
+    /// Description of the allowed values; empty if there is none.
     pub allowed: String,
-    /// Description of the problem.
+    /// Short description of the problem, such as `out of range`.
     pub message: String,
 }
 
@@ -37,17 +37,17 @@ impl fmt::Display for Problem {
     }
 }
 
-/// Maximum number of problems listed; the others are only counted. A page or terminal shows about 50.
+/// Maximum number of problems that are displayed, about one screen; the others are only counted.
 const LISTED_MOST: usize = 50;
 
-/// Returns the first problems of a list and the number of further problems.
+/// Splits a list of problems into the first 50, which are displayed, and the number of the others.
 #[must_use]
 pub fn listed(problems: &[Problem]) -> (&[Problem], usize) {
     let count = problems.len().min(LISTED_MOST);
     (&problems[..count], problems.len() - count)
 }
 
-/// All problems of a file. Formatted as one problem per line; after the first 50, the number of further problems.
+/// All problems in a file. Displayed as one problem per line; after the first 50, only the number of the others is shown.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Problems(pub Vec<Problem>);
 
@@ -66,27 +66,27 @@ impl fmt::Display for Problems {
 
 impl std::error::Error for Problems {}
 
-/// Documentation of a key, as defined by the code (for the documentation test).
+/// Allowed values and default of a key as defined by the code. A test compares them with the documentation.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct DocumentedKey {
     /// Description of the allowed values.
     pub allowed: String,
-    /// Default as written, or `required`.
+    /// Default value as text, or `required`, or `none` for an optional key.
     pub default: String,
 }
 
-/// Parser state of one file: problems and keys read.
+/// Reader for one file. Collects the problems and the keys that were read.
 #[derive(Debug)]
 pub struct Reader<'a> {
     file: &'a str,
     text: &'a str,
-    /// Problems so far.
+    /// Problems found so far.
     pub problems: Vec<Problem>,
-    /// All keys read; repeated tables count once.
+    /// Keys that were read, by path; keys of repeated tables are listed once.
     pub documented_keys: BTreeMap<String, DocumentedKey>,
 }
 
-/// A table of the file and the keys read from it so far.
+/// A table in the file, with the keys that were read from it so far.
 pub struct Section<'d> {
     path: String,
     table: Option<&'d dyn TableLike>,
@@ -101,7 +101,7 @@ impl<'a> Reader<'a> {
         Self { file, text, problems: Vec::new(), documented_keys: BTreeMap::new() }
     }
 
-    /// Parses the text; a syntax error is recorded as a problem.
+    /// Parses the text; returns `None` and records a problem if there is a syntax error.
     pub fn parse(&mut self) -> Option<Document<&'a str>> {
         match Document::parse(self.text) {
             Ok(document) => Some(document),
@@ -121,7 +121,7 @@ impl<'a> Reader<'a> {
         item.span().map(|span| self.line_at(span.start))
     }
 
-    /// Records a problem.
+    /// Records a problem at a line.
     pub fn problem(&mut self, line: usize, key: &str, value: &str, allowed: &str, message: &str) {
         self.problems.push(Problem {
             file: self.file.into(),
@@ -133,25 +133,25 @@ impl<'a> Reader<'a> {
         });
     }
 
-    /// Records a problem with a key other than its range, at the line of the key, or of the table if the key is missing.
+    /// Records a problem with a key, at the line of the key, or at the line of the table if the key is missing.
     pub fn add_problem(&mut self, section: &Section, key: &str, value: &str, allowed: &str, message: &str) {
         let line = section.table.and_then(|t| t.get(key)).and_then(|i| self.line_of(i)).unwrap_or(section.line);
         self.problem(line, &section.full(key), value, allowed, message);
     }
 
-    /// Documents the condition on which the default of a key depends.
+    /// Replaces the documented default of a key with a description, for a default that depends on another key.
     pub fn default_depends(&mut self, section: &Section, key: &str, words: &str) {
         if let Some(asked) = self.documented_keys.get_mut(&section.full(key)) {
             asked.default = words.into();
         }
     }
 
-    /// Returns the root table.
+    /// Returns the root table of the document.
     pub fn root<'d>(&self, document: &'d Document<&'a str>) -> Section<'d> {
         Section { path: String::new(), table: Some(document.as_table()), line: 1, read_keys: Vec::new() }
     }
 
-    /// Returns a nested table; if it is missing, its keys take their defaults.
+    /// Returns a nested table. If it is missing, all of its keys are treated as missing.
     pub fn section<'d>(&mut self, parent: &mut Section<'d>, key: &'static str) -> Section<'d> {
         let path = parent.full(key);
         let (item, line) = self.item(parent, key);
@@ -162,7 +162,7 @@ impl<'a> Reader<'a> {
         Section { path, table, line, read_keys: Vec::new() }
     }
 
-    /// Returns the tables of an array of tables.
+    /// Returns the tables in an array of tables; empty if the key is missing.
     pub fn sections<'d>(&mut self, parent: &mut Section<'d>, key: &'static str) -> Vec<Section<'d>> {
         let path = parent.full(key);
         let (item, line) = self.item(parent, key);
@@ -225,7 +225,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reads an optional number.
+    /// Reads an optional number; `None` if the key is missing.
     pub fn optional(&mut self, section: &mut Section, key: &'static str, range: (f64, f64)) -> Option<f64> {
         let present = section.has(key);
         let path = section.full(key);
@@ -234,7 +234,7 @@ impl<'a> Reader<'a> {
         present.then_some(value)
     }
 
-    /// Reads an integer within [min, max].
+    /// Reads an integer within [min, max]; required if there is no default.
     pub fn integer(&mut self, section: &mut Section, key: &'static str, (min, max): (i64, i64), default: Option<i64>) -> i64 {
         let path = section.full(key);
         let allowed = format!("whole number {min} to {max}");
@@ -259,7 +259,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reads an optional integer.
+    /// Reads an optional integer; `None` if the key is missing.
     pub fn optional_integer(&mut self, section: &mut Section, key: &'static str, range: (i64, i64)) -> Option<i64> {
         let present = section.has(key);
         let value = self.integer(section, key, range, Some(range.0));
@@ -267,7 +267,7 @@ impl<'a> Reader<'a> {
         present.then_some(value)
     }
 
-    /// Reads true or false.
+    /// Reads a Boolean value.
     pub fn flag(&mut self, section: &mut Section, key: &'static str, default: bool) -> bool {
         let path = section.full(key);
         self.record(&path, "true or false", default.to_string());
@@ -299,7 +299,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reads one of several keywords.
+    /// Reads one of several keywords and returns its value; required if there is no default.
     pub fn choice<T: Copy>(
         &mut self,
         section: &mut Section,
@@ -321,14 +321,14 @@ impl<'a> Reader<'a> {
         let found = item.as_str().and_then(|text| words.iter().find(|(w, _)| *w == text));
         found.map_or_else(
             || {
-                self.problem(line, &path, &displayed(item), &allowed, "not one of these");
+                self.problem(line, &path, &displayed(item), &allowed, "unknown keyword");
                 fallback
             },
             |(_, value)| *value,
         )
     }
 
-    /// Reads a list of exactly `n` numbers, each within [min, max].
+    /// Reads a list of exactly `N` numbers, each within the range; required if there is no default.
     pub fn numbers<const N: usize>(
         &mut self,
         section: &mut Section,
@@ -354,7 +354,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Reads a list of points of three numbers each; empty if missing.
+    /// Reads a list of points with three numbers each; empty if the key is missing.
     pub fn points(&mut self, section: &mut Section, key: &'static str, range: (f64, f64)) -> Vec<[f64; 3]> {
         let path = section.full(key);
         let allowed = format!("list of [east, north, up], each {} to {}", range.0, range.1);
@@ -369,7 +369,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Reads a list of integers; empty if missing.
+    /// Reads a list of integers; empty if the key is missing.
     pub fn integers(&mut self, section: &mut Section, key: &'static str, (min, max): (i64, i64)) -> Vec<i64> {
         let path = section.full(key);
         let allowed = format!("list of whole numbers, each {min} to {max}");
@@ -384,7 +384,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Reports unknown keys. Call this after all keys of the table have been read.
+    /// Records a problem for each unknown key. Call this after all keys of the table have been read.
     pub fn finish(&mut self, section: &Section) {
         let Some(table) = section.table else { return };
         for (key, item) in table.iter() {
@@ -402,13 +402,13 @@ impl<'a> Reader<'a> {
 }
 
 impl Section<'_> {
-    /// Returns the key with its path.
+    /// Returns the full path of a key, such as `wind.speed_m_s`.
     #[must_use]
     pub fn full(&self, key: &str) -> String {
         if self.path.is_empty() { key.to_string() } else { format!("{}.{key}", self.path) }
     }
 
-    /// Returns the line of the table.
+    /// Returns the line at which the table starts, from 1.
     #[must_use]
     pub fn line(&self) -> usize {
         self.line
@@ -430,12 +430,12 @@ fn list(value: &Value, (min, max): (f64, f64)) -> Option<Vec<f64>> {
     value.as_array()?.iter().map(one).collect()
 }
 
-/// Removes line breaks and other control characters so that each problem stays on one line.
+/// Replaces line breaks and other control characters with spaces, so that each problem stays on one line.
 fn one_line(text: &str) -> String {
     text.replace(char::is_control, " ")
 }
 
-/// Returns the value as written, truncated.
+/// Returns the value as written in the file, truncated to 60 characters.
 fn displayed(item: &Item) -> String {
     const LONGEST: usize = 60;
     let text: String = item.to_string().trim().replace('\n', " ").chars().take(LONGEST + 1).collect();
@@ -447,7 +447,7 @@ fn is_near_miss(known: &str, key: &str) -> bool {
     5 * difference(known, key) <= 2 * known.chars().count().max(key.chars().count())
 }
 
-/// Returns the Levenshtein distance, for suggestions.
+/// Returns the Levenshtein distance between two keys, for suggestions.
 fn difference(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();

@@ -1,8 +1,8 @@
-//! Messages for Foxglove: its well-known message types as JSON, by schema name (frame transforms, location fix, log, camera
-//! calibration, scene update; <https://docs.foxglove.dev/docs/sdk/schemas>), and two custom types.
+//! JSON messages for Foxglove: five of its standard message types (frame transforms, location fix, log, camera calibration, scene
+//! update; <https://docs.foxglove.dev/docs/sdk/schemas>) and two custom types.
 //!
-//! Frames: `site` is east, north, up about the scenario origin, m; `drone` is forward, left, up; `camera` is right, down,
-//! forward.
+//! Axes of the frames: `site` is east, north, up from the scenario origin, m; `drone` is forward, left, up; `camera` is right,
+//! down, forward.
 
 mod schema;
 
@@ -11,31 +11,31 @@ use super::geodesy::Geo;
 use nalgebra::{Quaternion, UnitQuaternion};
 use serde_json::{Value, json};
 
-/// Frame of the estimated aircraft pose.
+/// Frame ID of the estimated aircraft pose.
 pub const BELIEVED: &str = "drone_estimate";
-/// Frame of the true aircraft pose.
+/// Frame ID of the true aircraft pose.
 pub const DRONE: &str = "drone";
-/// Camera frame.
+/// Frame ID of the camera.
 pub const CAMERA: &str = "camera";
-/// Site frame: east, north, up.
+/// Frame ID of the site: east, north, up.
 pub const SITE: &str = "site";
 
-/// Message topic; the value is the index into [`CHANNELS`].
+/// Message topic. The discriminant is the index into [`CHANNELS`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Topic {
     /// Transforms of the drone and camera frames.
     Transforms = 0,
-    /// Estimated geographic position.
+    /// Geographic position with its accuracy.
     Fix,
     /// Log messages.
     Log,
-    /// Camera calibration.
+    /// Calibration of the camera.
     Camera,
     /// Site geometry.
     Site,
     /// Battery state.
     Battery,
-    /// Clearance, light and contact.
+    /// Signals used for scoring: clearance, light and contacts.
     Scoring,
 }
 
@@ -77,7 +77,7 @@ pub struct ChannelMessage {
     pub topic: Topic,
     /// UTC, nanoseconds since the Unix epoch.
     pub unix_ns: u64,
-    /// Message content.
+    /// Message content, JSON.
     pub json: String,
 }
 
@@ -87,7 +87,7 @@ impl ChannelMessage {
     }
 }
 
-/// A pose of a frame in `site`: position, m, and orientation.
+/// Position, m, and orientation of a frame relative to `site`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FramePose {
     position_m: [f64; 3],
@@ -100,17 +100,17 @@ fn enu_from_ned() -> UnitQuaternion<f64> {
 }
 
 impl FramePose {
-    /// Creates the pose of a drone.
+    /// Creates the pose of the aircraft from its position and attitude.
     #[must_use]
     pub fn drone(position_m: Vec3<Ned>, attitude: Rotation<Frd, Ned>) -> Self {
-        // Half a turn about the forward axis.
+        // Half a turn about the forward axis converts forward, left, up to forward, right, down.
         let frd_from_flu = UnitQuaternion::new_unchecked(Quaternion::new(0.0, 1.0, 0.0, 0.0));
         let rotation = enu_from_ned() * attitude.raw() * frd_from_flu;
         Self { position_m: position_m.enu().array(), rotation }
     }
 
-    /// Creates the pose of a roll-stabilized camera at `pitch_rad` above the horizon, with the lens at `lens_m` in the body
-    /// frame.
+    /// Creates the pose of a roll-stabilized camera that points `pitch_rad` above the horizon, with the lens at `lens_m` in the
+    /// body frame.
     #[must_use]
     pub fn camera(position_m: Vec3<Ned>, attitude: Rotation<Frd, Ned>, lens_m: Vec3<Frd>, pitch_rad: f64) -> Self {
         // Converts forward, right, down to right, down, forward.
@@ -129,7 +129,7 @@ fn xyz([x, y, z]: [f64; 3]) -> Value {
     json!({ "x": x, "y": y, "z": z })
 }
 
-/// Creates the transforms of frames in `site`.
+/// Creates a message with the poses of frames relative to `site`.
 #[must_use]
 pub fn transforms(unix_ns: u64, frames: &[(&str, FramePose)]) -> ChannelMessage {
     let one = |(name, pose): &(&str, FramePose)| {
@@ -145,7 +145,7 @@ pub fn transforms(unix_ns: u64, frames: &[(&str, FramePose)]) -> ChannelMessage 
     ChannelMessage::new(Topic::Transforms, unix_ns, &json!({ "transforms": frames.iter().map(one).collect::<Vec<_>>() }))
 }
 
-/// Creates a location fix with its accuracy, m (1 sigma).
+/// Creates a location fix with its horizontal and vertical accuracy, m (1 sigma).
 #[must_use]
 pub fn fix(unix_ns: u64, geo: Geo, horizontal_m: f64, vertical_m: f64) -> ChannelMessage {
     let (h, v) = (horizontal_m * horizontal_m, vertical_m * vertical_m);
@@ -162,10 +162,10 @@ pub fn fix(unix_ns: u64, geo: Geo, horizontal_m: f64, vertical_m: f64) -> Channe
     ChannelMessage::new(Topic::Fix, unix_ns, &value)
 }
 
-/// Creates a log message with MAVLink's severity (0 emergency to 7 debug).
+/// Creates a log message from a MAVLink severity (0 emergency to 7 debug) and a text.
 #[must_use]
 pub fn log(unix_ns: u64, severity: u8, text: &str) -> ChannelMessage {
-    // FATAL 5, ERROR 4, WARNING 3, INFO 2, DEBUG 1
+    // Foxglove levels: FATAL 5, ERROR 4, WARNING 3, INFO 2, DEBUG 1.
     let level = match severity {
         0 | 1 => 5,
         2 | 3 => 4,
@@ -177,7 +177,7 @@ pub fn log(unix_ns: u64, severity: u8, text: &str) -> ChannelMessage {
     ChannelMessage::new(Topic::Log, unix_ns, &value)
 }
 
-/// Creates the calibration of an ideal pinhole camera: focal length, image width and height, px.
+/// Creates the calibration message of an ideal pinhole camera from its focal length and its image width and height, px.
 #[must_use]
 pub fn camera(unix_ns: u64, focal_px: f64, (width_px, height_px): (u32, u32)) -> ChannelMessage {
     let (f, w, h) = (focal_px, width_px, height_px);
@@ -196,7 +196,7 @@ pub fn camera(unix_ns: u64, focal_px: f64, (width_px, height_px): (u32, u32)) ->
     ChannelMessage::new(Topic::Camera, unix_ns, &value)
 }
 
-/// Creates a permanent scene update with the site's model; `glb_base64` is binary glTF.
+/// Creates a scene update that shows the site's model permanently. `glb_base64` is a binary glTF file in Base64.
 #[must_use]
 pub fn site(unix_ns: u64, glb_base64: &str) -> ChannelMessage {
     let none: [Value; 0] = [];
@@ -224,7 +224,7 @@ pub fn site(unix_ns: u64, glb_base64: &str) -> ChannelMessage {
     ChannelMessage::new(Topic::Site, unix_ns, &value)
 }
 
-/// Creates a battery state: voltage and current, V and A, if known, and remaining charge, %.
+/// Creates a battery message from voltage, V, and current, A, if known, and the remaining charge, %.
 #[must_use]
 pub fn battery(unix_ns: u64, volts_amperes: Option<(f64, f64)>, remaining_pct: f64) -> ChannelMessage {
     let value = json!({
@@ -241,15 +241,15 @@ pub fn battery(unix_ns: u64, volts_amperes: Option<(f64, f64)>, remaining_pct: f
 pub struct ScoringSignals {
     /// Distance from the center of the drone to the nearest surface, m.
     pub clearance_m: f64,
-    /// Ambient light at the drone, lx, if known.
+    /// Ambient illuminance at the drone, lx, if known.
     pub lux: Option<f64>,
-    /// Contact label.
+    /// Label of the surface type in contact.
     pub contact: &'static str,
     /// Number of contacts so far.
     pub hits: i32,
     /// Number of respawns so far.
     pub respawns: i32,
-    /// The lamp is on.
+    /// True while the lamp is on.
     pub lamp_on: bool,
     /// Speed, m/s.
     pub speed_m_s: f64,
@@ -258,7 +258,7 @@ pub struct ScoringSignals {
 /// Creates a message with the scoring signals.
 #[must_use]
 pub fn scoring(unix_ns: u64, s: &ScoringSignals) -> ChannelMessage {
-    // JSON has no infinity: null means that no surface is within range.
+    // JSON cannot represent infinity; null means that no surface is within range.
     let clearance = if s.clearance_m.is_finite() { json!(s.clearance_m) } else { Value::Null };
     let value = json!({
         "timestamp": time(unix_ns),
@@ -278,7 +278,7 @@ mod tests {
     use super::*;
     use nalgebra::Vector3;
 
-    /// Rounding of unit quaternions.
+    /// Tolerance for rounding errors of unit quaternions.
     const ROUNDING: f64 = 1e-12;
 
     fn turned(pose: &FramePose, axis: [f64; 3]) -> [f64; 3] {

@@ -1,4 +1,4 @@
-//! JSON schemas of the messages, which define their fields for Foxglove.
+//! JSON schemas that describe the message fields to Foxglove.
 
 use serde_json::{Value, json};
 

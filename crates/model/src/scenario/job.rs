@@ -1,5 +1,5 @@
-//! The content of a scenario file, parsed and validated. All values are in SI units; positions are in the local frame [`Enu`] at
-//! the scenario origin (x east, y north, z up; up = 0 at the origin's altitude).
+//! Types for the content of a scenario file. Angles and percentages state their units; all other values are in SI units.
+//! Positions are in the local frame [`Enu`] at the scenario origin (x east, y north, z up; up = 0 at the origin's altitude).
 
 use super::bridges::Bridge;
 use super::bridges::path::TaskKind;
@@ -8,44 +8,44 @@ use crate::frames::{Enu, Vec3};
 use crate::geodesy::Geo;
 use crate::time::SimTime;
 
-/// A job, parsed and validated.
+/// A job: the content of a scenario file, parsed and validated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scenario {
     /// Machine-readable name, `[a-z0-9-]+`, used in session folder names.
     pub name: String,
     /// One-line display title.
     pub title: String,
-    /// Seed for everything random (defects, traffic, gusts, sensors); `None`: a new seed for each session.
+    /// Seed for all random content (defects, traffic, turbulence, sensors); `None` if each session draws a new seed.
     pub seed: Option<u64>,
     /// Geographic position of the local frame's origin.
     pub origin: Geo,
-    /// Ground and water.
+    /// Heights of ground and water.
     pub terrain: TerrainSpec,
-    /// Inspector, truck and landing pad.
+    /// Positions of inspector, truck and landing pad.
     pub ground_team: GroundTeam,
     /// The bridges, in file order.
     pub bridges: Vec<Bridge>,
     /// The tasks, in file order; the index is t in the scoring formulas.
     pub tasks: Vec<Task>,
-    /// Defect settings.
+    /// Number, size and types of the defects.
     pub defects: DefectSpec,
-    /// Traffic settings.
+    /// Numbers and speed of vehicles and pedestrians.
     pub traffic: TrafficSpec,
-    /// Wind settings.
+    /// Wind model, mean wind and gusts.
     pub wind: WindSpec,
     /// Sun, cloud cover and surface reflection.
     pub light: LightSpec,
-    /// Session rules.
+    /// Session rules: crashes, battery and GNSS.
     pub rules: SessionRules,
-    /// Feedback thresholds.
+    /// Thresholds of the in-flight feedback.
     pub feedback: FeedbackThresholds,
-    /// Scoring parameters.
+    /// Parameters of the scoring formulas.
     pub scoring: ScoringParams,
     /// CRC-32 (IEEE) of the file without seed and placed defects, sent as `scn_crc`.
     pub crc: u32,
 }
 
-/// Height grid and water level.
+/// Settings of the height grid and the water level.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TerrainSpec {
     /// Side length of the square terrain, centered on the origin, m.
@@ -63,10 +63,10 @@ pub struct TerrainSpec {
 pub enum TerrainSource {
     /// Level ground at one height.
     Flat {
-        /// Height, m up.
+        /// Height of the ground, m up.
         height_m: f64,
     },
-    /// A lake valley between mountains, generated from a separate seed (the terrain is the same in every session).
+    /// A valley with a lake between mountains, generated from a separate seed, so that every session has the same terrain.
     Valley {
         /// Terrain seed.
         seed: u64,
@@ -79,17 +79,17 @@ pub enum TerrainSource {
         /// Depth of the lake at its deepest point, m.
         lake_depth_m: f64,
     },
-    /// Heights read from a file next to the scenario (rows south to north, columns west to east, meters up, comma-separated).
+    /// Heights from a file in the scenario's folder (comma-separated, m up; rows south to north, columns west to east).
     File {
         /// Row-major heights, m up: `heights_m[row][column]`.
         heights_m: Vec<Vec<f64>>,
     },
 }
 
-/// Positions of the ground crew. The landing pad is level at `pad_m`; takeoff and landing take place there.
+/// Positions of the ground crew and of the level landing pad, from which the drone takes off and on which it lands.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GroundTeam {
-    /// Center of the landing pad's upper surface, m.
+    /// Center of the upper surface of the landing pad, m.
     pub pad_m: Vec3<Enu>,
     /// Initial heading of the drone on the pad, degrees clockwise from north.
     pub pad_heading_deg: f64,
@@ -101,16 +101,16 @@ pub struct GroundTeam {
     pub truck_m: Vec3<Enu>,
     /// Truck heading, degrees clockwise from north.
     pub truck_heading_deg: f64,
-    /// Maximum horizontal distance from the pad's center for a landing at home, m.
+    /// Maximum horizontal distance from the center of the pad at which a landing counts as at home, m.
     pub home_radius_m: f64,
 }
 
-/// An inspection task with the reference path derived from a bridge.
+/// An inspection task with its reference path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Task {
     /// Task number for display and export, from 1 in file order.
     pub id: u32,
-    /// Task name.
+    /// Display name of the task.
     pub name: String,
     /// Index into [`Scenario::bridges`], or `None` for a free path (drills).
     pub bridge: Option<usize>,
@@ -118,30 +118,30 @@ pub struct Task {
     pub kind: TaskKind,
     /// On-path threshold, m (< 8).
     pub threshold_m: f64,
-    /// The path returns to its start.
+    /// True if the path returns to its start.
     pub closed: bool,
     /// Reference points, resampled to at most 1 m spacing, m. A closed path does not repeat its first point.
     pub path_m: Vec<Vec3<Enu>>,
-    /// Viewing directions: one unit vector per path point, toward the inspected surface.
+    /// Viewing directions: for each path point, a unit vector toward the inspected surface.
     pub look: Vec<Vec3<Enu>>,
-    /// Overrides the minimum surface distance of the job, m.
+    /// Too-close threshold of this task, m; `None` to use the threshold of the job.
     pub too_close_m: Option<f64>,
-    /// Suggested lamp state, for briefings and the synthetic trainee.
+    /// True if the lamp is recommended in this task. Used in briefings and by the synthetic trainee.
     pub dark: bool,
 }
 
-/// Number and size of the defects, or their positions (in a resolved file).
+/// Settings for random defects, or the placed defects of a resolved file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DefectSpec {
     /// Number of defects to place.
     pub count: usize,
-    /// Scale factor on the sizes of [`crate::defect_codes`] (smaller is harder).
+    /// Scale factor for the sizes in [`crate::defect_codes`]; smaller defects are harder to find.
     pub size_factor: f64,
-    /// Bridge elements that may have defects; empty: all permitted elements.
+    /// Bridge elements that may have defects; if empty, all elements may.
     pub elements: Vec<Element>,
-    /// Defect codes (AASHTO MBEI) to draw from; empty: all permitted codes.
+    /// Defect codes (AASHTO MBEI) to draw from; if empty, all codes permitted on the element.
     pub kinds: Vec<u32>,
-    /// Placed defects of a resolved file; if set, none are drawn.
+    /// Placed defects of a resolved file. If set, no random defects are drawn.
     pub placed: Option<Vec<PlacedDefect>>,
 }
 
@@ -150,7 +150,7 @@ pub struct DefectSpec {
 pub struct PlacedDefect {
     /// Defect ID, from 1 in placement order.
     pub id: u32,
-    /// Element with the defect.
+    /// Bridge element with the defect.
     pub element: Element,
     /// Name of the member with the defect.
     pub member: String,
@@ -166,48 +166,48 @@ pub struct PlacedDefect {
     pub along: Vec3<Enu>,
     /// Length along the longest dimension, m.
     pub length_m: f64,
-    /// Width perpendicular to it, m; for a crack the crack width.
+    /// Width perpendicular to the longest dimension, m; for a crack, the crack width.
     pub width_m: f64,
-    /// A crack or other line defect, whose width must be resolved in a photo.
+    /// True for a crack or other line defect, whose width must be resolved in a photo.
     pub line: bool,
 }
 
-/// Traffic on the bridges.
+/// Settings of the traffic on the bridges.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrafficSpec {
     /// Number of cars on all bridges together.
     pub cars: usize,
-    /// Number of trucks.
+    /// Number of trucks on all bridges together.
     pub trucks: usize,
-    /// Number of pedestrians on the walkways.
+    /// Number of pedestrians on all walkways together.
     pub pedestrians: usize,
-    /// Mean speed of cars, m/s.
+    /// Mean speed of cars and trucks, m/s.
     pub car_speed_m_s: f64,
 }
 
-/// Wind of a job.
+/// Wind settings of a job.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WindSpec {
-    /// Wind model: force or velocity field.
+    /// Wind model: a constant force or a velocity field.
     pub model: WindModel,
-    /// Mean wind speed at 20 ft (6.096 m) above the water, m/s. Levels: light 2.2 mph, gentle 11 mph, medium 22 mph.
+    /// Mean wind speed at 20 ft (6.096 m) above the water, m/s. The levels are light 2.2 mph, gentle 11 mph, medium 22 mph.
     pub speed_m_s: f64,
     /// Constant force of the `paper` model, N.
     pub paper_force_n: f64,
     /// Direction from which the wind blows, degrees clockwise from north.
     pub from_deg: f64,
-    /// Vertical wind component, m/s up (any wind direction).
+    /// Vertical wind component, m/s, positive up.
     pub up_m_s: f64,
-    /// Scale factor on the Dryden turbulence intensity; 1 = MIL-F-8785C.
+    /// Scale factor for the Dryden turbulence intensity; 1 is the intensity of MIL-F-8785C.
     pub turbulence: f64,
     /// Wind events, sorted by time.
     pub events: Vec<WindEvent>,
 }
 
-/// Wind models.
+/// Model of the wind's effect on the vehicle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WindModel {
-    /// The paper's constant force at the center of mass.
+    /// The constant force at the center of mass that the TASBID paper uses.
     Paper,
     /// A velocity field with turbulence, which acts through the vehicle's drag.
     Physical,
@@ -216,31 +216,31 @@ pub enum WindModel {
 /// A gust or a change of the mean wind.
 #[derive(Debug, Clone, PartialEq)]
 pub enum WindEvent {
-    /// 1-cosine gust (MIL-F-8785C) added to the mean wind.
+    /// A 1-cosine gust (MIL-F-8785C) that is added to the mean wind.
     Gust {
-        /// Start time.
+        /// Start time of the gust.
         at: SimTime,
-        /// Duration.
+        /// Duration of the gust.
         duration: SimTime,
         /// Peak speed, m/s.
         peak_m_s: f64,
-        /// Direction from which it blows, degrees clockwise from north.
+        /// Direction from which the gust blows, degrees clockwise from north.
         from_deg: f64,
     },
-    /// Linear change of the mean wind.
+    /// A linear change of the mean wind.
     Change {
-        /// Start time.
+        /// Start time of the change.
         at: SimTime,
         /// Duration of the change.
         over: SimTime,
-        /// New speed at 20 ft, m/s.
+        /// New mean wind speed at 20 ft, m/s.
         speed_m_s: f64,
-        /// New direction from which it blows, degrees clockwise from north.
+        /// New direction from which the wind blows, degrees clockwise from north.
         from_deg: f64,
     },
 }
 
-/// Sun and sky of a job.
+/// Daylight settings of a job.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LightSpec {
     /// UTC date and time of simulation start, seconds since the Unix epoch.
@@ -253,42 +253,42 @@ pub struct LightSpec {
     pub ground_albedo: f64,
 }
 
-/// Rules of a session.
+/// Rules of a session: crashes, battery and GNSS.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SessionRules {
-    /// Consequence of a survivable crash.
+    /// Action after a survivable crash.
     pub after_crash: AfterCrash,
     /// Battery model in use.
     pub battery: BatteryModel,
-    /// Return to launch at low battery (disabled in the paper's job).
+    /// True if the vehicle returns to launch at low battery. False in the job of the TASBID paper.
     pub low_battery_return: bool,
-    /// Low battery level, at which the warning and, if enabled, the return to launch start, %.
+    /// Low battery level, %, which triggers the warning and, if enabled, the return to launch.
     pub low_battery_pct: f64,
-    /// Critical battery level, at which the vehicle lands if `low_battery_return` is set, %.
+    /// Critical battery level, %, at which the vehicle lands if `low_battery_return` is true.
     pub critical_battery_pct: f64,
-    /// Structures block GNSS satellites (the sky view determines how many are visible).
+    /// True if structures block GNSS satellites; the fraction of open sky determines how many are visible.
     pub gnss_shadow: bool,
     /// Simulation time before a crashed drone is respawned.
     pub respawn_after: SimTime,
 }
 
-/// Consequences of a crash into bridge, terrain or water.
+/// Action after a crash into a bridge, the terrain or the water.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AfterCrash {
-    /// Continue to fly if possible; never respawn.
+    /// The flight continues if possible; the drone is never respawned.
     Continue,
-    /// Respawn at the last safe hover position once the drone rests or touches water.
+    /// The drone is respawned at the last safe hover position once it is at rest or touches water.
     Respawn,
     /// The session ends.
     End,
 }
 
-/// Battery models.
+/// Model of the battery.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BatteryModel {
-    /// Linear from 100 % to 0 % over the aircraft's paper endurance, starting at lift-off.
+    /// Discharges linearly from 100 % at lift-off to 0 % over the aircraft's `paper_endurance_s`.
     Paper,
-    /// Open-circuit voltage, internal resistance and power consumption.
+    /// Computed from open-circuit voltage, internal resistance and power consumption.
     Physical,
 }
 
@@ -301,37 +301,37 @@ pub struct FeedbackThresholds {
     pub too_close_clear_m: f64,
     /// Outer limit of the off-path band, m.
     pub off_path_max_m: f64,
-    /// Time off path before the cue is shown.
+    /// Time off path after which the cue appears.
     pub off_path_after: SimTime,
-    /// Minimum time for which the cue is shown.
+    /// Minimum time for which the cue stays visible.
     pub off_path_hold: SimTime,
-    /// Minimum battery level shown in green, %.
+    /// Minimum battery level that is displayed in green, %.
     pub battery_green_pct: f64,
-    /// Minimum battery level shown in yellow; red below, %.
+    /// Minimum battery level that is displayed in yellow, %; lower levels are red.
     pub battery_yellow_pct: f64,
-    /// Minimum interval between two texts of the same rule.
+    /// Minimum interval between two text messages from the same rule.
     pub text_interval: SimTime,
 }
 
 /// Parameters of the scoring formulas.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScoringParams {
-    /// Frame rate f, Hz.
+    /// Frame rate f of the scoring formulas, Hz.
     pub frame_rate_hz: f64,
     /// Speed limit during inspection, m/s.
     pub speed_limit_m_s: f64,
-    /// Maximum speed of the scoring scale, m/s (30 mph in the paper).
+    /// Maximum speed of the scoring scale, m/s (30 mph in the TASBID paper).
     pub max_speed_m_s: f64,
-    /// Maximum flight time for full efficiency, s.
+    /// Maximum flight time with an efficiency score of 100 %, s.
     pub time_best_s: f64,
     /// Flight time limit, s.
     pub time_max_s: f64,
     /// Beta of the F-measure; `f64::INFINITY` yields the recall.
     pub beta: f64,
-    /// Use the distance to the polyline instead of the paper's nearest-point rule.
+    /// True to measure the exact distance to the polyline instead of applying the paper's nearest-point rule.
     pub exact_path: bool,
-    /// Clearance below which the certification profile counts exposure time, m.
+    /// Clearance below which the certification profile accumulates exposure time, m.
     pub clearance_m: f64,
-    /// Fraction of its path that completes a task, 0 to 1.
+    /// Fraction of a task's path that must be flown to complete the task, 0 to 1.
     pub task_done_share: f64,
 }

@@ -1,5 +1,5 @@
-//! The job: one TOML file per job in `scenarios/`, parsed into validated types ([`Scenario`]). scenarios/README.md documents every
-//! key; a test checks it against this code.
+//! Inspection jobs: one TOML file per job in `scenarios/`, parsed into validated types ([`Scenario`]). scenarios/README.md
+//! documents every key; a test checks it against this code.
 
 pub mod bridges;
 mod job;

@@ -1,12 +1,12 @@
-//! Points in scenario files.
+//! Reads points from scenario files.
 
 use crate::frames::{Enu, Vec3};
 use crate::toml::{Reader, Section};
 
-/// Maximum distance of any object from the origin, m.
+/// Maximum absolute value of each coordinate of a point, m.
 pub(super) const FAR_M: f64 = 5_000.0;
 
-/// Reads the point at a key, m.
+/// Reads a key whose value is a point [east, north, up], m.
 pub(super) fn point(r: &mut Reader, s: &mut Section, key: &'static str, default: Option<[f64; 3]>) -> Vec3<Enu> {
     let [e, n, u] = r.numbers(s, key, (-FAR_M, FAR_M), default);
     Vec3::new(e, n, u)

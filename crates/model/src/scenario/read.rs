@@ -1,4 +1,4 @@
-//! Parses scenario files into [`Scenario`]: every key with its unit, range and default.
+//! Parses scenario files into [`Scenario`]. Defines each key with its unit, range and default.
 
 use super::bridges::{Bridge, BridgeKind, BridgeType};
 use super::job::{
@@ -15,23 +15,23 @@ use std::collections::BTreeMap;
 
 /// Latest supported format version.
 pub const FORMAT: i64 = 1;
-/// Maximum number of cells along one side of the height grid: 4 million cells take a second to build and 32 MB.
+/// Maximum number of cells per side of the height grid; building 4 million cells takes about one second and 32 MB.
 const MOST_CELLS: f64 = 2_000.0;
 /// Maximum number of bridges per site (estimate: far more than one flight can reach).
 const MOST_BRIDGES: usize = 16;
 
-/// Loads a file next to the scenario, by name.
+/// Function that loads a file by name from the folder of the scenario; returns its text or an error message.
 pub type SiblingLoader<'a> = &'a dyn Fn(&str) -> Result<String, String>;
 
 /// Parses a scenario file. `file` is the file name used in messages.
 ///
 /// # Errors
-/// All problems of the file, each with line, key, value and allowed range.
+/// Returns all problems in the file, each with line, key, value and allowed range.
 pub fn read(file: &str, text: &str, siblings: SiblingLoader) -> Result<Scenario, Problems> {
     read_asked(file, text, siblings).0
 }
 
-/// Parses a scenario file and returns the keys that were read (for the documentation test).
+/// Parses a scenario file. Also returns the keys that were read, for the test of the documentation.
 pub fn read_asked(
     file: &str,
     text: &str,
@@ -56,7 +56,7 @@ fn as_integer(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) -> Sc
     r.integer(root, "format", (1, FORMAT), None);
     let name = name(r, root, "name");
     let title = r.text(root, "title", None);
-    // The seed is sent in a signed 32-bit field.
+    // The protocol transmits the seed in a signed 32-bit field.
     let seed = r.optional_integer(root, "seed", (0, i64::from(i32::MAX))).map(|seed| seed as u64);
     let origin = origin(r, root);
     let terrain = terrain(r, root, siblings);
@@ -86,7 +86,7 @@ fn as_integer(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) -> Sc
     }
 }
 
-/// Reads a machine-readable name: lowercase letters, digits and hyphens.
+/// Reads a machine-readable name of 1 to 40 lowercase letters, digits and hyphens.
 fn name(r: &mut Reader, s: &mut Section, key: &'static str) -> String {
     let before = r.problems.len();
     let name = r.text(s, key, None);
@@ -165,7 +165,7 @@ fn heights(text: &str) -> Result<Vec<Vec<f64>>, String> {
             return Err(format!("row {}: heights must be within 1000 m of the origin", k + 1));
         }
         if rows.first().is_some_and(|first| first.len() != row.len()) {
-            return Err(format!("row {} has {} columns, the first has {}", k + 1, row.len(), rows[0].len()));
+            return Err(format!("row {} has {} columns, but the first row has {}", k + 1, row.len(), rows[0].len()));
         }
         rows.push(row);
     }
@@ -205,7 +205,7 @@ fn bridges_of(r: &mut Reader, root: &mut Section) -> Vec<Bridge> {
     out
 }
 
-/// Reads the table with the dimensions of a bridge.
+/// Reads the table with the dimensions of a bridge and checks that they are consistent with each other.
 fn dimensions(r: &mut Reader, s: &mut Section, bridge: &BridgeType) -> BridgeKind {
     let mut s = r.section(s, bridge.name);
     let values: Vec<f64> = bridge.fields.iter().map(|f| r.number(&mut s, f.key, (f.min, f.max), Some(f.default))).collect();

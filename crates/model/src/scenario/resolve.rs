@@ -1,5 +1,5 @@
-//! Resolved scenarios: the source text with the session's seed and the placed defects inserted. The CRC equals that of the
-//! source.
+//! Resolved scenario files: the source text with the seed and the placed defects of a session inserted. A resolved file has the
+//! same CRC as its source.
 
 use super::job::PlacedDefect;
 use super::point::point;
@@ -11,8 +11,8 @@ use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, value};
 /// Tolerance on the length of unit vectors, for vectors rounded to three decimals.
 const UNIT_TOLERANCE: f64 = 2e-3;
 
-/// Inserts seed and defects into the source text; parsing the result yields the same job with exactly these defects. Invalid TOML
-/// is returned unchanged.
+/// Inserts a seed and placed defects into the source text. Parsing the result yields the same job with exactly these defects.
+/// Invalid TOML is returned unchanged.
 #[must_use]
 pub fn resolve(text: &str, seed: u64, placed: &[PlacedDefect]) -> String {
     let Ok(mut document) = text.parse::<DocumentMut>() else { return text.to_string() };
@@ -49,7 +49,7 @@ fn table(defect: &PlacedDefect) -> Table {
     t
 }
 
-/// Reads the defects of a resolved file; `None` for a source file.
+/// Reads the placed defects of a resolved file; `None` for a source file.
 pub(super) fn with_placed_defects(r: &mut Reader, s: &mut Section) -> Option<Vec<PlacedDefect>> {
     let none_placed = r.flag(s, "none_placed", false);
     let mut out = Vec::new();
@@ -84,8 +84,8 @@ fn one(r: &mut Reader, t: &mut Section) -> PlacedDefect {
     }
 }
 
-/// Returns the CRC-32 of the text in canonical form without seed and placed defects, so that a resolved file has the CRC of its
-/// source.
+/// Returns the CRC-32 of the text in canonical form. Seed and placed defects are excluded, so that a resolved file has the CRC of
+/// its source.
 #[must_use]
 pub fn crc(text: &str) -> u32 {
     let Ok(mut document) = text.parse::<DocumentMut>() else { return crc32fast::hash(text.as_bytes()) };
@@ -97,7 +97,7 @@ pub fn crc(text: &str) -> u32 {
     crc32fast::hash(canonical(document.as_item()).as_bytes())
 }
 
-/// Returns the canonical form: sorted keys, no comments, no formatting.
+/// Returns the canonical form of a TOML item: sorted keys without comments and formatting.
 fn canonical(item: &Item) -> String {
     let mut out = String::new();
     write(item, "", &mut out);

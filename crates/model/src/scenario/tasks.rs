@@ -1,4 +1,4 @@
-//! Tasks: reference paths derived from a bridge or listed point by point.
+//! Reads the tasks of a job. Their reference paths are derived from a bridge or listed point by point.
 
 use super::bridges::Bridge;
 use super::bridges::path::{SPACING_M, TaskKind, TaskPath};
@@ -7,14 +7,15 @@ use super::point::FAR_M;
 use crate::frames::{Enu, Vec3};
 use crate::toml::{Reader, Section};
 
-/// Minimum stand-off distance of tasks 1, 2 and 4, m (avoids the too-close alert at 2.5 m).
+/// Minimum stand-off distance of task paths derived from a bridge, m. It leaves a margin to the too-close warning at 2.5 m.
 const LEAST_STAND_OFF_M: f64 = 4.0;
-/// Maximum on-path threshold, m; it must be below the outer limit of the off-path band.
+/// Maximum on-path threshold, m. The threshold must be below 8 m, the outer limit of the off-path band.
 const MOST_THRESHOLD_M: f64 = 7.999;
 
-/// Maximum number of tasks per job (estimate: the paper has four).
+/// Maximum number of tasks per job (estimate; the TASBID paper has four).
 const MOST_TASKS: usize = 64;
-/// Maximum length of a path in a file, m (estimate: twice the range of a battery); a longer one is a typing error.
+/// Maximum length of a path in a file, m (estimate: twice the distance flown on one battery). A longer path is likely a typing
+/// error.
 const LONGEST_PATH_M: f64 = 20_000.0;
 
 const KINDS: [(&str, TaskKind); 5] = [
@@ -25,8 +26,8 @@ const KINDS: [(&str, TaskKind); 5] = [
     ("free", TaskKind::Free),
 ];
 
-/// Default on-path thresholds of the paper's tasks, m (docs/src/reference/assessment.md, "On path"; the paper does not specify
-/// any).
+/// Returns the default on-path threshold of a task kind, m (docs/src/reference/assessment.md, "On path"; the TASBID paper does
+/// not specify any).
 fn usual_threshold_m(kind: TaskKind) -> f64 {
     match kind {
         TaskKind::SlabSide | TaskKind::ArchBottom => 3.0,
@@ -92,12 +93,12 @@ fn bridge_of(r: &mut Reader, s: &mut Section, kind: TaskKind, bridges: &[Bridge]
     let found = bridges.iter().position(|b| b.name == wanted);
     if found.is_none() {
         let names = bridges.iter().map(|b| b.name.as_str()).collect::<Vec<_>>().join(", ");
-        r.add_problem(s, "bridge", &wanted, &format!("a bridge in this file: {names}"), "no such bridge");
+        r.add_problem(s, "bridge", &wanted, &format!("a bridge in this file: {names}"), "unknown bridge");
     }
     found
 }
 
-/// Reads a path from the file and resamples it. The camera looks along the path unless a target is given.
+/// Creates a path from the points in the file, resampled. The camera points along the path unless the file gives a target.
 fn free(r: &mut Reader, s: &mut Section, kind: TaskKind, points: &[[f64; 3]], look_at: &[[f64; 3]], closed: bool) -> TaskPath {
     let points: Vec<Vec3<Enu>> = points.iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
     if points.is_empty() && kind == TaskKind::Free {
@@ -123,7 +124,7 @@ fn look(path: &[Vec3<Enu>], k: usize, target: Option<Vec3<Enu>>) -> Vec3<Enu> {
     if ahead.norm() > 1e-9 { ahead.unit() } else { Vec3::new(0.0, 1.0, 0.0) }
 }
 
-/// Resamples a polyline to the maximum point spacing; a closed one does not repeat its first point.
+/// Resamples a polyline so that its points are at most [`SPACING_M`] apart. A closed polyline does not repeat its first point.
 #[must_use]
 pub fn resample(points: &[Vec3<Enu>], closed: bool) -> Vec<Vec3<Enu>> {
     let n = points.len();

@@ -1,12 +1,12 @@
-//! Wind and time of day settings.
+//! Reads the wind settings and parses the start time.
 
 use super::job::{WindEvent, WindModel, WindSpec};
 use crate::math::M_S_PER_MPH;
 use crate::time::SimTime;
 use crate::toml::{Reader, Section};
 
-/// The paper's wind levels: speed in mph (the light one is 22/10 mph, so that 0.12 N follows the same square law as 3 N and 12 N)
-/// and force in N.
+/// Wind levels of the TASBID paper: speed, mph, and force, N. The speed of the light level is 2.2 mph, so that its 0.12 N follow
+/// the same square law as the 3 N and 12 N of the other levels.
 const LEVELS: [(&str, (f64, f64)); 4] =
     [("calm", (0.0, 0.0)), ("light", (2.2, 0.12)), ("gentle", (11.0, 3.0)), ("medium", (22.0, 12.0))];
 
@@ -55,7 +55,7 @@ fn one_event(r: &mut Reader, s: &mut Section) -> WindEvent {
     }
 }
 
-/// Parses `YYYY-MM-DDTHH:MM:SSZ` to seconds since the Unix epoch.
+/// Parses a UTC time `YYYY-MM-DDTHH:MM:SSZ`; returns seconds since the Unix epoch.
 #[must_use]
 pub fn unix_s(text: &str) -> Option<i64> {
     text.parse::<jiff::Timestamp>().ok().map(jiff::Timestamp::as_second)

@@ -1,9 +1,9 @@
-//! Oriented boxes: the solids of all moving or parked objects, with exact distance, ray and contact queries.
+//! Oriented boxes, which represent all moving or parked objects, with exact distance, ray and contact queries.
 
 use super::queries::HullProbe;
 use crate::frames::{Enu, Vec3};
 
-/// An oriented box.
+/// A box with an arbitrary orientation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OrientedBox {
     /// Center, m.
@@ -14,11 +14,11 @@ pub struct OrientedBox {
     pub half_m: [f64; 3],
 }
 
-/// Number of steps of the golden-section search along a capsule's axis: reduces 10 m to less than a micrometer.
+/// Number of steps of the golden-section search along a capsule's axis, which narrow 10 m to less than a micrometer.
 const SEARCH_STEPS: usize = 36;
 /// (√5 - 1)/2.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
-/// Minimum axis length at which the ends of a capsule count as separate contacts, m.
+/// Minimum axis length of a capsule whose ends are separate contacts, m.
 const AXIS_MIN_M: f64 = 1e-6;
 
 impl OrientedBox {
@@ -76,8 +76,8 @@ impl OrientedBox {
         (enter <= leave).then_some((enter, normal))
     }
 
-    /// Calls `found` with gap, surface point and normal of each near-contact of a convex probe: one for a ball; the deepest point
-    /// and both ends for a capsule (so that a capsule lying on a face rests on two points).
+    /// Calls `found` with gap, surface point and normal of each near-contact of a convex probe. A ball has one contact. A capsule
+    /// has contacts at its deepest point and at both ends, so that a capsule lying on a face rests on two points.
     pub fn contacts(&self, probe: &HullProbe, margin_m: f64, mut found: impl FnMut(f64, Vec3<Enu>, Vec3<Enu>)) {
         let mut test = |centre: Vec3<Enu>, radius: f64| {
             let (distance, point, normal) = self.nearest(centre);

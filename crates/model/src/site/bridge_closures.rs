@@ -1,23 +1,24 @@
-//! Bridge closures: an instructor may close the bridges to traffic. Traffic already on a bridge leaves it; new traffic does not
-//! enter.
+//! Bridge closures: an instructor can close the bridges to traffic. Traffic that is already on a bridge leaves it, and no new
+//! traffic enters.
 
 use crate::time::SimTime;
 
-/// Closures and openings so far, sorted by time; initially open. Plain data, so that traffic remains a function of time.
+/// Times at which the bridges were closed and reopened, sorted; they are open at the start. Plain data, so that traffic remains a
+/// function of time.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct BridgeClosures(Vec<(SimTime, bool)>);
 
 impl BridgeClosures {
-    /// Returns the wire code of a change (NAMED_VALUE_INT `traffic`): its time, ms, positive for an opening and negative for a
-    /// closure. Each code is self-contained, so it may be delayed, duplicated or reordered.
+    /// Returns the code of a change as sent in NAMED_VALUE_INT `traffic`: its time, ms, positive for an opening and negative for
+    /// a closure. Each code is self-contained, so messages may be delayed, duplicated or reordered.
     #[must_use]
     pub fn code(at: SimTime, open: bool) -> i32 {
-        // 0 has no sign, so a change at the very start is encoded 1 ms later.
+        // Zero has no sign, so a change at time 0 is encoded as 1 ms.
         let ms = i32::try_from(at.ns() / 1_000_000).unwrap_or(i32::MAX).max(1);
         if open { ms } else { -ms }
     }
 
-    /// Creates closures from wire codes in any order.
+    /// Creates closures from codes in any order.
     #[must_use]
     pub fn from_codes(codes: impl IntoIterator<Item = i32>) -> Self {
         let mut gates = Self::default();
@@ -25,7 +26,7 @@ impl BridgeClosures {
         gates
     }
 
-    /// Adds the change with the given wire code; 0 is ignored.
+    /// Adds the change with the given code. Ignores 0 and codes that were added before.
     pub fn apply_codes(&mut self, code: i32) {
         let change = (SimTime::from_ms(i64::from(code.unsigned_abs())), code > 0);
         if code != 0 && !self.0.contains(&change) {
@@ -34,8 +35,8 @@ impl BridgeClosures {
         }
     }
 
-    /// Returns the codes of the last two changes, 0 for none: enough for a new subscriber to reconstruct the traffic on the
-    /// bridges.
+    /// Returns the codes of the last two changes, 0 for a missing one. They suffice for a new subscriber to reconstruct the
+    /// traffic on the bridges.
     #[must_use]
     pub fn last_codes(&self) -> [i32; 2] {
         let mut last = self.0.iter().rev().map(|(at, open)| Self::code(*at, *open));
@@ -43,13 +44,13 @@ impl BridgeClosures {
         [last.next().unwrap_or(0), newest]
     }
 
-    /// Returns true if traffic that arrives at this time, s, may enter.
+    /// Returns true if the bridges are open to traffic that arrives at time `t_s`, s.
     #[must_use]
     pub fn is_open_at(&self, t_s: f64) -> bool {
         self.0.iter().rev().find(|(since, _)| since.s() <= t_s).is_none_or(|(_, open)| *open)
     }
 
-    /// Returns true if there was no change.
+    /// Returns true if the bridges have never been closed or reopened.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()

@@ -4,7 +4,7 @@ use crate::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use crate::pose::Pose;
 use crate::vehicle::Camera;
 
-/// Position and orientation of a camera at one instant.
+/// Position and orientation of a camera, and the state of its lamp.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CameraPose {
     /// Lens position, m.
@@ -13,13 +13,13 @@ pub struct CameraPose {
     pub forward: Vec3<Enu>,
     /// Unit vector toward the right side of the image.
     pub right: Vec3<Enu>,
-    /// The lamp is on (it points along the optical axis).
+    /// True if the lamp, which points along the optical axis, is on.
     pub lamp_on: bool,
 }
 
 impl CameraPose {
-    /// Returns the camera pose for an aircraft pose: the attitude determines the heading; the gimbal keeps roll level and holds
-    /// its pitch above the horizon, rad, up positive.
+    /// Returns the camera pose for an aircraft pose. The attitude determines the heading. The gimbal keeps the camera free of
+    /// roll at the pitch angle `gimbal_rad` above the horizon, rad.
     #[must_use]
     pub fn on(camera: &Camera, Pose { position_m, ned_from_frd }: Pose<Enu>, gimbal_rad: f64, lamp_on: bool) -> Self {
         let looking: Rotation<Frd, Ned> = Rotation::from_euler(0.0, gimbal_rad, ned_from_frd.yaw_rad());

@@ -1,20 +1,20 @@
-//! Queries on a convex polyhedron. Its signed distance is a convex function, so the nearest point on a capsule's axis is the
-//! unique solution of a one-dimensional search.
+//! Distance and ray queries on convex polyhedra. The signed distance to a convex polyhedron is a convex function, so that a
+//! one-dimensional search finds the nearest point on a capsule's axis.
 
 use crate::frames::{Enu, Vec3};
 use crate::scenario::bridges::Solid;
 
-/// Maximum number of iterations of the search along a capsule's axis; it stops earlier once the result can improve by less than
-/// [`LEVEL_M`].
+/// Maximum number of iterations of the search along a capsule's axis. The search stops earlier if the result cannot improve
+/// noticeably (see [`LEVEL_M`]).
 const SEARCH_ROUNDS: usize = 40;
-/// Tolerance on equal distances, m: identifies segments that lie flat on a face.
+/// Tolerance within which two distances count as equal, m. Identifies segments that lie flat on a face.
 const LEVEL_M: f64 = 1e-7;
-/// Distance from the surface below which a point gets the normal of the face, m.
+/// Maximum distance from the surface at which a point gets the normal of the face, m.
 const TOUCHING_M: f64 = 1e-9;
-/// Tolerance on the cosine between the normals of a box's faces.
+/// Tolerance on the cosine between the normals of perpendicular faces of a box.
 const SQUARE: f64 = 1e-12;
 
-/// A convex polyhedron prepared for queries.
+/// A convex polyhedron, preprocessed for queries.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Convex {
     shape: ConvexShape,
@@ -25,17 +25,17 @@ pub struct Convex {
 /// A surface point and its distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfacePoint {
-    /// Signed distance, m; negative inside.
+    /// Signed distance from the query point, m; negative inside the solid.
     pub distance_m: f64,
     /// The surface point, m.
     pub point_m: Vec3<Enu>,
-    /// Outward unit normal, toward the query point.
+    /// Outward unit normal of the surface.
     pub normal: Vec3<Enu>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
 enum ConvexShape {
-    /// A box: equivalent to a hull with six faces, evaluated three at a time.
+    /// A box. Equivalent to a hull with six faces, but evaluates pairs of opposite faces together.
     Box {
         centre: Vec3<Enu>,
         axes: [Vec3<Enu>; 3],
@@ -44,7 +44,7 @@ enum ConvexShape {
     Hull(Vec<HullFace>),
 }
 
-/// One face: its plane and its edges, counterclockwise seen from outside.
+/// A face of a hull: its plane and its edges, counterclockwise seen from outside.
 #[derive(Debug, Clone, PartialEq)]
 struct HullFace {
     normal: Vec3<Enu>,
@@ -94,7 +94,7 @@ impl Convex {
         }
     }
 
-    /// Returns the distance along a ray to the surface and the normal there; a ray that starts inside hits immediately.
+    /// Returns the distance along a ray to the surface and the normal there. A ray that starts inside hits at distance 0.
     #[must_use]
     pub fn ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<(f64, Vec3<Enu>)> {
         let mut clip = RayInterval { enter: f64::NEG_INFINITY, leave: max_m, normal: -direction };
@@ -121,15 +121,15 @@ impl Convex {
         Some(if clip.enter > 0.0 { (clip.enter, clip.normal) } else { (0.0, -direction) })
     }
 
-    /// Returns the deepest interior point of a segment if it is deeper than both ends, as for a segment across an edge. `ends`
-    /// contains the nearest surface points of the ends. For a segment that lies flat on a face and extends over an edge, returns
-    /// the point at that edge.
+    /// Returns the minimum of the signed distance along a segment, if it is smaller than at both ends, as for a segment across an
+    /// edge. `ends` contains the surface points nearest to the ends. For a segment that lies flat on a face and extends beyond an
+    /// edge, returns the point at that edge.
     #[must_use]
     pub fn between(&self, a: Vec3<Enu>, b: Vec3<Enu>, ends: [&SurfacePoint; 2], enough_m: f64) -> Option<SurfacePoint> {
         let along = b - a;
         let length = along.norm();
         let (at_a, at_b) = (ends[0].distance_m, ends[1].distance_m);
-        // Distance changes by at most one meter per meter.
+        // The distance to a surface changes by at most one meter per meter.
         if 0.5 * (at_a + at_b - length) > enough_m || length < TOUCHING_M {
             return None;
         }
@@ -137,7 +137,7 @@ impl Convex {
         if lowest.1.distance_m < at_a.min(at_b) - LEVEL_M {
             return Some(lowest.1);
         }
-        // Only one end lies flat: find the end of the flat part.
+        // If one end lies flat on a face, bisection finds the end of the flat part.
         let (from, to) = if at_a <= at_b { (a, b) } else { (b, a) };
         let least = at_a.min(at_b);
         if (at_a - at_b).abs() <= LEVEL_M {
@@ -151,8 +151,8 @@ impl Convex {
         (flat > 0.02).then(|| self.nearest(from.lerp(to, flat)))
     }
 
-    /// Finds the lowest point along a segment by tangents: two tangents bracket the minimum of a convex function, and their
-    /// intersection is a lower bound.
+    /// Finds the point along a segment with the smallest distance. The tangents at two points bracket the minimum of a convex
+    /// function, and their intersection is a lower bound.
     fn lowest(&self, a: Vec3<Enu>, along: Vec3<Enu>, ends: [&SurfacePoint; 2]) -> (f64, SurfacePoint) {
         let slope = |near: &SurfacePoint| near.normal.dot(along);
         let (mut left, mut right) = ((0.0, *ends[0]), (1.0, *ends[1]));
@@ -171,7 +171,7 @@ impl Convex {
             if best.1.distance_m - floor < 0.1 * LEVEL_M {
                 break;
             }
-            // Tangents alone converge slowly from one side near a rounded minimum; occasional bisection keeps the bracket
+            // Near a rounded minimum, tangents converge slowly from one side. A bisection in every third round keeps the bracket
             // shrinking.
             let t = left.0 + if round % 3 == 2 { 0.5 * width } else { step.clamp(0.0, width) };
             let near = self.nearest(a + along * t);
@@ -184,7 +184,7 @@ impl Convex {
     }
 }
 
-/// The interval of a ray that lies behind all planes so far.
+/// Interval of a ray that is behind all planes tested so far.
 struct RayInterval {
     enter: f64,
     leave: f64,
@@ -192,7 +192,7 @@ struct RayInterval {
 }
 
 impl RayInterval {
-    /// Clips the interval by another plane, given the height of the origin above it and the rate at which the ray climbs from it.
+    /// Clips the interval by a plane, given the height of the ray's origin above it and the rate at which the ray climbs.
     fn plane(&mut self, height: f64, rate: f64, normal: impl Fn() -> Vec3<Enu>) {
         if rate == 0.0 {
             if height > 0.0 {
@@ -239,7 +239,7 @@ fn nearest_of_hull(p: Vec3<Enu>, faces: &[HullFace]) -> SurfacePoint {
         if height > highest.0 {
             highest = (height, k);
         }
-        // Only faces in front of which the point lies can contain the nearest point, at no less than the distance to their plane.
+        // Only faces that the point is in front of can contain the nearest point, and it is no closer than their plane.
         if height > 0.0 && height * height < best.0 {
             let q = face.nearest(p, height);
             let d = (p - q).norm_squared();
@@ -257,7 +257,7 @@ fn nearest_of_hull(p: Vec3<Enu>, faces: &[HullFace]) -> SurfacePoint {
     SurfacePoint { distance_m, point_m: best.1, normal }
 }
 
-/// Returns a box if the faces are three perpendicular pairs.
+/// Returns a box if the faces are three pairs of parallel faces that are perpendicular to each other; otherwise `None`.
 fn as_box(faces: &[HullFace]) -> Option<ConvexShape> {
     if faces.len() != 6 || faces.iter().any(|f| f.edges.len() != 4) {
         return None;
@@ -282,7 +282,7 @@ fn as_box(faces: &[HullFace]) -> Option<ConvexShape> {
 
 impl HullFace {
     fn new(corners: &[Vec3<Enu>]) -> Self {
-        // Newell's sum: exact for planar polygons even if corners nearly coincide.
+        // Newell's method is exact for planar polygons even if corners nearly coincide.
         let n = corners.len();
         let mut sum = Vec3::zero();
         for k in 0..n {
@@ -302,7 +302,7 @@ impl HullFace {
         Self { normal, offset, edges: (0..n).map(edge).collect() }
     }
 
-    /// Returns the point of the polygon nearest to a point at `height` above its plane.
+    /// Returns the point of the face that is nearest to a point at `height` above its plane.
     fn nearest(&self, p: Vec3<Enu>, height: f64) -> Vec3<Enu> {
         let mut best = (f64::INFINITY, Vec3::zero());
         let mut within = true;
@@ -329,7 +329,7 @@ mod tests {
     use crate::random::RandomStream;
     use crate::scenario::bridges::solid::{MemberBuilder, Placement};
 
-    /// Rounding error at the scale of the test shapes, m.
+    /// Tolerance for rounding errors at the scale of the test shapes, m.
     const ROUNDING_M: f64 = 1e-12;
 
     fn cube() -> Convex {
@@ -338,7 +338,7 @@ mod tests {
         Convex::new(&b.finish()[0].solid)
     }
 
-    /// Returns the same solids as boxes and as hulls, and an eight-sided rod.
+    /// Returns a box, a wedge and an eight-sided rod.
     fn shapes() -> Vec<Convex> {
         let mut b = MemberBuilder::new("t", Placement::new(Vec3::new(0.3, -0.2, 0.1), 37.0));
         b.block("block", Element::RcDeck, [-1.0, -0.5, -0.2], [1.3, 0.4, 0.1]);
@@ -360,7 +360,7 @@ mod tests {
 
     #[test]
     fn prop_a_box_answers_as_its_faces_do() {
-        // Corners of a rotated box are rounded to 1e-16 of its size, m.
+        // Tolerance for the rounding of the corners of a rotated box, m.
         const SAME_M: f64 = 1e-9;
         let mut b = MemberBuilder::new("t", Placement::new(Vec3::new(11.0, -40.0, 7.0), 71.0));
         b.block("block", Element::RcDeck, [-3.0, -0.5, -0.2], [1.3, 0.4, 0.1]);
@@ -401,7 +401,7 @@ mod tests {
 
     #[test]
     fn prop_no_point_of_a_segment_lies_deeper_than_the_contact_between_its_ends() {
-        // Tolerance on equal distances, and the spacing of the sample points times the steepest slope, m.
+        // Tolerance for equal distances and for the spacing of the sample points, m.
         const DEEPER_M: f64 = 2e-7;
         let mut random = RandomStream::new(8, "segments");
         let mut across = 0;
@@ -428,7 +428,7 @@ mod tests {
         let (a, b) = (Vec3::new(0.0, 2.0, 2.0), Vec3::new(0.0, 2.0, -6.0));
         let near = cube.between(a, b, [&cube.nearest(a), &cube.nearest(b)], 2.0).unwrap();
         assert!((near.distance_m - 1.0).abs() < ROUNDING_M);
-        // Across the top edge at 45 degrees: the edge itself.
+        // The nearest point of a segment across the top edge at 45 degrees is on the edge.
         let (a, b) = (Vec3::new(0.0, 0.0, 2.5), Vec3::new(0.0, 2.5, 0.0));
         let near = cube.between(a, b, [&cube.nearest(a), &cube.nearest(b)], 2.0).unwrap();
         assert!((near.point_m - Vec3::new(0.0, 1.0, 1.0)).norm() < 1e-6 && (near.distance_m - 0.125f64.sqrt()).abs() < LEVEL_M);
@@ -441,7 +441,7 @@ mod tests {
         assert_eq!(ends(Vec3::new(-0.5, 0.2, 1.1), Vec3::new(0.5, 0.1, 1.1)), None);
         let over = ends(Vec3::new(0.0, 0.0, 1.1), Vec3::new(0.0, 3.0, 1.1)).unwrap();
         assert!((over.point_m - Vec3::new(0.0, 1.0, 1.0)).norm() < 1e-3, "{over:?}");
-        // Upright on its end: no interior minimum.
+        // A segment upright on its end has no interior minimum.
         assert_eq!(ends(Vec3::new(0.0, 0.0, 1.1), Vec3::new(0.0, 0.0, 2.1)), None);
     }
 }

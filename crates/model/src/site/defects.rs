@@ -1,6 +1,6 @@
-//! Places defects from the seed: a line of sight from a task's path finds an exposed face within reach, [`crate::elements`] lists
-//! the defects permitted there, and [`super::visibility`] decides whether it can be photographed from within the task's
-//! threshold. Each seed yields different positions.
+//! Places random defects. A line of sight from a task's path finds an exposed face within reach, [`crate::elements`] lists the
+//! defect codes permitted there, and [`super::visibility`] decides whether the defect can be photographed without leaving the
+//! path by more than the task's threshold. Each seed yields different positions.
 
 use super::camera_pose::CameraPose;
 use super::faces::{MemberFace, face_at};
@@ -16,9 +16,9 @@ use crate::scenario::bridges::Member;
 use crate::scenario::{DefectSpec, PlacedDefect, Task, TaskKind};
 use crate::vehicle::{Camera, Lamp};
 
-/// The camera with which every placed defect can be photographed: lower resolution than the shipped cameras (3000 px over 100
-/// degrees; estimate for a small low-end inspection drone), with the full gimbal range. Placement must not depend on the aircraft
-/// because simulator and monitor both place defects from scenario and seed alone.
+/// Camera with which every placed defect can be photographed. Its resolution is lower than that of the shipped cameras (3000 px
+/// over 100 degrees; estimate for a small low-end inspection drone), and its gimbal has the full range. Placement must not depend
+/// on the aircraft, because simulator and monitor each place the defects from only the scenario and the seed.
 pub const REFERENCE_CAMERA: Camera = Camera {
     position_m: Vec3::new(0.0, 0.0, 0.0),
     width_px: 3000,
@@ -32,29 +32,29 @@ pub const REFERENCE_CAMERA: Camera = Camera {
     gimbal_pitch_max_rad: math::FRAC_PI_2,
     gimbal_rate_rad_s: 1.0,
 };
-/// The lamp of the reference camera (estimate: a small clip-on light).
+/// Lamp of the reference camera (estimate: a small clip-on light).
 pub const REFERENCE_LAMP: Lamp = Lamp { flux_lm: 1000.0, beam_rad: math::PI / 3.0 };
 
-/// Minimum distance of the reference photo to any surface, m (half of 0.59 m tip to tip, plus a margin).
+/// Minimum distance of the reference camera from any surface, m (half of 0.59 m tip to tip, plus a margin).
 pub const CLEARANCE_M: f64 = 0.8;
-/// Distances from the path toward the defect at which the reference camera is tried, as fractions of the threshold (0.9 leaves a
-/// margin).
+/// Distances from the path toward the defect at which the reference camera is tried, as fractions of the task's threshold. The
+/// largest leaves a margin.
 const APPROACH: [f64; 4] = [0.0, 0.3, 0.6, 0.9];
-/// Half angle of the search cone about the path's viewing direction, rad (estimate: camera pan and tilt).
+/// Half angle of the search cone about the viewing direction of the path, rad (estimate of camera pan and tilt).
 const SEARCH_CONE_RAD: f64 = 0.9;
-/// Up direction.
+/// Unit vector that points up.
 const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
-/// Maximum search distance for faces, m (estimate; thin lines fail the visibility check at much shorter distances).
+/// Maximum distance at which faces are searched, m (estimate; thin lines fail the visibility check at much shorter distances).
 const SEARCH_REACH_M: f64 = 20.0;
-/// Minimum margin of bare surface around a defect, m: keeps defects away from joints and edges.
+/// Minimum width of bare surface around a defect, m, which keeps defects away from joints and edges.
 const MARGIN_M: f64 = 0.03;
-/// Minimum free space above the surface, m.
+/// Minimum free space in front of a defect, along its normal, m.
 const ROOM_M: f64 = 0.5;
-/// Minimum distance between the centers of two defects, m; one photo should rarely show two.
+/// Minimum distance between the centers of two defects, m, so that a photo rarely shows two of them.
 const SEPARATION_M: f64 = 2.0;
-/// Number of attempts per defect; the first third enforces the full separation, the others reduce it gradually.
+/// Maximum number of attempts per defect. The first third requires the full separation; the others reduce it gradually.
 const ATTEMPTS: usize = 3000;
-/// Number of path points tried as the reference camera position, nearest first.
+/// Number of path points that are tried as positions of the reference camera, nearest first.
 const PLACES: usize = 5;
 
 /// Returns the properties in which an aircraft's camera or lamp falls short of the reference, with both values; empty if it meets
@@ -65,8 +65,8 @@ pub fn reference_shortfalls(camera: &Camera, lamp: &Lamp) -> Vec<String> {
     let wanting = [
         ("focal length, px", camera.focal_px(), REFERENCE_CAMERA.focal_px()),
         ("lamp intensity, cd", candela(lamp), candela(&REFERENCE_LAMP)),
-        // As sensitivity, so that a higher value is better in all rows.
-        ("1/light needed, 1/lx", 1.0 / visibility::needed_lux(camera), 1.0 / visibility::needed_lux(&REFERENCE_CAMERA)),
+        // The reciprocal, so that a higher value is better in all rows.
+        ("light sensitivity, 1/lx", 1.0 / visibility::needed_lux(camera), 1.0 / visibility::needed_lux(&REFERENCE_CAMERA)),
         ("gimbal up, rad", camera.gimbal_pitch_max_rad, REFERENCE_CAMERA.gimbal_pitch_max_rad),
         ("gimbal down, rad", -camera.gimbal_pitch_min_rad, -REFERENCE_CAMERA.gimbal_pitch_min_rad),
     ];
@@ -79,24 +79,24 @@ pub fn reference_shortfalls(camera: &Camera, lamp: &Lamp) -> Vec<String> {
         .collect()
 }
 
-/// Site data needed for placement.
+/// Site data and queries needed to place defects.
 #[derive(Clone, Copy)]
 pub struct PlacementContext<'a> {
-    /// All bridge members; the object number of a hit is an index into them.
+    /// All bridge members. The object ID of a ray hit is an index into this list.
     pub members: &'a [Member],
-    /// The tasks of the job.
+    /// All tasks of the job.
     pub tasks: &'a [Task],
     /// Ray queries against static geometry.
     pub cast: RayCast<'a>,
     /// Ambient light at session start by position and normal, lx.
     pub ambient: visibility::AmbientLight<'a>,
-    /// Distance to the nearest surface up to [`CLEARANCE_M`], m; infinity beyond.
+    /// Distance from a point to the nearest surface, m; infinity if it exceeds [`CLEARANCE_M`].
     pub clearance_m: &'a dyn Fn(Vec3<Enu>) -> f64,
 }
 
-/// Returns the defects of a session: those of a resolved file, otherwise drawn from the seed. Returns fewer than requested only
-/// if the settings leave no position that can be photographed (for example no bridge within reach of a task, or defect kinds that
-/// no element in reach permits).
+/// Returns the defects of a session: those of a resolved file, or otherwise defects drawn from the seed. There are fewer than
+/// requested only if the settings leave no position that can be photographed (for example, no bridge within reach of a task, or
+/// defect codes that are not permitted on any element within reach).
 #[must_use]
 pub fn place(settings: &DefectSpec, ground: &PlacementContext, seed: u64) -> Vec<PlacedDefect> {
     if let Some(placed) = &settings.placed {
@@ -122,7 +122,7 @@ pub fn place(settings: &DefectSpec, ground: &PlacementContext, seed: u64) -> Vec
     defects
 }
 
-/// Draws one line of sight, kind and size and checks them; `None` if any check fails.
+/// Draws a line of sight, a defect code and a size; `None` if the defect cannot be placed there.
 fn try_place(
     settings: &DefectSpec,
     ground: &PlacementContext,
@@ -132,7 +132,7 @@ fn try_place(
 ) -> Option<PlacedDefect> {
     let n = stream.below(task.path_m.len());
     let direction = match task.kind {
-        // The viewing direction of a free path does not indicate where the structure is.
+        // On a free path the camera does not necessarily point toward a structure.
         TaskKind::Free => in_cone(UP, math::PI, stream),
         TaskKind::SlabSide | TaskKind::ArchBottom | TaskKind::Interlayer | TaskKind::PierCircle => {
             in_cone(task.look.get(n).copied().unwrap_or(UP), SEARCH_CONE_RAD, stream)
@@ -174,7 +174,8 @@ fn choose_kind(settings: &DefectSpec, element: Element, draw: f64) -> Option<u32
     legal.get((draw * legal.len() as f64) as usize).copied()
 }
 
-/// Stains run down walls; corrosion and exposed reinforcement follow the member; all others have a random angle.
+/// Returns the direction of a defect's longest dimension. Stains run down walls; corrosion, exposed reinforcement and connection
+/// defects follow the member; all others have a random angle.
 fn along(kind: u32, face: &MemberFace, roll_rad: f64) -> Vec3<Enu> {
     let down = Vec3::new(0.0, 0.0, -1.0);
     let downhill = down - face.normal * face.normal.dot(down);
@@ -189,7 +190,7 @@ fn along(kind: u32, face: &MemberFace, roll_rad: f64) -> Vec3<Enu> {
     }
 }
 
-/// Returns the four end points of the defect's length and width.
+/// Returns the ends of a defect's length and of its width, each extended by a margin.
 fn ends(defect: &PlacedDefect, margin_m: f64) -> [Vec3<Enu>; 4] {
     let across = defect.normal.cross(defect.along);
     let (l, w) = (0.5 * defect.length_m + margin_m, 0.5 * defect.width_m + margin_m);
@@ -197,13 +198,13 @@ fn ends(defect: &PlacedDefect, margin_m: f64) -> [Vec3<Enu>; 4] {
     [c + defect.along * l, c - defect.along * l, c + across * w, c - across * w]
 }
 
-/// Returns true if the entire defect lies inside its face.
+/// Returns true if the defect and its margin are entirely inside the face.
 fn has_room(defect: &PlacedDefect, face: &MemberFace) -> bool {
     ends(defect, MARGIN_M).iter().all(|p| face.inset_m(*p) > 0.0)
 }
 
-/// Returns true if no other member covers the defect or touches its surroundings: seen from slightly above, this member is the
-/// first hit at every end.
+/// Returns true if no other member covers the defect or touches its surroundings. Rays from slightly above the center and the
+/// ends of the defect must hit this member first.
 fn exposed(defect: &PlacedDefect, object: u32, ground: &PlacementContext) -> bool {
     let mut points = ends(defect, MARGIN_M).to_vec();
     points.push(defect.position_m);
@@ -215,8 +216,8 @@ fn exposed(defect: &PlacedDefect, object: u32, ground: &PlacementContext) -> boo
     })
 }
 
-/// Returns a pose within the task's threshold of its path, clear of surfaces, from which the reference camera captures the
-/// defect; `None` if none of the candidates qualifies.
+/// Returns a camera pose within the task's threshold of its path, with sufficient clearance, from which the reference camera
+/// captures the defect; `None` if no candidate qualifies.
 #[must_use]
 pub fn best_view(defect: &PlacedDefect, task: &Task, ground: &PlacementContext) -> Option<CameraPose> {
     let mut order: Vec<usize> = (0..task.path_m.len()).collect();
@@ -229,7 +230,7 @@ pub fn best_view(defect: &PlacedDefect, task: &Task, ground: &PlacementContext) 
             let to = defect.position_m - task.path_m[*k];
             let step = (share * task.threshold_m).min(to.norm() - CLEARANCE_M).max(0.0);
             let pose = camera_aimed_at(task.path_m[*k] + to.unit() * step, defect.position_m);
-            // Cheapest conditions first: line of sight and pixels, then clearance, then light.
+            // Checks the cheapest conditions first: line of sight and pixels, then clearance, then light.
             let bright = visibility::judge(defect, &pose, (&REFERENCE_CAMERA, &REFERENCE_LAMP), ground.cast, &|_, _| 1e9);
             let air = || (ground.clearance_m)(pose.position_m) >= CLEARANCE_M;
             let lit = || {
@@ -242,7 +243,7 @@ pub fn best_view(defect: &PlacedDefect, task: &Task, ground: &PlacementContext) 
     })
 }
 
-/// Returns a level camera aimed at a point with the lamp on.
+/// Returns the pose of a roll-free camera that is aimed at a point, with the lamp on.
 fn camera_aimed_at(position_m: Vec3<Enu>, at_m: Vec3<Enu>) -> CameraPose {
     let forward = (at_m - position_m).unit();
     let level = forward.cross(Vec3::new(0.0, 0.0, 1.0));
@@ -269,7 +270,7 @@ mod tests {
 
     const SEEDS: u64 = 50;
 
-    /// Creates a box member between two corners, faces counterclockwise seen from outside.
+    /// Creates a box-shaped member between two corners. Faces are counterclockwise seen from outside.
     fn member(name: &str, element: Element, low: [f64; 3], high: [f64; 3]) -> Member {
         let vertices_m = (0..8)
             .map(|k| {
@@ -281,7 +282,7 @@ mod tests {
         Member { name: name.into(), element, solid: Solid { vertices_m, faces: faces.map(|f| f.to_vec()).to_vec() } }
     }
 
-    /// Creates a concrete wall, with a steel girder in front of part of it; the path is 4 m south of the wall.
+    /// Creates a concrete wall with a steel girder in front of part of it. The task's path is 4 m south of the wall.
     fn members() -> Vec<Member> {
         vec![
             member("test/wall", Element::RcPierWall, [0.0, 0.0, 0.0], [40.0, 1.0, 10.0]),
@@ -321,7 +322,7 @@ mod tests {
         DefectSpec { count: 10, size_factor: 1.0, elements: vec![], kinds: vec![], placed: None }
     }
 
-    /// Runs `with` on the test site.
+    /// Calls `with` with the placement context and the boxes of the test site, under the given ambient illuminance.
     fn on_ground<T>(lux: f64, with: impl FnOnce(&PlacementContext, &[OrientedBox]) -> T) -> T {
         let (members, tasks) = (members(), [task()]);
         let solids = solids(&members);
@@ -416,7 +417,7 @@ mod tests {
         let dark = Lamp { flux_lm: 0.0, ..REFERENCE_LAMP };
         let words = reference_shortfalls(&coarse, &dark).join("; ");
         assert!(words.contains("focal") && words.contains("lamp") && words.contains("gimbal up"), "{words}");
-        assert!(!words.contains("light needed") && !words.contains("gimbal down"), "{words}");
+        assert!(!words.contains("light sensitivity") && !words.contains("gimbal down"), "{words}");
     }
 
     #[test]

@@ -1,5 +1,5 @@
-//! Session-specific content of a site: traffic and crew, defects, light. Every query takes the result for the static geometry as
-//! an argument and is therefore independent of its implementation.
+//! Session-specific content of a site: traffic and crew, defects, light. Queries take the result for the static geometry as an
+//! argument, so that they do not depend on its implementation.
 
 use super::camera_pose::CameraPose;
 use super::defects::{self, PlacementContext};
@@ -13,28 +13,28 @@ use crate::scenario::{PlacedDefect, Scenario};
 use crate::time::SimTime;
 use crate::vehicle::{Camera, Lamp};
 
-/// Traffic plan, defects and light of one session: plain data, immutable after construction.
+/// Traffic plan, defects and light of one session. Plain data, immutable after construction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dynamics {
-    /// Cars, trucks, pedestrians and the crew.
+    /// Plan of cars, trucks and pedestrians, and the crew.
     pub traffic: TrafficPlan,
-    /// Sun, sky and reflections.
+    /// Model of sun, sky and reflections.
     pub light: LightModel,
     /// Defects of the session.
     pub defects: Vec<PlacedDefect>,
 }
 
-/// Queries on the static geometry for [`Dynamics::build`]: rays, and the nearest surface within a maximum distance.
+/// Queries of the static geometry that [`Dynamics::build`] needs.
 #[derive(Clone, Copy)]
 pub struct StaticQueries<'a> {
-    /// Returns the first hit of a ray.
+    /// Function that returns the first hit of a ray.
     pub cast: RayCast<'a>,
-    /// Returns the nearest surface of a point within a maximum distance, m.
+    /// Function that returns the nearest surface to a point within a maximum distance, m.
     pub nearest: &'a dyn Fn(Vec3<Enu>, f64) -> Option<NearestPoint>,
 }
 
 impl Dynamics {
-    /// Draws traffic and defects from the seed.
+    /// Draws traffic and defects from a seed and creates the light model.
     #[must_use]
     pub fn build(scenario: &Scenario, seed: u64, members: &[Member], lanes: &[Lane], still: StaticQueries) -> Self {
         let light = LightModel::new(&scenario.light, scenario.origin);
@@ -46,14 +46,14 @@ impl Dynamics {
         Self { traffic: TrafficPlan::new(lanes, &scenario.traffic, &scenario.ground_team, seed), light, defects: placed }
     }
 
-    /// Returns the nearer of the static result and traffic or crew within `max_m`.
+    /// Returns the nearest of static geometry, whose result is `still`, and of traffic and crew within `max_m`.
     #[must_use]
     pub fn nearest(&self, still: Option<NearestPoint>, position_m: Vec3<Enu>, max_m: f64, at: QueryTime) -> Option<NearestPoint> {
         let reach = still.map_or(max_m, |s| s.distance_m);
         self.traffic.nearest(position_m, reach, at).or(still)
     }
 
-    /// Returns the nearer of the static hit and traffic or crew within `max_m`.
+    /// Returns the first hit of a ray with static geometry, whose result is `still`, and with traffic and crew within `max_m`.
     #[must_use]
     pub fn ray(
         &self,
@@ -67,8 +67,8 @@ impl Dynamics {
         self.traffic.ray(origin_m, direction, reach, at).or(still)
     }
 
-    /// Returns the visibility in a photo of every defect within [`visibility::REACH_M`] in front of the camera. Traffic may block
-    /// the view, but casts no shadow.
+    /// Returns the visibility of each defect within [`visibility::REACH_M`] in front of the camera. Traffic can block the view,
+    /// but casts no shadows.
     #[must_use]
     pub fn look(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: QueryTime, still: RayCast) -> Vec<DefectView> {
         let cast = |o, d, max| self.ray(still(o, d, max), o, d, max, at);
@@ -85,7 +85,7 @@ mod tests {
     use crate::scenario::bridges::{arch::Arch, suspension::Suspension};
     use crate::scenario::*;
 
-    /// Number of seeds with which the placement is checked.
+    /// Number of seeds for which the placement is checked.
     const SEEDS: u64 = 50;
     const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 
@@ -161,7 +161,7 @@ mod tests {
         (rules, feedback, scoring)
     }
 
-    /// Creates a site with two bridges over a lake with steep shores, at noon in June.
+    /// Creates a scenario with two bridges over water at noon in June.
     fn scenario(cloud_cover: f64) -> Scenario {
         let bridges = bridges();
         let tasks = tasks(&bridges);
@@ -255,7 +255,7 @@ mod tests {
         assert_eq!(Site::build(&scenario, 8).defects(), &once.defects()[..3]);
     }
 
-    /// Returns the light on the slab's soffit between the stringers at positions along the crown, lx.
+    /// Returns the illuminance of the slab's soffit between the stringers at five positions along the arch, lx.
     fn soffit_lux(scenario: &Scenario) -> Vec<f64> {
         let site = Site::build(scenario, 1);
         let placement = scenario.bridges[0].placement();
@@ -278,8 +278,8 @@ mod tests {
         }
         let overcast = soffit_lux(&scenario(1.0));
         assert!(overcast.iter().all(|lux| (200.0..2000.0).contains(lux)), "{overcast:?}");
-        // 19:10 UTC: the sun is about 5 deg above the horizon behind clouds, and the soffits drop to the 20 to 200 lx of dark
-        // areas.
+        // At 19:10 UTC the sun is behind clouds about 5 deg above the horizon, and the illuminance of the soffits drops to 20 to
+        // 200 lx, the range of dark areas.
         let mut evening = scenario(1.0);
         evening.light.start_unix_s += 7 * 3600 + 600;
         let dark = soffit_lux(&evening);

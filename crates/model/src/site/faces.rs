@@ -1,20 +1,20 @@
-//! Faces of solids, and tests for points inside them.
+//! Faces of bridge members, used to place defects.
 
 use crate::frames::{Enu, Vec3};
 use crate::scenario::bridges::Solid;
 
-/// A planar face of a member and a point on it.
+/// A planar face of a member, with a point on it.
 pub(super) struct MemberFace {
-    /// The point, m.
+    /// Point on the face, m.
     pub(super) point_m: Vec3<Enu>,
     /// Outward unit normal.
     pub(super) normal: Vec3<Enu>,
     corners_m: Vec<Vec3<Enu>>,
 }
 
-/// Returns the face of a solid on which a point lies, with the point projected onto its plane.
+/// Returns the face of a solid that contains a point, with the point projected onto its plane; `None` if there is none.
 pub(super) fn face_at(solid: &Solid, point_m: Vec3<Enu>) -> Option<MemberFace> {
-    /// Maximum distance from a face for a point on the solid, m.
+    /// Maximum distance at which a point counts as on a face, m.
     const ON_FACE_M: f64 = 0.002;
     let mut best: Option<(f64, MemberFace)> = None;
     for indices in &solid.faces {
@@ -31,14 +31,14 @@ pub(super) fn face_at(solid: &Solid, point_m: Vec3<Enu>) -> Option<MemberFace> {
     best.map(|b| b.1)
 }
 
-/// Returns the unit normal of a planar polygon by Newell's sum, which is robust against collinear corners.
+/// Returns the unit normal of a planar polygon by Newell's method, which is robust against collinear corners.
 fn newell(corners_m: &[Vec3<Enu>]) -> Vec3<Enu> {
     let count = corners_m.len();
     (0..count).fold(Vec3::zero(), |sum, k| sum + corners_m[k].cross(corners_m[(k + 1) % count])).unit()
 }
 
 impl MemberFace {
-    /// Returns the distance from a point in the plane to the nearest edge, m; negative outside.
+    /// Returns the distance from a point in the plane of the face to the nearest edge, m; negative outside the face.
     pub(super) fn inset_m(&self, point_m: Vec3<Enu>) -> f64 {
         let count = self.corners_m.len();
         (0..count)

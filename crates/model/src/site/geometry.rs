@@ -1,5 +1,5 @@
-//! Static geometry: bridge members, ground, water, landing pad. A bounding-volume tree (parry, in f64) finds candidate members;
-//! [`Convex`] and [`HeightGrid`](super::heights::HeightGrid) answer the exact queries.
+//! Static geometry: bridge members, ground, water, landing pad. A bounding-volume tree (from parry, in f64) finds candidate
+//! members; [`Convex`] and [`HeightGrid`](super::heights::HeightGrid) compute the exact results.
 
 use super::convex::{Convex, SurfacePoint};
 use super::queries::{Contact, HullProbe, NearestPoint, ObjectId, RayHit, Surface};
@@ -21,16 +21,16 @@ pub const WATER: ObjectId = ObjectId(900_001);
 pub const PAD: ObjectId = ObjectId(900_002);
 
 const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
-/// Thickness of the landing pad below its upper surface, m (the ground below it is 0.05 m lower).
+/// Thickness of the landing pad, m. Its upper surface is 0.05 m above the ground.
 const PAD_THICK_M: f64 = 0.3;
 
-/// Static geometry of a site.
+/// Static geometry of a site, with its spatial queries.
 #[derive(Debug)]
 pub struct Geometry {
     members: Vec<Member>,
     shapes: Vec<Convex>,
     tree: Bvh,
-    /// Ground and water level.
+    /// Ground surface and water level.
     pub terrain: Terrain,
     pad: Member,
     pad_shape: Convex,
@@ -42,7 +42,7 @@ fn vector(v: Vec3<Enu>) -> Vector {
     Vector::new(v.east(), v.north(), v.up())
 }
 
-/// A leaf found in the tree, ordered by distance.
+/// A leaf found in the bounding-volume tree, ordered by distance.
 struct LeafHit<T> {
     distance_m: f64,
     what: T,
@@ -55,7 +55,7 @@ impl<T> BvhLeafCost for LeafHit<T> {
 }
 
 impl Geometry {
-    /// Builds bridges, ground and landing pad.
+    /// Builds bridges, ground and landing pad of a scenario.
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         let members: Vec<Member> = scenario.bridges.iter().flat_map(crate::scenario::Bridge::members).collect();
@@ -86,7 +86,7 @@ impl Geometry {
         &self.pad
     }
 
-    /// Returns the shape of a member.
+    /// Returns the collision shape of a member by its index; `None` if there is no such member.
     #[must_use]
     pub fn shape(&self, member: usize) -> Option<&Convex> {
         self.shapes.get(member)
@@ -107,7 +107,7 @@ impl Geometry {
     #[must_use]
     pub fn nearest_member(&self, p: Vec3<Enu>, max_m: f64) -> Option<NearestPoint> {
         let at = vector(p);
-        // The tree search excludes the limit itself, but a member at exactly that distance counts.
+        // The tree search excludes the limit itself, but must find a member at exactly that distance.
         let limit = max_m.next_up();
         let to_box = |node: &BvhNode, _: f64| {
             let over = (node.mins() - at).max(at - node.maxs());
@@ -141,8 +141,8 @@ impl Geometry {
         self.nearest_member(p, reach).or(best)
     }
 
-    /// Returns the distance to the nearest solid surface, including landing pad and water, if it is less than `max_m`. Nothing
-    /// inside a sphere of this radius about `p` can touch static geometry.
+    /// Returns the distance to the nearest surface, including landing pad and water, if it is less than `max_m`. Nothing inside a
+    /// sphere of this radius about `p` can touch static geometry.
     #[must_use]
     pub fn free_radius(&self, p: Vec3<Enu>, max_m: f64) -> Option<f64> {
         let slab = self.pad_shape.nearest(p).distance_m.min(max_m);
@@ -151,14 +151,14 @@ impl Geometry {
         (free < max_m).then_some(free)
     }
 
-    /// Returns the point of a segment that is nearest to any surface, and that surface point, if the distance is below
-    /// `less_than_m`; accurate to one millimeter.
+    /// Returns the point of a segment with the smallest distance to any surface, and the nearest surface point, if the distance
+    /// is below `less_than_m`. The result is accurate to one millimeter.
     #[must_use]
     pub fn tightest(&self, from: Vec3<Enu>, to: Vec3<Enu>, less_than_m: f64) -> Option<(Vec3<Enu>, NearestPoint)> {
         const CLOSE_M: f64 = 1e-3;
         let middle = (from + to) * 0.5;
         let half_m = 0.5 * (to - from).norm();
-        // Distance changes by at most one meter per meter.
+        // The distance to a surface changes by at most one meter per meter.
         let near = self.nearest(middle, less_than_m + half_m)?;
         if near.distance_m - half_m >= less_than_m {
             return None;
@@ -203,7 +203,7 @@ impl Geometry {
         let inverse = Vector::new(1.0 / direction.east(), 1.0 / direction.north(), 1.0 / direction.up());
         let to_box = |node: &BvhNode, best_m: f64| {
             let (low, high) = ((node.mins() - from) * inverse, (node.maxs() - from) * inverse);
-            // A zero direction component yields 0/0 if the origin lies on a side; min and max ignore NaN.
+            // A zero direction component yields 0/0 if the origin is on a side of the box; min and max ignore NaN.
             let enter = low.x.min(high.x).max(low.y.min(high.y)).max(low.z.min(high.z)).max(0.0);
             let leave = low.x.max(high.x).min(low.y.max(high.y)).min(low.z.max(high.z));
             if enter <= leave && enter <= best_m { enter } else { f64::MAX }
@@ -224,7 +224,7 @@ impl Geometry {
         for leaf in self.tree.intersect_aabb(&around) {
             touch(probe, margin_m, &self.shapes[leaf as usize], (Surface::Bridge, ObjectId(leaf)), out);
         }
-        // The search order depends on the shape of the tree; contacts are reported in member order.
+        // The search order depends on the shape of the tree, so the contacts are sorted by member.
         out[first..].sort_by_key(|c| c.object.0);
         if near_pad(&self.pad_shape, low, high) {
             touch(probe, margin_m, &self.pad_shape, (Surface::Pad, PAD), out);
@@ -248,7 +248,7 @@ impl Geometry {
         }
     }
 
-    /// Adds the ground contacts at a probe's ends, and between them if it lies across a ridge.
+    /// Appends the ground contacts at the ends of a probe, and between the ends if the probe lies across a ridge.
     fn ground_contacts(&self, probe: &HullProbe, margin_m: f64, out: &mut Vec<Contact>) {
         let mut ends_m = f64::INFINITY;
         for (p, radius) in probe_ends(probe) {
@@ -267,7 +267,7 @@ impl Geometry {
 
 fn pad_slab(centre_m: Vec3<Enu>, half_m: f64) -> Member {
     let mut builder = MemberBuilder::new("site", Placement::new(centre_m, 90.0));
-    // Not part of a bridge.
+    // The pad is not part of a bridge and has no element number.
     builder.block("pad", Element::Unlisted(0), [-half_m, -half_m, -PAD_THICK_M], [half_m, half_m, 0.0]);
     builder.finish().swap_remove(0)
 }
@@ -308,8 +308,8 @@ fn probe_bounds(probe: &HullProbe, margin_m: f64) -> (Vec3<Enu>, Vec3<Enu>) {
     (pick(f64::min, -reach), pick(f64::max, reach))
 }
 
-/// Adds the contacts of a probe with one convex shape: at the center of a ball; at the ends of a capsule, and between them if it
-/// lies across an edge.
+/// Appends the contacts of a probe with one convex shape: one contact for a ball; contacts at both ends of a capsule, and between
+/// the ends if the capsule lies across an edge.
 fn touch(probe: &HullProbe, margin_m: f64, shape: &Convex, (surface, object): (Surface, ObjectId), out: &mut Vec<Contact>) {
     let mut offer = |near: SurfacePoint, radius_m: f64| {
         if near.distance_m - radius_m <= margin_m {

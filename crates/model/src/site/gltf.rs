@@ -1,6 +1,6 @@
-//! Exports the collision geometry as binary glTF 2.0: one named node per bridge member, with its element number in `extras`, plus
-//! ground, water and landing pad. Positions are 32-bit floats (3e-5 m at 500 m); axes follow the glTF convention: x east, y up, z
-//! south.
+//! Exports the collision geometry as binary glTF 2.0: one named node per bridge member with its element number in `extras`, plus
+//! ground, water and landing pad. Positions are 32-bit floats (3e-5 m at 500 m). The axes follow the glTF convention: x east, y
+//! up, z south.
 
 use super::Site;
 use crate::frames::{Enu, Vec3};
@@ -13,7 +13,7 @@ const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
-/// Materials: (name, red, green, blue).
+/// Names and colors (red, green, blue) of the materials.
 const MATERIALS: [(&str, f64, f64, f64); 4] =
     [("structure", 0.62, 0.60, 0.57), ("ground", 0.33, 0.40, 0.25), ("water", 0.16, 0.30, 0.38), ("pad", 0.85, 0.55, 0.10)];
 
@@ -27,7 +27,7 @@ struct GlbWriter {
     nodes: Vec<Value>,
 }
 
-/// Exports the entire site.
+/// Returns the entire site as a binary glTF file.
 #[must_use]
 pub fn glb(site: &Site) -> Vec<u8> {
     let mut parts = GlbWriter::default();
@@ -47,14 +47,14 @@ pub fn glb(site: &Site) -> Vec<u8> {
     parts.file()
 }
 
-/// Two triangles that face up.
+/// Vertex indices of the two upward-facing triangles of a square.
 const SQUARE: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 
 fn square([west, south]: [f64; 2], [east, north]: [f64; 2], up: f64) -> [Vec3<Enu>; 4] {
     [Vec3::new(west, south, up), Vec3::new(east, south, up), Vec3::new(east, north, up), Vec3::new(west, north, up)]
 }
 
-/// Converts east, north, up to glTF's right-handed y-up axes.
+/// Converts a point from east, north, up to glTF's right-handed axes with y up.
 fn axes(point: &Vec3<Enu>) -> [f32; 3] {
     [point.east() as f32, point.up() as f32, -point.north() as f32]
 }
@@ -132,7 +132,7 @@ mod tests {
 
     fn two_bridges() -> Scenario {
         let text = include_str!("../../../../scenarios/two-bridges.toml");
-        crate::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap()
+        crate::scenario::read("two-bridges.toml", text, &|_| Err("no file".into())).unwrap()
     }
 
     #[test]

@@ -1,17 +1,17 @@
-//! The ground as a triangulated surface over a square grid, with exact queries: height at a point, nearest point, first hit of a
-//! ray. Outside the grid, the heights of its border continue horizontally.
+//! Ground surface, triangulated over a square grid, with exact queries: height at a point, nearest point, first hit of a ray.
+//! Outside the grid, the ground continues horizontally at the heights of the border.
 
 use super::convex::SurfacePoint;
 use super::nearest::{nearest_of_triangle, over_crease};
 use crate::frames::{Enu, Vec3};
 
-/// Side length of the blocks, in cells, whose minimum and maximum heights are used to skip cells.
+/// Number of cells along each side of a block. Queries use the minimum and maximum heights of blocks to skip cells.
 const BLOCK: i64 = 8;
-/// Distance from the surface below which a point gets the normal of the triangle, m.
+/// Maximum distance from the surface at which a point gets the normal of the triangle, m.
 const TOUCHING_M: f64 = 1e-9;
-/// Tolerance on equal distances, m.
+/// Tolerance within which two distances count as equal, m.
 const LEVEL_M: f64 = 1e-7;
-/// Maximum length of a ray, m (scenario files allow terrain of 4 km).
+/// Maximum length of a ray, m; scenario files allow terrain of up to 4 km.
 const FARTHEST_M: f64 = 20_000.0;
 
 /// Heights at the corners of square grid cells, each split into two triangles from its southwest to its northeast corner.
@@ -26,7 +26,7 @@ pub struct HeightGrid {
     highest_m: f64,
 }
 
-/// A cell: its southwest corner in grid steps, and the heights of its corners.
+/// A grid cell: column and row of its southwest corner, and the heights of its four corners.
 struct TerrainCell {
     column: i64,
     row: i64,
@@ -51,19 +51,19 @@ impl TerrainCell {
     }
 }
 
-/// Position of a ray after it has skipped a block.
+/// Cell and distance at which a ray continues after a skipped block.
 struct RayClearance {
     column: i64,
     row: i64,
     t: f64,
 }
 
-/// Returns the distance along a ray at which it leaves a column or row of cells in its direction of travel.
+/// Returns the distance along a ray at which it leaves a column or row of cells; infinity if it is parallel to it.
 fn exit_distance(cell: i64, from: f64, rate: f64) -> f64 {
     if rate == 0.0 { f64::INFINITY } else { ((cell + i64::from(rate > 0.0)) as f64 - from) / rate }
 }
 
-/// Returns the row or column of a ray after it has crossed all cell sides for which `before` is true.
+/// Returns the row or column of a ray after it has crossed all cell sides at distances for which `before` is true.
 fn lane(mut cell: i64, from: f64, rate: f64, before: impl Fn(f64) -> bool) -> i64 {
     let forward = if rate > 0.0 { 1 } else { -1 };
     while before(exit_distance(cell, from, rate)) {
@@ -73,11 +73,11 @@ fn lane(mut cell: i64, from: f64, rate: f64, before: impl Fn(f64) -> bool) -> i6
 }
 
 impl HeightGrid {
-    /// Creates the grid from heights row by row from the south, each row from the west; the grid is centered on the scenario
+    /// Creates the grid from heights in rows from south to north, each from west to east. The grid is centered on the scenario
     /// origin.
     ///
     /// # Panics
-    /// If there are fewer than four heights or their number is not a square.
+    /// Panics if there are fewer than four heights or if their number is not a square.
     #[must_use]
     pub fn new(heights_m: Vec<f64>, spacing_m: f64) -> Self {
         let side = heights_m.len().isqrt();
@@ -98,7 +98,7 @@ impl HeightGrid {
         heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)))
     }
 
-    /// Returns the minimum and maximum height of a block; blocks outside the grid extend its border.
+    /// Returns the minimum and maximum height of a block. Blocks outside the grid have the heights of the nearest block inside.
     fn block(&self, row: i64, column: i64) -> (f64, f64) {
         let last = self.blocks_a_side as i64 - 1;
         self.blocks[row.clamp(0, last) as usize * self.blocks_a_side + column.clamp(0, last) as usize]
@@ -132,8 +132,8 @@ impl HeightGrid {
         (cell.sw + u * rise.0 + v * rise.1, self.normal(rise))
     }
 
-    /// Returns the nearest surface point within `max_m`. The distance is negative for a point below the ground, which is found at
-    /// any depth.
+    /// Returns the nearest surface point within `max_m`. For a point below the ground, the distance is negative and the depth is
+    /// not limited.
     #[must_use]
     pub fn nearest(&self, p: Vec3<Enu>, max_m: f64) -> Option<SurfacePoint> {
         let (height, normal) = self.ground(p.east(), p.north());
@@ -142,7 +142,7 @@ impl HeightGrid {
             return None;
         }
         let below = above < 0.0;
-        // The ground directly above or below is one surface point, so points farther away need not be checked.
+        // The ground directly above or below the point limits the search: points farther away cannot be the nearest.
         let reach = if below { -above } else { above.min(max_m) };
         let mut best = (reach * reach, Vec3::new(p.east(), p.north(), height));
         let mut found = below || above <= max_m;
@@ -156,7 +156,7 @@ impl HeightGrid {
         Some(SurfacePoint { distance_m: signed, point_m: best.1, normal })
     }
 
-    /// Returns true only if the ground is certainly below `up_m` everywhere in this rectangle.
+    /// Returns true only if the ground is below `up_m` everywhere in a rectangle. May return false near the limit.
     #[must_use]
     pub fn lies_under(&self, low: Vec3<Enu>, high: Vec3<Enu>, up_m: f64) -> bool {
         let ((west, south), (east, north)) = (self.steps(low), self.steps(high));
@@ -164,8 +164,8 @@ impl HeightGrid {
             .all(|row| (west.floor() as i64..=east.floor() as i64).all(|column| self.cell(column, row).highest() < up_m))
     }
 
-    /// Returns the point at which a segment across a ridge is closer to a crease of the ground than `enough_m` and than both of
-    /// its ends, which are at `ends_m`.
+    /// Returns the point on a crease of the ground that is nearest to a segment across a ridge, if it is nearer than `enough_m`
+    /// and nearer than both ends of the segment. `ends_m` is the smaller distance of the two ends.
     #[must_use]
     pub fn between(&self, a: Vec3<Enu>, b: Vec3<Enu>, ends_m: f64, enough_m: f64) -> Option<SurfacePoint> {
         let ((xa, ya), (xb, yb)) = (self.steps(a), self.steps(b));
@@ -212,7 +212,8 @@ impl HeightGrid {
         }
     }
 
-    /// Returns the squared distance to the box over a square of cells (column, row, cells per side) between two heights.
+    /// Returns the squared distance from a point to the box over a square of cells (column, row, cells per side) between two
+    /// heights.
     fn gap_squared(&self, p: Vec3<Enu>, (column, row, cells): (i64, i64, i64), (low, high): (f64, f64)) -> f64 {
         let west = self.origin_m + column as f64 * self.spacing_m;
         let south = self.origin_m + row as f64 * self.spacing_m;
@@ -242,14 +243,15 @@ impl HeightGrid {
         }
     }
 
-    /// Returns the distance along a ray to the ground and the normal there; a ray that starts below the ground hits immediately.
+    /// Returns the distance along a ray to the ground and the normal there. A ray that starts below the ground hits at distance
+    /// 0.
     #[must_use]
     pub fn ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<(f64, Vec3<Enu>)> {
         let (height, normal) = self.ground(origin.east(), origin.north());
         if origin.up() <= height {
             return Some((0.0, normal));
         }
-        // Above the highest ground there is nothing to hit.
+        // Only the part of the ray below the highest ground can hit.
         let to_top = (self.highest_m - origin.up()) / direction.up();
         let (start, end) = match (origin.up() > self.highest_m, direction.up() < 0.0) {
             (true, false) => return None,
@@ -258,11 +260,11 @@ impl HeightGrid {
             (false, false) => (0.0, if direction.up() > 0.0 { max_m.min(to_top) } else { max_m }),
         };
         let (start, end) = (start.max(0.0), end.min(FARTHEST_M));
-        // A nearly level ray may reach the maximum ground height too far away for cell indices.
+        // A nearly level ray can reach the maximum ground height so far away that cell indices would overflow.
         if start < end { self.walk_cells(origin, direction, start, end) } else { None }
     }
 
-    /// Walks along the cells below a ray.
+    /// Tests the cells below a ray in order, from distance `start` to `end`.
     fn walk_cells(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, start: f64, end: f64) -> Option<(f64, Vec3<Enu>)> {
         let (x0, y0) = self.steps(origin);
         let (dx, dy) = (direction.east() / self.spacing_m, direction.north() / self.spacing_m);
@@ -279,7 +281,7 @@ impl HeightGrid {
                 (next_x, next_y) = (exit_distance(column, x0, dx), exit_distance(row, y0, dy));
                 continue;
             }
-            // Rounding may place a cell's side slightly behind the ray.
+            // Rounding can place the side of a cell slightly behind the current distance.
             let leave = next_x.min(next_y).min(end).max(t);
             let cell = self.cell(column, row);
             let low = (origin.up() + direction.up() * t).min(origin.up() + direction.up() * leave);
@@ -300,8 +302,8 @@ impl HeightGrid {
         None
     }
 
-    /// Skips the rest of a block whose ground is entirely below the ray and continues at the same cell as a walk through every
-    /// cell.
+    /// Skips the rest of a block if the ray is entirely above its ground. The walk continues at the same cell as if it had tested
+    /// every cell.
     fn over_block(
         &self,
         (origin, direction): (Vec3<Enu>, Vec3<Enu>),
@@ -322,7 +324,7 @@ impl HeightGrid {
         }
         let forward = |rate: f64| if rate > 0.0 { 1 } else { -1 };
         let (column, row) = if out_x <= out_y {
-            // If two sides are crossed at once, the eastern or western one is crossed first.
+            // If the ray passes through a corner, it crosses the eastern or western side first.
             (last_column + forward(rate.0), lane(cell.1, from.1, rate.1, |side| side < out_x))
         } else {
             (lane(cell.0, from.0, rate.0, |side| side <= out_y), last_row + forward(rate.1))
@@ -330,7 +332,8 @@ impl HeightGrid {
         Some(RayClearance { column, row, t: leave })
     }
 
-    /// Returns the first point between two distances at which the ray is no longer above the cell's two triangles.
+    /// Returns distance and normal at the first point between two distances at which the ray is not above the cell's two
+    /// triangles.
     fn hit_in_cell(
         &self,
         cell: &TerrainCell,
@@ -356,7 +359,7 @@ impl HeightGrid {
     }
 
     /// Returns the surface for export: vertex positions, row by row, and the vertex indices of each triangle, counterclockwise
-    /// from above.
+    /// seen from above.
     #[must_use]
     pub fn triangles(&self) -> (Vec<Vec3<Enu>>, Vec<[u32; 3]>) {
         let along = |n: usize| self.origin_m + n as f64 * self.spacing_m;

@@ -1,8 +1,9 @@
-//! Illuminance in lux: direct sun, sky, reflection from water and ground, and interreflection within the structure.
+//! Illuminance from direct sun, sky, reflection by water and ground, and interreflection within the structure, lx.
 //!
-//! A fixed set of rays samples the surroundings (no random numbers and no state: the same point always yields the same light).
-//! Sky luminance is uniform. A ray that hits water, ground or structure contributes that surface's first reflection;
-//! interreflection between members is modeled as an enclosure: the visible structure is assumed to be as bright as this point.
+//! A fixed set of rays samples the surroundings. There are no random numbers and no state, so that the same point always yields
+//! the same result. The luminance of the sky is uniform. A ray that hits water, ground or structure contributes the first
+//! reflection of that surface. Interreflection between members is modeled as an enclosure: visible members are assumed to receive
+//! the same indirect light as the point itself.
 
 use super::queries::{RayHit, Surface};
 use super::sun;
@@ -12,18 +13,19 @@ use crate::math;
 use crate::scenario::LightSpec;
 use crate::time::SimTime;
 
-/// A ray query against static geometry: origin, unit direction, maximum length in m.
+/// Function that returns the first hit of a ray with static geometry: origin, unit direction, maximum length, m.
 pub type RayCast<'a> = &'a dyn Fn(Vec3<Enu>, Vec3<Enu>, f64) -> Option<RayHit>;
 
-/// Number of rays per estimate. 64 keep the error for a half-open sky at a few percent and the cost below 200 us.
+/// Number of rays per estimate. With 64 rays, the error for a half-open sky is a few percent, and an estimate takes less than 200
+/// us.
 const RAYS: usize = 64;
-/// Number of rays for the sky view (upper hemisphere).
+/// Number of rays in the upper hemisphere that measure the open sky.
 const SKY_RAYS: usize = 64;
-/// Maximum distance at which a structure obstructs the sky, m (estimate: beyond, it covers less than one ray).
+/// Maximum distance at which a structure obstructs the sky, m (estimate: a structure farther away covers less than one ray).
 const SKY_REACH_M: f64 = 250.0;
 /// Maximum length of a shadow, m (estimate).
 const SHADOW_REACH_M: f64 = 600.0;
-/// Offset of a ray's start from its surface, m.
+/// Offset of the start of a ray from its surface, m.
 const LIFT_M: f64 = 0.01;
 /// Extraterrestrial solar illuminance, lx (IES RP-21, 127.5 klx).
 const SOLAR_LUX: f64 = 127_500.0;
@@ -31,13 +33,13 @@ const SOLAR_LUX: f64 = 127_500.0;
 const CLEAR_EXTINCTION: f64 = 0.21;
 /// Reflectance of weathered concrete and steel under the deck (estimate; fresh concrete 0.3 to 0.4).
 const STRUCTURE_ALBEDO: f64 = 0.25;
-/// Decay rate of illuminance per degree of sun elevation below the horizon: from 800 lx at sunset to the published 3.4 lx at the
-/// end of civil twilight at -6 deg.
+/// Exponential decay rate of the illuminance per degree of the sun below the horizon, from 800 lx at sunset to the published 3.4
+/// lx at the end of civil twilight (-6 deg).
 const TWILIGHT_DECAY_PER_DEG: f64 = 0.91;
-/// Illuminance of a moonless night sky, lx (published order of magnitude).
+/// Illuminance under a moonless night sky, lx (published order of magnitude).
 const NIGHT_LUX: f64 = 0.002;
 
-/// Sun and sky light at one instant.
+/// Illuminance from sun and sky at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Daylight {
     /// Unit vector toward the sun.
@@ -49,7 +51,8 @@ pub struct Daylight {
 }
 
 impl Daylight {
-    /// Computes IES RP-21 daylight availability for a sun direction, with clear and overcast skies mixed by cloud cover.
+    /// Computes the daylight availability of IES RP-21 for a sun direction. Cloud cover interpolates between clear and overcast
+    /// sky.
     #[must_use]
     pub fn at(sun: Vec3<Enu>, cloud_cover: f64) -> Self {
         let s = sun.up();
@@ -60,7 +63,7 @@ impl Daylight {
             let dusk = 800.0 * math::exp(-TWILIGHT_DECAY_PER_DEG * below_deg) * math::lerp(1.0, overcast, cloud);
             return Self { sun, direct_normal_lux: 0.0, sky_lux: dusk.max(NIGHT_LUX) };
         }
-        // Kasten and Young (1989) air mass stays finite at the horizon, unlike 1/sin.
+        // The air mass of Kasten and Young (1989) stays finite at the horizon, unlike the reciprocal of the sine.
         let elevation_deg = sun::elevation_rad(sun).to_degrees();
         let air_mass = 1.0 / (s + 0.505_72 * math::pow(elevation_deg + 6.079_95, -1.6364));
         let clear = 800.0 + 15_500.0 * s.sqrt();
@@ -73,7 +76,7 @@ impl Daylight {
     }
 }
 
-/// Light model of one job: plain data, immutable after construction.
+/// Light model of one job. Plain data, immutable after construction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LightModel {
     light: LightSpec,
@@ -83,20 +86,20 @@ pub struct LightModel {
     disc: Vec<(f64, f64)>,
 }
 
-/// Type of surface that a ray hits.
+/// Type of the surface that a ray hits, with its properties.
 #[derive(Debug, Clone, Copy)]
 enum RayOutcome {
     /// The sky.
     Sky,
-    /// Land or water beyond the ray's reach.
+    /// Land or water beyond the maximum length of the ray.
     Far,
-    /// Ground or water: its albedo, the fraction of sunlight it receives, and the vertical component of its normal.
+    /// Ground or water, with its albedo, the fraction of sunlight it receives, and the vertical component of its normal.
     Outdoors { albedo: f64, sun: f64, up: f64 },
-    /// A member or traffic: the fraction of sunlight it receives.
+    /// A bridge member or traffic, with the fraction of sunlight it receives.
     Structure { sun: f64 },
 }
 
-/// Sums over one bundle of rays, by hit type.
+/// Sums over one bundle of rays, by type of surface.
 #[derive(Debug, Clone, Copy, Default)]
 struct LightSums {
     outside_lux: f64,
@@ -105,27 +108,27 @@ struct LightSums {
 }
 
 impl LightModel {
-    /// Creates the model from a scenario's light settings and the position of its origin.
+    /// Creates the model from the light settings of a scenario and the geographic position of its origin.
     #[must_use]
     pub fn new(light: &LightSpec, place: Geo) -> Self {
         Self { light: light.clone(), place, sphere: fibonacci(RAYS, -1.0), upper: fibonacci(SKY_RAYS, 0.0), disc: spiral(RAYS) }
     }
 
-    /// Returns the sun and sky light at an instant.
+    /// Returns the illuminance from sun and sky at a time.
     #[must_use]
     pub fn daylight(&self, at: SimTime) -> Daylight {
         Daylight::at(sun::direction(self.light.start_unix_s as f64 + at.s(), self.place), self.light.cloud_cover)
     }
 
-    /// Returns the fraction of the upper hemisphere (by solid angle) that is open sky, 0 to 1.
+    /// Returns the fraction of the solid angle of the upper hemisphere that is open sky, 0 to 1.
     #[must_use]
     pub fn sky_view(&self, position_m: Vec3<Enu>, cast: RayCast) -> f64 {
         let open = self.upper.iter().filter(|d| cast(position_m, **d, SKY_REACH_M).is_none()).count();
         open as f64 / self.upper.len() as f64
     }
 
-    /// Returns the illuminance on a surface with this outward normal, lx; for `None`, the mean over all orientations (a quarter
-    /// of the light that a sphere receives). Excludes the lamp.
+    /// Returns the illuminance of a surface with an outward normal, lx. If the normal is `None`, returns the mean over all
+    /// orientations. The lamp is excluded.
     #[must_use]
     pub fn ambient_lux(&self, position_m: Vec3<Enu>, normal: Option<Vec3<Enu>>, at: SimTime, cast: RayCast) -> f64 {
         let day = self.daylight(at);
@@ -140,9 +143,9 @@ impl LightModel {
         direct + gathered.indirect_lux()
     }
 
-    /// Returns the indirect light on a surface, by the same model as [`Self::ambient_lux`]: as a fraction of the sky's horizontal
-    /// illuminance, and as a fraction of the sun's illuminance on a surface that faces it. An image of the same place at another
-    /// daylight level then needs no new rays. `rays` (see [`spread`]) may be fewer than for measurements.
+    /// Returns the indirect light on a surface by the model of [`Self::ambient_lux`], in two parts: as a fraction of the sky's
+    /// horizontal illuminance, and as a fraction of the sun's illuminance on a surface that faces it. A renderer can scale both
+    /// to another daylight level without new rays. `rays` (see [`spread`]) may be fewer than for measurements.
     #[must_use]
     pub fn indirect_shares(
         &self,
@@ -174,7 +177,7 @@ impl LightModel {
         self.sum(rays.map(|direction| self.trace_ray(origin, direction, sun, cast)), day)
     }
 
-    /// Traces a ray; skips the shadow test if there is no direct sun.
+    /// Returns the surface that a ray hits. Skips the shadow test if there is no direct sun.
     fn trace_ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, (sun, shines): (Vec3<Enu>, bool), cast: RayCast) -> RayOutcome {
         let Some(hit) = cast(origin, direction, SKY_REACH_M) else {
             return if direction.up() > 0.0 { RayOutcome::Sky } else { RayOutcome::Far };
@@ -196,7 +199,7 @@ impl LightModel {
                 RayOutcome::Sky => sum.outside_lux += share * day.sky_lux,
                 RayOutcome::Far => sum.outside_lux += share * self.far_lux(day),
                 RayOutcome::Outdoors { albedo, sun, up } => {
-                    // Visible ground and water are assumed to see most of the sky (estimate: the fraction above the horizon).
+                    // Assumes that visible ground and water receive light from the entire sky above their horizon (estimate).
                     sum.outside_lux += share * albedo * (sun * day.direct_normal_lux + day.sky_lux * 0.5 * (1.0 + up));
                 }
                 RayOutcome::Structure { sun } => {
@@ -208,7 +211,7 @@ impl LightModel {
         sum
     }
 
-    /// Returns the illuminance from beyond the range of a downward ray: distant sunlit land and water.
+    /// Returns the illuminance from distant sunlit land and water, beyond the maximum length of a downward ray.
     fn far_lux(&self, day: &Daylight) -> f64 {
         let albedo = 0.5 * (self.light.water_albedo + self.light.ground_albedo);
         albedo * (day.sky_lux + day.direct_normal_lux * day.sun.up().max(0.0))
@@ -224,30 +227,31 @@ impl LightModel {
 }
 
 impl LightSums {
-    /// Enclosure model: visible structure receives the same indirect light as this point, in addition to its own direct sun.
+    /// Returns the indirect illuminance by the enclosure model: visible members receive the same indirect light as this point, in
+    /// addition to their direct sunlight.
     fn indirect_lux(&self) -> f64 {
         (self.outside_lux + self.structure_lux) / (1.0 - STRUCTURE_ALBEDO * self.structure_share)
     }
 }
 
-/// Returns true if nothing blocks the sun at a point.
+/// Returns true if no geometry blocks the sun at a point.
 fn is_sunlit(point: Vec3<Enu>, sun: Vec3<Enu>, cast: RayCast) -> bool {
     cast(point, sun, SHADOW_REACH_M).is_none()
 }
 
-/// Returns a cosine-weighted bundle over the hemisphere about `n`.
+/// Returns a bundle of cosine-weighted directions over the hemisphere about the normal `n`.
 fn over(n: Vec3<Enu>, disc: &[(f64, f64)]) -> impl ExactSizeIterator<Item = Vec3<Enu>> + '_ {
     let (a, b) = tangents(n);
     disc.iter().map(move |(x, y)| a * *x + b * *y + n * (1.0 - x * x - y * y).max(0.0).sqrt())
 }
 
-/// Returns a bundle of any size for [`LightModel::indirect_shares`].
+/// Returns a bundle of `count` rays for [`LightModel::indirect_shares`].
 #[must_use]
 pub fn spread(count: usize) -> Vec<(f64, f64)> {
     spiral(count.max(1))
 }
 
-/// Returns two unit vectors that form a right-handed frame with `n`.
+/// Returns two tangent unit vectors that form a right-handed frame with the normal `n`.
 pub(super) fn tangents(n: Vec3<Enu>) -> (Vec3<Enu>, Vec3<Enu>) {
     let reference = if n.up().abs() < 0.9 { Vec3::new(0.0, 0.0, 1.0) } else { Vec3::new(1.0, 0.0, 0.0) };
     let a = reference.cross(n).unit();
@@ -266,8 +270,8 @@ fn fibonacci(count: usize, lowest: f64) -> Vec<Vec3<Enu>> {
         .collect()
 }
 
-/// Returns points distributed evenly over the unit disc; projected onto the hemisphere they are cosine-weighted (Malley's
-/// method).
+/// Returns points distributed evenly over the unit disc. Projected onto the hemisphere, they are cosine-weighted directions
+/// (Malley's method).
 fn spiral(count: usize) -> Vec<(f64, f64)> {
     (0..count)
         .map(|k| {
@@ -278,7 +282,7 @@ fn spiral(count: usize) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// π (3 - √5).
+/// Golden angle, π (3 - √5), rad.
 const GOLDEN_ANGLE_RAD: f64 = 2.399_963_229_728_653;
 
 #[cfg(test)]
@@ -291,12 +295,13 @@ mod tests {
     const PLACE: Geo = Geo { latitude_deg: 46.5, longitude_deg: 0.0, altitude_m: 0.0 };
 
     fn model(cloud_cover: f64) -> LightModel {
-        // 2024-06-20 12:00 UTC: within a minute of local noon, sun elevation 67 deg.
+        // 2024-06-20 12:00 UTC is within two minutes of local noon; the elevation of the sun is 67 deg.
         let light = LightSpec { start_unix_s: 1_718_884_800, cloud_cover, water_albedo: 0.08, ground_albedo: 0.2 };
         LightModel::new(&light, PLACE)
     }
 
-    /// Water at up = 0 everywhere, and a deck slab `width_m` wide along east, soffit at 20 m, 1 m thick.
+    /// Returns a ray query for water at height 0 and a deck slab along east, `width_m` wide and 1 m thick, with its soffit at 20
+    /// m.
     fn deck(width_m: f64) -> impl Fn(Vec3<Enu>, Vec3<Enu>, f64) -> Option<RayHit> {
         move |o, d, max| {
             let plane = |height: f64, normal: f64| {
@@ -347,7 +352,7 @@ mod tests {
         assert!((5e3..=20.5e3).contains(&open(&model(1.0))), "{}", open(&model(1.0)));
         let soffit = |cloud| model(cloud).ambient_lux(Vec3::new(0.0, 0.0, 20.0), Some(DOWN), at, &deck(12.0));
         assert!((200.0..=2000.0).contains(&soffit(1.0)), "{}", soffit(1.0));
-        // In full sun the lake reflects 8 % of 100 klx, above that range, which assumes no sun on the water.
+        // In full sun the lake reflects 8 % of 100 klx. The published range assumes no sun on the water.
         assert!((2000.0..=10_000.0).contains(&soffit(0.0)), "{}", soffit(0.0));
     }
 
@@ -391,7 +396,7 @@ mod tests {
 
     #[test]
     fn val_twilight_meets_the_published_illuminance() {
-        // End of civil twilight (-6 deg): 3.4 lx; the model's single exponential within 10 %.
+        // At the end of civil twilight (-6 deg) the published value is 3.4 lx. The exponential model is accurate to 10 % there.
         let (s, c) = math::sin_cos((-6.0_f64).to_radians());
         let dusk = Daylight::at(Vec3::new(c, 0.0, s), 0.0);
         assert!((dusk.sky_lux / 3.4 - 1.0).abs() < 0.1, "{}", dusk.sky_lux);

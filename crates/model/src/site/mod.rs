@@ -1,5 +1,6 @@
-//! The site of a job, built from a scenario and a seed, and its geometry, light and visibility queries. Positions are in the
-//! scenario's local frame [`Enu`], meters. All queries are pure functions of their arguments; traffic and wind take the time.
+//! The site of a job, built from a scenario and a seed, with queries about geometry, light and visibility. Positions are in the
+//! scenario's local frame [`Enu`], m. All queries are pure functions of their arguments, which include the time for moving
+//! objects.
 
 pub mod boxes;
 pub mod bridge_closures;
@@ -37,7 +38,7 @@ use dynamics::{Dynamics, StaticQueries};
 use geometry::Geometry;
 use std::sync::Arc;
 
-/// The site of a job: immutable after construction; moving objects are a function of time.
+/// The site of a job. It is immutable after construction; positions of moving objects are a function of time.
 #[derive(Debug, Clone)]
 pub struct Site {
     geometry: Arc<Geometry>,
@@ -47,7 +48,7 @@ pub struct Site {
 }
 
 impl Site {
-    /// Builds geometry, traffic, defects and light from a scenario and the session's seed (which determines defects and traffic).
+    /// Builds geometry, traffic, defects and light from a scenario and a seed. The seed determines defects and traffic.
     #[must_use]
     pub fn build(scenario: &Scenario, seed: u64) -> Self {
         let lanes: Vec<Lane> = scenario.bridges.iter().enumerate().flat_map(|(k, bridge)| bridge.lanes(k)).collect();
@@ -59,13 +60,13 @@ impl Site {
         Self { geometry, plane: LocalPlane::new(scenario.origin), lanes, dynamics }
     }
 
-    /// Returns all bridge members.
+    /// Returns the members of all bridges.
     #[must_use]
     pub fn members(&self) -> &[Member] {
         self.geometry.members()
     }
 
-    /// Returns the static geometry.
+    /// Returns the static geometry: bridges, ground, water and landing pad.
     #[must_use]
     pub fn geometry(&self) -> &Geometry {
         &self.geometry
@@ -77,7 +78,7 @@ impl Site {
         &self.lanes
     }
 
-    /// Returns the local plane at the scenario origin.
+    /// Returns the local tangent plane at the scenario origin.
     #[must_use]
     pub fn plane(&self) -> &LocalPlane {
         &self.plane
@@ -95,7 +96,7 @@ impl Site {
         &self.dynamics.traffic
     }
 
-    /// Returns the same site with the given bridge closures; static geometry is shared.
+    /// Returns a copy of the site with other bridge closures. Both share the static geometry.
     #[must_use]
     pub fn with_closures(&self, closures: BridgeClosures) -> Self {
         let mut other = self.clone();
@@ -115,8 +116,8 @@ impl Site {
         self.dynamics.nearest(self.geometry.nearest(position_m, max_m), position_m, max_m, at)
     }
 
-    /// Returns the distance to the nearest solid surface of any type within `max_m` (including the landing pad). Nothing inside a
-    /// sphere of this radius has contact at this time.
+    /// Returns the distance to the nearest surface of any type within `max_m`, including the landing pad. Nothing inside a sphere
+    /// of this radius about the position can be in contact at this time.
     #[must_use]
     pub fn free_radius(&self, position_m: Vec3<Enu>, max_m: f64, at: QueryTime) -> Option<f64> {
         let still = self.geometry.free_radius(position_m, max_m);
@@ -131,7 +132,7 @@ impl Site {
     }
 
     /// Appends all contacts and near-contacts (gap <= `margin_m`) of a convex probe with the site, including the landing pad.
-    #[allow(clippy::ptr_arg, reason = "it appends")]
+    #[allow(clippy::ptr_arg, reason = "appends to the vector")]
     pub fn contacts(&self, probe: &HullProbe, margin_m: f64, at: QueryTime, out: &mut Vec<Contact>) {
         self.geometry.contacts(probe, margin_m, out);
         self.dynamics.traffic.contacts(probe, margin_m, at, out);

@@ -1,21 +1,21 @@
-//! Moving objects on the decks: solids, sizes and positions.
+//! Types of moving objects on the decks, with their sizes and the boxes that represent them.
 
 use super::boxes::OrientedBox;
 use super::queries::Surface;
 use crate::frames::{Enu, Vec3};
 
-/// Types of moving object.
+/// Type of a moving object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MoverKind {
-    /// 4.5 x 1.8 x 1.5 m, body and cabin.
+    /// A car of 4.5 x 1.8 x 1.5 m: body and cabin.
     Car,
-    /// 10 x 2.5 x 3.5 m, cab and box.
+    /// A truck of 10 x 2.5 x 3.5 m: cab and cargo box.
     Truck,
-    /// 1.75 m tall.
+    /// A pedestrian, 1.75 m tall.
     Pedestrian,
 }
 
-/// One solid of an object: position of its center relative to the object's position on the road (along, up), and half dimensions,
+/// One box of an object: position of its center relative to the object's position on the road (along, up), and half dimensions,
 /// m.
 struct MoverPart {
     along_m: f64,
@@ -34,9 +34,9 @@ const TRUCK: &[MoverPart] = &[
 const PERSON: &[MoverPart] = &[MoverPart { along_m: 0.0, up_m: 0.875, half_m: [0.15, 0.25, 0.875] }];
 
 impl MoverKind {
-    /// All types.
+    /// All types of moving objects.
     pub(super) const ALL: [Self; 3] = [Self::Car, Self::Truck, Self::Pedestrian];
-    /// Largest reach of any type plus half its length, m.
+    /// Maximum over all types of the bounding radius plus half the length, m.
     pub(super) const LARGEST_REACH_M: f64 = 6.3 + 5.0;
 
     fn parts(self) -> &'static [MoverPart] {
@@ -74,7 +74,7 @@ impl MoverKind {
     }
 }
 
-/// Position and motion of an object at one instant.
+/// Position and motion of an object at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MoverPlacement {
     /// Position on the road, m.
@@ -85,7 +85,7 @@ pub struct MoverPlacement {
     pub velocity_m_s: Vec3<Enu>,
 }
 
-/// Returns the solids of an object.
+/// Returns the boxes that represent an object at its placement.
 pub(super) fn boxes(kind: MoverKind, placed: MoverPlacement) -> impl Iterator<Item = OrientedBox> {
     kind.parts().iter().map(move |part| upright(&placed, part))
 }

@@ -1,10 +1,10 @@
-//! Nearest points on triangles and segments.
+//! Nearest points on triangles and line segments.
 
 use super::convex::SurfacePoint;
 use crate::frames::{Enu, Vec3};
 
-/// Returns the point of a crease nearest to a segment, and its rank: the distance, or minus the penetration depth if the segment
-/// passes below the crease.
+/// Returns the point on a crease that is nearest to a segment, and a rank for comparison with other creases: the distance, or
+/// minus the penetration depth if the segment passes below the crease.
 pub(super) fn over_crease((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -> (f64, SurfacePoint) {
     let (q, e) = nearest_of_segments((a, b), (c, d));
     let distance_m = (q - e).norm();
@@ -14,7 +14,7 @@ pub(super) fn over_crease((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Ve
     (rank, SurfacePoint { distance_m: signed, point_m: e, normal: (q - e) / signed })
 }
 
-/// Returns the depth at which a segment passes below another where they cross in plan view.
+/// Returns the depth at which segment a-b passes below segment c-d where they cross in plan view; `None` if they do not cross.
 fn depth_under((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -> Option<f64> {
     let (u, v, w) = (b - a, d - c, c - a);
     let turn = |p: Vec3<Enu>, q: Vec3<Enu>| p.east() * q.north() - p.north() * q.east();
@@ -24,12 +24,12 @@ fn depth_under((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -
     within.then(|| (c + v * t).up() - (a + u * s).up())
 }
 
-/// Returns the closest points of two segments.
+/// Returns the points at which segments a-b and c-d are closest.
 fn nearest_of_segments((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -> (Vec3<Enu>, Vec3<Enu>) {
     let (u, v, w) = (b - a, d - c, a - c);
     let (uu, uv, vv) = (u.norm_squared(), u.dot(v), v.norm_squared());
     let square = uu * vv - uv * uv;
-    // Parallel lines have the same distance everywhere, so any start point works.
+    // Parallel lines have the same distance everywhere, so any starting point works.
     let s = if square > 0.0 { ((uv * v.dot(w) - vv * u.dot(w)) / square).clamp(0.0, 1.0) } else { 0.0 };
     let t = (v.dot(a + u * s - c) / vv).clamp(0.0, 1.0);
     let e = c + v * t;
@@ -37,7 +37,7 @@ fn nearest_of_segments((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<
     (a + u * s, e)
 }
 
-/// Returns the point of a triangle nearest to `p`.
+/// Returns the point of triangle a-b-c that is nearest to `p`.
 pub(super) fn nearest_of_triangle(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>, c: Vec3<Enu>) -> Vec3<Enu> {
     let normal = (b - a).cross(c - a);
     let foot = p - normal * (normal.dot(p - a) / normal.norm_squared());
@@ -59,7 +59,7 @@ mod tests {
     use super::*;
     use crate::random::RandomStream;
 
-    /// Rounding error at the scale of the test triangles, m.
+    /// Tolerance for rounding errors at the scale of the test triangles, m.
     const ROUNDING_M: f64 = 1e-9;
 
     #[test]

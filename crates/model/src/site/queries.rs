@@ -1,4 +1,4 @@
-//! Answers of the site's queries: surfaces, nearest points, ray hits and contacts.
+//! Result types of the site's queries: surfaces, nearest points, ray hits and contacts.
 
 use crate::frames::{Enu, Vec3};
 use crate::time::SimTime;
@@ -13,17 +13,18 @@ pub enum Surface {
     Terrain,
     /// The water.
     Water,
-    /// A car, a truck or the crew's truck.
+    /// A car or truck in traffic, or the crew's truck.
     Vehicle,
     /// A pedestrian or the inspector.
     Person,
-    /// Anything else.
+    /// Any other object.
     Other,
-    /// The landing pad: solid, but neither a crash nor included in the clearance.
+    /// The landing pad. It is solid, but contact with it is not a crash and it is ignored in the clearance.
     Pad,
 }
 
-/// Identifies an object in messages: the index into [`Site::members`](super::Site::members) for bridges, otherwise a unique number.
+/// Identifies an object in messages: the index into [`Site::members`](super::Site::members) for bridges, otherwise a unique
+/// number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ObjectId(pub u32);
 
@@ -32,13 +33,13 @@ pub struct ObjectId(pub u32);
 pub struct NearestPoint {
     /// Distance from the query point to the surface, m; negative inside a solid.
     pub distance_m: f64,
-    /// The surface point, m.
+    /// Nearest point on the surface, m.
     pub point_m: Vec3<Enu>,
-    /// Outward unit normal at that point (from the object toward the query point).
+    /// Outward unit normal of the surface at that point.
     pub normal: Vec3<Enu>,
-    /// Surface type.
+    /// Type of the surface.
     pub surface: Surface,
-    /// Object ID.
+    /// ID of the object.
     pub object: ObjectId,
 }
 
@@ -49,9 +50,9 @@ pub struct RayHit {
     pub distance_m: f64,
     /// Outward unit normal of the surface.
     pub normal: Vec3<Enu>,
-    /// Surface type.
+    /// Type of the surface.
     pub surface: Surface,
-    /// Object ID.
+    /// ID of the object.
     pub object: ObjectId,
 }
 
@@ -62,13 +63,13 @@ pub struct Contact {
     pub point_m: Vec3<Enu>,
     /// Outward unit normal of the object, toward the aircraft.
     pub normal: Vec3<Enu>,
-    /// Gap along the normal, m; negative when they overlap.
+    /// Gap along the normal, m; negative if the two bodies overlap.
     pub gap_m: f64,
-    /// Velocity of the object at that point, m/s (traffic moves).
+    /// Velocity of the object at that point, m/s; nonzero for traffic.
     pub velocity_m_s: Vec3<Enu>,
-    /// Surface type.
+    /// Type of the surface.
     pub surface: Surface,
-    /// Object ID.
+    /// ID of the object.
     pub object: ObjectId,
 }
 
@@ -86,7 +87,7 @@ pub enum HullProbe {
     Capsule {
         /// One end of the axis, m.
         a_m: Vec3<Enu>,
-        /// Other end, m.
+        /// Other end of the axis, m.
         b_m: Vec3<Enu>,
         /// Radius, m.
         radius_m: f64,

@@ -1,16 +1,17 @@
-//! Position of the sun: Meeus, Astronomical Algorithms (2nd ed.), chapter 25, low accuracy (0.01 deg in longitude), with the
-//! sidereal time of chapter 12. Accurate to 0.1 deg between 1950 and 2050, without refraction.
+//! Position of the sun by the low-accuracy method of Meeus, Astronomical Algorithms (2nd ed.), chapter 25 (0.01 deg in
+//! longitude), with the sidereal time of chapter 12. The direction is accurate to 0.1 deg between 1950 and 2050. Refraction is
+//! ignored.
 
 use crate::frames::{Enu, Vec3};
 use crate::geodesy::Geo;
 use crate::math;
 
-/// Seconds since the Unix epoch at J2000.0 (2000-01-01 12:00 UTC; the one-minute difference between UTC and TT is 0.0007 deg
-/// here).
+/// Seconds from the Unix epoch to J2000.0 (2000-01-01 12:00 UTC). The difference of one minute between UTC and TT causes an error
+/// of only 0.0007 deg.
 const J2000_UNIX_S: f64 = 946_728_000.0;
 const DAY_S: f64 = 86_400.0;
 
-/// Right ascension and declination of the apparent sun.
+/// Apparent right ascension and declination of the sun.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SunCoordinates {
     /// Right ascension, rad in (-π, π].
@@ -19,7 +20,7 @@ pub struct SunCoordinates {
     pub declination_rad: f64,
 }
 
-/// Returns the sun's equatorial coordinates at a time (UTC, seconds since the Unix epoch).
+/// Returns the equatorial coordinates of the sun at a UTC time, given in seconds since the Unix epoch.
 #[must_use]
 pub fn equatorial(unix_s: f64) -> SunCoordinates {
     let t = (unix_s - J2000_UNIX_S) / DAY_S / 36_525.0;
@@ -38,7 +39,7 @@ pub fn equatorial(unix_s: f64) -> SunCoordinates {
     }
 }
 
-/// Returns the unit vector from a position toward the center of the sun (UTC, seconds since the Unix epoch).
+/// Returns the unit vector from a position toward the center of the sun at a UTC time, given in seconds since the Unix epoch.
 #[must_use]
 pub fn direction(unix_s: f64, place: Geo) -> Vec3<Enu> {
     let sun = equatorial(unix_s);
@@ -62,7 +63,7 @@ pub fn elevation_rad(direction: Vec3<Enu>) -> f64 {
 mod tests {
     use super::*;
 
-    /// Stated accuracy of the series plus the rounding of the published values, deg.
+    /// Stated accuracy of the method plus the rounding of the published values, deg.
     const TOLERANCE_DEG: f64 = 0.1;
 
     fn azimuth_deg(d: Vec3<Enu>) -> f64 {

@@ -1,5 +1,5 @@
-//! Terrain of a scenario: flat, a valley with a lake, or from a file, with bridge approaches, openings under bridges, and level
-//! ground around the landing pad.
+//! Terrain of a scenario: flat, a valley with a lake, or from a file. Earthworks add bridge approaches, openings under bridges,
+//! and level ground around the landing pad.
 
 use super::heights::HeightGrid;
 use crate::frames::Vec3;
@@ -9,16 +9,16 @@ use crate::scenario::{Bridge, GroundTeam, Scenario, TerrainSource, TerrainSpec a
 
 /// Radius of level ground around the landing pad, m.
 const LEVEL_M: f64 = 16.0;
-/// Slope of earthworks: horizontal distance per unit of height.
+/// Slope of earthworks, as horizontal distance per unit of height.
 const SLOPE: f64 = 1.2;
-/// Downgrade of the roads away from the bridges (estimate: maximum grade of mountain highways).
+/// Downward grade of the roads that lead away from the bridges (estimate: maximum grade of mountain highways).
 const ROAD_GRADE: f64 = 0.07;
-/// Depth of the clearance excavated below an arch's springings, m.
+/// Depth of the excavation below the springings of an arch, m.
 const DIG_M: f64 = 1.0;
-/// Minimum embedment of structures in the ground, m.
+/// Minimum depth to which structures are embedded in the ground, m.
 const HOLD_M: f64 = 0.5;
 
-/// Ground and water level.
+/// Ground surface and water level.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Terrain {
     /// Ground surface.
@@ -48,7 +48,7 @@ impl Terrain {
     }
 }
 
-/// Source of the heights before earthworks.
+/// Source of the natural heights, before earthworks.
 enum HeightSource<'a> {
     Flat(f64),
     Valley { noise: ValueNoise, settings: &'a Settings, axis: (f64, f64), lake_half_m: f64, relief_m: f64, depth_m: f64 },
@@ -79,7 +79,7 @@ impl<'a> HeightSource<'a> {
                 row[column.min(row.len() - 1)]
             }
             Self::Valley { noise, settings, axis, lake_half_m, relief_m, depth_m } => {
-                // Distance from the valley's axis; the shore varies by a tenth of the lake's width.
+                // Distance from the shore, which is varied by noise.
                 let across = east * axis.1 - north * axis.0;
                 let waver = 0.1 * lake_half_m * (noise.at(east / 90.0, north / 90.0) - 0.5);
                 let d = across.abs() - lake_half_m + waver;
@@ -96,7 +96,7 @@ impl<'a> HeightSource<'a> {
     }
 }
 
-/// Returns the height after earthworks: openings under bridges, approaches to their ends, level ground around the landing pad.
+/// Returns the height after earthworks: openings under bridges, approaches at their ends, level ground around the landing pad.
 fn apply_earthworks(natural: f64, east: f64, north: f64, scenario: &Scenario) -> f64 {
     let spacing_m = scenario.terrain.spacing_m;
     let height = scenario.bridges.iter().fold(natural, |h, bridge| bridge_earthworks(h, east, north, bridge, spacing_m));
@@ -110,11 +110,11 @@ fn bridge_earthworks(height: f64, east: f64, north: f64, bridge: &Bridge, spacin
     let opening = bridge.opening_half_m();
     let off_side = (y.abs() - 0.5 * bridge.deck_width_m() - 2.0).max(0.0);
     let cut = if x.abs() < opening + 4.0 {
-        // The ground under the span slopes down from the springings so that it covers no part of the bridge.
+        // The ground under the span slopes down from the springings, so that it does not cover any part of the bridge.
         let inside = (opening + 4.0 - x.abs()).max(0.0);
         height.min(deck - clear_depth_m(bridge) - DIG_M - 0.3 * inside + off_side / SLOPE)
     } else {
-        // Approaches rise to just below the road surface, continue level for a short distance, and then descend to the natural
+        // The approaches reach just below the road surface, continue level for a short distance, and then descend to the natural
         // ground.
         let beyond = (x.abs() - half_length - 12.0).max(0.0);
         let reach = if x.abs() > half_length { 0.0 } else { half_length - x.abs() };
@@ -128,7 +128,7 @@ fn bridge_earthworks(height: f64, east: f64, north: f64, bridge: &Bridge, spacin
     })
 }
 
-/// Returns the depth of the bridge's underside below the deck at the ends of the opening, m.
+/// Returns the depth of the underside of a bridge below the deck at the ends of its opening, m.
 fn clear_depth_m(bridge: &Bridge) -> f64 {
     match &bridge.kind {
         crate::scenario::BridgeKind::Arch(arch) => -arch.intrados_z_m(0.5 * arch.span_m),
@@ -143,7 +143,7 @@ fn level_pad(height: f64, east: f64, north: f64, team: &GroundTeam) -> f64 {
     math::lerp(team.pad_m.up() - 0.05, height, blend)
 }
 
-/// Smooth noise in 0 to 1 on a unit lattice, two octaves.
+/// Smooth value noise between 0 and 1 with two octaves.
 struct ValueNoise {
     lattice: Vec<f64>,
 }

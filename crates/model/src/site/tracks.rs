@@ -1,9 +1,9 @@
-//! Lanes as polylines with arc length, for moving objects.
+//! Tracks of moving objects: lanes as polylines that are parameterized by arc length.
 
 use super::movers::MoverPlacement;
 use crate::frames::{Enu, Vec3};
 
-/// A lane with its arc length.
+/// A lane with its arc lengths, and the objects that move along it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct LaneTrack {
     pub(super) points_m: Vec<Vec3<Enu>>,
@@ -18,7 +18,7 @@ pub(super) struct LaneTrack {
 }
 
 impl LaneTrack {
-    /// Returns the position and motion at an arc length; the lane is extended straight beyond its ends.
+    /// Returns the placement of an object at an arc length, m. The lane continues straight beyond its ends.
     pub(super) fn at(&self, s_m: f64) -> MoverPlacement {
         let last = self.points_m.len() - 2;
         let k = self.arc_m[1..=last].partition_point(|arc| *arc <= s_m).min(last);
@@ -27,7 +27,7 @@ impl LaneTrack {
         MoverPlacement { position_m, forward, velocity_m_s: forward * self.speed_m_s }
     }
 
-    /// Returns the arc length of the point nearest to the given one, m; up to `beyond_m` beyond the ends.
+    /// Returns the arc length of the track point that is nearest to a point, m; at most `beyond_m` beyond the ends.
     pub(super) fn lateral_distance_m(&self, point_m: Vec3<Enu>, beyond_m: f64) -> f64 {
         let last = self.points_m.len() - 2;
         let place = |k: usize| {
@@ -50,8 +50,8 @@ impl LaneTrack {
         squared.fold(f64::INFINITY, f64::min).sqrt()
     }
 
-    /// Returns false only if the ray certainly misses everything on this lane (tests the lane's height range, extended by the
-    /// reach).
+    /// Returns false only if a ray misses all objects in this lane. Compares the height ranges of ray and lane, extended by the
+    /// reach.
     pub(super) fn ray_passes(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> bool {
         let (low, high) = self.band_m;
         let end = origin_m.up() + direction.up() * max_m;
@@ -60,9 +60,9 @@ impl LaneTrack {
     }
 }
 
-/// Returns the polyline without collinear points: a straight deck is one segment, regardless of its point spacing.
+/// Returns a polyline without collinear points, so that a straight deck is one segment regardless of its point spacing.
 pub(super) fn simplified(points_m: &[Vec3<Enu>]) -> Vec<Vec3<Enu>> {
-    /// Maximum deviation of a straight segment, m.
+    /// Maximum deviation of a point from a straight segment, m.
     const STRAIGHT_M: f64 = 1e-4;
     let mut kept: Vec<Vec3<Enu>> = Vec::new();
     for p in points_m {

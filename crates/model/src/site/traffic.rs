@@ -1,6 +1,6 @@
-//! Cars, trucks and pedestrians on the decks, and the ground crew: a plan drawn from the seed, with positions as a pure function
-//! of simulation time. All objects in a lane have the same speed (so none overtakes another) and follow a loop longer than the
-//! lane: they enter and leave beyond the ends of the bridge.
+//! Cars, trucks and pedestrians on the decks, and the ground crew. The plan is drawn from the seed; positions are a pure function
+//! of simulation time. All objects in a lane have the same speed, so that none overtakes another, and move on a loop longer than
+//! the lane, so that they appear and disappear beyond the ends of the bridge.
 
 use super::boxes::{OrientedBox, bounding_ball};
 use super::bridge_closures::BridgeClosures;
@@ -23,29 +23,29 @@ pub const CREW_TRUCK: ObjectId = ObjectId(FIRST_OBJECT - 1);
 
 /// Minimum spacing of vehicles in a lane, center to center, m (estimate: a truck and a gap).
 const VEHICLE_SPACING_M: f64 = 24.0;
-/// Minimum spacing of pedestrians on a walkway, m (estimate).
+/// Minimum spacing of pedestrians on a walkway, center to center, m (estimate).
 const PEDESTRIAN_SPACING_M: f64 = 4.0;
-/// Length of the loop beyond the ends of the lane, m (estimate).
+/// Minimum length of the part of a loop beyond the ends of the lane, m (estimate).
 const GAP_M: f64 = 40.0;
-/// Maximum offset of an object from even spacing, as a fraction of the slot.
+/// Maximum offset of an object from even spacing, as a fraction of the spacing.
 const JITTER: f64 = 0.25;
-/// Walking speed, m/s: 1.34 mean and 0.26 standard deviation (Fruin, Pedestrian Planning and Design).
+/// Mean and standard deviation of the walking speed, m/s (Fruin, Pedestrian Planning and Design).
 const WALKING_M_S: (f64, f64) = (1.34, 0.26);
-/// Spread of lane speeds about the mean car speed (estimate).
+/// Maximum deviation of a lane's speed from the mean car speed, as a fraction of it (estimate).
 const LANE_SPEED_SPREAD: f64 = 0.1;
 
-/// One moving object of the plan.
+/// A moving object of the traffic plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mover {
-    /// Object type.
+    /// Type of the object.
     pub kind: MoverKind,
-    /// Number within its type, from 1.
+    /// Number among the objects of the same type, from 1.
     pub number: u32,
     track: usize,
     phase_m: f64,
 }
 
-/// Traffic plan of a session; stateless.
+/// Traffic plan of a session. Positions depend only on the time that is passed to a query.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrafficPlan {
     tracks: Vec<LaneTrack>,
@@ -55,8 +55,8 @@ pub struct TrafficPlan {
 }
 
 impl TrafficPlan {
-    /// Draws the plan. Objects are assigned to the lanes in turn; objects without a lane (such as pedestrians without a walkway)
-    /// are omitted.
+    /// Draws a plan from a seed. Objects are assigned to the lanes in turn. Objects without a suitable lane, such as pedestrians
+    /// on a bridge without a walkway, are omitted.
     #[must_use]
     pub fn new(lanes: &[Lane], settings: &TrafficSettings, team: &GroundTeam, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "site.traffic");
@@ -66,7 +66,7 @@ impl TrafficPlan {
         let walkways: Vec<&Lane> = lanes.iter().filter(|l| l.walkway && l.points_m.len() >= 2).collect();
         let mut vehicles = vec![MoverKind::Car; settings.cars];
         vehicles.extend(vec![MoverKind::Truck; settings.trucks]);
-        // Fisher-Yates shuffle: mixes trucks among the cars.
+        // A Fisher-Yates shuffle mixes the trucks among the cars.
         for k in (1..vehicles.len()).rev() {
             vehicles.swap(k, stream.below(k + 1));
         }
@@ -96,7 +96,7 @@ impl TrafficPlan {
         if kinds.is_empty() || length_m <= 0.0 {
             return;
         }
-        // Slots keep their spacing despite the offsets for any count: a crowded lane gets a longer loop.
+        // A crowded lane gets a longer loop, so that the objects keep their minimum spacing despite the random offsets.
         let loop_m = (length_m + GAP_M).max(kinds.len() as f64 * spacing_m / (1.0 - 2.0 * JITTER));
         let slot_m = loop_m / kinds.len() as f64;
         let turn_m = stream.range(0.0, loop_m);
@@ -123,14 +123,14 @@ impl TrafficPlan {
         &self.closures
     }
 
-    /// Returns the objects on the decks.
+    /// Returns all moving objects of the plan.
     #[must_use]
     pub fn movers(&self) -> &[Mover] {
         &self.movers
     }
 
-    /// Returns the position of an object; `None` while it is beyond the ends of the bridge, and in a round that it could not
-    /// start because the bridge was closed.
+    /// Returns the placement of an object at a time; `None` while it is beyond the ends of the bridge, and on a lap that it could
+    /// not begin because the bridge was closed.
     #[must_use]
     pub fn place(&self, mover: &Mover, at: SimTime) -> Option<MoverPlacement> {
         let track = &self.tracks[mover.track];
@@ -141,7 +141,7 @@ impl TrafficPlan {
         entered.then(|| track.at(s))
     }
 
-    /// Returns the solids of all objects at an instant, for rendering and tests.
+    /// Returns the boxes of all objects at a time, for rendering and tests.
     #[must_use]
     pub fn solids(&self, at: SimTime) -> Vec<(ObjectId, Surface, OrientedBox)> {
         let mut all = self.crew.clone();
@@ -152,7 +152,7 @@ impl TrafficPlan {
         all
     }
 
-    /// Returns the nearest traffic or crew within `max_m`.
+    /// Returns the nearest point of traffic or crew within `max_m`.
     #[must_use]
     pub fn nearest(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<NearestPoint> {
         let mut best: Option<NearestPoint> = None;
@@ -165,8 +165,8 @@ impl TrafficPlan {
         best
     }
 
-    /// Returns the minimum distance that traffic may ever have from a point, m, if it is below `max_m`. Assumes that each lane
-    /// carries all vehicle types of the plan, and each walkway all pedestrians.
+    /// Returns the minimum distance of traffic from a point at any time, m, if it is below `max_m`. Assumes that every vehicle
+    /// type of the plan uses every lane, and that pedestrians use every walkway.
     #[must_use]
     pub fn min_distance_ever_m(&self, position_m: Vec3<Enu>, max_m: f64) -> Option<f64> {
         let mut least: Option<f64> = None;
@@ -217,7 +217,7 @@ impl TrafficPlan {
         best
     }
 
-    /// Appends the contacts of a probe with traffic and crew; the contact velocity is that of the object.
+    /// Appends the contacts of a probe with traffic and crew. The velocity of a contact is the velocity of the object.
     pub fn contacts(&self, probe: &HullProbe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>) {
         let (centre_m, radius_m) = bounding_ball(probe);
         self.near(centre_m, radius_m + margin_m, at, |object, surface, solid, velocity_m_s| {
@@ -227,7 +227,7 @@ impl TrafficPlan {
         });
     }
 
-    /// Returns the name of a traffic or crew object.
+    /// Returns the name of a traffic or crew object, such as `truck 2`; `None` for other objects.
     #[must_use]
     pub fn name(&self, object: ObjectId) -> Option<String> {
         if object == INSPECTOR {
@@ -245,7 +245,8 @@ impl TrafficPlan {
         Some(format!("{kind} {}", mover.number))
     }
 
-    /// Visits each solid that may be within `reach_m` of a point. Far from all lanes, the cost is one distance per lane segment.
+    /// Calls `visit` for each box that may be within `reach_m` of a point. Far from all lanes, this computes only one distance
+    /// per lane segment.
     fn near(
         &self,
         point_m: Vec3<Enu>,
@@ -276,7 +277,7 @@ impl TrafficPlan {
     }
 }
 
-/// Assigns objects to lanes in turn.
+/// Assigns objects to lanes in turn; assigns none if there are no lanes.
 fn assign_lanes<'a>(lanes: &[&'a Lane], kinds: &[MoverKind]) -> Vec<(&'a Lane, Vec<MoverKind>)> {
     let mut dealt: Vec<(&Lane, Vec<MoverKind>)> = lanes.iter().map(|l| (*l, Vec::new())).collect();
     for (k, kind) in kinds.iter().enumerate().take(if lanes.is_empty() { 0 } else { usize::MAX }) {
@@ -339,7 +340,7 @@ mod tests {
             for ms in (10..60_000).step_by(10) {
                 let now = plan.place(mover, SimTime::from_ms(ms));
                 if let (Some(a), Some(b)) = (last, now) {
-                    // Tolerance of one centimeter where the lane bends.
+                    // The tolerance is one centimeter at bends of the lane.
                     assert!((b.position_m - a.position_m).norm() < track.speed_m_s * 0.01 + 0.01, "jump at {ms} ms");
                 }
                 last = now;
@@ -376,7 +377,7 @@ mod tests {
         let (closed_s, opened_s) = (40.0, 130.0);
         let mut gated = open.clone();
         gated.set_closures(BridgeClosures::from_codes([-40_000, 130_000]));
-        // Time for the slowest pedestrian to walk 200 m, after which the decks are empty; half a lane later they are full again.
+        // The closure lasts long enough for all vehicles to leave; the traffic recovers well before the end of the test.
         let (mut least, mut shown) = (usize::MAX, [None; 17]);
         for tenth in 0..4_000 {
             let t_s = 0.1 * f64::from(tenth);
@@ -400,9 +401,9 @@ mod tests {
                 least = least.min(vehicles);
             }
         }
-        assert_eq!(least, 0, "the roads become empty");
+        assert_eq!(least, 0, "vehicles remain on the closed bridges");
         let late = SimTime::from_s(399.0);
-        assert_eq!(gated.solids(late), open.solids(late), "and finally full again");
+        assert_eq!(gated.solids(late), open.solids(late), "traffic has not recovered after the reopening");
     }
 
     #[test]

@@ -1,11 +1,11 @@
-//! Dryden turbulence (MIL-F-8785C, low altitude): its scales, and the filters that shape white noise.
+//! Dryden turbulence at low altitude (MIL-F-8785C): intensities, length scales, and the filters that shape white noise.
 
 use crate::math;
 use crate::random::RandomStream;
 
-/// Meters per foot.
+/// Length of one foot, m.
 const FT_M: f64 = 0.3048;
-/// Height range for which MIL-F-8785C 3.7.3.4 specifies low-altitude scales, ft.
+/// Height range of the low-altitude model in MIL-F-8785C, section 3.7.3.4, ft.
 const DRYDEN_HEIGHT_FT: (f64, f64) = (10.0, 1000.0);
 
 /// Standard deviations (m/s) and length scales (m) of the Dryden model at one height.
@@ -22,7 +22,7 @@ pub struct Dryden {
 }
 
 impl Dryden {
-    /// Returns the MIL-F-8785C low-altitude model at a height above the surface, for the wind at 20 ft.
+    /// Returns the low-altitude model of MIL-F-8785C at a height above the surface, for a mean wind speed at 20 ft.
     #[must_use]
     pub fn at(height_m: f64, wind_20ft_m_s: f64) -> Self {
         let h_ft = (height_m / FT_M).clamp(DRYDEN_HEIGHT_FT.0, DRYDEN_HEIGHT_FT.1);
@@ -37,7 +37,7 @@ impl Dryden {
     }
 }
 
-/// Unit-variance first-order Dryden filter (longitudinal spectrum), discretized exactly.
+/// First-order Dryden filter with unit variance (longitudinal spectrum), discretized exactly.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct FirstOrder {
     x: f64,
@@ -55,9 +55,9 @@ impl FirstOrder {
     }
 }
 
-/// Unit-variance second-order Dryden filter (1 + √3 T s)/(1 + T s)² (lateral and vertical spectra). With x1' = (n - x1)/T and x2'
-/// = (x1 - x2)/T the output is √3 x1 + (1 - √3) x2, and the stationary covariance of the states for unit output variance is
-/// [[1/2, 1/4], [1/4, 1/4]]; each step adds exactly the covariance lost to decay.
+/// Second-order Dryden filter with unit variance, (1 + √3 T s)/(1 + T s)² (lateral and vertical spectra). With x1' = (n - x1)/T
+/// and x2' = (x1 - x2)/T the output is √3 x1 + (1 - √3) x2, and the stationary covariance of the states for unit output variance
+/// is [[1/2, 1/4], [1/4, 1/4]]; each step adds exactly the covariance lost to decay.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct SecondOrder {
     x1: f64,
@@ -91,7 +91,8 @@ impl SecondOrder {
     }
 }
 
-/// Returns the Cholesky factor of a symmetric 2x2 covariance; rounding may make the last pivot slightly negative.
+/// Returns the lower Cholesky factor of a 2x2 covariance matrix. A last pivot that is slightly negative from rounding is set to
+/// zero.
 fn lower(q11: f64, q12: f64, q22: f64) -> (f64, f64, f64) {
     let l11 = q11.max(0.0).sqrt();
     let l21 = if l11 > 0.0 { q12 / l11 } else { 0.0 };

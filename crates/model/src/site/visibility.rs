@@ -1,7 +1,7 @@
-//! Visibility of a defect in a photo, by the rule in docs/src/reference/assessment.md, "Photographs": inside the central 80 % of
-//! the image, unoccluded, at most 60 degrees off its normal, at least 10 px along its longest visible dimension, at least 0.5 px
-//! wide if it is a line, and lit well enough for an exposure within the camera's limits. The camera is an ideal pinhole; the lamp
-//! is at the lens and points along the optical axis.
+//! Decides whether a photo captures a defect, by the rule in docs/src/reference/assessment.md, "Photographs". The defect must be
+//! inside the central 80 % of the image, unoccluded, viewed at most 60 degrees from its normal, at least 10 px long in its
+//! longest visible dimension, at least 0.5 px wide if it is a line, and lit well enough for an exposure within the camera's
+//! limits. The camera is an ideal pinhole; the lamp is at the lens and points along the optical axis.
 
 use super::camera_pose::CameraPose;
 use super::light::RayCast;
@@ -11,55 +11,55 @@ use crate::numbers::{format_beside_limit, limit};
 use crate::scenario::PlacedDefect;
 use crate::vehicle::{Camera, Lamp};
 
-/// Maximum distance at which defects are listed, m.
+/// Maximum distance from the lens at which defects are evaluated, m.
 pub const REACH_M: f64 = 60.0;
-/// Fraction of the image, about its center, in which defects count.
+/// Fraction of image width and height, about the center, in which defects count as captured.
 pub const CENTRAL_SHARE: f64 = 0.8;
-/// Maximum angle between line of sight and the defect's normal, rad.
+/// Maximum angle between the line of sight and the normal of the defect, rad.
 pub const INCIDENCE_MAX_RAD: f64 = math::PI / 3.0;
-/// Minimum visible length, px.
+/// Minimum length of the longest visible dimension, px.
 pub const EXTENT_MIN_PX: f64 = 10.0;
-/// Minimum width of a line, px.
+/// Minimum width of a line defect, px.
 pub const LINE_WIDTH_MIN_PX: f64 = 0.5;
-/// Incident-light meter calibration constant, lx s ISO (ISO 2720 gives 240 to 400).
+/// Calibration constant of an incident-light meter, lx s ISO (ISO 2720 specifies 240 to 400).
 const CALIBRATION: f64 = 250.0;
-/// Sample points along the defect for the occlusion test, as fractions of its length from the center.
+/// Offsets of the sample points for the occlusion test from the center of a defect, as fractions of its length.
 const SAMPLES: [f64; 5] = [-0.48, -0.24, 0.0, 0.24, 0.48];
-/// Height above the surface of the end of a line of sight, m.
+/// Height above the surface at which lines of sight end, m.
 const LIFT_M: f64 = 0.005;
-/// Length at the end of a line of sight that is excluded from the occlusion test, m.
+/// Length of the last part of a line of sight, which is excluded from the occlusion test, m.
 const CLEAR_M: f64 = 0.01;
 
-/// Visibility of one defect in a photo, with each condition listed separately for reports.
+/// Visibility of one defect in a photo, with the measurements behind each condition.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DefectView {
     /// Defect ID ([`PlacedDefect::id`]).
     pub defect_id: u32,
-    /// Inside the central 80 % of the image.
+    /// True if the defect is inside the central 80 % of the image.
     pub in_frame: bool,
-    /// Nothing blocks the line of sight.
+    /// True if most sample points of the defect are in the line of sight.
     pub unoccluded: bool,
     /// Angle between the line of sight and the defect's normal, rad.
     pub incidence_rad: f64,
     /// Longest visible dimension, px.
     pub extent_px: f64,
-    /// Width, px (only lines have a minimum).
+    /// Width, px. Only line defects have a minimum width.
     pub width_px: f64,
-    /// Illuminance at the defect, lx (sun, sky, water, lamp).
+    /// Illuminance at the defect from sun, sky, reflections and lamp, lx.
     pub illuminance_lux: f64,
     /// Illuminance needed for an exposure within the camera's limits, lx.
     pub needed_lux: f64,
-    /// Distance from the lens, m.
+    /// Distance of the defect from the lens, m.
     pub distance_m: f64,
-    /// A line defect, which has a minimum width.
+    /// True for a line defect, which must have a minimum width in the image.
     pub line: bool,
-    /// The lamp was on.
+    /// True if the lamp was on.
     pub lamp_on: bool,
-    /// All conditions are met.
+    /// True if the photo captures the defect: all conditions are met.
     pub hit: bool,
 }
 
-/// Query for ambient light on a defect by position and normal, lx.
+/// Function that returns the ambient illuminance at a position on a surface with a normal, lx.
 pub type AmbientLight<'a> = &'a dyn Fn(Vec3<Enu>, Vec3<Enu>) -> f64;
 
 /// Returns the illuminance needed for an exposure within the camera's limits, lx: C N²/(t S).
@@ -68,7 +68,8 @@ pub fn needed_lux(camera: &Camera) -> f64 {
     CALIBRATION * camera.f_number * camera.f_number / (camera.exposure_max_s * camera.iso_max)
 }
 
-/// Returns the illuminance of a lamp at the lens on a surface, lx: flux over the beam's solid angle, inverse square and cosine.
+/// Returns the illuminance of a surface by a lamp at the lens, lx: flux over the solid angle of the beam, with the inverse square
+/// and cosine laws.
 #[must_use]
 pub fn lamp_lux(lamp: &Lamp, pose: &CameraPose, point_m: Vec3<Enu>, normal: Vec3<Enu>) -> f64 {
     let to = point_m - pose.position_m;
@@ -85,8 +86,8 @@ pub fn lamp_lux(lamp: &Lamp, pose: &CameraPose, point_m: Vec3<Enu>, normal: Vec3
     candela * (-ray.dot(normal)).max(0.0) / (distance * distance)
 }
 
-/// Evaluates one defect; `None` if it is too far away or behind the camera. `cast` is called for the lines of sight; `ambient` is
-/// called once, and only for defects that are listed.
+/// Evaluates the visibility of one defect; `None` if it is too far away or behind the camera. Calls `cast` for the lines of sight
+/// and `ambient` once, and only if it returns a result.
 #[must_use]
 pub fn judge(
     defect: &PlacedDefect,
@@ -129,8 +130,8 @@ pub fn judge(
 }
 
 impl DefectView {
-    /// Returns the six conditions in the order of docs/src/reference/assessment.md, "Photographs": framed, unoccluded, incidence,
-    /// extent, line width, light.
+    /// Returns whether each of the six conditions is met, in the order of docs/src/reference/assessment.md, "Photographs":
+    /// framing, occlusion, incidence, extent, line width, light.
     #[must_use]
     pub fn conditions(&self) -> [bool; 6] {
         [
@@ -148,7 +149,8 @@ impl DefectView {
     pub fn reasons(&self) -> Vec<String> {
         let lamp = if self.lamp_on { "lamp on" } else { "lamp off" };
         let (incidence_deg, incidence_max_deg) = (self.incidence_rad.to_degrees(), INCIDENCE_MAX_RAD.to_degrees());
-        // The required light is shown as an integer unless the measured light lies between the rounded and the exact limit.
+        // The required illuminance is displayed as an integer unless the measured value is between the rounded and the exact
+        // limit.
         let whole = self.needed_lux.round();
         let needed_lux = if self.illuminance_lux < whole { whole } else { self.needed_lux };
         let words = [
@@ -193,7 +195,7 @@ fn is_in_frame(px: (f64, f64), camera: &Camera, share: f64) -> bool {
     px.0.abs() <= 0.5 * share * f64::from(camera.width_px) && px.1.abs() <= 0.5 * share * f64::from(camera.height_px)
 }
 
-/// Returns the visible length along the defect, px: each counted sample inside the image represents its fraction of the length.
+/// Returns the visible length of a defect, px. Each counted sample point inside the image represents an equal part of the length.
 fn visible_px<'a>(
     pose: &CameraPose,
     camera: &Camera,
@@ -205,14 +207,14 @@ fn visible_px<'a>(
     length_px(pose, camera, defect, defect.along, defect.length_m) * shown as f64 / SAMPLES.len() as f64
 }
 
-/// Returns the length in pixels of a short segment of `length_m` along a unit direction through the defect's center (at the scale
-/// of the center, which preserves the precision of sub-pixel widths).
+/// Returns the length in pixels of a segment of `length_m` along a unit direction through the center of the defect. Uses the
+/// scale at the center, which preserves the precision of sub-pixel widths.
 fn length_px(pose: &CameraPose, camera: &Camera, defect: &PlacedDefect, direction: Vec3<Enu>, length_m: f64) -> f64 {
     let to = defect.position_m - pose.position_m;
     let distance = to.norm().max(1e-9);
     let ray = to / distance;
     let across = (direction - ray * direction.dot(ray)).norm();
-    // Pixels per radian increase off the axis of a pinhole; the on-axis value is conservative.
+    // A pinhole camera has more pixels per radian off its axis, so the on-axis value is conservative.
     camera.focal_px() * across * length_m / distance
 }
 
@@ -236,7 +238,7 @@ mod tests {
     };
     const LAMP: Lamp = Lamp { flux_lm: 2200.0, beam_rad: math::PI / 3.0 };
 
-    /// Creates a crack 0.5 m long and 2 mm wide, 3 m north of the camera, facing it.
+    /// Creates a crack of 0.5 m by 2 mm that is 3 m north of the camera and faces it.
     fn crack() -> PlacedDefect {
         PlacedDefect {
             id: 1,
@@ -271,7 +273,7 @@ mod tests {
     }
 
     fn view_defects(defect: &PlacedDefect, pose: &CameraPose, cast: RayCast, lux: f64) -> DefectView {
-        judge(defect, pose, (&CAMERA, &LAMP), cast, &|_, _| lux).expect("in front and near")
+        judge(defect, pose, (&CAMERA, &LAMP), cast, &|_, _| lux).expect("in front of the camera and within reach")
     }
 
     fn only_failing(view: &DefectView, index: usize, word: &str) {
@@ -296,7 +298,7 @@ mod tests {
     #[test]
     fn exact_each_condition_fails_alone() {
         let mut aside = pose();
-        // 40 deg off axis: tan 40 = 0.839, just outside 0.8 of the half image, still in front of the camera.
+        // 40 deg off axis: tan 40 deg = 0.839, just outside 0.8 of the half image, but still in front of the camera.
         let (s, c) = math::sin_cos(40.0_f64.to_radians());
         (aside.forward, aside.right) = (Vec3::new(s, c, 0.0), Vec3::new(c, -s, 0.0));
         only_failing(&view_defects(&crack(), &aside, &open, 1000.0), 0, "central");

@@ -1,9 +1,9 @@
 //! Wind field: mean profile over water and ground, weather changes, 1-cosine gusts and Dryden turbulence (MIL-F-8785C, low
 //! altitude).
 //!
-//! Turbulence depends on the vehicle's motion and is therefore stateful; the state is plain data and part of a snapshot. Not
-//! modeled: sheltering, wakes and acceleration near structures (the mean profile is that of open water, or of grass below 20 ft
-//! over land).
+//! Turbulence depends on the motion of the vehicle and therefore has state, which is plain data and part of a snapshot. Shelter,
+//! wakes and acceleration near structures are not modeled: the mean profile is that of open water, or, over land below 20 ft,
+//! that of grass.
 
 use super::turbulence::{Dryden, FirstOrder, SecondOrder};
 use crate::frames::{Ned, Vec3};
@@ -12,25 +12,25 @@ use crate::random::RandomStream;
 use crate::scenario::{WindEvent, WindModel, WindSpec};
 use crate::time::SimTime;
 
-/// Sample rate of the wind, Hz; linear interpolation in between delays it by one sample (10 ms).
+/// Sample rate of the wind, Hz. Linear interpolation between samples delays the wind by one sample (10 ms).
 pub const SAMPLE_RATE_HZ: i64 = 100;
 const SAMPLE_PERIOD: SimTime = SimTime::from_ms(1000 / SAMPLE_RATE_HZ);
-/// Roughness length of open water, m (estimate: typical order of magnitude for calm to moderate sea;
+/// Roughness length of open water, m (estimate; typical order of magnitude for calm to moderate sea, see
 /// docs/src/reference/domain.md, "Wind and turbulence").
 const WATER_ROUGHNESS_M: f64 = 0.0003;
 /// Roughness length of open ground with grass, m (WMO guide to instruments, class 3: 0.03 m).
 const GROUND_ROUGHNESS_M: f64 = 0.03;
-/// Height of the reference wind, m (20 ft).
+/// Height at which the mean wind speed is specified, m (20 ft).
 const REFERENCE_HEIGHT_M: f64 = 6.096;
-/// Height below which turbulence scales with the mean wind, m: the lower limit of MIL-F-8785C, 10 ft (estimate: constant
-/// intensity).
+/// Height below which turbulence is proportional to the mean wind, m: 10 ft, the lower limit of MIL-F-8785C (estimate: constant
+/// relative intensity).
 const LOWEST_TURBULENCE_M: f64 = 3.048;
 /// Height below which the profile is constant, m (estimate: wave height).
 const LOWEST_HEIGHT_M: f64 = 0.5;
 /// Minimum drift speed of the turbulence past the vehicle, m/s (estimate; keeps the time scale finite in still air).
 const LOWEST_DRIFT_M_S: f64 = 0.1;
 
-/// Mean wind at one instant.
+/// Mean wind at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeanWind {
     /// Speed at 20 ft above the water, m/s.
@@ -39,8 +39,8 @@ pub struct MeanWind {
     pub from_rad: f64,
 }
 
-/// Wind field at one vehicle. Call [`WindField::update`] as simulation time advances, then [`WindField::air_velocity`] as often
-/// as the physics needs.
+/// Wind at the position of one vehicle. Call [`WindField::update`] as simulation time advances, then [`WindField::air_velocity`]
+/// as often as the physics needs it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WindField {
     wind: WindSpec,
@@ -55,7 +55,7 @@ pub struct WindField {
 }
 
 impl WindField {
-    /// Creates the wind field of a scenario for the session's seed.
+    /// Creates the wind field from the settings of a scenario and the seed of a session.
     #[must_use]
     pub fn new(wind: &WindSpec, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "wind.turbulence");
@@ -78,8 +78,8 @@ impl WindField {
         field
     }
 
-    /// Advances the wind to `now` for a vehicle at `height_m` above the surface that moves at `velocity_m_s` over ground. Samples
-    /// only [`SAMPLE_RATE_HZ`] times per second of simulation time. The `paper` model has still air (and a force instead).
+    /// Advances the wind to time `now` for a vehicle at `height_m` above the surface that moves at `velocity_m_s` over ground.
+    /// Draws new samples at [`SAMPLE_RATE_HZ`] of simulation time. Does nothing in the `paper` model, whose air is still.
     pub fn update(&mut self, now: SimTime, height_m: f64, velocity_m_s: Vec3<Ned>) {
         if self.wind.model == WindModel::Paper {
             return;
@@ -92,18 +92,18 @@ impl WindField {
         }
     }
 
-    /// Sets the surface below the vehicle from now on: ground, which slows the wind near it, or water.
+    /// Sets whether the vehicle is over ground, which slows the wind near it, or over water.
     pub fn set_over_ground(&mut self, over_ground: bool) {
         self.over_ground = over_ground;
     }
 
-    /// Changes the mean wind linearly, starting at `at` over the duration `over`, to a speed at 20 ft, m/s, and a direction from
-    /// which it blows, degrees. Affects only the `physical` model.
+    /// Changes the mean wind linearly, starting at `at` and over the duration `over`, to a speed at 20 ft, m/s, and a direction
+    /// from which it blows, degrees clockwise from north. Affects only the `physical` model.
     pub fn change(&mut self, at: SimTime, over: SimTime, speed_m_s: f64, from_deg: f64) {
         self.wind.events.push(WindEvent::Change { at, over, speed_m_s, from_deg });
     }
 
-    /// Returns the air velocity over ground, m/s, at an instant not later than the next sample. Zero in the `paper` model.
+    /// Returns the air velocity over ground, m/s, at a time not later than the next sample. Zero in the `paper` model.
     #[must_use]
     pub fn air_velocity(&self, at: SimTime) -> Vec3<Ned> {
         if self.wind.model == WindModel::Paper {
@@ -113,8 +113,8 @@ impl WindField {
         self.previous_m_s.lerp(self.current_m_s, (since / SAMPLE_PERIOD.s()).clamp(0.0, 1.0))
     }
 
-    /// Returns the constant force of the `paper` model at the center of mass, N; zero in the `physical` model. It points
-    /// downwind, including the vertical component.
+    /// Returns the constant force of the `paper` model at the center of mass, N; zero in the `physical` model. The force points
+    /// downwind, including the vertical wind component.
     #[must_use]
     pub fn paper_force_n(&self) -> Vec3<Ned> {
         if self.wind.model == WindModel::Physical {
@@ -126,7 +126,7 @@ impl WindField {
         direction * self.wind.paper_force_n
     }
 
-    /// Returns the mean air velocity with gusts and weather changes but without turbulence, m/s.
+    /// Returns the air velocity including gusts and changes of the mean wind but without turbulence, m/s.
     #[must_use]
     pub fn mean_velocity(&self, at: SimTime, height_m: f64) -> Vec3<Ned> {
         let mean = mean_at(&self.wind, at);
@@ -148,7 +148,7 @@ impl WindField {
             return mean_velocity;
         }
         let dryden = Dryden::at(height_m, mean.speed_m_s);
-        // A hovering drone does not fly in frozen air: turbulence drifts past with the wind (Taylor's hypothesis).
+        // Turbulence drifts with the mean wind (Taylor's hypothesis), so that a hovering drone also moves through it.
         let drift = (velocity_m_s - mean_velocity).norm().max(mean_velocity.norm()).max(LOWEST_DRIFT_M_S);
         let travelled_m = drift * SAMPLE_PERIOD.s();
         let u = self.along.step(travelled_m / dryden.length_horizontal_m, &mut self.stream);
@@ -163,13 +163,13 @@ impl WindField {
     }
 }
 
-/// Returns the unit vector of the air's motion for wind from `from_rad` (clockwise from north).
+/// Returns the unit vector in which the air moves, for wind that blows from `from_rad` (clockwise from north).
 fn direction_towards(from_rad: f64) -> Vec3<Ned> {
     let (s, c) = math::sin_cos(from_rad);
     Vec3::new(-c, -s, 0.0)
 }
 
-/// Returns the logarithmic profile over water: the ratio of the speed at a height to the speed at 20 ft.
+/// Returns the ratio of the wind speed at a height to the wind speed at 20 ft by the logarithmic profile over water.
 #[must_use]
 pub fn profile(height_m: f64) -> f64 {
     log_profile(height_m, WATER_ROUGHNESS_M)
@@ -179,7 +179,7 @@ fn log_profile(height_m: f64, roughness_m: f64) -> f64 {
     math::ln(height_m.max(LOWEST_HEIGHT_M) / roughness_m) / math::ln(REFERENCE_HEIGHT_M / roughness_m)
 }
 
-/// Returns the mean wind at an instant: each change is linear in speed and direction (by the shorter rotation).
+/// Returns the mean wind at a time. Each change is linear in speed and in direction, which turns the shorter way.
 #[must_use]
 pub fn mean_at(wind: &WindSpec, at: SimTime) -> MeanWind {
     let mut mean = MeanWind { speed_m_s: wind.speed_m_s, from_rad: wind.from_deg.to_radians() };
@@ -196,7 +196,7 @@ pub fn mean_at(wind: &WindSpec, at: SimTime) -> MeanWind {
     mean
 }
 
-/// Returns the sum of the 1-cosine gusts at an instant: peak/2 (1 - cos(2 pi t/duration)), zero outside.
+/// Returns the sum of all 1-cosine gusts at a time. A gust has the speed peak/2 (1 - cos(2 pi t/duration)) while it lasts.
 fn gusts_at(wind: &WindSpec, at: SimTime) -> Vec3<Ned> {
     wind.events.iter().fold(Vec3::zero(), |sum, event| match event {
         WindEvent::Gust { at: start, duration, peak_m_s, from_deg } => {
@@ -225,7 +225,7 @@ mod tests {
         }
     }
 
-    /// Generates turbulence for `seconds` at the model's sample rate.
+    /// Returns samples of the turbulence over `seconds` at the sample rate of the wind.
     fn turbulence(wind: &WindSpec, seconds: i64, height_m: f64, airspeed_m_s: f64) -> Vec<Vec3<Ned>> {
         let mut field = WindField::new(wind, 11);
         let mean = field.mean_velocity(SimTime::ZERO, height_m);
@@ -247,13 +247,14 @@ mod tests {
     fn exact_turbulence_has_the_standards_variance_and_length_scales() {
         const HEIGHT_M: f64 = 10.0;
         const AIRSPEED_M_S: f64 = 25.0;
-        // Relative; 30 000 s contain 11 000 time scales of the slowest component: one standard error is 1.4 %.
+        // Relative tolerance. 30 000 s contain 11 000 time scales of the slowest component, so one standard error is 1.4 %.
         const VARIANCE_TOLERANCE: f64 = 0.05;
-        // Tolerance on the correlation coefficient at a lag of one time scale; five standard errors.
+        // Tolerance on the correlation coefficient at a lag of one time scale: five standard errors.
         const CORRELATION_TOLERANCE: f64 = 0.05;
         let samples = turbulence(&wind(), 30_000, HEIGHT_M, AIRSPEED_M_S);
         let d = Dryden::at(HEIGHT_M, 4.917);
-        // For wind from the north, the air moves south; correlation at one time scale: 1/e first order, 1/(2e) second order.
+        // Wind from the north moves the air south. At a lag of one time scale, the correlation of a first-order filter is 1/e,
+        // and that of a second-order filter 1/(2e).
         let axes: [(Vec<f64>, f64, f64, f64); 3] = [
             (samples.iter().map(|s| s.north()).collect(), d.sigma_horizontal_m_s, d.length_horizontal_m, 1.0),
             (samples.iter().map(|s| s.east()).collect(), d.sigma_horizontal_m_s, d.length_horizontal_m, 0.5),
@@ -291,7 +292,7 @@ mod tests {
             field.set_over_ground(over_ground);
             field.mean_velocity(SimTime::ZERO, height_m).norm() / 4.917
         };
-        // ln(1/0.03)/ln(6.096/0.03), calculated independently; the two profiles are equal at 20 ft.
+        // ln(1/0.03)/ln(6.096/0.03), calculated independently. The two profiles are equal at 20 ft.
         assert!((speed(true, 1.0) - 0.6598).abs() < 1e-3, "{}", speed(true, 1.0));
         assert!((speed(true, REFERENCE_HEIGHT_M) - 1.0).abs() < 1e-12);
         assert_eq!(speed(true, 20.0), speed(false, 20.0));

@@ -4,16 +4,17 @@ use super::{Rotor, RotorModel};
 use crate::math::{self, GRAVITY_M_S2};
 use nalgebra::{DMatrix, DVector};
 
-/// Minimum ratio of the smallest to the largest singular value of the map from rotor thrusts to lift and moments (lengths in
-/// units of the longest arm, yaw in units of one spin) for control authority (estimate; a square quadrotor has 0.7).
+/// Minimum ratio of the smallest to the largest singular value of the matrix that maps rotor thrusts to lift and moments (roll
+/// and pitch arms relative to the longest arm, yaw per unit of spin) for control authority (estimate; a square quadrotor has
+/// 0.7).
 const LEAST_SHARE: f64 = 0.05;
 
-/// Returns the unmet requirement, or `None`.
+/// Returns the first requirement that the rotor layout does not meet; `None` if it meets all of them.
 #[must_use]
 pub fn missing_axes(rotors: &[Rotor], model: &RotorModel, mass_kg: f64) -> Option<&'static str> {
     let arm_m = rotors.iter().map(|rotor| math::hypot(rotor.position_m.forward(), rotor.position_m.right())).fold(0.0, f64::max);
     if rotors.len() < 4 || arm_m <= 0.0 {
-        return Some("at least four rotors, away from the center of mass");
+        return Some("at least four rotors, not all at the center of mass");
     }
     let entry = |row: usize, column: usize| match (row, &rotors[column]) {
         (0, _) => 1.0,
@@ -23,13 +24,13 @@ pub fn missing_axes(rotors: &[Rotor], model: &RotorModel, mass_kg: f64) -> Optio
     };
     let map = DMatrix::from_fn(4, rotors.len(), entry).svd(true, true);
     if map.singular_values.min() < LEAST_SHARE * map.singular_values.max() {
-        return Some("rotors not in a line, and in both directions of spin");
+        return Some("rotors that are not in a line and spin in both directions");
     }
     let weight = DVector::from_vec(vec![mass_kg * GRAVITY_M_S2, 0.0, 0.0, 0.0]);
     let most_n = model.thrust_coefficient_n_s2 * model.max_speed_rad_s * model.max_speed_rad_s;
     let hover = map.solve(&weight, 0.0).ok()?;
     let holds = hover.iter().all(|thrust_n| (0.0..=most_n).contains(thrust_n));
-    (!holds).then_some("rotors around the center of mass, so that each can provide its thrust in a level hover")
+    (!holds).then_some("rotors around the center of mass, so that no rotor exceeds its thrust range in level hover")
 }
 
 #[cfg(test)]

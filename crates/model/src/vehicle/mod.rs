@@ -1,5 +1,5 @@
-//! The aircraft: one TOML file per aircraft in `vehicle-params/`, parsed into validated types. Each key includes its unit; each
-//! number has a source or the word estimate (vehicle-params/README.md, checked against this code by a test).
+//! Aircraft parameters: one TOML file per aircraft in `vehicle-params/`, parsed into validated types. Each key includes its unit;
+//! each number has a source or is marked as an estimate (vehicle-params/README.md, which a test compares with this code).
 
 mod authority;
 mod read;
@@ -9,10 +9,10 @@ pub use read::{FORMAT, read, read_asked};
 use crate::frames::{Frd, Vec3};
 use crate::math;
 
-/// A validated aircraft. Body frame: forward, right, down from the center of mass.
+/// Parameters of an aircraft, validated. Body frame: forward, right, down from the center of mass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vehicle {
-    /// ID: the file stem, such as `phantom2`.
+    /// Aircraft ID: the stem of the file name, such as `phantom2`.
     pub id: String,
     /// Display name.
     pub name: String,
@@ -22,21 +22,21 @@ pub struct Vehicle {
     pub inertia_kg_m2: [f64; 3],
     /// Rotors in motor order (PX4 quad-x: front right, rear left, front left, rear right).
     pub rotors: Vec<Rotor>,
-    /// Model shared by all rotors.
+    /// Rotor parameters shared by all rotors.
     pub rotor: RotorModel,
-    /// Body drag.
+    /// Aerodynamic drag of the body.
     pub drag: Drag,
     /// Collision hull and contact behavior.
     pub hull: Hull,
-    /// Battery.
+    /// Battery parameters.
     pub battery: BatterySpec,
     /// Limits of the flight controller.
     pub limits: FlightLimits,
-    /// Sensor errors and rates.
+    /// Error models and rates of the sensors.
     pub sensors: SensorSpec,
-    /// Camera and gimbal.
+    /// Camera and gimbal parameters.
     pub camera: Camera,
-    /// Lamp.
+    /// Lamp aligned with the camera.
     pub lamp: Lamp,
 }
 
@@ -50,7 +50,7 @@ pub struct Rotor {
     pub spin: f64,
 }
 
-/// The rotor model shared by all rotors: T = k_T w², Q = k_Q w².
+/// Rotor parameters shared by all rotors. Thrust T = k_T w² and torque Q = k_Q w² at rotor speed w.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RotorModel {
     /// Rotor disk radius, m.
@@ -87,7 +87,7 @@ pub struct Drag {
 pub struct Hull {
     /// Distance between opposite rotor tips (or the cage's diameter), m.
     pub tip_to_tip_m: f64,
-    /// The rotors are protected by a cage or bumpers on all sides: a contact does not touch them.
+    /// True if a cage or bumpers protect the rotors on all sides, so that a contact does not reach them.
     pub caged: bool,
     /// Half dimensions of the body box: forward, right, down, m.
     pub body_half_extent_m: [f64; 3],
@@ -99,7 +99,7 @@ pub struct Hull {
     pub friction: f64,
 }
 
-/// Lithium-polymer battery.
+/// Parameters of a lithium-polymer battery.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BatterySpec {
     /// Cells in series.
@@ -114,7 +114,7 @@ pub struct BatterySpec {
     pub avionics_w: f64,
     /// Lamp load when on, W.
     pub lamp_w: f64,
-    /// Endurance of the `paper` battery: linear from 100 % to 0 %, s.
+    /// Endurance of the `paper` battery model, which discharges linearly from 100 % to 0 %, s.
     pub paper_endurance_s: f64,
 }
 
@@ -135,11 +135,12 @@ pub struct FlightLimits {
     pub tilt_rad: f64,
     /// Maximum roll and pitch rate, rad/s.
     pub rate_rad_s: f64,
-    /// Time from full speed to rest after the stick is released, s (the paper's slow-down time).
+    /// Time from full speed to standstill after the stick is released, s (the slow-down time of the TASBID paper).
     pub slow_down_time_s: f64,
 }
 
-/// Sensor rates and errors: white noise as standard deviation per sample, bias as standard deviation at startup.
+/// Sensor rates and errors. White noise is given as the standard deviation per sample or as a density, bias as the standard
+/// deviation at startup.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorSpec {
     /// Accelerometer and gyroscope rate, Hz.
@@ -180,11 +181,11 @@ pub struct SensorSpec {
     pub range_bias_m: f64,
     /// Maximum range of the range finders, m.
     pub range_max_m: f64,
-    /// Optical-flow horizontal velocity noise, m/s, with sufficient light and texture; 0 means that there is no sensor.
+    /// Optical-flow horizontal velocity noise with sufficient light and texture, m/s; 0 if there is no optical-flow sensor.
     pub flow_velocity_m_s: f64,
 }
 
-/// Camera on a pitch gimbal.
+/// Parameters of a camera on a pitch gimbal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
     /// Lens position, m.
@@ -215,7 +216,7 @@ pub struct Camera {
 pub const SENSOR_MM: f64 = 6.17;
 
 impl Camera {
-    /// Returns the focal length, mm.
+    /// Returns the focal length for a sensor of width [`SENSOR_MM`], mm.
     #[must_use]
     pub fn focal_mm(&self) -> f64 {
         0.5 * SENSOR_MM / math::tan(0.5 * self.hfov_rad)
@@ -239,7 +240,7 @@ impl Camera {
         2.0 * math::atan2(0.5 * f64::from(self.height_px), self.focal_px())
     }
 
-    /// Returns the camera at `ratio` times its shortest focal length; bit-identical at the wide end.
+    /// Returns the camera zoomed in to `ratio` times its shortest focal length; a ratio of 1 or less returns it unchanged.
     #[must_use]
     pub fn zoomed(&self, ratio: f64) -> Self {
         if ratio <= 1.0 {
@@ -249,11 +250,11 @@ impl Camera {
     }
 }
 
-/// Lamp aligned with the camera.
+/// Parameters of a lamp aligned with the camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lamp {
-    /// Luminous flux, lm; 0 means that there is no lamp.
+    /// Luminous flux, lm; 0 if there is no lamp.
     pub flux_lm: f64,
-    /// Full beam angle, rad.
+    /// Full angle of the beam, rad.
     pub beam_rad: f64,
 }

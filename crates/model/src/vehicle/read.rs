@@ -1,4 +1,4 @@
-//! Parses vehicle files into [`Vehicle`]: every key with its unit, range and default.
+//! Parses vehicle files into [`Vehicle`]. Defines each key with its unit, range and default.
 
 use super::{BatterySpec, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, SensorSpec, Vehicle};
 use crate::frames::Vec3;
@@ -9,18 +9,18 @@ use std::collections::BTreeMap;
 /// Latest supported format version.
 pub const FORMAT: i64 = 1;
 const MOST_ROTORS: usize = 8;
-/// Minimum ratio of maximum thrust to weight for control (estimate; typical multicopters have 1.8 or more).
+/// Minimum ratio of maximum thrust to weight for a controllable aircraft (estimate; typical multicopters have 1.8 or more).
 const LEAST_LIFT: f64 = 1.2;
 
 /// Parses a vehicle file. `file` is the file name used in messages; its stem becomes [`Vehicle::id`].
 ///
 /// # Errors
-/// All problems of the file, each with line, key, value and allowed range.
+/// Returns all problems in the file, each with line, key, value and allowed range.
 pub fn read(file: &str, text: &str) -> Result<Vehicle, Problems> {
     read_asked(file, text).0
 }
 
-/// Parses a vehicle file and returns the keys that were read (for the documentation test).
+/// Parses a vehicle file. Also returns the keys that were read, for the test of the documentation.
 pub fn read_asked(file: &str, text: &str) -> (Result<Vehicle, Problems>, BTreeMap<String, DocumentedKey>) {
     let mut reader = Reader::new(file, text);
     let vehicle = reader.parse().map(|document| {
@@ -50,7 +50,7 @@ fn whole(r: &mut Reader, root: &mut Section, file: &str) -> Vehicle {
     let lift_kg =
         rotors.len() as f64 * rotor.thrust_coefficient_n_s2 * rotor.max_speed_rad_s * rotor.max_speed_rad_s / GRAVITY_M_S2;
     if lift_kg < LEAST_LIFT * mass_kg && r.problems.is_empty() {
-        let most = format!("at most {:.3}: the rotors lift {lift_kg:.3} kg", lift_kg / LEAST_LIFT);
+        let most = format!("at most {:.3}, as the rotors can lift {lift_kg:.3} kg", lift_kg / LEAST_LIFT);
         r.add_problem(root, "mass_kg", &mass_kg.to_string(), &most, "too heavy to fly");
     }
     if r.problems.is_empty()
@@ -81,7 +81,7 @@ fn rotors(r: &mut Reader, root: &mut Section) -> (Vec<Rotor>, RotorModel) {
     let places = r.points(&mut s, "position_m", (-5.0, 5.0));
     let spins = r.integers(&mut s, "spin", (-1, 1));
     if places.len() < 4 || places.len() > MOST_ROTORS || places.len() != spins.len() || spins.contains(&0) {
-        r.add_problem(&s, "spin", "", "4 to 8 rotors, one spin of -1 or 1 each", "rotors and spins do not match");
+        r.add_problem(&s, "spin", "", "4 to 8 rotors, each with a spin of -1 or 1", "wrong number of rotors or spins");
     }
     let model = RotorModel {
         radius_m: r.number(&mut s, "radius_m", (0.01, 1.0), None),
@@ -95,7 +95,7 @@ fn rotors(r: &mut Reader, root: &mut Section) -> (Vec<Rotor>, RotorModel) {
         efficiency: r.number(&mut s, "efficiency", (0.1, 1.0), None),
     };
     if model.idle_speed_rad_s >= model.max_speed_rad_s {
-        r.add_problem(&s, "idle_speed_rad_s", &model.idle_speed_rad_s.to_string(), "less than max_speed_rad_s", "too fast");
+        r.add_problem(&s, "idle_speed_rad_s", &model.idle_speed_rad_s.to_string(), "less than max_speed_rad_s", "too high");
     }
     r.finish(&s);
     let rotors = places.iter().zip(&spins).map(|(p, spin)| Rotor { position_m: Vec3::new(p[0], p[1], p[2]), spin: *spin as f64 });
@@ -112,7 +112,7 @@ fn drag(r: &mut Reader, root: &mut Section) -> Drag {
     drag
 }
 
-/// Minimum number of feet for a stable stand.
+/// Minimum number of feet for a stable stance on the ground.
 const LEAST_FEET: usize = 3;
 
 fn hull(r: &mut Reader, root: &mut Section) -> Hull {
@@ -166,11 +166,11 @@ fn limits(r: &mut Reader, root: &mut Section) -> FlightLimits {
         rate_rad_s: r.number(&mut s, "rate_deg_s", (20.0, 1500.0), None).to_radians(),
         slow_down_time_s: r.number(&mut s, "slow_down_time_s", (0.2, 10.0), None),
     };
-    // At maximum tilt the braking deceleration is g tan(tilt); air drag and the time to tilt roughly cancel (verified in
-    // simulation for every shipped aircraft).
+    // At maximum tilt the braking deceleration is g tan(tilt). The effects of air drag and of the time needed to tilt roughly
+    // cancel (verified in simulation for every shipped aircraft).
     let least_s = limits.forward_m_s.max(limits.sideward_m_s) / (GRAVITY_M_S2 * math::tan(limits.tilt_rad));
     if limits.slow_down_time_s < least_s && r.problems.is_empty() {
-        let allowed = format!("at least {least_s:.2}: full speed over g tan(tilt_deg)");
+        let allowed = format!("at least {least_s:.2}, which is full speed divided by g tan(tilt_deg)");
         r.add_problem(&s, "slow_down_time_s", &limits.slow_down_time_s.to_string(), &allowed, "too short for the maximum tilt");
     }
     r.finish(&s);

@@ -1,4 +1,4 @@
-//! Compares the bridges with the formulas of their geometry, and the task paths with the bridges.
+//! Tests of bridge geometry against independent formulas, and of task paths against the geometry.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::random::RandomStream;
@@ -9,9 +9,9 @@ use spandrel_model::scenario::{Bridge, BridgeKind, TaskKind};
 use spandrel_model::site::convex::Convex;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Rounding error of positions a few hundred meters from the origin, m.
+/// Tolerance for rounding errors of positions a few hundred meters from the origin, m.
 const ROUNDING_M: f64 = 1e-9;
-/// Relative rounding error of volumes, which are sums of many products.
+/// Relative tolerance for rounding errors of volumes, which are sums of many products.
 const SHARE: f64 = 1e-9;
 
 fn bridge(kind: BridgeKind) -> Bridge {
@@ -26,7 +26,7 @@ fn suspension() -> Bridge {
     bridge(BridgeKind::Suspension(Suspension::default()))
 }
 
-/// Returns random values around the defaults, within their ranges.
+/// Returns random values near the defaults, within their ranges.
 fn random_values(fields: &[BridgeField], random: &mut RandomStream) -> Vec<f64> {
     let near_default = |f: &BridgeField| (f.default * random.range(0.6, 1.7)).clamp(f.min, f.max);
     fields
@@ -37,7 +37,7 @@ fn random_values(fields: &[BridgeField], random: &mut RandomStream) -> Vec<f64> 
         .collect()
 }
 
-/// Returns both types with default dimensions, and with random dimensions that are consistent.
+/// Returns bridges of both types, with default and with random dimensions. Inconsistent ones are omitted.
 fn many() -> Vec<Bridge> {
     let mut random = RandomStream::new(4, "bridges");
     let mut out = vec![arch(), suspension()];
@@ -73,29 +73,29 @@ fn prop_every_solid_is_closed_convex_and_faces_outwards() {
     for bridge in many() {
         let members = bridge.members();
         let names: BTreeSet<&str> = members.iter().map(|m| m.name.as_str()).collect();
-        assert_eq!(names.len(), members.len(), "names are unique");
+        assert_eq!(names.len(), members.len(), "duplicate member names");
         for Member { name, solid, .. } in &members {
             let mut edges = BTreeSet::new();
             for face in &solid.faces {
                 for k in 0..face.len() {
-                    assert!(edges.insert((face[k], face[(k + 1) % face.len()])), "{name}: an edge runs twice the same way");
+                    assert!(edges.insert((face[k], face[(k + 1) % face.len()])), "{name}: an edge occurs twice in one direction");
                 }
             }
-            assert!(edges.iter().all(|(a, b)| edges.contains(&(*b, *a))), "{name} is open");
-            assert_eq!(solid.vertices_m.len() + solid.faces.len(), edges.len() / 2 + 2, "{name}: Euler");
+            assert!(edges.iter().all(|(a, b)| edges.contains(&(*b, *a))), "{name} is not closed");
+            assert_eq!(solid.vertices_m.len() + solid.faces.len(), edges.len() / 2 + 2, "{name} violates Euler's formula");
             assert!(volume(solid) > 0.0, "{name}: {} m3", volume(solid));
             for face in &solid.faces {
                 let at = |k: usize| solid.vertices_m[face[k] as usize];
                 let normal = (at(1) - at(0)).cross(at(2) - at(0)).unit();
                 let height = |v: &Vec3<Enu>| normal.dot(*v - at(0));
-                assert!(face.iter().all(|k| height(&solid.vertices_m[*k as usize]).abs() < ROUNDING_M), "{name}: a bent face");
+                assert!(face.iter().all(|k| height(&solid.vertices_m[*k as usize]).abs() < ROUNDING_M), "{name}: nonplanar face");
                 assert!(solid.vertices_m.iter().all(|v| height(v) < ROUNDING_M), "{name}: not convex");
             }
         }
     }
 }
 
-/// Returns the face centers of a solid and points along its edges, for contact tests.
+/// Returns sample points on the faces and edges of a solid, for contact tests.
 fn points_of(solid: &Solid) -> Vec<Vec3<Enu>> {
     let corner = |k: u32| solid.vertices_m[k as usize];
     let middle = |ks: &[u32]| ks.iter().fold(Vec3::zero(), |sum, k| sum + corner(*k)) / ks.len() as f64;
@@ -149,7 +149,7 @@ fn exact_an_arch_has_as_many_members_as_its_formulas_say() {
                 + (4.0 * a.rise_m - 2.0 * (a.springing_depth_m - a.crown_depth_m)) * x * x / (a.span_m * a.span_m)
         };
         let points: Vec<f64> = (1..n).map(|k| a.span_m * (k as f64 / n as f64 - 0.5)).collect();
-        // A column is a little longer than the clear height at its middle, because the rib slopes away below it.
+        // A column is slightly longer than the clear height at its center, because the rib slopes under it.
         let (most, least) =
             (points.iter().filter(|x| clear(**x) > 0.25 - 0.6).count(), points.iter().filter(|x| clear(**x) > 0.25).count());
         let members = bridge.members();
@@ -179,7 +179,7 @@ fn exact_a_suspension_bridge_has_as_many_members_as_its_formulas_say() {
         let count = counts(&bridge.members());
         assert_eq!(count[&148], 2 * (main - 1));
         assert_eq!(count[&147], 2 * (main + 2));
-        // A steel beam is two flanges and a web.
+        // A steel beam consists of two flanges and a web.
         assert_eq!(count[&152], 3 * beams);
         assert_eq!((count[&12], count[&107], count[&113]), (panels, 3 * 2 * panels, 3 * 2 * panels));
         assert_eq!((count[&207], count[&210], count[&220], count[&311], count[&313]), (12, 2, 6, 10, 2));
@@ -192,13 +192,14 @@ fn exact_a_suspension_bridge_has_as_many_members_as_its_formulas_say() {
 #[test]
 fn exact_volumes_of_slab_ribs_cables_and_hangers() {
     let sum = |members: &[Member], part: &str| named(members, part).map(|m| volume(&m.solid)).sum::<f64>();
-    let close = |got: f64, want: f64| assert!((got - want).abs() < SHARE * want, "{got} m3, not {want} m3");
+    let close = |got: f64, want: f64| assert!((got - want).abs() < SHARE * want, "{got} m3, expected {want} m3");
     for bridge in many() {
         let members = bridge.members();
         match &bridge.kind {
             BridgeKind::Arch(a) => {
                 close(sum(&members, "slab"), a.deck_length_m() * a.deck_width_m * a.slab_m);
-                // The depth is quadratic in u = 2x/L, and the trapezoidal rule over N segments makes 1/3 + 2/(3 N^2) of the mean of u^2.
+                // The depth is quadratic in u = 2x/L. The trapezoidal rule over N segments yields a mean of u^2 of 1/3 + 2/(3
+                // N^2).
                 let segments = 2.0 * a.panels.round();
                 let mean = 1.0 / 3.0 + 2.0 / (3.0 * segments * segments);
                 let area = a.span_m * (a.crown_depth_m + (a.springing_depth_m - a.crown_depth_m) * mean);
@@ -206,7 +207,7 @@ fn exact_volumes_of_slab_ribs_cables_and_hangers() {
             }
             BridgeKind::Suspension(s) => {
                 close(sum(&members, "slab"), s.deck_length_m() * s.deck_width_m * s.slab_m);
-                // Flanges of 400 mm by 40 mm, webs of 16 mm.
+                // The flanges are 400 mm by 40 mm, the webs 16 mm thick.
                 let section = 2.0 * 0.4 * 0.04 + (s.girder_depth_m - 2.0 * 0.04) * 0.016;
                 close(sum(&members, "girder"), 2.0 * s.deck_length_m() * section);
                 let octagon = 2.0 * 2f64.sqrt() * s.cable_radius_m * s.cable_radius_m;
@@ -217,7 +218,7 @@ fn exact_volumes_of_slab_ribs_cables_and_hangers() {
                 let straight = |k: f64| {
                     ((x(k + 1.0) - x(k)) * (x(k + 1.0) - x(k)) + (z(x(k + 1.0)) - z(x(k))) * (z(x(k + 1.0)) - z(x(k)))).sqrt()
                 };
-                // The cables run straight for another meter into the anchorages.
+                // The cables of the side spans continue straight for one meter into the anchorages.
                 let top = s.cable_clearance_m + s.sag_m;
                 let side = (s.side_span_m * s.side_span_m + top * top).sqrt() * (1.0 + 1.0 / s.side_span_m);
                 let cable = (0..n as u32).map(|k| straight(f64::from(k))).sum::<f64>() + 2.0 * side;
@@ -236,7 +237,7 @@ fn exact_the_rib_follows_its_parabola() {
     let crown = a.slab_m + a.crown_gap_m;
     assert!((a.extrados_z_m(0.0) + crown).abs() < ROUNDING_M);
     assert!((a.axis_z_m(0.0) - a.axis_z_m(0.5 * a.span_m) - a.rise_m).abs() < ROUNDING_M);
-    // Calculated by hand for span 98, rise 26, depths 1.6 and 2.7, slab 0.23, gap 3.4, at a quarter of the span: axis -4.43 - 6.5.
+    // Calculated by hand for span 98, rise 26, depths 1.6 and 2.7, slab 0.23, gap 3.4: axis -4.43 - 6.5 at a quarter of the span.
     assert!((a.axis_z_m(24.5) + 10.93).abs() < ROUNDING_M && (a.depth_m(24.5) - 1.875).abs() < ROUNDING_M);
     for member in named(&bridge.members(), "rib-") {
         for vertex in &member.solid.vertices_m {
@@ -256,7 +257,8 @@ fn exact_the_cable_sags_and_the_hangers_reach_it() {
         let sum = vertices.iter().fold(Vec3::zero(), |sum, v| sum + *v);
         bridge.placement().local(sum / vertices.len() as f64)
     };
-    // Sag 14 m over 140 m, 2 m over the deck at midspan: 16 m at the towers, 5.5 m at the quarter points.
+    // With a sag of 14 m over 140 m and 2 m above the deck at midspan, the cable is at 16 m at the towers and 5.5 m at the
+    // quarter points.
     for (x, z) in [(0.0, 2.0), (35.0, 5.5), (-70.0, 16.0), (115.0, 0.0)] {
         assert!((s.cable_z_m(x) - z).abs() < ROUNDING_M);
     }
@@ -268,7 +270,7 @@ fn exact_the_cable_sags_and_the_hangers_reach_it() {
     }
     let ends: Vec<_> = named(&members, "cable-left").map(|m| middle(&m.solid.vertices_m[..8])).collect();
     assert!(ends.iter().all(|e| (e[2] - s.cable_z_m(e[0])).abs() < ROUNDING_M));
-    // Each piece starts at the corners where the previous one ends, so the cable has no gaps at its bends.
+    // Consecutive cable segments share their corners, so the cable has no gaps at its bends.
     let pieces: Vec<_> = named(&members, "cable-left").map(|m| &m.solid.vertices_m).collect();
     for pair in pieces.windows(2) {
         assert!(pair[0][..8].iter().zip(&pair[1][8..]).all(|(end, start)| (*end - *start).norm() < ROUNDING_M));
@@ -284,9 +286,9 @@ fn least_gap(shapes: &[Convex], path: &TaskPath) -> f64 {
     path.path_m.iter().map(gap).fold(f64::INFINITY, f64::min)
 }
 
-/// Checks that steps are at most 1 m, turns are gentle enough for a slow aircraft, and viewing directions are unit vectors.
+/// Checks that a path has steps of at most 1 m, turns that a slow aircraft can follow, and unit viewing directions.
 fn assert_smooth(path: &TaskPath) {
-    // rad; 0.8 m of an arc with a radius of 4 m.
+    // Sine of the angle for 0.8 m of an arc with a radius of 4 m, with a margin.
     const SHARPEST: f64 = 0.25;
     let n = path.path_m.len();
     assert_eq!(path.look.len(), n);
@@ -310,7 +312,7 @@ fn prop_paths_keep_their_stand_off() {
                 let Ok(path) = bridge.task_path(kind, stand_off_m) else { continue };
                 assert_smooth(&path);
                 let gap = least_gap(&shapes, &path);
-                assert!(gap > stand_off_m - ROUNDING_M, "{kind:?}: {gap} m, not {stand_off_m} m, {:?}", bridge.kind);
+                assert!(gap > stand_off_m - ROUNDING_M, "{kind:?}: {gap} m, expected {stand_off_m} m, {:?}", bridge.kind);
                 assert!(kind == TaskKind::ArchBottom || gap < 1.1 * stand_off_m, "{kind:?}: {gap} m");
             }
         }
@@ -328,24 +330,24 @@ fn exact_the_pier_is_circled_at_one_distance_and_closed() {
     for (p, look) in path.path_m.iter().zip(&path.look) {
         let near = pier.nearest(*p);
         assert!((near.distance_m - 4.5).abs() < ROUNDING_M);
-        assert!((near.normal + *look).norm() < ROUNDING_M, "looks square at the pier");
+        assert!((near.normal + *look).norm() < ROUNDING_M, "viewing direction is not perpendicular to the pier");
     }
     let around: f64 = (0..path.path_m.len()).map(|k| (path.path_m[(k + 1) % path.path_m.len()] - path.path_m[k]).norm()).sum();
-    // The offset of a 4 m by 13 m rectangle; the polyline cuts the arcs a little short.
+    // Length of the offset curve of a 4 m by 13 m rectangle; the polyline is slightly shorter because it cuts the arcs.
     let exact = 2.0 * (4.0 + 13.0) + std::f64::consts::TAU * 4.5;
     assert!(around < exact && around > 0.999 * exact, "{around} m of {exact} m");
 }
 
 #[test]
 fn exact_the_interlayer_lets_the_largest_shipped_aircraft_through() {
-    // Half of 1.07 m tip to tip (M30 class) and the margin of 0.5 m.
+    // Half of 1.07 m tip to tip (M30 class) plus a margin of 0.5 m.
     const NEEDED_M: f64 = 0.5 * 1.07 + 0.5;
     let bridge = arch();
     let path = bridge.task_path(TaskKind::Interlayer, 4.0).unwrap();
     assert_smooth(&path);
     let gap = least_gap(&solids(&bridge.members()), &path);
     assert!(gap >= NEEDED_M, "{gap} m");
-    // The path runs below the floorbeams, and above and between the ribs.
+    // The path is between deck and arch: below the floorbeams, between the ribs and above the crown.
     for p in &path.path_m {
         let [x, y, z] = bridge.placement().local(*p);
         let a = Arch::default();
@@ -355,8 +357,8 @@ fn exact_the_interlayer_lets_the_largest_shipped_aircraft_through() {
 
 #[test]
 fn prop_the_paths_look_at_the_bridge() {
-    // Seen from its own height the slab is 0.23 m thick; under the arch a sight line may pass between beams to the sky; at a corner of
-    // the pier all sight lines end at its edge, which rounding may miss.
+    // Minimum fraction of viewing directions that hit the bridge. Under the arch some pass between the beams into the sky, and at
+    // the corners of the pier they point at an edge, which rounding can miss.
     for (bridge, kind, share) in [
         (arch(), TaskKind::SlabSide, 1.0),
         (arch(), TaskKind::ArchBottom, 0.95),
@@ -382,7 +384,7 @@ fn exact_inconsistent_dimensions_are_refused_with_their_line() {
     assert!(message.starts_with("wide.toml:"), "{message}");
 }
 
-/// MBEI elements (numbers and names from the AASHTO manual, 2015 interims) and the members that belong to them.
+/// Element numbers of the AASHTO MBEI (2015 interims), with the member names that may have them.
 const MBEI: [(u16, &[&str]); 18] = [
     (12, &["slab"]),
     (107, &["girder"]),
@@ -413,7 +415,7 @@ fn exact_every_member_has_the_element_of_its_part() {
             let names = MBEI.iter().find(|(number, _)| *number == member.element.number()).map(|(_, names)| *names);
             let fits = names.is_some_and(|names| names.iter().any(|n| part.starts_with(n)));
             assert!(fits, "{} is element {}", member.name, member.element.number());
-            // The arch bridge is concrete; of the suspension bridge, deck, piers and anchorages are.
+            // The arch bridge is concrete; of the suspension bridge, deck, piers and anchorages are concrete.
             let concrete =
                 matches!(bridge.kind, BridgeKind::Arch(_)) || ["slab", "pier", "anchorage"].iter().any(|n| part.starts_with(n));
             assert_eq!(

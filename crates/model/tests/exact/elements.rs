@@ -1,4 +1,4 @@
-//! The table of bridge elements against the AASHTO manual's numbers, and the defects of each element and of the shipped jobs.
+//! Tests of the table of bridge elements against the AASHTO manual, and of the defects on elements and in shipped jobs.
 
 use spandrel_model::defect_codes;
 use spandrel_model::elements::{Element, ElementMaterial};
@@ -6,7 +6,7 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::shipped;
 use spandrel_model::site::Site;
 
-/// Numbers by material (docs/src/reference/domain.md, "Elements"); bearings and cables carry the defects of steel.
+/// Element numbers by material (docs/src/reference/domain.md, "Elements"). Bearings and cables have the defects of steel.
 const RC: [u16; 16] = [12, 16, 38, 105, 110, 116, 144, 155, 205, 210, 215, 220, 227, 234, 321, 331];
 const PSC: [u16; 12] = [13, 15, 39, 104, 109, 115, 143, 154, 204, 226, 233, 320];
 const STEEL: [u16; 26] = [
@@ -46,14 +46,15 @@ fn exact_every_elements_defects_are_legal() {
         assert!(permitted.is_sorted(), "{element:?}");
         for code in permitted {
             assert!(defect_codes::KINDS.contains(code), "{element:?} has the unknown code {code}");
-            // MBEI: 1000 to 1020 belong to metal, 1080 to 1190 to concrete, 1110 and 1130 each to one kind of concrete.
+            // In the MBEI, codes 1000 to 1020 are for metal and 1080 to 1190 for concrete; 1110 and 1130 are each for one type of
+            // concrete.
             let legal = match code {
                 1000..=1020 => element.material() == ElementMaterial::Steel,
                 1110 => element.material() == ElementMaterial::PrestressedConcrete,
                 1130 => element.material() == ElementMaterial::ReinforcedConcrete,
                 _ => matches!(element.material(), ElementMaterial::ReinforcedConcrete | ElementMaterial::PrestressedConcrete),
             };
-            assert!(legal, "{element:?} must not have {code}");
+            assert!(legal, "{code} is not permitted on {element:?}");
         }
     }
     assert!(Element::Unlisted(850).permitted_defects().is_empty());

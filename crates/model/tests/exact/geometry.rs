@@ -1,4 +1,4 @@
-//! Compares the exported geometry with the collision geometry: both have the same surfaces.
+//! Tests that the exported glTF geometry and the collision geometry have the same surfaces.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::random::RandomStream;
@@ -6,11 +6,11 @@ use spandrel_model::site::convex::Convex;
 use spandrel_model::site::{Site, gltf};
 use std::collections::BTreeMap;
 
-/// Rounding error of a position within 1 km as a 32-bit float, m.
+/// Resolution of 32-bit floats for positions within 1 km, m.
 const ROUNDING_M: f64 = 6e-5;
-/// Rounding tolerance of the point hit by a ray with at least [`LEAST_COS`], m.
+/// Maximum displacement of a ray hit by rounding, m, for rays with a cosine of incidence of at least [`LEAST_COS`].
 const ALONG_M: f64 = 2e-3;
-/// Minimum cosine of the incidence angle; flatter rays are not compared.
+/// Minimum cosine of incidence of the rays that are compared.
 const LEAST_COS: f64 = 0.1;
 
 type Triangle = [Vec3<Enu>; 3];
@@ -24,11 +24,11 @@ struct Node {
 fn site() -> Site {
     let text = spandrel_model::shipped::TWO_BRIDGES;
     let scenario =
-        spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap_or_else(|p| panic!("{p}"));
+        spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("no file".into())).unwrap_or_else(|p| panic!("{p}"));
     Site::build(&scenario, 1)
 }
 
-/// Parses the file with the gltf crate and converts it to east, north, up.
+/// Parses the exported file with the gltf crate and converts it back to east, north, up.
 fn nodes(site: &Site) -> BTreeMap<String, Node> {
     let (document, buffers, _) = ::gltf::import_slice(gltf::glb(site)).unwrap();
     let back = |p: [f32; 3]| Vec3::new(f64::from(p[0]), -f64::from(p[2]), f64::from(p[1]));
@@ -45,12 +45,12 @@ fn nodes(site: &Site) -> BTreeMap<String, Node> {
     document.nodes().map(node).collect()
 }
 
-/// Returns the unit normal that follows from the order of the corners.
+/// Returns the unit normal of a triangle from the order of its corners.
 fn normal(t: &Triangle) -> Vec3<Enu> {
     (t[1] - t[0]).cross(t[2] - t[0]).unit()
 }
 
-/// Distance along a ray to a triangle widened by the rounding of its corners, with the cosine of its incidence.
+/// Returns the distance along a ray to a triangle, enlarged by a rounding tolerance, and the cosine of incidence.
 fn hit(origin: Vec3<Enu>, direction: Vec3<Enu>, t: &Triangle) -> Option<(f64, f64)> {
     let normal = normal(t);
     let cos = normal.dot(direction);
@@ -69,7 +69,7 @@ fn direction(random: &mut RandomStream) -> Vec3<Enu> {
 fn val_every_member_of_the_file_is_the_solid_that_collides() {
     let site = site();
     let nodes = nodes(&site);
-    assert_eq!(nodes.len(), site.members().len() + 3, "members, ground, water, pad");
+    assert_eq!(nodes.len(), site.members().len() + 3, "nodes for members, ground, water and pad");
     let mut random = RandomStream::new(1, "export");
     for (k, member) in site.members().iter().enumerate() {
         let node = &nodes[&member.name];
@@ -86,14 +86,14 @@ fn val_every_member_of_the_file_is_the_solid_that_collides() {
     }
 }
 
-/// Checks that a ray at a random point of a triangle in the file hits the collider at that point.
+/// Checks that a ray toward a random point of an exported triangle hits the collision shape at that point.
 fn assert_on_surface(name: &str, shape: &Convex, t: &Triangle, random: &mut RandomStream) {
     let (mut a, mut b) = (random.uniform(), random.uniform());
     if a + b > 1.0 {
         (a, b) = (1.0 - a, 1.0 - b);
     }
     let middle = (t[0] + t[1] + t[2]) / 3.0;
-    // Away from the edge, where rounding decides.
+    // Stay away from the edges, where rounding decides the result.
     let p = middle.lerp(t[0] + (t[1] - t[0]) * a + (t[2] - t[0]) * b, 0.9);
     assert!(shape.nearest(p).distance_m.abs() < ROUNDING_M, "{name}");
     let mut from = direction(random);
@@ -101,12 +101,12 @@ fn assert_on_surface(name: &str, shape: &Convex, t: &Triangle, random: &mut Rand
         from = -from;
     }
     if from.dot(normal(t)) > LEAST_COS {
-        let (distance, _) = shape.ray(p + from * 3.0, -from, 10.0).unwrap_or_else(|| panic!("{name}: a ray at its face misses"));
-        assert!((distance - 3.0).abs() < ALONG_M, "{name}: hit after {distance} m, not 3 m");
+        let (distance, _) = shape.ray(p + from * 3.0, -from, 10.0).unwrap_or_else(|| panic!("{name}: ray misses its face"));
+        assert!((distance - 3.0).abs() < ALONG_M, "{name}: hit at {distance} m instead of 3 m");
     }
 }
 
-/// Checks that rays hit the file's triangles where they hit the collider.
+/// Checks that random rays hit the collision shape and the exported triangles at the same distance.
 fn assert_rays_agree(name: &str, shape: &Convex, node: &Node, random: &mut RandomStream) {
     let (low, high) = shape.bounds();
     for _ in 0..8 {
@@ -121,7 +121,7 @@ fn assert_rays_agree(name: &str, shape: &Convex, node: &Node, random: &mut Rando
         if -normal.dot(towards) > LEAST_COS {
             let first = node.triangles.iter().filter_map(|t| hit(origin, towards, t)).filter(|h| h.1 > 0.0);
             let first = first.map(|h| h.0).fold(f64::INFINITY, f64::min);
-            assert!((first - distance).abs() < ALONG_M / LEAST_COS, "{name}: {distance} m, in the file {first} m");
+            assert!((first - distance).abs() < ALONG_M / LEAST_COS, "{name}: {distance} m, but {first} m in the file");
         }
     }
 }
@@ -151,12 +151,12 @@ fn val_a_ray_through_the_site_ends_where_it_ends_in_the_file() {
             Some(f) => {
                 assert!(
                     (f.distance_m - first.0).abs() < ALONG_M / LEAST_COS,
-                    "{origin:?} {towards:?}: {f:?}, in the file {first:?}"
+                    "{origin:?} {towards:?}: {f:?}, but {first:?} in the file"
                 );
                 ground += usize::from(f.surface == spandrel_model::site::Surface::Terrain);
                 bridge += usize::from(f.surface == spandrel_model::site::Surface::Bridge);
             }
-            None => assert!(first.0 > 190.0 - ALONG_M / LEAST_COS, "{origin:?} {towards:?}: nothing, in the file {first:?}"),
+            None => assert!(first.0 > 190.0 - ALONG_M / LEAST_COS, "{origin:?} {towards:?}: no hit, but {first:?} in the file"),
         }
     }
     assert!(compared > 400 && ground > 40 && bridge > 20, "{compared}, {ground} on the ground, {bridge} on bridges");

@@ -1,14 +1,14 @@
-//! The ground's triangles: nearest points, rays and contacts against slow searches over all of them.
+//! Tests of the ground's queries (nearest points, rays, contacts) against brute-force searches over all triangles.
 
 use super::site::to_triangle;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::random::RandomStream;
 use spandrel_model::site::heights::HeightGrid;
 
-/// m; rounding at the scale of the test field.
+/// Tolerance for rounding errors at the scale of the test grid, m.
 const ROUNDING_M: f64 = 1e-9;
 
-/// A rough field of 20 x 20 cells of 5 m.
+/// Returns a rough height grid of 20 x 20 cells of 5 m.
 fn rough() -> HeightGrid {
     let mut random = RandomStream::new(9, "rough");
     HeightGrid::new((0..21 * 21).map(|_| random.range(-6.0, 6.0)).collect(), 5.0)
@@ -34,7 +34,7 @@ fn prop_the_nearest_point_is_the_nearest_of_all_triangles() {
 
 #[test]
 fn prop_no_part_of_a_segment_comes_nearer_to_the_ground_than_its_ends_and_the_creases_it_crosses() {
-    // m; half the spacing of the points tried.
+    // Half the spacing of the sample points, m.
     const COARSE_M: f64 = 0.5 * 4.0 / 400.0;
     let grid = rough();
     let mut random = RandomStream::new(6, "segments");
@@ -45,14 +45,14 @@ fn prop_no_part_of_a_segment_comes_nearer_to_the_ground_than_its_ends_and_the_cr
         let signed = |t: f64| grid.nearest(a.lerp(b, t), f64::INFINITY).map_or(f64::INFINITY, |n| n.distance_m);
         let ends = signed(0.0).min(signed(1.0));
         let tried = (0..=400).map(|k| signed(f64::from(k) / 400.0)).fold(f64::INFINITY, f64::min);
-        // Under the ground the depth is that of the deepest crease passed, not of the deepest point: enough for what only just touches.
+        // Segments below the ground are skipped: their result is the depth of the deepest crease, not of the deepest point.
         if ends < 0.0 || tried < 0.0 {
             continue;
         }
         let between = grid.between(a, b, ends, 2.0);
         across += usize::from(between.is_some());
         let least = between.map_or(ends, |n| n.distance_m);
-        assert!(least > tried - COARSE_M && (least < tried + 1e-6 || tried > 2.0), "{least} but {tried}");
+        assert!(least > tried - COARSE_M && (least < tried + 1e-6 || tried > 2.0), "{least} m, but {tried} m by sampling");
         if let Some(near) = between {
             assert!((near.point_m.up() - grid.ground(near.point_m.east(), near.point_m.north()).0).abs() < ROUNDING_M);
             assert!((near.normal.norm() - 1.0).abs() < ROUNDING_M && near.normal.up() > 0.0);
@@ -63,7 +63,7 @@ fn prop_no_part_of_a_segment_comes_nearer_to_the_ground_than_its_ends_and_the_cr
 
 #[test]
 fn exact_a_rod_across_a_ridge_rests_on_the_ridge() {
-    // A roof 1 m high along the middle column of the grid, slopes of 1 in 4.
+    // A ridge 1 m high along the middle column of the grid, with slopes of 1 in 4.
     let heights = (0..9).map(|k| if k % 3 == 1 { 1.0 } else { 0.0 }).collect();
     let grid = HeightGrid::new(heights, 4.0);
     let rod = |up: f64| (Vec3::new(-1.0, 0.3, up), Vec3::new(1.0, 0.3, up));
@@ -98,7 +98,7 @@ fn prop_what_lies_under_is_lower() {
 
 #[test]
 fn prop_a_ray_never_passes_a_thin_ridge() {
-    // One row of corners stands up as a blade of one cell; looked at along many lines, some through its corners.
+    // One row of corners is raised to form a ridge that is one cell wide on each side. Some of the rays pass through its corners.
     let heights = (0..81 * 81).map(|k| if k / 81 == 40 { 3.0 } else { 0.0 }).collect();
     let grid = HeightGrid::new(heights, 1.0);
     let mut random = RandomStream::new(8, "blade");
@@ -109,7 +109,7 @@ fn prop_a_ray_never_passes_a_thin_ridge() {
         let direction = (aim - from).unit();
         let far = (aim - from).norm();
         let (t, _) = grid.ray(from, direction, 200.0).unwrap();
-        assert!(t <= far, "{from:?} to {aim:?} went on to {t} m of {far} m");
+        assert!(t <= far, "{from:?} to {aim:?} hit at {t} m, beyond {far} m");
     }
 }
 
@@ -120,7 +120,7 @@ fn prop_a_ray_ends_where_it_first_meets_the_ground() {
     let over = |p: Vec3<Enu>| p.up() - grid.ground(p.east(), p.north()).0;
     let mut hits = 0;
     for _ in 0..1500 {
-        // Some start and end beyond the rim.
+        // Some rays start or end outside the grid.
         let origin = Vec3::new(random.range(-70.0, 70.0), random.range(-70.0, 70.0), random.range(-3.0, 15.0));
         let direction = Vec3::new(random.normal(), random.normal(), 0.4 * random.normal()).unit();
         let hit = grid.ray(origin, direction, 120.0);
@@ -151,7 +151,7 @@ fn exact_plumb_and_level_rays() {
 #[test]
 fn exact_a_ray_that_all_but_runs_level_far_over_the_ground_meets_nothing() {
     let grid = rough();
-    // It would come down to the highest ground farther away than cells can be counted.
+    // The rays reach the maximum ground height so far away that cell indices would overflow.
     for fall in [1e-12, 1e-19, 1e-300] {
         let sideways = Vec3::new(1.0, 1e-3, -fall);
         assert!(grid.ray(Vec3::new(0.0, 0.0, 40.0), sideways, 10.0).is_none(), "{fall}");

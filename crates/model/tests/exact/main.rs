@@ -1,5 +1,5 @@
-//! Geometry against closed forms.
-#![allow(clippy::unwrap_used, reason = "a test")]
+//! Tests of bridge geometry, terrain and site queries against closed-form and brute-force results.
+#![allow(clippy::unwrap_used, reason = "tests may panic")]
 
 mod bridges;
 mod elements;

@@ -1,4 +1,4 @@
-//! The site's geometry queries against slow and simple ones over the same faces.
+//! Tests of the site's geometry queries against brute-force searches over all faces.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::random::RandomStream;
@@ -6,7 +6,7 @@ use spandrel_model::scenario::{Scenario, TaskKind};
 use spandrel_model::site::geometry::Geometry;
 use spandrel_model::site::{Contact, HullProbe, Surface};
 
-/// m; rounding of positions some hundred metres from the origin.
+/// Tolerance for rounding errors of positions a few hundred meters from the origin, m.
 const ROUNDING_M: f64 = 1e-9;
 
 fn scenario(text: &str) -> Scenario {
@@ -26,7 +26,7 @@ fn triangles(geometry: &Geometry) -> Vec<Triangle> {
     geometry.members().iter().flat_map(|m| of(&m.solid)).collect()
 }
 
-/// Distance to a triangle: inside its prism the height over it, else the nearest of its sides.
+/// Returns the distance from a point to a triangle: to its plane if the projection is inside, otherwise to the nearest side.
 pub fn to_triangle(p: Vec3<Enu>, t: &Triangle) -> f64 {
     let normal = (t[1] - t[0]).cross(t[2] - t[0]).unit();
     let sides = [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])];
@@ -40,7 +40,7 @@ pub fn to_triangle(p: Vec3<Enu>, t: &Triangle) -> f64 {
     sides.iter().map(to_side).fold(f64::INFINITY, f64::min)
 }
 
-/// Where a ray meets a triangle's plane within the triangle.
+/// Returns the distance along a ray to its intersection with a triangle.
 fn ray_to_triangle(origin: Vec3<Enu>, direction: Vec3<Enu>, t: &Triangle) -> Option<f64> {
     let normal = (t[1] - t[0]).cross(t[2] - t[0]).unit();
     let distance = normal.dot(t[0] - origin) / normal.dot(direction);
@@ -50,7 +50,7 @@ fn ray_to_triangle(origin: Vec3<Enu>, direction: Vec3<Enu>, t: &Triangle) -> Opt
     (distance >= 0.0 && within).then_some(distance)
 }
 
-/// Points strewn around the members.
+/// Returns random points near the members.
 fn points(geometry: &Geometry, count: usize) -> Vec<Vec3<Enu>> {
     let mut random = RandomStream::new(6, "points");
     let members = geometry.members();
@@ -76,7 +76,7 @@ fn prop_the_nearest_member_is_the_nearest_of_all_faces() {
         if !within {
             outside += 1;
             let brute = faces.iter().map(|t| to_triangle(p, t)).fold(f64::INFINITY, f64::min);
-            assert!((near.distance_m - brute).abs() < ROUNDING_M, "{p:?}: {} m, by faces {brute} m", near.distance_m);
+            assert!((near.distance_m - brute).abs() < ROUNDING_M, "{p:?}: {} m, but {brute} m by brute force", near.distance_m);
             let capped = geometry.nearest_member(p, 1.5).map(|n| n.distance_m);
             assert_eq!(capped, (brute <= 1.5).then_some(near.distance_m));
         }
@@ -102,11 +102,11 @@ fn prop_a_ray_hits_the_first_of_all_faces() {
         match hit {
             Some(hit) if hit.surface == Surface::Bridge => {
                 hits += 1;
-                assert!((hit.distance_m - brute).abs() < 1e-7, "{p:?} {direction:?}: {} m, by faces {brute} m", hit.distance_m);
+                assert!((hit.distance_m - brute).abs() < 1e-7, "{p:?} {direction:?}: {} m, expected {brute} m", hit.distance_m);
                 assert!(hit.normal.dot(direction) <= 0.0);
             }
             Some(other) => assert!(other.distance_m <= brute, "{other:?} behind a member at {brute} m"),
-            None => assert!(brute > 60.0, "{p:?} {direction:?}: nothing, by faces {brute} m"),
+            None => assert!(brute > 60.0, "{p:?} {direction:?}: no hit, but {brute} m by brute force"),
         }
     }
     assert!(hits > 80, "{hits}");
@@ -119,9 +119,9 @@ fn capsule(p: Vec3<Enu>, random: &mut RandomStream) -> (Vec3<Enu>, Vec3<Enu>, f6
 
 #[test]
 fn prop_no_part_of_a_capsule_lies_deeper_than_its_deepest_contact() {
-    // m; half the spacing of the points tried along the longest capsule: distance changes no faster than that.
+    // Half the spacing of the sample points along the longest capsule, m. The distance changes by at most one meter per meter.
     const COARSE_M: f64 = 0.5 * 0.8 / 400.0;
-    // m; what counts as level.
+    // Tolerance within which distances count as equal, m.
     const LEVEL_M: f64 = 2e-7;
     const MARGIN_M: f64 = 0.3;
     let geometry = Geometry::new(&two_bridges());
@@ -138,15 +138,15 @@ fn prop_no_part_of_a_capsule_lies_deeper_than_its_deepest_contact() {
                 - radius_m
         };
         let mut objects: Vec<u32> = contacts.iter().map(|c| c.object.0).collect();
-        assert!(objects.is_sorted(), "members come in their own order");
+        assert!(objects.is_sorted(), "contacts are not in member order");
         objects.dedup();
         for k in objects {
             let deepest = contacts.iter().filter(|c| c.object.0 == k).map(|c| c.gap_m).fold(f64::INFINITY, f64::min);
             let tried = member(k as usize);
-            assert!(deepest < tried + LEVEL_M && deepest > tried - COARSE_M, "{deepest} m, tried {tried} m");
+            assert!(deepest < tried + LEVEL_M && deepest > tried - COARSE_M, "{deepest} m, but {tried} m by sampling");
             found += 1;
         }
-        // What is not reported is out of reach.
+        // Members without a contact must be out of reach.
         let near = geometry.nearest_member(p, MARGIN_M + radius_m);
         assert!(near.is_none_or(|n| contacts.iter().any(|c| c.object == n.object)));
     }
@@ -157,7 +157,7 @@ fn prop_no_part_of_a_capsule_lies_deeper_than_its_deepest_contact() {
 fn exact_a_capsule_on_the_deck_rests_on_both_ends() {
     let scenario = two_bridges();
     let geometry = Geometry::new(&scenario);
-    // The middle of a panel of the arch's deck, 34 m up.
+    // The center of a deck panel of the arch bridge, at a height of 34 m.
     let (a_m, b_m) = (Vec3::new(3.2, 0.3, 34.05), Vec3::new(3.5, 0.5, 34.05));
     let mut contacts = Vec::new();
     geometry.contacts(&HullProbe::Capsule { a_m, b_m, radius_m: 0.05 }, 0.01, &mut contacts);
@@ -185,14 +185,14 @@ fn prop_nothing_stands_within_the_free_radius() {
             if free > 0.0 {
                 geometry.contacts(&HullProbe::Ball { centre_m: q, radius_m: 0.0 }, 0.0, &mut contacts);
             }
-            assert_eq!(contacts, [], "{p:?} is free for {free} m but not at {q:?}");
+            assert_eq!(contacts, [], "{p:?} has a free radius of {free} m, but there is contact at {q:?}");
         }
     }
 }
 
 #[test]
 fn exact_crew_truck_and_pad_stand_on_the_ground() {
-    // m; the pad's slab lies 0.05 m over the ground, feet and wheels on it.
+    // Maximum height above the ground, m. The pad is 0.05 m above it; feet and wheels are on it.
     const HANDS_BREADTH_M: f64 = 0.06;
     for text in [spandrel_model::shipped::TWO_BRIDGES, spandrel_model::shipped::PRACTICE] {
         let scenario = scenario(text);
@@ -213,7 +213,7 @@ fn exact_crew_truck_and_pad_stand_on_the_ground() {
 
 #[test]
 fn exact_the_ground_meets_the_decks_and_leaves_the_spans_free() {
-    // m; the road lies 0.15 m under the deck, and the ground's grid of 4 m may cut the edge.
+    // Maximum step from the deck to the road, m. The road is 0.15 m below the deck, and the 4 m grid rounds its edge.
     const STEP_M: f64 = 0.5;
     let scenario = two_bridges();
     let geometry = Geometry::new(&scenario);
@@ -223,7 +223,7 @@ fn exact_the_ground_meets_the_decks_and_leaves_the_spans_free() {
         for side in [-1.0, 1.0] {
             let p = at(side * (0.5 * bridge.deck_length_m() + 5.0));
             let step = deck - geometry.ground_up_m(p.east(), p.north());
-            assert!(step.abs() < STEP_M, "{}: {step} m from the deck down to the road", bridge.name);
+            assert!(step.abs() < STEP_M, "{}: the road is {step} m below the deck", bridge.name);
         }
         for k in -8..=8 {
             let p = at(f64::from(k) / 8.0 * bridge.opening_half_m());
@@ -246,7 +246,7 @@ fn exact_the_ground_meets_the_decks_and_leaves_the_spans_free() {
         "suspension/anchorage-end",
     ] {
         let (p, low) = foot(name);
-        assert!(low < geometry.ground_up_m(p.east(), p.north()), "{name} stands on nothing");
+        assert!(low < geometry.ground_up_m(p.east(), p.north()), "{name} does not reach the ground");
     }
 }
 
@@ -271,7 +271,7 @@ fn regress_two_builds_answer_with_the_same_bits() {
 
 #[test]
 fn prop_the_tightest_place_of_a_piece_of_path_is_the_least_of_many() {
-    // m; half the spacing of the places tried, and the millimetre within which the search stops.
+    // Half the spacing of the sample points plus the accuracy of the search, 1 mm.
     const COARSE_M: f64 = 0.5 * 6.0 / 600.0 + 1e-3;
     let geometry = Geometry::new(&two_bridges());
     let mut random = RandomStream::new(11, "pieces");
@@ -286,10 +286,10 @@ fn prop_the_tightest_place_of_a_piece_of_path_is_the_least_of_many() {
         match geometry.tightest(from, to, needed_m) {
             Some((at, near)) => {
                 tight += 1;
-                assert!((near.distance_m - tried).abs() < COARSE_M && near.distance_m < needed_m, "{near:?}, tried {tried}");
+                assert!((near.distance_m - tried).abs() < COARSE_M && near.distance_m < needed_m, "{near:?}, expected {tried} m");
                 assert_eq!(geometry.nearest(at, 5.0).map(|n| n.distance_m), Some(near.distance_m));
             }
-            None => assert!(tried > needed_m - COARSE_M, "{tried} m, asked for {needed_m} m"),
+            None => assert!(tried > needed_m - COARSE_M, "{tried} m by sampling, but no point below {needed_m} m found"),
         }
     }
     assert!(tight > 50, "{tight}");
@@ -317,13 +317,13 @@ fn prop_beside_steep_ground_the_free_radius_ends_at_the_nearest_triangle() {
             continue;
         }
         let free = geometry.free_radius(p, 5.0).unwrap_or(5.0);
-        assert!((free - brute.min(5.0)).abs() < ROUNDING_M, "{p:?}: {free} m, by triangles {brute} m");
+        assert!((free - brute.min(5.0)).abs() < ROUNDING_M, "{p:?}: {free} m, but {brute} m by brute force");
         steep += usize::from(normal.up() < 0.85 && free < 4.0);
     }
     assert!(steep > 30, "{steep}");
 }
 
-/// Triangles with a corner-box that comes within reach of a point.
+/// Returns the triangles whose bounding box, extended by `reach_m`, contains a point.
 fn triangles_near(all: &[Triangle], p: Vec3<Enu>, reach_m: f64) -> Vec<Triangle> {
     let near = |t: &&Triangle| {
         (0..3).all(|k| {
@@ -337,7 +337,7 @@ fn triangles_near(all: &[Triangle], p: Vec3<Enu>, reach_m: f64) -> Vec<Triangle>
 
 #[test]
 fn exact_shipped_tasks_one_two_and_four_keep_four_metres_from_every_member() {
-    // design: stand-off of tasks 1, 2 and 4, m.
+    // Stand-off distance of tasks 1, 2 and 4 by design, m.
     const STAND_OFF_M: f64 = 4.0;
     let mut seen = 0;
     for text in [
@@ -368,7 +368,7 @@ fn exact_shipped_tasks_one_two_and_four_keep_four_metres_from_every_member() {
 
 #[test]
 fn prop_a_capsule_over_the_ground_touches_it_where_it_is_nearest() {
-    // m; half the spacing of the points tried, and what counts as level.
+    // Half the spacing of the sample points, and the tolerance within which distances count as equal, m.
     const COARSE_M: f64 = 0.5 * 6.0 / 400.0;
     const LEVEL_M: f64 = 2e-7;
     let geometry = Geometry::new(&two_bridges());
@@ -376,7 +376,7 @@ fn prop_a_capsule_over_the_ground_touches_it_where_it_is_nearest() {
     let mut random = RandomStream::new(13, "ridges");
     let (mut touching, mut across) = (0, 0);
     for _ in 0..3000 {
-        // Over the crests of the roads beside the arch's ends, long and nearly level.
+        // Long, nearly horizontal capsules above the crests of the roads next to the ends of the arch bridge.
         let (e, n) = (random.range(62.0, 90.0), random.range(-9.0, 9.0));
         let half = Vec3::new(random.normal(), random.normal(), 0.1 * random.normal()).unit() * random.range(0.3, 3.0);
         let middle = Vec3::new(e, n, ground.ground(e, n).0 + random.range(0.0, 0.6));
@@ -392,7 +392,7 @@ fn prop_a_capsule_over_the_ground_touches_it_where_it_is_nearest() {
         let deepest = gaps.fold(f64::INFINITY, f64::min);
         if tried < 0.2 - COARSE_M {
             touching += 1;
-            assert!(deepest > tried - COARSE_M && deepest < tried + LEVEL_M, "{deepest} m, tried {tried} m");
+            assert!(deepest > tried - COARSE_M && deepest < tried + LEVEL_M, "{deepest} m, but {tried} m by sampling");
             across += usize::from(tried < signed(0.0).min(signed(1.0)) - radius_m - 0.01);
         }
     }

@@ -1,4 +1,4 @@
-//! Scenario and vehicle files, spoilt by seeded mutations: refused with a place and a reason, or read into something that builds.
+//! Randomly mutated scenario and vehicle files: each is either rejected with a line and a reason, or accepted and can be built.
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::random::RandomStream;
@@ -13,12 +13,12 @@ use std::path::Path;
 
 const SCENARIO_MUTANTS: usize = 2_000;
 const VEHICLE_MUTANTS: usize = 500;
-/// Bridges with numbers drawn from their whole ranges, per type.
+/// Number of bridges with random dimensions per bridge type.
 const BRIDGES: usize = 150;
-/// Most mutations of one text.
+/// Maximum number of mutations applied to one file.
 const MOST_SPOILS: usize = 3;
 
-/// Numbers that readers stumble over.
+/// Extreme or malformed values that could cause errors in the parser.
 const EXTREMES: [&str; 14] = [
     "1e999",
     "-1e999",
@@ -108,7 +108,7 @@ fn with_extreme(lines: &mut [String], random: &mut RandomStream) {
 }
 
 fn explained(problems: &Problems, file: &str, text: &str) {
-    assert!(!problems.0.is_empty(), "refused without a reason:\n{text}");
+    assert!(!problems.0.is_empty(), "rejected without a reason:\n{text}");
     let last = text.lines().count().max(1) + 1;
     for problem in &problems.0 {
         let placed = problem.file == file && (1..=last).contains(&problem.line);
@@ -117,7 +117,8 @@ fn explained(problems: &Problems, file: &str, text: &str) {
     }
 }
 
-/// The site with a coarser field and at most one defect, so that thousands can be built; every bridge and task stays.
+/// Returns the scenario with a coarser height grid and at most one defect, so that thousands of sites can be built quickly.
+/// Bridges and tasks are unchanged.
 fn quick(scenario: Scenario) -> Scenario {
     let spacing_m = scenario.terrain.spacing_m.max(scenario.terrain.size_m / 25.0);
     let count = scenario.defects.count.min(1);
@@ -156,8 +157,8 @@ fn prop_a_spoilt_scenario_is_refused_with_a_place_or_builds() {
             }
         }
     }
-    // Both outcomes must occur often, or the mutations test nothing.
-    assert!(accepted > SCENARIO_MUTANTS / 20 && refused > SCENARIO_MUTANTS / 4, "{accepted} accepted, {refused} refused");
+    // The test is meaningful only if both outcomes occur often.
+    assert!(accepted > SCENARIO_MUTANTS / 20 && refused > SCENARIO_MUTANTS / 4, "{accepted} accepted, {refused} rejected");
 }
 
 #[test]
@@ -179,7 +180,7 @@ fn prop_a_spoilt_aircraft_is_refused_with_a_place_or_finite() {
             }
         }
     }
-    assert!(accepted > VEHICLE_MUTANTS / 20 && refused > VEHICLE_MUTANTS / 4, "{accepted} accepted, {refused} refused");
+    assert!(accepted > VEHICLE_MUTANTS / 20 && refused > VEHICLE_MUTANTS / 4, "{accepted} accepted, {refused} rejected");
 }
 
 fn bridge_text(kind: &str, values: &[(&str, f64)]) -> String {
@@ -196,12 +197,13 @@ fn bridge_text(kind: &str, values: &[(&str, f64)]) -> String {
     )
 }
 
-/// Every number at either end of its range, then many drawn together (whole where the code asks for it).
+/// Returns sets of dimensions: each dimension alone at its minimum and maximum, then random sets. Dimensions that must be
+/// integers are rounded.
 fn number_sets(fields: &'static [BridgeField]) -> Vec<Vec<(&'static str, f64)>> {
     let mut random = RandomStream::new(2, "prop.bridges");
     let mut sets: Vec<Vec<(&str, f64)>> = fields.iter().flat_map(|f| [vec![(f.key, f.min)], vec![(f.key, f.max)]]).collect();
     for _ in 0..BRIDGES {
-        // A cubed draw stays near the default often enough that a good share of the sets fits together.
+        // A cubed random number is often close to the default, so that enough of the sets are consistent.
         let mut near = |f: &BridgeField| {
             let draw = random.range(-1.0, 1.0);
             let towards = if draw < 0.0 { f.min } else { f.max };
@@ -239,7 +241,7 @@ fn any_bridge_builds(kind: &str, fields: &'static [BridgeField]) {
             Err(problems) => explained(&problems, "job.toml", &text),
         }
     }
-    assert!(accepted > sets.len() / 10, "{accepted} of {} sets of numbers accepted", sets.len());
+    assert!(accepted > sets.len() / 10, "{accepted} of {} sets of dimensions accepted", sets.len());
 }
 
 #[test]

@@ -1,5 +1,5 @@
-//! Properties of files: whatever is wrong in one is named.
-#![allow(clippy::unwrap_used, reason = "a test")]
+//! Property tests of scenario and vehicle files: all problems are reported.
+#![allow(clippy::unwrap_used, reason = "tests may panic")]
 
 mod files;
 mod mistakes;

@@ -1,4 +1,4 @@
-//! Mistakes that people make in a scenario file, one at a time.
+//! Error messages for typical mistakes in a scenario file, one mistake per test.
 
 use spandrel_model::toml::Problems;
 use std::path::Path;
@@ -12,7 +12,7 @@ fn problems(text: &str) -> Problems {
     result.err().unwrap_or(Problems(Vec::new()))
 }
 
-/// Line index and key of every line that sets one.
+/// Returns the line index and the key of each line that sets a key.
 fn keys(text: &str) -> Vec<(usize, String)> {
     let key = |(k, line): (usize, &str)| line.split_once(" = ").map(|(key, _)| (k, key.to_string()));
     text.lines().enumerate().filter(|(_, line)| !line.starts_with('#')).filter_map(key).collect()
@@ -28,7 +28,7 @@ fn prop_every_misspelt_key_is_named_with_its_line_and_the_right_spelling() {
     let text = shipped();
     for (at, key) in keys(&text) {
         let line = text.lines().nth(at).unwrap();
-        // Doubling the last letter is no other key.
+        // Repeating the last letter never yields another valid key.
         let wrong = format!("{key}{}", key.chars().last().unwrap());
         let problems = problems(&with_line(&text, at, Some(&line.replacen(&key, &wrong, 1))));
         let suggestion = format!("unknown key; did you mean {key}?");
@@ -107,7 +107,7 @@ fn regress_the_words_for_an_unknown_bridge() {
     says(
         "bridge = \"suspension\"",
         "bridge = \"suspenson\"",
-        "job.toml:64: tasks[].bridge = suspenson: no such bridge (allowed: a bridge in this file: arch, suspension)",
+        "job.toml:64: tasks[].bridge = suspenson: unknown bridge (allowed: a bridge in this file: arch, suspension)",
     );
 }
 

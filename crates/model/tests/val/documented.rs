@@ -1,4 +1,4 @@
-//! The READMEs beside the files document exactly the keys, ranges and defaults that the code reads.
+//! Tests that the READMEs of scenarios and vehicles document exactly the keys, ranges and defaults in the code.
 
 use crate::shipped::files;
 use spandrel_model::scenario::BridgeKind;
@@ -8,7 +8,8 @@ use std::path::Path;
 
 type Keys = BTreeMap<String, DocumentedKey>;
 
-/// Reaches the branches that no shipped scenario takes. It need not be a valid job: keys are recorded before values are checked.
+/// Scenario fragments with keys that no shipped scenario uses. They need not be valid, since keys are recorded before values are
+/// checked.
 const OTHER_BRANCHES: [&str; 3] = [
     "[terrain]\nsource = \"flat\"\n[[wind.events]]\nkind = \"gust\"\n[[wind.events]]\nkind = \"change\"\n[[defects.placed]]\n",
     "[terrain]\nsource = \"valley\"\n[[bridges]]\ntype = \"arch\"\n[[bridges]]\ntype = \"suspension\"\n",
@@ -18,7 +19,7 @@ const OTHER_BRANCHES: [&str; 3] = [
 fn merge(all: &mut Keys, keys: Keys) {
     for (key, asked) in keys {
         let known = all.entry(key.clone()).or_insert_with(|| asked.clone());
-        assert_eq!(*known, asked, "{key} is read in two ways");
+        assert_eq!(*known, asked, "{key} has two different definitions");
     }
 }
 
@@ -41,13 +42,13 @@ fn vehicle_keys() -> Keys {
 
 const HEADER: &str = "| key | allowed | default | meaning |";
 
-/// Returns the rows of every table of keys.
+/// Returns key, definition and meaning from each row of the key tables in a README.
 fn documented(readme: &str) -> Vec<(String, DocumentedKey, String)> {
     let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(readme);
     let text = std::fs::read_to_string(path).unwrap();
     let row = |line: &str| {
         let cells: Vec<&str> = line.strip_prefix("| `")?.strip_suffix(" |")?.splitn(4, " | ").collect();
-        let [key, allowed, default, meaning] = cells[..] else { panic!("{readme}: not four columns: {line}") };
+        let [key, allowed, default, meaning] = cells[..] else { panic!("{readme}: the row does not have four columns: {line}") };
         let asked = DocumentedKey { allowed: allowed.into(), default: default.into() };
         Some((key.trim_end_matches('`').to_string(), asked, meaning.to_string()))
     };
@@ -61,10 +62,10 @@ fn compare(readme: &str, keys: &Keys) -> Vec<String> {
     for (key, asked, meaning) in &rows {
         let right = keys.get(key);
         if right != Some(asked) {
-            wrong.push(format!("{key}: the README says {asked:?}, the code {right:?}"));
+            wrong.push(format!("{key}: {asked:?} in the README, but {right:?} in the code"));
         }
         if meaning.trim().is_empty() {
-            wrong.push(format!("{key}: no meaning"));
+            wrong.push(format!("{key}: the meaning is empty"));
         }
         if rows.iter().filter(|row| row.0 == *key).count() != 1 {
             wrong.push(format!("{key}: documented twice"));
@@ -88,7 +89,7 @@ fn val_the_dimensions_of_every_bridge_type_are_documented_with_their_meaning() {
     for bridge in BridgeKind::TYPES {
         for field in bridge.fields {
             let key = format!("bridges[].{}.{}", bridge.name, field.key);
-            let row = rows.iter().find(|row| row.0 == key).unwrap_or_else(|| panic!("{key} is missing"));
+            let row = rows.iter().find(|row| row.0 == key).unwrap_or_else(|| panic!("{key} is not documented"));
             assert_eq!(row.2, field.meaning, "{key}");
         }
     }

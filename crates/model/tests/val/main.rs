@@ -1,5 +1,5 @@
-//! What is shipped, and what the READMEs say of it.
-#![allow(clippy::unwrap_used, reason = "a test")]
+//! Tests of the shipped scenario and vehicle files and of their documentation.
+#![allow(clippy::unwrap_used, reason = "tests may panic")]
 
 mod documented;
 mod shipped;

@@ -1,4 +1,4 @@
-//! Every shipped scenario and aircraft reads, and every bridge path keeps its distance.
+//! Tests that all shipped scenario and vehicle files can be read, and that task paths have sufficient clearance.
 
 use spandrel_model::scenario::{Scenario, TaskKind};
 use spandrel_model::site::Site;
@@ -61,13 +61,13 @@ fn val_every_shipped_path_is_flyable_with_the_default_aircraft() {
             7,
         );
         for task in &scenario.tasks {
-            // Stand-off of 4 m outside the interlayer; inside it what `check` asks.
+            // The minimum stand-off is 4 m, except in the interlayer, where it is the one that `check` requires.
             let least = match task.kind {
                 TaskKind::Interlayer => 0.5 * aircraft.hull.tip_to_tip_m + 0.5,
                 TaskKind::Free => 1.0,
                 _ => 4.0 - 1e-6,
             };
-            // The orbit is flown near the water on purpose: there the pier counts.
+            // The path around the pier is intentionally close to the water, so only members are checked there.
             let near = |p| match task.kind {
                 TaskKind::PierCircle => site.geometry().nearest_member(p, 50.0),
                 _ => site.nearest(p, 50.0, SimTime::ZERO),
@@ -104,7 +104,7 @@ fn val_ten_defects_are_placed_on_the_two_bridges() {
     }
 }
 
-/// Lamps matter where a grey afternoon leaves less than this, lx: f/2.8, ISO 1600 and a hand-held exposure (shared exposure table, 1/100 s).
+/// Illuminance below which photos need the lamp, lx: f/2.8, ISO 1600 and an exposure of 1/100 s.
 const NEEDED_LX: f64 = 122.5;
 
 #[test]
@@ -130,5 +130,5 @@ fn val_in_the_papers_job_it_takes_the_lamp_between_deck_and_arch_and_nowhere_els
             }
         }
     }
-    assert!(4 * dark > inside, "{dark} of {inside} defects in the interlayer are too dark without the lamp");
+    assert!(4 * dark > inside, "only {dark} of {inside} defects in the interlayer are too dark without the lamp");
 }

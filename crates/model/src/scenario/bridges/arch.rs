@@ -1,4 +1,4 @@
-//! Open-spandrel deck arch: two parabolic ribs with struts, spandrel columns, floorbeams, stringers, deck slab, railings,
+//! Open-spandrel deck arch bridge: two parabolic ribs with struts, spandrel columns, floorbeams, stringers, deck slab, railings,
 //! abutments.
 
 use super::dimensions::{Inconsistency, InconsistencyList, bridge_dimensions};
@@ -12,7 +12,7 @@ const BEAM_INSET_M: f64 = 0.4;
 const FOUNDATION_M: f64 = 3.5;
 /// Length of the skewbacks, m (estimate).
 const SKEWBACK_M: f64 = 3.0;
-/// Minimum length of a column, m; shorter ones are omitted (estimate).
+/// Minimum length of a column, m; shorter columns are omitted (estimate).
 const SHORTEST_COLUMN_M: f64 = 0.25;
 
 bridge_dimensions! {
@@ -46,7 +46,7 @@ impl Arch {
         self.span_m + 2.0 * self.approach_m
     }
 
-    /// Returns the height of the rib axis at x in bridge axes, m: z_crown - 4 r x² / L².
+    /// Returns the height of the rib axis at x in bridge axes, m: the parabola z_crown - 4 r x² / L².
     #[must_use]
     pub fn axis_z_m(&self, x: f64) -> f64 {
         let u = 2.0 * x / self.span_m;
@@ -72,20 +72,20 @@ impl Arch {
         self.axis_z_m(x) - 0.5 * self.depth_m(x)
     }
 
-    /// Returns the curvature coefficient of the intrados: it drops by this times x² from the crown, 1/m.
+    /// Returns the curvature coefficient c of the intrados, 1/m: at x, the intrados is c x² below its crown.
     #[must_use]
     pub fn intrados_bend_per_m(&self) -> f64 {
         (4.0 * self.rise_m + 2.0 * (self.springing_depth_m - self.crown_depth_m)) / (self.span_m * self.span_m)
     }
 
-    /// Returns the ends of the straight rib segments from springing to springing: two segments per panel.
+    /// Returns the positions of the ends of the straight rib segments, two segments per panel, from springing to springing.
     #[must_use]
     pub fn rib_nodes(&self) -> Vec<f64> {
         let n = 2 * self.panels.round() as i32;
         (0..=n).map(|k| self.span_m * (f64::from(k) / f64::from(n) - 0.5)).collect()
     }
 
-    /// Returns the height of the top of the rib as built, straight between nodes that lie on [`Self::extrados_z_m`], m.
+    /// Returns the height of the top of the rib as built, m: straight between nodes on [`Self::extrados_z_m`].
     #[must_use]
     pub fn rib_top_z_m(&self, x: f64) -> f64 {
         let step = self.span_m / (2.0 * self.panels.round());
@@ -99,15 +99,15 @@ impl Arch {
         -self.slab_m - self.floorbeam_depth_m
     }
 
-    /// Returns the panel points between the springings, excluding the springings.
+    /// Returns the positions of the panel points between the springings.
     #[must_use]
     pub fn panel_points(&self) -> Vec<f64> {
         let n = self.panels.round() as i32;
         (1..n).map(|k| self.span_m * (f64::from(k) / f64::from(n) - 0.5)).collect()
     }
 
-    /// Returns all inconsistent dimensions. If there are none, every member has a volume and a support, and the interlayer is
-    /// open.
+    /// Returns all inconsistent dimensions. If there are none, every member has a positive volume and a support, and the
+    /// interlayer is open.
     #[must_use]
     pub fn misfits(&self) -> Vec<Inconsistency> {
         let panel_m = self.span_m / self.panels.round();
@@ -130,7 +130,7 @@ impl Arch {
         m.0
     }
 
-    /// Builds all members.
+    /// Adds all members of the bridge to a builder.
     pub fn build(&self, b: &mut MemberBuilder) {
         self.ribs(b);
         self.columns(b);
@@ -234,7 +234,7 @@ impl Arch {
         self.intrados_z_m(0.5 * self.span_m) - FOUNDATION_M
     }
 
-    /// Returns abutments and skewbacks.
+    /// Returns the footings of abutments and skewbacks.
     #[must_use]
     pub fn footings(&self) -> Vec<Footing> {
         let (inner, outer) = (0.5 * self.span_m, 0.5 * self.deck_length_m());
@@ -253,7 +253,7 @@ impl Arch {
     }
 
     fn abutments(&self, b: &mut MemberBuilder) {
-        // Skewbacks support the ribs.
+        // The skewbacks support the ribs and therefore extend above them.
         let under_deck = -self.slab_m - self.stringer_depth_m;
         let over_ribs = self.extrados_z_m(0.5 * self.span_m) + 0.8;
         let names = [
@@ -268,7 +268,7 @@ impl Arch {
     }
 }
 
-/// Builds posts every 2 m and three rails along both edges of a deck.
+/// Adds railings along both edges of a deck: a post about every 2 m, and three rails.
 pub(super) fn railing(b: &mut MemberBuilder, length_m: f64, edge_y_m: f64, height_m: f64, element: Element) {
     const POST_M: f64 = 0.15;
     let posts = (length_m / 2.0).floor() as i32;

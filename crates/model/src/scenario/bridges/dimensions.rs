@@ -6,22 +6,22 @@
 pub struct BridgeField {
     /// Key, including its unit.
     pub key: &'static str,
-    /// Minimum value.
+    /// Minimum allowed value.
     pub min: f64,
-    /// Maximum value.
+    /// Maximum allowed value.
     pub max: f64,
-    /// Default value.
+    /// Value if the key is missing.
     pub default: f64,
     /// Meaning with its source, as in scenarios/README.md.
     pub meaning: &'static str,
 }
 
-/// A dimension that is in range but inconsistent with other dimensions.
+/// A dimension that is within its range but inconsistent with other dimensions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inconsistency {
-    /// Key to change.
+    /// Key of the dimension.
     pub key: &'static str,
-    /// Its value.
+    /// Value of the dimension.
     pub value: f64,
     /// Allowed values, given the other dimensions.
     pub allowed: String,
@@ -51,8 +51,8 @@ impl InconsistencyList {
     }
 }
 
-/// Defines the dimensions of a bridge type from one table: key, range, default, meaning. The type's name in scenario files follows
-/// the name of the struct.
+/// Defines the dimensions of a bridge type from one table: key, range, default, meaning. The type's name in scenario files
+/// follows the name of the struct.
 macro_rules! bridge_dimensions {
     (
         $(#[$doc:meta])*
@@ -70,7 +70,7 @@ macro_rules! bridge_dimensions {
             /// Value of `type` in scenario files, and name of the table with the dimensions.
             pub const TYPE: &'static str = $name;
 
-            /// Keys of the scenario file.
+            /// Keys of the dimensions in scenario files.
             pub const FIELDS: &'static [$crate::scenario::bridges::BridgeField] = &[
                 $($crate::scenario::bridges::BridgeField {
                     key: stringify!($key),
@@ -81,7 +81,7 @@ macro_rules! bridge_dimensions {
                 },)+
             ];
 
-            /// Creates a bridge from values in the order of `FIELDS`; missing ones get their defaults.
+            /// Creates a bridge from values in the order of `FIELDS`; missing values get their defaults.
             #[must_use]
             pub fn from_values(values: &[f64]) -> Self {
                 let mut values = values.iter().copied();

@@ -1,5 +1,5 @@
-//! Bridge geometry: each bridge type converts its dimensions to members, lanes and task paths. A new type takes one new file here,
-//! with the table of its dimensions, and one variant of [`BridgeKind`].
+//! Bridge geometry: each bridge type converts its dimensions to members, lanes and task paths. A new type takes one new file
+//! here, with the table of its dimensions, and one variant of [`BridgeKind`].
 
 pub mod arch;
 pub mod dimensions;
@@ -17,12 +17,12 @@ pub use dimensions::{BridgeField, Inconsistency};
 pub use path::TaskPath;
 pub use solid::{Footing, Member, Solid};
 
-/// A bridge of any type, with its position.
+/// A bridge of any type, with its position and heading.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bridge {
-    /// Name used by tasks and exports.
+    /// Name of the bridge, used in tasks and exports.
     pub name: String,
-    /// Horizontal center of the deck's upper surface; its height is the deck level at midspan, m.
+    /// Center of the deck's upper surface at midspan, m.
     pub centre_m: Vec3<Enu>,
     /// Direction of the bridge's x axis (along the deck), degrees clockwise from north.
     pub heading_deg: f64,
@@ -30,19 +30,19 @@ pub struct Bridge {
     pub kind: BridgeKind,
 }
 
-/// One variant per bridge type; the dimensions, geometry and task paths of each type are in one file (`bridges/`).
+/// Type and dimensions of a bridge. Each type has its own file in `bridges/`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum BridgeKind {
-    /// Open-spandrel deck arch.
+    /// An open-spandrel deck arch bridge.
     Arch(Arch),
-    /// Suspension bridge.
+    /// A suspension bridge.
     Suspension(Suspension),
 }
 
 /// A traffic lane or walkway: a polyline on the deck's upper surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lane {
-    /// Index of the bridge.
+    /// Index of the bridge in the scenario.
     pub bridge: usize,
     /// Points in the direction of travel, m.
     pub points_m: Vec<Vec3<Enu>>,
@@ -50,14 +50,14 @@ pub struct Lane {
     pub walkway: bool,
 }
 
-/// A bridge type as scenario files name it.
+/// A bridge type in the format of scenario files.
 #[derive(Debug, Clone, Copy)]
 pub struct BridgeType {
-    /// Value of `type`, and name of the table with the dimensions.
+    /// Value of the key `type`, and name of the table with the dimensions.
     pub name: &'static str,
-    /// Keys of that table.
+    /// Keys in the table with the dimensions.
     pub fields: &'static [BridgeField],
-    /// Creates a bridge from values in the order of the keys.
+    /// Function that creates a bridge from values in the order of the keys.
     pub create: fn(&[f64]) -> BridgeKind,
 }
 
@@ -72,7 +72,7 @@ impl BridgeKind {
         },
     ];
 
-    /// Returns all inconsistent dimensions; if there are any, the bridge cannot be built.
+    /// Returns all inconsistent dimensions. If there are any, the bridge cannot be built.
     #[must_use]
     pub fn misfits(&self) -> Vec<Inconsistency> {
         match self {
@@ -89,7 +89,7 @@ impl Bridge {
         Placement::new(self.centre_m, self.heading_deg)
     }
 
-    /// Returns all members.
+    /// Returns all members of the bridge.
     #[must_use]
     pub fn members(&self) -> Vec<Member> {
         let mut builder = MemberBuilder::new(&self.name, self.placement());
@@ -118,7 +118,7 @@ impl Bridge {
         }
     }
 
-    /// Returns half the length of the opening under the bridge that terrain must not fill, m.
+    /// Returns half the length of the opening under the bridge that must stay free of terrain, m.
     #[must_use]
     pub fn opening_half_m(&self) -> f64 {
         match &self.kind {
@@ -127,7 +127,7 @@ impl Bridge {
         }
     }
 
-    /// Returns everything that rests on the ground.
+    /// Returns all parts of the bridge that rest on the ground.
     #[must_use]
     pub fn footings(&self) -> Vec<Footing> {
         match &self.kind {
@@ -136,7 +136,7 @@ impl Bridge {
         }
     }
 
-    /// Returns two lanes and two walkways; `index` is the index of this bridge in the scenario.
+    /// Returns the two lanes and two walkways of the bridge. `index` is the index of the bridge in the scenario.
     #[must_use]
     pub fn lanes(&self, index: usize) -> Vec<Lane> {
         let placement = self.placement();
@@ -146,14 +146,14 @@ impl Bridge {
             let ends = if y < 0.0 { [-half, half] } else { [half, -half] };
             Lane { bridge: index, points_m: ends.map(|x| placement.point([x, y, 0.0])).to_vec(), walkway }
         };
-        // Right-hand traffic: vehicles traveling in +x use the right side, y < 0. Walkways are inside the railings.
+        // Traffic keeps to the right: vehicles traveling in +x use y < 0. Walkways are inside the railings.
         vec![lane(-0.19 * width, false), lane(0.19 * width, false), lane(-0.43 * width, true), lane(0.43 * width, true)]
     }
 
     /// Returns the reference path of a task kind at a stand-off distance, m.
     ///
     /// # Errors
-    /// If this bridge type has no such path; describes the supported paths.
+    /// Returns the supported path kinds as text if the bridge type has no such path.
     pub fn task_path(&self, kind: TaskKind, stand_off_m: f64) -> Result<TaskPath, String> {
         let placement = self.placement();
         let drawn = match (&self.kind, kind) {

@@ -1,4 +1,4 @@
-//! Reference paths of the tasks, derived from the dimensions of a bridge, in bridge axes.
+//! Derives the reference paths of tasks from the dimensions of a bridge, in bridge axes.
 
 use super::arch::Arch;
 use super::solid::{LocalPoint, Placement};
@@ -6,21 +6,21 @@ use super::suspension::Suspension;
 use crate::frames::{Enu, Vec3};
 use crate::math;
 
-/// Spacing of reference points, m (at most 1 m: docs/src/reference/assessment.md, "On path").
+/// Maximum spacing of reference points, m (at most 1 m is allowed: docs/src/reference/assessment.md, "On path").
 pub const SPACING_M: f64 = 0.8;
 
-/// Types of task path.
+/// Type of a task's path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TaskKind {
-    /// Straight line along one side of the deck slab.
+    /// A straight line along one side of the deck slab.
     SlabSide,
-    /// Curve below the arch.
+    /// A curve below the arch.
     ArchBottom,
-    /// Line through the space between deck and arch.
+    /// A straight line through the space between deck and arch.
     Interlayer,
-    /// Closed loop around a pier near the water.
+    /// A closed loop around a pier near the water.
     PierCircle,
-    /// Points listed in the scenario.
+    /// A path through points listed in the scenario.
     Free,
 }
 
@@ -31,7 +31,7 @@ pub struct TaskPath {
     pub path_m: Vec<Vec3<Enu>>,
     /// Unit vectors toward the inspected surface.
     pub look: Vec<Vec3<Enu>>,
-    /// The path returns to its start.
+    /// True if the path returns to its start.
     pub closed: bool,
 }
 
@@ -55,13 +55,13 @@ impl LocalPath {
     }
 }
 
-/// Returns values from `a` to `b` in equal steps of at most the spacing.
+/// Returns values from `a` to `b` in equal steps of at most [`SPACING_M`].
 fn steps(a: f64, b: f64) -> Vec<f64> {
     let n = ((b - a).abs() / SPACING_M).ceil().max(1.0);
     (0..=n as i32).map(|k| a + (b - a) * f64::from(k) / n).collect()
 }
 
-/// Task 1: a straight line along the right side of the deck at the height of the slab, facing it.
+/// Returns the path of task 1: a straight line along the right side of the deck, slightly below the slab's surface, facing it.
 pub(super) fn slab_side(arch: &Arch, stand_off_m: f64) -> LocalPath {
     let half = 0.5 * arch.span_m;
     let y = -0.5 * arch.deck_width_m - stand_off_m;
@@ -69,11 +69,12 @@ pub(super) fn slab_side(arch: &Arch, stand_off_m: f64) -> LocalPath {
     LocalPath { look: vec![[0.0, 1.0, 0.0]; points.len()], points, closed: false }
 }
 
-/// Task 2: under the arch between the ribs, at the stand-off distance perpendicular to the intrados, looking up and ahead at it.
+/// Returns the path of task 2: under the arch between the ribs, at the stand-off distance perpendicular to the intrados. The
+/// camera looks up and ahead at the arch.
 pub(super) fn arch_bottom(arch: &Arch, stand_off_m: f64) -> LocalPath {
     let reach = 0.5 * arch.span_m * 0.78;
     let bend = arch.intrados_bend_per_m();
-    // The ribs are straight between nodes on the curve, so they lie at most this far inside it.
+    // The ribs are straight between nodes on the curve, so the path stays farther away by their maximum deviation.
     let step = 0.5 * arch.span_m / arch.panels.round();
     let off = stand_off_m + 0.25 * bend * step * step;
     let steepest = 2.0 * bend * reach;
@@ -90,19 +91,19 @@ pub(super) fn arch_bottom(arch: &Arch, stand_off_m: f64) -> LocalPath {
     LocalPath { points, look, closed: false }
 }
 
-/// Returns the viewing direction: up at the soffits and slightly ahead, panning slowly from the left rib across the struts to the
+/// Returns the viewing direction of task 2 at point `k`: up at the soffits and slightly ahead, panning slowly between left and
 /// right rib.
 fn under_arch_look(arch: &Arch, from: LocalPoint, off: f64, k: usize) -> LocalPoint {
     const PERIOD_POINTS: f64 = 30.0;
     let side = math::sin(math::TAU * k as f64 / PERIOD_POINTS);
-    // The arch vertically above a path point is farther away than the stand-off; its closest point lies outward from the crown.
+    // The closest point of the arch is not vertically above the path point but farther from the crown.
     let bend = 2.0 * arch.intrados_bend_per_m();
     let square = from[0] / (1.0 - off * bend / (1.0 + (bend * from[0]) * (bend * from[0])).sqrt());
     let ahead = (square + 0.3 * off).min(0.5 * arch.span_m);
     [ahead - from[0], 0.5 * arch.rib_spacing_m * side, arch.intrados_z_m(ahead) - from[2]]
 }
 
-/// Task 3: level between deck and arch on the centerline, halfway between floorbeams and crown.
+/// Returns the path of task 3: a horizontal line between deck and arch on the centerline, halfway between floorbeams and crown.
 pub(super) fn interlayer(arch: &Arch) -> LocalPath {
     let half = 0.3 * arch.span_m;
     let z = 0.5 * (arch.floorbeam_z_m() + arch.extrados_z_m(0.0));
@@ -111,15 +112,16 @@ pub(super) fn interlayer(arch: &Arch) -> LocalPath {
     LocalPath { points, look, closed: false }
 }
 
-/// Returns the viewing direction: alternately up at the deck's underside and down at the ribs, panning to both sides.
+/// Returns the viewing direction of task 3 at point `k`: alternately up at the deck's underside and down at the ribs, panning to
+/// both sides.
 fn interlayer_look(k: usize) -> LocalPoint {
     const PERIOD_POINTS: f64 = 20.0;
     let phase = math::TAU * k as f64 / PERIOD_POINTS;
     [0.6, 0.5 * math::sin(0.5 * phase), 0.8 * math::sin(phase)]
 }
 
-/// Task 4: one loop around the start pier at the stand-off distance from its faces (rounded at the corners), facing it, 2 m below
-/// its top or lower if the stand-off from the girders requires it.
+/// Returns the path of task 4: one loop around the start pier at the stand-off distance from its faces, rounded at the corners
+/// and facing the pier. It is 2 m below the top of the pier, or lower if the stand-off from the girders requires it.
 pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<LocalPath, String> {
     let centre = [-0.5 * suspension.main_span_m, 0.0];
     let (hx, hy) = (0.5 * suspension.pier_x_m, 0.5 * suspension.pier_y_m);
@@ -141,7 +143,7 @@ pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<L
             let (s, c) = math::sin_cos(angle);
             add(cx + stand_off_m * c, cy + stand_off_m * s, c, s);
         }
-        // Along the face to the next corner, without both ends, which belong to the corners.
+        // The line along the face to the next corner, without its ends, which are part of the corners.
         let (nx, ny, _) = corners[(k + 1) % 4];
         let (s, c) = math::sin_cos(from + math::FRAC_PI_2);
         let along = steps(0.0, (nx - cx).abs().max((ny - cy).abs()));

@@ -1,16 +1,16 @@
-//! Convex building blocks in bridge axes: x along the deck, y left, z up, origin on the deck's upper surface at midspan.
-//! [`Placement`] transforms them to site coordinates.
+//! Builds bridge members from convex solids in bridge axes: x along the deck, y left, z up, origin on the deck's upper surface at
+//! midspan. [`Placement`] converts them to site coordinates.
 
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::math;
 
-/// One structural member. Collision, rendering, defects and export all use the same solid.
+/// A structural member of a bridge. Collision, rendering, defects and export all use the same solid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Member {
     /// Member name, unique within the site, such as `arch/rib-left/07`.
     pub name: String,
-    /// Element to which the member belongs.
+    /// Bridge element to which the member belongs.
     pub element: Element,
     /// Solid of the member, in site coordinates.
     pub solid: Solid,
@@ -19,7 +19,7 @@ pub struct Member {
 /// A closed convex polyhedron.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solid {
-    /// Vertices, m.
+    /// Vertices in site coordinates, m.
     pub vertices_m: Vec<Vec3<Enu>>,
     /// Planar faces: three or more vertex indices each, counterclockwise seen from outside.
     pub faces: Vec<Vec<u32>>,
@@ -42,9 +42,9 @@ pub type LocalPoint = [f64; 3];
 pub struct Footing {
     /// Start and end along the bridge.
     pub x_m: (f64, f64),
-    /// Start and end across the bridge.
+    /// Right and left end across the bridge.
     pub y_m: (f64, f64),
-    /// Height of its underside.
+    /// Height of the underside of the footing.
     pub up_m: f64,
 }
 
@@ -57,26 +57,26 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// Creates axes at `origin_m` with x pointing `heading_deg` clockwise from north.
+    /// Creates axes with their origin at `origin_m` and x pointing `heading_deg` clockwise from north.
     #[must_use]
     pub fn new(origin_m: Vec3<Enu>, heading_deg: f64) -> Self {
         let (s, c) = math::sin_cos(heading_deg.to_radians());
         Self { origin_m, along: Vec3::new(s, c, 0.0), left: Vec3::new(-c, s, 0.0) }
     }
 
-    /// Converts a point to site coordinates.
+    /// Converts a point from bridge axes to site coordinates.
     #[must_use]
     pub fn point(&self, p: LocalPoint) -> Vec3<Enu> {
         self.origin_m + self.direction(p)
     }
 
-    /// Converts a direction to site coordinates.
+    /// Converts a direction from bridge axes to site coordinates.
     #[must_use]
     pub fn direction(&self, d: LocalPoint) -> Vec3<Enu> {
         self.along * d[0] + self.left * d[1] + Vec3::new(0.0, 0.0, d[2])
     }
 
-    /// Converts a site point to bridge axes.
+    /// Converts a point from site coordinates to bridge axes.
     #[must_use]
     pub fn local(&self, p: Vec3<Enu>) -> LocalPoint {
         let d = p - self.origin_m;
@@ -98,7 +98,7 @@ pub enum BeamDirection {
 pub struct PlateThickness {
     /// Thickness of both flanges.
     pub flange_m: f64,
-    /// Thickness of the web.
+    /// Thickness of the web plate.
     pub web_m: f64,
 }
 
@@ -111,13 +111,13 @@ pub struct MemberBuilder {
 }
 
 impl MemberBuilder {
-    /// Creates an empty builder.
+    /// Creates a builder for a bridge without members.
     #[must_use]
     pub fn new(bridge: &str, placement: Placement) -> Self {
         Self { bridge: bridge.to_string(), placement, members: Vec::new() }
     }
 
-    /// Returns the members.
+    /// Returns the members that were added.
     #[must_use]
     pub fn finish(self) -> Vec<Member> {
         self.members
@@ -135,7 +135,7 @@ impl MemberBuilder {
         self.across(part, element, &profile, low[1], high[1]);
     }
 
-    /// Adds a rolled or welded steel beam between two opposite corners: two flanges and a web, each a separate member.
+    /// Adds a rolled or welded steel beam between two opposite corners. Its two flanges and its web are separate members.
     pub fn steel_beam(
         &mut self,
         part: &str,
@@ -190,7 +190,7 @@ impl MemberBuilder {
     /// Adds a prism along the line between two points, cut at each end by the plane with the given normal.
     fn cut_rod(&mut self, part: &str, element: Element, ends: [(LocalPoint, LocalPoint); 2], radius_m: f64, sides: u32) {
         let axis = unit(sub(ends[1].0, ends[0].0));
-        // Any direction not along the axis works; using the deck's left side orients cables and hangers alike.
+        // Any direction that is not parallel to the axis works; the bridge's y axis orients cables and hangers alike.
         let helper = if axis[1].abs() > 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
         let u = unit(cross(helper, axis));
         let v = cross(axis, u);

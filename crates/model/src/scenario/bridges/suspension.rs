@@ -1,17 +1,17 @@
-//! Suspension bridge: towers on piers in the water, main cables, hangers, stiffening girders, floor, railings, anchorages.
+//! Suspension bridge: towers on piers in the water, main cables, hangers, stiffening girders, deck, railings, anchorages.
 
 use super::arch::railing;
 use super::dimensions::{Inconsistency, InconsistencyList, bridge_dimensions};
 use super::solid::{BeamDirection, Footing, MemberBuilder, PlateThickness};
 use crate::elements::Element;
 
-/// Distance of the girders beyond the deck's edge, m (estimate).
+/// Half the width of the girders, which are centered on the edges of the deck, m (estimate).
 const GIRDER_OUT_M: f64 = 0.2;
 /// Plate thicknesses of the welded stiffening girders (estimate).
 const GIRDER: PlateThickness = PlateThickness { flange_m: 0.04, web_m: 0.016 };
 /// Plate thicknesses of the floorbeams (estimate).
 const FLOORBEAM: PlateThickness = PlateThickness { flange_m: 0.025, web_m: 0.012 };
-/// Plate thicknesses of the stringers, those of a rolled W21 (estimate).
+/// Plate thicknesses of the stringers, which are rolled W21 shapes (estimate).
 const STRINGER: PlateThickness = PlateThickness { flange_m: 0.02, web_m: 0.012 };
 /// Gap between girder and tower leg, m (estimate).
 const LEG_GAP_M: f64 = 0.02;
@@ -21,7 +21,7 @@ const BEARING_M: f64 = 0.2;
 const PORTAL_M: f64 = 1.2;
 /// Depth of the anchorages below the deck, m (estimate).
 const ANCHORAGE_FOOT_M: f64 = 12.0;
-/// Length of the cables inside the anchorage blocks, which are twice as long, m (estimate).
+/// Length of the cables inside the anchorage blocks, m (estimate). The blocks are twice as long.
 const GRIP_M: f64 = 1.0;
 /// Height of the saddle between cable and tower leg, m (estimate).
 const SADDLE_M: f64 = 0.1;
@@ -58,7 +58,7 @@ impl Suspension {
         self.main_span_m + 2.0 * (self.side_span_m + self.anchorage_m)
     }
 
-    /// Returns the height of the cable at x, m: a parabola in the main span, straight lines to the anchorages.
+    /// Returns the height of the cable at x, m. The cable is a parabola in the main span and straight in the side spans.
     #[must_use]
     pub fn cable_z_m(&self, x: f64) -> f64 {
         let half = 0.5 * self.main_span_m;
@@ -71,8 +71,8 @@ impl Suspension {
         }
     }
 
-    /// Returns the lateral distance of cables, hangers and tower legs from the deck's centerline, m; keeps the legs clear of the
-    /// girders.
+    /// Returns the lateral distance of cables, hangers and tower legs from the deck's centerline, m. It keeps the legs clear of
+    /// the girders.
     #[must_use]
     pub fn cable_y_m(&self) -> f64 {
         0.5 * self.deck_width_m + GIRDER_OUT_M + LEG_GAP_M + 0.5 * self.leg_y_m
@@ -90,8 +90,8 @@ impl Suspension {
         0.5 * self.main_span_m + self.side_span_m
     }
 
-    /// Returns the floorbeam positions: one at every hanger, and the same spacing in the side spans, where the girders have no
-    /// hangers.
+    /// Returns the positions of the floorbeams: one at every hanger, and at about the same spacing in the side spans, which have
+    /// no hangers.
     #[must_use]
     pub fn floorbeams(&self) -> Vec<f64> {
         let n = (self.side_span_m / self.hanger_spacing_m).round().max(1.0) as i32;
@@ -103,7 +103,7 @@ impl Suspension {
         out
     }
 
-    /// Returns the ends of the deck panels: at the deck's ends, anchorages, towers and floorbeams.
+    /// Returns the positions at which deck panels end: the ends of the deck, the anchorages, the towers and the floorbeams.
     #[must_use]
     pub fn panel_ends(&self) -> Vec<f64> {
         let half = 0.5 * self.main_span_m;
@@ -114,8 +114,8 @@ impl Suspension {
         out
     }
 
-    /// Returns all inconsistent dimensions. If there are none, the towers stand on their piers, clear the girders, and all
-    /// members connect.
+    /// Returns all inconsistent dimensions. If there are none, the towers rest on their piers and clear the girders, and all
+    /// members are connected.
     #[must_use]
     pub fn misfits(&self) -> Vec<Inconsistency> {
         let legs_m = 2.0 * self.cable_y_m() + self.leg_y_m;
@@ -132,14 +132,14 @@ impl Suspension {
         m.0
     }
 
-    /// Returns the hanger positions: evenly spaced in the main span, none at the towers.
+    /// Returns the positions of the hangers, which are evenly spaced in the main span. There are none at the towers.
     #[must_use]
     pub fn hangers(&self) -> Vec<f64> {
         let n = (self.main_span_m / self.hanger_spacing_m).round() as i32;
         (1..n).map(|k| self.main_span_m * (f64::from(k) / f64::from(n) - 0.5)).collect()
     }
 
-    /// Builds all members.
+    /// Adds all members of the bridge to a builder.
     pub fn build(&self, b: &mut MemberBuilder) {
         self.towers(b);
         self.cables(b);
@@ -148,12 +148,12 @@ impl Suspension {
         self.anchorages(b);
     }
 
-    /// Returns the height of the top of the tower legs, below the cables on either side of the saddle.
+    /// Returns the height of the top of the tower legs, which is below the cables on both sides of the saddle, m.
     fn leg_top_m(&self) -> f64 {
         self.saddle_edge_z_m() - self.cable_radius_m - SADDLE_M
     }
 
-    /// Returns the height of the cable at the faces of the legs, where it leaves the saddle.
+    /// Returns the height at which the cable leaves the saddle, at the faces of the tower legs, m.
     fn saddle_edge_z_m(&self) -> f64 {
         let (half, reach) = (0.5 * self.main_span_m, 0.5 * self.leg_x_m);
         self.cable_z_m(half - reach).min(self.cable_z_m(half + reach))
@@ -185,7 +185,7 @@ impl Suspension {
         }
     }
 
-    /// Builds a saddle, which supports the cable above the leg up to the middle of the cable.
+    /// Adds a saddle, which fills the space between a tower leg and the axis of the cable.
     fn saddle(&self, b: &mut MemberBuilder, name: &str, x: f64, y: f64) {
         let (reach, half) = (0.5 * self.leg_x_m, self.cable_radius_m + SADDLE_M);
         let (low, edge, crown) = (self.leg_top_m(), self.saddle_edge_z_m(), self.cable_z_m(0.5 * self.main_span_m));
@@ -193,7 +193,7 @@ impl Suspension {
         b.across(name, Element::SteelTower, &profile, y - half, y + half);
     }
 
-    /// Builds a bearing between a girder and its support.
+    /// Adds a bearing between a girder and its support.
     fn bearing(&self, b: &mut MemberBuilder, name: &str, element: Element, x: f64, side: f64) {
         let y = side * 0.5 * self.deck_width_m;
         let z = self.girder_z_m();
@@ -240,7 +240,7 @@ impl Suspension {
                 b.steel_beam(&name, Element::SteelStringer, corners, BeamDirection::Along, STRINGER);
             }
         }
-        // In the main span they extend to the hangers, which support them.
+        // In the main span the floorbeams extend to the hangers, which support them.
         let held = self.cable_y_m() + 0.15;
         for (k, x) in self.floorbeams().into_iter().enumerate() {
             let reach = if x.abs() < 0.5 * self.main_span_m { held } else { half_width };
@@ -250,12 +250,12 @@ impl Suspension {
         }
     }
 
-    /// Returns half the width of the anchorages, m.
+    /// Returns half the width of an anchorage, m.
     fn anchorage_half_m(&self) -> f64 {
         self.cable_y_m() + self.cable_radius_m + 0.45
     }
 
-    /// Returns piers and anchorages.
+    /// Returns the footings of piers and anchorages.
     #[must_use]
     pub fn footings(&self) -> Vec<Footing> {
         let (px, py) = (0.5 * self.pier_x_m, 0.5 * self.pier_y_m);
@@ -278,7 +278,7 @@ impl Suspension {
         for (name, foot) in ["start", "end"].into_iter().zip(&self.footings()[2..]) {
             let (low, high, far) = (foot.x_m.0, foot.x_m.1, foot.y_m.1);
             b.block(&format!("anchorage-{name}"), Element::RcFooting, [low, -far, foot.up_m], [high, far, top]);
-            // On each side of the deck the cable enters a block; the girders end on movable bearings.
+            // On each side of the deck the cable enters a block. The girders end on movable bearings.
             for (side, low_y, high_y) in [("left", near, far), ("right", -far, -near)] {
                 let grip = if low < 0.0 { high - 2.0 * GRIP_M } else { low };
                 let block = format!("anchorage-{name}/{side}");
